@@ -1,0 +1,81 @@
+"""What a ground motion is to the solvers: an acceleration in smooth, monotone segments."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Protocol, overload
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.optimize import brentq
+
+
+@dataclass(frozen=True)
+class Segment:
+    """A span of time over which the ground acceleration is smooth and monotone.
+
+    Monotone, so that |a| is largest at an end and crosses any level at most once on the way up:
+    uplift is found for certain, not by sampling.
+    """
+
+    start: float
+    stop: float
+    acceleration: Callable[[float], float]
+
+    def uplift(self, time: float, level: float) -> float | None:
+        """Return the first instant from `time` on at which |a| exceeds `level` (g), or None."""
+        if abs(self.acceleration(time)) > level:
+            return time
+        end = self.acceleration(self.stop)
+        if abs(end) <= level:
+            return None
+        return self._crossing(np.copysign(level, end), time)
+
+    def falls_below(self, time: float, side: int, level: float) -> float:
+        """Return when the push on `side`, −side·a, first drops below `level` (g), or the stop."""
+        if -side * self.acceleration(time) <= level and self._retreats(side):
+            return time
+        if -side * self.acceleration(self.stop) >= level:
+            return self.stop
+        return self._crossing(-side * level, time)
+
+    def largest(self, start: float, stop: float) -> float:
+        """Return max |a| (g) over the overlap with [start, stop], or 0 where there is none."""
+        first, last = max(start, self.start), min(stop, self.stop)
+        if first > last:
+            return 0.0
+        return max(abs(self.acceleration(first)), abs(self.acceleration(last)))
+
+    def _retreats(self, side: int) -> bool:
+        return -side * self.acceleration(self.stop) < -side * self.acceleration(self.start)
+
+    def _crossing(self, value: float, time: float) -> float:
+        """Return when the acceleration, monotone, takes `value` between `time` and the stop."""
+        return float(
+            brentq(lambda t: self.acceleration(t) - value, time, self.stop, xtol=1e-300, rtol=1e-15)
+        )
+
+
+class Excitation(Protocol):
+    """A ground motion: `Pulse` and `Record`."""
+
+    @property
+    def duration(self) -> float:
+        """How long it lasts, s; infinite for the harmonic."""
+        ...
+
+    @overload
+    def excitation(self, t: float) -> float: ...
+    @overload
+    def excitation(self, t: ArrayLike) -> float | NDArray[np.float64]: ...
+    def excitation(self, t: ArrayLike) -> float | NDArray[np.float64]:
+        """Return the ground acceleration in g at the time(s) t in s; zero outside the motion."""
+        ...
+
+    def segments(self, until: float) -> list[Segment]:
+        """Return the segments from 0 to the earlier of `until` and the end, in order."""
+        ...
+
+
+def still(time: float) -> float:
+    """The acceleration of ground at rest: 0."""
+    return 0.0

@@ -1,0 +1,142 @@
+"""Mathematical ground pulses, by the shapes of the rocking literature.
+
+One-sine, one-cosine: Zhang & Makris (2001), Makris & Roussos (2000). Half-sine, constant: Housner
+(1963). Ricker wavelets as in Makris & Vassiliou (2013), with the main lobe 2.25 T after the start.
+"""
+
+import difflib
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from topheavy import checks
+from topheavy.excitation import Segment
+
+Phase = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class _Shape:
+    """A pulse of unit amplitude in the phase ωt: its wave, its length, where its slope is zero."""
+
+    wave: Callable[[Phase], Phase]
+    length: float
+    turns: tuple[float, ...] = ()
+
+
+_RICKER_LENGTH = 9.0 * math.pi  # 4.5 T in phase; the main lobe is in the middle
+_RICKER_ANTISYMMETRIC_PEAK = 1.3801  # makes the peak 1, to five digits
+
+
+def _ricker_symmetric(phase: Phase) -> Phase:
+    z = (phase - _RICKER_LENGTH / 2) / 2.0  # π τ / T
+    return (1.0 - 2.0 * z**2) * np.exp(-(z**2))
+
+
+def _ricker_antisymmetric(phase: Phase) -> Phase:
+    x = (phase - _RICKER_LENGTH / 2) / math.sqrt(3.0)  # 2 π τ / √3 T
+    return (x**2 - 3.0) * x * np.exp(-(x**2) / 2.0) / _RICKER_ANTISYMMETRIC_PEAK
+
+
+def _around_main_lobe(*offsets: float) -> tuple[float, ...]:
+    """Return the phases at ± these distances from the main lobe's middle, ascending."""
+    return tuple(sorted({_RICKER_LENGTH / 2 + sign * x for x in offsets for sign in (-1, 1)}))
+
+
+_HALF_PI = math.pi / 2
+
+_SHAPES = {
+    "one-sine": _Shape(np.sin, 2 * math.pi, (_HALF_PI, 3 * _HALF_PI)),
+    "one-cosine": _Shape(np.cos, 2 * math.pi, (math.pi,)),
+    "half-sine": _Shape(np.sin, math.pi, (_HALF_PI,)),
+    "constant": _Shape(np.ones_like, math.pi),
+    "harmonic": _Shape(np.sin, math.inf),  # its turns are without end: see Pulse.segments
+    "ricker-symmetric": _Shape(
+        _ricker_symmetric,
+        _RICKER_LENGTH,
+        _around_main_lobe(0.0, math.sqrt(6.0)),
+    ),
+    "ricker-antisymmetric": _Shape(
+        _ricker_antisymmetric,
+        _RICKER_LENGTH,
+        _around_main_lobe(*(math.sqrt(3.0 * (3.0 + s * math.sqrt(6.0))) for s in (-1, 1))),
+    ),
+}
+
+PULSE_SHAPES = tuple(_SHAPES)
+"""The names that `Pulse` accepts."""
+
+
+@dataclass(frozen=True)
+class Pulse:
+    """A ground acceleration pulse that starts at t = 0.
+
+    Parameters
+    ----------
+    shape : str
+        One of `PULSE_SHAPES`. One-sine and one-cosine last 2π/ω, half-sine and constant π/ω, the
+        Ricker wavelets 4.5 · 2π/ω; the harmonic (a sine) goes on.
+    amplitude : float
+        Peak acceleration in g; a negative one mirrors the pulse.
+    angular_frequency : float
+        ω, rad/s.
+
+    Raises
+    ------
+    ValueError
+        For an unknown shape, an amplitude that is not finite, or ω that is not positive.
+    """
+
+    shape: str
+    amplitude: float
+    angular_frequency: float
+
+    def __post_init__(self) -> None:
+        if self.shape not in _SHAPES:
+            close = difflib.get_close_matches(str(self.shape), PULSE_SHAPES, n=1, cutoff=0.5)
+            hint = f" (did you mean {close[0]!r}?)" if close else ""
+            raise ValueError(
+                f"shape is {self.shape!r}{hint}; expected one of {', '.join(PULSE_SHAPES)}"
+            )
+        checks.finite("amplitude", self.amplitude)
+        checks.positive("angular_frequency", self.angular_frequency, "rad/s")
+
+    @property
+    def duration(self) -> float:
+        """How long the pulse lasts, s; infinite for the harmonic."""
+        return _SHAPES[self.shape].length / self.angular_frequency
+
+    def scaled(self, factor: float) -> "Pulse":
+        """Return the same pulse with its amplitude multiplied by `factor`."""
+        return replace(self, amplitude=self.amplitude * factor)
+
+    def excitation(self, t: ArrayLike) -> float | NDArray[np.float64]:
+        """Return the ground acceleration in g at the time(s) t in s; zero outside the pulse."""
+        time = np.asarray(t, dtype=float)
+        inside = (time >= 0.0) & (time <= self.duration)
+        value = np.where(inside, self._wave(np.where(inside, time, 0.0)), 0.0)
+        return float(value) if value.ndim == 0 else value
+
+    def segments(self, until: float) -> list[Segment]:
+        """Return the smooth, monotone segments from 0 to the earlier of `until` and the end."""
+        shape = _SHAPES[self.shape]
+        end = min(until, self.duration)
+        phase = end * self.angular_frequency
+        turns = shape.turns
+        if self.shape == "harmonic":
+            turns = tuple(np.arange(_HALF_PI, phase, math.pi))
+        inner = [turn / self.angular_frequency for turn in turns if turn < phase]
+        edges = [0.0, *inner, end]
+        return [Segment(start, stop, self._at) for start, stop in pairwise(edges) if start < stop]
+
+    def _wave(self, time: ArrayLike) -> NDArray[np.float64]:
+        """The formula of the pulse, which holds inside its duration."""
+        phase = np.asarray(np.multiply(self.angular_frequency, time), dtype=float)
+        return self.amplitude * _SHAPES[self.shape].wave(phase)
+
+    def _at(self, time: float) -> float:
+        return float(self._wave(time))

@@ -1,0 +1,70 @@
+"""The response of a rocking block: what `simulate` returns."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from topheavy import checks
+
+Outcome = Literal["no uplift", "rests", "rocking", "overturned"]
+
+
+@dataclass(frozen=True, eq=False)
+class Response:
+    """A rocking history and its verdict.
+
+    Attributes
+    ----------
+    time : ndarray, shape (n,)
+        s, from 0.
+    rotation, velocity : ndarray, shape (n,)
+        θ in rad and θ̇ in rad/s, signed; NaN after the end of a history that overturned or was cut
+        off while rocking.
+    impacts : ndarray, shape (m,)
+        Times of all impacts in the history, s.
+    outcome : {"no uplift", "rests", "rocking", "overturned"}
+        Of the whole motion: "rocking" is a survivor that has not come to rest when the history
+        ends.
+    number_of_impacts : int
+        Impacts until the forcing ends or the block has overturned (those on the way to overturning
+        included). A survivor's bouncing after the forcing is not counted.
+    peak_rotation : float
+        max|θ| in rad over the whole motion, the free rocking after the forcing included; NaN if
+        overturned.
+    """
+
+    time: NDArray[np.float64]
+    rotation: NDArray[np.float64]
+    velocity: NDArray[np.float64]
+    impacts: NDArray[np.float64]
+    outcome: Outcome
+    number_of_impacts: int
+    peak_rotation: float
+
+    @property
+    def overturned(self) -> bool:
+        """Whether it overturned."""
+        return self.outcome == "overturned"
+
+
+def sample_times(samples: int | ArrayLike) -> int | NDArray[np.float64]:
+    """Return `samples` as a number of times (at least 2) or as an increasing array of times.
+
+    Raises
+    ------
+    ValueError
+        For anything else.
+    """
+    if np.ndim(samples) == 0:
+        number = checks.finite("samples", samples)
+        if number != int(number) or number < 2:
+            raise ValueError(f"samples is {samples!r}; expected a whole number of at least 2")
+        return int(number)
+    times = np.array(samples, dtype=float)
+    if times.ndim != 1 or times.size == 0 or not np.all(np.isfinite(times)):
+        raise ValueError("samples holds no times or some that are not finite; expected times in s")
+    if times[0] < 0.0 or np.any(np.diff(times) <= 0.0):
+        raise ValueError("samples is not an increasing array of times from 0 on")
+    return times

@@ -1,0 +1,228 @@
+"""A free-standing column, a rocking frame, and the rocking block that both become.
+
+Makris & Vassiliou (2014): between impacts the frame obeys the equation of motion of a solitary
+column, Eq. (23) against Eq. (3), with the same slenderness and a lower frequency parameter. Hence
+three numbers are all that the dynamics sees of either: p, α and √r.
+"""
+
+import math
+from dataclasses import dataclass, replace
+from typing import TypeAlias
+
+from topheavy import checks
+
+STANDARD_GRAVITY = 9.81
+"""Acceleration of gravity g, m/s², as the paper's numbers imply it (2.15 m/s² = 0.219 g, p. 3)."""
+
+
+@dataclass(frozen=True)
+class RockingBlock:
+    """The oscillator: frequency parameter, slenderness, restitution, and which equation it obeys.
+
+    Parameters
+    ----------
+    frequency_parameter : float
+        p of a column, p̂ of a frame, rad/s.
+    slenderness : float
+        α, rad, in (0, π/2).
+    restitution : float
+        √r, the ratio of the angular velocities after and before an impact, in [0, 1].
+    linearised : bool
+        Whether it obeys the equation linearised for slender columns (Allen et al. 1986) instead of
+        the exact one, Eq. (23).
+
+    Raises
+    ------
+    ValueError
+        For a value outside its range.
+    """
+
+    frequency_parameter: float
+    slenderness: float
+    restitution: float
+    linearised: bool = False
+
+    def __post_init__(self) -> None:
+        checks.positive("frequency_parameter", self.frequency_parameter, "rad/s")
+        checks.within_quarter_turn("slenderness", self.slenderness)
+        checks.fraction("restitution", self.restitution)
+
+    @property
+    def uplift_acceleration(self) -> float:
+        """Ground acceleration (g) above which it uplifts: tan α, or α when linearised."""
+        return self.slenderness if self.linearised else math.tan(self.slenderness)
+
+    def with_restitution(self, value: float) -> "RockingBlock":
+        """Return the same block with another √r in [0, 1]."""
+        return replace(self, restitution=value)
+
+    def linear(self) -> "RockingBlock":
+        """Return the same block under the linearised equation of motion."""
+        return replace(self, linearised=True)
+
+    def block(self) -> "RockingBlock":
+        """Return the block itself, so that columns, frames and blocks are used alike."""
+        return self
+
+
+@dataclass(frozen=True)
+class Column:
+    """A free-standing rigid rectangular column.
+
+    Parameters
+    ----------
+    half_width, half_height : float
+        b and h, m.
+
+    Raises
+    ------
+    ValueError
+        Unless both are positive and finite.
+    """
+
+    half_width: float
+    half_height: float
+
+    def __post_init__(self) -> None:
+        checks.positive("half_width", self.half_width, "m")
+        checks.positive("half_height", self.half_height, "m")
+
+    @property
+    def size(self) -> float:
+        """R = √(b² + h²), m: half the diagonal (p. 1)."""
+        return math.hypot(self.half_width, self.half_height)
+
+    @property
+    def slenderness(self) -> float:
+        """α = atan(b/h), rad (p. 1)."""
+        return math.atan2(self.half_width, self.half_height)
+
+    @property
+    def frequency_parameter(self) -> float:
+        """p = √(3g/4R), rad/s, of Eq. (3)."""
+        return math.sqrt(3.0 * STANDARD_GRAVITY / (4.0 * self.size))
+
+    @property
+    def restitution(self) -> float:
+        """√r = 1 − (3/2) sin²α (Housner 1963, below Eq. (25)); negative beyond α = 54.7°."""
+        return 1.0 - 1.5 * math.sin(self.slenderness) ** 2
+
+    @property
+    def uplift_acceleration(self) -> float:
+        """tan α: the ground acceleration (g) above which it uplifts."""
+        return math.tan(self.slenderness)
+
+    def block(self, restitution: float | None = None) -> RockingBlock:
+        """Return the rocking block of this column, with Housner's √r unless one is given.
+
+        Raises
+        ------
+        ValueError
+            When Housner's √r is negative: such a column does not rock on.
+        """
+        if restitution is None:
+            restitution = _rocking(self.restitution, self.slenderness, largest_slenderness(0.0))
+        return RockingBlock(self.frequency_parameter, self.slenderness, restitution)
+
+
+@dataclass(frozen=True)
+class RockingFrame:
+    """Two equal free-standing columns under a freely supported rigid cap beam.
+
+    Parameters
+    ----------
+    column : Column
+        Either of the two.
+    mass_ratio : float
+        γ = m_b / 2 m_c, the mass of the cap beam over that of both columns; from 0 (the solitary
+        column) to `math.inf` (massless columns, the limit of Allen et al. 1986).
+
+    Raises
+    ------
+    ValueError
+        For a γ that is negative or not a number.
+    """
+
+    column: Column
+    mass_ratio: float
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.column, Column):
+            raise ValueError(f"column is {self.column!r}; expected a Column")
+        if self.mass_ratio != math.inf and checks.finite("mass_ratio", self.mass_ratio) < 0.0:
+            raise ValueError(
+                f"mass_ratio is {self.mass_ratio:.6g}; γ = m_b / 2 m_c cannot be negative"
+            )
+
+    @property
+    def slenderness(self) -> float:
+        """α of the columns, rad: the cap beam does not change it."""
+        return self.column.slenderness
+
+    @property
+    def frequency_parameter(self) -> float:
+        """p̂ = p √((1 + 2γ)/(1 + 3γ)), rad/s, from Eq. (23)."""
+        return self.column.frequency_parameter / math.sqrt(size_ratio(self.mass_ratio))
+
+    @property
+    def equivalent_size(self) -> float:
+        """R̂ = R (1 + 3γ)/(1 + 2γ), m: size of the solitary column with this p̂, Eq. (24)."""
+        return self.column.size * size_ratio(self.mass_ratio)
+
+    @property
+    def restitution(self) -> float:
+        """√r = (1 − (3/2) sin²α + 3γ cos 2α)/(1 + 3γ), Eq. (25); may be negative when stocky."""
+        cap = _share_of_cap(self.mass_ratio)
+        return (1.0 - cap) * self.column.restitution + cap * math.cos(2.0 * self.slenderness)
+
+    @property
+    def uplift_acceleration(self) -> float:
+        """tan α: the ground acceleration (g) above which it uplifts; that of its columns."""
+        return self.column.uplift_acceleration
+
+    def block(self, restitution: float | None = None) -> RockingBlock:
+        """Return the rocking block of this frame, with √r of Eq. (25) unless one is given.
+
+        Raises
+        ------
+        ValueError
+            When Eq. (25) gives a negative √r: such a frame does not rock on.
+        """
+        if restitution is None:
+            limit = largest_slenderness(self.mass_ratio)
+            restitution = _rocking(self.restitution, self.slenderness, limit)
+        return RockingBlock(self.frequency_parameter, self.slenderness, restitution)
+
+
+Structure: TypeAlias = RockingBlock | Column | RockingFrame
+"""What `simulate` and its kin accept: each has a `.block()`."""
+
+
+def size_ratio(mass_ratio: float) -> float:
+    """Return R̂/R = 1 + γ/(1 + 2γ), Eq. (24); 3/2 for γ = ∞."""
+    return 1.5 if mass_ratio == math.inf else 1.0 + 0.5 * mass_ratio / (0.5 + mass_ratio)
+
+
+def largest_slenderness(mass_ratio: float) -> float:
+    """Return the largest α (rad) that rocks on after an impact: √r of Eq. (25) is zero there.
+
+    54.7° for the solitary column, 45° for massless columns.
+    """
+    cap = _share_of_cap(mass_ratio)
+    return math.asin(math.sqrt(1.0 / (1.5 * (1.0 - cap) + 2.0 * cap)))
+
+
+def _share_of_cap(mass_ratio: float) -> float:
+    """Return 3γ/(1 + 3γ): the weight in Eq. (25) of massless columns against the solitary one."""
+    return 1.0 if mass_ratio == math.inf else mass_ratio / (1.0 / 3.0 + mass_ratio)
+
+
+def _rocking(restitution: float, slenderness: float, largest: float) -> float:
+    """Return √r, or raise ValueError when it is negative."""
+    if restitution < 0.0:
+        raise ValueError(
+            f"slenderness is {slenderness:.6g} rad ({math.degrees(slenderness):.4g}°), for which "
+            f"√r is {restitution:.4g}: no rocking after an impact; the largest α that rocks is "
+            f"{largest:.6g} rad ({math.degrees(largest):.4g}°); or give a restitution from 0 to 1"
+        )
+    return restitution
