@@ -1,0 +1,62 @@
+# `make` lists what there is. Everything runs through uv and the committed lock;
+# where uv is missing it is fetched, once, into .uv/ (delete that folder to be rid of it).
+
+CORES      ?= 2
+PYTHON     ?= python3
+UV_VERSION := 0.13.8
+
+UV  := $(shell command -v uv 2>/dev/null || echo .uv/bin/uv)
+RUN := $(UV) run --locked --no-dev
+DEV := $(UV) run --locked
+
+.PHONY: help reproduce test lint publish unlock clean
+.DEFAULT_GOAL := help
+
+help: ## show this list
+	@sed -n 's/^\([a-z]*\):.*## \(.*\)/make \1|\2/p' Makefile | \
+	  while IFS='|' read -r target text; do printf '  %-16s %s\n' "$$target" "$$text"; done
+
+reproduce: | $(UV) ## compute every result, check every claim, compile the report (CORES=2)
+	@$(RUN) snakemake --cores $(CORES)
+
+test: | $(UV) ## run the tests
+	@$(DEV) pytest
+
+lint: export VALIDATE_PYPROJECT_NO_NETWORK = 1
+lint: | $(UV) ## check style, types, spelling and schemas; changes nothing
+	$(DEV) ruff check
+	$(DEV) ruff format --check
+	$(DEV) mypy
+	$(DEV) codespell
+	$(DEV) snakefmt --check --compact-diff Snakefile
+	$(DEV) check-jsonschema --check-metaschema config/config.schema.yaml
+	$(DEV) check-jsonschema --schemafile config/config.schema.yaml config/config.yaml
+	$(DEV) check-jsonschema --builtin-schema vendor.citation-file-format CITATION.cff
+	$(DEV) check-jsonschema --builtin-schema vendor.github-workflows .github/workflows/ci.yaml
+	$(DEV) validate-pyproject pyproject.toml
+# Snakemake's lint wants a conda environment or container on every rule. Here one lock
+# serves them all, so that demand, and no other, is passed over.
+	$(DEV) snakemake --lint 2>&1 | awk ' \
+	  { text = text $$0 "\n" } \
+	  /^Lints for|^Congratulations/ { ran = 1 } \
+	  /^    \* / && !/\* Specify a conda environment or container for each rule/ { found = 1 } \
+	  END { if (found || !ran) { printf "%s", text; exit 1 } }'
+
+publish: | $(UV) ## copy results to docs/ and tests/reference/; look at the diff, then commit it
+	@$(RUN) python src/steps/publish.py
+
+unlock: | $(UV) ## after a killed run left the directory locked (no other run may be going on)
+	@$(RUN) snakemake --unlock
+
+clean: ## remove all that the workflow and the tools wrote; keep the environment
+	rm -rf results .snakemake figures/*.svg paper/report.pdf
+	rm -rf .pytest_cache .ruff_cache .mypy_cache .hypothesis
+	find src figures tests -name __pycache__ -type d -prune -exec rm -rf {} +
+
+.uv/bin/uv:
+	@echo "uv is not on the PATH: fetching uv $(UV_VERSION) into .uv/"
+	@$(PYTHON) -m venv --clear .uv || { \
+	  echo "'$(PYTHON) -m venv .uv' failed. On Debian or Ubuntu 'apt install python3-venv' helps;"; \
+	  echo "anywhere, installing uv does: https://docs.astral.sh/uv/getting-started/installation/"; \
+	  rm -rf .uv; exit 1; } >&2
+	@.uv/bin/python -m pip install --quiet --disable-pip-version-check uv==$(UV_VERSION)
