@@ -1,0 +1,61 @@
+"""Error of the peak rotation of Allen et al. (1986), whole and in its three parts."""
+
+import math
+
+import numpy as np
+import pandas as pd
+from workbench import grid, log_to, truth, write_findings, write_table
+
+from topheavy import Column, Pulse, RockingFrame
+from topheavy.massless_columns import SIMPLIFICATIONS, simplified
+from topheavy.reference import judge
+
+
+def main(case: dict) -> tuple[pd.DataFrame, dict]:
+    rows = []
+    for degrees in grid(case["slendernesses"]):
+        alpha = math.radians(degrees)
+        column = Column(math.sin(alpha), math.cos(alpha))
+        omega = case["frequency_ratio"] * column.frequency_parameter
+        for gamma in case["mass_ratios"]:
+            frame = RockingFrame(column, gamma)
+            for ratio in grid(case["amplitudes"]):
+                pulse = Pulse(case["shape"], ratio * column.uplift_acceleration, omega)
+                exact = judge(frame, pulse)
+                for model in SIMPLIFICATIONS:
+                    other = judge(simplified(frame, model), pulse)
+                    rows.append(
+                        {
+                            "slenderness_deg": degrees,
+                            "mass_ratio": gamma,
+                            "amplitude_over_uplift": ratio,
+                            "model": model,
+                            "exact_peak_over_alpha": exact.peak / alpha,
+                            "peak_over_alpha": other.peak / alpha,
+                            "relative_error": other.peak / exact.peak - 1.0,
+                            "exact_overturned": exact.overturned,
+                            "overturned": other.overturned,
+                        }
+                    )
+    table = pd.DataFrame(rows)
+    findings = {}
+    for model, cells in table.groupby("model"):
+        sound = cells.dropna(subset="relative_error")
+        slender = sound[sound.slenderness_deg <= 10.0]
+        findings[model.replace(" ", "_")] = truth(
+            True,
+            median_error=np.median(np.abs(sound.relative_error)),
+            largest_overestimate=sound.relative_error.max(),
+            largest_underestimate=sound.relative_error.min(),
+            median_error_up_to_10_deg=np.median(np.abs(slender.relative_error)),
+            misjudged=int((cells.exact_overturned != cells.overturned).sum()),
+            cells=len(cells),
+        )
+    return table, findings
+
+
+if __name__ == "__main__":
+    with log_to(snakemake.log[0]):
+        table, findings = main(snakemake.params.case)
+        write_table(snakemake.output.table, table)
+        write_findings(snakemake.output.findings, findings)

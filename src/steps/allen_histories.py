@@ -1,0 +1,70 @@
+"""The exact frame beside the model of Allen et al. (1986), under a pulse and under a record."""
+
+import math
+
+import numpy as np
+from workbench import log_to, truth, value, write_findings, write_table
+
+from topheavy import Column, Pulse, RockingFrame, read_at2, simulate
+from topheavy.linear import simulate_linear_exact
+from topheavy.massless_columns import SIMPLIFICATIONS, simplified
+
+
+def main(case: dict, structures: dict, record_path: str, solver: dict) -> tuple[list[dict], dict]:
+    frame = RockingFrame(Column(**structures[case["structure"]]), case["mass_ratio"])
+    pulse = Pulse(
+        case["pulse"]["shape"], case["pulse"]["amplitude"], 2 * math.pi / case["pulse"]["period"]
+    )
+    motions = {
+        "pulse": (pulse, 6.0 * case["pulse"]["period"]),
+        "record": (read_at2(record_path).scaled(case["record"]["factor"]), 30.0),
+    }
+    models = {"exact": frame.block()} | {name: simplified(frame, name) for name in SIMPLIFICATIONS}
+    alpha = frame.slenderness
+    rows, peaks, findings = [], {}, {}
+    for motion, (excitation, duration) in motions.items():
+        times = np.linspace(0.0, duration, 1501)
+        for model, block in models.items():
+            response = simulate(block, excitation, samples=times, tolerance=solver["tolerance"])
+            tight = simulate(block, excitation, samples=times, tolerance=solver["tightened"])
+            peaks[motion, model] = response.peak_rotation / alpha
+            findings[f"{motion}_{model.replace(' ', '_')}_peak"] = truth(
+                response.outcome == tight.outcome,
+                outcome=response.outcome,
+                peak_over_alpha=None if response.overturned else response.peak_rotation / alpha,
+                error_over_alpha=None
+                if response.overturned
+                else abs(tight.peak_rotation - response.peak_rotation) / alpha,
+            )
+            rows += [
+                {
+                    "motion": motion,
+                    "model": model,
+                    "time": t,
+                    "acceleration": a,
+                    "rotation_over_alpha": theta / alpha,
+                }
+                for t, a, theta in zip(
+                    times, excitation.excitation(times), response.rotation, strict=True
+                )
+            ]
+        oracle = simulate_linear_exact(models["all"], excitation, samples=times)
+        peak = peaks[motion, "all"]
+        findings[f"{motion}_exact_solution_of_allen"] = value(
+            0.0 if oracle.overturned else oracle.peak_rotation / alpha,
+            0.0 if oracle.overturned else abs(oracle.peak_rotation / alpha - peak),
+            "α",
+        )
+    return rows, findings
+
+
+if __name__ == "__main__":
+    with log_to(snakemake.log[0]):
+        rows, findings = main(
+            snakemake.params.case,
+            snakemake.params.structures,
+            snakemake.input.record,
+            snakemake.params.solver,
+        )
+        write_table(snakemake.output.table, rows)
+        write_findings(snakemake.output.findings, findings)

@@ -1,0 +1,52 @@
+"""Where the model of Allen et al. (1986) misjudges overturning, over frequency and amplitude."""
+
+import math
+
+import pandas as pd
+from workbench import grid, log_to, truth, write_findings, write_table
+
+from topheavy import Column, Pulse, RockingFrame
+from topheavy.massless_columns import simplified
+from topheavy.reference import judge
+
+VERDICTS = {
+    (False, False): "both survive",
+    (True, True): "both overturn",
+    (False, True): "falsely overturned",
+    (True, False): "falsely safe",
+}
+
+
+def main(case: dict) -> tuple[pd.DataFrame, dict]:
+    alpha = math.radians(case["slenderness"])
+    frame = RockingFrame(Column(math.sin(alpha), math.cos(alpha)), case["mass_ratio"])
+    p = frame.column.frequency_parameter
+    models = {name: simplified(frame, name) for name in ("linearised", "all")}
+    rows = []
+    for omega in grid(case["frequency_ratios"]):
+        for amplitude in grid(case["amplitudes"]):
+            pulse = Pulse(case["shape"], amplitude * frame.uplift_acceleration, omega * p)
+            exact = judge(frame, pulse).overturned
+            rows += [
+                {
+                    "model": name,
+                    "frequency_ratio": omega,
+                    "amplitude_over_uplift": amplitude,
+                    "verdict": VERDICTS[exact, judge(block, pulse).overturned],
+                }
+                for name, block in models.items()
+            ]
+    table = pd.DataFrame(rows)
+    shares = table.groupby("model").verdict.value_counts(normalize=True)
+    findings = {
+        name: truth(True, **{word.replace(" ", "_"): share for word, share in shares[name].items()})
+        for name in models
+    }
+    return table, findings
+
+
+if __name__ == "__main__":
+    with log_to(snakemake.log[0]):
+        table, findings = main(snakemake.params.case)
+        write_table(snakemake.output.table, table)
+        write_findings(snakemake.output.findings, findings)

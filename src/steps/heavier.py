@@ -1,0 +1,79 @@
+"""The same pulse on the solitary column and on frames under heavier and heavier caps."""
+
+import math
+
+import numpy as np
+from workbench import log_to, truth, write_findings, write_table
+
+from topheavy import Column, Pulse, RockingFrame, simulate
+from topheavy.reference import judge
+
+
+def lowest_overturning(frame: RockingFrame, pulse: Pulse, step: float) -> tuple[float, float]:
+    """Bracket the lowest amplitude (g) that overturns: a scan by `step`, then bisection."""
+    level = frame.uplift_acceleration
+    amplitudes = np.arange(level, 12.0 * level, step)
+    high = next(a for a in amplitudes if judge(frame, pulse.scaled(a / pulse.amplitude)).overturned)
+    low = high - step
+    while high - low > 1e-6 * level:
+        middle = (low + high) / 2.0
+        over = judge(frame, pulse.scaled(middle / pulse.amplitude)).overturned
+        low, high = (low, middle) if over else (middle, high)
+    return low, high
+
+
+def main(case: dict, structures: dict, solver: dict) -> tuple[list[dict], list[dict], dict]:
+    column = Column(**structures[case["structure"]])
+    pulse = Pulse(
+        case["pulse"]["shape"], case["pulse"]["amplitude"], 2 * math.pi / case["pulse"]["period"]
+    )
+    times = np.linspace(0.0, 6.0 * case["pulse"]["period"], 1201)
+    histories, summary = [], []
+    for gamma in case["mass_ratios"]:
+        frame = RockingFrame(column, gamma)
+        response = simulate(frame, pulse, samples=times)
+        tight = judge(frame, pulse, tolerance=solver["tightened"])
+        low, high = lowest_overturning(frame, pulse, 0.01 * frame.uplift_acceleration)
+        histories += [
+            {"mass_ratio": gamma, "time": t, "acceleration": a, "rotation_over_alpha": theta}
+            for t, a, theta in zip(
+                times,
+                pulse.excitation(times),
+                response.rotation / frame.slenderness,
+                strict=True,
+            )
+        ]
+        summary.append(
+            {
+                "mass_ratio": gamma,
+                "outcome": response.outcome,
+                "peak_over_alpha": response.peak_rotation / frame.slenderness,
+                "peak_error": abs(tight.peak - response.peak_rotation) / frame.slenderness,
+                "same_verdict_tightened": tight.overturned == response.overturned,
+                "lowest_overturning_low": low,
+                "lowest_overturning_high": high,
+            }
+        )
+    lows = [row["lowest_overturning_low"] for row in summary]
+    highs = [row["lowest_overturning_high"] for row in summary]
+    findings = {
+        "heavier_survives_more": truth(
+            all(high < low for high, low in zip(highs, lows[1:], strict=False))
+            and all(row["same_verdict_tightened"] for row in summary),
+            lowest_overturning_g=lows,
+            width_of_brackets=max(np.subtract(highs, lows)),
+        ),
+        "solitary_column_overturns": truth(summary[0]["outcome"] == "overturned"),
+        "heaviest_survives": truth(summary[-1]["outcome"] != "overturned"),
+    }
+    return histories, summary, findings
+
+
+if __name__ == "__main__":
+    with log_to(snakemake.log[0]):
+        histories, summary, findings = main(
+            snakemake.params.case, snakemake.params.structures, snakemake.params.solver
+        )
+        write_table(snakemake.output.histories, histories)
+        write_table(snakemake.output.summary, summary)
+        write_findings(snakemake.output.findings, findings)

@@ -1,0 +1,53 @@
+"""How p̂ and R̂ depend on γ (Eqs. (23), (24)), with their limits, and how soon the gain is had."""
+
+import math
+
+import numpy as np
+from workbench import log_to, truth, value, write_findings, write_table
+
+from topheavy import Column, RockingFrame
+
+ROUNDING = 4.0 * np.finfo(float).eps
+
+
+def main(case: dict) -> tuple[dict, dict]:
+    column = Column(0.5, 3.0)  # any: the ratios do not depend on it
+    gammas = [*np.linspace(0.0, case["largest"], case["points"]), math.inf]
+    frames = [RockingFrame(column, gamma) for gamma in gammas]
+    p_ratio = np.array([frame.frequency_parameter for frame in frames]) / column.frequency_parameter
+    r_ratio = np.array([frame.equivalent_size for frame in frames]) / column.size
+    share = (r_ratio - 1.0) / (r_ratio[-1] - 1.0)
+    table = {
+        "mass_ratio": gammas,
+        "frequency_ratio": p_ratio,
+        "size_ratio": r_ratio,
+        "share_of_size_gain": share,
+        "share_of_frequency_gain": (1.0 - p_ratio) / (1.0 - p_ratio[-1]),
+    }
+    shares = np.array(case["shares_of_gain"])
+    findings = {
+        "limit_of_frequency_ratio": value(p_ratio[-1], abs(p_ratio[-1] - math.sqrt(2 / 3))),
+        "limit_of_size_ratio": value(r_ratio[-1], abs(r_ratio[-1] - 1.5)),
+        "frequency_parameter_of_solitary_column": truth(p_ratio[0] == 1.0 == r_ratio[0]),
+        "heavier_is_larger": truth(
+            np.all(np.diff(p_ratio) < 0.0) and np.all(np.diff(r_ratio) > 0.0),
+            mass_ratios=len(gammas),
+        ),
+        "size_agrees_with_frequency": truth(
+            np.allclose(r_ratio, p_ratio**-2, rtol=ROUNDING, atol=0.0),
+            worst=np.abs(r_ratio * p_ratio**2 - 1.0).max(),
+        ),
+        # share of the gain in R̂: 2γ/(1 + 2γ) = s
+        "mass_ratio_for_gain_in_size": truth(
+            True, shares=shares, mass_ratios=shares / (2.0 * (1.0 - shares))
+        ),
+        "gain_at_mass_ratio_one": value(share[np.searchsorted(gammas, 1.0)], ROUNDING),
+    }
+    return table, findings
+
+
+if __name__ == "__main__":
+    with log_to(snakemake.log[0]):
+        table, findings = main(snakemake.params.case)
+        write_table(snakemake.output.table, table)
+        write_findings(snakemake.output.findings, findings)

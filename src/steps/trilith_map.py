@@ -1,0 +1,36 @@
+"""Where the trilith stays at rest, rocks or overturns, over amplitude and frequency of the table."""
+
+from workbench import grid, log_to, write_table
+
+from topheavy import Column, RockingFrame, simulate
+from topheavy.shaking_table import table_acceleration, table_motion
+
+
+def main(case: dict, structures: dict) -> list[dict]:
+    frame = RockingFrame(Column(**structures[case["structure"]]), case["mass_ratio"])
+    rows = []
+    for frequency in grid(case["frequencies"]):
+        for amplitude in grid(case["amplitudes"]):
+            response = simulate(
+                frame,
+                table_motion(amplitude, frequency),
+                duration=case["cycles"] / frequency,
+                samples=2,
+            )
+            rows.append(
+                {
+                    "frequency_hz": frequency,
+                    "amplitude_mm": 1e3 * amplitude,
+                    "acceleration_g": table_acceleration(amplitude, frequency),
+                    "outcome": response.outcome,
+                    "peak_over_alpha": response.peak_rotation / frame.slenderness,
+                }
+            )
+    return rows
+
+
+if __name__ == "__main__":
+    with log_to(snakemake.log[0]):
+        write_table(
+            snakemake.output.table, main(snakemake.params.case, snakemake.params.structures)
+        )

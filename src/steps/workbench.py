@@ -1,0 +1,63 @@
+"""What every step does at its edges: keep a log, write tables, write findings.
+
+A finding is what a claim of the ledger is judged by: a value with its error and unit, or a truth
+with the numbers that bear it out.
+"""
+
+import json
+import sys
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, TextIO
+
+import numpy as np
+import pandas as pd
+
+DIGITS = "%.9g"
+
+
+@contextmanager
+def log_to(path: str) -> Iterator[TextIO]:
+    """Send what is printed, and a traceback if it comes to that, to a file."""
+    kept = sys.stdout, sys.stderr
+    with Path(path).open("w", encoding="utf-8") as log:
+        sys.stdout = sys.stderr = log
+        try:
+            yield log
+        except BaseException:
+            sys.excepthook(*sys.exc_info())
+            raise
+        finally:
+            sys.stdout, sys.stderr = kept
+
+
+def value(number: float, error: float, unit: str = "", **more: float) -> dict[str, Any]:
+    """Return a finding with a value, an estimate of its error, and its unit."""
+    return {"value": float(number), "error": float(error), "unit": unit, **_plain(more)}
+
+
+def truth(holds: bool, **evidence: Any) -> dict[str, Any]:
+    """Return a finding that holds or not, with the evidence."""
+    return {"holds": bool(holds), **_plain(evidence)}
+
+
+def write_table(path: str, columns: Mapping[str, Any] | pd.DataFrame) -> None:
+    """Write a table as CSV, in the digits that are justified."""
+    pd.DataFrame(columns).to_csv(path, index=False, float_format=DIGITS, lineterminator="\n")
+
+
+def write_findings(path: str, findings: Mapping[str, Mapping[str, Any]]) -> None:
+    """Write the findings of one rule as JSON."""
+    text = json.dumps(findings, indent=2, ensure_ascii=False, allow_nan=False)
+    Path(path).write_text(text + "\n", encoding="utf-8")
+
+
+def grid(spec: Mapping[str, float]) -> np.ndarray:
+    """Return the uniform grid of a config entry with lowest, highest and points."""
+    return np.linspace(spec["lowest"], spec["highest"], int(spec["points"]))
+
+
+def _plain(mapping: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the mapping with NumPy's numbers and arrays as Python's."""
+    return {key: item.tolist() if hasattr(item, "tolist") else item for key, item in mapping.items()}

@@ -1,0 +1,55 @@
+"""The paper's derivation by computer algebra, and a test of every equation as it is printed.
+
+Geometry, Newton–Euler for the three bodies and impulse–momentum at impact give the frame's
+equation of motion, its equivalent size and its restitution; energies give the motion once more.
+"""
+
+from topheavy.derivation.equilibrium import (
+    column_motion,
+    equation_of_motion,
+    frame_motion,
+    frequency_ratio,
+    quadratic_terms,
+    size_ratio,
+    uplift_acceleration,
+)
+from topheavy.derivation.geometry import CapMotion, cap_contact, cap_motion, centre
+from topheavy.derivation.impact import (
+    column_restitution,
+    energy_slenderness,
+    largest_slenderness,
+    restitution,
+)
+from topheavy.derivation.lagrange import kinetic_energy, lagrange_equation, potential_energy
+from topheavy.derivation.notation import NEGATIVE, POSITIVE, SIDES, Side
+from topheavy.derivation.theorems import Theorem, theorems
+from topheavy.derivation.verdicts import PrintedCheck, check_printed
+
+__all__ = [
+    "NEGATIVE",
+    "POSITIVE",
+    "SIDES",
+    "CapMotion",
+    "PrintedCheck",
+    "Side",
+    "Theorem",
+    "cap_contact",
+    "cap_motion",
+    "centre",
+    "check_printed",
+    "column_motion",
+    "column_restitution",
+    "energy_slenderness",
+    "equation_of_motion",
+    "frame_motion",
+    "frequency_ratio",
+    "kinetic_energy",
+    "lagrange_equation",
+    "largest_slenderness",
+    "potential_energy",
+    "quadratic_terms",
+    "restitution",
+    "size_ratio",
+    "theorems",
+    "uplift_acceleration",
+]

@@ -1,0 +1,107 @@
+"""Newton–Euler for the three bodies of the frame: two columns and the cap-beam.
+
+The same balance holds for forces, with accelerations, and at an impact for impulses, with jumps
+of velocity. F_x (to the right) and F_z (upward) act on the cap-beam by column 1 and 2, on either
+side of the motion; the columns feel the opposite, and the reactions of the ground at their pivots.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import sympy as sp
+
+from topheavy.derivation.geometry import cap_contact, centre
+from topheavy.derivation.notation import (
+    F_x1,
+    F_x2,
+    F_z1,
+    F_z2,
+    I_o,
+    R,
+    Side,
+    alpha,
+    m_b,
+    m_c,
+)
+
+GROUND_1 = sp.Matrix(sp.symbols("G_{x1} G_{z1}", real=True))
+GROUND_2 = sp.Matrix(sp.symbols("G_{x2} G_{z2}", real=True))
+CAP_1 = sp.Matrix([F_x1, F_z1])
+CAP_2 = sp.Matrix([F_x2, F_z2])
+
+
+def _turning(arm: sp.Matrix, force: sp.Matrix) -> sp.Expr:
+    """The clockwise moment of a force at the end of an arm."""
+    return arm[1] * force[0] - arm[0] * force[1]
+
+
+def column_balance(
+    side: Side, linear: sp.Matrix, angular: Any, ground: sp.Matrix, cap: sp.Matrix
+) -> list[sp.Expr]:
+    """Newton and Euler for one column about its own centre, as three expressions that vanish.
+
+    Parameters
+    ----------
+    side
+        Which corners carry.
+    linear
+        The centre's acceleration, that of gravity deducted (or its jump of velocity).
+    angular
+        The angular acceleration (or jump of angular velocity), clockwise.
+    ground, cap
+        Forces (or impulses) on the column at its pivot, and by it on the cap-beam.
+    """
+    to_ground = -centre(side)
+    to_cap = cap_contact(side) - centre(side)
+    moment = _turning(to_ground, ground) - _turning(to_cap, cap)
+    inertia = I_o - m_c * R**2  # about the centre, by Steiner
+    return [*(ground - cap - m_c * linear), moment - inertia * angular]
+
+
+def frame_balance(
+    side: Side, column_linear: sp.Matrix, angular: Any, cap_linear: sp.Matrix
+) -> list[sp.Expr]:
+    """The balance of the whole frame but the cap-beam's moments, as expressions that vanish."""
+    return [
+        *column_balance(side, column_linear, angular, GROUND_1, CAP_1),
+        *column_balance(side, column_linear, angular, GROUND_2, CAP_2),
+        *(CAP_1 + CAP_2 - m_b * cap_linear),
+    ]
+
+
+def cap_moment(side: Side) -> sp.Expr:
+    """The clockwise moment of the columns on the cap-beam about its centre, which vanishes.
+
+    L is the distance between the columns' axes, d half the depth of the beam.
+    """
+    spacing, depth = sp.symbols("L d", positive=True)
+    shift = -side.sign * R * sp.sin(alpha)
+    arms = (sp.Matrix([shift + end * spacing / 2, -depth]) for end in (-1, 1))
+    return sum(_turning(arm, force) for arm, force in zip(arms, (CAP_1, CAP_2), strict=True))
+
+
+def solve(balance: list[sp.Expr], *unknowns: sp.Symbol) -> dict[sp.Symbol, sp.Expr]:
+    """Every state that a balance allows: the unknowns and all forces, in terms of the rest.
+
+    The balance of the frame has one force more than equations when the cap-beam's moments are
+    left out; F_z1 stays free then.
+    """
+    angles = {f.args[0] for equation in balance for f in equation.atoms(sp.sin, sp.cos)}
+    plain = {f(angle): sp.Dummy() for angle in angles for f in (sp.sin, sp.cos)}
+    equations = [equation.subs(plain) for equation in balance]  # rational, hence solved fast
+    present = {symbol for equation in balance for symbol in equation.free_symbols}
+    forces = [f for f in (*GROUND_1, *GROUND_2, F_x1, F_x2, F_z2) if f in present]
+    (solution,) = sp.linsolve(equations, [*unknowns, *forces])
+    named = {dummy: function for function, dummy in plain.items()}
+
+    def reduced(value: sp.Expr) -> sp.Expr:
+        parts = list(sp.fraction(sp.together(value)))
+        for angle in angles:
+            sine, cosine = plain[sp.sin(angle)], plain[sp.cos(angle)]
+            parts = [sp.rem(part, sine**2 + cosine**2 - 1, cosine) for part in parts]
+        return sp.cancel(parts[0] / parts[1]).subs(named)
+
+    return {
+        symbol: reduced(value) for symbol, value in zip([*unknowns, *forces], solution, strict=True)
+    }

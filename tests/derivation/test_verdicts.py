@@ -1,0 +1,129 @@
+"""The test of the print: complete, decided rightly, and able to fail."""
+
+import re
+
+import numpy as np
+import pytest
+import sympy as sp
+
+from topheavy.derivation import NEGATIVE, POSITIVE, check_printed
+from topheavy.derivation.in_text import IN_TEXT
+from topheavy.derivation.notation import THETA_POSITIVE, alpha, read, vanishes
+from topheavy.derivation.printed import EQUATIONS
+from topheavy.derivation.verdicts import follows, residuals
+
+FAULTS = {
+    "eq9_positive": "sign",
+    "eq19": "sign",
+    "eq20": "sign",
+    "eq21": "sign",
+    "eq22": "sign",
+    "eq23": "letter",
+    "text_p_hat": "radical",
+    "text_p_hat_trilith": "brackets",
+    "text_uplift": "condition",
+}
+
+
+@pytest.fixture(scope="module")
+def checks():
+    found = check_printed()
+    named = {check.id: check for check in found}
+    assert len(named) == len(found)
+    return named
+
+
+def numerically_zero(equation, premises, side):
+    """Whether an equation holds at random values of everything that it is left with."""
+    random = np.random.default_rng(7)
+    left = [residual.subs(premises(side)) for residual in residuals(equation, side)]
+    for _ in range(3):
+        for residual in left:
+            names = sorted(residual.free_symbols, key=str)
+            values = dict(zip(names, random.uniform(0.1, 0.7, len(names)), strict=True))
+            if side.rotation in values:
+                values[side.rotation] *= side.sign
+            scale = sum(
+                abs(complex(sp.N(term.subs(values)))) for term in sp.Add.make_args(residual)
+            )
+            if abs(complex(sp.N(residual.subs(values)))) > 1e-9 * scale:
+                return False
+    return True
+
+
+def test_every_equation_of_the_paper_is_there_and_named_once(checks):
+    assert {check.equation for check in checks.values()} == {None, *range(1, 26)}
+    assert all(re.fullmatch(r"[a-z][a-z0-9_]*", name) for name in checks)
+
+
+def test_double_signs_are_tested_on_both_sides(checks):
+    for number in range(4, 10):
+        parts = [check.part for check in checks.values() if check.equation == number]
+        assert parts == ["θ < 0", "θ > 0"]
+
+
+def test_these_and_no_other_faults_are_found(checks):
+    found = {name: check.fault for name, check in checks.items() if not check.follows}
+    assert found == FAULTS
+
+
+def test_what_is_meant_follows_and_the_remark_says_what_differs(checks):
+    for check in checks.values():
+        assert bool(check.remark) != check.follows
+        assert check.meant_follows is (None if check.follows else True)
+
+
+@pytest.mark.parametrize("statement", [*EQUATIONS, *IN_TEXT], ids=lambda s: s.name)
+def test_verdicts_agree_with_numbers(statement):
+    for side in statement.sides:
+        for equation in filter(None, (statement.printed, statement.meant)):
+            exact = follows(equation, statement.premises, [side])
+            assert exact == numerically_zero(equation, statement.premises, side)
+
+
+@pytest.mark.parametrize("statement", EQUATIONS, ids=lambda s: s.name)
+def test_one_wrong_sign_anywhere_is_caught(statement):
+    right = statement.meant or statement.printed
+    places = list(re.finditer(r" [+−] ", right))
+    for place in places:
+        other = " − " if place.group() == " + " else " + "
+        wrong = right[: place.start()] + other + right[place.end() :]
+        assert not follows(wrong, statement.premises, statement.sides), wrong
+
+
+def test_a_wrong_factor_is_caught():
+    (statement,) = (s for s in EQUATIONS if s.name == "eq24")
+    assert not follows(statement.printed.replace("3γ", "2γ"), statement.premises, statement.sides)
+
+
+@pytest.mark.parametrize(
+    ("name", "follows_then"), [("eq19", False), ("eq22", False), ("eq23", True)]
+)
+def test_reading_a_as_alpha_mends_only_the_compact_equation(name, follows_then):
+    (statement,) = (s for s in EQUATIONS if s.name == name)
+    mended = re.sub(r"\ba\b", "α", statement.printed)
+    assert follows(mended, statement.premises, statement.sides) is follows_then
+
+
+class TestReading:
+    def test_top_sign_is_for_negative_rotation(self):
+        assert read("α ± 1 = ∓1", NEGATIVE) == [alpha + 1, -1]
+        assert read("α ± 1 = ∓1", POSITIVE) == [alpha - 1, 1]
+
+    def test_a_radical_covers_only_its_brackets(self):
+        x = sp.Symbol("x")
+        assert read("√(1 + 2x)/(1 + 3x) = 1 + 2x/1 + 3x", POSITIVE) == [
+            sp.sqrt(1 + 2 * x) / (1 + 3 * x),
+            1 + 5 * x,
+        ]
+
+    def test_an_unknown_letter_stays_one(self):
+        assert read("sin(a) = 0", POSITIVE)[0] != sp.sin(alpha)
+
+
+def test_only_what_is_identically_zero_vanishes():
+    angle = alpha - THETA_POSITIVE
+    identity = sp.sin(angle) ** 2 + sp.cos(angle) ** 2 - 1
+    assert vanishes(identity, POSITIVE)
+    assert vanishes(sp.tan(angle) * sp.cos(angle) - sp.sin(angle), POSITIVE)
+    assert not vanishes(identity + sp.Rational(1, 10**12) * sp.sin(alpha), POSITIVE)
