@@ -18,7 +18,17 @@ check_config(config, "config/config.yaml", "config/config.schema.yaml")
 # Code that Snakemake does not see through a script's imports, so that a change reruns its users.
 WORKBENCH = ["src/steps/workbench.py"]
 LIBRARY = [*map(str, sorted(Path("src/topheavy").glob("*.py"))), *WORKBENCH]
-DERIVATION = [*map(str, sorted(Path("src/topheavy/derivation").glob("*.py"))), *WORKBENCH]
+DERIVATION = [
+    *map(str, sorted(Path("src/topheavy/derivation").glob("*.py"))),
+    *WORKBENCH,
+]
+
+
+def case(section):
+    """Return a section of the config, with the column in place of its name."""
+    entry = config[section]
+    return entry | {"column": config["structures"][entry["structure"]]}
+
 
 # Which tables each figure is drawn from.
 FIGURES = {
@@ -37,9 +47,38 @@ FIGURES = {
 }
 
 
+# What the claims of the ledger are judged by: the findings of these rules.
+FINDINGS = [
+    "equations",
+    "mass_ratio",
+    "restitution",
+    "moment_rotation",
+    "trilith",
+    "allen_histories",
+    "allen_errors",
+    "allen_overturning",
+    "heavier",
+    "scale_effects",
+    "stability",
+    "statements",
+]
+
+NOTEBOOKS = ["derivation", "play"]
+REFERENCES = sorted(map(str, Path("tests/reference").glob("*.csv")))
+
+
 rule all:
     input:
-        expand("results/tables/{t}.csv", t=["equations", "mass_ratio","restitution_over_slenderness","moment_rotation","trilith_nearness","trilith_map","allen_histories","allen_errors","allen_overturning","heavier","scale_effects"]),
+        expand("figures/{name}.svg", name=FIGURES),
+        expand("results/notebooks/{name}.html", name=NOTEBOOKS),
+        "results/summary.txt",
+        "results/costs.csv",
+        "paper/report.pdf",
+
+
+onsuccess:
+    if Path("results/summary.txt").exists():
+        print(Path("results/summary.txt").read_text())
 
 
 # The derivation: Eqs. (1)–(25) -------------------------------------------------------------------
@@ -70,12 +109,12 @@ rule mass_ratio:
     output:
         table="results/tables/mass_ratio.csv",
         findings="results/findings/mass_ratio.json",
-    params:
-        case=config["mass_ratio"],
     log:
         "results/logs/mass_ratio.log",
     benchmark:
         "results/benchmarks/mass_ratio.tsv"
+    params:
+        case=config["mass_ratio"],
     message:
         "p̂ and R̂ over γ"
     script:
@@ -92,12 +131,12 @@ rule restitution:
         over_slenderness="results/tables/restitution_over_slenderness.csv",
         over_mass_ratio="results/tables/restitution_over_mass_ratio.csv",
         findings="results/findings/restitution.json",
-    params:
-        case=config["restitution"],
     log:
         "results/logs/restitution.log",
     benchmark:
         "results/benchmarks/restitution.tsv"
+    params:
+        case=config["restitution"],
     message:
         "√r over slenderness and γ"
     script:
@@ -114,17 +153,34 @@ rule moment_rotation:
         moments="results/tables/moment_rotation.csv",
         periods="results/tables/quarter_period.csv",
         findings="results/findings/moment_rotation.json",
-    params:
-        case=config["moment_rotation"],
-        structures=config["structures"],
     log:
         "results/logs/moment_rotation.log",
     benchmark:
         "results/benchmarks/moment_rotation.tsv"
+    params:
+        case=case("moment_rotation"),
     message:
         "Moment–rotation and the period of free rocking"
     script:
         "src/steps/moment_rotation.py"
+
+
+rule sketches:
+    input:
+        LIBRARY,
+    output:
+        outlines="results/tables/outlines.csv",
+        free_body="results/tables/free_body.csv",
+    log:
+        "results/logs/sketches.log",
+    benchmark:
+        "results/benchmarks/sketches.tsv"
+    params:
+        case=case("sketches"),
+    message:
+        "The paper's two drawings, to scale: Figs. 1 and 2"
+    script:
+        "src/steps/sketches.py"
 
 
 # 4. The trilith of Peña et al. (2008): p. 3 ------------------------------------------------------
@@ -138,14 +194,13 @@ rule trilith:
         starts="results/tables/trilith_starts.csv",
         histories="results/tables/trilith_histories.csv",
         findings="results/findings/trilith.json",
-    params:
-        case=config["trilith"],
-        structures=config["structures"],
-        solver=config["solver"],
     log:
         "results/logs/trilith.log",
     benchmark:
         "results/benchmarks/trilith.tsv"
+    params:
+        case=case("trilith"),
+        solver=config["solver"],
     message:
         "The trilith: its numbers, what would have lifted it, how the table starts"
     script:
@@ -157,13 +212,12 @@ rule trilith_map:
         LIBRARY,
     output:
         table="results/tables/trilith_map.csv",
-    params:
-        case=config["trilith_map"],
-        structures=config["structures"],
     log:
         "results/logs/trilith_map.log",
     benchmark:
         "results/benchmarks/trilith_map.tsv"
+    params:
+        case=case("trilith_map"),
     message:
         "The trilith over amplitude and frequency of the table"
     script:
@@ -180,14 +234,13 @@ rule allen_histories:
     output:
         table="results/tables/allen_histories.csv",
         findings="results/findings/allen_histories.json",
-    params:
-        case=config["allen_histories"],
-        structures=config["structures"],
-        solver=config["solver"],
     log:
         "results/logs/allen_histories.log",
     benchmark:
         "results/benchmarks/allen_histories.tsv"
+    params:
+        case=case("allen_histories"),
+        solver=config["solver"],
     message:
         "Allen et al.: histories under a pulse and a record"
     script:
@@ -200,12 +253,12 @@ rule allen_errors:
     output:
         table="results/tables/allen_errors.csv",
         findings="results/findings/allen_errors.json",
-    params:
-        case=config["allen_errors"],
     log:
         "results/logs/allen_errors.log",
     benchmark:
         "results/benchmarks/allen_errors.tsv"
+    params:
+        case=config["allen_errors"],
     message:
         "Allen et al.: error of the peak rotation"
     script:
@@ -218,12 +271,12 @@ rule allen_overturning:
     output:
         table="results/tables/allen_overturning.csv",
         findings="results/findings/allen_overturning.json",
-    params:
-        case=config["allen_overturning"],
     log:
         "results/logs/allen_overturning.log",
     benchmark:
         "results/benchmarks/allen_overturning.tsv"
+    params:
+        case=config["allen_overturning"],
     message:
         "Allen et al.: overturning misjudged"
     script:
@@ -240,14 +293,13 @@ rule heavier:
         histories="results/tables/heavier_histories.csv",
         summary="results/tables/heavier.csv",
         findings="results/findings/heavier.json",
-    params:
-        case=config["heavier"],
-        structures=config["structures"],
-        solver=config["solver"],
     log:
         "results/logs/heavier.log",
     benchmark:
         "results/benchmarks/heavier.tsv"
+    params:
+        case=case("heavier"),
+        solver=config["solver"],
     message:
         "The same pulse under heavier and heavier caps"
     script:
@@ -260,15 +312,193 @@ rule scale_effects:
     output:
         table="results/tables/scale_effects.csv",
         findings="results/findings/scale_effects.json",
-    params:
-        case=config["scale_effects"],
-        structures=config["structures"],
-        solver=config["solver"],
     log:
         "results/logs/scale_effects.log",
     benchmark:
         "results/benchmarks/scale_effects.tsv"
+    params:
+        case=case("scale_effects"),
+        solver=config["solver"],
     message:
         "Housner's two scale effects"
     script:
         "src/steps/scale_effects.py"
+
+
+rule stability:
+    input:
+        LIBRARY,
+    output:
+        findings="results/findings/stability.json",
+    log:
+        "results/logs/stability.log",
+    benchmark:
+        "results/benchmarks/stability.tsv"
+    params:
+        case=case("stability"),
+        solver=config["solver"],
+    message:
+        "Is the heavier, the larger always the more stable?"
+    script:
+        "src/steps/stability.py"
+
+
+# What the paper says in words ---------------------------------------------------------------------
+
+
+rule statements:
+    input:
+        LIBRARY,
+        DERIVATION,
+    output:
+        findings="results/findings/statements.json",
+    log:
+        "results/logs/statements.log",
+    benchmark:
+        "results/benchmarks/statements.tsv"
+    params:
+        case=case("statements"),
+        solver=config["solver"],
+    message:
+        "What the paper says in words"
+    script:
+        "src/steps/statements.py"
+
+
+# Figures -----------------------------------------------------------------------------------------
+
+
+rule figure:
+    input:
+        WORKBENCH,
+        tables=lambda wildcards: expand(
+            "results/tables/{table}.csv", table=FIGURES[wildcards.name]
+        ),
+        style="figures/style.mplstyle",
+        drawing="figures/drawing.py",
+    output:
+        "figures/{name}.svg",
+    log:
+        "results/logs/figure_{name}.log",
+    wildcard_constraints:
+        name="|".join(FIGURES),
+    message:
+        "Figure {wildcards.name}"
+    script:
+        "figures/{wildcards.name}.py"
+
+
+# Pictures, notebooks -----------------------------------------------------------------------------
+
+
+rule notebook:
+    input:
+        LIBRARY,
+        DERIVATION,
+        notebook="notebooks/{name}.ipynb",
+        record="data/records/el_centro_1940_NS.AT2",
+    output:
+        executed="results/notebooks/{name}.ipynb",
+        page="results/notebooks/{name}.html",
+    log:
+        "results/logs/notebook_{name}.log",
+    benchmark:
+        "results/benchmarks/notebook_{name}.tsv"
+    message:
+        "Executing the notebook {wildcards.name}"
+    script:
+        "src/steps/notebook.py"
+
+
+# The ledger judged, and the end of the run -------------------------------------------------------
+
+
+rule claims:
+    input:
+        "src/topheavy/claims.py",
+        WORKBENCH,
+        ledger="paper/claims.yaml",
+        findings=expand("results/findings/{name}.json", name=FINDINGS),
+    output:
+        "results/claims.json",
+    log:
+        "results/logs/claims.log",
+    message:
+        "Judging every claim"
+    script:
+        "src/steps/claims.py"
+
+
+rule compare:
+    input:
+        WORKBENCH,
+        tables=[
+            path.replace("tests/reference", "results/tables") for path in REFERENCES
+        ],
+        references=REFERENCES,
+        config="tests/reference/config.yaml",
+    output:
+        "results/comparison.csv",
+    log:
+        "results/logs/compare.log",
+    params:
+        config=config,
+    message:
+        "Comparing the tables with the reference tables"
+    script:
+        "src/steps/compare.py"
+
+
+rule verdict:
+    input:
+        "src/topheavy/claims.py",
+        WORKBENCH,
+        claims="results/claims.json",
+        comparison="results/comparison.csv",
+    output:
+        "results/summary.txt",
+    log:
+        "results/logs/verdict.log",
+    message:
+        "Holding the verdicts against what is expected of them"
+    script:
+        "src/steps/verdict.py"
+
+
+rule costs:
+    input:
+        WORKBENCH,
+        expand("results/findings/{name}.json", name=FINDINGS),
+        expand("results/notebooks/{name}.html", name=NOTEBOOKS),
+        "results/tables/trilith_map.csv",
+    output:
+        "results/costs.csv",
+    log:
+        "results/logs/costs.log",
+    message:
+        "Adding up what the run cost"
+    script:
+        "src/steps/costs.py"
+
+
+rule report:
+    input:
+        WORKBENCH,
+        "paper/references.bib",
+        "results/claims.json",
+        "docs/costs.csv",
+        "docs/machine.txt",
+        "results/tables/equations.csv",
+        expand("results/findings/{name}.json", name=FINDINGS),
+        expand("figures/{name}.svg", name=FIGURES),
+        source="paper/report.typ",
+    output:
+        "paper/report.pdf",
+    log:
+        "results/logs/report.log",
+    benchmark:
+        "results/benchmarks/report.tsv"
+    message:
+        "Compiling the report"
+    script:
+        "src/steps/report.py"

@@ -10,8 +10,8 @@ from topheavy.linear import simulate_linear_exact
 from topheavy.massless_columns import SIMPLIFICATIONS, simplified
 
 
-def main(case: dict, structures: dict, record_path: str, solver: dict) -> tuple[list[dict], dict]:
-    frame = RockingFrame(Column(**structures[case["structure"]]), case["mass_ratio"])
+def main(case: dict, record_path: str, solver: dict) -> tuple[list[dict], dict]:
+    frame = RockingFrame(Column(**case["column"]), case["mass_ratio"])
     pulse = Pulse(
         case["pulse"]["shape"], case["pulse"]["amplitude"], 2 * math.pi / case["pulse"]["period"]
     )
@@ -62,7 +62,6 @@ if __name__ == "__main__":
     with log_to(snakemake.log[0]):
         rows, findings = main(
             snakemake.params.case,
-            snakemake.params.structures,
             snakemake.input.record,
             snakemake.params.solver,
         )

@@ -1,16 +1,23 @@
 """The check of config.yaml against its schema, with messages that a person can act on."""
 
 import difflib
-from collections.abc import Iterator, Mapping
+import math
+from collections.abc import Iterable, Iterator, Mapping
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 import yaml
 from jsonschema import Draft202012Validator, ValidationError
 
+UNORDERED = {"printed_masses"}
+"""Lists of numbers that need not ascend."""
 
-def check_config(config: Mapping[str, Any], path: str, schema_path: str) -> None:
-    """Refuse a config that breaks its schema.
+
+def check_config(
+    config: Mapping[str, Any], path: str, schema_path: str, records: str = "data/records"
+) -> None:
+    """Refuse a config that breaks its schema, or whose entries do not fit together.
 
     Raises
     ------
@@ -18,24 +25,28 @@ def check_config(config: Mapping[str, Any], path: str, schema_path: str) -> None
         With one line for each fault: the file, the place, the value, and what was expected.
     """
     schema = yaml.safe_load(Path(schema_path).read_text(encoding="utf-8"))
-    faults = sorted(
-        f"{path}: {message}"
-        for error in Draft202012Validator(schema).iter_errors(config)
-        for message in _messages(error)
-    )
-    if faults:
-        raise ValueError("\n".join(faults))
+    errors = Draft202012Validator(schema).iter_errors(config)
+    messages = {message for error in errors for message in _messages(error)}
+    messages |= {*_structures(config), *_records(config, records), *_solver(config)}
+    messages |= {message for place, value in _walk(config) for message in _numbers(place, value)}
+    if messages:
+        raise ValueError("\n".join(f"{path}: {message}" for message in sorted(messages)))
+
+
+# What the schema says ----------------------------------------------------------------------------
 
 
 def _messages(error: ValidationError) -> Iterator[str]:
-    place = ".".join(str(part) for part in error.absolute_path) or "the top level"
+    place = _dotted(error.absolute_path) or "the top level"
     allowed = list(error.schema.get("properties", {})) if isinstance(error.schema, dict) else []
     match error.validator:
         case "additionalProperties":
-            for key in sorted(set(error.instance) - set(allowed)):
-                close = difflib.get_close_matches(str(key), allowed, n=1)
-                hint = f"did you mean {close[0]!r}?" if close else f"expected {', '.join(allowed)}"
-                yield f"{place} has an unknown key {key!r}; {hint}"
+            patterns = error.schema.get("patternProperties", {})
+            if patterns:
+                yield f"{place} has a name that does not match {', '.join(patterns)}"
+                return
+            for key in sorted(set(error.instance) - set(allowed), key=str):
+                yield f"{place} has an unknown key {key!r}; {_hint(key, allowed)}"
         case "required":
             missing = [key for key in error.validator_value if key not in error.instance]
             yield f"{place} lacks {', '.join(missing)}"
@@ -48,9 +59,88 @@ def _messages(error: ValidationError) -> Iterator[str]:
         case "exclusiveMaximum":
             yield f"{place} is {error.instance}; expected less than {error.validator_value}"
         case "enum":
-            expected = ", ".join(map(str, error.validator_value))
-            yield f"{place} is {error.instance!r}; expected one of {expected}"
+            yield f"{place} is {error.instance!r}; {_hint(error.instance, error.validator_value)}"
         case "type":
             yield f"{place} is {error.instance!r}; expected a value of type {error.validator_value}"
         case _:
             yield f"{place} is {error.instance!r}; {error.message}"
+
+
+def _hint(given: Any, allowed: Iterable[Any]) -> str:
+    names = [str(name) for name in allowed]
+    close = difflib.get_close_matches(str(given), names, n=1)
+    return f"did you mean {close[0]!r}?" if close else f"expected one of {', '.join(names)}"
+
+
+# What no schema can say --------------------------------------------------------------------------
+
+
+def _structures(config: Mapping[str, Any]) -> Iterator[str]:
+    structures = _mapping(config, "structures")
+    for name in structures:
+        b, h = (_mapping(structures, name).get(key) for key in ("half_width", "half_height"))
+        if _is_number(b) and _is_number(h) and b >= h > 0:
+            yield (
+                f"structures.{name} has the half width {b} and the half height {h}, in m; "
+                "expected columns more slender than 45°, which rock on under any cap"
+            )
+    for section in config:
+        name = _mapping(config, section).get("structure")
+        if isinstance(name, str) and name not in structures:
+            yield f"{section}.structure is {name!r}, not in structures; {_hint(name, structures)}"
+
+
+def _records(config: Mapping[str, Any], folder: str) -> Iterator[str]:
+    for section in config:
+        name = _mapping(_mapping(config, section), "record").get("file")
+        if isinstance(name, str) and not (Path(folder) / f"{name}.AT2").is_file():
+            there = sorted(file.stem for file in Path(folder).glob("*.AT2"))
+            yield (
+                f"{section}.record.file is {name!r}, for which there is no {folder}/{name}.AT2; "
+                f"{_hint(name, there)}"
+            )
+
+
+def _solver(config: Mapping[str, Any]) -> Iterator[str]:
+    usual, tight = (_mapping(config, "solver").get(key) for key in ("tolerance", "tightened"))
+    if _is_number(usual) and _is_number(tight) and tight >= usual:
+        yield f"solver.tightened is {tight}; expected less than solver.tolerance, {usual}"
+
+
+def _numbers(place: str, value: Any) -> Iterator[str]:
+    """Numbers that are none, grids that do not grow, lists that do not ascend."""
+    if isinstance(value, float) and math.isnan(value):
+        yield f"{place} is not a number (.nan); expected a number"
+    elif isinstance(value, Mapping) and {"lowest", "highest"} <= set(value):
+        low, high = value["lowest"], value["highest"]
+        if _is_number(low) and _is_number(high) and low >= high:
+            yield f"{place}.highest is {high}; expected more than {place}.lowest, {low}"
+    elif isinstance(value, list) and place.rpartition(".")[2] not in UNORDERED:
+        numbers = [item for item in value if _is_number(item)]
+        if any(first >= second for first, second in pairwise(numbers)):
+            yield f"{place} is {value}; expected numbers in ascending order"
+
+
+def _walk(value: Any, *path: str | int) -> Iterator[tuple[str, Any]]:
+    yield _dotted(path), value
+    items: Iterable[tuple[Any, Any]] = ()
+    if isinstance(value, Mapping):
+        items = value.items()
+    elif isinstance(value, list):
+        items = enumerate(value)
+    for key, item in items:
+        yield from _walk(item, *path, key)
+
+
+def _dotted(path: Iterable[str | int]) -> str:
+    return ".".join(str(part) for part in path)
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+def _mapping(parent: Any, key: Any) -> Mapping[str, Any]:
+    """Return an entry if it is a mapping, or else an empty one: the schema has told of it."""
+    entry = parent.get(key) if isinstance(parent, Mapping) else None
+    return entry if isinstance(entry, Mapping) else {}

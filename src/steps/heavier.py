@@ -22,8 +22,8 @@ def lowest_overturning(frame: RockingFrame, pulse: Pulse, step: float) -> tuple[
     return low, high
 
 
-def main(case: dict, structures: dict, solver: dict) -> tuple[list[dict], list[dict], dict]:
-    column = Column(**structures[case["structure"]])
+def main(case: dict, solver: dict) -> tuple[list[dict], list[dict], dict]:
+    column = Column(**case["column"])
     pulse = Pulse(
         case["pulse"]["shape"], case["pulse"]["amplitude"], 2 * math.pi / case["pulse"]["period"]
     )
@@ -71,9 +71,7 @@ def main(case: dict, structures: dict, solver: dict) -> tuple[list[dict], list[d
 
 if __name__ == "__main__":
     with log_to(snakemake.log[0]):
-        histories, summary, findings = main(
-            snakemake.params.case, snakemake.params.structures, snakemake.params.solver
-        )
+        histories, summary, findings = main(snakemake.params.case, snakemake.params.solver)
         write_table(snakemake.output.histories, histories)
         write_table(snakemake.output.summary, summary)
         write_findings(snakemake.output.findings, findings)

@@ -51,8 +51,8 @@ def energy_drift(column: Column, mass_ratios: list[float]) -> float:
     return worst
 
 
-def main(case: dict, structures: dict) -> tuple[dict, list[dict], dict]:
-    column = Column(**structures[case["structure"]])
+def main(case: dict) -> tuple[dict, list[dict], dict]:
+    column = Column(**case["column"])
     alpha = column.slenderness
     fractions = np.linspace(-1.0, 1.0, 2 * case["points"] - 1)
     fractions = np.sort(np.append(fractions, -1e-12))  # the jump at θ = 0, from both sides
@@ -105,7 +105,7 @@ def main(case: dict, structures: dict) -> tuple[dict, list[dict], dict]:
 
 if __name__ == "__main__":
     with log_to(snakemake.log[0]):
-        moments, periods, findings = main(snakemake.params.case, snakemake.params.structures)
+        moments, periods, findings = main(snakemake.params.case)
         write_table(snakemake.output.moments, moments)
         write_table(snakemake.output.periods, periods)
         write_findings(snakemake.output.findings, findings)

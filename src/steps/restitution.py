@@ -17,13 +17,21 @@ def column(degrees: float) -> Column:
 def main(case: dict) -> tuple[dict, dict, dict]:
     slendernesses = np.linspace(0.0, case["largest_slenderness"], case["points"])[1:]
     over_slenderness = [
-        {"slenderness_deg": a, "mass_ratio": g, "restitution": RockingFrame(column(a), g).restitution}
+        {
+            "slenderness_deg": a,
+            "mass_ratio": g,
+            "restitution": RockingFrame(column(a), g).restitution,
+        }
         for g in case["mass_ratios"]
         for a in slendernesses
     ]
     gammas = np.concatenate([np.linspace(0.0, 10.0, 201), [math.inf]])
     over_mass_ratio = [
-        {"slenderness_deg": a, "mass_ratio": g, "restitution": RockingFrame(column(a), g).restitution}
+        {
+            "slenderness_deg": a,
+            "mass_ratio": g,
+            "restitution": RockingFrame(column(a), g).restitution,
+        }
         for a in case["slendernesses"]
         for g in gammas
     ]

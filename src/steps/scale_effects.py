@@ -10,8 +10,8 @@ from topheavy import Column, Pulse, simulate
 from topheavy.reference import judge
 
 
-def main(case: dict, structures: dict, solver: dict) -> tuple[list[dict], dict]:
-    small = Column(**structures[case["structure"]])
+def main(case: dict, solver: dict) -> tuple[list[dict], dict]:
+    small = Column(**case["column"])
     times_larger, times_longer = case["larger"], case["longer"]
     large = Column(small.half_width * times_larger, small.half_height * times_larger)
     short = Pulse(
@@ -55,8 +55,6 @@ def main(case: dict, structures: dict, solver: dict) -> tuple[list[dict], dict]:
 
 if __name__ == "__main__":
     with log_to(snakemake.log[0]):
-        rows, findings = main(
-            snakemake.params.case, snakemake.params.structures, snakemake.params.solver
-        )
+        rows, findings = main(snakemake.params.case, snakemake.params.solver)
         write_table(snakemake.output.table, rows)
         write_findings(snakemake.output.findings, findings)

@@ -28,21 +28,22 @@ def passage(frame: RockingFrame, case: dict) -> dict:
     printed_p, printed_p_hat = 4.21, 3.79
     ratio = (printed_p_hat / printed_p) ** 2  # (1 + 2γ)/(1 + 3γ), solved for γ
     cap, columns = case["printed_masses"]
-    gamma = frame.mass_ratio
     return {
+        "half_measures_agree": truth(
+            math.isclose(column.half_width, 0.22 / 2) and math.isclose(column.half_height, 0.8 / 2)
+        ),
         "tan_slenderness": value(math.tan(column.slenderness), EPS),
         "slenderness": value(math.degrees(column.slenderness), 90 * EPS, "°"),
         "size": value(column.size, EPS, "m"),
         "frequency_parameter": value(column.frequency_parameter, 8 * EPS, "rad/s"),
         "mass_ratio": value(
-            cap / columns, EPS, "", meant_value=(1 - ratio) / (3 * ratio - 2), cap_mass=0.434 * columns
-        ),
-        "frequency_ratio": value(
-            math.sqrt(1 + 2 * gamma / 1 + 3 * gamma),  # as printed: no fraction of sums
+            cap / columns,
             EPS,
             "",
-            meant_value=frame.frequency_parameter / column.frequency_parameter,
+            meant_value=(1 - ratio) / (3 * ratio - 2),
+            cap_mass=0.434 * columns,
         ),
+        "frequency_ratio": value(frame.frequency_parameter / column.frequency_parameter, EPS),
         "frame_frequency_parameter": value(frame.frequency_parameter, 8 * EPS, "rad/s"),
         "base_acceleration": value(acceleration * STANDARD_GRAVITY, 8 * EPS, "m/s²"),
         "base_acceleration_in_g": value(acceleration, EPS, "g"),
@@ -107,7 +108,12 @@ def starts(frame: RockingFrame, case: dict) -> tuple[list[dict], list[dict], dic
 
     def shaken(share: float, tolerance: float = TOLERANCE):
         return simulate(
-            frame, motion, velocity=share * full, duration=duration, samples=2401, tolerance=tolerance
+            frame,
+            motion,
+            velocity=share * full,
+            duration=duration,
+            samples=2401,
+            tolerance=tolerance,
         )
 
     def keeps_rocking(share: float) -> bool:
@@ -158,8 +164,8 @@ def starts(frame: RockingFrame, case: dict) -> tuple[list[dict], list[dict], dic
     return summary, histories, findings
 
 
-def main(case: dict, structures: dict) -> tuple[dict, list[dict], list[dict], list[dict]]:
-    frame = RockingFrame(Column(**structures[case["structure"]]), case["mass_ratio"])
+def main(case: dict) -> tuple[dict, list[dict], list[dict], list[dict]]:
+    frame = RockingFrame(Column(**case["column"]), case["mass_ratio"])
     findings = passage(frame, case)
     near = nearness(frame, case)
     summary, histories, started = starts(frame, case)
@@ -194,9 +200,7 @@ def main(case: dict, structures: dict) -> tuple[dict, list[dict], list[dict], li
 
 if __name__ == "__main__":
     with log_to(snakemake.log[0]):
-        findings, near, summary, histories = main(
-            snakemake.params.case, snakemake.params.structures
-        )
+        findings, near, summary, histories = main(snakemake.params.case)
         write_table(snakemake.output.nearness, near)
         write_table(snakemake.output.starts, summary)
         write_table(snakemake.output.histories, histories)

@@ -1,4 +1,4 @@
-"""Where the trilith stays at rest, rocks or overturns, over amplitude and frequency of the table."""
+"""Where the trilith rests, rocks or overturns, over amplitude and frequency of the table."""
 
 from workbench import grid, log_to, write_table
 
@@ -6,8 +6,8 @@ from topheavy import Column, RockingFrame, simulate
 from topheavy.shaking_table import table_acceleration, table_motion
 
 
-def main(case: dict, structures: dict) -> list[dict]:
-    frame = RockingFrame(Column(**structures[case["structure"]]), case["mass_ratio"])
+def main(case: dict) -> list[dict]:
+    frame = RockingFrame(Column(**case["column"]), case["mass_ratio"])
     rows = []
     for frequency in grid(case["frequencies"]):
         for amplitude in grid(case["amplitudes"]):
@@ -31,6 +31,4 @@ def main(case: dict, structures: dict) -> list[dict]:
 
 if __name__ == "__main__":
     with log_to(snakemake.log[0]):
-        write_table(
-            snakemake.output.table, main(snakemake.params.case, snakemake.params.structures)
-        )
+        write_table(snakemake.output.table, main(snakemake.params.case))

@@ -60,4 +60,6 @@ def grid(spec: Mapping[str, float]) -> np.ndarray:
 
 def _plain(mapping: Mapping[str, Any]) -> dict[str, Any]:
     """Return the mapping with NumPy's numbers and arrays as Python's."""
-    return {key: item.tolist() if hasattr(item, "tolist") else item for key, item in mapping.items()}
+    return {
+        key: item.tolist() if hasattr(item, "tolist") else item for key, item in mapping.items()
+    }

@@ -1,8 +1,8 @@
 """The impact at θ = 0: impulse and momentum of the three bodies, Eq. (25).
 
-The frame turns on smoothly; the impulses act at the new pivots, at the ground and under the
-cap-beam. The columns exchange impulses with the cap-beam both ways, since its horizontal velocity
-drops while its vertical velocity turns from falling to rising.
+The rotation goes on in the same sense; the impulses act at the new pivots, at the ground and under
+the cap-beam. Both components of the cap-beam's momentum jump: its horizontal velocity drops, and
+its vertical velocity turns from falling to rising. Its moments are not needed here either.
 """
 
 from __future__ import annotations

@@ -5,8 +5,10 @@ Written as `topheavy.derivation.printed` writes the numbered equations.
 
 from __future__ import annotations
 
+import sympy as sp
+
 from topheavy.derivation import premises
-from topheavy.derivation.notation import NEGATIVE
+from topheavy.derivation.notation import NEGATIVE, F_x1, F_x2, F_z1, acceleration
 from topheavy.derivation.printed import Statement
 
 IN_TEXT = (
@@ -39,13 +41,13 @@ IN_TEXT = (
 )
 
 STEPS = (
-    ("text_step_12", ("eq10", "eq11"), "eq12"),
-    ("text_step_14", ("eq12", "eq13"), "eq14"),
-    ("text_step_15", ("eq10", "eq14"), "eq15"),
-    ("text_step_17", ("eq15", "eq16"), "eq17"),
-    ("text_step_18", ("eq6", "eq9", "eq17"), "eq18"),
+    ("text_step_12", ("eq10", "eq11"), (F_x1, F_x2), "eq12"),
+    ("text_step_14", ("eq12", "eq13"), (F_x1, F_x2), "eq14"),
+    ("text_step_15", ("eq10", "eq14"), (F_x1, acceleration), "eq15"),
+    ("text_step_17", ("eq15", "eq16"), (F_z1, acceleration), "eq17"),
+    ("text_step_18", ("eq6", "eq9", "eq17"), (*sp.symbols("u_ddot v_ddot"), acceleration), "eq18"),
 )
-"""Which printed equations the text combines into which, all for θ < 0."""
+"""Which equations the text combines, solved for what, into which other, all for θ < 0."""
 
 UPLIFT = Statement(
     "text_uplift",

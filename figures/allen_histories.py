@@ -1,0 +1,35 @@
+"""The model of Allen et al. and each of its simplifications beside the exact frame, in time."""
+
+from drawing import ACCENT, DOUBLE, GREY, INK, MODELS, letter, note, publish, sheet
+
+MOTIONS = {"pulse": "One-sine pulse", "record": "El Centro 1940, scaled"}
+
+
+def draw(allen_histories):
+    figure, axes = sheet(
+        DOUBLE, 112, nrows=5, ncols=2, sharex="col", height_ratios=(0.7, 1, 1, 1, 1)
+    )
+    for column, motion in zip(axes.T, MOTIONS, strict=True):
+        runs = allen_histories[allen_histories.motion == motion].groupby("model")
+        exact = runs.get_group("exact")
+        column[0].plot(exact.time, exact.acceleration, color=GREY, linewidth=0.7)
+        column[0].set_ylabel(r"$\ddot{u}_g$ (g)")
+        for axis, (model, words) in zip(column[1:], MODELS.items(), strict=True):
+            run = runs.get_group(model)
+            axis.plot(exact.time, exact.rotation_over_alpha, color=INK, linewidth=0.8)
+            axis.plot(run.time, run.rotation_over_alpha, color=ACCENT, linewidth=0.8)
+            change = run.rotation_over_alpha.abs().max() / exact.rotation_over_alpha.abs().max() - 1
+            words += f": peak {change:+.1%}".replace("-", "−")
+            axis.text(
+                0.995, 0.93, words, transform=axis.transAxes, ha="right", color=ACCENT, fontsize=7.5
+            )
+            axis.set(ylim=(-1, 1.25), ylabel=r"$\theta/\alpha$ (–)")
+        column[-1].set(xlabel="Time, $t$ (s)", xlim=(0, exact.time.max()))
+    note(axes[1, 0], "exact", (0.03, 0.2), xycoords="axes fraction")
+    letter(axes[0], MOTIONS.values())
+    figure.align_ylabels()
+    return figure
+
+
+if __name__ == "__main__":
+    publish(snakemake, draw)

@@ -1,0 +1,52 @@
+"""Where the linearised equation, and the whole model of Allen et al., misjudge overturning."""
+
+from drawing import ACCENT, DARKEST, DOUBLE, LIGHT, letter, note, publish, sheet
+from matplotlib.colors import ListedColormap
+from matplotlib.patches import Patch
+
+VERDICTS = {
+    "both survive": "white",
+    "both overturn": LIGHT,
+    "falsely safe": ACCENT,
+    "falsely overturned": DARKEST,
+}
+TITLES = {
+    "linearised": "Linearised equation only",
+    "all": "Allen et al.: linearised, massless columns",
+}
+
+
+def draw(allen_overturning):
+    figure, axes = sheet(DOUBLE, 80, ncols=2, sharey=True)
+    codes = {verdict: code for code, verdict in enumerate(VERDICTS)}
+    for axis, model in zip(axes, TITLES, strict=True):
+        cells = allen_overturning[allen_overturning.model == model]
+        cells = cells.assign(code=cells.verdict.map(codes))
+        grid = cells.pivot_table(
+            index="amplitude_over_uplift", columns="frequency_ratio", values="code"
+        )
+        axis.pcolormesh(
+            grid.columns,
+            grid.index,
+            grid,
+            cmap=ListedColormap(VERDICTS.values()),
+            vmin=0,
+            vmax=3,
+            rasterized=True,
+        )
+        shares = cells.verdict.value_counts(normalize=True)
+        wrong = [verdict for verdict in VERDICTS if verdict.startswith("falsely")]
+        patches = [
+            Patch(facecolor=VERDICTS[v], label=f"{v}: {shares.get(v, 0):.1%}") for v in wrong
+        ]
+        axis.legend(handles=patches, loc="lower right", handlelength=1.2)
+        note(axis, "both survive", (6.6, 6.5), ha="center")
+        note(axis, "both overturn", (2.6, 9.5), ha="center")
+        axis.set(xlim=(1, 8), ylim=(1, 12), xlabel=r"Frequency of the pulse, $\omega/p$ (–)")
+    axes[0].set_ylabel(r"Amplitude of the pulse, $a/(g\,\tan\alpha)$ (–)")
+    letter(axes, TITLES.values())
+    return figure
+
+
+if __name__ == "__main__":
+    publish(snakemake, draw)

@@ -1,0 +1,48 @@
+"""Velocity ratio at impact over slenderness and mass ratio: Eq. (25) between its two limits."""
+
+import numpy as np
+from drawing import ACCENT, DOUBLE, GREY, INK, gamma, letter, note, publish, shades, sheet
+
+
+def draw(restitution_over_slenderness, restitution_over_mass_ratio):
+    figure, (left, right) = sheet(DOUBLE, 66, ncols=2)
+    curves = restitution_over_slenderness.groupby("mass_ratio")
+    for (mass_ratio, curve), colour in zip(curves, shades(len(curves)), strict=True):
+        rocks = curve[curve.restitution >= 0.0]
+        left.plot(curve.slenderness_deg, curve.restitution, ":", color=colour, linewidth=0.9)
+        label = gamma(mass_ratio)
+        left.plot(rocks.slenderness_deg, rocks.restitution, color=colour, label=label)
+        if mass_ratio in (0.0, np.inf):
+            end = np.interp(0.0, -curve.restitution, curve.slenderness_deg)
+            left.plot(end, 0, "o", color=colour, markersize=3.5, zorder=3)
+            aside = (2, 8) if mass_ratio == 0.0 else (-18, -8)
+            note(left, f"{end:.1f}°", (end, 0), xytext=aside, textcoords="offset points")
+    left.axhline(0, color=GREY, linewidth=0.6)
+    note(left, "Housner, solitary column:\n$1-\\frac{3}{2}\\sin^2\\alpha$", (31, 0.72))
+    note(left, "massless columns:\n$\\cos 2\\alpha$", (30.5, 0.33), ha="right")
+    note(left, "dotted: no rocking\nafter an impact", (60, 0.42), ha="right", color=GREY)
+    left.legend(loc="lower left", ncols=2, labelspacing=0.2)
+    left.set(xlabel=r"Slenderness, $\alpha$ (°)", xlim=(0, 60), ylim=(-0.52, 1.03))
+
+    for slenderness, line in restitution_over_mass_ratio.groupby("slenderness_deg"):
+        finite, limit = line[np.isfinite(line.mass_ratio)], line.restitution.iloc[-1]
+        right.axhline(finite.restitution.iloc[0], color=GREY, linewidth=0.6, linestyle=(0, (1, 2)))
+        right.axhline(limit, color=ACCENT, linewidth=0.8, linestyle=(0, (4, 2)))
+        right.plot(finite.mass_ratio, finite.restitution, color=INK)
+        right.plot(0, finite.restitution.iloc[0], "o", color=INK, markersize=3, clip_on=False)
+        name = (
+            r"$\alpha$ = " if slenderness == restitution_over_mass_ratio.slenderness_deg[0] else ""
+        )
+        note(right, f"{name}{slenderness:g}°", (10.15, limit), annotation_clip=False)
+    top, limit = finite.restitution.iloc[0], line.restitution.iloc[-1]
+    note(right, "Housner", (9.9, top - 0.018), ha="right", color=GREY)
+    note(right, r"$\cos 2\alpha$", (9.9, limit - 0.018), ha="right", color=ACCENT)
+    right.set(xlabel=r"Mass ratio, $\gamma$ (–)", xlim=(0, 10), ylim=(0.46, 1.01))
+    for axis in (left, right):
+        axis.set_ylabel(r"Velocity ratio at impact, $\sqrt{r}$ (–)")
+    letter([left, right], ["Every cap lowers it …", "… most of it below $\\gamma$ = 1"])
+    return figure
+
+
+if __name__ == "__main__":
+    publish(snakemake, draw)

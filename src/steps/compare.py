@@ -1,0 +1,54 @@
+"""The tables of this run beside the reference tables that are committed in tests/reference/."""
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import yaml
+from workbench import log_to, write_table
+
+
+def largest_difference(table: pd.DataFrame, reference: pd.DataFrame, absolute: float) -> float:
+    """Return the largest |difference| over |reference| + absolute; inf where they do not match."""
+    if list(table.columns) != list(reference.columns) or len(table) != len(reference):
+        return float("inf")
+    worst = 0.0
+    for name in reference.columns:
+        ours, theirs = table[name], reference[name]
+        if pd.api.types.is_numeric_dtype(theirs) and pd.api.types.is_numeric_dtype(ours):
+            same = (ours == theirs) | (ours.isna() & theirs.isna())
+            ratio = (ours - theirs).abs().astype(float) / (theirs.abs().astype(float) + absolute)
+            worst = max(worst, float(np.where(same, 0.0, ratio.fillna(np.inf)).max(initial=0.0)))
+        elif not ours.equals(theirs):
+            return float("inf")
+    return worst
+
+
+def main(tables: list[str], references: list[str], changed: list[str], bounds: dict) -> list[dict]:
+    ours = {Path(path).name: path for path in tables}
+    rows = []
+    for path in references:
+        name = Path(path).name
+        difference = float("nan")
+        if not changed:
+            difference = largest_difference(
+                pd.read_csv(ours[name]), pd.read_csv(path), bounds["absolute"]
+            )
+        if changed:
+            verdict = "not compared: config.yaml differs in " + ", ".join(changed)
+        else:
+            verdict = "agrees" if difference <= bounds["relative"] else "differs"
+        rows.append({"table": name, "largest_difference": difference, "verdict": verdict})
+        print(f"{name}: {verdict} ({difference:.2g})")
+    return rows
+
+
+if __name__ == "__main__":
+    with log_to(snakemake.log[0]):
+        published = yaml.safe_load(Path(snakemake.input.config).read_text(encoding="utf-8"))
+        used = snakemake.params.config
+        changed = sorted(key for key in {*published, *used} if published.get(key) != used.get(key))
+        rows = main(
+            snakemake.input.tables, snakemake.input.references, changed, used["reproducibility"]
+        )
+        write_table(snakemake.output[0], rows)

@@ -1,0 +1,147 @@
+"""Who is more stable, and is it so always? Four rankings of the paper, scanned for counterexamples.
+
+Survival is not monotone in the amplitude: beyond the amplitudes that overturn after an impact there
+are some that are survived again, before those that overturn without one.
+"""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cache
+from itertools import combinations, groupby, pairwise
+from typing import TypeAlias
+
+from workbench import grid, log_to, truth, write_findings
+
+from topheavy import Column, Pulse, RockingFrame
+from topheavy.linear import simulate_linear_exact
+from topheavy.reference import judge
+
+SCANNING = 1e-8  # of α: tolerance of a scan, of which what is quoted is made anew
+NEARBY = 0.05  # of an amplitude: where the linearised equation is asked
+
+Trial: TypeAlias = tuple[Column | RockingFrame, float]
+"""A structure, and the frequency of the pulse that shakes it, over p of the reference column."""
+
+
+@dataclass(frozen=True)
+class Scan:
+    """Which amplitudes of a pulse overturn a structure, all relative to one column."""
+
+    column: Column
+    shape: str
+    amplitudes: tuple[float, ...]  # over g tan α
+    tightened: float
+
+    def pulse(self, trial: Trial, amplitude: float) -> Pulse:
+        level, p = self.column.uplift_acceleration, self.column.frequency_parameter
+        return Pulse(self.shape, amplitude * level, trial[1] * p)
+
+    @cache  # noqa: B019, a scan lives as long as the step
+    def overturned(self, trial: Trial) -> tuple[bool, ...]:
+        return tuple(
+            judge(trial[0], self.pulse(trial, amplitude), tolerance=SCANNING).overturned
+            for amplitude in self.amplitudes
+        )
+
+    def overturned_linearised(self, trial: Trial, amplitude: float) -> bool:
+        block, pulse = trial[0].block().linear(), self.pulse(trial, amplitude)
+        return simulate_linear_exact(block, pulse, duration=pulse.duration, samples=2).overturned
+
+    def first(self, trial: Trial) -> float:
+        """The lowest amplitude of the scan that overturns."""
+        over = self.overturned(trial)
+        return self.amplitudes[over.index(True)] if True in over else math.inf
+
+    def against(self, weaker: Trial, stronger: Trial) -> Iterator[list[float]]:
+        """Runs of amplitudes that overturn the stronger trial and not the weaker one."""
+        cells = zip(
+            self.amplitudes, self.overturned(weaker), self.overturned(stronger), strict=True
+        )
+        for counter, run in groupby(cells, key=lambda cell: cell[2] and not cell[1]):
+            if counter:
+                yield [amplitude for amplitude, *_ in run]
+
+    def ranking(self, order: list[list[Trial]]) -> dict:
+        """Does each trial survive all that those before it survive? Or at least, fall later?
+
+        In the middle of the widest run of counterexamples the verdict is made anew at the
+        tightened tolerance. The closed form of the linearised equation, which has boundaries of its
+        own, is asked for counterexamples among the same two trials.
+        """
+        rises = all(
+            self.first(weaker) <= self.first(stronger)
+            for trials in order
+            for weaker, stronger in pairwise(trials)
+        )
+        runs = [
+            (run, weaker, stronger)
+            for trials in order
+            for weaker, stronger in combinations(trials, 2)
+            for run in self.against(weaker, stronger)
+        ]
+        if not runs:
+            return truth(True, first_fall_rises=rises)
+        run, weaker, stronger = max(runs, key=lambda item: len(item[0]))
+        amplitude = run[len(run) // 2]
+        pair = (weaker, stronger)
+        again = [
+            judge(trial[0], self.pulse(trial, amplitude), tolerance=self.tightened).overturned
+            for trial in pair
+        ]
+        linearised = [
+            near
+            for near in self.amplitudes
+            if abs(near / amplitude - 1.0) < NEARBY
+            and self.overturned_linearised(stronger, near)
+            and not self.overturned_linearised(weaker, near)
+        ]
+        if again != [False, True]:
+            raise ArithmeticError(f"{weaker}, {stronger} at {amplitude:.6g}: not a counterexample")
+        return truth(
+            False,
+            holds_when=rises,
+            condition="what counts is the lowest amplitude of the tested pulses that overturns",
+            counterexamples=sum(len(item[0]) for item in runs),
+            amplitude_over_uplift=amplitude,
+            survives=describe(weaker),
+            overturns=describe(stronger),
+            closed_form_counterexamples=len(linearised),
+        )
+
+
+def describe(trial: Trial) -> dict:
+    structure, frequency_ratio = trial
+    alone = isinstance(structure, Column)
+    gamma = 0.0 if alone else structure.mass_ratio
+    return {
+        "size": (structure if alone else structure.column).size,
+        "mass_ratio": gamma if math.isfinite(gamma) else "infinite",
+        "frequency_ratio": frequency_ratio,
+    }
+
+
+def main(case: dict, solver: dict) -> dict:
+    column = Column(**case["column"])
+    amplitudes = tuple(map(float, grid(case["amplitudes"])))
+    scan = Scan(column, case["shape"], amplitudes, solver["tightened"])
+    frames = [RockingFrame(column, gamma) for gamma in case["mass_ratios"]]
+    b, h = column.half_width, column.half_height
+    sizes = [Column(scale * b, scale * h) for scale in case["sizes"]]
+    ratios = case["frequency_ratios"]
+    return {
+        "heavier_is_more_stable": scan.ranking([[(f, ratio) for f in frames] for ratio in ratios]),
+        "frame_is_more_stable_than_its_column": scan.ranking(
+            [[(column, ratio), (frame, ratio)] for ratio in ratios for frame in frames]
+        ),
+        "larger_is_more_stable": scan.ranking([[(c, ratio) for c in sizes] for ratio in ratios]),
+        # ratios ascend: from the longest pulse to the shortest
+        "longer_pulse_overturns_first": scan.ranking([[(column, ratio) for ratio in ratios]]),
+    }
+
+
+if __name__ == "__main__":
+    with log_to(snakemake.log[0]):
+        write_findings(
+            snakemake.output.findings, main(snakemake.params.case, snakemake.params.solver)
+        )

@@ -1,0 +1,35 @@
+"""The end of a run: how the claims came out, and an error if that is not what is expected."""
+
+import json
+from pathlib import Path
+
+import pandas as pd
+from workbench import log_to
+
+from topheavy.claims import tally
+
+
+def main(claims: list[dict], comparison: pd.DataFrame) -> tuple[str, list[str]]:
+    faults = [
+        f"claim {row['id']} came out {row['verdict']}; expected {row['expected']}"
+        for row in claims
+        if row["verdict"] != row["expected"]
+    ]
+    faults += [
+        f"results/tables/{row.table} differs from tests/reference/{row.table} "
+        f"(largest relative difference {row.largest_difference:.2g})"
+        for row in comparison.itertuples()
+        if row.verdict == "differs"
+    ]
+    return tally(row["verdict"] for row in claims), faults
+
+
+if __name__ == "__main__":
+    with log_to(snakemake.log[0]):
+        claims = json.loads(Path(snakemake.input.claims).read_text(encoding="utf-8"))
+        line, faults = main(claims, pd.read_csv(snakemake.input.comparison))
+        if faults:
+            raise SystemExit("\n".join([*faults, line]))
+        Path(snakemake.output[0]).write_text(
+            f"report: paper/report.pdf\n{line}\n", encoding="utf-8"
+        )

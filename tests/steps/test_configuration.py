@@ -1,0 +1,136 @@
+"""The check of config.yaml: what is wrong, where, and what was expected, all at once."""
+
+import copy
+import math
+from pathlib import Path
+
+import pytest
+import yaml
+from configuration import check_config
+
+ROOT = Path(__file__).resolve().parents[2]
+CONFIG = yaml.safe_load((ROOT / "config" / "config.yaml").read_text(encoding="utf-8"))
+
+
+def faults(config):
+    """The lines of the message, or none."""
+    schema, records = ROOT / "config" / "config.schema.yaml", ROOT / "data" / "records"
+    try:
+        check_config(config, "config.yaml", str(schema), str(records))
+    except ValueError as error:
+        return str(error).splitlines()
+    return []
+
+
+def changed(place, value):
+    """The config with another value at a dotted place; None takes the entry away."""
+    config = copy.deepcopy(CONFIG)
+    *path, last = (int(part) if part.isdigit() else part for part in place.split("."))
+    entry = config
+    for key in path:
+        entry = entry[key]
+    if value is None:
+        del entry[last]
+    else:
+        entry[last] = value
+    return config
+
+
+def test_the_config_is_sound():
+    assert faults(CONFIG) == []
+
+
+@pytest.mark.parametrize(
+    ("place", "value", "expected"),
+    [
+        (
+            "trilith.mass_ration",
+            1.0,
+            "trilith has an unknown key 'mass_ration'; did you mean 'mass",
+        ),
+        ("trilth", {}, "the top level has an unknown key 'trilth'; did you mean 'trilith'?"),
+        ("heavier.pulse.colour", 1, "heavier.pulse has an unknown key 'colour'; expected one of"),
+        ("sketches.displaced.spam", 1.0, "sketches.displaced has an unknown key 'spam'; did you"),
+        ("structures.Temple", {"half_width": 1.0, "half_height": 2.0}, "structures has a name"),
+        ("mass_ratio.points", None, "mass_ratio lacks points"),
+        ("mass_ratio", None, "the top level lacks mass_ratio"),
+    ],
+)
+def test_keys_are_held_against_the_schema(place, value, expected):
+    (fault,) = faults(changed(place, value))
+    assert fault.startswith(f"config.yaml: {expected}")
+
+
+@pytest.mark.parametrize(
+    ("place", "value", "expected"),
+    [
+        ("trilith.mass_ratio", -0.2, "is -0.2; expected at least 0"),
+        ("structures.temple.half_width", 0.0, "is 0.0; expected more than 0"),
+        ("structures.temple.half_height", -3.0, "is -3.0; expected more than 0"),
+        ("allen_overturning.slenderness", 45.0, "is 45.0; expected less than 45"),
+        ("restitution.largest_slenderness", 90.0, "is 90.0; expected less than 90"),
+        ("restitution.slendernesses.0", 0.0, "is 0.0; expected more than 0"),
+        ("allen_errors.slendernesses.highest", 50.0, "is 50.0; expected less than 45"),
+        ("mass_ratio.points", 1, "is 1; expected at least 2"),
+        ("mass_ratio.points", 20.5, "is 20.5; expected a value of type integer"),
+        ("mass_ratio.largest", "ten", "is 'ten'; expected a value of type number"),
+        ("mass_ratio.largest", math.inf, "is inf; expected at most 1000000.0"),
+        ("solver.tolerance", 0.5, "is 0.5; expected at most 0.001"),
+        ("trilith.table_frequency", True, "is True; expected a value of type number"),
+    ],
+)
+def test_a_value_out_of_range_is_told_with_place_and_expectation(place, value, expected):
+    (fault,) = faults(changed(place, value))
+    assert fault == f"config.yaml: {place} {expected}"
+
+
+@pytest.mark.parametrize(
+    "place",
+    ["trilith.mass_ratio", "restitution.mass_ratios.2", "solver.tolerance", "heavier.pulse.period"],
+)
+def test_what_is_not_a_number_is_refused(place):
+    assert faults(changed(place, math.nan)) == [
+        f"config.yaml: {place} is not a number (.nan); expected a number"
+    ]
+
+
+def test_massless_columns_are_allowed_where_they_make_sense():
+    assert faults(changed("trilith_map.mass_ratio", math.inf)) == []
+    (fault,) = faults(changed("moment_rotation.mass_ratios.3", math.inf))
+    assert fault.startswith("config.yaml: moment_rotation.mass_ratios.3 is inf; expected at most")
+
+
+@pytest.mark.parametrize(
+    ("place", "value", "expected"),
+    [
+        ("heavier.structure", "tempel", "is 'tempel', not in structures; did you mean 'temple'?"),
+        ("heavier.pulse.shape", "one-sin", "is 'one-sin'; did you mean 'one-sine'?"),
+        ("heavier.pulse.shape", "harmonic", "is 'harmonic'; expected one of one-sine, one-cosine"),
+        ("allen_errors.shape", "square", "is 'square'; expected one of one-sine, one-cosine"),
+        ("allen_histories.record.file", "el_centro", "is 'el_centro', for which there is no "),
+        ("allen_overturning.amplitudes.highest", 0.5, "is 0.5; expected more than "),
+        ("solver.tightened", 1e-10, "is 1e-10; expected less than solver.tolerance, 1e-11"),
+        ("heavier.mass_ratios", [0.0, 2.0, 1.0], "is [0.0, 2.0, 1.0]; expected numbers in asc"),
+    ],
+)
+def test_what_does_not_fit_together_is_told(place, value, expected):
+    (fault,) = faults(changed(place, value))
+    assert fault.startswith(f"config.yaml: {place} {expected}")
+
+
+def test_a_shape_without_a_closed_form_is_refused_where_one_is_needed():
+    (fault,) = faults(changed("allen_histories.pulse.shape", "ricker-symmetric"))
+    assert "allen_histories.pulse.shape is 'ricker-symmetric'" in fault
+
+
+def test_columns_too_stocky_to_rock_under_a_cap_are_refused():
+    (fault,) = faults(changed("structures.temple.half_width", 3.5))
+    assert "structures.temple has the half width 3.5 and the half height 3.0, in m" in fault
+
+
+def test_all_faults_come_in_one_message():
+    config = changed("trilith.mass_ratio", -0.2)
+    config["heavier"]["structure"] = "tower"
+    config["solver"]["tolerances"] = 1e-9
+    config["mass_ratio"]["largest"] = math.nan
+    assert len(faults(config)) == 4

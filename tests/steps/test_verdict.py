@@ -1,0 +1,55 @@
+"""The end of a run: its last line, and what makes it fail."""
+
+import pandas as pd
+from verdict import main
+
+
+def claim(name: str, verdict: str, expected: str) -> dict:
+    return {"id": name, "verdict": verdict, "expected": expected}
+
+
+def compared(**verdicts: str) -> pd.DataFrame:
+    return pd.DataFrame(
+        {
+            "table": [f"{name}.csv" for name in verdicts],
+            "largest_difference": 2e-3,
+            "verdict": list(verdicts.values()),
+        }
+    )
+
+
+AS_EXPECTED = [
+    claim("eq_1", "confirmed", "confirmed"),
+    claim("eq_2", "confirmed", "confirmed"),
+    claim("eq_9", "misprint", "misprint"),
+    claim("peaks", "refuted", "refuted"),
+    claim("photograph", "not tested", "not tested"),
+]
+
+
+def test_run_closes_with_the_count_of_every_verdict():
+    line, faults = main(AS_EXPECTED, compared(peaks="agrees"))
+    assert line == "claims: 2 confirmed, 0 qualified, 1 misprints, 1 refuted, 1 not tested"
+    assert faults == []
+
+
+def test_every_claim_that_came_out_otherwise_is_a_fault_either_way():
+    worse, better = claim("a", "refuted", "confirmed"), claim("b", "confirmed", "refuted")
+    line, faults = main([*AS_EXPECTED, worse, better], compared(peaks="agrees"))
+    assert faults == [
+        "claim a came out refuted; expected confirmed",
+        "claim b came out confirmed; expected refuted",
+    ]
+    assert line.startswith("claims: 3 confirmed")
+
+
+def test_only_a_table_that_differs_is_a_fault():
+    tables = compared(first="agrees", second="differs", third="not compared: other config")
+    _, faults = main(AS_EXPECTED, tables)
+    assert len(faults) == 1
+    assert "results/tables/second.csv differs from tests/reference/second.csv" in faults[0]
+    assert "0.002" in faults[0]
+
+
+def test_run_without_reference_tables_is_judged_by_its_claims():
+    assert main(AS_EXPECTED, compared())[1] == []

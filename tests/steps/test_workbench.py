@@ -1,0 +1,95 @@
+"""What every step does at its edges."""
+
+import json
+import math
+import sys
+
+import numpy as np
+import pandas as pd
+import pytest
+from workbench import grid, log_to, truth, value, write_findings, write_table
+
+# ---------------------------------------------------------------------------- log
+
+
+def test_what_a_step_prints_is_in_its_log(tmp_path):
+    before = sys.stdout, sys.stderr
+    with log_to(str(tmp_path / "log")):
+        print("to the log")
+        print("so is this", file=sys.stderr)
+    assert (tmp_path / "log").read_text(encoding="utf-8") == "to the log\nso is this\n"
+    assert (sys.stdout, sys.stderr) == before
+
+
+@pytest.mark.parametrize("error", [ValueError, SystemExit, KeyboardInterrupt])
+def test_error_is_in_the_log_and_goes_on(tmp_path, error):
+    before = sys.stdout, sys.stderr
+    with pytest.raises(error, match="too stocky"), log_to(str(tmp_path / "log")):
+        raise error("too stocky")
+    text = (tmp_path / "log").read_text(encoding="utf-8")
+    assert "Traceback" in text
+    assert f"{error.__name__}: too stocky" in text
+    assert (sys.stdout, sys.stderr) == before
+
+
+# ---------------------------------------------------------------------------- findings
+
+
+def test_findings_are_plain_and_survive_being_written(tmp_path):
+    findings = {
+        "number": value(np.float64(1.5), np.float32(0.25), "m", meant_value=np.float64(2.0)),
+        "fact": truth(np.bool_(True), peaks=np.array([1.0, 2.0]), name="α"),
+    }
+    assert findings["number"] == {"value": 1.5, "error": 0.25, "unit": "m", "meant_value": 2.0}
+    assert findings["fact"] == {"holds": True, "peaks": [1.0, 2.0], "name": "α"}
+    assert type(findings["fact"]["holds"]) is bool
+    path = tmp_path / "findings.json"
+    write_findings(str(path), findings)
+    text = path.read_text(encoding="utf-8")
+    assert json.loads(text) == findings
+    assert "α" in text
+    assert text.endswith("}\n")
+
+
+@pytest.mark.parametrize("number", [math.nan, math.inf])
+def test_finding_that_is_no_number_is_not_written(tmp_path, number):
+    with pytest.raises(ValueError, match="JSON"):
+        write_findings(str(tmp_path / "findings.json"), {"lost": value(number, 0.0)})
+
+
+# ---------------------------------------------------------------------------- tables
+
+
+def test_table_is_read_back_to_its_nine_digits(tmp_path):
+    path = tmp_path / "table.csv"
+    rows = [{"x": 1 / 3, "n": 2, "name": "a"}, {"x": math.nan, "n": 3, "name": "b, c"}]
+    write_table(str(path), rows)
+    table = pd.read_csv(path)
+    assert list(table.columns) == ["x", "n", "name"]
+    assert table.x[0] == pytest.approx(1 / 3, rel=1e-9)
+    assert math.isnan(table.x[1])
+    assert table.n.tolist() == [2, 3]
+    assert table.name.tolist() == ["a", "b, c"]
+    assert b"\r" not in path.read_bytes()
+
+
+def test_table_is_the_same_bytes_from_rows_columns_and_frames(tmp_path):
+    columns = {"x": [0.1, 0.2], "y": ["a", "b"]}
+    forms = columns, pd.DataFrame(columns), [{"x": 0.1, "y": "a"}, {"x": 0.2, "y": "b"}]
+    written = set()
+    for form in forms:
+        write_table(str(tmp_path / "table.csv"), form)
+        written.add((tmp_path / "table.csv").read_bytes())
+    assert written == {b"x,y\n0.1,a\n0.2,b\n"}
+
+
+def test_digits_beyond_the_ninth_are_not_written(tmp_path):
+    for number in (0.123456789, 0.123456789 * (1 + 1e-13)):
+        write_table(str(tmp_path / "table.csv"), {"x": [number]})
+        assert (tmp_path / "table.csv").read_text(encoding="utf-8") == "x\n0.123456789\n"
+
+
+def test_grid_runs_evenly_from_lowest_to_highest():
+    np.testing.assert_array_equal(
+        grid({"lowest": 1.0, "highest": 2.0, "points": 5}), [1.0, 1.25, 1.5, 1.75, 2.0]
+    )

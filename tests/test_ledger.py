@@ -1,0 +1,144 @@
+"""The claims ledger: complete, well formed, and tied to what computes it."""
+
+import importlib
+import re
+from collections import Counter
+from pathlib import Path
+
+import pytest
+import yaml
+from jsonschema import Draft202012Validator
+
+ROOT = Path(__file__).resolve().parents[1]
+LEDGER = yaml.safe_load((ROOT / "paper" / "claims.yaml").read_text(encoding="utf-8"))
+SCHEMA = yaml.safe_load((ROOT / "paper" / "claims.schema.yaml").read_text(encoding="utf-8"))
+SNAKEFILE = (ROOT / "Snakefile").read_text(encoding="utf-8")
+STEPS = ROOT / "src" / "steps"
+
+# Every number of the paper's passage on the trilith, in its order.
+TRILITH_NUMBERS = [0.22, 0.8, 0.275, 15.38, 0.4, 0.11, 0.415, 4.21, 265, 0.434, 0.9, 3.79]
+TRILITH_NUMBERS += [11, 5, 0.005, 3.3, 2.15, 0.219]
+
+
+def resolve(path):
+    """The object of a dotted path. A function goes before a module of its name."""
+    name, *parts = path.split(".")
+    found = importlib.import_module(name)
+    for part in parts:
+        name += f".{part}"
+        found = getattr(found, part) if hasattr(found, part) else importlib.import_module(name)
+    return found
+
+
+def test_every_row_is_well_formed():
+    faults = [
+        f"{LEDGER[error.absolute_path[0]]['id']}: {error.message}"
+        for error in Draft202012Validator(SCHEMA).iter_errors(LEDGER)
+    ]
+    assert faults == []
+
+
+def test_the_schema_is_one():
+    Draft202012Validator.check_schema(SCHEMA)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"id": "Upper"},
+        {"expected": "true"},
+        {"remarks": "Misspelt."},
+        {"tolerance": 0.1},
+        {"expected": "not tested", "remark": "Has a finding."},
+        {"expected": "qualified"},
+        {"equation": 26},
+    ],
+)
+def test_the_schema_refuses(change):
+    row = {
+        "id": "row",
+        "where": "p. 1",
+        "statement": "It is so.",
+        "function": "topheavy.simulate",
+        "rule": "statements",
+        "finding": "so",
+        "expected": "confirmed",
+    }
+    validator = Draft202012Validator(SCHEMA)
+    assert validator.is_valid([row])
+    assert not validator.is_valid([row | change])
+
+
+def test_no_id_is_given_twice():
+    assert [key for key, count in Counter(row["id"] for row in LEDGER).items() if count > 1] == []
+
+
+def test_no_statement_is_made_twice():
+    # The same formula may be printed well in one place and badly in another.
+    twice = Counter(
+        (row["statement"], row.get("equation"), row.get("printed"), row["where"]) for row in LEDGER
+    )
+    assert max(twice.values()) == 1
+
+
+@pytest.mark.parametrize("number", range(1, 26))
+def test_every_equation_of_the_paper_has_a_row(number):
+    rows = [row for row in LEDGER if row.get("equation") == number]
+    assert rows
+    for row in rows:
+        assert f"Eq. ({number})" in row["where"]
+        assert re.fullmatch(rf"eq{number}(_negative|_positive)?", row["finding"])
+
+
+def test_both_figures_have_rows():
+    for figure in ("Fig. 1", "Fig. 2"):
+        assert any(figure in row["where"] for row in LEDGER)
+
+
+@pytest.mark.parametrize("path", sorted({row["function"] for row in LEDGER if "function" in row}))
+def test_what_is_said_to_compute_a_claim_exists(path):
+    assert callable(resolve(path))
+
+
+@pytest.mark.parametrize("rule", sorted({row["rule"] for row in LEDGER if "rule" in row}))
+def test_the_rule_exists_and_makes_findings(rule):
+    assert re.search(rf"^rule {rule}:$", SNAKEFILE, flags=re.MULTILINE)
+    assert f"results/findings/{rule}.json" in SNAKEFILE
+
+
+@pytest.mark.parametrize(
+    ("rule", "finding"),
+    sorted(
+        {
+            (row["rule"], row["finding"])
+            for row in LEDGER
+            if "rule" in row and row["rule"] != "equations"
+        }
+    ),
+)
+def test_the_rule_knows_the_finding(rule, finding):
+    assert f'"{finding}"' in (STEPS / f"{rule}.py").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("number", TRILITH_NUMBERS)
+def test_every_number_of_the_trilith_passage_has_a_row(number):
+    printed = [str(row.get("printed", "")) for row in LEDGER if "trilith" in row["where"]]
+    numbers = {float(found) for text in printed for found in re.findall(r"\d+(?:\.\d+)?", text)}
+    assert number in numbers
+
+
+def test_all_but_the_confirmed_say_why():
+    assert [
+        row["id"] for row in LEDGER if row["expected"] != "confirmed" and not row.get("remark")
+    ] == []
+
+
+def test_what_is_not_tested_has_no_finding():
+    for row in LEDGER:
+        assert ("finding" in row) == (row["expected"] != "not tested"), row["id"]
+
+
+def test_a_fault_of_lettering_may_be_ours():
+    for row in LEDGER:
+        if re.search(r"letter|radical|brackets", row.get("remark", "")):
+            assert "transcription" in row["remark"], row["id"]
