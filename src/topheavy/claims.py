@@ -60,7 +60,7 @@ def _judge_number(claim: Mapping[str, Any], finding: Mapping[str, Any]) -> Verdi
         )
 
     def agrees(value: float) -> bool:
-        return abs(value - claim["printed"]) <= tolerance
+        return bool(abs(value - claim["printed"]) <= tolerance)
 
     if agrees(finding["value"]):
         return "confirmed"

@@ -28,4 +28,5 @@ def restoring_moment(structure: Column | RockingFrame, rotation: ArrayLike) -> N
         share += 2.0 * structure.mass_ratio
     theta = np.asarray(rotation, dtype=float)
     side = np.where(theta < 0.0, -1.0, 1.0)
-    return share * side * np.sin(structure.slenderness - np.abs(theta))
+    moment: NDArray[np.float64] = share * side * np.sin(structure.slenderness - np.abs(theta))
+    return moment
