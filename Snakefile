@@ -183,7 +183,7 @@ rule sketches:
         "src/steps/sketches.py"
 
 
-# 4. The trilith of Peña et al. (2008): p. 3 ------------------------------------------------------
+# 4. The trilith of Peña et al. (2008): p. 4 ------------------------------------------------------
 
 
 rule trilith:

@@ -51,4 +51,5 @@ if __name__ == "__main__":
         rows = main(
             snakemake.input.tables, snakemake.input.references, changed, used["reproducibility"]
         )
-        write_table(snakemake.output[0], rows)
+        columns = ["table", "largest_difference", "verdict"]
+        write_table(snakemake.output[0], pd.DataFrame(rows, columns=columns))

@@ -22,7 +22,7 @@ STEP_ASIDE = 1e-6  # of a threshold, to either side
 
 
 def passage(frame: RockingFrame, case: dict) -> dict:
-    """The numbers of p. 3, each from the ones before it."""
+    """The numbers of p. 4, each from the ones before it."""
     column, u, f = frame.column, case["table_amplitude"], case["table_frequency"]
     acceleration = table_acceleration(u, f)
     printed_p, printed_p_hat = 4.21, 3.79

@@ -8,7 +8,7 @@ from topheavy.structures import STANDARD_GRAVITY, Structure
 
 
 def table_acceleration(amplitude: float, frequency: float) -> float:
-    """Return the peak acceleration u₀ (2πf)², in g, of u₀ in m and f in Hz (p. 3)."""
+    """Return the peak acceleration u₀ (2πf)², in g, of u₀ in m and f in Hz (p. 4)."""
     angular = 2.0 * math.pi * checks.positive("frequency", frequency, "Hz")
     return checks.positive("amplitude", amplitude, "m") * angular**2 / STANDARD_GRAVITY
 

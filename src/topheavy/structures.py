@@ -12,7 +12,7 @@ from typing import TypeAlias
 from topheavy import checks
 
 STANDARD_GRAVITY = 9.81
-"""Acceleration of gravity g, m/s², as the paper's numbers imply it (2.15 m/s² = 0.219 g, p. 3)."""
+"""Acceleration of gravity g, m/s², as the paper's numbers imply it (2.15 m/s² = 0.219 g, p. 4)."""
 
 
 @dataclass(frozen=True)
@@ -89,12 +89,12 @@ class Column:
 
     @property
     def size(self) -> float:
-        """R = √(b² + h²), m: half the diagonal (p. 1)."""
+        """R = √(b² + h²), m: half the diagonal (p. 2)."""
         return math.hypot(self.half_width, self.half_height)
 
     @property
     def slenderness(self) -> float:
-        """α = atan(b/h), rad (p. 1)."""
+        """α = atan(b/h), rad (p. 2)."""
         return math.atan2(self.half_width, self.half_height)
 
     @property
