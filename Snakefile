@@ -17,7 +17,11 @@ check_config(config, "config/config.yaml", "config/config.schema.yaml")
 
 # Code that Snakemake does not see through a script's imports, so that a change reruns its users.
 WORKBENCH = ["src/steps/workbench.py"]
-LIBRARY = [*map(str, sorted(Path("src/topheavy").glob("*.py"))), *WORKBENCH]
+LIBRARY = [
+    *map(str, sorted(Path("src/topheavy").glob("*.py"))),
+    *map(str, sorted(Path("src/topheavy/kernel").glob("*.py"))),
+    *WORKBENCH,
+]
 DERIVATION = [
     *map(str, sorted(Path("src/topheavy/derivation").glob("*.py"))),
     *WORKBENCH,

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from numpy.polynomial import Polynomial
 
-from topheavy import Pulse, RockingBlock, simulate
+from topheavy import Pulse, RockingBlock
 from topheavy.motion import Event, start
-from topheavy.reference import _first_event, judge
+from topheavy.reference import _first_event, judge, simulate
 
 BLOCK = RockingBlock(2.0, 0.25, 0.9)
 
@@ -56,6 +56,15 @@ def test_tighter_tolerance_changes_next_to_nothing(case):
     assert tight.overturned == usual.overturned
     assert tight.impacts == usual.impacts
     assert tight.peak == pytest.approx(usual.peak, abs=1e-8 * case[0].slenderness, nan_ok=True)
+
+
+def test_impact_behind_the_forcing_on_the_way_to_overturning_is_counted():
+    # The sine's second half throws the block back so hard that it overturns on the other side.
+    block, pulse = RockingBlock(1.0, 0.2, 0.9), Pulse("one-sine", 0.9, 5.0)
+    response = simulate(block, pulse, samples=2)
+    assert response.overturned
+    assert response.impacts[-1] > pulse.duration
+    assert judge(block, pulse).impacts == len(response.impacts) == 1
 
 
 # ---------------------------------------------------------------------------- inside a step

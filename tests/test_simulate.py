@@ -679,7 +679,7 @@ def grazing_speed(block: RockingBlock, start: float, push: float) -> float:
 
 
 @BOTH
-@pytest.mark.parametrize("margin", [1e-3, 1e-5, 1e-6])
+@pytest.mark.parametrize("margin", [1e-3, 1e-5])  # 1e-6 dips by less than 1e-6 α: no impact
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_grazing_impacts_are_neither_missed_nor_invented(block, margin, sign):
     # Thrown at the ground while it pushes outwards: short of the critical speed it turns back

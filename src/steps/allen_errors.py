@@ -6,9 +6,8 @@ import numpy as np
 import pandas as pd
 from workbench import grid, log_to, truth, write_findings, write_table
 
-from topheavy import Column, Pulse, RockingFrame
+from topheavy import Column, Pulse, RockingFrame, judge
 from topheavy.massless_columns import SIMPLIFICATIONS, simplified
-from topheavy.reference import judge
 
 
 def main(case: dict) -> tuple[pd.DataFrame, dict]:

@@ -5,9 +5,8 @@ import math
 import pandas as pd
 from workbench import grid, log_to, truth, write_findings, write_table
 
-from topheavy import Column, Pulse, RockingFrame
+from topheavy import Column, Pulse, RockingFrame, judge
 from topheavy.massless_columns import simplified
-from topheavy.reference import judge
 
 VERDICTS = {
     (False, False): "both survive",

@@ -16,8 +16,9 @@ def largest_difference(table: pd.DataFrame, reference: pd.DataFrame, absolute: f
     for name in reference.columns:
         ours, theirs = table[name], reference[name]
         if pd.api.types.is_numeric_dtype(theirs) and pd.api.types.is_numeric_dtype(ours):
+            ours, theirs = ours.astype(float), theirs.astype(float)
             same = (ours == theirs) | (ours.isna() & theirs.isna())
-            ratio = (ours - theirs).abs().astype(float) / (theirs.abs().astype(float) + absolute)
+            ratio = (ours - theirs).abs() / (theirs.abs() + absolute)
             worst = max(worst, float(np.where(same, 0.0, ratio.fillna(np.inf)).max(initial=0.0)))
         elif not ours.equals(theirs):
             return float("inf")

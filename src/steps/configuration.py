@@ -27,7 +27,7 @@ def check_config(
     schema = yaml.safe_load(Path(schema_path).read_text(encoding="utf-8"))
     errors = Draft202012Validator(schema).iter_errors(config)
     messages = {message for error in errors for message in _messages(error)}
-    messages |= {*_structures(config), *_records(config, records), *_solver(config)}
+    messages |= {*_structures(config), *_records(config, records)}
     messages |= {message for place, value in _walk(config) for message in _numbers(place, value)}
     if messages:
         raise ValueError("\n".join(f"{path}: {message}" for message in sorted(messages)))
@@ -99,12 +99,6 @@ def _records(config: Mapping[str, Any], folder: str) -> Iterator[str]:
                 f"{section}.record.file is {name!r}, for which there is no {folder}/{name}.AT2; "
                 f"{_hint(name, there)}"
             )
-
-
-def _solver(config: Mapping[str, Any]) -> Iterator[str]:
-    usual, tight = (_mapping(config, "solver").get(key) for key in ("tolerance", "tightened"))
-    if _is_number(usual) and _is_number(tight) and tight >= usual:
-        yield f"solver.tightened is {tight}; expected less than solver.tolerance, {usual}"
 
 
 def _numbers(place: str, value: Any) -> Iterator[str]:

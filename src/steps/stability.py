@@ -13,9 +13,8 @@ from typing import TypeAlias
 
 from workbench import grid, log_to, truth, write_findings
 
-from topheavy import Column, Pulse, RockingFrame
+from topheavy import Column, Pulse, RockingFrame, judge
 from topheavy.linear import simulate_linear_exact
-from topheavy.reference import judge
 
 SCANNING = 1e-8  # of α: tolerance of a scan, of which what is quoted is made anew
 NEARBY = 0.05  # of an amplitude: where the linearised equation is asked

@@ -67,8 +67,8 @@ def oscillator(frame: RockingFrame, pulse: Pulse, mass_ratios: list[float], solv
     errors = {}
     for gamma in mass_ratios:
         usual, tight = (
-            simulate(RockingFrame(column, gamma), pulse, samples=TIMES, tolerance=tolerance)
-            for tolerance in (solver["tolerance"], solver["tightened"])
+            simulate(RockingFrame(column, gamma), pulse, samples=TIMES, **options)
+            for options in ({}, {"tolerance": solver["tightened"]})
         )
         if usual.outcome != tight.outcome:
             raise ArithmeticError(f"γ = {gamma:g}: the outcome hangs on the tolerance")

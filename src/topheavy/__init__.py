@@ -1,16 +1,18 @@
 """The rocking frame of Makris & Vassiliou (2014) as a solitary rocking column.
 
     Column(b, h)              ─┐
-                               ├─►  RockingBlock(p, α, √r)  ─►  simulate
+                               ├─►  RockingBlock(p, α, √r)  ─►  simulate · overturning · spectra
     RockingFrame(column, γ)   ─┘
 
 Angles are in rad, rotations signed, accelerations in g, everything else in SI units.
 """
 
+from topheavy import reference
+from topheavy.overturning import overturning_intervals, overturning_map
 from topheavy.pulses import PULSE_SHAPES, Pulse
 from topheavy.records import Record, read_at2
-from topheavy.reference import simulate
 from topheavy.response import Response
+from topheavy.simulate import judge, simulate
 from topheavy.structures import STANDARD_GRAVITY, Column, RockingBlock, RockingFrame
 
 __all__ = [
@@ -22,6 +24,10 @@ __all__ = [
     "Response",
     "RockingBlock",
     "RockingFrame",
+    "judge",
+    "overturning_intervals",
+    "overturning_map",
     "read_at2",
+    "reference",
     "simulate",
 ]

@@ -32,10 +32,11 @@ class Segment:
 
     def falls_below(self, time: float, side: int, level: float) -> float:
         """Return when the push on `side`, −side·a, first drops below `level` (g), or the stop."""
-        if -side * self.acceleration(time) <= level and self._retreats(side):
-            return time
-        if -side * self.acceleration(self.stop) >= level:
+        now, last = -side * self.acceleration(time), -side * self.acceleration(self.stop)
+        if last >= level:
             return self.stop
+        if now <= level:
+            return time
         return self._crossing(-side * level, time)
 
     def largest(self, start: float, stop: float) -> float:
@@ -44,9 +45,6 @@ class Segment:
         if first > last:
             return 0.0
         return max(abs(self.acceleration(first)), abs(self.acceleration(last)))
-
-    def _retreats(self, side: int) -> bool:
-        return -side * self.acceleration(self.stop) < -side * self.acceleration(self.start)
 
     def _crossing(self, value: float, time: float) -> float:
         """Return when the acceleration, monotone, takes `value` between `time` and the stop."""

@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from topheavy import checks, free_rocking
 from topheavy.excitation import Excitation, Segment, still
-from topheavy.response import Outcome, Response, sample_times
+from topheavy.response import Outcome, Response, initial_motion, sample_times
 from topheavy.structures import RockingBlock
 
 REST_PEAK = 1e-6
@@ -112,10 +112,7 @@ def respond(
 
 def start(block: RockingBlock, rotation: float, velocity: float) -> Motion:
     """Return the motion at t = 0 with θ (rad) and θ̇ (rad/s)."""
-    theta = checks.finite("rotation", rotation)
-    theta_rate = checks.finite("velocity", velocity)
-    if not block.linearised and abs(theta) >= math.pi / 2:
-        raise ValueError(f"rotation is {theta:.6g} rad; expected less than π/2, where it lies flat")
+    theta, theta_rate = initial_motion(block, rotation, velocity)
     side = math.copysign(1.0, theta if theta != 0.0 else theta_rate)
     return Motion(
         time=0.0,

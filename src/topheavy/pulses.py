@@ -71,6 +71,15 @@ PULSE_SHAPES = tuple(_SHAPES)
 """The names that `Pulse` accepts."""
 
 
+def checked_shape(shape: str) -> str:
+    """Return the name of a pulse shape, or raise ValueError with the nearest one that exists."""
+    if shape not in _SHAPES:
+        close = difflib.get_close_matches(str(shape), PULSE_SHAPES, n=1, cutoff=0.5)
+        hint = f" (did you mean {close[0]!r}?)" if close else ""
+        raise ValueError(f"shape is {shape!r}{hint}; expected one of {', '.join(PULSE_SHAPES)}")
+    return shape
+
+
 @dataclass(frozen=True)
 class Pulse:
     """A ground acceleration pulse that starts at t = 0.
@@ -96,12 +105,7 @@ class Pulse:
     angular_frequency: float
 
     def __post_init__(self) -> None:
-        if self.shape not in _SHAPES:
-            close = difflib.get_close_matches(str(self.shape), PULSE_SHAPES, n=1, cutoff=0.5)
-            hint = f" (did you mean {close[0]!r}?)" if close else ""
-            raise ValueError(
-                f"shape is {self.shape!r}{hint}; expected one of {', '.join(PULSE_SHAPES)}"
-            )
+        checked_shape(self.shape)
         checks.finite("amplitude", self.amplitude)
         checks.positive("angular_frequency", self.angular_frequency, "rad/s")
 

@@ -1,5 +1,6 @@
 """The response of a rocking block: what `simulate` returns."""
 
+import math
 from dataclasses import dataclass
 from typing import Literal
 
@@ -7,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from topheavy import checks
+from topheavy.structures import RockingBlock
 
 Outcome = Literal["no uplift", "rests", "rocking", "overturned"]
 
@@ -68,3 +70,18 @@ def sample_times(samples: int | ArrayLike) -> int | NDArray[np.float64]:
     if times[0] < 0.0 or np.any(np.diff(times) <= 0.0):
         raise ValueError("samples is not an increasing array of times from 0 on")
     return times
+
+
+def initial_motion(block: RockingBlock, rotation: float, velocity: float) -> tuple[float, float]:
+    """Return θ (rad) and θ̇ (rad/s) at t = 0, checked.
+
+    Raises
+    ------
+    ValueError
+        Unless both are finite and, in the exact equation, |θ| < π/2.
+    """
+    theta = checks.finite("rotation", rotation)
+    theta_rate = checks.finite("velocity", velocity)
+    if not block.linearised and abs(theta) >= math.pi / 2:
+        raise ValueError(f"rotation is {theta:.6g} rad; expected less than π/2, where it lies flat")
+    return theta, theta_rate

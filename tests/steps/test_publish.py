@@ -66,3 +66,7 @@ def test_bar_in_the_text_does_not_end_the_cell(column):
 def test_table_ends_with_one_newline():
     assert verdict_table([ROW]).endswith("|\n")
     assert not verdict_table([ROW]).endswith("\n\n")
+
+
+def test_number_without_a_unit_leaves_no_gap():
+    assert "| 0.415 | 0.414849 |" in verdict_table([ROW | {"unit": ""}])

@@ -1,0 +1,36 @@
+"""The compiled kernel: Taylor steps with proven events. It knows arrays and floats, no structures.
+
+Time is τ = p t throughout, so that p is in none of its formulas. The layers above are
+`topheavy.simulate` and `topheavy.overturning`.
+"""
+
+import hashlib
+import importlib
+import os
+from pathlib import Path
+
+from numba import config
+
+_HERE = Path(__file__).parent
+_MODULES = ("forcing", "taylor", "bernstein", "tail", "rest", "outcome", "grid", "trace")
+
+
+def _load() -> None:
+    """Import the modules with a cache of their own for this very state of the code.
+
+    numba's cache looks at the file of a function only: after a change of what it calls, in another
+    file, it would go on with the old machine code.
+    """
+    sources = b"".join(path.read_bytes() for path in sorted(_HERE.glob("*.py")))
+    cache = _HERE / "__pycache__" / hashlib.sha256(sources).hexdigest()[:16]
+    before = config.CACHE_DIR  # type: ignore[attr-defined]
+    if os.access(_HERE, os.W_OK):
+        config.CACHE_DIR = str(cache)  # type: ignore[attr-defined]
+    try:
+        for module in _MODULES:
+            importlib.import_module(f"{__name__}.{module}")
+    finally:
+        config.CACHE_DIR = before  # type: ignore[attr-defined]
+
+
+_load()

@@ -1,0 +1,264 @@
+"""The ground motion as the kernel sees it: smooth pieces, and when it lifts a block at rest.
+
+Time is τ = p t and the ground acceleration a(τ) is in g. Every pulse solves one linear equation,
+
+    a'' = −c a − (d₀ + d₁ (τ − τ₀)) a',
+
+so that a Taylor step needs no sine and no exponential: c = (ω/p)² and d = 0 make the sine and the
+cosine, c = d = 0 the constant and the straight line between two samples of a record, and d₁ > 0 the
+derivatives of the Gaussian bell that Ricker's wavelets are (the second and the third: Hermite's
+equation).
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+ONE_SINE, ONE_COSINE, HALF_SINE, CONSTANT, HARMONIC = range(5)
+RICKER_SYMMETRIC, RICKER_ANTISYMMETRIC, RECORD, NONE = range(5, 9)
+SHAPES = {
+    "one-sine": ONE_SINE,
+    "one-cosine": ONE_COSINE,
+    "half-sine": HALF_SINE,
+    "constant": CONSTANT,
+    "harmonic": HARMONIC,
+    "ricker-symmetric": RICKER_SYMMETRIC,
+    "ricker-antisymmetric": RICKER_ANTISYMMETRIC,
+}
+#: Phase ωt at which each shape ends (a record ends by its own time, no motion at once).
+LAST_PHASE = np.array([2, 2, 1, 1, np.inf, 9, 9, 0, 0]) * math.pi
+RICKER_CENTRE = 4.5 * math.pi
+#: y = κ (ωt − centre) is the variable in which a Ricker wavelet is a derivative of exp(−y²).
+KAPPA = np.array([0, 0, 0, 0, 0, 1 / 2, 1 / math.sqrt(6)])
+#: The order of that derivative.
+DERIVATIVE = np.array([0, 0, 0, 0, 0, 2, 3])
+#: The amplitude of the antisymmetric wavelet is normalised by its own peak, to five digits.
+ANTISYMMETRIC_PEAK = 1.3801
+#: No shape of unit amplitude exceeds this (the antisymmetric wavelet does exceed 1, by 1.4e-5).
+UNIT_BOUND = 1.0001
+
+#: Phases at which a Ricker wavelet turns: roots of the next Hermite polynomial.
+_SYMMETRIC = 2 * math.sqrt(1.5)
+_INNER, _OUTER = (math.sqrt(6) * math.sqrt((3 + sign * math.sqrt(6)) / 2) for sign in (-1, 1))
+RICKER_TURNS = RICKER_CENTRE + np.array(
+    [[-_SYMMETRIC, 0.0, _SYMMETRIC, np.inf], [-_OUTER, -_INNER, _INNER, _OUTER]]
+)
+
+
+class Forcing(NamedTuple):
+    """A ground motion in the time τ = p t: its shape, amplitude (g, or the factor on a record),
+    ω/p (1 for a record), the time at which it is over, and the time between two samples."""
+
+    shape: int
+    amplitude: float
+    frequency: float
+    end: float
+    step: float
+
+
+#: What stands for the record where there is none.
+NO_RECORD = np.empty((2, 0))
+
+
+@njit(cache=True, error_model="numpy")
+def pulse_forcing(shape, amplitude, frequency):
+    """Return the pulse of a shape (a value of `SHAPES`) at ω/p = `frequency`."""
+    return Forcing(shape, amplitude, frequency, LAST_PHASE[shape] / frequency, 1.0)
+
+
+def prepare_record(samples: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the samples (g), and below each the largest |sample| from there on."""
+    samples = np.asarray(samples, dtype=float)
+    return np.stack([samples, np.maximum.accumulate(np.abs(samples)[::-1])[::-1]])
+
+
+@njit(cache=True, error_model="numpy")
+def record_forcing(record, step, factor):
+    """Return the `record` of `prepare_record`, `step` apart in τ, times `factor`."""
+    return Forcing(RECORD, factor, 1.0, (record.shape[1] - 1) * step, step)
+
+
+@njit(cache=True, error_model="numpy")
+def unit_pulse(shape, phase):
+    """Return the pulse of unit amplitude and its derivative by the phase ωt."""
+    if shape in (ONE_SINE, HALF_SINE, HARMONIC):
+        return math.sin(phase), math.cos(phase)
+    if shape == ONE_COSINE:
+        return math.cos(phase), -math.sin(phase)
+    if shape == CONSTANT:
+        return 1.0, 0.0
+    y = KAPPA[shape] * (phase - RICKER_CENTRE)
+    bell = math.exp(-y * y)
+    if shape == RICKER_SYMMETRIC:
+        return (1 - 2 * y * y) * bell, KAPPA[shape] * y * (4 * y * y - 6) * bell
+    scale = math.sqrt(2) / ANTISYMMETRIC_PEAK * bell
+    return (
+        scale * y * (2 * y * y - 3),
+        scale * KAPPA[shape] * (-3 + y * y * (12 - 4 * y * y)),
+    )
+
+
+@njit(cache=True, error_model="numpy")
+def piece_at(forcing, time):
+    """Return the number of the piece of a record that begins at or before `time`.
+
+    The quotient alone is not enough: (k Δ)/Δ may round to less than k, which is the piece before.
+    """
+    piece = int(time / forcing.step)
+    while (piece + 1) * forcing.step <= time:
+        piece += 1
+    return piece
+
+
+@njit(cache=True, error_model="numpy")
+def ground(forcing, record, time):
+    """Return a and a' at `time`; at a sample of a record, a' is that of the piece that begins."""
+    if forcing.shape == NONE or time >= forcing.end:
+        return 0.0, 0.0
+    if forcing.shape == RECORD:
+        k = min(piece_at(forcing, time), record.shape[1] - 2)
+        slope = (record[0, k + 1] - record[0, k]) / forcing.step
+        value = record[0, k] + slope * (time - k * forcing.step)
+        return forcing.amplitude * value, forcing.amplitude * slope
+    value, rate = unit_pulse(forcing.shape, forcing.frequency * time)
+    return forcing.amplitude * value, forcing.amplitude * forcing.frequency * rate
+
+
+@njit(cache=True, error_model="numpy")
+def equation(forcing, time):
+    """Return c, d₀, d₁ of the equation that the ground acceleration solves, about `time`."""
+    shape = forcing.shape
+    if shape in (CONSTANT, RECORD, NONE):
+        return 0.0, 0.0, 0.0
+    square = forcing.frequency * forcing.frequency
+    if shape in (RICKER_SYMMETRIC, RICKER_ANTISYMMETRIC):
+        kappa2 = KAPPA[shape] * KAPPA[shape]
+        offset = forcing.frequency * time - RICKER_CENTRE
+        return (
+            2 * (DERIVATIVE[shape] + 1) * kappa2 * square,
+            2 * kappa2 * offset * forcing.frequency,
+            2 * kappa2 * square,
+        )
+    return square, 0.0, 0.0
+
+
+@njit(cache=True, error_model="numpy")
+def strongest_after(forcing, record, time):
+    """Return a bound on |a| from `time` on."""
+    if forcing.shape == NONE or time >= forcing.end:
+        return 0.0
+    if forcing.shape == RECORD:
+        k = min(piece_at(forcing, time), record.shape[1] - 1)
+        return abs(forcing.amplitude) * record[1, k]
+    return UNIT_BOUND * abs(forcing.amplitude)
+
+
+@njit(cache=True, error_model="numpy")
+def next_turn(forcing, time):
+    """Return the end of the monotone piece of a(τ) that begins at `time` (or holds it)."""
+    shape, frequency = forcing.shape, forcing.frequency
+    if shape == RECORD:
+        return min((piece_at(forcing, time) + 1) * forcing.step, forcing.end)
+    if shape in (CONSTANT, NONE):
+        return forcing.end
+    phase = frequency * time
+    if shape in (RICKER_SYMMETRIC, RICKER_ANTISYMMETRIC):
+        for turn in RICKER_TURNS[shape - RICKER_SYMMETRIC]:
+            if turn / frequency > time:
+                return min(turn / frequency, forcing.end)
+        return forcing.end
+    shift = 0.0 if shape == ONE_COSINE else 0.5
+    half_turns = math.floor(phase / math.pi - shift) + 1
+    turn = (half_turns + shift) * math.pi / frequency
+    if turn <= time:
+        turn = (half_turns + 1 + shift) * math.pi / frequency
+    return min(turn, forcing.end)
+
+
+@njit(cache=True, error_model="numpy")
+def next_uplift(forcing, record, time, level):
+    """Return when |a| first exceeds `level`, from `time` on, for a block at rest.
+
+    Between two turns a(τ) is monotone, hence |a| > level either at the start of a piece (the
+    forcing jumps, or the block came to rest under it), or from one crossing that can be
+    bracketed, or not at all.
+
+    Returns
+    -------
+    time : float
+        `inf` if the forcing ends first.
+    push : float
+        |a| − level at that time: exactly zero at a crossing.
+    rate : float
+        The derivative of |a|.
+    side : float
+        The side s = −sgn a to which the block rocks.
+    """
+    if forcing.shape == RECORD:
+        return _next_uplift_of_record(forcing, record, time, level)
+    if forcing.shape == HARMONIC and abs(forcing.amplitude) <= level:
+        return np.inf, 0.0, 0.0, 1.0
+    value, rate = ground(forcing, record, time)
+    while time < forcing.end:
+        if abs(value) > level:
+            sign = math.copysign(1.0, value)
+            return time, abs(value) - level, sign * rate, -sign
+        turn = next_turn(forcing, time)
+        last = forcing.amplitude * unit_pulse(forcing.shape, forcing.frequency * turn)[0]
+        if abs(last) > level:
+            sign = math.copysign(1.0, last)
+            time, rate = _crossing(forcing, time, turn, sign, level)
+            if rate > 0.0:
+                return time, 0.0, rate, -sign
+        time, value, rate = turn, last, 0.0
+    return np.inf, 0.0, 0.0, 1.0
+
+
+@njit(cache=True, error_model="numpy")
+def _next_uplift_of_record(forcing, record, time, level):
+    """The same for a record: straight lines, and an early end once the rest of it is weak."""
+    if time >= forcing.end:
+        return np.inf, 0.0, 0.0, 1.0
+    value, rate = ground(forcing, record, time)
+    if abs(value) > level:
+        sign = math.copysign(1.0, value)
+        return time, abs(value) - level, sign * rate, -sign
+    size = abs(forcing.amplitude)
+    for k in range(piece_at(forcing, time), record.shape[1] - 1):
+        if size * record[1, k] <= level:
+            break
+        if size * abs(record[0, k + 1]) > level:
+            last = forcing.amplitude * record[0, k + 1]
+            sign = math.copysign(1.0, last)
+            rate = sign * forcing.amplitude * (record[0, k + 1] - record[0, k]) / forcing.step
+            time = (k + 1) * forcing.step - (abs(last) - level) / rate
+            return max(time, k * forcing.step), 0.0, rate, -sign
+    return np.inf, 0.0, 0.0, 1.0
+
+
+@njit(cache=True, error_model="numpy")
+def _crossing(forcing, low, high, sign, level):
+    """Return the time at which sign·a rises through `level` in a monotone piece, and its rate."""
+    shape, strength = forcing.shape, abs(forcing.amplitude)
+    if shape < RICKER_SYMMETRIC:  # |a| = A cos(distance from the turn)
+        root = math.sqrt((strength - level) * (strength + level))
+        time = high - math.atan2(root, level) / forcing.frequency
+        return max(time, low), forcing.frequency * root
+    time = high
+    while True:  # bisection, with Newton's step whenever it stays inside
+        value, rate = unit_pulse(shape, forcing.frequency * time)
+        excess = sign * forcing.amplitude * value - level
+        rate *= sign * forcing.amplitude * forcing.frequency
+        if excess > 0.0:
+            high = time
+        else:
+            low = time
+        trial = time - excess / rate if rate > 0.0 else low
+        if not low < trial < high:
+            trial = 0.5 * (low + high)
+        if abs(trial - time) <= 4e-16 * time or high - low <= 4e-16 * time:
+            return trial, rate
+        time = trial

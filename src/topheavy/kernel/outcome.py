@@ -1,0 +1,267 @@
+"""One rocking history: from uplift to the end of the forcing, by Taylor steps with proven events.
+
+A step is as long as the truncation allows. Within it the solution is a polynomial, and the signs
+of its Bernstein coefficients prove that the block neither lands nor turns, or isolate where it
+does (`bernstein`). The free rocking after the forcing is not integrated (`tail`).
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from topheavy.kernel.bernstein import MAX_DEGREE, MAX_DEPTH, roots, to_bernstein
+from topheavy.kernel.forcing import (
+    CONSTANT,
+    NONE,
+    RECORD,
+    RICKER_ANTISYMMETRIC,
+    RICKER_SYMMETRIC,
+    equation,
+    ground,
+    next_uplift,
+    piece_at,
+    strongest_after,
+)
+from topheavy.kernel.rest import LAST_BOUNCE, comes_to_rest
+from topheavy.kernel.tail import free_rocking
+from topheavy.kernel.taylor import ROTATION, State, evaluate, expand, longest_step
+
+#: Terms of φ in a step of a pulse.
+PULSE_ORDER = 15
+#: Bound on the last two terms of φ' in a step, over α.
+TOLERANCE = 3e-10
+#: A history with more steps than this (and ten a sample) is given up as not resolved.
+MAX_STEPS = 200_000
+#: What ends a step.
+NOTHING, LANDING, FLAT = range(3)
+#: Rows of the working array after those of `taylor`: the step polynomial and its derivative on
+#: [0, 1], their Bernstein coefficients, the roots found, and the stack of `bernstein.roots`.
+POLYNOMIAL, SLOPE, HULL, SLOPE_HULL, FOUND, STACK = range(6, 12)
+
+
+class Outcome(NamedTuple):
+    """What became of a block: `peak` is max φ (NaN if overturned), `impacts` the number of those
+    that end a rotation above `rest.LAST_BOUNCE` α; `resolved` is False if it took too many steps.
+    """
+
+    overturned: bool
+    peak: float
+    impacts: int
+    resolved: bool
+
+
+@njit(cache=True, error_model="numpy")
+def working_array():
+    """Return the array that a history works in; a thread needs one for all its histories."""
+    return np.zeros((STACK + MAX_DEPTH, MAX_DEGREE + 3))
+
+
+@njit(cache=True, error_model="numpy")
+def is_certain_to_overturn(block, forcing, record, time, state):
+    """Say whether no forcing of the strength that is left can bring the block back.
+
+    With |a| ≤ A from now on, φ'' ≥ −√(1 + A²) sin(φ* − φ) with φ* = α + atan A < π/2; linearised,
+    φ'' ≥ −(φ* − φ) with φ* = α + A. A block moving outward with φ' above the square root of that
+    factor times φ* − φ reaches φ*, from where nothing holds it.
+    """
+    if state.rotation <= block.slenderness or state.velocity <= 0.0:
+        return False
+    strength = strongest_after(forcing, record, time)
+    if block.linearised:
+        return state.velocity > block.slenderness + strength - state.rotation
+    balance = block.slenderness + math.atan(strength)
+    hold = math.sqrt(math.sqrt(1.0 + strength * strength))
+    return balance < block.flat and state.velocity > hold * (balance - state.rotation)
+
+
+@njit(cache=True, error_model="numpy", fastmath={"contract"})
+def advance(w, order, tolerance, block, forcing, time, longest, state, zeros, peak, is_straight):
+    """Take one step of at most `longest`.
+
+    Parameters
+    ----------
+    tolerance : float
+        Bound on the last two terms of φ', over α (over φ where that is larger).
+    zeros : int
+        How many of φ, φ', φ'' are zero at the start: 1 after an impact, 2 after an uplift by a
+        jump of the forcing, 3 after an uplift where |a| passes the level, 0 else.
+    peak : float
+        The largest φ so far.
+
+    Returns
+    -------
+    step : float
+        The length of the step, up to the event if there is one.
+    event : int
+        `NOTHING`, `LANDING` or `FLAT`.
+    peak : float
+        The largest φ so far, this step included.
+    """
+    c, d0, d1 = equation(forcing, time)
+    expand(w, order, block, state, c, d0, d1, is_straight)
+    scale = max(block.slenderness, state.rotation)
+    step = longest_step(w, order, tolerance * scale, longest)
+
+    power = 1.0
+    for k in range(order + 1):
+        w[POLYNOMIAL, k] = w[ROTATION, k] * power
+        power *= step
+    if zeros < 2:
+        low, high, final, rises = _plain_range(w, order)
+        if rises and final <= block.flat:
+            return step, NOTHING, max(peak, final)
+        if low > 0.0 and high <= min(peak, block.flat):
+            return step, NOTHING, peak
+    to_bernstein(w, POLYNOMIAL, order, HULL)
+    least, largest = w[HULL, zeros], 0.0
+    for k in range(zeros, order + 1):
+        least = min(least, w[HULL, k])
+        largest = max(largest, w[HULL, k])
+
+    end, event = 1.0, NOTHING
+    if least <= 0.0 and roots(w, POLYNOMIAL, zeros, order, HULL, STACK, FOUND, 1) > 0:
+        end, event = w[FOUND, 0], LANDING
+    if largest > block.flat:
+        for k in range(order + 1):
+            w[SLOPE, k], w[SLOPE_HULL, k] = -w[POLYNOMIAL, k], block.flat - w[HULL, k]
+        w[SLOPE, 0] += block.flat
+        if roots(w, SLOPE, 0, order, SLOPE_HULL, STACK, FOUND, 1) > 0 and w[FOUND, 0] < end:
+            end, event = w[FOUND, 0], FLAT
+    if largest > peak:
+        peak = _largest_rotation(w, order, zeros, end, peak)
+    return step * end, event, peak
+
+
+@njit(cache=True, error_model="numpy", fastmath={"contract"})
+def _plain_range(w, order):
+    """Return bounds of the step polynomial on [0, 1], its last value, and whether it surely rises.
+
+    The first three terms have three Bernstein coefficients (their derivative two), and the others
+    are no larger than the sum of their moduli. This settles most steps at a tenth of the price.
+    """
+    first, second, third = w[POLYNOMIAL, 0], w[POLYNOMIAL, 1], w[POLYNOMIAL, 2]
+    others, final, bend = 0.0, 0.0, 0.0
+    for k in range(3, order + 1):
+        size = abs(w[POLYNOMIAL, k])
+        final += w[POLYNOMIAL, k]
+        others += size
+        bend += k * size
+    middle, last = first + 0.5 * second, first + second + third
+    rises = min(second, second + 2 * third) > bend
+    return min(first, middle, last) - others, max(first, middle, last) + others, last + final, rises
+
+
+@njit(cache=True, error_model="numpy")
+def _largest_rotation(w, order, zeros, end, peak):
+    """Return the larger of `peak` and the largest value of the step polynomial on [0, end]."""
+    for k in range(order):
+        w[SLOPE, k] = (k + 1) * w[POLYNOMIAL, k + 1]
+        w[SLOPE_HULL, k] = w[HULL, k + 1] - w[HULL, k]
+    first = max(zeros - 1, 0)
+    turns = roots(w, SLOPE, first, order - 1, SLOPE_HULL, STACK, FOUND, order)
+    peak = max(peak, _value(w, order, end))
+    for k in range(turns):
+        if w[FOUND, k] < end:
+            peak = max(peak, _value(w, order, w[FOUND, k]))
+    return peak
+
+
+@njit(cache=True, error_model="numpy", fastmath={"contract"})
+def _value(w, order, x):
+    value = w[POLYNOMIAL, order]
+    for k in range(order - 1, -1, -1):
+        value = value * x + w[POLYNOMIAL, k]
+    return value
+
+
+@njit(cache=True, error_model="numpy")
+def after_impact(block, state):
+    """Return the state on the other side: φ' times √r, the push as that side feels it."""
+    velocity = max(-state.velocity, 0.0) * block.restitution
+    return State(0.0, velocity, 0.0, 1.0, -state.push - 2 * block.level, -state.rate)
+
+
+@njit(cache=True, error_model="numpy")
+def at_sample(block, forcing, record, piece, side, state):
+    """Return the state with the push of the piece of a record that begins."""
+    value = forcing.amplitude * record[0, piece]
+    rate = forcing.amplitude * (record[0, piece + 1] - record[0, piece]) / forcing.step
+    push = -side * value - block.level
+    return State(state.rotation, state.velocity, state.sine, state.cosine, push, -side * rate)
+
+
+@njit(cache=True, error_model="numpy")
+def renewed(block, forcing, record, time, side, state):
+    """Return the state with the push of the forcing itself, not of its series.
+
+    A Ricker wavelet takes tens of steps, over which what its series leave out would add up.
+    """
+    value, rate = ground(forcing, record, time)
+    push = -side * value - block.level
+    return State(state.rotation, state.velocity, state.sine, state.cosine, push, -side * rate)
+
+
+@njit(cache=True, error_model="numpy")
+def outcome(w, order, tolerance, block, forcing, record):
+    """Return the `Outcome` of a block that stands at rest when the forcing begins."""
+    is_record = forcing.shape == RECORD
+    is_straight = is_record or forcing.shape == CONSTANT or forcing.shape == NONE
+    time, peak, impacts, piece, piece_end = 0.0, 0.0, 0, 0, forcing.end
+    steps_left = MAX_STEPS + 10 * record.shape[1]
+    while True:
+        time, push, rate, side = next_uplift(forcing, record, time, block.level)
+        if time >= forcing.end:
+            return Outcome(False, peak, impacts, True)
+        is_low = True
+        state, zeros = State(0.0, 0.0, 0.0, 1.0, push, rate), (2 if push > 0.0 else 3)
+        if is_record:
+            piece = piece_at(forcing, time)
+            piece_end = (piece + 1) * forcing.step
+        while True:
+            longest = piece_end - time
+            so_far = 0.0 if is_low else peak
+            step, event, highest = advance(
+                w,
+                order,
+                tolerance,
+                block,
+                forcing,
+                time,
+                longest,
+                state,
+                zeros,
+                so_far,
+                is_straight,
+            )
+            peak = max(peak, highest)
+            is_low = is_low and highest <= LAST_BOUNCE * block.slenderness
+            time = piece_end if step >= longest else time + step
+            state, zeros = evaluate(w, order, block, step, is_straight), 0
+            if forcing.shape == RICKER_SYMMETRIC or forcing.shape == RICKER_ANTISYMMETRIC:
+                state = renewed(block, forcing, record, time, side, state)
+            if event == FLAT:
+                return Outcome(True, math.nan, impacts, True)
+            if event == LANDING or state.rotation <= 0.0:
+                impacts += 0 if is_low else 1
+                side = -side
+                state, zeros = after_impact(block, state), 1
+                is_low = True
+                if time < forcing.end and comes_to_rest(
+                    block, forcing, record, time, state.velocity, state.push, side, peak
+                ):
+                    break
+            if time >= forcing.end:
+                tail = free_rocking(block, state.rotation, state.velocity)
+                peak = math.nan if tail.overturned else max(peak, tail.peak)
+                return Outcome(tail.overturned, peak, impacts + tail.impacts, True)
+            if is_certain_to_overturn(block, forcing, record, time, state):
+                return Outcome(True, math.nan, impacts, True)
+            steps_left -= 1
+            if steps_left < 0:
+                return Outcome(False, math.nan, impacts, False)
+            if is_record and time >= piece_end:
+                piece += 1
+                piece_end = (piece + 1) * forcing.step
+                state = at_sample(block, forcing, record, piece, side, state)

@@ -1,0 +1,80 @@
+"""When a bouncing block may be called at rest.
+
+With √r < 1 a block that bounces on level ground comes to rest after infinitely many impacts in a
+finite time. Under a ground acceleration below the uplift level it does the same, provided that
+the train of bounces is over before |a| exceeds the level again; this is decided here by a bound,
+not by the smallness of a velocity.
+"""
+
+import math
+
+from numba import njit
+
+from topheavy.kernel.forcing import ground, next_turn
+
+#: A rotation below this, over α, is no rocking: the impact that ends it is not counted.
+LAST_BOUNCE = 1e-6
+
+
+@njit(cache=True, error_model="numpy")
+def comes_to_rest(block, forcing, record, time, velocity, push, side, peak):
+    """Say whether a block that leaves the ground at `velocity` is sure to come to rest.
+
+    True if all bounces stay below `LAST_BOUNCE` α, and die out while |a| is below the uplift
+    level. Let f = −s a range over [f₁, f₂] while they last. Standing on the side s the block is
+    pulled back by at least g and at most G,
+
+        g = (level − f₂) cos α − φ̂ / cos α,    G = (level − f₁)(cos α + φ̂),
+
+    and by the same with −f on the other side, φ̂ = v²/(level − f₂) cos α bounding φ as long as
+    φ̂/cos α is at most half the first term of g. It lands with at most √(G/g) times the velocity
+    that it left with, hence leaves with at most λ = √(r G/g) times that, is off the ground for
+    2v/g at most, and all bounces together last 2v/g(1 − λ).
+
+    Parameters
+    ----------
+    velocity : float
+        φ' after the impact.
+    push : float
+        q = −s a − level on the side that it moves to.
+    side : float
+        That side.
+    peak : float
+        The largest φ so far: the bounces must not exceed it.
+    """
+    cosine, level, restitution = block.cosine, block.level, block.restitution
+    if velocity <= 0.0:
+        return True
+    weakest = -max(push, -push - 2 * level)
+    if weakest <= 0.0 or restitution >= 1.0:
+        return False
+    if velocity * velocity > weakest * cosine * LAST_BOUNCE * block.slenderness:
+        return False
+    allowed = 4 * velocity / (weakest * cosine * (1 - restitution))
+    low, high = _range(forcing, record, time, time + allowed, side)
+    slight = LAST_BOUNCE * block.slenderness
+    near, far = level - high, level + low
+    if min(near, far) <= 0.0:
+        return False
+    bound = velocity * velocity / (min(near, far) * cosine)
+    if 2 * bound > min(near, far) * cosine * cosine or bound > min(peak, slight):
+        return False
+    pull_near, pull_far = near * cosine - bound / cosine, far * cosine - bound / cosine
+    ratio = (cosine + bound) * max((level - low) / pull_near, (level + high) / pull_far)
+    decay = restitution * math.sqrt(ratio)
+    return decay < 1.0 and 2 * velocity <= allowed * min(pull_near, pull_far) * (1 - decay)
+
+
+@njit(cache=True, error_model="numpy")
+def _range(forcing, record, start, stop, side):
+    """Return the least and the largest f = −s a on [start, stop]."""
+    value = -side * ground(forcing, record, start)[0]
+    low, high = value, value
+    time = start
+    while time < stop:
+        time = min(next_turn(forcing, time), stop) if time < forcing.end else stop
+        value = -side * ground(forcing, record, time)[0]
+        low, high = min(low, value), max(high, value)
+        if time >= forcing.end:
+            low, high = min(low, 0.0), max(high, 0.0)
+    return low, high

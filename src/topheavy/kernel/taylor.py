@@ -1,0 +1,190 @@
+"""The Taylor series of a rocking block over one step.
+
+With φ = |θ|, time τ = p t, and the push q = −s a − tan α by which the ground acceleration exceeds
+the uplift level on the side s = ±1 that the block stands on, Eq. (23) reads
+
+    φ'' = sin φ / cos α + q cos(α − φ),
+
+and linearised, with q = −s a − α,
+
+    φ'' = φ + q.
+
+This is the paper's equation, regrouped so that nothing cancels: φ and q are both zero when the
+block lifts off, and the first derivative that is not zero comes out with the right sign, however
+slender the block and however slight the push. sin φ and cos φ obey (sin φ)' = φ' cos φ and
+(cos φ)' = −φ' sin φ, and the push its own linear equation (see `forcing`): a step is
+multiplications and additions only (Jorba & Zou 2005, Exp. Math. 14, 99–117, §§2–3).
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from topheavy.structures import RockingBlock
+
+MAX_ORDER = 20
+#: A division costs as much as ten multiplications.
+INVERSE = 1.0 / np.maximum(np.arange(MAX_ORDER + 2), 1.0)
+
+
+class Oscillator(NamedTuple):
+    """What the kernel needs to know of a block: everything but p, which scales time.
+
+    `level` is tan α, linearised α; linearised, `cosine` and `sine` are 1 and 0 (as of α → 0), and
+    the block has no end at φ = π/2 (`flat` is infinite).
+    """
+
+    slenderness: float
+    restitution: float
+    level: float
+    cosine: float
+    sine: float
+    flat: float
+    linearised: bool
+
+
+def oscillator(block: RockingBlock) -> Oscillator:
+    """Return what the kernel needs to know of a block."""
+    alpha, restitution = float(block.slenderness), float(block.restitution)
+    if block.linearised:
+        return Oscillator(alpha, restitution, alpha, 1.0, 0.0, math.inf, True)
+    return Oscillator(
+        alpha, restitution, math.tan(alpha), math.cos(alpha), math.sin(alpha), math.pi / 2, False
+    )
+
+
+class State(NamedTuple):
+    """A rocking block: φ, φ', sin φ, cos φ, the push q and q'."""
+
+    rotation: float
+    velocity: float
+    sine: float
+    cosine: float
+    push: float
+    rate: float
+
+
+#: Rows of the working array `w`: the coefficients of φ, φ', sin φ, cos φ, cos(α − φ) and q by
+#: powers of τ − τ₀.
+ROTATION, VELOCITY, SINE, COSINE, TILT, PUSH = range(6)
+
+
+@njit(cache=True, error_model="numpy", fastmath={"contract"})
+def expand(w, order, block, state, c, d0, d1, is_straight):
+    """Fill `w` with the solution through `state`: φ to `order`, the others to one less.
+
+    c, d₀ and d₁ are those of `forcing.equation`; `is_straight` says that the push is a straight
+    line (a record's piece, a constant pulse), which leaves all but two of its terms out.
+    """
+    w[ROTATION, 0], w[VELOCITY, 0] = state.rotation, state.velocity
+    w[SINE, 0], w[COSINE, 0] = state.sine, state.cosine
+    w[PUSH, 0], w[PUSH, 1] = state.push + block.level, state.rate  # −s a solves the equation of a
+    last_push = 1 if is_straight else order - 1
+    for n in range(last_push - 1):
+        curvature = (c + d1 * n) * w[PUSH, n] + d0 * (n + 1) * w[PUSH, n + 1]
+        w[PUSH, n + 2] = -curvature * (INVERSE[n + 1] * INVERSE[n + 2])
+    w[PUSH, 0] = state.push
+    if block.linearised:
+        _expand_linearised(w, order, last_push)
+    elif is_straight:
+        _expand_straight(w, order, block)
+    else:
+        _expand_curved(w, order, block)
+
+
+@njit(cache=True, error_model="numpy", fastmath={"contract"})
+def _expand_linearised(w, order, last_push):
+    for n in range(order):
+        w[ROTATION, n + 1] = w[VELOCITY, n] * INVERSE[n + 1]
+        force = w[ROTATION, n] + (w[PUSH, n] if n <= last_push else 0.0)  # φ'' = φ + q
+        w[VELOCITY, n + 1] = force * INVERSE[n + 1]
+
+
+@njit(cache=True, error_model="numpy", fastmath={"contract"})
+def _expand_curved(w, order, block):
+    """Eq. (23), φ'' = sin φ / cos α + q cos(α − φ).
+
+    The three products of series are summed in two halves each: a sum waits for its last addition,
+    so that six run in the time of three.
+    """
+    inverse_cosine = 1.0 / block.cosine
+    for n in range(order):
+        w[TILT, n] = block.cosine * w[COSINE, n] + block.sine * w[SINE, n]
+        cosine, sine, force = 0.0, 0.0, w[SINE, n] * inverse_cosine
+        cosine2, sine2, force2 = 0.0, 0.0, 0.0
+        for i in range(0, n, 2):
+            cosine += w[COSINE, n - i] * w[VELOCITY, i]
+            sine += w[SINE, n - i] * w[VELOCITY, i]
+            force += w[PUSH, n - i] * w[TILT, i]
+            cosine2 += w[COSINE, n - i - 1] * w[VELOCITY, i + 1]
+            sine2 += w[SINE, n - i - 1] * w[VELOCITY, i + 1]
+            force2 += w[PUSH, n - i - 1] * w[TILT, i + 1]
+        if n % 2 == 0:
+            cosine += w[COSINE, 0] * w[VELOCITY, n]
+            sine += w[SINE, 0] * w[VELOCITY, n]
+            force += w[PUSH, 0] * w[TILT, n]
+        w[ROTATION, n + 1] = w[VELOCITY, n] * INVERSE[n + 1]
+        w[SINE, n + 1] = (cosine + cosine2) * INVERSE[n + 1]
+        w[COSINE, n + 1] = -(sine + sine2) * INVERSE[n + 1]
+        w[VELOCITY, n + 1] = (force + force2) * INVERSE[n + 1]
+
+
+@njit(cache=True, error_model="numpy", fastmath={"contract"})
+def _expand_straight(w, order, block):
+    """The same where q has two terms."""
+    inverse_cosine = 1.0 / block.cosine
+    for n in range(order):
+        w[TILT, n] = block.cosine * w[COSINE, n] + block.sine * w[SINE, n]
+        force = w[SINE, n] * inverse_cosine + w[PUSH, 0] * w[TILT, n]
+        if n > 0:
+            force += w[PUSH, 1] * w[TILT, n - 1]
+        cosine, sine = 0.0, 0.0
+        for i in range(n + 1):
+            cosine += w[COSINE, n - i] * w[VELOCITY, i]
+            sine += w[SINE, n - i] * w[VELOCITY, i]
+        w[ROTATION, n + 1] = w[VELOCITY, n] * INVERSE[n + 1]
+        w[SINE, n + 1] = cosine * INVERSE[n + 1]
+        w[COSINE, n + 1] = -sine * INVERSE[n + 1]
+        w[VELOCITY, n + 1] = force * INVERSE[n + 1]
+
+
+@njit(cache=True, error_model="numpy")
+def longest_step(w, order, tolerance, limit):
+    """Return the step, at most `limit`, over which the last two terms of φ' are below `tolerance`.
+
+    The terms left out are smaller again by the ratio of two terms. Two are looked at because
+    every other one may vanish.
+    """
+    last, second = abs(w[VELOCITY, order - 1]), abs(w[VELOCITY, order - 2])
+    power = 1.0
+    for _ in range(order - 2):
+        power *= limit
+    if second * power <= tolerance and last * power * limit <= tolerance:
+        return limit
+    exponent = math.inf
+    if last > 0.0:
+        exponent = math.log(tolerance / last) * INVERSE[order - 1]
+    if second > 0.0:
+        exponent = min(exponent, math.log(tolerance / second) * INVERSE[order - 2])
+    return min(math.exp(exponent), limit) if exponent < 50.0 else limit
+
+
+@njit(cache=True, error_model="numpy", fastmath={"contract"})
+def evaluate(w, order, block, step, is_straight):
+    """Return the `State` at `step` after the start of the series."""
+    rotation, velocity, sine, cosine = w[ROTATION, order], 0.0, 0.0, 0.0
+    push, rate = 0.0, 0.0
+    for n in range(order - 1, -1, -1):
+        rotation = rotation * step + w[ROTATION, n]
+        velocity = velocity * step + w[VELOCITY, n]
+        sine = sine * step + w[SINE, n]
+        cosine = cosine * step + w[COSINE, n]
+        rate = rate * step + push
+        push = push * step + w[PUSH, n]
+    if is_straight:
+        push, rate = w[PUSH, 0] + step * w[PUSH, 1], w[PUSH, 1]
+    if block.linearised:
+        sine, cosine = 0.0, 1.0
+    return State(rotation, velocity, sine, cosine, push, rate)

@@ -1,0 +1,181 @@
+"""One rocking history with samples, for a block that starts at rest or in motion.
+
+The same steps and events as in `outcome`; but the free rocking is integrated too, so that it can be
+drawn, and a block that is sure to overturn is followed on.
+"""
+
+import math
+
+from numba import njit
+
+from topheavy.kernel.forcing import (
+    CONSTANT,
+    NONE,
+    RECORD,
+    RICKER_ANTISYMMETRIC,
+    RICKER_SYMMETRIC,
+    Forcing,
+    ground,
+    next_uplift,
+    piece_at,
+)
+from topheavy.kernel.outcome import (
+    FLAT,
+    LANDING,
+    PULSE_ORDER,
+    advance,
+    after_impact,
+    at_sample,
+    is_certain_to_overturn,
+    renewed,
+)
+from topheavy.kernel.rest import LAST_BOUNCE, comes_to_rest
+from topheavy.kernel.tail import free_rocking
+from topheavy.kernel.taylor import State, evaluate
+
+NO_UPLIFT, RESTS, ROCKING, OVERTURNED = range(4)
+#: A free history without an end of its own ends after so many impacts.
+LAST_IMPACT = 1000
+#: Without an end of its own, a flight longer than this (in τ) is that of a block poised at α.
+LONGEST_FLIGHT = 100.0
+
+
+@njit(cache=True, error_model="numpy")
+def trace(
+    w,
+    order,
+    tolerance,
+    block,
+    forcing,
+    record,
+    rotation,
+    velocity,
+    until,
+    times,
+    samples,
+    impacts,
+):
+    """Follow a history from θ and θ' at τ = 0 to the first of its ends.
+
+    Parameters
+    ----------
+    rotation, velocity : float
+        θ and dθ/dτ at τ = 0.
+    until : float
+        Where the history ends; if infinite, where the block rests or |θ| = π/2, or after
+        `LAST_IMPACT` impacts behind the forcing.
+    times : array
+        Ascending τ; `samples`, of shape (2, times.size), takes θ and dθ/dτ there, and keeps what it
+        had beyond the end of a block that does not rest.
+    impacts : array
+        Takes the times of impacts.
+
+    Returns
+    -------
+    end : float
+        The time at which the history ends.
+    result : int
+        `NO_UPLIFT`, `RESTS`, `ROCKING` or `OVERTURNED`, as the whole motion ends.
+    peak : float
+        The largest |θ| of the whole motion.
+    counted : int
+        The number of impacts until the forcing ended or the block was judged overturned.
+    landed : int
+        The number of all impacts: how many `impacts` holds. Neither counts those that end a
+        rotation below `rest.LAST_BOUNCE` α.
+    """
+    time, peak, sample, counted, landed = 0.0, abs(rotation), 0, 0, 0
+    moves = rotation != 0.0 or velocity != 0.0
+    has_moved, is_low, is_forced, is_over = moves, rotation == 0.0, True, False
+    straight = forcing.shape == RECORD or forcing.shape == CONSTANT or forcing.shape == NONE
+    side = math.copysign(1.0, rotation if rotation != 0.0 else velocity)
+    state, zeros = _initial_state(block, forcing, record, rotation, velocity, side), 0
+    if rotation == 0.0:
+        zeros = 1
+    piece, forcing_end, flight_start, landed_forced = 0, forcing.end, 0.0, 0
+    while True:
+        if is_forced and time >= forcing_end:  # the ground comes to rest: judge what follows
+            is_forced, straight, order, forcing = False, True, PULSE_ORDER, still(forcing_end)
+            flight_start, landed_forced = time, landed
+            state = State(
+                state.rotation, state.velocity, state.sine, state.cosine, -block.level, 0.0
+            )
+            if moves:
+                tail = free_rocking(block, state.rotation, state.velocity)
+                is_over, counted = tail.overturned, counted + tail.impacts
+                peak = peak if is_over else max(peak, tail.peak)
+        if not moves:
+            uplift, push, rate, side = next_uplift(forcing, record, time, block.level)
+            while sample < times.size and times[sample] <= uplift:
+                samples[0, sample], samples[1, sample] = 0.0, 0.0
+                sample += 1
+            if uplift == math.inf:
+                result = RESTS if has_moved else NO_UPLIFT
+                return max(time, forcing_end), result, peak, counted, landed
+            time, moves, has_moved, is_low, flight_start = uplift, True, True, True, uplift
+            state, zeros = State(0.0, 0.0, 0.0, 1.0, push, rate), (2 if push > 0.0 else 3)
+            piece = piece_at(forcing, time) if forcing.shape == RECORD else 0
+        is_far = block.linearised and is_over and state.rotation >= math.pi / 2
+        is_endless = until == math.inf and not is_forced
+        is_poised = is_endless and time - flight_start > LONGEST_FLIGHT
+        is_restless = is_endless and landed - landed_forced >= LAST_IMPACT
+        if time >= until or is_far or is_poised or is_restless:
+            return time, (OVERTURNED if is_over else ROCKING), peak, counted, landed
+
+        piece_end = until
+        if is_forced:
+            piece_end = forcing_end
+            if forcing.shape == RECORD:
+                piece_end = min(piece_end, (piece + 1) * forcing.step)
+        start, longest, so_far = time, piece_end - time, (0.0 if is_low else peak)
+        step, event, highest = advance(
+            w, order, tolerance, block, forcing, time, longest, state, zeros, so_far, straight
+        )
+        peak = max(peak, highest)
+        is_low = is_low and highest <= LAST_BOUNCE * block.slenderness
+        time = piece_end if step >= longest else time + step
+        while sample < times.size and times[sample] <= time:
+            there = evaluate(w, order, block, times[sample] - start, straight)
+            samples[0, sample] = side * there.rotation
+            samples[1, sample] = side * there.velocity
+            sample += 1
+        state, zeros = evaluate(w, order, block, step, straight), 0
+        if forcing.shape == RICKER_SYMMETRIC or forcing.shape == RICKER_ANTISYMMETRIC:
+            state = renewed(block, forcing, record, time, side, state)
+        if event == FLAT:
+            return time, OVERTURNED, peak, counted, landed
+        if event == LANDING or state.rotation <= 0.0:
+            if not is_low:
+                if landed < impacts.size:
+                    impacts[landed] = time
+                landed += 1
+                counted += 1 if is_forced else 0
+            is_low, flight_start, side = True, time, -side
+            state, zeros = after_impact(block, state), 1
+            if not is_forced:
+                bounce = free_rocking(block, 0.0, state.velocity)
+                moves = is_over or bounce.peak > LAST_BOUNCE * block.slenderness
+            elif time < forcing_end:
+                moves = not comes_to_rest(
+                    block, forcing, record, time, state.velocity, state.push, side, peak
+                )
+        elif is_forced and block.linearised and not is_over:
+            is_over = is_certain_to_overturn(block, forcing, record, time, state)
+        if forcing.shape == RECORD and time >= piece_end:
+            piece += 1
+            if moves and time < forcing_end:
+                state = at_sample(block, forcing, record, piece, side, state)
+
+
+@njit(cache=True, error_model="numpy")
+def _initial_state(block, forcing, record, rotation, velocity, side):
+    value, rate = ground(forcing, record, 0.0)
+    phi = abs(rotation)
+    sine, cosine = (0.0, 1.0) if block.linearised else (math.sin(phi), math.cos(phi))
+    return State(phi, side * velocity, sine, cosine, -side * value - block.level, -side * rate)
+
+
+@njit(cache=True, error_model="numpy")
+def still(time):
+    """Return the forcing of ground that has been at rest since `time`."""
+    return Forcing(NONE, 0.0, 1.0, time, 1.0)

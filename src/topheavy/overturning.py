@@ -1,0 +1,214 @@
+"""Whole spectra: overturning maps, and the intervals of amplitude that overturn."""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import xarray
+from numpy.typing import ArrayLike, NDArray
+
+from topheavy import checks
+from topheavy.excitation import Excitation
+from topheavy.kernel.forcing import SHAPES
+from topheavy.kernel.grid import outcomes_of
+from topheavy.kernel.taylor import oscillator
+from topheavy.pulses import Pulse, checked_shape
+from topheavy.simulate import as_forcing
+from topheavy.structures import Structure
+
+SAFE = -1
+"""Label of a factor that is survived; one that overturns is labelled by its impacts."""
+
+NARROWEST = 1.0 / 1024.0
+"""Of the resolution: intervals narrower than this are left inside a bracket."""
+
+BRACKET = 1e-10
+"""Width of the brackets, over the larger end of the range."""
+
+
+def overturning_map(
+    structure: Structure, shape: str, angular_frequencies: ArrayLike, amplitudes: ArrayLike
+) -> xarray.Dataset:
+    """Return which pulses overturn a block, and how far it rocks under the others.
+
+    Parameters
+    ----------
+    structure : RockingBlock, Column or RockingFrame
+    shape : str
+        A shape of `Pulse` that ends ("harmonic" does not).
+    angular_frequencies : array_like
+        ω in rad/s, positive.
+    amplitudes : array_like
+        In g, not negative.
+
+    Returns
+    -------
+    xarray.Dataset
+        peak_rotation (rad, NaN where overturned), overturned and impacts, over
+        (angular_frequency, amplitude).
+    """
+    block = structure.block()
+    if checked_shape(shape) == "harmonic":
+        raise ValueError("shape is 'harmonic', which goes on forever; expected a pulse that ends")
+    frequencies = _axis("angular_frequencies", angular_frequencies, zero_allowed=False)
+    amplitudes = _axis("amplitudes", amplitudes, zero_allowed=True)
+    scales = frequencies / block.frequency_parameter
+    peak, overturned, impacts = outcomes_of(oscillator(block), SHAPES[shape], scales, amplitudes)
+    dims = ("angular_frequency", "amplitude")
+    return xarray.Dataset(
+        {
+            "peak_rotation": (dims, peak, {"units": "rad", "long_name": "largest |θ|"}),
+            "overturned": (dims, overturned, {"units": "1"}),
+            "impacts": (dims, impacts, {"units": "1", "long_name": "number of impacts"}),
+        },
+        coords={
+            "angular_frequency": ("angular_frequency", frequencies, {"units": "rad/s"}),
+            "amplitude": ("amplitude", amplitudes, {"units": "g"}),
+        },
+        attrs={
+            "shape": shape,
+            "frequency_parameter": block.frequency_parameter,
+            "slenderness": block.slenderness,
+            "restitution": block.restitution,
+            "linearised": int(block.linearised),
+        },
+    )
+
+
+def _axis(name: str, values: ArrayLike, *, zero_allowed: bool) -> NDArray[np.float64]:
+    axis = np.atleast_1d(np.array(values, dtype=float))
+    if axis.ndim != 1 or axis.size == 0:
+        raise ValueError(f"{name} has shape {axis.shape}; expected a list of numbers, not empty")
+    if not np.isfinite(axis).all():
+        raise ValueError(f"{name} holds {axis[~np.isfinite(axis)][0]}; expected finite numbers")
+    if (axis < 0.0).any() or not (zero_allowed or axis.all()):
+        sign = "negative" if zero_allowed else "zero or negative"
+        raise ValueError(f"{name} goes down to {axis.min():.6g}; it cannot be {sign}")
+    return axis
+
+
+@dataclass(frozen=True)
+class Interval:
+    """Scales that overturn, with one number of impacts before.
+
+    `lower` and `upper` are pairs (low, high) with the boundary between them. Where the range
+    begins in an interval, `lower` is its first scale twice; where it ends in one, `upper` is None.
+    """
+
+    lower: tuple[float, float]
+    upper: tuple[float, float] | None
+    impacts: int
+
+
+def overturning_intervals(
+    structure: Structure,
+    excitation: Excitation,
+    scale_range: tuple[float, float],
+    *,
+    resolution: float,
+) -> list[Interval]:
+    """Return the intervals of the factor on an excitation that overturn a block.
+
+    The range is searched on a uniform grid of a step not wider than `resolution`, so that an
+    interval that is wider holds a point of the grid and cannot be missed. Each change between
+    neighbours is then halved, all at once. A third outcome found on the way is an interval
+    narrower than the resolution; it is kept, down to a thousandth of the resolution, where a
+    bracket is left as wide as it is.
+
+    Parameters
+    ----------
+    structure : RockingBlock, Column or RockingFrame
+    excitation : Pulse or Record
+    scale_range : (float, float)
+        The first and the last factor.
+    resolution : float
+        The width of the narrowest interval that must not be missed.
+
+    Returns
+    -------
+    list of Interval
+        In ascending order. Neighbours with different numbers of impacts are separate; two with
+        the same number that are less than the resolution apart may be returned as one.
+
+    Raises
+    ------
+    ValueError
+        For a range that does not ascend, a resolution that is not positive, or a harmonic.
+    """
+    first, last = (checks.finite("scale_range", value) for value in scale_range)
+    if not first < last:
+        raise ValueError(f"scale_range is ({first:.6g}, {last:.6g}); expected it to ascend")
+    checks.positive("resolution", resolution)
+    label = _labeller(structure, excitation)
+    grid = np.linspace(first, last, max(2, math.ceil((last - first) / resolution) + 1))
+    labels = label(grid)
+    changes = np.flatnonzero(labels[1:] != labels[:-1])
+    boundaries = _bisect(
+        label,
+        [(grid[i], grid[i + 1], labels[i], labels[i + 1]) for i in changes],
+        BRACKET * max(abs(first), abs(last)),
+        NARROWEST * resolution,
+    )
+    intervals, begin, current = [], (first, first), labels[0]
+    for low, high, _, after in boundaries:
+        if current != SAFE:
+            intervals.append(Interval(begin, (low, high), int(current)))
+        begin, current = (low, high), after
+    if current != SAFE:
+        intervals.append(Interval(begin, None, int(current)))
+    return intervals
+
+
+Labels = NDArray[np.int64]
+Boundary = tuple[float, float, int, int]  # low, high, label below, label above
+
+
+def _labeller(
+    structure: Structure, excitation: Excitation
+) -> Callable[[NDArray[np.float64]], Labels]:
+    """Return the function that labels an array of factors."""
+    if isinstance(excitation, Pulse) and excitation.duration == math.inf:
+        raise ValueError("shape is 'harmonic', which goes on forever; expected a pulse that ends")
+    block = structure.block()
+    shape, scale, amplitude, record = as_forcing(block, excitation)
+
+    def label(factors: NDArray[np.float64]) -> Labels:
+        _, overturned, impacts = outcomes_of(
+            oscillator(block), shape, np.array([scale]), amplitude * factors, record
+        )
+        return np.where(overturned[0], impacts[0], SAFE)
+
+    return label
+
+
+def _bisect(
+    label: Callable[[NDArray[np.float64]], Labels],
+    boundaries: list[Boundary],
+    width: float,
+    narrowest: float,
+) -> list[Boundary]:
+    """Return the boundaries (low, high, label below, label above), halved down to `width`."""
+    done: list[Boundary] = []
+    while boundaries:
+        open_ones: list[Boundary] = []
+        for boundary in boundaries:
+            low, high = boundary[:2]
+            settled = high - low <= width or not low < 0.5 * (low + high) < high
+            (done if settled else open_ones).append(boundary)
+        if not open_ones:
+            break
+        middles = np.array([0.5 * (low + high) for low, high, _, _ in open_ones])
+        boundaries = []
+        for (low, high, below, above), middle, found in zip(
+            open_ones, middles, label(middles), strict=True
+        ):
+            if found == below:
+                boundaries.append((middle, high, below, above))
+            elif found == above:
+                boundaries.append((low, middle, below, above))
+            elif high - low > narrowest:
+                boundaries += [(low, middle, below, found), (middle, high, found, above)]
+            else:
+                done.append((low, high, below, above))
+    return sorted((float(a), float(b), int(c), int(d)) for a, b, c, d in done)
