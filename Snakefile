@@ -65,6 +65,7 @@ FINDINGS = [
     "scale_effects",
     "stability",
     "statements",
+    "verification",
 ]
 
 NOTEBOOKS = ["derivation", "play"]
@@ -392,6 +393,30 @@ rule figure:
         "figures/{wildcards.name}.py"
 
 
+# How far the numbers can be trusted --------------------------------------------------------------
+
+
+rule verification:
+    input:
+        LIBRARY,
+    output:
+        routes="results/tables/verification_routes.csv",
+        convergence="results/tables/verification_convergence.csv",
+        published="results/tables/verification_published.csv",
+        findings="results/findings/verification.json",
+    log:
+        "results/logs/verification.log",
+    benchmark:
+        "results/benchmarks/verification.tsv"
+    params:
+        case=config["verification"],
+        solver=config["solver"],
+    message:
+        "Routes against each other, and ours against the literature"
+    script:
+        "src/steps/verification.py"
+
+
 # Pictures, notebooks -----------------------------------------------------------------------------
 
 
@@ -489,6 +514,7 @@ rule report:
     input:
         WORKBENCH,
         "paper/references.bib",
+        "config/config.yaml",
         "results/claims.json",
         "docs/costs.csv",
         "docs/machine.txt",

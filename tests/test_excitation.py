@@ -79,6 +79,8 @@ def test_push_that_retreats_from_the_level_ends_where_it_starts(side):
     falling = line(0.0, 2.0, -side * 0.3, -side * 0.1)
     assert falling.falls_below(0.0, side, 0.3) == 0.0
     assert falling.falls_below(0.5, side, 0.3) == 0.5  # is below it already
+    through = line(0.0, 2.0, -side * 0.6, -side * 0.2)
+    assert through.falls_below(1.8, side, 0.3) == 1.8
 
 
 @pytest.mark.parametrize("side", [1, -1])

@@ -207,5 +207,5 @@ def test_rotation_that_does_not_fall_back_is_refused(block, fraction):
 
 
 def test_rotation_that_is_not_finite_is_refused():
-    with pytest.raises(ValueError, match="rotation is nan"):
+    with pytest.raises(ValueError, match="rotation is nan; expected a finite number"):
         quarter_period(EXACT, math.nan)

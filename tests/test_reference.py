@@ -1,6 +1,7 @@
 """The adaptive integration: its verdicts, its accuracy, and that no impact hides inside a step."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -65,6 +66,34 @@ def test_impact_behind_the_forcing_on_the_way_to_overturning_is_counted():
     assert response.overturned
     assert response.impacts[-1] > pulse.duration
     assert judge(block, pulse).impacts == len(response.impacts) == 1
+
+
+@pytest.mark.parametrize("linearised", [False, True])
+@pytest.mark.parametrize("push", [0.5, -0.5])
+def test_constant_push_does_the_work_that_the_motion_gains(push, linearised):
+    # Eq. (23) under a constant ü_g has a potential: of the rotation, and of the ground's push.
+    block = replace(BLOCK, linearised=linearised)
+    history = simulate(
+        block, Pulse("constant", push, math.pi / 0.6), samples=np.linspace(0.0, 0.6, 61)
+    )
+    tilt, lean = np.abs(history.rotation), 0.25 - np.abs(history.rotation)
+    if linearised:
+        gained = abs(push) * tilt - tilt * (0.25 - tilt / 2)
+    else:
+        work = math.sin(0.25) - np.sin(lean)
+        gained = abs(push) * work - (np.cos(lean) - math.cos(0.25))
+    np.testing.assert_allclose(history.velocity**2 / 8, gained, atol=1e-11)
+    assert np.all(np.sign(history.rotation[1:]) == -np.sign(push))
+    assert np.all(np.sign(history.velocity[1:]) == -np.sign(push))
+
+
+@pytest.mark.parametrize("linearised", [False, True])
+def test_cut_motion_still_counts_the_peak_that_is_to_come(linearised):
+    block = replace(BLOCK, linearised=linearised)
+    cut = simulate(block, Pulse("one-sine", 0.5, 9.0), duration=math.pi / 9.0)
+    whole = simulate(block, Pulse("half-sine", 0.5, 9.0))
+    assert cut.peak_rotation == pytest.approx(np.max(np.abs(whole.rotation)), rel=1e-5)
+    assert cut.peak_rotation > 1.01 * np.max(np.abs(cut.rotation))
 
 
 # ---------------------------------------------------------------------------- inside a step

@@ -5,20 +5,26 @@ import math
 import numpy as np
 from workbench import log_to, truth, write_findings, write_table
 
-from topheavy import Column, Pulse, RockingFrame, judge, reference, simulate
+from topheavy import (
+    Column,
+    Pulse,
+    RockingFrame,
+    judge,
+    overturning_intervals,
+    reference,
+    simulate,
+)
+
+RESOLUTION = 1e-3  # of the uplift acceleration
 
 
-def lowest_overturning(frame: RockingFrame, pulse: Pulse, step: float) -> tuple[float, float]:
-    """Bracket the lowest amplitude (g) that overturns: a scan by `step`, then bisection."""
-    level = frame.uplift_acceleration
-    amplitudes = np.arange(level, 12.0 * level, step)
-    high = next(a for a in amplitudes if judge(frame, pulse.scaled(a / pulse.amplitude)).overturned)
-    low = high - step
-    while high - low > 1e-6 * level:
-        middle = (low + high) / 2.0
-        over = judge(frame, pulse.scaled(middle / pulse.amplitude)).overturned
-        low, high = (low, middle) if over else (middle, high)
-    return low, high
+def lowest_overturning(frame: RockingFrame, pulse: Pulse) -> tuple[float, float]:
+    """Bracket the lowest amplitude (g) that overturns, in an interval of RESOLUTION or more."""
+    start = frame.uplift_acceleration / pulse.amplitude
+    first, *_ = overturning_intervals(
+        frame, pulse, (start, 12.0 * start), resolution=RESOLUTION * start
+    )
+    return first.lower[0] * pulse.amplitude, first.lower[1] * pulse.amplitude
 
 
 def main(case: dict, solver: dict) -> tuple[list[dict], list[dict], dict]:
@@ -35,7 +41,7 @@ def main(case: dict, solver: dict) -> tuple[list[dict], list[dict], dict]:
             judge(frame, pulse, tolerance=solver["tightened"]),
             reference.judge(frame, pulse),
         )
-        low, high = lowest_overturning(frame, pulse, 0.01 * frame.uplift_acceleration)
+        low, high = lowest_overturning(frame, pulse)
         histories += [
             {"mass_ratio": gamma, "time": t, "acceleration": a, "rotation_over_alpha": theta}
             for t, a, theta in zip(

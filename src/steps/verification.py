@@ -1,0 +1,207 @@
+"""How far the numbers can be trusted: routes against each other, and ours against the literature.
+
+For the ensembles a seeded sample stands for all cells: half of it drawn from the grid, half within
+one per cent of a boundary of overturning, where a verdict is most easily wrong.
+"""
+
+import math
+from collections.abc import Callable, Iterator
+
+import numpy as np
+import pandas as pd
+from workbench import log_to, truth, value, write_findings, write_table
+
+from topheavy import (
+    Column,
+    Pulse,
+    RockingBlock,
+    RockingFrame,
+    judge,
+    overturning_intervals,
+    reference,
+    simulate,
+)
+from topheavy.free_rocking import Ending, energy
+from topheavy.linear import SHAPES, simulate_linear_exact
+
+Cell = tuple[RockingBlock, Pulse]
+
+
+def cells(case: dict, shape: str, *, linearised: bool) -> Iterator[Cell]:
+    """Draw the seeded sample of one ensemble."""
+    draw = np.random.default_rng(case["seed"])
+    for number in range(case["cells"]):
+        alpha = math.radians(draw.uniform(*case["slendernesses"]))
+        column = Column(math.sin(alpha), math.cos(alpha))
+        block = RockingFrame(column, draw.choice(case["mass_ratios"])).block()
+        block = block.linear() if linearised else block
+        omega = draw.uniform(*case["frequency_ratios"]) * column.frequency_parameter
+        ratio = draw.uniform(*case["amplitudes"])
+        level = block.uplift_acceleration
+        if number % 2:
+            found = overturning_intervals(
+                block, Pulse(shape, level, omega), (1.0, case["amplitudes"][1]), resolution=0.05
+            )
+            if found:
+                ratio = found[0].lower[0] * (1.0 + draw.uniform(-0.01, 0.01))
+        yield block, Pulse(shape, ratio * level, omega)
+
+
+def compare(sample: list[Cell], route: Callable, other: Callable) -> dict:
+    """Return how two routes agree on a sample: verdicts, and peaks over α."""
+    wrong, errors = 0, []
+    for block, pulse in sample:
+        first, second = route(block, pulse), other(block, pulse)
+        wrong += first.overturned != second.overturned
+        if not (first.overturned or second.overturned):
+            errors.append(abs(first.peak - second.peak) / block.slenderness)
+    return {
+        "cells": len(sample),
+        "verdicts_that_differ": wrong,
+        "median_error": np.median(errors),
+        "error_99": np.quantile(errors, 0.99),
+        "largest_error": max(errors),
+    }
+
+
+def agreement(case: dict, tightened: float) -> pd.DataFrame:
+    """Kernel against the reference, the exact solution, and itself at a tighter tolerance."""
+
+    def tight(block: RockingBlock, pulse: Pulse):
+        return judge(block, pulse, tolerance=tightened)
+
+    def exact(block: RockingBlock, pulse: Pulse):
+        response = simulate_linear_exact(block, pulse, duration=pulse.duration, samples=2)
+        return Ending(response.overturned, response.peak_rotation, 0)
+
+    rows = []
+    for linearised in (False, True):
+        for shape in case["shapes"]:
+            sample = list(cells(case, shape, linearised=linearised))
+            routes = {"SciPy integration": reference.judge, "tightened tolerance": tight}
+            if linearised and shape in SHAPES:
+                routes["exact solution"] = exact
+            for name, other in routes.items():
+                equation = "linearised" if linearised else "exact"
+                found = compare(sample, judge, other)
+                rows.append({"equation": equation, "shape": shape, "against": name, **found})
+                print(rows[-1])
+    return pd.DataFrame(rows)
+
+
+def convergence(case: dict) -> pd.DataFrame:
+    """Error of the peak against the tolerance of the kernel, on the sample of the first shape."""
+    sample = list(cells(case, case["shapes"][0], linearised=False))
+    best = [judge(*cell, tolerance=1e-14) for cell in sample]
+    rows = []
+    for tolerance in 10.0 ** np.arange(-4, -13, -1.0):
+        errors = [
+            abs(judge(*cell, tolerance=tolerance).peak - exact.peak) / cell[0].slenderness
+            for cell, exact in zip(sample, best, strict=True)
+            if not exact.overturned
+        ]
+        rows.append(
+            {
+                "tolerance": tolerance,
+                "median_error": np.nanmedian(errors),
+                "error_90": np.nanquantile(errors, 0.9),
+            }
+        )
+    return pd.DataFrame(rows)
+
+
+def drift(case: dict) -> float:
+    """Largest relative change of energy between two impacts of free rocking."""
+    worst = 0.0
+    for degrees in case["slendernesses"]:
+        block = RockingBlock(2.0, math.radians(degrees), 0.9)
+        for each in (block, block.linear()):
+            response = simulate(each, rotation=0.8 * block.slenderness, samples=4000)
+            levels = np.array(
+                [
+                    energy(each, abs(theta), rate)
+                    for theta, rate in zip(response.rotation, response.velocity, strict=True)
+                ]
+            )
+            flights = np.searchsorted(response.impacts[:6], response.time, side="right")
+            for flight in range(6):
+                inside = levels[flights == flight]
+                worst = max(worst, np.ptp(inside) / inside.mean())
+    return worst
+
+
+def boundary(block: RockingBlock, pulse: Pulse, near: float, which: str = "lower") -> float:
+    """Return the boundary of overturning of a pulse of 1 g nearest to one known to 2 %, in g."""
+    around = (0.98 * near, 1.02 * near)
+    found = overturning_intervals(block, pulse, around, resolution=1e-4 * near)
+    ends = [getattr(interval, which) for interval in found if getattr(interval, which)]
+    if which == "lower":
+        ends = [end for end in ends if end[0] != end[1]]
+    middles = [sum(end) / 2.0 for end in ends]
+    return min(middles, key=lambda middle: abs(middle - near))
+
+
+def published(case: dict) -> pd.DataFrame:
+    """The numbers of the literature, as printed and as computed here."""
+    slender = RockingBlock(1.0, 0.25, 0.9, linearised=True)
+    zhang = RockingBlock(2.14, 0.25, 0.9, linearised=True)
+    peer = RockingBlock(2.0, math.radians(15.0), 0.89952)
+    roussos = Column(0.2, 0.6).block().linear()
+    heavy = RockingFrame(Column(0.75, 3.5), 13.23).block()
+    free = simulate(slender, rotation=0.5 * 0.25, samples=2).impacts[0]
+    bent = simulate(RockingBlock(1.0, 0.25, 1.0), rotation=0.9 * 0.25, duration=9.0, samples=2)
+    decay = slender.with_restitution(math.sqrt(0.7))
+    impacts = simulate(decay, rotation=0.5 * 0.25, samples=2).impacts
+    fifth = simulate(
+        decay, rotation=0.5 * 0.25, samples=np.linspace(impacts[4], impacts[5], 20001)[1:-1]
+    )
+    one_sine = Pulse("one-sine", 1.0, 5.0)
+    computed = {
+        "housner_quarter_period": free,
+        "exact_quarter_period": bent.impacts[0],
+        "housner_decay": np.abs(fifth.rotation).max() / 0.25,
+        "one_sine_with_impact": boundary(slender, one_sine, 3.0186 * 0.25) / 0.25,
+        "one_sine_end_of_impact_mode": boundary(slender, one_sine, 6.3181 * 0.25, "upper") / 0.25,
+        "one_sine_without_impact": boundary(slender, one_sine, 7.16813 * 0.25) / 0.25,
+        "one_sine_dimensional": boundary(zhang, Pulse("one-sine", 1.0, 15.7), 3.230),
+        "one_cosine_exact": boundary(peer, Pulse("one-cosine", 1.0, math.pi), 0.315034),
+        "half_sine_linear": boundary(roussos, Pulse("half-sine", 1.0, 2 * math.pi), 0.554586),
+        "heavy_frame_ricker": boundary(
+            heavy, Pulse("ricker-symmetric", 1.0, 2 * math.pi / 3.14), 0.3134
+        ),
+    }
+    return pd.DataFrame(
+        {
+            "quantity": [row["quantity"] for row in case["published"]],
+            "source": [row["source"] for row in case["published"]],
+            "printed": [row["printed"] for row in case["published"]],
+            "expected": [row["expected"] for row in case["published"]],
+            "tolerance": [row["tolerance"] for row in case["published"]],
+            "computed": [computed[row["quantity"]] for row in case["published"]],
+        }
+    )
+
+
+def main(case: dict, tightened: float) -> tuple[dict[str, pd.DataFrame], dict]:
+    routes, order, literature = agreement(case, tightened), convergence(case), published(case)
+    off = (literature.computed - literature.expected).abs()
+    lost = drift(case)
+    findings = {
+        "routes_agree": truth(
+            routes.verdicts_that_differ.sum() == 0 and routes.error_99.max() < 1e-6,
+            comparisons=int(routes.cells.sum()),
+            verdicts_that_differ=int(routes.verdicts_that_differ.sum()),
+            error_99=routes.error_99.max(),
+        ),
+        "published_numbers": truth((off <= literature.tolerance).all(), numbers=len(literature)),
+        "energy_drift": value(lost, 0.0),
+    }
+    return {"routes": routes, "convergence": order, "published": literature}, findings
+
+
+if __name__ == "__main__":
+    with log_to(snakemake.log[0]):
+        tables, findings = main(snakemake.params.case, snakemake.params.solver["tightened"])
+        for name, table in tables.items():
+            write_table(snakemake.output[name], table)
+        write_findings(snakemake.output.findings, findings)
