@@ -92,7 +92,7 @@ def test_cut_motion_still_counts_the_peak_that_is_to_come(linearised):
     block = replace(BLOCK, linearised=linearised)
     cut = simulate(block, Pulse("one-sine", 0.5, 9.0), duration=math.pi / 9.0)
     whole = simulate(block, Pulse("half-sine", 0.5, 9.0))
-    assert cut.peak_rotation == pytest.approx(np.max(np.abs(whole.rotation)), rel=1e-5)
+    assert cut.peak_rotation == pytest.approx(np.max(np.abs(whole.rotation)), rel=1e-3)
     assert cut.peak_rotation > 1.01 * np.max(np.abs(cut.rotation))
 
 

@@ -107,6 +107,7 @@ def overturning_intervals(
     scale_range: tuple[float, float],
     *,
     resolution: float,
+    most_impacts: int | None = None,
 ) -> list[Interval]:
     """Return the intervals of the factor on an excitation that overturn a block.
 
@@ -124,6 +125,9 @@ def overturning_intervals(
         The first and the last factor.
     resolution : float
         The width of the narrowest interval that must not be missed.
+    most_impacts : int, optional
+        Count impacts up to this number only: intervals with as many or more become one. The side
+        lobes of a Ricker pulse set off long bounces, whose every number is an interval of its own.
 
     Returns
     -------
@@ -140,7 +144,9 @@ def overturning_intervals(
     if not first < last:
         raise ValueError(f"scale_range is ({first:.6g}, {last:.6g}); expected it to ascend")
     checks.positive("resolution", resolution)
-    label = _labeller(structure, excitation)
+    if most_impacts is not None and most_impacts < 0:
+        raise ValueError(f"most_impacts is {most_impacts}; expected a number from 0 on")
+    label = _labeller(structure, excitation, most_impacts)
     grid = np.linspace(first, last, max(2, math.ceil((last - first) / resolution) + 1))
     labels = label(grid)
     changes = np.flatnonzero(labels[1:] != labels[:-1])
@@ -165,19 +171,20 @@ Boundary = tuple[float, float, int, int]  # low, high, label below, label above
 
 
 def _labeller(
-    structure: Structure, excitation: Excitation
+    structure: Structure, excitation: Excitation, most_impacts: int | None
 ) -> Callable[[NDArray[np.float64]], Labels]:
     """Return the function that labels an array of factors."""
     if isinstance(excitation, Pulse) and excitation.duration == math.inf:
         raise ValueError("shape is 'harmonic', which goes on forever; expected a pulse that ends")
     block = structure.block()
     shape, scale, amplitude, record = as_forcing(block, excitation)
+    most = np.iinfo(np.int64).max if most_impacts is None else most_impacts
 
     def label(factors: NDArray[np.float64]) -> Labels:
         _, overturned, impacts = outcomes_of(
             oscillator(block), shape, np.array([scale]), amplitude * factors, record
         )
-        return np.where(overturned[0], impacts[0], SAFE)
+        return np.where(overturned[0], np.minimum(impacts[0], most), SAFE)
 
     return label
 

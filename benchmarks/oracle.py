@@ -1,0 +1,270 @@
+"""An independent route to the outcome of a rocking history: heyoka, carefully.
+
+The equation is the paper's as printed, integrated to rounding, in double or in long double. The
+side is a state of its own. What heyoka's events are known to lose is kept from them:
+
+- just after uplift φ = 0 is a triple root: as long as the ground pushes outward no impact is
+  possible, and the motion is integrated without events;
+- a start on the event itself hides the next one: after an impact φ starts at 1e-24, and the cooldown
+  is zero (the default skips fast bounces);
+- in a step much longer than a bounce the root finder gives up with a mere warning: the steps of
+  short bounces are kept short.
+
+Time is τ = p t, accelerations are in g.
+"""
+
+import math
+from typing import NamedTuple
+
+import heyoka as hy
+import numpy as np
+
+AT_REST = 1e-13  # peak of the next bounce over α, on ground that cannot lift the block
+LOW = 1e-6  # a rotation below this, over α, is not counted as rocking
+
+#: The end of each pulse over π/ω, and the phases at which it turns.
+_SYMMETRIC = [0.0, math.sqrt(6.0), -math.sqrt(6.0)]
+_ANTISYMMETRIC = [
+    outer * math.sqrt(3.0 * (3.0 + inner * math.sqrt(6.0)))
+    for outer in (1.0, -1.0)
+    for inner in (1.0, -1.0)
+]
+SHAPES = {
+    "one-sine": (2, [0.5 * math.pi, 1.5 * math.pi]),
+    "one-cosine": (2, [math.pi]),
+    "half-sine": (1, [0.5 * math.pi]),
+    "constant": (1, []),
+    "ricker-symmetric": (9, [4.5 * math.pi + y for y in _SYMMETRIC]),
+    "ricker-antisymmetric": (9, [4.5 * math.pi + y for y in _ANTISYMMETRIC]),
+}
+
+
+class Found(NamedTuple):
+    """What became of the block; the peak is NaN if it overturned."""
+
+    overturned: bool
+    peak: float
+    impacts: int
+
+
+def unit_pulse(shape, phase, sin, cos, exp):
+    """Return the pulse of unit amplitude, of numbers or of heyoka's expressions."""
+    if shape in ("one-sine", "half-sine"):
+        return sin(phase)
+    if shape == "one-cosine":
+        return cos(phase)
+    if shape == "constant":
+        return 1.0 + 0.0 * phase
+    y = phase - 4.5 * math.pi
+    if shape == "ricker-symmetric":
+        return (1.0 - y * y / 2.0) * exp(-(y * y) / 4.0)
+    return (1.0 / 1.3801) * (y * y / 3.0 - 3.0) * (y / math.sqrt(3.0)) * exp(-(y * y) / 6.0)
+
+
+class Flights:
+    """heyoka's integrators of the motion on one side: one with events, one without.
+
+    `ground` is −s times the ground acceleration, an expression in `hy.time` and the parameters 1
+    and 2; parameter 0 is α.
+    """
+
+    def __init__(self, ground, linearised, precision):
+        phi, rate = hy.make_vars("phi", "rate")
+        alpha = hy.par[0]
+        if linearised:
+            curvature = phi - alpha + ground
+        else:
+            curvature = -hy.sin(alpha - phi) + ground * hy.cos(alpha - phi)  # Eq. (23)
+        how = {"fp_type": precision}
+        down, up = hy.event_direction.negative, hy.event_direction.positive
+        stops = [hy.t_event(phi, callback=self._land, direction=down, cooldown=precision(0), **how)]
+        if not linearised:
+            flat = phi - math.pi / 2.0
+            stops.append(
+                hy.t_event(flat, callback=self._fall, direction=up, cooldown=precision(0), **how)
+            )
+        turns = [hy.nt_event(rate, callback=self._turn, direction=down, **how)]
+        blank = {"state": [precision(0)] * 2, "pars": [precision(0)] * 3, **how}
+        equations = [(phi, rate), (rate, curvature)]
+        self.watched = hy.taylor_adaptive(equations, t_events=stops, nt_events=turns, **blank)
+        self.unwatched = hy.taylor_adaptive(equations, **blank)
+        self.event, self.peak, self.highest = None, 0.0, 0.0
+
+    def _land(self, integrator, _):
+        if integrator.state[1] >= 0.0:
+            return True
+        self.event = "landing"
+        return False
+
+    def _fall(self, integrator, _):
+        self.event = "flat"
+        return False
+
+    def _turn(self, integrator, time, _):
+        integrator.update_d_output(time)
+        self.peak = max(self.peak, integrator.d_output[0])
+        self.highest = max(self.highest, integrator.d_output[0])
+
+    def push(self, time, stop, parameters):
+        """Integrate from rest while the ground pushes outward; return the state, None if flat."""
+        integrator = _set(self.unwatched, time, (0.0, 0.0), parameters)
+        for at in np.linspace(time, stop, 30)[1:]:
+            integrator.propagate_until(at)
+            if integrator.state[0] >= math.pi / 2.0:
+                return None
+        return integrator.state[0], abs(integrator.state[1])
+
+    def fly(self, time, stop, state, parameters, pull):
+        """Integrate up to the next event or `stop`; return the time and the state there."""
+        integrator = _set(self.watched, time, state, parameters)
+        integrator.reset_cooldowns()
+        self.event = None
+        if state[0] < 1e-20 and pull > 0.0 and 4.0 * state[1] / pull < 0.3:
+            bounce = 4.0 * state[1] / pull
+            integrator.propagate_until(min(stop, time + 3 * bounce), max_delta_t=bounce / 2)
+        if self.event is None:
+            integrator.propagate_until(stop)
+        return integrator.time, (integrator.state[0], integrator.state[1])
+
+
+def _set(integrator, time, state, parameters):
+    integrator.time = time
+    integrator.state[:] = state
+    integrator.pars[:] = parameters
+    return integrator
+
+
+class PulseOracle:
+    """Outcomes under one shape of pulse."""
+
+    def __init__(self, shape, linearised=False, precision=float):
+        self.shape, self.linearised, self.precision = shape, linearised, precision
+        self.half_turns, self.turns = SHAPES[shape]
+        pulse = unit_pulse(shape, hy.par[2] * hy.time, hy.sin, hy.cos, hy.exp)
+        self.flights = Flights(hy.par[1] * pulse, linearised, precision)
+
+    def __call__(self, slenderness, restitution, amplitude, frequency) -> Found:
+        """Return the outcome for a pulse of amplitude A (g) and ω/p = `frequency`."""
+        real, flights = self.precision, self.flights
+        alpha, size, omega = real(slenderness), real(amplitude), real(frequency)
+        level = alpha if self.linearised else np.tan(alpha)
+        end = real(np.arctan2(real(0), real(-1))) * self.half_turns / omega
+        time, impacts, flights.peak = real(0), 0, real(0)
+
+        def ground(at):
+            phase = np.asarray(at, dtype=real) * omega
+            return size * unit_pulse(self.shape, phase, np.sin, np.cos, np.exp)
+
+        def first(holds, low, high):
+            """Return when `holds` first becomes true in a scan that includes all turns of a."""
+            turns = [turn / omega for turn in self.turns if low < turn / omega < high]
+            times = np.sort(np.append(np.linspace(low, high, 4000), turns)).astype(real)
+            found = holds(times)
+            index = int(np.argmax(found))
+            if index == 0:
+                return times[0] if found[0] else None
+            low, high = times[index - 1], times[index]
+            for _ in range(80):
+                middle = (low + high) / 2
+                low, high = (low, middle) if holds(middle) else (middle, high)
+            return high
+
+        while True:
+            time = first(lambda at: np.abs(ground(at)) > level, time, end) if time < end else None
+            if time is None:
+                return Found(False, flights.peak, impacts)
+            side = -np.sign(ground(time))
+            begin, inward = time, np.nextafter(time, end)
+            time = first(lambda at, s=side: -s * ground(at) <= level, inward, end)
+            time = end if time is None else time
+            state = flights.push(begin, time, (alpha, -side * size, omega))
+            if state is None:
+                return Found(True, math.nan, impacts)
+            flights.highest = real(0)
+            while True:
+                now = ground(time)
+                parameters = (alpha, -side * size, omega)
+                time, state = flights.fly(time, end, state, parameters, level + side * now)
+                if flights.event == "flat":
+                    return Found(True, math.nan, impacts)
+                if flights.event is None:
+                    return ended(self.linearised, alpha, restitution, state, flights.peak, impacts)
+                impacts += int(flights.highest > LOW * alpha)
+                velocity, side = -state[1] * restitution, -side
+                state, flights.highest = (real(1e-24), velocity), real(0)
+                pull = level - abs(ground(time))
+                cosine = 1.0 if self.linearised else np.cos(alpha)
+                if velocity <= 0.0 or (
+                    pull > 0.0 and velocity**2 / (2 * pull * cosine) < AT_REST * alpha
+                ):
+                    break
+
+
+class RecordOracle:
+    """Outcomes under records: a restart at every sample, where the forcing has a corner."""
+
+    def __init__(self, linearised=False):
+        self.linearised = linearised
+        self.flights = Flights(hy.par[1] + hy.par[2] * hy.time, linearised, float)
+
+    def __call__(self, slenderness, restitution, samples, step) -> Found:
+        """Return the outcome for samples in g, p Δt = `step` apart."""
+        flights, alpha = self.flights, slenderness
+        level = alpha if self.linearised else math.tan(alpha)
+        flights.peak, impacts, moving, side, state = 0.0, 0, False, 1.0, (0.0, 0.0)
+        flights.highest = 0.0
+        for first, last in zip(samples[:-1], samples[1:], strict=True):
+            time, slope = 0.0, (last - first) / step
+            while time < step:
+                now = first + slope * time
+                if not moving:
+                    if abs(now) > level * (1 + 1e-14):
+                        side = -np.sign(now)
+                    elif abs(last) > level and last * slope > 0.0:
+                        side = -np.sign(last)
+                        time = (np.sign(last) * level - first) / slope
+                    else:
+                        break
+                    stop = step if -side * last >= level else (-side * level - first) / slope
+                    parameters = (alpha, -side * first, -side * slope)
+                    state = flights.push(time, stop, parameters)
+                    if state is None:
+                        return Found(True, math.nan, impacts)
+                    time, moving, flights.highest = stop, True, state[0]
+                    continue
+                parameters = (alpha, -side * first, -side * slope)
+                time, state = flights.fly(time, step, state, parameters, level + side * now)
+                flights.highest = max(flights.highest, state[0])
+                if flights.event == "flat":
+                    return Found(True, math.nan, impacts)
+                if flights.event is None:
+                    flights.peak, time = max(flights.peak, state[0]), step
+                    continue
+                impacts += int(flights.highest > LOW * alpha)
+                velocity, side = -state[1] * restitution, -side
+                state, flights.highest = (1e-24, velocity), 0.0
+                pull = level - abs(first + slope * time)
+                low = pull > 0.0 and velocity**2 / (2 * pull) < AT_REST * alpha
+                moving = velocity > 0.0 and not low
+        if not moving:
+            return Found(False, flights.peak, impacts)
+        return ended(self.linearised, alpha, restitution, state, flights.peak, impacts)
+
+
+def ended(linearised, slenderness, restitution, state, peak, impacts) -> Found:
+    """Judge the state at the end of the forcing by its energy, in extended precision."""
+    alpha, phi, rate = (np.longdouble(number) for number in (slenderness, *state))
+    if linearised:
+        surplus = rate**2 / 2 - (alpha - phi) ** 2 / 2
+        barrier = alpha**2 / 2
+    else:
+        surplus = rate**2 / 2 + np.cos(alpha - phi) - 1
+        barrier = 1 - np.cos(alpha)
+    if rate < 0 and (phi <= alpha or surplus >= 0):
+        surplus = (surplus + barrier) * np.longdouble(restitution) ** 2 - barrier
+        if surplus >= 0:
+            return Found(True, math.nan, impacts + 1)
+    elif phi > alpha or surplus >= 0:
+        return Found(True, math.nan, impacts)
+    top = alpha - (np.sqrt(-2 * surplus) if linearised else np.arccos(1 + surplus))
+    return Found(False, float(max(peak, phi, top)), impacts)
