@@ -133,14 +133,14 @@ def _fly(
 
     ends = (side * segment.acceleration(begin), side * segment.acceleration(stop))
     event = None
-    rising = course.rate >= 0.0
     while course.time < stop and event is None:
         phi, rate = course.rotation, course.rate
+        rising = rate >= 0.0
         # Bounds of φ̈ = p² (φ − α − s a) as long as φ rises, or falls, give the earliest turn.
         bound = p * p * (alpha - phi + max(ends) if rising else phi - alpha - min(ends))
         ahead = abs(rate) / bound if bound > 0.0 else math.inf
         if bound > 0.0 and abs(rate) <= _TURNED * alpha * p:
-            rising, ahead = not rising, _NUDGE / p
+            ahead = max(ahead, _NUDGE / p)
         if possible and not rising:
             earliest = _earliest_impact(phi, rate, p * p * (alpha + max(ends)))
             if earliest <= 4.0 * math.ulp(course.time):
@@ -153,7 +153,8 @@ def _fly(
             time = brentq(lambda t: exact(t)[0] - course.ceiling, course.time, time)
         course.time = time
         course.rotation, course.rate = (float(value) for value in exact(time))
-        course.peak = max(course.peak, course.rotation)
+        course.height = max(course.height, course.rotation)
+        course.peak = max(course.peak, course.height)
     course.rotation = max(course.rotation, 0.0)
     course.arcs.append(Arc(begin, course.time, side, exact))
     return event

@@ -24,7 +24,11 @@ from topheavy.response import Outcome, Response, initial_motion, sample_times
 from topheavy.structures import RockingBlock
 
 REST_PEAK = 1e-6
-"""A block whose next bounce peaks below this fraction of α may have come to rest."""
+"""Of α: a block whose next bounce peaks below may have come to rest."""
+
+COUNTED_PEAK = 1e-6
+"""Of α: an impact that ends a rotation below is not counted, since a block that bounces to rest has
+infinitely many."""
 
 MOST_FREE_IMPACTS = 1000
 """A history without a duration ends after this many impacts behind the forcing."""
@@ -61,6 +65,7 @@ class Motion:
     moving: bool
     ceiling: float  # φ from which nothing brings it back, rad
     peak: float
+    height: float = 0.0  # largest φ of this flight, rad
     launching: bool = False  # uplifted, and pushed on since without a break
     fallen: bool = False
     impacts: list[float] = field(default_factory=list)
@@ -122,6 +127,7 @@ def start(block: RockingBlock, rotation: float, velocity: float) -> Motion:
         moving=theta != 0.0 or theta_rate != 0.0,
         ceiling=math.pi / 2,
         peak=abs(theta),
+        height=abs(theta),
     )
 
 
@@ -190,7 +196,9 @@ def _flight(block: RockingBlock, segment: Segment, motion: Motion, fly: Flight) 
 
 def _impact(block: RockingBlock, segments: list[Segment], motion: Motion) -> None:
     """Let the block pass to its other pivot: the rate × √r, Eq. (25)."""
-    motion.impacts.append(motion.time)
+    if motion.height > COUNTED_PEAK * block.slenderness:
+        motion.impacts.append(motion.time)
+    motion.height = 0.0
     motion.side = -motion.side
     motion.rotation, motion.rate = 0.0, block.restitution * max(0.0, -motion.rate)
     motion.moving = motion.rate > 0.0 and not _comes_to_rest(block, segments, motion)

@@ -157,6 +157,7 @@ def _first_event(step: DenseOutput, course: Motion, possible: bool) -> tuple[Eve
     series = _TO_SERIES @ step(middle + half * _NODES)[0]
     reach = np.abs(series[1:]).sum()
     if series[0] - reach > 0.0 and series[0] + reach < min(course.ceiling, course.peak):
+        course.height = max(course.height, series[0] - reach)
         return None, step.t
     turns = chebyshev.chebroots(chebyshev.chebder(series))
     real = np.sort(turns.real[(np.abs(turns.imag) < 1e-9) & (np.abs(turns.real) < 1.0)])
@@ -171,6 +172,7 @@ def _first_event(step: DenseOutput, course: Motion, possible: bool) -> tuple[Eve
             return Event.IMPACT, float(brentq(height, before, time, xtol=1e-300, rtol=1e-15))
         if value <= course.ceiling < upcoming:
             return Event.FALL, float(brentq(height, before, time, args=(course.ceiling,)))
+        course.height = max(course.height, upcoming)
         course.peak = max(course.peak, upcoming)
         before, value = time, upcoming
     return None, step.t

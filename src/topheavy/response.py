@@ -25,7 +25,8 @@ class Response:
         θ in rad and θ̇ in rad/s, signed; NaN after the end of a history that overturned or was cut
         off while rocking.
     impacts : ndarray, shape (m,)
-        Times of all impacts in the history, s.
+        Times of the impacts in the history, s: of those that end a rotation of more than 1e-6 α,
+        for a block that bounces to rest has infinitely many.
     outcome : {"no uplift", "rests", "rocking", "overturned"}
         Of the whole motion: "rocking" is a survivor that has not come to rest when the history
         ends.
