@@ -7,7 +7,6 @@
 Angles are in rad, rotations signed, accelerations in g, everything else in SI units.
 """
 
-from topheavy import reference
 from topheavy.overturning import overturning_intervals, overturning_map
 from topheavy.pulses import PULSE_SHAPES, Pulse
 from topheavy.records import Record, read_at2
@@ -28,6 +27,5 @@ __all__ = [
     "overturning_intervals",
     "overturning_map",
     "read_at2",
-    "reference",
     "simulate",
 ]

@@ -6,7 +6,6 @@ from typing import Protocol, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import brentq
 
 
 @dataclass(frozen=True)
@@ -48,6 +47,8 @@ class Segment:
 
     def _crossing(self, value: float, time: float) -> float:
         """Return when the acceleration, monotone, takes `value` between `time` and the stop."""
+        from scipy.optimize import brentq  # here: half a second that the kernel never needs
+
         return float(
             brentq(lambda t: self.acceleration(t) - value, time, self.stop, xtol=1e-300, rtol=1e-15)
         )

@@ -11,8 +11,6 @@ where w is the area under the moment–rotation curve of Fig. 1(b). Its summit i
 import math
 from dataclasses import dataclass
 
-from scipy.integrate import quad
-
 from topheavy import checks
 from topheavy.structures import RockingBlock, Structure
 
@@ -101,6 +99,8 @@ def quarter_period(structure: Structure, rotation: float) -> tuple[float, float]
         raise ValueError(f"rotation is {start:.6g} rad; expected between 0 and α = {alpha:.6g} rad")
     if block.linearised:
         return math.acosh(1.0 / (1.0 - start / alpha)) / p, 0.0
+
+    from scipy.integrate import quad  # here: half a second that the kernel never needs
 
     def integrand(x: float) -> float:
         if x == 0.0:

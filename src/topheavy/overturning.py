@@ -3,9 +3,9 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
-import xarray
 from numpy.typing import ArrayLike, NDArray
 
 from topheavy import checks
@@ -16,6 +16,9 @@ from topheavy.kernel.taylor import oscillator
 from topheavy.pulses import Pulse, checked_shape
 from topheavy.simulate import as_forcing
 from topheavy.structures import Structure
+
+if TYPE_CHECKING:
+    import xarray
 
 SAFE = -1
 """Label of a factor that is survived; one that overturns is labelled by its impacts."""
@@ -29,7 +32,7 @@ BRACKET = 1e-10
 
 def overturning_map(
     structure: Structure, shape: str, angular_frequencies: ArrayLike, amplitudes: ArrayLike
-) -> xarray.Dataset:
+) -> "xarray.Dataset":
     """Return which pulses overturn a block, and how far it rocks under the others.
 
     Parameters
@@ -48,6 +51,8 @@ def overturning_map(
         peak_rotation (rad, NaN where overturned), overturned and impacts, over
         (angular_frequency, amplitude).
     """
+    import xarray  # here: with pandas it takes a second that only maps need
+
     block = structure.block()
     if checked_shape(shape) == "harmonic":
         raise ValueError("shape is 'harmonic', which goes on forever; expected a pulse that ends")
