@@ -8,16 +8,19 @@ UV_VERSION := 0.13.8
 UV  := $(shell command -v uv 2>/dev/null || echo .uv/bin/uv)
 RUN := $(UV) run --locked --no-dev
 DEV := $(UV) run --locked
+BENCH := $(UV) run --locked --no-dev --group bench
+CELLS ?= 40000
 
-.PHONY: help reproduce test lint publish unlock clean
+.PHONY: help reproduce test lint publish benchmark verify-grid unlock clean
 .DEFAULT_GOAL := help
 
 help: ## show this list
-	@sed -n 's/^\([a-z]*\):.*## \(.*\)/make \1|\2/p' Makefile | \
+	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/make \1|\2/p' Makefile | \
 	  while IFS='|' read -r target text; do printf '  %-16s %s\n' "$$target" "$$text"; done
 
 reproduce: | $(UV) ## compute every result, check every claim, compile the report (CORES=2)
 	@$(RUN) snakemake --cores $(CORES)
+	@cat results/summary.txt
 
 test: | $(UV) ## run the tests
 	@$(DEV) pytest
@@ -45,13 +48,19 @@ lint: | $(UV) ## check style, types, spelling and schemas; changes nothing
 publish: | $(UV) ## copy results to docs/ and tests/reference/; look at the diff, then commit it
 	@$(RUN) python src/steps/publish.py
 
+benchmark: | $(UV) ## time the kernel beside its peers; writes docs/benchmark.csv and .svg (5 minutes)
+	@$(BENCH) python benchmarks/benchmark.py
+
+verify-grid: | $(UV) ## compare overturning flags with an independent route (CELLS=40000 a set)
+	@$(BENCH) python benchmarks/verify_grid.py $(CELLS)
+
 unlock: | $(UV) ## after a killed run left the directory locked (no other run may be going on)
 	@$(RUN) snakemake --unlock
 
 clean: ## remove all that the workflow and the tools wrote; keep the environment
 	rm -rf results .snakemake figures/*.svg paper/report.pdf
 	rm -rf .pytest_cache .ruff_cache .mypy_cache .hypothesis
-	find src figures tests -name __pycache__ -type d -prune -exec rm -rf {} +
+	find src figures tests benchmarks -name __pycache__ -type d -prune -exec rm -rf {} +
 
 .uv/bin/uv:
 	@echo "uv is not on the PATH: fetching uv $(UV_VERSION) into .uv/"

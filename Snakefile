@@ -81,6 +81,14 @@ rule all:
         "paper/report.pdf",
 
 
+onstart:
+    # Every record is read before anything is computed: a bad one is told at once.
+    from topheavy import read_at2
+
+    for path in sorted(Path("data/records").glob("*.AT2")):
+        read_at2(path)
+
+
 onsuccess:
     if Path("results/summary.txt").exists():
         print(Path("results/summary.txt").read_text())

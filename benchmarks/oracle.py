@@ -5,8 +5,8 @@ side is a state of its own. What heyoka's events are known to lose is kept from 
 
 - just after uplift φ = 0 is a triple root: as long as the ground pushes outward no impact is
   possible, and the motion is integrated without events;
-- a start on the event itself hides the next one: after an impact φ starts at 1e-24, and the cooldown
-  is zero (the default skips fast bounces);
+- a start on the event itself hides the next one: after an impact φ starts at 1e-24, and the
+  cooldown is zero (the default skips fast bounces);
 - in a step much longer than a bounce the root finder gives up with a mere warning: the steps of
   short bounces are kept short.
 
@@ -14,6 +14,7 @@ Time is τ = p t, accelerations are in g.
 """
 
 import math
+from itertools import pairwise
 from typing import NamedTuple
 
 import heyoka as hy
@@ -76,34 +77,36 @@ class Flights:
         else:
             curvature = -hy.sin(alpha - phi) + ground * hy.cos(alpha - phi)  # Eq. (23)
         how = {"fp_type": precision}
+        self.event, self.peak, self.highest = None, 0.0, 0.0
+
+        # heyoka deep-copies its callbacks: functions stay the same, bound methods would not.
+        def land(integrator, _):
+            if integrator.state[1] >= 0.0:
+                return True
+            self.event = "landing"
+            return False
+
+        def fall(integrator, _):
+            self.event = "flat"
+            return False
+
+        def turn(integrator, time, _):
+            integrator.update_d_output(time)
+            self.peak = max(self.peak, integrator.d_output[0])
+            self.highest = max(self.highest, integrator.d_output[0])
+
         down, up = hy.event_direction.negative, hy.event_direction.positive
-        stops = [hy.t_event(phi, callback=self._land, direction=down, cooldown=precision(0), **how)]
+        stops = [hy.t_event(phi, callback=land, direction=down, cooldown=precision(0), **how)]
         if not linearised:
             flat = phi - math.pi / 2.0
             stops.append(
-                hy.t_event(flat, callback=self._fall, direction=up, cooldown=precision(0), **how)
+                hy.t_event(flat, callback=fall, direction=up, cooldown=precision(0), **how)
             )
-        turns = [hy.nt_event(rate, callback=self._turn, direction=down, **how)]
-        blank = {"state": [precision(0)] * 2, "pars": [precision(0)] * 3, **how}
+        turns = [hy.nt_event(rate, callback=turn, direction=down, **how)]
+        blank = {"state": [precision(0)] * 2, **how}
         equations = [(phi, rate), (rate, curvature)]
         self.watched = hy.taylor_adaptive(equations, t_events=stops, nt_events=turns, **blank)
         self.unwatched = hy.taylor_adaptive(equations, **blank)
-        self.event, self.peak, self.highest = None, 0.0, 0.0
-
-    def _land(self, integrator, _):
-        if integrator.state[1] >= 0.0:
-            return True
-        self.event = "landing"
-        return False
-
-    def _fall(self, integrator, _):
-        self.event = "flat"
-        return False
-
-    def _turn(self, integrator, time, _):
-        integrator.update_d_output(time)
-        self.peak = max(self.peak, integrator.d_output[0])
-        self.highest = max(self.highest, integrator.d_output[0])
 
     def push(self, time, stop, parameters):
         """Integrate from rest while the ground pushes outward; return the state, None if flat."""
@@ -130,7 +133,7 @@ class Flights:
 def _set(integrator, time, state, parameters):
     integrator.time = time
     integrator.state[:] = state
-    integrator.pars[:] = parameters
+    integrator.pars[:] = parameters[: len(integrator.pars)]  # a constant pulse has no ω
     return integrator
 
 
@@ -213,7 +216,7 @@ class RecordOracle:
         level = alpha if self.linearised else math.tan(alpha)
         flights.peak, impacts, moving, side, state = 0.0, 0, False, 1.0, (0.0, 0.0)
         flights.highest = 0.0
-        for first, last in zip(samples[:-1], samples[1:], strict=True):
+        for first, last in pairwise(samples):
             time, slope = 0.0, (last - first) / step
             while time < step:
                 now = first + slope * time

@@ -10,6 +10,7 @@ import yaml
 ROOT = Path(__file__).resolve().parents[1]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
 LOCK = tomllib.loads((ROOT / "uv.lock").read_text(encoding="utf-8"))
+OPTIONAL = {"bench"}  # groups that nothing installs unasked
 CONDA = yaml.safe_load((ROOT / "environment.yml").read_text(encoding="utf-8"))
 
 
@@ -17,9 +18,10 @@ def name_of(requirement):
     return re.match(r"[\w.-]+", requirement).group().lower()
 
 
-def declared():
-    """Names in pyproject.toml: the dependencies and every dependency group."""
-    groups = [PROJECT["project"]["dependencies"], *PROJECT["dependency-groups"].values()]
+def declared(left_out=frozenset()):
+    """Names in pyproject.toml: the dependencies and every dependency group not left out."""
+    groups = [g for name, g in PROJECT["dependency-groups"].items() if name not in left_out]
+    groups.append(PROJECT["project"]["dependencies"])
     return {name_of(requirement) for group in groups for requirement in group}
 
 
@@ -31,14 +33,20 @@ def pinned_for_conda():
     return dict(re.split("=+", pin) for pin in pins)
 
 
-@pytest.mark.parametrize("name", sorted(declared()))
+@pytest.mark.parametrize("name", sorted(declared(OPTIONAL)))
 def test_conda_has_the_one_version_that_the_lock_holds(name):
     locked = [package["version"] for package in LOCK["package"] if package["name"] == name]
     assert [pinned_for_conda().get(name)] == locked
 
 
 def test_conda_has_no_package_that_pyproject_does_not_name():
-    assert set(pinned_for_conda()) <= declared()
+    assert set(pinned_for_conda()) <= declared(OPTIONAL)
+
+
+def test_optional_groups_are_not_installed_unasked():
+    defaults = PROJECT["tool"]["uv"].get("default-groups", ["dev"])
+    assert OPTIONAL.isdisjoint(defaults)
+    assert set(PROJECT["dependency-groups"]) >= OPTIONAL
 
 
 def test_conda_takes_the_same_pythons():

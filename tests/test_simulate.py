@@ -921,8 +921,8 @@ def test_record_of_a_sine_is_answered_like_the_sine(block):
         ({"samples": 1}, r"samples.*\b1\b"),
         ({"samples": 0}, r"samples.*\b0\b"),
         ({"samples": -3}, r"samples.*-3"),
-        ({"samples": np.array([0.0, 0.2, 0.1])}, "samples.*increas"),
-        ({"samples": np.array([0.0, 0.1, 0.1])}, "samples.*increas"),
+        ({"samples": np.array([0.0, 0.2, 0.1])}, "samples.*increasing"),
+        ({"samples": np.array([0.0, 0.1, 0.1])}, "samples.*increasing"),
         ({"samples": np.array([0.0, math.nan])}, "samples"),
     ],
 )

@@ -1,0 +1,297 @@
+"""Speed and error of the kernel beside solve_ivp and heyoka, in one run: `make benchmark`.
+
+Each method runs the same seeded sample of cells of a grid of one-sine pulses, and the same
+histories under records, at a ladder of tolerances. Ratios are of the times at equal 99 % error of
+the peak, max|θ|/α, read off these work–precision curves. Times are processor times of one thread,
+the least of several rounds in which every method has its turn, so that other work on the machine
+disturbs them little. The tables go to
+results/benchmark/ and, as the picture, to docs/.
+"""
+
+import math
+import os
+import sys
+import time
+import warnings
+from collections.abc import Callable, Sequence
+from functools import partial
+from pathlib import Path
+
+import fresh_process
+import numpy as np
+import pandas as pd
+import picture
+from kernel import KernelRecord, histories
+from oracle import Found, PulseOracle, RecordOracle
+from peers import Heyoka, HeyokaRecord, SolveIvp, SolveIvpRecord
+from verify_grid import block_of
+
+from topheavy import Column, Record, RockingFrame, read_at2
+from topheavy.kernel.forcing import SHAPES
+from topheavy.kernel.grid import outcomes_of
+from topheavy.kernel.outcome import TOLERANCE
+from topheavy.kernel.taylor import oscillator
+
+sys.path.append("src/steps")
+from publish import machine
+
+OUT = Path("results/benchmark")
+BLOCK = block_of(14, 1, linearised=False)
+SEED, SAMPLE, ROUNDS = 2014, 400, 4
+EQUAL = 1e-8  # the 99 % error at which times are compared
+TINY = 1e-14  # heyoka's cooldown when it is at its best
+
+RECORDS = [("el_centro_1940_NS", 2.0), ("ridgecrest_2019_CLC_360", 1.0)]
+FRAMES = [
+    RockingFrame(Column(0.5, 2.0), 0.5),
+    RockingFrame(Column(0.5, 2.0), 2.0),
+    RockingFrame(Column(1.0, 4.5), 1.0),
+]
+
+LADDERS = {
+    "this kernel": (1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, TOLERANCE, 1e-10, 1e-12),
+    "solve_ivp": (1e-6, 1e-7, 1e-8, 1e-9, 1e-10),
+    "solve_ivp on records": (1e-8, 1e-10, 1e-11, 1e-12, 1e-13),
+    "heyoka": (1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-10, 1e-12, 1e-16),
+}
+TARGETS = {
+    ("pulse", "solve_ivp"): 2000,
+    ("pulse", "solve_ivp, our tail"): 400,
+    ("pulse", "heyoka"): 20,
+    ("pulse", "heyoka, our tail"): 5,
+    ("record", "solve_ivp"): 5000,
+    ("record", "heyoka"): 30,
+}
+
+
+def grid() -> tuple[np.ndarray, np.ndarray]:
+    """Return ω/p and amplitudes (g) of the 200 × 200 grid."""
+    return np.linspace(0.5, 10.0, 200), math.tan(BLOCK.slenderness) * np.linspace(1.0, 10.0, 200)
+
+
+def sample() -> tuple[np.ndarray, np.ndarray]:
+    """Return the amplitudes and frequencies of the cells that every method runs."""
+    frequencies, amplitudes = grid()
+    cells = np.random.default_rng(SEED).choice(frequencies.size**2, SAMPLE, replace=False)
+    return amplitudes[cells % amplitudes.size], frequencies[cells // amplitudes.size]
+
+
+def least_times(works: dict, rounds: int) -> dict[object, tuple[float, object]]:
+    """Return by key the least time of a run, and what it returned.
+
+    Each work is a function and how often it runs in a round.
+    """
+    found = dict.fromkeys(works, (math.inf, None))
+    for _ in range(rounds):
+        for key, (work, repeats) in works.items():
+            for _ in range(repeats):
+                begin = time.process_time()
+                result = work()
+                found[key] = (min(found[key][0], time.process_time() - begin), result)
+    return found
+
+
+def judged(found: Sequence[Found], truth: Sequence[Found], scales: Sequence[float]) -> dict:
+    """Return how far the outcomes are from the truth; errors are those of max|θ|/α."""
+    pairs = list(zip(found, truth, scales, strict=True))
+    safe = [(a, b, s) for a, b, s in pairs if not (a.overturned or b.overturned)]
+    errors = [float(abs(a.peak - b.peak)) / scale for a, b, scale in safe]
+    return {
+        "error_q50": np.quantile(errors, 0.5),
+        "error_q99": np.quantile(errors, 0.99),
+        "error_max": max(errors),
+        "wrong_flags": sum(bool(a.overturned) != b.overturned for a, b, _ in pairs),
+        "missed_impacts": sum(a.impacts != b.impacts for a, b, _ in pairs),
+    }
+
+
+def pulses() -> pd.DataFrame:
+    """Return µs a history and the errors of every method and tolerance under one-sine pulses."""
+    amplitudes, frequencies = sample()
+    oracle = PulseOracle("one-sine", precision=np.longdouble)
+    cells = list(zip(amplitudes.tolist(), frequencies.tolist(), strict=True))
+    truth = [oracle(BLOCK.slenderness, BLOCK.restitution, *cell) for cell in cells]
+
+    def kernel(tolerance):
+        found = histories(BLOCK, "one-sine", amplitudes, frequencies, tolerance)
+        return [Found(bool(over), peak, int(count)) for over, peak, count in found.T]
+
+    works: dict = {}
+    for tolerance in LADDERS["this kernel"]:
+        works["this kernel", tolerance] = partial(kernel, tolerance), 20
+    for tail, called, cooldown in ((False, "", None), (True, ", our tail", TINY)):
+        for tolerance in LADDERS["solve_ivp"]:
+            method = SolveIvp(BLOCK, tolerance, tail)
+            works[f"solve_ivp{called}", tolerance] = partial(each, method, cells), 1
+        for tolerance in LADDERS["heyoka"]:
+            method = Heyoka(BLOCK, tolerance, tail, cooldown)
+            works[f"heyoka{called}", tolerance] = partial(each, method, cells), 2
+    return curves("pulse", least_times(works, ROUNDS), truth, [BLOCK.slenderness] * SAMPLE)
+
+
+def each(method: Callable[[float, float], Found], cells: list) -> list[Found]:
+    return [method(*cell) for cell in cells]
+
+
+def shaken() -> list[tuple]:
+    """Return block, samples and p Δt of every history under a record; time is τ = p t."""
+    cases = []
+    for name, factor in RECORDS:
+        record: Record = read_at2(f"data/records/{name}.AT2").scaled(factor)
+        for frame in FRAMES:
+            block = frame.block()
+            step = block.frequency_parameter * record.time_step
+            scaled = type(block)(1.0, block.slenderness, block.restitution)
+            cases.append((scaled, record.acceleration, step))
+    return cases
+
+
+def records() -> pd.DataFrame:
+    """Return µs a history and the errors of every method and tolerance under records."""
+    cases, oracle = shaken(), RecordOracle()
+    truth = [oracle(b.slenderness, b.restitution, samples, h) for b, samples, h in cases]
+    scales = [block.slenderness for block, *_ in cases]
+    makes = {
+        "this kernel": (KernelRecord, "this kernel", 20),
+        "heyoka": (partial(HeyokaRecord, cooldown=TINY), "heyoka", 2),
+        "solve_ivp": (SolveIvpRecord, "solve_ivp on records", 1),
+    }
+    works: dict = {}
+    for method, (make, ladder, repeats) in makes.items():
+        for tolerance in LADDERS[ladder]:
+            runs = [make(*case, tolerance) for case in cases]
+            works[method, tolerance] = partial(all_of, runs), repeats
+    return curves("record", least_times(works, 2), truth, scales)
+
+
+def all_of(runs: list[Callable[[], Found]]) -> list[Found]:
+    return [run() for run in runs]
+
+
+def curves(what: str, timed: dict, truth: list[Found], scales: list[float]) -> pd.DataFrame:
+    """Return the points of all work–precision curves, and print them."""
+    rows = []
+    for (method, tolerance), (seconds, found) in timed.items():
+        point = {"what": what, "method": method, "tolerance": tolerance}
+        point["microseconds"] = 1e6 * seconds / len(truth)
+        rows.append(point | judged(found, truth, scales))
+    table = pd.DataFrame(rows)
+    print(table.to_string(index=False, float_format="{:.3g}".format), flush=True)
+    return table
+
+
+def at_equal_error(curve: pd.DataFrame) -> pd.Series:
+    """Return the cheapest way to a 99 % error of `EQUAL`: a point of the curve, or between two.
+
+    The errors are those of the tighter of the two points. Of a method that does not get there it
+    is the point with the least error, and the ratio a lower bound.
+    """
+    curve = curve.sort_values("tolerance", ascending=False)
+    ways = [point for _, point in curve.iterrows() if point.error_q99 <= EQUAL]
+    for (_, loose), (_, tight) in zip(curve[:-1].iterrows(), curve[1:].iterrows(), strict=True):
+        if loose.error_q99 > EQUAL >= tight.error_q99:
+            ends = np.log([tight.error_q99, loose.error_q99])
+            costs = np.log([tight.microseconds, loose.microseconds])
+            between = tight.copy()
+            between["microseconds"] = math.exp(np.interp(math.log(EQUAL), ends, costs))
+            between["error_q99"] = EQUAL
+            ways.append(between)
+    if not ways:
+        return curve.loc[curve.error_q99.idxmin()]
+    return min(ways, key=lambda way: way.microseconds)
+
+
+def ratios(points: pd.DataFrame) -> list[dict]:
+    """Return the rows of the published table for one history at equal error."""
+    rows = []
+    for what, group in points.groupby("what"):
+        best = {method: at_equal_error(curve) for method, curve in group.groupby("method")}
+        ours = best["this kernel"].microseconds
+        default = group[(group.method == "this kernel") & (group.tolerance == TOLERANCE)].iloc[0]
+        rows.append(published(what, "this kernel", "its default", "µs", default))
+        for method, point in best.items():
+            ratio = point.microseconds / ours
+            target = TARGETS.get((what, method))
+            more = {} if target is None else {"ratio": ratio, "target": f"≥ {target}"}
+            if target is not None:
+                more["met"] = "yes" if ratio >= target else "no"
+            reached = point.error_q99 <= EQUAL
+            setting = "at equal error" if reached else "at its least error"
+            rows.append(published(what, method, setting, "µs", point) | more)
+    return rows
+
+
+def published(what: str, method: str, setting: str, unit: str, point: pd.Series) -> dict:
+    """Return a row of the published table from a point of a curve."""
+    kept = ("error_q99", "error_max", "wrong_flags", "missed_impacts")
+    first = {"what": f"{what}, one history", "method": method, "setting": setting}
+    return first | {"value": point.microseconds, "unit": unit} | {k: point[k] for k in kept}
+
+
+def wall(work: Callable[[], object]) -> float:
+    begin = time.perf_counter()
+    work()
+    return time.perf_counter() - begin
+
+
+def threads() -> list[dict]:
+    """Return the whole grid on one thread and on two."""
+    frequencies, amplitudes = grid()
+    run = partial(
+        outcomes_of, oscillator(BLOCK), SHAPES["one-sine"], frequencies, np.tile(amplitudes, 4)
+    )
+    walls = [[wall(partial(run, threads=n)) for n in (1, 2)] for _ in range(40)]
+    one, two = (1e6 * min(times) / (4 * 200 * 200) for times in zip(*walls, strict=True))
+    return [
+        figure("the whole grid, one cell", "this kernel", "one thread, wall", one, "µs"),
+        figure("the whole grid, one cell", "this kernel", "two threads, wall", two, "µs")
+        | {"ratio": one / two, "target": "≥ 1.7", "met": "yes" if one / two >= 1.7 else "no"},
+    ]
+
+
+def processes() -> list[dict]:
+    """Return what a fresh process needs to a finished map."""
+    warm, cold, growth = fresh_process.warm(), fresh_process.cold(), fresh_process.growth()
+    what = f"fresh process to a map of {fresh_process.CELLS} cells"
+    limits = [
+        ("warm cache, wall", warm.wall, "s", 2.5),
+        ("warm cache, processor", warm.processor, "s", None),
+        ("warm cache, memory", warm.memory, "MB", 300.0),
+        ("no cache, wall", cold.wall, "s", 12.0),
+        ("no cache, processor", cold.processor, "s", None),
+        ("no cache, memory", cold.memory, "MB", 400.0),
+        ("memory of 26 times the cells, over their results", growth, "", 1.05),
+    ]
+    rows = []
+    for setting, value, unit, limit in limits:
+        more = {} if limit is None else {"target": f"< {limit:g}", "met": "no"}
+        if limit is not None and value < limit:
+            more["met"] = "yes"
+        rows.append(figure(what, "this kernel", setting, value, unit) | more)
+    return rows
+
+
+def figure(what: str, method: str, setting: str, value: float, unit: str) -> dict:
+    return {"what": what, "method": method, "setting": setting, "value": value, "unit": unit}
+
+
+def main() -> None:
+    warnings.simplefilter("ignore")
+    OUT.mkdir(parents=True, exist_ok=True)
+    busy = os.getloadavg()[0]
+    points = pd.concat([pulses(), records()])
+    table = pd.DataFrame(ratios(points) + threads() + processes())
+    load = f"{machine()}; load {busy:.1f} before, {os.getloadavg()[0]:.1f} after"
+    table.loc[len(table), ["what", "setting"]] = ["machine", load]
+    points.to_csv(OUT / "work_precision.csv", index=False, float_format="%.4g")
+    for column in ("wrong_flags", "missed_impacts"):
+        table[column] = table[column].astype("Int64")
+    order = ["what", "method", "setting", "value", "unit", "error_q99", "error_max"]
+    order += ["wrong_flags", "missed_impacts", "ratio", "target", "met"]
+    table[order].to_csv("docs/benchmark.csv", index=False, float_format="%.4g")
+    picture.draw(points, machine(), Path("docs/benchmark.svg"))
+    print(table[order].to_string(index=False, na_rep=""))
+
+
+if __name__ == "__main__":
+    main()

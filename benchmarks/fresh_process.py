@@ -1,0 +1,83 @@
+"""A fresh process to a finished map: wall time and peak memory, with a warm and a cold cache.
+
+Python may write its byte code, as it does unless told otherwise: "cold" is the package's own
+compiled code, not that of the libraries. Memory is what the process itself says (VmHWM of Linux):
+what the parent is told includes the parent's own from before it started the child.
+"""
+
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+from typing import NamedTuple
+
+import topheavy
+
+MAP = """
+import sys
+import numpy as np
+from topheavy import Column, RockingFrame, overturning_map
+column = Column(0.5, 2.0)
+frequencies = column.frequency_parameter * np.linspace(0.5, 10.0, 300)
+amplitudes = column.uplift_acceleration * np.linspace(1.0, 10.0, int(sys.argv[1]) // 300)
+overturning_map(RockingFrame(column, 1.0), "one-sine", frequencies, amplitudes)
+print(next(line.split()[1] for line in open("/proc/self/status") if line.startswith("VmHWM")))
+"""
+CELLS = 120_000
+MANY = 26 * CELLS
+BYTES_A_CELL = 8 + 1 + 8  # peak, overturned, impacts
+
+
+class Run(NamedTuple):
+    """Wall and processor time in s, peak memory in MB."""
+
+    wall: float
+    processor: float
+    memory: float
+
+
+def run(cells: int, path: Path | None = None) -> Run:
+    """Compute a map in a process of its own, with the package found under `path` if given."""
+    environment = os.environ | ({"PYTHONPATH": str(path)} if path else {})
+    environment.pop("PYTHONDONTWRITEBYTECODE", None)
+    command = [sys.executable, "-c", MAP, str(cells)]
+    begin = time.perf_counter()
+    process = subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, text=True)
+    memory = process.stdout.read()
+    _, status, usage = os.wait4(process.pid, 0)
+    wall = time.perf_counter() - begin
+    if status:
+        raise RuntimeError(f"the map of {cells} cells ended with status {status}")
+    return Run(wall, usage.ru_utime + usage.ru_stime, int(memory) / 1024.0)
+
+
+def least(runs: list[Run]) -> Run:
+    """Return the least of each, the measure that other work on the machine disturbs least."""
+    return Run(*(min(column) for column in zip(*runs, strict=True)))
+
+
+def warm(times: int = 7) -> Run:
+    run(CELLS)
+    return least([run(CELLS) for _ in range(times)])
+
+
+def cold(times: int = 3) -> Run:
+    """Return the least of runs from copies of the package without any cache."""
+    runs = []
+    for _ in range(times):
+        with tempfile.TemporaryDirectory() as folder:
+            source = Path(topheavy.__file__).parent
+            shutil.copytree(
+                source, Path(folder, "topheavy"), ignore=shutil.ignore_patterns("__pycache__")
+            )
+            runs.append(run(CELLS, Path(folder)))
+    return least(runs)
+
+
+def growth(times: int = 3) -> float:
+    """Return how much more memory 26 times the cells take, over the size of their results."""
+    few, many = (least([run(cells) for _ in range(times)]) for cells in (CELLS, MANY))
+    return (many.memory - few.memory) * 1024.0**2 / (BYTES_A_CELL * (MANY - CELLS))

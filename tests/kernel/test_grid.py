@@ -1,0 +1,123 @@
+"""Many histories at once: each in its place, whoever computed it."""
+
+import math
+
+import numpy as np
+import pytest
+
+from topheavy import RockingBlock
+from topheavy.kernel import forcing, grid
+from topheavy.kernel.forcing import NO_RECORD, prepare_record, pulse_forcing, record_forcing
+from topheavy.kernel.grid import HANDS, SMALL, outcomes_of, record_order
+from topheavy.kernel.outcome import PULSE_ORDER, TOLERANCE, outcome, working_array
+from topheavy.kernel.taylor import oscillator
+
+BLOCK = oscillator(RockingBlock(1.0, math.radians(14.0), 0.87))
+SCALES, AMPLITUDES = np.linspace(0.5, 10, 23), np.linspace(0.25, 2.5, 31)
+
+
+def same(first, second) -> None:
+    for one, other in zip(first, second, strict=True):
+        np.testing.assert_array_equal(one, other)
+
+
+@pytest.mark.parametrize("threads", [2, 3, 7])
+@pytest.mark.parametrize("shape", [forcing.ONE_SINE, forcing.RICKER_SYMMETRIC])
+def test_results_do_not_depend_on_the_number_of_threads(shape, threads):
+    assert SCALES.size * AMPLITUDES.size > SMALL
+    alone = outcomes_of(BLOCK, shape, SCALES, AMPLITUDES, threads=1)
+    same(outcomes_of(BLOCK, shape, SCALES, AMPLITUDES, threads=threads), alone)
+    same(outcomes_of(BLOCK, shape, SCALES, AMPLITUDES), alone)
+
+
+def test_each_cell_is_the_history_of_its_scale_and_amplitude():
+    peak, overturned, impacts = outcomes_of(BLOCK, forcing.ONE_SINE, SCALES, AMPLITUDES)
+    assert peak.shape == overturned.shape == impacts.shape == (SCALES.size, AMPLITUDES.size)
+    for i in range(0, SCALES.size, 3):
+        for j in range(0, AMPLITUDES.size, 3):
+            pulse = pulse_forcing(forcing.ONE_SINE, AMPLITUDES[j], SCALES[i])
+            alone = outcome(working_array(), PULSE_ORDER, TOLERANCE, BLOCK, pulse, NO_RECORD)
+            np.testing.assert_equal(
+                (overturned[i, j], peak[i, j], impacts[i, j]),
+                (alone.overturned, alone.peak, alone.impacts),
+            )
+
+
+@pytest.mark.parametrize("size", [(1, 1), (1, HANDS - 1), (1, HANDS + 1), (HANDS, 2)])
+def test_every_cell_is_filled_whatever_the_size(size):
+    scales, amplitudes = np.linspace(1, 5, size[0]), np.linspace(0.3, 0.4, size[1])
+    peak, overturned, _ = outcomes_of(BLOCK, forcing.ONE_SINE, scales, amplitudes)
+    assert peak.shape == size
+    assert (np.isnan(peak) == overturned).all()
+    assert (peak[~overturned] > 0).all()
+
+
+def test_scales_of_a_record_are_its_time_steps():
+    record = prepare_record(0.4 * np.sin(np.linspace(0, 12, 200)))
+    scales, factors = np.array([0.01, 0.03]), np.array([0.5, 1.0, -2.0])
+    peak, overturned, impacts = outcomes_of(BLOCK, forcing.RECORD, scales, factors, record)
+    order = record_order(0.03)
+    for i, scale in enumerate(scales):
+        for j, factor in enumerate(factors):
+            motion = record_forcing(record, scale, factor)
+            alone = outcome(working_array(), order, TOLERANCE, BLOCK, motion, record)
+            np.testing.assert_equal(
+                (overturned[i, j], peak[i, j], impacts[i, j]),
+                (alone.overturned, alone.peak, alone.impacts),
+            )
+    assert overturned.any()
+    assert not overturned.all()
+
+
+def test_order_for_a_record_covers_its_pieces():
+    assert record_order(1e-4) == 5
+    assert record_order(0.02) == 8
+    assert record_order(0.7) == PULSE_ORDER == record_order(1e3)
+    orders = [record_order(step) for step in np.geomspace(1e-4, 1.0, 40)]
+    assert orders == sorted(orders)
+    assert record_order(0.02, 1e-14) > record_order(0.02)
+
+
+@pytest.mark.parametrize("step", [1e-3, 0.02, 0.1, 0.7])
+def test_record_is_followed_as_closely_as_a_pulse(step):
+    """Its order of the series leaves no more out than the tolerance does."""
+    times = step * np.arange(round(12 / step) + 2)
+    samples = 0.2 * np.sin(4.0 * times) + 0.15 * np.sin(7.1 * times + 1.0)
+    record, factors = prepare_record(samples), np.linspace(0.9, 1.2, 5)
+    usual, tight = (
+        outcomes_of(
+            BLOCK, forcing.RECORD, np.array([step]), factors, record, tolerance=tolerance
+        )
+        for tolerance in (TOLERANCE, 1e-15)
+    )  # fmt: skip
+    assert not usual[1].all()
+    np.testing.assert_array_equal(usual[1], tight[1])
+    np.testing.assert_array_equal(usual[2], tight[2])
+    np.testing.assert_allclose(usual[0], tight[0], rtol=0, atol=1e-7 * BLOCK.slenderness)
+
+
+def test_histories_that_were_given_up_are_counted_in_the_message():
+    """A nudge and then a long quiet: without loss, the bounces of 1e-4 each never die."""
+    lossless = oscillator(RockingBlock(1.0, 0.2, 1.0))
+    record = prepare_record(lossless.level * np.array([0.0, 1.0, *np.zeros(300)]))
+    with pytest.raises(ArithmeticError, match=r"^1 of 2 histories bounce too often.*smaller"):
+        outcomes_of(lossless, forcing.RECORD, np.ones(1), np.array([0.5, 1.0001]), record)
+    damped = lossless._replace(restitution=0.9)
+    overturned = outcomes_of(damped, forcing.RECORD, np.ones(1), np.array([1.0001]), record)[1]
+    assert not overturned.any()
+
+
+def test_cores_are_those_that_the_process_may_use(monkeypatch):
+    asked = []
+
+    class Pool(grid.ThreadPoolExecutor):
+        def __init__(self, threads):
+            asked.append(threads)
+            super().__init__(threads)
+
+    monkeypatch.setattr(grid, "ThreadPoolExecutor", Pool)
+    monkeypatch.setattr(grid.os, "sched_getaffinity", lambda _: {0, 3, 5})
+    outcomes_of(BLOCK, forcing.ONE_SINE, SCALES, AMPLITUDES)
+    outcomes_of(BLOCK, forcing.ONE_SINE, SCALES, AMPLITUDES, threads=2)
+    outcomes_of(BLOCK, forcing.ONE_SINE, SCALES[:2], AMPLITUDES[:2])
+    assert asked == [3, 2]

@@ -1,0 +1,123 @@
+"""Way 5: a train of bounces ends by proof. What is called rest comes to rest, and in time."""
+
+import math
+
+import numpy as np
+import pytest
+
+from topheavy import RockingBlock
+from topheavy.kernel import forcing
+from topheavy.kernel.forcing import (
+    NO_RECORD,
+    Forcing,
+    ground,
+    next_uplift,
+    prepare_record,
+    pulse_forcing,
+    record_forcing,
+)
+from topheavy.kernel.outcome import LANDING, advance, after_impact, renewed, working_array
+from topheavy.kernel.rest import LAST_BOUNCE, comes_to_rest
+from topheavy.kernel.taylor import State, evaluate, oscillator
+
+BLOCK = oscillator(RockingBlock(2.0, 0.2, 0.9))
+STILL = Forcing(forcing.NONE, 0.0, 1.0, 0.0, 1.0)
+
+
+def rests(block, motion, time, velocity, side=1.0, peak=1.0, record=NO_RECORD) -> bool:
+    push = -side * ground(motion, record, time)[0] - block.level
+    return comes_to_rest(block, motion, record, time, velocity, push, side, peak)
+
+
+@pytest.mark.parametrize(
+    ("before", "velocity", "expected"),
+    [
+        (1e-1, 3e-6, True),
+        (1e-1, 1e-5, False),
+        (3e-2, 3e-7, True),
+        (3e-2, 1e-6, False),
+        (1e-2, 1e-7, False),
+        (1e-6, 1e-9, False),
+    ],
+)
+@pytest.mark.parametrize("sign", [-1.0, 1.0])
+def test_way_5_rest_is_not_called_when_the_level_is_about_to_be_passed(
+    before, velocity, expected, sign
+):
+    """The velocity alone does not tell: it depends on what is left of the time to the uplift."""
+    pulse = pulse_forcing(forcing.ONE_SINE, sign * 2 * BLOCK.level, 1.0)
+    time = next_uplift(pulse, NO_RECORD, 0.0, BLOCK.level)[0] - before
+    for side in (-1.0, 1.0):
+        assert rests(BLOCK, pulse, time, velocity, side) == expected
+
+
+def test_jump_of_a_record_soon_to_come_keeps_the_block_from_resting():
+    samples = np.zeros(40)
+    samples[20:] = 3 * BLOCK.level
+    record = prepare_record(samples)
+    motion = record_forcing(record, 1e-3, 1.0)
+    # the level is passed at 0.01933; so fast a train of bounces takes 2e-4
+    assert not rests(BLOCK, motion, 0.0192, 2e-6, record=record)
+    assert rests(BLOCK, motion, 0.0180, 2e-6, record=record)
+    assert rests(BLOCK, motion, 0.0192, 2e-6, record=prepare_record(0.01 * samples))
+
+
+def test_rest_is_not_called_above_the_level_on_either_side():
+    for strength in (1.001, 3.0):
+        pulse = pulse_forcing(forcing.CONSTANT, strength * BLOCK.level, 1.0)
+        for side in (-1.0, 1.0):
+            assert not rests(BLOCK, pulse, 0.0, 1e-12, side)
+
+
+def test_bounce_that_is_not_negligible_is_no_rest():
+    """φ̂ = v²/2 g, and twice that allowed: on still ground up to 1e-6 α."""
+    critical = math.sqrt(BLOCK.level * BLOCK.cosine * LAST_BOUNCE * BLOCK.slenderness)
+    assert rests(BLOCK, STILL, 0.0, 0.99 * critical)
+    assert not rests(BLOCK, STILL, 0.0, 1.01 * critical)
+
+
+def test_bounce_above_the_peak_so_far_is_no_rest():
+    assert rests(BLOCK, STILL, 0.0, 1e-6, peak=1e-7)
+    assert not rests(BLOCK, STILL, 0.0, 1e-6, peak=1e-13)
+
+
+def test_block_that_stops_dead_rests_whatever_the_ground_does():
+    pulse = pulse_forcing(forcing.CONSTANT, 3 * BLOCK.level, 1.0)
+    assert rests(BLOCK, pulse, 0.0, 0.0)  # it is then lifted anew, from rest
+
+
+def test_lossless_bounces_never_rest():
+    block = oscillator(RockingBlock(2.0, 0.2, 1.0))
+    assert not rests(block, STILL, 0.0, 1e-9)
+
+
+@pytest.mark.parametrize("linearised", [False, True])
+def test_way_5_what_is_called_rest_does_bounce_to_rest_before_the_next_uplift(linearised):
+    """Each bounce is followed, down to nothing, while the ground moves below the level."""
+    random, seen, w = np.random.default_rng(11), 0, working_array()
+    while seen < 40:
+        block = oscillator(
+            RockingBlock(
+                1.0, float(random.uniform(0.05, 0.4)), float(random.uniform(0, 0.9)), linearised
+            )
+        )
+        pulse = pulse_forcing(forcing.ONE_SINE, float(random.uniform(1.0, 3.0)) * block.level, 2.0)
+        first = next_uplift(pulse, NO_RECORD, 0.0, block.level)[0]
+        time = first * (1 - 10.0 ** float(random.uniform(-4, 0)))
+        velocity = block.slenderness * 10.0 ** float(random.uniform(-9, -3))
+        side = float(random.choice([-1.0, 1.0]))
+        if not rests(block, pulse, time, velocity, side):
+            continue
+        seen += 1
+        begun = velocity
+        state = State(0.0, velocity, 0.0, 1.0, 0.0, 0.0)
+        while state.velocity > 1e-6 * begun:
+            state = renewed(block, pulse, NO_RECORD, time, side, state)
+            step, event, top = advance(
+                w, 15, 1e-12, block, pulse, time, 1.0, state, 1, 0.0, False
+            )  # fmt: skip
+            assert event == LANDING
+            assert top <= LAST_BOUNCE * block.slenderness
+            state = after_impact(block, evaluate(w, 15, block, step, False))
+            time, side = time + step, -side
+            assert time < first
