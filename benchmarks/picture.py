@@ -37,7 +37,7 @@ def draw(curves: pd.DataFrame, machine: str, path: Path) -> None:
                 color=look["color"],
             )
         axis.axvline(1e-8, color=GREY, linewidth=0.6, linestyle=":")
-        axis.set(xlabel=r"99 % error of max|$\theta$|/$\alpha$ (–)", xlim=(1e-13, 1e-3))
+        axis.set(xlabel=r"99 % error of max|$\theta$|/$\alpha$ (–)", xlim=(1e-15, 1e-1))
         axis.set_ylabel("Time of a history, one thread (µs)")
     letter(axes, ["One-sine pulses", "Records: solve_ivp and heyoka at their best"])
     figure.supxlabel(machine, fontsize=6.5, color=GREY)

@@ -8,7 +8,17 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from topheavy import Column, Pulse, Record, RockingBlock, RockingFrame, simulate
+from topheavy import (
+    Column,
+    Pulse,
+    Record,
+    RockingBlock,
+    RockingFrame,
+    judge,
+    overturning_intervals,
+    reference,
+    simulate,
+)
 
 BLOCK = RockingBlock(2.0, 0.25, 0.9)
 BOTH = pytest.mark.parametrize("block", [BLOCK, BLOCK.linear()], ids=["exact", "linear"])
@@ -943,3 +953,88 @@ def test_structure_that_cannot_rock_is_refused():
     assert simulate(stocky.block(restitution=0.5), Pulse("one-sine", 1.0, 9.0)).outcome == (
         "no uplift"
     )
+
+
+def test_record_of_one_sample_is_refused():
+    for samples in ([], [0.3], 0.3):
+        with pytest.raises(ValueError, match=r"'Kos': acceleration has shape.*two samples"):
+            simulate(BLOCK, Record(0.01, np.array(samples), "Kos"))
+    shortest = Record(0.1, np.array([2.0, 1.0]) * BLOCK.uplift_acceleration)
+    assert simulate(BLOCK, shortest).outcome == "rests"
+
+
+def test_excitation_of_another_kind_is_refused():
+    with pytest.raises(ValueError, match=r"excitation is 0\.3; expected a Pulse or a Record"):
+        simulate(BLOCK, 0.3)
+    with pytest.raises(ValueError, match="goes on forever"):
+        judge(BLOCK, Pulse("harmonic", 0.3, 9.0))
+
+
+# ---------------------------------------------------------------------------- extreme input
+
+
+@pytest.mark.parametrize("linearised", [False, True])
+@pytest.mark.parametrize("degrees", [0.1, 14.0, 80.0])
+@pytest.mark.parametrize("ratio", [1e-3, 1e3])
+@pytest.mark.parametrize("strength", [1 + 1e-9, 1.5, 1e3])
+def test_extreme_input_is_answered_alike_by_both_routes(strength, ratio, degrees, linearised):
+    block = RockingBlock(2.0, math.radians(degrees), 0.9, linearised)
+    for shape in ("one-sine", "one-cosine", "ricker-symmetric", "ricker-antisymmetric"):
+        pulse = Pulse(shape, strength * block.uplift_acceleration, ratio * 2.0)
+        end, whole = judge(block, pulse), simulate(block, pulse, samples=5)
+        assert (end.overturned, end.impacts) == (whole.overturned, whole.number_of_impacts)
+        close = 1e-9 * block.slenderness
+        assert end.peak == pytest.approx(whole.peak_rotation, abs=close, nan_ok=True)
+        expected = reference.judge(block, pulse)
+        assert end.overturned == expected.overturned
+        assert strength < 1.1 or end.overturned == (ratio < 1)
+        assert end.peak == pytest.approx(expected.peak, abs=close, nan_ok=True)
+
+
+def test_stocky_frame_rocks_with_a_restitution_of_its_own():
+    angle = math.radians(80.0)
+    column = Column(math.sin(angle), math.cos(angle))
+    for structure in (column, RockingFrame(column, 2.0)):
+        block = structure.block(restitution=0.3)
+        end = judge(block, Pulse("one-sine", 1.2 * block.uplift_acceleration, 20.0))
+        assert not end.overturned
+        assert 0 < end.peak < angle
+
+
+def test_heaviest_cap_is_the_limit_of_heavy_caps():
+    column, pulse = Column(0.5, 2.0), Pulse("one-sine", 0.6, 7.0)
+    heavy, limit = (judge(RockingFrame(column, g), pulse) for g in (1e9, math.inf))
+    assert (heavy.overturned, heavy.impacts) == (limit.overturned, limit.impacts)
+    assert heavy.peak == pytest.approx(limit.peak, rel=1e-8)
+    assert heavy.peak != judge(RockingFrame(column, 1e3), pulse).peak
+
+
+def test_history_that_cannot_be_followed_says_so():
+    # A nudge and a long quiet: without loss, bounces of 1e-4 s each go on through all of it.
+    lossless = RockingBlock(1.0, 0.2, 1.0)
+    nudge = Record(1.0, 1.0001 * lossless.uplift_acceleration * np.array([0, 1, *np.zeros(300)]))
+    with pytest.raises(ArithmeticError, match=r"bounce too often.*restitution 1"):
+        judge(lossless, nudge)
+
+
+# ---------------------------------------------------------------------------- both routes
+
+
+@pytest.mark.parametrize("row", BOUNDARIES, ids=lambda row: row.source)
+def test_published_boundary_is_that_of_the_reference_too(row):
+    """Rows 5 to 9, on either side of what the kernel gives to 1e-7."""
+    unit = Pulse(row.shape, row.unit, row.omega)
+    wide = row.value * np.array([1 - 2 * row.tolerance, 1 + 2 * row.tolerance])
+    found = overturning_intervals(row.block, unit, tuple(wide), resolution=row.tolerance)
+    # the narrow bays and intervals near a boundary are nobody's printed number
+    edge = found[0].lower if row.overturns_above else found[-1].upper
+    assert edge[0] == pytest.approx(row.value, rel=row.tolerance)
+    below, above = (
+        reference.judge(row.block, unit.scaled(value))
+        for value in (edge[0] * (1 - 1e-7), edge[1] * (1 + 1e-7))
+    )
+    over, safe = (above, below) if row.overturns_above else (below, above)
+    assert over.overturned
+    assert not safe.overturned
+    if row.impacts is not None:
+        assert over.impacts == row.impacts

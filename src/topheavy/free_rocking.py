@@ -68,6 +68,8 @@ def ending(block: RockingBlock, rotation: float, rate: float) -> Ending:
     """
     level, summit = energy(block, rotation, rate), barrier(block)
     outward = rate > 0.0
+    if rate == 0.0 and rotation <= block.slenderness:
+        return Ending(False, rotation, 0)  # about to turn back, or poised at α
     if rotation > block.slenderness and (outward or level < summit):
         return Ending(True, math.nan, 0)
     if outward:

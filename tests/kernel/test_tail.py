@@ -89,7 +89,8 @@ def test_way_7_beyond_alpha_is_not_overturned(block):
 
 @BOTH
 def test_block_poised_at_alpha_has_not_overturned_by_less_than_nothing(block):
-    assert tail.free_rocking(oscillator(block), 0.25, 0.0).overturned  # "at least that energy"
+    assert tail.free_rocking(oscillator(block), 0.25, 1e-9).overturned
+    assert not tail.free_rocking(oscillator(block), 0.25, 0.0).overturned  # it moves nowhere
     below = tail.free_rocking(oscillator(block), 0.25, -1e-9)
     assert not below.overturned
     assert below.peak == 0.25

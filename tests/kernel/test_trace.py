@@ -78,13 +78,14 @@ def test_way_6_the_side_survives_a_restart_on_the_ground():
         assert (np.sign(free.rotation[flight == n][1:-1]) == (-1.0) ** n).all()
 
 
-@pytest.mark.xfail(run=False, reason="neither ends nor is left there: a fault of the kernel")
 @BOTH
-def test_block_poised_at_alpha_is_left_there(block):
+def test_history_of_a_block_poised_at_alpha_ends(block):
+    # By rounding the exact block may leave its unstable equilibrium, but not soon.
     poised = simulate(block, rotation=-0.25, samples=5)
-    assert poised.outcome == "rocking"
-    assert poised.time[-1] >= LONGEST_FLIGHT
-    assert simulate(block, rotation=-0.25, duration=3.0, samples=5).time[-1] == 3.0
+    assert poised.time[-1] <= LONGEST_FLIGHT
+    short = simulate(block, rotation=-0.25, duration=3.0, samples=5)
+    assert short.time[-1] == 3.0
+    np.testing.assert_allclose(short.rotation, -0.25, atol=1e-12)
 
 
 def test_lossless_block_is_followed_for_a_thousand_impacts():
@@ -139,7 +140,6 @@ def test_record_may_be_cut_anywhere():
     assert middle.peak_rotation == pytest.approx(again.peak_rotation, rel=1e-9)
 
 
-@pytest.mark.xfail(strict=True, reason="uplift is looked for beyond the cut: a fault of the kernel")
 def test_record_that_is_cut_before_it_lifts_the_block_does_not_move_it():
     record = Record(0.1, np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0]))
     cut = simulate(BLOCK, record, duration=0.3)

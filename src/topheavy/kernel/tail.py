@@ -68,7 +68,7 @@ def free_rocking(block, rotation, velocity):
     surplus_now = surplus(block, rotation, velocity)
     if rotation > block.slenderness and (velocity >= 0.0 or surplus_now < 0.0):
         return Tail(True, math.nan, 0)
-    if velocity >= 0.0 and surplus_now >= 0.0:
+    if velocity > 0.0 and surplus_now >= 0.0:
         return Tail(True, math.nan, 0)
     energy = landing_energy(block, rotation, velocity)
     if velocity >= 0.0:

@@ -106,6 +106,8 @@ def trace(
                 peak = peak if is_over else max(peak, tail.peak)
         if not moves:
             uplift, push, rate, side = next_uplift(forcing, record, time, block.level)
+            if uplift >= forcing_end:  # beyond the cut of a record
+                uplift = math.inf
             while sample < times.size and times[sample] <= uplift:
                 samples[0, sample], samples[1, sample] = 0.0, 0.0
                 sample += 1
@@ -117,12 +119,12 @@ def trace(
             piece = piece_at(forcing, time) if forcing.shape == RECORD else 0
         is_far = block.linearised and is_over and state.rotation >= math.pi / 2
         is_endless = until == math.inf and not is_forced
-        is_poised = is_endless and time - flight_start > LONGEST_FLIGHT
+        is_poised = is_endless and time - flight_start >= LONGEST_FLIGHT
         is_restless = is_endless and landed - landed_forced >= LAST_IMPACT
         if time >= until or is_far or is_poised or is_restless:
             return time, (OVERTURNED if is_over else ROCKING), peak, counted, landed
 
-        piece_end = until
+        piece_end = min(until, flight_start + LONGEST_FLIGHT) if is_endless else until
         if is_forced:
             piece_end = forcing_end
             if forcing.shape == RECORD:

@@ -1,0 +1,83 @@
+"""Compiled code is kept for the very state of the source that it was compiled from.
+
+numba looks at the file of a function alone: without a cache of each state, a change in another
+file that the function calls would go unnoticed.
+"""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import numba
+import pytest
+
+import topheavy.kernel
+
+PACKAGE = Path(topheavy.kernel.__file__).parents[1]
+
+#: Whether bounces of 1e-6 rest 0.1 before the ground passes the uplift level; `rest` asks
+#: `forcing` for the ground.
+ASK = """
+import json, math, topheavy.kernel
+from numba import config
+from topheavy import RockingBlock
+from topheavy.kernel.forcing import NO_RECORD, ONE_SINE, Forcing
+from topheavy.kernel.rest import comes_to_rest
+from topheavy.kernel.taylor import oscillator
+block = oscillator(RockingBlock(2.0, 0.2, 0.9))
+pulse = Forcing(ONE_SINE, 2 * block.level, 1.0, 6.0, 1.0)
+time = math.asin(0.5) - 0.1
+push = -2 * block.level * math.sin(time) - block.level
+rests = comes_to_rest(block, pulse, NO_RECORD, time, 1e-6, push, 1.0, 1.0)
+print(json.dumps([
+    topheavy.kernel.__file__, bool(rests), config.CACHE_DIR,
+    sum(comes_to_rest.stats.cache_hits.values()),
+]))
+"""
+
+
+def ask(home: Path) -> tuple[bool, int]:
+    """Import the package of `home` in a process of its own: its answer, and what it had cached."""
+    environment = {key: value for key, value in os.environ.items() if "NUMBA" not in key}
+    done = subprocess.run(
+        [sys.executable, "-c", ASK],
+        env=environment | {"PYTHONPATH": str(home)},
+        cwd=home,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    where, rests, cache_dir, hits = json.loads(done.stdout)
+    assert Path(where).is_relative_to(home)
+    assert cache_dir == ""  # other code that numba compiles keeps its own cache
+    return rests, hits
+
+
+@pytest.fixture
+def copy(tmp_path):
+    shutil.copytree(
+        PACKAGE, tmp_path / "topheavy", ignore=shutil.ignore_patterns("__pycache__", "derivation")
+    )
+    return tmp_path
+
+
+def test_change_of_what_a_compiled_function_calls_is_noticed(copy):
+    assert ask(copy) == (True, 0)
+    assert ask(copy) == (True, 1)  # compiled once
+
+    forcing = copy / "topheavy" / "kernel" / "forcing.py"
+    source = forcing.read_text(encoding="utf-8")
+    there = "return forcing.amplitude * value, forcing.amplitude * forcing.frequency * rate"
+    assert source.count(there) == 1
+    changed = source.replace(there, there.replace("amplitude * value", "amplitude * 2 * value"))
+    forcing.write_text(changed, encoding="utf-8")
+    assert ask(copy) == (False, 0)
+
+
+def test_every_kernel_module_is_loaded_with_the_cache():
+    files = {path.stem for path in (PACKAGE / "kernel").glob("*.py")} - {"__init__"}
+    assert files == set(topheavy.kernel._MODULES)
+    assert os.environ.get("NUMBA_CACHE_DIR", "") == numba.config.CACHE_DIR
