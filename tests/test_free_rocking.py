@@ -1,5 +1,6 @@
 """Free rocking: energy against its own quadrature, periods against elliptic integrals."""
 
+import dataclasses
 import math
 
 import numpy as np
@@ -12,6 +13,7 @@ from topheavy.free_rocking import (
     barrier,
     ending,
     energy,
+    energy_drift,
     potential,
     quarter_period,
     turning_rotation,
@@ -209,3 +211,12 @@ def test_rotation_that_does_not_fall_back_is_refused(block, fraction):
 def test_rotation_that_is_not_finite_is_refused():
     with pytest.raises(ValueError, match="rotation is nan; expected a finite number"):
         quarter_period(EXACT, math.nan)
+
+
+@pytest.mark.parametrize("linearised", [False, True])
+def test_energy_drift_sees_a_motion_that_loses_energy_between_impacts(linearised):
+    block = RockingBlock(2.0, 0.25, 0.9, linearised)
+    response = simulate(block, rotation=0.15, samples=2000)
+    assert energy_drift(block, response, 4) < 1e-8
+    damped = dataclasses.replace(response, velocity=response.velocity * 0.99**response.time)
+    assert energy_drift(block, damped, 4) > 1e-3

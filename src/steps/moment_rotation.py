@@ -6,7 +6,7 @@ import numpy as np
 from workbench import log_to, truth, write_findings, write_table
 
 from topheavy import Column, RockingBlock, RockingFrame, simulate
-from topheavy.free_rocking import energy, quarter_period
+from topheavy.free_rocking import energy_drift, quarter_period
 from topheavy.moment_rotation import restoring_moment
 
 
@@ -32,25 +32,6 @@ def quarter_periods(case: dict) -> list[dict]:
     return rows
 
 
-def energy_drift(column: Column, mass_ratios: list[float]) -> float:
-    """Largest change of energy between impacts, over the energy: area enclosed by the moment."""
-    worst = 0.0
-    for gamma in mass_ratios:
-        block = RockingFrame(column, gamma).block()
-        response = simulate(block, rotation=0.6 * block.slenderness, samples=4000)
-        levels = np.array(
-            [
-                energy(block, abs(theta), rate)
-                for theta, rate in zip(response.rotation, response.velocity, strict=True)
-            ]
-        )
-        flights = np.searchsorted(response.impacts[:5], response.time, side="right")
-        for flight in range(5):
-            inside = levels[flights == flight]
-            worst = max(worst, np.ptp(inside) / inside.mean())
-    return worst
-
-
 def main(case: dict) -> tuple[dict, list[dict], dict]:
     column = Column(**case["column"])
     alpha = column.slenderness
@@ -70,7 +51,11 @@ def main(case: dict) -> tuple[dict, list[dict], dict]:
         )
     ]
     rows = quarter_periods(case)
-    drift = energy_drift(column, case["mass_ratios"])
+    blocks = [RockingFrame(column, gamma).block() for gamma in case["mass_ratios"]]
+    drift = max(
+        energy_drift(block, simulate(block, rotation=0.6 * alpha, samples=4000), flights=5)
+        for block in blocks
+    )
     positive = np.linspace(0.0, alpha, case["points"])
     solitary = restoring_moment(column, positive)
     periods = [row["quarter_period"] for row in rows if not row["linearised"]]

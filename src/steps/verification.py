@@ -21,7 +21,7 @@ from topheavy import (
     reference,
     simulate,
 )
-from topheavy.free_rocking import Ending, energy
+from topheavy.free_rocking import Ending, energy_drift
 from topheavy.linear import SHAPES, simulate_linear_exact
 
 Cell = tuple[RockingBlock, Pulse]
@@ -117,16 +117,7 @@ def drift(case: dict) -> float:
         block = RockingBlock(2.0, math.radians(degrees), 0.9)
         for each in (block, block.linear()):
             response = simulate(each, rotation=0.8 * block.slenderness, samples=4000)
-            levels = np.array(
-                [
-                    energy(each, abs(theta), rate)
-                    for theta, rate in zip(response.rotation, response.velocity, strict=True)
-                ]
-            )
-            flights = np.searchsorted(response.impacts[:6], response.time, side="right")
-            for flight in range(6):
-                inside = levels[flights == flight]
-                worst = max(worst, np.ptp(inside) / inside.mean())
+            worst = max(worst, energy_drift(each, response, flights=6))
     return worst
 
 
