@@ -34,6 +34,11 @@ def case(section):
     return entry | {"column": config["structures"][entry["structure"]]}
 
 
+# The overturning spectra are dealt out to so many jobs, which an executor may spread over machines.
+scattergather:
+    spectra=config["spectra"]["shards"],
+
+
 # Which tables each figure is drawn from.
 FIGURES = {
     "structures": ["outlines", "moment_rotation"],
@@ -48,6 +53,11 @@ FIGURES = {
     "allen_overturning": ["allen_overturning"],
     "heavier": ["heavier_histories", "heavier"],
     "scale_effects": ["scale_effects"],
+    "spectra": ["spectra"],
+    "spectra_modes": ["spectra"],
+    "spectra_dimensional": ["spectra_dimensional", "spectra_published"],
+    "peak_maps": ["peak_maps"],
+    "rocking_spectra": ["rocking_spectra"],
 }
 
 
@@ -64,6 +74,9 @@ FINDINGS = [
     "heavier",
     "scale_effects",
     "stability",
+    "spectra",
+    "spectra_dimensional",
+    "rocking_spectra",
     "statements",
     "verification",
 ]
@@ -78,6 +91,7 @@ rule all:
         expand("results/notebooks/{name}.html", name=NOTEBOOKS),
         "results/summary.txt",
         "results/costs.csv",
+        "results/animation.gif",
         "paper/report.pdf",
 
 
@@ -356,6 +370,114 @@ rule stability:
         "src/steps/stability.py"
 
 
+# 7. Overturning and rocking spectra ---------------------------------------------------------------
+
+
+rule spectra_shard:
+    input:
+        LIBRARY,
+        "src/steps/spectrum.py",
+    output:
+        table="results/shards/spectra_{scatteritem}.csv",
+    log:
+        "results/logs/spectra_shard_{scatteritem}.log",
+    benchmark:
+        "results/benchmarks/spectra_shard_{scatteritem}.tsv"
+    threads: 2
+    params:
+        case=config["spectra"],
+    message:
+        "Overturning spectra, shard {wildcards.scatteritem}"
+    script:
+        "src/steps/spectra_shard.py"
+
+
+rule spectra:
+    input:
+        LIBRARY,
+        "src/steps/spectrum.py",
+        "src/steps/spectra_shard.py",
+        shards=gather.spectra("results/shards/spectra_{scatteritem}.csv"),
+    output:
+        table="results/tables/spectra.csv",
+        areas="results/tables/spectra_areas.csv",
+        findings="results/findings/spectra.json",
+    log:
+        "results/logs/spectra.log",
+    benchmark:
+        "results/benchmarks/spectra.tsv"
+    params:
+        case=config["spectra"],
+        solver=config["solver"],
+    message:
+        "What the overturning spectra say about heavier caps"
+    script:
+        "src/steps/spectra.py"
+
+
+rule spectra_dimensional:
+    input:
+        LIBRARY,
+        "src/steps/spectrum.py",
+    output:
+        table="results/tables/spectra_dimensional.csv",
+        published="results/tables/spectra_published.csv",
+        findings="results/findings/spectra_dimensional.json",
+    log:
+        "results/logs/spectra_dimensional.log",
+    benchmark:
+        "results/benchmarks/spectra_dimensional.tsv"
+    threads: 2
+    params:
+        case=config["spectra_dimensional"],
+        structures=config["structures"],
+        solver=config["solver"],
+    message:
+        "Overturning spectra of the trilith and of a bridge"
+    script:
+        "src/steps/spectra_dimensional.py"
+
+
+rule peak_maps:
+    input:
+        LIBRARY,
+    output:
+        table="results/tables/peak_maps.csv",
+    log:
+        "results/logs/peak_maps.log",
+    benchmark:
+        "results/benchmarks/peak_maps.tsv"
+    params:
+        case=case("peak_maps"),
+    message:
+        "How far they rock, over frequency and amplitude"
+    script:
+        "src/steps/peak_maps.py"
+
+
+rule rocking_spectra:
+    input:
+        LIBRARY,
+        "src/steps/spectrum.py",
+        records=expand(
+            "data/records/{name}.AT2", name=config["rocking_spectra"]["records"]
+        ),
+    output:
+        table="results/tables/rocking_spectra.csv",
+        findings="results/findings/rocking_spectra.json",
+    log:
+        "results/logs/rocking_spectra.log",
+    benchmark:
+        "results/benchmarks/rocking_spectra.tsv"
+    params:
+        case=case("rocking_spectra"),
+        solver=config["solver"],
+    message:
+        "Real records under columns of every size"
+    script:
+        "src/steps/rocking_spectra.py"
+
+
 # What the paper says in words ---------------------------------------------------------------------
 
 
@@ -426,6 +548,26 @@ rule verification:
 
 
 # Pictures, notebooks -----------------------------------------------------------------------------
+
+
+rule animation:
+    input:
+        LIBRARY,
+        "src/steps/sketches.py",
+        style="figures/style.mplstyle",
+        drawing="figures/drawing.py",
+    output:
+        "results/animation.gif",
+    log:
+        "results/logs/animation.log",
+    benchmark:
+        "results/benchmarks/animation.tsv"
+    params:
+        case=case("animation"),
+    message:
+        "The column topples, the frame stands: the moving picture"
+    script:
+        "src/steps/animation.py"
 
 
 rule notebook:

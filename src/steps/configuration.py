@@ -88,17 +88,24 @@ def _structures(config: Mapping[str, Any]) -> Iterator[str]:
         name = _mapping(config, section).get("structure")
         if isinstance(name, str) and name not in structures:
             yield f"{section}.structure is {name!r}, not in structures; {_hint(name, structures)}"
+        for name in _mapping(_mapping(config, section), "frames"):
+            if name not in structures:
+                yield f"{section}.frames has {name!r}, not in structures; {_hint(name, structures)}"
 
 
 def _records(config: Mapping[str, Any], folder: str) -> Iterator[str]:
     for section in config:
-        name = _mapping(_mapping(config, section), "record").get("file")
-        if isinstance(name, str) and not (Path(folder) / f"{name}.AT2").is_file():
-            there = sorted(file.stem for file in Path(folder).glob("*.AT2"))
-            yield (
-                f"{section}.record.file is {name!r}, for which there is no {folder}/{name}.AT2; "
-                f"{_hint(name, there)}"
-            )
+        names = {"record.file": _mapping(_mapping(config, section), "record").get("file")}
+        several = _mapping(config, section).get("records")
+        if isinstance(several, list):
+            names |= {f"records.{place}": name for place, name in enumerate(several)}
+        for place, name in names.items():
+            if isinstance(name, str) and not (Path(folder) / f"{name}.AT2").is_file():
+                there = sorted(file.stem for file in Path(folder).glob("*.AT2"))
+                yield (
+                    f"{section}.{place} is {name!r}, for which there is no {folder}/{name}.AT2; "
+                    f"{_hint(name, there)}"
+                )
 
 
 def _numbers(place: str, value: Any) -> Iterator[str]:

@@ -11,7 +11,8 @@ import shutil
 import sys
 from pathlib import Path
 
-PICTURES = ("heavier", "structures")
+PICTURES = ("heavier", "peak_maps", "spectra", "structures")
+MOVING = "animation.gif"
 TABLES = (
     "allen_errors",
     "allen_overturning",
@@ -85,6 +86,7 @@ def main() -> None:
     reference.mkdir(exist_ok=True)
     for name in PICTURES:
         shutil.copyfile(f"figures/{name}.svg", docs / f"{name}.svg")
+    shutil.copyfile(results / MOVING, docs / MOVING)
     for name in TABLES:
         shutil.copyfile(results / "tables" / f"{name}.csv", reference / f"{name}.csv")
     shutil.copyfile(results / "claims.json", reference / "claims.json")

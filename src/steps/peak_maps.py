@@ -1,0 +1,33 @@
+"""How far a column and its frames rock, over the frequency and the amplitude of a pulse."""
+
+import pandas as pd
+from workbench import grid, log_to, write_table
+
+from topheavy import Column, RockingFrame, overturning_map
+
+DIGITS = 3  # of θmax/α, for a picture
+
+
+def main(case: dict) -> pd.DataFrame:
+    """Return θmax/α (none where overturned): a row for γ and an amplitude, a column for ω/p."""
+    column = Column(**case["column"])
+    ratios, amplitudes = grid(case["frequency_ratios"]), grid(case["amplitudes"])
+    tables = []
+    for gamma in case["mass_ratios"]:
+        found = overturning_map(
+            RockingFrame(column, gamma),
+            case["shape"],
+            ratios * column.frequency_parameter,
+            amplitudes * column.uplift_acceleration,
+        )
+        peaks = (found.peak_rotation.to_numpy().T / column.slenderness).round(DIGITS)
+        table = pd.DataFrame(peaks, columns=[f"{ratio:.6g}" for ratio in ratios])
+        table.insert(0, "mass_ratio", gamma)
+        table.insert(1, "amplitude_over_uplift", amplitudes)
+        tables.append(table)
+    return pd.concat(tables)
+
+
+if __name__ == "__main__":
+    with log_to(snakemake.log[0]):
+        write_table(snakemake.output.table, main(snakemake.params.case))

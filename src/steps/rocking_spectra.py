@@ -1,0 +1,123 @@
+"""Rocking spectra of real records: how far similar columns of every size rock, alone and as frames.
+
+Each impact multiplies what two motions differ by. Under a long record with hundreds of impacts
+some histories change wholly when the record is scaled by a billionth: there nobody can say what
+happens. Such histories are told apart, and not counted.
+"""
+
+import math
+from itertools import pairwise
+
+import numpy as np
+import pandas as pd
+from spectrum import progress
+from workbench import log_to, truth, write_findings, write_table
+
+from topheavy import Column, Record, RockingFrame, judge, read_at2, reference
+
+NUDGE = 1e-9  # of a record: what no measurement resolves
+CHANGED = 0.01  # of α: a change of the peak that is not small
+
+
+def spectrum(record: Record, columns: list[Column], gamma: float, tightened: float) -> list[dict]:
+    """Return the rows of one record and γ: θmax/α over R, and whether it can be told at all."""
+    rows = []
+    nudged = [record.scaled(1.0 - NUDGE), record.scaled(1.0 + NUDGE)]
+    for column in columns:
+        frame = RockingFrame(column, gamma)
+        ending = judge(frame, record)
+        others = [judge(frame, record, tolerance=tightened)]
+        others += [judge(frame, other) for other in nudged]
+        change = max(abs(other.peak - ending.peak) for other in others) / column.slenderness
+        same = all(other.overturned == ending.overturned for other in others)
+        rows.append(
+            {
+                "record": record.name,
+                "mass_ratio": gamma,
+                "size": column.size,
+                "overturned": ending.overturned,
+                "peak_over_alpha": ending.peak / column.slenderness,
+                "told": same and (ending.overturned or change < CHANGED),
+                "change": change,
+            }
+        )
+    return rows
+
+
+def second_route(table: pd.DataFrame, records: dict[str, Record], columns, count: int) -> dict:
+    """Judge some of the histories again by SciPy, evenly through those that can be told."""
+    differ, largest = 0, 0.0
+    sizes = {round(column.size, 9): column for column in columns}
+    table = table[table.told]
+    for row in table.iloc[np.linspace(0, len(table) - 1, count).astype(int)].itertuples():
+        column = sizes[round(row.size, 9)]
+        ending = reference.judge(RockingFrame(column, row.mass_ratio), records[row.record])
+        peak = ending.peak / column.slenderness
+        if ending.overturned != row.overturned:
+            differ += 1
+        elif not ending.overturned:
+            largest = max(largest, abs(peak - row.peak_over_alpha))
+    return truth(differ == 0 and largest < CHANGED, histories=count, largest_difference=largest)
+
+
+def main(case: dict, paths: list[str], tightened: float) -> tuple[pd.DataFrame, dict]:
+    similar = Column(**case["column"])
+    spec = case["sizes"]
+    sizes = np.geomspace(spec["lowest"], spec["highest"], spec["points"])
+    columns = [
+        Column(*(size / similar.size * half for half in (similar.half_width, similar.half_height)))
+        for size in sizes
+    ]
+    records = {record.name: record for record in map(read_at2, paths)}
+    runs = [(record, gamma) for record in records.values() for gamma in case["mass_ratios"]]
+    found = (spectrum(record, columns, gamma, tightened) for record, gamma in runs)
+    table = pd.DataFrame([row for rows in progress(found, len(runs), "spectra") for row in rows])
+    both = {"index": ["record", "size"], "columns": "mass_ratio", "aggfunc": "first"}
+    falls = table.pivot_table(values="overturned", **both).astype(bool)
+    falls = falls[table.pivot_table(values="told", **both).astype(bool).all(axis=1)]
+
+    def reversals(gamma: float) -> int:
+        """Neighbouring sizes of which the smaller stands and the larger falls."""
+        runs = (fallen.to_numpy() for _, fallen in falls[gamma].groupby("record"))
+        return sum(int(np.sum(~fallen[:-1] & fallen[1:])) for fallen in runs)
+
+    findings = {
+        "larger_is_safer_under_every_record": truth(
+            not any(map(reversals, case["mass_ratios"])),
+            reversals=[reversals(gamma) for gamma in case["mass_ratios"]],
+        ),
+        "heavier_is_safer_under_every_record": truth(
+            not any(
+                (falls[heavy] & ~falls[light]).any()
+                for light, heavy in pairwise(case["mass_ratios"])
+            ),
+            pairs=[
+                {
+                    "lighter": light,
+                    "heavier": heavy if math.isfinite(heavy) else "infinite",
+                    "only_lighter_overturns": int((falls[light] & ~falls[heavy]).sum()),
+                    "only_heavier_overturns": int((falls[heavy] & ~falls[light]).sum()),
+                }
+                for light, heavy in pairwise(case["mass_ratios"])
+            ],
+            compared=len(falls),
+            overturned=[int(falls[gamma].sum()) for gamma in case["mass_ratios"]],
+        ),
+        "every_history_can_be_told": truth(
+            table.told.all(),
+            not_told=int((~table.told).sum()),
+            histories=len(table),
+            nudge=NUDGE,
+            largest_change_of_told=float(table.change[table.told & ~table.overturned].max()),
+        ),
+        "second_route": second_route(table, records, columns, case["checked_by_second_route"]),
+    }
+    return table.drop(columns="change"), findings
+
+
+if __name__ == "__main__":
+    with log_to(snakemake.log[0]):
+        case, tightened = snakemake.params.case, snakemake.params.solver["tightened"]
+        table, findings = main(case, snakemake.input.records, tightened)
+        write_table(snakemake.output.table, table)
+        write_findings(snakemake.output.findings, findings)

@@ -1,0 +1,89 @@
+"""Overturning spectra of frames that have a size: amplitude in g over the pulse's period in s."""
+
+import math
+
+import numpy as np
+import pandas as pd
+from spectrum import Line, solve
+from workbench import log_to, truth, write_findings, write_table
+
+from topheavy import Column, Pulse, RockingFrame, judge, reference
+
+ROUNDING = 0.004  # of an amplitude: by so much prints of other studies have been found to differ
+
+
+def frequency_ratios(spec: dict) -> np.ndarray:
+    """Return ω/p in equal ratios, so that the periods lie as densely at either end."""
+    return np.geomspace(spec["lowest"], spec["highest"], spec["points"])
+
+
+def lines(case: dict, structures: dict) -> list[Line]:
+    """Return the lines of all spectra; a scale of 1 is an amplitude of 1 g tan α."""
+    found = []
+    for name, mass_ratios in case["frames"].items():
+        column = Column(**structures[name])
+        for shape in case["shapes"]:
+            for gamma in mass_ratios:
+                for ratio in frequency_ratios(case["frequency_ratios"]):
+                    omega = ratio * column.frequency_parameter
+                    labels = {
+                        "structure": name,
+                        "shape": shape,
+                        "mass_ratio": gamma,
+                        "period": 2.0 * math.pi / omega,
+                        "uplift_g": column.uplift_acceleration,
+                    }
+                    pulse = Pulse(shape, column.uplift_acceleration, omega)
+                    found.append(Line(labels, RockingFrame(column, gamma).block(), pulse))
+    return found
+
+
+def published(case: dict, structures: dict, tightened: float) -> tuple[dict, dict]:
+    """Return the lowest amplitude (g) that overturns under a pulse that others have computed.
+
+    As a row for the picture, and as a finding.
+    """
+    given = case["published"]
+    column = Column(**structures[given["structure"]])
+    frame = RockingFrame(column, given["mass_ratio"])
+    printed, omega = given["pulse"]["amplitude"], 2.0 * math.pi / given["pulse"]["period"]
+    pulse = Pulse(given["pulse"]["shape"], column.uplift_acceleration, omega)
+    labels = {"structure": given["structure"]}
+    lowest = solve([Line(labels, frame.block(), pulse)], case, threads=1).lower.min()
+    sides = [pulse.scaled(lowest * (1.0 + away)) for away in (-1e-6, 1e-6)]
+    routes = [
+        [judge(frame, side, tolerance=tightened).overturned for side in sides],
+        [reference.judge(frame, side).overturned for side in sides],
+    ]
+    amplitude = lowest * column.uplift_acceleration
+    row = {
+        "structure": given["structure"],
+        "shape": pulse.shape,
+        "mass_ratio": given["mass_ratio"],
+        "period": given["pulse"]["period"],
+        "printed_g": printed,
+        "lowest_overturning_g": amplitude,
+    }
+    agrees = abs(amplitude / printed - 1.0) < ROUNDING and routes == [[False, True]] * 2
+    return row, truth(agrees, lowest_overturning_g=amplitude, printed_g=printed)
+
+
+def main(
+    case: dict, structures: dict, solver: dict, threads: int
+) -> tuple[pd.DataFrame, dict, dict]:
+    table = solve(lines(case, structures), case, threads)
+    for end in ("lower", "upper"):
+        table[f"{end}_g"] = table[end] * table.uplift_g
+    row, finding = published(case, structures, solver["tightened"])
+    return table, row, {"published_amplitude": finding}
+
+
+if __name__ == "__main__":
+    with log_to(snakemake.log[0]):
+        params = snakemake.params
+        table, row, findings = main(
+            params.case, params.structures, params.solver, snakemake.threads
+        )
+        write_table(snakemake.output.table, table)
+        write_table(snakemake.output.published, pd.DataFrame([row]))
+        write_findings(snakemake.output.findings, findings)

@@ -1,0 +1,58 @@
+"""One shard of the overturning spectra: every n-th of their lines.
+
+Amplitudes are over g tan α and frequencies over p of the solitary column, for every γ, and for the
+linearised equation too, so that spectra can be compared.
+"""
+
+import itertools
+import math
+
+import pandas as pd
+from spectrum import Line, solve
+from workbench import grid, log_to, write_table
+
+from topheavy import Column, Pulse, RockingFrame
+
+
+def lines(case: dict) -> list[Line]:
+    """Return the lines of all spectra, in the order of the table."""
+    return [
+        line(*labels)
+        for labels in itertools.product(
+            case["slendernesses"],
+            case["shapes"],
+            case["mass_ratios"],
+            (False, True),
+            map(float, grid(case["frequency_ratios"])),
+        )
+    ]
+
+
+def line(slenderness: float, shape: str, gamma: float, linearised: bool, ratio: float) -> Line:
+    """Return the line of a frame whose columns have a slenderness in degrees."""
+    alpha = math.radians(slenderness)
+    column = Column(math.sin(alpha), math.cos(alpha))
+    block = RockingFrame(column, gamma).block()
+    labels = {
+        "slenderness_deg": slenderness,
+        "shape": shape,
+        "mass_ratio": gamma,
+        "linearised": linearised,
+        "frequency_ratio": ratio,
+    }
+    return Line(
+        labels,
+        block.linear() if linearised else block,
+        Pulse(shape, column.uplift_acceleration, ratio * column.frequency_parameter),
+    )
+
+
+def main(case: dict, shard: str, threads: int) -> pd.DataFrame:
+    number, of = map(int, shard.split("-of-"))
+    return solve(lines(case)[number - 1 :: of], case, threads)
+
+
+if __name__ == "__main__":
+    with log_to(snakemake.log[0]):
+        table = main(snakemake.params.case, snakemake.wildcards.scatteritem, snakemake.threads)
+        write_table(snakemake.output.table, table)

@@ -1,0 +1,77 @@
+"""The lines of overturning spectra: all amplitudes that overturn at a frequency, as table rows."""
+
+import time
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any, NamedTuple
+
+import pandas as pd
+
+from topheavy import Pulse, RockingBlock, overturning_intervals
+from topheavy.overturning import Interval
+
+MODES = ("without impact", "with impact")
+
+
+class Line(NamedTuple):
+    """A block under pulses of one frequency; `pulse` has the amplitude that a scale of 1 means."""
+
+    labels: dict[str, Any]
+    block: RockingBlock
+    pulse: Pulse
+
+
+def intervals(line: Line, case: Mapping[str, Any]) -> list[Interval]:
+    """Return the intervals of a line over the amplitudes of a config entry.
+
+    Close to uplift under long pulses the lowest intervals are narrow: below the first one that is
+    found, the search is repeated at the finer resolution.
+    """
+    amplitudes, finer = case["amplitudes"], case["finer"]
+    first = amplitudes["lowest"]
+    found = search(line, (first, amplitudes["highest"]), amplitudes["resolution"])
+    if found and first < found[0].lower[0] < finer["below"]:
+        found = search(line, (first, found[0].lower[0]), finer["resolution"]) + found
+    return found
+
+
+def search(line: Line, scales: tuple[float, float], resolution: float) -> list[Interval]:
+    """Return the intervals in a range, of which the modes are told apart and not more."""
+    return overturning_intervals(
+        line.block, line.pulse, scales, resolution=resolution, most_impacts=len(MODES) - 1
+    )
+
+
+def solve(lines: Sequence[Line], case: Mapping[str, Any], threads: int) -> pd.DataFrame:
+    """Return the overturning intervals of every line, over the scale of its pulse.
+
+    A row has the middles of the brackets of both ends (no upper one where the range ends first),
+    the width of the wider bracket, and whether the block overturns before any impact.
+    """
+
+    def rows(line: Line) -> list[dict[str, Any]]:
+        return [line.labels | _row(interval) for interval in intervals(line, case)]
+
+    with ThreadPoolExecutor(threads) as pool:
+        done = progress(pool.map(rows, lines), len(lines), "lines")
+        table = [row for found in done for row in found]
+    return pd.DataFrame(table, columns=[*lines[0].labels, "lower", "upper", "mode", "bracket"])
+
+
+def progress(results: Iterable[Any], count: int, what: str) -> Iterator[Any]:
+    """Pass results on, and tell the log of every tenth of them."""
+    start = time.monotonic()
+    for number, result in enumerate(results, start=1):
+        yield result
+        if number * 10 // count > (number - 1) * 10 // count:
+            print(f"{number} of {count} {what}, {time.monotonic() - start:.0f} s", flush=True)
+
+
+def _row(interval: Interval) -> dict[str, Any]:
+    ends = [interval.lower, *([interval.upper] if interval.upper else [])]
+    return {
+        "lower": sum(interval.lower) / 2.0,
+        "upper": sum(interval.upper) / 2.0 if interval.upper else None,
+        "mode": MODES[interval.impacts],
+        "bracket": max(high - low for low, high in ends),
+    }
