@@ -856,6 +856,18 @@ def test_samples_only_look_and_never_touch(block):
 
 
 @BOTH
+@pytest.mark.parametrize("amplitude", [0.5, 3.0])
+def test_samples_that_stop_early_leave_the_verdict_to_the_whole_forcing(block, amplitude):
+    pulse = Pulse("one-sine", amplitude, 9.0)
+    early = simulate(block, pulse, samples=[0.0, 0.01, 0.05])
+    end = judge(block, pulse)
+    assert end.overturned == (amplitude > 1)
+    assert (early.overturned, early.number_of_impacts) == (end.overturned, end.impacts)
+    close = 1e-9 * block.slenderness
+    assert early.peak_rotation == pytest.approx(end.peak, abs=close, nan_ok=True)
+
+
+@BOTH
 def test_velocity_is_the_derivative_of_rotation(block):
     pulse = Pulse("one-sine", 0.5, 9.0)
     response = simulate(block, pulse, samples=np.linspace(0.0, 1.0, 4001))
