@@ -38,34 +38,14 @@ def simulate(
     samples: int | ArrayLike = 1000,
     tolerance: float = TOLERANCE,
 ) -> Response:
-    """Return the rocking response to a ground motion, or free rocking without one.
+    """Return the rocking response by the second route; parameters as of `topheavy.simulate`.
 
-    Parameters
-    ----------
-    structure : RockingBlock, Column or RockingFrame
-    excitation : Pulse or Record, optional
-    rotation, velocity : float
-        θ (rad) and θ̇ (rad/s) at t = 0, signed.
-    duration : float, optional
-        Where the history ends, s, and with it the forcing. Without it the history ends at the
-        first of: overturned (at |θ| = π/2), at rest, 1000 impacts after the forcing.
-    samples : int or array_like
-        A number of uniform times from 0 to the end, or increasing times in s, which may reach
-        beyond the end.
-    tolerance : float
-        Of the integration, relative to α.
-
-    Returns
-    -------
-    Response
-        Its outcome and peak rotation are those of the forcing, up to the duration, and of all the
-        free rocking after it, even of what lies beyond the duration.
+    The tolerance is that of the integration, relative to α and αp.
 
     Raises
     ------
     ValueError
-        For values that are not finite, |θ| ≥ π/2 in the exact equation, a harmonic without a
-        duration, or a structure whose √r is negative.
+        As `topheavy.simulate`.
     """
     return motion.respond(
         structure.block(),
