@@ -82,8 +82,8 @@ def isolated_root(w, p, first, degree, low, high, sign):
         else:
             high = x
         trial = x - value / slope if slope != 0.0 else low
-        if abs(trial - x) <= 4e-16 * x:
-            return x
+        if abs(trial - x) <= 1e-11 * x:  # the next step of Newton's would be below rounding
+            return trial if low < trial < high else x
         if not low < trial < high:
             trial = 0.5 * (low + high)
             if trial in (low, high):

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from topheavy.kernel.bernstein import MAX_DEGREE, MAX_DEPTH, roots, to_bernstein
+from topheavy.kernel.bernstein import MAX_DEGREE, MAX_DEPTH, isolated_root, roots, to_bernstein
 from topheavy.kernel.forcing import (
     CONSTANT,
     NONE,
@@ -24,6 +24,7 @@ from topheavy.kernel.forcing import (
     piece_at,
     strongest_after,
 )
+from topheavy.kernel.march import march
 from topheavy.kernel.rest import LAST_BOUNCE, comes_to_rest
 from topheavy.kernel.tail import free_rocking
 from topheavy.kernel.taylor import ROTATION, State, evaluate, expand, longest_step
@@ -109,11 +110,17 @@ def advance(w, order, tolerance, block, forcing, time, longest, state, zeros, pe
         w[POLYNOMIAL, k] = w[ROTATION, k] * power
         power *= step
     if zeros < 2:
-        low, high, final, rises = _plain_range(w, order)
+        low, high, final, rises, falls = _plain_range(w, order)
         if rises and final <= block.flat:
             return step, NOTHING, max(peak, final)
         if low > 0.0 and high <= min(peak, block.flat):
             return step, NOTHING, peak
+        if falls:
+            highest = max(peak, w[POLYNOMIAL, 0])
+            if final > 0.0:
+                return step, NOTHING, highest
+            landing = isolated_root(w, POLYNOMIAL, 0, order, 0.0, 1.0, 1.0)
+            return step * landing, LANDING, highest
     to_bernstein(w, POLYNOMIAL, order, HULL)
     least, largest = w[HULL, zeros], 0.0
     for k in range(zeros, order + 1):
@@ -150,7 +157,9 @@ def _plain_range(w, order):
         bend += k * size
     middle, last = first + 0.5 * second, first + second + third
     rises = min(second, second + 2 * third) > bend
-    return min(first, middle, last) - others, max(first, middle, last) + others, last + final, rises
+    falls = max(second, second + 2 * third) < -bend
+    low, high = min(first, middle, last) - others, max(first, middle, last) + others
+    return low, high, last + final, rises, falls
 
 
 @njit(cache=True, error_model="numpy")
@@ -263,5 +272,10 @@ def outcome(w, order, tolerance, block, forcing, record):
                 return Outcome(False, math.nan, impacts, False)
             if is_record and time >= piece_end:
                 piece += 1
-                piece_end = (piece + 1) * forcing.step
                 state = at_sample(block, forcing, record, piece, side, state)
+                if not (is_low or block.linearised):
+                    piece, state, peak = march(
+                        block, forcing, record, piece, side, state, tolerance, peak
+                    )
+                    time = piece * forcing.step
+                piece_end = (piece + 1) * forcing.step

@@ -1,0 +1,108 @@
+"""The pieces of a record over which nothing happens, one short series each.
+
+Between two samples the push q is a straight line, q' = q₁, and the samples are so close that seven
+terms of φ are plenty. Their coefficients have a closed form: with the force of Eq. (23), its slope,
+and how both change as the push does,
+
+    F = sin φ / cos α + q cos(α − φ),    G = cos φ / cos α + q sin(α − φ),
+    E = q₁ cos(α − φ),                   H = q₁ sin(α − φ),
+
+F' = E + G φ', G' = H − F φ', E' = H φ', H' = −E φ'. So nothing is stored and nothing waits for a
+sum: a piece costs a third of what `taylor` and `outcome.advance` take, which follow wherever a
+piece is not settled here.
+"""
+
+from numba import njit
+
+from topheavy.kernel.taylor import State
+
+#: Between two samples the block turns by less than this, so that seven terms give sin and cos.
+LARGEST_TURN = 0.05
+
+
+@njit(cache=True, error_model="numpy", fastmath={"contract"})
+def derivatives(force, slope, force_rate, slope_rate, velocity):
+    """Return the third to the seventh derivative of φ from F, G, E, H and φ'."""
+    f, g, e, h, v = force, slope, force_rate, slope_rate, velocity
+    ff, gg, vv = f * f, g * g, v * v
+    third = e + g * v
+    fourth = f * (g - vv) + 2 * h * v
+    fifth = e * (g - 3 * vv) + 3 * f * h + v * (gg - 3 * ff - g * vv)
+    sixth = (
+        f * (gg - 3 * ff + vv * (vv - 11 * g)) + 4 * e * h + v * (6 * g * h - 16 * e * f)
+        - 4 * h * v * vv
+    )  # fmt: skip
+    seventh = (
+        e * (gg - 25 * ff + vv * (5 * vv - 33 * g)) + f * h * (8 * g - 45 * vv)
+        + v * (g * (gg - 33 * ff) + 10 * h * h - 20 * e * e + vv * (15 * ff - 11 * gg + g * vv))
+    )  # fmt: skip
+    return third, fourth, fifth, sixth, seventh
+
+
+@njit(cache=True, error_model="numpy", fastmath={"contract"})
+def march(block, forcing, record, piece, side, state, tolerance, peak):
+    """Pass over pieces of a record until one holds an event, a turn, or too strong a bend.
+
+    The block rocks at φ ≤ α under the exact equation, `state` is that at the first sample of
+    `piece`. A piece is passed over if the terms prove (as in `outcome.advance`) that it holds no
+    impact and that the rotation grows throughout, or stays below `peak`.
+
+    Parameters
+    ----------
+    tolerance : float
+        Bound, over α, on the last term of φ', as it is and as the one before lets expect it.
+    peak : float
+        The largest φ so far.
+
+    Returns
+    -------
+    piece : int
+        The first piece that is not passed over.
+    state : State
+        That at its first sample.
+    peak : float
+        The largest φ so far.
+    """
+    h, factor, frequency = forcing.step, -side * forcing.amplitude, 1.0 / forcing.step
+    h2 = h * h / 2
+    h3 = h2 * h / 3
+    h4 = h3 * h / 4
+    h5 = h4 * h / 5
+    h6 = h5 * h / 6
+    h7 = h6 * h / 7
+    bound, inverse_cosine = tolerance * block.slenderness, 1.0 / block.cosine
+    rotation, velocity, sine, cosine, push, rate = state
+    while rotation <= block.slenderness and (piece + 1) * h < forcing.end:
+        tilt = block.cosine * cosine + block.sine * sine  # cos(α − φ)
+        lean = block.sine * cosine - block.cosine * sine  # sin(α − φ)
+        force = sine * inverse_cosine + push * tilt  # Eq. (23)
+        slope = cosine * inverse_cosine + push * lean
+        higher = derivatives(force, slope, rate * tilt, rate * lean, velocity)
+        if h6 * max(abs(higher[4]), 6 * abs(higher[3])) > bound:
+            break
+        c1, c2, c3, c4 = h * velocity, h2 * force, h3 * higher[0], h4 * higher[1]
+        c5, c6, c7 = h5 * higher[2], h6 * higher[3], h7 * higher[4]
+        others = abs(c3) + abs(c4) + abs(c5) + abs(c6) + abs(c7)
+        turn = c1 + c2 + (c3 + (c4 + (c5 + (c6 + c7))))
+        rises = min(c1, c1 + 2 * c2) > 7 * others
+        if not rises:
+            low = min(0.5 * c1, c1 + c2, 0.0) - others
+            high = max(0.5 * c1, c1 + c2, 0.0) + others
+            if rotation + low <= 0.0 or rotation + high > peak:
+                break
+        if abs(turn) > LARGEST_TURN:
+            break
+        velocity += frequency * (2 * c2 + 3 * c3 + 4 * c4 + 5 * c5 + 6 * c6 + 7 * c7)
+        rotation += turn
+        peak = max(peak, rotation)
+        square = turn * turn  # sin and cos − 1 of a turn so small, to the last digit
+        swing = turn + turn * square * (-1 / 6 + square * (1 / 120 - square * (1 / 5040)))
+        drop = square * (-1 / 2 + square * (1 / 24 + square * (-1 / 720 + square * (1 / 40320))))
+        sine, cosine = (
+            sine + (cosine * swing + sine * drop),
+            cosine + (cosine * drop - sine * swing),
+        )
+        piece += 1
+        push = factor * record[0, piece] - block.level
+        rate = factor * (record[0, piece + 1] - record[0, piece]) * frequency
+    return piece, State(rotation, velocity, sine, cosine, push, rate), peak
