@@ -8,10 +8,10 @@ UV_VERSION := 0.13.8
 UV  := $(shell command -v uv 2>/dev/null || echo .uv/bin/uv)
 RUN := $(UV) run --locked --no-dev
 DEV := $(UV) run --locked
-BENCH := $(UV) run --locked --no-dev --group bench
+BENCH := PYTHONPATH=src/steps:figures $(UV) run --locked --no-dev --group bench
 CELLS ?= 40000
 
-.PHONY: help reproduce test lint publish benchmark verify-grid unlock clean
+.PHONY: help reproduce test lint publish study benchmark verify-grid unlock clean
 .DEFAULT_GOAL := help
 
 help: ## show this list
@@ -31,9 +31,12 @@ lint: | $(UV) ## check style, types, spelling and schemas; changes nothing
 	$(DEV) ruff format --check
 	$(DEV) mypy
 	$(DEV) codespell
-	$(DEV) snakefmt --check --compact-diff Snakefile
+	$(DEV) snakefmt --check --compact-diff Snakefile $(wildcard studies/*/study.smk)
 	$(DEV) check-jsonschema --check-metaschema config/config.schema.yaml
 	$(DEV) check-jsonschema --schemafile config/config.schema.yaml config/config.yaml
+	for study in studies/*/; do \
+	  $(DEV) check-jsonschema --check-metaschema $${study}config.schema.yaml && \
+	  $(DEV) check-jsonschema --schemafile $${study}config.schema.yaml $${study}config.yaml || exit 1; done
 	$(DEV) check-jsonschema --builtin-schema vendor.citation-file-format CITATION.cff
 	$(DEV) check-jsonschema --builtin-schema vendor.github-workflows .github/workflows/ci.yaml
 	$(DEV) validate-pyproject pyproject.toml
@@ -48,6 +51,9 @@ lint: | $(UV) ## check style, types, spelling and schemas; changes nothing
 publish: | $(UV) ## copy results to docs/ and tests/reference/; look at the diff, then commit it
 	@$(RUN) python src/steps/publish.py
 
+study: | $(UV) ## begin a follow-up study: make study NAME=my_study (FOLLOW-UP.md)
+	@$(RUN) python src/steps/new_study.py "$(NAME)"
+
 benchmark: | $(UV) ## time the kernel beside its peers; writes docs/benchmark.csv and .svg (5 minutes)
 	@$(BENCH) python benchmarks/benchmark.py
 
@@ -58,9 +64,9 @@ unlock: | $(UV) ## after a killed run left the directory locked (no other run ma
 	@$(RUN) snakemake --unlock
 
 clean: ## remove all that the workflow and the tools wrote; keep the environment
-	rm -rf results .snakemake figures/*.svg paper/report.pdf
+	rm -rf results .snakemake figures/*.svg studies/*/figures/*.svg paper/report.pdf
 	rm -rf .pytest_cache .ruff_cache .mypy_cache .hypothesis
-	find src figures tests benchmarks -name __pycache__ -type d -prune -exec rm -rf {} +
+	find src figures studies tests benchmarks -name __pycache__ -type d -prune -exec rm -rf {} +
 
 .uv/bin/uv:
 	@echo "uv is not on the PATH: fetching uv $(UV_VERSION) into .uv/"

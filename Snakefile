@@ -3,11 +3,18 @@
 config → steps → results → figures, notebooks, claims → report
 """
 
+import os
 import sys
 from pathlib import Path
 
-sys.path.insert(0, "src/steps")
+# What the scripts share: workbench and its like, and drawing. Their processes inherit this path.
+SHARED = [
+    str(Path(workflow.basedir, folder)) for folder in ("", "src/steps", "figures")
+]
+sys.path[:0] = SHARED
+os.environ["PYTHONPATH"] = os.pathsep.join(SHARED)
 from configuration import check_config
+from study_config import read_study_config
 
 
 configfile: "config/config.yaml"
@@ -34,30 +41,41 @@ def case(section):
     return entry | {"column": config["structures"][entry["structure"]]}
 
 
+def study_case(study, section):
+    """The same of the config of a study."""
+    entry = STUDY_CONFIG[study][section]
+    if "structure" not in entry:
+        return entry
+    return entry | {"column": config["structures"][entry["structure"]]}
+
+
 # The overturning spectra are dealt out to so many jobs, which an executor may spread over machines.
 scattergather:
     spectra=config["spectra"]["shards"],
 
 
-# Which tables each figure is drawn from.
+# Which tables each figure, named by its script, is drawn from.
 FIGURES = {
-    "structures": ["outlines", "moment_rotation"],
-    "free_body": ["outlines", "free_body"],
-    "mass_ratio": ["mass_ratio"],
-    "restitution": ["restitution_over_slenderness", "restitution_over_mass_ratio"],
-    "quarter_period": ["quarter_period"],
-    "trilith_map": ["trilith_map", "trilith_nearness"],
-    "trilith_starts": ["trilith_starts", "trilith_histories"],
-    "allen_histories": ["allen_histories"],
-    "allen_errors": ["allen_errors"],
-    "allen_overturning": ["allen_overturning"],
-    "heavier": ["heavier_histories", "heavier"],
-    "scale_effects": ["scale_effects"],
-    "spectra": ["spectra"],
-    "spectra_modes": ["spectra"],
-    "spectra_dimensional": ["spectra_dimensional", "spectra_published"],
-    "peak_maps": ["peak_maps"],
-    "rocking_spectra": ["rocking_spectra"],
+    "figures/structures": ["outlines", "moment_rotation"],
+    "figures/free_body": ["outlines", "free_body"],
+    "figures/mass_ratio": ["mass_ratio"],
+    "figures/restitution": [
+        "restitution_over_slenderness",
+        "restitution_over_mass_ratio",
+    ],
+    "figures/quarter_period": ["quarter_period"],
+    "figures/trilith_map": ["trilith_map", "trilith_nearness"],
+    "figures/trilith_starts": ["trilith_starts", "trilith_histories"],
+    "figures/allen_histories": ["allen_histories"],
+    "figures/allen_errors": ["allen_errors"],
+    "figures/allen_overturning": ["allen_overturning"],
+    "figures/heavier": ["heavier_histories", "heavier"],
+    "figures/scale_effects": ["scale_effects"],
+    "figures/spectra": ["spectra"],
+    "figures/spectra_modes": ["spectra"],
+    "figures/spectra_dimensional": ["spectra_dimensional", "spectra_published"],
+    "figures/peak_maps": ["peak_maps"],
+    "figures/rocking_spectra": ["rocking_spectra"],
 }
 
 
@@ -84,10 +102,30 @@ FINDINGS = [
 NOTEBOOKS = ["derivation", "play"]
 REFERENCES = sorted(map(str, Path("tests/reference").glob("*.csv")))
 
+# Follow-up studies, each a folder: their rules add to FIGURES, FINDINGS and REPORTED (see FOLLOW-UP.md).
+STUDIES = config["studies"]
+STUDY_CONFIG = {name: read_study_config(name, config["structures"]) for name in STUDIES}
+LEDGERS = ["paper/claims.yaml", *(f"studies/{name}/claims.yaml" for name in STUDIES)]
+SECTIONS = [f"studies/{name}/section.typ" for name in STUDIES]
+REPORTED = [
+    "equations",
+    "heavier",
+    "allen_errors",
+    "quarter_period",
+    "trilith_nearness",
+    "verification_routes",
+    "verification_published",
+]
+
+for name in STUDIES:
+
+    include: f"studies/{name}/study.smk"
+
 
 rule all:
+    default_target: True
     input:
-        expand("figures/{name}.svg", name=FIGURES),
+        expand("{figure}.svg", figure=FIGURES),
         expand("results/notebooks/{name}.html", name=NOTEBOOKS),
         "results/summary.txt",
         "results/costs.csv",
@@ -507,20 +545,20 @@ rule figure:
     input:
         WORKBENCH,
         tables=lambda wildcards: expand(
-            "results/tables/{table}.csv", table=FIGURES[wildcards.name]
+            "results/tables/{table}.csv", table=FIGURES[wildcards.figure]
         ),
         style="figures/style.mplstyle",
         drawing="figures/drawing.py",
     output:
-        "figures/{name}.svg",
+        "{figure}.svg",
     log:
-        "results/logs/figure_{name}.log",
+        "results/logs/{figure}.log",
     wildcard_constraints:
-        name="|".join(FIGURES),
+        figure="|".join(FIGURES),
     message:
-        "Figure {wildcards.name}"
+        "Figure {wildcards.figure}"
     script:
-        "figures/{wildcards.name}.py"
+        "{wildcards.figure}.py"
 
 
 # How far the numbers can be trusted --------------------------------------------------------------
@@ -596,7 +634,8 @@ rule claims:
     input:
         "src/topheavy/claims.py",
         WORKBENCH,
-        ledger="paper/claims.yaml",
+        "src/steps/ledger.py",
+        ledgers=LEDGERS,
         findings=expand("results/findings/{name}.json", name=FINDINGS),
     output:
         "results/claims.json",
@@ -668,20 +707,11 @@ rule report:
         "results/claims.json",
         "docs/costs.csv",
         "docs/machine.txt",
-        expand(
-            "results/tables/{name}.csv",
-            name=[
-                "equations",
-                "heavier",
-                "allen_errors",
-                "quarter_period",
-                "trilith_nearness",
-                "verification_routes",
-                "verification_published",
-            ],
-        ),
+        "paper/format.typ",
+        SECTIONS,
+        expand("results/tables/{name}.csv", name=REPORTED),
         expand("results/findings/{name}.json", name=FINDINGS),
-        expand("figures/{name}.svg", name=FIGURES),
+        expand("{figure}.svg", figure=FIGURES),
         source="paper/report.typ",
     output:
         "paper/report.pdf",
@@ -689,6 +719,8 @@ rule report:
         "results/logs/report.log",
     benchmark:
         "results/benchmarks/report.tsv"
+    params:
+        studies=STUDIES,
     message:
         "Compiling the report"
     script:

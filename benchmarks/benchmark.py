@@ -10,7 +10,6 @@ results/benchmark/ and, as the picture, to docs/.
 
 import math
 import os
-import sys
 import time
 import warnings
 from collections.abc import Callable, Sequence
@@ -24,6 +23,7 @@ import picture
 from kernel import KernelRecord, histories
 from oracle import Found, PulseOracle, RecordOracle
 from peers import Heyoka, HeyokaRecord, SolveIvp, SolveIvpRecord
+from publish import machine
 from verify_grid import block_of
 
 from topheavy import Column, Record, RockingFrame, read_at2
@@ -31,9 +31,6 @@ from topheavy.kernel.forcing import SHAPES
 from topheavy.kernel.grid import outcomes_of
 from topheavy.kernel.outcome import TOLERANCE
 from topheavy.kernel.taylor import oscillator
-
-sys.path.append("src/steps")
-from publish import machine
 
 OUT = Path("results/benchmark")
 BLOCK = block_of(14, 1, linearised=False)

@@ -1,12 +1,9 @@
 """The work–precision picture of the benchmark: `python benchmarks/picture.py` draws it again."""
 
-import sys
 from pathlib import Path
 
-import pandas as pd
-
-sys.path.append("figures")
 import matplotlib.pyplot as plt
+import pandas as pd
 from drawing import ACCENT, DARK, DOUBLE, GREY, letter, note, sheet
 
 LOOKS = {
@@ -46,7 +43,6 @@ def draw(curves: pd.DataFrame, machine: str, path: Path) -> None:
 
 
 if __name__ == "__main__":
-    sys.path.append("src/steps")
     from publish import machine
 
     table = pd.read_csv("results/benchmark/work_precision.csv")

@@ -1,7 +1,6 @@
 """What every figure does at its edges: read its tables, wear the style, save the same bytes."""
 
 import math
-import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
@@ -14,8 +13,6 @@ import matplotlib.pyplot as plt
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-
-sys.path.append("src/steps")
 from workbench import log_to
 
 SINGLE, DOUBLE = 88.0, 180.0  # widths of one and of two columns, mm

@@ -5,12 +5,12 @@ is the real one, to the hundredth of a second that a GIF knows.
 """
 
 import math
-import sys
 from pathlib import Path
 
 import matplotlib as mpl
 import matplotlib.pyplot as plt
 import numpy as np
+from drawing import ACCENT, CAP, GREY, INK, STONE
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.patches import Polygon
 from PIL import Image
@@ -20,9 +20,6 @@ from workbench import log_to
 from topheavy import Column, Pulse, RockingFrame, simulate
 from topheavy.kinematics import cap_displacement, column_outline
 from topheavy.structures import STANDARD_GRAVITY
-
-sys.path.append("figures")
-from drawing import ACCENT, CAP, GREY, INK, STONE
 
 EARTH = "#d5d1c8"
 BLENDS = 12  # of two colours

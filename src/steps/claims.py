@@ -1,9 +1,9 @@
-"""The ledger judged: every row of paper/claims.yaml against what the workflow found."""
+"""The ledger judged: every row of it against what the workflow found."""
 
 import json
 from pathlib import Path
 
-import yaml
+from ledger import read_ledger
 from workbench import log_to
 
 from topheavy.claims import judge
@@ -17,7 +17,7 @@ def main(ledger: list[dict], findings: dict[str, dict]) -> list[dict]:
             finding = findings[claim["rule"]].get(claim["finding"])
             if finding is None:
                 raise ValueError(
-                    f"paper/claims.yaml: {claim['id']} names the finding {claim['finding']!r}, "
+                    f"the ledger: {claim['id']} names the finding {claim['finding']!r}, "
                     f"which rule {claim['rule']} does not make"
                 )
         verdict = judge(claim, finding)
@@ -25,6 +25,7 @@ def main(ledger: list[dict], findings: dict[str, dict]) -> list[dict]:
         rows.append(
             {
                 "id": claim["id"],
+                "study": claim["study"],
                 "where": claim["where"],
                 "equation": claim.get("equation"),
                 "statement": claim["statement"],
@@ -47,7 +48,7 @@ def main(ledger: list[dict], findings: dict[str, dict]) -> list[dict]:
 
 if __name__ == "__main__":
     with log_to(snakemake.log[0]):
-        ledger = yaml.safe_load(Path(snakemake.input.ledger).read_text(encoding="utf-8"))
+        ledger = read_ledger(snakemake.input.ledgers)
         findings = {
             Path(path).stem: json.loads(Path(path).read_text(encoding="utf-8"))
             for path in snakemake.input.findings

@@ -48,7 +48,8 @@ if __name__ == "__main__":
     with log_to(snakemake.log[0]):
         published = yaml.safe_load(Path(snakemake.input.config).read_text(encoding="utf-8"))
         used = snakemake.params.config
-        changed = sorted(key for key in {*published, *used} if published.get(key) != used.get(key))
+        sections = {*published, *used} - {"studies"}  # those have tables of their own
+        changed = sorted(key for key in sections if published.get(key) != used.get(key))
         rows = main(
             snakemake.input.tables, snakemake.input.references, changed, used["reproducibility"]
         )

@@ -15,9 +15,15 @@ UNORDERED = {"printed_masses"}
 
 
 def check_config(
-    config: Mapping[str, Any], path: str, schema_path: str, records: str = "data/records"
+    config: Mapping[str, Any],
+    path: str,
+    schema_path: str,
+    records: str = "data/records",
+    structures: Mapping[str, Any] | None = None,
 ) -> None:
     """Refuse a config that breaks its schema, or whose entries do not fit together.
+
+    `structures` are those that it may name beside its own.
 
     Raises
     ------
@@ -27,7 +33,7 @@ def check_config(
     schema = yaml.safe_load(Path(schema_path).read_text(encoding="utf-8"))
     errors = Draft202012Validator(schema).iter_errors(config)
     messages = {message for error in errors for message in _messages(error)}
-    messages |= {*_structures(config), *_records(config, records)}
+    messages |= {*_structures(config, structures or {}), *_records(config, records)}
     messages |= {message for place, value in _walk(config) for message in _numbers(place, value)}
     if messages:
         raise ValueError("\n".join(f"{path}: {message}" for message in sorted(messages)))
@@ -75,10 +81,11 @@ def _hint(given: Any, allowed: Iterable[Any]) -> str:
 # What no schema can say --------------------------------------------------------------------------
 
 
-def _structures(config: Mapping[str, Any]) -> Iterator[str]:
-    structures = _mapping(config, "structures")
-    for name in structures:
-        b, h = (_mapping(structures, name).get(key) for key in ("half_width", "half_height"))
+def _structures(config: Mapping[str, Any], others: Mapping[str, Any]) -> Iterator[str]:
+    own = _mapping(config, "structures")
+    structures = {**others, **own}
+    for name in own:
+        b, h = (_mapping(own, name).get(key) for key in ("half_width", "half_height"))
         if _is_number(b) and _is_number(h) and b >= h > 0:
             yield (
                 f"structures.{name} has the half width {b} and the half height {h}, in m; "

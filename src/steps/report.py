@@ -12,5 +12,6 @@ if __name__ == "__main__":
             root=".",
             ignore_system_fonts=True,
             pdf_standards=["a-2b"],
+            sys_inputs={"studies": ",".join(snakemake.params.studies)},
         )
         Path(snakemake.output[0]).write_bytes(pdf)

@@ -1,0 +1,47 @@
+"""A new study from studies/skeleton/: `make study NAME=my_study`."""
+
+import re
+import shutil
+import sys
+from pathlib import Path
+
+SKELETON = "skeleton"
+REGISTER = re.compile(r"^studies: \[(.*)\]$", re.MULTILINE)
+
+
+def create(name: str, root: Path = Path()) -> Path:
+    """Copy the skeleton under another name, and put that name into config/config.yaml.
+
+    Raises
+    ------
+    ValueError
+        For a name that is taken or cannot be one, or a config without the line `studies: [...]`.
+    """
+    folder, config = root / "studies" / name, root / "config" / "config.yaml"
+    if not re.fullmatch(r"[a-z][a-z0-9_]*", name):
+        raise ValueError(f"NAME is {name!r}; expected lower case letters, digits and underscores")
+    if folder.exists():
+        raise ValueError(f"NAME is {name!r}, and {folder} exists; expected a new name")
+    text = config.read_text(encoding="utf-8")
+    line = REGISTER.search(text)
+    if line is None:
+        raise ValueError(f"{config} has no line 'studies: [...]'; expected one to add {name} to")
+    shutil.copytree(folder.with_name(SKELETON), folder, ignore=lambda _, names: _not_copied(names))
+    for path in filter(Path.is_file, sorted(folder.rglob("*"))):
+        path.write_text(path.read_text(encoding="utf-8").replace(SKELETON, name), encoding="utf-8")
+    names = [*filter(None, line[1].split(", ")), name]
+    config.write_text(REGISTER.sub(f"studies: [{', '.join(names)}]", text), encoding="utf-8")
+    return folder
+
+
+def _not_copied(names: list[str]) -> list[str]:
+    return [name for name in names if name == "__pycache__" or name.endswith(".svg")]
+
+
+if __name__ == "__main__":
+    try:
+        folder = create(sys.argv[1])
+    except ValueError as error:
+        sys.exit(f"make study: {error}")
+    print(f"{folder} is made, and named in config/config.yaml. Run it: make reproduce")
+    print(f"Then make it yours, file by file: FOLLOW-UP.md says how. It begins in {folder}/steps.")

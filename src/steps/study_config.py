@@ -1,0 +1,39 @@
+"""Follow-up studies: a folder in studies/ each, with a config of its own."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import yaml
+from configuration import check_config
+
+FOLDER = "studies"
+
+
+def read_study_config(
+    name: str, structures: Mapping[str, Any], folder: str = FOLDER
+) -> dict[str, Any]:
+    """Read and check the config of a study.
+
+    Parameters
+    ----------
+    structures : mapping
+        Those of config/config.yaml, which a study may name as its own.
+
+    Raises
+    ------
+    ValueError
+        With one line for each fault: no such study, or what `check_config` finds.
+    """
+    path = Path(folder) / name / "config.yaml"
+    if not path.is_file():
+        there = sorted(found.parent.name for found in Path(folder).glob("*/config.yaml"))
+        raise ValueError(
+            f"config/config.yaml: studies has {name!r}, for which there is no {path}; "
+            f"expected some of {', '.join(there) or 'none: there are no studies'}"
+        )
+    config: dict[str, Any] = yaml.safe_load(path.read_text(encoding="utf-8"))
+    check_config(
+        config, str(path), str(path.with_name("config.schema.yaml")), structures=structures
+    )
+    return config

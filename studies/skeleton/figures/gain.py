@@ -1,0 +1,19 @@
+"""The lowest amplitude that overturns, under heavier and heavier caps."""
+
+from drawing import INK, SINGLE, gamma, publish, shades, sheet
+
+
+def draw(skeleton_gain):
+    figure, axis = sheet(SINGLE, 55)
+    places = range(len(skeleton_gain))
+    axis.bar(places, skeleton_gain.lowest_low, color=shades(len(skeleton_gain)), width=0.62)
+    for place, low in zip(places, skeleton_gain.lowest_low, strict=True):
+        axis.annotate(f"{low:.3f}", (place, low), ha="center", va="bottom", color=INK, fontsize=7.5)
+    axis.set(xticks=places, xticklabels=map(gamma, skeleton_gain.mass_ratio))
+    axis.set(ylabel=r"Lowest overturning amplitude ($g\,\tan\alpha$)", ylim=(0, None))
+    axis.margins(y=0.12)
+    return figure
+
+
+if __name__ == "__main__":
+    publish(snakemake, draw)

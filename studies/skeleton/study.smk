@@ -1,0 +1,23 @@
+"""How much amplitude a heavier cap buys, under one pulse: a study to begin with."""
+
+FIGURES["studies/skeleton/figures/gain"] = ["skeleton_gain"]
+FINDINGS.append("skeleton_gain")
+
+
+rule skeleton_gain:
+    input:
+        LIBRARY,
+    output:
+        table="results/tables/skeleton_gain.csv",
+        findings="results/findings/skeleton_gain.json",
+    log:
+        "results/logs/skeleton_gain.log",
+    benchmark:
+        "results/benchmarks/skeleton_gain.tsv"
+    params:
+        case=study_case("skeleton", "gain"),
+        solver=config["solver"],
+    message:
+        "Study skeleton: the lowest amplitude that overturns"
+    script:
+        "steps/gain.py"
