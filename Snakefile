@@ -13,7 +13,7 @@ SHARED = [
 ]
 sys.path[:0] = SHARED
 os.environ["PYTHONPATH"] = os.pathsep.join(SHARED)
-from configuration import check_config
+from configuration import check_config, record_files
 from study_config import read_study_config
 
 
@@ -21,6 +21,8 @@ configfile: "config/config.yaml"
 
 
 check_config(config, "config/config.yaml", "config/config.schema.yaml")
+
+RECORDS = record_files()
 
 # Code that Snakemake does not see through a script's imports, so that a change reruns its users.
 WORKBENCH = ["src/steps/workbench.py"]
@@ -135,10 +137,10 @@ rule all:
 
 onstart:
     # Every record is read before anything is computed: a bad one is told at once.
-    from topheavy import read_at2
+    from topheavy import read_record
 
-    for path in sorted(Path("data/records").glob("*.AT2")):
-        read_at2(path)
+    for path in RECORDS.values():
+        read_record(path)
 
 
 onsuccess:
@@ -295,7 +297,7 @@ rule trilith_map:
 rule allen_histories:
     input:
         LIBRARY,
-        record=f"data/records/{config['allen_histories']['record']['file']}.AT2",
+        record=RECORDS[config["allen_histories"]["record"]["file"]],
     output:
         table="results/tables/allen_histories.csv",
         findings="results/findings/allen_histories.json",
@@ -497,9 +499,7 @@ rule rocking_spectra:
     input:
         LIBRARY,
         "src/steps/spectrum.py",
-        records=expand(
-            "data/records/{name}.AT2", name=config["rocking_spectra"]["records"]
-        ),
+        records=[RECORDS[name] for name in config["rocking_spectra"]["records"]],
     output:
         table="results/tables/rocking_spectra.csv",
         findings="results/findings/rocking_spectra.json",

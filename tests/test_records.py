@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from topheavy import Record, read_at2
+from topheavy import Record, read_at2, read_csv, read_record
 
 RECORDS = Path(__file__).parents[1] / "data" / "records"
 CERTIFIED = [
@@ -198,3 +198,76 @@ def test_read_at2_refuses_a_bad_file_by_name_and_reason(write, text, says):
 def test_read_at2_says_when_there_is_no_file(tmp_path):
     with pytest.raises(FileNotFoundError, match=r"nowhere\.AT2"):
         read_at2(tmp_path / "nowhere.AT2")
+
+
+def test_read_at2_refuses_another_unit(write):
+    text = HEADER.format(n=5).replace("UNITS OF G", "UNITS OF CM/S/S") + VALUES
+    with pytest.raises(ValueError, match=r"'UNITS OF CM/S/S'; expected units of g"):
+        read_at2(write(text))
+
+
+def test_read_at2_refuses_what_cannot_be_in_g(write):
+    text = HEADER.format(n=5).replace("IN UNITS OF G", "") + VALUES.replace("0.4", "341.7")
+    with pytest.raises(ValueError, match=r"largest acceleration is 341\.7; expected .* in g"):
+        read_at2(write(text))
+
+
+# ---------------------------------------------------------------------------- read_csv
+
+CSV = "time (s),acceleration (g)\n0.00,0.1\n0.02,-0.2\n0.04,0.4\n0.06,0.0\n0.08,-3.0E-01\n"
+
+
+@pytest.fixture
+def write_csv(tmp_path):
+    def write(text: str) -> Path:
+        path = tmp_path / "motion.csv"
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    return write
+
+
+def test_read_csv_gives_the_record_that_at2_gives(write, write_csv):
+    one, other = read_csv(write_csv(CSV)), read_at2(write(HEADER.format(n=5) + VALUES))
+    np.testing.assert_array_equal(one.acceleration, other.acceleration)
+    assert one.time_step == pytest.approx(other.time_step, rel=1e-12)
+    assert one.name == other.name == "motion"
+
+
+def test_read_csv_takes_times_rounded_to_print(write_csv):
+    times = [f"{k / 200:.3f}" for k in range(400)]
+    lines = "".join(f"{time},{0.1 * (k % 3)}\n" for k, time in enumerate(times))
+    assert read_csv(write_csv(f"Time (s) , Acceleration (G)\n{lines}")).time_step == pytest.approx(
+        0.005, rel=1e-9
+    )
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("", "line 1 is ''; expected 'time"),
+        ("0.00,0.1\n0.02,0.2\n", "line 1 is '0.00,0.1'; expected 'time"),
+        (CSV.replace("(g)", "(m/s2)"), "units s, m/s2; expected s and g"),
+        (CSV.replace("(s)", "(ms)"), "units ms, g; expected s and g"),
+        (CSV.replace("0.04,0.4\n", ""), "sample 3 of 4 is at 0.06 s, the one before at 0.02 s"),
+        (CSV.replace("0.04,", "0.01,"), "sample 3 of 5 is at 0.01 s"),
+        (CSV.replace("0.04,", "nan,"), "sample 3 of 5 is at nan s"),
+        (CSV.replace("0.4", "four"), "line 4 is '0.04,four'; expected a time in s"),
+        (CSV.replace("0.4", "0.4,1"), "line 4 is '0.04,0.4,1'"),
+        (CSV.replace("0.4", "nan"), "sample 2 of 5 is nan; expected finite"),
+        (CSV.replace("0.4", "39.2"), "largest acceleration is 39.2; expected accelerations in g"),
+        (CSV[:35], "holds 1 samples; expected at least two"),
+    ],
+)
+def test_read_csv_refuses_a_bad_file_by_name_and_reason(write_csv, text, says):
+    with pytest.raises(ValueError, match=r"motion\.csv") as error:
+        read_csv(write_csv(text))
+    assert says in str(error.value)
+
+
+def test_read_record_tells_the_two_layouts_by_name(write, write_csv, tmp_path):
+    assert read_record(write_csv(CSV)).duration == pytest.approx(
+        read_record(write(HEADER.format(n=5) + VALUES)).duration
+    )
+    with pytest.raises(ValueError, match=r"motion\.txt: expected .* \.AT2 or \.csv"):
+        read_record(tmp_path / "motion.txt")

@@ -5,7 +5,7 @@ import math
 import numpy as np
 from workbench import log_to, truth, value, write_findings, write_table
 
-from topheavy import Column, Pulse, RockingFrame, read_at2, reference, simulate
+from topheavy import Column, Pulse, RockingFrame, read_record, reference, simulate
 from topheavy.linear import simulate_linear_exact
 from topheavy.massless_columns import SIMPLIFICATIONS, simplified
 
@@ -17,7 +17,7 @@ def main(case: dict, record_path: str, solver: dict) -> tuple[list[dict], dict]:
     )
     motions = {
         "pulse": (pulse, 6.0 * case["pulse"]["period"]),
-        "record": (read_at2(record_path).scaled(case["record"]["factor"]), 30.0),
+        "record": (read_record(record_path).scaled(case["record"]["factor"]), 30.0),
     }
     models = {"exact": frame.block()} | {name: simplified(frame, name) for name in SIMPLIFICATIONS}
     alpha = frame.slenderness

@@ -100,6 +100,13 @@ def _structures(config: Mapping[str, Any], others: Mapping[str, Any]) -> Iterato
                 yield f"{section}.frames has {name!r}, not in structures; {_hint(name, structures)}"
 
 
+def record_files(folder: str = "data/records") -> dict[str, str]:
+    """Return the files of all records, AT2 and CSV, by name."""
+    endings = (".at2", ".csv")
+    files = (path for path in Path(folder).iterdir() if path.suffix.lower() in endings)
+    return {path.stem: path.as_posix() for path in sorted(files)}
+
+
 def _records(config: Mapping[str, Any], folder: str) -> Iterator[str]:
     for section in config:
         names = {"record.file": _mapping(_mapping(config, section), "record").get("file")}
@@ -107,11 +114,11 @@ def _records(config: Mapping[str, Any], folder: str) -> Iterator[str]:
         if isinstance(several, list):
             names |= {f"records.{place}": name for place, name in enumerate(several)}
         for place, name in names.items():
-            if isinstance(name, str) and not (Path(folder) / f"{name}.AT2").is_file():
-                there = sorted(file.stem for file in Path(folder).glob("*.AT2"))
+            there = record_files(folder)
+            if isinstance(name, str) and name not in there:
                 yield (
-                    f"{section}.{place} is {name!r}, for which there is no {folder}/{name}.AT2; "
-                    f"{_hint(name, there)}"
+                    f"{section}.{place} is {name!r}, for which there is no {folder}/{name}.AT2 "
+                    f"or .csv; {_hint(name, there)}"
                 )
 
 

@@ -13,7 +13,7 @@ import pandas as pd
 from spectrum import progress
 from workbench import log_to, truth, write_findings, write_table
 
-from topheavy import Column, Record, RockingFrame, judge, read_at2, reference
+from topheavy import Column, Record, RockingFrame, judge, read_record, reference
 
 NUDGE = 1e-9  # of a record: what no measurement resolves
 CHANGED = 0.01  # of α: a change of the peak that is not small
@@ -68,7 +68,7 @@ def main(case: dict, paths: list[str], tightened: float) -> tuple[pd.DataFrame, 
         Column(*(size / similar.size * half for half in (similar.half_width, similar.half_height)))
         for size in sizes
     ]
-    records = {record.name: record for record in map(read_at2, paths)}
+    records = {record.name: record for record in map(read_record, paths)}
     runs = [(record, gamma) for record in records.values() for gamma in case["mass_ratios"]]
     found = (spectrum(record, columns, gamma, tightened) for record, gamma in runs)
     table = pd.DataFrame([row for rows in progress(found, len(runs), "spectra") for row in rows])

@@ -9,7 +9,7 @@ Angles are in rad, rotations signed, accelerations in g, everything else in SI u
 
 from topheavy.overturning import overturning_intervals, overturning_map
 from topheavy.pulses import PULSE_SHAPES, Pulse
-from topheavy.records import Record, read_at2
+from topheavy.records import Record, read_at2, read_csv, read_record
 from topheavy.response import Response
 from topheavy.simulate import judge, simulate
 from topheavy.structures import STANDARD_GRAVITY, Column, RockingBlock, RockingFrame
@@ -27,5 +27,7 @@ __all__ = [
     "overturning_intervals",
     "overturning_map",
     "read_at2",
+    "read_csv",
+    "read_record",
     "simulate",
 ]

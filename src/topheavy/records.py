@@ -1,4 +1,4 @@
-"""Recorded ground motions, and the reader of the PEER AT2 format."""
+"""Recorded ground motions, and the readers of PEER's AT2 layout and of two-column CSV."""
 
 import re
 from dataclasses import dataclass
@@ -16,6 +16,15 @@ _HEADER_LINES = 4
 _COUNT_AND_STEP = re.compile(
     r"NPTS\s*=\s*(?P<count>\d+)\s*,\s*DT\s*=\s*(?P<step>[-+.\deE]+)", re.IGNORECASE
 )
+_AT2_UNIT = re.compile(
+    r"\bunits?\s+(?:of|are|is)\s*[:=]?\s*\(?\s*(?P<unit>[^\s(),;]+)", re.IGNORECASE
+)
+_CSV_COLUMN = re.compile(r"\s*(?P<name>[^()]*?)\s*\((?P<unit>[^()]*)\)\s*")
+_CSV_HEADER = "time (s),acceleration (g)"
+#: No ground acceleration above 5 g has been recorded: what exceeds it is in another unit.
+_LARGEST = 5.0
+#: Times may be rounded by so much of a step; a step that differs by more is a gap.
+_ROUNDING = 0.1
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,6 +103,70 @@ class Record:
         return found
 
 
+def read_record(path: str | Path) -> Record:
+    """Read a record, PEER AT2 or two-column CSV as the name of the file ends.
+
+    Raises
+    ------
+    ValueError
+        For another ending, or what `read_at2` and `read_csv` refuse.
+    """
+    readers = {".at2": read_at2, ".csv": read_csv}
+    reader = readers.get(Path(path).suffix.lower())
+    if reader is None:
+        raise ValueError(f"{path}: expected a file whose name ends in .AT2 or .csv")
+    return reader(path)
+
+
+def read_csv(path: str | Path) -> Record:
+    """Read a record with the header `time (s),acceleration (g)` and a line for each sample.
+
+    The time step is that of the first and the last time over their number of steps.
+
+    Raises
+    ------
+    ValueError
+        Naming the file, and the line where there is one: another header or unit, a line that is
+        not two numbers, times that do not go on in equal steps (a gap), accelerations that
+        cannot be in g.
+    """
+    path = Path(path)
+    header, *lines = path.read_text(encoding="utf-8").splitlines() or [""]
+    columns = [_CSV_COLUMN.fullmatch(part) for part in header.split(",")]
+    units = [match["unit"].strip().lower() if match else None for match in columns]
+    if len(units) != 2 or None in units:
+        raise ValueError(f"{path}: line 1 is {header!r}; expected {_CSV_HEADER!r}")
+    if units != ["s", "g"]:
+        raise ValueError(
+            f"{path}: line 1 has the units {', '.join(map(str, units))}; expected s and g, "
+            f"{_CSV_HEADER!r}: convert the values"
+        )
+    rows: list[tuple[float, float]] = []
+    for place, line in enumerate(lines, start=2):
+        if not line.strip():
+            continue
+        try:
+            time, acceleration = map(float, line.split(","))
+        except ValueError:
+            raise ValueError(
+                f"{path}: line {place} is {line!r}; expected a time in s and an acceleration in g"
+            ) from None
+        rows.append((time, acceleration))
+    if len(rows) < 2:
+        raise ValueError(f"{path}: holds {len(rows)} samples; expected at least two")
+    times = np.array(rows)[:, 0]
+    step = float(times[-1] - times[0]) / (times.size - 1)
+    usual = float(np.nanmedian(np.diff(times)))
+    uneven = np.flatnonzero(~(np.abs(np.diff(times) - usual) <= _ROUNDING * abs(usual)))
+    if uneven.size or not usual > 0.0:
+        k = int(uneven[0]) if uneven.size else 0
+        raise ValueError(
+            f"{path}: sample {k + 2} of {times.size} is at {times[k + 1]:g} s, the one before at "
+            f"{times[k]:g} s; expected times that grow in equal steps (usual here: {usual:g} s)"
+        )
+    return _checked(path, step, np.array(rows)[:, 1])
+
+
 def read_at2(path: str | Path) -> Record:
     """Read a record in the PEER AT2 layout: a header with NPTS and DT, then accelerations in g.
 
@@ -101,7 +174,8 @@ def read_at2(path: str | Path) -> Record:
     ------
     ValueError
         Naming the file, and the line where there is one: no NPTS and DT in the first four lines,
-        a value that is not a number, or more or fewer values than NPTS.
+        a unit other than g, a value that is not a number, more or fewer values than NPTS, or
+        accelerations that cannot be in g.
     """
     path = Path(path)
     lines = path.read_text(encoding="utf-8").splitlines()
@@ -114,6 +188,9 @@ def read_at2(path: str | Path) -> Record:
         )
     values: list[float] = []
     first = headers.index(header) + 1
+    for unit in filter(None, map(_AT2_UNIT.search, lines[:first])):
+        if unit["unit"].lower() != "g":
+            raise ValueError(f"{path}: its header gives {unit.group()!r}; expected units of g")
     for place, line in enumerate(lines[first:], start=first + 1):
         for token in line.split():
             try:
@@ -128,10 +205,22 @@ def read_at2(path: str | Path) -> Record:
             f"{path}: holds {len(values)} accelerations; expected {count} by its NPTS "
             f"({'the file is cut short' if len(values) < count else 'there are too many'})"
         )
+    return _checked(path, float(header["step"]), np.array(values))
+
+
+def _checked(path: Path, time_step: float, acceleration: NDArray[np.float64]) -> Record:
+    """Return the record of a file, if its numbers can be one."""
     try:
-        return Record(float(header["step"]), np.array(values), path.stem)
+        record = Record(time_step, acceleration, path.stem)
     except ValueError as error:
         raise ValueError(f"{path}: {error}") from None
+    peak = float(np.abs(record.acceleration).max())
+    if peak > _LARGEST:
+        raise ValueError(
+            f"{path}: its largest acceleration is {peak:g}; expected accelerations in g, which no "
+            f"record has above {_LARGEST:g} (is it in m/s² or cm/s²?)"
+        )
+    return record
 
 
 def _line(start: float, value: float, slope: float, time: float) -> float:
