@@ -705,6 +705,8 @@ rule report:
         "paper/references.bib",
         "config/config.yaml",
         "results/claims.json",
+        "docs/benchmark.csv",
+        "docs/benchmark.svg",
         "docs/costs.csv",
         "docs/machine.txt",
         "paper/format.typ",

@@ -8,7 +8,17 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from topheavy import Column, Pulse, Record, RockingBlock, RockingFrame, read_at2, simulate
+from topheavy import (
+    PULSE_SHAPES,
+    Column,
+    Pulse,
+    Record,
+    RockingBlock,
+    RockingFrame,
+    read_at2,
+    simulate,
+)
+from topheavy.checks import LARGEST_ACCELERATION
 from topheavy.linear import simulate_linear_exact
 
 EL_CENTRO = Path(__file__).parents[1] / "data" / "records" / "el_centro_1940_NS.AT2"
@@ -251,3 +261,15 @@ def test_harmonic_needs_a_duration_here_too():
 def test_initial_state_that_is_not_finite_is_refused(value):
     with pytest.raises(ValueError, match=f"rotation.*{value}"):
         simulate_linear_exact(BLOCK, rotation=value)
+
+
+@pytest.mark.parametrize("amplitude", [1e160, 1e200, -1e300])
+@pytest.mark.parametrize("shape", PULSE_SHAPES)
+def test_amplitude_that_would_overflow_is_refused(shape, amplitude):
+    with pytest.raises(ValueError, match=r"amplitude is .*e\+.* g; expected at most"):
+        Pulse(shape, amplitude, 5.0)
+
+
+@pytest.mark.parametrize("shape", ["one-sine", "half-sine", "constant"])
+def test_largest_amplitude_overturns(shape):
+    assert simulate_linear_exact(BLOCK, Pulse(shape, LARGEST_ACCELERATION, 5.0)).overturned

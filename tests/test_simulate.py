@@ -16,9 +16,11 @@ from topheavy import (
     RockingFrame,
     judge,
     overturning_intervals,
+    overturning_map,
     reference,
     simulate,
 )
+from topheavy.checks import LARGEST_ACCELERATION
 
 BLOCK = RockingBlock(2.0, 0.25, 0.9)
 BOTH = pytest.mark.parametrize("block", [BLOCK, BLOCK.linear()], ids=["exact", "linear"])
@@ -1050,3 +1052,26 @@ def test_published_boundary_is_that_of_the_reference_too(row):
     assert not safe.overturned
     if row.impacts is not None:
         assert over.impacts == row.impacts
+
+
+@pytest.mark.parametrize("excitation", [None, 0.3, "one-sine"])
+def test_judge_refuses_what_is_no_ground_motion(excitation):
+    with pytest.raises(ValueError, match="expected a Pulse or a Record"):
+        judge(BLOCK, excitation)
+
+
+@BOTH
+@pytest.mark.parametrize("shape", ["one-sine", "ricker-symmetric", "ricker-antisymmetric"])
+def test_largest_amplitude_overturns(block, shape):
+    pulse = Pulse(shape, LARGEST_ACCELERATION, 5.0)
+    assert judge(block, pulse).overturned
+    assert reference.judge(block, pulse).overturned
+
+
+def test_record_and_factor_that_would_overflow_are_refused():
+    with pytest.raises(ValueError, match="sample 1 of 2 is 1e\\+200 g"):
+        Record(0.01, [0.0, 1e200])
+    with pytest.raises(ValueError, match="expected at most"):
+        overturning_intervals(BLOCK, Pulse("one-sine", 1.0, 5.0), (0.0, 1e200), resolution=1e199)
+    with pytest.raises(ValueError, match="expected at most"):
+        overturning_map(BLOCK, "one-sine", [5.0], [0.1, 1e200])

@@ -23,6 +23,7 @@ TABLES = (
     "quarter_period",
     "restitution_over_mass_ratio",
     "restitution_over_slenderness",
+    "spectra_areas",
     "trilith_map",
     "trilith_nearness",
     "trilith_starts",

@@ -3,6 +3,9 @@
 import math
 from typing import Any
 
+LARGEST_ACCELERATION = 1e6
+"""Of a ground motion, g. Far beyond any; far below where squares overflow and a fall is missed."""
+
 
 def finite(name: str, value: Any) -> float:
     """Return `value` as a finite float, or raise ValueError that names it."""
@@ -20,6 +23,16 @@ def positive(name: str, value: Any, unit: str = "") -> float:
     number = finite(name, value)
     if number <= 0.0:
         raise ValueError(f"{name} is {_with_unit(number, unit)}; expected more than zero")
+    return number
+
+
+def acceleration(name: str, value: Any) -> float:
+    """Return `value` (g) as a float within ±`LARGEST_ACCELERATION`, or raise ValueError."""
+    number = finite(name, value)
+    if abs(number) > LARGEST_ACCELERATION:
+        raise ValueError(
+            f"{name} is {number:.6g} g; expected at most {LARGEST_ACCELERATION:.0e} g in magnitude"
+        )
     return number
 
 

@@ -14,6 +14,7 @@ from topheavy.kernel.forcing import SHAPES
 from topheavy.kernel.grid import outcomes_of
 from topheavy.kernel.taylor import oscillator
 from topheavy.pulses import Pulse, checked_shape
+from topheavy.records import Record
 from topheavy.simulate import as_forcing
 from topheavy.structures import Structure
 
@@ -58,6 +59,7 @@ def overturning_map(
         raise ValueError("shape is 'harmonic', which goes on forever; expected a pulse that ends")
     frequencies = _axis("angular_frequencies", angular_frequencies, zero_allowed=False)
     amplitudes = _axis("amplitudes", amplitudes, zero_allowed=True)
+    checks.acceleration("the largest of amplitudes", amplitudes.max())
     scales = frequencies / block.frequency_parameter
     peak, overturned, impacts = outcomes_of(oscillator(block), SHAPES[shape], scales, amplitudes)
     dims = ("angular_frequency", "amplitude")
@@ -149,6 +151,9 @@ def overturning_intervals(
     if not first < last:
         raise ValueError(f"scale_range is ({first:.6g}, {last:.6g}); expected it to ascend")
     checks.positive("resolution", resolution)
+    if isinstance(excitation, (Pulse, Record)):
+        for factor in (first, last):
+            excitation.scaled(factor)  # refuses what it cannot be
     if most_impacts is not None and most_impacts < 0:
         raise ValueError(f"most_impacts is {most_impacts}; expected a number from 0 on")
     label = _labeller(structure, excitation, most_impacts)

@@ -97,7 +97,8 @@ class Pulse:
     Raises
     ------
     ValueError
-        For an unknown shape, an amplitude that is not finite, or ω that is not positive.
+        For an unknown shape, an amplitude that is not finite or beyond
+        `checks.LARGEST_ACCELERATION`, or ω that is not positive.
     """
 
     shape: str
@@ -106,7 +107,7 @@ class Pulse:
 
     def __post_init__(self) -> None:
         checked_shape(self.shape)
-        checks.finite("amplitude", self.amplitude)
+        checks.acceleration("amplitude", self.amplitude)
         checks.positive("angular_frequency", self.angular_frequency, "rad/s")
 
     @property

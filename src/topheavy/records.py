@@ -43,7 +43,8 @@ class Record:
     Raises
     ------
     ValueError
-        For a step that is not positive, fewer than two samples, or a sample that is not finite.
+        For a step that is not positive, fewer than two samples, or a sample that is not finite or
+        beyond `checks.LARGEST_ACCELERATION`.
     """
 
     time_step: float
@@ -65,6 +66,8 @@ class Record:
                 f"{called}: sample {bad[0]} of {samples.size} is {samples[bad[0]]}; "
                 "expected finite accelerations in g"
             )
+        largest = np.abs(samples).argmax()
+        checks.acceleration(f"{called}: sample {largest} of {samples.size}", samples[largest])
         samples.setflags(write=False)
         object.__setattr__(self, "acceleration", samples)
 

@@ -142,6 +142,8 @@ def judge(structure: Structure, excitation: Excitation, *, tolerance: float = TO
     The same as `simulate`, in microseconds: the free rocking is not integrated. The peak is max|θ|
     over the whole motion (NaN if overturned), the impacts are counted as in `Response`.
     """
+    if not isinstance(excitation, (Pulse, Record)):
+        raise ValueError(f"excitation is {excitation!r}; expected a Pulse or a Record")
     if excitation.duration == math.inf:
         raise ValueError("the excitation goes on forever; expected one that ends")
     block = structure.block()
