@@ -37,6 +37,8 @@ lint: | $(UV) ## check style, types, spelling and schemas; changes nothing
 	for study in studies/*/; do \
 	  $(DEV) check-jsonschema --check-metaschema $${study}config.schema.yaml && \
 	  $(DEV) check-jsonschema --schemafile $${study}config.schema.yaml $${study}config.yaml || exit 1; done
+	$(DEV) check-jsonschema --check-metaschema paper/assumptions.schema.yaml
+	$(DEV) check-jsonschema --schemafile paper/assumptions.schema.yaml paper/assumptions.yaml
 	$(DEV) check-jsonschema --builtin-schema vendor.citation-file-format CITATION.cff
 	$(DEV) check-jsonschema --builtin-schema vendor.github-workflows .github/workflows/ci.yaml
 	$(DEV) validate-pyproject pyproject.toml

@@ -110,6 +110,7 @@ STUDY_CONFIG = {name: read_study_config(name, config["structures"]) for name in 
 LEDGERS = ["paper/claims.yaml", *(f"studies/{name}/claims.yaml" for name in STUDIES)]
 SECTIONS = [f"studies/{name}/section.typ" for name in STUDIES]
 REPORTED = [
+    "assumptions",
     "equations",
     "heavier",
     "allen_errors",
@@ -538,6 +539,45 @@ rule statements:
         "src/steps/statements.py"
 
 
+# What the paper leaves open ------------------------------------------------------------------------
+
+
+rule assumptions:
+    input:
+        LIBRARY,
+        "src/steps/choices.py",
+        assumptions="paper/assumptions.yaml",
+        ledger="paper/claims.yaml",
+        records=[RECORDS[name] for name in config["assumptions"]["records"]],
+    output:
+        table="results/tables/assumptions.csv",
+    log:
+        "results/logs/assumptions.log",
+    benchmark:
+        "results/benchmarks/assumptions.tsv"
+    params:
+        cases={
+            name: case(name)
+            for name in [
+                "trilith",
+                "heavier",
+                "scale_effects",
+                "stability",
+                "statements",
+                "rocking_spectra",
+            ]
+        }
+        | {
+            name: config[name]
+            for name in ["assumptions", "restitution", "allen_errors"]
+        },
+        solver=config["solver"],
+    message:
+        "What the paper leaves open, chosen otherwise"
+    script:
+        "src/steps/assumptions.py"
+
+
 # Figures -----------------------------------------------------------------------------------------
 
 
@@ -703,6 +743,7 @@ rule report:
     input:
         WORKBENCH,
         "paper/references.bib",
+        "paper/assumptions.yaml",
         "config/config.yaml",
         "results/claims.json",
         "docs/benchmark.csv",

@@ -1,0 +1,234 @@
+"""What the paper leaves open: the ledger of it, and the alternatives in their limits."""
+
+import math
+from pathlib import Path
+
+import assumptions
+import choices
+import numpy as np
+import pytest
+import yaml
+from choices import Choices
+from jsonschema import Draft202012Validator
+
+from topheavy import Column, Pulse, Record, RockingFrame, judge
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def read(path):
+    return yaml.safe_load((ROOT / path).read_text(encoding="utf-8"))
+
+
+LEDGER = read("paper/assumptions.yaml")
+SCHEMA = read("paper/assumptions.schema.yaml")
+CONFIG = read("config/config.yaml")
+CLAIMS = {claim["id"] for claim in read("paper/claims.yaml")}
+COLUMN = Column(0.5, 3.0)
+FRAMES = [COLUMN, *(RockingFrame(COLUMN, gamma) for gamma in (0.0, 0.434, 5.0, math.inf))]
+BLOCK = COLUMN.block()
+COSINE = Pulse("one-cosine", 0.25, 6.0)
+RICKER = Pulse("ricker-antisymmetric", 0.25, 6.0)  # its side lobes set off a bounce of 0.04 α
+
+
+# ---------------------------------------------------------------------------- the ledger
+
+
+def test_the_ledger_is_well_formed():
+    Draft202012Validator.check_schema(SCHEMA)
+    faults = [error.message for error in Draft202012Validator(SCHEMA).iter_errors(LEDGER)]
+    assert faults == []
+
+
+@pytest.mark.parametrize(
+    "change",
+    [{"id": "Upper"}, {"alternatives": []}, {"reaches": []}, {"where": "here"}, {"extra": "x"}],
+)
+def test_the_schema_refuses(change):
+    assert not Draft202012Validator(SCHEMA).is_valid([LEDGER[0] | change])
+
+
+def test_every_alternative_is_run_and_no_other():
+    written = {row["id"]: [item["id"] for item in row["alternatives"]] for row in LEDGER}
+    made = assumptions.alternatives(CONFIG["assumptions"])
+    assert {name: sorted(found) for name, found in made.items()} == {
+        name: sorted(found) for name, found in written.items()
+    }
+    assert len(written) == len(LEDGER)
+
+
+def test_every_alternative_differs_from_ours():
+    made = assumptions.alternatives(CONFIG["assumptions"])
+    assert all(item != Choices() for found in made.values() for item in found.values())
+
+
+def test_every_quantity_is_reached_and_exists():
+    assert {name for row in LEDGER for name in row["reaches"]} == set(assumptions.QUANTITIES)
+
+
+def test_every_claim_of_a_quantity_is_in_the_claims_ledger():
+    named = {quantity.claim for quantity in assumptions.QUANTITIES.values()} - {None}
+    assert named <= CLAIMS
+
+
+# ---------------------------------------------------------------------------- structure to block
+
+
+@pytest.mark.parametrize("structure", FRAMES)
+def test_our_choices_are_the_librarys(structure):
+    assert Choices().block(structure) == structure.block()
+
+
+def test_p_goes_with_the_root_of_gravity():
+    doubled = Choices(gravity=2.0 * 9.81).block(COLUMN)
+    assert doubled.frequency_parameter == pytest.approx(math.sqrt(2.0) * BLOCK.frequency_parameter)
+    assert (doubled.slenderness, doubled.restitution) == (BLOCK.slenderness, BLOCK.restitution)
+
+
+@pytest.mark.parametrize("structure", FRAMES)
+def test_a_solid_rectangle_is_the_papers_column(structure):
+    factor, restitution = choices.section_factors(structure, choices.RECTANGLE)
+    assert factor == pytest.approx(1.0, rel=1e-14)
+    assert restitution == pytest.approx(structure.restitution, rel=1e-14)
+
+
+def test_a_cylinder_has_its_textbook_inertia():
+    # m (b²/4 + h²/3) about the centre, and m (b² + h²) for the way to the edge of the base.
+    b, h = COLUMN.half_width, COLUMN.half_height
+    inertia = b**2 / 4 + h**2 / 3 + b**2 + h**2
+    p = math.sqrt(9.81 * COLUMN.size / inertia)
+    found = Choices(section=0.25).block(COLUMN)
+    assert found.frequency_parameter == pytest.approx(p, rel=1e-14)
+    # about the new edge, what was m b (2b) less: (I_o − 2 m b²)/I_o
+    assert found.restitution == pytest.approx(1.0 - 2.0 * b**2 / inertia, rel=1e-14)
+
+
+def test_massless_columns_have_no_section():
+    frame = RockingFrame(COLUMN, math.inf)
+    assert Choices(section=0.6).block(frame).frequency_parameter == frame.frequency_parameter
+    assert Choices(section=0.6).block(frame).restitution == pytest.approx(frame.restitution)
+
+
+def test_a_frame_with_the_solitary_restitution_has_housners():
+    assert choices.solitary_restitution(FRAMES[3]) == COLUMN.restitution
+    assert choices.solitary_restitution(COLUMN) == COLUMN.restitution
+
+
+# ---------------------------------------------------------------------------- ground motion
+
+
+def peak(motion):
+    return judge(BLOCK, motion).peak / BLOCK.slenderness
+
+
+def test_a_ramp_of_no_length_is_the_abrupt_start():
+    whole = choices.ramped(0.0)(COSINE, BLOCK, 4001)
+    assert whole.acceleration[0] == COSINE.amplitude
+    assert peak(whole) == pytest.approx(peak(COSINE), rel=1e-5)
+
+
+def test_a_shorter_ramp_is_nearer_to_the_abrupt_start():
+    away = [abs(peak(choices.ramped(s)(COSINE, BLOCK, 4001)) - peak(COSINE)) for s in (0.1, 0.01)]
+    assert 0.0 < away[1] < 0.2 * away[0]
+
+
+def test_a_ramped_pulse_begins_at_rest_and_ends_as_the_pulse():
+    record = choices.ramped(0.25)(COSINE, BLOCK, 401)
+    assert record.acceleration[0] == 0.0
+    np.testing.assert_allclose(
+        record.acceleration[-300:], COSINE.excitation(np.linspace(0.0, COSINE.duration, 401)[-300:])
+    )
+
+
+def test_a_block_waits_for_uplift():
+    sine = Pulse("one-sine", 0.3, 8.0)
+    late = choices.from_uplift(sine, BLOCK, 4001)
+    assert late.duration < sine.duration
+    assert late.acceleration[0] == pytest.approx(BLOCK.uplift_acceleration)
+    assert peak(late) == pytest.approx(peak(sine), rel=1e-5)
+
+
+def test_a_held_and_a_curved_record_keep_their_samples():
+    record = Record(0.1, np.array([0.0, 0.3, -0.2, 0.1]))
+    held, curved = choices.held(record), choices.curved(record)
+    np.testing.assert_array_equal(held.excitation([0.11, 0.17]), [0.3, 0.3])
+    np.testing.assert_allclose(curved.excitation([0.0, 0.1, 0.2, 0.3]), record.acceleration)
+
+
+# ---------------------------------------------------------------------------- overturning
+
+
+def test_to_wait_for_long_is_to_judge_by_energy():
+    falls = [
+        (choices.by_energy(BLOCK, pulse, 3e-10), choices.flat_after(60.0)(BLOCK, pulse, 3e-10))
+        for pulse in (COSINE.scaled(factor) for factor in np.linspace(0.8, 8.0, 20))
+    ]
+    assert all(first == second for first, second in falls)
+    assert {first for first, _ in falls} == {True, False}
+
+
+def test_nothing_is_flat_that_has_just_begun_to_fall():
+    strong = Pulse("constant", 1.0, 4.0)
+    assert choices.by_energy(BLOCK, strong, 3e-10)
+    assert not choices.flat_after(0.0)(BLOCK, strong, 3e-10)
+
+
+def test_what_overturns_has_gone_beyond_slenderness_and_some_come_back():
+    # Zhang & Makris (2001): the safe bay of a one-sine, here of the exact equation
+    p, level = BLOCK.frequency_parameter, BLOCK.uplift_acceleration
+    pulses = [Pulse("one-sine", a * level, 5.0 * p) for a in np.linspace(1.0, 9.0, 81)]
+    energy = [choices.by_energy(BLOCK, pulse, 3e-10) for pulse in pulses]
+    beyond = [choices.beyond_slenderness(BLOCK, pulse, 3e-10) for pulse in pulses]
+    assert all(second for first, second in zip(energy, beyond, strict=True) if first)
+    assert sum(beyond) > sum(energy)
+
+
+def test_a_threshold_of_nothing_lets_bounce():
+    assert choices.first_small_bounce(BLOCK, RICKER, 0.0, 3e-10) is None
+
+
+def test_a_bounce_below_a_high_threshold_is_rest():
+    first, second = choices.flights(BLOCK, RICKER, 3e-10)
+    assert first[1] < second[1]
+    found = choices.first_small_bounce(BLOCK, RICKER, 2.0 * second[1], 3e-10)
+    assert found == second[0] < RICKER.duration
+    assert choices.first_small_bounce(BLOCK, RICKER, 2.0 * first[1], 3e-10) is None
+
+
+# ---------------------------------------------------------------------------- the table
+
+
+def small_cases():
+    entry = CONFIG["trilith"]
+    column = CONFIG["structures"][entry["structure"]]
+    return {"trilith": entry | {"column": column}}
+
+
+def test_a_quantity_that_does_not_change_keeps_its_verdict():
+    name = "trilith: below uplift"
+    ledger = {claim["id"]: claim for claim in read("paper/claims.yaml")}
+    row = {"id": "equation", "alternatives": [{"id": "linearised"}], "reaches": [name]}
+    cases = small_cases() | {"assumptions": CONFIG["assumptions"]}
+    (found,) = assumptions.main([row], ledger, cases, 3e-12)
+    alpha = math.atan(0.275)
+    assert found["with_alternative"] == pytest.approx(found["ours"] * 0.275 / alpha)
+    assert (found["before"], found["after"], found["changed"]) == ("confirmed", "confirmed", False)
+
+
+def test_a_verdict_that_is_not_the_ledgers_is_refused():
+    name = "trilith: below uplift"
+    ledger = {claim["id"]: dict(claim) for claim in read("paper/claims.yaml")}
+    ledger["trilith_stays_below_uplift"]["expected"] = "refuted"
+    row = {"id": "equation", "alternatives": [{"id": "linearised"}], "reaches": [name]}
+    cases = small_cases() | {"assumptions": CONFIG["assumptions"]}
+    with pytest.raises(ArithmeticError, match="refuted in the ledger"):
+        assumptions.main([row], ledger, cases, 3e-12)
+
+
+def test_the_smooth_and_the_abrupt_start_are_told_apart():
+    cases = small_cases()
+    smooth = assumptions.no_pure_rocking(Choices(table_starts=(0.0,)), cases)
+    abrupt = assumptions.no_pure_rocking(Choices(table_starts=(1.0,)), cases)
+    assert smooth == (0.0, {"holds": True, "holds_when": True})
+    assert abrupt.number > 0.0
+    assert abrupt.finding == {"holds": False, "holds_when": False}
