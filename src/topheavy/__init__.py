@@ -7,6 +7,15 @@
 Angles are in rad, rotations signed, accelerations in g, everything else in SI units.
 """
 
+from topheavy.contact_forces import (
+    Cap,
+    ContactForces,
+    Reaction,
+    column_forces,
+    column_impulse,
+    contact_forces,
+    impact_impulses,
+)
 from topheavy.overturning import overturning_intervals, overturning_map
 from topheavy.pulses import PULSE_SHAPES, Pulse
 from topheavy.records import Record, read_at2, read_csv, read_record
@@ -17,12 +26,19 @@ from topheavy.structures import STANDARD_GRAVITY, Column, RockingBlock, RockingF
 __all__ = [
     "PULSE_SHAPES",
     "STANDARD_GRAVITY",
+    "Cap",
     "Column",
+    "ContactForces",
     "Pulse",
+    "Reaction",
     "Record",
     "Response",
     "RockingBlock",
     "RockingFrame",
+    "column_forces",
+    "column_impulse",
+    "contact_forces",
+    "impact_impulses",
     "judge",
     "overturning_intervals",
     "overturning_map",

@@ -4,6 +4,7 @@ Geometry, Newton–Euler for the three bodies and impulse–momentum at impact g
 equation of motion, its equivalent size and its restitution; energies give the motion once more.
 """
 
+from topheavy.derivation.contact import contact_forces, contact_impulses
 from topheavy.derivation.equilibrium import (
     column_motion,
     equation_of_motion,
@@ -22,7 +23,7 @@ from topheavy.derivation.impact import (
 )
 from topheavy.derivation.lagrange import kinetic_energy, lagrange_equation, potential_energy
 from topheavy.derivation.notation import NEGATIVE, POSITIVE, SIDES, Side
-from topheavy.derivation.theorems import Theorem, theorems
+from topheavy.derivation.theorems import Theorem, contact_theorems, theorems
 from topheavy.derivation.verdicts import PrintedCheck, check_printed
 
 __all__ = [
@@ -39,6 +40,9 @@ __all__ = [
     "check_printed",
     "column_motion",
     "column_restitution",
+    "contact_forces",
+    "contact_impulses",
+    "contact_theorems",
     "energy_slenderness",
     "equation_of_motion",
     "frame_motion",

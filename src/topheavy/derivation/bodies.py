@@ -29,6 +29,7 @@ GROUND_1 = sp.Matrix(sp.symbols("G_{x1} G_{z1}", real=True))
 GROUND_2 = sp.Matrix(sp.symbols("G_{x2} G_{z2}", real=True))
 CAP_1 = sp.Matrix([F_x1, F_z1])
 CAP_2 = sp.Matrix([F_x2, F_z2])
+span, half_depth = sp.symbols("L d", positive=True)
 
 
 def _turning(arm: sp.Matrix, force: sp.Matrix) -> sp.Expr:
@@ -75,9 +76,8 @@ def cap_moment(side: Side) -> sp.Expr:
 
     L is the distance between the columns' axes, d half the depth of the beam.
     """
-    spacing, depth = sp.symbols("L d", positive=True)
     shift = -side.sign * R * sp.sin(alpha)
-    arms = (sp.Matrix([shift + end * spacing / 2, -depth]) for end in (-1, 1))
+    arms = (sp.Matrix([shift + end * span / 2, -half_depth]) for end in (-1, 1))
     return sum(_turning(arm, force) for arm, force in zip(arms, (CAP_1, CAP_2), strict=True))
 
 

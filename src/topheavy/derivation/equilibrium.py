@@ -45,6 +45,13 @@ def column_motion(side: Side) -> sp.Expr:
     return sp.factor(solve(balance, acceleration)[acceleration])
 
 
+def frame_equilibrium(side: Side) -> list[sp.Expr]:
+    """The frame's balances of force and of the columns' moments, which vanish. # Eqs. (10)–(18)"""
+    cap = cap_motion(side)
+    cap_acceleration = sp.Matrix([cap.u_ddot, cap.v_ddot]) + _LOADS
+    return frame_balance(side, _centre_acceleration(side), acceleration, cap_acceleration)
+
+
 @cache
 def frame_motion(side: Side) -> dict[sp.Symbol, sp.Expr]:
     """θ̈ and all forces of the frame, in θ, θ̇, the ground's acceleration and F_z1, which is free.
@@ -52,11 +59,7 @@ def frame_motion(side: Side) -> dict[sp.Symbol, sp.Expr]:
     The cap-beam's moment equilibrium is left out; it would fix F_z1, and nothing else here needs
     it. # Eqs. (10)–(18)
     """
-    cap = cap_motion(side)
-    balance = frame_balance(
-        side, _centre_acceleration(side), acceleration, sp.Matrix([cap.u_ddot, cap.v_ddot]) + _LOADS
-    )
-    return solve(balance, acceleration)
+    return solve(frame_equilibrium(side), acceleration)
 
 
 @cache

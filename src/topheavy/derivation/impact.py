@@ -41,19 +41,27 @@ def _cap_velocity(side: Side) -> sp.Matrix:
     return sp.Matrix([cap.u_dot, cap.v_dot])
 
 
-def _ratio(balance: list[sp.Expr], side: Side) -> sp.Expr:
-    """θ̇_2/θ̇_1 from a balance of impulses, with the arms of the upright position."""
-    upright = [side.upright(equation) for equation in balance]
-    ratio = solve(upright, velocity_after)[velocity_after] / velocity_before
+def _ratio(balance: list[sp.Expr]) -> sp.Expr:
+    """θ̇_2/θ̇_1 from a balance of impulses."""
+    ratio = solve(balance, velocity_after)[velocity_after] / velocity_before
     return sp.simplify(ratio.subs(RECTANGULAR))
+
+
+def frame_impact(side: Side) -> list[sp.Expr]:
+    """The frame's balances of impulse, as it changes over to the side, which vanish.
+
+    The cap-beam's moments are left out, as in the equilibrium.
+    """
+    column = _jump(_centre_velocity(side.other), _centre_velocity(side), side)
+    cap = _jump(_cap_velocity(side.other), _cap_velocity(side), side)
+    balance = frame_balance(side, column, velocity_after - velocity_before, cap)
+    return [side.upright(equation) for equation in balance]
 
 
 @cache
 def restitution(side: Side = POSITIVE) -> sp.Expr:
     """√r = θ̇_2/θ̇_1 of the frame that changes over to the side, in α and γ. # Eq. (25)"""
-    column = _jump(_centre_velocity(side.other), _centre_velocity(side), side)
-    cap = _jump(_cap_velocity(side.other), _cap_velocity(side), side)
-    ratio = _ratio(frame_balance(side, column, velocity_after - velocity_before, cap), side)
+    ratio = _ratio(frame_impact(side))
     numerator, denominator = sp.fraction(sp.factor(sp.expand(sp.expand_trig(ratio))))
     scale = denominator.subs(gamma, 0)
     numerator = sp.collect(sp.expand(numerator / scale), gamma, sp.trigsimp)
@@ -65,7 +73,8 @@ def column_restitution(side: Side = POSITIVE) -> sp.Expr:
     """√r = θ̇_2/θ̇_1 of the solitary column, in α. # Housner (1963)"""
     jump = _jump(_centre_velocity(side.other), _centre_velocity(side), side)
     spin = velocity_after - velocity_before
-    return _ratio(column_balance(side, jump, spin, GROUND_1, sp.zeros(2, 1)), side)
+    balance = column_balance(side, jump, spin, GROUND_1, sp.zeros(2, 1))
+    return _ratio([side.upright(equation) for equation in balance])
 
 
 def tangent_form(expression: sp.Expr) -> sp.Expr:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import inspect
+from collections.abc import Callable
 from dataclasses import dataclass
 
-from topheavy.derivation import impact_proofs, motion_proofs
+from topheavy.derivation import contact_proofs, impact_proofs, motion_proofs
 
 
 @dataclass(frozen=True)
@@ -18,8 +19,14 @@ class Theorem:
 
 
 def theorems() -> list[Theorem]:
-    """Prove everything anew; the name and docstring of each proof are the theorem's."""
-    return [
-        Theorem(proof.__name__, inspect.getdoc(proof) or "", proof())
-        for proof in (*motion_proofs.PROOFS, *impact_proofs.PROOFS)
-    ]
+    """Prove anew what concerns the motion; name and docstring of each proof are the theorem's."""
+    return _prove(*motion_proofs.PROOFS, *impact_proofs.PROOFS)
+
+
+def contact_theorems() -> list[Theorem]:
+    """Prove anew what concerns the contact forces, which the paper leaves out."""
+    return _prove(*contact_proofs.PROOFS)
+
+
+def _prove(*proofs: Callable[[], bool]) -> list[Theorem]:
+    return [Theorem(proof.__name__, inspect.getdoc(proof) or "", proof()) for proof in proofs]
