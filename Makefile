@@ -11,7 +11,7 @@ DEV := $(UV) run --locked
 BENCH := PYTHONPATH=src/steps:figures $(UV) run --locked --no-dev --group bench
 CELLS ?= 40000
 
-.PHONY: help reproduce test lint publish study benchmark verify-grid unlock clean
+.PHONY: help reproduce trace verify test lint publish study benchmark verify-grid unlock clean
 .DEFAULT_GOAL := help
 
 help: ## show this list
@@ -21,6 +21,12 @@ help: ## show this list
 reproduce: | $(UV) ## compute every result, check every claim, compile the report (CORES=2)
 	@$(RUN) snakemake --cores $(CORES)
 	@cat results/summary.txt
+
+trace: | $(UV) ## from a figure, table, finding or claim to its source (ITEM=figures/heavier.svg)
+	@$(RUN) python src/steps/origin.py '$(ITEM)'
+
+verify: | $(UV) ## check every file of a finished run against results/manifest.json
+	@$(RUN) python src/steps/verify.py
 
 test: | $(UV) ## run the tests
 	@$(DEV) pytest

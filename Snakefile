@@ -14,6 +14,7 @@ SHARED = [
 sys.path[:0] = SHARED
 os.environ["PYTHONPATH"] = os.pathsep.join(SHARED)
 from configuration import check_config, record_files
+from ledger import read_ledger
 from study_config import read_study_config
 
 
@@ -107,7 +108,8 @@ REFERENCES = sorted(map(str, Path("tests/reference").glob("*.csv")))
 # Follow-up studies, each a folder: their rules add to FIGURES, FINDINGS and REPORTED (see FOLLOW-UP.md).
 STUDIES = config["studies"]
 STUDY_CONFIG = {name: read_study_config(name, config["structures"]) for name in STUDIES}
-LEDGERS = ["paper/claims.yaml", *(f"studies/{name}/claims.yaml" for name in STUDIES)]
+LEDGER = ["paper/claims.yaml", *(f"studies/{name}/claims.yaml" for name in STUDIES)]
+CLAIMS = read_ledger(LEDGER)
 SECTIONS = [f"studies/{name}/section.typ" for name in STUDIES]
 REPORTED = [
     "assumptions",
@@ -116,6 +118,7 @@ REPORTED = [
     "allen_errors",
     "quarter_period",
     "trilith_nearness",
+    "verification_convergence",
     "verification_routes",
     "verification_published",
 ]
@@ -129,11 +132,14 @@ rule all:
     default_target: True
     input:
         expand("{figure}.svg", figure=FIGURES),
-        expand("results/notebooks/{name}.html", name=NOTEBOOKS),
+        expand(
+            "results/notebooks/{name}.{kind}", name=NOTEBOOKS, kind=["ipynb", "html"]
+        ),
         "results/summary.txt",
         "results/costs.csv",
         "results/animation.gif",
         "paper/report.pdf",
+        "results/manifest.json",
 
 
 onstart:
@@ -145,7 +151,7 @@ onstart:
 
 
 onsuccess:
-    if Path("results/summary.txt").exists():
+    if "all" in {rule.name for rule in workflow.dag.targetrules}:
         print(Path("results/summary.txt").read_text())
 
 
@@ -673,9 +679,9 @@ rule notebook:
 rule claims:
     input:
         "src/topheavy/claims.py",
-        WORKBENCH,
         "src/steps/ledger.py",
-        ledgers=LEDGERS,
+        WORKBENCH,
+        ledger=LEDGER,
         findings=expand("results/findings/{name}.json", name=FINDINGS),
     output:
         "results/claims.json",
@@ -768,3 +774,43 @@ rule report:
         "Compiling the report"
     script:
         "src/steps/report.py"
+
+
+# The audit: what was made and by what, each claim by itself ---------------------------------------
+
+
+rule manifest:
+    input:
+        WORKBENCH,
+        "src/steps/provenance.py",
+        [path for path in rules.all.input if path != "results/manifest.json"],
+        configuration="config/config.yaml",
+        lock="uv.lock",
+    output:
+        "results/manifest.json",
+    log:
+        "results/logs/manifest.log",
+    params:
+        differs_each_run=rules.costs.output,
+    message:
+        "Listing every output with its checksum"
+    script:
+        "src/steps/manifest.py"
+
+
+# `snakemake --cores 2 claim_<id>` computes what the claim needs, and says how it came out.
+for claim in CLAIMS:
+
+    rule:
+        name:
+            f"claim_{claim['id']}"
+        input:
+            getattr(rules, claim["rule"]).output.findings if "rule" in claim else [],
+        log:
+            f"results/logs/claim_{claim['id']}.log",
+        params:
+            claim=claim,
+        message:
+            f"Judging {claim['id']}"
+        script:
+            "src/steps/claim.py"

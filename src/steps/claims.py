@@ -1,9 +1,9 @@
-"""The ledger judged: every row of it against what the workflow found."""
+"""The ledger judged: every row against what the workflow found."""
 
 import json
 from pathlib import Path
 
-from ledger import read_ledger
+from ledger import finding_of, read_ledger
 from workbench import log_to
 
 from topheavy.claims import judge
@@ -12,14 +12,7 @@ from topheavy.claims import judge
 def main(ledger: list[dict], findings: dict[str, dict]) -> list[dict]:
     rows = []
     for claim in ledger:
-        finding = None
-        if claim.get("finding"):
-            finding = findings[claim["rule"]].get(claim["finding"])
-            if finding is None:
-                raise ValueError(
-                    f"the ledger: {claim['id']} names the finding {claim['finding']!r}, "
-                    f"which rule {claim['rule']} does not make"
-                )
+        finding = finding_of(claim, findings.get(claim.get("rule"), {}))
         verdict = judge(claim, finding)
         found = finding or {}
         rows.append(
@@ -48,7 +41,7 @@ def main(ledger: list[dict], findings: dict[str, dict]) -> list[dict]:
 
 if __name__ == "__main__":
     with log_to(snakemake.log[0]):
-        ledger = read_ledger(snakemake.input.ledgers)
+        ledger = read_ledger(snakemake.input.ledger)
         findings = {
             Path(path).stem: json.loads(Path(path).read_text(encoding="utf-8"))
             for path in snakemake.input.findings

@@ -1,6 +1,6 @@
-"""The claims ledger: the paper's claims, and those of the follow-up studies."""
+"""The ledger: the claims of the paper and of the studies, and what was found for one of them."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -41,3 +41,21 @@ def read_ledger(paths: Iterable[str | Path]) -> list[dict[str, Any]]:
             kept = {key: known[key] for key in known if key not in JUDGED_BY}
             rows[row["id"]] = kept | row
     return list(rows.values())
+
+
+def finding_of(claim: Mapping[str, Any], findings: Mapping[str, Any]) -> dict[str, Any] | None:
+    """Return what was found for a claim among the findings of its rule; None if it is not tested.
+
+    Raises
+    ------
+    ValueError
+        When the rule made no finding of that name.
+    """
+    if "finding" not in claim:
+        return None
+    if claim["finding"] not in findings:
+        raise ValueError(
+            f"the claim {claim['id']} names the finding {claim['finding']!r}, "
+            f"which rule {claim['rule']} does not make"
+        )
+    return findings[claim["finding"]]

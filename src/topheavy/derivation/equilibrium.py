@@ -38,7 +38,7 @@ def _centre_acceleration(side: Side) -> sp.Matrix:
 
 @cache
 def column_motion(side: Side) -> sp.Expr:
-    """θ̈ of the solitary column of any inertia I_o and mass m_c. # Eqs. (1), (2)"""
+    """θ̈ of the solitary column of any inertia I_o and mass m_c. # Eqs. (1)–(3)"""
     balance = column_balance(
         side, _centre_acceleration(side), acceleration, GROUND_1, sp.zeros(2, 1)
     )
@@ -57,14 +57,14 @@ def frame_motion(side: Side) -> dict[sp.Symbol, sp.Expr]:
     """θ̈ and all forces of the frame, in θ, θ̇, the ground's acceleration and F_z1, which is free.
 
     The cap-beam's moment equilibrium is left out; it would fix F_z1, and nothing else here needs
-    it. # Eqs. (10)–(18)
+    it. # Eqs. (10)–(18) for θ < 0, Eqs. (20), (21) for θ > 0
     """
     return solve(frame_equilibrium(side), acceleration)
 
 
 @cache
 def equation_of_motion(side: Side) -> sp.Eq:
-    """The frame's equation of motion, with rectangular columns. # Eqs. (19), (22)"""
+    """The frame's equation of motion, with rectangular columns. # Eqs. (19), (22), (23)"""
     return sp.Eq(acceleration, sp.factor(frame_motion(side)[acceleration].subs(RECTANGULAR)))
 
 
@@ -96,7 +96,7 @@ def uplift_acceleration(motion: sp.Expr, side: Side) -> sp.Expr:
 
 
 def quadratic_terms(side: Side) -> tuple[sp.Expr, sp.Expr]:
-    """The terms in θ̇² that ü and v̈ each contribute to the cap-beam's moment. # (17) to (18)"""
+    """The terms in θ̇² that ü and v̈ each contribute to the cap-beam's moment. # Eqs. (17), (18)"""
     cap = cap_motion(side)
     moments = (-cap.u_ddot * sp.cos(side.lean), -side.sign * cap.v_ddot * sp.sin(side.lean))
     first, second = (sp.expand(moment).coeff(velocity, 2) for moment in moments)

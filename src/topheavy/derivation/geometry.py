@@ -70,6 +70,7 @@ def cap_motion(side: Side) -> CapMotion:
     """The cap-beam's displacement, velocity and acceleration, as functions of θ, θ̇ and θ̈.
 
     It goes with the corners that carry it, from where they are when the frame stands upright.
+    # Eqs. (4)–(9)
     """
     contact = cap_contact(side)
     displacement = contact - side.upright(contact)

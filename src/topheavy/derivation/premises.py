@@ -17,6 +17,7 @@ from topheavy.derivation import geometry
 from topheavy.derivation.equilibrium import (
     RECTANGULAR,
     column_motion,
+    equation_of_motion,
     frame_motion,
     frequency_ratio,
     size_ratio,
@@ -85,7 +86,7 @@ def rectangular_frame(side: Side) -> Values:
     """θ̈ of the frame of rectangular columns, with p of its columns and its own p̂ and R̂."""
     p = rectangular_column(side)[sp.Symbol("p")]
     return {
-        acceleration: frame_motion(side)[acceleration].subs(RECTANGULAR),
+        acceleration: equation_of_motion(side).rhs,
         sp.Symbol("p"): p,
         sp.Symbol("p_hat"): frequency_ratio() * p,
         sp.Symbol("R_hat"): size_ratio() * R,

@@ -1,4 +1,4 @@
-"""What is printed: the numbered equations (1)–(25) of Makris & Vassiliou (2014).
+"""What is printed: the numbered equations of Makris & Vassiliou (2014).
 
 Each is written as it stands in our transcription of the paper, with round brackets for all
 brackets, a function's argument in brackets, and a denominator behind a solidus in brackets where

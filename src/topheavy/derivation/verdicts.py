@@ -57,7 +57,7 @@ class PrintedCheck:
 
 
 def check_printed() -> list[PrintedCheck]:
-    """Test Eqs. (1)–(25) and the formulas in the text as they are printed."""
+    """Test every numbered equation, and the formulas in the text, as they are printed."""
     checks = [check for statement in (*EQUATIONS, *IN_TEXT) for check in _checks(statement)]
     checks += [_check_step(*step) for step in STEPS]
     printed, meant = (_is_uplift(text) for text in (UPLIFT.printed, UPLIFT.meant))

@@ -1,0 +1,52 @@
+"""One claim by itself: `snakemake --cores 2 claim_<id>` computes it and prints its line."""
+
+import json
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from ledger import finding_of
+from workbench import log_to
+
+from topheavy.claims import judge
+
+
+def verdict_line(claim: Mapping[str, Any], finding: Mapping[str, Any] | None, verdict: str) -> str:
+    """Return the line of a claim: its verdict, and in brackets what that rests on."""
+    printed = f"printed {claim['printed']}, " if "printed" in claim else ""
+    if finding is None:
+        grounds = claim["remark"]
+    elif "value" in finding:
+        unit = claim.get("unit", finding.get("unit", ""))
+        grounds = (
+            f"{printed}computed {finding['value']:.6g} ± {finding['error']:.1g} {unit}".strip()
+        )
+        if verdict == "misprint":
+            grounds += f"; what is meant gives {finding['meant_value']:.6g} {unit}".rstrip()
+    else:
+        meaning = {
+            "misprint": "does not hold as printed; what is meant does",
+            "qualified": f"holds under a condition: {claim.get('remark', '')}",
+            "refuted": "does not hold",
+        }
+        grounds = printed + meaning.get(verdict, "holds")
+    line = f"{claim['id']}: {verdict} ({grounds})"
+    return line if verdict == claim["expected"] else f"{line}; expected {claim['expected']}"
+
+
+if __name__ == "__main__":
+    with log_to(snakemake.log[0]) as log:
+        claim = snakemake.params.claim
+        findings = {
+            key: finding
+            for path in snakemake.input
+            for key, finding in json.loads(Path(path).read_text(encoding="utf-8")).items()
+        }
+        finding = finding_of(claim, findings)
+        verdict = judge(claim, finding)
+        line = verdict_line(claim, finding, verdict)
+        print(line, file=sys.__stdout__, flush=True)
+        print(line, file=log)
+        if verdict != claim["expected"]:
+            raise SystemExit(1)
