@@ -13,8 +13,7 @@ from drawing import (
     sheet,
 )
 
-FRAMES = {"trilith": "Trilith, columns of 0.8 m", "bridge": "Bridge, piers of 7.0 m"}
-HIGHEST = {"trilith": 2.0, "bridge": 1.5}  # g
+HIGHEST = 7.0  # over the amplitude of uplift
 NAMES = {"period": "x", "lower_g": "lower", "upper_g": "upper"}
 FILLS = {"with impact": "#e8eff5", "without impact": "#c0ccd7"}
 SHOWN = 0.01  # g: what is narrower, tongue or bay, is not drawn
@@ -22,30 +21,34 @@ SHOWN = 0.01  # g: what is narrower, tongue or bay, is not drawn
 
 def draw(spectra_dimensional, spectra_published):
     table = spectra_dimensional.drop(columns=["lower", "upper"]).rename(columns=NAMES)
-    shapes = list(dict.fromkeys(table["shape"]))
-    figure, axes = sheet(DOUBLE, 112, nrows=len(shapes), ncols=len(FRAMES), sharex="col")
+    heights = table.groupby("structure", sort=False).height.first()
+    names, shapes = list(heights.index), list(dict.fromkeys(table["shape"]))
+    grid = {"nrows": len(shapes), "ncols": len(names), "sharex": "col", "squeeze": False}
+    figure, axes = sheet(DOUBLE, 4 + 54 * len(shapes), **grid)
     for row, shape in zip(axes, shapes, strict=True):
-        for axis, name in zip(row, FRAMES, strict=True):
+        for axis, name in zip(row, names, strict=True):
             cells = table[(table.structure == name) & (table["shape"] == shape)]
-            panel(axis, cells, HIGHEST[name])
+            panel(axis, cells)
             axis.set_ylabel("Amplitude (g)")
             note(axis, PULSES[shape], (0.98, 0.94), xycoords="axes fraction", ha="right")
     for point in spectra_published.itertuples():
-        axis = axes[shapes.index(point.shape), list(FRAMES).index(point.structure)]
+        axis = axes[shapes.index(point.shape), names.index(point.structure)]
         axis.plot(point.period, point.printed_g, "o", color=ACCENT, markersize=4, zorder=4)
         words = f"Zhou et al. (2019): {point.printed_g:g} g"
         note(axis, words, (point.period, 0.1), ha="center", color=ACCENT)
     for axis in axes[-1]:
         axis.set_xlabel("Period of the pulse (s)")
-    first = axes[0, 0]
-    note(first, "overturns without impact", (1.3, 1.1), ha="center")
-    note(first, "after an impact", (0.95, 0.45), ha="center")
-    letter(axes[0], FRAMES.values())
+    inside = {"xycoords": "axes fraction", "ha": "center"}
+    note(axes[0, 0], "overturns without impact", (0.5, 0.6), **inside)
+    note(axes[-1, 0], "after an impact", (0.22, 0.62), **inside)
+    titles = (f"{name.replace('_', ' ')}, columns of {heights[name]:.1f} m" for name in names)
+    letter(axes[0], [title[0].upper() + title[1:] for title in titles])
     return figure
 
 
-def panel(axis, cells, highest):
+def panel(axis, cells):
     """Fill what overturns the heaviest, by its mode; draw the lowest amplitude of every γ."""
+    highest = HIGHEST * cells.uplift_g.iloc[0]
     ratios = sorted(cells.mass_ratio.unique())
     heaviest = cells[cells.mass_ratio == ratios[-1]]
     for mode, colour in FILLS.items():

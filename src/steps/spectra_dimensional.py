@@ -17,17 +17,25 @@ def frequency_ratios(spec: dict) -> np.ndarray:
     return np.geomspace(spec["lowest"], spec["highest"], spec["points"])
 
 
+def mass_ratio(cap: float | dict) -> float:
+    """Return γ of a cap: as it is given, or from the masses of the cap and of one column."""
+    if isinstance(cap, dict):
+        return cap["cap_mass"] / (2.0 * cap["column_mass"])
+    return cap
+
+
 def lines(case: dict, structures: dict) -> list[Line]:
     """Return the lines of all spectra; a scale of 1 is an amplitude of 1 g tan α."""
     found = []
-    for name, mass_ratios in case["frames"].items():
+    for name, caps in case["frames"].items():
         column = Column(**structures[name])
         for shape in case["shapes"]:
-            for gamma in mass_ratios:
+            for gamma in map(mass_ratio, caps):
                 for ratio in frequency_ratios(case["frequency_ratios"]):
                     omega = ratio * column.frequency_parameter
                     labels = {
                         "structure": name,
+                        "height": 2.0 * column.half_height,
                         "shape": shape,
                         "mass_ratio": gamma,
                         "period": 2.0 * math.pi / omega,
