@@ -11,7 +11,7 @@ DEV := $(UV) run --locked
 BENCH := PYTHONPATH=src/steps:figures $(UV) run --locked --no-dev --group bench
 CELLS ?= 40000
 
-.PHONY: help reproduce trace verify test lint publish study benchmark verify-grid unlock clean
+.PHONY: help reproduce check trace verify test lint publish study benchmark verify-grid unlock clean
 .DEFAULT_GOAL := help
 
 help: ## show this list
@@ -21,6 +21,9 @@ help: ## show this list
 reproduce: | $(UV) ## compute every result, check every claim, compile the report (CORES=2)
 	@$(RUN) snakemake --cores $(CORES)
 	@cat results/summary.txt
+
+check: | $(UV) ## judge the committed claims anew from the committed tables; no run, a minute
+	@$(RUN) python src/steps/recheck.py
 
 trace: | $(UV) ## from a figure, table, finding or claim to its source (ITEM=figures/heavier.svg)
 	@$(RUN) python src/steps/origin.py '$(ITEM)'

@@ -551,7 +551,8 @@ rule statements:
 rule assumptions:
     input:
         LIBRARY,
-        "src/steps/choices.py",
+        sorted(map(str, Path("src/steps/assumptions").glob("*.py"))),
+        "src/steps/stability.py",
         assumptions="paper/assumptions.yaml",
         ledger="paper/claims.yaml",
         records=[RECORDS[name] for name in config["assumptions"]["records"]],
@@ -581,7 +582,7 @@ rule assumptions:
     message:
         "What the paper leaves open, chosen otherwise"
     script:
-        "src/steps/assumptions.py"
+        "src/steps/assumptions/run.py"
 
 
 # Figures -----------------------------------------------------------------------------------------

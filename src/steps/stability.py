@@ -120,23 +120,28 @@ def describe(trial: Trial) -> dict:
     }
 
 
-def main(case: dict, solver: dict) -> dict:
+def orders(case: dict) -> dict[str, list[list[Trial]]]:
+    """Return the rankings: rows of trials, each of which should survive what those before do."""
     column = Column(**case["column"])
-    amplitudes = tuple(map(float, grid(case["amplitudes"])))
-    scan = Scan(column, case["shape"], amplitudes, solver["tightened"])
     frames = [RockingFrame(column, gamma) for gamma in case["mass_ratios"]]
     b, h = column.half_width, column.half_height
     sizes = [Column(scale * b, scale * h) for scale in case["sizes"]]
     ratios = case["frequency_ratios"]
     return {
-        "heavier_is_more_stable": scan.ranking([[(f, ratio) for f in frames] for ratio in ratios]),
-        "frame_is_more_stable_than_its_column": scan.ranking(
-            [[(column, ratio), (frame, ratio)] for ratio in ratios for frame in frames]
-        ),
-        "larger_is_more_stable": scan.ranking([[(c, ratio) for c in sizes] for ratio in ratios]),
+        "heavier_is_more_stable": [[(f, ratio) for f in frames] for ratio in ratios],
+        "frame_is_more_stable_than_its_column": [
+            [(column, ratio), (frame, ratio)] for ratio in ratios for frame in frames
+        ],
+        "larger_is_more_stable": [[(c, ratio) for c in sizes] for ratio in ratios],
         # ratios ascend: from the longest pulse to the shortest
-        "longer_pulse_overturns_first": scan.ranking([[(column, ratio) for ratio in ratios]]),
+        "longer_pulse_overturns_first": [[(column, ratio) for ratio in ratios]],
     }
+
+
+def main(case: dict, solver: dict) -> dict:
+    amplitudes = tuple(map(float, grid(case["amplitudes"])))
+    scan = Scan(Column(**case["column"]), case["shape"], amplitudes, solver["tightened"])
+    return {name: scan.ranking(order) for name, order in orders(case).items()}
 
 
 if __name__ == "__main__":

@@ -1,0 +1,71 @@
+"""What follows from the impact: √r, the energy lost, the error of Allen et al. (1986)."""
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+from workbench import grid, truth
+
+from assumptions.choices import Choices
+from assumptions.quantity import Cases, Found, Quantity
+from topheavy import Column, Pulse, RockingFrame, judge
+from topheavy.massless_columns import SIMPLIFICATIONS, simplified
+
+
+def slender(degrees: float) -> Column:
+    alpha = math.radians(degrees)
+    return Column(math.sin(alpha), math.cos(alpha))
+
+
+def restitutions(choices: Choices, cases: Cases) -> Iterator[tuple[float, float]]:
+    """√r of column and frame, over slenderness and γ > 0; negative where they do not rock on."""
+    case = cases["restitution"]
+    for column in map(slender, np.linspace(1.0, case["largest_slenderness"], 60)):
+        for gamma in case["mass_ratios"]:
+            if gamma > 0.0:
+                frame = RockingFrame(column, gamma)
+                yield choices.factors(column)[1], choices.factors(frame)[1]
+
+
+def restitution_is_smaller(choices: Choices, cases: Cases) -> Found:
+    """The least deficit of √r of the frame against that of its column."""
+    least = min(column - frame for column, frame in restitutions(choices, cases))
+    return Found(least, truth(least > 0.0))
+
+
+def more_energy_is_dissipated(choices: Choices, cases: Cases) -> Found:
+    """The number of frames that lose no more than their column; a condition is that both rock."""
+    against = [pair for pair in restitutions(choices, cases) if not pair[1] ** 2 < pair[0] ** 2]
+    rocking = [pair for pair in against if min(pair) >= 0.0]
+    return Found(len(against), truth(not against, holds_when=not rocking))
+
+
+def allen_error(choices: Choices, cases: Cases) -> Found:
+    """The median error of their model's peak; is p̂ of massless columns the leading part of it?"""
+    case = cases["allen_errors"]
+    errors: dict[str, list[float]] = {name: [] for name in SIMPLIFICATIONS}
+    for column in map(slender, grid(case["slendernesses"])):
+        omega = case["frequency_ratio"] * column.frequency_parameter
+        for gamma in case["mass_ratios"]:
+            frame = RockingFrame(column, gamma)
+            models = {name: simplified(frame, name) for name in SIMPLIFICATIONS}
+            for name in ("massless restitution", "all"):
+                models[name] = models[name].with_restitution(choices.massless_restitution(frame))
+            for ratio in grid(case["amplitudes"]):
+                pulse = Pulse(case["shape"], ratio * column.uplift_acceleration, omega)
+                peak = judge(frame, pulse, tolerance=choices.tolerance).peak
+                for name, model in models.items():
+                    other = judge(model, pulse, tolerance=choices.tolerance).peak
+                    errors[name].append(other / peak - 1.0)
+    median = {name: float(np.nanmedian(np.abs(found))) for name, found in errors.items()}
+    lesser = max(median["linearised"], median["massless restitution"])
+    return Found(median["all"], truth(median["massless frequency"] > lesser))
+
+
+QUANTITIES = {
+    "least deficit of √r": Quantity("restitution_is_smaller", "", restitution_is_smaller),
+    "frames that lose no more": Quantity(
+        "more_energy_is_dissipated", "cases", more_energy_is_dissipated
+    ),
+    "Allen et al.: median error": Quantity(None, "of the peak", allen_error),
+}

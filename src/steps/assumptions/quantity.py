@@ -1,0 +1,24 @@
+"""What an assumption may reach: a number, and the verdict on its claim."""
+
+from collections.abc import Callable
+from typing import Any, NamedTuple, TypeAlias
+
+from assumptions.choices import Choices
+
+Cases: TypeAlias = dict[str, Any]
+"""The sections of the config, by name, and the records."""
+
+
+class Found(NamedTuple):
+    """A quantity's number, and the finding by which its claim is judged."""
+
+    number: float
+    finding: dict[str, Any]
+
+
+class Quantity(NamedTuple):
+    """Its claim in the ledger if it has one, its unit, and what computes it."""
+
+    claim: str | None
+    unit: str
+    find: Callable[[Choices, Cases], Found]

@@ -1,0 +1,121 @@
+"""Who is more stable: pulses, and records, that overturn the more stable of two alone."""
+
+import math
+from dataclasses import replace
+from functools import cache, partial
+from itertools import combinations, pairwise
+
+import numpy as np
+from stability import Trial, orders
+from workbench import grid, truth
+
+from assumptions.choices import Choices, beyond_slenderness, by_energy
+from assumptions.pulses import similar
+from assumptions.quantity import Cases, Found, Quantity
+from topheavy import Column, Pulse, RockingFrame, judge, overturning_map
+
+FINER = 0.001  # g tan α: between amplitudes on the map, where a band may be narrow
+
+
+@cache
+def overturned(
+    choices: Choices, column: Column, shape: str, amplitudes: tuple[float, ...], trial: Trial
+) -> np.ndarray:
+    """Which amplitudes (over g tan α) of a pulse overturn a trial."""
+    structure, ratio = trial
+    # p in the chosen g, so that ω/p is what it is said to be
+    omega = ratio * choices.block(column).frequency_parameter
+    pulse = Pulse(shape, column.uplift_acceleration, omega)
+    return np.array([choices.falls(structure, pulse.scaled(factor)) for factor in amplitudes])
+
+
+def ranking(choices: Choices, cases: Cases, name: str) -> Found:
+    """Count the amplitudes at which the trial that should be the more stable falls alone."""
+    case = cases["stability"]
+    column, amplitudes = Column(**case["column"]), tuple(map(float, grid(case["amplitudes"])))
+    order = orders(case)[name]
+    # The sense is a matter of reading the scan, not of making it.
+    over = partial(overturned, replace(choices, sense="both"), column, case["shape"], amplitudes)
+
+    def first(trial: Trial) -> float:
+        return amplitudes[int(over(trial).argmax())] if over(trial).any() else math.inf
+
+    against = sum(
+        int((over(stronger) & ~over(weaker)).sum())
+        for trials in order
+        for weaker, stronger in combinations(trials, 2)
+    )
+    rises = all(first(a) <= first(b) for trials in order for a, b in pairwise(trials))
+    finding = {
+        "both": truth(against == 0, holds_when=rises),
+        "pulse": truth(against == 0),
+        "lowest": truth(rises),
+    }[choices.sense]
+    return Found(against, finding)
+
+
+def heavier_falls_alone_on_the_map(choices: Choices, cases: Cases) -> Found:
+    """Count the pulses of a dense map at which the heavier of two neighbouring frames falls alone.
+
+    The map knows two criteria; the pulses that it finds are judged again, one by one.
+    """
+    if choices.overturned not in (by_energy, beyond_slenderness):
+        raise ValueError(
+            f"overturned is {choices.overturned}; expected by_energy or beyond_slenderness"
+        )
+    case = cases["assumptions"]["map"]
+    column = Column(**cases["stability"]["column"])
+    p, level = column.frequency_parameter, column.uplift_acceleration
+    limit = column.slenderness if choices.overturned is beyond_slenderness else math.inf
+    omegas, amplitudes = grid(case["frequency_ratios"]) * p, grid(case["amplitudes"]) * level
+    frames = [RockingFrame(column, gamma) for gamma in case["mass_ratios"]]
+    count, rises = 0, True
+    for shape in case["shapes"]:
+        maps = [overturning_map(choices.block(f), shape, omegas, amplitudes) for f in frames]
+        falls = [(found.overturned | (found.peak_rotation > limit)).values for found in maps]
+        for (light, stands), (heavy, fallen) in pairwise(zip(frames, falls, strict=True)):
+            for i, j in np.argwhere(fallen & ~stands):
+                pulse = Pulse(shape, amplitudes[j], omegas[i])
+                count += choices.falls(heavy, pulse) and not choices.falls(light, pulse)
+            before, after = (
+                np.where(over.any(axis=1), over.argmax(axis=1), len(amplitudes))
+                for over in (stands, fallen)
+            )
+            for i in np.flatnonzero(after < before):  # so it seems: bands near uplift are narrow
+                finer = np.arange(amplitudes[0], amplitudes[after[i]], FINER * level)
+                rises &= any(choices.falls(light, Pulse(shape, a, omegas[i])) for a in finer)
+    return Found(count, truth(count == 0, holds_when=rises))
+
+
+def heavier_falls_alone_under_records(choices: Choices, cases: Cases) -> Found:
+    """The number of sizes and records under which the frame falls and the lighter one stands."""
+    case, spec = cases["rocking_spectra"], cases["assumptions"]["record_sizes"]
+    column = Column(**case["column"])
+    count = 0
+    for record in map(choices.resampled, cases["records"]):
+        for size in np.geomspace(spec["lowest"], spec["highest"], spec["points"]):
+            scaled = similar(column, size / column.size)
+            falls = [
+                judge(choices.block(frame), record, tolerance=choices.tolerance).overturned
+                for frame in (RockingFrame(scaled, gamma) for gamma in case["mass_ratios"])
+            ]
+            count += sum(heavy and not light for light, heavy in pairwise(falls))
+    return Found(count, truth(count == 0))
+
+
+def _ranked(claim: str, name: str) -> Quantity:
+    return Quantity(claim, "pulses", partial(ranking, name=name))
+
+
+QUANTITIES = {
+    "heavier falls alone": _ranked("heavier_is_more_stable", "heavier_is_more_stable"),
+    "frame falls alone": _ranked(
+        "frame_is_more_stable_than_its_column", "frame_is_more_stable_than_its_column"
+    ),
+    "larger falls alone": _ranked("larger_is_more_stable", "larger_is_more_stable"),
+    "shorter overturns alone": _ranked("duration_effect", "longer_pulse_overturns_first"),
+    "map: heavier falls alone": Quantity(
+        "heavier_is_more_stable", "pulses", heavier_falls_alone_on_the_map
+    ),
+    "records: heavier falls alone": Quantity(None, "cases", heavier_falls_alone_under_records),
+}

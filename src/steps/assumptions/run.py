@@ -1,0 +1,85 @@
+"""What the paper leaves open, chosen otherwise: which numbers and which verdicts would change?
+
+Each alternative of paper/assumptions.yaml replaces one of our choices, and every quantity that it
+reaches is computed anew, at the library's tolerance and once more at the tightened one. A quantity
+with a claim is judged as the ledger judges it, though from fewer pulses than the rule of the claim.
+"""
+
+import math
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+
+import yaml
+from workbench import log_to, write_table
+
+from assumptions import impact, pulses, rankings, trilith
+from assumptions.alternatives import alternatives
+from assumptions.choices import Choices
+from assumptions.quantity import Cases
+from topheavy import read_record
+from topheavy.claims import judge as judge_claim
+
+QUANTITIES = trilith.QUANTITIES | pulses.QUANTITIES | rankings.QUANTITIES | impact.QUANTITIES
+
+
+def main(assumptions: list[dict], ledger: dict[str, dict], cases: Cases, tightened: float):
+    """Return the rows of the table: each quantity, ours and by each alternative that reaches it."""
+
+    @cache
+    def found(name: str, choices: Choices) -> tuple[float, float, str]:
+        """Return a quantity's number, an estimate of its error, and its verdict."""
+        finer = replace(choices, tolerance=tightened, samples=2 * choices.samples - 1)
+        first, again = (QUANTITIES[name].find(option, cases) for option in (choices, finer))
+        claim = ledger.get(QUANTITIES[name].claim or "", {"id": name})
+        verdict = judge_claim(claim, first.finding)
+        if verdict != judge_claim(claim, again.finding):
+            raise ArithmeticError(f"{name}, {choices}: the verdict hangs on the tolerance")
+        told = math.isfinite(first.number) or math.isfinite(again.number)
+        return first.number, abs(first.number - again.number) if told else 0.0, verdict
+
+    rows = []
+    made = alternatives(cases["assumptions"])
+    for assumption in assumptions:
+        for alternative in assumption["alternatives"]:
+            for name in assumption["reaches"]:
+                quantity = QUANTITIES[name]
+                ours, error, before = found(name, Choices())
+                other, other_error, after = found(name, made[assumption["id"]][alternative["id"]])
+                claim = ledger.get(quantity.claim or "", {})
+                if claim and before != claim["expected"]:
+                    raise ArithmeticError(
+                        f"{name}: {before}, and {claim['expected']} in the ledger"
+                    )
+                rows.append(
+                    {
+                        "assumption": assumption["id"],
+                        "alternative": alternative["id"],
+                        "quantity": name,
+                        "claim": quantity.claim or "",
+                        "unit": quantity.unit,
+                        "ours": ours,
+                        "with_alternative": other,
+                        "error": max(error, other_error),
+                        "tolerance": claim.get("tolerance", math.nan),
+                        "before": before,
+                        "after": after,
+                        "changed": before != after,
+                    }
+                )
+                print(*rows[-1].values(), sep="; ", flush=True)
+    return rows
+
+
+if __name__ == "__main__":
+    with log_to(snakemake.log[0]):
+        assumptions, claims = (
+            yaml.safe_load(Path(path).read_text(encoding="utf-8"))
+            for path in (snakemake.input.assumptions, snakemake.input.ledger)
+        )
+        cases = snakemake.params.cases | {
+            "records": [read_record(path) for path in snakemake.input.records]
+        }
+        ledger = {claim["id"]: claim for claim in claims}
+        rows = main(assumptions, ledger, cases, snakemake.params.solver["tightened"])
+        write_table(snakemake.output.table, rows)

@@ -1,0 +1,86 @@
+"""The numbers of the trilith, and whether it rocks below uplift."""
+
+from functools import partial
+
+import numpy as np
+from workbench import truth, value
+
+from assumptions.choices import Choices
+from assumptions.quantity import Cases, Found, Quantity
+from topheavy import Column, RockingBlock, RockingFrame, simulate
+from topheavy.shaking_table import abrupt_start, table_acceleration, table_motion
+from topheavy.structures import STANDARD_GRAVITY
+
+EPS = 1e-14
+
+
+def trilith(choices: Choices, cases: Cases) -> tuple[RockingBlock, RockingBlock]:
+    """Return the solitary column and the frame."""
+    case = cases["trilith"]
+    cap, columns = choices.masses or (case["mass_ratio"], 1.0)
+    column = Column(**case["column"])
+    return choices.block(column), choices.block(RockingFrame(column, cap / columns))
+
+
+def passage(choices: Choices, cases: Cases) -> dict[str, float]:
+    """The numbers of p. 4, by their claims."""
+    case, (column, frame) = cases["trilith"], trilith(choices, cases)
+    level = table_acceleration(case["table_amplitude"], case["table_frequency"])
+    level *= STANDARD_GRAVITY / choices.gravity  # in the g that is chosen
+    cap, columns = choices.masses or case["printed_masses"]
+    return {
+        "trilith_frequency_parameter": column.frequency_parameter,
+        "trilith_frequency_ratio": frame.frequency_parameter / column.frequency_parameter,
+        "trilith_frame_frequency_parameter": frame.frequency_parameter,
+        "trilith_mass_ratio": cap / columns,
+        "trilith_base_acceleration_in_g": level,
+        "trilith_uplift_acceleration": frame.uplift_acceleration,
+        "trilith_stays_below_uplift": level / frame.uplift_acceleration,
+    }
+
+
+def number(choices: Choices, cases: Cases, claim: str) -> Found:
+    found = passage(choices, cases)[claim]
+    if claim == "trilith_stays_below_uplift":
+        return Found(found, truth(found < 1.0))
+    meant = {"meant_value": cases["trilith"]["mass_ratio"]} if claim == "trilith_mass_ratio" else {}
+    return Found(found, value(found, EPS, **meant))
+
+
+def no_pure_rocking(choices: Choices, cases: Cases) -> Found:
+    """The largest steady rotation over α after the starts, and whether it rests after each."""
+    case, (_, frame) = cases["trilith"], trilith(choices, cases)
+    u, f, duration = case["table_amplitude"], case["table_frequency"], case["duration"]
+    # In the chosen g the same motion of the table has another acceleration; p̂² takes g along.
+    motion = table_motion(u, f).scaled(STANDARD_GRAVITY / choices.gravity)
+    full = abrupt_start(frame, u, f) * STANDARD_GRAVITY / choices.gravity
+    steady, rests = 0.0, {}
+    for share in choices.table_starts:
+        response = simulate(
+            frame,
+            motion,
+            velocity=share * full,
+            duration=duration,
+            samples=2401,
+            tolerance=choices.tolerance,
+        )
+        rests[share] = response.outcome in ("no uplift", "rests")
+        late = np.abs(response.rotation[response.time > 0.75 * duration]).max()
+        steady = max(steady, float(late) / frame.slenderness)
+    return Found(steady, truth(all(rests.values()), holds_when=rests.get(0.0, False)))
+
+
+def _numbered(claim: str, unit: str = "") -> Quantity:
+    return Quantity(claim, unit, partial(number, claim=claim))
+
+
+QUANTITIES = {
+    "trilith: p": _numbered("trilith_frequency_parameter", "rad/s"),
+    "trilith: p̂/p": _numbered("trilith_frequency_ratio"),
+    "trilith: p̂": _numbered("trilith_frame_frequency_parameter", "rad/s"),
+    "trilith: γ": _numbered("trilith_mass_ratio"),
+    "trilith: base acceleration": _numbered("trilith_base_acceleration_in_g", "g"),
+    "trilith: uplift": _numbered("trilith_uplift_acceleration", "g"),
+    "trilith: below uplift": _numbered("trilith_stays_below_uplift", "of uplift"),
+    "trilith: steady rocking": Quantity("trilith_no_pure_rocking", "α", no_pure_rocking),
+}
