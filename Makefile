@@ -10,8 +10,9 @@ RUN := $(UV) run --locked --no-dev
 DEV := $(UV) run --locked
 BENCH := PYTHONPATH=src/steps:figures $(UV) run --locked --no-dev --group bench
 CELLS ?= 40000
+CONFIG ?= config/thorough.yaml
 
-.PHONY: help reproduce check trace verify test lint publish study benchmark verify-grid unlock clean
+.PHONY: help reproduce check trace verify html audit test lint publish study benchmark verify-grid unlock clean
 .DEFAULT_GOAL := help
 
 help: ## show this list
@@ -30,6 +31,10 @@ trace: | $(UV) ## from a figure, table, finding or claim to its source (ITEM=fig
 
 verify: | $(UV) ## check every file of a finished run against results/manifest.json
 	@$(RUN) python src/steps/verify.py
+
+html: | $(UV) ## after a run: every figure with caption and verdict in results/report.html
+	@$(RUN) snakemake --report results/report.html --quiet all
+	@$(RUN) python src/steps/check_html.py results/report.html
 
 test: | $(UV) ## run the tests
 	@$(DEV) pytest
@@ -61,6 +66,12 @@ lint: | $(UV) ## check style, types, spelling and schemas; changes nothing
 
 publish: | $(UV) ## copy results to docs/ and tests/reference/; look at the diff, then commit it
 	@$(RUN) python src/steps/publish.py
+
+audit: | $(UV) ## an hour: finer grids, tighter tolerances, all peers, all faults (CONFIG, CELLS, ROTATE)
+	@$(RUN) snakemake --cores $(CORES) --configfile $(CONFIG)
+	@cat results/summary.txt
+	@$(MAKE) --no-print-directory verify-grid benchmark kill-table
+	@echo "results/ is that of $(CONFIG) now: 'make reproduce' brings ours back"
 
 study: | $(UV) ## begin a follow-up study: make study NAME=my_study (FOLLOW-UP.md)
 	@$(RUN) python src/steps/new_study.py "$(NAME)"

@@ -3,6 +3,7 @@
 config → steps → results → figures, notebooks, claims → report
 """
 
+import json
 import os
 import sys
 from pathlib import Path
@@ -13,6 +14,7 @@ SHARED = [
 ]
 sys.path[:0] = SHARED
 os.environ["PYTHONPATH"] = os.pathsep.join(SHARED)
+from captions import caption_files, captioned, read_captions
 from configuration import check_config, record_files
 from ledger import read_ledger
 from study_config import read_study_config
@@ -50,6 +52,30 @@ def study_case(study, section):
     if "structure" not in entry:
         return entry
     return entry | {"column": config["structures"][entry["structure"]]}
+
+
+def caption_of(result):
+    """Return what the HTML report says of a result: its caption and verdict (figures/caption.rst)."""
+    claims = json.loads(Path("results/claims.json").read_text(encoding="utf-8"))
+    return captioned(str(result), read_captions(caption_files(config)), claims)
+
+
+def shown(output):
+    """Mark the last output of a rule for the HTML report; its caption is looked up when that is made.
+
+    One label alone, since Snakemake's page turns a second one that has two values into a switch.
+    """
+
+    def label(wildcards, output):
+        about = caption_of(output[-1])
+        return {"result: claims": f"{about['title']}: {about['verdict']}"}
+
+    return report(
+        output,
+        caption="figures/caption.rst",
+        category=lambda wildcards, output: caption_of(output[-1])["category"],
+        labels=label,
+    )
 
 
 # The overturning spectra are dealt out to so many jobs, which an executor may spread over machines.
@@ -138,6 +164,7 @@ rule all:
         "results/summary.txt",
         "results/costs.csv",
         "results/animation.gif",
+        "results/animation.png",
         "paper/report.pdf",
         "results/manifest.json",
 
@@ -597,7 +624,7 @@ rule figure:
         style="figures/style.mplstyle",
         drawing="figures/drawing.py",
     output:
-        "{figure}.svg",
+        shown("{figure}.svg"),
     log:
         "results/logs/{figure}.log",
     wildcard_constraints:
@@ -643,6 +670,7 @@ rule animation:
         drawing="figures/drawing.py",
     output:
         "results/animation.gif",
+        shown("results/animation.png"),
     log:
         "results/logs/animation.log",
     benchmark:

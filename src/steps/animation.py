@@ -153,4 +153,6 @@ if __name__ == "__main__":
     with log_to(snakemake.log[0]):
         plt.style.use(snakemake.input.style)
         case = snakemake.params.case
-        save(snakemake.output[0], main(case), case)
+        pictures = main(case)
+        for path in snakemake.output:  # a GIF, and a PNG for the HTML report, which shows no GIF
+            save(path, pictures, case)
