@@ -13,7 +13,9 @@ SHARED = [
     str(Path(workflow.basedir, folder)) for folder in ("", "src/steps", "figures")
 ]
 sys.path[:0] = SHARED
-os.environ["PYTHONPATH"] = os.pathsep.join(SHARED)
+os.environ["PYTHONPATH"] = os.pathsep.join(
+    [*SHARED, *filter(None, [os.environ.get("PYTHONPATH")])]
+)
 from captions import caption_files, captioned, read_captions
 from configuration import check_config, record_files
 from ledger import read_ledger
