@@ -12,7 +12,7 @@ BENCH := PYTHONPATH=src/steps:figures $(UV) run --locked --no-dev --group bench
 CELLS ?= 40000
 CONFIG ?= config/thorough.yaml
 
-.PHONY: help reproduce check trace verify html audit test lint publish study benchmark verify-grid unlock clean
+.PHONY: help reproduce check trace verify html audit test lint publish study kill-table benchmark verify-grid unlock clean
 .DEFAULT_GOAL := help
 
 help: ## show this list
@@ -76,6 +76,9 @@ audit: | $(UV) ## an hour: finer grids, tighter tolerances, all peers, all fault
 study: | $(UV) ## begin a follow-up study: make study NAME=my_study (FOLLOW-UP.md)
 	@$(RUN) python src/steps/new_study.py "$(NAME)"
 
+kill-table: | $(UV) ## put faults into a copy, one at a time: what catches each? (FAULTS=a,b or ROTATE=3)
+	@$(DEV) python faults/kill_table.py $(FAULTS:%=--faults %) $(ROTATE:%=--rotate %)
+
 benchmark: | $(UV) ## time the kernel beside its peers; writes docs/benchmark.csv and .svg (5 minutes)
 	@$(BENCH) python benchmarks/benchmark.py
 
@@ -88,7 +91,7 @@ unlock: | $(UV) ## after a killed run left the directory locked (no other run ma
 clean: ## remove all that the workflow and the tools wrote; keep the environment
 	rm -rf results .snakemake figures/*.svg studies/*/figures/*.svg paper/report.pdf
 	rm -rf .pytest_cache .ruff_cache .mypy_cache .hypothesis
-	find src figures studies tests benchmarks -name __pycache__ -type d -prune -exec rm -rf {} +
+	find src figures studies tests benchmarks faults -name __pycache__ -type d -prune -exec rm -rf {} +
 
 .uv/bin/uv:
 	@echo "uv is not on the PATH: fetching uv $(UV_VERSION) into .uv/"

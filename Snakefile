@@ -25,7 +25,12 @@ from study_config import read_study_config
 configfile: "config/config.yaml"
 
 
-check_config(config, "config/config.yaml", "config/config.schema.yaml")
+# Those of --configfile, which are merged over config.yaml, come first.
+check_config(
+    config,
+    " over ".join(dict.fromkeys(map(os.path.relpath, workflow.configfiles))),
+    "config/config.schema.yaml",
+)
 
 RECORDS = record_files()
 
@@ -733,7 +738,8 @@ rule compare:
         references=REFERENCES,
         config="tests/reference/config.yaml",
     output:
-        "results/comparison.csv",
+        table="results/comparison.csv",
+        config="results/config.yaml",
     log:
         "results/logs/compare.log",
     params:
@@ -781,12 +787,13 @@ rule report:
         WORKBENCH,
         "paper/references.bib",
         "paper/assumptions.yaml",
-        "config/config.yaml",
+        "results/config.yaml",
         "results/claims.json",
         "docs/benchmark.csv",
         "docs/benchmark.svg",
         "docs/costs.csv",
         "docs/machine.txt",
+        "docs/kill_table.csv",
         "paper/format.typ",
         SECTIONS,
         expand("results/tables/{name}.csv", name=REPORTED),

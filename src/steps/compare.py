@@ -1,4 +1,7 @@
-"""The tables of this run beside the reference tables that are committed in tests/reference/."""
+"""The tables of this run beside the reference tables that are committed in tests/reference/.
+
+The config of this run is kept beside them, for the report and for `make publish`.
+"""
 
 from pathlib import Path
 
@@ -54,4 +57,6 @@ if __name__ == "__main__":
             snakemake.input.tables, snakemake.input.references, changed, used["reproducibility"]
         )
         columns = ["table", "largest_difference", "verdict"]
-        write_table(snakemake.output[0], pd.DataFrame(rows, columns=columns))
+        write_table(snakemake.output.table, pd.DataFrame(rows, columns=columns))
+        text = yaml.safe_dump(dict(used), allow_unicode=True, sort_keys=False)
+        Path(snakemake.output.config).write_text(text, encoding="utf-8")

@@ -11,6 +11,8 @@ import shutil
 import sys
 from pathlib import Path
 
+import yaml
+
 PICTURES = ("heavier", "peak_maps", "spectra", "structures")
 MOVING = "animation.gif"
 TABLES = (
@@ -83,6 +85,16 @@ def main() -> None:
     results, docs, reference = Path("results"), Path("docs"), Path("tests/reference")
     if not (results / "claims.json").exists():
         sys.exit("results/claims.json does not exist; expected a finished run: make reproduce")
+    used, ours = (
+        yaml.safe_load(Path(path).read_text(encoding="utf-8"))
+        for path in (results / "config.yaml", "config/config.yaml")
+    )
+    if used != ours:
+        sections = sorted(key for key in {*used, *ours} if used.get(key) != ours.get(key))
+        sys.exit(
+            f"results/ was made with another config, which differs in {', '.join(sections)}; "
+            "expected that of config/config.yaml: make reproduce"
+        )
     docs.mkdir(exist_ok=True)
     reference.mkdir(exist_ok=True)
     for name in PICTURES:

@@ -9,7 +9,10 @@ import yaml
 from configuration import check_config
 
 ROOT = Path(__file__).resolve().parents[2]
-CONFIG = yaml.safe_load((ROOT / "config" / "config.yaml").read_text(encoding="utf-8"))
+CONFIG, QUICK = (
+    yaml.safe_load((ROOT / "config" / name).read_text(encoding="utf-8"))
+    for name in ("config.yaml", "quick.yaml")
+)
 
 
 def faults(config):
@@ -38,6 +41,47 @@ def changed(place, value):
 
 def test_the_config_is_sound():
     assert faults(CONFIG) == []
+
+
+def merged(base, over):
+    """One config over another, as Snakemake merges them."""
+    if not isinstance(over, dict):
+        return over
+    return base | {key: merged(base.get(key), value) for key, value in over.items()}
+
+
+def differences(base, over, place=""):
+    """Every entry of the config on top, and what it stands in for."""
+    for key, value in over.items():
+        here = f"{place}{key}"
+        if isinstance(value, dict):
+            yield from differences(base[key], value, f"{here}.")
+        else:
+            yield here, base[key], value
+
+
+def test_quick_config_is_of_the_paper_alone():
+    assert QUICK["studies"] == []
+
+
+@pytest.mark.parametrize("other", [QUICK, THOROUGH], ids=["quick", "thorough"])
+def test_other_config_is_sound_and_has_only_what_differs(other):
+    assert faults(merged(CONFIG, other)) == []
+    grids = {key: value for key, value in other.items() if key != "studies"}
+    assert all(was != now for _, was, now in differences(CONFIG, grids))
+
+
+@pytest.mark.parametrize("other", [QUICK, THOROUGH], ids=["quick", "thorough"])
+def test_other_config_changes_how_densely_it_is_sampled_and_no_physics(other):
+    sampling = {"points", "resolution", "cells", "checked_by_second_route", "frames_per_second"}
+    places = [place for place, *_ in differences(CONFIG, other)]
+    assert {place.rpartition(".")[2] for place in places} <= sampling | {"studies", "tightened"}
+
+
+def test_thorough_config_is_finer_throughout():
+    for place, was, now in differences(CONFIG, THOROUGH):
+        is_finer_when_less = place.endswith(("resolution", "tightened"))
+        assert (now < was) if is_finer_when_less else (now > was), place
 
 
 @pytest.mark.parametrize(

@@ -3,7 +3,7 @@
 import re
 
 import pytest
-from publish import verdict_table
+from publish import main, verdict_table
 
 ROW = {
     "id": "trilith_size",
@@ -70,3 +70,15 @@ def test_table_ends_with_one_newline():
 
 def test_number_without_a_unit_leaves_no_gap():
     assert "| 0.415 | 0.414849 |" in verdict_table([ROW | {"unit": ""}])
+
+
+def test_results_of_another_config_are_not_published(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for folder, points in (("results", 3), ("config", 11)):
+        (tmp_path / folder).mkdir()
+        text = f"spectra: {{points: {points}}}\nsolver: {{tightened: 1.0e-12}}\n"
+        (tmp_path / folder / "config.yaml").write_text(text, encoding="utf-8")
+    (tmp_path / "results" / "claims.json").write_text("[]", encoding="utf-8")
+    with pytest.raises(SystemExit, match="another config, which differs in spectra; expected"):
+        main()
+    assert not (tmp_path / "docs").exists()
