@@ -9,7 +9,13 @@ from workbench import log_to
 from topheavy.claims import tally
 
 
-def main(claims: list[dict], comparison: pd.DataFrame) -> tuple[str, list[str]]:
+def main(
+    claims: list[dict], comparison: pd.DataFrame, checks: dict[str, bool]
+) -> tuple[str, list[str]]:
+    """Return the line that closes the run, and what is wrong with it.
+
+    `checks` are findings that are no claims of anybody, and have to hold all the same.
+    """
     faults = [
         f"claim {row['id']} came out {row['verdict']}; expected {row['expected']}"
         for row in claims
@@ -21,13 +27,21 @@ def main(claims: list[dict], comparison: pd.DataFrame) -> tuple[str, list[str]]:
         for row in comparison.itertuples()
         if row.verdict == "differs"
     ]
+    faults += [f"our own check {name} does not hold" for name, holds in checks.items() if not holds]
     return tally(row["verdict"] for row in claims), faults
 
 
 if __name__ == "__main__":
     with log_to(snakemake.log[0]):
         claims = json.loads(Path(snakemake.input.claims).read_text(encoding="utf-8"))
-        line, faults = main(claims, pd.read_csv(snakemake.input.comparison))
+        checks = {
+            f"{rule}.{name}": json.loads(
+                Path(f"results/findings/{rule}.json").read_text(encoding="utf-8")
+            )[name]["holds"]
+            for rule, names in snakemake.params.checks.items()
+            for name in names
+        }
+        line, faults = main(claims, pd.read_csv(snakemake.input.comparison), checks)
         if faults:
             raise SystemExit("\n".join([*faults, line]))
         Path(snakemake.output[0]).write_text(

@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 import pandas as pd
+import sympy as sp
 from workbench import log_to, truth, value, write_findings, write_table
 
 from topheavy import (
@@ -16,11 +17,13 @@ from topheavy import (
     Pulse,
     RockingBlock,
     RockingFrame,
+    derivation,
     judge,
     overturning_intervals,
     reference,
     simulate,
 )
+from topheavy.derivation.notation import alpha, gamma
 from topheavy.free_rocking import Ending, energy_drift
 from topheavy.linear import SHAPES, simulate_linear_exact
 
@@ -173,6 +176,30 @@ def published(case: dict) -> pd.DataFrame:
     )
 
 
+def distance_from_derivation() -> float:
+    """Return how far the library's formulas are from those that computer algebra derived.
+
+    The largest difference of p̂/p, R̂/R, √r of column and frame, and g tan α over slenderness and γ.
+    """
+    frame = [sp.lambdify(gamma, f()) for f in (derivation.frequency_ratio, derivation.size_ratio)]
+    frame_root = sp.lambdify((alpha, gamma), derivation.restitution())
+    column_root = sp.lambdify(alpha, derivation.column_restitution())
+    worst = 0.0
+    for angle in np.radians(np.linspace(1.0, 60.0, 60)):
+        column = Column(math.sin(angle), math.cos(angle))
+        for ratio in (0.0, 0.1, 0.434, 1.0, 7.0, 1e3):
+            ours = RockingFrame(column, ratio)
+            pairs = [
+                (ours.frequency_parameter / column.frequency_parameter, frame[0](ratio)),
+                (ours.equivalent_size / column.size, frame[1](ratio)),
+                (ours.restitution, frame_root(angle, ratio)),
+                (column.restitution, column_root(angle)),
+                (ours.uplift_acceleration, math.tan(angle)),
+            ]
+            worst = max(worst, *(abs(found - derived) for found, derived in pairs))
+    return worst
+
+
 def main(case: dict, tightened: float) -> tuple[dict[str, pd.DataFrame], dict]:
     routes, order, literature = agreement(case, tightened), convergence(case), published(case)
     off = (literature.computed - literature.expected).abs()
@@ -186,6 +213,9 @@ def main(case: dict, tightened: float) -> tuple[dict[str, pd.DataFrame], dict]:
         ),
         "published_numbers": truth((off <= literature.tolerance).all(), numbers=len(literature)),
         "energy_drift": value(lost, 0.0),
+        "library_follows_the_derivation": truth(
+            (apart := distance_from_derivation()) < 1e-13, largest_difference=apart
+        ),
     }
     return {"routes": routes, "convergence": order, "published": literature}, findings
 

@@ -9,9 +9,9 @@ import yaml
 from configuration import check_config
 
 ROOT = Path(__file__).resolve().parents[2]
-CONFIG, QUICK = (
+CONFIG, QUICK, THOROUGH = (
     yaml.safe_load((ROOT / "config" / name).read_text(encoding="utf-8"))
-    for name in ("config.yaml", "quick.yaml")
+    for name in ("config.yaml", "quick.yaml", "thorough.yaml")
 )
 
 

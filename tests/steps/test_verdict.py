@@ -28,14 +28,14 @@ AS_EXPECTED = [
 
 
 def test_run_closes_with_the_count_of_every_verdict():
-    line, faults = main(AS_EXPECTED, compared(peaks="agrees"))
+    line, faults = main(AS_EXPECTED, compared(peaks="agrees"), {})
     assert line == "claims: 2 confirmed, 0 qualified, 1 misprints, 1 refuted, 1 not tested"
     assert faults == []
 
 
 def test_every_claim_that_came_out_otherwise_is_a_fault_either_way():
     worse, better = claim("a", "refuted", "confirmed"), claim("b", "qualified", "refuted")
-    line, faults = main([*AS_EXPECTED, worse, better], compared(peaks="agrees"))
+    line, faults = main([*AS_EXPECTED, worse, better], compared(peaks="agrees"), {})
     assert faults == [
         "claim a came out refuted; expected confirmed",
         "claim b came out qualified; expected refuted",
@@ -45,7 +45,7 @@ def test_every_claim_that_came_out_otherwise_is_a_fault_either_way():
 
 def test_only_a_table_that_differs_is_a_fault():
     tables = compared(first="agrees", second="differs", third="not compared: other config")
-    _, faults = main(AS_EXPECTED, tables)
+    _, faults = main(AS_EXPECTED, tables, {})
     assert len(faults) == 1
     assert "results/tables/second.csv differs from tests/reference/second.csv" in faults[0]
     assert "0.002" in faults[0]
@@ -53,3 +53,8 @@ def test_only_a_table_that_differs_is_a_fault():
 
 def test_run_without_reference_tables_is_judged_by_its_claims():
     assert main(AS_EXPECTED, compared())[1] == []
+
+
+def test_check_of_ours_that_fails_is_a_fault():
+    _, faults = main(AS_EXPECTED, compared(), {"routes.agree": True, "routes.same": False})
+    assert faults == ["our own check routes.same does not hold"]
