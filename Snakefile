@@ -13,9 +13,11 @@ SHARED = [
     str(Path(workflow.basedir, folder)) for folder in ("", "src/steps", "figures")
 ]
 sys.path[:0] = SHARED
-os.environ["PYTHONPATH"] = os.pathsep.join(
-    [*SHARED, *filter(None, [os.environ.get("PYTHONPATH")])]
-)
+os.environ |= {
+    "PYTHONPATH": os.pathsep.join(
+        SHARED + os.getenv("PYTHONPATH", "").split(os.pathsep)
+    )
+}
 from captions import caption_files, captioned, read_captions
 from configuration import check_config, record_files
 from ledger import read_ledger

@@ -52,7 +52,7 @@ def test_only_a_table_that_differs_is_a_fault():
 
 
 def test_run_without_reference_tables_is_judged_by_its_claims():
-    assert main(AS_EXPECTED, compared())[1] == []
+    assert main(AS_EXPECTED, compared(), {})[1] == []
 
 
 def test_check_of_ours_that_fails_is_a_fault():
