@@ -492,6 +492,7 @@ rule spectra:
         LIBRARY,
         "src/steps/spectrum.py",
         "src/steps/spectra_shard.py",
+        "src/steps/spectra_compared.py",
         shards=gather.spectra("results/shards/spectra_{scatteritem}.csv"),
     output:
         table="results/tables/spectra.csv",

@@ -4,224 +4,26 @@ Is the lowest amplitude that overturns the higher, the heavier the cap, at every
 how much of the map of frequency and amplitude is the heavier frame the one that falls?
 """
 
-import math
-from collections.abc import Iterator
-from functools import cached_property
-from itertools import pairwise, product
-from typing import NamedTuple
+from itertools import pairwise
 
 import numpy as np
 import pandas as pd
-from spectra_shard import line
-from spectrum import search
-from workbench import grid, log_to, truth, write_findings, write_table
-
-from topheavy import judge, reference
-from topheavy.overturning import Interval
-
-SPECTRUM = ["slenderness_deg", "shape", "mass_ratio", "linearised"]
-PRINTED = 1e-8  # of an amplitude: the rounding of the shards' tables, with room to spare
-SECOND_LOOK = 20.0  # times finer: how an apparent exception is looked at again
-NEAR = 0.01  # of an amplitude: how close to a boundary half of the sample is
-
-
-class Place(NamedTuple):
-    """A spectrum with γ left open, and a frequency on it."""
-
-    slenderness: float
-    shape: str
-    linearised: bool
-    frequency_ratio: float
-
-    def line(self, gamma: float):
-        return line(self.slenderness, self.shape, gamma, self.linearised, self.frequency_ratio)
-
-    def described(self) -> dict:
-        return {
-            "slenderness_deg": self.slenderness,
-            "shape": self.shape,
-            "linearised": self.linearised,
-            "frequency_ratio": self.frequency_ratio,
-        }
-
-
-class Spectra:
-    """The table of intervals, by line."""
-
-    def __init__(self, case: dict, table: pd.DataFrame):
-        self.case, self.table = case, table
-        self.first, self.last = case["amplitudes"]["lowest"], case["amplitudes"]["highest"]
-        self.ratios = [float(ratio) for ratio in grid(case["frequency_ratios"])]
-
-    @cached_property
-    def intervals(self) -> dict[tuple, np.ndarray]:
-        keys = self.table[SPECTRUM].assign(ratio=self.table.frequency_ratio.round(9))
-        ends = self.table[["lower", "upper"]].fillna(self.last).to_numpy()
-        groups = keys.groupby([*SPECTRUM, "ratio"]).indices
-        return {key: ends[rows] for key, rows in groups.items()}
-
-    def at(self, place: Place, gamma: float) -> np.ndarray:
-        """The intervals of a line, shape (n, 2)."""
-        slenderness, shape, linearised, ratio = place
-        key = (slenderness, shape, gamma, linearised, round(ratio, 9))
-        return self.intervals.get(key, np.empty((0, 2)))
-
-    def lowest(self, place: Place, gamma: float) -> float:
-        found = self.at(place, gamma)
-        return float(found[0, 0]) if len(found) else math.inf
-
-    def places(self) -> Iterator[Place]:
-        case = self.case
-        both = (False, True)
-        for key in product(case["slendernesses"], case["shapes"], both, self.ratios):
-            yield Place(*key)
-
-    def lowest_rises(self) -> dict:
-        """Compare the lowest amplitudes of neighbouring γ; look again, finer, where one falls."""
-        compared, apparent, proven = 0, [], []
-        for place in self.places():
-            for light, heavy in pairwise(self.case["mass_ratios"]):
-                low, high = self.lowest(place, light), self.lowest(place, heavy)
-                compared += min(low, high) < math.inf
-                if high < low - PRINTED * low:
-                    apparent.append((place, light, heavy, low, high))
-        for place, light, heavy, low, high in apparent:
-            lighter, heavier = (
-                self.again(place, gamma, min(lowest, self.last))
-                for gamma, lowest in ((light, low), (heavy, high))
-            )
-            if heavier[1] < lighter[0]:
-                proven.append((lighter[0] / heavier[1] - 1.0, place, light, heavy))
-        largest = max(proven, default=None, key=lambda found: found[0])
-        evidence = {
-            "compared": compared,
-            "apparent": len(apparent),
-            "largest_apparent": max((low / high - 1.0 for *_, low, high in apparent), default=0.0),
-            "exceptions": len(proven),
-            "resolution_of_the_second_look": self.case["finer"]["resolution"] / SECOND_LOOK,
-        }
-        if largest:
-            evidence |= largest[1].described() | {
-                "largest_exception": largest[0],
-                "lighter": _finite(largest[2]),
-                "heavier": _finite(largest[3]),
-            }
-        return truth(not proven, **evidence)
-
-    def again(self, place: Place, gamma: float, lowest: float) -> tuple[float, float]:
-        """Bracket the lowest amplitude that overturns, at the finest resolution."""
-        top = min(self.last, lowest * (1.0 + NEAR))
-        finest = self.case["finer"]["resolution"] / SECOND_LOOK
-        found: list[Interval] = search(place.line(gamma), (self.first, top), finest)
-        return found[0].lower if found else (top, math.inf)
-
-    def areas(self, light: float, heavy: float) -> list[dict]:
-        """The shares of each map on which one frame overturns and the other does not."""
-        uplift = 1.0
-        whole = (self.ratios[-1] - self.ratios[0]) * (self.last - uplift)
-        rows = []
-        for slenderness, shape, linearised in product(
-            self.case["slendernesses"], self.case["shapes"], (False, True)
-        ):
-            places = [Place(slenderness, shape, linearised, ratio) for ratio in self.ratios]
-            pairs = [(self.at(place, light), self.at(place, heavy)) for place in places]
-            shared = np.array([overlap(first, second) for first, second in pairs])
-            lengths = np.array([[length(first), length(second)] for first, second in pairs])
-            shares = np.trapezoid(
-                np.column_stack([lengths - shared[:, None], lengths]), self.ratios, axis=0
-            )
-            shares = np.maximum(shares, 0.0) / whole
-            rows.append(
-                {
-                    "slenderness_deg": slenderness,
-                    "shape": shape,
-                    "linearised": linearised,
-                    "lighter": _finite(light),
-                    "heavier": _finite(heavy),
-                    "only_lighter_overturns": shares[0],
-                    "only_heavier_overturns": shares[1],
-                    "lighter_overturns": shares[2],
-                    "heavier_overturns": shares[3],
-                }
-            )
-        return rows
-
-    def counterexample(self) -> tuple[float, Place, float, float, float]:
-        """The widest band of the exact spectra that the lighter frame survives and the heavier not.
-
-        Returns its width over its middle, the place, both γ and the middle.
-        """
-        widest = (0.0, None, 0.0, 0.0, 0.0)
-        for place in self.places():
-            for light, heavy in pairwise(self.case["mass_ratios"]):
-                if place.linearised:
-                    continue
-                lighter = self.at(place, light)
-                for low, high in self.at(place, heavy):
-                    gaps = [low, *lighter[(lighter > low) & (lighter < high)], high]
-                    for start, end in pairwise(sorted(gaps)):
-                        middle = 0.5 * (start + end)
-                        if not inside(lighter, middle) and (end - start) / middle > widest[0]:
-                            widest = ((end - start) / middle, place, light, heavy, middle)
-        return widest
-
-    def sample(self, points: int, seed: int, tightened: float) -> dict:
-        """Judge points of the map anew: half of them anywhere, half close to a boundary."""
-        random = np.random.default_rng(seed)
-        rows = self.table.iloc[random.integers(len(self.table), size=points)]
-        differ = 0
-        for number, row in enumerate(rows.itertuples()):
-            place = Place(row.slenderness_deg, row.shape, row.linearised, row.frequency_ratio)
-            if number % 2:
-                away = random.choice([-1.0, 1.0]) * 10.0 ** random.uniform(-6.0, math.log10(NEAR))
-                amplitude = row.lower * (1.0 + away)
-            else:
-                amplitude = random.uniform(1.0, self.last)
-            expected = inside(self.at(place, row.mass_ratio), amplitude)
-            differ += self.judged(place, row.mass_ratio, amplitude, tightened) != [expected] * 2
-        return truth(differ == 0, points=points, differ=differ)
-
-    def judged(self, place: Place, gamma: float, amplitude: float, tightened: float) -> list[bool]:
-        """Whether a frame overturns, at the tightened tolerance and by the second route."""
-        block, pulse = place.line(gamma)[1:]
-        pulse = pulse.scaled(amplitude)
-        return [
-            judge(block, pulse, tolerance=tightened).overturned,
-            reference.judge(block, pulse).overturned,
-        ]
-
-
-def length(intervals: np.ndarray) -> float:
-    return float(np.sum(intervals[:, 1] - intervals[:, 0]))
-
-
-def overlap(first: np.ndarray, second: np.ndarray) -> float:
-    """Return the length that two lists of disjoint intervals have in common."""
-    low = np.maximum(first[:, None, 0], second[None, :, 0])
-    high = np.minimum(first[:, None, 1], second[None, :, 1])
-    return float(np.maximum(high - low, 0.0).sum())
-
-
-def inside(intervals: np.ndarray, amplitude: float) -> bool:
-    return bool(np.any((intervals[:, 0] <= amplitude) & (amplitude <= intervals[:, 1])))
-
-
-def _finite(gamma: float) -> float | str:
-    return gamma if math.isfinite(gamma) else "infinite"
+from spectra_compared import ORDER, Spectra, finite
+from workbench import log_to, truth, write_findings, write_table
 
 
 def main(case: dict, solver: dict, table: pd.DataFrame) -> tuple[list[dict], dict]:
     spectra = Spectra(case, table)
     rises = spectra.lowest_rises()
     areas = [row for light, heavy in case["pairs"] for row in spectra.areas(light, heavy)]
-    width, place, light, heavy, amplitude = spectra.counterexample()
+    width, place, light, heavy, amplitude = spectra.counterexample(pairwise(case["mass_ratios"]))
     verdicts = [spectra.judged(place, g, amplitude, solver["tightened"]) for g in (light, heavy)]
     if verdicts != [[False] * 2, [True] * 2]:
         raise ArithmeticError(f"γ = {light}, {heavy} at {amplitude:.6g}: not a counterexample")
     exact = [row for row in areas if not row["linearised"]]
 
     def share(word: str, pair: int) -> list[float]:
-        lighter = _finite(case["pairs"][pair][0])
+        lighter = finite(case["pairs"][pair][0])
         return [row[word] for row in exact if row["lighter"] == lighter]
 
     findings = {
@@ -232,16 +34,16 @@ def main(case: dict, solver: dict, table: pd.DataFrame) -> tuple[list[dict], dic
             condition="what counts is the lowest amplitude of a pulse that overturns",
             width_of_band=width,
             amplitude_over_uplift=amplitude,
-            survives=_finite(light),
-            overturns=_finite(heavy),
+            survives=finite(light),
+            overturns=finite(heavy),
             **place.described(),
         ),
         "areas": truth(
             True,
             pairs=[
                 {
-                    "lighter": _finite(case["pairs"][pair][0]),
-                    "heavier": _finite(case["pairs"][pair][1]),
+                    "lighter": finite(case["pairs"][pair][0]),
+                    "heavier": finite(case["pairs"][pair][1]),
                     "only_lighter_overturns": float(np.mean(share("only_lighter_overturns", pair))),
                     "only_heavier_overturns": float(np.mean(share("only_heavier_overturns", pair))),
                     "largest_only_heavier": max(share("only_heavier_overturns", pair)),
@@ -259,8 +61,7 @@ def main(case: dict, solver: dict, table: pd.DataFrame) -> tuple[list[dict], dic
 if __name__ == "__main__":
     with log_to(snakemake.log[0]):
         shards = [pd.read_csv(path) for path in snakemake.input.shards]
-        order = [*SPECTRUM, "frequency_ratio", "lower"]
-        table = pd.concat(shards).sort_values(order, ignore_index=True)
+        table = pd.concat(shards).sort_values(ORDER, ignore_index=True)
         write_table(snakemake.output.table, table)
         areas, findings = main(snakemake.params.case, snakemake.params.solver, table)
         write_table(snakemake.output.areas, areas)

@@ -8,7 +8,7 @@ import itertools
 import math
 
 import pandas as pd
-from spectrum import Line, solve
+from spectrum import Line, shard_of, solve
 from workbench import grid, log_to, write_table
 
 from topheavy import Column, Pulse, RockingFrame
@@ -48,8 +48,7 @@ def line(slenderness: float, shape: str, gamma: float, linearised: bool, ratio: 
 
 
 def main(case: dict, shard: str, threads: int) -> pd.DataFrame:
-    number, of = map(int, shard.split("-of-"))
-    return solve(lines(case)[number - 1 :: of], case, threads)
+    return solve(shard_of(lines(case), shard), case, threads)
 
 
 if __name__ == "__main__":

@@ -58,6 +58,12 @@ def solve(lines: Sequence[Line], case: Mapping[str, Any], threads: int) -> pd.Da
     return pd.DataFrame(table, columns=[*lines[0].labels, "lower", "upper", "mode", "bracket"])
 
 
+def shard_of(lines: Sequence[Line], shard: str) -> Sequence[Line]:
+    """Return every n-th line, as the name of a shard has it: "2-of-8"."""
+    number, of = map(int, shard.split("-of-"))
+    return lines[number - 1 :: of]
+
+
 def progress(results: Iterable[Any], count: int, what: str) -> Iterator[Any]:
     """Pass results on, and tell the log of every tenth of them."""
     start = time.monotonic()

@@ -1,0 +1,235 @@
+"""Overturning spectra compared: which amplitudes overturn one frame, and which another.
+
+A spectrum's table has the intervals of every line; in the sets of amplitudes here, arrays of shape
+(n, 2), intervals do not overlap.
+"""
+
+import math
+from collections.abc import Iterable, Iterator, Mapping
+from functools import cached_property
+from itertools import pairwise, product
+from typing import NamedTuple
+
+import numpy as np
+import pandas as pd
+from spectra_shard import line
+from spectrum import search
+from workbench import grid, truth
+
+from topheavy import judge, reference
+from topheavy.overturning import Interval
+
+SPECTRUM = ["slenderness_deg", "shape", "mass_ratio", "linearised"]
+ORDER = [*SPECTRUM, "frequency_ratio", "lower"]
+PRINTED = 1e-8  # of an amplitude: the rounding of the shards' tables, with room to spare
+SECOND_LOOK = 20.0  # times finer: how an apparent exception is looked at again
+NEAR = 0.01  # of an amplitude: how close to a boundary half of the sample is
+
+
+class Place(NamedTuple):
+    """A spectrum with γ left open, and a frequency on it."""
+
+    slenderness: float
+    shape: str
+    linearised: bool
+    frequency_ratio: float
+
+    def line(self, gamma: float):
+        return line(self.slenderness, self.shape, gamma, self.linearised, self.frequency_ratio)
+
+    def described(self) -> dict:
+        return {
+            "slenderness_deg": self.slenderness,
+            "shape": self.shape,
+            "linearised": self.linearised,
+            "frequency_ratio": self.frequency_ratio,
+        }
+
+
+class Spectra:
+    """The table of intervals, by line."""
+
+    def __init__(self, case: Mapping, table: pd.DataFrame):
+        self.case, self.table = case, table
+        self.models = [bool(linearised) for linearised in np.unique(table.linearised)]
+        self.first, self.last = case["amplitudes"]["lowest"], case["amplitudes"]["highest"]
+        self.ratios = [float(ratio) for ratio in grid(case["frequency_ratios"])]
+
+    def coarser(self, every: int) -> "Spectra":
+        """The same spectra at every n-th frequency."""
+        spec = self.case["frequency_ratios"]
+        points = (spec["points"] - 1) // every + 1
+        return Spectra({**self.case, "frequency_ratios": {**spec, "points": points}}, self.table)
+
+    @cached_property
+    def intervals(self) -> dict[tuple, np.ndarray]:
+        keys = self.table[SPECTRUM].assign(ratio=self.table.frequency_ratio.round(9))
+        ends = self.table[["lower", "upper"]].fillna(self.last).to_numpy()
+        groups = keys.groupby([*SPECTRUM, "ratio"]).indices
+        return {key: ends[rows] for key, rows in groups.items()}
+
+    def at(self, place: Place, gamma: float) -> np.ndarray:
+        """The intervals of a line, shape (n, 2)."""
+        slenderness, shape, linearised, ratio = place
+        key = (slenderness, shape, gamma, linearised, round(ratio, 9))
+        return self.intervals.get(key, np.empty((0, 2)))
+
+    def lowest(self, place: Place, gamma: float) -> float:
+        found = self.at(place, gamma)
+        return float(found[0, 0]) if len(found) else math.inf
+
+    def places(self) -> Iterator[Place]:
+        case = self.case
+        for key in product(case["slendernesses"], case["shapes"], self.models, self.ratios):
+            yield Place(*key)
+
+    def reversals(self, place: Place, light: float, heavy: float) -> np.ndarray:
+        """The amplitudes that overturn the heavier frame and not the lighter, shape (n, 2)."""
+        return without(self.at(place, heavy), self.at(place, light))
+
+    def lowest_rises(self) -> dict:
+        """Compare the lowest amplitudes of neighbouring γ; look again, finer, where one falls."""
+        compared, apparent, proven = 0, [], []
+        for place in self.places():
+            for light, heavy in pairwise(self.case["mass_ratios"]):
+                low, high = self.lowest(place, light), self.lowest(place, heavy)
+                compared += min(low, high) < math.inf
+                if high < low - PRINTED * low:
+                    apparent.append((place, light, heavy, low, high))
+        for place, light, heavy, low, high in apparent:
+            lighter, heavier = (
+                self.again(place, gamma, min(lowest, self.last))
+                for gamma, lowest in ((light, low), (heavy, high))
+            )
+            if heavier[1] < lighter[0]:
+                proven.append((lighter[0] / heavier[1] - 1.0, place, light, heavy))
+        largest = max(proven, default=None, key=lambda found: found[0])
+        evidence = {
+            "compared": compared,
+            "apparent": len(apparent),
+            "largest_apparent": max((low / high - 1.0 for *_, low, high in apparent), default=0.0),
+            "exceptions": len(proven),
+            "resolution_of_the_second_look": self.case["finer"]["resolution"] / SECOND_LOOK,
+        }
+        if largest:
+            evidence |= largest[1].described() | {
+                "largest_exception": largest[0],
+                "lighter": finite(largest[2]),
+                "heavier": finite(largest[3]),
+            }
+        return truth(not proven, **evidence)
+
+    def again(self, place: Place, gamma: float, lowest: float) -> tuple[float, float]:
+        """Bracket the lowest amplitude that overturns, at the finest resolution."""
+        top = min(self.last, lowest * (1.0 + NEAR))
+        finest = self.case["finer"]["resolution"] / SECOND_LOOK
+        found: list[Interval] = search(place.line(gamma), (self.first, top), finest)
+        return found[0].lower if found else (top, math.inf)
+
+    def areas(self, light: float, heavy: float) -> list[dict]:
+        """The shares of each map on which one frame overturns and the other does not."""
+        uplift = 1.0
+        whole = (self.ratios[-1] - self.ratios[0]) * (self.last - uplift)
+        rows = []
+        for slenderness, shape, linearised in product(
+            self.case["slendernesses"], self.case["shapes"], self.models
+        ):
+            places = [Place(slenderness, shape, linearised, ratio) for ratio in self.ratios]
+            pairs = [(self.at(place, light), self.at(place, heavy)) for place in places]
+            shared = np.array([overlap(first, second) for first, second in pairs])
+            lengths = np.array([[length(first), length(second)] for first, second in pairs])
+            shares = np.trapezoid(
+                np.column_stack([lengths - shared[:, None], lengths]), self.ratios, axis=0
+            )
+            shares = np.maximum(shares, 0.0) / whole
+            rows.append(
+                {
+                    "slenderness_deg": slenderness,
+                    "shape": shape,
+                    "linearised": linearised,
+                    "lighter": finite(light),
+                    "heavier": finite(heavy),
+                    "only_lighter_overturns": shares[0],
+                    "only_heavier_overturns": shares[1],
+                    "lighter_overturns": shares[2],
+                    "heavier_overturns": shares[3],
+                }
+            )
+        return rows
+
+    def counterexample(
+        self, pairs: Iterable[tuple[float, float]], linearised: bool = False
+    ) -> tuple[float, Place, float, float, float]:
+        """The widest band of the spectra that the lighter frame survives and the heavier not.
+
+        Returns its width over its middle, the place, both γ and the middle.
+        """
+        widest = (0.0, None, 0.0, 0.0, 0.0)
+        for place, (light, heavy) in product(self.places(), pairs):
+            if place.linearised != linearised:
+                continue
+            for start, end in self.reversals(place, light, heavy):
+                middle = 0.5 * (start + end)
+                if (end - start) / middle > widest[0]:
+                    widest = ((end - start) / middle, place, light, heavy, middle)
+        return widest
+
+    def sample(self, points: int, seed: int, tightened: float) -> dict:
+        """Judge points of the map anew: half of them anywhere, half close to a boundary."""
+        random = np.random.default_rng(seed)
+        rows = self.table.iloc[random.integers(len(self.table), size=points)]
+        differ = 0
+        for number, row in enumerate(rows.itertuples()):
+            place = Place(row.slenderness_deg, row.shape, row.linearised, row.frequency_ratio)
+            if number % 2:
+                away = random.choice([-1.0, 1.0]) * 10.0 ** random.uniform(-6.0, math.log10(NEAR))
+                amplitude = row.lower * (1.0 + away)
+            else:
+                amplitude = random.uniform(1.0, self.last)
+            expected = inside(self.at(place, row.mass_ratio), amplitude)
+            differ += self.judged(place, row.mass_ratio, amplitude, tightened) != [expected] * 2
+        return truth(differ == 0, points=points, differ=differ)
+
+    def judged(self, place: Place, gamma: float, amplitude: float, tightened: float) -> list[bool]:
+        """Whether a frame overturns, at the tightened tolerance and by the second route."""
+        block, pulse = place.line(gamma)[1:]
+        pulse = pulse.scaled(amplitude)
+        return [
+            judge(block, pulse, tolerance=tightened).overturned,
+            reference.judge(block, pulse).overturned,
+        ]
+
+
+def length(intervals: np.ndarray) -> float:
+    return float(np.sum(intervals[:, 1] - intervals[:, 0]))
+
+
+def overlap(first: np.ndarray, second: np.ndarray) -> float:
+    """Return the length that two lists of disjoint intervals have in common."""
+    low = np.maximum(first[:, None, 0], second[None, :, 0])
+    high = np.minimum(first[:, None, 1], second[None, :, 1])
+    return float(np.maximum(high - low, 0.0).sum())
+
+
+def without(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    """Return what of a set is not in another; pieces that touch stay pieces."""
+    if not len(first):
+        return first
+    ends = np.unique(np.concatenate([first.ravel(), second.ravel()]))
+    pieces = np.column_stack([ends[:-1], ends[1:]])
+    middles = pieces.mean(axis=1)
+    return pieces[_inside(first, middles) & ~_inside(second, middles)]
+
+
+def inside(intervals: np.ndarray, amplitude: float) -> bool:
+    return bool(_inside(intervals, np.array([amplitude]))[0])
+
+
+def _inside(intervals: np.ndarray, amplitudes: np.ndarray) -> np.ndarray:
+    low, high = intervals[:, 0, None], intervals[:, 1, None]
+    return np.any((low <= amplitudes) & (amplitudes <= high), axis=0)
+
+
+def finite(gamma: float) -> float | str:
+    """Return γ as findings have it, which are JSON."""
+    return gamma if math.isfinite(gamma) else "infinite"

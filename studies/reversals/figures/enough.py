@@ -1,0 +1,33 @@
+"""The γ that brings half, nine tenths and 99 % of what massless columns gain."""
+
+import numpy as np
+from drawing import ACCENT, DARK, DOUBLE, GREY, PULSES, note, publish, sheet
+
+QUANTILES = [0.0, 0.25, 0.5, 0.75, 1.0]
+
+
+def draw(reversals_enough):
+    shares = np.sort(reversals_enough.share.unique())
+    figure, axes = sheet(DOUBLE, 62, ncols=len(shares), sharey=True)
+    for axis, share in zip(axes, shares, strict=True):
+        of = reversals_enough[reversals_enough.share == share]
+        for place, shape in enumerate(PULSES):
+            low, lower, middle, upper, high = of[of["shape"] == shape].mass_ratio.quantile(
+                QUANTILES
+            )
+            axis.plot([low, high], [place] * 2, color=DARK, linewidth=0.8)
+            axis.plot([lower, upper], [place] * 2, color=DARK, linewidth=6, solid_capstyle="butt")
+            axis.plot(middle, place, "o", color="white", markeredgecolor=DARK, markersize=4)
+        size, middle = share / (2 * (1 - share)), of.mass_ratio.median()  # 2γ/(1 + 2γ) = share
+        axis.axvline(size, color=ACCENT, linewidth=0.9)
+        axis.axvline(middle, color=GREY, linewidth=0.9, linestyle=(0, (3, 2)))
+        note(axis, r"$\hat{R}$  ", (size, -0.62), color=ACCENT, ha="right")
+        note(axis, "  median", (middle, -0.62), color=GREY, ha="left")
+        axis.set(xscale="log", xlabel=r"Mass of the cap, $\gamma$ (–)")
+        axis.set_title(f"{100 * share:g} % of the gain")
+    axes[0].set(yticks=range(len(PULSES)), yticklabels=PULSES.values(), ylim=(3.6, -0.85))
+    return figure
+
+
+if __name__ == "__main__":
+    publish(snakemake, draw)

@@ -1,0 +1,41 @@
+"""The lower p̂ and the lower √r of massless columns, apart and together."""
+
+from drawing import ACCENT, DOUBLE, PULSES, note, publish, sheet
+
+from studies.reversals.figures.where import map_axis
+
+ROWS = {
+    "size": r"$\hat{p}$ alone",
+    "restitution": r"$\sqrt{r}$ alone",
+    "both": "The frame: both",
+}
+
+
+def draw(reversals_map, reversals_why):
+    figure, axes = sheet(DOUBLE, 135, nrows=3, ncols=4, sharex=True, sharey=True)
+    slenderness = reversals_map.slenderness_deg.max()
+    why = reversals_why[reversals_why.heavier == "infinite"]
+    for row, (change, name) in zip(axes, ROWS.items(), strict=True):
+        for axis, (shape, words) in zip(row, PULSES.items(), strict=True):
+            cells, of = (
+                table[
+                    (table.change == change)
+                    & (table["shape"] == shape)
+                    & (table.slenderness_deg == slenderness)
+                ]
+                for table in (reversals_map, why)
+            )
+            map_axis(axis, cells)
+            how = {"xycoords": "axes fraction", "ha": "right", "fontsize": 7}
+            note(axis, f"saved {100 * of.helps.iloc[0]:.1f} %", (0.99, 0.15), **how)
+            note(axis, f"lost {100 * of.harms.iloc[0]:.2f} %", (0.99, 0.05), color=ACCENT, **how)
+            if change == "size":
+                axis.set_title(words)
+            if change == "both":
+                axis.set_xlabel(r"Frequency, $\omega/p$ (–)")
+        row[0].set_ylabel(f"{name}\nAmplitude, " + r"$a/(g\,\tan\alpha)$ (–)")
+    return figure
+
+
+if __name__ == "__main__":
+    publish(snakemake, draw)

@@ -1,0 +1,274 @@
+"""Where a heavier cap overturns a frame that a lighter one saves, and whether p̂ or √r is to blame.
+
+It helps where only the lighter frame overturns, and harms where only the heavier does: a reversal.
+"""
+
+import math
+from itertools import combinations
+
+import numpy as np
+import pandas as pd
+from spectra_compared import ORDER, Place, Spectra, finite, without
+from spectrum import solve
+from workbench import log_to, truth, value, write_findings, write_table
+
+from studies.reversals.steps.pulses_shard import CHANGES, lines
+from topheavy import simulate
+from topheavy.linear import simulate_linear_exact
+
+COLUMN, MASSLESS = 0.0, math.inf  # γ of the two ends
+SHARES = {"only_lighter_overturns": "helps", "only_heavier_overturns": "harms"}
+SAMPLES = 2001  # of a history that is drawn
+SHOWN = 5.0  # lengths of the pulse
+
+
+def areas(spectra: Spectra, pairs: list[tuple[float, float]]) -> pd.DataFrame:
+    """Return the shares of every map on which the heavier cap helps, and harms.
+
+    The columns `…_by_two` and `…_by_four` have them with the step in ω so many times as wide.
+    """
+    fine, twice, four_times = (
+        pd.DataFrame(row for pair in pairs for row in grid.areas(*pair))
+        for grid in (spectra, spectra.coarser(2), spectra.coarser(4))
+    )
+    shares = {
+        name + ending: grown[column]
+        for column, name in SHARES.items()
+        for ending, grown in (("", fine), ("_by_two", twice), ("_by_four", four_times))
+    }
+    return fine.drop(columns=[*SHARES, "linearised"]).assign(**shares)
+
+
+def mean(rows: pd.DataFrame, name: str) -> tuple[float, float]:
+    """Return the mean of a share over maps, and its error: what two coarser grids would change."""
+    fine, *coarse = (float(rows[name + ending].mean()) for ending in ("", "_by_two", "_by_four"))
+    return fine, max(abs(fine - other) for other in coarse)
+
+
+def apart(table: pd.DataFrame, change: str) -> pd.DataFrame:
+    """Return the spectra of the column, and of frames of which only so much is taken."""
+    return table[(table.change == change) | (table.mass_ratio == COLUMN)]
+
+
+def parts(spectra: Spectra, light: float, heavy: float) -> pd.DataFrame:
+    """Return every map cut into what only the lighter, only the heavier and both overturn."""
+    rows = []
+    for place in spectra.places():
+        helps = spectra.reversals(place, heavy, light)
+        harms = spectra.reversals(place, light, heavy)
+        both = without(spectra.at(place, light), helps)
+        labels = {"slenderness_deg": place.slenderness, "shape": place.shape}
+        for mode, pieces in (("helps", helps), ("harms", harms), ("both", both)):
+            rows += [
+                labels | {"x": place.frequency_ratio, "lower": low, "upper": high, "mode": mode}
+                for low, high in pieces
+            ]
+    return pd.DataFrame(rows)
+
+
+def reversals(spectra: Spectra, pairs: list[tuple[float, float]]) -> pd.DataFrame:
+    """Return all bands of amplitude that overturn the heavier frame of a pair alone."""
+    rows = [
+        (*place, light, heavy, low, high)
+        for place in spectra.places()
+        for light, heavy in pairs
+        for low, high in spectra.reversals(place, light, heavy)
+    ]
+    return pd.DataFrame(rows, columns=[*Place._fields, "light", "heavy", "low", "high"])
+
+
+def sample(spectra: Spectra, bands: pd.DataFrame, spec: dict, tightened: float) -> dict:
+    """Judge points within the bands, picked by their length, by the two routes."""
+    random = np.random.default_rng(spec["seed"])
+    widths = (bands.high - bands.low).to_numpy()
+    picked = bands.iloc[random.choice(len(bands), spec["points"], p=widths / widths.sum())]
+    confirmed = 0
+    for band in picked.itertuples(index=False):
+        place, amplitude = Place(*band[:4]), random.uniform(band.low, band.high)
+        found = [spectra.judged(place, g, amplitude, tightened) for g in (band.light, band.heavy)]
+        confirmed += found == [[False] * 2, [True] * 2]
+    return truth(confirmed == len(picked), points=len(picked), confirmed=confirmed)
+
+
+def without_impact(spectra: Spectra, pairs: list[tuple[float, float]]) -> dict:
+    """Are there reversals in which the heavier frame overturns without an impact?"""
+    at_once = Spectra(spectra.case, spectra.table[spectra.table["mode"] == "without impact"])
+    widths, compared = [0.0], 0
+    for place in spectra.places():
+        for light, heavy in pairs:
+            falls = at_once.at(place, heavy)
+            compared += bool(len(falls))
+            widths += [high - low for low, high in without(falls, spectra.at(place, light))]
+    rounding = 1e-6  # of g tan α: ends of intervals have nine digits
+    return truth(max(widths) < rounding, compared=compared, widest=max(widths))
+
+
+def lowest_apart(spectra: Spectra, gammas: list[float]) -> dict:
+    """Does the lowest amplitude rise when only p̂, or only √r, is that of the frame?
+
+    Where it seems to fall, the column is searched anew at the finest resolution.
+    """
+    compared, falls = 0, []
+    for place in spectra.places():
+        low = spectra.lowest(place, COLUMN)
+        for gamma in gammas:
+            high = spectra.lowest(place, gamma)
+            compared += min(low, high) < math.inf
+            if high < low * (1.0 - 1e-8):
+                falls.append((spectra.again(place, COLUMN, low)[0] / high - 1.0, place))
+    proven = [fall for fall in falls if fall[0] > 1e-8]
+    largest = max(proven, key=lambda fall: fall[0]) if proven else None
+    evidence = {"largest": largest[0], **largest[1].described()} if largest else {}
+    return truth(not proven, compared=compared, exceptions=len(proven), **evidence)
+
+
+def confirmed(spectra: Spectra, found: tuple, tightened: float) -> tuple[dict, pd.DataFrame]:
+    """Return a counterexample by all routes, and its two histories.
+
+    The linearised equation has a third route, its closed form.
+    """
+    width, place, light, heavy, amplitude = found
+    histories = []
+    for gamma, falls in ((light, False), (heavy, True)):
+        _, block, pulse = place.line(gamma)
+        pulse = pulse.scaled(amplitude)
+        routes = spectra.judged(place, gamma, amplitude, tightened)
+        if place.linearised:
+            exact = simulate_linear_exact(block, pulse, duration=pulse.duration, samples=2)
+            routes = [*routes, exact.overturned]
+        if routes != [falls] * len(routes):
+            raise ArithmeticError(f"{place}, γ = {gamma} at {amplitude:.6g}: routes say {routes}")
+        time = np.linspace(0.0, SHOWN * pulse.duration, SAMPLES)
+        response = simulate(block, pulse, samples=time)
+        history = {
+            "linearised": place.linearised,
+            "mass_ratio": gamma,
+            "time": time / pulse.duration,
+            "acceleration": pulse.excitation(time),
+            "rotation_over_alpha": response.rotation / block.slenderness,
+            "outcome": response.outcome,
+            "peak_over_alpha": response.peak_rotation / block.slenderness,
+        }
+        histories.append(pd.DataFrame(history))
+    finding = {
+        "width_of_band": width,
+        "amplitude_over_uplift": amplitude,
+        "survives": finite(light),
+        "overturns": finite(heavy),
+        "routes": len(routes),
+        **place.described(),
+    }
+    return finding, pd.concat(histories)
+
+
+def linear_twin(case: dict, found: tuple) -> tuple[Spectra, tuple]:
+    """Return the widest band of the linearised equation at the place of a counterexample."""
+    _, place, light, heavy, _ = found
+    place = place._replace(linearised=True)
+    table = solve([place.line(gamma) for gamma in (light, heavy)], case, threads=1)
+    alone = case | {"slendernesses": [place.slenderness], "shapes": [place.shape]}
+    spectra = Spectra(alone, table)
+    return spectra, spectra.counterexample([(light, heavy)], linearised=True)
+
+
+def main(case: dict, solver: dict, table: pd.DataFrame) -> tuple[dict[str, pd.DataFrame], dict]:
+    whole = table[table.change == "both"]
+    spectra = Spectra(case, whole)
+    pairs = list(combinations(case["mass_ratios"], 2))
+    bands = reversals(spectra, pairs)
+    shares = areas(spectra, pairs)
+    changes = {change: Spectra(case, apart(table, change)) for change in CHANGES}
+    separated = [(COLUMN, gamma) for gamma in case["separated"]]
+    why = pd.concat(areas(changes[change], separated).assign(change=change) for change in CHANGES)
+    ends = shares[(shares.lighter == COLUMN) & (shares.heavier == finite(MASSLESS))]
+    worst = shares.loc[shares.harms.idxmax()]
+    rises = spectra.lowest_rises()
+    found = spectra.counterexample(pairs)
+    exact, histories = confirmed(spectra, found, solver["tightened"])
+    twin, linear_histories = confirmed(*linear_twin(case, found), solver["tightened"])
+    lowest = {change: lowest_apart(changes[change], case["separated"]) for change in CHANGES[1:]}
+    harmed = set(zip(bands.light, bands.heavy, strict=True))
+    step = case["amplitudes"]["resolution"]
+    span = case["amplitudes"]["highest"] - case["amplitudes"]["lowest"]
+
+    def of(change: str, name: str) -> tuple[float, float]:
+        return mean(why[(why.change == change) & (why.heavier == finite(MASSLESS))], name)
+
+    findings = {
+        "heavier_is_more_stable": truth(
+            bands.empty,
+            holds_when=rises["holds"],
+            condition="what counts is the lowest amplitude of a pulse that overturns",
+            by_the_linearised=twin,
+            **exact,
+        ),
+        "lowest_amplitude_rises": rises | {"widest_missed": step},
+        "never_without_impact": without_impact(spectra, pairs),
+        "helps": value(*mean(ends, "helps")),
+        "harms": value(*mean(ends, "harms")),
+        "most_harm": value(
+            worst.harms,
+            max(abs(worst.harms - worst[name]) for name in ("harms_by_two", "harms_by_four")),
+            **worst[["lighter", "heavier", "slenderness_deg", "shape"]],
+        ),
+        "at_every_pair": truth(harmed == set(pairs), pairs=len(pairs)),
+        "pairs": truth(
+            True,
+            pairs=[
+                {"lighter": light, "heavier": heavy}
+                | {name: mean(rows, name)[0] for name in SHARES.values()}
+                for (light, heavy), rows in shares.groupby(["lighter", "heavier"], sort=False)
+            ],
+        ),
+        "where": truth(
+            True,
+            shapes=[
+                {"shape": shape, **dict(zip(("from", "to"), _middle(rows), strict=True))}
+                for shape, rows in bands.groupby("shape", sort=False)
+            ],
+        ),
+        "apart": truth(
+            True,
+            **{
+                f"{change}_{name}": of(change, name)
+                for change in CHANGES
+                for name in SHARES.values()
+            },
+        ),
+        "size_harms": truth(of("size", "harms")[0] > 10.0 * of("restitution", "harms")[0]),
+        "restitution_spares": truth(of("both", "harms")[0] < of("size", "harms")[0]),
+        "lowest_rises_apart": truth(all(found["holds"] for found in lowest.values()), **lowest),
+        "sample_agrees": sample(spectra, bands, case["sample"], solver["tightened"]),
+        # the uniform searches alone, without the halving of every boundary
+        "simulations_at_least": value(len(lines(case)) * (math.ceil(span / step) + 1), 0.0),
+    }
+    drawn = case | {"slendernesses": case["drawn"]}
+    maps = pd.concat(
+        parts(Spectra(drawn, apart(table, change)), COLUMN, MASSLESS).assign(change=change)
+        for change in CHANGES
+    )
+    tables = {
+        "spectra": whole.drop(columns="change"),
+        "areas": shares,
+        "why": why,
+        "drawn": maps,
+        "histories": pd.concat([histories, linear_histories]),
+    }
+    return tables, findings
+
+
+def _middle(bands: pd.DataFrame) -> np.ndarray:
+    """Return the frequencies between which nine tenths of the reversals lie."""
+    order = bands.sort_values("frequency_ratio")
+    reached = (order.high - order.low).cumsum() / (order.high - order.low).sum()
+    return order.frequency_ratio.to_numpy()[np.searchsorted(reached, [0.05, 0.95])]
+
+
+if __name__ == "__main__":
+    with log_to(snakemake.log[0]):
+        table = pd.concat(pd.read_csv(path) for path in snakemake.input.shards)
+        table = table.sort_values(["change", *ORDER], ignore_index=True)
+        tables, findings = main(snakemake.params.case, snakemake.params.solver, table)
+        for name, columns in tables.items():
+            write_table(snakemake.output[name], columns)
+        write_findings(snakemake.output.findings, findings)

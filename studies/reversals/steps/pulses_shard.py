@@ -1,0 +1,59 @@
+"""One shard of the spectra of this study: every n-th of their lines.
+
+Each frame is taken whole, and with only its p̂ or only its √r put in place of the column's.
+"""
+
+from itertools import product
+
+import pandas as pd
+from spectra_shard import line
+from spectrum import Line, shard_of, solve
+from workbench import grid, log_to, write_table
+
+from topheavy import RockingBlock
+
+CHANGES = ("both", "size", "restitution")
+"""What of the column's p and √r a heavier cap changes; both in truth."""
+
+
+def lines(case: dict) -> list[Line]:
+    """Return the lines of all spectra: whole frames, then the separated of some γ."""
+    frames = [("both", gamma) for gamma in case["mass_ratios"]]
+    frames += product(CHANGES[1:], case["separated"])
+    ratios = map(float, grid(case["frequency_ratios"]))
+    return [
+        changed_line(*spectrum, change, gamma, ratio)
+        for (change, gamma), *spectrum, ratio in product(
+            frames, case["slendernesses"], case["shapes"], ratios
+        )
+    ]
+
+
+def changed_line(slenderness: float, shape: str, change: str, gamma: float, ratio: float) -> Line:
+    """Return the line of a frame, of which only the p̂ or the √r may be taken."""
+    whole = line(slenderness, shape, gamma, False, ratio)
+    column = line(slenderness, shape, 0.0, False, ratio).block
+    block = changed(column, whole.block, change)
+    return Line({"change": change} | whole.labels, block, whole.pulse)
+
+
+def changed(column: RockingBlock, frame: RockingBlock, change: str) -> RockingBlock:
+    """Return the frame; or the column of its size; or the column with its √r."""
+    match change:
+        case "both":
+            return frame
+        case "size":
+            return frame.with_restitution(column.restitution)
+        case "restitution":
+            return column.with_restitution(frame.restitution)
+    raise ValueError(f"change is {change!r}; expected one of {', '.join(CHANGES)}")
+
+
+def main(case: dict, shard: str, threads: int) -> pd.DataFrame:
+    return solve(shard_of(lines(case), shard), case, threads)
+
+
+if __name__ == "__main__":
+    with log_to(snakemake.log[0]):
+        table = main(snakemake.params.case, snakemake.wildcards.scatteritem, snakemake.threads)
+        write_table(snakemake.output.table, table)

@@ -1,0 +1,98 @@
+"""The half about pulses, in the limits where the answer is known."""
+
+import math
+
+import numpy as np
+import pytest
+from spectra_compared import Spectra, without
+from spectrum import solve
+
+from studies.reversals.steps import pulses
+from studies.reversals.steps.pulses_shard import CHANGES, changed, changed_line, lines
+from topheavy import Column, RockingFrame
+
+CASE = {
+    "slendernesses": [14.0],
+    "shapes": ["one-cosine"],
+    "mass_ratios": [0.0, 1.0, 1e9, math.inf],
+    "separated": [math.inf],
+    "frequency_ratios": {"lowest": 1.5, "highest": 3.5, "points": 5},
+    "amplitudes": {"lowest": 1.0, "highest": 8.0, "resolution": 0.05},
+    "finer": {"below": 1.3, "resolution": 0.01},
+    "sample": {"points": 4, "seed": 1},
+    "drawn": [14.0],
+}
+
+
+@pytest.fixture(scope="module")
+def table():
+    return solve(lines(CASE), CASE, threads=1)
+
+
+@pytest.fixture(scope="module")
+def whole(table):
+    return table[table.change == "both"]
+
+
+def shares(table, light, heavy):
+    (row,) = pulses.areas(Spectra(CASE, table), [(light, heavy)]).itertuples()
+    return row
+
+
+def test_frame_neither_helps_nor_harms_beside_itself(whole):
+    row = shares(whole, 1.0, 1.0)
+    assert (row.helps, row.harms) == (0.0, 0.0)
+    assert row.lighter_overturns == row.heavier_overturns > 0.0
+
+
+def test_cap_of_a_thousand_million_columns_is_the_limit(whole):
+    row = shares(whole, 1e9, math.inf)
+    assert row.helps + row.harms < 1e-7
+    assert shares(whole, 0.0, 1e9).harms == pytest.approx(shares(whole, 0.0, math.inf).harms)
+    assert shares(whole, 0.0, math.inf).harms > 1e-3
+
+
+def test_light_and_heavy_swapped_swap_help_and_harm(whole):
+    there, back = shares(whole, 0.0, math.inf), shares(whole, math.inf, 0.0)
+    assert (there.helps, there.harms) == pytest.approx((back.harms, back.helps))
+
+
+@pytest.mark.parametrize("change", CHANGES)
+def test_cap_without_mass_changes_nothing(change):
+    column = Column(1.0, 4.0)
+    assert changed(column.block(), RockingFrame(column, 0.0).block(), change) == column.block()
+
+
+def test_both_changes_are_the_frame():
+    column = Column(1.0, 4.0)
+    frame = RockingFrame(column, 2.0).block()
+    size = changed(column.block(), frame, "size")
+    assert changed(column.block(), frame, "both") == frame
+    assert changed(size, frame, "restitution") == size.with_restitution(frame.restitution) == frame
+
+
+def test_size_alone_moves_the_columns_spectrum_to_other_frequencies():
+    ratio = RockingFrame(Column(1.0, 4.0), math.inf).equivalent_size / Column(1.0, 4.0).size
+    size = changed_line(14.0, "one-cosine", "size", math.inf, 2.0)
+    column = changed_line(14.0, "one-cosine", "both", 0.0, 2.0 * math.sqrt(ratio))
+    found = solve([size, column], CASE, threads=1)
+    (_, moved), (_, there) = found.groupby("change")
+    assert len(moved) == len(there) > 0
+    np.testing.assert_allclose(
+        moved[["lower", "upper"]].fillna(8.0), there[["lower", "upper"]].fillna(8.0), rtol=1e-8
+    )
+
+
+def test_restitution_alone_leaves_overturning_without_impact_where_it_is(table):
+    apart = table[table["mode"] == "without impact"].set_index(["change", "frequency_ratio"])
+    column = apart[apart.mass_ratio == 0.0].lower.loc["both"].groupby("frequency_ratio").max()
+    alone = apart.lower.loc["restitution"].groupby("frequency_ratio").max()
+    np.testing.assert_allclose(alone, column, rtol=1e-8)
+
+
+def test_without_keeps_what_is_in_one_set_alone():
+    first, second = np.array([[1.0, 4.0], [6.0, 7.0]]), np.array([[2.0, 3.0], [5.0, 8.0]])
+    assert without(first, second).tolist() == [[1.0, 2.0], [3.0, 4.0]]
+    assert without(second, first).tolist() == [[5.0, 6.0], [7.0, 8.0]]
+    assert len(without(first, first)) == 0
+    assert len(without(np.empty((0, 2)), first)) == 0
