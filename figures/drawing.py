@@ -31,6 +31,14 @@ MODELS = {  # the simplifications of Allen et al. (1986), one at a time and toge
     "all": "all three: Allen et al.",
 }
 
+RECORDS = {
+    "el_centro_1940_NS": "El Centro 1940, NS",
+    "ridgecrest_2019_CCC_090": "Ridgecrest 2019, CCC 090",
+    "ridgecrest_2019_CCC_360": "Ridgecrest 2019, CCC 360",
+    "ridgecrest_2019_CLC_090": "Ridgecrest 2019, CLC 090",
+    "ridgecrest_2019_CLC_360": "Ridgecrest 2019, CLC 360",
+}
+
 HIGHEST = 12.0  # a/(g tan α) of overturning spectra
 PULSES = {
     "one-sine": "One sine",

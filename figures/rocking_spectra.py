@@ -1,14 +1,7 @@
 """Peak rotation over size under real records, with the sizes that overturn: column and frames."""
 
-from drawing import ACCENT, DOUBLE, GREY, gamma, note, publish, shades, sheet
+from drawing import ACCENT, DOUBLE, GREY, RECORDS, gamma, note, publish, shades, sheet
 
-NAMES = {
-    "el_centro_1940_NS": "El Centro 1940, NS",
-    "ridgecrest_2019_CCC_090": "Ridgecrest 2019, CCC 090",
-    "ridgecrest_2019_CCC_360": "Ridgecrest 2019, CCC 360",
-    "ridgecrest_2019_CLC_090": "Ridgecrest 2019, CLC 090",
-    "ridgecrest_2019_CLC_360": "Ridgecrest 2019, CLC 360",
-}
 TICKS = (0.5, 1, 2, 5, 10, 20)
 ABOVE, APART = 1.12, 0.1  # of θ/α: where the strips of overturned sizes begin, and their distance
 
@@ -36,7 +29,7 @@ def draw(rocking_spectra):
     panels, records = axes.flat, rocking_spectra.groupby("record", sort=False)
     for axis, (record, cells) in zip(panels, records, strict=False):
         panel(axis, cells, ratios)
-        axis.set_title(NAMES.get(record, record.replace("_", " ")))
+        axis.set_title(RECORDS.get(record, record.replace("_", " ")))
         axis.set_xlabel("Size of a column, $R$ (m)")
     for row in axes:
         row[0].set_ylabel(r"Peak rotation, $\theta_\mathrm{max}/\alpha$ (–)")

@@ -15,6 +15,7 @@ from topheavy import (
     RockingBlock,
     RockingFrame,
     judge,
+    overturned_by,
     overturning_intervals,
     overturning_map,
     simulate,
@@ -401,3 +402,41 @@ def test_sliver_is_left_inside_its_bracket():
 def test_search_ends_where_no_number_is_left_between():
     ((low, high, *_),) = searched([0.3], [SAFE, 2], (0.0, 1.0), width=0.0)
     assert high == math.nextafter(low, 1.0)
+
+
+# ---------------------------------------------------------------------------- factors
+
+
+SHAKING = Record(0.02, 0.6 * np.sin(np.linspace(0.0, 40.0, 400)) * np.linspace(1.0, 0.2, 400))
+FACTORS = np.linspace(0.0, 6.0, 61)
+
+
+@pytest.mark.parametrize("excitation", [SINE, SHAKING], ids=["pulse", "record"])
+@pytest.mark.parametrize("structure", [BLOCK, RockingFrame(Column(0.5, 3.0), 2.0)])
+def test_each_factor_is_judged_as_the_scaled_excitation(structure, excitation):
+    found = overturned_by(structure, excitation, FACTORS)
+    assert found.any()
+    assert not found.all()
+    one_by_one = [judge(structure, excitation.scaled(factor)).overturned for factor in FACTORS]
+    np.testing.assert_array_equal(found, one_by_one)
+
+
+def test_tolerance_of_the_factors_is_passed_on():
+    noise = Record(0.1, np.random.default_rng(1).normal(0.0, 0.3, 300))
+    factors = np.linspace(0.5, 3.0, 1000)
+    rough, fine = (overturned_by(BLOCK, noise, factors, tolerance=t) for t in (1e-2, 1e-12))
+    assert (rough != fine).any()
+    assert (overturned_by(BLOCK, noise, factors) != fine).mean() < 0.01
+
+
+@pytest.mark.parametrize(
+    ("factors", "words"), [([1.0, -1.0], "factors goes down to -1"), ([], "factors has shape")]
+)
+def test_factors_that_cannot_be_are_refused(factors, words):
+    with pytest.raises(ValueError, match=words):
+        overturned_by(BLOCK, SHAKING, factors)
+
+
+def test_factors_on_a_harmonic_are_refused():
+    with pytest.raises(ValueError, match="goes on forever"):
+        overturned_by(BLOCK, Pulse("harmonic", 0.3, 5.0), FACTORS)

@@ -16,7 +16,7 @@ from topheavy.contact_forces import (
     contact_forces,
     impact_impulses,
 )
-from topheavy.overturning import overturning_intervals, overturning_map
+from topheavy.overturning import overturned_by, overturning_intervals, overturning_map
 from topheavy.pulses import PULSE_SHAPES, Pulse
 from topheavy.records import Record, read_at2, read_csv, read_record
 from topheavy.response import Response
@@ -40,6 +40,7 @@ __all__ = [
     "contact_forces",
     "impact_impulses",
     "judge",
+    "overturned_by",
     "overturning_intervals",
     "overturning_map",
     "read_at2",

@@ -12,11 +12,12 @@ from topheavy import checks
 from topheavy.excitation import Excitation
 from topheavy.kernel.forcing import SHAPES
 from topheavy.kernel.grid import outcomes_of
+from topheavy.kernel.outcome import TOLERANCE
 from topheavy.kernel.taylor import oscillator
 from topheavy.pulses import Pulse, checked_shape
 from topheavy.records import Record
 from topheavy.simulate import as_forcing
-from topheavy.structures import Structure
+from topheavy.structures import RockingBlock, Structure
 
 if TYPE_CHECKING:
     import xarray
@@ -93,6 +94,51 @@ def _axis(name: str, values: ArrayLike, *, zero_allowed: bool) -> NDArray[np.flo
         sign = "negative" if zero_allowed else "zero or negative"
         raise ValueError(f"{name} goes down to {axis.min():.6g}; it cannot be {sign}")
     return axis
+
+
+def overturned_by(
+    structure: Structure,
+    excitation: Excitation,
+    factors: ArrayLike,
+    *,
+    tolerance: float = TOLERANCE,
+) -> NDArray[np.bool_]:
+    """Return which factors on an excitation overturn a block: those of a fragility curve.
+
+    As `judge` has it for `excitation.scaled(factor)`, without preparing each time what the factors
+    share.
+
+    Parameters
+    ----------
+    structure : RockingBlock, Column or RockingFrame
+    excitation : Pulse or Record
+        One that ends.
+    factors : array_like, shape (n,)
+        Not negative.
+    tolerance : float
+        As of `judge`.
+
+    Returns
+    -------
+    ndarray of bool, shape (n,)
+
+    Raises
+    ------
+    ValueError
+        For factors that are negative or not finite, and for a harmonic.
+    """
+    scales = _axis("factors", factors, zero_allowed=True)
+    block = structure.block()
+    shape, scale, amplitude, record = _ending_forcing(block, excitation)
+    fell: NDArray[np.bool_] = outcomes_of(
+        oscillator(block),
+        shape,
+        np.array([scale]),
+        amplitude * scales,
+        record,
+        tolerance=tolerance,
+    )[1][0]
+    return fell
 
 
 @dataclass(frozen=True)
@@ -184,10 +230,8 @@ def _labeller(
     structure: Structure, excitation: Excitation, most_impacts: int | None
 ) -> Callable[[NDArray[np.float64]], Labels]:
     """Return the function that labels an array of factors."""
-    if isinstance(excitation, Pulse) and excitation.duration == math.inf:
-        raise ValueError("shape is 'harmonic', which goes on forever; expected a pulse that ends")
     block = structure.block()
-    shape, scale, amplitude, record = as_forcing(block, excitation)
+    shape, scale, amplitude, record = _ending_forcing(block, excitation)
     most = np.iinfo(np.int64).max if most_impacts is None else most_impacts
 
     def label(factors: NDArray[np.float64]) -> Labels:
@@ -197,6 +241,15 @@ def _labeller(
         return np.where(overturned[0], np.minimum(impacts[0], most), SAFE)
 
     return label
+
+
+def _ending_forcing(
+    block: RockingBlock, excitation: Excitation
+) -> tuple[int, float, float, NDArray[np.float64]]:
+    """Return an excitation as the kernel takes it, if it ends."""
+    if isinstance(excitation, Pulse) and excitation.duration == math.inf:
+        raise ValueError("shape is 'harmonic', which goes on forever; expected a pulse that ends")
+    return as_forcing(block, excitation)
 
 
 def _bisect(

@@ -86,4 +86,4 @@ rule reversals_enough:
 
 
 # The half about ground motions.
-# include: "motions.smk"
+include: "motions.smk"

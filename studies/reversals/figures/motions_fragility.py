@@ -1,0 +1,72 @@
+"""How likely a temple's columns are to fall under heavier and heavier caps, and how much less."""
+
+import math
+
+from drawing import DOUBLE, GREY, INK, gamma, letter, note, publish, shades, sheet
+
+STRUCTURE = "temple"
+FAMILIES = ("near-fault", "broadband")
+INTENSITIES, VELOCITIES = (0.5, 0.7, 1, 1.5, 2), (0.5, 0.75, 1, 1.5, 2)
+BAND = {"alpha": 0.25, "linewidth": 0}
+
+
+def fragility(axis, curves, colours):
+    """Draw all curves, with bands for the lightest and the heaviest."""
+    for ratio, colour in colours.items():
+        curve = curves[curves.mass_ratio == ratio]
+        axis.plot(curve.intensity, curve.probability, color=colour, linewidth=1.0)
+        if ratio in (0.0, math.inf):
+            band = (curve.intensity, curve.probability_low, curve.probability_high)
+            axis.fill_between(*band, color=colour, **BAND)
+    axis.axhline(0.5, color=GREY, linewidth=0.5)
+    axis.set(ylim=(0, 1), yticks=(0, 0.5, 1))
+
+
+def less(axis, curves, colours):
+    """Draw by how much two of the curves are below that without a cap."""
+    for ratio, place in ((1.0, 0.06), (math.inf, 0.34)):
+        curve, colour = curves[curves.mass_ratio == ratio], colours[ratio]
+        axis.plot(curve.intensity, curve.less, color=colour, linewidth=1.0)
+        axis.fill_between(curve.intensity, curve.less_low, curve.less_high, color=colour, **BAND)
+        note(axis, gamma(ratio), (1.05, place), color=colour)
+    axis.axhline(0.0, color=INK, linewidth=0.6)
+    axis.set(ylim=(-0.04, 0.4))
+    axis.set_xlabel(r"Intensity, $p\,\mathrm{PGV}/(g\,\tan\alpha)$ (–)")
+
+
+def logarithmic(axis, ends, ticks):
+    axis.set(xscale="log", xlim=ends)
+    axis.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
+    axis.set_xticks([], minor=True)
+
+
+def draw(reversals_fragility):
+    table = reversals_fragility
+    table = table[(table.structure == STRUCTURE) & (table.as_large_as == 0)]
+    ratios = sorted(table.mass_ratio.unique())
+    colours = dict(zip(ratios, shades(len(ratios)), strict=True))
+    figure, axes = sheet(DOUBLE, 114, nrows=2, ncols=2, sharey="row")
+    for column, family in zip(axes.T, FAMILIES, strict=True):
+        curves = table[table.family == family]
+        fragility(column[0], curves, colours)
+        less(column[1], curves, colours)
+        for axis in column:
+            logarithmic(axis, (curves.intensity.min(), curves.intensity.max()), INTENSITIES)
+        top = column[0].twiny()
+        logarithmic(top, (curves.pgv.min(), curves.pgv.max()), VELOCITIES)
+        top.set_xlabel("PGV (m/s)")
+        top.spines.top.set_visible(True)
+    letter(axes[0], [f"{family.capitalize()} motions" for family in FAMILIES])
+    for axis, mark, family in zip(axes[1], "cd", FAMILIES, strict=True):
+        axis.set_title(f"({mark}) Less likely than without cap by: {family}")
+    axes[0, 0].set_ylabel("Share of motions that overturn (–)")
+    axes[1, 0].set_ylabel("Difference of shares (–)")
+    for place, (ratio, colour) in enumerate(colours.items()):
+        words = gamma(ratio) + (", no cap" if ratio == 0 else "")
+        at = (0.8, 0.47 - 0.07 * place)
+        note(axes[0, 1], words, at, color=colour, xycoords="axes fraction")
+    return figure
+
+
+if __name__ == "__main__":
+    publish(snakemake, draw)

@@ -1,0 +1,71 @@
+"""What a cap buys in the median capacity, and how often the heavier frame is the one that falls."""
+
+import math
+
+import numpy as np
+from drawing import ACCENT, DARK, DOUBLE, GREY, INK, gamma, letter, note, publish, sheet
+
+from studies.reversals.fragility import share_of_size
+
+STRUCTURE = "temple"
+FAMILIES = {"near-fault": (DARK, -1), "broadband": (ACCENT, 1)}  # colour, side
+SHIFT = 0.007  # so that the two families stand beside each other
+LEFT = 0.72  # of the axis for reversals, over that for the other cells
+
+
+def gains(axis, medians):
+    line = np.linspace(0.0, 1.0, 101)
+    axis.plot(line, 100 * (np.sqrt(1.0 + line / 2.0) - 1.0), color=GREY, linewidth=0.9)
+    note(axis, r"if $\hat p\,\mathrm{PGV}$ were all that counts", (0.45, 5.4), color=GREY)
+    for family, (colour, side) in FAMILIES.items():
+        run = medians[(medians.family == family) & (medians.gain != 0)]
+        for solitary, face in ((False, colour), (True, "white")):
+            points = run[(run.as_large_as > 0) == solitary]
+            ratios = points.as_large_as if solitary else points.mass_ratio
+            errors = 100 * np.array([points.gain - points.gain_low, points.gain_high - points.gain])
+            how = {"fmt": "o", "markersize": 3.5, "linewidth": 0.9, "markerfacecolor": face}
+            x = share_of_size(ratios) + SHIFT * (side - 4 * solitary)
+            axis.errorbar(x, 100 * points.gain, errors, color=colour, **how)
+    ratios = sorted(medians.mass_ratio.unique())
+    names = [r"$\infty$" if math.isinf(ratio) else f"{ratio:g}" for ratio in ratios]
+    axis.set_xticks(share_of_size(ratios), names)
+    axis.set(xlabel=r"Mass ratio, $\gamma$ (–), by equal steps of $\hat R$", ylim=(0, 40))
+    axis.set_ylabel("Gain of the median overturning PGV (%)")
+    for place, (family, (colour, _)) in enumerate(FAMILIES.items()):
+        note(axis, f"{family} motions", (0.02, 37 - 3.2 * place), color=colour)
+    note(axis, r"hollow: solitary column of size $\hat R$", (0.02, 30.6), color=INK)
+
+
+def falls(axis, pairs):
+    """For each cap against none, the cells in which only one of the two falls."""
+    run = pairs[pairs.lighter == 0]
+    ratios = sorted(run.heavier.unique())
+    for family, (colour, side) in FAMILIES.items():
+        cells = run[run.family == family].sort_values("heavier")
+        places = np.arange(len(ratios)) - 0.18 * side
+        for key, sign, alpha in (("only_lighter", 1, 1.0), ("only_heavier", -1, 0.45)):
+            share, low, high = (100 * cells[key + end] for end in ("", "_low", "_high"))
+            errors = np.array([share - low, high - share])[::sign]
+            axis.barh(places, sign * share, height=0.32, color=colour, alpha=alpha)
+            axis.errorbar(sign * share, places, xerr=errors, fmt="none", color=INK, linewidth=0.7)
+    axis.axvline(0.0, color=INK, linewidth=0.6)
+    axis.set(yticks=range(len(ratios)), yticklabels=map(gamma, ratios))
+    reach, top = 110 * run.only_lighter_high.max(), len(ratios) - 0.3
+    axis.set(xlim=(-LEFT * reach, reach), ylim=(-0.6, top + 0.4))
+    ticks = np.arange(-10, reach, 5)
+    axis.set_xticks(ticks, [f"{abs(tick):g}" for tick in ticks])
+    axis.set_xlabel("Share of all motions at all intensities (%)")
+    note(axis, "only with the cap it falls", (-0.03 * reach, top), ha="right")
+    note(axis, "only without the cap it falls", (0.03 * reach, top))
+
+
+def draw(reversals_pairs, reversals_medians):
+    figure, axes = sheet(DOUBLE, 78, ncols=2)
+    gains(axes[0], reversals_medians[reversals_medians.structure == STRUCTURE])
+    falls(axes[1], reversals_pairs[reversals_pairs.structure == STRUCTURE])
+    letter(axes, ["What the cap buys", "Who falls alone, under the same motion"])
+    return figure
+
+
+if __name__ == "__main__":
+    publish(snakemake, draw)

@@ -1,0 +1,89 @@
+"""Real records from uplift to collapse: where the solitary or the capped columns fall alone."""
+
+import numpy as np
+from drawing import ACCENT, DARK, DOUBLE, RECORDS, letter, note, publish, sheet
+from matplotlib.colors import ListedColormap
+
+from studies.reversals.outcomes import FALLS, UNTOLD, read
+
+CASES = {  # what becomes of the column, and of it under massless columns' cap
+    "both stand": "#f6f5f2",
+    "both fall": "#cfcdc8",
+    "only the solitary column falls": DARK,
+    "only the capped columns fall": ACCENT,
+    "cannot be told": "#1a1a1a",
+}
+FACTORS = (1, 2, 5, 10, 20)
+
+
+def cells(light, heavy):
+    """Return the place in CASES of every structure (row) at every factor."""
+    one, other = read(light.outcomes), read(heavy.outcomes)
+    falls, capped_falls = one == FALLS, other == FALLS
+    places = np.select([falls & capped_falls, falls, capped_falls], [1, 2, 3], 0)
+    return np.where((one == UNTOLD) | (other == UNTOLD), 4, places)
+
+
+def panel(axis, run):
+    run = run.sort_values(["slenderness_deg", "size"])
+    light, heavy = (run[run.mass_ratio == end] for end in (0.0, np.inf))
+    places, colours = cells(light, heavy), ListedColormap(list(CASES.values()))
+    rows, columns = places.shape
+    steps = (np.arange(columns + 1) - 0.5) / (columns - 1)
+    first, last = light["first"].iloc[0], light["last"].iloc[0]
+    edges = first * (last / first) ** steps
+    axis.pcolormesh(
+        edges, np.arange(rows + 1), places, cmap=colours, vmin=-0.5, vmax=4.5, edgecolor="face"
+    )
+    axis.set(xscale="log", xlabel="Scale of the record, over that of uplift")
+    axis.set_xticks(FACTORS, map(str, FACTORS))
+    axis.set_xticks([], minor=True)
+    each = light["size"].nunique()
+    for place in range(1, light.slenderness_deg.nunique()):
+        axis.axhline(place * each, color="white", linewidth=2)
+    axis.set_yticks([])
+    return light, each
+
+
+def draw(reversals_records):
+    table = reversals_records
+    figure, axes = sheet(DOUBLE, 116, nrows=2, ncols=3)
+    records = table.groupby("record", sort=False)
+    for axis, (_, run) in zip(axes.flat, records, strict=False):
+        light, each = panel(axis, run)
+    for row in axes:
+        slendernesses = light.slenderness_deg.unique()
+        row[0].set_yticks(
+            [(place + 0.5) * each for place in range(len(slendernesses))],
+            [rf"$\alpha$ = {slenderness:.3g}°" for slenderness in slendernesses],
+            rotation=90,
+            va="center",
+        )
+        row[0].tick_params(axis="y", length=0)
+    letter(axes.flat, [RECORDS.get(name, name.replace("_", " ")) for name, _ in records])
+    key = axes[-1, -1]
+    key.axis("off")
+    for place, (words, colour) in enumerate(CASES.items()):
+        height = 0.9 - 0.11 * place
+        key.plot(
+            [0.06],
+            [height],
+            "s",
+            color=colour,
+            markersize=8,
+            markeredgecolor="#999999",
+            markeredgewidth=0.4,
+        )
+        note(key, words, (0.13, height))
+    low, high = light["size"].min(), light["size"].max()
+    words = (
+        f"Rows of each block: columns of\n$R$ = {low:g} m (lowest) to {high:g} m (highest).\n"
+        "Cap: $\\gamma=\\infty$."
+    )
+    note(key, words, (0.02, 0.18))
+    key.set(xlim=(0, 1), ylim=(0, 1))
+    return figure
+
+
+if __name__ == "__main__":
+    publish(snakemake, draw)

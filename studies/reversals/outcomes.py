@@ -1,0 +1,18 @@
+"""Outcomes over a row of intensities as text, so that a table holds them a line each."""
+
+from collections.abc import Iterable
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+STANDS, FALLS, UNTOLD = "s", "f", "?"
+
+
+def written(fell: ArrayLike, told: ArrayLike = True) -> str:
+    """Return a letter for each outcome: STANDS, FALLS, or UNTOLD where it cannot be told."""
+    return "".join(np.where(told, np.where(fell, FALLS, STANDS), UNTOLD))
+
+
+def read(texts: Iterable[str]) -> NDArray[np.str_]:
+    """Return the letters, a row for each text."""
+    return np.array([list(text) for text in texts])

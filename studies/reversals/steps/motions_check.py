@@ -1,0 +1,85 @@
+"""A seeded sample of the ensemble judged again: at the tightened tolerance, nudged, and by SciPy.
+
+Half of the sample is drawn from all cells, half within a per cent of a boundary of overturning.
+"""
+
+import numpy as np
+import pandas as pd
+from rocking_spectra import NUDGE
+from spectrum import progress
+from workbench import log_to, truth, write_findings
+
+from studies.reversals.ensemble import draws, factors, intensities, subjects
+from studies.reversals.outcomes import FALLS, STANDS, read
+from topheavy import Record, overturned_by, reference
+from topheavy.structures import Structure
+
+FINEST = 1e-6  # of a factor: how well a boundary is known around which cells are drawn
+
+
+def boundary(structure: Structure, record: Record, low: float, high: float) -> float:
+    """Return a factor between two of unlike outcome at which the outcome changes."""
+    below = overturned_by(structure, record, [low])[0]
+    while high - low > FINEST * high:
+        middle = 0.5 * (low + high)
+        if overturned_by(structure, record, [middle])[0] == below:
+            low = middle
+        else:
+            high = middle
+    return 0.5 * (low + high)
+
+
+def main(case: dict, structures: dict, paths: list[str], tightened: float) -> dict:
+    table = pd.concat(pd.read_csv(path) for path in paths)
+    motions = {tuple(draw.labels.values()): draw for draw in draws(case)}
+    under = {tuple(subject.labels.values()): subject for subject in subjects(case, structures)}
+    levels, spec = intensities(case), case["sample"]
+    rng = np.random.default_rng(case["seed"])
+    changing = table[table.outcomes.str.contains(STANDS) & table.outcomes.str.contains(FALLS)]
+
+    def again(number: int) -> dict:
+        """Judge one cell of the sample; odd ones are moved close to a boundary."""
+        near = number % 2 == 1
+        some = changing if near else table
+        run = some.iloc[rng.integers(len(some))]
+        subject = under[run.structure, run.mass_ratio, run.as_large_as]
+        record = motions[run.family, run.scenario, run.motion].record()
+        scales = factors(subject, record, levels)
+        if near:
+            (letters,) = read([run.outcomes])
+            at = rng.choice(np.flatnonzero(letters[1:] != letters[:-1]))
+            edge = boundary(subject.frame, record, scales[at], scales[at + 1])
+            factor = edge * (1.0 + rng.uniform(-spec["within"], spec["within"]))
+        else:
+            factor = rng.choice(scales)
+        around = factor * np.array([1.0, 1.0 - NUDGE, 1.0 + NUDGE])
+        first, *nudged = overturned_by(subject.frame, record, around)
+        tight = overturned_by(subject.frame, record, [factor], tolerance=tightened)[0]
+        found = {"near": near, "told": all(nudged) == any(nudged) == first, "tight": tight == first}
+        if number < spec["second_route"]:
+            other = reference.judge(subject.frame, record.scaled(factor)).overturned
+            found["second_route"] = other == first
+        return found
+
+    cells = (again(number) for number in range(spec["points"]))
+    sample = pd.DataFrame(progress(cells, spec["points"], "cells"))
+    told = sample[sample.told]
+    routes = {"tightened": told.tight, "second_route": told.second_route.dropna().astype(bool)}
+    return {
+        f"{name}_agrees": truth(
+            agrees.all(),
+            cells=len(agrees),
+            differ=int((~agrees).sum()),
+            near_a_boundary=int(told.near[agrees.index].sum()),
+            not_told=len(sample) - len(told),
+        )
+        for name, agrees in routes.items()
+    }
+
+
+if __name__ == "__main__":
+    with log_to(snakemake.log[0]):
+        job = snakemake.params
+        tightened = job.solver["tightened"]
+        found = main(job.case, job.structures, snakemake.input.shards, tightened)
+        write_findings(snakemake.output.findings, found)

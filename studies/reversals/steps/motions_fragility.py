@@ -1,0 +1,227 @@
+"""Fragility under many motions: what a heavier cap buys, and how often it is the one that falls.
+
+Intervals are those of motions drawn anew from the ensemble; frames stay paired under each motion.
+Families of motions are kept apart.
+"""
+
+import itertools
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+from workbench import log_to, truth, value, write_findings, write_table
+
+from studies.reversals import fragility
+from studies.reversals.ensemble import Subject, intensities, subjects
+from studies.reversals.outcomes import FALLS
+from studies.reversals.outcomes import read as read_outcomes
+from topheavy.structures import size_ratio
+
+MOTION = ["scenario", "motion"]
+SUBJECT = ["mass_ratio", "as_large_as"]
+TINY = 1e-12  # a share: where no cell differs, none is reversed
+
+
+@dataclass(frozen=True, eq=False)
+class Ensemble:
+    """The outcomes of one family of motions on one structure.
+
+    `outcomes` has the shape (motions, subjects, levels); `weights` are those of its resamples.
+    """
+
+    family: str
+    subjects: list[Subject]
+    outcomes: np.ndarray
+    levels: np.ndarray
+    weights: np.ndarray
+    confidence: float
+
+    @property
+    def labels(self) -> dict:
+        return {"family": self.family, "structure": self.subjects[0].structure}
+
+    @property
+    def frames(self) -> dict[float, int]:
+        """The places of the frames, by γ."""
+        return {s.frame.mass_ratio: i for i, s in enumerate(self.subjects) if not s.enlarged}
+
+    def place(self, as_large_as: float) -> int:
+        """The place of the solitary column that is as large as R̂ of this γ."""
+        return [subject.enlarged for subject in self.subjects].index(as_large_as)
+
+    def means(self, outcomes: np.ndarray) -> np.ndarray:
+        return fragility.means(self.weights, outcomes)
+
+    def bounds(self, name: str, values: np.ndarray) -> dict:
+        """Return a value of resamples and its interval, named for a table."""
+        keys = (name, f"{name}_low", f"{name}_high")
+        return dict(zip(keys, fragility.interval(values, self.confidence), strict=True))
+
+
+def read(paths: list[str], case: dict, structures: dict) -> list[Ensemble]:
+    table = pd.concat(pd.read_csv(path) for path in paths)
+    under, boot = list(subjects(case, structures)), case["bootstrap"]
+    found = []
+    for (structure, family), run in table.groupby(["structure", "family"], sort=False):
+        mine = [subject for subject in under if subject.structure == structure]
+        wide = run.pivot_table(
+            index=MOTION,
+            columns=["as_large_as", "mass_ratio"],
+            values="outcomes",
+            aggfunc="first",
+        )
+        texts = wide[[(s.enlarged, s.frame.mass_ratio) for s in mine]].to_numpy()
+        outcomes = np.array([read_outcomes(motion) for motion in texts]) == FALLS
+        weights = fragility.resampled(len(outcomes), boot["resamples"], case["seed"])
+        found.append(
+            Ensemble(family, mine, outcomes, intensities(case), weights, boot["confidence"])
+        )
+    return sorted(found, key=lambda one: case["families"].index(one.family))
+
+
+def curves(ensemble: Ensemble, means: np.ndarray) -> pd.DataFrame:
+    """Return fragility over intensity, and by how much it is below that of the lightest frame."""
+    fits = fragility.curve(ensemble.levels, fragility.fit(ensemble.levels, means[0]))
+    tables = []
+    for place, subject in enumerate(ensemble.subjects):
+        tables.append(
+            ensemble.labels
+            | {key: subject.labels[key] for key in SUBJECT}
+            | {"intensity": ensemble.levels, "pgv": ensemble.levels * subject.unit}
+            | ensemble.bounds("probability", means[:, place])
+            | {"fitted": fits[place]}
+            | ensemble.bounds("less", means[:, 0] - means[:, place])
+        )
+    return pd.concat(map(pd.DataFrame, tables))
+
+
+def capacities(ensemble: Ensemble, medians: np.ndarray) -> pd.DataFrame:
+    """Return the median capacity of each, and by how much it is above that of the lightest."""
+    rows = []
+    for place, subject in enumerate(ensemble.subjects):
+        gamma = subject.enlarged or subject.frame.mass_ratio
+        gain = medians[:, place] / medians[:, 0] - 1.0
+        rows.append(
+            ensemble.labels
+            | {key: subject.labels[key] for key in SUBJECT}
+            | {"motions": len(ensemble.outcomes), "size_gain": size_ratio(gamma) - 1.0}
+            | {"expected_gain": math.sqrt(size_ratio(gamma)) - 1.0}
+            | ensemble.bounds("median", medians[:, place])
+            | {"median_pgv": medians[0, place] * subject.unit}
+            | ensemble.bounds("gain", gain)
+        )
+    return pd.DataFrame(rows)
+
+
+def pairs(ensemble: Ensemble) -> pd.DataFrame:
+    """Return for each pair of frames the shares of cells, motions at levels, that differ.
+
+    `reversed` is the share of these in which the heavier falls; `motions` the share of the motions
+    that do it at some level.
+    """
+    rows = []
+    for (light, i), (heavy, j) in itertools.combinations(ensemble.frames.items(), 2):
+        one, other = ensemble.outcomes[:, i], ensemble.outcomes[:, j]
+        bought, lost = ensemble.means(one & ~other), ensemble.means(other & ~one)
+        bought, lost = bought.mean(axis=1), lost.mean(axis=1)
+        some = ensemble.means((other & ~one).any(axis=1))
+        rows.append(
+            ensemble.labels
+            | {"lighter": light, "heavier": heavy, "cells": one.size}
+            | ensemble.bounds("only_lighter", bought)
+            | ensemble.bounds("only_heavier", lost)
+            | ensemble.bounds("reversed", lost / (bought + lost + TINY))
+            | ensemble.bounds("motions", some)
+        )
+    return pd.DataFrame(rows)
+
+
+def neighbours(ensemble: Ensemble, means: np.ndarray) -> pd.DataFrame:
+    """Return by how much each frame's fragility is below that of the next lighter one."""
+    places = list(ensemble.frames.values())
+    less = means[:, places[:-1]] - means[:, places[1:]]
+    return pd.DataFrame(
+        {key: np.ravel(found) for key, found in ensemble.bounds("less", less).items()}
+    )
+
+
+def beyond_size(ensemble: Ensemble, medians: np.ndarray) -> list[dict]:
+    """Return by how much medians of frames exceed those of solitary columns as large."""
+    return [
+        ensemble.labels
+        | {"mass_ratio": subject.enlarged}
+        | plain(
+            ensemble.bounds(
+                "excess", medians[:, ensemble.frames[subject.enlarged]] / medians[:, place] - 1.0
+            )
+        )
+        for place, subject in enumerate(ensemble.subjects)
+        if subject.enlarged
+    ]
+
+
+def shares_of_gain(ensemble: Ensemble, medians: np.ndarray, shares: list[float]) -> list[dict]:
+    """Return the γ that bring shares of the gain, where frames go up to γ = ∞."""
+    frames = ensemble.frames
+    if math.inf not in frames:
+        return []
+    found = fragility.mass_ratios_of_gain(list(frames), medians[:, list(frames.values())], shares)
+    return [
+        ensemble.labels | {"share": share} | plain(ensemble.bounds("mass_ratio", values))
+        for share, values in zip(shares, found.T, strict=True)
+    ]
+
+
+def plain(bounds: dict) -> dict:
+    return {key: float(number) for key, number in bounds.items()}
+
+
+def main(case: dict, structures: dict, paths: list[str]) -> tuple[dict[str, pd.DataFrame], dict]:
+    tables, order, beyond, shares = {"fragility": [], "medians": [], "pairs": []}, [], [], []
+    for ensemble in read(paths, case, structures):
+        means = ensemble.means(ensemble.outcomes)
+        medians = fragility.medians(ensemble.levels, means)
+        tables["fragility"].append(curves(ensemble, means))
+        tables["medians"].append(capacities(ensemble, medians))
+        tables["pairs"].append(pairs(ensemble))
+        order.append(neighbours(ensemble, means))
+        beyond += beyond_size(ensemble, medians)
+        shares += shares_of_gain(ensemble, medians, case["shares_of_gain"])
+        print(ensemble.labels, len(ensemble.outcomes), "motions", flush=True)
+    tables = {name: pd.concat(parts) for name, parts in tables.items()}
+    pair, less, curve = tables["pairs"], pd.concat(order), tables["fragility"]
+    findings = {
+        "fragility_never_rises": truth(
+            not (less.less_high < 0.0).any(),
+            compared=len(less),
+            rises=int((less.less_high < 0.0).sum()),
+            falls=int((less.less_low > 0.0).sum()),
+        ),
+        "heavier_is_safer": truth(
+            not pair.only_heavier.any(),
+            holds_when=bool((pair.reversed_high < 0.5).all()),
+            levels=case["intensities"]["points"],
+            cells=int(pair.cells.sum()),
+            least_reversed=float(pair.reversed.min()),
+            most_reversed=float(pair.reversed.max()),
+        ),
+        "gain_is_that_of_size": truth(
+            all(row["excess_low"] <= 0.0 <= row["excess_high"] for row in beyond), beyond=beyond
+        ),
+        "misfit": value((curve.probability - curve.fitted).abs().max(), 0.0),
+        "half_by_one": truth(
+            all(row["mass_ratio_high"] < 1.0 for row in shares if row["share"] == 0.5),
+            shares=shares,
+        ),
+    }
+    return tables, findings
+
+
+if __name__ == "__main__":
+    with log_to(snakemake.log[0]):
+        job = snakemake.params
+        tables, findings = main(job.case, job.structures, snakemake.input.shards)
+        for name, table in tables.items():
+            write_table(snakemake.output[name], table)
+        write_findings(snakemake.output.findings, findings)

@@ -1,0 +1,129 @@
+"""Real records from uplift to collapse: how often the heavier of two frames falls alone.
+
+Five components of two earthquakes are no sample of all: there are counts, and no intervals.
+"""
+
+import itertools
+import math
+
+import numpy as np
+import pandas as pd
+from rocking_spectra import NUDGE
+from spectrum import progress
+from workbench import log_to, truth, write_findings, write_table
+
+from studies.reversals.outcomes import FALLS, STANDS, UNTOLD, read, written
+from topheavy import Column, Record, RockingFrame, overturned_by, read_record, reference
+
+
+def geometric(spec: dict) -> np.ndarray:
+    return np.geomspace(spec["lowest"], spec["highest"], spec["points"])
+
+
+def column_of(slenderness: float, size: float) -> Column:
+    alpha = math.radians(slenderness)
+    return Column(size * math.sin(alpha), size * math.cos(alpha))
+
+
+def row(record: Record, degrees: float, size: float, gamma: float, ratios, tightened) -> dict:
+    """Return the outcomes at all factors.
+
+    Those that change when the record is scaled by a billionth, or at the tightened tolerance,
+    nobody can tell. Factors go in equal ratios from the first to the last, over that of uplift.
+    """
+    column = column_of(degrees, size)
+    frame = RockingFrame(column, gamma)
+    factors = ratios * column.uplift_acceleration / np.abs(record.acceleration).max()
+    found = overturned_by(frame, record, factors)
+    others = [overturned_by(frame, record, factors * (1 + off)) for off in (-NUDGE, NUDGE)]
+    others.append(overturned_by(frame, record, factors, tolerance=tightened))
+    return {
+        "record": record.name,
+        "slenderness_deg": degrees,
+        "size": size,
+        "mass_ratio": gamma,
+        "first": ratios[0],
+        "last": ratios[-1],
+        "outcomes": written(found, told=np.all(found == others, axis=0)),
+    }
+
+
+def compare(table: pd.DataFrame, ratios: list[float]) -> pd.DataFrame:
+    """Return the counts of each record and pair of γ, of the cells where both can be told."""
+    rows = []
+    for record, run in table.groupby("record", sort=False):
+        outcomes = {gamma: read(run[run.mass_ratio == gamma].outcomes) for gamma in ratios}
+        for light, heavy in itertools.combinations(ratios, 2):
+            one, other = outcomes[light], outcomes[heavy]
+            told = (one != UNTOLD) & (other != UNTOLD)
+            rows.append(
+                {
+                    "record": record,
+                    "lighter": light,
+                    "heavier": heavy,
+                    "cells": told.size,
+                    "told": told.sum(),
+                    "both": ((one == FALLS) & (other == FALLS)).sum(),
+                    "only_lighter": ((one == FALLS) & (other == STANDS)).sum(),
+                    "only_heavier": ((one == STANDS) & (other == FALLS)).sum(),
+                }
+            )
+    return pd.DataFrame(rows)
+
+
+def second_route(table: pd.DataFrame, records: dict[str, Record], ratios, count: int) -> dict:
+    """Judge some of the outcomes next to a change again by SciPy, evenly through the table."""
+    found = read(table.outcomes)
+    told = found != UNTOLD
+    edges = np.argwhere(told[:, 1:] & told[:, :-1] & (found[:, 1:] != found[:, :-1]))
+    differ = 0
+    for place, at in edges[np.linspace(0, len(edges) - 1, count).astype(int)]:
+        case = table.iloc[place]
+        column, record = column_of(case.slenderness_deg, case["size"]), records[case.record]
+        factor = ratios[at] * column.uplift_acceleration / np.abs(record.acceleration).max()
+        ending = reference.judge(RockingFrame(column, case.mass_ratio), record.scaled(factor))
+        differ += ending.overturned != (found[place, at] == FALLS)
+    return truth(differ == 0, histories=count, differ=differ)
+
+
+def main(case: dict, paths: list[str], tightened: float) -> tuple[pd.DataFrame, ...]:
+    records = {record.name: record for record in map(read_record, paths)}
+    ratios = geometric(case["factors"])
+    runs = list(
+        itertools.product(
+            records.values(), case["slendernesses"], geometric(case["sizes"]), case["mass_ratios"]
+        )
+    )
+    found = (row(*run, ratios, tightened) for run in runs)
+    table = pd.DataFrame(progress(found, len(runs), "structures under a record"))
+    counts = compare(table, case["mass_ratios"])
+    told = read(table.outcomes) != UNTOLD
+    findings = {
+        "heavier_is_safer": truth(
+            not counts.only_heavier.any(),
+            holds_when=bool((counts.only_heavier < counts.only_lighter).all()),
+            condition="counts are compared: under every record fewer cells are survived by the "
+            "lighter alone than by the heavier alone",
+            highest=case["factors"]["highest"],
+            compared=int(counts.told.sum()),
+            only_lighter=int(counts.only_lighter.sum()),
+            only_heavier=int(counts.only_heavier.sum()),
+            records_with_counterexamples=int(
+                (counts.groupby("record").only_heavier.sum() > 0).sum()
+            ),
+        ),
+        "cells_that_can_be_told": truth(
+            told.all(), histories=told.size, not_told=int((~told).sum())
+        ),
+        "second_route": second_route(table, records, ratios, case["checked_by_second_route"]),
+    }
+    return table, counts, findings
+
+
+if __name__ == "__main__":
+    with log_to(snakemake.log[0]):
+        case, tightened = snakemake.params.case, snakemake.params.solver["tightened"]
+        table, counts, findings = main(case, snakemake.input.records, tightened)
+        write_table(snakemake.output.table, table)
+        write_table(snakemake.output.counts, counts)
+        write_findings(snakemake.output.findings, findings)

@@ -1,0 +1,43 @@
+"""One shard of the ensemble: every n-th motion, on all structures, at all intensities."""
+
+import pandas as pd
+from spectrum import progress
+from workbench import log_to, write_table
+
+from studies.reversals.ensemble import Draw, Subject, draws, factors, intensities, subjects
+from studies.reversals.outcomes import written
+from topheavy import overturned_by
+
+
+def outcomes(draw: Draw, under: list[Subject], levels, of: int) -> list[dict]:
+    """Return a row for each structure: what becomes of it at each level.
+
+    A structure with a share of the motions gets the first of each scenario, `of` to each.
+    """
+    record = draw.record()
+    rows = []
+    for subject in under:
+        if draw.number >= subject.share * of:
+            continue
+        fell = overturned_by(subject.frame, record, factors(subject, record, levels))
+        rows.append(draw.labels | subject.labels | {"outcomes": written(fell)})
+    return rows
+
+
+def main(case: dict, structures: dict, shard: str) -> pd.DataFrame:
+    number, of = map(int, shard.split("-of-"))
+    mine, under, levels = (
+        draws(case)[number - 1 :: of],
+        [*subjects(case, structures)],
+        intensities(case),
+    )
+    each = case["runs"][case["run"]]["motions"]
+    found = (outcomes(draw, under, levels, each) for draw in mine)
+    return pd.DataFrame(row for rows in progress(found, len(mine), "motions") for row in rows)
+
+
+if __name__ == "__main__":
+    with log_to(snakemake.log[0]):
+        job = snakemake.params
+        table = main(job.case, job.structures, snakemake.wildcards.scatteritem)
+        write_table(snakemake.output.table, table)

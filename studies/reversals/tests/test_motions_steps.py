@@ -1,0 +1,142 @@
+"""The steps about motions: what is paired, counted and told."""
+
+import math
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from studies.reversals import fragility
+from studies.reversals.ensemble import draws, factors, intensities, subjects
+from studies.reversals.motions import peak_velocity, strength
+from studies.reversals.outcomes import FALLS, STANDS, read, written
+from studies.reversals.steps import motions_check, motions_fragility, motions_records, motions_shard
+from topheavy import Column, Record, RockingFrame, judge
+
+STRUCTURES = {"temple": {"half_width": 0.5, "half_height": 3.0}}
+CASE = {
+    "run": "default",
+    "runs": {"default": {"motions": 40, "shards": 2}},
+    "seed": 5,
+    "families": ["near-fault", "broadband"],
+    "scenarios": [
+        {"magnitude": 6.5, "distance": 10.0, "site_velocity": 760.0, "directivity": 10.0},
+        {"magnitude": 7.0, "distance": 10.0, "site_velocity": 760.0, "directivity": 20.0},
+    ],
+    "cases": [{"structure": "temple", "share": 0.5, "mass_ratios": [0.0, 1.0, math.inf]}],
+    "as_large_as": [1.0],
+    "intensities": {"lowest": 0.4, "highest": 2.5, "points": 11},
+    "bootstrap": {"resamples": 200, "confidence": 0.9},
+    "shares_of_gain": [0.5],
+    "sample": {"points": 6, "within": 0.01, "second_route": 1},
+}
+
+
+@pytest.fixture(scope="module")
+def shards(tmp_path_factory) -> list[str]:
+    folder = tmp_path_factory.mktemp("shards")
+    paths = [str(folder / f"{shard}.csv") for shard in ("1-of-2", "2-of-2")]
+    for path, shard in zip(paths, ("1-of-2", "2-of-2"), strict=True):
+        motions_shard.main(CASE, STRUCTURES, shard).to_csv(path, index=False)
+    return paths
+
+
+def test_motion_has_the_intensity_that_it_is_scaled_to():
+    record, level = draws(CASE)[0].record(), intensities(CASE)
+    frame = next(subjects(CASE, STRUCTURES))
+    for factor, wanted in zip(factors(frame, record, level), level, strict=True):
+        scaled = record.scaled(factor)
+        assert strength(scaled, Column(**STRUCTURES["temple"]))[1] == pytest.approx(wanted)
+        assert peak_velocity(scaled) == pytest.approx(wanted * frame.unit)
+
+
+def test_motions_of_all_scenarios_and_families_differ():
+    alike = CASE | {"scenarios": CASE["scenarios"][:1] * 2}
+    for case in (CASE, alike):
+        first = [draw.record().acceleration[:500] for draw in draws(case) if draw.number == 0]
+        assert len({samples.tobytes() for samples in first}) == 4
+
+
+def test_larger_column_has_the_frequency_parameter_of_its_frame():
+    found = {tuple(s.labels.values()): s for s in subjects(CASE, STRUCTURES)}
+    frame, column = found["temple", 1.0, 0.0].frame, found["temple", 0.0, 1.0].frame
+    assert column.frequency_parameter == pytest.approx(frame.frequency_parameter, rel=1e-14)
+    assert column.restitution > frame.restitution
+
+
+def test_shards_hold_each_motion_of_the_share_once(shards):
+    table = pd.concat(map(pd.read_csv, shards))
+    assert len(table) == 2 * 2 * 20 * 4  # families, scenarios, half of forty motions, subjects
+    assert not table.duplicated(["family", "scenario", "motion", "mass_ratio", "as_large_as"]).any()
+    assert table.motion.max() == 19
+
+
+def test_outcomes_are_those_of_the_scaled_motion(shards):
+    table = pd.concat(pd.read_csv(path) for path in shards)
+    row = table[(table.family == "broadband") & (table.mass_ratio == math.inf)].iloc[0]
+    draw = next(d for d in draws(CASE) if list(d.labels.values()) == list(row.iloc[:3]))
+    subject = next(s for s in subjects(CASE, STRUCTURES) if s.frame.mass_ratio == math.inf)
+    record = draw.record()
+    scales = factors(subject, record, intensities(CASE))
+    found = [judge(subject.frame, record.scaled(scale)).overturned for scale in scales]
+    assert row.outcomes == written(found)
+
+
+def test_pairs_count_what_differs():
+    light, heavy = np.array([[1, 1, 0], [1, 0, 1]]), np.array([[1, 0, 1], [0, 0, 1]])
+    column = Column(0.5, 3.0)
+    under = [
+        next(s for s in subjects(CASE, STRUCTURES) if s.frame == RockingFrame(column, gamma))
+        for gamma in (0.0, 1.0)
+    ]
+    outcomes = np.stack([light, heavy], axis=1) == 1
+    weights = fragility.resampled(2, 50, 1)
+    ensemble = motions_fragility.Ensemble("broadband", under, outcomes, np.ones(3), weights, 0.9)
+    (pair,) = motions_fragility.pairs(ensemble).itertuples()
+    assert (pair.only_lighter, pair.only_heavier) == pytest.approx((2 / 6, 1 / 6))
+    assert (pair.reversed, pair.motions) == pytest.approx((1 / 3, 1 / 2))
+
+
+def test_findings_come_with_intervals_around_their_values(shards):
+    tables, findings = motions_fragility.main(CASE, STRUCTURES, shards)
+    for name, value in (("fragility", "probability"), ("medians", "median"), ("pairs", "motions")):
+        table = tables[name]
+        assert (table[f"{value}_low"] <= table[value] + 1e-12).all()
+        assert (table[value] <= table[f"{value}_high"] + 1e-12).all()
+    cells = 2 * 3 * 40 * 11  # families, pairs, motions, levels
+    assert findings["heavier_is_safer"]["cells"] == cells
+
+
+def test_boundary_lies_where_the_outcome_changes():
+    column, time = Column(0.5, 3.0), np.arange(0.0, 4.0, 0.01)
+    record = Record(0.01, np.sin(2.0 * math.pi * time / 2.0) * (time <= 2.0))
+    edge = motions_check.boundary(column, record, 0.1, 2.0)
+    below, above = (judge(column, record.scaled(edge * by)).overturned for by in (0.999, 1.001))
+    assert below != above
+
+
+def test_sample_is_judged_again(shards):
+    found = motions_check.main(CASE, STRUCTURES, shards, 3e-12)
+    assert found["tightened_agrees"]["cells"] + found["tightened_agrees"]["not_told"] == 6
+    assert found["second_route_agrees"]["cells"] == 1
+
+
+def test_outcomes_are_read_as_they_were_written():
+    fell, told = np.array([True, False, True, False]), np.array([True, True, False, True])
+    assert written(fell) == "fsfs"
+    assert read([written(fell, told)]).tolist() == [["f", "s", "?", "s"]]
+
+
+def test_records_are_compared_where_both_can_be_told():
+    rows = [("a", 0.0, "ffss?"), ("a", 1.0, "fs?ff"), ("b", 0.0, "f"), ("b", 1.0, "f")]
+    table = pd.DataFrame(rows, columns=["record", "mass_ratio", "outcomes"])
+    counts = motions_records.compare(table, [0.0, 1.0])
+    columns = ["record", "cells", "told", "both", "only_lighter", "only_heavier"]
+    assert counts[columns].to_numpy().tolist() == [["a", 5, 3, 1, 1, 1], ["b", 1, 1, 1, 0, 0]]
+
+
+def test_scales_begin_at_uplift():
+    record = Record(0.02, 0.3 * np.sin(np.linspace(0.0, 6.0, 200)), "sine")
+    row = motions_records.row(record, 10.0, 2.0, 1.0, np.array([0.99, 4.0, 20.0]), 3e-12)
+    assert row["outcomes"][0] == STANDS
+    assert row["outcomes"][2] == FALLS
