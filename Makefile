@@ -6,8 +6,10 @@ PYTHON     ?= python3
 UV_VERSION := 0.13.8
 
 UV  := $(shell command -v uv 2>/dev/null || echo .uv/bin/uv)
-RUN := $(UV) run --locked --no-dev
-DEV := $(UV) run --locked
+# The optional rigid-body engine of the study `mechanism`; `ENGINE=` does not install it.
+ENGINE ?= engine
+RUN := $(UV) run --locked --no-dev $(addprefix --group ,$(ENGINE))
+DEV := $(UV) run --locked $(addprefix --group ,$(ENGINE))
 BENCH := PYTHONPATH=src/steps:figures $(UV) run --locked --no-dev --group bench
 CELLS ?= 40000
 CONFIG ?= config/thorough.yaml

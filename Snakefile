@@ -867,7 +867,7 @@ for claim in CLAIMS:
         name:
             f"claim_{claim['id']}"
         input:
-            getattr(rules, claim["rule"]).output.findings if "rule" in claim else [],
+            f"results/findings/{claim['rule']}.json" if "rule" in claim else [],
         log:
             f"results/logs/claim_{claim['id']}.log",
         params:

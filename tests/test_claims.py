@@ -20,6 +20,7 @@ STATEMENT = {"id": "s"}
         ({"value": 0.300, "error": 0.0, "meant_value": 0.290}, "refuted"),
         ({"value": 0.275, "error": 0.0, "meant_value": 0.290}, "confirmed"),
         (None, "not tested"),
+        ({"not_tested": "a package is missing"}, "not tested"),
     ],
 )
 def test_a_printed_number_is_held_against_the_computed_one(finding, verdict):
@@ -37,6 +38,7 @@ def test_a_printed_number_is_held_against_the_computed_one(finding, verdict):
         ({"holds": False, "holds_when": True}, "qualified"),
         ({"holds": False, "holds_when": False}, "refuted"),
         (None, "not tested"),
+        ({"not_tested": "a package is missing"}, "not tested"),
     ],
 )
 def test_a_statement_is_judged_by_what_holds(finding, verdict):

@@ -17,6 +17,8 @@ def verdict_line(claim: Mapping[str, Any], finding: Mapping[str, Any] | None, ve
     printed = f"printed {claim['printed']}, " if "printed" in claim else ""
     if finding is None:
         grounds = claim["remark"]
+    elif "not_tested" in finding:
+        grounds = finding["not_tested"]
     elif "value" in finding:
         unit = claim.get("unit", finding.get("unit", ""))
         grounds = (
@@ -45,8 +47,9 @@ if __name__ == "__main__":
         }
         finding = finding_of(claim, findings)
         verdict = judge(claim, finding)
+        is_untested = finding is not None and "not_tested" in finding
         line = verdict_line(claim, finding, verdict)
         print(line, file=sys.__stdout__, flush=True)
         print(line, file=log)
-        if verdict != claim["expected"]:
+        if verdict != claim["expected"] and not is_untested:
             raise SystemExit(1)

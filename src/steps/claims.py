@@ -30,7 +30,8 @@ def main(ledger: list[dict], findings: dict[str, dict]) -> list[dict]:
                 "tolerance": claim.get("tolerance"),
                 "verdict": verdict,
                 "expected": claim["expected"],
-                "remark": claim.get("remark", ""),
+                "not_tested": found.get("not_tested", ""),
+                "remark": found.get("not_tested", claim.get("remark", "")),
                 "function": claim.get("function", ""),
                 "rule": claim.get("rule", ""),
             }

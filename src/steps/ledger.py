@@ -46,6 +46,8 @@ def read_ledger(paths: Iterable[str | Path]) -> list[dict[str, Any]]:
 def finding_of(claim: Mapping[str, Any], findings: Mapping[str, Any]) -> dict[str, Any] | None:
     """Return what was found for a claim among the findings of its rule; None if it is not tested.
 
+    Where an optional package is missing, all findings of a rule are the one reason.
+
     Raises
     ------
     ValueError
@@ -53,6 +55,8 @@ def finding_of(claim: Mapping[str, Any], findings: Mapping[str, Any]) -> dict[st
     """
     if "finding" not in claim:
         return None
+    if "not_tested" in findings:
+        return dict(findings)
     if claim["finding"] not in findings:
         raise ValueError(
             f"the claim {claim['id']} names the finding {claim['finding']!r}, "

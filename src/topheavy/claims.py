@@ -1,7 +1,7 @@
 """The verdict on a claim of the paper, from what was computed. Nothing is confirmed by hand.
 
 A claim is a row of the ledger: something that the paper prints, in our words. A finding is what a
-rule of the workflow computed for it: a value with its error, or a truth.
+rule of the workflow computed for it: a value with its error, a truth, or why it could not.
 """
 
 from collections import Counter
@@ -28,7 +28,8 @@ def judge(claim: Mapping[str, Any], finding: Mapping[str, Any] | None) -> Verdic
         With `id`, and `printed` and `tolerance` where a number is claimed.
     finding : mapping or None
         With `value`, `error` and perhaps `meant_value`; or with `holds` and perhaps `meant_holds`
-        or `holds_when`. None for what cannot be tested.
+        or `holds_when`; or with `not_tested`, the reason, where an optional package is missing.
+        None for what cannot be tested.
 
     Raises
     ------
@@ -36,7 +37,7 @@ def judge(claim: Mapping[str, Any], finding: Mapping[str, Any] | None) -> Verdic
         When the error of the value is more than a tenth of the tolerance, or the finding is of the
         wrong kind: then nothing can be said.
     """
-    if finding is None:
+    if finding is None or "not_tested" in finding:
         return "not tested"
     if "tolerance" in claim:
         return _judge_number(claim, finding)

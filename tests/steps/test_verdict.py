@@ -4,8 +4,8 @@ import pandas as pd
 from verdict import main
 
 
-def claim(name: str, verdict: str, expected: str) -> dict:
-    return {"id": name, "verdict": verdict, "expected": expected}
+def claim(name: str, verdict: str, expected: str, not_tested: str = "") -> dict:
+    return {"id": name, "verdict": verdict, "expected": expected, "not_tested": not_tested}
 
 
 def compared(**verdicts: str) -> pd.DataFrame:
@@ -41,6 +41,18 @@ def test_every_claim_that_came_out_otherwise_is_a_fault_either_way():
         "claim b came out qualified; expected refuted",
     ]
     assert line == "claims: 2 confirmed, 1 qualified, 1 misprints, 2 refuted, 1 not tested"
+
+
+def test_claim_that_lacks_an_optional_package_is_told_and_is_no_fault():
+    lacking = [claim(name, "not tested", "confirmed", "no engine") for name in ("a", "b")]
+    line, faults = main([*AS_EXPECTED, *lacking], compared(peaks="agrees"), {})
+    assert faults == []
+    assert line.splitlines()[0] == "2 claims not tested here: no engine"
+    assert line.endswith("3 not tested")
+
+
+def test_claim_that_came_out_untested_without_a_reason_is_a_fault():
+    assert main([claim("a", "not tested", "confirmed")], compared(), {})[1]
 
 
 def test_only_a_table_that_differs_is_a_fault():

@@ -1,0 +1,56 @@
+"""Which friction lets a frame rock as assumed, over frequency and amplitude of a pulse."""
+
+from drawing import ACCENT, DOUBLE, INK, amplitude_axis, gamma, letter, note, publish, sheet
+from matplotlib.colors import BoundaryNorm, LinearSegmentedColormap
+
+LEVELS = [1.0, 1.2, 1.5, 2.0, 3.0, 4.0, 6.0]  # of tan α
+OVERTURNED = {"facecolor": "#efece6", "edgecolor": "#a8a49c", "hatch": "////////"}
+COLOURS = LinearSegmentedColormap.from_list("demand", ["#e3edf5", "#6fa3cc", "#1d4770", "#0b1f33"])
+HIGHEST = 24.0
+
+
+def draw(mechanism_admissible):
+    ratios = sorted(mechanism_admissible.mass_ratio.unique())
+    figure, axes = sheet(DOUBLE, 66, ncols=len(ratios), sharey=True)
+    norm = BoundaryNorm(LEVELS, COLOURS.N, extend="max")
+    for axis, mass_ratio in zip(axes, ratios, strict=True):
+        table = mechanism_admissible[mechanism_admissible.mass_ratio == mass_ratio]
+        axis.patch.set(**OVERTURNED)
+        stands = table.demand.where(~table.overturned)
+        cells = table.assign(stands=stands).pivot_table(
+            index="amplitude", columns="frequency_ratio", values="stands", dropna=False
+        )
+        image = axis.pcolormesh(
+            cells.columns,
+            cells.index,
+            cells,
+            cmap=COLOURS,
+            norm=norm,
+            shading="nearest",
+            rasterized=True,
+        )
+        pulls = table.pivot_table(index="amplitude", columns="frequency_ratio", values="pulls")
+        if pulls.to_numpy().any():
+            axis.contour(
+                pulls.columns, pulls.index, pulls.astype(float), [0.5], colors=ACCENT, linewidths=1
+            )
+            bare = {"facecolor": "#efece6", "edgecolor": "none", "pad": 1}
+            above = table[table.pulls].amplitude.min()
+            words = "a seat pulls"
+            note(axis, words, (5.0, 1.12 * above), color=ACCENT, ha="center", fontsize=7, bbox=bare)
+        amplitude_axis(axis)
+        axis.set(ylim=(1, HIGHEST), xlabel=r"Frequency, $\omega/p$ (–)")
+        axis.set_yticks(ticks := (1, 2, 3, 5, 10, 20), map(str, ticks))
+    axes[0].set_ylabel(r"Amplitude, $a/(g\,\tan\alpha)$ (–)")
+    bare = {"facecolor": "#efece6", "edgecolor": "none", "pad": 2}
+    note(axes[0], "overturns", (2.6, 12.0), ha="center", color=INK, bbox=bare)
+    bar = figure.colorbar(image, ax=axes, ticks=LEVELS, pad=0.01)
+    bar.set_label(r"Friction that it takes, $\mu/\tan\alpha$ (–)")
+    bar.ax.set_yticks([], minor=True)
+    bar.ax.set_yticklabels([f"{level:g}" for level in LEVELS])
+    letter(axes, [gamma(g) + (", alone" if g == 0 else "") for g in ratios])
+    return figure
+
+
+if __name__ == "__main__":
+    publish(snakemake, draw)

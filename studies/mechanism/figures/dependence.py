@@ -1,0 +1,61 @@
+"""The friction that suffices, over γ, slenderness, bay and depth of the cap; and under records."""
+
+import numpy as np
+from drawing import ACCENT, DARK, DOUBLE, GREY, INK, LIGHT, gamma, letter, note, publish, sheet
+
+LABELS = {
+    "mass_ratio": r"Mass ratio, $\gamma$ (–)",
+    "slenderness": r"Slenderness, $\alpha$ (°)",
+    "span": "Span over width of a column (–)",
+    "depth": "Depth of cap over width of a column (–)",
+}
+CROWDED = (1.35,)  # a tick without its label
+HIGHEST = 7.2  # of tan α, drawn
+
+
+def draw(mechanism_dependence, mechanism_records):
+    mosaic = "AB;CD;EE"
+    figure, axes = sheet(DOUBLE, 142, mosaic, height_ratios=(1, 1, 1.15))
+    for axis, (name, label) in zip(list(axes.values())[:4], LABELS.items(), strict=True):
+        table = mechanism_dependence[mechanism_dependence.varied == name]
+        rocking = table.rocking.replace(np.inf, np.nan)
+        axis.plot(table.value, rocking, "o-", color=DARK, markersize=3)
+        axis.plot(table.value, table.impact, "s-", color=ACCENT, markersize=2.5)
+        axis.axhline(1.0, color=GREY, linewidth=0.5, linestyle=":")
+        axis.set(xlabel=label, ylim=(0, HIGHEST))
+        if name != "slenderness":
+            axis.set_xscale("log")
+            ticks = [tick for tick in table.value if tick not in CROWDED]
+            axis.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
+            axis.set_xticks([], minor=True)
+    for axis in (axes["A"], axes["C"]):
+        axis.set_ylabel(r"Friction, $\mu/\tan\alpha$ (–)")
+    note(axes["A"], "rocking", (0.3, 3.0), color=DARK)
+    note(axes["A"], "impacts", (0.06, 0.45), color=ACCENT)
+    note(axes["C"], "below, a seat opens as it rocks", (1.42, 6.6), color=INK)
+    records = axes["E"]
+    _records(records, mechanism_records)
+    titles = ["Weight of the cap", "Slenderness", "Bay", "Depth of the cap", "Real records"]
+    letter(list(axes.values()), titles)
+    return figure
+
+
+def _records(axis, table):
+    groups = list(table.groupby(["structure", "mass_ratio"], sort=False))
+    for place, ((_, mass_ratio), part) in enumerate(groups):
+        at = place + np.linspace(-0.2, 0.2, len(part))
+        fell = (part.outcome == "overturned").to_numpy()
+        colour = LIGHT if mass_ratio == 0 else DARK
+        how = {"s": 16, "edgecolor": DARK, "linewidth": 0.6}
+        axis.scatter(at[~fell], part.demand[~fell], facecolor=colour, **how)
+        axis.scatter(at[fell], part.demand[fell], marker="x", color=INK, s=16)
+        axis.plot((place - 0.3, place + 0.3), [part.tan.iloc[0]] * 2, color=GREY, linewidth=0.8)
+    names = [f"{structure}, {gamma(g)}" for (structure, g), _ in groups]
+    axis.set_xticks(range(len(groups)), names)
+    axis.set(ylabel=r"Friction, $\mu$ (–)", ylim=(0, 0.78), xlim=(-0.6, len(groups) - 0.4))
+    note(axis, r"$\tan\alpha$", (0.34, groups[0][1].tan.iloc[0]), color=GREY)
+    note(axis, "crosses: overturned", (len(groups) - 0.5, 0.72), ha="right")
+
+
+if __name__ == "__main__":
+    publish(snakemake, draw)

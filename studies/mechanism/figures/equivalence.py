@@ -1,0 +1,46 @@
+"""The frame beside its equivalent column, which loses what Housner says: where verdicts differ."""
+
+from drawing import ACCENT, DARK, DOUBLE, GREY, LIGHT, PULSES, letter, note, publish, shades, sheet
+from matplotlib.colors import ListedColormap
+
+
+def draw(mechanism_equivalence, mechanism_equivalence_map):
+    figure, (left, middle, right) = sheet(DOUBLE, 68, ncols=3, width_ratios=(1.2, 1, 1))
+    cells = mechanism_equivalence_map.set_index("frequency_ratio").T
+    colours = ListedColormap(["white", ACCENT, DARK, LIGHT])
+    left.pcolormesh(
+        cells.columns,
+        cells.index.astype(float),
+        cells,
+        cmap=colours,
+        vmin=0,
+        vmax=3,
+        shading="nearest",
+        rasterized=True,
+    )
+    left.set(xlabel=r"Frequency, $\omega/p$ (–)", ylabel=r"Amplitude, $a/(g\,\tan\alpha)$ (–)")
+    left.set(xticks=(1, 2, 4, 6, 8), yticks=(1, 3, 6, 9, 12))
+    note(left, "both overturn", (1.0, 9.5))
+    note(left, "both stand", (5.2, 2.2))
+    note(left, "only the\ncolumn\noverturns", (7.9, 6.0), ha="right", color=ACCENT)
+
+    for shape, colour in zip(PULSES, [*shades(3), ACCENT], strict=True):
+        part = mechanism_equivalence[mechanism_equivalence["shape"] == shape]
+        heaviest = part[part.mass_ratio == part.mass_ratio.max()]
+        how = {"color": colour, "markersize": 3, "label": PULSES[shape]}
+        middle.plot(heaviest.slenderness, 100 * heaviest.share_apart, "o-", **how)
+        right.plot(heaviest.slenderness, 100 * heaviest.lowest_change_mean, "o-", **how)
+    ticks = sorted(mechanism_equivalence.slenderness.unique())
+    for axis in (middle, right):
+        axis.set_xticks(ticks, [f"{tick:.3g}" for tick in ticks])
+        axis.set_xlabel(r"Slenderness, $\alpha$ (°)")
+    middle.set(ylabel="Pulses with another verdict (%)", ylim=(0, 10))
+    right.set(ylabel="Lowest amplitude, column against frame (%)")
+    right.axhline(0.0, color=GREY, linewidth=0.5)
+    middle.legend(loc="upper left", ncols=2, fontsize=6.5, columnspacing=0.8)
+    letter((left, middle, right), ["Verdicts", "Share that differs", "Lowest amplitude, mean"])
+    return figure
+
+
+if __name__ == "__main__":
+    publish(snakemake, draw)

@@ -1,0 +1,48 @@
+"""MuJoCo beside the theory: the time of the first impact, and what it leaves of the speed."""
+
+from drawing import ACCENT, DARK, DOUBLE, GREY, gamma, letter, note, publish, shades, sheet
+
+from studies.mechanism.figures.marks import untested
+
+STYLES = ("o-", "s--", "^-.", "D:")
+
+
+def draw(mechanism_first_impacts, mechanism_rebounds):
+    figure, (left, right) = sheet(DOUBLE, 68, ncols=2)
+    letter((left, right), ["The time of the first impact", "The rebound"])
+    if untested(left, mechanism_first_impacts) or untested(right, mechanism_rebounds):
+        return figure
+    steps = mechanism_first_impacts[mechanism_first_impacts.step > 0]
+    models = list(steps.groupby(["structure", "mass_ratio"], sort=False))
+    for ((structure, mass_ratio), part), colour in zip(models, shades(len(models)), strict=True):
+        label = f"{structure}, {gamma(mass_ratio)}"
+        worst = part.groupby("step").difference.agg(lambda values: values.abs().max())
+        left.loglog(worst.index, worst, "o-", color=colour, markersize=3, label=label)
+    left.set(xlabel=r"Time step, $p\,\Delta t$ (–)", ylabel="Relative difference (–)")
+    left.set_xticks(ticks := sorted(steps.step.unique()), [f"{1e4 * tick:g}" for tick in ticks])
+    left.set_xlabel(r"Time step, $10^4\,p\,\Delta t$ (–)")
+    left.set_xticks([], minor=True)
+    left.legend(loc="lower right")
+
+    frames = mechanism_rebounds[mechanism_rebounds.mass_ratio > 0]
+    dampings = sorted(frames.damping_ratio.unique())
+    colours = [ACCENT, "#e09a6f", "#7fa8cc", DARK]
+    for ratio, colour, style in zip(dampings, colours, STYLES, strict=True):
+        part = frames[frames.damping_ratio == ratio]
+        low, high = (
+            100 * part.groupby("time_constant").difference.agg(how) for how in ("min", "max")
+        )
+        restitution = part.point_restitution.iloc[0]
+        label = f"bounces by {restitution:.2f}"
+        right.fill_between(low.index, low, high, color=colour, alpha=0.25, linewidth=0)
+        right.semilogx(low.index, (low + high) / 2, style, color=colour, markersize=3, label=label)
+    right.axhline(0.0, color=GREY, linewidth=0.5)
+    right.set(xlabel=r"Time constant of the contact, $p\,\tau$ (–)", ylim=(-15, 5))
+    right.set_ylabel(r"Velocity ratio against $\sqrt{r}$ of Eq. (25) (%)")
+    note(right, "Eq. (25)", (0.0031, 0.7), color=GREY)
+    right.legend(loc="lower left", title="A lone point")
+    return figure
+
+
+if __name__ == "__main__":
+    publish(snakemake, draw)

@@ -1,0 +1,64 @@
+"""MuJoCo beside the theory: which pulses overturn, and how much friction keeps from sliding."""
+
+import numpy as np
+from drawing import ACCENT, DARK, DOUBLE, GREY, LIGHT, gamma, letter, note, publish, shades, sheet
+
+from studies.mechanism.figures.marks import untested
+
+SHAPES = {"one-sine": "sine", "ricker-symmetric": "Ricker"}
+
+
+def draw(mechanism_verdicts, mechanism_slides):
+    figure, (left, right) = sheet(DOUBLE, 78, ncols=2, width_ratios=(1.25, 1))
+    letter((left, right), ["Around the lowest amplitude that overturns", "Sliding"])
+    if untested(left, mechanism_verdicts) or untested(right, mechanism_slides):
+        return figure
+    _pulses(left, mechanism_verdicts)
+    models = list(mechanism_slides.groupby(["structure", "mass_ratio"], sort=False))
+    for ((structure, mass_ratio), part), colour in zip(models, shades(len(models)), strict=True):
+        slip = part[["base_slip", "seat_slip"]].max(axis=1)
+        tan = part.tan.iloc[0]
+        label = f"{structure}, {gamma(mass_ratio)}"
+        right.loglog(part.friction / tan, slip, "o-", color=colour, markersize=3, label=label)
+        right.axvline(part.needed.iloc[0] / tan, color=colour, linestyle="--", linewidth=0.9)
+    right.axvline(1.0, color=GREY, linestyle=":", linewidth=0.8)
+    note(right, r"$\tan\alpha$", (0.96, 1.4), color=GREY, ha="right")
+    right.set(xlabel=r"Friction, $\mu/\tan\alpha$ (–)", ylabel="Longest slide over $b$ (–)")
+    right.set_xticks(ticks := (0.5, 1, 2, 4), map(str, ticks))
+    right.set_xticks([], minor=True)
+    right.set(xlim=(0.16, 5))
+    right.legend(loc="lower left", title="dashed: what the\nforces ask for", fontsize=7)
+    return figure
+
+
+def _pulses(axis, table):
+    rows = list(table.groupby(["contact", "structure", "shape", "frequency_ratio"], sort=False))
+    factors = sorted(table.factor.unique())
+    places = {factor: place for place, factor in enumerate(factors)}
+    for height, (_, part) in enumerate(reversed(rows)):
+        x = part.factor.map(places)
+        for falls, colour in ((True, DARK), (False, LIGHT)):
+            chosen = part.engine == falls
+            heights = np.full(int(chosen.sum()), height)
+            axis.scatter(x[chosen], heights, s=34, color=colour, edgecolor=DARK, linewidth=0.5)
+        apart = part.engine != part.theory
+        ring = {"facecolor": "none", "edgecolor": ACCENT, "linewidth": 1.3}
+        axis.scatter(x[apart], np.full(int(apart.sum()), height), s=80, **ring)
+    names = [
+        f"{contact}, {structure}, {SHAPES[shape]} {ratio:g}"
+        for (contact, structure, shape, ratio), _ in reversed(rows)
+    ]
+    axis.set_yticks(range(len(rows)), names, fontsize=6.5)
+    axis.set_xticks(range(len(factors)), [f"{factor:g}" for factor in factors])
+    axis.axvline(sum(factor < 1 for factor in factors) - 0.5, color=GREY, linewidth=0.8)
+    axis.set(xlim=(-0.5, len(factors) - 0.3), ylim=(-0.7, len(rows) + 1.1))
+    axis.set_xlabel("Amplitude over the lowest that overturns in theory (–)")
+    for x, colour, words in ((-0.3, LIGHT, "stands"), (0.9, DARK, "overturns")):
+        axis.scatter([x], [len(rows) + 0.35], s=34, color=colour, edgecolor=DARK, linewidth=0.5)
+        note(axis, words, (x + 0.15, len(rows) + 0.35))
+    axis.scatter([2.4], [len(rows) + 0.35], s=80, facecolor="none", edgecolor=ACCENT)
+    note(axis, "unlike the theory", (2.6, len(rows) + 0.35), color=ACCENT)
+
+
+if __name__ == "__main__":
+    publish(snakemake, draw)

@@ -1,0 +1,205 @@
+"""The frame beside the solitary column of size R̂, which loses what Housner says, not Eq. (25).
+
+Between impacts the two are one oscillator. What the difference at impacts does to peak rotation and
+to overturning is counted here.
+"""
+
+import math
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+import pandas as pd
+from workbench import grid, log_to, truth, value, write_findings, write_table
+
+from topheavy import (
+    Column,
+    Pulse,
+    RockingBlock,
+    RockingFrame,
+    overturning_intervals,
+    overturning_map,
+    reference,
+)
+
+THINNED = 2  # so many times is the grid coarser that gives the error of shares
+BRACKETS = 1e-8  # of an amplitude: a bound on the brackets of the boundaries
+IDENTICAL = 1e-9  # of α
+ASIDE = 1e-5  # of an amplitude: so far beyond a boundary is the second route asked
+
+
+def equivalent_column(frame: RockingFrame) -> RockingBlock:
+    """Return the solitary column of size R̂, with its own restitution, Housner's."""
+    stretch = frame.equivalent_size / frame.column.size
+    column = Column(stretch * frame.column.half_width, stretch * frame.column.half_height)
+    return column.block()
+
+
+def maps(
+    blocks: Iterable[RockingBlock], frame: RockingFrame, shape: str, case: dict
+) -> list[pd.DataFrame]:
+    """Return maps of the peak rotation over α, NaN where overturned, over ω/p and a/(g tan α)."""
+    ratios, amplitudes = grid(case["frequency_ratios"]), grid(case["amplitudes"])
+    omega, tan = ratios * frame.column.frequency_parameter, frame.uplift_acceleration
+    found = [overturning_map(block, shape, omega, amplitudes * tan) for block in blocks]
+    return [
+        pd.DataFrame(one.peak_rotation.to_numpy() / frame.slenderness, ratios, amplitudes)
+        for one in found
+    ]
+
+
+def given_its_restitution(
+    frame: RockingFrame, shape: str, peaks: pd.DataFrame, case: dict
+) -> float:
+    """Return how far (over α) the column's map is from the frame's, given the frame's √r."""
+    column = equivalent_column(frame).with_restitution(frame.restitution)
+    (found,) = maps((column,), frame, shape, case)
+    if not (found.isna() == peaks.isna()).to_numpy().all():
+        return math.inf
+    return float((found - peaks).abs().max().max())
+
+
+def lowest(block: RockingBlock | RockingFrame, unit: Pulse, case: dict) -> float:
+    """Return the lowest factor on a pulse of amplitude g tan α that overturns; NaN for none."""
+    spec = case["amplitudes"]
+    step = (spec["highest"] - spec["lowest"]) / (spec["points"] - 1)
+    found = overturning_intervals(
+        block, unit, (spec["lowest"], spec["highest"]), resolution=step, most_impacts=0
+    )
+    return found[0].lower[0] if found else math.nan
+
+
+def lowest_changes(frame: RockingFrame, shape: str, case: dict) -> pd.DataFrame:
+    """Return the lowest amplitudes (g tan α) of frame and equivalent column, over ω/p."""
+    rows = []
+    for ratio in grid(case["frequency_ratios"])[:: case["every"]]:
+        omega = ratio * frame.column.frequency_parameter
+        unit = Pulse(shape, frame.uplift_acceleration, omega)
+        of_frame, of_column = (
+            lowest(block, unit, case) for block in (frame, equivalent_column(frame))
+        )
+        if of_frame > case["amplitudes"]["lowest"] and math.isfinite(of_column):
+            change = of_column / of_frame - 1.0
+            rows.append(
+                {"frame": frame, "unit": unit, "lower": min(of_frame, of_column), "change": change}
+            )
+    return pd.DataFrame(rows)
+
+
+def confirmed(row: pd.Series) -> bool:
+    """Return whether SciPy too lets only the one overturn whose lowest amplitude is lower."""
+    pulse = row.unit.scaled(row.lower * (1.0 + ASIDE))
+    blocks = (row.frame, equivalent_column(row.frame))
+    falls = [reference.judge(block, pulse).overturned for block in blocks]
+    return falls == [row.change > 0.0, row.change < 0.0]
+
+
+def differences(frame: pd.DataFrame, column: pd.DataFrame) -> dict:
+    """Return what the difference of restitution changes over one pair of maps."""
+    apart = frame.isna() != column.isna()
+    both = frame.notna() & column.notna() & (frame > 0.0)
+    change = (column / frame - 1.0).to_numpy()[both.to_numpy()]
+    coarse = apart.iloc[::THINNED, ::THINNED].to_numpy().mean()
+    share = apart.to_numpy().mean()
+    return {
+        "share_apart": share,
+        "share_error": abs(share - coarse),
+        "only_column_overturns": (column.isna() & frame.notna()).to_numpy().mean(),
+        "only_frame_overturns": (frame.isna() & column.notna()).to_numpy().mean(),
+        "peak_change_median": np.median(change),
+        "peak_change_95": np.quantile(change, 0.95),
+    }
+
+
+def second_route(
+    frame: RockingFrame, shape: str, peaks: Sequence[pd.DataFrame], sample: dict
+) -> bool:
+    """Judge cells again by SciPy, half of them where the two verdicts differ."""
+    apart = (peaks[0].isna() != peaks[1].isna()).to_numpy()
+    chance = np.random.default_rng(sample["seed"])
+    half = sample["points"] // 2
+    picked = [
+        places[chance.choice(len(places), min(half, len(places)), replace=False)]
+        for places in (np.argwhere(apart), np.argwhere(~apart))
+    ]
+    for i, j in np.concatenate(picked):
+        omega = peaks[0].index[i] * frame.column.frequency_parameter
+        pulse = Pulse(shape, peaks[0].columns[j] * frame.uplift_acceleration, omega)
+        for block, map_of in zip((frame, equivalent_column(frame)), peaks, strict=True):
+            if reference.judge(block, pulse).overturned != bool(np.isnan(map_of.iloc[i, j])):
+                return False
+    return True
+
+
+def main(case: dict) -> tuple[pd.DataFrame, pd.DataFrame, dict]:
+    rows, changes, drawn, checked, same = [], [], None, True, True
+    for degrees in case["slendernesses"]:
+        for gamma in case["mass_ratios"]:
+            alpha = math.radians(degrees)
+            frame = RockingFrame(Column(math.sin(alpha), math.cos(alpha)), gamma)
+            for shape in case["shapes"]:
+                peaks = maps((frame.block(), equivalent_column(frame)), frame, shape, case)
+                changes.append(lowest_changes(frame, shape, case))
+                change = changes[-1].change
+                rows.append(
+                    {
+                        "slenderness": degrees,
+                        "mass_ratio": gamma,
+                        "shape": shape,
+                        "restitution": frame.restitution,
+                        "restitution_of_column": frame.column.restitution,
+                    }
+                    | differences(*peaks)
+                    | {
+                        "lowest_change_mean": change.mean(),
+                        "lowest_change_least": change.min(),
+                        "lowest_change_largest": change.max(),
+                    }
+                )
+                here = {"slenderness": degrees, "mass_ratio": gamma, "shape": shape}
+                if here == case["drawn"]:
+                    checked = second_route(frame, shape, peaks, case["sample"])
+                    same = given_its_restitution(frame, shape, peaks[0], case) < IDENTICAL
+                    kind = 2 * peaks[0].isna().astype(int) + peaks[1].isna().astype(int)
+                    drawn = kind.rename_axis("frequency_ratio").reset_index()
+    table = pd.DataFrame(rows)
+    lowered = pd.concat(changes, ignore_index=True)
+    ends = [lowered.loc[lowered.change.idxmin()], lowered.loc[lowered.change.idxmax()]]
+    worst = table.loc[table.share_apart.idxmax()]
+    findings = {
+        "identical_response": truth(
+            not table.share_apart.any(),
+            holds_when=same,
+            condition="between impacts; or the column is given the frame's √r in place of its own",
+            mean_share_apart=float(table.share_apart.mean()),
+            largest_share_apart=float(worst.share_apart),
+            largest_at={key: worst[key] for key in ("slenderness", "shape")},
+            only_frame_overturns=float(table.only_frame_overturns.mean()),
+            only_column_overturns=float(table.only_column_overturns.mean()),
+            second_route_agrees=checked,
+        ),
+        "share_apart": value(table.share_apart.mean(), table.share_error.mean()),
+        "lowest_amplitude": value(
+            lowered.change.mean(),
+            BRACKETS,
+            least=ends[0].change,
+            largest=ends[1].change,
+        ),
+        "peak_rotation": value(table.peak_change_median.median(), 1e-8)
+        | {"upper": float(table.peak_change_95.max())},
+        "column_is_never_safer_first": truth(
+            ends[1].change <= 0.0,
+            largest=ends[1].change,
+            pulses=len(lowered),
+            later=int((lowered.change > 0.0).sum()),
+            second_route_agrees=all(map(confirmed, ends)),
+        ),
+    }
+    return table, drawn, findings
+
+
+if __name__ == "__main__":
+    with log_to(snakemake.log[0]):
+        table, drawn, findings = main(snakemake.params.case)
+        write_table(snakemake.output.table, table)
+        write_table(snakemake.output.drawn, drawn)
+        write_findings(snakemake.output.findings, findings)

@@ -1,0 +1,66 @@
+"""Friction and compression under real ground motions, as they were recorded."""
+
+import math
+
+import numpy as np
+import pandas as pd
+from workbench import log_to, truth, value, write_findings, write_table
+
+from studies.mechanism.steps.demand import demand, history
+from studies.mechanism.steps.setting import cap_of
+from topheavy import Cap, Column, Record, RockingFrame, read_record
+
+
+def main(
+    case: dict, structures: dict, caps: dict[str, Cap], records: list[Record]
+) -> tuple[pd.DataFrame, dict]:
+    rows = []
+    for name, ratios in case["frames"].items():
+        column = Column(**structures[name])
+        for frame in (RockingFrame(column, gamma) for gamma in ratios):
+            for record in records:
+                found = demand(frame, caps[name], history(frame, record, case["samples"]))
+                rows.append(
+                    {
+                        "structure": name,
+                        "mass_ratio": frame.mass_ratio,
+                        "record": record.name,
+                        "tan": frame.uplift_acceleration,
+                        "outcome": found.outcome,
+                        "demand": found.whole,
+                        "demand_error": found.friction_error,
+                        "pulls": found.pulls,
+                        "impacts": found.impacts,
+                    }
+                )
+    table = pd.DataFrame(rows)
+    rocked = table[np.isfinite(table.demand)]
+    stood = rocked[rocked.outcome != "overturned"]
+    largest = stood.loc[stood.demand.idxmax()] if len(stood) else None
+    findings = {
+        "stays_on_its_seats": truth(not stood.pulls.any(), histories=len(stood)),
+        "largest_demand": value(
+            largest.demand, stood.demand_error.max(), "", least=stood.demand.min()
+        )
+        | {"over_tan": largest.demand / largest.tan, "structure": largest.structure},
+        "counted": truth(
+            len(rocked) > 0,
+            rocked=len(rocked),
+            stood=len(stood),
+            no_uplift=int((table.outcome == "no uplift").sum()),
+            largest_over_tan=float((stood.demand / stood.tan).max()),
+        ),
+    }
+    return table.replace(math.inf, np.nan), findings
+
+
+if __name__ == "__main__":
+    with log_to(snakemake.log[0]):
+        table, findings = main(
+            snakemake.params.case,
+            snakemake.params.structures,
+            {name: cap_of(entry) for name, entry in snakemake.params.caps.items()},
+            [read_record(path) for path in snakemake.input.records],
+        )
+        write_table(snakemake.output.table, table)
+        write_findings(snakemake.output.findings, findings)

@@ -1,0 +1,132 @@
+"""Three rigid bodies by Newton and Euler beside one degree of freedom, under light and heavy caps.
+
+Motion, impacts, velocity ratios, contact forces and impulses come out of both: here from Eqs. (23)
+and (25) and the closed form of the forces, there from nine coordinates that know none of them.
+"""
+
+import numpy as np
+import pandas as pd
+from workbench import log_to, truth, write_findings, write_table
+
+from studies.mechanism.steps.demand import ASIDE
+from studies.mechanism.steps.setting import cap_of, pulse_on
+from topheavy import (
+    STANDARD_GRAVITY,
+    Cap,
+    Column,
+    ContactForces,
+    Pulse,
+    Record,
+    RockingFrame,
+    contact_forces,
+    impact_impulses,
+    read_record,
+    simulate,
+)
+from topheavy.three_bodies import simulate_three_bodies
+
+AGREE = 1e-6  # of α, of √r and of the weight: what the two integrations may differ by
+SAME_IMPACT = 1e-3  # over p̂: impacts nearer than this are the same one
+SMALLEST_BOUNCE = 1e-5  # of p̂ α: the last bounces before rest, which both cut off, are left out
+
+
+def stacked(forces: ContactForces) -> np.ndarray:
+    """Return the forces as (…, contact, component)."""
+    return np.stack([np.stack([c.horizontal, c.vertical], -1) for c in forces.contacts], -2)
+
+
+def compare(
+    frame: RockingFrame, cap: Cap, shaking: Pulse | Record, duration: float, samples: int
+) -> dict:
+    """Return how far the two descriptions of one history are apart."""
+    shape = {"span": cap.span, "cap_depth": 2.0 * cap.half_depth, "duration": duration}
+    bodies = simulate_three_bodies(frame, shaking, **shape, samples=samples)
+    block = simulate(frame, shaking, duration=duration, samples=bodies.time)
+    alpha, p = frame.slenderness, frame.frequency_parameter
+    both = np.isfinite(block.rotation) & np.isfinite(bodies.rotation[:, 0])
+    off = np.abs(bodies.rotation - block.rotation[:, None])[both].max() / alpha
+
+    # Impacts: all but the last bounces, which end where rest is declared.
+    aside = ASIDE / p
+    before = simulate(frame, shaking, samples=block.impacts - aside).velocity
+    large = np.abs(before) > SMALLEST_BOUNCE * p * alpha
+    times, before = block.impacts[large], before[large]
+    row = {"impacts": times.size, "impact_apart": 0.0, "ratio_apart": 0.0, "impulse_apart": 0.0}
+    weight = 2.0 * (1.0 + frame.mass_ratio)  # columns of 1 kg
+    if times.size:
+        nearest = np.abs(bodies.impacts[None, :] - times[:, None]).argmin(axis=1)
+        row["impact_apart"] = np.abs(bodies.impacts[nearest] - times).max() * p
+        row["ratio_apart"] = np.abs(bodies.velocity_ratios[nearest] - frame.restitution).max()
+        expected = stacked(impact_impulses(frame, cap, before))
+        apart = np.abs(bodies.impulses[nearest] / weight - expected).max(axis=(1, 2))
+        row["impulse_apart"] = (apart / np.abs(expected).sum(axis=(1, 2))).max()
+
+    # Forces away from impacts, where they jump.
+    gap = np.abs(bodies.time[:, None] - block.impacts).min(axis=1, initial=np.inf)
+    flying = both & (gap > SAME_IMPACT / p) & (np.abs(block.rotation) > SMALLEST_BOUNCE * alpha)
+    ground = shaking.excitation(bodies.time)
+    closed = stacked(contact_forces(frame, cap, block.rotation, block.velocity, ground))
+    found = bodies.forces / (weight * STANDARD_GRAVITY)
+    return row | {
+        "mass_ratio": frame.mass_ratio,
+        "excitation": shaking.name if isinstance(shaking, Record) else shaking.shape,
+        "rotation_apart": off,
+        "force_apart": np.abs(found - closed)[flying].max(),
+        "least_vertical": found[flying][:, :, 1].min(),
+        "cap_tilt": np.nanmax(np.abs(bodies.cap_angle)) / alpha,
+        "drift": np.nanmax(bodies.drift) / frame.column.size,
+        "forces_compared": int(flying.sum()),
+        "same_outcome": (bodies.outcome == "overturned") == bool(np.isnan(block.rotation[-1])),
+    }
+
+
+def main(case: dict, cap: Cap, records: list[Record]) -> tuple[pd.DataFrame, dict]:
+    column = Column(**case["column"])
+    rows = [
+        compare(
+            RockingFrame(column, gamma),
+            cap,
+            pulse_on(column, pulse),
+            case["duration"],
+            case["samples"],
+        )
+        for pulse in case["pulses"]
+        for gamma in case["mass_ratios"]
+    ]
+    rows += [
+        compare(RockingFrame(column, gamma), cap, record, case["record_duration"], case["samples"])
+        for record in records
+        for gamma in case["record_mass_ratios"]
+    ]
+    table = pd.DataFrame(rows)
+    worst = table[[name for name in table if name.endswith(("_apart", "tilt", "drift"))]].max()
+    counted = {"histories": len(table), "impacts": int(table.impacts.sum())}
+    findings = {
+        "one_degree_of_freedom": truth(
+            worst.rotation_apart < AGREE and table.same_outcome.all(),
+            largest_over_alpha=worst.rotation_apart,
+            cap_tilt_over_alpha=worst.cap_tilt,
+            drift_over_size=worst.drift,
+            largest_impact_time=worst.impact_apart,
+            **counted,
+        ),
+        "velocity_ratio": truth(worst.ratio_apart < AGREE, largest=worst.ratio_apart, **counted),
+        "same_forces": truth(
+            max(worst.force_apart, worst.impulse_apart) < AGREE,
+            largest_over_weight=worst.force_apart,
+            largest_impulse=worst.impulse_apart,
+            forces_compared=int(table.forces_compared.sum()),
+        ),
+    }
+    return table, findings
+
+
+if __name__ == "__main__":
+    with log_to(snakemake.log[0]):
+        table, findings = main(
+            snakemake.params.case,
+            cap_of(snakemake.params.cap),
+            [read_record(path) for path in snakemake.input.records],
+        )
+        write_table(snakemake.output.table, table)
+        write_findings(snakemake.output.findings, findings)

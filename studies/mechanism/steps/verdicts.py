@@ -1,0 +1,127 @@
+"""Does the engine overturn under the pulses that overturn the theory's frame?"""
+
+import pandas as pd
+from workbench import truth
+
+from studies.mechanism.steps.engine import Motion, slips
+from studies.mechanism.steps.rigs import (
+    FALLEN,
+    Model,
+    experiment,
+    lowest_overturning,
+    models,
+    rebound,
+    rig_of,
+    shaken,
+    units,
+)
+from topheavy import Cap, RockingFrame, judge
+
+GAP = 0.01  # of the half width b: a corner nearer to a surface than this touches it
+ENOUGH = 30  # pulses
+
+
+def pulses_around(model: Model, spec: dict, contact: str) -> list[dict]:
+    """Return the verdicts of engine and theory around the lowest amplitude that overturns.
+
+    Beside them stands that of the theory with the rebound that the engine has of its own.
+    """
+    frame = model.frame
+    settings = spec["contacts"][contact]
+    rig = rig_of(model, spec["time_step"], friction=spec["friction"], **settings)
+    measured, rows = rebound(rig, spec["lean"] * frame.slenderness), []
+    refitted = frame.block().with_restitution(measured)
+    for kind, unit in units(frame.column, spec["pulses"]):
+        lowest = lowest_overturning(frame, unit)
+        for factor in spec["factors"]:
+            pulse = lowest.scaled(factor)
+            overturned, peak, motion = shaken(rig, pulse)
+            theory, with_rebound = judge(frame, pulse), judge(refitted, pulse)
+            rows.append(
+                {
+                    "structure": model.name,
+                    "mass_ratio": frame.mass_ratio,
+                    "contact": contact,
+                    **kind,
+                    "factor": factor,
+                    "engine": overturned,
+                    "theory": theory.overturned,
+                    "theory_with_rebound": with_rebound.overturned,
+                    "rebound_ratio": measured / frame.restitution,
+                    "peak": peak / frame.slenderness,
+                    "theory_peak": theory.peak / frame.slenderness,
+                    "slip": max(slips(rig, motion, gap=GAP * frame.column.half_width))
+                    / frame.column.half_width,
+                    "cap_tilt": _cap_tilt(motion) / frame.slenderness,
+                }
+            )
+    return rows
+
+
+def _cap_tilt(motion: Motion) -> float:
+    """Return the largest turn of the cap while the columns stand, rad."""
+    standing = abs(motion.rotation) < 0.5 * FALLEN
+    return float(abs(motion.pose[standing, -1, 2]).max())
+
+
+def column_beside(model: Model, spec: dict) -> list[tuple[bool, bool]]:
+    """Return whether the engine lets the column fall and the frame stand, between their lowest.
+
+    A pair (falls, stands) for each pulse, of an amplitude midway between the two in theory.
+    """
+    found = []
+    alone = Model(model.name, RockingFrame(model.frame.column, 0.0), None)
+    settings = spec["contacts"]["plastic"]
+    rigs = [
+        rig_of(one, spec["time_step"], friction=spec["friction"], **settings)
+        for one in (alone, model)
+    ]
+    for _, unit in units(model.frame.column, spec["pulses"]):
+        column, frame = (lowest_overturning(one.frame, unit) for one in (alone, model))
+        midway = unit.scaled(0.5 * (column.amplitude + frame.amplitude))
+        falls, stands = (shaken(rig, midway)[0] for rig in rigs)
+        found.append((falls, not stands))
+    return found
+
+
+def main(case: dict, structures: dict, caps: dict[str, Cap]) -> tuple[pd.DataFrame, dict]:
+    frames = models(case["frames"], structures, caps)
+    table = pd.DataFrame(
+        [
+            row
+            for model in frames
+            for contact in case["contacts"]
+            for row in pulses_around(model, case, contact)
+        ]
+    )
+    agrees = table.engine == table.theory
+    plastic = table.contact == "plastic"
+    refitted = table.engine == table.theory_with_rebound
+    apart = table[~agrees]
+    pairs = [pair for model in frames for pair in column_beside(model, case)]
+    findings = {
+        "same_verdicts": truth(
+            bool(agrees.all()),
+            holds_when=bool(agrees[plastic].all()) and int(plastic.sum()) >= ENOUGH,
+            condition="the contacts give nothing back",
+            pulses=int(plastic.sum()),
+            share_plastic=agrees[plastic].mean(),
+            share_bouncing=agrees[~plastic].mean(),
+            share_bouncing_with_rebound=refitted[~plastic].mean(),
+            apart=len(apart),
+            apart_where_engine_stands=int((~apart.engine).sum()),
+            largest_factor_apart=float(apart.factor.max()) if len(apart) else 1.0,
+            peak_apart=float((table.peak - table.theory_peak)[plastic].abs().max()),
+            slip=float(table.slip[plastic].max()),
+            cap_tilt=float(table.cap_tilt[plastic].max()),
+            cap_tilt_bouncing=float(table.cap_tilt[~plastic].max()),
+        ),
+        "frame_outlasts_column": truth(
+            all(falls and stands for falls, stands in pairs), pulses=len(pairs)
+        ),
+    }
+    return table, findings
+
+
+if __name__ == "__main__":
+    experiment(snakemake, main)

@@ -1,0 +1,190 @@
+"""Does the paper's mechanism hold? Its forces, its one degree of freedom, its impacts, its likeness."""
+
+from importlib.metadata import distributions
+
+MECHANISM = STUDY_CONFIG["mechanism"]
+MECHANISM_STEPS = [
+    f"studies/mechanism/steps/{name}.py" for name in ("setting", "demand")
+]
+ENGINE_STEPS = [
+    *MECHANISM_STEPS,
+    *(f"studies/mechanism/steps/{name}.py" for name in ("engine", "rigs")),
+]
+EXPERIMENTS = ["first_impacts", "rebounds", "verdicts", "slides"]
+
+# The version of the optional engine, a parameter of its rule; None where it is not installed.
+ENGINE = {found.name: found.version for found in distributions()}.get("mujoco-core")
+
+FIGURES |= {
+    f"studies/mechanism/figures/{figure}": [f"mechanism_{table}" for table in tables]
+    for figure, tables in {
+        "forces": ["forces"],
+        "admissible": ["admissible"],
+        "dependence": ["dependence", "records"],
+        "three_bodies": ["three_bodies"],
+        "impacts": ["first_impacts", "rebounds"],
+        "verdicts": ["verdicts", "slides"],
+        "equivalence": ["equivalence", "equivalence_map"],
+    }.items()
+}
+FINDINGS += [
+    f"mechanism_{name}"
+    for name in (
+        "forces",
+        "three_bodies",
+        "admissible",
+        "dependence",
+        "records",
+        "equivalence",
+        *EXPERIMENTS,
+    )
+]
+
+
+rule mechanism_forces:
+    input:
+        LIBRARY,
+        DERIVATION,
+        MECHANISM_STEPS,
+    output:
+        table="results/tables/mechanism_forces.csv",
+        findings="results/findings/mechanism_forces.json",
+    log:
+        "results/logs/mechanism_forces.log",
+    benchmark:
+        "results/benchmarks/mechanism_forces.tsv"
+    params:
+        case=study_case("mechanism", "forces"),
+        cap=MECHANISM["caps"][MECHANISM["forces"]["structure"]],
+    message:
+        "Study mechanism: the contact forces, proved and in their limits"
+    script:
+        "steps/forces.py"
+
+
+rule mechanism_three_bodies:
+    input:
+        LIBRARY,
+        MECHANISM_STEPS,
+        records=[RECORDS[name] for name in MECHANISM["three_bodies"]["records"]],
+    output:
+        table="results/tables/mechanism_three_bodies.csv",
+        findings="results/findings/mechanism_three_bodies.json",
+    log:
+        "results/logs/mechanism_three_bodies.log",
+    benchmark:
+        "results/benchmarks/mechanism_three_bodies.tsv"
+    params:
+        case=study_case("mechanism", "three_bodies"),
+        cap=MECHANISM["caps"][MECHANISM["three_bodies"]["structure"]],
+    message:
+        "Study mechanism: three bodies beside one degree of freedom"
+    script:
+        "steps/three_bodies.py"
+
+
+rule mechanism_admissible:
+    input:
+        LIBRARY,
+        MECHANISM_STEPS,
+    output:
+        table="results/tables/mechanism_admissible.csv",
+        findings="results/findings/mechanism_admissible.json",
+    log:
+        "results/logs/mechanism_admissible.log",
+    benchmark:
+        "results/benchmarks/mechanism_admissible.tsv"
+    params:
+        case=study_case("mechanism", "admissible"),
+        cap=MECHANISM["caps"][MECHANISM["admissible"]["structure"]],
+    message:
+        "Study mechanism: where nothing slides and nothing opens"
+    script:
+        "steps/admissible.py"
+
+
+rule mechanism_dependence:
+    input:
+        LIBRARY,
+        MECHANISM_STEPS,
+    output:
+        table="results/tables/mechanism_dependence.csv",
+        findings="results/findings/mechanism_dependence.json",
+    log:
+        "results/logs/mechanism_dependence.log",
+    benchmark:
+        "results/benchmarks/mechanism_dependence.tsv"
+    params:
+        case=study_case("mechanism", "dependence"),
+        cap=MECHANISM["caps"][MECHANISM["dependence"]["structure"]],
+    message:
+        "Study mechanism: the friction that suffices"
+    script:
+        "steps/dependence.py"
+
+
+rule mechanism_records:
+    input:
+        LIBRARY,
+        MECHANISM_STEPS,
+        records=[RECORDS[name] for name in MECHANISM["records"]["records"]],
+    output:
+        table="results/tables/mechanism_records.csv",
+        findings="results/findings/mechanism_records.json",
+    log:
+        "results/logs/mechanism_records.log",
+    benchmark:
+        "results/benchmarks/mechanism_records.tsv"
+    params:
+        case=MECHANISM["records"],
+        structures=config["structures"],
+        caps=MECHANISM["caps"],
+    message:
+        "Study mechanism: friction and compression under real records"
+    script:
+        "steps/records.py"
+
+
+rule mechanism_equivalence:
+    input:
+        LIBRARY,
+    output:
+        table="results/tables/mechanism_equivalence.csv",
+        drawn="results/tables/mechanism_equivalence_map.csv",
+        findings="results/findings/mechanism_equivalence.json",
+    log:
+        "results/logs/mechanism_equivalence.log",
+    benchmark:
+        "results/benchmarks/mechanism_equivalence.tsv"
+    threads: 2
+    params:
+        case=MECHANISM["equivalence"],
+    message:
+        "Study mechanism: the frame beside its equivalent column"
+    script:
+        "steps/equivalence.py"
+
+
+# Without the engine this runs too: it writes why nothing was tested.
+rule mechanism_engine:
+    input:
+        LIBRARY,
+        ENGINE_STEPS,
+    output:
+        table="results/tables/mechanism_{experiment}.csv",
+        findings="results/findings/mechanism_{experiment}.json",
+    log:
+        "results/logs/mechanism_{experiment}.log",
+    benchmark:
+        "results/benchmarks/mechanism_{experiment}.tsv"
+    wildcard_constraints:
+        experiment="|".join(EXPERIMENTS),
+    params:
+        case=lambda wildcards: MECHANISM["engine"][wildcards.experiment],
+        structures=config["structures"],
+        caps=MECHANISM["caps"],
+        engine=ENGINE,
+    message:
+        "Study mechanism: MuJoCo, {wildcards.experiment}"
+    script:
+        "steps/{wildcards.experiment}.py"
