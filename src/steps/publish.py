@@ -31,6 +31,9 @@ TABLES = (
     "trilith_starts",
 )
 
+STUDY_TABLES = ("reversals_medians", "reversals_pairs")
+"""Shown in the README; too sensitive to the processor to compare later runs with."""
+
 
 def verdict_table(claims: list[dict]) -> str:
     """Return the table of docs/verdicts.md."""
@@ -102,6 +105,12 @@ def main() -> None:
     shutil.copyfile(results / MOVING, docs / MOVING)
     for name in TABLES:
         shutil.copyfile(results / "tables" / f"{name}.csv", reference / f"{name}.csv")
+    (reference / "studies").mkdir(exist_ok=True)
+    for name in STUDY_TABLES:
+        if (results / "tables" / f"{name}.csv").exists():
+            shutil.copyfile(
+                results / "tables" / f"{name}.csv", reference / "studies" / f"{name}.csv"
+            )
     shutil.copyfile(results / "claims.json", reference / "claims.json")
     shutil.copyfile("config/config.yaml", reference / "config.yaml")
     shutil.copyfile(results / "costs.csv", docs / "costs.csv")

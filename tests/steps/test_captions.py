@@ -36,9 +36,12 @@ def test_every_figure_of_the_paper_has_a_caption_and_no_caption_is_left_over():
 
 
 @pytest.mark.parametrize("study", STUDIES, ids=lambda path: path.name)
-def test_every_figure_of_a_study_has_a_caption(study):
-    assert figures(study / "study.smk")
-    assert set(read(study / "captions.yaml")) == figures(study / "study.smk")
+def test_every_figure_of_a_study_has_a_caption(study, jobs):
+    folder = f"studies/{study.name}/figures/"
+    drawn = {path for job in jobs for path in job.outputs if path.startswith(folder)}
+    drawn = drawn or figures(study / "study.smk")  # of the skeleton, which is no study of ours
+    assert drawn
+    assert set(read(study / "captions.yaml")) == drawn
 
 
 @pytest.mark.parametrize("folder", OURS, ids=lambda path: path.name)

@@ -26,6 +26,7 @@ def unused_scripts(
     """
     files = set(files)
     modules = {Path(path).stem: path for path in files}
+    modules |= {path.removesuffix(".py").replace("/", "."): path for path in files}
     imported = re.findall(r"^(?:from|import) (\w+)", snakefiles, flags=re.MULTILINE)
     waiting = {path for job in jobs for path in (*job.scripts, *job.inputs)}
     waiting |= {path for path in files if path in makefile}
