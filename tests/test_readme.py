@@ -3,10 +3,13 @@
 import json
 import math
 import re
+from collections import Counter
 from pathlib import Path
 
 import pandas as pd
 import pytest
+
+from topheavy.claims import VERDICTS
 
 ROOT = Path(__file__).parents[1]
 REFERENCE = ROOT / "tests" / "reference"
@@ -84,3 +87,10 @@ def test_links_lead_somewhere():
 def test_motions_of_the_study_are_as_many_as_said():
     motions = under_motions("reversals_medians", mass_ratio=1.0, as_large_as=0).motions
     assert f"Under {motions:.0f} near-fault motions" in found()
+
+
+def test_table_of_verdicts_counts_the_claims_of_the_paper(claims):
+    count = Counter(claim["verdict"] for claim in claims.values() if not claim["study"])
+    row = "| " + " | ".join(str(count[verdict]) for verdict in VERDICTS) + " |"
+    assert row in found()
+    assert "| " + " | ".join(VERDICTS) + " |" in found()
