@@ -71,15 +71,15 @@ def main(case: dict, cap: Cap) -> tuple[pd.DataFrame, dict]:
             for name, at, frame, beam in variants
         ]
     )
-    shut = table[table.impact_least > 0.0]
     harder = table[table.impact > table.rocking]
     heavier = table[table.varied == "mass_ratio"]
     wide = table.query("varied in ['mass_ratio', 'slenderness']")
+    opens = opens_below_the_shortest_bay(base, cap.half_depth)
     findings = {
-        "seat_opens_in_short_bays": opens_below_the_shortest_bay(base, cap.half_depth),
+        "seat_opens_in_short_bays": opens,
         "recesses": truth(
-            False,
-            holds_when=bool((shut.impact < math.inf).all()),
+            not opens["holds"],
+            holds_when=bool((table.impact_least > 0.0).all() and (table.impact < math.inf).all()),
             condition="the bay is longer than the shortest at which the seats stay shut",
             shortest_bay_over_width=shortest_bay(base, cap.half_depth) / width,
         ),
