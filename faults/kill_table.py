@@ -117,14 +117,19 @@ def load() -> list[Fault]:
 
 
 def copy_tree(to: Path) -> None:
-    """Copy what git tracks or would track, uncommitted changes included."""
+    """Copy what git tracks or would track; of a source archive, all but what the run makes."""
     listed = subprocess.run(
         ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
         cwd=ROOT,
         capture_output=True,
-        check=True,
-    ).stdout.decode()
-    for name in listed.split("\0"):
+        check=False,
+    )
+    if listed.returncode != 0:
+        own = shutil.ignore_patterns(".*", "results", "__pycache__", "*.svg", "report.pdf")
+        shutil.copytree(ROOT, to, ignore=own, dirs_exist_ok=True)
+        shutil.copytree(ROOT / "docs", to / "docs", dirs_exist_ok=True)
+        return
+    for name in listed.stdout.decode().split("\0"):
         if (ROOT / name).is_file():
             (to / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy2(ROOT / name, to / name)

@@ -1,19 +1,14 @@
 """The deliberate faults: each still fits the library, and the table says what caught it."""
 
 import csv
-import importlib.util
-import sys
 from pathlib import Path
 
 import pytest
 import yaml
 
-ROOT = Path(__file__).resolve().parents[1]
-_SPEC = importlib.util.spec_from_file_location("kill_table", ROOT / "faults" / "kill_table.py")
-kill_table = importlib.util.module_from_spec(_SPEC)
-sys.modules["kill_table"] = kill_table  # where a dataclass looks for its module
-_SPEC.loader.exec_module(kill_table)
+from faults import kill_table
 
+ROOT = Path(__file__).resolve().parents[1]
 FAULTS = kill_table.load()
 LEDGER = yaml.safe_load((ROOT / "paper" / "claims.yaml").read_text(encoding="utf-8"))
 NAMES = [fault.name for fault in FAULTS]
