@@ -34,6 +34,25 @@ def uplift(amplitude, frequency, level, time):
     return math.inf, 1.0
 
 
+def impact(t, y, _):
+    """Where solve_ivp ends a flight: y = 0, on the way down."""
+    return y[0]
+
+
+def flat(t, y, _):
+    """Where it ends the history: lying flat."""
+    return y[0] - math.pi / 2.0
+
+
+def turn(t, y, _):
+    """Where the block turns back."""
+    return y[1]
+
+
+impact.terminal = flat.terminal = True
+impact.direction = turn.direction = -1
+
+
 def rests(block, rate, forced):
     """Say whether a bounce that leaves the ground at this rate is let go of."""
     height = FORCED_REST if forced else FREE_REST
@@ -59,18 +78,6 @@ class SolveIvp:
         def moving(t, y, push):
             lean = alpha - y[0]
             return y[1], -math.sin(lean) + push * math.sin(frequency * t) * math.cos(lean)
-
-        def impact(t, y, push):
-            return y[0]
-
-        def flat(t, y, push):
-            return y[0] - math.pi / 2.0
-
-        def turn(t, y, push):
-            return y[1]
-
-        impact.terminal = flat.terminal = True
-        impact.direction = turn.direction = -1
 
         time, peak, impacts, later = 0.0, 0.0, 0, 0
         while True:
@@ -231,17 +238,6 @@ class SolveIvpRecord:
             lean = alpha - y[0]
             return y[1], -math.sin(lean) - side * at(t) * math.cos(lean)
 
-        def impact(t, y, side):
-            return y[0]
-
-        def flat(t, y, side):
-            return y[0] - math.pi / 2.0
-
-        def turn(t, y, side):
-            return y[1]
-
-        impact.terminal = flat.terminal = True
-        impact.direction = turn.direction = -1
         time, peak, impacts, standing, side = 0.0, 0.0, 0, True, 1.0
         while True:
             if standing:
