@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from ledger import finding_of
-from workbench import log_to
 
+from replication.workbench import run
 from topheavy.claims import judge
 
 
@@ -37,19 +37,22 @@ def verdict_line(claim: Mapping[str, Any], finding: Mapping[str, Any] | None, ve
     return line if verdict == claim["expected"] else f"{line}; expected {claim['expected']}"
 
 
+def work(job: Any) -> None:
+    claim = job.params.claim
+    findings = {
+        key: finding
+        for path in job.input.findings
+        for key, finding in json.loads(Path(path).read_text(encoding="utf-8")).items()
+    }
+    finding = finding_of(claim, findings)
+    verdict = judge(claim, finding)
+    is_untested = finding is not None and "not_tested" in finding
+    line = verdict_line(claim, finding, verdict)
+    print(line)
+    print(line, file=sys.__stdout__, flush=True)
+    if verdict != claim["expected"] and not is_untested:
+        raise SystemExit(1)
+
+
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]) as log:
-        claim = snakemake.params.claim
-        findings = {
-            key: finding
-            for path in snakemake.input
-            for key, finding in json.loads(Path(path).read_text(encoding="utf-8")).items()
-        }
-        finding = finding_of(claim, findings)
-        verdict = judge(claim, finding)
-        is_untested = finding is not None and "not_tested" in finding
-        line = verdict_line(claim, finding, verdict)
-        print(line, file=sys.__stdout__, flush=True)
-        print(line, file=log)
-        if verdict != claim["expected"] and not is_untested:
-            raise SystemExit(1)
+    run(snakemake, work)

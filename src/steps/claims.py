@@ -2,10 +2,11 @@
 
 import json
 from pathlib import Path
+from typing import Any
 
 from ledger import finding_of, read_ledger
-from workbench import log_to
 
+from replication.workbench import run
 from topheavy.claims import judge
 
 
@@ -40,12 +41,15 @@ def main(ledger: list[dict], findings: dict[str, dict]) -> list[dict]:
     return rows
 
 
+def work(job: Any) -> None:
+    findings = {
+        Path(path).stem: json.loads(Path(path).read_text(encoding="utf-8"))
+        for path in job.input.findings
+    }
+    rows = main(read_ledger(job.input.ledger), findings)
+    text = json.dumps(rows, indent=1, ensure_ascii=False, allow_nan=False)
+    Path(job.output[0]).write_text(text + "\n", encoding="utf-8")
+
+
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        ledger = read_ledger(snakemake.input.ledger)
-        findings = {
-            Path(path).stem: json.loads(Path(path).read_text(encoding="utf-8"))
-            for path in snakemake.input.findings
-        }
-        text = json.dumps(main(ledger, findings), indent=1, ensure_ascii=False, allow_nan=False)
-        Path(snakemake.output[0]).write_text(text + "\n", encoding="utf-8")
+    run(snakemake, work)

@@ -3,8 +3,8 @@
 from dataclasses import asdict
 
 import pandas as pd
-from workbench import log_to, truth, write_findings, write_table
 
+from replication.workbench import run, truth
 from topheavy.derivation import check_printed, theorems
 
 
@@ -16,7 +16,4 @@ def main() -> tuple[pd.DataFrame, dict]:
 
 
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        table, findings = main()
-        write_table(snakemake.output.table, table)
-        write_findings(snakemake.output.findings, findings)
+    run(snakemake, lambda job: main())

@@ -3,8 +3,8 @@
 import math
 
 import numpy as np
-from workbench import log_to, truth, write_findings, write_table
 
+from replication.workbench import run, truth
 from topheavy import Column, RockingBlock, RockingFrame, simulate
 from topheavy.free_rocking import energy_drift, quarter_period
 from topheavy.moment_rotation import restoring_moment
@@ -89,8 +89,4 @@ def main(case: dict) -> tuple[dict, list[dict], dict]:
 
 
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        moments, periods, findings = main(snakemake.params.case)
-        write_table(snakemake.output.moments, moments)
-        write_table(snakemake.output.periods, periods)
-        write_findings(snakemake.output.findings, findings)
+    run(snakemake, lambda job: main(job.params.case))

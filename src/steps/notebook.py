@@ -4,7 +4,7 @@ import os
 import tempfile
 from pathlib import Path
 
-from workbench import log_to
+from replication.workbench import run
 
 
 def main(source: Path, executed: Path, page: Path) -> None:
@@ -32,7 +32,4 @@ def main(source: Path, executed: Path, page: Path) -> None:
 
 
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        main(
-            *map(Path, (snakemake.input.notebook, snakemake.output.executed, snakemake.output.page))
-        )
+    run(snakemake, lambda job: main(*map(Path, (job.input.notebook, *job.output))))

@@ -3,8 +3,8 @@
 import math
 
 import numpy as np
-from workbench import log_to, truth, value, write_findings, write_table
 
+from replication.workbench import run, truth, value
 from topheavy import Column, RockingFrame
 from topheavy.structures import largest_slenderness
 
@@ -85,8 +85,4 @@ def main(case: dict) -> tuple[dict, dict, dict]:
 
 
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        over_slenderness, over_mass_ratio, findings = main(snakemake.params.case)
-        write_table(snakemake.output.over_slenderness, over_slenderness)
-        write_table(snakemake.output.over_mass_ratio, over_mass_ratio)
-        write_findings(snakemake.output.findings, findings)
+    run(snakemake, lambda job: main(job.params.case))

@@ -14,8 +14,8 @@ import numpy as np
 import pandas as pd
 from spectra_shard import line
 from spectrum import search
-from workbench import grid, truth
 
+from replication.workbench import grid, truth
 from topheavy import judge, reference
 from topheavy.overturning import Interval
 

@@ -11,8 +11,7 @@ from functools import cache
 from itertools import combinations, groupby, pairwise
 from typing import TypeAlias
 
-from workbench import grid, log_to, truth, write_findings
-
+from replication.workbench import grid, run, truth
 from topheavy import Column, Pulse, RockingFrame, judge
 from topheavy.linear import simulate_linear_exact
 
@@ -57,9 +56,9 @@ class Scan:
         cells = zip(
             self.amplitudes, self.overturned(weaker), self.overturned(stronger), strict=True
         )
-        for counter, run in groupby(cells, key=lambda cell: cell[2] and not cell[1]):
+        for counter, neighbours in groupby(cells, key=lambda cell: cell[2] and not cell[1]):
             if counter:
-                yield [amplitude for amplitude, *_ in run]
+                yield [amplitude for amplitude, *_ in neighbours]
 
     def ranking(self, order: list[list[Trial]]) -> dict:
         """Does each trial survive all that those before it survive? Or at least, fall later?
@@ -145,7 +144,4 @@ def main(case: dict, solver: dict) -> dict:
 
 
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        write_findings(
-            snakemake.output.findings, main(snakemake.params.case, snakemake.params.solver)
-        )
+    run(snakemake, lambda job: main(job.params.case, job.params.solver))

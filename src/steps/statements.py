@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 import sympy as sp
-from workbench import log_to, truth, write_findings
 
+from replication.workbench import run, truth
 from topheavy import Column, Pulse, RockingFrame, simulate
 from topheavy.derivation import NEGATIVE, POSITIVE, cap_motion, premises
 from topheavy.derivation.notation import acceleration, alpha, read, vanishes
@@ -166,7 +166,4 @@ def main(case: dict, solver: dict) -> dict:
 
 
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        write_findings(
-            snakemake.output.findings, main(snakemake.params.case, snakemake.params.solver)
-        )
+    run(snakemake, lambda job: main(job.params.case, job.params.solver))

@@ -2,10 +2,11 @@
 
 import math
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
-from workbench import log_to, truth, value, write_findings, write_table
 
+from replication.workbench import run, truth, value
 from topheavy import Column, RockingFrame, reference, simulate
 from topheavy.shaking_table import (
     abrupt_start,
@@ -193,12 +194,10 @@ def main(case: dict, tightened: float) -> tuple[dict, list[dict], list[dict], li
     return findings, near, summary, histories
 
 
+def work(job: Any) -> tuple:
+    findings, *tables = main(job.params.case, job.params.solver["tightened"])
+    return *tables, findings
+
+
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        findings, near, summary, histories = main(
-            snakemake.params.case, snakemake.params.solver["tightened"]
-        )
-        write_table(snakemake.output.nearness, near)
-        write_table(snakemake.output.starts, summary)
-        write_table(snakemake.output.histories, histories)
-        write_findings(snakemake.output.findings, findings)
+    run(snakemake, work)

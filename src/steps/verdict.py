@@ -3,10 +3,11 @@
 import json
 from collections import Counter
 from pathlib import Path
+from typing import Any
 
 import pandas as pd
-from workbench import log_to
 
+from replication.workbench import run
 from topheavy.claims import tally
 
 
@@ -38,19 +39,21 @@ def untested(claims: list[dict]) -> list[str]:
     return [f"{count} claims not tested here: {reason}" for reason, count in reasons.items()]
 
 
+def work(job: Any) -> None:
+    claims = json.loads(Path(job.input.claims).read_text(encoding="utf-8"))
+    checks = {
+        f"{rule}.{name}": json.loads(
+            Path(f"results/findings/{rule}.json").read_text(encoding="utf-8")
+        )[name]["holds"]
+        for rule, names in job.params.checks.items()
+        for name in names
+    }
+    line, faults = main(claims, pd.read_csv(job.input.comparison), checks)
+    if faults:
+        raise SystemExit("\n".join([*faults, line]))
+    text = f"report: paper/report.pdf\n{line}\n"
+    Path(job.output[0]).write_text(text, encoding="utf-8")
+
+
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        claims = json.loads(Path(snakemake.input.claims).read_text(encoding="utf-8"))
-        checks = {
-            f"{rule}.{name}": json.loads(
-                Path(f"results/findings/{rule}.json").read_text(encoding="utf-8")
-            )[name]["holds"]
-            for rule, names in snakemake.params.checks.items()
-            for name in names
-        }
-        line, faults = main(claims, pd.read_csv(snakemake.input.comparison), checks)
-        if faults:
-            raise SystemExit("\n".join([*faults, line]))
-        Path(snakemake.output[0]).write_text(
-            f"report: paper/report.pdf\n{line}\n", encoding="utf-8"
-        )
+    run(snakemake, work)

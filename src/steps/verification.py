@@ -6,12 +6,13 @@ one per cent of a boundary of overturning, where a verdict is most easily wrong.
 
 import math
 from collections.abc import Callable, Iterator
+from typing import Any
 
 import numpy as np
 import pandas as pd
 import sympy as sp
-from workbench import log_to, truth, value, write_findings, write_table
 
+from replication.workbench import run, truth, value
 from topheavy import (
     Column,
     Pulse,
@@ -220,9 +221,10 @@ def main(case: dict, tightened: float) -> tuple[dict[str, pd.DataFrame], dict]:
     return {"routes": routes, "convergence": order, "published": literature}, findings
 
 
+def work(job: Any) -> tuple:
+    tables, findings = main(job.params.case, job.params.solver["tightened"])
+    return tables["routes"], tables["convergence"], tables["published"], findings
+
+
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        tables, findings = main(snakemake.params.case, snakemake.params.solver["tightened"])
-        for name, table in tables.items():
-            write_table(snakemake.output[name], table)
-        write_findings(snakemake.output.findings, findings)
+    run(snakemake, work)

@@ -4,10 +4,10 @@ import math
 from collections.abc import Iterator
 
 import numpy as np
-from workbench import grid, truth
 
 from assumptions.choices import Choices
 from assumptions.quantity import Cases, Found, Quantity
+from replication.workbench import grid, truth
 from topheavy import Column, Pulse, RockingFrame, judge
 from topheavy.massless_columns import SIMPLIFICATIONS, simplified
 

@@ -3,10 +3,10 @@
 from functools import partial
 
 import numpy as np
-from workbench import truth, value
 
 from assumptions.choices import Choices
 from assumptions.quantity import Cases, Found, Quantity
+from replication.workbench import truth, value
 from topheavy import Column, RockingBlock, RockingFrame, simulate
 from topheavy.shaking_table import abrupt_start, table_acceleration, table_motion
 from topheavy.structures import STANDARD_GRAVITY

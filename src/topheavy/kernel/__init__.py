@@ -5,14 +5,12 @@ Time is τ = p t throughout, so that p is in none of its formulas. The layers ab
 """
 
 import hashlib
-import importlib
 import os
 from pathlib import Path
 
 from numba import config
 
 _HERE = Path(__file__).parent
-_MODULES = ("forcing", "taylor", "bernstein", "tail", "rest", "march", "outcome", "grid", "trace")
 
 
 def _load() -> None:
@@ -27,8 +25,17 @@ def _load() -> None:
     if os.access(_HERE, os.W_OK):
         config.CACHE_DIR = str(cache)  # type: ignore[attr-defined]
     try:
-        for module in _MODULES:
-            importlib.import_module(f"{__name__}.{module}")
+        from topheavy.kernel import (  # noqa: F401
+            bernstein,
+            forcing,
+            grid,
+            march,
+            outcome,
+            rest,
+            tail,
+            taylor,
+            trace,
+        )
     finally:
         config.CACHE_DIR = before  # type: ignore[attr-defined]
 

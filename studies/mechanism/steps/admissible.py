@@ -2,8 +2,8 @@
 
 import numpy as np
 import pandas as pd
-from workbench import grid, log_to, truth, value, write_findings, write_table
 
+from replication.workbench import grid, run, truth, value
 from studies.mechanism.steps.demand import demand, history
 from studies.mechanism.steps.setting import cap_of, pulse_on
 from topheavy import Cap, Column, RockingFrame
@@ -128,7 +128,4 @@ def main(case: dict, cap: Cap) -> tuple[pd.DataFrame, dict]:
 
 
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        table, findings = main(snakemake.params.case, cap_of(snakemake.params.cap))
-        write_table(snakemake.output.table, table)
-        write_findings(snakemake.output.findings, findings)
+    run(snakemake, lambda job: main(job.params.case, cap_of(job.params.cap)))

@@ -9,8 +9,8 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 import pandas as pd
-from workbench import grid, log_to, truth, value, write_findings, write_table
 
+from replication.workbench import grid, run, truth, value
 from topheavy import (
     Column,
     Pulse,
@@ -198,8 +198,4 @@ def main(case: dict) -> tuple[pd.DataFrame, pd.DataFrame, dict]:
 
 
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        table, drawn, findings = main(snakemake.params.case)
-        write_table(snakemake.output.table, table)
-        write_table(snakemake.output.drawn, drawn)
-        write_findings(snakemake.output.findings, findings)
+    run(snakemake, lambda job: main(job.params.case))

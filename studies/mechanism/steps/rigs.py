@@ -6,8 +6,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
-from workbench import log_to, write_findings, write_table
 
+from replication import workbench
 from studies.mechanism.steps.engine import (
     Array,
     Contact,
@@ -38,14 +38,14 @@ class Model(NamedTuple):
 
 def experiment(job, main: Callable[..., tuple[pd.DataFrame, dict]]) -> None:
     """Run an experiment of a Snakemake job, or say in its outputs why it was not run."""
-    with log_to(job.log[0]):
+
+    def work(job) -> tuple[pd.DataFrame, dict]:
         if job.params.engine is None:
-            table, findings = pd.DataFrame({"not_tested": [NO_ENGINE]}), {"not_tested": NO_ENGINE}
-        else:
-            caps = {name: cap_of(entry) for name, entry in job.params.caps.items()}
-            table, findings = main(job.params.case, job.params.structures, caps)
-        write_table(job.output.table, table)
-        write_findings(job.output.findings, findings)
+            return pd.DataFrame({"not_tested": [NO_ENGINE]}), {"not_tested": NO_ENGINE}
+        caps = {name: cap_of(entry) for name, entry in job.params.caps.items()}
+        return main(job.params.case, job.params.structures, caps)
+
+    workbench.run(job, work)
 
 
 def models(frames: Mapping[str, list], structures: Mapping[str, Any], caps: Mapping[str, Cap]):

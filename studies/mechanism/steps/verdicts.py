@@ -1,8 +1,8 @@
 """Does the engine overturn under the pulses that overturn the theory's frame?"""
 
 import pandas as pd
-from workbench import truth
 
+from replication.workbench import truth
 from studies.mechanism.steps.engine import Motion, slips
 from studies.mechanism.steps.rigs import (
     FALLEN,

@@ -7,11 +7,12 @@ Families of motions are kept apart.
 import itertools
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import pandas as pd
-from workbench import log_to, truth, value, write_findings, write_table
 
+from replication.workbench import run, truth, value
 from studies.reversals import fragility
 from studies.reversals.ensemble import Subject, intensities, subjects
 from studies.reversals.outcomes import FALLS
@@ -63,9 +64,9 @@ def read(paths: list[str], case: dict, structures: dict) -> list[Ensemble]:
     table = pd.concat(pd.read_csv(path) for path in paths)
     under, boot = list(subjects(case, structures)), case["bootstrap"]
     found = []
-    for (structure, family), run in table.groupby(["structure", "family"], sort=False):
+    for (structure, family), cells in table.groupby(["structure", "family"], sort=False):
         mine = [subject for subject in under if subject.structure == structure]
-        wide = run.pivot_table(
+        wide = cells.pivot_table(
             index=MOTION,
             columns=["as_large_as", "mass_ratio"],
             values="outcomes",
@@ -218,10 +219,10 @@ def main(case: dict, structures: dict, paths: list[str]) -> tuple[dict[str, pd.D
     return tables, findings
 
 
+def work(job: Any) -> tuple:
+    tables, findings = main(job.params.case, job.params.structures, job.input.shards)
+    return tables["fragility"], tables["pairs"], tables["medians"], findings
+
+
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        job = snakemake.params
-        tables, findings = main(job.case, job.structures, snakemake.input.shards)
-        for name, table in tables.items():
-            write_table(snakemake.output[name], table)
-        write_findings(snakemake.output.findings, findings)
+    run(snakemake, work)

@@ -5,13 +5,14 @@ It helps where only the lighter frame overturns, and harms where only the heavie
 
 import math
 from itertools import combinations
+from typing import Any
 
 import numpy as np
 import pandas as pd
 from spectra_compared import ORDER, Place, Spectra, finite, without
 from spectrum import solve
-from workbench import log_to, truth, value, write_findings, write_table
 
+from replication.workbench import run, truth, value
 from studies.reversals.steps.pulses_shard import CHANGES, lines
 from topheavy import simulate
 from topheavy.linear import simulate_linear_exact
@@ -264,11 +265,12 @@ def _middle(bands: pd.DataFrame) -> np.ndarray:
     return order.frequency_ratio.to_numpy()[np.searchsorted(reached, [0.05, 0.95])]
 
 
+def work(job: Any) -> tuple:
+    table = pd.concat(map(pd.read_csv, job.input.shards))
+    table = table.sort_values(["change", *ORDER], ignore_index=True)
+    tables, findings = main(job.params.case, job.params.solver, table)
+    return *(tables[name] for name in ("spectra", "areas", "why", "drawn", "histories")), findings
+
+
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        table = pd.concat(pd.read_csv(path) for path in snakemake.input.shards)
-        table = table.sort_values(["change", *ORDER], ignore_index=True)
-        tables, findings = main(snakemake.params.case, snakemake.params.solver, table)
-        for name, columns in tables.items():
-            write_table(snakemake.output[name], columns)
-        write_findings(snakemake.output.findings, findings)
+    run(snakemake, work)

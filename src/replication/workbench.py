@@ -1,12 +1,12 @@
-"""What every step does at its edges: keep a log, write tables, write findings.
+"""The edges of a step: its log, its tables, its findings, and the check of its inputs.
 
 A finding is what a claim of the ledger is judged by: a value with its error and unit, or a truth
-with the numbers that bear it out.
+with the numbers that support it.
 """
 
 import json
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, TextIO
@@ -14,7 +14,44 @@ from typing import Any, TextIO
 import numpy as np
 import pandas as pd
 
+from replication.code import undeclared
+
 DIGITS = "%.9g"
+
+
+def run(job: Any, main: Callable[[Any], Any]) -> None:
+    """Run a step as a job of Snakemake, and write what it returns.
+
+    Parameters
+    ----------
+    job
+        The object `snakemake` that Snakemake puts into every script.
+    main
+        Takes the job and returns one result for each output of the rule, in the order of the rule:
+        a table for a CSV file, findings for a JSON file. It returns None when it writes its
+        outputs itself.
+
+    Raises
+    ------
+    RuntimeError
+        When the process loaded a module of the repository that the rule does not declare.
+    """
+    with log_to(job.log[0]):
+        results = main(job)
+        if results is not None:
+            results = results if isinstance(results, tuple) else (results,)
+            for path, result in zip(job.output, results, strict=True):
+                (write_findings if path.endswith(".json") else write_table)(path, result)
+        refuse_undeclared(job)
+
+
+def refuse_undeclared(job: Any) -> None:
+    """Fail when the process loaded a module of the repository that its rule does not declare."""
+    if gap := undeclared(job.input):
+        raise RuntimeError(
+            f"rule {job.rule} loaded {', '.join(gap)}, which is not among its inputs: a change "
+            "there would leave its results stale; expected code(<its script>) as an input"
+        )
 
 
 @contextmanager
