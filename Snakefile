@@ -709,7 +709,9 @@ rule costs:
     input:
         code("src/steps/costs.py"),
         expand("results/findings/{name}.json", name=FINDINGS),
-        expand("results/notebooks/{name}.html", name=NOTEBOOKS),
+        expand(
+            "results/notebooks/{name}.{kind}", name=NOTEBOOKS, kind=["ipynb", "html"]
+        ),
         "results/tables/trilith_map.csv",
     output:
         "results/costs.csv",

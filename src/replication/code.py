@@ -107,37 +107,43 @@ def _package(path: Path) -> str:
 def _names(tree: ast.Module, path: Path, package: str) -> Iterator[tuple[str, str]]:
     """Yield every import as a module and a name in it; the name is "" for the module itself."""
     whole: dict[str, str] = {}  # what a name of this file stands for: `import topheavy as th`
-    typed = {
-        inner
-        for node in ast.walk(tree)
-        if isinstance(node, ast.If) and "TYPE_CHECKING" in ast.unparse(node.test)
-        for part in node.body
-        for inner in ast.walk(part)
-    }
-    for node in ast.walk(tree):
-        if node in typed:
-            continue
+    attributes = []
+    for node in _nodes(tree):
         if isinstance(node, ast.Import):
             for alias in node.names:
                 yield alias.name, ""
                 whole[alias.asname or alias.name] = alias.name
         elif isinstance(node, ast.ImportFrom):
-            module = node.module or ""
-            if node.level:
-                above = package.split(".")[: len(package.split(".")) - node.level + 1]
-                module = ".".join([*above, *([module] if module else [])])
+            above = package.split(".")[: len(package.split(".")) - node.level + 1]
+            module = ".".join([*(above if node.level else []), *filter(None, [node.module])])
             for alias in node.names:
                 yield module, alias.name
-        elif isinstance(node, ast.Call) and ast.unparse(node.func).endswith("import_module"):
+        elif isinstance(node, ast.Attribute):
+            attributes.append(node)
+        elif isinstance(node, ast.Call) and _called(node) == "import_module":
             if not (node.args and isinstance(node.args[0], ast.Constant)):
                 raise ValueError(
                     f"{path}:{node.lineno}: the name of an imported module is only known when this "
                     "runs; expected an import statement, so that a change of it reruns its users"
                 )
             yield node.args[0].value, ""
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Attribute) and ast.unparse(node.value) in whole:
-            yield whole[ast.unparse(node.value)], node.attr
+    for node in attributes:
+        if isinstance(node.value, ast.Name) and node.value.id in whole:
+            yield whole[node.value.id], node.attr
+
+
+def _called(node: ast.Call) -> str:
+    """Return the last name of what is called."""
+    return getattr(node.func, "attr", getattr(node.func, "id", ""))
+
+
+def _nodes(tree: ast.AST) -> Iterator[ast.AST]:
+    """Yield what stands below a node, but for what is imported for types alone."""
+    for node in ast.iter_child_nodes(tree):
+        if isinstance(node, ast.If) and "TYPE_CHECKING" in ast.unparse(node.test):
+            continue
+        yield node
+        yield from _nodes(node)
 
 
 def _files(root: Path, module: str, name: str) -> Iterator[Path]:
