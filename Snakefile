@@ -41,6 +41,7 @@ WORKBENCH = ["src/steps/workbench.py"]
 LIBRARY = [
     *map(str, sorted(Path("src/topheavy").glob("*.py"))),
     *map(str, sorted(Path("src/topheavy/kernel").glob("*.py"))),
+    *map(str, sorted(Path("src/topheavy/records").glob("*.py"))),
     *WORKBENCH,
 ]
 DERIVATION = [
