@@ -150,7 +150,7 @@ def test_record_refuses_a_time_step_that_is_no_number(value):
 
 
 def test_record_refuses_times_that_are_no_numbers(record):
-    with pytest.raises(ValueError, match="t: element 0 is '0.02'; expected a number"):
+    with pytest.raises(ValueError, match=r"^t: element 0 is '0\.02'; expected a number$"):
         record.excitation("0.02")
     with pytest.raises(ValueError, match="t has 1 masked of 2 elements"):
         record.excitation(np.ma.array([0.0, 0.02], mask=[1, 0]))

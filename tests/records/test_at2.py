@@ -16,6 +16,8 @@ HEADER = "A site, a day\nan instrument\nACCELERATION IN UNITS OF G\nNPTS= {n}, D
 VALUES = "  0.1 -0.2  0.4\n  0.0 -3.0E-01\n"
 GOOD = HEADER.format(n=5) + VALUES
 
+few = settings(deadline=None, derandomize=True, database=None)
+
 
 @pytest.fixture
 def write(tmp_path):
@@ -91,7 +93,7 @@ def test_step_that_is_not_certain_is_refused_with_its_line(write, line):
     assert repr(line) in str(error.value)
 
 
-@settings(deadline=None)
+@few
 @given(
     spelling=st.sampled_from(sorted(SPELLINGS)),
     header=st.sampled_from(HEADERS[:-1]),

@@ -49,7 +49,6 @@ HEADERS = [
 
 def test_every_spelling_is_understood():
     understood = {spelling: acceleration_in_g(spelling) for spelling in SPELLINGS}
-    assert len(understood) > 1000
     assert understood == pytest.approx(SPELLINGS, rel=1e-14)
 
 
@@ -94,11 +93,9 @@ def test_mention_of_a_unit_is_no_statement(line):
 
 
 def test_two_units_that_contradict_are_refused_with_both_lines():
-    with pytest.raises(
-        ValueError,
-        match=r"line 1 states 'cm/s2' \('Site A \(cm/s2\)'\) and line 3 states 'G' \('UNITS OF G'\)",
-    ):
-        stated_acceleration(["Site A (cm/s²)", "", "UNITS OF G"])
+    says = r"line 1 states 'cm/s2' \('A \(cm/s2\)'\) and line 3 states 'G' \('UNITS OF G'\)"
+    with pytest.raises(ValueError, match=says):
+        stated_acceleration(["A (cm/s²)", "", "UNITS OF G"])
 
 
 def test_two_units_that_agree_are_one():
