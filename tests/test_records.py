@@ -163,6 +163,11 @@ def test_peak_acceleration_is_the_largest_of_either_sign():
     assert Record(0.02, [0.1, -0.4, 0.3]).peak_acceleration == 0.4
 
 
+def test_peak_velocity_is_the_integral_of_the_straight_lines():
+    expected = 0.2 * 0.02 * STANDARD_GRAVITY
+    assert Record(0.02, [0.1, 0.3]).peak_velocity == pytest.approx(expected, rel=1e-14)
+
+
 def test_peak_velocity_of_a_sine_is_twice_its_amplitude_over_its_frequency():
     time = np.linspace(0.0, 1.0, 2001)
     record = Record(time[1], 0.3 * np.sin(2.0 * math.pi * time))

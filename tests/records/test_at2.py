@@ -46,6 +46,11 @@ def test_line_ends_and_a_mark_of_byte_order_do_not_matter(write, newline, tail, 
     assert record.name == "motion"
 
 
+def test_mark_of_byte_order_does_not_hide_a_count_at_the_start(write):
+    record = read_at2(write("\ufeff5 0.02 NPTS, DT, UNITS: G\n" + VALUES))
+    np.testing.assert_array_equal(record.acceleration, SAMPLES)
+
+
 STEPS = [
     # the last line of a header with 5 samples at 0.02 s
     "NPTS=  5, DT= .02000 SEC",

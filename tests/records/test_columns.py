@@ -89,6 +89,18 @@ def test_times_rounded_or_cut_to_three_digits_are_regular(write, cut, rate):
     assert step == pytest.approx(1.0 / rate, rel=1e-4)
 
 
+def test_times_of_six_significant_digits_are_regular(write):
+    times = [f"{k / 128:g}" for k in range(16000)]  # 0.0078125 to 124.992
+    assert read_csv(write(of_times(times))).time_step == pytest.approx(1 / 128, rel=1e-5)
+
+
+def test_time_is_not_the_less_certain_for_its_zeros_that_are_left_out(write):
+    times = [f"{0.024 * k:g}" for k in range(40)]
+    times[4] = "0.1"  # 0.100, not 0.096
+    with pytest.raises(ValueError, match=r"line 6: the time 0\.1 follows 0\.072 of line 5"):
+        read_csv(write(of_times(times)))
+
+
 def test_times_computed_in_single_precision_are_regular(write):
     times = np.float32(0.005) * np.arange(8000, dtype=np.float32)
     assert read_csv(write(of_times([repr(float(t)) for t in times]))).time_step == pytest.approx(

@@ -82,7 +82,7 @@ def _last_digits(printed: list[str]) -> NDArray[np.float64]:
     """
     numbers = [Decimal(text) for text in printed]
     last = np.array([int(number.as_tuple().exponent) for number in numbers])
-    first = np.array([number.adjusted() for number in numbers])
+    first = np.array([number.adjusted() if number else last.min() for number in numbers])
     digits = (first - last).max()
     finest: NDArray[np.float64] = 10.0 ** np.maximum(last.min(), first - digits)
     return finest
