@@ -35,9 +35,10 @@ _STATED = re.compile(
     r"\bunits?(?:\s+of\s+(?:the\s+)?acc\w*\.?)?\s*(?:\b(?:of|are|is|in)\b\s*[:=]?|[:=])\s*[(\[]?\s*",
     re.IGNORECASE,
 )
-_BRACKET = re.compile(r"[(\[{]\s*|\bunits?\s+", re.IGNORECASE)
-_OF_ACCELERATION = re.compile(r"\bacc(?:el\w*)?\b", re.IGNORECASE)
-_IN = re.compile(r"\bin\s+|[:=]\s*", re.IGNORECASE)
+_INTRODUCED = re.compile(r"[(\[{]\s*|\bunits?\s+|\bacc(?:el\w*)?\b\.?\s*[:=]\s*", re.IGNORECASE)
+_SAMPLES = re.compile(r"\b(?:acc(?:el\w*)?|data|values?|samples?|points?)\b", re.IGNORECASE)
+_IN = re.compile(r"\bin\s+", re.IGNORECASE)
+_OF_ONE_VALUE = re.compile(r"\b(?:peak|pga|a?max\w*)\b|\d\.\d*\s*$|\.\d+\s*$", re.IGNORECASE)
 
 
 @dataclass(frozen=True)
@@ -79,7 +80,8 @@ def time_in_seconds(text: str) -> float | None:
 def stated_acceleration(lines: list[str]) -> Statement:
     """Return the unit of acceleration that the lines of a header state.
 
-    A statement is a unit after the word "units" or after "acceleration in", or a unit in brackets.
+    A statement is a unit after the word "units", after "acceleration in" or "values in", or in
+    brackets.
 
     Raises
     ------
@@ -109,12 +111,18 @@ def stated_acceleration(lines: list[str]) -> Statement:
 
 
 def _where_units_are(line: str) -> set[int]:
-    """Return the indices in a line behind what may introduce a unit of acceleration."""
-    ends = {match.end() for form in (_STATED, _BRACKET) for match in form.finditer(line)}
-    acceleration = _OF_ACCELERATION.search(line)
-    if acceleration:
-        ends |= {match.end() for match in _IN.finditer(line, acceleration.end())}
-    return ends
+    """Return the indices in a line behind what may introduce the unit of all samples.
+
+    The unit of a peak, or behind a decimal number, is that of one value.
+    """
+    found = {match.end() for match in _STATED.finditer(line)}
+    samples = _SAMPLES.search(line)
+    introductions = [*_INTRODUCED.finditer(line)]
+    if samples:
+        introductions += _IN.finditer(line, samples.end())
+    return found | {
+        match.end() for match in introductions if not _OF_ONE_VALUE.search(line[: match.start()])
+    }
 
 
 def _plain(text: str) -> str:
