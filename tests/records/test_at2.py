@@ -66,6 +66,7 @@ STEPS = [
     "NPTS= 5, DT(MSEC)= 20",
     "NPTS= 5, DT= .02 (SEC)",
     "DT= .02 NPTS= 5",
+    "NPTS= 5 DT= .02 UNITS: G",
     "DT= .02 SEC, NPTS= 5",
     "  5 0.02 NPTS, DT",
     "     5    .0200    NPTS, DT",
@@ -102,7 +103,7 @@ def test_step_that_is_not_certain_is_refused_with_its_line(write, line):
 @given(
     spelling=st.sampled_from(sorted(SPELLINGS)),
     header=st.sampled_from(HEADERS[:-1]),
-    step=st.sampled_from(STEPS),
+    step=st.sampled_from([line for line in STEPS if "UNITS" not in line]),
     samples=st.lists(st.floats(-4.9, 4.9).map(lambda a: round(a, 6)), min_size=5, max_size=5),
     fortran=st.booleans(),
 )

@@ -12,7 +12,7 @@ _LONGEST_STEP = 0.2
 """s. No accelerogram has fewer than five samples a second: a longer DT without unit is in ms."""
 
 _STEP = rf"""(?P<step>{NUMBER})(?![\d.])
-    (?:\s*+[(\[]?(?!NPTS\b|DT\b|UNITS?\b)(?P<unit>[^\W\d_]++)[)\]]?)?+
+    (?:\s*+[(\[]?(?!NPTS\b|UNITS?\b)(?P<unit>[^\W\d_]++)[)\]]?)?+
     (?!\w|\s*[/*^]|-|[.,]\d)"""
 _UNIT_BEFORE = r"(?:\s*[(\[]\s*(?P<before>[^\W\d_]+)\s*[)\]])?"
 _FLAGS = re.IGNORECASE | re.VERBOSE

@@ -9,7 +9,7 @@ from topheavy.structures import STANDARD_GRAVITY
 UNDERSTOOD = "g, % g, mg, g/10, gal, cm/s², m/s² or mm/s²"
 """The units of acceleration, for messages; each may be spelt in several ways."""
 
-_S = r"s(?:ec(?:ond)?s?)?"
+_S = r"(?:seconds?|secs?|s)"
 _SQUARED = r"(?:(?:\^|\*\*)?(?:2|\(2\))|\s*squared)"
 _PER = r"(?:\s*/\s*|\s+per\s+)"
 _ACCELERATION = rf"""(?:
