@@ -161,7 +161,7 @@ def _files(root: Path, module: str, name: str) -> Iterator[Path]:
         if (root / folder).is_dir():
             yield from _above(root, base, parts)
             if not (root / folder / f"{name}.py").is_file():
-                yield from _lazy(root, folder, name)
+                yield from _lazy(root, module, folder, name)
             elif name != "__init__":
                 yield folder / f"{name}.py"
             return
@@ -176,11 +176,11 @@ def _above(root: Path, base: str, packages: Sequence[str]) -> Iterator[Path]:
                 yield path
 
 
-def _lazy(root: Path, folder: Path, name: str) -> Iterator[Path]:
+def _lazy(root: Path, package: str, folder: Path, name: str) -> Iterator[Path]:
     """Yield the module from which a package loads a name when it is first used."""
     stub = folder / "__init__.pyi"
     if not (root / stub).is_file():
         return
     for node in ast.parse((root / stub).read_text(encoding="utf-8")).body:
         if isinstance(node, ast.ImportFrom) and name in {alias.name for alias in node.names}:
-            yield folder / f"{node.module}.py"
+            yield from _files(root, f"{package}.{node.module}", name)

@@ -101,10 +101,25 @@ def _structures(config: Mapping[str, Any], others: Mapping[str, Any]) -> Iterato
 
 
 def record_files(folder: str = "data/records") -> dict[str, str]:
-    """Return the files of all records, AT2 and CSV, by name."""
+    """Return the files of all records, AT2 and CSV, by name.
+
+    Raises
+    ------
+    ValueError
+        For two files of one name, of which a config could mean either.
+    """
     endings = (".at2", ".csv")
-    files = (path for path in Path(folder).iterdir() if path.suffix.lower() in endings)
-    return {path.stem: path.as_posix() for path in sorted(files)}
+    files: dict[str, str] = {}
+    for path in sorted(Path(folder).iterdir()):
+        if path.suffix.lower() not in endings:
+            continue
+        if path.stem in files:
+            raise ValueError(
+                f"{files[path.stem]} and {path.as_posix()} are both the record {path.stem!r}; "
+                "expected one file of each name: rename or remove one"
+            )
+        files[path.stem] = path.as_posix()
+    return files
 
 
 def _records(config: Mapping[str, Any], folder: str) -> Iterator[str]:

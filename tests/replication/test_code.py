@@ -17,7 +17,10 @@ def tree(tmp_path):
     files = {
         "src/lib/__init__.py": "import lazy_loader\n"
         "__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)\n",
-        "src/lib/__init__.pyi": "from .shapes import Shape\nfrom .forces import force\n",
+        "src/lib/__init__.pyi": "from .shapes import Shape\nfrom .forces import force\n"
+        "from .files import read\n",
+        "src/lib/files/__init__.py": "from lib.files.text import read\n",
+        "src/lib/files/text.py": "read = open\n",
         "src/lib/shapes.py": "import math\nShape = math.pi\n",
         "src/lib/forces.py": "from lib.shapes import Shape\nforce = Shape\n",
         "src/lib/inner/__init__.py": "def load():\n    from lib.inner import core\n\n\nload()\n",
@@ -42,6 +45,13 @@ LAZY = ["src/lib/__init__.py", "src/lib/__init__.pyi"]
 
 def test_lazy_name_is_found_in_the_module_that_defines_it_and_no_other(tree):
     assert imported_by(tree, "from lib import Shape") == [*LAZY, "src/lib/shapes.py"]
+
+
+def test_lazy_name_of_an_inner_package_is_found(tree):
+    assert imported_by(tree, "from lib import read")[2:] == [
+        "src/lib/files/__init__.py",
+        "src/lib/files/text.py",
+    ]
 
 
 def test_what_a_module_imports_is_found_too(tree):

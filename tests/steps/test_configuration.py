@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 import yaml
-from configuration import check_config
+from configuration import check_config, record_files
 
 ROOT = Path(__file__).resolve().parents[2]
 CONFIG, QUICK, THOROUGH = (
@@ -159,6 +159,26 @@ def test_massless_columns_are_allowed_where_they_make_sense():
 def test_what_does_not_fit_together_is_told(place, value, expected):
     (fault,) = faults(changed(place, value))
     assert fault.startswith(f"config.yaml: {place} {expected}")
+
+
+def test_records_are_found_by_name_in_either_layout(tmp_path):
+    for name in ("one.AT2", "two.csv", "three.at2", "README.md", "one.txt"):
+        (tmp_path / name).touch()
+    there = record_files(str(tmp_path))
+    assert there == {Path(path).stem: path for path in there.values()}
+    assert sorted(there) == ["one", "three", "two"]
+
+
+@pytest.mark.parametrize("other", ["el_centro.csv", "el_centro.CSV", "el_centro.at2"])
+def test_two_records_of_one_name_are_refused_naming_both(tmp_path, other):
+    (tmp_path / "el_centro.AT2").touch()
+    (tmp_path / other).touch()
+    with pytest.raises(ValueError, match="both the record 'el_centro'") as error:
+        record_files(str(tmp_path))
+    assert f"{tmp_path}/el_centro.AT2" in str(error.value)
+    assert f"{tmp_path}/{other}" in str(error.value)
+    with pytest.raises(ValueError, match="both the record 'el_centro'"):
+        check_config(CONFIG, "config.yaml", str(ROOT / "config/config.schema.yaml"), str(tmp_path))
 
 
 def test_a_shape_without_a_closed_form_is_refused_where_one_is_needed():
