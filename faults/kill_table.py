@@ -26,7 +26,7 @@ from contextlib import contextmanager
 from dataclasses import astuple, dataclass, fields
 from pathlib import Path
 
-import yaml
+from strict_yaml import read_yaml
 
 from topheavy.claims import judge
 
@@ -109,7 +109,7 @@ def load() -> list[Fault]:
                 "changes": tuple(Change(**change) for change in entry["changes"]),
             }
         )
-        for entry in yaml.safe_load(FAULTS.read_text(encoding="utf-8"))
+        for entry in read_yaml(FAULTS)
     ]
 
 
@@ -237,7 +237,7 @@ def put_to_the_test(tree: Path, fault: Fault, ledger: list[dict]) -> Row:
 
 def kill_table(faults: list[Fault]) -> Iterator[Row]:
     """Yield the row of each fault, after a run without any in which no verdict may turn."""
-    ledger = yaml.safe_load((ROOT / "paper" / "claims.yaml").read_text(encoding="utf-8"))
+    ledger = read_yaml(ROOT / "paper" / "claims.yaml")
     for fault in faults:
         fault.texts(ROOT)  # one that no longer applies is told at once
     with tempfile.TemporaryDirectory(prefix="kill-table-") as folder:

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import yaml
+from strict_yaml import read_yaml
 from workbench import log_to, write_table
 
 
@@ -49,7 +50,7 @@ def main(tables: list[str], references: list[str], changed: list[str], bounds: d
 
 if __name__ == "__main__":
     with log_to(snakemake.log[0]):
-        published = yaml.safe_load(Path(snakemake.input.config).read_text(encoding="utf-8"))
+        published = read_yaml(snakemake.input.config)
         used = snakemake.params.config
         sections = {*published, *used} - {"studies"}  # those have tables of their own
         changed = sorted(key for key in sections if published.get(key) != used.get(key))

@@ -8,9 +8,8 @@ with a claim is judged as the ledger judges it, though from fewer pulses than th
 import math
 from dataclasses import replace
 from functools import cache
-from pathlib import Path
 
-import yaml
+from strict_yaml import read_yaml
 from workbench import log_to, write_table
 
 from assumptions import impact, pulses, rankings, trilith
@@ -73,10 +72,8 @@ def main(assumptions: list[dict], ledger: dict[str, dict], cases: Cases, tighten
 
 if __name__ == "__main__":
     with log_to(snakemake.log[0]):
-        assumptions, claims = (
-            yaml.safe_load(Path(path).read_text(encoding="utf-8"))
-            for path in (snakemake.input.assumptions, snakemake.input.ledger)
-        )
+        assumptions = read_yaml(snakemake.input.assumptions)
+        claims = read_yaml(snakemake.input.ledger)
         cases = snakemake.params.cases | {
             "records": [read_record(path) for path in snakemake.input.records]
         }
