@@ -26,9 +26,9 @@ CONFIG ?= config/thorough.yaml
 GIVEN := CORES CELLS CONFIG ENGINE FAULTS ITEM NAME ROTATE
 $(foreach name,$(GIVEN),$(eval override $(name) := $$(value $(name))))
 export $(GIVEN)
-SNAKEMAKE = case "$$CORES" in \
-  ''|0*|*[!0-9]*) echo "CORES is '$$CORES'; expected a whole number from 1 on" >&2; exit 2;; esac; \
-  $(RUN) snakemake --cores "$$CORES"
+WHOLE = case "$$$(1)" in ''|0*|*[!0-9]*) \
+  echo "$(1) is '$$$(1)'; expected a whole number from 1 on" >&2; exit 2;; esac
+SNAKEMAKE = $(call WHOLE,CORES); $(RUN) snakemake --cores "$$CORES"
 
 .PHONY: help reproduce check trace verify html audit test lint publish study kill-table benchmark verify-grid unlock clean
 .DEFAULT_GOAL := help
@@ -95,6 +95,7 @@ study: | $(UV) ## begin a follow-up study: make study NAME=my_study (FOLLOW-UP.m
 	@$(RUN) python src/steps/new_study.py "$$NAME"
 
 kill-table: | $(UV) ## put faults into a copy, one at a time: what catches each? (FAULTS=a,b or ROTATE=3)
+	@$(if $(value ROTATE),$(call WHOLE,ROTATE))
 	@PYTHONPATH=src/steps $(DEV) python faults/kill_table.py \
 	  $${FAULTS:+"--faults=$$FAULTS"} $${ROTATE:+"--rotate=$$ROTATE"}
 
@@ -102,6 +103,7 @@ benchmark: | $(UV) ## time the kernel beside its peers; writes docs/benchmark.cs
 	@$(BENCH) python benchmarks/benchmark.py
 
 verify-grid: | $(UV) ## compare overturning flags with an independent route (CELLS=40000 a set)
+	@$(call WHOLE,CELLS)
 	@$(BENCH) python benchmarks/verify_grid.py "$$CELLS"
 
 unlock: | $(UV) ## after a killed run left the directory locked (no other run may be going on)

@@ -319,8 +319,14 @@ def chosen(faults: list[Fault], names: str | None, number: int | None) -> list[F
         return [known[name] for name in names.split(",")]
     if number:
         head = ["git", "rev-parse", "HEAD"]
-        commit = subprocess.run(head, cwd=ROOT, capture_output=True, text=True, check=True).stdout
-        return rotation(faults, number, commit)
+        try:
+            found = subprocess.run(head, cwd=ROOT, capture_output=True, text=True, check=True)
+        except (OSError, subprocess.CalledProcessError):
+            raise SystemExit(
+                "ROTATE picks faults by the hash of the commit, and there is no git repository "
+                "here; expected one, or names: make kill-table FAULTS=name,name"
+            ) from None
+        return rotation(faults, number, found.stdout)
     return faults
 
 

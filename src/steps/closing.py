@@ -1,4 +1,4 @@
-"""The last lines of a run, after all that Snakemake says: how the claims came out, or how to go on."""
+"""The last lines of a run, after all that Snakemake says: the verdicts, or how to go on."""
 
 import atexit
 from pathlib import Path
@@ -14,7 +14,7 @@ GO_ON = (
 
 
 def close(workflow: Any) -> None:
-    """Print the last lines when this process ends; the one of a dry run or a single job has none."""
+    """Print the last lines when this process ends."""
     atexit.register(lambda: print(last_lines(workflow), end="", flush=True))
 
 

@@ -177,10 +177,10 @@ if __name__ == "__main__":
         )
     sys.stdout.reconfigure(errors="replace")  # a terminal may know no Greek letters
     signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # `| head` may stop reading
-    jobs = workflow_jobs()
-    ledger = [job.params["claim"] for job in jobs if "claim" in job.params]
     try:
+        jobs = workflow_jobs()
+        ledger = [job.params["claim"] for job in jobs if "claim" in job.params]
         lines = list(chain(find(sys.argv[1], jobs, ledger), jobs))
-    except ValueError as fault:
+    except (OSError, ValueError) as fault:  # of the config and the folder, too
         sys.exit(str(fault))
     print("\n".join(lines))

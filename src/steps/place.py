@@ -19,9 +19,9 @@ def check_place(python: str = sys.executable, folder: str = ".") -> None:
     """
     if found := UNQUOTED.search(python):
         raise ValueError(
-            f"the path of Python, {python}, has the character {found[0]!r}; expected letters, digits "
-            "and . _ - / alone, since Snakemake starts its jobs without quoting that path: move the "
-            "folder, delete its .venv, and run again"
+            f"the path of Python, {python}, has the character {found[0]!r}; expected letters, "
+            "digits and . _ - / alone, since Snakemake starts its jobs without quoting that path: "
+            "move the folder, delete its .venv, and run again"
         )
     if not os.access(folder, os.W_OK):
         raise ValueError(

@@ -100,6 +100,7 @@ def main(root: Path = Path()) -> tuple[str, list[str]]:
 
 
 if __name__ == "__main__":
+    sys.stdout.reconfigure(errors="replace")  # a terminal may know no Greek letters
     line, faults = main()
     print(*faults, line, sep="\n")
     print("the committed claims, tables and verdicts agree" if not faults else "they do not agree")
