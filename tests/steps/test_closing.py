@@ -42,7 +42,9 @@ def start(tmp_path):
     (tmp_path / "Snakefile").write_text(SNAKEFILE, encoding="utf-8")
 
     def begin(work, *options):
-        (tmp_path / "step.py").write_text(STEP.replace("WORK", work), encoding="utf-8")
+        step, text = tmp_path / "step.py", STEP.replace("WORK", work)
+        if not step.exists() or step.read_text(encoding="utf-8") != text:
+            step.write_text(text, encoding="utf-8")
         return subprocess.Popen(
             [sys.executable, "-m", "snakemake", "--cores", "1", *options],
             cwd=tmp_path,
