@@ -19,12 +19,22 @@ os.environ |= {
     )
 }
 from captions import caption_files, captioned, read_captions
+from closing import close
 from configuration import check_config, record_files
 from ledger import read_ledger
+from place import check_place
+from strict_yaml import read_yaml
 from study_config import read_study_config
 
 from replication.code import code
 from replication.typeset import reads
+
+check_place()
+close(workflow)
+
+# Strictly, with file and line of a mistake: Snakemake itself keeps the last of equal keys.
+for path in ["config/config.yaml", *workflow.configfiles]:
+    read_yaml(path)
 
 
 configfile: "config/config.yaml"
@@ -133,11 +143,6 @@ onstart:
 
     for path in RECORDS.values():
         read_record(path)
-
-
-onsuccess:
-    if "all" in {rule.name for rule in workflow.dag.targetrules}:
-        print(Path("results/summary.txt").read_text())
 
 
 # The derivation: Eqs. (1)–(25) -------------------------------------------------------------------

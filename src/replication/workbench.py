@@ -5,6 +5,7 @@ with the numbers that support it.
 """
 
 import json
+import signal
 import sys
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
@@ -56,8 +57,12 @@ def refuse_undeclared(job: Any) -> None:
 
 @contextmanager
 def log_to(path: str) -> Iterator[TextIO]:
-    """Send what is printed, and a traceback if it comes to that, to a file."""
+    """Send what is printed, and a traceback if it comes to that, to a file.
+
+    Ctrl-C ends the process at once, without a traceback.
+    """
     kept = sys.stdout, sys.stderr
+    on_interrupt = signal.signal(signal.SIGINT, signal.SIG_DFL)
     with Path(path).open("w", encoding="utf-8") as log:
         sys.stdout = sys.stderr = log
         try:
@@ -67,6 +72,7 @@ def log_to(path: str) -> Iterator[TextIO]:
             raise
         finally:
             sys.stdout, sys.stderr = kept
+            signal.signal(signal.SIGINT, on_interrupt)
 
 
 def value(number: float, error: float, unit: str = "", **more: float) -> dict[str, Any]:

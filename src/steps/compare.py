@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 import yaml
+from strict_yaml import read_yaml
 
 from replication.workbench import run, write_table
 
@@ -50,7 +51,7 @@ def main(tables: list[str], references: list[str], changed: list[str], bounds: d
 
 
 def work(job: Any) -> None:
-    published = yaml.safe_load(Path(job.input.config).read_text(encoding="utf-8"))
+    published = read_yaml(job.input.config)
     used = job.params.config
     sections = {*published, *used} - {"studies"}  # those have tables of their own
     changed = sorted(key for key in sections if published.get(key) != used.get(key))

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-import yaml
+from strict_yaml import read_yaml
 
 JUDGED_BY = ("function", "rule", "finding", "expected", "remark")
 
@@ -24,7 +24,7 @@ def read_ledger(paths: Iterable[str | Path]) -> list[dict[str, Any]]:
     for path in map(Path, paths):
         seen: set[str] = set()
         study = path.parent.name if path.parent.parent.name == "studies" else ""
-        for row in yaml.safe_load(path.read_text(encoding="utf-8")):
+        for row in read_yaml(path):
             known = rows.get(row["id"])
             if row["id"] in seen:
                 raise ValueError(f"{path}: the id {row['id']!r} is given twice")

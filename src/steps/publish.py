@@ -11,7 +11,7 @@ import shutil
 import sys
 from pathlib import Path
 
-import yaml
+from strict_yaml import read_yaml
 
 PICTURES = ("heavier", "peak_maps", "spectra", "structures")
 MOVING = "animation.gif"
@@ -88,10 +88,7 @@ def main() -> None:
     results, docs, reference = Path("results"), Path("docs"), Path("tests/reference")
     if not (results / "claims.json").exists():
         sys.exit("results/claims.json does not exist; expected a finished run: make reproduce")
-    used, ours = (
-        yaml.safe_load(Path(path).read_text(encoding="utf-8"))
-        for path in (results / "config.yaml", "config/config.yaml")
-    )
+    used, ours = read_yaml(results / "config.yaml"), read_yaml("config/config.yaml")
     if used != ours:
         sections = sorted(key for key in {*used, *ours} if used.get(key) != ours.get(key))
         sys.exit(

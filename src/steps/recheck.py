@@ -11,9 +11,9 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-import yaml
 from ledger import read_ledger
 from publish import verdict_table
+from strict_yaml import read_yaml
 
 from topheavy.claims import judge, tally
 
@@ -46,7 +46,7 @@ def tables(folder: Path, rows: list[dict]) -> Iterator[str]:
     def table(name: str) -> pd.DataFrame:
         return pd.read_csv(folder / f"{name}.csv")
 
-    config = yaml.safe_load((folder / "config.yaml").read_text(encoding="utf-8"))
+    config = read_yaml(folder / "config.yaml")
     ratios = table("mass_ratio")
     if not np.allclose(ratios.frequency_ratio, _frequency_ratio(ratios.mass_ratio), **CLOSE):
         yield "mass_ratio.csv: p̂/p is not that of Eq. (23)"
@@ -88,7 +88,7 @@ def _restitution(alpha: pd.Series, gamma: pd.Series) -> pd.Series:
 
 def main(root: Path = Path()) -> tuple[str, list[str]]:
     """Return the tally of the committed claims, and what is wrong."""
-    config = yaml.safe_load((root / "config" / "config.yaml").read_text(encoding="utf-8"))
+    config = read_yaml(root / "config" / "config.yaml")
     studies = [root / "studies" / name / "claims.yaml" for name in config["studies"]]
     ledger = read_ledger([root / "paper" / "claims.yaml", *studies])
     reference = root / "tests" / "reference"
@@ -100,6 +100,7 @@ def main(root: Path = Path()) -> tuple[str, list[str]]:
 
 
 if __name__ == "__main__":
+    sys.stdout.reconfigure(errors="replace")  # a terminal may know no Greek letters
     line, faults = main()
     print(*faults, line, sep="\n")
     print("the committed claims, tables and verdicts agree" if not faults else "they do not agree")

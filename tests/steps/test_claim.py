@@ -42,6 +42,13 @@ def test_statement_says_whether_it_holds(verdict, grounds):
     )
 
 
+def test_what_this_installation_cannot_test_says_what_a_full_run_expects():
+    finding = {"not_tested": "needs an engine"}
+    assert verdict_line(STATEMENT, finding, "not tested") == (
+        "s: not tested (needs an engine); a full run tests it and expects confirmed"
+    )
+
+
 def test_other_verdict_than_expected_is_said():
     assert verdict_line(STATEMENT, {"holds": False}, "refuted") == (
         "s: refuted (does not hold); expected confirmed"

@@ -8,10 +8,9 @@ with a claim is judged as the ledger judges it, though from fewer pulses than th
 import math
 from dataclasses import replace
 from functools import cache
-from pathlib import Path
 from typing import Any
 
-import yaml
+from strict_yaml import read_yaml
 
 from assumptions import impact, pulses, rankings, trilith
 from assumptions.alternatives import alternatives
@@ -73,10 +72,7 @@ def main(assumptions: list[dict], ledger: dict[str, dict], cases: Cases, tighten
 
 
 def work(job: Any) -> list[dict]:
-    assumptions, claims = (
-        yaml.safe_load(Path(path).read_text(encoding="utf-8"))
-        for path in (job.input.assumptions, job.input.ledger)
-    )
+    assumptions, claims = map(read_yaml, (job.input.assumptions, job.input.ledger))
     cases = job.params.cases | {"records": [read_record(path) for path in job.input.records]}
     ledger = {claim["id"]: claim for claim in claims}
     return main(assumptions, ledger, cases, job.params.solver["tightened"])

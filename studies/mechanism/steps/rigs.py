@@ -20,7 +20,10 @@ from studies.mechanism.steps.engine import (
 from studies.mechanism.steps.setting import cap_of
 from topheavy import Cap, Column, Pulse, RockingFrame, overturning_intervals, simulate
 
-NO_ENGINE = "needs the optional group `engine` (MuJoCo), which is not installed"
+NO_ENGINE = (
+    "needs the optional group `engine` (MuJoCo), which is not installed: "
+    "run `make reproduce`, or `uv run --group engine snakemake --cores 2`"
+)
 
 FALLEN = math.pi / 3  # rad, from where no pulse brings a column back; the cap is still aloft
 FREE = 20.0  # over p̂: how long a verdict is waited for after a pulse
