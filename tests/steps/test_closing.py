@@ -28,7 +28,7 @@ rule begun:
 STEP = """
 import time
 from pathlib import Path
-from workbench import log_to
+from replication.workbench import log_to
 with log_to(snakemake.log[0]):
     Path("ready").touch()
     WORK

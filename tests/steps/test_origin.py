@@ -189,7 +189,9 @@ FOUND = {"holds": True, "value": 1.0, "error": 0.0}
 def clone(tmp_path, monkeypatch):
     """The code of the repository, before a run."""
     for name in ("src", "studies", "figures"):
-        (tmp_path / name).symlink_to(ROOT / name)
+        shutil.copytree(
+            ROOT / name, tmp_path / name, ignore=shutil.ignore_patterns("*.svg", "*.nb?")
+        )
     monkeypatch.chdir(tmp_path)
     return tmp_path
 
