@@ -12,7 +12,18 @@ from pathlib import Path
 from numba import config
 
 _HERE = Path(__file__).parent
-_MODULES = ("forcing", "taylor", "bernstein", "tail", "rest", "march", "outcome", "grid", "trace")
+_MODULES = (
+    "forcing",
+    "taylor",
+    "bernstein",
+    "tail",
+    "rest",
+    "march",
+    "outcome",
+    "interrupt",
+    "grid",
+    "trace",
+)
 
 
 def _load() -> None:
