@@ -98,14 +98,14 @@ def outcomes_of(
     def deal(hand: int, w: Array) -> int:
         return int(outcomes(w, hand, *given, peak, overturned, impacts))
 
-    hands = [partial(deal, hand) for hand in range(min(HANDS, peak.size))]
+    hands = range(min(HANDS, peak.size))
     is_small = peak.size <= SMALL
     if is_small and peak.size * record.shape[1] <= LONG:
         w = working_array()
-        lost = [hand(w) for hand in hands]
+        lost = [deal(hand, w) for hand in hands]
     else:
-        cores = 1 if is_small else len(os.sched_getaffinity(0))
-        lost = in_threads(hands, threads or cores)
+        threads = threads or (1 if is_small else len(os.sched_getaffinity(0)))
+        lost = in_threads([partial(deal, hand) for hand in hands], threads)
     if max(lost) >= 0:
         i, j = divmod(min(cell for cell in lost if cell >= 0), len(amplitudes))
         raise ArithmeticError(_unresolved(block, shape, float(scales[i]), float(amplitudes[j])))
