@@ -58,7 +58,7 @@ def blocks(number: int) -> list[RockingBlock]:
 
 
 def boundaries(block: RockingBlock, excitation: Pulse | Record) -> Iterator[tuple[float, float]]:
-    """Yield neighbouring factors on an excitation of unit peak between which the outcome changes."""
+    """Yield neighbouring factors, on an excitation of unit peak, of different outcomes."""
     scan = SCAN * block.uplift_acceleration
     outcomes = overturned_by(block, excitation, scan)
     most = PULSE_BOUNDARIES if isinstance(excitation, Pulse) else 1

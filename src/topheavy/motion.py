@@ -38,7 +38,7 @@ LONGEST_FREE_FLIGHT = 100.0
 
 
 MOST_FLIGHTS = 200_000
-"""More flights than this are not followed. Each ends at an impact or the end of a segment or a push:
+"""More flights than this are not followed. Each ends at an impact, or with a segment or a push:
 only a block that loses next to nothing (√r → 1) has so many."""
 
 POISED = 1e-3
