@@ -29,6 +29,7 @@ def _load() -> None:
             bernstein,
             forcing,
             grid,
+            interrupt,
             march,
             outcome,
             rest,

@@ -5,14 +5,15 @@ A scale is ω/p of a pulse, p Δt of a record. All cores work on it; no result d
 
 import math
 import os
-from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from topheavy.kernel.forcing import NO_RECORD, RECORD, pulse_forcing, record_forcing
-from topheavy.kernel.outcome import PULSE_ORDER, TOLERANCE, outcome, working_array
+from topheavy.kernel.forcing import NO_RECORD, RECORD, SHAPES, pulse_forcing, record_forcing
+from topheavy.kernel.interrupt import LONG, in_threads
+from topheavy.kernel.outcome import MAX_STEPS, PULSE_ORDER, TOLERANCE, outcome, working_array
 from topheavy.kernel.taylor import Oscillator
 
 Array = NDArray[np.float64]
@@ -26,7 +27,7 @@ SMALL = 100
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def outcomes(
-    hand, block, shape, scales, amplitudes, record, order, tolerance, peak, overturned, impacts
+    w, hand, block, shape, scales, amplitudes, record, order, tolerance, peak, overturned, impacts
 ):
     """Fill one hand's cells of `peak`, `overturned` and `impacts`.
 
@@ -35,6 +36,8 @@ def outcomes(
 
     Parameters
     ----------
+    w : array
+        The working array; the cells that are left are left out once it says halt.
     scales : array
         Of a pulse, ω/p; of a record, p Δt.
     amplitudes : array
@@ -46,10 +49,9 @@ def outcomes(
     Returns
     -------
     int
-        The number of cells that were given up (see `outcome.MAX_STEPS`).
+        The first cell that was given up (see `outcome.MAX_STEPS`), or −1.
     """
-    lost, columns = 0, amplitudes.size
-    w = working_array()
+    columns = amplitudes.size
     for cell in range(hand, scales.size * columns, HANDS):
         i, j = cell // columns, cell % columns
         if shape == RECORD:
@@ -60,8 +62,9 @@ def outcomes(
         peak[i, j] = result.peak
         overturned[i, j] = result.overturned
         impacts[i, j] = result.impacts
-        lost += 0 if result.resolved else 1
-    return lost
+        if not result.resolved:
+            return cell
+    return -1
 
 
 def record_order(step: float, tolerance: float = TOLERANCE) -> int:
@@ -92,20 +95,31 @@ def outcomes_of(
     order = record_order(max(scales), tolerance) if shape == RECORD else PULSE_ORDER
     given = (block, shape, scales, amplitudes, record, order, tolerance)
 
-    def deal(hand: int) -> int:
-        return int(outcomes(hand, *given, peak, overturned, impacts))
+    def deal(hand: int, w: Array) -> int:
+        return int(outcomes(w, hand, *given, peak, overturned, impacts))
 
     hands = range(min(HANDS, peak.size))
-    threads = threads or len(os.sched_getaffinity(0))
-    if threads == 1 or peak.size <= SMALL:
-        lost = sum(map(deal, hands))
+    is_small = peak.size <= SMALL
+    if is_small and peak.size * record.shape[1] <= LONG:
+        w = working_array()
+        lost = [deal(hand, w) for hand in hands]
     else:
-        with ThreadPoolExecutor(threads) as pool:
-            lost = sum(pool.map(deal, hands))
-    if lost:
-        raise ArithmeticError(
-            f"{lost} of {peak.size} histories bounce too often to be followed to the end of "
-            f"the forcing (restitution {block.restitution}); a smaller restitution lets them come "
-            "to rest"
-        )
+        threads = threads or (1 if is_small else len(os.sched_getaffinity(0)))
+        lost = in_threads([partial(deal, hand) for hand in hands], threads)
+    if max(lost) >= 0:
+        i, j = divmod(min(cell for cell in lost if cell >= 0), len(amplitudes))
+        raise ArithmeticError(_unresolved(block, shape, float(scales[i]), float(amplitudes[j])))
     return peak, overturned, impacts
+
+
+def _unresolved(block: Oscillator, shape: int, scale: float, amplitude: float) -> str:
+    forcing = f"{amplitude:.6g} times the record with p Δt = {scale:.6g}"
+    if shape != RECORD:
+        name = next(name for name, number in SHAPES.items() if number == shape)
+        forcing = f"the {name} pulse of {amplitude:.6g} g with ω/p = {scale:.6g}"
+    equation = "linearised" if block.linearised else "exact"
+    return (
+        f"{MAX_STEPS} steps and ten a sample do not reach the end of {forcing}: the block "
+        f"(slenderness {block.slenderness:.6g} rad, restitution {block.restitution:.6g}, "
+        f"{equation} equation) bounces too often; a smaller restitution lets it come to rest"
+    )
