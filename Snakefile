@@ -638,6 +638,7 @@ rule animation:
 rule notebook:
     input:
         code("src/steps/notebook.py"),
+        lambda wildcards: code(f"notebooks/{wildcards.name}.ipynb"),
         notebook="notebooks/{name}.ipynb",
         record="data/records/el_centro_1940_NS.AT2",
     output:
