@@ -21,6 +21,7 @@ os.environ |= {
 from captions import caption_files, captioned, read_captions
 from configuration import check_config, record_files
 from ledger import read_ledger
+from ledger_check import check_ledger
 from study_config import read_study_config
 
 from replication.code import code
@@ -112,12 +113,15 @@ REFERENCES = sorted(map(str, Path("tests/reference").glob("*.csv")))
 STUDIES = config["studies"]
 STUDY_CONFIG = {name: read_study_config(name, config["structures"]) for name in STUDIES}
 LEDGER = ["paper/claims.yaml", *(f"studies/{name}/claims.yaml" for name in STUDIES)]
-CLAIMS = read_ledger(LEDGER)
 SECTIONS = [f"studies/{name}/section.typ" for name in STUDIES]
 
 for name in STUDIES:
 
     include: f"studies/{name}/study.smk"
+
+
+check_ledger(LEDGER, FINDINGS)
+CLAIMS = read_ledger(LEDGER)
 
 
 rule all:
