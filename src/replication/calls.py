@@ -6,8 +6,8 @@ costs anything. A function that numba has compiled is not seen; the Python funct
 
 import ast
 import functools
-import importlib
 import os
+import pkgutil
 import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
@@ -54,7 +54,7 @@ def library(declared: Iterable[str]) -> Iterator[tuple[str, ModuleType]]:
     for path in sorted(declared):
         name = _module_name(path)
         if name.startswith("topheavy") or name in sys.modules:
-            yield name, importlib.import_module(name)
+            yield name, pkgutil.resolve_name(f"{name}:")
     script = sys.modules["__main__"]
     if name := _module_name(os.path.relpath(getattr(script, "__file__", None) or "script")):
         yield name, script

@@ -8,7 +8,7 @@ from typing import Any
 
 import yaml
 from configuration import _hint, _messages
-from jsonschema import Draft202012Validator
+from jsonschema import Draft202012Validator, ValidationError
 from ledger import read_rows
 
 from replication.calls import definition
@@ -57,9 +57,11 @@ def _faults(
     root: Path,
 ) -> Iterator[str]:
     own = {key: value for key, value in row.items() if key != "study"}
-    broken = {m for error in validator.iter_errors(own) for m in _messages(error)}
-    if broken:
-        yield from (text.replace("the top level", "the row") for text in sorted(broken))
+    errors = list(validator.iter_errors(own))
+    # What follows from a misspelt verdict is not told as well.
+    first = [error for error in errors if "allOf" not in error.schema_path] or errors
+    if broken := {message for error in first for message in _told(error, validator.schema)}:
+        yield from sorted(broken)
         return
     if fault := tolerance_fault(row):
         yield fault
@@ -73,6 +75,14 @@ def _faults(
     except ValueError as error:
         yield f"function: {error}"
     yield from _finding_faults(row, root)
+
+
+def _told(error: ValidationError, schema: Mapping[str, Any]) -> Iterator[str]:
+    if error.validator is None:  # a key that some other key forbids
+        clause = schema["allOf"][error.schema_path[1]]
+        yield f"the row breaks a rule of the ledger: {clause['description']}"
+        return
+    yield from (message.replace("the top level", "the row") for message in _messages(error))
 
 
 def _finding_faults(row: Mapping[str, Any], root: Path) -> Iterator[str]:

@@ -7,6 +7,7 @@ the published tables, the tables against the paper's equations, and the pages ag
 import json
 import sys
 from collections.abc import Iterable, Iterator, Mapping
+from itertools import zip_longest
 from pathlib import Path
 from typing import Any
 
@@ -136,7 +137,7 @@ def _differs(rule: str, name: str, key: str, expected: Any, findings: Findings) 
 
 
 def pages(root: Path, rows: list[dict]) -> Iterator[str]:
-    """Yield the lines of docs/verdicts.md and of the README's counts that are not the rows'."""
+    """Yield the first line of docs/verdicts.md, and of the README, that is not that of the rows."""
     readme = (root / "README.md").read_text(encoding="utf-8")
     expected = {
         "docs/verdicts.md": lambda: verdict_page(rows),
@@ -149,11 +150,10 @@ def pages(root: Path, rows: list[dict]) -> Iterator[str]:
         except ValueError as fault:
             yield f"{page}: {fault}"
             continue
-        for number, (line, other) in enumerate(zip(lines, theirs, strict=False), 1):
+        for number, (line, other) in enumerate(zip_longest(lines, theirs), 1):
             if line != other:
                 yield f"{page}, line {number} is {line!r}; expected {other!r} by the verdicts"
-        if len(lines) != len(theirs):
-            yield f"{page} has {len(lines)} lines; expected {len(theirs)} by the verdicts"
+                break  # the lines below may only be shifted
 
 
 def files(reference: Path) -> Iterator[str]:
