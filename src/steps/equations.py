@@ -10,7 +10,15 @@ from topheavy.derivation import check_printed, theorems
 
 def main() -> tuple[pd.DataFrame, dict]:
     checks = check_printed()
-    findings = {check.id: truth(check.follows, meant_holds=check.meant_follows) for check in checks}
+    findings = {
+        check.id: truth(
+            check.follows,
+            meant_holds=None if check.follows else bool(check.meant_follows and check.fault),
+            kind=check.fault or None,
+            mended=check.mended or None,
+        )
+        for check in checks
+    }
     findings |= {theorem.id: truth(theorem.holds) for theorem in theorems()}
     return pd.DataFrame([asdict(check) for check in checks]), findings
 
