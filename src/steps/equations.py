@@ -3,9 +3,11 @@
 from dataclasses import asdict
 
 import pandas as pd
+import sympy as sp
 
 from replication.workbench import run, truth
 from topheavy.derivation import check_printed, theorems
+from topheavy.derivation.motion_proofs import follows_if_a_column_weighs
 
 
 def main() -> tuple[pd.DataFrame, dict]:
@@ -20,6 +22,11 @@ def main() -> tuple[pd.DataFrame, dict]:
         for check in checks
     }
     findings |= {theorem.id: truth(theorem.holds) for theorem in theorems()}
+    findings["m_c_as_both_columns"] = truth(
+        follows_if_a_column_weighs(sp.Rational(1, 2)),
+        holds_when=follows_if_a_column_weighs(sp.Integer(1)),
+        condition="m_c is the mass of each of the two columns",
+    )
     return pd.DataFrame([asdict(check) for check in checks]), findings
 
 
