@@ -14,7 +14,6 @@ from topheavy.derivation.notation import gamma as mass_ratio
 from topheavy.free_rocking import energy_drift, quarter_period
 from topheavy.moment_rotation import restoring_moment
 
-
 ROUNDING = 1e-12  # of m_c g R
 
 

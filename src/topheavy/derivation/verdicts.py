@@ -24,7 +24,6 @@ from topheavy.derivation.notation import (
 from topheavy.derivation.premises import Premises, Values
 from topheavy.derivation.printed import EQUATIONS, Statement
 
-
 ROUNDING = 1e-9
 """A residual, of terms of the order of one, that is farther from zero does not vanish."""
 
