@@ -42,8 +42,9 @@ def quarter_periods(case: dict) -> list[dict]:
 def moment_by_energy(gamma: float, slenderness: float, rotations: np.ndarray) -> np.ndarray:
     """Return −dV/dθ per column over m_c g R at positive rotations, V that of the three bodies."""
     height = potential_energy(POSITIVE).subs(RECTANGULAR) / (2 * m_c * g * R)
-    slope = sp.lambdify((alpha, mass_ratio, POSITIVE.rotation), -height.diff(POSITIVE.rotation))
-    return np.asarray(slope(slenderness, gamma, rotations))
+    moment = -sp.simplify(height.diff(POSITIVE.rotation))
+    by_energy = sp.lambdify((alpha, mass_ratio, POSITIVE.rotation), moment)
+    return np.asarray(by_energy(slenderness, gamma, rotations), dtype=float)
 
 
 def agrees_with_energy(frame: RockingFrame, rotations: np.ndarray) -> float:

@@ -9,7 +9,7 @@ import numpy as np
 
 from replication.workbench import run, truth, value
 from topheavy import Column, RockingFrame, reference, simulate
-from topheavy.derivation.mends import Mend, smallest_mend
+from topheavy.derivation.mends import mended_quotient
 from topheavy.shaking_table import (
     abrupt_start,
     amplitude_to_uplift,
@@ -24,27 +24,6 @@ EPS_PRINT = 1e-12  # printed decimals, which are exact but for their doubles
 STEP_ASIDE = 1e-6  # of a threshold, to either side
 
 
-def mended_masses(masses: list[float], mass_ratio: float) -> Mend | None:
-    """Return the smallest mend under which the two masses give γ as it is printed, in kg/kg."""
-
-    def agrees(mend: Mend) -> bool:
-        found = re.fullmatch(r"(\d+)/(\d+)", mend.text)
-        return bool(found) and abs(ratio_of(mend.text) - mass_ratio) <= 0.5 * unit_of(mass_ratio)
-
-    return smallest_mend("/".join(f"{mass:.0f}" for mass in masses), agrees)
-
-
-def ratio_of(text: str) -> float:
-    """Return the quotient of two whole numbers, "115/265"."""
-    over, under = map(int, text.split("/"))
-    return over / under
-
-
-def unit_of(printed: float) -> float:
-    """Return one unit of the last printed digit: 0.001 of 0.434."""
-    return 10.0 ** -len(f"{printed}".partition(".")[2])
-
-
 def passage(frame: RockingFrame, case: dict, printed: dict[str, Any]) -> dict:
     """The numbers of p. 4, each from the ones before it. `printed` is what the ledger has."""
     column, u, f = frame.column, case["table_amplitude"], case["table_frequency"]
@@ -54,10 +33,10 @@ def passage(frame: RockingFrame, case: dict, printed: dict[str, Any]) -> dict:
     ratio = printed["trilith_frame_frequency_parameter"] / printed["trilith_frequency_parameter"]
     implied = (1 - ratio**2) / (3 * ratio**2 - 2)  # (1 + 2γ)/(1 + 3γ) = p̂²/p², solved for γ
     cap, columns = case["printed_masses"]
-    mend = mended_masses([cap, columns], printed["trilith_mass_ratio"])
-    meant = (
-        {"meant_value": ratio_of(mend.text), "kind": mend.kind, "mended": mend.text} if mend else {}
-    )
+    mended = mended_quotient(cap, columns, f"{printed['trilith_mass_ratio']}")
+    meant = {}
+    if mended:
+        meant = {"meant_value": mended[1], "kind": mended[0].kind, "mended": mended[0].text}
     return {
         "half_measures_agree": truth(
             np.allclose(2.0 * np.array(halves), [width, height], rtol=EPS_PRINT)

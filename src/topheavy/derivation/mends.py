@@ -6,6 +6,7 @@ a time and the smallest first, until it holds; a form that no single mend saves 
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -64,6 +65,28 @@ def smallest_mend(printed: str, holds: Callable[[Mend], bool]) -> Mend | None:
         Whether the form holds with a mend made.
     """
     return next(filter(holds, mends(printed)), None)
+
+
+def mended_quotient(over: float, under: float, printed: str) -> tuple[Mend, float] | None:
+    """Return the smallest mend under which a quotient rounds to the printed number, and its value.
+
+    None if no single mend does.
+
+    Parameters
+    ----------
+    over, under
+        Whole numbers, as they are printed: 265 and 265.
+    printed
+        The quotient with the digits that are printed, "0.434".
+    """
+    decimals = len(printed.partition(".")[2])
+
+    def value(mend: Mend) -> float:
+        found = re.fullmatch(r"([0-9]+)/([0-9]+)", mend.text)
+        return int(found[1]) / int(found[2]) if found and int(found[2]) else math.nan
+
+    mend = smallest_mend(f"{over:.0f}/{under:.0f}", lambda m: f"{value(m):.{decimals}f}" == printed)
+    return (mend, value(mend)) if mend else None
 
 
 def mends(printed: str) -> Iterator[Mend]:
