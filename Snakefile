@@ -263,6 +263,11 @@ rule trilith:
         "results/benchmarks/trilith.tsv"
     params:
         case=case("trilith"),
+        printed={
+            row["id"]: row["printed"]
+            for row in CLAIMS
+            if row["id"].startswith("trilith_") and "printed" in row
+        },
         solver=config["solver"],
     message:
         "The trilith: its numbers, what would have lifted it, how the table starts"
