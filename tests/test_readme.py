@@ -9,7 +9,6 @@ import pandas as pd
 import pytest
 from publish import count_table
 
-
 ROOT = Path(__file__).parents[1]
 REFERENCE = ROOT / "tests" / "reference"
 

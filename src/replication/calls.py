@@ -1,7 +1,7 @@
 """Which functions of the repository a step calls: those that the rows of the ledger may name.
 
-The first call of a function notes its name and takes the note away again, so that no later call
-costs anything. A function that numba has compiled is not seen; the Python function that calls it is.
+The first call of a function notes its name and restores the function, so that no later call costs
+anything. A function that numba has compiled is not noted; the Python function that calls it is.
 """
 
 import ast
@@ -80,7 +80,9 @@ def definition(name: str, root: str | Path = ".") -> str:
     file = _place(module, root).with_suffix(".py")
     body = ast.parse(file.read_text(encoding="utf-8")).body if file.is_file() else []
     for part in parts:
-        found = [n for n in body if isinstance(n, ast.FunctionDef | ast.ClassDef) and n.name == part]
+        found = [
+            n for n in body if isinstance(n, ast.FunctionDef | ast.ClassDef) and n.name == part
+        ]
         body = found[-1].body if found else []
     if not (parts and body):
         raise ValueError(f"{name} is no function or class of the repository")

@@ -35,9 +35,7 @@ def main(
 
 def read_findings(paths: Iterable[str | Path]) -> dict[str, dict[str, Any]]:
     """Return the findings of each rule, by the name of its file."""
-    return {
-        Path(path).stem: json.loads(Path(path).read_text(encoding="utf-8")) for path in paths
-    }
+    return {Path(path).stem: json.loads(Path(path).read_text(encoding="utf-8")) for path in paths}
 
 
 def work(job: Any) -> None:

@@ -1,4 +1,4 @@
-"""The ledger: the claims of the paper and of the studies, what was found for each, and the verdict."""
+"""The ledger: the claims of paper and studies, and the verdict on each by what was found for it."""
 
 from collections.abc import Iterable, Mapping
 from pathlib import Path
@@ -10,14 +10,16 @@ from replication.calls import definition
 from replication.workbench import CALLED
 from topheavy.claims import judge
 
+OURS = "ours"
 JUDGED_BY = ("function", "rule", "finding", "expected", "remark", "by_definition")
 
 
 def read_ledger(paths: Iterable[str | Path]) -> list[dict[str, Any]]:
-    """Read the rows of all ledgers, the paper's first. `study` says whose it is: "" is the paper.
+    """Read the rows of all ledgers, the paper's first.
 
-    A study's row that has the id of an earlier one does not stand by itself: it says by what that
-    claim is judged from now on.
+    `study` says whose claim a row is: a study's, "" for the paper's, OURS for one that the paper
+    does not make and its claims rest on. A study's row that has the id of an earlier one does not
+    stand by itself: it says by what that claim is judged from now on.
 
     Raises
     ------
@@ -39,7 +41,7 @@ def read_rows(paths: Iterable[str | Path]) -> list[tuple[Path, dict[str, Any]]]:
                 raise ValueError(f"{path}: the id {row['id']!r} is given twice")
             seen.add(row["id"])
             if row["id"] not in rows:
-                rows[row["id"]] = path, row | {"study": study}
+                rows[row["id"]] = path, row | {"study": OURS if row.get("ours") else study}
                 continue
             _, known = rows[row["id"]]
             others = sorted(set(row) - {"id", *JUDGED_BY})
@@ -122,7 +124,7 @@ def judged(
         "printed": claim.get("printed"),
         "computed": found.get("value", found.get("holds")),
         "meant": found.get("meant_value"),
-        "kind": found.get("kind", ""),
+        "kind": found.get("kind") or "",
         "error": found.get("error"),
         "unit": claim.get("unit", ""),
         "tolerance": claim.get("tolerance"),
@@ -135,7 +137,9 @@ def judged(
     }
 
 
-def refuse_uncalled(claim: Mapping[str, Any], called: Iterable[str], root: str | Path = ".") -> None:
+def refuse_uncalled(
+    claim: Mapping[str, Any], called: Iterable[str], root: str | Path = "."
+) -> None:
     """Raise ValueError when the function that a row names did not run while its rule did."""
     name = definition(claim["function"], root)
     if name not in called:

@@ -17,7 +17,7 @@ from typing import Any
 import yaml
 from claims import as_text, read_findings
 from claims import main as judge_all
-from ledger import read_ledger
+from ledger import OURS, read_ledger
 
 from replication.workbench import write_findings
 from topheavy.claims import VERDICTS, by_origin
@@ -57,7 +57,10 @@ STUDY_TABLES = (
     "reversals_records",
     "reversals_why",
 )
-"""What the studies' findings are drawn from; too sensitive to the processor to compare runs with."""
+"""The sources of the studies' findings; too sensitive to the processor to compare runs with."""
+
+TITLES = {"": "The paper", OURS: "Not the paper's claims, and its claims rest on them"}
+"""The sections of docs/verdicts.md that are not a study's."""
 
 CHECKSUMS = "checksums.txt"
 DIGITS = 9
@@ -76,11 +79,12 @@ def verdict_page(rows: list[dict]) -> str:
         "# The verdict on every claim",
         "",
         "Computed by the workflow (`results/claims.json`); this page is written by `make publish`.",
+        "We worked from a transcription: every slip or misprint may be its fault, not the print's.",
         "",
         *count_table(rows),
     ]
     for study, own in parts.items():
-        title = f"The study `{study}`" if study else "The paper"
+        title = TITLES.get(study, f"The study `{study}`")
         lines += ["", f"## {title}", "", *verdict_table(own)]
     return "\n".join(lines) + "\n"
 
@@ -109,7 +113,7 @@ def count_table(rows: list[dict]) -> list[str]:
     """Return the lines of a table that counts the verdicts, of the paper and of each study."""
     lines = [COUNTS_HEAD, "|---" * (len(VERDICTS) + 1) + "|"]
     for name, verdicts in by_origin(rows).items():
-        cells = [name if name == "paper" else f"study `{name}`"]
+        cells = [name if name in ("paper", OURS) else f"study `{name}`"]
         cells += [str(verdicts.count(verdict)) for verdict in VERDICTS]
         lines.append("| " + " | ".join(cells) + " |")
     return lines
@@ -130,7 +134,9 @@ def with_counts(page: str, rows: list[dict]) -> str:
     end = starts[0]
     while end < len(lines) and lines[end].startswith("|"):
         end += 1
-    return "".join([*lines[: starts[0]], *(f"{line}\n" for line in count_table(rows)), *lines[end:]])
+    return "".join(
+        [*lines[: starts[0]], *(f"{line}\n" for line in count_table(rows)), *lines[end:]]
+    )
 
 
 def rounded(found: Any, digits: int = DIGITS) -> Any:

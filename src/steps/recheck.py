@@ -124,7 +124,9 @@ def evidence(folder: Path, findings: Findings) -> Iterator[str]:
             yield from _differs("reversals_enough", name, "value", ratio, findings)
     if "reversals_motions" in findings:
         most = table("studies/reversals_pairs").reversed.max()
-        yield from _differs("reversals_motions", "heavier_is_safer", "most_reversed", most, findings)
+        yield from _differs(
+            "reversals_motions", "heavier_is_safer", "most_reversed", most, findings
+        )
 
 
 def _differs(rule: str, name: str, key: str, expected: Any, findings: Findings) -> Iterator[str]:

@@ -30,7 +30,7 @@ LARGEST_SHARE_OF_TOLERANCE = 0.1
 """The error of a computed value may take this share of the claim's tolerance."""
 
 LARGEST_RELATIVE_TOLERANCE = 0.1
-"""A tolerance is at most this share of the printed value, unless the rounding of the print is more."""
+"""A tolerance is at most this share of the printed value, unless the print is rounded more."""
 
 
 def judge(claim: Mapping[str, Any], finding: Mapping[str, Any] | None) -> Verdict:
@@ -138,7 +138,7 @@ def tolerance_fault(claim: Mapping[str, Any]) -> str:
 
 
 def tally(name: str, verdicts: Iterable[str]) -> str:
-    """Return the line that closes a run: how many claims of the paper or of a study came out how."""
+    """Return a closing line of a run: how many claims of the paper or a study have each verdict."""
     count = Counter(verdicts)
     return f"{name}: " + ", ".join(f"{count[v]} {PLURALS.get(v, v)}" for v in VERDICTS)
 

@@ -10,7 +10,7 @@ import pytest
 from replication.calls import definition, library, noted
 from replication.workbench import run, truth
 
-SOURCE = '''
+SOURCE = """
 import functools
 from dataclasses import dataclass
 
@@ -50,7 +50,7 @@ class Thing:
 
     def method(self):
         return self.size
-'''
+"""
 
 
 @pytest.fixture
@@ -138,7 +138,10 @@ def test_library_yields_what_a_rule_declares_and_no_step():
         ("topheavy.simulate", "topheavy.simulate.simulate"),
         ("topheavy.judge", "topheavy.simulate.judge"),
         ("topheavy.reference.judge", "topheavy.reference.judge"),
-        ("topheavy.RockingBlock.with_restitution", "topheavy.structures.RockingBlock.with_restitution"),
+        (
+            "topheavy.RockingBlock.with_restitution",
+            "topheavy.structures.RockingBlock.with_restitution",
+        ),
         ("topheavy.derivation.theorems", "topheavy.derivation.theorems.theorems"),
         ("topheavy.contact_forces", "topheavy.contact_forces.contact_forces"),
         ("topheavy.derivation.contact_forces", "topheavy.derivation.contact.contact_forces"),

@@ -6,7 +6,10 @@ from pathlib import Path
 
 import pytest
 import yaml
+from ledger import read_ledger
 from ledger_check import check_ledger
+
+from topheavy.claims import judge, print_rounding
 
 ROOT = Path(__file__).resolve().parents[2]
 ROW = {
@@ -19,6 +22,7 @@ ROW = {
     "expected": "confirmed",
 }
 NUMBER = {"printed": 0.275, "tolerance": 5e-4, "because": "half a unit"}
+MISSPELT = "expctd"
 RULES = ["heavier", "statements"]
 
 
@@ -57,18 +61,20 @@ def test_rows_that_are_right_pass(tree):
         | {"remark": "A matter of history."},
         {"id": "name", "where": "p. 1", "statement": "It is called so.", "by_definition": True}
         | {"expected": "by definition", "remark": "It defines γ."},
-        own=[{"id": "row", "rule": "statements", "finding": "more", "expected": "refuted"}
-             | {"function": "topheavy.judge", "remark": "It fails."}],
+        own=[
+            {"id": "row", "rule": "statements", "finding": "more", "expected": "refuted"}
+            | {"function": "topheavy.judge", "remark": "It fails."}
+        ],
     )
 
 
 @pytest.mark.parametrize(
     ("row", "told"),
     [
-        (without("expected") | {"expcted": "confirmed"}, "unknown key 'expcted'; did you mean 'expe"),
+        (without("expected") | {MISSPELT: "confirmed"}, "unknown key 'expctd'; did you mean"),
         (ROW | {"expected": "qualifed"}, "expected is 'qualifed'; did you mean 'qualified'?"),
-        (ROW | {"rule": "heavyer"}, "rule is 'heavyer', which makes no findings; did you mean 'heav"),
-        (ROW | {"rule": "nosuch"}, "rule is 'nosuch', which makes no findings; expected one of heav"),
+        (ROW | {"rule": "heavyer"}, "rule is 'heavyer', which makes no findings; did you mean"),
+        (ROW | {"rule": "nosuch"}, "rule is 'nosuch', which makes no findings; expected one"),
         (ROW | {"finding": "heavier_survive_more"}, "did you mean 'heavier_survives_more'?"),
         (ROW | {"function": "topheavy.simulat"}, "function: topheavy.simulat is no function or cl"),
         (ROW | NUMBER | {"tolerance": 0.1}, "tolerance 0.1 is more than a tenth"),
@@ -83,14 +89,14 @@ def test_rows_that_are_right_pass(tree):
     ],
 )  # fmt: skip
 def test_row_that_is_wrong_is_named_with_its_file(tree, row, told):
-    with pytest.raises(ValueError, match="claims.yaml") as error:
+    with pytest.raises(ValueError, match=r"claims\.yaml") as error:
         check(tree, row)
     line = next(line for line in str(error.value).splitlines() if told in line)
     assert line.startswith(f"{tree}/paper/claims.yaml: {row['id']}: ")
 
 
 def test_every_fault_is_told_at_once(tree):
-    with pytest.raises(ValueError, match="claims.yaml") as error:
+    with pytest.raises(ValueError, match=r"claims\.yaml") as error:
         check(tree, ROW | {"rule": "nosuch"}, ROW | {"id": "other", "expected": "qualifed"})
     assert len(str(error.value).splitlines()) == 2
 
@@ -132,15 +138,9 @@ def test_finding_of_a_rule_that_has_published_none_is_new(tree):
 
 
 def test_no_row_of_ours_confirms_a_value_twice_as_far_off_as_its_digits_allow():
-    from ledger import read_ledger
-
-    from topheavy.claims import judge, print_rounding
-
     paths = [ROOT / "paper" / "claims.yaml", *sorted(ROOT.glob("studies/*/claims.yaml"))]
     rows = [
-        row
-        for row in read_ledger(paths)
-        if "tolerance" in row and row["expected"] != "misprint"
+        row for row in read_ledger(paths) if "tolerance" in row and row["expected"] != "misprint"
     ]
     assert len(rows) > 10
     for row in rows:

@@ -78,6 +78,10 @@ def test_page_ends_with_one_newline():
     assert not verdict_page([ROW]).endswith("\n\n")
 
 
+def test_page_says_that_a_fault_of_the_print_may_be_ours():
+    assert "transcription: every slip or misprint may be its fault" in verdict_page([ROW])
+
+
 OURS = ROW | {"id": "ours", "study": "reversals", "verdict": "refuted"}
 
 
@@ -104,7 +108,7 @@ def test_table_of_counts_in_a_page_is_replaced_and_nothing_else():
     new = with_counts(old, [ROW, OURS])
     assert new == "\n".join(["Before.", "", *count_table([ROW, OURS]), "", "| other | table |", ""])
     assert with_counts(new, [ROW, OURS]) == new
-    with pytest.raises(ValueError, match="has 0 lines .* expected one"):
+    with pytest.raises(ValueError, match=r"has 0 lines .* expected one"):
         with_counts("nothing", [ROW])
 
 
