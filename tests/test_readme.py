@@ -68,9 +68,9 @@ def test_two_thirds_of_the_gain_are_had_at_mass_ratio_one():
 def test_equations_said_to_be_wrong_are_those_of_their_kind(claims):
     equations = pd.read_csv(REFERENCE / "equations.csv")
     parts = (found().split("Eqs.")[1].split("have")[0], found().split("Eqs.")[2].split("hold")[0])
-    for said, kind in zip(parts, ("sign", "convention"), strict=True):
+    for said, fault in zip(parts, ("sign", "convention"), strict=True):
         numbers = {int(n) for n in re.findall(r"\((\d+)\)", said)}
-        assert numbers == {int(n) for n in equations.query("fault == @kind").equation}
+        assert numbers == {int(n) for n in equations[equations.fault == fault].equation}
 
 
 def test_lowest_amplitude_is_said_to_rise_where_the_ledger_confirms_it(claims):
