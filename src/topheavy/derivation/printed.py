@@ -131,8 +131,8 @@ EQUATIONS = (
         premises.rectangular_frame,
         _LEFT,
         meant="θ̈ = −(1 + 2γ)/(1 + 3γ) 3g/(4R) (−sin(α + θ) + ü_g/g cos(α + θ))",
-        remark="Both terms in the braces have the wrong sign, against Eq. (18). One leading minus too"
-        " many explains it; a stands for α.",
+        remark="Both terms in the braces have the wrong sign, against Eq. (18). One leading minus"
+        " too many explains it; a stands for α.",
     ),
     Statement(
         "eq20",
@@ -142,8 +142,8 @@ EQUATIONS = (
         _RIGHT,
         meant="I_o θ̈ + m_c ü_g R cos(α − θ)"
         " = −m_c g R sin(α − θ) − F_x1 2R cos(α − θ) − F_z1 2R sin(α − θ)",
-        remark="Right for shears counted positive to the left when θ > 0. F_x1 of Eqs. (10) and (13)"
-        " is positive to the right.",
+        remark="Right for shears counted positive to the left when θ > 0. F_x1 of Eqs. (10) and"
+        " (13) is positive to the right.",
     ),
     Statement(
         "eq21",
@@ -153,8 +153,8 @@ EQUATIONS = (
         _RIGHT,
         meant="I_o θ̈ + m_c ü_g R cos(α − θ)"
         " = −m_c g R sin(α − θ) − F_x2 2R cos(α − θ) − F_z2 2R sin(α − θ)",
-        remark="Right for shears counted positive to the left when θ > 0. F_x2 of Eqs. (11) and (13)"
-        " is positive to the right.",
+        remark="Right for shears counted positive to the left when θ > 0. F_x2 of Eqs. (11) and"
+        " (13) is positive to the right.",
     ),
     Statement(
         "eq22",
@@ -162,8 +162,8 @@ EQUATIONS = (
         premises.rectangular_frame,
         _RIGHT,
         meant="θ̈ = −(1 + 2γ)/(1 + 3γ) 3g/(4R) (sin(α − θ) + ü_g/g cos(α − θ))",
-        remark="Both terms in the braces have the wrong sign: the frame would flee from upright. One"
-        " leading minus too many explains it; a stands for α.",
+        remark="Both terms in the braces have the wrong sign: the frame would move away from"
+        " upright. One leading minus too many explains it; a stands for α.",
     ),
     Statement(
         "eq23",
