@@ -230,7 +230,16 @@ def publish_tables(tables: Path, reference: Path) -> None:
 
 
 def publish_findings(findings: Path, folder: Path) -> None:
-    """Write all findings of a run, rounded, in place of those that are published."""
+    """Write all findings of a run, rounded, in place of those that are published.
+
+    Raises
+    ------
+    ValueError
+        When a rule tested nothing, for lack of an optional package.
+    """
+    for path in sorted(findings.glob("*.json")):
+        if reason := json.loads(path.read_text(encoding="utf-8")).get("not_tested"):
+            raise ValueError(f"{path}: nothing was tested ({reason}); expected a full run")
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     for path in sorted(findings.glob("*.json")):

@@ -128,6 +128,18 @@ def test_findings_of_rules_that_are_gone_are_published_no_more(tmp_path):
     assert [path.name for path in published.iterdir()] == ["new.json"]
 
 
+def test_run_that_tested_less_is_not_published(tmp_path):
+    made, published = tmp_path / "made", tmp_path / "published"
+    for folder, text in ((made, '{"not_tested": "no engine"}'), (published, "{}")):
+        folder.mkdir()
+        (folder / "a.json").write_text(text, encoding="utf-8")
+    with pytest.raises(
+        ValueError, match=r"a.json: nothing was tested \(no engine\); expected a full"
+    ):
+        publish_findings(made, published)
+    assert (published / "a.json").read_text(encoding="utf-8") == "{}"
+
+
 def test_checksums_are_of_tables_and_findings_whatever_their_line_ends(tmp_path):
     (tmp_path / "findings").mkdir()
     (tmp_path / "findings" / "a.json").write_bytes(b"{}\n")
