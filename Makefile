@@ -40,7 +40,7 @@ help: ## show this list
 reproduce: | $(UV) ## compute every result, check every claim, compile the report (CORES=2)
 	@$(SNAKEMAKE)
 
-check: | $(UV) ## judge the committed claims anew from the committed tables; no run, a minute
+check: | $(UV) ## judge every claim anew from the published findings, tables and pages; no run
 	@$(RUN) python src/steps/recheck.py
 
 trace: | $(UV) ## from a figure, table, finding or claim to its source (ITEM=figures/heavier.svg)

@@ -22,6 +22,7 @@ from captions import caption_files, captioned, read_captions
 from closing import close
 from configuration import check_config, record_files
 from ledger import read_ledger
+from ledger_check import check_ledger
 from place import check_place
 from strict_yaml import read_yaml
 from study_config import read_study_config
@@ -122,12 +123,15 @@ REFERENCES = sorted(map(str, Path("tests/reference").glob("*.csv")))
 STUDIES = config["studies"]
 STUDY_CONFIG = {name: read_study_config(name, config["structures"]) for name in STUDIES}
 LEDGER = ["paper/claims.yaml", *(f"studies/{name}/claims.yaml" for name in STUDIES)]
-CLAIMS = read_ledger(LEDGER)
 SECTIONS = [f"studies/{name}/section.typ" for name in STUDIES]
 
 for name in STUDIES:
 
     include: f"studies/{name}/study.smk"
+
+
+check_ledger(LEDGER, FINDINGS)
+CLAIMS = read_ledger(LEDGER)
 
 
 rule all:
@@ -264,6 +268,11 @@ rule trilith:
         "results/benchmarks/trilith.tsv"
     params:
         case=case("trilith"),
+        printed={
+            row["id"]: row["printed"]
+            for row in CLAIMS
+            if row["id"].startswith("trilith_") and "printed" in row
+        },
         solver=config["solver"],
     message:
         "The trilith: its numbers, what would have lifted it, how the table starts"

@@ -15,6 +15,9 @@ from pathlib import Path
 ROOTS = ("src", ".", "src/steps", "figures")
 """Folders in which imported names are looked up, from the root of the repository, in this order."""
 
+SCRIPT = sys.modules["__main__"]
+"""The script of the job. Libraries give it a second name, or take its own for themselves."""
+
 
 def code(*scripts: str | Path, root: str | Path = ".") -> list[str]:
     """Return the files of the repository that scripts import, directly or through others.
@@ -64,11 +67,10 @@ def undeclared(declared: Iterable[str], root: str | Path = ".") -> list[str]:
     """
     root = Path(root).resolve()
     known = {(root / path).resolve() for path in declared}
-    script = sys.modules["__main__"]  # multiprocessing gives it a second name
     loaded = {
         Path(file).resolve()
         for module in list(sys.modules.values())
-        if module is not script and (file := getattr(module, "__file__", None))
+        if module is not SCRIPT and (file := getattr(module, "__file__", None))
     }
     ours = (path.relative_to(root) for path in loaded - known if path.is_relative_to(root))
     # Environments and Snakemake's copies of scripts lie in hidden folders.

@@ -7,7 +7,7 @@ with the numbers that support it.
 import json
 import signal
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, TextIO
@@ -15,9 +15,13 @@ from typing import Any, TextIO
 import numpy as np
 import pandas as pd
 
+from replication.calls import library, noted
 from replication.code import undeclared
 
 DIGITS = "%.9g"
+
+CALLED = "called"
+"""The entry beside the findings of a rule that lists the functions which made them."""
 
 
 def run(job: Any, main: Callable[[Any], Any]) -> None:
@@ -36,13 +40,19 @@ def run(job: Any, main: Callable[[Any], Any]) -> None:
     ------
     RuntimeError
         When the process loaded a module of the repository that the rule does not declare.
+    ValueError
+        When a finding has the name CALLED.
     """
     with log_to(job.log[0]):
-        results = main(job)
+        with noted(library(job.input)) as called:
+            results = main(job)
         if results is not None:
             results = results if isinstance(results, tuple) else (results,)
             for path, result in zip(job.output, results, strict=True):
-                (write_findings if path.endswith(".json") else write_table)(path, result)
+                if path.endswith(".json"):
+                    write_findings(path, with_calls(result, called))
+                else:
+                    write_table(path, result)
         refuse_undeclared(job)
 
 
@@ -83,6 +93,16 @@ def value(number: float, error: float, unit: str = "", **more: float) -> dict[st
 def truth(holds: bool, **evidence: Any) -> dict[str, Any]:
     """Return a finding that holds or not, with the evidence."""
     return {"holds": bool(holds), **_plain(evidence)}
+
+
+def with_calls(findings: Mapping[str, Any], called: Iterable[str]) -> dict[str, Any]:
+    """Return findings with the names of the functions that were called while they were made."""
+    if CALLED in findings:
+        raise ValueError(
+            f"a finding is called {CALLED!r}, the name of the list of functions that ran; "
+            "expected another name"
+        )
+    return {**findings, CALLED: sorted(called)}
 
 
 def write_table(path: str, columns: Mapping[str, Any] | pd.DataFrame) -> None:

@@ -24,14 +24,16 @@ def verdict_line(claim: Mapping[str, Any], finding: Mapping[str, Any] | None, ve
         grounds = (
             f"{printed}computed {finding['value']:.6g} ± {finding['error']:.1g} {unit}".strip()
         )
-        if verdict == "misprint":
+        if "meant_value" in finding and verdict not in ("confirmed", "refuted"):
             grounds += f"; what is meant gives {finding['meant_value']:.6g} {unit}".rstrip()
     else:
         meaning = {
-            "misprint": "does not hold as printed; what is meant does",
             "qualified": f"holds under a condition: {claim.get('remark', '')}",
             "refuted": "does not hold",
         }
+        if finding.get("kind"):
+            meant = f"does not hold as printed ({finding['kind']}); what is meant does"
+            meaning |= {"slip": meant, "misprint": meant}
         grounds = printed + meaning.get(verdict, "holds")
     line = f"{claim['id']}: {verdict} ({grounds})"
     if verdict == claim["expected"]:

@@ -123,7 +123,7 @@ def _claim_lines(claim: Mapping[str, Any], path: str | None, root: Path) -> Iter
         finding = finding_of(claim, findings)
         yield f"  verdict   {verdict_line(claim, finding, judge(claim, finding))}"
     elif path is None:
-        yield f"  verdict   {verdict_line(claim, None, 'not tested')}"
+        yield f"  verdict   {verdict_line(claim, None, judge(claim, None))}"
 
 
 def _job_lines(job: Job, made: Mapping[str, Job], root: Path) -> Iterator[str]:

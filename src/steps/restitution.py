@@ -54,9 +54,7 @@ def main(case: dict) -> tuple[dict, dict, dict]:
             min(smaller) > 0.0, cells=len(smaller), least_difference=min(smaller)
         ),
         "energy_loss": truth(
-            not counter,
-            holds_when=all(more_lost),
-            condition="α below the slenderness at which √r of the frame vanishes, so that it rocks",
+            more_lost and all(more_lost),
             cells_that_rock=len(more_lost),
             least_slenderness_against_deg=min(counter, default=math.nan),
         ),

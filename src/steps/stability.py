@@ -14,6 +14,7 @@ from typing import TypeAlias
 from replication.workbench import grid, run, truth
 from topheavy import Column, Pulse, RockingFrame, judge
 from topheavy.linear import simulate_linear_exact
+from topheavy.structures import size_ratio
 
 SCANNING = 1e-8  # of α: tolerance of a scan, of which what is quoted is made anew
 NEARBY = 0.05  # of an amplitude: where the linearised equation is asked
@@ -125,6 +126,7 @@ def orders(case: dict) -> dict[str, list[list[Trial]]]:
     frames = [RockingFrame(column, gamma) for gamma in case["mass_ratios"]]
     b, h = column.half_width, column.half_height
     sizes = [Column(scale * b, scale * h) for scale in case["sizes"]]
+    equivalent = [Column(s * b, s * h) for s in map(size_ratio, [0.0, *case["mass_ratios"]])]
     ratios = case["frequency_ratios"]
     return {
         "heavier_is_more_stable": [[(f, ratio) for f in frames] for ratio in ratios],
@@ -132,6 +134,7 @@ def orders(case: dict) -> dict[str, list[list[Trial]]]:
             [(column, ratio), (frame, ratio)] for ratio in ratios for frame in frames
         ],
         "larger_is_more_stable": [[(c, ratio) for c in sizes] for ratio in ratios],
+        "larger_size_means_more_stable": [[(c, ratio) for c in equivalent] for ratio in ratios],
         # ratios ascend: from the longest pulse to the shortest
         "longer_pulse_overturns_first": [[(column, ratio) for ratio in ratios]],
     }

@@ -8,13 +8,13 @@ from typing import Any
 import pandas as pd
 
 from replication.workbench import run
-from topheavy.claims import tally
+from topheavy.claims import tallies
 
 
 def main(
     claims: list[dict], comparison: pd.DataFrame, checks: dict[str, bool]
 ) -> tuple[str, list[str]]:
-    """Return the line that closes the run, and what is wrong with it.
+    """Return the lines that close the run, the paper's and each study's, and what is wrong.
 
     `checks` are findings that are no claims of anybody, and have to hold all the same.
     """
@@ -30,7 +30,7 @@ def main(
         if row.verdict == "differs"
     ]
     faults += [f"our own check {name} does not hold" for name, holds in checks.items() if not holds]
-    return "\n".join([*untested(claims), tally(row["verdict"] for row in claims)]), faults
+    return "\n".join([*untested(claims), *tallies(claims)]), faults
 
 
 def untested(claims: list[dict]) -> list[str]:
@@ -48,10 +48,10 @@ def work(job: Any) -> None:
         for rule, names in job.params.checks.items()
         for name in names
     }
-    line, faults = main(claims, pd.read_csv(job.input.comparison), checks)
+    lines, faults = main(claims, pd.read_csv(job.input.comparison), checks)
     if faults:
-        raise SystemExit("\n".join([*faults, line]))
-    text = f"report: paper/report.pdf\n{line}\n"
+        raise SystemExit("\n".join([*faults, lines]))
+    text = f"report: paper/report.pdf\n{lines}\n"
     Path(job.output[0]).write_text(text, encoding="utf-8")
 
 

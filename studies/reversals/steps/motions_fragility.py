@@ -174,6 +174,21 @@ def shares_of_gain(ensemble: Ensemble, medians: np.ndarray, shares: list[float])
     ]
 
 
+def never_rises(less: pd.DataFrame, margin: float) -> dict:
+    """Does every interval of the falls in probability exclude a rise by the margin?
+
+    That a rise is not seen is not enough: an interval that is too wide does not exclude it.
+    """
+    return truth(
+        (less.less_low > -margin).all(),
+        margin=margin,
+        compared=len(less),
+        largest_rise_not_excluded=-float(less.less_low.min()),
+        rises=int((less.less_high < 0.0).sum()),
+        falls=int((less.less_low > 0.0).sum()),
+    )
+
+
 def plain(bounds: dict) -> dict:
     return {key: float(number) for key, number in bounds.items()}
 
@@ -193,19 +208,16 @@ def main(case: dict, structures: dict, paths: list[str]) -> tuple[dict[str, pd.D
     tables = {name: pd.concat(parts) for name, parts in tables.items()}
     pair, less, curve = tables["pairs"], pd.concat(order), tables["fragility"]
     findings = {
-        "fragility_never_rises": truth(
-            not (less.less_high < 0.0).any(),
-            compared=len(less),
-            rises=int((less.less_high < 0.0).sum()),
-            falls=int((less.less_low > 0.0).sum()),
-        ),
+        "fragility_never_rises": never_rises(less, case["largest_rise"]),
         "heavier_is_safer": truth(
             not pair.only_heavier.any(),
-            holds_when=bool((pair.reversed_high < 0.5).all()),
             levels=case["intensities"]["points"],
             cells=int(pair.cells.sum()),
             least_reversed=float(pair.reversed.min()),
             most_reversed=float(pair.reversed.max()),
+        ),
+        "probability_is_lower": truth(
+            (pair.reversed_high < 0.5).all(), largest_upper_end=float(pair.reversed_high.max())
         ),
         "gain_is_that_of_size": truth(
             all(row["excess_low"] <= 0.0 <= row["excess_high"] for row in beyond), beyond=beyond
