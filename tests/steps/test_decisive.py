@@ -4,7 +4,6 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
-import pandas as pd
 import pytest
 import restitution
 import rocking_spectra
@@ -200,11 +199,3 @@ def test_statement_that_no_mend_saves_is_not_meant(monkeypatch):
     _, found = equations.main()
     assert (found["eq1"]["meant_holds"], found["eq1"]["kind"]) == (False, None)
     assert (found["eq2"]["meant_holds"], found["eq2"]["kind"]) == (True, "letter")
-
-
-def test_mass_of_both_columns_does_not_give_equation_19():
-    import equations
-
-    found = pd.Series(equations.main()[1]["m_c_as_both_columns"])
-    assert not found.holds
-    assert found.holds_when

@@ -51,18 +51,18 @@ def test_friction_that_the_heaviest_cap_exceeds_is_never_enough():
 
 
 def peaks(*overturned):
-    values = np.full((2, 3), 0.5)
+    values = np.full((3, 5), 0.5)
     for place in overturned:
         values[place] = np.nan
     return pd.DataFrame(values)
 
 
 def test_both_sides_count_among_pulses_with_another_outcome():
-    found = differences(peaks((0, 0), (1, 1)), peaks((0, 2), (1, 1)))
-    assert found["share_apart"] == pytest.approx(2 / 6)
-    assert found["only_frame_overturns"] == pytest.approx(1 / 6)
-    assert found["only_column_overturns"] == pytest.approx(1 / 6)
-    assert found["share_thinned"] == pytest.approx(2 / 2)
+    found = differences(peaks((0, 1), (1, 1), (1, 3)), peaks((0, 2), (1, 1), (1, 2)))
+    assert found["only_frame_overturns"] == pytest.approx(1.5 / 8)  # one of two cells on an edge
+    assert found["only_column_overturns"] == pytest.approx(1.5 / 8)
+    assert found["share_apart"] == pytest.approx(3 / 8)
+    assert found["share_thinned"] == pytest.approx(0.5 / 2)  # of every second: (0, 2) on an edge
 
 
 def test_share_of_one_side_is_outside_the_tolerance_of_the_claim():

@@ -52,9 +52,10 @@ def test_error_of_a_mean_share_is_that_of_a_rule_of_second_order():
         {"helps": [exact + fault], "helps_by_two": [exact + 4 * fault]}
         | {"helps_by_four": [exact + 16 * fault]}
     )
-    mean, error = pulses.mean(rows, "helps")
-    assert mean == pytest.approx(exact + fault)
-    assert error == pytest.approx(2.0 * fault)
+    for same in (rows, rows.assign(helps_by_two=rows.helps), rows.assign(helps_by_four=rows.helps)):
+        mean, error = pulses.mean(same, "helps")
+        assert mean == pytest.approx(exact + fault)
+        assert error == pytest.approx(2.0 * fault)
 
 
 def less(*bounds):
