@@ -17,7 +17,7 @@ UV  := $(shell command -v uv 2>/dev/null || echo .uv/bin/uv)
 ENGINE ?= engine
 RUN := $(UV) run --locked --no-dev $(if $(value ENGINE),--group "$$ENGINE")
 DEV := $(UV) run --locked $(if $(value ENGINE),--group "$$ENGINE")
-BENCH := PYTHONPATH=src/steps:figures $(UV) run --locked --no-dev --group bench
+BENCH := $(UV) run --locked --no-dev --group bench
 CELLS ?= 40000
 CONFIG ?= config/thorough.yaml
 
@@ -41,19 +41,19 @@ reproduce: | $(UV) ## compute every result, check every claim, compile the repor
 	@$(SNAKEMAKE)
 
 check: | $(UV) ## judge every claim anew from the published findings, tables and pages; no run
-	@$(RUN) python src/steps/recheck.py
+	@$(RUN) python -m steps.recheck
 
 trace: | $(UV) ## from a figure, table, finding or claim to its source (ITEM=figures/heavier.svg)
-	@$(RUN) python src/steps/origin.py "$$ITEM"
+	@$(RUN) python -m replication.commands.trace "$$ITEM"
 
 verify: | $(UV) ## check every file of a finished run against results/manifest.json
-	@$(RUN) python src/steps/verify.py
+	@$(RUN) python -m replication.commands.verify
 
 html: | $(UV) ## after a run: every figure with caption and verdict in results/report.html
 	@test -e results/manifest.json || { \
 	  echo "there is no finished run to show; expected one: make reproduce" >&2; exit 1; }
 	@$(RUN) snakemake --report results/report.html --quiet all
-	@$(RUN) python src/steps/check_html.py results/report.html
+	@$(RUN) python -m replication.commands.check_html results/report.html
 
 test: | $(UV) ## run the tests
 	@$(DEV) pytest
@@ -84,7 +84,7 @@ lint: | $(UV) ## check style, types, spelling and schemas; changes nothing
 	  END { if (found || !ran) { printf "%s", text; exit 1 } }'
 
 publish: | $(UV) ## copy results to docs/ and tests/reference/; look at the diff, then commit it
-	@$(RUN) python src/steps/publish.py
+	@$(RUN) python -m steps.publish
 
 audit: | $(UV) ## an hour: finer grids, tighter tolerances, all peers, all faults (CONFIG, CELLS, ROTATE)
 	@$(SNAKEMAKE) --configfile "$$CONFIG"
@@ -92,11 +92,11 @@ audit: | $(UV) ## an hour: finer grids, tighter tolerances, all peers, all fault
 	@echo "results/ is that of $$CONFIG now: 'make reproduce' brings ours back"
 
 study: | $(UV) ## begin a follow-up study: make study NAME=my_study (FOLLOW-UP.md)
-	@$(RUN) python src/steps/new_study.py "$$NAME"
+	@$(RUN) python -m replication.commands.new_study "$$NAME"
 
 kill-table: | $(UV) ## put faults into a copy, one at a time: what catches each? (FAULTS=a,b or ROTATE=3)
 	@$(if $(value ROTATE),$(call WHOLE,ROTATE))
-	@PYTHONPATH=src/steps $(DEV) python faults/kill_table.py \
+	@$(DEV) python -m replication.commands.kill_table \
 	  $${FAULTS:+"--faults=$$FAULTS"} $${ROTATE:+"--rotate=$$ROTATE"}
 
 benchmark: | $(UV) ## time the kernel beside its peers; writes docs/benchmark.csv and .svg (5 minutes)

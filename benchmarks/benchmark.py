@@ -23,9 +23,9 @@ import picture
 from kernel import KernelRecord, histories
 from oracle import Found, PulseOracle, RecordOracle
 from peers import Heyoka, HeyokaRecord, SolveIvp, SolveIvpRecord
-from publish import machine
 from verify_grid import block_of
 
+from steps.publish import machine
 from topheavy import Column, Record, RockingFrame, read_at2
 from topheavy.kernel.forcing import SHAPES
 from topheavy.kernel.grid import outcomes_of

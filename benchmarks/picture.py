@@ -4,7 +4,8 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 import pandas as pd
-from drawing import ACCENT, DARK, DOUBLE, GREY, letter, note, sheet
+
+from figures.drawing import ACCENT, DARK, DOUBLE, GREY, letter, note, sheet
 
 LOOKS = {
     "this kernel": {"color": ACCENT, "linewidth": 1.8},
@@ -43,7 +44,7 @@ def draw(curves: pd.DataFrame, machine: str, path: Path) -> None:
 
 
 if __name__ == "__main__":
-    from publish import machine
+    from steps.publish import machine
 
     table = pd.read_csv("results/benchmark/work_precision.csv")
     draw(table, machine(), Path("docs/benchmark.svg"))

@@ -1,6 +1,7 @@
 """Error of the peak rotation of Allen et al. over amplitude, slenderness and γ, in its parts."""
 
-from drawing import DOUBLE, GREY, MODELS, gamma, note, publish, shades, sheet
+from figures.drawing import MODELS, gamma
+from replication.drawing import DOUBLE, GREY, note, publish, shades, sheet
 
 LOWEST, HIGHEST = -40, 60  # %
 

@@ -1,6 +1,7 @@
 """The model of Allen et al. and each of its simplifications beside the exact frame, in time."""
 
-from drawing import ACCENT, DOUBLE, GREY, INK, MODELS, letter, note, publish, sheet
+from figures.drawing import MODELS
+from replication.drawing import ACCENT, DOUBLE, GREY, INK, letter, note, publish, sheet
 
 MOTIONS = {"pulse": "One-sine pulse", "record": "El Centro 1940, scaled"}
 

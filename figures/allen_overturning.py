@@ -1,8 +1,9 @@
 """Where the linearised equation, and the whole model of Allen et al., misjudge overturning."""
 
-from drawing import ACCENT, DARKEST, DOUBLE, LIGHT, letter, note, publish, sheet
 from matplotlib.colors import ListedColormap
 from matplotlib.patches import Patch
+
+from replication.drawing import ACCENT, DARKEST, DOUBLE, LIGHT, letter, note, publish, sheet
 
 VERDICTS = {
     "both survive": "white",

@@ -2,8 +2,9 @@
 
 import math
 
-from drawing import ACCENT, CAP, DOUBLE, GREY, INK, STONE, letter, note, publish, sheet
 from matplotlib.patches import Arc, Polygon
+
+from replication.drawing import ACCENT, CAP, DOUBLE, GREY, INK, STONE, letter, note, publish, sheet
 
 SET_OFF = 0.14  # m, between the cap and what is drawn beside it
 FORCES = {  # name; label and its place beside the arrow's free end, in points

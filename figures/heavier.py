@@ -3,7 +3,8 @@
 import math
 from string import ascii_lowercase
 
-from drawing import ACCENT, DOUBLE, GREY, INK, gamma, note, publish, shades, sheet
+from figures.drawing import gamma
+from replication.drawing import ACCENT, DOUBLE, GREY, INK, note, publish, shades, sheet
 
 NAMES = {0.0: ", solitary column", math.inf: ", massless columns"}
 POINTS = {"textcoords": "offset points"}

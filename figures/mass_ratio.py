@@ -1,7 +1,8 @@
 """How soon a heavier cap beam makes the frame a larger block: Eqs. (23), (24)."""
 
 import numpy as np
-from drawing import ACCENT, DOUBLE, GREY, INK, letter, note, publish, sheet
+
+from replication.drawing import ACCENT, DOUBLE, GREY, INK, letter, note, publish, sheet
 
 GAMMA = r"Mass ratio, $\gamma = m_\mathrm{b}/2m_\mathrm{c}$ (–)"
 

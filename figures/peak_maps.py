@@ -1,7 +1,9 @@
 """How far column and frames rock under a pulse, and where they overturn."""
 
-from drawing import DOUBLE, INK, gamma, letter, note, publish, sheet
 from matplotlib.colors import BoundaryNorm, LinearSegmentedColormap
+
+from figures.drawing import gamma
+from replication.drawing import DOUBLE, INK, letter, note, publish, sheet
 
 LEVELS = [0, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.1]  # of α
 OVERTURNED = {"facecolor": "#efece6", "edgecolor": "#a8a49c", "hatch": "////////"}

@@ -1,6 +1,6 @@
 """The period of free rocking against its amplitude, exact and linearised."""
 
-from drawing import DOUBLE, GREY, INK, letter, note, publish, shades, sheet
+from replication.drawing import DOUBLE, GREY, INK, letter, note, publish, shades, sheet
 
 
 def draw(quarter_period):

@@ -1,7 +1,9 @@
 """Velocity ratio at impact over slenderness and mass ratio: Eq. (25) between its two limits."""
 
 import numpy as np
-from drawing import ACCENT, DOUBLE, GREY, INK, gamma, letter, note, publish, shades, sheet
+
+from figures.drawing import gamma
+from replication.drawing import ACCENT, DOUBLE, GREY, INK, letter, note, publish, shades, sheet
 
 
 def draw(restitution_over_slenderness, restitution_over_mass_ratio):

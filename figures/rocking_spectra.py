@@ -1,6 +1,7 @@
 """Peak rotation over size under real records, with the sizes that overturn: column and frames."""
 
-from drawing import ACCENT, DOUBLE, GREY, RECORDS, gamma, note, publish, shades, sheet
+from figures.drawing import RECORDS, gamma
+from replication.drawing import ACCENT, DOUBLE, GREY, note, publish, shades, sheet
 
 TICKS = (0.5, 1, 2, 5, 10, 20)
 ABOVE, APART = 1.12, 0.1  # of θ/α: where the strips of overturned sizes begin, and their distance

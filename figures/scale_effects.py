@@ -1,6 +1,6 @@
 """Housner's two scale effects: the larger of two similar columns, the longer of two pulses."""
 
-from drawing import ACCENT, DARK, DOUBLE, GREY, letter, note, publish, sheet
+from replication.drawing import ACCENT, DARK, DOUBLE, GREY, letter, note, publish, sheet
 
 COLOURS = {"smaller": "#6fa3cc", "larger": DARK}
 

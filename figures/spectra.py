@@ -1,18 +1,9 @@
 """The lowest pulse that overturns, over its frequency: every γ, exact beside linearised."""
 
 import numpy as np
-from drawing import (
-    ACCENT,
-    DOUBLE,
-    GREY,
-    PULSES,
-    amplitude_axis,
-    gamma,
-    note,
-    publish,
-    shades,
-    sheet,
-)
+
+from figures.drawing import PULSES, amplitude_axis, gamma
+from replication.drawing import ACCENT, DOUBLE, GREY, note, publish, shades, sheet
 
 
 def lowest(lines):

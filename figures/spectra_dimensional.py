@@ -1,17 +1,7 @@
 """What overturns the trilith and a bridge: amplitude in g over the period of the pulse in s."""
 
-from drawing import (
-    ACCENT,
-    DOUBLE,
-    PULSES,
-    bands,
-    gamma,
-    letter,
-    note,
-    publish,
-    shades,
-    sheet,
-)
+from figures.drawing import PULSES, bands, gamma
+from replication.drawing import ACCENT, DOUBLE, letter, note, publish, shades, sheet
 
 HIGHEST = 7.0  # over the amplitude of uplift
 NAMES = {"period": "x", "lower_g": "lower", "upper_g": "upper"}

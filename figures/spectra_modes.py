@@ -1,20 +1,9 @@
 """Both ways to overturn and the safe bays between them, for the column and two frames."""
 
 import numpy as np
-from drawing import (
-    ACCENT,
-    DARK,
-    DOUBLE,
-    HIGHEST,
-    LIGHT,
-    PULSES,
-    amplitude_axis,
-    bands,
-    gamma,
-    note,
-    publish,
-    sheet,
-)
+
+from figures.drawing import HIGHEST, PULSES, amplitude_axis, bands, gamma
+from replication.drawing import ACCENT, DARK, DOUBLE, LIGHT, note, publish, sheet
 
 MODES = {"with impact": LIGHT, "without impact": DARK}
 SHOWN = 0.05  # g tan α: what is narrower, tongue or bay, is not drawn

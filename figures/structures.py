@@ -1,20 +1,21 @@
 """The paper's Fig. 1: four structures to scale, each more stable than the last; their moment."""
 
-from drawing import (
+from matplotlib.patches import Polygon
+
+from figures.drawing import gamma
+from replication.drawing import (
     ACCENT,
     CAP,
     DOUBLE,
     GREY,
     INK,
     STONE,
-    gamma,
     letter,
     note,
     publish,
     shades,
     sheet,
 )
-from matplotlib.patches import Polygon
 
 GAP = 2.6  # m between the structures
 

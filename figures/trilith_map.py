@@ -1,8 +1,9 @@
 """Where the trilith rests, rocks or overturns on a table in a steady sine, and where it stood."""
 
 import numpy as np
-from drawing import ACCENT, DARK, DOUBLE, INK, LIGHT, letter, note, publish, sheet
 from matplotlib.colors import ListedColormap
+
+from replication.drawing import ACCENT, DARK, DOUBLE, INK, LIGHT, letter, note, publish, sheet
 
 OUTCOMES = {"no uplift": 0, "rests": 1, "rocking": 1, "overturned": 2}
 ARROW = {"arrowstyle": "-|>", "color": ACCENT, "shrinkA": 0, "shrinkB": 0, "mutation_scale": 7}

@@ -1,6 +1,6 @@
 """The trilith below its uplift acceleration: at rest, or rocking on, by how the table starts."""
 
-from drawing import ACCENT, DARK, DOUBLE, GREY, LIGHT, letter, note, publish, sheet
+from replication.drawing import ACCENT, DARK, DOUBLE, GREY, LIGHT, letter, note, publish, sheet
 
 
 def draw(trilith_starts, trilith_histories):

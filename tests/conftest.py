@@ -10,7 +10,7 @@ ROOT = Path(__file__).parents[1]
 @pytest.fixture(scope="session")
 def jobs():
     """Every job of the workflow, by Snakemake's own reading of the Snakefile."""
-    from provenance import workflow_jobs
+    from replication.provenance import workflow_jobs
 
     return workflow_jobs(ROOT)
 

@@ -3,9 +3,9 @@
 from pathlib import Path
 
 import pytest
-from provenance import checksum
 
-from faults.kill_table import copy_tree, run
+from replication.commands.kill_table import copy_tree, run
+from replication.provenance import checksum
 
 DIFFERS = {"costs.csv", "manifest.json"}  # what a run took, and on which commit
 OUTPUTS = ("results/tables", "results/findings", "results/notebooks", "figures", "paper", "results")

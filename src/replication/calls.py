@@ -14,7 +14,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from types import FunctionType, ModuleType
 
-PLACES = {"topheavy": "src", "studies": "."}
+PLACES = {path.name: "src" for path in Path("src").glob("*") if path.name != "replication"}
+PLACES |= {"studies": "."}
 """The packages whose functions are noted, and the folder that each lies in, from the root."""
 
 

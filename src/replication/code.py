@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from functools import cache
 from pathlib import Path
 
-ROOTS = ("src", ".", "src/steps", "figures")
+ROOTS = ("src", ".")
 """Folders in which imported names are looked up, from the root of the repository, in this order."""
 
 SCRIPT = sys.modules["__main__"]

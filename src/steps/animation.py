@@ -11,13 +11,13 @@ from typing import Any
 import matplotlib as mpl
 import matplotlib.pyplot as plt
 import numpy as np
-from drawing import ACCENT, CAP, GREY, INK, STONE
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.patches import Polygon
 from PIL import Image
-from sketches import cap_outline
 
+from replication.drawing import ACCENT, CAP, GREY, INK, STONE
 from replication.workbench import run
+from steps.sketches import cap_outline
 from topheavy import Column, Pulse, RockingFrame, simulate
 from topheavy.kinematics import cap_displacement, column_outline
 from topheavy.structures import STANDARD_GRAVITY

@@ -1,54 +1,26 @@
-"""The published edition against itself, without a run: `make check`.
+"""The published tables against the paper's equations, and the findings against them: `make check`.
 
-Every row of the ledger is judged anew from the published findings. The findings are held against
-the published tables, the tables against the paper's equations, and the pages against the verdicts.
+Every row of the ledger is judged anew from the published findings, without a run.
 """
 
-import json
 import sys
-from collections.abc import Iterable, Iterator, Mapping
-from itertools import zip_longest
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pandas as pd
-from claims import read_findings
-from ledger import judged, read_ledger
-from publish import CHECKSUMS, checksums, verdict_page, with_counts
-from strict_yaml import read_yaml
 
-from topheavy.claims import tallies
+from replication.rechecking import Findings
+from replication.rechecking import main as recheck
+from replication.strict_yaml import read_yaml
 
 CLOSE = {"rtol": 1e-8, "atol": 1e-9}  # the digits of the tables
-CLAIMS = "tests/reference/claims.json"
-
-Findings = Mapping[str, Mapping[str, Any]]
 
 
-def claims(
-    ledger: Iterable[Mapping[str, Any]], findings: Findings, published: list[dict], root: Path
-) -> Iterator[str]:
-    """Yield what is wrong with the published rows: every field of every row is made anew."""
-    rows = {row["id"]: row for row in published}
-    for name in sorted({claim["id"] for claim in ledger} ^ set(rows)):
-        yield f"claim {name} is not in both the ledger and {CLAIMS}"
-    for claim in ledger:
-        try:
-            found = judged(claim, findings, root)
-        except ValueError as fault:
-            yield str(fault)
-            continue
-        if found["verdict"] != claim["expected"] and not found["not_tested"]:
-            yield f"claim {claim['id']} comes out {found['verdict']}; expected {claim['expected']}"
-        row = rows.get(claim["id"], found)
-        for field in sorted({*found, *row}):
-            ours, theirs = found.get(field), row.get(field)
-            if ours != theirs or type(ours) is not type(theirs):
-                yield (
-                    f"claim {claim['id']}: {field} is {theirs!r} in {CLAIMS}, and {ours!r} by the "
-                    "ledger and the findings"
-                )
+def main(root: Path = Path()) -> tuple[list[str], list[str]]:
+    """Return the tallies of the published claims, and what is wrong with the edition."""
+    return recheck(lambda folder, findings: [*evidence(folder, findings), *equations(folder)], root)
 
 
 def equations(folder: Path) -> Iterator[str]:
@@ -136,57 +108,6 @@ def _differs(rule: str, name: str, key: str, expected: Any, findings: Findings) 
             f"findings/{rule}.json: {name}.{key} is {found}, and {expected:.9g} by the published "
             "table that it was drawn from"
         )
-
-
-def pages(root: Path, rows: list[dict]) -> Iterator[str]:
-    """Yield the first line of docs/verdicts.md, and of the README, that is not that of the rows."""
-    readme = (root / "README.md").read_text(encoding="utf-8")
-    expected = {
-        "docs/verdicts.md": lambda: verdict_page(rows),
-        "README.md": lambda: with_counts(readme, rows),
-    }
-    for page, made in expected.items():
-        lines = (root / page).read_text(encoding="utf-8").splitlines()
-        try:
-            theirs = made().splitlines()
-        except ValueError as fault:
-            yield f"{page}: {fault}"
-            continue
-        for number, (line, other) in enumerate(zip_longest(lines, theirs), 1):
-            if line != other:
-                yield f"{page}, line {number} is {line!r}; expected {other!r} by the verdicts"
-                break  # the lines below may only be shifted
-
-
-def files(reference: Path) -> Iterator[str]:
-    """Yield the published tables and findings that changed since `make publish` wrote them."""
-    listed = dict(
-        reversed(line.split("  ", 1))
-        for line in (reference / CHECKSUMS).read_text(encoding="utf-8").splitlines()
-    )
-    there = dict(reversed(line.split("  ", 1)) for line in checksums(reference).splitlines())
-    for name in sorted({*listed, *there}):
-        if listed.get(name) != there.get(name):
-            kind = "changed" if name in listed and name in there else "is not in both"
-            yield f"tests/reference/{name} {kind}: held against {CHECKSUMS} of `make publish`"
-
-
-def main(root: Path = Path()) -> tuple[list[str], list[str]]:
-    """Return the tallies of the published claims, and what is wrong with the edition."""
-    config = read_yaml(root / "config" / "config.yaml")
-    studies = [root / "studies" / name / "claims.yaml" for name in config["studies"]]
-    ledger = read_ledger([root / "paper" / "claims.yaml", *studies])
-    reference = root / "tests" / "reference"
-    findings = read_findings((reference / "findings").glob("*.json"))
-    rows = json.loads((root / CLAIMS).read_text(encoding="utf-8"))
-    faults = [
-        *claims(ledger, findings, rows, root),
-        *evidence(reference, findings),
-        *equations(reference),
-        *pages(root, rows),
-        *files(reference),
-    ]
-    return tallies(rows), faults
 
 
 if __name__ == "__main__":

@@ -11,9 +11,9 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from spectrum import progress
 
 from replication.workbench import run, truth
+from steps.spectrum import progress
 from topheavy import Column, Record, RockingFrame, judge, read_record, reference
 
 NUDGE = 1e-9  # of a record: what no measurement resolves

@@ -9,9 +9,9 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from spectra_compared import ORDER, Spectra, finite
 
 from replication.workbench import run, truth
+from steps.spectra_compared import ORDER, Spectra, finite
 
 
 def main(case: dict, solver: dict, table: pd.DataFrame) -> tuple[list[dict], dict]:

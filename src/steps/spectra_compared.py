@@ -12,10 +12,10 @@ from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
-from spectra_shard import line
-from spectrum import search
 
 from replication.workbench import grid, truth
+from steps.spectra_shard import line
+from steps.spectrum import search
 from topheavy import judge, reference
 from topheavy.overturning import Interval
 

@@ -5,9 +5,9 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from spectrum import Line, solve
 
 from replication.workbench import run, truth
+from steps.spectrum import Line, solve
 from topheavy import Column, Pulse, RockingFrame, judge, reference
 
 ROUNDING = 0.004  # of an amplitude: by so much prints of other studies have been found to differ

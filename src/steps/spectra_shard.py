@@ -8,9 +8,9 @@ import itertools
 import math
 
 import pandas as pd
-from spectrum import Line, shard_of, solve
 
 from replication.workbench import grid, run
+from steps.spectrum import Line, shard_of, solve
 from topheavy import Column, Pulse, RockingFrame
 
 

@@ -2,13 +2,14 @@
 
 from importlib.metadata import distributions
 
-MECHANISM = STUDY_CONFIG["mechanism"]
+MECHANISM = PARTS["mechanism"].config
 EXPERIMENTS = ["first_impacts", "rebounds", "verdicts", "slides"]
 
 # The version of the optional engine, a parameter of its rule; None where it is not installed.
 ENGINE = {found.name: found.version for found in distributions()}.get("mujoco-core")
 
-FIGURES |= {
+PARTS["mechanism"].figures.update(
+{
     f"studies/mechanism/figures/{figure}": [f"mechanism_{table}" for table in tables]
     for figure, tables in {
         "forces": ["forces"],
@@ -20,7 +21,8 @@ FIGURES |= {
         "equivalence": ["equivalence", "equivalence_map"],
     }.items()
 }
-FINDINGS += [
+)
+PARTS["mechanism"].findings.extend([
     f"mechanism_{name}"
     for name in (
         "forces",
@@ -31,7 +33,7 @@ FINDINGS += [
         "equivalence",
         *EXPERIMENTS,
     )
-]
+])
 
 
 rule mechanism_forces:
@@ -45,7 +47,7 @@ rule mechanism_forces:
     benchmark:
         "results/benchmarks/mechanism_forces.tsv"
     params:
-        case=study_case("mechanism", "forces"),
+        case=case("forces", "mechanism"),
         cap=MECHANISM["caps"][MECHANISM["forces"]["structure"]],
     message:
         "Study mechanism: the contact forces, proved and in their limits"
@@ -65,7 +67,7 @@ rule mechanism_three_bodies:
     benchmark:
         "results/benchmarks/mechanism_three_bodies.tsv"
     params:
-        case=study_case("mechanism", "three_bodies"),
+        case=case("three_bodies", "mechanism"),
         cap=MECHANISM["caps"][MECHANISM["three_bodies"]["structure"]],
     message:
         "Study mechanism: three bodies beside one degree of freedom"
@@ -84,7 +86,7 @@ rule mechanism_admissible:
     benchmark:
         "results/benchmarks/mechanism_admissible.tsv"
     params:
-        case=study_case("mechanism", "admissible"),
+        case=case("admissible", "mechanism"),
         cap=MECHANISM["caps"][MECHANISM["admissible"]["structure"]],
     message:
         "Study mechanism: where nothing slides and nothing opens"
@@ -103,7 +105,7 @@ rule mechanism_dependence:
     benchmark:
         "results/benchmarks/mechanism_dependence.tsv"
     params:
-        case=study_case("mechanism", "dependence"),
+        case=case("dependence", "mechanism"),
         cap=MECHANISM["caps"][MECHANISM["dependence"]["structure"]],
     message:
         "Study mechanism: the friction that suffices"

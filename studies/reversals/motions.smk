@@ -1,14 +1,14 @@
 """Is a heavier cap always more stable? The half of the study about ground motions."""
 
-FIGURES["studies/reversals/figures/motions_fragility"] = ["reversals_fragility"]
-FIGURES["studies/reversals/figures/motions_gain"] = [
+PARTS["reversals"].figures["studies/reversals/figures/motions_fragility"] = ["reversals_fragility"]
+PARTS["reversals"].figures["studies/reversals/figures/motions_gain"] = [
     "reversals_pairs",
     "reversals_medians",
 ]
-FIGURES["studies/reversals/figures/motions_records"] = ["reversals_records"]
-FINDINGS += ["reversals_records", "reversals_motions", "reversals_check"]
+PARTS["reversals"].figures["studies/reversals/figures/motions_records"] = ["reversals_records"]
+PARTS["reversals"].findings.extend(["reversals_records", "reversals_motions", "reversals_check"])
 
-MOTIONS = study_case("reversals", "motions_ensemble")
+MOTIONS = case("motions_ensemble", "reversals")
 
 
 scattergather:
@@ -20,7 +20,7 @@ rule reversals_records:
         code("studies/reversals/steps/motions_records.py"),
         records=[
             RECORDS[name]
-            for name in study_case("reversals", "motions_records")["records"]
+            for name in case("motions_records", "reversals")["records"]
         ],
     output:
         table="results/tables/reversals_records.csv",
@@ -31,7 +31,7 @@ rule reversals_records:
     benchmark:
         "results/benchmarks/reversals_records.tsv"
     params:
-        case=study_case("reversals", "motions_records"),
+        case=case("motions_records", "reversals"),
         solver=config["solver"],
     message:
         "Study reversals: real records, from uplift to collapse"

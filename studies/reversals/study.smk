@@ -1,17 +1,19 @@
 """Is a heavier cap always more stable? The half about pulses."""
 
 # The grid that is asked for, in place of all that could be.
-REVERSALS = study_case("reversals", "pulses").copy()
+REVERSALS = case("pulses", "reversals").copy()
 REVERSALS |= REVERSALS.pop("grids")[REVERSALS.pop("grid")]
 
-FIGURES |= {
+PARTS["reversals"].figures.update(
+{
     "studies/reversals/figures/where": ["reversals_map", "reversals_areas"],
     "studies/reversals/figures/counterexample": ["reversals_histories"],
     "studies/reversals/figures/lowest": ["reversals_spectra"],
     "studies/reversals/figures/why": ["reversals_map", "reversals_why"],
     "studies/reversals/figures/enough": ["reversals_enough"],
 }
-FINDINGS += ["reversals_pulses", "reversals_enough"]
+)
+PARTS["reversals"].findings.extend(["reversals_pulses", "reversals_enough"])
 
 
 scattergather:
@@ -52,7 +54,7 @@ rule reversals_pulses:
     benchmark:
         "results/benchmarks/reversals_pulses.tsv"
     params:
-        case=REVERSALS | study_case("reversals", "reading"),
+        case=REVERSALS | case("reading", "reversals"),
         solver=config["solver"],
     message:
         "Study reversals: where a heavier cap harms, and why"
@@ -72,7 +74,7 @@ rule reversals_enough:
     benchmark:
         "results/benchmarks/reversals_enough.tsv"
     params:
-        case=REVERSALS | study_case("reversals", "enough"),
+        case=REVERSALS | case("enough", "reversals"),
     message:
         "Study reversals: how heavy a cap is enough"
     script:

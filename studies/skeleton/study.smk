@@ -1,7 +1,7 @@
 """How much amplitude a heavier cap buys, under one pulse: a study to begin with."""
 
-FIGURES["studies/skeleton/figures/gain"] = ["skeleton_gain"]
-FINDINGS.append("skeleton_gain")
+PARTS["skeleton"].figures["studies/skeleton/figures/gain"] = ["skeleton_gain"]
+PARTS["skeleton"].findings.append("skeleton_gain")
 
 
 rule skeleton_gain:
@@ -15,7 +15,7 @@ rule skeleton_gain:
     benchmark:
         "results/benchmarks/skeleton_gain.tsv"
     params:
-        case=study_case("skeleton", "gain"),
+        case=case("gain", "skeleton"),
         solver=config["solver"],
     message:
         "Study skeleton: the lowest amplitude that overturns"

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from faults.kill_table import copy_tree
 from replication.code import code
+from replication.commands.kill_table import copy_tree
 
 ROOT = Path(__file__).parents[2]
 

@@ -19,7 +19,7 @@ from replication.code import code
 FIGURES = {{"figures/line": ["counts"]}}
 
 
-include: "{ROOT}/src/steps/common.smk"
+include: "{ROOT}/src/replication/common.smk"
 
 
 rule all:
@@ -57,7 +57,7 @@ rule figure:
 
 rule claims:
     input:
-        code("src/steps/claims.py"),
+        code("src/replication/rules/claims.py"),
         ledger="ledger.json",
         findings="results/findings/counts.json",
         drawn=[f"{{figure}}.svg" for figure in FIGURES],
@@ -66,7 +66,7 @@ rule claims:
     log:
         "results/logs/claims.log",
     script:
-        "src/steps/claims.py"
+        "src/replication/rules/claims.py"
 
 
 rule manifest:
@@ -159,7 +159,7 @@ def build(root):
         "Snakefile": SNAKEFILE,
         "src/steps/counts.py": COUNTS,
         "src/steps/beside.py": "NUMBER = 1\n",
-        "src/steps/claims.py": CLAIMS,
+        "src/replication/rules/claims.py": CLAIMS,
         "figures/line.py": FIGURE,
         "ledger.json": '"n"',
     }.items():

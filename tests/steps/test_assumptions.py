@@ -6,11 +6,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 import yaml
-from assumptions import choices, rankings, run, trilith
-from assumptions.alternatives import alternatives
-from assumptions.choices import Choices
 from jsonschema import Draft202012Validator
 
+from steps.assumptions import choices, rankings, run, trilith
+from steps.assumptions.alternatives import alternatives
+from steps.assumptions.choices import Choices
 from topheavy import Column, Pulse, Record, RockingFrame, judge
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -5,16 +5,18 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-import restitution
-import rocking_spectra
-import spectra_compared
-import spectra_shard
-import spectrum
-import stability
-import trilith
 import yaml
-from spectra_compared import Spectra
 
+from steps import (
+    restitution,
+    rocking_spectra,
+    spectra_compared,
+    spectra_shard,
+    spectrum,
+    stability,
+    trilith,
+)
+from steps.spectra_compared import Spectra
 from topheavy import Column, Record, RockingFrame
 from topheavy.overturning import Interval
 
@@ -188,8 +190,7 @@ def test_anomalies_that_are_large_enough_lift_the_trilith():
 
 
 def test_statement_that_no_mend_saves_is_not_meant(monkeypatch):
-    import equations
-
+    from steps import equations
     from topheavy.derivation import PrintedCheck
 
     lost = PrintedCheck("eq1", 1, "", "a = b", False, meant="a = a", meant_follows=True)

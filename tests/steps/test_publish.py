@@ -3,7 +3,8 @@
 import re
 
 import pytest
-from publish import (
+
+from steps.publish import (
     checksums,
     count_table,
     main,

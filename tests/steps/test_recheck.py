@@ -8,10 +8,11 @@ from pathlib import Path
 import pandas as pd
 import pytest
 import yaml
-from claims import read_findings
-from ledger import judged, read_ledger
-from publish import count_table, verdict_page
-from recheck import claims, equations, files, main, pages
+
+from replication.ledger import judged, read_ledger
+from replication.rules.claims import read_findings
+from steps.publish import count_table, verdict_page
+from steps.recheck import claims, equations, files, main, pages
 
 ROOT = Path(__file__).resolve().parents[2]
 CLAIM = {

@@ -3,8 +3,9 @@
 import numpy as np
 import pandas as pd
 import pytest
-import spectra_shard
-from spectra_compared import Place, Spectra, inside, length, overlap
+
+from steps import spectra_shard
+from steps.spectra_compared import Place, Spectra, inside, length, overlap
 
 CASE = {
     "slendernesses": [14.0],

@@ -5,8 +5,9 @@ from pathlib import Path
 
 import pytest
 import yaml
-from configuration import check_config
-from spectra_dimensional import lines, mass_ratio
+
+from replication.configuration import check_config
+from steps.spectra_dimensional import lines, mass_ratio
 
 ROOT = Path(__file__).resolve().parents[2]
 CONFIG = yaml.safe_load((ROOT / "config" / "config.yaml").read_text(encoding="utf-8"))

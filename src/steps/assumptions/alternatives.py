@@ -1,6 +1,6 @@
 """The alternatives of paper/assumptions.yaml, with the numbers of config/config.yaml."""
 
-from assumptions.choices import (
+from steps.assumptions.choices import (
     Choices,
     after,
     beyond_slenderness,

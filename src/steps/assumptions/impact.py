@@ -5,9 +5,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from assumptions.choices import Choices
-from assumptions.quantity import Cases, Found, Quantity
 from replication.workbench import grid, truth
+from steps.assumptions.choices import Choices
+from steps.assumptions.quantity import Cases, Found, Quantity
 from topheavy import Column, Pulse, RockingFrame, judge
 from topheavy.massless_columns import SIMPLIFICATIONS, simplified
 

@@ -7,9 +7,9 @@ from itertools import pairwise
 
 import numpy as np
 
-from assumptions.choices import Choices, Structure
-from assumptions.quantity import Cases, Found, Quantity
 from replication.workbench import truth
+from steps.assumptions.choices import Choices, Structure
+from steps.assumptions.quantity import Cases, Found, Quantity
 from topheavy import Column, Pulse, RockingFrame, judge, simulate
 
 STEP = 0.05  # of the pulse's amplitude: of the factors among which the lowest is sought

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from typing import Any, NamedTuple, TypeAlias
 
-from assumptions.choices import Choices
+from steps.assumptions.choices import Choices
 
 Cases: TypeAlias = dict[str, Any]
 """The sections of the config, by name, and the records."""

@@ -6,12 +6,12 @@ from functools import cache, partial
 from itertools import combinations, pairwise
 
 import numpy as np
-from stability import Trial, orders
 
-from assumptions.choices import Choices, beyond_slenderness, by_energy
-from assumptions.pulses import similar
-from assumptions.quantity import Cases, Found, Quantity
 from replication.workbench import grid, truth
+from steps.assumptions.choices import Choices, beyond_slenderness, by_energy
+from steps.assumptions.pulses import similar
+from steps.assumptions.quantity import Cases, Found, Quantity
+from steps.stability import Trial, orders
 from topheavy import Column, Pulse, RockingFrame, judge, overturning_map
 
 FINER = 0.001  # g tan α: between amplitudes on the map, where a band may be narrow

@@ -10,15 +10,14 @@ from dataclasses import replace
 from functools import cache
 from typing import Any
 
-from strict_yaml import read_yaml
-
-from assumptions import impact, pulses, rankings, trilith
-from assumptions.alternatives import alternatives
-from assumptions.choices import Choices
-from assumptions.quantity import Cases
+from replication.strict_yaml import read_yaml
+from replication.verdicts import verdict_on
 from replication.workbench import run
+from steps.assumptions import impact, pulses, rankings, trilith
+from steps.assumptions.alternatives import alternatives
+from steps.assumptions.choices import Choices
+from steps.assumptions.quantity import Cases
 from topheavy import read_record
-from topheavy.claims import judge as judge_claim
 
 QUANTITIES = trilith.QUANTITIES | pulses.QUANTITIES | rankings.QUANTITIES | impact.QUANTITIES
 
@@ -32,8 +31,8 @@ def main(assumptions: list[dict], ledger: dict[str, dict], cases: Cases, tighten
         finer = replace(choices, tolerance=tightened, samples=2 * choices.samples - 1)
         first, again = (QUANTITIES[name].find(option, cases) for option in (choices, finer))
         claim = ledger.get(QUANTITIES[name].claim or "", {"id": name})
-        verdict = judge_claim(claim, first.finding)
-        if verdict != judge_claim(claim, again.finding):
+        verdict = verdict_on(claim, first.finding)
+        if verdict != verdict_on(claim, again.finding):
             raise ArithmeticError(f"{name}, {choices}: the verdict hangs on the tolerance")
         told = math.isfinite(first.number) or math.isfinite(again.number)
         return first.number, abs(first.number - again.number) if told else 0.0, verdict

@@ -4,9 +4,9 @@ from functools import partial
 
 import numpy as np
 
-from assumptions.choices import Choices
-from assumptions.quantity import Cases, Found, Quantity
 from replication.workbench import truth, value
+from steps.assumptions.choices import Choices
+from steps.assumptions.quantity import Cases, Found, Quantity
 from topheavy import Column, RockingBlock, RockingFrame, simulate
 from topheavy.derivation.mends import mended_quotient
 from topheavy.shaking_table import abrupt_start, table_acceleration, table_motion

@@ -1,7 +1,9 @@
 """Which friction lets a frame rock as assumed, over frequency and amplitude of a pulse."""
 
-from drawing import ACCENT, DOUBLE, INK, amplitude_axis, gamma, letter, note, publish, sheet
 from matplotlib.colors import BoundaryNorm, LinearSegmentedColormap
+
+from figures.drawing import amplitude_axis, gamma
+from replication.drawing import ACCENT, DOUBLE, INK, letter, note, publish, sheet
 
 LEVELS = [1.0, 1.2, 1.5, 2.0, 3.0, 4.0, 6.0]  # of tan α
 OVERTURNED = {"facecolor": "#efece6", "edgecolor": "#a8a49c", "hatch": "////////"}

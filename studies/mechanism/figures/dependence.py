@@ -1,7 +1,9 @@
 """The friction that suffices, over γ, slenderness, bay and depth of the cap; and under records."""
 
 import numpy as np
-from drawing import ACCENT, DARK, DOUBLE, GREY, INK, LIGHT, gamma, letter, note, publish, sheet
+
+from figures.drawing import gamma
+from replication.drawing import ACCENT, DARK, DOUBLE, GREY, INK, LIGHT, letter, note, publish, sheet
 
 LABELS = {
     "mass_ratio": r"Mass ratio, $\gamma$ (–)",

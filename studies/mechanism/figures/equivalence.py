@@ -1,7 +1,20 @@
 """The frame beside its equivalent column, which loses what Housner says: where verdicts differ."""
 
-from drawing import ACCENT, DARK, DOUBLE, GREY, LIGHT, PULSES, letter, note, publish, shades, sheet
 from matplotlib.colors import ListedColormap
+
+from figures.drawing import PULSES
+from replication.drawing import (
+    ACCENT,
+    DARK,
+    DOUBLE,
+    GREY,
+    LIGHT,
+    letter,
+    note,
+    publish,
+    shades,
+    sheet,
+)
 
 
 def draw(mechanism_equivalence, mechanism_equivalence_map):

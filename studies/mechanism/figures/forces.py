@@ -1,6 +1,6 @@
 """The forces at the four contacts over one history, and the friction that they ask for."""
 
-from drawing import ACCENT, DARK, DOUBLE, GREY, INK, letter, note, publish, sheet
+from replication.drawing import ACCENT, DARK, DOUBLE, GREY, INK, letter, note, publish, sheet
 
 LINES = {  # contact: label, colour, dashes
     "base_left": ("left foot", DARK, "-"),

@@ -1,7 +1,7 @@
 """MuJoCo beside the theory: the time of the first impact, and what it leaves of the speed."""
 
-from drawing import ACCENT, DARK, DOUBLE, GREY, gamma, letter, note, publish, shades, sheet
-
+from figures.drawing import gamma
+from replication.drawing import ACCENT, DARK, DOUBLE, GREY, letter, note, publish, shades, sheet
 from studies.mechanism.figures.marks import untested
 
 STYLES = ("o-", "s--", "^-.", "D:")

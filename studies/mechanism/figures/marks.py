@@ -2,7 +2,7 @@
 
 import textwrap
 
-from drawing import GREY, note
+from replication.drawing import GREY, note
 
 
 def untested(axis, table) -> bool:

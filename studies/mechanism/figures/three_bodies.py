@@ -1,6 +1,7 @@
 """How far three bodies by Newton and Euler are from one degree of freedom."""
 
-from drawing import ACCENT, DOUBLE, INK, PULSES, letter, publish, shades, sheet
+from figures.drawing import PULSES
+from replication.drawing import ACCENT, DOUBLE, INK, letter, publish, shades, sheet
 
 PANELS = {
     "rotation_apart": r"Rotation, over $\alpha$",

@@ -1,8 +1,20 @@
 """MuJoCo beside the theory: which pulses overturn, and how much friction keeps from sliding."""
 
 import numpy as np
-from drawing import ACCENT, DARK, DOUBLE, GREY, LIGHT, gamma, letter, note, publish, shades, sheet
 
+from figures.drawing import gamma
+from replication.drawing import (
+    ACCENT,
+    DARK,
+    DOUBLE,
+    GREY,
+    LIGHT,
+    letter,
+    note,
+    publish,
+    shades,
+    sheet,
+)
 from studies.mechanism.figures.marks import untested
 
 SHAPES = {"one-sine": "sine", "ricker-symmetric": "Ricker"}

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pandas as pd
-from spectra_compared import without
 
 from replication.workbench import truth
+from steps.spectra_compared import without
 from studies.mechanism.steps.engine import Motion, slips
 from studies.mechanism.steps.rigs import (
     FALLEN,

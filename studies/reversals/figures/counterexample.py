@@ -1,8 +1,7 @@
 """A pulse that the solitary column survives and massless columns do not."""
 
-from drawing import DOUBLE, GREY, INK, note, publish, sheet
-
 from figures.heavier import history
+from replication.drawing import DOUBLE, GREY, INK, note, publish, sheet
 
 
 def draw(reversals_histories):

@@ -1,7 +1,9 @@
 """The γ that brings half, nine tenths and 99 % of what massless columns gain."""
 
 import numpy as np
-from drawing import ACCENT, DARK, DOUBLE, GREY, PULSES, note, publish, sheet
+
+from figures.drawing import PULSES
+from replication.drawing import ACCENT, DARK, DOUBLE, GREY, note, publish, sheet
 
 QUANTILES = [0.0, 0.25, 0.5, 0.75, 1.0]
 

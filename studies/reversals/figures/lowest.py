@@ -1,7 +1,9 @@
 """How much higher the lowest amplitude that overturns is under a heavier cap."""
 
 import numpy as np
-from drawing import DOUBLE, GREY, PULSES, gamma, note, publish, shades, sheet
+
+from figures.drawing import PULSES, gamma
+from replication.drawing import DOUBLE, GREY, note, publish, shades, sheet
 
 
 def draw(reversals_spectra):

@@ -2,7 +2,8 @@
 
 import math
 
-from drawing import DOUBLE, GREY, INK, gamma, letter, note, publish, shades, sheet
+from figures.drawing import gamma
+from replication.drawing import DOUBLE, GREY, INK, letter, note, publish, shades, sheet
 
 STRUCTURE = "temple"
 FAMILIES = ("near-fault", "broadband")

@@ -3,8 +3,9 @@
 import math
 
 import numpy as np
-from drawing import ACCENT, DARK, DOUBLE, GREY, INK, gamma, letter, note, publish, sheet
 
+from figures.drawing import gamma
+from replication.drawing import ACCENT, DARK, DOUBLE, GREY, INK, letter, note, publish, sheet
 from studies.reversals.fragility import share_of_size
 
 STRUCTURE = "temple"

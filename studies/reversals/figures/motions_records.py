@@ -1,9 +1,10 @@
 """Real records from uplift to collapse: where the solitary or the capped columns fall alone."""
 
 import numpy as np
-from drawing import ACCENT, DARK, DOUBLE, RECORDS, letter, note, publish, sheet
 from matplotlib.colors import ListedColormap
 
+from figures.drawing import RECORDS
+from replication.drawing import ACCENT, DARK, DOUBLE, letter, note, publish, sheet
 from studies.reversals.outcomes import FALLS, UNTOLD, read
 
 CASES = {  # what becomes of the column, and of it under massless columns' cap

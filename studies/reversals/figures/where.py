@@ -1,12 +1,13 @@
 """Where massless columns fall and the solitary column stands, and how often, for every pair."""
 
 import numpy as np
-from drawing import (
+
+from figures.drawing import PULSES
+from replication.drawing import (
     ACCENT,
     DOUBLE,
     GREY,
     LIGHT,
-    PULSES,
     STONE,
     letter,
     note,

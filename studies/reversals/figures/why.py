@@ -1,7 +1,7 @@
 """The lower p̂ and the lower √r of massless columns, apart and together."""
 
-from drawing import ACCENT, DOUBLE, PULSES, note, publish, sheet
-
+from figures.drawing import PULSES
+from replication.drawing import ACCENT, DOUBLE, note, publish, sheet
 from studies.reversals.figures.where import map_axis
 
 ROWS = {

@@ -4,10 +4,10 @@ import math
 
 import pandas as pd
 from scipy.optimize import brentq
-from spectra_compared import Place, Spectra
-from spectrum import progress, search
 
 from replication.workbench import run, truth, value
+from steps.spectra_compared import Place, Spectra
+from steps.spectrum import progress, search
 
 CLOSE = 1e-6  # of the gain in R̂: how closely the γ is sought
 FINE = 0.01  # of the gain in amplitude: the resolution of the search

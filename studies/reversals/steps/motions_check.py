@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from rocking_spectra import NUDGE
-from spectrum import progress
 
 from replication.workbench import run, truth
+from steps.rocking_spectra import NUDGE
+from steps.spectrum import progress
 from studies.reversals.ensemble import draws, factors, intensities, subjects
 from studies.reversals.outcomes import FALLS, STANDS, read
 from topheavy import Record, overturned_by, reference

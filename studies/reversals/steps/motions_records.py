@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from rocking_spectra import NUDGE
-from spectrum import progress
 
 from replication.workbench import run, truth
+from steps.rocking_spectra import NUDGE
+from steps.spectrum import progress
 from studies.reversals.outcomes import FALLS, STANDS, UNTOLD, read, written
 from topheavy import Column, Record, RockingFrame, overturned_by, read_record, reference
 

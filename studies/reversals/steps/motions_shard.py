@@ -3,9 +3,9 @@
 from typing import Any
 
 import pandas as pd
-from spectrum import progress
 
 from replication.workbench import run
+from steps.spectrum import progress
 from studies.reversals.ensemble import Draw, Subject, draws, factors, intensities, subjects
 from studies.reversals.outcomes import written
 from topheavy import overturned_by

@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from spectra_compared import ORDER, Place, Spectra, finite, without
-from spectrum import solve
 
 from replication.workbench import run, truth, value
+from steps.spectra_compared import ORDER, Place, Spectra, finite, without
+from steps.spectrum import solve
 from studies.reversals.steps.pulses_shard import CHANGES, lines
 from topheavy import simulate
 from topheavy.linear import simulate_linear_exact

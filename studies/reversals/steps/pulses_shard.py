@@ -6,10 +6,10 @@ Each frame is taken whole, and with only its p̂ or only its √r put in place o
 from itertools import product
 
 import pandas as pd
-from spectra_shard import line
-from spectrum import Line, shard_of, solve
 
 from replication.workbench import grid, run
+from steps.spectra_shard import line
+from steps.spectrum import Line, shard_of, solve
 from topheavy import RockingBlock
 
 CHANGES = ("both", "size", "restitution")

@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pandas as pd
 import pytest
-from spectra_compared import Spectra
 
+from steps.spectra_compared import Spectra
 from studies.reversals import fragility
 from studies.reversals.ensemble import factors, subjects
 from studies.reversals.steps import motions_fragility, motions_records, pulses

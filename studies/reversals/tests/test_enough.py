@@ -3,9 +3,9 @@
 import math
 
 import pytest
-from spectra_compared import Place
-from spectrum import search
 
+from steps.spectra_compared import Place
+from steps.spectrum import search
 from studies.reversals.steps.enough import (
     mass_ratio,
     size_gain_needed,

@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 import pytest
-from spectra_compared import Spectra, without
-from spectrum import solve
 
+from steps.spectra_compared import Spectra, without
+from steps.spectrum import solve
 from studies.reversals.steps import pulses
 from studies.reversals.steps.pulses_shard import CHANGES, changed, changed_line, lines
 from topheavy import Column, RockingFrame

@@ -1,6 +1,7 @@
 """The lowest amplitude that overturns, under heavier and heavier caps."""
 
-from drawing import INK, SINGLE, gamma, publish, shades, sheet
+from figures.drawing import gamma
+from replication.drawing import INK, SINGLE, publish, shades, sheet
 
 
 def draw(skeleton_gain):

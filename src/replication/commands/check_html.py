@@ -1,0 +1,232 @@
+"""Open the HTML report in a browser and look at every result in it: the end of `make html`.
+
+The browser is driven by its own DevTools protocol. Its names resolve to nothing, so that
+a page that asks the network gets nothing, and DevTools tells of its requests.
+"""
+
+import asyncio
+import base64
+import json
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterable
+from pathlib import Path
+
+from tornado.websocket import WebSocketClientConnection, websocket_connect
+
+from replication.captions import caption_files, read_captions
+from replication.strict_yaml import read_yaml
+
+BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
+OPTIONS = (
+    "--headless",
+    "--no-sandbox",
+    "--disable-gpu",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--remote-debugging-port=0",
+    "--window-size=1600,1000",
+)
+NO_NETWORK = "--host-resolver-rules=MAP * ~NOTFOUND"
+LOCAL = ("file:", "data:", "blob:", "about:", "chrome-extension:", "chrome:")
+PATIENCE = 60.0  # s, for one answer of the browser
+LARGEST_MESSAGE = 2**28  # bytes
+
+# What is done in the page: the clicks of a reader, and what is then on the screen.
+RESULTS = "Object.entries(results).map(([path, entry]) => [path, entry.data_uri, entry.caption])"
+HOME = "document.querySelector('nav nav a').click()"
+MENU = "[...document.querySelectorAll('nav li a')].find(a => a.textContent === {0}).click()"
+ROWS = "[...document.querySelectorAll('nav tbody tr')].map(row => row.cells[0].textContent)"
+BUTTONS = "document.querySelectorAll('nav tbody tr')[{0}].querySelectorAll('td:last-child a')"
+EYE, INFO = f"{BUTTONS}[0].click()", f"{BUTTONS}[1].click()"
+SHOWN = """new Promise(resolve => {
+  const deadline = Date.now() + 5000;
+  const look = () => {
+    const found = document.querySelector('#app img:not(nav img)');
+    const box = found && found.getBoundingClientRect();
+    const size = found && [found.complete && found.naturalWidth, box.width, box.height];
+    if ((found && Math.min(...size) > 0) || Date.now() > deadline)
+      resolve(found && [found.src, ...size.map(Number)]);
+    else setTimeout(look, 50);
+  };
+  setTimeout(look, 50);
+})"""
+DESCRIPTION = "document.querySelector('nav .prose').textContent"
+
+
+class Tab:
+    """A tab of a headless browser, and what went wrong in it."""
+
+    def __init__(self, socket: WebSocketClientConnection):
+        self.socket, self.session, self.count = socket, {}, 0
+        self.requests: list[str] = []
+        self.errors: list[str] = []
+        self.loaded = False
+
+    async def ask(self, method: str, **params):
+        """Send a command and return its result; events that come first are noted."""
+        self.count += 1
+        number = self.count
+        await self.socket.write_message(
+            json.dumps({"id": number, "method": method, "params": params} | self.session)
+        )
+        while True:
+            answer = await self.next_message()
+            if answer.get("id") == number:
+                if "error" in answer:
+                    raise RuntimeError(f"{method}: {answer['error']['message']}")
+                return answer["result"]
+
+    async def next_message(self) -> dict:
+        text = await asyncio.wait_for(self.socket.read_message(), PATIENCE)
+        if text is None:
+            raise RuntimeError("the browser closed the connection")
+        message = json.loads(text)
+        self.note(message.get("method"), message.get("params", {}))
+        return message
+
+    def note(self, event: str | None, params: dict) -> None:
+        """Keep what an event tells of errors and of requests to the network."""
+        if event == "Network.requestWillBeSent":
+            url = params["request"]["url"]
+            if not url.startswith(LOCAL):
+                self.requests.append(url)
+        elif event == "Runtime.exceptionThrown":
+            details = params["exceptionDetails"]
+            self.errors.append(details.get("exception", {}).get("description") or details["text"])
+        elif event == "Runtime.consoleAPICalled" and params["type"] in ("error", "assert"):
+            self.errors.append(" ".join(str(arg.get("value")) for arg in params["args"]))
+        elif event == "Log.entryAdded" and params["entry"]["level"] == "error":
+            self.errors.append(params["entry"]["text"])
+        elif event == "Page.loadEventFired":
+            self.loaded = True
+
+    async def open(self, url: str) -> None:
+        target = (await self.ask("Target.createTarget", url="about:blank"))["targetId"]
+        attached = await self.ask("Target.attachToTarget", targetId=target, flatten=True)
+        self.session = {"sessionId": attached["sessionId"]}
+        for domain in ("Runtime", "Log", "Network", "Page"):
+            await self.ask(f"{domain}.enable")
+        await self.ask("Page.navigate", url=url)
+        while not self.loaded:
+            await self.next_message()
+
+    async def do(self, script: str, *values):
+        """Evaluate a script of the page, with values put in as JSON, and return what it gives."""
+        for place, given in enumerate(values):
+            script = script.replace(f"{{{place}}}", json.dumps(given))
+        answer = await self.ask(
+            "Runtime.evaluate", expression=script, awaitPromise=True, returnByValue=True
+        )
+        if "exceptionDetails" in answer:
+            thrown = answer["exceptionDetails"]["exception"]
+            raise RuntimeError(f"{script}: {thrown['description']}")
+        return answer["result"].get("value")
+
+    async def leave(self) -> None:
+        """Close the connection, and wait until it is closed."""
+        self.socket.close()
+        while await self.socket.read_message() is not None:
+            pass
+
+    async def picture(self, path: Path) -> None:
+        data = (await self.ask("Page.captureScreenshot", format="png"))["data"]
+        path.write_bytes(base64.b64decode(data))
+
+
+async def look(tab: Tab, page: Path, captions: dict[str, dict], pictures: Path | None) -> list[str]:
+    """Look at every captioned result as a reader does, and return the faults that were found."""
+    await tab.open(page.resolve().as_uri())
+    held = {path: (uri, caption) for path, uri, caption in await tab.do(RESULTS)}
+    faults = [f"{path} is not in the report" for path in sorted(set(captions) - set(held))]
+    faults += [f"{path} has no caption" for path in sorted(set(held) - set(captions))]
+    for path in sorted(set(held) & set(captions)):
+        uri, caption = held[path]
+        if base64.b64decode(uri.partition("base64,")[2]) != Path(path).read_bytes():
+            faults.append(f"{path} in the report is not what the workflow wrote")
+        if "system-message" in caption:
+            faults.append(f"the caption of {path} is no sound reStructuredText")
+    for number, path in enumerate(sorted(set(held) & set(captions))):
+        entry = captions[path]
+        await tab.do(HOME)
+        await tab.do(MENU, entry["category"])
+        rows = await tab.do(ROWS)
+        mine = [place for place, text in enumerate(rows) if text.startswith(f"{entry['title']}: ")]
+        if len(mine) != 1:
+            faults.append(f"{path} has {len(mine)} rows in its category; expected one")
+            continue
+        await tab.do(EYE, mine[0])
+        seen = await tab.do(SHOWN)
+        if seen is None or seen[0] != held[path][0]:
+            faults.append(f"{path} is not displayed")
+        elif not min(seen[1:]) > 0:
+            faults.append(f"{path} is displayed without a size: {seen[1:]}")
+        await tab.do(INFO, mine[0])
+        said = " ".join((await tab.do(DESCRIPTION)).split())
+        if " ".join(entry["caption"].split()) not in said:
+            faults.append(f"the caption of {path} is not displayed")
+        if pictures is not None:
+            await tab.picture(pictures / f"{number:02d}_{Path(path).stem}.png")
+    return faults
+
+
+async def inspect(
+    browser: str, page: Path, captions: dict[str, dict], pictures: Path | None = None
+) -> list[str]:
+    """Open the page in a browser and return every fault, errors and requests included."""
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
+        process = subprocess.Popen(
+            [browser, *OPTIONS, NO_NETWORK, f"--user-data-dir={profile}", "about:blank"],
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
+        try:
+            port, path = await address(Path(profile, "DevToolsActivePort"), process)
+            socket = await websocket_connect(
+                f"ws://127.0.0.1:{port}{path}", max_message_size=LARGEST_MESSAGE
+            )
+            tab = Tab(socket)
+            faults = await look(tab, page, captions, pictures)
+            await tab.leave()
+        finally:
+            process.terminate()
+            process.wait()
+    faults += [f"asks the network for {url}" for url in dict.fromkeys(tab.requests)]
+    return faults + [f"error in the console: {error}" for error in dict.fromkeys(tab.errors)]
+
+
+async def address(file: Path, process: subprocess.Popen) -> list[str]:
+    """Wait for the browser to say on which port and path it listens."""
+    for _ in range(round(PATIENCE / 0.1)):
+        if file.exists() and len(lines := file.read_text(encoding="utf-8").split()) == 2:
+            return lines
+        if process.poll() is not None:
+            raise RuntimeError(f"the browser ended at once, with {process.returncode}")
+        await asyncio.sleep(0.1)
+    raise RuntimeError(f"the browser did not say within {PATIENCE:.0f} s where it listens")
+
+
+def find_browser(names: Iterable[str] = BROWSERS) -> str | None:
+    """Return the first Chromium or Chrome on the PATH."""
+    return next(filter(None, map(shutil.which, names)), None)
+
+
+def main(page: Path, captions: dict[str, dict], pictures: Path | None = None) -> None:
+    browser = find_browser()
+    if browser is None:
+        print(f"{page}: made, but not looked at: none of {', '.join(BROWSERS)} is on the PATH")
+        return
+    faults = asyncio.run(inspect(browser, page, captions, pictures))
+    if faults:
+        raise SystemExit("\n".join(f"{page}: {fault}" for fault in faults))
+    print(f"{page}: {len(captions)} results displayed, no error, no request to the network")
+
+
+if __name__ == "__main__":
+    page, *pictures = map(Path, sys.argv[1:])
+    config = read_yaml("config/config.yaml")
+    main(page, read_captions(caption_files(config)), *pictures)

@@ -1,0 +1,185 @@
+"""From a number, table, figure or claim back to the paper and the inputs: `make trace ITEM=…`.
+
+The chain is Snakemake's: its jobs, and the records that it keeps of how they were run.
+"""
+
+import difflib
+import json
+import signal
+import sys
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path
+from typing import Any
+
+from replication.citations import cite, library_names, printed_list
+from replication.ledger import finding_of
+from replication.provenance import Job, checksum, makers, workflow_jobs
+from replication.rules.claim import verdict_line
+from replication.verdicts import verdict_on
+
+ROOT = Path(__file__).parents[2]
+"""The repository, from which the places in the library are told."""
+
+
+MOST_MATCHES = 6
+"""So many names are suggested for one that is unknown."""
+
+
+@dataclass(frozen=True)
+class Item:
+    """What is asked for: a file, and perhaps one finding in it and the claims judged by that."""
+
+    path: str | None
+    key: str | None = None
+    claims: tuple[Mapping[str, Any], ...] = ()
+
+
+def find(
+    name: str, jobs: Sequence[Job], ledger: Sequence[Mapping[str, Any]], root: Path = Path()
+) -> Item:
+    """Return what a name stands for.
+
+    It may be an output or the end of its path, a claim, or a finding: `heavier.rises`, or with its
+    file, `findings/heavier.json:rises`.
+
+    Raises
+    ------
+    ValueError
+        When it stands for nothing, or for several outputs; the message has close matches.
+    """
+    made = makers(jobs)
+    findings = {Path(path).stem: path for job in jobs for path in job.findings}
+    for claim in ledger:
+        if name in (claim["id"], f"claim_{claim['id']}"):
+            return Item(findings.get(claim.get("rule", "")), claim.get("finding"), (claim,))
+
+    outputs = sorted(path for path in made if Path(path).match(name))
+    if len(outputs) > 1:
+        raise ValueError(f"{name} is the end of several paths: {', '.join(outputs)}")
+    for path in outputs:  # one or none
+        return Item(path, claims=_judged_by(ledger, [r for r, p in findings.items() if p == path]))
+    if users := sorted({job.rule for job in jobs if name in (*job.inputs, *job.scripts)}):
+        raise ValueError(f"{name} is made by no rule; it goes into {', '.join(users)}")
+
+    place, _, key = name.partition(":" if ":" in name else ".")
+    known = [*made, *(claim["id"] for claim in ledger)]
+    for rule, path in findings.items():
+        asked = place == rule or (place != "" and Path(path).match(place))
+        if (root / path).exists():
+            keys = json.loads((root / path).read_text(encoding="utf-8"))
+            for found in keys if asked else ():
+                if f"{key}.".startswith(f"{found}."):  # the finding, or an entry of it
+                    return Item(path, found, _judged_by(ledger, [rule], found))
+            known += [f"{rule}.{key}" for key in keys]
+        elif asked:
+            raise ValueError(f"{path} is not made yet; expected a finished run: make reproduce")
+    close = _close(name, known)
+    hint = f"did you mean {' or '.join(close)}?" if close else "expected a file, claim or finding"
+    raise ValueError(f"no output, claim or finding is called {name!r}; {hint}")
+
+
+def _close(name: str, known: Iterable[str]) -> list[str]:
+    """Return the names that begin like this one, then those that resemble it."""
+    names = sorted(set(known))
+    begins = [other for other in names if name and other.startswith(name)]
+    alike = difflib.get_close_matches(name, names, n=3, cutoff=0.5)
+    return list(dict.fromkeys([*begins, *alike]))[:MOST_MATCHES]
+
+
+def chain(item: Item, jobs: Sequence[Job], root: Path = Path()) -> Iterator[str]:
+    """Yield the lines from what is asked for back to the inputs."""
+    made = makers(jobs)
+    for claim in item.claims:
+        yield from _claim_lines(claim, item.path, root)
+    if item.path is None:
+        return
+    if item.key and (root / item.path).exists():
+        found = json.loads((root / item.path).read_text(encoding="utf-8"))[item.key]
+        yield f"{item.key} = {json.dumps(found, ensure_ascii=False)}"
+    if item.claims or item.key:
+        yield ""
+    waiting, told = [item.path], set()
+    while waiting:
+        job = made[waiting.pop(0)]
+        if job.outputs in told:
+            continue
+        if told:
+            yield ""
+        told.add(job.outputs)
+        yield from _job_lines(job, made, root)
+        waiting += [path for path in job.inputs if path in made]
+
+
+def _claim_lines(claim: Mapping[str, Any], path: str | None, root: Path) -> Iterator[str]:
+    yield f"claim {claim['id']}: {claim['statement']}"
+    yield f"  paper     {claim['where']}"
+    if "function" in claim:
+        yield f"  function  {_cited(claim['function'])}"
+    if path and (root / path).exists():
+        findings = json.loads((root / path).read_text(encoding="utf-8"))
+        finding = finding_of(claim, findings)
+        yield f"  verdict   {verdict_line(claim, finding, verdict_on(claim, finding))}"
+    elif path is None:
+        yield f"  verdict   {verdict_line(claim, None, verdict_on(claim, None))}"
+
+
+def _job_lines(job: Job, made: Mapping[str, Job], root: Path) -> Iterator[str]:
+    for path in job.outputs:
+        yield f"{path}  {_digest(path, root)}"
+    yield f"  rule      {job.rule}, {job.place}; {_state(job)}"
+    for script in job.scripts:
+        yield f"  script    {script}  {_digest(script, root)}"
+        for name in library_names(root / script):
+            yield f"  function  {_cited(name)}"
+    for name, value in job.params.items():
+        yield f"  config    {name}: {json.dumps(value, ensure_ascii=False, default=str)}"
+    for path in sorted(job.inputs, key=lambda path: (path not in made, path)):
+        digest = _digest(path, root)
+        before = job.checksums.get(path)
+        changed = before and (root / path).exists() and before != checksum(root / path)
+        source = f"  from rule {made[path].rule}" if path in made else ""
+        yield f"  input     {path}  {digest}{source}{'  CHANGED since' if changed else ''}"
+
+
+def _state(job: Job) -> str:
+    if job.made is None:
+        return "not made yet"
+    when = datetime.fromtimestamp(job.made).strftime("%Y-%m-%d %H:%M:%S")
+    return f"made {when}, {'OUT OF DATE' if job.pending else 'up to date'}"
+
+
+def _cited(name: str) -> str:
+    citation = cite(name, ROOT)
+    equations = f"  {printed_list(citation.reached)}" if citation.reached else ""
+    return f"{name}  {citation.place}{equations}"
+
+
+def _digest(path: str, root: Path) -> str:
+    return f"sha256 {checksum(root / path)[:16]}" if (root / path).is_file() else "not there"
+
+
+def _judged_by(
+    ledger: Iterable[Mapping[str, Any]], rules: Iterable[str], key: str | None = None
+) -> tuple[Mapping[str, Any], ...]:
+    """Return the claims that a finding of these rules judges, or that this finding does."""
+    return tuple(
+        claim for claim in ledger if claim.get("rule") in rules and key in (None, claim["finding"])
+    )
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 2 or not sys.argv[1]:
+        sys.exit(
+            "expected one item, an output, claim or finding: make trace ITEM=figures/heavier.svg"
+        )
+    sys.stdout.reconfigure(errors="replace")  # a terminal may know no Greek letters
+    signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # `| head` may stop reading
+    try:
+        jobs = workflow_jobs()
+        ledger = [job.params["claim"] for job in jobs if "claim" in job.params]
+        lines = list(chain(find(sys.argv[1], jobs, ledger), jobs))
+    except (OSError, ValueError) as fault:  # of the config and the folder, too
+        sys.exit(str(fault))
+    print("\n".join(lines))

@@ -1,0 +1,53 @@
+"""Is the tree what the run left? Every file against results/manifest.json: `make verify`."""
+
+import json
+import sys
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from replication.provenance import checksum
+
+MANIFEST = "results/manifest.json"
+
+
+def main(manifest: Mapping[str, Any], root: Path = Path()) -> list[str]:
+    """Return a line for each file that is missing, that changed, or that no rule made."""
+    faults = []
+    for path, entry in manifest["outputs"].items():
+        if not (root / path).is_file():
+            faults.append(f"{path} is missing; rule {entry['rule']} makes it")
+        elif (found := checksum(root / path)) != entry["sha256"]:
+            faults.append(
+                f"{path} changed after rule {entry['rule']} made it: its SHA-256 is {found}; "
+                f"expected {entry['sha256']}"
+            )
+    faults += [f"{path} is extra: no rule made it" for path in sorted(extra(manifest, root))]
+    return faults
+
+
+def extra(manifest: Mapping[str, Any], root: Path) -> Iterator[str]:
+    """Yield the files that the manifest does not know.
+
+    In the workflow's own folders these are all; elsewhere, those that look like its outputs: of
+    the same kind and beside them, such as figures/*.svg.
+    """
+    left_out = [Path(path) for path in manifest["left_out"]]
+    found = {path for folder in manifest["folders"] for path in (root / folder).rglob("*")}
+    for path in map(Path, manifest["outputs"]):
+        found.update((root / path.parent).glob(f"*{path.suffix}"))
+    for path in found:
+        name = path.relative_to(root)
+        known = str(name) in manifest["outputs"]
+        if path.is_file() and not known and not any(name.is_relative_to(out) for out in left_out):
+            yield str(name)
+
+
+if __name__ == "__main__":
+    if not Path(MANIFEST).exists():
+        sys.exit(f"{MANIFEST} does not exist; expected a finished run: make reproduce")
+    manifest = json.loads(Path(MANIFEST).read_text(encoding="utf-8"))
+    faults = main(manifest)
+    if faults:
+        sys.exit("\n".join(faults))
+    print(f"verified: {len(manifest['outputs'])} files are as {MANIFEST} has them")

@@ -1,0 +1,104 @@
+"""What a Snakefile of a replication begins with, and what its rules share."""
+
+import json
+import os
+from functools import partial
+from pathlib import Path
+
+from replication.captions import captioned, read_captions
+from replication.closing import close
+from replication.code import code
+from replication.ledger import read_ledger
+from replication.ledger_check import check_ledger
+from replication.parts import PAPER, Part
+from replication.place import check_place
+from replication.strict_yaml import read_yaml
+from replication.study_config import read_study_config
+from replication.typeset import reads
+
+check_place()
+close(workflow)
+
+
+def read_strictly(path):
+    """Read the config files with file and line of a mistake: Snakemake keeps the last of equal keys."""
+    for each in [path, *workflow.configfiles]:
+        read_yaml(each)
+
+
+def config_files():
+    """Return the names of the config files; those of --configfile, which go over it, come first."""
+    return " over ".join(dict.fromkeys(map(os.path.relpath, workflow.configfiles)))
+
+
+def parts(check):
+    """Return the parts of the work by name: the paper, and the studies that the config names.
+
+    `check` raises a ValueError for what is wrong with the config of a study.
+    """
+    studies = {name: read_study_config(name, check) for name in config["studies"]}
+    return {name: Part(name, of) for name, of in {PAPER: config, **studies}.items()}
+
+
+def case(section, part=PAPER):
+    """Return a section of the config of a part, with the column in place of the structure's name."""
+    entry = PARTS[part].config[section]
+    if "structure" not in entry:
+        return entry
+    return entry | {"column": config["structures"][entry["structure"]]}
+
+
+def named(entries, section):
+    """Return those of the entries (structures, say) that a section of a config names.
+
+    So a rule depends on them, and on no others.
+    """
+    if isinstance(section, dict):
+        inner = [*section, *section.values()]
+    elif isinstance(section, (list, tuple)):
+        inner = section
+    else:
+        return {section: entries[section]} if section in entries else {}
+    found = {name for part in inner for name in named(entries, part)}
+    return {name: entries[name] for name in entries if name in found}
+
+
+def everything(wildcards):
+    """Return all that a run makes, but for the list of it, which is made last.
+
+    What only another job needs is named as well: when it is missing, Snakemake makes it again only
+    if somebody asks for it. A failed or interrupted job leaves its outputs missing.
+    """
+    drawn = {table for tables in FIGURES.values() for table in tables}
+    wanted = dict.fromkeys(f"results/tables/{table}.csv" for table in sorted(drawn))
+    for rule in workflow.rules:
+        if rule.name in ("all", "manifest") or rule.name.startswith("claim_"):
+            continue
+        asked = [*rule.input, *([] if rule.has_wildcards() else rule.output)]
+        wanted |= dict.fromkeys(str(path) for path in asked if not callable(path))
+    return [path for path in wanted if "{" not in path]
+
+
+def caption_of(result):
+    """Return what the HTML report says of a result: its caption and verdict (caption.rst)."""
+    claims = json.loads(Path("results/claims.json").read_text(encoding="utf-8"))
+    captions = read_captions(part.captions for part in PARTS.values())
+    return captioned(str(result), captions, claims)
+
+
+def shown(output):
+    """Mark the last output of a rule for the HTML report; its caption is looked up when that is made.
+
+    One label alone, since Snakemake's page turns a second one that has two values into a switch.
+    """
+
+    def label(wildcards, output):
+        about = caption_of(output[-1])
+        return {"result: claims": f"{about['title']}: {about['verdict']}"}
+
+    return report(
+        output,
+        caption=str(Path(workflow.basedir, "src/replication/caption.rst")),
+        category=lambda wildcards, output: caption_of(output[-1])["category"],
+        labels=label,
+    )

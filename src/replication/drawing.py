@@ -1,0 +1,62 @@
+"""What every figure does at its edges: read its tables, wear the style, save the same bytes."""
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+
+mpl.use("svg")
+
+import matplotlib.pyplot as plt
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from replication.workbench import run
+
+SINGLE, DOUBLE = 88.0, 180.0  # widths of one and of two columns, mm
+
+# One hue by lightness for γ, the heavier the darker; one accent, for what leaves or misleads.
+INK, GREY = "#1a1a1a", "#737373"
+ACCENT = "#c8501a"
+STONE, CAP = "#e8e5df", "#bcd0e3"
+LIGHT, DARK = "#b3cde3", "#1d4770"  # two of that hue, for areas
+LIGHTEST, DARKEST = (0.58, 0.77, 0.90), (0.02, 0.14, 0.36)
+
+
+def publish(job, draw: Callable[..., Figure]) -> None:
+    """Draw the tables of a Snakemake job, each passed under its own name, and save the figure."""
+
+    def picture(job) -> None:
+        plt.style.use(job.input.style)
+        tables = {Path(path).stem: pd.read_csv(path) for path in job.input.tables}
+        draw(**tables).savefig(job.output[0], metadata={"Date": None})
+
+    run(job, picture)
+
+
+def sheet(width: float, height: float, mosaic: str = "", **grid) -> tuple[Figure, Any]:
+    """Return a figure of a size in mm, and its axes: an array, or a dictionary for a mosaic."""
+    size = (width / 25.4, height / 25.4)
+    if mosaic:
+        return plt.subplot_mosaic(mosaic, figsize=size, **grid)
+    return plt.subplots(figsize=size, **grid)
+
+
+def shades(count: int) -> list[tuple[float, float, float]]:
+    """Return colours of one hue, from the lightest to the darkest."""
+    steps = [i / max(count - 1, 1) for i in range(count)]
+    pairs = list(zip(LIGHTEST, DARKEST, strict=True))
+    return [tuple(low + (high - low) * step for low, high in pairs) for step in steps]
+
+
+def letter(axes: Sequence[Axes], titles: Sequence[str]) -> None:
+    """Title the panels (a), (b), …"""
+    for axis, mark, title in zip(axes, "abcdefgh", titles, strict=False):
+        axis.set_title(f"({mark}) {title}")
+
+
+def note(axis: Axes, text: str, at: tuple[float, float], **how) -> None:
+    """Write a label at a point of the data, in the label's colour and place."""
+    axis.annotate(text, at, **{"fontsize": 7.5, "va": "center"} | how)

@@ -1,0 +1,47 @@
+"""The parts of a work: the paper itself, and each study that follows it."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+PAPER = ""
+"""The name of the part that is the paper."""
+
+
+@dataclass(frozen=True)
+class Part:
+    """A part of the work: where its files lie, and what its rules make.
+
+    Parameters
+    ----------
+    name
+        PAPER, or that of a study.
+    config
+        The numbers of its rules.
+    figures
+        By figure, named by its script without the ending: the tables that it is drawn from.
+    findings
+        The rules whose findings the claims are judged by.
+    """
+
+    name: str
+    config: Mapping[str, Any]
+    figures: dict[str, list[str]] = field(default_factory=dict)
+    findings: list[str] = field(default_factory=list)
+
+    @property
+    def claims(self) -> str:
+        """Its ledger."""
+        return "paper/claims.yaml" if self.name == PAPER else f"studies/{self.name}/claims.yaml"
+
+    @property
+    def captions(self) -> Path:
+        """The captions of its figures."""
+        folder = Path("figures") if self.name == PAPER else Path("studies", self.name)
+        return folder / "captions.yaml"
+
+    @property
+    def sections(self) -> list[str]:
+        """What it adds to the report: the paper's own text is the report."""
+        return [] if self.name == PAPER else [f"studies/{self.name}/section.typ"]

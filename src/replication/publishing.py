@@ -1,0 +1,174 @@
+"""What is published of a run: its findings, the verdicts on them, and the pages that show these."""
+
+import hashlib
+import json
+import os
+import platform
+import shutil
+from pathlib import Path
+from typing import Any
+
+from replication.ledger import OURS
+from replication.rules.claims import as_text, read_findings
+from replication.rules.claims import main as judge_all
+from replication.verdicts import VERDICTS, by_origin
+from replication.workbench import write_findings
+
+TITLES = {"": "The paper", OURS: "Not the paper's claims, and its claims rest on them"}
+"""The sections of docs/verdicts.md that are not a study's."""
+
+CHECKSUMS = "checksums.txt"
+DIGITS = 9
+"""Of the numbers in the published findings, as in the tables."""
+
+COUNTS_HEAD = "| | " + " | ".join(VERDICTS) + " |"
+"""The first line of the table that counts the verdicts, in docs/verdicts.md and in the README."""
+
+
+def verdict_page(rows: list[dict]) -> str:
+    """Return docs/verdicts.md: the counts, then the rows of the paper and of each study apart."""
+    parts = {row["study"]: [] for row in rows}
+    for row in rows:
+        parts[row["study"]].append(row)
+    lines = [
+        "# The verdict on every claim",
+        "",
+        "Computed by the workflow (`results/claims.json`); this page is written by `make publish`.",
+        "We worked from a transcription: every slip or misprint may be its fault, not the print's.",
+        "",
+        *count_table(rows),
+    ]
+    for study, own in parts.items():
+        title = TITLES.get(study, f"The study `{study}`")
+        lines += ["", f"## {title}", "", *verdict_table(own)]
+    return "\n".join(lines) + "\n"
+
+
+def verdict_table(rows: list[dict]) -> list[str]:
+    """Return the lines of a table with one claim in each."""
+    lines = [
+        "| claim | where | in our words | printed | computed | verdict | remark |",
+        "|---|---|---|---|---|---|---|",
+    ]
+    for row in rows:
+        cells = [
+            f"`{row['id']}`",
+            row["where"],
+            row["statement"],
+            _shown(row["printed"], row["unit"]),
+            _shown(row["computed"], row["unit"]),
+            row["verdict"],
+            row["remark"],
+        ]
+        lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
+    return lines
+
+
+def count_table(rows: list[dict]) -> list[str]:
+    """Return the lines of a table that counts the verdicts, of the paper and of each study."""
+    lines = [COUNTS_HEAD, "|---" * (len(VERDICTS) + 1) + "|"]
+    for name, verdicts in by_origin(rows).items():
+        cells = [name if name in ("paper", OURS) else f"study `{name}`"]
+        cells += [str(verdicts.count(verdict)) for verdict in VERDICTS]
+        lines.append("| " + " | ".join(cells) + " |")
+    return lines
+
+
+def with_counts(page: str, rows: list[dict]) -> str:
+    """Return a page in which the table of counts is that of the rows.
+
+    Raises
+    ------
+    ValueError
+        When the page has no such table.
+    """
+    lines = page.splitlines(keepends=True)
+    starts = [number for number, line in enumerate(lines) if line.rstrip() == COUNTS_HEAD]
+    if len(starts) != 1:
+        raise ValueError(f"the page has {len(starts)} lines {COUNTS_HEAD!r}; expected one")
+    end = starts[0]
+    while end < len(lines) and lines[end].startswith("|"):
+        end += 1
+    return "".join(
+        [*lines[: starts[0]], *(f"{line}\n" for line in count_table(rows)), *lines[end:]]
+    )
+
+
+def rounded(found: Any, digits: int = DIGITS) -> Any:
+    """Return findings with their numbers rounded, an error to two digits: the rest is noise."""
+    match found:
+        case float():
+            return float(f"{found:.{digits}g}")
+        case dict():
+            return {k: rounded(v, 2 if k == "error" else digits) for k, v in found.items()}
+        case list():
+            return [rounded(item, digits) for item in found]
+        case _:
+            return found
+
+
+def checksums(reference: Path) -> str:
+    """Return the SHA-256 of each published table and finding, a line each.
+
+    Of the text, with line ends as Python reads them, so that a checkout may change those.
+    """
+    files = sorted({*reference.rglob("*.csv"), *reference.glob("findings/*.json")})
+    lines = (
+        f"{hashlib.sha256(path.read_text(encoding='utf-8').encode()).hexdigest()}  "
+        f"{path.relative_to(reference).as_posix()}\n"
+        for path in files
+    )
+    return "".join(lines)
+
+
+def machine() -> str:
+    """Return one line that names this machine."""
+    cpuinfo = Path("/proc/cpuinfo")
+    names = [
+        line.split(":", 1)[1].strip()
+        for line in (cpuinfo.read_text().splitlines() if cpuinfo.exists() else [])
+        if line.startswith("model name")
+    ]
+    processor = names[0] if names else platform.processor() or platform.machine()
+    python = f"Python {platform.python_version()}"
+    return f"{os.cpu_count()} cores of {processor}, {platform.system()}, {python}"
+
+
+def _shown(value: object, unit: str) -> str:
+    match value:
+        case None:
+            return ""
+        case bool():
+            return "holds" if value else "does not hold"
+        case float() | int():
+            return f"{value:.6g} {unit}".rstrip()
+        case _:
+            return str(value)
+
+
+def publish_findings(findings: Path, folder: Path) -> None:
+    """Write all findings of a run, rounded, in place of those that are published.
+
+    Raises
+    ------
+    ValueError
+        When a rule tested nothing, for lack of an optional package.
+    """
+    for path in sorted(findings.glob("*.json")):
+        if reason := json.loads(path.read_text(encoding="utf-8")).get("not_tested"):
+            raise ValueError(f"{path}: nothing was tested ({reason}); expected a full run")
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    for path in sorted(findings.glob("*.json")):
+        found = rounded(json.loads(path.read_text(encoding="utf-8")))
+        write_findings(str(folder / path.name), found)
+
+
+def publish_verdicts(ledger: list[dict], root: Path) -> None:
+    """Judge the published findings; write claims.json, docs/verdicts.md and the README's counts."""
+    reference = root / "tests" / "reference"
+    rows = judge_all(ledger, read_findings((reference / "findings").glob("*.json")), root)
+    (reference / "claims.json").write_text(as_text(rows), encoding="utf-8")
+    (root / "docs" / "verdicts.md").write_text(verdict_page(rows), encoding="utf-8")
+    readme = root / "README.md"
+    readme.write_text(with_counts(readme.read_text(encoding="utf-8"), rows), encoding="utf-8")

@@ -1,0 +1,100 @@
+"""The published edition against itself: rows, pages and files, without a run."""
+
+import json
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from itertools import zip_longest
+from pathlib import Path
+from typing import Any
+
+from replication.ledger import judged, read_ledger
+from replication.publishing import CHECKSUMS, checksums, verdict_page, with_counts
+from replication.rules.claims import read_findings
+from replication.strict_yaml import read_yaml
+from replication.verdicts import tallies
+
+CLAIMS = "tests/reference/claims.json"
+
+Findings = Mapping[str, Mapping[str, Any]]
+
+
+def claims(
+    ledger: Iterable[Mapping[str, Any]], findings: Findings, published: list[dict], root: Path
+) -> Iterator[str]:
+    """Yield what is wrong with the published rows: every field of every row is made anew."""
+    rows = {row["id"]: row for row in published}
+    for name in sorted({claim["id"] for claim in ledger} ^ set(rows)):
+        yield f"claim {name} is not in both the ledger and {CLAIMS}"
+    for claim in ledger:
+        try:
+            found = judged(claim, findings, root)
+        except ValueError as fault:
+            yield str(fault)
+            continue
+        if found["verdict"] != claim["expected"] and not found["not_tested"]:
+            yield f"claim {claim['id']} comes out {found['verdict']}; expected {claim['expected']}"
+        row = rows.get(claim["id"], found)
+        for field in sorted({*found, *row}):
+            ours, theirs = found.get(field), row.get(field)
+            if ours != theirs or type(ours) is not type(theirs):
+                yield (
+                    f"claim {claim['id']}: {field} is {theirs!r} in {CLAIMS}, and {ours!r} by the "
+                    "ledger and the findings"
+                )
+
+
+def pages(root: Path, rows: list[dict]) -> Iterator[str]:
+    """Yield the first line of docs/verdicts.md, and of the README, that is not that of the rows."""
+    readme = (root / "README.md").read_text(encoding="utf-8")
+    expected = {
+        "docs/verdicts.md": lambda: verdict_page(rows),
+        "README.md": lambda: with_counts(readme, rows),
+    }
+    for page, made in expected.items():
+        lines = (root / page).read_text(encoding="utf-8").splitlines()
+        try:
+            theirs = made().splitlines()
+        except ValueError as fault:
+            yield f"{page}: {fault}"
+            continue
+        for number, (line, other) in enumerate(zip_longest(lines, theirs), 1):
+            if line != other:
+                yield f"{page}, line {number} is {line!r}; expected {other!r} by the verdicts"
+                break  # the lines below may only be shifted
+
+
+def files(reference: Path) -> Iterator[str]:
+    """Yield the published tables and findings that changed since `make publish` wrote them."""
+    listed = dict(
+        reversed(line.split("  ", 1))
+        for line in (reference / CHECKSUMS).read_text(encoding="utf-8").splitlines()
+    )
+    there = dict(reversed(line.split("  ", 1)) for line in checksums(reference).splitlines())
+    for name in sorted({*listed, *there}):
+        if listed.get(name) != there.get(name):
+            kind = "changed" if name in listed and name in there else "is not in both"
+            yield f"tests/reference/{name} {kind}: held against {CHECKSUMS} of `make publish`"
+
+
+def main(
+    evidence: Callable[[Path, Findings], Iterable[str]], root: Path = Path()
+) -> tuple[list[str], list[str]]:
+    """Return the tallies of the published claims, and what is wrong with the edition.
+
+    Parameters
+    ----------
+    evidence
+        Yields what is wrong with the published tables and with the findings drawn from them.
+    """
+    config = read_yaml(root / "config" / "config.yaml")
+    studies = [root / "studies" / name / "claims.yaml" for name in config["studies"]]
+    ledger = read_ledger([root / "paper" / "claims.yaml", *studies])
+    reference = root / "tests" / "reference"
+    findings = read_findings((reference / "findings").glob("*.json"))
+    rows = json.loads((root / CLAIMS).read_text(encoding="utf-8"))
+    faults = [
+        *claims(ledger, findings, rows, root),
+        *evidence(reference, findings),
+        *pages(root, rows),
+        *files(reference),
+    ]
+    return tallies(rows), faults

@@ -1,0 +1,192 @@
+"""What every replication does with its results: figures, notebooks, verdicts, report, provenance."""
+
+FIGURES = {figure: tables for part in PARTS.values() for figure, tables in part.figures.items()}
+FINDINGS = [name for part in PARTS.values() for name in part.findings]
+LEDGER = [part.claims for part in PARTS.values()]
+SECTIONS = [path for part in PARTS.values() for path in part.sections]
+NOTEBOOKS = sorted(path.stem for path in Path("notebooks").glob("*.ipynb"))
+REFERENCES = sorted(map(str, Path("tests/reference").glob("*.csv")))
+
+check_ledger(LEDGER, FINDINGS)
+CLAIMS = read_ledger(LEDGER)
+
+
+# Figures and notebooks ---------------------------------------------------------------------------
+
+
+rule figure:
+    input:
+        lambda wildcards: code(f"{wildcards.figure}.py"),
+        tables=lambda wildcards: expand(
+            "results/tables/{table}.csv", table=FIGURES[wildcards.figure]
+        ),
+        style="figures/style.mplstyle",
+    output:
+        shown("{figure}.svg"),
+    log:
+        "results/logs/{figure}.log",
+    wildcard_constraints:
+        figure="|".join(FIGURES),
+    message:
+        "Figure {wildcards.figure}"
+    script:
+        "../../{wildcards.figure}.py"
+
+
+rule notebook:
+    input:
+        code("src/replication/rules/notebook.py"),
+        lambda wildcards: code(f"notebooks/{wildcards.name}.ipynb"),
+        notebook="notebooks/{name}.ipynb",
+        record="data/records/el_centro_1940_NS.AT2",
+    output:
+        executed="results/notebooks/{name}.ipynb",
+        page="results/notebooks/{name}.html",
+    log:
+        "results/logs/notebook_{name}.log",
+    benchmark:
+        "results/benchmarks/notebook_{name}.tsv"
+    message:
+        "Executing the notebook {wildcards.name}"
+    script:
+        "rules/notebook.py"
+
+
+# The ledger judged, and the end of the run -------------------------------------------------------
+
+
+rule claims:
+    input:
+        code("src/replication/rules/claims.py"),
+        ledger=LEDGER,
+        findings=expand("results/findings/{name}.json", name=FINDINGS),
+    output:
+        "results/claims.json",
+    log:
+        "results/logs/claims.log",
+    message:
+        "Judging every claim"
+    script:
+        "rules/claims.py"
+
+
+rule compare:
+    input:
+        code("src/replication/rules/compare.py"),
+        tables=[
+            path.replace("tests/reference", "results/tables") for path in REFERENCES
+        ],
+        references=REFERENCES,
+        config="tests/reference/config.yaml",
+    output:
+        table="results/comparison.csv",
+        config="results/config.yaml",
+    log:
+        "results/logs/compare.log",
+    params:
+        config=config,
+    message:
+        "Comparing the tables with the reference tables"
+    script:
+        "rules/compare.py"
+
+
+rule verdict:
+    input:
+        code("src/replication/rules/verdict.py"),
+        claims="results/claims.json",
+        comparison="results/comparison.csv",
+        findings=expand("results/findings/{rule}.json", rule=CHECKS),
+    output:
+        "results/summary.txt",
+    log:
+        "results/logs/verdict.log",
+    params:
+        checks=CHECKS,
+    message:
+        "Holding the verdicts against what is expected of them"
+    script:
+        "rules/verdict.py"
+
+
+rule costs:
+    input:
+        code("src/replication/rules/costs.py"),
+        expand("results/findings/{name}.json", name=FINDINGS),
+        expand(
+            "results/notebooks/{name}.{kind}", name=NOTEBOOKS, kind=["ipynb", "html"]
+        ),
+    output:
+        "results/costs.csv",
+    log:
+        "results/logs/costs.log",
+    message:
+        "Adding up what the run cost"
+    script:
+        "rules/costs.py"
+
+
+rule report:
+    input:
+        code("src/replication/rules/report.py"),
+        reads("paper/report.typ", *SECTIONS),
+        expand("results/findings/{name}.json", name=FINDINGS),
+        expand("{figure}.svg", figure=FIGURES),
+    output:
+        "paper/report.pdf",
+    log:
+        "results/logs/report.log",
+    benchmark:
+        "results/benchmarks/report.tsv"
+    params:
+        source="paper/report.typ",
+        studies=config["studies"],
+    message:
+        "Compiling the report"
+    script:
+        "rules/report.py"
+
+
+# The audit: what was made and by what, each claim by itself ---------------------------------------
+
+
+rule manifest:
+    input:
+        code("src/replication/rules/manifest.py"),
+        everything,
+        configuration="config/config.yaml",
+        lock="uv.lock",
+    output:
+        "results/manifest.json",
+    log:
+        "results/logs/manifest.log",
+    params:
+        # what a run measures, and what make html and make benchmark write
+        differs_each_run=[
+            *rules.costs.output,
+            "results/report.html",
+            "results/benchmark",
+        ],
+    message:
+        "Listing every output with its checksum"
+    script:
+        "rules/manifest.py"
+
+
+# `snakemake --cores 2 claim_<id>` computes what the claim needs, and says how it came out.
+for claim in CLAIMS:
+
+    rule:
+        name:
+            f"claim_{claim['id']}"
+        input:
+            code("src/replication/rules/claim.py"),
+            findings=f"results/findings/{claim['rule']}.json" if "rule" in claim else [],
+        log:
+            f"results/logs/claim_{claim['id']}.log",
+        params:
+            claim=claim,
+        message:
+            f"Judging {claim['id']}"
+        script:
+            "rules/claim.py"

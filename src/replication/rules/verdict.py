@@ -1,0 +1,59 @@
+"""The end of a run: how the claims came out, and an error if that is not what is expected."""
+
+import json
+from collections import Counter
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from replication.verdicts import tallies
+from replication.workbench import run
+
+
+def main(
+    claims: list[dict], comparison: pd.DataFrame, checks: dict[str, bool]
+) -> tuple[str, list[str]]:
+    """Return the lines that close the run, the paper's and each study's, and what is wrong.
+
+    `checks` are findings that are no claims of anybody, and have to hold all the same.
+    """
+    faults = [
+        f"claim {row['id']} came out {row['verdict']}; expected {row['expected']}"
+        for row in claims
+        if row["verdict"] != row["expected"] and not row["not_tested"]
+    ]
+    faults += [
+        f"results/tables/{row.table} differs from tests/reference/{row.table} "
+        f"(largest relative difference {row.largest_difference:.2g})"
+        for row in comparison.itertuples()
+        if row.verdict == "differs"
+    ]
+    faults += [f"our own check {name} does not hold" for name, holds in checks.items() if not holds]
+    return "\n".join([*untested(claims), *tallies(claims)]), faults
+
+
+def untested(claims: list[dict]) -> list[str]:
+    """Return a line for each reason why claims were not tested that a full run tests."""
+    reasons = Counter(row["not_tested"] for row in claims if row["not_tested"])
+    return [f"{count} claims not tested here: {reason}" for reason, count in reasons.items()]
+
+
+def work(job: Any) -> None:
+    claims = json.loads(Path(job.input.claims).read_text(encoding="utf-8"))
+    checks = {
+        f"{rule}.{name}": json.loads(
+            Path(f"results/findings/{rule}.json").read_text(encoding="utf-8")
+        )[name]["holds"]
+        for rule, names in job.params.checks.items()
+        for name in names
+    }
+    lines, faults = main(claims, pd.read_csv(job.input.comparison), checks)
+    if faults:
+        raise SystemExit("\n".join([*faults, lines]))
+    text = f"report: paper/report.pdf\n{lines}\n"
+    Path(job.output[0]).write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    run(snakemake, work)

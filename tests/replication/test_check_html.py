@@ -1,0 +1,103 @@
+"""The look at the HTML report in a browser finds what is wrong with a page."""
+
+import asyncio
+import base64
+import json
+from pathlib import Path
+
+import pytest
+
+from replication.commands.check_html import BROWSERS, find_browser, inspect
+
+BROWSER = find_browser()
+needs_browser = pytest.mark.skipif(
+    BROWSER is None, reason=f"none of {', '.join(BROWSERS)} is on the PATH"
+)
+
+FIGURE = '<svg xmlns="http://www.w3.org/2000/svg" width="90" height="60"><path d="M0 0h9v9"/></svg>'
+CAPTIONS = {
+    "a.svg": {"title": "A", "category": "One", "caption": "What is seen.", "claims": []},
+}
+
+# What the report of Snakemake has that is looked at: results, and a menu with a table a category.
+PAGE = """<!doctype html><meta charset="utf-8"><div id="app"><nav><nav><a href="#">home</a></nav>
+<li><a href="#">One</a></li><table><tbody><tr><td>A: no claim</td>
+<td><a href="#" id="eye">see</a><a href="#" id="info">info</a></td></tr></tbody></table>
+<div class="prose"></div></nav><div id="content"></div></div><script>
+var results = {"a.svg": {data_uri: URI, caption: "What is seen."}};
+document.querySelector("#eye").onclick = () => {
+  const image = document.createElement("img");
+  image.src = results["a.svg"].data_uri;
+  document.querySelector("#content").replaceChildren(image);
+};
+document.querySelector("#info").onclick = () => {
+  document.querySelector(".prose").textContent = results["a.svg"].caption;
+};
+</script>"""
+
+
+def faults_of(page, figure=FIGURE, captions=CAPTIONS):
+    """What the look finds in the page, with the figure in it that the workflow wrote."""
+    uri = "data:image/svg+xml;charset=utf8;base64," + base64.b64encode(figure.encode()).decode()
+    Path("a.svg").write_text(figure, encoding="utf-8")
+    Path("page.html").write_text(page.replace("URI", json.dumps(uri)), encoding="utf-8")
+    return asyncio.run(inspect(BROWSER, Path("page.html"), captions))
+
+
+@pytest.fixture(autouse=True)
+def in_a_folder_of_its_own(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+
+@needs_browser
+def test_sound_page_has_no_fault():
+    assert faults_of(PAGE) == []
+
+
+@needs_browser
+def test_requests_errors_and_a_bad_caption_are_found():
+    found = faults_of(
+        PAGE.replace(
+            "<script>",
+            "<img src='https://example.org/a.png'><script>"
+            "fetch('http://example.org/b').catch(() => 0);"
+            "console.error('broken'); setTimeout(() => unknown(), 0);",
+        )
+        .replace('results["a.svg"].caption;', '"Other.";')
+        .replace('caption: "What', 'caption: "system-message What')
+    )
+    for fault in (
+        "asks the network for https://example.org/a.png",
+        "asks the network for http://example.org/b",
+        "error in the console: broken",
+        "error in the console: ReferenceError: unknown is not defined",
+        "the caption of a.svg is not displayed",
+        "the caption of a.svg is no sound reStructuredText",
+    ):
+        assert any(told.startswith(fault) for told in found), (fault, found)
+
+
+@needs_browser
+def test_result_that_does_not_come_up_when_asked_for_is_found():
+    assert faults_of(PAGE.replace(".replaceChildren(image)", "")) == ["a.svg is not displayed"]
+
+
+@needs_browser
+def test_result_that_is_not_in_its_category_is_found():
+    found = faults_of(PAGE.replace("A: no claim", "B: no claim"))
+    assert found == ["a.svg has 0 rows in its category; expected one"]
+
+
+@needs_browser
+def test_figure_that_cannot_be_drawn_is_found():
+    assert any("a.svg is displayed without a size" in told for told in faults_of(PAGE, "<svg"))
+
+
+@needs_browser
+def test_captioned_result_that_is_missing_is_found():
+    captions = CAPTIONS | {"b.svg": CAPTIONS["a.svg"]}
+    assert "b.svg is not in the report" in faults_of(PAGE, captions=captions)
+
+
+def test_no_browser_on_the_path_is_none():
+    assert find_browser(["no-such-browser"]) is None
