@@ -11,7 +11,10 @@ from pathlib import Path
 from types import CodeType, FunctionType, ModuleType
 from typing import Any
 
-LIBRARY = "topheavy"
+LIBRARIES = frozenset(
+    path.name for path in Path("src").glob("*") if path.name not in ("replication", "steps")
+)
+"""The packages that the steps take their code from."""
 
 _NUMBER = r"\(\d+\)"
 _LIST = re.compile(rf"\bEqs?\.\s({_NUMBER}(?:\s?(?:–|,|and)\s?(?:Eqs?\.\s)?{_NUMBER})*)")
@@ -81,7 +84,7 @@ def library_names(script: str | Path) -> list[str]:
     """Return the dotted paths of what a script takes from the library."""
     names = []
     for node in ast.walk(ast.parse(Path(script).read_text(encoding="utf-8"))):
-        if isinstance(node, ast.ImportFrom) and (node.module or "").split(".")[0] == LIBRARY:
+        if isinstance(node, ast.ImportFrom) and (node.module or "").split(".")[0] in LIBRARIES:
             names += [f"{node.module}.{alias.name}" for alias in node.names]
     return sorted(name for name in set(names) if _is_code(_plain(resolve(name))))
 
@@ -108,7 +111,7 @@ def _called(part: Any) -> Iterator[Any]:
     elif isinstance(part, FunctionType):
         names = set(_names(part.__code__))
         for value in (part.__globals__.get(name) for name in names):
-            if isinstance(value, ModuleType) and value.__name__.split(".")[0] == LIBRARY:
+            if isinstance(value, ModuleType) and value.__name__.split(".")[0] in LIBRARIES:
                 for name in names:
                     yield from _code_in(getattr(value, name, None))
             else:
@@ -141,7 +144,7 @@ def _plain(value: Any) -> Any:
 def _is_code(value: Any) -> bool:
     ours = getattr(value, "__module__", None) or ""
     return (inspect.isclass(value) or isinstance(value, FunctionType)) and (
-        ours.split(".")[0] == LIBRARY
+        ours.split(".")[0] in LIBRARIES
     )
 
 

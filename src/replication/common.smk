@@ -5,7 +5,7 @@ import os
 from functools import partial
 from pathlib import Path
 
-from replication.captions import captioned, read_captions
+from replication.captions import caption_files, captioned, read_captions
 from replication.closing import close
 from replication.code import code
 from replication.ledger import read_ledger
@@ -82,8 +82,7 @@ def everything(wildcards):
 def caption_of(result):
     """Return what the HTML report says of a result: its caption and verdict (caption.rst)."""
     claims = json.loads(Path("results/claims.json").read_text(encoding="utf-8"))
-    captions = read_captions(part.captions for part in PARTS.values())
-    return captioned(str(result), captions, claims)
+    return captioned(str(result), read_captions(caption_files(config)), claims)
 
 
 def shown(output):

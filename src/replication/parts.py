@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any
 
 PAPER = ""
@@ -34,12 +33,6 @@ class Part:
     def claims(self) -> str:
         """Its ledger."""
         return "paper/claims.yaml" if self.name == PAPER else f"studies/{self.name}/claims.yaml"
-
-    @property
-    def captions(self) -> Path:
-        """The captions of its figures."""
-        folder = Path("figures") if self.name == PAPER else Path("studies", self.name)
-        return folder / "captions.yaml"
 
     @property
     def sections(self) -> list[str]:

@@ -1,6 +1,8 @@
 """What every replication does with its results: figures, notebooks, verdicts, report, provenance."""
 
-FIGURES = {figure: tables for part in PARTS.values() for figure, tables in part.figures.items()}
+FIGURES = {
+    figure: tables for part in PARTS.values() for figure, tables in part.figures.items()
+}
 FINDINGS = [name for part in PARTS.values() for name in part.findings]
 LEDGER = [part.claims for part in PARTS.values()]
 SECTIONS = [path for part in PARTS.values() for path in part.sections]
@@ -181,7 +183,9 @@ for claim in CLAIMS:
             f"claim_{claim['id']}"
         input:
             code("src/replication/rules/claim.py"),
-            findings=f"results/findings/{claim['rule']}.json" if "rule" in claim else [],
+            findings=(
+                [f"results/findings/{claim['rule']}.json"] if "rule" in claim else []
+            ),
         log:
             f"results/logs/claim_{claim['id']}.log",
         params:

@@ -16,8 +16,8 @@ def check_inputs(
     config: Mapping[str, Any],
     path: str,
     schema: str,
-    structures: Mapping[str, Any] | None = None,
     records: str = RECORDS,
+    structures: Mapping[str, Any] | None = None,
 ) -> None:
     """Refuse a config that breaks its schema, or whose entries do not fit together.
 

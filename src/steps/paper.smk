@@ -1,47 +1,49 @@
 """The results of Makris & Vassiliou (2014), in the paper's order."""
 
 PARTS[PAPER].figures.update(
-{
-    "figures/structures": ["outlines", "moment_rotation"],
-    "figures/free_body": ["outlines", "free_body"],
-    "figures/mass_ratio": ["mass_ratio"],
-    "figures/restitution": [
-        "restitution_over_slenderness",
-        "restitution_over_mass_ratio",
-    ],
-    "figures/quarter_period": ["quarter_period"],
-    "figures/trilith_map": ["trilith_map", "trilith_nearness"],
-    "figures/trilith_starts": ["trilith_starts", "trilith_histories"],
-    "figures/allen_histories": ["allen_histories"],
-    "figures/allen_errors": ["allen_errors"],
-    "figures/allen_overturning": ["allen_overturning"],
-    "figures/heavier": ["heavier_histories", "heavier"],
-    "figures/scale_effects": ["scale_effects"],
-    "figures/spectra": ["spectra"],
-    "figures/spectra_modes": ["spectra"],
-    "figures/spectra_dimensional": ["spectra_dimensional", "spectra_published"],
-    "figures/peak_maps": ["peak_maps"],
-    "figures/rocking_spectra": ["rocking_spectra"],
-}
+    {
+        "figures/structures": ["outlines", "moment_rotation"],
+        "figures/free_body": ["outlines", "free_body"],
+        "figures/mass_ratio": ["mass_ratio"],
+        "figures/restitution": [
+            "restitution_over_slenderness",
+            "restitution_over_mass_ratio",
+        ],
+        "figures/quarter_period": ["quarter_period"],
+        "figures/trilith_map": ["trilith_map", "trilith_nearness"],
+        "figures/trilith_starts": ["trilith_starts", "trilith_histories"],
+        "figures/allen_histories": ["allen_histories"],
+        "figures/allen_errors": ["allen_errors"],
+        "figures/allen_overturning": ["allen_overturning"],
+        "figures/heavier": ["heavier_histories", "heavier"],
+        "figures/scale_effects": ["scale_effects"],
+        "figures/spectra": ["spectra"],
+        "figures/spectra_modes": ["spectra"],
+        "figures/spectra_dimensional": ["spectra_dimensional", "spectra_published"],
+        "figures/peak_maps": ["peak_maps"],
+        "figures/rocking_spectra": ["rocking_spectra"],
+    }
 )
-PARTS[PAPER].findings.extend([
-    "equations",
-    "mass_ratio",
-    "restitution",
-    "moment_rotation",
-    "trilith",
-    "allen_histories",
-    "allen_errors",
-    "allen_overturning",
-    "heavier",
-    "scale_effects",
-    "stability",
-    "spectra",
-    "spectra_dimensional",
-    "rocking_spectra",
-    "statements",
-    "verification",
-])
+PARTS[PAPER].findings.extend(
+    [
+        "equations",
+        "mass_ratio",
+        "restitution",
+        "moment_rotation",
+        "trilith",
+        "allen_histories",
+        "allen_errors",
+        "allen_overturning",
+        "heavier",
+        "scale_effects",
+        "stability",
+        "spectra",
+        "spectra_dimensional",
+        "rocking_spectra",
+        "statements",
+        "verification",
+    ]
+)
 
 # Findings that no claim rests on, and without which no claim is worth much.
 CHECKS = {

@@ -9,31 +9,35 @@ EXPERIMENTS = ["first_impacts", "rebounds", "verdicts", "slides"]
 ENGINE = {found.name: found.version for found in distributions()}.get("mujoco-core")
 
 PARTS["mechanism"].figures.update(
-{
-    f"studies/mechanism/figures/{figure}": [f"mechanism_{table}" for table in tables]
-    for figure, tables in {
-        "forces": ["forces"],
-        "admissible": ["admissible"],
-        "dependence": ["dependence", "records"],
-        "three_bodies": ["three_bodies"],
-        "impacts": ["first_impacts", "rebounds"],
-        "verdicts": ["verdicts", "slides"],
-        "equivalence": ["equivalence", "equivalence_map"],
-    }.items()
-}
+    {
+        f"studies/mechanism/figures/{figure}": [
+            f"mechanism_{table}" for table in tables
+        ]
+        for figure, tables in {
+            "forces": ["forces"],
+            "admissible": ["admissible"],
+            "dependence": ["dependence", "records"],
+            "three_bodies": ["three_bodies"],
+            "impacts": ["first_impacts", "rebounds"],
+            "verdicts": ["verdicts", "slides"],
+            "equivalence": ["equivalence", "equivalence_map"],
+        }.items()
+    }
 )
-PARTS["mechanism"].findings.extend([
-    f"mechanism_{name}"
-    for name in (
-        "forces",
-        "three_bodies",
-        "admissible",
-        "dependence",
-        "records",
-        "equivalence",
-        *EXPERIMENTS,
-    )
-])
+PARTS["mechanism"].findings.extend(
+    [
+        f"mechanism_{name}"
+        for name in (
+            "forces",
+            "three_bodies",
+            "admissible",
+            "dependence",
+            "records",
+            "equivalence",
+            *EXPERIMENTS,
+        )
+    ]
+)
 
 
 rule mechanism_forces:

@@ -1,12 +1,18 @@
 """Is a heavier cap always more stable? The half of the study about ground motions."""
 
-PARTS["reversals"].figures["studies/reversals/figures/motions_fragility"] = ["reversals_fragility"]
+PARTS["reversals"].figures["studies/reversals/figures/motions_fragility"] = [
+    "reversals_fragility"
+]
 PARTS["reversals"].figures["studies/reversals/figures/motions_gain"] = [
     "reversals_pairs",
     "reversals_medians",
 ]
-PARTS["reversals"].figures["studies/reversals/figures/motions_records"] = ["reversals_records"]
-PARTS["reversals"].findings.extend(["reversals_records", "reversals_motions", "reversals_check"])
+PARTS["reversals"].figures["studies/reversals/figures/motions_records"] = [
+    "reversals_records"
+]
+PARTS["reversals"].findings.extend(
+    ["reversals_records", "reversals_motions", "reversals_check"]
+)
 
 MOTIONS = case("motions_ensemble", "reversals")
 
@@ -19,8 +25,7 @@ rule reversals_records:
     input:
         code("studies/reversals/steps/motions_records.py"),
         records=[
-            RECORDS[name]
-            for name in case("motions_records", "reversals")["records"]
+            RECORDS[name] for name in case("motions_records", "reversals")["records"]
         ],
     output:
         table="results/tables/reversals_records.csv",

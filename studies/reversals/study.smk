@@ -5,13 +5,13 @@ REVERSALS = case("pulses", "reversals").copy()
 REVERSALS |= REVERSALS.pop("grids")[REVERSALS.pop("grid")]
 
 PARTS["reversals"].figures.update(
-{
-    "studies/reversals/figures/where": ["reversals_map", "reversals_areas"],
-    "studies/reversals/figures/counterexample": ["reversals_histories"],
-    "studies/reversals/figures/lowest": ["reversals_spectra"],
-    "studies/reversals/figures/why": ["reversals_map", "reversals_why"],
-    "studies/reversals/figures/enough": ["reversals_enough"],
-}
+    {
+        "studies/reversals/figures/where": ["reversals_map", "reversals_areas"],
+        "studies/reversals/figures/counterexample": ["reversals_histories"],
+        "studies/reversals/figures/lowest": ["reversals_spectra"],
+        "studies/reversals/figures/why": ["reversals_map", "reversals_why"],
+        "studies/reversals/figures/enough": ["reversals_enough"],
+    }
 )
 PARTS["reversals"].findings.extend(["reversals_pulses", "reversals_enough"])
 

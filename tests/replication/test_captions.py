@@ -12,7 +12,9 @@ from replication.captions import captioned, read_captions, verdict
 
 ROOT = Path(__file__).resolve().parents[2]
 STUDIES = sorted(path.parent for path in ROOT.glob("studies/*/study.smk"))
-FIGURE = re.compile(r'^ *(?:FIGURES\[)?"((?:studies/\w+/)?figures/\w+)"[\]:]', re.MULTILINE)
+FIGURE = re.compile(
+    r'^ *(?:PARTS\["\w+"\]\.figures\[)?"((?:studies/\w+/)?figures/\w+)"[\]:]', re.MULTILINE
+)
 
 
 def read(path):
@@ -31,7 +33,7 @@ LEDGER = {row["id"] for row in read(ROOT / "paper" / "claims.yaml")}
 
 def test_every_figure_of_the_paper_has_a_caption_and_no_caption_is_left_over():
     found = set(read(ROOT / "figures" / "captions.yaml"))
-    drawn = figures(ROOT / "Snakefile")
+    drawn = figures(ROOT / "src" / "steps" / "paper.smk")
     assert drawn == {f"figures/{path.stem}.svg" for path in DRAWN}
     assert found == drawn | {"results/animation.png"}
 
@@ -74,7 +76,7 @@ ENTRY = {"title": "T", "category": "C", "caption": "(a) Over α_ and |θ|_.", "c
 
 def test_caption_comes_out_as_it_is_written():
     shown = captioned("a.svg", {"a.svg": ENTRY}, [CLAIM])
-    template = (ROOT / "figures" / "caption.rst").read_text(encoding="utf-8")
+    template = (ROOT / "src" / "replication" / "caption.rst").read_text(encoding="utf-8")
 
     class Rule:
         module_globals = {"caption_of": lambda result: shown}  # noqa: RUF012

@@ -88,6 +88,7 @@ def test_function_rests_on_the_equations_of_what_it_calls():
 def test_script_takes_functions_and_classes_from_the_library(tmp_path):
     script = tmp_path / "step.py"
     script.write_text(
-        "import math\nfrom topheavy import Column, simulate\nfrom replication.verdicts import VERDICTS\n"
+        "import math\nfrom topheavy import Column, simulate\n"
+        "from replication.verdicts import VERDICTS\n"
     )
     assert library_names(script) == ["topheavy.Column", "topheavy.simulate"]

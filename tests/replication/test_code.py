@@ -70,8 +70,8 @@ def test_import_inside_a_function_is_found(tree):
     assert "src/lib/inner/core.py" in imported_by(tree, "def f():\n    import lib.inner")
 
 
-def test_neighbour_by_bare_name_and_folder_without_init_are_found(tree):
-    text = "from shared import SHARED\nfrom studies.one.deep import DEEP\n"
+def test_modules_of_folders_without_init_are_found(tree):
+    text = "from steps.shared import SHARED\nfrom studies.one.deep import DEEP\n"
     found = imported_by(tree, text)
     assert {"src/steps/shared.py", "src/lib/shapes.py", "studies/one/deep.py"} <= set(found)
 

@@ -109,7 +109,7 @@ def test_study_that_judges_a_claim_of_the_paper_is_the_file_that_is_named(tree):
 @pytest.mark.parametrize(
     ("text", "told"),
     [
-        ("", "is empty; expected a list of claims"),
+        ("", "is empty; expected"),
         ("id: row\n", "holds a dict; expected a list of claims"),
         ("- where: p. 1\n  statement: It is so.\n", r"row 1 has no id \(It is so.\)"),
         ("- id: a\n- more\n", r"row 2 has no id \(more\)"),

@@ -5,8 +5,9 @@ import json
 from pathlib import Path
 
 import nbformat
-import notebook as step
 import pytest
+
+from replication.rules import notebook as step
 
 NOTEBOOKS = sorted((Path(__file__).parents[2] / "notebooks").glob("*.ipynb"))
 every_notebook = pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)

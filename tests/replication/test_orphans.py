@@ -31,11 +31,11 @@ def unused_scripts(
     A used script may import them, or a Snakefile; these two come as text.
     """
     files = set(files)
-    modules = {Path(path).stem: path for path in files}
-    modules |= {path.removesuffix(".py").replace("/", "."): path for path in files}
-    imported = re.findall(r"^(?:from|import) (\w+)", snakefiles, flags=re.MULTILINE)
+    dotted = {path: path.removesuffix(".py").removeprefix("src/") for path in files}
+    modules = {name.replace("/", "."): path for path, name in dotted.items()}
+    imported = re.findall(r"^from ([\w.]+) import", snakefiles, flags=re.MULTILINE)
+    imported += re.findall(r"python -m ([\w.]+)", makefile)
     waiting = {path for job in jobs for path in (*job.scripts, *job.inputs)}
-    waiting |= {path for path in files if path in makefile}
     waiting |= {modules[name] for name in imported if name in modules}
     used: set[str] = set()
     while waiting:
@@ -48,21 +48,24 @@ def unused_scripts(
 
 
 def imports(text: str) -> set[str]:
-    """The modules that a script imports."""
+    """The modules that a script imports, and what could be one: a name from a package."""
     nodes = list(ast.walk(ast.parse(text)))
     plain = {alias.name for node in nodes if isinstance(node, ast.Import) for alias in node.names}
-    return plain | {node.module or "" for node in nodes if isinstance(node, ast.ImportFrom)}
+    named = [node for node in nodes if isinstance(node, ast.ImportFrom)]
+    inner = {f"{node.module}.{alias.name}" for node in named for alias in node.names}
+    return plain | {node.module or "" for node in named} | inner
 
 
 def snakefiles(jobs: Iterable[Job]) -> str:
     """The text of all files that have rules."""
-    paths = {job.place.rpartition(":")[0] for job in jobs}
+    paths = {job.place.rpartition(":")[0] for job in jobs} | {"src/replication/common.smk"}
     return "\n".join((ROOT / path).read_text(encoding="utf-8") for path in paths)
 
 
 def scripts_beside(jobs: Iterable[Job]) -> list[str]:
     """Every script in the folders that scripts of rules lie in."""
     folders = {Path(script).parent for job in jobs for script in job.scripts}
+    folders |= {Path("src/replication"), Path("src/replication/commands")}
     return [
         str(path.relative_to(ROOT)) for folder in folders for path in (ROOT / folder).glob("*.py")
     ]
@@ -103,7 +106,7 @@ def test_step_or_figure_that_no_rule_runs_is_found(jobs):
 def test_module_is_used_as_long_as_a_used_script_imports_it(jobs):
     files = scripts_beside(jobs)
     assert "src/replication/citations.py" in files
-    without = MAKEFILE.replace("src/replication/commands/trace.py", "")
+    without = MAKEFILE.replace("python -m replication.commands.trace", "")
     assert unused_scripts(jobs, files, without, snakefiles(jobs)) == [
         "src/replication/citations.py",
         "src/replication/commands/trace.py",

@@ -82,7 +82,7 @@ rule manifest:
 
 COUNTS = """
 from replication.workbench import run
-from beside import NUMBER
+from steps.beside import NUMBER
 
 
 def main():
@@ -212,7 +212,7 @@ def test_change_in_an_imported_module_reruns_what_depends_on_it(tree):
 
 def test_module_that_is_loaded_behind_the_declared_ones_fails_the_run(tree):
     (tree / "src/steps/hidden.py").write_text("")
-    edit(tree, "src/steps/counts.py", "return", "exec('import ' + 'hidden')\n    return")
+    edit(tree, "src/steps/counts.py", "return", "exec('import ' + 'steps.hidden')\n    return")
     assert make(tree)[0] == 1
     log = (tree / "results/logs/counts.log").read_text()
     assert "rule counts loaded src/steps/hidden.py, which is not among its inputs" in log

@@ -1,6 +1,7 @@
 """Follow-up studies: how one is begun, read, and judged with the paper's claims."""
 
 import shutil
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -9,9 +10,10 @@ import yaml
 from replication.commands.new_study import create
 from replication.ledger import read_ledger
 from replication.study_config import read_study_config
+from steps.inputs import check_inputs
 
 ROOT = Path(__file__).resolve().parents[2]
-STRUCTURES = {"temple": {"half_width": 0.5, "half_height": 3.0}}
+CHECK = partial(check_inputs, structures={"temple": {"half_width": 0.5, "half_height": 3.0}})
 
 
 @pytest.fixture
@@ -20,7 +22,7 @@ def project(tmp_path):
     (tmp_path / "config").mkdir()
     shutil.copy(ROOT / "config" / "config.yaml", tmp_path / "config")
     shutil.copytree(ROOT / "studies" / "skeleton", tmp_path / "studies" / "skeleton")
-    for name in ("Snakefile", "figures", "notebooks"):
+    for name in ("src", "figures", "notebooks"):
         (tmp_path / name).symlink_to(ROOT / name)
     return tmp_path
 
@@ -33,7 +35,7 @@ def test_new_study_is_registered_and_sound(project):
     before = registered(project)
     folder = create("bridges", project)
     assert registered(project) == [*before, "bridges"]
-    assert read_study_config("bridges", STRUCTURES, str(folder.parent))["gain"]
+    assert read_study_config("bridges", CHECK, str(folder.parent))["gain"]
     left = [path for path in folder.rglob("*") if path.is_file() and "skeleton" in path.read_text()]
     assert left == []
 
@@ -74,14 +76,14 @@ def test_name_that_is_like_one_of_the_paper_or_of_a_study_is_refused(project, na
 
 def test_study_that_is_not_there_is_named(project):
     with pytest.raises(ValueError, match=r"studies has 'vases'.*expected some of skeleton"):
-        read_study_config("vases", STRUCTURES, str(project / "studies"))
+        read_study_config("vases", CHECK, str(project / "studies"))
 
 
 def test_fault_in_a_study_config_names_its_file(project):
     path = project / "studies" / "skeleton" / "config.yaml"
     path.write_text(path.read_text("utf-8").replace("temple", "tempel"), "utf-8")
     with pytest.raises(ValueError, match=r"skeleton/config.yaml: gain.structure is 'tempel'"):
-        read_study_config("skeleton", STRUCTURES, str(project / "studies"))
+        read_study_config("skeleton", CHECK, str(project / "studies"))
 
 
 def ledgers(tmp_path, paper, study):

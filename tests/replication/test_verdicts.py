@@ -8,11 +8,11 @@ from replication.verdicts import (
     KINDS,
     VERDICTS,
     by_origin,
-    judge,
     print_rounding,
     tallies,
     tally,
     tolerance_fault,
+    verdict_on,
 )
 
 NUMBER = {"id": "n", "printed": 0.275, "tolerance": 0.0005}
@@ -38,7 +38,7 @@ STATEMENT = {"id": "s"}
     ],
 )
 def test_a_printed_number_is_held_against_the_computed_one(finding, verdict):
-    assert judge(NUMBER, finding) == verdict
+    assert verdict_on(NUMBER, finding) == verdict
 
 
 @pytest.mark.parametrize(
@@ -64,35 +64,35 @@ def test_a_printed_number_is_held_against_the_computed_one(finding, verdict):
     ],
 )
 def test_a_statement_is_judged_by_what_holds(finding, verdict):
-    assert judge(STATEMENT, finding) == verdict
+    assert verdict_on(STATEMENT, finding) == verdict
 
 
 def test_a_value_too_uncertain_for_its_tolerance_gives_no_verdict():
     with pytest.raises(ValueError, match=r"claim n: the error is 5.1e-05; .* a tenth .* 0.0005"):
-        judge(NUMBER, {"value": 0.275, "error": 5.1e-5})
+        verdict_on(NUMBER, {"value": 0.275, "error": 5.1e-5})
 
 
 def test_a_value_that_is_not_a_number_confirms_nothing():
-    assert judge(NUMBER, {"value": math.nan, "error": 0.0}) == "refuted"
+    assert verdict_on(NUMBER, {"value": math.nan, "error": 0.0}) == "refuted"
     with pytest.raises(ValueError, match="claim n: the error is nan"):
-        judge(NUMBER, {"value": 0.275, "error": math.nan})
+        verdict_on(NUMBER, {"value": 0.275, "error": math.nan})
 
 
 def test_a_number_needs_a_value():
     with pytest.raises(ValueError, match="claim n: the finding has no value; expected a number"):
-        judge(NUMBER, {"holds": True})
+        verdict_on(NUMBER, {"holds": True})
 
 
 def test_a_statement_needs_a_truth():
     with pytest.raises(ValueError, match="claim s: the finding has no truth; expected 'holds'"):
-        judge(STATEMENT, {"value": 1.0, "error": 0.0})
+        verdict_on(STATEMENT, {"value": 1.0, "error": 0.0})
 
 
 @pytest.mark.parametrize("kind", [None, "condition", "brackets", "", "Sign"])
 def test_discrepancy_of_no_known_kind_gives_no_verdict(kind):
     finding = {"holds": False, "meant_holds": True, "kind": kind}
     with pytest.raises(ValueError, match=f"claim s: .* is {kind!r}; expected one of sign, number"):
-        judge(STATEMENT, finding)
+        verdict_on(STATEMENT, finding)
 
 
 def test_every_kind_has_a_verdict_that_is_one():
@@ -101,9 +101,9 @@ def test_every_kind_has_a_verdict_that_is_one():
 
 
 def test_claim_that_cannot_be_false_is_not_confirmed():
-    assert judge(STATEMENT | {"by_definition": True}, None) == "by definition"
+    assert verdict_on(STATEMENT | {"by_definition": True}, None) == "by definition"
     with pytest.raises(ValueError, match="claim s holds by definition; expected no finding"):
-        judge(STATEMENT | {"by_definition": True}, {"holds": True})
+        verdict_on(STATEMENT | {"by_definition": True}, {"holds": True})
 
 
 @pytest.mark.parametrize(

@@ -4,16 +4,16 @@ import re
 
 import pytest
 
-from steps.publish import (
+from replication.publishing import (
     checksums,
     count_table,
-    main,
     publish_findings,
     rounded,
     verdict_page,
     verdict_table,
     with_counts,
 )
+from steps.publish import main
 
 ROW = {
     "id": "trilith_size",

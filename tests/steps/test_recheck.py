@@ -10,9 +10,10 @@ import pytest
 import yaml
 
 from replication.ledger import judged, read_ledger
+from replication.publishing import count_table, verdict_page
+from replication.rechecking import claims, files, pages
 from replication.rules.claims import read_findings
-from steps.publish import count_table, verdict_page
-from steps.recheck import claims, equations, files, main, pages
+from steps.recheck import equations, main
 
 ROOT = Path(__file__).resolve().parents[2]
 CLAIM = {

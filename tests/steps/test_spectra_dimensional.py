@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 import yaml
 
-from replication.configuration import check_config
+from steps.inputs import check_inputs
 from steps.spectra_dimensional import lines, mass_ratio
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -22,7 +22,7 @@ def with_pier(caps):
 
 def check(config):
     schema = ROOT / "config" / "config.schema.yaml"
-    check_config(config, "config.yaml", str(schema), str(ROOT / "data" / "records"))
+    check_inputs(config, "config.yaml", str(schema), str(ROOT / "data" / "records"))
 
 
 def test_masses_of_the_trilith_give_its_ratio():

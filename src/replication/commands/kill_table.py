@@ -29,7 +29,7 @@ from pathlib import Path
 from replication.strict_yaml import read_yaml
 from replication.verdicts import verdict_on
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[3]
 FAULTS = ROOT / "faults" / "faults.yaml"
 TABLE = ROOT / "docs" / "kill_table"
 QUICK = "config/quick.yaml"

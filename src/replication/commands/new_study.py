@@ -48,7 +48,7 @@ def create(name: str, root: Path = Path()) -> Path:
 
 def _taken(name: str, root: Path) -> list[str]:
     """Return the names, of the paper and of studies, that would be mixed up with the new one's."""
-    snakefiles = [root / "Snakefile", *sorted(root.glob("studies/*/*.smk"))]
+    snakefiles = [*sorted(root.glob("src/*/*.smk")), *sorted(root.glob("studies/*/*.smk"))]
     texts = [path.read_text(encoding="utf-8") for path in snakefiles]
     names = {found for text in texts for both in NAMES.findall(text) for found in both if found}
     drawn = [*root.glob("figures/*.py"), *root.glob("notebooks/*.ipynb")]

@@ -19,7 +19,7 @@ from replication.provenance import Job, checksum, makers, workflow_jobs
 from replication.rules.claim import verdict_line
 from replication.verdicts import verdict_on
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 """The repository, from which the places in the library are told."""
 
 

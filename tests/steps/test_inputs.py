@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 import yaml
 
-from replication.configuration import check_config, record_files
+from steps.inputs import check_inputs, record_files
 
 ROOT = Path(__file__).resolve().parents[2]
 CONFIG, QUICK, THOROUGH = (
@@ -20,7 +20,7 @@ def faults(config):
     """The lines of the message, or none."""
     schema, records = ROOT / "config" / "config.schema.yaml", ROOT / "data" / "records"
     try:
-        check_config(config, "config.yaml", str(schema), str(records))
+        check_inputs(config, "config.yaml", str(schema), str(records))
     except ValueError as error:
         return str(error).splitlines()
     return []
@@ -199,7 +199,7 @@ def test_two_records_of_one_name_are_refused_naming_both(tmp_path, other):
     assert f"{tmp_path}/el_centro.AT2" in str(error.value)
     assert f"{tmp_path}/{other}" in str(error.value)
     with pytest.raises(ValueError, match="both the record 'el_centro'"):
-        check_config(CONFIG, "config.yaml", str(ROOT / "config/config.schema.yaml"), str(tmp_path))
+        check_inputs(CONFIG, "config.yaml", str(ROOT / "config/config.schema.yaml"), str(tmp_path))
 
 
 def test_a_shape_without_a_closed_form_is_refused_where_one_is_needed():
