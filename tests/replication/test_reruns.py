@@ -82,7 +82,7 @@ rule manifest:
 
 COUNTS = """
 from replication.workbench import run
-from steps.beside import NUMBER
+from figures.beside import NUMBER
 
 
 def main():
@@ -158,7 +158,7 @@ def build(root):
     for name, text in {
         "Snakefile": SNAKEFILE,
         "src/steps/counts.py": COUNTS,
-        "src/steps/beside.py": "NUMBER = 1\n",
+        "figures/beside.py": "NUMBER = 1\n",
         "src/replication/rules/claims.py": CLAIMS,
         "figures/line.py": FIGURE,
         "ledger.json": '"n"',
@@ -205,24 +205,24 @@ def test_step_that_raises_fails_again_until_it_is_mended(tree):
 
 
 def test_change_in_an_imported_module_reruns_what_depends_on_it(tree):
-    edit(tree, "src/steps/beside.py", "1", "2")
+    edit(tree, "figures/beside.py", "1", "2")
     assert make(tree) == (0, {"counts", "figure", "claims"})
     assert claimed(tree) == 2
 
 
 def test_module_that_is_loaded_behind_the_declared_ones_fails_the_run(tree):
-    (tree / "src/steps/hidden.py").write_text("")
-    edit(tree, "src/steps/counts.py", "return", "exec('import ' + 'steps.hidden')\n    return")
+    (tree / "figures/hidden.py").write_text("")
+    edit(tree, "src/steps/counts.py", "return", "exec('import ' + 'figures.hidden')\n    return")
     assert make(tree)[0] == 1
     log = (tree / "results/logs/counts.log").read_text()
-    assert "rule counts loaded src/steps/hidden.py, which is not among its inputs" in log
+    assert "rule counts loaded figures/hidden.py, which is not among its inputs" in log
 
 
 @pytest.mark.parametrize("kind", [signal.SIGINT, signal.SIGTERM])
 def test_interrupted_step_is_made_again(tree, kind):
     slow = "import time, pathlib; pathlib.Path('began').touch(); time.sleep(60)\n    return"
     edit(tree, "src/steps/counts.py", "return", slow)
-    edit(tree, "src/steps/beside.py", "1", "3")
+    edit(tree, "figures/beside.py", "1", "3")
     run = subprocess.Popen(
         command(),
         cwd=tree,
@@ -267,7 +267,7 @@ exit 0
 
 
 def test_full_disk_fails_and_is_made_good(tree):
-    edit(tree, "src/steps/beside.py", "1", "4")
+    edit(tree, "figures/beside.py", "1", "4")
     script = FULL.format(run=" ".join(command("--quiet=all")))
     done = subprocess.run(
         ["unshare", "--mount", "--map-root-user", "sh", "-c", script],

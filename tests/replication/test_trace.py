@@ -211,7 +211,8 @@ def test_every_output_and_claim_is_traced_before_a_run(jobs, claims):
     for claim in claims:
         lines = trace(claim["id"], jobs, claims)
         assert lines.startswith(f"claim {claim['id']}: ")
-        assert ("\n  rule  " if "finding" in claim else ": not tested (") in lines
+        grounds = f": {claim['expected']} ("
+        assert ("\n  rule  " if "finding" in claim else grounds) in lines
 
 
 def test_every_claim_and_finding_is_traced_after_a_run(clone, jobs, claims):
