@@ -39,6 +39,8 @@ def noted(modules: Iterable[tuple[str, ModuleType]]) -> Iterator[set[str]]:
     try:
         for place, module in modules:
             for name, function in _functions(module):
+                if function in waiting:  # the default of a field is a function of its class, too
+                    continue
                 waiting[function] = function.__code__
                 _note_first_call(function, f"{place}.{name}", called)
         yield called

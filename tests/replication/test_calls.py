@@ -39,6 +39,7 @@ def cached():
 @dataclass(frozen=True)
 class Thing:
     size: float = 1.0
+    rule: object = plain
 
     @property
     def double(self):
@@ -81,6 +82,7 @@ def calls(module, act) -> set[str]:
         (lambda m: m.Thing().double, {"Thing", "Thing.double"}),
         (lambda m: m.Thing.made(), {"Thing", "Thing.made"}),
         (lambda m: m.Thing().method(), {"Thing", "Thing.method"}),
+        (lambda m: m.Thing().rule(1), {"Thing", "plain"}),
     ],
 )
 def test_what_is_called_is_noted_and_nothing_else(module, act, names):
