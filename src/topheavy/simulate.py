@@ -13,12 +13,13 @@ from topheavy.kernel.forcing import (
     NONE,
     RECORD,
     SHAPES,
+    Forcing,
     prepare_record,
     pulse_forcing,
     record_forcing,
 )
-from topheavy.kernel.grid import outcomes_of, record_order
-from topheavy.kernel.outcome import PULSE_ORDER, TOLERANCE, working_array
+from topheavy.kernel.grid import record_order
+from topheavy.kernel.outcome import MAX_STEPS, PULSE_ORDER, TOLERANCE, outcome, working_array
 from topheavy.kernel.taylor import oscillator
 from topheavy.kernel.trace import NO_UPLIFT, OVERTURNED, RESTS, ROCKING, trace
 from topheavy.pulses import Pulse
@@ -89,14 +90,10 @@ def simulate(
     shape, scale, amplitude, record = as_forcing(block, excitation)
     p = block.frequency_parameter
     until = math.inf if duration is None else p * checks.positive("duration", duration, "s")
-    if shape == RECORD:
-        forcing = record_forcing(record, scale, amplitude)
-    else:
-        forcing = pulse_forcing(shape, amplitude, scale)
+    forcing, order = _forcing(shape, scale, amplitude, record, tolerance)
     forcing = forcing._replace(end=min(forcing.end, until))
     if forcing.end == math.inf:
         raise ValueError("duration is not given; expected one, as this excitation goes on forever")
-    order = record_order(scale, tolerance) if shape == RECORD else PULSE_ORDER
 
     def follow(until: float, at: Times) -> tuple[NDArray[np.float64], Times, tuple[float, ...]]:
         motion, impacts = np.full((2, at.size), math.nan), np.empty(MOST_IMPACTS)
@@ -148,15 +145,24 @@ def judge(structure: Structure, excitation: Excitation, *, tolerance: float = TO
         raise ValueError("the excitation goes on forever; expected one that ends")
     block = structure.block()
     shape, scale, amplitude, record = as_forcing(block, excitation)
-    peak, overturned, impacts = outcomes_of(
-        oscillator(block),
-        shape,
-        np.array([scale]),
-        np.array([amplitude]),
-        record,
-        tolerance=tolerance,
-    )
-    return Ending(bool(overturned[0, 0]), float(peak[0, 0]), int(impacts[0, 0]))
+    forcing, order = _forcing(shape, scale, amplitude, record, tolerance)
+    found = outcome(working_array(), order, tolerance, oscillator(block), forcing, record)
+    if not found.resolved:
+        raise ArithmeticError(
+            f"{block} bounces too often to be followed to the end of the forcing "
+            f"({excitation if isinstance(excitation, Pulse) else excitation.name!r}), in more than "
+            f"{MAX_STEPS} steps; a smaller restitution lets it come to rest"
+        )
+    return Ending(bool(found.overturned), float(found.peak), int(found.impacts))
+
+
+def _forcing(
+    shape: int, scale: float, amplitude: float, record: NDArray[np.float64], tolerance: float
+) -> tuple[Forcing, int]:
+    """Return the forcing of the kernel, and the order of the series that follow it."""
+    if shape == RECORD:
+        return record_forcing(record, scale, amplitude), record_order(scale, tolerance)
+    return pulse_forcing(shape, amplitude, scale), PULSE_ORDER
 
 
 def as_forcing(

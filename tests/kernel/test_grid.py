@@ -8,7 +8,7 @@ import pytest
 from topheavy import RockingBlock
 from topheavy.kernel import forcing, grid
 from topheavy.kernel.forcing import NO_RECORD, prepare_record, pulse_forcing, record_forcing
-from topheavy.kernel.grid import HANDS, SMALL, outcomes_of, record_order
+from topheavy.kernel.grid import BATCHES, FEWEST_PULSES, outcomes_of, record_order
 from topheavy.kernel.outcome import PULSE_ORDER, TOLERANCE, outcome, working_array
 from topheavy.kernel.taylor import oscillator
 
@@ -24,7 +24,7 @@ def same(first, second) -> None:
 @pytest.mark.parametrize("threads", [2, 3, 7])
 @pytest.mark.parametrize("shape", [forcing.ONE_SINE, forcing.RICKER_SYMMETRIC])
 def test_results_do_not_depend_on_the_number_of_threads(shape, threads):
-    assert SCALES.size * AMPLITUDES.size > SMALL
+    assert SCALES.size * AMPLITUDES.size > 2 * FEWEST_PULSES
     alone = outcomes_of(BLOCK, shape, SCALES, AMPLITUDES, threads=1)
     same(outcomes_of(BLOCK, shape, SCALES, AMPLITUDES, threads=threads), alone)
     same(outcomes_of(BLOCK, shape, SCALES, AMPLITUDES), alone)
@@ -43,7 +43,7 @@ def test_each_cell_is_the_history_of_its_scale_and_amplitude():
             )
 
 
-@pytest.mark.parametrize("size", [(1, 1), (1, HANDS - 1), (1, HANDS + 1), (HANDS, 2)])
+@pytest.mark.parametrize("size", [(1, 1), (1, BATCHES - 1), (1, BATCHES + 1), (BATCHES, 2)])
 def test_every_cell_is_filled_whatever_the_size(size):
     scales, amplitudes = np.linspace(1, 5, size[0]), np.linspace(0.3, 0.4, size[1])
     peak, overturned, _ = outcomes_of(BLOCK, forcing.ONE_SINE, scales, amplitudes)

@@ -12,7 +12,8 @@ from pathlib import Path
 from numba import config
 
 _HERE = Path(__file__).parent
-_MODULES = ("forcing", "taylor", "bernstein", "tail", "rest", "march", "outcome", "grid", "trace")
+_MODULES = ("forcing", "taylor", "bernstein", "tail", "rest", "march", "outcome", "lanes")
+_MODULES += ("lane_steps", "pulse_batch", "record_batch", "grid", "trace")
 
 
 def _load() -> None:
