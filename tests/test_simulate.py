@@ -1027,7 +1027,7 @@ def test_history_that_cannot_be_followed_says_so():
     # A nudge and a long quiet: without loss, bounces of 1e-4 s each go on through all of it.
     lossless = RockingBlock(1.0, 0.2, 1.0)
     nudge = Record(1.0, 1.0001 * lossless.uplift_acceleration * np.array([0, 1, *np.zeros(300)]))
-    with pytest.raises(ArithmeticError, match=r"bounce too often.*restitution 1"):
+    with pytest.raises(ArithmeticError, match=r"restitution 1,.*bounces too often"):
         judge(lossless, nudge)
 
 

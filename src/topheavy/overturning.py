@@ -16,7 +16,7 @@ from topheavy.kernel.outcome import TOLERANCE
 from topheavy.kernel.taylor import oscillator
 from topheavy.pulses import Pulse, checked_shape
 from topheavy.records import Record
-from topheavy.simulate import as_forcing
+from topheavy.simulate import as_forcing, checked_tolerance, no_excitation
 from topheavy.structures import RockingBlock, Structure
 
 if TYPE_CHECKING:
@@ -30,6 +30,9 @@ NARROWEST = 1.0 / 1024.0
 
 BRACKET = 1e-10
 """Width of the brackets, over the larger end of the range."""
+
+MOST_HALVINGS = 64
+"""The range is at most twice its larger end wide, and 2/`BRACKET` < 2³⁵: 35 rounds are enough."""
 
 
 def overturning_map(
@@ -116,7 +119,7 @@ def overturned_by(
     factors : array_like, shape (n,)
         Not negative.
     tolerance : float
-        As of `judge`.
+        As of `simulate`.
 
     Returns
     -------
@@ -136,7 +139,7 @@ def overturned_by(
         np.array([scale]),
         amplitude * scales,
         record,
-        tolerance=tolerance,
+        tolerance=checked_tolerance(tolerance),
     )[1][0]
     return fell
 
@@ -246,7 +249,9 @@ def _labeller(
 def _ending_forcing(
     block: RockingBlock, excitation: Excitation
 ) -> tuple[int, float, float, NDArray[np.float64]]:
-    """Return an excitation as the kernel takes it, if it ends."""
+    """Return an excitation as the kernel takes it, if it is one and ends."""
+    if excitation is None:
+        raise no_excitation(excitation)
     if isinstance(excitation, Pulse) and excitation.duration == math.inf:
         raise ValueError("shape is 'harmonic', which goes on forever; expected a pulse that ends")
     return as_forcing(block, excitation)
@@ -260,14 +265,14 @@ def _bisect(
 ) -> list[Boundary]:
     """Return the boundaries (low, high, label below, label above), halved down to `width`."""
     done: list[Boundary] = []
-    while boundaries:
+    for _ in range(MOST_HALVINGS):
         open_ones: list[Boundary] = []
         for boundary in boundaries:
             low, high = boundary[:2]
             settled = high - low <= width or not low < 0.5 * (low + high) < high
             (done if settled else open_ones).append(boundary)
         if not open_ones:
-            break
+            return sorted((float(a), float(b), int(c), int(d)) for a, b, c, d in done)
         middles = np.array([0.5 * (low + high) for low, high, _, _ in open_ones])
         boundaries = []
         for (low, high, below, above), middle, found in zip(
@@ -281,4 +286,7 @@ def _bisect(
                 boundaries += [(low, middle, below, found), (middle, high, found, above)]
             else:
                 done.append((low, high, below, above))
-    return sorted((float(a), float(b), int(c), int(d)) for a, b, c, d in done)
+    raise ArithmeticError(
+        f"{len(boundaries)} boundaries are not settled after {MOST_HALVINGS} halvings, among them "
+        f"that from {boundaries[0][0]!r} to {boundaries[0][1]!r}; expected brackets of {width:g}"
+    )

@@ -10,6 +10,9 @@ from numpy.typing import ArrayLike, NDArray
 from topheavy import checks
 from topheavy.structures import RockingBlock
 
+MOST_SAMPLES = 10_000_000
+"""Of a response that is asked for by a number of samples: three arrays of 80 MB."""
+
 Outcome = Literal["no uplift", "rests", "rocking", "overturned"]
 
 
@@ -64,6 +67,11 @@ def sample_times(samples: int | ArrayLike) -> int | NDArray[np.float64]:
         number = checks.finite("samples", samples)
         if number != int(number) or number < 2:
             raise ValueError(f"samples is {samples!r}; expected a whole number of at least 2")
+        if number > MOST_SAMPLES:
+            raise ValueError(
+                f"samples is {samples!r}; expected at most {MOST_SAMPLES} (240 MB), or an array of "
+                "the times that are wanted"
+            )
         return int(number)
     times = np.array(samples, dtype=float)
     if times.ndim != 1 or times.size == 0 or not np.all(np.isfinite(times)):

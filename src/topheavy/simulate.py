@@ -1,6 +1,7 @@
 """Rocking histories by the compiled kernel: `simulate`, and `judge` for the verdict alone."""
 
 import math
+from numbers import Real
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,15 +14,23 @@ from topheavy.kernel.forcing import (
     NONE,
     RECORD,
     SHAPES,
-    Forcing,
     prepare_record,
     pulse_forcing,
     record_forcing,
 )
-from topheavy.kernel.grid import record_order
-from topheavy.kernel.outcome import MAX_STEPS, PULSE_ORDER, TOLERANCE, outcome, working_array
+from topheavy.kernel.grid import outcome_of, record_order
+from topheavy.kernel.interrupt import LONG, in_threads
+from topheavy.kernel.outcome import PULSE_ORDER, TOLERANCE, working_array
 from topheavy.kernel.taylor import oscillator
-from topheavy.kernel.trace import NO_UPLIFT, OVERTURNED, RESTS, ROCKING, trace
+from topheavy.kernel.trace import (
+    MOST_STEPS,
+    NO_UPLIFT,
+    OVERTURNED,
+    RESTS,
+    ROCKING,
+    UNRESOLVED,
+    trace,
+)
 from topheavy.pulses import Pulse
 from topheavy.records import Record
 from topheavy.response import Outcome, Response, initial_motion, sample_times
@@ -31,6 +40,9 @@ Times = NDArray[np.float64]
 
 MOST_IMPACTS = 100_000
 """Room for the times of impacts of one history."""
+
+SMALLEST_TOLERANCE, LARGEST_TOLERANCE = 1e-16, 1e-2
+"""Below the first a step is as good as doubles are; above the second outcomes differ visibly."""
 
 _OUTCOMES: dict[int, Outcome] = {
     NO_UPLIFT: "no uplift",
@@ -65,7 +77,8 @@ def simulate(
         A number of uniform times from 0 to the end, or increasing times in s, which may reach
         beyond the end.
     tolerance : float
-        Bound on the last two terms of the Taylor series of φ̇/p in a step, relative to α.
+        Bound on the last two terms of the Taylor series of φ̇/p in a step, relative to α; from
+        1e-16 to 1e-2.
 
     Returns
     -------
@@ -77,7 +90,10 @@ def simulate(
     ------
     ValueError
         For values that are not finite, |θ| ≥ π/2 in the exact equation, a harmonic without a
-        duration, or a structure whose √r is negative.
+        duration, a tolerance or a number of samples out of range, or a structure whose √r is
+        negative.
+    ArithmeticError
+        For a history of more than `MOST_IMPACTS` impacts or a million steps.
 
     Notes
     -----
@@ -86,31 +102,38 @@ def simulate(
     """
     block = structure.block()
     times = sample_times(samples)
+    tolerance = checked_tolerance(tolerance)
     theta, theta_rate = initial_motion(block, rotation, velocity)
     shape, scale, amplitude, record = as_forcing(block, excitation)
     p = block.frequency_parameter
     until = math.inf if duration is None else p * checks.positive("duration", duration, "s")
-    forcing, order = _forcing(shape, scale, amplitude, record, tolerance)
+    if shape == RECORD:
+        forcing = record_forcing(record, scale, amplitude)
+    else:
+        forcing = pulse_forcing(shape, amplitude, scale)
     forcing = forcing._replace(end=min(forcing.end, until))
     if forcing.end == math.inf:
         raise ValueError("duration is not given; expected one, as this excitation goes on forever")
+    order = record_order(scale, tolerance) if shape == RECORD else PULSE_ORDER
 
     def follow(until: float, at: Times) -> tuple[NDArray[np.float64], Times, tuple[float, ...]]:
         motion, impacts = np.full((2, at.size), math.nan), np.empty(MOST_IMPACTS)
-        found = trace(
-            working_array(),
-            order,
-            tolerance,
-            oscillator(block),
-            forcing,
-            record,
-            theta,
-            theta_rate / p,
-            until,
-            p * at,
-            motion,
-            impacts,
-        )
+        start = (oscillator(block), forcing, record, theta, theta_rate / p)
+
+        def traced(w: Times) -> tuple[float, ...]:
+            result: tuple[float, ...] = trace(
+                w, order, tolerance, *start, until, p * at, motion, impacts
+            )
+            return result
+
+        is_long = record.shape[1] + at.size > LONG
+        found = in_threads([traced])[0] if is_long else traced(working_array())
+        if found[1] == UNRESOLVED:
+            raise ArithmeticError(
+                f"{block} under {_named(excitation)}: more than {MOST_IMPACTS} impacts or "
+                f"{MOST_STEPS} steps by {found[0] / p:.6g} s; a shorter duration or a smaller "
+                "restitution has fewer"
+            )
         return motion, impacts, found
 
     if isinstance(times, int):
@@ -119,8 +142,6 @@ def simulate(
     elif duration is None:
         until = max(p * float(times[-1]), forcing.end)
     motion, impacts, (_, result, peak, counted, landed) = follow(until, times)
-    if landed > MOST_IMPACTS:
-        raise ArithmeticError(f"{block}: {landed} impacts; room is for {MOST_IMPACTS}")
     outcome = _OUTCOMES[int(result)]
     return Response(
         time=times,
@@ -138,31 +159,29 @@ def judge(structure: Structure, excitation: Excitation, *, tolerance: float = TO
 
     The same as `simulate`, in microseconds: the free rocking is not integrated. The peak is max|θ|
     over the whole motion (NaN if overturned), the impacts are counted as in `Response`.
+
+    Raises
+    ------
+    ValueError
+        For an excitation that is none or goes on forever, or a tolerance out of range.
+    ArithmeticError
+        For a block that bounces too often to be followed.
     """
     if not isinstance(excitation, (Pulse, Record)):
-        raise ValueError(f"excitation is {excitation!r}; expected a Pulse or a Record")
+        raise no_excitation(excitation)
     if excitation.duration == math.inf:
         raise ValueError("the excitation goes on forever; expected one that ends")
     block = structure.block()
     shape, scale, amplitude, record = as_forcing(block, excitation)
-    forcing, order = _forcing(shape, scale, amplitude, record, tolerance)
-    found = outcome(working_array(), order, tolerance, oscillator(block), forcing, record)
-    if not found.resolved:
-        raise ArithmeticError(
-            f"{block} bounces too often to be followed to the end of the forcing "
-            f"({excitation if isinstance(excitation, Pulse) else excitation.name!r}), in more than "
-            f"{MAX_STEPS} steps; a smaller restitution lets it come to rest"
-        )
+    found = outcome_of(
+        oscillator(block),
+        shape,
+        scale,
+        amplitude,
+        record,
+        tolerance=checked_tolerance(tolerance),
+    )
     return Ending(bool(found.overturned), float(found.peak), int(found.impacts))
-
-
-def _forcing(
-    shape: int, scale: float, amplitude: float, record: NDArray[np.float64], tolerance: float
-) -> tuple[Forcing, int]:
-    """Return the forcing of the kernel, and the order of the series that follow it."""
-    if shape == RECORD:
-        return record_forcing(record, scale, amplitude), record_order(scale, tolerance)
-    return pulse_forcing(shape, amplitude, scale), PULSE_ORDER
 
 
 def as_forcing(
@@ -178,4 +197,26 @@ def as_forcing(
             return SHAPES[excitation.shape], scale, float(excitation.amplitude), NO_RECORD
         case Record():
             return RECORD, p * excitation.time_step, 1.0, prepare_record(excitation.acceleration)
-    raise ValueError(f"excitation is {excitation!r}; expected a Pulse or a Record")
+    raise no_excitation(excitation)
+
+
+def checked_tolerance(value: float) -> float:
+    """Return a tolerance of the kernel, or raise ValueError with the range that is accepted."""
+    low, high = SMALLEST_TOLERANCE, LARGEST_TOLERANCE
+    if not (isinstance(value, Real) and low <= value <= high):
+        raise ValueError(f"tolerance is {value!r}; expected a number from {low:g} to {high:g}")
+    return float(value)
+
+
+def no_excitation(value: object) -> ValueError:
+    """Return the error that refuses what is no ground motion."""
+    return ValueError(
+        f"excitation is {value!r}; expected a Pulse or a Record, for example "
+        'Pulse("one-sine", 0.3, 6.0) with 0.3 g and 6 rad/s'
+    )
+
+
+def _named(excitation: Excitation | None) -> str:
+    if isinstance(excitation, Record):
+        return f"record {excitation.name!r}"
+    return "no excitation" if excitation is None else repr(excitation)

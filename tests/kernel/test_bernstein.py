@@ -147,4 +147,4 @@ def test_many_close_roots_stay_within_the_stack():
     places = 0.3 + 1e-3 * np.arange(4)
     result = found(polynomial.polymul(polynomial.polyfromroots(places), [1.0] * 10))
     np.testing.assert_allclose(result, places, atol=1e-5)
-    assert working_array().shape == (STACK + MAX_DEPTH, MAX_DEGREE + 3)
+    assert working_array().shape == (STACK + MAX_DEPTH + 1, MAX_DEGREE + 3)

@@ -12,8 +12,22 @@ from pathlib import Path
 from numba import config
 
 _HERE = Path(__file__).parent
-_MODULES = ("forcing", "taylor", "bernstein", "tail", "rest", "march", "outcome", "lanes")
-_MODULES += ("lane_steps", "pulse_batch", "record_batch", "grid", "trace")
+_MODULES = (
+    "forcing",
+    "taylor",
+    "bernstein",
+    "tail",
+    "rest",
+    "march",
+    "outcome",
+    "interrupt",
+    "lanes",
+    "lane_steps",
+    "pulse_batch",
+    "record_batch",
+    "grid",
+    "trace",
+)
 
 
 def _load() -> None:

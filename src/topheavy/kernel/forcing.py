@@ -37,6 +37,11 @@ KAPPA = np.array([0, 0, 0, 0, 0, 1 / 2, 1 / math.sqrt(6)])
 DERIVATIVE = np.array([0, 0, 0, 0, 0, 2, 3])
 #: The amplitude of the antisymmetric wavelet is normalised by its own peak, to five digits.
 ANTISYMMETRIC_PEAK = 1.3801
+#: A pulse that ends has at most five monotone pieces, each of which rounding may cut in two. In as
+#: many of a harmonic's, |a| reaches its largest value more than once.
+MOST_PIECES = 10
+#: Newton's steps for a crossing, of which six are usual. As many halvings leave 2⁻⁶⁴ of a piece.
+MOST_NEWTON_STEPS = 64
 #: No shape of unit amplitude exceeds this (the antisymmetric wavelet does exceed 1, by 1.4e-5).
 UNIT_BOUND = 1.0001
 
@@ -119,9 +124,10 @@ def piece_at(forcing, time):
     """Return the number of the piece of a record that begins at or before `time`.
 
     The quotient alone is not enough: (k Δ)/Δ may round to less than k, which is the piece before.
+    It is never two before, as the rounding of quotient and product is below 1 for k < 2⁵¹.
     """
     piece = int(time / forcing.step)
-    while (piece + 1) * forcing.step <= time:
+    if (piece + 1) * forcing.step <= time:
         piece += 1
     return piece
 
@@ -215,7 +221,9 @@ def next_uplift(forcing, record, time, level):
     if forcing.shape == HARMONIC and abs(forcing.amplitude) <= level:
         return np.inf, 0.0, 0.0, 1.0
     value, rate = ground(forcing, record, time)
-    while time < forcing.end:
+    for _ in range(MOST_PIECES):
+        if time >= forcing.end:
+            break
         if abs(value) > level:
             sign = math.copysign(1.0, value)
             return time, abs(value) - level, sign * rate, -sign
@@ -264,7 +272,7 @@ def _crossing(forcing, low, high, sign, level):
         time = high - math.atan2(root, level) / forcing.frequency
         return max(time, low), forcing.frequency * root
     time = high
-    while True:  # bisection, with Newton's step whenever it stays inside
+    for number in range(2 * MOST_NEWTON_STEPS):  # Newton's step where it stays inside, else halving
         value, rate = unit_pulse(shape, forcing.frequency * time)
         excess = sign * forcing.amplitude * value - level
         rate *= sign * forcing.amplitude * forcing.frequency
@@ -273,8 +281,9 @@ def _crossing(forcing, low, high, sign, level):
         else:
             low = time
         trial = time - excess / rate if rate > 0.0 else low
-        if not low < trial < high:
+        if number >= MOST_NEWTON_STEPS or not low < trial < high:
             trial = 0.5 * (low + high)
         if abs(trial - time) <= 4e-16 * time or high - low <= 4e-16 * time:
             return trial, rate
         time = trial
+    return time, rate

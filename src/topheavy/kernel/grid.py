@@ -7,15 +7,23 @@ A scale is ω/p of a pulse, p Δt of a record. The histories run in the lanes of
 import math
 import os
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
 from functools import partial
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from topheavy.kernel.forcing import NO_RECORD, RECORD
+from topheavy.kernel.forcing import NO_RECORD, RECORD, SHAPES, pulse_forcing, record_forcing
+from topheavy.kernel.interrupt import LONG, in_threads
 from topheavy.kernel.lanes import WIDTH
-from topheavy.kernel.outcome import MAX_STEPS, PULSE_ORDER, TOLERANCE
+from topheavy.kernel.outcome import (
+    MAX_STEPS,
+    PULSE_ORDER,
+    TOLERANCE,
+    Outcome,
+    outcome,
+    working_array,
+)
 from topheavy.kernel.pulse_batch import pulse_outcomes
 from topheavy.kernel.record_batch import record_outcomes
 from topheavy.kernel.taylor import Oscillator
@@ -80,37 +88,76 @@ def outcomes_of(
     if shape == RECORD:
         for i, step in enumerate(scales):
             given = (block, step, amplitudes, record, tolerance, peak[i], overturned[i], impacts[i])
-            lost = _shared(record_outcomes, given, len(amplitudes), FEWEST_FACTORS, threads)
+            is_long = len(amplitudes) * record.shape[1] > LONG
+            lost = _batches(
+                record_outcomes, given, len(amplitudes), FEWEST_FACTORS, threads, is_long
+            )
             if lost >= 0:
-                raise _unresolved(block, f"factor {amplitudes[lost]:.6g} on a record of p Δt", step)
+                raise _unresolved(block, shape, float(step), float(amplitudes[lost]))
         return peak, overturned, impacts
     cells = (block, shape, scales, amplitudes, tolerance, peak, overturned, impacts)
-    lost = _shared(pulse_outcomes, cells, peak.size, FEWEST_PULSES, threads)
+    lost = _batches(pulse_outcomes, cells, peak.size, FEWEST_PULSES, threads, False)
     if lost >= 0:
         i, j = divmod(lost, len(amplitudes))
-        raise _unresolved(block, f"amplitude {amplitudes[j]:.6g} g at ω/p", scales[i])
+        raise _unresolved(block, shape, float(scales[i]), float(amplitudes[j]))
     return peak, overturned, impacts
 
 
-def _shared(work: Callable[..., int], given: tuple, cells: int, fewest: int, threads: int) -> int:
-    """Let the threads do all batches; return the first cell that was given up, or -1."""
-    batches = max(1, min(BATCHES, cells // fewest))
-    one = partial(_batch, work, batches, given)
-    if threads == 1 or batches == 1:
-        lost = list(map(one, range(batches)))
+def _batches(
+    work: Callable[..., int],
+    given: tuple[Any, ...],
+    cells: int,
+    fewest: int,
+    threads: int,
+    is_long: bool,
+) -> int:
+    """Let the threads do all batches; return the first cell that was given up, or −1."""
+    number = max(1, min(BATCHES, cells // fewest))
+
+    def one(batch: int, v: Array) -> int:
+        return int(work(v, batch, number, *given))
+
+    calls = [partial(one, batch) for batch in range(number)]
+    if number == 1 and not is_long:
+        lost = [one(0, working_array())]
     else:
-        with ThreadPoolExecutor(threads) as pool:
-            lost = list(pool.map(one, range(batches)))
+        lost = in_threads(calls, min(threads, number))
     return min((cell for cell in lost if cell >= 0), default=-1)
 
 
-def _batch(work: Callable[..., int], batches: int, given: tuple, batch: int) -> int:
-    return int(work(batch, batches, *given))
+def outcome_of(
+    block: Oscillator,
+    shape: int,
+    scale: float,
+    amplitude: float,
+    record: Array = NO_RECORD,
+    *,
+    tolerance: float = TOLERANCE,
+) -> Outcome:
+    """Return the outcome of one history, by the scalar kernel; see `outcomes_of`."""
+    if shape == RECORD:
+        forcing, order = record_forcing(record, scale, amplitude), record_order(scale, tolerance)
+    else:
+        forcing, order = pulse_forcing(shape, amplitude, scale), PULSE_ORDER
+
+    def call(w: Array) -> Outcome:
+        found: Outcome = outcome(w, order, tolerance, block, forcing, record)
+        return found
+
+    found = in_threads([call])[0] if record.shape[1] > LONG else call(working_array())
+    if not found.resolved:
+        raise _unresolved(block, shape, scale, amplitude)
+    return found
 
 
-def _unresolved(block: Oscillator, case: str, scale: float) -> ArithmeticError:
+def _unresolved(block: Oscillator, shape: int, scale: float, amplitude: float) -> ArithmeticError:
+    forcing = f"{amplitude:.6g} times the record with p Δt = {scale:.6g}"
+    if shape != RECORD:
+        name = next(name for name, number in SHAPES.items() if number == shape)
+        forcing = f"the {name} pulse of {amplitude:.6g} g with ω/p = {scale:.6g}"
+    equation = "linearised" if block.linearised else "exact"
     return ArithmeticError(
-        f"{case} = {scale:.6g}: the block (α = {block.slenderness:.6g}, √r = {block.restitution}) "
-        f"bounces too often to be followed to the end of the forcing, in more than {MAX_STEPS} "
-        "steps; a smaller √r lets it come to rest"
+        f"{MAX_STEPS} steps and ten a sample do not reach the end of {forcing}: the block "
+        f"(slenderness {block.slenderness:.6g} rad, restitution {block.restitution:.6g}, "
+        f"{equation} equation) bounces too often; a smaller restitution lets it come to rest"
     )

@@ -27,7 +27,7 @@ from topheavy.kernel.lanes import (
     square_root,
     store,
 )
-from topheavy.kernel.outcome import FLAT, LANDING, POLYNOMIAL, proven
+from topheavy.kernel.outcome import FLAT, HALT, LANDING, POLYNOMIAL, proven
 from topheavy.kernel.rest import LAST_BOUNCE
 from topheavy.kernel.taylor import INVERSE
 
@@ -207,8 +207,10 @@ def step_alone(w, v, lane, order, flat):
     for k in range(order + 1):
         v[POLYNOMIAL, k] = w[ROTATION + k, lane] * power
         power *= step
-    end, event, w[ARC, lane] = proven(v, order, zeros, flat, w[ARC, lane])
+    # order + 0 hides a constant, for which numba would compile it all anew.
+    end, event, w[ARC, lane] = proven(v, order + 0, zeros, flat, w[ARC, lane])
     w[LENGTH, lane] = step * end
+    v[HALT, 1] = lane  # which is to blame if this was too much
     return event
 
 
@@ -256,7 +258,7 @@ def advance(w, v, block, order, tolerance, is_straight, active):
     store(w, LENGTH, select(hard, step, length))
     store(w, ARC, select(hard, arc, highest))
     landed, fallen, unsettled = bits(lands & ~hard) & active, 0, bits(hard) & active
-    while unsettled:  # one bit less each time
+    while unsettled and v[HALT, 0] == 0.0:  # one bit less each time
         lane = lowest(unsettled)
         unsettled &= unsettled - 1
         event = step_alone(w, v, lane, order, block.flat)

@@ -72,6 +72,7 @@ def march(block, forcing, record, piece, side, state, tolerance, peak):
     h7 = h6 * h / 7
     bound, inverse_cosine = tolerance * block.slenderness, 1.0 / block.cosine
     rotation, velocity, sine, cosine, push, rate = state
+    # Each round is a piece, and `forcing.end` is not beyond the last sample.
     while rotation <= block.slenderness and (piece + 1) * h < forcing.end:
         tilt = block.cosine * cosine + block.sine * sine  # cos(α − φ)
         lean = block.sine * cosine - block.cosine * sine  # sin(α − φ)

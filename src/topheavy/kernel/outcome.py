@@ -34,12 +34,21 @@ PULSE_ORDER = 15
 #: Bound on the last two terms of φ' in a step, over α.
 TOLERANCE = 3e-10
 #: A history with more steps than this (and ten a sample) is given up as not resolved.
+#:
+#: A step ends at a landing or the end of a piece, or it is as long as the series allows: a tenth or
+#: more of the time in which the motion changes by itself, 1/(1 + ω/p + √|a|). A pulse lasts 9π p/ω
+#: at most, and one that is slow or strong has overturned the block, or lets it come to rest, within
+#: a thousand such times. Hence only landings can be so many: of a block that loses next to nothing
+#: at an impact (√r → 1).
 MAX_STEPS = 200_000
 #: What ends a step.
 NOTHING, LANDING, FLAT = range(3)
 #: Rows of the working array after those of `taylor`: the step polynomial and its derivative on
 #: [0, 1], their Bernstein coefficients, the roots found, and the stack of `bernstein.roots`.
 POLYNOMIAL, SLOPE, HULL, SLOPE_HULL, FOUND, STACK = range(6, 12)
+#: The row that begins with 1 when a history is to be given up: see `bernstein.roots` and
+#: `topheavy.kernel.interrupt`.
+HALT = STACK + MAX_DEPTH
 
 
 class Outcome(NamedTuple):
@@ -56,7 +65,7 @@ class Outcome(NamedTuple):
 @njit(cache=True, error_model="numpy")
 def working_array():
     """Return the array that a history works in; a thread needs one for all its histories."""
-    return np.zeros((STACK + MAX_DEPTH, MAX_DEGREE + 3))
+    return np.zeros((HALT + 1, MAX_DEGREE + 3))
 
 
 @njit(cache=True, error_model="numpy")
@@ -222,7 +231,7 @@ def renewed(block, forcing, record, time, side, state):
     return State(state.rotation, state.velocity, state.sine, state.cosine, push, -side * rate)
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy")
 def outcome(w, order, tolerance, block, forcing, record):
     """Return the `Outcome` of a block that stands at rest when the forcing begins."""
     is_record = forcing.shape == RECORD
@@ -239,6 +248,9 @@ def outcome(w, order, tolerance, block, forcing, record):
             piece = piece_at(forcing, time)
             piece_end = (piece + 1) * forcing.step
         while True:
+            steps_left -= 1
+            if steps_left < 0 or w[HALT, 0] != 0.0:
+                return Outcome(False, math.nan, impacts, False)
             longest = piece_end - time
             so_far = 0.0 if is_low else peak
             step, event, highest = advance(
@@ -277,9 +289,6 @@ def outcome(w, order, tolerance, block, forcing, record):
                 return Outcome(tail.overturned, peak, impacts + tail.impacts, True)
             if is_certain_to_overturn(block, forcing, record, time, state):
                 return Outcome(True, math.nan, impacts, True)
-            steps_left -= 1
-            if steps_left < 0:
-                return Outcome(False, math.nan, impacts, False)
             if is_record and time >= piece_end:
                 piece += 1
                 state = at_sample(block, forcing, record, piece, side, state)

@@ -58,7 +58,7 @@ from topheavy.kernel.lanes import (
     square_root,
     store,
 )
-from topheavy.kernel.outcome import MAX_STEPS, PULSE_ORDER, working_array
+from topheavy.kernel.outcome import HALT, MAX_STEPS, PULSE_ORDER
 from topheavy.kernel.rest import comes_to_rest
 from topheavy.kernel.tail import free_rocking
 
@@ -142,16 +142,21 @@ def lifts_again(w, lane, block, forcing):
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def pulse_outcomes(
-    batch, batches, block, shape, scales, amplitudes, tolerance, peak, overturned, impacts
+    v, batch, batches, block, shape, scales, amplitudes, tolerance, peak, overturned, impacts
 ):
     """Fill every `batches`-th cell from `batch` on; see `grid.outcomes_of`.
+
+    Parameters
+    ----------
+    v : array
+        A working array for steps that a lane takes alone, which may say halt (`outcome.HALT`).
 
     Returns
     -------
     int
-        The first cell that was given up after `MAX_STEPS` steps, or -1.
+        The first cell that was given up (see `outcome.MAX_STEPS`), or −1.
     """
-    w, v, cells = rows(ROWS), working_array(), np.full(WIDTH, -1)
+    w, cells = rows(ROWS), np.full(WIDTH, -1)
     columns, last = amplitudes.size, scales.size * amplitudes.size
     coming, lost, busy, vacant = batch, -1, 0, (1 << WIDTH) - 1
     while True:  # each time around a lane takes one of its `MAX_STEPS` steps, or there is none left
@@ -172,6 +177,8 @@ def pulse_outcomes(
                 still(w, lane)
         if busy == 0:
             return lost
+        if v[HALT, 0] != 0.0:
+            return cells[int(v[HALT, 1])]
         landed, fallen = advance(w, v, block, PULSE_ORDER, tolerance, False, busy)
         time, end, step = load(w, TIME), load(w, END), load(w, LENGTH)
         time = select(step >= load(w, LONGEST), end, time + step)

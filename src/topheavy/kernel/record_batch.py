@@ -51,7 +51,7 @@ from topheavy.kernel.lanes import (
     take,
 )
 from topheavy.kernel.march import LARGEST_TURN, derivatives
-from topheavy.kernel.outcome import MAX_STEPS, is_certain_to_overturn, working_array
+from topheavy.kernel.outcome import HALT, MAX_STEPS, is_certain_to_overturn
 from topheavy.kernel.rest import LAST_BOUNCE, comes_to_rest
 from topheavy.kernel.tail import free_rocking
 from topheavy.kernel.taylor import State
@@ -184,16 +184,21 @@ def count_of(chosen):
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def record_outcomes(
-    batch, batches, block, step, factors, record, tolerance, peak, overturned, impacts
+    v, batch, batches, block, step, factors, record, tolerance, peak, overturned, impacts
 ):
     """Fill every `batches`-th factor's cell from `batch` on; see `grid.outcomes_of`.
+
+    Parameters
+    ----------
+    v : array
+        A working array for steps that a lane takes alone, which may say halt (`outcome.HALT`).
 
     Returns
     -------
     int
-        The first cell that was given up after too many steps, or -1.
+        The first cell that was given up (see `outcome.MAX_STEPS`), or −1.
     """
-    w, v, cells = rows(ROWS), working_array(), np.full(WIDTH, -1)
+    w, cells = rows(ROWS), np.full(WIDTH, -1)
     samples, end = record[0], (record.shape[1] - 1) * step
     most_steps, bound = MAX_STEPS + 10 * record.shape[1], tolerance * block.slenderness
     coming, lost, vacant = batch, -1, (1 << WIDTH) - 1
@@ -220,6 +225,8 @@ def record_outcomes(
                 w[PIECE, lane] = 0.0
         if marching | stepping == 0:
             return lost
+        if v[HALT, 0] != 0.0:
+            return cells[int(v[HALT, 1])]
         if stepping == 0 or count_of(marching) > FEW:
             passed = march_lanes(w, block, samples, step, bound, marching)
             stepping |= marching & ~passed

@@ -10,7 +10,7 @@ import math
 
 from numba import njit
 
-from topheavy.kernel.forcing import ground, next_turn
+from topheavy.kernel.forcing import MOST_PIECES, ground, next_turn
 
 #: A rotation below this, over α, is no rocking: the impact that ends it is not counted.
 LAST_BOUNCE = 1e-6
@@ -67,11 +67,16 @@ def comes_to_rest(block, forcing, record, time, velocity, push, side, peak):
 
 @njit(cache=True, error_model="numpy")
 def _range(forcing, record, start, stop, side):
-    """Return the least and the largest f = −s a on [start, stop]."""
+    """Return the least and the largest f = −s a on [start, stop].
+
+    A record has fewer pieces than samples; for a pulse see `MOST_PIECES`.
+    """
     value = -side * ground(forcing, record, start)[0]
     low, high = value, value
     time = start
-    while time < stop:
+    for _ in range(MOST_PIECES + record.shape[1]):
+        if time >= stop:
+            break
         time = min(next_turn(forcing, time), stop) if time < forcing.end else stop
         value = -side * ground(forcing, record, time)[0]
         low, high = min(low, value), max(high, value)

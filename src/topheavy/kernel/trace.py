@@ -2,6 +2,10 @@
 
 The same steps and events as in `outcome`; but the free rocking is integrated too, so that it can be
 drawn, and a block that is sure to overturn is followed on.
+
+The energy at the end of the forcing says how the free rocking goes on (`tail`). The integration
+says the same, unless that energy is the barrier's to within its error: then the block is poised at
+φ = α, and may leave to the wrong side. There the history ends.
 """
 
 import math
@@ -21,7 +25,9 @@ from topheavy.kernel.forcing import (
 )
 from topheavy.kernel.outcome import (
     FLAT,
+    HALT,
     LANDING,
+    MAX_STEPS,
     PULSE_ORDER,
     advance,
     after_impact,
@@ -33,14 +39,21 @@ from topheavy.kernel.rest import LAST_BOUNCE, comes_to_rest
 from topheavy.kernel.tail import free_rocking
 from topheavy.kernel.taylor import State, evaluate
 
-NO_UPLIFT, RESTS, ROCKING, OVERTURNED = range(4)
+NO_UPLIFT, RESTS, ROCKING, OVERTURNED, UNRESOLVED = range(5)
+#: A history with more steps than this (and ten a sample) is given up as `UNRESOLVED`: those of the
+#: forcing (`outcome.MAX_STEPS`) and of the free rocking. A free flight takes fewer than ten, as the
+#: motion is a pendulum's, whose series converge over π/2 or more. There are at most twice
+#: `LAST_IMPACT` of them or, in a history with an end of its own, as many as `impacts` has room for.
+MOST_STEPS = 5 * MAX_STEPS
 #: A free history without an end of its own ends after so many impacts.
 LAST_IMPACT = 1000
 #: Without an end of its own, a flight longer than this (in τ) is that of a block poised at α.
 LONGEST_FLIGHT = 100.0
+#: Over α: a block this far from φ = α, and going on, has left.
+POISED = 1e-3
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy")
 def trace(
     w,
     order,
@@ -63,7 +76,8 @@ def trace(
         θ and dθ/dτ at τ = 0.
     until : float
         Where the history ends; if infinite, where the block rests or |θ| = π/2, or after
-        `LAST_IMPACT` impacts behind the forcing.
+        `LAST_IMPACT` impacts behind the forcing. In either case it ends before a step by which
+        the block leaves φ = α to the other side than its energy says.
     times : array
         Ascending τ; `samples`, of shape (2, times.size), takes θ and dθ/dτ there, and keeps what it
         had beyond the end of a block that does not rest.
@@ -75,7 +89,8 @@ def trace(
     end : float
         The time at which the history ends.
     result : int
-        `NO_UPLIFT`, `RESTS`, `ROCKING` or `OVERTURNED`, as the whole motion ends.
+        `NO_UPLIFT`, `RESTS`, `ROCKING` or `OVERTURNED`, as the whole motion ends; `UNRESOLVED`
+        if it takes more than `MOST_STEPS`, or more impacts than `impacts` has room for.
     peak : float
         The largest |θ| of the whole motion.
     counted : int
@@ -93,7 +108,10 @@ def trace(
     if rotation == 0.0:
         zeros = 1
     piece, forcing_end, flight_start, landed_forced = 0, forcing.end, 0.0, 0
-    while True:
+    landings_due, flights = 0, 0  # free ones, before it overturns; so far
+    for _ in range(MOST_STEPS + 10 * record.shape[1]):
+        if w[HALT, 0] != 0.0 or landed > impacts.size:
+            break
         if is_forced and time >= forcing_end:  # the ground comes to rest: judge what follows
             is_forced, straight, order, forcing = False, True, PULSE_ORDER, still(forcing_end)
             flight_start, landed_forced = time, landed
@@ -103,6 +121,7 @@ def trace(
             if moves:
                 tail = free_rocking(block, state.rotation, state.velocity)
                 is_over, counted = tail.overturned, counted + tail.impacts
+                landings_due = tail.impacts
                 peak = peak if is_over else max(peak, tail.peak)
         if not moves:
             uplift, push, rate, side = next_uplift(forcing, record, time, block.level)
@@ -120,7 +139,9 @@ def trace(
         is_far = block.linearised and is_over and state.rotation >= math.pi / 2
         is_endless = until == math.inf and not is_forced
         is_poised = is_endless and time - flight_start >= LONGEST_FLIGHT
-        is_restless = is_endless and landed - landed_forced >= LAST_IMPACT
+        is_restless = is_endless and (
+            landed - landed_forced >= LAST_IMPACT or flights >= 2 * LAST_IMPACT
+        )
         if time >= until or is_far or is_poised or is_restless:
             return time, (OVERTURNED if is_over else ROCKING), peak, counted, landed
 
@@ -133,6 +154,9 @@ def trace(
         step, event, highest = advance(
             w, order, tolerance, block, forcing, time, longest, state, zeros, so_far, straight
         )
+        ahead = evaluate(w, order, block, step, straight)
+        if not is_forced and _leaves_wrongly(block, ahead, event, is_over, landings_due - flights):
+            return time, (OVERTURNED if is_over else ROCKING), peak, counted, landed
         peak = max(peak, highest)
         is_low = is_low and highest <= LAST_BOUNCE * block.slenderness
         time = piece_end if step >= longest else time + step
@@ -141,7 +165,7 @@ def trace(
             samples[0, sample] = side * there.rotation
             samples[1, sample] = side * there.velocity
             sample += 1
-        state, zeros = evaluate(w, order, block, step, straight), 0
+        state, zeros = ahead, 0
         if forcing.shape == RICKER_SYMMETRIC or forcing.shape == RICKER_ANTISYMMETRIC:
             state = renewed(block, forcing, record, time, side, state)
         if event == FLAT:
@@ -155,6 +179,7 @@ def trace(
             is_low, flight_start, side = True, time, -side
             state, zeros = after_impact(block, state), 1
             if not is_forced:
+                flights += 1
                 bounce = free_rocking(block, 0.0, state.velocity)
                 moves = is_over or bounce.peak > LAST_BOUNCE * block.slenderness
             elif time < forcing_end:
@@ -167,6 +192,21 @@ def trace(
             piece += 1
             if moves and time < forcing_end:
                 state = at_sample(block, forcing, record, piece, side, state)
+    return time, UNRESOLVED, peak, counted, landed
+
+
+@njit(cache=True, error_model="numpy")
+def _leaves_wrongly(block, state, event, is_over, landings_left):
+    """Say whether a free step leads away from φ = α to the other side than was judged.
+
+    A block that overturns moves outward for good once it has landed as often as it was to. Any
+    other free motion passes α only inward.
+    """
+    if is_over and landings_left <= 0:
+        falls_back = state.velocity < 0.0 and state.rotation < (1 - POISED) * block.slenderness
+        return falls_back or event == LANDING
+    escapes = state.velocity > 0.0 and state.rotation > (1 + POISED) * block.slenderness
+    return escapes or event == FLAT
 
 
 @njit(cache=True, error_model="numpy")
