@@ -29,13 +29,14 @@ from topheavy.kernel.record_batch import record_outcomes
 from topheavy.kernel.taylor import Oscillator
 
 Array = NDArray[np.float64]
+Outcomes = tuple[Array, NDArray[np.bool_], NDArray[np.int64]]
 
 #: Cells are split into at most so many batches, cell i into batch i mod BATCHES, so that expensive
 #: cells spread evenly. Threads take up the batches as they come free.
 BATCHES = 64
 #: The least number of cells in a batch. Fewer would leave lanes idle at its end, or be done before
 #: a second thread has started.
-FEWEST_PULSES, FEWEST_FACTORS = 8 * WIDTH, WIDTH
+FEWEST_PULSES, FEWEST_FACTORS = 32 * WIDTH, WIDTH
 
 
 def record_order(step: float, tolerance: float = TOLERANCE) -> int:
@@ -55,7 +56,7 @@ def outcomes_of(
     *,
     tolerance: float = TOLERANCE,
     threads: int | None = None,
-) -> tuple[Array, NDArray[np.bool_], NDArray[np.int64]]:
+) -> Outcomes:
     """Return the outcomes of all pairs of a scale and an amplitude.
 
     Parameters
@@ -81,47 +82,65 @@ def outcomes_of(
     ArithmeticError
         For a history that takes more than `outcome.MAX_STEPS` steps.
     """
+    if shape != RECORD:
+        rows = scales[:, np.newaxis]
+        return pulse_outcomes_of(
+            block, shape, rows, amplitudes, tolerance=tolerance, threads=threads
+        )
     size = (len(scales), len(amplitudes))
     peak, overturned = np.empty(size), np.empty(size, dtype=bool)
     impacts = np.empty(size, dtype=np.int64)
-    threads = threads or len(os.sched_getaffinity(0))
-    if shape == RECORD:
-        for i, step in enumerate(scales):
-            given = (block, step, amplitudes, record, tolerance, peak[i], overturned[i], impacts[i])
-            is_long = len(amplitudes) * record.shape[1] > LONG
-            lost = _batches(
-                record_outcomes, given, len(amplitudes), FEWEST_FACTORS, threads, is_long
-            )
-            if lost >= 0:
-                raise _unresolved(block, shape, float(step), float(amplitudes[lost]))
-        return peak, overturned, impacts
-    cells = (block, shape, scales, amplitudes, tolerance, peak, overturned, impacts)
-    lost = _batches(pulse_outcomes, cells, peak.size, FEWEST_PULSES, threads, False)
-    if lost >= 0:
-        i, j = divmod(lost, len(amplitudes))
-        raise _unresolved(block, shape, float(scales[i]), float(amplitudes[j]))
+    for i, step in enumerate(scales):
+        given = (block, step, amplitudes, record, tolerance, peak[i], overturned[i], impacts[i])
+        fewest, samples = FEWEST_FACTORS, record.shape[1]
+        lost = _shared(record_outcomes, given, len(amplitudes), fewest, samples, threads)
+        if lost >= 0:
+            raise _unresolved(block, shape, float(step), float(amplitudes[lost]))
     return peak, overturned, impacts
 
 
-def _batches(
+def pulse_outcomes_of(
+    block: Oscillator,
+    shape: int,
+    scales: Array,
+    amplitudes: Array,
+    *,
+    tolerance: float = TOLERANCE,
+    threads: int | None = None,
+) -> Outcomes:
+    """Return the outcomes of pulses, of all that broadcasting `scales` and `amplitudes` makes.
+
+    The results have two axes, as that has; the rest is as of `outcomes_of`.
+    """
+    size = np.broadcast_shapes(scales.shape, amplitudes.shape)
+    peak, overturned = np.empty(size), np.empty(size, dtype=bool)
+    impacts = np.empty(size, dtype=np.int64)
+    pairs = (np.broadcast_to(scales, size), np.broadcast_to(amplitudes, size))
+    given = (block, shape, *pairs, tolerance, peak, overturned, impacts)
+    lost = _shared(pulse_outcomes, given, peak.size, FEWEST_PULSES, 1, threads)
+    if lost >= 0:
+        raise _unresolved(block, shape, *(float(values.flat[lost]) for values in pairs))
+    return peak, overturned, impacts
+
+
+def _shared(
     work: Callable[..., int],
     given: tuple[Any, ...],
     cells: int,
     fewest: int,
-    threads: int,
-    is_long: bool,
+    samples: int,
+    threads: int | None,
 ) -> int:
-    """Let the threads do all batches; return the first cell that was given up, or −1."""
-    number = max(1, min(BATCHES, cells // fewest))
+    """Let the threads do all cells, in batches; return the first cell given up, or −1."""
+    batches = max(1, min(BATCHES, cells // fewest))
 
-    def one(batch: int, v: Array) -> int:
-        return int(work(v, batch, number, *given))
+    def do(batch: int, v: Array) -> int:
+        return int(work(v, batch, batches, *given))
 
-    calls = [partial(one, batch) for batch in range(number)]
-    if number == 1 and not is_long:
-        lost = [one(0, working_array())]
-    else:
-        lost = in_threads(calls, min(threads, number))
+    if batches == 1 and cells * samples <= LONG:
+        return do(0, working_array())
+    threads = min(threads or len(os.sched_getaffinity(0)), batches)
+    lost = in_threads([partial(do, batch) for batch in range(batches)], threads)
     return min((cell for cell in lost if cell >= 0), default=-1)
 
 

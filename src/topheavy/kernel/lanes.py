@@ -205,6 +205,12 @@ def lowest(typing, chosen):
 
 
 @intrinsic
+def number(typing, chosen):
+    """Return how many bits of an integer are set."""
+    return _function(types.int64, (types.int64,), lambda builder, chosen: builder.ctpop(chosen))
+
+
+@intrinsic
 def rough_power(typing, x, exponent):
     """Return x > 0 to a power between 0 and 1, wrong by up to 6 %.
 

@@ -144,7 +144,7 @@ def lifts_again(w, lane, block, forcing):
 def pulse_outcomes(
     v, batch, batches, block, shape, scales, amplitudes, tolerance, peak, overturned, impacts
 ):
-    """Fill every `batches`-th cell from `batch` on; see `grid.outcomes_of`.
+    """Fill every `batches`-th cell from `batch` on; see `grid.pulse_outcomes_of`.
 
     Parameters
     ----------
@@ -157,7 +157,7 @@ def pulse_outcomes(
         The first cell that was given up (see `outcome.MAX_STEPS`), or −1.
     """
     w, cells = rows(ROWS), np.full(WIDTH, -1)
-    columns, last = amplitudes.size, scales.size * amplitudes.size
+    columns, last = peak.shape[1], peak.size
     coming, lost, busy, vacant = batch, -1, 0, (1 << WIDTH) - 1
     while True:  # each time around a lane takes one of its `MAX_STEPS` steps, or there is none left
         busy &= ~vacant
@@ -166,7 +166,7 @@ def pulse_outcomes(
             vacant &= vacant - 1
             while coming < last and not lifted:
                 i, j = coming // columns, coming % columns
-                lifted = begin(w, lane, block, pulse_forcing(shape, amplitudes[j], scales[i]))
+                lifted = begin(w, lane, block, pulse_forcing(shape, amplitudes[i, j], scales[i, j]))
                 if not lifted:
                     peak[i, j], overturned[i, j], impacts[i, j] = 0.0, False, 0
                 cells[lane] = coming
@@ -201,15 +201,12 @@ def pulse_outcomes(
                 fell = True
             elif over >> lane & 1:
                 tail = free_rocking(block, w[ROTATION, lane], w[VELOCITY, lane])
-                fell, highest, count = (
-                    tail.overturned,
-                    max(highest, tail.peak),
-                    count + tail.impacts,
-                )
+                fell, highest = tail.overturned, max(highest, tail.peak)
+                count += tail.impacts
             elif w[STEPS, lane] > MAX_STEPS:
                 lost = cells[lane] if lost < 0 else min(lost, cells[lane])
             else:
-                forcing = pulse_forcing(shape, amplitudes[j], scales[i])
+                forcing = pulse_forcing(shape, amplitudes[i, j], scales[i, j])
                 if not rests(w, lane, block, forcing) or lifts_again(w, lane, block, forcing):
                     continue
             peak[i, j] = math.nan if fell else highest

@@ -45,6 +45,7 @@ from topheavy.kernel.lanes import (
     lowest,
     maximum,
     minimum,
+    number,
     rows,
     select,
     store,
@@ -173,15 +174,6 @@ def overturns(w, lane, block, forcing, record):
     return is_certain_to_overturn(block, forcing, record, w[TIME, lane], state)
 
 
-@njit(cache=True, error_model="numpy")
-def count_of(chosen):
-    """Return the number of bits that are set."""
-    count = 0
-    for lane in range(WIDTH):
-        count += chosen >> lane & 1
-    return count
-
-
 @njit(cache=True, nogil=True, error_model="numpy")
 def record_outcomes(
     v, batch, batches, block, step, factors, record, tolerance, peak, overturned, impacts
@@ -227,7 +219,7 @@ def record_outcomes(
             return lost
         if v[HALT, 0] != 0.0:
             return cells[int(v[HALT, 1])]
-        if stepping == 0 or count_of(marching) > FEW:
+        if stepping == 0 or number(marching) > FEW:
             passed = march_lanes(w, block, samples, step, bound, marching)
             stepping |= marching & ~passed
             marching = passed
