@@ -21,7 +21,7 @@ from topheavy import (
     simulate,
 )
 from topheavy.kernel.grid import outcomes_of
-from topheavy.overturning import SAFE, Interval, _bisect
+from topheavy.overturning import SAFE, Interval, _bisect, _labeller
 
 BLOCK = RockingBlock(2.0, 0.25, 0.9)
 BOTH = pytest.mark.parametrize("block", [BLOCK, BLOCK.linear()], ids=["exact", "linear"])
@@ -201,10 +201,10 @@ def test_intervals_ascend_and_do_not_overlap(case):
 def test_brackets_have_the_boundary_between_them(case):
     block, excitation, (first, last), resolution, found = case
     narrow = 1.01e-10 * max(abs(first), abs(last))
+    labels = _labeller(block, excitation, None)
 
     def label(scale):
-        end = judge(block, excitation.scaled(scale))
-        return end.impacts if end.overturned else SAFE
+        return labels(np.array([scale]))[0]
 
     for interval in found:
         low, high = interval.lower
@@ -222,6 +222,17 @@ def test_brackets_have_the_boundary_between_them(case):
             assert label(high) != interval.impacts
             assert high - low <= max(narrow, resolution / 1024)
     assert sum(i.lower[1] - i.lower[0] <= narrow for i in found) >= 0.5 * len(found)
+
+
+def test_brackets_hold_the_boundary_of_a_single_history_to_its_tolerance(case):
+    block, excitation, (first, last), _, found = case
+    slight = 1e-8 * max(abs(first), abs(last))
+    for interval in found:
+        upper = last if interval.upper is None else interval.upper[0]
+        for scale in (interval.lower[1] + slight, upper - slight):
+            if interval.lower[1] < scale < upper:
+                end = judge(block, excitation.scaled(scale))
+                assert (end.overturned, end.impacts) == (True, interval.impacts)
 
 
 def test_way_9_no_interval_wider_than_the_resolution_is_missed(case):

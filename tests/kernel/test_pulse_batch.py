@@ -45,7 +45,7 @@ def test_outcomes_and_impacts_are_those_of_the_scalar_kernel(shape, linearised, 
 
 
 def test_exact_grid_lines_and_bounds():
-    """Amplitudes at the uplift level itself, of zero and of either sign, and √r from nothing to nearly 1."""
+    """Amplitudes at the uplift level, of zero and of either sign; √r from nothing to nearly 1."""
     for restitution in (0.0, 0.99):
         block = oscillator(RockingBlock(1.0, 0.2, restitution))
         level = block.level
