@@ -449,3 +449,25 @@ def test_factors_that_cannot_be_are_refused(factors, words):
 def test_factors_on_a_harmonic_are_refused():
     with pytest.raises(ValueError, match="goes on forever"):
         overturned_by(BLOCK, Pulse("harmonic", 0.3, 5.0), FACTORS)
+
+
+def test_halvings_ahead_find_what_halving_one_by_one_finds(monkeypatch):
+    """Also intervals much narrower than the bracket, planted at random: the same, no others."""
+    rng, calls, met = np.random.default_rng(3), [0, 0], 0
+    for _ in range(100):
+        edges = np.sort(np.concatenate([rng.uniform(0, 1, 3), 0.5 + rng.uniform(0, 1e-3, 2)]))
+        labels = rng.permutation([SAFE, 0, 1, 2, 3, 4])
+        found = []
+        for way, together in enumerate((1, 32)):
+
+            def label(factors, way=way, edges=edges, labels=labels):
+                calls[way] += 1
+                return labels[np.searchsorted(edges, factors)]
+
+            monkeypatch.setattr("topheavy.overturning.TOGETHER", together)
+            ends = label(np.array([0.0, 1.0]))
+            found.append(_bisect(label, [(0.0, 1.0, *ends)], 1e-9, 1e-4))
+        assert found[0] == found[1]
+        met += len(found[0]) > 2
+    assert met > 20
+    assert calls[1] < 0.5 * calls[0]
