@@ -5,14 +5,30 @@ CORES      ?= 2
 PYTHON     ?= python3
 UV_VERSION := 0.13.8
 
+# Snakemake starts its jobs by a shell and does not quote the path of their Python.
+UNQUOTED := ' " $$ ` & ; | < > ( ) * ? [ ] { } \ :
+ifneq ($(words $(CURDIR))$(strip $(foreach c,$(UNQUOTED),$(findstring $(c),$(CURDIR)))),1)
+$(error the path $(CURDIR) has a space or one of $(UNQUOTED) in it; expected letters, digits \
+  and . _ - / alone: move the folder, delete its .venv, and run again)
+endif
+
 UV  := $(shell command -v uv 2>/dev/null || echo .uv/bin/uv)
 # The optional rigid-body engine of the study `mechanism`; `ENGINE=` does not install it.
 ENGINE ?= engine
-RUN := $(UV) run --locked --no-dev $(addprefix --group ,$(ENGINE))
-DEV := $(UV) run --locked $(addprefix --group ,$(ENGINE))
+RUN := $(UV) run --locked --no-dev $(if $(value ENGINE),--group "$$ENGINE")
+DEV := $(UV) run --locked $(if $(value ENGINE),--group "$$ENGINE")
 BENCH := PYTHONPATH=src/steps:figures $(UV) run --locked --no-dev --group bench
 CELLS ?= 40000
 CONFIG ?= config/thorough.yaml
+
+# What is given reaches the commands by the environment, word for word: neither make nor the shell
+# takes it for code.
+GIVEN := CORES CELLS CONFIG ENGINE FAULTS ITEM NAME ROTATE
+$(foreach name,$(GIVEN),$(eval override $(name) := $$(value $(name))))
+export $(GIVEN)
+WHOLE = case "$$$(1)" in ''|0*|*[!0-9]*) \
+  echo "$(1) is '$$$(1)'; expected a whole number from 1 on" >&2; exit 2;; esac
+SNAKEMAKE = $(call WHOLE,CORES); $(RUN) snakemake --cores "$$CORES"
 
 .PHONY: help reproduce check trace verify html audit test lint publish study kill-table benchmark verify-grid unlock clean
 .DEFAULT_GOAL := help
@@ -22,19 +38,20 @@ help: ## show this list
 	  while IFS='|' read -r target text; do printf '  %-16s %s\n' "$$target" "$$text"; done
 
 reproduce: | $(UV) ## compute every result, check every claim, compile the report (CORES=2)
-	@$(RUN) snakemake --cores $(CORES)
-	@cat results/summary.txt
+	@$(SNAKEMAKE)
 
-check: | $(UV) ## judge the committed claims anew from the committed tables; no run, a minute
+check: | $(UV) ## judge every claim anew from the published findings, tables and pages; no run
 	@$(RUN) python src/steps/recheck.py
 
 trace: | $(UV) ## from a figure, table, finding or claim to its source (ITEM=figures/heavier.svg)
-	@$(RUN) python src/steps/origin.py '$(ITEM)'
+	@$(RUN) python src/steps/origin.py "$$ITEM"
 
 verify: | $(UV) ## check every file of a finished run against results/manifest.json
 	@$(RUN) python src/steps/verify.py
 
 html: | $(UV) ## after a run: every figure with caption and verdict in results/report.html
+	@test -e results/manifest.json || { \
+	  echo "there is no finished run to show; expected one: make reproduce" >&2; exit 1; }
 	@$(RUN) snakemake --report results/report.html --quiet all
 	@$(RUN) python src/steps/check_html.py results/report.html
 
@@ -70,22 +87,24 @@ publish: | $(UV) ## copy results to docs/ and tests/reference/; look at the diff
 	@$(RUN) python src/steps/publish.py
 
 audit: | $(UV) ## an hour: finer grids, tighter tolerances, all peers, all faults (CONFIG, CELLS, ROTATE)
-	@$(RUN) snakemake --cores $(CORES) --configfile $(CONFIG)
-	@cat results/summary.txt
+	@$(SNAKEMAKE) --configfile "$$CONFIG"
 	@$(MAKE) --no-print-directory verify-grid benchmark kill-table
-	@echo "results/ is that of $(CONFIG) now: 'make reproduce' brings ours back"
+	@echo "results/ is that of $$CONFIG now: 'make reproduce' brings ours back"
 
 study: | $(UV) ## begin a follow-up study: make study NAME=my_study (FOLLOW-UP.md)
-	@$(RUN) python src/steps/new_study.py "$(NAME)"
+	@$(RUN) python src/steps/new_study.py "$$NAME"
 
 kill-table: | $(UV) ## put faults into a copy, one at a time: what catches each? (FAULTS=a,b or ROTATE=3)
-	@$(DEV) python faults/kill_table.py $(FAULTS:%=--faults %) $(ROTATE:%=--rotate %)
+	@$(if $(value ROTATE),$(call WHOLE,ROTATE))
+	@PYTHONPATH=src/steps $(DEV) python faults/kill_table.py \
+	  $${FAULTS:+"--faults=$$FAULTS"} $${ROTATE:+"--rotate=$$ROTATE"}
 
 benchmark: | $(UV) ## time the kernel beside its peers; writes docs/benchmark.csv and .svg (5 minutes)
 	@$(BENCH) python benchmarks/benchmark.py
 
 verify-grid: | $(UV) ## compare overturning flags with an independent route (CELLS=40000 a set)
-	@$(BENCH) python benchmarks/verify_grid.py $(CELLS)
+	@$(call WHOLE,CELLS)
+	@$(BENCH) python benchmarks/verify_grid.py "$$CELLS"
 
 unlock: | $(UV) ## after a killed run left the directory locked (no other run may be going on)
 	@$(RUN) snakemake --unlock

@@ -19,9 +19,23 @@ os.environ |= {
     )
 }
 from captions import caption_files, captioned, read_captions
+from closing import close
 from configuration import check_config, record_files
 from ledger import read_ledger
+from ledger_check import check_ledger
+from place import check_place
+from strict_yaml import read_yaml
 from study_config import read_study_config
+
+from replication.code import code
+from replication.typeset import reads
+
+check_place()
+close(workflow)
+
+# Strictly, with file and line of a mistake: Snakemake itself keeps the last of equal keys.
+for path in ["config/config.yaml", *workflow.configfiles]:
+    read_yaml(path)
 
 
 configfile: "config/config.yaml"
@@ -35,18 +49,6 @@ check_config(
 )
 
 RECORDS = record_files()
-
-# Code that Snakemake does not see through a script's imports, so that a change reruns its users.
-WORKBENCH = ["src/steps/workbench.py"]
-LIBRARY = [
-    *map(str, sorted(Path("src/topheavy").glob("*.py"))),
-    *map(str, sorted(Path("src/topheavy/kernel").glob("*.py"))),
-    *WORKBENCH,
-]
-DERIVATION = [
-    *map(str, sorted(Path("src/topheavy/derivation").glob("*.py"))),
-    *WORKBENCH,
-]
 
 
 include: "src/steps/common.smk"
@@ -117,41 +119,25 @@ CHECKS = {
 NOTEBOOKS = ["derivation", "play"]
 REFERENCES = sorted(map(str, Path("tests/reference").glob("*.csv")))
 
-# Follow-up studies, each a folder: their rules add to FIGURES, FINDINGS and REPORTED (see FOLLOW-UP.md).
+# Follow-up studies, each a folder: their rules add to FIGURES and FINDINGS (see FOLLOW-UP.md).
 STUDIES = config["studies"]
 STUDY_CONFIG = {name: read_study_config(name, config["structures"]) for name in STUDIES}
 LEDGER = ["paper/claims.yaml", *(f"studies/{name}/claims.yaml" for name in STUDIES)]
-CLAIMS = read_ledger(LEDGER)
 SECTIONS = [f"studies/{name}/section.typ" for name in STUDIES]
-REPORTED = [
-    "assumptions",
-    "equations",
-    "heavier",
-    "allen_errors",
-    "quarter_period",
-    "trilith_nearness",
-    "verification_convergence",
-    "verification_routes",
-    "verification_published",
-]
 
 for name in STUDIES:
 
     include: f"studies/{name}/study.smk"
 
 
+check_ledger(LEDGER, FINDINGS)
+CLAIMS = read_ledger(LEDGER)
+
+
 rule all:
     default_target: True
     input:
-        expand("{figure}.svg", figure=FIGURES),
-        expand(
-            "results/notebooks/{name}.{kind}", name=NOTEBOOKS, kind=["ipynb", "html"]
-        ),
-        "results/summary.txt",
-        "results/costs.csv",
-        "results/animation.gif",
-        "results/animation.png",
-        "paper/report.pdf",
+        everything,
         "results/manifest.json",
 
 
@@ -163,17 +149,12 @@ onstart:
         read_record(path)
 
 
-onsuccess:
-    if "all" in {rule.name for rule in workflow.dag.targetrules}:
-        print(Path("results/summary.txt").read_text())
-
-
 # The derivation: Eqs. (1)–(25) -------------------------------------------------------------------
 
 
 rule equations:
     input:
-        DERIVATION,
+        code("src/steps/equations.py"),
     output:
         table="results/tables/equations.csv",
         findings="results/findings/equations.json",
@@ -192,7 +173,7 @@ rule equations:
 
 rule mass_ratio:
     input:
-        LIBRARY,
+        code("src/steps/mass_ratio.py"),
     output:
         table="results/tables/mass_ratio.csv",
         findings="results/findings/mass_ratio.json",
@@ -213,7 +194,7 @@ rule mass_ratio:
 
 rule restitution:
     input:
-        LIBRARY,
+        code("src/steps/restitution.py"),
     output:
         over_slenderness="results/tables/restitution_over_slenderness.csv",
         over_mass_ratio="results/tables/restitution_over_mass_ratio.csv",
@@ -235,7 +216,7 @@ rule restitution:
 
 rule moment_rotation:
     input:
-        LIBRARY,
+        code("src/steps/moment_rotation.py"),
     output:
         moments="results/tables/moment_rotation.csv",
         periods="results/tables/quarter_period.csv",
@@ -254,7 +235,7 @@ rule moment_rotation:
 
 rule sketches:
     input:
-        LIBRARY,
+        code("src/steps/sketches.py"),
     output:
         outlines="results/tables/outlines.csv",
         free_body="results/tables/free_body.csv",
@@ -275,7 +256,7 @@ rule sketches:
 
 rule trilith:
     input:
-        LIBRARY,
+        code("src/steps/trilith.py"),
     output:
         nearness="results/tables/trilith_nearness.csv",
         starts="results/tables/trilith_starts.csv",
@@ -287,6 +268,11 @@ rule trilith:
         "results/benchmarks/trilith.tsv"
     params:
         case=case("trilith"),
+        printed={
+            row["id"]: row["printed"]
+            for row in CLAIMS
+            if row["id"].startswith("trilith_") and "printed" in row
+        },
         solver=config["solver"],
     message:
         "The trilith: its numbers, what would have lifted it, how the table starts"
@@ -296,7 +282,7 @@ rule trilith:
 
 rule trilith_map:
     input:
-        LIBRARY,
+        code("src/steps/trilith_map.py"),
     output:
         table="results/tables/trilith_map.csv",
     log:
@@ -316,7 +302,7 @@ rule trilith_map:
 
 rule allen_histories:
     input:
-        LIBRARY,
+        code("src/steps/allen_histories.py"),
         record=RECORDS[config["allen_histories"]["record"]["file"]],
     output:
         table="results/tables/allen_histories.csv",
@@ -336,7 +322,7 @@ rule allen_histories:
 
 rule allen_errors:
     input:
-        LIBRARY,
+        code("src/steps/allen_errors.py"),
     output:
         table="results/tables/allen_errors.csv",
         findings="results/findings/allen_errors.json",
@@ -354,7 +340,7 @@ rule allen_errors:
 
 rule allen_overturning:
     input:
-        LIBRARY,
+        code("src/steps/allen_overturning.py"),
     output:
         table="results/tables/allen_overturning.csv",
         findings="results/findings/allen_overturning.json",
@@ -375,7 +361,7 @@ rule allen_overturning:
 
 rule heavier:
     input:
-        LIBRARY,
+        code("src/steps/heavier.py"),
     output:
         histories="results/tables/heavier_histories.csv",
         summary="results/tables/heavier.csv",
@@ -395,7 +381,7 @@ rule heavier:
 
 rule scale_effects:
     input:
-        LIBRARY,
+        code("src/steps/scale_effects.py"),
     output:
         table="results/tables/scale_effects.csv",
         findings="results/findings/scale_effects.json",
@@ -414,7 +400,7 @@ rule scale_effects:
 
 rule stability:
     input:
-        LIBRARY,
+        code("src/steps/stability.py"),
     output:
         findings="results/findings/stability.json",
     log:
@@ -435,8 +421,7 @@ rule stability:
 
 rule spectra_shard:
     input:
-        LIBRARY,
-        "src/steps/spectrum.py",
+        code("src/steps/spectra_shard.py"),
     output:
         table="results/shards/spectra_{scatteritem}.csv",
     log:
@@ -454,10 +439,7 @@ rule spectra_shard:
 
 rule spectra:
     input:
-        LIBRARY,
-        "src/steps/spectrum.py",
-        "src/steps/spectra_shard.py",
-        "src/steps/spectra_compared.py",
+        code("src/steps/spectra.py"),
         shards=gather.spectra("results/shards/spectra_{scatteritem}.csv"),
     output:
         table="results/tables/spectra.csv",
@@ -478,8 +460,7 @@ rule spectra:
 
 rule spectra_dimensional:
     input:
-        LIBRARY,
-        "src/steps/spectrum.py",
+        code("src/steps/spectra_dimensional.py"),
     output:
         table="results/tables/spectra_dimensional.csv",
         published="results/tables/spectra_published.csv",
@@ -491,7 +472,7 @@ rule spectra_dimensional:
     threads: 2
     params:
         case=config["spectra_dimensional"],
-        structures=config["structures"],
+        structures=named(config["structures"], config["spectra_dimensional"]),
         solver=config["solver"],
     message:
         "Overturning spectra of the trilith and of a bridge"
@@ -501,7 +482,7 @@ rule spectra_dimensional:
 
 rule peak_maps:
     input:
-        LIBRARY,
+        code("src/steps/peak_maps.py"),
     output:
         table="results/tables/peak_maps.csv",
     log:
@@ -518,8 +499,7 @@ rule peak_maps:
 
 rule rocking_spectra:
     input:
-        LIBRARY,
-        "src/steps/spectrum.py",
+        code("src/steps/rocking_spectra.py"),
         records=[RECORDS[name] for name in config["rocking_spectra"]["records"]],
     output:
         table="results/tables/rocking_spectra.csv",
@@ -542,8 +522,7 @@ rule rocking_spectra:
 
 rule statements:
     input:
-        LIBRARY,
-        DERIVATION,
+        code("src/steps/statements.py"),
     output:
         findings="results/findings/statements.json",
     log:
@@ -564,9 +543,7 @@ rule statements:
 
 rule assumptions:
     input:
-        LIBRARY,
-        sorted(map(str, Path("src/steps/assumptions").glob("*.py"))),
-        "src/steps/stability.py",
+        code("src/steps/assumptions/run.py"),
         assumptions="paper/assumptions.yaml",
         ledger="paper/claims.yaml",
         records=[RECORDS[name] for name in config["assumptions"]["records"]],
@@ -604,12 +581,11 @@ rule assumptions:
 
 rule figure:
     input:
-        WORKBENCH,
+        lambda wildcards: code(f"{wildcards.figure}.py"),
         tables=lambda wildcards: expand(
             "results/tables/{table}.csv", table=FIGURES[wildcards.figure]
         ),
         style="figures/style.mplstyle",
-        drawing="figures/drawing.py",
     output:
         shown("{figure}.svg"),
     log:
@@ -627,8 +603,7 @@ rule figure:
 
 rule verification:
     input:
-        LIBRARY,
-        DERIVATION,
+        code("src/steps/verification.py"),
     output:
         routes="results/tables/verification_routes.csv",
         convergence="results/tables/verification_convergence.csv",
@@ -652,10 +627,8 @@ rule verification:
 
 rule animation:
     input:
-        LIBRARY,
-        "src/steps/sketches.py",
+        code("src/steps/animation.py"),
         style="figures/style.mplstyle",
-        drawing="figures/drawing.py",
     output:
         "results/animation.gif",
         shown("results/animation.png"),
@@ -673,8 +646,8 @@ rule animation:
 
 rule notebook:
     input:
-        LIBRARY,
-        DERIVATION,
+        code("src/steps/notebook.py"),
+        lambda wildcards: code(f"notebooks/{wildcards.name}.ipynb"),
         notebook="notebooks/{name}.ipynb",
         record="data/records/el_centro_1940_NS.AT2",
     output:
@@ -695,9 +668,7 @@ rule notebook:
 
 rule claims:
     input:
-        "src/topheavy/claims.py",
-        "src/steps/ledger.py",
-        WORKBENCH,
+        code("src/steps/claims.py"),
         ledger=LEDGER,
         findings=expand("results/findings/{name}.json", name=FINDINGS),
     output:
@@ -712,7 +683,7 @@ rule claims:
 
 rule compare:
     input:
-        WORKBENCH,
+        code("src/steps/compare.py"),
         tables=[
             path.replace("tests/reference", "results/tables") for path in REFERENCES
         ],
@@ -733,8 +704,7 @@ rule compare:
 
 rule verdict:
     input:
-        "src/topheavy/claims.py",
-        WORKBENCH,
+        code("src/steps/verdict.py"),
         claims="results/claims.json",
         comparison="results/comparison.csv",
         findings=expand("results/findings/{rule}.json", rule=CHECKS),
@@ -752,9 +722,11 @@ rule verdict:
 
 rule costs:
     input:
-        WORKBENCH,
+        code("src/steps/costs.py"),
         expand("results/findings/{name}.json", name=FINDINGS),
-        expand("results/notebooks/{name}.html", name=NOTEBOOKS),
+        expand(
+            "results/notebooks/{name}.{kind}", name=NOTEBOOKS, kind=["ipynb", "html"]
+        ),
         "results/tables/trilith_map.csv",
     output:
         "results/costs.csv",
@@ -768,22 +740,10 @@ rule costs:
 
 rule report:
     input:
-        WORKBENCH,
-        "paper/references.bib",
-        "paper/assumptions.yaml",
-        "results/config.yaml",
-        "results/claims.json",
-        "docs/benchmark.csv",
-        "docs/benchmark.svg",
-        "docs/costs.csv",
-        "docs/machine.txt",
-        "docs/kill_table.csv",
-        "paper/format.typ",
-        SECTIONS,
-        expand("results/tables/{name}.csv", name=REPORTED),
+        code("src/steps/report.py"),
+        reads("paper/report.typ", *SECTIONS),
         expand("results/findings/{name}.json", name=FINDINGS),
         expand("{figure}.svg", figure=FIGURES),
-        source="paper/report.typ",
     output:
         "paper/report.pdf",
     log:
@@ -791,6 +751,7 @@ rule report:
     benchmark:
         "results/benchmarks/report.tsv"
     params:
+        source="paper/report.typ",
         studies=STUDIES,
     message:
         "Compiling the report"
@@ -803,9 +764,8 @@ rule report:
 
 rule manifest:
     input:
-        WORKBENCH,
-        "src/steps/provenance.py",
-        [path for path in rules.all.input if path != "results/manifest.json"],
+        code("src/steps/manifest.py"),
+        everything,
         configuration="config/config.yaml",
         lock="uv.lock",
     output:
@@ -832,7 +792,8 @@ for claim in CLAIMS:
         name:
             f"claim_{claim['id']}"
         input:
-            f"results/findings/{claim['rule']}.json" if "rule" in claim else [],
+            code("src/steps/claim.py"),
+            findings=f"results/findings/{claim['rule']}.json" if "rule" in claim else [],
         log:
             f"results/logs/claim_{claim['id']}.log",
         params:

@@ -26,7 +26,7 @@ from contextlib import contextmanager
 from dataclasses import astuple, dataclass, fields
 from pathlib import Path
 
-import yaml
+from strict_yaml import read_yaml
 
 from topheavy.claims import judge
 
@@ -109,7 +109,7 @@ def load() -> list[Fault]:
                 "changes": tuple(Change(**change) for change in entry["changes"]),
             }
         )
-        for entry in yaml.safe_load(FAULTS.read_text(encoding="utf-8"))
+        for entry in read_yaml(FAULTS)
     ]
 
 
@@ -237,7 +237,7 @@ def put_to_the_test(tree: Path, fault: Fault, ledger: list[dict]) -> Row:
 
 def kill_table(faults: list[Fault]) -> Iterator[Row]:
     """Yield the row of each fault, after a run without any in which no verdict may turn."""
-    ledger = yaml.safe_load((ROOT / "paper" / "claims.yaml").read_text(encoding="utf-8"))
+    ledger = read_yaml(ROOT / "paper" / "claims.yaml")
     for fault in faults:
         fault.texts(ROOT)  # one that no longer applies is told at once
     with tempfile.TemporaryDirectory(prefix="kill-table-") as folder:
@@ -319,8 +319,14 @@ def chosen(faults: list[Fault], names: str | None, number: int | None) -> list[F
         return [known[name] for name in names.split(",")]
     if number:
         head = ["git", "rev-parse", "HEAD"]
-        commit = subprocess.run(head, cwd=ROOT, capture_output=True, text=True, check=True).stdout
-        return rotation(faults, number, commit)
+        try:
+            found = subprocess.run(head, cwd=ROOT, capture_output=True, text=True, check=True)
+        except (OSError, subprocess.CalledProcessError):
+            raise SystemExit(
+                "ROTATE picks faults by the hash of the commit, and there is no git repository "
+                "here; expected one, or names: make kill-table FAULTS=name,name"
+            ) from None
+        return rotation(faults, number, found.stdout)
     return faults
 
 

@@ -13,7 +13,8 @@ import matplotlib.pyplot as plt
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from workbench import log_to
+
+from replication.workbench import run
 
 SINGLE, DOUBLE = 88.0, 180.0  # widths of one and of two columns, mm
 
@@ -50,10 +51,13 @@ PULSES = {
 
 def publish(job, draw: Callable[..., Figure]) -> None:
     """Draw the tables of a Snakemake job, each passed under its own name, and save the figure."""
-    with log_to(job.log[0]):
+
+    def picture(job) -> None:
         plt.style.use(job.input.style)
         tables = {Path(path).stem: pd.read_csv(path) for path in job.input.tables}
         draw(**tables).savefig(job.output[0], metadata={"Date": None})
+
+    run(job, picture)
 
 
 def sheet(width: float, height: float, mosaic: str = "", **grid) -> tuple[Figure, Any]:

@@ -97,3 +97,10 @@ def test_commit_picks_different_faults_and_every_fault_has_its_turn():
 def test_unknown_fault_is_refused_with_those_that_there_are():
     with pytest.raises(SystemExit, match="no fault is named 'gremlin'; there are cap_without"):
         kill_table.chosen(FAULTS, "p_for_p_hat,gremlin", None)
+
+
+def test_rotation_without_a_repository_says_what_to_do(tmp_path, monkeypatch):
+    monkeypatch.setattr(kill_table, "ROOT", tmp_path)
+    monkeypatch.setenv("GIT_CEILING_DIRECTORIES", str(tmp_path.parent))
+    with pytest.raises(SystemExit, match="no git repository here; expected one, or names"):
+        kill_table.chosen(FAULTS, None, 3)

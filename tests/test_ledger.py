@@ -47,6 +47,9 @@ def test_the_schema_is_one():
         {"expected": "not tested", "remark": "Has a finding."},
         {"expected": "qualified"},
         {"equation": 26},
+        {"by_definition": True},
+        {"expected": "by definition", "remark": "Has a finding."},
+        {"ours": False},
     ],
 )
 def test_the_schema_refuses(change):
@@ -123,12 +126,7 @@ def test_all_but_the_confirmed_say_why():
     ] == []
 
 
-def test_what_is_not_tested_has_no_finding():
+def test_what_is_not_tested_or_cannot_be_false_has_no_finding():
     for row in LEDGER:
-        assert ("finding" in row) == (row["expected"] != "not tested"), row["id"]
-
-
-def test_a_fault_of_lettering_may_be_ours():
-    for row in LEDGER:
-        if re.search(r"letter|radical|brackets", row.get("remark", "")):
-            assert "transcription" in row["remark"], row["id"]
+        without = row["expected"] in ("not tested", "by definition")
+        assert ("finding" in row) != without, row["id"]

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+import topheavy
 from topheavy import Pulse, Record, RockingBlock
 from topheavy.free_rocking import barrier, energy, quarter_period
 from topheavy.linear import simulate_linear_exact
@@ -29,6 +30,13 @@ def count_all(monkeypatch):
 def test_impact_is_counted_only_if_it_ends_a_rotation_of_a_millionth_of_alpha():
     small, large = (simulate(BLOCK, velocity=small_speed(BLOCK, x)) for x in (0.9e-6, 1.1e-6))
     assert (len(small.impacts), len(large.impacts)) == (0, 1)
+
+
+@pytest.mark.parametrize("value", ["2.0", True, np.array([1.0, 2.0]), np.ma.masked, 0.0, math.nan])
+@pytest.mark.parametrize("route", [simulate, topheavy.simulate, simulate_linear_exact])
+def test_every_route_refuses_a_duration_that_is_no_positive_number(route, value):
+    with pytest.raises(ValueError, match=r"^duration is .*; expected (a|more)"):
+        route(BLOCK.linear(), Pulse("one-sine", 0.5, 5.0), duration=value)
 
 
 # ---------------------------------------------------------------------------- rest

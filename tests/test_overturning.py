@@ -132,6 +132,9 @@ def test_axes_may_be_in_any_order_and_need_not_be_arrays():
         ("one-sine", [1.0, 0.0], [0.3], "angular_frequencies goes down to 0; .*zero or negative"),
         ("one-sine", [1.0, -2.5], [0.3], "angular_frequencies goes down to -2.5; .*negative"),
         ("one-sine", [1.0], [0.3, -0.1], "amplitudes goes down to -0.1; it cannot be negative"),
+        ("one-sine", ["1.0"], [0.3], "angular_frequencies: element 0 is '1.0'; expected a number"),
+        ("one-sine", [1.0], [0.3, None], "amplitudes: element 1 is None; expected a number"),
+        ("one-sine", [1.0], np.ma.array([0.3, 9.0], mask=[0, 1]), "amplitudes has 1 masked of 2"),
     ],
 )
 def test_bad_map_is_refused_by_name_and_value(shape, frequencies, amplitudes, says):

@@ -254,3 +254,22 @@ def test_frequency_that_is_not_positive_is_refused(value):
 def test_factor_that_is_not_finite_is_refused(value):
     with pytest.raises(ValueError, match=str(value)):
         Pulse("one-sine", 0.3, OMEGA).scaled(value)
+
+
+@pytest.mark.parametrize("value", ["0.31", True, np.array([0.3, 0.4]), np.ma.masked, None])
+def test_what_is_no_number_is_refused(value):
+    for name, make in (
+        ("amplitude", lambda: Pulse("one-sine", value, OMEGA)),
+        ("angular_frequency", lambda: Pulse("one-sine", 0.3, value)),
+        ("factor", lambda: Pulse("one-sine", 0.3, OMEGA).scaled(value)),
+    ):
+        with pytest.raises(ValueError, match=rf"^{name} is .*; expected a number$"):
+            make()
+
+
+def test_times_that_are_no_numbers_are_refused():
+    pulse = Pulse("one-sine", 0.3, OMEGA)
+    with pytest.raises(ValueError, match=r"^t: element 0 is '0\.3'; expected a number$"):
+        pulse.excitation("0.3")
+    with pytest.raises(ValueError, match=r"^t has 1 masked of 2 elements"):
+        pulse.excitation(np.ma.array([0.1, 0.2], mask=[0, 1]))

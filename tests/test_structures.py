@@ -312,6 +312,28 @@ def test_column_refuses_impossible_sides(side, value):
     assert error.match(side)
 
 
+@pytest.mark.parametrize("value", ["0.5", True, np.array([0.5, 0.6]), np.ma.masked, None])
+def test_what_is_no_number_is_refused_when_a_structure_is_made(value):
+    for name, make in (
+        ("half_width", lambda: Column(value, 3.0)),
+        ("half_height", lambda: Column(0.5, value)),
+        ("mass_ratio", lambda: RockingFrame(COLUMN, value)),
+        ("frequency_parameter", lambda: RockingBlock(value, 0.25, 0.9)),
+        ("slenderness", lambda: RockingBlock(2.0, value, 0.9)),
+        ("restitution", lambda: RockingBlock(2.0, 0.25, value)),
+        ("restitution", lambda: RockingBlock(2.0, 0.25, 0.9).with_restitution(value)),
+    ):
+        with pytest.raises(ValueError, match=rf"^{name} is .*; expected a number$"):
+            make()
+
+
+def test_array_of_mass_ratios_is_refused_with_its_shape():
+    with pytest.raises(
+        ValueError, match=r"^mass_ratio is an array of shape \(2,\); expected a num"
+    ):
+        RockingFrame(COLUMN, np.array([1.0, 2.0]))
+
+
 @pytest.mark.parametrize("value", [-0.2, -1e-300, -math.inf, math.nan])
 def test_frame_refuses_negative_and_undefined_mass_ratios(value):
     with pytest.raises(ValueError, match=f"{value:g}") as error:

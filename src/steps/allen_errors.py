@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 import pandas as pd
-from workbench import grid, log_to, truth, write_findings, write_table
 
+from replication.workbench import grid, run, truth
 from topheavy import Column, Pulse, RockingFrame, judge
 from topheavy.massless_columns import SIMPLIFICATIONS, simplified
 
@@ -54,7 +54,4 @@ def main(case: dict) -> tuple[pd.DataFrame, dict]:
 
 
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        table, findings = main(snakemake.params.case)
-        write_table(snakemake.output.table, table)
-        write_findings(snakemake.output.findings, findings)
+    run(snakemake, lambda job: main(job.params.case))

@@ -3,8 +3,8 @@
 import math
 
 import numpy as np
-from workbench import log_to, truth, value, write_findings, write_table
 
+from replication.workbench import run, truth, value
 from topheavy import Column, Pulse, RockingFrame, read_record, reference, simulate
 from topheavy.linear import simulate_linear_exact
 from topheavy.massless_columns import SIMPLIFICATIONS, simplified
@@ -63,11 +63,4 @@ def main(case: dict, record_path: str, solver: dict) -> tuple[list[dict], dict]:
 
 
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        rows, findings = main(
-            snakemake.params.case,
-            snakemake.input.record,
-            snakemake.params.solver,
-        )
-        write_table(snakemake.output.table, rows)
-        write_findings(snakemake.output.findings, findings)
+    run(snakemake, lambda job: main(job.params.case, job.input.record, job.params.solver))

@@ -3,8 +3,8 @@
 import math
 
 import pandas as pd
-from workbench import grid, log_to, truth, write_findings, write_table
 
+from replication.workbench import grid, run, truth
 from topheavy import Column, Pulse, RockingFrame, judge
 from topheavy.massless_columns import simplified
 
@@ -45,7 +45,4 @@ def main(case: dict) -> tuple[pd.DataFrame, dict]:
 
 
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        table, findings = main(snakemake.params.case)
-        write_table(snakemake.output.table, table)
-        write_findings(snakemake.output.findings, findings)
+    run(snakemake, lambda job: main(job.params.case))

@@ -6,6 +6,7 @@ is the real one, to the hundredth of a second that a GIF knows.
 
 import math
 from pathlib import Path
+from typing import Any
 
 import matplotlib as mpl
 import matplotlib.pyplot as plt
@@ -15,8 +16,8 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.patches import Polygon
 from PIL import Image
 from sketches import cap_outline
-from workbench import log_to
 
+from replication.workbench import run
 from topheavy import Column, Pulse, RockingFrame, simulate
 from topheavy.kinematics import cap_displacement, column_outline
 from topheavy.structures import STANDARD_GRAVITY
@@ -149,10 +150,12 @@ def save(path: str, pictures: list[Image.Image], case: dict) -> None:
     print(f"{len(pictures)} pictures, {Path(path).stat().st_size / 1e6:.2f} MB")
 
 
+def work(job: Any) -> None:
+    plt.style.use(job.input.style)
+    pictures = main(job.params.case)
+    for path in job.output:  # a GIF, and a PNG for the HTML report, which shows no GIF
+        save(path, pictures, job.params.case)
+
+
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        plt.style.use(snakemake.input.style)
-        case = snakemake.params.case
-        pictures = main(case)
-        for path in snakemake.output:  # a GIF, and a PNG for the HTML report, which shows no GIF
-            save(path, pictures, case)
+    run(snakemake, work)

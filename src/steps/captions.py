@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-import yaml
+from strict_yaml import read_yaml
 
 from topheavy.claims import VERDICTS
 
@@ -23,7 +23,7 @@ def read_captions(paths: Iterable[str | Path]) -> dict[str, dict[str, Any]]:
     """
     captions: dict[str, dict[str, Any]] = {}
     for path in paths:
-        read = yaml.safe_load(Path(path).read_text(encoding="utf-8"))
+        read = read_yaml(path)
         twice = sorted(set(captions) & set(read))
         if twice:
             raise ValueError(f"{path}: {twice[0]} has a caption already; expected one each")

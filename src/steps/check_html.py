@@ -14,8 +14,8 @@ import tempfile
 from collections.abc import Iterable
 from pathlib import Path
 
-import yaml
 from captions import caption_files, read_captions
+from strict_yaml import read_yaml
 from tornado.websocket import WebSocketClientConnection, websocket_connect
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
@@ -227,5 +227,5 @@ def main(page: Path, captions: dict[str, dict], pictures: Path | None = None) ->
 
 if __name__ == "__main__":
     page, *pictures = map(Path, sys.argv[1:])
-    config = yaml.safe_load(Path("config/config.yaml").read_text(encoding="utf-8"))
+    config = read_yaml("config/config.yaml")
     main(page, read_captions(caption_files(config)), *pictures)

@@ -44,12 +44,13 @@ def printed_list(numbers: Iterable[int]) -> str:
 
 def resolve(path: str) -> Any:
     """Return the object of a dotted path. A function goes before a module of its name."""
-    name, *parts = path.split(".")
-    found = importlib.import_module(name)
-    for part in parts:
-        name += f".{part}"
-        found = getattr(found, part) if hasattr(found, part) else importlib.import_module(name)
-    return found
+    parent, _, name = path.rpartition(".")
+    if not parent:
+        return importlib.import_module(path)
+    found = resolve(parent)
+    if not isinstance(found, ModuleType) and not hasattr(found, name):
+        found = importlib.import_module(parent)  # the module behind a function of its name
+    return getattr(found, name) if hasattr(found, name) else importlib.import_module(path)
 
 
 @dataclass(frozen=True)

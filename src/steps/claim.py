@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from ledger import finding_of
-from workbench import log_to
 
+from replication.workbench import run
 from topheavy.claims import judge
 
 
@@ -24,32 +24,42 @@ def verdict_line(claim: Mapping[str, Any], finding: Mapping[str, Any] | None, ve
         grounds = (
             f"{printed}computed {finding['value']:.6g} ± {finding['error']:.1g} {unit}".strip()
         )
-        if verdict == "misprint":
+        if "meant_value" in finding and verdict not in ("confirmed", "refuted"):
             grounds += f"; what is meant gives {finding['meant_value']:.6g} {unit}".rstrip()
     else:
         meaning = {
-            "misprint": "does not hold as printed; what is meant does",
             "qualified": f"holds under a condition: {claim.get('remark', '')}",
             "refuted": "does not hold",
         }
+        if finding.get("kind"):
+            meant = f"does not hold as printed ({finding['kind']}); what is meant does"
+            meaning |= {"slip": meant, "misprint": meant}
         grounds = printed + meaning.get(verdict, "holds")
     line = f"{claim['id']}: {verdict} ({grounds})"
-    return line if verdict == claim["expected"] else f"{line}; expected {claim['expected']}"
+    if verdict == claim["expected"]:
+        return line
+    if finding is not None and "not_tested" in finding:
+        return f"{line}; a full run tests it and expects {claim['expected']}"
+    return f"{line}; expected {claim['expected']}"
+
+
+def work(job: Any) -> None:
+    claim = job.params.claim
+    findings = {
+        key: finding
+        for path in job.input.findings
+        for key, finding in json.loads(Path(path).read_text(encoding="utf-8")).items()
+    }
+    finding = finding_of(claim, findings)
+    verdict = judge(claim, finding)
+    is_untested = finding is not None and "not_tested" in finding
+    line = verdict_line(claim, finding, verdict)
+    print(line)
+    sys.__stdout__.reconfigure(errors="replace")  # a terminal may know no ± or °
+    print(line, file=sys.__stdout__, flush=True)
+    if verdict != claim["expected"] and not is_untested:
+        raise SystemExit(1)
 
 
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]) as log:
-        claim = snakemake.params.claim
-        findings = {
-            key: finding
-            for path in snakemake.input
-            for key, finding in json.loads(Path(path).read_text(encoding="utf-8")).items()
-        }
-        finding = finding_of(claim, findings)
-        verdict = judge(claim, finding)
-        is_untested = finding is not None and "not_tested" in finding
-        line = verdict_line(claim, finding, verdict)
-        print(line, file=sys.__stdout__, flush=True)
-        print(line, file=log)
-        if verdict != claim["expected"] and not is_untested:
-            raise SystemExit(1)
+    run(snakemake, work)

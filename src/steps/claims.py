@@ -1,51 +1,52 @@
 """The ledger judged: every row against what the workflow found."""
 
 import json
+from collections.abc import Iterable, Mapping
 from pathlib import Path
+from typing import Any
 
-from ledger import finding_of, read_ledger
-from workbench import log_to
+from ledger import judged, read_ledger
 
-from topheavy.claims import judge
+from replication.workbench import run
 
 
-def main(ledger: list[dict], findings: dict[str, dict]) -> list[dict]:
-    rows = []
+def main(
+    ledger: Iterable[Mapping[str, Any]], findings: Mapping[str, Any], root: str | Path = "."
+) -> list[dict]:
+    """Return the judged rows; print each verdict.
+
+    Raises
+    ------
+    ValueError
+        With one line for each row that cannot be judged.
+    """
+    rows, faults = [], []
     for claim in ledger:
-        finding = finding_of(claim, findings.get(claim.get("rule"), {}))
-        verdict = judge(claim, finding)
-        found = finding or {}
-        rows.append(
-            {
-                "id": claim["id"],
-                "study": claim["study"],
-                "where": claim["where"],
-                "equation": claim.get("equation"),
-                "statement": claim["statement"],
-                "printed": claim.get("printed"),
-                "computed": found.get("value", found.get("holds")),
-                "meant": found.get("meant_value"),
-                "error": found.get("error"),
-                "unit": claim.get("unit", ""),
-                "tolerance": claim.get("tolerance"),
-                "verdict": verdict,
-                "expected": claim["expected"],
-                "not_tested": found.get("not_tested", ""),
-                "remark": found.get("not_tested", claim.get("remark", "")),
-                "function": claim.get("function", ""),
-                "rule": claim.get("rule", ""),
-            }
-        )
-        print(f"{claim['id']}: {verdict} (expected {claim['expected']})")
+        try:
+            rows.append(judged(claim, findings, root))
+        except ValueError as fault:
+            faults.append(str(fault))
+            continue
+        print(f"{claim['id']}: {rows[-1]['verdict']} (expected {claim['expected']})")
+    if faults:
+        raise ValueError("\n".join(faults))
     return rows
 
 
+def read_findings(paths: Iterable[str | Path]) -> dict[str, dict[str, Any]]:
+    """Return the findings of each rule, by the name of its file."""
+    return {Path(path).stem: json.loads(Path(path).read_text(encoding="utf-8")) for path in paths}
+
+
+def work(job: Any) -> None:
+    rows = main(read_ledger(job.input.ledger), read_findings(job.input.findings))
+    Path(job.output[0]).write_text(as_text(rows), encoding="utf-8")
+
+
+def as_text(rows: list[dict]) -> str:
+    """Return the judged ledger as results/claims.json has it."""
+    return json.dumps(rows, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+
+
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        ledger = read_ledger(snakemake.input.ledger)
-        findings = {
-            Path(path).stem: json.loads(Path(path).read_text(encoding="utf-8"))
-            for path in snakemake.input.findings
-        }
-        text = json.dumps(main(ledger, findings), indent=1, ensure_ascii=False, allow_nan=False)
-        Path(snakemake.output[0]).write_text(text + "\n", encoding="utf-8")
+    run(snakemake, work)

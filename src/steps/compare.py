@@ -4,11 +4,14 @@ The config of this run is kept beside them, for the report and for `make publish
 """
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
 import yaml
-from workbench import log_to, write_table
+from strict_yaml import read_yaml
+
+from replication.workbench import run, write_table
 
 
 def largest_difference(table: pd.DataFrame, reference: pd.DataFrame, absolute: float) -> float:
@@ -47,16 +50,17 @@ def main(tables: list[str], references: list[str], changed: list[str], bounds: d
     return rows
 
 
+def work(job: Any) -> None:
+    published = read_yaml(job.input.config)
+    used = job.params.config
+    sections = {*published, *used} - {"studies"}  # those have tables of their own
+    changed = sorted(key for key in sections if published.get(key) != used.get(key))
+    rows = main(job.input.tables, job.input.references, changed, used["reproducibility"])
+    columns = ["table", "largest_difference", "verdict"]
+    write_table(job.output.table, pd.DataFrame(rows, columns=columns))
+    text = yaml.safe_dump(dict(used), allow_unicode=True, sort_keys=False)
+    Path(job.output.config).write_text(text, encoding="utf-8")
+
+
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        published = yaml.safe_load(Path(snakemake.input.config).read_text(encoding="utf-8"))
-        used = snakemake.params.config
-        sections = {*published, *used} - {"studies"}  # those have tables of their own
-        changed = sorted(key for key in sections if published.get(key) != used.get(key))
-        rows = main(
-            snakemake.input.tables, snakemake.input.references, changed, used["reproducibility"]
-        )
-        columns = ["table", "largest_difference", "verdict"]
-        write_table(snakemake.output.table, pd.DataFrame(rows, columns=columns))
-        text = yaml.safe_dump(dict(used), allow_unicode=True, sort_keys=False)
-        Path(snakemake.output.config).write_text(text, encoding="utf-8")
+    run(snakemake, work)

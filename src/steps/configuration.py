@@ -2,13 +2,20 @@
 
 import difflib
 import math
+import re
 from collections.abc import Iterable, Iterator, Mapping
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
-import yaml
 from jsonschema import Draft202012Validator, ValidationError
+from strict_yaml import read_yaml
+
+NAMES = {
+    "^[a-z][a-z0-9_]*$": "a lower-case letter, then lower-case letters, digits or _",
+    "^[A-Za-z0-9_]+$": "letters, digits or _",
+}
+"""The patterns of names in the schemas, in words."""
 
 UNORDERED = {"printed_masses"}
 """Lists of numbers that need not ascend."""
@@ -30,10 +37,11 @@ def check_config(
     ValueError
         With one line for each fault: the file, the place, the value, and what was expected.
     """
-    schema = yaml.safe_load(Path(schema_path).read_text(encoding="utf-8"))
+    schema = read_yaml(schema_path)
     errors = Draft202012Validator(schema).iter_errors(config)
     messages = {message for error in errors for message in _messages(error)}
-    messages |= {*_structures(config, structures or {}), *_records(config, records)}
+    if isinstance(config, Mapping):
+        messages |= {*_structures(config, structures or {}), *_records(config, records)}
     messages |= {message for place, value in _walk(config) for message in _numbers(place, value)}
     if messages:
         raise ValueError("\n".join(f"{path}: {message}" for message in sorted(messages)))
@@ -48,11 +56,20 @@ def _messages(error: ValidationError) -> Iterator[str]:
     match error.validator:
         case "additionalProperties":
             patterns = error.schema.get("patternProperties", {})
-            if patterns:
-                yield f"{place} has a name that does not match {', '.join(patterns)}"
-                return
             for key in sorted(set(error.instance) - set(allowed), key=str):
-                yield f"{place} has an unknown key {key!r}; {_hint(key, allowed)}"
+                if not patterns:
+                    yield f"{place} has an unknown key {key!r}; {_hint(key, allowed)}"
+                elif not any(re.search(pattern, str(key)) for pattern in patterns):
+                    yield f"{place} has the name {key!r}; expected {_named(*patterns)}"
+        case "oneOf":
+            branches = _fitting(error)
+            if len(branches) == 1:
+                yield from (message for fault in branches[0] for message in _messages(fault))
+            else:
+                kinds = " or ".join(
+                    schema.get("title", str(schema)) for schema in error.validator_value
+                )
+                yield f"{place} is {error.instance!r}; expected {kinds}"
         case "required":
             missing = [key for key in error.validator_value if key not in error.instance]
             yield f"{place} lacks {', '.join(missing)}"
@@ -66,10 +83,29 @@ def _messages(error: ValidationError) -> Iterator[str]:
             yield f"{place} is {error.instance}; expected less than {error.validator_value}"
         case "enum":
             yield f"{place} is {error.instance!r}; {_hint(error.instance, error.validator_value)}"
+        case "pattern":
+            yield f"{place} is {error.instance!r}; expected {_named(error.validator_value)}"
         case "type":
             yield f"{place} is {error.instance!r}; expected a value of type {error.validator_value}"
         case _:
             yield f"{place} is {error.instance!r}; {error.message}"
+
+
+def _fitting(error: ValidationError) -> list[list[ValidationError]]:
+    """Return the faults of each branch that at least allows a value of the given type."""
+    branches: dict[int | str, list[ValidationError]] = {}
+    for fault in error.context or ():
+        branches.setdefault(fault.relative_schema_path[0], []).append(fault)
+    return [
+        faults
+        for faults in branches.values()
+        if not any(fault.validator == "type" and not fault.relative_path for fault in faults)
+    ]
+
+
+def _named(*patterns: str) -> str:
+    """Return what is expected of a name."""
+    return " or ".join(NAMES.get(pattern, f"a text that matches {pattern}") for pattern in patterns)
 
 
 def _hint(given: Any, allowed: Iterable[Any]) -> str:
@@ -101,10 +137,25 @@ def _structures(config: Mapping[str, Any], others: Mapping[str, Any]) -> Iterato
 
 
 def record_files(folder: str = "data/records") -> dict[str, str]:
-    """Return the files of all records, AT2 and CSV, by name."""
+    """Return the files of all records, AT2 and CSV, by name.
+
+    Raises
+    ------
+    ValueError
+        For two files of one name, of which a config could mean either.
+    """
     endings = (".at2", ".csv")
-    files = (path for path in Path(folder).iterdir() if path.suffix.lower() in endings)
-    return {path.stem: path.as_posix() for path in sorted(files)}
+    files: dict[str, str] = {}
+    for path in sorted(Path(folder).iterdir()):
+        if path.suffix.lower() not in endings:
+            continue
+        if path.stem in files:
+            raise ValueError(
+                f"{files[path.stem]} and {path.as_posix()} are both the record {path.stem!r}; "
+                "expected one file of each name: rename or remove one"
+            )
+        files[path.stem] = path.as_posix()
+    return files
 
 
 def _records(config: Mapping[str, Any], folder: str) -> Iterator[str]:

@@ -3,7 +3,8 @@
 from pathlib import Path
 
 import pandas as pd
-from workbench import log_to, write_table
+
+from replication.workbench import run
 
 
 def main(benchmarks: list[Path]) -> pd.DataFrame:
@@ -19,6 +20,4 @@ def main(benchmarks: list[Path]) -> pd.DataFrame:
 
 
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        table = main(sorted(Path("results/benchmarks").glob("*.tsv")))
-        write_table(snakemake.output[0], table.round(1))
+    run(snakemake, lambda job: main(sorted(Path("results/benchmarks").glob("*.tsv"))).round(1))

@@ -3,20 +3,32 @@
 from dataclasses import asdict
 
 import pandas as pd
-from workbench import log_to, truth, write_findings, write_table
+import sympy as sp
 
+from replication.workbench import run, truth
 from topheavy.derivation import check_printed, theorems
+from topheavy.derivation.motion_proofs import follows_if_a_column_weighs
 
 
 def main() -> tuple[pd.DataFrame, dict]:
     checks = check_printed()
-    findings = {check.id: truth(check.follows, meant_holds=check.meant_follows) for check in checks}
+    findings = {
+        check.id: truth(
+            check.follows,
+            meant_holds=None if check.follows else bool(check.meant_follows and check.fault),
+            kind=check.fault or None,
+            mended=check.mended or None,
+        )
+        for check in checks
+    }
     findings |= {theorem.id: truth(theorem.holds) for theorem in theorems()}
+    findings["m_c_as_both_columns"] = truth(
+        follows_if_a_column_weighs(sp.Rational(1, 2)),
+        holds_when=follows_if_a_column_weighs(sp.Integer(1)),
+        condition="m_c is the mass of each of the two columns",
+    )
     return pd.DataFrame([asdict(check) for check in checks]), findings
 
 
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        table, findings = main()
-        write_table(snakemake.output.table, table)
-        write_findings(snakemake.output.findings, findings)
+    run(snakemake, lambda job: main())

@@ -3,8 +3,8 @@
 import math
 
 import numpy as np
-from workbench import log_to, truth, write_findings, write_table
 
+from replication.workbench import run, truth
 from topheavy import (
     Column,
     Pulse,
@@ -81,8 +81,4 @@ def main(case: dict, solver: dict) -> tuple[list[dict], list[dict], dict]:
 
 
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        histories, summary, findings = main(snakemake.params.case, snakemake.params.solver)
-        write_table(snakemake.output.histories, histories)
-        write_table(snakemake.output.summary, summary)
-        write_findings(snakemake.output.findings, findings)
+    run(snakemake, lambda job: main(job.params.case, job.params.solver))

@@ -9,7 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from provenance import Job, checksum, workflow_jobs
-from workbench import log_to
+
+from replication.workbench import run
 
 MANIFEST = "results/manifest.json"
 
@@ -71,13 +72,16 @@ def main(jobs: Collection[Job], differs_each_run: Iterable[str], sources: Iterab
     }
 
 
+def work(job: Any) -> None:
+    manifest = main(
+        workflow_jobs(config=job.config, targets=["all"]),
+        job.params.differs_each_run,
+        [job.input.configuration, job.input.lock],
+    )
+    print(f"{len(manifest['outputs'])} outputs")
+    text = json.dumps(manifest, indent=1, ensure_ascii=False)
+    Path(job.output[0]).write_text(text + "\n", encoding="utf-8")
+
+
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        manifest = main(
-            workflow_jobs(config=snakemake.config, targets=["all"]),
-            snakemake.params.differs_each_run,
-            [snakemake.input.configuration, snakemake.input.lock],
-        )
-        print(f"{len(manifest['outputs'])} outputs")
-        text = json.dumps(manifest, indent=1, ensure_ascii=False)
-        Path(snakemake.output[0]).write_text(text + "\n", encoding="utf-8")
+    run(snakemake, work)

@@ -3,8 +3,8 @@
 import math
 
 import numpy as np
-from workbench import log_to, truth, value, write_findings, write_table
 
+from replication.workbench import run, truth, value
 from topheavy import Column, RockingFrame
 
 ROUNDING = 4.0 * np.finfo(float).eps
@@ -47,7 +47,4 @@ def main(case: dict) -> tuple[dict, dict]:
 
 
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        table, findings = main(snakemake.params.case)
-        write_table(snakemake.output.table, table)
-        write_findings(snakemake.output.findings, findings)
+    run(snakemake, lambda job: main(job.params.case))

@@ -3,11 +3,18 @@
 import math
 
 import numpy as np
-from workbench import log_to, truth, write_findings, write_table
+import sympy as sp
 
+from replication.workbench import run, truth
 from topheavy import Column, RockingBlock, RockingFrame, simulate
+from topheavy.derivation import POSITIVE, potential_energy
+from topheavy.derivation.equilibrium import RECTANGULAR
+from topheavy.derivation.notation import R, alpha, g, m_c
+from topheavy.derivation.notation import gamma as mass_ratio
 from topheavy.free_rocking import energy_drift, quarter_period
 from topheavy.moment_rotation import restoring_moment
+
+ROUNDING = 1e-12  # of m_c g R
 
 
 def quarter_periods(case: dict) -> list[dict]:
@@ -32,9 +39,23 @@ def quarter_periods(case: dict) -> list[dict]:
     return rows
 
 
+def moment_by_energy(gamma: float, slenderness: float, rotations: np.ndarray) -> np.ndarray:
+    """Return −dV/dθ per column over m_c g R at positive rotations, V that of the three bodies."""
+    height = potential_energy(POSITIVE).subs(RECTANGULAR) / (2 * m_c * g * R)
+    moment = -sp.simplify(height.diff(POSITIVE.rotation))
+    by_energy = sp.lambdify((alpha, mass_ratio, POSITIVE.rotation), moment)
+    return np.asarray(by_energy(slenderness, gamma, rotations), dtype=float)
+
+
+def agrees_with_energy(frame: RockingFrame, rotations: np.ndarray) -> float:
+    """Return how far the restoring moment is from −dV/dθ, over m_c g R; both oppose θ."""
+    by_energy = moment_by_energy(frame.mass_ratio, frame.slenderness, rotations)
+    return float(np.abs(restoring_moment(frame, rotations) + by_energy).max())
+
+
 def main(case: dict) -> tuple[dict, list[dict], dict]:
     column = Column(**case["column"])
-    alpha = column.slenderness
+    slenderness = column.slenderness
     fractions = np.linspace(-1.0, 1.0, 2 * case["points"] - 1)
     fractions = np.sort(np.append(fractions, -1e-12))  # the jump at θ = 0, from both sides
     moments = [
@@ -46,24 +67,38 @@ def main(case: dict) -> tuple[dict, list[dict], dict]:
         for gamma in case["mass_ratios"]
         for fraction, moment in zip(
             fractions,
-            restoring_moment(RockingFrame(column, gamma), fractions * alpha),
+            restoring_moment(RockingFrame(column, gamma), fractions * slenderness),
             strict=True,
         )
     ]
     rows = quarter_periods(case)
     blocks = [RockingFrame(column, gamma).block() for gamma in case["mass_ratios"]]
     drift = max(
-        energy_drift(block, simulate(block, rotation=0.6 * alpha, samples=4000), flights=5)
+        energy_drift(block, simulate(block, rotation=0.6 * slenderness, samples=4000), flights=5)
         for block in blocks
     )
-    positive = np.linspace(0.0, alpha, case["points"])
-    solitary = restoring_moment(column, positive)
+    positive = np.linspace(0.0, slenderness, case["points"])
+    solitary = -moment_by_energy(0.0, slenderness, positive)
+    heaviest = RockingFrame(column, max(case["mass_ratios"]))
+    apart = max(
+        agrees_with_energy(RockingFrame(column, gamma), positive) for gamma in case["mass_ratios"]
+    )
+    shape = -moment_by_energy(heaviest.mass_ratio, slenderness, positive)[:-1] / solitary[:-1]
     periods = [row["quarter_period"] for row in rows if not row["linearised"]]
-    slenderness = {row["slenderness_deg"] for row in rows}
+    degrees_drawn = {row["slenderness_deg"] for row in rows}
     findings = {
-        "moment_at_uplift": truth(solitary[0] == math.sin(alpha), moment=solitary[0]),
+        "moment_at_uplift": truth(
+            math.isclose(solitary[0], math.sin(slenderness), rel_tol=ROUNDING) and apart < ROUNDING,
+            moment=solitary[0],
+            apart_from_energy=apart,
+        ),
         "moment_decreases_to_zero": truth(
-            np.all(np.diff(solitary) < 0.0) and abs(solitary[-1]) < 1e-15, at_alpha=solitary[-1]
+            np.all(np.diff(solitary) < 0.0) and abs(solitary[-1]) < ROUNDING, at_alpha=solitary[-1]
+        ),
+        "frame_follows_the_columns_curve": truth(
+            np.ptp(shape) < ROUNDING * shape[0] and apart < ROUNDING,
+            times_as_high=shape[0],
+            apart_from_energy=apart,
         ),
         "no_area_enclosed": truth(drift < 1e-8, largest_relative_drift=drift),
         "period_depends_on_amplitude": truth(
@@ -78,7 +113,7 @@ def main(case: dict) -> tuple[dict, list[dict], dict]:
                     )
                     > 0.0
                 )
-                for degrees in slenderness
+                for degrees in degrees_drawn
             ),
             least=min(periods),
             largest=max(periods),
@@ -89,8 +124,4 @@ def main(case: dict) -> tuple[dict, list[dict], dict]:
 
 
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        moments, periods, findings = main(snakemake.params.case)
-        write_table(snakemake.output.moments, moments)
-        write_table(snakemake.output.periods, periods)
-        write_findings(snakemake.output.findings, findings)
+    run(snakemake, lambda job: main(job.params.case))

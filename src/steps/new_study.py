@@ -6,6 +6,10 @@ import sys
 from pathlib import Path
 
 SKELETON = "skeleton"
+LONGEST = 40
+"""Letters of a name: it is a part of the names of files, rules and claims."""
+NAMES = re.compile(r"\brule (\w+):|\bresults/\w+/([a-z]\w*)")
+"""What a Snakefile calls its rules and their results."""
 REGISTER = re.compile(r"^studies: \[(.*)\]$", re.MULTILINE)
 
 
@@ -18,10 +22,18 @@ def create(name: str, root: Path = Path()) -> Path:
         For a name that is taken or cannot be one, or a config without the line `studies: [...]`.
     """
     folder, config = root / "studies" / name, root / "config" / "config.yaml"
-    if not re.fullmatch(r"[a-z][a-z0-9_]*", name):
-        raise ValueError(f"NAME is {name!r}; expected lower case letters, digits and underscores")
+    if not re.fullmatch(r"[a-z][a-z0-9_]*", name) or len(name) > LONGEST:
+        raise ValueError(
+            f"NAME is {name!r}; expected a lower-case letter, then lower-case letters, digits "
+            f"or _, at most {LONGEST} in all"
+        )
     if folder.exists():
         raise ValueError(f"NAME is {name!r}, and {folder} exists; expected a new name")
+    if taken := _taken(name, root):
+        raise ValueError(
+            f"NAME is {name!r}, which is too like {taken[0]!r}: the names of a study's rules and "
+            "results begin with its own; expected a name with which none of the others begins"
+        )
     text = config.read_text(encoding="utf-8")
     line = REGISTER.search(text)
     if line is None:
@@ -32,6 +44,20 @@ def create(name: str, root: Path = Path()) -> Path:
     names = [*filter(None, line[1].split(", ")), name]
     config.write_text(REGISTER.sub(f"studies: [{', '.join(names)}]", text), encoding="utf-8")
     return folder
+
+
+def _taken(name: str, root: Path) -> list[str]:
+    """Return the names, of the paper and of studies, that would be mixed up with the new one's."""
+    snakefiles = [root / "Snakefile", *sorted(root.glob("studies/*/*.smk"))]
+    texts = [path.read_text(encoding="utf-8") for path in snakefiles]
+    names = {found for text in texts for both in NAMES.findall(text) for found in both if found}
+    drawn = [*root.glob("figures/*.py"), *root.glob("notebooks/*.ipynb")]
+    names |= {path.stem for path in drawn}
+    studies = [path.parent.name for path in root.glob("studies/*/study.smk")]
+    return [
+        *sorted(other for other in names if other.startswith(name)),
+        *sorted(study for study in studies if name.startswith(f"{study}_")),
+    ]
 
 
 def _not_copied(names: list[str]) -> list[str]:

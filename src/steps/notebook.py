@@ -1,10 +1,53 @@
-"""Execute a notebook, the same bytes each time, and render it as HTML."""
+"""Execute a notebook, the same bytes each time, and render it as HTML that asks no network."""
 
 import os
 import tempfile
 from pathlib import Path
+from typing import Any
 
-from workbench import log_to
+from latex2mathml.converter import convert
+
+from replication.workbench import run
+
+PAGE = """
+{%- extends "lab/index.html.j2" -%}
+{%- block html_head_js -%}{%- endblock -%}
+{%- block html_head_js_mathjax -%}{%- endblock -%}
+{%- block html_head_js_mermaidjs -%}{%- endblock -%}
+{%- block data_latex -%}
+<div class="jp-OutputArea-output">{{ output.data["text/latex"] | mathml }}</div>
+{%- endblock -%}
+"""
+"""nbconvert's page without its scripts, which come from the network; formulas are MathML."""
+
+
+def render(notebook: Any, title: str) -> str:
+    """Return an executed notebook as a page."""
+    from jinja2 import DictLoader
+    from nbconvert import HTMLExporter
+    from nbconvert.filters.markdown_mistune import IPythonRenderer, MarkdownWithMath
+
+    class Renderer(IPythonRenderer):
+        """Markdown with its formulas as MathML."""
+
+        def inline_math(self, body: str) -> str:
+            return convert(body)
+
+        def block_math(self, body: str) -> str:
+            return convert(body, display="block")
+
+    exporter = HTMLExporter(
+        exclude_input_prompt=True,
+        exclude_output_prompt=True,
+        extra_loaders=[DictLoader({"page.html.j2": PAGE})],
+        template_file="page.html.j2",
+        filters={
+            "mathml": lambda latex: convert(latex.strip("$"), display="block"),
+            "markdown2html": lambda text: MarkdownWithMath(Renderer(escape=False)).render(text),
+        },
+    )
+    body, _ = exporter.from_notebook_node(notebook, resources={"metadata": {"name": title}})
+    return body
 
 
 def main(source: Path, executed: Path, page: Path) -> None:
@@ -14,7 +57,6 @@ def main(source: Path, executed: Path, page: Path) -> None:
     os.environ |= {"JUPYTER_PLATFORM_DIRS": "1"}
     import nbformat
     from nbclient import NotebookClient
-    from nbconvert import HTMLExporter
 
     notebook = nbformat.read(source, as_version=4)
     client = NotebookClient(
@@ -25,14 +67,8 @@ def main(source: Path, executed: Path, page: Path) -> None:
     )
     client.execute()
     nbformat.write(notebook, executed)
-    body, _ = HTMLExporter(
-        exclude_input_prompt=True, exclude_output_prompt=True
-    ).from_notebook_node(notebook, resources={"metadata": {"name": source.stem}})
-    page.write_text(body, encoding="utf-8")
+    page.write_text(render(notebook, source.stem), encoding="utf-8")
 
 
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        main(
-            *map(Path, (snakemake.input.notebook, snakemake.output.executed, snakemake.output.page))
-        )
+    run(snakemake, lambda job: main(*map(Path, (job.input.notebook, *job.output))))

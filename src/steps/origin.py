@@ -24,6 +24,10 @@ ROOT = Path(__file__).parents[2]
 """The repository, from which the places in the library are told."""
 
 
+MOST_MATCHES = 6
+"""So many names are suggested for one that is unknown."""
+
+
 @dataclass(frozen=True)
 class Item:
     """What is asked for: a file, and perhaps one finding in it and the claims judged by that."""
@@ -47,7 +51,7 @@ def find(
         When it stands for nothing, or for several outputs; the message has close matches.
     """
     made = makers(jobs)
-    findings = {job.rule: path for job in jobs for path in job.findings}
+    findings = {Path(path).stem: path for job in jobs for path in job.findings}
     for claim in ledger:
         if name in (claim["id"], f"claim_{claim['id']}"):
             return Item(findings.get(claim.get("rule", "")), claim.get("finding"), (claim,))
@@ -61,19 +65,28 @@ def find(
         raise ValueError(f"{name} is made by no rule; it goes into {', '.join(users)}")
 
     place, _, key = name.partition(":" if ":" in name else ".")
-    key, known = key.partition(".")[0], [*made, *(claim["id"] for claim in ledger)]
+    known = [*made, *(claim["id"] for claim in ledger)]
     for rule, path in findings.items():
         asked = place == rule or (place != "" and Path(path).match(place))
         if (root / path).exists():
             keys = json.loads((root / path).read_text(encoding="utf-8"))
-            if asked and key in keys:
-                return Item(path, key, _judged_by(ledger, [rule], key))
+            for found in keys if asked else ():
+                if f"{key}.".startswith(f"{found}."):  # the finding, or an entry of it
+                    return Item(path, found, _judged_by(ledger, [rule], found))
             known += [f"{rule}.{key}" for key in keys]
         elif asked:
             raise ValueError(f"{path} is not made yet; expected a finished run: make reproduce")
-    close = difflib.get_close_matches(name, sorted(set(known)), n=3, cutoff=0.5)
+    close = _close(name, known)
     hint = f"did you mean {' or '.join(close)}?" if close else "expected a file, claim or finding"
     raise ValueError(f"no output, claim or finding is called {name!r}; {hint}")
+
+
+def _close(name: str, known: Iterable[str]) -> list[str]:
+    """Return the names that begin like this one, then those that resemble it."""
+    names = sorted(set(known))
+    begins = [other for other in names if name and other.startswith(name)]
+    alike = difflib.get_close_matches(name, names, n=3, cutoff=0.5)
+    return list(dict.fromkeys([*begins, *alike]))[:MOST_MATCHES]
 
 
 def chain(item: Item, jobs: Sequence[Job], root: Path = Path()) -> Iterator[str]:
@@ -110,7 +123,7 @@ def _claim_lines(claim: Mapping[str, Any], path: str | None, root: Path) -> Iter
         finding = finding_of(claim, findings)
         yield f"  verdict   {verdict_line(claim, finding, judge(claim, finding))}"
     elif path is None:
-        yield f"  verdict   {verdict_line(claim, None, 'not tested')}"
+        yield f"  verdict   {verdict_line(claim, None, judge(claim, None))}"
 
 
 def _job_lines(job: Job, made: Mapping[str, Job], root: Path) -> Iterator[str]:
@@ -162,11 +175,12 @@ if __name__ == "__main__":
         sys.exit(
             "expected one item, an output, claim or finding: make trace ITEM=figures/heavier.svg"
         )
+    sys.stdout.reconfigure(errors="replace")  # a terminal may know no Greek letters
     signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # `| head` may stop reading
-    jobs = workflow_jobs()
-    ledger = [job.params["claim"] for job in jobs if "claim" in job.params]
     try:
+        jobs = workflow_jobs()
+        ledger = [job.params["claim"] for job in jobs if "claim" in job.params]
         lines = list(chain(find(sys.argv[1], jobs, ledger), jobs))
-    except ValueError as fault:
+    except (OSError, ValueError) as fault:  # of the config and the folder, too
         sys.exit(str(fault))
     print("\n".join(lines))

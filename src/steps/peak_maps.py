@@ -1,8 +1,8 @@
 """How far a column and its frames rock, over the frequency and the amplitude of a pulse."""
 
 import pandas as pd
-from workbench import grid, log_to, write_table
 
+from replication.workbench import grid, run
 from topheavy import Column, RockingFrame, overturning_map
 
 DIGITS = 3  # of θmax/α, for a picture
@@ -29,5 +29,4 @@ def main(case: dict) -> pd.DataFrame:
 
 
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        write_table(snakemake.output.table, main(snakemake.params.case))
+    run(snakemake, lambda job: main(job.params.case))

@@ -1,17 +1,26 @@
 """Copy what is published from results/ to docs/ and tests/reference/: `make publish`.
 
-docs/ has what the README shows: pictures, the verdict table, what a run costs. tests/reference/ has
-the tables that later runs are compared with, and the config that made them.
+docs/ has what the README shows: pictures, the verdicts, what a run costs. tests/reference/ has the
+findings that `make check` judges the claims by, the tables that later runs are compared with, and
+the config that made them.
 """
 
+import hashlib
 import json
 import os
 import platform
 import shutil
 import sys
 from pathlib import Path
+from typing import Any
 
-import yaml
+from claims import as_text, read_findings
+from claims import main as judge_all
+from ledger import OURS, read_ledger
+from strict_yaml import read_yaml
+
+from replication.workbench import write_findings
+from topheavy.claims import VERDICTS, by_origin
 
 PICTURES = ("heavier", "peak_maps", "spectra", "structures")
 MOVING = "animation.gif"
@@ -31,21 +40,62 @@ TABLES = (
     "trilith_starts",
 )
 
-STUDY_TABLES = ("reversals_medians", "reversals_pairs")
-"""Shown in the README; too sensitive to the processor to compare later runs with."""
+STUDY_TABLES = (
+    "mechanism_dependence",
+    "mechanism_equivalence",
+    "mechanism_first_impacts",
+    "mechanism_rebounds",
+    "mechanism_records",
+    "mechanism_slides",
+    "mechanism_three_bodies",
+    "mechanism_verdicts",
+    "reversals_areas",
+    "reversals_enough",
+    "reversals_fragility",
+    "reversals_medians",
+    "reversals_pairs",
+    "reversals_records",
+    "reversals_why",
+)
+"""The sources of the studies' findings; too sensitive to the processor to compare runs with."""
+
+TITLES = {"": "The paper", OURS: "Not the paper's claims, and its claims rest on them"}
+"""The sections of docs/verdicts.md that are not a study's."""
+
+CHECKSUMS = "checksums.txt"
+DIGITS = 9
+"""Of the numbers in the published findings, as in the tables."""
+
+COUNTS_HEAD = "| | " + " | ".join(VERDICTS) + " |"
+"""The first line of the table that counts the verdicts, in docs/verdicts.md and in the README."""
 
 
-def verdict_table(claims: list[dict]) -> str:
-    """Return the table of docs/verdicts.md."""
+def verdict_page(rows: list[dict]) -> str:
+    """Return docs/verdicts.md: the counts, then the rows of the paper and of each study apart."""
+    parts = {row["study"]: [] for row in rows}
+    for row in rows:
+        parts[row["study"]].append(row)
     lines = [
         "# The verdict on every claim",
         "",
         "Computed by the workflow (`results/claims.json`); this page is written by `make publish`.",
+        "We worked from a transcription: every slip or misprint may be its fault, not the print's.",
         "",
+        *count_table(rows),
+    ]
+    for study, own in parts.items():
+        title = TITLES.get(study, f"The study `{study}`")
+        lines += ["", f"## {title}", "", *verdict_table(own)]
+    return "\n".join(lines) + "\n"
+
+
+def verdict_table(rows: list[dict]) -> list[str]:
+    """Return the lines of a table with one claim in each."""
+    lines = [
         "| claim | where | in our words | printed | computed | verdict | remark |",
         "|---|---|---|---|---|---|---|",
     ]
-    for row in claims:
+    for row in rows:
         cells = [
             f"`{row['id']}`",
             row["where"],
@@ -56,7 +106,64 @@ def verdict_table(claims: list[dict]) -> str:
             row["remark"],
         ]
         lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
-    return "\n".join(lines) + "\n"
+    return lines
+
+
+def count_table(rows: list[dict]) -> list[str]:
+    """Return the lines of a table that counts the verdicts, of the paper and of each study."""
+    lines = [COUNTS_HEAD, "|---" * (len(VERDICTS) + 1) + "|"]
+    for name, verdicts in by_origin(rows).items():
+        cells = [name if name in ("paper", OURS) else f"study `{name}`"]
+        cells += [str(verdicts.count(verdict)) for verdict in VERDICTS]
+        lines.append("| " + " | ".join(cells) + " |")
+    return lines
+
+
+def with_counts(page: str, rows: list[dict]) -> str:
+    """Return a page in which the table of counts is that of the rows.
+
+    Raises
+    ------
+    ValueError
+        When the page has no such table.
+    """
+    lines = page.splitlines(keepends=True)
+    starts = [number for number, line in enumerate(lines) if line.rstrip() == COUNTS_HEAD]
+    if len(starts) != 1:
+        raise ValueError(f"the page has {len(starts)} lines {COUNTS_HEAD!r}; expected one")
+    end = starts[0]
+    while end < len(lines) and lines[end].startswith("|"):
+        end += 1
+    return "".join(
+        [*lines[: starts[0]], *(f"{line}\n" for line in count_table(rows)), *lines[end:]]
+    )
+
+
+def rounded(found: Any, digits: int = DIGITS) -> Any:
+    """Return findings with their numbers rounded, an error to two digits: the rest is noise."""
+    match found:
+        case float():
+            return float(f"{found:.{digits}g}")
+        case dict():
+            return {k: rounded(v, 2 if k == "error" else digits) for k, v in found.items()}
+        case list():
+            return [rounded(item, digits) for item in found]
+        case _:
+            return found
+
+
+def checksums(reference: Path) -> str:
+    """Return the SHA-256 of each published table and finding, a line each.
+
+    Of the text, with line ends as Python reads them, so that a checkout may change those.
+    """
+    files = sorted({*reference.rglob("*.csv"), *reference.glob("findings/*.json")})
+    lines = (
+        f"{hashlib.sha256(path.read_text(encoding='utf-8').encode()).hexdigest()}  "
+        f"{path.relative_to(reference).as_posix()}\n"
+        for path in files
+    )
+    return "".join(lines)
 
 
 def machine() -> str:
@@ -88,10 +195,7 @@ def main() -> None:
     results, docs, reference = Path("results"), Path("docs"), Path("tests/reference")
     if not (results / "claims.json").exists():
         sys.exit("results/claims.json does not exist; expected a finished run: make reproduce")
-    used, ours = (
-        yaml.safe_load(Path(path).read_text(encoding="utf-8"))
-        for path in (results / "config.yaml", "config/config.yaml")
-    )
+    used, ours = read_yaml(results / "config.yaml"), read_yaml("config/config.yaml")
     if used != ours:
         sections = sorted(key for key in {*used, *ours} if used.get(key) != ours.get(key))
         sys.exit(
@@ -99,24 +203,55 @@ def main() -> None:
             "expected that of config/config.yaml: make reproduce"
         )
     docs.mkdir(exist_ok=True)
-    reference.mkdir(exist_ok=True)
     for name in PICTURES:
         shutil.copyfile(f"figures/{name}.svg", docs / f"{name}.svg")
     shutil.copyfile(results / MOVING, docs / MOVING)
-    for name in TABLES:
-        shutil.copyfile(results / "tables" / f"{name}.csv", reference / f"{name}.csv")
-    (reference / "studies").mkdir(exist_ok=True)
-    for name in STUDY_TABLES:
-        if (results / "tables" / f"{name}.csv").exists():
-            shutil.copyfile(
-                results / "tables" / f"{name}.csv", reference / "studies" / f"{name}.csv"
-            )
-    shutil.copyfile(results / "claims.json", reference / "claims.json")
-    shutil.copyfile("config/config.yaml", reference / "config.yaml")
     shutil.copyfile(results / "costs.csv", docs / "costs.csv")
     (docs / "machine.txt").write_text(machine() + "\n", encoding="utf-8")
-    claims = json.loads((results / "claims.json").read_text(encoding="utf-8"))
-    (docs / "verdicts.md").write_text(verdict_table(claims), encoding="utf-8")
+    shutil.copyfile("config/config.yaml", reference / "config.yaml")
+    publish_tables(results / "tables", reference)
+    publish_findings(results / "findings", reference / "findings")
+    (reference / CHECKSUMS).write_text(checksums(reference), encoding="utf-8")
+    studies = [f"studies/{name}/claims.yaml" for name in ours["studies"]]
+    publish_verdicts(read_ledger(["paper/claims.yaml", *studies]), Path())
+
+
+def publish_tables(tables: Path, reference: Path) -> None:
+    """Copy the tables; those of a study that was not part of the run are left out."""
+    (reference / "studies").mkdir(parents=True, exist_ok=True)
+    for name in TABLES:
+        shutil.copyfile(tables / f"{name}.csv", reference / f"{name}.csv")
+    for name in STUDY_TABLES:
+        if (tables / f"{name}.csv").exists():
+            shutil.copyfile(tables / f"{name}.csv", reference / "studies" / f"{name}.csv")
+
+
+def publish_findings(findings: Path, folder: Path) -> None:
+    """Write all findings of a run, rounded, in place of those that are published.
+
+    Raises
+    ------
+    ValueError
+        When a rule tested nothing, for lack of an optional package.
+    """
+    for path in sorted(findings.glob("*.json")):
+        if reason := json.loads(path.read_text(encoding="utf-8")).get("not_tested"):
+            raise ValueError(f"{path}: nothing was tested ({reason}); expected a full run")
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    for path in sorted(findings.glob("*.json")):
+        found = rounded(json.loads(path.read_text(encoding="utf-8")))
+        write_findings(str(folder / path.name), found)
+
+
+def publish_verdicts(ledger: list[dict], root: Path) -> None:
+    """Judge the published findings; write claims.json, docs/verdicts.md and the README's counts."""
+    reference = root / "tests" / "reference"
+    rows = judge_all(ledger, read_findings((reference / "findings").glob("*.json")), root)
+    (reference / "claims.json").write_text(as_text(rows), encoding="utf-8")
+    (root / "docs" / "verdicts.md").write_text(verdict_page(rows), encoding="utf-8")
+    readme = root / "README.md"
+    readme.write_text(with_counts(readme.read_text(encoding="utf-8"), rows), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -1,17 +1,17 @@
 """Compile the report, which reads results/ itself: the same bytes each time."""
 
 from pathlib import Path
+from typing import Any
 
-import typst
-from workbench import log_to
+from replication.typeset import compiled
+from replication.workbench import run
+
+
+def work(job: Any) -> None:
+    studies = ",".join(job.params.studies)
+    pdf = compiled(job.params.source, dict.fromkeys(job.input), {"studies": studies})
+    Path(job.output[0]).write_bytes(pdf)
+
 
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        pdf = typst.compile(
-            snakemake.input.source,
-            root=".",
-            ignore_system_fonts=True,
-            pdf_standards=["a-2b"],
-            sys_inputs={"studies": ",".join(snakemake.params.studies)},
-        )
-        Path(snakemake.output[0]).write_bytes(pdf)
+    run(snakemake, work)

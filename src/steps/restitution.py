@@ -3,8 +3,8 @@
 import math
 
 import numpy as np
-from workbench import log_to, truth, value, write_findings, write_table
 
+from replication.workbench import run, truth, value
 from topheavy import Column, RockingFrame
 from topheavy.structures import largest_slenderness
 
@@ -54,9 +54,7 @@ def main(case: dict) -> tuple[dict, dict, dict]:
             min(smaller) > 0.0, cells=len(smaller), least_difference=min(smaller)
         ),
         "energy_loss": truth(
-            not counter,
-            holds_when=all(more_lost),
-            condition="α below the slenderness at which √r of the frame vanishes, so that it rocks",
+            more_lost and all(more_lost),
             cells_that_rock=len(more_lost),
             least_slenderness_against_deg=min(counter, default=math.nan),
         ),
@@ -85,8 +83,4 @@ def main(case: dict) -> tuple[dict, dict, dict]:
 
 
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        over_slenderness, over_mass_ratio, findings = main(snakemake.params.case)
-        write_table(snakemake.output.over_slenderness, over_slenderness)
-        write_table(snakemake.output.over_mass_ratio, over_mass_ratio)
-        write_findings(snakemake.output.findings, findings)
+    run(snakemake, lambda job: main(job.params.case))

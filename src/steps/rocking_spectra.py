@@ -7,12 +7,13 @@ happens. Such histories are told apart, and not counted.
 
 import math
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 import pandas as pd
 from spectrum import progress
-from workbench import log_to, truth, write_findings, write_table
 
+from replication.workbench import run, truth
 from topheavy import Column, Record, RockingFrame, judge, read_record, reference
 
 NUDGE = 1e-9  # of a record: what no measurement resolves
@@ -115,9 +116,9 @@ def main(case: dict, paths: list[str], tightened: float) -> tuple[pd.DataFrame, 
     return table.drop(columns="change"), findings
 
 
+def work(job: Any) -> Any:
+    return main(job.params.case, job.input.records, job.params.solver["tightened"])
+
+
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        case, tightened = snakemake.params.case, snakemake.params.solver["tightened"]
-        table, findings = main(case, snakemake.input.records, tightened)
-        write_table(snakemake.output.table, table)
-        write_findings(snakemake.output.findings, findings)
+    run(snakemake, work)

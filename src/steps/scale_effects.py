@@ -4,8 +4,8 @@ import math
 from dataclasses import replace
 
 import numpy as np
-from workbench import log_to, truth, write_findings, write_table
 
+from replication.workbench import run, truth
 from topheavy import Column, Pulse, judge, reference, simulate
 
 
@@ -56,7 +56,4 @@ def main(case: dict, solver: dict) -> tuple[list[dict], dict]:
 
 
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        rows, findings = main(snakemake.params.case, snakemake.params.solver)
-        write_table(snakemake.output.table, rows)
-        write_findings(snakemake.output.findings, findings)
+    run(snakemake, lambda job: main(job.params.case, job.params.solver))

@@ -6,8 +6,8 @@ Every cap beam has the density and the breadth of its columns, so that its depth
 import math
 
 import numpy as np
-from workbench import log_to, write_table
 
+from replication.workbench import run
 from topheavy import Column, RockingFrame
 from topheavy.kinematics import cap_acceleration, cap_displacement, column_outline
 from topheavy.structures import STANDARD_GRAVITY
@@ -151,7 +151,4 @@ def main(case: dict) -> tuple[list[dict], list[dict]]:
 
 
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        outlines, free_body = main(snakemake.params.case)
-        write_table(snakemake.output.outlines, outlines)
-        write_table(snakemake.output.free_body, free_body)
+    run(snakemake, lambda job: main(job.params.case))

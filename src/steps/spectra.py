@@ -5,11 +5,13 @@ how much of the map of frequency and amplitude is the heavier frame the one that
 """
 
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 import pandas as pd
 from spectra_compared import ORDER, Spectra, finite
-from workbench import log_to, truth, write_findings, write_table
+
+from replication.workbench import run, truth
 
 
 def main(case: dict, solver: dict, table: pd.DataFrame) -> tuple[list[dict], dict]:
@@ -58,11 +60,10 @@ def main(case: dict, solver: dict, table: pd.DataFrame) -> tuple[list[dict], dic
     return areas, findings
 
 
+def work(job: Any) -> tuple:
+    table = pd.concat(map(pd.read_csv, job.input.shards)).sort_values(ORDER, ignore_index=True)
+    return table, *main(job.params.case, job.params.solver, table)
+
+
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        shards = [pd.read_csv(path) for path in snakemake.input.shards]
-        table = pd.concat(shards).sort_values(ORDER, ignore_index=True)
-        write_table(snakemake.output.table, table)
-        areas, findings = main(snakemake.params.case, snakemake.params.solver, table)
-        write_table(snakemake.output.areas, areas)
-        write_findings(snakemake.output.findings, findings)
+    run(snakemake, work)

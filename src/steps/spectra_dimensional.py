@@ -1,12 +1,13 @@
 """Overturning spectra of frames that have a size: amplitude in g over the pulse's period in s."""
 
 import math
+from typing import Any
 
 import numpy as np
 import pandas as pd
 from spectrum import Line, solve
-from workbench import log_to, truth, write_findings, write_table
 
+from replication.workbench import run, truth
 from topheavy import Column, Pulse, RockingFrame, judge, reference
 
 ROUNDING = 0.004  # of an amplitude: by so much prints of other studies have been found to differ
@@ -86,12 +87,11 @@ def main(
     return table, row, {"published_amplitude": finding}
 
 
+def work(job: Any) -> tuple:
+    params = job.params
+    table, row, findings = main(params.case, params.structures, params.solver, job.threads)
+    return table, [row], findings
+
+
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        params = snakemake.params
-        table, row, findings = main(
-            params.case, params.structures, params.solver, snakemake.threads
-        )
-        write_table(snakemake.output.table, table)
-        write_table(snakemake.output.published, pd.DataFrame([row]))
-        write_findings(snakemake.output.findings, findings)
+    run(snakemake, work)

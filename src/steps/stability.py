@@ -11,10 +11,10 @@ from functools import cache
 from itertools import combinations, groupby, pairwise
 from typing import TypeAlias
 
-from workbench import grid, log_to, truth, write_findings
-
+from replication.workbench import grid, run, truth
 from topheavy import Column, Pulse, RockingFrame, judge
 from topheavy.linear import simulate_linear_exact
+from topheavy.structures import size_ratio
 
 SCANNING = 1e-8  # of α: tolerance of a scan, of which what is quoted is made anew
 NEARBY = 0.05  # of an amplitude: where the linearised equation is asked
@@ -57,9 +57,9 @@ class Scan:
         cells = zip(
             self.amplitudes, self.overturned(weaker), self.overturned(stronger), strict=True
         )
-        for counter, run in groupby(cells, key=lambda cell: cell[2] and not cell[1]):
+        for counter, neighbours in groupby(cells, key=lambda cell: cell[2] and not cell[1]):
             if counter:
-                yield [amplitude for amplitude, *_ in run]
+                yield [amplitude for amplitude, *_ in neighbours]
 
     def ranking(self, order: list[list[Trial]]) -> dict:
         """Does each trial survive all that those before it survive? Or at least, fall later?
@@ -126,6 +126,7 @@ def orders(case: dict) -> dict[str, list[list[Trial]]]:
     frames = [RockingFrame(column, gamma) for gamma in case["mass_ratios"]]
     b, h = column.half_width, column.half_height
     sizes = [Column(scale * b, scale * h) for scale in case["sizes"]]
+    equivalent = [Column(s * b, s * h) for s in map(size_ratio, [0.0, *case["mass_ratios"]])]
     ratios = case["frequency_ratios"]
     return {
         "heavier_is_more_stable": [[(f, ratio) for f in frames] for ratio in ratios],
@@ -133,6 +134,7 @@ def orders(case: dict) -> dict[str, list[list[Trial]]]:
             [(column, ratio), (frame, ratio)] for ratio in ratios for frame in frames
         ],
         "larger_is_more_stable": [[(c, ratio) for c in sizes] for ratio in ratios],
+        "larger_size_means_more_stable": [[(c, ratio) for c in equivalent] for ratio in ratios],
         # ratios ascend: from the longest pulse to the shortest
         "longer_pulse_overturns_first": [[(column, ratio) for ratio in ratios]],
     }
@@ -145,7 +147,4 @@ def main(case: dict, solver: dict) -> dict:
 
 
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        write_findings(
-            snakemake.output.findings, main(snakemake.params.case, snakemake.params.solver)
-        )
+    run(snakemake, lambda job: main(job.params.case, job.params.solver))

@@ -4,8 +4,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-import yaml
 from configuration import check_config
+from strict_yaml import read_yaml
 
 FOLDER = "studies"
 
@@ -23,7 +23,7 @@ def read_study_config(
     Raises
     ------
     ValueError
-        With one line for each fault: no such study, or what `check_config` finds.
+        With one line for each fault: no such study, or what `read_yaml` and `check_config` find.
     """
     path = Path(folder) / name / "config.yaml"
     if not path.is_file():
@@ -32,7 +32,7 @@ def read_study_config(
             f"config/config.yaml: studies has {name!r}, for which there is no {path}; "
             f"expected some of {', '.join(there) or 'none: there are no studies'}"
         )
-    config: dict[str, Any] = yaml.safe_load(path.read_text(encoding="utf-8"))
+    config: dict[str, Any] = read_yaml(path)
     check_config(
         config, str(path), str(path.with_name("config.schema.yaml")), structures=structures
     )

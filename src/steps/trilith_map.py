@@ -1,7 +1,6 @@
 """Where the trilith rests, rocks or overturns, over amplitude and frequency of the table."""
 
-from workbench import grid, log_to, write_table
-
+from replication.workbench import grid, run
 from topheavy import Column, RockingFrame, simulate
 from topheavy.shaking_table import table_acceleration, table_motion
 
@@ -30,5 +29,4 @@ def main(case: dict) -> list[dict]:
 
 
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        write_table(snakemake.output.table, main(snakemake.params.case))
+    run(snakemake, lambda job: main(job.params.case))

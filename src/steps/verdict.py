@@ -3,17 +3,18 @@
 import json
 from collections import Counter
 from pathlib import Path
+from typing import Any
 
 import pandas as pd
-from workbench import log_to
 
-from topheavy.claims import tally
+from replication.workbench import run
+from topheavy.claims import tallies
 
 
 def main(
     claims: list[dict], comparison: pd.DataFrame, checks: dict[str, bool]
 ) -> tuple[str, list[str]]:
-    """Return the line that closes the run, and what is wrong with it.
+    """Return the lines that close the run, the paper's and each study's, and what is wrong.
 
     `checks` are findings that are no claims of anybody, and have to hold all the same.
     """
@@ -29,7 +30,7 @@ def main(
         if row.verdict == "differs"
     ]
     faults += [f"our own check {name} does not hold" for name, holds in checks.items() if not holds]
-    return "\n".join([*untested(claims), tally(row["verdict"] for row in claims)]), faults
+    return "\n".join([*untested(claims), *tallies(claims)]), faults
 
 
 def untested(claims: list[dict]) -> list[str]:
@@ -38,19 +39,21 @@ def untested(claims: list[dict]) -> list[str]:
     return [f"{count} claims not tested here: {reason}" for reason, count in reasons.items()]
 
 
+def work(job: Any) -> None:
+    claims = json.loads(Path(job.input.claims).read_text(encoding="utf-8"))
+    checks = {
+        f"{rule}.{name}": json.loads(
+            Path(f"results/findings/{rule}.json").read_text(encoding="utf-8")
+        )[name]["holds"]
+        for rule, names in job.params.checks.items()
+        for name in names
+    }
+    lines, faults = main(claims, pd.read_csv(job.input.comparison), checks)
+    if faults:
+        raise SystemExit("\n".join([*faults, lines]))
+    text = f"report: paper/report.pdf\n{lines}\n"
+    Path(job.output[0]).write_text(text, encoding="utf-8")
+
+
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        claims = json.loads(Path(snakemake.input.claims).read_text(encoding="utf-8"))
-        checks = {
-            f"{rule}.{name}": json.loads(
-                Path(f"results/findings/{rule}.json").read_text(encoding="utf-8")
-            )[name]["holds"]
-            for rule, names in snakemake.params.checks.items()
-            for name in names
-        }
-        line, faults = main(claims, pd.read_csv(snakemake.input.comparison), checks)
-        if faults:
-            raise SystemExit("\n".join([*faults, line]))
-        Path(snakemake.output[0]).write_text(
-            f"report: paper/report.pdf\n{line}\n", encoding="utf-8"
-        )
+    run(snakemake, work)

@@ -6,12 +6,13 @@ one per cent of a boundary of overturning, where a verdict is most easily wrong.
 
 import math
 from collections.abc import Callable, Iterator
+from typing import Any
 
 import numpy as np
 import pandas as pd
 import sympy as sp
-from workbench import log_to, truth, value, write_findings, write_table
 
+from replication.workbench import run, truth, value
 from topheavy import (
     Column,
     Pulse,
@@ -27,6 +28,7 @@ from topheavy.derivation.notation import alpha, gamma
 from topheavy.free_rocking import Ending, energy_drift
 from topheavy.linear import SHAPES, simulate_linear_exact
 
+OF_PRINT = 0.005  # of a number: the prints, which have three digits, are that far off at most
 Cell = tuple[RockingBlock, Pulse]
 
 
@@ -150,18 +152,32 @@ def published(case: dict) -> pd.DataFrame:
         decay, rotation=0.5 * 0.25, samples=np.linspace(impacts[4], impacts[5], 20001)[1:-1]
     )
     one_sine = Pulse("one-sine", 1.0, 5.0)
+    near = {row["quantity"]: row["expected"] for row in case["published"]}
     computed = {
         "housner_quarter_period": free,
         "exact_quarter_period": bent.impacts[0],
         "housner_decay": np.abs(fifth.rotation).max() / 0.25,
-        "one_sine_with_impact": boundary(slender, one_sine, 3.0186 * 0.25) / 0.25,
-        "one_sine_end_of_impact_mode": boundary(slender, one_sine, 6.3181 * 0.25, "upper") / 0.25,
-        "one_sine_without_impact": boundary(slender, one_sine, 7.16813 * 0.25) / 0.25,
-        "one_sine_dimensional": boundary(zhang, Pulse("one-sine", 1.0, 15.7), 3.230),
-        "one_cosine_exact": boundary(peer, Pulse("one-cosine", 1.0, math.pi), 0.315034),
-        "half_sine_linear": boundary(roussos, Pulse("half-sine", 1.0, 2 * math.pi), 0.554586),
+        "one_sine_with_impact": boundary(slender, one_sine, near["one_sine_with_impact"] * 0.25)
+        / 0.25,
+        "one_sine_end_of_impact_mode": boundary(
+            slender, one_sine, near["one_sine_end_of_impact_mode"] * 0.25, "upper"
+        )
+        / 0.25,
+        "one_sine_without_impact": boundary(
+            slender, one_sine, near["one_sine_without_impact"] * 0.25
+        )
+        / 0.25,
+        "one_sine_dimensional": boundary(
+            zhang, Pulse("one-sine", 1.0, 15.7), near["one_sine_dimensional"]
+        ),
+        "one_cosine_exact": boundary(
+            peer, Pulse("one-cosine", 1.0, math.pi), near["one_cosine_exact"]
+        ),
+        "half_sine_linear": boundary(
+            roussos, Pulse("half-sine", 1.0, 2 * math.pi), near["half_sine_linear"]
+        ),
         "heavy_frame_ricker": boundary(
-            heavy, Pulse("ricker-symmetric", 1.0, 2 * math.pi / 3.14), 0.3134
+            heavy, Pulse("ricker-symmetric", 1.0, 2 * math.pi / 3.14), near["heavy_frame_ricker"]
         ),
     }
     return pd.DataFrame(
@@ -203,6 +219,7 @@ def distance_from_derivation() -> float:
 def main(case: dict, tightened: float) -> tuple[dict[str, pd.DataFrame], dict]:
     routes, order, literature = agreement(case, tightened), convergence(case), published(case)
     off = (literature.computed - literature.expected).abs()
+    off_print = (literature.computed / literature.printed - 1.0).abs()
     lost = drift(case)
     findings = {
         "routes_agree": truth(
@@ -211,7 +228,11 @@ def main(case: dict, tightened: float) -> tuple[dict[str, pd.DataFrame], dict]:
             verdicts_that_differ=int(routes.verdicts_that_differ.sum()),
             error_99=routes.error_99.max(),
         ),
-        "published_numbers": truth((off <= literature.tolerance).all(), numbers=len(literature)),
+        "published_numbers": truth(
+            (off <= literature.tolerance).all() and (off_print < OF_PRINT).all(),
+            numbers=len(literature),
+            farthest_from_print=off_print.max(),
+        ),
         "energy_drift": value(lost, 0.0),
         "library_follows_the_derivation": truth(
             (apart := distance_from_derivation()) < 1e-13, largest_difference=apart
@@ -220,9 +241,10 @@ def main(case: dict, tightened: float) -> tuple[dict[str, pd.DataFrame], dict]:
     return {"routes": routes, "convergence": order, "published": literature}, findings
 
 
+def work(job: Any) -> tuple:
+    tables, findings = main(job.params.case, job.params.solver["tightened"])
+    return tables["routes"], tables["convergence"], tables["published"], findings
+
+
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        tables, findings = main(snakemake.params.case, snakemake.params.solver["tightened"])
-        for name, table in tables.items():
-            write_table(snakemake.output[name], table)
-        write_findings(snakemake.output.findings, findings)
+    run(snakemake, work)

@@ -3,19 +3,59 @@
 import math
 from typing import Any
 
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
 LARGEST_ACCELERATION = 1e6
 """Of a ground motion, g. Far beyond any; far below where squares overflow and a fall is missed."""
 
 
+def number(name: str, value: Any) -> float:
+    """Return `value` as a float, infinite or NaN also, or raise ValueError that names it.
+
+    A text, a truth value, an array and a masked value are no numbers, even where Python converts
+    them: who gives one has mixed something up.
+    """
+    if getattr(value, "ndim", 0):
+        raise ValueError(f"{name} is an array of shape {value.shape}; expected a number")
+    if np.ma.is_masked(value):
+        raise ValueError(f"{name} is masked; expected a number")
+    plain = value.item() if isinstance(value, np.ndarray) else value
+    if isinstance(plain, (str, bytes, bool, np.bool_)):
+        raise ValueError(f"{name} is {plain!r}; expected a number")
+    try:
+        return float(plain)
+    except (TypeError, ValueError, OverflowError):
+        raise ValueError(f"{name} is {plain!r}; expected a number") from None
+
+
 def finite(name: str, value: Any) -> float:
     """Return `value` as a finite float, or raise ValueError that names it."""
+    found = number(name, value)
+    if not math.isfinite(found):
+        raise ValueError(f"{name} is {found}; expected a finite number")
+    return found
+
+
+def numbers(name: str, values: ArrayLike) -> NDArray[np.float64]:
+    """Return a copy of `values` as an array of floats, infinite or NaN also, or raise ValueError.
+
+    Refuses in an array what `number` refuses alone, and names the first such element.
+    """
+    if np.ma.is_masked(values):
+        masked = np.ma.getmaskarray(np.ma.asarray(values)).ravel()
+        raise ValueError(
+            f"{name} has {masked.sum()} masked of {masked.size} elements, the first at index "
+            f"{masked.argmax()}; expected a number for each: fill them, or leave them out"
+        )
     try:
-        number = float(value)
-    except (TypeError, ValueError):
-        raise ValueError(f"{name} is {value!r}; expected a number") from None
-    if not math.isfinite(number):
-        raise ValueError(f"{name} is {number}; expected a finite number")
-    return number
+        found = np.asarray(values)
+    except ValueError as error:
+        raise ValueError(f"{name}: {error}; expected rows of equal length") from None
+    if found.dtype.kind not in "iuf":
+        for index, value in enumerate(np.asarray(values, dtype=object).ravel()):
+            number(f"{name}: element {index}", value)
+    return np.array(found, dtype=float)
 
 
 def positive(name: str, value: Any, unit: str = "") -> float:

@@ -6,30 +6,50 @@ rule of the workflow computed for it: a value with its error, a truth, or why it
 
 from collections import Counter
 from collections.abc import Iterable, Mapping
+from decimal import Decimal
 from typing import Any, Literal, get_args
 
-Verdict = Literal["confirmed", "qualified", "misprint", "refuted", "not tested"]
+Verdict = Literal[
+    "confirmed", "qualified", "slip", "misprint", "refuted", "by definition", "not tested"
+]
 VERDICTS: tuple[Verdict, ...] = get_args(Verdict)
+
+PLURALS = {"slip": "slips", "misprint": "misprints"}
+
+KINDS: dict[str, Verdict] = {
+    "sign": "misprint",
+    "number": "misprint",
+    "letter": "slip",
+    "bracket": "slip",
+    "radical": "slip",
+    "convention": "qualified",
+}
+"""The verdict on a print that fails while what is meant holds, by the kind of the discrepancy."""
 
 LARGEST_SHARE_OF_TOLERANCE = 0.1
 """The error of a computed value may take this share of the claim's tolerance."""
+
+LARGEST_RELATIVE_TOLERANCE = 0.1
+"""A tolerance is at most this share of the printed value, unless the print is rounded more."""
 
 
 def judge(claim: Mapping[str, Any], finding: Mapping[str, Any] | None) -> Verdict:
     """Return the verdict on a claim.
 
     A printed number is confirmed when the computed value agrees within the claim's tolerance, and
-    a misprint when only the value of what is meant does. A statement is confirmed when it holds, a
-    misprint when only what is meant holds, and qualified when it holds only under a condition.
+    a statement when it holds. A statement that holds only under a stated condition is qualified.
+    If the print fails and what is meant holds, the kind of the discrepancy decides (`KINDS`).
 
     Parameters
     ----------
     claim : mapping
-        With `id`, and `printed` and `tolerance` where a number is claimed.
+        With `id`; `printed` and `tolerance` where a number is claimed; `by_definition` where the
+        claim cannot be false.
     finding : mapping or None
         With `value`, `error` and perhaps `meant_value`; or with `holds` and perhaps `meant_holds`
         or `holds_when`; or with `not_tested`, the reason, where an optional package is missing.
-        None for what cannot be tested.
+        With `meant_holds`, and perhaps with `meant_value`, comes `kind`, one of `KINDS`.
+        None for a claim that cannot be false and for what cannot be tested.
 
     Raises
     ------
@@ -37,6 +57,10 @@ def judge(claim: Mapping[str, Any], finding: Mapping[str, Any] | None) -> Verdic
         When the error of the value is more than a tenth of the tolerance, or the finding is of the
         wrong kind: then nothing can be said.
     """
+    if claim.get("by_definition"):
+        if finding is not None:
+            raise ValueError(f"claim {claim['id']} holds by definition; expected no finding for it")
+        return "by definition"
     if finding is None or "not_tested" in finding:
         return "not tested"
     if "tolerance" in claim:
@@ -46,7 +70,7 @@ def judge(claim: Mapping[str, Any], finding: Mapping[str, Any] | None) -> Verdic
     if finding["holds"]:
         return "confirmed"
     if finding.get("meant_holds"):
-        return "misprint"
+        return _by_kind(claim, finding.get("kind"))
     return "qualified" if finding.get("holds_when") else "refuted"
 
 
@@ -66,13 +90,67 @@ def _judge_number(claim: Mapping[str, Any], finding: Mapping[str, Any]) -> Verdi
     if agrees(finding["value"]):
         return "confirmed"
     if "meant_value" in finding and agrees(finding["meant_value"]):
-        return "misprint"
+        return _by_kind(claim, finding.get("kind", "number"))
     return "refuted"
 
 
-def tally(verdicts: Iterable[Verdict]) -> str:
-    """Return the line that closes a run: how many claims came out how."""
+def _by_kind(claim: Mapping[str, Any], kind: str | None) -> Verdict:
+    if kind not in KINDS:
+        raise ValueError(
+            f"claim {claim['id']}: what is meant holds, and the kind of the discrepancy is "
+            f"{kind!r}; expected one of {', '.join(KINDS)}"
+        )
+    return KINDS[kind]
+
+
+def print_rounding(printed: float) -> float:
+    """Return half a unit of the last digit of a printed number: 0.0005 of 0.275, 0.5 of 5.
+
+    A trailing zero is not kept by YAML: 0.50 counts as 0.5.
+    """
+    exponent = Decimal(repr(printed)).normalize().as_tuple().exponent
+    return 0.5 * 10.0 ** min(int(exponent), 0)
+
+
+def tolerance_fault(claim: Mapping[str, Any]) -> str:
+    """Return why the tolerance of a claim is too wide for its verdict to mean anything, or "".
+
+    A value that is off by a whole unit of the last printed digit, twice what rounding allows, has
+    to fail. Where the print itself is in doubt, a row that is expected to be a misprint, other
+    printed numbers may leave the value open further: up to a tenth of it.
+    """
+    if "tolerance" not in claim:
+        return ""
+    printed, tolerance = claim["printed"], claim["tolerance"]
+    rounding = print_rounding(printed)
+    widest = LARGEST_RELATIVE_TOLERANCE * abs(printed)
+    if tolerance > max(widest, rounding):
+        return (
+            f"tolerance {tolerance:g} is more than a tenth of the printed {printed:g} and than the "
+            f"rounding of the print; expected at most {max(widest, rounding):g}"
+        )
+    if claim["expected"] != "misprint" and tolerance >= 2.0 * rounding:
+        return (
+            f"tolerance {tolerance:g} would confirm a value twice as far off as the digits of the "
+            f"printed {printed:g} allow; expected less than {2.0 * rounding:g}"
+        )
+    return ""
+
+
+def tally(name: str, verdicts: Iterable[str]) -> str:
+    """Return a closing line of a run: how many claims of the paper or a study have each verdict."""
     count = Counter(verdicts)
-    plural = {"misprint": "misprints"}
-    parts = ", ".join(f"{count[verdict]} {plural.get(verdict, verdict)}" for verdict in VERDICTS)
-    return f"claims: {parts}"
+    return f"{name}: " + ", ".join(f"{count[v]} {PLURALS.get(v, v)}" for v in VERDICTS)
+
+
+def by_origin(rows: Iterable[Mapping[str, Any]]) -> dict[str, list[str]]:
+    """Return the verdicts of judged rows, apart for the paper and for each study."""
+    verdicts: dict[str, list[str]] = {"paper": []}
+    for row in rows:
+        verdicts.setdefault(row["study"] or "paper", []).append(row["verdict"])
+    return verdicts
+
+
+def tallies(rows: Iterable[Mapping[str, Any]]) -> list[str]:
+    """Return the closing line of the paper, and one for each study."""
+    return [tally(name, verdicts) for name, verdicts in by_origin(rows).items()]

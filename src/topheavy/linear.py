@@ -31,6 +31,9 @@ SHAPES = ("one-sine", "one-cosine", "half-sine", "constant", "harmonic")
 
 _TURNED = 1e-10  # φ̇/αp below which a turning point is reached: φ is off by its square
 _NUDGE = 1e-6  # 1/p: the step across a turning point, over which φ changes by its square
+_MOST_MARCHES = 100_000
+"""Of a flight in one segment. Towards a turn φ̇ shrinks by a factor each time, which the bounds of φ̈
+make; towards an impact the time left does. A hundred are many."""
 
 
 def simulate_linear_exact(
@@ -132,8 +135,14 @@ def _fly(
     exact = _Course(begin, alpha, p, side, (offset + speed) / 2, (offset - speed) / 2, ground)
 
     ends = (side * segment.acceleration(begin), side * segment.acceleration(stop))
-    event = None
+    event, marches = None, 0
     while course.time < stop and event is None:
+        marches += 1
+        if marches > _MOST_MARCHES:
+            raise ArithmeticError(
+                f"{block}: {_MOST_MARCHES} marches from {begin:.6g} s end at {course.time:.6g} s, "
+                f"with no event before {stop:.6g} s; a shorter duration may help"
+            )
         phi, rate = course.rotation, course.rate
         rising = rate >= 0.0
         # Bounds of φ̈ = p² (φ − α − s a) as long as φ rises, or falls, give the earliest turn.

@@ -37,6 +37,14 @@ LONGEST_FREE_FLIGHT = 100.0
 """1/p. From α (1 − 1e-16) a block comes back within 75: only one poised at α stays out longer."""
 
 
+MOST_FLIGHTS = 200_000
+"""More flights than this are not followed. Each ends at an impact, or with a segment or a push:
+only a block that loses next to nothing (√r → 1) has so many."""
+
+POISED = 1e-3
+"""Over α: a block this far from φ = α, and going on, has left."""
+
+
 class Event(Enum):
     """What ended a flight."""
 
@@ -53,6 +61,13 @@ class Arc:
     side: int
     course: Callable[[NDArray[np.float64]], NDArray[np.float64]] | None
 
+    def ends_at(self) -> tuple[float, float]:
+        """Return φ and φ̇ at the stop."""
+        if self.course is None:
+            return 0.0, 0.0
+        phi, rate = self.course(np.array(self.stop))
+        return float(phi), float(rate)
+
 
 @dataclass
 class Motion:
@@ -68,6 +83,7 @@ class Motion:
     height: float = 0.0  # largest φ of this flight, rad
     launching: bool = False  # uplifted, and pushed on since without a break
     fallen: bool = False
+    flights: int = 0
     impacts: list[float] = field(default_factory=list)
     arcs: list[Arc] = field(default_factory=list)
 
@@ -98,7 +114,7 @@ def respond(
     until = duration
     if until is None and not isinstance(times, int):
         until = max(float(times[-1]), forcing_end)
-    _rock_freely(block, motion, fly, until)
+    _rock_freely(block, motion, fly, until, end)
 
     if isinstance(times, int):
         last = max(motion.time, forcing_end) if duration is None else duration
@@ -181,6 +197,12 @@ def judge(block: RockingBlock, motion: Motion) -> free_rocking.Ending:
 
 def _flight(block: RockingBlock, segment: Segment, motion: Motion, fly: Flight) -> Event | None:
     """Fly to the end of the segment, or of the push that lifted the block."""
+    motion.flights += 1
+    if motion.flights > MOST_FLIGHTS:
+        raise ArithmeticError(
+            f"{block}: more than {MOST_FLIGHTS} flights by {motion.time:.6g} s; a shorter duration "
+            "or a smaller restitution has fewer"
+        )
     stop = segment.stop
     possible = not motion.launching
     if motion.launching:
@@ -243,20 +265,51 @@ def _rock_freely(
     motion: Motion,
     fly: Flight,
     until: float | None,
+    end: free_rocking.Ending,
 ) -> None:
-    """Carry the motion on without forcing, to where the history ends."""
+    """Carry the motion on without forcing, to where the history ends.
+
+    The energy says how (`end`). Within rounding of the barrier the block is poised at α, and the
+    integration may lead to the other side than judged: the history ends with the flight before.
+    """
     most = len(motion.impacts) + MOST_FREE_IMPACTS
+    most_flights = motion.flights + 2 * MOST_FREE_IMPACTS
+    landings_due = end.impacts
     longest = LONGEST_FREE_FLIGHT / block.frequency_parameter
     motion.launching = False
     while motion.moving and not motion.fallen and motion.rotation < motion.ceiling:
         stop = motion.time + longest if until is None else until
-        if motion.time >= stop or (until is None and len(motion.impacts) >= most):
+        if motion.time >= stop:
             return
-        ground = Segment(motion.time, stop, still)
-        if _flight(block, ground, motion, fly) is Event.IMPACT:
+        if until is None and (len(motion.impacts) >= most or motion.flights >= most_flights):
+            return
+        ground, begin, peak = Segment(motion.time, stop, still), motion.time, motion.peak
+        first, outward = len(motion.arcs), end.overturned and landings_due <= 0
+        event = _flight(block, ground, motion, fly)
+        if _leaves_wrongly(block, motion.rotation, motion.rate, outward=outward):
+            kept = first
+            while kept < len(motion.arcs) and not _leaves_wrongly(
+                block, *motion.arcs[kept].ends_at(), outward=outward
+            ):
+                kept += 1
+            motion.time = motion.arcs[kept - 1].stop if kept > first else begin
+            motion.peak, motion.arcs[kept:] = peak, []
+            return
+        landings_due -= 1
+        if event is Event.IMPACT:
             _impact(block, [ground], motion)
         elif until is None:
             return
+
+
+def _leaves_wrongly(block: RockingBlock, phi: float, rate: float, *, outward: bool) -> bool:
+    """Return whether a free motion leaves φ = α to the other side than was judged.
+
+    `outward`: it overturns on this side. Any other free motion passes α only inward.
+    """
+    if outward:
+        return rate < 0.0 and phi < (1.0 - POISED) * block.slenderness
+    return rate > 0.0 and phi > (1.0 + POISED) * block.slenderness
 
 
 def _sample(

@@ -93,7 +93,7 @@ def overturning_map(
 
 
 def _axis(name: str, values: ArrayLike, *, zero_allowed: bool) -> NDArray[np.float64]:
-    axis = np.atleast_1d(np.array(values, dtype=float))
+    axis = np.atleast_1d(checks.numbers(name, values))
     if axis.ndim != 1 or axis.size == 0:
         raise ValueError(f"{name} has shape {axis.shape}; expected a list of numbers, not empty")
     if not np.isfinite(axis).all():

@@ -117,11 +117,11 @@ class Pulse:
 
     def scaled(self, factor: float) -> "Pulse":
         """Return the same pulse with its amplitude multiplied by `factor`."""
-        return replace(self, amplitude=self.amplitude * factor)
+        return replace(self, amplitude=self.amplitude * checks.finite("factor", factor))
 
     def excitation(self, t: ArrayLike) -> float | NDArray[np.float64]:
         """Return the ground acceleration in g at the time(s) t in s; zero outside the pulse."""
-        time = np.asarray(t, dtype=float)
+        time = checks.numbers("t", t)
         inside = (time >= 0.0) & (time <= self.duration)
         value = np.where(inside, self._wave(np.where(inside, time, 0.0)), 0.0)
         return float(value) if value.ndim == 0 else value

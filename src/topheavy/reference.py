@@ -23,6 +23,9 @@ from topheavy.structures import RockingBlock, Structure
 TOLERANCE = 1e-11
 """Of the integration, relative to α and αp."""
 
+MOST_STEPS = 1_000_000
+"""Of a flight in one segment; the solver refuses steps that are below rounding, but not so many."""
+
 _DEGREE = 7  # of DOP853's interpolating polynomial
 _NODES = chebyshev.chebpts1(_DEGREE + 1)
 _TO_SERIES = np.linalg.inv(chebyshev.chebvander(_NODES, _DEGREE))
@@ -95,7 +98,9 @@ def _fly(
         rtol=tolerance,
         atol=[tolerance * alpha, tolerance * alpha * p],
     )
-    while solver.status == "running":
+    for _ in range(MOST_STEPS):
+        if solver.status != "running":
+            break
         message = solver.step()
         if solver.status == "failed":
             raise ArithmeticError(f"{block}: no step is possible at {solver.t:.6g} s: {message}")
@@ -105,6 +110,11 @@ def _fly(
         course.rotation, course.rate = (float(value) for value in step(course.time))
         if event is not None:
             return event
+    else:
+        raise ArithmeticError(
+            f"{block}: {MOST_STEPS} steps end at {solver.t:.6g} s of {stop:.6g} s; a shorter "
+            "duration or a larger tolerance has fewer"
+        )
     course.rotation = max(course.rotation, 0.0)
     return None
 

@@ -1,7 +1,6 @@
 """Rocking histories by the compiled kernel: `simulate`, and `judge` for the verdict alone."""
 
 import math
-from numbers import Real
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -203,9 +202,9 @@ def as_forcing(
 def checked_tolerance(value: float) -> float:
     """Return a tolerance of the kernel, or raise ValueError with the range that is accepted."""
     low, high = SMALLEST_TOLERANCE, LARGEST_TOLERANCE
-    if not (isinstance(value, Real) and low <= value <= high):
-        raise ValueError(f"tolerance is {value!r}; expected a number from {low:g} to {high:g}")
-    return float(value)
+    if not (isinstance(value, (float, int)) and low <= value <= high):
+        raise ValueError(f"tolerance is {value!r}; expected a float from {low:g} to {high:g}")
+    return value
 
 
 def no_excitation(value: object) -> ValueError:

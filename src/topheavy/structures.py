@@ -149,9 +149,10 @@ class RockingFrame:
     def __post_init__(self) -> None:
         if not isinstance(self.column, Column):
             raise ValueError(f"column is {self.column!r}; expected a Column")
-        if self.mass_ratio != math.inf and checks.finite("mass_ratio", self.mass_ratio) < 0.0:
+        mass_ratio = checks.number("mass_ratio", self.mass_ratio)
+        if not mass_ratio >= 0.0:
             raise ValueError(
-                f"mass_ratio is {self.mass_ratio:.6g}; γ = m_b / 2 m_c cannot be negative"
+                f"mass_ratio is {mass_ratio:.6g}; expected γ = m_b / 2 m_c from 0 to infinity"
             )
 
     @property

@@ -3,13 +3,6 @@
 from importlib.metadata import distributions
 
 MECHANISM = STUDY_CONFIG["mechanism"]
-MECHANISM_STEPS = [
-    f"studies/mechanism/steps/{name}.py" for name in ("setting", "demand")
-]
-ENGINE_STEPS = [
-    *MECHANISM_STEPS,
-    *(f"studies/mechanism/steps/{name}.py" for name in ("engine", "rigs")),
-]
 EXPERIMENTS = ["first_impacts", "rebounds", "verdicts", "slides"]
 
 # The version of the optional engine, a parameter of its rule; None where it is not installed.
@@ -43,9 +36,7 @@ FINDINGS += [
 
 rule mechanism_forces:
     input:
-        LIBRARY,
-        DERIVATION,
-        MECHANISM_STEPS,
+        code("studies/mechanism/steps/forces.py"),
     output:
         table="results/tables/mechanism_forces.csv",
         findings="results/findings/mechanism_forces.json",
@@ -64,8 +55,7 @@ rule mechanism_forces:
 
 rule mechanism_three_bodies:
     input:
-        LIBRARY,
-        MECHANISM_STEPS,
+        code("studies/mechanism/steps/three_bodies.py"),
         records=[RECORDS[name] for name in MECHANISM["three_bodies"]["records"]],
     output:
         table="results/tables/mechanism_three_bodies.csv",
@@ -85,8 +75,7 @@ rule mechanism_three_bodies:
 
 rule mechanism_admissible:
     input:
-        LIBRARY,
-        MECHANISM_STEPS,
+        code("studies/mechanism/steps/admissible.py"),
     output:
         table="results/tables/mechanism_admissible.csv",
         findings="results/findings/mechanism_admissible.json",
@@ -105,8 +94,7 @@ rule mechanism_admissible:
 
 rule mechanism_dependence:
     input:
-        LIBRARY,
-        MECHANISM_STEPS,
+        code("studies/mechanism/steps/dependence.py"),
     output:
         table="results/tables/mechanism_dependence.csv",
         findings="results/findings/mechanism_dependence.json",
@@ -125,8 +113,7 @@ rule mechanism_dependence:
 
 rule mechanism_records:
     input:
-        LIBRARY,
-        MECHANISM_STEPS,
+        code("studies/mechanism/steps/records.py"),
         records=[RECORDS[name] for name in MECHANISM["records"]["records"]],
     output:
         table="results/tables/mechanism_records.csv",
@@ -137,8 +124,8 @@ rule mechanism_records:
         "results/benchmarks/mechanism_records.tsv"
     params:
         case=MECHANISM["records"],
-        structures=config["structures"],
-        caps=MECHANISM["caps"],
+        structures=named(config["structures"], MECHANISM["records"]),
+        caps=named(MECHANISM["caps"], MECHANISM["records"]),
     message:
         "Study mechanism: friction and compression under real records"
     script:
@@ -147,7 +134,7 @@ rule mechanism_records:
 
 rule mechanism_equivalence:
     input:
-        LIBRARY,
+        code("studies/mechanism/steps/equivalence.py"),
     output:
         table="results/tables/mechanism_equivalence.csv",
         drawn="results/tables/mechanism_equivalence_map.csv",
@@ -168,8 +155,7 @@ rule mechanism_equivalence:
 # Without the engine this runs too: it writes why nothing was tested.
 rule mechanism_engine:
     input:
-        LIBRARY,
-        ENGINE_STEPS,
+        lambda wildcards: code(f"studies/mechanism/steps/{wildcards.experiment}.py"),
     output:
         table="results/tables/mechanism_{experiment}.csv",
         findings="results/findings/mechanism_{experiment}.json",
@@ -181,8 +167,12 @@ rule mechanism_engine:
         experiment="|".join(EXPERIMENTS),
     params:
         case=lambda wildcards: MECHANISM["engine"][wildcards.experiment],
-        structures=config["structures"],
-        caps=MECHANISM["caps"],
+        structures=lambda wildcards: named(
+            config["structures"], MECHANISM["engine"][wildcards.experiment]
+        ),
+        caps=lambda wildcards: named(
+            MECHANISM["caps"], MECHANISM["engine"][wildcards.experiment]
+        ),
         engine=ENGINE,
     message:
         "Study mechanism: MuJoCo, {wildcards.experiment}"

@@ -7,15 +7,8 @@ FIGURES["studies/reversals/figures/motions_gain"] = [
 ]
 FIGURES["studies/reversals/figures/motions_records"] = ["reversals_records"]
 FINDINGS += ["reversals_records", "reversals_motions", "reversals_check"]
-REPORTED += ["reversals_by_record", "reversals_medians", "reversals_pairs"]
 
 MOTIONS = study_case("reversals", "motions_ensemble")
-ENSEMBLE = [
-    "studies/reversals/ensemble.py",
-    "studies/reversals/motions.py",
-    "studies/reversals/outcomes.py",
-    "src/steps/spectrum.py",
-]
 
 
 scattergather:
@@ -24,10 +17,7 @@ scattergather:
 
 rule reversals_records:
     input:
-        LIBRARY,
-        "src/steps/rocking_spectra.py",
-        "src/steps/spectrum.py",
-        "studies/reversals/outcomes.py",
+        code("studies/reversals/steps/motions_records.py"),
         records=[
             RECORDS[name]
             for name in study_case("reversals", "motions_records")["records"]
@@ -51,8 +41,7 @@ rule reversals_records:
 
 rule reversals_motions_shard:
     input:
-        LIBRARY,
-        ENSEMBLE,
+        code("studies/reversals/steps/motions_shard.py"),
     output:
         table="results/shards/reversals_motions_{scatteritem}.csv",
     log:
@@ -61,7 +50,7 @@ rule reversals_motions_shard:
         "results/benchmarks/reversals_motions_shard_{scatteritem}.tsv"
     params:
         case=MOTIONS,
-        structures=config["structures"],
+        structures=named(config["structures"], MOTIONS),
     message:
         "Study reversals: synthetic motions, shard {wildcards.scatteritem}"
     script:
@@ -70,9 +59,7 @@ rule reversals_motions_shard:
 
 rule reversals_motions:
     input:
-        WORKBENCH,
-        ENSEMBLE,
-        "studies/reversals/fragility.py",
+        code("studies/reversals/steps/motions_fragility.py"),
         shards=gather.reversals_motions(
             "results/shards/reversals_motions_{scatteritem}.csv"
         ),
@@ -87,7 +74,7 @@ rule reversals_motions:
         "results/benchmarks/reversals_motions.tsv"
     params:
         case=MOTIONS,
-        structures=config["structures"],
+        structures=named(config["structures"], MOTIONS),
     message:
         "Study reversals: fragility, and how often the heavier falls alone"
     script:
@@ -96,9 +83,7 @@ rule reversals_motions:
 
 rule reversals_check:
     input:
-        LIBRARY,
-        ENSEMBLE,
-        "src/steps/rocking_spectra.py",
+        code("studies/reversals/steps/motions_check.py"),
         shards=gather.reversals_motions(
             "results/shards/reversals_motions_{scatteritem}.csv"
         ),
@@ -110,7 +95,7 @@ rule reversals_check:
         "results/benchmarks/reversals_check.tsv"
     params:
         case=MOTIONS,
-        structures=config["structures"],
+        structures=named(config["structures"], MOTIONS),
         solver=config["solver"],
     message:
         "Study reversals: a sample of the ensemble, judged again"

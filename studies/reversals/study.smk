@@ -3,8 +3,6 @@
 # The grid that is asked for, in place of all that could be.
 REVERSALS = study_case("reversals", "pulses").copy()
 REVERSALS |= REVERSALS.pop("grids")[REVERSALS.pop("grid")]
-SEARCHED = ["src/steps/spectrum.py", "src/steps/spectra_shard.py"]
-COMPARED = [*SEARCHED, "src/steps/spectra_compared.py"]
 
 FIGURES |= {
     "studies/reversals/figures/where": ["reversals_map", "reversals_areas"],
@@ -22,8 +20,7 @@ scattergather:
 
 rule reversals_shard:
     input:
-        LIBRARY,
-        SEARCHED,
+        code("studies/reversals/steps/pulses_shard.py"),
     output:
         table="results/shards/reversals_{scatteritem}.csv",
     log:
@@ -41,9 +38,7 @@ rule reversals_shard:
 
 rule reversals_pulses:
     input:
-        LIBRARY,
-        COMPARED,
-        "studies/reversals/steps/pulses_shard.py",
+        code("studies/reversals/steps/pulses.py"),
         shards=gather.reversals("results/shards/reversals_{scatteritem}.csv"),
     output:
         spectra="results/tables/reversals_spectra.csv",
@@ -67,8 +62,7 @@ rule reversals_pulses:
 
 rule reversals_enough:
     input:
-        LIBRARY,
-        COMPARED,
+        code("studies/reversals/steps/enough.py"),
         spectra="results/tables/reversals_spectra.csv",
     output:
         table="results/tables/reversals_enough.csv",

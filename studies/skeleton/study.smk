@@ -6,7 +6,7 @@ FINDINGS.append("skeleton_gain")
 
 rule skeleton_gain:
     input:
-        LIBRARY,
+        code("studies/skeleton/steps/gain.py"),
     output:
         table="results/tables/skeleton_gain.csv",
         findings="results/findings/skeleton_gain.json",

@@ -63,3 +63,8 @@ def test_a_proof_fails_on_a_wrong_result(monkeypatch, module, name, spoil, proof
     right = getattr(module, name)
     monkeypatch.setattr(module, name, lambda *arguments: spoil(right(*arguments)))
     assert not proof()
+
+
+@pytest.mark.parametrize(("share", "follows"), [("1", True), ("1/2", False), ("2", False)])
+def test_equation_19_follows_for_one_reading_of_the_columns_mass(share, follows):
+    assert motion.follows_if_a_column_weighs(sp.Rational(share)) is follows

@@ -10,18 +10,17 @@ from topheavy.derivation import NEGATIVE, POSITIVE, check_printed
 from topheavy.derivation.in_text import IN_TEXT
 from topheavy.derivation.notation import THETA_POSITIVE, alpha, read, vanishes
 from topheavy.derivation.printed import EQUATIONS
-from topheavy.derivation.verdicts import follows, residuals
+from topheavy.derivation.verdicts import follows, is_uplift, residuals
 
 FAULTS = {
     "eq9_positive": "sign",
     "eq19": "sign",
-    "eq20": "sign",
-    "eq21": "sign",
+    "eq20": "convention",
+    "eq21": "convention",
     "eq22": "sign",
     "eq23": "letter",
     "text_p_hat": "radical",
-    "text_p_hat_trilith": "brackets",
-    "text_uplift": "condition",
+    "text_p_hat_trilith": "bracket",
 }
 
 
@@ -67,9 +66,24 @@ def test_these_and_no_other_faults_are_found(checks):
     assert found == FAULTS
 
 
+@pytest.mark.parametrize(
+    ("condition", "expected"),
+    [
+        ("ü_g > g tan(α)", True),
+        ("ü_g < g tan(α)", False),
+        ("ü_g > g sin(α)", False),
+        ("ü_g > g α", False),
+        ("ü_g > 2g tan(α)", False),
+    ],
+)
+def test_only_one_threshold_starts_rocking_to_the_left(condition, expected):
+    assert is_uplift(condition) is expected
+
+
 def test_what_is_meant_follows_and_the_remark_says_what_differs(checks):
     for check in checks.values():
         assert bool(check.remark) != check.follows
+        assert bool(check.mended) != check.follows
         assert check.meant_follows is (None if check.follows else True)
 
 
@@ -89,6 +103,36 @@ def test_one_wrong_sign_anywhere_is_caught(statement):
         other = " − " if place.group() == " + " else " + "
         wrong = right[: place.start()] + other + right[place.end() :]
         assert not follows(wrong, statement.premises, statement.sides), wrong
+
+
+@pytest.mark.parametrize(
+    ("name", "right", "wrong"),
+    [
+        ("eq24", "(1 + γ/(1 + 2γ)) R", "(1 + γ/(1 + 3γ)) R"),  # its second form alone
+        ("eq13", "F_x1 + F_x2", "F_x1 − F_x2"),
+        ("eq13", "ü_g + ü", "ü_g ± ü"),  # right for θ < 0 alone
+        ("eq16", "g + v̈", "g ± v̈"),
+    ],
+)
+def test_no_member_and_no_side_is_left_out(name, right, wrong):
+    (statement,) = (s for s in EQUATIONS if s.name == name)
+    assert right in statement.printed
+    other = statement.printed.replace(right, wrong)
+    assert not follows(other, statement.premises, statement.sides)
+
+
+def test_each_equation_is_stated_for_the_sides_that_the_paper_gives_it():
+    left = {"eq1", *(f"eq{n}" for n in (10, 11, 12, 14, 15, 17, 18, 19))}
+    right = {"eq2", "eq20", "eq21", "eq22"}
+    sides = {s.name: s.sides for s in EQUATIONS}
+    assert {name for name in sides if sides[name] == (NEGATIVE,)} == left
+    assert {name for name in sides if sides[name] == (POSITIVE,)} == right
+    assert all(sides[name] == (NEGATIVE, POSITIVE) for name in set(sides) - left - right)
+
+
+def test_the_two_members_of_equation_24_are_both_transcribed():
+    (statement,) = (s for s in EQUATIONS if s.name == "eq24")
+    assert len(read(statement.printed, NEGATIVE)) == 3
 
 
 def test_a_wrong_factor_is_caught():

@@ -31,7 +31,6 @@ def test_what_is_not_tested_says_why():
     [
         ("confirmed", "holds"),
         ("refuted", "does not hold"),
-        ("misprint", "does not hold as printed; what is meant does"),
         ("qualified", "holds under a condition: Only if slender."),
     ],
 )
@@ -40,6 +39,26 @@ def test_statement_says_whether_it_holds(verdict, grounds):
     assert verdict_line(claim, {"holds": verdict == "confirmed"}, verdict) == (
         f"s: {verdict} ({grounds})"
     )
+
+
+def test_what_this_installation_cannot_test_says_what_a_full_run_expects():
+    finding = {"not_tested": "needs an engine"}
+    assert verdict_line(STATEMENT, finding, "not tested") == (
+        "s: not tested (needs an engine); a full run tests it and expects confirmed"
+    )
+
+
+@pytest.mark.parametrize(("verdict", "kind"), [("misprint", "sign"), ("slip", "letter")])
+def test_discrepancy_of_the_print_is_named(verdict, kind):
+    claim, finding = STATEMENT | {"expected": verdict}, {"holds": False, "kind": kind}
+    assert verdict_line(claim, finding, verdict) == (
+        f"s: {verdict} (does not hold as printed ({kind}); what is meant does)"
+    )
+
+
+def test_what_cannot_be_false_says_why():
+    claim = STATEMENT | {"expected": "by definition", "remark": "γ is so defined."}
+    assert verdict_line(claim, None, "by definition") == "s: by definition (γ is so defined.)"
 
 
 def test_other_verdict_than_expected_is_said():

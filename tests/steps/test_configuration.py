@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 import yaml
-from configuration import check_config
+from configuration import check_config, record_files
 
 ROOT = Path(__file__).resolve().parents[2]
 CONFIG, QUICK, THOROUGH = (
@@ -95,7 +95,16 @@ def test_thorough_config_is_finer_throughout():
         ("trilth", {}, "the top level has an unknown key 'trilth'; did you mean 'trilith'?"),
         ("heavier.pulse.colour", 1, "heavier.pulse has an unknown key 'colour'; expected one of"),
         ("sketches.displaced.spam", 1.0, "sketches.displaced has an unknown key 'spam'; did you"),
-        ("structures.Temple", {"half_width": 1.0, "half_height": 2.0}, "structures has a name"),
+        (
+            "structures.Temple",
+            {"half_width": 1.0, "half_height": 2.0},
+            "structures has the name 'Temple'; expected a lower-case letter, then lower-case",
+        ),
+        (
+            "spectra_dimensional.frames.trilith.1",
+            {"cap_mass": 5.0},
+            "spectra_dimensional.frames.trilith.1 lacks column_mass",
+        ),
         ("mass_ratio.points", None, "mass_ratio lacks points"),
         ("mass_ratio", None, "the top level lacks mass_ratio"),
     ],
@@ -121,6 +130,17 @@ def test_keys_are_held_against_the_schema(place, value, expected):
         ("mass_ratio.largest", math.inf, "is inf; expected at most 1000000.0"),
         ("solver.tightened", 0.5, "is 0.5; expected at most 0.001"),
         ("trilith.table_frequency", True, "is True; expected a value of type number"),
+        (
+            "studies.0",
+            "1abc",
+            "is '1abc'; expected a lower-case letter, then lower-case letters, digits or _",
+        ),
+        ("spectra_dimensional.frames.trilith.0", -0.2, "is -0.2; expected at least 0"),
+        (
+            "spectra_dimensional.frames.trilith.1",
+            "heavy",
+            "is 'heavy'; expected a number or a mapping of cap_mass and column_mass",
+        ),
     ],
 )
 def test_a_value_out_of_range_is_told_with_place_and_expectation(place, value, expected):
@@ -161,6 +181,26 @@ def test_what_does_not_fit_together_is_told(place, value, expected):
     assert fault.startswith(f"config.yaml: {place} {expected}")
 
 
+def test_records_are_found_by_name_in_either_layout(tmp_path):
+    for name in ("one.AT2", "two.csv", "three.at2", "README.md", "one.txt"):
+        (tmp_path / name).touch()
+    there = record_files(str(tmp_path))
+    assert there == {Path(path).stem: path for path in there.values()}
+    assert sorted(there) == ["one", "three", "two"]
+
+
+@pytest.mark.parametrize("other", ["el_centro.csv", "el_centro.CSV", "el_centro.at2"])
+def test_two_records_of_one_name_are_refused_naming_both(tmp_path, other):
+    (tmp_path / "el_centro.AT2").touch()
+    (tmp_path / other).touch()
+    with pytest.raises(ValueError, match="both the record 'el_centro'") as error:
+        record_files(str(tmp_path))
+    assert f"{tmp_path}/el_centro.AT2" in str(error.value)
+    assert f"{tmp_path}/{other}" in str(error.value)
+    with pytest.raises(ValueError, match="both the record 'el_centro'"):
+        check_config(CONFIG, "config.yaml", str(ROOT / "config/config.schema.yaml"), str(tmp_path))
+
+
 def test_a_shape_without_a_closed_form_is_refused_where_one_is_needed():
     (fault,) = faults(changed("allen_histories.pulse.shape", "ricker-symmetric"))
     assert "allen_histories.pulse.shape is 'ricker-symmetric'" in fault
@@ -169,6 +209,22 @@ def test_a_shape_without_a_closed_form_is_refused_where_one_is_needed():
 def test_columns_too_stocky_to_rock_under_a_cap_are_refused():
     (fault,) = faults(changed("structures.temple.half_width", 3.5))
     assert "structures.temple has the half width 3.5 and the half height 3.0, in m" in fault
+
+
+def test_masses_of_a_frame_are_held_against_their_own_bounds():
+    masses = {"cap_mass": -5.0, "column_mass": 0.0}
+    place = "spectra_dimensional.frames.trilith.1"
+    assert faults(changed(place, masses)) == [
+        f"config.yaml: {place}.cap_mass is -5.0; expected at least 0",
+        f"config.yaml: {place}.column_mass is 0.0; expected more than 0",
+    ]
+
+
+@pytest.mark.parametrize("config", [[], "text", 1.0])
+def test_config_that_is_no_mapping_is_refused(config):
+    assert faults(config) == [
+        f"config.yaml: the top level is {config!r}; expected a value of type object"
+    ]
 
 
 def test_all_faults_come_in_one_message():

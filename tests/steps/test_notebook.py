@@ -80,6 +80,43 @@ def test_executed_notebook_is_the_same_bytes_each_time(tmp_path):
     assert source.read_bytes() == before
 
 
+def page_of(*cells):
+    """The page of an executed notebook."""
+    return step.render(nbformat.v4.new_notebook(cells=list(cells)), "small")
+
+
+@pytest.mark.parametrize(
+    ("latex", "expected"),
+    [
+        (r"$\displaystyle \ddot{\theta} = \frac{3}{2}$", "<mfrac><mrow><mn>3</mn>"),
+        (
+            r"$\displaystyle \left[\begin{matrix}R\end{matrix}\right]$",
+            "<mtable><mtr><mtd><mi>R</mi>",
+        ),
+    ],
+)
+def test_formula_of_an_output_is_mathml(latex, expected):
+    output = nbformat.v4.new_output("display_data", data={"text/latex": latex, "text/plain": "x"})
+    page = page_of(nbformat.v4.new_code_cell("x", id="small-01", outputs=[output]))
+    assert expected in page
+    assert "$" not in page.partition("<main>")[2]
+
+
+def test_formulas_in_the_text_are_mathml_and_dollars_in_code_are_kept():
+    text = "The mass $m_b$ and\n\n$$R = 1$$\n\nbut `$HOME`."
+    page = page_of(nbformat.v4.new_markdown_cell(text, id="small-01")).partition("<main>")[2]
+    assert "<msub><mi>m</mi><mi>b</mi></msub>" in page
+    assert 'display="block"' in page
+    assert "<code>$HOME</code>" in page
+    assert page.count("$") == 1
+
+
+def test_page_asks_no_network():
+    page = page_of(nbformat.v4.new_markdown_cell("Text.", id="small-01"))
+    assert "cdnjs" not in page
+    assert "<script src" not in page
+
+
 def test_notebook_that_fails_stops_the_run(tmp_path):
     source = tmp_path / "broken.ipynb"
     content = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell("1 / 0", id="broken-01")])

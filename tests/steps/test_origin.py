@@ -4,11 +4,13 @@ import hashlib
 import json
 import shutil
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 from origin import chain, find
 from provenance import Job
 
+ROOT = Path(__file__).parents[2]
 CLAIM = {
     "id": "peak_is_low",
     "where": "p. 3, Eq. (24)",
@@ -25,7 +27,8 @@ UNTESTED = {
     "expected": "not tested",
     "remark": "Not to be computed.",
 }
-LEDGER = [CLAIM, UNTESTED]
+EQUATIONS = [UNTESTED | {"id": name} for name in ("eq9_positive", "eq19", "eq9_negative")]
+LEDGER = [CLAIM, UNTESTED, *EQUATIONS]
 JOB = Job("", "Snakefile:1", (), (), (), (), (), {}, 0.0, {}, False)
 STEP = replace(
     JOB,
@@ -56,7 +59,11 @@ def tree(tmp_path):
         "data/record.AT2": "0.1\n",
         "results/tables/peaks.csv": "1\n",
         "results/findings/peaks.json": json.dumps(
-            {"low": {"holds": True}, "height": {"value": 0.5, "error": 1e-9, "unit": "m"}}
+            {
+                "low": {"holds": True},
+                "height": {"value": 0.5, "error": 1e-9, "unit": "m"},
+                "pull_0.2": {"value": 0.1, "error": 1e-9, "unit": "g"},
+            }
         ),
         "figures/peaks.svg": "<svg/>\n",
     }
@@ -120,6 +127,11 @@ def test_number_is_found_by_its_rule_or_its_file(told, name):
     assert "data/record.AT2" in text
 
 
+@pytest.mark.parametrize("name", ["peaks.pull_0.2", "peaks.json:pull_0.2.value"])
+def test_finding_with_a_point_in_its_name_is_found(told, name):
+    assert told(name).startswith('pull_0.2 = {"value": 0.1')
+
+
 def test_claims_that_a_finding_judges_are_told_with_it(told):
     assert told("peaks.low").startswith("claim peak_is_low")
     assert "claim" not in told("peaks.height")
@@ -148,6 +160,7 @@ def test_what_snakemake_would_run_again_is_out_of_date(told):
         ("figures/peak.svg", "did you mean figures/peaks.svg"),
         ("peaks.heights", "did you mean peaks.height"),
         ("peak_is_lo", "did you mean peak_is_low"),
+        ("eq9", "did you mean eq9_negative or eq9_positive or eq19[?]"),
         ("zzz", "no output, claim or finding is called 'zzz'; expected"),
         ("data/record.AT2", "data/record.AT2 is made by no rule; it goes into peaks"),
     ],
@@ -161,6 +174,56 @@ def test_end_of_two_paths_names_both(told):
     other = replace(JOB, rule="other", outputs=("results/other/peaks.csv",))
     with pytest.raises(ValueError, match=r"results/other/peaks\.csv, results/tables/peaks\.csv"):
         told("peaks.csv", [*JOBS, other])
+
+
+def test_job_is_found_by_its_findings_and_not_by_the_name_of_its_rule(told):
+    jobs = [FIGURE, replace(STEP, rule="engine")]
+    assert "verdict   peak_is_low: confirmed" in told("peak_is_low", jobs)
+    assert told("peaks.low", jobs).startswith("claim peak_is_low")
+
+
+FOUND = {"holds": True, "value": 1.0, "error": 0.0}
+
+
+@pytest.fixture
+def clone(tmp_path, monkeypatch):
+    """The code of the repository, before a run."""
+    for name in ("src", "studies", "figures"):
+        shutil.copytree(
+            ROOT / name, tmp_path / name, ignore=shutil.ignore_patterns("*.svg", "*.nb?")
+        )
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def trace(name, jobs, claims):
+    """What `make trace` prints of a name."""
+    return "\n".join(chain(find(name, jobs, claims), jobs))
+
+
+@pytest.mark.usefixtures("clone")
+def test_every_output_and_claim_is_traced_before_a_run(jobs, claims):
+    for path in (path for job in jobs for path in job.outputs):
+        lines = trace(path, jobs, claims)
+        assert f"{path}  not there\n" in lines
+        assert "\n  rule  " in lines
+    for claim in claims:
+        lines = trace(claim["id"], jobs, claims)
+        assert lines.startswith(f"claim {claim['id']}: ")
+        assert ("\n  rule  " if "finding" in claim else ": not tested (") in lines
+
+
+def test_every_claim_and_finding_is_traced_after_a_run(clone, jobs, claims):
+    judged = [claim for claim in claims if "finding" in claim]
+    for path in (path for job in jobs for path in job.findings):
+        keys = [claim["finding"] for claim in judged if claim["rule"] == Path(path).stem]
+        Path(path).parent.mkdir(parents=True, exist_ok=True)
+        Path(path).write_text(json.dumps(dict.fromkeys(keys, FOUND)), encoding="utf-8")
+    for claim in judged:
+        for name in (claim["id"], f"{claim['rule']}.{claim['finding']}"):
+            lines = trace(name, jobs, claims)
+            assert f"  verdict   {claim['id']}: " in lines
+            assert f"/{claim['rule']}.json  sha256" in lines
 
 
 def test_finding_of_a_run_still_to_come_says_so(told, tree):

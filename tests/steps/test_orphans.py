@@ -11,10 +11,16 @@ from provenance import Job
 ROOT = Path(__file__).parents[2]
 
 
+LISTS = {"all", "manifest"}  # rules that take everything
+READ = {".svg", ".pdf", ".html", ".ipynb", ".gif", ".png"}
+ENDS = {"results/summary.txt", "results/costs.csv", "results/manifest.json"}
+
+
 def unused_outputs(jobs: Iterable[Job]) -> list[str]:
-    """The outputs that are neither an input of another job nor asked for by rule all."""
-    used = {path for job in jobs for path in job.inputs}
-    return sorted(path for job in jobs for path in job.outputs if path not in used)
+    """The outputs that are neither an input of another job nor meant for a reader."""
+    used = {path for job in jobs if job.rule not in LISTS for path in job.inputs} | ENDS
+    made = (path for job in jobs for path in job.outputs if Path(path).suffix not in READ)
+    return sorted(path for path in made if path not in used)
 
 
 def unused_scripts(

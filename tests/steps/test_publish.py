@@ -3,10 +3,20 @@
 import re
 
 import pytest
-from publish import main, verdict_table
+from publish import (
+    checksums,
+    count_table,
+    main,
+    publish_findings,
+    rounded,
+    verdict_page,
+    verdict_table,
+    with_counts,
+)
 
 ROW = {
     "id": "trilith_size",
+    "study": "",
     "where": "p. 3",
     "statement": "the size of the column",
     "printed": 0.415,
@@ -19,12 +29,12 @@ ROW = {
 
 def cells(**changes) -> list[str]:
     """The cells of the row that a claim becomes."""
-    last = verdict_table([ROW | changes]).splitlines()[-1]
+    last = verdict_table([ROW | changes])[-1]
     return [cell.strip() for cell in re.split(r"(?<!\\)\|", last)[1:-1]]
 
 
 def test_claim_becomes_a_row_under_the_heads_of_its_columns():
-    lines = verdict_table([ROW]).splitlines()
+    lines = verdict_table([ROW])
     heads = [cell.strip() for cell in lines[-3].split("|")[1:-1]]
     shown = dict(zip(heads, cells(), strict=True))
     assert shown["claim"] == "`trilith_size`"
@@ -36,7 +46,7 @@ def test_claim_becomes_a_row_under_the_heads_of_its_columns():
 
 
 def test_every_claim_has_its_row_in_order():
-    lines = verdict_table([ROW | {"id": name} for name in ("b", "a", "c")]).splitlines()
+    lines = verdict_table([ROW | {"id": name} for name in ("b", "a", "c")])
     assert [line.split("`")[1] for line in lines[-3:]] == ["b", "a", "c"]
 
 
@@ -63,13 +73,88 @@ def test_bar_in_the_text_does_not_end_the_cell(column):
     assert r"max\|θ\| grows" in cells(**{column: "max|θ| grows"})
 
 
-def test_table_ends_with_one_newline():
-    assert verdict_table([ROW]).endswith("|\n")
-    assert not verdict_table([ROW]).endswith("\n\n")
+def test_page_ends_with_one_newline():
+    assert verdict_page([ROW]).endswith("|\n")
+    assert not verdict_page([ROW]).endswith("\n\n")
+
+
+def test_page_says_that_a_fault_of_the_print_may_be_ours():
+    assert "transcription: every slip or misprint may be its fault" in verdict_page([ROW])
+
+
+OURS = ROW | {"id": "ours", "study": "reversals", "verdict": "refuted"}
+
+
+def test_paper_and_studies_have_a_table_each():
+    paper, study = verdict_page([ROW, OURS]).split("## ")[1:]
+    assert paper.startswith("The paper\n")
+    assert study.startswith("The study `reversals`\n")
+    assert "`trilith_size`" in paper
+    assert "`ours`" not in paper
+    assert "`ours`" in study
+
+
+def test_counts_are_of_the_paper_and_of_each_study():
+    head, _, paper, study = count_table([ROW, OURS, OURS])
+    assert head == (
+        "| | confirmed | qualified | slip | misprint | refuted | by definition | not tested |"
+    )
+    assert paper == "| paper | 1 | 0 | 0 | 0 | 0 | 0 | 0 |"
+    assert study == "| study `reversals` | 0 | 0 | 0 | 0 | 2 | 0 | 0 |"
+
+
+def test_table_of_counts_in_a_page_is_replaced_and_nothing_else():
+    old = "\n".join(["Before.", "", *count_table([ROW]), "", "| other | table |", ""])
+    new = with_counts(old, [ROW, OURS])
+    assert new == "\n".join(["Before.", "", *count_table([ROW, OURS]), "", "| other | table |", ""])
+    assert with_counts(new, [ROW, OURS]) == new
+    with pytest.raises(ValueError, match=r"has 0 lines .* expected one"):
+        with_counts("nothing", [ROW])
+
+
+def test_findings_are_rounded_an_error_the_most():
+    found = {"a": {"value": 1 / 3, "error": 1.23456e-9, "list": [2 / 3, "x", True], "n": 7}}
+    assert rounded(found) == {
+        "a": {"value": 0.333333333, "error": 1.2e-9, "list": [0.666666667, "x", True], "n": 7}
+    }
+
+
+def test_findings_of_rules_that_are_gone_are_published_no_more(tmp_path):
+    made, published = tmp_path / "made", tmp_path / "published"
+    for folder, name in ((made, "new"), (published, "gone")):
+        folder.mkdir()
+        (folder / f"{name}.json").write_text('{"a": {"holds": true}}', encoding="utf-8")
+    publish_findings(made, published)
+    assert [path.name for path in published.iterdir()] == ["new.json"]
+
+
+def test_run_that_tested_less_is_not_published(tmp_path):
+    made, published = tmp_path / "made", tmp_path / "published"
+    for folder, text in ((made, '{"not_tested": "no engine"}'), (published, "{}")):
+        folder.mkdir()
+        (folder / "a.json").write_text(text, encoding="utf-8")
+    with pytest.raises(
+        ValueError, match=r"a.json: nothing was tested \(no engine\); expected a full"
+    ):
+        publish_findings(made, published)
+    assert (published / "a.json").read_text(encoding="utf-8") == "{}"
+
+
+def test_checksums_are_of_tables_and_findings_whatever_their_line_ends(tmp_path):
+    (tmp_path / "findings").mkdir()
+    (tmp_path / "findings" / "a.json").write_bytes(b"{}\n")
+    (tmp_path / "t.csv").write_bytes(b"x\n1\n")
+    (tmp_path / "claims.json").write_bytes(b"[]")
+    before = checksums(tmp_path)
+    assert [line.split()[1] for line in before.splitlines()] == ["findings/a.json", "t.csv"]
+    (tmp_path / "t.csv").write_bytes(b"x\r\n1\r\n")
+    assert checksums(tmp_path) == before
+    (tmp_path / "t.csv").write_bytes(b"x\n2\n")
+    assert checksums(tmp_path) != before
 
 
 def test_number_without_a_unit_leaves_no_gap():
-    assert "| 0.415 | 0.414849 |" in verdict_table([ROW | {"unit": ""}])
+    assert "| 0.415 | 0.414849 |" in verdict_table([ROW | {"unit": ""}])[-1]
 
 
 def test_results_of_another_config_are_not_published(tmp_path, monkeypatch):

@@ -1,30 +1,187 @@
-"""The published edition checked without a run."""
+"""The published edition checked without a run: whatever is tampered with is named."""
 
-import copy
 import json
+import re
 import shutil
 from pathlib import Path
 
 import pandas as pd
 import pytest
-from recheck import claims, main, tables
+import yaml
+from claims import read_findings
+from ledger import judged, read_ledger
+from publish import count_table, verdict_page
+from recheck import claims, equations, files, main, pages
 
 ROOT = Path(__file__).resolve().parents[2]
-ROWS = json.loads((ROOT / "tests" / "reference" / "claims.json").read_text(encoding="utf-8"))
-CLAIM = {"id": "size", "printed": 0.415, "tolerance": 5e-4, "expected": "confirmed"}
-ROW = {"id": "size", "computed": 0.4148, "meant": None, "error": 1e-16, "verdict": "confirmed"}
+CLAIM = {
+    "id": "size",
+    "study": "",
+    "where": "p. 4",
+    "statement": "It is so.",
+    "printed": 0.415,
+    "tolerance": 5e-4,
+    "function": "topheavy.Column",
+    "rule": "trilith",
+    "finding": "size",
+    "expected": "confirmed",
+}
+FINDINGS = {
+    "trilith": {
+        "size": {"value": 0.4148, "error": 1e-16},
+        "called": ["topheavy.structures.Column"],
+    }
+}
+
+
+@pytest.fixture(scope="module")
+def edition(tmp_path_factory):
+    """A copy of what is published, and of what it is checked by."""
+    root = tmp_path_factory.mktemp("edition") / "tree"
+    config = yaml.safe_load((ROOT / "config" / "config.yaml").read_text(encoding="utf-8"))
+    wanted = ["README.md", "config/config.yaml", "docs/verdicts.md", "paper/claims.yaml"]
+    for name in [*wanted, *(f"studies/{study}/claims.yaml" for study in config["studies"])]:
+        (root / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(ROOT / name, root / name)
+    shutil.copytree(ROOT / "tests" / "reference", root / "tests" / "reference")
+    for name in ("src/topheavy", "studies"):
+        skipped = shutil.ignore_patterns("__pycache__", "*.yaml", "*.typ", "tests", "figures")
+        shutil.copytree(ROOT / name, root / name, ignore=skipped, dirs_exist_ok=True)
+    return root
+
+
+@pytest.fixture(scope="module")
+def faults_before(edition):
+    return set(main(edition)[1])
+
+
+@pytest.fixture
+def tampered(edition, faults_before):
+    """Change one file of the copy and return what is told of it; afterwards it is as before."""
+    kept = {}
+
+    def change(name, edit):
+        path = edition / name
+        kept[path] = path.read_bytes()
+        text = path.read_text(encoding="utf-8")
+        new = edit(text)
+        assert new != text
+        path.write_text(new, encoding="utf-8")
+        return [fault for fault in main(edition)[1] if fault not in faults_before]
+
+    yield change
+    for path, content in kept.items():
+        path.write_bytes(content)
 
 
 def test_published_edition_agrees_with_itself():
-    line, faults = main(ROOT)
+    lines, faults = main(ROOT)
     assert faults == []
-    assert line.startswith("claims: ")
+    config = yaml.safe_load((ROOT / "config" / "config.yaml").read_text(encoding="utf-8"))
+    assert [line.split(":")[0] for line in lines] == ["paper", "ours", *config["studies"]]
 
 
-@pytest.mark.parametrize("change", [{"computed": 0.42}, {"verdict": "refuted"}, {"id": "other"}])
-def test_verdict_that_its_numbers_do_not_bear_is_found(change):
-    assert list(claims([CLAIM], [ROW])) == []
-    assert list(claims([CLAIM], [ROW | change]))
+def row(change):
+    """Edit the published row of a claim."""
+
+    def edit(text, name):
+        rows = json.loads(text)
+        change(next(row for row in rows if row["id"] == name))
+        return json.dumps(rows, indent=1, ensure_ascii=False) + "\n"
+
+    return edit
+
+
+@pytest.mark.parametrize(
+    ("name", "field", "new"),
+    [
+        ("same_equation_of_motion", "computed", False),
+        ("trilith_size", "computed", 0.4147),
+        ("trilith_size", "error", 0.0),
+        ("trilith_size", "printed", 0.416),
+        ("trilith_size", "tolerance", 1.0),
+        ("trilith_size", "verdict", "refuted"),
+        ("trilith_size", "expected", "refuted"),
+        ("trilith_size", "statement", "It is larger."),
+        ("trilith_size", "rule", "heavier"),
+        ("trilith_size", "unit", "km"),
+    ],
+)
+def test_every_field_of_a_published_row_is_made_anew(tampered, name, field, new):
+    faults = tampered(
+        "tests/reference/claims.json",
+        lambda text: row(lambda r: r.update({field: new}))(text, name),
+    )
+    assert any(
+        f.startswith(f"claim {name}: {field} is {new!r} in tests/reference/") for f in faults
+    )
+
+
+def test_every_truth_that_is_flipped_is_noticed(edition):
+    rows = json.loads((edition / "tests" / "reference" / "claims.json").read_text(encoding="utf-8"))
+    paths = [edition / "paper" / "claims.yaml", *sorted(edition.glob("studies/*/claims.yaml"))]
+    findings = read_findings((edition / "tests" / "reference" / "findings").glob("*.json"))
+    flipped = {r["id"] for r in rows if isinstance(r["computed"], bool)}
+    assert len(flipped) > 50
+    changed = [r | {"computed": not r["computed"]} if r["id"] in flipped else r for r in rows]
+    told = {
+        found[1]
+        for fault in claims(read_ledger(paths), findings, changed, edition)
+        if (found := re.match(r"claim (\w+): computed is ", fault))
+    }
+    assert told == flipped
+
+
+@pytest.mark.parametrize(
+    ("rule", "finding", "key", "new", "told"),
+    [
+        ("trilith", "size", "value", 0.5, "claim trilith_size: computed is"),
+        ("trilith", "size", "error", 1e-3, "claim trilith_size: the error is 0.001"),
+        ("equations", "eq1", "holds", False, "claim eq1 comes out refuted; expected confirmed"),
+        ("equations", "eq1", "holds", False, "findings/equations.json: eq1.holds is False, and 1"),
+        ("reversals_pulses", "harms", "value", 0.0, "findings/reversals_pulses.json: harms.value"),
+        ("mechanism_equivalence", "share_apart", "value", 0.0002, "share_apart.value is 0.0002"),
+        ("heavier", "heavier_survives_more", "width_of_brackets", 1.0, "findings/heavier.json"),
+    ],
+)
+def test_finding_that_is_changed_is_named(tampered, rule, finding, key, new, told):
+    def edit(text):
+        found = json.loads(text)
+        found[finding][key] = new
+        return json.dumps(found)
+
+    faults = tampered(f"tests/reference/findings/{rule}.json", edit)
+    assert any(told in fault for fault in faults)
+    assert any(f"tests/reference/findings/{rule}.json changed" in fault for fault in faults)
+
+
+def test_function_that_did_not_run_is_named(tampered):
+    def edit(text):
+        found = json.loads(text)
+        found["called"] = [name for name in found["called"] if "size_ratio" not in name]
+        return json.dumps(found)
+
+    faults = tampered("tests/reference/findings/mass_ratio.json", edit)
+    assert any(
+        "equivalent_column_is_larger: its rule mass_ratio never called" in fault for fault in faults
+    )
+
+
+TABLES = sorted(
+    path.relative_to(ROOT / "tests" / "reference").as_posix()
+    for path in (ROOT / "tests" / "reference").rglob("*.csv")
+)
+
+
+@pytest.mark.parametrize("table", TABLES)
+def test_digit_that_is_changed_in_a_table_is_noticed(edition, tmp_path, table):
+    reference = shutil.copytree(edition / "tests" / "reference", tmp_path / "reference")
+    assert list(files(reference)) == []
+    text = (reference / table).read_text(encoding="utf-8")
+    text = re.sub(r"\d(?=\D*$)", lambda digit: str((int(digit[0]) + 1) % 10), text)
+    (reference / table).write_text(text, encoding="utf-8")
+    (fault,) = files(reference)
+    assert fault.startswith(f"tests/reference/{table} changed")
 
 
 @pytest.mark.parametrize(
@@ -35,20 +192,82 @@ def test_verdict_that_its_numbers_do_not_bear_is_found(change):
         ("restitution_over_slenderness", "restitution"),
         ("restitution_over_mass_ratio", "restitution"),
         ("moment_rotation", "moment"),
-        ("heavier", "lowest_overturning_low"),
     ],
 )
-def test_number_that_is_not_the_equations_is_found(tmp_path, table, column):
-    reference = shutil.copytree(ROOT / "tests" / "reference", tmp_path / "reference")
-    assert list(tables(reference, ROWS)) == []
+def test_table_that_is_not_the_equations_is_found(edition, tmp_path, table, column):
+    reference = shutil.copytree(edition / "tests" / "reference", tmp_path / "reference")
+    assert list(equations(reference)) == []
     found = pd.read_csv(reference / f"{table}.csv")
     found.loc[1, column] *= 0.9
     found.to_csv(reference / f"{table}.csv", index=False)
-    (fault,) = tables(reference, ROWS)
+    (fault,) = equations(reference)
     assert fault.startswith(f"{table}.csv")
 
 
-def test_equation_that_follows_after_all_is_found():
-    rows = copy.deepcopy(ROWS)
-    next(row for row in rows if row["equation"] == 21)["verdict"] = "confirmed"
-    assert any("equations.csv" in fault for fault in tables(ROOT / "tests" / "reference", rows))
+def test_table_that_does_not_bear_its_finding_is_found(tampered):
+    def swap(text):
+        lines = text.splitlines(keepends=True)
+        return "".join([*lines[:2], lines[3], lines[2], *lines[4:]])
+
+    faults = tampered("tests/reference/heavier.csv", swap)
+    assert any("heavier.json: heavier_survives_more.holds is True, and 0" in f for f in faults)
+
+
+@pytest.mark.parametrize(
+    ("page", "old", "new", "told"),
+    [
+        ("docs/verdicts.md", "| `eq1` |", "| `eq_1` |", "docs/verdicts.md, line "),
+        ("docs/verdicts.md", "| confirmed |", "| refuted |", "docs/verdicts.md, line "),
+        ("README.md", "| paper | ", "| paper | 1", "README.md, line "),
+        ("README.md", "| study `mechanism` | ", "| study `mechanism` | 1", "README.md, line "),
+        ("README.md", "| | confirmed |", "| | Confirmed |", "README.md: the page has 0 lines"),
+    ],
+)
+def test_page_that_says_otherwise_is_named(tampered, page, old, new, told):
+    faults = tampered(page, lambda text: text.replace(old, new, 1))
+    assert any(fault.startswith(told) for fault in faults)
+
+
+@pytest.mark.parametrize("change", ["\n", "| `more` | | | | | | |\n"])
+def test_line_that_is_added_to_the_page_is_noticed(tampered, change):
+    assert any(
+        "docs/verdicts.md, line" in f for f in tampered("docs/verdicts.md", lambda t: t + change)
+    )
+
+
+def test_row_of_the_ledger_that_is_changed_is_named(tampered):
+    faults = tampered(
+        "paper/claims.yaml", lambda text: text.replace("printed: 0.415", "printed: 0.425")
+    )
+    assert any(
+        f.startswith(("claim trilith_size comes out refuted", "claim trilith_size: printed"))
+        for f in faults
+    )
+
+
+def judged_row(**changes):
+    return judged(CLAIM, FINDINGS, ROOT) | changes
+
+
+@pytest.mark.parametrize("change", [{"computed": 0.42}, {"verdict": "refuted"}, {"id": "other"}])
+def test_row_that_its_finding_does_not_bear_is_found(change):
+    assert list(claims([CLAIM], FINDINGS, [judged_row()], ROOT)) == []
+    assert list(claims([CLAIM], FINDINGS, [judged_row(**change)], ROOT))
+
+
+def test_number_is_not_the_same_as_a_truth():
+    (fault,) = claims([CLAIM], FINDINGS, [judged_row(computed=True)], ROOT)
+    assert "computed is True" in fault
+    finding = {"trilith": {"size": {"holds": True}, "called": ["topheavy.structures.Column"]}}
+    claim = {key: CLAIM[key] for key in CLAIM if key not in ("printed", "tolerance")}
+    row = judged(claim, finding, ROOT) | {"computed": 1}
+    assert list(claims([claim], finding, [row], ROOT))
+
+
+def test_pages_are_those_of_the_rows(tmp_path):
+    rows = [judged_row()]
+    (tmp_path / "docs").mkdir()
+    (tmp_path / "docs" / "verdicts.md").write_text(verdict_page(rows), encoding="utf-8")
+    (tmp_path / "README.md").write_text("\n".join(count_table(rows)) + "\n", encoding="utf-8")
+    assert list(pages(tmp_path, rows)) == []
+    assert list(pages(tmp_path, [judged_row(verdict="refuted")]))

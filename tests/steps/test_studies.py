@@ -19,6 +19,8 @@ def project(tmp_path):
     (tmp_path / "config").mkdir()
     shutil.copy(ROOT / "config" / "config.yaml", tmp_path / "config")
     shutil.copytree(ROOT / "studies" / "skeleton", tmp_path / "studies" / "skeleton")
+    for name in ("Snakefile", "figures", "notebooks"):
+        (tmp_path / name).symlink_to(ROOT / name)
     return tmp_path
 
 
@@ -41,12 +43,32 @@ def test_second_study_joins_the_first(project):
     assert registered(project)[-2:] == ["bridges", "vases"]
 
 
-@pytest.mark.parametrize("name", ["", "My study", "1st", "skeleton", "a/b"])
+@pytest.mark.parametrize(
+    "name", ["", "My study", "1st", "_x", "skeleton", "a/b", "a" * 41, 300 * "a", "ü"]
+)
 def test_name_that_cannot_be_one_changes_nothing(project, name):
     before = (project / "config" / "config.yaml").read_text("utf-8")
     with pytest.raises(ValueError, match="expected"):
         create(name, project)
     assert (project / "config" / "config.yaml").read_text("utf-8") == before
+
+
+@pytest.mark.parametrize(
+    ("name", "taken"),
+    [
+        ("heavier", "heavier"),  # a rule
+        ("trilith_n", "trilith_nearness"),  # a table
+        ("free", "free_body"),  # a figure
+        ("play", "play"),  # a notebook
+        ("s", "scale_effects"),  # would take the results of others with it when it is removed
+        ("skel", "skeleton_gain"),
+        ("skeleton_two", "skeleton"),  # would go with the results of skeleton
+    ],
+)
+def test_name_that_is_like_one_of_the_paper_or_of_a_study_is_refused(project, name, taken):
+    with pytest.raises(ValueError, match=f"NAME is '{name}', which is too like '{taken}'"):
+        create(name, project)
+    assert not (project / "studies" / name).exists()
 
 
 def test_study_that_is_not_there_is_named(project):

@@ -5,7 +5,13 @@ from verdict import main
 
 
 def claim(name: str, verdict: str, expected: str, not_tested: str = "") -> dict:
-    return {"id": name, "verdict": verdict, "expected": expected, "not_tested": not_tested}
+    return {
+        "id": name,
+        "study": "",
+        "verdict": verdict,
+        "expected": expected,
+        "not_tested": not_tested,
+    }
 
 
 def compared(**verdicts: str) -> pd.DataFrame:
@@ -29,7 +35,10 @@ AS_EXPECTED = [
 
 def test_run_closes_with_the_count_of_every_verdict():
     line, faults = main(AS_EXPECTED, compared(peaks="agrees"), {})
-    assert line == "claims: 2 confirmed, 0 qualified, 1 misprints, 1 refuted, 1 not tested"
+    assert line == (
+        "paper: 2 confirmed, 0 qualified, 0 slips, 1 misprints, 1 refuted, 0 by definition, "
+        "1 not tested"
+    )
     assert faults == []
 
 
@@ -40,7 +49,15 @@ def test_every_claim_that_came_out_otherwise_is_a_fault_either_way():
         "claim a came out refuted; expected confirmed",
         "claim b came out qualified; expected refuted",
     ]
-    assert line == "claims: 2 confirmed, 1 qualified, 1 misprints, 2 refuted, 1 not tested"
+    assert line.startswith("paper: 2 confirmed, 1 qualified, 0 slips, 1 misprints, 2 refuted, ")
+
+
+def test_claims_of_a_study_are_counted_in_a_line_of_their_own():
+    ours = claim("ours", "refuted", "refuted") | {"study": "reversals"}
+    lines, _ = main([*AS_EXPECTED, ours], compared(), {})
+    paper, study = lines.splitlines()
+    assert paper.startswith("paper: 2 confirmed, 0 qualified, 0 slips, 1 misprints, 1 refuted, ")
+    assert study.startswith("reversals: 0 confirmed, 0 qualified, 0 slips, 0 misprints, 1 refuted,")
 
 
 def test_claim_that_lacks_an_optional_package_is_told_and_is_no_fault():

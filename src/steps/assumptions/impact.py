@@ -4,10 +4,10 @@ import math
 from collections.abc import Iterator
 
 import numpy as np
-from workbench import grid, truth
 
 from assumptions.choices import Choices
 from assumptions.quantity import Cases, Found, Quantity
+from replication.workbench import grid, truth
 from topheavy import Column, Pulse, RockingFrame, judge
 from topheavy.massless_columns import SIMPLIFICATIONS, simplified
 
@@ -34,10 +34,10 @@ def restitution_is_smaller(choices: Choices, cases: Cases) -> Found:
 
 
 def more_energy_is_dissipated(choices: Choices, cases: Cases) -> Found:
-    """The number of frames that lose no more than their column; a condition is that both rock."""
-    against = [pair for pair in restitutions(choices, cases) if not pair[1] ** 2 < pair[0] ** 2]
-    rocking = [pair for pair in against if min(pair) >= 0.0]
-    return Found(len(against), truth(not against, holds_when=not rocking))
+    """The number of frames that engage in rocking and lose no more than their column."""
+    rocking = [pair for pair in restitutions(choices, cases) if min(pair) >= 0.0]
+    against = [(column, frame) for column, frame in rocking if not frame**2 < column**2]
+    return Found(len(against), truth(not against))
 
 
 def allen_error(choices: Choices, cases: Cases) -> Found:

@@ -6,10 +6,10 @@ from functools import partial
 from itertools import pairwise
 
 import numpy as np
-from workbench import truth
 
 from assumptions.choices import Choices, Structure
 from assumptions.quantity import Cases, Found, Quantity
+from replication.workbench import truth
 from topheavy import Column, Pulse, RockingFrame, judge, simulate
 
 STEP = 0.05  # of the pulse's amplitude: of the factors among which the lowest is sought

@@ -7,11 +7,11 @@ from itertools import combinations, pairwise
 
 import numpy as np
 from stability import Trial, orders
-from workbench import grid, truth
 
 from assumptions.choices import Choices, beyond_slenderness, by_energy
 from assumptions.pulses import similar
 from assumptions.quantity import Cases, Found, Quantity
+from replication.workbench import grid, truth
 from topheavy import Column, Pulse, RockingFrame, judge, overturning_map
 
 FINER = 0.001  # g tan α: between amplitudes on the map, where a band may be narrow

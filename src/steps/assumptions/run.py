@@ -8,15 +8,15 @@ with a claim is judged as the ledger judges it, though from fewer pulses than th
 import math
 from dataclasses import replace
 from functools import cache
-from pathlib import Path
+from typing import Any
 
-import yaml
-from workbench import log_to, write_table
+from strict_yaml import read_yaml
 
 from assumptions import impact, pulses, rankings, trilith
 from assumptions.alternatives import alternatives
 from assumptions.choices import Choices
 from assumptions.quantity import Cases
+from replication.workbench import run
 from topheavy import read_record
 from topheavy.claims import judge as judge_claim
 
@@ -71,15 +71,12 @@ def main(assumptions: list[dict], ledger: dict[str, dict], cases: Cases, tighten
     return rows
 
 
+def work(job: Any) -> list[dict]:
+    assumptions, claims = map(read_yaml, (job.input.assumptions, job.input.ledger))
+    cases = job.params.cases | {"records": [read_record(path) for path in job.input.records]}
+    ledger = {claim["id"]: claim for claim in claims}
+    return main(assumptions, ledger, cases, job.params.solver["tightened"])
+
+
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        assumptions, claims = (
-            yaml.safe_load(Path(path).read_text(encoding="utf-8"))
-            for path in (snakemake.input.assumptions, snakemake.input.ledger)
-        )
-        cases = snakemake.params.cases | {
-            "records": [read_record(path) for path in snakemake.input.records]
-        }
-        ledger = {claim["id"]: claim for claim in claims}
-        rows = main(assumptions, ledger, cases, snakemake.params.solver["tightened"])
-        write_table(snakemake.output.table, rows)
+    run(snakemake, work)

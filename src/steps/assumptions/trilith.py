@@ -3,11 +3,12 @@
 from functools import partial
 
 import numpy as np
-from workbench import truth, value
 
 from assumptions.choices import Choices
 from assumptions.quantity import Cases, Found, Quantity
+from replication.workbench import truth, value
 from topheavy import Column, RockingBlock, RockingFrame, simulate
+from topheavy.derivation.mends import mended_quotient
 from topheavy.shaking_table import abrupt_start, table_acceleration, table_motion
 from topheavy.structures import STANDARD_GRAVITY
 
@@ -43,7 +44,11 @@ def number(choices: Choices, cases: Cases, claim: str) -> Found:
     found = passage(choices, cases)[claim]
     if claim == "trilith_stays_below_uplift":
         return Found(found, truth(found < 1.0))
-    meant = {"meant_value": cases["trilith"]["mass_ratio"]} if claim == "trilith_mass_ratio" else {}
+    meant = {}
+    if claim == "trilith_mass_ratio":
+        cap, columns = choices.masses or cases["trilith"]["printed_masses"]
+        if mended := mended_quotient(cap, columns, f"{cases['trilith']['mass_ratio']}"):
+            meant = {"meant_value": mended[1], "kind": mended[0].kind}
     return Found(found, value(found, EPS, **meant))
 
 

@@ -31,6 +31,7 @@ from topheavy.derivation.notation import (
     gamma,
     ground_acceleration,
     ground_velocity,
+    m_b,
     m_c,
     read,
     vanishes,
@@ -48,6 +49,28 @@ def cap_moment_is_not_needed() -> bool:
         shares = sp.diff(cap_moment(side).subs(motion), F_z1)
         found.append(F_z1 not in motion[acceleration].free_symbols and not vanishes(shares, side))
     return all(found)
+
+
+def follows_if_a_column_weighs(share: sp.Expr) -> bool:
+    """Whether γ = m_b/2m_c gives the factor of Eq. (19) if one column has this share of m_c."""
+    masses = {m_c: share * m_c, I_o: sp.Rational(4, 3) * share * m_c * R**2, m_b: 2 * gamma * m_c}
+    factor = (1 + 2 * gamma) / (1 + 3 * gamma)
+    return all(
+        vanishes(
+            (frame_motion(side)[acceleration] - factor * column_motion(side)).subs(
+                masses, simultaneous=True
+            ),
+            side,
+        )
+        for side in SIDES
+    )
+
+
+def m_c_is_the_mass_of_each_column() -> bool:
+    """With γ = m_b/2m_c, Eqs. (19), (22) follow if m_c is the mass of one column, not of both."""
+    return follows_if_a_column_weighs(sp.Integer(1)) and not follows_if_a_column_weighs(
+        sp.Rational(1, 2)
+    )
 
 
 def quadratic_terms_cancel() -> bool:
@@ -145,6 +168,7 @@ def shear_was_reversed() -> bool:
 
 
 PROOFS = (
+    m_c_is_the_mass_of_each_column,
     cap_moment_is_not_needed,
     quadratic_terms_cancel,
     lagrange_agrees,

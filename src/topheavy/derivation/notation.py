@@ -101,6 +101,7 @@ _SYMBOLS = {
     "F_x1": F_x1, "F_x2": F_x2, "F_z1": F_z1, "F_z2": F_z2,
     "sgn": sp.sign, "π": sp.pi,
 }  # fmt: skip
+SYMBOLS = tuple(symbol for symbol in _SYMBOLS.values() if isinstance(symbol, sp.Symbol))
 
 
 def read(equation: str, side: Side) -> list[sp.Expr]:

@@ -30,8 +30,9 @@ class Statement:
         The sides of the motion that it is stated for.
     split
         Whether its two sides are two equations, by a double sign.
-    meant, fault, remark
-        If it does not follow: the corrected form, the kind of fault and what it is in a sentence.
+    meant, remark
+        If it does not follow: the corrected form, and what is wrong in a sentence. The kind of
+        fault is found by `topheavy.derivation.mends`.
     """
 
     name: str
@@ -40,7 +41,6 @@ class Statement:
     sides: tuple[Side, ...] = SIDES
     split: bool = False
     meant: str = ""
-    fault: str = ""
     remark: str = ""
 
     @property
@@ -80,7 +80,6 @@ EQUATIONS = (
         premises.kinematics,
         split=True,
         meant="v̈ = −2R (cos(α ± θ) θ̇² ± sin(α ± θ) θ̈)",
-        fault="sign",
         remark="The term in θ̈ lacks the double sign that Eq. (8) has: for θ > 0 its sign is wrong.",
     ),
     Statement(
@@ -132,8 +131,8 @@ EQUATIONS = (
         premises.rectangular_frame,
         _LEFT,
         meant="θ̈ = −(1 + 2γ)/(1 + 3γ) 3g/(4R) (−sin(α + θ) + ü_g/g cos(α + θ))",
-        fault="sign",
-        remark="Both terms in the braces have the wrong sign, against Eq. (18); a stands for α.",
+        remark="Both terms in the braces have the wrong sign, against Eq. (18). One leading minus"
+        " too many explains it; a stands for α.",
     ),
     Statement(
         "eq20",
@@ -143,9 +142,8 @@ EQUATIONS = (
         _RIGHT,
         meant="I_o θ̈ + m_c ü_g R cos(α − θ)"
         " = −m_c g R sin(α − θ) − F_x1 2R cos(α − θ) − F_z1 2R sin(α − θ)",
-        fault="sign",
-        remark="The term in F_x1 has the wrong sign for the force of Eqs. (10) and (13), whose arm"
-        " above the pivot is the same on both sides.",
+        remark="Right for shears counted positive to the left when θ > 0. F_x1 of Eqs. (10) and"
+        " (13) is positive to the right.",
     ),
     Statement(
         "eq21",
@@ -155,9 +153,8 @@ EQUATIONS = (
         _RIGHT,
         meant="I_o θ̈ + m_c ü_g R cos(α − θ)"
         " = −m_c g R sin(α − θ) − F_x2 2R cos(α − θ) − F_z2 2R sin(α − θ)",
-        fault="sign",
-        remark="The term in F_x2 has the wrong sign for the force of Eqs. (11) and (13), whose arm"
-        " above the pivot is the same on both sides.",
+        remark="Right for shears counted positive to the left when θ > 0. F_x2 of Eqs. (11) and"
+        " (13) is positive to the right.",
     ),
     Statement(
         "eq22",
@@ -165,16 +162,14 @@ EQUATIONS = (
         premises.rectangular_frame,
         _RIGHT,
         meant="θ̈ = −(1 + 2γ)/(1 + 3γ) 3g/(4R) (sin(α − θ) + ü_g/g cos(α − θ))",
-        fault="sign",
-        remark="Both terms in the braces have the wrong sign: the frame would flee from upright;"
-        " a stands for α.",
+        remark="Both terms in the braces have the wrong sign: the frame would move away from"
+        " upright. One leading minus too many explains it; a stands for α.",
     ),
     Statement(
         "eq23",
         "θ̈ = −(1 + 2γ)/(1 + 3γ) p² (sin(a sgn(θ) − θ) + ü_g/g cos(a sgn(θ) − θ))",
         premises.rectangular_frame,
         meant="θ̈ = −(1 + 2γ)/(1 + 3γ) p² (sin(α sgn(θ) − θ) + ü_g/g cos(α sgn(θ) − θ))",
-        fault="letter",
         remark="Only the letter is wrong, a for α (run together with sgn); the signs are right.",
     ),
     Statement(

@@ -6,29 +6,12 @@ which follows many at once in the vector registers of the CPU (`lanes` and what 
 """
 
 import hashlib
-import importlib
 import os
 from pathlib import Path
 
 from numba import config
 
 _HERE = Path(__file__).parent
-_MODULES = (
-    "forcing",
-    "taylor",
-    "bernstein",
-    "tail",
-    "rest",
-    "march",
-    "outcome",
-    "interrupt",
-    "lanes",
-    "lane_steps",
-    "pulse_batch",
-    "record_batch",
-    "grid",
-    "trace",
-)
 
 
 def _load() -> None:
@@ -43,8 +26,22 @@ def _load() -> None:
     if os.access(_HERE, os.W_OK):
         config.CACHE_DIR = str(cache)  # type: ignore[attr-defined]
     try:
-        for module in _MODULES:
-            importlib.import_module(f"{__name__}.{module}")
+        from topheavy.kernel import (  # noqa: F401
+            bernstein,
+            forcing,
+            grid,
+            interrupt,
+            lane_steps,
+            lanes,
+            march,
+            outcome,
+            pulse_batch,
+            record_batch,
+            rest,
+            tail,
+            taylor,
+            trace,
+        )
     finally:
         config.CACHE_DIR = before  # type: ignore[attr-defined]
 

@@ -23,16 +23,25 @@ LONG = 100_000
 def in_threads(
     calls: Sequence[Callable[[NDArray[np.float64]], Found]], threads: int = 1
 ) -> list[Found]:
-    """Return what the calls return, each given a working array of its own.
+    """Return what the calls return; each thread takes the next and gives it its working array.
 
-    Whatever ends the wait halts the histories under way at their next step; calls that have not
-    begun do not begin.
+    Whatever ends the wait halts the histories under way at their next step, and all that follow at
+    their first.
     """
-    arrays = [working_array() for _ in calls]
+    found: dict[int, Found] = {}
+    waiting = enumerate(calls)
+    arrays = [working_array() for _ in range(threads)]
+
+    def work(w: NDArray[np.float64]) -> None:
+        for number, call in waiting:
+            found[number] = call(w)
+
     with ThreadPoolExecutor(threads) as pool:
         try:
-            return list(pool.map(lambda call, array: call(array), calls, arrays))
+            for done in [pool.submit(work, w) for w in arrays]:
+                done.result()
         except BaseException:
-            for array in arrays:
-                array[HALT, 0] = 1.0
+            for w in arrays:
+                w[HALT, 0] = 1.0
             raise
+    return [found[number] for number in range(len(calls))]

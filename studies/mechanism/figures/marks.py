@@ -1,5 +1,7 @@
 """What a figure shows in place of an experiment that was not run."""
 
+import textwrap
+
 from drawing import GREY, note
 
 
@@ -8,6 +10,6 @@ def untested(axis, table) -> bool:
     if "not_tested" not in table:
         return False
     axis.set(xticks=(), yticks=())
-    words = f"not tested:\n{table.not_tested.iloc[0]}"
+    words = "not tested:\n" + textwrap.fill(table.not_tested.iloc[0], 40)
     note(axis, words, (0.5, 0.5), ha="center", color=GREY, xycoords="axes fraction")
     return True

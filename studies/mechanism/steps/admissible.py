@@ -1,9 +1,11 @@
 """Where a frame rocks as the paper takes it: nothing slides, and no contact has to pull."""
 
+import math
+
 import numpy as np
 import pandas as pd
-from workbench import grid, log_to, truth, value, write_findings, write_table
 
+from replication.workbench import grid, run, truth, value
 from studies.mechanism.steps.demand import demand, history
 from studies.mechanism.steps.setting import cap_of, pulse_on
 from topheavy import Cap, Column, RockingFrame
@@ -79,6 +81,20 @@ def _least_by_newton_euler(frame: RockingFrame, cap: Cap, spec: dict, amplitude:
     return float(np.nanmin(found.forces[:, :, 1]))
 
 
+def lightest_without_sliding(survived: pd.DataFrame, friction: float) -> float:
+    """Return the least γ > 0 from which on no frame asks for more than this friction (over tan α).
+
+    Infinite where the heaviest does.
+    """
+    largest = survived[survived.mass_ratio > 0.0].groupby("mass_ratio").demand.max()
+    lightest = math.inf
+    for gamma, needed in largest[::-1].items():
+        if needed > friction:
+            break
+        lightest = float(gamma)
+    return lightest
+
+
 def main(case: dict, cap: Cap) -> tuple[pd.DataFrame, dict]:
     column = Column(**case["column"])
     spec, tan = case["amplitudes"], column.uplift_acceleration
@@ -95,13 +111,16 @@ def main(case: dict, cap: Cap) -> tuple[pd.DataFrame, dict]:
         }
         for friction in case["frictions"]
     }
+    enough_from = lightest_without_sliding(survived, max(case["frictions"]) / tan)
     slides = survived.demand * tan > max(case["frictions"])
     findings = {
         "uplift_needs_tan": truth(bool((table.demand >= 1.0 - ROUNDING).all()), cells=len(table)),
         "no_sliding": truth(
             bool((survived.demand * tan <= min(case["frictions"])).all()),
-            holds_when=bool((survived.demand * tan <= max(case["frictions"])).any()),
-            condition="μ is at least the demand of the history",
+            holds_when=enough_from < math.inf,
+            condition="μ is the largest that is listed, and the cap at least as heavy as stated",
+            friction=max(case["frictions"]),
+            from_mass_ratio=enough_from if enough_from < math.inf else None,
             tan=tan,
             share_that_rocks_at={str(friction): by for friction, by in share.items()},
             share_that_slides_at_all=float(slides.mean()),
@@ -128,7 +147,4 @@ def main(case: dict, cap: Cap) -> tuple[pd.DataFrame, dict]:
 
 
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        table, findings = main(snakemake.params.case, cap_of(snakemake.params.cap))
-        write_table(snakemake.output.table, table)
-        write_findings(snakemake.output.findings, findings)
+    run(snakemake, lambda job: main(job.params.case, cap_of(job.params.cap)))

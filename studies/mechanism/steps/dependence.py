@@ -1,11 +1,11 @@
 """What friction suffices and what opens at an impact, over γ, slenderness, bay and cap."""
 
-import math
 from itertools import pairwise
 
+import numpy as np
 import pandas as pd
-from workbench import log_to, truth, value, write_findings, write_table
 
+from replication.workbench import run, truth, value
 from studies.mechanism.steps.demand import demand, history, impact_demand
 from studies.mechanism.steps.setting import cap_of, pulse_on, slender
 from topheavy import Cap, Column, RockingFrame, judge
@@ -45,10 +45,16 @@ def opens_below_the_shortest_bay(frame: RockingFrame, half_depth: float) -> dict
     """Return whether a seat pulls at an impact in every shorter bay, and in no longer one."""
     bay, width = shortest_bay(frame, half_depth), 2.0 * frame.column.half_width
     spans = [width + (bay - width) * k / SCAN for k in range(1, 3 * SCAN) if k != SCAN]
-    agree = [
-        (impact_demand(frame, Cap(span, half_depth))[1] < 0.0) == (span < bay) for span in spans
-    ]
-    return truth(all(agree), spans=len(spans), shortest_bay=bay, over_width=bay / width)
+    least = np.array([impact_demand(frame, Cap(span, half_depth))[1] for span in spans])
+    short = np.array(spans) < bay
+    return truth(
+        ((least < 0.0) == short).all(),
+        spans=len(spans),
+        shortest_bay=bay,
+        over_width=bay / width,
+        least_in_short_bays=least[short].min(),
+        least_in_long_bays=least[~short].min(),
+    )
 
 
 def main(case: dict, cap: Cap) -> tuple[pd.DataFrame, dict]:
@@ -78,14 +84,13 @@ def main(case: dict, cap: Cap) -> tuple[pd.DataFrame, dict]:
     findings = {
         "seat_opens_in_short_bays": opens,
         "recesses": truth(
-            not opens["holds"],
-            holds_when=bool((table.impact_least > 0.0).all() and (table.impact < math.inf).all()),
+            opens["least_in_short_bays"] > 0.0 and (table.impact_least > 0.0).all(),
+            holds_when=bool(opens["least_in_long_bays"] > 0.0 and (table.impact_least > 0.0).all()),
             condition="the bay is longer than the shortest at which the seats stay shut",
             shortest_bay_over_width=shortest_bay(base, cap.half_depth) / width,
         ),
         "impact_asks_for_less_than_rocking": truth(
             harder.empty,
-            holds_when=harder[harder.impact_least > 0.0].empty,
             largest_impact=float(wide.impact.max()),
             frames=len(table),
         ),
@@ -103,7 +108,4 @@ def main(case: dict, cap: Cap) -> tuple[pd.DataFrame, dict]:
 
 
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        table, findings = main(snakemake.params.case, cap_of(snakemake.params.cap))
-        write_table(snakemake.output.table, table)
-        write_findings(snakemake.output.findings, findings)
+    run(snakemake, lambda job: main(job.params.case, cap_of(job.params.cap)))

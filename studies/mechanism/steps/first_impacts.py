@@ -4,8 +4,8 @@ import math
 from itertools import pairwise
 
 import pandas as pd
-from workbench import truth, value
 
+from replication.workbench import truth, value
 from studies.mechanism.steps.engine import run
 from studies.mechanism.steps.rigs import crossing, experiment, models, rig_of
 from topheavy import Cap, simulate

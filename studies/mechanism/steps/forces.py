@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 import pandas as pd
-from workbench import log_to, truth, value, write_findings, write_table
 
+from replication.workbench import run, truth, value
 from studies.mechanism.steps.demand import History, history
 from studies.mechanism.steps.setting import cap_of, pulse_on
 from topheavy import (
@@ -103,7 +103,4 @@ def main(case: dict, cap: Cap) -> tuple[pd.DataFrame, dict]:
 
 
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        table, findings = main(snakemake.params.case, cap_of(snakemake.params.cap))
-        write_table(snakemake.output.table, table)
-        write_findings(snakemake.output.findings, findings)
+    run(snakemake, lambda job: main(job.params.case, cap_of(job.params.cap)))

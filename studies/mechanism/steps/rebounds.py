@@ -1,8 +1,8 @@
 """Does a frame in the engine lose at an impact what Eq. (25) says, and what sets it?"""
 
 import pandas as pd
-from workbench import truth
 
+from replication.workbench import truth
 from studies.mechanism.steps.engine import point_restitution
 from studies.mechanism.steps.rigs import STEPS_IN_CONTACT, experiment, models, rebound, rig_of
 from topheavy import Cap

@@ -1,11 +1,12 @@
 """Friction and compression under real ground motions, as they were recorded."""
 
 import math
+from typing import Any
 
 import numpy as np
 import pandas as pd
-from workbench import log_to, truth, value, write_findings, write_table
 
+from replication.workbench import run, truth, value
 from studies.mechanism.steps.demand import demand, history
 from studies.mechanism.steps.setting import cap_of
 from topheavy import Cap, Column, Record, RockingFrame, read_record
@@ -54,13 +55,14 @@ def main(
     return table.replace(math.inf, np.nan), findings
 
 
+def work(job: Any) -> tuple:
+    return main(
+        job.params.case,
+        job.params.structures,
+        {name: cap_of(entry) for name, entry in job.params.caps.items()},
+        [read_record(path) for path in job.input.records],
+    )
+
+
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        table, findings = main(
-            snakemake.params.case,
-            snakemake.params.structures,
-            {name: cap_of(entry) for name, entry in snakemake.params.caps.items()},
-            [read_record(path) for path in snakemake.input.records],
-        )
-        write_table(snakemake.output.table, table)
-        write_findings(snakemake.output.findings, findings)
+    run(snakemake, work)

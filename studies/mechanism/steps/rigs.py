@@ -6,8 +6,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
-from workbench import log_to, write_findings, write_table
 
+from replication import workbench
 from studies.mechanism.steps.engine import (
     Array,
     Contact,
@@ -20,7 +20,10 @@ from studies.mechanism.steps.engine import (
 from studies.mechanism.steps.setting import cap_of
 from topheavy import Cap, Column, Pulse, RockingFrame, overturning_intervals, simulate
 
-NO_ENGINE = "needs the optional group `engine` (MuJoCo), which is not installed"
+NO_ENGINE = (
+    "needs the optional group `engine` (MuJoCo), which is not installed: "
+    "run `make reproduce`, or `uv run --group engine snakemake --cores 2`"
+)
 
 FALLEN = math.pi / 3  # rad, from where no pulse brings a column back; the cap is still aloft
 FREE = 20.0  # over p̂: how long a verdict is waited for after a pulse
@@ -38,14 +41,14 @@ class Model(NamedTuple):
 
 def experiment(job, main: Callable[..., tuple[pd.DataFrame, dict]]) -> None:
     """Run an experiment of a Snakemake job, or say in its outputs why it was not run."""
-    with log_to(job.log[0]):
+
+    def work(job) -> tuple[pd.DataFrame, dict]:
         if job.params.engine is None:
-            table, findings = pd.DataFrame({"not_tested": [NO_ENGINE]}), {"not_tested": NO_ENGINE}
-        else:
-            caps = {name: cap_of(entry) for name, entry in job.params.caps.items()}
-            table, findings = main(job.params.case, job.params.structures, caps)
-        write_table(job.output.table, table)
-        write_findings(job.output.findings, findings)
+            return pd.DataFrame({"not_tested": [NO_ENGINE]}), {"not_tested": NO_ENGINE}
+        caps = {name: cap_of(entry) for name, entry in job.params.caps.items()}
+        return main(job.params.case, job.params.structures, caps)
+
+    workbench.run(job, work)
 
 
 def models(frames: Mapping[str, list], structures: Mapping[str, Any], caps: Mapping[str, Cap]):

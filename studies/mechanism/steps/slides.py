@@ -3,8 +3,8 @@
 import math
 
 import pandas as pd
-from workbench import truth
 
+from replication.workbench import truth
 from studies.mechanism.steps.demand import demand, history
 from studies.mechanism.steps.engine import slips
 from studies.mechanism.steps.rigs import (

@@ -4,10 +4,12 @@ Motion, impacts, velocity ratios, contact forces and impulses come out of both: 
 and (25) and the closed form of the forces, there from nine coordinates that know none of them.
 """
 
+from typing import Any
+
 import numpy as np
 import pandas as pd
-from workbench import log_to, truth, write_findings, write_table
 
+from replication.workbench import run, truth
 from studies.mechanism.steps.demand import ASIDE
 from studies.mechanism.steps.setting import cap_of, pulse_on
 from topheavy import (
@@ -121,12 +123,10 @@ def main(case: dict, cap: Cap, records: list[Record]) -> tuple[pd.DataFrame, dic
     return table, findings
 
 
+def work(job: Any) -> tuple:
+    records = [read_record(path) for path in job.input.records]
+    return main(job.params.case, cap_of(job.params.cap), records)
+
+
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        table, findings = main(
-            snakemake.params.case,
-            cap_of(snakemake.params.cap),
-            [read_record(path) for path in snakemake.input.records],
-        )
-        write_table(snakemake.output.table, table)
-        write_findings(snakemake.output.findings, findings)
+    run(snakemake, work)

@@ -1,11 +1,14 @@
 """Does the engine overturn under the pulses that overturn the theory's frame?"""
 
+import numpy as np
 import pandas as pd
-from workbench import truth
+from spectra_compared import without
 
+from replication.workbench import truth
 from studies.mechanism.steps.engine import Motion, slips
 from studies.mechanism.steps.rigs import (
     FALLEN,
+    HIGHEST,
     Model,
     experiment,
     lowest_overturning,
@@ -15,7 +18,7 @@ from studies.mechanism.steps.rigs import (
     shaken,
     units,
 )
-from topheavy import Cap, RockingFrame, judge
+from topheavy import Cap, Pulse, RockingFrame, judge, overturning_intervals
 
 GAP = 0.01  # of the half width b: a corner nearer to a surface than this touches it
 ENOUGH = 30  # pulses
@@ -64,24 +67,52 @@ def _cap_tilt(motion: Motion) -> float:
     return float(abs(motion.pose[standing, -1, 2]).max())
 
 
-def column_beside(model: Model, spec: dict) -> list[tuple[bool, bool]]:
-    """Return whether the engine lets the column fall and the frame stand, between their lowest.
+def beside_its_column(model: Model, spec: dict) -> list[dict]:
+    """Return what overturns frame and column in the engine, where theory overturns only one.
 
-    A pair (falls, stands) for each pulse, of an amplitude midway between the two in theory.
+    For each pulse that is the middle of the widest band of amplitudes that overturns the column
+    alone, and of the widest that overturns the frame alone, where there is one.
     """
-    found = []
     alone = Model(model.name, RockingFrame(model.frame.column, 0.0), None)
+    friction, step = spec["friction"], spec["time_step"]
     settings = spec["contacts"]["plastic"]
-    rigs = [
-        rig_of(one, spec["time_step"], friction=spec["friction"], **settings)
-        for one in (alone, model)
-    ]
-    for _, unit in units(model.frame.column, spec["pulses"]):
-        column, frame = (lowest_overturning(one.frame, unit) for one in (alone, model))
-        midway = unit.scaled(0.5 * (column.amplitude + frame.amplitude))
-        falls, stands = (shaken(rig, midway)[0] for rig in rigs)
-        found.append((falls, not stands))
-    return found
+    rows = []
+    for kind, unit in units(model.frame.column, spec["beside"]):
+        sets = [_overturning(one.frame, unit) for one in (alone, model)]
+        for who, amplitude in _bands_apart(*sets).items():
+            falls = [
+                shaken(rig_of(one, step, friction=friction, **settings), unit.scaled(amplitude))[0]
+                for one in (alone, model)
+            ]
+            rows.append(
+                {
+                    "structure": model.name,
+                    **kind,
+                    "amplitude": amplitude,
+                    "theory": who,
+                    "column_overturns": falls[0],
+                    "frame_overturns": falls[1],
+                }
+            )
+    return rows
+
+
+def _overturning(frame: RockingFrame, unit: Pulse) -> np.ndarray:
+    """Return the amplitudes (g) of a pulse that overturn a frame in theory, shape (n, 2)."""
+    tan = frame.uplift_acceleration
+    found = overturning_intervals(frame, unit, (tan, HIGHEST * tan), resolution=0.01 * tan)
+    ends = [(one.lower[1], one.upper[0] if one.upper else HIGHEST * tan) for one in found]
+    return np.array(ends).reshape(-1, 2)
+
+
+def _bands_apart(column: np.ndarray, frame: np.ndarray) -> dict[str, float]:
+    """Return the middle of the widest band that overturns one and not the other, by which one."""
+    bands = {"column": without(column, frame), "frame": without(frame, column)}
+    return {
+        who: float(band[np.argmax(np.diff(band, axis=1)[:, 0])].mean())
+        for who, band in bands.items()
+        if len(band)
+    }
 
 
 def main(case: dict, structures: dict, caps: dict[str, Cap]) -> tuple[pd.DataFrame, dict]:
@@ -98,7 +129,11 @@ def main(case: dict, structures: dict, caps: dict[str, Cap]) -> tuple[pd.DataFra
     plastic = table.contact == "plastic"
     refitted = table.engine == table.theory_with_rebound
     apart = table[~agrees]
-    pairs = [pair for model in frames for pair in column_beside(model, case)]
+    beside = pd.DataFrame([row for model in frames for row in beside_its_column(model, case)])
+    as_theory = (beside.column_overturns == (beside.theory == "column")) & (
+        beside.frame_overturns == (beside.theory == "frame")
+    )
+    reversals = beside[beside.theory == "frame"]
     findings = {
         "same_verdicts": truth(
             bool(agrees.all()),
@@ -117,7 +152,16 @@ def main(case: dict, structures: dict, caps: dict[str, Cap]) -> tuple[pd.DataFra
             cap_tilt_bouncing=float(table.cap_tilt[~plastic].max()),
         ),
         "frame_outlasts_column": truth(
-            all(falls and stands for falls, stands in pairs), pulses=len(pairs)
+            not (beside.frame_overturns & ~beside.column_overturns).any(),
+            pulses=len(beside),
+            only_column=int((beside.column_overturns & ~beside.frame_overturns).sum()),
+            only_frame=int((beside.frame_overturns & ~beside.column_overturns).sum()),
+        ),
+        "beside_as_in_theory": truth(
+            bool(as_theory.all()) and 0 < len(reversals) < len(beside),
+            pulses=len(beside),
+            reversals=len(reversals),
+            apart=int((~as_theory).sum()),
         ),
     }
     return table, findings

@@ -56,12 +56,15 @@ def test_three_bodies_agree_with_the_frame_and_with_no_other():
     assert abs(COLUMN.restitution - frame.restitution) > 1e3 * row["ratio_apart"]
 
 
-def test_without_the_engine_an_experiment_says_why_it_tested_nothing(tmp_path):
+def test_without_the_engine_an_experiment_says_why_it_tested_nothing(tmp_path, monkeypatch):
+    monkeypatch.setattr("replication.workbench.undeclared", lambda declared: [])
     job = SimpleNamespace(
+        input=[],
         log=[str(tmp_path / "log")],
         params=SimpleNamespace(engine=None),
-        output=SimpleNamespace(table=str(tmp_path / "t.csv"), findings=str(tmp_path / "f.json")),
+        output=[str(tmp_path / "t.csv"), str(tmp_path / "f.json")],
     )
     experiment(job, lambda *_: pytest.fail("it ran"))
-    assert json.loads((tmp_path / "f.json").read_text("utf-8")) == {"not_tested": NO_ENGINE}
+    found = json.loads((tmp_path / "f.json").read_text("utf-8"))
+    assert found == {"not_tested": NO_ENGINE, "called": []}
     assert pd.read_csv(tmp_path / "t.csv").not_tested.tolist() == [NO_ENGINE]

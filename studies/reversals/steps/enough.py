@@ -6,7 +6,8 @@ import pandas as pd
 from scipy.optimize import brentq
 from spectra_compared import Place, Spectra
 from spectrum import progress, search
-from workbench import log_to, truth, value, write_findings, write_table
+
+from replication.workbench import run, truth, value
 
 CLOSE = 1e-6  # of the gain in R̂: how closely the γ is sought
 FINE = 0.01  # of the gain in amplitude: the resolution of the search
@@ -100,8 +101,4 @@ def main(case: dict, table: pd.DataFrame) -> tuple[pd.DataFrame, dict]:
 
 
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        table = pd.read_csv(snakemake.input.spectra)
-        found, findings = main(snakemake.params.case, table)
-        write_table(snakemake.output.table, found)
-        write_findings(snakemake.output.findings, findings)
+    run(snakemake, lambda job: main(job.params.case, pd.read_csv(job.input.spectra)))

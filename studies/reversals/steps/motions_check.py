@@ -3,12 +3,14 @@
 Half of the sample is drawn from all cells, half within a per cent of a boundary of overturning.
 """
 
+from typing import Any
+
 import numpy as np
 import pandas as pd
 from rocking_spectra import NUDGE
 from spectrum import progress
-from workbench import log_to, truth, write_findings
 
+from replication.workbench import run, truth
 from studies.reversals.ensemble import draws, factors, intensities, subjects
 from studies.reversals.outcomes import FALLS, STANDS, read
 from topheavy import Record, overturned_by, reference
@@ -77,9 +79,10 @@ def main(case: dict, structures: dict, paths: list[str], tightened: float) -> di
     }
 
 
+def work(job: Any) -> dict:
+    case, structures = job.params.case, job.params.structures
+    return main(case, structures, job.input.shards, job.params.solver["tightened"])
+
+
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        job = snakemake.params
-        tightened = job.solver["tightened"]
-        found = main(job.case, job.structures, snakemake.input.shards, tightened)
-        write_findings(snakemake.output.findings, found)
+    run(snakemake, work)

@@ -7,11 +7,12 @@ Families of motions are kept apart.
 import itertools
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import pandas as pd
-from workbench import log_to, truth, value, write_findings, write_table
 
+from replication.workbench import run, truth, value
 from studies.reversals import fragility
 from studies.reversals.ensemble import Subject, intensities, subjects
 from studies.reversals.outcomes import FALLS
@@ -63,9 +64,9 @@ def read(paths: list[str], case: dict, structures: dict) -> list[Ensemble]:
     table = pd.concat(pd.read_csv(path) for path in paths)
     under, boot = list(subjects(case, structures)), case["bootstrap"]
     found = []
-    for (structure, family), run in table.groupby(["structure", "family"], sort=False):
+    for (structure, family), cells in table.groupby(["structure", "family"], sort=False):
         mine = [subject for subject in under if subject.structure == structure]
-        wide = run.pivot_table(
+        wide = cells.pivot_table(
             index=MOTION,
             columns=["as_large_as", "mass_ratio"],
             values="outcomes",
@@ -173,6 +174,21 @@ def shares_of_gain(ensemble: Ensemble, medians: np.ndarray, shares: list[float])
     ]
 
 
+def never_rises(less: pd.DataFrame, margin: float) -> dict:
+    """Does every interval of the falls in probability exclude a rise by the margin?
+
+    That a rise is not seen is not enough: an interval that is too wide does not exclude it.
+    """
+    return truth(
+        (less.less_low > -margin).all(),
+        margin=margin,
+        compared=len(less),
+        largest_rise_not_excluded=-float(less.less_low.min()),
+        rises=int((less.less_high < 0.0).sum()),
+        falls=int((less.less_low > 0.0).sum()),
+    )
+
+
 def plain(bounds: dict) -> dict:
     return {key: float(number) for key, number in bounds.items()}
 
@@ -192,19 +208,16 @@ def main(case: dict, structures: dict, paths: list[str]) -> tuple[dict[str, pd.D
     tables = {name: pd.concat(parts) for name, parts in tables.items()}
     pair, less, curve = tables["pairs"], pd.concat(order), tables["fragility"]
     findings = {
-        "fragility_never_rises": truth(
-            not (less.less_high < 0.0).any(),
-            compared=len(less),
-            rises=int((less.less_high < 0.0).sum()),
-            falls=int((less.less_low > 0.0).sum()),
-        ),
+        "fragility_never_rises": never_rises(less, case["largest_rise"]),
         "heavier_is_safer": truth(
             not pair.only_heavier.any(),
-            holds_when=bool((pair.reversed_high < 0.5).all()),
             levels=case["intensities"]["points"],
             cells=int(pair.cells.sum()),
             least_reversed=float(pair.reversed.min()),
             most_reversed=float(pair.reversed.max()),
+        ),
+        "probability_is_lower": truth(
+            (pair.reversed_high < 0.5).all(), largest_upper_end=float(pair.reversed_high.max())
         ),
         "gain_is_that_of_size": truth(
             all(row["excess_low"] <= 0.0 <= row["excess_high"] for row in beyond), beyond=beyond
@@ -218,10 +231,10 @@ def main(case: dict, structures: dict, paths: list[str]) -> tuple[dict[str, pd.D
     return tables, findings
 
 
+def work(job: Any) -> tuple:
+    tables, findings = main(job.params.case, job.params.structures, job.input.shards)
+    return tables["fragility"], tables["pairs"], tables["medians"], findings
+
+
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        job = snakemake.params
-        tables, findings = main(job.case, job.structures, snakemake.input.shards)
-        for name, table in tables.items():
-            write_table(snakemake.output[name], table)
-        write_findings(snakemake.output.findings, findings)
+    run(snakemake, work)

@@ -5,13 +5,14 @@ Five components of two earthquakes are no sample of all: there are counts, and n
 
 import itertools
 import math
+from typing import Any
 
 import numpy as np
 import pandas as pd
 from rocking_spectra import NUDGE
 from spectrum import progress
-from workbench import log_to, truth, write_findings, write_table
 
+from replication.workbench import run, truth
 from studies.reversals.outcomes import FALLS, STANDS, UNTOLD, read, written
 from topheavy import Column, Record, RockingFrame, overturned_by, read_record, reference
 
@@ -51,8 +52,8 @@ def row(record: Record, degrees: float, size: float, gamma: float, ratios, tight
 def compare(table: pd.DataFrame, ratios: list[float]) -> pd.DataFrame:
     """Return the counts of each record and pair of γ, of the cells where both can be told."""
     rows = []
-    for record, run in table.groupby("record", sort=False):
-        outcomes = {gamma: read(run[run.mass_ratio == gamma].outcomes) for gamma in ratios}
+    for record, cells in table.groupby("record", sort=False):
+        outcomes = {gamma: read(cells[cells.mass_ratio == gamma].outcomes) for gamma in ratios}
         for light, heavy in itertools.combinations(ratios, 2):
             one, other = outcomes[light], outcomes[heavy]
             told = (one != UNTOLD) & (other != UNTOLD)
@@ -101,9 +102,6 @@ def main(case: dict, paths: list[str], tightened: float) -> tuple[pd.DataFrame, 
     findings = {
         "heavier_is_safer": truth(
             not counts.only_heavier.any(),
-            holds_when=bool((counts.only_heavier < counts.only_lighter).all()),
-            condition="counts are compared: under every record fewer cells are survived by the "
-            "lighter alone than by the heavier alone",
             highest=case["factors"]["highest"],
             compared=int(counts.told.sum()),
             only_lighter=int(counts.only_lighter.sum()),
@@ -112,6 +110,7 @@ def main(case: dict, paths: list[str], tightened: float) -> tuple[pd.DataFrame, 
                 (counts.groupby("record").only_heavier.sum() > 0).sum()
             ),
         ),
+        "fewer_reversals": truth((counts.only_heavier < counts.only_lighter).all()),
         "cells_that_can_be_told": truth(
             told.all(), histories=told.size, not_told=int((~told).sum())
         ),
@@ -120,10 +119,9 @@ def main(case: dict, paths: list[str], tightened: float) -> tuple[pd.DataFrame, 
     return table, counts, findings
 
 
+def work(job: Any) -> Any:
+    return main(job.params.case, job.input.records, job.params.solver["tightened"])
+
+
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        case, tightened = snakemake.params.case, snakemake.params.solver["tightened"]
-        table, counts, findings = main(case, snakemake.input.records, tightened)
-        write_table(snakemake.output.table, table)
-        write_table(snakemake.output.counts, counts)
-        write_findings(snakemake.output.findings, findings)
+    run(snakemake, work)

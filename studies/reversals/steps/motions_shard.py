@@ -1,9 +1,11 @@
 """One shard of the ensemble: every n-th motion, on all structures, at all intensities."""
 
+from typing import Any
+
 import pandas as pd
 from spectrum import progress
-from workbench import log_to, write_table
 
+from replication.workbench import run
 from studies.reversals.ensemble import Draw, Subject, draws, factors, intensities, subjects
 from studies.reversals.outcomes import written
 from topheavy import overturned_by
@@ -36,8 +38,9 @@ def main(case: dict, structures: dict, shard: str) -> pd.DataFrame:
     return pd.DataFrame(row for rows in progress(found, len(mine), "motions") for row in rows)
 
 
+def work(job: Any) -> Any:
+    return main(job.params.case, job.params.structures, job.wildcards.scatteritem)
+
+
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        job = snakemake.params
-        table = main(job.case, job.structures, snakemake.wildcards.scatteritem)
-        write_table(snakemake.output.table, table)
+    run(snakemake, work)

@@ -8,8 +8,8 @@ from itertools import product
 import pandas as pd
 from spectra_shard import line
 from spectrum import Line, shard_of, solve
-from workbench import grid, log_to, write_table
 
+from replication.workbench import grid, run
 from topheavy import RockingBlock
 
 CHANGES = ("both", "size", "restitution")
@@ -54,6 +54,4 @@ def main(case: dict, shard: str, threads: int) -> pd.DataFrame:
 
 
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        table = main(snakemake.params.case, snakemake.wildcards.scatteritem, snakemake.threads)
-        write_table(snakemake.output.table, table)
+    run(snakemake, lambda job: main(job.params.case, job.wildcards.scatteritem, job.threads))

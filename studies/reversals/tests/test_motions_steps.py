@@ -27,6 +27,7 @@ CASE = {
     "as_large_as": [1.0],
     "intensities": {"lowest": 0.4, "highest": 2.5, "points": 11},
     "bootstrap": {"resamples": 200, "confidence": 0.9},
+    "largest_rise": 0.05,
     "shares_of_gain": [0.5],
     "sample": {"points": 6, "within": 0.01, "second_route": 1},
 }

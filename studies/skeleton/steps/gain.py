@@ -3,8 +3,7 @@
 import math
 from itertools import pairwise
 
-from workbench import log_to, truth, value, write_findings, write_table
-
+from replication.workbench import run, truth, value
 from topheavy import Column, Pulse, RockingFrame, judge, overturning_intervals, reference
 
 
@@ -56,7 +55,4 @@ def main(case: dict, solver: dict) -> tuple[list[dict], dict]:
 
 
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):
-        rows, findings = main(snakemake.params.case, snakemake.params.solver)
-        write_table(snakemake.output.table, rows)
-        write_findings(snakemake.output.findings, findings)
+    run(snakemake, lambda job: main(job.params.case, job.params.solver))

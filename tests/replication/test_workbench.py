@@ -7,7 +7,8 @@ import sys
 import numpy as np
 import pandas as pd
 import pytest
-from workbench import grid, log_to, truth, value, write_findings, write_table
+
+from replication.workbench import grid, log_to, truth, value, write_findings, write_table
 
 # ---------------------------------------------------------------------------- log
 

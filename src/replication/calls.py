@@ -1,0 +1,174 @@
+"""Which functions of the repository a step calls: those that the rows of the ledger may name.
+
+The first call of a function notes its name and restores the function, so that no later call costs
+anything. A function that numba has compiled is not noted; the Python function that calls it is.
+"""
+
+import ast
+import functools
+import os
+import pkgutil
+import sys
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from types import FunctionType, ModuleType
+
+PLACES = {"topheavy": "src", "studies": "."}
+"""The packages whose functions are noted, and the folder that each lies in, from the root."""
+
+
+@contextmanager
+def noted(modules: Iterable[tuple[str, ModuleType]]) -> Iterator[set[str]]:
+    """Note the public functions and classes of modules that are called while this is open.
+
+    Parameters
+    ----------
+    modules
+        Each with the dotted name under which its functions are noted.
+
+    Yields
+    ------
+    set of str
+        The full names, such as `topheavy.structures.RockingFrame.block`; it grows with the calls.
+        A class is called when an object of it is made.
+    """
+    called: set[str] = set()
+    waiting = {}
+    try:
+        for place, module in modules:
+            for name, function in _functions(module):
+                waiting[function] = function.__code__
+                _note_first_call(function, f"{place}.{name}", called)
+        yield called
+    finally:
+        for function, code in waiting.items():
+            _restore(function, code)
+
+
+def library(declared: Iterable[str]) -> Iterator[tuple[str, ModuleType]]:
+    """Yield the modules of the library and of the studies that a rule declares, and its script.
+
+    Modules that the step would load only later are loaded now.
+    """
+    for path in sorted(declared):
+        name = _module_name(path)
+        if name.startswith("topheavy") or name in sys.modules:
+            yield name, pkgutil.resolve_name(f"{name}:")
+    script = sys.modules["__main__"]
+    if name := _module_name(os.path.relpath(getattr(script, "__file__", None) or "script")):
+        yield name, script
+
+
+def definition(name: str, root: str | Path = ".") -> str:
+    """Return the full name of what a public name stands for, without importing it.
+
+    `topheavy.simulate` is `topheavy.simulate.simulate`. A function goes before a module of its
+    name, as in `citations.resolve`.
+
+    Raises
+    ------
+    ValueError
+        When the repository defines no such function, class or method.
+    """
+    module, *parts = name.split(".")
+    while parts and _place(module, root).is_dir():
+        if source := _sources(_place(module, root), module).get(parts[0]):
+            module = source
+        else:
+            module, parts = f"{module}.{parts[0]}", parts[1:]
+    file = _place(module, root).with_suffix(".py")
+    body = ast.parse(file.read_text(encoding="utf-8")).body if file.is_file() else []
+    for part in parts:
+        found = [
+            n for n in body if isinstance(n, ast.FunctionDef | ast.ClassDef) and n.name == part
+        ]
+        body = found[-1].body if found else []
+    if not (parts and body):
+        raise ValueError(f"{name} is no function or class of the repository")
+    return ".".join([module, *parts])
+
+
+def _place(module: str, root: str | Path) -> Path:
+    parts = module.split(".")
+    return Path(root, PLACES.get(parts[0], "."), *parts)
+
+
+def _module_name(path: str) -> str:
+    """Return the dotted name of a Python file of the packages, "" of any other file."""
+    for package, base in PLACES.items():
+        if path.endswith(".py") and Path(path).is_relative_to(Path(base, package)):
+            parts = Path(path).relative_to(base).with_suffix("").parts
+            return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+    return ""
+
+
+@functools.cache
+def _sources(package: Path, name: str) -> dict[str, str]:
+    """Return from which module a package takes each of its public names."""
+    texts = [package / "__init__.pyi", package / "__init__.py"]
+    nodes = [
+        node
+        for path in texts
+        if path.is_file()
+        for node in ast.parse(path.read_text(encoding="utf-8")).body
+        if isinstance(node, ast.ImportFrom)
+    ]
+    return {
+        alias.name: f"{name}.{node.module}" if node.level else str(node.module)
+        for node in nodes
+        for alias in node.names
+    }
+
+
+def _functions(module: ModuleType) -> Iterator[tuple[str, FunctionType]]:
+    """Yield the public functions that a module defines, and the makers of its public classes."""
+    for name, member in list(vars(module).items()):
+        if name.startswith("_") or getattr(member, "__module__", None) != module.__name__:
+            continue
+        if isinstance(member, type):
+            if isinstance(maker := vars(member).get("__init__"), FunctionType):
+                yield name, maker
+            for inner, part in list(vars(member).items()):
+                if not inner.startswith("_") and (function := _plain(part)):
+                    yield f"{name}.{inner}", function
+        elif function := _plain(member):
+            yield name, function
+
+
+def _plain(member: object) -> FunctionType | None:
+    """Return the Python function of a member, under a cache, a property or a classmethod."""
+    if isinstance(member, functools._lru_cache_wrapper):
+        member = member.__wrapped__
+    elif isinstance(member, property):
+        member = member.fget
+    elif isinstance(member, classmethod | staticmethod):
+        member = member.__func__
+    return member if isinstance(member, FunctionType) else None
+
+
+def _stub(*args, _first_call, **keywords):  # type: ignore[no-untyped-def]
+    return _first_call()(*args, **keywords)
+
+
+def _note_first_call(function: FunctionType, name: str, called: set[str]) -> None:
+    """Put a code in place of the function's own that notes the name and brings it back.
+
+    The function object stays the same, so that every reference to it is noted. Its defaults are
+    left alone: threads may call it at any moment of this.
+    """
+    code = function.__code__
+
+    def first_call() -> FunctionType:
+        called.add(name)
+        _restore(function, code)
+        return function
+
+    function.__kwdefaults__ = {**(function.__kwdefaults__ or {}), "_first_call": first_call}
+    function.__code__ = _stub.__code__.replace(co_freevars=code.co_freevars)
+
+
+def _restore(function: FunctionType, code: object) -> None:
+    function.__code__ = code  # type: ignore[assignment]
+    keywords = {k: v for k, v in (function.__kwdefaults__ or {}).items() if k != "_first_call"}
+    function.__kwdefaults__ = keywords or None

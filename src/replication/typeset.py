@@ -1,0 +1,81 @@
+"""The report: which files it reads, found in its Typst sources, and how it is compiled."""
+
+import re
+import shutil
+import tempfile
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+
+FILE = re.compile(
+    r'\b(?:import|include|json|csv|yaml|toml|xml|read|image|bibliography)\s*\(?\s*"([^"@]+\.\w+)"'
+)
+FOUND = re.compile(r'\bfound\("(\w+)"\)')
+TABLE = re.compile(r'\btable-of\("(\w+)"\)')
+
+
+def reads(*sources: str | Path, root: str | Path = ".") -> list[str]:
+    """Return the files that Typst sources read, through the sources that they include.
+
+    A file is found where its name stands in the source: in quotes, or as that of a table or of
+    findings. `compiled` tells of any other.
+
+    Parameters
+    ----------
+    sources
+        Typst files, from the root; they are part of the answer.
+    root
+        The folder that Typst calls /.
+
+    Returns
+    -------
+    list of str
+        Paths from the root, sorted.
+    """
+    found: set[str] = set()
+    waiting = [str(source) for source in sources]
+    while waiting:
+        path = waiting.pop()
+        if path in found:
+            continue
+        found.add(path)
+        if not path.endswith(".typ"):
+            continue
+        text = (Path(root) / path).read_text(encoding="utf-8")
+        waiting += [_from_root(name, path) for name in FILE.findall(text)]
+        waiting += [f"results/findings/{name}.json" for name in FOUND.findall(text)]
+        waiting += [f"results/tables/{name}.csv" for name in TABLE.findall(text)]
+    return sorted(found)
+
+
+def compiled(source: str, inputs: Iterable[str], options: Mapping[str, str]) -> bytes:
+    """Return the PDF of a Typst source, compiled beside its declared inputs and nothing else.
+
+    So a file that the source reads and that is not declared stops the run, instead of leaving a
+    stale report some day.
+
+    Parameters
+    ----------
+    source, inputs
+        Paths from the root, which is the working folder.
+    options
+        What the source finds in `sys.inputs`.
+    """
+    import typst  # the Snakefile, which imports this module, has no use for it
+
+    with tempfile.TemporaryDirectory() as folder:
+        for path in inputs:
+            copy = Path(folder, path)
+            copy.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(path, copy)
+        return typst.compile(
+            str(Path(folder, source)),
+            root=folder,
+            ignore_system_fonts=True,
+            pdf_standards=["a-2b"],
+            sys_inputs=dict(options),
+        )
+
+
+def _from_root(name: str, source: str) -> str:
+    """Return the path of a file from the root, as a source names it."""
+    return name[1:] if name.startswith("/") else str(Path(source).parent / name)

@@ -1,0 +1,128 @@
+"""The edges of a step: its log, its tables, its findings, and the check of its inputs.
+
+A finding is what a claim of the ledger is judged by: a value with its error and unit, or a truth
+with the numbers that support it.
+"""
+
+import json
+import signal
+import sys
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, TextIO
+
+import numpy as np
+import pandas as pd
+
+from replication.calls import library, noted
+from replication.code import undeclared
+
+DIGITS = "%.9g"
+
+CALLED = "called"
+"""The entry beside the findings of a rule that lists the functions which made them."""
+
+
+def run(job: Any, main: Callable[[Any], Any]) -> None:
+    """Run a step as a job of Snakemake, and write what it returns.
+
+    Parameters
+    ----------
+    job
+        The object `snakemake` that Snakemake puts into every script.
+    main
+        Takes the job and returns one result for each output of the rule, in the order of the rule:
+        a table for a CSV file, findings for a JSON file. It returns None when it writes its
+        outputs itself.
+
+    Raises
+    ------
+    RuntimeError
+        When the process loaded a module of the repository that the rule does not declare.
+    ValueError
+        When a finding has the name CALLED.
+    """
+    with log_to(job.log[0]):
+        with noted(library(job.input)) as called:
+            results = main(job)
+        if results is not None:
+            results = results if isinstance(results, tuple) else (results,)
+            for path, result in zip(job.output, results, strict=True):
+                if path.endswith(".json"):
+                    write_findings(path, with_calls(result, called))
+                else:
+                    write_table(path, result)
+        refuse_undeclared(job)
+
+
+def refuse_undeclared(job: Any) -> None:
+    """Fail when the process loaded a module of the repository that its rule does not declare."""
+    if gap := undeclared(job.input):
+        raise RuntimeError(
+            f"rule {job.rule} loaded {', '.join(gap)}, which is not among its inputs: a change "
+            "there would leave its results stale; expected code(<its script>) as an input"
+        )
+
+
+@contextmanager
+def log_to(path: str) -> Iterator[TextIO]:
+    """Send what is printed, and a traceback if it comes to that, to a file.
+
+    Ctrl-C ends the process at once, without a traceback.
+    """
+    kept = sys.stdout, sys.stderr
+    on_interrupt = signal.signal(signal.SIGINT, signal.SIG_DFL)
+    with Path(path).open("w", encoding="utf-8") as log:
+        sys.stdout = sys.stderr = log
+        try:
+            yield log
+        except BaseException:
+            sys.excepthook(*sys.exc_info())
+            raise
+        finally:
+            sys.stdout, sys.stderr = kept
+            signal.signal(signal.SIGINT, on_interrupt)
+
+
+def value(number: float, error: float, unit: str = "", **more: float) -> dict[str, Any]:
+    """Return a finding with a value, an estimate of its error, and its unit."""
+    return {"value": float(number), "error": float(error), "unit": unit, **_plain(more)}
+
+
+def truth(holds: bool, **evidence: Any) -> dict[str, Any]:
+    """Return a finding that holds or not, with the evidence."""
+    return {"holds": bool(holds), **_plain(evidence)}
+
+
+def with_calls(findings: Mapping[str, Any], called: Iterable[str]) -> dict[str, Any]:
+    """Return findings with the names of the functions that were called while they were made."""
+    if CALLED in findings:
+        raise ValueError(
+            f"a finding is called {CALLED!r}, the name of the list of functions that ran; "
+            "expected another name"
+        )
+    return {**findings, CALLED: sorted(called)}
+
+
+def write_table(path: str, columns: Mapping[str, Any] | pd.DataFrame) -> None:
+    """Write a table as CSV, in the digits that are justified."""
+    pd.DataFrame(columns).to_csv(path, index=False, float_format=DIGITS, lineterminator="\n")
+
+
+def write_findings(path: str, findings: Mapping[str, Mapping[str, Any]]) -> None:
+    """Write the findings of one rule as JSON."""
+    text = json.dumps(findings, indent=2, ensure_ascii=False, allow_nan=False)
+    Path(path).write_text(text + "\n", encoding="utf-8")
+
+
+def grid(spec: Mapping[str, float]) -> np.ndarray:
+    """Return the uniform grid of a config entry with lowest, highest and points."""
+    return np.linspace(spec["lowest"], spec["highest"], int(spec["points"]))
+
+
+def _plain(mapping: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the mapping with NumPy's numbers and arrays as Python's."""
+    return {
+        key: item.tolist() if hasattr(item, "tolist") else item for key, item in mapping.items()
+    }

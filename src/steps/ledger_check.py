@@ -1,0 +1,111 @@
+"""The check of the ledger before anything is computed, with messages that a person can act on."""
+
+import difflib
+import json
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from configuration import _hint, _messages
+from jsonschema import Draft202012Validator, ValidationError
+from ledger import read_rows
+from strict_yaml import read_yaml
+
+from replication.calls import definition
+from replication.workbench import CALLED
+from topheavy.claims import tolerance_fault
+
+SCHEMA = "paper/claims.schema.yaml"
+PUBLISHED = "tests/reference/findings"
+
+
+def check_ledger(
+    paths: Iterable[str | Path], rules: Collection[str], root: str | Path = "."
+) -> None:
+    """Refuse a ledger that breaks its schema, or names what does not exist.
+
+    Parameters
+    ----------
+    paths
+        The ledgers, the paper's first.
+    rules
+        The rules that make findings.
+    root
+        The root of the repository, with the schema, the sources and the published findings.
+
+    Raises
+    ------
+    ValueError
+        With one line for each fault: the file, the id of the row, and what was expected.
+    """
+    root = Path(root)
+    schema = read_yaml(root / SCHEMA)
+    validator = Draft202012Validator(schema["items"])
+    faults = [
+        f"{path}: {row['id']}: {fault}"
+        for path, row in read_rows(paths)
+        for fault in _faults(row, validator, rules, root)
+    ]
+    if faults:
+        raise ValueError("\n".join(faults))
+
+
+def _faults(
+    row: Mapping[str, Any],
+    validator: Draft202012Validator,
+    rules: Collection[str],
+    root: Path,
+) -> Iterator[str]:
+    own = {key: value for key, value in row.items() if key != "study"}
+    errors = list(validator.iter_errors(own))
+    # What follows from a misspelt verdict is not told as well.
+    first = [error for error in errors if "allOf" not in error.schema_path] or errors
+    if broken := {message for error in first for message in _told(error, validator.schema)}:
+        yield from sorted(broken)
+        return
+    if fault := tolerance_fault(row):
+        yield fault
+    if "rule" not in row:
+        return
+    if row["rule"] not in rules:
+        yield f"rule is {row['rule']!r}, which makes no findings; {_hint(row['rule'], rules)}"
+        return
+    try:
+        definition(row["function"], root)
+    except ValueError as error:
+        yield f"function: {error}"
+    yield from _finding_faults(row, root)
+
+
+def _told(error: ValidationError, schema: Mapping[str, Any]) -> Iterator[str]:
+    if error.validator is None:  # a key that some other key forbids
+        clause = schema["allOf"][error.schema_path[1]]
+        yield f"the row breaks a rule of the ledger: {clause['description']}"
+        return
+    yield from (message.replace("the top level", "the row") for message in _messages(error))
+
+
+def _finding_faults(row: Mapping[str, Any], root: Path) -> Iterator[str]:
+    """Tell a misspelt finding from a new one.
+
+    A finding is known if its rule published it. If it is not, but resembles one that is, it is
+    misspelt unless some source of the steps or studies spells it so: then it is new.
+    """
+    published = root / PUBLISHED / f"{row['rule']}.json"
+    if not published.is_file():
+        return
+    known = set(json.loads(published.read_text(encoding="utf-8"))) - {CALLED}
+    name = row["finding"]
+    if known == {"not_tested"} or name in known or _is_written(name, root):
+        return
+    close = difflib.get_close_matches(name, sorted(known), n=1)
+    if close:
+        yield (
+            f"finding is {name!r}, which rule {row['rule']} has not published and no source "
+            f"spells; did you mean {close[0]!r}?"
+        )
+
+
+def _is_written(name: str, root: Path) -> bool:
+    sources = [*(root / "src").rglob("*.py"), *(root / "studies").rglob("*.py")]
+    return any(f'"{name}"' in path.read_text(encoding="utf-8") for path in sources)

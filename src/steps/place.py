@@ -1,0 +1,30 @@
+"""What the workflow needs of the folder that it runs in."""
+
+import os
+import re
+import sys
+
+UNQUOTED = re.compile(r"[\s'\"\\$`&;|<>()*?\[\]{}:]")
+"""What a shell does not take as a part of a word, and the colon, which separates search paths."""
+
+
+def check_place(python: str = sys.executable, folder: str = ".") -> None:
+    """Refuse a place where no job could run.
+
+    Raises
+    ------
+    ValueError
+        When the path of Python has a character that is more than a letter to the shell: Snakemake
+        does not quote that path. When the folder cannot be written to.
+    """
+    if found := UNQUOTED.search(python):
+        raise ValueError(
+            f"the path of Python, {python}, has the character {found[0]!r}; expected letters, "
+            "digits and . _ - / alone, since Snakemake starts its jobs without quoting that path: "
+            "move the folder, delete its .venv, and run again"
+        )
+    if not os.access(folder, os.W_OK):
+        raise ValueError(
+            f"{os.path.abspath(folder)} cannot be written to; expected a folder that can, for the "
+            "results: copy it to where you may write"
+        )

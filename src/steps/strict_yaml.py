@@ -1,0 +1,71 @@
+"""YAML files, read strictly: every mistake is told with its file and line."""
+
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+MERGE = "tag:yaml.org,2002:merge"
+"""The tag of `<<`, which merges another mapping."""
+
+
+class _StrictLoader(yaml.SafeLoader):
+    """yaml.SafeLoader, which keeps the last of equal keys, with an error for the second one."""
+
+    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
+        first_lines: dict[Any, int] = {}
+        for key_node, _ in node.value:
+            if key_node.tag == MERGE or not isinstance(key_node, yaml.ScalarNode):
+                continue  # what is no scalar, PyYAML refuses
+            key, line = self.construct_object(key_node), key_node.start_mark.line + 1
+            if key in first_lines:
+                raise yaml.constructor.ConstructorError(
+                    problem=f"the key {key!r} is given twice, first in line {first_lines[key]}; "
+                    "expected each key once",
+                    problem_mark=key_node.start_mark,
+                )
+            first_lines[key] = line
+        return super().construct_mapping(node, deep)
+
+
+def read_yaml(path: str | Path) -> Any:
+    """Return the content of a YAML file.
+
+    Raises
+    ------
+    ValueError
+        With file and line: for a mapping that has a key twice, a fault of the syntax, a byte that
+        is not UTF-8. With the file: when it is empty.
+    """
+    data = Path(path).read_bytes()
+    try:
+        content = yaml.load(data.decode("utf-8-sig"), _StrictLoader)
+    except UnicodeDecodeError as error:
+        line = data.count(b"\n", 0, error.start) + 1
+        raise ValueError(
+            f"{path}, line {line}: the byte 0x{data[error.start]:02x} is not UTF-8; "
+            "expected a file that is saved in UTF-8"
+        ) from None
+    except yaml.reader.ReaderError as error:
+        line = data.decode("utf-8-sig").count("\n", 0, error.position) + 1
+        raise ValueError(
+            f"{path}, line {line}: the character {chr(error.character)!r} is not allowed in YAML; "
+            "expected text"
+        ) from None
+    except yaml.MarkedYAMLError as error:
+        raise ValueError(f"{path}, {_told(error)}") from None
+    if content is None:
+        raise ValueError(f"{path} is empty; expected YAML")
+    return content
+
+
+def _told(error: yaml.MarkedYAMLError) -> str:
+    """Return where YAML is wrong, what is wrong, and within what."""
+    line = f"line {error.problem_mark.line + 1}: {error.problem}"
+    if error.context is None:
+        return line
+    begin = error.context_mark.line + 1 if error.context_mark else None
+    within = f"{error.context}, which begins in line {begin}" if begin else error.context
+    return (
+        f"{line} ({within}); expected YAML, indented by spaces, each bracket and quote closed again"
+    )

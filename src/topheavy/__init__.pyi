@@ -1,0 +1,41 @@
+from .contact_forces import (
+    Cap,
+    ContactForces,
+    Reaction,
+    column_forces,
+    column_impulse,
+    contact_forces,
+    impact_impulses,
+)
+from .overturning import overturned_by, overturning_intervals, overturning_map
+from .pulses import PULSE_SHAPES, Pulse
+from .records import Record, read_at2, read_csv, read_record
+from .response import Response
+from .simulate import judge, simulate
+from .structures import STANDARD_GRAVITY, Column, RockingBlock, RockingFrame
+
+__all__ = [
+    "PULSE_SHAPES",
+    "STANDARD_GRAVITY",
+    "Cap",
+    "Column",
+    "ContactForces",
+    "Pulse",
+    "Reaction",
+    "Record",
+    "Response",
+    "RockingBlock",
+    "RockingFrame",
+    "column_forces",
+    "column_impulse",
+    "contact_forces",
+    "impact_impulses",
+    "judge",
+    "overturned_by",
+    "overturning_intervals",
+    "overturning_map",
+    "read_at2",
+    "read_csv",
+    "read_record",
+    "simulate",
+]

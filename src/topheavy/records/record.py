@@ -1,0 +1,106 @@
+"""Recorded ground motions: samples in equal steps, joined by straight lines."""
+
+from dataclasses import dataclass
+from functools import partial
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from topheavy import checks
+from topheavy.excitation import Segment
+from topheavy.structures import STANDARD_GRAVITY
+
+
+@dataclass(frozen=True, eq=False)
+class Record:
+    """A recorded ground acceleration: sample k at k·time_step, linear between, zero outside.
+
+    Parameters
+    ----------
+    time_step : float
+        s.
+    acceleration : array_like, shape (n,)
+        In g, n ≥ 2.
+    name : str
+        What to call it in figures and messages.
+
+    Raises
+    ------
+    ValueError
+        For a step that is not positive, fewer than two samples, or a sample that is masked, not
+        finite or beyond `checks.LARGEST_ACCELERATION`.
+    """
+
+    time_step: float
+    acceleration: NDArray[np.float64]
+    name: str = ""
+
+    def __post_init__(self) -> None:
+        checks.positive("time_step", self.time_step, "s")
+        called = f"record {self.name!r}" if self.name else "record"
+        samples = checks.numbers(f"{called}: acceleration", self.acceleration)
+        if samples.ndim != 1 or samples.size < 2:
+            raise ValueError(
+                f"{called}: acceleration has shape {samples.shape}; "
+                "expected one axis of at least two samples"
+            )
+        bad = np.flatnonzero(~np.isfinite(samples))
+        if bad.size:
+            raise ValueError(
+                f"{called}: sample {bad[0]} of {samples.size} is {samples[bad[0]]}; "
+                "expected finite accelerations in g"
+            )
+        largest = np.abs(samples).argmax()
+        checks.acceleration(f"{called}: sample {largest} of {samples.size}", samples[largest])
+        samples.setflags(write=False)
+        object.__setattr__(self, "acceleration", samples)
+
+    @property
+    def duration(self) -> float:
+        """Time of the last sample, s."""
+        return (self.acceleration.size - 1) * self.time_step
+
+    @property
+    def peak_acceleration(self) -> float:
+        """PGA: max |a| of the samples, g."""
+        return float(np.abs(self.acceleration).max())
+
+    @property
+    def peak_velocity(self) -> float:
+        """PGV, m/s: max |v| at the samples, integrated from rest without baseline correction."""
+        steps = (self.acceleration[1:] + self.acceleration[:-1]) / 2.0 * self.time_step
+        return float(np.abs(np.cumsum(steps)).max()) * STANDARD_GRAVITY
+
+    def scaled(self, factor: float) -> "Record":
+        """Return the same record with all accelerations multiplied by `factor`."""
+        return Record(
+            self.time_step, checks.finite("factor", factor) * self.acceleration, self.name
+        )
+
+    def excitation(self, t: ArrayLike) -> float | NDArray[np.float64]:
+        """Return the ground acceleration in g at the time(s) t in s; zero outside the record."""
+        value = np.interp(
+            checks.numbers("t", t) / self.time_step,
+            np.arange(self.acceleration.size),
+            self.acceleration,
+            left=0.0,
+            right=0.0,
+        )
+        return float(value) if np.ndim(value) == 0 else value
+
+    def segments(self, until: float) -> list[Segment]:
+        """Return the lines between samples, from 0 to the earlier of `until` and the end."""
+        found = []
+        samples = self.acceleration.tolist()
+        for k, (first, second) in enumerate(pairwise(samples)):
+            start, stop = k * self.time_step, (k + 1) * self.time_step
+            if start >= until:
+                break
+            slope = (second - first) / self.time_step
+            found.append(Segment(start, min(stop, until), partial(_line, start, first, slope)))
+        return found
+
+
+def _line(start: float, value: float, slope: float, time: float) -> float:
+    return value + slope * (time - start)

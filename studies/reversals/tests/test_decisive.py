@@ -1,0 +1,114 @@
+"""Each result that a claim of the study rests on, in a small case in which it comes out false."""
+
+import math
+
+import numpy as np
+import pandas as pd
+import pytest
+from spectra_compared import Spectra
+
+from studies.reversals import fragility
+from studies.reversals.ensemble import factors, subjects
+from studies.reversals.steps import motions_fragility, motions_records, pulses
+from topheavy import STANDARD_GRAVITY, Column, Record
+
+CASE = {
+    "slendernesses": [14.0],
+    "shapes": ["one-sine"],
+    "mass_ratios": [0.0, 1.0],
+    "frequency_ratios": {"lowest": 2.0, "highest": 4.0, "points": 3},
+    "amplitudes": {"lowest": 1.0, "highest": 6.0, "resolution": 0.05},
+    "finer": {"below": 1.3, "resolution": 0.01},
+}
+ENSEMBLE = {
+    "cases": [{"structure": "temple", "share": 1.0, "mass_ratios": [0.0, 1.0, math.inf]}],
+    "as_large_as": [],
+}
+STRUCTURES = {"temple": {"half_width": 0.5, "half_height": 3.0}}
+
+
+def spectra(*rows):
+    """Spectra of known intervals: γ, frequency, lower, upper, mode."""
+    table = pd.DataFrame(rows, columns=["mass_ratio", "frequency_ratio", "lower", "upper", "mode"])
+    return Spectra(CASE, table.assign(slenderness_deg=14.0, shape="one-sine", linearised=False))
+
+
+BOTH = [(gamma, ratio, 2.0, 4.0, "without impact") for gamma in (0.0, 1.0) for ratio in (2.0, 3.0)]
+
+
+@pytest.mark.parametrize(
+    ("mode", "holds"), [("with impact", True), ("without impact", False)], ids=str
+)
+def test_one_reversal_without_an_impact_is_an_exception(mode, holds):
+    found = pulses.without_impact(spectra(*BOTH, (1.0, 4.0, 3.0, 3.5, mode)), [(0.0, 1.0)])
+    assert found["holds"] is holds
+    assert found["widest"] == (0.0 if holds else 0.5)
+    assert found["compared"] == (2 if holds else 3)
+
+
+def test_error_of_a_mean_share_is_that_of_a_rule_of_second_order():
+    exact, fault = 0.1, 1e-3
+    rows = pd.DataFrame(
+        {"helps": [exact + fault], "helps_by_two": [exact + 4 * fault]}
+        | {"helps_by_four": [exact + 16 * fault]}
+    )
+    for same in (rows, rows.assign(helps_by_two=rows.helps), rows.assign(helps_by_four=rows.helps)):
+        mean, error = pulses.mean(same, "helps")
+        assert mean == pytest.approx(exact + fault)
+        assert error == pytest.approx(2.0 * fault)
+
+
+def less(*bounds):
+    return pd.DataFrame(bounds, columns=["less", "less_low", "less_high"])
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "holds"),
+    [(0.01, 0.03, True), (-0.04, 0.0, True), (-0.06, -0.01, False), (-0.3, 0.5, False)],
+)
+def test_rise_that_no_interval_excludes_is_not_denied(low, high, holds):
+    table = less((0.02, 0.01, 0.03), (0.5 * (low + high), low, high))
+    assert motions_fragility.never_rises(table, 0.05)["holds"] is holds
+
+
+def ensemble(*outcomes):
+    """An ensemble of frames of γ = 0, 1 and ∞, each with its outcomes over motions."""
+    under = list(subjects(ENSEMBLE, STRUCTURES))
+    fell = np.stack([np.array(one, dtype=bool)[:, None] for one in outcomes], axis=1)
+    weights = fragility.resampled(len(fell), 200, 1)
+    return motions_fragility.Ensemble("broadband", under, fell, np.ones(1), weights, 0.95)
+
+
+@pytest.mark.parametrize("rising", [False, True])
+def test_heavier_frame_that_overturns_more_often_is_noticed(rising):
+    often, seldom = [1, 1, 1, 0] * 50, [1, 0, 0, 0] * 50
+    found = ensemble(often, seldom, seldom)
+    if rising:
+        found = ensemble(seldom, often, often)
+    table = motions_fragility.neighbours(found, found.means(found.outcomes))
+    assert motions_fragility.never_rises(table, 0.05)["holds"] is not rising
+    assert table.less.iloc[0] == pytest.approx(-0.5 if rising else 0.5)
+    pair = motions_fragility.pairs(found).iloc[0]
+    assert (pair.reversed_high < 0.5) == (not rising)
+
+
+def test_all_frames_of_a_structure_are_shaken_alike():
+    column = Column(**STRUCTURES["temple"])
+    record = Record(0.01, 0.2 * np.sin(np.linspace(0.0, 20.0, 400)))
+    scales = [factors(one, record, np.array([1.0, 2.0])) for one in subjects(ENSEMBLE, STRUCTURES)]
+    assert all(np.array_equal(one, scales[0]) for one in scales)
+    unit = STANDARD_GRAVITY * column.uplift_acceleration / column.frequency_parameter
+    assert next(subjects(ENSEMBLE, STRUCTURES)).unit == pytest.approx(unit)
+
+
+def test_outcome_that_a_billionth_of_the_record_changes_is_not_told(monkeypatch):
+    def overturned_by(frame, record, factors, tolerance=None):
+        return np.asarray(factors) > 2.0 * LEVEL
+
+    monkeypatch.setattr(motions_records, "overturned_by", overturned_by)
+    record = Record(0.1, np.array([0.0, 1.0, 0.0]), "sharp")
+    row = motions_records.row(record, 10.0, 2.0, 1.0, np.array([1.0, 2.0, 3.0]), 3e-12)
+    assert row["outcomes"] == "s?f"
+
+
+LEVEL = motions_records.column_of(10.0, 2.0).uplift_acceleration

@@ -1,0 +1,201 @@
+"""Each result that a claim of the paper rests on, in a small case in which it comes out false."""
+
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+import restitution
+import rocking_spectra
+import spectra_compared
+import spectra_shard
+import spectrum
+import stability
+import trilith
+import yaml
+from spectra_compared import Spectra
+
+from topheavy import Column, Record, RockingFrame
+from topheavy.overturning import Interval
+
+COLUMN = Column(0.11, 0.40)
+LINES = {
+    "slendernesses": [14.0],
+    "shapes": ["one-sine"],
+    "mass_ratios": [0.0, 1.0],
+    "frequency_ratios": {"lowest": 2.0, "highest": 4.0, "points": 3},
+    "amplitudes": {"lowest": 0.95, "highest": 6.0, "resolution": 0.05},
+    "finer": {"below": 1.3, "resolution": 0.01},
+}
+
+
+@pytest.fixture(scope="module")
+def table():
+    return spectra_shard.main(LINES, "1-of-1", threads=1)
+
+
+def swap_the_masses(monkeypatch):
+    """Give each line the frame of the other γ, so that what is heavier overturns first."""
+    true = spectra_shard.line
+
+    def line(slenderness, shape, gamma, linearised, ratio):
+        return true(slenderness, shape, 1.0 - gamma, linearised, ratio)
+
+    monkeypatch.setattr(spectra_compared, "line", line)
+
+
+def test_lowest_amplitude_that_falls_with_mass_is_proven(table, monkeypatch):
+    swap_the_masses(monkeypatch)
+    swapped = table.assign(mass_ratio=1.0 - table.mass_ratio)
+    found = Spectra(LINES, swapped).lowest_rises()
+    assert not found["holds"]
+    assert found["exceptions"] == found["apparent"] == 6  # three frequencies, exact and linearised
+    assert found["largest_exception"] == pytest.approx(found["largest_apparent"], rel=1e-3)
+
+
+def test_exception_that_the_table_missed_is_found_where_the_rise_is_least(table, monkeypatch):
+    swap_the_masses(monkeypatch)
+    found = Spectra(LINES, table).lowest_rises()
+    assert (found["apparent"], found["closest_looked_at_again"]) == (0, 6)
+    assert found["exceptions"] == 6
+
+
+def test_narrow_band_below_the_first_is_found_by_the_finer_search(monkeypatch):
+    bands = {0.05: (1.2, 1.4), 0.01: (1.05, 1.06)}
+
+    def found(block, pulse, scales, *, resolution, most_impacts):
+        low, high = bands[resolution]
+        return [Interval((low, low), (high, high), 0)] if scales[0] <= low <= scales[1] else []
+
+    monkeypatch.setattr(spectrum, "overturning_intervals", found)
+    line = spectrum.Line({}, None, None)
+    lowest = [one.lower[0] for one in spectrum.intervals(line, LINES)]
+    assert lowest == [1.05, 1.2]
+
+
+@pytest.mark.parametrize("changes", ["overturned", "peak"])
+def test_history_that_a_billionth_of_the_record_changes_cannot_be_told(monkeypatch, changes):
+    def judge(frame, record, tolerance=None):
+        nudged = record.acceleration.max() > 1.0
+        peak = 0.5 * frame.slenderness * (1.0 + (nudged and changes == "peak"))
+        return SimpleNamespace(overturned=nudged and changes == "overturned", peak=peak)
+
+    monkeypatch.setattr(rocking_spectra, "judge", judge)
+    records = [Record(0.1, np.array([0.0, peak, 0.0]), "sharp") for peak in (1.0, 0.5)]
+    rows = [rocking_spectra.spectrum(record, [COLUMN], 1.0, 3e-12)[0] for record in records]
+    assert [row["told"] for row in rows] == [False, True]
+
+
+class Known(stability.Scan):
+    """A scan whose outcomes are given, by the size of the structure."""
+
+    def overturned(self, trial):
+        return OUTCOMES[trial[0]]
+
+    def overturned_linearised(self, trial, amplitude):
+        return False
+
+
+OUTCOMES: dict = {}
+
+
+@pytest.mark.parametrize(
+    ("weaker", "stronger", "holds", "rises"),
+    [
+        ((False, True, True), (False, False, True), True, None),
+        ((False, True, False), (False, False, True), False, True),
+        ((False, False, True), (False, True, True), False, False),
+    ],
+)
+def test_ranking_is_refuted_where_the_stronger_falls_first(
+    monkeypatch, weaker, stronger, holds, rises
+):
+    small, large = Column(0.5, 3.0), Column(1.0, 6.0)
+    monkeypatch.setitem(OUTCOMES, small, weaker)
+    monkeypatch.setitem(OUTCOMES, large, stronger)
+
+    def judge(structure, pulse, tolerance):
+        return SimpleNamespace(overturned=structure == large)
+
+    monkeypatch.setattr(stability, "judge", judge)
+    found = Known(small, "one-sine", (1.0, 2.0, 3.0), 3e-12).ranking([[(small, 4.0), (large, 4.0)]])
+    assert found["holds"] is holds
+    assert found.get("holds_when") is rises
+
+
+def test_frame_that_loses_no_more_than_its_column_is_noticed(monkeypatch):
+    case = {
+        "largest_slenderness": 40.0,
+        "points": 5,
+        "mass_ratios": [0.0, 1.0],
+        "slendernesses": [14.0],
+    }
+    _, _, right = restitution.main(case)
+    alike = SimpleNamespace
+
+    def frame(column, mass_ratio):
+        return alike(restitution=column.restitution + 1e-9 * (mass_ratio > 0.0))
+
+    monkeypatch.setattr(restitution, "RockingFrame", frame)
+    _, _, wrong = restitution.main(case)
+    for name in ("smaller_than_solitary", "energy_loss"):
+        assert (right[name]["holds"], wrong[name]["holds"]) == (True, False)
+
+
+# The trilith --------------------------------------------------------------------------------------
+
+ROOT = Path(__file__).resolve().parents[2]
+CONFIG = yaml.safe_load((ROOT / "config/config.yaml").read_text(encoding="utf-8"))
+PRINTED = {
+    row["id"]: row["printed"]
+    for row in yaml.safe_load((ROOT / "paper/claims.yaml").read_text(encoding="utf-8"))
+    if row["id"].startswith("trilith_") and "printed" in row
+}
+TRILITH = RockingFrame(COLUMN, 0.434)
+
+
+def passage(**printed):
+    return trilith.passage(TRILITH, CONFIG["trilith"], PRINTED | printed)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"trilith_half_measures": "0.4 m, 0.12 m"},
+        {"trilith_width": 0.23},
+        {"trilith_height": 0.9},
+    ],
+)
+def test_halves_that_are_no_halves_are_noticed(change):
+    assert passage()["half_measures_agree"]["holds"]
+    assert not passage(**change)["half_measures_agree"]["holds"]
+
+
+def test_mass_ratio_that_no_number_explains_is_no_misprint():
+    found = passage()["mass_ratio"]
+    assert (found["kind"], found["mended"]) == ("number", "115/265")
+    assert "meant_value" not in passage(trilith_mass_ratio=0.0434)["mass_ratio"]
+
+
+def test_anomalies_that_are_large_enough_lift_the_trilith():
+    case = CONFIG["trilith"]
+    near = trilith.nearness(TRILITH, case)
+    assert [row["quantity"] for row in near][-1] == "tilt_of_the_base"
+    assert all(row["other_side_lifts"] and not row["safe_side_lifts"] for row in near)
+    assert not trilith.anomalies(TRILITH, case, near)["holds"]
+    for minor in ({"edge": 0.023, "tilt": 0.1}, {"edge": 0.001, "tilt": 3.1}):
+        assert trilith.anomalies(TRILITH, case | {"minor": minor}, near)["holds"]
+
+
+def test_statement_that_no_mend_saves_is_not_meant(monkeypatch):
+    import equations
+
+    from topheavy.derivation import PrintedCheck
+
+    lost = PrintedCheck("eq1", 1, "", "a = b", False, meant="a = a", meant_follows=True)
+    slip = PrintedCheck("eq2", 2, "", "a = b", False, "a = a", True, fault="letter", mended="a = a")
+    monkeypatch.setattr(equations, "check_printed", lambda: [lost, slip])
+    monkeypatch.setattr(equations, "theorems", list)
+    _, found = equations.main()
+    assert (found["eq1"]["meant_holds"], found["eq1"]["kind"]) == (False, None)
+    assert (found["eq2"]["meant_holds"], found["eq2"]["kind"]) == (True, "letter")

@@ -1,0 +1,71 @@
+"""What is given to make reaches the commands word for word, or is refused in one line."""
+
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+
+
+@pytest.fixture
+def make(tmp_path):
+    """Run make with a uv that prints what it is asked to run."""
+    shutil.copy(ROOT / "Makefile", tmp_path)
+    uv = tmp_path / "uv"
+    uv.write_text('#!/bin/sh\nfor word; do printf "<%s>" "$word"; done\n', encoding="utf-8")
+    uv.chmod(0o755)
+
+    def run(*words, **environment):
+        return subprocess.run(
+            ["make", f"UV={uv}", *words],
+            cwd=tmp_path,
+            env={"PATH": "/usr/local/bin:/usr/bin:/bin", **environment},
+            capture_output=True,
+            text=True,
+        )
+
+    return run
+
+
+CODE = ["$(shell touch F)", "a'; touch F; '", 'a"; touch F; "', "`touch F`", "$$(touch F)", "a b"]
+
+
+@pytest.mark.parametrize("code", CODE)
+@pytest.mark.parametrize(
+    ("target", "name"),
+    [("trace", "ITEM"), ("study", "NAME"), ("kill-table", "FAULTS"), ("audit", "CONFIG")],
+)
+def test_argument_is_passed_word_for_word_and_never_run(make, tmp_path, target, name, code):
+    for ran in (make(target, f"{name}={code}"), make(target, **{name: code})):
+        assert f"<{code}>" in ran.stdout.replace("<--faults=", "<")
+        assert not (tmp_path / "F").exists()
+
+
+@pytest.mark.parametrize(
+    ("target", "name"), [("reproduce", "CORES"), ("verify-grid", "CELLS"), ("kill-table", "ROTATE")]
+)
+@pytest.mark.parametrize("value", ["0", "-1", "abc", "1.5", "2; touch F"])
+def test_what_is_no_whole_number_is_refused(make, tmp_path, target, name, value):
+    ran = make(target, f"{name}={value}")
+    assert ran.returncode == 2
+    assert ran.stdout == ""
+    assert ran.stderr.startswith(f"{name} is '{value}'; expected a whole number from 1 on\n")
+    assert not (tmp_path / "F").exists()
+
+
+def test_cores_and_the_optional_group_are_passed(make):
+    run = "<run><--locked><--no-dev>"
+    assert make("reproduce", "CORES=7").stdout == (f"{run}<--group><engine><snakemake><--cores><7>")
+    assert make("reproduce", "ENGINE=").stdout == f"{run}<snakemake><--cores><2>"
+    assert "<--rotate=3>" in make("kill-table", "ROTATE=3").stdout
+
+
+def test_report_before_a_run_says_what_to_do(make, tmp_path):
+    ran = make("html")
+    assert ran.returncode == 2
+    assert ran.stderr.startswith("there is no finished run to show; expected one: make reproduce\n")
+    (tmp_path / "results").mkdir()
+    (tmp_path / "results" / "manifest.json").touch()
+    assert "<--report>" in make("html").stdout
