@@ -64,7 +64,7 @@ def states(shape, seed, *, on_ground=False, block=BLOCK):
         pulse = pulse_forcing(shape, rng.uniform(0.3, 2.0), rng.uniform(0.5, 8.0))
         time, side = rng.uniform(0.0, 0.9 * pulse.end), rng.choice([-1.0, 1.0])
         rotation = 0.0 if on_ground else rng.uniform(0.001, 1.6) * block.slenderness
-        velocity = rng.uniform(0.01, 0.5) if on_ground else rng.uniform(-0.6, 0.6)
+        velocity = 10 ** rng.uniform(-6, -0.3) if on_ground else rng.uniform(-0.6, 0.6)
         sine, cosine = (0.0, 1.0) if block.linearised else (math.sin(rotation), math.cos(rotation))
         value, rate = ground(pulse, RECORD, time)
         push = -side * value - block.level
