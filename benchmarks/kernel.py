@@ -1,22 +1,37 @@
-"""The kernel one history at a time, as the peers take them, on one thread."""
+"""The kernel as the benchmark runs it, on one thread: many histories in lanes, or one at a time."""
 
 import numpy as np
 from numba import njit
+from oracle import Found
 
 from topheavy.kernel.forcing import (
     NO_RECORD,
+    RECORD,
     SHAPES,
     prepare_record,
     pulse_forcing,
     record_forcing,
 )
-from topheavy.kernel.grid import record_order
+from topheavy.kernel.grid import outcomes_of, pulse_outcomes_of, record_order
 from topheavy.kernel.outcome import PULSE_ORDER, TOLERANCE, outcome, working_array
 from topheavy.kernel.taylor import oscillator
 
+#: Factors on a record, the middle one of which is 1; the others shake a block as much.
+FACTORS = np.linspace(0.9, 1.1, 129)
+
+
+def histories(block, shape, amplitudes, frequencies, tolerance=TOLERANCE):
+    """Return the rows overturned, peak and impacts of all pairs of an amplitude and a frequency."""
+    pairs = (np.asarray(values, float)[:, np.newaxis] for values in (frequencies, amplitudes))
+    found = pulse_outcomes_of(
+        oscillator(block), SHAPES[shape], *pairs, tolerance=tolerance, threads=1
+    )
+    peak, overturned, impacts = (values[:, 0] for values in found)
+    return np.array([overturned, peak, impacts], dtype=float)
+
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _histories(block, shape, amplitudes, frequencies, order, tolerance, found):
+def _scalar_histories(block, shape, amplitudes, frequencies, order, tolerance, found):
     w = working_array()
     for i in range(amplitudes.size):
         forcing = pulse_forcing(shape, amplitudes[i], frequencies[i])
@@ -24,21 +39,46 @@ def _histories(block, shape, amplitudes, frequencies, order, tolerance, found):
         found[0, i], found[1, i], found[2, i] = one.overturned, one.peak, one.impacts
 
 
-def histories(block, shape, amplitudes, frequencies, tolerance=TOLERANCE, order=PULSE_ORDER):
-    """Return the rows overturned, peak and impacts of all pairs of an amplitude and a frequency."""
+def scalar_histories(block, shape, amplitudes, frequencies, tolerance=TOLERANCE):
+    """Return the same by the scalar kernel."""
     found = np.empty((3, len(amplitudes)))
     given = (np.asarray(amplitudes, float), np.asarray(frequencies, float))
-    _histories(oscillator(block), SHAPES[shape], *given, order, tolerance, found)
+    _scalar_histories(oscillator(block), SHAPES[shape], *given, PULSE_ORDER, tolerance, found)
     return found
 
 
 class KernelRecord:
-    """The kernel under one record, samples p Δt = `step` apart."""
+    """The kernel under one record times `FACTORS`, samples p Δt = `step` apart."""
+
+    histories = FACTORS.size
 
     def __init__(self, block, samples, step, tolerance):
-        self.record, self.tolerance = prepare_record(samples), tolerance
-        self.block, self.forcing = oscillator(block), record_forcing(self.record, step, 1.0)
-        self.order, self.w = record_order(step, tolerance), working_array()
+        self.block, self.tolerance = oscillator(block), tolerance
+        self.record, self.step = prepare_record(samples), np.array([step])
 
     def __call__(self):
-        return outcome(self.w, self.order, self.tolerance, self.block, self.forcing, self.record)
+        given = (self.block, RECORD, self.step, FACTORS, self.record)
+        peak, overturned, impacts = outcomes_of(*given, tolerance=self.tolerance, threads=1)
+        middle = (0, FACTORS.size // 2)
+        return Found(bool(overturned[middle]), float(peak[middle]), int(impacts[middle]))
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _scalar_factors(w, block, step, factors, record, order, tolerance, found):
+    for i in range(factors.size):
+        forcing = record_forcing(record, step, factors[i])
+        one = outcome(w, order, tolerance, block, forcing, record)
+        found[0, i], found[1, i], found[2, i] = one.overturned, one.peak, one.impacts
+
+
+class ScalarRecord(KernelRecord):
+    """The scalar kernel under the same histories."""
+
+    def __call__(self):
+        step, w = float(self.step[0]), working_array()
+        found = np.empty((3, FACTORS.size))
+        order = record_order(step, self.tolerance)
+        given = (self.block, step, FACTORS, self.record, order, self.tolerance)
+        _scalar_factors(w, *given, found)
+        overturned, peak, impacts = found[:, FACTORS.size // 2]
+        return Found(bool(overturned), float(peak), int(impacts))

@@ -9,6 +9,7 @@ from figures.drawing import ACCENT, DARK, DOUBLE, GREY, letter, note, sheet
 
 LOOKS = {
     "this kernel": {"color": ACCENT, "linewidth": 1.8},
+    "scalar kernel": {"color": ACCENT, "linewidth": 0.9},
     "heyoka, our tail": {"color": DARK},
     "heyoka": {"color": DARK, "linestyle": (0, (4, 2))},
     "solve_ivp, our tail": {"color": GREY},

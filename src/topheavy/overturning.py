@@ -12,6 +12,7 @@ from topheavy import checks
 from topheavy.excitation import Excitation
 from topheavy.kernel.forcing import SHAPES
 from topheavy.kernel.grid import outcomes_of
+from topheavy.kernel.lanes import WIDTH
 from topheavy.kernel.outcome import TOLERANCE
 from topheavy.kernel.taylor import oscillator
 from topheavy.pulses import Pulse, checked_shape
@@ -30,6 +31,9 @@ NARROWEST = 1.0 / 1024.0
 
 BRACKET = 1e-10
 """Width of the brackets, over the larger end of the range."""
+
+TOGETHER = 2 * WIDTH
+"""Factors that are labelled at a time where boundaries are halved."""
 
 MOST_HALVINGS = 64
 """The range is at most twice its larger end wide, and 2/`BRACKET` < 2³⁵: 35 rounds are enough."""
@@ -54,7 +58,8 @@ def overturning_map(
     -------
     xarray.Dataset
         peak_rotation (rad, NaN where overturned), overturned and impacts, over
-        (angular_frequency, amplitude).
+        (angular_frequency, amplitude). As of `judge`, but for what both leave out of the peak: it
+        differs by 1e-10 α or so.
     """
     import xarray  # here: with pandas it takes a second that only maps need
 
@@ -263,8 +268,13 @@ def _bisect(
     width: float,
     narrowest: float,
 ) -> list[Boundary]:
-    """Return the boundaries (low, high, label below, label above), halved down to `width`."""
+    """Return the boundaries (low, high, label below, label above), halved down to `width`.
+
+    The kernel labels many factors in little more time than one. So several halvings ahead are
+    labelled at a time, whichever halves they will turn out to take.
+    """
     done: list[Boundary] = []
+    known: dict[float, int] = {}
     for _ in range(MOST_HALVINGS):
         open_ones: list[Boundary] = []
         for boundary in boundaries:
@@ -273,11 +283,14 @@ def _bisect(
             (done if settled else open_ones).append(boundary)
         if not open_ones:
             return sorted((float(a), float(b), int(c), int(d)) for a, b, c, d in done)
-        middles = np.array([0.5 * (low + high) for low, high, _, _ in open_ones])
+        middles = [0.5 * (low + high) for low, high, _, _ in open_ones]
+        if not known.keys() >= set(middles):
+            depth = max(1, int(math.log2(TOGETHER / len(open_ones) + 1)))
+            ahead = [point for one in open_ones for point in _halvings(*one[:2], depth)]
+            known = dict(zip(ahead, label(np.array(ahead)), strict=True))
         boundaries = []
-        for (low, high, below, above), middle, found in zip(
-            open_ones, middles, label(middles), strict=True
-        ):
+        for (low, high, below, above), middle in zip(open_ones, middles, strict=True):
+            found = known[middle]
             if found == below:
                 boundaries.append((middle, high, below, above))
             elif found == above:
@@ -290,3 +303,12 @@ def _bisect(
         f"{len(boundaries)} boundaries are not settled after {MOST_HALVINGS} halvings, among them "
         f"that from {boundaries[0][0]!r} to {boundaries[0][1]!r}; expected brackets of {width:g}"
     )
+
+
+def _halvings(low: float, high: float, depth: int) -> list[float]:
+    """Return the middle of a bracket, and those of its halves, down to `depth`."""
+    middle = 0.5 * (low + high)
+    if depth == 1:
+        return [middle]
+    below, above = _halvings(low, middle, depth - 1), _halvings(middle, high, depth - 1)
+    return [middle, *below, *above]

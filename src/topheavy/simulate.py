@@ -17,7 +17,7 @@ from topheavy.kernel.forcing import (
     pulse_forcing,
     record_forcing,
 )
-from topheavy.kernel.grid import outcomes_of, record_order
+from topheavy.kernel.grid import outcome_of, record_order
 from topheavy.kernel.interrupt import LONG, in_threads
 from topheavy.kernel.outcome import PULSE_ORDER, TOLERANCE, working_array
 from topheavy.kernel.taylor import oscillator
@@ -172,15 +172,15 @@ def judge(structure: Structure, excitation: Excitation, *, tolerance: float = TO
         raise ValueError("the excitation goes on forever; expected one that ends")
     block = structure.block()
     shape, scale, amplitude, record = as_forcing(block, excitation)
-    peak, overturned, impacts = outcomes_of(
+    found = outcome_of(
         oscillator(block),
         shape,
-        np.array([scale]),
-        np.array([amplitude]),
+        scale,
+        amplitude,
         record,
         tolerance=checked_tolerance(tolerance),
     )
-    return Ending(bool(overturned[0, 0]), float(peak[0, 0]), int(impacts[0, 0]))
+    return Ending(bool(found.overturned), float(found.peak), int(found.impacts))
 
 
 def as_forcing(

@@ -9,6 +9,7 @@ from topheavy import Pulse, Record
 from topheavy.kernel import forcing
 from topheavy.kernel.forcing import (
     NO_RECORD,
+    RUN,
     SHAPES,
     equation,
     ground,
@@ -216,3 +217,37 @@ def test_uplift_in_a_record_uses_the_piece_that_begins():
         assert piece_at(there, math.nextafter(k * step, 0.0)) == k - 1
         assert ground(there, record, k * step)[1] == pytest.approx(1 / step)
         assert next_turn(there, k * step) == (k + 1) * step
+
+
+def first_sample_above(samples, factor, level, time, step):
+    """The number of the first sample after `time` that exceeds the level, one by one."""
+    return next(
+        (k for k, a in enumerate(samples) if k * step > time and abs(factor * a) > level), None
+    )
+
+
+@pytest.mark.parametrize("length", [2, RUN - 1, RUN, RUN + 1, 5 * RUN + 3])
+def test_wait_for_uplift_passes_over_weak_runs_only(length):
+    rng, step = np.random.default_rng(length), 0.02
+    for strong in (0.02, 0.2):
+        samples = rng.uniform(-0.1, 0.1, length)
+        samples[rng.random(length) < strong] *= rng.choice([5.0, 7.0])
+        record = prepare_record(samples)
+        for factor in (1.0, -1.3):
+            forcing = record_forcing(record, step, factor)
+            for time in np.linspace(0.0, forcing.end, 41)[:-1]:
+                if abs(ground(forcing, record, time)[0]) > 0.3:
+                    continue
+                lifted, _, _, _ = next_uplift(forcing, record, time, 0.3)
+                k = first_sample_above(samples, factor, 0.3, time, step)
+                if k is None:
+                    assert lifted == math.inf
+                else:
+                    assert max(time, (k - 1) * step) <= lifted <= k * step
+
+
+def test_largest_of_each_run_is_kept():
+    samples = np.sin(np.arange(3 * RUN + 5) ** 2)
+    runs = prepare_record(samples)[2]
+    for k in range(4):
+        assert runs[k] == np.abs(samples[k * RUN : (k + 1) * RUN]).max()

@@ -7,13 +7,21 @@ import pytest
 
 from topheavy import RockingBlock
 from topheavy.kernel import forcing, grid, interrupt
-from topheavy.kernel.forcing import NO_RECORD, prepare_record, pulse_forcing, record_forcing
-from topheavy.kernel.grid import HANDS, SMALL, outcomes_of, record_order
-from topheavy.kernel.outcome import PULSE_ORDER, TOLERANCE, outcome, working_array
+from topheavy.kernel.forcing import prepare_record
+from topheavy.kernel.grid import (
+    BATCHES,
+    FEWEST_FACTORS,
+    FEWEST_PULSES,
+    outcome_of,
+    outcomes_of,
+    record_order,
+)
+from topheavy.kernel.lanes import WIDTH
+from topheavy.kernel.outcome import PULSE_ORDER, TOLERANCE
 from topheavy.kernel.taylor import oscillator
 
 BLOCK = oscillator(RockingBlock(1.0, math.radians(14.0), 0.87))
-SCALES, AMPLITUDES = np.linspace(0.5, 10, 23), np.linspace(0.25, 2.5, 31)
+SCALES, AMPLITUDES = np.linspace(0.5, 10, 61), np.linspace(0.25, 2.5, 31)
 
 
 def same(first, second) -> None:
@@ -24,7 +32,7 @@ def same(first, second) -> None:
 @pytest.mark.parametrize("threads", [2, 3, 7])
 @pytest.mark.parametrize("shape", [forcing.ONE_SINE, forcing.RICKER_SYMMETRIC])
 def test_results_do_not_depend_on_the_number_of_threads(shape, threads):
-    assert SCALES.size * AMPLITUDES.size > SMALL
+    assert SCALES.size * AMPLITUDES.size > 3 * FEWEST_PULSES
     alone = outcomes_of(BLOCK, shape, SCALES, AMPLITUDES, threads=1)
     same(outcomes_of(BLOCK, shape, SCALES, AMPLITUDES, threads=threads), alone)
     same(outcomes_of(BLOCK, shape, SCALES, AMPLITUDES), alone)
@@ -33,17 +41,22 @@ def test_results_do_not_depend_on_the_number_of_threads(shape, threads):
 def test_each_cell_is_the_history_of_its_scale_and_amplitude():
     peak, overturned, impacts = outcomes_of(BLOCK, forcing.ONE_SINE, SCALES, AMPLITUDES)
     assert peak.shape == overturned.shape == impacts.shape == (SCALES.size, AMPLITUDES.size)
-    for i in range(0, SCALES.size, 3):
+    for i in range(0, SCALES.size, 8):
         for j in range(0, AMPLITUDES.size, 3):
-            pulse = pulse_forcing(forcing.ONE_SINE, AMPLITUDES[j], SCALES[i])
-            alone = outcome(working_array(), PULSE_ORDER, TOLERANCE, BLOCK, pulse, NO_RECORD)
-            np.testing.assert_equal(
-                (overturned[i, j], peak[i, j], impacts[i, j]),
-                (alone.overturned, alone.peak, alone.impacts),
-            )
+            alone = outcome_of(BLOCK, forcing.ONE_SINE, SCALES[i], AMPLITUDES[j])
+            assert (overturned[i, j], impacts[i, j]) == (alone.overturned, alone.impacts)
+            np.testing.assert_allclose(peak[i, j], alone.peak, rtol=0, atol=1e-9)
 
 
-@pytest.mark.parametrize("size", [(1, 1), (1, HANDS - 1), (1, HANDS + 1), (HANDS, 2)])
+@pytest.mark.parametrize("threads", [2, 5])
+def test_factors_on_a_record_do_not_depend_on_the_number_of_threads(threads):
+    record = prepare_record(0.4 * np.sin(np.linspace(0, 30, 700)))
+    steps, factors = np.array([0.02, 0.03]), np.linspace(-2.0, 3.0, 3 * FEWEST_FACTORS + 1)
+    alone = outcomes_of(BLOCK, forcing.RECORD, steps, factors, record, threads=1)
+    same(outcomes_of(BLOCK, forcing.RECORD, steps, factors, record, threads=threads), alone)
+
+
+@pytest.mark.parametrize("size", [(1, 1), (1, WIDTH - 1), (1, WIDTH + 1), (BATCHES, FEWEST_PULSES)])
 def test_every_cell_is_filled_whatever_the_size(size):
     scales, amplitudes = np.linspace(1, 5, size[0]), np.linspace(0.3, 0.4, size[1])
     peak, overturned, _ = outcomes_of(BLOCK, forcing.ONE_SINE, scales, amplitudes)
@@ -56,15 +69,11 @@ def test_scales_of_a_record_are_its_time_steps():
     record = prepare_record(0.4 * np.sin(np.linspace(0, 12, 200)))
     scales, factors = np.array([0.01, 0.03]), np.array([0.5, 1.0, -2.0])
     peak, overturned, impacts = outcomes_of(BLOCK, forcing.RECORD, scales, factors, record)
-    order = record_order(0.03)
     for i, scale in enumerate(scales):
         for j, factor in enumerate(factors):
-            motion = record_forcing(record, scale, factor)
-            alone = outcome(working_array(), order, TOLERANCE, BLOCK, motion, record)
-            np.testing.assert_equal(
-                (overturned[i, j], peak[i, j], impacts[i, j]),
-                (alone.overturned, alone.peak, alone.impacts),
-            )
+            alone = outcome_of(BLOCK, forcing.RECORD, scale, factor, record)
+            assert (overturned[i, j], impacts[i, j]) == (alone.overturned, alone.impacts)
+            np.testing.assert_allclose(peak[i, j], alone.peak, rtol=0, atol=1e-9)
     assert overturned.any()
     assert not overturned.all()
 

@@ -1,7 +1,8 @@
 """The compiled kernel: Taylor steps with proven events. It knows arrays and floats, no structures.
 
 Time is τ = p t throughout, so that p is in none of its formulas. The layers above are
-`topheavy.simulate` and `topheavy.overturning`.
+`topheavy.simulate`, which follows one history (`outcome`, `trace`), and `topheavy.overturning`,
+which follows many at once in the vector registers of the CPU (`lanes` and what builds on it).
 """
 
 import hashlib
@@ -30,8 +31,12 @@ def _load() -> None:
             forcing,
             grid,
             interrupt,
+            lane_steps,
+            lanes,
             march,
             outcome,
+            pulse_batch,
+            record_batch,
             rest,
             tail,
             taylor,

@@ -123,6 +123,12 @@ def roots(w, p, first, degree, b, stack, found, limit):
     int
         The number of roots found.
     """
+    # numba would compile the search anew for all constants that it is called with: + 0 hides them.
+    return _roots(w, p + 0, first + 0, degree + 0, b + 0, stack + 0, found + 0, limit + 0)
+
+
+@njit(cache=True, error_model="numpy")
+def _roots(w, p, first, degree, b, stack, found, limit):
     changes = sign_changes(w, b, first, degree)
     if changes == 0:
         return 0

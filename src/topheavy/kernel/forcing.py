@@ -65,7 +65,9 @@ class Forcing(NamedTuple):
 
 
 #: What stands for the record where there is none.
-NO_RECORD = np.empty((2, 0))
+NO_RECORD = np.empty((3, 0))
+#: Samples whose largest is kept, so that a wait for the next uplift passes over them at once.
+RUN = 32
 
 
 @njit(cache=True, error_model="numpy")
@@ -75,9 +77,20 @@ def pulse_forcing(shape, amplitude, frequency):
 
 
 def prepare_record(samples: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the samples (g), and below each the largest |sample| from there on."""
+    """Return the samples (g), and what shortens a wait for uplift.
+
+    Returns
+    -------
+    ndarray, shape (3, n)
+        The samples, the largest |sample| from each on, and the largest of each `RUN` samples (the
+        first n/RUN values of the row).
+    """
     samples = np.asarray(samples, dtype=float)
-    return np.stack([samples, np.maximum.accumulate(np.abs(samples)[::-1])[::-1]])
+    sizes = np.abs(samples)
+    runs = np.zeros_like(samples)
+    largest = np.maximum.reduceat(sizes, np.arange(0, samples.size, RUN))
+    runs[: largest.size] = largest
+    return np.stack([samples, np.maximum.accumulate(sizes[::-1])[::-1], runs])
 
 
 @njit(cache=True, error_model="numpy")
@@ -235,15 +248,18 @@ def _next_uplift_of_record(forcing, record, time, level):
         sign = math.copysign(1.0, value)
         return time, abs(value) - level, sign * rate, -sign
     size = abs(forcing.amplitude)
-    for k in range(piece_at(forcing, time), record.shape[1] - 1):
-        if size * record[1, k] <= level:
-            break
-        if size * abs(record[0, k + 1]) > level:
+    k = piece_at(forcing, time)
+    while k < record.shape[1] - 1 and size * record[1, k] > level:  # k grows each time
+        if (k + 1) % RUN == 0 and size * record[2, (k + 1) // RUN] <= level:
+            k += RUN
+        elif size * abs(record[0, k + 1]) > level:
             last = forcing.amplitude * record[0, k + 1]
             sign = math.copysign(1.0, last)
             rate = sign * forcing.amplitude * (record[0, k + 1] - record[0, k]) / forcing.step
             time = (k + 1) * forcing.step - (abs(last) - level) / rate
             return max(time, k * forcing.step), 0.0, rate, -sign
+        else:
+            k += 1
     return np.inf, 0.0, 0.0, 1.0
 
 

@@ -1,70 +1,42 @@
 """Many rocking histories at once: the outcome of every pair of a scale and an amplitude.
 
-A scale is ω/p of a pulse, p Δt of a record. All cores work on it; no result depends on how many.
+A scale is ω/p of a pulse, p Δt of a record. The histories run in the lanes of `pulse_batch` and
+`record_batch`, on all cores; no result depends on how many lanes or cores there are.
 """
 
 import math
 import os
+from collections.abc import Callable
 from functools import partial
+from typing import Any
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from topheavy.kernel.forcing import NO_RECORD, RECORD, SHAPES, pulse_forcing, record_forcing
 from topheavy.kernel.interrupt import LONG, in_threads
-from topheavy.kernel.outcome import MAX_STEPS, PULSE_ORDER, TOLERANCE, outcome, working_array
+from topheavy.kernel.lanes import WIDTH
+from topheavy.kernel.outcome import (
+    MAX_STEPS,
+    PULSE_ORDER,
+    TOLERANCE,
+    Outcome,
+    outcome,
+    working_array,
+)
+from topheavy.kernel.pulse_batch import pulse_outcomes
+from topheavy.kernel.record_batch import record_outcomes
 from topheavy.kernel.taylor import Oscillator
 
 Array = NDArray[np.float64]
+Outcomes = tuple[Array, NDArray[np.bool_], NDArray[np.int64]]
 
-#: Cells are dealt out to this many hands, which the threads take up as they come free: cell i goes
-#: to hand i mod HANDS, so that each has its share of the dear ones. No result depends on it.
-HANDS = 64
-#: So few cells are done before a second thread would have started.
-SMALL = 100
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def outcomes(
-    w, hand, block, shape, scales, amplitudes, record, order, tolerance, peak, overturned, impacts
-):
-    """Fill one hand's cells of `peak`, `overturned` and `impacts`.
-
-    Threads call this without Python's lock. (The default layer of numba's own `prange` must not be
-    entered from two threads.)
-
-    Parameters
-    ----------
-    w : array
-        The working array; the cells that are left are left out once it says halt.
-    scales : array
-        Of a pulse, ω/p; of a record, p Δt.
-    amplitudes : array
-        In g; of a record, the factors on it.
-    record : array
-        As `forcing.prepare_record` gives it.
-    peak, overturned, impacts : array, shape (len(scales), len(amplitudes))
-
-    Returns
-    -------
-    int
-        The first cell that was given up (see `outcome.MAX_STEPS`), or −1.
-    """
-    columns = amplitudes.size
-    for cell in range(hand, scales.size * columns, HANDS):
-        i, j = cell // columns, cell % columns
-        if shape == RECORD:
-            forcing = record_forcing(record, scales[i], amplitudes[j])
-        else:
-            forcing = pulse_forcing(shape, amplitudes[j], scales[i])
-        result = outcome(w, order, tolerance, block, forcing, record)
-        peak[i, j] = result.peak
-        overturned[i, j] = result.overturned
-        impacts[i, j] = result.impacts
-        if not result.resolved:
-            return cell
-    return -1
+#: Cells are split into at most so many batches, cell i into batch i mod BATCHES, so that expensive
+#: cells spread evenly. Threads take up the batches as they come free.
+BATCHES = 64
+#: The least number of cells in a batch. Fewer would leave lanes idle at its end, or be done before
+#: a second thread has started.
+FEWEST_PULSES, FEWEST_FACTORS = 32 * WIDTH, WIDTH
 
 
 def record_order(step: float, tolerance: float = TOLERANCE) -> int:
@@ -84,41 +56,126 @@ def outcomes_of(
     *,
     tolerance: float = TOLERANCE,
     threads: int | None = None,
-) -> tuple[Array, NDArray[np.bool_], NDArray[np.int64]]:
-    """Return peak, overturned and impacts of all pairs; see `outcomes`.
+) -> Outcomes:
+    """Return the outcomes of all pairs of a scale and an amplitude.
 
-    `threads` is one for each core that the process may use, unless given.
+    Parameters
+    ----------
+    shape : int
+        A value of `forcing.SHAPES`, or `forcing.RECORD`.
+    scales : array
+        Of a pulse, ω/p; of a record, p Δt.
+    amplitudes : array
+        In g; of a record, the factors on it.
+    record : array
+        As `forcing.prepare_record` gives it.
+    threads : int, optional
+        One for each core that the process may use, unless given.
+
+    Returns
+    -------
+    peak, overturned, impacts : array, shape (len(scales), len(amplitudes))
+        As in `outcome.Outcome`.
+
+    Raises
+    ------
+    ArithmeticError
+        For a history that takes more than `outcome.MAX_STEPS` steps.
     """
+    if shape != RECORD:
+        rows = scales[:, np.newaxis]
+        return pulse_outcomes_of(
+            block, shape, rows, amplitudes, tolerance=tolerance, threads=threads
+        )
     size = (len(scales), len(amplitudes))
     peak, overturned = np.empty(size), np.empty(size, dtype=bool)
     impacts = np.empty(size, dtype=np.int64)
-    order = record_order(max(scales), tolerance) if shape == RECORD else PULSE_ORDER
-    given = (block, shape, scales, amplitudes, record, order, tolerance)
-
-    def deal(hand: int, w: Array) -> int:
-        return int(outcomes(w, hand, *given, peak, overturned, impacts))
-
-    hands = range(min(HANDS, peak.size))
-    is_small = peak.size <= SMALL
-    if is_small and peak.size * record.shape[1] <= LONG:
-        w = working_array()
-        lost = [deal(hand, w) for hand in hands]
-    else:
-        threads = threads or (1 if is_small else len(os.sched_getaffinity(0)))
-        lost = in_threads([partial(deal, hand) for hand in hands], threads)
-    if max(lost) >= 0:
-        i, j = divmod(min(cell for cell in lost if cell >= 0), len(amplitudes))
-        raise ArithmeticError(_unresolved(block, shape, float(scales[i]), float(amplitudes[j])))
+    for i, step in enumerate(scales):
+        given = (block, step, amplitudes, record, tolerance, peak[i], overturned[i], impacts[i])
+        fewest, samples = FEWEST_FACTORS, record.shape[1]
+        lost = _shared(record_outcomes, given, len(amplitudes), fewest, samples, threads)
+        if lost >= 0:
+            raise _unresolved(block, shape, float(step), float(amplitudes[lost]))
     return peak, overturned, impacts
 
 
-def _unresolved(block: Oscillator, shape: int, scale: float, amplitude: float) -> str:
+def pulse_outcomes_of(
+    block: Oscillator,
+    shape: int,
+    scales: Array,
+    amplitudes: Array,
+    *,
+    tolerance: float = TOLERANCE,
+    threads: int | None = None,
+) -> Outcomes:
+    """Return the outcomes of pulses, of all that broadcasting `scales` and `amplitudes` makes.
+
+    The results have two axes, as that has; the rest is as of `outcomes_of`.
+    """
+    size = np.broadcast_shapes(scales.shape, amplitudes.shape)
+    peak, overturned = np.empty(size), np.empty(size, dtype=bool)
+    impacts = np.empty(size, dtype=np.int64)
+    pairs = (np.broadcast_to(scales, size), np.broadcast_to(amplitudes, size))
+    given = (block, shape, *pairs, tolerance, peak, overturned, impacts)
+    lost = _shared(pulse_outcomes, given, peak.size, FEWEST_PULSES, 1, threads)
+    if lost >= 0:
+        raise _unresolved(block, shape, *(float(values.flat[lost]) for values in pairs))
+    return peak, overturned, impacts
+
+
+def _shared(
+    work: Callable[..., int],
+    given: tuple[Any, ...],
+    cells: int,
+    fewest: int,
+    samples: int,
+    threads: int | None,
+) -> int:
+    """Let the threads do all cells, in batches; return the first cell given up, or −1."""
+    batches = max(1, min(BATCHES, cells // fewest))
+
+    def do(batch: int, v: Array) -> int:
+        return int(work(v, batch, batches, *given))
+
+    if batches == 1 and cells * samples <= LONG:
+        return do(0, working_array())
+    threads = min(threads or len(os.sched_getaffinity(0)), batches)
+    lost = in_threads([partial(do, batch) for batch in range(batches)], threads)
+    return min((cell for cell in lost if cell >= 0), default=-1)
+
+
+def outcome_of(
+    block: Oscillator,
+    shape: int,
+    scale: float,
+    amplitude: float,
+    record: Array = NO_RECORD,
+    *,
+    tolerance: float = TOLERANCE,
+) -> Outcome:
+    """Return the outcome of one history, by the scalar kernel; see `outcomes_of`."""
+    if shape == RECORD:
+        forcing, order = record_forcing(record, scale, amplitude), record_order(scale, tolerance)
+    else:
+        forcing, order = pulse_forcing(shape, amplitude, scale), PULSE_ORDER
+
+    def call(w: Array) -> Outcome:
+        found: Outcome = outcome(w, order, tolerance, block, forcing, record)
+        return found
+
+    found = in_threads([call])[0] if record.shape[1] > LONG else call(working_array())
+    if not found.resolved:
+        raise _unresolved(block, shape, scale, amplitude)
+    return found
+
+
+def _unresolved(block: Oscillator, shape: int, scale: float, amplitude: float) -> ArithmeticError:
     forcing = f"{amplitude:.6g} times the record with p Δt = {scale:.6g}"
     if shape != RECORD:
         name = next(name for name, number in SHAPES.items() if number == shape)
         forcing = f"the {name} pulse of {amplitude:.6g} g with ω/p = {scale:.6g}"
     equation = "linearised" if block.linearised else "exact"
-    return (
+    return ArithmeticError(
         f"{MAX_STEPS} steps and ten a sample do not reach the end of {forcing}: the block "
         f"(slenderness {block.slenderness:.6g} rad, restitution {block.restitution:.6g}, "
         f"{equation} equation) bounces too often; a smaller restitution lets it come to rest"

@@ -130,6 +130,16 @@ def advance(w, order, tolerance, block, forcing, time, longest, state, zeros, pe
                 return step, NOTHING, highest
             landing = isolated_root(w, POLYNOMIAL, 0, order, 0.0, 1.0, 1.0)
             return step * landing, LANDING, highest
+    end, event, peak = proven(w, order, zeros, block.flat, peak)
+    return step * end, event, peak
+
+
+@njit(cache=True, error_model="numpy")
+def proven(w, order, zeros, flat, peak):
+    """Return the end of the step polynomial on [0, 1], its event, and the largest φ so far.
+
+    `flat` is the φ at which the block lies flat; the others are those of `advance`.
+    """
     to_bernstein(w, POLYNOMIAL, order, HULL)
     least, largest = w[HULL, zeros], 0.0
     for k in range(zeros, order + 1):
@@ -139,15 +149,15 @@ def advance(w, order, tolerance, block, forcing, time, longest, state, zeros, pe
     end, event = 1.0, NOTHING
     if least <= 0.0 and roots(w, POLYNOMIAL, zeros, order, HULL, STACK, FOUND, 1) > 0:
         end, event = w[FOUND, 0], LANDING
-    if largest > block.flat:
+    if largest > flat:
         for k in range(order + 1):
-            w[SLOPE, k], w[SLOPE_HULL, k] = -w[POLYNOMIAL, k], block.flat - w[HULL, k]
-        w[SLOPE, 0] += block.flat
+            w[SLOPE, k], w[SLOPE_HULL, k] = -w[POLYNOMIAL, k], flat - w[HULL, k]
+        w[SLOPE, 0] += flat
         if roots(w, SLOPE, 0, order, SLOPE_HULL, STACK, FOUND, 1) > 0 and w[FOUND, 0] < end:
             end, event = w[FOUND, 0], FLAT
     if largest > peak:
         peak = _largest_rotation(w, order, zeros, end, peak)
-    return step * end, event, peak
+    return end, event, peak
 
 
 @njit(cache=True, error_model="numpy", fastmath={"contract"})
@@ -221,7 +231,7 @@ def renewed(block, forcing, record, time, side, state):
     return State(state.rotation, state.velocity, state.sine, state.cosine, push, -side * rate)
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy")
 def outcome(w, order, tolerance, block, forcing, record):
     """Return the `Outcome` of a block that stands at rest when the forcing begins."""
     is_record = forcing.shape == RECORD

@@ -1,0 +1,309 @@
+"""Several floats that are worked on at once: the vector registers of the CPU, within numba.
+
+A value of the type `lanes` holds `WIDTH` floats. Arithmetic, comparison and the functions below
+treat each as a float of its own. numba sees a type whose LLVM form is `<WIDTH x double>`, so that
+no other compiler is needed. Each lane goes through the same roundings whatever `WIDTH` is: `fma` is
+one operation (two on a CPU without it), and nothing else is contracted.
+
+Only this module knows LLVM. numba.core and llvmlite may change without notice: both are pinned.
+"""
+
+import math
+import operator
+
+import llvmlite.ir as ir
+import numpy as np
+from numba import njit, types
+from numba.core import cgutils
+from numba.core.registry import cpu_target
+from numba.extending import (
+    intrinsic,
+    lower_builtin,
+    lower_cast,
+    models,
+    register_model,
+    type_callable,
+)
+
+# What numba compiles for, and by which it keeps its cache: target, CPU, features.
+_TARGET, _, _LISTED = cpu_target.target_context.codegen().magic_tuple()
+_FEATURES = set(_LISTED.split(","))
+#: Whether the CPU multiplies and adds in one operation.
+HAS_FMA = "+fma" in _FEATURES or _TARGET.startswith(("aarch64", "arm64"))
+#: Floats in a value: two registers of the CPU, as one alone would wait for its own results.
+WIDTH = 4
+if "+avx2" in _FEATURES:
+    WIDTH = 16 if {"+avx512f", "+avx512dq", "+avx512vl"} <= _FEATURES else 8
+
+_FLOATS = ir.VectorType(ir.DoubleType(), WIDTH)
+_INTEGERS = ir.VectorType(ir.IntType(64), WIDTH)
+_SHORT = ir.VectorType(ir.IntType(32), WIDTH)
+_FLAGS = ir.VectorType(ir.IntType(1), WIDTH)
+
+
+class _Lanes(types.Type):
+    def __init__(self):
+        super().__init__(name=f"lanes({WIDTH})")
+
+
+class _Mask(types.Type):
+    def __init__(self):
+        super().__init__(name=f"mask({WIDTH})")
+
+
+lanes, mask = _Lanes(), _Mask()
+for _type, _form in ((_Lanes, _FLOATS), (_Mask, _FLAGS)):
+
+    @register_model(_type)
+    class _Model(models.PrimitiveModel):
+        def __init__(self, manager, kind, form=_form):
+            super().__init__(manager, kind, form)
+
+
+def _splat(builder, value):
+    empty = ir.Constant(_FLOATS, ir.Undefined)
+    first = builder.insert_element(empty, value, ir.IntType(32)(0))
+    return builder.shuffle_vector(first, empty, ir.Constant(_SHORT, [0] * WIDTH))
+
+
+@lower_cast(types.Number, _Lanes)
+def _cast(context, builder, kind, _, value):
+    return _splat(builder, context.cast(builder, value, kind, types.float64))
+
+
+def _fits(given, kind):
+    return given is kind or (kind is lanes and isinstance(given, types.Number))
+
+
+def _operator(symbol, kinds, result, emit):
+    """Give a Python operator its meaning for `kinds`; `emit` writes the instruction."""
+
+    @type_callable(symbol)
+    def _type(context):
+        def typer(*given):
+            if len(given) != len(kinds) or kinds[0] not in given:
+                return None
+            return result if all(map(_fits, given, kinds)) else None
+
+        return typer
+
+    def lower(context, builder, signature, arguments):
+        cast = [
+            context.cast(builder, value, given, kind)
+            for value, given, kind in zip(arguments, signature.args, kinds, strict=True)
+        ]
+        return emit(builder, *cast)
+
+    lower_builtin(symbol, *map(type, kinds))(lower)
+    if kinds == (lanes, lanes):
+        lower_builtin(symbol, _Lanes, types.Number)(lower)
+        lower_builtin(symbol, types.Number, _Lanes)(lower)
+
+
+_PAIR = (lanes, lanes)
+_operator(operator.add, _PAIR, lanes, lambda builder, x, y: builder.fadd(x, y))
+_operator(operator.sub, _PAIR, lanes, lambda builder, x, y: builder.fsub(x, y))
+_operator(operator.mul, _PAIR, lanes, lambda builder, x, y: builder.fmul(x, y))
+_operator(operator.truediv, _PAIR, lanes, lambda builder, x, y: builder.fdiv(x, y))
+_operator(operator.neg, (lanes,), lanes, lambda builder, x: builder.fneg(x))
+_operator(operator.lt, _PAIR, mask, lambda builder, x, y: builder.fcmp_ordered("<", x, y))
+_operator(operator.le, _PAIR, mask, lambda builder, x, y: builder.fcmp_ordered("<=", x, y))
+_operator(operator.gt, _PAIR, mask, lambda builder, x, y: builder.fcmp_ordered(">", x, y))
+_operator(operator.ge, _PAIR, mask, lambda builder, x, y: builder.fcmp_ordered(">=", x, y))
+_operator(operator.and_, (mask, mask), mask, lambda builder, x, y: builder.and_(x, y))
+_operator(operator.or_, (mask, mask), mask, lambda builder, x, y: builder.or_(x, y))
+_operator(operator.invert, (mask,), mask, lambda builder, x: builder.not_(x))
+
+
+def _function(result, kinds, emit):
+    """Return the signature and the writer of a function, as `intrinsic` takes them."""
+    return result(*kinds), lambda context, builder, signature, arguments: emit(builder, *arguments)
+
+
+def _call(builder, name, *arguments):
+    kind = ir.FunctionType(_FLOATS, [_FLOATS] * len(arguments))
+    function = cgutils.get_or_insert_function(builder.module, kind, f"llvm.{name}.v{WIDTH}f64")
+    return builder.call(function, arguments)
+
+
+@intrinsic
+def fma(typing, x, y, z):
+    """Return x y + z."""
+
+    def emit(builder, x, y, z):
+        if HAS_FMA:
+            return _call(builder, "fma", x, y, z)
+        return builder.fadd(builder.fmul(x, y), z)
+
+    return _function(lanes, (lanes, lanes, lanes), emit)
+
+
+@intrinsic
+def absolute(typing, x):
+    """Return |x|."""
+    return _function(lanes, (lanes,), lambda builder, x: _call(builder, "fabs", x))
+
+
+@intrinsic
+def square_root(typing, x):
+    """Return √x."""
+    return _function(lanes, (lanes,), lambda builder, x: _call(builder, "sqrt", x))
+
+
+def _choice(comparison):
+    """Return what writes min or max, the second where one is NaN."""
+    return lambda builder, x, y: builder.select(builder.fcmp_ordered(comparison, x, y), x, y)
+
+
+@intrinsic
+def minimum(typing, x, y):
+    """Return the smaller of x and y."""
+    return _function(lanes, _PAIR, _choice("<"))
+
+
+@intrinsic
+def maximum(typing, x, y):
+    """Return the larger of x and y."""
+    return _function(lanes, _PAIR, _choice(">"))
+
+
+@intrinsic
+def select(typing, where, x, y):
+    """Return x where the mask is set, y elsewhere."""
+    kinds = (mask, lanes, lanes)
+    return _function(lanes, kinds, lambda builder, where, x, y: builder.select(where, x, y))
+
+
+@intrinsic
+def bits(typing, where):
+    """Return an integer whose bit l is that of the mask in lane l."""
+
+    def emit(builder, where):
+        return builder.zext(builder.bitcast(where, ir.IntType(WIDTH)), ir.IntType(64))
+
+    return _function(types.int64, (mask,), emit)
+
+
+@intrinsic
+def among(typing, chosen):
+    """Return the mask of the lanes whose bits are set in an integer."""
+
+    def emit(builder, chosen):
+        return builder.bitcast(builder.trunc(chosen, ir.IntType(WIDTH)), _FLAGS)
+
+    return _function(mask, (types.int64,), emit)
+
+
+@intrinsic
+def lowest(typing, chosen):
+    """Return the number of the lowest bit that is set in an integer that is not zero."""
+
+    def emit(builder, chosen):
+        return builder.cttz(chosen, ir.Constant(ir.IntType(1), 1))
+
+    return _function(types.int64, (types.int64,), emit)
+
+
+@intrinsic
+def number(typing, chosen):
+    """Return how many bits of an integer are set."""
+    return _function(types.int64, (types.int64,), lambda builder, chosen: builder.ctpop(chosen))
+
+
+@intrinsic
+def rough_power(typing, x, exponent):
+    """Return x > 0 to a power between 0 and 1, wrong by up to 6 %.
+
+    The upper half of the bits of a float is a piecewise linear logarithm to base 2.
+    """
+
+    def emit(builder, x, exponent):
+        one = ir.Constant(_SHORT, [0x3FF00000] * WIDTH)
+        half = ir.Constant(_INTEGERS, [32] * WIDTH)
+        upper = builder.trunc(builder.lshr(builder.bitcast(x, _INTEGERS), half), _SHORT)
+        logarithm = builder.sitofp(builder.sub(upper, one), _FLOATS)
+        scaled = builder.fptosi(builder.fmul(logarithm, _splat(builder, exponent)), _SHORT)
+        power = builder.zext(builder.add(scaled, one), _INTEGERS)
+        return builder.bitcast(builder.shl(power, half), _FLOATS)
+
+    return _function(lanes, (lanes, types.float64), emit)
+
+
+@intrinsic
+def _power_of_two(typing, shifted):
+    """Return 2 to the power k from k + 1023 + 1.5·2⁵², whose lowest bits are those of k + 1023."""
+
+    def emit(builder, shifted):
+        places = ir.Constant(_INTEGERS, [52] * WIDTH)
+        return builder.bitcast(builder.shl(builder.bitcast(shifted, _INTEGERS), places), _FLOATS)
+
+    return _function(lanes, (lanes,), emit)
+
+
+_SHIFT = 1.5 * 2.0**52
+_LN2_HIGH, _LN2_LOW = 0.693147180369123816490, 1.90821492927058770002e-10
+_INVERSE_FACTORIALS = np.array([1.0 / math.factorial(k) for k in range(14)])
+
+
+@njit(cache=True, error_model="numpy")
+def exponential(x):
+    """Return exp x for x < 700, to about 2e-16; below −700 that of −700."""
+    x = maximum(x, -700.0)
+    turns = x * (1.0 / math.log(2.0)) + _SHIFT
+    whole = turns - _SHIFT
+    rest = fma(whole, -_LN2_LOW, fma(whole, -_LN2_HIGH, x))
+    total = fma(rest, _INVERSE_FACTORIALS[13], _INVERSE_FACTORIALS[12])
+    for k in range(11, -1, -1):
+        total = fma(total, rest, _INVERSE_FACTORIALS[k])
+    return total * _power_of_two(turns + 1023.0)
+
+
+def _pointer(context, builder, kind, array, row):
+    data = context.make_array(kind)(context, builder, array).data
+    return builder.gep(builder.bitcast(data, _FLOATS.as_pointer()), [row])
+
+
+@intrinsic
+def load(typing, array, row):
+    """Return a row of an array of `rows`."""
+
+    def write(context, builder, signature, arguments):
+        return builder.load(_pointer(context, builder, signature.args[0], *arguments), align=8)
+
+    return lanes(array, types.intp), write
+
+
+@intrinsic
+def store(typing, array, row, value):
+    """Write a row of an array of `rows`."""
+
+    def write(context, builder, signature, arguments):
+        pointer = _pointer(context, builder, signature.args[0], *arguments[:2])
+        builder.store(arguments[2], pointer, align=8)
+        return context.get_dummy_value()
+
+    return types.void(array, types.intp, lanes), write
+
+
+@intrinsic
+def take(typing, array, places):
+    """Return array[int(place)] for each lane, of a one-dimensional contiguous array."""
+
+    def write(context, builder, signature, arguments):
+        data = context.make_array(signature.args[0])(context, builder, arguments[0]).data
+        places = builder.fptosi(arguments[1], _SHORT)
+        value = ir.Constant(_FLOATS, ir.Undefined)
+        for lane in map(ir.IntType(32), range(WIDTH)):
+            pointer = builder.gep(data, [builder.extract_element(places, lane)])
+            value = builder.insert_element(value, builder.load(pointer), lane)
+        return value
+
+    return lanes(array, lanes), write
+
+
+@njit(cache=True)
+def rows(count):
+    """Return `count` rows of zeros, a float a lane, each where the CPU loads it at once."""
+    raw = np.zeros((count + 1) * WIDTH)
+    first = (-(raw.ctypes.data // 8)) % WIDTH
+    return raw[first : first + count * WIDTH].reshape((count, WIDTH))

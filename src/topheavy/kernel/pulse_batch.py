@@ -1,0 +1,214 @@
+"""Outcomes of many pulses, one history in each lane (see `lane_steps`).
+
+All lanes take their steps together, each a step of its own length. A lane whose history is over
+takes up the next cell. What follows from the physics of one history (the next uplift, coming to
+rest, the free rocking after the pulse) is done by the functions of the scalar kernel.
+"""
+
+import math
+
+import numpy as np
+from numba import njit
+
+from topheavy.kernel.forcing import (
+    ANTISYMMETRIC_PEAK,
+    KAPPA,
+    NO_RECORD,
+    RICKER_ANTISYMMETRIC,
+    RICKER_SYMMETRIC,
+    UNIT_BOUND,
+    equation,
+    next_uplift,
+    pulse_forcing,
+)
+from topheavy.kernel.lane_steps import (
+    CENTRE,
+    D1,
+    FACTOR,
+    IMPACTS,
+    LENGTH,
+    LONGEST,
+    MAX_ORDER,
+    OWN,
+    PEAK,
+    PUSH,
+    ROTATION,
+    ROWS,
+    SIDE,
+    STEPS,
+    TIME,
+    VELOCITY,
+    C,
+    advance,
+    finish,
+    lift,
+    still,
+    strike,
+)
+from topheavy.kernel.lanes import (
+    WIDTH,
+    absolute,
+    bits,
+    exponential,
+    fma,
+    load,
+    lowest,
+    rows,
+    select,
+    square_root,
+    store,
+)
+from topheavy.kernel.outcome import HALT, MAX_STEPS, PULSE_ORDER
+from topheavy.kernel.rest import comes_to_rest
+from topheavy.kernel.tail import free_rocking
+
+assert PULSE_ORDER <= MAX_ORDER
+#: The end of the pulse, and ω/p.
+END, FREQUENCY = OWN, OWN + 1
+
+
+@njit(cache=True, error_model="numpy")
+def begin(w, lane, block, forcing):
+    """Let a block stand in a lane; return whether the pulse lifts it."""
+    still(w, lane)
+    time, push, rate, side = next_uplift(forcing, NO_RECORD, 0.0, block.level)
+    if time >= forcing.end:
+        return False
+    lift(w, lane, time, push, rate, side, forcing.amplitude)
+    w[END, lane], w[FREQUENCY, lane] = forcing.end, forcing.frequency
+    w[LONGEST, lane] = forcing.end - time
+    c, d0, d1 = equation(forcing, 0.0)
+    w[C, lane], w[D1, lane], w[CENTRE, lane] = c, d1, -d0 / d1 if d1 > 0.0 else 0.0
+    return True
+
+
+@njit(cache=True, error_model="numpy", forceinline=True)
+def certain(w, block, rotation, velocity):
+    """Return the lanes whose blocks are certain to overturn (see `outcome.is_certain_to_overturn`).
+
+    The arc tangent is replaced by a bound, atan x ≤ πx/(1 + 2√(1 + x²)) (Fink 1995).
+    """
+    strength = UNIT_BOUND * absolute(load(w, FACTOR))
+    outward = (rotation > block.slenderness) & (velocity > 0.0)
+    if block.linearised:
+        return outward & (velocity > block.slenderness + strength - rotation)
+    whole = square_root(fma(strength, strength, 1.0 + 0.0 * strength))
+    balance = math.pi * strength / (1.0 + 2.0 * whole) + block.slenderness
+    held = velocity <= square_root(whole) * (balance - rotation)
+    return outward & (balance < block.flat) & ~held
+
+
+@njit(cache=True, error_model="numpy", forceinline=True)
+def renew(w, level, shape):
+    """Take the push of a Ricker wavelet from the wavelet (see `outcome.renewed`)."""
+    kappa, factor = load(w, FREQUENCY) * KAPPA[shape], load(w, FACTOR)
+    y = kappa * (load(w, TIME) - load(w, CENTRE))
+    square = y * y
+    bell = factor * exponential(-square)
+    if shape == RICKER_SYMMETRIC:
+        value, rate = fma(square, -2.0, 1.0), y * fma(square, 4.0, -6.0)
+    else:
+        bell = bell * (math.sqrt(2) / ANTISYMMETRIC_PEAK)
+        value, rate = y * fma(square, 2.0, -3.0), fma(square, fma(square, -4.0, 12.0), -3.0)
+    store(w, PUSH, fma(bell, value, -level + 0.0 * y))
+    store(w, PUSH + 1, bell * rate * kappa)
+
+
+@njit(cache=True, error_model="numpy")
+def rests(w, lane, block, forcing):
+    """Say whether the block of a lane comes to rest after its impact."""
+    return comes_to_rest(
+        block,
+        forcing,
+        NO_RECORD,
+        w[TIME, lane],
+        w[VELOCITY, lane],
+        w[PUSH, lane],
+        w[SIDE, lane],
+        w[PEAK, lane],
+    )
+
+
+@njit(cache=True, error_model="numpy")
+def lifts_again(w, lane, block, forcing):
+    """Let the block of a lane wait at rest; return whether the pulse lifts it again."""
+    time, push, rate, side = next_uplift(forcing, NO_RECORD, w[TIME, lane], block.level)
+    if time >= forcing.end:
+        return False
+    lift(w, lane, time, push, rate, side, forcing.amplitude)
+    w[LONGEST, lane] = forcing.end - time
+    return True
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def pulse_outcomes(
+    v, batch, batches, block, shape, scales, amplitudes, tolerance, peak, overturned, impacts
+):
+    """Fill every `batches`-th cell from `batch` on; see `grid.pulse_outcomes_of`.
+
+    Parameters
+    ----------
+    v : array
+        A working array for steps that a lane takes alone, which may say halt (`outcome.HALT`).
+
+    Returns
+    -------
+    int
+        The first cell that was given up (see `outcome.MAX_STEPS`), or −1.
+    """
+    w, cells = rows(ROWS), np.full(WIDTH, -1)
+    columns, last = peak.shape[1], peak.size
+    coming, lost, busy, vacant = batch, -1, 0, (1 << WIDTH) - 1
+    while True:  # each time around a lane takes one of its `MAX_STEPS` steps, or there is none left
+        busy &= ~vacant
+        while vacant:
+            lane, lifted = lowest(vacant), False
+            vacant &= vacant - 1
+            while coming < last and not lifted:
+                i, j = coming // columns, coming % columns
+                lifted = begin(w, lane, block, pulse_forcing(shape, amplitudes[i, j], scales[i, j]))
+                if not lifted:
+                    peak[i, j], overturned[i, j], impacts[i, j] = 0.0, False, 0
+                cells[lane] = coming
+                coming += batches
+            if lifted:
+                busy |= 1 << lane
+            else:
+                still(w, lane)
+        if busy == 0:
+            return lost
+        if v[HALT, 0] != 0.0:
+            return cells[int(v[HALT, 1])]
+        landed, fallen = advance(w, v, block, PULSE_ORDER, tolerance, False, busy)
+        time, end, step = load(w, TIME), load(w, END), load(w, LENGTH)
+        time = select(step >= load(w, LONGEST), end, time + step)
+        store(w, TIME, time)
+        store(w, LONGEST, end - time)
+        rotation, velocity = finish(w, block, PULSE_ORDER, busy)
+        if shape in (RICKER_SYMMETRIC, RICKER_ANTISYMMETRIC):
+            renew(w, block.level, shape)
+        fallen |= bits(certain(w, block, rotation, velocity)) & busy
+        landed = (landed | bits(rotation <= 0.0) & busy) & ~fallen
+        resting = strike(w, block, landed) if landed else 0
+        over = bits(time >= end) & busy
+        ending = fallen | over | resting | bits(load(w, STEPS) > MAX_STEPS) & busy
+        while ending:
+            lane = lowest(ending)
+            ending &= ending - 1
+            i, j = cells[lane] // columns, cells[lane] % columns
+            fell, highest, count = False, w[PEAK, lane], w[IMPACTS, lane]
+            if fallen >> lane & 1:
+                fell = True
+            elif over >> lane & 1:
+                tail = free_rocking(block, w[ROTATION, lane], w[VELOCITY, lane])
+                fell, highest = tail.overturned, max(highest, tail.peak)
+                count += tail.impacts
+            elif w[STEPS, lane] > MAX_STEPS:
+                lost = cells[lane] if lost < 0 else min(lost, cells[lane])
+            else:
+                forcing = pulse_forcing(shape, amplitudes[i, j], scales[i, j])
+                if not rests(w, lane, block, forcing) or lifts_again(w, lane, block, forcing):
+                    continue
+            peak[i, j] = math.nan if fell else highest
+            overturned[i, j], impacts[i, j] = fell, count
+            vacant |= 1 << lane

@@ -1,0 +1,267 @@
+"""Outcomes of many factors on one record, one history in each lane (see `lane_steps`).
+
+Every lane is at a piece of the record of its own. Most pieces are passed over by the short series
+of `march`, which proves that they hold no event; a lane for which it does not waits until as many
+lanes need the long series of `lane_steps`. So both work with many lanes at a time. What follows
+from the physics of one history is done by the functions of the scalar kernel.
+"""
+
+import math
+
+import numpy as np
+from numba import njit
+
+from topheavy.kernel.forcing import next_uplift, piece_at, record_forcing
+from topheavy.kernel.lane_steps import (
+    ARC,
+    COSINE,
+    FACTOR,
+    IMPACTS,
+    LENGTH,
+    LONGEST,
+    OWN,
+    PEAK,
+    PUSH,
+    ROTATION,
+    ROWS,
+    SIDE,
+    SINE,
+    STEPS,
+    TIME,
+    VELOCITY,
+    advance,
+    finish,
+    lift,
+    still,
+    strike,
+)
+from topheavy.kernel.lanes import (
+    WIDTH,
+    absolute,
+    among,
+    bits,
+    fma,
+    load,
+    lowest,
+    maximum,
+    minimum,
+    number,
+    rows,
+    select,
+    store,
+    take,
+)
+from topheavy.kernel.march import LARGEST_TURN, derivatives
+from topheavy.kernel.outcome import HALT, MAX_STEPS, is_certain_to_overturn
+from topheavy.kernel.rest import LAST_BOUNCE, comes_to_rest
+from topheavy.kernel.tail import free_rocking
+from topheavy.kernel.taylor import State
+
+#: Terms of φ in a long step. A piece of p Δt = 0.1 takes one step at the usual tolerance.
+RECORD_ORDER = 9
+#: The piece that a lane is at.
+PIECE = OWN
+#: The long series waits until fewer than this share of the lanes go on without it.
+FEW = WIDTH // 3
+
+
+@njit(cache=True, error_model="numpy", forceinline=True)
+def march_lanes(w, block, samples, h, bound, marching):
+    """Pass over the pieces that `marching` lanes are at, as far as they are proven to hold nothing.
+
+    The terms and the proof are those of `march.march`. Lanes for which it fails are made ready for
+    the long series over their piece.
+
+    Parameters
+    ----------
+    samples : array
+        Of the record, `h` apart in τ.
+    bound : float
+        On the last term of φ'.
+
+    Returns
+    -------
+    int
+        Bits of the lanes that passed.
+    """
+    h2 = h * h / 2
+    h3 = h2 * h / 3
+    h4 = h3 * h / 4
+    h5 = h4 * h / 5
+    h6 = h5 * h / 6
+    h7 = h6 * h / 7
+    piece, factor, peak = load(w, PIECE), load(w, FACTOR), load(w, PEAK)
+    rotation, velocity, sine, cosine = (
+        load(w, ROTATION),
+        load(w, VELOCITY),
+        load(w, SINE),
+        load(w, COSINE),
+    )
+    before, after = take(samples, piece), take(samples, piece + 1.0)
+    push, rate = factor * before - block.level, factor * (after - before) * (1.0 / h)
+    passed = 0
+    if not block.linearised:
+        tilt = fma(cosine, block.cosine, sine * block.sine)  # cos(α − φ)
+        lean = fma(cosine, block.sine, -(sine * block.cosine))  # sin(α − φ)
+        force = fma(push, tilt, sine * (1.0 / block.cosine))  # Eq. (23)
+        slope = fma(push, lean, cosine * (1.0 / block.cosine))
+        d3, d4, d5, d6, d7 = derivatives(force, slope, rate * tilt, rate * lean, velocity)
+        c1, c2, c3, c4 = velocity * h, force * h2, d3 * h3, d4 * h4
+        c5, c6, c7 = d5 * h5, d6 * h6, d7 * h7
+        others = absolute(c3) + absolute(c4) + absolute(c5) + absolute(c6) + absolute(c7)
+        turn = c1 + c2 + (c3 + (c4 + (c5 + (c6 + c7))))
+        rises = minimum(c1, c1 + 2.0 * c2) > 7.0 * others
+        low = minimum(minimum(0.5 * c1, c1 + c2), 0.0) - others
+        high = maximum(maximum(0.5 * c1, c1 + c2), 0.0) + others
+        fine = rises | ((rotation + low > 0.0) & (rotation + high <= peak))
+        fine = fine & (h6 * maximum(absolute(d7), 6.0 * absolute(d6)) <= bound)
+        fine = fine & (absolute(turn) <= LARGEST_TURN) & (rotation <= block.slenderness)
+        fine = fine & (load(w, ARC) > LAST_BOUNCE * block.slenderness)
+        fine = fine & (piece < samples.size - 2.0) & among(marching)
+        gain = 2.0 * c2 + 3.0 * c3 + 4.0 * c4 + 5.0 * c5 + 6.0 * c6 + 7.0 * c7
+        square = turn * turn  # sin and cos − 1 of a turn so small, to the last digit
+        swing = turn + turn * square * (-1 / 6 + square * (1 / 120 - square * (1 / 5040)))
+        drop = square * (-1 / 2 + square * (1 / 24 + square * (-1 / 720 + square * (1 / 40320))))
+        store(w, VELOCITY, select(fine, fma(gain, 1.0 / h, velocity), velocity))
+        store(w, ROTATION, select(fine, rotation + turn, rotation))
+        store(w, PEAK, select(fine, maximum(peak, rotation + turn), peak))
+        store(w, SINE, select(fine, sine + fma(cosine, swing, sine * drop), sine))
+        store(w, COSINE, select(fine, cosine + (cosine * drop - sine * swing), cosine))
+        store(w, PIECE, select(fine, piece + 1.0, piece))
+        passed = bits(fine)
+    if passed != marching:
+        halted, arc = among(marching & ~passed), load(w, ARC)
+        whole = (arc > LAST_BOUNCE * block.slenderness) & halted
+        store(w, ARC, select(whole, peak, arc))
+        store(w, PUSH, select(halted, push, load(w, PUSH)))
+        store(w, PUSH + 1, select(halted, rate, load(w, PUSH + 1)))
+        store(w, TIME, select(halted, piece * h, load(w, TIME)))
+        store(w, LONGEST, select(halted, (piece + 1.0) * h - piece * h, load(w, LONGEST)))
+    return passed
+
+
+@njit(cache=True, error_model="numpy")
+def lifts(w, lane, block, forcing, record, time):
+    """Let the block of a lane wait at rest from `time` on; return whether the record lifts it."""
+    time, push, rate, side = next_uplift(forcing, record, time, block.level)
+    if time >= forcing.end:
+        return False
+    lift(w, lane, time, push, rate, side, forcing.amplitude)
+    piece = piece_at(forcing, time)
+    w[PIECE, lane], w[LONGEST, lane] = piece, (piece + 1) * forcing.step - time
+    return True
+
+
+@njit(cache=True, error_model="numpy")
+def rests(w, lane, block, forcing, record):
+    """Say whether the block of a lane comes to rest after its impact."""
+    return comes_to_rest(
+        block,
+        forcing,
+        record,
+        w[TIME, lane],
+        w[VELOCITY, lane],
+        w[PUSH, lane],
+        w[SIDE, lane],
+        w[PEAK, lane],
+    )
+
+
+@njit(cache=True, error_model="numpy")
+def overturns(w, lane, block, forcing, record):
+    """Say whether the block of a lane is certain to overturn."""
+    state = State(w[ROTATION, lane], w[VELOCITY, lane], 0.0, 1.0, 0.0, 0.0)
+    return is_certain_to_overturn(block, forcing, record, w[TIME, lane], state)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def record_outcomes(
+    v, batch, batches, block, step, factors, record, tolerance, peak, overturned, impacts
+):
+    """Fill every `batches`-th factor's cell from `batch` on; see `grid.outcomes_of`.
+
+    Parameters
+    ----------
+    v : array
+        A working array for steps that a lane takes alone, which may say halt (`outcome.HALT`).
+
+    Returns
+    -------
+    int
+        The first cell that was given up (see `outcome.MAX_STEPS`), or −1.
+    """
+    w, cells = rows(ROWS), np.full(WIDTH, -1)
+    samples, end = record[0], (record.shape[1] - 1) * step
+    most_steps, bound = MAX_STEPS + 10 * record.shape[1], tolerance * block.slenderness
+    coming, lost, vacant = batch, -1, (1 << WIDTH) - 1
+    marching, stepping = 0, 0
+    # Each time around, a lane passes over a piece or takes one of its `most_steps` steps.
+    while True:
+        stepping &= ~vacant
+        marching &= ~vacant
+        while vacant:
+            lane, lifted = lowest(vacant), False
+            vacant &= vacant - 1
+            while coming < factors.size and not lifted:
+                still(w, lane)
+                forcing = record_forcing(record, step, factors[coming])
+                lifted = lifts(w, lane, block, forcing, record, 0.0)
+                if not lifted:
+                    peak[coming], overturned[coming], impacts[coming] = 0.0, False, 0
+                cells[lane] = coming
+                coming += batches
+            if lifted:
+                stepping |= 1 << lane
+            else:
+                still(w, lane)
+                w[PIECE, lane] = 0.0
+        if marching | stepping == 0:
+            return lost
+        if v[HALT, 0] != 0.0:
+            return cells[int(v[HALT, 1])]
+        if stepping == 0 or number(marching) > FEW:
+            passed = march_lanes(w, block, samples, step, bound, marching)
+            stepping |= marching & ~passed
+            marching = passed
+            continue
+        landed, fallen = advance(w, v, block, RECORD_ORDER, tolerance, True, stepping)
+        piece_end, time, taken = (load(w, PIECE) + 1.0) * step, load(w, TIME), load(w, LENGTH)
+        time = select(taken >= load(w, LONGEST), piece_end, time + taken)
+        store(w, TIME, time)
+        rotation, velocity = finish(w, block, RECORD_ORDER, stepping)
+        landed = (landed | bits(rotation <= 0.0) & stepping) & ~fallen
+        resting = strike(w, block, landed) if landed else 0
+        over = bits(time >= end) & stepping
+        outward = bits((rotation > block.slenderness) & (velocity > 0.0)) & stepping
+        tired = bits(load(w, STEPS) > most_steps) & stepping
+        ended = bits(time >= piece_end) & stepping & ~over
+        is_in_piece = among(stepping & ~ended)
+        store(w, LONGEST, select(is_in_piece, piece_end - time, 0.0))
+        store(w, PIECE, select(among(ended), load(w, PIECE) + 1.0, load(w, PIECE)))
+        stepping &= ~ended
+        marching |= ended
+        events = fallen | over | resting | outward | tired
+        while events:
+            lane = lowest(events)
+            events &= events - 1
+            cell = cells[lane]
+            forcing = record_forcing(record, step, factors[cell])
+            fell, highest, count = bool(fallen >> lane & 1), w[PEAK, lane], w[IMPACTS, lane]
+            if not fell and over >> lane & 1:
+                tail = free_rocking(block, w[ROTATION, lane], w[VELOCITY, lane])
+                fell, highest = tail.overturned, max(highest, tail.peak)
+                count += tail.impacts
+            elif not fell and outward >> lane & 1 and overturns(w, lane, block, forcing, record):
+                fell = True
+            elif not fell and tired >> lane & 1:
+                lost = cell if lost < 0 else min(lost, cell)
+            elif not fell:
+                if not (resting >> lane & 1 and rests(w, lane, block, forcing, record)):
+                    continue
+                marching &= ~(1 << lane)
+                stepping |= 1 << lane
+                if lifts(w, lane, block, forcing, record, w[TIME, lane]):
+                    continue
+            peak[cell] = math.nan if fell else highest
+            overturned[cell], impacts[cell] = fell, count
+            vacant |= 1 << lane

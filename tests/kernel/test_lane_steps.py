@@ -1,0 +1,194 @@
+"""Steps in lanes are those of the scalar kernel, each lane with a history of its own."""
+
+import math
+
+import numpy as np
+import pytest
+from numba import njit
+
+from topheavy import RockingBlock
+from topheavy.kernel import lane_steps as steps
+from topheavy.kernel.forcing import (
+    CONSTANT,
+    ONE_COSINE,
+    ONE_SINE,
+    RICKER_ANTISYMMETRIC,
+    RICKER_SYMMETRIC,
+    equation,
+    ground,
+    pulse_forcing,
+)
+from topheavy.kernel.lanes import WIDTH, rows
+from topheavy.kernel.outcome import (
+    FLAT,
+    LANDING,
+    NOTHING,
+    PULSE_ORDER,
+    TOLERANCE,
+    advance,
+    working_array,
+)
+from topheavy.kernel.rest import LAST_BOUNCE
+from topheavy.kernel.taylor import (
+    COSINE,
+    PUSH,
+    ROTATION,
+    SINE,
+    VELOCITY,
+    State,
+    evaluate,
+    expand,
+    oscillator,
+)
+
+BLOCK = oscillator(RockingBlock(1.0, 0.25, 0.9))
+LINEAR = oscillator(RockingBlock(1.0, 0.25, 0.9, linearised=True))
+BOTH = pytest.mark.parametrize("block", [BLOCK, LINEAR], ids=["exact", "linearised"])
+ALL = (1 << WIDTH) - 1
+RECORD = np.empty((3, 0))
+
+
+@njit
+def step(w, v, block, is_straight):
+    landed, fallen = steps.advance(w, v, block, PULSE_ORDER, TOLERANCE, is_straight, ALL)
+    length = w[steps.LENGTH].copy()
+    series = w[: 7 * (steps.MAX_ORDER + 1)].copy()
+    steps.finish(w, block, PULSE_ORDER, ALL)
+    return landed, fallen, length, series
+
+
+def states(shape, seed, *, on_ground=False, block=BLOCK):
+    """Pulses, times and states of as many random rocking blocks as there are lanes."""
+    rng, found = np.random.default_rng(seed), []
+    while len(found) < WIDTH:
+        pulse = pulse_forcing(shape, rng.uniform(0.3, 2.0), rng.uniform(0.5, 8.0))
+        time, side = rng.uniform(0.0, 0.9 * pulse.end), rng.choice([-1.0, 1.0])
+        rotation = 0.0 if on_ground else rng.uniform(0.001, 1.6) * block.slenderness
+        velocity = 10 ** rng.uniform(-6, -0.3) if on_ground else rng.uniform(-0.6, 0.6)
+        sine, cosine = (0.0, 1.0) if block.linearised else (math.sin(rotation), math.cos(rotation))
+        value, rate = ground(pulse, RECORD, time)
+        push = -side * value - block.level
+        state = State(rotation, velocity, sine, cosine, push, -side * rate)
+        found.append((pulse, time, side, state))
+    return found
+
+
+def filled(cases):
+    """The working array with a lane for each state."""
+    w = rows(steps.ROWS)
+    for lane, (pulse, time, side, state) in enumerate(cases):
+        steps.still(w, lane)
+        steps.lift(w, lane, time, state.push, state.rate, side, pulse.amplitude)
+        w[steps.ROTATION, lane], w[steps.VELOCITY, lane] = state.rotation, state.velocity
+        w[steps.SINE, lane], w[steps.COSINE, lane] = state.sine, state.cosine
+        c, d0, d1 = equation(pulse, 0.0)
+        w[steps.C, lane], w[steps.D1, lane] = c, d1
+        w[steps.CENTRE, lane] = -d0 / d1 if d1 > 0.0 else 0.0
+        w[steps.LONGEST, lane], w[steps.ARC, lane] = pulse.end - time, state.rotation
+    return w
+
+
+@BOTH
+@pytest.mark.parametrize("shape", [ONE_SINE, ONE_COSINE, CONSTANT, RICKER_SYMMETRIC])
+def test_series_is_that_of_the_scalar_kernel(block, shape):
+    cases = states(shape, 1, block=block)
+    _, _, _, series = step(filled(cases), working_array(), block, False)
+    blocks = series.reshape(7, steps.MAX_ORDER + 1, WIDTH)
+    for lane, (pulse, time, _, state) in enumerate(cases):
+        alone = working_array()
+        expand(alone, PULSE_ORDER, block, state, *equation(pulse, time), False)
+        kinds = [(0, ROTATION, 16), (1, VELOCITY, 15), (5, PUSH, 15)]
+        if not block.linearised:
+            kinds += [(2, SINE, 15), (3, COSINE, 15)]
+        for ours, theirs, count in kinds:
+            size = np.abs(alone[theirs, :count]).max()
+            np.testing.assert_allclose(
+                blocks[ours, :count, lane], alone[theirs, :count], rtol=1e-9, atol=1e-12 * size
+            )
+
+
+@BOTH
+@pytest.mark.parametrize("on_ground", [False, True])
+@pytest.mark.parametrize("shape", [ONE_SINE, ONE_COSINE, RICKER_ANTISYMMETRIC])
+def test_step_ends_where_that_of_the_scalar_kernel_does(block, shape, on_ground):
+    """From the same state, with the same length, to the same event, at the same time."""
+    seen = set()
+    for seed in range(40):
+        cases = states(shape, seed, on_ground=on_ground, block=block)
+        w = filled(cases)
+        landed, fallen, length, _ = step(w, working_array(), block, False)
+        for lane, (pulse, time, _, state) in enumerate(cases):
+            alone, zeros = working_array(), 1 if on_ground else 0
+            event_here = (landed >> lane & 1) * LANDING + (fallen >> lane & 1) * FLAT
+            longest = length[lane] * 1.001 if event_here else length[lane]
+            given = (PULSE_ORDER, 1e3, block, pulse, time, longest, state, zeros, state.rotation)
+            end, event, peak = advance(alone, *given, False)
+            seen.add(event)
+            assert event_here == event
+            assert end == pytest.approx(length[lane], rel=1e-10 if event else 0, abs=1e-13)
+            assert w[steps.ARC, lane] == pytest.approx(peak, rel=0, abs=1e-11)
+            there = evaluate(alone, PULSE_ORDER, block, length[lane], False)
+            assert w[steps.ROTATION, lane] == pytest.approx(there.rotation, abs=1e-12)
+            assert w[steps.VELOCITY, lane] == pytest.approx(there.velocity, abs=1e-11)
+            assert w[steps.PUSH, lane] == pytest.approx(there.push, abs=1e-11)
+    assert {NOTHING, LANDING} <= seen
+
+
+def test_steps_are_as_long_as_those_of_the_scalar_kernel():
+    """Shorter by up to a tenth: their power is rough."""
+    ratios = []
+    for seed in range(20):
+        cases = states(ONE_SINE, seed)
+        w = filled(cases)
+        landed, fallen, length, _ = step(w, working_array(), BLOCK, False)
+        for lane, (pulse, time, _, state) in enumerate(cases):
+            given = (PULSE_ORDER, TOLERANCE, BLOCK, pulse, time, pulse.end - time, state, 0, 0.0)
+            theirs, event, _ = advance(working_array(), *given, False)
+            if event == NOTHING and not (landed | fallen) >> lane & 1:
+                ratios.append(length[lane] / theirs)
+    assert len(ratios) > 5 * WIDTH
+    assert min(ratios) > 0.88
+    assert max(ratios) < 1.02
+
+
+def test_lane_that_is_unsettled_is_stepped_alone():
+    w, cubic = rows(steps.ROWS), np.polynomial.Polynomial([0.01, 0.3, -0.9, 0.2])
+    w[steps.ROTATION : steps.ROTATION + 4] = cubic.coef[:, np.newaxis]
+    w[steps.LENGTH], w[steps.ARC] = 1.0, 0.01
+    assert steps.step_alone(w, working_array(), 1, 3, BLOCK.flat) == LANDING
+    inside = [min(p.roots()[p.roots() > 0]) for p in (cubic.deriv(), cubic)]
+    assert w[steps.ARC, 1] == pytest.approx(cubic(inside[0]), rel=1e-12)
+    assert w[steps.LENGTH, 1] == pytest.approx(inside[1], rel=1e-10)
+    assert (w[steps.LENGTH, 0], w[steps.ARC, 0]) == (1.0, 0.01)
+
+
+@njit
+def struck(w, block, landed):
+    return steps.strike(w, block, landed)
+
+
+def test_impact_changes_the_struck_lanes_only():
+    w = filled(states(ONE_SINE, 3))
+    w[steps.ARC], w[steps.VELOCITY] = 0.1, -0.5
+    w[steps.ARC, 2] = 0.5 * LAST_BOUNCE * BLOCK.slenderness
+    before = w.copy()
+    assert struck(w, BLOCK, 0b101) == 0
+    np.testing.assert_array_equal(w[:, 1], before[:, 1])
+    for lane, counted in ((0, 1.0), (2, 0.0)):
+        assert w[steps.VELOCITY, lane] == 0.5 * BLOCK.restitution
+        assert (w[steps.ROTATION, lane], w[steps.SINE, lane], w[steps.COSINE, lane]) == (0, 0, 1)
+        assert w[steps.PUSH, lane] == -before[steps.PUSH, lane] - 2 * BLOCK.level
+        assert w[steps.PUSH + 1, lane] == -before[steps.PUSH + 1, lane]
+        assert w[steps.SIDE, lane] == -before[steps.SIDE, lane]
+        assert w[steps.FACTOR, lane] == -before[steps.FACTOR, lane]
+        assert (w[steps.ARC, lane], w[steps.IMPACTS, lane]) == (0.0, counted)
+
+
+def test_slow_impact_under_a_weak_push_may_come_to_rest():
+    w = filled(states(ONE_SINE, 3))
+    w[steps.PUSH], w[steps.VELOCITY] = -1.1 * BLOCK.level, -1e-9
+    w[steps.VELOCITY, 1] = -0.1
+    w[steps.PUSH, 2] = 0.1  # the ground still lifts it
+    assert struck(w, BLOCK, 0b111) == 0b001
+    w[steps.VELOCITY, 3] = 0.0
+    assert struck(w, BLOCK, 0b1000) == 0b1000

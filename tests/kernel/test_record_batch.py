@@ -1,0 +1,92 @@
+"""Factors on a record in lanes: the outcomes of the scalar kernel, piece by piece."""
+
+import math
+
+import numpy as np
+import pytest
+
+from topheavy import RockingBlock
+from topheavy.kernel.forcing import RECORD, prepare_record
+from topheavy.kernel.grid import outcome_of, outcomes_of
+from topheavy.kernel.outcome import TOLERANCE
+from topheavy.kernel.taylor import oscillator
+
+STEP = 0.02
+
+
+def shaking(seed, samples=1500, step=STEP):
+    """A few sines under an envelope: as a record, and it swings a block for a while."""
+    rng, time = np.random.default_rng(seed), step * np.arange(samples)
+    waves = sum(rng.normal() * np.sin(f * time + rng.uniform(0, 6)) for f in (2.0, 3.7, 6.1, 11.0))
+    return prepare_record(0.3 * waves * np.sin(math.pi * time / time[-1]) ** 2)
+
+
+def alone(block, step, factors, record, tolerance):
+    found = [outcome_of(block, RECORD, step, f, record, tolerance=tolerance) for f in factors]
+    return tuple(np.array(column) for column in list(zip(*found, strict=True))[:3])
+
+
+@pytest.mark.parametrize("degrees", [3.0, 9.5, 20.0, 40.0])
+@pytest.mark.parametrize("linearised", [False, True], ids=["exact", "linearised"])
+def test_outcomes_and_impacts_are_those_of_the_scalar_kernel(degrees, linearised):
+    """At a tight tolerance, since bounces after bounces make impacts sensitive to the usual one."""
+    alpha = math.radians(degrees)
+    block = oscillator(RockingBlock(1.0, alpha, 0.8, linearised))
+    fell = []
+    for seed in range(3):
+        record = shaking(seed)
+        factors = block.level / 0.3 * np.geomspace(0.2, 6.0, 21)
+        for tolerance in (TOLERANCE, 1e-14):
+            given = (np.array([STEP]), factors, record)
+            found = outcomes_of(block, RECORD, *given, tolerance=tolerance)
+            overturned, peak, impacts = alone(block, STEP, factors, record, tolerance)
+            np.testing.assert_array_equal(found[1][0], overturned)
+            tight = tolerance < TOLERANCE
+            if tight:
+                np.testing.assert_array_equal(found[2][0], impacts)
+            close = (1e-9 if tight else 1e-5) * alpha
+            np.testing.assert_allclose(found[0][0], peak, rtol=0, atol=close)
+        fell += overturned.tolist()
+    assert 0 < sum(fell) < len(fell)
+
+
+def test_no_factor_depends_on_the_others():
+    block, record = oscillator(RockingBlock(1.0, 0.2, 0.9)), shaking(5)
+    factors = block.level / 0.3 * np.geomspace(0.3, 6.0, 70)
+    whole = outcomes_of(block, RECORD, np.array([STEP]), factors, record)
+    back = outcomes_of(block, RECORD, np.array([STEP]), factors[::-1].copy(), record)
+    for one, other in zip(whole, back, strict=True):
+        np.testing.assert_array_equal(one, other[:, ::-1])
+    for j in (0, 33, 69):
+        cell = outcomes_of(block, RECORD, np.array([STEP]), factors[j : j + 1], record)
+        for one, other in zip(whole, cell, strict=True):
+            np.testing.assert_array_equal(one[0, j], other[0, 0])
+
+
+@pytest.mark.parametrize("samples", [2, 3, 40])
+def test_short_record(samples):
+    """One piece, two, and a few, that begin with a jump: from uplift to the free rocking."""
+    block = oscillator(RockingBlock(1.0, 0.2, 0.9))
+    record = prepare_record(np.linspace(0.5, 0.1, samples))
+    factors = np.array([0.0, 0.3, 0.5, 1.0, -1.0, 4.0])
+    for step in (0.05, 0.7):
+        found = outcomes_of(block, RECORD, np.array([step]), factors, record)
+        overturned, peak, impacts = alone(block, step, factors, record, TOLERANCE)
+        np.testing.assert_array_equal(found[1][0], overturned)
+        np.testing.assert_array_equal(found[2][0], impacts)
+        np.testing.assert_allclose(found[0][0], peak, rtol=0, atol=1e-9)
+
+
+def test_block_that_rests_in_the_middle_lifts_off_again():
+    """Two shocks far apart: the second one begins from rest, on the other side."""
+    block = oscillator(RockingBlock(1.0, 0.2, 0.3))
+    shock = 0.4 * np.sin(np.linspace(0, math.pi, 40))
+    samples = np.concatenate([np.zeros(10), shock, np.zeros(1500), -1.3 * shock, np.zeros(500)])
+    record, factors = prepare_record(samples), np.linspace(0.4, 2.0, 9)
+    found = outcomes_of(block, RECORD, np.array([STEP]), factors, record)
+    overturned, peak, impacts = alone(block, STEP, factors, record, TOLERANCE)
+    np.testing.assert_array_equal(found[1][0], overturned)
+    np.testing.assert_array_equal(found[2][0], impacts)
+    np.testing.assert_allclose(found[0][0], peak, rtol=0, atol=1e-9)
+    first = outcomes_of(block, RECORD, np.array([STEP]), factors, prepare_record(samples[:1000]))
+    assert (found[0] > 1.1 * first[0])[~found[1]].any()
