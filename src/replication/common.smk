@@ -12,12 +12,15 @@ from replication.ledger import read_ledger
 from replication.ledger_check import check_ledger
 from replication.parts import PAPER, Part
 from replication.place import check_place
+from replication.progress import one_line_a_job
 from replication.strict_yaml import read_yaml
 from replication.study_config import read_study_config
 from replication.typeset import reads
 
 check_place()
 close(workflow)
+if not workflow.dryrun:
+    one_line_a_job()
 
 
 def read_strictly(path):
