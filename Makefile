@@ -56,7 +56,7 @@ html: | $(UV) ## after a run: every figure with caption and verdict in results/r
 	@$(RUN) python -m replication.commands.check_html results/report.html
 
 test: | $(UV) ## run the tests
-	@$(DEV) pytest
+	@$(DEV) pytest --numprocesses $(CORES) --dist loadfile
 
 lint: export VALIDATE_PYPROJECT_NO_NETWORK = 1
 lint: | $(UV) ## check style, types, spelling and schemas; changes nothing
