@@ -7,7 +7,7 @@ from pathlib import Path
 
 from replication.captions import caption_files, captioned, read_captions
 from replication.closing import close
-from replication.code import code
+from replication.code import code, undeclared
 from replication.ledger import read_ledger
 from replication.ledger_check import check_ledger
 from replication.parts import PAPER, Part

@@ -155,6 +155,7 @@ rule report:
 rule manifest:
     input:
         code("src/replication/rules/manifest.py"),
+        undeclared([]),  # it reads the Snakefile, and what that imports
         everything,
         configuration="config/config.yaml",
         lock="uv.lock",
