@@ -121,7 +121,9 @@ class Column:
             When Housner's √r is negative: such a column does not rock on.
         """
         if restitution is None:
-            restitution = checked_restitution(self.restitution, self.slenderness, largest_slenderness(0.0))
+            restitution = checked_restitution(
+                self.restitution, self.slenderness, largest_slenderness(0.0)
+            )
         return RockingBlock(self.frequency_parameter, self.slenderness, restitution)
 
 
