@@ -64,6 +64,7 @@ FIGURES = {
     "figures/allen_errors": ["allen_errors"],
     "figures/allen_overturning": ["allen_overturning"],
     "figures/heavier": ["heavier_histories", "heavier"],
+    "figures/vase": ["vase", "vase_poses"],
     "figures/scale_effects": ["scale_effects"],
     "figures/spectra": ["spectra"],
     "figures/spectra_modes": ["spectra"],
@@ -84,6 +85,7 @@ FINDINGS = [
     "allen_errors",
     "allen_overturning",
     "heavier",
+    "vase",
     "scale_effects",
     "stability",
     "spectra",
@@ -100,6 +102,7 @@ CHECKS = {
         "published_numbers",
         "library_follows_the_derivation",
     ],
+    "vase": ["second_route"],
     "spectra": ["sample_agrees"],
     "spectra_dimensional": ["published_amplitude"],
     "rocking_spectra": ["second_route"],
@@ -363,6 +366,30 @@ rule heavier:
         "The same pulse under heavier and heavier caps"
     script:
         "src/steps/heavier.py"
+
+
+rule vase:
+    input:
+        code("src/steps/vase.py"),
+        records=[RECORDS[name] for name in config["vase"]["records"]],
+    output:
+        summary="results/tables/vase.csv",
+        motions="results/tables/vase_motions.csv",
+        exceptions="results/tables/vase_exceptions.csv",
+        shares="results/tables/vase_shares.csv",
+        poses="results/tables/vase_poses.csv",
+        findings="results/findings/vase.json",
+    log:
+        "results/logs/vase.log",
+    benchmark:
+        "results/benchmarks/vase.tsv"
+    params:
+        case=case("vase"),
+        solver=config["solver"],
+    message:
+        "The same mass fixed to one column, and carried freely by two"
+    script:
+        "src/steps/vase.py"
 
 
 rule scale_effects:

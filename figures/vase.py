@@ -12,10 +12,12 @@ ROW = 9.6  # m between the rows
 EDGES = (-7.6, 27.0)  # m: of the ground
 PALE = {ACCENT: "#f6dccf", DARK: "#d3e1ee"}
 LIMIT = 5.0  # where γ = ∞ stands on the axis
+GLYPHS_AT = 3.0  # γ
+LOWEST = 0.13  # g, of the axis
 
 
 def scene(axis, poses, middle, ground):
-    """Draw one structure: its poses on the way as outlines, the last one filled, coloured by fate."""
+    """Draw the poses of one structure: outlines, the last one filled; the colour is the outcome."""
     colour = ACCENT if poses.outcome.iloc[0] == "overturned" else DARK
     for (last, _, body), part in poses.groupby(["last", "pose", "body"]):
         corners = list(zip(part.x + middle, part.y + ground, strict=True))
@@ -66,48 +68,42 @@ def glyph(axis, name, at):
     columns = {"bare": [7], "fixed": [7], "free": [1, 13]}[name]
     caps = {"bare": [], "fixed": [(4, 8)], "free": [(0, 16)]}[name]
     for left in columns:
-        area.add_artist(Rectangle((left, 0), 2, 11, facecolor="white", edgecolor=INK, linewidth=0.6))
+        area.add_artist(
+            Rectangle((left, 0), 2, 11, facecolor="white", edgecolor=INK, linewidth=0.6)
+        )
     for left, width in caps:
         area.add_artist(Rectangle((left, 11), width, 3, facecolor=INK, linewidth=0))
-    axis.add_artist(AnnotationBbox(area, at, frameon=False, pad=0, box_alignment=(0.5, 0.5)))
+    axis.add_artist(AnnotationBbox(area, at, frameon=False, pad=0, box_alignment=(0.5, -0.15)))
 
 
 def minima(axis, summary, poses):
     """Draw the minimum overturning acceleration over γ, and the pulses of the picture across it."""
     of = summary[summary["shape"] == "one-cosine"]
     bare = of[of.structure == "bare"].minimum_overturning.iloc[0]
-    axis.axhline(bare, color=INK, linewidth=1.2)
-    for name, label, dashes in (
-        ("fixed", "fixed", ()),
-        ("fixed, of the drawn size", "", (3, 2)),
-        ("free", "carried freely", ()),
-    ):
+    axis.plot([0.0, LIMIT], [bare, bare], color=INK)
+    glyph(axis, "bare", (GLYPHS_AT, bare))
+    for name in ("fixed", "free"):
         line = of[of.structure == name].sort_values("mass_ratio")
-        ends = line[line.mass_ratio < math.inf]
-        x, y = [0.0, *ends.mass_ratio], [bare, *ends.minimum_overturning]
-        how = {"color": INK, "linewidth": 1.2 if label else 0.8, "dashes": dashes}
-        axis.plot(x, y, **{key: value for key, value in how.items() if value != ()})
-        limit = line.minimum_overturning.iloc[-1]
-        axis.plot(LIMIT, limit, "o", color=INK if label else "white", markersize=3.4,
-                  markeredgecolor=INK, markeredgewidth=0.7)  # fmt: skip
-    ratio = 1.0
-    for amplitude, outcomes in poses.groupby("amplitude"):
-        axis.axhline(amplitude, color=GREY, linewidth=0.7, linestyle=(0, (1, 2)))
-        note(axis, f"{amplitude:g} g", (LIMIT + 0.2, amplitude), color=GREY, ha="right",
-             va="bottom", xytext=(0, 1), textcoords="offset points")  # fmt: skip
-        del outcomes
-    axis.axvline(ratio, color=GREY, linewidth=0.5)
-    free = of[of.structure == "free"].set_index("mass_ratio").minimum_overturning
-    fixed = of[of.structure == "fixed"].set_index("mass_ratio").minimum_overturning
-    for name, at in (("free", free[3.0] + 0.017), ("bare", bare - 0.0), ("fixed", fixed[3.0] + 0.02)):
-        glyph(axis, name, (3.0, at))
-    axis.set(xlim=(0, LIMIT + 0.25), ylim=(0.0, 0.37), xticks=[0, 1, 2, 3, 4, LIMIT])
+        finite, limit = line[line.mass_ratio < math.inf], line.minimum_overturning.iloc[-1]
+        x, y = [0.0, *finite.mass_ratio], [bare, *finite.minimum_overturning]
+        axis.plot(x, y, color=INK)
+        axis.plot([x[-1], LIMIT], [y[-1], limit], color=INK, linewidth=0.8, linestyle=(0, (1, 2)))
+        axis.plot(LIMIT, limit, "o", color=INK, markersize=3.2, clip_on=False)
+        glyph(axis, name, (GLYPHS_AT, y[x.index(GLYPHS_AT)]))
+    drawn = poses.mass_ratio.iloc[0]
+    axis.axvline(drawn, color=GREY, linewidth=0.5)
+    note(axis, f"{gamma(drawn)}, as drawn", (drawn + 0.08, LOWEST + 0.008), color=GREY)
+    for amplitude in poses.amplitude.unique():
+        axis.axhline(amplitude, color=GREY, linewidth=0.7, linestyle=(0, (4, 2)))
+        how = {"ha": "right", "va": "bottom", "xytext": (0, 1), "textcoords": "offset points"}
+        note(axis, f"{amplitude:g} g", (LIMIT, amplitude), color=GREY, **how)
+    axis.set(xlim=(0, LIMIT), ylim=(LOWEST, 0.36), xticks=[0, 1, 2, 3, 4, LIMIT])
     axis.set_xticklabels(["0", "1", "2", "3", "4", "∞"])
     axis.set(xlabel=r"Mass ratio, $\gamma$ (–)", ylabel="Minimum overturning acceleration (g)")
 
 
 def draw(vase, vase_poses):
-    figure, (left, right) = sheet(DOUBLE, 78, ncols=2, width_ratios=(2.35, 1))
+    figure, (left, right) = sheet(DOUBLE, 74, ncols=2, width_ratios=(2.25, 1))
     picture(left, vase_poses)
     minima(right, vase, vase_poses)
     return figure

@@ -1,4 +1,4 @@
-"""The cap's mass fixed to one column or both, against a lattice of point masses and known values."""
+"""The cap's mass fixed to one column or both, against point masses and known values."""
 
 import math
 

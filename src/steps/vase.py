@@ -11,17 +11,19 @@ import numpy as np
 import pandas as pd
 from spectrum import progress
 from vase_poses import poses
-from vase_searches import Minimum, minimum, rivals
-from vase_shares import PARAMETERS, shares
+from vase_searches import Minimum, minimum, refined, rivals
+from vase_shares import PARAMETERS, WORTHS, shares
 
 from replication.workbench import grid, run, truth
 from topheavy import (
+    STANDARD_GRAVITY,
     Column,
     FixedMassColumn,
     MonolithicPortal,
     Pulse,
     Record,
     read_record,
+    reference,
 )
 
 HIGHEST = 40.0  # g, of the portals, which no other structure comes near
@@ -45,11 +47,11 @@ def numbers(column: Column, case: dict) -> list[tuple[str, float, float, Any]]:
 
 
 def under_pulses(column: Column, case: dict) -> list[dict]:
-    """Return the three numbers of every structure and its minimum under each pulse of the period."""
+    """Return every structure's three numbers, and its minimum under each pulse of the period."""
     rows = []
     for name, gamma, span, structure in numbers(column, case):
         block = structure.block()
-        size = 3.0 * 9.81 / (4.0 * block.frequency_parameter**2)
+        size = 3.0 * STANDARD_GRAVITY / (4.0 * block.frequency_parameter**2)
         for shape in case["shapes"]:
             pulse = Pulse(shape, 1.0, 2.0 * math.pi / case["period"])
             found = minimum(structure, pulse, HIGHEST)
@@ -65,7 +67,7 @@ def under_pulses(column: Column, case: dict) -> list[dict]:
                     "uplift_acceleration": block.uplift_acceleration,
                     "shape": shape,
                     "minimum_overturning": found.acceleration,
-                    "error": found.error(),
+                    "error": found.error,
                 }
             )
     return rows
@@ -74,86 +76,93 @@ def under_pulses(column: Column, case: dict) -> list[dict]:
 def search(
     column: Column, motion: Pulse | Record, ratios: list[float], highest: float, labels: dict
 ) -> list[dict]:
-    """Return a row for every structure under one motion, with what it has to exceed: the bare one."""
+    """Return the minima of all structures under one motion, each beside that of the bare column."""
     rows: list[dict] = []
-    for name, gamma, structure in rivals(column, [0.0, *ratios]):
+    for name, gamma, structure in rivals(column, ratios):
         found = minimum(structure, motion, highest)
         bare = rows[0]["found"] if rows else found
+        found = refined(found, min(bare.acceleration, highest))
         rows.append(labels | {"structure": name, "mass_ratio": gamma, "found": found, "bare": bare})
     return rows
 
 
 def is_exception(row: dict) -> bool:
-    """Whether a fixed mass survives what overturns the bare column first, or a frame falls first.
-
-    Where neither overturns up to the highest acceleration nothing is said.
-    """
+    """Whether a fixed mass overturns later than the bare column, or a frame earlier."""
     ours, bare = row["found"].acceleration, row["bare"].acceleration
     return {"bare": False, "fixed": ours > bare, "free": ours < bare}[row["structure"]]
 
 
-def is_compared(row: dict) -> bool:
-    """Whether at least one of the two minima was found: the other one is then higher."""
-    return row["structure"] != "bare" and math.isfinite(
-        min(row["found"].acceleration, row["bare"].acceleration)
+def is_compared(row: dict, tightened: float) -> bool:
+    """Whether one of the two overturns at all, and the minima that there are can be told."""
+    minima = [one for one in (row["found"], row["bare"]) if math.isfinite(one.acceleration)]
+    return (
+        row["structure"] != "bare" and bool(minima) and all(one.told(tightened) for one in minima)
     )
 
 
-def finite(value: float) -> float | None:
-    return value if math.isfinite(value) else None
-
-
 def plain(row: dict) -> dict:
-    """Return a row of the table: the middle of the bracket, NaN where nothing overturns."""
-    kept = {key: value for key, value in row.items() if key not in ("found", "bare")}
-    ours = row["found"].acceleration
-    return kept | {"minimum_overturning": ours if math.isfinite(ours) else math.nan}
+    """Return a row of the table; NaN where nothing up to the highest acceleration overturns."""
+    labels = {key: value for key, value in row.items() if key not in ("found", "bare")}
+    return labels | {"minimum_overturning": _finite(row["found"])}
 
 
 def exception(row: dict) -> dict:
     """Return an exception with the error of both of its minima, by SciPy."""
     ours, bare = row["found"], row["bare"]
-    return plain(row) | {
-        "bare_column": bare.acceleration if math.isfinite(bare.acceleration) else math.nan,
-        "error": _error(ours),
-        "bare_error": _error(bare),
-    }
+    errors = (one.error if math.isfinite(one.acceleration) else math.nan for one in (ours, bare))
+    pair = dict(zip(("error", "bare_error"), errors, strict=True))
+    later = ours if ours.acceleration > bare.acceleration else bare
+    earlier = min(ours.acceleration, bare.acceleration)
+    survives = not reference.judge(later.structure, later.motion.scaled(earlier)).overturned
+    return plain(row) | {"bare_column": _finite(bare), **pair, "later_one_survives": survives}
 
 
-def _error(found: Minimum) -> float:
-    return found.error() if math.isfinite(found.acceleration) else math.nan
+def _finite(found: Minimum) -> float:
+    return found.acceleration if math.isfinite(found.acceleration) else math.nan
 
 
-def question(rows: list[dict], structure: str, exceptions: list[dict]) -> dict:
-    """Return whether one structure keeps its rank under every motion, as a finding."""
-    asked = [row for row in rows if row["structure"] == structure and is_compared(row)]
-    broken = [row for row in exceptions if row["structure"] == structure]
+def question(compared: list[dict], structures: list[str], longest: float) -> dict:
+    """Return whether the structures keep their rank under every motion, as a finding."""
+    asked = [row for row in compared if row["structure"] in structures]
+    broken = [row for row in asked if is_exception(row)]
+    long_ones = [row for row in asked if row["frequency_ratio"] <= longest]
     return truth(
         not broken,
+        holds_when=bool(long_ones) and not any(map(is_exception, long_ones)),
+        condition=f"the ground motion is a pulse of ω at most {longest:g} p",
         comparisons=len(asked),
+        comparisons_when=len(long_ones),
         exceptions=len(broken),
-        records=sorted({row["motion"] for row in broken if "record" in row["kind"]}),
+        exceptions_under_records=sum(row["kind"] == "record" for row in broken),
+        records=sum(row["kind"] == "record" for row in asked),
     )
 
 
-def sampled(rows: list[dict], count: int) -> list[Minimum]:
-    """Return minima of a seeded sample of rows."""
-    found = [row["found"] for row in rows if math.isfinite(row["found"].acceleration)]
-    picked = np.random.default_rng(SEED).permutation(len(found))[:count]
-    return [found[index] for index in picked]
+def sampled(compared: list[dict], kind: str, count: int) -> list[Minimum]:
+    """Return minima of a seeded sample of the motions of a kind."""
+    found = [row["found"] for row in compared if row["kind"] == kind]
+    found = [one for one in found if math.isfinite(one.acceleration)]
+    return [found[place] for place in np.random.default_rng(SEED).permutation(len(found))[:count]]
 
 
 def carried(table: pd.DataFrame) -> dict:
-    """Return the share of the difference between frame and fixed mass that each parameter carries."""
-    ends = {of: table[table.of_free == of].survived.to_numpy() for of in ("none", "α p √r")}
-    total = ends["α p √r"] - ends["none"]
-    return {name: table[table.of_free == name].shapley.to_numpy() / total for name in PARAMETERS}
+    """Return, for each worth, how much of the gain α, p and √r carry: mean and range."""
+    single = table[table.shapley_value.notna()]
+    found = single.groupby(["worth", "taken_from_the_frame"]).share_of_gain
+    return {
+        worth: {
+            name: [float(found.agg(how)[worth, name]) for how in ("mean", "min", "max")]
+            for name in PARAMETERS
+        }
+        for worth in WORTHS
+    }
 
 
-def main(case: dict, paths: list[str], tightened: float) -> tuple:
-    column, spec = Column(**case["column"]), case["spectra"]
-    summary = pd.DataFrame(under_pulses(column, case))
-    level, p = column.uplift_acceleration, column.frequency_parameter
+def motions(
+    column: Column, case: dict, paths: list[str]
+) -> list[tuple[Pulse | Record, list[float], dict]]:
+    """Return every motion, of unit peak, with the γ that it is tried with and its labels."""
+    spec, p = case["spectra"], column.frequency_parameter
     pulses = [
         (
             Pulse(shape, 1.0, ratio * p),
@@ -163,7 +172,7 @@ def main(case: dict, paths: list[str], tightened: float) -> tuple:
         for shape in spec["shapes"]
         for ratio in grid(spec["frequency_ratios"])
     ]
-    records = [
+    return pulses + [
         (
             record.scaled(1.0 / np.abs(record.acceleration).max()),
             case["record_mass_ratios"],
@@ -171,36 +180,61 @@ def main(case: dict, paths: list[str], tightened: float) -> tuple:
         )
         for record in map(read_record, paths)
     ]
-    motions = pulses + records
-    found = (
-        search(column, motion, ratios, spec["highest"] * level, labels)
-        for motion, ratios, labels in motions
+
+
+def ranks(summary: pd.DataFrame) -> bool:
+    """Whether fixed < bare < free under each pulse of the period, for every γ > 0."""
+    minima = summary.set_index(["structure", "shape"]).minimum_overturning
+    return all(
+        (minima["fixed", shape] < minima["bare", shape]).all()
+        and (minima["free", shape] > minima["bare", shape]).all()
+        for shape in summary["shape"].unique()
     )
-    rows = [row for part in progress(found, len(motions), "motions") for row in part]
-    broken = [row for row in rows if is_exception(row)]
-    checked = case["checked_by_second_route"]
-    again = {
-        kind: sampled([row for row in rows if row["kind"] == f"{kind[:-1]}"], count)
-        for kind, count in {"pulses": checked["spectra"], "records": checked["records"]}.items()
-    }
-    errors = [one.error() / one.acceleration for some in again.values() for one in some]
-    exceptions = pd.DataFrame([exception(row) for row in broken])
-    of_shares = pd.DataFrame(shares(column, spec["shapes"], case["shares"]))
+
+
+def main(case: dict, paths: list[str], tightened: float) -> tuple:
+    column, checked = Column(**case["column"]), case["checked_by_second_route"]
+    summary = pd.DataFrame(under_pulses(column, case))
+    highest = case["spectra"]["highest"] * column.uplift_acceleration
+    tried = motions(column, case, paths)
+    found = (search(column, motion, ratios, highest, labels) for motion, ratios, labels in tried)
+    rows = [row for part in progress(found, len(tried), "motions") for row in part]
+    compared = [row for row in rows if is_compared(row, tightened)]
+    exceptions = pd.DataFrame([exception(row) for row in compared if is_exception(row)])
+    sample = [one for kind, count in checked.items() for one in sampled(compared, kind, count)]
+    errors = [*(one.error / one.acceleration for one in sample)]
+    errors += [*(summary.error / summary.minimum_overturning)]
+    of_shares = pd.DataFrame(shares(column, case))
+    portals = summary[summary.structure == "portal"]
+    longest = case["longest"]
     findings = {
-        "fixed_mass_always_lowers": question(rows, "fixed", broken),
-        "frame_always_raises": question(rows, "free", broken),
+        "fixed_mass_always_lowers": question(compared, ["fixed"], longest),
+        "frame_always_raises": question(compared, ["free"], longest),
+        "support_decides": question(compared, ["fixed", "free"], longest)
+        | {"under_the_pulses_of_the_period": ranks(summary)},
+        "portal_has_a_wider_base": truth(
+            (portals.slenderness_deg > summary.slenderness_deg[0]).all(),
+            slenderness_deg=portals.slenderness_deg.unique(),
+            minimum_overturning_g=portals.minimum_overturning[
+                portals["shape"] == case["shapes"][0]
+            ],
+        ),
+        "shares_of_the_gain": truth(True, **carried(of_shares)),
         "second_route": truth(
-            summary.error.notna().all() and not np.isnan(errors).any(),
-            boundaries=len(summary) + len(errors),
-            largest_error=float(max(np.nanmax(errors), (summary.error / summary.minimum_overturning).max())),
+            bool(np.all(np.isfinite(errors))) and bool(exceptions.later_one_survives.all()),
+            boundaries=len(errors),
+            largest_relative_error=float(np.max(errors)) if np.all(np.isfinite(errors)) else None,
+            exceptions=len(exceptions),
+            not_told=sum(row["structure"] != "bare" for row in rows) - len(compared),
         ),
     }
-    table = pd.DataFrame(map(plain, rows))
-    return summary, table, exceptions, of_shares, pd.DataFrame(poses(column, case)), findings
+    tables = summary, pd.DataFrame(map(plain, rows)), exceptions, of_shares
+    return *tables, pd.DataFrame(poses(column, case)), findings
+
+
+def work(job: Any) -> tuple:
+    return main(job.params.case, job.input.records, job.params.solver["tightened"])
 
 
 if __name__ == "__main__":
-    run(
-        snakemake,
-        lambda job: main(job.params.case, job.input.records, job.params.solver["tightened"]),
-    )
+    run(snakemake, work)

@@ -21,7 +21,7 @@ def rectangle(middle: float, width: float, low: float, depth: float) -> np.ndarr
 
 
 def lying(column: Column, corners: np.ndarray) -> float:
-    """Return the rotation (rad) at which one of the corners of an overturning body meets the ground.
+    """Return the rotation (rad) at which a corner of an overturning body meets the ground.
 
     The corners turn with the column about its right corner.
     """
@@ -91,6 +91,7 @@ def poses(column: Column, case: dict) -> Iterator[dict]:
                     for x, y in outline:
                         yield {
                             "amplitude": amplitude,
+                            "mass_ratio": gamma,
                             "structure": name,
                             "outcome": outcome,
                             "pose": pose,

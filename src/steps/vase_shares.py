@@ -1,19 +1,28 @@
 """Which of α, p and √r carries the difference between the fixed mass and the freely carried one.
 
 Each of the three is taken from the frame or from the column with the fixed mass, which gives eight
-blocks. The worth of a block is the share of a map of frequency and amplitude that it survives. The
-Shapley value of a parameter is what its exchange adds, averaged over the orders of the exchanges;
-the three values add up to the difference between the frame and the fixed mass.
+blocks. The worth of a block is the share of a map of frequency and amplitude that it survives, or
+its minimum overturning acceleration. The Shapley value of a parameter is the gain by its exchange,
+averaged over the orders of the exchanges. The three values add up to the difference between the
+frame and the fixed mass.
 """
 
 import math
 from collections.abc import Iterator, Mapping
-from itertools import combinations
+from itertools import combinations, permutations, product
 
 import numpy as np
+from vase_searches import minimum
 
 from replication.workbench import grid
-from topheavy import Column, FixedMassColumn, RockingBlock, RockingFrame, overturning_map
+from topheavy import (
+    Column,
+    FixedMassColumn,
+    Pulse,
+    RockingBlock,
+    RockingFrame,
+    overturning_map,
+)
 
 PARAMETERS = {"α": "slenderness", "p": "frequency_parameter", "√r": "restitution"}
 
@@ -35,46 +44,56 @@ def exchanged(fixed: RockingBlock, free: RockingBlock, of_free: tuple[str, ...])
 
 def shapley(worth: Mapping[tuple[str, ...], float]) -> dict[str, float]:
     """Return the Shapley value of each parameter from the worth of every subset."""
-    count = len(PARAMETERS)
     values = dict.fromkeys(PARAMETERS, 0.0)
-    for subset in worth:
-        weight = math.factorial(len(subset)) * math.factorial(count - len(subset) - 1) if (
-            len(subset) < count
-        ) else 0
-        for name in PARAMETERS:
-            if name not in subset:
-                larger = tuple(one for one in PARAMETERS if one in (*subset, name))
-                values[name] += weight / math.factorial(count) * (worth[larger] - worth[subset])
+    for order in permutations(PARAMETERS):
+        for place, name in enumerate(order):
+            before, after = (
+                tuple(one for one in PARAMETERS if one in order[:end]) for end in (place, place + 1)
+            )
+            values[name] += (worth[after] - worth[before]) / math.factorial(len(PARAMETERS))
     return values
 
 
 def survived(block: RockingBlock, column: Column, shape: str, case: dict) -> float:
     """Return the share of the map that a block survives; its axes are those of the column."""
-    frequencies = grid(case["frequency_ratios"]) * column.frequency_parameter
-    amplitudes = grid(case["amplitudes"]) * column.uplift_acceleration
+    spec = case["shares"]
+    frequencies = grid(spec["frequency_ratios"]) * column.frequency_parameter
+    amplitudes = grid(spec["amplitudes"]) * column.uplift_acceleration
     found = overturning_map(block, shape, frequencies, amplitudes)
     return float(1.0 - np.mean(found.overturned.to_numpy()))
 
 
-def shares(column: Column, shapes: list[str], case: dict) -> list[dict]:
-    """Return a row for each shape, γ and subset: what it survives; and the Shapley values."""
+def least(block: RockingBlock, column: Column, shape: str, case: dict) -> float:
+    """Return the minimum overturning acceleration of a block under the pulse of the period, g."""
+    pulse = Pulse(shape, 1.0, 2.0 * math.pi / case["period"])
+    return minimum(
+        block, pulse, case["spectra"]["highest"] * column.uplift_acceleration
+    ).acceleration
+
+
+WORTHS = {"survived share of the map": survived, "minimum overturning acceleration (g)": least}
+
+
+def shares(column: Column, case: dict) -> list[dict]:
+    """Return a row for each worth, shape, γ and subset, with the Shapley value of single ones."""
     rows = []
-    for shape in shapes:
-        for gamma in case["mass_ratios"]:
-            fixed, free = FixedMassColumn(column, gamma).block(), RockingFrame(column, gamma).block()
-            worth = {
-                subset: survived(exchanged(fixed, free, subset), column, shape, case)
-                for subset in subsets()
+    for worth_of, shape, gamma in product(WORTHS, case["shapes"], case["shares"]["mass_ratios"]):
+        fixed, free = FixedMassColumn(column, gamma).block(), RockingFrame(column, gamma).block()
+        worth = {
+            subset: WORTHS[worth_of](exchanged(fixed, free, subset), column, shape, case)
+            for subset in subsets()
+        }
+        values, gain = shapley(worth), worth[tuple(PARAMETERS)] - worth[()]
+        rows += [
+            {
+                "worth": worth_of,
+                "shape": shape,
+                "mass_ratio": gamma,
+                "taken_from_the_frame": " ".join(subset) or "none",
+                "value": worth[subset],
+                "shapley_value": values[subset[0]] if len(subset) == 1 else math.nan,
+                "share_of_gain": values[subset[0]] / gain if len(subset) == 1 else math.nan,
             }
-            values = shapley(worth)
-            rows += [
-                {
-                    "shape": shape,
-                    "mass_ratio": gamma,
-                    "of_free": " ".join(subset) or "none",
-                    "survived": worth[subset],
-                    "shapley": values[subset[0]] if len(subset) == 1 else math.nan,
-                }
-                for subset in worth
-            ]
+            for subset in worth
+        ]
     return rows
