@@ -205,7 +205,7 @@ def main(case: dict, paths: list[str], tightened: float) -> tuple:
     errors = [*(one.error / one.acceleration for one in sample)]
     errors += [*(summary.error / summary.minimum_overturning)]
     of_shares = pd.DataFrame(shares(column, case))
-    portals = summary[summary.structure == "portal"]
+    portals = summary[(summary.structure == "portal") & (summary["shape"] == case["shapes"][0])]
     longest = case["longest"]
     findings = {
         "fixed_mass_always_lowers": question(compared, ["fixed"], longest),
@@ -214,10 +214,8 @@ def main(case: dict, paths: list[str], tightened: float) -> tuple:
         | {"under_the_pulses_of_the_period": ranks(summary)},
         "portal_has_a_wider_base": truth(
             (portals.slenderness_deg > summary.slenderness_deg[0]).all(),
-            slenderness_deg=portals.slenderness_deg.unique(),
-            minimum_overturning_g=portals.minimum_overturning[
-                portals["shape"] == case["shapes"][0]
-            ],
+            slenderness_deg=portals.slenderness_deg,
+            minimum_overturning_g=portals.minimum_overturning,
         ),
         "shares_of_the_gain": truth(True, **carried(of_shares)),
         "second_route": truth(
