@@ -92,12 +92,15 @@ def is_exception(row: dict) -> bool:
     return {"bare": False, "fixed": ours > bare, "free": ours < bare}[row["structure"]]
 
 
+def minima(row: dict) -> list[Minimum]:
+    """Return those of a structure and of the bare column that there are."""
+    return [one for one in (row["found"], row["bare"]) if math.isfinite(one.acceleration)]
+
+
 def is_compared(row: dict, tightened: float) -> bool:
     """Whether one of the two overturns at all, and the minima that there are can be told."""
-    minima = [one for one in (row["found"], row["bare"]) if math.isfinite(one.acceleration)]
-    return (
-        row["structure"] != "bare" and bool(minima) and all(one.told(tightened) for one in minima)
-    )
+    found = minima(row)
+    return row["structure"] != "bare" and bool(found) and all(one.told(tightened) for one in found)
 
 
 def plain(row: dict) -> dict:
@@ -184,10 +187,10 @@ def motions(
 
 def ranks(summary: pd.DataFrame) -> bool:
     """Whether fixed < bare < free under each pulse of the period, for every γ > 0."""
-    minima = summary.set_index(["structure", "shape"]).minimum_overturning
+    of = summary.set_index(["structure", "shape"]).sort_index().minimum_overturning
     return all(
-        (minima["fixed", shape] < minima["bare", shape]).all()
-        and (minima["free", shape] > minima["bare", shape]).all()
+        of["fixed", shape].max() < of["bare", shape].min()
+        and of["free", shape].min() > of["bare", shape].max()
         for shape in summary["shape"].unique()
     )
 
@@ -223,7 +226,9 @@ def main(case: dict, paths: list[str], tightened: float) -> tuple:
             boundaries=len(errors),
             largest_relative_error=float(np.max(errors)) if np.all(np.isfinite(errors)) else None,
             exceptions=len(exceptions),
-            not_told=sum(row["structure"] != "bare" for row in rows) - len(compared),
+            neither_overturns=sum(row["structure"] != "bare" and not minima(row) for row in rows),
+            not_told=sum(bool(row["structure"] != "bare" and minima(row)) for row in rows)
+            - len(compared),
         ),
     }
     tables = summary, pd.DataFrame(map(plain, rows)), exceptions, of_shares

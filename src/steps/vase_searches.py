@@ -21,7 +21,7 @@ from topheavy.structures import Structure
 WINDOWS = ((1.0, 1.5, 0.01), (1.5, 3.0, 0.03), (3.0, 30.0, 0.05))
 """Ranges searched one after the other, and their resolution, over the uplift acceleration."""
 
-FINEST = {Pulse: 0.002, Record: 0.01}
+FINEST = {Pulse: 0.005, Record: 0.02}
 """Resolution below the minimum of the bare column, over the uplift acceleration."""
 
 NUDGE = 1e-6
