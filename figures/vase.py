@@ -56,7 +56,7 @@ def picture(axis, poses):
     for name, middle in PLACES.items():
         note(axis, NAMES[name], (middle, 8.1), ha="center", fontsize=8)
     bottom = -ROW * (len(amplitudes) - 1)
-    note(axis, "overturns", (PLACES["bare"] + 1.0, bottom - 1.0), color=ACCENT, fontsize=8)
+    note(axis, "overturns", (9.0, bottom - 1.0), color=ACCENT, ha="center", fontsize=8)
     note(axis, "survives", (PLACES["free"], bottom - 1.0), color=DARK, ha="center", fontsize=8)
     axis.set(xlim=EDGES, ylim=(bottom - 1.8, 8.9), aspect="equal", anchor="W")
     axis.axis("off")
