@@ -196,7 +196,7 @@ def ranks(summary: pd.DataFrame) -> bool:
 
 
 def main(case: dict, paths: list[str], tightened: float) -> tuple:
-    column, checked = Column(**case["column"]), case["checked_by_second_route"]
+    column = Column(**case["column"])
     summary = pd.DataFrame(under_pulses(column, case))
     highest = case["spectra"]["highest"] * column.uplift_acceleration
     tried = motions(column, case, paths)
@@ -204,7 +204,8 @@ def main(case: dict, paths: list[str], tightened: float) -> tuple:
     rows = [row for part in progress(found, len(tried), "motions") for row in part]
     compared = [row for row in rows if is_compared(row, tightened)]
     exceptions = pd.DataFrame([exception(row) for row in compared if is_exception(row)])
-    sample = [one for kind, count in checked.items() for one in sampled(compared, kind, count)]
+    sample = sampled(compared, "pulse", case["sample"]["points"])
+    sample += sampled(compared, "record", case["checked_by_second_route"])
     errors = [*(one.error / one.acceleration for one in sample)]
     errors += [*(summary.error / summary.minimum_overturning)]
     of_shares = pd.DataFrame(shares(column, case))
