@@ -15,6 +15,7 @@ PARTS[PAPER].figures.update(
         "figures/allen_histories": ["allen_histories"],
         "figures/allen_errors": ["allen_errors"],
         "figures/allen_overturning": ["allen_overturning"],
+        "figures/vase": ["vase", "vase_poses"],
         "figures/heavier": ["heavier_histories", "heavier"],
         "figures/scale_effects": ["scale_effects"],
         "figures/spectra": ["spectra"],
@@ -37,6 +38,7 @@ PARTS[PAPER].findings.extend(
         "heavier",
         "scale_effects",
         "stability",
+        "vase",
         "spectra",
         "spectra_dimensional",
         "rocking_spectra",
@@ -47,6 +49,7 @@ PARTS[PAPER].findings.extend(
 
 # Findings that no claim rests on, and without which no claim is worth much.
 CHECKS = {
+    "vase": ["second_route"],
     "verification": [
         "routes_agree",
         "published_numbers",
@@ -291,6 +294,30 @@ rule heavier:
         "The same pulse under heavier and heavier caps"
     script:
         "heavier.py"
+
+
+rule vase:
+    input:
+        code("src/steps/vase.py"),
+        records=[RECORDS[name] for name in config["vase"]["records"]],
+    output:
+        summary="results/tables/vase.csv",
+        motions="results/tables/vase_motions.csv",
+        exceptions="results/tables/vase_exceptions.csv",
+        shares="results/tables/vase_shares.csv",
+        poses="results/tables/vase_poses.csv",
+        findings="results/findings/vase.json",
+    log:
+        "results/logs/vase.log",
+    benchmark:
+        "results/benchmarks/vase.tsv"
+    params:
+        case=case("vase"),
+        solver=config["solver"],
+    message:
+        "The same mass fixed to one column, and carried freely by two"
+    script:
+        "vase.py"
 
 
 rule scale_effects:
