@@ -67,7 +67,7 @@ lint: | $(UV) ## check style, types, spelling and schemas; changes nothing
 	$(DEV) ruff format --check
 	$(DEV) mypy
 	$(DEV) codespell
-	$(DEV) snakefmt --check --compact-diff Snakefile $(wildcard src/steps/*.smk studies/*/*.smk)
+	$(DEV) snakefmt --check --compact-diff Snakefile $(wildcard src/*/*.smk studies/*/*.smk)
 	$(DEV) check-jsonschema --check-metaschema config/config.schema.yaml
 	$(DEV) check-jsonschema --schemafile config/config.schema.yaml config/config.yaml
 	for study in studies/*/; do \

@@ -74,10 +74,10 @@ def everything(wildcards):
     """
     drawn = {table for tables in FIGURES.values() for table in tables}
     wanted = dict.fromkeys(f"results/tables/{table}.csv" for table in sorted(drawn))
-    for rule in workflow.rules:
-        if rule.name in ("all", "manifest") or rule.name.startswith("claim_"):
+    for each in workflow.rules:
+        if each.name in ("all", "manifest") or each.name.startswith("claim_"):
             continue
-        asked = [*rule.input, *([] if rule.has_wildcards() else rule.output)]
+        asked = [*each.input, *([] if each.has_wildcards() else each.output)]
         wanted |= dict.fromkeys(str(path) for path in asked if not callable(path))
     return [path for path in wanted if "{" not in path]
 

@@ -134,6 +134,7 @@ rule report:
         reads("paper/report.typ", *SECTIONS),
         expand("results/findings/{name}.json", name=FINDINGS),
         expand("{figure}.svg", figure=FIGURES),
+        source="paper/report.typ",
     output:
         "paper/report.pdf",
     log:
@@ -141,7 +142,6 @@ rule report:
     benchmark:
         "results/benchmarks/report.tsv"
     params:
-        source="paper/report.typ",
         studies=config["studies"],
     message:
         "Compiling the report"
