@@ -19,7 +19,7 @@ from replication.publishing import (
 )
 from replication.strict_yaml import read_yaml
 
-PICTURES = ("heavier", "peak_maps", "spectra", "structures")
+PICTURES = ("vase", "heavier", "peak_maps", "spectra", "structures")
 MOVING = "animation.gif"
 TABLES = (
     "allen_errors",
