@@ -1,4 +1,4 @@
-"""The linearised motion solved exactly, piece by piece: the oracle for every solver.
+"""The exact solution of the linearised motion, piece by piece: a check of every solver.
 
 On one side and one segment of the ground motion (Allen et al. 1986; Housner 1963)
 

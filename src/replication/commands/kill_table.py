@@ -1,7 +1,7 @@
 """Insert deliberate faults in the physics, one at a time, and find what catches each.
 
-The command inserts each fault of faults.yaml into a copy of the tree, never into the library itself.
-It runs the workflow in the copy, with config/quick.yaml and only the rules of the claims. A verdict
+The command inserts each fault of faults.yaml into a copy of the tree, never into the library. It
+runs the workflow in the copy, with config/quick.yaml and only the rules of the claims. A verdict
 that differs from the expected one has caught the fault. Otherwise the command runs the tests that
 the fault names. If no verdict and no test fails, a rule has to raise an error; if none does, the
 fault has survived.
