@@ -11,7 +11,8 @@ from typing import Any
 from replication.strict_yaml import read_yaml
 
 LIST = Path("paper/words.yaml")
-TEXTS = ("STRING", "FSTRING_MIDDLE")
+TEXTS = ("STRING", "FSTRING_MIDDLE")  # before Python 3.12 an f-string is one STRING
+FIELD = re.compile(r"\{[^{}\n]*\}")
 GAP = r"(?:\s|#)+"  # between two words: also a line break, with the mark of a comment
 
 
@@ -55,7 +56,8 @@ def prose(code: str) -> str:
         if not (kind == "COMMENT" or (kind in TEXTS and " " in token.string)):
             continue
         row, column = token.start
-        for offset, part in enumerate(token.string.split("\n")):
+        text = FIELD.sub(lambda field: " " * len(field[0]), token.string)
+        for offset, part in enumerate(text.split("\n")):
             start = column if offset == 0 else 0
             line = lines[row - 1 + offset]
             lines[row - 1 + offset] = line[:start] + part + line[start + len(part) :]

@@ -1,9 +1,9 @@
 """Columns, cap beam and ground as rigid bodies in MuJoCo, a general rigid-body engine.
 
 The model is three boxes and a plane with unilateral contact and friction. It contains no
-rocking-specific equations: no common rotation, no pivot corners, no level cap beam, no √r. Motion is
-planar: each body has two slides and a hinge. The ground is fixed, and an inertial force represents
-its motion: gravity becomes (−ü_g, 0, −g).
+rocking-specific equations: no common rotation, no pivot corners, no level cap beam, no √r. Motion
+is planar: each body has two slides and a hinge. The ground is fixed, and an inertial force
+represents its motion: gravity becomes (−ü_g, 0, −g).
 
 Contacts are compliant: a spring and a damper, with a time constant of a few time steps. If time
 constant and time step decrease together, the limit is the rigid structure.

@@ -29,8 +29,8 @@ def column_of(slenderness: float, size: float) -> Column:
 def row(record: Record, degrees: float, size: float, gamma: float, ratios, tightened) -> dict:
     """Return the outcomes at all factors.
 
-    Outcomes are too sensitive to decide if a relative change of NUDGE in the record, or the tightened
-    tolerance, changes them. Factors are over that of uplift, in equal ratios.
+    Outcomes are too sensitive to decide if a relative change of NUDGE in the record, or the
+    tightened tolerance, changes them. Factors are over that of uplift, in equal ratios.
     """
     column = column_of(degrees, size)
     frame = RockingFrame(column, gamma)
