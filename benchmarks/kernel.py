@@ -1,4 +1,4 @@
-"""The kernel one history at a time, as the peers take them, on one thread."""
+"""Run the Taylor solver one history at a time on one thread, like the other solvers."""
 
 import numpy as np
 from numba import njit

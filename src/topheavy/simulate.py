@@ -41,7 +41,7 @@ MOST_IMPACTS = 100_000
 """The largest number of impacts of one history."""
 
 SMALLEST_TOLERANCE, LARGEST_TOLERANCE = 1e-16, 1e-2
-"""Below the first a step is as good as doubles are; above the second outcomes differ visibly."""
+"""Below the first, rounding dominates the error of a step; above the second, outcomes change."""
 
 _OUTCOMES: dict[int, Outcome] = {
     NO_UPLIFT: "no uplift",

@@ -68,7 +68,11 @@ def findings(text: str, phrases: Mapping[str, str]) -> Iterator[tuple[int, str, 
     """Yield each phrase to avoid in a text: its line, the phrase as written, and the advice."""
     for phrase, better in phrases.items():
         for match in pattern_of(phrase).finditer(text):
-            yield text.count("\n", 0, match.start()) + 1, " ".join(match[0].split()), better
+            yield (
+                text.count("\n", 0, match.start()) + 1,
+                " ".join(match[0].replace("#", " ").split()),
+                better,
+            )
 
 
 def main(root: Path = Path()) -> int:
