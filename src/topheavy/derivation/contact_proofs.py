@@ -116,7 +116,7 @@ def _contacts_at_uplift(side: Side, multiple: sp.Expr) -> list[sp.Matrix]:
 
 
 def massless_columns_push_along_their_diagonals() -> bool:
-    """Across its diagonal a column top takes −γ/(2 (1 + 3γ)) m_c a, a base (1 + 4γ)/(4 (1 + 3γ)) m_c a.
+    """Across its diagonal a top takes −γ/(2 (1 + 3γ)) m_c a, a base (1 + 4γ)/(4 (1 + 3γ)) m_c a.
 
     a = g sin(α sgn θ − θ) + ü_g cos(α sgn θ − θ). Over the weight of the cap-beam both vanish as
     γ → ∞: then every contact needs the friction tan(α − |θ|), for every motion of the ground.
