@@ -1,5 +1,5 @@
-# `make` lists what there is. Everything runs through uv and the committed lock;
-# where uv is missing it is fetched, once, into .uv/ (delete that folder to be rid of it).
+# `make` lists the commands. All use uv and the committed lock file. If uv is missing, the first
+# command installs it into .uv/ (delete that folder to remove it).
 
 CORES      ?= 2
 PYTHON     ?= python3
@@ -24,8 +24,8 @@ CONFIG ?= config/thorough.yaml
 # A run starts a hundred Pythons. Where compiled modules are not kept, each would compile all anew.
 export PYTHONDONTWRITEBYTECODE :=
 
-# What is given reaches the commands by the environment, word for word: neither make nor the shell
-# takes it for code.
+# Commands receive these variables unchanged through the environment, so that neither make nor the
+# shell can interpret a value as code.
 GIVEN := CORES CELLS CONFIG ENGINE FAULTS ITEM NAME ROTATE
 $(foreach name,$(GIVEN),$(eval override $(name) := $$(value $(name))))
 export $(GIVEN)
@@ -43,18 +43,18 @@ help: ## show this list
 reproduce: | $(UV) ## compute every result, check every claim, compile the report (CORES=2)
 	@$(SNAKEMAKE)
 
-check: | $(UV) ## judge every claim anew from the published findings, tables and pages; no run
+check: | $(UV) ## judge every claim again from the published findings, tables and pages; no run
 	@$(RUN) python -m steps.recheck
 
-trace: | $(UV) ## from a figure, table, finding or claim to its source (ITEM=figures/heavier.svg)
+trace: | $(UV) ## show the origin of a figure, table, finding or claim (ITEM=figures/heavier.svg)
 	@$(RUN) python -m replication.commands.trace "$$ITEM"
 
-verify: | $(UV) ## check every file of a finished run against results/manifest.json
+verify: | $(UV) ## compare every file of a finished run with results/manifest.json
 	@$(RUN) python -m replication.commands.verify
 
-html: | $(UV) ## after a run: every figure with caption and verdict in results/report.html
+html: | $(UV) ## after a run: write results/report.html with every figure, caption and verdict
 	@test -e results/manifest.json || { \
-	  echo "there is no finished run to show; expected one: make reproduce" >&2; exit 1; }
+	  echo "there is no finished run; run 'make reproduce' first" >&2; exit 1; }
 	@$(RUN) snakemake --report results/report.html --quiet all
 	@$(RUN) python -m replication.commands.check_html results/report.html
 
@@ -62,11 +62,12 @@ test: | $(UV) ## run the tests
 	@$(call WHOLE,CORES); $(DEV) pytest --numprocesses "$$CORES" --dist loadfile
 
 lint: export VALIDATE_PYPROJECT_NO_NETWORK = 1
-lint: | $(UV) ## check style, types, spelling and schemas; changes nothing
+lint: | $(UV) ## check style, types, spelling, wording and schemas; changes nothing
 	$(DEV) ruff check
 	$(DEV) ruff format --check
 	$(DEV) mypy
 	$(DEV) codespell
+	$(DEV) python -m replication.commands.words
 	$(DEV) snakefmt --check --compact-diff Snakefile $(wildcard src/*/*.smk studies/*/*.smk)
 	$(DEV) check-jsonschema --check-metaschema config/config.schema.yaml
 	$(DEV) check-jsonschema --schemafile config/config.schema.yaml config/config.yaml
@@ -78,41 +79,41 @@ lint: | $(UV) ## check style, types, spelling and schemas; changes nothing
 	$(DEV) check-jsonschema --builtin-schema vendor.citation-file-format CITATION.cff
 	$(DEV) check-jsonschema --builtin-schema vendor.github-workflows .github/workflows/ci.yaml
 	$(DEV) validate-pyproject pyproject.toml
-# Snakemake's lint wants a conda environment or container on every rule. Here one lock
-# serves them all, so that demand, and no other, is passed over.
+# Snakemake's lint demands a conda environment or container for every rule. One lock file serves all
+# rules here, so we ignore this demand and no other.
 	$(DEV) snakemake --lint 2>&1 | awk ' \
 	  { text = text $$0 "\n" } \
 	  /^Lints for|^Congratulations/ { ran = 1 } \
 	  /^    \* / && !/\* Specify a conda environment or container for each rule/ { found = 1 } \
 	  END { if (found || !ran) { printf "%s", text; exit 1 } }'
 
-publish: | $(UV) ## copy results to docs/ and tests/reference/; look at the diff, then commit it
+publish: | $(UV) ## copy results to docs/ and tests/reference/; read the diff, then commit it
 	@$(RUN) python -m steps.publish
 
-audit: | $(UV) ## an hour: finer grids, tighter tolerances, all peers, all faults (CONFIG, CELLS, ROTATE)
+audit: | $(UV) ## finer grids, tighter tolerances, all solvers, all faults; one hour (CONFIG, CELLS, ROTATE)
 	@$(SNAKEMAKE) --configfile "$$CONFIG"
 	@$(MAKE) --no-print-directory verify-grid benchmark kill-table
 	@echo "results/ is that of $$CONFIG now: 'make reproduce' brings ours back"
 
-study: | $(UV) ## begin a follow-up study: make study NAME=my_study (FOLLOW-UP.md)
+study: | $(UV) ## create a follow-up study: make study NAME=my_study (FOLLOW-UP.md)
 	@$(RUN) python -m replication.commands.new_study "$$NAME"
 
-kill-table: | $(UV) ## put faults into a copy, one at a time: what catches each? (FAULTS=a,b or ROTATE=3)
+kill-table: | $(UV) ## insert errors into a copy, one at a time, and find what catches each (FAULTS=a,b or ROTATE=3)
 	@$(if $(value ROTATE),$(call WHOLE,ROTATE))
 	@$(DEV) python -m replication.commands.kill_table \
 	  $${FAULTS:+"--faults=$$FAULTS"} $${ROTATE:+"--rotate=$$ROTATE"}
 
-benchmark: | $(UV) ## time the kernel beside its peers; writes docs/benchmark.csv and .svg (5 minutes)
+benchmark: | $(UV) ## time the Taylor solver and other solvers; writes docs/benchmark.csv and .svg (5 minutes)
 	@$(BENCH) python benchmarks/benchmark.py
 
-verify-grid: | $(UV) ## compare overturning flags with an independent route (CELLS=40000 a set)
+verify-grid: | $(UV) ## compare outcomes with an independent solver (CELLS=40000 a set)
 	@$(call WHOLE,CELLS)
 	@$(BENCH) python benchmarks/verify_grid.py "$$CELLS"
 
-unlock: | $(UV) ## after a killed run left the directory locked (no other run may be going on)
+unlock: | $(UV) ## unlock the directory after a run was killed (no other run may be active)
 	@$(RUN) snakemake --unlock
 
-clean: ## remove all that the workflow and the tools wrote; keep the environment
+clean: ## delete all output of the workflow and the tools; keep the environment
 	rm -rf results .snakemake figures/*.svg studies/*/figures/*.svg paper/report.pdf
 	rm -rf .pytest_cache .ruff_cache .mypy_cache .hypothesis
 	find src figures studies tests benchmarks faults -name __pycache__ -type d -prune -exec rm -rf {} +

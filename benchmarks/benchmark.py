@@ -1,4 +1,4 @@
-"""Speed and error of the kernel beside solve_ivp and heyoka, in one run: `make benchmark`.
+"""Compare speed and error of the Taylor solver, solve_ivp and heyoka: `make benchmark`.
 
 Each method runs the same seeded sample of cells of a grid of one-sine pulses, and the same
 histories under records, at a ladder of tolerances. Our kernel is there twice: as maps, intervals
@@ -94,7 +94,7 @@ def least_times(works: dict, rounds: int) -> dict[object, tuple[float, object]]:
 
 
 def judged(found: Sequence[Found], truth: Sequence[Found], scales: Sequence[float]) -> dict:
-    """Return how far the outcomes are from the truth; errors are those of max|θ|/α."""
+    """Return the errors of the outcomes; those of the peak are errors of max|θ|/α."""
     pairs = list(zip(found, truth, scales, strict=True))
     safe = [(a, b, s) for a, b, s in pairs if not (a.overturned or b.overturned)]
     errors = [float(abs(a.peak - b.peak)) / scale for a, b, scale in safe]
@@ -194,8 +194,8 @@ def curves(what: str, timed: dict, truth: list[Found], scales: list[float]) -> p
 def at_equal_error(curve: pd.DataFrame) -> pd.Series:
     """Return the cheapest way to a 99 % error of `EQUAL`: a point of the curve, or between two.
 
-    The errors are those of the tighter of the two points. Of a method that does not get there it
-    is the point with the least error, and the ratio a lower bound.
+    The errors are those of the tighter of the two points. If a method does not reach this error,
+    the point with the least error is returned, and the ratio is a lower bound.
     """
     curve = curve.sort_values("tolerance", ascending=False)
     ways = [point for _, point in curve.iterrows() if point.error_q99 <= EQUAL]
@@ -261,7 +261,7 @@ def threads() -> list[dict]:
 
 
 def processes() -> list[dict]:
-    """Return what a fresh process needs to a finished map."""
+    """Return time and memory of a fresh process that computes a map."""
     warm, cold, growth = fresh_process.warm(), fresh_process.cold(), fresh_process.growth()
     what = f"fresh process to a map of {fresh_process.CELLS} cells"
     limits = [

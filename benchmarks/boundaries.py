@@ -1,10 +1,10 @@
-"""Boundaries of overturning, halved to the last bit: does every history end, and are all calls one?
+"""Check at overturning boundaries that every history ends and that all functions agree.
 
-For each block, equation and pulse, and for each record, a scan finds where the outcome changes.
-`judge` halves that to two neighbouring floats. There, and beside them, `simulate`, `judge` and the
-map are called: each call has to end, and where the outcome is decided they
-have to agree on the outcome, and under a pulse on the number of impacts. (A record sets off
-bounces near 1e-6 α, the least that count: how many, changes at boundaries of their own.)
+For each block, equation and pulse, and for each record, a scan finds changes of the outcome.
+Bisection with `judge` refines them to two neighbouring floats. At and near these floats we call
+`simulate`, `judge` and the map. Each call has to end, and all have to agree on an outcome that is
+decided. Under a pulse they also have to agree on the number of impacts. (Under a record there are
+rotations near 1e-6 α, the smallest that count; their number changes at other boundaries.)
 
     python benchmarks/boundaries.py [number of blocks, 100 unless given]
 """
@@ -120,7 +120,7 @@ def compare(
 
 
 def _contradiction(block: RockingBlock, whole: Response) -> str | None:
-    """Return where a history tells another story than its outcome, if it does."""
+    """Return the place where a history contradicts its outcome, if there is one."""
     last = np.abs(whole.rotation[np.isfinite(whole.rotation)])[-1]
     if whole.overturned != math.isnan(whole.peak_rotation):
         return f"{whole.outcome} with a peak of {whole.peak_rotation}"

@@ -1,8 +1,8 @@
-"""A fresh process to a finished map: wall time and peak memory, with a warm and a cold cache.
+"""Measure wall time and peak memory of a fresh process that computes a map, warm and cold cache.
 
-Python may write its byte code, as it does unless told otherwise: "cold" is the package's own
-compiled code, not that of the libraries. Memory is what the process itself says (VmHWM of Linux):
-what the parent is told includes the parent's own from before it started the child.
+Python may write its byte code, as by default. "Cold" means without compiled code of this package;
+the libraries keep theirs. The process itself reads its memory (VmHWM of Linux), since the value
+that the parent receives includes the parent's own memory before it started the child.
 """
 
 import os

@@ -1,7 +1,7 @@
-"""An independent route to the outcome of a rocking history: heyoka, carefully.
+"""Compute the outcome of a rocking history independently with heyoka.
 
-The equation is the paper's as printed, integrated to rounding, in double or in long double. The
-side is a state of its own. What heyoka's events are known to lose is kept from them:
+The equation is that of the paper, integrated to rounding, in double or in long double. The side is
+a separate state. We avoid the cases in which heyoka's event detection is known to miss events:
 
 - just after uplift φ = 0 is a triple root: as long as the ground pushes outward no impact is
   possible, and the motion is integrated without events;
@@ -41,7 +41,7 @@ SHAPES = {
 
 
 class Found(NamedTuple):
-    """What became of the block; the peak is NaN if it overturned."""
+    """The outcome of the block; the peak is NaN if it overturned."""
 
     overturned: bool
     peak: float

@@ -1,10 +1,10 @@
-"""The peers: SciPy's solve_ivp and heyoka, as people write them, and each with our tail.
+"""Other solvers: SciPy's solve_ivp and heyoka, in their usual form and with our free-rocking stage.
 
 Every history starts at the first uplift, with φ = 1e-17 instead of 0, so that no solver mistakes
-the start for an impact, and is cut where the forcing ends, where a corner would cost a solver many
-steps. Each impact is an event, and so is each turning point, for the peak. As people write it the
-free rocking is then integrated until the next bounce would rise less than a thousandth of α; with
-the tail, `topheavy.free_rocking.ending` judges the state there.
+the start for an impact. It is split at the end of the forcing, where a corner would cost a solver
+many steps. Each impact is an event, and so is each turning point, for the peak. In the usual form,
+the solver integrates the free rocking until the next rotation is less than a thousandth of α. With
+our free-rocking stage, `topheavy.free_rocking.ending` judges the state at the end of the forcing.
 
 Time is τ = p t: the blocks have p = 1.
 """
@@ -54,7 +54,7 @@ impact.direction = turn.direction = -1
 
 
 def rests(block, rate, forced):
-    """Say whether a bounce that leaves the ground at this rate is let go of."""
+    """Return whether a rotation that starts at this rate is small enough to be neglected."""
     height = FORCED_REST if forced else FREE_REST
     return 0.5 * rate * rate < height * block.slenderness * math.sin(block.slenderness)
 

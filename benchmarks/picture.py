@@ -1,4 +1,4 @@
-"""The work–precision picture of the benchmark: `python benchmarks/picture.py` draws it again."""
+"""Draw the work–precision curves of the benchmark: `python benchmarks/picture.py`."""
 
 from pathlib import Path
 

@@ -1,9 +1,9 @@
-"""Overturning flags off the benchmark's grid against the oracle: `make verify-grid CELLS=40000`.
+"""Compare outcomes outside the benchmark's grid with heyoka: `make verify-grid CELLS=40000`.
 
 Every set has its own slenderness and mass ratio; a third of its cells lie at A/tan α from 1 to 1.2,
-the others from 1 to 10, all at ω/p from 0.5 to 10. A cell whose flag the oracle changes when the
-amplitude moves by 1e-10 of itself is listed apart: there the two may differ. The table goes to
-results/benchmark/, that of a full run to docs/ too.
+the others from 1 to 10, all at ω/p from 0.5 to 10. If a relative change of 1e-10 in the amplitude
+changes heyoka's outcome, the cell is listed separately, since the two solvers may differ there. The
+table goes to results/benchmark/; a full run also writes it to docs/.
 """
 
 import math
@@ -60,7 +60,7 @@ def cells_of(number: int, count: int, level: float) -> tuple[np.ndarray, np.ndar
 
 
 def compared(job: tuple[int, int, int]) -> pd.DataFrame:
-    """Compare the kernel with the oracle on the cells of a set from `start` on."""
+    """Compare the Taylor solver with heyoka on the cells of a set from `start` on."""
     warnings.simplefilter("ignore")
     number, count, start = job
     shape, linearised, *pair, _ = SETS[number]

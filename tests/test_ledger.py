@@ -15,7 +15,7 @@ LEDGER = yaml.safe_load((ROOT / "paper" / "claims.yaml").read_text(encoding="utf
 SCHEMA = yaml.safe_load((ROOT / "paper" / "claims.schema.yaml").read_text(encoding="utf-8"))
 CONFIG = yaml.safe_load((ROOT / "config" / "config.yaml").read_text(encoding="utf-8"))
 STUDIES = [ROOT / "studies" / name / "claims.yaml" for name in CONFIG["studies"]]
-SNAKEFILE = (ROOT / "Snakefile").read_text(encoding="utf-8")
+SNAKEFILE = (ROOT / "src" / "steps" / "paper.smk").read_text(encoding="utf-8")
 STEPS = ROOT / "src" / "steps"
 
 # Every number of the paper's passage on the trilith, in its order.

@@ -65,7 +65,7 @@ def test_cores_and_the_optional_group_are_passed(make):
 def test_report_before_a_run_says_what_to_do(make, tmp_path):
     ran = make("html")
     assert ran.returncode == 2
-    assert ran.stderr.startswith("there is no finished run to show; expected one: make reproduce\n")
+    assert ran.stderr.startswith("there is no finished run; run 'make reproduce' first\n")
     (tmp_path / "results").mkdir()
     (tmp_path / "results" / "manifest.json").touch()
     assert "<--report>" in make("html").stdout

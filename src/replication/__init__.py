@@ -1,1 +1,1 @@
-"""The machine of a replication: what every paper needs, and nothing of this one's physics."""
+"""The parts of a replication that serve any paper; they contain no physics of this one."""

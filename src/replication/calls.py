@@ -1,7 +1,7 @@
-"""Which functions of the repository a step calls: those that the rows of the ledger may name.
+"""Record which functions of the repository a step calls; a row of the ledger may name only these.
 
-The first call of a function notes its name and restores the function, so that no later call costs
-anything. A function that numba has compiled is not noted; the Python function that calls it is.
+The first call of a function records its name and restores the function, so that later calls cost
+nothing. A function that numba has compiled is not recorded; the Python function that calls it is.
 """
 
 import ast
@@ -21,7 +21,7 @@ PLACES |= {"studies": "."}
 
 @contextmanager
 def noted(modules: Iterable[tuple[str, ModuleType]]) -> Iterator[set[str]]:
-    """Note the public functions and classes of modules that are called while this is open.
+    """Record the public functions and classes of modules that are called inside this context.
 
     Parameters
     ----------
@@ -64,7 +64,7 @@ def library(declared: Iterable[str]) -> Iterator[tuple[str, ModuleType]]:
 
 
 def definition(name: str, root: str | Path = ".") -> str:
-    """Return the full name of what a public name stands for, without importing it.
+    """Return the full name of the object behind a public name, without importing it.
 
     `topheavy.simulate` is `topheavy.simulate.simulate`. A function goes before a module of its
     name, as in `citations.resolve`.
@@ -155,7 +155,7 @@ def _stub(*args, _first_call, **keywords):  # type: ignore[no-untyped-def]
 
 
 def _note_first_call(function: FunctionType, name: str, called: set[str]) -> None:
-    """Put a code in place of the function's own that notes the name and brings it back.
+    """Replace the code of a function by one that records its name, then restores the original.
 
     The function object stays the same, so that every reference to it is noted. Its defaults are
     left alone: threads may call it at any moment of this.

@@ -1,4 +1,4 @@
-"""What the HTML report says beside each result: its caption, and the verdicts it bears on."""
+"""Captions of the HTML report, and the verdicts on the claims that belong to each result."""
 
 import re
 from collections import Counter
@@ -18,7 +18,7 @@ def read_captions(paths: Iterable[str | Path]) -> dict[str, dict[str, Any]]:
     Raises
     ------
     ValueError
-        When a result is given two captions.
+        When a result has two captions.
     """
     captions: dict[str, dict[str, Any]] = {}
     for path in paths:
@@ -31,7 +31,7 @@ def read_captions(paths: Iterable[str | Path]) -> dict[str, dict[str, Any]]:
 
 
 def caption_files(config: Mapping[str, Any]) -> list[Path]:
-    """Return where the captions stand: the paper's, and those of the studies in the config."""
+    """Return the paths of the captions of the paper and of the studies in the config."""
     studies = (Path("studies", name, "captions.yaml") for name in config["studies"])
     return [Path("figures/captions.yaml"), *studies]
 
@@ -39,7 +39,7 @@ def caption_files(config: Mapping[str, Any]) -> list[Path]:
 def captioned(
     result: str, captions: Mapping[str, Mapping[str, Any]], claims: Iterable[Mapping[str, Any]]
 ) -> dict[str, Any]:
-    """Return what the report shows of a result, its texts escaped for reStructuredText.
+    """Return title, caption and claims of a result, with texts escaped for reStructuredText.
 
     Parameters
     ----------
@@ -49,7 +49,7 @@ def captioned(
     Raises
     ------
     ValueError
-        When the result has no caption, or its caption names a claim that the ledger has not.
+        When the result has no caption, or its caption names a claim that is not in the ledger.
     """
     if result not in captions:
         raise ValueError(
@@ -75,7 +75,7 @@ def captioned(
 
 
 def verdict(verdicts: Iterable[str]) -> str:
-    """Return how the claims that a result bears on came out, in the order of VERDICTS."""
+    """Return the number of claims of a result with each verdict, in the order of VERDICTS."""
     count = Counter(verdicts)
     return ", ".join(f"{count[name]} {name}" for name in VERDICTS if count[name]) or "no claim"
 

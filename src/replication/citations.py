@@ -1,4 +1,4 @@
-"""Which of the paper's equations a piece of code cites: the trail from code to the print."""
+"""Find the equations of the paper that a piece of code cites."""
 
 import ast
 import functools
@@ -58,9 +58,9 @@ def resolve(path: str) -> Any:
 
 @dataclass(frozen=True)
 class Citation:
-    """A function or class of the library, where it stands, and the equations that it rests on.
+    """A function or class of the library, its file and line, and the equations that it uses.
 
-    `own` are those that its source cites; `reached` adds those of what it calls.
+    `own` lists the equations that its source cites; `reached` adds those of the functions it calls.
     """
 
     name: str
@@ -71,7 +71,7 @@ class Citation:
 
 @functools.cache
 def cite(path: str, root: Path) -> Citation:
-    """Return where a function or class stands, given by its dotted path, and what it cites."""
+    """Return file, line and cited equations of a function or class, given by its dotted path."""
     found = _plain(resolve(path))
     file = Path(inspect.getsourcefile(found) or "").resolve().relative_to(root.resolve())
     line = inspect.getsourcelines(found)[1]
@@ -89,7 +89,7 @@ def library_names(script: str | Path) -> list[str]:
     return sorted(name for name in set(names) if _is_code(_plain(resolve(name))))
 
 
-# What a function calls, and what that calls ------------------------------------------------------
+# Functions that a function calls, directly or through others -------------------------------------
 
 
 def _reached(start: Any) -> set[Any]:

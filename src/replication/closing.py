@@ -1,4 +1,4 @@
-"""The last lines of a run, after all that Snakemake says: the verdicts, or how to go on."""
+"""Print the last lines of a run, after Snakemake's output: the verdicts, or how to continue."""
 
 import atexit
 from pathlib import Path
@@ -19,7 +19,7 @@ def close(workflow: Any) -> None:
 
 
 def last_lines(workflow: Any) -> str:
-    """Return the summary when every result is there, how to go on when a run did not finish.
+    """Return the verdicts if every result exists; otherwise return how to continue the run.
 
     Parameters
     ----------

@@ -1,8 +1,8 @@
-"""Which files of the repository a script imports: the inputs of its rule, found and not listed.
+"""Find the files of the repository that a script imports: they are inputs of its rule.
 
-Snakemake runs a rule again when its script changes, but not when a module that the script imports
-does. `code` finds these modules when the Snakefile is parsed; `undeclared` finds, when a job has
-run, the ones that it loaded and did not declare.
+Snakemake repeats a rule when its script changes, but not when an imported module changes. `code`
+finds these modules when Snakemake reads the Snakefile. After a job, `undeclared` finds the modules
+that the job loaded and that its rule did not declare.
 """
 
 import ast
@@ -108,7 +108,7 @@ def _package(path: Path) -> str:
 
 def _names(tree: ast.Module, path: Path, package: str) -> Iterator[tuple[str, str]]:
     """Yield every import as a module and a name in it; the name is "" for the module itself."""
-    whole: dict[str, str] = {}  # what a name of this file stands for: `import topheavy as th`
+    whole: dict[str, str] = {}  # the module behind a name: `import topheavy as th`
     attributes = []
     for node in _nodes(tree):
         if isinstance(node, ast.Import):
@@ -140,7 +140,7 @@ def _called(node: ast.Call) -> str:
 
 
 def _nodes(tree: ast.AST) -> Iterator[ast.AST]:
-    """Yield what stands below a node, but for what is imported for types alone."""
+    """Yield the nodes below a node, except imports that serve only type annotations."""
     for node in ast.iter_child_nodes(tree):
         if isinstance(node, ast.If) and "TYPE_CHECKING" in ast.unparse(node.test):
             continue

@@ -1,4 +1,4 @@
-"""The check of config.yaml against its schema, with messages that a person can act on."""
+"""Check config.yaml against its schema; the messages say how to correct it."""
 
 import difflib
 import math

@@ -1,4 +1,4 @@
-"""What every figure does at its edges: read its tables, wear the style, save the same bytes."""
+"""Common parts of all figures: read the tables, apply the style, save the same bytes each time."""
 
 from collections.abc import Callable, Sequence
 from pathlib import Path

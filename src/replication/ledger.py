@@ -1,4 +1,4 @@
-"""The ledger: the claims of paper and studies, and the verdict on each by what was found for it."""
+"""The ledger: the claims of paper and studies, and the verdict on each claim from its finding."""
 
 from collections.abc import Iterable, Mapping
 from pathlib import Path
@@ -16,21 +16,21 @@ JUDGED_BY = ("function", "rule", "finding", "expected", "remark", "by_definition
 def read_ledger(paths: Iterable[str | Path]) -> list[dict[str, Any]]:
     """Read the rows of all ledgers, the paper's first.
 
-    `study` says whose claim a row is: a study's, "" for the paper's, OURS for one that the paper
-    does not make and its claims rest on. A study's row that has the id of an earlier one does not
-    stand by itself: it says by what that claim is judged from now on.
+    `study` names the source of a claim: a study, "" for the paper, OURS for a claim of ours that
+    supports claims of the paper. If a study's row has the id of an earlier claim, this row replaces
+    the rule and finding that judge the claim.
 
     Raises
     ------
     ValueError
-        When a ledger is no list of rows with ids, has an id twice, or a study rewords what an
-        earlier one claims.
+        When a ledger is not a list of rows with ids, contains an id twice, or a study changes the
+        statement of an earlier claim.
     """
     return [row for _, row in read_rows(paths)]
 
 
 def read_rows(paths: Iterable[str | Path]) -> list[tuple[Path, dict[str, Any]]]:
-    """Read the same rows, each with the file that says by what it is judged."""
+    """Read the same rows, each with the file that names its rule and finding."""
     rows: dict[str, tuple[Path, dict[str, Any]]] = {}
     for path in map(Path, paths):
         seen: set[str] = set()
@@ -68,9 +68,9 @@ def _rows_of(path: Path) -> list[dict[str, Any]]:
 
 
 def finding_of(claim: Mapping[str, Any], findings: Mapping[str, Any]) -> dict[str, Any] | None:
-    """Return what was found for a claim among the findings of its rule; None if it is not tested.
+    """Return the finding of a claim among the findings of its rule; None if it is not tested.
 
-    Where an optional package is missing, all findings of a rule are the one reason.
+    If an optional package is missing, the findings of the rule contain only the reason.
 
     Raises
     ------
@@ -92,14 +92,14 @@ def finding_of(claim: Mapping[str, Any], findings: Mapping[str, Any]) -> dict[st
 def judged(
     claim: Mapping[str, Any], findings: Mapping[str, Mapping[str, Any]], root: str | Path = "."
 ) -> dict[str, Any]:
-    """Return a row of the judged ledger: the claim, what was found for it, and the verdict.
+    """Return a row of the judged ledger: the claim, its finding, and the verdict.
 
     Parameters
     ----------
     claim
         A row of the ledger.
     findings
-        Those of each rule, by the names of the rules.
+        The findings of each rule, by the name of the rule.
     root
         The root of the repository, in which the row's function is looked up.
 

@@ -1,4 +1,4 @@
-"""The check of the ledger before anything is computed, with messages that a person can act on."""
+"""Check the ledger before any computation; the messages say how to correct it."""
 
 import difflib
 import json
@@ -58,7 +58,7 @@ def _faults(
 ) -> Iterator[str]:
     own = {key: value for key, value in row.items() if key != "study"}
     errors = list(validator.iter_errors(own))
-    # What follows from a misspelt verdict is not told as well.
+    # Faults that follow from a misspelt verdict are not reported.
     first = [error for error in errors if "allOf" not in error.schema_path] or errors
     if broken := {message for error in first for message in _told(error, validator.schema)}:
         yield from sorted(broken)
@@ -86,10 +86,10 @@ def _told(error: ValidationError, schema: Mapping[str, Any]) -> Iterator[str]:
 
 
 def _finding_faults(row: Mapping[str, Any], root: Path) -> Iterator[str]:
-    """Tell a misspelt finding from a new one.
+    """Yield the findings that are probably misspelt.
 
-    A finding is known if its rule published it. If it is not, but resembles one that is, it is
-    misspelt unless some source of the steps or studies spells it so: then it is new.
+    A finding is known if its rule published it. An unknown finding that resembles a known one is
+    misspelt, unless a source of the steps or studies contains it; then it is new.
     """
     published = root / PUBLISHED / f"{row['rule']}.json"
     if not published.is_file():

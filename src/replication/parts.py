@@ -10,7 +10,7 @@ PAPER = ""
 
 @dataclass(frozen=True)
 class Part:
-    """A part of the work: where its files lie, and what its rules make.
+    """A part of the work: its folder, its config, its figures and its findings.
 
     Parameters
     ----------
@@ -36,5 +36,5 @@ class Part:
 
     @property
     def sections(self) -> list[str]:
-        """What it adds to the report: the paper's own text is the report."""
+        """Its sections of the report; for the paper, the report itself."""
         return [] if self.name == PAPER else [f"studies/{self.name}/section.typ"]

@@ -1,4 +1,4 @@
-"""What the workflow needs of the folder that it runs in."""
+"""Check that the workflow can run in its folder."""
 
 import os
 import re

@@ -1,4 +1,4 @@
-"""What makes what, as Snakemake itself has it: its jobs, and its records of how they were run."""
+"""The jobs of the workflow and Snakemake's records of their runs."""
 
 import hashlib
 import os
@@ -15,17 +15,17 @@ class Job:
     Parameters
     ----------
     rule, place
-        Name of the rule; file and line where it stands.
+        Name of the rule; its file and line.
     scripts
         What it runs: one script, or none.
     inputs, outputs, logs
-        Paths from the root; logs are what tells of the run, log and benchmark.
+        Paths from the root; logs include the benchmark.
     findings
-        Those of the outputs that hold findings.
+        The outputs that contain findings.
     params
-        The numbers that it gets from the config.
+        The numbers from the config.
     made
-        When it ran last, in s since 1970; None if Snakemake has no record.
+        Time of the last run, in s since 1970; None if Snakemake has no record.
     checksums
         Those that Snakemake recorded of its inputs at that time. It leaves out large files.
     pending
@@ -59,7 +59,7 @@ def workflow_jobs(
     config
         Replaces entries of the config file.
     targets
-        Rules or files; by default every rule that can be asked for by name.
+        Rules or files; by default every rule that can be requested by name.
     """
     # Imported here: it takes a second, and those who only want Job do not need it.
     from snakemake.api import SnakemakeApi

@@ -1,4 +1,4 @@
-"""What is published of a run: its findings, the verdicts on them, and the pages that show these."""
+"""Publish the findings of a run, the verdicts, and the pages that show them."""
 
 import hashlib
 import json

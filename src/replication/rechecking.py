@@ -1,4 +1,4 @@
-"""The published edition against itself: rows, pages and files, without a run."""
+"""Check the published rows, pages and files against each other, without a run."""
 
 import json
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -31,7 +31,7 @@ def claims(
             yield str(fault)
             continue
         if found["verdict"] != claim["expected"] and not found["not_tested"]:
-            yield f"claim {claim['id']} comes out {found['verdict']}; expected {claim['expected']}"
+            yield f"claim {claim['id']} is {found['verdict']}; expected {claim['expected']}"
         row = rows.get(claim["id"], found)
         for field in sorted({*found, *row}):
             ours, theirs = found.get(field), row.get(field)

@@ -1,4 +1,4 @@
-"""YAML files, read strictly: every mistake is told with its file and line."""
+"""Read YAML files strictly: an error names the file and line of a mistake."""
 
 from pathlib import Path
 from typing import Any

@@ -1,4 +1,4 @@
-"""The report: which files it reads, found in its Typst sources, and how it is compiled."""
+"""The report: find the files that its Typst sources read, and compile it."""
 
 import re
 import shutil
@@ -16,8 +16,7 @@ TABLE = re.compile(r'\btable-of\("(\w+)"\)')
 def reads(*sources: str | Path, root: str | Path = ".") -> list[str]:
     """Return the files that Typst sources read, through the sources that they include.
 
-    A file is found where its name stands in the source: in quotes, or as that of a table or of
-    findings. `compiled` tells of any other.
+    A source names a file in quotes, or as a table or findings. `compiled` fails on any other file.
 
     Parameters
     ----------
@@ -50,17 +49,17 @@ def reads(*sources: str | Path, root: str | Path = ".") -> list[str]:
 def compiled(source: str, inputs: Iterable[str], options: Mapping[str, str]) -> bytes:
     """Return the PDF of a Typst source, compiled beside its declared inputs and nothing else.
 
-    So a file that the source reads and that is not declared stops the run, instead of leaving a
-    stale report some day.
+    A file that the source reads and that is not declared therefore stops the run. Otherwise the
+    report could become outdated.
 
     Parameters
     ----------
     source, inputs
         Paths from the root, which is the working folder.
     options
-        What the source finds in `sys.inputs`.
+        The values of `sys.inputs` in the source.
     """
-    import typst  # the Snakefile, which imports this module, has no use for it
+    import typst  # here, as the Snakefile imports this module and does not need typst
 
     with tempfile.TemporaryDirectory() as folder:
         for path in inputs:

@@ -1,7 +1,7 @@
-"""The verdict on a claim of the paper, from what was computed. Nothing is confirmed by hand.
+"""Compute the verdict on a claim of the paper. Nobody confirms a claim by hand.
 
-A claim is a row of the ledger: something that the paper prints, in our words. A finding is what a
-rule of the workflow computed for it: a value with its error, a truth, or why it could not.
+A claim is a row of the ledger: a statement of the paper in our words. A finding is the result of a
+rule for this claim: a value with its error, a truth value, or the reason why it was not computed.
 """
 
 from collections import Counter
@@ -24,13 +24,13 @@ KINDS: dict[str, Verdict] = {
     "radical": "slip",
     "convention": "qualified",
 }
-"""The verdict on a print that fails while what is meant holds, by the kind of the discrepancy."""
+"""The verdict if the printed form fails and the intended form holds, by the kind of discrepancy."""
 
 LARGEST_SHARE_OF_TOLERANCE = 0.1
 """The error of a computed value may take this share of the claim's tolerance."""
 
 LARGEST_RELATIVE_TOLERANCE = 0.1
-"""A tolerance is at most this share of the printed value, unless the print is rounded more."""
+"""A tolerance is at most this share of the printed value, or the rounding of its last digit."""
 
 
 def verdict_on(claim: Mapping[str, Any], finding: Mapping[str, Any] | None) -> Verdict:
@@ -38,7 +38,8 @@ def verdict_on(claim: Mapping[str, Any], finding: Mapping[str, Any] | None) -> V
 
     A printed number is confirmed when the computed value agrees within the claim's tolerance, and
     a statement when it holds. A statement that holds only under a stated condition is qualified.
-    If the print fails and what is meant holds, the kind of the discrepancy decides (`KINDS`).
+    If the printed form fails and the intended form holds, the kind of discrepancy decides
+    (`KINDS`).
 
     Parameters
     ----------
@@ -49,13 +50,13 @@ def verdict_on(claim: Mapping[str, Any], finding: Mapping[str, Any] | None) -> V
         With `value`, `error` and perhaps `meant_value`; or with `holds` and perhaps `meant_holds`
         or `holds_when`; or with `not_tested`, the reason, where an optional package is missing.
         With `meant_holds`, and perhaps with `meant_value`, comes `kind`, one of `KINDS`.
-        None for a claim that cannot be false and for what cannot be tested.
+        None for a claim that cannot be false and for a claim that is not tested.
 
     Raises
     ------
     ValueError
         When the error of the value is more than a tenth of the tolerance, or the finding is of the
-        wrong kind: then nothing can be said.
+        wrong kind.
     """
     if claim.get("by_definition"):
         if finding is not None:

@@ -1,4 +1,4 @@
-"""Error of the peak rotation of Allen et al. (1986), whole and in its three parts."""
+"""Error of the peak rotation in the model of Allen et al. (1986), and in each simplification."""
 
 import math
 

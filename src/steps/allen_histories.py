@@ -1,4 +1,4 @@
-"""The exact frame beside the model of Allen et al. (1986), under a pulse and under a record."""
+"""Compare the exact frame and the model of Allen et al. (1986), under a pulse and a record."""
 
 import math
 

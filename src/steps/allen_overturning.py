@@ -1,4 +1,4 @@
-"""Where the model of Allen et al. (1986) misjudges overturning, over frequency and amplitude."""
+"""Find the pulses for which the model of Allen et al. (1986) gives the wrong outcome."""
 
 import math
 

@@ -1,7 +1,7 @@
-"""The moving picture: one ground motion under a column alone and under its frame, to scale.
+"""Animate a column and its frame under the same ground motion, to scale.
 
-The cap has the density and the breadth of the columns, so that its depth shows its mass. The time
-is the real one, to the hundredth of a second that a GIF knows.
+The cap beam has the density and the breadth of the columns, so that its depth shows its mass. The
+animation runs in real time, within the hundredth of a second that a GIF can store.
 """
 
 import math
@@ -26,7 +26,7 @@ EARTH = "#d5d1c8"
 BLENDS = 12  # of two colours
 FLAT = math.pi / 2.0
 SIZE, DPI = (6.4, 4.8), 100  # inches
-HELD = (600, 1800)  # ms: how long the first and the last picture stand
+HELD = (600, 1800)  # ms: duration of the first and the last picture
 COLUMN_AT = 6.2  # m, right of the middle of the frame
 VIEW = (-4.6, 13.6, -0.55, 10.9)  # m
 CLOSENESS = 1e-9  # m: how well bodies must meet, and lie
@@ -53,7 +53,7 @@ def ground_displacement(pulse: Pulse, times: np.ndarray) -> np.ndarray:
 
 
 def bodies(frame: RockingFrame, alone: float, framed: float, case: dict) -> dict[str, np.ndarray]:
-    """Return the outlines of all bodies, relative to the ground, with a check that they meet."""
+    """Return the outlines of all bodies, relative to the ground; check that they touch."""
     column, half = frame.column, case["span"] / 2.0
     moved = np.array(cap_displacement(column, framed))
     found = {
@@ -71,7 +71,7 @@ def bodies(frame: RockingFrame, alone: float, framed: float, case: dict) -> dict
 
 
 def stage(pulse: Pulse, times: np.ndarray, case: dict):
-    """Draw all that stands still, and return the figure, its patches, the marker and the words."""
+    """Draw the fixed parts, and return the figure, its patches, the marker and the words."""
     figure, (scene, trace) = plt.subplots(
         nrows=2, figsize=SIZE, dpi=DPI, height_ratios=(4.7, 1), layout="constrained"
     )
@@ -99,7 +99,7 @@ def stage(pulse: Pulse, times: np.ndarray, case: dict):
 
 
 def ground_outline(shift: float) -> np.ndarray:
-    """Return the ground, a table that moves with the ground motion, shape (4, 2), m."""
+    """Return the outline of the moving ground, shape (4, 2), m."""
     left, right = -4.0 + shift, 13.0 + shift
     return np.array([[left, -0.4], [right, -0.4], [right, 0.0], [left, 0.0]])
 
@@ -111,7 +111,7 @@ def main(case: dict) -> list[Image.Image]:
     times = np.arange(0.0, case["duration"], hundredths(case) / 100.0)
     alone, framed = (rotations(item, pulse, times) for item in (frame.column, frame))
     if abs(alone[-1]) < FLAT or np.abs(framed).max() > frame.slenderness:
-        raise ArithmeticError("the column stands or the frame falls; expected the reverse")
+        raise ArithmeticError("the column survives or the frame overturns; expected the reverse")
     shifts = ground_displacement(pulse, times)
     figure, patches, marker = stage(pulse, times, case)
     canvas, pictures = FigureCanvasAgg(figure), []
@@ -138,7 +138,7 @@ def palette() -> Image.Image:
 
 
 def hundredths(case: dict) -> int:
-    """Return how long a picture stands, in hundredths of a second."""
+    """Return the duration of a picture, in hundredths of a second."""
     return round(100 / case["frames_per_second"])
 
 

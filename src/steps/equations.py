@@ -1,4 +1,4 @@
-"""Every equation of the paper, as printed, put to the test of its own premises."""
+"""Test whether each printed equation of the paper follows from its premises."""
 
 from dataclasses import asdict
 

@@ -1,4 +1,4 @@
-"""The same pulse on the solitary column and on frames under heavier and heavier caps."""
+"""Apply one pulse to the solitary column and to frames with increasing γ."""
 
 import math
 
@@ -19,7 +19,7 @@ RESOLUTION = 1e-3  # of the uplift acceleration
 
 
 def lowest_overturning(frame: RockingFrame, pulse: Pulse) -> tuple[float, float]:
-    """Bracket the lowest amplitude (g) that overturns, in an interval of RESOLUTION or more."""
+    """Bracket the minimum overturning amplitude (g) of an interval of RESOLUTION or more."""
     start = frame.uplift_acceleration / pulse.amplitude
     first, *_ = overturning_intervals(
         frame, pulse, (start, 12.0 * start), resolution=RESOLUTION * start

@@ -1,4 +1,4 @@
-"""The inputs of this paper: what has to hold of structures and records beyond their schema."""
+"""Check structures and records of this paper beyond their schema."""
 
 from collections.abc import Iterator, Mapping
 from functools import partial
@@ -21,7 +21,7 @@ def check_inputs(
 ) -> None:
     """Refuse a config that breaks its schema, or whose entries do not fit together.
 
-    `structures` are those that it may name beside its own.
+    `structures` are further structures that the config may name.
 
     Raises
     ------
@@ -36,7 +36,7 @@ def check_inputs(
 
 
 def structures_fit(config: Mapping[str, Any], others: Mapping[str, Any]) -> Iterator[str]:
-    """Yield what is wrong with the structures, and with the names of structures."""
+    """Yield the errors in structures, and in names of structures."""
     own = mapping_in(config, "structures")
     structures = {**others, **own}
     for name in own:
@@ -44,7 +44,7 @@ def structures_fit(config: Mapping[str, Any], others: Mapping[str, Any]) -> Iter
         if is_number(b) and is_number(h) and b >= h > 0:
             yield (
                 f"structures.{name} has the half width {b} and the half height {h}, in m; "
-                "expected columns more slender than 45°, which rock on under any cap"
+                "expected columns more slender than 45°, which keep rocking for every γ"
             )
     for section in config:
         name = mapping_in(config, section).get("structure")
@@ -61,7 +61,7 @@ def record_files(folder: str = RECORDS) -> dict[str, str]:
     Raises
     ------
     ValueError
-        For two files of one name, of which a config could mean either.
+        When two files have the same name, since a config could mean either.
     """
     endings = (".at2", ".csv")
     files: dict[str, str] = {}
@@ -78,7 +78,7 @@ def record_files(folder: str = RECORDS) -> dict[str, str]:
 
 
 def records_exist(config: Mapping[str, Any], folder: str = RECORDS) -> Iterator[str]:
-    """Yield the records that a config names and that are not there."""
+    """Yield the records that a config names and that do not exist."""
     for section in config:
         names = {"record.file": mapping_in(mapping_in(config, section), "record").get("file")}
         several = mapping_in(config, section).get("records")

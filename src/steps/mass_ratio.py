@@ -1,4 +1,4 @@
-"""How p̂ and R̂ depend on γ (Eqs. (23), (24)), with their limits, and how soon the gain is had."""
+"""Compute p̂ and R̂ against γ (Eqs. (23), (24)), their limits, and the γ of given shares."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Moment–rotation, the area that it encloses between impacts, and the period against amplitude."""
+"""Moment–rotation curve, the area that it encloses, and the period against rotation amplitude."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""How far a column and its frames rock, over the frequency and the amplitude of a pulse."""
+"""Peak rotation of a column and its frames, against frequency and amplitude of a pulse."""
 
 import pandas as pd
 

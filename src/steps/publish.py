@@ -1,8 +1,8 @@
-"""Copy what is published from results/ to docs/ and tests/reference/: `make publish`.
+"""Copy the published results from results/ to docs/ and tests/reference/: `make publish`.
 
-docs/ has what the README shows: pictures, the verdicts, what a run costs. tests/reference/ has the
-findings that `make check` judges the claims by, the tables that later runs are compared with, and
-the config that made them.
+docs/ contains the pictures, verdicts and costs that the README shows. tests/reference/ contains the
+findings from which `make check` judges the claims, the tables with which later runs are compared,
+and their config.
 """
 
 import shutil
@@ -83,7 +83,7 @@ def main() -> None:
 
 
 def publish_tables(tables: Path, reference: Path) -> None:
-    """Copy the tables; those of a study that was not part of the run are left out."""
+    """Copy the tables, without those of a study that was not part of the run."""
     (reference / "studies").mkdir(parents=True, exist_ok=True)
     for name in TABLES:
         shutil.copyfile(tables / f"{name}.csv", reference / f"{name}.csv")

@@ -1,6 +1,6 @@
-"""The published tables against the paper's equations, and the findings against them: `make check`.
+"""Compare published tables with the paper's equations, and findings with tables: `make check`.
 
-Every row of the ledger is judged anew from the published findings, without a run.
+The check also judges every row of the ledger again from the published findings, without a run.
 """
 
 import sys
@@ -19,12 +19,12 @@ CLOSE = {"rtol": 1e-8, "atol": 1e-9}  # the digits of the tables
 
 
 def main(root: Path = Path()) -> tuple[list[str], list[str]]:
-    """Return the tallies of the published claims, and what is wrong with the edition."""
+    """Return the tallies of the published claims, and the errors in the published files."""
     return recheck(lambda folder, findings: [*evidence(folder, findings), *equations(folder)], root)
 
 
 def equations(folder: Path) -> Iterator[str]:
-    """Yield the tables whose numbers are not those of the paper's equations."""
+    """Yield the tables whose numbers differ from the paper's equations."""
 
     def table(name: str) -> pd.DataFrame:
         return pd.read_csv(folder / f"{name}.csv")
@@ -62,7 +62,7 @@ def _restitution(alpha: pd.Series, gamma: pd.Series) -> pd.Series:
 
 
 def evidence(folder: Path, findings: Findings) -> Iterator[str]:
-    """Yield the findings that do not follow from the tables which they were drawn from."""
+    """Yield the findings that do not follow from their tables."""
 
     def table(name: str) -> pd.DataFrame:
         return pd.read_csv(folder / f"{name}.csv")

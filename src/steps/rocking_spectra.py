@@ -1,8 +1,8 @@
-"""Rocking spectra of real records: how far similar columns of every size rock, alone and as frames.
+"""Rocking spectra of measured records: peak rotation of similar columns and frames of every size.
 
-Each impact multiplies what two motions differ by. Under a long record with hundreds of impacts
-some histories change wholly when the record is scaled by a billionth: there nobody can say what
-happens. Such histories are told apart, and not counted.
+Each impact amplifies the difference of two motions. Under a long record with hundreds of impacts,
+some outcomes are too sensitive to decide: a relative change of 1e-9 in the record changes them. We
+mark such histories and do not count them.
 """
 
 import math
@@ -21,7 +21,7 @@ CHANGED = 0.01  # of α: a change of the peak that is not small
 
 
 def spectrum(record: Record, columns: list[Column], gamma: float, tightened: float) -> list[dict]:
-    """Return the rows of one record and γ: θmax/α over R, and whether it can be told at all."""
+    """Return the rows of one record and γ: θmax/α over R, and whether NUDGE changes it."""
     rows = []
     nudged = [record.scaled(1.0 - NUDGE), record.scaled(1.0 + NUDGE)]
     for column in columns:
@@ -46,7 +46,7 @@ def spectrum(record: Record, columns: list[Column], gamma: float, tightened: flo
 
 
 def second_route(table: pd.DataFrame, records: dict[str, Record], columns, count: int) -> dict:
-    """Judge some of the histories again by SciPy, evenly through those that can be told."""
+    """Judge some of the decidable histories again by SciPy, in even steps."""
     differ, largest = 0, 0.0
     sizes = {round(column.size, 9): column for column in columns}
     table = table[table.told]
@@ -78,7 +78,7 @@ def main(case: dict, paths: list[str], tightened: float) -> tuple[pd.DataFrame, 
     falls = falls[table.pivot_table(values="told", **both).astype(bool).all(axis=1)]
 
     def reversals(gamma: float) -> int:
-        """Neighbouring sizes of which the smaller stands and the larger falls."""
+        """Neighbouring sizes of which the smaller survives and the larger overturns."""
         runs = (fallen.to_numpy() for _, fallen in falls[gamma].groupby("record"))
         return sum(int(np.sum(~fallen[:-1] & fallen[1:])) for fallen in runs)
 

@@ -1,4 +1,4 @@
-"""The two drawings of the paper, computed: structures to scale, and the cap beam's free body.
+"""Compute the two drawings of the paper: structures to scale, and the cap beam's free body.
 
 Every cap beam has the density and the breadth of its columns, so that its depth shows its mass.
 """
@@ -27,7 +27,7 @@ def cap_outline(frame: RockingFrame, span: float, overhang: float) -> np.ndarray
 def frame_outlines(
     frame: RockingFrame, rotation: float, span: float, overhang: float
 ) -> dict[str, np.ndarray]:
-    """Return the outlines of both columns and of the cap that rests on them, at θ ≤ 0."""
+    """Return the outlines of both columns and of the cap beam on them, at θ ≤ 0."""
     column = frame.column
     moved = np.array(cap_displacement(column, rotation))  # Eqs. (4), (7)
     bodies = {"cap": cap_outline(frame, span, overhang) + moved}
@@ -92,7 +92,7 @@ def rows(panel: str, frame: RockingFrame, bodies: dict[str, np.ndarray]) -> list
 
 
 def structures(case: dict) -> list[dict]:
-    """Fig. 1: a column, one similar and smaller, and frames of that column under two caps."""
+    """Fig. 1: a column, a smaller similar column, and frames of that column with two cap beams."""
     column, scale = Column(**case["column"]), case["smaller"]
     small = Column(scale * column.half_width, scale * column.half_height)
     drawn = []

@@ -1,7 +1,7 @@
-"""The overturning spectra, gathered from their shards, and what they say about heavier caps.
+"""Gather the overturning spectra from their shards, and compare frames of different γ.
 
-Is the lowest amplitude that overturns the higher, the heavier the cap, at every frequency? And on
-how much of the map of frequency and amplitude is the heavier frame the one that falls?
+The rule tests whether the minimum overturning amplitude rises with γ at every frequency. It also
+computes the share of the frequency–amplitude plane on which only the heavier frame overturns.
 """
 
 from itertools import pairwise

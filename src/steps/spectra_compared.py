@@ -1,7 +1,7 @@
-"""Overturning spectra compared: which amplitudes overturn one frame, and which another.
+"""Compare overturning spectra: amplitudes that overturn one frame and not another.
 
-A spectrum's table has the intervals of every line; in the sets of amplitudes here, arrays of shape
-(n, 2), intervals do not overlap.
+The table of a spectrum contains the intervals of every line. A set of amplitudes is an array of
+disjoint intervals, shape (n, 2).
 """
 
 import math
@@ -22,7 +22,7 @@ from topheavy.overturning import Interval
 SPECTRUM = ["slenderness_deg", "shape", "mass_ratio", "linearised"]
 ORDER = [*SPECTRUM, "frequency_ratio", "lower"]
 PRINTED = 1e-8  # of an amplitude: the rounding of the shards' tables, with room to spare
-SECOND_LOOK = 20.0  # times finer: how an apparent exception is looked at again
+SECOND_LOOK = 20.0  # times finer: the resolution for an apparent exception
 LEAST_RISES = 20  # comparisons with the least rise, looked at again
 NEAR = 0.01  # of an amplitude: how close to a boundary half of the sample is
 
@@ -89,10 +89,9 @@ class Spectra:
         return without(self.at(place, heavy), self.at(place, light))
 
     def lowest_rises(self) -> dict:
-        """Compare the lowest amplitudes of neighbouring γ; look again, finer, where one falls.
+        """Compare the minimum overturning amplitudes of neighbouring γ; refine where one falls.
 
-        Those that rise least are looked at again too: there a band that was missed would be an
-        exception first.
+        The smallest rises are refined too, since a missed interval would first appear there.
         """
         compared, apparent, proven, rising = 0, [], [], []
         for place in self.places():
@@ -129,14 +128,14 @@ class Spectra:
         return truth(not proven, **evidence)
 
     def again(self, place: Place, gamma: float, lowest: float) -> tuple[float, float]:
-        """Bracket the lowest amplitude that overturns, at the finest resolution."""
+        """Bracket the minimum overturning amplitude at the finest resolution."""
         top = min(self.last, lowest * (1.0 + NEAR))
         finest = self.case["finer"]["resolution"] / SECOND_LOOK
         found: list[Interval] = search(place.line(gamma), (self.first, top), finest)
         return found[0].lower if found else (top, math.inf)
 
     def areas(self, light: float, heavy: float) -> list[dict]:
-        """The shares of each map on which one frame overturns and the other does not."""
+        """The shares of each map on which only one of two frames overturns."""
         uplift = 1.0
         whole = (self.ratios[-1] - self.ratios[0]) * (self.last - uplift)
         rows = []
@@ -169,7 +168,7 @@ class Spectra:
     def counterexample(
         self, pairs: Iterable[tuple[float, float]], linearised: bool = False
     ) -> tuple[float, Place, float, float, float]:
-        """The widest band of the spectra that the lighter frame survives and the heavier not.
+        """The widest interval that the lighter frame survives and that overturns the heavier one.
 
         Returns its width over its middle, the place, both γ and the middle.
         """
@@ -184,7 +183,7 @@ class Spectra:
         return widest
 
     def sample(self, points: int, seed: int, tightened: float) -> dict:
-        """Judge points of the map anew: half of them anywhere, half close to a boundary."""
+        """Judge points of the map again: half of them anywhere, half close to a boundary."""
         random = np.random.default_rng(seed)
         rows = self.table.iloc[random.integers(len(self.table), size=points)]
         differ = 0
@@ -200,7 +199,7 @@ class Spectra:
         return truth(differ == 0, points=points, differ=differ)
 
     def judged(self, place: Place, gamma: float, amplitude: float, tightened: float) -> list[bool]:
-        """Whether a frame overturns, at the tightened tolerance and by the second route."""
+        """Whether a frame overturns, at the tightened tolerance and by the second solver."""
         block, pulse = place.line(gamma)[1:]
         pulse = pulse.scaled(amplitude)
         return [
@@ -221,7 +220,7 @@ def overlap(first: np.ndarray, second: np.ndarray) -> float:
 
 
 def without(first: np.ndarray, second: np.ndarray) -> np.ndarray:
-    """Return what of a set is not in another; pieces that touch stay pieces."""
+    """Return the part of a set that is not in another; adjacent pieces are not merged."""
     if not len(first):
         return first
     ends = np.unique(np.concatenate([first.ravel(), second.ravel()]))

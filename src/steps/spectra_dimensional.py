@@ -1,4 +1,4 @@
-"""Overturning spectra of frames that have a size: amplitude in g over the pulse's period in s."""
+"""Overturning spectra of frames of given size: amplitude in g against the pulse's period in s."""
 
 import math
 from typing import Any
@@ -48,7 +48,7 @@ def lines(case: dict, structures: dict) -> list[Line]:
 
 
 def published(case: dict, structures: dict, tightened: float) -> tuple[dict, dict]:
-    """Return the lowest amplitude (g) that overturns under a pulse that others have computed.
+    """Return the minimum overturning amplitude (g) of a pulse that others have computed.
 
     As a row for the picture, and as a finding.
     """

@@ -1,4 +1,4 @@
-"""The lines of overturning spectra: all amplitudes that overturn at a frequency, as table rows."""
+"""Lines of overturning spectra: all overturning amplitudes at a frequency, as table rows."""
 
 import time
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -24,8 +24,8 @@ class Line(NamedTuple):
 def intervals(line: Line, case: Mapping[str, Any]) -> list[Interval]:
     """Return the intervals of a line over the amplitudes of a config entry.
 
-    Close to uplift under long pulses the lowest intervals are narrow: below the first one that is
-    found, the search is repeated at the finer resolution.
+    Close to uplift, under long pulses, the lowest intervals are narrow. The search is therefore
+    repeated at the finer resolution below the first interval.
     """
     amplitudes, finer = case["amplitudes"], case["finer"]
     first = amplitudes["lowest"]
@@ -36,7 +36,7 @@ def intervals(line: Line, case: Mapping[str, Any]) -> list[Interval]:
 
 
 def search(line: Line, scales: tuple[float, float], resolution: float) -> list[Interval]:
-    """Return the intervals in a range, of which the modes are told apart and not more."""
+    """Return the intervals in a range, labelled only by whether an impact precedes overturning."""
     return overturning_intervals(
         line.block, line.pulse, scales, resolution=resolution, most_impacts=len(MODES) - 1
     )
@@ -65,7 +65,7 @@ def shard_of(lines: Sequence[Line], shard: str) -> Sequence[Line]:
 
 
 def progress(results: Iterable[Any], count: int, what: str) -> Iterator[Any]:
-    """Pass results on, and tell the log of every tenth of them."""
+    """Yield the results, and write every tenth of them to the log."""
     start = time.monotonic()
     for number, result in enumerate(results, start=1):
         yield result

@@ -1,7 +1,7 @@
-"""Who is more stable, and is it so always? Four rankings of the paper, scanned for counterexamples.
+"""Search for counterexamples to four stability rankings of the paper.
 
-Survival is not monotone in the amplitude: beyond the amplitudes that overturn after an impact there
-are some that are survived again, before those that overturn without one.
+Survival is not monotone in the acceleration amplitude. Between the amplitudes that overturn after
+an impact and those that overturn without an impact, there can be amplitudes that are survived.
 """
 
 import math
@@ -48,7 +48,7 @@ class Scan:
         return simulate_linear_exact(block, pulse, duration=pulse.duration, samples=2).overturned
 
     def first(self, trial: Trial) -> float:
-        """The lowest amplitude of the scan that overturns."""
+        """The minimum overturning amplitude of the scan."""
         over = self.overturned(trial)
         return self.amplitudes[over.index(True)] if True in over else math.inf
 
@@ -62,11 +62,11 @@ class Scan:
                 yield [amplitude for amplitude, *_ in neighbours]
 
     def ranking(self, order: list[list[Trial]]) -> dict:
-        """Does each trial survive all that those before it survive? Or at least, fall later?
+        """Test whether each trial survives all that earlier ones survive, or has a higher minimum.
 
-        In the middle of the widest run of counterexamples the verdict is made anew at the
-        tightened tolerance. The closed form of the linearised equation, which has boundaries of its
-        own, is asked for counterexamples among the same two trials.
+        In the middle of the widest run of counterexamples, the outcome is computed again at the
+        tightened tolerance. The closed-form solution of the linearised equation, whose boundaries
+        differ, is also searched for counterexamples among the same two trials.
         """
         rises = all(
             self.first(weaker) <= self.first(stronger)

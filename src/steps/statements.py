@@ -1,4 +1,4 @@
-"""What the paper says in words and no other rule tests: a finding each, for the ledger."""
+"""Test statements of the paper that no other rule tests; each gives one finding."""
 
 import math
 
@@ -33,7 +33,7 @@ def similar(column: Column, scale: float) -> Column:
 def from_below(frame: RockingFrame, cap: dict, pulse: Pulse) -> dict:
     """Compare three rigid bodies with the equivalent column, and the forces on their cap.
 
-    The bodies know neither Eq. (23) nor Eq. (25). The column has the size R̂ and the frame's √r.
+    The bodies use neither Eq. (23) nor Eq. (25). The column has the size R̂ and the frame's √r.
     """
     column = frame.column
     equivalent = similar(column, frame.equivalent_size / column.size)
@@ -104,7 +104,7 @@ def oscillator(frame: RockingFrame, pulse: Pulse, mass_ratios: list[float], solv
             for options in ({}, {"tolerance": solver["tightened"]})
         )
         if usual.outcome != tight.outcome:
-            raise ArithmeticError(f"γ = {gamma:g}: the outcome hangs on the tolerance")
+            raise ArithmeticError(f"γ = {gamma:g}: the outcome depends on the tolerance")
         off = np.nanmax(np.abs(usual.rotation - tight.rotation)) / frame.slenderness
         errors[f"{gamma:g}"] = float(off)
 

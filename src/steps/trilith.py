@@ -1,4 +1,4 @@
-"""The passage on the trilith of Peña et al. (2008): its numbers, and how near it was to uplift."""
+"""Recompute the trilith of Peña et al. (2008): its numbers, and its distance from uplift."""
 
 import math
 import re
@@ -25,7 +25,7 @@ STEP_ASIDE = 1e-6  # of a threshold, to either side
 
 
 def passage(frame: RockingFrame, case: dict, printed: dict[str, Any]) -> dict:
-    """The numbers of p. 4, each from the ones before it. `printed` is what the ledger has."""
+    """The numbers of p. 4, each from the ones before it. `printed` has the values of the ledger."""
     column, u, f = frame.column, case["table_amplitude"], case["table_frequency"]
     acceleration = table_acceleration(u, f)
     width, height = printed["trilith_width"], printed["trilith_height"]
@@ -70,7 +70,7 @@ def lifts(frame: RockingFrame, amplitude: float, frequency: float, duration: flo
 
 
 def nearness(frame: RockingFrame, case: dict) -> list[dict]:
-    """What would have lifted it, each with the simulation on either side of the threshold."""
+    """Changes that would have uplifted it, with a simulation on each side of the threshold."""
     u, f, column = case["table_amplitude"], case["table_frequency"], frame.column
     short = 4.0 / f  # cycles enough: the peak of the first half cycle decides
     amplitude, frequency = amplitude_to_uplift(frame, f), frequency_to_uplift(frame, u)
@@ -147,10 +147,11 @@ def anomalies(frame: RockingFrame, case: dict, near: list[dict]) -> dict:
 def starts(
     frame: RockingFrame, case: dict, tightened: float
 ) -> tuple[list[dict], list[dict], dict]:
-    """The table's steady sine, after starts of growing abruptness; the histories of the two ends.
+    """Simulate the shake table's steady sine after starts of increasing abruptness.
 
-    The share is that of the velocity 2πf u₀ which the table takes up at once: 0 is an acceleration
-    sine from rest, 1 a displacement sine at full speed.
+    The share is the part of the velocity 2πf u₀ that the shake table reaches at once: 0 is an
+    acceleration sine from rest, 1 a displacement sine at full velocity. The histories are those of
+    these two ends.
     """
     u, f, duration = case["table_amplitude"], case["table_frequency"], case["duration"]
     motion, full = table_motion(u, f), abrupt_start(frame, u, f)

@@ -1,4 +1,4 @@
-"""Where the trilith rests, rocks or overturns, over amplitude and frequency of the table."""
+"""Outcome of the trilith against displacement amplitude and frequency of the shake table."""
 
 from replication.workbench import grid, run
 from topheavy import Column, RockingFrame, simulate

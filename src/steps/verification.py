@@ -1,7 +1,7 @@
-"""How far the numbers can be trusted: routes against each other, and ours against the literature.
+"""Compare the solvers with each other, and our numbers with the literature.
 
-For the ensembles a seeded sample stands for all cells: half of it drawn from the grid, half within
-one per cent of a boundary of overturning, where a verdict is most easily wrong.
+For the ensembles, a seeded sample represents all cells. Half of it comes from the grid, and half
+lies within 1 % of an overturning boundary (in amplitude), where errors of the outcome are likely.
 """
 
 import math
@@ -53,7 +53,7 @@ def cells(case: dict, shape: str, *, linearised: bool) -> Iterator[Cell]:
 
 
 def compare(sample: list[Cell], route: Callable, other: Callable) -> dict:
-    """Return how two routes agree on a sample: verdicts, and peaks over α."""
+    """Return the agreement of two solvers on a sample: outcomes, and peaks over α."""
     wrong, errors = 0, []
     for block, pulse in sample:
         first, second = route(block, pulse), other(block, pulse)
@@ -70,7 +70,7 @@ def compare(sample: list[Cell], route: Callable, other: Callable) -> dict:
 
 
 def agreement(case: dict, tightened: float) -> pd.DataFrame:
-    """Kernel against the reference, the exact solution, and itself at a tighter tolerance."""
+    """Compare the Taylor solver with SciPy, the exact solution, and a tighter tolerance."""
 
     def tight(block: RockingBlock, pulse: Pulse):
         return judge(block, pulse, tolerance=tightened)

@@ -1,4 +1,4 @@
-"""Checks of single values, with messages that say what was expected and what came."""
+"""Check single values; the messages give the value and the expected one."""
 
 import math
 from typing import Any
@@ -14,7 +14,7 @@ def number(name: str, value: Any) -> float:
     """Return `value` as a float, infinite or NaN also, or raise ValueError that names it.
 
     A text, a truth value, an array and a masked value are no numbers, even where Python converts
-    them: who gives one has mixed something up.
+    them: such a value is probably a mistake.
     """
     if getattr(value, "ndim", 0):
         raise ValueError(f"{name} is an array of shape {value.shape}; expected a number")

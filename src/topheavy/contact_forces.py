@@ -1,18 +1,19 @@
-"""Forces and impulses at the feet of the columns and under the cap beam.
+"""Forces and impulses at the base and column-top contacts of a rocking frame.
 
-The paper assumes that nothing slides and that the cap stays on both columns (p. 3). These are the
-forces that the assumption rests on. Its Eqs. (10)–(18) balance the columns and the forces on the
-cap, and leave one of the nine unknowns open (θ̈ and four forces of two components each); the
-balance of moments about the cap's centre of gravity, which the paper leaves out, closes them:
+The paper assumes that nothing slides and that the cap beam stays on both columns (p. 3). This
+module computes the forces that the assumption requires. There are nine unknowns: θ̈ and four forces
+of two components each. Eqs. (10)–(18) balance the columns and the forces on the cap beam, which
+leaves one unknown. The moment balance of the cap beam, which the paper omits, determines it:
 
-- Both columns turn alike, so both push the cap across their diagonals with the same force.
-- The other balances then give how the cap's force (F_x, F_z) is shared out: the left seat carries
-  F_z (1/2 − e/L) and the right one F_z (1/2 + e/L), where e = s b − d F_x/F_z is how far right of
-  the middle between the seats the line of thrust through the cap's centre of gravity meets them,
-  s = sgn θ, L is the span and d the half-depth. A seat opens where that line leaves the span.
+- Both columns rotate equally, so both exert the same force on the cap beam across their diagonals.
+- The other equations divide the force (F_x, F_z) on the cap beam between the columns. The left
+  column-top contact carries F_z (1/2 − e/L), the right one F_z (1/2 + e/L), e = s b − d F_x/F_z.
+  Here s = sgn θ, L is the span and d the half-depth. The line of thrust through the cap beam's
+  centre of gravity meets the level of the contacts at e, to the right of the middle between them.
+  A contact opens if that line leaves the span.
 
-`topheavy.derivation.contact` derives both by computer algebra. At an impact the same holds for the
-impulses. Rotations are in rad, signed; with the ground's acceleration in g. Arrays broadcast.
+`topheavy.derivation.contact` derives both by computer algebra. The impulses at an impact obey the
+same equations. Rotations are in rad, signed; the ground acceleration is in g. Arrays broadcast.
 """
 
 import math
@@ -31,14 +32,14 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Cap:
-    """What the forces, but not the motion, depend on: where the cap beam rests, and its depth.
+    """Span and depth of the cap beam, on which the forces depend but not the motion.
 
     Parameters
     ----------
     span : float
         L, m, between the axes of the columns.
     half_depth : float
-        d, m: the height of the cap's centre of gravity, midway along it, above the seats.
+        d, m: the height of the cap beam's centre of gravity above the column-top contacts.
 
     Raises
     ------
@@ -56,14 +57,14 @@ class Cap:
 
 @dataclass(frozen=True, eq=False)
 class Reaction:
-    """What one contact does to the body above it: a force, or at an impact an impulse.
+    """The force, or at an impact the impulse, of one contact on the body above it.
 
     Attributes
     ----------
     horizontal : ndarray
         To the right.
     vertical : ndarray
-        Upward; where it is negative the contact would have to pull, and opens instead.
+        Upward. If it is negative, the contact would have to pull; it opens instead.
     """
 
     horizontal: Array
@@ -71,7 +72,7 @@ class Reaction:
 
     @property
     def friction_demand(self) -> Array:
-        """|horizontal|/vertical: the least coefficient of friction that keeps it from sliding.
+        """|horizontal|/vertical: the required coefficient of friction.
 
         Infinite where there is no compression, NaN where the contact carries nothing at all.
         """
@@ -106,7 +107,7 @@ class ContactForces:
 
     @property
     def friction_demand(self) -> Array:
-        """The largest friction demand of the four contacts."""
+        """The largest required coefficient of friction of the four contacts."""
         largest: Array = reduce(np.fmax, [contact.friction_demand for contact in self.contacts])
         return largest
 
@@ -126,13 +127,13 @@ def contact_forces(
 ) -> ContactForces:
     """Return the forces on a rocking frame, over its weight (2 m_c + m_b) g.
 
-    They are what exact rocking takes, θ̈ being that of Eq. (23), and are not cut off where a contact
-    cannot give it: a tension or a huge friction demand says that the motion is another one there.
+    The motion is that of Eq. (23). The forces are not limited where a contact cannot provide them:
+    a tension or a very large required friction shows that the assumed motion is impossible.
 
     Parameters
     ----------
     frame, cap
-        γ may be 0, when the seats carry nothing, or infinite, when the columns weigh nothing.
+        γ may be 0 (no force under the cap beam) or infinite (columns without weight).
     rotation, velocity, ground_acceleration : array_like
         θ (rad, |θ| < π/2), θ̇ (rad/s) and ü_g (g).
 
@@ -140,9 +141,8 @@ def contact_forces(
     -------
     ContactForces
         At θ = 0 the frame turns to the side of its velocity. Without one, it turns to the side
-        that ü_g uplifts it to, for |ü_g| ≥ tan α; below, at rest, the forces are NaN: the columns
-        stand on their feet and carry the cap on their whole heads, and the shares of twelve force
-        and moment resultants do not follow from nine balances.
+        that ü_g uplifts it to, for |ü_g| ≥ tan α. Below, at rest, the forces are NaN: base and
+        top faces are in full contact, and nine equations do not determine the twelve resultants.
 
     Raises
     ------
@@ -185,8 +185,8 @@ def column_forces(
 def impact_impulses(frame: RockingFrame, cap: Cap, velocity: ArrayLike) -> ContactForces:
     """Return the impulses on a rocking frame at an impact, over its mass 2 m_c + m_b, in m/s.
 
-    They act at the new pivots and the new seats, which is what makes √r that of Eq. (25); with
-    another √r the old contacts would take part, and the impulses are not determined.
+    They act at the new pivots and the new column-top contacts, which leads to √r of Eq. (25). With
+    another √r the old contacts would also act, and the impulses would not be determined.
 
     Parameters
     ----------
@@ -295,8 +295,8 @@ def _shared(
 ) -> ContactForces:
     """Return how the contacts share what either column and the cap take.
 
-    The shift of the vertical force from the left seat to the right follows from the cap's moments,
-    with what goes along with it along the diagonals.
+    The cap beam's moments determine how much vertical force shifts from the left column top to the
+    right one. The corresponding horizontal force follows the diagonals.
     """
     b, d = frame.column.half_width, cap.half_depth
     shift = (side * b * beam.vertical - d * beam.horizontal) / cap.span
@@ -324,5 +324,5 @@ def _check_span(frame: RockingFrame, cap: Cap) -> None:
     if not cap.span > width:
         raise ValueError(
             f"span is {cap.span:.6g} m between the axes of columns {width:.6g} m wide; "
-            "expected more than their width, so that they stand apart"
+            "expected more than their width, so that the columns do not touch"
         )

@@ -1,4 +1,4 @@
-"""What a ground motion is to the solvers: an acceleration in smooth, monotone segments."""
+"""The interface of a ground motion to the solvers: an acceleration in smooth, monotone segments."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

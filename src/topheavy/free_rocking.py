@@ -1,7 +1,7 @@
 """Free rocking in closed form: energy, turning rotation, quarter period, the end of a motion.
 
-Without forcing the energy per unit inertia is conserved between impacts, so that nothing needs
-integrating once the ground rests. With φ = |θ| and φ̇ its rate,
+Without ground motion the energy per unit inertia is conserved between impacts, so that no
+integration is necessary. With φ = |θ| and φ̇ its rate,
 
     e = φ̇²/2p² + w(φ),    w = cos(α − φ) − cos α  (exact),    w = φ (α − φ/2)  (linearised)
 
@@ -63,7 +63,7 @@ def turning_rotation(block: RockingBlock, level: float) -> float:
 
 
 def ending(block: RockingBlock, rotation: float, rate: float) -> Ending:
-    """Judge the state (φ in rad, φ̇ in rad/s) at which the forcing ends.
+    """Return how the motion ends from the state (φ in rad, φ̇ in rad/s) at the end of the forcing.
 
     Overturned is: φ > α and moving outward, or inward with less energy than the barrier; or φ ≤ α,
     moving outward with at least that energy. Otherwise the block goes through its next impact and
@@ -122,8 +122,8 @@ def quarter_period(structure: Structure, rotation: float) -> tuple[float, float]
 def energy_drift(block: RockingBlock, response: Response, flights: int) -> float:
     """Return the largest change of energy over the first flights of free rocking, over the energy.
 
-    Between impacts the moment–rotation curve of Fig. 1(b) encloses no area: a solver has no drift
-    but its error.
+    Between impacts the moment–rotation curve of Fig. 1(b) encloses no area, so that any change is
+    an error of the solver.
     """
     motion = zip(np.abs(response.rotation), np.abs(response.velocity), strict=True)
     levels = np.array([energy(block, phi, rate) for phi, rate in motion])

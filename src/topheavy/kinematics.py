@@ -1,8 +1,8 @@
 """Motion of the cap beam: Eqs. (4)–(9).
 
 The cap translates without turning. Upper signs of the paper hold for θ < 0, lower ones for θ > 0;
-with the side s = sgn θ both read alike. Eq. (9) is taken as it follows from Eq. (8), which is not
-as it is printed for θ > 0.
+with the side s = sgn θ one formula serves both. We use Eq. (9) as it follows from Eq. (8), which
+differs from the printed form for θ > 0.
 
 Rotations are in rad, signed (θ > 0 leans to the right); arrays broadcast.
 """
@@ -16,7 +16,7 @@ Pair = tuple[NDArray[np.float64], NDArray[np.float64]]
 
 
 def cap_displacement(column: Column, rotation: ArrayLike) -> Pair:
-    """Return the horizontal displacement u and the lift v of the cap beam, m: Eqs. (4), (7)."""
+    """Return the horizontal and vertical displacements u, v of the cap beam, m: Eqs. (4), (7)."""
     side, lean = _side_and_lean(column, rotation)
     alpha, diagonal = column.slenderness, 2.0 * column.size
     u = side * diagonal * (np.sin(alpha) - np.sin(lean))  # Eq. (4)

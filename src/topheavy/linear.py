@@ -1,12 +1,12 @@
-"""The linearised motion solved exactly, piece by piece: the oracle for every solver.
+"""The exact solution of the linearised motion, piece by piece: a check of every solver.
 
 On one side and one segment of the ground motion (Allen et al. 1986; Housner 1963)
 
     φ(t) = α + s κ a(t) + C₁ exp(pτ) + C₂ exp(−pτ),    κ = 1/(1 + (ω/p)²)
 
-for a sine or cosine of ω; κ = 1 for a straight line. No step is ever guessed: from the bounds of φ̈
-on the segment follows a time before which neither an impact nor a turning point can come, and the
-motion is marched by such times, which shrink to the event itself.
+for a sine or cosine of ω; κ = 1 for a straight line. The bounds of φ̈ on the segment give
+a time before which neither an impact nor a turning point can occur. The solution advances by such
+times, which converge to the event.
 """
 
 import math

@@ -11,10 +11,10 @@ from topheavy.structures import Column, RockingFrame
 def restoring_moment(structure: Column | RockingFrame, rotation: ArrayLike) -> NDArray[np.float64]:
     """Return the restoring moment over m_c g R at the rotations θ (rad, signed), of one column.
 
-    The solitary column has sin(α − |θ|), opposed to the rotation. In the frame each column also
-    carries half of the cap beam at the end of its diagonal, twice as far from the pivot, which
-    multiplies it by 1 + 2γ. At θ = 0 the moment is whatever the ground asks for, up to the value
-    returned for θ → 0 from above.
+    For the solitary column it is sin(α − |θ|), opposed to the rotation. In the frame each column
+    also carries half of the cap beam at the end of its diagonal, twice as far from the pivot; the
+    moment is therefore 1 + 2γ times as high. At θ = 0 the moment balances the ground motion, up to
+    the value returned for θ → 0 from above.
 
     Raises
     ------

@@ -71,7 +71,7 @@ class Arc:
 
 @dataclass
 class Motion:
-    """A motion on its way: where it stands, and what it has been through."""
+    """The current state of a motion, with its peak and its number of impacts so far."""
 
     time: float
     side: int
@@ -269,7 +269,7 @@ def _rock_freely(
 ) -> None:
     """Carry the motion on without forcing, to where the history ends.
 
-    The energy says how (`end`). Within rounding of the barrier the block is poised at α, and the
+    The energy decides how (`end`). Within rounding of the barrier the block is poised at α, and the
     integration may lead to the other side than judged: the history ends with the flight before.
     """
     most = len(motion.impacts) + MOST_FREE_IMPACTS

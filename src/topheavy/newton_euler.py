@@ -1,4 +1,4 @@
-"""The rocking frame as three rigid bodies on contact points: Newton–Euler, nothing presumed.
+"""The rocking frame as three rigid bodies with contact points, by Newton's and Euler's equations.
 
 Two columns and the cap beam have nine coordinates. Each column turns about a corner of its base
 and carries the cap beam on the corner diagonally across; nothing slides (p. 2). At every instant
@@ -9,8 +9,8 @@ impulses Λ:
     ⎡M  Jᵀ⎤ ⎡ q̈⎤   ⎡ loads ⎤        ⎡M  Jᵀ⎤ ⎡ q̇₂⎤   ⎡M q̇₁⎤
     ⎣J  0 ⎦ ⎣−F⎦ = ⎣−J̇ q̇  ⎦        ⎣J  0 ⎦ ⎣−Λ ⎦ = ⎣  0  ⎦
 
-Nine coordinates under eight scalar constraints leave one degree of freedom: that much is counting.
-That it moves by Eq. (23), uplifts beyond tan α and loses velocity by Eq. (25) is found, not put in.
+Nine coordinates with eight scalar constraints have one degree of freedom. The module does not use
+Eq. (23), the uplift at tan α or Eq. (25): these are results.
 
 Coordinates q (m, rad) are displacements (x to the right, z upward) and clockwise rotations of
 column 1 (the left one), column 2 and the cap beam, from rest and relative to the ground. A column
@@ -31,7 +31,7 @@ from topheavy.structures import STANDARD_GRAVITY, RockingFrame
 
 Vector = NDArray[np.float64]
 Sides = tuple[int, int]
-"""For each column, the side of the base corner it stands on: −1 left, +1 right."""
+"""For each column, the side of the base corner in contact: −1 left, +1 right."""
 
 COLUMNS = [2, 5]
 """Where the rotations of the two columns are in q."""
@@ -47,7 +47,7 @@ _ROWS, _TURNS = 9 + 2 * _CONTACT, 3 * _BODY + 2
 
 @dataclass(frozen=True)
 class ThreeBodies:
-    """A rocking frame with the lengths that its equation of motion does not know.
+    """A rocking frame with two lengths that its equation of motion does not contain.
 
     Parameters
     ----------
@@ -141,7 +141,7 @@ def accelerations(
     ----------
     bodies : ThreeBodies
     sides : (int, int)
-        The corners that the columns stand on.
+        The base corners in contact with the ground.
     coordinates, velocity : ndarray, shape (9,)
         q (m, rad) and q̇ (m/s, rad/s), relative to the ground.
     ground : float
@@ -167,13 +167,13 @@ def accelerations(
 def impact(bodies: ThreeBodies, sides: Sides, velocity: Vector) -> tuple[Vector, Vector]:
     """Return q̇ behind an impact of the upright frame, shape (9,), and the impulses, shape (4, 2).
 
-    Impulses (N s, on the upper body) act at the new corners; the old ones let go.
+    Impulses (N s, on the upper body) act at the new corners; the old contacts open.
 
     Parameters
     ----------
     bodies : ThreeBodies
     sides : (int, int)
-        The new corners that the columns stand on.
+        The new base corners in contact with the ground.
     velocity : ndarray, shape (9,)
         q̇ before the impact.
     """

@@ -1,4 +1,4 @@
-"""Whole spectra: overturning maps, and the intervals of amplitude that overturn."""
+"""Overturning maps, and the intervals of acceleration amplitude that overturn."""
 
 import math
 from collections.abc import Callable
@@ -113,8 +113,8 @@ def overturned_by(
 ) -> NDArray[np.bool_]:
     """Return which factors on an excitation overturn a block: those of a fragility curve.
 
-    As `judge` has it for `excitation.scaled(factor)`, without preparing each time what the factors
-    share.
+    The outcomes equal those of `judge` for `excitation.scaled(factor)`; common parts are prepared
+    only once.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Mathematical ground pulses, by the shapes of the rocking literature.
+"""Ground acceleration pulses in the shapes of the rocking literature.
 
 One-sine, one-cosine: Zhang & Makris (2001), Makris & Roussos (2000). Half-sine, constant: Housner
 (1963). Ricker wavelets as in Makris & Vassiliou (2013), with the main lobe 2.25 T after the start.

@@ -1,7 +1,7 @@
-"""The rocking motion by adaptive integration with SciPy: readable, and the auditor's way in.
+"""The rocking motion by adaptive integration with SciPy: the readable, independent solver.
 
 Every step's interpolating polynomial is cut at its turning points into monotone arcs, so that no
-impact inside a step, grazing or double, is passed over.
+impact inside a step, grazing or double, is missed.
 """
 
 import math
@@ -41,7 +41,7 @@ def simulate(
     samples: int | ArrayLike = 1000,
     tolerance: float = TOLERANCE,
 ) -> Response:
-    """Return the rocking response by the second route; parameters as of `topheavy.simulate`.
+    """Return the rocking response by SciPy; the parameters are those of `topheavy.simulate`.
 
     The tolerance is that of the integration, relative to α and αp.
 

@@ -11,14 +11,14 @@ from topheavy import checks
 from topheavy.structures import RockingBlock
 
 MOST_SAMPLES = 10_000_000
-"""Of a response that is asked for by a number of samples: three arrays of 80 MB."""
+"""The largest number of samples that a caller may request: three arrays of 80 MB."""
 
 Outcome = Literal["no uplift", "rests", "rocking", "overturned"]
 
 
 @dataclass(frozen=True, eq=False)
 class Response:
-    """A rocking history and its verdict.
+    """A rocking history and its outcome.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""A frame on a table that shakes in a steady sine u = u₀ sin 2πft, as in Peña et al. (2008)."""
+"""A frame on a shake table that moves as u = u₀ sin 2πft, as in Peña et al. (2008)."""
 
 import math
 
@@ -14,16 +14,16 @@ def table_acceleration(amplitude: float, frequency: float) -> float:
 
 
 def table_motion(amplitude: float, frequency: float) -> Pulse:
-    """Return the steady acceleration of the table, −u₀ (2πf)² sin 2πft, from t = 0 on."""
+    """Return the steady acceleration of the shake table, −u₀ (2πf)² sin 2πft, from t = 0 on."""
     return Pulse("harmonic", -table_acceleration(amplitude, frequency), 2.0 * math.pi * frequency)
 
 
 def abrupt_start(structure: Structure, amplitude: float, frequency: float) -> float:
-    """Return θ̇ (rad/s) at t = 0⁺ of a structure whose table starts u₀ sin 2πft at full speed.
+    """Return θ̇ (rad/s) at t = 0⁺ of a structure whose shake table starts at full velocity.
 
-    The displacement sine leaves rest with the velocity 2πf u₀ at once: an acceleration beyond all
-    bounds that lifts the structure however small u₀ is. Its equation of motion, Eq. (23), over the
-    instant at θ = 0 gives θ̇ = −p̂² cos α (2πf u₀)/g.
+    A displacement u₀ sin 2πft starts with the velocity 2πf u₀. This jump is an infinite
+    acceleration, which uplifts the structure for every u₀. Integration of Eq. (23) over the jump at
+    θ = 0 gives θ̇ = −p̂² cos α (2πf u₀)/g.
     """
     block = structure.block()
     jump = 2.0 * math.pi * frequency * amplitude

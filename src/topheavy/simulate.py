@@ -1,4 +1,4 @@
-"""Rocking histories by the compiled kernel: `simulate`, and `judge` for the verdict alone."""
+"""Rocking histories by the Taylor solver: `simulate`, and `judge` for the outcome alone."""
 
 import math
 
@@ -38,10 +38,10 @@ from topheavy.structures import RockingBlock, Structure
 Times = NDArray[np.float64]
 
 MOST_IMPACTS = 100_000
-"""Room for the times of impacts of one history."""
+"""The largest number of impacts of one history."""
 
 SMALLEST_TOLERANCE, LARGEST_TOLERANCE = 1e-16, 1e-2
-"""Below the first a step is as good as doubles are; above the second outcomes differ visibly."""
+"""Below the first, rounding dominates the error of a step; above the second, outcomes change."""
 
 _OUTCOMES: dict[int, Outcome] = {
     NO_UPLIFT: "no uplift",
@@ -97,7 +97,7 @@ def simulate(
     Notes
     -----
     Taylor steps whose turning points and impacts are proven by the signs of Bernstein coefficients
-    (`topheavy.kernel`). `topheavy.reference.simulate` is the second, independent route.
+    (`topheavy.kernel`). `topheavy.reference.simulate` is the second, independent solver.
     """
     block = structure.block()
     times = sample_times(samples)

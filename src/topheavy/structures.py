@@ -118,7 +118,7 @@ class Column:
         Raises
         ------
         ValueError
-            When Housner's √r is negative: such a column does not rock on.
+            When Housner's √r is negative: such a column does not keep rocking.
         """
         if restitution is None:
             restitution = checked_restitution(
@@ -137,7 +137,7 @@ class RockingFrame:
         Either of the two.
     mass_ratio : float
         γ = m_b / 2 m_c, the mass of the cap beam over that of both columns; from 0 (the solitary
-        column) to `math.inf` (massless columns, the limit of Allen et al. 1986).
+        column) to `math.inf` (the limit of Allen et al. 1986: columns without mass).
 
     Raises
     ------
@@ -185,7 +185,7 @@ class RockingFrame:
         Raises
         ------
         ValueError
-            When Eq. (25) gives a negative √r: such a frame does not rock on.
+            When Eq. (25) gives a negative √r: such a frame does not keep rocking.
         """
         if restitution is None:
             limit = largest_slenderness(self.mass_ratio)
@@ -216,16 +216,16 @@ def size_ratio(mass_ratio: float) -> float:
 
 
 def largest_slenderness(mass_ratio: float) -> float:
-    """Return the largest α (rad) that rocks on after an impact: √r of Eq. (25) is zero there.
+    """Return the largest α (rad) that keeps rocking after an impact: √r of Eq. (25) is zero there.
 
-    54.7° for the solitary column, 45° for massless columns.
+    54.7° for the solitary column, 45° for γ → ∞.
     """
     cap = _share_of_cap(mass_ratio)
     return math.asin(math.sqrt(1.0 / (1.5 * (1.0 - cap) + 2.0 * cap)))
 
 
 def _share_of_cap(mass_ratio: float) -> float:
-    """Return 3γ/(1 + 3γ): the weight in Eq. (25) of massless columns against the solitary one."""
+    """Return 3γ/(1 + 3γ), the weight of the limit γ → ∞ against the solitary column in Eq. (25)."""
     return 1.0 if mass_ratio == math.inf else mass_ratio / (1.0 / 3.0 + mass_ratio)
 
 

@@ -1,7 +1,7 @@
 """The motion of the rocking frame as three rigid bodies: flights by Newton–Euler, impacts, rest.
 
 The nine coordinates of `topheavy.newton_euler` are integrated and collide without the equation of
-motion of the frame or its coefficient of restitution: these are what comes out.
+motion of the frame or its coefficient of restitution, which are results here.
 """
 
 import math
@@ -106,7 +106,7 @@ class _Arc:
 
 @dataclass
 class _Motion:
-    """A motion on its way: where it stands, and what it has been through."""
+    """The current state of a motion, with its peak and its number of impacts so far."""
 
     time: float
     sides: Sides
@@ -157,7 +157,7 @@ def simulate_three_bodies(
     Notes
     -----
     Contacts are held also where a force would have to pull: `forces` tells where. All nine
-    coordinates are integrated without correction; at an impact, when the frame stands upright,
+    coordinates are integrated without correction; at an impact, when the frame is upright,
     they are set to zero. It rests when the next bounce peaks below `REST_PEAK` of α and the ground
     cannot lift it before the bouncing has died out.
     """

@@ -13,7 +13,7 @@ from topheavy.structures import size_ratio
 
 @dataclass(frozen=True)
 class Draw:
-    """One motion of the ensemble: known by family, scenario and number, made when it is asked for.
+    """One motion of the ensemble, given by family, scenario and number; computed on request.
 
     Scenarios are numbered from 0 and have seeds of their own.
     """

@@ -1,9 +1,8 @@
 """Synthetic near-fault ground motions by the stochastic model of Dabaghi and Der Kiureghian.
 
-White noise goes through a filter whose frequency drifts, is modulated in time, and is high-pass
-filtered: that is a broadband motion. A near-fault motion has a velocity pulse on top. How strong,
-how long, how fast and which pulse is drawn from predictive equations, fitted to recorded
-near-fault motions, for a given earthquake and site.
+A broadband motion is white noise, filtered with a variable frequency, modulated in time, and
+high-pass filtered. A near-fault motion also contains a velocity pulse. Predictive equations, fitted
+to recorded near-fault motions, give the random parameters for a given earthquake and site.
 
 Sources
 -------
@@ -17,11 +16,11 @@ Sources
 [4] NHERI-SimCenter/smelt on GitHub, commit 3c5ce76: src/dabaghi_der_kiureghian.cc and its header.
 [5] J. Guo, github.com/Junjun1guo (2 October 2022): the Python class NearFaultMotionSim.
 
-The papers were not at hand; [1] to [3] are cited from memory. Every number of the model was read
-in two public implementations that cite [1] and [2]: [4] and [5]. They have the same digits, here
-rounded to five decimals, the correlations to four. Equations and tables are numbered as [4] cites
-them. Where [4] and [5] differ it is said at the place. Of the two horizontal components of [2]
-the first is made: with the pulse in it, or the stronger one.
+We did not have the papers and cite [1] to [3] from memory. Every number of the model comes from two
+public implementations that cite [1] and [2]: [4] and [5]. They have the same digits, here rounded
+to five decimals, the correlations to four. Equations and tables have the numbers that [4] cites.
+Comments mark differences between [4] and [5]. Of the two horizontal components of [2] we compute
+the first: the one with the pulse, or the stronger one.
 """
 
 import math
@@ -197,7 +196,7 @@ def broadband(seed: int, count: int, scenario: Scenario) -> list[Record]:
     """Return motions without a pulse: the stronger of the two horizontal components.
 
     Motion k depends on the seed, on k and on the scenario, and on nothing else: not on how many
-    are asked for. The same seed under another scenario gives the same noise, filtered otherwise.
+    are requested. The same seed under another scenario gives the same noise, filtered otherwise.
     """
     return [motion(seed, number, scenario, pulse=False) for number in range(count)]
 

@@ -9,7 +9,7 @@ STANDS, FALLS, UNTOLD = "s", "f", "?"
 
 
 def written(fell: ArrayLike, told: ArrayLike = True) -> str:
-    """Return a letter for each outcome: STANDS, FALLS, or UNTOLD where it cannot be told."""
+    """Return a letter for each outcome: STANDS, FALLS, or UNTOLD if it cannot be decided."""
     return "".join(np.where(told, np.where(fell, FALLS, STANDS), UNTOLD))
 
 

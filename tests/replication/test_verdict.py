@@ -47,8 +47,8 @@ def test_every_claim_that_came_out_otherwise_is_a_fault_either_way():
     worse, better = claim("a", "refuted", "confirmed"), claim("b", "qualified", "refuted")
     line, faults = main([*AS_EXPECTED, worse, better], compared(peaks="agrees"), {})
     assert faults == [
-        "claim a came out refuted; expected confirmed",
-        "claim b came out qualified; expected refuted",
+        "claim a is refuted; expected confirmed",
+        "claim b is qualified; expected refuted",
     ]
     assert line.startswith("paper: 2 confirmed, 1 qualified, 0 slips, 1 misprints, 2 refuted, ")
 

@@ -1,4 +1,4 @@
-"""Each result that a claim of the paper rests on, in a small case in which it comes out false."""
+"""Each result that a claim of the paper depends on, in a small case in which it is false."""
 
 from pathlib import Path
 from types import SimpleNamespace

@@ -139,7 +139,7 @@ def test_every_truth_that_is_flipped_is_noticed(edition):
     [
         ("trilith", "size", "value", 0.5, "claim trilith_size: computed is"),
         ("trilith", "size", "error", 1e-3, "claim trilith_size: the error is 0.001"),
-        ("equations", "eq1", "holds", False, "claim eq1 comes out refuted; expected confirmed"),
+        ("equations", "eq1", "holds", False, "claim eq1 is refuted; expected confirmed"),
         ("equations", "eq1", "holds", False, "findings/equations.json: eq1.holds is False, and 1"),
         ("reversals_pulses", "harms", "value", 0.0, "findings/reversals_pulses.json: harms.value"),
         ("mechanism_equivalence", "share_apart", "value", 0.0002, "share_apart.value is 0.0002"),
@@ -242,7 +242,7 @@ def test_row_of_the_ledger_that_is_changed_is_named(tampered):
         "paper/claims.yaml", lambda text: text.replace("printed: 0.415", "printed: 0.425")
     )
     assert any(
-        f.startswith(("claim trilith_size comes out refuted", "claim trilith_size: printed"))
+        f.startswith(("claim trilith_size is refuted", "claim trilith_size: printed"))
         for f in faults
     )
 

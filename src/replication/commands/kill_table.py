@@ -1,10 +1,10 @@
-"""Deliberate faults in the physics, one at a time, and what catches each: `make kill-table`.
+"""Insert deliberate faults in the physics, one at a time, and find what catches each.
 
-Each fault of faults.yaml is put into a copy of the tree, never into the library itself. There the
-workflow runs, with config/quick.yaml and as far as the claims need it; whatever verdict comes out
-otherwise than the ledger expects has caught the fault. If there is none, the tests that the fault
-names are run. A fault that no verdict and no test catches has at least to make a rule raise, or it
-has survived.
+The command inserts each fault of faults.yaml into a copy of the tree, never into the library. It
+runs the workflow in the copy, with config/quick.yaml and only the rules of the claims. A verdict
+that differs from the expected one has caught the fault. Otherwise the command runs the tests that
+the fault names. If no verdict and no test fails, a rule has to raise an error; if none does, the
+fault has survived.
 
 All faults together write docs/kill_table.csv and .md; a choice of them (`--faults`, `--rotate`)
 writes nothing.
@@ -238,7 +238,7 @@ def kill_table(faults: list[Fault]) -> Iterator[Row]:
     """Yield the row of each fault, after a run without any in which no verdict may turn."""
     ledger = read_yaml(ROOT / "paper" / "claims.yaml")
     for fault in faults:
-        fault.texts(ROOT)  # one that no longer applies is told at once
+        fault.texts(ROOT)  # stops at once if a fault no longer applies
     with tempfile.TemporaryDirectory(prefix="kill-table-") as folder:
         tree, sound = Path(folder) / "tree", Path(folder) / "sound"
         copy_tree(tree)
@@ -309,7 +309,7 @@ def rotation(faults: list[Fault], number: int, commit: str) -> list[Fault]:
 
 
 def chosen(faults: list[Fault], names: str | None, number: int | None) -> list[Fault]:
-    """Return the faults that are asked for: by name, by the commit, or all."""
+    """Return the requested faults: by name, by the commit, or all."""
     if names:
         known = {fault.name: fault for fault in faults}
         for name in names.split(","):

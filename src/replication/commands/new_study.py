@@ -70,4 +70,4 @@ if __name__ == "__main__":
     except ValueError as error:
         sys.exit(f"make study: {error}")
     print(f"{folder} is made, and named in config/config.yaml. Run it: make reproduce")
-    print(f"Then make it yours, file by file: FOLLOW-UP.md says how. It begins in {folder}/steps.")
+    print(f"FOLLOW-UP.md explains how to change each file. Begin in {folder}/steps.")

@@ -20,7 +20,7 @@ from replication.rules.claim import verdict_line
 from replication.verdicts import verdict_on
 
 ROOT = Path(__file__).parents[3]
-"""The repository, from which the places in the library are told."""
+"""The root of the repository; printed paths are relative to it."""
 
 
 MOST_MATCHES = 6
@@ -29,7 +29,7 @@ MOST_MATCHES = 6
 
 @dataclass(frozen=True)
 class Item:
-    """What is asked for: a file, and perhaps one finding in it and the claims judged by that."""
+    """The requested file, with an optional finding in it and the claims judged by this finding."""
 
     path: str | None
     key: str | None = None
@@ -39,7 +39,7 @@ class Item:
 def find(
     name: str, jobs: Sequence[Job], ledger: Sequence[Mapping[str, Any]], root: Path = Path()
 ) -> Item:
-    """Return what a name stands for.
+    """Return the item that a name denotes.
 
     It may be an output or the end of its path, a claim, or a finding: `heavier.rises`, or with its
     file, `findings/heavier.json:rises`.
@@ -47,7 +47,7 @@ def find(
     Raises
     ------
     ValueError
-        When it stands for nothing, or for several outputs; the message has close matches.
+        When the name denotes no output, or several; the message lists similar names.
     """
     made = makers(jobs)
     findings = {Path(path).stem: path for job in jobs for path in job.findings}
@@ -89,7 +89,7 @@ def _close(name: str, known: Iterable[str]) -> list[str]:
 
 
 def chain(item: Item, jobs: Sequence[Job], root: Path = Path()) -> Iterator[str]:
-    """Yield the lines from what is asked for back to the inputs."""
+    """Yield the lines from the requested item back to the inputs."""
     made = makers(jobs)
     for claim in item.claims:
         yield from _claim_lines(claim, item.path, root)

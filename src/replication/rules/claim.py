@@ -1,4 +1,4 @@
-"""One claim by itself: `snakemake --cores 2 claim_<id>` computes it and prints its line."""
+"""One claim alone: `snakemake --cores 2 claim_<id>` computes it and prints its line."""
 
 import json
 import sys

@@ -1,4 +1,4 @@
-"""The end of a run: how the claims came out, and an error if that is not what is expected."""
+"""End a run: print the verdicts, and fail if a verdict differs from the expected one."""
 
 import json
 from collections import Counter
@@ -19,7 +19,7 @@ def main(
     `checks` are findings that are no claims of anybody, and have to hold all the same.
     """
     faults = [
-        f"claim {row['id']} came out {row['verdict']}; expected {row['expected']}"
+        f"claim {row['id']} is {row['verdict']}; expected {row['expected']}"
         for row in claims
         if row["verdict"] != row["expected"] and not row["not_tested"]
     ]

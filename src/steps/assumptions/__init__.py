@@ -1,1 +1,1 @@
-"""What the paper leaves open: our choices, the alternatives, and the quantities they reach."""
+"""Choices that the paper leaves open, their alternatives, and the quantities they affect."""

@@ -1,8 +1,8 @@
-"""What the paper leaves open, as one value: how a structure becomes a block, how it is shaken and
-when it is called overturned. `Choices()` are ours; each alternative replaces one of them.
+"""The choices that the paper leaves open: block, ground motion, criterion of overturning.
 
-All is done from outside, by what the library offers: a block of another p or √r, a record that is
-sampled from a changed pulse, another reading of the same history.
+`Choices()` are ours; each alternative replaces one of them. Alternatives use only the public
+functions of the library: a block of another p or √r, a record sampled from a changed pulse, or
+another criterion for the same history.
 """
 
 import math
@@ -93,7 +93,7 @@ def by_energy(block: RockingBlock, motion: Excitation, tolerance: float) -> bool
 
 
 def beyond_slenderness(block: RockingBlock, motion: Excitation, tolerance: float) -> bool:
-    """|θ| exceeds α at any time. Whatever overturns does; so do some that come back."""
+    """|θ| exceeds α at any time: every block that overturns does, and some that return."""
     ending = judge(block, motion, tolerance=tolerance)
     return ending.overturned or ending.peak > block.slenderness
 
@@ -117,7 +117,7 @@ def after(wait: float, beyond: float = math.inf) -> Criterion:
 
 @dataclass(frozen=True)
 class Choices:
-    """What the paper leaves open. The defaults are ours."""
+    """The choices that the paper leaves open. The defaults are ours."""
 
     gravity: float = STANDARD_GRAVITY  # m/s²
     section: float | None = None  # (radius of gyration over b)²; None: the library's rectangle
@@ -129,12 +129,12 @@ class Choices:
     table_starts: tuple[float, ...] = (0.0, 1.0)  # shares of its speed taken up at once
     masses: tuple[float, float] | None = None  # kg, cap and both columns; None: γ as printed
     resampled: Callable[[Record], Record] = lambda record: record
-    sense: str = "both"  # of "more stable": pulse by pulse, or by the lowest amplitude
+    sense: str = "both"  # of "more stable": for each pulse, or for the minimum amplitude
     tolerance: float = TOLERANCE
     samples: int = 401  # of a pulse that has to be sampled
 
     def factors(self, structure: Structure) -> tuple[float, float]:
-        """Return the factor on p of a structure, and its √r, negative if it cannot rock on."""
+        """Return the factor on p of a structure, and its √r, negative if it cannot keep rocking."""
         if self.section is None:
             return 1.0, self.restitution(structure)
         return section_factors(structure, self.section)

@@ -1,4 +1,4 @@
-"""What follows from the impact: √r, the energy lost, the error of Allen et al. (1986)."""
+"""Quantities of the impact: √r, the energy loss, the error of Allen et al. (1986)."""
 
 import math
 from collections.abc import Iterator
@@ -18,7 +18,7 @@ def slender(degrees: float) -> Column:
 
 
 def restitutions(choices: Choices, cases: Cases) -> Iterator[tuple[float, float]]:
-    """√r of column and frame, over slenderness and γ > 0; negative where they do not rock on."""
+    """√r of column and frame, over slenderness and γ > 0; negative if they do not keep rocking."""
     case = cases["restitution"]
     for column in map(slender, np.linspace(1.0, case["largest_slenderness"], 60)):
         for gamma in case["mass_ratios"]:
@@ -28,20 +28,20 @@ def restitutions(choices: Choices, cases: Cases) -> Iterator[tuple[float, float]
 
 
 def restitution_is_smaller(choices: Choices, cases: Cases) -> Found:
-    """The least deficit of √r of the frame against that of its column."""
+    """The smallest difference between √r of the column and √r of its frame."""
     least = min(column - frame for column, frame in restitutions(choices, cases))
     return Found(least, truth(least > 0.0))
 
 
 def more_energy_is_dissipated(choices: Choices, cases: Cases) -> Found:
-    """The number of frames that engage in rocking and lose no more than their column."""
+    """The number of frames that keep rocking and lose no more energy than their column."""
     rocking = [pair for pair in restitutions(choices, cases) if min(pair) >= 0.0]
     against = [(column, frame) for column, frame in rocking if not frame**2 < column**2]
     return Found(len(against), truth(not against))
 
 
 def allen_error(choices: Choices, cases: Cases) -> Found:
-    """The median error of their model's peak; is p̂ of massless columns the leading part of it?"""
+    """The median error of their model's peak, and whether p̂ for γ → ∞ causes most of it."""
     case = cases["allen_errors"]
     errors: dict[str, list[float]] = {name: [] for name in SIMPLIFICATIONS}
     for column in map(slender, grid(case["slendernesses"])):

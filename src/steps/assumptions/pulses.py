@@ -1,4 +1,4 @@
-"""Single pulses: who falls under one, at which amplitude, and how far the others rock."""
+"""Single pulses: outcome, minimum overturning amplitude, and peak rotation of survivors."""
 
 import math
 from dataclasses import replace
@@ -38,7 +38,7 @@ def peak(choices: Choices, structure: Structure, pulse: Pulse) -> float:
 def lowest(choices: Choices, structure: Structure, pulse: Pulse, most: float) -> float:
     """Return the lowest factor on a pulse of 1 g tan α that overturns, or infinity up to `most`.
 
-    Found on a grid, so that narrower bands than its step are missed, and halved.
+    The search uses a grid and then bisection; it misses intervals narrower than the step.
     """
 
     def falls(factor: float) -> bool:
@@ -63,7 +63,7 @@ def heavier_survives_more(choices: Choices, cases: Cases) -> Found:
 
 
 def column_falls(choices: Choices, cases: Cases) -> Found:
-    """The lowest amplitude that overturns the column, in g; does the pulse?"""
+    """The minimum overturning amplitude of the column, in g, and whether the pulse overturns it."""
     column, pulse = Column(**cases["heavier"]["column"]), a_pulse(cases["heavier"])
     level = column.uplift_acceleration
     found = lowest(choices, column, replace(pulse, amplitude=level), MOST)
@@ -77,7 +77,7 @@ def heaviest_stands(choices: Choices, cases: Cases) -> Found:
 
 
 def scale_effect(choices: Choices, cases: Cases, larger: bool) -> Found:
-    """The peak of a larger column, or under a shorter pulse, where the first falls."""
+    """The peak of a larger column, or under a shorter pulse, if the first column overturns."""
     case = cases["scale_effects"]
     small, short = Column(**case["column"]), a_pulse(case)
     long = replace(short, angular_frequency=short.angular_frequency / case["longer"])
@@ -87,7 +87,7 @@ def scale_effect(choices: Choices, cases: Cases, larger: bool) -> Found:
 
 
 def lowest_rises(choices: Choices, cases: Cases) -> Found:
-    """Count the steps of γ over which the lowest amplitude that overturns falls."""
+    """Count the steps of γ over which the minimum overturning amplitude falls."""
     case = cases["assumptions"]["spectra"]
     column = Column(**cases["stability"]["column"])
     p = choices.block(column).frequency_parameter

@@ -1,4 +1,4 @@
-"""What an assumption may reach: a number, and the verdict on its claim."""
+"""A quantity that an assumption can affect: a number, and the verdict on its claim."""
 
 from collections.abc import Callable
 from typing import Any, NamedTuple, TypeAlias

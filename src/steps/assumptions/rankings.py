@@ -1,4 +1,4 @@
-"""Who is more stable: pulses, and records, that overturn the more stable of two alone."""
+"""Rankings of stability: pulses and records that overturn only the supposedly more stable one."""
 
 import math
 from dataclasses import replace
@@ -30,7 +30,7 @@ def overturned(
 
 
 def ranking(choices: Choices, cases: Cases, name: str) -> Found:
-    """Count the amplitudes at which the trial that should be the more stable falls alone."""
+    """Count the amplitudes that overturn only the trial that should be more stable."""
     case = cases["stability"]
     column, amplitudes = Column(**case["column"]), tuple(map(float, grid(case["amplitudes"])))
     order = orders(case)[name]
@@ -55,9 +55,9 @@ def ranking(choices: Choices, cases: Cases, name: str) -> Found:
 
 
 def heavier_falls_alone_on_the_map(choices: Choices, cases: Cases) -> Found:
-    """Count the pulses of a dense map at which the heavier of two neighbouring frames falls alone.
+    """Count the pulses of a dense map that overturn only the heavier of two neighbouring frames.
 
-    The map knows two criteria; the pulses that it finds are judged again, one by one.
+    The map uses two criteria; each pulse that it finds is judged again.
     """
     if choices.overturned not in (by_energy, beyond_slenderness):
         raise ValueError(
@@ -88,7 +88,7 @@ def heavier_falls_alone_on_the_map(choices: Choices, cases: Cases) -> Found:
 
 
 def heavier_falls_alone_under_records(choices: Choices, cases: Cases) -> Found:
-    """The number of sizes and records under which the frame falls and the lighter one stands."""
+    """Count the sizes and records for which only the heavier frame overturns."""
     case, spec = cases["rocking_spectra"], cases["assumptions"]["record_sizes"]
     column = Column(**case["column"])
     count = 0

@@ -1,8 +1,8 @@
-"""What the paper leaves open, chosen otherwise: which numbers and which verdicts would change?
+"""Replace each open choice by its alternatives, and report changed numbers and verdicts.
 
-Each alternative of paper/assumptions.yaml replaces one of our choices, and every quantity that it
-reaches is computed anew, at the library's tolerance and once more at the tightened one. A quantity
-with a claim is judged as the ledger judges it, though from fewer pulses than the rule of the claim.
+Each alternative of paper/assumptions.yaml replaces one of our choices. Every affected quantity is
+computed again, at the library's tolerance and at the tightened one. A quantity with a claim is
+judged like the claim in the ledger, but from fewer pulses than the rule of the claim uses.
 """
 
 import math
@@ -33,7 +33,7 @@ def main(assumptions: list[dict], ledger: dict[str, dict], cases: Cases, tighten
         claim = ledger.get(QUANTITIES[name].claim or "", {"id": name})
         verdict = verdict_on(claim, first.finding)
         if verdict != verdict_on(claim, again.finding):
-            raise ArithmeticError(f"{name}, {choices}: the verdict hangs on the tolerance")
+            raise ArithmeticError(f"{name}, {choices}: the verdict depends on the tolerance")
         told = math.isfinite(first.number) or math.isfinite(again.number)
         return first.number, abs(first.number - again.number) if told else 0.0, verdict
 

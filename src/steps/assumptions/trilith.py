@@ -53,7 +53,7 @@ def number(choices: Choices, cases: Cases, claim: str) -> Found:
 
 
 def no_pure_rocking(choices: Choices, cases: Cases) -> Found:
-    """The largest steady rotation over α after the starts, and whether it rests after each."""
+    """The largest steady rotation over α after all starts, and whether it always comes to rest."""
     case, (_, frame) = cases["trilith"], trilith(choices, cases)
     u, f, duration = case["table_amplitude"], case["table_frequency"], case["duration"]
     # In the chosen g the same motion of the table has another acceleration; p̂² takes g along.

@@ -1,7 +1,7 @@
 """The paper's derivation by computer algebra, and a test of every equation as it is printed.
 
 Geometry, Newton–Euler for the three bodies and impulse–momentum at impact give the frame's
-equation of motion, its equivalent size and its restitution; energies give the motion once more.
+equation of motion, its equivalent size and its √r; Lagrange's equation gives the motion again.
 """
 
 from topheavy.derivation.contact import contact_forces, contact_impulses

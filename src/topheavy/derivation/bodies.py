@@ -2,7 +2,7 @@
 
 The same balance holds for forces, with accelerations, and at an impact for impulses, with jumps
 of velocity. F_x (to the right) and F_z (upward) act on the cap-beam by column 1 and 2, on either
-side of the motion; the columns feel the opposite, and the reactions of the ground at their pivots.
+side of the motion. The opposite forces and the ground reactions at the pivots act on the columns.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """The forces and impulses at the four contacts, once the cap-beam's moments are balanced too.
 
 Two columns and a cap-beam give nine balances, for θ̈ (or θ̇_2) and two components at each of four
-contacts. The paper leaves out the ninth, and with it how the cap-beam's force is shared out.
+contacts. The paper omits the ninth, which divides the cap beam's force between the columns.
 """
 
 from __future__ import annotations
@@ -54,8 +54,8 @@ def determinant(side: Side) -> sp.Expr:
 def shared_out(side: Side, on_cap: sp.Matrix, lean: sp.Expr) -> tuple[sp.Matrix, sp.Matrix]:
     """The forces (or impulses) of column 1 and 2 on the cap-beam, of which it takes the sum.
 
-    Across the diagonals they are equal. What the line of thrust shifts from seat 1 to seat 2 goes
-    along them.
+    Across the diagonals they are equal. The line of thrust shifts force from column top 1 to column
+    top 2; this part acts along the diagonals.
     """
     half_width = R * sp.sin(alpha)
     shift = (side.sign * half_width * on_cap[1] - half_depth * on_cap[0]) / span

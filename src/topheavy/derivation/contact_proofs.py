@@ -1,4 +1,4 @@
-"""What the forces and impulses at the contacts imply. Each function proves what its docstring says.
+"""What the forces and impulses at the contacts imply. Each function proves its docstring.
 
 F and J are the forces and impulses on the cap-beam, G and K those on the columns at the ground.
 """
@@ -32,7 +32,7 @@ _multiple = sp.Symbol("k", positive=True)
 
 
 def nine_balances_determine_the_contact_forces() -> bool:
-    """With the cap-beam's moments, nine balances have one solution for θ̈ and eight forces."""
+    """With the cap-beam's moments, nine equations have one solution for θ̈ and eight forces."""
     return all(bool((determinant(side) / sp.cos(side.lean)).cancel().is_negative) for side in SIDES)
 
 
@@ -51,10 +51,11 @@ def contact_forces_keep_the_motion() -> bool:
 
 
 def seats_share_the_cap_by_its_line_of_thrust() -> bool:
-    """Seat 1 carries F_z (1/2 − e/L) and seat 2 F_z (1/2 + e/L), e = b sgn θ − d F_x/F_z; so too J.
+    """Column top 1 carries F_z (1/2 − e/L), top 2 F_z (1/2 + e/L), e = b sgn θ − d F_x/F_z; also J.
 
-    e is how far right of the middle between the seats the line of thrust through the cap-beam's
-    centre meets them, L the distance of the columns' axes, d half the depth of the beam.
+    The line of thrust through the cap-beam's centre meets the level of the column-top contacts at
+    e, to the right of the middle between them. L is the distance of the columns' axes, d half the
+    depth of the beam.
     """
     return all(
         vanishes(difference, side)
@@ -74,7 +75,7 @@ def _differences(side: Side, found: dict[sp.Symbol, sp.Expr], lean: sp.Expr) -> 
 
 
 def quasistatic_uplift_asks_for_the_slope_of_the_diagonal() -> bool:
-    """At ü_g = ±g tan α the friction demand is tan α at all four contacts, for every cap-beam."""
+    """At ü_g = ±g tan α the required friction is tan α at all four contacts, for every cap-beam."""
     return all(
         vanishes(force[0] + side.sign * sp.tan(alpha) * force[1], side)
         for side in SIDES
@@ -83,9 +84,9 @@ def quasistatic_uplift_asks_for_the_slope_of_the_diagonal() -> bool:
 
 
 def frame_needs_less_friction_than_its_column_to_uplift() -> bool:
-    """Uplifted by k g tan α, the feet need H/V = tan α (1 + k t² + τ(k−1))/(1 + k t² − τ(k−1) t²).
+    """Uplifted by k g tan α, the bases need H/V = tan α (1 + k t² + τ(k−1))/(1 + k t² − τ(k−1) t²).
 
-    t = tan α, H and V are the sums over both feet, and τ = (1 + 4γ)/(4 (1 + γ)(1 + 3γ)) falls from
+    t = tan α, H and V are the sums over both bases, and τ = (1 + 4γ)/(4 (1 + γ)(1 + 3γ)) falls from
     1/4 for the column towards 0 as γ → ∞, and with τ the demand, for every k > 1.
     """
     t, tau, k = sp.tan(alpha), (1 + 4 * gamma) / (4 * (1 + gamma) * (1 + 3 * gamma)), _multiple
@@ -115,7 +116,7 @@ def _contacts_at_uplift(side: Side, multiple: sp.Expr) -> list[sp.Matrix]:
 
 
 def massless_columns_push_along_their_diagonals() -> bool:
-    """Across its diagonal a seat takes −γ/(2 (1 + 3γ)) m_c a, a foot (1 + 4γ)/(4 (1 + 3γ)) m_c a.
+    """Across its diagonal a top takes −γ/(2 (1 + 3γ)) m_c a, a base (1 + 4γ)/(4 (1 + 3γ)) m_c a.
 
     a = g sin(α sgn θ − θ) + ü_g cos(α sgn θ − θ). Over the weight of the cap-beam both vanish as
     γ → ∞: then every contact needs the friction tan(α − |θ|), for every motion of the ground.
@@ -133,7 +134,7 @@ def massless_columns_push_along_their_diagonals() -> bool:
 
 
 def impact_presses_feet_and_seats_together() -> bool:
-    """At an impact the sums over both seats, and over both feet, press, and ask for ρ tan α.
+    """At an impact the sums over both column tops, and over both bases, press and need ρ tan α.
 
     ρ = n/(2 + (2 − n) tan²α), n = 3 (1 + 4γ)/(2 (1 + 3γ)); it grows with γ, towards 1.
     """
@@ -154,9 +155,9 @@ def impact_presses_feet_and_seats_together() -> bool:
 
 
 def impact_opens_no_seat_of_a_wide_bay() -> bool:
-    """Neither seat opens at an impact exactly when b + d ρ tan α < L/2; then no foot opens either.
+    """No column top opens at an impact exactly when b + d ρ tan α < L/2; then no base opens either.
 
-    The trailing seat presses least; b + d tan α < L/2 is enough for every γ.
+    The trailing column top presses least; b + d tan α < L/2 is enough for every γ.
     """
     n = 3 * (1 + 4 * gamma) / (2 * (1 + 3 * gamma))
     t = sp.tan(alpha)

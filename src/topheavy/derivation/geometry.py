@@ -1,4 +1,4 @@
-"""What moves where: the rigid rectangle on its pivot corner, and the cap-beam that it carries.
+"""Kinematics of a rigid rectangle on its pivot corner, and of the cap beam that it carries.
 
 The frame is a parallelogram linkage: its columns are equal and turn by the same angle, so the
 two corners that carry the cap-beam stay level, and the beam translates without turning.
@@ -75,7 +75,7 @@ class CapMotion:
 def cap_motion(side: Side) -> CapMotion:
     """The cap-beam's displacement, velocity and acceleration, as functions of θ, θ̇ and θ̈.
 
-    It goes with the corners that carry it, from where they are when the frame stands upright.
+    It moves with the corners that carry it, from their position in the upright frame.
     # Eqs. (4)–(9)
     """
     contact = cap_contact(side)

@@ -1,8 +1,8 @@
 """The impact at θ = 0: impulse and momentum of the three bodies, Eq. (25).
 
-The rotation goes on in the same sense; the impulses act at the new pivots, at the ground and under
-the cap-beam. Both components of the cap-beam's momentum jump: its horizontal velocity drops, and
-its vertical velocity turns from falling to rising. Its moments are not needed here either.
+The rotation continues in the same direction; the impulses act at the new pivots, at the ground and
+under the cap-beam. Both components of the cap-beam's momentum jump: its horizontal velocity drops,
+and its vertical velocity turns from falling to rising. Its moments are not needed here either.
 """
 
 from __future__ import annotations
@@ -85,7 +85,7 @@ def tangent_form(expression: sp.Expr) -> sp.Expr:
 
 
 def largest_slenderness() -> sp.Expr:
-    """The α at which √r of the frame is zero: a stockier one does not rock on. # Eq. (25)"""
+    """The α at which √r of the frame is zero: a stockier one does not keep rocking. # Eq. (25)"""
     return _root(restitution())
 
 

@@ -92,7 +92,7 @@ def every_frame_that_rocks_on_loses_the_larger_share() -> bool:
 
 
 def heavier_caps_need_slenderer_columns() -> bool:
-    """The largest α that rocks on falls with γ, from atan √2 (54.7°) towards π/4."""
+    """The largest α that keeps rocking falls with γ, from atan √2 (54.7°) towards π/4."""
     squared = sp.tan(largest_slenderness()) ** 2
     ends = (squared.subs(gamma, 0), sp.limit(squared, gamma, sp.oo))
     return bool(sp.factor(sp.diff(squared, gamma)).is_negative) and ends == (2, 1)

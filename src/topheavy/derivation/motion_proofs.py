@@ -141,7 +141,7 @@ def restoring_moment_falls() -> bool:
 
 
 def frequency_falls_to_a_limit() -> bool:
-    """p̂/p falls steadily from 1 at γ = 0 towards √(2/3) for massless columns."""
+    """p̂/p falls steadily from 1 at γ = 0 towards √(2/3) for γ → ∞."""
     ratio = frequency_ratio()
     limits = (sp.limit(ratio**2, gamma, 0), sp.limit(ratio**2, gamma, sp.oo))
     falls = sp.factor(sp.diff(ratio**2, gamma)).is_negative

@@ -73,7 +73,7 @@ NEGATIVE = Side(-1)
 POSITIVE = Side(+1)
 SIDES = (NEGATIVE, POSITIVE)
 
-# What cannot stand in a Python name, by a name that can.
+# Characters that a Python name cannot contain, and their replacements.
 _SPELLING = {
     "ü_go": "amplitude",
     "ü_g": "ground_acceleration",

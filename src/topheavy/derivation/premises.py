@@ -1,7 +1,7 @@
-"""What each group of printed equations is tested against: the derived value of every quantity.
+"""The premises of each group of printed equations: the derived value of every quantity.
 
-An equation follows from its premises when it holds on every motion that they allow: with the
-derived values put in, the difference of its members is identically zero.
+We substitute the derived values into each equation. The equation follows from its premises if the
+difference of its members vanishes identically.
 """
 
 from __future__ import annotations

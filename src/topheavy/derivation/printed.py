@@ -1,9 +1,9 @@
-"""What is printed: the numbered equations of Makris & Vassiliou (2014).
+"""The numbered equations of Makris & Vassiliou (2014), as printed.
 
-Each is written as it stands in our transcription of the paper, with round brackets for all
-brackets, a function's argument in brackets, and a denominator behind a solidus in brackets where
-physics has it that way (3g/4R is 3g/(4R)). Where one does not follow, what is meant stands beside
-it. A fault may be the print's or the transcription's.
+Each equation is written as in our transcription of the paper, with round brackets for all brackets,
+a function's argument in brackets, and a denominator after a solidus in brackets if the physics
+requires it (3g/4R is 3g/(4R)). If a printed equation does not follow, its corrected form is given
+next to it. The error may be in the print or in the transcription.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ class Statement:
     printed
         The equation, as `topheavy.derivation.notation.read` takes it.
     premises
-        What it has to follow from.
+        The premises from which it has to follow.
     sides
         The sides of the motion that it is stated for.
     split

@@ -1,4 +1,4 @@
-"""The proofs, gathered: what the derived results imply, and where the paper's statements end."""
+"""Collect the proofs of what the derived results imply."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from topheavy.derivation import contact_proofs, fixed_proofs, impact_proofs, mot
 
 @dataclass(frozen=True)
 class Theorem:
-    """A statement about column and frame, and whether the algebra bears it out."""
+    """A statement about column and frame, and whether the algebra proves it."""
 
     id: str
     statement: str
@@ -19,12 +19,12 @@ class Theorem:
 
 
 def theorems() -> list[Theorem]:
-    """Prove anew what concerns the motion; name and docstring of each proof are the theorem's."""
+    """Prove the theorems on the motion; the docstring of a proof is its statement."""
     return _prove(*motion_proofs.PROOFS, *impact_proofs.PROOFS, *fixed_proofs.PROOFS)
 
 
 def contact_theorems() -> list[Theorem]:
-    """Prove anew what concerns the contact forces, which the paper leaves out."""
+    """Prove the theorems on the contact forces, which the paper omits."""
     return _prove(*contact_proofs.PROOFS)
 
 

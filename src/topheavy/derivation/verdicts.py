@@ -1,4 +1,4 @@
-"""Does what is printed follow? Every equation and formula of the paper, put to the test."""
+"""Test whether every printed equation and formula of the paper follows from its premises."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ class PrintedCheck:
         What the algebra says of either.
     fault
         The kind of the smallest mend of `topheavy.derivation.mends` under which the print follows,
-        "" if it follows as it stands or none does.
+        "" if the printed form follows, or no corrected form does.
     mended
         The print with that mend made.
     remark

@@ -1,4 +1,4 @@
-"""Print how the file of a record is understood: `python -m topheavy.records FILE`."""
+"""Print units, step, PGA and PGV of a record's file: `python -m topheavy.records FILE`."""
 
 import argparse
 import io

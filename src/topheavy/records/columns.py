@@ -13,7 +13,7 @@ from topheavy.records.units import UNDERSTOOD, Statement, acceleration_in_g, tim
 _COLUMN = re.compile(r"\s*[^()\[\]]*?\s*[(\[](?P<unit>[^()\[\]]*)[)\]]\s*")
 _HEADER = "time (s),acceleration (g)"
 _COMPUTED = 0.01
-"""Of a step: so much more a time may be off, for it may be computed in single precision."""
+"""Of a step: additional tolerance for times that were computed in single precision."""
 
 
 def read(path: Path) -> Reading:

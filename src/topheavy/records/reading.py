@@ -1,4 +1,4 @@
-"""What both layouts share: lines of text, numbers, and the record that comes of them."""
+"""Common parts of both file formats: lines of text, numbers, and the record."""
 
 import codecs
 import math

@@ -44,7 +44,7 @@ def cells(frame: RockingFrame, cap: Cap, case: dict, amplitudes: np.ndarray) -> 
 
 
 def first_pull(frame: RockingFrame, cap: Cap, case: dict, table: pd.DataFrame) -> dict:
-    """Return the lowest amplitude of the map at which a contact first has to pull, and its ω/p."""
+    """Return the lowest amplitude of the map at which a contact opens, and its ω/p."""
     starts = table[table.pulls].sort_values(["amplitude", "frequency_ratio"])
     if starts.empty:
         return {}
@@ -82,7 +82,7 @@ def _least_by_newton_euler(frame: RockingFrame, cap: Cap, spec: dict, amplitude:
 
 
 def lightest_without_sliding(survived: pd.DataFrame, friction: float) -> float:
-    """Return the least γ > 0 from which on no frame asks for more than this friction (over tan α).
+    """Return the least γ > 0 above which no frame requires more than this friction (over tan α).
 
     Infinite where the heaviest does.
     """
@@ -101,7 +101,7 @@ def main(case: dict, cap: Cap) -> tuple[pd.DataFrame, dict]:
     amplitudes = np.geomspace(spec["lowest"], spec["highest"], spec["points"])
     frames = [RockingFrame(column, gamma) for gamma in case["mass_ratios"]]
     table = pd.DataFrame([row for frame in frames for row in cells(frame, cap, case, amplitudes)])
-    table["pulls"] = table.pulls & (table.least_vertical < -ROUNDING)  # γ = 0: seats are idle
+    table["pulls"] = table.pulls & (table.least_vertical < -ROUNDING)  # γ = 0: no cap beam
     survived = table[~table.overturned]
     most = survived.loc[survived.demand.idxmax()]
     share = {

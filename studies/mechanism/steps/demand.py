@@ -34,7 +34,7 @@ class History:
 class Demand:
     """The largest friction demand and the least vertical reaction of the four contacts.
 
-    Reactions are over the weight of the frame, impulses over their sum at the two feet; errors are
+    Reactions are over the weight of the frame, impulses over their sum at the two bases; errors are
     what twice as many samples change. NaN where nothing moved, or nothing collided.
     """
 
@@ -102,7 +102,7 @@ def _point_of_no_return(frame: RockingFrame, excitation: Pulse | Record, end: fl
 def impact_demand(frame: RockingFrame, cap: Cap) -> tuple[float, float]:
     """Return the friction demand of an impact and the least vertical impulse.
 
-    The impulse is over that of both feet. Neither depends on the velocity of the impact.
+    The impulse is over that of both bases. Neither depends on the velocity of the impact.
     """
     impulses = impact_impulses(frame, cap, 1.0)
     feet = impulses.base_left.vertical + impulses.base_right.vertical

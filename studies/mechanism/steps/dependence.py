@@ -10,7 +10,7 @@ from studies.mechanism.steps.demand import demand, history, impact_demand
 from studies.mechanism.steps.setting import cap_of, pulse_on, slender
 from topheavy import Cap, Column, RockingFrame, judge
 
-SCAN = 400  # bays between columns that touch and the longest, where the seat is looked at
+SCAN = 400  # bays, from columns that touch to the longest, at which contact is checked
 
 
 def worst(frame: RockingFrame, cap: Cap, case: dict) -> dict:
@@ -35,14 +35,14 @@ def worst(frame: RockingFrame, cap: Cap, case: dict) -> dict:
 
 
 def shortest_bay(frame: RockingFrame, half_depth: float) -> float:
-    """Return the span (m) at which a seat just stays shut: 2b + 2d (1−√r)/((1+√r) tan α)."""
+    """Return the least span (m) without opening at impact: 2b + 2d (1−√r)/((1+√r) tan α)."""
     r = frame.restitution
     share = (1.0 - r) / ((1.0 + r) * frame.uplift_acceleration)
     return 2.0 * frame.column.half_width + 2.0 * half_depth * share
 
 
 def opens_below_the_shortest_bay(frame: RockingFrame, half_depth: float) -> dict:
-    """Return whether a seat pulls at an impact in every shorter bay, and in no longer one."""
+    """Return whether a column-top contact opens at impact in all shorter bays, in no longer one."""
     bay, width = shortest_bay(frame, half_depth), 2.0 * frame.column.half_width
     spans = [width + (bay - width) * k / SCAN for k in range(1, 3 * SCAN) if k != SCAN]
     least = np.array([impact_demand(frame, Cap(span, half_depth))[1] for span in spans])

@@ -1,12 +1,12 @@
-"""Columns, cap beam and ground as rigid bodies in MuJoCo, which knows nothing of rocking.
+"""Columns, cap beam and ground as rigid bodies in MuJoCo, a general rigid-body engine.
 
-Three boxes and a plane under unilateral contact with friction; nothing tells them to rock together,
-to pivot about a corner, to keep the cap level or to lose velocity at an impact. Motion is planar:
-each body has two slides and a hinge. The ground stands still and the shaking is an inertial force:
-gravity becomes (−ü_g, 0, −g).
+The model is three boxes and a plane with unilateral contact and friction. It contains no
+rocking-specific equations: no common rotation, no pivot corners, no level cap beam, no √r. Motion
+is planar: each body has two slides and a hinge. The ground is fixed, and an inertial force
+represents its motion: gravity becomes (−ü_g, 0, −g).
 
-Contact is compliant, as in every such engine: a spring and a damper, here with a time constant that
-is a few time steps long. The limit of both, refined together, is the rigid structure.
+Contacts are compliant: a spring and a damper, with a time constant of a few time steps. If time
+constant and time step decrease together, the limit is the rigid structure.
 
 Angles are in rad, rotations signed (θ > 0 leans to the right), everything else in SI units.
 """
@@ -42,7 +42,7 @@ class Contact:
         The damping is 2 over the time constant whatever the ratio: a ratio below one is a stiffer
         spring.
     friction : float
-        Coefficient μ, at base and seat alike.
+        Coefficient μ of all contacts.
     impedance : float
         Share of the force of the ideal contact that is enforced (`solimp`), in (0, 1).
     friction_impedance : float

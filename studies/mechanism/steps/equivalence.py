@@ -69,7 +69,7 @@ def lowest(block: RockingBlock | RockingFrame, unit: Pulse, case: dict) -> float
 
 
 def lowest_changes(frame: RockingFrame, shape: str, case: dict) -> pd.DataFrame:
-    """Return the lowest amplitudes (g tan α) of frame and equivalent column, over ω/p."""
+    """Return the minimum overturning amplitudes (g tan α) of frame and equivalent column."""
     rows = []
     for ratio in grid(case["frequency_ratios"])[:: case["every"]]:
         omega = ratio * frame.column.frequency_parameter
@@ -86,7 +86,7 @@ def lowest_changes(frame: RockingFrame, shape: str, case: dict) -> pd.DataFrame:
 
 
 def confirmed(row: pd.Series) -> bool:
-    """Return whether SciPy too lets only the one overturn whose lowest amplitude is lower."""
+    """Return whether SciPy also overturns only the structure with the lower minimum."""
     pulse = row.unit.scaled(row.lower * (1.0 + ASIDE))
     blocks = (row.frame, equivalent_column(row.frame))
     falls = [reference.judge(block, pulse).overturned for block in blocks]

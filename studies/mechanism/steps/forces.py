@@ -31,7 +31,7 @@ def proved() -> dict:
 
 
 def solitary(column: Column, cap: Cap, course: History) -> dict:
-    """Return whether both feet of a frame without a cap carry what those of columns alone do."""
+    """Return whether, for a massless cap beam, the base forces equal those of a solitary column."""
     motion = course.rotation, course.velocity, course.ground
     alone = column_forces(column, *motion)
     frame = contact_forces(RockingFrame(column, NEARLY_NONE), cap, *motion)
@@ -44,7 +44,7 @@ def solitary(column: Column, cap: Cap, course: History) -> dict:
 
 
 def balanced(frame: RockingFrame, cap: Cap, course: History) -> dict:
-    """Return whether the feet carry the weight and the inertia of all three bodies."""
+    """Return whether the base contacts carry the weight and inertia forces of all three bodies."""
     motion = course.rotation, course.velocity
     forces = contact_forces(frame, cap, *motion, course.ground)
     s, lean = np.sign(course.rotation), frame.slenderness - np.abs(course.rotation)

@@ -1,4 +1,4 @@
-"""Does a frame in the engine lose at an impact what Eq. (25) says, and what sets it?"""
+"""Compare the rebound of a frame in the rigid-body engine with Eq. (25)."""
 
 import pandas as pd
 
@@ -8,15 +8,15 @@ from studies.mechanism.steps.rigs import STEPS_IN_CONTACT, experiment, models, r
 from topheavy import Cap
 
 CLOSE = 0.005  # of √r: agreement with Eq. (25)
-PLASTIC = 0.2  # restitution of a point, below which a contact is called plastic
+PLASTIC = 0.2  # restitution of a point mass, below which a contact is without rebound
 HARD = 0.01  # over p: a contact that is over within this is called hard
 
 
 def main(case: dict, structures: dict, caps: dict[str, Cap]) -> tuple[pd.DataFrame, dict]:
-    """Return the rebound at the first impact by how the contacts are damped, beside Eq. (25).
+    """Return the rebound at the first impact against the damping of the contacts, and Eq. (25).
 
-    The time step resolves both the time constant and the period of the contact. Beside each stands
-    the restitution of a point under the same spring and damper.
+    The time step resolves both the time constant and the period of the contact. Each row also
+    contains the restitution of a point mass with the same spring and damper.
     """
     rows = []
     for model in models(case["frames"], structures, caps):

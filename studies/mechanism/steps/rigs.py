@@ -27,7 +27,7 @@ NO_ENGINE = (
 
 FALLEN = math.pi / 3  # rad, from where no pulse brings a column back; the cap is still aloft
 FREE = 20.0  # over p̂: how long a verdict is waited for after a pulse
-HIGHEST = 40.0  # over g tan α: how far the lowest amplitude that overturns is looked for
+HIGHEST = 40.0  # over g tan α: end of the search for the minimum overturning amplitude
 STEPS_IN_CONTACT = 4  # time steps in a time constant of a contact, where it is not the subject
 
 
@@ -98,7 +98,7 @@ def rebound(rig: Rig, rotation: float) -> float:
 
 
 def lowest_overturning(frame: RockingFrame, unit: Pulse) -> Pulse:
-    """Return the pulse of the lowest amplitude that overturns in theory.
+    """Return the pulse of the minimum overturning amplitude in theory.
 
     Raises
     ------

@@ -24,7 +24,7 @@ CLEAR = 1.1  # times the demand: friction from here on is clearly enough
 
 
 def needed(model: Model, pulse: Pulse, cap: Cap, samples: int) -> float:
-    """Return the coefficient of friction that the forces of the theory ask for."""
+    """Return the required coefficient of friction by the forces of the theory."""
     return demand(model.frame, cap, history(model.frame, pulse, samples)).whole
 
 

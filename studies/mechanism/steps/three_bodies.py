@@ -1,7 +1,7 @@
-"""Three rigid bodies by Newton and Euler beside one degree of freedom, under light and heavy caps.
+"""Compare three rigid bodies (Newton and Euler) with one degree of freedom, for many γ.
 
-Motion, impacts, velocity ratios, contact forces and impulses come out of both: here from Eqs. (23)
-and (25) and the closed form of the forces, there from nine coordinates that know none of them.
+Both give motion, impacts, √r, contact forces and impulses. One uses Eqs. (23) and (25) and the
+closed form of the forces; the other uses nine coordinates and none of these equations.
 """
 
 from typing import Any

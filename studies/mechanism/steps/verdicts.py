@@ -25,9 +25,9 @@ ENOUGH = 30  # pulses
 
 
 def pulses_around(model: Model, spec: dict, contact: str) -> list[dict]:
-    """Return the verdicts of engine and theory around the lowest amplitude that overturns.
+    """Return the outcomes of engine and theory near the minimum overturning amplitude.
 
-    Beside them stands that of the theory with the rebound that the engine has of its own.
+    A further column has the outcome of the theory with the √r of the engine.
     """
     frame = model.frame
     settings = spec["contacts"][contact]
@@ -62,7 +62,7 @@ def pulses_around(model: Model, spec: dict, contact: str) -> list[dict]:
 
 
 def _cap_tilt(motion: Motion) -> float:
-    """Return the largest turn of the cap while the columns stand, rad."""
+    """Return the largest rotation of the cap beam before the columns overturn, rad."""
     standing = abs(motion.rotation) < 0.5 * FALLEN
     return float(abs(motion.pose[standing, -1, 2]).max())
 

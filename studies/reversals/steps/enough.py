@@ -1,4 +1,4 @@
-"""How heavy a cap is enough: the γ that brings so much of what massless columns would gain."""
+"""Find the γ that gives a share of the possible increase (γ → ∞)."""
 
 import math
 
@@ -25,9 +25,9 @@ def size_gain_of_frequency_gain(share: float) -> float:
 
 
 def size_gain_needed(place: Place, share: float, ends: tuple[float, float], case: dict) -> float:
-    """Return the share of the gain in R̂ that brings one of the gain in the lowest amplitude.
+    """Return the share of the gain in R̂ that gives a share of the gain in minimum amplitude.
 
-    `ends` are the lowest amplitudes that overturn the column and massless columns.
+    `ends` are the minimum overturning amplitudes of the column and of the frame with γ → ∞.
     """
     first, last = ends
     resolution = min(case["amplitudes"]["resolution"], FINE * (last - first))
@@ -46,7 +46,7 @@ def size_gain_needed(place: Place, share: float, ends: tuple[float, float], case
 def solve(spectra: Spectra, shares: list[float]) -> tuple[pd.DataFrame, int]:
     """Return the γ of every share and place, and at how many places there is no gain to share.
 
-    There massless columns, or the column itself, survive all amplitudes of the spectra.
+    At these places the frame with γ → ∞, or the column, survives all amplitudes of the spectra.
     """
     places, rows, without_end = list(spectra.places()), [], 0
     for place in progress(places, len(places), "places"):
@@ -65,7 +65,7 @@ def solve(spectra: Spectra, shares: list[float]) -> tuple[pd.DataFrame, int]:
 
 
 def median(rows: pd.DataFrame, ratios: list[float]) -> tuple[float, float]:
-    """Return the median γ over places, and its error: how far off are those of either half.
+    """Return the median γ over places, and its error: the difference to the medians of the halves.
 
     One half has every second frequency, the other the rest.
     """

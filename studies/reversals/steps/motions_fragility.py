@@ -1,4 +1,4 @@
-"""Fragility under many motions: what a heavier cap buys, and how often it is the one that falls.
+"""Fragility under synthetic motions: benefit of a heavier cap beam, and counts of reversals.
 
 Intervals are those of motions drawn anew from the ensemble; frames stay paired under each motion.
 Families of motions are kept apart.

@@ -29,8 +29,8 @@ def column_of(slenderness: float, size: float) -> Column:
 def row(record: Record, degrees: float, size: float, gamma: float, ratios, tightened) -> dict:
     """Return the outcomes at all factors.
 
-    Those that change when the record is scaled by a billionth, or at the tightened tolerance,
-    nobody can tell. Factors go in equal ratios from the first to the last, over that of uplift.
+    Outcomes are too sensitive to decide if a relative change of NUDGE in the record, or the
+    tightened tolerance, changes them. Factors are over that of uplift, in equal ratios.
     """
     column = column_of(degrees, size)
     frame = RockingFrame(column, gamma)
@@ -50,7 +50,7 @@ def row(record: Record, degrees: float, size: float, gamma: float, ratios, tight
 
 
 def compare(table: pd.DataFrame, ratios: list[float]) -> pd.DataFrame:
-    """Return the counts of each record and pair of γ, of the cells where both can be told."""
+    """Return the counts of each record and pair of γ, of the cells where both are decidable."""
     rows = []
     for record, cells in table.groupby("record", sort=False):
         outcomes = {gamma: read(cells[cells.mass_ratio == gamma].outcomes) for gamma in ratios}

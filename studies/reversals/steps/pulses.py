@@ -109,7 +109,7 @@ def without_impact(spectra: Spectra, pairs: list[tuple[float, float]]) -> dict:
 
 
 def lowest_apart(spectra: Spectra, gammas: list[float]) -> dict:
-    """Does the lowest amplitude rise when only p̂, or only √r, is that of the frame?
+    """Test whether the minimum amplitude rises if only p̂, or only √r, is that of the frame.
 
     Where it seems to fall, the column is searched anew at the finest resolution.
     """

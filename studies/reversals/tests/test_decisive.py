@@ -1,4 +1,4 @@
-"""Each result that a claim of the study rests on, in a small case in which it comes out false."""
+"""Each result that a claim of the study depends on, in a small case in which it is false."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""The lowest amplitude of a pulse that overturns columns under heavier and heavier caps."""
+"""Compute the minimum overturning amplitude of a pulse for frames with increasing γ."""
 
 import math
 from itertools import pairwise
@@ -8,7 +8,7 @@ from topheavy import Column, Pulse, RockingFrame, judge, overturning_intervals, 
 
 
 def lowest(frame: RockingFrame, pulse: Pulse, amplitudes: dict) -> tuple[float, float]:
-    """Bracket the lowest amplitude (g tan α) that overturns; `pulse` has the amplitude g tan α."""
+    """Bracket the minimum overturning amplitude (g tan α); `pulse` has the amplitude g tan α."""
     found = overturning_intervals(
         frame,
         pulse,
