@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from replication.commands.kill_table import copy_tree, run
+from replication.tree_copy import copy_tree, run
 from replication.provenance import checksum
 
 DIFFERS = {"costs.csv", "manifest.json"}  # what a run took, and on which commit
