@@ -111,7 +111,7 @@ unlock: | $(UV) ## after a killed run left the directory locked (no other run ma
 
 clean: ## remove all that the workflow and the tools wrote; keep the environment
 	rm -rf results .snakemake figures/*.svg studies/*/figures/*.svg paper/report.pdf
-	rm -rf .pytest_cache .ruff_cache .mypy_cache .hypothesis
+	rm -rf .kill_table.jsonl .pytest_cache .ruff_cache .mypy_cache .hypothesis
 	find src figures studies tests benchmarks faults -name __pycache__ -type d -prune -exec rm -rf {} +
 
 .uv/bin/uv:

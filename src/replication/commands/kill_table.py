@@ -113,9 +113,9 @@ def rotation(faults: list[Fault], number: int, commit: str) -> list[Fault]:
 
 
 def chosen(faults: list[Fault], names: str | None, number: int | None) -> list[Fault]:
-    """Return the faults that are asked for: by name, by the commit, or all."""
-    if names == JUDGING:
-        return [fault for fault in faults if fault.routes == JUDGING]
+    """Return the faults that are asked for: by name or routes, by the commit, or all."""
+    if names in {fault.routes for fault in faults}:
+        return [fault for fault in faults if fault.routes == names]
     if names:
         known = {fault.name: fault for fault in faults}
         for name in names.split(","):
@@ -143,7 +143,7 @@ def processor_seconds() -> float:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--faults", help=f"names, separated by commas; or {JUDGING!r}")
+    parser.add_argument("--faults", help=f"names, separated by commas; or routes ({JUDGING})")
     parser.add_argument("--rotate", type=int, help="so many, picked by the hash of the commit")
     options = parser.parse_args()
     faults = load()
