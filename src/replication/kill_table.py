@@ -68,7 +68,7 @@ def workflow(
 def verdict(claim: Mapping[str, Any], findings: Mapping[str, Any], tree: Path) -> str:
     """Return the verdict on a claim, or why there is none."""
     try:
-        return judged(claim, findings, tree)["verdict"]
+        return judged(claim, {claim["rule"]: findings}, tree)["verdict"]
     except (KeyError, ValueError) as error:
         return f"none: {error}"
 

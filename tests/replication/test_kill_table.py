@@ -10,10 +10,12 @@ import yaml
 
 from replication import kill_table as table
 from replication import tree_copy
+from replication.calls import definition
 from replication.commands import kill_table as command
 from replication.faults import JUDGING, Change, Fault, faulty, load
 from replication.kill_table import Row
 from replication.ledger import read_ledger
+from replication.workbench import CALLED
 
 ROOT = Path(__file__).resolve().parents[2]
 FAULTS = load()
@@ -163,8 +165,14 @@ def test_test_that_fails_without_the_fault_catches_nothing(monkeypatch, tree):
         judge(monkeypatch, tree, ONE, NOTHING)
 
 
-def test_verdict_without_a_finding_is_none_that_is_expected():
-    claim = next(row for row in LEDGER if row.get("finding"))
+def test_verdict_is_that_of_the_findings_and_of_what_ran():
+    (claim,) = (row for row in LEDGER if row["id"] == "eq1")
+    called = [definition(claim["function"], ROOT)]
+    for holds, verdict in ((True, "confirmed"), (False, "refuted")):
+        findings = {claim["finding"]: {"holds": holds}, CALLED: called}
+        assert table.verdict(claim, findings, ROOT) == verdict
+    uncalled = {claim["finding"]: {"holds": True}, CALLED: []}
+    assert "never called" in table.verdict(claim, uncalled, ROOT)
     assert table.verdict(claim, {}, ROOT).startswith("none: ")
 
 
