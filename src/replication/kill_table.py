@@ -85,34 +85,51 @@ def first_failing(tree: Path, tests: Sequence[str]) -> str:
     return named[1]
 
 
+def courts(fault: Fault) -> tuple[str, str, str]:
+    """Return in which order a fault is put to the paper's rows, to those of studies, and to tests.
+
+    The verdicts are what a fault would falsify, the paper's first; of those of studies, which cost
+    most, only a fault in a study goes before the tests. A fault in the judging is put to tests
+    first, which take seconds: they are the cases in which a result is known to be false.
+    """
+    if fault.routes == JUDGING:
+        return "tests", "paper", "studies"
+    if all(file.startswith("studies/") for file in fault.files):
+        return "paper", "studies", "tests"
+    return "paper", "tests", "studies"
+
+
 def put_to_the_test(
     tree: Path,
     fault: Fault,
-    ledgers: Iterable[Sequence[Mapping[str, Any]]],
+    ledgers: Mapping[str, Sequence[Mapping[str, Any]]],
     studies: Sequence[str],
     begin: Callable[[], None],
 ) -> Row:
-    """Return what catches a fault: the first of the ledgers of which a verdict turns, or a test.
+    """Return what catches a fault: the first verdict or test, in the order of its courts.
 
-    A fault in the judging is put to its tests first, which take seconds, and to verdicts only when
-    they let it pass; any other is put to verdicts first, since these are what it would falsify.
-    Those tests have passed without a fault. `begin` puts the results of a run without a fault into
-    the tree.
+    Parameters
+    ----------
+    ledgers
+        The rows that rules of the "paper" judge, and those that rules of "studies" judge.
+    studies
+        Their names.
+    begin
+        Puts the results of a run without a fault into the tree.
     """
-    test, verdicts, rules = "", [], []
-    if fault.routes == JUDGING:
+    test, verdicts, rules, begun = "", [], [], False
+    for court in courts(fault):
+        if court != "tests" and not begun:
+            begin()
+            begun = True
         with faulty(tree, fault):
-            test = first_failing(tree, fault.tests)
-    if not test:
-        begin()
-        with faulty(tree, fault):
-            for ledger in ledgers:
-                verdicts, raised, _ = workflow(tree, ledger, studies)
-                rules += raised
-                if verdicts:
-                    break
-            if not verdicts and fault.routes != JUDGING:
+            if court == "tests":
                 test = first_failing(tree, fault.tests)
+            else:
+                verdicts, raised, _ = workflow(tree, ledgers[court], studies)
+                rules += raised
+        if test or verdicts:
+            break
     if test and fault.routes != JUDGING and first_failing(tree, [test]):
         raise RuntimeError(f"{fault.name}: {test} fails without the fault too")
     ways = {"verdict": verdicts, "test": test, "rule": rules}

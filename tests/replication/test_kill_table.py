@@ -133,21 +133,30 @@ def judge(monkeypatch, tree, fault, turned):
         return turned[ledger], ["a_rule"] if ledger == "studies" else [], ""
 
     monkeypatch.setattr(table, "workflow", workflow)
-    row = table.put_to_the_test(tree, fault, ["paper", "studies"], [], lambda: None)
+    row = table.put_to_the_test(tree, fault, LEDGERS, [], lambda: None)
     return row, asked
 
 
 NOTHING = {"paper": [], "studies": []}
+LEDGERS = {"paper": "paper", "studies": "studies"}
 
 
-def test_fault_of_the_physics_is_put_to_the_paper_then_to_studies_then_to_tests(monkeypatch, tree):
+def test_fault_of_the_physics_is_put_to_the_paper_then_to_tests_then_to_studies(monkeypatch, tree):
     row, asked = judge(monkeypatch, tree, ONE, NOTHING | {"paper": ["eq1"]})
     assert (row.caught_by, row.verdicts, row.test, asked) == ("verdict", "eq1", "", ["paper"])
-    row, asked = judge(monkeypatch, tree, ONE, NOTHING | {"studies": ["ours"]})
-    assert (row.caught_by, row.verdicts, row.rules) == ("verdict", "ours", "a_rule")
     row, asked = judge(monkeypatch, tree, ONE, NOTHING)
     assert (row.caught_by, row.test) == ("test", "test_one.py::test_one")
+    assert asked == ["paper"]
+    (tree / "test_one.py").write_text("def test_one():\n    pass\n", encoding="utf-8")
+    row, asked = judge(monkeypatch, tree, ONE, NOTHING | {"studies": ["ours"]})
+    assert (row.caught_by, row.verdicts, row.rules) == ("verdict", "ours", "a_rule")
     assert asked == ["paper", "studies"]
+
+
+def test_fault_in_a_study_is_put_to_studies_before_tests():
+    in_study = replace(ONE, changes=(Change("studies/a/steps/one.py", "1", "2"),))
+    assert table.courts(in_study) == ("paper", "studies", "tests")
+    assert table.courts(replace(in_study, routes=JUDGING)) == ("tests", "paper", "studies")
 
 
 def test_fault_in_the_judging_is_put_to_its_tests_first(monkeypatch, tree):
@@ -177,7 +186,7 @@ def test_verdict_is_that_of_the_findings_and_of_what_ran():
 
 
 def test_rows_of_all_ledgers_are_judged_once():
-    paper, studies = command.ledgers()
+    paper, studies = command.ledgers().values()
     assert sorted(row["id"] for row in paper + studies) == sorted(row["id"] for row in LEDGER)
     assert {row["study"] for row in studies} >= set(command.studies())
 

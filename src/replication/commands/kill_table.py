@@ -40,14 +40,14 @@ def ledger_files() -> list[Path]:
     return [ROOT / "paper/claims.yaml", *(ROOT / f"studies/{s}/claims.yaml" for s in studies())]
 
 
-def ledgers() -> list[list[dict]]:
-    """Return the rows that the paper's rules judge, and then those that rules of studies judge."""
+def ledgers() -> dict[str, list[dict]]:
+    """Return the rows that rules of the paper judge, and those that rules of studies judge."""
     rows = read_rows(ledger_files())
     paper = ledger_files()[0]
-    return [
-        [row for path, row in rows if path == paper],
-        [row for path, row in rows if path != paper],
-    ]
+    return {
+        "paper": [row for path, row in rows if path == paper],
+        "studies": [row for path, row in rows if path != paper],
+    }
 
 
 def kept(path: Path) -> dict[str, tuple[str, Row]]:
@@ -90,7 +90,7 @@ def kill_table(faults: Sequence[Fault]) -> Iterator[Row]:
         def begin() -> None:
             """Begin with the results of no fault: only what depends on one is made again."""
             if not sound.exists():
-                turned, rules, said = workflow(tree, [row for part in asked for row in part], names)
+                turned, rules, said = workflow(tree, [*asked["paper"], *asked["studies"]], names)
                 if turned or rules:
                     raise RuntimeError(f"without a fault: {turned} turn, {rules} raise\n{said}")
                 for name in made:
