@@ -166,6 +166,7 @@ def passage(**printed):
         {"trilith_half_measures": "0.4 m, 0.12 m"},
         {"trilith_width": 0.23},
         {"trilith_height": 0.9},
+        {"trilith_half_measures": "0.4 m, 0.12 m", "trilith_width": 0.24},  # not what is computed
     ],
 )
 def test_halves_that_are_no_halves_are_noticed(change):
