@@ -44,10 +44,10 @@ def test_seat_of_a_short_bay_pulls_at_impacts_alone():
 
 
 def test_friction_that_the_heaviest_cap_exceeds_is_never_enough():
-    rows = [(0.0, 9.0), (0.2, 5.0), (1.0, 2.0), (1.0, 1.5), (4.0, 1.2)]
+    rows = [(0.0, 9.0), (0.1, 1.0), (0.2, 5.0), (1.0, 2.0), (1.0, 1.5), (4.0, 1.2)]
     table = pd.DataFrame(rows, columns=["mass_ratio", "demand"])
     assert lightest_without_sliding(table, 3.0) == 1.0
-    assert lightest_without_sliding(table, 6.0) == 0.2
+    assert lightest_without_sliding(table, 6.0) == 0.1
     assert lightest_without_sliding(table, 1.1) == math.inf
 
 
