@@ -115,7 +115,7 @@ unlock: | $(UV) ## unlock the directory after a run was killed (no other run may
 
 clean: ## delete all output of the workflow and the tools; keep the environment
 	rm -rf results .snakemake figures/*.svg studies/*/figures/*.svg paper/report.pdf
-	rm -rf .pytest_cache .ruff_cache .mypy_cache .hypothesis
+	rm -rf .kill_table.jsonl .pytest_cache .ruff_cache .mypy_cache .hypothesis
 	find src figures studies tests benchmarks faults -name __pycache__ -type d -prune -exec rm -rf {} +
 
 .uv/bin/uv:

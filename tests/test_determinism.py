@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from replication.commands.kill_table import copy_tree, run
 from replication.provenance import checksum
+from replication.tree_copy import copy_tree, run
 
 DIFFERS = {"costs.csv", "manifest.json"}  # what a run took, and on which commit
 OUTPUTS = ("results/tables", "results/findings", "results/notebooks", "figures", "paper", "results")

@@ -39,7 +39,11 @@ def parts(check):
 
     `check` raises a ValueError for what is wrong with the config of a study.
     """
-    studies = {name: read_study_config(name, check) for name in config["studies"]}
+    over = [Path(each).name for each in workflow.configfiles]
+    over = [each for each in dict.fromkeys(over) if each != "config.yaml"]
+    studies = {
+        name: read_study_config(name, check, over=over) for name in config["studies"]
+    }
     return {name: Part(name, of) for name, of in {PAPER: config, **studies}.items()}
 
 

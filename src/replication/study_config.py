@@ -1,8 +1,10 @@
 """Follow-up studies: a folder in studies/ each, with a config of its own."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
+
+from snakemake.utils import update_config
 
 from replication.strict_yaml import read_yaml
 
@@ -10,7 +12,10 @@ FOLDER = "studies"
 
 
 def read_study_config(
-    name: str, check: Callable[[dict[str, Any], str, str], None], folder: str = FOLDER
+    name: str,
+    check: Callable[[dict[str, Any], str, str], None],
+    folder: str = FOLDER,
+    over: Iterable[str] = (),
 ) -> dict[str, Any]:
     """Read and check the config of a study.
 
@@ -18,6 +23,10 @@ def read_study_config(
     ----------
     check
         Raises a ValueError for what is wrong with a config, given its path and that of its schema.
+    over
+        The names of files beside config.yaml that go over it, where there are such: with
+        `--configfile config/quick.yaml` those of the paper go over the paper's, and those of
+        quick.yaml in a study's folder over the study's.
 
     Raises
     ------
@@ -32,5 +41,9 @@ def read_study_config(
             f"expected some of {', '.join(there) or 'none: there are no studies'}"
         )
     config: dict[str, Any] = read_yaml(path)
-    check(config, str(path), str(path.with_name("config.schema.yaml")))
+    paths = [str(path)]
+    for other in filter(Path.is_file, map(path.with_name, over)):
+        update_config(config, read_yaml(other))
+        paths.insert(0, str(other))
+    check(config, " over ".join(paths), str(path.with_name("config.schema.yaml")))
     return config

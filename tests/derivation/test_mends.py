@@ -3,6 +3,7 @@
 import pytest
 
 from topheavy.derivation import NEGATIVE, POSITIVE
+from topheavy.derivation.in_text import IN_TEXT
 from topheavy.derivation.mends import KINDS, mended_quotient, mends
 from topheavy.derivation.printed import EQUATIONS
 from topheavy.derivation.verdicts import find_mend
@@ -42,6 +43,12 @@ def test_extent_of_a_radical_is_found():
     premises = RIGHT["eq24"].premises
     mend = find_mend("p̂ = √(1 + 2γ)/(1 + 3γ) p", premises, (NEGATIVE, POSITIVE))
     assert (mend.kind, mend.text) == ("radical", "p̂ = √((1 + 2γ)/(1 + 3γ)) p")
+
+
+def test_fault_of_a_rectangle_is_found_although_its_slenderness_is_no_free_symbol():
+    premises = next(one.premises for one in IN_TEXT if one.name == "text_size")
+    mend = find_mend("R = √(b² − h²)", premises, (NEGATIVE,))
+    assert (mend.kind, mend.text) == ("sign", "R = √(b² + h²)")
 
 
 @pytest.mark.parametrize(

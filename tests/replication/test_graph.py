@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from replication.code import code
-from replication.commands.kill_table import copy_tree
+from replication.tree_copy import copy_tree
 
 ROOT = Path(__file__).parents[2]
 

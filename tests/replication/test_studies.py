@@ -10,7 +10,7 @@ import yaml
 from replication.commands.new_study import create
 from replication.ledger import read_ledger
 from replication.study_config import read_study_config
-from steps.inputs import check_inputs
+from steps.inputs import RECORDS, check_inputs
 
 ROOT = Path(__file__).resolve().parents[2]
 CHECK = partial(check_inputs, structures={"temple": {"half_width": 0.5, "half_height": 3.0}})
@@ -72,6 +72,31 @@ def test_name_that_is_like_one_of_the_paper_or_of_a_study_is_refused(project, na
     with pytest.raises(ValueError, match=f"NAME is '{name}', which is too like '{taken}'"):
         create(name, project)
     assert not (project / "studies" / name).exists()
+
+
+def test_file_of_the_same_name_as_one_over_the_papers_goes_over_a_study_s(project):
+    over = project / "studies" / "skeleton" / "quick.yaml"
+    plain = read_study_config("skeleton", CHECK, str(project / "studies"))
+    over.write_text("gain: { amplitudes: { resolution: 0.5 } }\n", encoding="utf-8")
+    found = read_study_config("skeleton", CHECK, str(project / "studies"), over=["quick.yaml"])
+    assert found["gain"]["amplitudes"] == plain["gain"]["amplitudes"] | {"resolution": 0.5}
+    assert read_study_config("skeleton", CHECK, str(project / "studies")) == plain
+    assert read_study_config("skeleton", CHECK, str(project / "studies"), over=["x.yaml"]) == plain
+    over.write_text("gain: { amplitude: 1.0 }\n", encoding="utf-8")
+    with pytest.raises(ValueError, match=r"quick.yaml over .*config.yaml: .*unknown key 'ampl"):
+        read_study_config("skeleton", CHECK, str(project / "studies"), over=["quick.yaml"])
+
+
+@pytest.mark.parametrize("name", sorted(p.parent.name for p in ROOT.glob("studies/*/quick.yaml")))
+def test_quick_config_of_a_study_is_sound_and_names_no_new_key(name):
+    config = yaml.safe_load((ROOT / "config" / "config.yaml").read_text("utf-8"))
+    check = partial(check_inputs, structures=config["structures"], records=str(ROOT / RECORDS))
+    plain, quick = (
+        read_study_config(name, check, str(ROOT / "studies"), over=over)
+        for over in ([], ["quick.yaml"])
+    )
+    assert quick != plain
+    assert set(quick) == set(plain)
 
 
 def test_study_that_is_not_there_is_named(project):

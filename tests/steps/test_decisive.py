@@ -75,6 +75,18 @@ def test_narrow_band_below_the_first_is_found_by_the_finer_search(monkeypatch):
     assert lowest == [1.05, 1.2]
 
 
+def test_point_of_which_the_second_route_says_otherwise_is_counted(table, monkeypatch):
+    spectra, true = Spectra(LINES, table[~table.linearised]), spectra_compared.reference.judge
+    assert spectra.sample(4, 1, 3e-12)["differ"] == 0
+
+    def otherwise(block, pulse):
+        return SimpleNamespace(overturned=not true(block, pulse).overturned)
+
+    monkeypatch.setattr(spectra_compared, "reference", SimpleNamespace(judge=otherwise))
+    found = spectra.sample(4, 1, 3e-12)
+    assert (found["holds"], found["differ"]) == (False, 4)
+
+
 @pytest.mark.parametrize("changes", ["overturned", "peak"])
 def test_history_that_a_billionth_of_the_record_changes_cannot_be_told(monkeypatch, changes):
     def judge(frame, record, tolerance=None):
@@ -166,6 +178,7 @@ def passage(**printed):
         {"trilith_half_measures": "0.4 m, 0.12 m"},
         {"trilith_width": 0.23},
         {"trilith_height": 0.9},
+        {"trilith_half_measures": "0.4 m, 0.12 m", "trilith_width": 0.24},  # not what is computed
     ],
 )
 def test_halves_that_are_no_halves_are_noticed(change):

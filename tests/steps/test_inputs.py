@@ -174,6 +174,8 @@ def test_massless_columns_are_allowed_where_they_make_sense():
         ("allen_errors.shape", "square", "is 'square'; expected one of one-sine, one-cosine"),
         ("allen_histories.record.file", "el_centro", "is 'el_centro', for which there is no "),
         ("allen_overturning.amplitudes.highest", 0.5, "is 0.5; expected more than "),
+        ("allen_overturning.amplitudes.highest", 1.0, "is 1.0; expected more than "),
+        ("heavier.mass_ratios", [0.0, 1.0, 1.0], "is [0.0, 1.0, 1.0]; expected numbers in asc"),
         ("heavier.mass_ratios", [0.0, 2.0, 1.0], "is [0.0, 2.0, 1.0]; expected numbers in asc"),
     ],
 )

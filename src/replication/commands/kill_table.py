@@ -1,305 +1,109 @@
-"""Insert deliberate faults in the physics, one at a time, and find what catches each.
+"""Deliberate faults, one at a time, and what catches each: `make kill-table`.
 
-The command inserts each fault of faults.yaml into a copy of the tree, never into the library. It
-runs the workflow in the copy, with config/quick.yaml and only the rules of the claims. A verdict
-that differs from the expected one has caught the fault. Otherwise the command runs the tests that
-the fault names. If no verdict and no test fails, a rule has to raise an error; if none does, the
-fault has survived.
+Each fault of faults.yaml is put into a copy of the tree, never into the library itself. There the
+workflow runs, with the quick settings and as far as the claims need it; whatever verdict comes out
+otherwise than the ledgers expect has caught the fault. If there is none, the tests that the fault
+names are run; a fault in the judging is put to these first. A fault that no verdict and no test
+catches has at least to make a rule raise, or it has survived.
 
-All faults together write docs/kill_table.csv and .md; a choice of them (`--faults`, `--rotate`)
-writes nothing.
+Rows that were found are kept in KEPT, and a fault is run again only if its entry or a file that it
+changes is another, or if it survived. All faults together write docs/kill_table.csv and .md; a
+choice of them (`--faults`, `--rotate`) writes nothing but the kept rows.
 """
 
 import argparse
-import csv
 import json
-import os
-import re
+import resource
 import shutil
-import signal
 import subprocess
-import sys
 import tempfile
-import time
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
-from dataclasses import astuple, dataclass, fields
+from dataclasses import asdict
 from pathlib import Path
 
-from replication.strict_yaml import read_yaml
-from replication.verdicts import verdict_on
+from replication.faults import JUDGING, Fault, load
+from replication.kill_table import Row, caught, first_failing, publish, put_to_the_test, workflow
+from replication.ledger import read_ledger, read_rows
+from replication.tree_copy import ROOT, check_imports, copy_tree
 
-ROOT = Path(__file__).resolve().parents[3]
-FAULTS = ROOT / "faults" / "faults.yaml"
 TABLE = ROOT / "docs" / "kill_table"
-QUICK = "config/quick.yaml"
-LONGEST = 900.0
-"""s: a run that takes longer hangs."""
-SHOWN = 3
-"""So many verdicts of a fault are named in the page; the CSV has all."""
+KEPT = ROOT / ".kill_table.jsonl"
 
 
-@dataclass(frozen=True)
-class Change:
-    """A text in a file that becomes another."""
-
-    file: str
-    old: str
-    new: str
+def studies() -> list[str]:
+    """Return the names of all studies, those that no config names included."""
+    return sorted(path.parent.name for path in ROOT.glob("studies/*/claims.yaml"))
 
 
-@dataclass(frozen=True)
-class Fault:
-    """What is wrong, which routes share it, and the tests that are asked if no verdict turns."""
-
-    name: str
-    fault: str
-    routes: str
-    tests: tuple[str, ...]
-    changes: tuple[Change, ...]
-
-    @property
-    def files(self) -> list[str]:
-        """The files that it changes, each once."""
-        return list(dict.fromkeys(change.file for change in self.changes))
-
-    def texts(self, tree: Path) -> dict[str, str]:
-        """Return the faulty text of each file of a tree.
-
-        Raises
-        ------
-        ValueError
-            Naming the fault and the file, if an old text is not there exactly once: the library has
-            moved on, and faults.yaml has to follow.
-        """
-        texts = {file: (tree / file).read_text(encoding="utf-8") for file in self.files}
-        for change in self.changes:
-            times = texts[change.file].count(change.old)
-            if times != 1:
-                raise ValueError(
-                    f"faults/faults.yaml: {self.name}: {change.file} has {times} times "
-                    f"{change.old!r}; expected it once"
-                )
-            texts[change.file] = texts[change.file].replace(change.old, change.new)
-        return texts
+def ledger_files() -> list[Path]:
+    """Return the ledgers of the paper and of all studies."""
+    return [ROOT / "paper/claims.yaml", *(ROOT / f"studies/{s}/claims.yaml" for s in studies())]
 
 
-@dataclass(frozen=True)
-class Row:
-    """What became of a fault; `verdicts` and `rules` are separated by spaces."""
-
-    name: str
-    fault: str
-    routes: str
-    files: str
-    caught_by: str  # "verdict", "test", "rule" or "SURVIVED"
-    verdicts: str
-    test: str
-    rules: str  # those that raise; "all" for a run that was given up
-
-
-def load() -> list[Fault]:
-    """Return the faults of faults.yaml."""
-    return [
-        Fault(
-            **entry
-            | {
-                "tests": tuple(entry["tests"]),
-                "changes": tuple(Change(**change) for change in entry["changes"]),
-            }
-        )
-        for entry in read_yaml(FAULTS)
-    ]
-
-
-# The copy of the tree ----------------------------------------------------------------------------
-
-
-def copy_tree(to: Path) -> None:
-    """Copy what git tracks or would track; of a source archive, all but what the run makes."""
-    listed = subprocess.run(
-        ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
-        cwd=ROOT,
-        capture_output=True,
-        check=False,
-    )
-    if listed.returncode != 0:
-        own = shutil.ignore_patterns(".*", "results", "__pycache__", "*.svg", "report.pdf")
-        shutil.copytree(ROOT, to, ignore=own, dirs_exist_ok=True)
-        shutil.copytree(ROOT / "docs", to / "docs", dirs_exist_ok=True)
-        return
-    for name in listed.stdout.decode().split("\0"):
-        if (ROOT / name).is_file():
-            (to / name).parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy2(ROOT / name, to / name)
-
-
-def run(tree: Path, *command: str) -> tuple[int, str]:
-    """Run Python in a tree with the tree's own library; return its code and all that it said."""
-    with subprocess.Popen(
-        [sys.executable, *command],
-        cwd=tree,
-        env=os.environ | {"PYTHONPATH": str(tree / "src")},
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        start_new_session=True,
-    ) as process:
-        try:
-            said, _ = process.communicate(timeout=LONGEST)
-        except subprocess.TimeoutExpired:
-            os.killpg(process.pid, signal.SIGKILL)
-            said, _ = process.communicate()
-            said += f"\ngiven up after {LONGEST:g} s"
-    return process.returncode, said
-
-
-@contextmanager
-def faulty(tree: Path, fault: Fault) -> Iterator[None]:
-    """Put a fault into the tree, and take it out again as if it had never been there."""
-    kept = {file: ((tree / file).read_bytes(), (tree / file).stat()) for file in fault.files}
-    for file, text in fault.texts(tree).items():
-        (tree / file).write_text(text, encoding="utf-8")
-    try:
-        yield
-    finally:
-        for file, (content, stat) in kept.items():
-            (tree / file).write_bytes(content)
-            os.utime(tree / file, ns=(stat.st_atime_ns, stat.st_mtime_ns))
-
-
-# What catches a fault ----------------------------------------------------------------------------
-
-
-def workflow(tree: Path, ledger: list[dict]) -> tuple[list[str], list[str], str]:
-    """Run the rules that claims are judged by; return the verdicts that turned, and who raised."""
-    rules = sorted({row["rule"] for row in ledger if row.get("finding")})
-    findings = [f"results/findings/{rule}.json" for rule in rules]
-    options = ("--cores", "2", "--configfile", QUICK)
-    code, said = run(tree, "-m", "snakemake", *options, "--", *findings)
-    raised = list(dict.fromkeys(re.findall(r"^Error in rule (\w+):", said, re.MULTILINE)))
-    if code and not raised:  # given up, or nothing was run
-        raised = ["all"]
-    found = {
-        rule: json.loads((tree / path).read_text(encoding="utf-8"))
-        for rule, path in zip(rules, findings, strict=True)
-        if (tree / path).exists()
+def ledgers() -> dict[str, list[dict]]:
+    """Return the rows that rules of the paper judge, and those that rules of studies judge."""
+    rows = read_rows(ledger_files())
+    paper = ledger_files()[0]
+    return {
+        "paper": [row for path, row in rows if path == paper],
+        "studies": [row for path, row in rows if path != paper],
     }
-    turned = [
-        row["id"]
-        for row in ledger
-        if row.get("rule") in found and verdict(row, found[row["rule"]]) != row["expected"]
+
+
+def kept(path: Path) -> dict[str, tuple[str, Row]]:
+    """Return the rows that were found, with the digests of their faults, by name."""
+    if not path.exists():
+        return {}
+    lines = map(json.loads, path.read_text(encoding="utf-8").splitlines())
+    return {line["row"]["name"]: (line["digest"], Row(**line["row"])) for line in lines}
+
+
+def keep(path: Path, fault: Fault, row: Row) -> None:
+    """Add a row to those that were found."""
+    line = {"digest": fault.digest(ROOT), "row": asdict(row)}
+    with path.open("a", encoding="utf-8") as file:
+        file.write(json.dumps(line, ensure_ascii=False) + "\n")
+
+
+def left(faults: Sequence[Fault], known: dict[str, tuple[str, Row]]) -> list[Fault]:
+    """Return the faults to be run: those without a row, that changed, or that survived."""
+    return [
+        fault
+        for fault in faults
+        if fault.name not in known
+        or known[fault.name][0] != fault.digest(ROOT)
+        or known[fault.name][1].caught_by == "SURVIVED"
     ]
-    return turned, raised, said
 
 
-def verdict(claim: dict, findings: dict) -> str:
-    """Return the verdict on a claim, or why there is none."""
-    try:
-        return verdict_on(claim, findings[claim["finding"]])
-    except (KeyError, ValueError) as error:
-        return f"none: {error}"
+def kill_table(faults: Sequence[Fault]) -> Iterator[Row]:
+    """Yield the row of each fault, after a run without any in which no verdict may turn.
 
-
-def first_failing(tree: Path, tests: Sequence[str]) -> str:
-    """Return the first test that fails, or nothing."""
-    options = ("-q", "-x", "-rfE", "--no-header", "-p", "no:cacheprovider")
-    code, said = run(tree, "-m", "pytest", *options, *tests)
-    if code == 0:
-        return ""
-    named = re.search(r"^(?:FAILED|ERROR) (tests/\S+\.py(?:::[^\s\[]+)?)", said, re.MULTILINE)
-    if not named:
-        raise RuntimeError(f"pytest ended with {code} and named no test:\n{said[-2000:]}")
-    return named[1]
-
-
-def put_to_the_test(tree: Path, fault: Fault, ledger: list[dict]) -> Row:
-    """Return what catches a fault."""
-    with faulty(tree, fault):
-        verdicts, rules, _ = workflow(tree, ledger)
-        test = "" if verdicts else first_failing(tree, fault.tests)
-    if test and first_failing(tree, [test]):
-        raise RuntimeError(f"{fault.name}: {test} fails without the fault too")
-    ways = {"verdict": verdicts, "test": test, "rule": rules}
-    caught = next((way for way, found in ways.items() if found), "SURVIVED")
-    return Row(
-        name=fault.name,
-        fault=fault.fault,
-        routes=fault.routes,
-        files=" ".join(fault.files),
-        caught_by=caught,
-        verdicts=" ".join(verdicts),
-        test=test,
-        rules=" ".join(rules),
-    )
-
-
-def kill_table(faults: list[Fault]) -> Iterator[Row]:
-    """Yield the row of each fault, after a run without any in which no verdict may turn."""
-    ledger = read_yaml(ROOT / "paper" / "claims.yaml")
-    for fault in faults:
-        fault.texts(ROOT)  # stops at once if a fault no longer applies
+    That run is made when the first verdict is asked for: faults that tests catch do without it.
+    """
     with tempfile.TemporaryDirectory(prefix="kill-table-") as folder:
         tree, sound = Path(folder) / "tree", Path(folder) / "sound"
         copy_tree(tree)
-        code, where = run(tree, "-c", "import topheavy; print(topheavy.__file__)")
-        if code or not Path(where.strip()).is_relative_to(tree):
-            raise RuntimeError(f"the copy imports topheavy from {where.strip()}; expected {tree}")
-        verdicts, rules, said = workflow(tree, ledger)
-        if verdicts or rules:
-            raise RuntimeError(f"without a fault: {verdicts} turn, {rules} raise\n{said}")
-        # Each fault starts from these results, so that only what depends on it is made again.
-        for name in ("results", ".snakemake"):
-            shutil.copytree(tree / name, sound / name)
-        for fault in faults:
-            for name in ("results", ".snakemake"):
+        check_imports(tree)
+        asked, names, made = ledgers(), studies(), ("results", ".snakemake")
+
+        def begin() -> None:
+            """Begin with the results of no fault: only what depends on one is made again."""
+            if not sound.exists():
+                turned, rules, said = workflow(tree, [*asked["paper"], *asked["studies"]], names)
+                if turned or rules:
+                    raise RuntimeError(f"without a fault: {turned} turn, {rules} raise\n{said}")
+                for name in made:
+                    shutil.copytree(tree / name, sound / name)
+            for name in made:
                 shutil.rmtree(tree / name)
                 shutil.copytree(sound / name, tree / name)
-            yield put_to_the_test(tree, fault, ledger)
 
-
-# The published table -----------------------------------------------------------------------------
-
-
-def page(rows: list[Row]) -> str:
-    """Return docs/kill_table.md."""
-    lines = [
-        "# What catches a fault",
-        "",
-        "Deliberate faults in the physics, one at a time, and what each turns: a verdict of",
-        "`paper/claims.yaml`, or else a test. Written by `make kill-table`; the whole of it, with",
-        "all verdicts and files, is in `kill_table.csv`.",
-        "",
-        "| fault | in words | routes that have it | caught by |",
-        "|---|---|---|---|",
-    ]
-    for row in rows:
-        cells = [f"`{row.name}`", row.fault, row.routes, _caught(row)]
-        lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
-    return "\n".join(lines) + "\n"
-
-
-def _caught(row: Row) -> str:
-    if row.caught_by == "SURVIVED":
-        return "nothing: SURVIVED"
-    names = row.verdicts.split()
-    parts = [f"`{name}`" for name in names[:SHOWN]]
-    if len(names) > SHOWN:
-        parts.append(f"{len(names) - SHOWN} more")
-    if row.test:
-        parts.append(f"test `{row.test}`")
-    rules = row.rules.split()
-    parts += [f"rule {rule} stops" for rule in rules]
-    return ", ".join(parts)
-
-
-def publish(rows: list[Row]) -> None:
-    """Write docs/kill_table.csv and .md."""
-    with TABLE.with_suffix(".csv").open("w", encoding="utf-8", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow([field.name for field in fields(Row)])
-        writer.writerows(map(astuple, rows))
-    TABLE.with_suffix(".md").write_text(page(rows), encoding="utf-8")
+        tests = {test for fault in faults if fault.routes == JUDGING for test in fault.tests}
+        if tests and (failing := first_failing(tree, sorted(tests))):
+            raise RuntimeError(f"without a fault: {failing} fails")
+        for fault in faults:
+            yield put_to_the_test(tree, fault, asked, names, begin)
 
 
 def rotation(faults: list[Fault], number: int, commit: str) -> list[Fault]:
@@ -309,7 +113,9 @@ def rotation(faults: list[Fault], number: int, commit: str) -> list[Fault]:
 
 
 def chosen(faults: list[Fault], names: str | None, number: int | None) -> list[Fault]:
-    """Return the requested faults: by name, by the commit, or all."""
+    """Return the faults that are asked for: by name or routes, by the commit, or all."""
+    if names in {fault.routes for fault in faults}:
+        return [fault for fault in faults if fault.routes == names]
     if names:
         known = {fault.name: fault for fault in faults}
         for name in names.split(","):
@@ -329,19 +135,31 @@ def chosen(faults: list[Fault], names: str | None, number: int | None) -> list[F
     return faults
 
 
+def processor_seconds() -> float:
+    """Return the processor time of all that was run so far, s."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--faults", help="names, separated by commas")
+    parser.add_argument("--faults", help=f"names, separated by commas; or routes ({JUDGING})")
     parser.add_argument("--rotate", type=int, help="so many, picked by the hash of the commit")
     options = parser.parse_args()
     faults = load()
     picked = chosen(faults, options.faults, options.rotate)
-    rows, start = [], time.monotonic()
-    for row in kill_table(picked):
-        rows.append(row)
-        print(f"{time.monotonic() - start:6.0f} s  {row.name}: {_caught(row)}", flush=True)
+    for fault in faults:
+        fault.texts(ROOT)  # one that no longer applies is told at once
+    missing = left(picked, kept(KEPT))
+    print(f"{len(picked) - len(missing)} of {len(picked)} faults are in {KEPT.name}", flush=True)
+    if missing:
+        for fault, row in zip(missing, kill_table(missing), strict=True):
+            keep(KEPT, fault, row)
+            print(f"{processor_seconds():6.0f} s  {row.name}: {caught(row)}", flush=True)
+    known = kept(KEPT)
+    rows = [known[fault.name][1] for fault in picked]
     if picked == faults:
-        publish(rows)
+        publish(rows, read_ledger(ledger_files()), TABLE)
     survivors = [row.name for row in rows if row.caught_by == "SURVIVED"]
     if survivors:
         raise SystemExit(f"{len(survivors)} of {len(rows)} faults survived: {', '.join(survivors)}")

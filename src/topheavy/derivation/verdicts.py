@@ -127,7 +127,8 @@ def _point(premises: Premises, side: Side) -> dict[str, float]:
     free |= {symbol for symbol in SYMBOLS if symbol not in values} | {side.rotation}
     names = sorted(free, key=str)
     drawn = dict(zip(names, np.random.default_rng(7).uniform(0.2, 0.6, len(names)), strict=True))
-    drawn[side.rotation] = side.sign * drawn[alpha] / 2.0
+    slenderness = values[alpha].subs(drawn) if alpha in values else drawn[alpha]
+    drawn[side.rotation] = side.sign * float(slenderness) / 2.0
     known = {name: complex(value.subs(drawn)) for name, value in values.items()}
     return {str(name): number for name, number in (drawn | known).items()}
 
