@@ -1,5 +1,29 @@
 """The results of Makris & Vassiliou (2014), in the paper's order."""
 
+
+def case(section, part=PAPER):
+    """Return a section of the config of a part, with the column in place of the structure's name."""
+    entry = PARTS[part].config[section]
+    if "structure" not in entry:
+        return entry
+    return entry | {"column": config["structures"][entry["structure"]]}
+
+
+def named(entries, section):
+    """Return those of the entries (structures, say) that a section of a config names.
+
+    So a rule depends on them, and on no others.
+    """
+    if isinstance(section, dict):
+        inner = [*section, *section.values()]
+    elif isinstance(section, (list, tuple)):
+        inner = section
+    else:
+        return {section: entries[section]} if section in entries else {}
+    found = {name for part in inner for name in named(entries, part)}
+    return {name: entries[name] for name in entries if name in found}
+
+
 PARTS[PAPER].figures.update(
     {
         "figures/structures": ["outlines", "moment_rotation"],
@@ -44,6 +68,7 @@ PARTS[PAPER].findings.extend(
         "verification",
     ]
 )
+PARTS[PAPER].data.append(RECORDS["el_centro_1940_NS"])
 
 # Findings that no claim rests on, and without which no claim is worth much.
 CHECKS = {
