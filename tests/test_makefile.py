@@ -36,7 +36,13 @@ CODE = ["$(shell touch F)", "a'; touch F; '", 'a"; touch F; "', "`touch F`", "$$
 @pytest.mark.parametrize("code", CODE)
 @pytest.mark.parametrize(
     ("target", "name"),
-    [("trace", "ITEM"), ("study", "NAME"), ("kill-table", "FAULTS"), ("audit", "CONFIG"), ("paper", "TO")],
+    [
+        ("trace", "ITEM"),
+        ("study", "NAME"),
+        ("kill-table", "FAULTS"),
+        ("audit", "CONFIG"),
+        ("paper", "TO"),
+    ],
 )
 def test_argument_is_passed_word_for_word_and_never_run(make, tmp_path, target, name, code):
     for ran in (make(target, f"{name}={code}"), make(target, **{name: code})):

@@ -14,11 +14,12 @@ from contextlib import contextmanager
 from pathlib import Path
 from types import FunctionType, ModuleType
 
-from replication.citations import LIBRARIES
-
 PLACES = {path.name: "src" for path in Path("src").glob("*") if path.name != "replication"}
 PLACES |= {"studies": "."}
 """The packages whose functions are noted, and the folder that each lies in, from the root."""
+
+LIBRARIES = frozenset(PLACES) - {"steps", "studies"}
+"""The packages that the steps take their code from."""
 
 
 @contextmanager
@@ -33,7 +34,7 @@ def noted(modules: Iterable[tuple[str, ModuleType]]) -> Iterator[set[str]]:
     Yields
     ------
     set of str
-        The full names, such as `model.shapes.Body.mass`; it grows with the calls.
+        The full names, such as `lib.shapes.Body.mass`; it grows with the calls.
         A class is called when an object of it is made.
     """
     called: set[str] = set()
@@ -68,7 +69,7 @@ def library(declared: Iterable[str]) -> Iterator[tuple[str, ModuleType]]:
 def definition(name: str, root: str | Path = ".") -> str:
     """Return the full name of what a public name stands for, without importing it.
 
-    `model.simulate` is `model.simulate.simulate`. A function goes before a module of its
+    `lib.simulate` is `lib.simulate.simulate`. A function goes before a module of its
     name, as in `citations.resolve`.
 
     Raises

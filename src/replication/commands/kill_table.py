@@ -242,9 +242,9 @@ def kill_table(faults: list[Fault]) -> Iterator[Row]:
     with tempfile.TemporaryDirectory(prefix="kill-table-") as folder:
         tree, sound = Path(folder) / "tree", Path(folder) / "sound"
         copy_tree(tree)
-        code, where = run(tree, "-c", "import topheavy; print(topheavy.__file__)")
+        code, where = run(tree, "-c", "import replication; print(replication.__file__)")
         if code or not Path(where.strip()).is_relative_to(tree):
-            raise RuntimeError(f"the copy imports topheavy from {where.strip()}; expected {tree}")
+            raise RuntimeError(f"the copy imports its code from {where.strip()}; expected {tree}")
         verdicts, rules, said = workflow(tree, ledger)
         if verdicts or rules:
             raise RuntimeError(f"without a fault: {verdicts} turn, {rules} raise\n{said}")
