@@ -2,8 +2,8 @@
 
 import sympy as sp
 
-from theory.motion import PRINTED, equation_of_motion, period_of_small_swings, theta0
 from replication.workbench import run, truth
+from theory.motion import PRINTED, equation_of_motion, period_of_small_swings, theta0
 
 
 def main() -> dict:

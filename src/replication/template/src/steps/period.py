@@ -5,9 +5,9 @@ import math
 import numpy as np
 import sympy as sp
 
+from replication.workbench import grid, run, truth, value
 from theory.motion import PRINTED, period_of_small_swings, theta0
 from theory.period import by_elliptic_integral, by_integration
-from replication.workbench import grid, run, truth, value
 
 
 def main(case: dict) -> tuple[dict, dict]:

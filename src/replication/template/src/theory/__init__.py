@@ -1,1 +1,1 @@
-"""The paper, as functions. The example: a pendulum that swings far. It knows no file and no claim."""
+"""The paper as functions, which know no file and no claim. The example: a pendulum."""

@@ -1,4 +1,4 @@
-"""The equation of motion, Eq. (1), by Lagrange, and the period of small swings, Eq. (2), by SymPy."""
+"""The equation of motion by Lagrange, Eq. (1), and the period of small swings, Eq. (2)."""
 
 import sympy as sp
 

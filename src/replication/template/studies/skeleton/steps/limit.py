@@ -5,8 +5,8 @@ from itertools import pairwise
 
 from scipy.optimize import brentq
 
-from theory.period import by_elliptic_integral, by_integration
 from replication.workbench import run, truth, value
+from theory.period import by_elliptic_integral, by_integration
 
 CLOSE = 1e-9
 """The second route has to give the same share to this."""
