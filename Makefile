@@ -21,6 +21,9 @@ DEV = $(UV) run --locked $(GROUPS)
 # What only this paper needs: its targets, options of uv in GROUPS, names of variables in OWN.
 -include paper.mk
 
+# A run starts a hundred Pythons. Where compiled modules are not kept, each would compile all anew.
+export PYTHONDONTWRITEBYTECODE :=
+
 # What is given reaches the commands by the environment, word for word: neither make nor the shell
 # takes it for code.
 GIVEN := CORES ITEM NAME $(OWN)
@@ -55,7 +58,7 @@ html: | $(UV) ## after a run: every figure with caption and verdict in results/r
 	@$(RUN) python -m replication.commands.check_html results/report.html
 
 test: | $(UV) ## run the tests
-	@$(DEV) pytest
+	@$(call WHOLE,CORES); $(DEV) pytest --numprocesses "$$CORES" --dist loadfile
 
 lint: export VALIDATE_PYPROJECT_NO_NETWORK = 1
 lint: | $(UV) ## check style, types, spelling and schemas; changes nothing

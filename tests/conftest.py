@@ -1,10 +1,41 @@
-"""The workflow as Snakemake reads it, parsed once for all tests."""
+"""What all tests share: the parsed workflow, and the order in which several processes take them."""
 
 from pathlib import Path
 
 import pytest
 
 ROOT = Path(__file__).parents[1]
+
+LONGEST_FIRST = (
+    "test_determinism.py",
+    "test_reruns.py",
+    "test_graph.py",
+    "test_closing.py",
+    "test_endings.py",
+    "test_trace.py",
+    "test_check_html.py",
+    "test_kernel_cache.py",
+    "test_simulate.py",
+)
+"""Files that take longest: begun first, no process is left with one of them at the end."""
+
+
+def pytest_collection_modifyitems(items):
+    """Put the files that take longest before the others."""
+    place = {name: number for number, name in enumerate(LONGEST_FIRST)}
+    items.sort(key=lambda item: place.get(item.path.name, len(place)))
+
+
+def pytest_xdist_setupnodes():
+    """Compile the kernel before several processes need it at the same time."""
+    import numpy as np
+
+    from topheavy import Column, Pulse, judge, overturned_by, overturning_map
+
+    block, pulse = Column(0.5, 3.0), Pulse("one-sine", 0.3, 6.0)
+    judge(block, pulse)
+    overturning_map(block, "one-sine", np.array([6.0]), np.array([0.3]))
+    overturned_by(block, pulse, np.array([1.0]))
 
 
 @pytest.fixture(scope="session")

@@ -11,6 +11,7 @@ from topheavy import checks
 EVERY = [
     checks.finite,
     checks.positive,
+    checks.not_negative,
     checks.acceleration,
     checks.within_quarter_turn,
     checks.fraction,
@@ -119,3 +120,9 @@ def test_fraction_includes_its_ends(value):
 def test_fraction_refuses_what_lies_beyond_its_ends(value):
     with pytest.raises(ValueError, match=r"share is .*; expected a value from 0 to 1"):
         checks.fraction("share", value)
+
+
+def test_not_negative_lets_zero_through_and_names_what_is_below():
+    assert checks.not_negative("depth", 0, "m") == 0.0
+    with pytest.raises(ValueError, match=r"^depth is -0\.5 m; expected zero or more$"):
+        checks.not_negative("depth", -0.5, "m")

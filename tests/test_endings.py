@@ -152,10 +152,10 @@ def test_parts_of_a_polynomial_are_far_fewer_than_the_most(monkeypatch):
         w[outcome.POLYNOMIAL, :16] = np.polynomial.polynomial.polyfromroots(places)
         bernstein.to_bernstein(w, outcome.POLYNOMIAL, 15, outcome.HULL)
         given = (w, outcome.POLYNOMIAL, 0, 15, outcome.HULL, outcome.STACK, outcome.FOUND, 15)
-        bernstein.roots.py_func(*given)
+        bernstein._roots.py_func(*given)
         assert w[outcome.HALT, 0] == 0.0
     monkeypatch.setattr(bernstein, "MOST_PARTS", 2)
-    bernstein.roots.py_func(*given)
+    bernstein._roots.py_func(*given)
     assert w[outcome.HALT, 0] == 1.0  # the history is given up
 
 

@@ -7,17 +7,20 @@ from pathlib import Path
 
 from replication.captions import caption_files, captioned, read_captions
 from replication.closing import close
-from replication.code import code
+from replication.code import code, undeclared
 from replication.ledger import read_ledger
 from replication.ledger_check import check_ledger
 from replication.parts import PAPER, Part
 from replication.place import check_place
+from replication.progress import one_line_a_job
 from replication.strict_yaml import read_yaml
 from replication.study_config import read_study_config
 from replication.typeset import reads
 
 check_place()
 close(workflow)
+if not workflow.dryrun:
+    one_line_a_job()
 
 
 def read_strictly(path):
@@ -48,10 +51,10 @@ def everything(wildcards):
     """
     drawn = {table for tables in FIGURES.values() for table in tables}
     wanted = dict.fromkeys(f"results/tables/{table}.csv" for table in sorted(drawn))
-    for rule in workflow.rules:
-        if rule.name in ("all", "manifest") or rule.name.startswith("claim_"):
+    for each in workflow.rules:
+        if each.name in ("all", "manifest") or each.name.startswith("claim_"):
             continue
-        asked = [*rule.input, *([] if rule.has_wildcards() else rule.output)]
+        asked = [*each.input, *([] if each.has_wildcards() else each.output)]
         wanted |= dict.fromkeys(str(path) for path in asked if not callable(path))
     return [path for path in wanted if "{" not in path]
 

@@ -139,6 +139,7 @@ for document in DOCUMENTS:
         input:
             code("src/replication/rules/report.py"),
             reads(f"paper/{document}.typ", *SECTIONS),
+            source=f"paper/{document}.typ",
             expand("results/findings/{name}.json", name=FINDINGS),
             expand("{figure}.svg", figure=FIGURES),
         output:
@@ -148,7 +149,6 @@ for document in DOCUMENTS:
         benchmark:
             f"results/benchmarks/{document}.tsv"
         params:
-            source=f"paper/{document}.typ",
             studies=config["studies"],
         message:
             f"Compiling the {document}"
@@ -162,6 +162,7 @@ for document in DOCUMENTS:
 rule manifest:
     input:
         code("src/replication/rules/manifest.py"),
+        undeclared([]),  # it reads the Snakefile, and what that imports
         everything,
         configuration="config/config.yaml",
         lock="uv.lock",

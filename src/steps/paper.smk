@@ -1,29 +1,5 @@
 """The results of Makris & Vassiliou (2014), in the paper's order."""
 
-
-def case(section, part=PAPER):
-    """Return a section of the config of a part, with the column in place of the structure's name."""
-    entry = PARTS[part].config[section]
-    if "structure" not in entry:
-        return entry
-    return entry | {"column": config["structures"][entry["structure"]]}
-
-
-def named(entries, section):
-    """Return those of the entries (structures, say) that a section of a config names.
-
-    So a rule depends on them, and on no others.
-    """
-    if isinstance(section, dict):
-        inner = [*section, *section.values()]
-    elif isinstance(section, (list, tuple)):
-        inner = section
-    else:
-        return {section: entries[section]} if section in entries else {}
-    found = {name for part in inner for name in named(entries, part)}
-    return {name: entries[name] for name in entries if name in found}
-
-
 PARTS[PAPER].figures.update(
     {
         "figures/structures": ["outlines", "moment_rotation"],
@@ -39,6 +15,7 @@ PARTS[PAPER].figures.update(
         "figures/allen_histories": ["allen_histories"],
         "figures/allen_errors": ["allen_errors"],
         "figures/allen_overturning": ["allen_overturning"],
+        "figures/vase": ["vase", "vase_poses"],
         "figures/heavier": ["heavier_histories", "heavier"],
         "figures/scale_effects": ["scale_effects"],
         "figures/spectra": ["spectra"],
@@ -61,6 +38,7 @@ PARTS[PAPER].findings.extend(
         "heavier",
         "scale_effects",
         "stability",
+        "vase",
         "spectra",
         "spectra_dimensional",
         "rocking_spectra",
@@ -72,6 +50,7 @@ PARTS[PAPER].data.append(RECORDS["el_centro_1940_NS"])
 
 # Findings that no claim rests on, and without which no claim is worth much.
 CHECKS = {
+    "vase": ["second_route"],
     "verification": [
         "routes_agree",
         "published_numbers",
@@ -316,6 +295,30 @@ rule heavier:
         "The same pulse under heavier and heavier caps"
     script:
         "heavier.py"
+
+
+rule vase:
+    input:
+        code("src/steps/vase.py"),
+        records=[RECORDS[name] for name in config["vase"]["records"]],
+    output:
+        summary="results/tables/vase.csv",
+        motions="results/tables/vase_motions.csv",
+        exceptions="results/tables/vase_exceptions.csv",
+        shares="results/tables/vase_shares.csv",
+        poses="results/tables/vase_poses.csv",
+        findings="results/findings/vase.json",
+    log:
+        "results/logs/vase.log",
+    benchmark:
+        "results/benchmarks/vase.tsv"
+    params:
+        case=case("vase"),
+        solver=config["solver"],
+    message:
+        "The same mass fixed to one column, and carried freely by two"
+    script:
+        "vase.py"
 
 
 rule scale_effects:

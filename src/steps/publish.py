@@ -10,7 +10,7 @@ from pathlib import Path
 
 from replication.publishing import machine, publish
 
-PICTURES = ("heavier", "peak_maps", "spectra", "structures")
+PICTURES = ("vase", "heavier", "peak_maps", "spectra", "structures")
 MOVING = "animation.gif"
 TABLES = (
     "allen_errors",

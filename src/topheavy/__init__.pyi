@@ -7,6 +7,7 @@ from .contact_forces import (
     contact_forces,
     impact_impulses,
 )
+from .fixed_mass import FixedMassColumn, MonolithicPortal
 from .overturning import overturned_by, overturning_intervals, overturning_map
 from .pulses import PULSE_SHAPES, Pulse
 from .records import Record, read_at2, read_csv, read_record
@@ -20,6 +21,8 @@ __all__ = [
     "Cap",
     "Column",
     "ContactForces",
+    "FixedMassColumn",
+    "MonolithicPortal",
     "Pulse",
     "Reaction",
     "Record",

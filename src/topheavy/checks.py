@@ -66,6 +66,25 @@ def positive(name: str, value: Any, unit: str = "") -> float:
     return number
 
 
+def not_negative(name: str, value: Any, unit: str = "") -> float:
+    """Return `value` as a float of zero or more, or raise ValueError that names it."""
+    number = finite(name, value)
+    if number < 0.0:
+        raise ValueError(f"{name} is {_with_unit(number, unit)}; expected zero or more")
+    return number
+
+
+def wider_than_column(span: Any, width: float) -> float:
+    """Return the span (m) between the axes of columns of a width (m), or raise ValueError."""
+    number = positive("span", span, "m")
+    if number <= width:
+        raise ValueError(
+            f"span is {number:.6g} m; expected more than the width of a column, "
+            f"{width:.6g} m, as it is the distance between their axes"
+        )
+    return number
+
+
 def acceleration(name: str, value: Any) -> float:
     """Return `value` (g) as a float within ±`LARGEST_ACCELERATION`, or raise ValueError."""
     number = finite(name, value)

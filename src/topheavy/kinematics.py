@@ -50,16 +50,26 @@ def _side_and_lean(column: Column, rotation: ArrayLike) -> Pair:
     return np.where(theta < 0.0, -1.0, 1.0), column.slenderness - np.abs(theta)
 
 
-def column_outline(column: Column, rotation: float) -> NDArray[np.float64]:
-    """Return the corners of a column that has rocked by θ (rad), shape (5, 2), m, closed.
+def turned_with_column(
+    column: Column, rotation: float, corners: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return where points fixed to a column, shape (n, 2), m, have gone when it has rocked by θ.
 
-    The origin is the middle of the base at rest; the first corner is the lower left one. For θ < 0
-    the column turns about its left corner, for θ > 0 about its right one.
+    The origin is the middle of the base at rest. For θ < 0 the column turns about its left corner,
+    for θ > 0 about its right one.
     """
-    b, h = column.half_width, column.half_height
-    corners = np.array([[-b, 0.0], [b, 0.0], [b, 2 * h], [-b, 2 * h], [-b, 0.0]])
-    pivot = np.array([-b if rotation < 0.0 else b, 0.0])
+    pivot = np.array([np.copysign(column.half_width, rotation), 0.0])
     cos, sin = np.cos(rotation), np.sin(rotation)
     turn = np.array([[cos, -sin], [sin, cos]])  # clockwise for θ > 0, on row vectors
     turned: NDArray[np.float64] = (corners - pivot) @ turn + pivot
     return turned
+
+
+def column_outline(column: Column, rotation: float) -> NDArray[np.float64]:
+    """Return the corners of a column that has rocked by θ (rad), shape (5, 2), m, closed.
+
+    The origin is the middle of the base at rest; the first corner is the lower left one.
+    """
+    b, h = column.half_width, column.half_height
+    corners = np.array([[-b, 0.0], [b, 0.0], [b, 2 * h], [-b, 2 * h], [-b, 0.0]])
+    return turned_with_column(column, rotation, corners)

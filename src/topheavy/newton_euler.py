@@ -73,12 +73,7 @@ class ThreeBodies:
             raise ValueError(f"frame is {self.frame!r}; expected a RockingFrame")
         if self.frame.mass_ratio == math.inf:
             raise ValueError("mass_ratio is ∞; expected a finite one, as a column weighs 1 kg here")
-        width = 2.0 * self.frame.column.half_width
-        if checks.positive("span", self.span, "m") <= width:
-            raise ValueError(
-                f"span is {self.span:.6g} m; expected more than the width of a column, "
-                f"{width:.6g} m, as it is the distance between their axes"
-            )
+        checks.wider_than_column(self.span, 2.0 * self.frame.column.half_width)
         checks.positive("cap_depth", self.cap_depth, "m")
 
     @cached_property

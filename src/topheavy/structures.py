@@ -7,7 +7,7 @@ three numbers are all that the dynamics sees of either: p, α and √r.
 
 import math
 from dataclasses import dataclass, replace
-from typing import TypeAlias
+from typing import Protocol
 
 from topheavy import checks
 
@@ -121,7 +121,9 @@ class Column:
             When Housner's √r is negative: such a column does not rock on.
         """
         if restitution is None:
-            restitution = _rocking(self.restitution, self.slenderness, largest_slenderness(0.0))
+            restitution = checked_restitution(
+                self.restitution, self.slenderness, largest_slenderness(0.0)
+            )
         return RockingBlock(self.frequency_parameter, self.slenderness, restitution)
 
 
@@ -149,11 +151,7 @@ class RockingFrame:
     def __post_init__(self) -> None:
         if not isinstance(self.column, Column):
             raise ValueError(f"column is {self.column!r}; expected a Column")
-        mass_ratio = checks.number("mass_ratio", self.mass_ratio)
-        if not mass_ratio >= 0.0:
-            raise ValueError(
-                f"mass_ratio is {mass_ratio:.6g}; expected γ = m_b / 2 m_c from 0 to infinity"
-            )
+        checked_mass_ratio(self.mass_ratio)
 
     @property
     def slenderness(self) -> float:
@@ -191,12 +189,25 @@ class RockingFrame:
         """
         if restitution is None:
             limit = largest_slenderness(self.mass_ratio)
-            restitution = _rocking(self.restitution, self.slenderness, limit)
+            restitution = checked_restitution(self.restitution, self.slenderness, limit)
         return RockingBlock(self.frequency_parameter, self.slenderness, restitution)
 
 
-Structure: TypeAlias = RockingBlock | Column | RockingFrame
-"""What `simulate` and its kin accept: each has a `.block()`."""
+class Structure(Protocol):
+    """Whatever becomes a rocking block: `simulate` and its kin accept it."""
+
+    def block(self) -> RockingBlock:
+        """Return the block that rocks as the structure does."""
+
+
+def checked_mass_ratio(value: float) -> float:
+    """Return γ as a float from 0 to infinity, or raise ValueError."""
+    mass_ratio = checks.number("mass_ratio", value)
+    if not mass_ratio >= 0.0:
+        raise ValueError(
+            f"mass_ratio is {mass_ratio:.6g}; expected γ = m_b / 2 m_c from 0 to infinity"
+        )
+    return mass_ratio
 
 
 def size_ratio(mass_ratio: float) -> float:
@@ -218,7 +229,7 @@ def _share_of_cap(mass_ratio: float) -> float:
     return 1.0 if mass_ratio == math.inf else mass_ratio / (1.0 / 3.0 + mass_ratio)
 
 
-def _rocking(restitution: float, slenderness: float, largest: float) -> float:
+def checked_restitution(restitution: float, slenderness: float, largest: float) -> float:
     """Return √r, or raise ValueError when it is negative."""
     if restitution < 0.0:
         raise ValueError(

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -146,7 +147,9 @@ def make(root):
         timeout=120,
     )
     text = done.stdout + done.stderr
-    rules = {name for name in ("counts", "figure", "claims") if f"rule {name}:" in text}
+    rules = {
+        name for name in ("counts", "figure", "claims") if re.search(rf" s  {name}$", text, re.M)
+    }
     return done.returncode, rules
 
 

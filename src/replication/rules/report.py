@@ -9,7 +9,7 @@ from replication.workbench import run
 
 def work(job: Any) -> None:
     studies = ",".join(job.params.studies)
-    pdf = compiled(job.params.source, dict.fromkeys(job.input), {"studies": studies})
+    pdf = compiled(job.input.source, dict.fromkeys(job.input), {"studies": studies})
     Path(job.output[0]).write_bytes(pdf)
 
 

@@ -14,6 +14,12 @@ from topheavy.derivation.equilibrium import (
     size_ratio,
     uplift_acceleration,
 )
+from topheavy.derivation.fixed_mass import (
+    fixed_fourth_power,
+    fixed_motion,
+    fixed_restitution,
+    fixed_tangent,
+)
 from topheavy.derivation.geometry import CapMotion, cap_contact, cap_motion, centre
 from topheavy.derivation.impact import (
     column_restitution,
@@ -45,6 +51,10 @@ __all__ = [
     "contact_theorems",
     "energy_slenderness",
     "equation_of_motion",
+    "fixed_fourth_power",
+    "fixed_motion",
+    "fixed_restitution",
+    "fixed_tangent",
     "frame_motion",
     "frequency_ratio",
     "kinetic_energy",

@@ -32,7 +32,7 @@ CAP_2 = sp.Matrix([F_x2, F_z2])
 span, half_depth = sp.symbols("L d", positive=True)
 
 
-def _turning(arm: sp.Matrix, force: sp.Matrix) -> sp.Expr:
+def turning(arm: sp.Matrix, force: sp.Matrix) -> sp.Expr:
     """The clockwise moment of a force at the end of an arm."""
     return arm[1] * force[0] - arm[0] * force[1]
 
@@ -55,7 +55,7 @@ def column_balance(
     """
     to_ground = -centre(side)
     to_cap = cap_contact(side) - centre(side)
-    moment = _turning(to_ground, ground) - _turning(to_cap, cap)
+    moment = turning(to_ground, ground) - turning(to_cap, cap)
     inertia = I_o - m_c * R**2  # about the centre, by Steiner
     return [*(ground - cap - m_c * linear), moment - inertia * angular]
 
@@ -78,13 +78,16 @@ def cap_moment(side: Side) -> sp.Expr:
     """
     shift = -side.sign * R * sp.sin(alpha)
     arms = (sp.Matrix([shift + end * span / 2, -half_depth]) for end in (-1, 1))
-    return sum(_turning(arm, force) for arm, force in zip(arms, (CAP_1, CAP_2), strict=True))
+    return sum(turning(arm, force) for arm, force in zip(arms, (CAP_1, CAP_2), strict=True))
 
 
-def solve(balance: list[sp.Expr], *unknowns: sp.Symbol) -> dict[sp.Symbol, sp.Expr]:
+def solve(
+    balance: list[sp.Expr], *unknowns: sp.Symbol, only: sp.Symbol | None = None
+) -> dict[sp.Symbol, sp.Expr]:
     """Every state that a balance allows: the unknowns and all forces, in terms of the rest.
 
-    The balance of the frame has one force more than equations when the cap-beam's moments are
+    With `only`, the answer holds that unknown alone, which saves the reduction of the others. The
+    balance of the frame has one force more than equations when the cap-beam's moments are
     left out; F_z1 stays free then.
     """
     angles = {f.args[0] for equation in balance for f in equation.atoms(sp.sin, sp.cos)}
@@ -103,5 +106,7 @@ def solve(balance: list[sp.Expr], *unknowns: sp.Symbol) -> dict[sp.Symbol, sp.Ex
         return sp.cancel(parts[0] / parts[1]).subs(named)
 
     return {
-        symbol: reduced(value) for symbol, value in zip([*unknowns, *forces], solution, strict=True)
+        symbol: reduced(value)
+        for symbol, value in zip([*unknowns, *forces], solution, strict=True)
+        if only in (None, symbol)
     }

@@ -53,6 +53,12 @@ def cap_contact(side: Side) -> sp.ImmutableMatrix:
     return _turned(side, -side.sign * R * sp.sin(alpha), R * sp.cos(alpha))
 
 
+@cache
+def above_top(side: Side, height: Any) -> sp.ImmutableMatrix:
+    """The point (x, z) of the column's axis at a height above its top, from the pivot."""
+    return _turned(side, 0, R * sp.cos(alpha) + height)
+
+
 @dataclass(frozen=True)
 class CapMotion:
     """The cap-beam's translation relative to the ground, Eqs. (4)–(9)."""

@@ -6,7 +6,7 @@ import inspect
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from topheavy.derivation import contact_proofs, impact_proofs, motion_proofs
+from topheavy.derivation import contact_proofs, fixed_proofs, impact_proofs, motion_proofs
 
 
 @dataclass(frozen=True)
@@ -20,7 +20,7 @@ class Theorem:
 
 def theorems() -> list[Theorem]:
     """Prove anew what concerns the motion; name and docstring of each proof are the theorem's."""
-    return _prove(*motion_proofs.PROOFS, *impact_proofs.PROOFS)
+    return _prove(*motion_proofs.PROOFS, *impact_proofs.PROOFS, *fixed_proofs.PROOFS)
 
 
 def contact_theorems() -> list[Theorem]:

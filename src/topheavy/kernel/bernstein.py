@@ -41,7 +41,7 @@ CONVERT = np.array(
 TINY = 1e-300
 
 
-@njit(cache=True, error_model="numpy", fastmath={"contract"})
+@njit(cache=True, error_model="numpy")
 def to_bernstein(w, p, degree, b):
     """Write the Bernstein coefficients of Σ w[p, k] xᵏ on [0, 1] to row `b`."""
     for i in range(degree + 1):

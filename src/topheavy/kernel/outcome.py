@@ -196,7 +196,7 @@ def _largest_rotation(w, order, zeros, end, peak):
     return peak
 
 
-@njit(cache=True, error_model="numpy", fastmath={"contract"})
+@njit(cache=True, error_model="numpy")
 def _value(w, order, x):
     value = w[POLYNOMIAL, order]
     for k in range(order - 1, -1, -1):

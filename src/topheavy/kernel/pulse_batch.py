@@ -1,5 +1,8 @@
 """Outcomes of many pulses, one history in each lane (see `lane_steps`).
 
+A history that ends poised at the barrier is followed once more by the scalar kernel, so that a map
+and `judge` tell the same up to the last bits of a boundary.
+
 All lanes take their steps together, each a step of its own length. A lane whose history is over
 takes up the next cell. What follows from the physics of one history (the next uplift, coming to
 rest, the free rocking after the pulse) is done by the functions of the scalar kernel.
@@ -58,9 +61,9 @@ from topheavy.kernel.lanes import (
     square_root,
     store,
 )
-from topheavy.kernel.outcome import HALT, MAX_STEPS, PULSE_ORDER
+from topheavy.kernel.outcome import HALT, MAX_STEPS, PULSE_ORDER, outcome
 from topheavy.kernel.rest import comes_to_rest
-from topheavy.kernel.tail import free_rocking
+from topheavy.kernel.tail import free_rocking, is_poised
 
 assert PULSE_ORDER <= MAX_ORDER
 #: The end of the pulse, and ω/p.
@@ -203,6 +206,12 @@ def pulse_outcomes(
                 tail = free_rocking(block, w[ROTATION, lane], w[VELOCITY, lane])
                 fell, highest = tail.overturned, max(highest, tail.peak)
                 count += tail.impacts
+                if is_poised(block, w[ROTATION, lane], w[VELOCITY, lane]):
+                    forcing = pulse_forcing(shape, amplitudes[i, j], scales[i, j])
+                    alone = outcome(v, PULSE_ORDER, tolerance, block, forcing, NO_RECORD)
+                    fell, highest, count = alone.overturned, alone.peak, alone.impacts
+                    if not alone.resolved:
+                        lost = cells[lane] if lost < 0 else min(lost, cells[lane])
             elif w[STEPS, lane] > MAX_STEPS:
                 lost = cells[lane] if lost < 0 else min(lost, cells[lane])
             else:

@@ -14,6 +14,9 @@ from typing import NamedTuple
 
 from numba import njit
 
+#: Histories whose energy is nearer the barrier, relative to it, are followed by one routine alone.
+POISED = 1e-6
+
 
 class Tail(NamedTuple):
     """The outcome of free rocking; `peak` is the largest φ still to come, `impacts` those on the
@@ -60,6 +63,15 @@ def turning_rotation(block, energy):
     # φ = α − 2 asin √(below/2), with sin²x − sin²y = sin(x − y) sin(x + y), x = α/2:
     half_angle = math.asin(math.sqrt(0.5 * below))
     return 2 * math.asin(0.5 * energy / math.sin(0.5 * block.slenderness + half_angle))
+
+
+@njit(cache=True, error_model="numpy")
+def is_poised(block, rotation, velocity):
+    """Return whether an energy is so near the barrier that rounding may decide what happens."""
+    energy = landing_energy(block, rotation, velocity)
+    after_impact = energy * block.restitution * block.restitution - barrier(block)
+    nearest = min(abs(surplus(block, rotation, velocity)), abs(after_impact))
+    return nearest < POISED * barrier(block)
 
 
 @njit(cache=True, error_model="numpy")

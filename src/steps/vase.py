@@ -1,0 +1,244 @@
+"""The cap beam's mass fixed to one column, against the same mass carried freely by two.
+
+Does a fixed mass always lower the minimum overturning acceleration of the bare column, and a freely
+carried one always raise it? Pulses over their frequency and records are searched for exceptions.
+"""
+
+import math
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from replication.workbench import grid, run, truth
+from steps.spectrum import progress
+from steps.vase_poses import poses
+from steps.vase_searches import Minimum, minimum, refined, rivals
+from steps.vase_shares import PARAMETERS, WORTHS, shares
+from topheavy import (
+    STANDARD_GRAVITY,
+    Column,
+    FixedMassColumn,
+    MonolithicPortal,
+    Pulse,
+    Record,
+    read_record,
+    reference,
+)
+
+HIGHEST = 40.0  # g, of the portals, which no other structure comes near
+SEED = 2014  # of the sample of boundaries that SciPy judges
+
+
+def numbers(column: Column, case: dict) -> list[tuple[str, float, float, Any]]:
+    """Return structure, γ, span (NaN but for a portal) and the thing itself."""
+    found = [(*rival[:2], math.nan, rival[2]) for rival in rivals(column, case["mass_ratios"])]
+    width, depth = case["cap"]["width"], case["cap"]["depth"]
+    found += [
+        ("fixed, of the drawn size", gamma, math.nan, FixedMassColumn(column, gamma, width, depth))
+        for gamma in case["mass_ratios"]
+        if gamma > 0.0
+    ]
+    gamma = case["portals"]["mass_ratio"]
+    return found + [
+        ("portal", gamma, span, MonolithicPortal(column, gamma, span, depth))
+        for span in case["portals"]["spans"]
+    ]
+
+
+def under_pulses(column: Column, case: dict) -> list[dict]:
+    """Return every structure's three numbers, and its minimum under each pulse of the period."""
+    rows = []
+    for name, gamma, span, structure in numbers(column, case):
+        block = structure.block()
+        size = 3.0 * STANDARD_GRAVITY / (4.0 * block.frequency_parameter**2)
+        for shape in case["shapes"]:
+            pulse = Pulse(shape, 1.0, 2.0 * math.pi / case["period"])
+            found = minimum(structure, pulse, HIGHEST)
+            rows.append(
+                {
+                    "structure": name,
+                    "mass_ratio": gamma,
+                    "span": span,
+                    "slenderness_deg": math.degrees(block.slenderness),
+                    "frequency_parameter": block.frequency_parameter,
+                    "restitution": block.restitution,
+                    "equivalent_size": size,
+                    "uplift_acceleration": block.uplift_acceleration,
+                    "shape": shape,
+                    "minimum_overturning": found.acceleration,
+                    "error": found.error,
+                }
+            )
+    return rows
+
+
+def search(
+    column: Column, motion: Pulse | Record, ratios: list[float], highest: float, labels: dict
+) -> list[dict]:
+    """Return the minima of all structures under one motion, each beside that of the bare column."""
+    rows: list[dict] = []
+    for name, gamma, structure in rivals(column, ratios):
+        found = minimum(structure, motion, highest)
+        bare = rows[0]["found"] if rows else found
+        found = refined(found, min(bare.acceleration, highest))
+        rows.append(labels | {"structure": name, "mass_ratio": gamma, "found": found, "bare": bare})
+    return rows
+
+
+def is_exception(row: dict) -> bool:
+    """Whether a fixed mass overturns later than the bare column, or a frame earlier."""
+    ours, bare = row["found"].acceleration, row["bare"].acceleration
+    return {"bare": False, "fixed": ours > bare, "free": ours < bare}[row["structure"]]
+
+
+def minima(row: dict) -> list[Minimum]:
+    """Return those of a structure and of the bare column that there are."""
+    return [one for one in (row["found"], row["bare"]) if math.isfinite(one.acceleration)]
+
+
+def is_compared(row: dict, tightened: float) -> bool:
+    """Whether one of the two overturns at all, and the minima that there are can be told."""
+    found = minima(row)
+    return row["structure"] != "bare" and bool(found) and all(one.told(tightened) for one in found)
+
+
+def plain(row: dict) -> dict:
+    """Return a row of the table; NaN where nothing up to the highest acceleration overturns."""
+    labels = {key: value for key, value in row.items() if key not in ("found", "bare")}
+    return labels | {"minimum_overturning": _finite(row["found"])}
+
+
+def exception(row: dict) -> dict:
+    """Return an exception with the error of both of its minima, by SciPy."""
+    ours, bare = row["found"], row["bare"]
+    errors = (one.error if math.isfinite(one.acceleration) else math.nan for one in (ours, bare))
+    pair = dict(zip(("error", "bare_error"), errors, strict=True))
+    later = ours if ours.acceleration > bare.acceleration else bare
+    earlier = min(ours.acceleration, bare.acceleration)
+    survives = not reference.judge(later.structure, later.motion.scaled(earlier)).overturned
+    return plain(row) | {"bare_column": _finite(bare), **pair, "later_one_survives": survives}
+
+
+def _finite(found: Minimum) -> float:
+    return found.acceleration if math.isfinite(found.acceleration) else math.nan
+
+
+def question(compared: list[dict], structures: list[str], longest: float) -> dict:
+    """Return whether the structures keep their rank under every motion, as a finding."""
+    asked = [row for row in compared if row["structure"] in structures]
+    broken = [row for row in asked if is_exception(row)]
+    long_ones = [row for row in asked if row["frequency_ratio"] <= longest]
+    return truth(
+        not broken,
+        holds_when=bool(long_ones) and not any(map(is_exception, long_ones)),
+        condition=f"the ground motion is a pulse of ω at most {longest:g} p",
+        comparisons=len(asked),
+        comparisons_when=len(long_ones),
+        exceptions=len(broken),
+        exceptions_under_records=sum(row["kind"] == "record" for row in broken),
+        records=sum(row["kind"] == "record" for row in asked),
+    )
+
+
+def sampled(compared: list[dict], kind: str, count: int) -> list[Minimum]:
+    """Return minima of a seeded sample of the motions of a kind."""
+    found = [row["found"] for row in compared if row["kind"] == kind]
+    found = [one for one in found if math.isfinite(one.acceleration)]
+    return [found[place] for place in np.random.default_rng(SEED).permutation(len(found))[:count]]
+
+
+def carried(table: pd.DataFrame) -> dict:
+    """Return, for each worth, how much of the gain α, p and √r carry: mean and range."""
+    single = table[table.shapley_value.notna()]
+    found = single.groupby(["worth", "taken_from_the_frame"]).share_of_gain
+    return {
+        worth: {
+            name: [float(found.agg(how)[worth, name]) for how in ("mean", "min", "max")]
+            for name in PARAMETERS
+        }
+        for worth in WORTHS
+    }
+
+
+def motions(
+    column: Column, case: dict, paths: list[str]
+) -> list[tuple[Pulse | Record, list[float], dict]]:
+    """Return every motion, of unit peak, with the γ that it is tried with and its labels."""
+    spec, p = case["spectra"], column.frequency_parameter
+    pulses = [
+        (
+            Pulse(shape, 1.0, ratio * p),
+            spec["mass_ratios"],
+            {"kind": "pulse", "motion": shape, "frequency_ratio": ratio},
+        )
+        for shape in spec["shapes"]
+        for ratio in grid(spec["frequency_ratios"])
+    ]
+    return pulses + [
+        (
+            record.scaled(1.0 / np.abs(record.acceleration).max()),
+            case["record_mass_ratios"],
+            {"kind": "record", "motion": record.name, "frequency_ratio": math.nan},
+        )
+        for record in map(read_record, paths)
+    ]
+
+
+def ranks(summary: pd.DataFrame) -> bool:
+    """Whether fixed < bare < free under each pulse of the period, for every γ > 0."""
+    of = summary.set_index(["structure", "shape"]).sort_index().minimum_overturning
+    return all(
+        of["fixed", shape].max() < of["bare", shape].min()
+        and of["free", shape].min() > of["bare", shape].max()
+        for shape in summary["shape"].unique()
+    )
+
+
+def main(case: dict, paths: list[str], tightened: float) -> tuple:
+    column = Column(**case["column"])
+    summary = pd.DataFrame(under_pulses(column, case))
+    highest = case["spectra"]["highest"] * column.uplift_acceleration
+    tried = motions(column, case, paths)
+    found = (search(column, motion, ratios, highest, labels) for motion, ratios, labels in tried)
+    rows = [row for part in progress(found, len(tried), "motions") for row in part]
+    compared = [row for row in rows if is_compared(row, tightened)]
+    exceptions = pd.DataFrame([exception(row) for row in compared if is_exception(row)])
+    sample = sampled(compared, "pulse", case["sample"]["points"])
+    sample += sampled(compared, "record", case["checked_by_second_route"])
+    errors = [*(one.error / one.acceleration for one in sample)]
+    errors += [*(summary.error / summary.minimum_overturning)]
+    of_shares = pd.DataFrame(shares(column, case))
+    portals = summary[(summary.structure == "portal") & (summary["shape"] == case["shapes"][0])]
+    longest = case["longest"]
+    findings = {
+        "fixed_mass_always_lowers": question(compared, ["fixed"], longest),
+        "frame_always_raises": question(compared, ["free"], longest),
+        "support_decides": question(compared, ["fixed", "free"], longest)
+        | {"under_the_pulses_of_the_period": ranks(summary)},
+        "portal_has_a_wider_base": truth(
+            (portals.slenderness_deg > summary.slenderness_deg[0]).all(),
+            slenderness_deg=portals.slenderness_deg,
+            minimum_overturning_g=portals.minimum_overturning,
+        ),
+        "shares_of_the_gain": truth(True, **carried(of_shares)),
+        "second_route": truth(
+            bool(np.all(np.isfinite(errors))) and bool(exceptions.later_one_survives.all()),
+            boundaries=len(errors),
+            largest_relative_error=float(np.max(errors)) if np.all(np.isfinite(errors)) else None,
+            exceptions=len(exceptions),
+            neither_overturns=sum(row["structure"] != "bare" and not minima(row) for row in rows),
+            not_told=sum(bool(row["structure"] != "bare" and minima(row)) for row in rows)
+            - len(compared),
+        ),
+    }
+    tables = summary, pd.DataFrame(map(plain, rows)), exceptions, of_shares
+    return *tables, pd.DataFrame(poses(column, case)), findings
+
+
+def work(job: Any) -> tuple:
+    return main(job.params.case, job.input.records, job.params.solver["tightened"])
+
+
+if __name__ == "__main__":
+    run(snakemake, work)

@@ -1,0 +1,103 @@
+"""What one pulse does to bare column, fixed mass and frame: outlines of the bodies, to scale."""
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from topheavy import Column, FixedMassColumn, Pulse, RockingFrame, simulate
+from topheavy.kinematics import cap_displacement, column_outline, turned_with_column
+from topheavy.structures import Structure
+
+FALL = (0.0, 0.15, 0.4, 0.7, 1.0)  # of the last rotation: poses of what overturns
+CLOSENESS = 1e-9  # m: how far a body may be in the ground
+
+
+def rectangle(middle: float, width: float, low: float, depth: float) -> np.ndarray:
+    """Return the corners of a rectangle, shape (5, 2), m, closed."""
+    left, right = middle - width / 2.0, middle + width / 2.0
+    high = low + depth
+    return np.array([[left, low], [right, low], [right, high], [left, high], [left, low]])
+
+
+def lying(column: Column, corners: np.ndarray) -> float:
+    """Return the rotation (rad) at which a corner of an overturning body meets the ground.
+
+    The corners turn with the column about its right corner.
+    """
+    raised = corners[corners[:, 1] > 0.0]
+    return float(np.min(math.pi / 2.0 - np.arctan2(raised[:, 0] - column.half_width, raised[:, 1])))
+
+
+def bodies(structure: Structure, rotation: float, case: dict) -> dict[str, np.ndarray]:
+    """Return the outlines of the bodies of a structure that has rocked by θ."""
+    if isinstance(structure, Column):
+        return {"column": column_outline(structure, rotation)}
+    column, cap = structure.column, case["cap"]
+    top = 2.0 * column.half_height
+    if isinstance(structure, FixedMassColumn):
+        corners = rectangle(0.0, cap["width"], top, cap["depth"])
+        return {
+            "column": column_outline(column, rotation),
+            "cap": turned_with_column(column, rotation, corners),
+        }
+    half = cap["width"] - column.half_width  # between the axis of a column and the middle
+    moved = np.array(cap_displacement(column, rotation))
+    return {
+        "left column": column_outline(column, rotation) - [half, 0.0],
+        "right column": column_outline(column, rotation) + [half, 0.0],
+        "cap": rectangle(0.0, 2.0 * cap["width"], top, cap["depth"]) + moved,
+    }
+
+
+def rotations(structure: Structure, pulse: Pulse, case: dict) -> tuple[str, list[float]]:
+    """Return the outcome, and the rotations that are drawn, the last one last.
+
+    Of a structure that survives these are its largest rotations to both sides, and 0.
+    """
+    times = np.linspace(0.0, 6.0 * pulse.duration, 4001)
+    response = simulate(structure, pulse, samples=times)
+    if not response.overturned:
+        theta = response.rotation
+        return response.outcome, [float(theta.min()), float(theta.max()), 0.0]
+    if isinstance(structure, RockingFrame):
+        raise ValueError(
+            f"vase.picture: the frame overturns at {pulse.amplitude:.6g} g; expected amplitudes "
+            "that it survives, since its bodies part when it falls"
+        )
+    seen = response.rotation[~np.isnan(response.rotation)]
+    column = structure if isinstance(structure, Column) else structure.column
+    corners = np.concatenate(list(bodies(structure, 0.0, case).values()))
+    last = math.copysign(lying(column, corners), seen[-1])
+    return response.outcome, [last * share for share in FALL]
+
+
+def poses(column: Column, case: dict) -> Iterator[dict]:
+    """Yield a row for each corner of each body of each pose."""
+    gamma, cap = case["picture"]["mass_ratio"], case["cap"]
+    structures = {
+        "bare": column,
+        "fixed": FixedMassColumn(column, gamma, cap["width"], cap["depth"]),
+        "free": RockingFrame(column, gamma),
+    }
+    for amplitude in case["picture"]["amplitudes"]:
+        pulse = Pulse("one-cosine", amplitude, 2.0 * math.pi / case["period"])
+        for name, structure in structures.items():
+            outcome, drawn = rotations(structure, pulse, case)
+            for pose, rotation in enumerate(drawn):
+                for body, outline in bodies(structure, rotation, case).items():
+                    if outline[:, 1].min() < -CLOSENESS:
+                        raise ArithmeticError(f"{name}: the {body} is in the ground")
+                    for x, y in outline:
+                        yield {
+                            "amplitude": amplitude,
+                            "mass_ratio": gamma,
+                            "structure": name,
+                            "outcome": outcome,
+                            "pose": pose,
+                            "rotation": rotation,
+                            "last": pose == len(drawn) - 1,
+                            "body": body,
+                            "x": x,
+                            "y": y,
+                        }

@@ -1,0 +1,166 @@
+"""What fixing the cap's mass implies. Each function proves what its docstring states.
+
+α', p' and √r' are those of the column with the fixed mass; γ is that of the frame whose cap beam
+has the same mass for each column. With x = tan² α > 0 every comparison is one of
+rational functions.
+"""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from topheavy.derivation.bodies import half_depth
+from topheavy.derivation.equilibrium import (
+    RECTANGULAR,
+    column_motion,
+    frequency_ratio,
+    squared_frequency,
+)
+from topheavy.derivation.fixed_mass import (
+    CONCENTRATED,
+    I_b,
+    fixed_fourth_power,
+    fixed_lagrange,
+    fixed_motion,
+    fixed_restitution,
+    fixed_tangent,
+)
+from topheavy.derivation.impact import column_restitution, restitution, tangent_form
+from topheavy.derivation.notation import (
+    NEGATIVE,
+    POSITIVE,
+    SIDES,
+    R,
+    alpha,
+    g,
+    gamma,
+    ground_acceleration,
+    m_c,
+    vanishes,
+)
+
+_x = sp.Symbol("x", positive=True)
+_CAP = gamma * m_c
+
+
+def _inertia() -> sp.Expr:
+    """I about the corner: the column's, and by Steiner the cap's."""
+    height = 2 * R * sp.cos(alpha) + half_depth
+    arm = (R * sp.sin(alpha)) ** 2 + height**2
+    return sp.Rational(4, 3) * m_c * R**2 + I_b + _CAP * arm
+
+
+def _fourth_powers() -> tuple[sp.Expr, sp.Expr, sp.Expr]:
+    """p'⁴ for a concentrated mass, p⁴ of the column and p̂⁴ of the frame, in x and γ."""
+    squared = squared_frequency(column_motion(NEGATIVE), NEGATIVE).subs(RECTANGULAR)
+    fixed = tangent_form(fixed_fourth_power().subs(CONCENTRATED))
+    return fixed, squared**2, squared**2 * frequency_ratio() ** 4
+
+
+def fixed_mass_rocks_as_one_column() -> bool:
+    """Column and fixed cap obey θ̈ = −p'² {sin(α' sgn θ − θ) + ü_g/g cos(α' sgn θ − θ)}, Eq. (3).
+
+    p'² = M g R'/I and tan α' = B/H follow, with the centre of gravity at R' sin α' = B beside the
+    corner and R' cos α' = H above it, and I about the corner.
+    """
+    mass = m_c + _CAP
+    beside = R * sp.sin(alpha)
+    above = (m_c * R * sp.cos(alpha) + _CAP * (2 * R * sp.cos(alpha) + half_depth)) / mass
+    found = [vanishes(fixed_tangent() - beside / above, NEGATIVE)]
+    distance = beside**2 + above**2
+    found.append(vanishes(fixed_fourth_power() - (mass * g / _inertia()) ** 2 * distance, NEGATIVE))
+    for side in SIDES:
+        cos, sin = sp.cos(side.rotation), side.sign * sp.sin(side.rotation)
+        # R' sin(α' − |θ|) and R' cos(α' − |θ|)
+        across, along = beside * cos - above * sin, above * cos + beside * sin
+        eq3 = -mass / _inertia() * (g * side.sign * across + ground_acceleration * along)
+        found.append(vanishes(fixed_motion(side) - eq3, side))
+    return all(found)
+
+
+def energies_give_the_same_motion_of_the_fixed_mass() -> bool:
+    """Energies alone give the same equation of motion as the balances of column and cap."""
+    return all(vanishes(fixed_motion(side) - fixed_lagrange(side), side) for side in SIDES)
+
+
+def impulses_give_the_restitution_of_the_fixed_mass() -> bool:
+    """√r' = 1 − 2 M b²/I on both sides, with M = (1 + γ) m_c."""
+    stated = 1 - 2 * (m_c + _CAP) * (R * sp.sin(alpha)) ** 2 / _inertia()
+    return all(vanishes(fixed_restitution(side) - stated, side) for side in SIDES)
+
+
+def fixed_mass_lowers_the_uplift_acceleration() -> bool:
+    """tan α' = tan α (1 + γ)/(1 + 2γ) at most: it falls with γ and d, from tan α to (tan α)/2.
+
+    The bound is reached by a mass concentrated at the top; as γ → ∞ it tends to (tan α)/2.
+    """
+    concentrated = fixed_tangent().subs(CONCENTRATED)
+    stated = sp.tan(alpha) * (1 + gamma) / (1 + 2 * gamma)
+    sine, cosine = sp.symbols("s c", positive=True)
+    plain = fixed_tangent().subs({sp.sin(alpha): sine, sp.cos(alpha): cosine})
+    plain = plain.subs(sp.tan(alpha), sine / cosine)
+    falls = [sp.factor(sp.diff(plain, by)).is_negative for by in (gamma, half_depth)]
+    ends = (stated.subs(gamma, 0), sp.limit(stated, gamma, sp.oo))
+    reached = ends == (sp.tan(alpha), sp.tan(alpha) / 2)
+    return reached and all(falls) and vanishes(concentrated - stated, NEGATIVE)
+
+
+def fixed_mass_tends_to_the_column() -> bool:
+    """For γ → 0 the column with the fixed mass, like the frame, is the column: α, p and √r."""
+    fixed, column, frame = (power.subs(gamma, 0) for power in _fourth_powers())
+    light = {gamma: 0} | CONCENTRATED
+    return (
+        vanishes(fixed_tangent().subs(light) - sp.tan(alpha), NEGATIVE)
+        and sp.simplify(fixed - column) == sp.simplify(frame - column) == 0
+        and vanishes(fixed_restitution().subs(light) - column_restitution(), POSITIVE)
+        and vanishes(restitution().subs(gamma, 0) - column_restitution(), POSITIVE)
+    )
+
+
+def fixed_mass_tends_to_a_point_on_a_stalk() -> bool:
+    """For γ → ∞ the concentrated mass has p'² = g/√(b² + 4h²), and √r' = cos 2α'."""
+    fixed = sp.limit(_fourth_powers()[0], gamma, sp.oo)
+    b, h = R * sp.sin(alpha), R * sp.cos(alpha)
+    p_as_stated = tangent_form(g**2 / (b**2 + 4 * h**2))
+    root = tangent_form(sp.limit(fixed_restitution().subs(CONCENTRATED), gamma, sp.oo))
+    square = _x / 4  # tan²α'
+    return bool(
+        sp.factor(fixed - p_as_stated) == 0 and sp.factor(root - (1 - square) / (1 + square)) == 0
+    )
+
+
+def fixed_mass_slows_the_column() -> bool:
+    """p' < p for every γ > 0 and every α up to 45°: the mass at the top enlarges, though fixed."""
+    fixed, column, _ = _fourth_powers()
+    slender = sp.factor((column - fixed).subs(_x, 1 / (1 + sp.Symbol("y", positive=True))))
+    return bool(slender.is_positive)
+
+
+def freed_mass_slows_the_column_more() -> bool:
+    """p̂ < p' for every γ > 0 and every α."""
+    fixed, _, frame = _fourth_powers()
+    return bool(sp.factor(fixed - frame).is_positive)
+
+
+def fixed_mass_keeps_more_velocity() -> bool:
+    """√r' of the concentrated mass exceeds √r of the column exactly for tan²α < 8, for γ > 0.
+
+    √r of the column exceeds that of the frame for every α.
+    """
+    fixed = tangent_form(fixed_restitution().subs(CONCENTRATED))
+    column, frame = tangent_form(column_restitution()), tangent_form(restitution())
+    gain = sp.factor((fixed - column) / (8 - _x))
+    return bool(gain.is_positive) and bool(sp.factor(column - frame).is_positive)
+
+
+PROOFS = (
+    fixed_mass_rocks_as_one_column,
+    energies_give_the_same_motion_of_the_fixed_mass,
+    impulses_give_the_restitution_of_the_fixed_mass,
+    fixed_mass_lowers_the_uplift_acceleration,
+    fixed_mass_tends_to_the_column,
+    fixed_mass_tends_to_a_point_on_a_stalk,
+    fixed_mass_slows_the_column,
+    freed_mass_slows_the_column_more,
+    fixed_mass_keeps_more_velocity,
+)

@@ -1,0 +1,151 @@
+"""What the step on the vase finds, on cases that are known."""
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+
+from steps import vase, vase_poses, vase_searches, vase_shares
+from topheavy import Column, FixedMassColumn, Pulse, RockingBlock, RockingFrame
+
+COLUMN = Column(0.5, 3.0)
+PULSE = Pulse("one-cosine", 1.0, 2 * math.pi / 1.5)
+CASE = {
+    "cap": {"width": 2.6, "depth": 0.6},
+    "period": 1.5,
+    "picture": {"mass_ratio": 1.0, "amplitudes": [0.24, 0.29]},
+}
+
+
+def test_minimum_is_the_known_one_and_scipy_agrees():
+    found = vase_searches.minimum(FixedMassColumn(COLUMN, 1.0), PULSE, 2.0)
+    assert found.acceleration == pytest.approx(0.20358, abs=1e-4)
+    assert 0.0 < found.error < 1e-6
+    assert found.told(3e-12)
+
+
+def test_minimum_that_is_wrong_has_no_error():
+    found = vase_searches.minimum(COLUMN, PULSE, 2.0)
+    wrong = vase_searches.Minimum(COLUMN, PULSE, tuple(1.01 * end for end in found.bracket))
+    assert math.isnan(wrong.error)
+    assert not wrong.told(3e-12)
+
+
+def test_nothing_overturns_below_the_highest_acceleration():
+    assert vase_searches.minimum(COLUMN, PULSE, 0.25).acceleration == math.inf
+
+
+def test_refinement_finds_what_a_minimum_missed():
+    true = vase_searches.minimum(COLUMN, PULSE, 2.0)
+    missed = vase_searches.Minimum(COLUMN, PULSE, (0.9, 0.9))
+    assert vase_searches.refined(missed, 0.5).acceleration == pytest.approx(true.acceleration)
+    assert vase_searches.refined(missed, 0.25) == missed
+
+
+def row(structure, ours, bare, ratio=1.0, kind="pulse"):
+    found, other = (vase_searches.Minimum(COLUMN, PULSE, (value, value)) for value in (ours, bare))
+    return {
+        "kind": kind,
+        "structure": structure,
+        "frequency_ratio": ratio,
+        "found": found,
+        "bare": other,
+    }
+
+
+def test_exceptions_are_a_later_fixed_mass_and_an_earlier_frame():
+    assert vase.is_exception(row("fixed", 0.3, 0.2))
+    assert vase.is_exception(row("fixed", math.inf, 0.2))
+    assert not vase.is_exception(row("fixed", 0.2, 0.3))
+    assert vase.is_exception(row("free", 0.2, 0.3))
+    assert not vase.is_exception(row("free", math.inf, 0.3))
+    assert not vase.is_exception(row("bare", 0.3, 0.2))
+
+
+def test_exception_under_short_pulses_and_records_qualifies():
+    usual = row("fixed", 0.2, 0.3)
+    short = row("fixed", 0.4, 0.3, ratio=4.0)
+    record = row("fixed", 0.4, 0.3, ratio=math.nan, kind="record")
+    assert vase.question([usual], ["fixed"], 2.5)["holds"]
+    found = vase.question([usual, short, record], ["fixed"], 2.5)
+    assert (found["holds"], found["holds_when"]) == (False, True)
+    assert (found["comparisons"], found["comparisons_when"], found["exceptions"]) == (3, 1, 2)
+    assert found["exceptions_under_records"] == found["records"] == 1
+    long_one = vase.question([usual, row("fixed", 0.4, 0.3)], ["fixed"], 2.5)
+    assert not long_one["holds_when"]
+    assert not vase.question([short], ["fixed"], 2.5)["holds_when"]
+
+
+def test_exchange_of_all_three_parameters_makes_the_frame():
+    fixed, free = FixedMassColumn(COLUMN, 4.0).block(), RockingFrame(COLUMN, 4.0).block()
+    assert vase_shares.exchanged(fixed, free, ()) == fixed
+    assert vase_shares.exchanged(fixed, free, ("α", "p", "√r")) == free
+    mixed = vase_shares.exchanged(fixed, free, ("p",))
+    assert mixed == RockingBlock(free.frequency_parameter, fixed.slenderness, fixed.restitution)
+
+
+def test_subsets_are_the_eight():
+    assert len(set(vase_shares.subsets())) == 8
+
+
+def test_shapley_values_of_a_sum_are_its_terms():
+    terms = {"α": 0.5, "p": -0.125, "√r": 0.25}
+    worth = {subset: sum(terms[name] for name in subset) for subset in vase_shares.subsets()}
+    assert vase_shares.shapley(worth) == pytest.approx(terms)
+
+
+def test_shapley_values_share_a_joint_gain_equally():
+    worth = {subset: float({"α", "√r"} <= set(subset)) for subset in vase_shares.subsets()}
+    assert vase_shares.shapley(worth) == pytest.approx({"α": 0.5, "p": 0.0, "√r": 0.5})
+
+
+def test_shapley_values_add_up_to_the_whole():
+    random = np.random.default_rng(14)
+    worth = {subset: float(random.random()) for subset in vase_shares.subsets()}
+    whole = worth["α", "p", "√r"] - worth[()]
+    assert sum(vase_shares.shapley(worth).values()) == pytest.approx(whole)
+
+
+@pytest.fixture(scope="module")
+def poses():
+    return list(vase_poses.poses(COLUMN, CASE))
+
+
+def test_picture_shows_what_happens_to_each(poses):
+    outcomes = {(p["amplitude"], p["structure"]): p["outcome"] == "overturned" for p in poses}
+    assert outcomes == {
+        (0.24, "bare"): False,
+        (0.24, "fixed"): True,
+        (0.24, "free"): False,
+        (0.29, "bare"): True,
+        (0.29, "fixed"): True,
+        (0.29, "free"): False,
+    }
+
+
+def test_bodies_keep_their_sides_and_lie_on_the_ground_at_last(poses):
+    key = ("amplitude", "structure", "pose", "body")
+    lowest = {}
+    for of, rows in itertools.groupby(poses, key=lambda p: [p[name] for name in key]):
+        corners = [(p["x"], p["y"], p["last"]) for p in rows]
+        sides = [math.dist(a[:2], b[:2]) for a, b in itertools.pairwise(corners)]
+        expected = {1.0, 6.0} if "column" in of[3] else {0.6, 5.2 if of[1] == "free" else 2.6}
+        assert {round(side, 9) for side in sides} == expected
+        if corners[0][2]:
+            lowest.setdefault((of[0], of[1]), []).append(min(y for _, y, _ in corners))
+    assert all(min(ends) == pytest.approx(0.0, abs=1e-9) for ends in lowest.values())
+
+
+def test_fixed_cap_meets_the_ground_before_its_column_lies_flat():
+    corners = np.concatenate(
+        list(vase_poses.bodies(FixedMassColumn(COLUMN, 1.0, 2.6, 0.6), 0.0, CASE).values())
+    )
+    last = vase_poses.lying(COLUMN, corners)
+    assert last == pytest.approx(math.pi / 2 - math.atan2(0.8, 6.0), rel=1e-12)
+
+
+def test_frame_that_would_overturn_is_refused():
+    pulse = Pulse("one-cosine", 0.5, 2 * math.pi / 1.5)
+    with pytest.raises(ValueError, match=r"vase\.picture: the frame overturns at 0\.5 g; expected"):
+        vase_poses.rotations(RockingFrame(COLUMN, 1.0), pulse, CASE)
