@@ -139,9 +139,9 @@ for document in DOCUMENTS:
         input:
             code("src/replication/rules/report.py"),
             reads(f"paper/{document}.typ", *SECTIONS),
-            source=f"paper/{document}.typ",
             expand("results/findings/{name}.json", name=FINDINGS),
             expand("{figure}.svg", figure=FIGURES),
+            source=f"paper/{document}.typ",
         output:
             f"paper/{document}.pdf",
         log:
