@@ -13,31 +13,30 @@ $(error the path $(CURDIR) has a space or one of $(UNQUOTED) in it; expected let
 endif
 
 UV  := $(shell command -v uv 2>/dev/null || echo .uv/bin/uv)
-# The optional rigid-body engine of the study `mechanism`; `ENGINE=` does not install it.
-ENGINE ?= engine
-RUN := $(UV) run --locked --no-dev $(if $(value ENGINE),--group "$$ENGINE")
-DEV := $(UV) run --locked $(if $(value ENGINE),--group "$$ENGINE")
-BENCH := $(UV) run --locked --no-dev --group bench
-CELLS ?= 40000
-CONFIG ?= config/thorough.yaml
+RUN = $(UV) run --locked --no-dev $(GROUPS)
+DEV = $(UV) run --locked $(GROUPS)
+
+.DEFAULT_GOAL := help
+
+# What only this paper needs: its targets, options of uv in GROUPS, names of variables in OWN.
+-include paper.mk
 
 # A run starts a hundred Pythons. Where compiled modules are not kept, each would compile all anew.
 export PYTHONDONTWRITEBYTECODE :=
 
 # Commands receive these variables unchanged through the environment, so that neither make nor the
 # shell can interpret a value as code.
-GIVEN := CORES CELLS CONFIG ENGINE FAULTS ITEM NAME ROTATE
+GIVEN := CORES ITEM NAME $(OWN)
 $(foreach name,$(GIVEN),$(eval override $(name) := $$(value $(name))))
 export $(GIVEN)
 WHOLE = case "$$$(1)" in ''|0*|*[!0-9]*) \
   echo "$(1) is '$$$(1)'; expected a whole number from 1 on" >&2; exit 2;; esac
 SNAKEMAKE = $(call WHOLE,CORES); $(RUN) snakemake --cores "$$CORES"
 
-.PHONY: help reproduce check trace verify html audit test lint publish study kill-table benchmark verify-grid unlock clean
-.DEFAULT_GOAL := help
+.PHONY: help reproduce check trace verify html test lint publish study unlock clean
 
 help: ## show this list
-	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/make \1|\2/p' Makefile | \
+	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/make \1|\2/p' $(MAKEFILE_LIST) | \
 	  while IFS='|' read -r target text; do printf '  %-16s %s\n' "$$target" "$$text"; done
 
 reproduce: | $(UV) ## compute every result, check every claim, compile the report (CORES=2)
@@ -46,7 +45,7 @@ reproduce: | $(UV) ## compute every result, check every claim, compile the repor
 check: | $(UV) ## judge every claim again from the published findings, tables and pages; no run
 	@$(RUN) python -m steps.recheck
 
-trace: | $(UV) ## show the origin of a figure, table, finding or claim (ITEM=figures/heavier.svg)
+trace: | $(UV) ## from a figure, table, finding or claim to its source (ITEM=results/claims.json)
 	@$(RUN) python -m replication.commands.trace "$$ITEM"
 
 verify: | $(UV) ## compare every file of a finished run with results/manifest.json
@@ -69,13 +68,9 @@ lint: | $(UV) ## check style, types, spelling, wording and schemas; changes noth
 	$(DEV) codespell
 	$(DEV) python -m replication.commands.words
 	$(DEV) snakefmt --check --compact-diff Snakefile $(wildcard src/*/*.smk studies/*/*.smk)
-	$(DEV) check-jsonschema --check-metaschema config/config.schema.yaml
-	$(DEV) check-jsonschema --schemafile config/config.schema.yaml config/config.yaml
-	for study in studies/*/; do \
-	  $(DEV) check-jsonschema --check-metaschema $${study}config.schema.yaml && \
-	  $(DEV) check-jsonschema --schemafile $${study}config.schema.yaml $${study}config.yaml || exit 1; done
-	$(DEV) check-jsonschema --check-metaschema paper/assumptions.schema.yaml
-	$(DEV) check-jsonschema --schemafile paper/assumptions.schema.yaml paper/assumptions.yaml
+	for schema in $(wildcard config/*.schema.yaml studies/*/*.schema.yaml paper/*.schema.yaml); do \
+	  $(DEV) check-jsonschema --check-metaschema $$schema && \
+	  $(DEV) check-jsonschema --schemafile $$schema $${schema%.schema.yaml}.yaml || exit 1; done
 	$(DEV) check-jsonschema --builtin-schema vendor.citation-file-format CITATION.cff
 	$(DEV) check-jsonschema --builtin-schema vendor.github-workflows .github/workflows/ci.yaml
 	$(DEV) validate-pyproject pyproject.toml
@@ -90,33 +85,16 @@ lint: | $(UV) ## check style, types, spelling, wording and schemas; changes noth
 publish: | $(UV) ## copy results to docs/ and tests/reference/; read the diff, then commit it
 	@$(RUN) python -m steps.publish
 
-audit: | $(UV) ## finer grids, tighter tolerances, all solvers, all faults; one hour (CONFIG, CELLS, ROTATE)
-	@$(SNAKEMAKE) --configfile "$$CONFIG"
-	@$(MAKE) --no-print-directory verify-grid benchmark kill-table
-	@echo "results/ is that of $$CONFIG now: 'make reproduce' brings ours back"
-
-study: | $(UV) ## create a follow-up study: make study NAME=my_study (FOLLOW-UP.md)
+study: | $(UV) ## begin a follow-up study: make study NAME=my_study (FOLLOW-UP.md)
 	@$(RUN) python -m replication.commands.new_study "$$NAME"
 
-kill-table: | $(UV) ## insert errors into a copy, one at a time, and find what catches each (FAULTS=a,b or ROTATE=3)
-	@$(if $(value ROTATE),$(call WHOLE,ROTATE))
-	@$(DEV) python -m replication.commands.kill_table \
-	  $${FAULTS:+"--faults=$$FAULTS"} $${ROTATE:+"--rotate=$$ROTATE"}
-
-benchmark: | $(UV) ## time the Taylor solver and other solvers; writes docs/benchmark.csv and .svg (5 minutes)
-	@$(BENCH) python benchmarks/benchmark.py
-
-verify-grid: | $(UV) ## compare outcomes with an independent solver (CELLS=40000 a set)
-	@$(call WHOLE,CELLS)
-	@$(BENCH) python benchmarks/verify_grid.py "$$CELLS"
-
-unlock: | $(UV) ## unlock the directory after a run was killed (no other run may be active)
+unlock: | $(UV) ## after a killed run left the directory locked (no other run may be going on)
 	@$(RUN) snakemake --unlock
 
-clean: ## delete all output of the workflow and the tools; keep the environment
-	rm -rf results .snakemake figures/*.svg studies/*/figures/*.svg paper/report.pdf
+clean: ## remove all that the workflow and the tools wrote; keep the environment
+	rm -rf results .snakemake figures/*.svg studies/*/figures/*.svg paper/*.pdf
 	rm -rf .kill_table.jsonl .pytest_cache .ruff_cache .mypy_cache .hypothesis
-	find src figures studies tests benchmarks faults -name __pycache__ -type d -prune -exec rm -rf {} +
+	find . \( -name .venv -o -name .uv \) -prune -o -name __pycache__ -type d -prune -exec rm -rf {} +
 
 .uv/bin/uv:
 	@echo "uv is not on the PATH: fetching uv $(UV_VERSION) into .uv/"

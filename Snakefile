@@ -23,6 +23,7 @@ RECORDS = record_files()
 PARTS = parts(partial(check_inputs, structures=config["structures"]))
 
 
+include: "src/steps/common.smk"
 include: "src/steps/paper.smk"
 
 

@@ -4,7 +4,7 @@ import math
 
 from matplotlib.patches import Arc, Polygon
 
-from replication.drawing import ACCENT, CAP, DOUBLE, GREY, INK, STONE, letter, note, publish, sheet
+from replication.drawing import ACCENT, DOUBLE, GREY, INK, SKY, STONE, letter, note, publish, sheet
 
 SET_OFF = 0.14  # m, between the cap and what is drawn beside it
 FORCES = {  # name; label and its place beside the arrow's free end, in points
@@ -33,7 +33,7 @@ def arrow(axis, start, step, colour=ACCENT, style="-|>"):
 def rotation(axis, outlines, lines):
     """Draw the frame at rest (dashed) and displaced, with u, v, the pivots and a diagonal."""
     aside = {"textcoords": "offset points"}
-    faces = {"cap": CAP, "left column": STONE, "right column": STONE}
+    faces = {"cap": SKY, "left column": STONE, "right column": STONE}
     for name, face in faces.items():
         for panel, look in (
             ("at rest", {"facecolor": "none", "edgecolor": GREY, "linestyle": (0, (3, 2))}),
@@ -82,7 +82,7 @@ def rotation(axis, outlines, lines):
 
 def forces(axis, cap, lines, ground):
     """Draw the cap beam and the forces on it, to scale, over their values."""
-    outline(axis, cap, facecolor=CAP)
+    outline(axis, cap, facecolor=SKY)
     values = []
     for name, (text, aside) in FORCES.items():
         force = lines.loc[name]

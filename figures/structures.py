@@ -5,10 +5,10 @@ from matplotlib.patches import Polygon
 from figures.drawing import gamma
 from replication.drawing import (
     ACCENT,
-    CAP,
     DOUBLE,
     GREY,
     INK,
+    SKY,
     STONE,
     letter,
     note,
@@ -28,7 +28,7 @@ def structure(axis, parts, middle):
             axis.plot(x, y, "o", color="white", markeredgecolor=ACCENT, markersize=4.5)
             axis.plot(x, y, ".", color=ACCENT, markersize=2)
         else:
-            face = CAP if body == "cap" else STONE
+            face = SKY if body == "cap" else STONE
             corners = list(zip(x, y, strict=True))
             axis.add_patch(Polygon(corners, facecolor=face, edgecolor=INK, linewidth=0.8))
 

@@ -47,7 +47,8 @@ def test_the_schema_is_one():
         {"tolerance": 0.1},
         {"expected": "not tested", "remark": "Has a finding."},
         {"expected": "qualified"},
-        {"equation": 26},
+        {"equation": 0},
+        {"function": "steps.spectra.main"},
         {"by_definition": True},
         {"expected": "by definition", "remark": "Has a finding."},
         {"ours": False},
@@ -78,6 +79,10 @@ def test_no_statement_is_made_twice():
         (row["statement"], row.get("equation"), row.get("printed"), row["where"]) for row in LEDGER
     )
     assert max(twice.values()) == 1
+
+
+def test_no_row_has_an_equation_that_the_paper_has_not():
+    assert {row["equation"] for row in LEDGER if "equation" in row} <= set(range(1, 26))
 
 
 @pytest.mark.parametrize("number", range(1, 26))

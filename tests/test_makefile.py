@@ -12,7 +12,8 @@ ROOT = Path(__file__).resolve().parents[1]
 @pytest.fixture
 def make(tmp_path):
     """Run make with a uv that prints what it is asked to run."""
-    shutil.copy(ROOT / "Makefile", tmp_path)
+    for name in ("Makefile", "paper.mk"):
+        shutil.copy(ROOT / name, tmp_path)
     uv = tmp_path / "uv"
     uv.write_text('#!/bin/sh\nfor word; do printf "<%s>" "$word"; done\n', encoding="utf-8")
     uv.chmod(0o755)
@@ -35,7 +36,13 @@ CODE = ["$(shell touch F)", "a'; touch F; '", 'a"; touch F; "', "`touch F`", "$$
 @pytest.mark.parametrize("code", CODE)
 @pytest.mark.parametrize(
     ("target", "name"),
-    [("trace", "ITEM"), ("study", "NAME"), ("kill-table", "FAULTS"), ("audit", "CONFIG")],
+    [
+        ("trace", "ITEM"),
+        ("study", "NAME"),
+        ("kill-table", "FAULTS"),
+        ("audit", "CONFIG"),
+        ("paper", "TO"),
+    ],
 )
 def test_argument_is_passed_word_for_word_and_never_run(make, tmp_path, target, name, code):
     for ran in (make(target, f"{name}={code}"), make(target, **{name: code})):

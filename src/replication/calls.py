@@ -18,6 +18,9 @@ PLACES = {path.name: "src" for path in Path("src").glob("*") if path.name != "re
 PLACES |= {"studies": "."}
 """The packages whose functions are noted, and the folder that each lies in, from the root."""
 
+LIBRARIES = frozenset(PLACES) - {"steps", "studies"}
+"""The packages that the steps take their code from."""
+
 
 @contextmanager
 def noted(modules: Iterable[tuple[str, ModuleType]]) -> Iterator[set[str]]:
@@ -31,7 +34,7 @@ def noted(modules: Iterable[tuple[str, ModuleType]]) -> Iterator[set[str]]:
     Yields
     ------
     set of str
-        The full names, such as `topheavy.structures.RockingFrame.block`; it grows with the calls.
+        The full names, such as `lib.shapes.Body.mass`; it grows with the calls.
         A class is called when an object of it is made.
     """
     called: set[str] = set()
@@ -56,7 +59,7 @@ def library(declared: Iterable[str]) -> Iterator[tuple[str, ModuleType]]:
     """
     for path in sorted(declared):
         name = _module_name(path)
-        if name.startswith("topheavy") or name in sys.modules:
+        if name.split(".")[0] in LIBRARIES or name in sys.modules:
             yield name, pkgutil.resolve_name(f"{name}:")
     script = sys.modules["__main__"]
     if name := _module_name(os.path.relpath(getattr(script, "__file__", None) or "script")):
@@ -66,7 +69,7 @@ def library(declared: Iterable[str]) -> Iterator[tuple[str, ModuleType]]:
 def definition(name: str, root: str | Path = ".") -> str:
     """Return the full name of the object behind a public name, without importing it.
 
-    `topheavy.simulate` is `topheavy.simulate.simulate`. A function goes before a module of its
+    `lib.simulate` is `lib.simulate.simulate`. A function goes before a module of its
     name, as in `citations.resolve`.
 
     Raises

@@ -11,10 +11,7 @@ from pathlib import Path
 from types import CodeType, FunctionType, ModuleType
 from typing import Any
 
-LIBRARIES = frozenset(
-    path.name for path in Path("src").glob("*") if path.name not in ("replication", "steps")
-)
-"""The packages that the steps take their code from."""
+from replication.calls import LIBRARIES
 
 _NUMBER = r"\(\d+\)"
 _LIST = re.compile(rf"\bEqs?\.\s({_NUMBER}(?:\s?(?:–|,|and)\s?(?:Eqs?\.\s)?{_NUMBER})*)")

@@ -108,7 +108,7 @@ def _package(path: Path) -> str:
 
 def _names(tree: ast.Module, path: Path, package: str) -> Iterator[tuple[str, str]]:
     """Yield every import as a module and a name in it; the name is "" for the module itself."""
-    whole: dict[str, str] = {}  # the module behind a name: `import topheavy as th`
+    whole: dict[str, str] = {}  # what a name of this file stands for: `import lib as l`
     attributes = []
     for node in _nodes(tree):
         if isinstance(node, ast.Import):

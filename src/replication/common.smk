@@ -47,29 +47,6 @@ def parts(check):
     return {name: Part(name, of) for name, of in {PAPER: config, **studies}.items()}
 
 
-def case(section, part=PAPER):
-    """Return a section of the config of a part, with the column in place of the structure's name."""
-    entry = PARTS[part].config[section]
-    if "structure" not in entry:
-        return entry
-    return entry | {"column": config["structures"][entry["structure"]]}
-
-
-def named(entries, section):
-    """Return those of the entries (structures, say) that a section of a config names.
-
-    So a rule depends on them, and on no others.
-    """
-    if isinstance(section, dict):
-        inner = [*section, *section.values()]
-    elif isinstance(section, (list, tuple)):
-        inner = section
-    else:
-        return {section: entries[section]} if section in entries else {}
-    found = {name for part in inner for name in named(entries, part)}
-    return {name: entries[name] for name in entries if name in found}
-
-
 def everything(wildcards):
     """Return all that a run makes, but for the list of it, which is made last.
 

@@ -17,10 +17,10 @@ from replication.workbench import run
 
 SINGLE, DOUBLE = 88.0, 180.0  # widths of one and of two columns, mm
 
-# One hue by lightness for γ, the heavier the darker; one accent, for what leaves or misleads.
+# One hue by lightness, the larger the darker; one accent, for what leaves or misleads.
 INK, GREY = "#1a1a1a", "#737373"
 ACCENT = "#c8501a"
-STONE, CAP = "#e8e5df", "#bcd0e3"
+STONE, SKY = "#e8e5df", "#bcd0e3"  # for bodies that are drawn
 LIGHT, DARK = "#b3cde3", "#1d4770"  # two of that hue, for areas
 LIGHTEST, DARKEST = (0.58, 0.77, 0.90), (0.02, 0.14, 0.36)
 

@@ -22,12 +22,15 @@ class Part:
         By figure, named by its script without the ending: the tables that it is drawn from.
     findings
         The rules whose findings the claims are judged by.
+    data
+        The files that its notebooks read, beside the code that they import.
     """
 
     name: str
     config: Mapping[str, Any]
     figures: dict[str, list[str]] = field(default_factory=dict)
     findings: list[str] = field(default_factory=list)
+    data: list[str] = field(default_factory=list)
 
     @property
     def claims(self) -> str:

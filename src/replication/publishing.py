@@ -5,12 +5,15 @@ import json
 import os
 import platform
 import shutil
+import sys
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from replication.ledger import OURS
+from replication.ledger import OURS, read_ledger
 from replication.rules.claims import as_text, read_findings
 from replication.rules.claims import main as judge_all
+from replication.strict_yaml import read_yaml
 from replication.verdicts import VERDICTS, by_origin
 from replication.workbench import write_findings
 
@@ -144,6 +147,49 @@ def _shown(value: object, unit: str) -> str:
             return f"{value:.6g} {unit}".rstrip()
         case _:
             return str(value)
+
+
+def publish(tables: Iterable[str], study_tables: Iterable[str] = ()) -> None:
+    """Copy what every replication publishes of a finished run: `make publish`.
+
+    tests/reference/ gets the config, the tables, the findings, their checksums and the verdicts;
+    docs/ and the README get the pages that show the verdicts.
+
+    Parameters
+    ----------
+    tables
+        Those with which later runs are compared.
+    study_tables
+        The sources of the studies' findings. A study that was not part of the run has none.
+
+    Raises
+    ------
+    SystemExit
+        When there is no finished run, or it was made with another config.
+    """
+    results, reference = Path("results"), Path("tests/reference")
+    if not (results / "claims.json").exists():
+        sys.exit("results/claims.json does not exist; expected a finished run: make reproduce")
+    used, ours = read_yaml(results / "config.yaml"), read_yaml("config/config.yaml")
+    if used != ours:
+        sections = sorted(key for key in {*used, *ours} if used.get(key) != ours.get(key))
+        sys.exit(
+            f"results/ was made with another config, which differs in {', '.join(sections)}; "
+            "expected that of config/config.yaml: make reproduce"
+        )
+    Path("docs").mkdir(exist_ok=True)
+    reference.mkdir(parents=True, exist_ok=True)
+    shutil.copyfile("config/config.yaml", reference / "config.yaml")
+    for name in tables:
+        shutil.copyfile(results / "tables" / f"{name}.csv", reference / f"{name}.csv")
+    for name in study_tables:
+        if (made := results / "tables" / f"{name}.csv").exists():
+            (reference / "studies").mkdir(exist_ok=True)
+            shutil.copyfile(made, reference / "studies" / f"{name}.csv")
+    publish_findings(results / "findings", reference / "findings")
+    (reference / CHECKSUMS).write_text(checksums(reference), encoding="utf-8")
+    studies = [f"studies/{name}/claims.yaml" for name in ours["studies"]]
+    publish_verdicts(read_ledger(["paper/claims.yaml", *studies]), Path())
 
 
 def publish_findings(findings: Path, folder: Path) -> None:

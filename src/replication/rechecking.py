@@ -1,6 +1,7 @@
 """Check the published rows, pages and files against each other, without a run."""
 
 import json
+import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from itertools import zip_longest
 from pathlib import Path
@@ -98,3 +99,12 @@ def main(
         *files(reference),
     ]
     return tallies(rows), faults
+
+
+def close(lines: Iterable[str], faults: Iterable[str]) -> None:
+    """Print what `main` returned, and end the process: with an error if there is a fault."""
+    sys.stdout.reconfigure(errors="replace")  # a terminal may know no Greek letters
+    faults = list(faults)
+    print(*faults, *lines, sep="\n")
+    print("the published findings, tables, claims and pages agree" if not faults else "they differ")
+    sys.exit(bool(faults))

@@ -7,6 +7,9 @@ FINDINGS = [name for part in PARTS.values() for name in part.findings]
 LEDGER = [part.claims for part in PARTS.values()]
 SECTIONS = [path for part in PARTS.values() for path in part.sections]
 NOTEBOOKS = sorted(path.stem for path in Path("notebooks").glob("*.ipynb"))
+DOCUMENTS = [
+    name for name in ("report", "supplement") if Path(f"paper/{name}.typ").is_file()
+]
 REFERENCES = sorted(map(str, Path("tests/reference").glob("*.csv")))
 
 check_ledger(LEDGER, FINDINGS)
@@ -40,7 +43,7 @@ rule notebook:
         code("src/replication/rules/notebook.py"),
         lambda wildcards: code(f"notebooks/{wildcards.name}.ipynb"),
         notebook="notebooks/{name}.ipynb",
-        record="data/records/el_centro_1940_NS.AT2",
+        data=PARTS[PAPER].data,
     output:
         executed="results/notebooks/{name}.ipynb",
         page="results/notebooks/{name}.html",
@@ -128,25 +131,29 @@ rule costs:
         "rules/costs.py"
 
 
-rule report:
-    input:
-        code("src/replication/rules/report.py"),
-        reads("paper/report.typ", *SECTIONS),
-        expand("results/findings/{name}.json", name=FINDINGS),
-        expand("{figure}.svg", figure=FIGURES),
-        source="paper/report.typ",
-    output:
-        "paper/report.pdf",
-    log:
-        "results/logs/report.log",
-    benchmark:
-        "results/benchmarks/report.tsv"
-    params:
-        studies=config["studies"],
-    message:
-        "Compiling the report"
-    script:
-        "rules/report.py"
+for document in DOCUMENTS:
+
+    rule:
+        name:
+            document
+        input:
+            code("src/replication/rules/report.py"),
+            reads(f"paper/{document}.typ", *SECTIONS),
+            expand("results/findings/{name}.json", name=FINDINGS),
+            expand("{figure}.svg", figure=FIGURES),
+            source=f"paper/{document}.typ",
+        output:
+            f"paper/{document}.pdf",
+        log:
+            f"results/logs/{document}.log",
+        benchmark:
+            f"results/benchmarks/{document}.tsv"
+        params:
+            studies=config["studies"],
+        message:
+            f"Compiling the {document}"
+        script:
+            "rules/report.py"
 
 
 # The audit: what was made and by what, each claim by itself ---------------------------------------

@@ -15,7 +15,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.patches import Polygon
 from PIL import Image
 
-from replication.drawing import ACCENT, CAP, GREY, INK, STONE
+from replication.drawing import ACCENT, GREY, INK, SKY, STONE
 from replication.workbench import run
 from steps.sketches import cap_outline
 from topheavy import Column, Pulse, RockingFrame, simulate
@@ -75,7 +75,7 @@ def stage(pulse: Pulse, times: np.ndarray, case: dict):
     figure, (scene, trace) = plt.subplots(
         nrows=2, figsize=SIZE, dpi=DPI, height_ratios=(4.7, 1), layout="constrained"
     )
-    faces = {"left column": STONE, "right column": STONE, "cap": CAP, "column": STONE}
+    faces = {"left column": STONE, "right column": STONE, "cap": SKY, "column": STONE}
     patches = {
         name: scene.add_patch(Polygon(np.zeros((5, 2)), facecolor=face, edgecolor=INK, zorder=2))
         for name, face in faces.items()
@@ -128,7 +128,7 @@ def main(case: dict) -> list[Image.Image]:
 
 def palette() -> Image.Image:
     """Return the colours of every picture: those drawn with, blended with ink and with white."""
-    drawn = np.array([mpl.colors.to_rgb(c) for c in (STONE, CAP, EARTH, ACCENT, GREY, "white")])
+    drawn = np.array([mpl.colors.to_rgb(c) for c in (STONE, SKY, EARTH, ACCENT, GREY, "white")])
     others = np.array([mpl.colors.to_rgb(c) for c in (INK, "white")])
     shares = np.linspace(0.0, 1.0, BLENDS)
     blends = (1.0 - shares)[:, None] * drawn[:, None, None] + shares[:, None] * others[:, None]

@@ -46,6 +46,7 @@ PARTS[PAPER].findings.extend(
         "verification",
     ]
 )
+PARTS[PAPER].data.append(RECORDS["el_centro_1940_NS"])
 
 # Findings that no claim rests on, and without which no claim is worth much.
 CHECKS = {

@@ -3,7 +3,6 @@
 The check also judges every row of the ledger again from the published findings, without a run.
 """
 
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -11,7 +10,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from replication.rechecking import Findings
+from replication.rechecking import Findings, close
 from replication.rechecking import main as recheck
 from replication.strict_yaml import read_yaml
 
@@ -111,8 +110,4 @@ def _differs(rule: str, name: str, key: str, expected: Any, findings: Findings) 
 
 
 if __name__ == "__main__":
-    sys.stdout.reconfigure(errors="replace")  # a terminal may know no Greek letters
-    lines, faults = main()
-    print(*faults, *lines, sep="\n")
-    print("the published findings, tables, claims and pages agree" if not faults else "they differ")
-    sys.exit(bool(faults))
+    close(*main())

@@ -56,6 +56,7 @@ def snakemake(root, *options):
     done = subprocess.run(
         [sys.executable, "-m", "snakemake", "--cores=1", "--scheduler=greedy", *options],
         cwd=root,
+        env=os.environ | {"PYTHONPATH": str(root / "src")},
         capture_output=True,
         text=True,
     )

@@ -71,7 +71,7 @@ def scripts_beside(jobs: Iterable[Job]) -> list[str]:
     ]
 
 
-MAKEFILE = (ROOT / "Makefile").read_text(encoding="utf-8")
+MAKEFILE = "".join((ROOT / name).read_text(encoding="utf-8") for name in ("Makefile", "paper.mk"))
 
 
 def test_every_output_is_used_or_reported(jobs):

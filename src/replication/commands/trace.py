@@ -41,8 +41,8 @@ def find(
 ) -> Item:
     """Return the item that a name denotes.
 
-    It may be an output or the end of its path, a claim, or a finding: `heavier.rises`, or with its
-    file, `findings/heavier.json:rises`.
+    It may be an output or the end of its path, a claim, or a finding: `curve.rises`, or with its
+    file, `findings/curve.json:rises`.
 
     Raises
     ------
@@ -172,7 +172,7 @@ def _judged_by(
 if __name__ == "__main__":
     if len(sys.argv) != 2 or not sys.argv[1]:
         sys.exit(
-            "expected one item, an output, claim or finding: make trace ITEM=figures/heavier.svg"
+            "expected one item, an output, claim or finding: make trace ITEM=figures/curve.svg"
         )
     sys.stdout.reconfigure(errors="replace")  # a terminal may know no Greek letters
     signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # `| head` may stop reading

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from replication.provenance import Job, checksum, workflow_jobs
-from replication.workbench import run
+from replication.workbench import log_to
 
 MANIFEST = "results/manifest.json"
 
@@ -83,4 +83,5 @@ def work(job: Any) -> None:
 
 
 if __name__ == "__main__":
-    run(snakemake, work)
+    with log_to(snakemake.log[0]):  # it reads the Snakefile, which loads more than its inputs
+        work(snakemake)

@@ -1,0 +1,31 @@
+# What only this paper needs of make, beside the targets of every replication in the Makefile.
+
+OWN    := CELLS CONFIG ENGINE FAULTS ROTATE TO
+CELLS  ?= 40000
+CONFIG ?= config/thorough.yaml
+# The optional rigid-body engine of the study `mechanism`; `ENGINE=` does not install it.
+ENGINE ?= engine
+GROUPS  = $(if $(value ENGINE),--group "$$ENGINE")
+BENCH   = $(UV) run --locked --no-dev --group bench
+
+.PHONY: audit kill-table benchmark verify-grid paper
+
+audit: | $(UV) ## an hour: finer grids, tighter tolerances, all peers, all faults (CONFIG, CELLS, ROTATE)
+	@$(SNAKEMAKE) --configfile "$$CONFIG"
+	@$(MAKE) --no-print-directory verify-grid benchmark kill-table
+	@echo "results/ is that of $$CONFIG now: 'make reproduce' brings ours back"
+
+kill-table: | $(UV) ## put faults into a copy, one at a time: what catches each? (FAULTS=a,b or ROTATE=3)
+	@$(if $(value ROTATE),$(call WHOLE,ROTATE))
+	@$(DEV) python -m replication.commands.kill_table \
+	  $${FAULTS:+"--faults=$$FAULTS"} $${ROTATE:+"--rotate=$$ROTATE"}
+
+benchmark: | $(UV) ## time the kernel beside its peers; writes docs/benchmark.csv and .svg (5 minutes)
+	@$(BENCH) python benchmarks/benchmark.py
+
+verify-grid: | $(UV) ## compare overturning flags with an independent route (CELLS=40000 a set)
+	@$(call WHOLE,CELLS)
+	@$(BENCH) python benchmarks/verify_grid.py "$$CELLS"
+
+paper: | $(UV) ## begin the replication of another paper: make paper TO=../other (FOLLOW-UP.md)
+	@$(RUN) python -m replication.commands.new_paper "$$TO"

@@ -1,0 +1,9 @@
+"""Copy what is published from results/ to docs/ and tests/reference/: `make publish`."""
+
+from replication.publishing import publish
+
+TABLES = ("period",)
+"""Those with which later runs are compared."""
+
+if __name__ == "__main__":
+    publish(TABLES)
