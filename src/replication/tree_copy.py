@@ -10,7 +10,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 LONGEST = 900.0
 """s: a command that takes longer hangs."""
-IMPORTED = ("topheavy", "replication", "steps", "studies", "figures")
+IMPORTED = (*sorted(path.name for path in (ROOT / "src").glob("[a-z]*")), "studies", "figures")
 """The packages that a copy has to import from itself."""
 
 
