@@ -86,11 +86,11 @@ def first_failing(tree: Path, tests: Sequence[str]) -> str:
 
 
 def courts(fault: Fault) -> tuple[str, str, str]:
-    """Return in which order a fault is put to the paper's rows, to those of studies, and to tests.
+    """Return in which order rows of the paper, rows of studies and tests have to catch a fault.
 
     The verdicts are what a fault would falsify, the paper's first; of those of studies, which cost
-    most, only a fault in a study goes before the tests. A fault in the judging is put to tests
-    first, which take seconds: they are the cases in which a result is known to be false.
+    most, only a fault in a study goes before the tests. The tests are the first for a fault in the
+    judging, which take seconds: they are the cases in which a result is known to be false.
     """
     if fault.routes == JUDGING:
         return "tests", "paper", "studies"
@@ -149,8 +149,13 @@ def put_to_the_test(
 # The published table -----------------------------------------------------------------------------
 
 
-def page(rows: Sequence[Row], ledger: Iterable[Mapping[str, Any]]) -> str:
-    """Return docs/kill_table.md: what catches each fault, and which faults turn each claim."""
+def page(
+    rows: Sequence[Row], ledger: Iterable[Mapping[str, Any]], waiting: Sequence[str] = ()
+) -> str:
+    """Return docs/kill_table.md: what catches each fault, and which faults turn each claim.
+
+    `waiting` names the faults that were not run since they were written or changed.
+    """
     tested = [claim for claim in ledger if claim.get("finding")]
     turned_by = {
         claim["id"]: [row.name for row in rows if claim["id"] in row.verdicts.split()]
@@ -165,6 +170,7 @@ def page(rows: Sequence[Row], ledger: Iterable[Mapping[str, Any]]) -> str:
         "each: a verdict of the ledgers, or else a test. Faults in the judging are put to tests",
         f"first. Written by `make kill-table`, by runs from {dates[0]} to {dates[-1]}; verdicts,",
         "files and dates are in `kill_table.csv`.",
+        *_waiting(waiting),
         "",
         "| fault | in words | routes that have it | caught by |",
         "|---|---|---|---|",
@@ -186,6 +192,12 @@ def page(rows: Sequence[Row], ledger: Iterable[Mapping[str, Any]]) -> str:
         ),
     ]
     return "\n".join(lines) + "\n"
+
+
+def _waiting(names: Sequence[str]) -> list[str]:
+    if not names:
+        return []
+    return ["", f"Not run since they were written or changed ({len(names)}): {', '.join(names)}."]
 
 
 def _line(*cells: str) -> str:
@@ -217,11 +229,16 @@ def read(path: Path) -> list[Row]:
         return [Row(**row) for row in csv.DictReader(file)]
 
 
-def publish(rows: Sequence[Row], ledger: Iterable[Mapping[str, Any]], table: Path) -> None:
+def publish(
+    rows: Sequence[Row],
+    ledger: Iterable[Mapping[str, Any]],
+    table: Path,
+    waiting: Sequence[str] = (),
+) -> None:
     """Write the table as CSV, and its page as Markdown beside it."""
     names = [field.name for field in fields(Row)]
     with table.with_suffix(".csv").open("w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(names)
         writer.writerows([getattr(row, name) for name in names] for row in rows)
-    table.with_suffix(".md").write_text(page(rows, ledger), encoding="utf-8")
+    table.with_suffix(".md").write_text(page(rows, ledger, waiting), encoding="utf-8")

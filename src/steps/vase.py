@@ -98,7 +98,7 @@ def minima(row: dict) -> list[Minimum]:
 
 
 def is_compared(row: dict, tightened: float) -> bool:
-    """Whether one of the two overturns at all, and the minima that there are can be told."""
+    """Whether one of the two overturns at all, and the tolerance does not change the minima."""
     found = minima(row)
     return row["structure"] != "bare" and bool(found) and all(one.told(tightened) for one in found)
 

@@ -239,9 +239,18 @@ def test_page_says_which_faults_turn_each_claim():
     assert "Of 2 claims that are tested, 1 are turned by at least one fault." in page
 
 
-def test_published_table_has_every_fault_as_it_is(published):
+def waiting(rows):
+    """The faults that were not run since they were written or changed."""
+    return [name for name in NAMES if name not in {row.name for row in rows}]
+
+
+def test_published_table_has_faults_as_they_are_and_names_the_others(published):
     kept = [(row.name, row.fault, row.routes, row.files) for row in published]
-    assert kept == [(f.name, f.fault, f.routes, " ".join(f.files)) for f in FAULTS]
+    faults = [(f.name, f.fault, f.routes, " ".join(f.files)) for f in FAULTS]
+    assert kept == [fault for fault in faults if fault in kept]
+    page = (ROOT / "docs" / "kill_table.md").read_text(encoding="utf-8")
+    for name in waiting(published):
+        assert name in page
 
 
 def test_published_table_has_no_survivor(published):
@@ -261,7 +270,7 @@ def test_what_caught_a_fault_is_still_there(published):
 
 def test_published_page_is_that_of_the_table(published):
     page = (ROOT / "docs" / "kill_table.md").read_text(encoding="utf-8")
-    assert page == table.page(published, LEDGER)
+    assert page == table.page(published, LEDGER, waiting(published))
 
 
 # The choice --------------------------------------------------------------------------------------

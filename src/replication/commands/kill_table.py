@@ -1,14 +1,13 @@
-"""Deliberate faults, one at a time, and what catches each: `make kill-table`.
+"""Insert deliberate faults, one at a time, and find what catches each: `make kill-table`.
 
-Each fault of faults.yaml is put into a copy of the tree, never into the library itself. There the
-workflow runs, with the quick settings and as far as the claims need it; whatever verdict comes out
-otherwise than the ledgers expect has caught the fault. If there is none, the tests that the fault
-names are run; a fault in the judging is put to these first. A fault that no verdict and no test
-catches has at least to make a rule raise, or it has survived.
+The command inserts each fault of faults.yaml into a copy of the tree, never into the library. It
+runs the workflow in the copy with the quick settings, and only the rules of the claims. A verdict
+that differs from the expected one has caught the fault. Otherwise the command runs the tests that
+the fault names; for a fault in the judging it runs these tests first. If no verdict and no test
+fails, a rule has to raise an error; if none does, the fault has survived.
 
-Rows that were found are kept in KEPT, and a fault is run again only if its entry or a file that it
-changes is another, or if it survived. All faults together write docs/kill_table.csv and .md; a
-choice of them (`--faults`, `--rotate`) writes nothing but the kept rows.
+A run of all faults writes docs/kill_table.csv and .md. A choice of them (`--faults`, `--rotate`)
+only keeps its rows, for a later run.
 """
 
 import argparse
@@ -79,7 +78,7 @@ def left(faults: Sequence[Fault], known: dict[str, tuple[str, Row]]) -> list[Fau
 def kill_table(faults: Sequence[Fault]) -> Iterator[Row]:
     """Yield the row of each fault, after a run without any in which no verdict may turn.
 
-    That run is made when the first verdict is asked for: faults that tests catch do without it.
+    That run is made before the first verdict; faults that tests catch do not need it.
     """
     with tempfile.TemporaryDirectory(prefix="kill-table-") as folder:
         tree, sound = Path(folder) / "tree", Path(folder) / "sound"
@@ -113,7 +112,7 @@ def rotation(faults: list[Fault], number: int, commit: str) -> list[Fault]:
 
 
 def chosen(faults: list[Fault], names: str | None, number: int | None) -> list[Fault]:
-    """Return the faults that are asked for: by name or routes, by the commit, or all."""
+    """Return the chosen faults: by name or routes, by the commit, or all."""
     if names in {fault.routes for fault in faults}:
         return [fault for fault in faults if fault.routes == names]
     if names:
@@ -149,7 +148,7 @@ def main() -> None:
     faults = load()
     picked = chosen(faults, options.faults, options.rotate)
     for fault in faults:
-        fault.texts(ROOT)  # one that no longer applies is told at once
+        fault.texts(ROOT)  # one that no longer applies is refused at once
     missing = left(picked, kept(KEPT))
     print(f"{len(picked) - len(missing)} of {len(picked)} faults are in {KEPT.name}", flush=True)
     if missing:

@@ -157,7 +157,7 @@ def _shared(pyproject: str, project: str) -> str:
 
 def _licence(text: str) -> str:
     """Return a licence of the authors of the machine and of the new ones."""
-    text, *_ = text.partition("\n---")  # below it stands what it covers here
+    text, *_ = text.partition("\n---")  # below it follows what it covers here
     text = re.sub(r" ?The ground motions in [^.]*\.", "", text)
     return re.sub(
         r"^(Copyright .*\n)", r"\1Copyright (c) BLANK: year, your names\n", text, flags=re.M
