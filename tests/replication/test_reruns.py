@@ -58,7 +58,7 @@ rule figure:
 
 rule claims:
     input:
-        code("src/replication/rules/claims.py"),
+        code("src/steps/judging.py"),
         ledger="ledger.json",
         findings="results/findings/counts.json",
         drawn=[f"{{figure}}.svg" for figure in FIGURES],
@@ -67,7 +67,7 @@ rule claims:
     log:
         "results/logs/claims.log",
     script:
-        "src/replication/rules/claims.py"
+        "src/steps/judging.py"
 
 
 rule manifest:
@@ -162,7 +162,7 @@ def build(root):
         "Snakefile": SNAKEFILE,
         "src/steps/counts.py": COUNTS,
         "figures/beside.py": "NUMBER = 1\n",
-        "src/replication/rules/claims.py": CLAIMS,
+        "src/steps/judging.py": CLAIMS,
         "figures/line.py": FIGURE,
         "ledger.json": '"n"',
     }.items():
