@@ -40,8 +40,11 @@ LARGEST_MESSAGE = 2**28  # bytes
 RESULTS = "Object.entries(results).map(([path, entry]) => [path, entry.data_uri, entry.caption])"
 HOME = "document.querySelector('nav nav a').click()"
 # The page lists the results themselves where all are of one category.
-MENU = """(items => (items.find(a => a.textContent === {0}) ??
-  items.find(a => a.textContent === 'Results')).click())([...document.querySelectorAll('nav li a')])"""
+MENU = """{
+  const items = [...document.querySelectorAll('nav li a')];
+  const named = name => items.find(a => a.textContent === name);
+  (named({0}) ?? named('Results')).click();
+}"""
 ROWS = "[...document.querySelectorAll('nav tbody tr')].map(row => row.cells[0].textContent)"
 BUTTONS = "document.querySelectorAll('nav tbody tr')[{0}].querySelectorAll('td:last-child a')"
 EYE, INFO = f"{BUTTONS}[0].click()", f"{BUTTONS}[1].click()"
