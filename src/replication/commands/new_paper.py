@@ -32,7 +32,7 @@ COPIED = (
 )
 """Files that are the same for every paper, but for the name of the project in them."""
 
-LEFT_OUT = ("__pycache__", "template", "new_paper.py", "kill_table.py", "*.svg")
+LEFT_OUT = ("__pycache__", "template", "new_paper.py", "kill_table.py", "faults.py", "*.svg")
 """What of the machine and of the template does not go along."""
 
 ONLY_HERE = ("heyoka", "hypothesis", "lazy-loader", "llvmlite", "mujoco-core", "numba", "xarray")
