@@ -114,7 +114,7 @@ def rotation(faults: list[Fault], number: int, commit: str) -> list[Fault]:
 def chosen(faults: list[Fault], names: str | None, number: int | None) -> list[Fault]:
     """Return the chosen faults: by name or routes, by the commit, or all."""
     if names in {fault.routes for fault in faults}:
-        return [fault for fault in faults if fault.routes == names]
+        faults, names = [fault for fault in faults if fault.routes == names], None
     if names:
         known = {fault.name: fault for fault in faults}
         for name in names.split(","):
