@@ -3,6 +3,7 @@
 from figures.drawing import RECORDS, gamma
 from replication.drawing import ACCENT, DOUBLE, GREY, note, publish, shades, sheet
 
+COLUMNS = 3
 TICKS = (0.5, 1, 2, 5, 10, 20)
 ABOVE, APART = 1.12, 0.1  # of θ/α: where the strips of overturned sizes begin, and their distance
 
@@ -26,16 +27,18 @@ def panel(axis, cells, ratios):
 
 def draw(rocking_spectra):
     ratios = sorted(rocking_spectra.mass_ratio.unique())
-    figure, axes = sheet(DOUBLE, 100, nrows=2, ncols=3, sharey=True)
-    panels, records = axes.flat, rocking_spectra.groupby("record", sort=False)
-    for axis, (record, cells) in zip(panels, records, strict=False):
+    records = rocking_spectra.groupby("record", sort=False)
+    rows = 1 + len(records) // COLUMNS  # the last place is for the key
+    figure, axes = sheet(DOUBLE, 50 * rows, nrows=rows, ncols=COLUMNS, sharey=True, squeeze=False)
+    for axis in axes.flat[len(records) :]:
+        axis.axis("off")
+    for axis, (record, cells) in zip(axes.flat, records, strict=False):
         panel(axis, cells, ratios)
         axis.set_title(RECORDS.get(record, record.replace("_", " ")))
         axis.set_xlabel("Size of a column, $R$ (m)")
     for row in axes:
         row[0].set_ylabel(r"Peak rotation, $\theta_\mathrm{max}/\alpha$ (–)")
     key = axes[-1, -1]
-    key.axis("off")
     for place, (mass_ratio, colour) in enumerate(zip(ratios, shades(len(ratios)), strict=True)):
         height = 1.3 - 0.2 * place
         key.plot([0.55, 1.1], [height] * 2, color=colour)
