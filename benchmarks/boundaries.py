@@ -108,10 +108,10 @@ def compare(
                 (bool(cell.overturned), int(cell.impacts)),
             }
         else:
-            has_to_agree = _is_decided(block, motion, 1.0)
+            has_to_agree = number > 1 and _is_decided(block, motion, 1.0)
             stories = {(end.overturned, 0), (whole.overturned, 0)}
         compared += has_to_agree
-        case = f"{block}, {_named(motion)}, factor {factor!r}"
+        case = f"{block}, {_named(motion)}, factor {factor!r} (no. {number})"
         if has_to_agree and len(stories) > 1:
             found.append(f"{case}: {stories}")
         if (wrong := _contradiction(block, whole)) is not None:
