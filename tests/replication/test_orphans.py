@@ -35,7 +35,9 @@ def unused_scripts(
     modules = {name.replace("/", "."): path for path, name in dotted.items()}
     imported = re.findall(r"^from ([\w.]+) import", snakefiles, flags=re.MULTILINE)
     imported += re.findall(r"python -m ([\w.]+)", makefile)
-    waiting = {path for job in jobs for path in (*job.scripts, *job.inputs)}
+    listed = (job for job in jobs if job.rule not in LISTS)
+    waiting = {path for job in listed for path in (*job.scripts, *job.inputs)}
+    waiting |= {path for job in jobs for path in job.scripts}
     waiting |= {modules[name] for name in imported if name in modules}
     used: set[str] = set()
     while waiting:
