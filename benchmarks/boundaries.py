@@ -37,7 +37,8 @@ SHAPES = sorted(set(PULSE_SHAPES) - {"harmonic"})
 PULSE_MARGIN = 1e-12
 #: Such calls are made beside a boundary, at these relative distances.
 DISTANCES = (1.001 * PULSE_MARGIN, 1e-10, 1e-8, 1e-6)
-#: A record's outcome is decided if neither this tolerance nor this relative change of it flips it.
+#: A record's boundary moves when the tolerance becomes this one. The outcome at a factor is decided
+#: if this tolerance, a change of the factor by twice that move or by 1e-9, and both leave it.
 TIGHT, SLIGHT = 1e-14, 1e-9
 #: Points of a scan, in units of the level, and the pulse's boundaries that are taken from it.
 SCAN, PULSE_BOUNDARIES = np.geomspace(1.01, 20.0, 60), 2
@@ -57,50 +58,68 @@ def blocks(number: int) -> list[RockingBlock]:
     ]
 
 
-def boundaries(block: RockingBlock, excitation: Pulse | Record) -> Iterator[tuple[float, float]]:
-    """Yield neighbouring factors, on an excitation of unit peak, of different outcomes."""
+def boundaries(
+    block: RockingBlock, excitation: Pulse | Record
+) -> Iterator[tuple[float, float, float]]:
+    """Yield neighbouring factors, on an excitation of unit peak, of different outcomes.
+
+    With them comes the relative change of a factor that decided outcomes have to withstand.
+    """
     scan = SCAN * block.uplift_acceleration
     outcomes = overturned_by(block, excitation, scan)
     most = PULSE_BOUNDARIES if isinstance(excitation, Pulse) else 1
     for place in np.flatnonzero(outcomes[1:] != outcomes[:-1])[:most]:
-        low, high = float(scan[place]), float(scan[place + 1])
-        while low < (middle := 0.5 * (low + high)) < high:
-            if judge(block, excitation.scaled(middle)).overturned == outcomes[place]:
-                low = middle
-            else:
-                high = middle
-        yield low, high
+        between = float(scan[place]), float(scan[place + 1])
+        low, high = _bisect(block, excitation, *between)
+        margin = PULSE_MARGIN
+        if isinstance(excitation, Record):
+            exact, _ = _bisect(block, excitation, *between, tolerance=TIGHT)
+            margin = max(SLIGHT, 2.0 * abs(low - exact) / low)
+        yield low, high, margin
 
 
-def _is_decided(block: RockingBlock, record: Record, factor: float) -> bool:
-    """Return whether no small change flips the outcome under this factor on a record."""
+def _bisect(
+    block: RockingBlock, excitation: Pulse | Record, low: float, high: float, **options: float
+) -> tuple[float, float]:
+    """Return neighbouring factors between two, of different outcomes."""
+    outcome = judge(block, excitation.scaled(low), **options).overturned
+    while low < (middle := 0.5 * (low + high)) < high:
+        if judge(block, excitation.scaled(middle), **options).overturned == outcome:
+            low = middle
+        else:
+            high = middle
+    return low, high
+
+
+def _is_decided(block: RockingBlock, record: Record, margin: float) -> bool:
+    """Return whether a tolerance of `TIGHT`, a relative change and both leave the outcome."""
     outcomes = {
-        judge(block, record.scaled(factor)).overturned,
-        judge(block, record.scaled(factor), tolerance=TIGHT).overturned,
-        judge(block, record.scaled(factor * (1.0 - SLIGHT))).overturned,
-        judge(block, record.scaled(factor * (1.0 + SLIGHT))).overturned,
+        judge(block, record.scaled(1.0 + change), **tolerance).overturned
+        for change in (0.0, -margin, margin)
+        for tolerance in ({}, {"tolerance": TIGHT})
     }
     return len(outcomes) == 1
 
 
 def compare(
-    block: RockingBlock, excitation: Pulse | Record, low: float, high: float
+    block: RockingBlock, excitation: Pulse | Record, low: float, high: float, margin: float
 ) -> tuple[int, list[str]]:
-    """Return how many calls at and beside a boundary had to agree, and those that do not.
+    """Return how many calls beside a boundary had to agree, and those that do not.
 
     At the boundary itself, a history has to be of one piece: see `_contradiction`.
     """
     found, compared = [], 0
-    factors = [low, high]
+    factors, off = [low, high], [0.0, 0.0]
     for distance in DISTANCES:
         factors += [low * (1.0 - distance), high * (1.0 + distance)]
+        off += [distance, distance]
     if isinstance(excitation, Pulse):
         cells = overturning_map(block, excitation.shape, [excitation.angular_frequency], factors)
     for number, factor in enumerate(factors):
         motion = excitation.scaled(factor)
         end, whole = judge(block, motion), simulate(block, motion, samples=50)
         if isinstance(motion, Pulse):
-            has_to_agree = number > 1
+            has_to_agree = off[number] > margin
             cell = cells.isel(angular_frequency=0, amplitude=number)
             stories = {
                 (end.overturned, end.impacts),
@@ -108,7 +127,7 @@ def compare(
                 (bool(cell.overturned), int(cell.impacts)),
             }
         else:
-            has_to_agree = number > 1 and _is_decided(block, motion, 1.0)
+            has_to_agree = off[number] > margin and _is_decided(block, motion, margin)
             stories = {(end.overturned, 0), (whole.overturned, 0)}
         compared += has_to_agree
         case = f"{block}, {_named(motion)}, factor {factor!r} (no. {number})"
@@ -163,10 +182,10 @@ def survey(number: int) -> Survey:
     for turn, exact in enumerate(blocks(number)):
         for excitation in excitations(exact, turn, random):
             for block in (exact, exact.linear()):
-                for low, high in boundaries(block, excitation):
+                for low, high, margin in boundaries(block, excitation):
                     result.pulses += isinstance(excitation, Pulse)
                     result.records += isinstance(excitation, Record)
-                    compared, wrong = compare(block, excitation, low, high)
+                    compared, wrong = compare(block, excitation, low, high, margin)
                     result.decided += compared
                     result.wrong += wrong
     return result
