@@ -106,6 +106,13 @@ def within_quarter_turn(name: str, value: Any) -> float:
     return number
 
 
+def within(name: str, value: Any, low: float, high: float) -> float:
+    """Return `value` as a float inside [low, high], or raise ValueError that names it."""
+    if not (isinstance(value, (float, int)) and low <= value <= high):
+        raise ValueError(f"{name} is {value!r}; expected a float from {low:g} to {high:g}")
+    return value
+
+
 def fraction(name: str, value: Any) -> float:
     """Return `value` inside [0, 1], or raise ValueError that names it."""
     number = finite(name, value)

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.integrate import DOP853, DenseOutput
 from scipy.optimize import brentq
 
-from topheavy import free_rocking, motion
+from topheavy import checks, free_rocking, motion
 from topheavy.excitation import Excitation, Segment
 from topheavy.motion import Arc, Event, Motion
 from topheavy.response import Response
@@ -22,6 +22,9 @@ from topheavy.structures import RockingBlock, Structure
 
 TOLERANCE = 1e-11
 """Of the integration, relative to α and αp."""
+
+SMALLEST_TOLERANCE, LARGEST_TOLERANCE = 1e-13, 1e-2
+"""SciPy raises a smaller one without asking, and a larger one follows no motion."""
 
 MOST_STEPS = 1_000_000
 """Of a flight in one segment; the solver refuses steps that are below rounding, but not so many."""
@@ -53,7 +56,7 @@ def simulate(
     return motion.respond(
         structure.block(),
         excitation,
-        partial(_fly, tolerance),
+        _flight(tolerance),
         rotation=rotation,
         velocity=velocity,
         duration=duration,
@@ -71,13 +74,19 @@ def judge(
     """
     block = structure.block()
     course = motion.start(block, 0.0, 0.0)
-    motion.force(block, excitation, course, partial(_fly, tolerance))
+    motion.force(block, excitation, course, _flight(tolerance))
     end = motion.judge(block, course)
     return free_rocking.Ending(
         overturned=end.overturned,
         peak=math.nan if end.overturned else max(course.peak, end.peak),
         impacts=len(course.impacts) + end.impacts,
     )
+
+
+def _flight(tolerance: float) -> motion.Flight:
+    """Return the integration at a tolerance, or raise ValueError with the accepted range."""
+    low, high = SMALLEST_TOLERANCE, LARGEST_TOLERANCE
+    return partial(_fly, checks.within("tolerance", tolerance, low, high))
 
 
 def _fly(

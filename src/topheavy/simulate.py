@@ -201,10 +201,7 @@ def as_forcing(
 
 def checked_tolerance(value: float) -> float:
     """Return a tolerance of the kernel, or raise ValueError with the range that is accepted."""
-    low, high = SMALLEST_TOLERANCE, LARGEST_TOLERANCE
-    if not (isinstance(value, (float, int)) and low <= value <= high):
-        raise ValueError(f"tolerance is {value!r}; expected a float from {low:g} to {high:g}")
-    return value
+    return checks.within("tolerance", value, SMALLEST_TOLERANCE, LARGEST_TOLERANCE)
 
 
 def no_excitation(value: object) -> ValueError:
