@@ -247,6 +247,7 @@ CHILD = """
 import os, signal, sys, threading, time
 import numpy as np
 from topheavy import *
+signal.signal(signal.SIGINT, signal.default_int_handler)  # that a shell's background job ignores
 block = RockingBlock(2.0, 0.25, 0.95)
 def shaking():
     return Record(0.01, np.tile(0.27 * np.sin(np.arange(5_000_000) * 0.06), 6))
