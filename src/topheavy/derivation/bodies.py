@@ -13,6 +13,7 @@ import sympy as sp
 
 from topheavy.derivation.geometry import cap_contact, centre
 from topheavy.derivation.notation import (
+    CircleField,
     F_x1,
     F_x2,
     F_z1,
@@ -90,23 +91,13 @@ def solve(
     balance of the frame has one force more than equations when the cap-beam's moments are
     left out; F_z1 stays free then.
     """
-    angles = {f.args[0] for equation in balance for f in equation.atoms(sp.sin, sp.cos)}
-    plain = {f(angle): sp.Dummy() for angle in angles for f in (sp.sin, sp.cos)}
-    equations = [equation.subs(plain) for equation in balance]  # rational, hence solved fast
+    circles = CircleField(balance)
+    equations = [equation.subs(circles.plain) for equation in balance]  # rational: solved fast
     present = {symbol for equation in balance for symbol in equation.free_symbols}
     forces = [f for f in (*GROUND_1, *GROUND_2, F_x1, F_x2, F_z2) if f in present]
     (solution,) = sp.linsolve(equations, [*unknowns, *forces])
-    named = {dummy: function for function, dummy in plain.items()}
-
-    def reduced(value: sp.Expr) -> sp.Expr:
-        parts = list(sp.fraction(sp.together(value)))
-        for angle in angles:
-            sine, cosine = plain[sp.sin(angle)], plain[sp.cos(angle)]
-            parts = [sp.rem(part, sine**2 + cosine**2 - 1, cosine) for part in parts]
-        return sp.cancel(parts[0] / parts[1]).subs(named)
-
     return {
-        symbol: reduced(value)
+        symbol: circles.reduced(value)
         for symbol, value in zip([*unknowns, *forces], solution, strict=True)
         if only in (None, symbol)
     }

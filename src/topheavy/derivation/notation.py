@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -135,23 +136,58 @@ def read(equation: str, side: Side) -> list[sp.Expr]:
     ]
 
 
+class CircleField:
+    """Rational functions of sines, cosines, roots and symbols, reduced by sin² + cos² = 1.
+
+    The angles and the roots count as independent. `plain` has a symbol for each function of them.
+    """
+
+    def __init__(self, expressions: Iterable[sp.Expr]) -> None:
+        expressions = list(expressions)
+        angles = {f.args[0] for each in expressions for f in each.atoms(sp.sin, sp.cos)}
+        roots = {f for each in expressions for f in each.atoms(sp.Pow) if not f.exp.is_integer}
+        functions = [f(angle) for f in (sp.cos, sp.sin) for angle in angles]
+        functions += {root.base ** sp.Rational(1, root.exp.q) for root in roots}
+        self.plain = {function: sp.Dummy() for function in functions}
+        present = {symbol for each in expressions for symbol in each.subs(self.plain).free_symbols}
+        named = list(self.plain.values())  # the cosines lead, hence powers of these are reduced
+        self._field = sp.QQ.frac_field(*named, *sorted(present - set(named), key=str))
+        self._circles = [
+            self._field.field.ring.from_expr(
+                self.plain[sp.sin(angle)] ** 2 + self.plain[sp.cos(angle)] ** 2 - 1
+            )
+            for angle in angles
+        ]
+
+    def fraction(self, expression: sp.Expr) -> tuple[Any, Any]:
+        """Return numerator and denominator; the expression is zero if and only if the first is.
+
+        Raises
+        ------
+        ZeroDivisionError
+            If the denominator is zero on the circles.
+        """
+        found = self._field.from_sympy(sp.sympify(expression).subs(self.plain))
+        parts = found.numer.rem(self._circles), found.denom.rem(self._circles)
+        if not parts[1]:
+            raise ZeroDivisionError(f"{expression} has the denominator 0")
+        return parts
+
+    def reduced(self, expression: sp.Expr) -> sp.Expr:
+        """Return an expression with reduced numerator and denominator, in lowest terms."""
+        numerator, denominator = map(self._field, self.fraction(expression))
+        functions = {symbol: function for function, symbol in self.plain.items()}
+        return (numerator / denominator).as_expr().subs(functions)
+
+
 def vanishes(expression: Any, side: Side) -> bool:
     """Whether an expression is identically zero, decided exactly.
 
-    With α and the lean α − |θ| for independent angles, and the tangents of their halves for
-    variables, it is a rational function; that is zero if and only if its numerator expands to 0.
+    α and the lean α − |θ| are taken for independent angles.
     """
     lean = sp.Symbol("lambda", positive=True)
     rotation = side.sign * (alpha - lean)
     independent = sp.expand_trig(sp.sympify(expression).subs(side.rotation, rotation))
-    rational = (
-        independent.replace(sp.tan, lambda angle: sp.sin(angle) / sp.cos(angle))
-        .replace(sp.sin, lambda angle: 2 * _half(angle) / (1 + _half(angle) ** 2))
-        .replace(sp.cos, lambda angle: (1 - _half(angle) ** 2) / (1 + _half(angle) ** 2))
-    )
-    numerator, _ = sp.fraction(sp.together(sp.expand_power_base(rational)))
-    return bool(sp.expand(numerator) == 0)
-
-
-def _half(angle: sp.Expr) -> sp.Symbol:
-    return sp.Symbol(f"tan({angle}/2)", positive=True)
+    sines = independent.replace(sp.tan, lambda angle: sp.sin(angle) / sp.cos(angle))
+    plain = sp.expand_power_base(sines)
+    return not CircleField([plain]).fraction(plain)[0]
