@@ -183,7 +183,7 @@ class CircleField:
 def vanishes(expression: Any, side: Side) -> bool:
     """Whether an expression is identically zero, decided exactly.
 
-    α and the lean α − |θ| are taken for independent angles.
+    α and the lean α − |θ| are regarded as independent angles.
     """
     lean = sp.Symbol("lambda", positive=True)
     rotation = side.sign * (alpha - lean)
