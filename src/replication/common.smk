@@ -8,6 +8,7 @@ from pathlib import Path
 from replication.captions import caption_files, captioned, read_captions
 from replication.closing import close
 from replication.code import code, undeclared
+from replication.costs import longest_jobs
 from replication.ledger import read_ledger
 from replication.ledger_check import check_ledger
 from replication.parts import PAPER, Part
@@ -61,6 +62,13 @@ def everything(wildcards):
         asked = [*each.input, *([] if each.has_wildcards() else each.output)]
         wanted |= dict.fromkeys(str(path) for path in asked if not callable(path))
     return [path for path in wanted if "{" not in path]
+
+
+def longest_first():
+    """Start jobs that took long in the published run before others, so that no core waits for them."""
+    took = longest_jobs(Path("docs/costs.csv"))
+    for each in workflow.rules:
+        each.priority = round(took.get(each.name, 0.0))
 
 
 def caption_of(result):

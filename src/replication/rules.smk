@@ -202,3 +202,6 @@ for claim in CLAIMS:
             f"Judging {claim['id']}"
         script:
             "rules/claim.py"
+
+
+longest_first()
