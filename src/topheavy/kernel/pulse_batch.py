@@ -209,7 +209,9 @@ def pulse_outcomes(
                 if is_poised(block, w[ROTATION, lane], w[VELOCITY, lane]):
                     forcing = pulse_forcing(shape, amplitudes[i, j], scales[i, j])
                     alone = outcome(v, PULSE_ORDER, tolerance, block, forcing, NO_RECORD)
-                    fell, highest, count = alone.overturned, alone.peak, alone.impacts
+                    fell, count = alone.overturned, alone.impacts
+                    if tail.overturned and not fell:
+                        highest = alone.peak
                     if not alone.resolved:
                         lost = cells[lane] if lost < 0 else min(lost, cells[lane])
             elif w[STEPS, lane] > MAX_STEPS:
