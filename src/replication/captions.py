@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
+from replication.claim import JudgedClaim
 from replication.strict_yaml import read_yaml
 from replication.verdicts import VERDICTS
 
@@ -37,13 +38,13 @@ def caption_files(config: Mapping[str, Any]) -> list[Path]:
 
 
 def captioned(
-    result: str, captions: Mapping[str, Mapping[str, Any]], claims: Iterable[Mapping[str, Any]]
+    result: str, captions: Mapping[str, Mapping[str, Any]], claims: Iterable[JudgedClaim]
 ) -> dict[str, Any]:
     """Return title, caption and claims of a result, with texts escaped for reStructuredText.
 
     Parameters
     ----------
-    claims : iterable of mapping
+    claims
         The judged ledger, results/claims.json.
 
     Raises
@@ -57,7 +58,7 @@ def captioned(
             "in its captions.yaml"
         )
     entry = captions[result]
-    judged = {claim["id"]: claim for claim in claims}
+    judged = {claim.id: claim for claim in claims}
     unknown = sorted(set(entry["claims"]) - set(judged))
     if unknown:
         raise ValueError(f"the caption of {result} names {unknown[0]!r}; expected ids of claims")
@@ -66,9 +67,12 @@ def captioned(
         "title": entry["title"],
         "category": entry["category"],
         "caption": escaped(entry["caption"]),
-        "verdict": verdict(claim["verdict"] for claim in about),
+        "verdict": verdict(claim.verdict for claim in about),
         "claims": [
-            {key: escaped(claim[key]) for key in ("where", "statement", "verdict", "remark")}
+            {
+                key: escaped(getattr(claim, key))
+                for key in ("where", "statement", "verdict", "remark")
+            }
             for claim in about
         ],
     }

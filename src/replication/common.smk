@@ -1,6 +1,5 @@
 """What a Snakefile of a replication begins with, and what its rules share."""
 
-import json
 import os
 from functools import partial
 from pathlib import Path
@@ -9,7 +8,7 @@ from replication.captions import caption_files, captioned, read_captions
 from replication.closing import close
 from replication.code import code, undeclared
 from replication.costs import longest_jobs
-from replication.ledger import read_ledger
+from replication.ledger import read_judged, read_ledger
 from replication.ledger_check import check_ledger
 from replication.parts import PAPER, Part
 from replication.place import check_place
@@ -73,7 +72,7 @@ def longest_first():
 
 def caption_of(result):
     """Return what the HTML report says of a result: its caption and verdict (caption.rst)."""
-    claims = json.loads(Path("results/claims.json").read_text(encoding="utf-8"))
+    claims = read_judged("results/claims.json")
     return captioned(str(result), read_captions(caption_files(config)), claims)
 
 

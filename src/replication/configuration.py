@@ -1,6 +1,5 @@
 """Check config.yaml against its schema; the messages say how to correct it."""
 
-import difflib
 import math
 import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
@@ -10,6 +9,7 @@ from typing import Any
 from jsonschema import Draft202012Validator, ValidationError
 
 from replication.strict_yaml import read_yaml
+from replication.suggestions import hint
 
 NAMES = {
     "^[a-z][a-z0-9_]*$": "a lower-case letter, then lower-case letters, digits or _",
@@ -110,13 +110,6 @@ def _fitting(error: ValidationError) -> list[list[ValidationError]]:
 def _named(*patterns: str) -> str:
     """Return what is expected of a name."""
     return " or ".join(NAMES.get(pattern, f"a text that matches {pattern}") for pattern in patterns)
-
-
-def hint(given: Any, allowed: Iterable[Any]) -> str:
-    """Return the nearest of the names that are allowed, or all of them."""
-    names = [str(name) for name in allowed]
-    close = difflib.get_close_matches(str(given), names, n=1)
-    return f"did you mean {close[0]!r}?" if close else f"expected one of {', '.join(names)}"
 
 
 # What no schema can say --------------------------------------------------------------------------

@@ -1,15 +1,15 @@
 """What catches a fault: verdicts of the ledgers, tests, or a rule that stops."""
 
 import csv
-import json
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, fields
 from datetime import date
 from pathlib import Path
-from typing import Any
 
+from replication.claim import Claim
 from replication.faults import JUDGING, Fault, faulty
+from replication.findings import Findings, read_findings
 from replication.ledger import judged
 from replication.tree_copy import run
 
@@ -37,13 +37,13 @@ class Row:
 
 
 def workflow(
-    tree: Path, ledger: Sequence[Mapping[str, Any]], studies: Iterable[str]
+    tree: Path, ledger: Sequence[Claim], studies: Iterable[str]
 ) -> tuple[list[str], list[str], str]:
     """Run the rules that claims are judged by; return the verdicts that turned, and who raised.
 
     The rules are those of the given rows, with the quick settings of the paper and of the studies.
     """
-    rules = sorted({row["rule"] for row in ledger if row.get("finding")})
+    rules = sorted({row.rule for row in ledger if row.finding})
     findings = [f"results/findings/{rule}.json" for rule in rules]
     settings = ("--configfile", QUICK, "--config", f"studies=[{','.join(studies)}]")
     options = ("--cores", "2", "--keep-going", *settings)
@@ -52,24 +52,24 @@ def workflow(
     if code and not raised:  # given up, or nothing was run
         raised = ["all"]
     found = {
-        rule: json.loads((tree / path).read_text(encoding="utf-8"))
+        rule: read_findings(tree / path)
         for rule, path in zip(rules, findings, strict=True)
         if (tree / path).exists()
     }
     turned = [
-        row["id"]
+        row.id
         for row in ledger
-        if row.get("finding") and row["rule"] in found
-        if verdict(row, found, tree) != row["expected"]
+        if row.finding and row.rule in found
+        if verdict(row, found, tree) != row.expected
     ]
     return turned, raised, said
 
 
-def verdict(claim: Mapping[str, Any], findings: Mapping[str, Any], tree: Path) -> str:
+def verdict(claim: Claim, findings: Mapping[str, Findings], tree: Path) -> str:
     """Return the verdict on a claim, or why there is none."""
     try:
-        return judged(claim, {claim["rule"]: findings}, tree)["verdict"]
-    except (KeyError, ValueError) as error:
+        return judged(claim, findings, tree).verdict
+    except ValueError as error:
         return f"none: {error}"
 
 
@@ -102,7 +102,7 @@ def courts(fault: Fault) -> tuple[str, str, str]:
 def put_to_the_test(
     tree: Path,
     fault: Fault,
-    ledgers: Mapping[str, Sequence[Mapping[str, Any]]],
+    ledgers: Mapping[str, Sequence[Claim]],
     studies: Sequence[str],
     begin: Callable[[], None],
 ) -> Row:
@@ -149,17 +149,14 @@ def put_to_the_test(
 # The published table -----------------------------------------------------------------------------
 
 
-def page(
-    rows: Sequence[Row], ledger: Iterable[Mapping[str, Any]], waiting: Sequence[str] = ()
-) -> str:
+def page(rows: Sequence[Row], ledger: Iterable[Claim], waiting: Sequence[str] = ()) -> str:
     """Return docs/kill_table.md: what catches each fault, and which faults turn each claim.
 
     `waiting` names the faults that were not run since they were written or changed.
     """
-    tested = [claim for claim in ledger if claim.get("finding")]
+    tested = [claim for claim in ledger if claim.finding]
     turned_by = {
-        claim["id"]: [row.name for row in rows if claim["id"] in row.verdicts.split()]
-        for claim in tested
+        claim.id: [row.name for row in rows if claim.id in row.verdicts.split()] for claim in tested
     }
     reached = sum(map(bool, turned_by.values()))
     dates = sorted({row.date for row in rows})
@@ -184,9 +181,9 @@ def page(
         "|---|---|---|",
         *(
             _line(
-                f"`{claim['id']}`",
-                claim["study"] or "the paper",
-                shortened(turned_by[claim["id"]]) or "no fault of this table",
+                f"`{claim.id}`",
+                claim.study or "the paper",
+                shortened(turned_by[claim.id]) or "no fault of this table",
             )
             for claim in tested
         ),
@@ -231,7 +228,7 @@ def read(path: Path) -> list[Row]:
 
 def publish(
     rows: Sequence[Row],
-    ledger: Iterable[Mapping[str, Any]],
+    ledger: Iterable[Claim],
     table: Path,
     waiting: Sequence[str] = (),
 ) -> None:

@@ -1,7 +1,6 @@
 """Check the ledger before any computation; the messages say how to correct it."""
 
 import difflib
-import json
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -9,11 +8,13 @@ from typing import Any
 from jsonschema import Draft202012Validator, ValidationError
 
 from replication.calls import definition
-from replication.configuration import hint, messages_of
+from replication.claim import Claim
+from replication.configuration import messages_of
+from replication.findings import read_findings
 from replication.ledger import read_rows
 from replication.strict_yaml import read_yaml
+from replication.suggestions import hint
 from replication.verdicts import tolerance_fault
-from replication.workbench import CALLED
 
 SCHEMA = "paper/claims.schema.yaml"
 PUBLISHED = "tests/reference/findings"
@@ -43,8 +44,8 @@ def check_ledger(
     validator = Draft202012Validator(schema["items"])
     faults = [
         f"{path}: {row['id']}: {fault}"
-        for path, row in read_rows(paths)
-        for fault in _faults(row, validator, rules, root)
+        for path, _, row in read_rows(paths)
+        for fault in _faults(row, path, validator, rules, root)
     ]
     if faults:
         raise ValueError("\n".join(faults))
@@ -52,29 +53,30 @@ def check_ledger(
 
 def _faults(
     row: Mapping[str, Any],
+    ledger: Path,
     validator: Draft202012Validator,
     rules: Collection[str],
     root: Path,
 ) -> Iterator[str]:
-    own = {key: value for key, value in row.items() if key != "study"}
-    errors = list(validator.iter_errors(own))
+    errors = list(validator.iter_errors(row))
     # Faults that follow from a misspelt verdict are not reported.
     first = [error for error in errors if "allOf" not in error.schema_path] or errors
     if broken := {message for error in first for message in _told(error, validator.schema)}:
         yield from sorted(broken)
         return
-    if fault := tolerance_fault(row):
+    claim = Claim.of(row, ledger)
+    if fault := tolerance_fault(claim):
         yield fault
-    if "rule" not in row:
+    if not claim.rule:
         return
-    if row["rule"] not in rules:
-        yield f"rule is {row['rule']!r}, which makes no findings; {hint(row['rule'], rules)}"
+    if claim.rule not in rules:
+        yield f"rule is {claim.rule!r}, which makes no findings; {hint(claim.rule, rules)}"
         return
     try:
-        definition(row["function"], root)
+        definition(claim.function, root)
     except ValueError as error:
         yield f"function: {error}"
-    yield from _finding_faults(row, root)
+    yield from _finding_faults(claim, root)
 
 
 def _told(error: ValidationError, schema: Mapping[str, Any]) -> Iterator[str]:
@@ -85,23 +87,23 @@ def _told(error: ValidationError, schema: Mapping[str, Any]) -> Iterator[str]:
     yield from (message.replace("the top level", "the row") for message in messages_of(error))
 
 
-def _finding_faults(row: Mapping[str, Any], root: Path) -> Iterator[str]:
+def _finding_faults(claim: Claim, root: Path) -> Iterator[str]:
     """Yield the findings that are probably misspelt.
 
     A finding is known if its rule published it. An unknown finding that resembles a known one is
     misspelt, unless a source of the steps or studies contains it; then it is new.
     """
-    published = root / PUBLISHED / f"{row['rule']}.json"
+    published = root / PUBLISHED / f"{claim.rule}.json"
     if not published.is_file():
         return
-    known = set(json.loads(published.read_text(encoding="utf-8"))) - {CALLED}
-    name = row["finding"]
-    if known == {"not_tested"} or name in known or _is_written(name, root):
+    known = read_findings(published).by_name
+    name = claim.finding
+    if name in known or _is_written(name, root):
         return
     close = difflib.get_close_matches(name, sorted(known), n=1)
     if close:
         yield (
-            f"finding is {name!r}, which rule {row['rule']} has not published and no source "
+            f"finding is {name!r}, which rule {claim.rule} has not published and no source "
             f"spells; did you mean {close[0]!r}?"
         )
 

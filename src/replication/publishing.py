@@ -1,21 +1,20 @@
 """Publish the findings of a run, the verdicts, and the pages that show them."""
 
 import hashlib
-import json
 import os
 import platform
 import shutil
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
-from replication.ledger import OURS, read_ledger
-from replication.rules.claims import as_text, read_findings
+from replication.claim import Claim, JudgedClaim
+from replication.findings import Findings, findings_by_rule, write_findings
+from replication.ledger import OURS, as_text, read_ledger
 from replication.rules.claims import main as judge_all
 from replication.strict_yaml import read_yaml
 from replication.verdicts import VERDICTS, by_origin
-from replication.workbench import write_findings
 
 TITLES = {"": "The paper", OURS: "Not the paper's claims, and its claims rest on them"}
 """The sections of docs/verdicts.md that are not a study's."""
@@ -28,11 +27,11 @@ COUNTS_HEAD = "| | " + " | ".join(VERDICTS) + " |"
 """The first line of the table that counts the verdicts, in docs/verdicts.md and in the README."""
 
 
-def verdict_page(rows: list[dict]) -> str:
+def verdict_page(rows: Sequence[JudgedClaim]) -> str:
     """Return docs/verdicts.md: the counts, then the rows of the paper and of each study apart."""
-    parts = {row["study"]: [] for row in rows}
+    parts = {row.study: [] for row in rows}
     for row in rows:
-        parts[row["study"]].append(row)
+        parts[row.study].append(row)
     lines = [
         "# The verdict on every claim",
         "",
@@ -47,7 +46,7 @@ def verdict_page(rows: list[dict]) -> str:
     return "\n".join(lines) + "\n"
 
 
-def verdict_table(rows: list[dict]) -> list[str]:
+def verdict_table(rows: Sequence[JudgedClaim]) -> list[str]:
     """Return the lines of a table with one claim in each."""
     lines = [
         "| claim | where | in our words | printed | computed | verdict | remark |",
@@ -55,19 +54,19 @@ def verdict_table(rows: list[dict]) -> list[str]:
     ]
     for row in rows:
         cells = [
-            f"`{row['id']}`",
-            row["where"],
-            row["statement"],
-            _shown(row["printed"], row["unit"]),
-            _shown(row["computed"], row["unit"]),
-            row["verdict"],
-            row["remark"],
+            f"`{row.id}`",
+            row.where,
+            row.statement,
+            _shown(row.printed, row.unit),
+            _shown(row.computed, row.unit),
+            row.verdict,
+            row.remark,
         ]
         lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
     return lines
 
 
-def count_table(rows: list[dict]) -> list[str]:
+def count_table(rows: Sequence[JudgedClaim]) -> list[str]:
     """Return the lines of a table that counts the verdicts, of the paper and of each study."""
     lines = [COUNTS_HEAD, "|---" * (len(VERDICTS) + 1) + "|"]
     for name, verdicts in by_origin(rows).items():
@@ -77,7 +76,7 @@ def count_table(rows: list[dict]) -> list[str]:
     return lines
 
 
-def with_counts(page: str, rows: list[dict]) -> str:
+def with_counts(page: str, rows: Sequence[JudgedClaim]) -> str:
     """Return a page in which the table of counts is that of the rows.
 
     Raises
@@ -200,20 +199,21 @@ def publish_findings(findings: Path, folder: Path) -> None:
     ValueError
         When a rule tested nothing, for lack of an optional package.
     """
-    for path in sorted(findings.glob("*.json")):
-        if reason := json.loads(path.read_text(encoding="utf-8")).get("not_tested"):
+    made = findings_by_rule(sorted(findings.glob("*.json")))
+    for rule, of_rule in made.items():
+        if reason := of_rule.not_tested:
+            path = findings / f"{rule}.json"
             raise ValueError(f"{path}: nothing was tested ({reason}); expected a full run")
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
-    for path in sorted(findings.glob("*.json")):
-        found = rounded(json.loads(path.read_text(encoding="utf-8")))
-        write_findings(str(folder / path.name), found)
+    for rule, of_rule in made.items():
+        write_findings(folder / f"{rule}.json", Findings.of(rounded(of_rule.as_json())))
 
 
-def publish_verdicts(ledger: list[dict], root: Path) -> None:
+def publish_verdicts(ledger: Sequence[Claim], root: Path) -> None:
     """Judge the published findings; write claims.json, docs/verdicts.md and the README's counts."""
     reference = root / "tests" / "reference"
-    rows = judge_all(ledger, read_findings((reference / "findings").glob("*.json")), root)
+    rows = judge_all(ledger, findings_by_rule((reference / "findings").glob("*.json")), root)
     (reference / "claims.json").write_text(as_text(rows), encoding="utf-8")
     (root / "docs" / "verdicts.md").write_text(verdict_page(rows), encoding="utf-8")
     readme = root / "README.md"

@@ -1,29 +1,30 @@
 """Check the published rows, pages and files against each other, without a run."""
 
-import json
 import sys
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import asdict
 from itertools import zip_longest
 from pathlib import Path
-from typing import Any
 
-from replication.ledger import judged, read_ledger
+from replication.claim import Claim, JudgedClaim
+from replication.findings import Findings, findings_by_rule
+from replication.ledger import judged, read_judged, read_ledger
 from replication.publishing import CHECKSUMS, checksums, verdict_page, with_counts
-from replication.rules.claims import read_findings
 from replication.strict_yaml import read_yaml
 from replication.verdicts import tallies
 
 CLAIMS = "tests/reference/claims.json"
 
-Findings = Mapping[str, Mapping[str, Any]]
-
 
 def claims(
-    ledger: Iterable[Mapping[str, Any]], findings: Findings, published: list[dict], root: Path
+    ledger: Sequence[Claim],
+    findings: Mapping[str, Findings],
+    published: Iterable[JudgedClaim],
+    root: Path,
 ) -> Iterator[str]:
     """Yield what is wrong with the published rows: every field of every row is made anew."""
-    rows = {row["id"]: row for row in published}
-    for name in sorted({claim["id"] for claim in ledger} ^ set(rows)):
+    rows = {row.id: row for row in published}
+    for name in sorted({claim.id for claim in ledger} ^ set(rows)):
         yield f"claim {name} is not in both the ledger and {CLAIMS}"
     for claim in ledger:
         try:
@@ -31,19 +32,19 @@ def claims(
         except ValueError as fault:
             yield str(fault)
             continue
-        if found["verdict"] != claim["expected"] and not found["not_tested"]:
-            yield f"claim {claim['id']} is {found['verdict']}; expected {claim['expected']}"
-        row = rows.get(claim["id"], found)
-        for field in sorted({*found, *row}):
-            ours, theirs = found.get(field), row.get(field)
+        if found.verdict != claim.expected and not found.not_tested:
+            yield f"claim {claim.id} is {found.verdict}; expected {claim.expected}"
+        row = asdict(rows.get(claim.id, found))
+        for field, ours in sorted(asdict(found).items()):
+            theirs = row[field]
             if ours != theirs or type(ours) is not type(theirs):
                 yield (
-                    f"claim {claim['id']}: {field} is {theirs!r} in {CLAIMS}, and {ours!r} by the "
+                    f"claim {claim.id}: {field} is {theirs!r} in {CLAIMS}, and {ours!r} by the "
                     "ledger and the findings"
                 )
 
 
-def pages(root: Path, rows: list[dict]) -> Iterator[str]:
+def pages(root: Path, rows: Sequence[JudgedClaim]) -> Iterator[str]:
     """Yield the first line of docs/verdicts.md, and of the README, that is not that of the rows."""
     readme = (root / "README.md").read_text(encoding="utf-8")
     expected = {
@@ -77,7 +78,7 @@ def files(reference: Path) -> Iterator[str]:
 
 
 def main(
-    evidence: Callable[[Path, Findings], Iterable[str]], root: Path = Path()
+    evidence: Callable[[Path, Mapping[str, Findings]], Iterable[str]], root: Path = Path()
 ) -> tuple[list[str], list[str]]:
     """Return the tallies of the published claims, and what is wrong with the edition.
 
@@ -90,8 +91,8 @@ def main(
     studies = [root / "studies" / name / "claims.yaml" for name in config["studies"]]
     ledger = read_ledger([root / "paper" / "claims.yaml", *studies])
     reference = root / "tests" / "reference"
-    findings = read_findings((reference / "findings").glob("*.json"))
-    rows = json.loads((root / CLAIMS).read_text(encoding="utf-8"))
+    findings = findings_by_rule((reference / "findings").glob("*.json"))
+    rows = read_judged(root / CLAIMS)
     faults = [
         *claims(ledger, findings, rows, root),
         *evidence(reference, findings),

@@ -188,18 +188,18 @@ for claim in CLAIMS:
 
     rule:
         name:
-            f"claim_{claim['id']}"
+            f"claim_{claim.id}"
         input:
             code("src/replication/rules/claim.py"),
             findings=(
-                [f"results/findings/{claim['rule']}.json"] if "rule" in claim else []
+                [f"results/findings/{claim.rule}.json"] if claim.rule else []
             ),
         log:
-            f"results/logs/claim_{claim['id']}.log",
+            f"results/logs/claim_{claim.id}.log",
         params:
             claim=claim,
         message:
-            f"Judging {claim['id']}"
+            f"Judging {claim.id}"
         script:
             "rules/claim.py"
 

@@ -5,9 +5,12 @@ rule for this claim: a value with its error, a truth value, or the reason why it
 """
 
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from decimal import Decimal
-from typing import Any, Literal, get_args
+from typing import Literal, get_args
+
+from replication.claim import Claim, JudgedClaim
+from replication.findings import Finding
 
 Verdict = Literal[
     "confirmed", "qualified", "slip", "misprint", "refuted", "by definition", "not tested"
@@ -33,7 +36,7 @@ LARGEST_RELATIVE_TOLERANCE = 0.1
 """A tolerance is at most this share of the printed value, or the rounding of its last digit."""
 
 
-def verdict_on(claim: Mapping[str, Any], finding: Mapping[str, Any] | None) -> Verdict:
+def verdict_on(claim: Claim, finding: Finding | None) -> Verdict:
     """Return the verdict on a claim.
 
     A printed number is confirmed when the computed value agrees within the claim's tolerance, and
@@ -43,13 +46,10 @@ def verdict_on(claim: Mapping[str, Any], finding: Mapping[str, Any] | None) -> V
 
     Parameters
     ----------
-    claim : mapping
-        With `id`; `printed` and `tolerance` where a number is claimed; `by_definition` where the
-        claim cannot be false.
-    finding : mapping or None
-        With `value`, `error` and perhaps `meant_value`; or with `holds` and perhaps `meant_holds`
-        or `holds_when`; or with `not_tested`, the reason, where an optional package is missing.
-        With `meant_holds`, and perhaps with `meant_value`, comes `kind`, one of `KINDS`.
+    claim
+        With `printed` and `tolerance` where a number is claimed; `by_definition` where the claim
+        cannot be false.
+    finding
         None for a claim that cannot be false and for a claim that is not tested.
 
     Raises
@@ -58,47 +58,46 @@ def verdict_on(claim: Mapping[str, Any], finding: Mapping[str, Any] | None) -> V
         When the error of the value is more than a tenth of the tolerance, or the finding is of the
         wrong kind.
     """
-    if claim.get("by_definition"):
+    if claim.by_definition:
         if finding is not None:
-            raise ValueError(f"claim {claim['id']} holds by definition; expected no finding for it")
+            raise ValueError(f"claim {claim.id} holds by definition; expected no finding for it")
         return "by definition"
-    if finding is None or "not_tested" in finding:
+    if finding is None or finding.not_tested:
         return "not tested"
-    if "tolerance" in claim:
-        return _judge_number(claim, finding)
-    if "holds" not in finding:
-        raise ValueError(f"claim {claim['id']}: the finding has no truth; expected 'holds'")
-    if finding["holds"]:
+    if claim.tolerance is not None:
+        return _judge_number(claim, finding, claim.tolerance)
+    if finding.holds is None:
+        raise ValueError(f"claim {claim.id}: the finding has no truth; expected 'holds'")
+    if finding.holds:
         return "confirmed"
-    if finding.get("meant_holds"):
-        return _by_kind(claim, finding.get("kind"))
-    return "qualified" if finding.get("holds_when") else "refuted"
+    if finding.meant_holds:
+        return _by_kind(claim, finding.kind)
+    return "qualified" if finding.holds_when else "refuted"
 
 
-def _judge_number(claim: Mapping[str, Any], finding: Mapping[str, Any]) -> Verdict:
-    if "value" not in finding:
-        raise ValueError(f"claim {claim['id']}: the finding has no value; expected a number")
-    tolerance = claim["tolerance"]
-    if not finding["error"] <= LARGEST_SHARE_OF_TOLERANCE * tolerance:  # NaN says nothing either
+def _judge_number(claim: Claim, finding: Finding, tolerance: float) -> Verdict:
+    if finding.value is None:
+        raise ValueError(f"claim {claim.id}: the finding has no value; expected a number")
+    if not finding.error <= LARGEST_SHARE_OF_TOLERANCE * tolerance:  # nor is NaN small enough
         raise ValueError(
-            f"claim {claim['id']}: the error is {finding['error']:.2g}; expected at most a tenth "
+            f"claim {claim.id}: the error is {finding.error:.2g}; expected at most a tenth "
             f"of the tolerance of {tolerance:.2g}"
         )
 
-    def agrees(value: float) -> bool:
-        return bool(abs(value - claim["printed"]) <= tolerance)
+    def agrees(value: float | None) -> bool:
+        return value is not None and bool(abs(value - claim.printed) <= tolerance)
 
-    if agrees(finding["value"]):
+    if agrees(finding.value):
         return "confirmed"
-    if "meant_value" in finding and agrees(finding["meant_value"]):
-        return _by_kind(claim, finding.get("kind", "number"))
+    if agrees(finding.meant_value):
+        return _by_kind(claim, "number" if finding.kind is None else finding.kind)
     return "refuted"
 
 
-def _by_kind(claim: Mapping[str, Any], kind: str | None) -> Verdict:
+def _by_kind(claim: Claim, kind: str | None) -> Verdict:
     if kind not in KINDS:
         raise ValueError(
-            f"claim {claim['id']}: what is meant holds, and the kind of the discrepancy is "
+            f"claim {claim.id}: what is meant holds, and the kind of the discrepancy is "
             f"{kind!r}; expected one of {', '.join(KINDS)}"
         )
     return KINDS[kind]
@@ -113,16 +112,16 @@ def print_rounding(printed: float) -> float:
     return 0.5 * 10.0 ** min(int(exponent), 0)
 
 
-def tolerance_fault(claim: Mapping[str, Any]) -> str:
+def tolerance_fault(claim: Claim) -> str:
     """Return why the tolerance of a claim is too wide for its verdict to mean anything, or "".
 
     A value that is off by a whole unit of the last printed digit, twice what rounding allows, has
     to fail. Where the print itself is in doubt, a row that is expected to be a misprint, other
     printed numbers may leave the value open further: up to a tenth of it.
     """
-    if "tolerance" not in claim:
+    if claim.tolerance is None:
         return ""
-    printed, tolerance = claim["printed"], claim["tolerance"]
+    printed, tolerance = claim.printed, claim.tolerance
     rounding = print_rounding(printed)
     widest = LARGEST_RELATIVE_TOLERANCE * abs(printed)
     if tolerance > max(widest, rounding):
@@ -130,7 +129,7 @@ def tolerance_fault(claim: Mapping[str, Any]) -> str:
             f"tolerance {tolerance:g} is more than a tenth of the printed {printed:g} and than the "
             f"rounding of the print; expected at most {max(widest, rounding):g}"
         )
-    if claim["expected"] != "misprint" and tolerance >= 2.0 * rounding:
+    if claim.expected != "misprint" and tolerance >= 2.0 * rounding:
         return (
             f"tolerance {tolerance:g} would confirm a value twice as far off as the digits of the "
             f"printed {printed:g} allow; expected less than {2.0 * rounding:g}"
@@ -144,14 +143,14 @@ def tally(name: str, verdicts: Iterable[str]) -> str:
     return f"{name}: " + ", ".join(f"{count[v]} {PLURALS.get(v, v)}" for v in VERDICTS)
 
 
-def by_origin(rows: Iterable[Mapping[str, Any]]) -> dict[str, list[str]]:
+def by_origin(rows: Iterable[JudgedClaim]) -> dict[str, list[str]]:
     """Return the verdicts of judged rows, apart for the paper and for each study."""
     verdicts: dict[str, list[str]] = {"paper": []}
     for row in rows:
-        verdicts.setdefault(row["study"] or "paper", []).append(row["verdict"])
+        verdicts.setdefault(row.study or "paper", []).append(row.verdict)
     return verdicts
 
 
-def tallies(rows: Iterable[Mapping[str, Any]]) -> list[str]:
+def tallies(rows: Iterable[JudgedClaim]) -> list[str]:
     """Return the closing line of the paper, and one for each study."""
     return [tally(name, verdicts) for name, verdicts in by_origin(rows).items()]

@@ -1,14 +1,14 @@
 """The edges of a step: its log, its tables, its findings, and the check of its inputs.
 
-A finding is what a claim of the ledger is judged by: a value with its error and unit, or a truth
-with the numbers that support it.
+A step returns findings, by which claims of the ledger are judged: `value` for a number with its
+error and unit, `truth` for a statement with the numbers that support it.
 """
 
-import json
 import signal
 import sys
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, TextIO
 
@@ -17,11 +17,9 @@ import pandas as pd
 
 from replication.calls import library, noted
 from replication.code import undeclared
+from replication.findings import Finding, Findings, write_findings
 
 DIGITS = "%.9g"
-
-CALLED = "called"
-"""The entry beside the findings of a rule that lists the functions which made them."""
 
 
 def run(job: Any, main: Callable[[Any], Any]) -> None:
@@ -41,7 +39,7 @@ def run(job: Any, main: Callable[[Any], Any]) -> None:
     RuntimeError
         When the process loaded a module of the repository that the rule does not declare.
     ValueError
-        When a finding has the name CALLED.
+        When a finding has a reserved name or a misspelt field.
     """
     with log_to(job.log[0]):
         with noted(library(job.input)) as called:
@@ -50,7 +48,8 @@ def run(job: Any, main: Callable[[Any], Any]) -> None:
             results = results if isinstance(results, tuple) else (results,)
             for path, result in zip(job.output, results, strict=True):
                 if path.endswith(".json"):
-                    write_findings(path, with_calls(result, called))
+                    made = Findings.of(result)
+                    write_findings(path, replace(made, called=tuple(sorted(called))))
                 else:
                     write_table(path, result)
         refuse_undeclared(job)
@@ -85,35 +84,19 @@ def log_to(path: str) -> Iterator[TextIO]:
             signal.signal(signal.SIGINT, on_interrupt)
 
 
-def value(number: float, error: float, unit: str = "", **more: float) -> dict[str, Any]:
+def value(number: float, error: float, unit: str = "", **more: Any) -> Finding:
     """Return a finding with a value, an estimate of its error, and its unit."""
-    return {"value": float(number), "error": float(error), "unit": unit, **_plain(more)}
+    return Finding.of({"value": float(number), "error": float(error), "unit": unit, **_plain(more)})
 
 
-def truth(holds: bool, **evidence: Any) -> dict[str, Any]:
+def truth(holds: bool, **evidence: Any) -> Finding:
     """Return a finding that holds or not, with the evidence."""
-    return {"holds": bool(holds), **_plain(evidence)}
-
-
-def with_calls(findings: Mapping[str, Any], called: Iterable[str]) -> dict[str, Any]:
-    """Return findings with the names of the functions that were called while they were made."""
-    if CALLED in findings:
-        raise ValueError(
-            f"a finding is called {CALLED!r}, the name of the list of functions that ran; "
-            "expected another name"
-        )
-    return {**findings, CALLED: sorted(called)}
+    return Finding.of({"holds": bool(holds), **_plain(evidence)})
 
 
 def write_table(path: str, columns: Mapping[str, Any] | pd.DataFrame) -> None:
     """Write a table as CSV, in the digits that are justified."""
     pd.DataFrame(columns).to_csv(path, index=False, float_format=DIGITS, lineterminator="\n")
-
-
-def write_findings(path: str, findings: Mapping[str, Mapping[str, Any]]) -> None:
-    """Write the findings of one rule as JSON."""
-    text = json.dumps(findings, indent=2, ensure_ascii=False, allow_nan=False)
-    Path(path).write_text(text + "\n", encoding="utf-8")
 
 
 def grid(spec: Mapping[str, float]) -> np.ndarray:
@@ -122,7 +105,11 @@ def grid(spec: Mapping[str, float]) -> np.ndarray:
 
 
 def _plain(mapping: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the mapping with NumPy's numbers and arrays as Python's."""
-    return {
-        key: item.tolist() if hasattr(item, "tolist") else item for key, item in mapping.items()
-    }
+    """Return the mapping with NumPy's numbers and arrays as Python's, and findings as entries."""
+    return {key: _plain_item(item) for key, item in mapping.items()}
+
+
+def _plain_item(item: Any) -> Any:
+    if isinstance(item, Finding):
+        return dict(item.entries)
+    return item.tolist() if hasattr(item, "tolist") else item

@@ -187,9 +187,9 @@ rule trilith:
     params:
         case=case("trilith"),
         printed={
-            row["id"]: row["printed"]
-            for row in read_ledger([PARTS[PAPER].claims])
-            if row["id"].startswith("trilith_") and "printed" in row
+            claim.id: claim.printed
+            for claim in read_ledger([PARTS[PAPER].claims])
+            if claim.id.startswith("trilith_") and claim.printed is not None
         },
         solver=config["solver"],
     message:

@@ -3,14 +3,15 @@
 The check also judges every row of the ledger again from the published findings, without a run.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
-from replication.rechecking import Findings, close
+from replication.findings import Findings
+from replication.rechecking import close
 from replication.rechecking import main as recheck
 from replication.strict_yaml import read_yaml
 
@@ -60,7 +61,7 @@ def _restitution(alpha: pd.Series, gamma: pd.Series) -> pd.Series:
     return column * (1.0 - 1.5 * np.sin(alpha) ** 2) + (1.0 - column) * np.cos(2.0 * alpha)
 
 
-def evidence(folder: Path, findings: Findings) -> Iterator[str]:
+def evidence(folder: Path, findings: Mapping[str, Findings]) -> Iterator[str]:
     """Yield the findings that do not follow from their tables."""
 
     def table(name: str) -> pd.DataFrame:
@@ -100,8 +101,11 @@ def evidence(folder: Path, findings: Findings) -> Iterator[str]:
         )
 
 
-def _differs(rule: str, name: str, key: str, expected: Any, findings: Findings) -> Iterator[str]:
-    found = findings.get(rule, {}).get(name, {}).get(key)
+def _differs(
+    rule: str, name: str, key: str, expected: Any, findings: Mapping[str, Findings]
+) -> Iterator[str]:
+    finding = findings[rule].by_name.get(name) if rule in findings else None
+    found = finding.entries.get(key) if finding else None
     if found is None or not np.isclose(found, expected, **CLOSE):
         yield (
             f"findings/{rule}.json: {name}.{key} is {found}, and {expected:.9g} by the published "

@@ -32,7 +32,7 @@ def main(case: dict, solver: dict, table: pd.DataFrame) -> tuple[list[dict], dic
         "lowest_amplitude_rises_with_mass": rises,
         "heavier_is_more_stable": truth(
             not any(row["only_heavier_overturns"] for row in areas),
-            holds_when=rises["holds"],
+            holds_when=rises.holds,
             condition="what counts is the lowest amplitude of a pulse that overturns",
             width_of_band=width,
             amplitude_over_uplift=amplitude,

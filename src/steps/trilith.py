@@ -237,11 +237,10 @@ def main(
     # The paper: below the uplift acceleration there was apparently no pure rocking, and anomalies
     # of the contact surfaces explain the response that was measured.
     findings["no_pure_rocking"] = truth(
-        findings["rest_from_rest"]["holds"]
-        and not findings["abrupt_start_keeps_it_rocking"]["holds"],
-        holds_when=findings["rest_from_rest"]["holds"],
+        findings["rest_from_rest"].holds and not findings["abrupt_start_keeps_it_rocking"].holds,
+        holds_when=findings["rest_from_rest"].holds,
         condition="the table takes up its motion without a jump of velocity above the share stated",
-        share=findings["least_share_that_keeps_rocking"]["value"],
+        share=findings["least_share_that_keeps_rocking"].value,
     )
     return findings, near, summary, histories
 

@@ -1,6 +1,7 @@
 """The captions of the HTML report: complete, tied to the ledger, and sound reStructuredText."""
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -9,6 +10,8 @@ from docutils.core import publish_parts
 from jinja2 import Environment
 
 from replication.captions import captioned, read_captions, verdict
+from replication.claim import Claim
+from replication.ledger import judged
 
 ROOT = Path(__file__).resolve().parents[2]
 STUDIES = sorted(path.parent for path in ROOT.glob("studies/*/study.smk"))
@@ -64,13 +67,11 @@ def test_no_two_results_of_a_category_have_one_title(folder):
     assert len({(entry["category"], entry["title"]) for entry in entries}) == len(entries)
 
 
-CLAIM = {
-    "id": "rises",
-    "where": "p. 1",
-    "statement": "Its moment falls with |θ|, and m_ is *its* `mass`.",
-    "verdict": "qualified",
-    "remark": "",
-}
+CLAIM = replace(
+    judged(Claim(id="rises", where="p. 1", statement="", expected="not tested"), {}),
+    statement="Its moment falls with |θ|, and m_ is *its* `mass`.",
+    verdict="qualified",
+)
 ENTRY = {"title": "T", "category": "C", "caption": "(a) Over α_ and |θ|_.", "claims": ["rises"]}
 
 
@@ -93,7 +94,7 @@ def test_caption_comes_out_as_it_is_written():
     plain = re.sub(r"<[^>]*>", "", page)
     assert ENTRY["caption"] in plain
     assert "1 qualified" in plain
-    assert f"qualified: {CLAIM['statement']} (p. 1)" in plain
+    assert f"qualified: {CLAIM.statement} (p. 1)" in plain
     assert "system-message" not in page
 
 

@@ -13,9 +13,10 @@ from replication import tree_copy
 from replication.calls import definition
 from replication.commands import kill_table as command
 from replication.faults import JUDGING, Change, Fault, faulty, load
+from replication.findings import Findings
 from replication.kill_table import Row
 from replication.ledger import read_ledger
-from replication.workbench import CALLED
+from replication.workbench import truth
 
 ROOT = Path(__file__).resolve().parents[2]
 FAULTS = load()
@@ -175,20 +176,20 @@ def test_test_that_fails_without_the_fault_catches_nothing(monkeypatch, tree):
 
 
 def test_verdict_is_that_of_the_findings_and_of_what_ran():
-    (claim,) = (row for row in LEDGER if row["id"] == "eq1")
-    called = [definition(claim["function"], ROOT)]
+    (claim,) = (row for row in LEDGER if row.id == "eq1")
+    called = definition(claim.function, ROOT)
     for holds, verdict in ((True, "confirmed"), (False, "refuted")):
-        findings = {claim["finding"]: {"holds": holds}, CALLED: called}
-        assert table.verdict(claim, findings, ROOT) == verdict
-    uncalled = {claim["finding"]: {"holds": True}, CALLED: []}
-    assert "never called" in table.verdict(claim, uncalled, ROOT)
+        findings = Findings({claim.finding: truth(holds)}, (called,))
+        assert table.verdict(claim, {claim.rule: findings}, ROOT) == verdict
+    uncalled = Findings({claim.finding: truth(True)})
+    assert "never called" in table.verdict(claim, {claim.rule: uncalled}, ROOT)
     assert table.verdict(claim, {}, ROOT).startswith("none: ")
 
 
 def test_rows_of_all_ledgers_are_judged_once():
     paper, studies = command.ledgers().values()
-    assert sorted(row["id"] for row in paper + studies) == sorted(row["id"] for row in LEDGER)
-    assert {row["study"] for row in studies} >= set(command.studies())
+    assert sorted(row.id for row in paper + studies) == sorted(row.id for row in LEDGER)
+    assert {row.study for row in studies} >= set(command.studies())
 
 
 # What is kept ------------------------------------------------------------------------------------
@@ -231,7 +232,8 @@ def test_survivor_is_run_again(found):
 
 def test_page_says_which_faults_turn_each_claim():
     claims = [
-        {"id": name, "study": study, "finding": "x"} for name, study in (("eq1", ""), ("z", "s"))
+        replace(LEDGER[0], id=name, study=study, finding="x")
+        for name, study in (("eq1", ""), ("z", "s"))
     ]
     page = table.page([ROW, replace(ROW, name="two", verdicts="eq1")], claims)
     assert "| `eq1` | the paper | `one`, `two` |" in page
@@ -262,7 +264,7 @@ def test_what_caught_a_fault_is_still_there(published):
     files = [ROOT / "Snakefile", *ROOT.glob("src/*/*.smk"), *ROOT.glob("studies/*/*.smk")]
     rules = "\n".join(path.read_text(encoding="utf-8") for path in files)
     for row in published:
-        assert set(row.verdicts.split()) <= {claim["id"] for claim in LEDGER}
+        assert set(row.verdicts.split()) <= {claim.id for claim in LEDGER}
         assert all(f"rule {rule}:" in rules for rule in row.rules.split())  # all: given up
         file, *_, test = row.test.split("::") if row.test else ("", "")
         assert not file or f"def {test}(" in (ROOT / file).read_text(encoding="utf-8")

@@ -10,6 +10,7 @@ import yaml
 from replication.ledger import read_ledger
 from replication.ledger_check import check_ledger
 from replication.verdicts import print_rounding, verdict_on
+from replication.workbench import value
 
 ROOT = Path(__file__).resolve().parents[2]
 ROW = {
@@ -139,11 +140,13 @@ def test_finding_of_a_rule_that_has_published_none_is_new(tree):
 
 def test_no_row_of_ours_confirms_a_value_twice_as_far_off_as_its_digits_allow():
     paths = [ROOT / "paper" / "claims.yaml", *sorted(ROOT.glob("studies/*/claims.yaml"))]
-    rows = [
-        row for row in read_ledger(paths) if "tolerance" in row and row["expected"] != "misprint"
+    claims = [
+        claim
+        for claim in read_ledger(paths)
+        if claim.tolerance is not None and claim.expected != "misprint"
     ]
-    assert len(rows) > 10
-    for row in rows:
+    assert len(claims) > 10
+    for claim in claims:
         for side in (-1.0, 1.0):
-            off = row["printed"] + 2.0001 * side * print_rounding(row["printed"])
-            assert verdict_on(row, {"value": off, "error": 0.0}) == "refuted", row["id"]
+            off = claim.printed + 2.0001 * side * print_rounding(claim.printed)
+            assert verdict_on(claim, value(off, 0.0)) == "refuted", claim.id

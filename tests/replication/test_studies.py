@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 import yaml
 
+from replication.claim import Claim
 from replication.commands.new_study import create
 from replication.ledger import read_ledger
 from replication.study_config import read_study_config
@@ -125,14 +126,15 @@ ROW = {"id": "stable", "where": "p. 1", "statement": "It stands.", "expected": "
 
 def test_claims_of_a_study_come_after_those_of_the_paper(tmp_path):
     rows = read_ledger(ledgers(tmp_path, [ROW], [ROW | {"id": "other"}]))
-    assert [(row["id"], row["study"]) for row in rows] == [("stable", ""), ("other", "vases")]
+    assert [(row.id, row.study) for row in rows] == [("stable", ""), ("other", "vases")]
 
 
 def test_study_may_judge_a_claim_of_the_paper_anew(tmp_path):
     known = ROW | {"rule": "old", "finding": "so", "function": "f", "remark": "Why."}
     anew = {"id": "stable", "rule": "new", "finding": "so", "function": "f", "expected": "refuted"}
-    (row,) = read_ledger(ledgers(tmp_path, [known], [anew]))
-    assert row == ROW | anew | {"study": ""}
+    paths = ledgers(tmp_path, [known], [anew])
+    (row,) = read_ledger(paths)
+    assert row == Claim.of(ROW | anew, paths[1])
 
 
 def test_study_may_not_reword_a_claim_of_the_paper(tmp_path):

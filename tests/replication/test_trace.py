@@ -8,27 +8,28 @@ from pathlib import Path
 
 import pytest
 
+from replication.claim import Claim
 from replication.commands.trace import chain, find
 from replication.provenance import Job
 
 ROOT = Path(__file__).parents[2]
-CLAIM = {
-    "id": "peak_is_low",
-    "where": "p. 3, Eq. (24)",
-    "statement": "The peak is low.",
-    "function": "topheavy.structures.size_ratio",
-    "rule": "peaks",
-    "finding": "low",
-    "expected": "confirmed",
-}
-UNTESTED = {
-    "id": "photograph",
-    "where": "p. 1",
-    "statement": "It stood.",
-    "expected": "not tested",
-    "remark": "Not to be computed.",
-}
-EQUATIONS = [UNTESTED | {"id": name} for name in ("eq9_positive", "eq19", "eq9_negative")]
+CLAIM = Claim(
+    id="peak_is_low",
+    where="p. 3, Eq. (24)",
+    statement="The peak is low.",
+    function="topheavy.structures.size_ratio",
+    rule="peaks",
+    finding="low",
+    expected="confirmed",
+)
+UNTESTED = Claim(
+    id="photograph",
+    where="p. 1",
+    statement="It survived.",
+    expected="not tested",
+    remark="Not to be computed.",
+)
+EQUATIONS = [replace(UNTESTED, id=name) for name in ("eq9_positive", "eq19", "eq9_negative")]
 LEDGER = [CLAIM, UNTESTED, *EQUATIONS]
 JOB = Job("", "Snakefile:1", (), (), (), (), (), {}, 0.0, {}, False)
 STEP = replace(
@@ -183,7 +184,9 @@ def test_job_is_found_by_its_findings_and_not_by_the_name_of_its_rule(told):
     assert told("peaks.low", jobs).startswith("claim peak_is_low")
 
 
-FOUND = {"holds": True, "value": 1.0, "error": 0.0}
+def evidence(claim):
+    """What a finding of the claim could be."""
+    return {"holds": True} if claim.tolerance is None else {"value": 1.0, "error": 0.0}
 
 
 @pytest.fixture
@@ -209,23 +212,24 @@ def test_every_output_and_claim_is_traced_before_a_run(jobs, claims):
         assert f"{path}  not there\n" in lines
         assert "\n  rule  " in lines
     for claim in claims:
-        lines = trace(claim["id"], jobs, claims)
-        assert lines.startswith(f"claim {claim['id']}: ")
-        grounds = f": {claim['expected']} ("
-        assert ("\n  rule  " if "finding" in claim else grounds) in lines
+        lines = trace(claim.id, jobs, claims)
+        assert lines.startswith(f"claim {claim.id}: ")
+        grounds = f": {claim.expected} ("
+        assert ("\n  rule  " if claim.finding else grounds) in lines
 
 
 def test_every_claim_and_finding_is_traced_after_a_run(clone, jobs, claims):
-    judged = [claim for claim in claims if "finding" in claim]
+    judged = [claim for claim in claims if claim.finding]
     for path in (path for job in jobs for path in job.findings):
-        keys = [claim["finding"] for claim in judged if claim["rule"] == Path(path).stem]
+        rule = Path(path).stem
+        found = {claim.finding: evidence(claim) for claim in judged if claim.rule == rule}
         Path(path).parent.mkdir(parents=True, exist_ok=True)
-        Path(path).write_text(json.dumps(dict.fromkeys(keys, FOUND)), encoding="utf-8")
+        Path(path).write_text(json.dumps(found), encoding="utf-8")
     for claim in judged:
-        for name in (claim["id"], f"{claim['rule']}.{claim['finding']}"):
+        for name in (claim.id, f"{claim.rule}.{claim.finding}"):
             lines = trace(name, jobs, claims)
-            assert f"  verdict   {claim['id']}: " in lines
-            assert f"/{claim['rule']}.json  sha256" in lines
+            assert f"  verdict   {claim.id}: " in lines
+            assert f"/{claim.rule}.json  sha256" in lines
 
 
 def test_finding_of_a_run_still_to_come_says_so(told, tree):

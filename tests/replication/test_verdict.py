@@ -1,18 +1,18 @@
 """The end of a run: its last line, and what makes it fail."""
 
+from dataclasses import replace
+
 import pandas as pd
 
+from replication.claim import Claim, JudgedClaim
+from replication.ledger import judged
 from replication.rules.verdict import main
 
+UNTESTED = judged(Claim(id="", where="p. 1", statement="", expected="not tested"), {})
 
-def claim(name: str, verdict: str, expected: str, not_tested: str = "") -> dict:
-    return {
-        "id": name,
-        "study": "",
-        "verdict": verdict,
-        "expected": expected,
-        "not_tested": not_tested,
-    }
+
+def claim(name: str, verdict: str, expected: str, not_tested: str = "") -> JudgedClaim:
+    return replace(UNTESTED, id=name, verdict=verdict, expected=expected, not_tested=not_tested)
 
 
 def compared(**verdicts: str) -> pd.DataFrame:
@@ -54,7 +54,7 @@ def test_every_claim_that_came_out_otherwise_is_a_fault_either_way():
 
 
 def test_claims_of_a_study_are_counted_in_a_line_of_their_own():
-    ours = claim("ours", "refuted", "refuted") | {"study": "reversals"}
+    ours = replace(claim("ours", "refuted", "refuted"), study="reversals")
     lines, _ = main([*AS_EXPECTED, ours], compared(), {})
     paper, study = lines.splitlines()
     assert paper.startswith("paper: 2 confirmed, 0 qualified, 0 slips, 1 misprints, 1 refuted, ")

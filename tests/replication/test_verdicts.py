@@ -1,9 +1,13 @@
 """Verdicts on claims, from findings."""
 
 import math
+from dataclasses import replace
 
 import pytest
 
+from replication.claim import Claim
+from replication.findings import Finding
+from replication.ledger import judged
 from replication.verdicts import (
     KINDS,
     VERDICTS,
@@ -15,12 +19,17 @@ from replication.verdicts import (
     verdict_on,
 )
 
-NUMBER = {"id": "n", "printed": 0.275, "tolerance": 0.0005}
-STATEMENT = {"id": "s"}
+STATEMENT = Claim(id="s", where="p. 1", statement="It is so.", expected="confirmed")
+NUMBER = replace(STATEMENT, id="n", printed=0.275, tolerance=0.0005)
+UNTESTED = judged(replace(STATEMENT, expected="not tested"), {})
+
+
+def verdict(claim, finding):
+    return verdict_on(claim, None if finding is None else Finding.of(finding))
 
 
 @pytest.mark.parametrize(
-    ("finding", "verdict"),
+    ("finding", "expected"),
     [
         ({"value": 0.2751, "error": 0.0}, "confirmed"),
         ({"value": 0.2754, "error": 0.00005}, "confirmed"),
@@ -37,12 +46,12 @@ STATEMENT = {"id": "s"}
         ({"not_tested": "a package is missing"}, "not tested"),
     ],
 )
-def test_a_printed_number_is_held_against_the_computed_one(finding, verdict):
-    assert verdict_on(NUMBER, finding) == verdict
+def test_a_printed_number_is_held_against_the_computed_one(finding, expected):
+    assert verdict(NUMBER, finding) == expected
 
 
 @pytest.mark.parametrize(
-    ("finding", "verdict"),
+    ("finding", "expected"),
     [
         ({"holds": True}, "confirmed"),
         ({"holds": True, "meant_holds": None}, "confirmed"),
@@ -63,36 +72,36 @@ def test_a_printed_number_is_held_against_the_computed_one(finding, verdict):
         ({"not_tested": "a package is missing"}, "not tested"),
     ],
 )
-def test_a_statement_is_judged_by_what_holds(finding, verdict):
-    assert verdict_on(STATEMENT, finding) == verdict
+def test_a_statement_is_judged_by_what_holds(finding, expected):
+    assert verdict(STATEMENT, finding) == expected
 
 
 def test_a_value_too_uncertain_for_its_tolerance_gives_no_verdict():
     with pytest.raises(ValueError, match=r"claim n: the error is 5.1e-05; .* a tenth .* 0.0005"):
-        verdict_on(NUMBER, {"value": 0.275, "error": 5.1e-5})
+        verdict(NUMBER, {"value": 0.275, "error": 5.1e-5})
 
 
 def test_a_value_that_is_not_a_number_confirms_nothing():
-    assert verdict_on(NUMBER, {"value": math.nan, "error": 0.0}) == "refuted"
+    assert verdict(NUMBER, {"value": math.nan, "error": 0.0}) == "refuted"
     with pytest.raises(ValueError, match="claim n: the error is nan"):
-        verdict_on(NUMBER, {"value": 0.275, "error": math.nan})
+        verdict(NUMBER, {"value": 0.275, "error": math.nan})
 
 
 def test_a_number_needs_a_value():
     with pytest.raises(ValueError, match="claim n: the finding has no value; expected a number"):
-        verdict_on(NUMBER, {"holds": True})
+        verdict(NUMBER, {"holds": True})
 
 
 def test_a_statement_needs_a_truth():
     with pytest.raises(ValueError, match="claim s: the finding has no truth; expected 'holds'"):
-        verdict_on(STATEMENT, {"value": 1.0, "error": 0.0})
+        verdict(STATEMENT, {"value": 1.0, "error": 0.0})
 
 
 @pytest.mark.parametrize("kind", [None, "condition", "brackets", "", "Sign"])
 def test_discrepancy_of_no_known_kind_gives_no_verdict(kind):
     finding = {"holds": False, "meant_holds": True, "kind": kind}
     with pytest.raises(ValueError, match=f"claim s: .* is {kind!r}; expected one of sign, number"):
-        verdict_on(STATEMENT, finding)
+        verdict(STATEMENT, finding)
 
 
 def test_every_kind_has_a_verdict_that_is_one():
@@ -101,9 +110,9 @@ def test_every_kind_has_a_verdict_that_is_one():
 
 
 def test_claim_that_cannot_be_false_is_not_confirmed():
-    assert verdict_on(STATEMENT | {"by_definition": True}, None) == "by definition"
+    assert verdict(replace(STATEMENT, by_definition=True), None) == "by definition"
     with pytest.raises(ValueError, match="claim s holds by definition; expected no finding"):
-        verdict_on(STATEMENT | {"by_definition": True}, {"holds": True})
+        verdict(replace(STATEMENT, by_definition=True), {"holds": True})
 
 
 @pytest.mark.parametrize(
@@ -133,13 +142,13 @@ def test_rounding_is_half_a_unit_of_the_last_printed_digit(printed, rounding):
     ],
 )
 def test_tolerance_under_which_nothing_could_fail_is_told(printed, tolerance, expected, fault):
-    claim = {"id": "n", "printed": printed, "tolerance": tolerance, "expected": expected}
+    claim = replace(NUMBER, printed=printed, tolerance=tolerance, expected=expected)
     assert fault in tolerance_fault(claim)
     assert bool(fault) == bool(tolerance_fault(claim))
 
 
 def test_statement_has_no_tolerance_to_check():
-    assert tolerance_fault(STATEMENT | {"expected": "confirmed"}) == ""
+    assert tolerance_fault(STATEMENT) == ""
 
 
 def test_tally_names_every_verdict():
@@ -156,7 +165,7 @@ def test_tally_names_every_verdict():
 
 def test_paper_and_studies_are_counted_apart_the_paper_first():
     rows = [
-        {"study": study, "verdict": verdict}
+        replace(UNTESTED, study=study, verdict=verdict)
         for study, verdict in [("b", "refuted"), ("", "confirmed"), ("a", "slip"), ("b", "slip")]
     ]
     assert by_origin(rows) == {

@@ -8,7 +8,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from replication.workbench import grid, log_to, truth, value, write_findings, write_table
+from replication.findings import Findings, read_findings, write_findings
+from replication.workbench import grid, log_to, truth, value, write_table
 
 # ---------------------------------------------------------------------------- log
 
@@ -41,13 +42,20 @@ def test_findings_are_plain_and_survive_being_written(tmp_path):
         "number": value(np.float64(1.5), np.float32(0.25), "m", meant_value=np.float64(2.0)),
         "fact": truth(np.bool_(True), peaks=np.array([1.0, 2.0]), name="α"),
     }
-    assert findings["number"] == {"value": 1.5, "error": 0.25, "unit": "m", "meant_value": 2.0}
-    assert findings["fact"] == {"holds": True, "peaks": [1.0, 2.0], "name": "α"}
-    assert type(findings["fact"]["holds"]) is bool
+    assert findings["number"].entries == {
+        "value": 1.5,
+        "error": 0.25,
+        "unit": "m",
+        "meant_value": 2.0,
+    }
+    assert findings["fact"].entries == {"holds": True, "peaks": [1.0, 2.0], "name": "α"}
+    assert type(findings["fact"].holds) is bool
     path = tmp_path / "findings.json"
-    write_findings(str(path), findings)
+    write_findings(path, Findings(findings, ("a.b",)))
     text = path.read_text(encoding="utf-8")
-    assert json.loads(text) == findings
+    entries = {name: finding.entries for name, finding in findings.items()}
+    assert json.loads(text) == entries | {"called": ["a.b"]}
+    assert read_findings(path) == Findings(findings, ("a.b",))
     assert "α" in text
     assert text.endswith("}\n")
 
@@ -55,7 +63,7 @@ def test_findings_are_plain_and_survive_being_written(tmp_path):
 @pytest.mark.parametrize("number", [math.nan, math.inf])
 def test_finding_that_is_no_number_is_not_written(tmp_path, number):
     with pytest.raises(ValueError, match="JSON"):
-        write_findings(str(tmp_path / "findings.json"), {"lost": value(number, 0.0)})
+        write_findings(tmp_path / "findings.json", Findings({"lost": value(number, 0.0)}))
 
 
 # ---------------------------------------------------------------------------- tables

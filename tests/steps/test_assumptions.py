@@ -1,6 +1,7 @@
 """What the paper leaves open: the ledger of it, and the alternatives in their limits."""
 
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -8,6 +9,8 @@ import pytest
 import yaml
 from jsonschema import Draft202012Validator
 
+from replication.ledger import read_ledger
+from replication.workbench import truth
 from steps.assumptions import choices, rankings, run, trilith
 from steps.assumptions.alternatives import alternatives
 from steps.assumptions.choices import Choices
@@ -20,10 +23,14 @@ def read(path):
     return yaml.safe_load((ROOT / path).read_text(encoding="utf-8"))
 
 
+def claims_by_id():
+    return {claim.id: claim for claim in read_ledger([ROOT / "paper" / "claims.yaml"])}
+
+
 LEDGER = read("paper/assumptions.yaml")
 SCHEMA = read("paper/assumptions.schema.yaml")
 CONFIG = read("config/config.yaml")
-CLAIMS = {claim["id"] for claim in read("paper/claims.yaml")}
+CLAIMS = set(claims_by_id())
 COLUMN = Column(0.5, 3.0)
 FRAMES = [COLUMN, *(RockingFrame(COLUMN, gamma) for gamma in (0.0, 0.434, 5.0, math.inf))]
 BLOCK = COLUMN.block()
@@ -187,7 +194,7 @@ def small_cases():
 
 def test_a_quantity_that_does_not_change_keeps_its_verdict():
     name = "trilith: below uplift"
-    ledger = {claim["id"]: claim for claim in read("paper/claims.yaml")}
+    ledger = claims_by_id()
     row = {"id": "equation", "alternatives": [{"id": "linearised"}], "reaches": [name]}
     cases = small_cases() | {"assumptions": CONFIG["assumptions"]}
     (found,) = run.main([row], ledger, cases, 3e-12)
@@ -197,9 +204,9 @@ def test_a_quantity_that_does_not_change_keeps_its_verdict():
 
 
 def test_a_verdict_that_is_not_the_ledgers_is_refused():
-    name = "trilith: below uplift"
-    ledger = {claim["id"]: dict(claim) for claim in read("paper/claims.yaml")}
-    ledger["trilith_stays_below_uplift"]["expected"] = "refuted"
+    name, ledger = "trilith: below uplift", claims_by_id()
+    claim = ledger["trilith_stays_below_uplift"]
+    ledger[claim.id] = replace(claim, expected="refuted")
     row = {"id": "equation", "alternatives": [{"id": "linearised"}], "reaches": [name]}
     cases = small_cases() | {"assumptions": CONFIG["assumptions"]}
     with pytest.raises(ArithmeticError, match="refuted in the ledger"):
@@ -210,9 +217,9 @@ def test_the_smooth_and_the_abrupt_start_are_told_apart():
     cases = small_cases()
     smooth = trilith.no_pure_rocking(Choices(table_starts=(0.0,)), cases)
     abrupt = trilith.no_pure_rocking(Choices(table_starts=(1.0,)), cases)
-    assert smooth == (0.0, {"holds": True, "holds_when": True})
+    assert smooth == (0.0, truth(True, holds_when=True))
     assert abrupt.number > 0.0
-    assert abrupt.finding == {"holds": False, "holds_when": False}
+    assert abrupt.finding == truth(False, holds_when=False)
 
 
 def test_records_shake_the_block_of_the_choice(monkeypatch):

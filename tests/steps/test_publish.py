@@ -1,9 +1,13 @@
 """The published table of verdicts."""
 
 import re
+from dataclasses import replace
 
 import pytest
 
+from replication.claim import Claim
+from replication.findings import Findings
+from replication.ledger import judged
 from replication.publishing import (
     checksums,
     count_table,
@@ -13,24 +17,28 @@ from replication.publishing import (
     verdict_table,
     with_counts,
 )
+from replication.workbench import value
 from steps.publish import main
 
-ROW = {
-    "id": "trilith_size",
-    "study": "",
-    "where": "p. 3",
-    "statement": "the size of the column",
-    "printed": 0.415,
-    "computed": 0.4148493702538308,
-    "unit": "m",
-    "verdict": "confirmed",
-    "remark": "",
-}
+CLAIM = Claim(
+    id="trilith_size",
+    where="p. 3",
+    statement="the size of the column",
+    printed=0.415,
+    unit="m",
+    tolerance=5e-4,
+    finding="size",
+    function="topheavy.Column",
+    rule="trilith",
+    expected="confirmed",
+)
+SIZE = Findings({"size": value(0.4148493702538308, 1e-16)}, ("topheavy.structures.Column",))
+ROW = judged(CLAIM, {"trilith": SIZE})
 
 
 def cells(**changes) -> list[str]:
     """The cells of the row that a claim becomes."""
-    last = verdict_table([ROW | changes])[-1]
+    last = verdict_table([replace(ROW, **changes)])[-1]
     return [cell.strip() for cell in re.split(r"(?<!\\)\|", last)[1:-1]]
 
 
@@ -47,7 +55,7 @@ def test_claim_becomes_a_row_under_the_heads_of_its_columns():
 
 
 def test_every_claim_has_its_row_in_order():
-    lines = verdict_table([ROW | {"id": name} for name in ("b", "a", "c")])
+    lines = verdict_table([replace(ROW, id=name) for name in ("b", "a", "c")])
     assert [line.split("`")[1] for line in lines[-3:]] == ["b", "a", "c"]
 
 
@@ -83,7 +91,7 @@ def test_page_says_that_a_fault_of_the_print_may_be_ours():
     assert "transcription: every slip or misprint may be its fault" in verdict_page([ROW])
 
 
-OURS = ROW | {"id": "ours", "study": "reversals", "verdict": "refuted"}
+OURS = replace(ROW, id="ours", study="reversals", verdict="refuted")
 
 
 def test_paper_and_studies_have_a_table_each():
@@ -155,7 +163,7 @@ def test_checksums_are_of_tables_and_findings_whatever_their_line_ends(tmp_path)
 
 
 def test_number_without_a_unit_leaves_no_gap():
-    assert "| 0.415 | 0.414849 |" in verdict_table([ROW | {"unit": ""}])[-1]
+    assert "| 0.415 | 0.414849 |" in verdict_table([replace(ROW, unit="")])[-1]
 
 
 def test_results_of_another_config_are_not_published(tmp_path, monkeypatch):

@@ -3,37 +3,34 @@
 import json
 import re
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import pandas as pd
 import pytest
 import yaml
 
-from replication.ledger import judged, read_ledger
+from replication.claim import Claim
+from replication.findings import Findings, findings_by_rule
+from replication.ledger import judged, read_judged, read_ledger
 from replication.publishing import count_table, verdict_page
 from replication.rechecking import claims, files, pages
-from replication.rules.claims import read_findings
+from replication.workbench import truth, value
 from steps.recheck import equations, main
 
 ROOT = Path(__file__).resolve().parents[2]
-CLAIM = {
-    "id": "size",
-    "study": "",
-    "where": "p. 4",
-    "statement": "It is so.",
-    "printed": 0.415,
-    "tolerance": 5e-4,
-    "function": "topheavy.Column",
-    "rule": "trilith",
-    "finding": "size",
-    "expected": "confirmed",
-}
-FINDINGS = {
-    "trilith": {
-        "size": {"value": 0.4148, "error": 1e-16},
-        "called": ["topheavy.structures.Column"],
-    }
-}
+CLAIM = Claim(
+    id="size",
+    where="p. 4",
+    statement="It is so.",
+    printed=0.415,
+    tolerance=5e-4,
+    function="topheavy.Column",
+    rule="trilith",
+    finding="size",
+    expected="confirmed",
+)
+FINDINGS = {"trilith": Findings({"size": value(0.4148, 1e-16)}, ("topheavy.structures.Column",))}
 
 
 @pytest.fixture(scope="module")
@@ -120,12 +117,12 @@ def test_every_field_of_a_published_row_is_made_anew(tampered, name, field, new)
 
 
 def test_every_truth_that_is_flipped_is_noticed(edition):
-    rows = json.loads((edition / "tests" / "reference" / "claims.json").read_text(encoding="utf-8"))
+    rows = read_judged(edition / "tests" / "reference" / "claims.json")
     paths = [edition / "paper" / "claims.yaml", *sorted(edition.glob("studies/*/claims.yaml"))]
-    findings = read_findings((edition / "tests" / "reference" / "findings").glob("*.json"))
-    flipped = {r["id"] for r in rows if isinstance(r["computed"], bool)}
+    findings = findings_by_rule((edition / "tests" / "reference" / "findings").glob("*.json"))
+    flipped = {r.id for r in rows if isinstance(r.computed, bool)}
     assert len(flipped) > 50
-    changed = [r | {"computed": not r["computed"]} if r["id"] in flipped else r for r in rows]
+    changed = [replace(r, computed=not r.computed) if r.id in flipped else r for r in rows]
     told = {
         found[1]
         for fault in claims(read_ledger(paths), findings, changed, edition)
@@ -248,7 +245,7 @@ def test_row_of_the_ledger_that_is_changed_is_named(tampered):
 
 
 def judged_row(**changes):
-    return judged(CLAIM, FINDINGS, ROOT) | changes
+    return replace(judged(CLAIM, FINDINGS, ROOT), **changes)
 
 
 @pytest.mark.parametrize("change", [{"computed": 0.42}, {"verdict": "refuted"}, {"id": "other"}])
@@ -260,10 +257,10 @@ def test_row_that_its_finding_does_not_bear_is_found(change):
 def test_number_is_not_the_same_as_a_truth():
     (fault,) = claims([CLAIM], FINDINGS, [judged_row(computed=True)], ROOT)
     assert "computed is True" in fault
-    finding = {"trilith": {"size": {"holds": True}, "called": ["topheavy.structures.Column"]}}
-    claim = {key: CLAIM[key] for key in CLAIM if key not in ("printed", "tolerance")}
-    row = judged(claim, finding, ROOT) | {"computed": 1}
-    assert list(claims([claim], finding, [row], ROOT))
+    findings = {"trilith": replace(FINDINGS["trilith"], by_name={"size": truth(True)})}
+    claim = replace(CLAIM, printed=None, tolerance=None)
+    row = replace(judged(claim, findings, ROOT), computed=1)
+    assert list(claims([claim], findings, [row], ROOT))
 
 
 def test_pages_are_those_of_the_rows(tmp_path):

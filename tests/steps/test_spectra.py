@@ -40,11 +40,11 @@ def test_interval_holds_what_overturns(table):
 
 
 def test_lowest_amplitude_that_falls_with_mass_is_found(table):
-    assert Spectra(CASE, table).lowest_rises()["holds"]
+    assert Spectra(CASE, table).lowest_rises().holds
     swapped = table.assign(mass_ratio=1.0 - table.mass_ratio)
     finding = Spectra(CASE, swapped).lowest_rises()
     assert finding["apparent"] == 6  # three frequencies, exact and linearised
-    assert finding["holds"]  # the second look computes anew, and finds no exception
+    assert finding.holds  # the second look computes anew, and finds no exception
 
 
 def test_areas_are_those_of_known_intervals():

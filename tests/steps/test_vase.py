@@ -67,14 +67,14 @@ def test_exception_under_short_pulses_and_records_qualifies():
     usual = row("fixed", 0.2, 0.3)
     short = row("fixed", 0.4, 0.3, ratio=4.0)
     record = row("fixed", 0.4, 0.3, ratio=math.nan, kind="record")
-    assert vase.question([usual], ["fixed"], 2.5)["holds"]
+    assert vase.question([usual], ["fixed"], 2.5).holds
     found = vase.question([usual, short, record], ["fixed"], 2.5)
-    assert (found["holds"], found["holds_when"]) == (False, True)
+    assert (found.holds, found.holds_when) == (False, True)
     assert (found["comparisons"], found["comparisons_when"], found["exceptions"]) == (3, 1, 2)
     assert found["exceptions_under_records"] == found["records"] == 1
     long_one = vase.question([usual, row("fixed", 0.4, 0.3)], ["fixed"], 2.5)
-    assert not long_one["holds_when"]
-    assert not vase.question([short], ["fixed"], 2.5)["holds_when"]
+    assert not long_one.holds_when
+    assert not vase.question([short], ["fixed"], 2.5).holds_when
 
 
 def test_exchange_of_all_three_parameters_makes_the_frame():

@@ -20,9 +20,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import asdict
 from pathlib import Path
 
+from replication.claim import Claim
 from replication.faults import JUDGING, Fault, load
 from replication.kill_table import Row, caught, first_failing, publish, put_to_the_test, workflow
-from replication.ledger import read_ledger, read_rows
+from replication.ledger import read_ledger
 from replication.tree_copy import ROOT, check_imports, copy_tree
 
 TABLE = ROOT / "docs" / "kill_table"
@@ -39,13 +40,13 @@ def ledger_files() -> list[Path]:
     return [ROOT / "paper/claims.yaml", *(ROOT / f"studies/{s}/claims.yaml" for s in studies())]
 
 
-def ledgers() -> dict[str, list[dict]]:
-    """Return the rows that rules of the paper judge, and those that rules of studies judge."""
-    rows = read_rows(ledger_files())
+def ledgers() -> dict[str, list[Claim]]:
+    """Return the claims that rules of the paper judge, and those that rules of studies judge."""
+    claims = read_ledger(ledger_files())
     paper = ledger_files()[0]
     return {
-        "paper": [row for path, row in rows if path == paper],
-        "studies": [row for path, row in rows if path != paper],
+        "paper": [claim for claim in claims if claim.ledger == paper],
+        "studies": [claim for claim in claims if claim.ledger != paper],
     }
 
 

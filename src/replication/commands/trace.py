@@ -11,9 +11,10 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
-from typing import Any
 
 from replication.citations import cite, library_names, printed_list
+from replication.claim import Claim
+from replication.findings import read_findings
 from replication.ledger import finding_of
 from replication.provenance import Job, checksum, makers, workflow_jobs
 from replication.rules.claim import verdict_line
@@ -33,12 +34,10 @@ class Item:
 
     path: str | None
     key: str | None = None
-    claims: tuple[Mapping[str, Any], ...] = ()
+    claims: tuple[Claim, ...] = ()
 
 
-def find(
-    name: str, jobs: Sequence[Job], ledger: Sequence[Mapping[str, Any]], root: Path = Path()
-) -> Item:
+def find(name: str, jobs: Sequence[Job], ledger: Sequence[Claim], root: Path = Path()) -> Item:
     """Return the item that a name denotes.
 
     It may be an output or the end of its path, a claim, or a finding: `curve.rises`, or with its
@@ -52,8 +51,8 @@ def find(
     made = makers(jobs)
     findings = {Path(path).stem: path for job in jobs for path in job.findings}
     for claim in ledger:
-        if name in (claim["id"], f"claim_{claim['id']}"):
-            return Item(findings.get(claim.get("rule", "")), claim.get("finding"), (claim,))
+        if name in (claim.id, f"claim_{claim.id}"):
+            return Item(findings.get(claim.rule), claim.finding or None, (claim,))
 
     outputs = sorted(path for path in made if Path(path).match(name))
     if len(outputs) > 1:
@@ -64,11 +63,11 @@ def find(
         raise ValueError(f"{name} is made by no rule; it goes into {', '.join(users)}")
 
     place, _, key = name.partition(":" if ":" in name else ".")
-    known = [*made, *(claim["id"] for claim in ledger)]
+    known = [*made, *(claim.id for claim in ledger)]
     for rule, path in findings.items():
         asked = place == rule or (place != "" and Path(path).match(place))
         if (root / path).exists():
-            keys = json.loads((root / path).read_text(encoding="utf-8"))
+            keys = read_findings(root / path)
             for found in keys if asked else ():
                 if f"{key}.".startswith(f"{found}."):  # the finding, or an entry of it
                     return Item(path, found, _judged_by(ledger, [rule], found))
@@ -96,7 +95,7 @@ def chain(item: Item, jobs: Sequence[Job], root: Path = Path()) -> Iterator[str]
     if item.path is None:
         return
     if item.key and (root / item.path).exists():
-        found = json.loads((root / item.path).read_text(encoding="utf-8"))[item.key]
+        found = read_findings(root / item.path)[item.key].entries
         yield f"{item.key} = {json.dumps(found, ensure_ascii=False)}"
     if item.claims or item.key:
         yield ""
@@ -112,17 +111,14 @@ def chain(item: Item, jobs: Sequence[Job], root: Path = Path()) -> Iterator[str]
         waiting += [path for path in job.inputs if path in made]
 
 
-def _claim_lines(claim: Mapping[str, Any], path: str | None, root: Path) -> Iterator[str]:
-    yield f"claim {claim['id']}: {claim['statement']}"
-    yield f"  paper     {claim['where']}"
-    if "function" in claim:
-        yield f"  function  {_cited(claim['function'])}"
-    if path and (root / path).exists():
-        findings = json.loads((root / path).read_text(encoding="utf-8"))
-        finding = finding_of(claim, findings)
+def _claim_lines(claim: Claim, path: str | None, root: Path) -> Iterator[str]:
+    yield f"claim {claim.id}: {claim.statement}"
+    yield f"  paper     {claim.where}"
+    if claim.function:
+        yield f"  function  {_cited(claim.function)}"
+    if path is None or (root / path).exists():
+        finding = finding_of(claim, read_findings(root / path)) if path else None
         yield f"  verdict   {verdict_line(claim, finding, verdict_on(claim, finding))}"
-    elif path is None:
-        yield f"  verdict   {verdict_line(claim, None, verdict_on(claim, None))}"
 
 
 def _job_lines(job: Job, made: Mapping[str, Job], root: Path) -> Iterator[str]:
@@ -161,12 +157,10 @@ def _digest(path: str, root: Path) -> str:
 
 
 def _judged_by(
-    ledger: Iterable[Mapping[str, Any]], rules: Iterable[str], key: str | None = None
-) -> tuple[Mapping[str, Any], ...]:
+    ledger: Iterable[Claim], rules: Iterable[str], key: str | None = None
+) -> tuple[Claim, ...]:
     """Return the claims that a finding of these rules judges, or that this finding does."""
-    return tuple(
-        claim for claim in ledger if claim.get("rule") in rules and key in (None, claim["finding"])
-    )
+    return tuple(claim for claim in ledger if claim.rule in rules and key in (None, claim.finding))
 
 
 if __name__ == "__main__":

@@ -1,17 +1,18 @@
-"""The ledger judged: every row against what the workflow found."""
+"""Judge every row of the ledger by the findings of the workflow."""
 
-import json
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-from replication.ledger import judged, read_ledger
+from replication.claim import Claim, JudgedClaim
+from replication.findings import Findings, findings_by_rule
+from replication.ledger import as_text, judged, read_ledger
 from replication.workbench import run
 
 
 def main(
-    ledger: Iterable[Mapping[str, Any]], findings: Mapping[str, Any], root: str | Path = "."
-) -> list[dict]:
+    ledger: Iterable[Claim], findings: Mapping[str, Findings], root: str | Path = "."
+) -> list[JudgedClaim]:
     """Return the judged rows; print each verdict.
 
     Raises
@@ -26,25 +27,15 @@ def main(
         except ValueError as fault:
             faults.append(str(fault))
             continue
-        print(f"{claim['id']}: {rows[-1]['verdict']} (expected {claim['expected']})")
+        print(f"{claim.id}: {rows[-1].verdict} (expected {claim.expected})")
     if faults:
         raise ValueError("\n".join(faults))
     return rows
 
 
-def read_findings(paths: Iterable[str | Path]) -> dict[str, dict[str, Any]]:
-    """Return the findings of each rule, by the name of its file."""
-    return {Path(path).stem: json.loads(Path(path).read_text(encoding="utf-8")) for path in paths}
-
-
 def work(job: Any) -> None:
-    rows = main(read_ledger(job.input.ledger), read_findings(job.input.findings))
+    rows = main(read_ledger(job.input.ledger), findings_by_rule(job.input.findings))
     Path(job.output[0]).write_text(as_text(rows), encoding="utf-8")
-
-
-def as_text(rows: list[dict]) -> str:
-    """Return the judged ledger as results/claims.json has it."""
-    return json.dumps(rows, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
 
 if __name__ == "__main__":

@@ -1,27 +1,30 @@
 """End a run: print the verdicts, and fail if a verdict differs from the expected one."""
 
-import json
 from collections import Counter
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import pandas as pd
 
+from replication.claim import JudgedClaim
+from replication.findings import read_findings
+from replication.ledger import read_judged
 from replication.verdicts import tallies
 from replication.workbench import run
 
 
 def main(
-    claims: list[dict], comparison: pd.DataFrame, checks: dict[str, bool]
+    claims: Sequence[JudgedClaim], comparison: pd.DataFrame, checks: dict[str, bool]
 ) -> tuple[str, list[str]]:
     """Return the lines that close the run, the paper's and each study's, and what is wrong.
 
     `checks` are findings that are no claims of anybody, and have to hold all the same.
     """
     faults = [
-        f"claim {row['id']} is {row['verdict']}; expected {row['expected']}"
+        f"claim {row.id} is {row.verdict}; expected {row.expected}"
         for row in claims
-        if row["verdict"] != row["expected"] and not row["not_tested"]
+        if row.verdict != row.expected and not row.not_tested
     ]
     faults += [
         f"results/tables/{row.table} differs from tests/reference/{row.table} "
@@ -33,22 +36,19 @@ def main(
     return "\n".join([*untested(claims), *tallies(claims)]), faults
 
 
-def untested(claims: list[dict]) -> list[str]:
+def untested(claims: Sequence[JudgedClaim]) -> list[str]:
     """Return a line for each reason why claims were not tested that a full run tests."""
-    reasons = Counter(row["not_tested"] for row in claims if row["not_tested"])
+    reasons = Counter(row.not_tested for row in claims if row.not_tested)
     return [f"{count} claims not tested here: {reason}" for reason, count in reasons.items()]
 
 
 def work(job: Any) -> None:
-    claims = json.loads(Path(job.input.claims).read_text(encoding="utf-8"))
     checks = {
-        f"{rule}.{name}": json.loads(
-            Path(f"results/findings/{rule}.json").read_text(encoding="utf-8")
-        )[name]["holds"]
+        f"{rule}.{name}": bool(read_findings(f"results/findings/{rule}.json")[name].holds)
         for rule, names in job.params.checks.items()
         for name in names
     }
-    lines, faults = main(claims, pd.read_csv(job.input.comparison), checks)
+    lines, faults = main(read_judged(job.input.claims), pd.read_csv(job.input.comparison), checks)
     if faults:
         raise SystemExit("\n".join([*faults, lines]))
     text = f"report: paper/report.pdf\n{lines}\n"

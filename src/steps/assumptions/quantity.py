@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from typing import Any, NamedTuple, TypeAlias
 
+from replication.findings import Finding
 from steps.assumptions.choices import Choices
 
 Cases: TypeAlias = dict[str, Any]
@@ -13,7 +14,7 @@ class Found(NamedTuple):
     """A quantity's number, and the finding by which its claim is judged."""
 
     number: float
-    finding: dict[str, Any]
+    finding: Finding
 
 
 class Quantity(NamedTuple):

@@ -10,6 +10,8 @@ from dataclasses import replace
 from functools import cache
 from typing import Any
 
+from replication.claim import Claim
+from replication.ledger import read_ledger
 from replication.strict_yaml import read_yaml
 from replication.verdicts import verdict_on
 from replication.workbench import run
@@ -19,10 +21,13 @@ from steps.assumptions.choices import Choices
 from steps.assumptions.quantity import Cases
 from topheavy import read_record
 
+UNCLAIMED = Claim(id="", where="", statement="", expected="")
+"""In place of the claim of a quantity that has none."""
+
 QUANTITIES = trilith.QUANTITIES | pulses.QUANTITIES | rankings.QUANTITIES | impact.QUANTITIES
 
 
-def main(assumptions: list[dict], ledger: dict[str, dict], cases: Cases, tightened: float):
+def main(assumptions: list[dict], ledger: dict[str, Claim], cases: Cases, tightened: float):
     """Return the rows of the table: each quantity, ours and by each alternative that reaches it."""
 
     @cache
@@ -30,7 +35,7 @@ def main(assumptions: list[dict], ledger: dict[str, dict], cases: Cases, tighten
         """Return a quantity's number, an estimate of its error, and its verdict."""
         finer = replace(choices, tolerance=tightened, samples=2 * choices.samples - 1)
         first, again = (QUANTITIES[name].find(option, cases) for option in (choices, finer))
-        claim = ledger.get(QUANTITIES[name].claim or "", {"id": name})
+        claim = ledger.get(QUANTITIES[name].claim or "", UNCLAIMED)
         verdict = verdict_on(claim, first.finding)
         if verdict != verdict_on(claim, again.finding):
             raise ArithmeticError(f"{name}, {choices}: the verdict depends on the tolerance")
@@ -45,11 +50,9 @@ def main(assumptions: list[dict], ledger: dict[str, dict], cases: Cases, tighten
                 quantity = QUANTITIES[name]
                 ours, error, before = found(name, Choices())
                 other, other_error, after = found(name, made[assumption["id"]][alternative["id"]])
-                claim = ledger.get(quantity.claim or "", {})
-                if claim and before != claim["expected"]:
-                    raise ArithmeticError(
-                        f"{name}: {before}, and {claim['expected']} in the ledger"
-                    )
+                claim = ledger.get(quantity.claim or "", UNCLAIMED)
+                if claim is not UNCLAIMED and before != claim.expected:
+                    raise ArithmeticError(f"{name}: {before}, and {claim.expected} in the ledger")
                 rows.append(
                     {
                         "assumption": assumption["id"],
@@ -60,7 +63,7 @@ def main(assumptions: list[dict], ledger: dict[str, dict], cases: Cases, tighten
                         "ours": ours,
                         "with_alternative": other,
                         "error": max(error, other_error),
-                        "tolerance": claim.get("tolerance", math.nan),
+                        "tolerance": math.nan if claim.tolerance is None else claim.tolerance,
                         "before": before,
                         "after": after,
                         "changed": before != after,
@@ -71,9 +74,9 @@ def main(assumptions: list[dict], ledger: dict[str, dict], cases: Cases, tighten
 
 
 def work(job: Any) -> list[dict]:
-    assumptions, claims = map(read_yaml, (job.input.assumptions, job.input.ledger))
+    assumptions = read_yaml(job.input.assumptions)
     cases = job.params.cases | {"records": [read_record(path) for path in job.input.records]}
-    ledger = {claim["id"]: claim for claim in claims}
+    ledger = {claim.id: claim for claim in read_ledger([job.input.ledger])}
     return main(assumptions, ledger, cases, job.params.solver["tightened"])
 
 

@@ -1,22 +1,23 @@
 """The published tables against equations that no step uses, without a run: `make check`."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
-from replication.rechecking import Findings, close
+from replication.findings import Findings
+from replication.rechecking import close
 from replication.rechecking import main as recheck
 
 
-def evidence(folder: Path, findings: Findings) -> Iterator[str]:
+def evidence(folder: Path, findings: Mapping[str, Findings]) -> Iterator[str]:
     """Yield the published numbers that do not follow from the arithmetic–geometric mean."""
     table = pd.read_csv(folder / "period.csv")
     expected = _period(np.radians(table.amplitude_deg))
     if not np.allclose(table.by_elliptic_integral, expected, rtol=1e-8):
         yield "period.csv: the period is not that of the arithmetic–geometric mean"
-    found, expected = findings["period"]["at_right_angle"]["value"], _period(np.pi / 2)
+    found, expected = findings["period"]["at_right_angle"].value, _period(np.pi / 2)
     if not np.isclose(found, expected, rtol=1e-8):
         yield f"findings/period.json: at_right_angle.value is {found}; expected {expected:.9g}"
 
