@@ -1,4 +1,4 @@
-"""Record which functions of the repository a step calls; a row of the ledger may name only these.
+"""Record which functions of library and studies a step calls; a row of the ledger names only these.
 
 The first call of a function records its name and restores the function, so that later calls cost
 nothing. A function that numba has compiled is not recorded; the Python function that calls it is.
@@ -14,11 +14,14 @@ from contextlib import contextmanager
 from pathlib import Path
 from types import FunctionType, ModuleType
 
-PLACES = {path.name: "src" for path in Path("src").glob("*") if path.name != "replication"}
+OF_NO_ROW = ("replication", "steps")
+"""The packages whose functions no row of a ledger may name (paper/claims.schema.yaml)."""
+
+PLACES = {path.name: "src" for path in Path("src").glob("*") if path.name not in OF_NO_ROW}
 PLACES |= {"studies": "."}
 """The packages whose functions are noted, and the folder that each lies in, from the root."""
 
-LIBRARIES = frozenset(PLACES) - {"steps", "studies"}
+LIBRARIES = frozenset(PLACES) - {"studies"}
 """The packages that the steps take their code from."""
 
 
@@ -53,9 +56,9 @@ def noted(modules: Iterable[tuple[str, ModuleType]]) -> Iterator[set[str]]:
 
 
 def library(declared: Iterable[str]) -> Iterator[tuple[str, ModuleType]]:
-    """Yield the modules of the library and of the studies that a rule declares, and its script.
+    """Yield the modules of library and studies that a rule declares, and the script of a study.
 
-    Modules that the step would load only later are loaded now.
+    Modules of the library that the step would load only later are loaded now.
     """
     for path in sorted(declared):
         name = _module_name(path)

@@ -31,12 +31,6 @@ def read_captions(paths: Iterable[str | Path]) -> dict[str, dict[str, Any]]:
     return captions
 
 
-def caption_files(config: Mapping[str, Any]) -> list[Path]:
-    """Return the paths of the captions of the paper and of the studies in the config."""
-    studies = (Path("studies", name, "captions.yaml") for name in config["studies"])
-    return [Path("figures/captions.yaml"), *studies]
-
-
 def captioned(
     result: str, captions: Mapping[str, Mapping[str, Any]], claims: Iterable[JudgedClaim]
 ) -> dict[str, Any]:

@@ -4,7 +4,7 @@ import os
 from functools import partial
 from pathlib import Path
 
-from replication.captions import caption_files, captioned, read_captions
+from replication.captions import captioned, read_captions
 from replication.closing import close
 from replication.code import code, undeclared
 from replication.costs import longest_jobs
@@ -48,7 +48,7 @@ def parts(check):
 
 
 def everything(wildcards):
-    """Return all that a run makes, but for the list of it, which is made last.
+    """Return all inputs and outputs of a run, except the list of its outputs, which is made last.
 
     What only another job needs is named as well: when it is missing, Snakemake makes it again only
     if somebody asks for it. A failed or interrupted job leaves its outputs missing.
@@ -56,7 +56,7 @@ def everything(wildcards):
     drawn = {table for tables in FIGURES.values() for table in tables}
     wanted = dict.fromkeys(f"results/tables/{table}.csv" for table in sorted(drawn))
     for each in workflow.rules:
-        if each.name in ("all", "manifest") or each.name.startswith("claim_"):
+        if each.name == "manifest" or not each.output:
             continue
         asked = [*each.input, *([] if each.has_wildcards() else each.output)]
         wanted |= dict.fromkeys(str(path) for path in asked if not callable(path))
@@ -73,7 +73,8 @@ def longest_first():
 def caption_of(result):
     """Return what the HTML report says of a result: its caption and verdict (caption.rst)."""
     claims = read_judged("results/claims.json")
-    return captioned(str(result), read_captions(caption_files(config)), claims)
+    captions = read_captions(part.captions for part in PARTS.values())
+    return captioned(str(result), captions, claims)
 
 
 def shown(output):

@@ -35,9 +35,24 @@ class Part:
     @property
     def claims(self) -> str:
         """Its ledger."""
-        return "paper/claims.yaml" if self.name == PAPER else f"studies/{self.name}/claims.yaml"
+        return ledger_of(self.name)
+
+    @property
+    def captions(self) -> str:
+        """The captions of its figures."""
+        return captions_of(self.name)
 
     @property
     def sections(self) -> list[str]:
         """Its sections of the report; for the paper, the report itself."""
         return [] if self.name == PAPER else [f"studies/{self.name}/section.typ"]
+
+
+def ledger_of(part: str) -> str:
+    """Return the path of the ledger of a part, by its name."""
+    return "paper/claims.yaml" if part == PAPER else f"studies/{part}/claims.yaml"
+
+
+def captions_of(part: str) -> str:
+    """Return the path of the captions of a part, by its name."""
+    return "figures/captions.yaml" if part == PAPER else f"studies/{part}/captions.yaml"

@@ -12,6 +12,7 @@ from typing import Any
 from replication.claim import Claim, JudgedClaim
 from replication.findings import Findings, findings_by_rule, write_findings
 from replication.ledger import OURS, as_text, read_ledger
+from replication.parts import PAPER, ledger_of
 from replication.rules.claims import main as judge_all
 from replication.strict_yaml import read_yaml
 from replication.verdicts import VERDICTS, by_origin
@@ -187,8 +188,7 @@ def publish(tables: Iterable[str], study_tables: Iterable[str] = ()) -> None:
             shutil.copyfile(made, reference / "studies" / f"{name}.csv")
     publish_findings(results / "findings", reference / "findings")
     (reference / CHECKSUMS).write_text(checksums(reference), encoding="utf-8")
-    studies = [f"studies/{name}/claims.yaml" for name in ours["studies"]]
-    publish_verdicts(read_ledger(["paper/claims.yaml", *studies]), Path())
+    publish_verdicts(read_ledger(map(ledger_of, [PAPER, *ours["studies"]])), Path())
 
 
 def publish_findings(findings: Path, folder: Path) -> None:

@@ -9,6 +9,7 @@ from pathlib import Path
 from replication.claim import Claim, JudgedClaim
 from replication.findings import Findings, findings_by_rule
 from replication.ledger import judged, read_judged, read_ledger
+from replication.parts import PAPER, ledger_of
 from replication.publishing import CHECKSUMS, checksums, verdict_page, with_counts
 from replication.strict_yaml import read_yaml
 from replication.verdicts import tallies
@@ -88,8 +89,7 @@ def main(
         Yields what is wrong with the published tables and with the findings drawn from them.
     """
     config = read_yaml(root / "config" / "config.yaml")
-    studies = [root / "studies" / name / "claims.yaml" for name in config["studies"]]
-    ledger = read_ledger([root / "paper" / "claims.yaml", *studies])
+    ledger = read_ledger(root / ledger_of(name) for name in [PAPER, *config["studies"]])
     reference = root / "tests" / "reference"
     findings = findings_by_rule((reference / "findings").glob("*.json"))
     rows = read_judged(root / CLAIMS)

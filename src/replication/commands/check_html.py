@@ -16,7 +16,8 @@ from pathlib import Path
 
 from tornado.websocket import WebSocketClientConnection, websocket_connect
 
-from replication.captions import caption_files, read_captions
+from replication.captions import read_captions
+from replication.parts import PAPER, captions_of
 from replication.strict_yaml import read_yaml
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
@@ -234,4 +235,4 @@ def main(page: Path, captions: dict[str, dict], pictures: Path | None = None) ->
 if __name__ == "__main__":
     page, *pictures = map(Path, sys.argv[1:])
     config = read_yaml("config/config.yaml")
-    main(page, read_captions(caption_files(config)), *pictures)
+    main(page, read_captions(map(captions_of, [PAPER, *config["studies"]])), *pictures)

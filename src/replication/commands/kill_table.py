@@ -24,6 +24,7 @@ from replication.claim import Claim
 from replication.faults import JUDGING, Fault, load
 from replication.kill_table import Row, caught, first_failing, publish, put_to_the_test, workflow
 from replication.ledger import read_ledger
+from replication.parts import PAPER, ledger_of
 from replication.tree_copy import ROOT, check_imports, copy_tree
 
 TABLE = ROOT / "docs" / "kill_table"
@@ -37,7 +38,7 @@ def studies() -> list[str]:
 
 def ledger_files() -> list[Path]:
     """Return the ledgers of the paper and of all studies."""
-    return [ROOT / "paper/claims.yaml", *(ROOT / f"studies/{s}/claims.yaml" for s in studies())]
+    return [ROOT / ledger_of(name) for name in [PAPER, *studies()]]
 
 
 def ledgers() -> dict[str, list[Claim]]:

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from replication.provenance import Job, checksum, workflow_jobs
-from replication.workbench import log_to
+from replication.workbench import run
 
 MANIFEST = "results/manifest.json"
 
@@ -83,5 +83,4 @@ def work(job: Any) -> None:
 
 
 if __name__ == "__main__":
-    with log_to(snakemake.log[0]):  # it reads the Snakefile, which loads more than its inputs
-        work(snakemake)
+    run(snakemake, work)

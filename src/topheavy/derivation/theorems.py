@@ -5,6 +5,7 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 
 from topheavy.derivation import contact_proofs, fixed_proofs, impact_proofs, motion_proofs
 
@@ -18,15 +19,17 @@ class Theorem:
     holds: bool
 
 
-def theorems() -> list[Theorem]:
-    """Prove the theorems on the motion; the docstring of a proof is its statement."""
+@cache
+def theorems() -> tuple[Theorem, ...]:
+    """Prove the theorems on the motion, once in a process; the docstring of a proof states it."""
     return _prove(*motion_proofs.PROOFS, *impact_proofs.PROOFS, *fixed_proofs.PROOFS)
 
 
-def contact_theorems() -> list[Theorem]:
+@cache
+def contact_theorems() -> tuple[Theorem, ...]:
     """Prove the theorems on the contact forces, which the paper omits."""
     return _prove(*contact_proofs.PROOFS)
 
 
-def _prove(*proofs: Callable[[], bool]) -> list[Theorem]:
-    return [Theorem(proof.__name__, inspect.getdoc(proof) or "", proof()) for proof in proofs]
+def _prove(*proofs: Callable[[], bool]) -> tuple[Theorem, ...]:
+    return tuple(Theorem(proof.__name__, inspect.getdoc(proof) or "", proof()) for proof in proofs)

@@ -141,8 +141,12 @@ def main(case: dict, cap: Cap) -> tuple[pd.DataFrame, dict]:
         found = first_pull(frame, cap, case, table[table.mass_ratio == frame.mass_ratio])
         if found:
             findings[f"first_pull_{frame.mass_ratio:g}"] = value(
-                found["amplitude"], found["error"], "g tan α", at=found["at"]
-            ) | {"second_route_agrees": found["agrees"]}
+                found["amplitude"],
+                found["error"],
+                "g tan α",
+                at=found["at"],
+                second_route_agrees=found["agrees"],
+            )
     return table, findings
 
 
