@@ -1,4 +1,4 @@
-"""Error of the peak rotation of Allen et al. over amplitude, slenderness and γ, in its parts."""
+"""Error of the peak rotation by the model of Allen et al., and by each of its simplifications."""
 
 from figures.drawing import MODELS, gamma
 from replication.drawing import DOUBLE, GREY, note, publish, shades, sheet

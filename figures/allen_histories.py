@@ -1,4 +1,4 @@
-"""The model of Allen et al. and each of its simplifications beside the exact frame, in time."""
+"""Histories by the model of Allen et al., by each simplification, and of the exact frame."""
 
 from figures.drawing import MODELS
 from replication.drawing import ACCENT, DOUBLE, GREY, INK, letter, note, publish, sheet

@@ -13,7 +13,7 @@ VERDICTS = {
 }
 TITLES = {
     "linearised": "Linearised equation only",
-    "all": "Allen et al.: linearised, massless columns",
+    "all": "Allen et al.: linearised, columns without mass",
 }
 
 

@@ -8,8 +8,8 @@ from matplotlib.axes import Axes
 
 MODELS = {  # the simplifications of Allen et al. (1986), one at a time and together
     "linearised": "linearised",
-    "massless frequency": r"$\hat{p}$ of massless columns",
-    "massless restitution": r"$\sqrt{r}$ of massless columns",
+    "massless frequency": r"$\hat{p}$ for $\gamma\to\infty$",
+    "massless restitution": r"$\sqrt{r}$ for $\gamma\to\infty$",
     "all": "all three: Allen et al.",
 }
 

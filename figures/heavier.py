@@ -1,12 +1,11 @@
-"""One pulse under heavier and heavier caps, and the pulse that it takes to overturn each."""
+"""Histories under one pulse for increasing γ, and the minimum overturning accelerations."""
 
-import math
 from string import ascii_lowercase
 
 from figures.drawing import gamma
 from replication.drawing import ACCENT, DOUBLE, GREY, INK, note, publish, shades, sheet
 
-NAMES = {0.0: ", solitary column", math.inf: ", massless columns"}
+NAMES = {0.0: ", solitary column"}
 POINTS = {"textcoords": "offset points"}
 
 
@@ -26,7 +25,7 @@ def history(axis, run, case, colour):
 
 
 def thresholds(axis, heavier, colours, pulse):
-    """Draw the lowest amplitude that overturns each, beside that of the pulse."""
+    """Draw the minimum overturning acceleration of each, and the acceleration of the pulse."""
     for place, (case, colour) in enumerate(zip(heavier.itertuples(), colours, strict=True)):
         least = case.lowest_overturning_low
         axis.barh(place, least, color=colour, height=0.62)
@@ -36,8 +35,8 @@ def thresholds(axis, heavier, colours, pulse):
     words, top = f"this pulse, {pulse:g} g", len(heavier) - 0.4
     note(axis, words, (pulse, top), xytext=(-3, 0), ha="right", color=ACCENT, **POINTS)
     axis.set(yticks=range(len(heavier)), yticklabels=map(gamma, heavier.mass_ratio))
-    axis.set(ylim=(-0.5, top + 0.3), xlabel="Lowest overturning acceleration (g)")
-    axis.set_title("What overturns them")
+    axis.set(ylim=(-0.5, top + 0.3), xlabel="Acceleration amplitude (g)")
+    axis.set_title("Minimum overturning acceleration")
 
 
 def draw(heavier_histories, heavier):

@@ -1,4 +1,4 @@
-"""How soon a heavier cap beam makes the frame a larger block: Eqs. (23), (24)."""
+"""Size and frequency parameter of the equivalent column against mass ratio: Eqs. (23), (24)."""
 
 import numpy as np
 
@@ -19,7 +19,7 @@ def draw(mass_ratio):
         up = 1 if last[name] > 1.0 else -1
         beside = {"textcoords": "offset points"}
         axis.axhline(last[name], color=GREY, linestyle=(0, (4, 2)), linewidth=0.8)
-        limit += r": massless columns, $\gamma\to\infty$"
+        limit += r" for $\gamma\to\infty$"
         note(axis, limit, (10, last[name]), xytext=(0, 7 * up), ha="right", color=GREY, **beside)
         axis.plot(finite.mass_ratio, finite[name], color=INK)
         axis.plot(0, 1, "o", color=INK, markersize=3.5, clip_on=False, zorder=3)
@@ -34,7 +34,7 @@ def draw(mass_ratio):
     axes[1].set(xlabel=GAMMA, ylabel=r"Frequency parameter, $\hat{p}/p$ (–)", ylim=(0.79, 1.01))
     for axis in axes:
         axis.set_xlim(0, 10)
-    letter(axes, ["The frame rocks as a column so much larger …", "… and so much slower"])
+    letter(axes, ["Size of the equivalent column", "Frequency parameter of the frame"])
     return figure
 
 

@@ -1,4 +1,4 @@
-"""How far column and frames rock under a pulse, and where they overturn."""
+"""Peak rotation of column and frames under pulses, and the pulses that overturn them."""
 
 from matplotlib.colors import BoundaryNorm, LinearSegmentedColormap
 
@@ -36,7 +36,7 @@ def draw(peak_maps):
     bar = figure.colorbar(image, ax=axes, ticks=[0, 0.2, 0.4, 0.6, 0.8, 1.0], pad=0.01)
     bar.set_label(r"Peak rotation, $\theta_\mathrm{max}/\alpha$ (–)")
     bar.ax.set_yticks([], minor=True)
-    names = [", solitary column", "", ", massless columns"]
+    names = [", solitary column", "", ""]
     letter(axes, [gamma(g) + name for g, name in zip(ratios, names, strict=True)])
     return figure
 

@@ -17,7 +17,7 @@ def draw(quarter_period):
         note(right, text, at, xytext=(5, -7), textcoords="offset points")
     left.plot(line.start_fraction, line.quarter_period, color=INK)
     left.axvline(1.0, color=GREY, linewidth=0.8, linestyle=(0, (4, 2)))
-    note(left, "poised at $\\alpha$", (0.985, 0.35), ha="right", color=GREY)
+    note(left, "barrier at $\\alpha$", (0.985, 0.35), ha="right", color=GREY)
     note(
         left,
         f"drawn: exact, $\\alpha$ = {slenderness:g}°;\n"
@@ -30,9 +30,7 @@ def draw(quarter_period):
     right.set_ylabel("Error of the linearised period (%)")
     for axis in (left, right):
         axis.set(xlabel=r"Amplitude, $\theta_0/\alpha$ (–)", xlim=(0, 1.02))
-    letter(
-        [left, right], ["No period of its own: it grows with amplitude", "What linearising changes"]
-    )
+    letter([left, right], ["Quarter period against amplitude", "Error of the linearised equation"])
     return figure
 
 

@@ -1,4 +1,4 @@
-"""Velocity ratio at impact over slenderness and mass ratio: Eq. (25) between its two limits."""
+"""Coefficient of restitution √r against slenderness and mass ratio: Eq. (25) and its two limits."""
 
 import numpy as np
 
@@ -21,7 +21,7 @@ def draw(restitution_over_slenderness, restitution_over_mass_ratio):
             note(left, f"{end:.1f}°", (end, 0), xytext=aside, textcoords="offset points")
     left.axhline(0, color=GREY, linewidth=0.6)
     note(left, "Housner, solitary column:\n$1-\\frac{3}{2}\\sin^2\\alpha$", (31, 0.72))
-    note(left, "massless columns:\n$\\cos 2\\alpha$", (30.5, 0.33), ha="right")
+    note(left, "$\\gamma\\to\\infty$: $\\cos 2\\alpha$", (30.5, 0.33), ha="right")
     note(left, "dotted: no rocking\nafter an impact", (60, 0.42), ha="right", color=GREY)
     left.legend(loc="lower left", ncols=2, labelspacing=0.2)
     left.set(xlabel=r"Slenderness, $\alpha$ (°)", xlim=(0, 60), ylim=(-0.52, 1.03))
@@ -41,8 +41,8 @@ def draw(restitution_over_slenderness, restitution_over_mass_ratio):
     note(right, r"$\cos 2\alpha$", (9.9, limit - 0.018), ha="right", color=ACCENT)
     right.set(xlabel=r"Mass ratio, $\gamma$ (–)", xlim=(0, 10), ylim=(0.46, 1.01))
     for axis in (left, right):
-        axis.set_ylabel(r"Velocity ratio at impact, $\sqrt{r}$ (–)")
-    letter([left, right], ["Every cap lowers it …", "… most of it below $\\gamma$ = 1"])
+        axis.set_ylabel(r"Coefficient of restitution, $\sqrt{r}$ (–)")
+    letter([left, right], ["Effect of the slenderness", "Effect of the mass ratio"])
     return figure
 
 

@@ -1,4 +1,4 @@
-"""Peak rotation over size under real records, with the sizes that overturn: column and frames."""
+"""Peak rotation against size under real records, and the sizes that overturn: column and frames."""
 
 from figures.drawing import RECORDS, gamma
 from replication.drawing import ACCENT, DOUBLE, GREY, note, publish, shades, sheet
@@ -43,12 +43,12 @@ def draw(rocking_spectra):
         height = 1.3 - 0.2 * place
         key.plot([0.55, 1.1], [height] * 2, color=colour)
         key.plot([1.3, 1.45, 1.6], [height] * 3, "|", color=colour, markeredgewidth=1.1)
-        note(key, f"{gamma(mass_ratio)}: peak, and overturns", (1.9, height))
+        note(key, f"{gamma(mass_ratio)}: peak; overturned", (1.9, height))
     height = 1.22 - 0.2 * len(ratios)
     key.plot([1.45], [height], "o", color=ACCENT, markersize=2, markeredgewidth=0)
     note(
         key,
-        "cannot be told: another outcome if the\nrecord is scaled by a billionth",
+        "undecided: the outcome changes if the\nrecord is rescaled by $10^{-9}$",
         (1.9, height),
     )
     key.set(xscale="log", xlim=(0.48, 21), ylim=axes[0, 0].get_ylim())

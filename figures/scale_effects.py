@@ -27,7 +27,7 @@ def draw(scale_effects):
         bottom.set(xlabel="Time, $t$ (s)", ylim=(-1.4, 1.4), xlim=(0, run.time.max()))
     axes[0, 0].set_ylabel(r"$\ddot{u}_g$ (g)")
     axes[1, 0].set_ylabel(r"Rotation, $\theta/\alpha$ (–)")
-    letter(axes[0], ["The shorter pulse", "The longer pulse, of the same amplitude"])
+    letter(axes[0], ["Shorter pulse", "Longer pulse, same amplitude"])
     return figure
 
 

@@ -1,4 +1,4 @@
-"""The lowest pulse that overturns, over its frequency: every γ, exact beside linearised."""
+"""Minimum overturning acceleration against frequency: every γ, exact and linearised."""
 
 import numpy as np
 
@@ -38,7 +38,7 @@ def draw(spectra):
                 axis.set_title(words)
             if slenderness == slendernesses[-1]:
                 axis.set_xlabel(r"Frequency, $\omega/p$ (–)")
-        words = f"$\\alpha$ = {slenderness:.3g}°\nLowest amplitude, " + r"$a/(g\,\tan\alpha)$ (–)"
+        words = f"$\\alpha$ = {slenderness:.3g}°\nMinimum amplitude, " + r"$a/(g\,\tan\alpha)$ (–)"
         row[0].set_ylabel(words)
     axes[0, 3].legend(loc="lower right", handlelength=1.4, labelspacing=0.2, borderaxespad=0.1)
     note(axes[0, 0], "uplift", (7.9, 1.05), color=GREY, ha="right")

@@ -1,4 +1,4 @@
-"""What overturns the trilith and a bridge: amplitude in g over the period of the pulse in s."""
+"""Overturning spectra of the trilith and a bridge: amplitude in g against pulse period in s."""
 
 from figures.drawing import PULSES, bands, gamma
 from replication.drawing import ACCENT, DOUBLE, letter, note, publish, shades, sheet
@@ -6,7 +6,7 @@ from replication.drawing import ACCENT, DOUBLE, letter, note, publish, shades, s
 HIGHEST = 7.0  # over the amplitude of uplift
 NAMES = {"period": "x", "lower_g": "lower", "upper_g": "upper"}
 FILLS = {"with impact": "#e8eff5", "without impact": "#c0ccd7"}
-SHOWN = 0.01  # g: what is narrower, tongue or bay, is not drawn
+SHOWN = 0.01  # g: narrower bands and survival regions are not drawn
 
 
 def draw(spectra_dimensional, spectra_published):
@@ -37,7 +37,7 @@ def draw(spectra_dimensional, spectra_published):
 
 
 def panel(axis, cells):
-    """Fill what overturns the heaviest, by its mode; draw the lowest amplitude of every γ."""
+    """Fill the overturning regions of the heaviest frame by mode; draw the minimum of every γ."""
     highest = HIGHEST * cells.uplift_g.iloc[0]
     ratios = sorted(cells.mass_ratio.unique())
     heaviest = cells[cells.mass_ratio == ratios[-1]]

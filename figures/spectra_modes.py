@@ -1,4 +1,4 @@
-"""Both ways to overturn and the safe bays between them, for the column and two frames."""
+"""Both modes of overturning and the survival regions between them: the column and two frames."""
 
 import numpy as np
 
@@ -6,7 +6,7 @@ from figures.drawing import HIGHEST, PULSES, amplitude_axis, bands, gamma
 from replication.drawing import ACCENT, DARK, DOUBLE, LIGHT, note, publish, sheet
 
 MODES = {"with impact": LIGHT, "without impact": DARK}
-SHOWN = 0.05  # g tan α: what is narrower, tongue or bay, is not drawn
+SHOWN = 0.05  # g tan α: narrower bands and survival regions are not drawn
 SHORT = 8  # frequencies: shorter edges would only be dots
 
 

@@ -1,4 +1,4 @@
-"""The paper's Fig. 1: four structures to scale, each more stable than the last; their moment."""
+"""The paper's Fig. 1: four structures to scale in order of stability, and their moment."""
 
 from matplotlib.patches import Polygon
 
@@ -73,7 +73,7 @@ def draw(outlines, moment_rotation):
     right.set(xlabel=r"Rotation, $\theta/\alpha$ (–)", ylabel=r"Moment, $M/m_\mathrm{c}gR$ (–)")
     letter(
         [left, right],
-        ["To scale, more stable from left to right", "Restoring moment of one column"],
+        ["Structures, more stable from left to right", "Restoring moment of one column"],
     )
     return figure
 

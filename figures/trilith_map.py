@@ -1,4 +1,4 @@
-"""Where the trilith rests, rocks or overturns on a table in a steady sine, and where it stood."""
+"""Outcome of the trilith on a shake table in steady harmonic motion, and its published test."""
 
 import numpy as np
 from matplotlib.colors import ListedColormap
@@ -73,10 +73,12 @@ def draw(trilith_map, trilith_nearness):
         xytext=(6, 8),
         textcoords="offset points",
     )
-    words = f"columns that bear on\n{width.to_lift:.0f} mm only"
+    words = f"base contact on\n{width.to_lift:.0f} mm only"
     note(right, words, (2.55, 3.6), color=ACCENT)
     right.set(xlim=(2.5, 4.3), ylim=(3, 9))
-    letter([left, right], ["Ten cycles from rest", "How near the test was to lifting it"])
+    letter(
+        [left, right], ["Outcome after ten cycles from rest", "Distance of the test from uplift"]
+    )
     return figure
 
 

@@ -1,4 +1,4 @@
-"""The trilith below its uplift acceleration: at rest, or rocking on, by how the table starts."""
+"""The trilith below its uplift acceleration: two starts of the shake table."""
 
 from replication.drawing import ACCENT, DARK, DOUBLE, GREY, LIGHT, letter, note, publish, sheet
 
@@ -12,7 +12,12 @@ def draw(trilith_starts, trilith_histories):
     left.plot(smooth.time, smooth.rotation_over_alpha, color=DARK, linewidth=1.6)
     for level in (-steady, steady):
         left.axhline(level, color=GREY, linewidth=0.7, linestyle=(0, (4, 2)))
-    note(left, "table at full speed from the first instant: rocks on", (1.6, 0.108), color=ACCENT)
+    note(
+        left,
+        "table at full speed from the first instant: keeps rocking",
+        (1.6, 0.108),
+        color=ACCENT,
+    )
     note(left, f"steady amplitude {steady:.3f}$\\,\\alpha$", (11.9, -0.08), ha="right", color=GREY)
     note(left, "table from rest: stays at rest", (1.6, -0.105), color=DARK)
     left.annotate(
@@ -44,7 +49,7 @@ def draw(trilith_starts, trilith_histories):
         )
         right.plot(part.share_of_speed, part.late_peak_over_alpha, "o-", color=DARK, markersize=3)
     note(right, "largest rotation", (1.0, 0.126), ha="right", color=ACCENT)
-    note(right, "rotation that stays", (1.0, 0.055), ha="right", color=DARK)
+    note(right, "steady rotation", (1.0, 0.055), ha="right", color=DARK)
     note(right, "comes to rest", (0.25, 0.03), ha="center")
     note(right, "keeps rocking", (0.775, 0.09), ha="center")
     right.set(
@@ -53,7 +58,10 @@ def draw(trilith_starts, trilith_histories):
         ylabel=r"Amplitude, $|\theta|/\alpha$ (–)",
         ylim=(-0.004, 0.135),
     )
-    letter([left, right], ["Same shaking below uplift, two starts", "Abruptness decides"])
+    letter(
+        [left, right],
+        ["Histories for two starts of the table", "Rotation against initial speed of the table"],
+    )
     return figure
 
 

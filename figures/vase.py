@@ -1,4 +1,4 @@
-"""Bare column, vase and frame under the same motions, and what overturns each of them over γ."""
+"""Column, vase and frame under the same motions, and their minimum overturning accelerations."""
 
 import math
 
@@ -13,7 +13,7 @@ NAMES = {"bare": "Column", "fixed": "Mass fixed to it", "free": "Mass carried fr
 ROW = 9.6  # m between the rows
 EDGES = (-7.6, 27.0)  # m: of the ground
 PALE = {ACCENT: "#f6dccf", DARK: "#d3e1ee"}
-LIMIT = 5.0  # where γ = ∞ stands on the axis
+LIMIT = 5.0  # the place of γ = ∞ on the axis
 GLYPHS_AT = 3.0  # γ
 LOWEST = 0.13  # g, of the axis
 
@@ -65,7 +65,7 @@ def picture(axis, poses):
 
 
 def glyph(axis, name, at):
-    """Draw a structure as small as a letter."""
+    """Draw a structure at the size of a letter."""
     area = DrawingArea(16, 15)
     columns = {"bare": [7], "fixed": [7], "free": [1, 13]}[name]
     caps = {"bare": [], "fixed": [(4, 8)], "free": [(0, 16)]}[name]

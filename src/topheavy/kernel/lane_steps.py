@@ -149,7 +149,7 @@ def only_root(w, p, degree, step, start, slope, stop, is_sought, correction):
     """Find the only root in (0, step) of the polynomial in row `p`, by Halley's iteration.
 
     It begins at the root of the parabola with the polynomial's `start`, `slope` and `stop`, and
-    each lane ends by itself, so that no root depends on the neighbours of its lane.
+    each lane ends independently, so that no root depends on the neighbours of its lane.
 
     Returns
     -------

@@ -36,7 +36,7 @@ TOLERANCE = 3e-10
 #: A history with more steps than this (and ten a sample) is given up as not resolved.
 #:
 #: A step ends at a landing or the end of a piece, or it is as long as the series allows: a tenth or
-#: more of the time in which the motion changes by itself, 1/(1 + ω/p + √|a|). A pulse lasts 9π p/ω
+#: more of the time scale of the motion, 1/(1 + ω/p + √|a|). A pulse lasts 9π p/ω
 #: at most, and one that is slow or strong has overturned the block, or lets it come to rest, within
 #: a thousand such times. Hence only landings can be so many: of a block that loses next to nothing
 #: at an impact (√r → 1).
@@ -233,7 +233,7 @@ def renewed(block, forcing, record, time, side, state):
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def outcome(w, order, tolerance, block, forcing, record):
-    """Return the `Outcome` of a block that stands at rest when the forcing begins."""
+    """Return the `Outcome` of a block that is at rest when the forcing begins."""
     is_record = forcing.shape == RECORD
     is_straight = is_record or forcing.shape == CONSTANT or forcing.shape == NONE
     time, peak, impacts, piece, piece_end = 0.0, 0.0, 0, 0, forcing.end

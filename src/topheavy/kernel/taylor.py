@@ -1,7 +1,7 @@
 """The Taylor series of a rocking block over one step.
 
 With φ = |θ|, time τ = p t, and the push q = −s a − tan α by which the ground acceleration exceeds
-the uplift level on the side s = ±1 that the block stands on, Eq. (23) reads
+the uplift level, where s = ±1 is the side of the pivot, Eq. (23) reads
 
     φ'' = sin φ / cos α + q cos(α − φ),
 
@@ -10,8 +10,8 @@ and linearised, with q = −s a − α,
     φ'' = φ + q.
 
 This is the paper's equation, regrouped so that nothing cancels: φ and q are both zero when the
-block lifts off, and the first derivative that is not zero comes out with the right sign, however
-slender the block and however slight the push. sin φ and cos φ obey (sin φ)' = φ' cos φ and
+block lifts off, and the first derivative that is not zero has the right sign, however
+slender the block and however small the push. sin φ and cos φ obey (sin φ)' = φ' cos φ and
 (cos φ)' = −φ' sin φ, and the push its own linear equation (see `forcing`): a step is
 multiplications and additions only (Jorba & Zou 2005, Exp. Math. 14, 99–117, §§2–3).
 """

@@ -3,9 +3,9 @@
 The same steps and events as in `outcome`; but the free rocking is integrated too, so that it can be
 drawn, and a block that is sure to overturn is followed on.
 
-The energy at the end of the forcing says how the free rocking goes on (`tail`). The integration
-says the same, unless that energy is the barrier's to within its error: then the block is poised at
-φ = α, and may leave to the wrong side. There the history ends.
+The energy at the end of the forcing decides how the free rocking continues (`tail`). The
+integration gives the same outcome, unless this energy equals that of the barrier within its error.
+Then the block is poised at φ = α and could leave it to the wrong side; the history ends there.
 """
 
 import math

@@ -1,4 +1,4 @@
-"""Which friction lets a frame rock as assumed, over frequency and amplitude of a pulse."""
+"""Required coefficient of friction over frequency and amplitude of a pulse."""
 
 from matplotlib.colors import BoundaryNorm, LinearSegmentedColormap
 
@@ -38,7 +38,7 @@ def draw(mechanism_admissible):
             )
             bare = {"facecolor": "#efece6", "edgecolor": "none", "pad": 1}
             above = table[table.pulls].amplitude.min()
-            words = "a seat pulls"
+            words = "tension at a column top"
             note(axis, words, (5.0, 1.12 * above), color=ACCENT, ha="center", fontsize=7, bbox=bare)
         amplitude_axis(axis)
         axis.set(ylim=(1, HIGHEST), xlabel=r"Frequency, $\omega/p$ (–)")

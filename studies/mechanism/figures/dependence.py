@@ -1,4 +1,4 @@
-"""The friction that suffices, over γ, slenderness, bay and depth of the cap; and under records."""
+"""Required coefficient of friction against γ, slenderness, bay and cap depth; and under records."""
 
 import numpy as np
 
@@ -9,7 +9,7 @@ LABELS = {
     "mass_ratio": r"Mass ratio, $\gamma$ (–)",
     "slenderness": r"Slenderness, $\alpha$ (°)",
     "span": "Span over width of a column (–)",
-    "depth": "Depth of cap over width of a column (–)",
+    "depth": "Depth of cap beam over width of a column (–)",
 }
 CROWDED = (1.35,)  # a tick without its label
 HIGHEST = 7.2  # of tan α, drawn
@@ -31,13 +31,13 @@ def draw(mechanism_dependence, mechanism_records):
             axis.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
             axis.set_xticks([], minor=True)
     for axis in (axes["A"], axes["C"]):
-        axis.set_ylabel(r"Friction, $\mu/\tan\alpha$ (–)")
+        axis.set_ylabel(r"Required friction, $\mu/\tan\alpha$ (–)")
     note(axes["A"], "rocking", (0.3, 3.0), color=DARK)
     note(axes["A"], "impacts", (0.06, 0.45), color=ACCENT)
-    note(axes["C"], "below, a seat opens as it rocks", (1.42, 6.6), color=INK)
+    note(axes["C"], "below: a column top opens", (1.42, 6.6), color=INK)
     records = axes["E"]
     _records(records, mechanism_records)
-    titles = ["Weight of the cap", "Slenderness", "Bay", "Depth of the cap", "Real records"]
+    titles = ["Mass ratio", "Slenderness", "Bay", "Depth of the cap beam", "Real records"]
     letter(list(axes.values()), titles)
     return figure
 
@@ -54,7 +54,7 @@ def _records(axis, table):
         axis.plot((place - 0.3, place + 0.3), [part.tan.iloc[0]] * 2, color=GREY, linewidth=0.8)
     names = [f"{structure}, {gamma(g)}" for (structure, g), _ in groups]
     axis.set_xticks(range(len(groups)), names)
-    axis.set(ylabel=r"Friction, $\mu$ (–)", ylim=(0, 0.78), xlim=(-0.6, len(groups) - 0.4))
+    axis.set(ylabel=r"Required friction, $\mu$ (–)", ylim=(0, 0.78), xlim=(-0.6, len(groups) - 0.4))
     note(axis, r"$\tan\alpha$", (0.34, groups[0][1].tan.iloc[0]), color=GREY)
     note(axis, "crosses: overturned", (len(groups) - 0.5, 0.72), ha="right")
 

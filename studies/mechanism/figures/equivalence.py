@@ -1,4 +1,4 @@
-"""The frame beside its equivalent column, which loses what Housner says: where verdicts differ."""
+"""Frame and equivalent column with Housner's √r: where their outcomes differ."""
 
 from matplotlib.colors import ListedColormap
 
@@ -34,7 +34,7 @@ def draw(mechanism_equivalence, mechanism_equivalence_map):
     left.set(xlabel=r"Frequency, $\omega/p$ (–)", ylabel=r"Amplitude, $a/(g\,\tan\alpha)$ (–)")
     left.set(xticks=(1, 2, 4, 6, 8), yticks=(1, 3, 6, 9, 12))
     note(left, "both overturn", (1.0, 9.5))
-    note(left, "both stand", (5.2, 2.2))
+    note(left, "both survive", (5.2, 2.2))
     note(left, "only the\ncolumn\noverturns", (7.9, 6.0), ha="right", color=ACCENT)
 
     for shape, colour in zip(PULSES, [*shades(3), ACCENT], strict=True):
@@ -47,11 +47,13 @@ def draw(mechanism_equivalence, mechanism_equivalence_map):
     for axis in (middle, right):
         axis.set_xticks(ticks, [f"{tick:.3g}" for tick in ticks])
         axis.set_xlabel(r"Slenderness, $\alpha$ (°)")
-    middle.set(ylabel="Pulses with another verdict (%)", ylim=(0, 10))
-    right.set(ylabel="Lowest amplitude, column against frame (%)")
+    middle.set(ylabel="Pulses with different outcomes (%)", ylim=(0, 10))
+    right.set(ylabel="Minimum amplitude, column against frame (%)")
     right.axhline(0.0, color=GREY, linewidth=0.5)
     middle.legend(loc="upper left", ncols=2, fontsize=6.5, columnspacing=0.8)
-    letter((left, middle, right), ["Verdicts", "Share that differs", "Lowest amplitude, mean"])
+    letter(
+        (left, middle, right), ["Outcomes", "Share of different outcomes", "Mean minimum amplitude"]
+    )
     return figure
 
 

@@ -1,12 +1,12 @@
-"""The forces at the four contacts over one history, and the friction that they ask for."""
+"""Forces at the four contacts during one history, and the required coefficient of friction."""
 
 from replication.drawing import ACCENT, DARK, DOUBLE, GREY, INK, letter, note, publish, sheet
 
 LINES = {  # contact: label, colour, dashes
-    "base_left": ("left foot", DARK, "-"),
-    "base_right": ("right foot", DARK, "--"),
-    "seat_left": ("left seat", ACCENT, "-"),
-    "seat_right": ("right seat", ACCENT, "--"),
+    "base_left": ("left base", DARK, "-"),
+    "base_right": ("right base", DARK, "--"),
+    "seat_left": ("left column top", ACCENT, "-"),
+    "seat_right": ("right column top", ACCENT, "--"),
 }
 
 
@@ -29,11 +29,14 @@ def draw(mechanism_forces):
     motion.set(ylabel="Rotation and shaking (–)")
     vertical.set(ylabel="Vertical force over weight (–)", ylim=(0, None))
     horizontal.set(ylabel="Horizontal force over weight (–)")
-    demand.set(ylabel=r"Friction demand over $\tan\alpha$ (–)", ylim=(0, None), xlim=(0, last))
+    demand.set(ylabel=r"Required friction over $\tan\alpha$ (–)", ylim=(0, None), xlim=(0, last))
     for axis in (horizontal, demand):
         axis.set_xlabel(r"Time, $pt$ (–)")
     figure.legend(*vertical.get_legend_handles_labels(), loc="outside upper right", ncols=4)
-    letter(axes.ravel(), ["Motion", "Vertical", "Horizontal", "Friction that it takes"])
+    letter(
+        axes.ravel(),
+        ["Motion", "Vertical forces", "Horizontal forces", "Required coefficient of friction"],
+    )
     return figure
 
 

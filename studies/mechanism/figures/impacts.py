@@ -1,4 +1,4 @@
-"""MuJoCo beside the theory: the time of the first impact, and what it leaves of the speed."""
+"""First impact in MuJoCo and in theory: its time, and the coefficient of restitution."""
 
 from figures.drawing import gamma
 from replication.drawing import ACCENT, DARK, DOUBLE, GREY, letter, note, publish, shades, sheet
@@ -9,7 +9,7 @@ STYLES = ("o-", "s--", "^-.", "D:")
 
 def draw(mechanism_first_impacts, mechanism_rebounds):
     figure, (left, right) = sheet(DOUBLE, 68, ncols=2)
-    letter((left, right), ["The time of the first impact", "The rebound"])
+    letter((left, right), ["Time of the first impact", "Coefficient of restitution"])
     if untested(left, mechanism_first_impacts) or untested(right, mechanism_rebounds):
         return figure
     steps = mechanism_first_impacts[mechanism_first_impacts.step > 0]
@@ -38,7 +38,7 @@ def draw(mechanism_first_impacts, mechanism_rebounds):
         right.semilogx(low.index, (low + high) / 2, style, color=colour, markersize=3, label=label)
     right.axhline(0.0, color=GREY, linewidth=0.5)
     right.set(xlabel=r"Time constant of the contact, $p\,\tau$ (–)", ylim=(-15, 5))
-    right.set_ylabel(r"Velocity ratio against $\sqrt{r}$ of Eq. (25) (%)")
+    right.set_ylabel(r"Difference from $\sqrt{r}$ of Eq. (25) (%)")
     note(right, "Eq. (25)", (0.0031, 0.7), color=GREY)
     right.legend(loc="lower left", title="A lone point")
     return figure

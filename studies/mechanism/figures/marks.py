@@ -1,4 +1,4 @@
-"""What a figure shows in place of an experiment that was not run."""
+"""The note in a figure whose experiment was not run."""
 
 import textwrap
 
@@ -6,7 +6,7 @@ from replication.drawing import GREY, note
 
 
 def untested(axis, table) -> bool:
-    """Say on the axis why its table holds nothing, if so, and return whether it does."""
+    """Write on the axis why its table is empty, if it is; return whether it holds results."""
     if "not_tested" not in table:
         return False
     axis.set(xticks=(), yticks=())

@@ -1,4 +1,4 @@
-"""How far three bodies by Newton and Euler are from one degree of freedom."""
+"""Difference between three bodies by Newton and Euler and one degree of freedom."""
 
 from figures.drawing import PULSES
 from replication.drawing import ACCENT, DOUBLE, INK, letter, publish, shades, sheet
@@ -6,7 +6,7 @@ from replication.drawing import ACCENT, DOUBLE, INK, letter, publish, shades, sh
 PANELS = {
     "rotation_apart": r"Rotation, over $\alpha$",
     "force_apart": "Forces, over the weight",
-    "ratio_apart": r"Velocity ratio, from $\sqrt{r}$",
+    "ratio_apart": r"Coefficient of restitution, from $\sqrt{r}$",
 }
 LABELS = PULSES | {"el_centro_1940_NS": "El Centro"}
 MARKERS = "os^D"

@@ -1,4 +1,4 @@
-"""MuJoCo beside the theory: which pulses overturn, and how much friction keeps from sliding."""
+"""Outcomes under pulses in MuJoCo and in theory, and the friction that prevents sliding."""
 
 import numpy as np
 
@@ -22,7 +22,7 @@ SHAPES = {"one-sine": "sine", "ricker-symmetric": "Ricker"}
 
 def draw(mechanism_verdicts, mechanism_slides):
     figure, (left, right) = sheet(DOUBLE, 78, ncols=2, width_ratios=(1.25, 1))
-    letter((left, right), ["Around the lowest amplitude that overturns", "Sliding"])
+    letter((left, right), ["Outcomes near the minimum overturning amplitude", "Sliding"])
     if untested(left, mechanism_verdicts) or untested(right, mechanism_slides):
         return figure
     _pulses(left, mechanism_verdicts)
@@ -39,7 +39,7 @@ def draw(mechanism_verdicts, mechanism_slides):
     right.set_xticks(ticks := (0.5, 1, 2, 4), map(str, ticks))
     right.set_xticks([], minor=True)
     right.set(xlim=(0.16, 5))
-    right.legend(loc="lower left", title="dashed: what the\nforces ask for", fontsize=7)
+    right.legend(loc="lower left", title="dashed: required\nby the forces", fontsize=7)
     return figure
 
 
@@ -64,12 +64,12 @@ def _pulses(axis, table):
     axis.set_xticks(range(len(factors)), [f"{factor:g}" for factor in factors])
     axis.axvline(sum(factor < 1 for factor in factors) - 0.5, color=GREY, linewidth=0.8)
     axis.set(xlim=(-0.5, len(factors) - 0.3), ylim=(-0.7, len(rows) + 1.1))
-    axis.set_xlabel("Amplitude over the lowest that overturns in theory (–)")
-    for x, colour, words in ((-0.3, LIGHT, "stands"), (0.9, DARK, "overturns")):
+    axis.set_xlabel("Amplitude over the theory's minimum overturning one (–)")
+    for x, colour, words in ((-0.3, LIGHT, "survives"), (0.9, DARK, "overturns")):
         axis.scatter([x], [len(rows) + 0.35], s=34, color=colour, edgecolor=DARK, linewidth=0.5)
         note(axis, words, (x + 0.15, len(rows) + 0.35))
     axis.scatter([2.4], [len(rows) + 0.35], s=80, facecolor="none", edgecolor=ACCENT)
-    note(axis, "unlike the theory", (2.6, len(rows) + 0.35), color=ACCENT)
+    note(axis, "differs from theory", (2.6, len(rows) + 0.35), color=ACCENT)
 
 
 if __name__ == "__main__":

@@ -86,7 +86,7 @@ def main(case: dict, cap: Cap) -> tuple[pd.DataFrame, dict]:
         "recesses": truth(
             opens["least_in_short_bays"] > 0.0 and (table.impact_least > 0.0).all(),
             holds_when=bool(opens["least_in_long_bays"] > 0.0 and (table.impact_least > 0.0).all()),
-            condition="the bay is longer than the shortest at which the seats stay shut",
+            condition="the bay is longer than the shortest one without uplift at the column tops",
             shortest_bay_over_width=shortest_bay(base, cap.half_depth) / width,
         ),
         "impact_asks_for_less_than_rocking": truth(

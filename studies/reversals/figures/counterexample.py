@@ -1,4 +1,4 @@
-"""A pulse that the solitary column survives and massless columns do not."""
+"""Histories under a pulse that overturns the frame with γ → ∞ and not its solitary column."""
 
 from figures.heavier import history
 from replication.drawing import DOUBLE, GREY, INK, note, publish, sheet

@@ -1,4 +1,4 @@
-"""The γ that brings half, nine tenths and 99 % of what massless columns gain."""
+"""The γ that gives half, nine tenths and 99 % of the gain in the limit γ → ∞."""
 
 import numpy as np
 
@@ -25,7 +25,7 @@ def draw(reversals_enough):
         axis.axvline(middle, color=GREY, linewidth=0.9, linestyle=(0, (3, 2)))
         note(axis, r"$\hat{R}$  ", (size, -0.62), color=ACCENT, ha="right")
         note(axis, "  median", (middle, -0.62), color=GREY, ha="left")
-        axis.set(xscale="log", xlabel=r"Mass of the cap, $\gamma$ (–)")
+        axis.set(xscale="log", xlabel=r"Mass ratio, $\gamma$ (–)")
         axis.set_title(f"{100 * share:g} % of the gain")
     axes[0].set(yticks=range(len(PULSES)), yticklabels=PULSES.values(), ylim=(3.6, -0.85))
     return figure

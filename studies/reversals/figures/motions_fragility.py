@@ -1,4 +1,4 @@
-"""How likely a temple's columns are to fall under heavier and heavier caps, and how much less."""
+"""Probability of overturning of a temple's columns for increasing γ, and its reduction."""
 
 import math
 
@@ -59,9 +59,9 @@ def draw(reversals_fragility):
         top.spines.top.set_visible(True)
     letter(axes[0], [f"{family.capitalize()} motions" for family in FAMILIES])
     for axis, mark, family in zip(axes[1], "cd", FAMILIES, strict=True):
-        axis.set_title(f"({mark}) Less likely than without cap by: {family}")
-    axes[0, 0].set_ylabel("Share of motions that overturn (–)")
-    axes[1, 0].set_ylabel("Difference of shares (–)")
+        axis.set_title(f"({mark}) Reduction by the cap beam: {family}")
+    axes[0, 0].set_ylabel("Probability of overturning (–)")
+    axes[1, 0].set_ylabel("Reduction (–)")
     for place, (ratio, colour) in enumerate(colours.items()):
         words = gamma(ratio) + (", no cap" if ratio == 0 else "")
         at = (0.8, 0.47 - 0.07 * place)

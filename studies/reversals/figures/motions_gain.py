@@ -1,4 +1,4 @@
-"""What a cap buys in the median capacity, and how often the heavier frame is the one that falls."""
+"""Gain of the median overturning PGV by a cap beam; cells in which only one structure overturns."""
 
 import math
 
@@ -17,7 +17,7 @@ LEFT = 0.72  # of the axis for reversals, over that for the other cells
 def gains(axis, medians):
     line = np.linspace(0.0, 1.0, 101)
     axis.plot(line, 100 * (np.sqrt(1.0 + line / 2.0) - 1.0), color=GREY, linewidth=0.9)
-    note(axis, r"if $\hat p\,\mathrm{PGV}$ were all that counts", (0.45, 5.4), color=GREY)
+    note(axis, r"if only $\hat p\,\mathrm{PGV}$ mattered", (0.45, 5.4), color=GREY)
     for family, (colour, side) in FAMILIES.items():
         run = medians[(medians.family == family) & (medians.gain != 0)]
         for solitary, face in ((False, colour), (True, "white")):
@@ -38,7 +38,7 @@ def gains(axis, medians):
 
 
 def falls(axis, pairs):
-    """For each cap against none, the cells in which only one of the two falls."""
+    """Draw the share of cells in which only one of frame and solitary column overturns."""
     run = pairs[pairs.lighter == 0]
     ratios = sorted(run.heavier.unique())
     for family, (colour, side) in FAMILIES.items():
@@ -56,15 +56,15 @@ def falls(axis, pairs):
     ticks = np.arange(-10, reach, 5)
     axis.set_xticks(ticks, [f"{abs(tick):g}" for tick in ticks])
     axis.set_xlabel("Share of all motions at all intensities (%)")
-    note(axis, "only with the cap it falls", (-0.03 * reach, top), ha="right")
-    note(axis, "only without the cap it falls", (0.03 * reach, top))
+    note(axis, "only the frame overturns", (-0.03 * reach, top), ha="right")
+    note(axis, "only the column overturns", (0.03 * reach, top))
 
 
 def draw(reversals_pairs, reversals_medians):
     figure, axes = sheet(DOUBLE, 78, ncols=2)
     gains(axes[0], reversals_medians[reversals_medians.structure == STRUCTURE])
     falls(axes[1], reversals_pairs[reversals_pairs.structure == STRUCTURE])
-    letter(axes, ["What the cap buys", "Who falls alone, under the same motion"])
+    letter(axes, ["Gain of the median capacity", "Outcomes that differ"])
     return figure
 
 

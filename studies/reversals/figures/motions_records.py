@@ -1,4 +1,4 @@
-"""Real records from uplift to collapse: where the solitary or the capped columns fall alone."""
+"""Real records scaled from uplift: where only the solitary column or only the frame overturns."""
 
 import numpy as np
 from matplotlib.colors import ListedColormap
@@ -7,12 +7,12 @@ from figures.drawing import RECORDS
 from replication.drawing import ACCENT, DARK, DOUBLE, letter, note, publish, sheet
 from studies.reversals.outcomes import FALLS, UNTOLD, read
 
-CASES = {  # what becomes of the column, and of it under massless columns' cap
-    "both stand": "#f6f5f2",
-    "both fall": "#cfcdc8",
-    "only the solitary column falls": DARK,
-    "only the capped columns fall": ACCENT,
-    "cannot be told": "#1a1a1a",
+CASES = {  # the outcomes of the column and of the frame with γ → ∞
+    "both survive": "#f6f5f2",
+    "both overturn": "#cfcdc8",
+    "only the column overturns": DARK,
+    "only the frame overturns": ACCENT,
+    "undecided": "#1a1a1a",
 }
 FACTORS = (1, 2, 5, 10, 20)
 
@@ -36,7 +36,7 @@ def panel(axis, run):
     axis.pcolormesh(
         edges, np.arange(rows + 1), places, cmap=colours, vmin=-0.5, vmax=4.5, edgecolor="face"
     )
-    axis.set(xscale="log", xlabel="Scale of the record, over that of uplift")
+    axis.set(xscale="log", xlabel="Scale of the record over that at uplift (–)")
     axis.set_xticks(FACTORS, map(str, FACTORS))
     axis.set_xticks([], minor=True)
     each = light["size"].nunique()
@@ -79,7 +79,7 @@ def draw(reversals_records):
     low, high = light["size"].min(), light["size"].max()
     words = (
         f"Rows of each block: columns of\n$R$ = {low:g} m (lowest) to {high:g} m (highest).\n"
-        "Cap: $\\gamma=\\infty$."
+        "Frame: $\\gamma=\\infty$."
     )
     note(key, words, (0.02, 0.18))
     key.set(xlim=(0, 1), ylim=(0, 1))

@@ -1,4 +1,4 @@
-"""Where massless columns fall and the solitary column stands, and how often, for every pair."""
+"""Where only the frame or only its solitary column overturns, and how often, for pairs of γ."""
 
 import numpy as np
 
@@ -17,19 +17,19 @@ from replication.drawing import (
 )
 
 COLOURS = {"both": STONE, "helps": LIGHT, "harms": ACCENT}
-NAMES = {"both": "both fall", "helps": "saved by the cap", "harms": "lost by the cap"}
+NAMES = {"both": "both overturn", "helps": "prevented by cap", "harms": "caused by cap"}
 HIGHEST = 16.0  # a/(g tan α)
 
 
 def map_axis(axis, cells):
     """Draw what only the lighter, only the heavier and both overturn, over ω and amplitude.
 
-    One bar a frequency: narrow bays are too steep to be joined from one to the next.
+    One bar for each frequency, because narrow survival regions are too steep to be joined.
     """
     step = np.diff(np.unique(cells.x)).min()
     for mode, colour in COLOURS.items():
         of = cells[cells["mode"] == mode]
-        seam = 0.0 if mode == "harms" else 0.25  # which would make slivers wider than they are
+        seam = 0.0 if mode == "harms" else 0.25  # a seam would widen slivers
         how = {"color": colour, "edgecolor": colour, "linewidth": seam, "label": NAMES[mode]}
         axis.bar(of.x, of.upper - of.lower, step, bottom=of.lower, **how)
     axis.set(yscale="log", xlim=(0.5, 10), ylim=(0.95, HIGHEST), xticks=(1, 2, 4, 6, 8, 10))
@@ -38,7 +38,7 @@ def map_axis(axis, cells):
 
 
 def shares(axis, areas):
-    """Draw the shares that help upwards and those that harm downwards, by shape and slenderness."""
+    """Draw the shares of overturning prevented (up) and caused (down), by shape and slenderness."""
     slendernesses = np.sort(areas.slenderness_deg.unique())
     greys = shades(len(slendernesses))
     for group, shape in enumerate(PULSES):
@@ -55,12 +55,12 @@ def shares(axis, areas):
     axis.set(xticks=range(len(PULSES)), ylim=(-4.2, 25), ylabel="Share of the map (%)")
     axis.set_xticklabels([words.replace(" ", "\n") for words in PULSES.values()])
     axis.tick_params(axis="x", length=0)
-    axis.legend(title=r"Saved, $\alpha$ =", title_fontsize=7.5, loc="upper right", ncols=4)
-    note(axis, "Lost", (3.45, -3.2), color=ACCENT, ha="right")
+    axis.legend(title=r"Prevented, $\alpha$ =", title_fontsize=7.5, loc="upper right", ncols=4)
+    note(axis, "Caused", (3.45, -3.2), color=ACCENT, ha="right")
 
 
 def pairs(axis, areas):
-    """Write how much each pair helps, and harms, on the average over all maps."""
+    """Write the shares of overturning prevented and caused for each pair, means over all maps."""
     names = {value: "∞" if value == "infinite" else f"{float(value):g}" for value in areas.heavier}
     means = areas.groupby(["lighter", "heavier"])[["helps", "harms"]].mean() * 100
     lighter = sorted(areas.lighter.unique())
@@ -104,8 +104,8 @@ def draw(reversals_map, reversals_areas):
     pairs(axes["F"], reversals_areas)
     titles = [
         *PULSES.values(),
-        "Massless columns beside the solitary column",
-        "All pairs, mean (%)",
+        "$\\gamma\\to\\infty$ against the solitary column",
+        "All pairs: mean share (%)",
     ]
     letter([axes[key] for key in "ABCDEF"], titles)
     axes["D"].legend(loc="lower right", handlelength=1.0, labelspacing=0.2, borderaxespad=0.1)

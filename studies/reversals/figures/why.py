@@ -1,4 +1,4 @@
-"""The lower p̂ and the lower √r of massless columns, apart and together."""
+"""Effects of the lower p̂ and of the lower √r in the limit γ → ∞, apart and together."""
 
 from figures.drawing import PULSES
 from replication.drawing import ACCENT, DOUBLE, note, publish, sheet
@@ -27,8 +27,8 @@ def draw(reversals_map, reversals_why):
             )
             map_axis(axis, cells)
             how = {"xycoords": "axes fraction", "ha": "right", "fontsize": 7}
-            note(axis, f"saved {100 * of.helps.iloc[0]:.1f} %", (0.99, 0.15), **how)
-            note(axis, f"lost {100 * of.harms.iloc[0]:.2f} %", (0.99, 0.05), color=ACCENT, **how)
+            note(axis, f"prevented {100 * of.helps.iloc[0]:.1f} %", (0.99, 0.15), **how)
+            note(axis, f"caused {100 * of.harms.iloc[0]:.2f} %", (0.99, 0.05), color=ACCENT, **how)
             if change == "size":
                 axis.set_title(words)
             if change == "both":

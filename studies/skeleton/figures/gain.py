@@ -1,4 +1,4 @@
-"""The lowest amplitude that overturns, under heavier and heavier caps."""
+"""Minimum overturning amplitude for increasing γ."""
 
 from figures.drawing import gamma
 from replication.drawing import INK, SINGLE, publish, shades, sheet
@@ -11,7 +11,7 @@ def draw(skeleton_gain):
     for place, low in zip(places, skeleton_gain.lowest_low, strict=True):
         axis.annotate(f"{low:.3f}", (place, low), ha="center", va="bottom", color=INK, fontsize=7.5)
     axis.set(xticks=places, xticklabels=map(gamma, skeleton_gain.mass_ratio))
-    axis.set(ylabel=r"Lowest overturning amplitude ($g\,\tan\alpha$)", ylim=(0, None))
+    axis.set(ylabel=r"Minimum overturning amplitude ($g\,\tan\alpha$)", ylim=(0, None))
     axis.margins(y=0.12)
     return figure
 
