@@ -74,6 +74,10 @@ class Finding:
         own = {name: entries[name] for name in names if name in entries}
         return cls(**own, entries=dict(entries))
 
+    def with_evidence(self, **evidence: Any) -> "Finding":
+        """Return the finding with more evidence, after the entries that it has."""
+        return Finding.of({**self.entries, **evidence})
+
     def __getitem__(self, name: str) -> Any:
         """Return an entry by its name in the JSON file, such as one of the evidence."""
         return self.entries[name]

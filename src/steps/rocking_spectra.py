@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from replication.findings import Finding
 from replication.workbench import run, truth
 from steps.spectrum import progress
 from topheavy import Column, Record, RockingFrame, judge, read_record, reference
@@ -45,7 +46,7 @@ def spectrum(record: Record, columns: list[Column], gamma: float, tightened: flo
     return rows
 
 
-def second_route(table: pd.DataFrame, records: dict[str, Record], columns, count: int) -> dict:
+def second_route(table: pd.DataFrame, records: dict[str, Record], columns, count: int) -> Finding:
     """Judge some of the decidable histories again by SciPy, in even steps."""
     differ, largest = 0, 0.0
     sizes = {round(column.size, 9): column for column in columns}

@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
+from replication.findings import Finding
 from replication.workbench import grid, truth
 from steps.spectra_shard import line
 from steps.spectrum import search
@@ -182,7 +183,7 @@ class Spectra:
                     widest = ((end - start) / middle, place, light, heavy, middle)
         return widest
 
-    def sample(self, points: int, seed: int, tightened: float) -> dict:
+    def sample(self, points: int, seed: int, tightened: float) -> Finding:
         """Judge points of the map again: half of them anywhere, half close to a boundary."""
         random = np.random.default_rng(seed)
         rows = self.table.iloc[random.integers(len(self.table), size=points)]

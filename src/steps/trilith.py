@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from replication.findings import Finding
 from replication.workbench import run, truth, value
 from topheavy import Column, RockingFrame, reference, simulate
 from topheavy.derivation.mends import mended_quotient
@@ -128,7 +129,7 @@ def tilted(frame: RockingFrame, angle: float) -> RockingFrame:
     )
 
 
-def anomalies(frame: RockingFrame, case: dict, near: list[dict]) -> dict:
+def anomalies(frame: RockingFrame, case: dict, near: list[dict]) -> Finding:
     """Return whether minor anomalies of the contact let the tested motion lift the frame."""
     column, minor = frame.column, case["minor"]
     motion = case["table_amplitude"], case["table_frequency"], 4.0 / case["table_frequency"]

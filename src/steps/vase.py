@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from replication.findings import Finding
 from replication.workbench import grid, run, truth
 from steps.spectrum import progress
 from steps.vase_poses import poses
@@ -124,7 +125,7 @@ def _finite(found: Minimum) -> float:
     return found.acceleration if math.isfinite(found.acceleration) else math.nan
 
 
-def question(compared: list[dict], structures: list[str], longest: float) -> dict:
+def question(compared: list[dict], structures: list[str], longest: float) -> Finding:
     """Return whether the structures keep their rank under every motion, as a finding."""
     asked = [row for row in compared if row["structure"] in structures]
     broken = [row for row in asked if is_exception(row)]
@@ -214,8 +215,9 @@ def main(case: dict, paths: list[str], tightened: float) -> tuple:
     findings = {
         "fixed_mass_always_lowers": question(compared, ["fixed"], longest),
         "frame_always_raises": question(compared, ["free"], longest),
-        "support_decides": question(compared, ["fixed", "free"], longest)
-        | {"under_the_pulses_of_the_period": ranks(summary)},
+        "support_decides": question(compared, ["fixed", "free"], longest).with_evidence(
+            under_the_pulses_of_the_period=ranks(summary)
+        ),
         "portal_has_a_wider_base": truth(
             (portals.slenderness_deg > summary.slenderness_deg[0]).all(),
             slenderness_deg=portals.slenderness_deg,

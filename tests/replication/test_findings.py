@@ -57,3 +57,10 @@ def test_finding_that_could_judge_no_claim_is_refused_with_its_file(tmp_path, en
 def test_entry_that_is_no_finding_is_refused():
     with pytest.raises(ValueError, match=r"the finding 'so' is True; expected value\(\) or truth"):
         Findings.of({"so": True})
+
+
+def test_evidence_is_added_after_the_entries():
+    finding = Finding.of({"holds": True, "compared": 3}).with_evidence(widest=0.5)
+    assert list(finding.entries.items()) == [("holds", True), ("compared", 3), ("widest", 0.5)]
+    with pytest.raises(ValueError, match="did you mean 'kind'"):
+        finding.with_evidence(kinds="sign")

@@ -5,6 +5,7 @@ from itertools import pairwise
 import numpy as np
 import pandas as pd
 
+from replication.findings import Finding
 from replication.workbench import run, truth, value
 from studies.mechanism.steps.demand import demand, history, impact_demand
 from studies.mechanism.steps.setting import cap_of, pulse_on, slender
@@ -41,7 +42,7 @@ def shortest_bay(frame: RockingFrame, half_depth: float) -> float:
     return 2.0 * frame.column.half_width + 2.0 * half_depth * share
 
 
-def opens_below_the_shortest_bay(frame: RockingFrame, half_depth: float) -> dict:
+def opens_below_the_shortest_bay(frame: RockingFrame, half_depth: float) -> Finding:
     """Return whether a column-top contact opens at impact in all shorter bays, in no longer one."""
     bay, width = shortest_bay(frame, half_depth), 2.0 * frame.column.half_width
     spans = [width + (bay - width) * k / SCAN for k in range(1, 3 * SCAN) if k != SCAN]

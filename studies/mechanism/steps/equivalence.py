@@ -199,8 +199,9 @@ def main(case: dict) -> tuple[pd.DataFrame, pd.DataFrame, dict]:
             least=ends[0].change,
             largest=ends[1].change,
         ),
-        "peak_rotation": value(table.peak_change_median.median(), 1e-8)
-        | {"upper": float(table.peak_change_95.max())},
+        "peak_rotation": value(
+            table.peak_change_median.median(), 1e-8, upper=table.peak_change_95.max()
+        ),
         "column_is_never_safer_first": truth(
             ends[1].change <= 0.0,
             largest=ends[1].change,

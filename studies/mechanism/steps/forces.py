@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pandas as pd
 
+from replication.findings import Finding
 from replication.workbench import run, truth, value
 from studies.mechanism.steps.demand import History, history
 from studies.mechanism.steps.setting import cap_of, pulse_on
@@ -25,12 +26,12 @@ ROUNDING = 1e-12  # of the weight of the frame: what double precision leaves
 NEARLY_NONE = 1e-9  # γ of a cap that weighs next to nothing
 
 
-def proved() -> dict:
+def proved() -> Finding:
     found = contact_theorems()
     return truth(all(theorem.holds for theorem in found), theorems=[t.statement for t in found])
 
 
-def solitary(column: Column, cap: Cap, course: History) -> dict:
+def solitary(column: Column, cap: Cap, course: History) -> Finding:
     """Return whether, for a massless cap beam, the base forces equal those of a solitary column."""
     motion = course.rotation, course.velocity, course.ground
     alone = column_forces(column, *motion)
@@ -43,7 +44,7 @@ def solitary(column: Column, cap: Cap, course: History) -> dict:
     return truth(apart < 10.0 * NEARLY_NONE, apart_over_weight=float(apart))
 
 
-def balanced(frame: RockingFrame, cap: Cap, course: History) -> dict:
+def balanced(frame: RockingFrame, cap: Cap, course: History) -> Finding:
     """Return whether the base contacts carry the weight and inertia forces of all three bodies."""
     motion = course.rotation, course.velocity
     forces = contact_forces(frame, cap, *motion, course.ground)
@@ -63,7 +64,7 @@ def balanced(frame: RockingFrame, cap: Cap, course: History) -> dict:
     return truth(apart < ROUNDING, apart_over_weight=float(apart))
 
 
-def start(spec: dict) -> dict:
+def start(spec: dict) -> Finding:
     """Return |F_x/F_z| tan α⁻¹ of a solitary column as a one-cosine pulse begins."""
     alpha = spec["slenderness"]
     column = Column(math.sin(alpha), math.cos(alpha))

@@ -41,9 +41,12 @@ def main(
     findings = {
         "stays_on_its_seats": truth(not stood.pulls.any(), histories=len(stood)),
         "largest_demand": value(
-            largest.demand, stood.demand_error.max(), "", least=stood.demand.min()
-        )
-        | {"over_tan": largest.demand / largest.tan, "structure": largest.structure},
+            largest.demand,
+            stood.demand_error.max(),
+            least=stood.demand.min(),
+            over_tan=largest.demand / largest.tan,
+            structure=largest.structure,
+        ),
         "counted": truth(
             len(rocked) > 0,
             rocked=len(rocked),

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from replication.findings import Finding
 from replication.workbench import run, truth, value
 from studies.reversals import fragility
 from studies.reversals.ensemble import Subject, intensities, subjects
@@ -174,7 +175,7 @@ def shares_of_gain(ensemble: Ensemble, medians: np.ndarray, shares: list[float])
     ]
 
 
-def never_rises(less: pd.DataFrame, margin: float) -> dict:
+def never_rises(less: pd.DataFrame, margin: float) -> Finding:
     """Does every interval of the falls in probability exclude a rise by the margin?
 
     That a rise is not seen is not enough: an interval that is too wide does not exclude it.

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from replication.findings import Finding
 from replication.workbench import run, truth
 from steps.rocking_spectra import NUDGE
 from steps.spectrum import progress
@@ -72,7 +73,7 @@ def compare(table: pd.DataFrame, ratios: list[float]) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def second_route(table: pd.DataFrame, records: dict[str, Record], ratios, count: int) -> dict:
+def second_route(table: pd.DataFrame, records: dict[str, Record], ratios, count: int) -> Finding:
     """Judge some of the outcomes next to a change again by SciPy, evenly through the table."""
     found = read(table.outcomes)
     told = found != UNTOLD

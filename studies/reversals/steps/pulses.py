@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from replication.findings import Finding
 from replication.workbench import run, truth, value
 from steps.spectra_compared import ORDER, Place, Spectra, finite, without
 from steps.spectrum import solve
@@ -82,7 +83,7 @@ def reversals(spectra: Spectra, pairs: list[tuple[float, float]]) -> pd.DataFram
     return pd.DataFrame(rows, columns=[*Place._fields, "light", "heavy", "low", "high"])
 
 
-def sample(spectra: Spectra, bands: pd.DataFrame, spec: dict, tightened: float) -> dict:
+def sample(spectra: Spectra, bands: pd.DataFrame, spec: dict, tightened: float) -> Finding:
     """Judge points within the bands, picked by their length, by the two routes."""
     random = np.random.default_rng(spec["seed"])
     widths = (bands.high - bands.low).to_numpy()
@@ -95,7 +96,7 @@ def sample(spectra: Spectra, bands: pd.DataFrame, spec: dict, tightened: float) 
     return truth(confirmed == len(picked), points=len(picked), confirmed=confirmed)
 
 
-def without_impact(spectra: Spectra, pairs: list[tuple[float, float]]) -> dict:
+def without_impact(spectra: Spectra, pairs: list[tuple[float, float]]) -> Finding:
     """Are there reversals in which the heavier frame overturns without an impact?"""
     at_once = Spectra(spectra.case, spectra.table[spectra.table["mode"] == "without impact"])
     widths, compared = [0.0], 0
@@ -202,12 +203,12 @@ def main(case: dict, solver: dict, table: pd.DataFrame) -> tuple[dict[str, pd.Da
     findings = {
         "heavier_is_more_stable": truth(
             bands.empty,
-            holds_when=rises["holds"],
+            holds_when=rises.holds,
             condition="what counts is the lowest amplitude of a pulse that overturns",
             by_the_linearised=twin,
             **exact,
         ),
-        "lowest_amplitude_rises": rises | {"widest_missed": step},
+        "lowest_amplitude_rises": rises.with_evidence(widest_missed=step),
         "never_without_impact": without_impact(spectra, pairs),
         "helps": value(*mean(ends, "helps")),
         "harms": value(*mean(ends, "harms")),
@@ -242,7 +243,7 @@ def main(case: dict, solver: dict, table: pd.DataFrame) -> tuple[dict[str, pd.Da
         ),
         "size_harms": truth(of("size", "harms")[0] > 10.0 * of("restitution", "harms")[0]),
         "restitution_spares": truth(of("both", "harms")[0] < of("size", "harms")[0]),
-        "lowest_rises_apart": truth(all(found["holds"] for found in lowest.values()), **lowest),
+        "lowest_rises_apart": truth(all(found.holds for found in lowest.values()), **lowest),
         "sample_agrees": sample(spectra, bands, case["sample"], solver["tightened"]),
         # the uniform searches alone, without the halving of every boundary
         "simulations_at_least": value(len(lines(case)) * (math.ceil(span / step) + 1), 0.0),
