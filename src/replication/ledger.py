@@ -160,8 +160,8 @@ def refuse_uncalled(claim: Claim, called: Iterable[str], root: str | Path = ".")
 
 def as_text(rows: Iterable[JudgedClaim]) -> str:
     """Return the judged ledger as results/claims.json has it."""
-    rows = [asdict(row) for row in rows]
-    return json.dumps(rows, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+    text = [asdict(row) for row in rows]
+    return json.dumps(text, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
 
 def read_judged(path: str | Path) -> list[JudgedClaim]:

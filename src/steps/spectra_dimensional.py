@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from replication.findings import Finding
 from replication.workbench import run, truth
 from steps.spectrum import Line, solve
 from topheavy import Column, Pulse, RockingFrame, judge, reference
@@ -47,7 +48,7 @@ def lines(case: dict, structures: dict) -> list[Line]:
     return found
 
 
-def published(case: dict, structures: dict, tightened: float) -> tuple[dict, dict]:
+def published(case: dict, structures: dict, tightened: float) -> tuple[dict, Finding]:
     """Return the minimum overturning amplitude (g) of a pulse that others have computed.
 
     As a row for the picture, and as a finding.

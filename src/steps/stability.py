@@ -11,6 +11,7 @@ from functools import cache
 from itertools import combinations, groupby, pairwise
 from typing import TypeAlias
 
+from replication.findings import Finding
 from replication.workbench import grid, run, truth
 from topheavy import Column, Pulse, RockingFrame, judge
 from topheavy.linear import simulate_linear_exact
@@ -61,7 +62,7 @@ class Scan:
             if counter:
                 yield [amplitude for amplitude, *_ in neighbours]
 
-    def ranking(self, order: list[list[Trial]]) -> dict:
+    def ranking(self, order: list[list[Trial]]) -> Finding:
         """Test whether each trial survives all that earlier ones survive, or has a higher minimum.
 
         In the middle of the widest run of counterexamples, the outcome is computed again at the

@@ -1,4 +1,4 @@
-"""The period of a pendulum over its amplitude: two routes, and the series as printed and meant."""
+"""Period of a pendulum against amplitude: two routes, and the series as printed and as meant."""
 
 from replication.drawing import ACCENT, GREY, INK, SINGLE, note, publish, sheet
 

@@ -1,4 +1,4 @@
-"""The equations as they are printed, held against those that are derived."""
+"""Compare the printed equations with the derived ones."""
 
 import sympy as sp
 

@@ -1,4 +1,4 @@
-"""The period over the amplitude, by two routes, and by Eq. (2) as printed and as meant."""
+"""Compute the period against amplitude by two routes, and by Eq. (2) as printed and as meant."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""The published tables against equations that no step uses, without a run: `make check`."""
+"""Compare published tables with equations that no step uses, without a run: `make check`."""
 
 from collections.abc import Iterator, Mapping
 from pathlib import Path
