@@ -144,10 +144,12 @@ class CircleField:
 
     def __init__(self, expressions: Iterable[sp.Expr]) -> None:
         expressions = list(expressions)
-        angles = {f.args[0] for each in expressions for f in each.atoms(sp.sin, sp.cos)}
-        roots = {f for each in expressions for f in each.atoms(sp.Pow) if not f.exp.is_integer}
+        found = {f.args[0] for each in expressions for f in each.atoms(sp.sin, sp.cos)}
+        angles = sorted(found, key=str)
+        powers = {f for each in expressions for f in each.atoms(sp.Pow) if not f.exp.is_integer}
+        roots = {power.base ** sp.Rational(1, power.exp.q) for power in powers}
         functions = [f(angle) for f in (sp.cos, sp.sin) for angle in angles]
-        functions += {root.base ** sp.Rational(1, root.exp.q) for root in roots}
+        functions += sorted(roots, key=str)
         self.plain = {function: sp.Dummy() for function in functions}
         present = {symbol for each in expressions for symbol in each.subs(self.plain).free_symbols}
         named = list(self.plain.values())  # the cosines lead, hence powers of these are reduced
