@@ -370,7 +370,6 @@ rule spectra_shard:
         "results/logs/spectra_shard_{scatteritem}.log",
     benchmark:
         "results/benchmarks/spectra_shard_{scatteritem}.tsv"
-    threads: 2
     params:
         case=config["spectra"],
     message:
@@ -411,7 +410,6 @@ rule spectra_dimensional:
         "results/logs/spectra_dimensional.log",
     benchmark:
         "results/benchmarks/spectra_dimensional.tsv"
-    threads: 2
     params:
         case=config["spectra_dimensional"],
         structures=named(config["structures"], config["spectra_dimensional"]),

@@ -59,7 +59,7 @@ def published(case: dict, structures: dict, tightened: float) -> tuple[dict, Fin
     printed, omega = given["pulse"]["amplitude"], 2.0 * math.pi / given["pulse"]["period"]
     pulse = Pulse(given["pulse"]["shape"], column.uplift_acceleration, omega)
     labels = {"structure": given["structure"]}
-    lowest = solve([Line(labels, frame.block(), pulse)], case, threads=1).lower.min()
+    lowest = solve([Line(labels, frame.block(), pulse)], case).lower.min()
     sides = [pulse.scaled(lowest * (1.0 + away)) for away in (-1e-6, 1e-6)]
     routes = [
         [judge(frame, side, tolerance=tightened).overturned for side in sides],
@@ -78,10 +78,8 @@ def published(case: dict, structures: dict, tightened: float) -> tuple[dict, Fin
     return row, truth(agrees, lowest_overturning_g=amplitude, printed_g=printed)
 
 
-def main(
-    case: dict, structures: dict, solver: dict, threads: int
-) -> tuple[pd.DataFrame, dict, dict]:
-    table = solve(lines(case, structures), case, threads)
+def main(case: dict, structures: dict, solver: dict) -> tuple[pd.DataFrame, dict, dict]:
+    table = solve(lines(case, structures), case)
     for end in ("lower", "upper"):
         table[f"{end}_g"] = table[end] * table.uplift_g
     row, finding = published(case, structures, solver["tightened"])
@@ -90,7 +88,7 @@ def main(
 
 def work(job: Any) -> tuple:
     params = job.params
-    table, row, findings = main(params.case, params.structures, params.solver, job.threads)
+    table, row, findings = main(params.case, params.structures, params.solver)
     return table, [row], findings
 
 

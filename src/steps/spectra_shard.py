@@ -47,9 +47,9 @@ def line(slenderness: float, shape: str, gamma: float, linearised: bool, ratio: 
     )
 
 
-def main(case: dict, shard: str, threads: int) -> pd.DataFrame:
-    return solve(shard_of(lines(case), shard), case, threads)
+def main(case: dict, shard: str) -> pd.DataFrame:
+    return solve(shard_of(lines(case), shard), case)
 
 
 if __name__ == "__main__":
-    run(snakemake, lambda job: main(job.params.case, job.wildcards.scatteritem, job.threads))
+    run(snakemake, lambda job: main(job.params.case, job.wildcards.scatteritem))

@@ -2,7 +2,6 @@
 
 import time
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from typing import Any, NamedTuple
 
 import pandas as pd
@@ -42,19 +41,19 @@ def search(line: Line, scales: tuple[float, float], resolution: float) -> list[I
     )
 
 
-def solve(lines: Sequence[Line], case: Mapping[str, Any], threads: int) -> pd.DataFrame:
+def solve(lines: Sequence[Line], case: Mapping[str, Any]) -> pd.DataFrame:
     """Return the overturning intervals of every line, over the scale of its pulse.
 
     A row has the middles of the brackets of both ends (no upper one where the range ends first),
     the width of the wider bracket, and whether the block overturns before any impact.
     """
 
-    def rows(line: Line) -> list[dict[str, Any]]:
-        return [line.labels | _row(interval) for interval in intervals(line, case)]
-
-    with ThreadPoolExecutor(threads) as pool:
-        done = progress(pool.map(rows, lines), len(lines), "lines")
-        table = [row for found in done for row in found]
+    found = progress((intervals(line, case) for line in lines), len(lines), "lines")
+    table = [
+        line.labels | _row(interval)
+        for line, several in zip(lines, found, strict=True)
+        for interval in several
+    ]
     return pd.DataFrame(table, columns=[*lines[0].labels, "lower", "upper", "mode", "bracket"])
 
 

@@ -149,7 +149,6 @@ rule mechanism_equivalence:
         "results/logs/mechanism_equivalence.log",
     benchmark:
         "results/benchmarks/mechanism_equivalence.tsv"
-    threads: 2
     params:
         case=MECHANISM["equivalence"],
     message:

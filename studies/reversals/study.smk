@@ -29,7 +29,6 @@ rule reversals_shard:
         "results/logs/reversals_shard_{scatteritem}.log",
     benchmark:
         "results/benchmarks/reversals_shard_{scatteritem}.tsv"
-    threads: 2
     params:
         case=REVERSALS,
     message:

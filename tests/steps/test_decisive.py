@@ -33,7 +33,7 @@ LINES = {
 
 @pytest.fixture(scope="module")
 def table():
-    return spectra_shard.main(LINES, "1-of-1", threads=1)
+    return spectra_shard.main(LINES, "1-of-1")
 
 
 def swap_the_masses(monkeypatch):

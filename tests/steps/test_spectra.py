@@ -20,11 +20,11 @@ CASE = {
 
 @pytest.fixture(scope="module")
 def table():
-    return spectra_shard.main(CASE, "1-of-1", threads=1)
+    return spectra_shard.main(CASE, "1-of-1")
 
 
 def test_shards_together_are_the_whole(table):
-    shards = [spectra_shard.main(CASE, f"{number}-of-3", threads=1) for number in (1, 2, 3)]
+    shards = [spectra_shard.main(CASE, f"{number}-of-3") for number in (1, 2, 3)]
     columns = list(table.columns)
     together = pd.concat(shards).sort_values(columns, ignore_index=True)
     pd.testing.assert_frame_equal(together, table.sort_values(columns, ignore_index=True))

@@ -171,7 +171,7 @@ def linear_twin(case: dict, found: tuple) -> tuple[Spectra, tuple]:
     """Return the widest band of the linearised equation at the place of a counterexample."""
     _, place, light, heavy, _ = found
     place = place._replace(linearised=True)
-    table = solve([place.line(gamma) for gamma in (light, heavy)], case, threads=1)
+    table = solve([place.line(gamma) for gamma in (light, heavy)], case)
     alone = case | {"slendernesses": [place.slenderness], "shapes": [place.shape]}
     spectra = Spectra(alone, table)
     return spectra, spectra.counterexample([(light, heavy)], linearised=True)

@@ -49,9 +49,9 @@ def changed(column: RockingBlock, frame: RockingBlock, change: str) -> RockingBl
     raise ValueError(f"change is {change!r}; expected one of {', '.join(CHANGES)}")
 
 
-def main(case: dict, shard: str, threads: int) -> pd.DataFrame:
-    return solve(shard_of(lines(case), shard), case, threads)
+def main(case: dict, shard: str) -> pd.DataFrame:
+    return solve(shard_of(lines(case), shard), case)
 
 
 if __name__ == "__main__":
-    run(snakemake, lambda job: main(job.params.case, job.wildcards.scatteritem, job.threads))
+    run(snakemake, lambda job: main(job.params.case, job.wildcards.scatteritem))

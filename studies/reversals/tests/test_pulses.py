@@ -26,7 +26,7 @@ CASE = {
 
 @pytest.fixture(scope="module")
 def table():
-    return solve(lines(CASE), CASE, threads=1)
+    return solve(lines(CASE), CASE)
 
 
 @pytest.fixture(scope="module")
@@ -75,7 +75,7 @@ def test_size_alone_moves_the_columns_spectrum_to_other_frequencies():
     ratio = RockingFrame(Column(1.0, 4.0), math.inf).equivalent_size / Column(1.0, 4.0).size
     size = changed_line(14.0, "one-cosine", "size", math.inf, 2.0)
     column = changed_line(14.0, "one-cosine", "both", 0.0, 2.0 * math.sqrt(ratio))
-    found = solve([size, column], CASE, threads=1)
+    found = solve([size, column], CASE)
     (_, moved), (_, there) = found.groupby("change")
     assert len(moved) == len(there) > 0
     np.testing.assert_allclose(
