@@ -19,6 +19,7 @@ from topheavy import (
     peak_rigid,
     simulate,
 )
+from topheavy.fixed_frame import STEPS
 
 FORCES = ("base_shear", "overturning_moment", "bending_moment")
 RIGID = "rigid"
@@ -95,13 +96,20 @@ def impact_impulse(frame: RockingFrame, course: History) -> float:
 
 
 def held_peaks(
-    frames: Sequence[RockingFrame], cap: Cap, motion: Pulse | Record, periods: Sequence[float]
+    frames: Sequence[RockingFrame],
+    cap: Cap,
+    motion: Pulse | Record,
+    periods: Sequence[float],
+    steps: int = STEPS,
 ) -> list[dict[str, dict[str, float]]]:
-    """Return, for each frame held against uplift, its largest forces by its period."""
+    """Return, for each frame held against uplift, its largest forces by its period.
+
+    `steps` are those in a period, as in `peak_elastic`.
+    """
     fixed = [FixedFrame(frame, cap) for frame in frames]
     found = [{RIGID: peak_rigid(one, motion)._asdict()} for one in fixed]
     for period in periods:
-        for place, forces in enumerate(peak_elastic(fixed, motion, period)):
+        for place, forces in enumerate(peak_elastic(fixed, motion, period, steps)):
             found[place][f"{period:g} s"] = forces._asdict()
     return found
 

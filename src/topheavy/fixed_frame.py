@@ -103,9 +103,12 @@ class FixedFrame:
         return found
 
 
-def peak_rigid(fixed: FixedFrame, excitation: Excitation) -> Forces:
+def peak_rigid(fixed: FixedFrame, excitation: Pulse | Record) -> Forces:
     """Return the largest forces of the rigid frame: those of the peak ground acceleration."""
-    largest = max(s.largest(s.start, s.stop) for s in excitation.segments(excitation.duration))
+    if isinstance(excitation, Record):
+        largest = excitation.peak_acceleration
+    else:
+        largest = max(s.largest(s.start, s.stop) for s in excitation.segments(excitation.duration))
     return _peaks(fixed.rigid[None, :] * largest)
 
 
