@@ -65,7 +65,7 @@ def capacity_ratio(levels: np.ndarray, one: np.ndarray, other: np.ndarray) -> np
 
 
 def curves(
-    family: str, under: list, outcomes: np.ndarray, levels: np.ndarray, column: Column, case: dict
+    family: str, under: list, outcomes: np.ndarray, levels: np.ndarray, case: dict
 ) -> tuple[pd.DataFrame, list[dict]]:
     """Return the fragility of each structure, and how it ranks beside the bare column."""
     boot = case["bootstrap"]
@@ -133,7 +133,7 @@ def main(case: dict, ensemble: dict, tightened: float) -> tuple:
     fell, families = np.array(outcomes), np.array([draw.family for draw in chosen])
     tables, ranks = [], []
     for family in ensemble["families"]:
-        table, rank = curves(family, under, fell[families == family], levels, column, case)
+        table, rank = curves(family, under, fell[families == family], levels, case)
         tables.append(table)
         ranks += rank
     ranking = pd.DataFrame(ranks)
