@@ -20,6 +20,11 @@ def test_library_follows_the_derivation(slenderness, ratio):
         assert base_shear_slope(frame) == pytest.approx(float(derived), rel=1e-12)
 
 
+@pytest.mark.parametrize("prove", proofs.PROOFS)
+def test_what_is_stated_is_proved(prove):
+    assert prove()
+
+
 WRONG = [
     (proofs.base_shear_grows_after_uplift, "after_uplift", lambda shear: shear * (1 + gamma / 9)),
     (proofs.base_shear_grows_after_uplift, "slope", lambda slope: slope + gamma / 9),
