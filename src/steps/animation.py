@@ -29,8 +29,8 @@ PLAYS = 3
 PLACES = {"column": 0.0, "vase": 10.2, "frame": 22.6}  # m: the middle of each
 NAMES = {"column": "Column", "vase": "Mass fixed to it", "frame": "Mass carried freely by two"}
 VIEW = (-4.5, 28.0, -1.6, 8.4)  # m
-FALLING = 2.0  # of α: the word of an overturning structure is shown once its rotation stays above this
-CALM = 0.5  # of α: the word of a survivor is shown once its rotation stays below this
+FALLING = 2.0  # of α: "overturns" is shown once the rotation stays above this
+CALM = 0.5  # of α: "survives" is shown once the rotation stays below this
 CLOSENESS = 1e-9  # m: how far a body may be in the ground
 
 

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from replication.findings import Finding
 from replication.workbench import grid, run, truth
 from steps.peak_forces import FORCES, RIGID, held_peaks, rocking_peaks
 from steps.spectrum import progress
@@ -33,6 +34,7 @@ CLOSE = 1e-3  # relative: what the peaks of two solvers may differ by
 HALVED = 5e-3  # relative: what half as many samples may change a peak by
 MARGIN = 0.01  # of the base shear just after uplift: what a later one may exceed it by
 SAME = 1e-6  # of the weight and of weight times height: for the three bodies
+STEPS = {"pulse": 200, "record": 60}  # in a period of the held frame; (π/60)²/2 is 1.4e-3
 BESIDE = 1e-3  # over p̂: how far from an impact the forces of the three bodies are compared
 ROUNDING = 1e-9
 
@@ -75,7 +77,7 @@ def compare(
     The forces of a frame held against uplift are proportional to the amplitude.
     """
     spec, rows = case[{"pulse": "pulses", "record": "recorded"}[labels["kind"]]], []
-    held = held_peaks(frames, cap, motion, case["periods"])
+    held = held_peaks(frames, cap, motion, case["periods"], STEPS[labels["kind"]])
     for frame, fixed in zip(frames, held, strict=True):
         for ratio in spec["amplitudes"]:
             peak = ratio * frame.uplift_acceleration
@@ -186,7 +188,7 @@ def by_three_bodies(frame: RockingFrame, cap: Cap, pulse: Pulse, samples: int) -
     return float(max(np.abs(one[moving]).max() for one in apart))
 
 
-def second_route(table: pd.DataFrame, frames: list, cap: Cap, case: dict, tried: list) -> dict:
+def second_route(table: pd.DataFrame, frames: list, cap: Cap, case: dict, tried: list) -> Finding:
     """Return how far SciPy's peaks are from the library's, rocking and held, for a sample."""
     column, random = frames[0].column, np.random.default_rng(SEED)
     stands = table[(table.outcome == "rests") & (table.kind == "pulse")]

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from replication.findings import Finding
 from replication.workbench import run, truth
 from steps.peak_forces import FORCES, RIGID, held_peaks, rocking_peaks
 from steps.spectrum import progress
@@ -80,7 +81,7 @@ def summary(table: pd.DataFrame, case: dict, boot: Mapping[str, Any]) -> pd.Data
 
 def second_route(
     rocked: pd.DataFrame, chosen: list[Draw], cap: Cap, column: Column, case: dict
-) -> dict:
+) -> Finding:
     """Compare the peaks of the shortest motions under which a frame rocks with those of SciPy."""
     apart, records = [], {tuple(draw.labels.values()): draw.record() for draw in chosen}
     large = rocked[rocked.rotation > ROCKS]

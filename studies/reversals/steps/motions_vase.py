@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from replication.findings import Finding
 from replication.workbench import run, truth
 from steps.rocking_spectra import NUDGE
 from steps.spectrum import progress
@@ -104,7 +105,7 @@ def curves(
 
 def second_route(
     cells: list[tuple[Structure, Record, float]], found: list[bool], tightened: float
-) -> dict:
+) -> Finding:
     """Judge cells again by SciPy, those that a nudge or a tighter tolerance does not change."""
     differ = compared = 0
     for (structure, record, factor), fell in zip(cells, found, strict=True):
