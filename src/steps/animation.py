@@ -1,7 +1,7 @@
-"""Animate a column and its frame under the same ground motion, to scale.
+"""Animate a column, a column with a mass fixed to its top, and a frame that carries this mass.
 
-The cap beam has the density and the breadth of the columns, so that its depth shows its mass. The
-animation runs in real time, within the hundredth of a second that a GIF can store.
+All three are to scale and under the same ground motion, in real time, within the hundredth of a
+second that a GIF can store. It is played three times and then stands still.
 """
 
 import math
@@ -15,31 +15,57 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.patches import Polygon
 from PIL import Image
 
-from replication.drawing import ACCENT, GREY, INK, SKY, STONE
+from replication.drawing import ACCENT, DARK, GREY, INK, SKY, STONE
 from replication.workbench import run
-from steps.sketches import cap_outline
-from topheavy import Column, Pulse, RockingFrame, simulate
-from topheavy.kinematics import cap_displacement, column_outline
-from topheavy.structures import STANDARD_GRAVITY
+from steps.vase_poses import bodies, lying
+from topheavy import Column, FixedMassColumn, Pulse, RockingFrame, simulate
+from topheavy.structures import STANDARD_GRAVITY, Structure
 
 EARTH = "#d5d1c8"
 BLENDS = 12  # of two colours
-FLAT = math.pi / 2.0
-SIZE, DPI = (6.4, 4.8), 100  # inches
+SIZE, DPI = (8.4, 4.2), 100  # inches
 HELD = (600, 1800)  # ms: duration of the first and the last picture
-COLUMN_AT = 6.2  # m, right of the middle of the frame
-VIEW = (-4.6, 13.6, -0.55, 10.9)  # m
-CLOSENESS = 1e-9  # m: how well bodies must meet, and lie
+PLAYS = 3
+PLACES = {"column": 0.0, "vase": 10.2, "frame": 22.6}  # m: the middle of each
+NAMES = {"column": "Column", "vase": "Mass fixed to it", "frame": "Mass carried freely by two"}
+VIEW = (-4.5, 28.0, -1.6, 8.4)  # m
+FALLING = 2.0  # of α: "overturns" is shown once the rotation stays above this
+CALM = 0.5  # of α: "survives" is shown once the rotation stays below this
+CLOSENESS = 1e-9  # m: how far a body may be in the ground
 
 
-def rotations(structure: Column | RockingFrame, pulse: Pulse, times: np.ndarray) -> np.ndarray:
-    """Return θ; a structure that has overturned lies flat."""
+def structures(case: dict) -> dict[str, Structure]:
+    """Return bare column, column with the fixed mass, and frame."""
+    column, gamma, cap = Column(**case["column"]), case["mass_ratio"], case["cap"]
+    return {
+        "column": column,
+        "vase": FixedMassColumn(column, gamma, cap["width"], cap["depth"]),
+        "frame": RockingFrame(column, gamma),
+    }
+
+
+def rotations(structure: Structure, pulse: Pulse, times: np.ndarray, case: dict) -> np.ndarray:
+    """Return θ; what has overturned lies on the ground with its column or its mass."""
     response = simulate(structure, pulse, samples=times)
     fell = np.isnan(response.rotation)
     if fell.any() != response.overturned:
         raise ArithmeticError(f"{structure}: {response.outcome}, but its history ends otherwise")
-    last = response.rotation[~fell][-1]
-    return np.where(fell, math.copysign(FLAT, last), response.rotation)
+    if not response.overturned:
+        return response.rotation
+    column = structure if isinstance(structure, Column) else structure.column
+    corners = np.concatenate(list(bodies(structure, 0.0, case).values()))
+    flat = math.copysign(lying(column, corners), response.rotation[~fell][-1])
+    turned = np.where(fell, flat, response.rotation)
+    return np.clip(turned, -abs(flat), abs(flat))
+
+
+def told(theta: np.ndarray, times: np.ndarray, alpha: float) -> tuple[str, float]:
+    """Return the word for what happens to a structure, and the time from which it is shown, s."""
+    if abs(theta[-1]) > alpha:
+        within = np.flatnonzero(np.abs(theta) <= FALLING * alpha)
+        return "overturns", float(times[within[-1]])
+    moves = np.flatnonzero(np.abs(theta) > CALM * alpha)
+    return "survives", float(times[moves[-1]])
 
 
 def ground_displacement(pulse: Pulse, times: np.ndarray) -> np.ndarray:
@@ -52,74 +78,78 @@ def ground_displacement(pulse: Pulse, times: np.ndarray) -> np.ndarray:
     return np.interp(times, fine, moved)
 
 
-def bodies(frame: RockingFrame, alone: float, framed: float, case: dict) -> dict[str, np.ndarray]:
-    """Return the outlines of all bodies, relative to the ground; check that they touch."""
-    column, half = frame.column, case["span"] / 2.0
-    moved = np.array(cap_displacement(column, framed))
-    found = {
-        "left column": column_outline(column, framed) + [-half, 0.0],
-        "right column": column_outline(column, framed) + [half, 0.0],
-        "cap": cap_outline(frame, case["span"], case["overhang"]) + moved,
-        "column": column_outline(column, alone) + [COLUMN_AT, 0.0],
-    }
-    seat = found["left column"][:, 1].max()
-    if abs(found["cap"][:, 1].min() - seat) > CLOSENESS:
-        raise ArithmeticError(f"the cap does not rest on its columns at θ = {framed:.6g}")
-    if min(outline[:, 1].min() for outline in found.values()) < -CLOSENESS:
-        raise ArithmeticError("a body is in the ground")
-    return found
-
-
 def stage(pulse: Pulse, times: np.ndarray, case: dict):
-    """Draw the fixed parts, and return the figure, its patches, the marker and the words."""
+    """Draw the fixed parts, and return the figure, the scene, its patches and the marker."""
     figure, (scene, trace) = plt.subplots(
-        nrows=2, figsize=SIZE, dpi=DPI, height_ratios=(4.7, 1), layout="constrained"
+        nrows=2, figsize=SIZE, dpi=DPI, height_ratios=(3.2, 1), layout="constrained"
     )
-    faces = {"left column": STONE, "right column": STONE, "cap": SKY, "column": STONE}
     patches = {
-        name: scene.add_patch(Polygon(np.zeros((5, 2)), facecolor=face, edgecolor=INK, zorder=2))
-        for name, face in faces.items()
+        (name, body): scene.add_patch(
+            Polygon(
+                np.zeros((5, 2)), facecolor=SKY if body == "cap" else STONE, edgecolor=INK, zorder=2
+            )
+        )
+        for name, structure in structures(case).items()
+        for body in bodies(structure, 0.0, case)
     }
     patches["ground"] = scene.add_patch(
         Polygon(np.zeros((5, 2)), facecolor=EARTH, edgecolor=INK, zorder=1)
     )
     scene.set(xlim=VIEW[:2], ylim=VIEW[2:], aspect="equal")
     scene.axis("off")
-    how = {"va": "top", "fontsize": 11, "color": INK}
-    words = f"two columns under a cap, $\\gamma$ = {case['mass_ratio']:g}"
-    scene.text(VIEW[0] + 0.6, VIEW[3], words, **how)
-    scene.text(COLUMN_AT - 0.6, VIEW[3], "such a column alone", **how)
-    acceleration = np.linspace(0.0, times[-1], 1400)
-    trace.plot(acceleration, pulse.excitation(acceleration), color=GREY, linewidth=1.2)
+    for name, middle in PLACES.items():
+        scene.text(middle, VIEW[3], NAMES[name], va="top", ha="center", fontsize=11, color=INK)
+    fine = np.linspace(0.0, times[-1], 1400)
+    trace.plot(fine, pulse.excitation(fine), color=GREY, linewidth=1.2)
     marker = trace.plot([], [], "o", color=ACCENT, markersize=6, clip_on=False)[0]
+    given = case["pulse"]
+    words = f"one cosine, {given['amplitude']:g} g, {given['period']:g} s"
+    trace.text(given["period"] + 0.1, 0.25, words, fontsize=11, va="center", color=INK)
     trace.set(xlim=(0, times[-1]), ylim=(-0.45, 0.45), yticks=(-0.3, 0, 0.3))
     trace.set_xlabel("Time (s)", fontsize=9)
     trace.set_ylabel("Ground (g)", fontsize=9)
-    return figure, patches, marker
+    return figure, scene, patches, marker
+
+
+def outcomes(scene, theta: dict[str, np.ndarray], times: np.ndarray, alpha: float) -> list:
+    """Write what happens to each under it, hidden, with the time from which it is shown."""
+    found = []
+    for name, middle in PLACES.items():
+        word, since = told(theta[name], times, alpha)
+        colour = ACCENT if word == "overturns" else DARK
+        how = {"ha": "center", "va": "bottom", "fontsize": 12, "color": colour, "visible": False}
+        found.append((scene.text(middle, VIEW[2], word, **how), since))
+    return found
 
 
 def ground_outline(shift: float) -> np.ndarray:
     """Return the outline of the moving ground, shape (4, 2), m."""
-    left, right = -4.0 + shift, 13.0 + shift
+    left, right = VIEW[0] + 0.7 + shift, VIEW[1] - 0.7 + shift
     return np.array([[left, -0.4], [right, -0.4], [right, 0.0], [left, 0.0]])
 
 
 def main(case: dict) -> list[Image.Image]:
-    frame = RockingFrame(Column(**case["column"]), case["mass_ratio"])
-    given = case["pulse"]
+    given, shown = case["pulse"], structures(case)
+    alpha = shown["column"].slenderness
     pulse = Pulse(given["shape"], given["amplitude"], 2.0 * math.pi / given["period"])
     times = np.arange(0.0, case["duration"], hundredths(case) / 100.0)
-    alone, framed = (rotations(item, pulse, times) for item in (frame.column, frame))
-    if abs(alone[-1]) < FLAT or np.abs(framed).max() > frame.slenderness:
-        raise ArithmeticError("the column survives or the frame overturns; expected the reverse")
+    theta = {name: rotations(one, pulse, times, case) for name, one in shown.items()}
+    if np.abs(theta["frame"]).max() > alpha:
+        raise ArithmeticError("the frame overturns; expected a pulse that it survives")
     shifts = ground_displacement(pulse, times)
-    figure, patches, marker = stage(pulse, times, case)
+    figure, scene, patches, marker = stage(pulse, times, case)
+    words = outcomes(scene, theta, times, alpha)
     canvas, pictures = FigureCanvasAgg(figure), []
-    for time, shift, left, right in zip(times, shifts, alone, framed, strict=True):
-        for name, outline in bodies(frame, left, right, case).items():
-            patches[name].set_xy(outline + [shift, 0.0])
+    for number, (time, shift) in enumerate(zip(times, shifts, strict=True)):
+        for name, structure in shown.items():
+            for body, outline in bodies(structure, theta[name][number], case).items():
+                if outline[:, 1].min() < -CLOSENESS:
+                    raise ArithmeticError(f"{name}: the {body} is in the ground at {time:.3g} s")
+                patches[name, body].set_xy(outline + [PLACES[name] + shift, 0.0])
         patches["ground"].set_xy(ground_outline(shift))
         marker.set_data([time], [pulse.excitation(time)])
+        for word, since in words:
+            word.set_visible(time >= since)
         canvas.draw()
         pictures.append(Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB"))
     plt.close(figure)
@@ -128,7 +158,9 @@ def main(case: dict) -> list[Image.Image]:
 
 def palette() -> Image.Image:
     """Return the colours of every picture: those drawn with, blended with ink and with white."""
-    drawn = np.array([mpl.colors.to_rgb(c) for c in (STONE, SKY, EARTH, ACCENT, GREY, "white")])
+    drawn = np.array(
+        [mpl.colors.to_rgb(c) for c in (STONE, SKY, EARTH, ACCENT, DARK, GREY, "white")]
+    )
     others = np.array([mpl.colors.to_rgb(c) for c in (INK, "white")])
     shares = np.linspace(0.0, 1.0, BLENDS)
     blends = (1.0 - shares)[:, None] * drawn[:, None, None] + shares[:, None] * others[:, None]
@@ -146,7 +178,10 @@ def save(path: str, pictures: list[Image.Image], case: dict) -> None:
     stands = [10 * hundredths(case)] * len(pictures)
     stands[0], stands[-1] = HELD
     first, *others = pictures
-    first.save(path, save_all=True, append_images=others, duration=stands, loop=0, optimize=False)
+    # A GIF counts how often it is played again, a PNG how often it is played.
+    loop = PLAYS - 1 if path.endswith(".gif") else PLAYS
+    how = {"save_all": True, "append_images": others, "duration": stands, "optimize": False}
+    first.save(path, loop=loop, **how)
     print(f"{len(pictures)} pictures, {Path(path).stat().st_size / 1e6:.2f} MB")
 
 

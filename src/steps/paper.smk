@@ -16,6 +16,7 @@ PARTS[PAPER].figures.update(
         "figures/allen_errors": ["allen_errors"],
         "figures/allen_overturning": ["allen_overturning"],
         "figures/vase": ["vase", "vase_poses"],
+        "figures/uplift_limits": ["uplift_limits", "uplift_ratios"],
         "figures/heavier": ["heavier_histories", "heavier"],
         "figures/scale_effects": ["scale_effects"],
         "figures/spectra": ["spectra"],
@@ -39,6 +40,7 @@ PARTS[PAPER].findings.extend(
         "scale_effects",
         "stability",
         "vase",
+        "uplift_limits",
         "spectra",
         "spectra_dimensional",
         "rocking_spectra",
@@ -51,6 +53,7 @@ PARTS[PAPER].data.append(RECORDS["el_centro_1940_NS"])
 # Findings that no claim rests on, and without which no claim is worth much.
 CHECKS = {
     "vase": ["second_route"],
+    "uplift_limits": ["forces_by_second_routes"],
     "verification": [
         "routes_agree",
         "published_numbers",
@@ -319,6 +322,27 @@ rule vase:
         "The same mass fixed to one column, and carried freely by two"
     script:
         "vase.py"
+
+
+rule uplift_limits:
+    input:
+        code("src/steps/uplift_limits.py"),
+        records=[RECORDS[name] for name in config["uplift_limits"]["records"]],
+    output:
+        table="results/tables/uplift_limits.csv",
+        ratios="results/tables/uplift_ratios.csv",
+        slopes="results/tables/uplift_slopes.csv",
+        findings="results/findings/uplift_limits.json",
+    log:
+        "results/logs/uplift_limits.log",
+    benchmark:
+        "results/benchmarks/uplift_limits.tsv"
+    params:
+        case=case("uplift_limits"),
+    message:
+        "The forces of frames that rock, and of frames held against uplift"
+    script:
+        "uplift_limits.py"
 
 
 rule scale_effects:

@@ -81,8 +81,8 @@ def search(
     rows: list[dict] = []
     for name, gamma, structure in rivals(column, ratios):
         found = minimum(structure, motion, highest)
-        bare = rows[0]["found"] if rows else found
-        found = refined(found, min(bare.acceleration, highest))
+        bare = rows[0]["found"] if rows else refined(found, min(found.bracket[0], highest))
+        found = refined(found, min(bare.acceleration, highest)) if rows else bare
         rows.append(labels | {"structure": name, "mass_ratio": gamma, "found": found, "bare": bare})
     return rows
 
@@ -142,10 +142,25 @@ def question(compared: list[dict], structures: list[str], longest: float) -> Fin
     )
 
 
+def on_a_fresh_grid(compared: list[dict], longest: float) -> Finding:
+    """Return whether the condition, stated before, holds where it was not found, as a finding."""
+    fresh = [row for row in compared if row["kind"] == "fresh"]
+    inside = [row for row in fresh if row["frequency_ratio"] <= longest]
+    broken = sorted(row["frequency_ratio"] for row in fresh if is_exception(row))
+    return truth(
+        bool(inside) and not any(map(is_exception, inside)),
+        comparisons=len(inside),
+        beyond=len(fresh) - len(inside),
+        exceptions_beyond=broken,
+    )
+
+
 def sampled(compared: list[dict], kind: str, count: int) -> list[Minimum]:
-    """Return minima of a seeded sample of the motions of a kind."""
+    """Return minima of a seeded sample of the motions of a kind, of the shortest records."""
     found = [row["found"] for row in compared if row["kind"] == kind]
     found = [one for one in found if math.isfinite(one.acceleration)]
+    if kind == "record":
+        return sorted(found, key=lambda one: one.motion.duration)[:count]
     return [found[place] for place in np.random.default_rng(SEED).permutation(len(found))[:count]]
 
 
@@ -165,14 +180,18 @@ def carried(table: pd.DataFrame) -> dict:
 def motions(
     column: Column, case: dict, paths: list[str]
 ) -> list[tuple[Pulse | Record, list[float], dict]]:
-    """Return every motion, of unit peak, with the γ that it is tried with and its labels."""
-    spec, p = case["spectra"], column.frequency_parameter
+    """Return every motion, of unit peak, with the γ that it is tried with and its labels.
+
+    Those of the kind "fresh" test the condition that the others led to.
+    """
+    p = column.frequency_parameter
     pulses = [
         (
             Pulse(shape, 1.0, ratio * p),
             spec["mass_ratios"],
-            {"kind": "pulse", "motion": shape, "frequency_ratio": ratio},
+            {"kind": kind, "motion": shape, "frequency_ratio": ratio},
         )
+        for kind, spec in (("pulse", case["spectra"]), ("fresh", case["fresh"]))
         for shape in spec["shapes"]
         for ratio in grid(spec["frequency_ratios"])
     ]
@@ -218,6 +237,7 @@ def main(case: dict, paths: list[str], tightened: float) -> tuple:
         "support_decides": question(compared, ["fixed", "free"], longest).with_evidence(
             under_the_pulses_of_the_period=ranks(summary)
         ),
+        "condition_on_a_fresh_grid": on_a_fresh_grid(compared, longest),
         "portal_has_a_wider_base": truth(
             (portals.slenderness_deg > summary.slenderness_deg[0]).all(),
             slenderness_deg=portals.slenderness_deg,

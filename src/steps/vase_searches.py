@@ -18,8 +18,14 @@ from topheavy import (
 from topheavy.free_rocking import Ending
 from topheavy.structures import Structure
 
-WINDOWS = ((1.0, 1.5, 0.01), (1.5, 3.0, 0.03), (3.0, 30.0, 0.05))
-"""Ranges searched one after the other, and their resolution, over the uplift acceleration."""
+WINDOWS = {
+    Pulse: ((1.0, 1.3, 0.001), (1.3, 1.5, 0.01), (1.5, 3.0, 0.03), (3.0, 30.0, 0.05)),
+    Record: ((1.0, 1.5, 0.01), (1.5, 3.0, 0.03), (3.0, 30.0, 0.05)),
+}
+"""Ranges searched one after the other, and their resolution, over the uplift acceleration.
+
+Just above uplift a long pulse has narrow intervals that overturn, one below the other.
+"""
 
 FINEST = {Pulse: 0.005, Record: 0.02}
 """Resolution below the minimum of the bare column, over the uplift acceleration."""
@@ -78,7 +84,7 @@ class Minimum:
 def minimum(structure: Structure, motion: Pulse | Record, highest: float) -> Minimum:
     """Return the minimum overturning acceleration up to the highest, g."""
     uplift = structure.block().uplift_acceleration
-    for low, high, step in WINDOWS:
+    for low, high, step in WINDOWS[type(motion)]:
         scales = (low * uplift, min(high * uplift, highest))
         if scales[0] >= scales[1]:
             break
@@ -94,7 +100,7 @@ def refined(found: Minimum, below: float) -> Minimum:
     """Return the minimum, searched again at the finest resolution below an acceleration, g."""
     uplift = found.structure.block().uplift_acceleration
     step = FINEST[type(found.motion)] * uplift
-    if not uplift + step < below < found.bracket[0]:
+    if not uplift + step < below <= found.bracket[0]:
         return found
     lower = overturning_intervals(
         found.structure, found.motion, (uplift, below), resolution=step, most_impacts=0

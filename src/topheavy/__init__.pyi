@@ -7,7 +7,9 @@ from .contact_forces import (
     contact_forces,
     impact_impulses,
 )
+from .fixed_frame import FixedFrame, peak_elastic, peak_elastic_by_scipy, peak_rigid
 from .fixed_mass import FixedMassColumn, MonolithicPortal
+from .frame_forces import base_shear_slope, frame_forces
 from .overturning import overturned_by, overturning_intervals, overturning_map
 from .pulses import PULSE_SHAPES, Pulse
 from .records import Record, read_at2, read_csv, read_record
@@ -21,6 +23,7 @@ __all__ = [
     "Cap",
     "Column",
     "ContactForces",
+    "FixedFrame",
     "FixedMassColumn",
     "MonolithicPortal",
     "Pulse",
@@ -29,14 +32,19 @@ __all__ = [
     "Response",
     "RockingBlock",
     "RockingFrame",
+    "base_shear_slope",
     "column_forces",
     "column_impulse",
     "contact_forces",
+    "frame_forces",
     "impact_impulses",
     "judge",
     "overturned_by",
     "overturning_intervals",
     "overturning_map",
+    "peak_elastic",
+    "peak_elastic_by_scipy",
+    "peak_rigid",
     "read_at2",
     "read_csv",
     "read_record",

@@ -10,8 +10,18 @@ PARTS["reversals"].figures["studies/reversals/figures/motions_gain"] = [
 PARTS["reversals"].figures["studies/reversals/figures/motions_records"] = [
     "reversals_records"
 ]
+PARTS["reversals"].figures["studies/reversals/figures/motions_vase"] = [
+    "reversals_vase",
+    "reversals_uplift",
+]
 PARTS["reversals"].findings.extend(
-    ["reversals_records", "reversals_motions", "reversals_check"]
+    [
+        "reversals_records",
+        "reversals_motions",
+        "reversals_check",
+        "reversals_vase",
+        "reversals_uplift",
+    ]
 )
 
 MOTIONS = case("motions_ensemble", "reversals")
@@ -106,3 +116,43 @@ rule reversals_check:
         "Study reversals: a sample of the ensemble, judged again"
     script:
         "steps/motions_check.py"
+
+
+rule reversals_vase:
+    input:
+        code("studies/reversals/steps/motions_vase.py"),
+    output:
+        fragility="results/tables/reversals_vase.csv",
+        ranks="results/tables/reversals_vase_ranks.csv",
+        findings="results/findings/reversals_vase.json",
+    log:
+        "results/logs/reversals_vase.log",
+    benchmark:
+        "results/benchmarks/reversals_vase.tsv"
+    params:
+        case=case("motions_vase", "reversals"),
+        ensemble=MOTIONS,
+        solver=config["solver"],
+    message:
+        "Study reversals: the fixed mass and the frame under synthetic motions"
+    script:
+        "steps/motions_vase.py"
+
+
+rule reversals_uplift:
+    input:
+        code("studies/reversals/steps/motions_uplift.py"),
+    output:
+        table="results/tables/reversals_uplift.csv",
+        findings="results/findings/reversals_uplift.json",
+    log:
+        "results/logs/reversals_uplift.log",
+    benchmark:
+        "results/benchmarks/reversals_uplift.tsv"
+    params:
+        case=case("motions_uplift", "reversals"),
+        ensemble=MOTIONS,
+    message:
+        "Study reversals: the forces that uplift limits under synthetic motions"
+    script:
+        "steps/motions_uplift.py"

@@ -32,6 +32,20 @@ def test_minimum_that_is_wrong_has_no_error():
     assert not wrong.told(3e-12)
 
 
+def test_narrow_interval_above_uplift_is_not_missed():
+    pulse = Pulse("one-sine", 1.0, 0.607059 * COLUMN.frequency_parameter)
+    least = [vase_searches.minimum(one, pulse, 2.0) for one in (COLUMN, RockingFrame(COLUMN, 0.1))]
+    over = [found.acceleration / COLUMN.uplift_acceleration for found in least]
+    assert over == pytest.approx([1.05316, 1.05507], abs=1e-5)  # from 1.06030 on if it is missed
+
+
+def test_bare_column_is_searched_as_finely_as_its_rivals(monkeypatch):
+    coarse = vase_searches.Minimum(COLUMN, PULSE, (0.9, 0.9))
+    monkeypatch.setattr(vase, "minimum", lambda *_: coarse)
+    (bare, *_) = vase.search(COLUMN, PULSE, [1.0], 2.0, {})
+    assert bare["found"].acceleration == pytest.approx(0.27282, abs=1e-4)
+
+
 def test_nothing_overturns_below_the_highest_acceleration():
     assert vase_searches.minimum(COLUMN, PULSE, 0.25).acceleration == math.inf
 
@@ -75,6 +89,16 @@ def test_exception_under_short_pulses_and_records_qualifies():
     long_one = vase.question([usual, row("fixed", 0.4, 0.3)], ["fixed"], 2.5)
     assert not long_one.holds_when
     assert not vase.question([short], ["fixed"], 2.5).holds_when
+
+
+def test_fresh_grid_tests_the_condition_and_nothing_else():
+    inside, beyond = row("fixed", 0.2, 0.3, kind="fresh"), row("fixed", 0.4, 0.3, 2.4, "fresh")
+    found = vase.on_a_fresh_grid([inside, beyond, row("fixed", 0.4, 0.3)], 2.0)
+    assert found["holds"]
+    assert (found["comparisons"], found["beyond"]) == (1, 1)
+    assert found["exceptions_beyond"] == [2.4]
+    assert not vase.on_a_fresh_grid([inside, beyond], 2.5)["holds"]
+    assert not vase.on_a_fresh_grid([beyond], 2.0)["holds"]
 
 
 def test_exchange_of_all_three_parameters_makes_the_frame():

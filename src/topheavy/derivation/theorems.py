@@ -7,7 +7,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 
-from topheavy.derivation import contact_proofs, fixed_proofs, impact_proofs, motion_proofs
+from topheavy.derivation import (
+    base_shear,
+    contact_proofs,
+    fixed_proofs,
+    impact_proofs,
+    motion_proofs,
+)
 
 
 @dataclass(frozen=True)
@@ -21,8 +27,10 @@ class Theorem:
 
 @cache
 def theorems() -> tuple[Theorem, ...]:
-    """Prove the theorems on the motion, once in a process; the docstring of a proof states it."""
-    return _prove(*motion_proofs.PROOFS, *impact_proofs.PROOFS, *fixed_proofs.PROOFS)
+    """Prove the theorems on motion and base shear, once in a process; a docstring states each."""
+    return _prove(
+        *motion_proofs.PROOFS, *impact_proofs.PROOFS, *fixed_proofs.PROOFS, *base_shear.PROOFS
+    )
 
 
 @cache

@@ -6,7 +6,8 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import grid, run, truth, value
-from studies.mechanism.steps.demand import demand, history
+from steps.histories import history
+from studies.mechanism.steps.demand import demand
 from studies.mechanism.steps.setting import cap_of, pulse_on
 from topheavy import Cap, Column, RockingFrame
 from topheavy.three_bodies import simulate_three_bodies

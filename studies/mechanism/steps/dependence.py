@@ -7,7 +7,8 @@ import pandas as pd
 
 from replication.findings import Finding
 from replication.workbench import run, truth, value
-from studies.mechanism.steps.demand import demand, history, impact_demand
+from steps.histories import history
+from studies.mechanism.steps.demand import demand, impact_demand
 from studies.mechanism.steps.setting import cap_of, pulse_on, slender
 from topheavy import Cap, Column, RockingFrame, judge
 

@@ -7,7 +7,7 @@ import pandas as pd
 
 from replication.findings import Finding
 from replication.workbench import run, truth, value
-from studies.mechanism.steps.demand import History, history
+from steps.histories import History, history
 from studies.mechanism.steps.setting import cap_of, pulse_on
 from topheavy import (
     STANDARD_GRAVITY,

@@ -7,7 +7,8 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import run, truth, value
-from studies.mechanism.steps.demand import demand, history
+from steps.histories import history
+from studies.mechanism.steps.demand import demand
 from studies.mechanism.steps.setting import cap_of
 from topheavy import Cap, Column, Record, RockingFrame, read_record
 

@@ -5,7 +5,8 @@ import math
 import pandas as pd
 
 from replication.workbench import truth
-from studies.mechanism.steps.demand import demand, history
+from steps.histories import history
+from studies.mechanism.steps.demand import demand
 from studies.mechanism.steps.engine import slips
 from studies.mechanism.steps.rigs import (
     Model,

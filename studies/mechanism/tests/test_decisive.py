@@ -8,9 +8,10 @@ import pandas as pd
 import pytest
 import yaml
 
+from steps.histories import history
 from studies.mechanism.steps import admissible
 from studies.mechanism.steps.admissible import lightest_without_sliding
-from studies.mechanism.steps.demand import Demand, demand, history
+from studies.mechanism.steps.demand import Demand, demand
 from studies.mechanism.steps.equivalence import differences, mean_share
 from studies.mechanism.steps.setting import pulse_on
 from studies.mechanism.steps.verdicts import _bands_apart

@@ -1,0 +1,307 @@
+"""What uplift limits: the largest forces of frames that rock, and of those held against uplift."""
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from replication.findings import Finding
+from replication.workbench import grid, run, truth
+from steps.peak_forces import FORCES, RIGID, held_peaks, rocking_peaks
+from steps.spectrum import progress
+from topheavy import (
+    STANDARD_GRAVITY,
+    Cap,
+    Column,
+    FixedFrame,
+    Pulse,
+    Record,
+    RockingFrame,
+    base_shear_slope,
+    frame_forces,
+    peak_elastic,
+    peak_elastic_by_scipy,
+    read_record,
+    reference,
+)
+from topheavy.newton_euler import ThreeBodies, accelerations
+from topheavy.three_bodies import simulate_three_bodies
+
+SEED = 2014  # of the samples that the second solvers judge
+CLOSE = 1e-3  # relative: what the peaks of two solvers may differ by
+HALVED = 5e-3  # relative: what half as many samples may change a peak by
+MARGIN = 0.01  # of the base shear just after uplift: what a later one may exceed it by
+SAME = 1e-6  # of the weight and of weight times height: for the three bodies
+STEPS = {"pulse": 200, "record": 60}  # in a period of the held frame; (π/60)²/2 is 1.4e-3
+BESIDE = 1e-3  # over p̂: how far from an impact the forces of the three bodies are compared
+ROUNDING = 1e-9
+
+
+def motions(column: Column, case: dict, paths: list[str]) -> list[tuple[Pulse | Record, dict]]:
+    """Return every motion, of unit peak, with its labels."""
+    p = column.frequency_parameter
+    pulses = [
+        (
+            Pulse(shape, 1.0, ratio * p),
+            {"kind": "pulse", "motion": shape, "frequency_ratio": ratio},
+        )
+        for shape in case["shapes"]
+        for ratio in grid(case["frequency_ratios"])
+    ]
+    return pulses + [
+        (
+            record.scaled(1.0 / record.peak_acceleration),
+            {"kind": "record", "motion": record.name, "frequency_ratio": math.nan},
+        )
+        for record in map(read_record, paths)
+    ]
+
+
+def shear_after_uplift(frame: RockingFrame, peak: float) -> float:
+    """Return V/W of the resting frame that a ground acceleration (g) uplifts at once."""
+    level = frame.uplift_acceleration
+    return level + base_shear_slope(frame) * (peak - level)
+
+
+def compare(
+    frames: Sequence[RockingFrame],
+    cap: Cap,
+    motion: Pulse | Record,
+    labels: dict,
+    case: dict,
+) -> list[dict]:
+    """Return a row for each frame and amplitude: the peaks, and their ratios to the held frame's.
+
+    The forces of a frame held against uplift are proportional to the amplitude.
+    """
+    spec, rows = case[{"pulse": "pulses", "record": "recorded"}[labels["kind"]]], []
+    held = held_peaks(frames, cap, motion, case["periods"], STEPS[labels["kind"]])
+    for frame, fixed in zip(frames, held, strict=True):
+        for ratio in spec["amplitudes"]:
+            peak = ratio * frame.uplift_acceleration
+            found = rocking_peaks(frame, cap, motion.scaled(peak), spec["points"])
+            row = labels | {
+                "mass_ratio": frame.mass_ratio,
+                "amplitude": ratio,
+                "peak_acceleration": peak,
+                "shear_after_uplift": shear_after_uplift(frame, peak),
+                "outcome": found.outcome,
+                "rotation": found.rotation,
+                "impulse": found.impulse,
+                "error": found.error,
+            }
+            for name in FORCES:
+                row[name] = found.forces[name]
+                for period, forces in fixed.items():
+                    row[f"{name}, {period}"] = found.forces[name] / (forces[name] * peak)
+            rows.append(row)
+    return rows
+
+
+def summary(table: pd.DataFrame, case: dict) -> pd.DataFrame:
+    """Return, for each kind, γ, force and held frame, the range of the ratio among survivors."""
+    rows = []
+    held = [RIGID, *(f"{period:g} s" for period in case["periods"])]
+    for (kind, gamma), cells in table.groupby(["kind", "mass_ratio"]):
+        for name in FORCES:
+            for one in held:
+                ratio = cells[f"{name}, {one}"].dropna()
+                rows.append(
+                    {
+                        "kind": kind,
+                        "mass_ratio": gamma,
+                        "force": name,
+                        "held": one,
+                        "histories": len(cells),
+                        "overturned": int((cells.outcome == "overturned").sum()),
+                        "least": ratio.min(),
+                        "median": ratio.median(),
+                        "largest": ratio.max(),
+                        "lower": float((ratio < 1.0).mean()),
+                    }
+                )
+    return pd.DataFrame(rows)
+
+
+def slopes(case: dict) -> pd.DataFrame:
+    """Return the slope of the base shear just after uplift by formula and by three bodies."""
+    rows = []
+    for degrees in case["slope"]["slendernesses"]:
+        alpha = math.radians(degrees)
+        for gamma in case["slope"]["mass_ratios"]:
+            frame = RockingFrame(Column(math.sin(alpha), math.cos(alpha)), gamma)
+            row = {"slenderness_deg": degrees, "mass_ratio": gamma}
+            row |= {"slope": base_shear_slope(frame), "three_bodies": math.nan}
+            if 0.0 < gamma < math.inf:
+                shears = [_shear_at_rest(frame, factor) for factor in (1.0, 2.0)]
+                row["three_bodies"] = (shears[1] - shears[0]) / frame.uplift_acceleration
+            rows.append(row)
+    return pd.DataFrame(rows)
+
+
+def _shear_at_rest(frame: RockingFrame, factor: float) -> float:
+    """Return V/W of three bodies at rest that ü_g = factor · g tan α turns to the left."""
+    bodies = ThreeBodies(frame, span=5.0 * frame.column.size, cap_depth=frame.column.size)
+    still = np.zeros(9)
+    ground = factor * frame.uplift_acceleration
+    _, forces = accelerations(bodies, (-1, -1), still, still, ground)
+    return float(forces[:2, 0].sum() / (2.0 * (1.0 + frame.mass_ratio) * STANDARD_GRAVITY))
+
+
+def by_three_bodies(frame: RockingFrame, cap: Cap, pulse: Pulse, samples: int) -> float:
+    """Return how far base shear, overturning and end moments of two descriptions are apart.
+
+    The three bodies have their own motion and forces; the moments are those of their forces.
+    """
+    lasting = 2.0 * pulse.duration
+    course = simulate_three_bodies(
+        frame,
+        pulse,
+        span=cap.span,
+        cap_depth=2.0 * cap.half_depth,
+        duration=lasting,
+        samples=samples,
+    )
+    weight = 2.0 * (1.0 + frame.mass_ratio) * STANDARD_GRAVITY
+    foot, seat = course.forces[:, :2] / weight, course.forces[:, 2:] / weight
+    theta, b = course.rotation, frame.column.half_width
+    side, axis = np.sign(theta[:, 0]), np.array([-0.5, 0.5]) * cap.span
+    moment = -((side[:, None] * b + axis) * foot[..., 1]).sum(axis=1)
+    # Of the column at its own base and top: the axial force times half the width.
+    ends = [
+        sign * side[:, None] * b * (part[..., 0] * np.sin(theta) + part[..., 1] * np.cos(theta))
+        for sign, part in ((1.0, foot), (-1.0, seat))
+    ]
+    ground = np.asarray(pulse.excitation(course.time))
+    ours = frame_forces(frame, cap, theta[:, 0], course.velocity[:, 2], ground)
+    gap = np.abs(course.time[:, None] - course.impacts).min(axis=1, initial=math.inf)
+    moving = (gap > BESIDE / frame.frequency_parameter) & np.isfinite(foot[:, 0, 0])
+    height = 2.0 * frame.column.half_height
+    apart = [
+        foot[..., 0].sum(axis=1) - ours.base_shear,
+        (moment - ours.overturning_moment) / height,
+        *((ends[0] - ours.bending_moment[..., 0]) / height).T,
+        *((ends[1] - ours.bending_moment[..., -1]) / height).T,
+    ]
+    return float(max(np.abs(one[moving]).max() for one in apart))
+
+
+def second_route(table: pd.DataFrame, frames: list, cap: Cap, case: dict, tried: list) -> Finding:
+    """Return how far SciPy's peaks are from the library's, rocking and held, for a sample."""
+    column, random = frames[0].column, np.random.default_rng(SEED)
+    stands = table[(table.outcome == "rests") & (table.kind == "pulse")]
+    apart = []
+    chosen = random.permutation(len(stands))[: case["sample"]["points"]]
+    for _, row in stands.iloc[chosen].iterrows():
+        frame = RockingFrame(column, row.mass_ratio)
+        pulse = Pulse(
+            row.motion,
+            row.amplitude * column.uplift_acceleration,
+            row.frequency_ratio * column.frequency_parameter,
+        )
+        other = rocking_peaks(frame, cap, pulse, case["pulses"]["points"], reference.simulate)
+        apart += [abs(other.forces[name] / row[name] - 1.0) for name in FORCES]
+    held = []
+    for motion, labels in tried[:: max(1, len(tried) // case["checked_by_second_route"])]:
+        if labels["kind"] == "record":
+            motion = Record(motion.time_step, motion.acceleration[: case["sample"]["record_steps"]])
+        fixed = FixedFrame(frames[-2], cap)
+        for period in case["periods"]:
+            (one,), other = (
+                peak_elastic([fixed], motion, period),
+                peak_elastic_by_scipy(fixed, motion, period),
+            )
+            held += [abs(a / b - 1.0) for a, b in zip(one, other, strict=True)]
+    bodies = [
+        by_three_bodies(RockingFrame(column, gamma), cap, _pulse(column, spec), 400)
+        for spec in case["three_bodies"]["pulses"]
+        for gamma in case["three_bodies"]["mass_ratios"]
+    ]
+    worst = [float(np.max(found)) for found in (apart, held, bodies, table.error.dropna())]
+    return truth(
+        max(worst[:2]) < CLOSE and worst[2] < SAME and worst[3] < HALVED,
+        peaks_rocking=len(apart),
+        largest_relative_rocking=worst[0],
+        peaks_held=len(held),
+        largest_relative_held=worst[1],
+        histories_of_three_bodies=len(bodies),
+        largest_over_weight=worst[2],
+        largest_change_by_half_the_samples=worst[3],
+    )
+
+
+def _pulse(column: Column, spec: dict) -> Pulse:
+    peak = spec["amplitude"] * column.uplift_acceleration
+    return Pulse(spec["shape"], peak, spec["frequency_ratio"] * column.frequency_parameter)
+
+
+def main(case: dict, paths: list[str]) -> tuple:
+    column = Column(**case["column"])
+    cap = Cap(case["cap"]["span"], case["cap"]["depth"] / 2.0)
+    frames = [RockingFrame(column, gamma) for gamma in case["mass_ratios"]]
+    tried = motions(column, case, paths)
+    found = (compare(frames, cap, motion, labels, case) for motion, labels in tried)
+    table = pd.DataFrame(row for rows in progress(found, len(tried), "motions") for row in rows)
+    ratios, of_slope = summary(table, case), slopes(case)
+    stands = table[table.outcome != "overturned"]
+    over_uplift = stands.base_shear / stands.shear_after_uplift
+    rigid = ratios[ratios.held == RIGID]
+    totals = rigid[rigid.force != "bending_moment"]
+    bodies = of_slope.dropna()
+    fell = int((table.outcome == "overturned").sum())
+    counted = {"histories": len(table), "overturned": fell}
+    findings = {
+        "slope_by_three_bodies": truth(
+            np.allclose(bodies.slope, bodies.three_bodies, rtol=0.0, atol=ROUNDING),
+            largest_apart=float((bodies.slope - bodies.three_bodies).abs().max()),
+            frames=len(bodies),
+        ),
+        "uplift_limits_forces": truth(
+            ratios.largest.max() < 1.0,
+            holds_when=totals.largest.max() < 1.0,
+            condition="of base shear and overturning moment of survivors, beside a rigid frame",
+            **counted,
+            **{
+                f"{name}_{end}": rigid[rigid.force == name][end].agg(
+                    {"least": "min", "largest": "max"}[end]
+                )
+                for name in FORCES
+                for end in ("least", "largest")
+            },
+            bending_moments_not_lower=int((stands[f"bending_moment, {RIGID}"] >= 1.0).sum()),
+            longest_period_that_is_limited=_longest(ratios, case),
+        ),
+        "uplift_is_beneficial": truth(
+            fell == 0 and ratios.largest.max() < 1.0,
+            holds_when=totals[totals.force == "base_shear"].largest.max() < 1.0,
+            condition="the frame survives; of the base shear, beside a rigid frame",
+            **counted,
+            largest_rotation_over_alpha=stands.rotation.max(),
+            largest_impulse=stands.impulse.max(),
+        ),
+        "largest_shear_is_that_of_uplift": truth(
+            over_uplift.max() < 1.0 + MARGIN, margin=MARGIN, largest=over_uplift.max()
+        ),
+        "forces_by_second_routes": second_route(table, frames, cap, case, tried),
+    }
+    return table, ratios, of_slope, findings
+
+
+def _longest(ratios: pd.DataFrame, case: dict) -> float:
+    """Return the longest tested period up to which every base shear and moment is lower, s."""
+    lower = [
+        ratios[(ratios.held == f"{T:g} s") & (ratios.force != "bending_moment")].largest.max() < 1.0
+        for T in case["periods"]
+    ]
+    limited = int(np.argmin([*lower, False]))
+    return float(case["periods"][limited - 1]) if limited else 0.0
+
+
+def work(job: Any) -> tuple:
+    return main(job.params.case, job.input.records)
+
+
+if __name__ == "__main__":
+    run(snakemake, work)

@@ -1,0 +1,127 @@
+"""Vase, frame and forces over the ensemble, on cases that are known."""
+
+import math
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from studies.reversals.ensemble import Draw
+from studies.reversals.motions import Scenario, peak_velocity
+from studies.reversals.steps import motions_uplift, motions_vase
+from topheavy import Column, FixedMassColumn, Record
+
+COLUMN = Column(0.5, 3.0)
+LEVELS = np.geomspace(0.25, 4.0, 9)
+BOOT = {"resamples": 200, "confidence": 0.95, "seed": 14}
+DRAW = Draw("near-fault", 0, 0, 2014, Scenario(6.5, 10.0, 760.0, 10.0))
+
+
+def outcomes(*capacities):
+    """Outcomes of two motions: structures overturn from these levels on, a tenth later in one."""
+    found = [[level * late <= LEVELS for level in capacities] for late in (1.0, 1.1)]
+    return np.array(found * 20)
+
+
+UNDER = [("bare", 0.0, None), ("fixed", 1.0, None), ("free", 1.0, None)]
+
+
+def test_first_level_that_overturns_is_found_and_none_is_infinite():
+    fell = np.array([LEVELS >= 1.0, (LEVELS > 0.6) & (LEVELS < 0.8), np.zeros(9, bool)])
+    assert motions_vase.first(fell, LEVELS).tolist() == pytest.approx([1.0, 2**-0.5, math.inf])
+
+
+def test_capacity_ratio_is_that_of_curves_that_are_shifted():
+    one = LEVELS >= 0.99
+    other = LEVELS >= 0.49  # two levels earlier: half
+    found = motions_vase.capacity_ratio(LEVELS, one.astype(float), other.astype(float))
+    assert found == pytest.approx(0.5)
+
+
+def test_ranks_count_motions_that_change_the_order():
+    case = {"bootstrap": BOOT}
+    fell = outcomes(0.99, 0.49, 1.9)
+    fell[0, 1] = LEVELS >= 3.9  # one of forty: the fixed mass overturns last
+    table, ranks = motions_vase.curves("near-fault", UNDER, fell, LEVELS, case)
+    fixed, free = ranks
+    assert fixed["later"] == pytest.approx(1 / 40)
+    assert fixed["sooner"] == pytest.approx(39 / 40)
+    assert (free["sooner"], free["later"]) == pytest.approx((0.0, 1.0))
+    assert fixed["over_bare_high"] < 1.0 < free["over_bare_low"]
+    assert set(table.structure) == {"bare", "fixed", "free"}
+
+
+def test_factors_bring_a_motion_to_its_intensity():
+    record = Record(0.01, np.sin(np.arange(400) / 20.0), "any")
+    (factor,) = motions_vase.factors(COLUMN, record, np.array([0.7]))
+    speed = peak_velocity(record.scaled(factor))
+    assert COLUMN.frequency_parameter * speed / (9.81 / 6) == pytest.approx(0.7)
+
+
+def test_told_refuses_what_a_nudge_changes(monkeypatch):
+    record = DRAW.record()
+    calm = np.array([0.01])
+    assert motions_vase.told(COLUMN, record, calm, 3e-12)
+    nudged = iter([[False], [False], [True], [False]])
+    monkeypatch.setattr(motions_vase, "overturned_by", lambda *_, **__: np.array(next(nudged)))
+    assert not motions_vase.told(COLUMN, record, calm, 3e-12)
+
+
+def test_second_route_sees_a_wrong_outcome():
+    cells = [(FixedMassColumn(COLUMN, 1.0), DRAW.record(), 0.01)]
+    assert motions_vase.second_route(cells, [False], 3e-12)["holds"]
+    assert not motions_vase.second_route(cells, [True], 3e-12)["holds"]
+
+
+def row(outcome, ratio, **more):
+    held = {f"{name}, rigid": ratio for name in motions_uplift.FORCES}
+    labels = {"family": "near-fault", "mass_ratio": 1.0, "intensity": 0.4}
+    return labels | {"outcome": outcome, "rotation": 0.2} | held | more
+
+
+def test_summary_counts_what_overturns_and_averages_the_others():
+    rows = [row("rests", 0.4)] * 10 + [row("rests", 0.8)] * 10 + [row("overturned", math.nan)] * 20
+    rows += [row("no uplift", 1.0)] * 40
+    found = motions_uplift.summary(pd.DataFrame(rows), {"periods": []}, BOOT)
+    assert found.ratio.tolist() == pytest.approx([0.6] * 3)
+    assert found.survivors.tolist() == [20] * 3
+    assert found.overturned.tolist() == [0.25] * 3
+    assert ((found.ratio_low < 0.6) & (found.ratio_high > 0.6)).all()
+
+
+CASE = {
+    "column": {"half_width": 0.5, "half_height": 3.0},
+    "cap": {"span": 5.0, "depth": 1.0},
+    "mass_ratios": [1.0],
+    "motions": 3,
+    "intensities": [0.4],
+    "periods": [0.5],
+    "points": 1,
+    "bootstrap": BOOT,
+    "checked_by_second_route": 1,
+}
+ENSEMBLE = {
+    "families": ["near-fault"],
+    "scenarios": [
+        {"magnitude": 6.5, "distance": 10.0, "site_velocity": 760.0, "directivity": 10.0}
+    ],
+    "seed": 2014,
+    "run": "default",
+    "runs": {"default": {"motions": 3}},
+}
+
+
+@pytest.mark.parametrize(("factor", "holds"), [(1.0, True), (5.0, False)])
+def test_larger_forces_are_not_limited(monkeypatch, factor, holds):
+    right = motions_uplift.rocking_peaks
+
+    def larger(*arguments):
+        found = right(*arguments)
+        found.forces.update({name: factor * force for name, force in found.forces.items()})
+        return found
+
+    monkeypatch.setattr(motions_uplift, "rocking_peaks", larger)
+    _, findings = motions_uplift.main(CASE, ENSEMBLE)
+    assert findings["uplift_limits_totals"]["holds"] == holds
+    assert findings["shear_is_at_most_that_of_uplift"]["holds"] == holds
+    assert findings["uplift_limits_totals"]["survivors_that_uplift"] > 0

@@ -1,0 +1,40 @@
+"""The derived base shear against the library, and its proofs against wrong results."""
+
+import math
+
+import pytest
+import sympy as sp
+
+from topheavy import Column, RockingFrame, base_shear_slope
+from topheavy.derivation import base_shear as proofs
+from topheavy.derivation.notation import SIDES, alpha, g, gamma, ground_acceleration
+
+
+@pytest.mark.parametrize("slenderness", [0.05, math.atan(1 / 6), 0.6])
+@pytest.mark.parametrize("ratio", [0.1, 1.0, 7.0])
+def test_library_follows_the_derivation(slenderness, ratio):
+    frame = RockingFrame(Column(math.sin(slenderness), math.cos(slenderness)), ratio)
+    given = {alpha: slenderness, gamma: ratio, g: 1.0}
+    for side in SIDES:
+        derived = sp.diff(proofs.after_uplift(side), ground_acceleration).subs(given)
+        assert base_shear_slope(frame) == pytest.approx(float(derived), rel=1e-12)
+
+
+@pytest.mark.parametrize("prove", proofs.PROOFS)
+def test_what_is_stated_is_proved(prove):
+    assert prove()
+
+
+WRONG = [
+    (proofs.base_shear_grows_after_uplift, "after_uplift", lambda shear: shear * (1 + gamma / 9)),
+    (proofs.base_shear_grows_after_uplift, "slope", lambda slope: slope + gamma / 9),
+    (proofs.heavy_cap_beam_nearly_caps_the_base_shear, "slope", lambda slope: 2 - slope),
+    (proofs.heavy_cap_beam_nearly_caps_the_base_shear, "slope", lambda slope: slope - 1),
+]
+
+
+@pytest.mark.parametrize(("prove", "name", "spoil"), WRONG)
+def test_a_proof_fails_on_a_wrong_result(monkeypatch, prove, name, spoil):
+    right = getattr(proofs, name)
+    monkeypatch.setattr(proofs, name, lambda *arguments: spoil(right(*arguments)))
+    assert not prove()

@@ -1,0 +1,139 @@
+"""The step on what uplift limits, on cases that are known."""
+
+import math
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from steps import uplift_limits
+from steps.histories import history
+from steps.peak_forces import FORCES, held_peaks, impact_impulse, rocking_peaks
+from topheavy import Cap, Column, FixedFrame, Pulse, RockingFrame, impact_impulses, peak_rigid
+
+COLUMN, CAP = Column(0.5, 3.0), Cap(5.0, 0.5)
+FRAME = RockingFrame(COLUMN, 1.0)
+TAN = COLUMN.uplift_acceleration
+
+
+def pulse(amplitude, shape="one-sine", ratio=4.0):
+    return Pulse(shape, amplitude * TAN, ratio * COLUMN.frequency_parameter)
+
+
+def test_frame_that_does_not_uplift_has_the_forces_of_the_ground():
+    found = rocking_peaks(FRAME, CAP, pulse(0.9), 8)
+    assert found.outcome == "no uplift"
+    assert found.forces["base_shear"] == pytest.approx(0.9 * TAN, rel=1e-3)
+    assert (found.rotation, found.impulse) == (0.0, 0.0)
+
+
+def test_frame_that_overturns_has_no_peaks():
+    found = rocking_peaks(FRAME, CAP, pulse(20.0), 8)
+    assert found.outcome == "overturned"
+    assert all(math.isnan(found.forces[name]) for name in FORCES)
+
+
+def test_sudden_pulse_has_the_shear_of_uplift_as_its_largest():
+    found = rocking_peaks(FRAME, CAP, pulse(3.0, "one-cosine", 8.0), 8)
+    expected = uplift_limits.shear_after_uplift(FRAME, 3.0 * TAN)
+    assert found.forces["base_shear"] == pytest.approx(expected, rel=1e-6)
+
+
+def test_peaks_are_those_of_many_more_samples_within_their_error():
+    few, many = (rocking_peaks(FRAME, CAP, pulse(2.0), count) for count in (8, 256))
+    for name in FORCES:
+        assert few.forces[name] <= many.forces[name] * (1 + 1e-12)
+        assert few.forces[name] >= many.forces[name] * (1 - few.error - 1e-12)
+
+
+def test_impulse_is_that_of_the_contacts_at_the_largest_impact():
+    course = history(FRAME, pulse(2.0), 8)
+    rates = [
+        row[-1]
+        for row, angle in zip(course.velocity, course.rotation, strict=True)
+        if abs(angle[-1]) < 1e-8
+    ]
+    impulses = impact_impulses(FRAME, CAP, np.array(rates))
+    total = impulses.base_left.horizontal + impulses.base_right.horizontal
+    assert impact_impulse(FRAME, course) == pytest.approx(np.abs(total).max(), rel=1e-6)
+
+
+def test_held_frames_are_rigid_first_and_then_by_their_periods():
+    (found,) = held_peaks([FRAME], CAP, pulse(2.0), [0.2, 1.0])
+    assert list(found) == ["rigid", "0.2 s", "1 s"]
+    rigid = peak_rigid(FixedFrame(FRAME, CAP), pulse(2.0))._asdict()
+    assert found["rigid"] == rigid
+    assert found["0.2 s"]["base_shear"] > rigid["base_shear"]
+
+
+@pytest.mark.parametrize("ratio", [0.5, 4.0])
+def test_three_bodies_have_the_same_forces(ratio):
+    frame = RockingFrame(COLUMN, ratio)
+    assert uplift_limits.by_three_bodies(frame, CAP, pulse(2.0), 200) < 1e-9
+
+
+def test_slopes_are_those_of_three_bodies():
+    found = uplift_limits.slopes({"slope": {"slendernesses": [14.0], "mass_ratios": [1.0]}})
+    assert found.slope[0] == pytest.approx(found.three_bodies[0], abs=1e-12)
+
+
+def test_summary_counts_what_overturns_and_does_not_average_it():
+    held = [f"{name}, {one}" for name in FORCES for one in ("rigid", "1 s")]
+    rows = [
+        {"kind": "pulse", "mass_ratio": 1.0, "outcome": outcome} | dict.fromkeys(held, ratio)
+        for outcome, ratio in (("rests", 0.5), ("rests", 1.5), ("overturned", math.nan))
+    ]
+    found = uplift_limits.summary(pd.DataFrame(rows), {"periods": [1.0]})
+    assert found.histories.tolist() == [3] * 6
+    assert found.overturned.tolist() == [1] * 6
+    assert found["median"].tolist() == [1.0] * 6
+    assert found.least.tolist() == [0.5] * 6
+    assert found.largest.tolist() == [1.5] * 6
+    assert found.lower.tolist() == [0.5] * 6
+
+
+CASE = {
+    "column": {"half_width": 0.5, "half_height": 3.0},
+    "cap": {"span": 5.0, "depth": 1.0},
+    "mass_ratios": [0.0, 1.0],
+    "periods": [0.2, 2.0],
+    "shapes": ["one-sine"],
+    "frequency_ratios": {"lowest": 4.0, "highest": 8.0, "points": 2},
+    "pulses": {"amplitudes": [1.1, 3.0, 9.0], "points": 8},
+    "slope": {"slendernesses": [9.462322], "mass_ratios": [1.0]},
+    "three_bodies": {
+        "mass_ratios": [0.5],
+        "pulses": [{"shape": "one-sine", "frequency_ratio": 4.0, "amplitude": 2.0}],
+    },
+    "sample": {"points": 2, "record_steps": 100},
+    "checked_by_second_route": 1,
+}
+
+
+@pytest.fixture(scope="module")
+def findings():
+    return uplift_limits.main(CASE, [])[-1]
+
+
+def test_forces_are_limited_beside_a_rigid_frame_alone(findings):
+    found = findings["uplift_limits_forces"]
+    assert (found["holds"], found["holds_when"]) == (False, True)
+    assert found["bending_moments_not_lower"] > 0
+    assert 0 < found["overturned"] < found["histories"] == 12
+    assert findings["uplift_is_beneficial"]["holds_when"]
+    assert findings["forces_by_second_routes"]["holds"]
+
+
+@pytest.mark.parametrize("factor", [1.2, 3.0])
+def test_larger_forces_are_not_limited(monkeypatch, factor):
+    right = uplift_limits.rocking_peaks
+
+    def larger(*arguments):
+        found = right(*arguments)
+        found.forces.update({name: factor * value for name, value in found.forces.items()})
+        return found
+
+    monkeypatch.setattr(uplift_limits, "rocking_peaks", larger)
+    found = uplift_limits.main(CASE, [])[-1]
+    assert not found["largest_shear_is_that_of_uplift"]["holds"]
+    assert not found["uplift_limits_forces"]["holds_when"]
