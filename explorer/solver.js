@@ -1,0 +1,518 @@
+"use strict";
+/* The rocking of a rigid block on its edges: structures, ground motions, solver, contact forces.
+
+   Plain JavaScript without a page: it runs in the page, in its workers and in tests. Equation numbers
+   are those of Makris & Vassiliou (2014). Units are m, s and rad; ground accelerations are in g.
+
+   Every structure is a block of three numbers, p, α and √r. With φ = |θ|, the side s = sgn θ and the
+   ground acceleration a(t), one rocking on one side obeys
+
+       φ̈ = −p² { sin(α − φ) + s a cos(α − φ) }     Eqs. (3) and (23)
+       φ̈ =  p² { φ − α − s a }                     linearised (Allen et al. 1986)
+
+   With the push q = −s a − tan α (linearised: −s a − α), which is exactly zero when |a| passes the
+   uplift acceleration, the same equations have no cancelling terms:
+
+       φ̈ = p² { sin φ / cos α + q cos(α − φ) },    φ̈ = p² { φ + q }                            */
+
+const GRAVITY = 9.81; // m/s², as the paper computes
+
+// Structures ------------------------------------------------------------------------------------
+
+/** A free-standing column, half width b and half height h: p = √(3g/4R), √r = 1 − 3/2 sin²α. */
+function column(b, h) {
+  const size = Math.hypot(b, h), sine = b / size;
+  return {
+    name: "column", p: Math.sqrt((3 * GRAVITY) / (4 * size)), alpha: Math.atan2(b, h),
+    restitution: 1 - 1.5 * sine * sine, lever: size, b, h,
+  };
+}
+
+/** Two columns under a free cap beam, γ = m_b / 2 m_c: p̂ of Eq. (23), √r of Eq. (25). */
+function frame(b, h, gamma, span, depth) {
+  const alone = column(b, h);
+  const cap = gamma === Infinity ? 1 : gamma / (1 / 3 + gamma); // 3γ/(1 + 3γ)
+  const larger = gamma === Infinity ? 1.5 : 1 + (0.5 * gamma) / (0.5 + gamma); // R̂/R, Eq. (24)
+  return {
+    ...alone, name: "frame", p: alone.p / Math.sqrt(larger), gamma, span, depth,
+    restitution: (1 - cap) * alone.restitution + cap * Math.cos(2 * alone.alpha), // Eq. (25)
+  };
+}
+
+/** One body on the edges of its base: half base B, height H of its centre, I/M about an edge. */
+function oneBody(name, B, H, inertia) {
+  const lever = Math.hypot(B, H);
+  return {
+    name, p: Math.sqrt((GRAVITY * lever) / inertia), alpha: Math.atan2(B, H),
+    restitution: 1 - (2 * B * B) / inertia, lever, b: B, h: H,
+  };
+}
+
+/** The cap beam's mass fixed to the top of a column: γ is its mass over that of the column. */
+function vase(b, h, gamma) {
+  const cap = gamma === Infinity ? 1 : gamma / (1 + gamma);
+  const inertia = (1 - cap) * ((4 / 3) * (b * b + h * h)) + cap * (b * b + 4 * h * h);
+  return oneBody("vase", b, (1 - cap) * h + cap * 2 * h, inertia);
+}
+
+/** The cap beam fixed to both columns: one body that rocks about its outer edges. */
+function portal(b, h, gamma, span) {
+  const cap = gamma === Infinity ? 1 : gamma / (1 + gamma), axis = span / 2, B = axis + b;
+  const inertia = (1 - cap) * ((b * b + h * h) / 3 + B * B + axis * axis + h * h)
+    + cap * ((4 * B * B) / 12 + B * B + 4 * h * h);
+  return oneBody("portal", B, (1 - cap) * h + cap * 2 * h, inertia);
+}
+
+/** The ground acceleration above which a structure uplifts: tan α, linearised α. */
+const upliftAcceleration = (block) => (block.linearised ? block.alpha : Math.tan(block.alpha));
+
+/** The size of the solitary column with the same p, Eq. (24). */
+const equivalentSize = (block) => (3 * GRAVITY) / (4 * block.p * block.p);
+
+// Ground motions: a(t), its Taylor series, its monotone pieces -------------------------------------
+
+const RICKER_CENTRE = 4.5 * Math.PI; // of the phase ωt: τ = t − 2.25 T
+const around = (...offsets) =>
+  [...offsets.map((x) => -x), ...offsets].sort((x, y) => x - y).map((x) => x + RICKER_CENTRE);
+
+/* Of each pulse in the phase x = ωt: its wave, its slope, its length, where its slope is zero, and
+   the c, d of the equation a″ = −c a − d (x − centre) a′ that gives its Taylor series. */
+const SHAPES = {
+  "one-sine": { wave: Math.sin, slope: Math.cos, length: 2 * Math.PI, turns: [0.5, 1.5], c: 1, d: 0 },
+  "one-cosine": { wave: Math.cos, slope: (x) => -Math.sin(x), length: 2 * Math.PI, turns: [1], c: 1, d: 0 },
+  "half-sine": { wave: Math.sin, slope: Math.cos, length: Math.PI, turns: [0.5], c: 1, d: 0 },
+  "constant": { wave: () => 1, slope: () => 0, length: Math.PI, turns: [], c: 0, d: 0 },
+  "harmonic": { wave: Math.sin, slope: Math.cos, length: Infinity, turns: null, c: 1, d: 0 },
+  "ricker-symmetric": { ...ricker(2, 1 / 4, 1), length: 9 * Math.PI, turns: around(0, Math.sqrt(6)) },
+  "ricker-antisymmetric": {
+    ...ricker(3, 1 / 6, Math.SQRT2 / 1.3801), length: 9 * Math.PI, // 1.3801 makes the peak 1
+    turns: around(Math.sqrt(9 - 3 * Math.sqrt(6)), Math.sqrt(9 + 3 * Math.sqrt(6))),
+  },
+};
+for (const name of ["one-sine", "one-cosine", "half-sine"]) {
+  SHAPES[name].turns = SHAPES[name].turns.map((half) => half * Math.PI);
+}
+
+/** A Ricker wavelet: the second or third derivative of exp(−y²), y² = k (x − centre)². */
+function ricker(derivative, k, scale) {
+  const root = Math.sqrt(k), y = (x) => root * (x - RICKER_CENTRE);
+  const second = (z) => (1 - 2 * z * z) * Math.exp(-z * z);
+  const third = (z) => z * (2 * z * z - 3) * Math.exp(-z * z);
+  const slopes = [
+    (z) => z * (4 * z * z - 6) * Math.exp(-z * z),
+    (z) => (-3 + z * z * (12 - 4 * z * z)) * Math.exp(-z * z),
+  ];
+  return {
+    wave: (x) => scale * (derivative === 2 ? second : third)(y(x)),
+    slope: (x) => scale * root * slopes[derivative - 2](y(x)),
+    c: 2 * (derivative + 1) * k, d: 2 * k, // Hermite's equation
+  };
+}
+
+/** A pulse of amplitude (g, negative mirrors it) and ω (rad/s), cut off at `end` (s) if given. */
+function pulse(shape, amplitude, omega, end = Infinity) {
+  const of = SHAPES[shape];
+  end = Math.min(end, of.length / omega);
+  const turns = of.turns ?? Array.from({ length: Math.ceil((end * omega) / Math.PI) }, (_, k) => (k + 0.5) * Math.PI);
+  return {
+    end, order: 15, largest: Math.abs(amplitude) * 1.0001, steepest: 2 * Math.abs(amplitude) * omega,
+    edges: [0, ...turns.map((phase) => phase / omega).filter((t) => t < end), end],
+    at: (t) => (t < end ? amplitude * of.wave(omega * t) : 0),
+    within: (t) => amplitude * of.wave(omega * t), // without the end, for the piece that ends there
+    kink: () => end,
+    series(t, a, order) {
+      a[0] = amplitude * of.wave(omega * t);
+      a[1] = amplitude * omega * of.slope(omega * t);
+      const square = omega * omega, d1 = of.d * square, d0 = of.d * omega * (omega * t - RICKER_CENTRE);
+      for (let n = 0; n + 2 <= order; n++) {
+        a[n + 2] = -((of.c * square + d1 * n) * a[n] + d0 * (n + 1) * a[n + 1]) / ((n + 1) * (n + 2));
+      }
+    },
+  };
+}
+
+/** A record: sample k (g, times `factor`) at k·step, linear between, zero outside. */
+function record(samples, step, factor = 1) {
+  const last = samples.length - 1, end = last * step;
+  let largest = 0, steepest = 0;
+  for (let k = 0; k <= last; k++) {
+    largest = Math.max(largest, Math.abs(factor * samples[k]));
+    if (k) steepest = Math.max(steepest, Math.abs(factor * (samples[k] - samples[k - 1])) / step);
+  }
+  const piece = (t) => {
+    const k = Math.floor(t / step);
+    return Math.min((k + 1) * step <= t ? k + 1 : k, last - 1);
+  };
+  const slope = (k) => (factor * (samples[k + 1] - samples[k])) / step;
+  const within = (t) => {
+    const k = piece(t);
+    return factor * samples[k] + slope(k) * (t - k * step);
+  };
+  return {
+    end, order: 9, largest, steepest, within,
+    edges: Float64Array.from(samples, (_, k) => k * step),
+    at: (t) => (t < end ? within(t) : 0),
+    kink: (t) => (piece(t) + 1) * step,
+    series(t, a, order) {
+      a.fill(0, 0, order + 1);
+      a[0] = within(t);
+      a[1] = slope(piece(t));
+    },
+  };
+}
+
+/** Ground at rest from one time to another. */
+const still = (end) => ({
+  end, order: 15, largest: 0, steepest: 0, edges: [0, end], at: () => 0, within: () => 0,
+  kink: () => end, series: (_, a, order) => a.fill(0, 0, order + 1),
+});
+
+/** The first time from `time` on at which |a| exceeds the level (`jump`: it does so at once), and the
+    sign of a there. */
+function uplift(motion, time, level) {
+  const { edges, within } = motion;
+  let k = 0;
+  if (edges.length > 8) k = Math.max(0, Math.floor((time / motion.end) * (edges.length - 1)) - 1);
+  while (k + 1 < edges.length && edges[k + 1] <= time) k++;
+  for (; k + 1 < edges.length; k++) {
+    const start = Math.max(time, edges[k]), stop = edges[k + 1];
+    if (start >= motion.end) return null;
+    if (Math.abs(within(start)) > level) return { time: start, jump: true, sign: Math.sign(within(start)) };
+    // Between two edges a is monotone: it exceeds the level at the later edge, or nowhere.
+    if (Math.abs(within(stop)) <= level) continue;
+    let low = start, high = stop;
+    for (let i = 0; i < 80 && high - low > 1e-16 * high; i++) {
+      const middle = 0.5 * (low + high);
+      if (Math.abs(within(middle)) > level) high = middle;
+      else low = middle;
+    }
+    return { time: low, jump: false, sign: Math.sign(within(stop)) };
+  }
+  return null;
+}
+
+// Roots of the polynomial of one step -----------------------------------------------------------
+
+const value = (c, order, t) => {
+  let sum = c[order];
+  for (let k = order - 1; k >= 0; k--) sum = sum * t + c[k];
+  return sum;
+};
+
+const SHIFTED = Array.from({ length: 64 }, () => new Float64Array(17)); // one for each depth of `roots`
+
+/** Append to `found`, ascending, where a polynomial changes its sign in (low, high]. */
+function roots(c, order, low, high, found, depth = 0) {
+  const middle = 0.5 * (low + high), radius = 0.5 * (high - low), d = SHIFTED[depth];
+  for (let k = 0; k <= order; k++) d[k] = c[k];
+  for (let k = 0; k < order; k++) for (let i = order - 1; i >= k; i--) d[i] += middle * d[i + 1];
+  let others = 0, bend = 0, power = radius;
+  for (let k = 1; k <= order; k++, power *= radius) {
+    const size = Math.abs(d[k]) * power;
+    others += size;
+    if (k > 1) bend += k * size;
+  }
+  if (Math.abs(d[0]) > others) return; // no root: the first term outweighs all others
+  if (Math.abs(d[1]) * radius > bend || depth > 50) { // monotone: one root or none
+    const above = value(c, order, high) > 0;
+    if (value(c, order, low) > 0 !== above) found.push(root(d, order, radius, above) + middle);
+    return;
+  }
+  roots(c, order, low, middle, found, depth + 1);
+  roots(c, order, middle, high, found, depth + 1);
+}
+
+/** The only root in [−radius, radius]: Newton's step where it stays inside, otherwise halving. */
+function root(c, order, radius, above) {
+  let low = -radius, high = radius, t = 0;
+  for (let i = 0; i < 100; i++) {
+    let height = c[order], slope = 0;
+    for (let k = order - 1; k >= 0; k--) {
+      slope = slope * t + height;
+      height = height * t + c[k];
+    }
+    if (height > 0 === above) high = t;
+    else low = t;
+    let next = t - height / slope;
+    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    if (Math.abs(next - t) <= 1e-16 * radius || next === t) return next;
+    t = next;
+  }
+  return t;
+}
+
+// The motion ------------------------------------------------------------------------------------
+
+const TOLERANCE = 1e-12; // of the last two terms of φ in a step, over α
+const SMALL = 1e-6; // over α: a smaller rotation is not counted, and may be the last
+const MOST_STEPS = 1e6;
+const [ROTATION, SINE, COSINE, TILT, GROUND] = Array.from({ length: 5 }, () => new Float64Array(17));
+const WORK = new Float64Array(17), FOUND = [];
+
+/** Fill ROTATION with the Taylor coefficients of φ about a state, to `order`. */
+function expand(block, motion, state, order) {
+  const { p, alpha, linearised } = block, square = p * p, c = ROTATION, q = GROUND;
+  motion.series(state.time, q, order);
+  for (let n = 0; n <= order; n++) q[n] *= -state.side;
+  q[0] = state.zeros === 3 ? 0 : q[0] - block.level; // |a| passes the uplift acceleration
+  c[0] = state.rotation;
+  c[1] = state.rate;
+  if (linearised) {
+    for (let n = 0; n + 2 <= order; n++) c[n + 2] = (square * (c[n] + q[n])) / ((n + 1) * (n + 2));
+    return;
+  }
+  const sine = Math.sin(alpha), cosine = Math.cos(alpha);
+  SINE[0] = Math.sin(c[0]);
+  COSINE[0] = Math.cos(c[0]);
+  for (let n = 0; n + 2 <= order; n++) {
+    TILT[n] = cosine * COSINE[n] + sine * SINE[n]; // cos(α − φ)
+    let force = SINE[n] / cosine, up = 0, down = 0;
+    for (let i = 0; i <= n; i++) {
+      const rate = (i + 1) * c[i + 1]; // of φ̇
+      force += q[i] * TILT[n - i];
+      up += rate * COSINE[n - i];
+      down += rate * SINE[n - i];
+    }
+    c[n + 2] = (square * force) / ((n + 1) * (n + 2)); // Eq. (23)
+    SINE[n + 1] = up / (n + 1);
+    COSINE[n + 1] = -down / (n + 1);
+  }
+}
+
+/** The longest step over which the last two terms of φ stay below the tolerance. */
+function stepLength(order, scale, limit) {
+  let step = limit;
+  for (const k of [order - 1, order]) {
+    const size = Math.abs(ROTATION[k]);
+    if (size > 0) step = Math.min(step, ((TOLERANCE * scale) / size) ** (1 / k));
+  }
+  return step;
+}
+
+/** What ends a step, and where: "landing" (φ = 0), "flat" (φ = ceiling) or "". Raises the peaks. */
+function follow(block, state, order, step) {
+  const c = ROTATION, { zeros } = state;
+  let others = 0, above = c[0], bend = 0, power = 1;
+  for (let k = 1; k <= order; k++) {
+    const size = Math.abs(c[k]);
+    if (k > 1) bend += k * size * power; // of φ̇
+    power *= step;
+    above += size * power;
+  }
+  power = 1;
+  for (let k = zeros + 1; k <= order; k++) others += Math.abs(c[k]) * (power *= step);
+  let event = "", end = step;
+  if (c[zeros] <= others && c[1] <= bend) { // neither φ / t^zeros nor φ̇ is proven positive
+    FOUND.length = 0;
+    roots(c.subarray(zeros), order - zeros, 0, step, FOUND);
+    if (FOUND.length) [end, event] = [FOUND[0], "landing"];
+  }
+  if (above > state.ceiling) {
+    FOUND.length = 0;
+    WORK.set(c);
+    WORK[0] -= state.ceiling;
+    roots(WORK, order, 0, step, FOUND);
+    if (FOUND.length && FOUND[0] < end) [end, event] = [FOUND[0], "flat"];
+  }
+  if (above > state.height) {
+    FOUND.length = 0;
+    const first = Math.max(0, zeros - 1); // of φ̇: its zero at t = 0 is no turn
+    for (let k = first; k < order; k++) WORK[k - first] = (k + 1) * c[k + 1];
+    if (Math.abs(c[1]) <= bend) roots(WORK, order - 1 - first, 0, step, FOUND); // it may turn
+    FOUND.push(end);
+    for (const t of FOUND) if (t <= end) state.height = Math.max(state.height, value(c, order, t));
+    state.peak = Math.max(state.peak, state.height);
+  }
+  return [end, event];
+}
+
+/** Whether the bounces that begin are negligible and die out before the ground can uplift again.
+    With a restoring acceleration of at least d, all bounces together last 2 φ̇ / d (1 − √r). */
+function comesToRest(block, motion, state) {
+  const restoring = (a) => (block.linearised
+    ? block.p ** 2 * (block.alpha - a)
+    : block.p ** 2 * (Math.sin(block.alpha) - a * Math.cos(block.alpha)));
+  const now = Math.abs(motion.at(state.time)), d = restoring(now);
+  if (state.rate === 0) return true;
+  if (d <= 0 || block.restitution === 1 || state.rate ** 2 > 2 * d * SMALL * block.alpha) return false;
+  const lasts = (4 * state.rate) / (d * (1 - block.restitution));
+  return restoring(Math.min(motion.largest, now + motion.steepest * lasts)) > d / 2;
+}
+
+/** Carry the motion to the end of a ground motion, or until the structure lies flat. */
+function carry(block, motion, state, keep) {
+  while (state.time < motion.end && !state.flat) {
+    if (!state.moving) {
+      const start = uplift(motion, state.time, block.level);
+      if (!start) {
+        state.time = motion.end;
+        return;
+      }
+      Object.assign(state, { time: start.time, side: -start.sign, rotation: 0, rate: 0, height: 0 });
+      Object.assign(state, { zeros: start.jump ? 2 : 3, moving: true, moved: true });
+    }
+    const { order } = motion, stop = Math.min(motion.kink(state.time), motion.end), longest = stop - state.time;
+    expand(block, motion, state, order);
+    const step = stepLength(order, Math.max(block.alpha, state.rotation), longest);
+    const [end, event] = follow(block, state, order, step);
+    if (keep) keep.push({ time: state.time, length: end, side: state.side, c: ROTATION.slice(0, order + 1) });
+    for (let k = 0; k < order; k++) WORK[k] = (k + 1) * ROTATION[k + 1];
+    state.rate = value(WORK, order - 1, end);
+    state.rotation = event === "landing" ? 0 : value(ROTATION, order, end);
+    state.time = end === longest ? stop : state.time + end;
+    state.zeros = 0;
+    state.flat = event === "flat";
+    if (event === "landing" || state.rotation <= 0) {
+      if (state.height > SMALL * block.alpha) state.impacts.push(state.time);
+      state.rate = block.restitution * Math.max(0, -state.rate); // Eq. (25)
+      Object.assign(state, { side: -state.side, rotation: 0, height: 0, zeros: 1 });
+      state.moving = !comesToRest(block, motion, state);
+    }
+    if (++state.steps > MOST_STEPS) throw new RangeError("more than a million steps: a shorter motion, or a smaller √r, has fewer");
+  }
+}
+
+/** How free rocking ends, by energy: e = φ̇²/2p² + w(φ) against the barrier w(α). */
+function ending(block, rotation, rate) {
+  const { alpha, linearised } = block;
+  const potential = (phi) => (linearised ? phi * (alpha - phi / 2) : 2 * Math.sin(alpha - phi / 2) * Math.sin(phi / 2));
+  const turning = (short) => alpha - (linearised ? Math.sqrt(2 * short) : 2 * Math.asin(Math.sqrt(short / 2)));
+  const energy = 0.5 * (rate / block.p) ** 2 + potential(rotation), barrier = potential(alpha);
+  const safe = (peak) => ({ overturned: false, peak, impacts: 0 });
+  if (rate === 0 && rotation <= alpha) return safe(rotation);
+  if (rotation > alpha && (rate > 0 || energy < barrier)) return { overturned: true, impacts: 0 };
+  if (rate > 0) return energy >= barrier ? { overturned: true, impacts: 0 } : safe(turning(barrier - energy));
+  const rebound = block.restitution ** 2 * energy; // after the impact that comes
+  if (rebound >= barrier) return { overturned: true, impacts: 1 };
+  return safe(Math.max(rotation, turning(barrier - rebound)));
+}
+
+/** Follow a structure that is at rest when the ground motion begins.
+
+    `velocity` is θ̇ at t = 0 (rad/s), after an abrupt start. `until` (s) keeps the history. Returns
+    whether it overturned, whether it moved, the peak of φ over the whole motion (NaN if overturned),
+    the number of impacts until it was settled, and the steps of the history. */
+function rock(block, motion, { velocity = 0, until = 0 } = {}) {
+  block = { ...block, level: upliftAcceleration(block) };
+  const state = {
+    time: 0, side: Math.sign(velocity), rotation: 0, rate: Math.abs(velocity), zeros: 1, height: 0, peak: 0,
+    moving: velocity !== 0, moved: velocity !== 0, flat: false, impacts: [], steps: 0,
+    // Linearised, it is pushed outward for good beyond α + max |a|.
+    ceiling: block.linearised ? Math.max(Math.PI / 2, block.alpha + motion.largest) : Math.PI / 2,
+  };
+  const steps = until ? [] : null;
+  carry(block, motion, state, steps);
+  let end = { overturned: state.flat, peak: 0, impacts: 0 };
+  if (state.moving && !state.flat) end = ending(block, state.rotation, state.rate);
+  const found = {
+    overturned: end.overturned, moved: state.moved, impacts: state.impacts.length + end.impacts,
+    peak: end.overturned ? NaN : Math.max(state.peak, end.peak),
+  };
+  if (!until) return found;
+  if (state.moving && !state.flat) {
+    state.ceiling = Math.PI / 2;
+    carry(block, still(until), state, steps);
+  }
+  return { ...found, steps, times: state.impacts, flatAt: state.flat ? state.time : Infinity };
+}
+
+/** θ and θ̇ at a time of a kept history; zero at rest, NaN after it lies flat. */
+function sample(history, times) {
+  const { steps } = history, theta = new Float64Array(times.length), rate = new Float64Array(times.length);
+  let k = 0;
+  times.forEach((t, i) => {
+    while (k + 1 < steps.length && steps[k + 1].time <= t) k++;
+    const step = steps[k], since = step ? t - step.time : -1;
+    if (t > history.flatAt) theta[i] = rate[i] = NaN;
+    else if (since >= 0 && since <= step.length * (1 + 1e-12)) {
+      const { c, side } = step;
+      theta[i] = side * value(c, c.length - 1, since);
+      for (let n = c.length - 1; n >= 1; n--) rate[i] = rate[i] * since + n * c[n];
+      rate[i] *= side;
+    }
+  });
+  return { theta, rate };
+}
+
+// What is asked of a structure ---------------------------------------------------------------------
+
+/** θ̇ at t = 0⁺ when a shake table starts at full velocity: a sine of displacement, amplitude a (g). */
+function abruptStart(block, amplitude, omega) {
+  return -(block.p ** 2) * (block.linearised ? 1 : Math.cos(block.alpha)) * (amplitude / omega);
+}
+
+/* Ranges over the uplift acceleration that are searched one after the other, and their steps. */
+const WINDOWS = [[1, 1.5, 0.01], [1.5, 3, 0.03], [3, 30, 0.05]];
+
+/** The minimum overturning acceleration (g) by bisection, Infinity when none is found up to 30
+    times the uplift acceleration. `overturns(a)` says whether a motion of peak a (g) does. */
+function minimumOverturning(block, overturns) {
+  const level = upliftAcceleration(block);
+  for (const [first, last, step] of WINDOWS) {
+    const count = Math.max(1, Math.ceil((last - first) / step - 1e-9));
+    let low = first * level;
+    if (overturns(low)) return low;
+    for (let k = 1; k <= count; k++) {
+      let high = (first + ((last - first) * k) / count) * level;
+      if (overturns(high)) {
+        for (let i = 0; i < 60 && high - low > 1e-10 * high; i++) {
+          const middle = 0.5 * (low + high);
+          if (overturns(middle)) high = middle;
+          else low = middle;
+        }
+        return 0.5 * (low + high);
+      }
+      low = high;
+    }
+  }
+  return Infinity;
+}
+
+/** Force over weight of a body at a distance from the pivot: (ü_g + ẍ, g + z̈)/g, Eqs. (6), (9). */
+function load(block, distance, side, lean, rate, a) {
+  const sin = Math.sin(lean), cos = Math.cos(lean);
+  const across = (-(block.p ** 2) * (side * sin + a * cos) * distance) / GRAVITY; // Eq. (23)
+  const inward = (distance * rate * rate) / GRAVITY;
+  return [a + across * cos + inward * side * sin, 1 + across * side * sin - inward * cos];
+}
+
+/** The required coefficient of friction of the contacts at one instant of rocking to a side.
+
+    Column, vase and portal have one reaction. The cap beam of a frame shares its load between the
+    column tops by Eqs. (10)–(18) and by its own balance of moments. */
+function requiredFriction(block, side, phi, rate, a) {
+  const demand = ([horizontal, vertical]) => (vertical > 0 ? Math.abs(horizontal) / vertical : Infinity);
+  const lean = block.alpha - phi;
+  if (block.name !== "frame") return demand(load(block, block.lever, side, lean, rate, a));
+  const { gamma, b, span, depth, lever } = block;
+  const each = gamma === Infinity ? 0 : 0.5 / (1 + gamma), beam = 1 - 2 * each;
+  const [cx, cz] = load(block, lever, side, lean, rate, a).map((force) => each * force); // Eqs. (10), (11)
+  const [bx, bz] = load(block, 2 * lever, side, lean, rate, a).map((force) => beam * force); // Eqs. (12), (13)
+  const shift = (side * b * bz - (depth / 2) * bx) / span, aside = -side * Math.tan(lean) * shift;
+  let largest = 0;
+  for (const end of [-1, 1]) {
+    const top = [bx / 2 + end * aside, bz / 2 + end * shift];
+    if (beam > 0) largest = Math.max(largest, demand(top));
+    largest = Math.max(largest, demand([top[0] + cx, top[1] + cz]));
+  }
+  return largest;
+}
+
+/** The largest required friction of a kept history, up to where |θ| passes α for good. */
+function largestFriction(block, motion, history) {
+  const parts = 8;
+  let last = history.steps.length - 1;
+  if (history.overturned) while (last >= 0 && value(history.steps[last].c, history.steps[last].c.length - 1, 0) > block.alpha) last--;
+  let largest = 0;
+  for (const { time, length, side, c } of history.steps.slice(0, last + 1)) {
+    for (let k = 0; k <= parts; k++) {
+      const since = (length * k) / parts, order = c.length - 1, phi = value(c, order, since);
+      let rate = 0;
+      for (let n = order; n >= 1; n--) rate = rate * since + n * c[n];
+      if (history.overturned && phi > block.alpha) continue;
+      const a = time + since < motion.end ? motion.within(time + since) : 0;
+      largest = Math.max(largest, requiredFriction(block, side, Math.max(0, phi), rate, a));
+    }
+  }
+  return history.steps.length ? largest : NaN;
+}
