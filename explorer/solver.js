@@ -1,195 +1,17 @@
 "use strict";
-/* The rocking of a rigid block on its edges: structures, ground motions, solver, contact forces.
+/* The rocking of a block on its edges, by Taylor series: uplift, impacts, rest, overturning.
 
-   Plain JavaScript without a page: it runs in the page, in its workers and in tests. Equation numbers
-   are those of Makris & Vassiliou (2014). Units are m, s and rad; ground accelerations are in g.
-
-   Every structure is a block of three numbers, p, α and √r. With φ = |θ|, the side s = sgn θ and the
-   ground acceleration a(t), one rocking on one side obeys
+   With φ = |θ|, the side s = sgn θ and the ground acceleration a(t), rocking on one side obeys
 
        φ̈ = −p² { sin(α − φ) + s a cos(α − φ) }     Eqs. (3) and (23)
        φ̈ =  p² { φ − α − s a }                     linearised (Allen et al. 1986)
 
-   With the push q = −s a − tan α (linearised: −s a − α), which is exactly zero when |a| passes the
-   uplift acceleration, the same equations have no cancelling terms:
+   The push q = −s a − tan α (linearised: −s a − α) is exactly zero when |a| passes the uplift
+   acceleration. With it the same equations have no terms that cancel:
 
-       φ̈ = p² { sin φ / cos α + q cos(α − φ) },    φ̈ = p² { φ + q }                            */
+       φ̈ = p² { sin φ / cos α + q cos(α − φ) },    φ̈ = p² { φ + q }
 
-const GRAVITY = 9.81; // m/s², as the paper computes
-
-// Structures ------------------------------------------------------------------------------------
-
-/** A free-standing column, half width b and half height h: p = √(3g/4R), √r = 1 − 3/2 sin²α. */
-function column(b, h) {
-  const size = Math.hypot(b, h), sine = b / size;
-  return {
-    name: "column", p: Math.sqrt((3 * GRAVITY) / (4 * size)), alpha: Math.atan2(b, h),
-    restitution: 1 - 1.5 * sine * sine, lever: size, b, h,
-  };
-}
-
-/** Two columns under a free cap beam, γ = m_b / 2 m_c: p̂ of Eq. (23), √r of Eq. (25). */
-function frame(b, h, gamma, span, depth) {
-  const alone = column(b, h);
-  const cap = gamma === Infinity ? 1 : gamma / (1 / 3 + gamma); // 3γ/(1 + 3γ)
-  const larger = gamma === Infinity ? 1.5 : 1 + (0.5 * gamma) / (0.5 + gamma); // R̂/R, Eq. (24)
-  return {
-    ...alone, name: "frame", p: alone.p / Math.sqrt(larger), gamma, span, depth,
-    restitution: (1 - cap) * alone.restitution + cap * Math.cos(2 * alone.alpha), // Eq. (25)
-  };
-}
-
-/** One body on the edges of its base: half base B, height H of its centre, I/M about an edge. */
-function oneBody(name, B, H, inertia) {
-  const lever = Math.hypot(B, H);
-  return {
-    name, p: Math.sqrt((GRAVITY * lever) / inertia), alpha: Math.atan2(B, H),
-    restitution: 1 - (2 * B * B) / inertia, lever, b: B, h: H,
-  };
-}
-
-/** The cap beam's mass fixed to the top of a column: γ is its mass over that of the column. */
-function vase(b, h, gamma) {
-  const cap = gamma === Infinity ? 1 : gamma / (1 + gamma);
-  const inertia = (1 - cap) * ((4 / 3) * (b * b + h * h)) + cap * (b * b + 4 * h * h);
-  return oneBody("vase", b, (1 - cap) * h + cap * 2 * h, inertia);
-}
-
-/** The cap beam fixed to both columns: one body that rocks about its outer edges. */
-function portal(b, h, gamma, span) {
-  const cap = gamma === Infinity ? 1 : gamma / (1 + gamma), axis = span / 2, B = axis + b;
-  const inertia = (1 - cap) * ((b * b + h * h) / 3 + B * B + axis * axis + h * h)
-    + cap * ((4 * B * B) / 12 + B * B + 4 * h * h);
-  return oneBody("portal", B, (1 - cap) * h + cap * 2 * h, inertia);
-}
-
-/** The ground acceleration above which a structure uplifts: tan α, linearised α. */
-const upliftAcceleration = (block) => (block.linearised ? block.alpha : Math.tan(block.alpha));
-
-/** The size of the solitary column with the same p, Eq. (24). */
-const equivalentSize = (block) => (3 * GRAVITY) / (4 * block.p * block.p);
-
-// Ground motions: a(t), its Taylor series, its monotone pieces -------------------------------------
-
-const RICKER_CENTRE = 4.5 * Math.PI; // of the phase ωt: τ = t − 2.25 T
-const around = (...offsets) =>
-  [...offsets.map((x) => -x), ...offsets].sort((x, y) => x - y).map((x) => x + RICKER_CENTRE);
-
-/* Of each pulse in the phase x = ωt: its wave, its slope, its length, where its slope is zero, and
-   the c, d of the equation a″ = −c a − d (x − centre) a′ that gives its Taylor series. */
-const SHAPES = {
-  "one-sine": { wave: Math.sin, slope: Math.cos, length: 2 * Math.PI, turns: [0.5, 1.5], c: 1, d: 0 },
-  "one-cosine": { wave: Math.cos, slope: (x) => -Math.sin(x), length: 2 * Math.PI, turns: [1], c: 1, d: 0 },
-  "half-sine": { wave: Math.sin, slope: Math.cos, length: Math.PI, turns: [0.5], c: 1, d: 0 },
-  "constant": { wave: () => 1, slope: () => 0, length: Math.PI, turns: [], c: 0, d: 0 },
-  "harmonic": { wave: Math.sin, slope: Math.cos, length: Infinity, turns: null, c: 1, d: 0 },
-  "ricker-symmetric": { ...ricker(2, 1 / 4, 1), length: 9 * Math.PI, turns: around(0, Math.sqrt(6)) },
-  "ricker-antisymmetric": {
-    ...ricker(3, 1 / 6, Math.SQRT2 / 1.3801), length: 9 * Math.PI, // 1.3801 makes the peak 1
-    turns: around(Math.sqrt(9 - 3 * Math.sqrt(6)), Math.sqrt(9 + 3 * Math.sqrt(6))),
-  },
-};
-for (const name of ["one-sine", "one-cosine", "half-sine"]) {
-  SHAPES[name].turns = SHAPES[name].turns.map((half) => half * Math.PI);
-}
-
-/** A Ricker wavelet: the second or third derivative of exp(−y²), y² = k (x − centre)². */
-function ricker(derivative, k, scale) {
-  const root = Math.sqrt(k), y = (x) => root * (x - RICKER_CENTRE);
-  const second = (z) => (1 - 2 * z * z) * Math.exp(-z * z);
-  const third = (z) => z * (2 * z * z - 3) * Math.exp(-z * z);
-  const slopes = [
-    (z) => z * (4 * z * z - 6) * Math.exp(-z * z),
-    (z) => (-3 + z * z * (12 - 4 * z * z)) * Math.exp(-z * z),
-  ];
-  return {
-    wave: (x) => scale * (derivative === 2 ? second : third)(y(x)),
-    slope: (x) => scale * root * slopes[derivative - 2](y(x)),
-    c: 2 * (derivative + 1) * k, d: 2 * k, // Hermite's equation
-  };
-}
-
-/** A pulse of amplitude (g, negative mirrors it) and ω (rad/s), cut off at `end` (s) if given. */
-function pulse(shape, amplitude, omega, end = Infinity) {
-  const of = SHAPES[shape];
-  end = Math.min(end, of.length / omega);
-  const turns = of.turns ?? Array.from({ length: Math.ceil((end * omega) / Math.PI) }, (_, k) => (k + 0.5) * Math.PI);
-  return {
-    end, order: 15, largest: Math.abs(amplitude) * 1.0001, steepest: 2 * Math.abs(amplitude) * omega,
-    edges: [0, ...turns.map((phase) => phase / omega).filter((t) => t < end), end],
-    at: (t) => (t < end ? amplitude * of.wave(omega * t) : 0),
-    within: (t) => amplitude * of.wave(omega * t), // without the end, for the piece that ends there
-    kink: () => end,
-    series(t, a, order) {
-      a[0] = amplitude * of.wave(omega * t);
-      a[1] = amplitude * omega * of.slope(omega * t);
-      const square = omega * omega, d1 = of.d * square, d0 = of.d * omega * (omega * t - RICKER_CENTRE);
-      for (let n = 0; n + 2 <= order; n++) {
-        a[n + 2] = -((of.c * square + d1 * n) * a[n] + d0 * (n + 1) * a[n + 1]) / ((n + 1) * (n + 2));
-      }
-    },
-  };
-}
-
-/** A record: sample k (g, times `factor`) at k·step, linear between, zero outside. */
-function record(samples, step, factor = 1) {
-  const last = samples.length - 1, end = last * step;
-  let largest = 0, steepest = 0;
-  for (let k = 0; k <= last; k++) {
-    largest = Math.max(largest, Math.abs(factor * samples[k]));
-    if (k) steepest = Math.max(steepest, Math.abs(factor * (samples[k] - samples[k - 1])) / step);
-  }
-  const piece = (t) => {
-    const k = Math.floor(t / step);
-    return Math.min((k + 1) * step <= t ? k + 1 : k, last - 1);
-  };
-  const slope = (k) => (factor * (samples[k + 1] - samples[k])) / step;
-  const within = (t) => {
-    const k = piece(t);
-    return factor * samples[k] + slope(k) * (t - k * step);
-  };
-  return {
-    end, order: 9, largest, steepest, within,
-    edges: Float64Array.from(samples, (_, k) => k * step),
-    at: (t) => (t < end ? within(t) : 0),
-    kink: (t) => (piece(t) + 1) * step,
-    series(t, a, order) {
-      a.fill(0, 0, order + 1);
-      a[0] = within(t);
-      a[1] = slope(piece(t));
-    },
-  };
-}
-
-/** Ground at rest from one time to another. */
-const still = (end) => ({
-  end, order: 15, largest: 0, steepest: 0, edges: [0, end], at: () => 0, within: () => 0,
-  kink: () => end, series: (_, a, order) => a.fill(0, 0, order + 1),
-});
-
-/** The first time from `time` on at which |a| exceeds the level (`jump`: it does so at once), and the
-    sign of a there. */
-function uplift(motion, time, level) {
-  const { edges, within } = motion;
-  let k = 0;
-  if (edges.length > 8) k = Math.max(0, Math.floor((time / motion.end) * (edges.length - 1)) - 1);
-  while (k + 1 < edges.length && edges[k + 1] <= time) k++;
-  for (; k + 1 < edges.length; k++) {
-    const start = Math.max(time, edges[k]), stop = edges[k + 1];
-    if (start >= motion.end) return null;
-    if (Math.abs(within(start)) > level) return { time: start, jump: true, sign: Math.sign(within(start)) };
-    // Between two edges a is monotone: it exceeds the level at the later edge, or nowhere.
-    if (Math.abs(within(stop)) <= level) continue;
-    let low = start, high = stop;
-    for (let i = 0; i < 80 && high - low > 1e-16 * high; i++) {
-      const middle = 0.5 * (low + high);
-      if (Math.abs(within(middle)) > level) high = middle;
-      else low = middle;
-    }
-    return { time: low, jump: false, sign: Math.sign(within(stop)) };
-  }
-  return null;
-}
+   Every step is a polynomial, whose roots give the impacts and the turning points. */
 
 // Roots of the polynomial of one step -----------------------------------------------------------
 
@@ -466,36 +288,6 @@ function minimumOverturning(block, overturns) {
     }
   }
   return Infinity;
-}
-
-/** Force over weight of a body at a distance from the pivot: (ü_g + ẍ, g + z̈)/g, Eqs. (6), (9). */
-function load(block, distance, side, lean, rate, a) {
-  const sin = Math.sin(lean), cos = Math.cos(lean);
-  const across = (-(block.p ** 2) * (side * sin + a * cos) * distance) / GRAVITY; // Eq. (23)
-  const inward = (distance * rate * rate) / GRAVITY;
-  return [a + across * cos + inward * side * sin, 1 + across * side * sin - inward * cos];
-}
-
-/** The required coefficient of friction of the contacts at one instant of rocking to a side.
-
-    Column, vase and portal have one reaction. The cap beam of a frame shares its load between the
-    column tops by Eqs. (10)–(18) and by its own balance of moments. */
-function requiredFriction(block, side, phi, rate, a) {
-  const demand = ([horizontal, vertical]) => (vertical > 0 ? Math.abs(horizontal) / vertical : Infinity);
-  const lean = block.alpha - phi;
-  if (block.name !== "frame") return demand(load(block, block.lever, side, lean, rate, a));
-  const { gamma, b, span, depth, lever } = block;
-  const each = gamma === Infinity ? 0 : 0.5 / (1 + gamma), beam = 1 - 2 * each;
-  const [cx, cz] = load(block, lever, side, lean, rate, a).map((force) => each * force); // Eqs. (10), (11)
-  const [bx, bz] = load(block, 2 * lever, side, lean, rate, a).map((force) => beam * force); // Eqs. (12), (13)
-  const shift = (side * b * bz - (depth / 2) * bx) / span, aside = -side * Math.tan(lean) * shift;
-  let largest = 0;
-  for (const end of [-1, 1]) {
-    const top = [bx / 2 + end * aside, bz / 2 + end * shift];
-    if (beam > 0) largest = Math.max(largest, demand(top));
-    largest = Math.max(largest, demand([top[0] + cx, top[1] + cz]));
-  }
-  return largest;
 }
 
 /** The largest required friction of a kept history, up to where |θ| passes α for good. */

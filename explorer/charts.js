@@ -1,0 +1,181 @@
+"use strict";
+/* Histories and the overturning spectrum, drawn by uPlot in the colours of the page. */
+
+const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+const AXIS_FONT = "12px system-ui, sans-serif";
+
+const axis = (more) => ({
+  stroke: () => colour("quiet"), font: AXIS_FONT, labelFont: AXIS_FONT, labelSize: 18, labelGap: 0,
+  grid: { stroke: () => colour("line"), width: 1 }, ticks: { stroke: () => colour("line"), width: 1, size: 4 }, ...more,
+});
+
+/** Keep a chart as large as its place. */
+function fit(chart, place) {
+  const size = () => ({ width: Math.max(120, place.clientWidth), height: Math.max(40, place.clientHeight) });
+  new ResizeObserver(() => {
+    const { width, height } = size();
+    if (width !== chart.width || height !== chart.height) chart.setSize({ width, height });
+  }).observe(place);
+}
+
+/** One history over time, with a line at the time that is shown; a press moves that time. */
+class Strip {
+  constructor(place, { label, last, seek, band }) {
+    this.range = [-1, 1];
+    this.stroke = "ink";
+    this.levels = [];
+    this.chart = new uPlot({
+      width: Math.max(120, place.clientWidth), height: Math.max(40, place.clientHeight), legend: { show: false }, padding: [6, 8, last ? 0 : 6, 0],
+      cursor: { y: false, points: { show: false }, drag: { x: false, y: false }, sync: { key: "time" } },
+      scales: { x: { time: false }, y: { range: () => this.range } },
+      axes: [
+        axis({ show: last, size: 40, label: "Time (s)" }),
+        axis({ size: 52, label, space: 18 }),
+      ],
+      series: [{}, { stroke: () => colour(this.stroke), width: 1.5, spanGaps: false }],
+      hooks: { drawClear: [(u) => this.shade(u, band)] },
+    }, [[0, 1], [0, 0]], place);
+    this.head = document.createElement("div");
+    this.head.className = "playhead";
+    this.chart.over.append(this.head);
+    const move = (event) => {
+      if (event.buttons === 1) seek(this.chart.posToVal(event.clientX - this.chart.over.getBoundingClientRect().left, "x"));
+    };
+    this.chart.over.addEventListener("pointerdown", move);
+    this.chart.over.addEventListener("pointermove", move);
+    fit(this.chart, place);
+  }
+
+  /** Shade |θ| < α, or draw the levels of uplift. */
+  shade(u, band) {
+    const { ctx, bbox } = u, y = (level) => u.valToPos(level, "y", true);
+    ctx.save();
+    if (band) {
+      ctx.fillStyle = colour("band");
+      ctx.fillRect(bbox.left, y(1), bbox.width, y(-1) - y(1));
+    }
+    ctx.strokeStyle = colour("quiet");
+    ctx.setLineDash([4 * devicePixelRatio, 3 * devicePixelRatio]);
+    for (const level of this.levels) {
+      ctx.beginPath();
+      ctx.moveTo(bbox.left, y(level));
+      ctx.lineTo(bbox.left + bbox.width, y(level));
+      ctx.stroke();
+    }
+    ctx.restore();
+  }
+
+  show(times, values, range, stroke, levels = []) {
+    Object.assign(this, { range, stroke, levels });
+    this.chart.setData([times, values]);
+  }
+
+  at(time) {
+    this.head.style.transform = `translateX(${this.chart.valToPos(time, "x")}px)`;
+  }
+}
+
+/** The overturning spectrum: an image of outcomes, and where the state is. */
+class Spectrum {
+  constructor(place, pick) {
+    this.place = place;
+    this.pick = pick;
+    this.image = document.createElement("canvas");
+    this.plane = null;
+  }
+
+  /** Set the axes of a plane, anew when they change. */
+  frame(plane) {
+    const key = JSON.stringify([plane.x, plane.y, plane.isRecord]);
+    this.plane = plane;
+    if (key !== this.key) {
+      this.key = key;
+      this.chart?.destroy();
+      const ticks = (low, high) => [0.1, 0.2, 0.5, 1, 2, 3, 5, 10, 20, 50, 100, 200, 500].filter((v) => v >= low && v <= high);
+      const log = { distr: 3, log: 10 };
+      this.chart = new uPlot({
+        width: Math.max(120, this.place.clientWidth), height: Math.max(80, this.place.clientHeight), legend: { show: false },
+        padding: [8, 10, 0, 0], cursor: { drag: { x: false, y: false }, points: { show: false } },
+        scales: {
+          x: { time: false, range: () => this.plane.x, ...(plane.isRecord ? log : {}) },
+          y: { range: () => this.plane.y, ...log },
+        },
+        axes: [
+          axis({
+            size: 42, label: plane.isRecord ? "Size of the column, R (m)" : "Frequency of the pulse, ω/p", grid: { show: false },
+            ...(plane.isRecord ? { splits: () => ticks(...plane.x), values: (_, all) => all.map(String) } : {}),
+          }),
+          axis({
+            size: 52, label: plane.isRecord ? "Peak, PGA/(g tan α)" : "Amplitude, a/(g tan α)", grid: { show: false },
+            splits: () => ticks(...plane.y), values: (_, all) => all.map(String),
+          }),
+        ],
+        series: [{}, { paths: () => null, points: { show: false } }],
+        hooks: { drawClear: [(u) => this.paint(u)], draw: [(u) => this.mark(u)] },
+      }, [[1], [1]], this.place);
+      const { over } = this.chart;
+      over.addEventListener("click", (event) => {
+        const box = over.getBoundingClientRect();
+        this.pick(this.chart.posToVal(event.clientX - box.left, "x"), this.chart.posToVal(event.clientY - box.top, "y"));
+      });
+      if (!this.watched) new ResizeObserver(() => this.chart.setSize({ width: this.place.clientWidth, height: this.place.clientHeight })).observe(this.place);
+      this.watched = true;
+    } else this.chart.redraw(false, false);
+  }
+
+  /** Take the outcomes of the cells, row by row from the lowest amplitude up. */
+  outcomes(codes, columns, rows) {
+    this.cells = { codes: withRegions(codes, columns, rows), columns, rows };
+    this.recolour();
+  }
+
+  recolour() {
+    if (!this.cells) return;
+    const { codes, columns, rows } = this.cells;
+    const names = ["paper", "pale-survives", "pale-overturns", "overturns", "region"];
+    const probe = document.createElement("canvas").getContext("2d", { willReadFrequently: true });
+    const palette = names.map((name) => {
+      probe.fillStyle = colour(name);
+      probe.fillRect(0, 0, 1, 1);
+      return [...probe.getImageData(0, 0, 1, 1).data];
+    });
+    Object.assign(this.image, { width: columns, height: rows });
+    const context = this.image.getContext("2d"), pixels = context.createImageData(columns, rows);
+    codes.forEach((code, k) => pixels.data.set(palette[code], 4 * ((k % columns) + columns * (rows - 1 - Math.floor(k / columns)))));
+    context.putImageData(pixels, 0, 0);
+    this.chart?.redraw(false, false);
+  }
+
+  paint({ ctx, bbox }) {
+    if (!this.cells) return;
+    ctx.imageSmoothingEnabled = false;
+    ctx.drawImage(this.image, bbox.left, bbox.top, bbox.width, bbox.height);
+  }
+
+  /** Draw "you are here". */
+  mark(u) {
+    const { ctx, bbox } = u, { here } = this.plane, ratio = devicePixelRatio;
+    if (!(here.y > 0)) return;
+    const x = u.valToPos(here.x, "x", true), y = Math.min(u.valToPos(here.y, "y", true), bbox.top + bbox.height);
+    ctx.save();
+    for (const [width, ink] of [[5, "paper"], [2, "ink"]]) {
+      ctx.lineWidth = width * ratio;
+      ctx.strokeStyle = colour(ink);
+      ctx.beginPath();
+      ctx.arc(x, y, 6 * ratio, 0, 2 * Math.PI);
+      ctx.stroke();
+    }
+    ctx.font = `600 ${12 * ratio}px system-ui, sans-serif`;
+    const words = "you are here", toLeft = x > bbox.left + bbox.width * 0.7;
+    ctx.textAlign = toLeft ? "right" : "left";
+    ctx.textBaseline = "middle";
+    ctx.lineWidth = 4 * ratio;
+    ctx.lineJoin = "round";
+    ctx.strokeStyle = colour("paper");
+    ctx.fillStyle = colour("ink");
+    const at = x + (toLeft ? -12 : 12) * ratio, height = Math.min(y, bbox.top + bbox.height - 8 * ratio);
+    ctx.strokeText(words, at, height);
+    ctx.fillText(words, at, height);
+    ctx.restore();
+  }
+}

@@ -1,0 +1,173 @@
+"use strict";
+/* The controls: a field for every number, typed or slid, with its message beside it. */
+
+const byId = (id) => document.getElementById(id);
+const SLIDER = 1000; // steps
+
+/** A number as a place on its slider, and back; γ runs from 0 to ∞ with 2 in the middle. */
+const toSlider = (key, number) => {
+  const { slider, linear } = FIELDS[key];
+  if (key === "g") return number === Infinity ? SLIDER : (SLIDER * number) / (2 + number);
+  const [low, high] = slider;
+  const share = linear ? (number - low) / (high - low) : Math.log(number / low) / Math.log(high / low);
+  return SLIDER * Math.min(1, Math.max(0, share));
+};
+const fromSlider = (key, place) => {
+  const share = place / SLIDER, { slider, linear } = FIELDS[key];
+  if (key === "g") return share === 1 ? Infinity : Number(((2 * share) / (1 - share)).toPrecision(2));
+  const [low, high] = slider;
+  return Number((linear ? low + (high - low) * share : low * (high / low) ** share).toPrecision(3));
+};
+
+/** Make an element with attributes and children. */
+function made(kind, attributes = {}, ...children) {
+  const element = document.createElement(kind);
+  for (const [key, text] of Object.entries(attributes)) element.setAttribute(key, text);
+  element.append(...children);
+  return element;
+}
+
+class Controls {
+  /** `change(patch, isFinal)` takes a change of the state; it returns a contradiction or null. */
+  constructor(change, open) {
+    Object.assign(this, { change, open, state: { ...DEFAULTS } });
+    const structure = byId("structure"), motion = byId("motion");
+    for (const key of ["b", "h", "g", "L"]) structure.append(this.number(key));
+    structure.append(
+      this.choice("cap", "Cap beam of the frame", { free: "rests freely", fixed: "fixed to both" }),
+      this.choice("own", "Coefficient of restitution √r", { formula: "Eq. (25)", own: "own" }),
+      this.number("r"),
+      this.choice("eq", "Equation of motion", { exact: "exact", linearised: "linearised" }),
+    );
+    motion.append(this.shapes());
+    for (const key of ["a", "T", "D"]) motion.append(this.number(key));
+    motion.append(this.choice("start", "Start of the shake table", { smooth: "smooth", abrupt: "abrupt" }), this.number("x"), this.drop());
+  }
+
+  number(key) {
+    const { label, unit, hint } = FIELDS[key];
+    const text = made("input", { id: key, type: "text", inputmode: "decimal", "aria-describedby": `${key}-error` });
+    const slider = made("input", { id: `${key}-slider`, type: "range", min: 0, max: SLIDER, step: 1, "aria-label": `${label}, slider` });
+    const field = made("div", { class: "field", id: `${key}-field` },
+      made("label", { for: key }, label), text, made("span", { class: "unit" }, unit), slider,
+      made("p", { class: "error", id: `${key}-error`, role: "alert" }));
+    if (hint) text.title = hint;
+    const type = (isFinal) => {
+      const number = typed(text.value), message = fault(key, number, text.value);
+      this.tell(key, message);
+      if (!message) this.apply({ [key]: number }, isFinal, key);
+    };
+    text.addEventListener("input", () => type(false));
+    text.addEventListener("change", () => type(true));
+    const slide = (isFinal) => {
+      const began = performance.now(), number = fromSlider(key, Number(slider.value));
+      text.value = shown(number);
+      slider.setAttribute("aria-valuetext", `${shown(number)} ${unit}`);
+      this.tell(key, "");
+      this.apply({ [key]: number }, isFinal, key);
+      performance.measure("handler", { start: began });
+    };
+    slider.addEventListener("input", () => slide(false));
+    slider.addEventListener("change", () => slide(true));
+    return field;
+  }
+
+  choice(key, label, options) {
+    const group = made("div", { class: "choice", id: `${key}-field`, role: "radiogroup", "aria-labelledby": `${key}-label` },
+      made("span", { id: `${key}-label` }, label));
+    for (const [option, words] of Object.entries(options)) {
+      const radio = made("input", { type: "radio", name: key, value: option, id: `${key}-${option}` });
+      radio.addEventListener("change", () => {
+        const own = { own: { r: option === "own" ? this.state.r ?? 0.9 : null } };
+        this.apply(own[key] ?? { [key]: option }, true, key);
+      });
+      group.append(made("label", {}, radio, words));
+    }
+    group.append(made("p", { class: "error", id: `${key}-error`, role: "alert" }));
+    return group;
+  }
+
+  shapes() {
+    const select = made("select", { id: "shape", "aria-describedby": "shape-error" });
+    const words = {
+      "one-sine": "One-sine pulse", "one-cosine": "One-cosine pulse", "half-sine": "Half-sine pulse", constant: "Constant pulse",
+      "ricker-symmetric": "Symmetric Ricker pulse", "ricker-antisymmetric": "Antisymmetric Ricker pulse", harmonic: "Steady sine of a shake table",
+    };
+    const pulses = made("optgroup", { label: "Pulses" });
+    for (const [shape, name] of Object.entries(words)) pulses.append(made("option", { value: shape }, name));
+    this.records = made("optgroup", { label: "Records" });
+    select.append(pulses, this.records);
+    select.addEventListener("change", () => {
+      const [shape, name] = select.value.split(/:(.*)/);
+      this.apply(shape === "record" ? { shape, record: name } : { shape }, true, "shape");
+    });
+    return made("div", { class: "field", id: "shape-field" }, made("label", { for: "shape" }, "Shape"), select,
+      made("p", { class: "error", id: "shape-error", role: "alert" }));
+  }
+
+  drop() {
+    const file = made("input", { type: "file", accept: ".at2,.AT2,.csv", hidden: "", id: "file", "aria-label": "Record file" });
+    const button = made("button", { type: "button" }, "Open a record…");
+    button.addEventListener("click", () => file.click());
+    file.addEventListener("change", () => {
+      if (file.files[0]) this.open(file.files[0]);
+      file.value = "";
+    });
+    addEventListener("dragover", (event) => {
+      event.preventDefault();
+      document.body.classList.add("over");
+    });
+    addEventListener("dragleave", (event) => event.relatedTarget ?? document.body.classList.remove("over"));
+    addEventListener("drop", (event) => {
+      event.preventDefault();
+      document.body.classList.remove("over");
+      if (event.dataTransfer.files[0]) this.open(event.dataTransfer.files[0]);
+    });
+    return made("div", { id: "drop" }, button, " or drop a file here, AT2 or CSV. It stays on this computer.", file,
+      made("p", { class: "error", id: "record-error", role: "alert" }));
+  }
+
+  /** Offer a record in the list of shapes. */
+  offer(name, title) {
+    this.records.append(made("option", { value: `record:${name}` }, title));
+  }
+
+  /** Put a message beside a field, or take it away. */
+  tell(key, message) {
+    const place = byId(`${key}-error`);
+    if (place.textContent !== message) place.textContent = message;
+    byId(key)?.setAttribute?.("aria-invalid", message ? "true" : "false");
+  }
+
+  apply(patch, isFinal, key) {
+    for (const each of ["b", "h", "g", "L", "r", "own", "cap", "shape", "record"]) if (each !== key) this.clear(each);
+    const wrong = this.change(patch, isFinal);
+    if (wrong) this.tell(wrong.field, wrong.message);
+    else this.tell(key, "");
+  }
+
+  /** Take a message away, and with it the bad text that it was about. */
+  clear(key) {
+    if (!byId(`${key}-error`).textContent) return;
+    this.tell(key, "");
+    if (key in FIELDS && this.state[key] !== null) byId(key).value = shown(this.state[key]);
+  }
+
+  /** Show a state; a field in which somebody types keeps its text. */
+  show(state) {
+    this.state = state;
+    for (const key of Object.keys(FIELDS)) {
+      if (state[key] === null) continue;
+      const text = byId(key), slider = byId(`${key}-slider`);
+      if (typed(text.value) !== state[key]) text.value = shown(state[key]);
+      if (document.activeElement !== slider || fromSlider(key, Number(slider.value)) !== state[key]) slider.value = toSlider(key, state[key]);
+      slider.setAttribute("aria-valuetext", `${shown(state[key])} ${FIELDS[key].unit}`);
+    }
+    for (const key of ["cap", "eq", "start"]) byId(`${key}-${state[key]}`).checked = true;
+    byId(state.r === null ? "own-formula" : "own-own").checked = true;
+    byId("shape").value = state.shape === "record" ? `record:${state.record}` : state.shape;
+    const isRecord = state.shape === "record", isSteady = state.shape === "harmonic";
+    const visible = { r: state.r !== null, a: !isRecord, T: !isRecord, D: isSteady, start: isSteady, x: isRecord };
+    for (const [key, is] of Object.entries(visible)) byId(`${key}-field`).hidden = !is;
+  }
+}

@@ -1,0 +1,324 @@
+"use strict";
+/* The page: one state, two workers that compute from it, and everything that shows what they found. */
+
+const DATA = JSON.parse(byId("data").textContent);
+const ENGINE = URL.createObjectURL(new Blob([...document.querySelectorAll("script.engine")].map((script) => script.textContent), { type: "text/javascript" }));
+const NAMES = [["Column", "The column"], ["Vase: mass fixed to it", "The vase"], ["Frame: mass carried freely", "The frame"]];
+const PORTAL = ["Frame: cap beam fixed", "The frame"];
+
+const files = new Map();
+let state = { ...DEFAULTS };
+let found = null; // the histories that are shown
+let time = 0, isPlaying = false, wantsToPlay = true, before = 0;
+
+const round = (number, digits = 3) => {
+  if (number === Infinity) return "∞";
+  return Number.isFinite(number) ? String(Number(number.toPrecision(digits))) : "–";
+};
+
+// The workers ------------------------------------------------------------------------------------
+
+let quick = new Worker(ENGINE), slow = null;
+let isBusy = false, waits = false, survey = 0, mapKey = "", isMapDone = false, later = 0;
+
+/** Ask for the histories of the state; while one is computed, only the last question waits. */
+function ask() {
+  if (isBusy) {
+    waits = true;
+    return;
+  }
+  isBusy = true;
+  quick.postMessage({ task: "histories", state, file: files.get(state.record) });
+}
+
+quick.onmessage = ({ data }) => {
+  isBusy = false;
+  const began = performance.now();
+  if (data.error) controls.tell("shape", data.error);
+  else receive(data);
+  performance.measure("drawing", { start: began });
+  if (waits) {
+    waits = false;
+    ask();
+  }
+};
+
+/** Start minima and spectrum anew, once the state has rested for a moment. */
+function askSurvey() {
+  clearTimeout(later);
+  later = setTimeout(() => {
+    const file = files.get(state.record), key = planeKey(state, file);
+    const needsSpectrum = key !== mapKey || !isMapDone;
+    if (needsSpectrum) isMapDone = false;
+    mapKey = key;
+    slow?.terminate();
+    slow = new Worker(ENGINE);
+    slow.onmessage = hear;
+    survey += 1;
+    if (needsSpectrum) progress(0);
+    slow.postMessage({ id: survey, task: "survey", state, file, needsSpectrum });
+  }, 150);
+}
+
+function hear({ data }) {
+  if (data.id !== survey) return;
+  if (data.error) controls.tell("shape", data.error);
+  if ("minimum" in data) {
+    const cell = byId(`minimum${data.index}`);
+    const most = 30 * found.structures[data.index].uplift;
+    cell.textContent = data.minimum === Infinity ? `> ${round(most)}` : round(data.minimum, 4);
+    cell.dataset.value = data.minimum;
+    cell.classList.remove("pending");
+  }
+  if ("codes" in data) {
+    const [columns, rows] = GRIDS[state.shape === "record" ? "record" : "pulse"];
+    spectrumChart.outcomes(data.codes, columns, rows);
+    isMapDone = data.share === 1;
+    progress(data.share);
+  }
+}
+
+function progress(share) {
+  byId("progress").value = share;
+  byId("progress").hidden = share === 1;
+  document.documentElement.dataset.spectrum = share === 1 ? "done" : "computing";
+}
+
+// What is shown -----------------------------------------------------------------------------------
+
+const controls = new Controls(change, open);
+const scene = new Scene(byId("scene"), [...byId("names").children]);
+const seek = (to) => {
+  pause();
+  show(to);
+};
+const strips = [0, 1, 2].map((k) => new Strip(byId(`history${k}`), { label: "θ/α", last: k === 2, seek, band: true }));
+const groundStrip = new Strip(byId("ground"), { label: "g", last: true, seek, band: false });
+const spectrumChart = new Spectrum(byId("spectrum"), pick);
+
+/** Show new histories: charts, numbers, outcome and the pose at the present time. */
+function receive(answer) {
+  found = answer;
+  const { times, structures } = answer, until = times[times.length - 1];
+  const toList = (values, scale) => Array.from(values, (value) => (Number.isNaN(value) ? null : value / scale));
+  const list = Array.from(times), level = structures[0].uplift;
+  structures.forEach((of, k) => {
+    const reach = Math.max(1.4, of.overturned ? 0 : 1.15 * of.peak);
+    strips[k].show(list, toList(of.theta, of.alpha), [-reach, reach], of.overturned ? "overturns" : "survives");
+    byId(`caption${k}`).innerHTML = `${titles()[k]} <span class="${word(of)}-word">${outcome(of)}</span>`;
+    byId(`history${k}`).setAttribute("aria-label", `Rotation of the ${of.name} over time: ${outcome(of)}`);
+  });
+  const largest = 1.15 * Math.max(answer.peak, level);
+  groundStrip.show(list, Array.from(answer.ground), [-largest, largest], "ink", [-level, level]);
+  byId("ground").setAttribute("aria-label", `Ground acceleration over time, peak ${round(answer.peak)} g`);
+  scene.outcomes(structures);
+  table(structures);
+  byId("verdict").innerHTML = structures.map((of, k) => `${(k === 2 && state.cap === "fixed" ? PORTAL : NAMES[k])[1]} <span class="${word(of)}-word">${outcome(of)}</span>`).join(", ").replaceAll(", The", ", the") + ".";
+  show(Math.min(time, until));
+  document.documentElement.dataset.shown = encode(state);
+}
+
+const titles = () => [NAMES[0][0], NAMES[1][0], state.cap === "fixed" ? PORTAL[0] : NAMES[2][0]];
+const word = (of) => (of.overturned ? "overturns" : "survives");
+const outcome = (of) => (of.overturned ? "overturns" : of.moved ? "survives" : "does not uplift");
+
+function table(structures) {
+  const rows = byId("rows");
+  if (!rows.children.length) {
+    structures.forEach((_, k) => {
+      const row = made("tr", {}, made("th", { scope: "row" }));
+      for (let i = 0; i < 9; i++) row.append(made("td"));
+      row.children[3].id = `minimum${k}`;
+      rows.append(row);
+    });
+  }
+  structures.forEach((of, k) => {
+    const numbers = [
+      titles()[k].split(":")[0], outcome(of), of.overturned ? "–" : round(of.peak), null, round(of.uplift, 4), round((of.alpha * 180) / Math.PI, 4),
+      `${k === 2 ? "p̂ = " : "p = "}${round(of.p, 4)}`, `${k === 2 ? "R̂ = " : "R = "}${round(of.size, 4)}`, round(of.restitution, 4), of.moved ? round(of.friction) : "–",
+    ];
+    numbers.forEach((text, i) => text !== null && (rows.children[k].children[i].textContent = text));
+    rows.children[k].children[1].className = `${word(of)}-word`;
+  });
+}
+
+/** Show the instant t (s). */
+function show(t) {
+  if (!found) return;
+  const { times, structures, ground, displacement, peak } = found, until = times[times.length - 1];
+  time = Math.min(until, Math.max(0, t));
+  const at = (time / until) * (times.length - 1), k = Math.min(times.length - 2, Math.floor(at)), rest = at - k;
+  const between = (values) => values[k] + rest * (values[k + 1] - values[k]);
+  const poses = structures.map((of) => {
+    if (time >= of.flatAt || Number.isNaN(of.theta[k + 1])) {
+      const last = of.theta.findLast((theta) => !Number.isNaN(theta));
+      return (Math.sign(last) * Math.PI) / 2;
+    }
+    return between(of.theta);
+  });
+  scene.pose(poses, between(displacement), peak ? between(ground) / Math.max(peak, structures[0].uplift) : 0);
+  [...strips, groundStrip].forEach((strip) => strip.at(time));
+  byId("time").value = (1000 * time) / until;
+  byId("time").setAttribute("aria-valuetext", `${time.toFixed(2)} s`);
+  byId("clock").textContent = `${time.toFixed(2)} s`;
+}
+
+// Playback ----------------------------------------------------------------------------------------
+
+function play() {
+  if (!found) return;
+  if (time >= found.times.at(-1)) show(0);
+  isPlaying = wantsToPlay = true;
+  byId("toggle").textContent = "Pause";
+  before = performance.now();
+  requestAnimationFrame(tick);
+}
+
+function pause() {
+  isPlaying = false;
+  byId("toggle").textContent = "Play";
+}
+
+function tick(now) {
+  if (!isPlaying) return;
+  show(time + (Math.max(0, now - before) / 1000) * Number(byId("speed").value));
+  before = now;
+  if (time >= found.times.at(-1)) pause();
+  else requestAnimationFrame(tick);
+}
+
+const moveBy = (seconds) => seek(time + seconds);
+const STEP = 0.02; // s
+byId("toggle").addEventListener("click", () => {
+  if (isPlaying) {
+    wantsToPlay = false;
+    pause();
+  } else play();
+});
+byId("start").addEventListener("click", () => seek(0));
+byId("back").addEventListener("click", () => moveBy(-STEP));
+byId("step").addEventListener("click", () => moveBy(STEP));
+byId("time").addEventListener("input", () => found && seek((Number(byId("time").value) / 1000) * found.times.at(-1)));
+addEventListener("keydown", (event) => {
+  if (event.ctrlKey || event.metaKey || event.altKey || event.target.closest?.("input, select, button, summary, pre, .scroll")) return;
+  const does = { " ": () => byId("toggle").click(), ",": () => moveBy(-STEP), ".": () => moveBy(STEP), Home: () => seek(0) }[event.key];
+  if (!does) return;
+  event.preventDefault();
+  does();
+});
+
+// Changes of the state ------------------------------------------------------------------------------
+
+/** Take a change of the state, or return what contradicts it; the picture then stays. */
+function change(patch, isFinal) {
+  const next = { ...state, ...patch };
+  if (next.shape === "record" && !files.has(next.record)) {
+    return { field: "shape", message: `the record “${next.record}” is not in this page; open or drop its file` };
+  }
+  const wrong = contradiction(next);
+  if (wrong) return wrong;
+  const isNew = encode(next) !== encode(state);
+  state = next;
+  if (isNew) update();
+  if (isFinal && wantsToPlay && !matchMedia("(prefers-reduced-motion: reduce)").matches) {
+    show(0);
+    if (!isPlaying) play();
+  }
+  return null;
+}
+
+let address = 0;
+function update() {
+  controls.show(state);
+  scene.build(state);
+  if (found) scene.outcomes(found.structures);
+  const plane = planeOf(state, files.get(state.record));
+  spectrumChart.frame(plane);
+  byId("spectrum").setAttribute("aria-label", `Overturning spectrum of the frame; this case is at ${round(plane.here.x)} and ${round(plane.here.y)}`);
+  byId("map-title").textContent = `Overturning spectrum of the frame, ${state.shape === "record" ? files.get(state.record).title : "this pulse"}`;
+  for (const cell of document.querySelectorAll('[id^="minimum"]')) cell.classList.add("pending");
+  const same = DATA.cases.find((each) => encode({ ...DEFAULTS, ...each.state }) === encode(state));
+  byId("note").textContent = same ? same.note : "";
+  [...byId("cases").children].forEach((button, k) => button.setAttribute("aria-pressed", String(DATA.cases[k] === same)));
+  byId("python").textContent = inPython(state);
+  clearTimeout(address);
+  address = setTimeout(() => history.replaceState(null, "", `#${encode(state)}`), 250);
+  ask();
+  askSurvey();
+}
+
+/** Show a whole new state, from its beginning. */
+function start(next) {
+  state = next;
+  time = 0;
+  update();
+  if (matchMedia("(prefers-reduced-motion: reduce)").matches) return;
+  wantsToPlay = true;
+  pause();
+  const begin = () => (found && document.documentElement.dataset.shown === encode(state) ? play() : setTimeout(begin, 20));
+  begin();
+}
+
+/** Go to a point of the spectrum. */
+function pick(x, y) {
+  const alone = column(state.b, state.h), short = (number) => Number(number.toPrecision(4));
+  const a = y * Math.tan(alone.alpha);
+  if (state.shape === "record") {
+    const scale = x / alone.lever;
+    const sizes = Object.fromEntries(["b", "h", "L"].map((key) => [key, short(state[key] * scale)]));
+    controls.apply({ ...sizes, x: short(a / peakOf(files.get(state.record).samples)) }, true, "shape");
+  } else controls.apply({ a: short(a), T: short((2 * Math.PI) / (x * alone.p)) }, true, "shape");
+}
+
+/** Read a file that was opened or dropped, and shake with it. */
+async function open(file) {
+  try {
+    const read = readRecord(file.name, await file.text());
+    const isNew = !files.has(read.name);
+    files.set(read.name, { ...read, title: file.name });
+    if (isNew) controls.offer(read.name, `${file.name}, ${round(peakOf(read.samples))} g`);
+    mapKey = "";
+    state = { ...state, shape: "half-sine" }; // so that a file of the same name is taken anew
+    controls.tell("record", "");
+    controls.apply({ shape: "record", record: read.name, x: 1 }, true, "shape");
+  } catch (error) {
+    controls.tell("record", error.message);
+  }
+}
+
+/** Take the state from the address. */
+function readAddress() {
+  const { state: next, faults } = decode(location.hash);
+  if (next.shape === "record" && !files.has(next.record)) {
+    faults.shape = `The address: the record “${next.record}” is not in this page; open or drop its file`;
+    Object.assign(next, { shape: DEFAULTS.shape, record: "" });
+  }
+  start(next);
+  for (const [key, message] of Object.entries(faults)) controls.tell(key, message);
+}
+
+for (const each of DATA.records) {
+  files.set(each.name, { name: each.name, title: each.title, step: each.step, samples: Float64Array.from(each.samples) });
+  controls.offer(each.name, each.title);
+}
+DATA.cases.forEach((each) => {
+  const button = made("button", { type: "button" }, each.title);
+  button.addEventListener("click", () => start({ ...DEFAULTS, ...each.state }));
+  byId("cases").append(button);
+});
+byId("copy").addEventListener("click", async () => {
+  const link = `${location.href.split("#")[0]}#${encode(state)}`;
+  try {
+    await navigator.clipboard.writeText(link);
+    byId("copied").textContent = "Copied.";
+  } catch {
+    history.replaceState(null, "", `#${encode(state)}`);
+    byId("copied").textContent = "It is in the address line: copy it from there.";
+  }
+});
+addEventListener("hashchange", () => location.hash.slice(1) !== encode(state) && readAddress());
+matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
+  spectrumChart.recolour();
+  [...strips, groundStrip].forEach((strip) => strip.chart.redraw());
+});
+readAddress();

@@ -1,0 +1,197 @@
+"use strict";
+/* From the state of the controls to histories, numbers and the overturning spectrum.
+
+   The page's two workers run this file: one answers "histories" while a slider is dragged, the other
+   one "survey", which takes longer and reports its progress. */
+
+const CAP_DEPTH = 0.2; // of h: as drawn; the friction of a frame depends on it, its motion does not
+const SAMPLES = 1500;
+const GRIDS = { pulse: [96, 64], record: [48, 36] }; // cells of the spectrum
+
+/** What each cell of the spectrum holds. */
+const [NOTHING, SURVIVES, WITH_IMPACT, WITHOUT_IMPACT, REGION] = [0, 1, 2, 3, 4];
+
+/** Column, vase, and the frame with its cap beam free or fixed.
+
+    Throws a RangeError that names the field when a structure cannot rock. */
+function structuresOf(state, scale = 1) {
+  const [b, h, span] = [state.b * scale, state.h * scale, state.L * scale];
+  const found = [
+    column(b, h),
+    vase(b, h, state.g),
+    state.cap === "fixed" ? portal(b, h, state.g, span) : frame(b, h, state.g, span, CAP_DEPTH * h),
+  ];
+  for (const block of found) {
+    if (state.r !== null) block.restitution = state.r;
+    block.linearised = state.eq === "linearised";
+    if (block.restitution < 0) {
+      const error = new RangeError(
+        `√r of the ${block.name} is ${block.restitution.toFixed(3)}: it would not keep rocking after an `
+        + "impact; expected a smaller half width, a larger half height, or a √r of your own",
+      );
+      error.field = "b";
+      throw error;
+    }
+  }
+  return found;
+}
+
+const omegaOf = (state) => (2 * Math.PI) / state.T;
+const peakOf = (samples) => samples.reduce((largest, a) => Math.max(largest, Math.abs(a)), 0);
+
+/** The peak ground acceleration of a state, g. */
+const accelerationOf = (state, file) => (state.shape === "record" ? state.x * peakOf(file.samples) : state.a);
+
+/** The ground motion of a state, with another peak acceleration (g) or ω (rad/s) if given. */
+function motionOf(state, file, a = accelerationOf(state, file), omega = omegaOf(state)) {
+  if (state.shape === "record") return record(file.samples, file.step, a / peakOf(file.samples));
+  // A displacement of the ground that begins with + sin ωt has this acceleration.
+  if (state.shape === "harmonic") return pulse("harmonic", -a, omega, state.D);
+  return pulse(state.shape, a, omega);
+}
+
+/** How a structure starts: at rest, or with the velocity of an abrupt start. */
+function startOf(state, block, a, omega = omegaOf(state)) {
+  const abrupt = state.shape === "harmonic" && state.start === "abrupt";
+  return abrupt ? { velocity: abruptStart(block, a, omega) } : {};
+}
+
+/** Histories of the three structures at common times, and their numbers. */
+function histories(state, file) {
+  const blocks = structuresOf(state), motion = motionOf(state, file), a = accelerationOf(state, file);
+  const until = windowOf(state, motion, blocks), times = Float64Array.from({ length: SAMPLES }, (_, k) => (until * k) / (SAMPLES - 1));
+  const structures = blocks.map((block) => {
+    const found = rock(block, motion, { ...startOf(state, block, a), until });
+    const { theta } = sample(found, times);
+    return {
+      name: block.name, alpha: block.alpha, p: block.p, size: equivalentSize(block), restitution: block.restitution,
+      uplift: upliftAcceleration(block), theta, overturned: found.overturned, moved: found.moved,
+      peak: found.peak / block.alpha, impacts: found.impacts, flatAt: found.flatAt,
+      friction: block.linearised ? NaN : largestFriction(block, motion, found),
+    };
+  });
+  const ground = times.map((t) => motion.at(t));
+  return { times, ground, displacement: displacementOf(times, ground), structures, end: motion.end, peak: a };
+}
+
+/** How long a history is shown, s: the motion, and some swings after it. */
+function windowOf(state, motion, blocks) {
+  const after = state.shape === "harmonic" ? 0 : 10 / Math.min(...blocks.map((block) => block.p));
+  return Math.min(motion.end + after, 300);
+}
+
+/** The ground displacement that is drawn, m: what a seismometer of long period would show of it. */
+function displacementOf(times, ground) {
+  const corner = 0.5, step = times[1] - times[0], moved = new Float64Array(times.length); // 1/s, critically damped
+  let velocity = 0;
+  for (let k = 1; k < times.length; k++) {
+    const a = (GRAVITY * (ground[k] + ground[k - 1])) / 2;
+    velocity += step * (a - 2 * corner * velocity - corner * corner * moved[k - 1]);
+    moved[k] = moved[k - 1] + step * velocity;
+  }
+  return moved;
+}
+
+/** The minimum overturning acceleration of a structure under the motion of a state, g. */
+function minimumOf(state, file, block) {
+  return minimumOverturning(block, (a) => rock(block, motionOf(state, file, a), startOf(state, block, a)).overturned);
+}
+
+/** The plane of the spectrum: what its axes are, their ranges, and where the state is in it.
+
+    Pulses: ω over p of the column. Records: the size R of the column, all lengths in proportion. The
+    amplitude is over g tan α of the column. The ranges grow by doubling until they hold the state. */
+function planeOf(state, file) {
+  const alone = column(state.b, state.h), isRecord = state.shape === "record";
+  const here = {
+    x: isRecord ? Math.hypot(state.b, state.h) : omegaOf(state) / alone.p,
+    y: accelerationOf(state, file) / Math.tan(alone.alpha),
+  };
+  const x = isRecord ? [0.5, 20] : [0.5, 8], y = [0.93, 12];
+  for (let k = 0; k < 12; k++) {
+    if (here.x > x[1]) x[1] *= 2;
+    if (here.x < x[0]) x[0] /= 2;
+    if (here.y > y[1]) y[1] *= 2;
+    if (here.y < y[0] && here.y > 0) y[0] /= 2;
+  }
+  const [columns, rows] = GRIDS[isRecord ? "record" : "pulse"];
+  return { isRecord, x, y, here, columns, rows };
+}
+
+/** Everything that the spectrum depends on, as a text: while it stays, the spectrum need not change. */
+function planeKey(state, file) {
+  const { x, y, isRecord } = planeOf(state, file), block = structuresOf(state)[2], alone = column(state.b, state.h);
+  const ratio = (number) => number.toPrecision(10);
+  return [
+    state.shape, state.eq, state.shape === "harmonic" ? [state.start, ratio(state.D * block.p)] : "",
+    isRecord ? [file.name, file.samples.length] : "", ratio(block.alpha), ratio(block.restitution),
+    ratio(block.p / alone.p), ratio(alone.alpha), x, y,
+  ].join();
+}
+
+/** The outcome of one point of the plane. */
+function cellOf(state, file, plane, alone, x, y) {
+  const a = y * Math.tan(alone.alpha);
+  const block = plane.isRecord ? structuresOf(state, x / alone.lever)[2] : plane.block;
+  const omega = plane.isRecord ? 1 : x * alone.p;
+  const found = rock(block, motionOf(state, file, a, omega), startOf(state, block, a, omega));
+  if (found.overturned) return found.impacts ? WITH_IMPACT : WITHOUT_IMPACT;
+  return found.moved ? SURVIVES : NOTHING;
+}
+
+/** Fill the spectrum in four rounds, each twice as fine, and report each tenth of a second. */
+function spectrum(state, file, report) {
+  const plane = planeOf(state, file), { columns, rows, x, y } = plane, alone = column(state.b, state.h);
+  plane.block = structuresOf(state)[2];
+  const codes = new Uint8Array(columns * rows), isKnown = new Uint8Array(columns * rows);
+  const place = ([low, high], share, isLog) => (isLog ? low * (high / low) ** share : low + (high - low) * share);
+  let done = 0, reported = performance.now();
+  for (const stride of [8, 4, 2, 1]) {
+    for (let i = 0; i < columns; i += stride) {
+      for (let j = 0; j < rows; j += stride) {
+        if (isKnown[i + columns * j]) continue;
+        const code = cellOf(state, file, plane, alone, place(x, (i + 0.5) / columns, plane.isRecord), place(y, (j + 0.5) / rows, true));
+        isKnown[i + columns * j] = 1;
+        done += 1;
+        for (let k = i; k < Math.min(i + stride, columns); k++) {
+          for (let l = j; l < Math.min(j + stride, rows); l++) if (!isKnown[k + columns * l]) codes[k + columns * l] = code;
+        }
+        codes[i + columns * j] = code;
+        if (performance.now() - reported > 100) {
+          reported = performance.now();
+          report({ codes: codes.slice(), share: done / codes.length });
+        }
+      }
+    }
+  }
+  report({ codes, share: 1 });
+}
+
+/** Mark what survives above the lowest amplitude that overturns at the same x: survival regions. */
+function withRegions(codes, columns, rows) {
+  const marked = codes.slice();
+  for (let i = 0; i < columns; i++) {
+    let isAbove = false;
+    for (let j = 0; j < rows; j++) {
+      const code = codes[i + columns * j];
+      isAbove ||= code === WITH_IMPACT || code === WITHOUT_IMPACT;
+      if (isAbove && code === SURVIVES) marked[i + columns * j] = REGION;
+    }
+  }
+  return marked;
+}
+
+if (typeof window === "undefined" && typeof postMessage === "function") {
+  onmessage = ({ data: { id, task, state, file, needsSpectrum } }) => {
+    try {
+      if (task === "histories") {
+        postMessage({ id, ...histories(state, file) });
+        return;
+      }
+      structuresOf(state).forEach((block, index) => postMessage({ id, index, minimum: minimumOf(state, file, block) }));
+      if (needsSpectrum) spectrum(state, file, (part) => postMessage({ id, ...part }));
+    } catch (error) {
+      postMessage({ id, error: error.message });
+    }
+  };
+}

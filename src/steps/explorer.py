@@ -1,0 +1,147 @@
+"""Put the page to play with together from explorer/: one file that needs no network.
+
+The outcomes that its named cases promise are computed here with the library.
+"""
+
+import json
+import math
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from replication.strict_yaml import read_yaml
+from replication.workbench import run
+from topheavy import (
+    Column,
+    FixedMassColumn,
+    MonolithicPortal,
+    Pulse,
+    Record,
+    RockingFrame,
+    read_record,
+    simulate,
+)
+from topheavy.structures import RockingBlock
+
+STYLES = ("uplot/uPlot.min.css", "style.css")
+UPLOT = "uplot/uPlot.iife.min.js"
+ENGINE = ("structures.js", "motions.js", "solver.js", "worker.js")
+"""The scripts that the page's workers run, too."""
+SCRIPTS = ("records.js", "state.js", "scene.js", "charts.js", "controls.js", "page.js")
+SOURCES = (*STYLES, UPLOT, "uplot/LICENSE", *ENGINE, *SCRIPTS, "page.html", "cases.yaml")
+
+DEFAULTS = {"r": None, "cap": "free", "eq": "exact", "x": 1.0, "start": "smooth"}
+"""Of the fields that a named case may leave out, as in state.js."""
+
+TITLES = {"el_centro_1940_NS": "El Centro 1940, north–south"}
+
+
+def blocks(state: Mapping[str, Any]) -> dict[str, RockingBlock]:
+    """Return column, vase and frame of a state as the page's controls hold it."""
+    state = DEFAULTS | state
+    column = Column(state["b"], state["h"])
+    frame = (
+        MonolithicPortal(column, state["g"], state["L"])
+        if state["cap"] == "fixed"
+        else RockingFrame(column, state["g"])
+    )
+    structures = {"column": column, "vase": FixedMassColumn(column, state["g"]), "frame": frame}
+    found = {name: of.block(state["r"]) for name, of in structures.items()}
+    if state["eq"] == "linearised":
+        found = {name: block.linear() for name, block in found.items()}
+    return found
+
+
+def motion(state: Mapping[str, Any], records: Mapping[str, Record]) -> Pulse | Record:
+    """Return the ground motion of a state; a steady sine starts with a displacement + sin ωt."""
+    if state["shape"] == "record":
+        return records[state["record"]].scaled((DEFAULTS | state)["x"])
+    sign = -1.0 if state["shape"] == "harmonic" else 1.0
+    return Pulse(state["shape"], sign * state["a"], 2.0 * math.pi / state["T"])
+
+
+def options(state: Mapping[str, Any], block: RockingBlock) -> dict[str, float]:
+    """Return the duration of a steady sine, and the velocity of a block after its abrupt start."""
+    if state["shape"] != "harmonic":
+        return {}
+    if (DEFAULTS | state)["start"] == "smooth":
+        return {"duration": state["D"]}
+    lever = 1.0 if block.linearised else math.cos(block.slenderness)
+    table = state["a"] * state["T"] / (2.0 * math.pi)  # its velocity over g
+    return {"duration": state["D"], "velocity": -(block.frequency_parameter**2) * lever * table}
+
+
+def outcomes(state: Mapping[str, Any], records: Mapping[str, Record]) -> list[str]:
+    """Return the outcomes of column, vase and frame, in the words of the page."""
+    words = {"overturned": "overturns", "no uplift": "no uplift"}
+    shaken = motion(state, records)
+    found = (
+        simulate(block, shaken, samples=2, **options(state, block)).outcome
+        for block in blocks(state).values()
+    )
+    return [words.get(outcome, "survives") for outcome in found]
+
+
+def checked_cases(cases: list[dict], records: Mapping[str, Record]) -> list[dict]:
+    """Return the named cases without their outcomes.
+
+    Raises
+    ------
+    ValueError
+        When the library computes other outcomes than a case promises.
+    """
+    for case in cases:
+        found = outcomes(case["state"], records)
+        if found != case["outcomes"]:
+            raise ValueError(
+                f"explorer/cases.yaml: {case['title']!r} promises {case['outcomes']} for column, "
+                f"vase and frame; the library computes {found}: correct the case or its note"
+            )
+    return [{key: case[key] for key in ("title", "note", "state")} for case in cases]
+
+
+def page(folder: Path, records: Mapping[str, Record]) -> str:
+    """Return the whole page as a text, the same each time."""
+
+    def read(name: str) -> str:
+        text = (folder / name).read_text(encoding="utf-8")
+        if "</script" in text and name.endswith(".js"):
+            raise ValueError(f"{folder / name} has a closing script tag, which would end it early")
+        return text
+
+    data = {
+        "cases": checked_cases(read_yaml(folder / "cases.yaml"), records),
+        "records": [
+            {
+                "name": name,
+                "title": TITLES.get(name, name),
+                "step": record.time_step,
+                "samples": record.acceleration.tolist(),
+            }
+            for name, record in records.items()
+        ],
+    }
+    parts = {
+        "styles": "\n".join(map(read, STYLES)),
+        "uplot": f"/*\n{read('uplot/LICENSE')}*/\n{read(UPLOT)}",
+        "engine": "\n".join(f'<script class="engine">{read(name)}</script>' for name in ENGINE),
+        "scripts": "\n".join(f"<script>{read(name)}</script>" for name in SCRIPTS),
+        "data": json.dumps(data, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c"),
+    }
+    text = read("page.html")
+    for name, part in parts.items():
+        if text.count(f"{{{{ {name} }}}}") != 1:
+            raise ValueError(f"{folder / 'page.html'}: expected one place for {name}")
+        text = text.replace(f"{{{{ {name} }}}}", part)
+    return text
+
+
+def work(job: Any) -> None:
+    records = {Path(path).stem: read_record(path) for path in job.input.records}
+    text = page(Path("explorer"), records)
+    Path(job.output[0]).write_text(text, encoding="utf-8", newline="\n")
+    print(f"{len(text.encode()) / 1e3:.0f} kB")
+
+
+if __name__ == "__main__":
+    run(snakemake, work)
