@@ -5,7 +5,7 @@ const colour = (name) => getComputedStyle(document.documentElement).getPropertyV
 const AXIS_FONT = "12px system-ui, sans-serif";
 
 const axis = (more) => ({
-  stroke: () => colour("quiet"), font: AXIS_FONT, labelFont: AXIS_FONT, labelSize: 18, labelGap: 0,
+  stroke: () => colour("quiet"), font: AXIS_FONT, labelFont: AXIS_FONT, labelSize: 16, labelGap: 0, gap: 4,
   grid: { stroke: () => colour("line"), width: 1 }, ticks: { stroke: () => colour("line"), width: 1, size: 4 }, ...more,
 });
 
@@ -29,8 +29,8 @@ class Strip {
       cursor: { y: false, points: { show: false }, drag: { x: false, y: false }, sync: { key: "time" } },
       scales: { x: { time: false }, y: { range: () => this.range } },
       axes: [
-        axis({ show: last, size: 40, label: "Time (s)" }),
-        axis({ size: 52, label, space: 18 }),
+        axis({ show: last, size: 22, label: "Time (s)" }),
+        axis({ size: 36, label, space: 18 }),
       ],
       series: [{}, { stroke: () => colour(this.stroke), width: 1.5, spanGaps: false }],
       hooks: { drawClear: [(u) => this.shade(u, band)] },
@@ -102,12 +102,12 @@ class Spectrum {
         },
         axes: [
           axis({
-            size: 42, label: plane.isRecord ? "Size of the column, R (m)" : "Frequency of the pulse, ω/p", grid: { show: false },
-            ...(plane.isRecord ? { splits: () => ticks(...plane.x), values: (_, all) => all.map(String) } : {}),
+            size: 22, label: plane.isRecord ? "Size of the column, R (m)" : "Frequency of the pulse, ω/p", grid: { show: false },
+            ...(plane.isRecord ? { splits: () => ticks(...plane.x), filter: (_, all) => all, values: (_, all) => all.map(String) } : {}),
           }),
           axis({
-            size: 52, label: plane.isRecord ? "Peak, PGA/(g tan α)" : "Amplitude, a/(g tan α)", grid: { show: false },
-            splits: () => ticks(...plane.y), values: (_, all) => all.map(String),
+            size: 36, label: plane.isRecord ? "Peak, PGA/(g tan α)" : "Amplitude, a/(g tan α)", grid: { show: false },
+            splits: () => ticks(...plane.y), filter: (_, all) => all, values: (_, all) => all.map(String),
           }),
         ],
         series: [{}, { paths: () => null, points: { show: false } }],

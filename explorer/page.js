@@ -3,8 +3,9 @@
 
 const DATA = JSON.parse(byId("data").textContent);
 const ENGINE = URL.createObjectURL(new Blob([...document.querySelectorAll("script.engine")].map((script) => script.textContent), { type: "text/javascript" }));
-const NAMES = [["Column", "The column"], ["Vase: mass fixed to it", "The vase"], ["Frame: mass carried freely", "The frame"]];
-const PORTAL = ["Frame: cap beam fixed", "The frame"];
+const CASES = DATA.cases.map((each) => encode({ ...DEFAULTS, ...each.state }));
+const NAMES = ["Column", "Vase: mass fixed to it", "Frame: mass carried freely"];
+const PORTAL = "Frame: cap beam fixed to both";
 
 const files = new Map();
 let state = { ...DEFAULTS };
@@ -19,7 +20,7 @@ const round = (number, digits = 3) => {
 // The workers ------------------------------------------------------------------------------------
 
 let quick = new Worker(ENGINE), slow = null;
-let isBusy = false, waits = false, survey = 0, mapKey = "", isMapDone = false, later = 0;
+let isBusy = false, waits = false, survey = 0, mapKey = "", isMapDone = false;
 
 /** Ask for the histories of the state; while one is computed, only the last question waits. */
 function ask() {
@@ -43,21 +44,18 @@ quick.onmessage = ({ data }) => {
   }
 };
 
-/** Start minima and spectrum anew, once the state has rested for a moment. */
+/** Start minima and spectrum anew; the spectrum only when it changes. */
 function askSurvey() {
-  clearTimeout(later);
-  later = setTimeout(() => {
-    const file = files.get(state.record), key = planeKey(state, file);
-    const needsSpectrum = key !== mapKey || !isMapDone;
-    if (needsSpectrum) isMapDone = false;
-    mapKey = key;
-    slow?.terminate();
-    slow = new Worker(ENGINE);
-    slow.onmessage = hear;
-    survey += 1;
-    if (needsSpectrum) progress(0);
-    slow.postMessage({ id: survey, task: "survey", state, file, needsSpectrum });
-  }, 150);
+  const file = files.get(state.record), key = planeKey(state, file);
+  const needsSpectrum = key !== mapKey || !isMapDone;
+  isMapDone = !needsSpectrum;
+  mapKey = key;
+  slow?.terminate();
+  slow = new Worker(ENGINE);
+  slow.onmessage = hear;
+  survey += 1;
+  progress(needsSpectrum ? 0 : 1);
+  slow.postMessage({ id: survey, task: "survey", state, file, needsSpectrum });
 }
 
 function hear({ data }) {
@@ -113,12 +111,12 @@ function receive(answer) {
   byId("ground").setAttribute("aria-label", `Ground acceleration over time, peak ${round(answer.peak)} g`);
   scene.outcomes(structures);
   table(structures);
-  byId("verdict").innerHTML = structures.map((of, k) => `${(k === 2 && state.cap === "fixed" ? PORTAL : NAMES[k])[1]} <span class="${word(of)}-word">${outcome(of)}</span>`).join(", ").replaceAll(", The", ", the") + ".";
+  byId("verdict").innerHTML = structures.map((of, k) => `${["Column", "vase", "frame"][k]} <span class="${word(of)}-word">${outcome(of)}</span>`).join(", ");
   show(Math.min(time, until));
   document.documentElement.dataset.shown = encode(state);
 }
 
-const titles = () => [NAMES[0][0], NAMES[1][0], state.cap === "fixed" ? PORTAL[0] : NAMES[2][0]];
+const titles = () => [NAMES[0], NAMES[1], state.cap === "fixed" ? PORTAL : NAMES[2]];
 const word = (of) => (of.overturned ? "overturns" : "survives");
 const outcome = (of) => (of.overturned ? "overturns" : of.moved ? "survives" : "does not uplift");
 
@@ -227,23 +225,41 @@ function change(patch, isFinal) {
   return null;
 }
 
-let address = 0;
+let isUpdating = false, rested = 0;
+
+/** Show the controls of the state at once, and the rest with the next picture of the screen. */
 function update() {
+  document.documentElement.dataset.spectrum = "computing";
   controls.show(state);
-  scene.build(state);
-  if (found) scene.outcomes(found.structures);
-  const plane = planeOf(state, files.get(state.record));
-  spectrumChart.frame(plane);
-  byId("spectrum").setAttribute("aria-label", `Overturning spectrum of the frame; this case is at ${round(plane.here.x)} and ${round(plane.here.y)}`);
-  byId("map-title").textContent = `Overturning spectrum of the frame, ${state.shape === "record" ? files.get(state.record).title : "this pulse"}`;
-  for (const cell of document.querySelectorAll('[id^="minimum"]')) cell.classList.add("pending");
-  const same = DATA.cases.find((each) => encode({ ...DEFAULTS, ...each.state }) === encode(state));
-  byId("note").textContent = same ? same.note : "";
-  [...byId("cases").children].forEach((button, k) => button.setAttribute("aria-pressed", String(DATA.cases[k] === same)));
-  byId("python").textContent = inPython(state);
-  clearTimeout(address);
-  address = setTimeout(() => history.replaceState(null, "", `#${encode(state)}`), 250);
+  if (!isUpdating) requestAnimationFrame(redraw);
+  isUpdating = true;
+  clearTimeout(rested);
+  rested = setTimeout(settle, 250);
+}
+
+function redraw() {
+  const began = performance.now(), plane = planeOf(state, files.get(state.record));
+  isUpdating = false;
   ask();
+  scene.build(state);
+  if (found) {
+    scene.outcomes(found.structures);
+    show(time);
+  }
+  spectrumChart.frame(plane);
+  const here = encode(state), same = CASES.indexOf(here);
+  byId("note").textContent = same >= 0 ? DATA.cases[same].note : "";
+  [...byId("cases").children].forEach((button, k) => button.setAttribute("aria-pressed", String(k === same)));
+  for (const cell of document.querySelectorAll('[id^="minimum"]')) cell.classList.add("pending");
+  performance.measure("frame", { start: began });
+}
+
+/** When the state has rested for a moment: its address, its Python, its minima and its spectrum. */
+function settle() {
+  const { here } = planeOf(state, files.get(state.record));
+  byId("spectrum").setAttribute("aria-label", `Overturning spectrum of the frame; this case is at ${round(here.x)} and ${round(here.y)}`);
+  byId("python").textContent = inPython(state);
+  history.replaceState(null, "", `#${encode(state)}`);
   askSurvey();
 }
 

@@ -18,8 +18,8 @@ class Scene {
 
   /** Build the bodies of a state at rest. */
   build(state) {
-    const { b, h, L } = state, depth = CAP_DEPTH * h, beam = L / 2 + b, margin = 1.25 * h; // half widths
-    const vaseHalf = Math.max(b, beam / 2), top = 2 * Math.hypot(b, h) + depth + 0.15 * h, below = 0.72 * h;
+    const { b, h, L } = state, depth = CAP_DEPTH * h, beam = L / 2 + b, margin = 0.95 * h; // half widths
+    const vaseHalf = Math.max(b, beam / 2), top = 2 * Math.hypot(b, h) + depth + 0.15 * h, below = 0.62 * h;
     const centres = [margin + b, 0, 0];
     centres[1] = centres[0] + b + margin + vaseHalf;
     centres[2] = centres[1] + vaseHalf + margin + beam;
@@ -32,7 +32,8 @@ class Scene {
     this.moving = drawn("g", {}, this.svg);
     const soil = drawn("g", { class: "soil" }, this.moving), reach = 2 * width;
     drawn("rect", { x: -reach, y: 0, width: 5 * reach, height: 0.2 * h }, soil);
-    for (let x = -reach; x < 2 * reach; x += 0.28 * h) drawn("path", { d: `M${x} ${0.2 * h}l${0.16 * h} ${-0.2 * h}` }, soil);
+    const hatch = Array.from({ length: Math.min(400, Math.ceil((3 * reach) / (0.28 * h))) }, (_, k) => `M${-reach + 0.28 * h * k} ${0.2 * h}l${0.16 * h} ${-0.2 * h}`);
+    drawn("path", { d: hatch.join("") }, soil);
     drawn("path", { class: "surface", d: `M${-reach} 0H${3 * reach}` }, soil);
     this.arrow = drawn("path", { class: "arrow" }, this.svg);
     Object.assign(this, { h, middle: width / 2, fixed: state.cap === "fixed", span: L, b });
@@ -79,7 +80,8 @@ class Scene {
       this.cap.setAttribute("transform", `translate(${u} ${-v})`);
     }
     this.moving.setAttribute("transform", `translate(${displacement} 0)`);
-    const length = 2.2 * this.h * acceleration, y = 0.46 * this.h, head = Math.sign(length) * Math.min(0.22 * this.h, Math.abs(length));
-    this.arrow.setAttribute("d", Math.abs(acceleration) < 0.005 ? "" : `M${this.middle} ${y}h${length}m${-head} ${-0.09 * this.h}l${head} ${0.09 * this.h}l${-head} ${0.09 * this.h}`);
+    const length = 2.2 * this.h * acceleration, y = 0.42 * this.h;
+    const head = Math.sign(length) * Math.min(0.2 * this.h, Math.abs(length)), aside = 0.45 * Math.abs(head);
+    this.arrow.setAttribute("d", Math.abs(acceleration) < 0.005 ? "" : `M${this.middle} ${y}h${length}m${-head} ${-aside}l${head} ${aside}l${-head} ${aside}`);
   }
 }

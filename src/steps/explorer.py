@@ -28,7 +28,6 @@ UPLOT = "uplot/uPlot.iife.min.js"
 ENGINE = ("structures.js", "motions.js", "solver.js", "worker.js")
 """The scripts that the page's workers run, too."""
 SCRIPTS = ("records.js", "state.js", "scene.js", "charts.js", "controls.js", "page.js")
-SOURCES = (*STYLES, UPLOT, "uplot/LICENSE", *ENGINE, *SCRIPTS, "page.html", "cases.yaml")
 
 DEFAULTS = {"r": None, "cap": "free", "eq": "exact", "x": 1.0, "start": "smooth"}
 """Of the fields that a named case may leave out, as in state.js."""
@@ -137,7 +136,8 @@ def page(folder: Path, records: Mapping[str, Record]) -> str:
 
 
 def work(job: Any) -> None:
-    records = {Path(path).stem: read_record(path) for path in job.input.records}
+    path = Path(job.input.record)
+    records = {path.stem: read_record(path)}
     text = page(Path("explorer"), records)
     Path(job.output[0]).write_text(text, encoding="utf-8", newline="\n")
     print(f"{len(text.encode()) / 1e3:.0f} kB")

@@ -584,3 +584,20 @@ rule animation:
         "The column topples, the frame stands: the moving picture"
     script:
         "animation.py"
+
+
+rule explorer:
+    input:
+        code("src/steps/explorer.py"),
+        sorted(str(path) for path in Path("explorer").rglob("*") if path.is_file()),
+        record=RECORDS["el_centro_1940_NS"],
+    output:
+        "results/explorer.html",
+    log:
+        "results/logs/explorer.log",
+    benchmark:
+        "results/benchmarks/explorer.tsv"
+    message:
+        "The page to play with"
+    script:
+        "explorer.py"

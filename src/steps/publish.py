@@ -12,6 +12,7 @@ from replication.publishing import machine, publish
 
 PICTURES = ("vase", "heavier", "peak_maps", "spectra", "structures")
 MOVING = "animation.gif"
+PAGE = "explorer.html"
 TABLES = (
     "allen_errors",
     "allen_overturning",
@@ -53,7 +54,8 @@ def main() -> None:
     publish(TABLES, STUDY_TABLES)
     for name in PICTURES:
         shutil.copyfile(f"figures/{name}.svg", docs / f"{name}.svg")
-    shutil.copyfile(results / MOVING, docs / MOVING)
+    for name in (MOVING, PAGE):
+        shutil.copyfile(results / name, docs / name)
     shutil.copyfile(results / "costs.csv", docs / "costs.csv")
     (docs / "machine.txt").write_text(machine() + "\n", encoding="utf-8")
 

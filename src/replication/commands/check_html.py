@@ -11,7 +11,8 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterable
+from collections.abc import AsyncIterator, Iterable
+from contextlib import asynccontextmanager
 from pathlib import Path
 
 from tornado.websocket import WebSocketClientConnection, websocket_connect
@@ -112,6 +113,8 @@ class Tab:
             self.loaded = True
 
     async def open(self, url: str) -> None:
+        """Open a page in a new tab, which takes the place of the one before."""
+        self.session, self.loaded = {}, False
         target = (await self.ask("Target.createTarget", url="about:blank"))["targetId"]
         attached = await self.ask("Target.attachToTarget", targetId=target, flatten=True)
         self.session = {"sessionId": attached["sessionId"]}
@@ -180,10 +183,9 @@ async def look(tab: Tab, page: Path, captions: dict[str, dict], pictures: Path |
     return faults
 
 
-async def inspect(
-    browser: str, page: Path, captions: dict[str, dict], pictures: Path | None = None
-) -> list[str]:
-    """Open the page in a browser and return every fault, errors and requests included."""
+@asynccontextmanager
+async def opened(browser: str) -> AsyncIterator[Tab]:
+    """Start a headless browser without a network, and yield a tab of it."""
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
         process = subprocess.Popen(
             [browser, *OPTIONS, NO_NETWORK, f"--user-data-dir={profile}", "about:blank"],
@@ -196,11 +198,19 @@ async def inspect(
                 f"ws://127.0.0.1:{port}{path}", max_message_size=LARGEST_MESSAGE
             )
             tab = Tab(socket)
-            faults = await look(tab, page, captions, pictures)
+            yield tab
             await tab.leave()
         finally:
             process.terminate()
             process.wait()
+
+
+async def inspect(
+    browser: str, page: Path, captions: dict[str, dict], pictures: Path | None = None
+) -> list[str]:
+    """Open the page in a browser and return every fault, errors and requests included."""
+    async with opened(browser) as tab:
+        faults = await look(tab, page, captions, pictures)
     faults += [f"asks the network for {url}" for url in dict.fromkeys(tab.requests)]
     return faults + [f"error in the console: {error}" for error in dict.fromkeys(tab.errors)]
 

@@ -1,0 +1,86 @@
+"""The page to play with, put together anew and opened in a headless browser."""
+
+import asyncio
+from pathlib import Path
+
+import pytest
+
+from replication.commands.check_html import BROWSERS, find_browser, opened
+from steps.explorer import page
+from topheavy import read_record
+
+ROOT = Path(__file__).parents[2]
+SETTLED = """new Promise((resolve, reject) => {
+  const deadline = Date.now() + 120000;
+  const look = () => {
+    const { shown, spectrum } = document.documentElement.dataset;
+    if (shown === encode(state) && spectrum === "done" && !document.querySelector(".pending")) resolve(true);
+    else if (Date.now() > deadline) reject(new Error("the page is not settled after two minutes"));
+    else setTimeout(look, 30);
+  };
+  setTimeout(look, 50);
+})"""
+
+
+class Browser:
+    """A tab that is driven line by line."""
+
+    def __init__(self, runner, tab, folder):
+        self.runner, self.tab, self.folder = runner, tab, folder
+
+    def ask(self, method, **params):
+        return self.runner.run(self.tab.ask(method, **params))
+
+    def do(self, script, *values):
+        return self.runner.run(self.tab.do(script, *values))
+
+    def open(self, address="", *, width=1440, height=900, dark=False, settled=True):
+        """Open the page at an address, at a size and in a scheme of colours."""
+        self.tab.errors.clear()
+        self.tab.requests.clear()
+        self.runner.run(self.tab.open("about:blank"))
+        self.ask(
+            "Emulation.setDeviceMetricsOverride",
+            width=width,
+            height=height,
+            deviceScaleFactor=1,
+            mobile=False,
+        )
+        scheme = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
+        self.ask("Emulation.setEmulatedMedia", features=[scheme])
+        self.tab.loaded = False
+        url = (self.folder / "explorer.html").as_uri() + (f"#{address}" if address else "")
+        self.ask("Page.navigate", url=url)
+        while not self.tab.loaded:
+            self.runner.run(self.tab.next_message())
+        if settled:
+            self.settle()
+
+    def settle(self):
+        """Wait until histories, minima and spectrum are those of the state."""
+        self.do(SETTLED)
+
+
+@pytest.fixture(scope="session")
+def records():
+    path = ROOT / "data" / "records" / "el_centro_1940_NS.AT2"
+    return {path.stem: read_record(path)}
+
+
+@pytest.fixture(scope="session")
+def text(records):
+    return page(ROOT / "explorer", records)
+
+
+@pytest.fixture(scope="module")
+def browser(text, tmp_path_factory):
+    found = find_browser()
+    if found is None:
+        pytest.skip(f"none of {', '.join(BROWSERS)} is on the PATH")
+    folder = tmp_path_factory.mktemp("explorer")
+    (folder / "explorer.html").write_text(text, encoding="utf-8", newline="\n")
+    with asyncio.Runner() as runner:
+        context = opened(found)
+        tab = runner.run(context.__aenter__())
+        yield Browser(runner, tab, folder)
+        runner.run(context.__aexit__(None, None, None))

@@ -1,0 +1,341 @@
+"""The page as its users meet it: network, keyboard, contrast, sizes, bad input, speed."""
+
+import json
+import re
+from statistics import median
+
+import pytest
+
+from steps.explorer import checked_cases, page
+
+WIDTHS = (390, 820, 1440)
+LONGEST = 16.0  # ms, of a handler on the main thread
+
+# Every element with words of its own that is displayed: its words, colours and size.
+WORDS = """[...document.querySelectorAll("body *")].flatMap(element => {
+  const own = [...element.childNodes].some(node => node.nodeType === 3 && node.textContent.trim());
+  const field = element.matches("input[type=text], select");
+  if (!(own || field) || element.closest("svg, script, style, .hidden, optgroup")) return [];
+  if (!element.checkVisibility() || !element.getClientRects().length) return [];
+  const style = getComputedStyle(element);
+  let behind = element;
+  while (behind && /rgba\\(.*, 0\\)|transparent/.test(getComputedStyle(behind).backgroundColor))
+    behind = behind.parentElement;
+  const paper = getComputedStyle(behind ?? document.documentElement).backgroundColor;
+  return [[element.textContent.trim().slice(0, 40), style.color, paper, parseFloat(style.fontSize)]];
+})"""
+
+PRESSABLE = """[...document.querySelectorAll(
+  "button, input:not([type=radio]), input[type=radio]:checked, select, summary, pre, .scroll")]
+  .filter(element => element.checkVisibility() && !element.hidden)
+  .map(element => element.id || element.textContent.trim().slice(0, 20) || element.className)"""
+
+FOCUSED = """(() => {
+  const at = document.activeElement, style = getComputedStyle(at);
+  return [at.id || at.textContent.trim().slice(0, 20) || at.className,
+    at === document.body, style.outlineStyle !== "none" && parseFloat(style.outlineWidth) >= 2];
+})()"""
+
+DRAG = """new Promise(resolve => {
+  performance.clearMeasures();
+  const slider = document.getElementById({0});
+  let count = 0;
+  const move = () => {
+    slider.value = 300 + (count * 37) % 400;
+    slider.dispatchEvent(new Event("input", {bubbles: true}));
+    if (++count < 90) requestAnimationFrame(move);
+    else setTimeout(() => resolve(performance.getEntriesByType("measure").map(
+      entry => [entry.name, entry.duration])), 500);
+  };
+  requestAnimationFrame(move);
+})"""
+
+TYPE = """(() => {
+  const field = document.getElementById({0});
+  field.value = {1};
+  field.dispatchEvent(new Event("input", {bubbles: true}));
+  return document.getElementById({0} + "-error").textContent;
+})()"""
+
+
+def brightness(colour):
+    """Relative luminance of a CSS colour (WCAG 2.2)."""
+    parts = [float(part) / 255.0 for part in re.findall(r"[\d.]+", colour)[:3]]
+    linear = [
+        part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts
+    ]
+    return sum(w * part for w, part in zip((0.2126, 0.7152, 0.0722), linear, strict=True))
+
+
+def contrast(one, other):
+    low, high = sorted((brightness(one), brightness(other)))
+    return (high + 0.05) / (low + 0.05)
+
+
+def state_of(browser):
+    return browser.do("encode(state)")
+
+
+def test_same_bytes_twice(text, records, request):
+    assert page(request.config.rootpath / "explorer", records) == text
+    assert text.encode() == text.encode("utf-8")
+    assert "{{" not in re.sub(r"\$\{\{", "", text.split("<script>")[0])
+
+
+def test_promise_that_the_library_does_not_keep_stops_the_build():
+    state = {"b": 0.5, "h": 3.0, "g": 1.0, "L": 5.0, "shape": "one-cosine", "a": 0.31, "T": 1.5}
+    case = {"title": "A", "note": "", "state": state, "outcomes": ["survives"] * 3}
+    with pytest.raises(ValueError, match=r"'A' promises \['survives'.* computes \['overturns'"):
+        checked_cases([case], {})
+
+
+def test_nothing_is_asked_of_the_network_and_nothing_fails(browser):
+    for address in ("", "shape=record&record=el_centro_1940_NS&x=2", "shape=harmonic&start=abrupt"):
+        browser.open(address)
+        browser.do("new Promise(resolve => setTimeout(resolve, 300))")
+        assert browser.tab.requests == []
+        assert browser.tab.errors == []
+
+
+def test_network_is_refused_by_the_page_itself(browser):
+    browser.open()
+    script = "fetch('https://example.org/').then(() => 'sent', error => error.name)"
+    assert browser.do(script) == "TypeError"
+    assert any("Content Security Policy" in told for told in browser.tab.errors)
+    assert browser.tab.requests == []
+
+
+@pytest.mark.parametrize("address", ["", "shape=harmonic&r=0.9"])
+def test_every_control_is_reached_by_the_keyboard_and_shows_it(browser, address):
+    browser.open(address)
+    browser.do("document.querySelectorAll('details').forEach(each => each.open = true)")
+    expected = set(browser.do(PRESSABLE))
+    assert len(expected) > 20
+    browser.do("document.activeElement.blur(), window.focus()")
+    reached = {}
+    for _ in range(80):
+        for kind in ("rawKeyDown", "keyUp"):
+            browser.ask(
+                "Input.dispatchKeyEvent", type=kind, key="Tab", code="Tab", windowsVirtualKeyCode=9
+            )
+        name, at_end, is_outlined = browser.do(FOCUSED)
+        if at_end:
+            break
+        reached[name] = is_outlined
+    assert expected - set(reached) == set()
+    assert [name for name, is_outlined in reached.items() if not is_outlined] == []
+
+
+def test_space_pauses_and_arrows_move_a_slider(browser):
+    browser.open()
+    browser.do("pause(), show(1), document.activeElement.blur()")
+    for key, code in ((" ", "Space"), (" ", "Space"), (".", "Period")):
+        browser.ask("Input.dispatchKeyEvent", type="keyDown", key=key, code=code, text=key)
+        browser.ask("Input.dispatchKeyEvent", type="keyUp", key=key, code=code)
+    assert browser.do("isPlaying") is False
+    assert browser.do("time") > 1.01
+    before = browser.do("document.getElementById('a').value")
+    browser.do("document.getElementById('a-slider').focus()")
+    browser.ask(
+        "Input.dispatchKeyEvent", type="rawKeyDown", key="ArrowRight", windowsVirtualKeyCode=39
+    )
+    assert browser.do("document.getElementById('a').value") != before
+
+
+def test_every_control_has_a_name(browser):
+    browser.open("shape=harmonic&r=0.9")
+    browser.ask("Accessibility.enable")
+    nodes = browser.ask("Accessibility.getFullAXTree")["nodes"]
+    roles = {"button", "slider", "textbox", "combobox", "radio", "DisclosureTriangle", "image"}
+    controls = [node for node in nodes if node["role"]["value"] in roles and not node["ignored"]]
+    assert len(controls) > 25
+    unnamed = [node["role"] for node in controls if not node["name"].get("value", "").strip()]
+    assert unnamed == []
+
+
+@pytest.mark.parametrize("dark", [False, True], ids=["light", "dark"])
+def test_words_have_the_contrast_of_wcag_aa(browser, dark):
+    browser.open(dark=dark)
+    browser.do("document.querySelectorAll('details').forEach(each => each.open = true)")
+    browser.do(TYPE, "b", "wide")
+    found = browser.do(WORDS)
+    assert len(found) > 60
+    poor = [
+        (words, colour, paper, round(contrast(colour, paper), 2))
+        for words, colour, paper, size in found
+        if contrast(colour, paper) < 4.5
+    ]
+    assert poor == []
+    tokens = browser.do(
+        "['quiet', 'ink', 'overturns', 'survives', 'paper', 'band', 'line'].map(colour)"
+    )
+    rgb = [
+        "rgb({}, {}, {})".format(*(int(token[k : k + 2], 16) for k in (1, 3, 5)))
+        for token in tokens
+    ]
+    quiet, ink, overturns, survives, paper, band, _ = rgb
+    assert min(contrast(one, paper) for one in (quiet, ink)) >= 4.5  # words of the charts
+    assert (
+        min(contrast(one, other) for one in (overturns, survives) for other in (paper, band)) >= 3
+    )
+
+
+@pytest.mark.parametrize("width", WIDTHS)
+def test_nothing_is_wider_than_the_screen(browser, width):
+    browser.open("shape=harmonic&r=0.9", width=width, height=844)
+    assert browser.do("document.documentElement.scrollWidth") <= width
+    beyond = """[...document.querySelectorAll("button, input, select, svg, .chart, p")].filter(element =>
+      element.checkVisibility() && !element.closest("nav") && !element.closest(".hidden")
+      && element.getBoundingClientRect().right > innerWidth + 1).map(element => element.id)"""
+    assert browser.do(beyond) == []
+
+
+def test_laptop_shows_everything_on_one_screen(browser):
+    browser.open(width=1440, height=900)
+    bottom = "document.getElementById('rows').getBoundingClientRect().bottom"
+    assert browser.do(bottom) <= 900
+
+
+@pytest.mark.parametrize("address", ["", "shape=record&record=el_centro_1940_NS&x=2"])
+def test_handlers_are_short_while_a_slider_is_dragged(browser, address):
+    browser.open(address)
+    rounds = []
+    for _ in range(5):  # other work of this machine can lengthen a round, and never shortens one
+        found = browser.do(DRAG, "h-slider")
+        of = {
+            kind: sorted(duration for name, duration in found if name == kind)
+            for kind in ("handler", "frame", "drawing")
+        }
+        assert len(of["handler"]) == 90
+        assert min(map(len, of.values())) > 3
+        # The longest twentieth is left out: it is when the machine gave the time to another.
+        rounds.append((of["handler"][85], median(of["frame"]), median(of["drawing"])))
+        if max(rounds[-1]) < LONGEST:
+            return
+    assert min(map(max, rounds)) < LONGEST, rounds
+
+
+BAD_INPUT = [
+    ("b", "wide", "“wide” is not a number; expected 0.001 to 1000 m"),
+    ("g", "-1", "-1 is out of range; expected 0 to ∞"),
+    ("T", "0", "0 is out of range; expected 0.01 to 100 s"),
+    ("L", "0.9", "the columns would touch; expected a span above their width, 1 m"),
+    ("b", "4", "√r of the frame is"),
+]
+
+
+@pytest.mark.parametrize(("field", "typed", "said"), BAD_INPUT)
+def test_bad_input_is_told_at_its_field_and_the_picture_stays(browser, field, typed, said):
+    browser.open("L=9")
+    before, verdict = (
+        state_of(browser),
+        browser.do("document.getElementById('verdict').textContent"),
+    )
+    bodies = browser.do("document.getElementById('scene').innerHTML.length")
+    assert said in browser.do(TYPE, field, typed)
+    browser.do("new Promise(resolve => setTimeout(resolve, 400))")
+    assert state_of(browser) == before
+    assert browser.do("document.getElementById('verdict').textContent") == verdict
+    assert abs(browser.do("document.getElementById('scene').innerHTML.length") - bodies) < 500
+    assert browser.do("document.getElementById({0}).getAttribute('aria-invalid')", field) == "true"
+    good = browser.do("shown(state[{0}] * 1.01)", field)
+    assert browser.do(TYPE, field, good) == ""
+    assert state_of(browser) != before
+
+
+def test_address_holds_the_state(browser):
+    given = "b=0.4&h=2.4&g=inf&L=4&r=0.9&cap=fixed&eq=linearised&shape=one-sine&a=0.55&T=0.9"
+    browser.open(given)
+    assert state_of(browser) == given
+    assert browser.do("location.hash") == f"#{given}"
+    assert browser.do("document.getElementById('g').value") == "∞"
+    browser.do("location.hash = 'shape=one-sine&a=0.2'")
+    browser.settle()
+    assert "a=0.2" in state_of(browser)
+
+
+def test_bad_address_is_told_at_its_fields(browser):
+    browser.open("b=x&shape=square&record=gone&h=2")
+    errors = "['b', 'shape'].map(key => document.getElementById(`${key}-error`).textContent)"
+    b, shape = browser.do(errors)
+    assert b.startswith("The address: “x” is not a number")
+    assert "“square” is not known; expected one-sine" in shape
+    assert "h=2&" in state_of(browser)
+    browser.open("shape=record&record=gone")
+    assert "the record “gone” is not in this page" in browser.do(errors)[1]
+
+
+DROP = """(() => {
+  const data = new DataTransfer();
+  data.items.add(new File([{1}], {0}));
+  dispatchEvent(new DragEvent("drop", {dataTransfer: data, cancelable: true}));
+})()"""
+
+
+def test_record_is_dropped_in_and_a_bad_one_is_refused(browser):
+    browser.open()
+    lines = "\n".join(f"{k / 50:.2f},{0.4 * (-1) ** (k // 25)}" for k in range(150))
+    browser.do(DROP, "mine.csv", f"time (s),acceleration (g)\n{lines}\n")
+    browser.do("new Promise(resolve => setTimeout(resolve, 300))")
+    browser.settle()
+    after = state_of(browser)
+    assert "shape=record&x=1&record=mine" in after.replace("&start=smooth", "")
+    assert browser.do("found.peak") == pytest.approx(0.4)
+    browser.do(DROP, "bad.csv", "t,a\n1,2\n")
+    browser.do("new Promise(resolve => setTimeout(resolve, 300))")
+    assert "line 1 is" in browser.do("document.getElementById('record-error').textContent")
+    assert state_of(browser) == after
+    assert browser.tab.requests == []
+
+
+def test_press_in_the_spectrum_goes_there(browser):
+    browser.open()
+    place = browser.do(
+        """(() => {
+          const box = spectrumChart.chart.over.getBoundingClientRect();
+          return [box.left + box.width / 2, box.top + box.height / 2];
+        })()"""
+    )
+    for kind in ("mousePressed", "mouseReleased"):
+        browser.ask(
+            "Input.dispatchMouseEvent",
+            type=kind,
+            x=place[0],
+            y=place[1],
+            button="left",
+            clickCount=1,
+        )
+    browser.settle()
+    here = browser.do("planeOf(state).here")
+    assert here["x"] == pytest.approx(4.25, rel=0.01)
+    assert here["y"] == pytest.approx((0.93 * 12.0) ** 0.5, rel=0.02)
+
+
+def test_structures_meet_and_none_is_in_the_ground(browser):
+    """The cap beam rests on its columns at every rotation, and nothing that falls sinks in."""
+    browser.open("b=0.6&h=3&g=1&L=5&a=0.9")
+    browser.do("pause()")
+    scale = browser.do(
+        "scene.svg.getBoundingClientRect().height / scene.svg.viewBox.baseVal.height"
+    )
+    for angle in (-1.5, -0.6, -0.1, 0.0, 0.15, 0.7, 1.5):
+        browser.do("scene.pose([{0}, {0}, {0}], 0, 0)", angle)
+        boxes = browser.do(
+            """[...document.querySelectorAll("#scene .column, #scene .cap")].map(each => {
+              const {top, bottom} = each.getBoundingClientRect();
+              return [each.getAttribute("class"), top, bottom];
+            })"""
+        )
+        ground = browser.do("document.querySelector('.surface').getBoundingClientRect().bottom")
+        assert max(bottom for _, _, bottom in boxes) <= ground + 0.1 * scale + 2
+        cap, columns = boxes[-1], boxes[-3:-1]
+        assert cap[0] == "cap"
+        assert columns[0][1] == pytest.approx(columns[1][1], abs=0.5)
+        assert cap[2] == pytest.approx(columns[0][1], abs=2.5)
+
+
+def test_data_of_the_page_are_those_of_its_sources(text, records):
+    data = json.loads(text.split('id="data">')[1].split("</script>")[0])
+    (record,) = data["records"]
+    assert record["samples"] == records["el_centro_1940_NS"].acceleration.tolist()
+    assert len(data["cases"]) == 6
