@@ -61,9 +61,10 @@ function askSurvey() {
 function hear({ data }) {
   if (data.id !== survey) return;
   if (data.error) controls.tell("shape", data.error);
+  if ("isSensitive" in data) sensitive(data.index, data.isSensitive);
   if ("minimum" in data) {
     const cell = byId(`minimum${data.index}`);
-    const most = 30 * found.structures[data.index].uplift;
+    const most = 30 * upliftAcceleration(structuresOf(state)[data.index]);
     cell.textContent = data.minimum === Infinity ? `> ${round(most)}` : round(data.minimum, 4);
     cell.dataset.value = data.minimum;
     cell.classList.remove("pending");
@@ -74,6 +75,12 @@ function hear({ data }) {
     isMapDone = data.share === 1;
     progress(data.share);
   }
+}
+
+/** Mark the numbers of a motion that nobody can compute to the digits that are shown. */
+function sensitive(index, is) {
+  byId("rows").children[index].dataset.sensitive = is;
+  byId("sensitive").hidden = !document.querySelector('[data-sensitive="true"]');
 }
 
 function progress(share) {
@@ -120,16 +127,15 @@ const titles = () => [NAMES[0], NAMES[1], state.cap === "fixed" ? PORTAL : NAMES
 const word = (of) => (of.overturned ? "overturns" : "survives");
 const outcome = (of) => (of.overturned ? "overturns" : of.moved ? "survives" : "does not uplift");
 
+for (const k of [0, 1, 2]) {
+  const row = made("tr", {}, made("th", { scope: "row" }));
+  for (let i = 0; i < 9; i++) row.append(made("td"));
+  row.children[3].id = `minimum${k}`;
+  byId("rows").append(row);
+}
+
 function table(structures) {
   const rows = byId("rows");
-  if (!rows.children.length) {
-    structures.forEach((_, k) => {
-      const row = made("tr", {}, made("th", { scope: "row" }));
-      for (let i = 0; i < 9; i++) row.append(made("td"));
-      row.children[3].id = `minimum${k}`;
-      rows.append(row);
-    });
-  }
   structures.forEach((of, k) => {
     const numbers = [
       titles()[k].split(":")[0], outcome(of), of.overturned ? "–" : round(of.peak), null, round(of.uplift, 4), round((of.alpha * 180) / Math.PI, 4),
@@ -251,6 +257,7 @@ function redraw() {
   byId("note").textContent = same >= 0 ? DATA.cases[same].note : "";
   [...byId("cases").children].forEach((button, k) => button.setAttribute("aria-pressed", String(k === same)));
   for (const cell of document.querySelectorAll('[id^="minimum"]')) cell.classList.add("pending");
+  [...byId("rows").children].forEach((_, k) => sensitive(k, false));
   performance.measure("frame", { start: began });
 }
 

@@ -97,6 +97,13 @@ function minimumOf(state, file, block) {
   return minimumOverturning(block, (a) => rock(block, motionOf(state, file, a), startOf(state, block, a)).overturned);
 }
 
+/** Whether a relative change of the motion by 10⁻⁹ changes the outcome, or the peak by α/1000. */
+function isSensitive(state, file, block) {
+  const a = accelerationOf(state, file);
+  const [one, ...others] = [1, 1 - 1e-9, 1 + 1e-9].map((factor) => rock(block, motionOf(state, file, a * factor), startOf(state, block, a * factor)));
+  return others.some((other) => other.overturned !== one.overturned || Math.abs(other.peak - one.peak) > 1e-3 * block.alpha);
+}
+
 /** The plane of the spectrum: what its axes are, their ranges, and where the state is in it.
 
     Pulses: ω over p of the column. Records: the size R of the column, all lengths in proportion. The
@@ -188,7 +195,9 @@ if (typeof window === "undefined" && typeof postMessage === "function") {
         postMessage({ id, ...histories(state, file) });
         return;
       }
-      structuresOf(state).forEach((block, index) => postMessage({ id, index, minimum: minimumOf(state, file, block) }));
+      const blocks = structuresOf(state);
+      blocks.forEach((block, index) => postMessage({ id, index, isSensitive: isSensitive(state, file, block) }));
+      blocks.forEach((block, index) => postMessage({ id, index, minimum: minimumOf(state, file, block) }));
       if (needsSpectrum) spectrum(state, file, (part) => postMessage({ id, ...part }));
     } catch (error) {
       postMessage({ id, error: error.message });

@@ -14,8 +14,9 @@ SETTLED = """new Promise((resolve, reject) => {
   const deadline = Date.now() + 120000;
   const look = () => {
     const { shown, spectrum } = document.documentElement.dataset;
-    if (shown === encode(state) && spectrum === "done" && !document.querySelector(".pending")) resolve(true);
-    else if (Date.now() > deadline) reject(new Error("the page is not settled after two minutes"));
+    const isDone = spectrum === "done" && !document.querySelector(".pending");
+    if (shown === encode(state) && isDone) resolve(true);
+    else if (Date.now() > deadline) reject(new Error("not settled after two minutes"));
     else setTimeout(look, 30);
   };
   setTimeout(look, 50);

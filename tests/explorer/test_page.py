@@ -11,7 +11,7 @@ from steps.explorer import checked_cases, page
 WIDTHS = (390, 820, 1440)
 LONGEST = 16.0  # ms, of a handler on the main thread
 
-# Every element with words of its own that is displayed: its words, colours and size.
+# Every element with words of its own that is displayed: its words and its two colours.
 WORDS = """[...document.querySelectorAll("body *")].flatMap(element => {
   const own = [...element.childNodes].some(node => node.nodeType === 3 && node.textContent.trim());
   const field = element.matches("input[type=text], select");
@@ -22,7 +22,7 @@ WORDS = """[...document.querySelectorAll("body *")].flatMap(element => {
   while (behind && /rgba\\(.*, 0\\)|transparent/.test(getComputedStyle(behind).backgroundColor))
     behind = behind.parentElement;
   const paper = getComputedStyle(behind ?? document.documentElement).backgroundColor;
-  return [[element.textContent.trim().slice(0, 40), style.color, paper, parseFloat(style.fontSize)]];
+  return [[element.textContent.trim().slice(0, 40), style.color, paper]];
 })"""
 
 PRESSABLE = """[...document.querySelectorAll(
@@ -162,7 +162,7 @@ def test_words_have_the_contrast_of_wcag_aa(browser, dark):
     assert len(found) > 60
     poor = [
         (words, colour, paper, round(contrast(colour, paper), 2))
-        for words, colour, paper, size in found
+        for words, colour, paper in found
         if contrast(colour, paper) < 4.5
     ]
     assert poor == []
@@ -184,8 +184,8 @@ def test_words_have_the_contrast_of_wcag_aa(browser, dark):
 def test_nothing_is_wider_than_the_screen(browser, width):
     browser.open("shape=harmonic&r=0.9", width=width, height=844)
     assert browser.do("document.documentElement.scrollWidth") <= width
-    beyond = """[...document.querySelectorAll("button, input, select, svg, .chart, p")].filter(element =>
-      element.checkVisibility() && !element.closest("nav") && !element.closest(".hidden")
+    beyond = """[...document.querySelectorAll("button, input, select, svg, .chart, p")].filter(
+      element => element.checkVisibility() && !element.closest("nav") && !element.closest(".hidden")
       && element.getBoundingClientRect().right > innerWidth + 1).map(element => element.id)"""
     assert browser.do(beyond) == []
 
