@@ -199,7 +199,10 @@ byId("toggle").addEventListener("click", () => {
     pause();
   } else play();
 });
-byId("start").addEventListener("click", () => seek(0));
+byId("start").addEventListener("click", () => {
+  show(0);
+  if (!isPlaying) play();
+});
 byId("back").addEventListener("click", () => moveBy(-STEP));
 byId("step").addEventListener("click", () => moveBy(STEP));
 byId("time").addEventListener("input", () => found && seek((Number(byId("time").value) / 1000) * found.times.at(-1)));

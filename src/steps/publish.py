@@ -9,6 +9,7 @@ import shutil
 from pathlib import Path
 
 from replication.publishing import machine, publish
+from steps.explorer_still import still
 
 PICTURES = ("vase", "heavier", "peak_maps", "spectra", "structures")
 MOVING = "animation.gif"
@@ -56,6 +57,7 @@ def main() -> None:
         shutil.copyfile(f"figures/{name}.svg", docs / f"{name}.svg")
     for name in (MOVING, PAGE):
         shutil.copyfile(results / name, docs / name)
+    still(docs / PAGE, docs / "explorer.png")
     shutil.copyfile(results / "costs.csv", docs / "costs.csv")
     (docs / "machine.txt").write_text(machine() + "\n", encoding="utf-8")
 
