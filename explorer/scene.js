@@ -66,6 +66,7 @@ class Scene {
   /** Show the rotations (rad), the ground displacement (m) and its acceleration over the largest. */
   pose(rotations, displacement, acceleration) {
     const [alone, fixed, framed] = rotations.map((theta, k) => Math.sign(theta) * Math.min(Math.abs(theta), this.lying[k]));
+    rotations.forEach((theta, k) => (this.groups[k].style.opacity = Math.abs(theta) < this.lying[k] ? 1 : 0.5)); // it lies
     const turn = (element, theta, pivot) =>
       element.setAttribute("transform", `rotate(${(theta * 180) / Math.PI} ${Math.sign(theta) * pivot} 0)`);
     turn(this.single, alone, this.b);

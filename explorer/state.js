@@ -5,7 +5,7 @@
 const FIELDS = {
   b: { label: "Half width b", unit: "m", slider: [0.05, 2], least: 0.001, most: 1000 },
   h: { label: "Half height h", unit: "m", slider: [0.2, 10], least: 0.001, most: 1000 },
-  g: { label: "Mass ratio γ", unit: "", slider: null, least: 0, most: Infinity,
+  g: { label: "Mass ratio γ (cap : columns)", unit: "", slider: null, least: 0, most: Infinity,
     hint: "mass of the cap beam over the mass of both columns; ∞ is allowed" },
   L: { label: "Span L of the frame", unit: "m", slider: [0.3, 20], least: 0.001, most: 1000, hint: "between the axes of the columns" },
   r: { label: "Own √r", unit: "", slider: [0, 1], least: 0, most: 1, linear: true },
@@ -22,6 +22,8 @@ const DEFAULTS = {
   b: 0.5, h: 3, g: 1, L: 5, r: null, cap: "free", eq: "exact", shape: "one-cosine", a: 0.31, T: 1.5,
   D: 12, start: "smooth", x: 1, record: "",
 };
+
+const MOST_PERIODS = 400; // of a steady sine, so that its spectrum takes minutes at most
 
 /** A number as it is typed: a decimal comma and ∞ are understood. NaN when it is none. */
 function typed(text) {
@@ -42,6 +44,9 @@ function fault(key, number, text) {
 function contradiction(state) {
   if (state.L <= 2 * state.b) {
     return { field: "L", message: `the columns would touch; expected a span above their width, ${shown(2 * state.b)} m` };
+  }
+  if (state.shape === "harmonic" && state.D > MOST_PERIODS * state.T) {
+    return { field: "D", message: `it has more than ${MOST_PERIODS} periods; expected at most ${shown(MOST_PERIODS * state.T)} s` };
   }
   try {
     structuresOf(state);
@@ -78,7 +83,7 @@ function decode(hash) {
   const wrong = contradiction(state);
   if (wrong) {
     faults[wrong.field] = `The address: ${wrong.message}`;
-    Object.assign(state, { b: DEFAULTS.b, h: DEFAULTS.h, L: DEFAULTS.L });
+    Object.assign(state, { b: DEFAULTS.b, h: DEFAULTS.h, L: DEFAULTS.L, D: DEFAULTS.D, T: DEFAULTS.T });
   }
   return { state, faults };
 }

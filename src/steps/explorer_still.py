@@ -5,7 +5,7 @@ from pathlib import Path
 
 from replication.commands.check_html import BROWSERS, Tab, find_browser, opened
 
-WIDTH, HEIGHT = 1440, 876
+WIDTH, HEIGHT = 1440, 900
 TIME = 2.6  # s: the first case, before anything has fallen
 SETTLED = """new Promise(resolve => {
   const look = () => {
