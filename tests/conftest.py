@@ -11,6 +11,8 @@ LONGEST_FIRST = (
     "test_reruns.py",
     "test_graph.py",
     "test_closing.py",
+    "test_page.py",
+    "test_solver.py",
     "test_endings.py",
     "test_trace.py",
     "test_check_html.py",
