@@ -49,9 +49,8 @@ class Controls {
     const text = made("input", { id: key, type: "text", inputmode: "decimal", "aria-describedby": `${key}-error` });
     const slider = made("input", { id: `${key}-slider`, type: "range", min: 0, max: SLIDER, step: 1, "aria-label": `${label}, slider` });
     const field = made("div", { class: "field", id: `${key}-field` },
-      made("label", { for: key }, label), text, made("span", { class: "unit" }, unit), slider,
+      made("label", { for: key }, label, ...(hint ? [made("small", {}, hint)] : [])), text, made("span", { class: "unit" }, unit), slider,
       made("p", { class: "error", id: `${key}-error`, role: "alert" }));
-    if (hint) text.title = hint;
     const type = (isFinal) => {
       const number = typed(text.value), message = fault(key, number, text.value);
       this.tell(key, message);

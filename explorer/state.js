@@ -5,9 +5,9 @@
 const FIELDS = {
   b: { label: "Half width b", unit: "m", slider: [0.05, 2], least: 0.001, most: 1000 },
   h: { label: "Half height h", unit: "m", slider: [0.2, 10], least: 0.001, most: 1000 },
-  g: { label: "Mass ratio γ (cap : columns)", unit: "", slider: null, least: 0, most: Infinity,
-    hint: "mass of the cap beam over the mass of both columns; ∞ is allowed" },
-  L: { label: "Span L of the frame", unit: "m", slider: [0.3, 20], least: 0.001, most: 1000, hint: "between the axes of the columns" },
+  g: { label: "Mass ratio γ", unit: "", slider: null, least: 0, most: Infinity,
+    hint: "cap beam over both columns, 0 to ∞" },
+  L: { label: "Span L of the frame", unit: "m", slider: [0.3, 20], least: 0.001, most: 1000, hint: "between the axes of its columns" },
   r: { label: "Own √r", unit: "", slider: [0, 1], least: 0, most: 1, linear: true },
   a: { label: "Amplitude", unit: "g", slider: [0.02, 5], least: 0, most: 20 },
   T: { label: "Period", unit: "s", slider: [0.1, 10], least: 0.01, most: 100 },
