@@ -1,6 +1,5 @@
 """Every number in the README's findings is one that the workflow published."""
 
-import json
 import math
 import re
 from pathlib import Path
@@ -8,6 +7,8 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
+from replication.claim import JudgedClaim
+from replication.ledger import read_judged
 from replication.publishing import count_table
 
 ROOT = Path(__file__).parents[1]
@@ -31,9 +32,9 @@ def under_motions(table: str, **place: float) -> pd.Series:
 
 
 @pytest.fixture(scope="module")
-def claims() -> dict[str, dict]:
-    rows = json.loads((REFERENCE / "claims.json").read_text(encoding="utf-8"))
-    return {row["id"]: row for row in rows}
+def claims() -> dict[str, JudgedClaim]:
+    rows = read_judged(REFERENCE / "claims.json")
+    return {row.id: row for row in rows}
 
 
 def test_every_decimal_number_is_published(claims):
@@ -46,12 +47,12 @@ def test_every_decimal_number_is_published(claims):
         f"{lowest[0.0]:.3f}",
         f"{lowest[1.0]:.3f}",
         f"{lowest[math.inf]:.3f}",
-        f"{claims['trilith_base_acceleration_in_g']['computed']:.3f}",
-        f"{claims['trilith_uplift_acceleration']['computed']:.3f}",
+        f"{claims['trilith_base_acceleration_in_g'].computed:.3f}",
+        f"{claims['trilith_uplift_acceleration'].computed:.3f}",
         f"{starts.late_peak_over_alpha[1.0]:.3f}",
-        f"{100 * claims['reversals_help']['computed']:.1f}",
-        f"{100 * claims['reversals_harm']['computed']:.1f}",
-        f"{100 * claims['mechanism_share_apart']['computed']:.1f}",
+        f"{100 * claims['reversals_help'].computed:.1f}",
+        f"{100 * claims['reversals_harm'].computed:.1f}",
+        f"{100 * claims['mechanism_share_apart'].computed:.1f}",
         f"{100 * under_motions('reversals_medians', mass_ratio=1.0, as_large_as=0).gain:.1f}",
         f"{100 * under_motions('reversals_pairs', lighter=0, heavier=1.0).motions:.1f}",
     }
@@ -74,8 +75,8 @@ def test_equations_said_to_be_wrong_are_those_of_their_kind(claims):
 
 def test_lowest_amplitude_is_said_to_rise_where_the_ledger_confirms_it(claims):
     assert "lowest amplitude that overturns rises with γ" in " ".join(found().split())
-    assert claims["reversals_lowest_rises"]["verdict"] == "confirmed"
-    assert claims["lowest_amplitude_rises_with_mass"]["verdict"] == "confirmed"
+    assert claims["reversals_lowest_rises"].verdict == "confirmed"
+    assert claims["lowest_amplitude_rises_with_mass"].verdict == "confirmed"
 
 
 def test_links_lead_somewhere():
