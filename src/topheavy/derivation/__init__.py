@@ -29,7 +29,12 @@ from topheavy.derivation.impact import (
 )
 from topheavy.derivation.lagrange import kinetic_energy, lagrange_equation, potential_energy
 from topheavy.derivation.notation import NEGATIVE, POSITIVE, SIDES, Side
-from topheavy.derivation.theorems import Theorem, contact_theorems, theorems
+from topheavy.derivation.theorems import (
+    Theorem,
+    contact_theorems,
+    reversal_theorems,
+    theorems,
+)
 from topheavy.derivation.verdicts import PrintedCheck, check_printed
 
 __all__ = [
@@ -63,6 +68,7 @@ __all__ = [
     "potential_energy",
     "quadratic_terms",
     "restitution",
+    "reversal_theorems",
     "size_ratio",
     "theorems",
     "uplift_acceleration",

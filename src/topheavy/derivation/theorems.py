@@ -13,6 +13,7 @@ from topheavy.derivation import (
     fixed_proofs,
     impact_proofs,
     motion_proofs,
+    reversal_proofs,
 )
 
 
@@ -37,6 +38,12 @@ def theorems() -> tuple[Theorem, ...]:
 def contact_theorems() -> tuple[Theorem, ...]:
     """Prove the theorems on the contact forces, which the paper omits."""
     return _prove(*contact_proofs.PROOFS)
+
+
+@cache
+def reversal_theorems() -> tuple[Theorem, ...]:
+    """Prove the steps of "no reversal without an impact", which the paper does not state."""
+    return _prove(*reversal_proofs.PROOFS)
 
 
 def _prove(*proofs: Callable[[], bool]) -> tuple[Theorem, ...]:

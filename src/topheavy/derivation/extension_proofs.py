@@ -1,0 +1,122 @@
+"""What a larger R̂ implies, N columns, vertical ground motion: each function proves its docstring."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from topheavy.derivation.equilibrium import column_motion, equation_of_motion
+from topheavy.derivation.equilibrium import RECTANGULAR as OF_TWO
+from topheavy.derivation.extensions import (
+    N,
+    frame_of_columns,
+    lagrange_of_columns,
+    printed_motion,
+    printed_restitution,
+    restitution_of_columns,
+    vertical_acceleration,
+)
+from topheavy.derivation.notation import (
+    POSITIVE,
+    SIDES,
+    R,
+    alpha,
+    g,
+    gamma,
+    ground_acceleration,
+    vanishes,
+    velocity,
+)
+
+_k = sp.Symbol("k", positive=True)
+
+
+def size_only_slows_time() -> bool:
+    """A similar column k times as large moves as the small one does in time stretched by √k.
+
+    θ(t) of the one under ü_g(t) is θ(t/√k) of the other under ü_g(t√k), at the same √r; so is
+    that of a frame with k = R̂/R. A larger R̂ implies this similarity and nothing else.
+    """
+    slowed = {R: _k * R}
+    return all(
+        vanishes(_k * motion.subs(slowed) - motion, side) and not motion.has(velocity)
+        for side in SIDES
+        for motion in (column_motion(side).subs(OF_TWO), equation_of_motion(side).rhs)
+    )
+
+
+def columns_count_only_in_the_mass_ratio() -> bool:
+    """A cap beam on N columns obeys Eqs. (23) and (24), with γ = m_b/(N m_c)."""
+    return all(
+        vanishes(frame_of_columns(side) - printed_motion(side), side)
+        and not frame_of_columns(side).has(N)
+        for side in SIDES
+    )
+
+
+def lagrange_agrees_for_columns() -> bool:
+    """Energies give the same equation of motion for N columns, vertical acceleration included."""
+    return all(
+        vanishes(frame_of_columns(side) - lagrange_of_columns(side), side) for side in SIDES
+    )
+
+
+def impacts_do_not_count_the_columns() -> bool:
+    """√r of a cap beam on N columns is that of Eq. (25), with γ = m_b/(N m_c)."""
+    return all(
+        vanishes(restitution_of_columns(side) - printed_restitution(), POSITIVE) for side in SIDES
+    )
+
+
+def vertical_acceleration_adds_to_gravity() -> bool:
+    """Vertical ground acceleration replaces g by g + v̈_g, in the frame as in its column.
+
+    So the frame remains equivalent to the column of size R̂.
+    """
+    found = []
+    for side in SIDES:
+        heavier = {g: g + vertical_acceleration}
+        frame = frame_of_columns(side)
+        column = frame.subs(gamma, 0)
+        still = equation_of_motion(side).rhs
+        ratio = (1 + 2 * gamma) / (1 + 3 * gamma)
+        found += [
+            vanishes(frame - still.subs(heavier), side),
+            vanishes(column - column_motion(side).subs(OF_TWO).subs(heavier), side),
+            vanishes(frame - ratio * column, side),
+        ]
+    return all(found)
+
+
+def vertical_acceleration_changes_the_uplift() -> bool:
+    """Uplift begins at (g + v̈_g) tan α, for every γ."""
+    found = []
+    for side in SIDES:
+        (level,) = sp.solve(side.upright(frame_of_columns(side)), ground_acceleration)
+        stated = -side.sign * (g + vertical_acceleration) * sp.tan(alpha)
+        found.append(vanishes(level - stated, side))
+    return all(found)
+
+
+def vertical_acceleration_is_a_change_of_gravity_and_push() -> bool:
+    """θ̈ = (1 + v̈_g/g) times that over ground with ü_g/(1 + v̈_g/g) and no vertical motion."""
+    share = 1 + vertical_acceleration / g
+    return all(
+        vanishes(
+            frame_of_columns(side)
+            - share
+            * equation_of_motion(side).rhs.subs(ground_acceleration, ground_acceleration / share),
+            side,
+        )
+        for side in SIDES
+    )
+
+
+PROOFS = (
+    size_only_slows_time,
+    columns_count_only_in_the_mass_ratio,
+    lagrange_agrees_for_columns,
+    impacts_do_not_count_the_columns,
+    vertical_acceleration_adds_to_gravity,
+    vertical_acceleration_changes_the_uplift,
+    vertical_acceleration_is_a_change_of_gravity_and_push,
+)

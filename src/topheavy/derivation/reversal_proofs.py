@@ -1,0 +1,184 @@
+"""Why a heavier frame overturns without an impact only if a lighter one does. Proofs by algebra.
+
+Frames 1 (lighter) and 2 (heavier) have the same α and p₁ > p₂. They uplift together, to the side s,
+and feel the same ü_g = a g. Until an impact φ = |θ| obeys φ̈ = p² F(φ), with
+
+    F = φ − α − s a  (linearised),    F = sin(φ − α) − s a cos(φ − α)  (exact),
+
+so that y = φ/p² obeys ÿ = F(p² y), and z = y₁ − y₂ starts from z = ż = 0. The text that joins the
+proofs is in the supplement, "Exact statements".
+"""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from topheavy.derivation.equilibrium import equation_of_motion, frequency_ratio, squared_frequency
+from topheavy.derivation.notation import (
+    SIDES,
+    Side,
+    acceleration,
+    alpha,
+    g,
+    gamma,
+    ground_acceleration,
+    vanishes,
+)
+
+p_1, p_2 = sp.symbols("p_1 p_2", positive=True)
+_a, _z, _z_dot, _y_dot = sp.symbols("a z z_dot y_dot", real=True)
+_phi, _y, _tau, _excess = sp.symbols("phi y tau epsilon", positive=True)
+_rate = sp.Symbol("phi_dot", real=True)
+
+
+def _reduced(side: Side) -> sp.Expr:
+    """F of the frame: s θ̈/p̂², with θ = s φ and ü_g = a g."""
+    motion = equation_of_motion(side).rhs
+    reduced = side.sign * motion / squared_frequency(motion, side)
+    return sp.simplify(reduced.subs({ground_acceleration: _a * g, side.rotation: side.sign * _phi}))
+
+
+def linearised(side: Side) -> sp.Expr:
+    """F to the first order in φ, α and a."""
+    small = {symbol: _excess * symbol for symbol in (_phi, alpha, _a)}
+    return sp.diff(_reduced(side).subs(small, simultaneous=True), _excess).subs(_excess, 0)
+
+
+def exact(side: Side) -> sp.Expr:
+    """sin(φ − α) − s a cos(φ − α)."""
+    return sp.sin(_phi - alpha) - side.sign * _a * sp.cos(_phi - alpha)
+
+
+def mass_ratio_leaves_only_the_time_scale() -> bool:
+    """F does not contain γ, and p̂ falls with γ: of two frames the heavier has the lower p̂."""
+    falls = sp.factor(sp.diff(frequency_ratio() ** 2, gamma)).is_negative
+    same = all(
+        not _reduced(side).has(gamma)
+        and sp.simplify(sp.expand_trig(_reduced(side) - exact(side))) == 0
+        for side in SIDES
+    )
+    return bool(falls) and same
+
+
+def difference_is_driven_by_the_heavier_frame() -> bool:
+    """Linearised, z̈ = p₁² z + (p₁² − p₂²) y₂: the ground motion drops out."""
+    return all(
+        sp.expand(
+            linearised(side).subs(_phi, p_1**2 * (_y + _z))
+            - linearised(side).subs(_phi, p_2**2 * _y)
+            - (p_1**2 * _z + (p_1**2 - p_2**2) * _y)
+        )
+        == 0
+        for side in SIDES
+    )
+
+
+def difference_never_falls() -> bool:
+    """z̈ = p₁² z + w with z = ż = 0 at first: z and ż are integrals of w over positive kernels."""
+    kernel = sp.sinh(p_1 * _tau) / p_1
+    rate = sp.diff(kernel, _tau)
+    solves = (
+        kernel.subs(_tau, 0) == 0
+        and rate.subs(_tau, 0) == 1
+        and sp.simplify(sp.diff(rate, _tau) - p_1**2 * kernel) == 0
+    )
+    return solves and bool(kernel.is_positive) and bool(rate.is_positive)
+
+
+def overturning_is_a_growing_term() -> bool:
+    """Free and linearised, φ − α = A e^(pt) + B e^(−pt), with an energy of −2AB above that at α.
+
+    A = (φ − α + φ̇/p)/2. A > 0 is moving outward with at least that energy, or being beyond α with
+    less: the block overturns. For A < 0 it goes through an impact.
+    """
+    growing, fading = ((_phi - alpha + sign * _rate / p_1) / 2 for sign in (1, -1))
+    course = growing * sp.exp(p_1 * _tau) + fading * sp.exp(-p_1 * _tau)
+    starts = (course.subs(_tau, 0) - (_phi - alpha), sp.diff(course, _tau).subs(_tau, 0) - _rate)
+    moves = sp.diff(course, _tau, 2) - p_1**2 * course
+    excess = _rate**2 / (2 * p_1**2) + _phi * (alpha - _phi / 2) - alpha**2 / 2
+    return all(
+        sp.simplify(zero) == 0 for zero in (*starts, moves, excess + 2 * growing * fading)
+    )
+
+
+def lighter_frame_has_the_larger_growing_term() -> bool:
+    """2A₁ − 2A₂ = p₁² z + p₁ ż + (p₁ − p₂)(p₁ y₂ + α/p₂ + 2A₂/p₂), positive for A₂ > 0."""
+    of_lighter = p_1**2 * (_y + _z) + p_1 * (_y_dot + _z_dot) - alpha
+    of_heavier = p_2**2 * _y + p_2 * _y_dot - alpha
+    terms = p_1**2 * _z + p_1 * _z_dot
+    terms += (p_1 - p_2) * (p_1 * _y + (alpha + of_heavier) / p_2)
+    return bool(sp.expand(of_lighter - of_heavier - terms) == 0)
+
+
+def larger_rotation_feels_the_larger_push() -> bool:
+    """Exact, ∂F/∂φ = cos(α − φ) − s a sin(α − φ) ≥ 0 for s a ≤ cot α and −s a ≤ cot(φ − α).
+
+    Up to α the first condition is sufficient, beyond α the second.
+    """
+    within, beyond, x, slope = sp.symbols("lambda mu x slope", positive=True)
+    push = sp.Symbol("push", real=True)
+    found = []
+    for side in SIDES:
+        rise = sp.diff(exact(side), _phi).subs(_a, side.sign * push)
+        # in tangents: x = tan(α − φ) up to α, x = tan(φ − α) beyond
+        up_to = sp.expand_trig(rise.subs(_phi, alpha - within)) / sp.cos(within)
+        after = sp.expand_trig(rise.subs(_phi, alpha + beyond)) / sp.cos(beyond)
+        found += [
+            sp.simplify(up_to - (1 - push * sp.tan(within))) == 0,
+            sp.simplify(after - (1 + push * sp.tan(beyond))) == 0,
+        ]
+    # tan α = x + slope > x: s a = cot α gives 1 − x/(x + slope) > 0
+    least = sp.factor(1 - x / (x + slope))
+    return all(found) and bool(least.is_positive)
+
+
+def far_enough_out_nothing_brings_it_back() -> bool:
+    """Exact, F = cos(φ − α) (tan(φ − α) − s a) ≥ 0 where tan(φ − α) ≥ s a.
+
+    At tan(φ − α) = max(s a) the outward push may be cot(φ − α) = 1/max(s a): with
+    max(s a) max(−s a) < 1, F rises with φ up to a rotation from which nothing returns.
+    """
+    beyond, inward = sp.symbols("mu inward", positive=True)
+    found = []
+    for side in SIDES:
+        force = exact(side).subs({_phi: alpha + beyond, _a: side.sign * _tau})
+        form = sp.cos(beyond) * (sp.tan(beyond) - _tau)
+        found.append(sp.simplify(sp.expand_trig(force) - form) == 0)
+    return all(found) and sp.simplify(sp.cot(sp.atan(inward)) * inward) == 1
+
+
+def push_in_one_direction_only_helps_that_side() -> bool:
+    """With a ≥ 0 towards one side, F there rises with a, and with φ up to α.
+
+    Over its free energy, the block gains ∫ a cos(α − φ) dφ on that side, and loses it on the other.
+    """
+    within, push = sp.symbols("lambda push", positive=True)
+    found = []
+    for side in SIDES:
+        toward = exact(side).subs(_a, -side.sign * push)
+        in_push = sp.diff(toward, push).subs(_phi, alpha - within)
+        in_angle = sp.expand_trig(sp.diff(toward, _phi).subs(_phi, alpha - within))
+        found += [
+            sp.simplify(in_push - sp.cos(within)) == 0,
+            sp.simplify(in_angle - (sp.cos(within) + push * sp.sin(within))) == 0,
+        ]
+        for sign, there in ((1, side), (-1, side.other)):
+            force = exact(there).subs(_a, -side.sign * push)
+            free = force.subs(push, 0)  # dw/dφ is −F of the free block
+            found.append(
+                sp.simplify(_rate * (force - free) - sign * push * sp.cos(_phi - alpha) * _rate)
+                == 0
+            )
+    return all(found)
+
+
+PROOFS = (
+    mass_ratio_leaves_only_the_time_scale,
+    difference_is_driven_by_the_heavier_frame,
+    difference_never_falls,
+    overturning_is_a_growing_term,
+    lighter_frame_has_the_larger_growing_term,
+    larger_rotation_feels_the_larger_push,
+    far_enough_out_nothing_brings_it_back,
+    push_in_one_direction_only_helps_that_side,
+)
