@@ -8,6 +8,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 
+def constant_gravity(time: float) -> float:
+    """The effective gravity over g of ground without vertical acceleration: 1."""
+    return 1.0
+
+
 @dataclass(frozen=True)
 class Segment:
     """A span of time over which the ground acceleration is smooth and monotone.
@@ -19,6 +24,8 @@ class Segment:
     start: float
     stop: float
     acceleration: Callable[[float], float]
+    gravity: Callable[[float], float] = constant_gravity
+    """Effective gravity over g, 1 + v̈_g/g; `acceleration` is ü_g over this effective gravity."""
 
     def uplift(self, time: float, level: float) -> float | None:
         """Return the first instant from `time` on at which |a| exceeds `level` (g), or None."""
@@ -44,6 +51,11 @@ class Segment:
         if first > last:
             return 0.0
         return max(abs(self.acceleration(first)), abs(self.acceleration(last)))
+
+    def least_gravity(self, start: float, stop: float) -> float:
+        """Return the least gravity over the overlap with [start, stop], or 1 where there is none."""
+        first, last = max(start, self.start), min(stop, self.stop)
+        return min(self.gravity(first), self.gravity(last)) if first <= last else 1.0
 
     def _crossing(self, value: float, time: float) -> float:
         """Return when the acceleration, monotone, takes `value` between `time` and the stop."""

@@ -10,7 +10,7 @@ How a flight is computed is the business of `reference` and `linear`; everything
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from enum import Enum, auto
 from itertools import takewhile
@@ -84,6 +84,7 @@ class Motion:
     launching: bool = False  # uplifted, and pushed on since without a break
     fallen: bool = False
     flights: int = 0
+    restitutions: Sequence[float] = ()  # √r of the counted impacts in turn, then the block's own
     impacts: list[float] = field(default_factory=list)
     arcs: list[Arc] = field(default_factory=list)
 
@@ -192,7 +193,13 @@ def judge(block: RockingBlock, motion: Motion) -> free_rocking.Ending:
         return free_rocking.Ending(overturned=True, peak=math.nan, impacts=0)
     if not motion.moving:
         return free_rocking.Ending(overturned=False, peak=0.0, impacts=0)
-    return free_rocking.ending(block, motion.rotation, motion.rate)
+    next_impact = block.with_restitution(_next_restitution(block, motion))
+    return free_rocking.ending(next_impact, motion.rotation, motion.rate)
+
+
+def _next_restitution(block: RockingBlock, motion: Motion) -> float:
+    number = len(motion.impacts)
+    return motion.restitutions[number] if number < len(motion.restitutions) else block.restitution
 
 
 def _flight(block: RockingBlock, segment: Segment, motion: Motion, fly: Flight) -> Event | None:
@@ -218,11 +225,12 @@ def _flight(block: RockingBlock, segment: Segment, motion: Motion, fly: Flight) 
 
 def _impact(block: RockingBlock, segments: list[Segment], motion: Motion) -> None:
     """Let the block pass to its other pivot: the rate × √r, Eq. (25)."""
+    ratio = _next_restitution(block, motion)
     if motion.height > COUNTED_PEAK * block.slenderness:
         motion.impacts.append(motion.time)
     motion.height = 0.0
     motion.side = -motion.side
-    motion.rotation, motion.rate = 0.0, block.restitution * max(0.0, -motion.rate)
+    motion.rotation, motion.rate = 0.0, ratio * max(0.0, -motion.rate)
     motion.moving = motion.rate > 0.0 and not _comes_to_rest(block, segments, motion)
 
 
@@ -235,21 +243,23 @@ def _comes_to_rest(block: RockingBlock, segments: list[Segment], motion: Motion)
     then the ground cannot lift the block before it rests.
     """
 
-    def restoring(ground: float) -> float:
-        alpha, square = block.slenderness, block.frequency_parameter**2
+    def restoring(ground: float, gravity: float) -> float:
+        alpha, square = block.slenderness, gravity * block.frequency_parameter**2
         if block.linearised:
             return square * (alpha - ground)
         return square * (math.sin(alpha) - ground * math.cos(alpha))
 
-    now = restoring(abs(segments[0].acceleration(motion.time)))
+    begins = segments[0]
+    now = restoring(abs(begins.acceleration(motion.time)), begins.gravity(motion.time))
     if now <= 0.0 or block.restitution == 1.0:
         return False
     if motion.rate**2 > 2.0 * now * REST_PEAK * block.slenderness:
         return False
     train_ends = motion.time + 4.0 * motion.rate / (now * (1.0 - block.restitution))
-    during = takewhile(lambda segment: segment.start < train_ends, segments)
+    during = list(takewhile(lambda segment: segment.start < train_ends, segments))
     largest = max((segment.largest(motion.time, train_ends) for segment in during), default=0.0)
-    return restoring(largest) > now / 2.0
+    gravity = min((segment.least_gravity(motion.time, train_ends) for segment in during), default=1)
+    return restoring(largest, gravity) > now / 2.0
 
 
 def _outcome(motion: Motion, end: free_rocking.Ending, *, moved: bool) -> Outcome:

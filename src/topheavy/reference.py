@@ -5,7 +5,7 @@ impact inside a step, grazing or double, is missed.
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 
 import numpy as np
@@ -17,8 +17,10 @@ from scipy.optimize import brentq
 from topheavy import checks, free_rocking, motion
 from topheavy.excitation import Excitation, Segment
 from topheavy.motion import Arc, Event, Motion
+from topheavy.records import Record
 from topheavy.response import Response
 from topheavy.structures import RockingBlock, Structure
+from topheavy.vertical import with_vertical
 
 TOLERANCE = 1e-11
 """Of the integration, relative to α and αp."""
@@ -43,19 +45,22 @@ def simulate(
     duration: float | None = None,
     samples: int | ArrayLike = 1000,
     tolerance: float = TOLERANCE,
+    vertical: Record | None = None,
 ) -> Response:
     """Return the rocking response by SciPy; the parameters are those of `topheavy.simulate`.
 
-    The tolerance is that of the integration, relative to α and αp.
+    The tolerance is that of the integration, relative to α and αp. `vertical` is the vertical
+    ground acceleration that starts with a record: g, positive upward.
 
     Raises
     ------
     ValueError
         As `topheavy.simulate`.
     """
+    block = structure.block()
     return motion.respond(
-        structure.block(),
-        excitation,
+        block,
+        with_vertical(block, excitation, vertical),
         _flight(tolerance),
         rotation=rotation,
         velocity=velocity,
@@ -65,16 +70,24 @@ def simulate(
 
 
 def judge(
-    structure: Structure, excitation: Excitation, *, tolerance: float = TOLERANCE
+    structure: Structure,
+    excitation: Excitation,
+    *,
+    tolerance: float = TOLERANCE,
+    vertical: Record | None = None,
+    restitutions: Sequence[float] = (),
 ) -> free_rocking.Ending:
     """Return only how the response to a ground motion of finite duration ends.
 
+    `restitutions` are √r of the counted impacts in turn, after which the block's own is taken.
     As `simulate` has it, without the history: the free rocking is not integrated. The peak is
     max|θ| over the whole motion (NaN if overturned), the impacts are counted as in `Response`.
     """
     block = structure.block()
     course = motion.start(block, 0.0, 0.0)
-    motion.force(block, excitation, course, _flight(tolerance))
+    course.restitutions = [checks.fraction("restitutions", value) for value in restitutions]
+    ground = with_vertical(block, excitation, vertical)
+    motion.force(block, ground, course, _flight(tolerance))
     end = motion.judge(block, course)
     return free_rocking.Ending(
         overturned=end.overturned,
@@ -100,7 +113,7 @@ def _fly(
     """Integrate on one side to `stop`, or to the impact or fall that comes first."""
     alpha, p = block.slenderness, block.frequency_parameter
     solver = DOP853(
-        _equation(block, segment.acceleration, course.side),
+        _equation(block, segment, course.side),
         course.time,
         [course.rotation, course.rate],
         stop,
@@ -129,15 +142,16 @@ def _fly(
 
 
 def _equation(
-    block: RockingBlock, acceleration: Callable[[float], float], side: int
+    block: RockingBlock, segment: Segment, side: int
 ) -> Callable[[float, NDArray[np.float64]], tuple[float, float]]:
     """Return the equation of motion (φ, φ̇)' on one side: Eq. (23), or linearised."""
     alpha, square = block.slenderness, block.frequency_parameter**2
+    acceleration, gravity = segment.acceleration, segment.gravity
 
     def exact(t: float, y: NDArray[np.float64]) -> tuple[float, float]:
         lean = alpha - float(y[0])
         push = side * float(acceleration(t))
-        return y[1], -square * (math.sin(lean) + push * math.cos(lean))  # Eq. (23)
+        return y[1], -square * gravity(t) * (math.sin(lean) + push * math.cos(lean))  # Eq. (23)
 
     def linearised(t: float, y: NDArray[np.float64]) -> tuple[float, float]:
         return y[1], square * (float(y[0]) - alpha - side * float(acceleration(t)))

@@ -34,6 +34,7 @@ from topheavy.pulses import Pulse
 from topheavy.records import Record
 from topheavy.response import Outcome, Response, initial_motion, sample_times
 from topheavy.structures import RockingBlock, Structure
+from topheavy.vertical import refuse_vertical
 
 Times = NDArray[np.float64]
 
@@ -60,6 +61,7 @@ def simulate(
     duration: float | None = None,
     samples: int | ArrayLike = 1000,
     tolerance: float = TOLERANCE,
+    vertical: Record | None = None,
 ) -> Response:
     """Return the rocking response to a ground motion, or free rocking without one.
 
@@ -78,6 +80,9 @@ def simulate(
     tolerance : float
         Bound on the last two terms of the Taylor series of φ̇/p in a step, relative to α; from
         1e-16 to 1e-2.
+    vertical : Record, optional
+        Vertical ground acceleration, which this solver refuses: `topheavy.reference.simulate` and
+        `topheavy.three_bodies.simulate_three_bodies` take it.
 
     Returns
     -------
@@ -99,6 +104,7 @@ def simulate(
     Taylor steps whose turning points and impacts are proven by the signs of Bernstein coefficients
     (`topheavy.kernel`). `topheavy.reference.simulate` is the second, independent solver.
     """
+    refuse_vertical(vertical)
     block = structure.block()
     times = sample_times(samples)
     tolerance = checked_tolerance(tolerance)

@@ -153,6 +153,35 @@ class RockingFrame:
             raise ValueError(f"column is {self.column!r}; expected a Column")
         checked_mass_ratio(self.mass_ratio)
 
+    @classmethod
+    def of_masses(
+        cls, column: Column, cap_mass: float, column_mass: float, columns: int = 2
+    ) -> "RockingFrame":
+        """Return the frame of a cap beam on two or more equal columns, by its masses.
+
+        The number N of columns enters by γ = m_b/(N m_c) alone; two give the paper's m_b/2m_c.
+        `topheavy.derivation.extensions` derives the equation of motion and √r for every N.
+
+        Parameters
+        ----------
+        column : Column
+            Each of them.
+        cap_mass, column_mass : float
+            m_b of the cap beam and m_c of one column, in the same unit.
+        columns : int
+            N, 2 or more: a cap beam on one column would tilt.
+
+        Raises
+        ------
+        ValueError
+            For a mass of a column that is not positive, a negative mass of the cap beam, or fewer
+            than two columns.
+        """
+        if not isinstance(columns, int) or isinstance(columns, bool) or columns < 2:
+            raise ValueError(f"columns is {columns!r}; expected a whole number from 2 on")
+        cap = checks.not_negative("cap_mass", cap_mass)
+        return cls(column, cap / (columns * checks.positive("column_mass", column_mass)))
+
     @property
     def slenderness(self) -> float:
         """α of the columns, rad: the cap beam does not change it."""

@@ -5,7 +5,7 @@ motion of the frame or its coefficient of restitution, which are results here.
 """
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -28,8 +28,10 @@ from topheavy.newton_euler import (
     opening,
     uplift_accelerations,
 )
+from topheavy.records import Record
 from topheavy.response import Outcome, sample_times
 from topheavy.structures import STANDARD_GRAVITY, RockingFrame
+from topheavy.vertical import with_vertical
 
 TOLERANCE = 1e-12
 """Of the integration, relative to the size of a motion as large as α."""
@@ -100,8 +102,13 @@ class _Arc:
     start: float
     stop: float
     sides: Sides
-    acceleration: Callable[[float], float]
+    ground: Segment
     course: DenseOutput | None
+
+    def components(self, time: float) -> tuple[float, float]:
+        """Return ü_g and v̈_g, g."""
+        gravity = self.ground.gravity(time)
+        return gravity * self.ground.acceleration(time), gravity - 1.0
 
 
 @dataclass
@@ -129,6 +136,7 @@ def simulate_three_bodies(
     velocity: float = 0.0,
     samples: int | ArrayLike = 1000,
     tolerance: float = TOLERANCE,
+    vertical: Record | None = None,
 ) -> ThreeBodyResponse:
     """Return the motion of the three bodies under a ground motion, or rocking freely without one.
 
@@ -146,11 +154,13 @@ def simulate_three_bodies(
         A number of uniform times from 0 to the duration, or increasing times in s.
     tolerance : float
         Of the integration, relative to a motion as large as α.
+    vertical : Record, optional
+        Vertical ground acceleration that starts with a record, g, positive upward.
 
     Raises
     ------
     ValueError
-        For values out of range; see `ThreeBodies`.
+        For values out of range; see `ThreeBodies` and `topheavy.vertical`.
     ArithmeticError
         When contacts have come apart by more than `LARGEST_GAP` of R before an impact.
 
@@ -166,7 +176,8 @@ def simulate_three_bodies(
     times = sample_times(samples)
     if isinstance(times, int):
         times = np.linspace(0.0, until, times)
-    segments = [] if excitation is None else excitation.segments(until)
+    ground = with_vertical(frame.block(), excitation, vertical)
+    segments = [] if ground is None else ground.segments(until)
     end = segments[-1].stop if segments else 0.0
     if end < until:
         segments.append(Segment(end, until, still))
@@ -179,12 +190,11 @@ def simulate_three_bodies(
             if not motion.moving:
                 uplift = segment.uplift(motion.time, level)
                 rest_ends = segment.stop if uplift is None else uplift
-                here = segment.acceleration
-                motion.arcs.append(_Arc(motion.time, rest_ends, motion.sides, here, None))
+                motion.arcs.append(_Arc(motion.time, rest_ends, motion.sides, segment, None))
                 motion.time = rest_ends
                 if uplift is None:
                     break
-                motion.sides = _lifting(lifts, here(uplift))
+                motion.sides = _lifting(lifts, segment.acceleration(uplift))
                 motion.moving = motion.launching = True
             if _fly(bodies, segment, motion, level, tolerance):
                 _collide(bodies, segments[number:], motion, level)
@@ -229,10 +239,11 @@ def _fly(
     column = bodies.frame.column
     length, alpha = np.array([column.size, column.size, 1.0] * 3), column.slenderness
     rate = math.sqrt(STANDARD_GRAVITY / column.size)
-    sides, ground = motion.sides, segment.acceleration
+    sides = motion.sides
+    ground = _Arc(motion.time, stop, sides, segment, None).components
 
     def newton_euler(t: float, y: Vector) -> Vector:
-        second, _ = accelerations(bodies, sides, y[:9], y[9:], ground(t))
+        second, _ = accelerations(bodies, sides, y[:9], y[9:], *ground(t))
         return np.concatenate([y[9:], second])
 
     solver = DOP853(
@@ -249,7 +260,7 @@ def _fly(
             raise ArithmeticError(f"{bodies}: no step is possible at {solver.t:.6g} s: {message}")
         step = solver.dense_output()
         event, motion.time = _first_event(step, sides, possible)
-        motion.arcs.append(_Arc(step.t_old, motion.time, sides, ground, step))
+        motion.arcs.append(_Arc(step.t_old, motion.time, sides, segment, step))
         motion.state = step(motion.time)
         if event is not None:
             motion.fallen = event == "fall"
@@ -330,8 +341,8 @@ def _comes_to_rest(
     As in `topheavy.motion`: at the restoring acceleration d a bounce lasts 2 θ̇/d, and the train of
     them 2 θ̇/d(1 − ratio); it is over when d keeps above a half of its value for twice that long.
     """
-    now = abs(segments[0].acceleration(motion.time))
-    restoring = -float(opening(bodies, motion.sides, -motion.sides[0] * now).max())
+    now, gravity = abs(segments[0].acceleration(motion.time)), segments[0].gravity(motion.time)
+    restoring = -gravity * float(opening(bodies, motion.sides, -motion.sides[0] * now).max())
     if (
         restoring <= 0.0
         or ratio >= 1.0
@@ -340,7 +351,8 @@ def _comes_to_rest(
         return False
     train_ends = motion.time + 4.0 * rate / (restoring * (1.0 - ratio))
     largest = max(segment.largest(motion.time, train_ends) for segment in segments)
-    return level - largest > (level - now) / 2.0
+    least = min(segment.least_gravity(motion.time, train_ends) for segment in segments)
+    return least * (level - largest) > gravity * (level - now) / 2.0
 
 
 def _sampled(bodies: ThreeBodies, motion: _Motion, times: Vector) -> ThreeBodyResponse:
@@ -356,7 +368,7 @@ def _sampled(bodies: ThreeBodies, motion: _Motion, times: Vector) -> ThreeBodyRe
             t = float(times[k])
             states[k] = arc.course(t)
             q, rates = states[k, :9], states[k, 9:]
-            _, forces[k] = accelerations(bodies, arc.sides, q, rates, arc.acceleration(t))
+            _, forces[k] = accelerations(bodies, arc.sides, q, rates, *arc.components(t))
             drift[k] = np.hypot(*bodies.gaps(arc.sides, q).T).max()
     moved = any(arc.course is not None for arc in motion.arcs)
     outcome: Outcome = "rests" if moved else "no uplift"

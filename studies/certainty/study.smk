@@ -1,23 +1,120 @@
-"""How much amplitude a heavier cap buys, under one pulse: a study to begin with."""
+"""What follows from the equation of motion, for which motion, and how surely."""
 
-PARTS["certainty"].figures["studies/certainty/figures/gain"] = ["certainty_gain"]
-PARTS["certainty"].findings.append("certainty_gain")
+CERTAINTY = ["theorem", "lowest", "extensions", "restitution", "intensities"]
+
+PARTS["certainty"].figures.update(
+    {
+        "studies/certainty/figures/lowest": [
+            "certainty_lowest",
+            "certainty_lowest_histories",
+        ],
+        "studies/certainty/figures/restitution": ["certainty_restitution"],
+        "studies/certainty/figures/intensities": ["certainty_intensities"],
+    }
+)
+PARTS["certainty"].findings.extend([f"certainty_{name}" for name in CERTAINTY])
 
 
-rule certainty_gain:
+rule certainty_theorem:
     input:
-        code("studies/certainty/steps/gain.py"),
+        code("studies/certainty/steps/theorem.py"),
     output:
-        table="results/tables/certainty_gain.csv",
-        findings="results/findings/certainty_gain.json",
+        table="results/tables/certainty_theorem.csv",
+        findings="results/findings/certainty_theorem.json",
     log:
-        "results/logs/certainty_gain.log",
+        "results/logs/certainty_theorem.log",
     benchmark:
-        "results/benchmarks/certainty_gain.tsv"
+        "results/benchmarks/certainty_theorem.tsv"
     params:
-        case=case("gain", "certainty"),
+        case=case("theorem", "certainty"),
+    message:
+        "Study certainty: no reversal without an impact"
+    script:
+        "steps/theorem.py"
+
+
+rule certainty_lowest:
+    input:
+        code("studies/certainty/steps/lowest.py"),
+    output:
+        table="results/tables/certainty_lowest.csv",
+        histories="results/tables/certainty_lowest_histories.csv",
+        findings="results/findings/certainty_lowest.json",
+    log:
+        "results/logs/certainty_lowest.log",
+    benchmark:
+        "results/benchmarks/certainty_lowest.tsv"
+    params:
+        case=case("lowest", "certainty"),
         solver=config["solver"],
     message:
-        "Study certainty: the lowest amplitude that overturns"
+        "Study certainty: a pulse that needs less to overturn the heavier frame"
     script:
-        "steps/gain.py"
+        "steps/lowest.py"
+
+
+rule certainty_extensions:
+    input:
+        code("studies/certainty/steps/extensions.py"),
+        records=[
+            RECORDS[name]
+            for pair in case("extensions", "certainty")["pairs"]
+            for name in (pair["horizontal"], pair["vertical"])
+        ],
+    output:
+        table="results/tables/certainty_extensions.csv",
+        findings="results/findings/certainty_extensions.json",
+    log:
+        "results/logs/certainty_extensions.log",
+    benchmark:
+        "results/benchmarks/certainty_extensions.tsv"
+    params:
+        case=case("extensions", "certainty"),
+    message:
+        "Study certainty: similarity, several columns, vertical acceleration"
+    script:
+        "steps/extensions.py"
+
+
+rule certainty_restitution:
+    input:
+        code("studies/certainty/steps/restitution.py"),
+    output:
+        table="results/tables/certainty_restitution.csv",
+        findings="results/findings/certainty_restitution.json",
+    log:
+        "results/logs/certainty_restitution.log",
+    benchmark:
+        "results/benchmarks/certainty_restitution.tsv"
+    params:
+        case=case("restitution", "certainty"),
+        ensemble=MOTIONS,
+    message:
+        "Study certainty: how much depends on the impact law"
+    script:
+        "steps/restitution.py"
+
+
+rule certainty_intensities:
+    input:
+        code("studies/certainty/steps/intensities.py"),
+        records=[
+            RECORDS[name] for name in case("intensities", "certainty")["records"]
+        ],
+    output:
+        table="results/tables/certainty_intensities.csv",
+        findings="results/findings/certainty_intensities.json",
+    log:
+        "results/logs/certainty_intensities.log",
+    benchmark:
+        "results/benchmarks/certainty_intensities.tsv"
+    params:
+        case=case("intensities", "certainty"),
+        ensemble=MOTIONS,
+        structures=named(
+            config["structures"], case("intensities", "certainty")
+        ),
+    message:
+        "Study certainty: probability of overturning at stated intensities"
+    script:
+        "steps/intensities.py"

@@ -32,6 +32,7 @@ from topheavy.derivation.notation import NEGATIVE, POSITIVE, SIDES, Side
 from topheavy.derivation.theorems import (
     Theorem,
     contact_theorems,
+    extension_theorems,
     reversal_theorems,
     theorems,
 )
@@ -56,6 +57,7 @@ __all__ = [
     "contact_theorems",
     "energy_slenderness",
     "equation_of_motion",
+    "extension_theorems",
     "fixed_fourth_power",
     "fixed_motion",
     "fixed_restitution",

@@ -10,6 +10,7 @@ from functools import cache
 from topheavy.derivation import (
     base_shear,
     contact_proofs,
+    extension_proofs,
     fixed_proofs,
     impact_proofs,
     motion_proofs,
@@ -44,6 +45,12 @@ def contact_theorems() -> tuple[Theorem, ...]:
 def reversal_theorems() -> tuple[Theorem, ...]:
     """Prove the steps of "no reversal without an impact", which the paper does not state."""
     return _prove(*reversal_proofs.PROOFS)
+
+
+@cache
+def extension_theorems() -> tuple[Theorem, ...]:
+    """Prove what a larger R̂ implies, and the extensions to N columns and vertical motion."""
+    return _prove(*extension_proofs.PROOFS)
 
 
 def _prove(*proofs: Callable[[], bool]) -> tuple[Theorem, ...]:

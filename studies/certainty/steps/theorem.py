@@ -162,6 +162,7 @@ def rows(case: dict, linearised: bool) -> pd.DataFrame:
             "proved": is_proved(one),
             "contradicts": not at_once(one.lighter, one.motion),
         }
+        row["reversal"] = row["contradicts"] and not judge(one.lighter, one.motion).overturned
         if number % every == 0:
             pair = one.lighter, one.heavier
             row["confirmed"] = all(reference.judge(b, one.motion).overturned for b in pair)
@@ -187,6 +188,7 @@ def main(case: dict) -> tuple[pd.DataFrame, dict]:
     }
     grouped = table.groupby(["linearised", "proved", "shape"], as_index=False)
     counts = grouped.agg(motions=("contradicts", "size"), contradictions=("contradicts", "sum"))
+    findings["exact_open"]["reversals"] = int(still_open.reversal.sum())
     return counts, findings
 
 

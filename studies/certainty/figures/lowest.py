@@ -1,0 +1,33 @@
+"""Where the theorems end: an extreme motion; and falls of the minimum that a finer search removes."""
+
+from figures.drawing import gamma
+from replication.drawing import ACCENT, DARK, DOUBLE, GREY, INK, letter, note, publish, sheet
+
+PLACES = {0.0: ((0.98, 0.30), DARK), float("inf"): ((0.98, 0.92), ACCENT)}
+
+
+def draw(certainty_lowest, certainty_lowest_histories):
+    figure, axes = sheet(DOUBLE, 58, ncols=2)
+    for ratio, course in certainty_lowest_histories.groupby("mass_ratio"):
+        place, colour = PLACES[ratio]
+        axes[0].plot(course.time, course.rotation_over_alpha, color=colour, linewidth=1.1)
+        note(axes[0], gamma(ratio), place, color=colour, ha="right", xycoords="axes fraction")
+    ground = axes[0].twinx()
+    ground.plot(course.time, course.acceleration, color=GREY, linewidth=0.6)
+    ground.set(ylabel="Ground acceleration (g)")
+    ground.spines.right.set_visible(True)
+    axes[0].axhline(1.0, color=INK, linewidth=0.5, linestyle=":")
+    axes[0].set(xlabel="Time over duration of the motion (–)", ylabel=r"Rotation, $\theta/\alpha$ (–)")
+    axes[0].set(xlim=(0, 3))
+    table = certainty_lowest
+    axes[1].plot(table.coarse, table["last"], "o", color=DARK, markersize=2.6)
+    ends = (min(table.coarse.min(), 0.98) - 0.01, 1.0)
+    axes[1].plot(ends, ends, color=GREY, linewidth=0.6, linestyle=":")
+    axes[1].axhline(1.0, color=INK, linewidth=0.6)
+    axes[1].set(xlim=ends, xlabel="Ratio of the minima, coarse grid (–)", ylabel="Finer grids (–)")
+    letter(axes, ["Extreme motion, exact equation", "Apparent falls of the minimum"])
+    return figure
+
+
+if __name__ == "__main__":
+    publish(snakemake, draw)

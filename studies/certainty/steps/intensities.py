@@ -1,0 +1,216 @@
+"""Probability of overturning at stated peak ground velocities and accelerations, with bands.
+
+Bare columns, frames with a free cap beam, and columns with the same mass fixed to the top, under
+the synthetic motions of study reversals, each scaled to the intensity; measured records beside.
+"""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from scipy.stats import beta
+
+from replication.workbench import run, truth, value
+from steps.spectrum import progress
+from studies.reversals.ensemble import draws
+from studies.reversals.motions import peak_velocity
+from topheavy import (
+    Column,
+    FixedMassColumn,
+    Record,
+    RockingFrame,
+    judge,
+    overturned_by,
+    read_record,
+    reference,
+)
+from topheavy.structures import Structure
+
+SUPPORTS = ("bare", "free", "fixed")
+MEASURES = ("pgv", "pga")
+
+
+@dataclass(frozen=True)
+class Subject:
+    """A structure: columns by name, bare, under a free cap beam, or with its mass fixed."""
+
+    name: str
+    support: str
+    mass_ratio: float
+    structure: Structure
+
+    @property
+    def labels(self) -> dict[str, Any]:
+        return {
+            "structure": self.name,
+            "support": self.support,
+            "mass_ratio": self.mass_ratio,
+        }
+
+
+def subjects(case: Mapping[str, Any], structures: Mapping[str, Any]) -> list[Subject]:
+    """Return all structures, each with its three supports.
+
+    Those of `scaled` are similar to a named structure, so many times as large.
+    """
+    found = []
+    for entry in case["columns"]:
+        dimensions = structures[entry["structure"]]
+        column = Column(*(entry["scaled"] * dimensions[k] for k in ("half_width", "half_height")))
+        name, gamma = f"{2.0 * column.half_height:g} m {entry['structure']}", entry["mass_ratio"]
+        found += [
+            Subject(name, "bare", 0.0, column),
+            Subject(name, "free", gamma, RockingFrame(column, gamma)),
+            Subject(name, "fixed", gamma, FixedMassColumn(column, gamma)),
+        ]
+    return found
+
+
+def intensity(record: Record, measure: str) -> float:
+    """Return PGV (m/s) or PGA (g) of a record."""
+    return peak_velocity(record) if measure == "pgv" else record.peak_acceleration
+
+
+def share_interval(fell: int, of: int, confidence: float) -> tuple[float, float]:
+    """Return the exact interval of a probability (Clopper & Pearson): not empty for none or all."""
+    tail = (1.0 - confidence) / 2.0
+    low = 0.0 if fell == 0 else float(beta.ppf(tail, fell, of - fell + 1))
+    high = 1.0 if fell == of else float(beta.ppf(1.0 - tail, fell + 1, of - fell))
+    return low, high
+
+
+def outcomes(case: dict, ensemble: dict, under: list[Subject]) -> pd.DataFrame:
+    """Return a row for each motion and subject: which of all levels overturn it."""
+    levels = [(measure, level) for measure in MEASURES for level in case[measure]]
+    some = {**ensemble, "runs": {ensemble["run"]: {"motions": case["motions"]}}}
+    rows, chosen = [], draws(some)
+    for draw in progress(chosen, len(chosen), "motions"):
+        record = draw.record()
+        scales = [level / intensity(record, measure) for measure, level in levels]
+        for subject in under:
+            fell = overturned_by(subject.structure, record, scales)
+            rows += [
+                draw.labels | subject.labels | {"measure": m, "level": level, "fell": one}
+                for (m, level), one in zip(levels, fell, strict=True)
+            ]
+    return pd.DataFrame(rows)
+
+
+def probabilities(cells: pd.DataFrame, confidence: float) -> pd.DataFrame:
+    """Return the probability of overturning with its interval, over the motions of each family."""
+    keys = ["family", "structure", "support", "mass_ratio", "measure", "level"]
+    table = cells.groupby(keys, sort=False, as_index=False).fell.agg(fell="sum", motions="size")
+    ends = [share_interval(f, n, confidence) for f, n in zip(table.fell, table.motions, strict=True)]
+    low, high = zip(*ends, strict=True)
+    return table.assign(
+        probability=table.fell / table.motions, probability_low=low, probability_high=high
+    )
+
+
+def under_records(case: dict, records: list[Record], under: list[Subject]) -> list[dict]:
+    """Return the outcomes under the records as they were measured, and by which factor they fall."""
+    rows = []
+    for record in records:
+        factors = np.arange(1.0, case["largest_factor"], case["factor_step"])
+        for subject in under:
+            fell = overturned_by(subject.structure, record, factors)
+            rows.append(
+                {
+                    "record": record.name,
+                    "pgv": peak_velocity(record),
+                    "pga": record.peak_acceleration,
+                    "structure": subject.name,
+                    "support": subject.support,
+                    "overturned": bool(fell[0]),
+                    "factor": float(factors[fell.argmax()]) if fell.any() else None,
+                }
+            )
+    return rows
+
+
+def confirmed(case: dict, ensemble: dict, under: list[Subject], cells: pd.DataFrame) -> dict:
+    """Judge a seeded sample of the cells by SciPy, and at a nudged scale.
+
+    Cells that a billionth of the motion changes cannot be told, and are not compared.
+    """
+    random = np.random.default_rng(case["seed"])
+    some = {**ensemble, "runs": {ensemble["run"]: {"motions": case["motions"]}}}
+    motions = {tuple(draw.labels.values()): draw for draw in draws(some)}
+    named = {(subject.name, subject.support): subject for subject in under}
+    differ, told = 0, 0
+    for at in progress(random.choice(len(cells), case["checked"], False), case["checked"], "checks"):
+        cell = cells.iloc[at]
+        record = motions[cell.family, cell.scenario, cell.motion].record()
+        scaled = record.scaled(cell.level / intensity(record, cell.measure))
+        structure = named[cell.structure, cell.support].structure
+        nudged = {judge(structure, scaled.scaled(1.0 + n)).overturned for n in (-1e-9, 0.0, 1e-9)}
+        if len(nudged) == 1:
+            told += 1
+            differ += reference.judge(structure, scaled).overturned != cell.fell
+    return truth(differ == 0 and told > 0, checked=case["checked"], told=told, differ=differ)
+
+
+def worst(table: pd.DataFrame, **at: Any) -> float:
+    """Return the largest upper end of an interval among the rows with these labels."""
+    for name, wanted in at.items():
+        table = table[table[name].isin(wanted) if isinstance(wanted, list) else table[name] == wanted]
+    return float(table.probability_high.max())
+
+
+def main(
+    case: dict, ensemble: dict, structures: dict, records: list[Record]
+) -> tuple[pd.DataFrame, dict]:
+    under = subjects(case, structures)
+    cells = outcomes(case, ensemble, under)
+    table = probabilities(cells, case["confidence"])
+    measured = under_records(case, records, under)
+    velocity, ample = table[table.measure == "pgv"], case["ample"]
+    large = [s.name for s in under if s.structure.block().frequency_parameter < math.inf]
+    large = list(dict.fromkeys(n for n in large if float(n.split()[0]) >= ample["height"]))
+    framed = velocity[(velocity.support == "free") & velocity.structure.isin(large)]
+    modest = framed[framed.level <= ample["pgv"]]
+    each = ["family", "structure", "measure", "level"]
+    wide = table.pivot_table(index=each, columns="support", values="fell")
+    summed = wide.groupby(level=each[:2]).sum()
+    findings = {
+        "ample_stability": truth(
+            worst(framed) < ample["probability"],
+            holds_when=worst(modest) < ample["probability"],
+            condition=f"PGV up to {ample['pgv']:g} m/s, and columns of {ample['height']:g} m or more",
+            largest_upper_end=worst(modest),
+            at_highest=worst(framed),
+            margin=ample["probability"],
+            structures=large,
+        ),
+        "free_cap_helps": truth(
+            (summed.free < summed.bare).all(),
+            compared=len(wide),
+            differ=int((wide.free != wide.bare).sum()),
+            exceptions=int((wide.free > wide.bare).sum()),
+        ),
+        "fixed_mass_harms": truth(
+            (summed.fixed > summed.bare).all(),
+            compared=len(wide),
+            differ=int((wide.fixed != wide.bare).sum()),
+            exceptions=int((wide.fixed < wide.bare).sum()),
+        ),
+        "records": truth(
+            not any(row["overturned"] for row in measured if row["support"] == "free"),
+            measured=measured,
+        ),
+        "napa": value(max(row["pgv"] for row in measured if "napa" in row["record"]), 0.0, "m/s"),
+        "second_route": confirmed(case, ensemble, under, cells),
+    }
+    return table, findings
+
+
+def work(job: Any) -> tuple:
+    records = [read_record(path) for path in job.input.records]
+    return main(job.params.case, job.params.ensemble, job.params.structures, records)
+
+
+if __name__ == "__main__":
+    run(snakemake, work)

@@ -1,0 +1,264 @@
+"""How much depends on the impact law: √r of frame and column changed, together, apart, at random.
+
+A factor never brings √r above HIGHEST. Pulses are judged by maps of overturning, synthetic motions
+by the probability of overturning over the ensemble of study reversals.
+"""
+
+import math
+from itertools import product
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from replication.workbench import run, truth, value
+from steps.spectrum import progress
+from studies.certainty.scattered import overturned_with
+from studies.certainty.shapes import knots, record
+from studies.reversals import fragility
+from studies.reversals.ensemble import draws
+from studies.reversals.motions import peak_velocity
+from topheavy import (
+    STANDARD_GRAVITY,
+    Column,
+    Pulse,
+    RockingBlock,
+    RockingFrame,
+    overturned_by,
+    overturning_intervals,
+    reference,
+)
+from topheavy.structures import Structure
+
+WAYS = ("both", "frame alone", "column alone")
+HIGHEST = 0.995
+"""Of √r: a block that loses nothing bounces without end, and no solver can follow it."""
+
+RISES = 1e-8  # of a minimum: the rounding of its bracket
+
+
+def changed(structure: Structure, factor: float) -> RockingBlock:
+    """Return the block with √r times a factor, at most HIGHEST."""
+    block = structure.block()
+    if factor == 1.0:
+        return block
+    return block.with_restitution(min(HIGHEST, factor * block.restitution))
+
+
+def pairs(factors: list[float]) -> dict[tuple[str, float], tuple[float, float]]:
+    """Return the factors on √r of the column and of the frame, by way and factor."""
+    found = {("both", factor): (factor, factor) for factor in factors}
+    found |= {("frame alone", factor): (1.0, factor) for factor in factors}
+    return found | {("column alone", factor): (factor, 1.0) for factor in factors}
+
+
+def spectrum(block: RockingBlock, pulse: Pulse, case: dict) -> np.ndarray:
+    """Return the intervals of amplitude (g tan α) that overturn, shape (n, 2)."""
+    amplitudes = case["amplitudes"]
+    found = overturning_intervals(
+        block,
+        pulse,
+        (amplitudes["lowest"], amplitudes["highest"]),
+        resolution=amplitudes["resolution"],
+        most_impacts=1,
+    )
+    last = amplitudes["highest"]
+    ends = [(one.lower[1], one.upper[0] if one.upper else last) for one in found]
+    return np.array(ends).reshape(-1, 2)
+
+
+def lowest(block: RockingBlock, pulse: Pulse, case: dict, below: float) -> float:
+    """Return the minimum (g tan α) by the finer resolution, at most `below` or the highest."""
+    ends = case["amplitudes"]["lowest"], min(below, case["amplitudes"]["highest"])
+    found = overturning_intervals(
+        block, pulse, ends, resolution=case["amplitudes"]["finer"], most_impacts=1
+    )
+    return found[0].lower[1] if found else below
+
+
+def only_first(first: np.ndarray, second: np.ndarray, levels: np.ndarray) -> float:
+    """Return the share of the levels within the intervals of the first and not of the second."""
+    inside = [((levels[:, None] >= s[:, 0]) & (levels[:, None] <= s[:, 1])).any(axis=1) for s in (first, second)]
+    return float((inside[0] & ~inside[1]).mean())
+
+
+def under_pulses(case: dict) -> pd.DataFrame:
+    """Return, for each change of √r, the shares of the maps saved and lost, and the least rise."""
+    amplitudes = case["amplitudes"]
+    levels = np.linspace(amplitudes["lowest"], amplitudes["highest"], case["levels"])
+    ratios = np.linspace(*(case["frequency_ratios"][key] for key in ("lowest", "highest", "points")))
+    places = list(product(case["slendernesses"], case["shapes"], ratios))
+    factors, rows = case["factors"], []
+    for degrees, shape, ratio in progress(places, len(places), "frequencies"):
+        alpha = math.radians(degrees)
+        column = Column(math.sin(alpha), math.cos(alpha))
+        pulse = Pulse(shape, column.uplift_acceleration, ratio * column.frequency_parameter)
+        light, heavy = (
+            {factor: spectrum(changed(RockingFrame(column, gamma), factor), pulse, case) for factor in factors}
+            for gamma in (0.0, math.inf)
+        )
+        for (way, factor), (of_column, of_frame) in pairs(factors).items():
+            one, other = light[of_column], heavy[of_frame]
+            minima = [found[0, 0] if len(found) else math.inf for found in (one, other)]
+            if minima[1] < minima[0] * (1.0 - RISES):
+                # a narrow interval of the column may have been missed below
+                minima[0] = lowest(changed(column, of_column), pulse, case, minima[0])
+            rows.append(
+                {
+                    "way": way,
+                    "factor": factor,
+                    "helps": only_first(one, other, levels),
+                    "harms": only_first(other, one, levels),
+                    "compared": min(minima) < math.inf,
+                    "falls": minima[1] < minima[0] * (1.0 - RISES),
+                    "least": minima[1] / minima[0] if minima[0] < math.inf else math.inf,
+                }
+            )
+    grouped = pd.DataFrame(rows).groupby(["way", "factor"], sort=False, as_index=False)
+    return grouped.agg(
+        helps=("helps", "mean"),
+        harms=("harms", "mean"),
+        compared=("compared", "sum"),
+        falls=("falls", "sum"),
+        least=("least", "min"),
+    )
+
+
+def outcomes(case: dict, ensemble: dict) -> tuple[list[tuple], dict[str, np.ndarray]]:
+    """Return the variants, and for each family which of its motions overturn each, at each level.
+
+    A variant is (γ, kind, number): kind "factor" with its factor, or "scatter" with its range.
+    """
+    column = Column(**case["column"])
+    unit = STANDARD_GRAVITY * column.uplift_acceleration / column.frequency_parameter
+    spec = case["intensities"]
+    levels = np.geomspace(spec["lowest"], spec["highest"], spec["points"])
+    variants = [(g, "factor", f) for g in case["mass_ratios"] for f in case["factors"]]
+    variants += [(g, "scatter", low) for g in case["mass_ratios"] for low in case["scatter"]]
+    some = {**ensemble, "runs": {ensemble["run"]: {"motions": case["motions"]}}}
+    found: dict[str, list] = {family: [] for family in ensemble["families"]}
+    chosen = draws(some)
+    for draw in progress(chosen, len(chosen), "motions"):
+        motion = draw.record()
+        scales = levels * unit / peak_velocity(motion)
+        # one row of draws for all structures: the impacts of a motion are equally bad for each
+        lots = np.random.default_rng([case["seed"], draw.place, draw.number]).uniform(
+            size=(levels.size, case["impacts"])
+        )
+        fell = []
+        for gamma, kind, number in variants:
+            frame = RockingFrame(column, gamma)
+            if kind == "factor":
+                fell.append(overturned_by(changed(frame, number), motion, scales))
+            else:
+                factors = number + (case["scatter_highest"] - number) * lots
+                ratios = np.minimum(HIGHEST, frame.restitution * factors)
+                fell.append(overturned_with(frame, motion, scales, ratios))
+        found[draw.family].append(fell)
+    return variants, {family: np.array(rows) for family, rows in found.items()}
+
+
+def under_motions(case: dict, ensemble: dict) -> tuple[pd.DataFrame, list[dict]]:
+    """Return the mean probability of overturning of each variant, and its fall with γ, with bands."""
+    variants, found = outcomes(case, ensemble)
+    boot, rows, falls = case["bootstrap"], [], []
+    for family, fell in found.items():
+        weights = fragility.resampled(len(fell), boot["resamples"], case["seed"])
+        means = fragility.means(weights, fell.mean(axis=2))
+        place = {variant: number for number, variant in enumerate(variants)}
+        for variant, number in place.items():
+            gamma, kind, factor = variant
+            labels = {"family": family, "mass_ratio": gamma, "kind": kind, "factor": factor}
+            rows.append(labels | bounds("probability", means[:, number], boot))
+        light, heavy = case["mass_ratios"][0], case["mass_ratios"][-1]
+        for (way, factor), (of_column, of_frame) in pairs(case["factors"]).items():
+            less = means[:, place[light, "factor", of_column]] - means[:, place[heavy, "factor", of_frame]]
+            falls.append({"family": family, "way": way, "factor": factor} | bounds("less", less, boot))
+        for low in case["scatter"]:
+            less = means[:, place[light, "scatter", low]] - means[:, place[heavy, "scatter", low]]
+            falls.append({"family": family, "way": "scatter", "factor": low} | bounds("less", less, boot))
+    return pd.DataFrame(rows), falls
+
+
+def is_against_the_frame(table: pd.DataFrame) -> pd.Series:
+    """Return which changes lower the √r of the column and not that of the frame."""
+    return (table.way == "column alone") & (table.factor < 1.0)
+
+
+def bounds(name: str, values: np.ndarray, boot: dict) -> dict:
+    middle, low, high = fragility.interval(values, boot["confidence"])
+    return {name: float(middle), f"{name}_low": float(low), f"{name}_high": float(high)}
+
+
+def scatter_agrees(case: dict) -> dict:
+    """Return whether SciPy gives the same outcomes with the same √r at each impact."""
+    column, random = Column(**case["column"]), np.random.default_rng(case["seed"])
+    spec, differ, overturned = case["scatter_checked"], 0, 0
+    for _ in progress(range(spec), spec, "checks"):
+        gamma = float(random.choice(case["mass_ratios"]))
+        frame = RockingFrame(column, gamma)
+        motion = record(knots(random), random.uniform(2.0, 20.0), column)
+        factor = np.array([math.exp(random.uniform(0.1, 2.0))])
+        factors = random.uniform(min(case["scatter"]), case["scatter_highest"], (1, case["impacts"]))
+        ratios = np.minimum(HIGHEST, frame.restitution * factors)
+        fell = overturned_with(frame, motion, factor, ratios)[0]
+        other = reference.judge(frame, motion.scaled(float(factor[0])), restitutions=ratios[0])
+        differ += bool(fell) != other.overturned
+        overturned += bool(fell)
+    return truth(
+        differ == 0 and 0 < overturned < spec, compared=spec, differ=differ, overturned=overturned
+    )
+
+
+def main(case: dict, ensemble: dict) -> tuple[pd.DataFrame, dict]:
+    pulses = under_pulses(case)
+    table, falls = under_motions(case, ensemble)
+    less = pd.DataFrame(falls)
+    joint, apart = less[less.way.isin(["both", "scatter"])], less[less.way.isin(WAYS[1:])]
+    together = pulses[pulses.way == "both"]
+    kept, fewer = (of[~is_against_the_frame(of)] for of in (pulses, apart))
+    shown = {
+        f"{name}_{row.factor:g}": getattr(row, name)
+        for row in together.itertuples()
+        for name in ("helps", "harms")
+    }
+    findings = {
+        "lowest_rises_together": truth(
+            not together.falls.any(), compared=int(together.compared.sum()), **shown
+        ),
+        "lowest_rises_apart": truth(
+            not pulses.falls.any(),
+            holds_when=not kept.falls.any(),
+            condition="the column's √r is not lowered alone",
+            changes=pulses.to_dict("records"),
+        ),
+        "helps_more_than_harms": truth((pulses.helps > pulses.harms).all(), least=float((pulses.helps / pulses.harms).min())),
+        "probability_falls_together": truth(
+            (joint.less_low > 0.0).all(), compared=len(joint), least=float(joint.less_low.min()), changes=joint.to_dict("records")
+        ),
+        "probability_falls_apart": truth(
+            (apart.less_low > 0.0).all(),
+            holds_when=(fewer.less_low > 0.0).all(),
+            condition="the column's √r is not lowered alone",
+            compared=len(apart),
+            least=float(apart.less_low.min()),
+            changes=apart.to_dict("records"),
+        ),
+        "harms_range": value(
+            together.harms.max(), 1.0 / case["levels"], lowest=together.harms.min()
+        ),
+        "helps_range": value(
+            together.helps.max(), 1.0 / case["levels"], lowest=together.helps.min()
+        ),
+        "scatter_agrees": scatter_agrees(case),
+    }
+    motions = table.assign(under="motions")
+    return pd.concat([motions, pulses.assign(under="pulses"), less.assign(under="difference")]), findings
+
+
+def work(job: Any) -> tuple:
+    return main(job.params.case, job.params.ensemble)
+
+
+if __name__ == "__main__":
+    run(snakemake, work)
