@@ -3,7 +3,7 @@
 from figures.drawing import gamma
 from replication.drawing import ACCENT, DARK, DOUBLE, GREY, INK, letter, note, publish, sheet
 
-PLACES = {0.0: ((0.98, 0.30), DARK), float("inf"): ((0.98, 0.92), ACCENT)}
+PLACES = {0.0: ((0.45, 0.20), DARK), float("inf"): ((0.96, 0.55), ACCENT)}
 
 
 def draw(certainty_lowest, certainty_lowest_histories):
@@ -16,9 +16,9 @@ def draw(certainty_lowest, certainty_lowest_histories):
     ground.plot(course.time, course.acceleration, color=GREY, linewidth=0.6)
     ground.set(ylabel="Ground acceleration (g)")
     ground.spines.right.set_visible(True)
-    axes[0].axhline(1.0, color=INK, linewidth=0.5, linestyle=":")
+    axes[0].axhline(0.0, color=INK, linewidth=0.5, linestyle=":")
     axes[0].set(xlabel="Time over duration of the motion (–)", ylabel=r"Rotation, $\theta/\alpha$ (–)")
-    axes[0].set(xlim=(0, 3))
+    axes[0].set(xlim=(0, 2))
     table = certainty_lowest
     axes[1].plot(table.coarse, table["last"], "o", color=DARK, markersize=2.6)
     ends = (min(table.coarse.min(), 0.98) - 0.01, 1.0)

@@ -50,7 +50,7 @@ def search(case: dict) -> tuple[list[dict], dict]:
     """
     spec, column = case["search"], Column(**case["column"])
     random = np.random.default_rng(spec["seed"])
-    coarse, *finer = spec["steps"]
+    coarse, *finer = reversed(spec["steps"])
     light, heavy = (RockingFrame(column, case["mass_ratios"][end]) for end in (0, -1))
     kept: list[tuple[float, np.ndarray, float]] = []
     rows: list[dict] = []
@@ -136,7 +136,7 @@ def against_the_theorem(case: dict, tightened: float) -> tuple[dict, pd.DataFram
     spec = case["extreme"]
     alpha = math.radians(spec["slenderness"])
     column = Column(case["size"] * math.sin(alpha), case["size"] * math.cos(alpha))
-    pulse = record(np.array(spec["values"]), spec["duration"], column)
+    pulse = record(np.array(spec["accelerations"]), spec["duration"], column)
     pulse = pulse.scaled(spec["amplitude"] / column.uplift_acceleration)
     light, heavy = (RockingFrame(column, case["mass_ratios"][end]) for end in (0, -1))
     time = np.linspace(0.0, 3.0 * pulse.duration, SAMPLES)

@@ -1,0 +1,276 @@
+"""Cases in which each decisive result of the study is false, or a step would be wrong."""
+
+import math
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from studies.certainty.scattered import overturned_with
+from studies.certainty.shapes import FAMILIES, record, single_lobe
+from studies.certainty.steps import extensions, intensities, lowest, restitution, theorem
+from topheavy import (
+    Column,
+    FixedMassColumn,
+    Pulse,
+    Record,
+    RockingFrame,
+    judge,
+    overturned_by,
+    reference,
+)
+
+COLUMN = Column(0.5, 3.0)
+SIZES = {"half_width": 0.5, "half_height": 3.0}
+
+
+# No reversal without an impact ---------------------------------------------------------------------
+
+
+def trials(*contradicts, proved=True):
+    return pd.DataFrame({"contradicts": contradicts, "proved": proved})
+
+
+def test_one_contradiction_refutes_the_theorem():
+    assert theorem.counted(trials(False, False))["holds"]
+    assert not theorem.counted(trials(False, True))["holds"]
+    assert not theorem.counted(trials())["holds"]
+
+
+def test_frames_in_the_wrong_order_contradict_the_theorem():
+    """The trials can tell: with the lighter frame taken for the heavier, many of them contradict."""
+    random, found = np.random.default_rng(4), 0
+    for _ in range(60):
+        if (one := theorem.trial(random, True)) is not None:
+            swapped = theorem.Trial(one.heavier, one.lighter, one.motion)
+            assert theorem.at_once(one.lighter, one.motion)
+            assert theorem.is_ahead(one)
+            found += not theorem.is_ahead(swapped)
+    assert found > 20
+
+
+def test_tiny_bounce_is_an_impact():
+    """A spike that lifts the column by less than is counted, and later a pulse that overturns it."""
+    level = COLUMN.uplift_acceleration
+    samples = np.zeros(400)
+    samples[10] = -level * 1.0002
+    samples[50:] = 3.0 * level
+    shaken = Record(0.01, samples)
+    found = judge(COLUMN, shaken)
+    assert found.overturned
+    assert found.impacts == 0
+    assert not theorem.at_once(COLUMN.block(), shaken)
+    samples[10] = 0.0
+    assert theorem.at_once(COLUMN.block(), Record(0.01, samples))
+
+
+def test_theorem_covers_what_its_conditions_say():
+    block = RockingFrame(COLUMN, 1.0).block()
+    for inward, proved in ((0.5, True), (0.9, False)):
+        samples = np.repeat([0.0, 1.5, -inward, 0.0], 40)
+        one = theorem.Trial(COLUMN.block(), block, Record(0.002, samples))
+        assert theorem.peaks(one) == pytest.approx((1.5, inward))
+        assert theorem.is_proved(one) is (1.5 * inward < 1.0) is proved
+    linear = theorem.Trial(COLUMN.block().linear(), block.linear(), Record(0.002, samples))
+    assert theorem.is_proved(linear)
+
+
+def test_all_shapes_have_the_stated_peak():
+    random = np.random.default_rng(1)
+    for make in FAMILIES:
+        shape = record(make(random), 5.0, COLUMN, make.__name__)
+        assert shape.peak_acceleration == pytest.approx(COLUMN.uplift_acceleration)
+        assert shape.duration * COLUMN.frequency_parameter == pytest.approx(5.0)
+
+
+# Minimum overturning acceleration ------------------------------------------------------------------
+
+
+def test_single_lobe_rises_once_and_falls_once():
+    random = np.random.default_rng(2)
+    for _ in range(50):
+        change = np.sign(np.diff(np.concatenate([[0.0], single_lobe(random), [0.0]])))
+        change = change[change != 0.0]
+        assert np.count_nonzero(np.diff(change)) == 1
+        assert change[0] == 1.0
+
+
+LOBES = {
+    "mass_ratios": [0.0, 1.0, math.inf],
+    "lobes": {
+        "seed": 7,
+        "pulses": 4,
+        "slendernesses": [5.0, 20.0],
+        "lowest": 1.0,
+        "highest": 8.0,
+        "resolution": 0.05,
+    },
+}
+
+
+def test_second_lobe_is_an_exception(monkeypatch):
+    assert lowest.single_lobes(LOBES, 3e-12)["holds"]
+    two = [np.array([1.0, 0.0, -1.0])] * 4
+    monkeypatch.setattr(lowest, "single_lobe", lambda random: two.pop())
+    found = lowest.single_lobes(LOBES, 3e-12)
+    assert not found["holds"]
+    assert found["exceptions"] > 0
+
+
+SEARCH = {
+    "column": SIZES,
+    "mass_ratios": [0.0, math.inf],
+    "search": {
+        "seed": 1,
+        "trials": 400,
+        "values": 8,
+        "highest": 6.0,
+        "steps": [0.0001, 0.002, 0.05],
+    },
+}
+
+
+def test_fall_on_the_coarse_grid_alone_is_apparent():
+    rows, found = lowest.search(SEARCH)
+    assert found["holds"]
+    assert found["apparent"] == len(rows) > 0
+    assert all(row["coarse"] < 1.0 <= row["last"] for row in rows)
+
+
+def test_fall_on_all_grids_is_found():
+    """With the heavier frame first, the minimum falls for nearly every shape."""
+    case = SEARCH | {"mass_ratios": [math.inf, 0.0]}
+    case["search"] = case["search"] | {"trials": 20}
+    _, found = lowest.search(case)
+    assert not found["holds"]
+    assert found["confirmed"] > 5
+
+
+# Extensions ----------------------------------------------------------------------------------------
+
+SIMILAR = {
+    "column": SIZES,
+    "mass_ratios": [0.0, 4.0],
+    "similarity": {"seed": 3, "pulses": 60},
+}
+
+
+def test_frame_with_the_columns_restitution_is_not_similar(monkeypatch):
+    assert extensions.similar(SIMILAR)["holds"]
+    own = Column.block
+    monkeypatch.setattr(Column, "block", lambda self, restitution=None: own(self))
+    assert not extensions.similar(SIMILAR)["holds"]
+
+
+def test_stability_is_not_shown_by_pulses_of_several_lobes():
+    found = extensions.shows_stability(SIMILAR | {"similarity": {"seed": 24, "pulses": 400}})
+    assert not found["holds"]
+    assert found["holds_when"]
+    assert found["only_the_frame"] > 0
+
+
+def test_both_components_keep_their_common_time():
+    across = Record(0.01, np.concatenate([np.zeros(300), np.ones(100), np.zeros(300)]))
+    up = Record(0.01, np.arange(700.0) / 1000.0)
+    one, other = extensions.strongest(across, up, 1.5)
+    start = np.flatnonzero(one.acceleration)[0]
+    assert other.acceleration[start] == pytest.approx(0.300)
+
+
+# The impact law ------------------------------------------------------------------------------------
+
+
+def test_equal_restitutions_are_those_of_the_kernel():
+    random = np.random.default_rng(3)
+    frame, factors = RockingFrame(COLUMN, 1.0), np.geomspace(1.0, 8.0, 9)
+    differ = 0
+    for _ in range(20):
+        shaken = record(random.uniform(-1.0, 1.0, 8), random.uniform(2.0, 20.0), COLUMN)
+        ratios = np.full((9, 1), frame.restitution)
+        found = overturned_with(frame, shaken, factors, ratios)
+        differ += np.count_nonzero(found != overturned_by(frame, shaken, factors))
+    assert differ <= 1  # of 180, some next to a boundary
+
+
+def test_each_impact_has_its_own_restitution():
+    """A column at rest after its first impact survives what overturns it after its second."""
+    pulse = Pulse("one-sine", 0.9 * COLUMN.uplift_acceleration * 3.0, 3.0)
+    samples = pulse.excitation(np.arange(0.0, pulse.duration, 0.005))
+    shaken = Record(0.005, samples)
+    for ratios in ([0.97, 0.97], [0.0, 0.97], [0.97, 0.0]):
+        found = overturned_with(COLUMN, shaken, [1.0], np.array([ratios]))[0]
+        assert found == reference.judge(COLUMN, shaken, restitutions=ratios).overturned
+    assert reference.judge(COLUMN, shaken) == reference.judge(
+        COLUMN, shaken, restitutions=[COLUMN.restitution] * 9
+    )
+
+
+def test_factor_never_brings_restitution_above_the_highest():
+    assert restitution.changed(COLUMN, 1.05).restitution == restitution.HIGHEST < 1.0
+    assert restitution.changed(COLUMN, 0.9).restitution == pytest.approx(0.9 * COLUMN.restitution)
+    assert restitution.changed(COLUMN, 1.0) == COLUMN.block()
+
+
+def test_factors_are_applied_to_column_and_frame_as_named():
+    found = restitution.pairs([0.9, 1.0])
+    assert found["both", 0.9] == (0.9, 0.9)
+    assert found["frame alone", 0.9] == (1.0, 0.9)
+    assert found["column alone", 0.9] == (0.9, 1.0)
+
+
+PULSES = {
+    "slendernesses": [14.0],
+    "shapes": ["one-sine"],
+    "frequency_ratios": {"lowest": 2.0, "highest": 6.0, "points": 5},
+    "amplitudes": {"lowest": 1.0, "highest": 10.0, "resolution": 0.05, "finer": 0.0005},
+    "levels": 501,
+    "factors": [0.7, 1.0],
+}
+
+
+def test_lowered_restitution_of_the_column_alone_reverses_the_order():
+    table = restitution.under_pulses(PULSES).set_index(["way", "factor"])
+    assert table.falls["both", 1.0] == table.falls["both", 0.7] == 0
+    assert table.falls["column alone", 0.7] > 0
+    assert table.harms["column alone", 0.7] > table.harms["both", 0.7]
+    assert table.helps["frame alone", 0.7] > table.helps["both", 1.0]
+
+
+# Stated intensities --------------------------------------------------------------------------------
+
+
+def test_no_overturning_is_not_certain_survival():
+    low, high = intensities.share_interval(0, 100, 0.95)
+    assert low == 0.0
+    assert (1.0 - high) ** 100 == pytest.approx(0.025)
+    assert intensities.share_interval(100, 100, 0.95) == pytest.approx((1.0 - high, 1.0))
+
+
+STRUCTURES = {"temple": SIZES}
+
+
+def test_supports_carry_the_same_mass():
+    case = {"columns": [{"structure": "temple", "scaled": 2.0, "mass_ratio": 1.5}]}
+    bare, free, fixed = intensities.subjects(case, STRUCTURES)
+    assert bare.structure == Column(1.0, 6.0)
+    assert free.structure == RockingFrame(Column(1.0, 6.0), 1.5)
+    assert fixed.structure == FixedMassColumn(Column(1.0, 6.0), 1.5)
+    assert {one.name for one in (bare, free, fixed)} == {"12 m temple"}
+
+
+@pytest.mark.parametrize("measure", ["pgv", "pga"])
+def test_motion_has_the_stated_intensity(measure):
+    shaken = Record(0.01, 0.3 * np.sin(np.linspace(0.0, 20.0, 400)))
+    scaled = shaken.scaled(0.5 / intensities.intensity(shaken, measure))
+    found = scaled.peak_velocity if measure == "pgv" else scaled.peak_acceleration
+    assert found == pytest.approx(0.5)
+
+
+def test_ample_stability_needs_the_upper_end_of_the_interval():
+    cells = pd.DataFrame(
+        {"family": "a", "structure": "s", "support": "free", "mass_ratio": 1.0}
+        | {"measure": "pgv", "level": 0.6, "fell": [False] * 30}
+    )
+    table = intensities.probabilities(cells, 0.95)
+    assert table.probability.item() == 0.0
+    assert intensities.worst(table, support="free") > 0.1  # thirty survivors do not show 10 %
