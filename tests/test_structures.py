@@ -367,3 +367,24 @@ def test_restitution_outside_zero_to_one_is_refused_everywhere(value):
         with pytest.raises(ValueError, match=f"{value:g}") as error:
             make()
         assert error.match("restitution|√r")
+
+
+def test_masses_give_the_mass_ratio_of_any_number_of_columns():
+    column = Column(0.5, 3.0)
+    assert RockingFrame.of_masses(column, 265.0, 305.3) == RockingFrame(column, 265.0 / 610.6)
+    assert RockingFrame.of_masses(column, 6.0, 2.0, columns=6) == RockingFrame(column, 0.5)
+    assert RockingFrame.of_masses(column, 0.0, 2.0).mass_ratio == 0.0
+
+
+@pytest.mark.parametrize(
+    ("masses", "columns", "message"),
+    [
+        ((1.0, 1.0), 1, "columns is 1; expected a whole number from 2 on"),
+        ((1.0, 1.0), 2.0, "columns is 2.0"),
+        ((1.0, 0.0), 2, "column_mass is 0; expected more than zero"),
+        ((-1.0, 1.0), 2, "cap_mass is -1; expected zero or more"),
+    ],
+)
+def test_impossible_masses_are_refused(masses, columns, message):
+    with pytest.raises(ValueError, match=message):
+        RockingFrame.of_masses(Column(0.5, 3.0), *masses, columns=columns)

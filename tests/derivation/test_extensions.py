@@ -1,0 +1,113 @@
+"""Reversals, N columns and vertical acceleration: the proofs hold, and fail for what is false."""
+
+import math
+
+import numpy as np
+import pytest
+import sympy as sp
+
+from topheavy.derivation import extension_proofs as extension
+from topheavy.derivation import extension_theorems, extensions, reversal_theorems
+from topheavy.derivation import reversal_proofs as reversal
+from topheavy.derivation.notation import NEGATIVE, POSITIVE, SIDES, R, alpha, g, gamma
+
+
+@pytest.mark.parametrize("proofs", [reversal_theorems, extension_theorems])
+def test_every_theorem_holds_and_is_stated(proofs):
+    found = proofs()
+    assert [proof.id for proof in found if not proof.holds] == []
+    assert len({proof.id for proof in found}) == len(found) >= 7
+    assert all(proof.statement.endswith(".") for proof in found)
+
+
+def swapped(side):
+    """The motion with a push that does not depend on the rotation."""
+    return sp.sin(reversal._phi - alpha) - side.sign * reversal._a
+
+
+WRONG = [
+    (reversal, "exact", swapped, reversal.mass_ratio_leaves_only_the_time_scale),
+    (reversal, "exact", swapped, reversal.larger_rotation_feels_the_larger_push),
+    (reversal, "exact", swapped, reversal.far_enough_out_nothing_brings_it_back),
+    (reversal, "exact", swapped, reversal.push_in_one_direction_only_helps_that_side),
+    (
+        reversal,
+        "linearised",
+        lambda side: reversal._phi * (1 + reversal._a) - alpha,
+        reversal.difference_is_driven_by_the_heavier_frame,
+    ),
+    (reversal, "frequency_ratio", lambda: 1 + gamma, reversal.mass_ratio_leaves_only_the_time_scale),
+    (
+        extension,
+        "frame_of_columns",
+        lambda side: extensions.frame_of_columns(side) * (1 + gamma / extensions.N),
+        extension.columns_count_only_in_the_mass_ratio,
+    ),
+    (
+        extension,
+        "lagrange_of_columns",
+        lambda side: extensions.lagrange_of_columns(side).subs(gamma, 2 * gamma),
+        extension.lagrange_agrees_for_columns,
+    ),
+    (
+        extension,
+        "restitution_of_columns",
+        lambda side: sp.cos(2 * alpha),
+        extension.impacts_do_not_count_the_columns,
+    ),
+    *(
+        (
+            extension,
+            "frame_of_columns",
+            lambda side: extensions.frame_of_columns(side).subs(
+                extensions.vertical_acceleration, 2 * extensions.vertical_acceleration
+            ),
+            proof,
+        )
+        for proof in (
+            extension.vertical_acceleration_adds_to_gravity,
+            extension.vertical_acceleration_changes_the_uplift,
+            extension.vertical_acceleration_is_a_change_of_gravity_and_push,
+        )
+    ),
+    (
+        extension,
+        "equation_of_motion",
+        lambda side: sp.Eq(0, extensions.printed_motion(side) * R),
+        extension.size_only_slows_time,
+    ),
+]
+
+
+@pytest.mark.parametrize(
+    ("module", "name", "spoilt", "proof"),
+    WRONG,
+    ids=[f"{row[3].__name__}-{row[1]}" for row in WRONG],
+)
+def test_proof_fails_for_what_is_false(monkeypatch, module, name, spoilt, proof):
+    monkeypatch.setattr(module, name, spoilt)
+    assert not proof()
+
+
+def test_many_columns_move_as_three_bodies_do_for_two():
+    """The equation of N columns against numbers: p̂², the push and the vertical acceleration."""
+    values = {alpha: 0.2, gamma: 1.5, R: 2.0, g: 9.81, extensions.vertical_acceleration: -1.7}
+    for side in SIDES:
+        motion = extensions.frame_of_columns(side).subs(values)
+        push = sp.Symbol(r"\ddot{u}_g", real=True)
+        found = float(motion.subs({push: 3.0, side.rotation: side.sign * 0.05}))
+        p_squared = 4.0 / 5.5 * 3.0 * 9.81 / 8.0
+        stated = side.sign * math.sin(0.15) * (1.0 - 1.7 / 9.81) + 3.0 / 9.81 * math.cos(0.15)
+        assert found == pytest.approx(-p_squared * stated)
+
+
+def test_restitution_of_columns_is_the_same_on_both_sides():
+    ratios = [
+        sp.lambdify((alpha, gamma), extensions.restitution_of_columns(side))
+        for side in (NEGATIVE, POSITIVE)
+    ]
+    angle = np.linspace(0.05, 0.7, 20)
+    np.testing.assert_allclose(ratios[0](angle, 2.0), ratios[1](angle, 2.0), rtol=1e-12)
+    np.testing.assert_allclose(
+        ratios[0](angle, 2.0), (1 - 1.5 * np.sin(angle) ** 2 + 6 * np.cos(2 * angle)) / 7, rtol=1e-12
+    )
