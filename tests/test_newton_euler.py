@@ -193,3 +193,14 @@ def test_bad_lengths_are_refused_by_name(change, message):
     good = {"frame": RockingFrame(TRILITH, 0.434), "span": 1.2, "cap_depth": 0.3}
     with pytest.raises(ValueError, match=message):
         ThreeBodies(**(good | change))
+
+
+@pytest.mark.parametrize("vertical", [-0.4, 0.7])
+def test_vertical_acceleration_is_another_gravity(vertical):
+    """At rest, all accelerations and forces are those of (1 + v) g and ü_g/(1 + v)."""
+    bodies = ThreeBodies(RockingFrame(Column(0.5, 3.0), 1.5), 5.0, 1.0)
+    still = np.zeros(9), np.zeros(9)
+    found = accelerations(bodies, (1, 1), *still, 0.3, vertical)
+    other = accelerations(bodies, (1, 1), *still, 0.3 / (1.0 + vertical))
+    for one, scaled in zip(found, other, strict=True):
+        np.testing.assert_allclose(one, (1.0 + vertical) * scaled, rtol=1e-9, atol=1e-9)

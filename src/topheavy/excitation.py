@@ -53,7 +53,7 @@ class Segment:
         return max(abs(self.acceleration(first)), abs(self.acceleration(last)))
 
     def least_gravity(self, start: float, stop: float) -> float:
-        """Return the least gravity over the overlap with [start, stop], or 1 where there is none."""
+        """Return the least gravity over the overlap with [start, stop], or 1 without one."""
         first, last = max(start, self.start), min(stop, self.stop)
         return min(self.gravity(first), self.gravity(last)) if first <= last else 1.0
 

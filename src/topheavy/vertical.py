@@ -11,8 +11,10 @@ Between two samples a/(1 + v) is monotone, as a quotient of two lines.
 
 from dataclasses import dataclass
 from functools import partial
+from itertools import pairwise
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from topheavy.excitation import Excitation, Segment
 from topheavy.records import Record
@@ -46,6 +48,10 @@ class TwoComponents:
         """How long either lasts, s."""
         return max(self.horizontal.duration, self.vertical.duration)
 
+    def excitation(self, t: ArrayLike) -> float | NDArray[np.float64]:
+        """Return the horizontal acceleration in g at the time(s) t in s."""
+        return self.horizontal.excitation(t)
+
     def segments(self, until: float) -> list[Segment]:
         """Return the spans between the samples of either record, up to `until`."""
         end = min(until, self.duration)
@@ -55,9 +61,9 @@ class TwoComponents:
         # samples that rounding alone keeps apart are one
         edges = edges[np.append(True, np.diff(edges) > 1e-9 * end)]
         lines = [np.atleast_1d(record.excitation(edges)) for record in both]
-        spans = zip(edges[:-1], edges[1:], *(zip(v[:-1], v[1:], strict=True) for v in lines), strict=True)
+        spans = zip(pairwise(edges), pairwise(lines[0]), pairwise(lines[1]), strict=True)
         found = []
-        for start, stop, across, up in spans:
+        for (start, stop), across, up in spans:
             gravity = partial(_line, start, stop, 1.0 + up[0], 1.0 + up[1])
             push = partial(_quotient, partial(_line, start, stop, *across), gravity)
             found.append(Segment(float(start), float(stop), push, gravity))
@@ -66,7 +72,7 @@ class TwoComponents:
 
 def with_vertical(
     block: RockingBlock, excitation: Excitation | None, vertical: Record | None
-) -> Excitation | TwoComponents | None:
+) -> Excitation | None:
     """Return the ground motion of both components, or the horizontal one if there is no other.
 
     Raises

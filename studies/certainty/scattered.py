@@ -67,7 +67,7 @@ def _overturns(alpha, step, samples, ratios):  # type: ignore[no-untyped-def]
     """Follow the block through the record, and judge its energy at the end."""
     level, flat = math.tan(alpha), math.pi / 2.0
     phi, rate, side, impacts, moving, height = 0.0, 0.0, 1.0, 0, False, 0.0
-    pieces = int(math.ceil(step / LONGEST))
+    pieces = max(1, math.ceil(step / LONGEST))
     h = step / pieces
     for k in range(samples.size - 1):
         slope = (samples[k + 1] - samples[k]) / step

@@ -58,7 +58,11 @@ def noise(random: Random) -> Vector:
 def chirp(random: Random) -> Vector:
     """A sine of drifting frequency that grows and fades."""
     time = np.linspace(0.0, 1.0, 120)
-    cycles, drift, phase = random.uniform(1.0, 6.0), random.uniform(-0.8, 0.8), random.uniform(0, 6.3)
+    cycles, drift, phase = (
+        random.uniform(1.0, 6.0),
+        random.uniform(-0.8, 0.8),
+        random.uniform(0, 6.3),
+    )
     wave = np.sin(2.0 * math.pi * cycles * (time + 0.5 * drift * time**2) + phase)
     return wave * np.sin(math.pi * time) ** random.uniform(0.0, 2.0)
 

@@ -36,7 +36,12 @@ WRONG = [
         lambda side: reversal._phi * (1 + reversal._a) - alpha,
         reversal.difference_is_driven_by_the_heavier_frame,
     ),
-    (reversal, "frequency_ratio", lambda: 1 + gamma, reversal.mass_ratio_leaves_only_the_time_scale),
+    (
+        reversal,
+        "frequency_ratio",
+        lambda: 1 + gamma,
+        reversal.mass_ratio_leaves_only_the_time_scale,
+    ),
     (
         extension,
         "frame_of_columns",
@@ -109,5 +114,7 @@ def test_restitution_of_columns_is_the_same_on_both_sides():
     angle = np.linspace(0.05, 0.7, 20)
     np.testing.assert_allclose(ratios[0](angle, 2.0), ratios[1](angle, 2.0), rtol=1e-12)
     np.testing.assert_allclose(
-        ratios[0](angle, 2.0), (1 - 1.5 * np.sin(angle) ** 2 + 6 * np.cos(2 * angle)) / 7, rtol=1e-12
+        ratios[0](angle, 2.0),
+        (1 - 1.5 * np.sin(angle) ** 2 + 6 * np.cos(2 * angle)) / 7,
+        rtol=1e-12,
     )

@@ -1,11 +1,11 @@
-"""What a larger R̂ implies, N columns, vertical ground motion: each function proves its docstring."""
+"""A larger R̂, N columns, vertical ground motion. Each function proves what its docstring states."""
 
 from __future__ import annotations
 
 import sympy as sp
 
-from topheavy.derivation.equilibrium import column_motion, equation_of_motion
 from topheavy.derivation.equilibrium import RECTANGULAR as OF_TWO
+from topheavy.derivation.equilibrium import column_motion, equation_of_motion
 from topheavy.derivation.extensions import (
     N,
     frame_of_columns,
@@ -55,9 +55,7 @@ def columns_count_only_in_the_mass_ratio() -> bool:
 
 def lagrange_agrees_for_columns() -> bool:
     """Energies give the same equation of motion for N columns, vertical acceleration included."""
-    return all(
-        vanishes(frame_of_columns(side) - lagrange_of_columns(side), side) for side in SIDES
-    )
+    return all(vanishes(frame_of_columns(side) - lagrange_of_columns(side), side) for side in SIDES)
 
 
 def impacts_do_not_count_the_columns() -> bool:

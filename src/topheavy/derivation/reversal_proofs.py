@@ -17,12 +17,10 @@ from topheavy.derivation.equilibrium import equation_of_motion, frequency_ratio,
 from topheavy.derivation.notation import (
     SIDES,
     Side,
-    acceleration,
     alpha,
     g,
     gamma,
     ground_acceleration,
-    vanishes,
 )
 
 p_1, p_2 = sp.symbols("p_1 p_2", positive=True)
@@ -96,9 +94,7 @@ def overturning_is_a_growing_term() -> bool:
     starts = (course.subs(_tau, 0) - (_phi - alpha), sp.diff(course, _tau).subs(_tau, 0) - _rate)
     moves = sp.diff(course, _tau, 2) - p_1**2 * course
     excess = _rate**2 / (2 * p_1**2) + _phi * (alpha - _phi / 2) - alpha**2 / 2
-    return all(
-        sp.simplify(zero) == 0 for zero in (*starts, moves, excess + 2 * growing * fading)
-    )
+    return all(sp.simplify(zero) == 0 for zero in (*starts, moves, excess + 2 * growing * fading))
 
 
 def lighter_frame_has_the_larger_growing_term() -> bool:

@@ -1,4 +1,4 @@
-"""Where the theorems end: an extreme motion; and falls of the minimum that a finer search removes."""
+"""Where the theorems end: an extreme motion, and falls of the minimum that are only apparent."""
 
 from figures.drawing import gamma
 from replication.drawing import ACCENT, DARK, DOUBLE, GREY, INK, letter, note, publish, sheet
@@ -17,7 +17,9 @@ def draw(certainty_lowest, certainty_lowest_histories):
     ground.set(ylabel="Ground acceleration (g)")
     ground.spines.right.set_visible(True)
     axes[0].axhline(0.0, color=INK, linewidth=0.5, linestyle=":")
-    axes[0].set(xlabel="Time over duration of the motion (–)", ylabel=r"Rotation, $\theta/\alpha$ (–)")
+    axes[0].set(
+        xlabel="Time over duration of the motion (–)", ylabel=r"Rotation, $\theta/\alpha$ (–)"
+    )
     axes[0].set(xlim=(0, 2))
     table = certainty_lowest
     axes[1].plot(table.coarse, table["last"], "o", color=DARK, markersize=2.6)

@@ -16,7 +16,7 @@ def draw(certainty_restitution):
     table = certainty_restitution
     figure, axes = sheet(DOUBLE, 58, ncols=3)
     pulses = table[table.under == "pulses"]
-    for way, (colour, words) in list(WAYS.items())[:3]:
+    for way, (colour, _) in list(WAYS.items())[:3]:
         rows = pulses[pulses.way == way].sort_values("factor")
         axes[0].plot(rows.factor, 100 * rows.helps, "o-", color=colour, markersize=2.6)
         axes[0].plot(rows.factor, 100 * rows.harms, "o--", color=colour, markersize=2.6)

@@ -56,7 +56,10 @@ def shows_stability(case: dict) -> dict:
     column, spec = Column(**case["column"]), case["similarity"]
     random = np.random.default_rng(spec["seed"])
     alone = {"one lobe": 0, "several": 0}
-    shapes = {"one lobe": ["half-sine", "constant"], "several": ["one-sine", "ricker-antisymmetric"]}
+    shapes = {
+        "one lobe": ["half-sine", "constant"],
+        "several": ["one-sine", "ricker-antisymmetric"],
+    }
     frame = RockingFrame(column, max(case["mass_ratios"]))
     for kind, names in shapes.items():
         for _ in range(spec["pulses"]):

@@ -4,7 +4,6 @@ Bare columns, frames with a free cap beam, and columns with the same mass fixed 
 the synthetic motions of study reversals, each scaled to the intensity; measured records beside.
 """
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -40,6 +39,7 @@ class Subject:
     name: str
     support: str
     mass_ratio: float
+    height: float  # of the columns, m
     structure: Structure
 
     @property
@@ -60,11 +60,12 @@ def subjects(case: Mapping[str, Any], structures: Mapping[str, Any]) -> list[Sub
     for entry in case["columns"]:
         dimensions = structures[entry["structure"]]
         column = Column(*(entry["scaled"] * dimensions[k] for k in ("half_width", "half_height")))
-        name, gamma = f"{2.0 * column.half_height:g} m {entry['structure']}", entry["mass_ratio"]
+        height, gamma = 2.0 * column.half_height, entry["mass_ratio"]
+        name = f"{height:g} m {entry['structure']}"
         found += [
-            Subject(name, "bare", 0.0, column),
-            Subject(name, "free", gamma, RockingFrame(column, gamma)),
-            Subject(name, "fixed", gamma, FixedMassColumn(column, gamma)),
+            Subject(name, "bare", 0.0, height, column),
+            Subject(name, "free", gamma, height, RockingFrame(column, gamma)),
+            Subject(name, "fixed", gamma, height, FixedMassColumn(column, gamma)),
         ]
     return found
 
@@ -103,7 +104,9 @@ def probabilities(cells: pd.DataFrame, confidence: float) -> pd.DataFrame:
     """Return the probability of overturning with its interval, over the motions of each family."""
     keys = ["family", "structure", "support", "mass_ratio", "measure", "level"]
     table = cells.groupby(keys, sort=False, as_index=False).fell.agg(fell="sum", motions="size")
-    ends = [share_interval(f, n, confidence) for f, n in zip(table.fell, table.motions, strict=True)]
+    ends = [
+        share_interval(f, n, confidence) for f, n in zip(table.fell, table.motions, strict=True)
+    ]
     low, high = zip(*ends, strict=True)
     return table.assign(
         probability=table.fell / table.motions, probability_low=low, probability_high=high
@@ -111,7 +114,7 @@ def probabilities(cells: pd.DataFrame, confidence: float) -> pd.DataFrame:
 
 
 def under_records(case: dict, records: list[Record], under: list[Subject]) -> list[dict]:
-    """Return the outcomes under the records as they were measured, and by which factor they fall."""
+    """Return the outcomes under the records as measured, and the lowest factor that overturns."""
     rows = []
     for record in records:
         factors = np.arange(1.0, case["largest_factor"], case["factor_step"])
@@ -141,7 +144,9 @@ def confirmed(case: dict, ensemble: dict, under: list[Subject], cells: pd.DataFr
     motions = {tuple(draw.labels.values()): draw for draw in draws(some)}
     named = {(subject.name, subject.support): subject for subject in under}
     differ, told = 0, 0
-    for at in progress(random.choice(len(cells), case["checked"], False), case["checked"], "checks"):
+    for at in progress(
+        random.choice(len(cells), case["checked"], False), case["checked"], "checks"
+    ):
         cell = cells.iloc[at]
         record = motions[cell.family, cell.scenario, cell.motion].record()
         scaled = record.scaled(cell.level / intensity(record, cell.measure))
@@ -156,7 +161,9 @@ def confirmed(case: dict, ensemble: dict, under: list[Subject], cells: pd.DataFr
 def worst(table: pd.DataFrame, **at: Any) -> float:
     """Return the largest upper end of an interval among the rows with these labels."""
     for name, wanted in at.items():
-        table = table[table[name].isin(wanted) if isinstance(wanted, list) else table[name] == wanted]
+        table = table[
+            table[name].isin(wanted) if isinstance(wanted, list) else table[name] == wanted
+        ]
     return float(table.probability_high.max())
 
 
@@ -168,8 +175,7 @@ def main(
     table = probabilities(cells, case["confidence"])
     measured = under_records(case, records, under)
     velocity, ample = table[table.measure == "pgv"], case["ample"]
-    large = [s.name for s in under if s.structure.block().frequency_parameter < math.inf]
-    large = list(dict.fromkeys(n for n in large if float(n.split()[0]) >= ample["height"]))
+    large = [s.name for s in under if s.support == "free" and s.height >= ample["height"]]
     framed = velocity[(velocity.support == "free") & velocity.structure.isin(large)]
     modest = framed[framed.level <= ample["pgv"]]
     each = ["family", "structure", "measure", "level"]
@@ -179,7 +185,7 @@ def main(
         "ample_stability": truth(
             worst(framed) < ample["probability"],
             holds_when=worst(modest) < ample["probability"],
-            condition=f"PGV up to {ample['pgv']:g} m/s, and columns of {ample['height']:g} m or more",
+            condition=f"PGV up to {ample['pgv']:g} m/s, columns of {ample['height']:g} m or more",
             largest_upper_end=worst(modest),
             at_highest=worst(framed),
             margin=ample["probability"],

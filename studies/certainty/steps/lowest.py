@@ -79,7 +79,12 @@ def search(case: dict) -> tuple[list[dict], dict]:
             ratios.append(last / first)
         if ratios[0] < 1.0:
             rows.append(
-                {"coarse": ratios[0], "last": ratios[-1], "grids": len(ratios), "duration": duration}
+                {
+                    "coarse": ratios[0],
+                    "last": ratios[-1],
+                    "grids": len(ratios),
+                    "duration": duration,
+                }
                 | {f"value_{k}": number for k, number in enumerate(values / np.abs(values).max())}
             )
     confirmed = [row for row in rows if row["last"] < 1.0]
@@ -118,7 +123,10 @@ def single_lobes(case: dict, tightened: float) -> dict:
             minima.append(found[0].lower if found else (math.inf, math.inf))
         exceptions += any(b[1] < a[0] * (1.0 - ROUNDING) for a, b in pairwise(minima))
         if minima[-1][1] < math.inf:
-            for scale, falls in ((minima[-1][0] * (1 - 1e-4), False), (minima[-1][1] * (1 + 1e-4), True)):
+            for scale, falls in (
+                (minima[-1][0] * (1 - 1e-4), False),
+                (minima[-1][1] * (1 + 1e-4), True),
+            ):
                 scaled = lobe.scaled(scale)
                 routes = judge(block, scaled, tolerance=tightened), reference.judge(block, scaled)
                 differ += any(route.overturned != falls for route in routes)
@@ -145,7 +153,8 @@ def against_the_theorem(case: dict, tightened: float) -> tuple[dict, pd.DataFram
         for frame in (light, heavy)
     }
     once = {
-        frame: [end.overturned and not end.impacts for end in ends] for frame, ends in routes.items()
+        frame: [end.overturned and not end.impacts for end in ends]
+        for frame, ends in routes.items()
     }
     alone = at_once(heavy.block(), pulse) and all(once[heavy]) and not any(once[light])
     shown = [history(frame, pulse, time) for frame in (light, heavy)]

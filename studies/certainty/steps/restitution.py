@@ -78,7 +78,10 @@ def lowest(block: RockingBlock, pulse: Pulse, case: dict, below: float) -> float
 
 def only_first(first: np.ndarray, second: np.ndarray, levels: np.ndarray) -> float:
     """Return the share of the levels within the intervals of the first and not of the second."""
-    inside = [((levels[:, None] >= s[:, 0]) & (levels[:, None] <= s[:, 1])).any(axis=1) for s in (first, second)]
+    inside = [
+        ((levels[:, None] >= s[:, 0]) & (levels[:, None] <= s[:, 1])).any(axis=1)
+        for s in (first, second)
+    ]
     return float((inside[0] & ~inside[1]).mean())
 
 
@@ -86,7 +89,9 @@ def under_pulses(case: dict) -> pd.DataFrame:
     """Return, for each change of √r, the shares of the maps saved and lost, and the least rise."""
     amplitudes = case["amplitudes"]
     levels = np.linspace(amplitudes["lowest"], amplitudes["highest"], case["levels"])
-    ratios = np.linspace(*(case["frequency_ratios"][key] for key in ("lowest", "highest", "points")))
+    ratios = np.linspace(
+        *(case["frequency_ratios"][key] for key in ("lowest", "highest", "points"))
+    )
     places = list(product(case["slendernesses"], case["shapes"], ratios))
     factors, rows = case["factors"], []
     for degrees, shape, ratio in progress(places, len(places), "frequencies"):
@@ -94,7 +99,10 @@ def under_pulses(case: dict) -> pd.DataFrame:
         column = Column(math.sin(alpha), math.cos(alpha))
         pulse = Pulse(shape, column.uplift_acceleration, ratio * column.frequency_parameter)
         light, heavy = (
-            {factor: spectrum(changed(RockingFrame(column, gamma), factor), pulse, case) for factor in factors}
+            {
+                factor: spectrum(changed(RockingFrame(column, gamma), factor), pulse, case)
+                for factor in factors
+            }
             for gamma in (0.0, math.inf)
         )
         for (way, factor), (of_column, of_frame) in pairs(factors).items():
@@ -159,7 +167,7 @@ def outcomes(case: dict, ensemble: dict) -> tuple[list[tuple], dict[str, np.ndar
 
 
 def under_motions(case: dict, ensemble: dict) -> tuple[pd.DataFrame, list[dict]]:
-    """Return the mean probability of overturning of each variant, and its fall with γ, with bands."""
+    """Return the mean probability of overturning of each variant, and its fall with γ."""
     variants, found = outcomes(case, ensemble)
     boot, rows, falls = case["bootstrap"], [], []
     for family, fell in found.items():
@@ -172,11 +180,18 @@ def under_motions(case: dict, ensemble: dict) -> tuple[pd.DataFrame, list[dict]]
             rows.append(labels | bounds("probability", means[:, number], boot))
         light, heavy = case["mass_ratios"][0], case["mass_ratios"][-1]
         for (way, factor), (of_column, of_frame) in pairs(case["factors"]).items():
-            less = means[:, place[light, "factor", of_column]] - means[:, place[heavy, "factor", of_frame]]
-            falls.append({"family": family, "way": way, "factor": factor} | bounds("less", less, boot))
+            less = (
+                means[:, place[light, "factor", of_column]]
+                - means[:, place[heavy, "factor", of_frame]]
+            )
+            falls.append(
+                {"family": family, "way": way, "factor": factor} | bounds("less", less, boot)
+            )
         for low in case["scatter"]:
             less = means[:, place[light, "scatter", low]] - means[:, place[heavy, "scatter", low]]
-            falls.append({"family": family, "way": "scatter", "factor": low} | bounds("less", less, boot))
+            falls.append(
+                {"family": family, "way": "scatter", "factor": low} | bounds("less", less, boot)
+            )
     return pd.DataFrame(rows), falls
 
 
@@ -199,7 +214,9 @@ def scatter_agrees(case: dict) -> dict:
         frame = RockingFrame(column, gamma)
         motion = record(knots(random), random.uniform(2.0, 20.0), column)
         factor = np.array([math.exp(random.uniform(0.1, 2.0))])
-        factors = random.uniform(min(case["scatter"]), case["scatter_highest"], (1, case["impacts"]))
+        factors = random.uniform(
+            min(case["scatter"]), case["scatter_highest"], (1, case["impacts"])
+        )
         ratios = np.minimum(HIGHEST, frame.restitution * factors)
         fell = overturned_with(frame, motion, factor, ratios)[0]
         other = reference.judge(frame, motion.scaled(float(factor[0])), restitutions=ratios[0])
@@ -232,9 +249,14 @@ def main(case: dict, ensemble: dict) -> tuple[pd.DataFrame, dict]:
             condition="the column's √r is not lowered alone",
             changes=pulses.to_dict("records"),
         ),
-        "helps_more_than_harms": truth((pulses.helps > pulses.harms).all(), least=float((pulses.helps / pulses.harms).min())),
+        "helps_more_than_harms": truth(
+            (pulses.helps > pulses.harms).all(), least=float((pulses.helps / pulses.harms).min())
+        ),
         "probability_falls_together": truth(
-            (joint.less_low > 0.0).all(), compared=len(joint), least=float(joint.less_low.min()), changes=joint.to_dict("records")
+            (joint.less_low > 0.0).all(),
+            compared=len(joint),
+            least=float(joint.less_low.min()),
+            changes=joint.to_dict("records"),
         ),
         "probability_falls_apart": truth(
             (apart.less_low > 0.0).all(),
@@ -253,7 +275,9 @@ def main(case: dict, ensemble: dict) -> tuple[pd.DataFrame, dict]:
         "scatter_agrees": scatter_agrees(case),
     }
     motions = table.assign(under="motions")
-    return pd.concat([motions, pulses.assign(under="pulses"), less.assign(under="difference")]), findings
+    return pd.concat(
+        [motions, pulses.assign(under="pulses"), less.assign(under="difference")]
+    ), findings
 
 
 def work(job: Any) -> tuple:

@@ -132,7 +132,7 @@ def is_proved(trial: Trial) -> bool:
 
 
 def is_ahead(trial: Trial) -> bool:
-    """Return whether the lighter frame rotates (p₁/p₂)² times as far, up to the heavier's impact."""
+    """Return whether the lighter frame rotates (p₁/p₂)² times as far, up to an impact."""
     frequencies = trial.lighter.frequency_parameter, trial.heavier.frequency_parameter
     ratio = (frequencies[0] / frequencies[1]) ** 2
     time = np.linspace(0.0, 1.5 * trial.motion.duration, MEASURED)
