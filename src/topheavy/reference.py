@@ -60,7 +60,7 @@ def simulate(
     block = structure.block()
     return motion.respond(
         block,
-        with_vertical(block, excitation, vertical),
+        with_vertical(excitation, vertical, linearised=block.linearised),
         _flight(tolerance),
         rotation=rotation,
         velocity=velocity,
@@ -86,7 +86,7 @@ def judge(
     block = structure.block()
     course = motion.start(block, 0.0, 0.0)
     course.restitutions = [checks.fraction("restitutions", value) for value in restitutions]
-    ground = with_vertical(block, excitation, vertical)
+    ground = with_vertical(excitation, vertical, linearised=block.linearised)
     motion.force(block, ground, course, _flight(tolerance))
     end = motion.judge(block, course)
     return free_rocking.Ending(

@@ -176,7 +176,7 @@ def simulate_three_bodies(
     times = sample_times(samples)
     if isinstance(times, int):
         times = np.linspace(0.0, until, times)
-    ground = with_vertical(frame.block(), excitation, vertical)
+    ground = with_vertical(excitation, vertical)
     segments = [] if ground is None else ground.segments(until)
     end = segments[-1].stop if segments else 0.0
     if end < until:

@@ -18,7 +18,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from topheavy.excitation import Excitation, Segment
 from topheavy.records import Record
-from topheavy.structures import RockingBlock
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,7 +70,7 @@ class TwoComponents:
 
 
 def with_vertical(
-    block: RockingBlock, excitation: Excitation | None, vertical: Record | None
+    excitation: Excitation | None, vertical: Record | None, *, linearised: bool = False
 ) -> Excitation | None:
     """Return the ground motion of both components, or the horizontal one if there is no other.
 
@@ -87,7 +86,7 @@ def with_vertical(
             f"excitation is {type(excitation).__name__} and vertical {type(vertical).__name__}; "
             "expected two Records: sample a pulse to combine it with a vertical component"
         )
-    if block.linearised:
+    if linearised:
         raise ValueError(
             "vertical is given for a linearised block; expected the exact equation of motion"
         )
