@@ -58,6 +58,11 @@ def compiled(source: str, inputs: Iterable[str], options: Mapping[str, str]) -> 
         Paths from the root, which is the working folder.
     options
         The values of `sys.inputs` in the source.
+
+    Raises
+    ------
+    ValueError
+        When the source cannot be compiled, with the file, the line and the calls that led there.
     """
     import typst  # here, as the Snakefile imports this module and does not need typst
 
@@ -66,13 +71,17 @@ def compiled(source: str, inputs: Iterable[str], options: Mapping[str, str]) -> 
             copy = Path(folder, path)
             copy.parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(path, copy)
-        return typst.compile(
-            str(Path(folder, source)),
-            root=folder,
-            ignore_system_fonts=True,
-            pdf_standards=["a-2b"],
-            sys_inputs=dict(options),
-        )
+        try:
+            return typst.compile(
+                str(Path(folder, source)),
+                root=folder,
+                ignore_system_fonts=True,
+                pdf_standards=["a-2b"],
+                sys_inputs=dict(options),
+            )
+        except typst.TypstError as fault:  # its text has no place; the diagnostic has
+            places = re.sub(rf"\S*{re.escape(Path(folder).name)}/", "", fault.diagnostic)
+            raise ValueError(f"{source} cannot be compiled\n{places}") from None
 
 
 def _from_root(name: str, source: str) -> str:

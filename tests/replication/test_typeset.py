@@ -1,7 +1,6 @@
 """The files that the report reads are found, and one that is not declared stops the compiler."""
 
 import pytest
-import typst
 
 from replication.typeset import compiled, reads
 
@@ -46,7 +45,7 @@ def test_report_is_compiled_beside_what_it_reads(tree):
 @pytest.mark.parametrize("missing", ["results/tables/heavier.csv", "studies/one/config.yaml"])
 def test_file_that_is_read_and_not_declared_stops_the_compiler(tree, missing):
     declared = [path for path in reads("paper/report.typ") if path != missing]
-    with pytest.raises(typst.TypstError, match="not found"):
+    with pytest.raises(ValueError, match="not found"):
         compiled("paper/report.typ", declared, {})
 
 
@@ -54,6 +53,12 @@ def test_file_whose_name_is_put_together_has_to_be_declared_by_hand(tree):
     report = tree / "paper/report.typ"
     report.write_text('#import "format.typ": *\n#let n = "oth" + "er"\n#table-of(n).len()\n')
     declared = reads("paper/report.typ")
-    with pytest.raises(typst.TypstError, match=r"other\.csv"):
+    with pytest.raises(ValueError, match=r"other\.csv"):
         compiled("paper/report.typ", declared, {})
     assert compiled("paper/report.typ", [*declared, "results/tables/other.csv"], {})
+
+
+def test_fault_of_a_source_has_its_file_and_line(tree):
+    (tree / "studies/one/section.typ").write_text("One.\n\n#none.a\n")
+    with pytest.raises(ValueError, match=r"(?s)fields on type none.* studies/one/section\.typ:3:"):
+        compiled("paper/report.typ", reads("paper/report.typ"), {})
