@@ -1,8 +1,9 @@
 """Captions of the HTML report, and the verdicts on the claims that belong to each result."""
 
+import difflib
 import re
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +12,9 @@ from replication.strict_yaml import read_yaml
 from replication.verdicts import VERDICTS
 
 MARKUP = re.compile(r"([\\*`|_])")
+NO_CAPTION = (
+    "{} has no caption; expected one in figures/captions.yaml or, for a study, in its captions.yaml"
+)
 
 
 def read_captions(paths: Iterable[str | Path]) -> dict[str, dict[str, Any]]:
@@ -31,6 +35,47 @@ def read_captions(paths: Iterable[str | Path]) -> dict[str, dict[str, Any]]:
     return captions
 
 
+def check_captions(
+    captions: Mapping[str, Mapping[str, Any]],
+    figures: Iterable[str],
+    claims: Iterable[str],
+    is_made: Callable[[str], bool],
+) -> None:
+    """Refuse captions that leave a figure out, or name what does not exist.
+
+    Parameters
+    ----------
+    figures
+        The paths of all figures.
+    claims
+        The ids of all claims.
+    is_made
+        Whether a rule makes a file, by its path.
+
+    Raises
+    ------
+    ValueError
+        With one line for each figure without a caption and each caption that names no result, or
+        names a claim that is not in a ledger.
+    """
+    claims = set(claims)
+    faults = [NO_CAPTION.format(each) for each in sorted(set(figures) - set(captions))]
+    for result, entry in captions.items():
+        if not is_made(result):
+            faults.append(f"the captions have {result}, which no rule makes; delete this entry")
+        faults += [
+            f"the caption of {result} names {name!r}; {_unknown(name, claims)}"
+            for name in sorted(set(entry["claims"]) - claims)
+        ]
+    if faults:
+        raise ValueError("\n".join(faults))
+
+
+def _unknown(claim: str, claims: Iterable[str]) -> str:
+    close = difflib.get_close_matches(claim, claims, n=1)
+    return f"did you mean {close[0]!r}?" if close else "expected ids of claims"
+
+
 def captioned(
     result: str, captions: Mapping[str, Mapping[str, Any]], claims: Iterable[JudgedClaim]
 ) -> dict[str, Any]:
@@ -47,10 +92,7 @@ def captioned(
         When the result has no caption, or its caption names a claim that is not in the ledger.
     """
     if result not in captions:
-        raise ValueError(
-            f"{result} has no caption; expected one in figures/captions.yaml or, for a study, "
-            "in its captions.yaml"
-        )
+        raise ValueError(NO_CAPTION.format(result))
     entry = captions[result]
     judged = {claim.id: claim for claim in claims}
     unknown = sorted(set(entry["claims"]) - set(judged))

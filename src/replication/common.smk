@@ -4,7 +4,7 @@ import os
 from functools import partial
 from pathlib import Path
 
-from replication.captions import captioned, read_captions
+from replication.captions import captioned, check_captions, read_captions
 from replication.closing import close
 from replication.code import code, undeclared
 from replication.costs import longest_jobs
@@ -16,6 +16,7 @@ from replication.progress import one_line_a_job
 from replication.strict_yaml import read_yaml
 from replication.study_config import read_study_config
 from replication.typeset import reads
+from replication.unmade import made_by, refuse_unmade
 
 check_place()
 close(workflow)

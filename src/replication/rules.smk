@@ -191,9 +191,7 @@ for claim in CLAIMS:
             f"claim_{claim.id}"
         input:
             code("src/replication/rules/claim.py"),
-            findings=(
-                [f"results/findings/{claim.rule}.json"] if claim.rule else []
-            ),
+            findings=([f"results/findings/{claim.rule}.json"] if claim.rule else []),
         log:
             f"results/logs/claim_{claim.id}.log",
         params:
@@ -204,4 +202,15 @@ for claim in CLAIMS:
             "rules/claim.py"
 
 
+refuse_unmade(
+    workflow.rules,
+    {table for tables in FIGURES.values() for table in tables},
+    Path("tests/reference"),
+)
+check_captions(
+    read_captions(part.captions for part in PARTS.values()),
+    [f"{figure}.svg" for figure in FIGURES],
+    [claim.id for claim in CLAIMS],
+    made_by(workflow.rules),
+)
 longest_first()
