@@ -7,6 +7,7 @@ import pandas as pd
 from replication.claim import Claim, JudgedClaim
 from replication.ledger import judged
 from replication.rules.verdict import main
+from replication.workbench import truth
 
 UNTESTED = judged(Claim(id="", where="p. 1", statement="", expected="not tested"), {})
 
@@ -85,6 +86,13 @@ def test_run_without_reference_tables_is_judged_by_its_claims():
     assert main(AS_EXPECTED, compared(), {})[1] == []
 
 
-def test_check_of_ours_that_fails_is_a_fault():
-    _, faults = main(AS_EXPECTED, compared(), {"routes.agree": True, "routes.same": False})
-    assert faults == ["our own check routes.same does not hold"]
+def test_claim_of_a_number_that_fails_shows_both_numbers():
+    row = replace(claim("a", "refuted", "confirmed"), printed=1.25, computed=1.5, unit="s")
+    _, faults = main([row], compared(), {})
+    assert faults == ["claim a is refuted; expected confirmed (printed 1.25, computed 1.5 s)"]
+
+
+def test_check_of_ours_that_fails_is_a_fault_with_its_evidence():
+    checks = {"routes.agree": truth(True), "routes.same": truth(False, worst=0.25)}
+    _, faults = main(AS_EXPECTED, compared(), checks)
+    assert faults == ["our own check routes.same does not hold: worst = 0.25"]

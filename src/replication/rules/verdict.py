@@ -1,28 +1,28 @@
 """End a run: print the verdicts, and fail if a verdict differs from the expected one."""
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import pandas as pd
 
 from replication.claim import JudgedClaim
-from replication.findings import read_findings
+from replication.findings import Finding, read_findings
 from replication.ledger import read_judged
 from replication.verdicts import tallies
 from replication.workbench import run
 
 
 def main(
-    claims: Sequence[JudgedClaim], comparison: pd.DataFrame, checks: dict[str, bool]
+    claims: Sequence[JudgedClaim], comparison: pd.DataFrame, checks: Mapping[str, Finding]
 ) -> tuple[str, list[str]]:
     """Return the lines that close the run, the paper's and each study's, and what is wrong.
 
     `checks` are findings that are no claims of anybody, and have to hold all the same.
     """
     faults = [
-        f"claim {row.id} is {row.verdict}; expected {row.expected}"
+        f"claim {row.id} is {row.verdict}; expected {row.expected}{_numbers(row)}"
         for row in claims
         if row.verdict != row.expected and not row.not_tested
     ]
@@ -32,8 +32,24 @@ def main(
         for row in comparison.itertuples()
         if row.verdict == "differs"
     ]
-    faults += [f"our own check {name} does not hold" for name, holds in checks.items() if not holds]
+    faults += [
+        f"our own check {name} does not hold: {_evidence(finding)}"
+        for name, finding in checks.items()
+        if not finding.holds
+    ]
     return "\n".join([*untested(claims), *tallies(claims)]), faults
+
+
+def _numbers(row: JudgedClaim) -> str:
+    """Return what was printed and what was computed, for a claim of a number."""
+    if isinstance(row.computed, bool) or row.computed is None:
+        return ""
+    return f" (printed {row.printed}, computed {row.computed:.6g} {row.unit}".rstrip() + ")"
+
+
+def _evidence(finding: Finding) -> str:
+    entries = (f"{name} = {entry}" for name, entry in finding.entries.items() if name != "holds")
+    return ", ".join(entries) or "no evidence given"
 
 
 def untested(claims: Sequence[JudgedClaim]) -> list[str]:
@@ -44,7 +60,7 @@ def untested(claims: Sequence[JudgedClaim]) -> list[str]:
 
 def work(job: Any) -> None:
     checks = {
-        f"{rule}.{name}": bool(read_findings(f"results/findings/{rule}.json")[name].holds)
+        f"{rule}.{name}": read_findings(f"results/findings/{rule}.json")[name]
         for rule, names in job.params.checks.items()
         for name in names
     }
