@@ -54,7 +54,8 @@ verify: | $(UV) ## compare every file of a finished run with results/manifest.js
 html: | $(UV) ## after a run: write results/report.html with every figure, caption and verdict
 	@test -e results/manifest.json || { \
 	  echo "there is no finished run; run 'make reproduce' first" >&2; exit 1; }
-	@$(RUN) snakemake --report results/report.html --quiet all
+	@$(RUN) snakemake --report results/report.html --quiet all || { \
+	  $(RUN) snakemake --report results/report.html all; exit 1; } # --quiet hides the error, too
 	@$(RUN) python -m replication.commands.check_html results/report.html
 
 test: | $(UV) ## run the tests
