@@ -77,6 +77,11 @@ def messages_of(error: ValidationError) -> Iterator[str]:
         case "required":
             missing = [key for key in error.validator_value if key not in error.instance]
             yield f"{place} lacks {', '.join(missing)}"
+        case "dependentRequired":
+            for key, needed in error.validator_value.items():
+                missing = [other for other in needed if other not in error.instance]
+                if key in error.instance and missing:
+                    yield f"{place} has {key} and lacks {', '.join(missing)}"
         case "minimum":
             yield f"{place} is {error.instance}; expected at least {error.validator_value}"
         case "maximum":

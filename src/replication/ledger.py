@@ -152,9 +152,8 @@ def refuse_uncalled(claim: Claim, called: Iterable[str], root: str | Path = ".")
     name = definition(claim.function, root)
     if name not in called:
         raise ValueError(
-            f"claim {claim.id}: its rule {claim.rule} never called {claim.function} "
-            f"({name}); expected a function that computes its finding, one of those under "
-            f"'{CALLED}' in the findings of the rule"
+            f"claim {claim.id}: its rule {claim.rule} never called {name}; expected a function "
+            f"that computes its finding, one of those under '{CALLED}' in the findings of the rule"
         )
 
 

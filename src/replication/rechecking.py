@@ -15,6 +15,9 @@ from replication.strict_yaml import read_yaml
 from replication.verdicts import tallies
 
 CLAIMS = "tests/reference/claims.json"
+DIFFER = """\
+The published findings, tables, claims and pages differ. If you changed the workflow on purpose,
+run 'make reproduce', then 'make publish', and read the diff. If not, restore the files above."""
 
 
 def claims(
@@ -107,5 +110,5 @@ def close(lines: Iterable[str], faults: Iterable[str]) -> None:
     sys.stdout.reconfigure(errors="replace")  # a terminal may know no Greek letters
     faults = list(faults)
     print(*faults, *lines, sep="\n")
-    print("the published findings, tables, claims and pages agree" if not faults else "they differ")
+    print(DIFFER if faults else "the published findings, tables, claims and pages agree")
     sys.exit(bool(faults))

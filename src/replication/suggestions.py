@@ -9,4 +9,6 @@ def hint(given: Any, allowed: Iterable[Any]) -> str:
     """Return the nearest of the names that are allowed, or all of them."""
     names = [str(name) for name in allowed]
     close = difflib.get_close_matches(str(given), names, n=1)
-    return f"did you mean {close[0]!r}?" if close else f"expected one of {', '.join(names)}"
+    if close:
+        return f"did you mean {close[0]!r}?"
+    return f"expected one of {', '.join(names)}" if names else "there are none"

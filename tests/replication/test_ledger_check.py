@@ -81,6 +81,7 @@ def test_rows_that_are_right_pass(tree):
         (ROW | NUMBER | {"tolerance": 0.1}, "tolerance 0.1 is more than a tenth"),
         (ROW | NUMBER | {"tolerance": 0.001}, "would confirm a value twice as far off"),
         (without("where"), "lacks where"),
+        (ROW | {"printed": 0.275, "because": "half a unit"}, "the row has because and lacks tole"),
         (ROW | {"expected": "refuted"}, "lacks remark"),
         (ROW | {"expected": "by definition", "remark": "So."}, "cannot be false has no finding"),
         (ROW | {"by_definition": True}, "is marked so, and nothing else is"),
