@@ -37,7 +37,7 @@ def verdict_page(rows: Sequence[JudgedClaim]) -> str:
         "# The verdict on every claim",
         "",
         "Computed by the workflow (`results/claims.json`); this page is written by `make publish`.",
-        "We worked from a transcription: every slip or misprint may be its fault, not the print's.",
+        "A slip or misprint may be a fault of the text that we worked from, and not of the print.",
         "",
         *count_table(rows),
     ]
@@ -165,7 +165,7 @@ def publish(tables: Iterable[str], study_tables: Iterable[str] = ()) -> None:
     Raises
     ------
     SystemExit
-        When there is no finished run, or it was made with another config.
+        When there is no finished run, it was made with another config, or it made no such table.
     """
     results, reference = Path("results"), Path("tests/reference")
     if not (results / "claims.json").exists():
@@ -177,9 +177,18 @@ def publish(tables: Iterable[str], study_tables: Iterable[str] = ()) -> None:
             f"results/ was made with another config, which differs in {', '.join(sections)}; "
             "expected that of config/config.yaml: make reproduce"
         )
+    tables = list(tables)
+    for name in tables:
+        if not (made := results / "tables" / f"{name}.csv").exists():
+            sys.exit(
+                f"{made} does not exist, and src/steps/publish.py names {name!r} in TABLES; "
+                "expected tables of the run: correct the name, or make reproduce"
+            )
     Path("docs").mkdir(exist_ok=True)
     reference.mkdir(parents=True, exist_ok=True)
     shutil.copyfile("config/config.yaml", reference / "config.yaml")
+    for old in reference.glob("*.csv"):
+        old.unlink()
     for name in tables:
         shutil.copyfile(results / "tables" / f"{name}.csv", reference / f"{name}.csv")
     for name in study_tables:

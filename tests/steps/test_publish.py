@@ -1,5 +1,6 @@
 """The published table of verdicts."""
 
+import json
 import re
 from dataclasses import replace
 
@@ -11,6 +12,7 @@ from replication.ledger import judged
 from replication.publishing import (
     checksums,
     count_table,
+    publish,
     publish_findings,
     rounded,
     verdict_page,
@@ -88,7 +90,9 @@ def test_page_ends_with_one_newline():
 
 
 def test_page_says_that_a_fault_of_the_print_may_be_ours():
-    assert "transcription: every slip or misprint may be its fault" in verdict_page([ROW])
+    assert "A slip or misprint may be a fault of the text that we worked from" in verdict_page(
+        [ROW]
+    )
 
 
 OURS = replace(ROW, id="ours", study="reversals", verdict="refuted")
@@ -176,3 +180,33 @@ def test_results_of_another_config_are_not_published(tmp_path, monkeypatch):
     with pytest.raises(SystemExit, match="another config, which differs in spectra; expected"):
         main()
     assert not (tmp_path / "docs").exists()
+
+
+@pytest.fixture
+def finished(tmp_path, monkeypatch):
+    """A finished run with one table, and an edition with a table that is gone."""
+    monkeypatch.chdir(tmp_path)
+    for path, text in {
+        "results/config.yaml": "studies: []\n",
+        "config/config.yaml": "studies: []\n",
+        "results/claims.json": "[]",
+        "results/tables/new.csv": "x\n1\n",
+        "results/findings/rule.json": json.dumps({"size": {"holds": True}, "called": []}),
+        "tests/reference/old.csv": "x\n1\n",
+        "paper/claims.yaml": "- {id: a, where: p. 1, statement: So., expected: not tested}\n",
+        "README.md": "\n".join(count_table([])),
+    }.items():
+        (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / path).write_text(text, encoding="utf-8")
+    return tmp_path
+
+
+def test_table_that_is_gone_is_published_no_more(finished):
+    publish(["new"])
+    assert [path.name for path in (finished / "tests/reference").glob("*.csv")] == ["new.csv"]
+
+
+def test_table_that_the_run_did_not_make_is_not_published(finished):
+    with pytest.raises(SystemExit, match=r"tables/old.csv does not exist, and .* names .* 'old'"):
+        publish(["new", "old"])
+    assert (finished / "tests/reference/old.csv").exists()
