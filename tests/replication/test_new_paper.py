@@ -55,6 +55,20 @@ def test_every_blank_is_filled_and_every_gap_is_marked(paper):
     assert {"README.md", "CITATION.cff", "pyproject.toml", "paper/report.typ", "LICENSE"} <= marked
 
 
+def test_readme_names_every_place_of_the_example(paper):
+    readme = (paper / "README.md").read_text("utf-8")
+    example = re.compile(r"pendulum|period|theory\.motion|swing(?!ing)")
+    unnamed = []
+    for path in files(paper):
+        place = path.relative_to(paper)
+        of_example = example.search(f"{place}\n" + path.read_text("utf-8"))
+        if not of_example or place.is_relative_to("src/replication") or place.name == "README.md":
+            continue
+        if not any(f"`{each.as_posix()}`" in readme for each in (place, *place.parents)):
+            unnamed.append(str(place))
+    assert unnamed == []
+
+
 def test_what_is_the_same_for_every_paper_is_kept_once(paper):
     for path in new_paper.COPIED:
         assert not (new_paper.TEMPLATE / path).exists()
