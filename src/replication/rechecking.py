@@ -31,6 +31,9 @@ def claims(
     for name in sorted({claim.id for claim in ledger} ^ set(rows)):
         yield f"claim {name} is not in both the ledger and {CLAIMS}"
     for claim in ledger:
+        if claim.rule and claim.rule not in findings:
+            yield f"claim {claim.id}: the findings of its rule {claim.rule} are not published yet"
+            continue
         try:
             found = judged(claim, findings, root)
         except ValueError as fault:

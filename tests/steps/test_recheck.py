@@ -270,3 +270,9 @@ def test_pages_are_those_of_the_rows(tmp_path):
     (tmp_path / "README.md").write_text("\n".join(count_table(rows)) + "\n", encoding="utf-8")
     assert list(pages(tmp_path, rows)) == []
     assert list(pages(tmp_path, [judged_row(verdict="refuted")]))
+
+
+def test_claim_whose_rule_is_not_published_says_so():
+    new = replace(CLAIM, id="new", rule="new_limit")
+    told = list(claims([new], {}, [], ROOT))
+    assert told[1:] == ["claim new: the findings of its rule new_limit are not published yet"]
