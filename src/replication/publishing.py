@@ -111,11 +111,12 @@ def rounded(found: Any, digits: int = DIGITS) -> Any:
 
 
 def checksums(reference: Path) -> str:
-    """Return the SHA-256 of each published table and finding, a line each.
+    """Return the SHA-256 of each published table, config and finding, a line each.
 
     Of the text, with line ends as Python reads them, so that a checkout may change those.
     """
-    files = sorted({*reference.rglob("*.csv"), *reference.glob("findings/*.json")})
+    found = (reference.rglob(name) for name in ("*.csv", "*.yaml", "findings/*.json"))
+    files = sorted({path for paths in found for path in paths})
     lines = (
         f"{hashlib.sha256(path.read_text(encoding='utf-8').encode()).hexdigest()}  "
         f"{path.relative_to(reference).as_posix()}\n"
@@ -152,7 +153,7 @@ def _shown(value: object, unit: str) -> str:
 def publish(tables: Iterable[str], study_tables: Iterable[str] = ()) -> None:
     """Copy what every replication publishes of a finished run: `make publish`.
 
-    tests/reference/ gets the config, the tables, the findings, their checksums and the verdicts;
+    tests/reference/ gets the configs, the tables, the findings, their checksums and the verdicts;
     docs/ and the README get the pages that show the verdicts.
 
     Parameters
@@ -182,9 +183,11 @@ def publish(tables: Iterable[str], study_tables: Iterable[str] = ()) -> None:
     shutil.copyfile("config/config.yaml", reference / "config.yaml")
     for name in tables:
         shutil.copyfile(results / "tables" / f"{name}.csv", reference / f"{name}.csv")
+    (reference / "studies").mkdir(exist_ok=True)
+    for name in ours["studies"]:
+        shutil.copyfile(f"studies/{name}/config.yaml", reference / "studies" / f"{name}.yaml")
     for name in study_tables:
         if (made := results / "tables" / f"{name}.csv").exists():
-            (reference / "studies").mkdir(exist_ok=True)
             shutil.copyfile(made, reference / "studies" / f"{name}.csv")
     publish_findings(results / "findings", reference / "findings")
     (reference / CHECKSUMS).write_text(checksums(reference), encoding="utf-8")
