@@ -1,6 +1,5 @@
 """Every number in the README's findings is one that the workflow published."""
 
-import math
 import re
 from pathlib import Path
 

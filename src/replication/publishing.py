@@ -20,6 +20,11 @@ from replication.verdicts import VERDICTS, by_origin
 TITLES = {"": "The paper", OURS: "Not the paper's claims, and its claims rest on them"}
 """The sections of docs/verdicts.md that are not a study's."""
 
+OF_STUDIES = (
+    "These claims are ours. A remark says where we chose a number or a limit after an earlier run; "
+    "the verdict then says that a new run agrees, not that we predicted it."
+)
+
 CHECKSUMS = "checksums.txt"
 DIGITS = 9
 """Of the numbers in the published findings, as in the tables."""
@@ -43,7 +48,10 @@ def verdict_page(rows: Sequence[JudgedClaim]) -> str:
     ]
     for study, own in parts.items():
         title = TITLES.get(study, f"The study `{study}`")
-        lines += ["", f"## {title}", "", *verdict_table(own)]
+        lines += ["", f"## {title}", ""]
+        if study not in TITLES:
+            lines += [OF_STUDIES, ""]
+        lines += verdict_table(own)
     return "\n".join(lines) + "\n"
 
 
