@@ -69,7 +69,7 @@ def main(case: dict, structures: dict, paths: list[str], tightened: float) -> di
     routes = {"tightened": told.tight, "second_route": told.second_route.dropna().astype(bool)}
     return {
         f"{name}_agrees": truth(
-            agrees.all(),
+            len(agrees) > 0 and agrees.all(),
             cells=len(agrees),
             differ=int((~agrees).sum()),
             near_a_boundary=int(told.near[agrees.index].sum()),

@@ -122,6 +122,17 @@ def test_sample_is_judged_again(shards):
     assert found["second_route_agrees"]["cells"] == 1
 
 
+def test_sample_of_which_nothing_can_be_told_agrees_with_nothing(shards, monkeypatch):
+    def sensitive(frame, record, factors, tolerance=None):
+        return np.arange(len(factors)) == 1  # a change by a billionth, and only that, overturns
+
+    monkeypatch.setattr(motions_check, "overturned_by", sensitive)
+    monkeypatch.setattr(motions_check, "boundary", lambda frame, record, low, high: low)
+    found = motions_check.main(CASE, STRUCTURES, shards, 3e-12)
+    assert [one["cells"] for one in found.values()] == [0, 0]
+    assert not any(one.holds for one in found.values())
+
+
 def test_outcomes_are_read_as_they_were_written():
     fell, told = np.array([True, False, True, False]), np.array([True, True, False, True])
     assert written(fell) == "fsfs"
