@@ -5,11 +5,21 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
+import pandas as pd
 import pytest
 import yaml
 
 from replication.workbench import truth, value
-from steps import heavier, moment_rotation, scale_effects, spectra, stability, statements, trilith
+from steps import (
+    heavier,
+    moment_rotation,
+    scale_effects,
+    spectra,
+    stability,
+    statements,
+    trilith,
+    verification,
+)
 from steps.spectra_compared import Place
 from topheavy import Column, Pulse, RockingFrame
 
@@ -154,3 +164,20 @@ def test_moment_that_is_off_by_a_billionth_and_lost_energy_are_noticed(monkeypat
     monkeypatch.setattr(moment_rotation, "energy_drift", lambda *arguments, **options: 1e-6)
     _, _, found = moment_rotation.main(case)
     assert [found[name].holds for name in names] == [False] * 3
+
+
+@pytest.mark.parametrize(
+    ("computed", "holds"),
+    [(1.0, True), (1.002, False), (1.006, False)],  # off ours; off the print too
+)
+def test_number_of_the_literature_is_held_against_ours_and_the_print(monkeypatch, computed, holds):
+    routes = {"verdicts_that_differ": [0], "error_99": [0.0], "cells": [9]}
+    literature = {"printed": [1.0], "expected": [1.0], "tolerance": [1e-3], "computed": [computed]}
+    given = {"agreement": routes, "convergence": {}, "published": literature}
+    for name, table in given.items():
+        found = pd.DataFrame(table)
+        monkeypatch.setattr(verification, name, lambda *given, found=found: found)
+    monkeypatch.setattr(verification, "drift", lambda case: 0.0)
+    monkeypatch.setattr(verification, "distance_from_derivation", lambda: 0.0)
+    _, found = verification.main({}, 1e-12)
+    assert found["published_numbers"].holds == holds

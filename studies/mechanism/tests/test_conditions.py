@@ -2,10 +2,20 @@
 
 from types import SimpleNamespace
 
+import numpy as np
+import pandas as pd
 import pytest
 
 from replication.workbench import truth
-from studies.mechanism.steps import admissible, dependence, rebounds, slides, verdicts
+from studies.mechanism.steps import (
+    admissible,
+    dependence,
+    equivalence,
+    rebounds,
+    slides,
+    three_bodies,
+    verdicts,
+)
 from topheavy import Cap, Column, Pulse, RockingFrame
 
 COLUMN = {"half_width": 0.5, "half_height": 3.0}
@@ -131,3 +141,42 @@ def test_sliding_is_told_from_both_sides(monkeypatch, frictions, slips_below, ho
     case = {"frames": {}, "pulse": {}, "samples": 4, "time_step": 1.0, "frictions": frictions}
     _, found = slides.main(case, {}, {"": CAP})
     assert found["slides_as_the_forces_say"].holds == holds
+
+
+def test_sides_of_a_difference_are_told_apart():
+    frame = pd.DataFrame([[np.nan] * 3, [0.1] * 3, [0.1] * 3])
+    column = pd.DataFrame([[0.1] * 3, [0.1] * 3, [0.1] * 3])
+    found = equivalence.differences(frame, column)
+    assert (found["only_frame_overturns"], found["only_column_overturns"]) == (0.25, 0.0)
+
+
+def test_column_of_another_outcome_is_not_identical(monkeypatch):
+    frame = RockingFrame(Column(0.5, 3.0), 1.0)
+    peaks = pd.DataFrame([[0.1, np.nan]])
+    for found, apart in ((peaks, 0.0), (pd.DataFrame([[0.1, 0.2]]), np.inf)):
+        monkeypatch.setattr(equivalence, "maps", lambda *given, found=found: (found,))
+        assert equivalence.given_its_restitution(frame, "one-sine", peaks, {}) == apart
+
+
+@pytest.mark.parametrize(("overturns", "agrees"), [(True, False), (False, True)])
+def test_cell_that_scipy_denies_is_noticed(monkeypatch, overturns, agrees):
+    otherwise = SimpleNamespace(overturned=overturns)
+    judge = SimpleNamespace(judge=lambda *given: otherwise)
+    monkeypatch.setattr(equivalence, "reference", judge)
+    peaks = pd.DataFrame([[0.1, 0.1]], index=[2.0], columns=[1.5, 2.0])
+    frame = RockingFrame(Column(0.5, 3.0), 1.0)
+    sample = {"seed": 1, "points": 2}
+    assert equivalence.second_route(frame, "one-sine", (peaks, peaks), sample) is agrees
+
+
+@pytest.mark.parametrize(("apart", "holds"), [(5e-7, True), (2e-6, False)])
+def test_three_bodies_agree_within_a_millionth(monkeypatch, apart, holds):
+    same = dict.fromkeys(("rotation_apart", "ratio_apart", "force_apart", "impulse_apart"), apart)
+    same |= {"impact_apart": 0.0, "cap_tilt": 0.0, "drift": 0.0, "impacts": 1}
+    same |= {"forces_compared": 9, "same_outcome": True}
+    monkeypatch.setattr(three_bodies, "compare", lambda *given: same)
+    case = {"column": COLUMN, "mass_ratios": [1.0], "duration": 1.0, "samples": 9}
+    case |= {"pulses": [{"shape": "one-sine", "frequency_ratio": 2.0, "amplitude": 2.0}]}
+    _, found = three_bodies.main(case | {"record_duration": 1.0}, CAP, [])
+    for name in ("one_degree_of_freedom", "velocity_ratio", "same_forces"):
+        assert found[name].holds == holds
