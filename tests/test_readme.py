@@ -1,6 +1,5 @@
 """Every number in the README's findings is one that the workflow published."""
 
-import math
 import re
 from pathlib import Path
 
@@ -10,25 +9,14 @@ import pytest
 from replication.claim import JudgedClaim
 from replication.ledger import read_judged
 from replication.publishing import count_table
+from steps import headlines
 
 ROOT = Path(__file__).parents[1]
 REFERENCE = ROOT / "tests" / "reference"
 
 
 def found() -> str:
-    """The README's section "What we found"."""
-    text = (ROOT / "README.md").read_text(encoding="utf-8")
-    return text.split("## What we found")[1].split("\n## ")[0]
-
-
-def under_motions(table: str, **place: float) -> pd.Series:
-    """The row of a published table of the study reversals: temple columns, near-fault motions."""
-    rows = pd.read_csv(REFERENCE / "studies" / f"{table}.csv")
-    rows = rows.query("structure == 'temple' and family == 'near-fault'")
-    for column, value in place.items():
-        rows = rows[rows[column] == value]
-    (row,) = (row for _, row in rows.iterrows())
-    return row
+    return headlines.found((ROOT / "README.md").read_text(encoding="utf-8"))
 
 
 @pytest.fixture(scope="module")
@@ -37,26 +25,8 @@ def claims() -> dict[str, JudgedClaim]:
     return {row.id: row for row in rows}
 
 
-def test_every_decimal_number_is_published(claims):
-    ratios = pd.read_csv(REFERENCE / "mass_ratio.csv").set_index("mass_ratio")
-    lowest = pd.read_csv(REFERENCE / "heavier.csv").set_index("mass_ratio").lowest_overturning_low
-    starts = pd.read_csv(REFERENCE / "trilith_starts.csv").set_index("share_of_speed")
-    published = {
-        f"{ratios.frequency_ratio[math.inf]:.3f}",
-        f"{ratios.size_ratio[math.inf]:.1f}",
-        f"{lowest[0.0]:.3f}",
-        f"{lowest[1.0]:.3f}",
-        f"{lowest[math.inf]:.3f}",
-        f"{claims['trilith_base_acceleration_in_g'].computed:.3f}",
-        f"{claims['trilith_uplift_acceleration'].computed:.3f}",
-        f"{starts.late_peak_over_alpha[1.0]:.3f}",
-        f"{100 * claims['reversals_help'].computed:.1f}",
-        f"{100 * claims['reversals_harm'].computed:.1f}",
-        f"{100 * claims['mechanism_share_apart'].computed:.1f}",
-        f"{100 * under_motions('reversals_medians', mass_ratio=1.0, as_large_as=0).gain:.1f}",
-        f"{100 * under_motions('reversals_pairs', lighter=0, heavier=1.0).motions:.1f}",
-    }
-    assert set(re.findall(r"\d+\.\d+", found())) == published
+def test_every_number_is_published():
+    assert list(headlines.headlines(ROOT)) == []
 
 
 def test_two_thirds_of_the_gain_are_had_at_mass_ratio_one():
@@ -87,9 +57,11 @@ def test_links_lead_somewhere():
 
 
 def test_motions_of_the_study_are_as_many_as_said():
-    motions = under_motions("reversals_medians", mass_ratio=1.0, as_large_as=0).motions
+    motions = headlines.motions(
+        REFERENCE, "reversals_medians", mass_ratio=1.0, as_large_as=0
+    ).motions
     assert f"Under {motions:.0f} near-fault motions" in found()
 
 
-def test_table_of_verdicts_counts_the_claims_of_paper_and_studies_apart(claims):
-    assert "\n".join(count_table(list(claims.values()))) in found()
+def test_table_of_verdicts_counts_the_claims_of_paper_and_studies_apart():
+    assert "\n".join(count_table(read_judged(REFERENCE / "claims.json"))) in found()

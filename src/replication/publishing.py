@@ -20,6 +20,11 @@ from replication.verdicts import VERDICTS, by_origin
 TITLES = {"": "The paper", OURS: "Not the paper's claims, and its claims rest on them"}
 """The sections of docs/verdicts.md that are not a study's."""
 
+OF_STUDIES = (
+    "These claims are ours. A remark says where we chose a number or a limit after an earlier run; "
+    "the verdict then says that a new run agrees, not that we predicted it."
+)
+
 CHECKSUMS = "checksums.txt"
 DIGITS = 9
 """Of the numbers in the published findings, as in the tables."""
@@ -43,7 +48,10 @@ def verdict_page(rows: Sequence[JudgedClaim]) -> str:
     ]
     for study, own in parts.items():
         title = TITLES.get(study, f"The study `{study}`")
-        lines += ["", f"## {title}", "", *verdict_table(own)]
+        lines += ["", f"## {title}", ""]
+        if study not in TITLES:
+            lines += [OF_STUDIES, ""]
+        lines += verdict_table(own)
     return "\n".join(lines) + "\n"
 
 
@@ -111,11 +119,12 @@ def rounded(found: Any, digits: int = DIGITS) -> Any:
 
 
 def checksums(reference: Path) -> str:
-    """Return the SHA-256 of each published table and finding, a line each.
+    """Return the SHA-256 of each published table, config and finding, a line each.
 
     Of the text, with line ends as Python reads them, so that a checkout may change those.
     """
-    files = sorted({*reference.rglob("*.csv"), *reference.glob("findings/*.json")})
+    found = (reference.rglob(name) for name in ("*.csv", "*.yaml", "findings/*.json"))
+    files = sorted({path for paths in found for path in paths})
     lines = (
         f"{hashlib.sha256(path.read_text(encoding='utf-8').encode()).hexdigest()}  "
         f"{path.relative_to(reference).as_posix()}\n"
@@ -152,7 +161,7 @@ def _shown(value: object, unit: str) -> str:
 def publish(tables: Iterable[str], study_tables: Iterable[str] = ()) -> None:
     """Copy what every replication publishes of a finished run: `make publish`.
 
-    tests/reference/ gets the config, the tables, the findings, their checksums and the verdicts;
+    tests/reference/ gets the configs, the tables, the findings, their checksums and the verdicts;
     docs/ and the README get the pages that show the verdicts.
 
     Parameters
@@ -191,9 +200,11 @@ def publish(tables: Iterable[str], study_tables: Iterable[str] = ()) -> None:
         old.unlink()
     for name in tables:
         shutil.copyfile(results / "tables" / f"{name}.csv", reference / f"{name}.csv")
+    (reference / "studies").mkdir(exist_ok=True)
+    for name in ours["studies"]:
+        shutil.copyfile(f"studies/{name}/config.yaml", reference / "studies" / f"{name}.yaml")
     for name in study_tables:
         if (made := results / "tables" / f"{name}.csv").exists():
-            (reference / "studies").mkdir(exist_ok=True)
             shutil.copyfile(made, reference / "studies" / f"{name}.csv")
     publish_findings(results / "findings", reference / "findings")
     (reference / CHECKSUMS).write_text(checksums(reference), encoding="utf-8")

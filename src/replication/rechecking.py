@@ -1,6 +1,7 @@
 """Check the published rows, pages and files against each other, without a run."""
 
 import sys
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict
 from itertools import zip_longest
@@ -12,7 +13,7 @@ from replication.ledger import judged, read_judged, read_ledger
 from replication.parts import PAPER, ledger_of
 from replication.publishing import CHECKSUMS, checksums, verdict_page, with_counts
 from replication.strict_yaml import read_yaml
-from replication.verdicts import tallies
+from replication.verdicts import tallies, tolerance_fault
 
 CLAIMS = "tests/reference/claims.json"
 DIFFER = """\
@@ -27,10 +28,16 @@ def claims(
     root: Path,
 ) -> Iterator[str]:
     """Yield what is wrong with the published rows: every field of every row is made anew."""
+    published = list(published)
     rows = {row.id: row for row in published}
     for name in sorted({claim.id for claim in ledger} ^ set(rows)):
         yield f"claim {name} is not in both the ledger and {CLAIMS}"
+    for name, times in Counter(row.id for row in published).items():
+        if times > 1:
+            yield f"claim {name} is {times} times in {CLAIMS}; expected one row"
     for claim in ledger:
+        if fault := tolerance_fault(claim):
+            yield f"claim {claim.id}: {fault}"
         if claim.rule and claim.rule not in findings:
             yield f"claim {claim.id}: the findings of its rule {claim.rule} are not published yet"
             continue
@@ -39,7 +46,7 @@ def claims(
         except ValueError as fault:
             yield str(fault)
             continue
-        if found.verdict != claim.expected and not found.not_tested:
+        if found.verdict != claim.expected:  # what a run lacks a package for is never published
             yield f"claim {claim.id} is {found.verdict}; expected {claim.expected}"
         row = asdict(rows.get(claim.id, found))
         for field, ours in sorted(asdict(found).items()):
@@ -71,8 +78,26 @@ def pages(root: Path, rows: Sequence[JudgedClaim]) -> Iterator[str]:
                 break  # the lines below may only be shifted
 
 
+def configs(root: Path, studies: Iterable[str]) -> Iterator[str]:
+    """Yield the sections of the configs that changed since the published run."""
+    pairs = {"config/config.yaml": "config.yaml"}
+    pairs |= {f"studies/{name}/config.yaml": f"studies/{name}.yaml" for name in studies}
+    for ours, theirs in pairs.items():
+        path = root / "tests" / "reference" / theirs
+        if not path.is_file():
+            yield f"tests/reference/{theirs} does not exist; `make publish` copies {ours} there"
+            continue
+        now, published = read_yaml(root / ours), read_yaml(path)
+        for section in sorted({*now, *published}):
+            if now.get(section) != published.get(section):
+                yield (
+                    f"{ours}: {section} is not that of the published run, "
+                    f"tests/reference/{theirs}; run again and `make publish`, or restore it"
+                )
+
+
 def files(reference: Path) -> Iterator[str]:
-    """Yield the published tables and findings that changed since `make publish` wrote them."""
+    """Yield the published tables, configs and findings changed since `make publish`."""
     listed = dict(
         reversed(line.split("  ", 1))
         for line in (reference / CHECKSUMS).read_text(encoding="utf-8").splitlines()
@@ -103,6 +128,7 @@ def main(
         *claims(ledger, findings, rows, root),
         *evidence(reference, findings),
         *pages(root, rows),
+        *configs(root, config["studies"]),
         *files(reference),
     ]
     return tallies(rows), faults

@@ -116,8 +116,7 @@ def tolerance_fault(claim: Claim) -> str:
     """Return why the tolerance of a claim is too wide for its verdict to mean anything, or "".
 
     A value that is off by a whole unit of the last printed digit, twice what rounding allows, has
-    to fail. Where the print itself is in doubt, a row that is expected to be a misprint, other
-    printed numbers may leave the value open further: up to a tenth of it.
+    to fail.
     """
     if claim.tolerance is None:
         return ""
@@ -129,7 +128,7 @@ def tolerance_fault(claim: Claim) -> str:
             f"tolerance {tolerance:g} is more than a tenth of the printed {printed:g} and than the "
             f"rounding of the print; expected at most {max(widest, rounding):g}"
         )
-    if claim.expected != "misprint" and tolerance >= 2.0 * rounding:
+    if tolerance >= 2.0 * rounding:
         return (
             f"tolerance {tolerance:g} would confirm a value twice as far off as the digits of the "
             f"printed {printed:g} allow; expected less than {2.0 * rounding:g}"

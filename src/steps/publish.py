@@ -28,9 +28,12 @@ TABLES = (
     "trilith_map",
     "trilith_nearness",
     "trilith_starts",
+    "uplift_slopes",
 )
 
 STUDY_TABLES = (
+    "certainty_extensions",
+    "certainty_theorem",
     "mechanism_dependence",
     "mechanism_equivalence",
     "mechanism_first_impacts",
@@ -45,6 +48,7 @@ STUDY_TABLES = (
     "reversals_medians",
     "reversals_pairs",
     "reversals_records",
+    "reversals_vase_ranks",
     "reversals_why",
 )
 """The sources of the studies' findings; too sensitive to the processor to compare runs with."""

@@ -3,24 +3,31 @@
 The check also judges every row of the ledger again from the published findings, without a run.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pandas as pd
 
-from replication.findings import Findings
 from replication.rechecking import close
 from replication.rechecking import main as recheck
 from replication.strict_yaml import read_yaml
+from steps.evidence import evidence
+from steps.headlines import headlines
 
 CLOSE = {"rtol": 1e-8, "atol": 1e-9}  # the digits of the tables
 
 
 def main(root: Path = Path()) -> tuple[list[str], list[str]]:
     """Return the tallies of the published claims, and the errors in the published files."""
-    return recheck(lambda folder, findings: [*evidence(folder, findings), *equations(folder)], root)
+    return recheck(
+        lambda folder, findings: [
+            *evidence(folder, findings),
+            *equations(folder),
+            *headlines(root),
+        ],
+        root,
+    )
 
 
 def equations(folder: Path) -> Iterator[str]:
@@ -59,58 +66,6 @@ def _restitution(alpha: pd.Series, gamma: pd.Series) -> pd.Series:
     """√r of Eq. (25), from its two limits."""
     column = 1.0 / (1.0 + 3.0 * gamma)
     return column * (1.0 - 1.5 * np.sin(alpha) ** 2) + (1.0 - column) * np.cos(2.0 * alpha)
-
-
-def evidence(folder: Path, findings: Mapping[str, Findings]) -> Iterator[str]:
-    """Yield the findings that do not follow from their tables."""
-
-    def table(name: str) -> pd.DataFrame:
-        return pd.read_csv(folder / f"{name}.csv")
-
-    printed = table("equations").set_index("id")
-    for name, follows in printed.follows.items():
-        yield from _differs("equations", str(name), "holds", bool(follows), findings)
-    lowest = table("heavier").lowest_overturning_low
-    rises = lowest.is_monotonic_increasing and lowest.is_unique
-    yield from _differs("heavier", "heavier_survives_more", "holds", rises, findings)
-    if "mechanism_equivalence" in findings:
-        share = table("studies/mechanism_equivalence").share_apart.mean()
-        yield from _differs("mechanism_equivalence", "share_apart", "value", share, findings)
-    if "mechanism_verdicts" in findings:
-        runs = table("studies/mechanism_verdicts")
-        same = (runs.engine == runs.theory)[runs.contact == "plastic"].mean()
-        yield from _differs("mechanism_verdicts", "same_verdicts", "share_plastic", same, findings)
-    if "reversals_pulses" in findings:
-        areas = table("studies/reversals_areas")
-        ends = areas[(areas.lighter == 0) & (areas.heavier == "infinite")]
-        for name in ("helps", "harms"):
-            yield from _differs("reversals_pulses", name, "value", ends[name].mean(), findings)
-        why = table("studies/reversals_why").query("heavier == 'infinite'")
-        harm = why.groupby("change").harms.mean()
-        decides = bool(harm["size"] > 10.0 * harm["restitution"])
-        yield from _differs("reversals_pulses", "size_harms", "holds", decides, findings)
-    if "reversals_enough" in findings:
-        medians = table("studies/reversals_enough").groupby("share").mass_ratio.median()
-        for share, ratio in medians.items():
-            name = f"amplitude_at_{100 * share:.0f}_percent"
-            yield from _differs("reversals_enough", name, "value", ratio, findings)
-    if "reversals_motions" in findings:
-        most = table("studies/reversals_pairs").reversed.max()
-        yield from _differs(
-            "reversals_motions", "heavier_is_safer", "most_reversed", most, findings
-        )
-
-
-def _differs(
-    rule: str, name: str, key: str, expected: Any, findings: Mapping[str, Findings]
-) -> Iterator[str]:
-    finding = findings[rule].by_name.get(name) if rule in findings else None
-    found = finding.entries.get(key) if finding else None
-    if found is None or not np.isclose(found, expected, **CLOSE):
-        yield (
-            f"findings/{rule}.json: {name}.{key} is {found}, and {expected:.9g} by the published "
-            "table that it was drawn from"
-        )
 
 
 if __name__ == "__main__":

@@ -4,11 +4,11 @@ CERTAINTY = ["theorem", "lowest", "extensions", "restitution", "intensities"]
 
 PARTS["certainty"].figures.update(
     {
-        "studies/certainty/figures/lowest": [
+        "studies/certainty/figures/shapes": [
             "certainty_lowest",
             "certainty_lowest_histories",
         ],
-        "studies/certainty/figures/restitution": ["certainty_restitution"],
+        "studies/certainty/figures/impact_law": ["certainty_restitution"],
         "studies/certainty/figures/intensities": ["certainty_intensities"],
     }
 )

@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from replication.provenance import Job
+from steps import publish
 
 ROOT = Path(__file__).parents[2]
 
@@ -17,8 +18,9 @@ ENDS = {"results/summary.txt", "results/costs.csv", "results/manifest.json"}
 
 
 def unused_outputs(jobs: Iterable[Job]) -> list[str]:
-    """The outputs that are neither an input of another job nor meant for a reader."""
+    """The outputs that are no input of another job, not published and not meant for a reader."""
     used = {path for job in jobs if job.rule not in LISTS for path in job.inputs} | ENDS
+    used |= {f"results/tables/{name}.csv" for name in (*publish.TABLES, *publish.STUDY_TABLES)}
     made = (path for job in jobs for path in job.outputs if Path(path).suffix not in READ)
     return sorted(path for path in made if path not in used)
 

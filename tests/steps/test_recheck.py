@@ -11,11 +11,12 @@ import pytest
 import yaml
 
 from replication.claim import Claim
-from replication.findings import Findings, findings_by_rule
+from replication.findings import Finding, Findings, findings_by_rule
 from replication.ledger import judged, read_judged, read_ledger
 from replication.publishing import count_table, verdict_page
 from replication.rechecking import claims, files, pages
 from replication.workbench import truth, value
+from steps.evidence import evidence
 from steps.recheck import equations, main
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -38,8 +39,11 @@ def edition(tmp_path_factory):
     """A copy of what is published, and of what it is checked by."""
     root = tmp_path_factory.mktemp("edition") / "tree"
     config = yaml.safe_load((ROOT / "config" / "config.yaml").read_text(encoding="utf-8"))
-    wanted = ["README.md", "config/config.yaml", "docs/verdicts.md", "paper/claims.yaml"]
-    for name in [*wanted, *(f"studies/{study}/claims.yaml" for study in config["studies"])]:
+    wanted = ["README.md", "config/config.yaml", "docs/verdicts.md", "docs/verify_grid.csv"]
+    wanted += ["paper/claims.yaml"]
+    for study in config["studies"]:
+        wanted += [f"studies/{study}/{name}.yaml" for name in ("claims", "config")]
+    for name in wanted:
         (root / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(ROOT / name, root / name)
     shutil.copytree(ROOT / "tests" / "reference", root / "tests" / "reference")
@@ -137,7 +141,7 @@ def test_every_truth_that_is_flipped_is_noticed(edition):
         ("trilith", "size", "value", 0.5, "claim trilith_size: computed is"),
         ("trilith", "size", "error", 1e-3, "claim trilith_size: the error is 0.001"),
         ("equations", "eq1", "holds", False, "claim eq1 is refuted; expected confirmed"),
-        ("equations", "eq1", "holds", False, "findings/equations.json: eq1.holds is False, and 1"),
+        ("equations", "eq1", "holds", False, "findings/equations.json: eq1.holds is False, and T"),
         ("reversals_pulses", "harms", "value", 0.0, "findings/reversals_pulses.json: harms.value"),
         ("mechanism_equivalence", "share_apart", "value", 0.0002, "share_apart.value is 0.0002"),
         ("heavier", "heavier_survives_more", "width_of_brackets", 1.0, "findings/heavier.json"),
@@ -152,6 +156,40 @@ def test_finding_that_is_changed_is_named(tampered, rule, finding, key, new, tol
     faults = tampered(f"tests/reference/findings/{rule}.json", edit)
     assert any(told in fault for fault in faults)
     assert any(f"tests/reference/findings/{rule}.json changed" in fault for fault in faults)
+
+
+@pytest.mark.parametrize(
+    ("rule", "finding", "key", "new"),
+    [
+        ("mass_ratio", "limit_of_size_ratio", "value", 1.9),
+        ("heavier", "heavier_survives_more", "lowest_overturning_g", [0.1, 0.2]),
+        ("heavier", "heaviest_survives", "holds", False),
+        ("spectra", "areas", "pairs", []),
+        ("trilith", "tilt_to_lift", "value", 0.3),
+        ("trilith", "abrupt_start_keeps_it_rocking", "steady_peak_over_alpha", 0.9),
+        ("reversals_pulses", "harms", "error", 1e-6),
+        ("reversals_pulses", "most_harm", "value", 0.001),
+        ("reversals_enough", "amplitude_at_50_percent", "error", 1e-4),
+        ("reversals_motions", "probability_is_lower", "largest_upper_end", 0.1),
+        ("reversals_motions", "heavier_is_safer", "cells", 7),
+        ("reversals_motions", "gain_is_that_of_size", "beyond", []),
+        ("reversals_records", "heavier_is_safer", "only_heavier", 1),
+        ("mechanism_equivalence", "column_is_never_safer_first", "largest", 0.0),
+        ("mechanism_equivalence", "share_apart", "error", 1e-5),
+        ("mechanism_verdicts", "same_verdicts", "share_bouncing", 1.0),
+        ("mechanism_rebounds", "impact_at_the_new_pivots", "plastic_apart", 0.0),
+        ("mechanism_dependence", "heavier_needs_less", "lightest", 0.1),
+        ("mechanism_three_bodies", "velocity_ratio", "largest", 1e-16),
+    ],
+)
+def test_finding_follows_from_its_table(edition, rule, finding, key, new):
+    reference = edition / "tests" / "reference"
+    findings = findings_by_rule((reference / "findings").glob("*.json"))
+    assert list(evidence(reference, findings)) == []
+    entries = dict(findings[rule][finding].entries) | {key: new}
+    changed = findings[rule].by_name | {finding: Finding.of(entries)}
+    (fault,) = evidence(reference, findings | {rule: replace(findings[rule], by_name=changed)})
+    assert fault.startswith(f"findings/{rule}.json: {finding}.{key} is {new}, and")
 
 
 def test_function_that_did_not_run_is_named(tampered):
@@ -209,7 +247,7 @@ def test_table_that_does_not_bear_its_finding_is_found(tampered):
         return "".join([*lines[:2], lines[3], lines[2], *lines[4:]])
 
     faults = tampered("tests/reference/heavier.csv", swap)
-    assert any("heavier.json: heavier_survives_more.holds is True, and 0" in f for f in faults)
+    assert any("heavier.json: heavier_survives_more.holds is True, and False" in f for f in faults)
 
 
 @pytest.mark.parametrize(
@@ -225,6 +263,49 @@ def test_table_that_does_not_bear_its_finding_is_found(tampered):
 def test_page_that_says_otherwise_is_named(tampered, page, old, new, told):
     faults = tampered(page, lambda text: text.replace(old, new, 1))
     assert any(fault.startswith(told) for fault in faults)
+
+
+def swapped(text):
+    """The README with the shares on which a heavy cap helps and harms the wrong way round."""
+    return text.replace("12.2 %", "?").replace("0.6 %", "12.2 %").replace("?", "0.6 %")
+
+
+@pytest.mark.parametrize(
+    ("edit", "told"),
+    [
+        (swapped, "README.md, What we found: the numbers are"),
+        (lambda text: text.replace("21.8 %", "31.8 %"), "README.md, What we found: the numbers"),
+        (lambda text: text.replace("464,000", "664,000"), "README.md: 664,000 overturning flags"),
+    ],
+    ids=["swapped", "changed", "flags"],
+)
+def test_number_in_the_readme_that_is_not_published_is_named(tampered, edit, told):
+    assert any(fault.startswith(told) for fault in tampered("README.md", edit))
+
+
+@pytest.mark.parametrize(
+    ("config", "old", "new", "told"),
+    [
+        ("config/config.yaml", "mass_ratio: 0.434", "mass_ratio: 0.5", "config/config.yaml: "),
+        ("tests/reference/config.yaml", "mass_ratio: 0.434", "mass_ratio: 0.5", "config/config"),
+        (
+            "studies/reversals/config.yaml",
+            "largest_rise: 0",
+            "largest_rise: 1",
+            "studies/reversals",
+        ),
+        ("tests/reference/config.yaml", "# Every", "# Any", "tests/reference/config.yaml changed"),
+    ],
+)
+def test_config_that_is_not_that_of_the_published_run_is_named(tampered, config, old, new, told):
+    faults = tampered(config, lambda text: text.replace(old, new, 1))
+    assert any(fault.startswith(told) for fault in faults)
+
+
+def test_tolerance_that_is_too_wide_is_named(tampered):
+    wide = "printed: 0.415\n  unit: m\n  tolerance: 0.005"
+    faults = tampered("paper/claims.yaml", lambda text: text.replace(wide[:-1] + "05", wide))
+    assert any(fault.startswith("claim trilith_size: tolerance 0.005 would") for fault in faults)
 
 
 @pytest.mark.parametrize("change", ["\n", "| `more` | | | | | | |\n"])
@@ -252,6 +333,19 @@ def judged_row(**changes):
 def test_row_that_its_finding_does_not_bear_is_found(change):
     assert list(claims([CLAIM], FINDINGS, [judged_row()], ROOT)) == []
     assert list(claims([CLAIM], FINDINGS, [judged_row(**change)], ROOT))
+
+
+def test_row_that_is_published_twice_is_found():
+    (fault,) = claims([CLAIM], FINDINGS, [judged_row()] * 2, ROOT)
+    assert fault.startswith("claim size is 2 times in tests/reference/claims.json")
+
+
+def test_claim_that_a_run_left_untested_is_not_published():
+    lacking = {"trilith": Findings({"size": Finding.of({"not_tested": "no engine"})})}
+    row = judged(CLAIM, lacking, ROOT)
+    assert list(claims([CLAIM], lacking, [row], ROOT)) == [
+        "claim size is not tested; expected confirmed"
+    ]
 
 
 def test_number_is_not_the_same_as_a_truth():

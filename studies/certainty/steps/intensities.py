@@ -14,8 +14,6 @@ from scipy.stats import beta
 
 from replication.workbench import run, truth, value
 from steps.spectrum import progress
-from studies.reversals.ensemble import draws
-from studies.reversals.motions import peak_velocity
 from topheavy import (
     Column,
     FixedMassColumn,
@@ -27,6 +25,8 @@ from topheavy import (
     reference,
 )
 from topheavy.structures import Structure
+from topheavy.synthetic.ensemble import draws
+from topheavy.synthetic.motions import peak_velocity
 
 SUPPORTS = ("bare", "free", "fixed")
 MEASURES = ("pgv", "pga")
@@ -137,7 +137,7 @@ def under_records(case: dict, records: list[Record], under: list[Subject]) -> li
 def confirmed(case: dict, ensemble: dict, under: list[Subject], cells: pd.DataFrame) -> dict:
     """Judge a seeded sample of the cells by SciPy, and at a nudged scale.
 
-    Cells that a billionth of the motion changes cannot be told, and are not compared.
+    Cells that a billionth of the motion changes are undecided, and are not compared.
     """
     random = np.random.default_rng(case["seed"])
     some = {**ensemble, "runs": {ensemble["run"]: {"motions": case["motions"]}}}

@@ -15,9 +15,6 @@ from replication.workbench import run, truth, value
 from steps.spectrum import progress
 from studies.certainty.scattered import overturned_with
 from studies.certainty.shapes import knots, record
-from studies.reversals import fragility
-from studies.reversals.ensemble import draws
-from studies.reversals.motions import peak_velocity
 from topheavy import (
     STANDARD_GRAVITY,
     Column,
@@ -29,6 +26,9 @@ from topheavy import (
     reference,
 )
 from topheavy.structures import Structure
+from topheavy.synthetic import fragility
+from topheavy.synthetic.ensemble import draws
+from topheavy.synthetic.motions import peak_velocity
 
 WAYS = ("both", "frame alone", "column alone")
 HIGHEST = 0.995

@@ -60,7 +60,7 @@ def main(case: dict, structures: dict, caps: dict[str, Cap]) -> tuple[pd.DataFra
     between = table[(table.friction >= table.tan) & (table.friction < table.needed)]
     findings = {
         "slides_as_the_forces_say": truth(
-            not above.slides.any() and below.slides.all(),
+            len(above) > 0 and len(below) > 0 and not above.slides.any() and below.slides.all(),
             enough=len(above),
             too_little=len(below),
             between=len(between),

@@ -6,7 +6,7 @@ import numpy as np
 
 from figures.drawing import gamma
 from replication.drawing import ACCENT, DARK, DOUBLE, GREY, INK, letter, note, publish, sheet
-from studies.reversals.fragility import share_of_size
+from topheavy.synthetic.fragility import share_of_size
 
 STRUCTURE = "temple"
 FAMILIES = {"near-fault": (DARK, -1), "broadband": (ACCENT, 1)}  # colour, side

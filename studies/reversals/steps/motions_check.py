@@ -11,10 +11,10 @@ import pandas as pd
 from replication.workbench import run, truth
 from steps.rocking_spectra import NUDGE
 from steps.spectrum import progress
-from studies.reversals.ensemble import draws, factors, intensities, subjects
 from studies.reversals.outcomes import FALLS, STANDS, read
 from topheavy import Record, overturned_by, reference
 from topheavy.structures import Structure
+from topheavy.synthetic.ensemble import draws, factors, intensities, subjects
 
 FINEST = 1e-6  # of a factor: how well a boundary is known around which cells are drawn
 
@@ -69,7 +69,7 @@ def main(case: dict, structures: dict, paths: list[str], tightened: float) -> di
     routes = {"tightened": told.tight, "second_route": told.second_route.dropna().astype(bool)}
     return {
         f"{name}_agrees": truth(
-            agrees.all(),
+            len(agrees) > 0 and agrees.all(),
             cells=len(agrees),
             differ=int((~agrees).sum()),
             near_a_boundary=int(told.near[agrees.index].sum()),

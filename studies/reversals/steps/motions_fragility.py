@@ -14,11 +14,11 @@ import pandas as pd
 
 from replication.findings import Finding
 from replication.workbench import run, truth, value
-from studies.reversals import fragility
-from studies.reversals.ensemble import Subject, intensities, subjects
 from studies.reversals.outcomes import FALLS
 from studies.reversals.outcomes import read as read_outcomes
 from topheavy.structures import size_ratio
+from topheavy.synthetic import fragility
+from topheavy.synthetic.ensemble import Subject, intensities, subjects
 
 MOTION = ["scenario", "motion"]
 SUBJECT = ["mass_ratio", "as_large_as"]
@@ -139,10 +139,13 @@ def pairs(ensemble: Ensemble) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def neighbours(ensemble: Ensemble, means: np.ndarray) -> pd.DataFrame:
-    """Return by how much each frame's fragility is below that of the next lighter one."""
-    places = list(ensemble.frames.values())
-    less = means[:, places[:-1]] - means[:, places[1:]]
+def falls(ensemble: Ensemble, means: np.ndarray) -> pd.DataFrame:
+    """Return by how much each frame's fragility is below that of every lighter one.
+
+    Small rises from frame to frame could add up; comparing neighbours would not show it.
+    """
+    light, heavy = np.transpose([*itertools.combinations(ensemble.frames.values(), 2)])
+    less = means[:, light] - means[:, heavy]
     return pd.DataFrame(
         {key: np.ravel(found) for key, found in ensemble.bounds("less", less).items()}
     )
@@ -202,7 +205,7 @@ def main(case: dict, structures: dict, paths: list[str]) -> tuple[dict[str, pd.D
         tables["fragility"].append(curves(ensemble, means))
         tables["medians"].append(capacities(ensemble, medians))
         tables["pairs"].append(pairs(ensemble))
-        order.append(neighbours(ensemble, means))
+        order.append(falls(ensemble, means))
         beyond += beyond_size(ensemble, medians)
         shares += shares_of_gain(ensemble, medians, case["shares_of_gain"])
         print(ensemble.labels, len(ensemble.outcomes), "motions", flush=True)

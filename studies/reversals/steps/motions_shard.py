@@ -6,9 +6,9 @@ import pandas as pd
 
 from replication.workbench import run
 from steps.spectrum import progress
-from studies.reversals.ensemble import Draw, Subject, draws, factors, intensities, subjects
 from studies.reversals.outcomes import written
 from topheavy import overturned_by
+from topheavy.synthetic.ensemble import Draw, Subject, draws, factors, intensities, subjects
 
 
 def outcomes(draw: Draw, under: list[Subject], levels, of: int) -> list[dict]:

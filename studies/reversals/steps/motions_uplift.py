@@ -15,10 +15,10 @@ from replication.workbench import run, truth
 from steps.peak_forces import FORCES, RIGID, held_peaks, rocking_peaks
 from steps.spectrum import progress
 from steps.uplift_limits import MARGIN, shear_after_uplift
-from studies.reversals import fragility
-from studies.reversals.ensemble import Draw
 from studies.reversals.steps.motions_vase import factors, some
 from topheavy import Cap, Column, RockingFrame, reference, simulate
+from topheavy.synthetic import fragility
+from topheavy.synthetic.ensemble import Draw
 
 CLOSE = 1e-6  # relative: what the peaks of two solvers may differ by
 ROCKS = 0.1  # of α: histories that rock this far are judged again

@@ -16,11 +16,11 @@ from replication.workbench import run, truth
 from steps.rocking_spectra import NUDGE
 from steps.spectrum import progress
 from steps.vase_searches import rivals
-from studies.reversals import fragility
-from studies.reversals.ensemble import Draw, draws
-from studies.reversals.motions import peak_velocity
 from topheavy import STANDARD_GRAVITY, Column, Record, overturned_by, reference
 from topheavy.structures import Structure
+from topheavy.synthetic import fragility
+from topheavy.synthetic.ensemble import Draw, draws
+from topheavy.synthetic.motions import peak_velocity
 
 LEAST = 0.5  # of the motions: a structure that comes last under more of them is not the weakest
 

@@ -1,17 +1,21 @@
 """Each result that a claim of the study depends on, in a small case in which it is false."""
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import pytest
+import yaml
 
+from replication.findings import read_findings
 from steps.spectra_compared import Spectra
-from studies.reversals import fragility
-from studies.reversals.ensemble import factors, subjects
 from studies.reversals.steps import motions_fragility, motions_records, pulses
 from topheavy import STANDARD_GRAVITY, Column, Record
+from topheavy.synthetic import fragility
+from topheavy.synthetic.ensemble import factors, subjects
 
+STUDY = Path(__file__).resolve().parents[1]
 CASE = {
     "slendernesses": [14.0],
     "shapes": ["one-sine"],
@@ -85,11 +89,31 @@ def test_heavier_frame_that_overturns_more_often_is_noticed(rising):
     found = ensemble(often, seldom, seldom)
     if rising:
         found = ensemble(seldom, often, often)
-    table = motions_fragility.neighbours(found, found.means(found.outcomes))
+    table = motions_fragility.falls(found, found.means(found.outcomes))
     assert motions_fragility.never_rises(table, 0.05)["holds"] is not rising
     assert table.less.iloc[0] == pytest.approx(-0.5 if rising else 0.5)
     pair = motions_fragility.pairs(found).iloc[0]
     assert (pair.reversed_high < 0.5) == (not rising)
+
+
+def test_small_rises_that_add_up_are_noticed():
+    fell = [[1] * number + [0] * (100 - number) for number in (40, 44, 48)]
+    found = ensemble(*fell)
+    table = motions_fragility.falls(found, found.means(found.outcomes))
+    assert sorted(table.less.round(9)) == [-0.08, -0.04, -0.04]
+
+
+def test_remark_gives_the_published_limits():
+    rows = yaml.safe_load((STUDY / "claims.yaml").read_text(encoding="utf-8"))
+    remark = next(row for row in rows if row["id"] == "reversals_fragility")["remark"]
+    reference = STUDY.parents[1] / "tests" / "reference"
+    found = read_findings(reference / "findings" / "reversals_motions.json")
+    rise = found["fragility_never_rises"]["largest_rise_not_excluded"]
+    least = pd.read_csv(reference / "studies" / "reversals_medians.csv").motions.min()
+    half_width = 1.96 * math.sqrt(0.25 / least)
+    told = remark.replace("\n", " ")
+    assert f"do not exclude {100 * rise:.1f} points" in told
+    assert f"{least} motions, is known to {100 * half_width:.1f} points" in told
 
 
 def test_all_frames_of_a_structure_are_shaken_alike():

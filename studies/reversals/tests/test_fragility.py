@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.special import ndtr
 
-from studies.reversals import fragility
+from topheavy.synthetic import fragility
 
 LEVELS = np.geomspace(0.5, 2.0, 9)
 RATIOS = [0.0, 0.25, 0.5, 1.0, 2.0, 4.0, math.inf]

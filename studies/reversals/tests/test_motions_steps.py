@@ -6,12 +6,12 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from studies.reversals import fragility
-from studies.reversals.ensemble import draws, factors, intensities, subjects
-from studies.reversals.motions import peak_velocity, strength
 from studies.reversals.outcomes import FALLS, STANDS, read, written
 from studies.reversals.steps import motions_check, motions_fragility, motions_records, motions_shard
 from topheavy import Column, Record, RockingFrame, judge
+from topheavy.synthetic import fragility
+from topheavy.synthetic.ensemble import draws, factors, intensities, subjects
+from topheavy.synthetic.motions import peak_velocity, strength
 
 STRUCTURES = {"temple": {"half_width": 0.5, "half_height": 3.0}}
 CASE = {
@@ -120,6 +120,17 @@ def test_sample_is_judged_again(shards):
     found = motions_check.main(CASE, STRUCTURES, shards, 3e-12)
     assert found["tightened_agrees"]["cells"] + found["tightened_agrees"]["not_told"] == 6
     assert found["second_route_agrees"]["cells"] == 1
+
+
+def test_sample_of_which_nothing_can_be_told_agrees_with_nothing(shards, monkeypatch):
+    def sensitive(frame, record, factors, tolerance=None):
+        return np.arange(len(factors)) == 1  # a change by a billionth, and only that, overturns
+
+    monkeypatch.setattr(motions_check, "overturned_by", sensitive)
+    monkeypatch.setattr(motions_check, "boundary", lambda frame, record, low, high: low)
+    found = motions_check.main(CASE, STRUCTURES, shards, 3e-12)
+    assert [one["cells"] for one in found.values()] == [0, 0]
+    assert not any(one.holds for one in found.values())
 
 
 def test_outcomes_are_read_as_they_were_written():

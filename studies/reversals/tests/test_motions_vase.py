@@ -6,10 +6,10 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from studies.reversals.ensemble import Draw
-from studies.reversals.motions import Scenario, peak_velocity
 from studies.reversals.steps import motions_uplift, motions_vase
 from topheavy import Column, FixedMassColumn, Record
+from topheavy.synthetic.ensemble import Draw
+from topheavy.synthetic.motions import Scenario, peak_velocity
 
 COLUMN = Column(0.5, 3.0)
 LEVELS = np.geomspace(0.25, 4.0, 9)

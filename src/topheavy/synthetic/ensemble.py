@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from studies.reversals.motions import Scenario, motion, peak_velocity
 from topheavy import STANDARD_GRAVITY, Column, Record, RockingFrame
 from topheavy.structures import size_ratio
+from topheavy.synthetic.motions import Scenario, motion, peak_velocity
 
 
 @dataclass(frozen=True)

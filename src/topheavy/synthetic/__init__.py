@@ -1,0 +1,1 @@
+"""Synthetic ground motions, ensembles of them, and the probability of overturning under these."""

@@ -1,0 +1,182 @@
+"""Each condition in a result of the study, in a case in which it alone fails."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from replication.workbench import truth
+from studies.mechanism.steps import (
+    admissible,
+    dependence,
+    equivalence,
+    rebounds,
+    slides,
+    three_bodies,
+    verdicts,
+)
+from topheavy import Cap, Column, Pulse, RockingFrame
+
+COLUMN = {"half_width": 0.5, "half_height": 3.0}
+CAP = Cap(5.0, 0.5)
+
+
+def row_of_pulse(contact, *, agrees):
+    row = dict.fromkeys(("peak", "theory_peak", "slip", "cap_tilt"), 0.0)
+    return (
+        row
+        | {"contact": contact, "factor": 1.0, "engine": agrees}
+        | dict.fromkeys(("theory", "theory_with_rebound"), True)
+    )
+
+
+BESIDE = {"column_overturns": False, "frame_overturns": True, "theory": "frame"}
+OTHER = {"column_overturns": True, "frame_overturns": False, "theory": "column"}
+
+
+@pytest.mark.parametrize(
+    ("plastic", "beside", "same", "as_theory"),
+    [
+        ([True] * 30, [BESIDE, OTHER], True, True),
+        ([True] * 29 + [False], [BESIDE, OTHER], False, True),  # one pulse of thirty
+        ([True] * 29, [BESIDE, OTHER], False, True),  # too few
+        ([True] * 30, [BESIDE, OTHER | {"frame_overturns": True}], True, False),
+        ([True] * 30, [OTHER], True, False),  # no reversal was tried
+    ],
+)
+def test_engine_agrees_with_theory_under_every_pulse(monkeypatch, plastic, beside, same, as_theory):
+    rows = [row_of_pulse("plastic", agrees=agrees) for agrees in plastic]
+    rows.append(row_of_pulse("bouncing", agrees=False))
+    monkeypatch.setattr(verdicts, "models", lambda *given: [None])
+    monkeypatch.setattr(verdicts, "pulses_around", lambda *given: rows)
+    monkeypatch.setattr(verdicts, "beside_its_column", lambda *given: beside)
+    _, found = verdicts.main({"frames": {}, "contacts": ["all"]}, {}, {})
+    assert found["same_verdicts"].holds is False
+    assert found["same_verdicts"].holds_when is same
+    assert found["beside_as_in_theory"].holds is as_theory
+
+
+@pytest.mark.parametrize(
+    ("change", "tan", "seats"),
+    [
+        ({}, True, True),
+        ({"demand": 0.99}, False, True),
+        ({"pulls": True, "least_vertical": -0.1}, True, False),
+    ],
+)
+def test_one_pulse_of_two_is_enough_to_refute(monkeypatch, change, tan, seats):
+    row = {"mass_ratio": 1.0, "frequency_ratio": 2.0, "amplitude": 1.5, "demand": 1.2}
+    row |= {"demand_error": 0.0, "least_vertical": 0.1, "pulls": False, "overturned": False}
+    monkeypatch.setattr(admissible, "cells", lambda *given: [row, row | change])
+    monkeypatch.setattr(admissible, "first_pull", lambda *given: {})
+    case = {"column": COLUMN, "mass_ratios": [1.0], "frictions": [0.3, 0.7]}
+    case |= {"amplitudes": {"lowest": 1.0, "highest": 2.0, "points": 2}}
+    _, found = admissible.main(case, CAP)
+    assert found["uplift_needs_tan"].holds is tan
+    assert found["stays_on_its_seats"].holds is seats
+
+
+@pytest.mark.parametrize(
+    ("rocking", "impact", "falls", "less"),
+    [
+        ([3.0, 2.0, 1.0], 0.9, True, True),
+        ([3.0, 1.0, 2.0], 0.9, False, True),  # the last rises
+        ([3.0, 2.0, 1.0], 1.1, True, False),
+    ],
+)
+def test_friction_falls_with_every_heavier_cap(monkeypatch, rocking, impact, falls, less):
+    left = iter(rocking)
+
+    def worst(frame, cap, case):
+        fixed = {"rocking_error": 0.0, "least_vertical": 0.1, "impact_least": 0.1, "pulses": 9}
+        return fixed | {"rocking": next(left), "impact": impact}
+
+    monkeypatch.setattr(dependence, "worst", worst)
+    opens = truth(True, least_in_short_bays=-0.1, least_in_long_bays=0.1)
+    monkeypatch.setattr(dependence, "opens_below_the_shortest_bay", lambda *given: opens)
+    case = {"column": COLUMN, "mass_ratio": 1.0, "mass_ratios": [0.5, 1.0, 2.0]}
+    _, found = dependence.main(case | dict.fromkeys(["slendernesses", "spans", "depths"], ()), CAP)
+    assert found["heavier_needs_less"].holds is falls
+    assert found["impact_asks_for_less_than_rocking"].holds is less
+
+
+@pytest.mark.parametrize(("off", "hard"), [(0.004, True), (0.006, False)])
+def test_rebound_is_that_of_the_equation_within_half_a_percent(monkeypatch, off, hard):
+    frame = SimpleNamespace(slenderness=0.2, mass_ratio=1.0, restitution=0.9)
+    monkeypatch.setattr(rebounds, "models", lambda *given: [SimpleNamespace(name="", frame=frame)])
+    monkeypatch.setattr(rebounds, "rig_of", lambda model, step, **contact: contact)
+
+    def rebound(contact, rotation):
+        soft = contact["time_constant"] > 0.01
+        return 0.9 * (1.0 + (0.03 if soft else off))
+
+    monkeypatch.setattr(rebounds, "rebound", rebound)
+    case = {"frames": {}, "lean": 0.5, "damping_ratios": [1.0], "time_constants": [0.01, 0.1]}
+    _, found = rebounds.main(case, {}, {})
+    for name in ("impact_at_the_new_pivots", "maximum_restitution"):
+        assert (found[name].holds, found[name].holds_when) == (False, hard)
+
+
+@pytest.mark.parametrize(
+    ("frictions", "slips_below", "holds"),
+    [
+        ([0.1, 0.6], 0.3, True),
+        ([0.1, 0.53], 0.3, False),  # more than is needed, and not clearly
+        ([0.6], 0.52, False),  # nothing below tan α was tried
+        ([0.1], 0.3, False),  # nothing clearly above was tried
+    ],
+)
+def test_sliding_is_told_from_both_sides(monkeypatch, frictions, slips_below, holds):
+    model = SimpleNamespace(name="", frame=RockingFrame(Column(0.5, 3.0), 1.0))
+    monkeypatch.setattr(slides, "models", lambda *given: [model])
+    monkeypatch.setattr(
+        slides, "units", lambda *given: [({"factor": 1.0}, Pulse("one-sine", 0.3, 3.0))]
+    )
+    monkeypatch.setattr(slides, "lowest_overturning", lambda frame, unit: unit)
+    monkeypatch.setattr(slides, "needed", lambda *given: 0.5)
+    monkeypatch.setattr(slides, "rig_of", lambda model, step, friction: friction)
+    monkeypatch.setattr(slides, "shaken", lambda rig, pulse: (False, 0.1, None))
+    monkeypatch.setattr(slides, "slips", lambda rig, motion, gap: ((rig < slips_below) * 1.0, 0.0))
+    case = {"frames": {}, "pulse": {}, "samples": 4, "time_step": 1.0, "frictions": frictions}
+    _, found = slides.main(case, {}, {"": CAP})
+    assert found["slides_as_the_forces_say"].holds == holds
+
+
+def test_sides_of_a_difference_are_told_apart():
+    frame = pd.DataFrame([[np.nan] * 3, [0.1] * 3, [0.1] * 3])
+    column = pd.DataFrame([[0.1] * 3, [0.1] * 3, [0.1] * 3])
+    found = equivalence.differences(frame, column)
+    assert (found["only_frame_overturns"], found["only_column_overturns"]) == (0.25, 0.0)
+
+
+def test_column_of_another_outcome_is_not_identical(monkeypatch):
+    frame = RockingFrame(Column(0.5, 3.0), 1.0)
+    peaks = pd.DataFrame([[0.1, np.nan]])
+    for found, apart in ((peaks, 0.0), (pd.DataFrame([[0.1, 0.2]]), np.inf)):
+        monkeypatch.setattr(equivalence, "maps", lambda *given, found=found: (found,))
+        assert equivalence.given_its_restitution(frame, "one-sine", peaks, {}) == apart
+
+
+@pytest.mark.parametrize(("overturns", "agrees"), [(True, False), (False, True)])
+def test_cell_that_scipy_denies_is_noticed(monkeypatch, overturns, agrees):
+    otherwise = SimpleNamespace(overturned=overturns)
+    judge = SimpleNamespace(judge=lambda *given: otherwise)
+    monkeypatch.setattr(equivalence, "reference", judge)
+    peaks = pd.DataFrame([[0.1, 0.1]], index=[2.0], columns=[1.5, 2.0])
+    frame = RockingFrame(Column(0.5, 3.0), 1.0)
+    sample = {"seed": 1, "points": 2}
+    assert equivalence.second_route(frame, "one-sine", (peaks, peaks), sample) is agrees
+
+
+@pytest.mark.parametrize(("apart", "holds"), [(5e-7, True), (2e-6, False)])
+def test_three_bodies_agree_within_a_millionth(monkeypatch, apart, holds):
+    same = dict.fromkeys(("rotation_apart", "ratio_apart", "force_apart", "impulse_apart"), apart)
+    same |= {"impact_apart": 0.0, "cap_tilt": 0.0, "drift": 0.0, "impacts": 1}
+    same |= {"forces_compared": 9, "same_outcome": True}
+    monkeypatch.setattr(three_bodies, "compare", lambda *given: same)
+    case = {"column": COLUMN, "mass_ratios": [1.0], "duration": 1.0, "samples": 9}
+    case |= {"pulses": [{"shape": "one-sine", "frequency_ratio": 2.0, "amplitude": 2.0}]}
+    _, found = three_bodies.main(case | {"record_duration": 1.0}, CAP, [])
+    for name in ("one_degree_of_freedom", "velocity_ratio", "same_forces"):
+        assert found[name].holds == holds

@@ -1,0 +1,183 @@
+"""Each condition in a result of the paper's steps, in a case in which it alone fails."""
+
+from dataclasses import replace
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pandas as pd
+import pytest
+import yaml
+
+from replication.workbench import truth, value
+from steps import (
+    heavier,
+    moment_rotation,
+    scale_effects,
+    spectra,
+    stability,
+    statements,
+    trilith,
+    verification,
+)
+from steps.spectra_compared import Place
+from topheavy import Column, Pulse, RockingFrame
+
+ROOT = Path(__file__).resolve().parents[2]
+CONFIG = yaml.safe_load((ROOT / "config/config.yaml").read_text(encoding="utf-8"))
+PRINTED = {
+    row["id"]: row["printed"]
+    for row in yaml.safe_load((ROOT / "paper/claims.yaml").read_text(encoding="utf-8"))
+    if row["id"].startswith("trilith_") and "printed" in row
+}
+TEMPLE = {"half_width": 0.5, "half_height": 3.0}
+SOLVER = {"tightened": 1e-12}
+
+
+def case_of(rule, **changes):
+    return CONFIG[rule] | {"column": CONFIG["structures"][CONFIG[rule]["structure"]]} | changes
+
+
+# Rankings ----------------------------------------------------------------------------------------
+
+
+def test_counterexample_that_the_tightened_tolerance_does_not_bear_stops_the_run(monkeypatch):
+    weak, strong = (Column(0.5, 3.0), 4.0), (Column(1.0, 6.0), 4.0)
+
+    class Known(stability.Scan):
+        def overturned(self, trial):
+            return (False, trial == strong, True)
+
+    survives = SimpleNamespace(overturned=False)
+    monkeypatch.setattr(stability, "judge", lambda *arguments, **options: survives)
+    scan = Known(weak[0], "one-sine", (1.0, 2.0, 3.0), 1e-12)
+    with pytest.raises(ArithmeticError, match="not a counterexample"):
+        scan.ranking([[weak, strong]])
+
+
+def test_counterexample_of_the_spectra_is_borne_by_both_solvers(monkeypatch):
+    class Known:
+        def __init__(self, case, table):
+            pass
+
+        def lowest_rises(self):
+            return truth(True)
+
+        def areas(self, light, heavy):
+            return []
+
+        def counterexample(self, pairs):
+            return 0.1, Place(14.0, "one-sine", False, 3.0), 0.0, 1.0, 2.0
+
+        def judged(self, place, gamma, amplitude, tightened):
+            return [gamma == 1.0, False]  # SciPy: neither overturns
+
+    monkeypatch.setattr(spectra, "Spectra", Known)
+    with pytest.raises(ArithmeticError, match="not a counterexample"):
+        spectra.main({"pairs": [], "mass_ratios": [0.0, 1.0]}, SOLVER, None)
+
+
+@pytest.mark.parametrize(
+    ("brackets", "agrees", "holds"),
+    [
+        ([(1.0, 1.1), (1.2, 1.3)], True, True),
+        ([(1.0, 1.25), (1.2, 1.3)], True, False),  # overlapping brackets
+        ([(1.2, 1.3), (1.0, 1.1)], True, False),
+        ([(1.0, 1.1), (1.2, 1.3)], False, False),  # SciPy says otherwise
+    ],
+)
+def test_heavier_survives_more_by_apart_brackets_and_all_solvers(
+    monkeypatch, brackets, agrees, holds
+):
+    left = iter(brackets)
+    monkeypatch.setattr(heavier, "lowest_overturning", lambda frame, pulse: next(left))
+    if not agrees:
+        otherwise = SimpleNamespace(overturned=False, peak=0.0)
+        monkeypatch.setattr(
+            heavier, "reference", SimpleNamespace(judge=lambda frame, pulse: otherwise)
+        )
+    _, _, found = heavier.main(case_of("heavier", mass_ratios=[0.0, 4.0]), SOLVER)
+    assert found["heavier_survives_more"].holds is holds
+
+
+@pytest.mark.parametrize(("larger", "holds"), [(2.0, True), (1.001, False)])
+def test_larger_column_survives_the_pulse_that_overturns_the_smaller(larger, holds):
+    _, found = scale_effects.main(case_of("scale_effects", larger=larger), SOLVER)
+    assert found["larger_column_survives"].holds is holds
+
+
+# Statements --------------------------------------------------------------------------------------
+
+
+def test_compact_form_needs_both_equations(monkeypatch):
+    found = statements.structure(RockingFrame(Column(**TEMPLE), 1.0), [0.0, 1.0])
+    assert found["compact_form"].holds
+    wrong = tuple(
+        replace(one, meant=one.printed) if one.name == "eq22" else one
+        for one in statements.EQUATIONS
+    )
+    monkeypatch.setattr(statements, "EQUATIONS", wrong)
+    found = statements.structure(RockingFrame(Column(**TEMPLE), 1.0), [0.0, 1.0])
+    assert not found["compact_form"].holds
+
+
+def test_column_of_another_size_does_not_move_like_the_frame(monkeypatch):
+    case = CONFIG["statements"]
+    frame = RockingFrame(Column(**TEMPLE), case["mass_ratio"])
+    pulse = Pulse("one-sine", case["pulse"]["amplitude"], 2 * np.pi / case["pulse"]["period"])
+    monkeypatch.setattr(statements, "similar", lambda column, scale: column)
+    found = statements.from_below(frame, case["cap"], pulse)["identical_response"]
+    assert (found.holds, found.holds_when) == (False, False)
+
+
+# Trilith and moment ------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("amplitude", "holds"), [(0.0062, True), (0.0064, False)])
+def test_shake_table_is_below_uplift_up_to_uplift(amplitude, holds):
+    frame = RockingFrame(Column(0.11, 0.40), 0.434)
+    case = CONFIG["trilith"] | {"table_amplitude": amplitude}
+    assert trilith.passage(frame, case, PRINTED)["stays_below_uplift"].holds is holds
+
+
+@pytest.mark.parametrize("rests", [True, False])
+def test_no_pure_rocking_needs_rest_from_rest(monkeypatch, rests):
+    started = {
+        "rest_from_rest": truth(rests),
+        "abrupt_start_keeps_it_rocking": truth(True),
+        "least_share_that_keeps_rocking": value(0.3, 0.01),
+    }
+    monkeypatch.setattr(trilith, "starts", lambda frame, case, tightened: ([], [], started))
+    found, *_ = trilith.main(case_of("trilith"), PRINTED, 1e-12)
+    assert found["no_pure_rocking"].holds is False
+    assert found["no_pure_rocking"].holds_when is rests
+
+
+def test_moment_that_is_off_by_a_billionth_and_lost_energy_are_noticed(monkeypatch):
+    case = case_of("moment_rotation", points=11, start_fractions=[0.3, 0.6])
+    names = ("moment_at_uplift", "frame_follows_the_columns_curve", "no_area_enclosed")
+    _, _, found = moment_rotation.main(case)
+    assert [found[name].holds for name in names] == [True] * 3
+    moment = moment_rotation.restoring_moment
+    off = lambda frame, rotation: moment(frame, rotation) * (1.0 + 1e-9)  # noqa: E731
+    monkeypatch.setattr(moment_rotation, "restoring_moment", off)
+    monkeypatch.setattr(moment_rotation, "energy_drift", lambda *arguments, **options: 1e-6)
+    _, _, found = moment_rotation.main(case)
+    assert [found[name].holds for name in names] == [False] * 3
+
+
+@pytest.mark.parametrize(
+    ("computed", "holds"),
+    [(1.0, True), (1.002, False), (1.006, False)],  # off ours; off the print too
+)
+def test_number_of_the_literature_is_held_against_ours_and_the_print(monkeypatch, computed, holds):
+    routes = {"verdicts_that_differ": [0], "error_99": [0.0], "cells": [9]}
+    literature = {"printed": [1.0], "expected": [1.0], "tolerance": [1e-3], "computed": [computed]}
+    given = {"agreement": routes, "convergence": {}, "published": literature}
+    for name, table in given.items():
+        found = pd.DataFrame(table)
+        monkeypatch.setattr(verification, name, lambda *given, found=found: found)
+    monkeypatch.setattr(verification, "drift", lambda case: 0.0)
+    monkeypatch.setattr(verification, "distance_from_derivation", lambda: 0.0)
+    _, found = verification.main({}, 1e-12)
+    assert found["published_numbers"].holds == holds
