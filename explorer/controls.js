@@ -3,6 +3,7 @@
 
 const byId = (id) => document.getElementById(id);
 const SLIDER = 1000; // steps
+const TOGETHER = ["b", "h", "g", "L", "own", "r", "cap", "T", "D"]; // one of them may contradict another
 
 /** A number as a place on its slider, and back; γ runs from 0 to ∞ with 2 in the middle. */
 const toSlider = (key, number) => {
@@ -30,7 +31,7 @@ function made(kind, attributes = {}, ...children) {
 class Controls {
   /** `change(patch, isFinal)` takes a change of the state; it returns a contradiction or null. */
   constructor(change, open) {
-    Object.assign(this, { change, open, state: { ...DEFAULTS } });
+    Object.assign(this, { change, open, state: { ...DEFAULTS }, refused: {} });
     const structure = byId("structure"), motion = byId("motion");
     for (const key of ["b", "h", "g", "L"]) structure.append(this.number(key));
     structure.append(
@@ -138,10 +139,15 @@ class Controls {
     byId(key)?.setAttribute?.("aria-invalid", message ? "true" : "false");
   }
 
+  /** Apply a change, and with it what was refused before: of two fields that contradict each other,
+      the first waits for the second. A change of any other field drops it. */
   apply(patch, isFinal, key) {
-    for (const each of ["b", "h", "g", "L", "r", "own", "cap", "shape", "record"]) if (each !== key) this.clear(each);
-    const wrong = this.change(patch, isFinal);
-    if (wrong) this.tell(wrong.field, wrong.message);
+    for (const each of ["b", "h", "g", "L", "r", "T", "D", "own", "cap", "shape", "record"]) if (each !== key) this.clear(each);
+    const whole = { ...this.refused, ...patch };
+    let wrong = this.change(whole, isFinal);
+    if (wrong && !TOGETHER.includes(key)) wrong = this.change(patch, isFinal);
+    this.refused = wrong ? whole : {};
+    if (wrong) this.tell(byId(`${wrong.field}-field`).hidden ? key : wrong.field, wrong.message);
     else this.tell(key, "");
   }
 
@@ -149,12 +155,12 @@ class Controls {
   clear(key) {
     if (!byId(`${key}-error`).textContent) return;
     this.tell(key, "");
-    if (key in FIELDS && this.state[key] !== null) byId(key).value = shown(this.state[key]);
+    if (key in FIELDS && !(key in this.refused) && this.state[key] !== null) byId(key).value = shown(this.state[key]);
   }
 
   /** Show a state; a field in which somebody types keeps its text. */
   show(state) {
-    this.state = state;
+    Object.assign(this, { state, refused: {} });
     for (const key of Object.keys(FIELDS)) {
       if (state[key] === null) continue;
       const text = byId(key), slider = byId(`${key}-slider`);

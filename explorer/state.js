@@ -35,6 +35,7 @@ function typed(text) {
 /** What is wrong with a number for a field, or "". */
 function fault(key, number, text) {
   const { least, most, unit } = FIELDS[key], range = `${least} to ${shown(most)}${unit && ` ${unit}`}`;
+  if (!text.trim()) return `the field is empty; expected ${range}`;
   if (Number.isNaN(number)) return `“${text}” is not a number; expected ${range}`;
   if (number < least || number > most) return `${text} is out of range; expected ${range}`;
   return "";
@@ -46,7 +47,7 @@ function contradiction(state) {
     return { field: "L", message: `the columns would touch; expected a span above their width, ${shown(2 * state.b)} m` };
   }
   if (state.shape === "harmonic" && state.D > MOST_PERIODS * state.T) {
-    return { field: "D", message: `it has more than ${MOST_PERIODS} periods; expected at most ${shown(MOST_PERIODS * state.T)} s` };
+    return { field: "D", message: `the steady sine has more than ${MOST_PERIODS} periods; expected a duration of at most ${shown(MOST_PERIODS * state.T)} s` };
   }
   try {
     structuresOf(state);

@@ -227,6 +227,7 @@ BAD_INPUT = [
     ("T", "0", "0 is out of range; expected 0.01 to 100 s"),
     ("L", "0.9", "the columns would touch; expected a span above their width, 1 m"),
     ("b", "4", "√r of the frame is"),
+    ("h", " ", "the field is empty; expected 0.001 to 1000 m"),
 ]
 
 
@@ -247,6 +248,32 @@ def test_bad_input_is_told_at_its_field_and_the_picture_stays(browser, field, ty
     good = browser.do("shown(state[{0}] * 1.01)", field)
     assert browser.do(TYPE, field, good) == ""
     assert state_of(browser) != before
+
+
+@pytest.mark.parametrize(
+    ("first", "second"), [(("h", "0.15"), ("b", "0.05")), (("b", "2"), ("L", "4.5"))]
+)
+def test_first_of_two_fields_that_contradict_waits_for_the_second(browser, first, second):
+    browser.open("L=3.9")
+    before = state_of(browser)
+    browser.do(TYPE, *first)
+    assert state_of(browser) == before
+    assert browser.do(TYPE, *second) == ""
+    assert {f"{key}={number}" for key, number in (first, second)} <= set(
+        state_of(browser).split("&")
+    )
+    browser.do(TYPE, *first)
+    browser.do(TYPE, "a", "0.2")
+    assert "a=0.2" in state_of(browser)
+
+
+def test_shape_that_contradicts_is_told_where_it_is_seen(browser):
+    browser.open("T=0.01&a=0.2")
+    browser.do("controls.apply({shape: 'harmonic'}, true, 'shape')")
+    shown = "document.getElementById('shape-error')"
+    assert "more than 400 periods" in browser.do(f"{shown}.checkVisibility() && {shown}.textContent")
+    browser.do(TYPE, "T", "0.1")
+    assert "shape=harmonic" in state_of(browser)
 
 
 def test_address_holds_the_state(browser):
