@@ -10,6 +10,7 @@ const PORTAL = "Frame: cap beam fixed to both";
 const files = new Map();
 let state = { ...DEFAULTS };
 let found = null; // the histories that are shown
+let awaited = {}; // the record that the address names and the page has not, and the factor on it
 let time = 0, isPlaying = false, wantsToPlay = true, before = 0;
 
 const round = (number, digits = 3) => {
@@ -268,9 +269,14 @@ function redraw() {
 function settle() {
   const { here } = planeOf(state, files.get(state.record));
   byId("spectrum").setAttribute("aria-label", `Overturning spectrum of the frame; this case is at ${round(here.x)} and ${round(here.y)}`);
-  byId("python").textContent = inPython(state);
+  byId("python").textContent = inPython(state, files.get(state.record)?.file);
   history.replaceState(null, "", `#${encode(state)}`);
   askSurvey();
+}
+
+/** Keep the present state for the browser's Back. */
+function keep() {
+  for (const place of ["replaceState", "pushState"]) history[place](null, "", `#${encode(state)}`);
 }
 
 /** Show a whole new state, from its beginning. */
@@ -289,6 +295,7 @@ function start(next) {
 function pick(x, y) {
   const alone = column(state.b, state.h), short = (number) => Number(number.toPrecision(4));
   const a = y * Math.tan(alone.alpha);
+  keep();
   if (state.shape === "record") {
     const scale = x / alone.lever;
     const sizes = Object.fromEntries(["b", "h", "L"].map((key) => [key, short(state[key] * scale)]));
@@ -301,12 +308,13 @@ async function open(file) {
   try {
     const read = readRecord(file.name, await file.text());
     const isNew = !files.has(read.name);
-    files.set(read.name, { ...read, title: file.name });
+    keep();
+    files.set(read.name, { ...read, file: file.name });
     if (isNew) controls.offer(read.name, `${file.name}, ${round(peakOf(read.samples))} g`);
     mapKey = "";
     state = { ...state, shape: "half-sine" }; // so that a file of the same name is taken anew
     controls.tell("record", "");
-    controls.apply({ shape: "record", record: read.name, x: 1 }, true, "shape");
+    controls.apply({ shape: "record", record: read.name, x: read.name === awaited.record ? awaited.x : 1 }, true, "shape");
   } catch (error) {
     controls.tell("record", error.message);
   }
@@ -316,6 +324,7 @@ async function open(file) {
 function readAddress() {
   const { state: next, faults } = decode(location.hash);
   if (next.shape === "record" && !files.has(next.record)) {
+    awaited = { record: next.record, x: next.x };
     faults.shape = `The address: the record “${next.record}” is not in this page; open or drop its file`;
     Object.assign(next, { shape: DEFAULTS.shape, record: "" });
   }
@@ -324,12 +333,16 @@ function readAddress() {
 }
 
 for (const each of DATA.records) {
-  files.set(each.name, { name: each.name, title: each.title, step: each.step, samples: Float64Array.from(each.samples) });
+  files.set(each.name, { name: each.name, file: `${each.name}.AT2`, step: each.step, samples: Float64Array.from(each.samples) });
   controls.offer(each.name, each.title);
 }
 DATA.cases.forEach((each) => {
   const button = made("button", { type: "button" }, each.title);
-  button.addEventListener("click", () => start({ ...DEFAULTS, ...each.state }));
+  button.addEventListener("click", () => {
+    const next = { ...DEFAULTS, ...each.state };
+    if (encode(next) !== encode(state)) keep();
+    start(next);
+  });
   byId("cases").append(button);
 });
 byId("copy").addEventListener("click", async () => {

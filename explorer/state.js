@@ -89,8 +89,8 @@ function decode(hash) {
   return { state, faults };
 }
 
-/** The same case in Python, with the library. */
-function inPython(state) {
+/** The same case in Python, with the library; a record is read from its file. */
+function inPython(state, file = `${state.record}.AT2`) {
   const float = (number) => (number === Infinity ? "math.inf" : String(number));
   const names = ["column", "vase", "frame"], size = `${float(state.b)}, ${float(state.h)}`;
   const third = state.cap === "fixed" ? `MonolithicPortal(column, ${float(state.g)}, ${float(state.L)})` : `RockingFrame(column, ${float(state.g)})`;
@@ -99,7 +99,7 @@ function inPython(state) {
   const isRecord = state.shape === "record", isSteady = state.shape === "harmonic";
   classes.push(isRecord ? "read_record" : "Pulse");
   let motion = `motion = Pulse("${state.shape}", ${isSteady ? "-" : ""}${float(state.a)}, 2 * math.pi / ${float(state.T)})`;
-  if (isRecord) motion = `motion = read_record("data/records/${state.record}.AT2").scaled(${float(state.x)})  # the place of your file`;
+  if (isRecord) motion = `motion = read_record(${JSON.stringify(`data/records/${file}`)}).scaled(${float(state.x)})  # the place of your file`;
   let options = isSteady ? `, duration=${float(state.D)}` : "";
   const lines = [
     "import math", "", `from topheavy import ${classes.sort().join(", ")}`, "",

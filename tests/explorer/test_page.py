@@ -271,7 +271,9 @@ def test_shape_that_contradicts_is_told_where_it_is_seen(browser):
     browser.open("T=0.01&a=0.2")
     browser.do("controls.apply({shape: 'harmonic'}, true, 'shape')")
     shown = "document.getElementById('shape-error')"
-    assert "more than 400 periods" in browser.do(f"{shown}.checkVisibility() && {shown}.textContent")
+    assert "more than 400 periods" in browser.do(
+        f"{shown}.checkVisibility() && {shown}.textContent"
+    )
     browser.do(TYPE, "T", "0.1")
     assert "shape=harmonic" in state_of(browser)
 
@@ -319,6 +321,30 @@ def test_record_is_dropped_in_and_a_bad_one_is_refused(browser):
     assert "line 1 is" in browser.do("document.getElementById('record-error').textContent")
     assert state_of(browser) == after
     assert browser.tab.requests == []
+
+
+def test_record_of_the_address_is_opened_with_its_factor(browser):
+    browser.open("shape=record&record=mine&x=3")
+    lines = "\n".join(f"{k / 50:.2f},{0.1 * (-1) ** (k // 25)}" for k in range(150))
+    browser.do(DROP, "mine.csv", f"time (s),acceleration (g)\n{lines}\n")
+    browser.do("new Promise(resolve => setTimeout(resolve, 300))")
+    browser.settle()
+    assert browser.do("found.peak") == pytest.approx(0.3)
+    assert '("data/records/mine.csv")' in browser.do(
+        "document.getElementById('python').textContent"
+    )
+
+
+def test_back_returns_to_what_a_case_replaced(browser):
+    browser.open("b=0.4&a=0.25")
+    before = state_of(browser)
+    browser.do("document.querySelector('#cases button').click()")
+    browser.settle()
+    browser.do("new Promise(resolve => setTimeout(resolve, 400))")
+    assert state_of(browser) != before
+    browser.do("history.back()")
+    browser.do("new Promise(resolve => setTimeout(resolve, 400))")
+    assert state_of(browser) == before
 
 
 def test_press_in_the_spectrum_goes_there(browser):
