@@ -168,6 +168,7 @@ class Controls {
       if (document.activeElement !== slider || fromSlider(key, Number(slider.value)) !== state[key]) slider.value = toSlider(key, state[key]);
       slider.setAttribute("aria-valuetext", `${shown(state[key])} ${FIELDS[key].unit}`);
     }
+    byId("size").textContent = `column ${shown(2 * state.b)} m wide, ${shown(2 * state.h)} m high`;
     for (const key of ["cap", "eq", "start"]) byId(`${key}-${state[key]}`).checked = true;
     byId(state.r === null ? "own-formula" : "own-own").checked = true;
     byId("shape").value = state.shape === "record" ? `record:${state.record}` : state.shape;

@@ -260,7 +260,10 @@ function redraw() {
   const here = encode(state), same = CASES.indexOf(here);
   byId("note").textContent = same >= 0 ? DATA.cases[same].note : "";
   [...byId("cases").children].forEach((button, k) => button.setAttribute("aria-pressed", String(k === same)));
-  for (const cell of document.querySelectorAll('[id^="minimum"]')) cell.classList.add("pending");
+  for (const cell of document.querySelectorAll('[id^="minimum"]')) {
+    cell.textContent = "…"; // the last number is of another state
+    cell.classList.add("pending");
+  }
   [...byId("rows").children].forEach((_, k) => sensitive(k, false));
   performance.measure("frame", { start: began });
 }

@@ -26,6 +26,7 @@ class Scene {
     const width = centres[2] + beam + margin;
     this.svg.replaceChildren();
     this.svg.setAttribute("viewBox", `0 ${-top} ${width} ${top + below}`);
+    this.svg.style.setProperty("--weight", state.g === Infinity ? 1 : state.g / (0.5 + state.g));
     this.svg.style.aspectRatio = `${width} / ${top + below}`;
     this.names.forEach((name, k) => (name.style.left = `${(100 * centres[k]) / width}%`));
 

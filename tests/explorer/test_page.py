@@ -196,6 +196,17 @@ def test_nothing_is_wider_than_the_screen(browser, width):
     assert browser.do(beyond) == []
 
 
+def test_phone_shows_the_outcome_beside_every_field(browser):
+    browser.open("shape=harmonic&r=0.9", width=390, height=844)
+    box = "document.getElementById({0}).getBoundingClientRect()"
+    playback = [browser.do(f"{box}.top", name) for name in ("start", "speed")]
+    assert playback[0] == pytest.approx(playback[1], abs=2)
+    for name in ("b", "g", "a", "D"):
+        browser.do("document.getElementById({0}).scrollIntoView()", name)
+        assert browser.do(f"{box}.top", "verdict") == pytest.approx(0, abs=1)
+        assert browser.do(f"{box}.top", name) >= browser.do(f"{box}.bottom", "verdict")
+
+
 def test_laptop_shows_everything_on_one_screen(browser):
     browser.open(width=1440, height=900)
     bottom = "document.getElementById('rows').getBoundingClientRect().bottom"
