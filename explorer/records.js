@@ -52,6 +52,28 @@ function readAt2(lines) {
   return { step, samples };
 }
 
+/** One unit of the last digit of each printed time: programs print so many decimals, or so many digits. */
+function lastDigits(printed) {
+  const numbers = printed.map((text) => {
+    const [mantissa, power = "0"] = text.toLowerCase().replace("d", "e").split("e"), places = mantissa.split(".")[1]?.length ?? 0;
+    const value = numberOf(text), last = Number(power) - places;
+    return { last, first: value ? Number(Math.abs(value).toExponential().split("e")[1]) : null };
+  });
+  const least = numbers.reduce((low, { last }) => Math.min(low, last), Infinity);
+  const digits = numbers.reduce((most, { first, last }) => Math.max(most, (first ?? least) - last), 0);
+  return numbers.map(({ first }) => 10 ** Math.max(least, (first ?? least) - digits));
+}
+
+/** The step of the times, which are regular as `regular_step` of the library says. */
+function regularStep(printed) {
+  const times = printed.map(numberOf), step = (times.at(-1) - times[0]) / (times.length - 1), units = lastDigits(printed);
+  const steps = times.slice(1).map((t, k) => t - times[k]), sorted = steps.toSorted((one, other) => one - other);
+  const middle = (sorted.length - 1) / 2, usual = (sorted[Math.floor(middle)] + sorted[Math.ceil(middle)]) / 2;
+  const isUneven = (t, k) => Math.abs(t - times[0] - step * k) > units[k] / 2 + Math.max(units[0], units.at(-1)) / 2 + 0.01 * Math.abs(step);
+  const gap = 1 + steps.findIndex((each) => !(Math.abs(each - usual) < usual / 2));
+  return { step, wrong: gap || times.findIndex(isUneven), usual };
+}
+
 function readCsv(lines) {
   const units = [...lines[0].matchAll(/[(\[]([^()\[\]]*)[)\]]/g)].map((match) => match[1].trim());
   const second = { s: 1, sec: 1, ms: 1e-3 }[(units[0] ?? "").toLowerCase()], factor = inG(units[1] ?? "");
@@ -61,13 +83,13 @@ function readCsv(lines) {
     if (!text.trim()) return;
     const pair = text.split(",").map((part) => numberOf(part.trim()));
     if (pair.length !== 2 || pair.some(Number.isNaN)) throw new Error(`line ${k + 2} is "${text}"; expected a time and an acceleration with a comma between them`);
-    times.push(pair[0] * second);
+    times.push(text.split(",")[0].trim());
     samples.push(pair[1] * factor);
   });
-  const step = (times.at(-1) - times[0]) / (times.length - 1);
-  const gap = times.findIndex((t, k) => k > 0 && Math.abs(t - times[k - 1] - step) > 0.5 * step);
-  if (gap > 0) throw new Error(`line ${gap + 2}: the time ${times[gap]} s does not follow ${times[gap - 1]} s in equal steps of ${step.toPrecision(3)} s; is a sample missing?`);
-  return { step, samples };
+  if (samples.length < 2) return { step: NaN, samples };
+  const { step, wrong, usual } = regularStep(times);
+  if (wrong > 0) throw new Error(`line ${wrong + 2}: the time ${times[wrong]} follows ${times[wrong - 1]}; expected equal steps of ${usual.toPrecision(3)}: is a sample missing, or the file not sampled evenly?`);
+  return { step: step * second, samples };
 }
 
 /** The record in a file: its name without the ending, its step in s, its samples in g.

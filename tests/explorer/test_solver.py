@@ -252,6 +252,10 @@ def test_every_record_is_read_as_the_library_reads_it(browser, request):
 FILES = {
     "gal.csv": "time (s),acceleration (gal)\n0.00,0\n0.01,98.1\n0.02,-49\n",
     "plain.csv": "time (ms),acceleration (m/s²)\n0,0\n5,1\n10,-1\n",
+    "rounded.csv": (
+        "time (s),acceleration (g)\n0.000,0\n0.003,.1\n0.007,.2\n0.010,.1\n0.013,0\n0.017,.1\n"
+    ),
+    "digits.csv": "time (s),acceleration (g)\n0,0\n5.00E-1,.1\n1.00E+0,.2\n1.5,.1\n2,0\n",
     "percent.AT2": "A title\nACCELERATION IN %G\nNPTS= 4, DT= 0.01 SEC\n 1.0 2.0\n 3.0D0 4.0\n",
     "old.AT2": "A title\nUNITS: CM/S2\n 3 0.02 NPTS, DT\n 1 2 3\n",
 }
@@ -261,6 +265,10 @@ BAD = {
     "word.AT2": ("UNITS OF G\nNPTS= 2, DT= 0.01 SEC\n 1.0 two\n", '"two" is not a number'),
     "big.AT2": ("UNITS OF G\nNPTS= 2, DT= 0.01 SEC\n 1.0 9.0\n", "at most 5 g"),
     "gap.csv": ("time (s),acceleration (g)\n0,0\n0.1,.1\n0.3,.1\n0.4,0\n0.5,.1", "equal steps"),
+    "uneven.csv": (
+        "time (s),acceleration (g)\n0,0\n0.010,.1\n0.024,.1\n0.034,0\n0.048,.1\n0.058,0",
+        "equal steps",
+    ),
     "head.csv": ("t,a\n0,0\n1,1\n", 'line 1 is "t,a"'),
     "text.txt": ("1 2 3", "ends in .AT2 or .csv"),
 }
