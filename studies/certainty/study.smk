@@ -98,9 +98,7 @@ rule certainty_restitution:
 rule certainty_intensities:
     input:
         code("studies/certainty/steps/intensities.py"),
-        records=[
-            RECORDS[name] for name in case("intensities", "certainty")["records"]
-        ],
+        records=[RECORDS[name] for name in case("intensities", "certainty")["records"]],
     output:
         table="results/tables/certainty_intensities.csv",
         findings="results/findings/certainty_intensities.json",
@@ -111,9 +109,7 @@ rule certainty_intensities:
     params:
         case=case("intensities", "certainty"),
         ensemble=MOTIONS,
-        structures=named(
-            config["structures"], case("intensities", "certainty")
-        ),
+        structures=named(config["structures"], case("intensities", "certainty")),
     message:
         "Study certainty: probability of overturning at stated intensities"
     script:
