@@ -59,7 +59,7 @@ html: | $(UV) ## after a run: write results/report.html with every figure, capti
 	@$(RUN) python -m replication.commands.check_html results/report.html
 
 test: | $(UV) ## run the tests
-	@$(call WHOLE,CORES); $(DEV) pytest --numprocesses "$$CORES" --dist loadfile
+	@$(call WHOLE,CORES); $(DEV) pytest --numprocesses "$$CORES" --dist loadfile --no-loadscope-reorder
 
 lint: export VALIDATE_PYPROJECT_NO_NETWORK = 1
 lint: | $(UV) ## check style, types, spelling, wording and schemas; changes nothing
