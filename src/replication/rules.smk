@@ -150,6 +150,7 @@ for document in DOCUMENTS:
             f"results/benchmarks/{document}.tsv"
         params:
             studies=config["studies"],
+            tables=FIGURES,
         message:
             f"Compiling the {document}"
         script:

@@ -1,5 +1,6 @@
 """Compile the report, which reads results/ itself: the same bytes each time."""
 
+import json
 from pathlib import Path
 from typing import Any
 
@@ -8,8 +9,8 @@ from replication.workbench import run
 
 
 def work(job: Any) -> None:
-    studies = ",".join(job.params.studies)
-    pdf = compiled(job.input.source, dict.fromkeys(job.input), {"studies": studies})
+    options = {"studies": ",".join(job.params.studies), "tables": json.dumps(job.params.tables)}
+    pdf = compiled(job.input.source, dict.fromkeys(job.input), options)
     Path(job.output[0]).write_bytes(pdf)
 
 
