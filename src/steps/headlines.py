@@ -58,7 +58,7 @@ def headlines(root: Path) -> Iterator[str]:
     printed, ours = re.findall(r"\d+\.\d+", found(readme)), numbers(root / "tests" / "reference")
     if printed != ours:
         yield (
-            f"README.md, up to Reproduce it: the numbers are {', '.join(printed)}; expected "
+            f"README.md, What we found: the numbers are {', '.join(printed)}; expected "
             f"{', '.join(ours)}, in this order, by the published tables and claims"
         )
     cells = int(pd.read_csv(root / "docs" / "verify_grid.csv").cells.sum())
