@@ -1,8 +1,8 @@
 """Copy the published results from results/ to docs/ and tests/reference/: `make publish`.
 
-docs/ contains the article and its supplement, and the pictures, verdicts and costs that the README shows. tests/reference/ contains the
-findings from which `make check` judges the claims, the tables with which later runs are compared,
-and their config.
+docs/ contains the article and its supplement, and the pictures, verdicts and costs that the README
+shows. tests/reference/ contains the findings from which `make check` judges the claims, the tables
+with which later runs are compared, and their config.
 """
 
 import shutil
