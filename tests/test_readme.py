@@ -44,7 +44,7 @@ def test_equations_said_to_be_wrong_are_those_of_their_kind(claims):
 
 
 def test_lowest_amplitude_is_said_to_rise_where_the_ledger_confirms_it(claims):
-    assert "lowest amplitude that overturns rises with γ" in " ".join(found().split())
+    assert "minimum overturning acceleration rises with γ" in " ".join(found().split())
     assert claims["reversals_lowest_rises"].verdict == "confirmed"
     assert claims["lowest_amplitude_rises_with_mass"].verdict == "confirmed"
 

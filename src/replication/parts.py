@@ -2,10 +2,14 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 PAPER = ""
 """The name of the part that is the paper."""
+
+TEXTS = ("section.typ", "article.typ")
+"""What a study writes: its section of the supplement, and its parts of the article, if any."""
 
 
 @dataclass(frozen=True)
@@ -44,8 +48,11 @@ class Part:
 
     @property
     def sections(self) -> list[str]:
-        """Its sections of the report; for the paper, the report itself."""
-        return [] if self.name == PAPER else [f"studies/{self.name}/section.typ"]
+        """Its section of the supplement, and what it adds to the article; none for the paper."""
+        if self.name == PAPER:
+            return []
+        folder = Path("studies", self.name)
+        return [f"{folder.as_posix()}/{name}" for name in TEXTS if (folder / name).is_file()]
 
 
 def ledger_of(part: str) -> str:

@@ -141,6 +141,7 @@ for document in DOCUMENTS:
             reads(f"paper/{document}.typ", *SECTIONS),
             expand("results/findings/{name}.json", name=FINDINGS),
             expand("{figure}.svg", figure=FIGURES),
+            captions=[part.captions for part in PARTS.values()],
             source=f"paper/{document}.typ",
         output:
             f"paper/{document}.pdf",
@@ -150,6 +151,7 @@ for document in DOCUMENTS:
             f"results/benchmarks/{document}.tsv"
         params:
             studies=config["studies"],
+            tables=FIGURES,
         message:
             f"Compiling the {document}"
         script:

@@ -23,7 +23,7 @@ def copy_tree(to: Path) -> None:
         check=False,
     )
     if listed.returncode != 0:
-        own = shutil.ignore_patterns(".*", "results", "__pycache__", "*.svg", "report.pdf")
+        own = shutil.ignore_patterns(".*", "results", "__pycache__", "*.svg", "*.pdf")
         shutil.copytree(ROOT, to, ignore=own, dirs_exist_ok=True)
         shutil.copytree(ROOT / "docs", to / "docs", dirs_exist_ok=True)
         return

@@ -8,12 +8,14 @@ from pathlib import Path
 
 import pandas as pd
 
+LINK = re.compile(r"\]\((?:[^()]|\([^()]*\))*\)")
+DOI = re.compile(r"\[doi:[^\]]*\]")
 COMPARED = re.compile(r"([\d,]+) overturning flags")
 
 
 def found(readme: str) -> str:
-    """Return the README's section "What we found"."""
-    return readme.split("## What we found")[1].split("\n## ")[0]
+    """Return the README up to "Reproduce it", without the targets of links: all our findings."""
+    return DOI.sub("", LINK.sub("]", readme.split("\n## Reproduce it")[0]))
 
 
 def motions(reference: Path, table: str, **place: float) -> pd.Series:
@@ -26,7 +28,7 @@ def motions(reference: Path, table: str, **place: float) -> pd.Series:
 
 
 def numbers(reference: Path) -> list[str]:
-    """Return the decimal numbers of "What we found" as they are rounded there, in its order."""
+    """Return the decimal numbers of the findings as they are rounded there, in their order."""
     rows = json.loads((reference / "claims.json").read_text(encoding="utf-8"))
     claims = {row["id"]: row["computed"] for row in rows}
     ratios = pd.read_csv(reference / "mass_ratio.csv").set_index("mass_ratio")
@@ -35,16 +37,17 @@ def numbers(reference: Path) -> list[str]:
     gain = motions(reference, "reversals_medians", mass_ratio=1.0, as_large_as=0).gain
     reversed_ = motions(reference, "reversals_pairs", lighter=0, heavier=1.0).motions
     return [
-        f"{ratios.frequency_ratio[math.inf]:.3f}",
         f"{ratios.size_ratio[math.inf]:.1f}",
-        *(f"{lowest[gamma]:.3f}" for gamma in (0.0, 1.0, math.inf)),
-        f"{claims['trilith_base_acceleration_in_g']:.3f}",
-        f"{claims['trilith_uplift_acceleration']:.3f}",
-        f"{starts.late_peak_over_alpha[1.0]:.3f}",
+        *(f"{lowest[gamma]:.3f}" for gamma in (0.0, math.inf)),
         f"{100 * claims['reversals_help']:.1f}",
         f"{100 * claims['reversals_harm']:.1f}",
         f"{100 * gain:.1f}",
         f"{100 * reversed_:.1f}",
+        f"{ratios.frequency_ratio[math.inf]:.3f}",
+        f"{lowest[1.0]:.3f}",
+        f"{claims['trilith_base_acceleration_in_g']:.3f}",
+        f"{claims['trilith_uplift_acceleration']:.3f}",
+        f"{starts.late_peak_over_alpha[1.0]:.3f}",
         f"{100 * claims['mechanism_share_apart']:.1f}",
     ]
 

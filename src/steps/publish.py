@@ -1,8 +1,8 @@
 """Copy the published results from results/ to docs/ and tests/reference/: `make publish`.
 
-docs/ contains the pictures, verdicts and costs that the README shows. tests/reference/ contains the
-findings from which `make check` judges the claims, the tables with which later runs are compared,
-and their config.
+docs/ contains the article and its supplement, and the pictures, verdicts and costs that the README
+shows. tests/reference/ contains the findings from which `make check` judges the claims, the tables
+with which later runs are compared, and their config.
 """
 
 import shutil
@@ -11,7 +11,10 @@ from pathlib import Path
 from replication.publishing import machine, publish
 from steps.explorer_still import still
 
+DOCUMENTS = ("report", "supplement")
 PICTURES = ("vase", "heavier", "peak_maps", "spectra", "structures")
+REVERSALS = "studies/reversals/figures/where.svg"
+"""Where a heavier cap beam prevents and causes overturning."""
 MOVING = "animation.gif"
 PAGE = "explorer.html"
 TABLES = (
@@ -59,6 +62,9 @@ def main() -> None:
     publish(TABLES, STUDY_TABLES)
     for name in PICTURES:
         shutil.copyfile(f"figures/{name}.svg", docs / f"{name}.svg")
+    shutil.copyfile(REVERSALS, docs / "reversals.svg")
+    for name in DOCUMENTS:
+        shutil.copyfile(f"paper/{name}.pdf", docs / f"{name}.pdf")
     for name in (MOVING, PAGE):
         shutil.copyfile(results / name, docs / name)
     still(docs / PAGE, docs / "explorer.png")

@@ -1,15 +1,24 @@
 """Compile the report, which reads results/ itself: the same bytes each time."""
 
+import json
 from pathlib import Path
 from typing import Any
 
+from replication.captions import read_captions
 from replication.typeset import compiled
 from replication.workbench import run
 
 
 def work(job: Any) -> None:
-    studies = ",".join(job.params.studies)
-    pdf = compiled(job.input.source, dict.fromkeys(job.input), {"studies": studies})
+    captions = read_captions(job.input.captions)
+    options = {
+        "studies": ",".join(job.params.studies),
+        "tables": json.dumps(job.params.tables),
+        "alternatives": json.dumps(
+            {path: entry.get("alt", entry["title"]) for path, entry in captions.items()}
+        ),
+    }
+    pdf = compiled(job.input.source, dict.fromkeys(job.input), options)
     Path(job.output[0]).write_bytes(pdf)
 
 

@@ -47,7 +47,7 @@ def draw(mechanism_admissible):
     bare = {"facecolor": "#efece6", "edgecolor": "none", "pad": 2}
     note(axes[0], "overturns", (2.6, 12.0), ha="center", color=INK, bbox=bare)
     bar = figure.colorbar(image, ax=axes, ticks=LEVELS, pad=0.01)
-    bar.set_label(r"Friction that it takes, $\mu/\tan\alpha$ (–)")
+    bar.set_label(r"Required coefficient of friction, $\mu/\tan\alpha$ (–)")
     bar.ax.set_yticks([], minor=True)
     bar.ax.set_yticklabels([f"{level:g}" for level in LEVELS])
     letter(axes, [gamma(g) + (", alone" if g == 0 else "") for g in ratios])

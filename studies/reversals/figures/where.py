@@ -1,13 +1,13 @@
 """Where only the frame or only its solitary column overturns, and how often, for pairs of γ."""
 
 import numpy as np
+from matplotlib.patches import Patch
 
 from figures.drawing import PULSES
 from replication.drawing import (
     ACCENT,
     DOUBLE,
     GREY,
-    LIGHT,
     STONE,
     letter,
     note,
@@ -16,8 +16,9 @@ from replication.drawing import (
     sheet,
 )
 
-COLOURS = {"both": STONE, "helps": LIGHT, "harms": ACCENT}
-NAMES = {"both": "both overturn", "helps": "prevented by cap", "harms": "caused by cap"}
+PREVENTED = "#7ba7cf"  # in grey print between those of the others
+COLOURS = {"both": STONE, "helps": PREVENTED, "harms": ACCENT}
+NAMES = {"both": "both overturn", "helps": "prevented by cap beam", "harms": "caused by cap beam"}
 HIGHEST = 16.0  # a/(g tan α)
 
 
@@ -87,7 +88,7 @@ def pairs(axis, areas):
 
 
 def draw(reversals_map, reversals_areas):
-    figure, axes = sheet(DOUBLE, 120, "ABCD;EEFF", height_ratios=(1, 1.15))
+    figure, axes = sheet(DOUBLE, 125, "ABCD;EEFF", height_ratios=(1, 1.15))
     slenderness = reversals_map.slenderness_deg.min()
     cells = reversals_map[
         (reversals_map.change == "both") & (reversals_map.slenderness_deg == slenderness)
@@ -108,7 +109,9 @@ def draw(reversals_map, reversals_areas):
         "All pairs: mean share (%)",
     ]
     letter([axes[key] for key in "ABCDEF"], titles)
-    axes["D"].legend(loc="lower right", handlelength=1.0, labelspacing=0.2, borderaxespad=0.1)
+    neither = Patch(facecolor="white", edgecolor=GREY, linewidth=0.5, label="both survive")
+    handles = [*axes["D"].get_legend_handles_labels()[0], neither]
+    figure.legend(handles=handles, loc="outside upper right", ncols=4, handlelength=1.0)
     return figure
 
 

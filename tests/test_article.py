@@ -1,0 +1,34 @@
+"""The article: its figures, and the alternative text of each."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from replication.captions import read_captions
+from replication.parts import PAPER, captions_of
+
+ROOT = Path(__file__).parents[1]
+SOURCES = {PAPER: ROOT / "paper" / "report.typ"} | {
+    path.parent.name: path for path in ROOT.glob("studies/*/article.typ")
+}
+PICTURE = re.compile(r"#picture\((\([^)]*\)|\"[^\"]*\")")
+
+
+def drawings(part: str) -> list[list[str]]:
+    """The figures that a part of the article shows, each with the paths of its drawings."""
+    folder = f"studies/{part}/figures" if part else "figures"
+    found = PICTURE.findall(SOURCES[part].read_text(encoding="utf-8"))
+    return [[f"{folder}/{name}.svg" for name in re.findall(r'"([^"]*)"', one)] for one in found]
+
+
+def test_article_has_eight_figures():
+    assert sum(len(drawings(part)) for part in SOURCES) == 8
+
+
+@pytest.mark.parametrize("part", SOURCES, ids=lambda part: part or "paper")
+def test_each_drawing_has_an_alternative_text_that_is_not_its_caption(part):
+    captions = read_captions([ROOT / captions_of(part)])
+    for path in (path for figure in drawings(part) for path in figure):
+        assert captions[path].get("alt"), f"{path} has no alt in {captions_of(part)}"
+        assert captions[path]["alt"] not in captions[path]["caption"]
