@@ -38,7 +38,7 @@ def test_citation_is_written_as_it_is_read(numbers, text):
 
 
 def test_every_equation_cited_in_the_code_is_a_row_of_the_ledger(claims):
-    rows = {claim["equation"] for claim in claims if "equation" in claim}
+    rows = {claim.equation for claim in claims if claim.equation}
     cited = {
         f"{path.relative_to(ROOT)}: Eq. ({number})"
         for path in CODE
@@ -59,15 +59,15 @@ def test_the_code_cites_in_one_way():
 
 def test_every_equation_of_the_ledger_is_cited_by_the_code_that_it_names(claims):
     missing = [
-        f"{claim['id']}: {claim['function']} does not cite Eq. ({claim['equation']})"
+        f"{claim.id}: {claim.function} does not cite Eq. ({claim.equation})"
         for claim in claims
-        if "equation" in claim and claim["equation"] not in cite(claim["function"], ROOT).own
+        if claim.equation and claim.equation not in cite(claim.function, ROOT).own
     ]
     assert missing == []
 
 
 def test_what_is_said_to_compute_a_claim_exists(claims):
-    for path in {claim["function"] for claim in claims if "function" in claim}:
+    for path in {claim.function for claim in claims if claim.function}:
         file, line = cite(path, ROOT).place.split(":")
         assert (ROOT / file).is_file(), path
         assert int(line) > 0

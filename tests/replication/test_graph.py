@@ -91,7 +91,7 @@ def rerun(root, path, old="", new=None):
         os.utime(root / path, ns=(times.st_atime_ns, times.st_mtime_ns))
 
 
-JUDGED = {"claims", "verdict", "costs", "report"}
+JUDGED = {"claims", "verdict", "costs", "report", "supplement"}
 
 
 def test_finished_tree_has_nothing_to_do(finished):
@@ -101,13 +101,23 @@ def test_finished_tree_has_nothing_to_do(finished):
 @pytest.mark.parametrize(
     ("path", "rules"),
     [
-        ("studies/mechanism/figures/marks.py", {"figure", "report"}),
-        ("figures/heavier.py", {"figure", "report"}),
-        ("studies/reversals/section_motions.typ", {"report"}),
-        ("studies/reversals/config.yaml", {"report"}),
+        ("studies/mechanism/figures/marks.py", {"figure", "report", "supplement"}),
+        ("figures/heavier.py", {"figure", "report", "supplement"}),
+        ("studies/reversals/section_motions.typ", {"report", "supplement"}),
+        ("studies/reversals/config.yaml", {"report", "supplement"}),
         (
             "src/topheavy/three_bodies.py",
-            {"mechanism_admissible", "mechanism_three_bodies", "statements", "figure", *JUDGED},
+            {
+                "certainty_extensions",
+                "compare",
+                "figure",
+                "mechanism_admissible",
+                "mechanism_three_bodies",
+                "reversals_uplift",
+                "statements",
+                "uplift_limits",
+                *JUDGED,
+            },
         ),
     ],
 )
@@ -118,7 +128,7 @@ def test_change_of_a_module_reruns_its_users_and_nothing_else(finished, path, ru
 def test_new_structure_reruns_only_what_lists_the_config(finished):
     structure = "structures:\n  obelisk: { half_width: 0.4, half_height: 4.0 }\n"
     found = rerun(finished, "config/config.yaml", "structures:\n", structure)
-    assert found - LAST == {"compare", "verdict", "report"}
+    assert found - LAST == {"compare", "verdict", "report", "supplement"}
 
 
 def test_changed_structure_reruns_what_names_it(finished):

@@ -87,7 +87,7 @@ from figures.beside import NUMBER
 
 
 def main():
-    return [{"n": NUMBER}], {"n": {"value": NUMBER}}
+    return [{"n": NUMBER}], {"n": {"value": NUMBER, "error": 0.0}}
 
 
 if __name__ == "__main__":

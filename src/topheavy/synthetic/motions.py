@@ -102,7 +102,7 @@ class Scenario:
                 raise ValueError(f"{name} is {value!r}; the model holds from {low} to {high}")
 
     def regressors(self) -> Vector:
-        """Return what the coefficients multiply. [1, Eq. 12]"""
+        """Return what the coefficients multiply. [1, (12)]"""
         log_distance = math.log(math.hypot(self.distance, 6.0))
         return np.array(
             [
@@ -250,7 +250,7 @@ _MARGINALS = {  # of standard normal values; the others are lognormal [1, Table 
 def envelope(t5: float, t30: float, t95: float) -> tuple[float, float, float]:
     """Return α, β and t_max of the modulating function from the times of 5, 30 and 95 % Arias.
 
-    The function is (t/t_max)^α up to t_max and exp(−β (t − t_max)) after it. [1, Eq. 4] As in [4]
+    The function is (t/t_max)^α up to t_max and exp(−β (t − t_max)) after it. [1, (4)] As in [4]
     and [5] the sum of the squared misfits is least, with 0.01 ≤ α ≤ 10 of [5]. It is zero for
     about four draws of five; the intensity of the others grows too abruptly, or too evenly.
     """
@@ -291,7 +291,7 @@ def motion(seed: int, number: int, scenario: Scenario, *, pulse: bool) -> Record
 
 
 def modulation(time: Vector, drawn: dict[str, float]) -> Vector:
-    """Return the modulating function at these times, 1 at its peak. [1, Eq. 4]"""
+    """Return the modulating function at these times, 1 at its peak. [1, (4)]"""
     peak = drawn["peak"]
     rising = np.minimum(time / peak, 1.0) ** drawn["rise"]
     return rising * np.exp(-drawn["decay"] * np.maximum(time - peak, 0.0))
