@@ -7,10 +7,10 @@ import pytest
 
 from topheavy import RockingBlock
 from topheavy.kernel import pulse_batch
-from topheavy.kernel.forcing import ONE_SINE, SHAPES
+from topheavy.kernel.forcing import NO_RECORD, ONE_SINE, SHAPES
 from topheavy.kernel.grid import outcome_of, outcomes_of
 from topheavy.kernel.lanes import WIDTH
-from topheavy.kernel.outcome import HALT, TOLERANCE, working_array
+from topheavy.kernel.outcome import HALT, PULSE_ORDER, TOLERANCE, working_array
 from topheavy.kernel.taylor import oscillator
 
 ENDING = sorted(set(SHAPES) - {"harmonic"})
@@ -90,8 +90,8 @@ def filled(v, most_steps=None):
     block, size = oscillator(RockingBlock(1.0, 0.2, 0.9)), (1, 3 * WIDTH)
     out = (np.empty(size), np.empty(size, dtype=bool), np.empty(size, dtype=np.int64))
     amplitudes = block.level * np.linspace(1.1, 4.0, size[1])[np.newaxis]
-    pairs = (np.broadcast_to(np.array(values), size) for values in (3.0, amplitudes))
-    given = (block, ONE_SINE, *pairs, TOLERANCE)
+    pairs = (np.array(np.broadcast_to(values, size)) for values in (3.0, amplitudes))
+    given = (block, ONE_SINE, *pairs, NO_RECORD, PULSE_ORDER, TOLERANCE)
     return pulse_batch.pulse_outcomes(v, 0, 1, *given, *out)
 
 

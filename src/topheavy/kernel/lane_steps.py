@@ -28,7 +28,7 @@ from topheavy.kernel.lanes import (
     store,
 )
 from topheavy.kernel.outcome import FLAT, HALT, LANDING, POLYNOMIAL, proven
-from topheavy.kernel.rest import LAST_BOUNCE
+from topheavy.kernel.rest import LAST_BOUNCE, comes_to_rest
 from topheavy.kernel.taylor import INVERSE
 
 #: The largest order.
@@ -341,3 +341,18 @@ def lift(w, lane, time, push, rate, side, amplitude):
     w[SIDE, lane], w[FACTOR, lane] = side, -side * amplitude
     w[ROTATION, lane], w[VELOCITY, lane], w[SINE, lane], w[COSINE, lane] = 0.0, 0.0, 0.0, 1.0
     w[PUSH, lane], w[PUSH + 1, lane] = push, rate
+
+
+@njit(cache=True, error_model="numpy")
+def rests(w, lane, block, forcing, record):
+    """Say whether the block of a lane comes to rest after its impact."""
+    return comes_to_rest(
+        block,
+        forcing,
+        record,
+        w[TIME, lane],
+        w[VELOCITY, lane],
+        w[PUSH, lane],
+        w[SIDE, lane],
+        w[PEAK, lane],
+    )

@@ -16,7 +16,6 @@ from numba import njit
 from topheavy.kernel.forcing import (
     ANTISYMMETRIC_PEAK,
     KAPPA,
-    NO_RECORD,
     RICKER_ANTISYMMETRIC,
     RICKER_SYMMETRIC,
     UNIT_BOUND,
@@ -45,6 +44,7 @@ from topheavy.kernel.lane_steps import (
     advance,
     finish,
     lift,
+    rests,
     still,
     strike,
 )
@@ -62,7 +62,6 @@ from topheavy.kernel.lanes import (
     store,
 )
 from topheavy.kernel.outcome import HALT, MAX_STEPS, PULSE_ORDER, outcome
-from topheavy.kernel.rest import comes_to_rest
 from topheavy.kernel.tail import free_rocking, is_poised
 
 assert PULSE_ORDER <= MAX_ORDER
@@ -71,10 +70,10 @@ END, FREQUENCY = OWN, OWN + 1
 
 
 @njit(cache=True, error_model="numpy")
-def begin(w, lane, block, forcing):
+def begin(w, lane, block, forcing, record):
     """Let a block stand in a lane; return whether the pulse lifts it."""
     still(w, lane)
-    time, push, rate, side = next_uplift(forcing, NO_RECORD, 0.0, block.level)
+    time, push, rate, side = next_uplift(forcing, record, 0.0, block.level)
     if time >= forcing.end:
         return False
     lift(w, lane, time, push, rate, side, forcing.amplitude)
@@ -118,24 +117,9 @@ def renew(w, level, shape):
 
 
 @njit(cache=True, error_model="numpy")
-def rests(w, lane, block, forcing):
-    """Say whether the block of a lane comes to rest after its impact."""
-    return comes_to_rest(
-        block,
-        forcing,
-        NO_RECORD,
-        w[TIME, lane],
-        w[VELOCITY, lane],
-        w[PUSH, lane],
-        w[SIDE, lane],
-        w[PEAK, lane],
-    )
-
-
-@njit(cache=True, error_model="numpy")
-def lifts_again(w, lane, block, forcing):
+def lifts_again(w, lane, block, forcing, record):
     """Let the block of a lane wait at rest; return whether the pulse lifts it again."""
-    time, push, rate, side = next_uplift(forcing, NO_RECORD, w[TIME, lane], block.level)
+    time, push, rate, side = next_uplift(forcing, record, w[TIME, lane], block.level)
     if time >= forcing.end:
         return False
     lift(w, lane, time, push, rate, side, forcing.amplitude)
@@ -145,7 +129,19 @@ def lifts_again(w, lane, block, forcing):
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def pulse_outcomes(
-    v, batch, batches, block, shape, scales, amplitudes, tolerance, peak, overturned, impacts
+    v,
+    batch,
+    batches,
+    block,
+    shape,
+    scales,
+    amplitudes,
+    record,
+    order,
+    tolerance,
+    peak,
+    overturned,
+    impacts,
 ):
     """Fill every `batches`-th cell from `batch` on; see `grid.pulse_outcomes_of`.
 
@@ -153,6 +149,9 @@ def pulse_outcomes(
     ----------
     v : array
         A working array for steps that a lane takes alone, which may say halt (`outcome.HALT`).
+    record, order : array, int
+        `NO_RECORD` and `PULSE_ORDER`. As arguments, not as constants, they have the types that they
+        have in `grid.outcome_of`: the scalar kernel is then compiled but once.
 
     Returns
     -------
@@ -169,7 +168,8 @@ def pulse_outcomes(
             vacant &= vacant - 1
             while coming < last and not lifted:
                 i, j = coming // columns, coming % columns
-                lifted = begin(w, lane, block, pulse_forcing(shape, amplitudes[i, j], scales[i, j]))
+                forcing = pulse_forcing(shape, amplitudes[i, j], scales[i, j])
+                lifted = begin(w, lane, block, forcing, record)
                 if not lifted:
                     peak[i, j], overturned[i, j], impacts[i, j] = 0.0, False, 0
                 cells[lane] = coming
@@ -208,7 +208,7 @@ def pulse_outcomes(
                 count += tail.impacts
                 if is_poised(block, w[ROTATION, lane], w[VELOCITY, lane]):
                     forcing = pulse_forcing(shape, amplitudes[i, j], scales[i, j])
-                    alone = outcome(v, PULSE_ORDER, tolerance, block, forcing, NO_RECORD)
+                    alone = outcome(v, order, tolerance, block, forcing, record)
                     fell, count = alone.overturned, alone.impacts
                     if tail.overturned and not fell:
                         highest = alone.peak
@@ -218,7 +218,9 @@ def pulse_outcomes(
                 lost = cells[lane] if lost < 0 else min(lost, cells[lane])
             else:
                 forcing = pulse_forcing(shape, amplitudes[i, j], scales[i, j])
-                if not rests(w, lane, block, forcing) or lifts_again(w, lane, block, forcing):
+                if not rests(w, lane, block, forcing, record):
+                    continue
+                if lifts_again(w, lane, block, forcing, record):
                     continue
             peak[i, j] = math.nan if fell else highest
             overturned[i, j], impacts[i, j] = fell, count

@@ -32,6 +32,7 @@ from topheavy.kernel.lane_steps import (
     advance,
     finish,
     lift,
+    rests,
     still,
     strike,
 )
@@ -53,7 +54,7 @@ from topheavy.kernel.lanes import (
 )
 from topheavy.kernel.march import LARGEST_TURN, derivatives
 from topheavy.kernel.outcome import HALT, MAX_STEPS, is_certain_to_overturn
-from topheavy.kernel.rest import LAST_BOUNCE, comes_to_rest
+from topheavy.kernel.rest import LAST_BOUNCE
 from topheavy.kernel.tail import free_rocking
 from topheavy.kernel.taylor import State
 
@@ -150,21 +151,6 @@ def lifts(w, lane, block, forcing, record, time):
     piece = piece_at(forcing, time)
     w[PIECE, lane], w[LONGEST, lane] = piece, (piece + 1) * forcing.step - time
     return True
-
-
-@njit(cache=True, error_model="numpy")
-def rests(w, lane, block, forcing, record):
-    """Say whether the block of a lane comes to rest after its impact."""
-    return comes_to_rest(
-        block,
-        forcing,
-        record,
-        w[TIME, lane],
-        w[VELOCITY, lane],
-        w[PUSH, lane],
-        w[SIDE, lane],
-        w[PEAK, lane],
-    )
 
 
 @njit(cache=True, error_model="numpy")
