@@ -1,9 +1,9 @@
 """The kernel as the benchmark runs it, on one thread: many histories in lanes, or one at a time."""
 
 import numpy as np
-from numba import njit
 from oracle import Found
 
+from topheavy.kernel.compiled import compiled
 from topheavy.kernel.forcing import (
     NO_RECORD,
     RECORD,
@@ -30,7 +30,7 @@ def histories(block, shape, amplitudes, frequencies, tolerance=TOLERANCE):
     return np.array([overturned, peak, impacts], dtype=float)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@compiled(nogil=True)
 def _scalar_histories(block, shape, amplitudes, frequencies, order, tolerance, found):
     w = working_array()
     for i in range(amplitudes.size):
@@ -63,7 +63,7 @@ class KernelRecord:
         return Found(bool(overturned[middle]), float(peak[middle]), int(impacts[middle]))
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@compiled(nogil=True)
 def _scalar_factors(w, block, step, factors, record, order, tolerance, found):
     for i in range(factors.size):
         forcing = record_forcing(record, step, factors[i])

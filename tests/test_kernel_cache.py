@@ -4,6 +4,7 @@ numba looks at the file of a function alone: without a cache of each state, a ch
 file that the function calls would go unnoticed.
 """
 
+import importlib
 import json
 import os
 import shutil
@@ -13,10 +14,12 @@ from pathlib import Path
 
 import numba
 import pytest
+from numba.extending import is_jitted
 
 import topheavy.kernel
 
 PACKAGE = Path(topheavy.kernel.__file__).parents[1]
+SOURCES = sorted((PACKAGE / "kernel").glob("[a-z]*.py"))
 
 #: Whether bounces of 1e-6 rest 0.1 before the ground passes the uplift level; `rest` asks
 #: `forcing` for the ground.
@@ -82,3 +85,13 @@ def test_every_kernel_module_is_loaded_with_the_cache():
     loaded = {name for name in dir(topheavy.kernel) if f"topheavy.kernel.{name}" in sys.modules}
     assert files == loaded
     assert os.environ.get("NUMBA_CACHE_DIR", "") == numba.config.CACHE_DIR
+
+
+def test_what_a_function_is_compiled_with_is_its_own():
+    """numba hands down what a function leaves open, from whichever function calls it first."""
+    modules = [importlib.import_module(f"topheavy.kernel.{path.stem}") for path in SOURCES]
+    functions = {f for module in modules for f in vars(module).values() if is_jitted(f)}
+    assert len(functions) > 60
+    handed_down = {"fastmath", "error_model", "forceinline"}  # numba.core.cpu: inherit_if_not_set
+    lacking = {f.__name__ for f in functions if not handed_down <= set(f.targetoptions)}
+    assert lacking == set()

@@ -10,7 +10,7 @@ from topheavy.kernel import pulse_batch
 from topheavy.kernel.forcing import NO_RECORD, ONE_SINE, SHAPES
 from topheavy.kernel.grid import outcome_of, outcomes_of
 from topheavy.kernel.lanes import WIDTH
-from topheavy.kernel.outcome import HALT, PULSE_ORDER, TOLERANCE, working_array
+from topheavy.kernel.outcome import HALT, TOLERANCE, working_array
 from topheavy.kernel.taylor import oscillator
 
 ENDING = sorted(set(SHAPES) - {"harmonic"})
@@ -91,7 +91,7 @@ def filled(v, most_steps=None):
     out = (np.empty(size), np.empty(size, dtype=bool), np.empty(size, dtype=np.int64))
     amplitudes = block.level * np.linspace(1.1, 4.0, size[1])[np.newaxis]
     pairs = (np.array(np.broadcast_to(values, size)) for values in (3.0, amplitudes))
-    given = (block, ONE_SINE, *pairs, NO_RECORD, PULSE_ORDER, TOLERANCE)
+    given = (block, ONE_SINE, *pairs, NO_RECORD, TOLERANCE)
     return pulse_batch.pulse_outcomes(v, 0, 1, *given, *out)
 
 

@@ -13,7 +13,8 @@ quotient by xᵐ: the root is divided out by leaving them out.
 import math
 
 import numpy as np
-from numba import njit
+
+from topheavy.kernel.compiled import compiled
 
 MAX_DEGREE = 20
 #: Parts narrower than this which still show two roots hold a touching one, which is no crossing.
@@ -41,7 +42,7 @@ CONVERT = np.array(
 TINY = 1e-300
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def to_bernstein(w, p, degree, b):
     """Write the Bernstein coefficients of Σ w[p, k] xᵏ on [0, 1] to row `b`."""
     for i in range(degree + 1):
@@ -51,7 +52,7 @@ def to_bernstein(w, p, degree, b):
         w[b, i] = total
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def sign_changes(w, b, first, last):
     """Return how often w[b, first..last] changes sign; zeros do not count."""
     changes, previous = 0, 0.0
@@ -63,7 +64,7 @@ def sign_changes(w, b, first, last):
     return changes
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def first_sign(w, b, first, last):
     """Return the sign of the first of w[b, first..last] that is not zero."""
     for i in range(first, last + 1):
@@ -72,7 +73,7 @@ def first_sign(w, b, first, last):
     return 1.0
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def isolated_root(w, p, first, degree, low, high, sign):
     """Return the only root in (low, high); `sign` is that of the polynomial just above `low`."""
     x = 0.5 * (low + high)
@@ -98,7 +99,7 @@ def isolated_root(w, p, first, degree, low, high, sign):
     return x
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def roots(w, p, first, degree, b, stack, found, limit):
     """Find the roots in (0, 1) at which a polynomial changes sign, in ascending order.
 
@@ -127,7 +128,7 @@ def roots(w, p, first, degree, b, stack, found, limit):
     return _roots(w, p + 0, first + 0, degree + 0, b + 0, stack + 0, found + 0, limit + 0)
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def _roots(w, p, first, degree, b, stack, found, limit):
     changes = sign_changes(w, b, first, degree)
     if changes == 0:
@@ -165,7 +166,7 @@ def _roots(w, p, first, degree, b, stack, found, limit):
     return count
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def halve(w, b, left, degree):
     """Split row `b` at ½ by de Casteljau's rule: `left` takes the first half, `b` the second."""
     w[left, 0] = w[b, 0]

@@ -14,8 +14,9 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
+
+from topheavy.kernel.compiled import compiled
 
 ONE_SINE, ONE_COSINE, HALF_SINE, CONSTANT, HARMONIC = range(5)
 RICKER_SYMMETRIC, RICKER_ANTISYMMETRIC, RECORD, NONE = range(5, 9)
@@ -70,7 +71,7 @@ NO_RECORD = np.empty((3, 0))
 RUN = 32
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def pulse_forcing(shape, amplitude, frequency):
     """Return the pulse of a shape (a value of `SHAPES`) at ω/p = `frequency`."""
     return Forcing(shape, amplitude, frequency, LAST_PHASE[shape] / frequency, 1.0)
@@ -93,13 +94,13 @@ def prepare_record(samples: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.stack([samples, np.maximum.accumulate(sizes[::-1])[::-1], runs])
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def record_forcing(record, step, factor):
     """Return the `record` of `prepare_record`, `step` apart in τ, times `factor`."""
     return Forcing(RECORD, factor, 1.0, (record.shape[1] - 1) * step, step)
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def unit_pulse(shape, phase):
     """Return the pulse of unit amplitude and its derivative by the phase ωt."""
     if shape in (ONE_SINE, HALF_SINE, HARMONIC):
@@ -119,7 +120,7 @@ def unit_pulse(shape, phase):
     )
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def piece_at(forcing, time):
     """Return the number of the piece of a record that begins at or before `time`.
 
@@ -132,7 +133,7 @@ def piece_at(forcing, time):
     return piece
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def ground(forcing, record, time):
     """Return a and a' at `time`; at a sample of a record, a' is that of the piece that begins."""
     if forcing.shape == NONE or time >= forcing.end:
@@ -146,7 +147,7 @@ def ground(forcing, record, time):
     return forcing.amplitude * value, forcing.amplitude * forcing.frequency * rate
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def equation(forcing, time):
     """Return c, d₀, d₁ of the equation that the ground acceleration solves, about `time`."""
     shape = forcing.shape
@@ -164,7 +165,7 @@ def equation(forcing, time):
     return square, 0.0, 0.0
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def strongest_after(forcing, record, time):
     """Return a bound on |a| from `time` on."""
     if forcing.shape == NONE or time >= forcing.end:
@@ -175,7 +176,7 @@ def strongest_after(forcing, record, time):
     return UNIT_BOUND * abs(forcing.amplitude)
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def next_turn(forcing, time):
     """Return the end of the monotone piece of a(τ) that begins at `time` (or holds it)."""
     shape, frequency = forcing.shape, forcing.frequency
@@ -197,7 +198,7 @@ def next_turn(forcing, time):
     return min(turn, forcing.end)
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def next_uplift(forcing, record, time, level):
     """Return when |a| first exceeds `level`, from `time` on, for a block at rest.
 
@@ -238,7 +239,7 @@ def next_uplift(forcing, record, time, level):
     return np.inf, 0.0, 0.0, 1.0
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def _next_uplift_of_record(forcing, record, time, level):
     """The same for a record: straight lines, and an early end once the rest of it is weak."""
     if time >= forcing.end:
@@ -263,7 +264,7 @@ def _next_uplift_of_record(forcing, record, time, level):
     return np.inf, 0.0, 0.0, 1.0
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def _crossing(forcing, low, high, sign, level):
     """Return the time at which sign·a rises through `level` in a monotone piece, and its rate."""
     shape, strength = forcing.shape, abs(forcing.amplitude)

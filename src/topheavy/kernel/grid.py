@@ -117,7 +117,7 @@ def pulse_outcomes_of(
     impacts = np.empty(size, dtype=np.int64)
     # Copies, as the types of arrays that are strided or read-only would be compiled for anew.
     pairs = tuple(np.array(np.broadcast_to(values, size)) for values in (scales, amplitudes))
-    given = (block, shape, *pairs, NO_RECORD, PULSE_ORDER, tolerance, peak, overturned, impacts)
+    given = (block, shape, *pairs, NO_RECORD, tolerance, peak, overturned, impacts)
     lost = _shared(pulse_outcomes, given, peak.size, FEWEST_PULSES, 1, threads)
     if lost >= 0:
         raise _unresolved(block, shape, *(float(values.flat[lost]) for values in pairs))

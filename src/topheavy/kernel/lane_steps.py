@@ -10,9 +10,8 @@ The working array `w` has a row for every coefficient and every variable. `order
 are constants where these functions are called, so that their loops become straight code.
 """
 
-from numba import njit
-
 from topheavy.kernel.bernstein import CONVERT
+from topheavy.kernel.compiled import compiled
 from topheavy.kernel.lanes import (
     absolute,
     among,
@@ -54,7 +53,7 @@ MOST_BEND = 0.1
 MOST_CORRECTIONS = 5
 
 
-@njit(cache=True, error_model="numpy", forceinline=True)
+@compiled(forceinline=True)
 def expand(w, block, order, is_straight):
     """Fill `w` with the solution through its first coefficients; see `taylor.expand`."""
     if not is_straight:
@@ -101,7 +100,7 @@ def expand(w, block, order, is_straight):
         store(w, VELOCITY + n + 1, force * INVERSE[n + 1])
 
 
-@njit(cache=True, error_model="numpy", forceinline=True)
+@compiled(forceinline=True)
 def longest_steps(w, block, order, tolerance):
     """Return the steps over which the last two terms of φ' are below `tolerance`."""
     bound = tolerance * maximum(load(w, ROTATION), block.slenderness)
@@ -113,7 +112,7 @@ def longest_steps(w, block, order, tolerance):
     return minimum(step * CAUTION, load(w, LONGEST))
 
 
-@njit(cache=True, error_model="numpy", forceinline=True)
+@compiled(forceinline=True)
 def hull(w, order, step):
     """Return bounds of φ on the step, from its Bernstein coefficients.
 
@@ -144,7 +143,7 @@ def hull(w, order, step):
     return low, high, before, final, dips, tops
 
 
-@njit(cache=True, error_model="numpy", forceinline=True)
+@compiled(forceinline=True)
 def only_root(w, p, degree, step, start, slope, stop, is_sought, correction):
     """Find the only root in (0, step) of the polynomial in row `p`, by Halley's iteration.
 
@@ -181,7 +180,7 @@ def only_root(w, p, degree, step, start, slope, stop, is_sought, correction):
     return x, is_sought & (doubt <= 1.0)
 
 
-@njit(cache=True, error_model="numpy", forceinline=True)
+@compiled(forceinline=True)
 def landing(w, order, step, final, lands):
     """Return the time of the only landing in the step; see `only_root`.
 
@@ -198,7 +197,7 @@ def landing(w, order, step, final, lands):
     )  # fmt: skip
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def step_alone(w, v, lane, order, flat):
     """Take the step of one lane as the scalar kernel does; return its event."""
     step, zeros, power = w[LENGTH, lane], 0, 1.0
@@ -214,7 +213,7 @@ def step_alone(w, v, lane, order, flat):
     return event
 
 
-@njit(cache=True, error_model="numpy", forceinline=True)
+@compiled(forceinline=True)
 def advance(w, v, block, order, tolerance, is_straight, active):
     """Find the step of each lane, and what ends it; `LENGTH` and `ARC` take it up.
 
@@ -267,7 +266,7 @@ def advance(w, v, block, order, tolerance, is_straight, active):
     return landed, fallen
 
 
-@njit(cache=True, error_model="numpy", forceinline=True)
+@compiled(forceinline=True)
 def finish(w, block, order, active):
     """Move every lane to the end of its step (see `taylor.evaluate`); return φ and φ' there.
 
@@ -297,7 +296,7 @@ def finish(w, block, order, active):
     return rotation, velocity
 
 
-@njit(cache=True, error_model="numpy", forceinline=True)
+@compiled(forceinline=True)
 def strike(w, block, landed):
     """Let the blocks of these lanes go over to their other side (see `outcome.after_impact`).
 
@@ -325,7 +324,7 @@ def strike(w, block, landed):
     return bits(((weakest > 0.0) & (velocity * velocity <= energy)) | (velocity <= 0.0)) & landed
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def still(w, lane):
     """Let a lane take steps of no length, in a new history or in none."""
     w[TIME, lane], w[LONGEST, lane], w[PEAK, lane], w[ARC, lane] = 0.0, 0.0, 0.0, 0.0
@@ -334,7 +333,7 @@ def still(w, lane):
     w[PUSH, lane], w[PUSH + 1, lane] = 0.0, 0.0
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def lift(w, lane, time, push, rate, side, amplitude):
     """Begin a rotation from rest, as `forcing.next_uplift` gives it."""
     w[TIME, lane], w[ARC, lane] = time, 0.0
@@ -343,7 +342,7 @@ def lift(w, lane, time, push, rate, side, amplitude):
     w[PUSH, lane], w[PUSH + 1, lane] = push, rate
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def rests(w, lane, block, forcing, record):
     """Say whether the block of a lane comes to rest after its impact."""
     return comes_to_rest(

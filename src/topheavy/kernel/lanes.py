@@ -13,7 +13,7 @@ import operator
 
 import llvmlite.ir as ir
 import numpy as np
-from numba import njit, types
+from numba import types
 from numba.core import cgutils
 from numba.core.registry import cpu_target
 from numba.extending import (
@@ -24,6 +24,8 @@ from numba.extending import (
     register_model,
     type_callable,
 )
+
+from topheavy.kernel.compiled import compiled
 
 # What numba compiles for, and by which it keeps its cache: target, CPU, features.
 _TARGET, _, _LISTED = cpu_target.target_context.codegen().magic_tuple()
@@ -245,7 +247,7 @@ _LN2_HIGH, _LN2_LOW = 0.693147180369123816490, 1.90821492927058770002e-10
 _INVERSE_FACTORIALS = np.array([1.0 / math.factorial(k) for k in range(14)])
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def exponential(x):
     """Return exp x for x < 700, to about 2e-16; below −700 that of −700."""
     x = maximum(x, -700.0)
@@ -301,7 +303,7 @@ def take(typing, array, places):
     return lanes(array, lanes), write
 
 
-@njit(cache=True)
+@compiled
 def rows(count):
     """Return `count` rows of zeros, a float a lane, each where the CPU loads it at once."""
     raw = np.zeros((count + 1) * WIDTH)

@@ -12,15 +12,14 @@ sum: a piece costs a third of what `taylor` and `outcome.advance` take, which fo
 piece is not settled here.
 """
 
-from numba import njit
-
+from topheavy.kernel.compiled import compiled
 from topheavy.kernel.taylor import State
 
 #: Between two samples the block turns by less than this, so that seven terms give sin and cos.
 LARGEST_TURN = 0.05
 
 
-@njit(cache=True, error_model="numpy", fastmath={"contract"})
+@compiled(fastmath={"contract"})
 def derivatives(force, slope, force_rate, slope_rate, velocity):
     """Return the third to the seventh derivative of φ from F, G, E, H and φ'."""
     f, g, e, h, v = force, slope, force_rate, slope_rate, velocity
@@ -39,7 +38,7 @@ def derivatives(force, slope, force_rate, slope_rate, velocity):
     return third, fourth, fifth, sixth, seventh
 
 
-@njit(cache=True, error_model="numpy", fastmath={"contract"})
+@compiled(fastmath={"contract"})
 def march(block, forcing, record, piece, side, state, tolerance, peak):
     """Pass over pieces of a record until one holds an event, a turn, or too strong a bend.
 

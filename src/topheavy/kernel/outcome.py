@@ -9,9 +9,9 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from topheavy.kernel.bernstein import MAX_DEGREE, MAX_DEPTH, isolated_root, roots, to_bernstein
+from topheavy.kernel.compiled import compiled
 from topheavy.kernel.forcing import (
     CONSTANT,
     NONE,
@@ -62,13 +62,13 @@ class Outcome(NamedTuple):
     resolved: bool
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def working_array():
     """Return the array that a history works in; a thread needs one for all its histories."""
     return np.zeros((HALT + 1, MAX_DEGREE + 3))
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def is_certain_to_overturn(block, forcing, record, time, state):
     """Say whether no forcing of the strength that is left can bring the block back.
 
@@ -86,7 +86,7 @@ def is_certain_to_overturn(block, forcing, record, time, state):
     return balance < block.flat and state.velocity > hold * (balance - state.rotation)
 
 
-@njit(cache=True, error_model="numpy", fastmath={"contract"})
+@compiled(fastmath={"contract"})
 def advance(w, order, tolerance, block, forcing, time, longest, state, zeros, peak, is_straight):
     """Take one step of at most `longest`.
 
@@ -134,7 +134,7 @@ def advance(w, order, tolerance, block, forcing, time, longest, state, zeros, pe
     return step * end, event, peak
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def proven(w, order, zeros, flat, peak):
     """Return the end of the step polynomial on [0, 1], its event, and the largest φ so far.
 
@@ -160,7 +160,7 @@ def proven(w, order, zeros, flat, peak):
     return end, event, peak
 
 
-@njit(cache=True, error_model="numpy", fastmath={"contract"})
+@compiled(fastmath={"contract"})
 def _plain_range(w, order):
     """Return bounds of the step polynomial on [0, 1], its last value, and whether it surely rises.
 
@@ -181,7 +181,7 @@ def _plain_range(w, order):
     return low, high, last + final, rises, falls
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def _largest_rotation(w, order, zeros, end, peak):
     """Return the larger of `peak` and the largest value of the step polynomial on [0, end]."""
     for k in range(order):
@@ -196,7 +196,7 @@ def _largest_rotation(w, order, zeros, end, peak):
     return peak
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def _value(w, order, x):
     value = w[POLYNOMIAL, order]
     for k in range(order - 1, -1, -1):
@@ -204,14 +204,14 @@ def _value(w, order, x):
     return value
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def after_impact(block, state):
     """Return the state on the other side: φ' times √r, the push as that side feels it."""
     velocity = max(-state.velocity, 0.0) * block.restitution
     return State(0.0, velocity, 0.0, 1.0, -state.push - 2 * block.level, -state.rate)
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def at_sample(block, forcing, record, piece, side, state):
     """Return the state with the push of the piece of a record that begins."""
     value = forcing.amplitude * record[0, piece]
@@ -220,7 +220,7 @@ def at_sample(block, forcing, record, piece, side, state):
     return State(state.rotation, state.velocity, state.sine, state.cosine, push, -side * rate)
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def renewed(block, forcing, record, time, side, state):
     """Return the state with the push of the forcing itself, not of its series.
 
@@ -231,7 +231,7 @@ def renewed(block, forcing, record, time, side, state):
     return State(state.rotation, state.velocity, state.sine, state.cosine, push, -side * rate)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@compiled(nogil=True)
 def outcome(w, order, tolerance, block, forcing, record):
     """Return the `Outcome` of a block that is at rest when the forcing begins."""
     is_record = forcing.shape == RECORD

@@ -11,8 +11,8 @@ rest, the free rocking after the pulse) is done by the functions of the scalar k
 import math
 
 import numpy as np
-from numba import njit
 
+from topheavy.kernel.compiled import compiled
 from topheavy.kernel.forcing import (
     ANTISYMMETRIC_PEAK,
     KAPPA,
@@ -36,7 +36,6 @@ from topheavy.kernel.lane_steps import (
     PUSH,
     ROTATION,
     ROWS,
-    SIDE,
     STEPS,
     TIME,
     VELOCITY,
@@ -69,7 +68,7 @@ assert PULSE_ORDER <= MAX_ORDER
 END, FREQUENCY = OWN, OWN + 1
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def begin(w, lane, block, forcing, record):
     """Let a block stand in a lane; return whether the pulse lifts it."""
     still(w, lane)
@@ -84,7 +83,7 @@ def begin(w, lane, block, forcing, record):
     return True
 
 
-@njit(cache=True, error_model="numpy", forceinline=True)
+@compiled(forceinline=True)
 def certain(w, block, rotation, velocity):
     """Return the lanes whose blocks are certain to overturn (see `outcome.is_certain_to_overturn`).
 
@@ -100,7 +99,7 @@ def certain(w, block, rotation, velocity):
     return outward & (balance < block.flat) & ~held
 
 
-@njit(cache=True, error_model="numpy", forceinline=True)
+@compiled(forceinline=True)
 def renew(w, level, shape):
     """Take the push of a Ricker wavelet from the wavelet (see `outcome.renewed`)."""
     kappa, factor = load(w, FREQUENCY) * KAPPA[shape], load(w, FACTOR)
@@ -116,7 +115,7 @@ def renew(w, level, shape):
     store(w, PUSH + 1, bell * rate * kappa)
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def lifts_again(w, lane, block, forcing, record):
     """Let the block of a lane wait at rest; return whether the pulse lifts it again."""
     time, push, rate, side = next_uplift(forcing, record, w[TIME, lane], block.level)
@@ -127,7 +126,7 @@ def lifts_again(w, lane, block, forcing, record):
     return True
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@compiled(nogil=True)
 def pulse_outcomes(
     v,
     batch,
@@ -137,7 +136,6 @@ def pulse_outcomes(
     scales,
     amplitudes,
     record,
-    order,
     tolerance,
     peak,
     overturned,
@@ -149,9 +147,9 @@ def pulse_outcomes(
     ----------
     v : array
         A working array for steps that a lane takes alone, which may say halt (`outcome.HALT`).
-    record, order : array, int
-        `NO_RECORD` and `PULSE_ORDER`. As arguments, not as constants, they have the types that they
-        have in `grid.outcome_of`: the scalar kernel is then compiled but once.
+    record : array
+        `NO_RECORD`. As an argument, not as a constant, it has the type that it has in
+        `grid.outcome_of`: the scalar kernel is then compiled but once.
 
     Returns
     -------
@@ -208,7 +206,8 @@ def pulse_outcomes(
                 count += tail.impacts
                 if is_poised(block, w[ROTATION, lane], w[VELOCITY, lane]):
                     forcing = pulse_forcing(shape, amplitudes[i, j], scales[i, j])
-                    alone = outcome(v, order, tolerance, block, forcing, record)
+                    # PULSE_ORDER + 0 hides a constant, for which it would be compiled anew.
+                    alone = outcome(v, PULSE_ORDER + 0, tolerance, block, forcing, record)
                     fell, count = alone.overturned, alone.impacts
                     if tail.overturned and not fell:
                         highest = alone.peak

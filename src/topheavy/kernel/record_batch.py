@@ -9,8 +9,8 @@ from the physics of one history is done by the functions of the scalar kernel.
 import math
 
 import numpy as np
-from numba import njit
 
+from topheavy.kernel.compiled import compiled
 from topheavy.kernel.forcing import next_uplift, piece_at, record_forcing
 from topheavy.kernel.lane_steps import (
     ARC,
@@ -24,7 +24,6 @@ from topheavy.kernel.lane_steps import (
     PUSH,
     ROTATION,
     ROWS,
-    SIDE,
     SINE,
     STEPS,
     TIME,
@@ -66,7 +65,7 @@ PIECE = OWN
 FEW = WIDTH // 3
 
 
-@njit(cache=True, error_model="numpy", forceinline=True)
+@compiled(forceinline=True)
 def march_lanes(w, block, samples, h, bound, marching):
     """Pass over the pieces that `marching` lanes are at, as far as they are proven to hold nothing.
 
@@ -141,7 +140,7 @@ def march_lanes(w, block, samples, h, bound, marching):
     return passed
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def lifts(w, lane, block, forcing, record, time):
     """Let the block of a lane wait at rest from `time` on; return whether the record lifts it."""
     time, push, rate, side = next_uplift(forcing, record, time, block.level)
@@ -153,14 +152,14 @@ def lifts(w, lane, block, forcing, record, time):
     return True
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def overturns(w, lane, block, forcing, record):
     """Say whether the block of a lane is certain to overturn."""
     state = State(w[ROTATION, lane], w[VELOCITY, lane], 0.0, 1.0, 0.0, 0.0)
     return is_certain_to_overturn(block, forcing, record, w[TIME, lane], state)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@compiled(nogil=True)
 def record_outcomes(
     v, batch, batches, block, step, factors, record, tolerance, peak, overturned, impacts
 ):

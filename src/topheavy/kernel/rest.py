@@ -8,15 +8,14 @@ not by the smallness of a velocity.
 
 import math
 
-from numba import njit
-
+from topheavy.kernel.compiled import compiled
 from topheavy.kernel.forcing import MOST_PIECES, ground, next_turn
 
 #: A rotation below this, over α, is no rocking: the impact that ends it is not counted.
 LAST_BOUNCE = 1e-6
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def comes_to_rest(block, forcing, record, time, velocity, push, side, peak):
     """Say whether a block that leaves the ground at `velocity` is sure to come to rest.
 
@@ -65,7 +64,7 @@ def comes_to_rest(block, forcing, record, time, velocity, push, side, peak):
     return decay < 1.0 and 2 * velocity <= allowed * min(pull_near, pull_far) * (1 - decay)
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def _range(forcing, record, start, stop, side):
     """Return the least and the largest f = −s a on [start, stop].
 

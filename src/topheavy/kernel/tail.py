@@ -12,7 +12,7 @@ and an impact multiplies K by r. A block with H < 0 on the near side of φ = α 
 import math
 from typing import NamedTuple
 
-from numba import njit
+from topheavy.kernel.compiled import compiled
 
 #: Histories whose energy is nearer the barrier, relative to it, are followed by one routine alone.
 POISED = 1e-6
@@ -27,7 +27,7 @@ class Tail(NamedTuple):
     impacts: int
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def landing_energy(block, rotation, velocity):
     """Return K, without cancellation for small φ."""
     kinetic = 0.5 * velocity * velocity
@@ -37,7 +37,7 @@ def landing_energy(block, rotation, velocity):
     return kinetic + 2 * math.sin(block.slenderness - half) * math.sin(half)
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def barrier(block):
     """Return K − H: the energy between lying at φ = 0 and standing at φ = α."""
     if block.linearised:
@@ -45,7 +45,7 @@ def barrier(block):
     return 2 * math.sin(0.5 * block.slenderness) ** 2
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def surplus(block, rotation, velocity):
     """Return H, without cancellation near φ = α."""
     kinetic = 0.5 * velocity * velocity
@@ -54,7 +54,7 @@ def surplus(block, rotation, velocity):
     return kinetic - 2 * math.sin(0.5 * (block.slenderness - rotation)) ** 2
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def turning_rotation(block, energy):
     """Return the φ < α at which a block of landing energy K below the barrier turns back."""
     below = barrier(block) - energy
@@ -65,7 +65,7 @@ def turning_rotation(block, energy):
     return 2 * math.asin(0.5 * energy / math.sin(0.5 * block.slenderness + half_angle))
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def is_poised(block, rotation, velocity):
     """Return whether an energy is so near the barrier that rounding may decide what happens."""
     energy = landing_energy(block, rotation, velocity)
@@ -74,7 +74,7 @@ def is_poised(block, rotation, velocity):
     return nearest < POISED * barrier(block)
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def free_rocking(block, rotation, velocity):
     """Return the `Tail` from φ and φ' at the end of the forcing."""
     surplus_now = surplus(block, rotation, velocity)

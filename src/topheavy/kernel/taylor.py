@@ -20,8 +20,8 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
+from topheavy.kernel.compiled import compiled
 from topheavy.structures import RockingBlock
 
 MAX_ORDER = 20
@@ -71,7 +71,7 @@ class State(NamedTuple):
 ROTATION, VELOCITY, SINE, COSINE, TILT, PUSH = range(6)
 
 
-@njit(cache=True, error_model="numpy", fastmath={"contract"})
+@compiled(fastmath={"contract"})
 def expand(w, order, block, state, c, d0, d1, is_straight):
     """Fill `w` with the solution through `state`: φ to `order`, the others to one less.
 
@@ -94,7 +94,7 @@ def expand(w, order, block, state, c, d0, d1, is_straight):
         _expand_curved(w, order, block)
 
 
-@njit(cache=True, error_model="numpy", fastmath={"contract"})
+@compiled(fastmath={"contract"})
 def _expand_linearised(w, order, last_push):
     for n in range(order):
         w[ROTATION, n + 1] = w[VELOCITY, n] * INVERSE[n + 1]
@@ -102,7 +102,7 @@ def _expand_linearised(w, order, last_push):
         w[VELOCITY, n + 1] = force * INVERSE[n + 1]
 
 
-@njit(cache=True, error_model="numpy", fastmath={"contract"})
+@compiled(fastmath={"contract"})
 def _expand_curved(w, order, block):
     """Eq. (23), φ'' = sin φ / cos α + q cos(α − φ).
 
@@ -131,7 +131,7 @@ def _expand_curved(w, order, block):
         w[VELOCITY, n + 1] = (force + force2) * INVERSE[n + 1]
 
 
-@njit(cache=True, error_model="numpy", fastmath={"contract"})
+@compiled(fastmath={"contract"})
 def _expand_straight(w, order, block):
     """The same where q has two terms."""
     inverse_cosine = 1.0 / block.cosine
@@ -150,7 +150,7 @@ def _expand_straight(w, order, block):
         w[VELOCITY, n + 1] = force * INVERSE[n + 1]
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def longest_step(w, order, tolerance, limit):
     """Return the step, at most `limit`, over which the last two terms of φ' are below `tolerance`.
 
@@ -171,7 +171,7 @@ def longest_step(w, order, tolerance, limit):
     return min(math.exp(exponent), limit) if exponent < 50.0 else limit
 
 
-@njit(cache=True, error_model="numpy", fastmath={"contract"})
+@compiled(fastmath={"contract"})
 def evaluate(w, order, block, step, is_straight):
     """Return the `State` at `step` after the start of the series."""
     rotation, velocity, sine, cosine = w[ROTATION, order], 0.0, 0.0, 0.0

@@ -10,8 +10,7 @@ Then the block is poised at φ = α and could leave it to the wrong side; the hi
 
 import math
 
-from numba import njit
-
+from topheavy.kernel.compiled import compiled
 from topheavy.kernel.forcing import (
     CONSTANT,
     NONE,
@@ -53,7 +52,7 @@ LONGEST_FLIGHT = 100.0
 POISED = 1e-3
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@compiled(nogil=True)
 def trace(
     w,
     order,
@@ -195,7 +194,7 @@ def trace(
     return time, UNRESOLVED, peak, counted, landed
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def _leaves_wrongly(block, state, event, is_over, landings_left):
     """Say whether a free step leads away from φ = α to the other side than was judged.
 
@@ -209,7 +208,7 @@ def _leaves_wrongly(block, state, event, is_over, landings_left):
     return escapes or event == FLAT
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def _initial_state(block, forcing, record, rotation, velocity, side):
     value, rate = ground(forcing, record, 0.0)
     phi = abs(rotation)
@@ -217,7 +216,7 @@ def _initial_state(block, forcing, record, rotation, velocity, side):
     return State(phi, side * velocity, sine, cosine, -side * value - block.level, -side * rate)
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def still(time):
     """Return the forcing of ground that has been at rest since `time`."""
     return Forcing(NONE, 0.0, 1.0, time, 1.0)
