@@ -1,4 +1,4 @@
-"""Find the files of the repository that a script imports: they are inputs of its rule.
+"""Find what a rule needs: files of the repository that a script imports, results a notebook reads.
 
 Snakemake repeats a rule when its script changes, but not when an imported module changes. `code`
 finds these modules when Snakemake reads the Snakefile. After a job, `undeclared` finds the modules
@@ -7,10 +7,14 @@ that the job loaded and that its rule did not declare.
 
 import ast
 import json
+import re
 import sys
 from collections.abc import Iterable, Iterator, Sequence
 from functools import cache
 from pathlib import Path
+
+RESULT = re.compile(r"results/(?:tables/\w+\.csv|findings/\w+\.json)")
+"""What a notebook may read of a run."""
 
 ROOTS = ("src", ".")
 """Folders in which imported names are looked up, from the root of the repository, in this order."""
@@ -55,6 +59,11 @@ def code(*scripts: str | Path, root: str | Path = ".") -> list[str]:
             if path.suffix != ".pyi":
                 waiting.append(path)
     return sorted(map(str, found - first))
+
+
+def results_read(notebook: str | Path) -> list[str]:
+    """Return the tables and findings that a notebook names, from the root, sorted."""
+    return sorted(set(RESULT.findall(Path(notebook).read_text(encoding="utf-8"))))
 
 
 def undeclared(declared: Iterable[str], root: str | Path = ".") -> list[str]:

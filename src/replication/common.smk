@@ -6,7 +6,7 @@ from pathlib import Path
 
 from replication.captions import captioned, check_captions, read_captions
 from replication.closing import close
-from replication.code import code, undeclared
+from replication.code import code, results_read, undeclared
 from replication.costs import longest_jobs
 from replication.ledger import read_judged, read_ledger
 from replication.ledger_check import check_ledger

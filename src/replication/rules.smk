@@ -42,6 +42,7 @@ rule notebook:
     input:
         code("src/replication/rules/notebook.py"),
         lambda wildcards: code(f"notebooks/{wildcards.name}.ipynb"),
+        lambda wildcards: results_read(f"notebooks/{wildcards.name}.ipynb"),
         notebook="notebooks/{name}.ipynb",
         data=PARTS[PAPER].data,
     output:

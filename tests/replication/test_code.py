@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from replication.code import code, undeclared
+from replication.code import code, results_read, undeclared
 
 ROOT = Path(__file__).parents[2]
 
@@ -103,7 +103,7 @@ def test_script_that_is_not_there_is_named(tree):
 
 SCRIPT = """
 import sys
-from replication.code import code, undeclared
+from replication.code import code, results_read, undeclared
 sys.path[:0] = ["src", "src/steps", "."]
 import shared
 print(undeclared(code("src/steps/shared.py") + ["src/steps/shared.py"]))
@@ -124,3 +124,12 @@ def test_nothing_of_this_repository_is_undeclared_where_all_is_declared():
     assert "src/replication/code.py" in undeclared([], root=ROOT)
     everything = [str(path) for path in ROOT.glob("**/*.py")]
     assert undeclared(everything, root=ROOT) == []
+
+
+def test_results_that_a_notebook_reads_are_found(tmp_path):
+    notebook = tmp_path / "read.ipynb"
+    notebook.write_text(
+        '"pd.read_csv(\\"../results/tables/spectra.csv\\")", "results/tables/spectra.csv", '
+        '"pd.read_json(\\"../results/findings/vase.json\\")", "results/report.html"'
+    )
+    assert results_read(notebook) == ["results/findings/vase.json", "results/tables/spectra.csv"]

@@ -34,6 +34,7 @@ from topheavy.derivation.theorems import (
     contact_theorems,
     extension_theorems,
     reversal_theorems,
+    stated,
     theorems,
 )
 from topheavy.derivation.verdicts import PrintedCheck, check_printed
@@ -72,6 +73,7 @@ __all__ = [
     "restitution",
     "reversal_theorems",
     "size_ratio",
+    "stated",
     "theorems",
     "uplift_acceleration",
 ]

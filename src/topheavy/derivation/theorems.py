@@ -17,6 +17,13 @@ from topheavy.derivation import (
     reversal_proofs,
 )
 
+_PROOFS = (
+    *motion_proofs.PROOFS,
+    *impact_proofs.PROOFS,
+    *fixed_proofs.PROOFS,
+    *base_shear.PROOFS,
+)
+
 
 @dataclass(frozen=True)
 class Theorem:
@@ -30,9 +37,12 @@ class Theorem:
 @cache
 def theorems() -> tuple[Theorem, ...]:
     """Prove the theorems on motion and base shear, once in a process; a docstring states each."""
-    return _prove(
-        *motion_proofs.PROOFS, *impact_proofs.PROOFS, *fixed_proofs.PROOFS, *base_shear.PROOFS
-    )
+    return _prove(*_PROOFS)
+
+
+def stated() -> dict[str, str]:
+    """Return what each of `theorems` states, by its name, without the proof."""
+    return {proof.__name__: inspect.getdoc(proof) or "" for proof in _PROOFS}
 
 
 @cache
