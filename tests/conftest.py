@@ -7,7 +7,6 @@ import pytest
 ROOT = Path(__file__).parents[1]
 
 LONGEST_FIRST = (
-    "test_determinism.py",
     "test_reruns.py",
     "test_graph.py",
     "test_closing.py",
