@@ -150,11 +150,13 @@ def _called(node: ast.Call) -> str:
 
 def _nodes(tree: ast.AST) -> Iterator[ast.AST]:
     """Yield the nodes below a node, except imports that serve only type annotations."""
-    for node in ast.iter_child_nodes(tree):
-        if isinstance(node, ast.If) and "TYPE_CHECKING" in ast.unparse(node.test):
-            continue
-        yield node
-        yield from _nodes(node)
+    waiting = [tree]
+    while waiting:
+        for node in ast.iter_child_nodes(waiting.pop()):
+            if isinstance(node, ast.If) and "TYPE_CHECKING" in ast.unparse(node.test):
+                continue
+            yield node
+            waiting.append(node)
 
 
 def _files(root: Path, module: str, name: str) -> Iterator[Path]:

@@ -4,6 +4,7 @@ import difflib
 import json
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, fields
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -62,9 +63,8 @@ class Finding:
         """
         names = [each.name for each in fields(cls) if each.name != "entries"]
         for name in entries:
-            close = difflib.get_close_matches(name, names, n=1, cutoff=LIKE_A_FIELD)
-            if close and name not in names:
-                raise ValueError(f"a finding has {name!r}; did you mean {close[0]!r}?")
+            if name not in names and (close := _resembled(name, *names)):
+                raise ValueError(f"a finding has {name!r}; did you mean {close}?")
         kinds = [name for name in ("value", "holds", NOT_TESTED) if name in entries]
         if len(kinds) != 1 or ("value" in entries and "error" not in entries):
             raise ValueError(
@@ -126,6 +126,13 @@ class Findings:
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.by_name)
+
+
+@cache
+def _resembled(name: str, *fields: str) -> str:
+    """Return the field that the name of an evidence resembles, quoted, or nothing."""
+    close = difflib.get_close_matches(name, fields, n=1, cutoff=LIKE_A_FIELD)
+    return repr(close[0]) if close else ""
 
 
 def _named(name: str, entries: Any) -> Finding:

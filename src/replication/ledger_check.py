@@ -10,7 +10,7 @@ from jsonschema import Draft202012Validator, ValidationError
 from replication.calls import definition
 from replication.claim import Claim
 from replication.configuration import messages_of
-from replication.findings import read_findings
+from replication.findings import Findings, findings_by_rule
 from replication.ledger import read_rows
 from replication.strict_yaml import read_yaml
 from replication.suggestions import hint
@@ -42,10 +42,11 @@ def check_ledger(
     root = Path(root)
     schema = read_yaml(root / SCHEMA)
     validator = Draft202012Validator(schema["items"])
+    published = findings_by_rule(sorted((root / PUBLISHED).glob("*.json")))
     faults = [
         f"{path}: {row['id']}: {fault}"
         for path, _, row in read_rows(paths)
-        for fault in _faults(row, path, validator, rules, root)
+        for fault in _faults(row, path, validator, rules, published, root)
     ]
     if faults:
         raise ValueError("\n".join(faults))
@@ -56,6 +57,7 @@ def _faults(
     ledger: Path,
     validator: Draft202012Validator,
     rules: Collection[str],
+    published: Mapping[str, Findings],
     root: Path,
 ) -> Iterator[str]:
     errors = list(validator.iter_errors(row))
@@ -76,7 +78,8 @@ def _faults(
         definition(claim.function, root)
     except ValueError as error:
         yield f"function: {error}"
-    yield from _finding_faults(claim, root)
+    if claim.rule in published:
+        yield from _finding_faults(claim, published[claim.rule], root)
 
 
 def _told(error: ValidationError, schema: Mapping[str, Any]) -> Iterator[str]:
@@ -87,18 +90,14 @@ def _told(error: ValidationError, schema: Mapping[str, Any]) -> Iterator[str]:
     yield from (message.replace("the top level", "the row") for message in messages_of(error))
 
 
-def _finding_faults(claim: Claim, root: Path) -> Iterator[str]:
+def _finding_faults(claim: Claim, known: Findings, root: Path) -> Iterator[str]:
     """Yield the findings that are probably misspelt.
 
     A finding is known if its rule published it. An unknown finding that resembles a known one is
     misspelt, unless a source of the steps or studies contains it; then it is new.
     """
-    published = root / PUBLISHED / f"{claim.rule}.json"
-    if not published.is_file():
-        return
-    known = read_findings(published).by_name
     name = claim.finding
-    if name in known or _is_written(name, root):
+    if name in known.by_name or _is_written(name, root):
         return
     close = difflib.get_close_matches(name, sorted(known), n=1)
     if close:
