@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from replication.claim import Claim
-from replication.commands.trace import chain, find
+from replication.commands.trace import Item, chain, find
 from replication.provenance import Job
 
 ROOT = Path(__file__).parents[2]
@@ -113,6 +113,13 @@ def test_chain_of_a_claim_begins_in_the_paper(told):
     assert "function  topheavy.structures.size_ratio  src/topheavy/structures.py:" in text
     assert "verdict   peak_is_low: confirmed (holds)" in text
     assert "data/record.AT2" in text
+
+
+def test_claim_is_named_with_the_line_of_its_row(claims):
+    claim = next(claim for claim in claims if claim.id == "eq25")
+    line = next(line for line in chain(Item(None, claims=(claim,)), ()) if "ledger" in line)
+    path, _, number = line.split()[-1].rpartition(":")
+    assert (ROOT / path).read_text(encoding="utf-8").splitlines()[int(number) - 1] == "- id: eq25"
 
 
 def test_claim_that_is_not_tested_ends_with_why(told):

@@ -5,6 +5,7 @@ The chain is Snakemake's: its jobs, and the records that it keeps of how they we
 
 import difflib
 import json
+import re
 import signal
 import sys
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -114,11 +115,20 @@ def chain(item: Item, jobs: Sequence[Job], root: Path = Path()) -> Iterator[str]
 def _claim_lines(claim: Claim, path: str | None, root: Path) -> Iterator[str]:
     yield f"claim {claim.id}: {claim.statement}"
     yield f"  paper     {claim.where}"
+    if row := _row(claim):
+        yield f"  ledger    {row}"
     if claim.function:
         yield f"  function  {_cited(claim.function)}"
     if path is None or (root / path).exists():
         finding = finding_of(claim, read_findings(root / path)) if path else None
         yield f"  verdict   {verdict_line(claim, finding, verdict_on(claim, finding))}"
+
+
+def _row(claim: Claim) -> str:
+    """Return the file and line of a claim's row."""
+    lines = Path(claim.ledger).read_text(encoding="utf-8").splitlines() if claim.ledger else []
+    start = re.compile(rf"- id: {re.escape(claim.id)}\b")
+    return next((f"{claim.ledger}:{n}" for n, line in enumerate(lines, 1) if start.match(line)), "")
 
 
 def _job_lines(job: Job, made: Mapping[str, Job], root: Path) -> Iterator[str]:
