@@ -115,7 +115,7 @@ def chain(item: Item, jobs: Sequence[Job], root: Path = Path()) -> Iterator[str]
 def _claim_lines(claim: Claim, path: str | None, root: Path) -> Iterator[str]:
     yield f"claim {claim.id}: {claim.statement}"
     yield f"  paper     {claim.where}"
-    if row := _row(claim):
+    if claim.ledger and (row := _row(claim)):
         yield f"  ledger    {row}"
     if claim.function:
         yield f"  function  {_cited(claim.function)}"
@@ -126,7 +126,7 @@ def _claim_lines(claim: Claim, path: str | None, root: Path) -> Iterator[str]:
 
 def _row(claim: Claim) -> str:
     """Return the file and line of a claim's row."""
-    lines = Path(claim.ledger).read_text(encoding="utf-8").splitlines() if claim.ledger else []
+    lines = (ROOT / claim.ledger).read_text(encoding="utf-8").splitlines()
     start = re.compile(rf"- id: {re.escape(claim.id)}\b")
     return next((f"{claim.ledger}:{n}" for n, line in enumerate(lines, 1) if start.match(line)), "")
 
