@@ -33,7 +33,7 @@ WHOLE = case "$$$(1)" in ''|0*|*[!0-9]*) \
   echo "$(1) is '$$$(1)'; expected a whole number from 1 on" >&2; exit 2;; esac
 SNAKEMAKE = $(call WHOLE,CORES); $(RUN) snakemake --cores "$$CORES"
 
-.PHONY: help reproduce check trace verify html test lint publish study unlock clean
+.PHONY: help reproduce check trace verify html test lint pages publish study unlock clean
 
 help: ## show this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/make \1|\2/p' $(MAKEFILE_LIST) | \
@@ -82,6 +82,9 @@ lint: | $(UV) ## check style, types, spelling, wording and schemas; changes noth
 	  /^Lints for|^Congratulations/ { ran = 1 } \
 	  /^    \* / && !/\* Specify a conda environment or container for each rule/ { found = 1 } \
 	  END { if (found || !ran) { printf "%s", text; exit 1 } }'
+
+pages: | $(UV) ## write the pages that need no run: config/README.md
+	@$(RUN) python -m replication.commands.pages
 
 publish: | $(UV) ## copy results to docs/ and tests/reference/; read the diff, then commit it
 	@$(RUN) python -m steps.publish
