@@ -33,7 +33,7 @@ WHOLE = case "$$$(1)" in ''|0*|*[!0-9]*) \
   echo "$(1) is '$$$(1)'; expected a whole number from 1 on" >&2; exit 2;; esac
 SNAKEMAKE = $(call WHOLE,CORES); $(RUN) snakemake --cores "$$CORES"
 
-.PHONY: help reproduce check trace verify html test lint publish study unlock clean
+.PHONY: help reproduce check trace verify archive html test lint pages publish study unlock clean
 
 help: ## show this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/make \1|\2/p' $(MAKEFILE_LIST) | \
@@ -50,6 +50,9 @@ trace: | $(UV) ## from a figure, table, finding or claim to its source (ITEM=res
 
 verify: | $(UV) ## compare every file of a finished run with results/manifest.json
 	@$(RUN) python -m replication.commands.verify
+
+archive: | $(UV) ## after a run: one .zip in dist/ with the source and the results
+	@$(RUN) python -m replication.commands.archive
 
 html: | $(UV) ## after a run: write results/report.html with every figure, caption and verdict
 	@test -e results/manifest.json || { \
@@ -83,6 +86,9 @@ lint: | $(UV) ## check style, types, spelling, wording and schemas; changes noth
 	  /^    \* / && !/\* Specify a conda environment or container for each rule/ { found = 1 } \
 	  END { if (found || !ran) { printf "%s", text; exit 1 } }'
 
+pages: | $(UV) ## write the pages that need no run: config/README.md, codecheck.yml
+	@$(RUN) python -m replication.commands.pages
+
 publish: | $(UV) ## copy results to docs/ and tests/reference/; read the diff, then commit it
 	@$(RUN) python -m steps.publish
 
@@ -93,7 +99,7 @@ unlock: | $(UV) ## after a killed run left the directory locked (no other run ma
 	@$(RUN) snakemake --unlock
 
 clean: ## remove all that the workflow and the tools wrote; keep the environment
-	rm -rf results .snakemake figures/*.svg studies/*/figures/*.svg paper/*.pdf
+	rm -rf results dist .snakemake figures/*.svg studies/*/figures/*.svg paper/*.pdf
 	rm -rf .kill_table.jsonl .pytest_cache .ruff_cache .mypy_cache .hypothesis
 	find . \( -name .venv -o -name .uv \) -prune -o -name __pycache__ -type d -prune -exec rm -rf {} +
 

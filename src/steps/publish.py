@@ -2,12 +2,13 @@
 
 docs/ contains the article and its supplement, and the pictures, verdicts and costs that the README
 shows. tests/reference/ contains the findings from which `make check` judges the claims, the tables
-with which later runs are compared, and their config.
+with which later runs are compared, and their config. The pages that need no run are written, too.
 """
 
 import shutil
 from pathlib import Path
 
+from replication.commands import pages
 from replication.publishing import machine, publish
 from steps.explorer_still import still
 
@@ -69,6 +70,7 @@ def main() -> None:
         shutil.copyfile(results / name, docs / name)
     still(docs / PAGE, docs / "explorer.png")
     shutil.copyfile(results / "costs.csv", docs / "costs.csv")
+    pages.write()
     (docs / "machine.txt").write_text(machine() + "\n", encoding="utf-8")
 
 

@@ -1,4 +1,7 @@
-"""Is the tree what the run left? Every file against results/manifest.json: `make verify`."""
+"""Is the tree what the run left? Every file against results/manifest.json: `make verify`.
+
+In an unpacked archive (`make archive`) the source is held against SHA256SUMS, too.
+"""
 
 import json
 import sys
@@ -9,6 +12,8 @@ from typing import Any
 from replication.provenance import checksum
 
 MANIFEST = "results/manifest.json"
+SUMS = "SHA256SUMS"
+"""In an archive alone: the checksum of every file in it, as `sha256sum --check` reads them."""
 
 
 def main(manifest: Mapping[str, Any], root: Path = Path()) -> list[str]:
@@ -43,11 +48,34 @@ def extra(manifest: Mapping[str, Any], root: Path) -> Iterator[str]:
             yield str(name)
 
 
+def changed_source(manifest: Mapping[str, Any], root: Path) -> list[str]:
+    """Return a line for each file of an archive that is not as it was packed.
+
+    What a run makes is left to the manifest, which a new run in the unpacked archive replaces.
+    """
+    made = {*manifest["outputs"], *manifest["left_out"]}
+    faults = []
+    for line in (root / SUMS).read_text(encoding="utf-8").splitlines():
+        expected, path = line.split("  ", 1)
+        if path in made:
+            continue
+        if not (root / path).is_file():
+            faults.append(f"{path} is missing; {SUMS} has it")
+        elif (found := checksum(root / path)) != expected:
+            faults.append(
+                f"{path} changed after it was packed: its SHA-256 is {found}; expected {expected}"
+            )
+    return faults
+
+
 if __name__ == "__main__":
     if not Path(MANIFEST).exists():
         sys.exit(f"{MANIFEST} does not exist; expected a finished run: make reproduce")
     manifest = json.loads(Path(MANIFEST).read_text(encoding="utf-8"))
-    faults = main(manifest)
+    is_archive = Path(SUMS).exists()
+    faults = [*main(manifest), *(changed_source(manifest, Path()) if is_archive else [])]
     if faults:
         sys.exit("\n".join(faults))
     print(f"verified: {len(manifest['outputs'])} files are as {MANIFEST} has them")
+    if is_archive:
+        print(f"verified: the source is as {SUMS} has it")

@@ -1,5 +1,6 @@
 """Copy what is published from results/ to docs/ and tests/reference/: `make publish`."""
 
+from replication.commands import pages
 from replication.publishing import publish
 
 TABLES = ("period",)
@@ -7,3 +8,4 @@ TABLES = ("period",)
 
 if __name__ == "__main__":
     publish(TABLES)
+    pages.write()

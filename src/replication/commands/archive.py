@@ -1,0 +1,125 @@
+"""One .zip with the source, the lock and all that a finished run made: `make archive`.
+
+The bytes depend on the commit and the run alone. The archive is unpacked into an empty folder,
+where `make verify` holds its files against results/manifest.json and SHA256SUMS.
+"""
+
+import hashlib
+import json
+import subprocess
+import sys
+import tomllib
+import zipfile
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from replication.commands.verify import MANIFEST, SUMS
+from replication.commands.verify import main as verify
+from replication.provenance import workflow_jobs
+from replication.rules.manifest import git_state
+
+FOLDER = Path("dist")
+COSTS = "results/costs.csv"
+"""What a run measures; the manifest has no checksum of it."""
+
+EARLIEST = (1980, 1, 1, 0, 0, 0)
+"""The time of every file: zip knows none before it."""
+
+
+def pending(root: Path) -> list[str]:
+    """Return the rules that `make reproduce` would run now, but for the one that lists the outputs.
+
+    Its inputs include the modules that the process has loaded, and this process has loaded more.
+    """
+    jobs = workflow_jobs(root, targets=["all"])
+    unfinished = (job for job in jobs if job.pending and job.outputs)
+    return sorted({job.rule for job in unfinished if MANIFEST not in job.outputs})
+
+
+def refusals(root: Path) -> Iterator[str]:
+    """Yield why a tree cannot be archived, and what to do; nothing if it can."""
+    if not (root / MANIFEST).exists():
+        yield f"{MANIFEST} does not exist; expected a finished run: make reproduce"
+        return
+    now = git_state(root)
+    if now["commit"] is None:
+        yield f"{root.resolve()} is no git repository; expected a clone, whose commit is archived"
+        return
+    if now["dirty"]:
+        yield "the tree differs from its commit (git status); commit or remove these changes"
+        return
+    if rules := pending(root):
+        yield f"the run is not finished or out of date, in {', '.join(rules)}: make reproduce"
+        return
+    manifest = _manifest(root)
+    if faults := verify(manifest, root):
+        yield from faults
+        yield "expected the files of the run: remove those above, then make reproduce"
+        return
+    if manifest["git"] != now:
+        made = manifest["git"]["commit"]
+        state = ", with changes" if manifest["git"]["dirty"] else ""
+        yield (
+            f"{MANIFEST} was written at commit {made}{state}; expected {now['commit']}, without: "
+            f"rm {MANIFEST} && make reproduce, which lists the same results again"
+        )
+
+
+def members(root: Path) -> dict[str, bytes]:
+    """Return the content of every file of the archive, by its path: source, then results."""
+    listed = _git(root, "ls-files", "-z").decode().split("\0")
+    made = [*_manifest(root)["outputs"], MANIFEST, COSTS]
+    found = {path: (root / path).read_bytes() for path in sorted({*filter(None, listed), *made})}
+    sums = (f"{hashlib.sha256(data).hexdigest()}  {path}\n" for path, data in found.items())
+    return found | {SUMS: "".join(sums).encode()}
+
+
+def write(root: Path, to: Path) -> None:
+    """Write the archive of a tree that `refusals` does not refuse."""
+    entries = _git(root, "ls-files", "-z", "--stage").decode().split("\0")
+    executable = {entry.split("\t")[1] for entry in entries if entry.startswith("100755")}
+    to.parent.mkdir(parents=True, exist_ok=True)
+    with zipfile.ZipFile(to, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
+        for path, data in sorted(members(root).items()):
+            info = zipfile.ZipInfo(path, EARLIEST)
+            info.create_system = 3  # Unix, whose permissions follow
+            info.external_attr = (0o100755 if path in executable else 0o100644) << 16
+            info.compress_type = zipfile.ZIP_DEFLATED
+            archive.writestr(info, data)
+
+
+def name_of(root: Path) -> str:
+    """Return the name of the archive: project and version."""
+    project = tomllib.loads((root / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    return f"{project['name']}-{project['version']}.zip"
+
+
+def main(root: Path = Path()) -> str:
+    """Write the archive, and return a line with its name, size and checksum.
+
+    Raises
+    ------
+    SystemExit
+        When the tree has no finished run, or files that differ from it or from the commit.
+    """
+    if reasons := list(refusals(root)):
+        sys.exit("\n".join(reasons))
+    to = root / FOLDER / name_of(root)
+    write(root, to)
+    data = to.read_bytes()
+    count = len(zipfile.ZipFile(to).namelist())
+    checksum = hashlib.sha256(data).hexdigest()
+    return f"{to}: {count} files, {len(data) / 1e6:.1f} MB, SHA-256 {checksum}"
+
+
+def _manifest(root: Path) -> Mapping[str, Any]:
+    return json.loads((root / MANIFEST).read_text(encoding="utf-8"))
+
+
+def _git(root: Path, *words: str) -> bytes:
+    return subprocess.run(["git", "-C", str(root), *words], capture_output=True, check=True).stdout
+
+
+if __name__ == "__main__":
+    print(main())

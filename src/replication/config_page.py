@@ -1,0 +1,241 @@
+"""The page config/README.md: every key of the config with unit, bounds, value and source.
+
+The schema gives meaning, unit and bounds; config.yaml gives the value and, in its comments, the
+source. `unit` is an annotation of ours in the schema, "1" for a number without dimension. A key
+without a description or a unit takes those of the mapping or list that contains it.
+"""
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from itertools import groupby
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from replication.configuration import NAMES
+from replication.strict_yaml import read_yaml
+
+HEAD = "| key | meaning | unit | allowed | value | source or remark |"
+
+
+@dataclass(frozen=True)
+class Key:
+    """A key of the config that holds a value: a number, a text, or a list of such.
+
+    Parameters
+    ----------
+    place
+        Its path, dotted; `[]` stands for each item of a list of mappings.
+    meaning, unit, allowed
+        As the schema has them; "" where it says nothing.
+    value
+        As YAML, that of each item of a list of mappings.
+    source
+        The nearest comment in config.yaml: of its line, or of a mapping or list that contains it,
+        below the section; the page gives the comment of the section once.
+    """
+
+    place: str
+    meaning: str
+    unit: str
+    allowed: str
+    value: str
+    source: str
+
+
+def config_page(path: Path) -> str:
+    """Return the page of a config, a table for each section; config.schema.yaml lies beside it."""
+    said = comments(path.read_text(encoding="utf-8"))
+    lines = [
+        "# The input numbers",
+        "",
+        f"`make pages` writes this page from `{path.name}` and `config.schema.yaml`: change those.",
+        'The unit "1" marks a number without dimension. A run refuses a value that is not allowed.',
+    ]
+    for section, found in groupby(keys(path), lambda key: re.split(r"[.\[]", key.place)[0]):
+        lines += ["", f"## {section}", ""]
+        lines += [said[section], ""] if section in said else []
+        lines += [HEAD, "|---" * 6 + "|", *map(_row, found)]
+    return "\n".join(lines) + "\n"
+
+
+def keys(path: Path) -> list[Key]:
+    """Return every key of a config that holds a value, in the order of the file."""
+    schema = read_yaml(path.with_name("config.schema.yaml"))
+    said = comments(path.read_text(encoding="utf-8"))
+    config = read_yaml(path)
+    nested = {place: text for place, text in said.items() if place not in config}
+    return [
+        key
+        for name, value in config.items()
+        for key in _keys(name, [value], _of(schema, name), schema, {}, nested, "")
+    ]
+
+
+def _keys(
+    place: str,
+    values: list[Any],
+    schema: Mapping[str, Any],
+    root: Mapping[str, Any],
+    outer: Mapping[str, str],
+    said: Mapping[str, str],
+    source: str,
+) -> Iterator[Key]:
+    """Yield the keys at a place; `values` has more than one entry inside a list of mappings."""
+    schema = resolved(schema, root)
+    inherited = {name: schema.get(name, outer.get(name, "")) for name in ("description", "unit")}
+    source = said.get(place, source)
+    if all(isinstance(value, Mapping) for value in values):
+        for name in dict.fromkeys(name for value in values for name in value):
+            inner = [value[name] for value in values if name in value]
+            below = f"{place}.{name}" if place else str(name)
+            yield from _keys(below, inner, _of(schema, name), root, inherited, said, source)
+        return
+    items = [item for value in values if isinstance(value, list) for item in value]
+    if items and all(isinstance(item, Mapping) for item in items):
+        of_items = schema.get("items", {})
+        yield from _keys(f"{place}[]", items, of_items, root, inherited, said, source)
+        return
+    shown = "; ".join(_yaml(value) for value in values)
+    meaning = _one_line(inherited["description"])
+    unit = unit_of(schema, root) or (inherited["unit"] if has_numbers(schema, root) else "")
+    yield Key(place, meaning, unit, allowed(schema, root), shown, source)
+
+
+def _of(schema: Mapping[str, Any], name: str) -> Mapping[str, Any]:
+    """Return the schema of an entry of a mapping."""
+    if name in schema.get("properties", {}):
+        return schema["properties"][name]
+    for pattern, found in schema.get("patternProperties", {}).items():
+        if re.search(pattern, name):
+            return found
+    other = schema.get("additionalProperties")
+    return other if isinstance(other, Mapping) else {}
+
+
+def resolved(schema: Mapping[str, Any], root: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a schema with what it refers to, over which its own entries go."""
+    parts = [dict(schema)]
+    for other in schema.get("allOf", []):
+        parts.insert(0, resolved(other, root))
+    if "$ref" in schema:
+        parts.insert(0, resolved(root["$defs"][schema["$ref"].removeprefix("#/$defs/")], root))
+    merged: dict[str, Any] = {}
+    for part in parts:
+        properties = dict(merged.get("properties", {}))
+        for name, own in part.get("properties", {}).items():
+            properties[name] = {"allOf": [properties[name], own]} if name in properties else own
+        merged |= part | ({"properties": properties} if properties else {})
+    return merged
+
+
+def unit_of(schema: Mapping[str, Any], root: Mapping[str, Any]) -> str:
+    """Return the unit that a schema states for itself, or for the items of its list."""
+    schema = resolved(schema, root)
+    return schema.get("unit") or (unit_of(schema["items"], root) if "items" in schema else "")
+
+
+def has_numbers(schema: Mapping[str, Any], root: Mapping[str, Any]) -> bool:
+    """Return whether a schema is that of numbers, which have a unit; whole numbers count."""
+    schema = resolved(schema, root)
+    inner = [*schema.get("oneOf", []), *([schema["items"]] if "items" in schema else [])]
+    return schema.get("type") == "number" or any(has_numbers(each, root) for each in inner)
+
+
+def allowed(schema: Mapping[str, Any], root: Mapping[str, Any]) -> str:
+    """Return in words which values a schema allows."""
+    schema = resolved(schema, root)
+    if "oneOf" in schema:
+        return " or ".join(each.get("title") or allowed(each, root) for each in schema["oneOf"])
+    if "enum" in schema:
+        return "one of " + ", ".join(map(str, schema["enum"]))
+    match schema.get("type"):
+        case "array":
+            each = allowed(schema.get("items", {}), root)
+            return f"{_range(schema, 'minItems', 'maxItems')} values, each {each}".strip()
+        case "integer" | "number" as kind:
+            low, high = schema.get("minimum"), schema.get("maximum")
+            limits = [
+                f"> {schema['exclusiveMinimum']:g}" if "exclusiveMinimum" in schema else "",
+                f"≥ {low:g}" if low is not None else "",
+                f"< {schema['exclusiveMaximum']:g}" if "exclusiveMaximum" in schema else "",
+                f"≤ {high:g}" if high is not None else "",
+            ]
+            kind = "a whole number" if kind == "integer" else "a number"
+            return f"{kind} {', '.join(filter(None, limits))}".strip()
+        case "string":
+            return NAMES.get(schema.get("pattern"), schema.get("pattern", "a text"))
+        case other:
+            return f"{other or 'any value'}"
+
+
+def _range(schema: Mapping[str, Any], low: str, high: str) -> str:
+    least, most = schema.get(low, 0), schema.get(high)
+    if most is None:
+        return f"{least} or more"
+    return f"{most}" if least == most else f"{least} to {most}"
+
+
+def comments(text: str) -> dict[str, str]:
+    """Return the comments of a YAML file by the dotted place of the key that they are about.
+
+    A comment at the end of a line is about the first key of this line. Lines of comment are about
+    the key below them.
+    """
+    ends: dict[int, int] = {}  # by line, where the last token that is no comment ends
+    for token in yaml.scan(text):
+        if token.end_mark.line == token.start_mark.line:
+            ends[token.end_mark.line] = token.end_mark.column
+    lines = text.splitlines()
+    found: dict[str, str] = {}
+    for place, line in _lines(yaml.compose(text), ""):
+        above: list[str] = []
+        for other in reversed(lines[:line]):
+            if not other.strip().startswith("#"):
+                break
+            above.insert(0, other.strip().removeprefix("#"))
+        beside = lines[line][ends.get(line, 0) :].strip().removeprefix("#")
+        said = _one_line(" ".join([*above, beside]))
+        if said and place not in found:
+            found[place] = said
+    return found
+
+
+def _lines(node: yaml.Node, place: str) -> Iterator[tuple[str, int]]:
+    """Yield each place and its line: a key, and each item of a list of mappings.
+
+    Of the keys on one line only the first is yielded, and of a list the first item that has a line.
+    """
+    if isinstance(node, yaml.MappingNode):
+        for key, value in node.value:
+            below = f"{place}.{key.value}" if place else key.value
+            yield below, key.start_mark.line
+            for inner, line in _lines(value, below):
+                if line != key.start_mark.line:
+                    yield inner, line
+    elif isinstance(node, yaml.SequenceNode):
+        for item in node.value:
+            if isinstance(item, yaml.MappingNode):
+                yield f"{place}[]", item.start_mark.line
+                yield from (
+                    (inner, line)
+                    for inner, line in _lines(item, f"{place}[]")
+                    if line != item.start_mark.line
+                )
+
+
+def _yaml(value: Any) -> str:
+    text = yaml.safe_dump(value, default_flow_style=True, allow_unicode=True, width=10**6)
+    return text.removesuffix("\n...\n").strip()
+
+
+def _one_line(text: str) -> str:
+    return " ".join(text.split())
+
+
+def _row(key: Key) -> str:
+    value = f"`{key.value}`" if key.value else ""
+    cells = (f"`{key.place}`", key.meaning, key.unit, key.allowed, value, key.source)
+    return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"
