@@ -1,26 +1,48 @@
-"""Write the pages that follow from the workflow and its config, without a run: `make pages`."""
+"""Write the pages that follow from workflow, config and published costs: `make pages`.
+
+No run is necessary, and no result goes into them but the costs.
+"""
 
 from collections.abc import Callable, Iterator, Mapping
+from functools import cache
 from pathlib import Path
+from typing import Any
 
 from replication.captions import read_captions
 from replication.codecheck import codecheck_file
 from replication.config_page import config_page
+from replication.exhibits import exhibits_page, read_costs
 from replication.parts import PAPER, captions_of
-from replication.provenance import workflow_jobs
+from replication.provenance import Job, workflow_jobs
 from replication.strict_yaml import read_yaml
+
+
+def captions() -> dict[str, dict[str, Any]]:
+    """Return the captions of the paper and of its studies."""
+    studies = read_yaml("config/config.yaml")["studies"]
+    return read_captions(captions_of(part) for part in [PAPER, *studies])
+
+
+@cache
+def jobs() -> list[Job]:
+    """Return the jobs of `rule all`; reading the workflow takes seconds."""
+    return workflow_jobs(targets=["all"])
 
 
 def codecheck() -> str:
     """Return the text of codecheck.yml."""
-    studies = read_yaml("config/config.yaml")["studies"]
-    captions = read_captions(captions_of(part) for part in [PAPER, *studies])
-    return codecheck_file(workflow_jobs(targets=["all"]), captions, read_yaml("CITATION.cff"))
+    return codecheck_file(jobs(), captions(), read_yaml("CITATION.cff"))
+
+
+def exhibits() -> str:
+    """Return the text of docs/exhibits.md."""
+    return exhibits_page(jobs(), captions(), read_costs(Path("docs/costs.csv")))
 
 
 PAGES: Mapping[str, Callable[[], str]] = {
     "config/README.md": lambda: config_page(Path("config/config.yaml")),
     "codecheck.yml": codecheck,
+    "docs/exhibits.md": exhibits,
 }
 """By its path, what returns the text of a page."""
 
