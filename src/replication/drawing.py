@@ -17,8 +17,8 @@ from replication.workbench import run
 
 SINGLE, DOUBLE = 88.0, 180.0  # widths of one and of two columns, mm
 
-# One hue by lightness, the larger the darker; one accent, for what leaves or misleads.
-INK, GREY = "#1a1a1a", "#737373"
+# Ink and greys for what has no meaning of its own, one accent, and one hue by lightness.
+INK, GREY, PALE, PAPER = "#1a1a1a", "#737373", "#f2f2f2", "#ffffff"
 ACCENT = "#c8501a"
 STONE, SKY = "#e8e5df", "#bcd0e3"  # for bodies that are drawn
 LIGHT, DARK = "#b3cde3", "#1d4770"  # two of that hue, for areas
@@ -44,10 +44,14 @@ def sheet(width: float, height: float, mosaic: str = "", **grid) -> tuple[Figure
     return plt.subplots(figsize=size, **grid)
 
 
-def shades(count: int) -> list[tuple[float, float, float]]:
+def shades(
+    count: int,
+    lightest: tuple[float, float, float] = LIGHTEST,
+    darkest: tuple[float, float, float] = DARKEST,
+) -> list[tuple[float, float, float]]:
     """Return colours of one hue, from the lightest to the darkest."""
     steps = [i / max(count - 1, 1) for i in range(count)]
-    pairs = list(zip(LIGHTEST, DARKEST, strict=True))
+    pairs = list(zip(lightest, darkest, strict=True))
     return [tuple(low + (high - low) * step for low, high in pairs) for step in steps]
 
 

@@ -29,7 +29,8 @@ def figures(path):
     return {f"{name}.svg" for name in FIGURE.findall(path.read_text(encoding="utf-8"))}
 
 
-DRAWN = [path for path in (ROOT / "figures").glob("*.py") if path.stem != "drawing"]
+SHARED = {"drawing", "palette"}
+DRAWN = [path for path in (ROOT / "figures").glob("*.py") if path.stem not in SHARED]
 OURS = [ROOT / "figures", *STUDIES]
 LEDGER = {row["id"] for row in read(ROOT / "paper" / "claims.yaml")}
 
