@@ -34,11 +34,14 @@ UNDECIDED = INK  # the outcome cannot be told
 
 # What is compared with what.
 MODEL = "#6a3d9a"  # simplified models: linearised, columns without mass
+CONSERVATIVE = tint(MODEL, 0.55)  # … where they are wrong on the safe side
 FIXED = "#8c6d00"  # the cap's mass fixed to the column
 RECORD = "#7a5230"  # measured records beside pulses
 
-# Bodies that are drawn.
+# Bodies that are drawn, and arrows and points on them.
 STONE, CAP, EARTH = "#e8e5df", "#b9b1a2", "#d5d1c8"
+FORCE = "#0b6e99"
+OPENS = FORCE  # contacts that would have to pull
 
 # Scales of a quantity.
 PEAKS = LinearSegmentedColormap.from_list("peaks", [PAPER, tint(SURVIVES, 0.4), "#083a31"])

@@ -20,9 +20,7 @@ SINGLE, DOUBLE = 88.0, 180.0  # widths of one and of two columns, mm
 # Ink and greys for what has no meaning of its own, one accent, and one hue by lightness.
 INK, GREY, PALE, PAPER = "#1a1a1a", "#737373", "#f2f2f2", "#ffffff"
 ACCENT = "#c8501a"
-STONE, SKY = "#e8e5df", "#bcd0e3"  # for bodies that are drawn
-LIGHT, DARK = "#b3cde3", "#1d4770"  # two of that hue, for areas
-LIGHTEST, DARKEST = (0.58, 0.77, 0.90), (0.02, 0.14, 0.36)
+LIGHTEST, DARKEST = (0.36, 0.58, 0.80), (0.02, 0.12, 0.32)  # 3 to 1 on white, and more
 
 
 def publish(job, draw: Callable[..., Figure]) -> None:
