@@ -5,13 +5,13 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import pandas as pd
 
-from figures.drawing import ACCENT, DARK, DOUBLE, GREY, letter, note, sheet
+from replication.drawing import DOUBLE, GREY, INK, letter, note, sheet
 
 LOOKS = {
-    "this kernel": {"color": ACCENT, "linewidth": 1.8},
-    "scalar kernel": {"color": ACCENT, "linewidth": 0.9},
-    "heyoka, our tail": {"color": DARK},
-    "heyoka": {"color": DARK, "linestyle": (0, (4, 2))},
+    "this kernel": {"color": INK, "linewidth": 1.8},
+    "scalar kernel": {"color": INK, "linewidth": 0.9},
+    "heyoka, our tail": {"color": INK, "linestyle": (0, (1, 1.5))},
+    "heyoka": {"color": INK, "linestyle": (0, (4, 2))},
     "solve_ivp, our tail": {"color": GREY},
     "solve_ivp": {"color": GREY, "linestyle": (0, (4, 2))},
 }

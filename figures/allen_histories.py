@@ -1,7 +1,8 @@
 """Histories by the model of Allen et al., by each simplification, and of the exact frame."""
 
 from figures.drawing import MODELS
-from replication.drawing import ACCENT, DOUBLE, GREY, INK, letter, note, publish, sheet
+from figures.palette import MODEL
+from replication.drawing import DOUBLE, GREY, INK, letter, note, publish, sheet
 
 MOTIONS = {"pulse": "One-sine pulse", "record": "El Centro 1940, scaled"}
 
@@ -18,11 +19,11 @@ def draw(allen_histories):
         for axis, (model, words) in zip(column[1:], MODELS.items(), strict=True):
             run = runs.get_group(model)
             axis.plot(exact.time, exact.rotation_over_alpha, color=INK, linewidth=0.8)
-            axis.plot(run.time, run.rotation_over_alpha, color=ACCENT, linewidth=0.8)
+            axis.plot(run.time, run.rotation_over_alpha, color=MODEL, linewidth=0.8)
             change = run.rotation_over_alpha.abs().max() / exact.rotation_over_alpha.abs().max() - 1
-            words += f": peak {change:+.1%}".replace("-", "−")
+            words += f": peak {100 * change:+.1f} %".replace("-", "−")
             axis.text(
-                0.995, 0.93, words, transform=axis.transAxes, ha="right", color=ACCENT, fontsize=7.5
+                0.995, 0.93, words, transform=axis.transAxes, ha="right", color=MODEL, fontsize=7.5
             )
             axis.set(ylim=(-1, 1.25), ylabel=r"$\theta/\alpha$ (–)")
         column[-1].set(xlabel="Time, $t$ (s)", xlim=(0, exact.time.max()))

@@ -3,13 +3,14 @@
 from matplotlib.colors import ListedColormap
 from matplotlib.patches import Patch
 
-from replication.drawing import ACCENT, DARKEST, DOUBLE, LIGHT, letter, note, publish, sheet
+from figures.palette import CONSERVATIVE, MODEL, OVERTURNED
+from replication.drawing import DOUBLE, PAPER, letter, note, publish, sheet
 
 VERDICTS = {
-    "both survive": "white",
-    "both overturn": LIGHT,
-    "falsely safe": ACCENT,
-    "falsely overturned": DARKEST,
+    "both survive": PAPER,
+    "both overturn": OVERTURNED,
+    "falsely safe": MODEL,
+    "falsely overturned": CONSERVATIVE,
 }
 TITLES = {
     "linearised": "Linearised equation only",
@@ -35,10 +36,10 @@ def draw(allen_overturning):
             vmax=3,
             rasterized=True,
         )
-        shares = cells.verdict.value_counts(normalize=True)
+        shares = 100 * cells.verdict.value_counts(normalize=True)
         wrong = [verdict for verdict in VERDICTS if verdict.startswith("falsely")]
         patches = [
-            Patch(facecolor=VERDICTS[v], label=f"{v}: {shares.get(v, 0):.1%}") for v in wrong
+            Patch(facecolor=VERDICTS[v], label=f"{v}: {shares.get(v, 0):.1f} %") for v in wrong
         ]
         axis.legend(handles=patches, loc="lower right", handlelength=1.2)
         note(axis, "both survive", (6.6, 6.5), ha="center")

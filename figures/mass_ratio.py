@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from replication.drawing import ACCENT, DOUBLE, GREY, INK, letter, note, publish, sheet
+from replication.drawing import DOUBLE, GREY, INK, PAPER, letter, note, publish, sheet
 
 GAMMA = r"Mass ratio, $\gamma = m_\mathrm{b}/2m_\mathrm{c}$ (–)"
 
@@ -27,9 +27,9 @@ def draw(mass_ratio):
         for part in (0.5, 0.9):
             at = np.interp(part, finite[share], finite.mass_ratio)
             reached = np.interp(part, finite[share], finite[name])
-            text = f"{part:.0%} of the gain at $\\gamma$ = {at:.2g}"
-            axis.plot(at, reached, "o", color=ACCENT, markersize=3.5, zorder=3)
-            note(axis, text, (at, reached), xytext=(5, -9 * up), color=ACCENT, **beside)
+            text = f"{100 * part:.0f} % of the gain at $\\gamma$ = {at:.2g}"
+            axis.plot(at, reached, "o", color=INK, markerfacecolor=PAPER, markersize=3.5, zorder=3)
+            note(axis, text, (at, reached), xytext=(5, -9 * up), **beside)
     axes[0].set(xlabel=GAMMA, ylabel=r"Size, $\hat{R}/R$ (–)", ylim=(0.97, 1.55))
     axes[1].set(xlabel=GAMMA, ylabel=r"Frequency parameter, $\hat{p}/p$ (–)", ylim=(0.79, 1.01))
     for axis in axes:

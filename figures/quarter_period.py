@@ -1,17 +1,18 @@
 """The period of free rocking against its amplitude, exact and linearised."""
 
-from replication.drawing import DOUBLE, GREY, INK, letter, note, publish, shades, sheet
+from figures.palette import greys
+from replication.drawing import DOUBLE, GREY, INK, letter, note, publish, sheet
 
 
 def draw(quarter_period):
     figure, (left, right) = sheet(DOUBLE, 58, ncols=2)
     exact = quarter_period[~quarter_period.linearised].groupby("slenderness_deg")
     linear = quarter_period[quarter_period.linearised].groupby("slenderness_deg")
-    for (slenderness, line), colour in zip(exact, shades(len(exact)), strict=True):
+    for (slenderness, line), colour in zip(exact, greys(len(exact)), strict=True):
         other = linear.get_group(slenderness)
         excess = 100.0 * (other.quarter_period.to_numpy() / line.quarter_period - 1.0)
         right.plot(line.start_fraction, excess, color=colour)
-        middle = line.start_fraction.sub(0.3).abs().argmin()
+        middle = line.start_fraction.sub(0.1).abs().argmin()
         text = f"$\\alpha$ = {slenderness:g}°"
         at = (line.start_fraction.iloc[middle], excess.iloc[middle])
         note(right, text, at, xytext=(5, -7), textcoords="offset points")
@@ -27,10 +28,12 @@ def draw(quarter_period):
     )
     left.set(ylabel=r"Quarter period, $pT/4$ (–)", ylim=(0, 5.6))
     right.axhline(0, color=GREY, linewidth=0.6)
-    right.set_ylabel("Error of the linearised period (%)")
+    right.set_ylabel("Change by linearisation (%)")
     for axis in (left, right):
-        axis.set(xlabel=r"Amplitude, $\theta_0/\alpha$ (–)", xlim=(0, 1.02))
-    letter([left, right], ["Quarter period against amplitude", "Error of the linearised equation"])
+        axis.set(xlabel=r"Rotation amplitude, $\theta_0/\alpha$ (–)", xlim=(0, 1.02))
+    letter(
+        [left, right], ["Quarter period against amplitude", "Effect of linearisation on the period"]
+    )
     return figure
 
 

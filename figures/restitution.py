@@ -3,7 +3,7 @@
 import numpy as np
 
 from figures.drawing import gamma
-from replication.drawing import ACCENT, DOUBLE, GREY, INK, letter, note, publish, shades, sheet
+from replication.drawing import DOUBLE, GREY, INK, letter, note, publish, shades, sheet
 
 
 def draw(restitution_over_slenderness, restitution_over_mass_ratio):
@@ -29,7 +29,7 @@ def draw(restitution_over_slenderness, restitution_over_mass_ratio):
     for slenderness, line in restitution_over_mass_ratio.groupby("slenderness_deg"):
         finite, limit = line[np.isfinite(line.mass_ratio)], line.restitution.iloc[-1]
         right.axhline(finite.restitution.iloc[0], color=GREY, linewidth=0.6, linestyle=(0, (1, 2)))
-        right.axhline(limit, color=ACCENT, linewidth=0.8, linestyle=(0, (4, 2)))
+        right.axhline(limit, color=GREY, linewidth=0.8, linestyle=(0, (4, 2)))
         right.plot(finite.mass_ratio, finite.restitution, color=INK)
         right.plot(0, finite.restitution.iloc[0], "o", color=INK, markersize=3, clip_on=False)
         name = (
@@ -38,7 +38,7 @@ def draw(restitution_over_slenderness, restitution_over_mass_ratio):
         note(right, f"{name}{slenderness:g}°", (10.15, limit), annotation_clip=False)
     top, limit = finite.restitution.iloc[0], line.restitution.iloc[-1]
     note(right, "Housner", (9.9, top - 0.018), ha="right", color=GREY)
-    note(right, r"$\cos 2\alpha$", (9.9, limit - 0.018), ha="right", color=ACCENT)
+    note(right, r"$\cos 2\alpha$", (9.9, limit - 0.018), ha="right", color=GREY)
     right.set(xlabel=r"Mass ratio, $\gamma$ (–)", xlim=(0, 10), ylim=(0.46, 1.01))
     for axis in (left, right):
         axis.set_ylabel(r"Coefficient of restitution, $\sqrt{r}$ (–)")

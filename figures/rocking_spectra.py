@@ -1,57 +1,61 @@
-"""Peak rotation against size under real records, and the sizes that overturn: column and frames."""
+"""Peak rotation and outcome against size under measured records: column and frames."""
+
+import numpy as np
+from matplotlib.cm import ScalarMappable
+from matplotlib.patches import Patch, Rectangle
 
 from figures.drawing import RECORDS, gamma
-from replication.drawing import ACCENT, DOUBLE, GREY, note, publish, shades, sheet
+from figures.palette import HATCHED, PEAKS, UNDECIDED
+from replication.drawing import DOUBLE, GREY, note, publish, sheet
 
 COLUMNS = 3
 TICKS = (0.5, 1, 2, 5, 10, 20)
-ABOVE, APART = 1.12, 0.1  # of θ/α: where the strips of overturned sizes begin, and their distance
+HIGH = 0.8  # of a strip, over the distance of two
 
 
 def panel(axis, cells, ratios):
-    for place, (mass_ratio, colour) in enumerate(zip(ratios, shades(len(ratios)), strict=True)):
-        run = cells[cells.mass_ratio == mass_ratio].sort_values("size")
-        axis.plot(run["size"], run.peak_over_alpha, color=colour, linewidth=0.9)
-        fallen, open_ones = run[run.overturned & run.told], run[~run.told]
-        height = ABOVE + APART * place
-        strip = {"linestyle": "none", "markersize": 4.2, "markeredgewidth": 1.1}
-        axis.plot(fallen["size"], [height] * len(fallen), "|", color=colour, **strip)
-        strip = {"linestyle": "none", "markersize": 1.6, "markeredgewidth": 0}
-        axis.plot(open_ones["size"], [height] * len(open_ones), "o", color=ACCENT, **strip)
-    axis.axhline(1.0, color=GREY, linewidth=0.5)
-    axis.set(xscale="log", xlim=(0.48, 21), ylim=(0, ABOVE + APART * len(ratios)))
+    """Draw one strip for each γ: peak rotation by shade, what overturns, what cannot be decided."""
+    for place, ratio in enumerate(ratios):
+        run = cells[cells.mass_ratio == ratio].sort_values("size")
+        size, edge = run["size"].to_numpy(), place - HIGH / 2
+        ends = np.sqrt(size[1:] * size[:-1])  # half-way on the axis in equal ratios
+        ends = [size[0] ** 2 / ends[0], *ends, size[-1] ** 2 / ends[-1]]
+        axis.add_patch(Rectangle((ends[0], edge), ends[-1] - ends[0], HIGH, linewidth=0, **HATCHED))
+        peaks = run.peak_over_alpha.where(~run.overturned & run.told).to_numpy()[None]
+        how = {"cmap": PEAKS, "vmin": 0, "vmax": 1, "rasterized": True}
+        axis.pcolormesh(ends, [edge, edge + HIGH], peaks, **how)
+        for left, right, told in zip(ends[:-1], ends[1:], run.told, strict=True):
+            if not told:
+                axis.add_patch(Rectangle((left, edge), right - left, HIGH, color=UNDECIDED, lw=0))
+        around = {"facecolor": "none", "edgecolor": GREY, "linewidth": 0.5}
+        axis.add_patch(Rectangle((ends[0], edge), ends[-1] - ends[0], HIGH, **around))
+    axis.set(xscale="log", xlim=(0.47, 21.5), ylim=(-0.55, len(ratios) - 0.45))
     axis.set_xticks(TICKS, [f"{tick:g}" for tick in TICKS])
     axis.set_xticks([], minor=True)
-    axis.set_yticks((0, 0.5, 1.0))
+    axis.set_yticks(range(len(ratios)), map(gamma, ratios))
+    axis.tick_params(axis="y", length=0)
 
 
 def draw(rocking_spectra):
     ratios = sorted(rocking_spectra.mass_ratio.unique())
     records = rocking_spectra.groupby("record", sort=False)
     rows = 1 + len(records) // COLUMNS  # the last place is for the key
-    figure, axes = sheet(DOUBLE, 50 * rows, nrows=rows, ncols=COLUMNS, sharey=True, squeeze=False)
+    figure, axes = sheet(DOUBLE, 38 * rows, nrows=rows, ncols=COLUMNS, sharey=True, squeeze=False)
     for axis in axes.flat[len(records) :]:
         axis.axis("off")
     for axis, (record, cells) in zip(axes.flat, records, strict=False):
         panel(axis, cells, ratios)
         axis.set_title(RECORDS.get(record, record.replace("_", " ")))
         axis.set_xlabel("Size of a column, $R$ (m)")
-    for row in axes:
-        row[0].set_ylabel(r"Peak rotation, $\theta_\mathrm{max}/\alpha$ (–)")
     key = axes[-1, -1]
-    for place, (mass_ratio, colour) in enumerate(zip(ratios, shades(len(ratios)), strict=True)):
-        height = 1.3 - 0.2 * place
-        key.plot([0.55, 1.1], [height] * 2, color=colour)
-        key.plot([1.3, 1.45, 1.6], [height] * 3, "|", color=colour, markeredgewidth=1.1)
-        note(key, f"{gamma(mass_ratio)}: peak; overturned", (1.9, height))
-    height = 1.22 - 0.2 * len(ratios)
-    key.plot([1.45], [height], "o", color=ACCENT, markersize=2, markeredgewidth=0)
-    note(
-        key,
-        "undecided: the outcome changes if the\nrecord is rescaled by $10^{-9}$",
-        (1.9, height),
-    )
-    key.set(xscale="log", xlim=(0.48, 21), ylim=axes[0, 0].get_ylim())
+    patches = [Patch(linewidth=0, label="overturns", **HATCHED)]
+    patches += [Patch(color=UNDECIDED, linewidth=0, label="cannot be decided")]
+    key.legend(handles=patches, loc="upper left", handlelength=1.4, borderaxespad=0)
+    words = "cannot be decided: the outcome changes\nif the record is rescaled by $10^{-9}$"
+    note(key, words, (0.0, 0.47), xycoords="axes fraction", fontsize=7)
+    bar = key.inset_axes((0.02, 0.14, 0.9, 0.1))
+    figure.colorbar(ScalarMappable(cmap=PEAKS), cax=bar, orientation="horizontal")
+    bar.set_xlabel(r"survives; peak rotation, $\theta_\mathrm{max}/\alpha$ (–)")
     return figure
 
 

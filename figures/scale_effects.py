@@ -1,8 +1,9 @@
 """Housner's two scale effects: the larger of two similar columns, the longer of two pulses."""
 
-from replication.drawing import ACCENT, DARK, DOUBLE, GREY, letter, note, publish, sheet
+from figures.palette import OVERTURNS, SURVIVES
+from replication.drawing import DOUBLE, GREY, PALE, letter, note, publish, sheet
 
-COLOURS = {"smaller": "#6fa3cc", "larger": DARK}
+DASHES = {"smaller": (0, (4, 1.5)), "larger": "-"}
 
 
 def draw(scale_effects):
@@ -11,14 +12,14 @@ def draw(scale_effects):
     )
     for (top, bottom), pulse in zip(axes.T, ("shorter", "longer"), strict=True):
         runs = scale_effects[scale_effects.pulse == pulse].groupby("column")
-        bottom.axhspan(-1, 1, color="#f2f2f2", linewidth=0)
-        for column, colour in COLOURS.items():
+        bottom.axhspan(-1, 1, color=PALE, linewidth=0)
+        for column, dashes in DASHES.items():
             run = runs.get_group(column)
             fell = run.rotation_over_alpha.abs().max() > 1.2
-            colour = ACCENT if fell else colour
-            bottom.plot(run.time, run.rotation_over_alpha, color=colour)
+            colour = OVERTURNS if fell else SURVIVES
+            bottom.plot(run.time, run.rotation_over_alpha, color=colour, linestyle=dashes)
             peak = run.rotation_over_alpha.abs().max()
-            words = f"{column} column " + (
+            words = f"{column} column ({'solid' if dashes == '-' else 'dashed'}) " + (
                 "overturns" if fell else f"survives, peak {peak:.2f}$\\,\\alpha$"
             )
             at = (0.98, 0.14 if column == "larger" else 0.05)

@@ -3,7 +3,8 @@
 import numpy as np
 
 from figures.drawing import PULSES, amplitude_axis, gamma
-from replication.drawing import ACCENT, DOUBLE, GREY, note, publish, shades, sheet
+from figures.palette import MODEL
+from replication.drawing import DOUBLE, GREY, note, publish, shades, sheet
 
 
 def lowest(lines):
@@ -19,7 +20,7 @@ def panel(axis, cells, ratios):
             *lowest(of.get_group(False)), color=colour, linewidth=1.0, label=gamma(mass_ratio)
         )
         if mass_ratio in (ratios[0], ratios[-1]):
-            how = {"color": ACCENT, "linewidth": 0.8, "linestyle": (0, (3, 2))}
+            how = {"color": MODEL, "linewidth": 0.8, "linestyle": (0, (3, 2))}
             axis.plot(*lowest(of.get_group(True)), **how)
     axis.axhline(1.0, color=GREY, linewidth=0.6)
     amplitude_axis(axis)
@@ -43,7 +44,7 @@ def draw(spectra):
     axes[0, 3].legend(loc="lower right", handlelength=1.4, labelspacing=0.2, borderaxespad=0.1)
     note(axes[0, 0], "uplift", (7.9, 1.05), color=GREY, ha="right")
     words = "dashed: linearised,\n" + r"$\gamma=0$ and $\gamma=\infty$"
-    note(axes[0, 1], words, (0.97, 0.12), xycoords="axes fraction", ha="right", color=ACCENT)
+    note(axes[0, 1], words, (0.97, 0.12), xycoords="axes fraction", ha="right", color=MODEL)
     return figure
 
 

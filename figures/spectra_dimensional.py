@@ -1,64 +1,76 @@
-"""Overturning spectra of the trilith and a bridge: amplitude in g against pulse period in s."""
+"""Minimum overturning acceleration of the trilith and a bridge, and its gain by a cap beam."""
 
-from figures.drawing import PULSES, bands, gamma
-from replication.drawing import ACCENT, DOUBLE, letter, note, publish, shades, sheet
+from matplotlib.ticker import NullLocator
 
-HIGHEST = 7.0  # over the amplitude of uplift
-NAMES = {"period": "x", "lower_g": "lower", "upper_g": "upper"}
-FILLS = {"with impact": "#e8eff5", "without impact": "#c0ccd7"}
-SHOWN = 0.01  # g: narrower bands and survival regions are not drawn
+from figures.drawing import PULSES, gamma
+from replication.drawing import DOUBLE, GREY, INK, note, publish, shades, sheet
+
+PERIODS = (0.3, 0.5, 1, 2, 3, 5, 8)  # s, marked on an axis that reaches them
+LEVELS = (0.2, 0.3, 0.5, 1, 2)  # g
+GAINS = (1, 1.2, 1.5, 2, 2.5)
+
+
+def lowest(cells):
+    """Return the minimum overturning acceleration, g, by period and γ; no column if none does."""
+    return cells.groupby(["period", "mass_ratio"]).lower_g.min().unstack()
+
+
+def minimum(axis, lines, uplift):
+    for (_, line), colour in zip(lines.items(), shades(lines.shape[1]), strict=True):
+        axis.plot(line.index, line, color=colour)
+    axis.axhline(uplift, color=GREY, linewidth=0.7)
+    ticks(axis.yaxis, LEVELS)
+    axis.set(ylim=(0.8 * uplift, 1.05 * lines.max().max()))
+    at = {"xytext": (-2, -5), "textcoords": "offset points", "ha": "right"}
+    note(axis, "uplift", (lines.index.max(), uplift), color=GREY, **at)
+
+
+def gain(axis, lines):
+    """Draw the minimum of every frame over that of the lightest structure."""
+    colours = shades(lines.shape[1])
+    for (mass_ratio, line), colour in list(zip(lines.items(), colours, strict=True))[1:]:
+        axis.plot(line.index, line / lines.iloc[:, 0], color=colour, label=gamma(mass_ratio))
+    axis.axhline(1.0, color=colours[0], label=gamma(lines.columns[0]))
+    ticks(axis.yaxis, GAINS)
+    axis.set(ylim=(0.95, 2.6))
+    axis.legend(loc="upper right", handlelength=1.4, labelspacing=0.2)
+
+
+def ticks(axis, places):
+    """Mark an axis in equal ratios at round numbers."""
+    axis.axes.set(**{f"{axis.axis_name}scale": "log"})
+    axis.set_ticks(places, [f"{place:g}" for place in places])
+    axis.set_minor_locator(NullLocator())
 
 
 def draw(spectra_dimensional, spectra_published):
-    table = spectra_dimensional.drop(columns=["lower", "upper"]).rename(columns=NAMES)
-    heights = table.groupby("structure", sort=False).height.first()
-    names, shapes = list(heights.index), list(dict.fromkeys(table["shape"]))
-    grid = {"nrows": len(shapes), "ncols": len(names), "sharex": "col", "squeeze": False}
-    figure, axes = sheet(DOUBLE, 4 + 54 * len(shapes), **grid)
-    for row, shape in zip(axes, shapes, strict=True):
-        for axis, name in zip(row, names, strict=True):
+    heights = spectra_dimensional.groupby("structure", sort=False).height.first()
+    names, shapes = list(heights.index), list(dict.fromkeys(spectra_dimensional["shape"]))
+    grid = {"nrows": len(names), "ncols": 2 * len(shapes), "squeeze": False}
+    figure, axes = sheet(DOUBLE, 4 + 52 * len(names), **grid)
+    for row, name in zip(axes, names, strict=True):
+        for place, shape in enumerate(shapes):
+            table = spectra_dimensional
             cells = table[(table.structure == name) & (table["shape"] == shape)]
-            panel(axis, cells)
-            axis.set_ylabel("Amplitude (g)")
-            note(axis, PULSES[shape], (0.98, 0.94), xycoords="axes fraction", ha="right")
+            lines, pair = lowest(cells), row[2 * place : 2 * place + 2]
+            minimum(pair[0], lines, cells.uplift_g.iloc[0])
+            gain(pair[1], lines)
+            for axis, what in zip(pair, ("minimum", "gain"), strict=True):
+                first, last = cells.period.min(), cells.period.max()
+                ticks(axis.xaxis, [each for each in PERIODS if first <= each <= last])
+                axis.set(xlim=(first, last), xlabel="Period of the pulse (s)")
+                axis.set_title(f"{PULSES[shape]}: {what}")
+            pair[1].set_ylabel(f"Ratio to {gamma(lines.columns[0])} (–)")
+            pair[0].set_ylabel("Minimum amplitude (g)")
+        title = f"{name.replace('_', ' ')}, {heights[name]:.1f} m"
+        row[0].set_ylabel(f"{title[0].upper()}{title[1:]}\nMinimum amplitude (g)")
     for point in spectra_published.itertuples():
-        axis = axes[shapes.index(point.shape), names.index(point.structure)]
-        axis.plot(point.period, point.printed_g, "o", color=ACCENT, markersize=4, zorder=4)
-        words = f"Zhou et al. (2019): {point.printed_g:g} g"
-        note(axis, words, (point.period, 0.1), ha="center", color=ACCENT)
-    for axis in axes[-1]:
-        axis.set_xlabel("Period of the pulse (s)")
-    inside = {"xycoords": "axes fraction", "ha": "center"}
-    note(axes[0, 0], "overturns without impact", (0.5, 0.6), **inside)
-    note(axes[-1, 0], "after an impact", (0.22, 0.62), **inside)
-    titles = (f"{name.replace('_', ' ')}, columns of {heights[name]:.1f} m" for name in names)
-    letter(axes[0], [title[0].upper() + title[1:] for title in titles])
+        axis = axes[names.index(point.structure), 2 * shapes.index(point.shape)]
+        axis.plot(point.period, point.printed_g, "D", color=INK, markersize=3.5, zorder=4)
+        words = f"Zhou et al. (2019):\n{point.printed_g:g} g"
+        at = {"xytext": (4, 12), "textcoords": "offset points"}
+        note(axis, words, (point.period, point.printed_g), **at)
     return figure
-
-
-def panel(axis, cells):
-    """Fill the overturning regions of the heaviest frame by mode; draw the minimum of every γ."""
-    highest = HIGHEST * cells.uplift_g.iloc[0]
-    ratios = sorted(cells.mass_ratio.unique())
-    heaviest = cells[cells.mass_ratio == ratios[-1]]
-    for mode, colour in FILLS.items():
-        for band in bands(heaviest, mode, 2.0 * highest, SHOWN):
-            axis.fill_between(*zip(*band, strict=True), color=colour, linewidth=0.3)
-    for mass_ratio, colour in zip(ratios, shades(len(ratios)), strict=True):
-        lowest = cells[cells.mass_ratio == mass_ratio].groupby("x").lower.min()
-        axis.plot(lowest.index, lowest, color=colour, label=gamma(mass_ratio))
-    axis.axhline(cells.uplift_g.iloc[0], color=ACCENT, linewidth=0.7)
-    axis.set(ylim=(0, highest), xlim=(cells.x.min(), cells.x.max()))
-    note(
-        axis,
-        "uplift",
-        (cells.x.max(), cells.uplift_g.iloc[0]),
-        xytext=(-2, -5),
-        textcoords="offset points",
-        ha="right",
-        color=ACCENT,
-    )
-    axis.legend(loc="upper right", bbox_to_anchor=(1, 0.9), handlelength=1.4)
 
 
 if __name__ == "__main__":

@@ -2,25 +2,27 @@
 
 import numpy as np
 
-from figures.drawing import HIGHEST, PULSES, amplitude_axis, bands, gamma
-from replication.drawing import ACCENT, DARK, DOUBLE, LIGHT, note, publish, sheet
+from figures.drawing import HIGHEST, PULSES, amplitude_axis, gamma
+from figures.palette import AT_ONCE, MODEL, OVERTURNED
+from replication.drawing import DOUBLE, note, publish, sheet
 
-MODES = {"with impact": LIGHT, "without impact": DARK}
-SHOWN = 0.05  # g tan α: narrower bands and survival regions are not drawn
-SHORT = 8  # frequencies: shorter edges would only be dots
+MODES = {"with impact": OVERTURNED, "without impact": AT_ONCE}
 
 
 def panel(axis, cells):
+    """Draw every interval that overturns, and its ends by the linearised equation.
+
+    One bar for each frequency, because narrow survival regions are too steep to be joined.
+    """
+    step = np.diff(np.unique(cells.x)).min()
+    cells = cells.assign(upper=cells.upper.fillna(2.0 * HIGHEST))
     for mode, colour in MODES.items():
-        for band in bands(cells[~cells.linearised], mode, HIGHEST, SHOWN):
-            axis.fill_between(*zip(*band, strict=True), color=colour, linewidth=0.3)
-        for band in bands(cells[cells.linearised], mode, HIGHEST, SHOWN):
-            x, lower, upper = zip(*band, strict=True)
-            if len(band) < SHORT:
-                continue
-            for edge in (lower, upper):
-                drawn = [value if value < HIGHEST else None for value in edge]
-                axis.plot(x, drawn, color=ACCENT, linewidth=0.7)
+        of = cells[(cells["mode"] == mode) & ~cells.linearised]
+        how = {"color": colour, "edgecolor": colour, "linewidth": 0.1}
+        axis.bar(of.x, of.upper - of.lower, step, bottom=of.lower, **how)
+    of = cells[cells.linearised]
+    for edge in (of.lower, of.upper):
+        axis.hlines(edge, of.x - step / 2, of.x + step / 2, color=MODEL, linewidth=0.7)
     amplitude_axis(axis)
 
 
@@ -40,9 +42,9 @@ def draw(spectra):
         row[0].set_ylabel(f"{gamma(mass_ratio)}\nAmplitude, " + r"$a/(g\,\tan\alpha)$ (–)")
     first = axes[0, 0]
     note(first, "after an\nimpact", (3.6, 2.6), ha="center", fontsize=7)
-    note(first, "overturns\nwithout\nimpact", (1.7, 7.5), ha="center", color="white", fontsize=7)
+    note(first, "overturns\nwithout\nimpact", (1.7, 7.5), ha="center", fontsize=7)
     note(first, "survives", (6.0, 1.6), ha="center", fontsize=7)
-    note(axes[0, 1], "edges when\nlinearised", (5.2, 2.0), ha="center", color=ACCENT, fontsize=7)
+    note(axes[0, 1], "ends when\nlinearised", (5.4, 2.0), ha="center", color=MODEL, fontsize=7)
     return figure
 
 

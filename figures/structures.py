@@ -3,19 +3,8 @@
 from matplotlib.patches import Polygon
 
 from figures.drawing import gamma
-from replication.drawing import (
-    ACCENT,
-    DOUBLE,
-    GREY,
-    INK,
-    SKY,
-    STONE,
-    letter,
-    note,
-    publish,
-    shades,
-    sheet,
-)
+from figures.palette import CAP, FORCE, STONE
+from replication.drawing import DOUBLE, GREY, INK, PAPER, letter, note, publish, shades, sheet
 
 GAP = 2.6  # m between the structures
 
@@ -25,10 +14,10 @@ def structure(axis, parts, middle):
     for body, part in parts.groupby("body"):
         x, y = part.x + middle, part.y
         if body == "centre of gravity":
-            axis.plot(x, y, "o", color="white", markeredgecolor=ACCENT, markersize=4.5)
-            axis.plot(x, y, ".", color=ACCENT, markersize=2)
+            axis.plot(x, y, "o", color=PAPER, markeredgecolor=FORCE, markersize=4.5)
+            axis.plot(x, y, ".", color=FORCE, markersize=2)
         else:
-            face = SKY if body == "cap" else STONE
+            face = CAP if body == "cap" else STONE
             corners = list(zip(x, y, strict=True))
             axis.add_patch(Polygon(corners, facecolor=face, edgecolor=INK, linewidth=0.8))
 
@@ -58,9 +47,9 @@ def draw(outlines, moment_rotation):
             note(left, "$R$", (middle + 0.05, 0.8), color=GREY)
         edge = middle + parts.x.max() + GAP
     left.plot([-GAP, edge], [0, 0], color=INK, linewidth=1.2)
-    left.plot(0, 8.2, "o", color="white", markeredgecolor=ACCENT, markersize=4.5)
-    left.plot(0, 8.2, ".", color=ACCENT, markersize=2)
-    note(left, "centre of gravity", (0.45, 8.2), color=ACCENT)
+    left.plot(0, 8.2, "o", color=PAPER, markeredgecolor=FORCE, markersize=4.5)
+    left.plot(0, 8.2, ".", color=FORCE, markersize=2)
+    note(left, "centre of gravity", (0.45, 8.2), color=FORCE)
     left.set(xlim=(-GAP, edge), aspect="equal", anchor="N")
     left.axis("off")
 
@@ -73,7 +62,7 @@ def draw(outlines, moment_rotation):
     right.set(xlabel=r"Rotation, $\theta/\alpha$ (–)", ylabel=r"Moment, $M/m_\mathrm{c}gR$ (–)")
     letter(
         [left, right],
-        ["Structures, more stable from left to right", "Restoring moment of one column"],
+        ["Drawn to scale; ranking claimed in the paper", "Restoring moment of one column"],
     )
     return figure
 

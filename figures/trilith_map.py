@@ -3,37 +3,52 @@
 import numpy as np
 from matplotlib.colors import ListedColormap
 
-from replication.drawing import ACCENT, DARK, DOUBLE, INK, LIGHT, letter, note, publish, sheet
+from figures.palette import AT_ONCE, ROCKS
+from replication.drawing import DOUBLE, INK, letter, note, publish, sheet
 
-OUTCOMES = {"no uplift": 0, "rests": 1, "rocking": 1, "overturned": 2}
-ARROW = {"arrowstyle": "-|>", "color": ACCENT, "shrinkA": 0, "shrinkB": 0, "mutation_scale": 7}
+ARROW = {"arrowstyle": "-|>", "color": INK, "shrinkA": 0, "shrinkB": 0, "mutation_scale": 7}
+
+
+def uplift(frequency, amplitude, tested):
+    """Return the displacement amplitude of uplift, u₀ ∝ f⁻², through the one that was simulated."""
+    return amplitude * (tested / frequency) ** 2
+
+
+def outcomes(axis, cells, threshold):
+    """Draw the cells that overturn; the others rock above the threshold, and rest below it."""
+    lifts = cells.outcome != "no uplift"
+    if (astray := cells[lifts != (cells.amplitude_mm > threshold)]).size:
+        raise ValueError(f"cells on the wrong side of the line of uplift:\n{astray}")
+    fell = cells.assign(fell=np.where(cells.outcome == "overturned", 1.0, np.nan))
+    of = {"index": "amplitude_mm", "columns": "frequency_hz", "dropna": False}
+    grid = fell.pivot_table(values="fell", **of)
+    how = {"cmap": ListedColormap([AT_ONCE]), "rasterized": True, "zorder": 1.5}
+    axis.pcolormesh(grid.columns, grid.index, grid, **how)
 
 
 def draw(trilith_map, trilith_nearness):
     figure, (left, right) = sheet(DOUBLE, 74, ncols=2, width_ratios=(1.25, 1))
-    cells = trilith_map.assign(kind=trilith_map.outcome.map(OUTCOMES))
-    grid = cells.pivot_table(index="amplitude_mm", columns="frequency_hz", values="kind")
-    colours = ListedColormap(["white", LIGHT, DARK])
-    left.pcolormesh(grid.columns, grid.index, grid, cmap=colours, vmin=0, vmax=2, rasterized=True)
-
     near = trilith_nearness.set_index("quantity")
     amplitude = near.loc["amplitude_at_tested_frequency"]
     frequency = near.loc["frequency_at_tested_amplitude"]
     width = near.loc["effective_width_of_columns"]
     test = (frequency.tested, amplitude.tested)
     along = np.linspace(1.0, 10.0, 400)
-    threshold = (
-        amplitude.to_lift * (frequency.tested / along) ** 2
-    )  # u₀ ∝ f⁻², through the simulated one
+    threshold = uplift(along, amplitude.to_lift, frequency.tested)
+    outcomes(
+        left, trilith_map, uplift(trilith_map.frequency_hz, amplitude.to_lift, frequency.tested)
+    )
+    left.fill_between(along, threshold, 21, color=ROCKS, linewidth=0)
     for axis in (left, right):
         axis.plot(along, threshold, color=INK)
-        axis.plot(*test, "o", color=ACCENT, markersize=4, zorder=4)
+        axis.plot(*test, "o", color=INK, markersize=4, zorder=4)
         axis.set(
-            xlabel="Frequency of the table, $f$ (Hz)", ylabel="Amplitude of the table, $u_0$ (mm)"
+            xlabel="Frequency of the shake table, $f$ (Hz)",
+            ylabel="Amplitude of the shake table, $u_0$ (mm)",
         )
     note(left, "stays at rest", (1.2, 6.8))
     note(left, "rocks", (5.0, 9.0))
-    note(left, "overturns", (8.2, 17), color="white")
+    note(left, "overturns", (8.2, 17))
     note(
         left,
         r"$u_0=g\,\tan\alpha/(2\pi f)^2$",
@@ -41,14 +56,14 @@ def draw(trilith_map, trilith_nearness):
         xytext=(3, 0),
         textcoords="offset points",
     )
-    note(left, "test", test, xytext=(-5, -5), textcoords="offset points", ha="right", color=ACCENT)
+    note(left, "test", test, xytext=(-5, -5), textcoords="offset points", ha="right")
     left.set(xlim=(1, 10), ylim=(0.75, 20.25), xticks=range(1, 11), yticks=range(5, 21, 5))
 
-    right.fill_between(along, threshold, 20, color=LIGHT, linewidth=0)
-    right.plot(along, threshold * width.to_lift / width.tested, "--", color=ACCENT, linewidth=0.9)
+    right.fill_between(along, threshold, 20, color=ROCKS, linewidth=0)
+    right.plot(along, threshold * width.to_lift / width.tested, "--", color=INK, linewidth=0.9)
     right.annotate("", (test[0], amplitude.to_lift), test, arrowprops=ARROW)
     right.annotate("", (frequency.to_lift, test[1]), test, arrowprops=ARROW)
-    more = {"textcoords": "offset points", "color": ACCENT}
+    more = {"textcoords": "offset points"}
     note(
         right,
         f"lifts at {amplitude.to_lift:.2f} mm",
@@ -74,7 +89,7 @@ def draw(trilith_map, trilith_nearness):
         textcoords="offset points",
     )
     words = f"base contact on\n{width.to_lift:.0f} mm only"
-    note(right, words, (2.55, 3.6), color=ACCENT)
+    note(right, words, (2.55, 3.6))
     right.set(xlim=(2.5, 4.3), ylim=(3, 9))
     letter(
         [left, right], ["Outcome after ten cycles from rest", "Distance of the test from uplift"]

@@ -1,13 +1,14 @@
 """What uplift limits: base shear over shaking, ratios to the held frame, and what it costs."""
 
 from figures.drawing import gamma
-from replication.drawing import ACCENT, DOUBLE, GREY, INK, letter, note, publish, shades, sheet
+from replication.drawing import DOUBLE, GREY, INK, PAPER, letter, note, publish, shades, sheet
 
 FORCES = {
     "base_shear": ("base shear", "o"),
     "overturning_moment": ("overturning moment", "s"),
     "bending_moment": ("bending moment", "^"),
 }
+HOLLOW = "^"
 DRAWN = 1.0  # γ of the ratios
 
 
@@ -30,12 +31,14 @@ def ratios(axis, table):
     """Draw the range and the median of the ratios over the period of the frame that is held."""
     of = table[(table.mass_ratio == DRAWN) & (table.kind == "pulse")]
     held = list(of.held.unique())
-    for shift, (force, colour) in enumerate(zip(FORCES, (INK, GREY, ACCENT), strict=True)):
+    for shift, (force, colour) in enumerate(zip(FORCES, (INK, GREY, INK), strict=True)):
         label, mark = FORCES[force]
         rows = of[of.force == force].set_index("held").loc[held]
         x = [place + 0.24 * (shift - 1) for place in range(len(held))]
         axis.vlines(x, rows.least, rows.largest, color=colour, linewidth=1.0)
-        axis.plot(x, rows["median"], mark, color=colour, markersize=3.5, label=label)
+        face = PAPER if mark == HOLLOW else colour
+        how = {"color": colour, "markersize": 3.5, "markerfacecolor": face}
+        axis.plot(x, rows["median"], mark, label=label, **how)
     axis.axhline(1.0, color=GREY, linewidth=0.6)
     axis.set(yscale="log", ylim=(0.04, 14))
     axis.set_yticks((0.1, 1, 10), ("0.1", "1", "10"))

@@ -6,13 +6,14 @@ from matplotlib.offsetbox import AnnotationBbox, DrawingArea
 from matplotlib.patches import Polygon, Rectangle
 
 from figures.drawing import gamma
-from replication.drawing import ACCENT, DARK, DOUBLE, GREY, INK, note, publish, sheet
+from figures.palette import OVERTURNED, OVERTURNS, ROCKS, SURVIVES
+from replication.drawing import DOUBLE, GREY, INK, PAPER, note, publish, sheet
 
 PLACES = {"bare": 0.0, "fixed": 10.2, "free": 22.6}  # m: the middle of each structure
 NAMES = {"bare": "Column", "fixed": "Mass fixed to it", "free": "Mass carried freely by two"}
 ROW = 9.6  # m between the rows
 EDGES = (-7.6, 27.0)  # m: of the ground
-PALE = {ACCENT: "#f6dccf", DARK: "#d3e1ee"}
+TINTS = {OVERTURNS: OVERTURNED, SURVIVES: ROCKS}
 LIMIT = 5.0  # the place of γ = ∞ on the axis
 GLYPHS_AT = 3.0  # γ
 LOWEST = 0.13  # g, of the axis
@@ -20,12 +21,12 @@ LOWEST = 0.13  # g, of the axis
 
 def scene(axis, poses, middle, ground):
     """Draw the poses of one structure: outlines, the last one filled; the colour is the outcome."""
-    colour = ACCENT if poses.outcome.iloc[0] == "overturned" else DARK
+    colour = OVERTURNS if poses.outcome.iloc[0] == "overturned" else SURVIVES
     for (last, _, body), part in poses.groupby(["last", "pose", "body"]):
         corners = list(zip(part.x + middle, part.y + ground, strict=True))
         heavy = body == "cap"
         if last:
-            look = {"facecolor": colour if heavy else PALE[colour], "zorder": 3}
+            look = {"facecolor": colour if heavy else TINTS[colour], "zorder": 3}
         else:
             look = {"facecolor": "none", "alpha": 0.45, "zorder": 2}
         axis.add_patch(Polygon(corners, edgecolor=colour, linewidth=0.7, **look))
@@ -58,8 +59,8 @@ def picture(axis, poses):
     for name, middle in PLACES.items():
         note(axis, NAMES[name], (middle, 8.1), ha="center", fontsize=8)
     bottom = -ROW * (len(amplitudes) - 1)
-    note(axis, "overturns", (9.0, bottom - 1.0), color=ACCENT, ha="center", fontsize=8)
-    note(axis, "survives", (PLACES["free"], bottom - 1.0), color=DARK, ha="center", fontsize=8)
+    note(axis, "overturns", (9.0, bottom - 1.0), color=OVERTURNS, ha="center", fontsize=8)
+    note(axis, "survives", (PLACES["free"], bottom - 1.0), color=SURVIVES, ha="center", fontsize=8)
     axis.set(xlim=EDGES, ylim=(bottom - 1.8, 8.9), aspect="equal", anchor="W")
     axis.axis("off")
 
@@ -70,9 +71,7 @@ def glyph(axis, name, at):
     columns = {"bare": [7], "fixed": [7], "free": [1, 13]}[name]
     caps = {"bare": [], "fixed": [(4, 8)], "free": [(0, 16)]}[name]
     for left in columns:
-        area.add_artist(
-            Rectangle((left, 0), 2, 11, facecolor="white", edgecolor=INK, linewidth=0.6)
-        )
+        area.add_artist(Rectangle((left, 0), 2, 11, facecolor=PAPER, edgecolor=INK, linewidth=0.6))
     for left, width in caps:
         area.add_artist(Rectangle((left, 11), width, 3, facecolor=INK, linewidth=0))
     axis.add_artist(AnnotationBbox(area, at, frameon=False, pad=0, box_alignment=(0.5, -0.15)))

@@ -35,6 +35,11 @@ def read_captions(paths: Iterable[str | Path]) -> dict[str, dict[str, Any]]:
     return captions
 
 
+def alternative(entry: Mapping[str, Any]) -> str:
+    """Return the alternative text of a result: its own, or else its title."""
+    return str(entry.get("alt", entry["title"]))
+
+
 def check_captions(
     captions: Mapping[str, Mapping[str, Any]],
     figures: Iterable[str],
@@ -103,6 +108,7 @@ def captioned(
         "title": entry["title"],
         "category": entry["category"],
         "caption": escaped(entry["caption"]),
+        "alt": escaped(alternative(entry)),
         "verdict": verdict(claim.verdict for claim in about),
         "claims": [
             {

@@ -4,7 +4,7 @@ import os
 from functools import partial
 from pathlib import Path
 
-from replication.captions import captioned, check_captions, read_captions
+from replication.captions import alternative, captioned, check_captions, read_captions
 from replication.closing import close
 from replication.code import code, results_read, undeclared
 from replication.costs import longest_jobs

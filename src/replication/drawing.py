@@ -1,8 +1,10 @@
 """Common parts of all figures: read the tables, apply the style, save the same bytes each time."""
 
+import io
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
+from xml.sax.saxutils import escape
 
 import matplotlib as mpl
 
@@ -17,23 +19,54 @@ from replication.workbench import run
 
 SINGLE, DOUBLE = 88.0, 180.0  # widths of one and of two columns, mm
 
-# One hue by lightness, the larger the darker; one accent, for what leaves or misleads.
-INK, GREY = "#1a1a1a", "#737373"
+# Ink and greys for what has no meaning of its own, one accent, and one hue by lightness.
+INK, GREY, PALE, PAPER = "#1a1a1a", "#737373", "#f2f2f2", "#ffffff"
 ACCENT = "#c8501a"
-STONE, SKY = "#e8e5df", "#bcd0e3"  # for bodies that are drawn
-LIGHT, DARK = "#b3cde3", "#1d4770"  # two of that hue, for areas
-LIGHTEST, DARKEST = (0.58, 0.77, 0.90), (0.02, 0.14, 0.36)
+LIGHTEST, DARKEST = (0.36, 0.58, 0.80), (0.02, 0.12, 0.32)  # 3 to 1 on white, and more
 
 
 def publish(job, draw: Callable[..., Figure]) -> None:
-    """Draw the tables of a Snakemake job, each passed under its own name, and save the figure."""
+    """Draw the tables of a Snakemake job, each passed under its own name, and save the figure.
+
+    The parameters `title` and `alt` of the job become the title and the description of the SVG.
+    """
 
     def picture(job) -> None:
         plt.style.use(job.input.style)
         tables = {Path(path).stem: pd.read_csv(path) for path in job.input.tables}
-        draw(**tables).savefig(job.output[0], metadata={"Date": None})
+        save(draw(**tables), job.output[0], job.params.title, job.params.alt)
 
     run(job, picture)
+
+
+def save(figure: Figure, path: str | Path, title: str, alt: str) -> None:
+    """Save a figure as an SVG with a title and a description, and no date."""
+    drawn = io.StringIO()
+    figure.savefig(drawn, format="svg", metadata={"Date": None})
+    svg = described(drawn.getvalue(), title, alt)
+    Path(path).write_text(svg, encoding="utf-8", newline="\n")
+
+
+def described(svg: str, title: str, alt: str) -> str:
+    """Return an SVG with a role, a title and a description, which a screen reader tells.
+
+    Raises
+    ------
+    ValueError
+        When the title or the alternative text is empty, or the text is no SVG.
+    """
+    before, tag, after = svg.partition("<svg ")
+    if not (title.strip() and alt.strip() and tag):
+        raise ValueError(
+            f"title {title!r} and alt {alt!r} of {svg[:40]!r}…; expected two texts and an SVG: "
+            "write title and alt of the figure in captions.yaml"
+        )
+    attributes, _, body = after.partition(">")
+    texts = "".join(
+        f"\n <{name}>{escape(' '.join(text.split()))}</{name}>"
+        for name, text in (("title", title), ("desc", alt))
+    )
+    return f'{before}<svg role="img" {attributes}>{texts}{body}'
 
 
 def sheet(width: float, height: float, mosaic: str = "", **grid) -> tuple[Figure, Any]:
@@ -44,10 +77,14 @@ def sheet(width: float, height: float, mosaic: str = "", **grid) -> tuple[Figure
     return plt.subplots(figsize=size, **grid)
 
 
-def shades(count: int) -> list[tuple[float, float, float]]:
+def shades(
+    count: int,
+    lightest: tuple[float, float, float] = LIGHTEST,
+    darkest: tuple[float, float, float] = DARKEST,
+) -> list[tuple[float, float, float]]:
     """Return colours of one hue, from the lightest to the darkest."""
     steps = [i / max(count - 1, 1) for i in range(count)]
-    pairs = list(zip(LIGHTEST, DARKEST, strict=True))
+    pairs = list(zip(lightest, darkest, strict=True))
     return [tuple(low + (high - low) * step for low, high in pairs) for step in steps]
 
 

@@ -14,6 +14,7 @@ REFERENCES = sorted(map(str, Path("tests/reference").glob("*.csv")))
 
 check_ledger(LEDGER, FINDINGS)
 CLAIMS = read_ledger(LEDGER)
+CAPTIONS = read_captions(part.captions for part in PARTS.values())
 
 
 # Figures and notebooks ---------------------------------------------------------------------------
@@ -30,6 +31,9 @@ rule figure:
         shown("{figure}.svg"),
     log:
         "results/logs/{figure}.log",
+    params:
+        title=lambda wildcards: CAPTIONS[f"{wildcards.figure}.svg"]["title"],
+        alt=lambda wildcards: alternative(CAPTIONS[f"{wildcards.figure}.svg"]),
     wildcard_constraints:
         figure="|".join(FIGURES),
     message:
@@ -211,7 +215,7 @@ refuse_unmade(
     Path("tests/reference"),
 )
 check_captions(
-    read_captions(part.captions for part in PARTS.values()),
+    CAPTIONS,
     [f"{figure}.svg" for figure in FIGURES],
     [claim.id for claim in CLAIMS],
     made_by(workflow.rules),

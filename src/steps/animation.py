@@ -15,13 +15,13 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.patches import Polygon
 from PIL import Image
 
-from replication.drawing import ACCENT, DARK, GREY, INK, SKY, STONE
+from figures.palette import CAP, EARTH, OVERTURNS, STONE, SURVIVES
+from replication.drawing import GREY, INK, PAPER
 from replication.workbench import run
 from steps.vase_poses import bodies, lying
 from topheavy import Column, FixedMassColumn, Pulse, RockingFrame, simulate
 from topheavy.structures import STANDARD_GRAVITY, Structure
 
-EARTH = "#d5d1c8"
 BLENDS = 12  # of two colours
 SIZE, DPI = (8.4, 4.2), 100  # inches
 HELD = (600, 1800)  # ms: duration of the first and the last picture
@@ -86,7 +86,7 @@ def stage(pulse: Pulse, times: np.ndarray, case: dict):
     patches = {
         (name, body): scene.add_patch(
             Polygon(
-                np.zeros((5, 2)), facecolor=SKY if body == "cap" else STONE, edgecolor=INK, zorder=2
+                np.zeros((5, 2)), facecolor=CAP if body == "cap" else STONE, edgecolor=INK, zorder=2
             )
         )
         for name, structure in structures(case).items()
@@ -101,7 +101,7 @@ def stage(pulse: Pulse, times: np.ndarray, case: dict):
         scene.text(middle, VIEW[3], NAMES[name], va="top", ha="center", fontsize=11, color=INK)
     fine = np.linspace(0.0, times[-1], 1400)
     trace.plot(fine, pulse.excitation(fine), color=GREY, linewidth=1.2)
-    marker = trace.plot([], [], "o", color=ACCENT, markersize=6, clip_on=False)[0]
+    marker = trace.plot([], [], "o", color=INK, markersize=6, clip_on=False)[0]
     given = case["pulse"]
     words = f"one cosine, {given['amplitude']:g} g, {given['period']:g} s"
     trace.text(given["period"] + 0.1, 0.25, words, fontsize=11, va="center", color=INK)
@@ -116,7 +116,7 @@ def outcomes(scene, theta: dict[str, np.ndarray], times: np.ndarray, alpha: floa
     found = []
     for name, middle in PLACES.items():
         word, since = told(theta[name], times, alpha)
-        colour = ACCENT if word == "overturns" else DARK
+        colour = OVERTURNS if word == "overturns" else SURVIVES
         how = {"ha": "center", "va": "bottom", "fontsize": 12, "color": colour, "visible": False}
         found.append((scene.text(middle, VIEW[2], word, **how), since))
     return found
@@ -159,9 +159,9 @@ def main(case: dict) -> list[Image.Image]:
 def palette() -> Image.Image:
     """Return the colours of every picture: those drawn with, blended with ink and with white."""
     drawn = np.array(
-        [mpl.colors.to_rgb(c) for c in (STONE, SKY, EARTH, ACCENT, DARK, GREY, "white")]
+        [mpl.colors.to_rgb(c) for c in (STONE, CAP, EARTH, OVERTURNS, SURVIVES, GREY, PAPER)]
     )
-    others = np.array([mpl.colors.to_rgb(c) for c in (INK, "white")])
+    others = np.array([mpl.colors.to_rgb(c) for c in (INK, PAPER)])
     shares = np.linspace(0.0, 1.0, BLENDS)
     blends = (1.0 - shares)[:, None] * drawn[:, None, None] + shares[:, None] * others[:, None]
     found = Image.new("P", (1, 1))

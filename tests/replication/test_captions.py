@@ -29,7 +29,8 @@ def figures(path):
     return {f"{name}.svg" for name in FIGURE.findall(path.read_text(encoding="utf-8"))}
 
 
-DRAWN = [path for path in (ROOT / "figures").glob("*.py") if path.stem != "drawing"]
+SHARED = {"drawing", "palette"}
+DRAWN = [path for path in (ROOT / "figures").glob("*.py") if path.stem not in SHARED]
 OURS = [ROOT / "figures", *STUDIES]
 LEDGER = {row["id"] for row in read(ROOT / "paper" / "claims.yaml")}
 
@@ -56,7 +57,8 @@ def test_captions_name_claims_of_the_ledger_once(folder):
     if (folder / "claims.yaml").exists():
         ledger |= {row["id"] for row in read(folder / "claims.yaml")}
     for path, entry in read(folder / "captions.yaml").items():
-        assert set(entry) - {"alt"} == {"title", "category", "caption", "claims"}, path
+        assert set(entry) == {"title", "category", "caption", "alt", "claims"}, path
+        assert entry["alt"] not in (entry["title"], entry["caption"]), path
         assert set(entry["claims"]) <= ledger, path
         assert len(set(entry["claims"])) == len(entry["claims"]), path
 
@@ -72,7 +74,13 @@ CLAIM = replace(
     statement="Its moment falls with |θ|, and m_ is *its* `mass`.",
     verdict="qualified",
 )
-ENTRY = {"title": "T", "category": "C", "caption": "(a) Over α_ and |θ|_.", "claims": ["rises"]}
+ENTRY = {
+    "title": "T",
+    "category": "C",
+    "caption": "(a) Over α_ and |θ|_.",
+    "alt": "A *line* that falls.",
+    "claims": ["rises"],
+}
 
 
 def test_caption_comes_out_as_it_is_written():
@@ -93,6 +101,7 @@ def test_caption_comes_out_as_it_is_written():
     page = publish_parts(text.render(snakemake=Job, files=[File]), writer="html")["body"]
     plain = re.sub(r"<[^>]*>", "", page)
     assert ENTRY["caption"] in plain
+    assert f"What is seen: {ENTRY['alt']}" in plain
     assert "1 qualified" in plain
     assert f"qualified: {CLAIM.statement} (p. 1)" in plain
     assert "system-message" not in page

@@ -178,6 +178,8 @@ async def look(tab: Tab, page: Path, captions: dict[str, dict], pictures: Path |
         said = " ".join((await tab.do(DESCRIPTION)).split())
         if " ".join(entry["caption"].split()) not in said:
             faults.append(f"the caption of {path} is not displayed")
+        if " ".join(entry.get("alt", "").split()) not in said:
+            faults.append(f"the alternative text of {path} is not displayed")
         if pictures is not None:
             await tab.picture(pictures / f"{number:02d}_{Path(path).stem}.png")
     return faults

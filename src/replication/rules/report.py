@@ -4,7 +4,7 @@ import json
 from pathlib import Path
 from typing import Any
 
-from replication.captions import read_captions
+from replication.captions import alternative, read_captions
 from replication.typeset import compiled
 from replication.workbench import run
 
@@ -14,9 +14,7 @@ def work(job: Any) -> None:
     options = {
         "studies": ",".join(job.params.studies),
         "tables": json.dumps(job.params.tables),
-        "alternatives": json.dumps(
-            {path: entry.get("alt", entry["title"]) for path, entry in captions.items()}
-        ),
+        "alternatives": json.dumps({path: alternative(entry) for path, entry in captions.items()}),
     }
     pdf = compiled(job.input.source, dict.fromkeys(job.input), options)
     Path(job.output[0]).write_bytes(pdf)

@@ -1,11 +1,13 @@
 """Probability of overturning at stated peak ground velocities: bare, free cap beam, fixed mass."""
 
-from replication.drawing import ACCENT, DARK, DOUBLE, LIGHT, note, publish, sheet
+from figures.palette import FIXED
+from replication.drawing import DOUBLE, note, publish, shades, sheet
 
+BARE, FREE = shades(2)
 SUPPORTS = {
-    "fixed": (ACCENT, "same mass fixed"),
-    "bare": (LIGHT, "bare columns"),
-    "free": (DARK, "free cap beam"),
+    "fixed": (FIXED, "same mass fixed"),
+    "bare": (BARE, "bare columns"),
+    "free": (FREE, "free cap beam"),
 }
 FAMILIES = ("near-fault", "broadband")
 NAMES = {"temple": "temple columns", "bridge": "piers"}

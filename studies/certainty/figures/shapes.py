@@ -1,9 +1,10 @@
 """Where the theorems end: an extreme motion, and falls of the minimum that are only apparent."""
 
 from figures.drawing import gamma
-from replication.drawing import ACCENT, DARK, DOUBLE, GREY, INK, letter, note, publish, sheet
+from replication.drawing import DOUBLE, GREY, INK, letter, note, publish, shades, sheet
 
-PLACES = {0.0: ((0.45, 0.20), DARK), float("inf"): ((0.96, 0.55), ACCENT)}
+LIGHT, HEAVY = shades(2)
+PLACES = {0.0: ((0.45, 0.20), LIGHT), float("inf"): ((0.96, 0.55), HEAVY)}
 
 
 def draw(certainty_lowest, certainty_lowest_histories):
@@ -22,7 +23,7 @@ def draw(certainty_lowest, certainty_lowest_histories):
     )
     axes[0].set(xlim=(0, 2))
     table = certainty_lowest
-    axes[1].plot(table.coarse, table["last"], "o", color=DARK, markersize=2.6)
+    axes[1].plot(table.coarse, table["last"], "o", color=INK, markersize=2.6)
     ends = (min(table.coarse.min(), 0.98) - 0.01, 1.0)
     axes[1].plot(ends, ends, color=GREY, linewidth=0.6, linestyle=":")
     axes[1].axhline(1.0, color=INK, linewidth=0.6)

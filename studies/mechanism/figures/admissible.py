@@ -1,23 +1,22 @@
 """Required coefficient of friction over frequency and amplitude of a pulse."""
 
-from matplotlib.colors import BoundaryNorm, LinearSegmentedColormap
+from matplotlib.colors import BoundaryNorm
 
 from figures.drawing import amplitude_axis, gamma
-from replication.drawing import ACCENT, DOUBLE, INK, letter, note, publish, sheet
+from figures.palette import DEMAND, HATCHED, OPENS, OVERTURNED
+from replication.drawing import DOUBLE, INK, letter, note, publish, sheet
 
 LEVELS = [1.0, 1.2, 1.5, 2.0, 3.0, 4.0, 6.0]  # of tan α
-OVERTURNED = {"facecolor": "#efece6", "edgecolor": "#a8a49c", "hatch": "////////"}
-COLOURS = LinearSegmentedColormap.from_list("demand", ["#e3edf5", "#6fa3cc", "#1d4770", "#0b1f33"])
 HIGHEST = 24.0
 
 
 def draw(mechanism_admissible):
     ratios = sorted(mechanism_admissible.mass_ratio.unique())
     figure, axes = sheet(DOUBLE, 66, ncols=len(ratios), sharey=True)
-    norm = BoundaryNorm(LEVELS, COLOURS.N, extend="max")
+    norm = BoundaryNorm(LEVELS, DEMAND.N, extend="max")
     for axis, mass_ratio in zip(axes, ratios, strict=True):
         table = mechanism_admissible[mechanism_admissible.mass_ratio == mass_ratio]
-        axis.patch.set(**OVERTURNED)
+        axis.patch.set(**HATCHED)
         stands = table.demand.where(~table.overturned)
         cells = table.assign(stands=stands).pivot_table(
             index="amplitude", columns="frequency_ratio", values="stands", dropna=False
@@ -26,7 +25,7 @@ def draw(mechanism_admissible):
             cells.columns,
             cells.index,
             cells,
-            cmap=COLOURS,
+            cmap=DEMAND,
             norm=norm,
             shading="nearest",
             rasterized=True,
@@ -34,17 +33,17 @@ def draw(mechanism_admissible):
         pulls = table.pivot_table(index="amplitude", columns="frequency_ratio", values="pulls")
         if pulls.to_numpy().any():
             axis.contour(
-                pulls.columns, pulls.index, pulls.astype(float), [0.5], colors=ACCENT, linewidths=1
+                pulls.columns, pulls.index, pulls.astype(float), [0.5], colors=OPENS, linewidths=1
             )
-            bare = {"facecolor": "#efece6", "edgecolor": "none", "pad": 1}
+            bare = {"facecolor": OVERTURNED, "edgecolor": "none", "pad": 1}
             above = table[table.pulls].amplitude.min()
             words = "tension at a column top"
-            note(axis, words, (5.0, 1.12 * above), color=ACCENT, ha="center", fontsize=7, bbox=bare)
+            note(axis, words, (5.0, 1.12 * above), color=OPENS, ha="center", fontsize=7, bbox=bare)
         amplitude_axis(axis)
         axis.set(ylim=(1, HIGHEST), xlabel=r"Frequency, $\omega/p$ (–)")
         axis.set_yticks(ticks := (1, 2, 3, 5, 10, 20), map(str, ticks))
     axes[0].set_ylabel(r"Amplitude, $a/(g\,\tan\alpha)$ (–)")
-    bare = {"facecolor": "#efece6", "edgecolor": "none", "pad": 2}
+    bare = {"facecolor": OVERTURNED, "edgecolor": "none", "pad": 2}
     note(axes[0], "overturns", (2.6, 12.0), ha="center", color=INK, bbox=bare)
     bar = figure.colorbar(image, ax=axes, ticks=LEVELS, pad=0.01)
     bar.set_label(r"Required coefficient of friction, $\mu/\tan\alpha$ (–)")

@@ -3,7 +3,8 @@
 import numpy as np
 
 from figures.drawing import gamma
-from replication.drawing import ACCENT, DARK, DOUBLE, GREY, INK, LIGHT, letter, note, publish, sheet
+from figures.palette import OVERTURNS
+from replication.drawing import DOUBLE, GREY, INK, letter, note, publish, shades, sheet
 
 LABELS = {
     "mass_ratio": r"Mass ratio, $\gamma$ (–)",
@@ -21,8 +22,8 @@ def draw(mechanism_dependence, mechanism_records):
     for axis, (name, label) in zip(list(axes.values())[:4], LABELS.items(), strict=True):
         table = mechanism_dependence[mechanism_dependence.varied == name]
         rocking = table.rocking.replace(np.inf, np.nan)
-        axis.plot(table.value, rocking, "o-", color=DARK, markersize=3)
-        axis.plot(table.value, table.impact, "s-", color=ACCENT, markersize=2.5)
+        axis.plot(table.value, rocking, "o-", color=INK, markersize=3)
+        axis.plot(table.value, table.impact, "s--", color=GREY, markersize=2.5)
         axis.axhline(1.0, color=GREY, linewidth=0.5, linestyle=":")
         axis.set(xlabel=label, ylim=(0, HIGHEST))
         if name != "slenderness":
@@ -32,8 +33,8 @@ def draw(mechanism_dependence, mechanism_records):
             axis.set_xticks([], minor=True)
     for axis in (axes["A"], axes["C"]):
         axis.set_ylabel(r"Required friction, $\mu/\tan\alpha$ (–)")
-    note(axes["A"], "rocking", (0.3, 3.0), color=DARK)
-    note(axes["A"], "impacts", (0.06, 0.45), color=ACCENT)
+    note(axes["A"], "rocking", (0.3, 3.0))
+    note(axes["A"], "impacts", (0.06, 0.45), color=GREY)
     note(axes["C"], "below: a column top opens", (1.42, 6.6), color=INK)
     records = axes["E"]
     _records(records, mechanism_records)
@@ -47,16 +48,16 @@ def _records(axis, table):
     for place, ((_, mass_ratio), part) in enumerate(groups):
         at = place + np.linspace(-0.2, 0.2, len(part))
         fell = (part.outcome == "overturned").to_numpy()
-        colour = LIGHT if mass_ratio == 0 else DARK
-        how = {"s": 16, "edgecolor": DARK, "linewidth": 0.6}
-        axis.scatter(at[~fell], part.demand[~fell], facecolor=colour, **how)
-        axis.scatter(at[fell], part.demand[fell], marker="x", color=INK, s=16)
+        face = shades(2)[int(mass_ratio > 0)]
+        how = {"s": 16, "edgecolor": shades(2)[1], "linewidth": 0.6}
+        axis.scatter(at[~fell], part.demand[~fell], facecolor=face, **how)
+        axis.scatter(at[fell], part.demand[fell], marker="x", color=OVERTURNS, s=16)
         axis.plot((place - 0.3, place + 0.3), [part.tan.iloc[0]] * 2, color=GREY, linewidth=0.8)
     names = [f"{structure}, {gamma(g)}" for (structure, g), _ in groups]
     axis.set_xticks(range(len(groups)), names)
     axis.set(ylabel=r"Required friction, $\mu$ (–)", ylim=(0, 0.78), xlim=(-0.6, len(groups) - 0.4))
     note(axis, r"$\tan\alpha$", (0.34, groups[0][1].tan.iloc[0]), color=GREY)
-    note(axis, "crosses: overturned", (len(groups) - 0.5, 0.72), ha="right")
+    note(axis, "crosses: overturned", (len(groups) - 0.5, 0.72), ha="right", color=OVERTURNS)
 
 
 if __name__ == "__main__":

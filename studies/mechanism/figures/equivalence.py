@@ -3,24 +3,16 @@
 from matplotlib.colors import ListedColormap
 
 from figures.drawing import PULSES
-from replication.drawing import (
-    ACCENT,
-    DARK,
-    DOUBLE,
-    GREY,
-    LIGHT,
-    letter,
-    note,
-    publish,
-    shades,
-    sheet,
-)
+from figures.palette import CAUSED, OVERTURNED, PREVENTED, greys
+from replication.drawing import DOUBLE, GREY, PAPER, letter, note, publish, sheet
+
+STYLES = ("o-", "s--", "^-.", "D:")
 
 
 def draw(mechanism_equivalence, mechanism_equivalence_map):
     figure, (left, middle, right) = sheet(DOUBLE, 68, ncols=3, width_ratios=(1.2, 1, 1))
     cells = mechanism_equivalence_map.set_index("frequency_ratio").T
-    colours = ListedColormap(["white", ACCENT, DARK, LIGHT])
+    colours = ListedColormap([PAPER, PREVENTED, CAUSED, OVERTURNED])
     left.pcolormesh(
         cells.columns,
         cells.index.astype(float),
@@ -35,14 +27,14 @@ def draw(mechanism_equivalence, mechanism_equivalence_map):
     left.set(xticks=(1, 2, 4, 6, 8), yticks=(1, 3, 6, 9, 12))
     note(left, "both overturn", (1.0, 9.5))
     note(left, "both survive", (5.2, 2.2))
-    note(left, "only the\ncolumn\noverturns", (7.9, 6.0), ha="right", color=ACCENT)
+    note(left, "only the\ncolumn\noverturns", (7.9, 6.0), ha="right")
 
-    for shape, colour in zip(PULSES, [*shades(3), ACCENT], strict=True):
+    for shape, colour, style in zip(PULSES, greys(len(PULSES)), STYLES, strict=True):
         part = mechanism_equivalence[mechanism_equivalence["shape"] == shape]
         heaviest = part[part.mass_ratio == part.mass_ratio.max()]
         how = {"color": colour, "markersize": 3, "label": PULSES[shape]}
-        middle.plot(heaviest.slenderness, 100 * heaviest.share_apart, "o-", **how)
-        right.plot(heaviest.slenderness, 100 * heaviest.lowest_change_mean, "o-", **how)
+        middle.plot(heaviest.slenderness, 100 * heaviest.share_apart, style, **how)
+        right.plot(heaviest.slenderness, 100 * heaviest.lowest_change_mean, style, **how)
     ticks = sorted(mechanism_equivalence.slenderness.unique())
     for axis in (middle, right):
         axis.set_xticks(ticks, [f"{tick:.3g}" for tick in ticks])

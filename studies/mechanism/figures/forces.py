@@ -1,12 +1,12 @@
 """Forces at the four contacts during one history, and the required coefficient of friction."""
 
-from replication.drawing import ACCENT, DARK, DOUBLE, GREY, INK, letter, note, publish, sheet
+from replication.drawing import DOUBLE, GREY, INK, letter, note, publish, sheet
 
 LINES = {  # contact: label, colour, dashes
-    "base_left": ("left base", DARK, "-"),
-    "base_right": ("right base", DARK, "--"),
-    "seat_left": ("left column top", ACCENT, "-"),
-    "seat_right": ("right column top", ACCENT, "--"),
+    "base_left": ("left base", INK, "-"),
+    "base_right": ("right base", INK, "--"),
+    "seat_left": ("left column top", GREY, "-"),
+    "seat_right": ("right column top", GREY, "--"),
 }
 
 

@@ -1,10 +1,12 @@
 """First impact in MuJoCo and in theory: its time, and the coefficient of restitution."""
 
 from figures.drawing import gamma
-from replication.drawing import ACCENT, DARK, DOUBLE, GREY, letter, note, publish, shades, sheet
+from figures.palette import greys
+from replication.drawing import DOUBLE, GREY, letter, note, publish, shades, sheet
 from studies.mechanism.figures.marks import untested
 
 STYLES = ("o-", "s--", "^-.", "D:")
+TICKS = (-50, -20, -10, -5, -2, -1, 0, 1, 2, 5)  # %; the axis is linear between −1 and 1
 
 
 def draw(mechanism_first_impacts, mechanism_rebounds):
@@ -26,21 +28,23 @@ def draw(mechanism_first_impacts, mechanism_rebounds):
 
     frames = mechanism_rebounds[mechanism_rebounds.mass_ratio > 0]
     dampings = sorted(frames.damping_ratio.unique())
-    colours = [ACCENT, "#e09a6f", "#7fa8cc", DARK]
-    for ratio, colour, style in zip(dampings, colours, STYLES, strict=True):
+    for ratio, colour, style in zip(dampings, greys(len(dampings)), STYLES, strict=True):
         part = frames[frames.damping_ratio == ratio]
         low, high = (
             100 * part.groupby("time_constant").difference.agg(how) for how in ("min", "max")
         )
         restitution = part.point_restitution.iloc[0]
-        label = f"bounces by {restitution:.2f}"
-        right.fill_between(low.index, low, high, color=colour, alpha=0.25, linewidth=0)
+        label = f"{restitution:.2f}"
+        right.fill_between(low.index, low, high, color=colour, alpha=0.2, linewidth=0)
         right.semilogx(low.index, (low + high) / 2, style, color=colour, markersize=3, label=label)
     right.axhline(0.0, color=GREY, linewidth=0.5)
-    right.set(xlabel=r"Time constant of the contact, $p\,\tau$ (–)", ylim=(-15, 5))
+    right.set(xlabel=r"Time constant of the contact, $p\,\tau$ (–)", ylim=(-100, 100))
+    right.set_yscale("symlog", linthresh=1, linscale=0.6)
+    right.set_yticks(TICKS, [f"{tick:g}".replace("-", "−") for tick in TICKS])
+    right.set_yticks([], minor=True)
     right.set_ylabel(r"Difference from $\sqrt{r}$ of Eq. (25) (%)")
-    note(right, "Eq. (25)", (0.0031, 0.7), color=GREY)
-    right.legend(loc="lower left", title="A lone point")
+    note(right, "Eq. (25)", (0.0031, 0.45), color=GREY)
+    right.legend(loc="upper left", ncols=2, title="Rebound of a single point (–)")
     return figure
 
 

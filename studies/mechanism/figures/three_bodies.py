@@ -1,7 +1,8 @@
 """Difference between three bodies by Newton and Euler and one degree of freedom."""
 
 from figures.drawing import PULSES
-from replication.drawing import ACCENT, DOUBLE, INK, letter, publish, shades, sheet
+from figures.palette import RECORD, greys
+from replication.drawing import DOUBLE, INK, letter, publish, sheet
 
 PANELS = {
     "rotation_apart": r"Rotation, over $\alpha$",
@@ -15,7 +16,7 @@ MARKERS = "os^D"
 def draw(mechanism_three_bodies):
     figure, axes = sheet(DOUBLE, 58, ncols=len(PANELS), sharex=True)
     groups = list(mechanism_three_bodies.groupby("excitation", sort=False))
-    colours = [*shades(len(groups) - 1), ACCENT]
+    colours = [*greys(len(groups) - 1), RECORD]
     for axis, name in zip(axes, PANELS, strict=True):
         for (excitation, part), marker, colour in zip(groups, MARKERS, colours, strict=True):
             label = LABELS[excitation]

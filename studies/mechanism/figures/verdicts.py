@@ -3,21 +3,15 @@
 import numpy as np
 
 from figures.drawing import gamma
-from replication.drawing import (
-    ACCENT,
-    DARK,
-    DOUBLE,
-    GREY,
-    LIGHT,
-    letter,
-    note,
-    publish,
-    shades,
-    sheet,
-)
+from figures.palette import OVERTURNS, SURVIVES
+from replication.drawing import DOUBLE, GREY, INK, PAPER, letter, note, publish, shades, sheet
 from studies.mechanism.figures.marks import untested
 
 SHAPES = {"one-sine": "sine", "ricker-symmetric": "Ricker"}
+DOTS = {
+    "survives": {"facecolor": PAPER, "edgecolor": SURVIVES},
+    "overturns": {"facecolor": OVERTURNS, "edgecolor": OVERTURNS},
+}
 
 
 def draw(mechanism_verdicts, mechanism_slides):
@@ -49,12 +43,12 @@ def _pulses(axis, table):
     places = {factor: place for place, factor in enumerate(factors)}
     for height, (_, part) in enumerate(reversed(rows)):
         x = part.factor.map(places)
-        for falls, colour in ((True, DARK), (False, LIGHT)):
-            chosen = part.engine == falls
+        for word, look in DOTS.items():
+            chosen = part.engine == (word == "overturns")
             heights = np.full(int(chosen.sum()), height)
-            axis.scatter(x[chosen], heights, s=34, color=colour, edgecolor=DARK, linewidth=0.5)
+            axis.scatter(x[chosen], heights, s=34, linewidth=0.9, **look)
         apart = part.engine != part.theory
-        ring = {"facecolor": "none", "edgecolor": ACCENT, "linewidth": 1.3}
+        ring = {"facecolor": "none", "edgecolor": INK, "linewidth": 1.3}
         axis.scatter(x[apart], np.full(int(apart.sum()), height), s=80, **ring)
     names = [
         f"{contact}, {structure}, {SHAPES[shape]} {ratio:g}"
@@ -62,14 +56,15 @@ def _pulses(axis, table):
     ]
     axis.set_yticks(range(len(rows)), names, fontsize=6.5)
     axis.set_xticks(range(len(factors)), [f"{factor:g}" for factor in factors])
-    axis.axvline(sum(factor < 1 for factor in factors) - 0.5, color=GREY, linewidth=0.8)
+    predicted = sum(factor < 1 for factor in factors) - 0.5
+    axis.plot([predicted] * 2, [-0.7, len(rows) - 0.4], color=GREY, linewidth=0.8)
     axis.set(xlim=(-0.5, len(factors) - 0.3), ylim=(-0.7, len(rows) + 1.1))
     axis.set_xlabel("Amplitude over the theory's minimum overturning one (–)")
-    for x, colour, words in ((-0.3, LIGHT, "survives"), (0.9, DARK, "overturns")):
-        axis.scatter([x], [len(rows) + 0.35], s=34, color=colour, edgecolor=DARK, linewidth=0.5)
-        note(axis, words, (x + 0.15, len(rows) + 0.35))
-    axis.scatter([2.4], [len(rows) + 0.35], s=80, facecolor="none", edgecolor=ACCENT)
-    note(axis, "differs from theory", (2.6, len(rows) + 0.35), color=ACCENT)
+    for x, (words, look) in zip((-0.3, 0.95), DOTS.items(), strict=True):
+        axis.scatter([x], [len(rows) + 0.35], s=34, linewidth=0.9, **look)
+        note(axis, words, (x + 0.17, len(rows) + 0.35))
+    axis.scatter([2.75], [len(rows) + 0.35], s=80, **ring)
+    note(axis, "differs from theory", (2.97, len(rows) + 0.35))
 
 
 if __name__ == "__main__":

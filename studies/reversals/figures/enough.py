@@ -3,7 +3,7 @@
 import numpy as np
 
 from figures.drawing import PULSES
-from replication.drawing import ACCENT, DARK, DOUBLE, GREY, note, publish, sheet
+from replication.drawing import DOUBLE, GREY, INK, PAPER, note, publish, sheet
 
 QUANTILES = [0.0, 0.25, 0.5, 0.75, 1.0]
 
@@ -17,13 +17,13 @@ def draw(reversals_enough):
             low, lower, middle, upper, high = of[of["shape"] == shape].mass_ratio.quantile(
                 QUANTILES
             )
-            axis.plot([low, high], [place] * 2, color=DARK, linewidth=0.8)
-            axis.plot([lower, upper], [place] * 2, color=DARK, linewidth=6, solid_capstyle="butt")
-            axis.plot(middle, place, "o", color="white", markeredgecolor=DARK, markersize=4)
+            axis.plot([low, high], [place] * 2, color=INK, linewidth=0.8)
+            axis.plot([lower, upper], [place] * 2, color=INK, linewidth=6, solid_capstyle="butt")
+            axis.plot(middle, place, "o", color=PAPER, markeredgecolor=INK, markersize=4)
         size, middle = share / (2 * (1 - share)), of.mass_ratio.median()  # 2γ/(1 + 2γ) = share
-        axis.axvline(size, color=ACCENT, linewidth=0.9)
+        axis.axvline(size, color=INK, linewidth=0.9)
         axis.axvline(middle, color=GREY, linewidth=0.9, linestyle=(0, (3, 2)))
-        note(axis, r"$\hat{R}$  ", (size, -0.62), color=ACCENT, ha="right")
+        note(axis, r"$\hat{R}$  ", (size, -0.62), color=INK, ha="right")
         note(axis, "  median", (middle, -0.62), color=GREY, ha="left")
         axis.set(xscale="log", xlabel=r"Mass ratio, $\gamma$ (–)")
         axis.set_title(f"{100 * share:g} % of the gain")

@@ -5,11 +5,13 @@ import math
 import numpy as np
 
 from figures.drawing import gamma
-from replication.drawing import ACCENT, DARK, DOUBLE, GREY, INK, letter, note, publish, sheet
+from figures.palette import CAUSED, PREVENTED
+from replication.drawing import DOUBLE, GREY, INK, PAPER, letter, note, publish, sheet
 from topheavy.synthetic.fragility import share_of_size
 
 STRUCTURE = "temple"
-FAMILIES = {"near-fault": (DARK, -1), "broadband": (ACCENT, 1)}  # colour, side
+FAMILIES = {"near-fault": ("o", -1), "broadband": ("s", 1)}  # marker, side
+HATCHES = {"near-fault": None, "broadband": "//////"}
 SHIFT = 0.007  # so that the two families stand beside each other
 LEFT = 0.72  # of the axis for reversals, over that for the other cells
 
@@ -18,36 +20,39 @@ def gains(axis, medians):
     line = np.linspace(0.0, 1.0, 101)
     axis.plot(line, 100 * (np.sqrt(1.0 + line / 2.0) - 1.0), color=GREY, linewidth=0.9)
     note(axis, r"if only $\hat p\,\mathrm{PGV}$ mattered", (0.45, 5.4), color=GREY)
-    for family, (colour, side) in FAMILIES.items():
+    for family, (marker, side) in FAMILIES.items():
         run = medians[(medians.family == family) & (medians.gain != 0)]
-        for solitary, face in ((False, colour), (True, "white")):
+        for solitary, face in ((False, INK), (True, PAPER)):
             points = run[(run.as_large_as > 0) == solitary]
             ratios = points.as_large_as if solitary else points.mass_ratio
             errors = 100 * np.array([points.gain - points.gain_low, points.gain_high - points.gain])
-            how = {"fmt": "o", "markersize": 3.5, "linewidth": 0.9, "markerfacecolor": face}
+            how = {"fmt": marker, "markersize": 3.5, "linewidth": 0.9, "markerfacecolor": face}
             x = share_of_size(ratios) + SHIFT * (side - 4 * solitary)
-            axis.errorbar(x, 100 * points.gain, errors, color=colour, **how)
+            axis.errorbar(x, 100 * points.gain, errors, color=INK, **how)
     ratios = sorted(medians.mass_ratio.unique())
     names = [r"$\infty$" if math.isinf(ratio) else f"{ratio:g}" for ratio in ratios]
     axis.set_xticks(share_of_size(ratios), names)
     axis.set(xlabel=r"Mass ratio, $\gamma$ (–), by equal steps of $\hat R$", ylim=(0, 40))
     axis.set_ylabel("Gain of the median overturning PGV (%)")
-    for place, (family, (colour, _)) in enumerate(FAMILIES.items()):
-        note(axis, f"{family} motions", (0.02, 37 - 3.2 * place), color=colour)
-    note(axis, r"hollow: solitary column of size $\hat R$", (0.02, 30.6), color=INK)
+    for place, (family, (marker, _)) in enumerate(FAMILIES.items()):
+        height = 37 - 3.2 * place
+        axis.plot(0.035, height, marker, color=INK, markersize=3.5)
+        note(axis, f"{family} motions", (0.06, height))
+    note(axis, r"hollow: solitary column of size $\hat R$", (0.02, 30.6))
 
 
 def falls(axis, pairs):
     """Draw the share of cells in which only one of frame and solitary column overturns."""
     run = pairs[pairs.lighter == 0]
     ratios = sorted(run.heavier.unique())
-    for family, (colour, side) in FAMILIES.items():
+    for family, (_, side) in FAMILIES.items():
         cells = run[run.family == family].sort_values("heavier")
         places = np.arange(len(ratios)) - 0.18 * side
-        for key, sign, alpha in (("only_lighter", 1, 1.0), ("only_heavier", -1, 0.45)):
+        for key, sign, colour in (("only_lighter", 1, PREVENTED), ("only_heavier", -1, CAUSED)):
             share, low, high = (100 * cells[key + end] for end in ("", "_low", "_high"))
             errors = np.array([share - low, high - share])[::sign]
-            axis.barh(places, sign * share, height=0.32, color=colour, alpha=alpha)
+            how = {"color": colour, "hatch": HATCHES[family], "edgecolor": PAPER, "linewidth": 0}
+            axis.barh(places, sign * share, height=0.32, **how)
             axis.errorbar(sign * share, places, xerr=errors, fmt="none", color=INK, linewidth=0.7)
     axis.axvline(0.0, color=INK, linewidth=0.6)
     axis.set(yticks=range(len(ratios)), yticklabels=map(gamma, ratios))
@@ -56,7 +61,7 @@ def falls(axis, pairs):
     ticks = np.arange(-10, reach, 5)
     axis.set_xticks(ticks, [f"{abs(tick):g}" for tick in ticks])
     axis.set_xlabel("Share of all motions at all intensities (%)")
-    note(axis, "only the frame overturns", (-0.03 * reach, top), ha="right")
+    note(axis, "only the frame overturns", (-0.03 * reach, top), ha="right", color=CAUSED)
     note(axis, "only the column overturns", (0.03 * reach, top))
 
 

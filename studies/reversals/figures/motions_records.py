@@ -4,15 +4,16 @@ import numpy as np
 from matplotlib.colors import ListedColormap
 
 from figures.drawing import RECORDS
-from replication.drawing import ACCENT, DARK, DOUBLE, letter, note, publish, sheet
+from figures.palette import CAUSED, OVERTURNED, PREVENTED, UNDECIDED
+from replication.drawing import DOUBLE, GREY, PAPER, letter, note, publish, sheet
 from studies.reversals.outcomes import FALLS, UNTOLD, read
 
 CASES = {  # the outcomes of the column and of the frame with γ → ∞
-    "both survive": "#f6f5f2",
-    "both overturn": "#cfcdc8",
-    "only the column overturns": DARK,
-    "only the frame overturns": ACCENT,
-    "undecided": "#1a1a1a",
+    "both survive": PAPER,
+    "both overturn": OVERTURNED,
+    "prevented: only the column overturns": PREVENTED,
+    "caused: only the frame overturns": CAUSED,
+    "cannot be decided": UNDECIDED,
 }
 FACTORS = (1, 2, 5, 10, 20)
 
@@ -41,9 +42,13 @@ def panel(axis, run):
     axis.set_xticks([], minor=True)
     each = light["size"].nunique()
     for place in range(1, light.slenderness_deg.nunique()):
-        axis.axhline(place * each, color="white", linewidth=2)
-    axis.set_yticks([])
-    return light, each
+        axis.axhline(place * each, color=GREY, linewidth=0.6)
+    for place, slenderness in enumerate(light.slenderness_deg.unique()):
+        words = rf"$\alpha$ = {slenderness:.3g}°"
+        note(axis, words, (1.04 * first, (place + 1) * each - 1.1))
+    sizes = light["size"].to_numpy()
+    marked = [row for row in range(len(sizes)) if row % each in (0, each // 2, each - 1)]
+    axis.set_yticks([row + 0.5 for row in marked], [f"{sizes[row]:.2g}" for row in marked])
 
 
 def draw(reversals_records):
@@ -51,16 +56,9 @@ def draw(reversals_records):
     figure, axes = sheet(DOUBLE, 116, nrows=2, ncols=3)
     records = table.groupby("record", sort=False)
     for axis, (_, run) in zip(axes.flat, records, strict=False):
-        light, each = panel(axis, run)
+        panel(axis, run)
     for row in axes:
-        slendernesses = light.slenderness_deg.unique()
-        row[0].set_yticks(
-            [(place + 0.5) * each for place in range(len(slendernesses))],
-            [rf"$\alpha$ = {slenderness:.3g}°" for slenderness in slendernesses],
-            rotation=90,
-            va="center",
-        )
-        row[0].tick_params(axis="y", length=0)
+        row[0].set_ylabel("Size of a column, $R$ (m)")
     letter(axes.flat, [RECORDS.get(name, name.replace("_", " ")) for name, _ in records])
     key = axes[-1, -1]
     key.axis("off")
@@ -72,16 +70,11 @@ def draw(reversals_records):
             "s",
             color=colour,
             markersize=8,
-            markeredgecolor="#999999",
+            markeredgecolor=GREY,
             markeredgewidth=0.4,
         )
         note(key, words, (0.13, height))
-    low, high = light["size"].min(), light["size"].max()
-    words = (
-        f"Rows of each block: columns of\n$R$ = {low:g} m (lowest) to {high:g} m (highest).\n"
-        "Frame: $\\gamma=\\infty$."
-    )
-    note(key, words, (0.02, 0.18))
+    note(key, "Frame: $\\gamma=\\infty$.", (0.02, 0.26))
     key.set(xlim=(0, 1), ylim=(0, 1))
     return figure
 

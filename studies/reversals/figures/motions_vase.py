@@ -1,9 +1,11 @@
 """Fragility of bare column, fixed mass and frame; and the forces that uplift limits."""
 
 from figures.drawing import gamma
-from replication.drawing import ACCENT, DARK, DOUBLE, GREY, INK, letter, note, publish, sheet
+from figures.palette import FIXED
+from replication.drawing import DOUBLE, GREY, PAPER, letter, note, publish, shades, sheet
 
-LOOKS = {"bare": ("column", INK), "fixed": ("mass fixed", ACCENT), "free": ("mass carried", DARK)}
+BARE, FREE = shades(2)
+LOOKS = {"bare": ("column", BARE), "fixed": ("mass fixed", FIXED), "free": ("mass carried", FREE)}
 LABELS = {"bare": (1.28, 0.42), "fixed": (0.42, 0.80), "free": (1.28, 0.28)}
 FORCES = {
     "base_shear": "base shear",
@@ -31,15 +33,15 @@ def forces(axis, bands):
     of = bands[(bands.held == "rigid") & (bands.family == "near-fault")]
     ratios, levels = sorted(of.mass_ratio.unique()), sorted(of.intensity.unique())
     for place, force in enumerate(FORCES):
-        for shift, (ratio, colour) in enumerate(zip(ratios, (GREY, DARK, INK), strict=True)):
+        for shift, (ratio, colour) in enumerate(zip(ratios, shades(len(ratios)), strict=True)):
             for later, level in enumerate(levels):
                 cells = of[(of.force == force) & (of.mass_ratio == ratio) & (of.intensity == level)]
                 row = cells.iloc[0]
                 x = place + 0.25 * (shift - 1) + 0.08 * later
                 axis.vlines(x, row.ratio_low, row.ratio_high, color=colour, linewidth=1.0)
-                face = colour if later else "white"
+                face = colour if later else PAPER
                 axis.plot(x, row.ratio, "o", color=colour, markersize=3.5, markerfacecolor=face)
-    for shift, (ratio, colour) in enumerate(zip(ratios, (GREY, DARK, INK), strict=True)):
+    for shift, (ratio, colour) in enumerate(zip(ratios, shades(len(ratios)), strict=True)):
         note(axis, gamma(ratio), (1.7, 0.30 - 0.09 * shift), color=colour)
     axis.axhline(1.0, color=GREY, linewidth=0.6)
     axis.set(ylim=(0, 1.1), xlim=(-0.5, 2.6), ylabel="Rocking over rigid held (–)")

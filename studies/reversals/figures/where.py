@@ -4,20 +4,10 @@ import numpy as np
 from matplotlib.patches import Patch
 
 from figures.drawing import PULSES
-from replication.drawing import (
-    ACCENT,
-    DOUBLE,
-    GREY,
-    STONE,
-    letter,
-    note,
-    publish,
-    shades,
-    sheet,
-)
+from figures.palette import CAUSED, OVERTURNED, PREVENTED, tint
+from replication.drawing import DOUBLE, GREY, PAPER, letter, note, publish, sheet
 
-PREVENTED = "#7ba7cf"  # in grey print between those of the others
-COLOURS = {"both": STONE, "helps": PREVENTED, "harms": ACCENT}
+COLOURS = {"both": OVERTURNED, "helps": PREVENTED, "harms": CAUSED}
 NAMES = {"both": "both overturn", "helps": "prevented by cap beam", "harms": "caused by cap beam"}
 HIGHEST = 16.0  # a/(g tan α)
 
@@ -41,23 +31,23 @@ def map_axis(axis, cells):
 def shares(axis, areas):
     """Draw the shares of overturning prevented (up) and caused (down), by shape and slenderness."""
     slendernesses = np.sort(areas.slenderness_deg.unique())
-    greys = shades(len(slendernesses))
+    colours = [tint(PREVENTED, share) for share in np.linspace(0.35, 1.0, len(slendernesses))]
     for group, shape in enumerate(PULSES):
-        for place, (slenderness, colour) in enumerate(zip(slendernesses, greys, strict=True)):
+        for place, (slenderness, colour) in enumerate(zip(slendernesses, colours, strict=True)):
             of = areas[(areas["shape"] == shape) & (areas.slenderness_deg == slenderness)]
             at = group + 0.2 * (place - 1.5)
             label = f"{slenderness:.3g}°" if group == 0 else None
             axis.bar(at, 100 * of.helps, 0.18, color=colour, label=label)
             harms = 100 * of.harms.iloc[0]
-            axis.bar(at, -harms, 0.18, color=ACCENT)
-            how = {"color": ACCENT, "ha": "center", "va": "top", "fontsize": 6}
+            axis.bar(at, -harms, 0.18, color=CAUSED)
+            how = {"color": CAUSED, "ha": "center", "va": "top", "fontsize": 6}
             note(axis, f"{harms:.1f}", (at, -harms - 0.3), **how)
     axis.axhline(0.0, color=GREY, linewidth=0.6)
     axis.set(xticks=range(len(PULSES)), ylim=(-4.2, 25), ylabel="Share of the map (%)")
     axis.set_xticklabels([words.replace(" ", "\n") for words in PULSES.values()])
     axis.tick_params(axis="x", length=0)
     axis.legend(title=r"Prevented, $\alpha$ =", title_fontsize=7.5, loc="upper right", ncols=4)
-    note(axis, "Caused", (3.45, -3.2), color=ACCENT, ha="right")
+    note(axis, "Caused", (3.45, -3.2), color=CAUSED, ha="right")
 
 
 def pairs(axis, areas):
@@ -73,7 +63,7 @@ def pairs(axis, areas):
                 continue
             helps, harms = means.loc[(light, heavy)]
             axis.fill_between(
-                [column, column + 1], row, row + 1, color=ACCENT, alpha=0.55 * harms / top, lw=0
+                [column, column + 1], row, row + 1, color=CAUSED, alpha=0.4 * harms / top, lw=0
             )
             at = (column + 0.5, row + 0.5)
             note(axis, f"+{helps:.1f}\n−{harms:.2f}", at, ha="center", fontsize=6.8)
@@ -109,7 +99,7 @@ def draw(reversals_map, reversals_areas):
         "All pairs: mean share (%)",
     ]
     letter([axes[key] for key in "ABCDEF"], titles)
-    neither = Patch(facecolor="white", edgecolor=GREY, linewidth=0.5, label="both survive")
+    neither = Patch(facecolor=PAPER, edgecolor=GREY, linewidth=0.5, label="both survive")
     handles = [*axes["D"].get_legend_handles_labels()[0], neither]
     figure.legend(handles=handles, loc="outside upper right", ncols=4, handlelength=1.0)
     return figure

@@ -1,7 +1,8 @@
 """Effects of the lower p̂ and of the lower √r in the limit γ → ∞, apart and together."""
 
 from figures.drawing import PULSES
-from replication.drawing import ACCENT, DOUBLE, note, publish, sheet
+from figures.palette import CAUSED
+from replication.drawing import DOUBLE, note, publish, sheet
 from studies.reversals.figures.where import map_axis
 
 ROWS = {
@@ -28,7 +29,7 @@ def draw(reversals_map, reversals_why):
             map_axis(axis, cells)
             how = {"xycoords": "axes fraction", "ha": "right", "fontsize": 7}
             note(axis, f"prevented {100 * of.helps.iloc[0]:.1f} %", (0.99, 0.15), **how)
-            note(axis, f"caused {100 * of.harms.iloc[0]:.2f} %", (0.99, 0.05), color=ACCENT, **how)
+            note(axis, f"caused {100 * of.harms.iloc[0]:.2f} %", (0.99, 0.05), color=CAUSED, **how)
             if change == "size":
                 axis.set_title(words)
             if change == "both":

@@ -1,0 +1,49 @@
+"""The colours of the figures. Each has one meaning in all of them.
+
+What has no meaning of its own is drawn in ink and grey, and told apart by marker, dash and label.
+γ is shown by lightness (`replication.drawing.shades`).
+"""
+
+from matplotlib.colors import LinearSegmentedColormap, to_hex, to_rgb
+
+from replication.drawing import INK, PAPER, shades
+
+RGB = tuple[float, float, float]
+
+
+def tint(colour: str, share: float) -> str:
+    """Return a colour mixed with white: `share` of it, from 0 (white) to 1."""
+    return to_hex([share * part + (1.0 - share) for part in to_rgb(colour)])
+
+
+def greys(count: int) -> list[RGB]:
+    """Return greys for an order that is not that of γ, from the lightest to the darkest."""
+    return shades(count, to_rgb("#b4b4b4"), to_rgb(INK))
+
+
+# What happens to one structure.
+OVERTURNS, SURVIVES = "#c8501a", "#12715f"
+OVERTURNED = tint(OVERTURNS, 0.25)  # areas in which it overturns
+AT_ONCE = tint(OVERTURNS, 0.65)  # … without an impact, where the two modes differ
+ROCKS = tint(SURVIVES, 0.2)  # areas in which it rocks and survives
+HATCHED = {"facecolor": OVERTURNED, "edgecolor": tint(OVERTURNS, 0.55), "hatch": "////////"}
+
+# What a cap beam, or a heavier one, does to the outcome.
+PREVENTED, CAUSED = "#5fb3a1", "#a3195b"
+UNDECIDED = INK  # the outcome cannot be decided
+
+# What is compared with what.
+MODEL = "#6a3d9a"  # simplified models: linearised, columns without mass
+CONSERVATIVE = tint(MODEL, 0.55)  # … where they are wrong to the conservative side
+FIXED = "#8c6d00"  # the cap's mass fixed to the column
+RECORD = "#7a5230"  # measured records beside pulses
+
+# Bodies that are drawn, and arrows and points on them.
+STONE, CAP, EARTH = "#e8e5df", "#b9b1a2", "#d5d1c8"
+FORCE = "#0b6e99"
+OPENS = FORCE  # contacts that would have to pull
+
+# Scales of a quantity.
+PEAKS = LinearSegmentedColormap.from_list("peaks", [PAPER, tint(SURVIVES, 0.4), "#083a31"])
+ERRORS = LinearSegmentedColormap.from_list("errors", [PAPER, tint(MODEL, 0.5), "#2a1145"])
+DEMAND = LinearSegmentedColormap.from_list("demand", ["#efefef", INK])
