@@ -102,8 +102,10 @@ def stage(pulse: Pulse, times: np.ndarray, case: dict):
     fine = np.linspace(0.0, times[-1], 1400)
     trace.plot(fine, pulse.excitation(fine), color=GREY, linewidth=1.2)
     marker = trace.plot([], [], "o", color=INK, markersize=6, clip_on=False)[0]
-    given = case["pulse"]
+    given, size = case["pulse"], case["column"]
     words = f"one cosine, {given['amplitude']:g} g, {given['period']:g} s"
+    words += f"; columns of {2 * size['half_height']:g} m × {2 * size['half_width']:g} m"
+    words += f"; mass ratio γ = {case['mass_ratio']:g}"
     trace.text(given["period"] + 0.1, 0.25, words, fontsize=11, va="center", color=INK)
     trace.set(xlim=(0, times[-1]), ylim=(-0.45, 0.45), yticks=(-0.3, 0, 0.3))
     trace.set_xlabel("Time (s)", fontsize=9)

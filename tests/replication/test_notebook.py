@@ -2,6 +2,7 @@
 
 import ast
 import json
+from contextlib import nullcontext
 from pathlib import Path
 
 import nbformat
@@ -125,3 +126,21 @@ def test_notebook_that_fails_stops_the_run(tmp_path):
     with pytest.raises(Exception, match="ZeroDivisionError"):
         step.main(source, tmp_path / "executed.ipynb", tmp_path / "page.html")
     assert not (tmp_path / "executed.ipynb").exists()
+
+
+@pytest.mark.parametrize(("metadata", "told"), [({}, False), ({"image/png": {"alt": "A"}}, True)])
+def test_picture_without_an_alternative_text_is_refused(metadata, told):
+    output = {"output_type": "display_data", "data": {"image/png": ""}, "metadata": metadata}
+    cell = {"id": "play-06", "outputs": [output]}
+    refusal = pytest.raises(ValueError, match=r"play\.ipynb: cell play-06 shows a picture without")
+    with nullcontext() if told else refusal:
+        step.refuse_undescribed(cell, Path("play.ipynb"))
+
+
+def test_page_has_the_alternative_text_of_a_picture():
+    shown = {"image/png": {"alt": "A line & a point."}}
+    output = nbformat.v4.new_output("display_data", {"image/png": "iVBORw=="}, metadata=shown)
+    cell = nbformat.v4.new_code_cell("show()", outputs=[output])
+    page = step.render(nbformat.v4.new_notebook(cells=[cell]), "play")
+    assert 'alt="A line &amp; a point."' in page
+    assert "No description" not in page

@@ -51,3 +51,15 @@ def test_it_is_played_three_times(tmp_path):
         with Image.open(tmp_path / name) as found:
             assert found.info["loop"] == loop
             assert found.n_frames == len(pictures) == 7
+
+
+def test_pulse_and_structures_are_told_in_numbers():
+    figure, *_ = animation.stage(PULSE, TIMES, CASE)
+    told = " ".join(text.get_text() for axis in figure.axes for text in axis.texts)
+    for words in (
+        "one cosine, 0.29 g, 1.5 s",
+        "columns of 6 m × 1 m",
+        "γ = 1",
+        *animation.NAMES.values(),
+    ):
+        assert words in told

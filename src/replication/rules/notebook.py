@@ -17,8 +17,15 @@ PAGE = """
 {%- block data_latex -%}
 <div class="jp-OutputArea-output">{{ output.data["text/latex"] | mathml }}</div>
 {%- endblock -%}
+{%- block data_png scoped -%}
+<div class="jp-RenderedImage jp-OutputArea-output">
+<img src="data:image/png;base64,{{ output.data["image/png"] | escape_html }}"
+alt="{{ output | get_metadata("alt", "image/png") | escape_html }}">
+</div>
+{%- endblock -%}
 """
-"""nbconvert's page without its scripts, which come from the network; formulas are MathML."""
+"""nbconvert's page without its scripts, which come from the network; formulas are MathML and
+pictures have the alternative text that their cells give."""
 
 
 def render(notebook: Any, title: str) -> str:
@@ -50,6 +57,24 @@ def render(notebook: Any, title: str) -> str:
     return body
 
 
+def refuse_undescribed(cell: Any, source: Path) -> None:
+    """Refuse a picture without an alternative text.
+
+    Raises
+    ------
+    ValueError
+        When a cell shows a picture whose metadata have no `alt`.
+    """
+    for output in cell.get("outputs", []):
+        shown = [kind for kind in output.get("data", {}) if kind.startswith("image/")]
+        for kind in shown:
+            if not output["metadata"].get(kind, {}).get("alt"):
+                raise ValueError(
+                    f"{source}: cell {cell['id']} shows a picture without an alternative text; "
+                    f'expected display(figure, metadata={{"{kind}": {{"alt": "…"}}}})'
+                )
+
+
 def main(source: Path, executed: Path, page: Path) -> None:
     # Jupyter reads these when it is imported: nothing of a user's own set-up may leak in.
     private = tempfile.mkdtemp()
@@ -66,6 +91,8 @@ def main(source: Path, executed: Path, page: Path) -> None:
         resources={"metadata": {"path": str(source.parent)}},
     )
     client.execute()
+    for cell in notebook.cells:
+        refuse_undescribed(cell, source)
     nbformat.write(notebook, executed)
     page.write_text(render(notebook, source.stem), encoding="utf-8")
 
