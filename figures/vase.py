@@ -10,9 +10,10 @@ from figures.palette import OVERTURNED, OVERTURNS, ROCKS, SURVIVES
 from replication.drawing import DOUBLE, GREY, INK, PAPER, note, publish, sheet
 
 PLACES = {"bare": 0.0, "fixed": 10.2, "free": 22.6}  # m: the middle of each structure
-NAMES = {"bare": "Column", "fixed": "Mass fixed to it", "free": "Mass carried freely by two"}
-ROW = 9.6  # m between the rows
+NAMES = {"bare": "Column", "fixed": "Vase: mass fixed to it", "free": "Frame: mass carried freely"}
+ROW = 10.0  # m between the rows
 EDGES = (-7.6, 27.0)  # m: of the ground
+OUTCOMES = {OVERTURNS: "overturns", SURVIVES: "survives"}
 TINTS = {OVERTURNS: OVERTURNED, SURVIVES: ROCKS}
 LIMIT = 5.0  # the place of γ = ∞ on the axis
 GLYPHS_AT = 3.0  # γ
@@ -20,7 +21,7 @@ LOWEST = 0.13  # g, of the axis
 
 
 def scene(axis, poses, middle, ground):
-    """Draw the poses of one structure: outlines, the last one filled; the colour is the outcome."""
+    """Draw the poses of one structure, the last one filled; word and colour are its outcome."""
     colour = OVERTURNS if poses.outcome.iloc[0] == "overturned" else SURVIVES
     for (last, _, body), part in poses.groupby(["last", "pose", "body"]):
         corners = list(zip(part.x + middle, part.y + ground, strict=True))
@@ -30,6 +31,7 @@ def scene(axis, poses, middle, ground):
         else:
             look = {"facecolor": "none", "alpha": 0.45, "zorder": 2}
         axis.add_patch(Polygon(corners, edgecolor=colour, linewidth=0.7, **look))
+    note(axis, OUTCOMES[colour], (middle, ground - 1.0), color=colour, ha="center", fontsize=8)
 
 
 def motion(axis, amplitude, largest, ground):
@@ -59,8 +61,6 @@ def picture(axis, poses):
     for name, middle in PLACES.items():
         note(axis, NAMES[name], (middle, 8.1), ha="center", fontsize=8)
     bottom = -ROW * (len(amplitudes) - 1)
-    note(axis, "overturns", (9.0, bottom - 1.0), color=OVERTURNS, ha="center", fontsize=8)
-    note(axis, "survives", (PLACES["free"], bottom - 1.0), color=SURVIVES, ha="center", fontsize=8)
     axis.set(xlim=EDGES, ylim=(bottom - 1.8, 8.9), aspect="equal", anchor="W")
     axis.axis("off")
 
