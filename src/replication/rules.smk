@@ -31,11 +31,11 @@ rule figure:
         shown("{figure}.svg"),
     log:
         "results/logs/{figure}.log",
+    wildcard_constraints:
+        figure="|".join(FIGURES),
     params:
         title=lambda wildcards: CAPTIONS[f"{wildcards.figure}.svg"]["title"],
         alt=lambda wildcards: alternative(CAPTIONS[f"{wildcards.figure}.svg"]),
-    wildcard_constraints:
-        figure="|".join(FIGURES),
     message:
         "Figure {wildcards.figure}"
     script:
