@@ -10,7 +10,7 @@ from typing import Any
 
 import yaml
 
-from replication.provenance import Job
+from replication.provenance import Job, makers
 
 SPECIFICATION = "https://codecheck.org.uk/spec/config/2.0/"
 HEAD = """\
@@ -60,9 +60,8 @@ def manifest(
 ) -> list[dict[str, str]]:
     """Return path and comment of every document, figure and table that the jobs make."""
     jobs = list(jobs)
-    made = {path: job for job in jobs for path in job.outputs}
     comments = {}
-    for path, job in sorted(made.items()):
+    for path, job in sorted(makers(jobs).items()):
         kind = PurePath(path).suffix
         if kind == ".pdf":
             comments[path] = f"Document, made by rule {job.rule}"

@@ -1,8 +1,7 @@
 """The page docs/exhibits.md: for each figure its script and tables, and what these cost."""
 
-import csv
 from collections.abc import Collection, Iterable, Mapping
-from pathlib import Path, PurePath
+from pathlib import PurePath
 from typing import Any
 
 from replication.provenance import Job, makers
@@ -33,7 +32,7 @@ def exhibits_page(
     captions
         Of the results, by their paths.
     costs
-        From `read_costs`.
+        Seconds and megabytes of each job, from `replication.costs.read_costs`.
     """
     made = makers(jobs)
     rows = []
@@ -70,15 +69,6 @@ def measured(path: str, made: Mapping[str, Job]) -> Collection[str]:
         logs = map(PurePath, made[each].logs)
         found |= {log.stem: None for log in logs if log.suffix == ".tsv"}
     return found
-
-
-def read_costs(path: Path) -> dict[str, tuple[float, float]]:
-    """Return seconds and megabytes of each job, by its name; none before the first edition."""
-    if not path.exists():
-        return {}
-    with path.open(encoding="utf-8", newline="") as file:
-        rows = list(csv.DictReader(file))
-    return {row["rule"]: (float(row["seconds"]), float(row["memory_mb"])) for row in rows}
 
 
 def _listed(names: Iterable[str]) -> str:

@@ -103,7 +103,7 @@ def test_script_that_is_not_there_is_named(tree):
 
 SCRIPT = """
 import sys
-from replication.code import code, results_read, undeclared
+from replication.code import code, undeclared
 sys.path[:0] = ["src", "src/steps", "."]
 import shared
 print(undeclared(code("src/steps/shared.py") + ["src/steps/shared.py"]))

@@ -1,6 +1,6 @@
 """What the jobs of a published run cost, and what follows from it."""
 
-from replication.costs import longest_jobs
+from replication.costs import longest_jobs, read_costs
 
 
 def test_rule_takes_as_long_as_its_longest_shard(tmp_path):
@@ -10,4 +10,5 @@ def test_rule_takes_as_long_as_its_longest_shard(tmp_path):
 
 
 def test_no_edition_is_published_yet(tmp_path):
+    assert read_costs(tmp_path / "costs.csv") == {}
     assert longest_jobs(tmp_path / "costs.csv") == {}

@@ -11,7 +11,8 @@ from typing import Any
 from replication.captions import read_captions
 from replication.codecheck import codecheck_file
 from replication.config_page import config_page
-from replication.exhibits import exhibits_page, read_costs
+from replication.costs import read_costs
+from replication.exhibits import exhibits_page
 from replication.parts import PAPER, captions_of
 from replication.provenance import Job, workflow_jobs
 from replication.strict_yaml import read_yaml

@@ -20,13 +20,8 @@ def main(manifest: Mapping[str, Any], root: Path = Path()) -> list[str]:
     """Return a line for each file that is missing, that changed, or that no rule made."""
     faults = []
     for path, entry in manifest["outputs"].items():
-        if not (root / path).is_file():
-            faults.append(f"{path} is missing; rule {entry['rule']} makes it")
-        elif (found := checksum(root / path)) != entry["sha256"]:
-            faults.append(
-                f"{path} changed after rule {entry['rule']} made it: its SHA-256 is {found}; "
-                f"expected {entry['sha256']}"
-            )
+        makes = f"rule {entry['rule']}"
+        faults += _fault(path, entry["sha256"], f"{makes} makes it", f"{makes} made it", root)
     faults += [f"{path} is extra: no rule made it" for path in sorted(extra(manifest, root))]
     return faults
 
@@ -57,15 +52,18 @@ def changed_source(manifest: Mapping[str, Any], root: Path) -> list[str]:
     faults = []
     for line in (root / SUMS).read_text(encoding="utf-8").splitlines():
         expected, path = line.split("  ", 1)
-        if path in made:
-            continue
-        if not (root / path).is_file():
-            faults.append(f"{path} is missing; {SUMS} has it")
-        elif (found := checksum(root / path)) != expected:
-            faults.append(
-                f"{path} changed after it was packed: its SHA-256 is {found}; expected {expected}"
-            )
+        if path not in made:
+            faults += _fault(path, expected, f"{SUMS} has it", "it was packed", root)
     return faults
+
+
+def _fault(path: str, expected: str, source: str, event: str, root: Path) -> list[str]:
+    """Return a line when the file is missing or not as it was after the event; else none."""
+    if not (root / path).is_file():
+        return [f"{path} is missing; {source}"]
+    if (found := checksum(root / path)) != expected:
+        return [f"{path} changed after {event}: its SHA-256 is {found}; expected {expected}"]
+    return []
 
 
 if __name__ == "__main__":
