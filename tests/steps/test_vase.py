@@ -77,6 +77,43 @@ def test_exceptions_are_a_later_fixed_mass_and_an_earlier_frame():
     assert not vase.is_exception(row("bare", 0.3, 0.2))
 
 
+def of(structure, acceleration):
+    return vase_searches.Minimum(structure, PULSE, (acceleration, acceleration))
+
+
+@pytest.mark.parametrize(("fixed", "survives"), [(0.25, False), (0.19, True)])
+def test_structure_that_falls_at_the_earlier_minimum_is_no_exception(fixed, survives):
+    """A fixed mass overturns from 0.204 g on, and cannot be later than a column that falls then."""
+    given = row("fixed", 0.3, 0.0) | {"found": of(FixedMassColumn(COLUMN, 1.0), 0.3)}
+    found = vase.exception(given | {"bare": of(COLUMN, fixed)})
+    assert found["later_one_survives"] is survives
+    assert math.isnan(found["error"])  # SciPy finds no boundary at 0.3 g
+
+
+def test_second_route_needs_every_boundary_and_every_exception():
+    rows = [row("fixed", 0.3, 0.2), row("fixed", math.inf, math.inf), row("bare", 0.2, 0.2)]
+    for errors, survives, holds in (
+        ([1e-7], [], True),
+        ([1e-7], [True, True], True),
+        ([1e-7], [True, False], False),
+        ([1e-7, math.nan], [True], False),
+    ):
+        exceptions = [{"later_one_survives": one} for one in survives]
+        found = vase.second_route(errors, exceptions, rows, [])
+        assert found.holds is holds
+        assert (found["neither_overturns"], found["not_told"]) == (1, 1)
+
+
+def test_minimum_that_a_tighter_tolerance_moves_is_not_compared():
+    right, other = (vase_searches.minimum(COLUMN, PULSE, 2.0) for _ in range(2))
+    wrong = of(COLUMN, 1.01 * right.acceleration)
+    given = row("free", 0.0, 0.0) | {"bare": other}
+    assert vase.is_compared(given | {"found": right}, 3e-12)
+    assert not vase.is_compared(given | {"found": wrong}, 3e-12)
+    assert not vase.is_compared(given | {"found": right, "structure": "bare"}, 3e-12)
+    assert not vase.is_compared(row("free", math.inf, math.inf), 3e-12)
+
+
 def test_exception_under_short_pulses_and_records_qualifies():
     usual = row("fixed", 0.2, 0.3)
     short = row("fixed", 0.4, 0.3, ratio=4.0)
