@@ -183,17 +183,19 @@ def second_route(
     )
 
 
-def carried(table: pd.DataFrame) -> dict:
-    """Return, for each worth, how much of the gain α, p and √r carry: mean and range."""
+def whole_gain(table: pd.DataFrame) -> Finding:
+    """Return whether α, p and √r carry the whole gain, and how much each: mean and range."""
     single = table[table.shapley_value.notna()]
+    whole = single.groupby(["worth", "shape", "mass_ratio"]).share_of_gain.sum()
     found = single.groupby(["worth", "taken_from_the_frame"]).share_of_gain
-    return {
+    shares = {
         worth: {
             name: [float(found.agg(how)[worth, name]) for how in ("mean", "min", "max")]
             for name in PARAMETERS
         }
         for worth in WORTHS
     }
+    return truth(bool(np.allclose(whole, 1.0)), **shares)
 
 
 def motions(
@@ -264,7 +266,7 @@ def main(case: dict, paths: list[str], tightened: float) -> tuple:
             slenderness_deg=portals.slenderness_deg,
             minimum_overturning_g=portals.minimum_overturning,
         ),
-        "shares_of_the_gain": truth(True, **carried(of_shares)),
+        "shares_of_the_gain": whole_gain(of_shares),
         "second_route": second_route(errors, exceptions, rows, compared),
     }
     tables = summary, pd.DataFrame(map(plain, rows)), pd.DataFrame(exceptions), of_shares
