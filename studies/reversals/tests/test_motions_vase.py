@@ -128,6 +128,7 @@ def test_larger_forces_are_not_limited(monkeypatch, factor, holds):
     assert findings["uplift_limits_totals"]["holds"] == holds
     assert findings["shear_is_at_most_that_of_uplift"]["holds"] == holds
     assert findings["uplift_limits_totals"]["survivors_that_uplift"] > 0
+    assert findings["uplift_second_route"]["holds"]  # both routes have these forces
 
 
 ORDER = {"sooner": 0.1, "sooner_high": 0.2, "later": 0.1, "later_high": 0.2}
@@ -212,6 +213,5 @@ def test_peaks_that_scipy_denies_are_noticed(monkeypatch):
         off = 1.0 if route is simulate else 1.0 + 2e-6
         return replace(found, forces={name: off * force for name, force in found.forces.items()})
 
-    assert motions_uplift.main(CASE, ENSEMBLE)[1]["uplift_second_route"]["holds"]
     monkeypatch.setattr(motions_uplift, "rocking_peaks", other)
     assert not motions_uplift.main(CASE, ENSEMBLE)[1]["uplift_second_route"]["holds"]
