@@ -66,14 +66,14 @@ def draw(trilith_map, trilith_nearness):
     more = {"textcoords": "offset points"}
     note(
         right,
-        f"lifts at {amplitude.to_lift:.2f} mm",
+        f"uplifts at {amplitude.to_lift:.2f} mm",
         (test[0], amplitude.to_lift),
         xytext=(4, 7),
         **more,
     )
     note(
         right,
-        f"lifts at {frequency.to_lift:.2f} Hz",
+        f"uplifts at {frequency.to_lift:.2f} Hz",
         (frequency.to_lift, test[1]),
         xytext=(4, 4),
         **more,
