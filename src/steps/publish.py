@@ -37,6 +37,7 @@ TABLES = (
 
 STUDY_TABLES = (
     "certainty_extensions",
+    "certainty_intensities",
     "certainty_theorem",
     "mechanism_dependence",
     "mechanism_equivalence",
