@@ -9,7 +9,7 @@ import pytest
 
 from figures.mass_ratio import draw
 from replication.captions import alternative, read_captions
-from replication.drawing import described, save
+from replication.drawing import described, letter, save, sheet
 from replication.parts import PAPER, captions_of
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -52,3 +52,10 @@ def test_every_figure_of_a_run_gets_its_title_and_alternative_text(jobs):
         given = {name: params[name] for name in ("title", "alt")}
         entry = captions[path]
         assert given == {"title": entry["title"], "alt": alternative(entry)}, path
+
+
+def test_letters_of_a_drawing_run_on_from_the_one_above():
+    figure, axes = sheet(88.0, 40.0, ncols=2)
+    letter(axes, ["Size", "Frequency"], first="c")
+    assert [axis.get_title() for axis in axes] == ["(c) Size", "(d) Frequency"]
+    plt.close(figure)
