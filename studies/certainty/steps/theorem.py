@@ -173,6 +173,7 @@ def main(case: dict) -> tuple[pd.DataFrame, dict]:
     table = pd.concat([rows(case, True), rows(case, False)], ignore_index=True)
     proved, still_open = table[table.proved], table[~table.proved]
     followed = table[table.ahead.notna()]
+    within = followed[followed.proved]
     theorems = reversal_theorems()
     findings = {
         "proofs": truth(
@@ -181,8 +182,10 @@ def main(case: dict) -> tuple[pd.DataFrame, dict]:
         "linearised": counted(proved[proved.linearised]),
         "exact": counted(proved[~proved.linearised]),
         "exact_open": counted(still_open),
-        "ahead": truth(followed[followed.proved].ahead.all(), followed=len(followed)),
-        "second_route": truth(followed.confirmed.all(), followed=len(followed)),
+        "ahead": truth(len(within) > 0 and within.ahead.all(), followed=len(within)),
+        "second_route": truth(
+            len(followed) > 0 and followed.confirmed.all(), followed=len(followed)
+        ),
     }
     grouped = table.groupby(["linearised", "proved", "shape"], as_index=False)
     counts = grouped.agg(motions=("contradicts", "size"), contradictions=("contradicts", "sum"))
