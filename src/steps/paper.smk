@@ -10,7 +10,7 @@ PARTS[PAPER].figures.update(
             "restitution_over_mass_ratio",
         ],
         "figures/quarter_period": ["quarter_period"],
-        "figures/trilith_map": ["trilith_map", "trilith_nearness"],
+        "figures/trilith_map": ["trilith_map", "trilith_uplift", "trilith_nearness"],
         "figures/trilith_starts": ["trilith_starts", "trilith_histories"],
         "figures/allen_histories": ["allen_histories"],
         "figures/allen_errors": ["allen_errors"],
@@ -206,6 +206,7 @@ rule trilith_map:
         code("src/steps/trilith_map.py"),
     output:
         table="results/tables/trilith_map.csv",
+        uplift="results/tables/trilith_uplift.csv",
     log:
         "results/logs/trilith_map.log",
     benchmark:

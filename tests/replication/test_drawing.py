@@ -4,6 +4,7 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import matplotlib.pyplot as plt
+import numpy as np
 import pandas as pd
 import pytest
 
@@ -33,6 +34,14 @@ def test_figure_has_a_role_a_title_and_a_description(figure, tmp_path):
         WORDS["title"],
         "Two curves, one > 1 and one < 1.",
     ]
+
+
+def test_last_bits_of_the_layout_change_no_byte(figure, tmp_path):
+    save(figure, tmp_path / "one.svg", **WORDS)
+    axes = figure.axes[0]
+    axes.set_position(np.nextafter(axes.get_position(original=True).bounds, 1.0))
+    save(figure, tmp_path / "other.svg", **WORDS)
+    assert (tmp_path / "one.svg").read_bytes() == (tmp_path / "other.svg").read_bytes()
 
 
 @pytest.mark.parametrize(
