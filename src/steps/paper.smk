@@ -65,7 +65,7 @@ CHECKS = {
 }
 
 
-# The overturning spectra are dealt out to so many jobs, which an executor may spread over machines.
+# The overturning spectra are split into so many jobs, which an executor may spread over machines.
 scattergather:
     spectra=config["spectra"]["shards"],
 
@@ -219,7 +219,7 @@ rule trilith_map:
         "trilith_map.py"
 
 
-# 5. Allen et al. (1986): linearised, massless columns --------------------------------------------
+# 5. Allen et al. (1986): linearised, columns without mass --------------------------------------------
 
 
 rule allen_histories:
@@ -582,7 +582,7 @@ rule animation:
     params:
         case=case("animation"),
     message:
-        "The column topples, the frame stands: the moving picture"
+        "The animation: the column overturns, the frame survives"
     script:
         "animation.py"
 
