@@ -163,7 +163,7 @@ for document in DOCUMENTS:
             "rules/report.py"
 
 
-# The audit: what was made and by what, each claim by itself ---------------------------------------
+# The audit: what was made and by what, each claim alone -------------------------------------------
 
 
 rule manifest:
@@ -190,7 +190,7 @@ rule manifest:
         "rules/manifest.py"
 
 
-# `snakemake --cores 2 claim_<id>` computes what the claim needs, and says how it came out.
+# `snakemake --cores 2 claim_<id>` computes what the claim needs, and prints its verdict.
 for claim in CLAIMS:
 
     rule:

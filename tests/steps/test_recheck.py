@@ -61,7 +61,7 @@ def faults_before(edition):
 
 @pytest.fixture
 def tampered(edition, faults_before):
-    """Change one file of the copy and return what is told of it; afterwards it is as before."""
+    """Change one file of the copy and return what is reported; afterwards it is as before."""
     kept = {}
 
     def change(name, edit):

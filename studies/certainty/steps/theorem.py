@@ -25,6 +25,7 @@ from topheavy import (
     simulate,
 )
 from topheavy.derivation import reversal_theorems
+from topheavy.synthetic.fragility import mass_ratio_of_share
 
 HALVINGS = 6
 BESIDE = 0.01  # of the factor: what lies between the boundary and the motion that is judged
@@ -84,12 +85,10 @@ def trial(random: np.random.Generator, linearised: bool) -> Trial | None:
     """
     alpha = math.radians(random.uniform(2.0, 44.0))
     column = Column(math.sin(alpha), math.cos(alpha))
-    # uniform in 2γ/(1 + 2γ), the share of the possible increase in size; 1 is γ → ∞
+    # uniform in the share of the possible increase in size; 1 is γ → ∞
     light, heavy = np.sort(random.choice([*random.uniform(0.0, 1.0, 2), 0.0, 1.0], 2, False))
     pair = [
-        RockingFrame(column, math.inf if x == 1.0 else x / (2.0 - 2.0 * x)).block(
-            float(random.uniform(0.0, 1.0))
-        )
+        RockingFrame(column, mass_ratio_of_share(x)).block(float(random.uniform(0.0, 1.0)))
         for x in (light, heavy)
     ]
     lighter, heavier = (block.linear() if linearised else block for block in pair)
