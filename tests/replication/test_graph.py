@@ -125,6 +125,12 @@ def test_change_of_a_module_reruns_its_users_and_nothing_else(finished, path, ru
     assert rerun(finished, path) - LAST == rules
 
 
+def test_change_of_the_kernel_reruns_in_one_go_what_uses_it(finished):
+    """Snakemake looks no further at a job of which an input is ancient() and made anew."""
+    found = rerun(finished, "src/topheavy/kernel/rest.py")
+    assert {"kernel", "spectra_shard", "heavier", "certainty_theorem", "claims"} <= found
+
+
 def test_new_structure_reruns_only_what_lists_the_config(finished):
     structure = "structures:\n  obelisk: { half_width: 0.4, half_height: 4.0 }\n"
     found = rerun(finished, "config/config.yaml", "structures:\n", structure)
