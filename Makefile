@@ -48,14 +48,14 @@ check: | $(UV) ## judge every claim again from the published findings, tables an
 trace: | $(UV) ## from a figure, table, finding or claim to its source (ITEM=results/claims.json)
 	@$(RUN) python -m replication.commands.trace "$$ITEM"
 
-verify: | $(UV) ## compare every file of a finished run with results/manifest.json
+verify: | $(UV) ## compare every file of a finished run with its RO-Crate
 	@$(RUN) python -m replication.commands.verify
 
 archive: | $(UV) ## after a run: one .zip in dist/ with the source and the results
 	@$(RUN) python -m replication.commands.archive
 
 html: | $(UV) ## after a run: write results/report.html with every figure, caption and verdict
-	@test -e results/manifest.json || { \
+	@test -e results/ro-crate-metadata.json || { \
 	  echo "there is no finished run; run 'make reproduce' first" >&2; exit 1; }
 	@$(RUN) snakemake --report results/report.html --quiet all || { \
 	  $(RUN) snakemake --report results/report.html all; exit 1; } # --quiet hides the error, too

@@ -30,8 +30,8 @@ class Key:
         Its path, dotted; `[]` stands for each item of a list of mappings.
     meaning, unit, allowed
         As the schema has them; "" where it says nothing.
-    value
-        As YAML, that of each item of a list of mappings.
+    values
+        Its value; inside a list of mappings, that of each item.
     source
         The nearest comment in config.yaml: of its line, or of a mapping or list that contains it,
         below the section; the page gives the comment of the section once.
@@ -41,8 +41,13 @@ class Key:
     meaning: str
     unit: str
     allowed: str
-    value: str
+    values: tuple[Any, ...]
     source: str
+
+    @property
+    def value(self) -> str:
+        """Its values as YAML."""
+        return "; ".join(_yaml(value) for value in self.values)
 
 
 def config_page(path: Path) -> str:
@@ -61,11 +66,14 @@ def config_page(path: Path) -> str:
     return "\n".join(lines) + "\n"
 
 
-def keys(path: Path) -> list[Key]:
-    """Return every key of a config that holds a value, in the order of the file."""
+def keys(path: Path, used: Mapping[str, Any] | None = None) -> list[Key]:
+    """Return every key of a config that holds a value, in the order of the file.
+
+    `used` has the values of a run, where another file went over this one.
+    """
     schema = read_yaml(path.with_name("config.schema.yaml"))
     said = comments(path.read_text(encoding="utf-8"))
-    config = read_yaml(path)
+    config = read_yaml(path) if used is None else used
     nested = {place: text for place, text in said.items() if place not in config}
     return [
         key
@@ -98,10 +106,9 @@ def _keys(
         of_items = schema.get("items", {})
         yield from _keys(f"{place}[]", items, of_items, root, inherited, said, source)
         return
-    shown = "; ".join(_yaml(value) for value in values)
     meaning = _one_line(inherited["description"])
     unit = unit_of(schema, root) or (inherited["unit"] if has_numbers(schema, root) else "")
-    yield Key(place, meaning, unit, allowed(schema, root), shown, source)
+    yield Key(place, meaning, unit, allowed(schema, root), tuple(values), source)
 
 
 def comments(text: str) -> dict[str, str]:
