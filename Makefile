@@ -86,7 +86,7 @@ lint: | $(UV) ## check style, types, spelling, wording and schemas; changes noth
 	  /^    \* / && !/\* Specify a conda environment or container for each rule/ { found = 1 } \
 	  END { if (found || !ran) { printf "%s", text; exit 1 } }'
 
-pages: | $(UV) ## write the pages that need no run: config/README.md, codecheck.yml, docs/exhibits.md
+pages: | $(UV) ## write the pages that need no run: input numbers, codecheck.yml, docs/exhibits.md
 	@$(RUN) python -m replication.commands.pages
 
 publish: | $(UV) ## copy results to docs/ and tests/reference/; read the diff, then commit it

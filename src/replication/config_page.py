@@ -1,4 +1,4 @@
-"""The page config/README.md: every key of the config with unit, bounds, value and source.
+"""The README.md beside a config: every key with its unit, bounds, value and source.
 
 The schema gives meaning, unit and bounds; config.yaml gives the value and, in its comments, the
 source. `unit` is an annotation of ours in the schema, "1" for a number without dimension. A key
@@ -52,12 +52,15 @@ class Key:
 
 def config_page(path: Path) -> str:
     """Return the page of a config, a table for each section; config.schema.yaml lies beside it."""
-    said = comments(path.read_text(encoding="utf-8"))
+    text = path.read_text(encoding="utf-8")
+    said = comments(text)
+    study = f" of the study {path.parent.name}" if path.parent.parent.name == "studies" else ""
     lines = [
-        "# The input numbers",
+        f"# The input numbers{study}",
         "",
         f"`make pages` writes this page from `{path.name}` and `config.schema.yaml`: change those.",
         'The unit "1" marks a number without dimension. A run refuses a value that is not allowed.',
+        *(["", head] if (head := _head(text)) else []),
     ]
     for section, found in groupby(keys(path), lambda key: re.split(r"[.\[]", key.place)[0]):
         lines += ["", f"## {section}", ""]
@@ -157,6 +160,14 @@ def _lines(node: yaml.Node, place: str) -> Iterator[tuple[str, int]]:
                     for inner, line in _lines(item, f"{place}[]")
                     if line != item.start_mark.line
                 )
+
+
+def _head(text: str) -> str:
+    """Return the comment at the head of a file, which an empty line separates from the rest."""
+    lines = text.partition("\n\n")[0].splitlines()
+    if not all(line.startswith("#") for line in lines):
+        return ""
+    return _one_line(" ".join(line.removeprefix("#") for line in lines))
 
 
 def _yaml(value: Any) -> str:
