@@ -32,6 +32,9 @@ for name in config["studies"]:
     include: f"studies/{name}/study.smk"
 
 
+after_the_kernel()
+
+
 include: "src/replication/rules.smk"
 
 

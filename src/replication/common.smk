@@ -53,7 +53,7 @@ def everything(wildcards):
     """Return all inputs and outputs of a run, except the crate that lists them, which is made last.
 
     What only another job needs is named as well: when it is missing, Snakemake makes it again only
-    if somebody asks for it. A failed or interrupted job leaves its outputs missing.
+    if somebody requests it. A failed or interrupted job leaves its outputs missing.
     """
     drawn = {table for tables in FIGURES.values() for table in tables}
     wanted = dict.fromkeys(f"results/tables/{table}.csv" for table in sorted(drawn))
@@ -66,10 +66,13 @@ def everything(wildcards):
 
 
 def longest_first():
-    """Start jobs that took long in the published run before others, so that no core waits for them."""
+    """Start jobs that took long in the published run before others, so that no core waits for them.
+
+    A rule's own priority is added.
+    """
     took = longest_jobs(Path("docs/costs.csv"))
     for each in workflow.rules:
-        each.priority = round(took.get(each.name, 0.0))
+        each.priority += round(took.get(each.name, 0.0))
 
 
 def caption_of(result):

@@ -167,7 +167,7 @@ for document in DOCUMENTS:
             "rules/report.py"
 
 
-# The audit: what was made and by what, each claim by itself ---------------------------------------
+# The audit: what was made and by what, each claim alone -------------------------------------------
 
 
 rule crate:
@@ -198,7 +198,7 @@ rule crate:
         "rules/crate.py"
 
 
-# `snakemake --cores 2 claim_<id>` computes what the claim needs, and says how it came out.
+# `snakemake --cores 2 claim_<id>` computes what the claim needs, and prints its verdict.
 for claim in CLAIMS:
 
     rule:

@@ -1,4 +1,4 @@
-"""Another paper: what `make paper` makes is complete, consistent, and knows nothing of this one."""
+"""Another paper: what `make paper` makes is complete and consistent, without this one."""
 
 import os
 import re

@@ -16,7 +16,7 @@ from replication.ledger import judged, read_judged, read_ledger
 from replication.publishing import count_table, verdict_page
 from replication.rechecking import claims, files, pages
 from replication.workbench import truth, value
-from steps.evidence import evidence
+from steps.evidence import OF_PAPER, OF_STUDIES, SOURCES, UNDRAWN, evidence
 from steps.recheck import equations, main
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -60,7 +60,7 @@ def faults_before(edition):
 
 @pytest.fixture
 def tampered(edition, faults_before):
-    """Change one file of the copy and return what is told of it; afterwards it is as before."""
+    """Change one file of the copy and return what is reported; afterwards it is as before."""
     kept = {}
 
     def change(name, edit):
@@ -180,6 +180,26 @@ def test_finding_that_is_changed_is_named(tampered, rule, finding, key, new, tol
         ("mechanism_rebounds", "impact_at_the_new_pivots", "plastic_apart", 0.0),
         ("mechanism_dependence", "heavier_needs_less", "lightest", 0.1),
         ("mechanism_three_bodies", "velocity_ratio", "largest", 1e-16),
+        ("mechanism_first_impacts", "first_impact", "largest", 1e-9),
+        ("mechanism_slides", "slides_as_the_forces_say", "between_that_slide", 0),
+        ("allen_errors", "linearised", "misjudged", 0),
+        ("allen_overturning", "all", "both_survive", 1.0),
+        ("moment_rotation", "period_depends_on_amplitude", "largest", 1.0),
+        ("restitution", "energy_loss", "least_slenderness_against_deg", 60.0),
+        ("uplift_limits", "uplift_limits_forces", "base_shear_largest", 0.5),
+        ("uplift_limits", "uplift_is_beneficial", "overturned", 0),
+        ("vase", "fixed_mass_always_lowers", "exceptions", 0),
+        ("vase", "condition_on_a_fresh_grid", "exceptions_beyond", []),
+        ("vase", "portal_has_a_wider_base", "holds", False),
+        ("vase", "shares_of_the_gain", "survived share of the map", {"α": [1.0, 1.0, 1.0]}),
+        ("reversals_vase", "every_motion", "free_sooner", 0.0),
+        ("reversals_uplift", "uplift_limits_totals", "survivors_that_uplift", 1),
+        ("certainty_theorem", "exact", "motions", 10000),
+        ("certainty_lowest", "no_fall_is_found", "apparent", 0),
+        ("certainty_extensions", "largest_change", "value", 0.1),
+        ("certainty_restitution", "lowest_rises_apart", "holds", True),
+        ("certainty_restitution", "probability_falls_together", "least", 0.5),
+        ("certainty_intensities", "free_cap_helps", "exceptions", 0),
     ],
 )
 def test_finding_follows_from_its_table(edition, rule, finding, key, new):
@@ -190,6 +210,14 @@ def test_finding_follows_from_its_table(edition, rule, finding, key, new):
     changed = findings[rule].by_name | {finding: Finding.of(entries)}
     (fault,) = evidence(reference, findings | {rule: replace(findings[rule], by_name=changed)})
     assert fault.startswith(f"findings/{rule}.json: {finding}.{key} is {new}, and")
+
+
+def test_findings_of_every_rule_are_drawn_or_told_why_not():
+    rules = {path.stem for path in (ROOT / "tests" / "reference" / "findings").glob("*.json")}
+    assert set(SOURCES) | set(UNDRAWN) == rules
+    assert not set(SOURCES) & set(UNDRAWN)
+    assert len(SOURCES) == len(OF_PAPER) + len(OF_STUDIES)
+    assert all(UNDRAWN.values())
 
 
 def test_function_that_did_not_run_is_named(tampered):
