@@ -32,6 +32,7 @@ FILES = {
 }
 STEP = replace(
     JOB,
+    rule="peaks_of_all",  # claims name the findings
     scripts=("src/peaks.py",),
     inputs=("src/beside.py",),
     outputs=("results/peaks.csv", "results/findings/peaks.json"),
@@ -51,6 +52,7 @@ KEYS = {
     "": [Key("column.height", "its height", "m", "a number > 0", (6.0,), "p. 4")],
     "wind": [Key("ratios", "mass ratio", "1", "0 or more values", ([0.0, float("inf")],), "")],
 }
+PROJECT = {"description": "On peaks", "version": "0.1.0"}
 CITATION = {
     "title": "Peaks again",
     "authors": [{"family-names": "Doe", "given-names": "Jo"}, {"name": "The team"}],
@@ -93,7 +95,7 @@ def made(tmp_path, monkeypatch):
         KEYS,
         [CLAIM, replace(CLAIM, id="ours", study="ours", rule="", verdict="not tested")],
         {"numpy": "2.4.6"},
-        {"description": "On peaks", "version": "0.1.0"},
+        PROJECT,
         CITATION,
     )
 
@@ -118,8 +120,8 @@ def test_crate_that_is_read_back_has_checksums_rules_and_what_is_left_out(made):
     assert found.checksums == {path: sha256(FILES[path]) for path in listed}
     assert found.rules == {
         "figures/peaks.svg": "figure",
-        "results/peaks.csv": "peaks",
-        "results/findings/peaks.json": "peaks",
+        "results/peaks.csv": "peaks_of_all",
+        "results/findings/peaks.json": "peaks_of_all",
     }
     assert found.left_out == ("results/costs.csv", "results/logs", CRATE)
     assert found.folders == ["results"]  # a source lies in figures/
@@ -190,9 +192,6 @@ def test_every_output_of_the_workflow_but_the_costs_is_listed(jobs, monkeypatch,
     given = {path for job in jobs for path in (*job.inputs, *job.scripts)}
     assert given - set(listed.checksums) == {"results/costs.csv", CRATE}
     assert listed.folders == ["results"]
-
-
-PROJECT = {"description": "On peaks", "version": "0.1.0"}
 
 
 REQUIRED = {

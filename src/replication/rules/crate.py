@@ -69,7 +69,7 @@ def main(
     files = entities.files(jobs, left_out)
     actions = entities.actions(jobs, left_out, values)
     written_by, paper = about.article(citation["references"][0])
-    findings = {job.rule: path for job in jobs for path in job.findings}
+    findings = {Path(path).stem: path for job in jobs for path in job.findings}
     reviews = entities.reviews(claims, findings, paper["@id"])
     unlisted = {
         "@id": LEFT_OUT,
