@@ -17,7 +17,6 @@ def rises(values: pd.Series) -> bool:
     return bool((np.diff(values) > 0.0).all())
 
 
-
 def equations(table: Table) -> Drawn:
     for row in table("equations").itertuples():
         yield row.id, "holds", bool(row.follows)

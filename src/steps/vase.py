@@ -167,7 +167,7 @@ def sampled(compared: list[dict], kind: str, count: int) -> list[Minimum]:
 def second_route(
     errors: list[float], exceptions: list[dict], rows: list[dict], compared: list[dict]
 ) -> Finding:
-    """Return whether SciPy finds every boundary that it searched for, as a finding.
+    """Return whether SciPy finds every boundary of the sample, as a finding.
 
     Of every exception, the structure that overturns later has to survive where the other falls.
     """

@@ -1,6 +1,7 @@
 """The published edition checked without a run: whatever is tampered with is named."""
 
 import json
+import math
 import re
 import shutil
 from dataclasses import replace
@@ -16,7 +17,7 @@ from replication.ledger import judged, read_judged, read_ledger
 from replication.publishing import count_table, verdict_page
 from replication.rechecking import claims, files, pages
 from replication.workbench import truth, value
-from steps.evidence import OF_PAPER, OF_STUDIES, SOURCES, UNDRAWN, evidence
+from steps.evidence import DIGITS, OF_PAPER, OF_STUDIES, SOURCES, UNDRAWN, evidence, same
 from steps.recheck import equations, main
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -210,6 +211,41 @@ def test_finding_follows_from_its_table(edition, rule, finding, key, new):
     changed = findings[rule].by_name | {finding: Finding.of(entries)}
     (fault,) = evidence(reference, findings | {rule: replace(findings[rule], by_name=changed)})
     assert fault.startswith(f"findings/{rule}.json: {finding}.{key} is {new}, and")
+
+
+@pytest.mark.parametrize(
+    ("found", "expected", "is_same"),
+    [
+        (1.0000001, 1.0, True),
+        (1.00001, 1.0, False),
+        (True, True, True),
+        (1, True, False),
+        (True, 1, False),
+        ([1.0], [1.0], True),
+        ([1.0, 2.0], [1.0], False),
+        ([1.0], [1.0, 2.0], False),
+        ({"a": 1.0, "b": 2.0}, {"a": 1.0}, True),
+        ({"b": 2.0}, {"a": 1.0}, False),
+        (None, 1.0, False),
+        (math.nan, 1.0, False),
+    ],
+)
+def test_entry_is_the_tables_to_its_digits(found, expected, is_same):
+    assert same(found, expected, DIGITS) is is_same
+
+
+def test_file_that_was_added_or_lost_is_noticed(edition, tmp_path):
+    reference = shutil.copytree(edition / "tests" / "reference", tmp_path / "reference")
+    (reference / "heavier.csv").rename(reference / "lighter.csv")
+    assert {fault.split(" ")[0] for fault in files(reference)} == {
+        "tests/reference/heavier.csv",
+        "tests/reference/lighter.csv",
+    }
+
+
+def test_row_that_no_ledger_has_is_found():
+    found = list(claims([CLAIM], FINDINGS, [judged_row(), judged_row(id="more")], ROOT))
+    assert found == ["claim more is not in both the ledger and tests/reference/claims.json"]
 
 
 def test_findings_of_every_rule_are_drawn_or_told_why_not():

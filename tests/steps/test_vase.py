@@ -273,9 +273,7 @@ def test_shares_carry_the_whole_gain(lost, holds):
 
 def test_gain_is_that_of_the_frame_over_the_fixed_mass(monkeypatch):
     """Each parameter of the frame is worth as much as it is larger than that of the fixed mass."""
-    monkeypatch.setattr(
-        vase_shares, "WORTHS", {"α": lambda block, *rest: block.slenderness}
-    )
+    monkeypatch.setattr(vase_shares, "WORTHS", {"α": lambda block, *rest: block.slenderness})
     case = {"shapes": ["one-sine"], "shares": {"mass_ratios": [1.0]}}
     rows = pd.DataFrame(vase_shares.shares(COLUMN, case)).set_index("taken_from_the_frame")
     assert rows.share_of_gain["α"] == pytest.approx(1.0)

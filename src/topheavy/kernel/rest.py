@@ -6,8 +6,8 @@ the train of bounces is over before |a| exceeds the level again; this is decided
 not by the smallness of a velocity.
 
 A block that a record lifts at a sample by its last digit alone may land before the clock can tick
-(time + bounce = time). For such a train of bounces the ground stands still, and the bound is that of
-the push at once. The block waits at rest from the next tick on, so that every history advances.
+(time + bounce = time). The ground stands still during such a train of bounces, and the bound is
+that of the push at once. The block rests from the next tick on, so that every history advances.
 """
 
 import math

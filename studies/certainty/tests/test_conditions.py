@@ -38,7 +38,7 @@ def tried(linearised, *, proved=(True, False), contradicts=(False, False), ahead
         ({False: {"ahead": (False, np.nan)}}, {"ahead", "second_route"}),
         ({False: {"ahead": (True, False)}}, {"second_route"}),  # the theorem says nothing of it
         (
-            dict.fromkeys((True, False), {"ahead": (np.nan, np.nan)}),
+            {linearised: {"ahead": (np.nan, np.nan)} for linearised in (True, False)},
             {"ahead", "second_route"},  # none was followed
         ),
         ({"proofs": [proof("a"), proof("b", False)]}, {"proofs"}),
@@ -72,9 +72,7 @@ EXTREME = {
     ("light", "heavy", "holds"),
     [((True, 1), (True, 0), False), ((True, 0), (True, 0), True), ((False, 1), (True, 1), True)],
 )
-def test_extreme_motion_overturns_the_heavier_frame_alone_at_once(
-    monkeypatch, light, heavy, holds
-):
+def test_extreme_motion_overturns_the_heavier_frame_alone_at_once(monkeypatch, light, heavy, holds):
     def judge(frame, pulse, tolerance=None):
         overturned, impacts = heavy if frame.mass_ratio else light
         return SimpleNamespace(overturned=overturned, impacts=impacts)
@@ -242,9 +240,7 @@ def cells(**fell):
         )
         for one in UNDER
         for level in (0.6, 1.0)
-        for number in [
-            fell.get(f"{one.support}_{one.height:g}", {}).get(level, usual[one.support])
-        ]
+        for number in [fell.get(f"{one.support}_{one.height:g}", {}).get(level, usual[one.support])]
     )
 
 

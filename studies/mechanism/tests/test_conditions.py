@@ -127,9 +127,7 @@ def test_first_impact_comes_within_a_hundredth_in_the_limit_of_small_steps(
     theory = SimpleNamespace(impacts=[1.0])
     given = {"models": [model], "simulate": theory, "rig_of": None, "run": None}
     for name, found in given.items():
-        monkeypatch.setattr(
-            first_impacts, name, lambda *arguments, found=found, **options: found
-        )
+        monkeypatch.setattr(first_impacts, name, lambda *arguments, found=found, **options: found)
     times = iter(1.0 + late + 0.1 * step for step in (0.4, 0.2, 0.1))  # an error of first order
     monkeypatch.setattr(first_impacts, "crossing", lambda motion: (None, next(times)))
     case = {"time_steps": [0.1, 0.4, 0.2], "frames": {}, "leans": [0.5]}
