@@ -42,7 +42,7 @@ rule all:
     default_target: True
     input:
         everything,
-        "results/manifest.json",
+        CRATE,
 
 
 onstart:

@@ -6,8 +6,9 @@ from pathlib import Path
 
 from replication.captions import alternative, captioned, check_captions, read_captions
 from replication.closing import close
-from replication.code import code, results_read, undeclared
+from replication.code import code, results_read
 from replication.costs import longest_jobs
+from replication.crate import CRATE
 from replication.ledger import read_judged, read_ledger
 from replication.ledger_check import check_ledger
 from replication.parts import PAPER, Part
@@ -49,7 +50,7 @@ def parts(check):
 
 
 def everything(wildcards):
-    """Return all inputs and outputs of a run, except the list of its outputs, which is made last.
+    """Return all inputs and outputs of a run, except the crate that lists them, which is made last.
 
     What only another job needs is named as well: when it is missing, Snakemake makes it again only
     if somebody requests it. A failed or interrupted job leaves its outputs missing.
@@ -57,7 +58,7 @@ def everything(wildcards):
     drawn = {table for tables in FIGURES.values() for table in tables}
     wanted = dict.fromkeys(f"results/tables/{table}.csv" for table in sorted(drawn))
     for each in workflow.rules:
-        if each.name == "manifest" or not each.output:
+        if each.name == "crate" or not each.output:
             continue
         asked = [*each.input, *([] if each.has_wildcards() else each.output)]
         wanted |= dict.fromkeys(str(path) for path in asked if not callable(path))

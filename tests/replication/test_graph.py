@@ -14,7 +14,7 @@ from replication.tree_copy import copy_tree
 ROOT = Path(__file__).parents[2]
 
 
-LAST = {"all", "manifest"}  # rules that take everything
+LAST = {"all", "crate"}  # rules that take everything
 
 
 def is_notebook(path):
@@ -36,6 +36,13 @@ def test_every_module_is_an_input_of_each_job_whose_script_imports_it(jobs):
         for path in set(code(script, root=ROOT)) - set(job.inputs)
     }
     assert gaps == set()
+
+
+def test_crate_depends_on_what_the_snakefiles_import_and_not_on_what_this_process_does(jobs):
+    (crate,) = (job for job in jobs if job.rule == "crate")
+    used = {"Snakefile", "src/steps/paper.smk", "src/steps/inputs.py", "src/replication/closing.py"}
+    assert used <= set(crate.inputs)
+    assert "src/replication/tree_copy.py" not in crate.inputs  # imported above
 
 
 def test_every_module_of_library_and_studies_is_the_input_of_some_job(jobs):
