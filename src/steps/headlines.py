@@ -8,6 +8,8 @@ from pathlib import Path
 
 import pandas as pd
 
+from replication.strict_yaml import read_yaml
+
 LINK = re.compile(r"\]\((?:[^()]|\([^()]*\))*\)")
 DOI = re.compile(r"\[doi:[^\]]*\]")
 STATED_PGV = 0.6
@@ -29,11 +31,14 @@ def motions(reference: Path, table: str, **place: float) -> pd.Series:
     return rows.squeeze()
 
 
-def probabilities(reference: Path, level: float) -> dict[str, float]:
-    """Return the probability that near-fault motions of a PGV overturn 6 m columns, by support."""
+def stated_motions(reference: Path, level: float) -> pd.DataFrame:
+    """Return how many near-fault motions of a PGV overturn 6 m columns, and of how many.
+
+    The rows are the supports of the mass: bare, free and fixed.
+    """
     rows = pd.read_csv(reference / "studies" / "certainty_intensities.csv")
     rows = rows.query("structure == '6 m temple' and family == 'near-fault' and measure == 'pgv'")
-    return rows[rows.level == level].set_index("support").probability.to_dict()
+    return rows[rows.level == level].set_index("support")[["fell", "motions"]]
 
 
 def numbers(reference: Path) -> list[str]:
@@ -45,9 +50,12 @@ def numbers(reference: Path) -> list[str]:
     starts = pd.read_csv(reference / "trilith_starts.csv").set_index("share_of_speed")
     gain = motions(reference, "reversals_medians", mass_ratio=1.0, as_large_as=0).gain
     reversed_ = motions(reference, "reversals_pairs", lighter=0, heavier=1.0).motions
+    study = read_yaml(reference / "studies" / "reversals.yaml")["pulses"]
+    window = study["grids"][study["grid"]]["frequency_ratios"]
     return [
         f"{ratios.size_ratio[math.inf]:.1f}",
         *(f"{lowest[gamma]:.3f}" for gamma in (0.0, math.inf)),
+        f"{window['lowest']:.1f}",
         f"{100 * claims['reversals_help']:.1f}",
         f"{100 * claims['reversals_harm']:.1f}",
         f"{100 * gain:.1f}",
