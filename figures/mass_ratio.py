@@ -12,10 +12,10 @@ def draw(mass_ratio):
     last = mass_ratio.iloc[-1]
     figure, axes = sheet(DOUBLE, 56, ncols=2)
     panels = (
-        ("size_ratio", "share_of_size_gain", r"limit $3/2$"),
-        ("frequency_ratio", "share_of_frequency_gain", r"limit $\sqrt{2/3}$"),
+        ("size_ratio", "share_of_size_gain", r"limit $3/2$", r"$\hat{R}$"),
+        ("frequency_ratio", "share_of_frequency_gain", r"limit $\sqrt{2/3}$", r"$\hat{p}$"),
     )
-    for axis, (name, share, limit) in zip(axes, panels, strict=True):
+    for axis, (name, share, limit, of) in zip(axes, panels, strict=True):
         up = 1 if last[name] > 1.0 else -1
         beside = {"textcoords": "offset points"}
         axis.axhline(last[name], color=GREY, linestyle=(0, (4, 2)), linewidth=0.8)
@@ -27,7 +27,7 @@ def draw(mass_ratio):
         for part in (0.5, 0.9):
             at = np.interp(part, finite[share], finite.mass_ratio)
             reached = np.interp(part, finite[share], finite[name])
-            text = f"{100 * part:.0f} % of the gain at $\\gamma$ = {at:.2g}"
+            text = f"{100 * part:.0f} % of the change in {of} at $\\gamma$ = {at:.2g}"
             axis.plot(at, reached, "o", color=INK, markerfacecolor=PAPER, markersize=3.5, zorder=3)
             note(axis, text, (at, reached), xytext=(5, -9 * up), **beside)
     axes[0].set(xlabel=GAMMA, ylabel=r"Size, $\hat{R}/R$ (–)", ylim=(0.97, 1.55))

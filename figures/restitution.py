@@ -5,6 +5,12 @@ import numpy as np
 from figures.drawing import gamma
 from replication.drawing import DOUBLE, GREY, INK, letter, note, publish, shades, sheet
 
+LEADERS = (  # γ and slenderness of a curve, its formula, and where that is written
+    (0.0, 30.0, "Housner, solitary column:\n$1-\\frac{3}{2}\\sin^2\\alpha$", (35, 0.8)),
+    (np.inf, 33.0, "$\\gamma\\to\\infty$: $\\cos 2\\alpha$", (14, 0.25)),
+)
+LEADER = {"arrowstyle": "-", "color": INK, "linewidth": 0.6, "shrinkA": 1, "shrinkB": 0}
+
 
 def draw(restitution_over_slenderness, restitution_over_mass_ratio):
     figure, (left, right) = sheet(DOUBLE, 66, ncols=2)
@@ -20,8 +26,10 @@ def draw(restitution_over_slenderness, restitution_over_mass_ratio):
             aside = (2, 8) if mass_ratio == 0.0 else (-18, -8)
             note(left, f"{end:.1f}°", (end, 0), xytext=aside, textcoords="offset points")
     left.axhline(0, color=GREY, linewidth=0.6)
-    note(left, "Housner, solitary column:\n$1-\\frac{3}{2}\\sin^2\\alpha$", (31, 0.72))
-    note(left, "$\\gamma\\to\\infty$: $\\cos 2\\alpha$", (30.5, 0.33), ha="right")
+    for mass_ratio, slenderness, words, at in LEADERS:
+        curve = curves.get_group(mass_ratio)
+        tip = (slenderness, np.interp(slenderness, curve.slenderness_deg, curve.restitution))
+        left.annotate(words, tip, at, fontsize=7.5, va="center", arrowprops=LEADER)
     note(left, "dotted: no rocking\nafter an impact", (60, 0.42), ha="right", color=GREY)
     left.legend(loc="lower left", ncols=2, labelspacing=0.2)
     left.set(xlabel=r"Slenderness, $\alpha$ (°)", xlim=(0, 60), ylim=(-0.52, 1.03))

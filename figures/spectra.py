@@ -3,7 +3,7 @@
 import numpy as np
 
 from figures.drawing import HIGHEST, PULSES, amplitude_axis, gamma
-from replication.drawing import DOUBLE, GREY, PAPER, note, publish, shades, sheet
+from replication.drawing import DOUBLE, GREY, PAPER, letter, note, publish, shades, sheet
 
 DRAWN = [0.0, 1.0, np.inf]  # γ
 
@@ -32,17 +32,17 @@ def draw(spectra):
     rows = len(slendernesses)
     figure, axes = sheet(DOUBLE, 54 * rows, nrows=rows, ncols=4, sharex=True, sharey=True)
     for row, slenderness in zip(axes, slendernesses, strict=True):
-        for axis, (shape, words) in zip(row, PULSES.items(), strict=True):
+        for axis, shape in zip(row, PULSES, strict=True):
             of = (spectra["shape"] == shape) & (spectra.slenderness_deg == slenderness)
             panel(axis, spectra[of])
-            if slenderness == slendernesses[0]:
-                axis.set_title(words)
             if slenderness == slendernesses[-1]:
                 axis.set_xlabel(r"Frequency, $\omega/p$ (–)")
         words = f"$\\alpha$ = {slenderness:.3g}°\nMinimum amplitude, " + r"$a/(g\,\tan\alpha)$ (–)"
         row[0].set_ylabel(words)
-    axes[0, 3].legend(loc="lower right", handlelength=1.4, labelspacing=0.2, borderaxespad=0.1)
-    note(axes[0, 0], "uplift", (7.9, 1.05), color=GREY, ha="right")
+    letter(axes.flat, [*PULSES.values()] * rows)
+    above = {"loc": "lower right", "bbox_to_anchor": (1.0, 0.06)}  # the line of uplift
+    axes[0, 3].legend(handlelength=1.4, labelspacing=0.2, borderaxespad=0.1, **above)
+    note(axes[0, 0], "uplift", (7.9, 1.1), color=GREY, ha="right")
     words = "circle: at higher\nfrequencies no\namplitude up to\n12 overturns"
     note(axes[0, 1], words, (0.99, 0.22), xycoords="axes fraction", ha="right", color=GREY)
     return figure

@@ -9,6 +9,7 @@ FORCES = {
     "bending_moment": ("bending moment", "^"),
 }
 HOLLOW = "^"
+MARKS = {"pulse": ".", "record": "+"}
 DRAWN = 1.0  # γ of the ratios
 
 
@@ -19,7 +20,9 @@ def shear(axis, limits):
     note(axis, "rigid, held", (0.55, 0.60), rotation=62, ha="center", fontsize=7)
     for ratio, colour in zip(levels, shades(len(levels)), strict=True):
         of = limits[limits.mass_ratio == ratio].sort_values("peak_acceleration")
-        axis.plot(of.peak_acceleration, of.base_shear, ".", color=colour, markersize=2.2)
+        for kind, mark in MARKS.items():
+            rows = of[of.kind == kind]
+            axis.plot(rows.peak_acceleration, rows.base_shear, mark, color=colour, markersize=3)
         axis.plot(of.peak_acceleration, of.shear_after_uplift, color=colour)
         end = of.shear_after_uplift.iloc[-1]
         note(axis, gamma(ratio), (1.03 * highest, end), color=colour)
@@ -42,7 +45,8 @@ def ratios(axis, table):
     axis.axhline(1.0, color=GREY, linewidth=0.6)
     axis.set(yscale="log", ylim=(0.04, 14))
     axis.set_yticks((0.1, 1, 10), ("0.1", "1", "10"))
-    axis.set_xticks(range(len(held)), [name.removesuffix(" s") for name in held])
+    names = [name.removesuffix(" s").replace("rigid", "0\nrigid") for name in held]
+    axis.set_xticks(range(len(held)), names)
     axis.set(xlabel="Period of the held frame (s)", ylabel="Rocking over held (–)")
     axis.legend(loc="upper left", fontsize=7)
 

@@ -7,7 +7,7 @@ from matplotlib.patches import Polygon, Rectangle
 
 from figures.drawing import gamma
 from figures.palette import OVERTURNED, OVERTURNS, ROCKS, SURVIVES
-from replication.drawing import DOUBLE, GREY, INK, PAPER, note, publish, sheet
+from replication.drawing import DOUBLE, GREY, INK, PAPER, letter, note, publish, sheet
 
 PLACES = {"bare": 0.0, "fixed": 10.2, "free": 22.6}  # m: the middle of each structure
 NAMES = {"bare": "Column", "fixed": "Vase: mass fixed to it", "free": "Frame: mass carried freely"}
@@ -87,7 +87,7 @@ def minima(axis, summary, poses):
         line = of[of.structure == name].sort_values("mass_ratio")
         finite, limit = line[line.mass_ratio < math.inf], line.minimum_overturning.iloc[-1]
         x, y = [0.0, *finite.mass_ratio], [bare, *finite.minimum_overturning]
-        axis.plot(x, y, color=INK)
+        axis.plot(x, y, "o-", color=INK, markersize=2.2)
         axis.plot([x[-1], LIMIT], [y[-1], limit], color=INK, linewidth=0.8, linestyle=(0, (1, 2)))
         axis.plot(LIMIT, limit, "o", color=INK, markersize=3.2, clip_on=False)
         glyph(axis, name, (GLYPHS_AT, y[x.index(GLYPHS_AT)]))
@@ -107,6 +107,9 @@ def draw(vase, vase_poses):
     figure, (left, right) = sheet(DOUBLE, 74, ncols=2, width_ratios=(2.25, 1))
     picture(left, vase_poses)
     minima(right, vase, vase_poses)
+    ratio = vase_poses.mass_ratio.iloc[0]
+    titles = [f"Outcomes under two pulses, {gamma(ratio)}", "Minimum for each mass ratio"]
+    letter((left, right), titles)
     return figure
 
 

@@ -70,7 +70,8 @@ def test_interval_of_the_benefit_includes_zero_where_it_is_said_to():
         if row["way"] == "column alone" and row["factor"] == 0.9
     ]
     assert "only that of the column is 10 % lower, the 95 % interval of the benefit" in said()
-    assert rows and all(row["less_low"] <= 0.0 < row["less_high"] for row in rows)
+    assert rows
+    assert all(row["less_low"] <= 0.0 < row["less_high"] for row in rows)
 
 
 def test_two_thirds_of_the_gain_are_had_at_mass_ratio_one():

@@ -25,14 +25,14 @@ def fragility(axis, curves, colours):
 
 def less(axis, curves, colours):
     """Draw by how much two of the curves are below that without a cap."""
-    for ratio, place in ((1.0, 0.06), (math.inf, 0.34)):
+    for ratio, place in ((1.0, 6), (math.inf, 34)):
         curve, colour = curves[curves.mass_ratio == ratio], colours[ratio]
-        axis.plot(curve.intensity, curve.less, color=colour, linewidth=1.0)
-        axis.fill_between(curve.intensity, curve.less_low, curve.less_high, color=colour, **BAND)
+        points, low, high = (100 * curve[name] for name in ("less", "less_low", "less_high"))
+        axis.plot(curve.intensity, points, color=colour, linewidth=1.0)
+        axis.fill_between(curve.intensity, low, high, color=colour, **BAND)
         note(axis, gamma(ratio), (1.05, place), color=colour)
     axis.axhline(0.0, color=INK, linewidth=0.6)
-    axis.set(ylim=(-0.04, 0.4))
-    axis.set_xlabel(r"Intensity, $p\,\mathrm{PGV}/(g\,\tan\alpha)$ (–)")
+    axis.set(ylim=(-4, 40))
 
 
 def logarithmic(axis, ends, ticks):
@@ -52,6 +52,7 @@ def draw(reversals_fragility):
         fragility(column[0], curves, colours)
         less(column[1], curves, colours)
         for axis in column:
+            axis.set_xlabel(r"Intensity, $p\,\mathrm{PGV}/(g\,\tan\alpha)$ (–)")
             logarithmic(axis, (curves.intensity.min(), curves.intensity.max()), INTENSITIES)
         top = column[0].twiny()
         logarithmic(top, (curves.pgv.min(), curves.pgv.max()), VELOCITIES)
@@ -61,10 +62,10 @@ def draw(reversals_fragility):
     for axis, mark, family in zip(axes[1], "cd", FAMILIES, strict=True):
         axis.set_title(f"({mark}) Reduction by the cap beam: {family}")
     axes[0, 0].set_ylabel("Probability of overturning (–)")
-    axes[1, 0].set_ylabel("Reduction (–)")
+    axes[1, 0].set_ylabel("Reduction (percentage points)")
     for place, (ratio, colour) in enumerate(colours.items()):
         words = gamma(ratio) + (", no cap" if ratio == 0 else "")
-        at = (0.8, 0.43 - 0.065 * place)
+        at = (0.8, 0.53 - 0.075 * place)
         note(axes[0, 1], words, at, color=colour, xycoords="axes fraction")
     return figure
 
