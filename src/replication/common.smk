@@ -77,7 +77,11 @@ def only_shards_leave_this_machine():
     A shard has the wildcard of scattergather. Without a cluster this changes nothing.
     """
     workflow.localrules(
-        *(each.name for each in workflow.rules if "scatteritem" not in each.wildcard_names)
+        *(
+            each.name
+            for each in workflow.rules
+            if "scatteritem" not in each.wildcard_names
+        )
     )
 
 
