@@ -4,7 +4,6 @@ Three sizes a factor of ten apart, each in a process of its own: python benchmar
 minutes on a core). It writes docs/scale.csv; profiles/slurm/README.md extrapolates from it.
 """
 
-import csv
 import os
 import resource
 import subprocess
@@ -62,34 +61,34 @@ def gather(number: int) -> tuple[int, int]:
     case = study["motions_ensemble"]
     case["runs"]["default"]["motions"] = number
     with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder, "shard.csv")
-        subprocess.run([sys.executable, __file__, "outcomes", str(number), str(path)], check=True)
-        main(case, structures, [str(path)])
-        table = pd.read_csv(path, usecols=["outcomes"])
-    return 4 * number, len(table) * len(table.outcomes[0])
+        subprocess.run([sys.executable, __file__, "outcomes", str(number), folder], check=True)
+        paths = sorted(map(str, Path(folder).glob("*.csv")))
+        main(case, structures, paths)
+        letters = sum(pd.read_csv(path).outcomes.str.len().sum() for path in paths)
+    return 4 * number, int(letters)
 
 
-def outcomes(number: int, path: str) -> None:
-    """Write a table like that of a shard, whose motions overturn at a lognormal intensity."""
+def outcomes(number: int, folder: str) -> None:
+    """Write tables like those of the shards; the motions overturn at lognormal intensities."""
+    from studies.reversals.outcomes import written
     from topheavy.synthetic.ensemble import draws, intensities, subjects
 
     study, structures = config()
     case = study["motions_ensemble"]
     case["runs"]["default"]["motions"] = number
     levels, random = intensities(case), np.random.default_rng(SEED)
-    under = list(subjects(case, structures))
-    with Path(path).open("w", encoding="utf-8", newline="") as file:
-        rows = csv.writer(file, lineterminator="\n")
-        rows.writerow([*draws(case)[0].labels, *under[0].labels, "outcomes"])
-        for draw in draws(case):
+    under, shards = list(subjects(case, structures)), case["runs"]["larger"]["shards"]
+    for shard in range(shards):
+        rows = []
+        for draw in draws(case)[shard::shards]:
             strength = random.normal(0.0, 0.3)
             for subject in under:
-                if draw.number >= subject.share * number:
-                    continue
-                labels = draw.labels | subject.labels
-                gain = 0.1 * min(subject.frame.mass_ratio or subject.enlarged, 2.0)
-                fell = np.log(levels) > strength + gain + random.normal(0.0, 0.05)
-                rows.writerow([*labels.values(), "".join(np.where(fell, "f", "s"))])
+                if draw.number < subject.share * number:
+                    gain = 0.1 * min(subject.frame.mass_ratio or subject.enlarged, 2.0)
+                    fell = np.log(levels) > strength + gain + random.normal(0.0, 0.05)
+                    rows.append(draw.labels | subject.labels | {"outcomes": written(fell)})
+        if rows:
+            pd.DataFrame(rows).to_csv(Path(folder, f"{shard}.csv"), index=False)
 
 
 def graph(shards: int) -> tuple[int, int]:
@@ -152,7 +151,7 @@ if __name__ == "__main__":
     match sys.argv[1:]:
         case []:
             main()
-        case ["outcomes", number, path]:
-            outcomes(int(number), path)
+        case ["outcomes", number, folder]:
+            outcomes(int(number), folder)
         case [name, size]:
             measured(name, size)
