@@ -48,14 +48,14 @@ check: | $(UV) ## judge every claim again from the published findings, tables an
 trace: | $(UV) ## from a figure, table, finding or claim to its source (ITEM=results/claims.json)
 	@$(RUN) python -m replication.commands.trace "$$ITEM"
 
-verify: | $(UV) ## compare every file of a finished run with results/manifest.json
+verify: | $(UV) ## compare every file of a finished run with its RO-Crate
 	@$(RUN) python -m replication.commands.verify
 
 archive: | $(UV) ## after a run: one .zip in dist/ with the source and the results
 	@$(RUN) python -m replication.commands.archive
 
 html: | $(UV) ## after a run: write results/report.html with every figure, caption and verdict
-	@test -e results/manifest.json || { \
+	@test -e results/ro-crate-metadata.json || { \
 	  echo "there is no finished run; run 'make reproduce' first" >&2; exit 1; }
 	@$(RUN) snakemake --report results/report.html --quiet all || { \
 	  $(RUN) snakemake --report results/report.html all; exit 1; } # --quiet hides the error, too
@@ -86,7 +86,7 @@ lint: | $(UV) ## check style, types, spelling, wording and schemas; changes noth
 	  /^    \* / && !/\* Specify a conda environment or container for each rule/ { found = 1 } \
 	  END { if (found || !ran) { printf "%s", text; exit 1 } }'
 
-pages: | $(UV) ## write the pages that need no run: config/README.md, codecheck.yml, docs/exhibits.md
+pages: | $(UV) ## write the pages that need no run: input numbers, codecheck.yml, docs/exhibits.md
 	@$(RUN) python -m replication.commands.pages
 
 publish: | $(UV) ## copy results to docs/ and tests/reference/; read the diff, then commit it

@@ -32,6 +32,9 @@ for name in config["studies"]:
     include: f"studies/{name}/study.smk"
 
 
+after_the_kernel()
+
+
 include: "src/replication/rules.smk"
 
 
@@ -39,7 +42,7 @@ rule all:
     default_target: True
     input:
         everything,
-        "results/manifest.json",
+        CRATE,
 
 
 onstart:

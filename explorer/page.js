@@ -23,7 +23,7 @@ const round = (number, digits = 3) => {
 let quick = new Worker(ENGINE), slow = null;
 let isBusy = false, waits = false, survey = 0, mapKey = "", isMapDone = false;
 
-/** Ask for the histories of the state; while one is computed, only the last question waits. */
+/** Request the histories of the state; while one is computed, only the last question waits. */
 function ask() {
   if (isBusy) {
     waits = true;

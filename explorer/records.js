@@ -94,7 +94,7 @@ function readCsv(lines) {
 
 /** The record in a file: its name without the ending, its step in s, its samples in g.
 
-    Throws an Error that says what is wrong, what was expected, and in which line. */
+    Throws an Error with the fault, what was expected, and the line. */
 function readRecord(file, text) {
   const lines = text.replace(/^\uFEFF/, "").split(/\r\n|\r|\n/), ending = file.split(".").at(-1).toLowerCase();
   const reader = { at2: readAt2, csv: readCsv }[ending];

@@ -174,7 +174,7 @@ function spectrum(state, file, report) {
   report({ codes, share: 1 });
 }
 
-/** Mark what survives above the lowest amplitude that overturns at the same x: survival regions. */
+/** Mark what survives above the minimum overturning amplitude at the same x: survival regions. */
 function withRegions(codes, columns, rows) {
   const marked = codes.slice();
   for (let i = 0; i < columns; i++) {

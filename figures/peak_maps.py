@@ -16,7 +16,7 @@ def draw(peak_maps):
     for axis, mass_ratio in zip(axes, ratios, strict=True):
         cells = peak_maps[peak_maps.mass_ratio == mass_ratio].drop(columns="mass_ratio")
         cells = cells.set_index("amplitude_over_uplift")
-        axis.patch.set(**HATCHED)
+        axis.axhspan(1.0, 12.0, linewidth=0.0, **HATCHED)
         image = axis.pcolormesh(
             cells.columns.astype(float),
             cells.index,

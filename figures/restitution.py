@@ -42,7 +42,8 @@ def draw(restitution_over_slenderness, restitution_over_mass_ratio):
     right.set(xlabel=r"Mass ratio, $\gamma$ (–)", xlim=(0, 10), ylim=(0.46, 1.01))
     for axis in (left, right):
         axis.set_ylabel(r"Coefficient of restitution, $\sqrt{r}$ (–)")
-    letter([left, right], ["Effect of the slenderness", "Effect of the mass ratio"])
+    titles = ["Restitution over the slenderness", "Restitution over the mass ratio"]
+    letter([left, right], titles, first="c")
     return figure
 
 

@@ -1,10 +1,11 @@
-"""Minimum overturning acceleration against frequency: every γ, exact and linearised."""
+"""Minimum overturning acceleration against frequency: the column and two of its frames."""
 
 import numpy as np
 
-from figures.drawing import PULSES, amplitude_axis, gamma
-from figures.palette import MODEL
-from replication.drawing import DOUBLE, GREY, note, publish, shades, sheet
+from figures.drawing import HIGHEST, PULSES, amplitude_axis, gamma
+from replication.drawing import DOUBLE, GREY, PAPER, note, publish, shades, sheet
+
+DRAWN = [0.0, 1.0, np.inf]  # γ
 
 
 def lowest(lines):
@@ -13,28 +14,27 @@ def lowest(lines):
     return found.index, found.to_numpy()
 
 
-def panel(axis, cells, ratios):
-    for mass_ratio, colour in zip(ratios, shades(len(ratios)), strict=True):
-        of = cells[cells.mass_ratio == mass_ratio].groupby("linearised")
-        axis.plot(
-            *lowest(of.get_group(False)), color=colour, linewidth=1.0, label=gamma(mass_ratio)
-        )
-        if mass_ratio in (ratios[0], ratios[-1]):
-            how = {"color": MODEL, "linewidth": 0.8, "linestyle": (0, (3, 2))}
-            axis.plot(*lowest(of.get_group(True)), **how)
-    axis.axhline(1.0, color=GREY, linewidth=0.6)
+def panel(axis, cells):
+    """Draw a line for each γ, with an open circle where it ends within the axes."""
     amplitude_axis(axis)
+    for mass_ratio, colour in zip(DRAWN, shades(len(DRAWN)), strict=True):
+        frequencies, amplitudes = lowest(cells[cells.mass_ratio == mass_ratio])
+        axis.plot(frequencies, amplitudes, color=colour, label=gamma(mass_ratio))
+        if amplitudes[-1] < 0.9 * HIGHEST and frequencies[-1] < axis.get_xlim()[1]:
+            how = {"color": colour, "markerfacecolor": PAPER, "markersize": 3.5}
+            axis.plot(frequencies[-1], amplitudes[-1], "o", **how)
+    axis.axhline(1.0, color=GREY, linewidth=0.6)
 
 
 def draw(spectra):
-    ratios = np.sort(spectra.mass_ratio.unique())
+    spectra = spectra[~spectra.linearised]
     slendernesses = np.sort(spectra.slenderness_deg.unique())
     rows = len(slendernesses)
     figure, axes = sheet(DOUBLE, 54 * rows, nrows=rows, ncols=4, sharex=True, sharey=True)
     for row, slenderness in zip(axes, slendernesses, strict=True):
         for axis, (shape, words) in zip(row, PULSES.items(), strict=True):
             of = (spectra["shape"] == shape) & (spectra.slenderness_deg == slenderness)
-            panel(axis, spectra[of], ratios)
+            panel(axis, spectra[of])
             if slenderness == slendernesses[0]:
                 axis.set_title(words)
             if slenderness == slendernesses[-1]:
@@ -43,8 +43,8 @@ def draw(spectra):
         row[0].set_ylabel(words)
     axes[0, 3].legend(loc="lower right", handlelength=1.4, labelspacing=0.2, borderaxespad=0.1)
     note(axes[0, 0], "uplift", (7.9, 1.05), color=GREY, ha="right")
-    words = "dashed: linearised,\n" + r"$\gamma=0$ and $\gamma=\infty$"
-    note(axes[0, 1], words, (0.97, 0.12), xycoords="axes fraction", ha="right", color=MODEL)
+    words = "circle: at higher\nfrequencies no\namplitude up to\n12 overturns"
+    note(axes[0, 1], words, (0.99, 0.22), xycoords="axes fraction", ha="right", color=GREY)
     return figure
 
 

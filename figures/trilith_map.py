@@ -9,13 +9,9 @@ from replication.drawing import DOUBLE, INK, letter, note, publish, sheet
 ARROW = {"arrowstyle": "-|>", "color": INK, "shrinkA": 0, "shrinkB": 0, "mutation_scale": 7}
 
 
-def uplift(frequency, amplitude, tested):
-    """Return the displacement amplitude of uplift, u₀ ∝ f⁻², through the one that was simulated."""
-    return amplitude * (tested / frequency) ** 2
-
-
-def outcomes(axis, cells, threshold):
-    """Draw the cells that overturn; the others rock above the threshold, and rest below it."""
+def outcomes(axis, cells, uplift):
+    """Draw the cells that overturn; others rock above the curve of uplift, and rest below it."""
+    threshold = np.interp(cells.frequency_hz, *uplift)
     lifts = cells.outcome != "no uplift"
     if (astray := cells[lifts != (cells.amplitude_mm > threshold)]).size:
         raise ValueError(f"cells on the wrong side of the line of uplift:\n{astray}")
@@ -26,18 +22,15 @@ def outcomes(axis, cells, threshold):
     axis.pcolormesh(grid.columns, grid.index, grid, **how)
 
 
-def draw(trilith_map, trilith_nearness):
+def draw(trilith_map, trilith_uplift, trilith_nearness):
     figure, (left, right) = sheet(DOUBLE, 74, ncols=2, width_ratios=(1.25, 1))
     near = trilith_nearness.set_index("quantity")
     amplitude = near.loc["amplitude_at_tested_frequency"]
     frequency = near.loc["frequency_at_tested_amplitude"]
     width = near.loc["effective_width_of_columns"]
     test = (frequency.tested, amplitude.tested)
-    along = np.linspace(1.0, 10.0, 400)
-    threshold = uplift(along, amplitude.to_lift, frequency.tested)
-    outcomes(
-        left, trilith_map, uplift(trilith_map.frequency_hz, amplitude.to_lift, frequency.tested)
-    )
+    along, threshold = trilith_uplift.frequency_hz, trilith_uplift.amplitude_to_uplift_mm
+    outcomes(left, trilith_map, (along, threshold))
     left.fill_between(along, threshold, 21, color=ROCKS, linewidth=0)
     for axis in (left, right):
         axis.plot(along, threshold, color=INK)
@@ -66,14 +59,14 @@ def draw(trilith_map, trilith_nearness):
     more = {"textcoords": "offset points"}
     note(
         right,
-        f"lifts at {amplitude.to_lift:.2f} mm",
+        f"uplifts at {amplitude.to_lift:.2f} mm",
         (test[0], amplitude.to_lift),
         xytext=(4, 7),
         **more,
     )
     note(
         right,
-        f"lifts at {frequency.to_lift:.2f} Hz",
+        f"uplifts at {frequency.to_lift:.2f} Hz",
         (frequency.to_lift, test[1]),
         xytext=(4, 4),
         **more,

@@ -59,10 +59,11 @@ def draw(trilith_starts, trilith_histories):
         ylabel=r"Amplitude, $|\theta|/\alpha$ (–)",
         ylim=(-0.004, 0.135),
     )
-    letter(
-        [left, right],
-        ["Histories for two starts of the table", "Rotation against initial speed of the table"],
-    )
+    titles = [
+        "Histories for two starts of the table",
+        "Rotation against initial speed of the table",
+    ]
+    letter([left, right], titles, first="c")
     return figure
 
 

@@ -56,9 +56,9 @@ def cost(axis, limits):
         axis.plot(rows["base_shear, rigid"], rows.rotation, ".", color=colour, markersize=3)
         fell = int((rows.outcome == "overturned").sum())
         text = f"{gamma(ratio)}: {fell} of {len(rows)} overturned"
-        note(axis, text, (0.98, 2.35 - 0.17 * place), color=colour, ha="right", fontsize=7)
+        note(axis, text, (0.98, 2.85 - 0.19 * place), color=colour, ha="right", fontsize=7)
     axis.axhline(1.0, color=GREY, linewidth=0.6, linestyle=":")
-    axis.set(xlim=(0, 1), ylim=(0, 2.5))
+    axis.set(xlim=(0, 1), ylim=(0, 3), yticks=(0, 1, 2, 3))
     axis.set(xlabel="Base shear, rocking over rigid held (–)")
     axis.set_ylabel(r"Largest rotation, $|\theta|/\alpha$ (–)")
 

@@ -29,14 +29,9 @@ def pytest_collection_modifyitems(items):
 
 def pytest_xdist_setupnodes():
     """Compile the kernel before several processes need it at the same time."""
-    import numpy as np
+    from steps.kernel import main
 
-    from topheavy import Column, Pulse, judge, overturned_by, overturning_map
-
-    block, pulse = Column(0.5, 3.0), Pulse("one-sine", 0.3, 6.0)
-    judge(block, pulse)
-    overturning_map(block, "one-sine", np.array([6.0]), np.array([0.3]))
-    overturned_by(block, pulse, np.array([1.0]))
+    main()
 
 
 @pytest.fixture(scope="session")

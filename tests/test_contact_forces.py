@@ -108,7 +108,7 @@ class TestNewtonAndEuler:
             moment = clockwise(-centre, foot) - clockwise(corner - centre, head)
             assert moment == pytest.approx(inertia * second, rel=1e-9, abs=1e-11)
         np.testing.assert_allclose(seat[0] + seat[1], beam * (at_cap + weight), **close)
-        # The cap does not slide: its seats are where the corners touched it at θ = 0.
+        # The cap does not slide: its contacts are where the corners touched it at θ = 0.
         shift = -side * column.half_width
         arms = [(shift + end * CAP.span / 2, -CAP.half_depth) for end in (-1, 1)]
         moments = [clockwise(arm, force) for arm, force in zip(arms, seat, strict=True)]

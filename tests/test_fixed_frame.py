@@ -26,10 +26,10 @@ PULSE = Pulse("one-cosine", 0.4, 2.0 * math.pi / 1.5)
 
 
 def of_beam(load_over_weight, ratio):
-    """Shear, overturning moment, and end moments of a beam fixed at its foot, guided at its top.
+    """Shear, overturning moment, and end moments of a beam fixed at its base, guided at its top.
 
     The load of a column is its weight per length times the given function of x; at the top acts
-    half the cap beam's times its value there. EI w⁗ = q is solved with w = w′ = 0 at the foot and
+    half the cap beam's times its value there. EI w⁗ = q is solved with w = w′ = 0 at the base and
     w′ = 0 at the top, where the shear is the cap beam's load.
     """
     x, first, second, force = sp.symbols("x a b c")

@@ -148,7 +148,7 @@ def test_ending_is_what_integration_finds(block, case):
 def pendulum_time(slenderness: float, rotation: float) -> float:
     """p times the quarter period by elliptic integrals.
 
-    With u = α − φ it is a pendulum that stands on its head, u'' = p² sin u: released at π − u₀
+    With u = α − φ it is an inverted pendulum, u'' = p² sin u: released at π − u₀
     from its lowest point, it is timed down to π − α.
     """
     modulus = math.cos((slenderness - rotation) / 2)

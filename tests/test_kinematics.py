@@ -15,10 +15,10 @@ pytestmark = pytest.mark.parametrize("column", COLUMNS, ids=["trilith", "slender
 
 
 def turned_corner(column: Column, rotation: float) -> tuple[float, float]:
-    """Where the corner that carries the cap goes when the rectangle turns about its foot.
+    """Where the corner that carries the cap goes when the rectangle turns about its base contact.
 
-    Positive rotations turn it clockwise about the right foot; the cap rides on the upper left
-    corner, the only one that keeps touching it from above.
+    Positive rotations turn it clockwise about the right base contact; the cap rides on the upper
+    left corner, the only one that keeps touching it from above.
     """
     side = math.copysign(1.0, rotation)
     foot = complex(side * column.half_width, 0.0)

@@ -74,5 +74,5 @@ def test_report_before_a_run_says_what_to_do(make, tmp_path):
     assert ran.returncode == 2
     assert ran.stderr.startswith("there is no finished run; run 'make reproduce' first\n")
     (tmp_path / "results").mkdir()
-    (tmp_path / "results" / "manifest.json").touch()
+    (tmp_path / "results" / "ro-crate-metadata.json").touch()
     assert "<--report>" in make("html").stdout

@@ -39,7 +39,7 @@ def test_massless_columns_have_the_limits_of_the_paper():
     p, alpha = COLUMN.frequency_parameter, COLUMN.slenderness
     assert simple.frequency_parameter == pytest.approx(p * math.sqrt(2 / 3), rel=1e-15)
     assert simple.restitution == pytest.approx(math.cos(2 * alpha), rel=1e-15)
-    # the pendulum of two massless columns: p̂² = g/2R
+    # the pendulum of two columns without mass: p̂² = g/2R
     assert simple.frequency_parameter**2 == pytest.approx(9.81 / (2 * COLUMN.size), rel=1e-15)
 
 
@@ -70,7 +70,7 @@ def test_unknown_simplification_is_refused_with_the_known():
 
 
 def test_columns_too_stocky_to_rock_without_mass_are_refused():
-    stocky = RockingFrame(Column(1.1, 1.0), 0.1)  # α = 47.7°: rocks, but not with massless columns
+    stocky = RockingFrame(Column(1.1, 1.0), 0.1)  # α = 47.7°: rocks only with mass
     assert stocky.block().restitution > 0.0
     with pytest.raises(ValueError, match="45°"):
         simplified(stocky, "all")

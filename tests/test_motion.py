@@ -117,7 +117,7 @@ def test_block_that_lands_on_ground_beyond_the_threshold_is_not_put_to_rest():
 
 
 class Hover:
-    """A flight that stays up, and keeps what it was asked for."""
+    """A flight that stays up, and keeps its samples."""
 
     def __init__(self):
         self.legs = []

@@ -1,4 +1,4 @@
-"""Three bodies on contact points: Eqs. (23), (25), tan α come out of balance and contact alone."""
+"""Three bodies on contact points: Eqs. (23), (25), tan α follow from balance and contact alone."""
 
 import math
 
@@ -91,7 +91,7 @@ def test_forces_carry_the_weight_the_push_and_the_moment_of_every_body(bodies):
         second, forces = accelerations(bodies, side(theta), q, q_rate, ground)
         load = STANDARD_GRAVITY * np.array([ground, 1.0])
         scale = 1e-12 * (1.0 + frame.mass_ratio) * (STANDARD_GRAVITY + column.size * rate**2)
-        # the pivot from the column's centre; the seat is opposite; all turn clockwise
+        # the pivot from the column's centre; the cap's contact is opposite; all turn clockwise
         corner = np.array([side(theta)[0] * column.half_width, -column.half_height])
         cos, sin = math.cos(theta), math.sin(theta)
         foot = np.array([[cos, sin], [-sin, cos]]) @ corner
@@ -166,7 +166,7 @@ def test_seat_loads_depend_on_the_shape_of_the_cap_though_the_motion_does_not():
 
 @pytest.mark.parametrize("mass_ratio", [0.01, 0.434, 100.0])
 def test_seat_pulls_at_impact_where_the_cap_would_tip_over_the_other(mass_ratio):
-    # The horizontal impulse at half its depth against the vertical one between the seats.
+    # The horizontal impulse at half its depth against the vertical one between the contacts.
     frame, depth = RockingFrame(TRILITH, mass_ratio), 0.3
     lost = (1.0 - frame.restitution) / (1.0 + frame.restitution)
     least = 2 * TRILITH.half_width + depth * lost / math.tan(frame.slenderness)

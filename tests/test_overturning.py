@@ -151,7 +151,7 @@ def test_structure_that_cannot_rock_has_no_map():
 
 
 def test_intervals_are_those_of_zhang_and_makris():
-    """With impact, a safe bay, then without impact; a narrow safe bay near the first boundary."""
+    """With impact, a survival region, then without impact; a narrow one near the first boundary."""
     found = overturning_intervals(LINEAR, SINE, (1.0, 10.0), resolution=1e-3)
     assert [interval.impacts for interval in found] == [1, 0]
     assert found[0].lower[1] == pytest.approx(3.0186, abs=1e-3)
@@ -258,7 +258,7 @@ def test_way_9_no_interval_wider_than_the_resolution_is_missed(case):
             if i.lower[0] < fine[end] and (i.upper is None or i.upper[1] > fine[begin])
         ]  # fmt: skip
         if labels[begin] == SAFE:
-            # nothing of a bay is taken for overturned, but what is narrower than the resolution
+            # only what is narrower than the resolution is wrongly labelled as overturned
             for interval in middle:
                 upper = last if interval.upper is None else interval.upper[0]
                 inside = min(upper, fine[end]) - max(interval.lower[1], fine[begin])

@@ -29,6 +29,14 @@ def test_every_number_is_published():
     assert list(headlines.headlines(ROOT)) == []
 
 
+def test_probabilities_at_a_stated_velocity_are_published():
+    shares = headlines.probabilities(REFERENCE, headlines.STATED_PGV)
+    alone, fixed, free = (f"{100 * shares[support]:.0f} %" for support in ("bare", "fixed", "free"))
+    said = " ".join(found().split())
+    assert f"overturn {alone} of the 6 m columns alone, {fixed} with their own mass fixed" in said
+    assert f"and {free} with it carried freely" in said
+
+
 def test_two_thirds_of_the_gain_are_had_at_mass_ratio_one():
     share = pd.read_csv(REFERENCE / "mass_ratio.csv").set_index("mass_ratio").share_of_size_gain
     assert "Two thirds of the gain" in found()

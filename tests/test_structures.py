@@ -21,9 +21,9 @@ def column_of(slenderness: float, size: float = 2.0) -> Column:
 def restitution_from_impulses(column: Column, mass_ratio: float) -> float:
     """√r from impulse and momentum of one column and its half of the cap beam, not from Eq. (25).
 
-    The column turns about its left foot and carries the cap at its upper right corner; after the
-    impact it turns about its right foot with the cap at its upper left corner. The impulses act
-    at the new contacts alone, so the angular momentum about the new foot changes only by the
+    The column turns about its left corner and carries the cap at its upper right corner; after the
+    impact it turns about its right corner with the cap at its upper left corner. The impulses act
+    at the new contacts alone, so the angular momentum about the new corner changes only by the
     impulse of the cap, which is the change of the cap's momentum.
     """
     b, h, mass, half_cap = column.half_width, column.half_height, 1.0, mass_ratio

@@ -16,6 +16,9 @@ from pathlib import Path
 RESULT = re.compile(r"results/(?:tables/\w+\.csv|findings/\w+\.json)")
 """What a notebook may read of a run."""
 
+IMPORT = re.compile(r"^(?:from [\w.]+ )?import (?:\([^)]*\)|.*)", re.MULTILINE)
+"""An import statement of a Snakefile."""
+
 ROOTS = ("src", ".")
 """Folders in which imported names are looked up, from the root of the repository, in this order."""
 
@@ -32,8 +35,8 @@ def code(*scripts: str | Path, root: str | Path = ".") -> list[str]:
     Parameters
     ----------
     scripts
-        Python files or notebooks, from the root. They are not in the answer: Snakemake watches
-        the script of a rule itself.
+        Python files, notebooks or Snakefiles, from the root. They are not in the answer: Snakemake
+        watches the script of a rule itself.
     root
         The root of the repository.
 
@@ -104,6 +107,8 @@ def _tree(root: Path, path: Path) -> ast.Module:
             for line in "".join(cell["source"]).splitlines()
         )
         text = "\n".join(line for line in lines if not line.startswith(("%", "!")))
+    elif path.suffix != ".py":  # a Snakefile, of which Python can read these statements alone
+        text = "\n".join(IMPORT.findall(text))
     return ast.parse(text, str(path))
 
 

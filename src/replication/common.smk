@@ -6,8 +6,9 @@ from pathlib import Path
 
 from replication.captions import alternative, captioned, check_captions, read_captions
 from replication.closing import close
-from replication.code import code, results_read, undeclared
+from replication.code import code, results_read
 from replication.costs import longest_jobs
+from replication.crate import CRATE
 from replication.ledger import read_judged, read_ledger
 from replication.ledger_check import check_ledger
 from replication.parts import PAPER, Part
@@ -49,15 +50,15 @@ def parts(check):
 
 
 def everything(wildcards):
-    """Return all inputs and outputs of a run, except the list of its outputs, which is made last.
+    """Return all inputs and outputs of a run, except the crate that lists them, which is made last.
 
     What only another job needs is named as well: when it is missing, Snakemake makes it again only
-    if somebody asks for it. A failed or interrupted job leaves its outputs missing.
+    if somebody requests it. A failed or interrupted job leaves its outputs missing.
     """
     drawn = {table for tables in FIGURES.values() for table in tables}
     wanted = dict.fromkeys(f"results/tables/{table}.csv" for table in sorted(drawn))
     for each in workflow.rules:
-        if each.name == "manifest" or not each.output:
+        if each.name == "crate" or not each.output:
             continue
         asked = [*each.input, *([] if each.has_wildcards() else each.output)]
         wanted |= dict.fromkeys(str(path) for path in asked if not callable(path))
@@ -65,10 +66,13 @@ def everything(wildcards):
 
 
 def longest_first():
-    """Start jobs that took long in the published run before others, so that no core waits for them."""
+    """Start jobs that took long in the published run before others, so that no core waits for them.
+
+    A rule's own priority is added.
+    """
     took = longest_jobs(Path("docs/costs.csv"))
     for each in workflow.rules:
-        each.priority = round(took.get(each.name, 0.0))
+        each.priority += round(took.get(each.name, 0.0))
 
 
 def only_shards_leave_this_machine():

@@ -1,4 +1,4 @@
-"""The page config/README.md: every key of the config with unit, bounds, value and source.
+"""The README.md beside a config: every key with its unit, bounds, value and source.
 
 The schema gives meaning, unit and bounds; config.yaml gives the value and, in its comments, the
 source. `unit` is an annotation of ours in the schema, "1" for a number without dimension. A key
@@ -30,8 +30,8 @@ class Key:
         Its path, dotted; `[]` stands for each item of a list of mappings.
     meaning, unit, allowed
         As the schema has them; "" where it says nothing.
-    value
-        As YAML, that of each item of a list of mappings.
+    values
+        Its value; inside a list of mappings, that of each item.
     source
         The nearest comment in config.yaml: of its line, or of a mapping or list that contains it,
         below the section; the page gives the comment of the section once.
@@ -41,18 +41,26 @@ class Key:
     meaning: str
     unit: str
     allowed: str
-    value: str
+    values: tuple[Any, ...]
     source: str
+
+    @property
+    def value(self) -> str:
+        """Its values as YAML."""
+        return "; ".join(_yaml(value) for value in self.values)
 
 
 def config_page(path: Path) -> str:
     """Return the page of a config, a table for each section; config.schema.yaml lies beside it."""
-    said = comments(path.read_text(encoding="utf-8"))
+    text = path.read_text(encoding="utf-8")
+    said = comments(text)
+    study = f" of the study {path.parent.name}" if path.parent.parent.name == "studies" else ""
     lines = [
-        "# The input numbers",
+        f"# The input numbers{study}",
         "",
         f"`make pages` writes this page from `{path.name}` and `config.schema.yaml`: change those.",
         'The unit "1" marks a number without dimension. A run refuses a value that is not allowed.',
+        *(["", head] if (head := _head(text)) else []),
     ]
     for section, found in groupby(keys(path), lambda key: re.split(r"[.\[]", key.place)[0]):
         lines += ["", f"## {section}", ""]
@@ -61,11 +69,14 @@ def config_page(path: Path) -> str:
     return "\n".join(lines) + "\n"
 
 
-def keys(path: Path) -> list[Key]:
-    """Return every key of a config that holds a value, in the order of the file."""
+def keys(path: Path, used: Mapping[str, Any] | None = None) -> list[Key]:
+    """Return every key of a config that holds a value, in the order of the file.
+
+    `used` has the values of a run, where another file went over this one.
+    """
     schema = read_yaml(path.with_name("config.schema.yaml"))
     said = comments(path.read_text(encoding="utf-8"))
-    config = read_yaml(path)
+    config = read_yaml(path) if used is None else used
     nested = {place: text for place, text in said.items() if place not in config}
     return [
         key
@@ -98,10 +109,9 @@ def _keys(
         of_items = schema.get("items", {})
         yield from _keys(f"{place}[]", items, of_items, root, inherited, said, source)
         return
-    shown = "; ".join(_yaml(value) for value in values)
     meaning = _one_line(inherited["description"])
     unit = unit_of(schema, root) or (inherited["unit"] if has_numbers(schema, root) else "")
-    yield Key(place, meaning, unit, allowed(schema, root), shown, source)
+    yield Key(place, meaning, unit, allowed(schema, root), tuple(values), source)
 
 
 def comments(text: str) -> dict[str, str]:
@@ -150,6 +160,14 @@ def _lines(node: yaml.Node, place: str) -> Iterator[tuple[str, int]]:
                     for inner, line in _lines(item, f"{place}[]")
                     if line != item.start_mark.line
                 )
+
+
+def _head(text: str) -> str:
+    """Return the comment at the head of a file, which an empty line separates from the rest."""
+    lines = text.partition("\n\n")[0].splitlines()
+    if not all(line.startswith("#") for line in lines):
+        return ""
+    return _one_line(" ".join(line.removeprefix("#") for line in lines))
 
 
 def _yaml(value: Any) -> str:

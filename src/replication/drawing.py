@@ -11,6 +11,7 @@ import matplotlib as mpl
 mpl.use("svg")
 
 import matplotlib.pyplot as plt
+import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -23,6 +24,8 @@ SINGLE, DOUBLE = 88.0, 180.0  # widths of one and of two columns, mm
 INK, GREY, PALE, PAPER = "#1a1a1a", "#737373", "#f2f2f2", "#ffffff"
 ACCENT = "#c8501a"
 LIGHTEST, DARKEST = (0.36, 0.58, 0.80), (0.02, 0.12, 0.32)  # 3 to 1 on white, and more
+
+PLACES = 6  # decimals of the places of axes, over the size of the figure
 
 
 def publish(job, draw: Callable[..., Figure]) -> None:
@@ -41,10 +44,24 @@ def publish(job, draw: Callable[..., Figure]) -> None:
 
 def save(figure: Figure, path: str | Path, title: str, alt: str) -> None:
     """Save a figure as an SVG with a title and a description, and no date."""
+    settle(figure)
     drawn = io.StringIO()
     figure.savefig(drawn, format="svg", metadata={"Date": None})
     svg = described(drawn.getvalue(), title, alt)
     Path(path).write_text(svg, encoding="utf-8", newline="\n")
+
+
+def settle(figure: Figure) -> None:
+    """Lay a figure out, and round the places of its axes: the same bytes in each process.
+
+    The last bits of the layout depend on where the process keeps its objects, and Matplotlib names
+    the clip paths of an SVG by all bits.
+    """
+    if engine := figure.get_layout_engine():
+        engine.execute(figure)
+        figure.set_layout_engine("none")
+    for axes in figure.axes:
+        axes.set_position(np.round(axes.get_position(original=True).bounds, PLACES))
 
 
 def described(svg: str, title: str, alt: str) -> str:
@@ -88,9 +105,9 @@ def shades(
     return [tuple(low + (high - low) * step for low, high in pairs) for step in steps]
 
 
-def letter(axes: Sequence[Axes], titles: Sequence[str]) -> None:
-    """Title the panels (a), (b), …"""
-    for axis, mark, title in zip(axes, "abcdefgh", titles, strict=False):
+def letter(axes: Sequence[Axes], titles: Sequence[str], first: str = "a") -> None:
+    """Title the panels (a), (b), …, or from another letter below a drawing with the first ones."""
+    for axis, mark, title in zip(axes, "abcdefgh"["abcdefgh".index(first) :], titles, strict=False):
         axis.set_title(f"({mark}) {title}")
 
 

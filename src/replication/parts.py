@@ -63,3 +63,8 @@ def ledger_of(part: str) -> str:
 def captions_of(part: str) -> str:
     """Return the path of the captions of a part, by its name."""
     return "figures/captions.yaml" if part == PAPER else f"studies/{part}/captions.yaml"
+
+
+def config_of(part: str) -> str:
+    """Return the path of the config of a part, by its name."""
+    return "config/config.yaml" if part == PAPER else f"studies/{part}/config.yaml"

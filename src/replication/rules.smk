@@ -10,6 +10,10 @@ NOTEBOOKS = sorted(path.stem for path in Path("notebooks").glob("*.ipynb"))
 DOCUMENTS = [
     name for name in ("report", "supplement") if Path(f"paper/{name}.typ").is_file()
 ]
+SNAKEFILES = [
+    os.path.relpath(each.get_path_or_uri(secret_free=True))
+    for each in workflow.included
+]
 REFERENCES = sorted(map(str, Path("tests/reference").glob("*.csv")))
 
 check_ledger(LEDGER, FINDINGS)
@@ -163,21 +167,25 @@ for document in DOCUMENTS:
             "rules/report.py"
 
 
-# The audit: what was made and by what, each claim by itself ---------------------------------------
+# The audit: what was made and by what, each claim alone -------------------------------------------
 
 
-rule manifest:
+rule crate:
     input:
-        code("src/replication/rules/manifest.py"),
-        undeclared([]),  # it reads the Snakefile, and what that imports
+        code("src/replication/rules/crate.py", *SNAKEFILES),
+        SNAKEFILES,
         everything,
         configuration="config/config.yaml",
         lock="uv.lock",
+        project="pyproject.toml",
+        citation="CITATION.cff",
+        claims="results/claims.json",
     output:
-        "results/manifest.json",
+        CRATE,
     log:
-        "results/logs/manifest.log",
+        "results/logs/crate.log",
     params:
+        configs={name: part.config for name, part in PARTS.items()},
         # what a run measures, and what make html and make benchmark write
         differs_each_run=[
             *rules.costs.output,
@@ -185,12 +193,12 @@ rule manifest:
             "results/benchmark",
         ],
     message:
-        "Listing every output with its checksum"
+        "Listing every input and output with its checksum"
     script:
-        "rules/manifest.py"
+        "rules/crate.py"
 
 
-# `snakemake --cores 2 claim_<id>` computes what the claim needs, and says how it came out.
+# `snakemake --cores 2 claim_<id>` computes what the claim needs, and prints its verdict.
 for claim in CLAIMS:
 
     rule:

@@ -10,6 +10,8 @@ import pandas as pd
 
 LINK = re.compile(r"\]\((?:[^()]|\([^()]*\))*\)")
 DOI = re.compile(r"\[doi:[^\]]*\]")
+STATED_PGV = 0.6
+"""m/s, of the probabilities in the README."""
 COMPARED = re.compile(r"([\d,]+) overturning flags")
 
 
@@ -25,6 +27,13 @@ def motions(reference: Path, table: str, **place: float) -> pd.Series:
     for column, value in place.items():
         rows = rows[rows[column] == value]
     return rows.squeeze()
+
+
+def probabilities(reference: Path, level: float) -> dict[str, float]:
+    """Return the probability that near-fault motions of a PGV overturn 6 m columns, by support."""
+    rows = pd.read_csv(reference / "studies" / "certainty_intensities.csv")
+    rows = rows.query("structure == '6 m temple' and family == 'near-fault' and measure == 'pgv'")
+    return rows[rows.level == level].set_index("support").probability.to_dict()
 
 
 def numbers(reference: Path) -> list[str]:
@@ -45,6 +54,7 @@ def numbers(reference: Path) -> list[str]:
         f"{100 * reversed_:.1f}",
         f"{ratios.frequency_ratio[math.inf]:.3f}",
         f"{lowest[1.0]:.3f}",
+        f"{STATED_PGV:.1f}",
         f"{claims['trilith_base_acceleration_in_g']:.3f}",
         f"{claims['trilith_uplift_acceleration']:.3f}",
         f"{starts.late_peak_over_alpha[1.0]:.3f}",

@@ -10,7 +10,7 @@ PARTS[PAPER].figures.update(
             "restitution_over_mass_ratio",
         ],
         "figures/quarter_period": ["quarter_period"],
-        "figures/trilith_map": ["trilith_map", "trilith_nearness"],
+        "figures/trilith_map": ["trilith_map", "trilith_uplift", "trilith_nearness"],
         "figures/trilith_starts": ["trilith_starts", "trilith_histories"],
         "figures/allen_histories": ["allen_histories"],
         "figures/allen_errors": ["allen_errors"],
@@ -65,7 +65,7 @@ CHECKS = {
 }
 
 
-# The overturning spectra are dealt out to so many jobs, which an executor may spread over machines.
+# The overturning spectra are split into so many jobs, which an executor may spread over machines.
 scattergather:
     spectra=config["spectra"]["shards"],
 
@@ -206,6 +206,7 @@ rule trilith_map:
         code("src/steps/trilith_map.py"),
     output:
         table="results/tables/trilith_map.csv",
+        uplift="results/tables/trilith_uplift.csv",
     log:
         "results/logs/trilith_map.log",
     benchmark:
@@ -218,7 +219,7 @@ rule trilith_map:
         "trilith_map.py"
 
 
-# 5. Allen et al. (1986): linearised, massless columns --------------------------------------------
+# 5. Allen et al. (1986): linearised, columns without mass --------------------------------------------
 
 
 rule allen_histories:
@@ -581,7 +582,7 @@ rule animation:
     params:
         case=case("animation"),
     message:
-        "The column topples, the frame stands: the moving picture"
+        "The animation: the column overturns, the frame survives"
     script:
         "animation.py"
 

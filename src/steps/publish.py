@@ -32,11 +32,18 @@ TABLES = (
     "trilith_map",
     "trilith_nearness",
     "trilith_starts",
+    "uplift_ratios",
     "uplift_slopes",
+    "vase",
+    "vase_exceptions",
+    "vase_shares",
 )
 
 STUDY_TABLES = (
     "certainty_extensions",
+    "certainty_intensities",
+    "certainty_lowest",
+    "certainty_restitution",
     "certainty_theorem",
     "mechanism_dependence",
     "mechanism_equivalence",
@@ -52,6 +59,7 @@ STUDY_TABLES = (
     "reversals_medians",
     "reversals_pairs",
     "reversals_records",
+    "reversals_uplift",
     "reversals_vase_ranks",
     "reversals_why",
 )

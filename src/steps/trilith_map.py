@@ -1,14 +1,20 @@
 """Outcome of the trilith against displacement amplitude and frequency of the shake table."""
 
+import numpy as np
+
 from replication.workbench import grid, run
 from topheavy import Column, RockingFrame, simulate
-from topheavy.shaking_table import table_acceleration, table_motion
+from topheavy.shaking_table import amplitude_to_uplift, table_acceleration, table_motion
+
+CURVE = 361  # points of the curve of uplift, and those of the map
 
 
-def main(case: dict) -> list[dict]:
+def main(case: dict) -> tuple[list[dict], list[dict]]:
+    """Return the outcomes, and the amplitudes that uplift the trilith over finer frequencies."""
     frame = RockingFrame(Column(**case["column"]), case["mass_ratio"])
     rows = []
-    for frequency in grid(case["frequencies"]):
+    frequencies = grid(case["frequencies"])
+    for frequency in frequencies:
         for amplitude in grid(case["amplitudes"]):
             response = simulate(
                 frame,
@@ -25,7 +31,12 @@ def main(case: dict) -> list[dict]:
                     "peak_over_alpha": response.peak_rotation / frame.slenderness,
                 }
             )
-    return rows
+    fine = np.union1d(frequencies, np.linspace(frequencies[0], frequencies[-1], CURVE))
+    uplift = [
+        {"frequency_hz": f, "amplitude_to_uplift_mm": 1e3 * amplitude_to_uplift(frame, f)}
+        for f in fine
+    ]
+    return rows, uplift
 
 
 if __name__ == "__main__":

@@ -254,7 +254,8 @@ def main(case: dict, paths: list[str]) -> tuple:
     counted = {"histories": len(table), "overturned": fell}
     findings = {
         "slope_by_three_bodies": truth(
-            np.allclose(bodies.slope, bodies.three_bodies, rtol=0.0, atol=ROUNDING),
+            len(bodies) > 0
+            and np.allclose(bodies.slope, bodies.three_bodies, rtol=0.0, atol=ROUNDING),
             largest_apart=float((bodies.slope - bodies.three_bodies).abs().max()),
             frames=len(bodies),
         ),

@@ -164,17 +164,38 @@ def sampled(compared: list[dict], kind: str, count: int) -> list[Minimum]:
     return [found[place] for place in np.random.default_rng(SEED).permutation(len(found))[:count]]
 
 
-def carried(table: pd.DataFrame) -> dict:
-    """Return, for each worth, how much of the gain α, p and √r carry: mean and range."""
+def second_route(
+    errors: list[float], exceptions: list[dict], rows: list[dict], compared: list[dict]
+) -> Finding:
+    """Return whether SciPy finds every boundary of the sample, as a finding.
+
+    Of every exception, the structure that overturns later has to survive where the other falls.
+    """
+    found = bool(np.all(np.isfinite(errors)))
+    asked = [row for row in rows if row["structure"] != "bare"]
+    return truth(
+        found and all(row["later_one_survives"] for row in exceptions),
+        boundaries=len(errors),
+        largest_relative_error=float(np.max(errors)) if found else None,
+        exceptions=len(exceptions),
+        neither_overturns=sum(not minima(row) for row in asked),
+        not_told=sum(bool(minima(row)) for row in asked) - len(compared),
+    )
+
+
+def whole_gain(table: pd.DataFrame) -> Finding:
+    """Return whether α, p and √r carry the whole gain, and how much each: mean and range."""
     single = table[table.shapley_value.notna()]
+    whole = single.groupby(["worth", "shape", "mass_ratio"]).share_of_gain.sum()
     found = single.groupby(["worth", "taken_from_the_frame"]).share_of_gain
-    return {
+    shares = {
         worth: {
             name: [float(found.agg(how)[worth, name]) for how in ("mean", "min", "max")]
             for name in PARAMETERS
         }
         for worth in WORTHS
     }
+    return truth(bool(np.allclose(whole, 1.0)), **shares)
 
 
 def motions(
@@ -223,9 +244,11 @@ def main(case: dict, paths: list[str], tightened: float) -> tuple:
     found = (search(column, motion, ratios, highest, labels) for motion, ratios, labels in tried)
     rows = [row for part in progress(found, len(tried), "motions") for row in part]
     compared = [row for row in rows if is_compared(row, tightened)]
-    exceptions = pd.DataFrame([exception(row) for row in compared if is_exception(row)])
+    broken = [row for row in compared if is_exception(row)]
+    exceptions = list(map(exception, broken))
     sample = sampled(compared, "pulse", case["sample"]["points"])
     sample += sampled(compared, "record", case["checked_by_second_route"])
+    sample += [one for row in broken for one in minima(row)]
     errors = [*(one.error / one.acceleration for one in sample)]
     errors += [*(summary.error / summary.minimum_overturning)]
     of_shares = pd.DataFrame(shares(column, case))
@@ -243,18 +266,10 @@ def main(case: dict, paths: list[str], tightened: float) -> tuple:
             slenderness_deg=portals.slenderness_deg,
             minimum_overturning_g=portals.minimum_overturning,
         ),
-        "shares_of_the_gain": truth(True, **carried(of_shares)),
-        "second_route": truth(
-            bool(np.all(np.isfinite(errors))) and bool(exceptions.later_one_survives.all()),
-            boundaries=len(errors),
-            largest_relative_error=float(np.max(errors)) if np.all(np.isfinite(errors)) else None,
-            exceptions=len(exceptions),
-            neither_overturns=sum(row["structure"] != "bare" and not minima(row) for row in rows),
-            not_told=sum(bool(row["structure"] != "bare" and minima(row)) for row in rows)
-            - len(compared),
-        ),
+        "shares_of_the_gain": whole_gain(of_shares),
+        "second_route": second_route(errors, exceptions, rows, compared),
     }
-    tables = summary, pd.DataFrame(map(plain, rows)), exceptions, of_shares
+    tables = summary, pd.DataFrame(map(plain, rows)), pd.DataFrame(exceptions), of_shares
     return *tables, pd.DataFrame(poses(column, case)), findings
 
 

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from topheavy import RockingBlock
+from topheavy import Record, RockingBlock, judge, overturned_by, simulate
 from topheavy.kernel import forcing
 from topheavy.kernel.forcing import (
     NO_RECORD,
@@ -121,3 +121,39 @@ def test_way_5_what_is_called_rest_does_bounce_to_rest_before_the_next_uplift(li
             state = after_impact(block, evaluate(w, 15, block, step, False))
             time, side = time + step, -side
             assert time < first
+
+
+def lifted_by_a_digit(random):
+    """A block, and a record whose largest acceleration is the next number above its level."""
+    alpha, restitution = random.uniform(0.1, 0.76), float(random.uniform(0.5, 0.999))
+    block = RockingBlock(1.0, float(alpha), restitution)
+    values = random.uniform(-1.0, 1.0, random.integers(3, 8)) * block.uplift_acceleration
+    at = random.integers(1, values.size - 1)
+    values[at] = random.choice([-1.0, 1.0]) * np.nextafter(block.uplift_acceleration, 2.0)
+    return block, Record(10.0 ** random.uniform(-2.0, 0.5), np.concatenate([[0.0], values, [0.0]]))
+
+
+@pytest.mark.parametrize("restitution", [None, 0.67])
+def test_block_that_is_lifted_by_the_last_digit_of_a_record_comes_to_rest(restitution):
+    """Its bounces are over before the clock ticks, and the acceleration may turn in that tick."""
+    random = np.random.default_rng(5)
+    for _ in range(400):
+        block, record = lifted_by_a_digit(random)
+        if restitution:
+            block = block.with_restitution(restitution)
+        found = judge(block, record)
+        assert not found.overturned
+        assert found.peak < 1e-12 * block.slenderness
+        assert overturned_by(block, record, [1.0]).tolist() == [False]
+        assert simulate(block, record, samples=2).outcome == "rests"
+
+
+def test_train_of_bounces_within_a_tick_rests_on_the_ground_at_once():
+    """The ground of that time is a digit above the push that the block feels."""
+    block = oscillator(RockingBlock(1.0, 0.7, 0.97))
+    above = np.nextafter(block.level, 2.0)
+    record = prepare_record(np.array([0.0, above, 0.0]))
+    motion = record_forcing(record, 1.0, 1.0)
+    for push, expected in ((-2e-15, True), (2e-15, False)):
+        assert comes_to_rest(block, motion, record, 1.0, 1e-33, push, 1.0, 1.0) is expected
+    assert not comes_to_rest(block, motion, record, 1.0, 1e-15, -2e-15, 1.0, 1.0)

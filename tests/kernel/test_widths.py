@@ -1,6 +1,6 @@
 """No result depends on the width of the registers; without FMA, outcomes and impacts do not.
 
-The width is that of the CPU which numba is told to compile for. A process of its own takes each.
+numba compiles for a CPU, which sets the width; each width has a process of its own.
 """
 
 import json

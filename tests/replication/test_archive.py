@@ -13,10 +13,12 @@ from pathlib import Path
 import pytest
 
 from replication.commands import archive
+from replication.crate import CRATE
 from replication.provenance import Job
 
 ROOT = Path(__file__).resolve().parents[2]
 JOB = Job("peaks", "Snakefile:1", (), (), (), (), (), {}, None, {}, False)
+LEFT_OUT = ["results/costs.csv", "results/logs", CRATE]
 RESULTS = {"results/peaks.csv": "1\n", "figures/peaks.svg": "<svg/>\n"}
 
 
@@ -53,15 +55,23 @@ def tree(tmp_path, monkeypatch):
 
 
 def list_results(root):
-    """Write the manifest, as the last rule of a run does."""
-    sums = {path: hashlib.sha256(text.encode()).hexdigest() for path, text in RESULTS.items()}
-    manifest = {
-        "git": {"commit": git(root, "rev-parse", "HEAD"), "dirty": False},
-        "folders": ["results"],
-        "left_out": ["results/costs.csv", "results/logs", "results/manifest.json"],
-        "outputs": {path: {"sha256": found, "rule": "peaks"} for path, found in sums.items()},
-    }
-    (root / "results/manifest.json").write_text(json.dumps(manifest), encoding="utf-8")
+    """Write the crate, as the last rule of a run does: what a command reads of it."""
+    files = {path: (root / path).read_bytes() for path in (*RESULTS, "figures/peaks.py")}
+    entities = [
+        {"@id": path, "@type": "File", "sha256": hashlib.sha256(data).hexdigest()}
+        for path, data in files.items()
+    ]
+    entities += [
+        {"@id": "Snakefile", "@type": "File", "version": git(root, "rev-parse", "HEAD")},
+        {"@id": "#left_out", "@type": "PropertyValue", "value": LEFT_OUT},
+        {
+            "@id": "#job/results/peaks.csv",
+            "@type": "CreateAction",
+            "name": "peaks",
+            "result": [{"@id": path} for path in RESULTS],
+        },
+    ]
+    (root / CRATE).write_text(json.dumps({"@graph": entities}), encoding="utf-8")
 
 
 @pytest.fixture
@@ -104,8 +114,10 @@ def test_archive_has_source_and_results_and_nothing_else(tree):
         modes = {info.filename: info.external_attr >> 16 for info in packed.infolist()}
     assert names == sorted(names)
     listed = git(tree, "ls-files").splitlines()
-    others = ["SHA256SUMS", "results/costs.csv", "results/manifest.json"]
+    others = ["SHA256SUMS", "ro-crate-metadata.json", "results/costs.csv", CRATE]
     assert sorted(names) == sorted([*listed, *RESULTS, *others])
+    with zipfile.ZipFile(tree / "dist/peaks-0.1.0.zip") as packed:  # a crate lies at its root
+        assert packed.read("ro-crate-metadata.json") == packed.read(CRATE)
     assert modes["run"] == 0o100755
     assert modes["results/peaks.csv"] == 0o100644
 
@@ -114,7 +126,7 @@ def test_unpacked_archive_verifies_and_sha256sum_agrees(unpacked):
     done = verified(unpacked)
     assert done.returncode == 0, done.stderr
     assert "verified: the source is as SHA256SUMS has it" in done.stdout
-    assert "verified: 2 files" in done.stdout
+    assert "verified: 2 outputs and 1 inputs" in done.stdout
     command = ["sha256sum", "--check", "--strict", "--quiet", "SHA256SUMS"]
     subprocess.run(command, cwd=unpacked, check=True)
 
@@ -132,8 +144,12 @@ def test_missing_source_is_named(unpacked):
     assert verified(unpacked).stderr == "pyproject.toml is missing; SHA256SUMS has it\n"
 
 
-def remove_manifest(tree):
-    (tree / "results/manifest.json").unlink()
+def remove_crate(tree):
+    (tree / CRATE).unlink()
+
+
+def spoil_crate(tree):
+    (tree / CRATE).write_text("{}", encoding="utf-8")
 
 
 def change_result(tree):
@@ -141,11 +157,16 @@ def change_result(tree):
 
 
 def change_source(tree):
-    (tree / "figures/peaks.py").write_text("draw(2)\n", encoding="utf-8")
+    (tree / "run").write_text("#!/bin/sh\ntrue\n", encoding="utf-8")
 
 
 def commit_after_the_run(tree):
     change_source(tree)
+    git(tree, "commit", "-q", "-a", "-m", "second")
+
+
+def commit_an_input_after_the_run(tree):
+    (tree / "figures/peaks.py").write_text("draw(2)\n", encoding="utf-8")
     git(tree, "commit", "-q", "-a", "-m", "second")
 
 
@@ -156,10 +177,12 @@ def remove_git(tree):
 @pytest.mark.parametrize(
     ("spoil", "told"),
     [
-        (remove_manifest, "expected a finished run: make reproduce"),
+        (remove_crate, "expected a finished run: make reproduce"),
+        (spoil_crate, "is not the RO-Crate of a run"),
         (change_result, "results/peaks.csv changed after rule peaks made it"),
         (change_source, "the tree differs from its commit"),
-        (commit_after_the_run, "rm results/manifest.json && make reproduce"),
+        (commit_an_input_after_the_run, "figures/peaks.py changed after the run"),
+        (commit_after_the_run, f"rm {CRATE} && make reproduce"),
         (remove_git, "is no git repository"),
     ],
 )
@@ -174,7 +197,6 @@ def test_run_that_would_go_on_is_refused_with_its_rules(tree, monkeypatch):
     monkeypatch.undo()
     jobs = [replace(JOB, outputs=("a",), pending=True), replace(JOB, rule="all", pending=True)]
     jobs += [replace(JOB, rule="done", outputs=("b",))]
-    jobs += [replace(JOB, rule="list", outputs=("results/manifest.json",), pending=True)]
     monkeypatch.setattr(archive, "workflow_jobs", lambda root, targets: jobs)
     with pytest.raises(SystemExit, match="out of date, in peaks: make reproduce"):
         archive.main(tree)

@@ -91,6 +91,15 @@ def test_code_of_a_notebook_is_read(tree):
     assert imported_by(tree, cell, "src/steps/play.ipynb") == [*LAZY, "src/lib/shapes.py"]
 
 
+def test_imports_of_a_snakefile_are_found(tree):
+    text = "from lib import (\n    Shape,\n)\n\nrule all:\n    input: 'from lib import force'\n"
+    assert imported_by(tree, text, "Snakefile")[2:] == ["src/lib/shapes.py"]
+    assert imported_by(tree, "include: 'x'\nimport lib.forces\n", "more.smk")[2:] == [
+        "src/lib/forces.py",
+        "src/lib/shapes.py",
+    ]
+
+
 def test_import_of_a_name_that_is_only_known_later_is_refused(tree):
     with pytest.raises(ValueError, match=r"step\.py:2: .*only known when this runs"):
         imported_by(tree, "import importlib\nimportlib.import_module(name)\n")

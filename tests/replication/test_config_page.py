@@ -9,6 +9,10 @@ from replication.config_page import allowed, comments, config_page, keys
 
 ROOT = Path(__file__).resolve().parents[2]
 
+CONFIGS = [
+    path.relative_to(ROOT)
+    for path in (ROOT / "config/config.yaml", *sorted(ROOT.glob("studies/*/config.yaml")))
+]
 SCHEMA = """
 description: Of all.
 properties:
@@ -111,6 +115,7 @@ def test_comment_is_no_part_of_a_text_and_the_head_is_of_no_key():
 def test_page_gives_the_comment_of_a_section_once_and_a_row_a_key(config):
     page = config_page(config)
     assert page.count("Of two | sizes.") == 1
+    assert "\n\nThe head of the file.\n\n## columns" in page
     row = "| `columns.low.height` | its height | m | a number > 0, ≤ 1000 | `1.0` | p. 4 |"
     assert row in page.splitlines()
     assert sum(line.startswith("| `") for line in page.splitlines()) == len(keys(config))
@@ -133,8 +138,9 @@ def test_bounds_are_told_in_words(schema, said):
     assert allowed(yaml.safe_load(schema), {}) == said
 
 
-def test_our_schema_says_what_each_key_means_and_the_unit_of_each_number():
-    found = keys(ROOT / "config" / "config.yaml")
+@pytest.mark.parametrize("path", CONFIGS, ids=str)
+def test_our_schemas_say_what_each_key_means_and_the_unit_of_each_number(path):
+    found = keys(ROOT / path)
     lacking = [key.place for key in found if not key.meaning]
     lacking += [key.place for key in found if "a number" in key.allowed and not key.unit]
-    assert lacking == [], "expected description and unit in config/config.schema.yaml"
+    assert lacking == [], f"expected description and unit in {path.with_name('config.schema.yaml')}"

@@ -4,12 +4,13 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import matplotlib.pyplot as plt
+import numpy as np
 import pandas as pd
 import pytest
 
 from figures.mass_ratio import draw
 from replication.captions import alternative, read_captions
-from replication.drawing import described, save
+from replication.drawing import described, letter, save, sheet
 from replication.parts import PAPER, captions_of
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -35,6 +36,14 @@ def test_figure_has_a_role_a_title_and_a_description(figure, tmp_path):
     ]
 
 
+def test_last_bits_of_the_layout_change_no_byte(figure, tmp_path):
+    save(figure, tmp_path / "one.svg", **WORDS)
+    axes = figure.axes[0]
+    axes.set_position(np.nextafter(axes.get_position(original=True).bounds, 1.0))
+    save(figure, tmp_path / "other.svg", **WORDS)
+    assert (tmp_path / "one.svg").read_bytes() == (tmp_path / "other.svg").read_bytes()
+
+
 @pytest.mark.parametrize(
     ("svg", "title", "alt"), [("<svg >", "", "b"), ("<svg >", "a", " "), ("<p>", "a", "b")]
 )
@@ -52,3 +61,10 @@ def test_every_figure_of_a_run_gets_its_title_and_alternative_text(jobs):
         given = {name: params[name] for name in ("title", "alt")}
         entry = captions[path]
         assert given == {"title": entry["title"], "alt": alternative(entry)}, path
+
+
+def test_letters_of_a_drawing_run_on_from_the_one_above():
+    figure, axes = sheet(88.0, 40.0, ncols=2)
+    letter(axes, ["Size", "Frequency"], first="c")
+    assert [axis.get_title() for axis in axes] == ["(c) Size", "(d) Frequency"]
+    plt.close(figure)

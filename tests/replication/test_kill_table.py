@@ -1,4 +1,4 @@
-"""The deliberate faults: each still fits the tree, and the table says what caught it."""
+"""The deliberate faults: each still fits the tree, and the table has what caught it."""
 
 import os
 import shutil

@@ -44,6 +44,24 @@ def test_row_says_whose_claim_it_is(tmp_path):
     assert [claim.study for claim in read_ledger(paths)] == ["", "ours", "own"]
 
 
+@pytest.mark.parametrize(
+    ("change", "others"),
+    [({"statement": "It is not."}, "statement"), ({"printed": 2, "tolerance": 0.5}, "printed, to")],
+)
+def test_study_changes_what_judges_a_claim_and_not_the_claim(tmp_path, change, others):
+    paths = [tmp_path / "paper" / "claims.yaml", tmp_path / "studies" / "own" / "claims.yaml"]
+    for path in paths:
+        path.parent.mkdir(parents=True)
+    write(paths[0], {"id": "a", "rule": "r", "finding": "old"})
+    row = {"id": "a", "expected": "confirmed", "rule": "s", "finding": "new"}
+    paths[1].write_text(yaml.safe_dump([row]), encoding="utf-8")
+    (claim,) = read_ledger(paths)
+    assert (claim.rule, claim.finding, claim.statement) == ("s", "new", "It is so.")
+    paths[1].write_text(yaml.safe_dump([row | change]), encoding="utf-8")
+    with pytest.raises(ValueError, match=f"a is a claim of the paper; .* not {others}"):
+        read_ledger(paths)
+
+
 def test_finding_is_the_one_that_the_claim_names():
     findings = Findings.of({"left": {"holds": True}, "right": {"holds": False}})
     assert finding_of(replace(CLAIM, finding="right"), findings) == findings["right"]
@@ -76,6 +94,13 @@ def test_function_that_its_rule_never_called_judges_nothing(called):
 def test_what_was_not_run_for_lack_of_a_package_needs_no_function():
     row = judged(CLAIM, {"r": Findings.of({"not_tested": "no engine", "called": []})})
     assert (row.verdict, row.not_tested) == ("not tested", "no engine")
+
+
+def test_number_that_is_zero_is_a_number():
+    claim = replace(CLAIM, printed=0.0, tolerance=0.5)
+    row = judged(claim, found(["topheavy.simulate.simulate"], value=0.0, error=0.0))
+    assert (row.computed, row.verdict) == (0.0, "confirmed")
+    assert isinstance(row.computed, float)
 
 
 def test_list_of_functions_is_no_finding():

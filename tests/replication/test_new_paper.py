@@ -1,4 +1,4 @@
-"""Another paper: what `make paper` makes is complete, consistent, and knows nothing of this one."""
+"""Another paper: what `make paper` makes is complete and consistent, without this one."""
 
 import os
 import re
@@ -96,7 +96,8 @@ def test_uv_takes_the_lock_for_that_of_the_project(paper):
     )
     locked = [each["name"] + each["specifier"] for each in own["metadata"]["requires-dist"]]
     assert locked == project["project"]["dependencies"]
-    assert set(own["metadata"]["requires-dev"]) == set(project["dependency-groups"]) == {"dev"}
+    groups = set(project["dependency-groups"])
+    assert set(own["metadata"]["requires-dev"]) == groups == {"crate", "dev"}
 
 
 def python(paper, *command, **environment):

@@ -12,9 +12,9 @@ from steps import publish
 ROOT = Path(__file__).parents[2]
 
 
-LISTS = {"all", "manifest"}  # rules that take everything
+LISTS = {"all", "crate"}  # rules that take everything
 READ = {".svg", ".pdf", ".html", ".ipynb", ".gif", ".png"}
-ENDS = {"results/summary.txt", "results/costs.csv", "results/manifest.json"}
+ENDS = {"results/summary.txt", "results/costs.csv", "results/ro-crate-metadata.json"}
 
 
 def unused_outputs(jobs: Iterable[Job]) -> list[str]:

@@ -14,10 +14,16 @@ def test_committed_pages_are_up_to_date(monkeypatch):
     assert list(pages.outdated()) == []
 
 
+def test_paper_and_each_study_have_a_page_of_their_input_numbers(monkeypatch):
+    monkeypatch.chdir(ROOT)
+    written = {str(Path(path).parent) for path in pages.pages() if path.endswith("README.md")}
+    assert written == {"config", *(f"studies/{name}" for name in pages.studies())}
+
+
 @pytest.mark.parametrize("text", [None, "old"])
 def test_page_that_differs_or_is_missing_is_named_with_the_command(tmp_path, monkeypatch, text):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(pages, "PAGES", {"page.md": lambda: "new"})
+    monkeypatch.setattr(pages, "pages", lambda: {"page.md": lambda: "new"})
     if text:
         Path("page.md").write_text(text, encoding="utf-8")
     (fault,) = pages.outdated()

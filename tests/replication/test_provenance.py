@@ -6,7 +6,7 @@ import sys
 
 import pytest
 
-from replication.provenance import checksum, makers, workflow_jobs
+from replication.provenance import checksum, makers, source_version, workflow_jobs
 
 SNAKEFILE = """\
 configfile: "config.yaml"
@@ -98,6 +98,33 @@ def test_record_of_the_run_has_what_the_inputs_were(tree):
         assert copy.checksums["in/a.txt"] != checksum(root / "in" / "a.txt")
     finally:
         (root / "in" / "a.txt").write_text("1\n")
+
+
+def test_source_without_git_has_no_version(tmp_path):
+    assert source_version(tmp_path) == ""
+
+
+def test_source_inside_another_repository_has_no_version(tmp_path):
+    subprocess.run(["git", "init", "-q", tmp_path], check=True)
+    inside = tmp_path / "archive"
+    inside.mkdir()
+    assert source_version(inside) == ""
+
+
+def test_version_is_the_commit_and_whether_the_tree_differs(tmp_path):
+    def git(*words):
+        who = ["-c", "user.name=x", "-c", "user.email=x@x.org", "-c", "commit.gpgsign=false"]
+        command = ["git", "-C", tmp_path, *who, *words]
+        return subprocess.run(command, check=True, capture_output=True, text=True).stdout.strip()
+
+    git("init", "-q")
+    (tmp_path / "file").write_text("1")
+    git("add", "file")
+    git("commit", "-q", "-m", "first")
+    commit = git("rev-parse", "HEAD")
+    assert source_version(tmp_path) == commit
+    (tmp_path / "file").write_text("2")
+    assert source_version(tmp_path) == f"{commit}-dirty"
 
 
 def test_folder_is_left_as_it_was(tree, monkeypatch, tmp_path):

@@ -27,7 +27,7 @@ rule all:
     default_target: True
     input:
         everything,
-        "results/manifest.json",
+        CRATE,
 
 
 rule counts:
@@ -70,13 +70,13 @@ rule claims:
         "src/steps/judging.py"
 
 
-rule manifest:
+rule crate:
     input:
         everything,
     output:
-        "results/manifest.json",
+        CRATE,
     log:
-        "results/logs/manifest.log",
+        "results/logs/crate.log",
     shell:
         "touch {{output}}"
 """

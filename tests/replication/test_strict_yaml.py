@@ -1,4 +1,4 @@
-"""YAML is read strictly: each mistake is told with its file and line."""
+"""YAML is read strictly: each mistake is reported with its file and line."""
 
 import re
 from pathlib import Path

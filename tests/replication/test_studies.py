@@ -121,7 +121,7 @@ def ledgers(tmp_path, paper, study):
     return paths
 
 
-ROW = {"id": "stable", "where": "p. 1", "statement": "It stands.", "expected": "confirmed"}
+ROW = {"id": "stable", "where": "p. 1", "statement": "It survives.", "expected": "confirmed"}
 
 
 def test_claims_of_a_study_come_after_those_of_the_paper(tmp_path):

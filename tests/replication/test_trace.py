@@ -10,6 +10,7 @@ import pytest
 
 from replication.claim import Claim
 from replication.commands.trace import Item, chain, find
+from replication.crate import Crate
 from replication.provenance import Job
 
 ROOT = Path(__file__).parents[2]
@@ -155,6 +156,17 @@ def test_input_that_changed_since_the_run_is_marked(told):
     assert "CHANGED" not in told("peaks.csv", [FIGURE, replace(STEP, checksums=recorded)])
     recorded = {"data/record.AT2": hashlib.sha256(b"0.2\n").hexdigest()}
     assert "CHANGED since" in told("peaks.csv", [FIGURE, replace(STEP, checksums=recorded)])
+
+
+def test_crate_has_the_checksums_where_snakemake_has_no_record(tree):
+    archived = [FIGURE, replace(STEP, made=None)]
+    for text, changed in (("0.1\n", False), ("0.2\n", True)):
+        sums = {"data/record.AT2": hashlib.sha256(text.encode()).hexdigest()}
+        crate = Crate(sums, {"results/tables/peaks.csv": "peaks"}, (), "")
+        item = find("peaks.csv", archived, (), tree)
+        told = "\n".join(chain(item, archived, tree, crate))
+        assert "made in the run that results/ro-crate-metadata.json lists" in told
+        assert ("CHANGED since" in told) == changed
 
 
 def test_what_snakemake_would_run_again_is_out_of_date(told):

@@ -62,6 +62,11 @@ def test_claims_of_a_study_are_counted_in_a_line_of_their_own():
     assert study.startswith("reversals: 0 confirmed, 0 qualified, 0 slips, 0 misprints, 1 refuted,")
 
 
+def test_claim_of_a_study_that_came_out_otherwise_is_a_fault():
+    other = replace(claim("a", "refuted", "confirmed"), study="own")
+    assert main([other], compared(), {})[1] == ["claim a is refuted; expected confirmed"]
+
+
 def test_claim_that_lacks_an_optional_package_is_told_and_is_no_fault():
     lacking = [claim(name, "not tested", "confirmed", "no engine") for name in ("a", "b")]
     line, faults = main([*AS_EXPECTED, *lacking], compared(peaks="agrees"), {})

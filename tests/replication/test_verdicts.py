@@ -117,7 +117,16 @@ def test_claim_that_cannot_be_false_is_not_confirmed():
 
 @pytest.mark.parametrize(
     ("printed", "rounding"),
-    [(0.275, 5e-4), (15.38, 5e-3), (0.9, 0.05), (5, 0.5), (265, 0.5), (2.0, 0.5), (1e-5, 5e-6)],
+    [
+        (0.275, 5e-4),
+        (15.38, 5e-3),
+        (0.9, 0.05),
+        (5, 0.5),
+        (265, 0.5),
+        (1200, 0.5),
+        (2.0, 0.5),
+        (1e-5, 5e-6),
+    ],
 )
 def test_rounding_is_half_a_unit_of_the_last_printed_digit(printed, rounding):
     assert print_rounding(printed) == pytest.approx(rounding, rel=1e-12)

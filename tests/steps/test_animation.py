@@ -46,7 +46,7 @@ def test_frame_that_overturns_is_refused():
 
 def test_it_is_played_three_times(tmp_path):
     pictures = animation.main(CASE)
-    for name, loop in (("a.gif", 2), ("a.png", 3)):  # a GIF says how often again
+    for name, loop in (("a.gif", 2), ("a.png", 3)):  # a GIF counts the repetitions
         animation.save(str(tmp_path / name), pictures, CASE)
         with Image.open(tmp_path / name) as found:
             assert found.info["loop"] == loop

@@ -174,7 +174,7 @@ def test_nothing_is_flat_that_has_just_begun_to_fall():
 
 
 def test_what_overturns_has_gone_beyond_slenderness_and_some_come_back():
-    # Zhang & Makris (2001): the safe bay of a one-sine, here of the exact equation
+    # Zhang & Makris (2001): the survival region of a one-sine, here of the exact equation
     p, level = BLOCK.frequency_parameter, BLOCK.uplift_acceleration
     pulses = [Pulse("one-sine", a * level, 5.0 * p) for a in np.linspace(1.0, 9.0, 81)]
     energy = [choices.by_energy(BLOCK, pulse, 3e-10) for pulse in pulses]

@@ -52,7 +52,7 @@ def merged(base, over):
 
 
 def differences(base, over, place=""):
-    """Every entry of the config on top, and what it stands in for."""
+    """Every entry of the config on top, and the entry that it replaces."""
     for key, value in over.items():
         here = f"{place}{key}"
         if isinstance(value, dict):

@@ -1,6 +1,7 @@
 """The published edition checked without a run: whatever is tampered with is named."""
 
 import json
+import math
 import re
 import shutil
 from dataclasses import replace
@@ -16,7 +17,7 @@ from replication.ledger import judged, read_judged, read_ledger
 from replication.publishing import count_table, verdict_page
 from replication.rechecking import claims, files, pages
 from replication.workbench import truth, value
-from steps.evidence import evidence
+from steps.evidence import DIGITS, OF_PAPER, OF_STUDIES, SOURCES, UNDRAWN, evidence, same
 from steps.recheck import equations, main
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -60,7 +61,7 @@ def faults_before(edition):
 
 @pytest.fixture
 def tampered(edition, faults_before):
-    """Change one file of the copy and return what is told of it; afterwards it is as before."""
+    """Change one file of the copy and return what is reported; afterwards it is as before."""
     kept = {}
 
     def change(name, edit):
@@ -180,6 +181,26 @@ def test_finding_that_is_changed_is_named(tampered, rule, finding, key, new, tol
         ("mechanism_rebounds", "impact_at_the_new_pivots", "plastic_apart", 0.0),
         ("mechanism_dependence", "heavier_needs_less", "lightest", 0.1),
         ("mechanism_three_bodies", "velocity_ratio", "largest", 1e-16),
+        ("mechanism_first_impacts", "first_impact", "largest", 1e-9),
+        ("mechanism_slides", "slides_as_the_forces_say", "between_that_slide", 0),
+        ("allen_errors", "linearised", "misjudged", 0),
+        ("allen_overturning", "all", "both_survive", 1.0),
+        ("moment_rotation", "period_depends_on_amplitude", "largest", 1.0),
+        ("restitution", "energy_loss", "least_slenderness_against_deg", 60.0),
+        ("uplift_limits", "uplift_limits_forces", "base_shear_largest", 0.5),
+        ("uplift_limits", "uplift_is_beneficial", "overturned", 0),
+        ("vase", "fixed_mass_always_lowers", "exceptions", 0),
+        ("vase", "condition_on_a_fresh_grid", "exceptions_beyond", []),
+        ("vase", "portal_has_a_wider_base", "holds", False),
+        ("vase", "shares_of_the_gain", "survived share of the map", {"α": [1.0, 1.0, 1.0]}),
+        ("reversals_vase", "every_motion", "free_sooner", 0.0),
+        ("reversals_uplift", "uplift_limits_totals", "survivors_that_uplift", 1),
+        ("certainty_theorem", "exact", "motions", 10000),
+        ("certainty_lowest", "no_fall_is_found", "apparent", 0),
+        ("certainty_extensions", "largest_change", "value", 0.1),
+        ("certainty_restitution", "lowest_rises_apart", "holds", True),
+        ("certainty_restitution", "probability_falls_together", "least", 0.5),
+        ("certainty_intensities", "free_cap_helps", "exceptions", 0),
     ],
 )
 def test_finding_follows_from_its_table(edition, rule, finding, key, new):
@@ -190,6 +211,49 @@ def test_finding_follows_from_its_table(edition, rule, finding, key, new):
     changed = findings[rule].by_name | {finding: Finding.of(entries)}
     (fault,) = evidence(reference, findings | {rule: replace(findings[rule], by_name=changed)})
     assert fault.startswith(f"findings/{rule}.json: {finding}.{key} is {new}, and")
+
+
+@pytest.mark.parametrize(
+    ("found", "expected", "is_same"),
+    [
+        (1.0000001, 1.0, True),
+        (1.00001, 1.0, False),
+        (True, True, True),
+        (1, True, False),
+        (True, 1, False),
+        ([1.0], [1.0], True),
+        ([1.0, 2.0], [1.0], False),
+        ([1.0], [1.0, 2.0], False),
+        ({"a": 1.0, "b": 2.0}, {"a": 1.0}, True),
+        ({"b": 2.0}, {"a": 1.0}, False),
+        (None, 1.0, False),
+        (math.nan, 1.0, False),
+    ],
+)
+def test_entry_is_the_tables_to_its_digits(found, expected, is_same):
+    assert same(found, expected, DIGITS) is is_same
+
+
+def test_file_that_was_added_or_lost_is_noticed(edition, tmp_path):
+    reference = shutil.copytree(edition / "tests" / "reference", tmp_path / "reference")
+    (reference / "heavier.csv").rename(reference / "lighter.csv")
+    assert {fault.split(" ")[0] for fault in files(reference)} == {
+        "tests/reference/heavier.csv",
+        "tests/reference/lighter.csv",
+    }
+
+
+def test_row_that_no_ledger_has_is_found():
+    found = list(claims([CLAIM], FINDINGS, [judged_row(), judged_row(id="more")], ROOT))
+    assert found == ["claim more is not in both the ledger and tests/reference/claims.json"]
+
+
+def test_findings_of_every_rule_are_drawn_or_told_why_not():
+    rules = {path.stem for path in (ROOT / "tests" / "reference" / "findings").glob("*.json")}
+    assert set(SOURCES) | set(UNDRAWN) == rules
+    assert not set(SOURCES) & set(UNDRAWN)
+    assert len(SOURCES) == len(OF_PAPER) + len(OF_STUDIES)
+    assert all(UNDRAWN.values())
 
 
 def test_function_that_did_not_run_is_named(tampered):

@@ -6,6 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from replication.workbench import truth
 from steps import uplift_limits
 from steps.histories import history
 from steps.peak_forces import FORCES, held_peaks, impact_impulse, rocking_peaks
@@ -111,8 +112,13 @@ CASE = {
 
 
 @pytest.fixture(scope="module")
-def findings():
-    return uplift_limits.main(CASE, [])[-1]
+def outputs():
+    return uplift_limits.main(CASE, [])
+
+
+@pytest.fixture(scope="module")
+def findings(outputs):
+    return outputs[-1]
 
 
 def test_forces_are_limited_beside_a_rigid_frame_alone(findings):
@@ -122,6 +128,104 @@ def test_forces_are_limited_beside_a_rigid_frame_alone(findings):
     assert 0 < found["overturned"] < found["histories"] == 12
     assert findings["uplift_is_beneficial"]["holds_when"]
     assert findings["forces_by_second_routes"]["holds"]
+
+
+def higher(name, off):
+    """The forces of a solver, so many times as large."""
+    right = getattr(uplift_limits, name)
+
+    def found(*arguments):
+        forces = right(*arguments)
+        if name == "rocking_peaks":
+            forces.forces.update({one: off * force for one, force in forces.forces.items()})
+            return forces
+        return tuple(off * force for force in forces)
+
+    return found
+
+
+@pytest.mark.parametrize(
+    ("name", "wrong", "holds"),
+    [
+        ("rocking_peaks", 1.0005, True),
+        ("rocking_peaks", 1.002, False),
+        ("peak_elastic_by_scipy", 1.0005, True),
+        ("peak_elastic_by_scipy", 1.002, False),
+        ("by_three_bodies", 5e-7, True),
+        ("by_three_bodies", 2e-6, False),
+        ("error", 0.004, True),
+        ("error", 0.006, False),
+    ],
+)
+def test_each_second_route_can_refute(monkeypatch, outputs, name, wrong, holds):
+    """SciPy, the held frame's other solver, three bodies, and half of the samples."""
+    table, column = outputs[0].assign(**({name: wrong} if name == "error" else {})), COLUMN
+    if name == "by_three_bodies":
+        monkeypatch.setattr(uplift_limits, name, lambda *arguments: wrong)
+    elif name != "error":
+        monkeypatch.setattr(uplift_limits, name, higher(name, wrong))
+    frames = [RockingFrame(column, gamma) for gamma in CASE["mass_ratios"]]
+    tried = uplift_limits.motions(column, CASE, [])[:1]
+    found = uplift_limits.second_route(table, frames, CAP, CASE, tried)
+    assert found["holds"] is holds
+
+
+def test_slope_that_three_bodies_deny_is_noticed(monkeypatch):
+    case = CASE | {"periods": []}
+    right = uplift_limits.slopes(case)
+    given = {"summary": RATIOS, "second_route": truth(True)}
+    for name, found in given.items():
+        monkeypatch.setattr(uplift_limits, name, lambda *arguments, found=found: found)
+    monkeypatch.setattr(uplift_limits, "motions", lambda *arguments: [(None, {})])
+    monkeypatch.setattr(uplift_limits, "compare", lambda *arguments: ROWS)
+    for slopes, holds in (
+        (right, True),
+        (right.assign(slope=right.slope + 1e-8), False),
+        (right.assign(three_bodies=math.nan), False),  # none was compared
+    ):
+        monkeypatch.setattr(uplift_limits, "slopes", lambda given, slopes=slopes: slopes)
+        found = uplift_limits.main(case, [])[-1]["slope_by_three_bodies"]
+        assert found["holds"] is holds
+
+
+def rows(**change):
+    usual = dict.fromkeys((f"{name}, rigid" for name in FORCES), 0.5)
+    return [
+        {"outcome": "rests", "rotation": 0.5, "impulse": 0.1, "shear_after_uplift": 1.0}
+        | {"base_shear": 0.9, "mass_ratio": 1.0, "kind": "pulse"}
+        | usual
+        | change
+    ]
+
+
+ROWS = rows()
+RATIOS = pd.DataFrame(
+    {"held": ["rigid", "rigid", "rigid"], "force": FORCES, "least": 0.4, "largest": 0.5}
+)
+
+
+@pytest.mark.parametrize(
+    ("force", "outcome", "forces", "totals", "beneficial", "of_the_shear"),
+    [
+        (None, "rests", True, True, True, True),
+        ("bending_moment", "rests", False, True, False, True),
+        ("overturning_moment", "rests", False, False, False, True),
+        ("base_shear", "rests", False, False, False, False),
+        (None, "overturned", True, True, False, True),  # one that overturns is no benefit
+    ],
+)
+def test_each_force_counts_where_it_is_claimed(
+    monkeypatch, force, outcome, forces, totals, beneficial, of_the_shear
+):
+    ratios = RATIOS.assign(largest=[1.1 if name == force else 0.5 for name in FORCES])
+    given = {"summary": ratios, "second_route": truth(True)}
+    given |= {"motions": [(None, {})], "compare": [*ROWS, *rows(outcome=outcome)]}
+    for name, found in given.items():
+        monkeypatch.setattr(uplift_limits, name, lambda *arguments, found=found: found)
+    found = uplift_limits.main(CASE | {"periods": []}, [])[-1]
+    limited, good = found["uplift_limits_forces"], found["uplift_is_beneficial"]
+    assert (limited.holds, limited.holds_when) == (forces, totals)
+    assert (good.holds, good.holds_when) == (beneficial, of_the_shear)
 
 
 @pytest.mark.parametrize("factor", [1.2, 3.0])

@@ -4,8 +4,10 @@ import itertools
 import math
 
 import numpy as np
+import pandas as pd
 import pytest
 
+from replication.workbench import truth
 from steps import vase, vase_poses, vase_searches, vase_shares
 from topheavy import Column, FixedMassColumn, Pulse, RockingBlock, RockingFrame
 
@@ -75,6 +77,43 @@ def test_exceptions_are_a_later_fixed_mass_and_an_earlier_frame():
     assert vase.is_exception(row("free", 0.2, 0.3))
     assert not vase.is_exception(row("free", math.inf, 0.3))
     assert not vase.is_exception(row("bare", 0.3, 0.2))
+
+
+def of(structure, acceleration):
+    return vase_searches.Minimum(structure, PULSE, (acceleration, acceleration))
+
+
+@pytest.mark.parametrize(("fixed", "survives"), [(0.25, False), (0.19, True)])
+def test_structure_that_falls_at_the_earlier_minimum_is_no_exception(fixed, survives):
+    """A fixed mass overturns from 0.204 g on, and cannot be later than a column that falls then."""
+    given = row("fixed", 0.3, 0.0) | {"found": of(FixedMassColumn(COLUMN, 1.0), 0.3)}
+    found = vase.exception(given | {"bare": of(COLUMN, fixed)})
+    assert found["later_one_survives"] is survives
+    assert math.isnan(found["error"])  # SciPy finds no boundary at 0.3 g
+
+
+def test_second_route_needs_every_boundary_and_every_exception():
+    rows = [row("fixed", 0.3, 0.2), row("fixed", math.inf, math.inf), row("bare", 0.2, 0.2)]
+    for errors, survives, holds in (
+        ([1e-7], [], True),
+        ([1e-7], [True, True], True),
+        ([1e-7], [True, False], False),
+        ([1e-7, math.nan], [True], False),
+    ):
+        exceptions = [{"later_one_survives": one} for one in survives]
+        found = vase.second_route(errors, exceptions, rows, [])
+        assert found.holds is holds
+        assert (found["neither_overturns"], found["not_told"]) == (1, 1)
+
+
+def test_minimum_that_a_tighter_tolerance_moves_is_not_compared():
+    right, other = (vase_searches.minimum(COLUMN, PULSE, 2.0) for _ in range(2))
+    wrong = of(COLUMN, 1.01 * right.acceleration)
+    given = row("free", 0.0, 0.0) | {"bare": other}
+    assert vase.is_compared(given | {"found": right}, 3e-12)
+    assert not vase.is_compared(given | {"found": wrong}, 3e-12)
+    assert not vase.is_compared(given | {"found": right, "structure": "bare"}, 3e-12)
+    assert not vase.is_compared(row("free", math.inf, math.inf), 3e-12)
 
 
 def test_exception_under_short_pulses_and_records_qualifies():
@@ -173,3 +212,72 @@ def test_frame_that_would_overturn_is_refused():
     pulse = Pulse("one-cosine", 0.5, 2 * math.pi / 1.5)
     with pytest.raises(ValueError, match=r"vase\.picture: the frame overturns at 0\.5 g; expected"):
         vase_poses.rotations(RockingFrame(COLUMN, 1.0), pulse, CASE)
+
+
+# What the step concludes ------------------------------------------------------------------------
+
+MINIMA = {"bare": 0.27, "fixed": 0.20, "free": 0.31, "portal": 0.9}
+ANGLES = {"bare": 9.5, "fixed": 6.3, "free": 9.5, "portal": 20.0}
+
+
+def summary(**change):
+    """Structures under two shapes; `change` has a structure's values under the second."""
+    rows = [
+        {"structure": name, "shape": shape, "mass_ratio": 1.0, "slenderness_deg": ANGLES[name]}
+        | {"minimum_overturning": MINIMA[name], "error": 1e-8}
+        | (change.get(name, {}) if shape == "b" else {})
+        for name in MINIMA
+        for shape in ("a", "b")
+    ]
+    return pd.DataFrame(rows)
+
+
+@pytest.mark.parametrize(
+    ("change", "holds"),
+    [
+        ({}, True),
+        ({"fixed": {"minimum_overturning": 0.28}}, False),
+        ({"free": {"minimum_overturning": 0.26}}, False),
+        ({"bare": {"minimum_overturning": 0.32}}, False),
+    ],
+)
+def test_rank_of_the_three_is_asked_under_every_pulse_of_the_period(change, holds):
+    assert vase.ranks(summary(**change)) is holds
+
+
+@pytest.mark.parametrize(("angle", "holds"), [(9.6, True), (9.4, False)])
+def test_portal_stands_on_a_wider_base_or_not(monkeypatch, angle, holds):
+    table = summary(portal={"slenderness_deg": angle})
+    given = {"under_pulses": table, "motions": [], "shares": [], "whole_gain": truth(True)}
+    for name, found in (given | {"poses": []}).items():
+        monkeypatch.setattr(vase, name, lambda *arguments, found=found: found)
+    case = {"column": {"half_width": 0.5, "half_height": 3.0}, "spectra": {"highest": 12.0}}
+    case |= {"sample": {"points": 1}, "checked_by_second_route": 1, "longest": 2.0}
+    case |= {"shapes": ["b"]}
+    assert vase.main(case, [], 3e-12)[-1]["portal_has_a_wider_base"].holds == holds
+
+
+@pytest.mark.parametrize(("lost", "holds"), [(0.0, True), (0.01, False)])
+def test_shares_carry_the_whole_gain(lost, holds):
+    rows = [
+        {"worth": worth, "shape": "a", "mass_ratio": 1.0, "taken_from_the_frame": name}
+        | {"shapley_value": 1.0, "share_of_gain": share}
+        for worth in vase_shares.WORTHS
+        for name, share in (("α", 0.9 - lost), ("p", 0.06), ("√r", 0.04))
+    ]
+    found = vase.whole_gain(pd.DataFrame(rows))
+    assert found.holds is holds
+    for worth in vase_shares.WORTHS:
+        assert found[worth]["p"] == pytest.approx([0.06] * 3)
+
+
+def test_gain_is_that_of_the_frame_over_the_fixed_mass(monkeypatch):
+    """Each parameter of the frame is worth as much as it is larger than that of the fixed mass."""
+    monkeypatch.setattr(vase_shares, "WORTHS", {"α": lambda block, *rest: block.slenderness})
+    case = {"shapes": ["one-sine"], "shares": {"mass_ratios": [1.0]}}
+    rows = pd.DataFrame(vase_shares.shares(COLUMN, case)).set_index("taken_from_the_frame")
+    assert rows.share_of_gain["α"] == pytest.approx(1.0)
+    assert rows.share_of_gain["p"] == pytest.approx(0.0)
+    gain = COLUMN.slenderness - FixedMassColumn(COLUMN, 1.0).slenderness
+    assert rows.shapley_value["α"] == pytest.approx(gain)
+    assert rows.value["none"] == pytest.approx(FixedMassColumn(COLUMN, 1.0).slenderness)

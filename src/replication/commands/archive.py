@@ -1,76 +1,74 @@
 """One .zip with the source, the lock and all that a finished run made: `make archive`.
 
 The bytes depend on the commit and the run alone. The archive is unpacked into an empty folder,
-where `make verify` holds its files against results/manifest.json and SHA256SUMS.
+where `make verify` holds its files against the RO-Crate of the run and SHA256SUMS. A copy of this
+crate lies at its root: the whole archive is an RO-Crate.
 """
 
 import hashlib
-import json
 import subprocess
 import sys
 import tomllib
 import zipfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
-from replication.commands.verify import MANIFEST, SUMS
+from replication.commands.verify import SUMS
 from replication.commands.verify import main as verify
-from replication.provenance import workflow_jobs
-from replication.rules.manifest import git_state
+from replication.crate import CRATE, read_crate
+from replication.provenance import source_version, workflow_jobs
 
 FOLDER = Path("dist")
 COSTS = "results/costs.csv"
-"""What a run measures; the manifest has no checksum of it."""
+"""What a run measures; the crate has no checksum of it."""
 
 EARLIEST = (1980, 1, 1, 0, 0, 0)
 """The time of every file: zip knows none before it."""
 
 
 def pending(root: Path) -> list[str]:
-    """Return the rules that `make reproduce` would run now, but for the one that lists the outputs.
-
-    Its inputs include the modules that the process has loaded, and this process has loaded more.
-    """
+    """Return the rules that `make reproduce` would run now."""
     jobs = workflow_jobs(root, targets=["all"])
-    unfinished = (job for job in jobs if job.pending and job.outputs)
-    return sorted({job.rule for job in unfinished if MANIFEST not in job.outputs})
+    return sorted({job.rule for job in jobs if job.pending and job.outputs})
 
 
 def refusals(root: Path) -> Iterator[str]:
     """Yield why a tree cannot be archived, and what to do; nothing if it can."""
-    if not (root / MANIFEST).exists():
-        yield f"{MANIFEST} does not exist; expected a finished run: make reproduce"
+    if not (root / CRATE).exists():
+        yield f"{CRATE} does not exist; expected a finished run: make reproduce"
         return
-    now = git_state(root)
-    if now["commit"] is None:
+    now = source_version(root)
+    if not now:
         yield f"{root.resolve()} is no git repository; expected a clone, whose commit is archived"
         return
-    if now["dirty"]:
+    if now.endswith("-dirty"):
         yield "the tree differs from its commit (git status); commit or remove these changes"
         return
     if rules := pending(root):
         yield f"the run is not finished or out of date, in {', '.join(rules)}: make reproduce"
         return
-    manifest = _manifest(root)
-    if faults := verify(manifest, root):
+    try:
+        crate = read_crate(root / CRATE)
+    except ValueError as fault:
+        yield str(fault)
+        return
+    if faults := verify(crate, root):
         yield from faults
         yield "expected the files of the run: remove those above, then make reproduce"
         return
-    if manifest["git"] != now:
-        made = manifest["git"]["commit"]
-        state = ", with changes" if manifest["git"]["dirty"] else ""
+    if crate.version != now:
         yield (
-            f"{MANIFEST} was written at commit {made}{state}; expected {now['commit']}, without: "
-            f"rm {MANIFEST} && make reproduce, which lists the same results again"
+            f"{CRATE} was written at commit {crate.version}; expected {now}: "
+            f"rm {CRATE} && make reproduce, which lists the same results again"
         )
 
 
 def members(root: Path) -> dict[str, bytes]:
     """Return the content of every file of the archive, by its path: source, then results."""
     listed = _git(root, "ls-files", "-z").decode().split("\0")
-    made = [*_manifest(root)["outputs"], MANIFEST, COSTS]
+    made = [*read_crate(root / CRATE).rules, CRATE, COSTS]
     found = {path: (root / path).read_bytes() for path in sorted({*filter(None, listed), *made})}
+    found[Path(CRATE).name] = found[CRATE]
     sums = (f"{hashlib.sha256(data).hexdigest()}  {path}\n" for path, data in found.items())
     return found | {SUMS: "".join(sums).encode()}
 
@@ -111,10 +109,6 @@ def main(root: Path = Path()) -> str:
     count = len(zipfile.ZipFile(to).namelist())
     checksum = hashlib.sha256(data).hexdigest()
     return f"{to}: {count} files, {len(data) / 1e6:.1f} MB, SHA-256 {checksum}"
-
-
-def _manifest(root: Path) -> Mapping[str, Any]:
-    return json.loads((root / MANIFEST).read_text(encoding="utf-8"))
 
 
 def _git(root: Path, *words: str) -> bytes:

@@ -25,6 +25,7 @@ from replication.faults import JUDGING, Fault, load
 from replication.kill_table import Row, caught, first_failing, publish, put_to_the_test, workflow
 from replication.ledger import read_ledger
 from replication.parts import PAPER, ledger_of
+from replication.strict_yaml import read_yaml
 from replication.tree_copy import ROOT, check_imports, copy_tree
 
 TABLE = ROOT / "docs" / "kill_table"
@@ -32,8 +33,10 @@ KEPT = ROOT / ".kill_table.jsonl"
 
 
 def studies() -> list[str]:
-    """Return the names of all studies, those that no config names included."""
-    return sorted(path.parent.name for path in ROOT.glob("studies/*/claims.yaml"))
+    """Return the names of all studies, in the order of the config, then those not in it."""
+    named = read_yaml(ROOT / "config" / "config.yaml")["studies"]
+    found = sorted(path.parent.name for path in ROOT.glob("studies/*/claims.yaml"))
+    return list(dict.fromkeys([*named, *found]))
 
 
 def ledger_files() -> list[Path]:

@@ -17,7 +17,9 @@ from replication.place import UNQUOTED
 ROOT = Path(__file__).resolve().parents[3]
 TEMPLATE = Path(__file__).parents[1] / "template"
 COPIED = (
+    ".ci/ro-crate-1.1-context.jsonld",
     ".ci/run",
+    ".ci/validate_crate.py",
     ".github/workflows/ci.yaml",
     ".gitignore",
     "Makefile",

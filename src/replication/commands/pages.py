@@ -3,8 +3,8 @@
 No run is necessary, and no result goes into them but the costs.
 """
 
-from collections.abc import Callable, Iterator, Mapping
-from functools import cache
+from collections.abc import Callable, Iterator
+from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
@@ -13,15 +13,19 @@ from replication.codecheck import codecheck_file
 from replication.config_page import config_page
 from replication.costs import read_costs
 from replication.exhibits import exhibits_page
-from replication.parts import PAPER, captions_of
+from replication.parts import PAPER, captions_of, config_of
 from replication.provenance import Job, workflow_jobs
 from replication.strict_yaml import read_yaml
 
 
+def studies() -> list[str]:
+    """Return the names of the studies of the config."""
+    return read_yaml(config_of(PAPER))["studies"]
+
+
 def captions() -> dict[str, dict[str, Any]]:
     """Return the captions of the paper and of its studies."""
-    studies = read_yaml("config/config.yaml")["studies"]
-    return read_captions(captions_of(part) for part in [PAPER, *studies])
+    return read_captions(captions_of(part) for part in [PAPER, *studies()])
 
 
 @cache
@@ -40,24 +44,26 @@ def exhibits() -> str:
     return exhibits_page(jobs(), captions(), read_costs(Path("docs/costs.csv")))
 
 
-PAGES: Mapping[str, Callable[[], str]] = {
-    "config/README.md": lambda: config_page(Path("config/config.yaml")),
-    "codecheck.yml": codecheck,
-    "docs/exhibits.md": exhibits,
-}
-"""By its path, what returns the text of a page."""
+def pages() -> dict[str, Callable[[], str]]:
+    """Return, by the path of each page, what returns its text."""
+    configs = [Path(config_of(part)) for part in [PAPER, *studies()]]
+    return {
+        **{str(path.with_name("README.md")): partial(config_page, path) for path in configs},
+        "codecheck.yml": codecheck,
+        "docs/exhibits.md": exhibits,
+    }
 
 
 def write() -> None:
     """Write every page, and print its path."""
-    for path, text in PAGES.items():
+    for path, text in pages().items():
         Path(path).write_text(text(), encoding="utf-8")
         print(path)
 
 
 def outdated() -> Iterator[str]:
     """Yield a line for each page that is not as `write` would write it."""
-    for path, text in PAGES.items():
+    for path, text in pages().items():
         page = Path(path)
         if not page.is_file() or page.read_text(encoding="utf-8") != text():
             yield f"{path} is not up to date; run 'make pages', read the diff, and commit it"

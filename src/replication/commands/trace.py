@@ -1,6 +1,7 @@
 """From a number, table, figure or claim back to the paper and the inputs: `make trace ITEM=…`.
 
-The chain is Snakemake's: its jobs, and the records that it keeps of how they were run.
+The chain is Snakemake's: its jobs, and the records that it keeps of how they were run. Where it has
+no records, as in an unpacked archive, the RO-Crate of the run has the checksums.
 """
 
 import difflib
@@ -15,6 +16,7 @@ from pathlib import Path
 
 from replication.citations import cite, library_names, printed_list
 from replication.claim import Claim
+from replication.crate import CRATE, Crate, read_crate
 from replication.findings import read_findings
 from replication.ledger import finding_of
 from replication.provenance import Job, checksum, makers, workflow_jobs
@@ -24,6 +26,8 @@ from replication.verdicts import verdict_on
 ROOT = Path(__file__).parents[3]
 """The root of the repository; printed paths are relative to it."""
 
+NO_CRATE = Crate({}, {}, (), "")
+"""Before the end of the first run."""
 
 MOST_MATCHES = 6
 """So many names are suggested for one that is unknown."""
@@ -88,7 +92,9 @@ def _close(name: str, known: Iterable[str]) -> list[str]:
     return list(dict.fromkeys([*begins, *alike]))[:MOST_MATCHES]
 
 
-def chain(item: Item, jobs: Sequence[Job], root: Path = Path()) -> Iterator[str]:
+def chain(
+    item: Item, jobs: Sequence[Job], root: Path = Path(), crate: Crate = NO_CRATE
+) -> Iterator[str]:
     """Yield the lines from the requested item back to the inputs."""
     made = makers(jobs)
     for claim in item.claims:
@@ -108,7 +114,7 @@ def chain(item: Item, jobs: Sequence[Job], root: Path = Path()) -> Iterator[str]
         if told:
             yield ""
         told.add(job.outputs)
-        yield from _job_lines(job, made, root)
+        yield from _job_lines(job, made, root, crate)
         waiting += [path for path in job.inputs if path in made]
 
 
@@ -131,10 +137,11 @@ def _row(claim: Claim) -> str:
     return next((f"{claim.ledger}:{n}" for n, line in enumerate(lines, 1) if start.match(line)), "")
 
 
-def _job_lines(job: Job, made: Mapping[str, Job], root: Path) -> Iterator[str]:
+def _job_lines(job: Job, made: Mapping[str, Job], root: Path, crate: Crate) -> Iterator[str]:
+    recorded = crate.checksums if job.made is None else job.checksums
     for path in job.outputs:
         yield f"{path}  {_digest(path, root)}"
-    yield f"  rule      {job.rule}, {job.place}; {_state(job)}"
+    yield f"  rule      {job.rule}, {job.place}; {_state(job, crate)}"
     for script in job.scripts:
         yield f"  script    {script}  {_digest(script, root)}"
         for name in library_names(root / script):
@@ -143,15 +150,16 @@ def _job_lines(job: Job, made: Mapping[str, Job], root: Path) -> Iterator[str]:
         yield f"  config    {name}: {json.dumps(value, ensure_ascii=False, default=str)}"
     for path in sorted(job.inputs, key=lambda path: (path not in made, path)):
         digest = _digest(path, root)
-        before = job.checksums.get(path)
+        before = recorded.get(path)
         changed = before and (root / path).exists() and before != checksum(root / path)
         source = f"  from rule {made[path].rule}" if path in made else ""
         yield f"  input     {path}  {digest}{source}{'  CHANGED since' if changed else ''}"
 
 
-def _state(job: Job) -> str:
+def _state(job: Job, crate: Crate) -> str:
     if job.made is None:
-        return "not made yet"
+        listed = crate.rules.keys() & job.outputs
+        return f"made in the run that {CRATE} lists" if listed else "not made yet"
     when = datetime.fromtimestamp(job.made).strftime("%Y-%m-%d %H:%M:%S")
     return f"made {when}, {'OUT OF DATE' if job.pending else 'up to date'}"
 
@@ -183,7 +191,8 @@ if __name__ == "__main__":
     try:
         jobs = workflow_jobs()
         ledger = [job.params["claim"] for job in jobs if "claim" in job.params]
-        lines = list(chain(find(sys.argv[1], jobs, ledger), jobs))
+        crate = read_crate() if Path(CRATE).exists() else NO_CRATE
+        lines = list(chain(find(sys.argv[1], jobs, ledger), jobs, crate=crate))
     except (OSError, ValueError) as fault:  # of the config and the folder, too
         sys.exit(str(fault))
     print("\n".join(lines))

@@ -257,8 +257,11 @@ def _next_uplift_of_record(forcing, record, time, level):
             last = forcing.amplitude * record[0, k + 1]
             sign = math.copysign(1.0, last)
             rate = sign * forcing.amplitude * (record[0, k + 1] - record[0, k]) / forcing.step
-            time = (k + 1) * forcing.step - (abs(last) - level) / rate
-            return max(time, k * forcing.step), 0.0, rate, -sign
+            time = max((k + 1) * forcing.step - (abs(last) - level) / rate, k * forcing.step)
+            if piece_at(forcing, time) == k:
+                return time, 0.0, rate, -sign
+            time = (k + 1) * forcing.step  # the crossing rounds to the sample, where |a| may turn
+            return time, abs(last) - level, sign * ground(forcing, record, time)[1], -sign
         else:
             k += 1
     return np.inf, 0.0, 0.0, 1.0

@@ -115,8 +115,8 @@ def pulse_outcomes_of(
     size = np.broadcast_shapes(scales.shape, amplitudes.shape)
     peak, overturned = np.empty(size), np.empty(size, dtype=bool)
     impacts = np.empty(size, dtype=np.int64)
-    # Copies, as the types of arrays that are strided or read-only would be compiled for anew.
-    pairs = tuple(np.array(np.broadcast_to(values, size)) for values in (scales, amplitudes))
+    # Copies in C order: for arrays that are strided, transposed or read-only it would compile anew.
+    pairs = [np.array(np.broadcast_to(each, size), order="C") for each in (scales, amplitudes)]
     given = (block, shape, *pairs, NO_RECORD, tolerance, peak, overturned, impacts)
     lost = _shared(pulse_outcomes, given, peak.size, FEWEST_PULSES, 1, threads)
     if lost >= 0:

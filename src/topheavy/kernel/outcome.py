@@ -25,7 +25,7 @@ from topheavy.kernel.forcing import (
     strongest_after,
 )
 from topheavy.kernel.march import march
-from topheavy.kernel.rest import LAST_BOUNCE, comes_to_rest
+from topheavy.kernel.rest import LAST_BOUNCE, comes_to_rest, next_tick
 from topheavy.kernel.tail import free_rocking
 from topheavy.kernel.taylor import ROTATION, State, evaluate, expand, longest_step
 
@@ -39,7 +39,8 @@ TOLERANCE = 3e-10
 #: more of the time scale of the motion, 1/(1 + ω/p + √|a|). A pulse lasts 9π p/ω
 #: at most, and one that is slow or strong has overturned the block, or lets it come to rest, within
 #: a thousand such times. Hence only landings can be so many: of a block that loses next to nothing
-#: at an impact (√r → 1).
+#: at an impact (√r → 1). If √r < 1, a train of bounces dies out: above the level it ends by a
+#: rotation, below by rest (`rest`), even if it is over before the clock ticks.
 MAX_STEPS = 200_000
 #: What ends a step.
 NOTHING, LANDING, FLAT = range(3)
@@ -282,6 +283,7 @@ def outcome(w, order, tolerance, block, forcing, record):
                 if time < forcing.end and comes_to_rest(
                     block, forcing, record, time, state.velocity, state.push, side, peak
                 ):
+                    time = next_tick(time)
                     break
             if time >= forcing.end:
                 tail = free_rocking(block, state.rotation, state.velocity)

@@ -61,6 +61,7 @@ from topheavy.kernel.lanes import (
     store,
 )
 from topheavy.kernel.outcome import HALT, MAX_STEPS, PULSE_ORDER, outcome
+from topheavy.kernel.rest import next_tick
 from topheavy.kernel.tail import free_rocking, is_poised
 
 assert PULSE_ORDER <= MAX_ORDER
@@ -118,7 +119,7 @@ def renew(w, level, shape):
 @compiled
 def lifts_again(w, lane, block, forcing, record):
     """Let the block of a lane wait at rest; return whether the pulse lifts it again."""
-    time, push, rate, side = next_uplift(forcing, record, w[TIME, lane], block.level)
+    time, push, rate, side = next_uplift(forcing, record, next_tick(w[TIME, lane]), block.level)
     if time >= forcing.end:
         return False
     lift(w, lane, time, push, rate, side, forcing.amplitude)

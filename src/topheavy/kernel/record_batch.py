@@ -53,7 +53,7 @@ from topheavy.kernel.lanes import (
 )
 from topheavy.kernel.march import LARGEST_TURN, derivatives
 from topheavy.kernel.outcome import HALT, MAX_STEPS, is_certain_to_overturn
-from topheavy.kernel.rest import LAST_BOUNCE
+from topheavy.kernel.rest import LAST_BOUNCE, next_tick
 from topheavy.kernel.tail import free_rocking
 from topheavy.kernel.taylor import State
 
@@ -245,7 +245,7 @@ def record_outcomes(
                     continue
                 marching &= ~(1 << lane)
                 stepping |= 1 << lane
-                if lifts(w, lane, block, forcing, record, w[TIME, lane]):
+                if lifts(w, lane, block, forcing, record, next_tick(w[TIME, lane])):
                     continue
             peak[cell] = math.nan if fell else highest
             overturned[cell], impacts[cell] = fell, count

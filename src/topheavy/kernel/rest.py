@@ -4,9 +4,15 @@ With √r < 1 a block that bounces on level ground comes to rest after infinitel
 finite time. Under a ground acceleration below the uplift level it does the same, provided that
 the train of bounces is over before |a| exceeds the level again; this is decided here by a bound,
 not by the smallness of a velocity.
+
+A block that a record lifts at a sample by its last digit alone may land before the clock can tick
+(time + bounce = time). The ground stands still during such a train of bounces, and the bound is
+that of the push at once. The block rests from the next tick on, so that every history advances.
 """
 
 import math
+
+import numpy as np
 
 from topheavy.kernel.compiled import compiled
 from topheavy.kernel.forcing import MOST_PIECES, ground, next_turn
@@ -50,18 +56,27 @@ def comes_to_rest(block, forcing, record, time, velocity, push, side, peak):
     if velocity * velocity > weakest * cosine * LAST_BOUNCE * block.slenderness:
         return False
     allowed = 4 * velocity / (weakest * cosine * (1 - restitution))
-    low, high = _range(forcing, record, time, time + allowed, side)
     slight = LAST_BOUNCE * block.slenderness
-    near, far = level - high, level + low
+    near, far = -push, push + 2 * level
+    most_near, most_far = near, far
+    if time + allowed > time:
+        low, high = _range(forcing, record, time, time + allowed, side)
+        near, most_near, far, most_far = level - high, level - low, level + low, level + high
     if min(near, far) <= 0.0:
         return False
     bound = velocity * velocity / (min(near, far) * cosine)
     if 2 * bound > min(near, far) * cosine * cosine or bound > min(peak, slight):
         return False
     pull_near, pull_far = near * cosine - bound / cosine, far * cosine - bound / cosine
-    ratio = (cosine + bound) * max((level - low) / pull_near, (level + high) / pull_far)
+    ratio = (cosine + bound) * max(most_near / pull_near, most_far / pull_far)
     decay = restitution * math.sqrt(ratio)
     return decay < 1.0 and 2 * velocity <= allowed * min(pull_near, pull_far) * (1 - decay)
+
+
+@compiled
+def next_tick(time):
+    """Return the first time after another: a train of bounces lasts as long at least."""
+    return np.nextafter(time, np.inf)
 
 
 @compiled

@@ -34,7 +34,7 @@ from topheavy.kernel.outcome import (
     is_certain_to_overturn,
     renewed,
 )
-from topheavy.kernel.rest import LAST_BOUNCE, comes_to_rest
+from topheavy.kernel.rest import LAST_BOUNCE, comes_to_rest, next_tick
 from topheavy.kernel.tail import free_rocking
 from topheavy.kernel.taylor import State, evaluate
 
@@ -185,6 +185,7 @@ def trace(
                 moves = not comes_to_rest(
                     block, forcing, record, time, state.velocity, state.push, side, peak
                 )
+                time = time if moves else next_tick(time)
         elif is_forced and block.linearised and not is_over:
             is_over = is_certain_to_overturn(block, forcing, record, time, state)
         if forcing.shape == RECORD and time >= piece_end:

@@ -160,6 +160,11 @@ def share_of_size(mass_ratios: ArrayLike) -> Array:
     return np.array([1.0 if math.isinf(g) else 2 * g / (1 + 2 * g) for g in np.ravel(mass_ratios)])
 
 
+def mass_ratio_of_share(share: float) -> float:
+    """Return the γ at which 2γ/(1 + 2γ), the share of the possible increase in size, is `share`."""
+    return math.inf if share == 1.0 else share / (2.0 - 2.0 * share)
+
+
 def mass_ratios_of_gain(mass_ratios: ArrayLike, medians: Array, shares: ArrayLike) -> Array:
     """Return the γ that brings each share of all that a cap can add to the median capacity.
 

@@ -5,9 +5,9 @@ from replication.drawing import DOUBLE, note, publish, shades, sheet
 
 BARE, FREE = shades(2)
 SUPPORTS = {
-    "fixed": (FIXED, "same mass fixed"),
-    "bare": (BARE, "bare columns"),
-    "free": (FREE, "free cap beam"),
+    "fixed": (FIXED, "s", "same mass fixed"),
+    "bare": (BARE, "^", "bare columns"),
+    "free": (FREE, "o", "free cap beam"),
 }
 FAMILIES = ("near-fault", "broadband")
 NAMES = {"temple": "temple columns", "bridge": "piers"}
@@ -23,7 +23,7 @@ def draw(certainty_intensities):
     for row, family in zip(axes, FAMILIES, strict=True):
         for axis, structure in zip(row, structures, strict=True):
             here = table[(table.family == family) & (table.structure == structure)]
-            for shift, (support, (colour, _)) in enumerate(SUPPORTS.items()):
+            for shift, (support, (colour, mark, _)) in enumerate(SUPPORTS.items()):
                 rows = here[here.support == support]
                 ends = (
                     rows.probability - rows.probability_low,
@@ -33,9 +33,9 @@ def draw(certainty_intensities):
                     rows.level + (shift - 1) * SHIFT,
                     rows.probability,
                     yerr=ends,
-                    fmt="o-",
+                    fmt=f"{mark}-",
                     color=colour,
-                    markersize=2.6,
+                    markersize=3.2,
                     linewidth=0.9,
                     elinewidth=0.7,
                 )
@@ -46,9 +46,13 @@ def draw(certainty_intensities):
         axis.set_title(f"{float(size):.0f} {unit} {NAMES.get(name, name)}")
     for axis in axes[1]:
         axis.set_xlabel("PGV (m/s)")
-    for place, (colour, words) in enumerate(SUPPORTS.values()):
-        at = (0.06, 0.9 - 0.09 * place)
-        note(axes[0, 0], words, at, color=colour, xycoords="axes fraction")
+    for place, (colour, mark, words) in enumerate(SUPPORTS.values()):
+        height = 0.9 - 0.09 * place
+        within = {"xycoords": "axes fraction", "color": colour}
+        axes[0, 0].plot(
+            0.07, height, mark, color=colour, markersize=3.2, transform=axes[0, 0].transAxes
+        )
+        note(axes[0, 0], words, (0.12, height), **within)
     return figure
 
 

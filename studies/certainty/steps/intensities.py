@@ -181,6 +181,7 @@ def main(
     each = ["family", "structure", "measure", "level"]
     wide = table.pivot_table(index=each, columns="support", values="fell")
     summed = wide.groupby(level=each[:2]).sum()
+    free = [row["overturned"] for row in measured if row["support"] == "free"]
     findings = {
         "ample_stability": truth(
             worst(framed) < ample["probability"],
@@ -204,7 +205,7 @@ def main(
             exceptions=int((wide.fixed < wide.bare).sum()),
         ),
         "records": truth(
-            not any(row["overturned"] for row in measured if row["support"] == "free"),
+            bool(free) and not any(free),
             measured=measured,
         ),
         "napa": value(max(row["pgv"] for row in measured if "napa" in row["record"]), 0.0, "m/s"),

@@ -241,11 +241,13 @@ def main(case: dict, ensemble: dict) -> tuple[pd.DataFrame, dict]:
     }
     findings = {
         "lowest_rises_together": truth(
-            not together.falls.any(), compared=int(together.compared.sum()), **shown
+            together.compared.all() and not together.falls.any(),
+            compared=int(together.compared.sum()),
+            **shown,
         ),
         "lowest_rises_apart": truth(
-            not pulses.falls.any(),
-            holds_when=not kept.falls.any(),
+            pulses.compared.all() and not pulses.falls.any(),
+            holds_when=bool(kept.compared.all()) and not kept.falls.any(),
             condition="the column's √r is not lowered alone",
             changes=pulses.to_dict("records"),
         ),

@@ -25,6 +25,7 @@ from topheavy import (
     simulate,
 )
 from topheavy.derivation import reversal_theorems
+from topheavy.synthetic.fragility import mass_ratio_of_share
 
 HALVINGS = 6
 BESIDE = 0.01  # of the factor: what lies between the boundary and the motion that is judged
@@ -84,12 +85,10 @@ def trial(random: np.random.Generator, linearised: bool) -> Trial | None:
     """
     alpha = math.radians(random.uniform(2.0, 44.0))
     column = Column(math.sin(alpha), math.cos(alpha))
-    # uniform in 2γ/(1 + 2γ), the share of the possible increase in size; 1 is γ → ∞
+    # uniform in the share of the possible increase in size; 1 is γ → ∞
     light, heavy = np.sort(random.choice([*random.uniform(0.0, 1.0, 2), 0.0, 1.0], 2, False))
     pair = [
-        RockingFrame(column, math.inf if x == 1.0 else x / (2.0 - 2.0 * x)).block(
-            float(random.uniform(0.0, 1.0))
-        )
+        RockingFrame(column, mass_ratio_of_share(x)).block(float(random.uniform(0.0, 1.0)))
         for x in (light, heavy)
     ]
     lighter, heavier = (block.linear() if linearised else block for block in pair)
@@ -174,6 +173,7 @@ def main(case: dict) -> tuple[pd.DataFrame, dict]:
     table = pd.concat([rows(case, True), rows(case, False)], ignore_index=True)
     proved, still_open = table[table.proved], table[~table.proved]
     followed = table[table.ahead.notna()]
+    within = followed[followed.proved]
     theorems = reversal_theorems()
     findings = {
         "proofs": truth(
@@ -182,8 +182,10 @@ def main(case: dict) -> tuple[pd.DataFrame, dict]:
         "linearised": counted(proved[proved.linearised]),
         "exact": counted(proved[~proved.linearised]),
         "exact_open": counted(still_open),
-        "ahead": truth(followed[followed.proved].ahead.all(), followed=len(followed)),
-        "second_route": truth(followed.confirmed.all(), followed=len(followed)),
+        "ahead": truth(len(within) > 0 and within.ahead.all(), followed=len(within)),
+        "second_route": truth(
+            len(followed) > 0 and followed.confirmed.all(), followed=len(followed)
+        ),
     }
     grouped = table.groupby(["linearised", "proved", "shape"], as_index=False)
     counts = grouped.agg(motions=("contradicts", "size"), contradictions=("contradicts", "sum"))

@@ -38,7 +38,7 @@ def draw(mechanism_dependence, mechanism_records):
     note(axes["C"], "below: a column top opens", (1.42, 6.6), color=INK)
     records = axes["E"]
     _records(records, mechanism_records)
-    titles = ["Mass ratio", "Slenderness", "Bay", "Depth of the cap beam", "Real records"]
+    titles = ["Mass ratio", "Slenderness", "Bay", "Depth of the cap beam", "Measured records"]
     letter(list(axes.values()), titles)
     return figure
 

@@ -7,6 +7,7 @@ from figures.palette import OVERTURNS, SURVIVES
 from replication.drawing import DOUBLE, GREY, INK, PAPER, letter, note, publish, shades, sheet
 from studies.mechanism.figures.marks import untested
 
+CONTACTS = {"plastic": "no rebound", "bouncing": "rebound"}
 SHAPES = {"one-sine": "sine", "ricker-symmetric": "Ricker"}
 DOTS = {
     "survives": {"facecolor": PAPER, "edgecolor": SURVIVES},
@@ -51,7 +52,7 @@ def _pulses(axis, table):
         ring = {"facecolor": "none", "edgecolor": INK, "linewidth": 1.3}
         axis.scatter(x[apart], np.full(int(apart.sum()), height), s=80, **ring)
     names = [
-        f"{contact}, {structure}, {SHAPES[shape]} {ratio:g}"
+        f"{CONTACTS[contact]}, {structure}, {SHAPES[shape]} {ratio:g}"
         for (contact, structure, shape, ratio), _ in reversed(rows)
     ]
     axis.set_yticks(range(len(rows)), names, fontsize=6.5)

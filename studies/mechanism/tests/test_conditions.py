@@ -11,6 +11,7 @@ from studies.mechanism.steps import (
     admissible,
     dependence,
     equivalence,
+    first_impacts,
     rebounds,
     slides,
     three_bodies,
@@ -116,6 +117,24 @@ def test_rebound_is_that_of_the_equation_within_half_a_percent(monkeypatch, off,
     _, found = rebounds.main(case, {}, {})
     for name in ("impact_at_the_new_pivots", "maximum_restitution"):
         assert (found[name].holds, found[name].holds_when) == (False, hard)
+
+
+@pytest.mark.parametrize(("late", "holds"), [(0.009, True), (-0.009, True), (-0.011, False)])
+def test_first_impact_comes_within_a_hundredth_in_the_limit_of_small_steps(
+    monkeypatch, late, holds
+):
+    model = SimpleNamespace(name="", frame=RockingFrame(Column(0.5, 3.0), 1.0))
+    theory = SimpleNamespace(impacts=[1.0])
+    given = {"models": [model], "simulate": theory, "rig_of": None, "run": None}
+    for name, found in given.items():
+        monkeypatch.setattr(first_impacts, name, lambda *arguments, found=found, **options: found)
+    times = iter(1.0 + late + 0.1 * step for step in (0.4, 0.2, 0.1))  # an error of first order
+    monkeypatch.setattr(first_impacts, "crossing", lambda motion: (None, next(times)))
+    case = {"time_steps": [0.1, 0.4, 0.2], "frames": {}, "leans": [0.5]}
+    table, found = first_impacts.main(case, {}, {})
+    assert found["first_impact"].holds == holds
+    assert found["first_impact"]["largest"] == pytest.approx(abs(late))
+    assert table.step.tolist() == [0.4, 0.2, 0.1, 0.0]
 
 
 @pytest.mark.parametrize(

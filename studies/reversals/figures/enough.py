@@ -4,6 +4,7 @@ import numpy as np
 
 from figures.drawing import PULSES
 from replication.drawing import DOUBLE, GREY, INK, PAPER, note, publish, sheet
+from topheavy.synthetic.fragility import mass_ratio_of_share
 
 QUANTILES = [0.0, 0.25, 0.5, 0.75, 1.0]
 
@@ -20,7 +21,7 @@ def draw(reversals_enough):
             axis.plot([low, high], [place] * 2, color=INK, linewidth=0.8)
             axis.plot([lower, upper], [place] * 2, color=INK, linewidth=6, solid_capstyle="butt")
             axis.plot(middle, place, "o", color=PAPER, markeredgecolor=INK, markersize=4)
-        size, middle = share / (2 * (1 - share)), of.mass_ratio.median()  # 2γ/(1 + 2γ) = share
+        size, middle = mass_ratio_of_share(share), of.mass_ratio.median()
         axis.axvline(size, color=INK, linewidth=0.9)
         axis.axvline(middle, color=GREY, linewidth=0.9, linestyle=(0, (3, 2)))
         note(axis, r"$\hat{R}$  ", (size, -0.62), color=INK, ha="right")

@@ -17,8 +17,9 @@ LEFT = 0.72  # of the axis for reversals, over that for the other cells
 
 
 def gains(axis, medians):
-    line = np.linspace(0.0, 1.0, 101)
-    axis.plot(line, 100 * (np.sqrt(1.0 + line / 2.0) - 1.0), color=GREY, linewidth=0.9)
+    frames = medians[(medians.as_large_as == 0) & (medians.family == "near-fault")]
+    by_size = share_of_size(frames.mass_ratio), 100 * frames.expected_gain
+    axis.plot(*by_size, color=GREY, linewidth=0.9)
     note(axis, r"if only $\hat p\,\mathrm{PGV}$ mattered", (0.45, 5.4), color=GREY)
     for family, (marker, side) in FAMILIES.items():
         run = medians[(medians.family == family) & (medians.gain != 0)]

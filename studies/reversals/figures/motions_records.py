@@ -16,6 +16,13 @@ CASES = {  # the outcomes of the column and of the frame with γ → ∞
     "cannot be decided": UNDECIDED,
 }
 FACTORS = (1, 2, 5, 10, 20)
+CROSS = {  # on a cell that cannot be decided: black and magenta are alike in grey print
+    "marker": "x",
+    "color": PAPER,
+    "linestyle": "none",
+    "markersize": 2.4,
+    "markeredgewidth": 0.6,
+}
 
 
 def cells(light, heavy):
@@ -37,6 +44,9 @@ def panel(axis, run):
     axis.pcolormesh(
         edges, np.arange(rows + 1), places, cmap=colours, vmin=-0.5, vmax=4.5, edgecolor="face"
     )
+    middles = np.sqrt(edges[:-1] * edges[1:])
+    untold_rows, untold_columns = np.nonzero(places == len(CASES) - 1)
+    axis.plot(middles[untold_columns], untold_rows + 0.5, **CROSS)
     axis.set(xscale="log", xlabel="Scale of the record over that at uplift (–)")
     axis.set_xticks(FACTORS, map(str, FACTORS))
     axis.set_xticks([], minor=True)
@@ -74,6 +84,7 @@ def draw(reversals_records):
             markeredgewidth=0.4,
         )
         note(key, words, (0.13, height))
+    key.plot([0.06], [height], **CROSS | {"markersize": 4})
     note(key, "Frame: $\\gamma=\\infty$.", (0.02, 0.26))
     key.set(xlim=(0, 1), ylim=(0, 1))
     return figure

@@ -192,28 +192,67 @@ def linear_twin(case: dict, found: tuple) -> tuple[Spectra, tuple]:
     return spectra, spectra.counterexample([(light, heavy)], linearised=True)
 
 
+def apart_findings(case: dict, changes: dict[str, Spectra], why: pd.DataFrame) -> dict:
+    """What p̂ alone, √r alone and both do, over the spectra of each."""
+    ends = why[why.heavier == finite(MASSLESS)]
+    shares = {
+        f"{change}_{name}": mean(ends[ends.change == change], name)
+        for change in CHANGES
+        for name in SHARES.values()
+    }
+    lowest = {change: lowest_apart(changes[change], case["separated"]) for change in CHANGES[1:]}
+    return {
+        "apart": truth(True, **shares),
+        **causes({change: shares[f"{change}_harms"][0] for change in CHANGES}),
+        "lowest_rises_apart": truth(all(found.holds for found in lowest.values()), **lowest),
+    }
+
+
+def extent(bands: pd.DataFrame, shares: pd.DataFrame) -> dict:
+    """How much of the maps is reversed, for which pairs and where."""
+    ends = shares[(shares.lighter == COLUMN) & (shares.heavier == finite(MASSLESS))]
+    worst = shares.loc[shares.harms.idxmax()]
+    pairs = shares.groupby(["lighter", "heavier"], sort=False)
+    shapes = bands.groupby("shape", sort=False)
+    return {
+        "helps": value(*mean(ends, "helps")),
+        "harms": value(*mean(ends, "harms")),
+        "most_harm": value(
+            worst.harms,
+            max(abs(worst.harms - worst[name]) for name in ("harms_by_two", "harms_by_four")),
+            **worst[["lighter", "heavier", "slenderness_deg", "shape"]],
+        ),
+        "pairs": truth(
+            True,
+            pairs=[
+                {"lighter": light, "heavier": heavy}
+                | {name: mean(rows, name)[0] for name in SHARES.values()}
+                for (light, heavy), rows in pairs
+            ],
+        ),
+        "where": truth(
+            True,
+            shapes=[
+                {"shape": shape, **dict(zip(("from", "to"), _middle(rows), strict=True))}
+                for shape, rows in shapes
+            ],
+        ),
+    }
+
+
 def main(case: dict, solver: dict, table: pd.DataFrame) -> tuple[dict[str, pd.DataFrame], dict]:
     whole = table[table.change == "both"]
     spectra = Spectra(case, whole)
     pairs = list(combinations(case["mass_ratios"], 2))
-    bands = reversals(spectra, pairs)
-    shares = areas(spectra, pairs)
+    bands, shares = reversals(spectra, pairs), areas(spectra, pairs)
     changes = {change: Spectra(case, apart(table, change)) for change in CHANGES}
     separated = [(COLUMN, gamma) for gamma in case["separated"]]
     why = pd.concat(areas(changes[change], separated).assign(change=change) for change in CHANGES)
-    ends = shares[(shares.lighter == COLUMN) & (shares.heavier == finite(MASSLESS))]
-    worst = shares.loc[shares.harms.idxmax()]
-    rises = spectra.lowest_rises()
-    found = spectra.counterexample(pairs)
+    rises, found = spectra.lowest_rises(), spectra.counterexample(pairs)
     exact, histories = confirmed(spectra, found, solver["tightened"])
     twin, linear_histories = confirmed(*linear_twin(case, found), solver["tightened"])
-    lowest = {change: lowest_apart(changes[change], case["separated"]) for change in CHANGES[1:]}
     step = case["amplitudes"]["resolution"]
     span = case["amplitudes"]["highest"] - case["amplitudes"]["lowest"]
-
-    def of(change: str, name: str) -> tuple[float, float]:
-        return mean(why[(why.change == change) & (why.heavier == finite(MASSLESS))], name)
-
     findings = {
         "heavier_is_more_stable": truth(
             bands.empty,
@@ -224,39 +263,9 @@ def main(case: dict, solver: dict, table: pd.DataFrame) -> tuple[dict[str, pd.Da
         ),
         "lowest_amplitude_rises": rises.with_evidence(widest_missed=step),
         "never_without_impact": without_impact(spectra, pairs),
-        "helps": value(*mean(ends, "helps")),
-        "harms": value(*mean(ends, "harms")),
-        "most_harm": value(
-            worst.harms,
-            max(abs(worst.harms - worst[name]) for name in ("harms_by_two", "harms_by_four")),
-            **worst[["lighter", "heavier", "slenderness_deg", "shape"]],
-        ),
         "at_every_pair": at_every_pair(bands, pairs),
-        "pairs": truth(
-            True,
-            pairs=[
-                {"lighter": light, "heavier": heavy}
-                | {name: mean(rows, name)[0] for name in SHARES.values()}
-                for (light, heavy), rows in shares.groupby(["lighter", "heavier"], sort=False)
-            ],
-        ),
-        "where": truth(
-            True,
-            shapes=[
-                {"shape": shape, **dict(zip(("from", "to"), _middle(rows), strict=True))}
-                for shape, rows in bands.groupby("shape", sort=False)
-            ],
-        ),
-        "apart": truth(
-            True,
-            **{
-                f"{change}_{name}": of(change, name)
-                for change in CHANGES
-                for name in SHARES.values()
-            },
-        ),
-        **causes({change: of(change, "harms")[0] for change in CHANGES}),
-        "lowest_rises_apart": truth(all(found.holds for found in lowest.values()), **lowest),
+        **extent(bands, shares),
+        **apart_findings(case, changes, why),
         "sample_agrees": sample(spectra, bands, case["sample"], solver["tightened"]),
         # the uniform searches alone, without the halving of every boundary
         "simulations_at_least": value(len(lines(case)) * (math.ceil(span / step) + 1), 0.0),

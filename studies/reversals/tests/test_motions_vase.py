@@ -1,13 +1,16 @@
 """Vase, frame and forces over the ensemble, on cases that are known."""
 
 import math
+from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
 import pytest
 
+from replication.workbench import truth
 from studies.reversals.steps import motions_uplift, motions_vase
-from topheavy import Column, FixedMassColumn, Record
+from topheavy import Column, FixedMassColumn, Record, simulate
 from topheavy.synthetic.ensemble import Draw
 from topheavy.synthetic.motions import Scenario, peak_velocity
 
@@ -125,3 +128,90 @@ def test_larger_forces_are_not_limited(monkeypatch, factor, holds):
     assert findings["uplift_limits_totals"]["holds"] == holds
     assert findings["shear_is_at_most_that_of_uplift"]["holds"] == holds
     assert findings["uplift_limits_totals"]["survivors_that_uplift"] > 0
+    assert findings["uplift_second_route"]["holds"]  # both routes have these forces
+
+
+ORDER = {"sooner": 0.1, "sooner_high": 0.2, "later": 0.1, "later_high": 0.2}
+
+
+def ranked(monkeypatch, change, order=ORDER):
+    """The findings of the vase over the ensemble, of which only these ranks are given."""
+    usual = {
+        "fixed": {"over_bare": 0.7, "over_bare_low": 0.6, "over_bare_high": 0.8},
+        "free": {"over_bare": 1.2, "over_bare_low": 1.1, "over_bare_high": 1.3},
+    }
+    rows = [
+        {"structure": name} | ORDER | order | usual[name] | changed
+        for name in usual
+        for changed in ({}, change.get(name, {}))
+    ]
+    draw = SimpleNamespace(family="near-fault", record=lambda: None)
+    given = {"some": [draw], "factors": LEVELS, "curves": (pd.DataFrame(), rows)}
+    given |= {"overturned_by": LEVELS > 1.0, "second_route": truth(True)}
+    for name, found in given.items():
+        monkeypatch.setattr(motions_vase, name, lambda *arguments, found=found: found)
+    case = {"column": {"half_width": 0.5, "half_height": 3.0}, "mass_ratios": [0.0, 1.0]}
+    case |= {"intensities": {"lowest": 0.25, "highest": 4.0, "points": 9}, "motions": 1}
+    ensemble = {"seed": 14, "families": ["near-fault"]}
+    return motions_vase.main(case | {"checked_by_second_route": 1}, ensemble, 3e-12)[-1]
+
+
+@pytest.mark.parametrize(
+    ("change", "lowers", "raises", "most"),
+    [
+        ({}, True, True, True),
+        ({"fixed": {"over_bare_high": 1.01}}, False, True, True),  # the end of the interval
+        ({"free": {"over_bare_low": 0.99}}, True, False, True),
+        ({"fixed": {"later_high": 0.51}}, True, True, False),
+        ({"free": {"sooner_high": 0.51}}, True, True, False),
+        ({"free": {"later_high": 0.99}}, True, True, True),  # that is the rank
+    ],
+)
+def test_rank_over_the_ensemble_needs_whole_intervals(monkeypatch, change, lowers, raises, most):
+    found = ranked(monkeypatch, change)
+    assert found["fixed_mass_lowers_the_capacity"].holds is lowers
+    assert found["free_mass_raises_the_capacity"].holds is raises
+    assert found["every_motion"].holds is False
+    assert found["every_motion"].holds_when is most
+
+
+@pytest.mark.parametrize(
+    ("fixed", "free", "holds"),
+    [({"later": 0.0}, {"sooner": 0.0}, True)]
+    + [({"later": 0.01}, {"sooner": 0.0}, False), ({"later": 0.0}, {"sooner": 0.01}, False)],
+)
+def test_one_motion_that_changes_the_order_refutes_every_motion(monkeypatch, fixed, free, holds):
+    found = ranked(monkeypatch, {"fixed": fixed, "free": free}, {"sooner": 0.0, "later": 0.0})
+    assert found["every_motion"].holds is holds
+
+
+def test_no_survivor_that_uplifts_shows_no_limit(monkeypatch):
+    """All motions overturn, or none uplifts: then nothing was compared."""
+    right = motions_uplift.rocking_peaks
+
+    def overturned(*arguments):
+        found = right(*arguments)
+        nothing = dict.fromkeys(found.forces, math.nan)
+        return replace(found, outcome="overturned", forces=nothing, rotation=math.nan)
+
+    monkeypatch.setattr(motions_uplift, "rocking_peaks", overturned)
+    monkeypatch.setattr(motions_uplift, "summary", lambda *arguments: NOTHING)
+    _, findings = motions_uplift.main(CASE, ENSEMBLE)
+    assert findings["uplift_limits_totals"]["overturned"] == 3
+    for name in ("uplift_limits_totals", "shear_is_at_most_that_of_uplift"):
+        assert not findings[name]["holds"]
+
+
+NOTHING = pd.DataFrame({"held": ["rigid"], "force": ["base_shear"], "ratio_high": [0.5]})
+
+
+def test_peaks_that_scipy_denies_are_noticed(monkeypatch):
+    right = motions_uplift.rocking_peaks
+
+    def other(frame, cap, motion, samples, route=simulate):
+        found = right(frame, cap, motion, samples, route)
+        off = 1.0 if route is simulate else 1.0 + 2e-6
+        return replace(found, forces={name: off * force for name, force in found.forces.items()})
+
+    monkeypatch.setattr(motions_uplift, "rocking_peaks", other)
+    assert not motions_uplift.main(CASE, ENSEMBLE)[1]["uplift_second_route"]["holds"]

@@ -1,0 +1,175 @@
+"""What the published tables of the paper say about the findings that were drawn from them."""
+
+import math
+from collections.abc import Callable, Iterator
+from typing import Any, TypeAlias
+
+import numpy as np
+import pandas as pd
+
+Table: TypeAlias = Callable[[str], pd.DataFrame]
+Drawn: TypeAlias = Iterator[tuple[str, str, Any]]
+"""A finding, one of its entries, and this entry by the table."""
+
+
+def rises(values: pd.Series) -> bool:
+    """Return whether each value is larger than the one before."""
+    return bool((np.diff(values) > 0.0).all())
+
+
+def equations(table: Table) -> Drawn:
+    for row in table("equations").itertuples():
+        yield row.id, "holds", bool(row.follows)
+
+
+def mass_ratio(table: Table) -> Drawn:
+    rows = table("mass_ratio").set_index("mass_ratio")
+    yield "limit_of_frequency_ratio", "value", rows.frequency_ratio[math.inf]
+    yield "limit_of_size_ratio", "value", rows.size_ratio[math.inf]
+    yield "gain_at_mass_ratio_one", "value", rows.share_of_size_gain[1.0]
+    yield "heavier_is_larger", "holds", rises(rows.size_ratio)
+
+
+def heavier(table: Table) -> Drawn:
+    rows = table("heavier")
+    lowest = rows.lowest_overturning_low
+    yield (
+        "heavier_survives_more",
+        "holds",
+        rises(lowest) and bool(rows.same_verdict_by_all.all()),
+    )
+    yield "heavier_survives_more", "lowest_overturning_g", list(lowest)
+    yield "solitary_column_overturns", "holds", rows.outcome.iloc[0] == "overturned"
+    yield "heaviest_survives", "holds", rows.outcome.iloc[-1] != "overturned"
+
+
+def spectra(table: Table) -> Drawn:
+    rows = table("spectra_areas")
+    yield "heavier_is_more_stable", "holds", not rows.only_heavier_overturns.any()
+    exact = rows[~rows.linearised].groupby("lighter", sort=False)
+    names = ["only_lighter_overturns", "only_heavier_overturns"]
+    yield (
+        "areas",
+        "pairs",
+        [
+            {name: pair[name].mean() for name in names}
+            | {"largest_only_heavier": pair.only_heavier_overturns.max()}
+            for _, pair in exact
+        ],
+    )
+
+
+def trilith(table: Table) -> Drawn:
+    near = table("trilith_nearness").set_index("quantity")
+    width = near.loc["effective_width_of_columns"]
+    yield "amplitude_to_lift", "value", near.to_lift["amplitude_at_tested_frequency"]
+    yield "frequency_to_lift", "value", near.to_lift["frequency_at_tested_amplitude"]
+    yield "tilt_to_lift", "value", near.to_lift["tilt_of_the_base"]
+    yield "width_to_lift", "value", width.to_lift
+    yield "width_lost_at_each_edge", "value", (width.tested - width.to_lift) / 2.0
+    bracketed = near.other_side_lifts & ~near.safe_side_lifts
+    yield "thresholds_bracketed", "holds", bracketed.all()
+    starts = table("trilith_starts").set_index("share_of_speed")
+    yield "rest_from_rest", "holds", starts.outcome[0.0] == "no uplift"
+    kept = "abrupt_start_keeps_it_rocking"
+    yield kept, "holds", starts.outcome[1.0] == "rocking"
+    yield kept, "steady_peak_over_alpha", starts.late_peak_over_alpha[1.0]
+
+
+def allen_errors(table: Table) -> Drawn:
+    for model, rows in table("allen_errors").groupby("model"):
+        name, error = model.replace(" ", "_"), rows.relative_error.dropna()
+        yield name, "median_error", error.abs().median()
+        yield name, "largest_overestimate", error.max()
+        yield name, "largest_underestimate", error.min()
+        yield name, "misjudged", (rows.exact_overturned != rows.overturned).sum()
+
+
+def allen_overturning(table: Table) -> Drawn:
+    for model, rows in table("allen_overturning").groupby("model"):
+        for verdict, share in rows.verdict.value_counts(normalize=True).items():
+            yield model, verdict.replace(" ", "_"), share
+
+
+def restitution(table: Table) -> Drawn:
+    rows = table("restitution_over_slenderness")
+    alone = rows[rows.mass_ratio == 0.0].set_index("slenderness_deg").restitution
+    heavy = rows[rows.mass_ratio > 0.0]
+    solitary = heavy.slenderness_deg.map(alone)
+    yield "smaller_than_solitary", "holds", (heavy.restitution < solitary).all()
+    yield "smaller_than_solitary", "cells", len(heavy)
+    rocks = heavy.restitution >= 0.0
+    loses = heavy.restitution**2 < solitary**2
+    yield "energy_loss", "holds", bool(rocks.any()) and loses[rocks].all()
+    yield "energy_loss", "cells_that_rock", rocks.sum()
+    against = heavy.slenderness_deg[heavy.restitution**2 > solitary**2]
+    yield "energy_loss", "least_slenderness_against_deg", against.min()
+
+
+def moment_rotation(table: Table) -> Drawn:
+    rows = table("quarter_period").query("not linearised")
+    columns = rows.groupby("slenderness_deg").quarter_period
+    name = "period_depends_on_amplitude"
+    yield name, "holds", all(rises(periods) for _, periods in columns)
+    yield name, "least", rows.quarter_period.min()
+    yield name, "largest", rows.quarter_period.max()
+
+
+def uplift_limits(table: Table) -> Drawn:
+    slopes = table("uplift_slopes").dropna()
+    yield "slope_by_three_bodies", "frames", len(slopes)
+    ratios = table("uplift_ratios")
+    rigid = ratios[ratios.held == "rigid"]
+    totals = rigid[rigid.force != "bending_moment"]
+    limited = "uplift_limits_forces"
+    yield limited, "holds", ratios.largest.max() < 1.0
+    yield limited, "holds_when", totals.largest.max() < 1.0
+    for force, rows in rigid.groupby("force"):
+        yield limited, f"{force}_least", rows.least.min()
+        yield limited, f"{force}_largest", rows.largest.max()
+    cells = rigid[rigid.force == "base_shear"]
+    fell = cells.overturned.sum()
+    for name in (limited, "uplift_is_beneficial"):
+        yield name, "histories", cells.histories.sum()
+        yield name, "overturned", fell
+    yield "uplift_is_beneficial", "holds", fell == 0 and ratios.largest.max() < 1.0
+    yield "uplift_is_beneficial", "holds_when", cells.largest.max() < 1.0
+
+
+def vase(table: Table) -> Drawn:
+    broken = table("vase_exceptions")
+    asked = {"fixed_mass_always_lowers": ["fixed"], "frame_always_raises": ["free"]}
+    for name, structures in (asked | {"support_decides": ["fixed", "free"]}).items():
+        ours = broken[broken.structure.isin(structures)]
+        yield name, "exceptions", len(ours)
+        yield name, "exceptions_under_records", (ours.kind == "record").sum()
+        yield name, "holds", ours.empty
+    fresh = broken[broken.kind == "fresh"].frequency_ratio
+    yield "condition_on_a_fresh_grid", "exceptions_beyond", sorted(fresh)
+    yield "second_route", "exceptions", len(broken)
+    rows = table("vase")
+    alone = rows.structure == "bare"
+    portals = rows[(rows.structure == "portal") & (rows["shape"] == rows["shape"][0])]
+    wider = portals.slenderness_deg > rows.slenderness_deg[alone].iloc[0]
+    yield "portal_has_a_wider_base", "holds", wider.all()
+    yield "portal_has_a_wider_base", "minimum_overturning_g", list(portals.minimum_overturning)
+    single = table("vase_shares").dropna(subset="shapley_value")
+    for worth, found in single.groupby("worth"):
+        shares = found.groupby("taken_from_the_frame").share_of_gain
+        ends = {name: [part.mean(), part.min(), part.max()] for name, part in shares}
+        yield "shares_of_the_gain", worth, ends
+
+
+OF_PAPER: tuple[Callable[[Table], Drawn], ...] = (
+    allen_errors,
+    allen_overturning,
+    equations,
+    heavier,
+    mass_ratio,
+    moment_rotation,
+    restitution,
+    spectra,
+    trilith,
+    uplift_limits,
+    vase,
+)

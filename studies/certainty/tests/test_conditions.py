@@ -1,0 +1,276 @@
+"""Each condition in a result of the study, in a case in which it alone fails."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from replication.workbench import truth
+from studies.certainty.steps import extensions, intensities, lowest, restitution, theorem
+from topheavy import reference
+
+SIZES = {"half_width": 0.5, "half_height": 3.0}
+
+
+def proof(name, holds=True):
+    return SimpleNamespace(id=name, holds=holds, statement=f"{name}.")
+
+
+# No reversal without an impact -------------------------------------------------------------------
+
+
+def tried(linearised, *, proved=(True, False), contradicts=(False, False), ahead=(True, np.nan)):
+    """Two trials of either equation; the second is not proved, and not followed in time."""
+    found = {"linearised": linearised, "shape": "chirp", "proved": list(proved)}
+    return pd.DataFrame(
+        found | {"contradicts": list(contradicts), "ahead": list(ahead), "confirmed": list(ahead)}
+    )
+
+
+@pytest.mark.parametrize(
+    ("change", "broken"),
+    [
+        ({}, set()),
+        ({True: {"contradicts": (True, False)}}, {"linearised"}),
+        ({False: {"contradicts": (True, False)}}, {"exact"}),
+        ({False: {"contradicts": (False, True)}}, {"exact_open"}),
+        ({False: {"ahead": (False, np.nan)}}, {"ahead", "second_route"}),
+        ({False: {"ahead": (True, False)}}, {"second_route"}),  # the theorem says nothing of it
+        (
+            {linearised: {"ahead": (np.nan, np.nan)} for linearised in (True, False)},
+            {"ahead", "second_route"},  # none was followed
+        ),
+        ({"proofs": [proof("a"), proof("b", False)]}, {"proofs"}),
+    ],
+)
+def test_trials_decide_what_they_are_about(monkeypatch, change, broken):
+    def rows(case, linearised):
+        usual = {"proved": (True, True)} if linearised else {}
+        return tried(linearised, **usual | change.get(linearised, {}))
+
+    monkeypatch.setattr(theorem, "rows", rows)
+    proofs = change.get("proofs", [proof("a")])
+    monkeypatch.setattr(theorem, "reversal_theorems", lambda: proofs)
+    _, found = theorem.main({})
+    assert {name for name, one in found.items() if not one.holds} == broken
+
+
+EXTREME = {
+    "size": 3.0,
+    "mass_ratios": [0.0, np.inf],
+    "extreme": {
+        "slenderness": 10.0,
+        "duration": 4.0,
+        "accelerations": [1.0, 1.0],
+        "amplitude": 1.0,
+    },
+}
+
+
+@pytest.mark.parametrize(
+    ("light", "heavy", "holds"),
+    [((True, 1), (True, 0), False), ((True, 0), (True, 0), True), ((False, 1), (True, 1), True)],
+)
+def test_extreme_motion_overturns_the_heavier_frame_alone_at_once(monkeypatch, light, heavy, holds):
+    def judge(frame, pulse, tolerance=None):
+        overturned, impacts = heavy if frame.mass_ratio else light
+        return SimpleNamespace(overturned=overturned, impacts=impacts)
+
+    monkeypatch.setattr(lowest, "judge", judge)
+    monkeypatch.setattr(lowest, "reference", SimpleNamespace(judge=judge))
+    monkeypatch.setattr(lowest, "at_once", lambda block, pulse: True)
+    found, _ = lowest.against_the_theorem(EXTREME, 1e-12)
+    assert found.holds is holds
+
+
+def test_extreme_motion_that_scipy_denies_proves_nothing(monkeypatch):
+    def judge(frame, pulse, tolerance=None):
+        return SimpleNamespace(overturned=True, impacts=0 if frame.mass_ratio else 1)
+
+    def denied(frame, pulse):
+        return SimpleNamespace(overturned=False, impacts=0)
+
+    monkeypatch.setattr(lowest, "judge", judge)
+    monkeypatch.setattr(lowest, "at_once", lambda block, pulse: True)
+    for other, holds in ((judge, False), (denied, True)):
+        monkeypatch.setattr(lowest, "reference", SimpleNamespace(judge=other))
+        assert lowest.against_the_theorem(EXTREME, 1e-12)[0].holds is holds
+
+
+# Extensions --------------------------------------------------------------------------------------
+
+PROOFS = [
+    "size_only_slows_time",
+    "columns_count_only_in_the_mass_ratio",
+    "lagrange_agrees_for_columns",
+    "impacts_do_not_count_the_columns",
+    "vertical_acceleration_adds_to_gravity",
+    "vertical_acceleration_changes_the_uplift",
+    "vertical_acceleration_is_a_change_of_gravity_and_push",
+]
+COURSE = {"routes_differ_by": 1e-9, "impacts": 3, "peak": 0.4, "peak_without_vertical": 0.5}
+
+
+@pytest.mark.parametrize(
+    ("change", "false", "broken"),
+    [
+        ({}, "", set()),
+        ({"routes_differ_by": 2e-6}, "", {"three_bodies"}),
+        ({"impacts": 1}, "", {"three_bodies"}),
+        ({}, PROOFS[0], {"size_is_slower_time", "theorems"}),
+        *(({}, name, {"columns", "theorems"}) for name in PROOFS[1:4]),
+        *(({}, name, {"vertical", "theorems"}) for name in PROOFS[4:]),
+    ],
+)
+def test_one_history_and_one_proof_are_enough_to_refute(monkeypatch, change, false, broken):
+    proofs = [proof(name, name != false) for name in PROOFS]
+    courses = iter([COURSE, COURSE | change])
+    given = {"strongest": (None, None), "similar": truth(True), "shows_stability": truth(True)}
+    for name, found in given.items():
+        monkeypatch.setattr(extensions, name, lambda *arguments, found=found: found)
+    monkeypatch.setattr(extensions, "history", lambda *arguments: next(courses))
+    monkeypatch.setattr(extensions, "extension_theorems", lambda: proofs)
+    pair = {"horizontal": "a", "vertical": "b"}
+    case = {"pairs": [pair], "mass_ratios": [0.0, 1.0], "duration": 1.0, "agreement": 1e-6}
+    _, found = extensions.main(case, {"a": None, "b": None})
+    wrong = {name for name, one in found.items() if one.holds is False}
+    assert wrong == broken
+    assert found["largest_change"].value == pytest.approx(0.2)
+
+
+def test_similar_structures_have_the_same_peaks(monkeypatch):
+    case = {"column": SIZES, "similarity": {"seed": 3, "pulses": 20}}
+    assert extensions.similar(case).holds
+    right = extensions.judge
+
+    def higher(structure, pulse):
+        """Judge a structure; the peaks of frames are a thousandth of α higher."""
+        found = right(structure, pulse)
+        off = 1e-3 * structure.slenderness * hasattr(structure, "mass_ratio")
+        return SimpleNamespace(
+            overturned=found.overturned, impacts=found.impacts, peak=found.peak + off
+        )
+
+    monkeypatch.setattr(extensions, "judge", higher)
+    assert not extensions.similar(case).holds
+
+
+# The impact law ----------------------------------------------------------------------------------
+
+
+def changes(**broken):
+    """Tables of two factors for each way; `broken` has a way's values at the lower factor."""
+    rows = [
+        {"way": way, "factor": factor, "helps": 0.1, "harms": 0.01, "compared": 9}
+        | {"falls": 0, "least": 1.1, "less": 0.2, "less_low": 0.1, "less_high": 0.3}
+        | (broken.get(way.replace(" ", "_"), {}) if factor < 1.0 else {})
+        for way in (*restitution.WAYS, "scatter")
+        for factor in (0.9, 1.0)
+    ]
+    return pd.DataFrame(rows)
+
+
+TOGETHER, APART = "lowest_rises_together", "lowest_rises_apart"
+FALLS, FALLS_APART = "probability_falls_together", "probability_falls_apart"
+
+
+@pytest.mark.parametrize(
+    ("way", "values", "broken", "unconditional"),
+    [
+        ("both", {}, set(), set()),
+        ("both", {"falls": 1}, {TOGETHER, APART}, {APART}),
+        ("both", {"compared": 0}, {TOGETHER, APART}, {APART}),
+        ("frame_alone", {"falls": 1}, {APART}, {APART}),
+        ("column_alone", {"falls": 1}, {APART}, set()),
+        ("both", {"less_low": -0.01}, {FALLS}, set()),
+        ("scatter", {"less_low": -0.01}, {FALLS}, set()),
+        ("frame_alone", {"less_low": -0.01}, {FALLS_APART}, {FALLS_APART}),
+        ("column_alone", {"less_low": -0.01}, {FALLS_APART}, set()),
+        ("frame_alone", {"harms": 0.2}, {"helps_more_than_harms"}, set()),
+    ],
+)
+def test_one_change_of_restitution_is_enough_to_refute(
+    monkeypatch, way, values, broken, unconditional
+):
+    table = changes(**{way: values})
+    pulses = table[table.way != "scatter"]
+    monkeypatch.setattr(restitution, "under_pulses", lambda case: pulses)
+    monkeypatch.setattr(
+        restitution,
+        "under_motions",
+        lambda case, ensemble: (pd.DataFrame(), table.to_dict("records")),
+    )
+    monkeypatch.setattr(restitution, "scatter_agrees", lambda case: truth(True))
+    _, found = restitution.main({"levels": 501}, {})
+    assert {name for name, one in found.items() if one.holds is False} == broken
+    assert {name for name, one in found.items() if one.holds_when is False} == unconditional
+
+
+def test_scatter_that_scipy_judges_otherwise_is_noticed(monkeypatch):
+    case = {"column": SIZES, "seed": 1, "scatter_checked": 12, "mass_ratios": [0.0, 1.0]}
+    case |= {"scatter": [0.9], "scatter_highest": 1.05, "impacts": 40}
+    assert restitution.scatter_agrees(case).holds
+
+    def otherwise(frame, motion, restitutions):
+        found = reference.judge(frame, motion, restitutions=restitutions)
+        return SimpleNamespace(overturned=not found.overturned)
+
+    monkeypatch.setattr(restitution, "reference", SimpleNamespace(judge=otherwise))
+    assert not restitution.scatter_agrees(case).holds
+
+
+# Stated intensities ------------------------------------------------------------------------------
+
+UNDER = [
+    SimpleNamespace(name=f"{height} m temple", support=support, height=height)
+    for height in (6.0, 12.0)
+    for support in intensities.SUPPORTS
+]
+CASE = {"confidence": 0.95, "ample": {"height": 12.0, "pgv": 0.6, "probability": 0.1}}
+
+
+def cells(**fell):
+    """Outcomes of 100 motions; `fell` counts what overturns a support at a level of a height."""
+    usual = {"bare": 3, "free": 1, "fixed": 5}
+    return pd.concat(
+        pd.DataFrame(
+            {"family": "a", "structure": one.name, "support": one.support, "mass_ratio": 1.0}
+            | {"measure": "pgv", "level": level, "fell": np.arange(100) < number}
+        )
+        for one in UNDER
+        for level in (0.6, 1.0)
+        for number in [fell.get(f"{one.support}_{one.height:g}", {}).get(level, usual[one.support])]
+    )
+
+
+OTHERS = {"bare_12": {0.6: 30, 1.0: 30}, "fixed_12": {0.6: 40, 1.0: 40}}
+
+MEASURED = [
+    {"record": "napa", "pgv": 0.57, "support": support, "overturned": support == "fixed"}
+    for support in intensities.SUPPORTS
+]
+
+
+@pytest.mark.parametrize(
+    ("fell", "measured", "broken", "at_stated"),
+    [
+        ({}, MEASURED, set(), True),
+        ({"free_12": {1.0: 20}} | OTHERS, MEASURED, {"ample_stability"}, True),
+        ({"free_12": {0.6: 20}} | OTHERS, MEASURED, {"ample_stability"}, False),
+        # six of a hundred: the interval reaches beyond the margin of 10 %
+        ({"free_12": {0.6: 6}} | OTHERS, MEASURED, {"ample_stability"}, False),
+        ({"free_6": {0.6: 2, 1.0: 2}}, MEASURED, set(), True),  # lower columns do not count
+        ({"free_6": {0.6: 5}}, MEASURED, {"free_cap_helps"}, True),
+        ({"fixed_6": {0.6: 1}}, MEASURED, {"fixed_mass_harms"}, True),
+        ({}, [row | {"overturned": True} for row in MEASURED], {"records"}, True),
+        ({}, MEASURED[:1], {"records"}, True),  # no frame was tried
+    ],
+)
+def test_probabilities_decide_what_they_are_about(monkeypatch, fell, measured, broken, at_stated):
+    given = {"subjects": UNDER, "outcomes": cells(**fell), "under_records": measured}
+    for name, found in (given | {"confirmed": truth(True)}).items():
+        monkeypatch.setattr(intensities, name, lambda *arguments, found=found: found)
+    _, found = intensities.main(CASE, {}, {}, [])
+    assert {name for name, one in found.items() if one.holds is False} == broken
+    assert found["ample_stability"].holds_when is at_stated
