@@ -1,7 +1,7 @@
 """How the cost of the study `reversals` grows: motions, lines of its grid, shards, the gather.
 
-Three sizes a factor of ten apart, each in a process of its own: python benchmarks/scale.py (ten
-minutes on a core). It writes docs/scale.csv; profiles/slurm/README.md extrapolates from it.
+Three sizes a factor of ten apart, each in a process of its own, by hand (ten minutes on a core). It
+writes docs/scale.csv, from which profiles/slurm/README.md extrapolates.
 """
 
 import os
@@ -18,7 +18,7 @@ import pandas as pd
 from replication.strict_yaml import read_yaml
 from replication.tree_copy import copy_tree
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT))  # for the studies
 SEED = 18
 SHARDS = (10, 100, 1000, 10000)
