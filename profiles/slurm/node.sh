@@ -3,6 +3,6 @@
 
 # numba's cache is not safe between nodes that share a file system (numba issue 7952), and each
 # kind of processor needs its own: one folder for each node. The first job of a node compiles for
-# half a minute.
+# about a minute.
 NUMBA_CACHE_DIR="$PWD/.snakemake/numba/$(uname -n)"
 export NUMBA_CACHE_DIR
