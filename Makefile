@@ -76,7 +76,7 @@ lint: | $(UV) ## check style, types, spelling, wording and schemas; changes noth
 	  $(DEV) check-jsonschema --check-metaschema $$schema && \
 	  $(DEV) check-jsonschema --schemafile $$schema $${schema%.schema.yaml}.yaml || exit 1; done
 	$(DEV) check-jsonschema --builtin-schema vendor.citation-file-format CITATION.cff
-	$(DEV) check-jsonschema --builtin-schema vendor.github-workflows .github/workflows/ci.yaml
+	$(DEV) check-jsonschema --builtin-schema vendor.github-workflows $(wildcard .github/workflows/*.yaml)
 	$(DEV) validate-pyproject pyproject.toml
 # Snakemake's lint demands a conda environment or container for every rule. One lock file serves all
 # rules here, so we ignore this demand and no other.

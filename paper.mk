@@ -8,7 +8,7 @@ ENGINE ?= engine
 GROUPS  = $(if $(value ENGINE),--group "$$ENGINE")
 BENCH   = $(UV) run --locked --no-dev --group bench
 
-.PHONY: audit kill-table benchmark verify-grid paper
+.PHONY: audit kill-table benchmark verify-grid cluster-test paper
 
 audit: | $(UV) ## an hour: finer grids, tighter tolerances, all peers, all faults (CONFIG, CELLS, ROTATE)
 	@$(SNAKEMAKE) --configfile "$$CONFIG"
@@ -26,6 +26,9 @@ benchmark: | $(UV) ## time the kernel beside its peers; writes docs/benchmark.cs
 verify-grid: | $(UV) ## compare overturning flags with an independent route (CELLS=40000 a set)
 	@$(call WHOLE,CELLS)
 	@$(BENCH) python benchmarks/verify_grid.py "$$CELLS"
+
+cluster-test: | $(UV) ## as root on Debian: start SLURM here, compare its bytes with ours (5 minutes)
+	@$(RUN) --group cluster profiles/slurm/test/run
 
 paper: | $(UV) ## begin the replication of another paper: make paper TO=../other (FOLLOW-UP.md)
 	@$(RUN) python -m replication.commands.new_paper "$$TO"

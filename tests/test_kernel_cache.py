@@ -42,12 +42,13 @@ print(json.dumps([
 """
 
 
-def ask(home: Path) -> tuple[bool, int]:
+def ask(home: Path, cache: str = "") -> tuple[bool, int]:
     """Import the package of `home` in a process of its own: its answer, and what it had cached."""
     environment = {key: value for key, value in os.environ.items() if "NUMBA" not in key}
+    given = {"NUMBA_CACHE_DIR": cache} if cache else {}
     done = subprocess.run(
         [sys.executable, "-c", ASK],
-        env=environment | {"PYTHONPATH": str(home)},
+        env=environment | given | {"PYTHONPATH": str(home)},
         cwd=home,
         capture_output=True,
         text=True,
@@ -55,7 +56,7 @@ def ask(home: Path) -> tuple[bool, int]:
     )
     where, rests, cache_dir, hits = json.loads(done.stdout)
     assert Path(where).is_relative_to(home)
-    assert cache_dir == ""  # other code that numba compiles keeps its own cache
+    assert cache_dir == cache  # other code that numba compiles keeps its own cache
     return rests, hits
 
 
@@ -67,9 +68,14 @@ def copy(tmp_path):
     return tmp_path
 
 
-def test_change_of_what_a_compiled_function_calls_is_noticed(copy):
-    assert ask(copy) == (True, 0)
-    assert ask(copy) == (True, 1)  # compiled once
+@pytest.mark.parametrize("folder", ["", "of_this_node"])
+def test_change_of_what_a_compiled_function_calls_is_noticed(copy, folder):
+    cache = str(copy / folder) if folder else ""
+    assert ask(copy, cache) == (True, 0)
+    assert ask(copy, cache) == (True, 1)  # compiled once
+    beside = copy / "topheavy" / "kernel" / "__pycache__"
+    assert any(beside.rglob("*.nbi")) == (not folder)
+    assert any((copy / "of_this_node").rglob("*.nbi")) == bool(folder)
 
     forcing = copy / "topheavy" / "kernel" / "forcing.py"
     source = forcing.read_text(encoding="utf-8")
@@ -77,7 +83,7 @@ def test_change_of_what_a_compiled_function_calls_is_noticed(copy):
     assert source.count(there) == 1
     changed = source.replace(there, there.replace("amplitude * value", "amplitude * 2 * value"))
     forcing.write_text(changed, encoding="utf-8")
-    assert ask(copy) == (False, 0)
+    assert ask(copy, cache) == (False, 0)
 
 
 def test_every_kernel_module_is_loaded_with_the_cache():

@@ -75,6 +75,20 @@ def longest_first():
         each.priority += round(took.get(each.name, 0.0))
 
 
+def only_shards_leave_this_machine():
+    """Run all but the shards where Snakemake runs, when it sends jobs to a cluster.
+
+    A shard has the wildcard of scattergather. Without a cluster this changes nothing.
+    """
+    workflow.localrules(
+        *(
+            each.name
+            for each in workflow.rules
+            if "scatteritem" not in each.wildcard_names
+        )
+    )
+
+
 def caption_of(result):
     """Return what the HTML report says of a result: its caption and verdict (caption.rst)."""
     claims = read_judged("results/claims.json")

@@ -229,3 +229,4 @@ check_captions(
     made_by(workflow.rules),
 )
 longest_first()
+only_shards_leave_this_machine()

@@ -7,6 +7,9 @@ import sys
 from pathlib import Path
 
 import pytest
+from snakemake.api import SnakemakeApi
+from snakemake.settings.enums import Quietness
+from snakemake.settings.types import OutputSettings, ResourceSettings
 
 from replication.code import code
 from replication.tree_copy import copy_tree
@@ -54,6 +57,16 @@ def test_every_module_of_library_and_studies_is_the_input_of_some_job(jobs):
         if not path.name.startswith("__") and "skeleton" not in path.parts
     }
     assert modules - used == set()
+
+
+def test_only_shards_leave_the_machine_that_runs_snakemake():
+    with SnakemakeApi(OutputSettings(quiet={Quietness.ALL})) as api:
+        workflow = api.workflow(
+            resource_settings=ResourceSettings(cores=1), snakefile=ROOT / "Snakefile", workdir=ROOT
+        )._workflow
+        rules = {rule.name for rule in workflow.rules if not rule.norun}
+        sent = rules - workflow._localrules
+    assert sent == {"spectra_shard", "reversals_shard", "reversals_motions_shard"}
 
 
 # ---------------------------------------------------------------------------- dry runs

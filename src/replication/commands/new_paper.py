@@ -37,7 +37,10 @@ COPIED = (
 LEFT_OUT = ("__pycache__", "template", "new_paper.py", "kill_table.py", "faults.py", "*.svg")
 """What of the machine and of the template does not go along."""
 
-ONLY_HERE = ("heyoka", "hypothesis", "lazy-loader", "llvmlite", "mujoco-core", "numba", "xarray")
+ONLY_HERE = (
+    *("heyoka", "hypothesis", "lazy-loader", "llvmlite", "mujoco-core", "numba", "xarray"),
+    "snakemake-executor-plugin-slurm",
+)
 """Packages that neither the machine nor the example needs."""
 
 OWN_REASONS = ("scipy", "sympy")

@@ -18,12 +18,13 @@ def _load() -> None:
     """Import the modules with a cache of their own for this very state of the code.
 
     numba's cache looks at the file of a function only: after a change of what it calls, in another
-    file, it would go on with the old machine code.
+    file, it would go on with the old machine code. The cache is in the folder that the environment
+    variable NUMBA_CACHE_DIR names, or beside the modules.
     """
     sources = b"".join(path.read_bytes() for path in sorted(_HERE.glob("*.py")))
-    cache = _HERE / "__pycache__" / hashlib.sha256(sources).hexdigest()[:16]
     before = config.CACHE_DIR  # type: ignore[attr-defined]
-    if os.access(_HERE, os.W_OK):
+    cache = Path(before or _HERE / "__pycache__", hashlib.sha256(sources).hexdigest()[:16])
+    if before or os.access(_HERE, os.W_OK):
         config.CACHE_DIR = str(cache)  # type: ignore[attr-defined]
     try:
         from topheavy.kernel import (  # noqa: F401

@@ -6,6 +6,7 @@ holds the mean of the ensemble itself and then those of its resamples.
 """
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,6 +15,7 @@ from scipy.special import ndtr, ndtri
 MOST_PASSES = 50
 CLOSE = 1e-9  # of the score, for a single motion at each level
 FARTHEST = 1e-12  # from 0 and 1, of a fitted share
+BLOCK = 4_000_000  # weights in memory at a time, 8 bytes each
 
 Array = NDArray[np.float64]
 
@@ -45,6 +47,30 @@ def means(weights: Array, outcomes: ArrayLike) -> Array:
     """
     outcomes = np.asarray(outcomes, dtype=float)
     return np.tensordot(weights, outcomes, axes=1)
+
+
+def resampled_means(outcomes: Sequence[ArrayLike], resamples: int, seed: int) -> list[Array]:
+    """Return `means` of several outcomes by the same weights, of which it holds a block at a time.
+
+    Parameters
+    ----------
+    outcomes : sequence of array_like, each of shape (motions, ...)
+
+    Returns
+    -------
+    list of ndarray, each of shape (1 + resamples, ...)
+    """
+    motions = len(np.asarray(outcomes[0]))
+    even, random = np.full(motions, 1.0 / motions), np.random.default_rng(seed)
+    rows = max(1, BLOCK // motions)
+    blocks: list[list[Array]] = [[] for _ in outcomes]
+    for first in range(0, resamples, rows):
+        weights = random.multinomial(motions, even, min(rows, resamples - first)) / motions
+        if not first:
+            weights = np.vstack([even, weights])
+        for found, each in zip(blocks, outcomes, strict=True):
+            found.append(means(weights, each))
+    return [np.concatenate(found) for found in blocks]
 
 
 def interval(values: Array, confidence: float) -> tuple[Array, Array, Array]:

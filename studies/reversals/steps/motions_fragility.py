@@ -6,6 +6,7 @@ Families of motions are kept apart.
 
 import itertools
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -29,14 +30,15 @@ TINY = 1e-12  # a share: where no cell differs, none is reversed
 class Ensemble:
     """The outcomes of one family of motions on one structure.
 
-    `outcomes` has the shape (motions, subjects, levels); `weights` are those of its resamples.
+    `outcomes` has the shape (motions, subjects, levels).
     """
 
     family: str
     subjects: list[Subject]
     outcomes: np.ndarray
     levels: np.ndarray
-    weights: np.ndarray
+    resamples: int
+    seed: int
     confidence: float
 
     @property
@@ -52,8 +54,9 @@ class Ensemble:
         """The place of the solitary column that is as large as R̂ of this γ."""
         return [subject.enlarged for subject in self.subjects].index(as_large_as)
 
-    def means(self, outcomes: np.ndarray) -> np.ndarray:
-        return fragility.means(self.weights, outcomes)
+    def means(self, *outcomes: np.ndarray) -> list[np.ndarray]:
+        """Return the means over motions of each: of the ensemble itself, then of its resamples."""
+        return fragility.resampled_means(outcomes, self.resamples, self.seed)
 
     def bounds(self, name: str, values: np.ndarray) -> dict:
         """Return a value of resamples and its interval, named for a table."""
@@ -61,25 +64,37 @@ class Ensemble:
         return dict(zip(keys, fragility.interval(values, self.confidence), strict=True))
 
 
-def read(paths: list[str], case: dict, structures: dict) -> list[Ensemble]:
-    table = pd.concat(pd.read_csv(path) for path in paths)
+def read(paths: list[str], case: dict, structures: dict) -> Iterator[Ensemble]:
+    """Yield the ensembles, family by family; a shard is a table in memory only while it is read."""
     under, boot = list(subjects(case, structures)), case["bootstrap"]
-    found = []
-    for (structure, family), cells in table.groupby(["structure", "family"], sort=False):
-        mine = [subject for subject in under if subject.structure == structure]
+    shards = [part for path in paths for part in parts(pd.read_csv(path), under)]
+    found = {key: None for key, _, _ in shards}
+    for structure, family in sorted(found, key=lambda key: case["families"].index(key[1])):
+        mine = [part for part in shards if part[0] == (structure, family)]
+        order = pd.MultiIndex.from_tuples([m for _, motions, _ in mine for m in motions]).argsort()
+        yield Ensemble(
+            family,
+            [subject for subject in under if subject.structure == structure],
+            np.concatenate([outcomes for *_, outcomes in mine])[order],
+            intensities(case),
+            boot["resamples"],
+            case["seed"],
+            boot["confidence"],
+        )
+
+
+def parts(table: pd.DataFrame, under: list[Subject]) -> Iterator[tuple]:
+    """Yield of a shard: structure and family, its motions, and their outcomes as in Ensemble."""
+    for key, cells in table.groupby(["structure", "family"], sort=False):
         wide = cells.pivot_table(
             index=MOTION,
             columns=["as_large_as", "mass_ratio"],
             values="outcomes",
             aggfunc="first",
         )
-        texts = wide[[(s.enlarged, s.frame.mass_ratio) for s in mine]].to_numpy()
-        outcomes = np.array([read_outcomes(motion) for motion in texts]) == FALLS
-        weights = fragility.resampled(len(outcomes), boot["resamples"], case["seed"])
-        found.append(
-            Ensemble(family, mine, outcomes, intensities(case), weights, boot["confidence"])
-        )
-    return sorted(found, key=lambda one: case["families"].index(one.family))
+        mine = [(s.enlarged, s.frame.mass_ratio) for s in under if s.structure == key[0]]
+        outcomes = np.array([read_outcomes(motion) for motion in wide[mine].to_numpy()])
+        yield key, list(wide.index), outcomes == FALLS
 
 
 def curves(ensemble: Ensemble, means: np.ndarray) -> pd.DataFrame:
@@ -116,21 +131,35 @@ def capacities(ensemble: Ensemble, medians: np.ndarray) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def pairs(ensemble: Ensemble) -> pd.DataFrame:
+def differing(ensemble: Ensemble) -> list[np.ndarray]:
+    """Return for each pair of frames the cells in which only the lighter, only the heavier falls.
+
+    With the motions under which the heavier alone falls at some level, these are three arrays.
+    """
+    found = []
+    for i, j in itertools.combinations(ensemble.frames.values(), 2):
+        one, other = ensemble.outcomes[:, i], ensemble.outcomes[:, j]
+        found += [one & ~other, other & ~one, (other & ~one).any(axis=1)]
+    return found
+
+
+def pairs(ensemble: Ensemble, means: list[np.ndarray]) -> pd.DataFrame:
     """Return for each pair of frames the shares of cells, motions at levels, that differ.
+
+    `means` are those of `differing`.
 
     `reversed` is the share of these in which the heavier falls; `motions` the share of the motions
     that do it at some level.
     """
     rows = []
-    for (light, i), (heavy, j) in itertools.combinations(ensemble.frames.items(), 2):
-        one, other = ensemble.outcomes[:, i], ensemble.outcomes[:, j]
-        bought, lost = ensemble.means(one & ~other), ensemble.means(other & ~one)
+    cells = ensemble.outcomes[:, 0].size
+    triples = zip(means[::3], means[1::3], means[2::3], strict=True)
+    of_pairs = itertools.combinations(ensemble.frames, 2)
+    for (light, heavy), (bought, lost, some) in zip(of_pairs, triples, strict=True):
         bought, lost = bought.mean(axis=1), lost.mean(axis=1)
-        some = ensemble.means((other & ~one).any(axis=1))
         rows.append(
             ensemble.labels
-            | {"lighter": light, "heavier": heavy, "cells": one.size}
+            | {"lighter": light, "heavier": heavy, "cells": cells}
             | ensemble.bounds("only_lighter", bought)
             | ensemble.bounds("only_heavier", lost)
             | ensemble.bounds("reversed", lost / (bought + lost + TINY))
@@ -200,11 +229,11 @@ def plain(bounds: dict) -> dict:
 def main(case: dict, structures: dict, paths: list[str]) -> tuple[dict[str, pd.DataFrame], dict]:
     tables, order, beyond, shares = {"fragility": [], "medians": [], "pairs": []}, [], [], []
     for ensemble in read(paths, case, structures):
-        means = ensemble.means(ensemble.outcomes)
+        means, *of_pairs = ensemble.means(ensemble.outcomes, *differing(ensemble))
         medians = fragility.medians(ensemble.levels, means)
         tables["fragility"].append(curves(ensemble, means))
         tables["medians"].append(capacities(ensemble, medians))
-        tables["pairs"].append(pairs(ensemble))
+        tables["pairs"].append(pairs(ensemble, of_pairs))
         order.append(falls(ensemble, means))
         beyond += beyond_size(ensemble, medians)
         shares += shares_of_gain(ensemble, medians, case["shares_of_gain"])

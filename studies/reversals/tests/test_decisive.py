@@ -12,7 +12,6 @@ from replication.findings import read_findings
 from steps.spectra_compared import Spectra
 from studies.reversals.steps import motions_fragility, motions_records, pulses
 from topheavy import STANDARD_GRAVITY, Column, Record
-from topheavy.synthetic import fragility
 from topheavy.synthetic.ensemble import factors, subjects
 
 STUDY = Path(__file__).resolve().parents[1]
@@ -79,8 +78,7 @@ def ensemble(*outcomes):
     """An ensemble of frames of γ = 0, 1 and ∞, each with its outcomes over motions."""
     under = list(subjects(ENSEMBLE, STRUCTURES))
     fell = np.stack([np.array(one, dtype=bool)[:, None] for one in outcomes], axis=1)
-    weights = fragility.resampled(len(fell), 200, 1)
-    return motions_fragility.Ensemble("broadband", under, fell, np.ones(1), weights, 0.95)
+    return motions_fragility.Ensemble("broadband", under, fell, np.ones(1), 200, 1, 0.95)
 
 
 @pytest.mark.parametrize("rising", [False, True])
@@ -89,17 +87,18 @@ def test_heavier_frame_that_overturns_more_often_is_noticed(rising):
     found = ensemble(often, seldom, seldom)
     if rising:
         found = ensemble(seldom, often, often)
-    table = motions_fragility.falls(found, found.means(found.outcomes))
+    means, *of_pairs = found.means(found.outcomes, *motions_fragility.differing(found))
+    table = motions_fragility.falls(found, means)
     assert motions_fragility.never_rises(table, 0.05)["holds"] is not rising
     assert table.less.iloc[0] == pytest.approx(-0.5 if rising else 0.5)
-    pair = motions_fragility.pairs(found).iloc[0]
+    pair = motions_fragility.pairs(found, of_pairs).iloc[0]
     assert (pair.reversed_high < 0.5) == (not rising)
 
 
 def test_small_rises_that_add_up_are_noticed():
     fell = [[1] * number + [0] * (100 - number) for number in (40, 44, 48)]
     found = ensemble(*fell)
-    table = motions_fragility.falls(found, found.means(found.outcomes))
+    table = motions_fragility.falls(found, *found.means(found.outcomes))
     assert sorted(table.less.round(9)) == [-0.08, -0.04, -0.04]
 
 

@@ -27,6 +27,17 @@ def test_structures_that_fall_together_fall_together_in_every_resample():
     assert means.sum(axis=1) == pytest.approx(np.ones(21))
 
 
+@pytest.mark.parametrize("block", [50, 333, 10**6])  # weights: one row, six, all at a time
+def test_means_by_blocks_of_weights_are_those_by_all_weights(monkeypatch, block):
+    random = np.random.default_rng(5)
+    fell, first = random.random((50, 3, 2)) < 0.3, random.random(50) < 0.5
+    weights = fragility.resampled(50, 20, 1)
+    monkeypatch.setattr(fragility, "BLOCK", block)
+    found = fragility.resampled_means([fell, first], 20, 1)
+    assert found[0] == pytest.approx(fragility.means(weights, fell), rel=1e-14)
+    assert found[1] == pytest.approx(fragility.means(weights, first), rel=1e-14)
+
+
 def test_interval_holds_the_middle_of_the_resamples():
     values = np.concatenate([[5.0], np.arange(101.0)])
     assert fragility.interval(values, 0.9) == pytest.approx((5.0, 5.0, 95.0))

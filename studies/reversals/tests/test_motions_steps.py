@@ -9,7 +9,6 @@ import pytest
 from studies.reversals.outcomes import FALLS, STANDS, read, written
 from studies.reversals.steps import motions_check, motions_fragility, motions_records, motions_shard
 from topheavy import Column, Record, RockingFrame, judge
-from topheavy.synthetic import fragility
 from topheavy.synthetic.ensemble import draws, factors, intensities, subjects
 from topheavy.synthetic.motions import peak_velocity, strength
 
@@ -91,9 +90,9 @@ def test_pairs_count_what_differs():
         for gamma in (0.0, 1.0)
     ]
     outcomes = np.stack([light, heavy], axis=1) == 1
-    weights = fragility.resampled(2, 50, 1)
-    ensemble = motions_fragility.Ensemble("broadband", under, outcomes, np.ones(3), weights, 0.9)
-    (pair,) = motions_fragility.pairs(ensemble).itertuples()
+    ensemble = motions_fragility.Ensemble("broadband", under, outcomes, np.ones(3), 50, 1, 0.9)
+    means = ensemble.means(*motions_fragility.differing(ensemble))
+    (pair,) = motions_fragility.pairs(ensemble, means).itertuples()
     assert (pair.only_lighter, pair.only_heavier) == pytest.approx((2 / 6, 1 / 6))
     assert (pair.reversed, pair.motions) == pytest.approx((1 / 3, 1 / 2))
 

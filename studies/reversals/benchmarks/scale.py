@@ -1,0 +1,164 @@
+"""How the cost of the study `reversals` grows: motions, lines of its grid, shards, the gather.
+
+Three sizes a factor of ten apart, each in a process of its own, by hand (ten minutes on a core). It
+writes docs/scale.csv, from which profiles/slurm/README.md extrapolates.
+"""
+
+import os
+import resource
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from replication.strict_yaml import read_yaml
+from replication.tree_copy import copy_tree
+
+ROOT = Path(__file__).resolve().parents[3]
+sys.path.insert(0, str(ROOT))  # for the studies
+SEED = 18
+SHARDS = (10, 100, 1000, 10000)
+
+
+def config() -> tuple[dict, dict]:
+    """Return the study's config and the structures."""
+    study = read_yaml(ROOT / "studies/reversals/config.yaml")
+    return study, read_yaml(ROOT / "config/config.yaml")["structures"]
+
+
+def motions(part: int) -> tuple[int, int]:
+    """Compute one of `part` shards of the ensemble; return its motions and its histories."""
+    from studies.reversals.steps.motions_shard import main
+
+    study, structures = config()
+    table = main(study["motions_ensemble"], structures, f"1-of-{part}")
+    cells = table.outcomes.str.len().sum()
+    return table.groupby(["family", "scenario"]).motion.nunique().sum(), int(cells)
+
+
+def grid(part: int) -> tuple[int, int]:
+    """Compute one of `part` shards of the spectra; return its lines and its least histories."""
+    from steps.spectrum import shard_of, solve
+    from studies.reversals.steps.pulses_shard import lines
+
+    case = config()[0]["pulses"]
+    case |= case["grids"][case["grid"]]
+    mine, reach = shard_of(lines(case), f"1-of-{part}"), case["amplitudes"]
+    solve(mine, case)
+    steps = (reach["highest"] - reach["lowest"]) / reach["resolution"]
+    return len(mine), round(len(mine) * steps)
+
+
+def gather(number: int) -> tuple[int, int]:
+    """Gather random outcomes of so many motions of each scenario; return motions and histories."""
+    from studies.reversals.steps.motions_fragility import main
+
+    study, structures = config()
+    case = study["motions_ensemble"]
+    case["runs"]["default"]["motions"] = number
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([sys.executable, __file__, "outcomes", str(number), folder], check=True)
+        paths = sorted(map(str, Path(folder).glob("*.csv")))
+        main(case, structures, paths)
+        letters = sum(pd.read_csv(path).outcomes.str.len().sum() for path in paths)
+    return 4 * number, int(letters)
+
+
+def outcomes(number: int, folder: str) -> None:
+    """Write tables like those of the shards; the motions overturn at lognormal intensities."""
+    from studies.reversals.outcomes import written
+    from topheavy.synthetic.ensemble import draws, intensities, subjects
+
+    study, structures = config()
+    case = study["motions_ensemble"]
+    case["runs"]["default"]["motions"] = number
+    levels, random = intensities(case), np.random.default_rng(SEED)
+    under, shards = list(subjects(case, structures)), case["runs"]["larger"]["shards"]
+    for shard in range(shards):
+        rows = []
+        for draw in draws(case)[shard::shards]:
+            strength = random.normal(0.0, 0.3)
+            for subject in under:
+                if draw.number < subject.share * number:
+                    gain = 0.1 * min(subject.frame.mass_ratio or subject.enlarged, 2.0)
+                    fell = np.log(levels) > strength + gain + random.normal(0.0, 0.05)
+                    rows.append(draw.labels | subject.labels | {"outcomes": written(fell)})
+        if rows:
+            pd.DataFrame(rows).to_csv(Path(folder, f"{shard}.csv"), index=False)
+
+
+def graph(shards: int) -> tuple[int, int]:
+    """Let Snakemake plan a run with so many shards of the ensemble; return the shards."""
+    with tempfile.TemporaryDirectory() as folder:
+        tree = Path(folder, "tree")
+        copy_tree(tree)
+        over = f"motions_ensemble: {{ runs: {{ default: {{ shards: {shards} }} }} }}\n"
+        (tree / "studies/reversals/shards.yaml").write_text(over, encoding="utf-8")
+        paper = Path(tree, "config/shards.yaml")
+        paper.write_text("studies: [reversals]\n", encoding="utf-8")
+        subprocess.run(
+            [sys.executable, "-m", "snakemake", "--cores=1", "--dry-run", "--quiet=all"]
+            + ["--configfile", str(paper), "--", "results/findings/reversals_motions.json"],
+            cwd=tree,
+            env=os.environ | {"PYTHONPATH": f"{tree / 'src'}:{tree}"},
+            check=True,
+            stdout=subprocess.DEVNULL,
+        )
+    return shards, 0
+
+
+RUNS = {
+    motions: (100, 10, 1),
+    grid: (100, 10, 1),
+    gather: (50, 500, 5000),
+    graph: SHARDS,
+}
+
+
+def measured(name: str, size: str) -> None:
+    """Run one of RUNS in this process, and print its row of the table."""
+    start = time.perf_counter()
+    number, histories = {run.__name__: run for run in RUNS}[name](int(size))
+    used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
+    spent = used[name == "graph"]
+    print(
+        name,
+        number,
+        histories,
+        round(spent.ru_utime + spent.ru_stime, 1),
+        round(time.perf_counter() - start, 1),
+        round(spent.ru_maxrss / 1024),
+        sep=",",
+    )
+
+
+def row(name: str, size: int) -> str:
+    """Return the row that a process of its own prints."""
+    command = [sys.executable, __file__, name, str(size)]
+    done = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True)
+    return done.stdout.splitlines()[-1]
+
+
+def main() -> None:
+    for run in (motions, grid):
+        row(run.__name__, RUNS[run][0])  # compiles the kernel
+    table = ["what,size,histories,cpu_seconds,seconds,memory_mb"]
+    for run, sizes in RUNS.items():
+        for size in sizes:
+            table.append(row(run.__name__, size))
+            print(table[-1], flush=True)
+    Path(ROOT, "docs/scale.csv").write_text("\n".join(table) + "\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    match sys.argv[1:]:
+        case []:
+            main()
+        case ["outcomes", number, folder]:
+            outcomes(int(number), folder)
+        case [name, size]:
+            measured(name, size)
