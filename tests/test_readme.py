@@ -44,10 +44,10 @@ def test_motions_that_overturn_at_a_stated_velocity_are_published():
     assert f"and {free} the frame that carries the same mass freely" in said()
 
 
-def test_tested_claims_of_the_paper_are_as_many_as_said(claims):
+def test_judged_claims_of_the_paper_are_as_many_as_said(claims):
     rows = [claim for claim in claims.values() if not claim.study]
-    tested = [claim for claim in rows if claim.verdict != "not tested"]
-    assert f"We tested {len(tested)} of their {len(rows)} claims, and refuted none" in said()
+    judged = [claim for claim in rows if claim.verdict != "not tested"]
+    assert f"We judged {len(judged)} of their {len(rows)} claims, and refuted none" in said()
     assert not [claim.id for claim in rows if claim.verdict == "refuted"]
 
 
