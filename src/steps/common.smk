@@ -24,25 +24,6 @@ def named(entries, section):
     return {name: entries[name] for name in entries if name in found}
 
 
-# The kernel is compiled once ---------------------------------------------------------------------
-
-
-rule kernel:
-    input:
-        code("src/steps/kernel.py"),
-    output:
-        touch("results/kernel.compiled"),
-    log:
-        "results/logs/kernel.log",
-    benchmark:
-        "results/benchmarks/kernel.tsv"
-    priority: 1000
-    message:
-        "Compiling the kernel"
-    script:
-        "kernel.py"
-
-
 def after_the_kernel():
     """Make the rules whose scripts use the kernel wait until it is compiled."""
     for each in workflow.rules:

@@ -70,6 +70,25 @@ scattergather:
     spectra=config["spectra"]["shards"],
 
 
+# The kernel is compiled once ---------------------------------------------------------------------
+
+
+rule kernel:
+    input:
+        code("src/steps/kernel.py"),
+    output:
+        touch("results/kernel.compiled"),
+    log:
+        "results/logs/kernel.log",
+    benchmark:
+        "results/benchmarks/kernel.tsv"
+    priority: 1000
+    message:
+        "Compiling the kernel"
+    script:
+        "kernel.py"
+
+
 # The derivation: Eqs. (1)–(25) -------------------------------------------------------------------
 
 
