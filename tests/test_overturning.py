@@ -15,13 +15,14 @@ from topheavy import (
     RockingBlock,
     RockingFrame,
     judge,
+    minimum_overturning,
     overturned_by,
     overturning_intervals,
     overturning_map,
     simulate,
 )
 from topheavy.kernel.grid import outcomes_of
-from topheavy.overturning import SAFE, Interval, _bisect, _labeller
+from topheavy.overturning import AT_A_TIME, SAFE, Interval, _bisect, _labeller, outcomes_by
 
 BLOCK = RockingBlock(2.0, 0.25, 0.9)
 BOTH = pytest.mark.parametrize("block", [BLOCK, BLOCK.linear()], ids=["exact", "linear"])
@@ -474,3 +475,29 @@ def test_halvings_ahead_find_what_halving_one_by_one_finds(monkeypatch):
         met += len(found[0]) > 2
     assert met > 20
     assert calls[1] < 0.5 * calls[0]
+
+
+@pytest.mark.parametrize(("block", "excitation", "scales", "_"), CASES.values(), ids=CASES)
+def test_minimum_is_the_lower_end_of_the_first_interval(block, excitation, scales, _):
+    """On grids of several pieces: the first factor that overturns is in one or another."""
+    for first in np.linspace(*scales, 4)[:3]:
+        resolution = (scales[1] - first) / (5 * AT_A_TIME)
+        of = {"scale_range": (float(first), scales[1]), "resolution": resolution}
+        several = overturning_intervals(block, excitation, **of, most_impacts=0)
+        lowest = several[0].lower if several else None
+        assert minimum_overturning(block, excitation, **of) == lowest
+
+
+def test_minimum_at_the_first_factor_and_none():
+    assert minimum_overturning(LINEAR, SINE, (4.0, 5.0), resolution=0.1) == (4.0, 4.0)
+    assert minimum_overturning(LINEAR, SINE, (6.4, 7.1), resolution=0.01) is None
+    with pytest.raises(ValueError, match="expected it to ascend"):
+        minimum_overturning(LINEAR, SINE, (1.0, 1.0), resolution=0.1)
+
+
+def test_outcomes_by_are_those_of_judge():
+    for excitation in (SINE, CASES["antisymmetric"][1]):
+        overturned, impacts = outcomes_by(BLOCK, excitation, FACTORS)
+        ends = [judge(BLOCK, excitation.scaled(factor)) for factor in FACTORS]
+        assert overturned.tolist() == [end.overturned for end in ends]
+        assert impacts.tolist() == [end.impacts for end in ends]

@@ -10,6 +10,7 @@ from typing import Any
 
 import yaml
 
+from replication.crate_about import name_of
 from replication.provenance import Job, makers
 
 SPECIFICATION = "https://codecheck.org.uk/spec/config/2.0/"
@@ -82,8 +83,7 @@ def _rank(path: str) -> int:
 
 
 def _author(entry: Mapping[str, str]) -> dict[str, str]:
-    given, family = entry.get("given-names", ""), entry.get("family-names", "")
-    author = {"name": entry.get("name") or f"{given} {family}".strip()}
+    author = {"name": name_of(entry)}
     if "orcid" in entry:
         author["ORCID"] = entry["orcid"].removeprefix("https://orcid.org/")
     return author

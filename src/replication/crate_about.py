@@ -26,11 +26,16 @@ def root(citation: Mapping[str, Any], project: Mapping[str, Any]) -> Entity:
     )
 
 
+def name_of(author: Mapping[str, str]) -> str:
+    """Return the name of an author of a CITATION.cff, who is a person or an organization."""
+    name = f"{author.get('given-names', '')} {author.get('family-names', '')}".strip()
+    return author.get("name", name)
+
+
 def people(authors: Iterable[Mapping[str, str]]) -> Iterator[Entity]:
     """Yield each author of a CITATION.cff."""
     for author in authors:
-        name = f"{author.get('given-names', '')} {author.get('family-names', '')}".strip()
-        name = author.get("name", name)
+        name = name_of(author)
         yield {
             "@id": author.get("orcid", f"#author/{name.replace(' ', '_')}"),
             "@type": "Person" if "family-names" in author else "Organization",

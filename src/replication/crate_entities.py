@@ -131,11 +131,15 @@ def reviews(claims: Iterable[JudgedClaim], findings: Mapping[str, str], paper: s
         The `@id` of the paper, of which the claims without a study are.
     """
     claims = list(claims)
-    verdicts = [
-        {"@id": f"#verdict/{each.replace(' ', '_')}", "@type": "Rating", "ratingValue": each}
-        for each in sorted({claim.verdict for claim in claims})
-    ]
-    return verdicts + [
+    ratings = {
+        verdict: {
+            "@id": f"#verdict/{verdict.replace(' ', '_')}",
+            "@type": "Rating",
+            "ratingValue": verdict,
+        }
+        for verdict in sorted({claim.verdict for claim in claims})
+    }
+    return [*ratings.values()] + [
         without_blanks(
             {
                 "@id": f"#claim/{claim.id}",
@@ -143,7 +147,7 @@ def reviews(claims: Iterable[JudgedClaim], findings: Mapping[str, str], paper: s
                 "name": claim.id,
                 "claimReviewed": claim.statement,
                 "itemReviewed": ref("./" if claim.study else paper),
-                "reviewRating": ref(f"#verdict/{claim.verdict.replace(' ', '_')}"),
+                "reviewRating": ref(ratings[claim.verdict]["@id"]),
                 "isBasedOn": ref(findings[claim.rule]) if claim.rule in findings else "",
             }
         )

@@ -10,7 +10,7 @@ from topheavy import (
     Pulse,
     RockingFrame,
     judge,
-    overturning_intervals,
+    minimum_overturning,
     reference,
     simulate,
 )
@@ -21,10 +21,10 @@ RESOLUTION = 1e-3  # of the uplift acceleration
 def lowest_overturning(frame: RockingFrame, pulse: Pulse) -> tuple[float, float]:
     """Bracket the minimum overturning amplitude (g) of an interval of RESOLUTION or more."""
     start = frame.uplift_acceleration / pulse.amplitude
-    first, *_ = overturning_intervals(
+    low, high = minimum_overturning(
         frame, pulse, (start, 12.0 * start), resolution=RESOLUTION * start
     )
-    return first.lower[0] * pulse.amplitude, first.lower[1] * pulse.amplitude
+    return low * pulse.amplitude, high * pulse.amplitude
 
 
 def main(case: dict, solver: dict) -> tuple[list[dict], list[dict], dict]:

@@ -156,11 +156,11 @@ def on_a_fresh_grid(compared: list[dict], longest: float) -> Finding:
 
 
 def sampled(compared: list[dict], kind: str, count: int) -> list[Minimum]:
-    """Return minima of a seeded sample of the motions of a kind, of the shortest records."""
+    """Return minima of a seeded sample of the motions of a kind, of records the smallest."""
     found = [row["found"] for row in compared if row["kind"] == kind]
     found = [one for one in found if math.isfinite(one.acceleration)]
     if kind == "record":
-        return sorted(found, key=lambda one: one.motion.duration)[:count]
+        return sorted(found, key=lambda one: one.motion.acceleration.size)[:count]
     return [found[place] for place in np.random.default_rng(SEED).permutation(len(found))[:count]]
 
 

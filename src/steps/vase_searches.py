@@ -12,7 +12,7 @@ from topheavy import (
     Record,
     RockingFrame,
     judge,
-    overturning_intervals,
+    minimum_overturning,
     reference,
 )
 from topheavy.free_rocking import Ending
@@ -88,11 +88,9 @@ def minimum(structure: Structure, motion: Pulse | Record, highest: float) -> Min
         scales = (low * uplift, min(high * uplift, highest))
         if scales[0] >= scales[1]:
             break
-        found = overturning_intervals(
-            structure, motion, scales, resolution=step * uplift, most_impacts=0
-        )
+        found = minimum_overturning(structure, motion, scales, resolution=step * uplift)
         if found:
-            return Minimum(structure, motion, found[0].lower)
+            return Minimum(structure, motion, found)
     return Minimum(structure, motion, (math.inf, math.inf))
 
 
@@ -102,10 +100,8 @@ def refined(found: Minimum, below: float) -> Minimum:
     step = FINEST[type(found.motion)] * uplift
     if not uplift + step < below <= found.bracket[0]:
         return found
-    lower = overturning_intervals(
-        found.structure, found.motion, (uplift, below), resolution=step, most_impacts=0
-    )
-    return replace(found, bracket=lower[0].lower) if lower else found
+    lower = minimum_overturning(found.structure, found.motion, (uplift, below), resolution=step)
+    return replace(found, bracket=lower) if lower else found
 
 
 def rivals(column: Column, ratios: Sequence[float]) -> Iterator[tuple[str, float, Structure]]:

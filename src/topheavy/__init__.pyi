@@ -10,7 +10,12 @@ from .contact_forces import (
 from .fixed_frame import FixedFrame, peak_elastic, peak_elastic_by_scipy, peak_rigid
 from .fixed_mass import FixedMassColumn, MonolithicPortal
 from .frame_forces import base_shear_slope, frame_forces
-from .overturning import overturned_by, overturning_intervals, overturning_map
+from .overturning import (
+    minimum_overturning,
+    overturned_by,
+    overturning_intervals,
+    overturning_map,
+)
 from .pulses import PULSE_SHAPES, Pulse
 from .records import Record, read_at2, read_csv, read_record
 from .response import Response
@@ -39,6 +44,7 @@ __all__ = [
     "frame_forces",
     "impact_impulses",
     "judge",
+    "minimum_overturning",
     "overturned_by",
     "overturning_intervals",
     "overturning_map",

@@ -35,6 +35,9 @@ BRACKET = 1e-10
 TOGETHER = 2 * WIDTH
 """Factors that are labelled at a time where boundaries are halved."""
 
+AT_A_TIME = 16 * WIDTH
+"""Factors that are labelled at a time where only the first that overturns is sought."""
+
 MOST_HALVINGS = 64
 """The range is at most twice its larger end wide, and 2/`BRACKET` < 2³⁵: 35 rounds are enough."""
 
@@ -135,18 +138,37 @@ def overturned_by(
     ValueError
         For factors that are negative or not finite, and for a harmonic.
     """
+    return outcomes_by(structure, excitation, factors, tolerance=tolerance)[0]
+
+
+def outcomes_by(
+    structure: Structure,
+    excitation: Excitation,
+    factors: ArrayLike,
+    *,
+    tolerance: float = TOLERANCE,
+) -> tuple[NDArray[np.bool_], NDArray[np.int64]]:
+    """Return which factors on an excitation overturn a block, and its impacts under each.
+
+    Parameters and errors are those of `overturned_by`.
+
+    Returns
+    -------
+    overturned, impacts : ndarray, shape (n,)
+        The impacts before it overturns or the forcing ends and it rests.
+    """
     scales = _axis("factors", factors, zero_allowed=True)
     block = structure.block()
     shape, scale, amplitude, record = _ending_forcing(block, excitation)
-    fell: NDArray[np.bool_] = outcomes_of(
+    _, overturned, impacts = outcomes_of(
         oscillator(block),
         shape,
         np.array([scale]),
         amplitude * scales,
         record,
         tolerance=checked_tolerance(tolerance),
-    )[1][0]
-    return fell
+    )
+    return overturned[0], impacts[0]
 
 
 @dataclass(frozen=True)
@@ -201,23 +223,17 @@ def overturning_intervals(
     ValueError
         For a range that does not ascend, a resolution that is not positive, or a harmonic.
     """
-    first, last = (checks.finite("scale_range", value) for value in scale_range)
-    if not first < last:
-        raise ValueError(f"scale_range is ({first:.6g}, {last:.6g}); expected it to ascend")
-    checks.positive("resolution", resolution)
-    if isinstance(excitation, (Pulse, Record)):
-        for factor in (first, last):
-            excitation.scaled(factor)  # refuses what it cannot be
+    grid = _grid(excitation, scale_range, resolution)
+    first = float(grid[0])
     if most_impacts is not None and most_impacts < 0:
         raise ValueError(f"most_impacts is {most_impacts}; expected a number from 0 on")
     label = _labeller(structure, excitation, most_impacts)
-    grid = np.linspace(first, last, max(2, math.ceil((last - first) / resolution) + 1))
     labels = label(grid)
     changes = np.flatnonzero(labels[1:] != labels[:-1])
     boundaries = _bisect(
         label,
         [(grid[i], grid[i + 1], labels[i], labels[i + 1]) for i in changes],
-        BRACKET * max(abs(first), abs(last)),
+        _width(grid),
         NARROWEST * resolution,
     )
     intervals, begin, current = [], (first, first), labels[0]
@@ -228,6 +244,58 @@ def overturning_intervals(
     if current != SAFE:
         intervals.append(Interval(begin, None, int(current)))
     return intervals
+
+
+def minimum_overturning(
+    structure: Structure,
+    excitation: Excitation,
+    scale_range: tuple[float, float],
+    *,
+    resolution: float,
+) -> tuple[float, float] | None:
+    """Return a bracket of the lowest factor on an excitation that overturns a block.
+
+    It is the lower end of the first of `overturning_intervals`, of which the others are not sought;
+    parameters and errors are those.
+
+    Returns
+    -------
+    (float, float), or None
+        The first factor twice where that overturns; None where no factor does.
+    """
+    grid = _grid(excitation, scale_range, resolution)
+    label = _labeller(structure, excitation, 0)
+    for begin in range(0, grid.size, AT_A_TIME):
+        overturns = label(grid[begin : begin + AT_A_TIME]) != SAFE
+        if overturns.any():
+            at = begin + int(np.argmax(overturns))
+            break
+    else:
+        return None
+    if at == 0:
+        return float(grid[0]), float(grid[0])
+    bracket = [(grid[at - 1], grid[at], SAFE, 0)]
+    ((low, high, *_),) = _bisect(label, bracket, _width(grid), NARROWEST * resolution)
+    return low, high
+
+
+def _grid(
+    excitation: Excitation, scale_range: tuple[float, float], resolution: float
+) -> NDArray[np.float64]:
+    """Return the factors that are tried first, of a range and a resolution that are accepted."""
+    first, last = (checks.finite("scale_range", value) for value in scale_range)
+    if not first < last:
+        raise ValueError(f"scale_range is ({first:.6g}, {last:.6g}); expected it to ascend")
+    checks.positive("resolution", resolution)
+    if isinstance(excitation, (Pulse, Record)):
+        for factor in (first, last):
+            excitation.scaled(factor)  # refuses what it cannot be
+    return np.linspace(first, last, max(2, math.ceil((last - first) / resolution) + 1))
+
+
+def _width(grid: NDArray[np.float64]) -> float:
+    """Return the width of the brackets of boundaries on a grid."""
+    return BRACKET * float(np.abs(grid[[0, -1]]).max())
 
 
 Labels = NDArray[np.int64]
@@ -270,8 +338,7 @@ def _bisect(
 ) -> list[Boundary]:
     """Return the boundaries (low, high, label below, label above), halved down to `width`.
 
-    The kernel labels many factors in little more time than one. So several halvings ahead are
-    labelled at a time, whichever halves they will turn out to take.
+    Several halvings ahead are labelled at a time, whichever halves they will turn out to take.
     """
     done: list[Boundary] = []
     known: dict[float, int] = {}
@@ -286,7 +353,7 @@ def _bisect(
         middles = [0.5 * (low + high) for low, high, _, _ in open_ones]
         if not known.keys() >= set(middles):
             depth = max(1, int(math.log2(TOGETHER / len(open_ones) + 1)))
-            ahead = [point for one in open_ones for point in _halvings(*one[:2], depth)]
+            ahead = [point for one in open_ones for point in halvings(*one[:2], depth)]
             known = dict(zip(ahead, label(np.array(ahead)), strict=True))
         boundaries = []
         for (low, high, below, above), middle in zip(open_ones, middles, strict=True):
@@ -305,10 +372,13 @@ def _bisect(
     )
 
 
-def _halvings(low: float, high: float, depth: int) -> list[float]:
-    """Return the middle of a bracket, and those of its halves, down to `depth`."""
+def halvings(low: float, high: float, depth: int) -> list[float]:
+    """Return the middle of a bracket, and those of its halves, down to `depth`.
+
+    The kernel judges many factors in little more time than one: ask for all of them at a time.
+    """
     middle = 0.5 * (low + high)
     if depth == 1:
         return [middle]
-    below, above = _halvings(low, middle, depth - 1), _halvings(middle, high, depth - 1)
+    below, above = halvings(low, middle, depth - 1), halvings(middle, high, depth - 1)
     return [middle, *below, *above]

@@ -34,6 +34,7 @@ MOST_STEPS = 1_000_000
 _DEGREE = 7  # of DOP853's interpolating polynomial
 _NODES = chebyshev.chebpts1(_DEGREE + 1)
 _TO_SERIES = np.linalg.inv(chebyshev.chebvander(_NODES, _DEGREE))
+_TO_SLOPE = chebyshev.chebder(np.eye(_DEGREE + 1))  # from a series to that of its derivative
 
 
 def simulate(
@@ -172,8 +173,11 @@ def _first_event(step: DenseOutput, course: Motion, possible: bool) -> tuple[Eve
     if series[0] - reach > 0.0 and series[0] + reach < min(course.ceiling, course.peak):
         course.height = max(course.height, series[0] - reach)
         return None, step.t
-    turns = chebyshev.chebroots(chebyshev.chebder(series))
-    real = np.sort(turns.real[(np.abs(turns.imag) < 1e-9) & (np.abs(turns.real) < 1.0)])
+    slope = _TO_SLOPE @ series
+    real = np.empty(0)
+    if abs(slope[0]) <= np.abs(slope[1:]).sum():  # otherwise φ has no turning point in the step
+        turns = chebyshev.chebroots(chebyshev.chebder(series))
+        real = np.sort(turns.real[(np.abs(turns.imag) < 1e-9) & (np.abs(turns.real) < 1.0)])
 
     def height(t: float, above: float = 0.0) -> float:
         return float(step(t)[0]) - above

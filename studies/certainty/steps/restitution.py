@@ -21,6 +21,7 @@ from topheavy import (
     Pulse,
     RockingBlock,
     RockingFrame,
+    minimum_overturning,
     overturned_by,
     overturning_intervals,
     reference,
@@ -70,10 +71,8 @@ def spectrum(block: RockingBlock, pulse: Pulse, case: dict) -> np.ndarray:
 def lowest(block: RockingBlock, pulse: Pulse, case: dict, below: float) -> float:
     """Return the minimum (g tan α) by the finer resolution, at most `below` or the highest."""
     ends = case["amplitudes"]["lowest"], min(below, case["amplitudes"]["highest"])
-    found = overturning_intervals(
-        block, pulse, ends, resolution=case["amplitudes"]["finer"], most_impacts=1
-    )
-    return found[0].lower[1] if found else below
+    found = minimum_overturning(block, pulse, ends, resolution=case["amplitudes"]["finer"])
+    return found[1] if found else below
 
 
 def only_first(first: np.ndarray, second: np.ndarray, levels: np.ndarray) -> float:

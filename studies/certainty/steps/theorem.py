@@ -5,6 +5,7 @@ overturn without an impact, where a contradiction is most likely.
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -20,14 +21,14 @@ from topheavy import (
     RockingBlock,
     RockingFrame,
     judge,
-    overturned_by,
     reference,
     simulate,
 )
 from topheavy.derivation import reversal_theorems
+from topheavy.overturning import halvings, outcomes_by
 from topheavy.synthetic.fragility import mass_ratio_of_share
 
-HALVINGS = 6
+HALVINGS, AHEAD = 6, 3
 BESIDE = 0.01  # of the factor: what lies between the boundary and the motion that is judged
 STEPS = np.geomspace(0.9, 32.0, 9)  # factors between which boundaries are sought
 CLOSE = 400  # times in the first 1/p after uplift
@@ -47,10 +48,12 @@ class Trial:
         return replace(self, motion=self.motion.scaled(factor))
 
 
-def without_counted_impact(block: RockingBlock, excitation: Pulse | Record) -> bool:
-    """Return whether a block overturns without an impact that the solver counts."""
-    found = judge(block, excitation)
-    return found.overturned and found.impacts == 0
+def without_counted_impact(
+    block: RockingBlock, excitation: Pulse | Record, factors: Sequence[float]
+) -> list[bool]:
+    """Return which factors on a motion overturn a block without an impact that is counted."""
+    overturned, impacts = outcomes_by(block, excitation, factors)
+    return (overturned & (impacts == 0)).tolist()
 
 
 def at_once(block: RockingBlock, excitation: Pulse | Record) -> bool:
@@ -59,7 +62,8 @@ def at_once(block: RockingBlock, excitation: Pulse | Record) -> bool:
     The solvers do not count bounces below a millionth of α, after which the block rests. So it must
     not be upright at any of the times after uplift, of which the first are close together.
     """
-    if not without_counted_impact(block, excitation):
+    found = judge(block, excitation)
+    if not found.overturned or found.impacts:
         return False
     time = instants(excitation)
     lifts = np.abs(excitation.excitation(time)) > block.uplift_acceleration
@@ -93,18 +97,19 @@ def trial(random: np.random.Generator, linearised: bool) -> Trial | None:
     ]
     lighter, heavier = (block.linear() if linearised else block for block in pair)
     under = motion(random, column)
-    falls = [
-        bool(fell) and without_counted_impact(heavier, under.scaled(factor))
-        for factor, fell in zip(STEPS, overturned_by(heavier, under, STEPS), strict=True)
-    ]
+    falls = without_counted_impact(heavier, under, STEPS)
     changes = np.flatnonzero(np.diff(falls))
     if not changes.size:
         return None
     at = int(random.choice(changes))
     low, high = STEPS[at], STEPS[at + 1]
+    known: dict[float, bool] = {}
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)
-        if without_counted_impact(heavier, under.scaled(middle)) == falls[at]:
+        if middle not in known:
+            ahead = halvings(low, high, AHEAD)
+            known = dict(zip(ahead, without_counted_impact(heavier, under, ahead), strict=True))
+        if known[middle] == falls[at]:
             low = middle
         else:
             high = middle

@@ -16,7 +16,7 @@ from topheavy import (
     Pulse,
     RockingBlock,
     RockingFrame,
-    overturning_intervals,
+    minimum_overturning,
     overturning_map,
     reference,
 )
@@ -62,10 +62,8 @@ def lowest(block: RockingBlock | RockingFrame, unit: Pulse, case: dict) -> float
     """Return the lowest factor on a pulse of amplitude g tan α that overturns; NaN for none."""
     spec = case["amplitudes"]
     step = (spec["highest"] - spec["lowest"]) / (spec["points"] - 1)
-    found = overturning_intervals(
-        block, unit, (spec["lowest"], spec["highest"]), resolution=step, most_impacts=0
-    )
-    return found[0].lower[0] if found else math.nan
+    found = minimum_overturning(block, unit, (spec["lowest"], spec["highest"]), resolution=step)
+    return found[0] if found else math.nan
 
 
 def lowest_changes(frame: RockingFrame, shape: str, case: dict) -> pd.DataFrame:

@@ -18,7 +18,7 @@ from studies.mechanism.steps.engine import (
     run,
 )
 from studies.mechanism.steps.setting import cap_of
-from topheavy import Cap, Column, Pulse, RockingFrame, overturning_intervals, simulate
+from topheavy import Cap, Column, Pulse, RockingFrame, minimum_overturning, simulate
 
 NO_ENGINE = (
     "needs the optional group `engine` (MuJoCo), which is not installed: "
@@ -106,10 +106,10 @@ def lowest_overturning(frame: RockingFrame, unit: Pulse) -> Pulse:
         When no amplitude up to 40 g tan α does.
     """
     tan = frame.uplift_acceleration
-    found = overturning_intervals(frame, unit, (tan, HIGHEST * tan), resolution=0.01 * tan)
-    if not found:
+    found = minimum_overturning(frame, unit, (tan, HIGHEST * tan), resolution=0.01 * tan)
+    if found is None:
         raise ValueError(f"{unit}: nothing up to {HIGHEST:.3g} g tan α overturns {frame}")
-    return unit.scaled(found[0].lower[1])
+    return unit.scaled(found[1])
 
 
 def shaken(rig: Rig, pulse: Pulse) -> tuple[bool, float, Motion]:

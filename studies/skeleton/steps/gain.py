@@ -4,23 +4,23 @@ import math
 from itertools import pairwise
 
 from replication.workbench import run, truth, value
-from topheavy import Column, Pulse, RockingFrame, judge, overturning_intervals, reference
+from topheavy import Column, Pulse, RockingFrame, judge, minimum_overturning, reference
 
 
 def lowest(frame: RockingFrame, pulse: Pulse, amplitudes: dict) -> tuple[float, float]:
     """Bracket the minimum overturning amplitude (g tan α); `pulse` has the amplitude g tan α."""
-    found = overturning_intervals(
+    found = minimum_overturning(
         frame,
         pulse,
         (amplitudes["lowest"], amplitudes["highest"]),
         resolution=amplitudes["resolution"],
     )
-    if not found:
+    if found is None:
         raise ValueError(
             f"gain.amplitudes.highest is {amplitudes['highest']}, which leaves the frame of "
             f"γ = {frame.mass_ratio} standing; expected a higher one"
         )
-    return found[0].lower
+    return found
 
 
 def main(case: dict, solver: dict) -> tuple[list[dict], dict]:
