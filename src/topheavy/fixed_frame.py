@@ -24,7 +24,7 @@ from scipy.signal import lfilter
 
 from topheavy import checks
 from topheavy.contact_forces import Cap
-from topheavy.excitation import Excitation
+from topheavy.excitation import Excitation, Segment
 from topheavy.frame_forces import centre_height
 from topheavy.pulses import Pulse
 from topheavy.records import Record
@@ -134,12 +134,8 @@ def peak_elastic_by_scipy(
     """Return the same by SciPy's integration of the equation of motion: the second solver."""
     omega, found, state = 2.0 * math.pi / period, [], np.zeros(2)
     end = excitation.duration
-    for first, last in _smooth(excitation, period):
-        # Just inside, so that a jump of the ground counts on its own side.
-        inside = (first + 1e-12 * period, last - 1e-12 * period)
-
-        def push(t: float, inside: tuple[float, float] = inside, last: float = last) -> float:
-            return 0.0 if last > end else float(excitation.excitation(float(np.clip(t, *inside))))
+    for segment in [*excitation.segments(end), Segment(end, end + period, _no_acceleration)]:
+        first, last, push = segment.start, segment.stop, segment.acceleration
 
         def equation(t: float, y: Array, push=push) -> list[float]:  # type: ignore[no-untyped-def]
             return [y[1], -push(t) - 2.0 * DAMPING * omega * y[1] - omega**2 * y[0]]
@@ -200,8 +196,6 @@ def _total_acceleration(start: Array, end: Array, step: float, period: float) ->
     return np.append(0.0, found)
 
 
-def _smooth(excitation: Excitation, period: float) -> list[tuple[float, float]]:
-    """Return spans of time between kinks, and one period after the motion."""
-    end = excitation.duration
-    spans = [(s.start, s.stop) for s in excitation.segments(end)]
-    return [*spans, (end, end + period)]
+def _no_acceleration(time: float) -> float:
+    """The ground at rest after a motion."""
+    return 0.0
