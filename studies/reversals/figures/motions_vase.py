@@ -15,15 +15,18 @@ FORCES = {
 
 
 def fragility(axis, cells, labelled):
+    ratios = sorted(cells.mass_ratio.unique())
+    for (name, ratio), line in cells.groupby(["structure", "mass_ratio"]):
+        colour, heaviest = LOOKS[name][1], ratio == ratios[-1]
+        if not heaviest:
+            band = (line.intensity, line.probability_low, line.probability_high)
+            axis.fill_between(*band, color=colour, alpha=0.18, linewidth=0)
+        axis.plot(line.intensity, line.probability, "--" if heaviest else "-", color=colour)
     for name, (label, colour) in LOOKS.items():
-        line = cells[cells.structure == name]
-        band = (line.intensity, line.probability_low, line.probability_high)
-        axis.fill_between(*band, color=colour, alpha=0.18, linewidth=0)
-        axis.plot(line.intensity, line.probability, color=colour)
         if labelled:
             side = {"ha": "right"} if name == "fixed" else {}
             note(axis, label, LABELS[name], color=colour, **side)
-    axis.set(xscale="log", xlim=(0.2, 2.4), ylim=(0, 1))
+    axis.set(xscale="log", xlim=(0.15, 2.4), ylim=(0, 1))
     axis.set_xticks((0.2, 0.5, 1, 2), ("0.2", "0.5", "1", "2"))
     axis.set_xticks([], minor=True)
     axis.set(xlabel=r"Intensity, $p\,\mathrm{PGV}/(g\,\tan\alpha)$ (–)")
