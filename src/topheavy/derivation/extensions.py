@@ -52,7 +52,7 @@ def frame_of_columns(side: Side) -> sp.Expr:
     cap = m_b * (_twice(cap_contact(side), side) + _LOADS)
     moments = N * (turning(centre(side), column) + spin) + turning(cap_contact(side), _ON_CAP)
     balance = moments.subs(dict(zip(_ON_CAP, cap, strict=True)))
-    (motion,) = sp.solve(balance.subs(RECTANGULAR), acceleration)
+    (motion,) = sp.solve(balance.subs(RECTANGULAR), acceleration, simplify=False)
     return motion
 
 
@@ -75,7 +75,7 @@ def lagrange_of_columns(side: Side) -> sp.Expr:
         sp.diff(momentum, rate) * second for rate, second in of_ground.items()
     )
     balance = change - sp.diff(kinetic - potential, side.rotation)
-    (motion,) = sp.solve(sp.expand(balance).subs(RECTANGULAR), acceleration)
+    (motion,) = sp.solve(sp.expand(balance).subs(RECTANGULAR), acceleration, simplify=False)
     return motion
 
 
