@@ -87,11 +87,13 @@ def fixed_restitution(side: Side = POSITIVE) -> sp.Expr:
     return sp.factor(sp.simplify(after.subs(RECTANGULAR) / velocity_before))
 
 
+@cache
 def fixed_tangent(side: Side = NEGATIVE) -> sp.Expr:
     """tan α': the ground acceleration at which it uplifts, over g."""
     return sp.factor(-side.sign * uplift_acceleration(fixed_motion(side), side) / g)
 
 
+@cache
 def fixed_fourth_power(side: Side = NEGATIVE) -> sp.Expr:
     """p'⁴: θ̈ at rest is −p'² sin α' sgn θ, and its derivative by |θ| is p'² cos α' sgn θ."""
     free = fixed_motion(side).subs(ground_acceleration, 0)

@@ -129,7 +129,8 @@ def _point(premises: Premises, side: Side) -> dict[str, float]:
     drawn = dict(zip(names, np.random.default_rng(7).uniform(0.2, 0.6, len(names)), strict=True))
     slenderness = values[alpha].subs(drawn) if alpha in values else drawn[alpha]
     drawn[side.rotation] = side.sign * float(slenderness) / 2.0
-    known = {name: complex(value.subs(drawn)) for name, value in values.items()}
+    numbers = {name: sp.Float(number) for name, number in drawn.items()}
+    known = {name: complex(value.xreplace(numbers)) for name, value in values.items()}
     return {str(name): number for name, number in (drawn | known).items()}
 
 
@@ -138,8 +139,8 @@ def _vanishes_at(point: dict[str, float], equation: str, side: Side) -> bool:
     for residual in residuals(equation, side):
         if any(str(name) not in point for name in residual.free_symbols):
             return False
-        values = {name: point[str(name)] for name in residual.free_symbols}
-        if abs(complex(residual.subs(values))) > ROUNDING:
+        values = {name: sp.sympify(point[str(name)]) for name in residual.free_symbols}
+        if abs(complex(residual.xreplace(values))) > ROUNDING:
             return False
     return True
 
