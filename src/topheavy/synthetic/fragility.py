@@ -15,7 +15,7 @@ from scipy.special import ndtr, ndtri
 MOST_PASSES = 50
 CLOSE = 1e-9  # of the score, for a single motion at each level
 FARTHEST = 1e-12  # from 0 and 1, of a fitted share
-BLOCK = 4_000_000  # weights in memory at a time, 8 bytes each
+BLOCK = 1000  # motions whose weights are in memory at a time
 
 Array = NDArray[np.float64]
 
@@ -49,28 +49,45 @@ def means(weights: Array, outcomes: ArrayLike) -> Array:
     return np.tensordot(weights, outcomes, axes=1)
 
 
-def resampled_means(outcomes: Sequence[ArrayLike], resamples: int, seed: int) -> list[Array]:
-    """Return `means` of several outcomes by the same weights, of which it holds a block at a time.
+class ResampledMeans:
+    """The `means` of outcomes that come in blocks of motions, of which one is held at a time.
 
-    Parameters
-    ----------
-    outcomes : sequence of array_like, each of shape (motions, ...)
-
-    Returns
-    -------
-    list of ndarray, each of shape (1 + resamples, ...)
+    Of a resample, a binomial number of motions falls on each block, and there each is as likely. So
+    a single block has the weights of `resampled`, and several have others of the same distribution.
     """
-    motions = len(np.asarray(outcomes[0]))
-    even, random = np.full(motions, 1.0 / motions), np.random.default_rng(seed)
-    rows = max(1, BLOCK // motions)
-    blocks: list[list[Array]] = [[] for _ in outcomes]
-    for first in range(0, resamples, rows):
-        weights = random.multinomial(motions, even, min(rows, resamples - first)) / motions
-        if not first:
-            weights = np.vstack([even, weights])
-        for found, each in zip(blocks, outcomes, strict=True):
-            found.append(means(weights, each))
-    return [np.concatenate(found) for found in blocks]
+
+    def __init__(self, motions: int, resamples: int, seed: int) -> None:
+        self._motions = self._awaited = motions
+        self._left = np.full(resamples, motions)  # motions that each resample has still to draw
+        self._random = np.random.default_rng(seed)
+        self._sums: list[Array] = []
+
+    def add(self, outcomes: Sequence[ArrayLike]) -> None:
+        """Take up a block: several outcomes, each of shape (motions of the block, ...)."""
+        size = len(np.asarray(outcomes[0]))
+        drawn = self._left
+        if size < self._awaited:
+            drawn = self._random.binomial(self._left, size / self._awaited)
+        counts = self._random.multinomial(drawn, np.full(size, 1.0 / size))
+        self._awaited, self._left = self._awaited - size, self._left - drawn
+        weights = np.vstack([np.ones(size), counts]) / self._motions
+        found = [means(weights, each) for each in outcomes]
+        self._sums = list(map(np.add, self._sums, found)) if self._sums else found
+
+    def means(self) -> list[Array]:
+        """Return the means of each outcome, of shape (1 + resamples, ...).
+
+        Raises
+        ------
+        ValueError
+            When the blocks do not have all motions of the ensemble, or have more.
+        """
+        if self._awaited:
+            raise ValueError(
+                f"outcomes of {self._motions - self._awaited} motions were found; expected those "
+                f"of {self._motions}: a shard is incomplete, delete it and run again"
+            )
+        return self._sums
 
 
 def interval(values: Array, confidence: float) -> tuple[Array, Array, Array]:

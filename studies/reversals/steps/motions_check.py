@@ -3,6 +3,8 @@
 Half of the sample is drawn from all cells, half within a per cent of a boundary of overturning.
 """
 
+from collections.abc import Callable
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -19,6 +21,26 @@ from topheavy.synthetic.ensemble import draws, factors, intensities, subjects
 FINEST = 1e-6  # of a factor: how well a boundary is known around which cells are drawn
 
 
+class Rows:
+    """Rows of all shards, one after the other, of which few tables at a time are in memory."""
+
+    def __init__(self, paths: list[str], some: Callable[[pd.DataFrame], pd.DataFrame]) -> None:
+        self._read = lru_cache(maxsize=4)(lambda shard: some(pd.read_csv(paths[shard])))
+        self._ends = np.cumsum([len(self._read(shard)) for shard in range(len(paths))])
+
+    def __len__(self) -> int:
+        return int(self._ends[-1])
+
+    def __getitem__(self, number: int) -> pd.Series:
+        shard = int(np.searchsorted(self._ends, number, side="right"))
+        return self._read(shard).iloc[number - self._ends[shard]]  # from the end: negative
+
+
+def those_that_change(table: pd.DataFrame) -> pd.DataFrame:
+    """Return the rows in which some motions stand and some fall."""
+    return table[table.outcomes.str.contains(STANDS) & table.outcomes.str.contains(FALLS)]
+
+
 def boundary(structure: Structure, record: Record, low: float, high: float) -> float:
     """Return a factor between two of unlike outcome at which the outcome changes."""
     below = overturned_by(structure, record, [low])[0]
@@ -32,18 +54,17 @@ def boundary(structure: Structure, record: Record, low: float, high: float) -> f
 
 
 def main(case: dict, structures: dict, paths: list[str], tightened: float) -> dict:
-    table = pd.concat(pd.read_csv(path) for path in paths)
+    every, changing = Rows(paths, lambda table: table), Rows(paths, those_that_change)
     motions = {tuple(draw.labels.values()): draw for draw in draws(case)}
     under = {tuple(subject.labels.values()): subject for subject in subjects(case, structures)}
     levels, spec = intensities(case), case["sample"]
     rng = np.random.default_rng(case["seed"])
-    changing = table[table.outcomes.str.contains(STANDS) & table.outcomes.str.contains(FALLS)]
 
     def again(number: int) -> dict:
         """Judge one cell of the sample; odd ones are moved close to a boundary."""
         near = number % 2 == 1
-        some = changing if near else table
-        run = some.iloc[rng.integers(len(some))]
+        some = changing if near else every
+        run = some[rng.integers(len(some))]
         subject = under[run.structure, run.mass_ratio, run.as_large_as]
         record = motions[run.family, run.scenario, run.motion].record()
         scales = factors(subject, record, levels)

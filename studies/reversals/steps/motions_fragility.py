@@ -4,10 +4,14 @@ Intervals are those of motions drawn anew from the ensemble; frames stay paired 
 Families of motions are kept apart.
 """
 
+import csv
+import heapq
 import itertools
 import math
 from collections.abc import Iterator
+from contextlib import ExitStack
 from dataclasses import dataclass
+from operator import itemgetter
 from typing import Any
 
 import numpy as np
@@ -15,30 +19,23 @@ import pandas as pd
 
 from replication.findings import Finding
 from replication.workbench import run, truth, value
-from studies.reversals.outcomes import FALLS
-from studies.reversals.outcomes import read as read_outcomes
+from studies.reversals.outcomes import FALLS, read
 from topheavy.structures import size_ratio
 from topheavy.synthetic import fragility
 from topheavy.synthetic.ensemble import Subject, intensities, subjects
 
-MOTION = ["scenario", "motion"]
 SUBJECT = ["mass_ratio", "as_large_as"]
 TINY = 1e-12  # a share: where no cell differs, none is reversed
 
 
 @dataclass(frozen=True, eq=False)
 class Ensemble:
-    """The outcomes of one family of motions on one structure.
-
-    `outcomes` has the shape (motions, subjects, levels).
-    """
+    """One family of motions on the frames and columns of one structure."""
 
     family: str
     subjects: list[Subject]
-    outcomes: np.ndarray
+    motions: int
     levels: np.ndarray
-    resamples: int
-    seed: int
     confidence: float
 
     @property
@@ -54,47 +51,76 @@ class Ensemble:
         """The place of the solitary column that is as large as R̂ of this γ."""
         return [subject.enlarged for subject in self.subjects].index(as_large_as)
 
-    def means(self, *outcomes: np.ndarray) -> list[np.ndarray]:
-        """Return the means over motions of each: of the ensemble itself, then of its resamples."""
-        return fragility.resampled_means(outcomes, self.resamples, self.seed)
-
     def bounds(self, name: str, values: np.ndarray) -> dict:
         """Return a value of resamples and its interval, named for a table."""
         keys = (name, f"{name}_low", f"{name}_high")
         return dict(zip(keys, fragility.interval(values, self.confidence), strict=True))
 
 
-def read(paths: list[str], case: dict, structures: dict) -> Iterator[Ensemble]:
-    """Yield the ensembles, family by family; a shard is a table in memory only while it is read."""
-    under, boot = list(subjects(case, structures)), case["bootstrap"]
-    shards = [part for path in paths for part in parts(pd.read_csv(path), under)]
-    found = {key: None for key, _, _ in shards}
-    for structure, family in sorted(found, key=lambda key: case["families"].index(key[1])):
-        mine = [part for part in shards if part[0] == (structure, family)]
-        order = pd.MultiIndex.from_tuples([m for _, motions, _ in mine for m in motions]).argsort()
-        yield Ensemble(
-            family,
-            [subject for subject in under if subject.structure == structure],
-            np.concatenate([outcomes for *_, outcomes in mine])[order],
-            intensities(case),
-            boot["resamples"],
-            case["seed"],
-            boot["confidence"],
-        )
+def ensembles(case: dict, structures: dict) -> dict[tuple[str, str], Ensemble]:
+    """Return the ensembles by family and structure, in the order of the tables."""
+    under, levels = list(subjects(case, structures)), intensities(case)
+    each, confidence = case["runs"][case["run"]]["motions"], case["bootstrap"]["confidence"]
+    found = {}
+    for family in case["families"]:
+        for entry in case["cases"]:
+            mine = [subject for subject in under if subject.structure == entry["structure"]]
+            motions = len(case["scenarios"]) * math.ceil(entry["share"] * each)
+            found[family, entry["structure"]] = Ensemble(family, mine, motions, levels, confidence)
+    return found
 
 
-def parts(table: pd.DataFrame, under: list[Subject]) -> Iterator[tuple]:
-    """Yield of a shard: structure and family, its motions, and their outcomes as in Ensemble."""
-    for key, cells in table.groupby(["structure", "family"], sort=False):
-        wide = cells.pivot_table(
-            index=MOTION,
-            columns=["as_large_as", "mass_ratio"],
-            values="outcomes",
-            aggfunc="first",
-        )
-        mine = [(s.enlarged, s.frame.mass_ratio) for s in under if s.structure == key[0]]
-        outcomes = np.array([read_outcomes(motion) for motion in wide[mine].to_numpy()])
-        yield key, list(wide.index), outcomes == FALLS
+def gathered(
+    paths: list[str], case: dict, structures: dict
+) -> Iterator[tuple[Ensemble, list[np.ndarray]]]:
+    """Yield each ensemble with its means: of the outcomes, then of `differing`.
+
+    Outcomes of `fragility.BLOCK` motions are in memory, however many there are.
+    """
+    found, boot = ensembles(case, structures), case["bootstrap"]
+    sums = {
+        key: fragility.ResampledMeans(ensemble.motions, boot["resamples"], case["seed"])
+        for key, ensemble in found.items()
+    }
+    waiting: dict[tuple[str, str], list] = {key: [] for key in found}
+
+    def add(key: tuple[str, str]) -> None:
+        texts = [text for motion in waiting[key] for text in motion]
+        ensemble = found[key]
+        fell = read(texts).reshape(-1, len(ensemble.subjects), ensemble.levels.size)
+        sums[key].add([fell == FALLS, *differing(ensemble, fell == FALLS)])
+        waiting[key].clear()
+
+    for key, cells in motions(paths, case["families"]):
+        mine = [(s.enlarged, s.frame.mass_ratio) for s in found[key].subjects]
+        waiting[key].append([cells[one] for one in mine])
+        if len(waiting[key]) == fragility.BLOCK:
+            add(key)
+    for key, ensemble in found.items():
+        if waiting[key]:
+            add(key)
+        yield ensemble, sums[key].means()
+
+
+def motions(paths: list[str], families: list[str]) -> Iterator[tuple[tuple[str, str], dict]]:
+    """Yield family and structure of every motion, and its outcomes by (as_large_as, mass_ratio).
+
+    They come in the order of the ensemble, which every shard has, whatever shards there are.
+    """
+
+    def number(row: dict) -> tuple[int, int, int]:
+        return families.index(row["family"]), int(row["scenario"]), int(row["motion"])
+
+    with ExitStack() as stack:
+        files = [stack.enter_context(open(path, encoding="utf-8", newline="")) for path in paths]
+        rows = heapq.merge(*map(csv.DictReader, files), key=number)
+        for (family, structure, *_), cells in itertools.groupby(
+            rows, itemgetter("family", "structure", "scenario", "motion")
+        ):
+            outcomes = {
+                (float(c["as_large_as"]), float(c["mass_ratio"])): c["outcomes"] for c in cells
+            }
+            yield (family, structure), outcomes
 
 
 def curves(ensemble: Ensemble, means: np.ndarray) -> pd.DataFrame:
@@ -122,7 +148,7 @@ def capacities(ensemble: Ensemble, medians: np.ndarray) -> pd.DataFrame:
         rows.append(
             ensemble.labels
             | {key: subject.labels[key] for key in SUBJECT}
-            | {"motions": len(ensemble.outcomes), "size_gain": size_ratio(gamma) - 1.0}
+            | {"motions": ensemble.motions, "size_gain": size_ratio(gamma) - 1.0}
             | {"expected_gain": math.sqrt(size_ratio(gamma)) - 1.0}
             | ensemble.bounds("median", medians[:, place])
             | {"median_pgv": medians[0, place] * subject.unit}
@@ -131,14 +157,15 @@ def capacities(ensemble: Ensemble, medians: np.ndarray) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def differing(ensemble: Ensemble) -> list[np.ndarray]:
+def differing(ensemble: Ensemble, outcomes: np.ndarray) -> list[np.ndarray]:
     """Return for each pair of frames the cells in which only the lighter, only the heavier falls.
 
-    With the motions under which the heavier alone falls at some level, these are three arrays.
+    With the motions under which the heavier alone falls at some level, these are three arrays. The
+    outcomes have the shape (motions, subjects, levels).
     """
     found = []
     for i, j in itertools.combinations(ensemble.frames.values(), 2):
-        one, other = ensemble.outcomes[:, i], ensemble.outcomes[:, j]
+        one, other = outcomes[:, i], outcomes[:, j]
         found += [one & ~other, other & ~one, (other & ~one).any(axis=1)]
     return found
 
@@ -152,7 +179,7 @@ def pairs(ensemble: Ensemble, means: list[np.ndarray]) -> pd.DataFrame:
     that do it at some level.
     """
     rows = []
-    cells = ensemble.outcomes[:, 0].size
+    cells = ensemble.motions * ensemble.levels.size
     triples = zip(means[::3], means[1::3], means[2::3], strict=True)
     of_pairs = itertools.combinations(ensemble.frames, 2)
     for (light, heavy), (bought, lost, some) in zip(of_pairs, triples, strict=True):
@@ -228,8 +255,7 @@ def plain(bounds: dict) -> dict:
 
 def main(case: dict, structures: dict, paths: list[str]) -> tuple[dict[str, pd.DataFrame], dict]:
     tables, order, beyond, shares = {"fragility": [], "medians": [], "pairs": []}, [], [], []
-    for ensemble in read(paths, case, structures):
-        means, *of_pairs = ensemble.means(ensemble.outcomes, *differing(ensemble))
+    for ensemble, (means, *of_pairs) in gathered(paths, case, structures):
         medians = fragility.medians(ensemble.levels, means)
         tables["fragility"].append(curves(ensemble, means))
         tables["medians"].append(capacities(ensemble, medians))
@@ -237,7 +263,7 @@ def main(case: dict, structures: dict, paths: list[str]) -> tuple[dict[str, pd.D
         order.append(falls(ensemble, means))
         beyond += beyond_size(ensemble, medians)
         shares += shares_of_gain(ensemble, medians, case["shares_of_gain"])
-        print(ensemble.labels, len(ensemble.outcomes), "motions", flush=True)
+        print(ensemble.labels, ensemble.motions, "motions", flush=True)
     tables = {name: pd.concat(parts) for name, parts in tables.items()}
     pair, less, curve = tables["pairs"], pd.concat(order), tables["fragility"]
     findings = {

@@ -83,8 +83,7 @@ def findings(monkeypatch, *, reversed_high=0.4, beyond=((0.01, 0.03),), half_hig
     pair = {"only_heavier": 0.1, "cells": 9, "reversed": 0.3, "reversed_high": reversed_high}
     less = {"less": 0.1, "less_low": 0.05, "less_high": 0.2}
     given = {
-        "read": [SimpleNamespace(labels={}, levels=None, outcomes=[], means=lambda *_: [None])],
-        "differing": [],
+        "gathered": [(SimpleNamespace(labels={}, levels=None, motions=0), [None])],
         "curves": pd.DataFrame([{"probability": 0.5, "fitted": 0.5}]),
         "capacities": pd.DataFrame(),
         "pairs": pd.DataFrame([pair]),

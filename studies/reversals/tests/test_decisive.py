@@ -12,6 +12,7 @@ from replication.findings import read_findings
 from steps.spectra_compared import Spectra
 from studies.reversals.steps import motions_fragility, motions_records, pulses
 from topheavy import STANDARD_GRAVITY, Column, Record
+from topheavy.synthetic import fragility
 from topheavy.synthetic.ensemble import factors, subjects
 
 STUDY = Path(__file__).resolve().parents[1]
@@ -75,19 +76,20 @@ def test_rise_that_no_interval_excludes_is_not_denied(low, high, holds):
 
 
 def ensemble(*outcomes):
-    """An ensemble of frames of γ = 0, 1 and ∞, each with its outcomes over motions."""
+    """Frames of γ = 0, 1 and ∞, each with its outcomes over motions, and the means over these."""
     under = list(subjects(ENSEMBLE, STRUCTURES))
     fell = np.stack([np.array(one, dtype=bool)[:, None] for one in outcomes], axis=1)
-    return motions_fragility.Ensemble("broadband", under, fell, np.ones(1), 200, 1, 0.95)
+    found = motions_fragility.Ensemble("broadband", under, len(fell), np.ones(1), 0.95)
+    sums = fragility.ResampledMeans(len(fell), 200, 1)
+    sums.add([fell, *motions_fragility.differing(found, fell)])
+    return found, sums.means()
 
 
 @pytest.mark.parametrize("rising", [False, True])
 def test_heavier_frame_that_overturns_more_often_is_noticed(rising):
     often, seldom = [1, 1, 1, 0] * 50, [1, 0, 0, 0] * 50
-    found = ensemble(often, seldom, seldom)
-    if rising:
-        found = ensemble(seldom, often, often)
-    means, *of_pairs = found.means(found.outcomes, *motions_fragility.differing(found))
+    order = (seldom, often, often) if rising else (often, seldom, seldom)
+    found, (means, *of_pairs) = ensemble(*order)
     table = motions_fragility.falls(found, means)
     assert motions_fragility.never_rises(table, 0.05)["holds"] is not rising
     assert table.less.iloc[0] == pytest.approx(-0.5 if rising else 0.5)
@@ -97,8 +99,8 @@ def test_heavier_frame_that_overturns_more_often_is_noticed(rising):
 
 def test_small_rises_that_add_up_are_noticed():
     fell = [[1] * number + [0] * (100 - number) for number in (40, 44, 48)]
-    found = ensemble(*fell)
-    table = motions_fragility.falls(found, *found.means(found.outcomes))
+    found, (means, *_) = ensemble(*fell)
+    table = motions_fragility.falls(found, means)
     assert sorted(table.less.round(9)) == [-0.08, -0.04, -0.04]
 
 

@@ -27,15 +27,38 @@ def test_structures_that_fall_together_fall_together_in_every_resample():
     assert means.sum(axis=1) == pytest.approx(np.ones(21))
 
 
-@pytest.mark.parametrize("block", [50, 333, 10**6])  # weights: one row, six, all at a time
-def test_means_by_blocks_of_weights_are_those_by_all_weights(monkeypatch, block):
+def in_blocks(sizes, *outcomes, resamples=20):
+    found = fragility.ResampledMeans(len(outcomes[0]), resamples, 1)
+    for part in np.split(np.arange(len(outcomes[0])), np.cumsum(sizes)):
+        found.add([each[part] for each in outcomes])
+    return found.means()
+
+
+def test_means_of_a_single_block_are_those_of_all_weights():
     random = np.random.default_rng(5)
     fell, first = random.random((50, 3, 2)) < 0.3, random.random(50) < 0.5
     weights = fragility.resampled(50, 20, 1)
-    monkeypatch.setattr(fragility, "BLOCK", block)
-    found = fragility.resampled_means([fell, first], 20, 1)
+    found = in_blocks([], fell, first)
     assert found[0] == pytest.approx(fragility.means(weights, fell), rel=1e-14)
     assert found[1] == pytest.approx(fragility.means(weights, first), rel=1e-14)
+
+
+def test_means_by_blocks_scatter_as_those_of_all_weights():
+    """Motions of the first block fall more often; each resample draws 400, of whichever blocks."""
+    fell = np.arange(400)[:, None] < [40, 200]
+    (means,) = in_blocks([30, 170, 1], fell, resamples=4000)
+    assert means[0] == pytest.approx([0.1, 0.5], rel=1e-12)
+    assert means[1:].mean(axis=0) == pytest.approx([0.1, 0.5], abs=2e-3)
+    assert means[1:].std(axis=0) == pytest.approx(np.sqrt([0.09 / 400, 0.25 / 400]), rel=0.05)
+    (everything,) = in_blocks([30, 170, 1], np.ones(400))
+    assert everything == pytest.approx(np.ones(21), rel=1e-12)
+
+
+def test_missing_motions_are_missed():
+    found = fragility.ResampledMeans(50, 20, 1)
+    found.add([np.ones(49)])
+    with pytest.raises(ValueError, match="49 motions were found; expected those of 50"):
+        found.means()
 
 
 def test_interval_holds_the_middle_of_the_resamples():

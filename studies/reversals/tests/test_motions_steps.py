@@ -9,6 +9,7 @@ import pytest
 from studies.reversals.outcomes import FALLS, STANDS, read, written
 from studies.reversals.steps import motions_check, motions_fragility, motions_records, motions_shard
 from topheavy import Column, Record, RockingFrame, judge
+from topheavy.synthetic import fragility
 from topheavy.synthetic.ensemble import draws, factors, intensities, subjects
 from topheavy.synthetic.motions import peak_velocity, strength
 
@@ -90,9 +91,10 @@ def test_pairs_count_what_differs():
         for gamma in (0.0, 1.0)
     ]
     outcomes = np.stack([light, heavy], axis=1) == 1
-    ensemble = motions_fragility.Ensemble("broadband", under, outcomes, np.ones(3), 50, 1, 0.9)
-    means = ensemble.means(*motions_fragility.differing(ensemble))
-    (pair,) = motions_fragility.pairs(ensemble, means).itertuples()
+    ensemble = motions_fragility.Ensemble("broadband", under, len(outcomes), np.ones(3), 0.9)
+    sums = fragility.ResampledMeans(len(outcomes), 50, 1)
+    sums.add(motions_fragility.differing(ensemble, outcomes))
+    (pair,) = motions_fragility.pairs(ensemble, sums.means()).itertuples()
     assert (pair.only_lighter, pair.only_heavier) == pytest.approx((2 / 6, 1 / 6))
     assert (pair.reversed, pair.motions) == pytest.approx((1 / 3, 1 / 2))
 
@@ -105,6 +107,30 @@ def test_findings_come_with_intervals_around_their_values(shards):
         assert (table[value] <= table[f"{value}_high"] + 1e-12).all()
     cells = 2 * 3 * 40 * 11  # families, pairs, motions, levels
     assert findings["heavier_is_safer"]["cells"] == cells
+
+
+def test_shards_and_their_order_do_not_matter(shards, tmp_path):
+    descending = {"by": ["family", "scenario", "motion"], "ascending": [False, True, True]}
+    table = pd.concat(map(pd.read_csv, shards)).sort_values(**descending, kind="stable")
+    parts = [tmp_path / f"{number}.csv" for number in (2, 0, 1)]
+    for number, path in enumerate(parts):
+        table[table.motion % 3 == number].to_csv(path, index=False)
+    (tables, _), (others, _) = (
+        motions_fragility.main(CASE, STRUCTURES, paths) for paths in (shards, parts)
+    )
+    for name, found in tables.items():
+        pd.testing.assert_frame_equal(found, others[name], check_exact=True)
+
+
+def test_memory_holds_a_block_of_motions(shards, monkeypatch):
+    """Twenty motions a block in place of forty: the same probabilities, other resamples."""
+    (whole, _) = motions_fragility.main(CASE, STRUCTURES, shards)
+    monkeypatch.setattr(motions_fragility.fragility, "BLOCK", 20)
+    (parts, _) = motions_fragility.main(CASE, STRUCTURES, shards)
+    one, other = whole["fragility"], parts["fragility"]
+    assert other.probability.to_numpy() == pytest.approx(one.probability.to_numpy(), rel=1e-12)
+    assert (other.probability_low != one.probability_low).any()
+    assert np.abs(other.probability_low - one.probability_low).max() < 0.1
 
 
 def test_boundary_lies_where_the_outcome_changes():
