@@ -5,7 +5,7 @@ from matplotlib.colors import BoundaryNorm
 
 from figures.drawing import MODELS, gamma
 from figures.palette import ERRORS, HATCHED
-from replication.drawing import DOUBLE, INK, publish, sheet
+from replication.drawing import DOUBLE, INK, make_figure, sheet
 
 LEVELS = [1, 2, 5, 10, 20, 50, 100]  # %
 
@@ -48,4 +48,4 @@ def draw(allen_errors):
 
 
 if __name__ == "__main__":
-    publish(snakemake, draw)
+    make_figure(snakemake, draw)

@@ -2,7 +2,7 @@
 
 from figures.drawing import MODELS
 from figures.palette import MODEL
-from replication.drawing import DOUBLE, GREY, INK, letter, note, publish, sheet
+from replication.drawing import DOUBLE, GREY, INK, letter, make_figure, note, sheet
 
 MOTIONS = {"pulse": "One-sine pulse", "record": "El Centro 1940, scaled"}
 
@@ -34,4 +34,4 @@ def draw(allen_histories):
 
 
 if __name__ == "__main__":
-    publish(snakemake, draw)
+    make_figure(snakemake, draw)

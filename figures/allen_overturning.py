@@ -4,7 +4,7 @@ from matplotlib.colors import ListedColormap
 from matplotlib.patches import Patch
 
 from figures.palette import CONSERVATIVE, MODEL, OVERTURNED
-from replication.drawing import DOUBLE, PAPER, letter, note, publish, sheet
+from replication.drawing import DOUBLE, PAPER, letter, make_figure, note, sheet
 
 VERDICTS = {
     "both survive": PAPER,
@@ -51,4 +51,4 @@ def draw(allen_overturning):
 
 
 if __name__ == "__main__":
-    publish(snakemake, draw)
+    make_figure(snakemake, draw)

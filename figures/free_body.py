@@ -5,7 +5,7 @@ import math
 from matplotlib.patches import Arc, Polygon
 
 from figures.palette import CAP, FORCE, STONE
-from replication.drawing import DOUBLE, GREY, INK, letter, note, publish, sheet
+from replication.drawing import DOUBLE, GREY, INK, letter, make_figure, note, sheet
 
 SET_OFF = 0.14  # m, between the cap and what is drawn beside it
 FORCES = {  # name; label and its place beside the arrow's free end, in points
@@ -121,4 +121,4 @@ def draw(outlines, free_body):
 
 
 if __name__ == "__main__":
-    publish(snakemake, draw)
+    make_figure(snakemake, draw)

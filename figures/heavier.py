@@ -4,7 +4,7 @@ from string import ascii_lowercase
 
 from figures.drawing import gamma
 from figures.palette import OVERTURNS, SURVIVES
-from replication.drawing import DOUBLE, GREY, INK, PALE, PAPER, note, publish, shades, sheet
+from replication.drawing import DOUBLE, GREY, INK, PALE, PAPER, make_figure, note, shades, sheet
 
 NAMES = {0.0: ", solitary column"}
 POINTS = {"textcoords": "offset points"}
@@ -60,4 +60,4 @@ def draw(heavier_histories, heavier):
 
 
 if __name__ == "__main__":
-    publish(snakemake, draw)
+    make_figure(snakemake, draw)

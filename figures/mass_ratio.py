@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from replication.drawing import DOUBLE, GREY, INK, PAPER, letter, note, publish, sheet
+from replication.drawing import DOUBLE, GREY, INK, PAPER, letter, make_figure, note, sheet
 
 GAMMA = r"Mass ratio, $\gamma = m_\mathrm{b}/2m_\mathrm{c}$ (–)"
 
@@ -39,4 +39,4 @@ def draw(mass_ratio):
 
 
 if __name__ == "__main__":
-    publish(snakemake, draw)
+    make_figure(snakemake, draw)

@@ -4,7 +4,7 @@ from matplotlib.colors import BoundaryNorm
 
 from figures.drawing import gamma
 from figures.palette import HATCHED, OVERTURNED, PEAKS
-from replication.drawing import DOUBLE, INK, letter, note, publish, sheet
+from replication.drawing import DOUBLE, INK, letter, make_figure, note, sheet
 
 LEVELS = [0, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.1]  # of α
 
@@ -41,4 +41,4 @@ def draw(peak_maps):
 
 
 if __name__ == "__main__":
-    publish(snakemake, draw)
+    make_figure(snakemake, draw)

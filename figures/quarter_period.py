@@ -1,7 +1,7 @@
 """The period of free rocking against its amplitude, exact and linearised."""
 
 from figures.palette import greys
-from replication.drawing import DOUBLE, GREY, INK, letter, note, publish, sheet
+from replication.drawing import DOUBLE, GREY, INK, letter, make_figure, note, sheet
 
 
 def draw(quarter_period):
@@ -38,4 +38,4 @@ def draw(quarter_period):
 
 
 if __name__ == "__main__":
-    publish(snakemake, draw)
+    make_figure(snakemake, draw)

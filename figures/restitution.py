@@ -3,7 +3,7 @@
 import numpy as np
 
 from figures.drawing import gamma
-from replication.drawing import DOUBLE, GREY, INK, letter, note, publish, shades, sheet
+from replication.drawing import DOUBLE, GREY, INK, letter, make_figure, note, shades, sheet
 
 LEADERS = (  # γ and slenderness of a curve, its formula, and where that is written
     (0.0, 30.0, "Housner, solitary column:\n$1-\\frac{3}{2}\\sin^2\\alpha$", (35, 0.8)),
@@ -56,4 +56,4 @@ def draw(restitution_over_slenderness, restitution_over_mass_ratio):
 
 
 if __name__ == "__main__":
-    publish(snakemake, draw)
+    make_figure(snakemake, draw)

@@ -6,7 +6,7 @@ from matplotlib.patches import Patch, Rectangle
 
 from figures.drawing import RECORDS, gamma
 from figures.palette import HATCHED, PEAKS, UNDECIDED
-from replication.drawing import DOUBLE, GREY, note, publish, sheet
+from replication.drawing import DOUBLE, GREY, make_figure, note, sheet
 
 COLUMNS = 3
 TICKS = (0.5, 1, 2, 5, 10, 20)
@@ -60,4 +60,4 @@ def draw(rocking_spectra):
 
 
 if __name__ == "__main__":
-    publish(snakemake, draw)
+    make_figure(snakemake, draw)

@@ -1,7 +1,7 @@
 """Housner's two scale effects: the larger of two similar columns, the longer of two pulses."""
 
 from figures.palette import OVERTURNS, SURVIVES
-from replication.drawing import DOUBLE, GREY, PALE, letter, note, publish, sheet
+from replication.drawing import DOUBLE, GREY, PALE, letter, make_figure, note, sheet
 
 DASHES = {"smaller": (0, (4, 1.5)), "larger": "-"}
 
@@ -33,4 +33,4 @@ def draw(scale_effects):
 
 
 if __name__ == "__main__":
-    publish(snakemake, draw)
+    make_figure(snakemake, draw)

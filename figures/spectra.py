@@ -3,7 +3,7 @@
 import numpy as np
 
 from figures.drawing import HIGHEST, PULSES, amplitude_axis, gamma
-from replication.drawing import DOUBLE, GREY, PAPER, letter, note, publish, shades, sheet
+from replication.drawing import DOUBLE, GREY, PAPER, letter, make_figure, note, shades, sheet
 
 DRAWN = [0.0, 1.0, np.inf]  # γ
 
@@ -49,4 +49,4 @@ def draw(spectra):
 
 
 if __name__ == "__main__":
-    publish(snakemake, draw)
+    make_figure(snakemake, draw)

@@ -3,7 +3,7 @@
 from matplotlib.ticker import NullLocator
 
 from figures.drawing import PULSES, gamma
-from replication.drawing import DOUBLE, GREY, INK, note, publish, shades, sheet
+from replication.drawing import DOUBLE, GREY, INK, make_figure, note, shades, sheet
 
 PERIODS = (0.3, 0.5, 1, 2, 3, 5, 8)  # s, marked on an axis that reaches them
 LEVELS = (0.2, 0.3, 0.5, 1, 2)  # g
@@ -74,4 +74,4 @@ def draw(spectra_dimensional, spectra_published):
 
 
 if __name__ == "__main__":
-    publish(snakemake, draw)
+    make_figure(snakemake, draw)

@@ -4,7 +4,7 @@ import numpy as np
 
 from figures.drawing import HIGHEST, PULSES, amplitude_axis, gamma
 from figures.palette import AT_ONCE, MODEL, OVERTURNED
-from replication.drawing import DOUBLE, note, publish, sheet
+from replication.drawing import DOUBLE, make_figure, note, sheet
 
 MODES = {"with impact": OVERTURNED, "without impact": AT_ONCE}
 
@@ -49,4 +49,4 @@ def draw(spectra):
 
 
 if __name__ == "__main__":
-    publish(snakemake, draw)
+    make_figure(snakemake, draw)

@@ -4,7 +4,7 @@ from matplotlib.patches import Polygon
 
 from figures.drawing import gamma
 from figures.palette import CAP, FORCE, STONE
-from replication.drawing import DOUBLE, GREY, INK, PAPER, letter, note, publish, shades, sheet
+from replication.drawing import DOUBLE, GREY, INK, PAPER, letter, make_figure, note, shades, sheet
 
 GAP = 2.6  # m between the structures
 
@@ -68,4 +68,4 @@ def draw(outlines, moment_rotation):
 
 
 if __name__ == "__main__":
-    publish(snakemake, draw)
+    make_figure(snakemake, draw)

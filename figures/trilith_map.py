@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.colors import ListedColormap
 
 from figures.palette import AT_ONCE, ROCKS
-from replication.drawing import DOUBLE, INK, letter, note, publish, sheet
+from replication.drawing import DOUBLE, INK, letter, make_figure, note, sheet
 
 ARROW = {"arrowstyle": "-|>", "color": INK, "shrinkA": 0, "shrinkB": 0, "mutation_scale": 7}
 
@@ -91,4 +91,4 @@ def draw(trilith_map, trilith_uplift, trilith_nearness):
 
 
 if __name__ == "__main__":
-    publish(snakemake, draw)
+    make_figure(snakemake, draw)

@@ -1,7 +1,7 @@
 """The trilith below its uplift acceleration: two starts of the shake table."""
 
 from figures.palette import SURVIVES
-from replication.drawing import DOUBLE, GREY, INK, PALE, PAPER, letter, note, publish, sheet
+from replication.drawing import DOUBLE, GREY, INK, PALE, PAPER, letter, make_figure, note, sheet
 
 
 def draw(trilith_starts, trilith_histories):
@@ -68,4 +68,4 @@ def draw(trilith_starts, trilith_histories):
 
 
 if __name__ == "__main__":
-    publish(snakemake, draw)
+    make_figure(snakemake, draw)

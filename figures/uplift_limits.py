@@ -1,7 +1,7 @@
 """What uplift limits: base shear over shaking, ratios to the held frame, and what it costs."""
 
 from figures.drawing import gamma
-from replication.drawing import DOUBLE, GREY, INK, PAPER, letter, note, publish, shades, sheet
+from replication.drawing import DOUBLE, GREY, INK, PAPER, letter, make_figure, note, shades, sheet
 
 FORCES = {
     "base_shear": ("base shear", "o"),
@@ -77,4 +77,4 @@ def draw(uplift_limits, uplift_ratios):
 
 
 if __name__ == "__main__":
-    publish(snakemake, draw)
+    make_figure(snakemake, draw)

@@ -7,7 +7,7 @@ from matplotlib.patches import Polygon, Rectangle
 
 from figures.drawing import gamma
 from figures.palette import OVERTURNED, OVERTURNS, ROCKS, SURVIVES
-from replication.drawing import DOUBLE, GREY, INK, PAPER, letter, note, publish, sheet
+from replication.drawing import DOUBLE, GREY, INK, PAPER, letter, make_figure, note, sheet
 
 PLACES = {"bare": 0.0, "fixed": 10.2, "free": 22.6}  # m: the middle of each structure
 NAMES = {"bare": "Column", "fixed": "Vase: mass fixed to it", "free": "Frame: mass carried freely"}
@@ -114,4 +114,4 @@ def draw(vase, vase_poses):
 
 
 if __name__ == "__main__":
-    publish(snakemake, draw)
+    make_figure(snakemake, draw)

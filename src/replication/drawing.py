@@ -28,7 +28,7 @@ LIGHTEST, DARKEST = (0.36, 0.58, 0.80), (0.02, 0.12, 0.32)  # 3 to 1 on white, a
 PLACES = 6  # decimals of the places of axes, over the size of the figure
 
 
-def publish(job, draw: Callable[..., Figure]) -> None:
+def make_figure(job, draw: Callable[..., Figure]) -> None:
     """Draw the tables of a Snakemake job, each passed under its own name, and save the figure.
 
     The parameters `title` and `alt` of the job become the title and the description of the SVG.

@@ -226,7 +226,7 @@ def read(path: Path) -> list[Row]:
         return [Row(**row) for row in csv.DictReader(file)]
 
 
-def publish(
+def write(
     rows: Sequence[Row],
     ledger: Iterable[Claim],
     table: Path,

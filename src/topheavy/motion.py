@@ -110,7 +110,7 @@ def respond(
     forcing_end = force(block, excitation, motion, fly, duration)
     moved = bool(motion.moving or (motion.arcs and motion.peak > 0.0))
 
-    end = judge(block, motion)
+    end = free_ending(block, motion)
     counted = len(motion.impacts) + end.impacts
     until = duration
     if until is None and not isinstance(times, int):
@@ -187,7 +187,7 @@ def force(
     return forcing_end
 
 
-def judge(block: RockingBlock, motion: Motion) -> free_rocking.Ending:
+def free_ending(block: RockingBlock, motion: Motion) -> free_rocking.Ending:
     """Return how the free rocking ends that follows the forcing."""
     if motion.fallen:
         return free_rocking.Ending(overturned=True, peak=math.nan, impacts=0)

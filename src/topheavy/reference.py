@@ -89,7 +89,7 @@ def judge(
     course.restitutions = [checks.fraction("restitutions", value) for value in restitutions]
     ground = with_vertical(excitation, vertical, linearised=block.linearised)
     motion.force(block, ground, course, _flight(tolerance))
-    end = motion.judge(block, course)
+    end = motion.free_ending(block, course)
     return free_rocking.Ending(
         overturned=end.overturned,
         peak=math.nan if end.overturned else max(course.peak, end.peak),

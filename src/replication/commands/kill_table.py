@@ -22,7 +22,7 @@ from pathlib import Path
 
 from replication.claim import Claim
 from replication.faults import JUDGING, Fault, load
-from replication.kill_table import Row, caught, first_failing, publish, put_to_the_test, workflow
+from replication.kill_table import Row, caught, first_failing, put_to_the_test, workflow, write
 from replication.ledger import read_ledger
 from replication.parts import PAPER, ledger_of
 from replication.strict_yaml import read_yaml
@@ -163,7 +163,7 @@ def main() -> None:
     known = kept(KEPT)
     rows = [known[fault.name][1] for fault in picked]
     if picked == faults:
-        publish(rows, read_ledger(ledger_files()), TABLE)
+        write(rows, read_ledger(ledger_files()), TABLE)
     survivors = [row.name for row in rows if row.caught_by == "SURVIVED"]
     if survivors:
         raise SystemExit(f"{len(survivors)} of {len(rows)} faults survived: {', '.join(survivors)}")

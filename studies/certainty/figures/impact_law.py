@@ -1,7 +1,7 @@
 """What hangs on the impact law: maps under pulses, and probabilities under synthetic motions."""
 
 from figures.palette import CAUSED, PREVENTED
-from replication.drawing import DOUBLE, GREY, INK, PAPER, letter, note, publish, sheet
+from replication.drawing import DOUBLE, GREY, INK, PAPER, letter, make_figure, note, sheet
 
 WAYS = {  # of scaling √r: marker, colour and face, words
     "both": ("o", INK, INK, "both √r"),
@@ -58,4 +58,4 @@ def draw(certainty_restitution):
 
 
 if __name__ == "__main__":
-    publish(snakemake, draw)
+    make_figure(snakemake, draw)

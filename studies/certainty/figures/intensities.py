@@ -1,7 +1,7 @@
 """Probability of overturning at stated peak ground velocities: bare, free cap beam, fixed mass."""
 
 from figures.palette import FIXED
-from replication.drawing import DOUBLE, note, publish, shades, sheet
+from replication.drawing import DOUBLE, make_figure, note, shades, sheet
 
 BARE, FREE = shades(2)
 SUPPORTS = {
@@ -57,4 +57,4 @@ def draw(certainty_intensities):
 
 
 if __name__ == "__main__":
-    publish(snakemake, draw)
+    make_figure(snakemake, draw)

@@ -1,7 +1,7 @@
 """Where the theorems end: an extreme motion, and falls of the minimum that are only apparent."""
 
 from figures.drawing import gamma
-from replication.drawing import DOUBLE, GREY, INK, letter, note, publish, shades, sheet
+from replication.drawing import DOUBLE, GREY, INK, letter, make_figure, note, shades, sheet
 
 LIGHT, HEAVY = shades(2)
 PLACES = {0.0: ((0.45, 0.20), LIGHT), float("inf"): ((0.96, 0.55), HEAVY)}
@@ -33,4 +33,4 @@ def draw(certainty_lowest, certainty_lowest_histories):
 
 
 if __name__ == "__main__":
-    publish(snakemake, draw)
+    make_figure(snakemake, draw)

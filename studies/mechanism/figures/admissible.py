@@ -4,7 +4,7 @@ from matplotlib.colors import BoundaryNorm
 
 from figures.drawing import amplitude_axis, gamma
 from figures.palette import DEMAND, HATCHED, OPENS, OVERTURNED
-from replication.drawing import DOUBLE, INK, letter, note, publish, sheet
+from replication.drawing import DOUBLE, INK, letter, make_figure, note, sheet
 
 LEVELS = [1.0, 1.2, 1.5, 2.0, 3.0, 4.0, 6.0]  # of tan α
 HIGHEST = 24.0
@@ -54,4 +54,4 @@ def draw(mechanism_admissible):
 
 
 if __name__ == "__main__":
-    publish(snakemake, draw)
+    make_figure(snakemake, draw)

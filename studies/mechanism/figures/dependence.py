@@ -4,7 +4,7 @@ import numpy as np
 
 from figures.drawing import gamma
 from figures.palette import OVERTURNS
-from replication.drawing import DOUBLE, GREY, INK, letter, note, publish, shades, sheet
+from replication.drawing import DOUBLE, GREY, INK, letter, make_figure, note, shades, sheet
 
 LABELS = {
     "mass_ratio": r"Mass ratio, $\gamma$ (–)",
@@ -61,4 +61,4 @@ def _records(axis, table):
 
 
 if __name__ == "__main__":
-    publish(snakemake, draw)
+    make_figure(snakemake, draw)

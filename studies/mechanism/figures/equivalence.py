@@ -4,7 +4,7 @@ from matplotlib.colors import ListedColormap
 
 from figures.drawing import PULSES
 from figures.palette import CAUSED, OVERTURNED, PREVENTED, greys
-from replication.drawing import DOUBLE, GREY, PAPER, letter, note, publish, sheet
+from replication.drawing import DOUBLE, GREY, PAPER, letter, make_figure, note, sheet
 
 STYLES = ("o-", "s--", "^-.", "D:")
 
@@ -50,4 +50,4 @@ def draw(mechanism_equivalence, mechanism_equivalence_map):
 
 
 if __name__ == "__main__":
-    publish(snakemake, draw)
+    make_figure(snakemake, draw)

@@ -1,6 +1,6 @@
 """Forces at the four contacts during one history, and the required coefficient of friction."""
 
-from replication.drawing import DOUBLE, GREY, INK, letter, note, publish, sheet
+from replication.drawing import DOUBLE, GREY, INK, letter, make_figure, note, sheet
 
 LINES = {  # contact: label, colour, dashes
     "base_left": ("left base", INK, "-"),
@@ -41,4 +41,4 @@ def draw(mechanism_forces):
 
 
 if __name__ == "__main__":
-    publish(snakemake, draw)
+    make_figure(snakemake, draw)

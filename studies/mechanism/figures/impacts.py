@@ -2,7 +2,7 @@
 
 from figures.drawing import gamma
 from figures.palette import greys
-from replication.drawing import DOUBLE, GREY, letter, note, publish, shades, sheet
+from replication.drawing import DOUBLE, GREY, letter, make_figure, note, shades, sheet
 from studies.mechanism.figures.marks import untested
 
 STYLES = ("o-", "s--", "^-.", "D:")
@@ -49,4 +49,4 @@ def draw(mechanism_first_impacts, mechanism_rebounds):
 
 
 if __name__ == "__main__":
-    publish(snakemake, draw)
+    make_figure(snakemake, draw)

@@ -2,7 +2,7 @@
 
 from figures.drawing import PULSES
 from figures.palette import RECORD, greys
-from replication.drawing import DOUBLE, INK, letter, publish, sheet
+from replication.drawing import DOUBLE, INK, letter, make_figure, sheet
 
 PANELS = {
     "rotation_apart": r"Rotation, over $\alpha$",
@@ -32,4 +32,4 @@ def draw(mechanism_three_bodies):
 
 
 if __name__ == "__main__":
-    publish(snakemake, draw)
+    make_figure(snakemake, draw)

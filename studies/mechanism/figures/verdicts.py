@@ -4,7 +4,7 @@ import numpy as np
 
 from figures.drawing import gamma
 from figures.palette import OVERTURNS, SURVIVES
-from replication.drawing import DOUBLE, GREY, INK, PAPER, letter, note, publish, shades, sheet
+from replication.drawing import DOUBLE, GREY, INK, PAPER, letter, make_figure, note, shades, sheet
 from studies.mechanism.figures.marks import untested
 
 CONTACTS = {"plastic": "no rebound", "bouncing": "rebound"}
@@ -69,4 +69,4 @@ def _pulses(axis, table):
 
 
 if __name__ == "__main__":
-    publish(snakemake, draw)
+    make_figure(snakemake, draw)

@@ -3,7 +3,7 @@
 import numpy as np
 
 from figures.heavier import history
-from replication.drawing import DOUBLE, GREY, INK, PAPER, letter, note, publish, sheet
+from replication.drawing import DOUBLE, GREY, INK, PAPER, letter, make_figure, note, sheet
 
 
 def first_impact(axis, run):
@@ -29,4 +29,4 @@ def draw(reversals_histories):
 
 
 if __name__ == "__main__":
-    publish(snakemake, draw)
+    make_figure(snakemake, draw)

@@ -3,7 +3,7 @@
 import numpy as np
 
 from figures.drawing import PULSES
-from replication.drawing import DOUBLE, GREY, INK, PAPER, note, publish, sheet
+from replication.drawing import DOUBLE, GREY, INK, PAPER, make_figure, note, sheet
 from topheavy.synthetic.fragility import mass_ratio_of_share
 
 QUANTILES = [0.0, 0.25, 0.5, 0.75, 1.0]
@@ -33,4 +33,4 @@ def draw(reversals_enough):
 
 
 if __name__ == "__main__":
-    publish(snakemake, draw)
+    make_figure(snakemake, draw)

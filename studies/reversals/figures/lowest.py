@@ -3,7 +3,7 @@
 import numpy as np
 
 from figures.drawing import PULSES, gamma
-from replication.drawing import DOUBLE, GREY, note, publish, shades, sheet
+from replication.drawing import DOUBLE, GREY, make_figure, note, shades, sheet
 
 
 def draw(reversals_spectra):
@@ -33,4 +33,4 @@ def draw(reversals_spectra):
 
 
 if __name__ == "__main__":
-    publish(snakemake, draw)
+    make_figure(snakemake, draw)

@@ -3,7 +3,7 @@
 import math
 
 from figures.drawing import gamma
-from replication.drawing import DOUBLE, GREY, INK, letter, note, publish, shades, sheet
+from replication.drawing import DOUBLE, GREY, INK, letter, make_figure, note, shades, sheet
 
 STRUCTURE = "temple"
 FAMILIES = ("near-fault", "broadband")
@@ -71,4 +71,4 @@ def draw(reversals_fragility):
 
 
 if __name__ == "__main__":
-    publish(snakemake, draw)
+    make_figure(snakemake, draw)

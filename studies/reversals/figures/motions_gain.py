@@ -6,7 +6,7 @@ import numpy as np
 
 from figures.drawing import gamma
 from figures.palette import CAUSED, PREVENTED
-from replication.drawing import DOUBLE, GREY, INK, PAPER, letter, note, publish, sheet
+from replication.drawing import DOUBLE, GREY, INK, PAPER, letter, make_figure, note, sheet
 from topheavy.synthetic.fragility import share_of_size
 
 STRUCTURE = "temple"
@@ -75,4 +75,4 @@ def draw(reversals_pairs, reversals_medians):
 
 
 if __name__ == "__main__":
-    publish(snakemake, draw)
+    make_figure(snakemake, draw)

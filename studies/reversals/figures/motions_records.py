@@ -5,7 +5,7 @@ from matplotlib.colors import ListedColormap
 
 from figures.drawing import RECORDS
 from figures.palette import CAUSED, OVERTURNED, PREVENTED, UNDECIDED
-from replication.drawing import DOUBLE, GREY, PAPER, letter, note, publish, sheet
+from replication.drawing import DOUBLE, GREY, PAPER, letter, make_figure, note, sheet
 from studies.reversals.outcomes import FALLS, UNTOLD, read
 
 CASES = {  # the outcomes of the column and of the frame with γ → ∞
@@ -91,4 +91,4 @@ def draw(reversals_records):
 
 
 if __name__ == "__main__":
-    publish(snakemake, draw)
+    make_figure(snakemake, draw)

@@ -2,7 +2,7 @@
 
 from figures.drawing import gamma
 from figures.palette import FIXED
-from replication.drawing import DOUBLE, GREY, PAPER, letter, note, publish, shades, sheet
+from replication.drawing import DOUBLE, GREY, PAPER, letter, make_figure, note, shades, sheet
 
 BARE, FREE = shades(2)
 LOOKS = {"bare": ("column", BARE), "fixed": ("mass fixed", FIXED), "free": ("mass carried", FREE)}
@@ -63,4 +63,4 @@ def draw(reversals_vase, reversals_uplift):
 
 
 if __name__ == "__main__":
-    publish(snakemake, draw)
+    make_figure(snakemake, draw)

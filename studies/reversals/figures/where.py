@@ -5,7 +5,7 @@ from matplotlib.patches import Patch
 
 from figures.drawing import PULSES
 from figures.palette import CAUSED, OVERTURNED, PREVENTED, tint
-from replication.drawing import DOUBLE, GREY, PAPER, letter, note, publish, sheet
+from replication.drawing import DOUBLE, GREY, PAPER, letter, make_figure, note, sheet
 
 COLOURS = {"both": OVERTURNED, "helps": PREVENTED, "harms": CAUSED}
 NAMES = {"both": "both overturn", "helps": "prevented by cap beam", "harms": "caused by cap beam"}
@@ -106,4 +106,4 @@ def draw(reversals_map, reversals_areas):
 
 
 if __name__ == "__main__":
-    publish(snakemake, draw)
+    make_figure(snakemake, draw)

@@ -2,7 +2,7 @@
 
 from figures.drawing import PULSES
 from figures.palette import CAUSED
-from replication.drawing import DOUBLE, note, publish, sheet
+from replication.drawing import DOUBLE, make_figure, note, sheet
 from studies.reversals.figures.where import map_axis
 
 ROWS = {
@@ -39,4 +39,4 @@ def draw(reversals_map, reversals_why):
 
 
 if __name__ == "__main__":
-    publish(snakemake, draw)
+    make_figure(snakemake, draw)

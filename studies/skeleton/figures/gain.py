@@ -1,7 +1,7 @@
 """Minimum overturning amplitude for increasing γ."""
 
 from figures.drawing import gamma
-from replication.drawing import INK, SINGLE, publish, shades, sheet
+from replication.drawing import INK, SINGLE, make_figure, shades, sheet
 
 
 def draw(skeleton_gain):
@@ -17,4 +17,4 @@ def draw(skeleton_gain):
 
 
 if __name__ == "__main__":
-    publish(snakemake, draw)
+    make_figure(snakemake, draw)

@@ -1,6 +1,6 @@
 """Period of a pendulum against amplitude: two routes, and the series as printed and as meant."""
 
-from replication.drawing import ACCENT, GREY, INK, SINGLE, note, publish, sheet
+from replication.drawing import ACCENT, GREY, INK, SINGLE, note, make_figure, sheet
 
 
 def draw(period):
@@ -19,4 +19,4 @@ def draw(period):
 
 
 if __name__ == "__main__":
-    publish(snakemake, draw)
+    make_figure(snakemake, draw)

@@ -1,6 +1,6 @@
 """The largest amplitude for which the period is that of small swings, within a given share."""
 
-from replication.drawing import INK, SINGLE, publish, shades, sheet
+from replication.drawing import INK, SINGLE, make_figure, shades, sheet
 
 
 def draw(skeleton_limit):
@@ -16,4 +16,4 @@ def draw(skeleton_limit):
 
 
 if __name__ == "__main__":
-    publish(snakemake, draw)
+    make_figure(snakemake, draw)
