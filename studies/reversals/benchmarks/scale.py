@@ -1,6 +1,6 @@
 """How the cost of the study `reversals` grows: motions, lines of its grid, shards, the gather.
 
-Three sizes a factor of ten apart, each in a process of its own, by hand (ten minutes on a core). It
+Sizes a factor of ten apart, each in a process of its own, by hand (a quarter of an hour on a core). It
 writes docs/scale.csv, from which profiles/slurm/README.md extrapolates.
 """
 
@@ -114,7 +114,7 @@ def graph(shards: int) -> tuple[int, int]:
 RUNS = {
     motions: (100, 10, 1),
     grid: (100, 10, 1),
-    gather: (50, 500, 5000),
+    gather: (50, 500, 5000, 50000),
     graph: SHARDS,
 }
 
