@@ -1,7 +1,6 @@
-"""The article and its supplement: their figures, and the alternative text of each."""
+"""The figures of the article, and the alternative text of each."""
 
 import re
-from collections import Counter
 from pathlib import Path
 
 import pytest
@@ -16,15 +15,10 @@ SOURCES = {PAPER: ROOT / "paper" / "report.typ"} | {
 PICTURE = re.compile(r"#picture\((\([^)]*\)|\"[^\"]*\")")
 
 
-SUPPLEMENT = {PAPER: [ROOT / "paper" / "supplement.typ"]} | {
-    part: sorted((ROOT / "studies" / part).glob("section*.typ")) for part in SOURCES if part
-}
-
-
-def drawings(part: str, source: Path | None = None) -> list[list[str]]:
+def drawings(part: str) -> list[list[str]]:
     """The figures that a part of the article shows, each with the paths of its drawings."""
     folder = f"studies/{part}/figures" if part else "figures"
-    found = PICTURE.findall((source or SOURCES[part]).read_text(encoding="utf-8"))
+    found = PICTURE.findall(SOURCES[part].read_text(encoding="utf-8"))
     return [[f"{folder}/{name}.svg" for name in re.findall(r'"([^"]*)"', one)] for one in found]
 
 
@@ -38,14 +32,3 @@ def test_each_drawing_has_an_alternative_text_that_is_not_its_caption(part):
     for path in (path for figure in drawings(part) for path in figure):
         assert captions[path].get("alt"), f"{path} has no alt in {captions_of(part)}"
         assert captions[path]["alt"] not in captions[path]["caption"]
-
-
-@pytest.mark.parametrize("part", SOURCES, ids=lambda part: part or "paper")
-def test_each_drawing_is_shown_once_in_the_article_or_its_supplement(part):
-    sources = [SOURCES[part], *SUPPLEMENT[part]]
-    shown = Counter(
-        path for source in sources for figure in drawings(part, source) for path in figure
-    )
-    captions = read_captions([ROOT / captions_of(part)])
-    drawn = [path for path in captions if path.endswith(".svg") and "/figures/" in f"/{path}"]
-    assert shown == Counter(drawn)

@@ -1,6 +1,8 @@
 """Print the last lines of a run, after Snakemake's output: the verdicts, or how to continue."""
 
 import atexit
+import time
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -15,10 +17,20 @@ GO_ON = (
 
 def close(workflow: Any) -> None:
     """Print the last lines when this process ends."""
-    atexit.register(lambda: print(last_lines(workflow), end="", flush=True))
+    begun = time.time()
+    atexit.register(lambda: print(last_lines(workflow, begun), end="", flush=True))
 
 
-def last_lines(workflow: Any) -> str:
+def faults(jobs: Iterable[Any], begun: float) -> Iterator[str]:
+    """Yield what jobs that ended this run by a verdict say; their messages stand far above."""
+    for log in (Path(str(path)) for job in jobs for path in job.log):
+        if log.exists() and log.stat().st_mtime >= begun:
+            _, found, said = log.read_text(encoding="utf-8").rpartition("SystemExit: ")
+            if found:
+                yield said
+
+
+def last_lines(workflow: Any, begun: float) -> str:
     """Return the verdicts if every result exists; otherwise return how to continue the run.
 
     Parameters
@@ -29,7 +41,8 @@ def last_lines(workflow: Any) -> str:
     if workflow.scheduler is None or workflow.dryrun or workflow.exec_mode != ExecMode.DEFAULT:
         return ""
     dag = workflow.dag
-    if not all(map(dag.finished, dag.needrun_jobs(exclude_finished=False))):
-        return GO_ON
+    waiting = [job for job in dag.needrun_jobs(exclude_finished=False) if not dag.finished(job)]
+    if waiting:
+        return "".join(faults(waiting, begun)) + GO_ON
     is_all = "all" in {rule.name for rule in dag.targetrules}
     return SUMMARY.read_text(encoding="utf-8") if is_all else ""

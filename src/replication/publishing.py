@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from replication.claim import Claim, JudgedClaim
+from replication.crate import CRATE, read_crate
 from replication.findings import Findings, findings_by_rule, write_findings
 from replication.ledger import OURS, as_text, read_ledger
 from replication.parts import PAPER, ledger_of
@@ -174,7 +175,8 @@ def publish(tables: Iterable[str], study_tables: Iterable[str] = ()) -> None:
     Raises
     ------
     SystemExit
-        When there is no finished run, it was made with another config, or it made no such table.
+        When there is no finished run, it was made with another config, it made no such table, or an
+        earlier workflow left findings.
     """
     results, reference = Path("results"), Path("tests/reference")
     if not (results / "claims.json").exists():
@@ -193,6 +195,10 @@ def publish(tables: Iterable[str], study_tables: Iterable[str] = ()) -> None:
                 f"{made} does not exist, and src/steps/publish.py names {name!r} in TABLES; "
                 "expected tables of the run: correct the name, or make reproduce"
             )
+    made_by_rules = read_crate(CRATE).rules
+    for path in sorted(results.glob("findings/*.json")):
+        if path.as_posix() not in made_by_rules:
+            sys.exit(f"{path} is of no rule of the run; expected findings of the run: delete it")
     Path("docs").mkdir(exist_ok=True)
     reference.mkdir(parents=True, exist_ok=True)
     shutil.copyfile("config/config.yaml", reference / "config.yaml")
@@ -209,6 +215,7 @@ def publish(tables: Iterable[str], study_tables: Iterable[str] = ()) -> None:
     publish_findings(results / "findings", reference / "findings")
     (reference / CHECKSUMS).write_text(checksums(reference), encoding="utf-8")
     publish_verdicts(read_ledger(map(ledger_of, [PAPER, *ours["studies"]])), Path())
+    print("published; a run compares its tables with these: 'make reproduce' before 'make verify'")
 
 
 def publish_findings(findings: Path, folder: Path) -> None:

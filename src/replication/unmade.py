@@ -42,7 +42,7 @@ def refuse_unmade(rules: Iterable[Any], tables: Collection[str], reference: Path
         With one line for each such file: who reads it, and how to put it right.
     """
     rules = list(rules)
-    read = {(str(path), f"rule {rule.name}") for rule in rules for path in _paths(rule.input)}
+    read = {(path, _reader(rule, path)) for rule in rules for path in _paths(rule.input)}
     read |= {(f"{RESULTS}tables/{name}.csv", "a figure") for name in tables}
     others = [path for rule in rules for path in _paths(rule.output)]
     is_made = made_by(rules)
@@ -53,6 +53,14 @@ def refuse_unmade(rules: Iterable[Any], tables: Collection[str], reference: Path
             faults.setdefault(path, f"{reader} reads {path}, which no rule makes; {advice}")
     if faults:
         raise ValueError("\n".join(faults.values()))
+
+
+def _reader(rule: Any, path: str) -> str:
+    """Return which rule reads a file, and the text or notebook among its inputs that names it."""
+    texts = [Path(each) for each in map(str, rule.input) if each.endswith((".typ", ".ipynb"))]
+    name = f'"{Path(path).stem}"'
+    named = [p.as_posix() for p in texts if p.is_file() and name in p.read_text(encoding="utf-8")]
+    return f"rule {rule.name}" + (f" ({', '.join(named)})" if named else "")
 
 
 def _paths(files: Iterable[Any]) -> list[str]:

@@ -139,7 +139,8 @@ def tolerance_fault(claim: Claim) -> str:
 def tally(name: str, verdicts: Iterable[str]) -> str:
     """Return a closing line of a run: how many claims of the paper or a study have each verdict."""
     count = Counter(verdicts)
-    return f"{name}: " + ", ".join(f"{count[v]} {PLURALS.get(v, v)}" for v in VERDICTS)
+    words = {v: v if count[v] == 1 else PLURALS.get(v, v) for v in VERDICTS}
+    return f"{name}: " + ", ".join(f"{count[v]} {words[v]}" for v in VERDICTS)
 
 
 def by_origin(rows: Iterable[JudgedClaim]) -> dict[str, list[str]]:

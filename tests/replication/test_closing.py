@@ -84,6 +84,15 @@ def test_failed_run_says_how_to_go_on(start):
     assert said.endswith(GO_ON)
 
 
+def test_verdict_that_failed_the_run_stands_at_its_end(start):
+    run = start("raise SystemExit('claim a is refuted; expected confirmed')")
+    said, _ = run.communicate(timeout=120)
+    assert said.endswith(f"claim a is refuted; expected confirmed\n{GO_ON}")
+    run = start("raise RuntimeError('too stocky')")  # the log of the verdict is old by now
+    said, _ = run.communicate(timeout=120)
+    assert "claim a" not in said
+
+
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_interrupted_run_says_so_without_a_traceback(start, tmp_path, number):
     run = start("time.sleep(100)")

@@ -113,7 +113,7 @@ def python(paper, *command, **environment):
 
 def test_published_edition_is_sound(paper):
     done = python(paper, "-m", "steps.recheck", PYTHONPATH=str(paper / "src"))
-    assert "paper: 2 confirmed, 0 qualified, 0 slips, 1 misprints" in done.stdout
+    assert "paper: 2 confirmed, 0 qualified, 0 slips, 1 misprint" in done.stdout
     assert done.stdout.endswith("tables, claims and pages agree\n"), done.stdout + done.stderr
 
 

@@ -37,6 +37,15 @@ def test_result_that_no_rule_makes_is_refused_with_its_reader():
         refuse_unmade([CURVE, reader], [], NOWHERE)
 
 
+def test_text_that_names_the_missing_result_is_named(tmp_path):
+    texts = [tmp_path / "report.typ", tmp_path / "format.typ"]
+    for text, words in zip(texts, ('#let curve = found("curv")', "nothing"), strict=True):
+        text.write_text(words, encoding="utf-8")
+    reader = Rule("report", ["results/findings/curv.json", *map(str, texts)])
+    with pytest.raises(ValueError, match=rf"^rule report \({texts[0]}\) reads results/findings/cu"):
+        refuse_unmade([CURVE, reader], [], NOWHERE)
+
+
 def test_table_of_a_figure_that_no_rule_makes_is_refused():
     with pytest.raises(ValueError, match=r"a figure reads results/tables/old.csv.* one of curve"):
         refuse_unmade([CURVE], ["old"], NOWHERE)

@@ -38,7 +38,7 @@ AS_EXPECTED = [
 def test_run_closes_with_the_count_of_every_verdict():
     line, faults = main(AS_EXPECTED, compared(peaks="agrees"), {})
     assert line == (
-        "paper: 2 confirmed, 0 qualified, 0 slips, 1 misprints, 1 refuted, 0 by definition, "
+        "paper: 2 confirmed, 0 qualified, 0 slips, 1 misprint, 1 refuted, 0 by definition, "
         "1 not tested"
     )
     assert faults == []
@@ -51,14 +51,14 @@ def test_every_claim_that_came_out_otherwise_is_a_fault_either_way():
         "claim a is refuted; expected confirmed",
         "claim b is qualified; expected refuted",
     ]
-    assert line.startswith("paper: 2 confirmed, 1 qualified, 0 slips, 1 misprints, 2 refuted, ")
+    assert line.startswith("paper: 2 confirmed, 1 qualified, 0 slips, 1 misprint, 2 refuted, ")
 
 
 def test_claims_of_a_study_are_counted_in_a_line_of_their_own():
     ours = replace(claim("ours", "refuted", "refuted"), study="reversals")
     lines, _ = main([*AS_EXPECTED, ours], compared(), {})
     paper, study = lines.splitlines()
-    assert paper.startswith("paper: 2 confirmed, 0 qualified, 0 slips, 1 misprints, 1 refuted, ")
+    assert paper.startswith("paper: 2 confirmed, 0 qualified, 0 slips, 1 misprint, 1 refuted, ")
     assert study.startswith("reversals: 0 confirmed, 0 qualified, 0 slips, 0 misprints, 1 refuted,")
 
 

@@ -166,7 +166,7 @@ def test_tally_names_every_verdict():
         "1 not tested"
     )
     assert tally("reversals", VERDICTS) == (
-        "reversals: 1 confirmed, 1 qualified, 1 slips, 1 misprints, 1 refuted, 1 by definition, "
+        "reversals: 1 confirmed, 1 qualified, 1 slip, 1 misprint, 1 refuted, 1 by definition, "
         "1 not tested"
     )
 

@@ -6,7 +6,9 @@ from dataclasses import replace
 
 import pytest
 
+from replication import publishing
 from replication.claim import Claim
+from replication.crate import Crate
 from replication.findings import Findings
 from replication.ledger import judged
 from replication.publishing import (
@@ -198,7 +200,16 @@ def finished(tmp_path, monkeypatch):
     }.items():
         (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / path).write_text(text, encoding="utf-8")
+    crate = Crate({}, {"results/findings/rule.json": "rule"}, (), "")
+    monkeypatch.setattr(publishing, "read_crate", lambda path: crate)
     return tmp_path
+
+
+def test_findings_that_an_earlier_workflow_left_are_not_published(finished):
+    (finished / "results/findings/old.json").write_text("{}", encoding="utf-8")
+    with pytest.raises(SystemExit, match=r"findings/old.json is of no rule of the run; .* delete"):
+        publish(["new"])
+    assert not (finished / "tests/reference/findings").exists()
 
 
 def test_table_that_is_gone_is_published_no_more(finished):

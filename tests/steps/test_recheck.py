@@ -85,6 +85,18 @@ def test_published_edition_agrees_with_itself():
     assert [line.split(":")[0] for line in lines] == ["paper", "ours", *config["studies"]]
 
 
+def test_edition_without_its_claims_says_so(edition):
+    path = edition / "tests/reference/claims.json"
+    away = path.rename(path.with_suffix(".away"))
+    try:
+        assert main(edition) == (
+            [],
+            [f"{path} does not exist; expected a file of the published run"],
+        )
+    finally:
+        away.rename(path)
+
+
 def row(change):
     """Edit the published row of a claim."""
 

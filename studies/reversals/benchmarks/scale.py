@@ -1,7 +1,7 @@
 """How the cost of the study `reversals` grows: motions, lines of its grid, shards, the gather.
 
-Sizes a factor of ten apart, each in a process of its own, by hand (a quarter of an hour on a core). It
-writes docs/scale.csv, from which profiles/slurm/README.md extrapolates.
+Sizes a factor of ten apart, each in a process of its own, by hand (a quarter of an hour on a
+core). It writes docs/scale.csv, from which profiles/slurm/README.md extrapolates.
 """
 
 import os
