@@ -375,7 +375,7 @@ def _bisect(
 def halvings(low: float, high: float, depth: int) -> list[float]:
     """Return the middle of a bracket, and those of its halves, down to `depth`.
 
-    The kernel judges many factors in little more time than one: ask for all of them at a time.
+    The kernel judges many factors in little more time than one: let it judge them together.
     """
     middle = 0.5 * (low + high)
     if depth == 1:
