@@ -139,7 +139,8 @@ def read(equation: str, side: Side) -> list[sp.Expr]:
 class CircleField:
     """Rational functions of sines, cosines, roots and symbols, reduced by sin² + cos² = 1.
 
-    The angles and the roots count as independent. `plain` has a symbol for each function of them.
+    The angles and the roots count as independent, and so do arc tangents and π. `plain` has a
+    symbol for each function of them.
     """
 
     def __init__(self, expressions: Iterable[sp.Expr]) -> None:
@@ -150,6 +151,7 @@ class CircleField:
         roots = {power.base ** sp.Rational(1, power.exp.q) for power in powers}
         functions = [f(angle) for f in (sp.cos, sp.sin) for angle in angles]
         functions += sorted(roots, key=str)
+        functions += sorted({f for e in expressions for f in e.atoms(sp.atan, sp.pi.func)}, key=str)
         self.plain = {function: sp.Dummy() for function in functions}
         present = {symbol for each in expressions for symbol in each.subs(self.plain).free_symbols}
         named = list(self.plain.values())  # the cosines lead, hence powers of these are reduced

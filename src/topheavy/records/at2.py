@@ -12,8 +12,8 @@ _LONGEST_STEP = 0.2
 """s. No accelerogram has fewer than five samples a second: a longer DT without unit is in ms."""
 
 _NO_UNIT = r"(?!NPTS\b|UNITS?\b)"
-# Either a whole unit with its bracket, or nothing that could be one. Possessive quantifiers would say
-# it in fewer signs; Python 3.11 before 3.11.5 matches them wrongly.
+# Either a whole unit with its bracket, or nothing that could be one. Possessive quantifiers would
+# say it in fewer signs; Python 3.11 before 3.11.5 matches them wrongly.
 _STEP = rf"""(?P<step>{NUMBER})(?![\d.])
     (?:\s*[(\[]?{_NO_UNIT}(?P<unit>[^\W\d_]+)(?![^\W\d_])(?:[)\]]|(?![)\]]))
       |(?!\s*[(\[]?{_NO_UNIT}[^\W\d_]))
