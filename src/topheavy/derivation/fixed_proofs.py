@@ -7,8 +7,6 @@ rational functions.
 
 from __future__ import annotations
 
-from functools import cache
-
 import sympy as sp
 
 from topheavy.derivation.bodies import half_depth
@@ -52,7 +50,6 @@ def _inertia() -> sp.Expr:
     return sp.Rational(4, 3) * m_c * R**2 + I_b + _CAP * arm
 
 
-@cache
 def _fourth_powers() -> tuple[sp.Expr, sp.Expr, sp.Expr]:
     """p'⁴ for a concentrated mass, p⁴ of the column and p̂⁴ of the frame, in x and γ."""
     squared = squared_frequency(column_motion(NEGATIVE), NEGATIVE).subs(RECTANGULAR)
