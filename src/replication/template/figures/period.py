@@ -1,6 +1,6 @@
 """Period of a pendulum against amplitude: two routes, and the series as printed and as meant."""
 
-from replication.drawing import ACCENT, GREY, INK, SINGLE, note, make_figure, sheet
+from replication.drawing import ACCENT, GREY, INK, SINGLE, make_figure, note, sheet
 
 
 def draw(period):
