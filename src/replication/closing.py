@@ -37,6 +37,8 @@ def last_lines(workflow: Any, begun: float) -> str:
     ----------
     workflow : snakemake.workflow.Workflow
         As a Snakefile has it; parts of a run that was never begun have nothing to say.
+    begun
+        When the run began, in seconds since the epoch: older logs are of other runs.
     """
     if workflow.scheduler is None or workflow.dryrun or workflow.exec_mode != ExecMode.DEFAULT:
         return ""

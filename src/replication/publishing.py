@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from replication.claim import Claim, JudgedClaim
-from replication.crate import CRATE, read_crate
+from replication.crate import read_crate
 from replication.findings import Findings, findings_by_rule, write_findings
 from replication.ledger import OURS, as_text, read_ledger
 from replication.parts import PAPER, ledger_of
@@ -195,7 +195,7 @@ def publish(tables: Iterable[str], study_tables: Iterable[str] = ()) -> None:
                 f"{made} does not exist, and src/steps/publish.py names {name!r} in TABLES; "
                 "expected tables of the run: correct the name, or make reproduce"
             )
-    made_by_rules = read_crate(CRATE).rules
+    made_by_rules = read_crate().rules
     for path in sorted(results.glob("findings/*.json")):
         if path.as_posix() not in made_by_rules:
             sys.exit(f"{path} is of no rule of the run; expected findings of the run: delete it")

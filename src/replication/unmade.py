@@ -42,15 +42,20 @@ def refuse_unmade(rules: Iterable[Any], tables: Collection[str], reference: Path
         With one line for each such file: who reads it, and how to put it right.
     """
     rules = list(rules)
-    read = {(path, _reader(rule, path)) for rule in rules for path in _paths(rule.input)}
-    read |= {(f"{RESULTS}tables/{name}.csv", "a figure") for name in tables}
-    others = [path for rule in rules for path in _paths(rule.output)]
     is_made = made_by(rules)
+    unmade = {
+        (path, _reader(rule, path))
+        for rule in rules
+        for path in _paths(rule.input)
+        if not is_made(path)
+    }
+    drawn = {f"{RESULTS}tables/{name}.csv" for name in tables}
+    unmade |= {(path, "a figure") for path in drawn if not is_made(path)}
+    others = [path for rule in rules for path in _paths(rule.output)]
     faults: dict[str, str] = {}
-    for path, reader in sorted(read):
-        if not is_made(path):
-            advice = _advice(path, others, reference)
-            faults.setdefault(path, f"{reader} reads {path}, which no rule makes; {advice}")
+    for path, reader in sorted(unmade):
+        advice = _advice(path, others, reference)
+        faults.setdefault(path, f"{reader} reads {path}, which no rule makes; {advice}")
     if faults:
         raise ValueError("\n".join(faults.values()))
 

@@ -201,7 +201,7 @@ def finished(tmp_path, monkeypatch):
         (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / path).write_text(text, encoding="utf-8")
     crate = Crate({}, {"results/findings/rule.json": "rule"}, (), "")
-    monkeypatch.setattr(publishing, "read_crate", lambda path: crate)
+    monkeypatch.setattr(publishing, "read_crate", lambda: crate)
     return tmp_path
 
 

@@ -87,13 +87,16 @@ def gathered(
     def add(key: tuple[str, str]) -> None:
         texts = [text for motion in waiting[key] for text in motion]
         ensemble = found[key]
-        fell = read(texts).reshape(-1, len(ensemble.subjects), ensemble.levels.size)
-        sums[key].add([fell == FALLS, *differing(ensemble, fell == FALLS)])
+        fell = read(texts).reshape(-1, len(ensemble.subjects), ensemble.levels.size) == FALLS
+        sums[key].add([fell, *differing(ensemble, fell)])
         waiting[key].clear()
 
+    labels = {
+        key: [(s.enlarged, s.frame.mass_ratio) for s in ensemble.subjects]
+        for key, ensemble in found.items()
+    }
     for key, cells in motions(paths, case["families"]):
-        mine = [(s.enlarged, s.frame.mass_ratio) for s in found[key].subjects]
-        waiting[key].append([cells[one] for one in mine])
+        waiting[key].append([cells[one] for one in labels[key]])
         if len(waiting[key]) == fragility.BLOCK:
             add(key)
     for key, ensemble in found.items():
