@@ -1,4 +1,4 @@
-"""Measure wall time and peak memory of a fresh process that computes a map, warm and cold cache.
+"""Measure time and peak memory of a fresh process that imports, or computes a map, warm and cold.
 
 Python may write its byte code, as by default. "Cold" means without compiled code of this package;
 the libraries keep theirs. The process itself reads its memory (VmHWM of Linux), since the value
@@ -37,6 +37,22 @@ class Run(NamedTuple):
     wall: float
     processor: float
     memory: float
+
+
+def imported(times: int = 15) -> float:
+    """Return the processor time (s) of importing the package beyond that of importing NumPy."""
+    codes = ("import numpy", "import numpy, topheavy")
+    pairs = [[processor_time(code) for code in codes] for _ in range(times)]
+    numpy, both = (min(column) for column in zip(*pairs, strict=True))
+    return both - numpy
+
+
+def processor_time(code: str) -> float:
+    process = subprocess.Popen([sys.executable, "-c", code])
+    _, status, usage = os.wait4(process.pid, 0)
+    if status:
+        raise RuntimeError(f"{code!r} ended with status {status}")
+    return usage.ru_utime + usage.ru_stime
 
 
 def run(cells: int, path: Path | None = None) -> Run:

@@ -24,7 +24,7 @@ from topheavy.kernel.outcome import (
     outcome,
     working_array,
 )
-from topheavy.kernel.pulse_batch import pulse_outcomes
+from topheavy.kernel.pulse_batch import ALONE, pulse_outcomes
 from topheavy.kernel.record_batch import record_outcomes
 from topheavy.kernel.taylor import Oscillator
 
@@ -121,6 +121,10 @@ def pulse_outcomes_of(
     lost = _shared(pulse_outcomes, given, peak.size, FEWEST_PULSES, 1, threads)
     if lost >= 0:
         raise _unresolved(block, shape, *(float(values.flat[lost]) for values in pairs))
+    for cell in zip(*np.nonzero(impacts == ALONE), strict=True):
+        scale, amplitude = (float(values[cell]) for values in pairs)
+        alone = outcome_of(block, shape, scale, amplitude, tolerance=tolerance)
+        peak[cell], overturned[cell], impacts[cell] = alone.peak, alone.overturned, alone.impacts
     return peak, overturned, impacts
 
 

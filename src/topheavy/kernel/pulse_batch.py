@@ -1,7 +1,7 @@
 """Outcomes of many pulses, one history in each lane (see `lane_steps`).
 
-A history that ends poised at the barrier is followed once more by the scalar kernel, so that a map
-and `judge` tell the same up to the last bits of a boundary.
+A history that ends poised at the barrier is marked, and `grid` follows it once more by the scalar
+kernel, so that a map and `judge` tell the same up to the last bits of a boundary.
 
 All lanes take their steps together, each a step of its own length. A lane whose history is over
 takes up the next cell. What follows from the physics of one history (the next uplift, coming to
@@ -60,13 +60,15 @@ from topheavy.kernel.lanes import (
     square_root,
     store,
 )
-from topheavy.kernel.outcome import HALT, MAX_STEPS, PULSE_ORDER, outcome
+from topheavy.kernel.outcome import HALT, MAX_STEPS, PULSE_ORDER
 from topheavy.kernel.rest import next_tick
 from topheavy.kernel.tail import free_rocking, is_poised
 
 assert PULSE_ORDER <= MAX_ORDER
 #: The end of the pulse, and ω/p.
 END, FREQUENCY = OWN, OWN + 1
+#: In place of the impacts of a history that the scalar kernel has to follow.
+ALONE = -1
 
 
 @compiled
@@ -144,13 +146,15 @@ def pulse_outcomes(
 ):
     """Fill every `batches`-th cell from `batch` on; see `grid.pulse_outcomes_of`.
 
+    A history that ends poised at the barrier gets `ALONE` for its impacts.
+
     Parameters
     ----------
     v : array
         A working array for steps that a lane takes alone, which may say halt (`outcome.HALT`).
     record : array
         `NO_RECORD`. As an argument, not as a constant, it has the type that it has in
-        `grid.outcome_of`: the scalar kernel is then compiled but once.
+        `grid.outcome_of`: what both call is then compiled but once.
 
     Returns
     -------
@@ -206,14 +210,7 @@ def pulse_outcomes(
                 fell, highest = tail.overturned, max(highest, tail.peak)
                 count += tail.impacts
                 if is_poised(block, w[ROTATION, lane], w[VELOCITY, lane]):
-                    forcing = pulse_forcing(shape, amplitudes[i, j], scales[i, j])
-                    # PULSE_ORDER + 0 hides a constant, for which it would be compiled anew.
-                    alone = outcome(v, PULSE_ORDER + 0, tolerance, block, forcing, record)
-                    fell, count = alone.overturned, alone.impacts
-                    if tail.overturned and not fell:
-                        highest = alone.peak
-                    if not alone.resolved:
-                        lost = cells[lane] if lost < 0 else min(lost, cells[lane])
+                    count = ALONE
             elif w[STEPS, lane] > MAX_STEPS:
                 lost = cells[lane] if lost < 0 else min(lost, cells[lane])
             else:
