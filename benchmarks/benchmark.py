@@ -294,7 +294,7 @@ def processes() -> list[dict]:
         ("no cache, wall", cold.wall, "s", 12.0),
         ("no cache, processor", cold.processor, "s", None),
         ("no cache, memory", cold.memory, "MB", 400.0),
-        ("memory of 26 times the cells, over their results", growth, "", 1.05),
+        ("memory from 13 to 26 times the cells, over their results", growth, "", 1.05),
     ]
     rows = [imported | {"target": "< 0.15"}]
     for setting, value, unit, limit in limits:

@@ -36,7 +36,7 @@ Outcomes = tuple[Array, NDArray[np.bool_], NDArray[np.int64]]
 BATCHES = 64
 #: The least number of cells in a batch. Fewer would leave lanes idle at its end, or be done before
 #: a second thread has started.
-FEWEST_PULSES, FEWEST_FACTORS = 32 * WIDTH, WIDTH
+FEWEST_PULSES, FEWEST_FACTORS = 32 * WIDTH, 4 * WIDTH
 
 
 def record_order(step: float, tolerance: float = TOLERANCE) -> int:
@@ -116,15 +116,17 @@ def pulse_outcomes_of(
     peak, overturned = np.empty(size), np.empty(size, dtype=bool)
     impacts = np.empty(size, dtype=np.int64)
     # Copies in C order: for arrays that are strided, transposed or read-only it would compile anew.
-    pairs = [np.array(np.broadcast_to(each, size), order="C") for each in (scales, amplitudes)]
+    pairs = [np.array(np.atleast_2d(each), order="C") for each in (scales, amplitudes)]
     given = (block, shape, *pairs, NO_RECORD, tolerance, peak, overturned, impacts)
     lost = _shared(pulse_outcomes, given, peak.size, FEWEST_PULSES, 1, threads)
+    scales, amplitudes = (np.broadcast_to(each, size) for each in pairs)
     if lost >= 0:
-        raise _unresolved(block, shape, *(float(values.flat[lost]) for values in pairs))
-    for cell in zip(*np.nonzero(impacts == ALONE), strict=True):
-        scale, amplitude = (float(values[cell]) for values in pairs)
-        alone = outcome_of(block, shape, scale, amplitude, tolerance=tolerance)
-        peak[cell], overturned[cell], impacts[cell] = alone.peak, alone.overturned, alone.impacts
+        raise _unresolved(block, shape, float(scales.flat[lost]), float(amplitudes.flat[lost]))
+    for i in np.flatnonzero(impacts.min(axis=1, initial=0) == ALONE):
+        for j in np.flatnonzero(impacts[i] == ALONE):
+            cell = (float(scales[i, j]), float(amplitudes[i, j]))
+            alone = outcome_of(block, shape, *cell, tolerance=tolerance)
+            overturned[i, j], peak[i, j], impacts[i, j] = alone[:3]
     return peak, overturned, impacts
 
 
@@ -137,15 +139,15 @@ def _shared(
     threads: int | None,
 ) -> int:
     """Let the threads do all cells, in batches; return the first cell given up, or −1."""
-    batches = max(1, min(BATCHES, cells // fewest))
+    threads = threads or len(os.sched_getaffinity(0))
+    batches = 1 if threads == 1 else max(1, min(BATCHES, cells // fewest))
 
     def do(batch: int, v: Array) -> int:
         return int(work(v, batch, batches, *given))
 
     if batches == 1 and cells * samples <= LONG:
         return do(0, working_array())
-    threads = min(threads or len(os.sched_getaffinity(0)), batches)
-    lost = in_threads([partial(do, batch) for batch in range(batches)], threads)
+    lost = in_threads([partial(do, batch) for batch in range(batches)], min(threads, batches))
     return min((cell for cell in lost if cell >= 0), default=-1)
 
 

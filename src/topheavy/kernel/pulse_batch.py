@@ -129,6 +129,13 @@ def lifts_again(w, lane, block, forcing, record):
     return True
 
 
+@compiled(forceinline=True)
+def forcing_at(shape, scales, amplitudes, i, j):
+    """Return the pulse of a cell; an axis of length 1 stands for all its cells."""
+    amplitude = amplitudes[i % amplitudes.shape[0], j % amplitudes.shape[1]]
+    return pulse_forcing(shape, amplitude, scales[i % scales.shape[0], j % scales.shape[1]])
+
+
 @compiled(nogil=True)
 def pulse_outcomes(
     v,
@@ -171,7 +178,7 @@ def pulse_outcomes(
             vacant &= vacant - 1
             while coming < last and not lifted:
                 i, j = coming // columns, coming % columns
-                forcing = pulse_forcing(shape, amplitudes[i, j], scales[i, j])
+                forcing = forcing_at(shape, scales, amplitudes, i, j)
                 lifted = begin(w, lane, block, forcing, record)
                 if not lifted:
                     peak[i, j], overturned[i, j], impacts[i, j] = 0.0, False, 0
@@ -214,7 +221,7 @@ def pulse_outcomes(
             elif w[STEPS, lane] > MAX_STEPS:
                 lost = cells[lane] if lost < 0 else min(lost, cells[lane])
             else:
-                forcing = pulse_forcing(shape, amplitudes[i, j], scales[i, j])
+                forcing = forcing_at(shape, scales, amplitudes, i, j)
                 if not rests(w, lane, block, forcing, record):
                     continue
                 if lifts_again(w, lane, block, forcing, record):
