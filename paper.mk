@@ -10,7 +10,7 @@ BENCH   = $(UV) run --locked --no-dev --group bench
 
 .PHONY: audit kill-table benchmark verify-grid cluster-test paper
 
-audit: | $(UV) ## an hour: finer grids, tighter tolerances, all peers, all faults (CONFIG, CELLS, ROTATE)
+audit: | $(UV) ## 3 hours: finer grids, tighter tolerances, all peers, all faults (CONFIG, CELLS, ROTATE)
 	@$(SNAKEMAKE) --configfile "$$CONFIG"
 	@$(MAKE) --no-print-directory verify-grid benchmark kill-table
 	@echo "results/ is that of $$CONFIG now: 'make reproduce' brings ours back"
@@ -20,7 +20,7 @@ kill-table: | $(UV) ## put faults into a copy, one at a time: what catches each?
 	@$(DEV) python -m replication.commands.kill_table \
 	  $${FAULTS:+"--faults=$$FAULTS"} $${ROTATE:+"--rotate=$$ROTATE"}
 
-benchmark: | $(UV) ## time the kernel beside its peers; writes docs/benchmark.csv and .svg (5 minutes)
+benchmark: | $(UV) ## time the kernel beside its peers; writes docs/benchmark.csv and .svg (15 minutes)
 	@$(BENCH) python benchmarks/benchmark.py
 
 verify-grid: | $(UV) ## compare overturning flags with an independent route (CELLS=40000 a set)

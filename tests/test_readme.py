@@ -110,3 +110,11 @@ def test_motions_of_the_study_are_as_many_as_said():
 
 def test_table_of_verdicts_counts_the_claims_of_paper_and_studies_apart():
     assert "\n".join(count_table(read_judged(REFERENCE / "claims.json"))) in found()
+
+
+def test_run_takes_as_long_as_said():
+    """Figures and documents, which the published costs leave out, take up to two minutes more."""
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    least, most = map(int, re.search(r"# (\d+) to (\d+) minutes on two cores", readme).groups())
+    minutes = pd.read_csv(ROOT / "docs" / "costs.csv").seconds.sum() / 2 / 60
+    assert least - 2 <= minutes <= most

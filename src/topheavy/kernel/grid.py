@@ -31,8 +31,8 @@ from topheavy.kernel.taylor import Oscillator
 Array = NDArray[np.float64]
 Outcomes = tuple[Array, NDArray[np.bool_], NDArray[np.int64]]
 
-#: Cells are split into at most so many batches, cell i into batch i mod BATCHES, so that expensive
-#: cells spread evenly. Threads take up the batches as they come free.
+#: Cells are split into at most so many batches of neighbours, which do much the same in all lanes.
+#: Threads take up the batches as they come free.
 BATCHES = 64
 #: The least number of cells in a batch. Fewer would leave lanes idle at its end, or be done before
 #: a second thread has started.

@@ -151,7 +151,7 @@ def pulse_outcomes(
     overturned,
     impacts,
 ):
-    """Fill every `batches`-th cell from `batch` on; see `grid.pulse_outcomes_of`.
+    """Fill one of as many parts of the cells as there are `batches`; see `grid.pulse_outcomes_of`.
 
     A history that ends poised at the barrier gets `ALONE` for its impacts.
 
@@ -169,8 +169,9 @@ def pulse_outcomes(
         The first cell that was given up (see `outcome.MAX_STEPS`), or −1.
     """
     w, cells = rows(ROWS), np.full(WIDTH, -1)
-    columns, last = peak.shape[1], peak.size
-    coming, lost, busy, vacant = batch, -1, 0, (1 << WIDTH) - 1
+    columns = peak.shape[1]
+    coming, last = batch * peak.size // batches, (batch + 1) * peak.size // batches
+    lost, busy, vacant = -1, 0, (1 << WIDTH) - 1
     while True:  # each time around a lane takes one of its `MAX_STEPS` steps, or there is none left
         busy &= ~vacant
         while vacant:
@@ -183,7 +184,7 @@ def pulse_outcomes(
                 if not lifted:
                     peak[i, j], overturned[i, j], impacts[i, j] = 0.0, False, 0
                 cells[lane] = coming
-                coming += batches
+                coming += 1
             if lifted:
                 busy |= 1 << lane
             else:

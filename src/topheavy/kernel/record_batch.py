@@ -163,7 +163,7 @@ def overturns(w, lane, block, forcing, record):
 def record_outcomes(
     v, batch, batches, block, step, factors, record, tolerance, peak, overturned, impacts
 ):
-    """Fill every `batches`-th factor's cell from `batch` on; see `grid.outcomes_of`.
+    """Fill one of as many parts of the factors as there are `batches`; see `grid.outcomes_of`.
 
     Parameters
     ----------
@@ -178,7 +178,8 @@ def record_outcomes(
     w, cells = rows(ROWS), np.full(WIDTH, -1)
     samples, end = record[0], (record.shape[1] - 1) * step
     most_steps, bound = MAX_STEPS + 10 * record.shape[1], tolerance * block.slenderness
-    coming, lost, vacant = batch, -1, (1 << WIDTH) - 1
+    coming, last = batch * factors.size // batches, (batch + 1) * factors.size // batches
+    lost, vacant = -1, (1 << WIDTH) - 1
     marching, stepping = 0, 0
     # Each time around, a lane passes over a piece or takes one of its `most_steps` steps.
     while True:
@@ -187,14 +188,14 @@ def record_outcomes(
         while vacant:
             lane, lifted = lowest(vacant), False
             vacant &= vacant - 1
-            while coming < factors.size and not lifted:
+            while coming < last and not lifted:
                 still(w, lane)
                 forcing = record_forcing(record, step, factors[coming])
                 lifted = lifts(w, lane, block, forcing, record, 0.0)
                 if not lifted:
                     peak[coming], overturned[coming], impacts[coming] = 0.0, False, 0
                 cells[lane] = coming
-                coming += batches
+                coming += 1
             if lifted:
                 stepping |= 1 << lane
             else:
