@@ -51,7 +51,6 @@ onstart:
 
     for path in RECORDS.values():
         read_record(path)
-
     # With its limit of 100 jobs a second Snakemake looks for jobs again, every second, once for each
     # job that has begun: a tenth of the run's processor time.
     workflow.scheduler.job_rate_limiter = None
