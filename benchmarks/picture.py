@@ -26,12 +26,13 @@ def draw(curves: pd.DataFrame, machine: str, path: Path) -> None:
             curve = curve.sort_values("tolerance")
             look = LOOKS["heyoka, our tail" if (what, method) == ("record", "heyoka") else method]
             axis.loglog(curve.error_q99, curve.microseconds, marker="o", markersize=2.5, **look)
-            last = curve.iloc[0]
+            last, is_steep = curve.iloc[0], (what, method) == ("record", "this kernel")
             note(
                 axis,
                 method,
                 (last.error_q99, last.microseconds),
-                xytext=(0, 6),
+                xytext=(-5, -3) if is_steep else (0, 6),
+                ha="right" if is_steep else "left",
                 textcoords="offset points",
                 color=look["color"],
             )
