@@ -1,13 +1,11 @@
 """The conda environment and the reasons for each dependency keep up with the lock."""
 
-import inspect
 import re
 import tomllib
 from pathlib import Path
 
 import pytest
 import yaml
-from snakemake.scheduling.job_scheduler import JobScheduler
 
 ROOT = Path(__file__).resolve().parents[1]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
@@ -59,8 +57,3 @@ def test_each_dependency_has_its_reason_in_contributing():
     text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
     reasons = re.findall(r"^- `([\w.-]+)`: \S", text, flags=re.MULTILINE)
     assert sorted(reasons) == sorted(declared())
-
-
-def test_snakemake_still_has_the_limit_that_the_snakefile_takes_off():
-    assert "workflow.scheduler.job_rate_limiter = None" in (ROOT / "Snakefile").read_text("utf-8")
-    assert "if self.job_rate_limiter is not None" in inspect.getsource(JobScheduler)
