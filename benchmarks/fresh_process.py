@@ -11,6 +11,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Mapping
 from pathlib import Path
 from typing import NamedTuple
 
@@ -42,32 +43,31 @@ class Run(NamedTuple):
 def imported(times: int = 15) -> float:
     """Return the processor time (s) of importing the package beyond that of importing NumPy."""
     codes = ("import numpy", "import numpy, topheavy")
-    pairs = [[processor_time(code) for code in codes] for _ in range(times)]
+    pairs = [[child(code)[1] for code in codes] for _ in range(times)]
     numpy, both = (min(column) for column in zip(*pairs, strict=True))
     return both - numpy
-
-
-def processor_time(code: str) -> float:
-    process = subprocess.Popen([sys.executable, "-c", code])
-    _, status, usage = os.wait4(process.pid, 0)
-    if status:
-        raise RuntimeError(f"{code!r} ended with status {status}")
-    return usage.ru_utime + usage.ru_stime
 
 
 def run(cells: int, path: Path | None = None) -> Run:
     """Compute a map in a process of its own, with the package found under `path` if given."""
     environment = os.environ | ({"PYTHONPATH": str(path)} if path else {})
-    environment.pop("PYTHONDONTWRITEBYTECODE", None)
-    command = [sys.executable, "-c", MAP, str(cells)]
     begin = time.perf_counter()
+    memory, processor = child(MAP, str(cells), environment=environment)
+    return Run(time.perf_counter() - begin, processor, int(memory) / 1024.0)
+
+
+def child(
+    code: str, *arguments: str, environment: Mapping[str, str] = os.environ
+) -> tuple[str, float]:
+    """Run code in a Python of its own; return what it prints and its processor time in s."""
+    environment = {k: v for k, v in environment.items() if k != "PYTHONDONTWRITEBYTECODE"}
+    command = [sys.executable, "-c", code, *arguments]
     process = subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, text=True)
-    memory = process.stdout.read()
+    printed = process.stdout.read()
     _, status, usage = os.wait4(process.pid, 0)
-    wall = time.perf_counter() - begin
     if status:
-        raise RuntimeError(f"the map of {cells} cells ended with status {status}")
-    return Run(wall, usage.ru_utime + usage.ru_stime, int(memory) / 1024.0)
+        raise RuntimeError(f"{command[2:]} ended with status {status}")
+    return printed, usage.ru_utime + usage.ru_stime
 
 
 def least(runs: list[Run]) -> Run:

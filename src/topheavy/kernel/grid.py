@@ -122,6 +122,7 @@ def pulse_outcomes_of(
     scales, amplitudes = (np.broadcast_to(each, size) for each in pairs)
     if lost >= 0:
         raise _unresolved(block, shape, float(scales.flat[lost]), float(amplitudes.flat[lost]))
+    # Row by row: a mask of all cells would need memory as large as one of the results.
     for i in np.flatnonzero(impacts.min(axis=1, initial=0) == ALONE):
         for j in np.flatnonzero(impacts[i] == ALONE):
             cell = (float(scales[i, j]), float(amplitudes[i, j]))
@@ -139,14 +140,16 @@ def _shared(
     threads: int | None,
 ) -> int:
     """Let the threads do all cells, in batches; return the first cell given up, or −1."""
+    batches = max(1, min(BATCHES, cells // fewest))
+    if batches == 1 and cells * samples <= LONG:
+        return int(work(working_array(), 0, 1, *given))
     threads = threads or len(os.sched_getaffinity(0))
-    batches = 1 if threads == 1 else max(1, min(BATCHES, cells // fewest))
+    if threads == 1:
+        batches = 1  # so that no lane idles at the end of any but the last cells
 
     def do(batch: int, v: Array) -> int:
         return int(work(v, batch, batches, *given))
 
-    if batches == 1 and cells * samples <= LONG:
-        return do(0, working_array())
     lost = in_threads([partial(do, batch) for batch in range(batches)], min(threads, batches))
     return min((cell for cell in lost if cell >= 0), default=-1)
 
