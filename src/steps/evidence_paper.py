@@ -153,6 +153,14 @@ def vase(table: Table) -> Drawn:
     wider = portals.slenderness_deg > rows.slenderness_deg[alone].iloc[0]
     yield "portal_has_a_wider_base", "holds", wider.all()
     yield "portal_has_a_wider_base", "minimum_overturning_g", list(portals.minimum_overturning)
+    at = ["mass_ratio", "shape"]
+    frames = rows[rows.structure == "free"]
+    beside = rows[rows.structure == "portal"].merge(frames, on=at, suffixes=("", "_free"))
+    over = beside.minimum_overturning / beside.minimum_overturning_free
+    yield "portal_overturns_last", "holds", (over > 1.0).all()
+    yield "portal_overturns_last", "compared", len(over)
+    yield "portal_overturns_last", "least", over.min()
+    yield "portal_overturns_last", "largest", over.max()
     single = table("vase_shares").dropna(subset="shapley_value")
     for worth, found in single.groupby("worth"):
         shares = found.groupby("taken_from_the_frame").share_of_gain

@@ -228,6 +228,19 @@ def certainty_restitution(table: Table) -> Drawn:
         yield f"probability_falls_{name}", "least", part.less_low.min()
 
 
+def certainty_benefit(table: Table) -> Drawn:
+    rows = table("studies/certainty_benefit")
+    both, alone = (rows[rows.way == way] for way in ("both", "column alone"))
+    lowest = alone[alone.factor == alone.factor.min()]
+    yield "frame_is_safer", "holds", (both.less_low > 0.0).all()
+    yield "remains", "holds", (alone.less_low > 0.0).all()
+    yield "reverses", "holds", (lowest.less_high < 0.0).all()
+    parts = {"frame_is_safer": both, "remains": alone, "reverses": lowest}
+    for name, part in parts.items():
+        yield name, "compared", len(part)
+        yield name, "changes", part.to_dict("records")
+
+
 def certainty_intensities(table: Table) -> Drawn:
     rows = table("studies/certainty_intensities")
     each = ["family", "structure", "measure", "level"]
@@ -245,6 +258,7 @@ def certainty_intensities(table: Table) -> Drawn:
 
 
 OF_STUDIES: tuple[Callable[[Table], Drawn], ...] = (
+    certainty_benefit,
     certainty_extensions,
     certainty_intensities,
     certainty_lowest,

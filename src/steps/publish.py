@@ -40,6 +40,7 @@ TABLES = (
 )
 
 STUDY_TABLES = (
+    "certainty_benefit",
     "certainty_extensions",
     "certainty_intensities",
     "certainty_lowest",

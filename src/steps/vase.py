@@ -236,6 +236,15 @@ def ranks(summary: pd.DataFrame) -> bool:
     )
 
 
+def beside_frames(summary: pd.DataFrame) -> Finding:
+    """Return whether each portal overturns later than the frame of its γ under each pulse."""
+    at = ["mass_ratio", "shape"]
+    frames = summary[summary.structure == "free"].set_index(at).minimum_overturning
+    portals = summary[summary.structure == "portal"].set_index(at).minimum_overturning
+    over = portals.to_numpy() / frames.loc[portals.index].to_numpy()
+    return truth(over.min() > 1.0, compared=len(over), least=over.min(), largest=over.max())
+
+
 def main(case: dict, paths: list[str], tightened: float) -> tuple:
     column = Column(**case["column"])
     summary = pd.DataFrame(under_pulses(column, case))
@@ -266,6 +275,7 @@ def main(case: dict, paths: list[str], tightened: float) -> tuple:
             slenderness_deg=portals.slenderness_deg,
             minimum_overturning_g=portals.minimum_overturning,
         ),
+        "portal_overturns_last": beside_frames(summary),
         "shares_of_the_gain": whole_gain(of_shares),
         "second_route": second_route(errors, exceptions, rows, compared),
     }

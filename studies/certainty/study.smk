@@ -1,6 +1,13 @@
 """What follows from the equation of motion, for which motion, and how surely."""
 
-CERTAINTY = ["theorem", "lowest", "extensions", "restitution", "intensities"]
+CERTAINTY = [
+    "theorem",
+    "lowest",
+    "extensions",
+    "restitution",
+    "benefit",
+    "intensities",
+]
 
 PARTS["certainty"].figures.update(
     {
@@ -93,6 +100,25 @@ rule certainty_restitution:
         "Study certainty: how much depends on the impact law"
     script:
         "steps/restitution.py"
+
+
+rule certainty_benefit:
+    input:
+        code("studies/certainty/steps/benefit.py"),
+    output:
+        table="results/tables/certainty_benefit.csv",
+        findings="results/findings/certainty_benefit.json",
+    log:
+        "results/logs/certainty_benefit.log",
+    benchmark:
+        "results/benchmarks/certainty_benefit.tsv"
+    params:
+        case=case("benefit", "certainty"),
+        ensemble=MOTIONS,
+    message:
+        "Study certainty: the benefit of the cap beam if the column loses more at impacts"
+    script:
+        "steps/benefit.py"
 
 
 rule certainty_intensities:

@@ -204,6 +204,7 @@ def test_finding_that_is_changed_is_named(tampered, rule, finding, key, new, tol
         ("vase", "fixed_mass_always_lowers", "exceptions", 0),
         ("vase", "condition_on_a_fresh_grid", "exceptions_beyond", []),
         ("vase", "portal_has_a_wider_base", "holds", False),
+        ("vase", "portal_overturns_last", "least", 1.0),
         ("vase", "shares_of_the_gain", "survived share of the map", {"α": [1.0, 1.0, 1.0]}),
         ("reversals_vase", "every_motion", "free_sooner", 0.0),
         ("reversals_uplift", "uplift_limits_totals", "survivors_that_uplift", 1),
@@ -212,6 +213,7 @@ def test_finding_that_is_changed_is_named(tampered, rule, finding, key, new, tol
         ("certainty_extensions", "largest_change", "value", 0.1),
         ("certainty_restitution", "lowest_rises_apart", "holds", True),
         ("certainty_restitution", "probability_falls_together", "least", 0.5),
+        ("certainty_benefit", "reverses", "holds", False),
         ("certainty_intensities", "free_cap_helps", "exceptions", 0),
     ],
 )

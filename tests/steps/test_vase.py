@@ -257,6 +257,23 @@ def test_portal_stands_on_a_wider_base_or_not(monkeypatch, angle, holds):
     assert vase.main(case, [], 3e-12)[-1]["portal_has_a_wider_base"].holds == holds
 
 
+@pytest.mark.parametrize(
+    ("change", "least"),
+    [
+        ({}, 0.9 / 0.31),
+        ({"portal": {"minimum_overturning": 0.30}}, 0.30 / 0.31),  # above bare and fixed
+        ({"free": {"minimum_overturning": 1.0}}, 0.9),
+    ],
+)
+def test_portal_is_beside_the_frame_under_every_pulse(change, least):
+    other = summary().assign(mass_ratio=2.0, minimum_overturning=0.01)
+    frames = other[other.structure == "free"]  # of another mass: not compared
+    found = vase.beside_frames(pd.concat([summary(**change), frames]))
+    assert found.holds is (least > 1.0)
+    assert found["compared"] == 2
+    assert found["least"] == pytest.approx(least)
+
+
 @pytest.mark.parametrize(("lost", "holds"), [(0.0, True), (0.01, False)])
 def test_shares_carry_the_whole_gain(lost, holds):
     rows = [

@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 from replication.workbench import truth
-from studies.certainty.steps import extensions, intensities, lowest, restitution, theorem
+from studies.certainty.steps import benefit, extensions, intensities, lowest, restitution, theorem
 from topheavy import reference
 
 SIZES = {"half_width": 0.5, "half_height": 3.0}
@@ -218,6 +218,95 @@ def test_scatter_that_scipy_judges_otherwise_is_noticed(monkeypatch):
 
     monkeypatch.setattr(restitution, "reference", SimpleNamespace(judge=otherwise))
     assert not restitution.scatter_agrees(case).holds
+
+
+# What of the benefit remains ---------------------------------------------------------------------
+
+
+BOTH, ALONE = benefit.BOTH, benefit.COLUMN_ALONE
+SAID = {
+    **{(BOTH, factor): "is positive" for factor in (0.9, 0.95, 1.0)},
+    (ALONE, 0.9): "is negative",
+    (ALONE, 0.95): "is positive",
+}
+
+
+@pytest.mark.parametrize(
+    ("near_fault", "broadband", "broken"),
+    [
+        ({}, {}, {"remains"}),
+        ({}, {(ALONE, 0.9): "is positive"}, {"remains", "reverses"}),
+        ({}, {(ALONE, 0.9): "includes zero"}, {"remains", "reverses"}),
+        ({}, {(ALONE, 0.95): "includes zero"}, {"remains"}),
+        ({}, {(BOTH, 1.0): "includes zero"}, {"remains", "frame_is_safer"}),
+        ({}, {(BOTH, 0.9): "is negative"}, {"remains", "frame_is_safer"}),
+        (*[{(ALONE, 0.9): "is positive"}] * 2, {"reverses"}),
+        (*[{(ALONE, 0.9): "includes zero"}] * 2, {"remains", "reverses"}),
+    ],
+)
+def test_ranking_is_judged_by_whole_intervals_of_both_families(
+    monkeypatch, near_fault, broadband, broken
+):
+    families = {"near-fault": SAID | near_fault, "broadband": SAID | broadband}
+    table = pd.DataFrame(
+        {"family": family, "way": way, "factor": factor, "interval": words}
+        for family, said in families.items()
+        for (way, factor), words in said.items()
+    )
+    monkeypatch.setattr(benefit, "outcomes", lambda *arguments: None)
+    monkeypatch.setattr(benefit, "differences", lambda *arguments: table)
+    monkeypatch.setattr(benefit, "confirmed", lambda *arguments: truth(True))
+    _, found = benefit.main({}, {})
+    assert {name for name, one in found.items() if one.holds is False} == broken
+
+
+ENSEMBLE = {
+    "run": "default",
+    "runs": {"default": {"motions": 500}},
+    "seed": 2014,
+    "families": ["near-fault", "broadband"],
+    "scenarios": [
+        {"magnitude": 6.5, "distance": 10.0, "site_velocity": 760.0, "directivity": 10.0}
+    ],
+}
+STATED = {
+    "column": SIZES,
+    "mass_ratio": 1.0,
+    "pgv": 0.8,
+    "factors": [0.9, 1.0],
+    "motions": 6,
+    "seed": 3,
+    "checked": 2,
+    "bootstrap": {"resamples": 50, "confidence": 0.95},
+}
+
+
+def test_motions_are_scaled_to_the_stated_velocity(monkeypatch):
+    found = []
+
+    def overturned_by(structure, record, factors):
+        found.extend(record.scaled(float(factor)).peak_velocity for factor in factors)
+        return [False]
+
+    monkeypatch.setattr(benefit, "overturned_by", overturned_by)
+    fell = benefit.outcomes(STATED, ENSEMBLE)
+    assert found == pytest.approx([STATED["pgv"]] * 4 * len(fell))
+    assert fell.family.value_counts().to_dict() == {"near-fault": 6, "broadband": 6}
+
+
+def test_ranking_that_scipy_judges_otherwise_is_noticed(monkeypatch):
+    fell = benefit.outcomes(STATED, ENSEMBLE)
+    right = benefit.confirmed(STATED, ENSEMBLE, fell)
+    assert right.holds
+    assert right["told"] == right["checked"] > 1
+
+    def otherwise(structure, motion):
+        return SimpleNamespace(overturned=not reference.judge(structure, motion).overturned)
+
+    monkeypatch.setattr(benefit, "reference", SimpleNamespace(judge=otherwise))
+    found = benefit.confirmed(STATED, ENSEMBLE, fell)
+    assert not found.holds
+    assert found["differ"] == found["told"]
 
 
 # Stated intensities ------------------------------------------------------------------------------
