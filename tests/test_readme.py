@@ -44,6 +44,12 @@ def test_motions_that_overturn_at_a_stated_velocity_are_published():
     assert f"and {free} the frame that carries the same mass freely" in said()
 
 
+def test_starts_of_the_trilith_are_as_many_as_said():
+    starts = pd.read_csv(REFERENCE / "trilith_states.csv")
+    assert f"of {len(starts)} starts in motion" in said()
+    assert (starts[["rotation", "velocity"]] != 0.0).any(axis=1).all()
+
+
 def test_judged_claims_of_the_paper_are_as_many_as_said(claims):
     rows = [claim for claim in claims.values() if not claim.study]
     judged = [claim for claim in rows if claim.verdict != "not tested"]
