@@ -51,6 +51,12 @@ def test_range_has_both_its_ends(shares, digits, words):
     assert headlines.from_to(pd.Series(shares), digits) == words
 
 
+def test_starts_of_the_trilith_are_as_many_as_said():
+    starts = pd.read_csv(REFERENCE / "trilith_states.csv")
+    assert f"of {len(starts)} starts in motion" in said()
+    assert (starts[["rotation", "velocity"]] != 0.0).any(axis=1).all()
+
+
 def test_judged_claims_of_the_paper_are_as_many_as_said(claims):
     rows = [claim for claim in claims.values() if not claim.study]
     judged = [claim for claim in rows if claim.verdict != "not tested"]

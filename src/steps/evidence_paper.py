@@ -76,6 +76,19 @@ def trilith(table: Table) -> Drawn:
     yield kept, "steady_peak_over_alpha", starts.late_peak_over_alpha[1.0]
 
 
+def trilith_states(table: Table) -> Drawn:
+    rows, most, one = table("trilith_states"), "most_starts_keep_rocking", "one_steady_rotation"
+    outcomes = {"keep_rocking": "rocking", "come_to_rest": "rests", "overturn": "overturned"}
+    for name, outcome in outcomes.items():
+        yield most, name, (rows.outcome == outcome).sum()
+    share = (rows.outcome == "rocking").mean()
+    yield most, "starts", len(rows)
+    yield most, "holds", share > 0.5 and set(outcomes.values()) == set(rows.outcome)
+    kept = rows[rows.outcome == "rocking"]
+    yield one, "starts", len(kept)
+    yield one, "steady_over_alpha", kept.steady.median()
+
+
 def allen_errors(table: Table) -> Drawn:
     for model, rows in table("allen_errors").groupby("model"):
         name, error = model.replace(" ", "_"), rows.relative_error.dropna()
@@ -178,6 +191,7 @@ OF_PAPER: tuple[Callable[[Table], Drawn], ...] = (
     restitution,
     spectra,
     trilith,
+    trilith_states,
     uplift_limits,
     vase,
 )

@@ -71,6 +71,7 @@ def numbers(reference: Path) -> list[str]:
     ratios = pd.read_csv(reference / "mass_ratio.csv").set_index("mass_ratio")
     lowest = pd.read_csv(reference / "heavier.csv").set_index("mass_ratio").lowest_overturning_low
     starts = pd.read_csv(reference / "trilith_starts.csv").set_index("share_of_speed")
+    states = pd.read_csv(reference / "trilith_states.csv").outcome.value_counts(normalize=True)
     gains = motions(reference, "reversals_medians", mass_ratio=1.0, as_large_as=0).gain
     reversed_ = motions(reference, "reversals_pairs", lighter=0, heavier=1.0).motions
     velocity = f"{stated_pgv(reference):.1f}"
@@ -92,7 +93,9 @@ def numbers(reference: Path) -> list[str]:
         velocity,
         f"{claims['trilith_base_acceleration_in_g']:.3f}",
         f"{claims['trilith_uplift_acceleration']:.3f}",
+        f"{100 * states['rocking']:.1f}",
         f"{starts.late_peak_over_alpha[1.0]:.3f}",
+        *(f"{100 * states[outcome]:.1f}" for outcome in ("rests", "overturned")),
         f"{100 * claims['mechanism_share_apart']:.1f}",
     ]
 

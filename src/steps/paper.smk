@@ -33,6 +33,7 @@ PARTS[PAPER].findings.extend(
         "restitution",
         "moment_rotation",
         "trilith",
+        "trilith_states",
         "allen_histories",
         "allen_errors",
         "allen_overturning",
@@ -52,6 +53,7 @@ PARTS[PAPER].data.append(RECORDS["el_centro_1940_NS"])
 
 # Findings that no claim rests on, and without which no claim is worth much.
 CHECKS = {
+    "trilith_states": ["second_route"],
     "vase": ["second_route"],
     "uplift_limits": ["forces_by_second_routes"],
     "verification": [
@@ -218,6 +220,25 @@ rule trilith:
         "The trilith: its numbers, what would have lifted it, how the table starts"
     script:
         "trilith.py"
+
+
+rule trilith_states:
+    input:
+        code("src/steps/trilith_states.py"),
+    output:
+        table="results/tables/trilith_states.csv",
+        findings="results/findings/trilith_states.json",
+    log:
+        "results/logs/trilith_states.log",
+    benchmark:
+        "results/benchmarks/trilith_states.tsv"
+    params:
+        case=case("trilith"),
+        states=config["trilith_states"],
+    message:
+        "The trilith on the same shake table, if it already rocks"
+    script:
+        "trilith_states.py"
 
 
 rule trilith_map:

@@ -32,6 +32,7 @@ TABLES = (
     "trilith_map",
     "trilith_nearness",
     "trilith_starts",
+    "trilith_states",
     "uplift_ratios",
     "uplift_slopes",
     "vase",

@@ -180,6 +180,8 @@ def test_finding_that_is_changed_is_named(tampered, rule, finding, key, new, tol
         ("spectra", "areas", "pairs", []),
         ("trilith", "tilt_to_lift", "value", 0.3),
         ("trilith", "abrupt_start_keeps_it_rocking", "steady_peak_over_alpha", 0.9),
+        ("trilith_states", "most_starts_keep_rocking", "come_to_rest", 0),
+        ("trilith_states", "one_steady_rotation", "steady_over_alpha", 0.9),
         ("reversals_pulses", "harms", "error", 1e-6),
         ("reversals_pulses", "most_harm", "value", 0.001),
         ("reversals_enough", "amplitude_at_50_percent", "error", 1e-4),
