@@ -206,7 +206,8 @@ def publish(tables: Iterable[str], study_tables: Iterable[str] = ()) -> None:
         old.unlink()
     for name in tables:
         shutil.copyfile(results / "tables" / f"{name}.csv", reference / f"{name}.csv")
-    (reference / "studies").mkdir(exist_ok=True)
+    shutil.rmtree(reference / "studies", ignore_errors=True)  # with those of removed studies
+    (reference / "studies").mkdir()
     for name in ours["studies"]:
         shutil.copyfile(f"studies/{name}/config.yaml", reference / "studies" / f"{name}.yaml")
     for name in study_tables:
