@@ -61,7 +61,7 @@ def published_studies(folder: Path) -> list[str]:
 
 
 def unlisted(rules: Iterable[str], studies: Iterable[str]) -> tuple[list[str], list[str]]:
-    """Return the rules of which neither SOURCES nor UNDRAWN says how their findings are drawn.
+    """Return the rules of which neither SOURCES nor UNDRAWN has an entry.
 
     First those of the paper and of studies that these lists know, of which nothing may be missing;
     then those of other studies, which need no entry to be published.
