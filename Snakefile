@@ -32,10 +32,10 @@ for name in config["studies"]:
     include: f"studies/{name}/study.smk"
 
 
-after_the_kernel()
-
-
 include: "src/replication/rules.smk"
+
+
+after_the_kernel()
 
 
 rule all:

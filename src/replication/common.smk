@@ -57,12 +57,17 @@ def everything(wildcards):
     """
     drawn = {table for tables in FIGURES.values() for table in tables}
     wanted = dict.fromkeys(f"results/tables/{table}.csv" for table in sorted(drawn))
-    for each in workflow.rules:
-        if each.name == "crate" or not each.output:
-            continue
+    rules = [each for each in workflow.rules if each.name != "crate" and each.output]
+    for each in rules:
         asked = [*each.input, *([] if each.has_wildcards() else each.output)]
         wanted |= dict.fromkeys(str(path) for path in asked if not callable(path))
-    return [path for path in wanted if "{" not in path]
+    wanted = {path: None for path in wanted if "{" not in path}
+    # A rule with wildcards reads what its jobs read, and these are known by what they make.
+    for each in [rule for rule in rules if rule.has_wildcards()]:
+        for path in filter(each.is_producer, list(wanted)):
+            files, *_ = each.expand_input(each.get_wildcards(path))
+            wanted |= dict.fromkeys(map(str, files))
+    return list(wanted)
 
 
 def longest_first():
