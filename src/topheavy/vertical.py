@@ -14,14 +14,14 @@ from functools import partial
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from topheavy.excitation import Excitation, Segment
 from topheavy.records import Record
 
 
 @dataclass(frozen=True, eq=False)
-class TwoComponents:
+class TwoComponents(Excitation):
     """A horizontal and a vertical record that start together.
 
     Raises
@@ -47,9 +47,9 @@ class TwoComponents:
         """How long either lasts, s."""
         return max(self.horizontal.duration, self.vertical.duration)
 
-    def excitation(self, t: ArrayLike) -> float | NDArray[np.float64]:
-        """Return the horizontal acceleration in g at the time(s) t in s."""
-        return self.horizontal.excitation(t)
+    def accelerations(self, time: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the horizontal acceleration in g at an array of times in s."""
+        return self.horizontal.accelerations(time)
 
     def segments(self, until: float) -> list[Segment]:
         """Return the spans between the samples of either record, up to `until`."""
@@ -59,7 +59,7 @@ class TwoComponents:
         edges = np.append(np.unique(times[times < end]), end)
         # samples that rounding alone keeps apart are one
         edges = edges[np.append(True, np.diff(edges) > 1e-9 * end)]
-        lines = [np.atleast_1d(record.excitation(edges)) for record in both]
+        lines = [record.accelerations(edges) for record in both]
         spans = zip(pairwise(edges), pairwise(lines[0]), pairwise(lines[1]), strict=True)
         found = []
         for (start, stop), across, up in spans:
