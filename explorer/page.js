@@ -309,7 +309,7 @@ function pick(x, y) {
 /** Read a file that was opened or dropped, and shake with it. */
 async function open(file) {
   try {
-    const read = readRecord(file.name, await file.text());
+    const read = readRecord(file.name, new Uint8Array(await file.arrayBuffer()));
     const isNew = !files.has(read.name);
     keep();
     files.set(read.name, { ...read, file: file.name });

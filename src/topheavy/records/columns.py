@@ -80,7 +80,7 @@ def _last_digits(printed: list[str]) -> NDArray[np.float64]:
     Programs print either so many decimals or so many significant digits: the most that any of the
     times has.
     """
-    numbers = [Decimal(text) for text in printed]
+    numbers = [Decimal(re.sub("[dD]", "e", text)) for text in printed]
     last = np.array([int(number.as_tuple().exponent) for number in numbers])
     first = np.array([number.adjusted() if number else last.min() for number in numbers])
     digits = (first - last).max()
