@@ -9,7 +9,7 @@ from replication.configuration import check_config, is_number, mapping_in
 from replication.suggestions import hint
 
 RECORDS = "data/records"
-UNORDERED = ("printed_masses", "accelerations")
+UNORDERED = ("printed_masses", "accelerations", "samples")
 """Lists of numbers that need not ascend."""
 
 

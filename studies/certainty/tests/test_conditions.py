@@ -62,7 +62,8 @@ EXTREME = {
     "extreme": {
         "slenderness": 10.0,
         "duration": 4.0,
-        "accelerations": [1.0, 1.0],
+        "accelerations": [1.0, -1.0],
+        "samples": [1, 2],
         "amplitude": 1.0,
     },
 }
