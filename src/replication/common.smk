@@ -63,7 +63,7 @@ def everything(wildcards):
         wanted |= dict.fromkeys(str(path) for path in asked if not callable(path))
     wanted = {path: None for path in wanted if "{" not in path}
     # A rule with wildcards reads what its jobs read, and these are known by what they make.
-    for each in [rule for rule in rules if rule.has_wildcards()]:
+    for each in filter(lambda one: one.has_wildcards(), rules):
         for path in filter(each.is_producer, list(wanted)):
             files, *_ = each.expand_input(each.get_wildcards(path))
             wanted |= dict.fromkeys(map(str, files))

@@ -32,7 +32,7 @@ fi
 
 
 class Tree:
-    """A repository with the scripts of CI, and a make that writes down what it is asked for."""
+    """A repository with the scripts of CI, and a make that writes down its targets."""
 
     def __init__(self, folder, paper=True):
         self.folder = folder
