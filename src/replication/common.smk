@@ -14,6 +14,7 @@ from replication.ledger_check import check_ledger
 from replication.parts import PAPER, Part
 from replication.place import check_place
 from replication.progress import one_line_a_job
+from replication.stopping import end_on_sigterm
 from replication.strict_yaml import read_yaml
 from replication.study_config import read_study_config
 from replication.typeset import reads
@@ -21,6 +22,7 @@ from replication.unmade import made_by, refuse_unmade
 
 check_place()
 close(workflow)
+end_on_sigterm()
 if not workflow.dryrun:
     one_line_a_job()
 
