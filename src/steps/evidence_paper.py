@@ -134,13 +134,21 @@ def uplift_limits(table: Table) -> Drawn:
     ratios = table("uplift_ratios")
     rigid = ratios[ratios.held == "rigid"]
     totals = rigid[rigid.force != "bending_moment"]
+    cantilevers = rigid[rigid.top == "pinned"]
     limited = "uplift_limits_forces"
     yield limited, "holds", ratios.largest.max() < 1.0
-    yield limited, "holds_when", totals.largest.max() < 1.0
-    for force, rows in rigid.groupby("force"):
+    yield limited, "holds_when", max(totals.largest.max(), cantilevers.largest.max()) < 1.0
+    for force, rows in totals.groupby("force"):
         yield limited, f"{force}_least", rows.least.min()
         yield limited, f"{force}_largest", rows.largest.max()
-    cells = rigid[rigid.force == "base_shear"]
+    bending, ends = {}, {"least": "min", "largest": "max"}
+    for top, rows in rigid[rigid.force == "bending_moment"].groupby("top"):
+        stand = rows.histories - rows.overturned
+        not_lower = round(float(((1.0 - rows.lower) * stand).sum()))
+        bending[top] = {"histories": int(stand.sum()), "not_lower": not_lower}
+        bending[top] |= {end: float(rows[end].agg(how)) for end, how in ends.items()}
+    yield limited, "bending_moments", bending
+    cells = cantilevers[cantilevers.force == "base_shear"]
     fell = cells.overturned.sum()
     for name in (limited, "uplift_is_beneficial"):
         yield name, "histories", cells.histories.sum()

@@ -171,7 +171,7 @@ def reversals_vase(table: Table) -> Drawn:
 
 def reversals_uplift(table: Table) -> Drawn:
     rows = table("studies/reversals_uplift")
-    cells = rows[(rows.force == "base_shear") & (rows.held == "rigid")]
+    cells = rows[(rows.force == "base_shear") & (rows.held == "rigid") & (rows.top == "pinned")]
     name = "uplift_limits_totals"
     yield name, "histories", cells.motions.sum()
     yield name, "survivors_that_uplift", cells.survivors.sum()

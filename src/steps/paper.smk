@@ -567,6 +567,7 @@ rule assumptions:
                 "scale_effects",
                 "stability",
                 "statements",
+                "uplift_limits",
                 "rocking_spectra",
             ]
         }
