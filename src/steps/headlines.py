@@ -41,6 +41,22 @@ def stated_motions(reference: Path, level: float) -> pd.DataFrame:
     return rows[rows.level == level].set_index("support")[["fell", "motions"]]
 
 
+def unscaled(reference: Path) -> dict[str, dict[bool, list[float]]]:
+    """Return the γ of 6 m columns that each measured record overturns (True), and that survive it.
+
+    Of the records that overturn any; γ = 0 is the bare column.
+    """
+    rows = pd.read_csv(reference / "studies" / "certainty_records.csv")
+    rows = rows[rows.structure == "6 m temple"]
+    return {
+        str(record): {
+            falls: of.mass_ratio[of.overturned == falls].tolist() for falls in (True, False)
+        }
+        for record, of in rows.groupby("record", sort=False)
+        if of.overturned.any()
+    }
+
+
 def numbers(reference: Path) -> list[str]:
     """Return the decimal numbers of the findings as they are rounded there, in their order."""
     rows = json.loads((reference / "claims.json").read_text(encoding="utf-8"))
@@ -50,6 +66,7 @@ def numbers(reference: Path) -> list[str]:
     starts = pd.read_csv(reference / "trilith_starts.csv").set_index("share_of_speed")
     gain = motions(reference, "reversals_medians", mass_ratio=1.0, as_large_as=0).gain
     reversed_ = motions(reference, "reversals_pairs", lighter=0, heavier=1.0).motions
+    alone, both = unscaled(reference).values()
     study = read_yaml(reference / "studies" / "reversals.yaml")["pulses"]
     window = study["grids"][study["grid"]]["frequency_ratios"]
     return [
@@ -63,6 +80,7 @@ def numbers(reference: Path) -> list[str]:
         f"{ratios.frequency_ratio[math.inf]:.3f}",
         f"{lowest[1.0]:.3f}",
         f"{STATED_PGV:.1f}",
+        *(f"{gamma:g}" for gamma in alone[True] + both[False] if gamma % 1.0),
         f"{claims['trilith_base_acceleration_in_g']:.3f}",
         f"{claims['trilith_uplift_acceleration']:.3f}",
         f"{starts.late_peak_over_alpha[1.0]:.3f}",
