@@ -8,7 +8,7 @@ its results is in src/replication/rules.smk; each study has rules of its own.
 include: "src/replication/common.smk"
 
 
-from steps.inputs import check_inputs, record_files
+from steps.inputs import check_inputs, record_files, record_paths
 
 read_strictly("config/config.yaml")
 

@@ -57,6 +57,19 @@ def test_starts_of_the_trilith_are_as_many_as_said():
     assert (starts[["rotation", "velocity"]] != 0.0).any(axis=1).all()
 
 
+def test_measured_records_that_reverse_the_ranking_unscaled_are_published():
+    (name, alone), (other, both) = headlines.unscaled(REFERENCE).items()
+    assert name.rpartition("_")[0] == other.rpartition("_")[0]  # of one station
+    (frame,) = alone[True]
+    assert frame > 0.0 in alone[False]
+    assert f"one overturns only the 6 m frame with γ = {frame:g}." in said()
+    column, *frames = both[True]
+    assert column == 0.0
+    falls, stands = (" and ".join(f"{gamma:g}" for gamma in of) for of in (frames, both[False]))
+    assert f"overturns the 6 m column and its frames with γ = {falls}, but not" in said()
+    assert f"but not with γ = {stands}." in said()
+
+
 def test_judged_claims_of_the_paper_are_as_many_as_said(claims):
     rows = [claim for claim in claims.values() if not claim.study]
     judged = [claim for claim in rows if claim.verdict != "not tested"]

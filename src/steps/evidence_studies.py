@@ -212,6 +212,29 @@ def certainty_extensions(table: Table) -> Drawn:
     yield "three_bodies", "largest", rows.routes_differ_by.max()
 
 
+def certainty_records(table: Table) -> Drawn:
+    rows = table("studies/certainty_records")
+    frames = rows[rows.mass_ratio > 0.0]
+    falls = rows.pivot_table(
+        index=["record", "structure"], columns="mass_ratio", values="overturned", aggfunc="first"
+    ).astype(bool)
+    light, heavy = falls[0.0], falls.drop(columns=0.0)
+    apart = sum(
+        int((falls[heavier] & ~falls[lighter]).sum())
+        for lighter, heavier in combinations(heavy.columns, 2)
+    )
+    yield "records", "holds", not frames.overturned.any()
+    yield "records", "overturned", frames.overturned.sum()
+    yield "records", "records", rows.record.nunique()
+    yield "records", "frames", len(frames)
+    yield "bare_columns_fall_first", "holds", not heavy[~light].to_numpy().any()
+    yield "lighter_frames_fall_first", "holds", apart == 0
+    asked = rows[rows.by_scipy.notna()]
+    yield "second_route", "asked", len(asked)
+    yield "second_route", "differ", (asked.by_scipy.astype(bool) != asked.overturned).sum()
+    yield "napa", "value", rows.pgv[rows.record.str.startswith("napa")].max()
+
+
 def certainty_restitution(table: Table) -> Drawn:
     rows = table("studies/certainty_restitution")
     pulses, less = (rows[rows.under == name] for name in ("pulses", "difference"))
@@ -262,6 +285,7 @@ OF_STUDIES: tuple[Callable[[Table], Drawn], ...] = (
     certainty_extensions,
     certainty_intensities,
     certainty_lowest,
+    certainty_records,
     certainty_restitution,
     certainty_theorem,
     mechanism_dependence,

@@ -64,6 +64,22 @@ def from_to(shares: pd.Series, digits: int = 0) -> str:
     return f"{100 * shares.min():.{digits}f} to {100 * shares.max():.{digits}f}"
 
 
+def unscaled(reference: Path) -> dict[str, dict[bool, list[float]]]:
+    """Return the γ of 6 m columns that each measured record overturns (True), and that survive it.
+
+    Of the records that overturn any; γ = 0 is the bare column.
+    """
+    rows = pd.read_csv(reference / "studies" / "certainty_records.csv")
+    rows = rows[rows.structure == "6 m temple"]
+    return {
+        str(record): {
+            falls: of.mass_ratio[of.overturned == falls].tolist() for falls in (True, False)
+        }
+        for record, of in rows.groupby("record", sort=False)
+        if of.overturned.any()
+    }
+
+
 def numbers(reference: Path) -> list[str]:
     """Return the decimal numbers of the findings as they are rounded there, in their order."""
     rows = json.loads((reference / "claims.json").read_text(encoding="utf-8"))
@@ -75,6 +91,7 @@ def numbers(reference: Path) -> list[str]:
     gains = motions(reference, "reversals_medians", mass_ratio=1.0, as_large_as=0).gain
     reversed_ = motions(reference, "reversals_pairs", lighter=0, heavier=1.0).motions
     velocity = f"{stated_pgv(reference):.1f}"
+    alone, both = unscaled(reference).values()
     study = read_yaml(reference / "studies" / "reversals.yaml")["pulses"]
     window = study["grids"][study["grid"]]["frequency_ratios"]
     return [
@@ -91,6 +108,7 @@ def numbers(reference: Path) -> list[str]:
         velocity,
         f"{portals(reference).min():.2f}",
         velocity,
+        *(f"{gamma:g}" for gamma in alone[True] + both[False] if gamma % 1.0),
         f"{claims['trilith_base_acceleration_in_g']:.3f}",
         f"{claims['trilith_uplift_acceleration']:.3f}",
         f"{100 * states['rocking']:.1f}",

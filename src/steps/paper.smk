@@ -344,7 +344,7 @@ rule heavier:
 rule vase:
     input:
         code("src/steps/vase.py"),
-        records=[RECORDS[name] for name in config["vase"]["records"]],
+        records=record_paths(config["vase"]["records"], RECORDS),
     output:
         summary="results/tables/vase.csv",
         motions="results/tables/vase_motions.csv",
@@ -368,7 +368,7 @@ rule vase:
 rule uplift_limits:
     input:
         code("src/steps/uplift_limits.py"),
-        records=[RECORDS[name] for name in config["uplift_limits"]["records"]],
+        records=record_paths(config["uplift_limits"]["records"], RECORDS),
     output:
         table="results/tables/uplift_limits.csv",
         ratios="results/tables/uplift_ratios.csv",
@@ -505,7 +505,7 @@ rule peak_maps:
 rule rocking_spectra:
     input:
         code("src/steps/rocking_spectra.py"),
-        records=[RECORDS[name] for name in config["rocking_spectra"]["records"]],
+        records=record_paths(config["rocking_spectra"]["records"], RECORDS),
     output:
         table="results/tables/rocking_spectra.csv",
         findings="results/findings/rocking_spectra.json",
@@ -551,7 +551,7 @@ rule assumptions:
         code("src/steps/assumptions/run.py"),
         assumptions="paper/assumptions.yaml",
         ledger=PARTS[PAPER].claims,
-        records=[RECORDS[name] for name in config["assumptions"]["records"]],
+        records=record_paths(config["assumptions"]["records"], RECORDS),
     output:
         table="results/tables/assumptions.csv",
     log:

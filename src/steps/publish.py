@@ -46,6 +46,7 @@ STUDY_TABLES = (
     "certainty_extensions",
     "certainty_intensities",
     "certainty_lowest",
+    "certainty_records",
     "certainty_restitution",
     "certainty_theorem",
     "mechanism_dependence",

@@ -7,6 +7,7 @@ CERTAINTY = [
     "restitution",
     "benefit",
     "intensities",
+    "records",
 ]
 
 PARTS["certainty"].figures.update(
@@ -124,7 +125,6 @@ rule certainty_benefit:
 rule certainty_intensities:
     input:
         code("studies/certainty/steps/intensities.py"),
-        records=[RECORDS[name] for name in case("intensities", "certainty")["records"]],
     output:
         table="results/tables/certainty_intensities.csv",
         findings="results/findings/certainty_intensities.json",
@@ -140,3 +140,23 @@ rule certainty_intensities:
         "Study certainty: probability of overturning at stated intensities"
     script:
         "steps/intensities.py"
+
+
+rule certainty_records:
+    input:
+        code("studies/certainty/steps/records.py"),
+        records=record_paths(case("records", "certainty")["records"], RECORDS),
+    output:
+        table="results/tables/certainty_records.csv",
+        findings="results/findings/certainty_records.json",
+    log:
+        "results/logs/certainty_records.log",
+    benchmark:
+        "results/benchmarks/certainty_records.tsv"
+    params:
+        case=case("records", "certainty"),
+        structures=named(config["structures"], case("records", "certainty")),
+    message:
+        "Study certainty: the records as measured"
+    script:
+        "steps/records.py"
