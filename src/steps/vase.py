@@ -14,7 +14,7 @@ from replication.findings import Finding
 from replication.workbench import grid, run, truth
 from steps.spectrum import progress
 from steps.vase_poses import poses
-from steps.vase_searches import Minimum, minimum, refined, rivals
+from steps.vase_searches import FINEST, Minimum, minimum, refined, rivals
 from steps.vase_shares import PARAMETERS, WORTHS, shares
 from topheavy import (
     STANDARD_GRAVITY,
@@ -139,6 +139,7 @@ def question(compared: list[dict], structures: list[str], longest: float) -> Fin
         exceptions=len(broken),
         exceptions_under_records=sum(row["kind"] == "record" for row in broken),
         records=sum(row["kind"] == "record" for row in asked),
+        steps={kind.__name__: step for kind, step in FINEST.items()},
     )
 
 
@@ -279,7 +280,8 @@ def main(case: dict, paths: list[str], tightened: float) -> tuple:
         "shares_of_the_gain": whole_gain(of_shares),
         "second_route": second_route(errors, exceptions, rows, compared),
     }
-    tables = summary, pd.DataFrame(map(plain, rows)), pd.DataFrame(exceptions), of_shares
+    searched = pd.DataFrame(plain(row) | {"search_step": row["found"].step} for row in rows)
+    tables = summary, searched, pd.DataFrame(exceptions), of_shares
     return *tables, pd.DataFrame(poses(column, case)), findings
 
 

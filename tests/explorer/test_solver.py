@@ -263,3 +263,32 @@ def test_seeded_states_hold_what_they_should():
     assert {state["shape"] for state in found} == set(SHAPES)
     assert {state["eq"] for state in found} == {"exact", "linearised"}
     assert {state["cap"] for state in found} == {"free", "fixed"}
+
+
+def test_page_names_the_steps_in_which_it_searches_the_minimum(browser):
+    browser.open(settled=False)
+    windows = browser.do("WINDOWS")
+    said = browser.do("document.body.textContent.replace(/\\s+/g, ' ')")
+    (_, first, one), (_, second, two), (_, last, three) = windows
+    percents = (round(100 * step, 6) for step in (one, two, three))
+    steps = "steps of {:g} % of it up to {:g} times, of {:g} % up to {:g} times"
+    steps += " and of {:g} % up to {:g} times"
+    ends = zip(percents, (first, second, last), strict=True)
+    assert steps.format(*(number for pair in ends for number in pair)) in said
+
+
+def test_digits_of_the_minimum_follow_from_the_step_of_its_search(browser):
+    """The last printed digit is no finer than a tenth of the step, whatever the motion."""
+    for change in ({}, {"shape": "record"}):
+        browser.open(browser.do("encode({...DEFAULTS, ...{0}})", change))
+        cells = browser.do(
+            """structuresOf(state).map((block, k) => {
+            const cell = document.getElementById(`minimum${k}`), a = Number(cell.dataset.value);
+            return [cell.textContent, a, searchStep(block, a), cell.title];
+            })"""
+        )
+        for text, lowest, step, title in cells:
+            unit = 10.0 ** -len(text.partition(".")[2])
+            assert step / 10.0 < unit < 10.0 * step
+            assert abs(float(text) - lowest) <= 0.5001 * unit
+            assert title == f"search step {step:.2g} g"

@@ -59,6 +59,21 @@ def test_refinement_finds_what_a_minimum_missed():
     assert vase_searches.refined(missed, 0.25) == missed
 
 
+def test_minimum_has_the_step_of_the_search_that_found_it():
+    uplift = COLUMN.uplift_acceleration
+    found = vase_searches.minimum(COLUMN, PULSE, 2.0)
+    (step,) = (
+        step
+        for low, high, step in vase_searches.WINDOWS[Pulse]
+        if low * uplift < found.acceleration <= high * uplift
+    )
+    assert found.step == pytest.approx(step * uplift)
+    missed = vase_searches.Minimum(COLUMN, PULSE, (0.9, 0.9), 0.05 * uplift)
+    finest = vase_searches.FINEST[Pulse] * uplift
+    assert vase_searches.refined(missed, 0.5).step == pytest.approx(finest)
+    assert vase_searches.refined(missed, 0.25).step == missed.step
+
+
 def row(structure, ours, bare, ratio=1.0, kind="pulse"):
     found, other = (vase_searches.Minimum(COLUMN, PULSE, (value, value)) for value in (ours, bare))
     return {
