@@ -11,7 +11,7 @@ from jsonschema import Draft202012Validator
 
 from replication.ledger import read_ledger
 from replication.workbench import truth
-from steps.assumptions import choices, rankings, run, trilith
+from steps.assumptions import choices, held, rankings, run, trilith
 from steps.assumptions.alternatives import alternatives
 from steps.assumptions.choices import Choices
 from topheavy import Column, Pulse, Record, RockingFrame, judge
@@ -240,3 +240,21 @@ def test_records_shake_the_block_of_the_choice(monkeypatch):
     }
     rankings.heavier_falls_alone_under_records(Choices(restitution=lambda frame: 0.75), cases)
     assert roots == {0.75}
+
+
+@pytest.mark.parametrize(
+    ("beside", "holds", "holds_when"),
+    [
+        (None, False, True),
+        (("pinned", "rigid"), True, True),
+        (("guided", "rigid"), False, True),
+        (("pinned", "2 s"), False, False),
+    ],
+)
+def test_verdict_on_what_uplift_limits_depends_on_the_held_frame(beside, holds, holds_when):
+    column = {"half_width": COLUMN.half_width, "half_height": COLUMN.half_height}
+    cases = {"uplift_limits": CONFIG["uplift_limits"] | {"column": column}}
+    few = CONFIG["assumptions"]["held"] | {"shapes": ["one-sine"], "mass_ratios": [1.0]}
+    found = held.limits(Choices(held=beside), cases | {"assumptions": {"held": few}})
+    assert found.finding == truth(holds, holds_when=holds_when)
+    assert (found.number < 1.0) is holds

@@ -44,7 +44,7 @@ def limits(choices: Choices, cases: Cases) -> Found:
         for (name, top, stiffness), ratio in ratios.items()
         if stiffness == RIGID and (top == PINNED or name != "bending_moment")
     ]
-    bending = max(ratio for (name, *_), ratio in ratios.items() if name == "bending_moment")
+    bending = float(max(ratio for (name, *_), ratio in ratios.items() if name == "bending_moment"))
     return Found(
         bending,
         truth(
