@@ -48,7 +48,9 @@ def test_samples_and_step_are_read(write):
 @few
 @given(
     spelling=st.sampled_from(sorted(SPELLINGS)),
-    samples=st.lists(st.floats(-4.9, 4.9).map(lambda a: round(a, 6)), min_size=2, max_size=9),
+    samples=st.lists(
+        st.floats(-4.9, 4.9).map(lambda a: round(a, 6)), min_size=2, max_size=9
+    ).filter(any),
     milliseconds=st.booleans(),
     bracket=st.sampled_from(["()", "[]"]),
 )
