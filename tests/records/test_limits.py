@@ -66,7 +66,7 @@ def seconds(reader, line: str) -> float:
     ],
 )
 def test_cost_of_a_header_grows_in_proportion_to_its_length(reader, part):
-    short, long = (seconds(READERS[reader], part * number) for number in (600, 4800))
+    short, long = (seconds(READERS[reader], part * number) for number in (300, 2400))
     assert long < 3 * 8 * short + 2e-3  # in proportion it is 8, as the square 64
 
 
