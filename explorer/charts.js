@@ -84,12 +84,15 @@ class Spectrum {
     this.plane = null;
   }
 
-  /** Set the axes of a plane, anew when they change. */
-  frame(plane) {
-    const key = JSON.stringify([plane.x, plane.y, plane.isRecord]);
+  /** Set the plane: its axes anew when they change, and no cells until its own come. `contents` is
+      all that its cells depend on, as a text. */
+  frame(plane, contents) {
+    const axes = JSON.stringify([plane.x, plane.y, plane.isRecord]);
     this.plane = plane;
-    if (key !== this.key) {
-      this.key = key;
+    if (contents !== this.contents) this.cells = null;
+    this.contents = contents;
+    if (axes !== this.axes) {
+      this.axes = axes;
       this.chart?.destroy();
       const ticks = (low, high) => [0.1, 0.2, 0.5, 1, 2, 3, 5, 10, 20, 50, 100, 200, 500].filter((v) => v >= low && v <= high);
       const log = { distr: 3, log: 10 };
@@ -123,9 +126,9 @@ class Spectrum {
     } else this.chart.redraw(false, false);
   }
 
-  /** Take the outcomes of the cells, row by row from the lowest amplitude up. */
-  outcomes(codes, columns, rows) {
-    this.cells = { codes: withRegions(codes, columns, rows), columns, rows };
+  /** Take the outcomes of the plane's cells, row by row from the lowest amplitude up; `share` of them are known. */
+  outcomes({ codes, columns, rows, share }) {
+    this.cells = { codes: withRegions(codes, columns, rows), columns, rows, isWhole: share === 1 };
     this.recolour();
   }
 

@@ -4,13 +4,13 @@
 const DATA = JSON.parse(byId("data").textContent);
 const ENGINE = URL.createObjectURL(new Blob([...document.querySelectorAll("script.engine")].map((script) => script.textContent), { type: "text/javascript" }));
 const CASES = DATA.cases.map((each) => encode({ ...DEFAULTS, ...each.state }));
-const NAMES = ["Column", "Vase: mass fixed to it", "Frame: mass carried freely"];
-const PORTAL = "Frame: cap beam fixed to both";
+const TITLES = { column: "Column", vase: "Vase: mass fixed to it", frame: "Frame: mass carried freely", portal: "Frame: cap beam fixed to both" };
 
-const files = new Map();
+const files = new Map(); // records by name; `opened` numbers them, so that a file of the same name is another
 let state = { ...DEFAULTS };
 let found = null; // the histories that are shown
 let awaited = {}; // the record that the address names and the page has not, and the factor on it
+let opened = 0; // how many files
 let time = 0, isPlaying = false, wantsToPlay = true, before = 0;
 
 const round = (number, digits = 3) => {
@@ -21,7 +21,7 @@ const round = (number, digits = 3) => {
 // The workers ------------------------------------------------------------------------------------
 
 let quick = new Worker(ENGINE), slow = null;
-let isBusy = false, waits = false, survey = 0, mapKey = "", isMapDone = false;
+let isBusy = false, waits = false, survey = 0; // the number of the only survey whose answers count
 
 /** Request the histories of the state; while one is computed, only the last question waits. */
 function ask() {
@@ -30,14 +30,14 @@ function ask() {
     return;
   }
   isBusy = true;
-  quick.postMessage({ task: "histories", state, file: files.get(state.record) });
+  quick.postMessage({ id: encode(state), task: "histories", state, file: files.get(state.record) });
 }
 
 quick.onmessage = ({ data }) => {
   isBusy = false;
   const began = performance.now();
-  if (data.error) controls.tell("shape", data.error);
-  else receive(data);
+  if (!data.error) receive(data);
+  else if (data.id === encode(state)) controls.tell("shape", data.error);
   performance.measure("drawing", { start: began });
   if (waits) {
     waits = false;
@@ -45,18 +45,21 @@ quick.onmessage = ({ data }) => {
   }
 };
 
-/** Start minima and spectrum anew; the spectrum only when it changes. */
+/** Start minima and spectrum anew; the spectrum only where it is not whole yet. */
 function askSurvey() {
-  const file = files.get(state.record), key = planeKey(state, file);
-  const needsSpectrum = key !== mapKey || !isMapDone;
-  isMapDone = !needsSpectrum;
-  mapKey = key;
-  slow?.terminate();
+  const file = files.get(state.record);
+  spectrumChart.frame(planeOf(state, file), planeKey(state, file));
+  const needsSpectrum = !spectrumChart.cells?.isWhole;
   slow = new Worker(ENGINE);
   slow.onmessage = hear;
-  survey += 1;
   progress(needsSpectrum ? 0 : 1);
   slow.postMessage({ id: survey, task: "survey", state, file, needsSpectrum });
+}
+
+/** Stop the survey of a state that is no longer shown; what it has sent already does not count. */
+function dropSurvey() {
+  survey += 1;
+  slow?.terminate();
 }
 
 function hear({ data }) {
@@ -73,9 +76,7 @@ function hear({ data }) {
     cell.classList.remove("pending");
   }
   if ("codes" in data) {
-    const [columns, rows] = GRIDS[state.shape === "record" ? "record" : "pulse"];
-    spectrumChart.outcomes(data.codes, columns, rows);
-    isMapDone = data.share === 1;
+    spectrumChart.outcomes(data);
     progress(data.share);
   }
 }
@@ -113,7 +114,7 @@ function receive(answer) {
   structures.forEach((of, k) => {
     const reach = Math.max(1.4, of.overturned ? 0 : 1.15 * of.peak);
     strips[k].show(list, toList(of.theta, of.alpha), [-reach, reach], of.overturned ? "overturns" : "survives");
-    byId(`caption${k}`).innerHTML = `${titles()[k]} <span class="${word(of)}-word">${outcome(of)}</span>`;
+    byId(`caption${k}`).innerHTML = `${TITLES[of.name]} <span class="${word(of)}-word">${outcome(of)}</span>`;
     byId(`history${k}`).setAttribute("aria-label", `Rotation of the ${of.name} over time: ${outcome(of)}`);
   });
   const largest = 1.15 * Math.max(answer.peak, level);
@@ -123,10 +124,9 @@ function receive(answer) {
   table(structures);
   byId("verdict").innerHTML = structures.map((of, k) => `${["Column", "vase", "frame"][k]} <span class="${word(of)}-word">${outcome(of)}</span>`).join(", ");
   show(Math.min(time, until));
-  document.documentElement.dataset.shown = encode(state);
+  document.documentElement.dataset.shown = answer.id; // of the state that was asked about
 }
 
-const titles = () => [NAMES[0], NAMES[1], state.cap === "fixed" ? PORTAL : NAMES[2]];
 const word = (of) => (of.overturned ? "overturns" : "survives");
 const outcome = (of) => (of.overturned ? "overturns" : of.moved ? "survives" : "does not uplift");
 
@@ -141,7 +141,7 @@ function table(structures) {
   const rows = byId("rows");
   structures.forEach((of, k) => {
     const numbers = [
-      titles()[k].split(":")[0], outcome(of), of.overturned ? "–" : round(of.peak), null, round(of.uplift, 4), round((of.alpha * 180) / Math.PI, 4),
+      TITLES[of.name].split(":")[0], outcome(of), of.overturned ? "–" : round(of.peak), null, round(of.uplift, 4), round((of.alpha * 180) / Math.PI, 4),
       `${k === 2 ? "p̂ = " : "p = "}${round(of.p, 4)}`, `${k === 2 ? "R̂ = " : "R = "}${round(of.size, 4)}`, round(of.restitution, 4), of.moved ? round(of.friction) : "–",
     ];
     numbers.forEach((text, i) => text !== null && (rows.children[k].children[i].textContent = text));
@@ -242,6 +242,7 @@ let isUpdating = false, rested = 0;
 /** Show the controls of the state at once, and the rest with the next picture of the screen. */
 function update() {
   document.documentElement.dataset.spectrum = "computing";
+  dropSurvey();
   controls.show(state);
   if (!isUpdating) requestAnimationFrame(redraw);
   isUpdating = true;
@@ -250,7 +251,7 @@ function update() {
 }
 
 function redraw() {
-  const began = performance.now(), plane = planeOf(state, files.get(state.record));
+  const began = performance.now(), file = files.get(state.record);
   isUpdating = false;
   ask();
   scene.build(state);
@@ -258,7 +259,7 @@ function redraw() {
     scene.outcomes(found.structures);
     show(time);
   }
-  spectrumChart.frame(plane);
+  spectrumChart.frame(planeOf(state, file), planeKey(state, file));
   const here = encode(state), same = CASES.indexOf(here);
   byId("note").textContent = same >= 0 ? DATA.cases[same].note : "";
   [...byId("cases").children].forEach((button, k) => button.setAttribute("aria-pressed", String(k === same)));
@@ -314,9 +315,8 @@ async function open(file) {
     const read = readRecord(file.name, new Uint8Array(await file.arrayBuffer()));
     const isNew = !files.has(read.name);
     keep();
-    files.set(read.name, { ...read, file: file.name });
+    files.set(read.name, { ...read, file: file.name, opened: ++opened });
     if (isNew) controls.offer(read.name, `${file.name}, ${round(peakOf(read.samples))} g`);
-    mapKey = "";
     state = { ...state, shape: "half-sine" }; // so that a file of the same name is taken anew
     controls.tell("record", "");
     controls.apply({ shape: "record", record: read.name, x: read.name === awaited.record ? awaited.x : 1 }, true, "shape");

@@ -125,13 +125,13 @@ function planeOf(state, file) {
   return { isRecord, x, y, here, columns, rows };
 }
 
-/** Everything that the spectrum depends on, as a text: while it stays, the spectrum need not change. */
+/** Everything that the spectrum depends on, as a text: while it stays, the spectrum stays. */
 function planeKey(state, file) {
   const { x, y, isRecord } = planeOf(state, file), block = structuresOf(state)[2], alone = column(state.b, state.h);
   const ratio = (number) => number.toPrecision(10);
   return [
     state.shape, state.eq, state.shape === "harmonic" ? [state.start, ratio(state.D * block.p)] : "",
-    isRecord ? [file.name, file.samples.length] : "", ratio(block.alpha), ratio(block.restitution),
+    isRecord ? [file.name, file.opened] : "", ratio(block.alpha), ratio(block.restitution),
     ratio(block.p / alone.p), ratio(alone.alpha), x, y,
   ].join();
 }
@@ -166,12 +166,12 @@ function spectrum(state, file, report) {
         codes[i + columns * j] = code;
         if (performance.now() - reported > 100) {
           reported = performance.now();
-          report({ codes: codes.slice(), share: done / codes.length });
+          report({ codes: codes.slice(), columns, rows, share: done / codes.length });
         }
       }
     }
   }
-  report({ codes, share: 1 });
+  report({ codes, columns, rows, share: 1 });
 }
 
 /** Mark what survives above the minimum overturning amplitude at the same x: survival regions. */

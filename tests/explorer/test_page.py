@@ -346,6 +346,42 @@ def test_record_of_the_address_is_opened_with_its_factor(browser):
     )
 
 
+def test_file_of_the_same_name_and_length_is_another_record(browser):
+    browser.open()
+    spectra = []
+    for period in (20, 60):
+        lines = (f"{k / 50:.2f},{0.4 * (-1) ** (k // period)}" for k in range(150))
+        text = "\n".join(["time (s),acceleration (g)", *lines])
+        browser.do(DROP, "mine.csv", text)
+        browser.do("new Promise(resolve => setTimeout(resolve, 300))")
+        browser.settle()
+        spectra.append(browser.do(CODES))
+    assert spectra[0] != spectra[1]
+
+
+def test_long_record_is_shown(browser):
+    browser.open(settled=False)
+    text = "time (s),acceleration (g)\n" + "".join(
+        f"{k / 1000:.3f},{0.4 * (-1) ** (k // 500)}\n" for k in range(300_000)
+    )
+    browser.do(DROP, "long.csv", text)
+    browser.do(
+        """new Promise((resolve, reject) => {
+          const deadline = Date.now() + 60000, told = document.getElementById("record-error");
+          const look = () => {
+            if (told.textContent || Date.now() > deadline) reject(new Error(told.textContent));
+            else if (document.documentElement.dataset.shown?.includes("record=long")) resolve();
+            else setTimeout(look, 50);
+          };
+          look();
+        })"""
+    )
+    assert browser.do("files.get('long').samples.length") == 300_000
+    assert browser.do("found.peak") == pytest.approx(0.4)
+    assert browser.tab.errors == []
+    browser.do("slow?.terminate()")  # its spectrum would take minutes
+
+
 def test_back_returns_to_what_a_case_replaced(browser):
     browser.open("b=0.4&a=0.25")
     before = state_of(browser)
@@ -356,6 +392,102 @@ def test_back_returns_to_what_a_case_replaced(browser):
     browser.do("history.back()")
     browser.do("new Promise(resolve => setTimeout(resolve, 400))")
     assert state_of(browser) == before
+
+
+# What a change of the state leaves in the spectrum: the colours of its cells in two pictures' time.
+CELLS_AFTER = """(async () => {
+  {0};
+  for (let k = 0; k < 2; k++) await new Promise(requestAnimationFrame);
+  const {ctx, bbox} = spectrumChart.chart, {data} = ctx.getImageData(
+    Math.round(bbox.left), Math.round(bbox.top), Math.round(bbox.width), Math.round(bbox.height));
+  const seen = new Set();
+  for (let k = 0; k < data.length; k += 4) seen.add([...data.subarray(k, k + 3)].join());
+  const probe = document.createElement("canvas").getContext("2d");
+  return ["pale-survives", "pale-overturns", "overturns", "region"].filter(name => {
+    probe.fillStyle = colour(name);
+    probe.fillRect(0, 0, 1, 1);
+    return seen.has([...probe.getImageData(0, 0, 1, 1).data.subarray(0, 3)].join());
+  });
+})()"""
+RECORD = "change({shape: 'record', record: 'el_centro_1940_NS', x: 2}, true)"
+CODES = "[spectrumChart.cells.columns, spectrumChart.cells.rows, ...spectrumChart.cells.codes]"
+
+
+@pytest.mark.parametrize(
+    "edit", [RECORD, "change({shape: 'one-sine'}, true)", "change({b: 0.7}, true)"]
+)
+def test_spectrum_of_another_plane_is_taken_away_at_once(browser, edit):
+    browser.open()
+    assert set(browser.do(CELLS_AFTER.replace("{0}", "null"))) >= {"pale-survives", "overturns"}
+    assert browser.do(CELLS_AFTER.replace("{0}", edit)) == []
+    browser.settle()
+    shown, address = browser.do(CODES), state_of(browser)
+    browser.open(address)
+    assert browser.do(CODES) == shown
+
+
+def test_spectrum_of_the_same_plane_stays(browser):
+    browser.open()
+    assert browser.do(CELLS_AFTER.replace("{0}", "change({a: 0.4, T: 2}, true)")) != []
+
+
+def test_spectrum_that_was_interrupted_is_completed(browser):
+    browser.open()
+    whole = browser.do(CODES)
+    browser.do("spectrumChart.cells.codes.fill(1), spectrumChart.cells.isWhole = false")
+    browser.do("change({a: 0.4}, true)")
+    browser.settle()
+    assert browser.do(CODES) == whole
+
+
+def test_late_answer_to_another_state_is_not_shown(browser):
+    browser.open()
+    before, after = browser.do(
+        """(async () => {
+          const late = survey, shown = () => [
+            spectrumChart.cells?.columns, spectrumChart.cells?.codes.every(code => code === 3),
+            document.getElementById("numbers").innerHTML,
+            document.getElementById("shape-error").textContent];
+          change({shape: "record", record: "el_centro_1940_NS", x: 2}, true);
+          for (let k = 0; k < 2; k++) await new Promise(requestAnimationFrame);
+          const before = shown();
+          [{codes: new Uint8Array(96 * 64).fill(3), columns: 96, rows: 64, share: 1},
+            {index: 0, minimum: 1}, {index: 0, isSensitive: true}, {error: "late"}].forEach(
+            each => hear({data: {id: late, ...each}}));
+          return [before, shown()];
+        })()"""
+    )
+    assert before == after
+
+
+def test_histories_are_those_of_the_state_that_was_asked_about(browser):
+    browser.open()
+    before = state_of(browser)
+    shown, title = browser.do(
+        """(() => {
+          const late = {...found, id: encode(state)};
+          change({cap: "fixed"}, true);
+          quick.onmessage({data: late});
+          const {dataset} = document.documentElement;
+          return [dataset.shown, document.getElementById("caption2").textContent];
+        })()"""
+    )
+    assert shown == before != state_of(browser)
+    assert "carried freely" in title
+
+
+@pytest.mark.parametrize("delay", [150, 250, 300, 350, 450])
+def test_quick_edits_end_without_error_in_the_spectrum_of_the_last(browser, delay):
+    browser.open(settled=False)
+    browser.do(TYPE, "b", "0.6")
+    browser.do("new Promise(resolve => setTimeout(resolve, {0}))", delay)
+    browser.do(RECORD)
+    browser.do("new Promise(resolve => setTimeout(resolve, 240))")
+    assert browser.tab.errors == []
+    assert browser.do("spectrumChart.cells?.columns ?? 48") == 48
+    browser.settle()
+    assert browser.tab.errors == []
+    assert browser.do("spectrumChart.cells.codes.length") == 48 * 36
 
 
 def test_press_in_the_spectrum_goes_there(browser):

@@ -120,3 +120,11 @@ def test_long_record_is_read(browser, tmp_path):
         assert isinstance(found, list), found
         assert len(found[1]) == MANY
         assert found == by_the_library(tmp_path, *file)
+
+
+def test_record_of_zeros_cannot_be_scaled_and_is_refused_by_the_page_alone(browser, tmp_path):
+    browser.open(settled=False)
+    content = b"UNITS OF G\nNPTS= 3, DT= .01 SEC\n0 0 0\n"
+    (found,) = by_the_page(browser, [(".AT2", content)])
+    assert found == "motion.AT2: all its samples are zero; expected a ground motion"
+    assert by_the_library(tmp_path, ".AT2", content) == [0.01, [0.0, 0.0, 0.0]]

@@ -43,6 +43,7 @@ UNCERTAIN_STEPS = [
     *("NPTS= 5.5, DT= .02", "NPTS= 5,000, DT= .02", "NPTS= -5, DT= .02", "NPTS= 5", "5 NPTS"),
     *("NPTS= 5, DT= 0.1 MIN", "NPTS= 5, DT= 0.01.5", "NPTS= 5, DT= 1e300", "5 0.1 MIN NPTS, DT"),
     *("NPTS= 5, DT= .02 s²", "NPTS= 5, DT= .02 constructor", "NPTS= 5, DTS= .02"),
+    *("NPTS= 5, DT= .02.", "NPTS= 5., DT= .02"),
 ]
 
 
