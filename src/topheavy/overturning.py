@@ -256,7 +256,9 @@ def minimum_overturning(
     """Return a bracket of the lowest factor on an excitation that overturns a block.
 
     It is the lower end of the first of `overturning_intervals`, of which the others are not sought;
-    parameters and errors are those.
+    parameters and errors are those. The bracket is narrow, but it belongs to the resolution: a
+    narrower interval may overturn below it, above all under a record. State the resolution with
+    the minimum, and halve it to see whether the minimum changes.
 
     Returns
     -------
