@@ -76,3 +76,47 @@ def test_nothing_else_in_the_workflow_loads_yaml():
     lax = re.compile(r"yaml\.\w*load|load_configfile")
     found = {path.name for path in code if lax.search(path.read_text(encoding="utf-8"))}
     assert found == {"strict_yaml.py"}
+
+
+def doubled(levels):
+    """Return a list of two, the next of two of these, and so on."""
+    lines = ["l0: &l0 [x, x]"]
+    lines += [f"l{k}: &l{k} [*l{k - 1}, *l{k - 1}]" for k in range(1, levels)]
+    return "\n".join(lines) + "\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (
+            "a: 1\nb: &x [1,\n  *x]\n",
+            r"line 3: the alias \*x is within the value that it names",
+        ),
+        ("a: &x\n  b: *x\n", r"line 2: the alias \*x is within the value that it names"),
+        ("a: &x\n  <<: *x\n", r"line 2: the alias \*x is within the value that it names"),
+        ("a: &x [&y [*x]]\n", r"line 1: the alias \*x is within the value that it names"),
+        (
+            doubled(200),
+            r"line 15: the file has more than 100000 values and keys up to here",
+        ),
+        ("- &x y\n" + "- *x\n" * 100_001, r"line 100\d\d\d: the file has more than 100000 values"),
+        ("- 1\n" * 100_001, r"line 100000: the file has more than 100000 values"),
+        ("a:\n  " + "[" * 300_000, r"line 2: more than 100 lists and mappings are within each"),
+        ("[" * 101 + "]" * 101, r"line 1: more than 100 lists and mappings are within each other"),
+    ],
+    ids=range(9),
+)
+def test_what_has_no_end_or_takes_too_long_is_told_with_its_line(tmp_path, text, message):
+    path = tmp_path / "config.yaml"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(ValueError, match=rf"^{re.escape(str(path))}, {message}") as told:
+        read_yaml(path)
+    assert "\n" not in str(told.value)
+
+
+def test_aliases_and_levels_within_reason_are_read(tmp_path):
+    path = tmp_path / "config.yaml"
+    path.write_text(doubled(10) + "deep: " + "[" * 99 + "]" * 99, encoding="utf-8")
+    read = read_yaml(path)
+    assert read["l1"] == [["x", "x"], ["x", "x"]]
+    assert len(read) == 11
