@@ -11,7 +11,7 @@ MERGE = "tag:yaml.org,2002:merge"
 
 
 MOST_LEVELS = 100
-"""Of lists and mappings within each other. Beyond, Python stops at a thousand, and PyYAML crashes."""
+"""Of lists and mappings within each other. Python stops at a thousand, and PyYAML crashes later."""
 
 MOST_PARTS = 100_000
 """Values and keys of a file, each alias counted as all of the value that it names."""
@@ -54,8 +54,8 @@ def read_yaml(path: str | Path) -> Any:
     ------
     ValueError
         With file and line: for a mapping that has a key twice, a fault of the syntax, a byte that
-        is not UTF-8, an alias within the value that it names, more than MOST_LEVELS or MOST_PARTS. With
-        the file: when it is empty.
+        is not UTF-8, an alias within the value that it names, more than MOST_LEVELS or MOST_PARTS.
+        With the file: when it is empty.
     """
     data = Path(path).read_bytes()
     try:
@@ -103,8 +103,8 @@ def _check_extent(path: str | Path, text: str) -> None:
                     if name in (anchor for anchor, _ in within):
                         raise refuse(
                             event,
-                            f"the alias *{name} is within the value that it names, which then has no "
-                            "end; expected an alias of another value",
+                            f"the alias *{name} is within the value that it names, which then has "
+                            "no end; expected an alias of another value",
                         )
                     parts += extents.get(name, 0)
                 case yaml.ScalarEvent(anchor=name):

@@ -101,7 +101,7 @@ def doubled(levels):
         ),
         ("- &x y\n" + "- *x\n" * 100_001, r"line 100\d\d\d: the file has more than 100000 values"),
         ("- 1\n" * 100_001, r"line 100000: the file has more than 100000 values"),
-        ("a:\n  " + "[" * 300_000, r"line 2: more than 100 lists and mappings are within each ot"),
+        ("a:\n  " + "[" * 300_000, r"line 2: more than 100 lists and mappings are within each"),
         ("[" * 101 + "]" * 101, r"line 1: more than 100 lists and mappings are within each other"),
     ],
     ids=range(9),
