@@ -1,6 +1,10 @@
 """How much amplitude a heavier cap buys, under one pulse: a study to begin with."""
 
-PARTS["skeleton"].figures["studies/skeleton/figures/gain"] = ["skeleton_gain"]
+PARTS["skeleton"].figures.update(
+    {
+        "studies/skeleton/figures/gain": ["skeleton_gain"],
+    }
+)
 PARTS["skeleton"].findings.append("skeleton_gain")
 
 

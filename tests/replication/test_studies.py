@@ -1,15 +1,20 @@
 """Follow-up studies: how one is begun, read, and judged with the paper's claims."""
 
 import shutil
+import subprocess
+import sys
 from functools import partial
 from pathlib import Path
+from string import ascii_lowercase
 
 import pytest
 import yaml
 
 from replication.claim import Claim
-from replication.commands.new_study import create
+from replication.commands.new_paper import TEMPLATE
+from replication.commands.new_study import LONGEST, create
 from replication.ledger import read_ledger
+from replication.ledger_check import check_ledger
 from replication.study_config import read_study_config
 from steps.inputs import RECORDS, check_inputs
 
@@ -22,8 +27,9 @@ def project(tmp_path):
     """The config and the skeleton, in a folder of their own."""
     (tmp_path / "config").mkdir()
     shutil.copy(ROOT / "config" / "config.yaml", tmp_path / "config")
+    shutil.copy(ROOT / ".gitignore", tmp_path)
     shutil.copytree(ROOT / "studies" / "skeleton", tmp_path / "studies" / "skeleton")
-    for name in ("src", "figures", "notebooks"):
+    for name in ("src", "figures", "notebooks", "paper"):
         (tmp_path / name).symlink_to(ROOT / name)
     return tmp_path
 
@@ -32,11 +38,19 @@ def registered(project):
     return yaml.safe_load((project / "config" / "config.yaml").read_text("utf-8"))["studies"]
 
 
-def test_new_study_is_registered_and_sound(project):
+@pytest.mark.parametrize("name", ["bridges", "bent_2b"])
+def test_new_study_is_registered_and_sound(project, name):
     before = registered(project)
-    folder = create("bridges", project)
-    assert registered(project) == [*before, "bridges"]
-    assert read_study_config("bridges", CHECK, str(folder.parent))["gain"]
+    folder = create(name, project)
+    assert registered(project) == [*before, name]
+    assert read_study_config(name, CHECK, str(folder.parent))["gain"]
+    ledger = folder / "claims.yaml"
+    check_ledger([str(ledger)], [f"{name}_gain"], project)
+    text = ledger.read_text("utf-8")
+    own = text.replace("topheavy.minimum_overturning", f"studies.{name}.steps.gain.lowest")
+    assert own != text
+    ledger.write_text(own, "utf-8")
+    check_ledger([str(ledger)], [f"{name}_gain"], project)
     left = [path for path in folder.rglob("*") if path.is_file() and "skeleton" in path.read_text()]
     assert left == []
 
@@ -48,7 +62,7 @@ def test_second_study_joins_the_first(project):
 
 
 @pytest.mark.parametrize(
-    "name", ["", "My study", "1st", "_x", "skeleton", "a/b", "a" * 41, 300 * "a", "ü"]
+    "name", ["", "My study", "1st", "_x", "skeleton", "a/b", "a" * (LONGEST + 1), 300 * "a", "ü"]
 )
 def test_name_that_cannot_be_one_changes_nothing(project, name):
     before = (project / "config" / "config.yaml").read_text("utf-8")
@@ -64,6 +78,7 @@ def test_name_that_cannot_be_one_changes_nothing(project, name):
         ("trilith_n", "trilith_nearness"),  # a table
         ("free", "free_body"),  # a figure
         ("play", "play"),  # a notebook
+        ("report", "report"),  # a document
         ("s", "scale_effects"),  # would take the results of others with it when it is removed
         ("skel", "skeleton_gain"),
         ("skeleton_two", "skeleton"),  # would go with the results of skeleton
@@ -73,6 +88,58 @@ def test_name_that_is_like_one_of_the_paper_or_of_a_study_is_refused(project, na
     with pytest.raises(ValueError, match=f"NAME is '{name}', which is too like '{taken}'"):
         create(name, project)
     assert not (project / "studies" / name).exists()
+
+
+@pytest.mark.parametrize(
+    ("name", "meaning"),
+    [
+        ("true", "which YAML reads as True"),
+        ("no", "which YAML reads as False"),
+        ("null", "which YAML reads as None"),
+        ("lambda", "a keyword of Python"),
+        ("for", "a keyword of Python"),
+        ("paper", "count claims that belong to no study"),
+        ("ours", "count claims that belong to no study"),
+        ("results", "folders that .gitignore keeps out"),
+        ("lintel", r"a word that paper/words.yaml asks to avoid \(cap beam\)"),
+    ],
+)
+def test_name_that_means_something_else_is_refused_with_the_reason(project, name, meaning):
+    before = registered(project)
+    says = f"^NAME is '{name}', .*{meaning}.*; expected another name, for example '{name}_study'$"
+    with pytest.raises(ValueError, match=says):
+        create(name, project)
+    assert registered(project) == before
+    assert not (project / "studies" / name).exists()
+    create(f"{name}_study", project)
+
+
+@pytest.mark.parametrize("origin", [ROOT, TEMPLATE], ids=["here", "another_paper"])
+def test_made_study_has_the_style_that_lint_demands_for_every_length_of_its_name(tmp_path, origin):
+    for name in ("config", "studies/skeleton"):
+        shutil.copytree(origin / name, tmp_path / name)
+    shutil.copy(ROOT / ".gitignore", tmp_path)
+    (tmp_path / "paper").mkdir()
+    shutil.copy(origin / "paper" / "words.yaml", tmp_path / "paper")
+    folders = [
+        create(letter + "o" * length, tmp_path)
+        for length, letter in enumerate(ascii_lowercase[:LONGEST])
+    ]
+    shutil.copy(ROOT / "pyproject.toml", tmp_path)
+    (tmp_path / "src").mkdir()  # by which ruff knows what is imported from here
+    for path in [*ROOT.glob("src/[a-z]*"), TEMPLATE / "src" / "theory"]:
+        (tmp_path / "src" / path.name).symlink_to(path)
+    (tmp_path / "figures").symlink_to(ROOT / "figures")
+    rules = [str(folder / "study.smk") for folder in folders]
+    for command in (
+        ["ruff", "check", "--no-cache", "studies"],
+        ["ruff", "format", "--no-cache", "--check", "studies"],
+        ["snakefmt", "--check", "--compact-diff", *rules],
+    ):
+        done = subprocess.run(
+            [sys.executable, "-m", *command], cwd=tmp_path, capture_output=True, text=True
+        )
+        assert done.returncode == 0, done.stdout + done.stderr
 
 
 def test_file_of_the_same_name_as_one_over_the_papers_goes_over_a_study_s(project):

@@ -1,13 +1,21 @@
 """A new study from studies/skeleton/: `make study NAME=my_study`."""
 
+import keyword
 import re
 import shutil
 import sys
 from pathlib import Path
 
+import yaml
+
+from replication.commands.words import LIST, findings
+from replication.ledger import OURS
+from replication.strict_yaml import read_yaml
+from replication.verdicts import by_origin
+
 SKELETON = "skeleton"
-LONGEST = 40
-"""Letters of a name: it is a part of the names of files, rules and claims."""
+LONGEST = 20
+"""Letters of a name: so few that the lines of the skeleton that contain it need no other breaks."""
 NAMES = re.compile(r"\brule (\w+):|\bresults/\w+/([a-z]\w*)")
 """What a Snakefile calls its rules and their results."""
 REGISTER = re.compile(r"^studies: \[(.*)\]$", re.MULTILINE)
@@ -19,13 +27,18 @@ def create(name: str, root: Path = Path()) -> Path:
     Raises
     ------
     ValueError
-        For a name that is taken or cannot be one, or a config without the line `studies: [...]`.
+        For a name that is taken, means something else or cannot be one; for a config without the
+        line `studies: [...]`.
     """
     folder, config = root / "studies" / name, root / "config" / "config.yaml"
     if not re.fullmatch(r"[a-z][a-z0-9_]*", name) or len(name) > LONGEST:
         raise ValueError(
             f"NAME is {name!r}; expected a lower-case letter, then lower-case letters, digits "
             f"or _, at most {LONGEST} in all"
+        )
+    if meaning := _meaning(name, root):
+        raise ValueError(
+            f"NAME is {name!r}, {meaning}; expected another name, for example '{name[:14]}_study'"
         )
     if folder.exists():
         raise ValueError(f"NAME is {name!r}, and {folder} exists; expected a new name")
@@ -46,13 +59,28 @@ def create(name: str, root: Path = Path()) -> Path:
     return folder
 
 
+def _meaning(name: str, root: Path) -> str | None:
+    """Return what else a name means to a program that reads it, or None."""
+    if (value := yaml.safe_load(name)) != name:
+        return f"which YAML reads as {value!r}, and the config names its studies in YAML"
+    if keyword.iskeyword(name):
+        return "a keyword of Python, and the tests of a study import its steps by its name"
+    if name in {*by_origin([]), OURS}:
+        return "under which the verdicts count claims that belong to no study"
+    if f"{name}/" in (root / ".gitignore").read_text(encoding="utf-8").splitlines():
+        return "the name of folders that .gitignore keeps out of git"
+    for _, _, better in findings(name, read_yaml(root / LIST)["phrases"]):
+        return f"a word that {LIST} asks to avoid ({better}), so that `make lint` would refuse it"
+    return None
+
+
 def _taken(name: str, root: Path) -> list[str]:
     """Return the names, of the paper and of studies, that would be mixed up with the new one's."""
     snakefiles = [*sorted(root.glob("src/*/*.smk")), *sorted(root.glob("studies/*/*.smk"))]
     texts = [path.read_text(encoding="utf-8") for path in snakefiles]
     names = {found for text in texts for both in NAMES.findall(text) for found in both if found}
-    drawn = [*root.glob("figures/*.py"), *root.glob("notebooks/*.ipynb")]
-    names |= {path.stem for path in drawn}
+    made = ("figures/*.py", "notebooks/*.ipynb", "paper/*.typ")
+    names |= {path.stem for pattern in made for path in root.glob(pattern)}
     studies = [path.parent.name for path in root.glob("studies/*/study.smk")]
     return [
         *sorted(other for other in names if other.startswith(name)),

@@ -5,12 +5,13 @@ from replication.drawing import INK, SINGLE, make_figure, shades, sheet
 
 
 def draw(skeleton_gain):
+    table = skeleton_gain
     figure, axis = sheet(SINGLE, 55)
-    places = range(len(skeleton_gain))
-    axis.bar(places, skeleton_gain.lowest_low, color=shades(len(skeleton_gain)), width=0.62)
-    for place, low in zip(places, skeleton_gain.lowest_low, strict=True):
+    places = range(len(table))
+    axis.bar(places, table.lowest_low, color=shades(len(places)), width=0.62)
+    for place, low in zip(places, table.lowest_low, strict=True):
         axis.annotate(f"{low:.3f}", (place, low), ha="center", va="bottom", color=INK, fontsize=7.5)
-    axis.set(xticks=places, xticklabels=map(gamma, skeleton_gain.mass_ratio))
+    axis.set(xticks=places, xticklabels=map(gamma, table.mass_ratio))
     axis.set(ylabel=r"Minimum overturning amplitude ($g\,\tan\alpha$)", ylim=(0, None))
     axis.margins(y=0.12)
     return figure

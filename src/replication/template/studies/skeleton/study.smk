@@ -1,6 +1,10 @@
 """How far a pendulum may swing before small-swing theory fails: a study to begin with."""
 
-PARTS["skeleton"].figures["studies/skeleton/figures/limit"] = ["skeleton_limit"]
+PARTS["skeleton"].figures.update(
+    {
+        "studies/skeleton/figures/limit": ["skeleton_limit"],
+    }
+)
 PARTS["skeleton"].findings.append("skeleton_limit")
 
 

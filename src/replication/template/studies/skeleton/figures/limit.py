@@ -4,12 +4,13 @@ from replication.drawing import INK, SINGLE, make_figure, shades, sheet
 
 
 def draw(skeleton_limit):
+    table = skeleton_limit
     figure, axis = sheet(SINGLE, 50)
-    places = range(len(skeleton_limit))
-    axis.bar(places, skeleton_limit.amplitude_deg, color=shades(len(places)), width=0.62)
-    for place, degrees in zip(places, skeleton_limit.amplitude_deg, strict=True):
+    places = range(len(table))
+    axis.bar(places, table.amplitude_deg, color=shades(len(places)), width=0.62)
+    for place, degrees in zip(places, table.amplitude_deg, strict=True):
         axis.annotate(f"{degrees:.1f}", (place, degrees), ha="center", va="bottom", color=INK)
-    axis.set(xticks=places, xticklabels=[f"{share:.1%}" for share in skeleton_limit.share])
+    axis.set(xticks=places, xticklabels=[f"{share:.1%}" for share in table.share])
     axis.set(xlabel="Error of the period (%)", ylabel="Largest amplitude (°)", ylim=(0, None))
     axis.margins(y=0.12)
     return figure
