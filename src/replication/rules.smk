@@ -71,7 +71,7 @@ rule notebook:
 
 rule claims:
     input:
-        code("src/replication/rules/claims.py"),
+        code("src/replication/rules/every_claim.py"),
         ledger=LEDGER,
         findings=expand("results/findings/{name}.json", name=FINDINGS),
     output:
@@ -81,7 +81,7 @@ rule claims:
     message:
         "Judging every claim"
     script:
-        "rules/claims.py"
+        "rules/every_claim.py"
 
 
 rule compare:
@@ -205,7 +205,7 @@ for claim in CLAIMS:
         name:
             f"claim_{claim.id}"
         input:
-            code("src/replication/rules/claim.py"),
+            code("src/replication/rules/one_claim.py"),
             findings=([f"results/findings/{claim.rule}.json"] if claim.rule else []),
         log:
             f"results/logs/claim_{claim.id}.log",
@@ -214,7 +214,7 @@ for claim in CLAIMS:
         message:
             f"Judging {claim.id}"
         script:
-            "rules/claim.py"
+            "rules/one_claim.py"
 
 
 refuse_unmade(

@@ -15,9 +15,9 @@ from typing import Any, TextIO
 import numpy as np
 import pandas as pd
 
-from replication.calls import library, noted
-from replication.code import undeclared
-from replication.findings import Finding, Findings, write_findings
+from replication.judging.calls import library, noted
+from replication.judging.findings import Finding, Findings, write_findings
+from replication.workflow.code import undeclared
 
 DIGITS = "%.9g"
 

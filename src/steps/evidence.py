@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from replication.findings import Findings
+from replication.judging.findings import Findings
 from steps.evidence_paper import OF_PAPER
 from steps.evidence_studies import OF_STUDIES
 

@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from replication.rechecking import close
-from replication.rechecking import main as recheck
-from replication.strict_yaml import read_yaml
+from replication.inputs.strict_yaml import read_yaml
+from replication.pages.edition_check import close
+from replication.pages.edition_check import main as recheck
 from steps.evidence import evidence
 from steps.headlines import headlines
 

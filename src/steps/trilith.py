@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from replication.findings import Finding
+from replication.judging.findings import Finding
 from replication.workbench import run, truth, value
 from topheavy import Column, RockingFrame, reference, simulate
 from topheavy.derivation.mends import mended_quotient

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from replication.findings import Finding
+from replication.judging.findings import Finding
 from replication.workbench import grid, run, truth
 from steps.spectrum import progress
 from steps.vase_poses import poses

@@ -6,12 +6,12 @@ from dataclasses import replace
 
 import pytest
 
-from replication import publishing
-from replication.claim import Claim
-from replication.crate import Crate
-from replication.findings import Findings
-from replication.ledger import judged
-from replication.publishing import (
+from replication.judging.claim import Claim
+from replication.judging.findings import Findings
+from replication.judging.ledger import judged
+from replication.origin.recorded import Crate
+from replication.pages import edition as publishing
+from replication.pages.edition import (
     checksums,
     count_table,
     publish,

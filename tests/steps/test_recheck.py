@@ -11,11 +11,11 @@ import pandas as pd
 import pytest
 import yaml
 
-from replication.claim import Claim
-from replication.findings import Finding, Findings, findings_by_rule
-from replication.ledger import judged, read_judged, read_ledger
-from replication.publishing import count_table, verdict_page
-from replication.rechecking import claims, files, pages
+from replication.judging.claim import Claim
+from replication.judging.findings import Finding, Findings, findings_by_rule
+from replication.judging.ledger import judged, read_judged, read_ledger
+from replication.pages.edition import count_table, verdict_page
+from replication.pages.edition_check import claims, files, pages
 from replication.workbench import truth, value
 from steps.evidence import DIGITS, OF_PAPER, OF_STUDIES, SOURCES, UNDRAWN, evidence, same
 from steps.recheck import equations, main

@@ -14,14 +14,14 @@ from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 
-from replication.citations import cite, library_names, printed_list
-from replication.claim import Claim
-from replication.crate import CRATE, Crate, read_crate
-from replication.findings import read_findings
-from replication.ledger import finding_of
-from replication.provenance import Job, checksum, makers, workflow_jobs
-from replication.rules.claim import verdict_line
-from replication.verdicts import verdict_on
+from replication.judging.citations import cite, library_names, printed_list
+from replication.judging.claim import Claim
+from replication.judging.findings import read_findings
+from replication.judging.ledger import finding_of
+from replication.judging.verdicts import verdict_on
+from replication.origin.recorded import CRATE, Crate, read_crate
+from replication.rules.one_claim import verdict_line
+from replication.workflow.provenance import Job, checksum, makers, workflow_jobs
 
 ROOT = Path(__file__).parents[3]
 """The root of the repository; printed paths are relative to it."""

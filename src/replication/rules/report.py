@@ -4,8 +4,8 @@ import json
 from pathlib import Path
 from typing import Any
 
-from replication.captions import alternative, read_captions
-from replication.typeset import compiled
+from replication.pages.captions import alternative, read_captions
+from replication.pages.typeset import compiled
 from replication.workbench import run
 
 

@@ -6,9 +6,9 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from replication.findings import Findings
-from replication.rechecking import close
-from replication.rechecking import main as recheck
+from replication.judging.findings import Findings
+from replication.pages.edition_check import close
+from replication.pages.edition_check import main as recheck
 
 
 def evidence(folder: Path, findings: Mapping[str, Findings]) -> Iterator[str]:
