@@ -8,7 +8,7 @@ import pytest
 
 from replication.judging.claim import Claim
 from replication.judging.findings import Findings
-from replication.judging.ledger import judged
+from replication.judging.ledger import with_verdict
 from replication.origin.recorded import Crate
 from replication.pages import edition as publishing
 from replication.pages.edition import (
@@ -37,7 +37,7 @@ CLAIM = Claim(
     expected="confirmed",
 )
 SIZE = Findings({"size": value(0.4148493702538308, 1e-16)}, ("topheavy.structures.Column",))
-ROW = judged(CLAIM, {"trilith": SIZE})
+ROW = with_verdict(CLAIM, {"trilith": SIZE})
 
 
 def cells(**changes) -> list[str]:

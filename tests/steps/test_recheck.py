@@ -13,7 +13,7 @@ import yaml
 
 from replication.judging.claim import Claim
 from replication.judging.findings import Finding, Findings, findings_by_rule
-from replication.judging.ledger import judged, read_judged, read_ledger
+from replication.judging.ledger import read_judged, read_ledger, with_verdict
 from replication.pages.edition import count_table, verdict_page
 from replication.pages.edition_check import claims, files, pages
 from replication.workbench import truth, value
@@ -402,7 +402,7 @@ def test_row_of_the_ledger_that_is_changed_is_named(tampered):
 
 
 def judged_row(**changes):
-    return replace(judged(CLAIM, FINDINGS, ROOT), **changes)
+    return replace(with_verdict(CLAIM, FINDINGS, ROOT), **changes)
 
 
 @pytest.mark.parametrize("change", [{"computed": 0.42}, {"verdict": "refuted"}, {"id": "other"}])
@@ -418,7 +418,7 @@ def test_row_that_is_published_twice_is_found():
 
 def test_claim_that_a_run_left_untested_is_not_published():
     lacking = {"trilith": Findings({"size": Finding.of({"not_tested": "no engine"})})}
-    row = judged(CLAIM, lacking, ROOT)
+    row = with_verdict(CLAIM, lacking, ROOT)
     assert list(claims([CLAIM], lacking, [row], ROOT)) == [
         "claim size is not tested; expected confirmed"
     ]
@@ -429,7 +429,7 @@ def test_number_is_not_the_same_as_a_truth():
     assert "computed is True" in fault
     findings = {"trilith": replace(FINDINGS["trilith"], by_name={"size": truth(True)})}
     claim = replace(CLAIM, printed=None, tolerance=None)
-    row = replace(judged(claim, findings, ROOT), computed=1)
+    row = replace(with_verdict(claim, findings, ROOT), computed=1)
     assert list(claims([claim], findings, [row], ROOT))
 
 

@@ -104,7 +104,9 @@ def finding_of(claim: Claim, findings: Findings) -> Finding | None:
     return findings[claim.finding]
 
 
-def judged(claim: Claim, findings: Mapping[str, Findings], root: str | Path = ".") -> JudgedClaim:
+def with_verdict(
+    claim: Claim, findings: Mapping[str, Findings], root: str | Path = "."
+) -> JudgedClaim:
     """Return the claim with the result for it and the verdict.
 
     Parameters
@@ -145,6 +147,27 @@ def judged(claim: Claim, findings: Mapping[str, Findings], root: str | Path = ".
         function=claim.function,
         rule=claim.rule,
     )
+
+
+def with_verdicts(
+    ledger: Iterable[Claim], findings: Mapping[str, Findings], root: str | Path = "."
+) -> list[JudgedClaim]:
+    """Return all claims with their results and verdicts, as `with_verdict` does for one.
+
+    Raises
+    ------
+    ValueError
+        With one line for each claim that its finding cannot judge.
+    """
+    rows, faults = [], []
+    for claim in ledger:
+        try:
+            rows.append(with_verdict(claim, findings, root))
+        except ValueError as fault:
+            faults.append(str(fault))
+    if faults:
+        raise ValueError("\n".join(faults))
+    return rows
 
 
 def refuse_uncalled(claim: Claim, called: Iterable[str], root: str | Path = ".") -> None:

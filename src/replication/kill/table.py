@@ -9,7 +9,7 @@ from pathlib import Path
 
 from replication.judging.claim import Claim
 from replication.judging.findings import Findings, read_findings
-from replication.judging.ledger import judged
+from replication.judging.ledger import with_verdict
 from replication.kill.faults import JUDGING, Fault, faulty
 from replication.kill.tree_copy import run
 
@@ -68,7 +68,7 @@ def workflow(
 def verdict(claim: Claim, findings: Mapping[str, Findings], tree: Path) -> str:
     """Return the verdict on a claim, or why there is none."""
     try:
-        return judged(claim, findings, tree).verdict
+        return with_verdict(claim, findings, tree).verdict
     except ValueError as error:
         return f"none: {error}"
 

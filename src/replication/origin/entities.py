@@ -8,10 +8,10 @@ import math
 from collections.abc import Collection, Iterable, Mapping
 from typing import Any
 
+from replication.inputs.config_keys import Key
 from replication.inputs.parts import PAPER
 from replication.judging.claim import JudgedClaim
 from replication.origin.recorded import RUN, WORKFLOW
-from replication.pages.config_page import Key
 from replication.workflow.provenance import Job, checksum
 
 Entity = dict[str, Any]

@@ -13,10 +13,9 @@ from replication.inputs.parts import PAPER, ledger_of
 from replication.inputs.strict_yaml import read_yaml
 from replication.judging.claim import Claim, JudgedClaim
 from replication.judging.findings import Findings, findings_by_rule, write_findings
-from replication.judging.ledger import OURS, as_text, read_ledger
+from replication.judging.ledger import OURS, as_text, read_ledger, with_verdicts
 from replication.judging.verdicts import VERDICTS, by_origin
 from replication.origin.recorded import read_crate
-from replication.rules.every_claim import main as judge_all
 
 TITLES = {"": "The paper", OURS: "Not the paper's claims, and its claims rest on them"}
 """The sections of docs/verdicts.md that are not a study's."""
@@ -240,7 +239,7 @@ def publish_findings(findings: Path, folder: Path) -> None:
 def publish_verdicts(ledger: Sequence[Claim], root: Path) -> None:
     """Judge the published findings; write claims.json, docs/verdicts.md and the README's counts."""
     reference = root / "tests" / "reference"
-    rows = judge_all(ledger, findings_by_rule((reference / "findings").glob("*.json")), root)
+    rows = with_verdicts(ledger, findings_by_rule((reference / "findings").glob("*.json")), root)
     (reference / "claims.json").write_text(as_text(rows), encoding="utf-8")
     (root / "docs" / "verdicts.md").write_text(verdict_page(rows), encoding="utf-8")
     readme = root / "README.md"

@@ -11,7 +11,7 @@ from replication.inputs.parts import PAPER, ledger_of
 from replication.inputs.strict_yaml import read_yaml
 from replication.judging.claim import Claim, JudgedClaim
 from replication.judging.findings import Findings, findings_by_rule
-from replication.judging.ledger import judged, read_judged, read_ledger
+from replication.judging.ledger import read_judged, read_ledger, with_verdict
 from replication.judging.verdicts import tallies, tolerance_fault
 from replication.pages.edition import CHECKSUMS, checksums, verdict_page, with_counts
 
@@ -42,7 +42,7 @@ def claims(
             yield f"claim {claim.id}: the findings of its rule {claim.rule} are not published yet"
             continue
         try:
-            found = judged(claim, findings, root)
+            found = with_verdict(claim, findings, root)
         except ValueError as fault:
             yield str(fault)
             continue

@@ -8,16 +8,15 @@ from typing import Any
 
 from rocrate.rocrate import ROCrate
 
+from replication.inputs.config_keys import Key, keys
 from replication.inputs.parts import config_of
 from replication.inputs.strict_yaml import read_yaml
 from replication.judging.claim import JudgedClaim
 from replication.judging.ledger import read_judged
-from replication.origin import about as about
-from replication.origin import entities as entities
+from replication.origin import about, entities
 from replication.origin.entities import ref, refs
 from replication.origin.recorded import CRATE, LEFT_OUT, WORKFLOW
 from replication.origin.software import installed
-from replication.pages.config_page import Key, keys
 from replication.workbench import run
 from replication.workflow.provenance import Job, source_version, workflow_jobs
 

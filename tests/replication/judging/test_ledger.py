@@ -7,7 +7,7 @@ import yaml
 
 from replication.judging.claim import Claim
 from replication.judging.findings import Findings
-from replication.judging.ledger import as_text, finding_of, judged, read_judged, read_ledger
+from replication.judging.ledger import as_text, finding_of, read_judged, read_ledger, with_verdict
 
 CLAIM = Claim(
     id="c",
@@ -79,26 +79,26 @@ def found(called, **finding):
 
 
 def test_claim_is_judged_by_what_ran():
-    row = judged(CLAIM, found(["topheavy.simulate.simulate"], holds=True))
+    row = with_verdict(CLAIM, found(["topheavy.simulate.simulate"], holds=True))
     assert (row.verdict, row.computed, row.kind) == ("confirmed", True, "")
-    row = judged(CLAIM, found(["topheavy.simulate.simulate"], holds=False, holds_when=True))
+    row = with_verdict(CLAIM, found(["topheavy.simulate.simulate"], holds=False, holds_when=True))
     assert (row.verdict, row.computed) == ("qualified", False)
 
 
 @pytest.mark.parametrize("called", [[], ["topheavy.reference.simulate", "topheavy.simulate"]])
 def test_function_that_its_rule_never_called_judges_nothing(called):
     with pytest.raises(ValueError, match="claim c: its rule r never called"):
-        judged(CLAIM, found(called, holds=True))
+        with_verdict(CLAIM, found(called, holds=True))
 
 
 def test_what_was_not_run_for_lack_of_a_package_needs_no_function():
-    row = judged(CLAIM, {"r": Findings.of({"not_tested": "no engine", "called": []})})
+    row = with_verdict(CLAIM, {"r": Findings.of({"not_tested": "no engine", "called": []})})
     assert (row.verdict, row.not_tested) == ("not tested", "no engine")
 
 
 def test_number_that_is_zero_is_a_number():
     claim = replace(CLAIM, printed=0.0, tolerance=0.5)
-    row = judged(claim, found(["topheavy.simulate.simulate"], value=0.0, error=0.0))
+    row = with_verdict(claim, found(["topheavy.simulate.simulate"], value=0.0, error=0.0))
     assert (row.computed, row.verdict) == (0.0, "confirmed")
     assert isinstance(row.computed, float)
 
@@ -109,7 +109,7 @@ def test_list_of_functions_is_no_finding():
 
 
 def test_judged_rows_are_read_as_they_were_written(tmp_path):
-    rows = [judged(CLAIM, found(["topheavy.simulate.simulate"], holds=True))]
+    rows = [with_verdict(CLAIM, found(["topheavy.simulate.simulate"], holds=True))]
     path = tmp_path / "claims.json"
     path.write_text(as_text(rows), encoding="utf-8")
     assert read_judged(path) == rows

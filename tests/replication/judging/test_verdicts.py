@@ -7,7 +7,7 @@ import pytest
 
 from replication.judging.claim import Claim
 from replication.judging.findings import Finding
-from replication.judging.ledger import judged
+from replication.judging.ledger import with_verdict
 from replication.judging.verdicts import (
     KINDS,
     VERDICTS,
@@ -21,7 +21,7 @@ from replication.judging.verdicts import (
 
 STATEMENT = Claim(id="s", where="p. 1", statement="It is so.", expected="confirmed")
 NUMBER = replace(STATEMENT, id="n", printed=0.275, tolerance=0.0005)
-UNTESTED = judged(replace(STATEMENT, expected="not tested"), {})
+UNTESTED = with_verdict(replace(STATEMENT, expected="not tested"), {})
 
 
 def verdict(claim, finding):

@@ -11,9 +11,9 @@ from pathlib import Path
 
 import pytest
 
+from replication.inputs.config_keys import Key
 from replication.judging.claim import JudgedClaim
 from replication.origin.recorded import CRATE, read_crate
-from replication.pages.config_page import Key
 from replication.rules import crate as rule
 from replication.workflow.provenance import Job
 

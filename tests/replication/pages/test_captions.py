@@ -10,7 +10,7 @@ from docutils.core import publish_parts
 from jinja2 import Environment
 
 from replication.judging.claim import Claim
-from replication.judging.ledger import judged
+from replication.judging.ledger import with_verdict
 from replication.pages.captions import captioned, read_captions, verdict
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -70,7 +70,7 @@ def test_no_two_results_of_a_category_have_one_title(folder):
 
 
 CLAIM = replace(
-    judged(Claim(id="rises", where="p. 1", statement="", expected="not tested"), {}),
+    with_verdict(Claim(id="rises", where="p. 1", statement="", expected="not tested"), {}),
     statement="Its moment falls with |θ|, and m_ is *its* `mass`.",
     verdict="qualified",
 )
@@ -85,7 +85,7 @@ ENTRY = {
 
 def test_caption_comes_out_as_it_is_written():
     shown = captioned("a.svg", {"a.svg": ENTRY}, [CLAIM])
-    template = (ROOT / "src" / "replication" / "caption.rst").read_text(encoding="utf-8")
+    template = (ROOT / "src" / "replication" / "pages" / "caption.rst").read_text(encoding="utf-8")
 
     class Rule:
         module_globals = {"caption_of": lambda result: shown}  # noqa: RUF012

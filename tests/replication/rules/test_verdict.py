@@ -5,11 +5,11 @@ from dataclasses import replace
 import pandas as pd
 
 from replication.judging.claim import Claim, JudgedClaim
-from replication.judging.ledger import judged
+from replication.judging.ledger import with_verdict
 from replication.rules.verdict import main
 from replication.workbench import truth
 
-UNTESTED = judged(Claim(id="", where="p. 1", statement="", expected="not tested"), {})
+UNTESTED = with_verdict(Claim(id="", where="p. 1", statement="", expected="not tested"), {})
 
 
 def claim(name: str, verdict: str, expected: str, not_tested: str = "") -> JudgedClaim:

@@ -1,11 +1,13 @@
-"""The page of the config: each key with its meaning, unit, bounds, value and source."""
+"""The keys of a config and their page: meaning, unit, bounds, value and source of each."""
 
 from pathlib import Path
 
 import pytest
 import yaml
 
-from replication.pages.config_page import allowed, comments, config_page, keys
+from replication.inputs.config_keys import comments, keys
+from replication.inputs.schema_words import allowed
+from replication.pages.config_page import config_page
 
 ROOT = Path(__file__).resolve().parents[3]
 
