@@ -32,6 +32,7 @@ for name in config["studies"]:
     include: f"studies/{name}/study.smk"
 
 
+complete(workflow)
 after_the_kernel()
 
 

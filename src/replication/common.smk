@@ -4,9 +4,15 @@ import os
 from functools import partial
 from pathlib import Path
 
-from replication.pages.captions import alternative, captioned, check_captions, read_captions
+from replication.pages.captions import (
+    alternative,
+    captioned,
+    check_captions,
+    read_captions,
+)
 from replication.workflow.closing import close
 from replication.workflow.code import code, results_read
+from replication.workflow.completion import complete, findings_made
 from replication.workflow.costs import longest_jobs
 from replication.origin.recorded import CRATE
 from replication.judging.ledger import read_judged, read_ledger

@@ -60,7 +60,7 @@ def refuse_undeclared(job: Any) -> None:
     if gap := undeclared(job.input):
         raise RuntimeError(
             f"rule {job.rule} loaded {', '.join(gap)}, which is not among its inputs: a change "
-            "there would leave its results stale; expected code(<its script>) as an input"
+            "there would leave its results stale; expected an import statement in its code"
         )
 
 

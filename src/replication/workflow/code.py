@@ -27,7 +27,7 @@ SCRIPT = sys.modules["__main__"]
 
 
 def code(*scripts: str | Path, root: str | Path = ".") -> list[str]:
-    """Return the files of the repository that scripts import, directly or through others.
+    """Return scripts, and the files of the repository that they import, directly or not.
 
     A name that a package loads lazily (SPEC 1: its `__init__.pyi` says from where) counts as an
     import of the module that defines it, and not of the whole package.
@@ -35,8 +35,8 @@ def code(*scripts: str | Path, root: str | Path = ".") -> list[str]:
     Parameters
     ----------
     scripts
-        Python files, notebooks or Snakefiles, from the root. They are not in the answer: Snakemake
-        watches the script of a rule itself.
+        Python files, notebooks or Snakefiles, from the root. They are in the answer: Snakemake
+        compares the contents of inputs, and of the script of a rule only the time.
     root
         The root of the repository.
 
@@ -53,15 +53,14 @@ def code(*scripts: str | Path, root: str | Path = ".") -> list[str]:
         When a module imports one whose name is only known when it runs.
     """
     root = Path(root)
-    first = {Path(script) for script in scripts}
-    found: set[Path] = set()
-    waiting = list(first)
+    found = {Path(script) for script in scripts}
+    waiting = list(found)
     while waiting:
         for path in _imported(root, waiting.pop()) - found:
             found.add(path)
             if path.suffix != ".pyi":
                 waiting.append(path)
-    return sorted(map(str, found - first))
+    return sorted(map(str, found))
 
 
 def results_read(notebook: str | Path) -> list[str]:

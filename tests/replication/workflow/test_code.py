@@ -37,7 +37,7 @@ def tree(tmp_path):
 
 def imported_by(tree, text, name="src/steps/step.py"):
     (tree / name).write_text(text)
-    return code(name, root=tree)
+    return [path for path in code(name, root=tree) if path != name]
 
 
 LAZY = ["src/lib/__init__.py", "src/lib/__init__.pyi"]
@@ -52,6 +52,10 @@ def test_lazy_name_of_an_inner_package_is_found(tree):
         "src/lib/files/__init__.py",
         "src/lib/files/text.py",
     ]
+
+
+def test_script_itself_is_there_too(tree):
+    assert code("src/lib/shapes.py", root=tree) == ["src/lib/shapes.py"]
 
 
 def test_what_a_module_imports_is_found_too(tree):
@@ -115,10 +119,10 @@ import sys
 from replication.workflow.code import code, undeclared
 sys.path[:0] = ["src", "src/steps", "."]
 import shared
-print(undeclared(code("src/steps/shared.py") + ["src/steps/shared.py"]))
 print(undeclared(code("src/steps/shared.py")))
+print(undeclared(set(code("src/steps/shared.py")) - {"src/steps/shared.py"}))
 import studies.one.deep
-print(undeclared(code("src/steps/shared.py") + ["src/steps/shared.py"]))
+print(undeclared(code("src/steps/shared.py")))
 """
 
 

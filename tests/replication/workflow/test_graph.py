@@ -123,6 +123,26 @@ def test_finished_tree_has_nothing_to_do(finished):
     assert "Nothing to be done" in snakemake(finished, "--dry-run")
 
 
+def test_touched_files_whose_bytes_are_the_same_rerun_nothing(finished):
+    """As after a checkout or a copy: all is newer than the results."""
+    times = {path: path.stat() for path in finished.rglob("*") if is_source(path, finished)}
+    assert len(times) > 500
+    for path in times:
+        path.touch()
+    try:
+        assert "Nothing to be done" in snakemake(finished, "--dry-run")
+    finally:
+        for path, stat in times.items():
+            os.utime(path, ns=(stat.st_atime_ns, stat.st_mtime_ns))
+
+
+def is_source(path, root):
+    """Whether a file is no result of the workflow, nor one of Snakemake's own."""
+    place = path.relative_to(root)
+    made = place.parts[0] in (".snakemake", "results") or path.suffix in (".svg", ".pdf")
+    return path.is_file() and not made
+
+
 @pytest.mark.parametrize(
     ("path", "rules"),
     [
