@@ -12,8 +12,8 @@ import pandas as pd
 from replication.inputs.strict_yaml import read_yaml
 from replication.pages.edition_check import close
 from replication.pages.edition_check import main as recheck
-from steps.evidence import evidence
 from steps.headlines import headlines
+from steps.redrawn import departures
 
 CLOSE = {"rtol": 1e-8, "atol": 1e-9}  # the digits of the tables
 
@@ -22,7 +22,7 @@ def main(root: Path = Path()) -> tuple[list[str], list[str]]:
     """Return the tallies of the published claims, and the errors in the published files."""
     return recheck(
         lambda folder, findings: [
-            *evidence(folder, findings),
+            *departures(folder, findings),
             *equations(folder),
             *headlines(root),
         ],

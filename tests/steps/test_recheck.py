@@ -17,8 +17,8 @@ from replication.judging.ledger import read_judged, read_ledger, with_verdict
 from replication.pages.edition import count_table, verdict_page
 from replication.pages.edition_check import claims, files, pages
 from replication.workbench import truth, value
-from steps.evidence import DIGITS, OF_PAPER, OF_STUDIES, SOURCES, UNDRAWN, evidence, same
 from steps.recheck import equations, main
+from steps.redrawn import DIGITS, OF_PAPER, OF_STUDIES, SOURCES, UNDRAWN, departures, same
 
 ROOT = Path(__file__).resolve().parents[2]
 CLAIM = Claim(
@@ -218,10 +218,10 @@ def test_finding_that_is_changed_is_named(tampered, rule, finding, key, new, tol
 def test_finding_follows_from_its_table(edition, rule, finding, key, new):
     reference = edition / "tests" / "reference"
     findings = findings_by_rule((reference / "findings").glob("*.json"))
-    assert list(evidence(reference, findings)) == []
+    assert list(departures(reference, findings)) == []
     entries = dict(findings[rule][finding].entries) | {key: new}
     changed = findings[rule].by_name | {finding: Finding.of(entries)}
-    (fault,) = evidence(reference, findings | {rule: replace(findings[rule], by_name=changed)})
+    (fault,) = departures(reference, findings | {rule: replace(findings[rule], by_name=changed)})
     assert fault.startswith(f"findings/{rule}.json: {finding}.{key} is {new}, and")
 
 

@@ -110,13 +110,13 @@ def files(reference: Path) -> Iterator[str]:
 
 
 def main(
-    evidence: Callable[[Path, Mapping[str, Findings]], Iterable[str]], root: Path = Path()
+    departures: Callable[[Path, Mapping[str, Findings]], Iterable[str]], root: Path = Path()
 ) -> tuple[list[str], list[str]]:
     """Return the tallies of the published claims, and what is wrong with the edition.
 
     Parameters
     ----------
-    evidence
+    departures
         Yields what is wrong with the published tables and with the findings drawn from them.
     """
     config = read_yaml(root / "config" / "config.yaml")
@@ -127,7 +127,7 @@ def main(
         rows = read_judged(root / CLAIMS)
         faults = [
             *claims(ledger, findings, rows, root),
-            *evidence(reference, findings),
+            *departures(reference, findings),
             *pages(root, rows),
             *configs(root, config["studies"]),
             *files(reference),

@@ -26,13 +26,13 @@ class OneLineAJob(logging.Formatter):
 
     def filter(self, record: logging.LogRecord) -> bool:
         """Return whether a record is printed, and note what the line of a job needs."""
-        told = vars(record)
-        match told.get("event"):
+        fields = vars(record)
+        match fields.get("event"):
             case LogEvent.JOB_INFO:
-                name = told["rule_msg"] or told["rule_name"]
-                self.begun[told["jobid"]] = time.monotonic(), str(name)
+                name = fields["rule_msg"] or fields["rule_name"]
+                self.begun[fields["jobid"]] = time.monotonic(), str(name)
             case LogEvent.JOB_FINISHED:
-                self.done.append(told["job_id"])
+                self.done.append(fields["job_id"])
             case LogEvent.PROGRESS:
                 return bool(self.done)
             case LogEvent.WORKFLOW_STARTED:
@@ -48,10 +48,10 @@ class OneLineAJob(logging.Formatter):
         jobs, self.done = self.done, []
         return "\n".join(self._line(job, vars(record)) for job in jobs)
 
-    def _line(self, job: int, told: dict[str, Any]) -> str:
+    def _line(self, job: int, fields: dict[str, Any]) -> str:
         begun, name = self.begun.pop(job, (time.monotonic(), f"job {job}"))
         seconds = time.monotonic() - begun
-        return f"{told['done']:4d} of {told['total']}  {seconds:6.1f} s  {name}"
+        return f"{fields['done']:4d} of {fields['total']}  {seconds:6.1f} s  {name}"
 
 
 def one_line_a_job() -> None:

@@ -9,8 +9,8 @@ import numpy as np
 import pandas as pd
 
 from replication.judging.findings import Findings
-from steps.evidence_paper import OF_PAPER
-from steps.evidence_studies import OF_STUDIES
+from steps.redrawn_paper import OF_PAPER
+from steps.redrawn_studies import OF_STUDIES
 
 DIGITS = {"rel_tol": 1e-6}  # of what is computed from tables of nine digits
 DIGITS_OF_ERROR = {"rel_tol": 0.06}  # errors are published with two digits
@@ -33,8 +33,8 @@ UNDRAWN = {
 """Why no published table determines the findings of the other rules."""
 
 
-def evidence(folder: Path, findings: Mapping[str, Findings]) -> Iterator[str]:
-    """Yield the findings that do not follow from their tables."""
+def departures(folder: Path, findings: Mapping[str, Findings]) -> Iterator[str]:
+    """Yield the findings that depart from their tables."""
 
     def table(name: str) -> pd.DataFrame:
         return pd.read_csv(folder / f"{name}.csv")

@@ -7,7 +7,7 @@ from itertools import combinations
 import numpy as np
 import pandas as pd
 
-from steps.evidence_paper import Drawn, Table, rises
+from steps.redrawn_paper import Drawn, Table, rises
 
 # Study reversals ---------------------------------------------------------------------------------
 
