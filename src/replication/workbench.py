@@ -1,5 +1,6 @@
 """The edges of a step: its log, its tables, its findings, and the check of its inputs.
 
+Figures and studies import from the machine only what this module and `drawing` have.
 A step returns findings, by which claims of the ledger are judged: `value` for a number with its
 error and unit, `truth` for a statement with the numbers that support it.
 """

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from replication.judging.findings import Findings
+from replication.workbench import Findings
 from steps.redrawn_paper import OF_PAPER
 from steps.redrawn_studies import OF_STUDIES
 

@@ -7,8 +7,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from replication.judging.findings import Finding
-from replication.workbench import grid, run, truth
+from replication.workbench import Finding, grid, run, truth
 from steps.peak_forces import FORCES, RIGID, held_peaks, rocking_peaks
 from steps.spectrum import progress
 from topheavy import (

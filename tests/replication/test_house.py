@@ -113,6 +113,15 @@ def test_no_room_of_the_machine_leads_back_to_itself():
     assert left == set(), f"these rooms import each other: {sorted(left)}"
 
 
+def test_studies_and_figures_use_the_stable_surface_of_the_machine():
+    paths = files("figures", "studies")
+    scripts = [path for path in paths if not {"tests", "benchmarks"} & {*path.parts}]
+    surface = (" replication.workbench.", " replication.drawing.")
+    found = importers(scripts, "replication")
+    assert found
+    assert [line for line in found if not any(name in f"{line}." for name in surface)] == []
+
+
 def test_nothing_imports_a_study_but_the_study_itself():
     outside = files("src", "figures", "notebooks", "benchmarks", "tests")
     assert importers(outside, "studies") == []

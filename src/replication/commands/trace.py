@@ -185,7 +185,7 @@ def _input_lines(job: Job, made: Mapping[str, Job]) -> Iterator[str]:
 
 
 def _checksum_lines(job: Job, made: Mapping[str, Job], root: Path, crate: Crate) -> Iterator[str]:
-    """Yield a line for each input that changed since the run, or is there no more, then one for all.
+    """Yield a line for each input that is lost or changed since the run, and one for all.
 
     What another rule makes has a line of its own, where this rule is shown.
     """

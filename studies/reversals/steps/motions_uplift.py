@@ -10,8 +10,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from replication.judging.findings import Finding
-from replication.workbench import run, truth
+from replication.workbench import Finding, run, truth
 from steps.peak_forces import FORCES, RIGID, held_peaks, rocking_peaks
 from steps.spectrum import progress
 from steps.uplift_limits import MARGIN, shear_after_uplift

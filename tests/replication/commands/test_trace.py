@@ -179,11 +179,12 @@ def test_missing_input_is_named(told, tree):
 
 
 def test_modules_beside_the_script_come_before_inputs_and_those_of_the_library_do_not(told, tree):
-    for path in ("src/steps/beside.py", "src/topheavy/pulses.py", "src/replication/workbench.py"):
+    modules = ("src/steps/beside.py", "src/topheavy/pulses.py", "src/replication/workbench.py")
+    for path in modules:
         (tree / path).parent.mkdir(parents=True, exist_ok=True)
         (tree / path).write_text("from topheavy import Pulse\n")
-    code = ("src/steps/beside.py", "src/topheavy/pulses.py", "src/replication/workbench.py")
-    text = told("peaks.csv", [FIGURE, replace(STEP, inputs=(*code, "data/record.AT2"))])
+    inputs = (*modules, "data/record.AT2")
+    text = told("peaks.csv", [FIGURE, replace(STEP, inputs=inputs)])
     kinds = [line.split()[0] for line in text.splitlines() if line.startswith("  ")]
     assert kinds == [
         "rule",

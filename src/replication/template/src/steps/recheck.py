@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from replication.judging.findings import Findings
+from replication.workbench import Findings
 from replication.pages.edition_check import close
 from replication.pages.edition_check import main as recheck
 
