@@ -1,6 +1,6 @@
 """Is a heavier cap always more stable? The half about pulses."""
 
-# The grid that is asked for, in place of all that could be.
+# Of the grids in the config, the one that its key `grid` names.
 REVERSALS = case("pulses", "reversals").copy()
 REVERSALS |= REVERSALS.pop("grids")[REVERSALS.pop("grid")]
 

@@ -13,7 +13,7 @@ from replication.kill.tree_copy import ROOT
 
 FAULTS = ROOT / "faults" / "faults.yaml"
 JUDGING = "judging"
-"""The routes of a fault that is in the judging: what its tests are asked before any verdict."""
+"""The routes of a fault in the judging itself: its tests run before any verdict is computed."""
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,14 @@ import yaml
 
 from replication.judging.claim import Claim
 from replication.judging.findings import Findings
-from replication.judging.ledger import as_text, finding_of, read_judged, read_ledger, with_verdict
+from replication.judging.ledger import (
+    as_text,
+    finding_of,
+    read_judged,
+    read_ledger,
+    with_verdict,
+    with_verdicts,
+)
 
 CLAIM = Claim(
     id="c",
@@ -89,6 +96,12 @@ def test_claim_is_judged_by_what_ran():
 def test_function_that_its_rule_never_called_judges_nothing(called):
     with pytest.raises(ValueError, match="claim c: its rule r never called"):
         with_verdict(CLAIM, found(called, holds=True))
+
+
+def test_all_claims_that_cannot_be_judged_are_named_together():
+    others = [replace(CLAIM, id=name, finding="other") for name in ("d", "e")]
+    with pytest.raises(ValueError, match=r"the claim d names[^\n]*\nthe claim e names[^\n]*$"):
+        with_verdicts([CLAIM, *others], found(["topheavy.simulate.simulate"], holds=True))
 
 
 def test_what_was_not_run_for_lack_of_a_package_needs_no_function():
