@@ -1,6 +1,7 @@
 """What a rule has without saying so: the code of its script as inputs, a log, a benchmark.
 
-Only this module sets attributes of Snakemake's rules that its interface does not promise.
+The modifiers of paths are no part of Snakemake's interface: only this module sets them, and its
+test fails when Snakemake drops them.
 """
 
 import os

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from replication.inputs.strict_yaml import read_yaml
+
 
 @dataclass(frozen=True)
 class Job:
@@ -64,7 +66,7 @@ def workflow_jobs(
     """
     # Imported here: it takes a second, and those who only want Job do not need it.
     from snakemake.api import SnakemakeApi
-    from snakemake.settings.enums import Quietness
+    from snakemake.settings.enums import Quietness, RerunTrigger
     from snakemake.settings.types import (
         ConfigSettings,
         DAGSettings,
@@ -82,10 +84,18 @@ def workflow_jobs(
         workflow = parsed._workflow
         if targets is None:
             targets = [rule.name for rule in workflow.rules if not rule.has_wildcards()]
-        parsed.dag(DAGSettings(targets=set(targets)))
+        triggers = RerunTrigger.parse_choices_set(rerun_triggers(root))
+        parsed.dag(DAGSettings(targets=set(targets), rerun_triggers=triggers))
         workflow._prepare_dag(forceall=False, ignore_incomplete=True, lock_warn_only=True)
         workflow._build_dag()
         return [_job(job, workflow) for job in workflow.dag.jobs]
+
+
+def rerun_triggers(root: str | Path = ".") -> list[str]:
+    """Return what makes a run repeat a job: as the default profile says, or all without one."""
+    profile = Path(root, "profiles", "default", "config.yaml")
+    known = read_yaml(profile) if profile.is_file() else {}
+    return known.get("rerun-triggers", ["mtime", "input", "params", "code", "software-env"])
 
 
 def makers(jobs: Iterable[Job]) -> dict[str, Job]:

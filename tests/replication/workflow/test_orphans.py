@@ -71,9 +71,8 @@ def scripts_beside(jobs: Iterable[Job]) -> list[str]:
     folders = {Path(script).parent for job in jobs for script in job.scripts}
     machine = (ROOT / "src" / "replication").rglob("*.py")
     folders |= {path.relative_to(ROOT).parent for path in machine if "template" not in path.parts}
-    return [
-        str(path.relative_to(ROOT)) for folder in folders for path in (ROOT / folder).glob("*.py")
-    ]
+    found = [path for folder in folders for path in (ROOT / folder).glob("*.py")]
+    return [str(path.relative_to(ROOT)) for path in found if path.name != "__init__.py"]
 
 
 MAKEFILE = "".join((ROOT / name).read_text(encoding="utf-8") for name in ("Makefile", "paper.mk"))
@@ -113,8 +112,8 @@ def test_module_is_used_as_long_as_a_used_script_imports_it(jobs):
     assert "src/replication/judging/citations.py" in files
     without = MAKEFILE.replace("python -m replication.commands.trace", "")
     assert unused_scripts(jobs, files, without, snakefiles(jobs)) == [
-        "src/replication/judging/citations.py",
         "src/replication/commands/trace.py",
+        "src/replication/judging/citations.py",
     ]
 
 

@@ -85,6 +85,16 @@ def test_config_can_be_replaced(tree):
     assert total.pending
 
 
+def test_job_is_pending_by_the_triggers_of_the_profile(tree):
+    root, _ = tree
+    profile = root / "profiles" / "default" / "config.yaml"
+    profile.parent.mkdir(parents=True)
+    for triggers, pending in (("[mtime, input]", False), ("[mtime, input, params]", True)):
+        profile.write_text(f"rerun-triggers: {triggers}\n")
+        assert makers(workflow_jobs(root, config={"factor": 3}))["out/sum.txt"].pending == pending
+    profile.unlink()
+
+
 def test_record_of_the_run_has_what_the_inputs_were(tree):
     root, _ = tree
     copy = makers(workflow_jobs(root))["out/a.copy"]
