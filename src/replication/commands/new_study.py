@@ -9,9 +9,9 @@ from pathlib import Path
 import yaml
 
 from replication.commands.words import LIST, findings
-from replication.ledger import OURS
-from replication.strict_yaml import read_yaml
-from replication.verdicts import by_origin
+from replication.inputs.strict_yaml import read_yaml
+from replication.judging.ledger import OURS
+from replication.judging.verdicts import by_origin
 
 SKELETON = "skeleton"
 LONGEST = 20
