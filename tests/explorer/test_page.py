@@ -394,10 +394,10 @@ def test_back_returns_to_what_a_case_replaced(browser):
     assert state_of(browser) == before
 
 
-# What a change of the state leaves in the spectrum: the colours of its cells in two pictures' time.
+# What a change of the state leaves in the spectrum: the colours of its cells in the next picture.
 CELLS_AFTER = """(async () => {
   {0};
-  for (let k = 0; k < 2; k++) await new Promise(requestAnimationFrame);
+  await new Promise(requestAnimationFrame);
   const {ctx, bbox} = spectrumChart.chart, {data} = ctx.getImageData(
     Math.round(bbox.left), Math.round(bbox.top), Math.round(bbox.width), Math.round(bbox.height));
   const seen = new Set();
@@ -449,7 +449,7 @@ def test_late_answer_to_another_state_is_not_shown(browser):
             document.getElementById("numbers").innerHTML,
             document.getElementById("shape-error").textContent];
           change({shape: "record", record: "el_centro_1940_NS", x: 2}, true);
-          for (let k = 0; k < 2; k++) await new Promise(requestAnimationFrame);
+          await new Promise(requestAnimationFrame);
           const before = shown();
           [{codes: new Uint8Array(96 * 64).fill(3), columns: 96, rows: 64, share: 1},
             {index: 0, minimum: 1}, {index: 0, isSensitive: true}, {error: "late"}].forEach(
@@ -482,7 +482,7 @@ def test_quick_edits_end_without_error_in_the_spectrum_of_the_last(browser, dela
     browser.do(TYPE, "b", "0.6")
     browser.do("new Promise(resolve => setTimeout(resolve, {0}))", delay)
     browser.do(RECORD)
-    browser.do("new Promise(resolve => setTimeout(resolve, 240))")
+    browser.do("new Promise(next => requestAnimationFrame(() => setTimeout(next, 240)))")
     assert browser.tab.errors == []
     assert browser.do("spectrumChart.cells?.columns ?? 48") == 48
     browser.settle()

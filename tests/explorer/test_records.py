@@ -10,7 +10,7 @@ from tests.records.files import CSV, FILES, STEPS, UNCERTAIN_STEPS, at2
 from tests.records.test_units import HEADERS, SPELLINGS
 from topheavy import read_record
 
-EDITED = 4000  # files
+EDITED = 2000  # files
 MANY = 300_000  # samples: of 50 minutes at 100 Hz; more than a call takes as arguments
 
 # Of files, each its name and its bytes: step and samples, or the message that refuses it.
