@@ -84,6 +84,11 @@ def read_yaml(path: str | Path) -> Any:
     return content
 
 
+def read_word(word: str) -> Any:
+    """Return what YAML reads where a list or mapping contains this word, such as True of `on`."""
+    return yaml.load(word, _Compiled)
+
+
 def _check_extent(path: str | Path, text: str) -> None:
     """Refuse what would take too long to follow: aliases of aliases, and what has no end.
 
