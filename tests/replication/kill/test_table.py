@@ -309,6 +309,7 @@ def test_row_of_which_the_fault_or_what_caught_it_is_gone_is_dropped(tree):
     tested = replace(ROW, caught_by="test", verdicts="", test="test_one.py::test_one")
     assert left(tested) == [tested]
     assert left(replace(tested, test="test_two.py::test_two")) == []
+    assert left(replace(tested, test="test_one.py::test_renamed")) == []
     stopped = replace(ROW, caught_by="rule", verdicts="", rules="one two")
     assert left(stopped) == [replace(stopped, rules="one")]
     assert left(replace(stopped, rules="two")) == []
@@ -320,7 +321,9 @@ def test_publishing_names_the_faults_to_run(monkeypatch, tmp_path, published):
     command.refresh()
     assert table.read(tmp_path / "kill_table.csv") == published[1:]
     page = (tmp_path / "kill_table.md").read_text(encoding="utf-8")
-    assert f"Not run since they were written or changed (1): {published[0].name}." in page
+    names = waiting(published[1:])
+    assert published[0].name in names
+    assert f"written or changed ({len(names)}): {', '.join(names)}." in page
 
 
 # The choice --------------------------------------------------------------------------------------
