@@ -32,6 +32,9 @@ for name in config["studies"]:
     include: f"studies/{name}/study.smk"
 
 
+complete(workflow)
+
+
 include: "src/replication/rules.smk"
 
 

@@ -6,7 +6,7 @@ from matplotlib.patches import Patch
 from figures.palette import CONSERVATIVE, MODEL, OVERTURNED
 from replication.drawing import DOUBLE, PAPER, letter, make_figure, note, sheet
 
-VERDICTS = {
+OUTCOMES = {
     "both survive": PAPER,
     "both overturn": OVERTURNED,
     "falsely safe": MODEL,
@@ -20,7 +20,7 @@ TITLES = {
 
 def draw(allen_overturning):
     figure, axes = sheet(DOUBLE, 80, ncols=2, sharey=True)
-    codes = {verdict: code for code, verdict in enumerate(VERDICTS)}
+    codes = {outcome: code for code, outcome in enumerate(OUTCOMES)}
     for axis, model in zip(axes, TITLES, strict=True):
         cells = allen_overturning[allen_overturning.model == model]
         cells = cells.assign(code=cells.verdict.map(codes))
@@ -31,15 +31,15 @@ def draw(allen_overturning):
             grid.columns,
             grid.index,
             grid,
-            cmap=ListedColormap(VERDICTS.values()),
+            cmap=ListedColormap(OUTCOMES.values()),
             vmin=0,
             vmax=3,
             rasterized=True,
         )
         shares = 100 * cells.verdict.value_counts(normalize=True)
-        wrong = [verdict for verdict in VERDICTS if verdict.startswith("falsely")]
+        wrong = [outcome for outcome in OUTCOMES if outcome.startswith("falsely")]
         patches = [
-            Patch(facecolor=VERDICTS[v], label=f"{v}: {shares.get(v, 0):.1f} %") for v in wrong
+            Patch(facecolor=OUTCOMES[v], label=f"{v}: {shares.get(v, 0):.1f} %") for v in wrong
         ]
         axis.legend(handles=patches, loc="lower right", handlelength=1.2)
         note(axis, "both survive", (6.6, 6.5), ha="center")

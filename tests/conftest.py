@@ -37,7 +37,7 @@ def pytest_xdist_setupnodes():
 @pytest.fixture(scope="session")
 def jobs():
     """Every job of the workflow, by Snakemake's own reading of the Snakefile."""
-    from replication.provenance import workflow_jobs
+    from replication.workflow.provenance import workflow_jobs
 
     return workflow_jobs(ROOT)
 

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 import typst
 
-from replication.captions import read_captions
-from replication.parts import PAPER, captions_of
+from replication.inputs.parts import PAPER, captions_of
+from replication.pages.captions import read_captions
 
 ROOT = Path(__file__).parents[1]
 SOURCES = {PAPER: ROOT / "paper" / "report.typ"} | {

@@ -8,8 +8,8 @@ import pytest
 import yaml
 from jsonschema import Draft202012Validator
 
-from replication.findings import findings_by_rule
-from replication.ledger import read_rows
+from replication.judging.findings import findings_by_rule
+from replication.judging.ledger import read_rows
 
 ROOT = Path(__file__).resolve().parents[1]
 LEDGER = yaml.safe_load((ROOT / "paper" / "claims.yaml").read_text(encoding="utf-8"))

@@ -6,10 +6,10 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
-from replication.claim import JudgedClaim
-from replication.ledger import read_judged
-from replication.publishing import count_table
-from replication.strict_yaml import read_yaml
+from replication.inputs.strict_yaml import read_yaml
+from replication.judging.claim import JudgedClaim
+from replication.judging.ledger import read_judged
+from replication.pages.edition import count_table
 from steps import headlines
 
 ROOT = Path(__file__).parents[1]

@@ -4,21 +4,27 @@ import os
 from functools import partial
 from pathlib import Path
 
-from replication.captions import alternative, captioned, check_captions, read_captions
-from replication.closing import close
-from replication.code import code, results_read
-from replication.costs import longest_jobs
-from replication.crate import CRATE
-from replication.ledger import read_judged, read_ledger
-from replication.ledger_check import check_ledger
-from replication.parts import PAPER, Part
-from replication.place import check_place
-from replication.progress import one_line_a_job
-from replication.stopping import end_on_sigterm
-from replication.strict_yaml import read_yaml
-from replication.study_config import read_study_config
-from replication.typeset import reads
-from replication.unmade import made_by, refuse_unmade
+from replication.pages.captions import (
+    alternative,
+    captioned,
+    check_captions,
+    read_captions,
+)
+from replication.workflow.closing import close
+from replication.workflow.code import code, results_read
+from replication.workflow.completion import complete, findings_made
+from replication.workflow.costs import longest_jobs
+from replication.origin.recorded import CRATE
+from replication.judging.ledger import read_judged, read_ledger
+from replication.judging.ledger_check import check_ledger
+from replication.inputs.parts import PAPER, Part
+from replication.workflow.place import check_place
+from replication.workflow.progress import one_line_a_job
+from replication.workflow.stopping import end_on_sigterm
+from replication.inputs.strict_yaml import read_yaml
+from replication.inputs.study_config import read_study_config
+from replication.pages.typeset import reads
+from replication.workflow.unmade import made_by, refuse_unmade
 
 check_place()
 close(workflow)
@@ -115,7 +121,7 @@ def shown(output):
 
     return report(
         output,
-        caption=str(Path(workflow.basedir, "src/replication/caption.rst")),
+        caption=str(Path(workflow.basedir, "src/replication/pages/caption.rst")),
         category=lambda wildcards, output: caption_of(output[-1])["category"],
         labels=label,
     )

@@ -3,7 +3,7 @@
 FIGURES = {
     figure: tables for part in PARTS.values() for figure, tables in part.figures.items()
 }
-FINDINGS = [name for part in PARTS.values() for name in part.findings]
+FINDINGS = list(findings_made(workflow.rules))
 LEDGER = [part.claims for part in PARTS.values()]
 SECTIONS = [path for part in PARTS.values() for path in part.sections]
 NOTEBOOKS = sorted(path.stem for path in Path("notebooks").glob("*.ipynb"))
@@ -26,7 +26,6 @@ CAPTIONS = read_captions(part.captions for part in PARTS.values())
 
 rule figure:
     input:
-        lambda wildcards: code(f"{wildcards.figure}.py"),
         tables=lambda wildcards: expand(
             "results/tables/{table}.csv", table=FIGURES[wildcards.figure]
         ),
@@ -48,7 +47,6 @@ rule figure:
 
 rule notebook:
     input:
-        code("src/replication/rules/notebook.py"),
         lambda wildcards: code(f"notebooks/{wildcards.name}.ipynb"),
         lambda wildcards: results_read(f"notebooks/{wildcards.name}.ipynb"),
         notebook="notebooks/{name}.ipynb",
@@ -56,8 +54,6 @@ rule notebook:
     output:
         executed="results/notebooks/{name}.ipynb",
         page="results/notebooks/{name}.html",
-    log:
-        "results/logs/notebook_{name}.log",
     benchmark:
         "results/benchmarks/notebook_{name}.tsv"
     message:
@@ -71,22 +67,18 @@ rule notebook:
 
 rule claims:
     input:
-        code("src/replication/rules/claims.py"),
         ledger=LEDGER,
         findings=expand("results/findings/{name}.json", name=FINDINGS),
     output:
         "results/claims.json",
-    log:
-        "results/logs/claims.log",
     message:
         "Judging every claim"
     script:
-        "rules/claims.py"
+        "rules/every_claim.py"
 
 
 rule compare:
     input:
-        code("src/replication/rules/compare.py"),
         tables=[
             path.replace("tests/reference", "results/tables") for path in REFERENCES
         ],
@@ -95,8 +87,6 @@ rule compare:
     output:
         table="results/comparison.csv",
         config="results/config.yaml",
-    log:
-        "results/logs/compare.log",
     params:
         config=config,
     message:
@@ -107,14 +97,11 @@ rule compare:
 
 rule verdict:
     input:
-        code("src/replication/rules/verdict.py"),
         claims="results/claims.json",
         comparison="results/comparison.csv",
         findings=expand("results/findings/{rule}.json", rule=CHECKS),
     output:
         "results/summary.txt",
-    log:
-        "results/logs/verdict.log",
     params:
         checks=CHECKS,
     message:
@@ -125,15 +112,12 @@ rule verdict:
 
 rule costs:
     input:
-        code("src/replication/rules/costs.py"),
         expand("results/findings/{name}.json", name=FINDINGS),
         expand(
             "results/notebooks/{name}.{kind}", name=NOTEBOOKS, kind=["ipynb", "html"]
         ),
     output:
         "results/costs.csv",
-    log:
-        "results/logs/costs.log",
     message:
         "Adding up what the run cost"
     script:
@@ -146,7 +130,6 @@ for document in DOCUMENTS:
         name:
             document
         input:
-            code("src/replication/rules/report.py"),
             reads(f"paper/{document}.typ", *SECTIONS),
             expand("results/findings/{name}.json", name=FINDINGS),
             expand("{figure}.svg", figure=FIGURES),
@@ -154,8 +137,6 @@ for document in DOCUMENTS:
             source=f"paper/{document}.typ",
         output:
             f"paper/{document}.pdf",
-        log:
-            f"results/logs/{document}.log",
         benchmark:
             f"results/benchmarks/{document}.tsv"
         params:
@@ -172,8 +153,7 @@ for document in DOCUMENTS:
 
 rule crate:
     input:
-        code("src/replication/rules/crate.py", *SNAKEFILES),
-        SNAKEFILES,
+        code(*SNAKEFILES),
         everything,
         configuration="config/config.yaml",
         lock="uv.lock",
@@ -182,8 +162,6 @@ rule crate:
         claims="results/claims.json",
     output:
         CRATE,
-    log:
-        "results/logs/crate.log",
     params:
         configs={name: part.config for name, part in PARTS.items()},
         # what a run measures, and what make html and make benchmark write
@@ -205,18 +183,16 @@ for claim in CLAIMS:
         name:
             f"claim_{claim.id}"
         input:
-            code("src/replication/rules/claim.py"),
             findings=([f"results/findings/{claim.rule}.json"] if claim.rule else []),
-        log:
-            f"results/logs/claim_{claim.id}.log",
         params:
             claim=claim,
         message:
             f"Judging {claim.id}"
         script:
-            "rules/claim.py"
+            "rules/one_claim.py"
 
 
+complete(workflow, timed=False)
 refuse_unmade(
     workflow.rules,
     {table for tables in FIGURES.values() for table in tables},

@@ -1,5 +1,6 @@
 """The edges of a step: its log, its tables, its findings, and the check of its inputs.
 
+Figures and studies import from the machine only what this module and `drawing` have.
 A step returns findings, by which claims of the ledger are judged: `value` for a number with its
 error and unit, `truth` for a statement with the numbers that support it.
 """
@@ -15,9 +16,9 @@ from typing import Any, TextIO
 import numpy as np
 import pandas as pd
 
-from replication.calls import library, noted
-from replication.code import undeclared
-from replication.findings import Finding, Findings, write_findings
+from replication.judging.calls import library, noted
+from replication.judging.findings import Finding, Findings, write_findings
+from replication.workflow.code import undeclared
 
 DIGITS = "%.9g"
 
@@ -60,7 +61,7 @@ def refuse_undeclared(job: Any) -> None:
     if gap := undeclared(job.input):
         raise RuntimeError(
             f"rule {job.rule} loaded {', '.join(gap)}, which is not among its inputs: a change "
-            "there would leave its results stale; expected code(<its script>) as an input"
+            "there would leave its results stale; expected an import statement in its code"
         )
 
 

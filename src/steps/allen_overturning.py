@@ -8,7 +8,7 @@ from replication.workbench import grid, run, truth
 from topheavy import Column, Pulse, RockingFrame, judge
 from topheavy.massless_columns import simplified
 
-VERDICTS = {
+OUTCOMES = {
     (False, False): "both survive",
     (True, True): "both overturn",
     (False, True): "falsely overturned",
@@ -31,7 +31,7 @@ def main(case: dict) -> tuple[pd.DataFrame, dict]:
                     "model": name,
                     "frequency_ratio": omega,
                     "amplitude_over_uplift": amplitude,
-                    "verdict": VERDICTS[exact, judge(block, pulse).overturned],
+                    "verdict": OUTCOMES[exact, judge(block, pulse).overturned],
                 }
                 for name, block in models.items()
             ]

@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from replication.strict_yaml import read_yaml
+from replication.inputs.strict_yaml import read_yaml
 from replication.workbench import run
 from topheavy import (
     Column,

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from replication.strict_yaml import read_yaml
+from replication.inputs.strict_yaml import read_yaml
 
 LINK = re.compile(r"\]\((?:[^()]|\([^()]*\))*\)")
 DOI = re.compile(r"\[doi:[^\]]*\]")

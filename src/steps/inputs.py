@@ -5,8 +5,8 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from replication.configuration import check_config, is_number, mapping_in
-from replication.suggestions import hint
+from replication.inputs.configuration import check_config, is_number, mapping_in
+from replication.inputs.suggestions import hint
 
 RECORDS = "data/records"
 VERTICAL = "_UP"

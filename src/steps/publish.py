@@ -10,7 +10,7 @@ import shutil
 from pathlib import Path
 
 from replication.commands import kill_table, pages
-from replication.publishing import machine, publish
+from replication.pages.edition import machine, publish
 from steps.explorer_still import still
 
 DOCUMENTS = ("report", "supplement")

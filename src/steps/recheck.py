@@ -9,11 +9,11 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from replication.rechecking import close
-from replication.rechecking import main as recheck
-from replication.strict_yaml import read_yaml
-from steps.evidence import evidence, published_studies, unlisted
+from replication.inputs.strict_yaml import read_yaml
+from replication.pages.edition_check import close
+from replication.pages.edition_check import main as recheck
 from steps.headlines import headlines
+from steps.redrawn import departures, published_studies, unlisted
 
 CLOSE = {"rtol": 1e-8, "atol": 1e-9}  # the digits of the tables
 
@@ -25,7 +25,7 @@ def main(root: Path = Path()) -> tuple[list[str], list[str]]:
     """
     lines, faults = recheck(
         lambda folder, findings: [
-            *evidence(folder, findings),
+            *departures(folder, findings),
             *equations(folder),
             *headlines(root),
         ],
@@ -34,7 +34,7 @@ def main(root: Path = Path()) -> tuple[list[str], list[str]]:
     reference = root / "tests" / "reference"
     rules = [path.stem for path in (reference / "findings").glob("*.json")]
     lines += [
-        f"{rule}: these findings are as published; src/steps/evidence.py draws none from a table"
+        f"{rule}: these findings are as published; src/steps/redrawn.py draws none from a table"
         for rule in unlisted(rules, published_studies(reference))[1]
     ]
     return lines, faults

@@ -12,8 +12,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from replication.findings import Finding
-from replication.workbench import run, truth
+from replication.workbench import Finding, run, truth
 from steps.spectrum import progress
 from topheavy import Column, Record, RockingFrame, judge, read_record, reference
 

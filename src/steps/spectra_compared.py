@@ -13,8 +13,7 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
-from replication.findings import Finding
-from replication.workbench import grid, truth
+from replication.workbench import Finding, grid, truth
 from steps.spectra_shard import line
 from steps.spectrum import search
 from topheavy import judge, reference

@@ -6,8 +6,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from replication.findings import Finding
-from replication.workbench import run, truth
+from replication.workbench import Finding, run, truth
 from steps.spectrum import Line, solve
 from topheavy import Column, Pulse, RockingFrame, judge, reference
 

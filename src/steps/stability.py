@@ -11,8 +11,7 @@ from functools import cache
 from itertools import combinations, groupby, pairwise
 from typing import TypeAlias
 
-from replication.findings import Finding
-from replication.workbench import grid, run, truth
+from replication.workbench import Finding, grid, run, truth
 from topheavy import Column, Pulse, RockingFrame, judge
 from topheavy.linear import simulate_linear_exact
 from topheavy.structures import size_ratio

@@ -7,8 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from replication.findings import Finding
-from replication.workbench import run, truth, value
+from replication.workbench import Finding, run, truth, value
 from topheavy import Column, RockingFrame, reference, simulate
 from topheavy.derivation.mends import mended_quotient
 from topheavy.shaking_table import (

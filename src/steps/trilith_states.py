@@ -11,8 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import pandas as pd
 
-from replication.findings import Finding
-from replication.workbench import run, truth
+from replication.workbench import Finding, run, truth
 from topheavy import Column, Pulse, Response, RockingFrame, reference, simulate
 from topheavy.excitation import Segment
 from topheavy.shaking_table import table_motion

@@ -11,8 +11,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from replication.findings import Finding
-from replication.workbench import grid, run, truth
+from replication.workbench import Finding, grid, run, truth
 from steps.peak_forces import (
     FORCES,
     GUIDED,

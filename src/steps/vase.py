@@ -10,8 +10,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from replication.findings import Finding
-from replication.workbench import grid, run, truth
+from replication.workbench import Finding, grid, run, truth
 from steps.spectrum import progress
 from steps.vase_poses import poses
 from steps.vase_searches import FINEST, Minimum, minimum, refined, rivals

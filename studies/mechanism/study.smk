@@ -8,48 +8,11 @@ EXPERIMENTS = ["first_impacts", "rebounds", "verdicts", "slides"]
 # The version of the optional engine, a parameter of its rule; None where it is not installed.
 ENGINE = {found.name: found.version for found in distributions()}.get("mujoco-core")
 
-PARTS["mechanism"].figures.update(
-    {
-        f"studies/mechanism/figures/{figure}": [
-            f"mechanism_{table}" for table in tables
-        ]
-        for figure, tables in {
-            "forces": ["forces"],
-            "admissible": ["admissible"],
-            "dependence": ["dependence", "records"],
-            "three_bodies": ["three_bodies"],
-            "impacts": ["first_impacts", "rebounds"],
-            "verdicts": ["verdicts", "slides"],
-            "equivalence": ["equivalence", "equivalence_map"],
-        }.items()
-    }
-)
-PARTS["mechanism"].findings.extend(
-    [
-        f"mechanism_{name}"
-        for name in (
-            "forces",
-            "three_bodies",
-            "admissible",
-            "dependence",
-            "records",
-            "equivalence",
-            *EXPERIMENTS,
-        )
-    ]
-)
-
 
 rule mechanism_forces:
-    input:
-        code("studies/mechanism/steps/forces.py"),
     output:
         table="results/tables/mechanism_forces.csv",
         findings="results/findings/mechanism_forces.json",
-    log:
-        "results/logs/mechanism_forces.log",
-    benchmark:
-        "results/benchmarks/mechanism_forces.tsv"
     params:
         case=case("forces", "mechanism"),
         cap=MECHANISM["caps"][MECHANISM["forces"]["structure"]],
@@ -61,15 +24,10 @@ rule mechanism_forces:
 
 rule mechanism_three_bodies:
     input:
-        code("studies/mechanism/steps/three_bodies.py"),
         records=record_paths(MECHANISM["three_bodies"]["records"], RECORDS),
     output:
         table="results/tables/mechanism_three_bodies.csv",
         findings="results/findings/mechanism_three_bodies.json",
-    log:
-        "results/logs/mechanism_three_bodies.log",
-    benchmark:
-        "results/benchmarks/mechanism_three_bodies.tsv"
     params:
         case=case("three_bodies", "mechanism"),
         cap=MECHANISM["caps"][MECHANISM["three_bodies"]["structure"]],
@@ -80,15 +38,9 @@ rule mechanism_three_bodies:
 
 
 rule mechanism_admissible:
-    input:
-        code("studies/mechanism/steps/admissible.py"),
     output:
         table="results/tables/mechanism_admissible.csv",
         findings="results/findings/mechanism_admissible.json",
-    log:
-        "results/logs/mechanism_admissible.log",
-    benchmark:
-        "results/benchmarks/mechanism_admissible.tsv"
     params:
         case=case("admissible", "mechanism"),
         cap=MECHANISM["caps"][MECHANISM["admissible"]["structure"]],
@@ -99,15 +51,9 @@ rule mechanism_admissible:
 
 
 rule mechanism_dependence:
-    input:
-        code("studies/mechanism/steps/dependence.py"),
     output:
         table="results/tables/mechanism_dependence.csv",
         findings="results/findings/mechanism_dependence.json",
-    log:
-        "results/logs/mechanism_dependence.log",
-    benchmark:
-        "results/benchmarks/mechanism_dependence.tsv"
     params:
         case=case("dependence", "mechanism"),
         cap=MECHANISM["caps"][MECHANISM["dependence"]["structure"]],
@@ -119,15 +65,10 @@ rule mechanism_dependence:
 
 rule mechanism_records:
     input:
-        code("studies/mechanism/steps/records.py"),
         records=record_paths(MECHANISM["records"]["records"], RECORDS),
     output:
         table="results/tables/mechanism_records.csv",
         findings="results/findings/mechanism_records.json",
-    log:
-        "results/logs/mechanism_records.log",
-    benchmark:
-        "results/benchmarks/mechanism_records.tsv"
     params:
         case=MECHANISM["records"],
         structures=named(config["structures"], MECHANISM["records"]),
@@ -139,16 +80,10 @@ rule mechanism_records:
 
 
 rule mechanism_equivalence:
-    input:
-        code("studies/mechanism/steps/equivalence.py"),
     output:
         table="results/tables/mechanism_equivalence.csv",
         drawn="results/tables/mechanism_equivalence_map.csv",
         findings="results/findings/mechanism_equivalence.json",
-    log:
-        "results/logs/mechanism_equivalence.log",
-    benchmark:
-        "results/benchmarks/mechanism_equivalence.tsv"
     params:
         case=MECHANISM["equivalence"],
     message:
@@ -159,8 +94,6 @@ rule mechanism_equivalence:
 
 # Without the engine this runs too: it writes why nothing was tested.
 rule mechanism_engine:
-    input:
-        lambda wildcards: code(f"studies/mechanism/steps/{wildcards.experiment}.py"),
     output:
         table="results/tables/mechanism_{experiment}.csv",
         findings="results/findings/mechanism_{experiment}.json",

@@ -1,19 +1,8 @@
 """Is a heavier cap always more stable? The half about pulses."""
 
-# The grid that is asked for, in place of all that could be.
+# Of the grids in the config, the one that its key `grid` names.
 REVERSALS = case("pulses", "reversals").copy()
 REVERSALS |= REVERSALS.pop("grids")[REVERSALS.pop("grid")]
-
-PARTS["reversals"].figures.update(
-    {
-        "studies/reversals/figures/where": ["reversals_map", "reversals_areas"],
-        "studies/reversals/figures/counterexample": ["reversals_histories"],
-        "studies/reversals/figures/lowest": ["reversals_spectra"],
-        "studies/reversals/figures/why": ["reversals_map", "reversals_why"],
-        "studies/reversals/figures/enough": ["reversals_enough"],
-    }
-)
-PARTS["reversals"].findings.extend(["reversals_pulses", "reversals_enough"])
 
 
 scattergather:
@@ -21,14 +10,8 @@ scattergather:
 
 
 rule reversals_shard:
-    input:
-        code("studies/reversals/steps/pulses_shard.py"),
     output:
         table="results/shards/reversals_{scatteritem}.csv",
-    log:
-        "results/logs/reversals_shard_{scatteritem}.log",
-    benchmark:
-        "results/benchmarks/reversals_shard_{scatteritem}.tsv"
     params:
         case=REVERSALS,
     message:
@@ -39,7 +22,6 @@ rule reversals_shard:
 
 rule reversals_pulses:
     input:
-        code("studies/reversals/steps/pulses.py"),
         shards=gather.reversals("results/shards/reversals_{scatteritem}.csv"),
     output:
         spectra="results/tables/reversals_spectra.csv",
@@ -48,10 +30,6 @@ rule reversals_pulses:
         drawn="results/tables/reversals_map.csv",
         histories="results/tables/reversals_histories.csv",
         findings="results/findings/reversals_pulses.json",
-    log:
-        "results/logs/reversals_pulses.log",
-    benchmark:
-        "results/benchmarks/reversals_pulses.tsv"
     params:
         case=REVERSALS | case("reading", "reversals"),
         solver=config["solver"],
@@ -63,15 +41,10 @@ rule reversals_pulses:
 
 rule reversals_enough:
     input:
-        code("studies/reversals/steps/enough.py"),
         spectra="results/tables/reversals_spectra.csv",
     output:
         table="results/tables/reversals_enough.csv",
         findings="results/findings/reversals_enough.json",
-    log:
-        "results/logs/reversals_enough.log",
-    benchmark:
-        "results/benchmarks/reversals_enough.tsv"
     params:
         case=REVERSALS | case("enough", "reversals"),
     message:

@@ -9,9 +9,9 @@ import pandas as pd
 import pytest
 
 from figures.mass_ratio import draw
-from replication.captions import alternative, read_captions
 from replication.drawing import described, letter, save, sheet
-from replication.parts import PAPER, captions_of
+from replication.inputs.parts import PAPER, captions_of
+from replication.pages.captions import alternative, read_captions
 
 ROOT = Path(__file__).resolve().parents[2]
 SVG = "{http://www.w3.org/2000/svg}"

@@ -79,6 +79,49 @@ def test_library_imports_neither_machine_nor_script(library):
     assert importers(files(f"src/{library}"), "replication", *others, *SCRIPTS) == []
 
 
+def rooms() -> dict[str, list[Path]]:
+    """The files of each module and package at the top of the machine."""
+    found: dict[str, list[Path]] = {}
+    for path in files("src/replication"):
+        if path.suffix == ".py":
+            top = path.relative_to(ROOT / "src" / "replication").parts[0]
+            found.setdefault(top.removesuffix(".py"), []).append(path)
+    return found
+
+
+def arrows() -> set[tuple[str, str]]:
+    """The pairs of rooms of which the first imports from the second."""
+    pairs = {
+        (room, name.split(".")[1])
+        for room, paths in rooms().items()
+        for path in paths
+        for name in imports(path)
+        if name.startswith("replication.")
+    }
+    return {(user, used) for user, used in pairs if user != used}
+
+
+def test_machine_has_few_rooms_and_few_ways_between_them():
+    assert len(rooms()) <= 12
+    assert len(arrows()) <= 40
+
+
+def test_no_room_of_the_machine_leads_back_to_itself():
+    left, pairs = set(rooms()), arrows()
+    while lowest := {room for room in left if not any((room, used) in pairs for used in left)}:
+        left -= lowest
+    assert left == set(), f"these rooms import each other: {sorted(left)}"
+
+
+def test_studies_and_figures_use_the_stable_surface_of_the_machine():
+    paths = files("figures", "studies")
+    scripts = [path for path in paths if not {"tests", "benchmarks"} & {*path.parts}]
+    surface = (" replication.workbench.", " replication.drawing.")
+    found = importers(scripts, "replication")
+    assert found
+    assert [line for line in found if not any(name in f"{line}." for name in surface)] == []
+
+
 def test_nothing_imports_a_study_but_the_study_itself():
     outside = files("src", "figures", "notebooks", "benchmarks", "tests")
     assert importers(outside, "studies") == []

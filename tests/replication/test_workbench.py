@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from replication.findings import Findings, read_findings, write_findings
+from replication.judging.findings import Findings, read_findings, write_findings
 from replication.workbench import grid, log_to, truth, value, write_table
 
 # ---------------------------------------------------------------------------- log

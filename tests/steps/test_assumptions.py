@@ -9,7 +9,7 @@ import pytest
 import yaml
 from jsonschema import Draft202012Validator
 
-from replication.ledger import read_ledger
+from replication.judging.ledger import read_ledger
 from replication.workbench import truth
 from steps.assumptions import choices, held, rankings, run, trilith
 from steps.assumptions.alternatives import alternatives

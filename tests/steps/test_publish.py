@@ -6,12 +6,12 @@ from dataclasses import replace
 
 import pytest
 
-from replication import publishing
-from replication.claim import Claim
-from replication.crate import Crate
-from replication.findings import Findings
-from replication.ledger import judged
-from replication.publishing import (
+from replication.judging.claim import Claim
+from replication.judging.findings import Findings
+from replication.judging.ledger import with_verdict
+from replication.origin.recorded import Crate
+from replication.pages import edition as publishing
+from replication.pages.edition import (
     checksums,
     count_table,
     publish,
@@ -37,7 +37,7 @@ CLAIM = Claim(
     expected="confirmed",
 )
 SIZE = Findings({"size": value(0.41483702538308, 1e-16)}, ("topheavy.structures.Column",))
-ROW = judged(CLAIM, {"trilith": SIZE})
+ROW = with_verdict(CLAIM, {"trilith": SIZE})
 
 
 def cells(**changes) -> list[str]:

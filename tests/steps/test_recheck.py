@@ -11,24 +11,24 @@ import pandas as pd
 import pytest
 import yaml
 
-from replication.claim import Claim
-from replication.findings import Finding, Findings, findings_by_rule
-from replication.ledger import judged, read_judged, read_ledger
-from replication.publishing import count_table, verdict_page
-from replication.rechecking import claims, files, pages
+from replication.judging.claim import Claim
+from replication.judging.findings import Finding, Findings, findings_by_rule
+from replication.judging.ledger import read_judged, read_ledger, with_verdict
+from replication.pages.edition import count_table, verdict_page
+from replication.pages.edition_check import claims, files, pages
 from replication.workbench import truth, value
-from steps.evidence import (
+from steps.recheck import equations, main
+from steps.redrawn import (
     DIGITS,
     OF_PAPER,
     OF_STUDIES,
     SOURCES,
     UNDRAWN,
-    evidence,
+    departures,
     published_studies,
     same,
     unlisted,
 )
-from steps.recheck import equations, main
 
 ROOT = Path(__file__).resolve().parents[2]
 CLAIM = Claim(
@@ -232,10 +232,10 @@ def test_finding_that_is_changed_is_named(tampered, rule, finding, key, new, tol
 def test_finding_follows_from_its_table(edition, rule, finding, key, new):
     reference = edition / "tests" / "reference"
     findings = findings_by_rule((reference / "findings").glob("*.json"))
-    assert list(evidence(reference, findings)) == []
+    assert list(departures(reference, findings)) == []
     entries = dict(findings[rule][finding].entries) | {key: new}
     changed = findings[rule].by_name | {finding: Finding.of(entries)}
-    (fault,) = evidence(reference, findings | {rule: replace(findings[rule], by_name=changed)})
+    (fault,) = departures(reference, findings | {rule: replace(findings[rule], by_name=changed)})
     assert fault.startswith(f"findings/{rule}.json: {finding}.{key} is {new}, and")
 
 
@@ -452,7 +452,7 @@ def test_row_of_the_ledger_that_is_changed_is_named(tampered):
 
 
 def judged_row(**changes):
-    return replace(judged(CLAIM, FINDINGS, ROOT), **changes)
+    return replace(with_verdict(CLAIM, FINDINGS, ROOT), **changes)
 
 
 @pytest.mark.parametrize("change", [{"computed": 0.42}, {"verdict": "refuted"}, {"id": "other"}])
@@ -468,7 +468,7 @@ def test_row_that_is_published_twice_is_found():
 
 def test_claim_that_a_run_left_untested_is_not_published():
     lacking = {"trilith": Findings({"size": Finding.of({"not_tested": "no engine"})})}
-    row = judged(CLAIM, lacking, ROOT)
+    row = with_verdict(CLAIM, lacking, ROOT)
     assert list(claims([CLAIM], lacking, [row], ROOT)) == [
         "claim size is not tested; expected confirmed"
     ]
@@ -479,7 +479,7 @@ def test_number_is_not_the_same_as_a_truth():
     assert "computed is True" in fault
     findings = {"trilith": replace(FINDINGS["trilith"], by_name={"size": truth(True)})}
     claim = replace(CLAIM, printed=None, tolerance=None)
-    row = replace(judged(claim, findings, ROOT), computed=1)
+    row = replace(with_verdict(claim, findings, ROOT), computed=1)
     assert list(claims([claim], findings, [row], ROOT))
 
 

@@ -15,8 +15,8 @@ from pathlib import Path
 
 from replication.commands.verify import SUMS
 from replication.commands.verify import main as verify
-from replication.crate import CRATE, read_crate
-from replication.provenance import source_version, workflow_jobs
+from replication.origin.recorded import CRATE, read_crate
+from replication.workflow.provenance import source_version, workflow_jobs
 
 FOLDER = Path("dist")
 COSTS = "results/costs.csv"

@@ -17,9 +17,9 @@ from pathlib import Path
 
 from tornado.websocket import WebSocketClientConnection, websocket_connect
 
-from replication.captions import read_captions
-from replication.parts import PAPER, captions_of
-from replication.strict_yaml import read_yaml
+from replication.inputs.parts import PAPER, captions_of
+from replication.inputs.strict_yaml import read_yaml
+from replication.pages.captions import read_captions
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
 OPTIONS = (

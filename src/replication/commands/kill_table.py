@@ -20,9 +20,12 @@ from collections.abc import Iterator, Sequence
 from dataclasses import asdict
 from pathlib import Path
 
-from replication.claim import Claim
-from replication.faults import JUDGING, Fault, load
-from replication.kill_table import (
+from replication.inputs.parts import PAPER, ledger_of
+from replication.inputs.strict_yaml import read_yaml
+from replication.judging.claim import Claim
+from replication.judging.ledger import read_ledger
+from replication.kill.faults import JUDGING, Fault, load
+from replication.kill.table import (
     Row,
     caught,
     current,
@@ -32,10 +35,7 @@ from replication.kill_table import (
     workflow,
     write,
 )
-from replication.ledger import read_ledger
-from replication.parts import PAPER, ledger_of
-from replication.strict_yaml import read_yaml
-from replication.tree_copy import ROOT, check_imports, copy_tree
+from replication.kill.tree_copy import ROOT, check_imports, copy_tree
 
 TABLE = ROOT / "docs" / "kill_table"
 KEPT = ROOT / ".kill_table.jsonl"

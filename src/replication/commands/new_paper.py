@@ -12,7 +12,7 @@ import tomllib
 from collections.abc import Iterable
 from pathlib import Path
 
-from replication.place import UNQUOTED
+from replication.workflow.place import UNQUOTED
 
 ROOT = Path(__file__).resolve().parents[3]
 TEMPLATE = Path(__file__).parents[1] / "template"
@@ -34,7 +34,7 @@ COPIED = (
 )
 """Files that are the same for every paper, but for the name of the project in them."""
 
-LEFT_OUT = ("__pycache__", "template", "new_paper.py", "kill_table.py", "faults.py", "*.svg")
+LEFT_OUT = ("__pycache__", "template", "kill", "new_paper.py", "kill_table.py", "*.svg")
 """What of the machine and of the template does not go along."""
 
 ONLY_HERE = (

@@ -6,12 +6,10 @@ import shutil
 import sys
 from pathlib import Path
 
-import yaml
-
 from replication.commands.words import LIST, findings
-from replication.ledger import OURS
-from replication.strict_yaml import read_yaml
-from replication.verdicts import by_origin
+from replication.inputs.strict_yaml import read_word, read_yaml
+from replication.judging.ledger import OURS
+from replication.judging.verdicts import by_origin
 
 SKELETON = "skeleton"
 LONGEST = 20
@@ -61,7 +59,7 @@ def create(name: str, root: Path = Path()) -> Path:
 
 def _meaning(name: str, root: Path) -> str | None:
     """Return what else a name means to a program that reads it, or None."""
-    if (value := yaml.safe_load(name)) != name:
+    if (value := read_word(name)) != name:
         return f"which YAML reads as {value!r}, and the config names its studies in YAML"
     if keyword.iskeyword(name):
         return "a keyword of Python, and the tests of a study import its steps by its name"

@@ -8,14 +8,14 @@ from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
-from replication.captions import read_captions
-from replication.codecheck import codecheck_file
-from replication.config_page import config_page
-from replication.costs import read_costs
-from replication.exhibits import exhibits_page
-from replication.parts import PAPER, captions_of, config_of
-from replication.provenance import Job, workflow_jobs
-from replication.strict_yaml import read_yaml
+from replication.inputs.parts import PAPER, captions_of, config_of
+from replication.inputs.strict_yaml import read_yaml
+from replication.pages.captions import read_captions
+from replication.pages.codecheck import codecheck_file
+from replication.pages.config_page import config_page
+from replication.pages.exhibits import exhibits_page
+from replication.workflow.costs import read_costs
+from replication.workflow.provenance import Job, workflow_jobs
 
 
 def studies() -> list[str]:

@@ -5,6 +5,7 @@ no records, as in an unpacked archive, the RO-Crate of the run has the checksums
 """
 
 import difflib
+import hashlib
 import json
 import re
 import signal
@@ -14,14 +15,15 @@ from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 
-from replication.citations import cite, library_names, printed_list
-from replication.claim import Claim
-from replication.crate import CRATE, Crate, read_crate
-from replication.findings import read_findings
-from replication.ledger import finding_of
-from replication.provenance import Job, checksum, makers, workflow_jobs
-from replication.rules.claim import verdict_line
-from replication.verdicts import verdict_on
+from replication.judging.calls import LIBRARIES
+from replication.judging.citations import cite, library_names, printed_list
+from replication.judging.claim import Claim
+from replication.judging.findings import read_findings
+from replication.judging.ledger import finding_of
+from replication.judging.verdicts import verdict_on
+from replication.origin.recorded import CRATE, Crate, read_crate
+from replication.rules.one_claim import verdict_line
+from replication.workflow.provenance import Job, checksum, makers, workflow_jobs
 
 ROOT = Path(__file__).parents[3]
 """The root of the repository; printed paths are relative to it."""
@@ -31,6 +33,12 @@ NO_CRATE = Crate({}, {}, (), "")
 
 MOST_MATCHES = 6
 """So many names are suggested for one that is unknown."""
+
+MOST_INPUTS = 4
+"""So many inputs from one rule have a line each."""
+
+CODE = (".py", ".pyi", ".smk")
+MACHINE = "replication"
 
 
 @dataclass(frozen=True)
@@ -106,14 +114,15 @@ def chain(
         yield f"{item.key} = {json.dumps(found, ensure_ascii=False)}"
     if item.claims or item.key:
         yield ""
-    waiting, told = [item.path], set()
+    waiting, printed = [item.path], set()
     while waiting:
         job = made[waiting.pop(0)]
-        if job.outputs in told:
+        alike = (job.rule, job.scripts, job.inputs, job.made is None, job.pending)
+        if alike in printed:  # another shard
             continue
-        if told:
+        if printed:
             yield ""
-        told.add(job.outputs)
+        printed.add(alike)
         yield from _job_lines(job, made, root, crate)
         waiting += [path for path in job.inputs if path in made]
 
@@ -138,22 +147,63 @@ def _row(claim: Claim) -> str:
 
 
 def _job_lines(job: Job, made: Mapping[str, Job], root: Path, crate: Crate) -> Iterator[str]:
-    recorded = crate.checksums if job.made is None else job.checksums
+    """Yield what a job made and how: the code that is its own first, checksums in one line."""
     for path in job.outputs:
         yield f"{path}  {_digest(path, root)}"
     yield f"  rule      {job.rule}, {job.place}; {_state(job, crate)}"
     for script in job.scripts:
-        yield f"  script    {script}  {_digest(script, root)}"
-        for name in library_names(root / script):
-            yield f"  function  {_cited(name)}"
+        yield f"  script    {script}"
+    beside = [path for path in job.inputs if _is_own(path) and path not in job.scripts]
+    for path in beside:
+        yield f"  module    {path}"
+    used = (name for path in (*job.scripts, *beside) for name in library_names(root / path))
+    for name in dict.fromkeys(used):
+        yield f"  function  {_cited(name)}"
     for name, value in job.params.items():
         yield f"  config    {name}: {json.dumps(value, ensure_ascii=False, default=str)}"
-    for path in sorted(job.inputs, key=lambda path: (path not in made, path)):
-        digest = _digest(path, root)
-        before = recorded.get(path)
-        changed = before and (root / path).exists() and before != checksum(root / path)
-        source = f"  from rule {made[path].rule}" if path in made else ""
-        yield f"  input     {path}  {digest}{source}{'  CHANGED since' if changed else ''}"
+    yield from _input_lines(job, made)
+    yield from _checksum_lines(job, made, root, crate)
+
+
+def _is_own(path: str) -> bool:
+    """Return whether an input is code that is neither of a library nor of the machine."""
+    parts = Path(path).parts
+    shared = parts[0] == "src" and parts[1] in (*LIBRARIES, MACHINE)
+    return path.endswith(".py") and not shared and parts[-1] != "__init__.py"
+
+
+def _input_lines(job: Job, made: Mapping[str, Job]) -> Iterator[str]:
+    """Yield a line for each input that is no code; several of one rule share a line."""
+    data = [path for path in dict.fromkeys(job.inputs) if not path.endswith(CODE)]
+    sources = {path: made[path].rule if path in made else "" for path in data}
+    for rule in sorted({*sources.values()}, key=lambda rule: (rule == "", rule)):
+        paths = [path for path in data if sources[path] == rule]
+        if rule and len(paths) > MOST_INPUTS:
+            paths = [f"{paths[0]} and {len(paths) - 1} more"]
+        for path in paths:
+            yield f"  input     {path}{f'  from rule {rule}' if rule else ''}"
+
+
+def _checksum_lines(job: Job, made: Mapping[str, Job], root: Path, crate: Crate) -> Iterator[str]:
+    """Yield a line for each input that is lost or changed since the run, and one for all.
+
+    What another rule makes has a line of its own, where this rule is shown.
+    """
+    recorded = crate.checksums if job.made is None else job.checksums
+    there = {path: checksum(root / path) for path in job.inputs if (root / path).is_file()}
+    for path in dict.fromkeys(job.inputs):
+        if path not in there and path not in made:
+            yield f"  MISSING   {path}"
+        elif path in there and recorded.get(path, there[path]) != there[path]:
+            before, now = recorded[path][:16], there[path][:16]
+            yield f"  CHANGED   {path}  sha256 {now}; it was {before} in the run"
+    if there:
+        lines = "".join(f"{there[path]}  {path}\n" for path in sorted(there))
+        same = sum(recorded.get(path) == found for path, found in there.items())
+        yield (
+            f"  sha256    {hashlib.sha256(lines.encode()).hexdigest()[:16]} of the sums of all "
+            f"{len(there)} inputs; {same} of them are recorded, and as in the run"
+        )
 
 
 def _state(job: Job, crate: Crate) -> str:

@@ -7,8 +7,8 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
-from replication.crate import CRATE, Crate, read_crate
-from replication.provenance import checksum
+from replication.origin.recorded import CRATE, Crate, read_crate
+from replication.workflow.provenance import checksum
 
 SUMS = "SHA256SUMS"
 """In an archive alone: the checksum of every file in it, as `sha256sum --check` reads them."""

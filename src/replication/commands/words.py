@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-from replication.strict_yaml import read_yaml
+from replication.inputs.strict_yaml import read_yaml
 
 LIST = Path("paper/words.yaml")
 TEXTS = ("STRING", "FSTRING_MIDDLE")  # before Python 3.12 an f-string is one STRING

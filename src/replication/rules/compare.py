@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 import yaml
 
-from replication.strict_yaml import read_yaml
+from replication.inputs.strict_yaml import read_yaml
 from replication.workbench import run, write_table
 
 

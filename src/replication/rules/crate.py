@@ -8,18 +8,17 @@ from typing import Any
 
 from rocrate.rocrate import ROCrate
 
-from replication import crate_about as about
-from replication import crate_entities as entities
-from replication.claim import JudgedClaim
-from replication.config_page import Key, keys
-from replication.crate import CRATE, LEFT_OUT, WORKFLOW
-from replication.crate_entities import ref, refs
-from replication.ledger import read_judged
-from replication.parts import config_of
-from replication.provenance import Job, source_version, workflow_jobs
-from replication.software import installed
-from replication.strict_yaml import read_yaml
+from replication.inputs.config_keys import Key, keys
+from replication.inputs.parts import config_of
+from replication.inputs.strict_yaml import read_yaml
+from replication.judging.claim import JudgedClaim
+from replication.judging.ledger import read_judged
+from replication.origin import about, entities
+from replication.origin.entities import ref, refs
+from replication.origin.recorded import CRATE, LEFT_OUT, WORKFLOW
+from replication.origin.software import installed
 from replication.workbench import run
+from replication.workflow.provenance import Job, source_version, workflow_jobs
 
 SPECIFICATION = "https://w3id.org/ro/crate/1.1"
 WORKFLOW_CRATE = "https://w3id.org/workflowhub/workflow-ro-crate/1.0"

@@ -4,10 +4,10 @@ import json
 from pathlib import Path
 from typing import Any
 
-from replication.captions import alternative, read_captions
-from replication.digits import of_judged
-from replication.ledger import read_judged
-from replication.typeset import compiled
+from replication.judging.digits import of_judged
+from replication.judging.ledger import read_judged
+from replication.pages.captions import alternative, read_captions
+from replication.pages.typeset import compiled
 from replication.workbench import run
 
 

@@ -7,10 +7,10 @@ from typing import Any
 
 import pandas as pd
 
-from replication.claim import JudgedClaim
-from replication.findings import Finding, read_findings
-from replication.ledger import read_judged
-from replication.verdicts import tallies
+from replication.judging.claim import JudgedClaim
+from replication.judging.findings import Finding, read_findings
+from replication.judging.ledger import read_judged
+from replication.judging.verdicts import tallies
 from replication.workbench import run
 
 

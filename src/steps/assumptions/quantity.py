@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from typing import Any, NamedTuple, TypeAlias
 
-from replication.findings import Finding
+from replication.workbench import Finding
 from steps.assumptions.choices import Choices
 
 Cases: TypeAlias = dict[str, Any]

@@ -10,10 +10,10 @@ from dataclasses import replace
 from functools import cache
 from typing import Any
 
-from replication.claim import Claim
-from replication.ledger import read_ledger
-from replication.strict_yaml import read_yaml
-from replication.verdicts import verdict_on
+from replication.inputs.strict_yaml import read_yaml
+from replication.judging.claim import Claim
+from replication.judging.ledger import read_ledger
+from replication.judging.verdicts import verdict_on
 from replication.workbench import run
 from steps.assumptions import held, impact, pulses, rankings, trilith
 from steps.assumptions.alternatives import alternatives

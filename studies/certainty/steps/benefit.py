@@ -9,8 +9,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from replication.findings import Finding
-from replication.workbench import run, truth
+from replication.workbench import Finding, run, truth
 from steps.spectrum import progress
 from studies.certainty.steps.restitution import changed, difference
 from topheavy import Column, RockingFrame, judge, overturned_by, reference

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from replication.strict_yaml import read_yaml
+from replication.inputs.strict_yaml import read_yaml
 
 STUDY = Path(__file__).parents[1]
 CONFIG = read_yaml(STUDY / "config.yaml")

@@ -5,8 +5,7 @@ from itertools import pairwise
 import numpy as np
 import pandas as pd
 
-from replication.findings import Finding
-from replication.workbench import run, truth, value
+from replication.workbench import Finding, run, truth, value
 from steps.histories import history
 from studies.mechanism.steps.demand import demand, impact_demand
 from studies.mechanism.steps.setting import cap_of, pulse_on, slender

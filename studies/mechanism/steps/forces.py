@@ -5,8 +5,7 @@ import math
 import numpy as np
 import pandas as pd
 
-from replication.findings import Finding
-from replication.workbench import run, truth, value
+from replication.workbench import Finding, run, truth, value
 from steps.histories import History, history
 from studies.mechanism.steps.setting import cap_of, pulse_on
 from topheavy import (

@@ -15,8 +15,8 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from replication.strict_yaml import read_yaml
-from replication.tree_copy import copy_tree
+from replication.inputs.strict_yaml import read_yaml
+from replication.kill.tree_copy import copy_tree
 
 ROOT = Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT))  # for the studies

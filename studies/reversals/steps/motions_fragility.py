@@ -17,8 +17,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from replication.findings import Finding
-from replication.workbench import run, truth, value
+from replication.workbench import Finding, run, truth, value
 from studies.reversals.outcomes import FALLS, read
 from topheavy.structures import size_ratio
 from topheavy.synthetic import fragility

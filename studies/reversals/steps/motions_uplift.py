@@ -10,8 +10,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from replication.findings import Finding
-from replication.workbench import run, truth
+from replication.workbench import Finding, run, truth
 from steps.peak_forces import (
     FORCES,
     GUIDED,

@@ -11,8 +11,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from replication.findings import Finding
-from replication.workbench import run, truth
+from replication.workbench import Finding, run, truth
 from steps.rocking_spectra import NUDGE
 from steps.spectrum import progress
 from steps.vase_searches import rivals

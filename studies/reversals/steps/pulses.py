@@ -10,8 +10,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from replication.findings import Finding
-from replication.workbench import run, truth, value
+from replication.workbench import Finding, run, truth, value
 from steps.spectra_compared import ORDER, Place, Spectra, finite, without
 from steps.spectrum import solve
 from studies.reversals.steps.pulses_shard import CHANGES, lines

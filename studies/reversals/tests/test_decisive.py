@@ -8,7 +8,7 @@ import pandas as pd
 import pytest
 import yaml
 
-from replication.findings import read_findings
+from replication.judging.findings import read_findings
 from steps.spectra_compared import Spectra
 from studies.reversals.steps import motions_fragility, motions_records, pulses
 from topheavy import STANDARD_GRAVITY, Column, Record

@@ -1,7 +1,7 @@
 """Copy what is published from results/ to docs/ and tests/reference/: `make publish`."""
 
 from replication.commands import pages
-from replication.publishing import publish
+from replication.pages.edition import publish
 
 TABLES = ("period",)
 """Those with which later runs are compared."""

@@ -6,12 +6,12 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from replication.findings import Findings
-from replication.rechecking import close
-from replication.rechecking import main as recheck
+from replication.workbench import Findings
+from replication.pages.edition_check import close
+from replication.pages.edition_check import main as recheck
 
 
-def evidence(folder: Path, findings: Mapping[str, Findings]) -> Iterator[str]:
+def departures(folder: Path, findings: Mapping[str, Findings]) -> Iterator[str]:
     """Yield the published numbers that do not follow from the arithmetic–geometric mean."""
     table = pd.read_csv(folder / "period.csv")
     expected = _period(np.radians(table.amplitude_deg))
@@ -31,4 +31,4 @@ def _period(amplitude):
 
 
 if __name__ == "__main__":
-    close(*recheck(evidence))
+    close(*recheck(departures))

@@ -1,0 +1,1 @@
+"""What a run is given: strict YAML, configs with their schemas, the parts of the work."""

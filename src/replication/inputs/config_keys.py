@@ -1,0 +1,148 @@
+"""The keys of a config, each with its meaning, unit, bounds, value and source.
+
+The schema gives meaning, unit and bounds; config.yaml gives the value and, in its comments, the
+source. `unit` is an annotation of ours in the schema, "1" for a number without dimension. A key
+without a description or a unit takes those of the mapping or list that contains it.
+"""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from replication.inputs.schema_words import allowed, entry_of, has_numbers, resolved, unit_of
+from replication.inputs.strict_yaml import read_yaml
+
+
+@dataclass(frozen=True)
+class Key:
+    """A key of the config that holds a value: a number, a text, or a list of such.
+
+    Parameters
+    ----------
+    place
+        Its path, dotted; `[]` stands for each item of a list of mappings.
+    meaning, unit, allowed
+        As the schema has them; "" where it says nothing.
+    values
+        Its value; inside a list of mappings, that of each item.
+    source
+        The nearest comment in config.yaml: of its line, or of a mapping or list that contains it,
+        below the section; the page gives the comment of the section once.
+    """
+
+    place: str
+    meaning: str
+    unit: str
+    allowed: str
+    values: tuple[Any, ...]
+    source: str
+
+    @property
+    def value(self) -> str:
+        """Its values as YAML."""
+        return "; ".join(_yaml(value) for value in self.values)
+
+
+def keys(path: Path, used: Mapping[str, Any] | None = None) -> list[Key]:
+    """Return every key of a config that holds a value, in the order of the file.
+
+    `used` has the values of a run, where another file went over this one.
+    """
+    schema = read_yaml(path.with_name("config.schema.yaml"))
+    said = comments(path.read_text(encoding="utf-8"))
+    config = read_yaml(path) if used is None else used
+    nested = {place: text for place, text in said.items() if place not in config}
+    return [
+        key
+        for name, value in config.items()
+        for key in _keys(name, [value], entry_of(schema, name), schema, {}, nested, "")
+    ]
+
+
+def _keys(
+    place: str,
+    values: list[Any],
+    schema: Mapping[str, Any],
+    root: Mapping[str, Any],
+    outer: Mapping[str, str],
+    said: Mapping[str, str],
+    source: str,
+) -> Iterator[Key]:
+    """Yield the keys at a place; `values` has more than one entry inside a list of mappings."""
+    schema = resolved(schema, root)
+    inherited = {name: schema.get(name, outer.get(name, "")) for name in ("description", "unit")}
+    source = said.get(place, source)
+    if all(isinstance(value, Mapping) for value in values):
+        for name in dict.fromkeys(name for value in values for name in value):
+            inner = [value[name] for value in values if name in value]
+            below = f"{place}.{name}" if place else str(name)
+            yield from _keys(below, inner, entry_of(schema, name), root, inherited, said, source)
+        return
+    items = [item for value in values if isinstance(value, list) for item in value]
+    if items and all(isinstance(item, Mapping) for item in items):
+        of_items = schema.get("items", {})
+        yield from _keys(f"{place}[]", items, of_items, root, inherited, said, source)
+        return
+    meaning = one_line(inherited["description"])
+    unit = unit_of(schema, root) or (inherited["unit"] if has_numbers(schema, root) else "")
+    yield Key(place, meaning, unit, allowed(schema, root), tuple(values), source)
+
+
+def comments(text: str) -> dict[str, str]:
+    """Return the comments of a YAML file by the dotted place of the key that they are about.
+
+    A comment at the end of a line is about the first key of this line. Lines of comment are about
+    the key below them.
+    """
+    ends: dict[int, int] = {}  # by line, where the last token that is no comment ends
+    for token in yaml.scan(text):
+        if token.end_mark.line == token.start_mark.line:
+            ends[token.end_mark.line] = token.end_mark.column
+    lines = text.splitlines()
+    found: dict[str, str] = {}
+    for place, line in _lines(yaml.compose(text), ""):
+        above: list[str] = []
+        for other in reversed(lines[:line]):
+            if not other.strip().startswith("#"):
+                break
+            above.insert(0, other.strip().removeprefix("#"))
+        beside = lines[line][ends.get(line, 0) :].strip().removeprefix("#")
+        said = one_line(" ".join([*above, beside]))
+        if said and place not in found:
+            found[place] = said
+    return found
+
+
+def _lines(node: yaml.Node, place: str) -> Iterator[tuple[str, int]]:
+    """Yield each place and its line: a key, and each item of a list of mappings.
+
+    Of the keys on one line only the first is yielded, and of a list the first item that has a line.
+    """
+    if isinstance(node, yaml.MappingNode):
+        for key, value in node.value:
+            below = f"{place}.{key.value}" if place else key.value
+            yield below, key.start_mark.line
+            for inner, line in _lines(value, below):
+                if line != key.start_mark.line:
+                    yield inner, line
+    elif isinstance(node, yaml.SequenceNode):
+        for item in node.value:
+            if isinstance(item, yaml.MappingNode):
+                yield f"{place}[]", item.start_mark.line
+                yield from (
+                    (inner, line)
+                    for inner, line in _lines(item, f"{place}[]")
+                    if line != item.start_mark.line
+                )
+
+
+def _yaml(value: Any) -> str:
+    text = yaml.safe_dump(value, default_flow_style=True, allow_unicode=True, width=10**6)
+    return text.removesuffix("\n...\n").strip()
+
+
+def one_line(text: str) -> str:
+    return " ".join(text.split())

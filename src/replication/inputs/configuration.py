@@ -1,0 +1,163 @@
+"""Check config.yaml against its schema; the messages say how to correct it."""
+
+import math
+import re
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from itertools import pairwise
+from typing import Any
+
+from jsonschema import Draft202012Validator, ValidationError
+
+from replication.inputs.strict_yaml import read_yaml
+from replication.inputs.suggestions import hint
+
+NAMES = {
+    "^[a-z][a-z0-9_]*$": "a lower-case letter, then lower-case letters, digits or _",
+    "^[A-Za-z0-9_]+$": "letters, digits or _",
+}
+"""The patterns of names in the schemas, in words."""
+
+
+def check_config(
+    config: Mapping[str, Any],
+    path: str,
+    schema_path: str,
+    checks: Iterable[Callable[[Mapping[str, Any]], Iterable[str]]] = (),
+    unordered: Collection[str] = (),
+) -> None:
+    """Refuse a config that breaks its schema, or whose entries do not fit together.
+
+    Parameters
+    ----------
+    checks
+        Of this paper: each yields what is wrong with the entries of a config.
+    unordered
+        Names of lists of numbers that need not ascend.
+
+    Raises
+    ------
+    ValueError
+        With one line for each fault: the file, the place, the value, and what was expected.
+    """
+    schema = read_yaml(schema_path)
+    errors = Draft202012Validator(schema).iter_errors(config)
+    messages = {message for error in errors for message in messages_of(error)}
+    if isinstance(config, Mapping):
+        messages |= {message for check in checks for message in check(config)}
+    values = ((place, value) for place, value in _walk(config) if _last(place) not in unordered)
+    messages |= {message for place, value in values for message in _numbers(place, value)}
+    if messages:
+        raise ValueError("\n".join(f"{path}: {message}" for message in sorted(messages)))
+
+
+# What the schema says ----------------------------------------------------------------------------
+
+
+def messages_of(error: ValidationError) -> Iterator[str]:
+    """Yield a line for each fault that a schema finds: the place, the value, what was expected."""
+    place = _dotted(error.absolute_path) or "the top level"
+    allowed = list(error.schema.get("properties", {})) if isinstance(error.schema, dict) else []
+    match error.validator:
+        case "additionalProperties":
+            patterns = error.schema.get("patternProperties", {})
+            for key in sorted(set(error.instance) - set(allowed), key=str):
+                if not patterns:
+                    yield f"{place} has an unknown key {key!r}; {hint(key, allowed)}"
+                elif not any(re.search(pattern, str(key)) for pattern in patterns):
+                    yield f"{place} has the name {key!r}; expected {_named(*patterns)}"
+        case "oneOf":
+            branches = _fitting(error)
+            if len(branches) == 1:
+                yield from (message for fault in branches[0] for message in messages_of(fault))
+            else:
+                kinds = " or ".join(
+                    schema.get("title", str(schema)) for schema in error.validator_value
+                )
+                yield f"{place} is {error.instance!r}; expected {kinds}"
+        case "required":
+            missing = [key for key in error.validator_value if key not in error.instance]
+            yield f"{place} lacks {', '.join(missing)}"
+        case "dependentRequired":
+            for key, needed in error.validator_value.items():
+                missing = [other for other in needed if other not in error.instance]
+                if key in error.instance and missing:
+                    yield f"{place} has {key} and lacks {', '.join(missing)}"
+        case "minimum":
+            yield f"{place} is {error.instance}; expected at least {error.validator_value}"
+        case "maximum":
+            yield f"{place} is {error.instance}; expected at most {error.validator_value}"
+        case "exclusiveMinimum":
+            yield f"{place} is {error.instance}; expected more than {error.validator_value}"
+        case "exclusiveMaximum":
+            yield f"{place} is {error.instance}; expected less than {error.validator_value}"
+        case "enum":
+            yield f"{place} is {error.instance!r}; {hint(error.instance, error.validator_value)}"
+        case "pattern":
+            yield f"{place} is {error.instance!r}; expected {_named(error.validator_value)}"
+        case "type":
+            yield f"{place} is {error.instance!r}; expected a value of type {error.validator_value}"
+        case _:
+            yield f"{place} is {error.instance!r}; {error.message}"
+
+
+def _fitting(error: ValidationError) -> list[list[ValidationError]]:
+    """Return the faults of each branch that at least allows a value of the given type."""
+    branches: dict[int | str, list[ValidationError]] = {}
+    for fault in error.context or ():
+        branches.setdefault(fault.relative_schema_path[0], []).append(fault)
+    return [
+        faults
+        for faults in branches.values()
+        if not any(fault.validator == "type" and not fault.relative_path for fault in faults)
+    ]
+
+
+def _named(*patterns: str) -> str:
+    """Return what is expected of a name."""
+    return " or ".join(NAMES.get(pattern, f"a text that matches {pattern}") for pattern in patterns)
+
+
+# What no schema can say --------------------------------------------------------------------------
+
+
+def _numbers(place: str, value: Any) -> Iterator[str]:
+    """Numbers that are none, grids that do not grow, lists that do not ascend."""
+    if isinstance(value, float) and math.isnan(value):
+        yield f"{place} is not a number (.nan); expected a number"
+    elif isinstance(value, Mapping) and {"lowest", "highest"} <= set(value):
+        low, high = value["lowest"], value["highest"]
+        if is_number(low) and is_number(high) and low >= high:
+            yield f"{place}.highest is {high}; expected more than {place}.lowest, {low}"
+    elif isinstance(value, list):
+        numbers = [item for item in value if is_number(item)]
+        if any(first >= second for first, second in pairwise(numbers)):
+            yield f"{place} is {value}; expected numbers in ascending order"
+
+
+def _walk(value: Any, *path: str | int) -> Iterator[tuple[str, Any]]:
+    yield _dotted(path), value
+    items: Iterable[tuple[Any, Any]] = ()
+    if isinstance(value, Mapping):
+        items = value.items()
+    elif isinstance(value, list):
+        items = enumerate(value)
+    for key, item in items:
+        yield from _walk(item, *path, key)
+
+
+def _last(place: str) -> str:
+    return place.rpartition(".")[2]
+
+
+def _dotted(path: Iterable[str | int]) -> str:
+    return ".".join(str(part) for part in path)
+
+
+def is_number(value: Any) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+def mapping_in(parent: Any, key: Any) -> Mapping[str, Any]:
+    """Return an entry if it is a mapping, or else an empty one: the schema has told of it."""
+    entry = parent.get(key) if isinstance(parent, Mapping) else None
+    return entry if isinstance(entry, Mapping) else {}

@@ -1,0 +1,83 @@
+"""The parts of a work: the paper itself, and each study that follows it."""
+
+import ast
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+PAPER = ""
+"""The name of the part that is the paper."""
+
+TEXTS = ("section.typ", "article.typ")
+"""What a study writes: its section of the supplement, and its parts of the article, if any."""
+
+
+@dataclass(frozen=True)
+class Part:
+    """A part of the work: its folder, its config, and its figures.
+
+    Parameters
+    ----------
+    name
+        PAPER, or that of a study.
+    config
+        The numbers of its rules.
+    data
+        The files that its notebooks read, beside the code that they import.
+    """
+
+    name: str
+    config: Mapping[str, Any]
+    data: list[str] = field(default_factory=list)
+
+    @property
+    def claims(self) -> str:
+        """Its ledger."""
+        return ledger_of(self.name)
+
+    @property
+    def captions(self) -> str:
+        """The captions of its figures."""
+        return captions_of(self.name)
+
+    @property
+    def figures(self) -> dict[str, list[str]]:
+        """Its figures, named by their scripts without the ending: the tables that each draws."""
+        folder = Path("figures") if self.name == PAPER else Path("studies", self.name, "figures")
+        drawn = {path.with_suffix("").as_posix(): drawn_from(path) for path in folder.glob("*.py")}
+        return {name: drawn[name] for name in sorted(drawn) if drawn[name]}
+
+    @property
+    def sections(self) -> list[str]:
+        """Its section of the supplement, and what it adds to the article; none for the paper."""
+        if self.name == PAPER:
+            return []
+        folder = Path("studies", self.name)
+        return [f"{folder.as_posix()}/{name}" for name in TEXTS if (folder / name).is_file()]
+
+
+def drawn_from(script: Path) -> list[str]:
+    """Return the tables that a figure is drawn from: the parameters of its function `draw`.
+
+    A module without that function is no figure, and draws from none.
+    """
+    for node in ast.parse(script.read_text(encoding="utf-8")).body:
+        if isinstance(node, ast.FunctionDef) and node.name == "draw":
+            return [each.arg for each in node.args.args]
+    return []
+
+
+def ledger_of(part: str) -> str:
+    """Return the path of the ledger of a part, by its name."""
+    return "paper/claims.yaml" if part == PAPER else f"studies/{part}/claims.yaml"
+
+
+def captions_of(part: str) -> str:
+    """Return the path of the captions of a part, by its name."""
+    return "figures/captions.yaml" if part == PAPER else f"studies/{part}/captions.yaml"
+
+
+def config_of(part: str) -> str:
+    """Return the path of the config of a part, by its name."""
+    return "config/config.yaml" if part == PAPER else f"studies/{part}/config.yaml"

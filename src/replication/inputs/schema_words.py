@@ -1,0 +1,81 @@
+"""What a JSON schema says of a key, in words: its unit, and the values that it allows."""
+
+import re
+from collections.abc import Mapping
+from typing import Any
+
+from replication.inputs.configuration import NAMES
+
+
+def entry_of(schema: Mapping[str, Any], name: str) -> Mapping[str, Any]:
+    """Return the schema of an entry of a mapping."""
+    if name in schema.get("properties", {}):
+        return schema["properties"][name]
+    for pattern, found in schema.get("patternProperties", {}).items():
+        if re.search(pattern, name):
+            return found
+    other = schema.get("additionalProperties")
+    return other if isinstance(other, Mapping) else {}
+
+
+def resolved(schema: Mapping[str, Any], root: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a schema with what it refers to, over which its own entries go."""
+    parts = [dict(schema)]
+    for other in schema.get("allOf", []):
+        parts.insert(0, resolved(other, root))
+    if "$ref" in schema:
+        parts.insert(0, resolved(root["$defs"][schema["$ref"].removeprefix("#/$defs/")], root))
+    merged: dict[str, Any] = {}
+    for part in parts:
+        properties = dict(merged.get("properties", {}))
+        for name, own in part.get("properties", {}).items():
+            properties[name] = {"allOf": [properties[name], own]} if name in properties else own
+        merged |= part | ({"properties": properties} if properties else {})
+    return merged
+
+
+def unit_of(schema: Mapping[str, Any], root: Mapping[str, Any]) -> str:
+    """Return the unit that a schema states for itself, or for the items of its list."""
+    schema = resolved(schema, root)
+    return schema.get("unit") or (unit_of(schema["items"], root) if "items" in schema else "")
+
+
+def has_numbers(schema: Mapping[str, Any], root: Mapping[str, Any]) -> bool:
+    """Return whether a schema is that of numbers, which have a unit; whole numbers count."""
+    schema = resolved(schema, root)
+    inner = [*schema.get("oneOf", []), *([schema["items"]] if "items" in schema else [])]
+    return schema.get("type") == "number" or any(has_numbers(each, root) for each in inner)
+
+
+def allowed(schema: Mapping[str, Any], root: Mapping[str, Any]) -> str:
+    """Return in words which values a schema allows."""
+    schema = resolved(schema, root)
+    if "oneOf" in schema:
+        return " or ".join(each.get("title") or allowed(each, root) for each in schema["oneOf"])
+    if "enum" in schema:
+        return "one of " + ", ".join(map(str, schema["enum"]))
+    match schema.get("type"):
+        case "array":
+            each = allowed(schema.get("items", {}), root)
+            return f"{_range(schema, 'minItems', 'maxItems')} values, each {each}".strip()
+        case "integer" | "number" as kind:
+            low, high = schema.get("minimum"), schema.get("maximum")
+            limits = [
+                f"> {schema['exclusiveMinimum']:g}" if "exclusiveMinimum" in schema else "",
+                f"≥ {low:g}" if low is not None else "",
+                f"< {schema['exclusiveMaximum']:g}" if "exclusiveMaximum" in schema else "",
+                f"≤ {high:g}" if high is not None else "",
+            ]
+            kind = "a whole number" if kind == "integer" else "a number"
+            return f"{kind} {', '.join(filter(None, limits))}".strip()
+        case "string":
+            return NAMES.get(schema.get("pattern"), schema.get("pattern", "a text"))
+        case other:
+            return f"{other or 'any value'}"
+
+
+def _range(schema: Mapping[str, Any], low: str, high: str) -> str:
+    least, most = schema.get(low, 0), schema.get(high)
+    if most is None:
+        return f"{least} or more"
+    return f"{most}" if least == most else f"{least} to {most}"

@@ -1,0 +1,1 @@
+"""Claims, findings, and the verdict on each claim."""

@@ -1,0 +1,112 @@
+"""Check the ledger before any computation; the messages say how to correct it."""
+
+import difflib
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from jsonschema import Draft202012Validator, ValidationError
+
+from replication.inputs.configuration import messages_of
+from replication.inputs.strict_yaml import read_yaml
+from replication.inputs.suggestions import hint
+from replication.judging.calls import definition
+from replication.judging.claim import Claim
+from replication.judging.findings import Findings, findings_by_rule
+from replication.judging.ledger import read_rows
+from replication.judging.verdicts import tolerance_fault
+
+SCHEMA = "paper/claims.schema.yaml"
+PUBLISHED = "tests/reference/findings"
+
+
+def check_ledger(
+    paths: Iterable[str | Path], rules: Collection[str], root: str | Path = "."
+) -> None:
+    """Refuse a ledger that breaks its schema, or names what does not exist.
+
+    Parameters
+    ----------
+    paths
+        The ledgers, the paper's first.
+    rules
+        The rules that make findings.
+    root
+        The root of the repository, with the schema, the sources and the published findings.
+
+    Raises
+    ------
+    ValueError
+        With one line for each fault: the file, the id of the row, and what was expected.
+    """
+    root = Path(root)
+    schema = read_yaml(root / SCHEMA)
+    validator = Draft202012Validator(schema["items"])
+    published = findings_by_rule(sorted((root / PUBLISHED).glob("*.json")))
+    faults = [
+        f"{path}: {row['id']}: {fault}"
+        for path, _, row in read_rows(paths)
+        for fault in _faults(row, path, validator, rules, published, root)
+    ]
+    if faults:
+        raise ValueError("\n".join(faults))
+
+
+def _faults(
+    row: Mapping[str, Any],
+    ledger: Path,
+    validator: Draft202012Validator,
+    rules: Collection[str],
+    published: Mapping[str, Findings],
+    root: Path,
+) -> Iterator[str]:
+    errors = list(validator.iter_errors(row))
+    # Faults that follow from a misspelt verdict are not reported.
+    first = [error for error in errors if "allOf" not in error.schema_path] or errors
+    if broken := {message for error in first for message in _told(error, validator.schema)}:
+        yield from sorted(broken)
+        return
+    claim = Claim.of(row, ledger)
+    if fault := tolerance_fault(claim):
+        yield fault
+    if not claim.rule:
+        return
+    if claim.rule not in rules:
+        yield f"rule is {claim.rule!r}, which makes no findings; {hint(claim.rule, rules)}"
+        return
+    try:
+        definition(claim.function, root)
+    except ValueError as error:
+        yield f"function: {error}"
+    if claim.rule in published:
+        yield from _finding_faults(claim, published[claim.rule], root)
+
+
+def _told(error: ValidationError, schema: Mapping[str, Any]) -> Iterator[str]:
+    if error.validator is None:  # a key that some other key forbids
+        clause = schema["allOf"][error.schema_path[1]]
+        yield f"the row breaks a rule of the ledger: {clause['description']}"
+        return
+    yield from (message.replace("the top level", "the row") for message in messages_of(error))
+
+
+def _finding_faults(claim: Claim, known: Findings, root: Path) -> Iterator[str]:
+    """Yield the findings that are probably misspelt.
+
+    A finding is known if its rule published it. An unknown finding that resembles a known one is
+    misspelt, unless a source of the steps or studies contains it; then it is new.
+    """
+    name = claim.finding
+    if name in known.by_name or _is_written(name, root):
+        return
+    close = difflib.get_close_matches(name, sorted(known), n=1)
+    if close:
+        yield (
+            f"finding is {name!r}, which rule {claim.rule} has not published and no source "
+            f"spells; did you mean {close[0]!r}?"
+        )
+
+
+def _is_written(name: str, root: Path) -> bool:
+    sources = [*(root / "src").rglob("*.py"), *(root / "studies").rglob("*.py")]
+    return any(f'"{name}"' in path.read_text(encoding="utf-8") for path in sources)

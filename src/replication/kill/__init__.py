@@ -1,0 +1,1 @@
+"""Deliberate faults, and the table of what catches each."""

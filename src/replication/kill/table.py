@@ -1,0 +1,272 @@
+"""What catches a fault: verdicts of the ledgers, tests, or a rule that stops."""
+
+import csv
+import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, fields, replace
+from datetime import date
+from pathlib import Path
+
+from replication.judging.claim import Claim
+from replication.judging.findings import Findings, read_findings
+from replication.judging.ledger import with_verdict
+from replication.kill.faults import JUDGING, Fault, faulty
+from replication.kill.tree_copy import run
+
+QUICK = "config/quick.yaml"
+SHOWN = 3
+"""So many verdicts of a fault are named in the page; the CSV has all."""
+
+
+@dataclass(frozen=True)
+class Row:
+    """What became of a fault; `verdicts` and `rules` are separated by spaces."""
+
+    name: str
+    fault: str
+    routes: str
+    files: str
+    caught_by: str  # "verdict", "test", "rule" or "SURVIVED"
+    verdicts: str
+    test: str
+    rules: str  # those that raise; "all" for a run that was given up
+    date: str  # of the run
+
+
+# What catches a fault ----------------------------------------------------------------------------
+
+
+def workflow(
+    tree: Path, ledger: Sequence[Claim], studies: Iterable[str]
+) -> tuple[list[str], list[str], str]:
+    """Run the rules that claims are judged by; return the verdicts that turned, and who raised.
+
+    The rules are those of the given rows, with the quick settings of the paper and of the studies.
+    """
+    rules = sorted({row.rule for row in ledger if row.finding})
+    findings = [f"results/findings/{rule}.json" for rule in rules]
+    settings = ("--configfile", QUICK, "--config", f"studies=[{','.join(studies)}]")
+    options = ("--cores", "2", "--keep-going", *settings)
+    code, said = run(tree, "-m", "snakemake", *options, "--", *findings)
+    raised = sorted(set(re.findall(r"^Error in rule (\w+):", said, re.MULTILINE)))
+    if code and not raised:  # given up, or nothing was run
+        raised = ["all"]
+    found = {
+        rule: read_findings(tree / path)
+        for rule, path in zip(rules, findings, strict=True)
+        if (tree / path).exists()
+    }
+    turned = [
+        row.id
+        for row in ledger
+        if row.finding and row.rule in found
+        if verdict(row, found, tree) != row.expected
+    ]
+    return turned, raised, said
+
+
+def verdict(claim: Claim, findings: Mapping[str, Findings], tree: Path) -> str:
+    """Return the verdict on a claim, or why there is none."""
+    try:
+        return with_verdict(claim, findings, tree).verdict
+    except ValueError as error:
+        return f"none: {error}"
+
+
+def first_failing(tree: Path, tests: Sequence[str]) -> str:
+    """Return the first test that fails, or nothing."""
+    options = ("-q", "-x", "-rfE", "--no-header", "-p", "no:cacheprovider")
+    code, said = run(tree, "-m", "pytest", *options, *tests)
+    if code == 0:
+        return ""
+    named = re.search(r"^(?:FAILED|ERROR) (\S+\.py(?:::[^\s\[]+)?)", said, re.MULTILINE)
+    if not named:
+        raise RuntimeError(f"pytest ended with {code} and named no test:\n{said[-2000:]}")
+    return named[1]
+
+
+def courts(fault: Fault) -> tuple[str, str, str]:
+    """Return in which order rows of the paper, rows of studies and tests have to catch a fault.
+
+    The verdicts are what a fault would falsify, the paper's first; of those of studies, which cost
+    most, only a fault in a study goes before the tests. The tests are the first for a fault in the
+    judging, which take seconds: they are the cases in which a result is known to be false.
+    """
+    if fault.routes == JUDGING:
+        return "tests", "paper", "studies"
+    if all(file.startswith("studies/") for file in fault.files):
+        return "paper", "studies", "tests"
+    return "paper", "tests", "studies"
+
+
+def put_to_the_test(
+    tree: Path,
+    fault: Fault,
+    ledgers: Mapping[str, Sequence[Claim]],
+    studies: Sequence[str],
+    begin: Callable[[], None],
+) -> Row:
+    """Return what catches a fault: the first verdict or test, in the order of its courts.
+
+    Parameters
+    ----------
+    ledgers
+        The rows that rules of the "paper" judge, and those that rules of "studies" judge.
+    studies
+        Their names.
+    begin
+        Puts the results of a run without a fault into the tree.
+    """
+    test, verdicts, rules, begun = "", [], [], False
+    for court in courts(fault):
+        if court != "tests" and not begun:
+            begin()
+            begun = True
+        with faulty(tree, fault):
+            if court == "tests":
+                test = first_failing(tree, fault.tests)
+            else:
+                verdicts, raised, _ = workflow(tree, ledgers[court], studies)
+                rules += raised
+        if test or verdicts:
+            break
+    if test and fault.routes != JUDGING and first_failing(tree, [test]):
+        raise RuntimeError(f"{fault.name}: {test} fails without the fault too")
+    ways = {"verdict": verdicts, "test": test, "rule": rules}
+    return Row(
+        name=fault.name,
+        fault=fault.fault,
+        routes=fault.routes,
+        files=" ".join(fault.files),
+        caught_by=next((way for way, found in ways.items() if found), "SURVIVED"),
+        verdicts=" ".join(verdicts),
+        test=test,
+        rules=" ".join(dict.fromkeys(rules)),
+        date=date.today().isoformat(),
+    )
+
+
+# The published table -----------------------------------------------------------------------------
+
+
+def page(rows: Sequence[Row], ledger: Iterable[Claim], waiting: Sequence[str] = ()) -> str:
+    """Return docs/kill_table.md: what catches each fault, and which faults turn each claim.
+
+    `waiting` names the faults that were not run since they were written or changed.
+    """
+    tested = [claim for claim in ledger if claim.finding]
+    turned_by = {
+        claim.id: [row.name for row in rows if claim.id in row.verdicts.split()] for claim in tested
+    }
+    reached = sum(map(bool, turned_by.values()))
+    dates = sorted({row.date for row in rows})
+    lines = [
+        "# What catches a fault",
+        "",
+        "Deliberate faults in the physics and in the judging, one at a time, and what catches",
+        "each: a verdict of the ledgers, or else a test. Faults in the judging are put to tests",
+        f"first. Written by `make kill-table`, by runs from {dates[0]} to {dates[-1]}; verdicts,",
+        "files and dates are in `kill_table.csv`.",
+        *_waiting(waiting),
+        "",
+        "| fault | in words | routes that have it | caught by |",
+        "|---|---|---|---|",
+        *(_line(f"`{row.name}`", row.fault, row.routes, caught(row)) for row in rows),
+        "",
+        "## Which faults turn each claim",
+        "",
+        f"Of {len(tested)} claims that are tested, {reached} are turned by at least one fault.",
+        "",
+        "| claim | of | turned by |",
+        "|---|---|---|",
+        *(
+            _line(
+                f"`{claim.id}`",
+                claim.study or "the paper",
+                shortened(turned_by[claim.id]) or "no fault of this table",
+            )
+            for claim in tested
+        ),
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def _waiting(names: Sequence[str]) -> list[str]:
+    if not names:
+        return []
+    return ["", f"Not run since they were written or changed ({len(names)}): {', '.join(names)}."]
+
+
+def _line(*cells: str) -> str:
+    return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"
+
+
+def shortened(names: Sequence[str]) -> str:
+    """Return the first names, and how many more there are."""
+    parts = [f"`{name}`" for name in names[:SHOWN]]
+    if len(names) > SHOWN:
+        parts.append(f"{len(names) - SHOWN} more")
+    return ", ".join(parts)
+
+
+def caught(row: Row) -> str:
+    """Return what caught a fault, for the page and the terminal."""
+    if row.caught_by == "SURVIVED":
+        return "nothing: SURVIVED"
+    parts = [shortened(row.verdicts.split())] if row.verdicts else []
+    if row.test:
+        parts.append(f"test `{row.test}`")
+    parts += [f"rule {rule} stops" for rule in row.rules.split()]
+    return ", ".join(parts)
+
+
+def read(path: Path) -> list[Row]:
+    """Return the rows of a published table."""
+    with path.open(encoding="utf-8", newline="") as file:
+        return [Row(**row) for row in csv.DictReader(file)]
+
+
+def current(
+    rows: Iterable[Row], faults: Sequence[Fault], ledger: Iterable[Claim], root: Path
+) -> list[Row]:
+    """Return the rows that still say what catches a fault, in the order of the faults.
+
+    A row whose fault was reworded, or of which what caught it was removed, is left out: its fault
+    has to be run again. Claims and rules that were removed leave the other rows.
+    """
+    claims = {claim.id for claim in ledger}
+    files = [root / "Snakefile", *root.glob("src/*/*.smk"), *root.glob("studies/*/*.smk")]
+    made = set(re.findall(r"\brule (\w+):", "".join(path.read_text("utf-8") for path in files)))
+    order = {(f.name, f.fault, f.routes, " ".join(f.files)): n for n, f in enumerate(faults)}
+    kept = {}
+    for row in rows:
+        verdicts = [name for name in row.verdicts.split() if name in claims]
+        rules = [name for name in row.rules.split() if name in {*made, "all"}]
+        tested = bool(row.test) and _is_there(row.test, root)
+        left = {"verdict": verdicts, "test": tested, "rule": rules}.get(row.caught_by)
+        place = order.get((row.name, row.fault, row.routes, row.files))
+        if left and place is not None:
+            kept[place] = replace(row, verdicts=" ".join(verdicts), rules=" ".join(rules))
+    return [kept[place] for place in sorted(kept)]
+
+
+def _is_there(test: str, root: Path) -> bool:
+    """Return whether the file of a test still has its function, if it names one."""
+    file, *names = test.split("::")
+    path = root / file
+    return path.is_file() and (not names or f"def {names[-1]}(" in path.read_text(encoding="utf-8"))
+
+
+def write(
+    rows: Sequence[Row],
+    ledger: Iterable[Claim],
+    table: Path,
+    waiting: Sequence[str] = (),
+) -> None:
+    """Write the table as CSV, and its page as Markdown beside it."""
+    names = [field.name for field in fields(Row)]
+    with table.with_suffix(".csv").open("w", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(names)
+        writer.writerows([getattr(row, name) for name in names] for row in rows)
+    table.with_suffix(".md").write_text(page(rows, ledger, waiting), encoding="utf-8")

@@ -1,0 +1,1 @@
+"""The RO-Crate of a run, from which its origin is read."""

@@ -1,0 +1,1 @@
+"""What is read: captions, the documents, and the published edition."""

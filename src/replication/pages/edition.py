@@ -1,0 +1,249 @@
+"""Publish the findings of a run, the verdicts, and the pages that show them."""
+
+import hashlib
+import os
+import platform
+import shutil
+import sys
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+from replication.inputs.parts import PAPER, ledger_of
+from replication.inputs.strict_yaml import read_yaml
+from replication.judging.claim import Claim, JudgedClaim
+from replication.judging.digits import numbers
+from replication.judging.findings import Findings, findings_by_rule, write_findings
+from replication.judging.ledger import OURS, as_text, read_ledger, with_verdicts
+from replication.judging.verdicts import VERDICTS, by_origin
+from replication.origin.recorded import read_crate
+
+TITLES = {"": "The paper", OURS: "Not the paper's claims, and its claims rest on them"}
+"""The sections of docs/verdicts.md that are not a study's."""
+
+OF_STUDIES = (
+    "These claims are ours. A remark says where we chose a number or a limit after an earlier run; "
+    "the verdict then says that a new run agrees, not that we predicted it."
+)
+
+CHECKSUMS = "checksums.txt"
+DIGITS = 9
+"""Of the numbers in the published findings, as in the tables."""
+
+COUNTS_HEAD = "| | " + " | ".join(VERDICTS) + " |"
+"""The first line of the table that counts the verdicts, in docs/verdicts.md and in the README."""
+
+
+def verdict_page(rows: Sequence[JudgedClaim]) -> str:
+    """Return docs/verdicts.md: the counts, then the rows of the paper and of each study apart."""
+    parts = {row.study: [] for row in rows}
+    for row in rows:
+        parts[row.study].append(row)
+    lines = [
+        "# The verdict on every claim",
+        "",
+        "Computed by the workflow (`results/claims.json`); this page is written by `make publish`.",
+        "A slip or misprint may be a fault of the text that we worked from, and not of the print.",
+        "",
+        *count_table(rows),
+    ]
+    for study, own in parts.items():
+        title = TITLES.get(study, f"The study `{study}`")
+        lines += ["", f"## {title}", ""]
+        if study not in TITLES:
+            lines += [OF_STUDIES, ""]
+        lines += verdict_table(own)
+    return "\n".join(lines) + "\n"
+
+
+def verdict_table(rows: Sequence[JudgedClaim]) -> list[str]:
+    """Return the lines of a table with one claim in each."""
+    lines = [
+        "| claim | where | in our words | printed | computed | verdict | remark |",
+        "|---|---|---|---|---|---|---|",
+    ]
+    for row in rows:
+        digits = numbers(row)
+        cells = [
+            f"`{row.id}`",
+            row.where,
+            row.statement,
+            _shown(row.printed, digits.get("printed", ""), row.unit),
+            _shown(row.computed, digits.get("computed", ""), row.unit),
+            row.verdict,
+            row.remark,
+        ]
+        lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
+    return lines
+
+
+def count_table(rows: Sequence[JudgedClaim]) -> list[str]:
+    """Return the lines of a table that counts the verdicts, of the paper and of each study."""
+    lines = [COUNTS_HEAD, "|---" * (len(VERDICTS) + 1) + "|"]
+    for name, verdicts in by_origin(rows).items():
+        cells = [name if name in ("paper", OURS) else f"study `{name}`"]
+        cells += [str(verdicts.count(verdict)) for verdict in VERDICTS]
+        lines.append("| " + " | ".join(cells) + " |")
+    return lines
+
+
+def with_counts(page: str, rows: Sequence[JudgedClaim]) -> str:
+    """Return a page in which the table of counts is that of the rows.
+
+    Raises
+    ------
+    ValueError
+        When the page has no such table.
+    """
+    lines = page.splitlines(keepends=True)
+    starts = [number for number, line in enumerate(lines) if line.rstrip() == COUNTS_HEAD]
+    if len(starts) != 1:
+        raise ValueError(f"the page has {len(starts)} lines {COUNTS_HEAD!r}; expected one")
+    end = starts[0]
+    while end < len(lines) and lines[end].startswith("|"):
+        end += 1
+    return "".join(
+        [*lines[: starts[0]], *(f"{line}\n" for line in count_table(rows)), *lines[end:]]
+    )
+
+
+def rounded(found: Any, digits: int = DIGITS) -> Any:
+    """Return findings with their numbers rounded, an error to two digits: the rest is noise."""
+    match found:
+        case float():
+            return float(f"{found:.{digits}g}")
+        case dict():
+            return {k: rounded(v, 2 if k == "error" else digits) for k, v in found.items()}
+        case list():
+            return [rounded(item, digits) for item in found]
+        case _:
+            return found
+
+
+def checksums(reference: Path) -> str:
+    """Return the SHA-256 of each published table, config and finding, a line each.
+
+    Of the text, with line ends as Python reads them, so that a checkout may change those.
+    """
+    found = (reference.rglob(name) for name in ("*.csv", "*.yaml", "findings/*.json"))
+    files = sorted({path for paths in found for path in paths})
+    lines = (
+        f"{hashlib.sha256(path.read_text(encoding='utf-8').encode()).hexdigest()}  "
+        f"{path.relative_to(reference).as_posix()}\n"
+        for path in files
+    )
+    return "".join(lines)
+
+
+def machine() -> str:
+    """Return one line that names this machine."""
+    cpuinfo = Path("/proc/cpuinfo")
+    names = [
+        line.split(":", 1)[1].strip()
+        for line in (cpuinfo.read_text().splitlines() if cpuinfo.exists() else [])
+        if line.startswith("model name")
+    ]
+    processor = names[0] if names else platform.processor() or platform.machine()
+    python = f"Python {platform.python_version()}"
+    return f"{os.cpu_count()} cores of {processor}, {platform.system()}, {python}"
+
+
+def _shown(value: object, digits: str, unit: str) -> str:
+    match value:
+        case None:
+            return ""
+        case bool():
+            return "holds" if value else "does not hold"
+        case str():
+            return value
+        case _:
+            return f"{digits} {unit}".rstrip()
+
+
+def publish(tables: Iterable[str], study_tables: Iterable[str] = ()) -> None:
+    """Copy what every replication publishes of a finished run: `make publish`.
+
+    tests/reference/ gets the configs, the tables, the findings, their checksums and the verdicts;
+    docs/ and the README get the pages that show the verdicts.
+
+    Parameters
+    ----------
+    tables
+        Those with which later runs are compared.
+    study_tables
+        The sources of the studies' findings. A study that was not part of the run has none.
+
+    Raises
+    ------
+    SystemExit
+        When there is no finished run, it was made with another config, it made no such table, or an
+        earlier workflow left findings.
+    """
+    results, reference = Path("results"), Path("tests/reference")
+    if not (results / "claims.json").exists():
+        sys.exit("results/claims.json does not exist; expected a finished run: make reproduce")
+    used, ours = read_yaml(results / "config.yaml"), read_yaml("config/config.yaml")
+    if used != ours:
+        sections = sorted(key for key in {*used, *ours} if used.get(key) != ours.get(key))
+        sys.exit(
+            f"results/ was made with another config, which differs in {', '.join(sections)}; "
+            "expected that of config/config.yaml: make reproduce"
+        )
+    tables = list(tables)
+    for name in tables:
+        if not (made := results / "tables" / f"{name}.csv").exists():
+            sys.exit(
+                f"{made} does not exist, and src/steps/publish.py names {name!r} in TABLES; "
+                "expected tables of the run: correct the name, or make reproduce"
+            )
+    made_by_rules = read_crate().rules
+    for path in sorted(results.glob("findings/*.json")):
+        if path.as_posix() not in made_by_rules:
+            sys.exit(f"{path} is of no rule of the run; expected findings of the run: delete it")
+    Path("docs").mkdir(exist_ok=True)
+    reference.mkdir(parents=True, exist_ok=True)
+    shutil.copyfile("config/config.yaml", reference / "config.yaml")
+    for old in reference.glob("*.csv"):
+        old.unlink()
+    for name in tables:
+        shutil.copyfile(results / "tables" / f"{name}.csv", reference / f"{name}.csv")
+    shutil.rmtree(reference / "studies", ignore_errors=True)  # with those of removed studies
+    (reference / "studies").mkdir()
+    for name in ours["studies"]:
+        shutil.copyfile(f"studies/{name}/config.yaml", reference / "studies" / f"{name}.yaml")
+    for name in study_tables:
+        if (made := results / "tables" / f"{name}.csv").exists():
+            shutil.copyfile(made, reference / "studies" / f"{name}.csv")
+    publish_findings(results / "findings", reference / "findings")
+    (reference / CHECKSUMS).write_text(checksums(reference), encoding="utf-8")
+    publish_verdicts(read_ledger(map(ledger_of, [PAPER, *ours["studies"]])), Path())
+    print("published; a run compares its tables with these: 'make reproduce' before 'make verify'")
+
+
+def publish_findings(findings: Path, folder: Path) -> None:
+    """Write all findings of a run, rounded, in place of those that are published.
+
+    Raises
+    ------
+    ValueError
+        When a rule tested nothing, for lack of an optional package.
+    """
+    made = findings_by_rule(sorted(findings.glob("*.json")))
+    for rule, of_rule in made.items():
+        if reason := of_rule.not_tested:
+            path = findings / f"{rule}.json"
+            raise ValueError(f"{path}: nothing was tested ({reason}); expected a full run")
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    for rule, of_rule in made.items():
+        write_findings(folder / f"{rule}.json", Findings.of(rounded(of_rule.as_json())))
+
+
+def publish_verdicts(ledger: Sequence[Claim], root: Path) -> None:
+    """Judge the published findings; write claims.json, docs/verdicts.md and the README's counts."""
+    reference = root / "tests" / "reference"
+    rows = with_verdicts(ledger, findings_by_rule((reference / "findings").glob("*.json")), root)
+    (reference / "claims.json").write_text(as_text(rows), encoding="utf-8")
+    (root / "docs" / "verdicts.md").write_text(verdict_page(rows), encoding="utf-8")
+    readme = root / "README.md"
+    readme.write_text(with_counts(readme.read_text(encoding="utf-8"), rows), encoding="utf-8")

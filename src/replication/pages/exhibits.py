@@ -1,0 +1,75 @@
+"""The page docs/exhibits.md: for each figure its script and tables, and what these cost."""
+
+from collections.abc import Collection, Iterable, Mapping
+from pathlib import PurePath
+from typing import Any
+
+from replication.workflow.provenance import Job, makers
+
+HEAD = """\
+# From figure to table to cost
+
+`make pages` writes this page from the workflow, the captions and `docs/costs.csv`. Time is that of
+all jobs that the figure needs, one after another, in the published run. Memory is that of the
+largest of these jobs. Times of less than a second are not listed.
+
+| figure | drawn by | from | computed by | time in s | memory in MB |
+|---|---|---|---|---|---|
+"""
+
+
+def exhibits_page(
+    jobs: Iterable[Job],
+    captions: Mapping[str, Mapping[str, Any]],
+    costs: Mapping[str, tuple[float, float]],
+) -> str:
+    """Return the page: a row for each result with a caption that is drawn from tables.
+
+    Parameters
+    ----------
+    jobs
+        Those of `rule all`.
+    captions
+        Of the results, by their paths.
+    costs
+        Seconds and megabytes of each job, from `replication.workflow.costs.read_costs`.
+    """
+    made = makers(jobs)
+    rows = []
+    for path, caption in captions.items():
+        job = made[path]
+        tables = sorted(each for each in job.inputs if each in made and each.endswith(".csv"))
+        scripts = {script: None for table in tables for script in made[table].scripts}
+        needed = [costs[name] for name in measured(path, made) if name in costs]
+        seconds, memory = sum(cost[0] for cost in needed), max((c[1] for c in needed), default=0)
+        cells = (
+            caption["title"].replace("|", "\\|"),
+            _listed(job.scripts),
+            _listed(PurePath(table).name for table in tables),
+            _listed(scripts),
+            f"{seconds:.0f}" if seconds >= 1 else "",
+            f"{memory:.0f}" if seconds >= 1 else "",
+        )
+        rows.append("| " + " | ".join(cells) + " |\n")
+    return HEAD + "".join(rows)
+
+
+def measured(path: str, made: Mapping[str, Job]) -> Collection[str]:
+    """Return the names under which the costs list the jobs that an output needs, directly or not.
+
+    These are the names of the jobs' benchmark files.
+    """
+    found: dict[str, None] = {}
+    waiting, seen = [path], set()
+    while waiting:
+        if (each := waiting.pop()) in seen or each not in made:
+            continue
+        seen.add(each)
+        waiting += made[each].inputs
+        logs = map(PurePath, made[each].logs)
+        found |= {log.stem: None for log in logs if log.suffix == ".tsv"}
+    return found
+
+
+def _listed(names: Iterable[str]) -> str:
+    return ", ".join(f"`{name}`" for name in names)

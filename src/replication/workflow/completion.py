@@ -1,0 +1,84 @@
+"""What a rule has without saying so: the code of its script as inputs, a log, a benchmark.
+
+The modifiers of paths are no part of Snakemake's interface: only this module sets them, and its
+test fails when Snakemake drops them.
+"""
+
+import os
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from snakemake.io import expand, strip_wildcard_constraints
+
+from replication.workflow.code import code
+
+MODIFIERS = ("input_modifier", "log_modifier", "benchmark_modifier")
+"""What Snakemake applies to the paths of a rule; None where the rule has no such paths."""
+
+
+def complete(workflow: Any, *, timed: bool = True) -> None:
+    """Give each rule that has a script the code of it as inputs, and a log if it has none.
+
+    Log and benchmark have the name of the rule, and the values of its wildcards. So the script is
+    an input, too: Snakemake compares the contents of inputs, and of scripts only the times.
+
+    Parameters
+    ----------
+    workflow : snakemake.workflow.Workflow
+        As a Snakefile has it, with the rules that it has so far.
+    timed
+        Whether a rule without a log gets a benchmark as well.
+
+    Raises
+    ------
+    ValueError
+        When a rule makes outputs without a script: a change of its code would rerun nothing.
+    AttributeError
+        When Snakemake's rules have no such attribute any more.
+    """
+    for rule in workflow.rules:
+        if not rule.script:
+            if rule.output:
+                raise ValueError(
+                    f"rule {rule.name} makes {rule.output[0]} without a script; expected "
+                    "`script:`, whose code is compared: move its commands into a script"
+                )
+            continue
+        for name in MODIFIERS:
+            if getattr(rule, name) is None:
+                setattr(rule, name, workflow.modifier.path_modifier)
+        rule.set_input(*_code_of(rule))
+        if rule.log:
+            continue
+        name = "_".join([rule.name, *(f"{{{word}}}" for word in sorted(rule.wildcard_names))])
+        rule.set_log(f"results/logs/{name}.log")
+        if timed:
+            rule.benchmark = f"results/benchmarks/{name}.tsv"
+
+
+def findings_made(rules: Iterable[Any]) -> Iterator[str]:
+    """Yield the names of all findings: of the outputs that rules call `findings`."""
+    for rule in rules:
+        if path := dict(rule.output.items()).get("findings"):
+            words = {word: values.split("|") for word, values in rule.wildcard_constraints.items()}
+            yield from expand(Path(strip_wildcard_constraints(path)).stem, **words)
+
+
+@dataclass(frozen=True)
+class CodeOf:
+    """The input function of a rule whose script has wildcards in its path."""
+
+    script: str
+
+    def __call__(self, wildcards: Any) -> list[str]:
+        """Return the script of a job, and what it imports."""
+        return code(self.script.format(wildcards=wildcards))
+
+
+def _code_of(rule: Any) -> list[Any]:
+    """Return what is missing among the inputs of a rule: its script, and what this imports."""
+    script = os.path.relpath(rule.basedir.join(rule.script).get_path_or_uri(secret_free=True))
+    needed = [CodeOf(script)] if "{" in script else code(script)
+    return [item for item in needed if item not in list(rule.input)]

@@ -1,0 +1,159 @@
+"""The jobs of the workflow and Snakemake's records of their runs."""
+
+import hashlib
+import os
+import subprocess
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from replication.inputs.strict_yaml import read_yaml
+
+
+@dataclass(frozen=True)
+class Job:
+    """One job of the workflow: a rule with its wildcards filled in.
+
+    Parameters
+    ----------
+    rule, place
+        Name of the rule; its file and line.
+    scripts
+        What it runs: one script, or none.
+    inputs, outputs, logs
+        Paths from the root; logs include the benchmark.
+    findings
+        The outputs that contain findings.
+    params
+        The numbers from the config.
+    made
+        Time of the last run, in s since 1970; None if Snakemake has no record.
+    checksums
+        Those that Snakemake recorded of its inputs at that time. It leaves out large files.
+    pending
+        Whether Snakemake would run it now.
+    """
+
+    rule: str
+    place: str
+    scripts: tuple[str, ...]
+    inputs: tuple[str, ...]
+    outputs: tuple[str, ...]
+    logs: tuple[str, ...]
+    findings: tuple[str, ...]
+    params: Mapping[str, Any]
+    made: float | None
+    checksums: Mapping[str, str]
+    pending: bool
+
+
+def workflow_jobs(
+    root: str | Path = ".",
+    config: Mapping[str, Any] | None = None,
+    targets: Iterable[str] | None = None,
+) -> list[Job]:
+    """Return every job that the targets need, from the Snakefile; nothing is run.
+
+    Parameters
+    ----------
+    root
+        Where the Snakefile lies.
+    config
+        Replaces entries of the config file.
+    targets
+        Rules or files; by default every rule that can be requested by name.
+    """
+    # Imported here: it takes a second, and those who only want Job do not need it.
+    from snakemake.api import SnakemakeApi
+    from snakemake.settings.enums import Quietness, RerunTrigger
+    from snakemake.settings.types import (
+        ConfigSettings,
+        DAGSettings,
+        OutputSettings,
+        ResourceSettings,
+    )
+
+    with SnakemakeApi(OutputSettings(quiet={Quietness.ALL})) as api:
+        parsed = api.workflow(
+            resource_settings=ResourceSettings(cores=1),
+            config_settings=ConfigSettings(config=dict(config or {})),
+            snakefile=Path(root, "Snakefile").resolve(),
+            workdir=Path(root).resolve(),
+        )
+        workflow = parsed._workflow
+        if targets is None:
+            targets = [rule.name for rule in workflow.rules if not rule.has_wildcards()]
+        triggers = RerunTrigger.parse_choices_set(rerun_triggers(root))
+        parsed.dag(DAGSettings(targets=set(targets), rerun_triggers=triggers))
+        workflow._prepare_dag(forceall=False, ignore_incomplete=True, lock_warn_only=True)
+        workflow._build_dag()
+        return [_job(job, workflow) for job in workflow.dag.jobs]
+
+
+def rerun_triggers(root: str | Path = ".") -> list[str]:
+    """Return what makes a run repeat a job: as the default profile says, or all without one."""
+    profile = Path(root, "profiles", "default", "config.yaml")
+    known = read_yaml(profile) if profile.is_file() else {}
+    return known.get("rerun-triggers", ["mtime", "input", "params", "code", "software-env"])
+
+
+def makers(jobs: Iterable[Job]) -> dict[str, Job]:
+    """Return, for each output, the job that makes it."""
+    return {path: job for job in jobs for path in job.outputs}
+
+
+def checksum(path: str | Path) -> str:
+    """Return the SHA-256 of a file."""
+    with Path(path).open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
+
+
+def source_version(folder: str | Path = ".") -> str:
+    """Return the commit, with "-dirty" behind it where the tree differs; "" without a repository.
+
+    A repository further up, into which a source archive was unpacked, is not this one.
+    """
+
+    def git(*words: str) -> str:
+        command = ["git", "-C", str(folder), *words]
+        return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
+
+    try:
+        if Path(git("rev-parse", "--show-toplevel")).resolve() != Path(folder).resolve():
+            return ""
+        return git("rev-parse", "HEAD") + ("-dirty" if git("status", "--porcelain") else "")
+    except (OSError, subprocess.CalledProcessError):
+        return ""
+
+
+def _job(job: Any, workflow: Any) -> Job:
+    rule, record = job.rule, None
+    if job.output:
+        record = workflow.persistence.metadata(job.output[0])
+    snakefile = str(rule.snakefile)
+    line = workflow.linemaps[snakefile][rule.lineno]
+    scripts = ()
+    if rule.script or rule.notebook:
+        script = job.format_wildcards(rule.script or rule.notebook)
+        scripts = (_relative(rule.basedir.join(script).get_path_or_uri(secret_free=True)),)
+    return Job(
+        rule=rule.name,
+        place=f"{_relative(snakefile)}:{line}",
+        scripts=scripts,
+        inputs=tuple(map(str, job.input)),
+        outputs=tuple(map(str, job.output)),
+        logs=tuple(map(str, [*job.log, *([job.benchmark] if job.benchmark else [])])),
+        findings=tuple(str(path) for name, path in job.output.items() if name == "findings"),
+        params=dict(job.params.items()),
+        made=record.endtime if record else None,
+        checksums={
+            path: value.removeprefix("sha256:")
+            for path, value in ((record.input_checksums if record else None) or {}).items()
+        },
+        pending=bool(workflow.dag.needrun(job)),
+    )
+
+
+def _relative(path: str) -> str:
+    return os.path.relpath(path.removeprefix("file://"))

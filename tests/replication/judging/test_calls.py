@@ -1,0 +1,188 @@
+"""Which functions ran: noted once, at no cost afterwards, and found by their public names."""
+
+import functools
+import json
+import threading
+from types import ModuleType, SimpleNamespace
+
+import pytest
+
+from replication.judging.calls import definition, library, noted
+from replication.workbench import run, truth
+
+SOURCE = """
+import functools
+from dataclasses import dataclass
+
+
+def plain(first, /, second=2, *rest, third=3, **more):
+    return first, second, rest, third, more
+
+
+def never():
+    pass
+
+
+def outer():
+    return plain(1)
+
+
+def _hidden():
+    return 0
+
+
+@functools.cache
+def cached():
+    return 1
+
+
+@dataclass(frozen=True)
+class Thing:
+    size: float = 1.0
+    rule: object = plain
+
+    @property
+    def double(self):
+        return 2 * self.size
+
+    @classmethod
+    def made(cls):
+        return cls(3.0)
+
+    def method(self):
+        return self.size
+"""
+
+
+@pytest.fixture
+def module():
+    found = ModuleType("things")
+    exec(SOURCE, vars(found))
+    for member in vars(found).values():
+        if getattr(member, "__module__", None) == "builtins" and callable(member):
+            member.__module__ = "things"
+    return found
+
+
+def calls(module, act) -> set[str]:
+    with noted([("a.things", module)]) as called:
+        act(module)
+    return called
+
+
+@pytest.mark.parametrize(
+    ("act", "names"),
+    [
+        (lambda m: None, set()),
+        (lambda m: m.plain(1), {"plain"}),
+        (lambda m: m.outer(), {"outer", "plain"}),
+        (lambda m: m._hidden(), set()),
+        (lambda m: m.cached(), {"cached"}),
+        (lambda m: m.Thing(), {"Thing"}),
+        (lambda m: m.Thing().double, {"Thing", "Thing.double"}),
+        (lambda m: m.Thing.made(), {"Thing", "Thing.made"}),
+        (lambda m: m.Thing().method(), {"Thing", "Thing.method"}),
+        (lambda m: m.Thing().rule(1), {"Thing", "plain"}),
+    ],
+)
+def test_what_is_called_is_noted_and_nothing_else(module, act, names):
+    assert calls(module, act) == {f"a.things.{name}" for name in names}
+
+
+def test_function_that_was_taken_before_is_noted(module):
+    before = functools.partial(module.plain, 1)
+    assert calls(module, lambda m: before()) == {"a.things.plain"}
+
+
+def test_arguments_arrive_and_functions_are_as_before_afterwards(module):
+    code, keywords = module.plain.__code__, module.plain.__kwdefaults__
+    with noted([("a.things", module)]):
+        assert module.plain.__code__ is not code
+        assert module.plain(1, 5, 6, third=7, x=8) == (1, 5, (6,), 7, {"x": 8})
+        assert module.plain.__code__ is code  # the second call costs nothing
+        assert module.plain(1) == (1, 2, (), 3, {})
+    assert module.never.__code__.co_name == "never"
+    assert module.never.__kwdefaults__ is None
+    assert module.plain.__kwdefaults__ == keywords
+
+
+def test_functions_are_as_before_after_an_error(module):
+    with pytest.raises(ZeroDivisionError), noted([("a.things", module)]):
+        raise ZeroDivisionError
+    assert module.plain.__code__.co_name == "plain"
+
+
+def test_first_calls_from_many_threads_all_arrive(module):
+    results, start = [], threading.Barrier(8)
+
+    def work():
+        start.wait()
+        results.append(module.plain(1))
+
+    with noted([("a.things", module)]) as called:
+        threads = [threading.Thread(target=work) for _ in range(8)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+    assert results == [(1, 2, (), 3, {})] * 8
+    assert called == {"a.things.plain"}
+
+
+def test_library_yields_what_a_rule_declares_and_no_step():
+    declared = ["src/topheavy/structures.py", "src/steps/heavier.py", "config/config.yaml"]
+    assert {name for name, _ in library(declared)} == {"topheavy.structures"}
+
+
+@pytest.mark.parametrize(
+    ("name", "full"),
+    [
+        ("topheavy.simulate", "topheavy.simulate.simulate"),
+        ("topheavy.judge", "topheavy.simulate.judge"),
+        ("topheavy.reference.judge", "topheavy.reference.judge"),
+        (
+            "topheavy.RockingBlock.with_restitution",
+            "topheavy.structures.RockingBlock.with_restitution",
+        ),
+        ("topheavy.derivation.theorems", "topheavy.derivation.theorems.theorems"),
+        ("topheavy.contact_forces", "topheavy.contact_forces.contact_forces"),
+        ("topheavy.derivation.contact_forces", "topheavy.derivation.contact.contact_forces"),
+        ("studies.mechanism.steps.verdicts.main", "studies.mechanism.steps.verdicts.main"),
+    ],
+)
+def test_public_name_stands_for_one_definition(name, full):
+    assert definition(name) == full
+
+
+@pytest.mark.parametrize(
+    "name", ["topheavy.simulat", "topheavy.RockingBlock.no", "topheavy.derivation", "numpy.sin"]
+)
+def test_name_of_nothing_is_refused(name):
+    with pytest.raises(ValueError, match=f"{name} is no function or class of the repository"):
+        definition(name)
+
+
+def job(folder, outputs) -> SimpleNamespace:
+    return SimpleNamespace(
+        log=[str(folder / "log")],
+        input=["src/topheavy/structures.py"],
+        output=[str(folder / name) for name in outputs],
+        rule="rule",
+    )
+
+
+def test_step_writes_with_its_findings_what_it_called(tmp_path, monkeypatch):
+    from topheavy import Column
+
+    monkeypatch.setattr("replication.workbench.undeclared", lambda declared: [])
+    run(job(tmp_path, ["f.json"]), lambda job: {"so": truth(Column(0.5, 3.0).size > 3.0)})
+    found = json.loads((tmp_path / "f.json").read_text(encoding="utf-8"))
+    assert found["so"] == {"holds": True}
+    assert {"topheavy.structures.Column", "topheavy.structures.Column.size"} <= set(found["called"])
+    assert found["called"] == sorted(found["called"])
+    assert "topheavy.structures.RockingFrame" not in found["called"]
+
+
+def test_finding_with_the_reserved_name_is_refused(tmp_path):
+    with pytest.raises(ValueError, match="a finding is called 'called'"):
+        run(job(tmp_path, ["f.json"]), lambda job: {"called": truth(True)})

@@ -1,0 +1,150 @@
+"""The ledger as the workflow reads it."""
+
+from dataclasses import replace
+
+import pytest
+import yaml
+
+from replication.judging.claim import Claim
+from replication.judging.findings import Findings
+from replication.judging.ledger import (
+    as_text,
+    finding_of,
+    read_judged,
+    read_ledger,
+    with_verdict,
+    with_verdicts,
+)
+
+CLAIM = Claim(
+    id="c",
+    where="p. 1",
+    statement="It is so.",
+    function="topheavy.simulate",
+    rule="r",
+    finding="so",
+    expected="confirmed",
+)
+
+
+def write(path, *rows):
+    """Write a ledger of rows that have the other keys which every row has."""
+    whole = {"where": "p. 1", "statement": "It is so.", "expected": "confirmed"}
+    path.write_text(yaml.safe_dump([whole | row for row in rows]), encoding="utf-8")
+
+
+def test_rows_of_all_files_come_in_order(tmp_path):
+    paths = [tmp_path / "first.yaml", tmp_path / "second.yaml"]
+    write(paths[0], {"id": "b"}, {"id": "a"})
+    write(paths[1], {"id": "c", "printed": 2})
+    claims = read_ledger(paths)
+    assert [claim.id for claim in claims] == ["b", "a", "c"]
+    assert claims[2].printed == 2
+
+
+def test_row_says_whose_claim_it_is(tmp_path):
+    paths = [tmp_path / "paper" / "claims.yaml", tmp_path / "studies" / "own" / "claims.yaml"]
+    for path in paths:
+        path.parent.mkdir(parents=True)
+    write(paths[0], {"id": "a"}, {"id": "b", "ours": True})
+    write(paths[1], {"id": "c"})
+    assert [claim.study for claim in read_ledger(paths)] == ["", "ours", "own"]
+
+
+@pytest.mark.parametrize(
+    ("change", "others"),
+    [({"statement": "It is not."}, "statement"), ({"printed": 2, "tolerance": 0.5}, "printed, to")],
+)
+def test_study_changes_what_judges_a_claim_and_not_the_claim(tmp_path, change, others):
+    paths = [tmp_path / "paper" / "claims.yaml", tmp_path / "studies" / "own" / "claims.yaml"]
+    for path in paths:
+        path.parent.mkdir(parents=True)
+    write(paths[0], {"id": "a", "rule": "r", "finding": "old"})
+    row = {"id": "a", "expected": "confirmed", "rule": "s", "finding": "new"}
+    paths[1].write_text(yaml.safe_dump([row]), encoding="utf-8")
+    (claim,) = read_ledger(paths)
+    assert (claim.rule, claim.finding, claim.statement) == ("s", "new", "It is so.")
+    paths[1].write_text(yaml.safe_dump([row | change]), encoding="utf-8")
+    with pytest.raises(ValueError, match=f"a is a claim of the paper; .* not {others}"):
+        read_ledger(paths)
+
+
+def test_finding_is_the_one_that_the_claim_names():
+    findings = Findings.of({"left": {"holds": True}, "right": {"holds": False}})
+    assert finding_of(replace(CLAIM, finding="right"), findings) == findings["right"]
+    assert finding_of(replace(CLAIM, finding=""), findings) is None
+
+
+def test_finding_that_the_rule_does_not_make_is_named():
+    told = "the claim c names the finding 'rihgt', which rule r does not make; did you mean 'right'"
+    with pytest.raises(ValueError, match=told):
+        finding_of(replace(CLAIM, finding="rihgt"), Findings.of({"right": {"holds": False}}))
+
+
+def found(called, **finding):
+    return {"r": Findings.of({"so": finding, "called": called})}
+
+
+def test_claim_is_judged_by_what_ran():
+    row = with_verdict(CLAIM, found(["topheavy.simulate.simulate"], holds=True))
+    assert (row.verdict, row.computed, row.kind) == ("confirmed", True, "")
+    row = with_verdict(CLAIM, found(["topheavy.simulate.simulate"], holds=False, holds_when=True))
+    assert (row.verdict, row.computed) == ("qualified", False)
+
+
+@pytest.mark.parametrize("called", [[], ["topheavy.reference.simulate", "topheavy.simulate"]])
+def test_function_that_its_rule_never_called_judges_nothing(called):
+    with pytest.raises(ValueError, match="claim c: its rule r never called"):
+        with_verdict(CLAIM, found(called, holds=True))
+
+
+def test_all_claims_that_cannot_be_judged_are_named_together():
+    others = [replace(CLAIM, id=name, finding="other") for name in ("d", "e")]
+    with pytest.raises(ValueError, match=r"the claim d names[^\n]*\nthe claim e names[^\n]*$"):
+        with_verdicts([CLAIM, *others], found(["topheavy.simulate.simulate"], holds=True))
+
+
+def test_what_was_not_run_for_lack_of_a_package_needs_no_function():
+    row = with_verdict(CLAIM, {"r": Findings.of({"not_tested": "no engine", "called": []})})
+    assert (row.verdict, row.not_tested) == ("not tested", "no engine")
+
+
+def test_number_that_is_zero_is_a_number():
+    claim = replace(CLAIM, printed=0.0, tolerance=0.5)
+    row = with_verdict(claim, found(["topheavy.simulate.simulate"], value=0.0, error=0.0))
+    assert (row.computed, row.verdict) == (0.0, "confirmed")
+    assert isinstance(row.computed, float)
+
+
+def test_list_of_functions_is_no_finding():
+    with pytest.raises(ValueError, match="names the finding 'called', which rule r does not make"):
+        finding_of(replace(CLAIM, finding="called"), Findings.of({"called": []}))
+
+
+def test_judged_rows_are_read_as_they_were_written(tmp_path):
+    rows = [with_verdict(CLAIM, found(["topheavy.simulate.simulate"], holds=True))]
+    path = tmp_path / "claims.json"
+    path.write_text(as_text(rows), encoding="utf-8")
+    assert read_judged(path) == rows
+    path.write_text(as_text(rows).replace('"error"', '"eror"'), encoding="utf-8")
+    with pytest.raises(ValueError, match=r"claims.json: c: .*'eror'"):
+        read_judged(path)
+
+
+@pytest.mark.parametrize(
+    ("row", "told"),
+    [
+        ({"tolernce": 0.1}, "has an unknown key 'tolernce'; did you mean 'tolerance'"),
+        ({"study": "mine"}, "has an unknown key 'study'; expected one of id, where"),
+    ],
+)
+def test_misspelt_key_is_refused_with_a_suggestion(tmp_path, row, told):
+    write(tmp_path / "claims.yaml", {"id": "c"} | row)
+    with pytest.raises(ValueError, match=rf"claims\.yaml: c: the row {told}"):
+        read_ledger([tmp_path / "claims.yaml"])
+
+
+def test_row_that_lacks_a_key_is_named(tmp_path):
+    (tmp_path / "claims.yaml").write_text("- id: c\n  where: p. 1\n", encoding="utf-8")
+    with pytest.raises(ValueError, match=r"c: the row lacks statement, expected"):
+        read_ledger([tmp_path / "claims.yaml"])

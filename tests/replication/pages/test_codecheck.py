@@ -1,0 +1,80 @@
+"""codecheck.yml: what CODECHECK 2.0 demands of an author, and nothing that a check would add."""
+
+from dataclasses import replace
+
+import pytest
+import yaml
+
+from replication.pages.codecheck import codecheck_file, manifest
+from replication.workflow.provenance import Job
+
+JOB = Job("peaks", "Snakefile:1", (), (), (), (), (), {}, None, {}, False)
+JOBS = [
+    replace(
+        JOB,
+        scripts=("src/peaks.py",),
+        outputs=("results/tables/peaks.csv", "results/shards/peaks.csv", "results/claims.json"),
+    ),
+    replace(JOB, inputs=("results/tables/peaks.csv",), outputs=("figures/peaks.svg",)),
+    replace(JOB, rule="report", inputs=("figures/peaks.svg",), outputs=("paper/report.pdf",)),
+]
+CAPTIONS = {"figures/peaks.svg": {"title": "Peaks: all"}}
+CITATION = {
+    "title": "On “peaks”",
+    "authors": [
+        {
+            "given-names": "A.",
+            "family-names": "Bee",
+            "orcid": "https://orcid.org/0000-0002-1825-0097",
+        }
+    ],
+}
+
+
+def test_documents_figures_and_tables_are_listed_with_a_comment():
+    assert manifest(JOBS, CAPTIONS) == [
+        {"file": "paper/report.pdf", "comment": "Document, made by rule report"},
+        {"file": "figures/peaks.svg", "comment": "Peaks: all"},
+        {
+            "file": "results/tables/peaks.csv",
+            "comment": "Table, computed by src/peaks.py; drawn in figures/peaks.svg",
+        },
+    ]
+
+
+def test_author_part_is_what_the_specification_demands():
+    text = codecheck_file(JOBS, CAPTIONS, CITATION)
+    assert text.startswith("%YAML 1.1\n---\n")
+    content = yaml.safe_load(text)
+    assert content["version"] == "https://codecheck.org.uk/spec/config/2.0/"
+    assert content["paper"]["title"] == "On “peaks”"
+    assert content["paper"]["authors"] == [{"name": "A. Bee", "ORCID": "0000-0002-1825-0097"}]
+    assert content["paper"]["reference"].startswith("paper/report.pdf")
+    assert content["manifest"] == manifest(JOBS, CAPTIONS)
+
+
+def test_nothing_is_said_of_a_check_that_nobody_did():
+    text = codecheck_file(JOBS, CAPTIONS, CITATION)
+    assert set(yaml.safe_load(text)) == {"version", "paper", "manifest"}
+    assert "# No CODECHECK has been done" in text
+
+
+def test_missing_orcid_is_told_and_a_doi_is_the_reference():
+    citation = {"title": "T", "authors": [{"name": "The Bees"}], "doi": "10.1/x"}
+    text = codecheck_file(JOBS, CAPTIONS, citation)
+    assert "CITATION.cff has none of The Bees" in text
+    assert "ORCID" not in codecheck_file(JOBS, CAPTIONS, CITATION).partition("version:")[0]
+    assert yaml.safe_load(text)["paper"]["reference"] == "https://doi.org/10.1/x"
+
+
+@pytest.mark.parametrize(
+    "path", ["paper/report.pdf", "figures/vase.svg", "results/tables/vase.csv"]
+)
+def test_every_figure_table_and_document_of_the_run_is_listed(jobs, path):
+    made = {out for job in jobs for out in job.outputs}
+    captions = {out: {"title": out} for out in made if out.endswith(".svg")}
+    listed = [entry["file"] for entry in manifest(jobs, captions)]
+    assert path in listed
+    assert len(set(listed)) == len(listed)
+    kinds = (".pdf", ".svg")
+    assert {out for out in made if out.endswith(kinds)} <= set(listed) <= made

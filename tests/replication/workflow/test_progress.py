@@ -1,0 +1,47 @@
+"""A run prints one line for each job, and the whole log of one that failed."""
+
+import re
+import subprocess
+import sys
+
+import pytest
+
+SNAKEFILE = """
+from replication.workflow.progress import one_line_a_job
+one_line_a_job()
+rule all:
+    input: "a.txt", "b.txt"
+rule write:
+    output: "{name}.txt"
+    log: "{name}.log"
+    message: "Writing {wildcards.name}"
+    shell: "echo told >{log}; test {wildcards.name} != WRONG && touch {output}"
+"""
+
+
+@pytest.fixture
+def run(tmp_path):
+    def begin(wrong):
+        text = SNAKEFILE.replace("WRONG", wrong)
+        (tmp_path / "Snakefile").write_text(text, encoding="utf-8")
+        command = ["snakemake", "--cores=1", "--scheduler=greedy", "--show-failed-logs"]
+        return subprocess.run(
+            [sys.executable, "-m", *command], cwd=tmp_path, capture_output=True, text=True
+        )
+
+    return begin
+
+
+def test_each_job_has_one_line_with_its_share_and_time(run):
+    said = run("nobody").stderr
+    lines = re.findall(r"^ +(\d) of 3 +\d+\.\d s  (.*)$", said, flags=re.MULTILINE)
+    assert [number for number, _ in lines] == ["1", "2", "3"]
+    assert {name for _, name in lines} == {"Writing a", "Writing b", "all"}
+    assert not re.search("Select jobs|Execute 1|Finished jobid", said)
+
+
+def test_log_of_a_failed_job_is_printed(run):
+    done = run("b")
+    assert done.returncode == 1
+    assert "Error in rule write" in done.stderr
+    assert "told" in done.stderr
