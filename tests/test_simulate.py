@@ -1,7 +1,7 @@
 """simulate(): published overturning amplitudes, closed forms, and the ways solvers go wrong."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -844,6 +844,18 @@ def test_number_of_samples_are_uniform_times_from_zero():
     np.testing.assert_allclose(response.time, np.linspace(0.0, 2.0, 41), rtol=1e-14)
     assert response.rotation.shape == response.velocity.shape == (41,)
     assert len(simulate(BLOCK, rotation=0.1).time) == 1000
+
+
+@pytest.mark.parametrize("restitution", [1.0, 0.999])
+@BOTH
+def test_last_sample_of_a_history_that_is_cut_off_is_known(block, restitution):
+    for k in range(40):
+        slow = replace(block, restitution=restitution, frequency_parameter=1.0 + 0.1 * k)
+        response = simulate(slow, rotation=0.5 * slow.slenderness, samples=3)
+        assert response.outcome == "rocking"
+        assert response.time[-1] == response.impacts[-1]
+        assert np.isfinite(response.rotation).all()
+        assert np.isfinite(response.velocity).all()
 
 
 @BOTH

@@ -16,6 +16,17 @@ def constant_gravity(time: float) -> float:
     return 1.0
 
 
+_MOST_HALVINGS = 10_000
+"""In a bracket from 0 to 1 s, a root at 1e-16 s takes more than the hundred that SciPy allows."""
+
+
+def root(function: Callable[[float], float], low: float, high: float) -> float:
+    """Return where a function changes its sign between `low` and `high`, to 1e-15 of that place."""
+    from scipy.optimize import brentq  # here: half a second that the kernel never needs
+
+    return float(brentq(function, low, high, xtol=1e-300, rtol=1e-15, maxiter=_MOST_HALVINGS))
+
+
 @dataclass(frozen=True)
 class Segment:
     """A span of time over which the ground acceleration is smooth and monotone.
@@ -62,11 +73,7 @@ class Segment:
 
     def _crossing(self, value: float, time: float) -> float:
         """Return when the acceleration, monotone, takes `value` between `time` and the stop."""
-        from scipy.optimize import brentq  # here: half a second that the kernel never needs
-
-        return float(
-            brentq(lambda t: self.acceleration(t) - value, time, self.stop, xtol=1e-300, rtol=1e-15)
-        )
+        return root(lambda t: self.acceleration(t) - value, time, self.stop)
 
 
 class Excitation(ABC):

@@ -37,9 +37,9 @@ LONGEST_FREE_FLIGHT = 100.0
 """1/p. From α (1 − 1e-16) a block comes back within 75: only one poised at α stays out longer."""
 
 
-MOST_FLIGHTS = 200_000
-"""More flights than this are not followed. Each ends at an impact, or with a segment or a push:
-only a block that loses next to nothing (√r → 1) has so many."""
+MOST_IMPACTS = 10_000
+"""Of a history, counted or not: only a block that loses next to nothing (√r → 1) has so many.
+By SciPy they take some seconds."""
 
 POISED = 1e-3
 """Over α: a block this far from φ = α, and going on, has left."""
@@ -83,7 +83,7 @@ class Motion:
     height: float = 0.0  # largest φ of this flight, rad
     launching: bool = False  # uplifted, and pushed on since without a break
     fallen: bool = False
-    flights: int = 0
+    landings: int = 0  # all impacts
     restitutions: Sequence[float] = ()  # √r of the counted impacts in turn, then the block's own
     impacts: list[float] = field(default_factory=list)
     arcs: list[Arc] = field(default_factory=list)
@@ -126,7 +126,7 @@ def respond(
         rotation=theta,
         velocity=theta_rate,
         impacts=np.array(motion.impacts),
-        outcome=_outcome(motion, end, moved=moved),
+        outcome=_outcome(block, motion, end, moved=moved),
         number_of_impacts=counted,
         peak_rotation=math.nan if end.overturned else max(motion.peak, end.peak),
     )
@@ -204,12 +204,6 @@ def _next_restitution(block: RockingBlock, motion: Motion) -> float:
 
 def _flight(block: RockingBlock, segment: Segment, motion: Motion, fly: Flight) -> Event | None:
     """Fly to the end of the segment, or of the push that lifted the block."""
-    motion.flights += 1
-    if motion.flights > MOST_FLIGHTS:
-        raise ArithmeticError(
-            f"{block}: more than {MOST_FLIGHTS} flights by {motion.time:.6g} s; a shorter duration "
-            "or a smaller restitution has fewer"
-        )
     stop = segment.stop
     possible = not motion.launching
     if motion.launching:
@@ -225,6 +219,12 @@ def _flight(block: RockingBlock, segment: Segment, motion: Motion, fly: Flight) 
 
 def _impact(block: RockingBlock, segments: list[Segment], motion: Motion) -> None:
     """Let the block pass to its other pivot: the rate × √r, Eq. (25)."""
+    motion.landings += 1
+    if motion.landings > MOST_IMPACTS:
+        raise ArithmeticError(
+            f"{block}: more than {MOST_IMPACTS} impacts by {motion.time:.6g} s, and it bounces on; "
+            "a shorter duration or a smaller restitution has fewer"
+        )
     ratio = _next_restitution(block, motion)
     if motion.height > COUNTED_PEAK * block.slenderness:
         motion.impacts.append(motion.time)
@@ -235,12 +235,14 @@ def _impact(block: RockingBlock, segments: list[Segment], motion: Motion) -> Non
 
 
 def _comes_to_rest(block: RockingBlock, segments: list[Segment], motion: Motion) -> bool:
-    """Return whether the bounces that start here are negligible and provably die out.
+    """Return whether the bounces that start here are negligible and provably remain so.
 
     Bouncing to rest is a geometric sequence of infinitely many impacts in a finite time. With a
     restoring acceleration of at least d, each lasts at most 2 φ̇/d, and the train of them
     2 φ̇/d(1 − √r). It is over when d stays above half of its present value for twice that long:
-    then the ground cannot lift the block before it rests.
+    then the ground cannot lift the block before it rests. Without loss (√r = 1) the bounces never
+    end; if d stays above that half for good, they never grow to a rotation that counts, and are
+    followed no more.
     """
 
     def restoring(ground: float, gravity: float) -> float:
@@ -251,23 +253,26 @@ def _comes_to_rest(block: RockingBlock, segments: list[Segment], motion: Motion)
 
     begins = segments[0]
     now = restoring(abs(begins.acceleration(motion.time)), begins.gravity(motion.time))
-    if now <= 0.0 or block.restitution == 1.0:
+    if now <= 0.0:
         return False
     if motion.rate**2 > 2.0 * now * REST_PEAK * block.slenderness:
         return False
-    train_ends = motion.time + 4.0 * motion.rate / (now * (1.0 - block.restitution))
+    lost = 1.0 - block.restitution
+    train_ends = motion.time + 4.0 * motion.rate / (now * lost) if lost else math.inf
     during = list(takewhile(lambda segment: segment.start < train_ends, segments))
     largest = max((segment.largest(motion.time, train_ends) for segment in during), default=0.0)
     gravity = min((segment.least_gravity(motion.time, train_ends) for segment in during), default=1)
     return restoring(largest, gravity) > now / 2.0
 
 
-def _outcome(motion: Motion, end: free_rocking.Ending, *, moved: bool) -> Outcome:
+def _outcome(
+    block: RockingBlock, motion: Motion, end: free_rocking.Ending, *, moved: bool
+) -> Outcome:
     if end.overturned:
         return "overturned"
     if not moved:
         return "no uplift"
-    return "rocking" if motion.moving else "rests"
+    return "rocking" if motion.moving or block.restitution == 1.0 else "rests"
 
 
 def _rock_freely(
@@ -283,7 +288,7 @@ def _rock_freely(
     integration may lead to the other side than judged: the history ends with the flight before.
     """
     most = len(motion.impacts) + MOST_FREE_IMPACTS
-    most_flights = motion.flights + 2 * MOST_FREE_IMPACTS
+    most_landings = motion.landings + 2 * MOST_FREE_IMPACTS
     landings_due = end.impacts
     longest = LONGEST_FREE_FLIGHT / block.frequency_parameter
     motion.launching = False
@@ -291,7 +296,7 @@ def _rock_freely(
         stop = motion.time + longest if until is None else until
         if motion.time >= stop:
             return
-        if until is None and (len(motion.impacts) >= most or motion.flights >= most_flights):
+        if until is None and (len(motion.impacts) >= most or motion.landings >= most_landings):
             return
         ground, begin, peak = Segment(motion.time, stop, still), motion.time, motion.peak
         first, outward = len(motion.arcs), end.overturned and landings_due <= 0

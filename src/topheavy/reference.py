@@ -15,7 +15,7 @@ from scipy.integrate import DOP853, DenseOutput
 from scipy.optimize import brentq
 
 from topheavy import checks, free_rocking, motion
-from topheavy.excitation import Excitation, Segment
+from topheavy.excitation import Excitation, Segment, root
 from topheavy.motion import Arc, Event, Motion
 from topheavy.records import Record
 from topheavy.response import Response
@@ -57,6 +57,8 @@ def simulate(
     ------
     ValueError
         As `topheavy.simulate`.
+    ArithmeticError
+        For a history of more than `motion.MOST_IMPACTS` impacts or a million steps in a flight.
     """
     block = structure.block()
     return motion.respond(
@@ -83,6 +85,7 @@ def judge(
     `restitutions` are √r of the counted impacts in turn, after which the block's own is taken.
     As `simulate` has it, without the history: the free rocking is not integrated. The peak is
     max|θ| over the whole motion (NaN if overturned), the impacts are counted as in `Response`.
+    Errors are those of `simulate`.
     """
     block = structure.block()
     course = motion.start(block, 0.0, 0.0)
@@ -186,7 +189,7 @@ def _first_event(step: DenseOutput, course: Motion, possible: bool) -> tuple[Eve
     for time in (*(middle + half * real), step.t):
         upcoming = height(time)
         if possible and value >= 0.0 > upcoming:
-            return Event.IMPACT, float(brentq(height, before, time, xtol=1e-300, rtol=1e-15))
+            return Event.IMPACT, root(height, before, time)
         if value <= course.ceiling < upcoming:
             return Event.FALL, float(brentq(height, before, time, args=(course.ceiling,)))
         course.height = max(course.height, upcoming)

@@ -32,7 +32,8 @@ class Response:
         for a block that bounces to rest has infinitely many.
     outcome : {"no uplift", "rests", "rocking", "overturned"}
         Of the whole motion: "rocking" is a survivor that has not come to rest when the history
-        ends.
+        ends. Without loss (√r = 1) this is every survivor that has moved; bounces below
+        1e-6 α that cannot grow are not followed, and are zero in rotation and velocity.
     number_of_impacts : int
         Impacts until the forcing ends or the block has overturned (those on the way to overturning
         included). A survivor's bouncing after the forcing is not counted.

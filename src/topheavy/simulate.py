@@ -127,7 +127,7 @@ def simulate(
 
         def traced(w: Times) -> tuple[float, ...]:
             result: tuple[float, ...] = trace(
-                w, order, tolerance, *start, until, p * at, motion, impacts
+                w, order, tolerance, *start, until, at, motion, impacts
             )
             return result
 
@@ -141,13 +141,17 @@ def simulate(
             )
         return motion, impacts, found
 
+    last = math.inf
     if isinstance(times, int):
-        end = duration if duration is not None else follow(until, np.empty(0))[2][0] / p
-        times = np.linspace(0.0, end, times)
+        last = until if duration is not None else follow(until, np.empty(0))[2][0]
+        times = np.linspace(0.0, last / p if duration is None else duration, times)
     elif duration is None:
         until = max(p * float(times[-1]), forcing.end)
-    motion, impacts, (_, result, peak, counted, landed) = follow(until, times)
+    # The last of uniform times is the end, and no rounding of p (end/p) above it.
+    motion, impacts, (_, result, peak, counted, landed) = follow(until, np.minimum(p * times, last))
     outcome = _OUTCOMES[int(result)]
+    if outcome == "rests" and block.restitution == 1.0:
+        outcome = "rocking"  # the kernel follows no bounces that are too low to count
     return Response(
         time=times,
         rotation=motion[0],
