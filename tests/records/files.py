@@ -12,6 +12,9 @@ VALUES = "  0.1 -0.2  0.4\n  0.0 -3.0E-01\n"
 AT2 = HEADER.format(n=5) + VALUES
 CSV = "time (s),acceleration (g)\n0.00,0.1\n0.02,-0.2\n0.04,0.4\n0.06,0.0\n0.08,-3.0E-01\n"
 READ = (0.02, SAMPLES)
+PEAK = "line 5: the largest acceleration is "
+LONGEST = 1000  # characters of a line of a header
+TEMPLE = "🏛"  # one character, of two units of JavaScript
 
 STEPS = [
     # the last line of a header with 5 samples at 0.02 s
@@ -44,6 +47,15 @@ UNCERTAIN_STEPS = [
     *("NPTS= 5, DT= 0.1 MIN", "NPTS= 5, DT= 0.01.5", "NPTS= 5, DT= 1e300", "5 0.1 MIN NPTS, DT"),
     *("NPTS= 5, DT= .02 s²", "NPTS= 5, DT= .02 constructor", "NPTS= 5, DTS= .02"),
     *("NPTS= 5, DT= .02.", "NPTS= 5., DT= .02"),
+]
+
+
+OTHER_DIGITS = ["०.१", "０.１", "0.٢", "²"]
+
+REPEATED = [
+    # parts of a header that cost a reader much, if it looks at them again for each one
+    *("UNITS ", "IN ", "data in ", "(", "(m   ", "units of ", "units of acc", "m per s ", "max "),
+    *("( .5", "1.5 (", "1.", "1", " ", "a ", "a", "acc: ", "NPTS ", "DT ", "DT=1", "DT(", ", "),
 ]
 
 
@@ -102,6 +114,54 @@ FILES = [
         ("no DT", AT2.replace("DT=", "XX="), r"line 4 is 'NPTS= 5, XX= \.0200 SEC'; expected .*DT"),
         ("no NPTS", AT2.replace("NPTS=", "XX="), r"no NPTS in lines 1 to 4"),
         ("NPTS in the fifth line", "\n" + AT2, r"no NPTS in lines 1 to 4"),
+        (
+            "NPTS of 900 digits",
+            at2(f"NPTS= {'1' * 900}, DT= .02"),
+            r"line 4 says 1{900} samples, '",
+        ),
+        (
+            "NPTS of 5000 digits",
+            at2(f"NPTS= {'1' * 5000}, DT= .02"),
+            r"line 4 has 5015 characters, 'NPTS= 1{74}'…; expected at most 1000 in a line of the",
+        ),
+        ("NPTS with a digit of another script", at2("NPTS= 5०, DT= .02"), r"line 4 is 'NPTS= 5०"),
+        ("zeros before NPTS", at2("NPTS= 0005, DT= .02"), READ),
+        (
+            "a long line of the header",
+            AT2.replace("an", "x " * 501),
+            r"line 2 has 10\d\d characters, '(?:x ){40}'…; expected at most 1000 in a line of",
+        ),
+        ("a long line of blanks and NPTS", at2(" " * LONGEST + "NPTS= 5, DT= .02"), r"line 4 has"),
+        ("as many words as are a record", AT2.replace("day", "UNITS " * 20000), r"line 1 has 120"),
+        ("the longest line of a header", AT2.replace("an instrument", TEMPLE * LONGEST), READ),
+        (
+            "one character more",
+            AT2.replace("an instrument", TEMPLE * (LONGEST + 1)),
+            rf"line 2 has 1001 characters, '{TEMPLE}{{80}}'…; expected",
+        ),
+        ("a time step of a microsecond", at2("NPTS= 5, DT= 1e-6 SEC"), (1e-6, SAMPLES)),
+        (
+            "a shorter time step",
+            at2("NPTS= 5, DT= 9.9e-7 SEC"),
+            r"the time step is 9\.9e-07 s; expected at least 1e-06 s: is its unit another\?",
+        ),
+        (
+            "a time step that is no normal float",
+            at2("NPTS= 5, DT= 1e-320"),
+            r"step is 9\.99989e-321",
+        ),
+        ("an exponent of five digits", at2("NPTS= 5, DT= 1e-00002"), r"line 4 is 'NPTS= 5, DT= 1e"),
+        (
+            "a long DT without unit",
+            at2("NPTS= 5, DT= 123456789"),
+            r"line 4 gives a DT of 1\.23457e\+08",
+        ),
+        ("a time step of minus zero", at2("NPTS= 5, DT= -0"), r"time_step is -0 s; expected more"),
+        (
+            "no motion",
+            HEADER.format(n=3) + "0.0 -0.0 1E-400",
+            r"all 3 accelerations are zero; expected a ground motion: is it another file or column",
+        ),
         ("time step of zero", AT2.replace(".0200", ".0000"), r"time_step is 0 s; expected more"),
         ("time step below zero", AT2.replace(".0200", "-.02"), r"time_step is -0\.02 s; expected"),
         (
@@ -115,13 +175,52 @@ FILES = [
         ("too large for a float", AT2.replace("0.4", "1E999"), r"line 5: '1E999' is not a number"),
         ("Python's digits", AT2.replace("0.4", "0_4"), r"line 5: '0_4' is not a number"),
         ("JavaScript's digits", AT2.replace("0.4", "0x4"), r"line 5: '0x4' is not a number"),
-        ("the end of a file of DOS", AT2 + "\x1a", r"line 7: .* is not a number"),
+        ("the end of a file of DOS", AT2 + "\x1a", r"line 7: '\\x1a' is not a number"),
+        (
+            "a mark of byte order within",
+            AT2.replace("0.0", "\ufeff0"),
+            r"line 6: '\\ufeff0' is not",
+        ),
+        ("blanks of other scripts", AT2.replace("0.1 ", "0.1\x1f\x85\u2028\u3000"), READ),
+        ("a huge exponent", AT2.replace("0.0 ", "0e99999 "), r"line 6: '0e99999' is not a number"),
+        (
+            "a long word",
+            AT2.replace("0.4", "x" * 5000),
+            r"line 5: 'x{80}'… is not a number; expected accelerations in G",
+        ),
+        ("an apostrophe", AT2.replace("0.4", "0.4'"), r"line 5: \"0\.4'\" is not a number"),
+        (
+            "two kinds of quotes",
+            AT2.replace("0.4", "\"0.4'"),
+            r"line 5: '\"0\.4\\'' is not a number",
+        ),
+        ("a backslash", AT2.replace("0.4", "0\\4"), r"line 5: '0\\\\4' is not a number"),
+        (
+            "invisible letters",
+            AT2.replace("0.4", "\u00ad\u200b\U000e0061"),
+            r"line 5: '\\xad\\u200b\\U000e0061' is not a number",
+        ),
         ("header alone", HEADER.format(n=5), r"line 4 says 5 .* hold 0"),
-        ("one sample", HEADER.format(n=1) + "0.1\n", r"expected .*at least two samples"),
+        (
+            "one sample",
+            HEADER.format(n=1) + "0.1\n",
+            r"line 4 says 1 samples; expected at least two",
+        ),
+        ("no sample", HEADER.format(n=0), r"line 4 says 0 samples; expected at least two"),
         ("cut in the header", "\n".join(HEADER.split("\n")[:2]), r"no NPTS"),
         ("empty", "", r"no NPTS"),
-        ("not UTF-8", AT2.encode().replace(b"site", b"st\xe9"), r"line 1 is not UTF-8"),
-        ("UTF-16", AT2.encode("utf-16"), r"line 1 is not UTF-8"),
+        ("not UTF-8", AT2.encode().replace(b"site", b"st\xe9"), r"line 1 is .* at byte 5 \(0xe9\)"),
+        (
+            "a letter of UTF-8 cut short, behind others",
+            AT2.encode().replace(b"an", "é\ufffd".encode() + b"\xef\xbf"),
+            r"line 2 is not UTF-8 at byte 6 \(0xef\); expected a UTF-8 file: save it as such",
+        ),
+        (
+            "not UTF-8 behind a mark of byte order",
+            b"\xef\xbb\xbf" + AT2.encode().replace(b"site", b"\x80"),
+            r"line 1 is not UTF-8 at byte 3 \(0x80\)",
+        ),
+        ("UTF-16", AT2.encode("utf-16-le").join([b"\xff\xfe", b""]), r"line 1 .* byte 1 \(0xff\)"),
         (
             "another unit",
             AT2.replace("OF G", "OF FT/S2"),
@@ -149,6 +248,21 @@ FILES = [
         ),
         ("two units", AT2.replace("day", "day (gal)"), r"line 1 states 'gal' .*line 3 states 'G'"),
         ("beyond 5 g", AT2.replace("0.4", "341.7"), r"line 5: .* 341\.7 G, .*at most 5 g.* line 3"),
+        ("far beyond 5 g", AT2.replace("0.4", "1E10"), PEAK + r"1e\+10 G, 1e\+10 g; expected at"),
+    ),
+    *rows(
+        ".AT2",
+        *(
+            row
+            for digits in OTHER_DIGITS
+            for count in [digits.replace(".", "")]
+            for row in [
+                (f"a value {digits}", AT2.replace("0.4", digits), r"line 5: .* is not a number"),
+                (f"DT {digits}", at2(f"NPTS= 5, DT= {digits} SEC"), r"line 4 is 'NPTS= 5"),
+                (f"NPTS {count}", at2(f"NPTS= {count}, DT= .02"), r"line 4 is 'NPTS="),
+                (f"{count} before NPTS", at2(f"{count} 0.02 NPTS, DT"), rf"line 4 is '{count}"),
+            ]
+        ),
     ),
     *rows(
         ".csv",
@@ -194,6 +308,11 @@ FILES = [
             CSV.replace("(g)", "(g) NS"),
             r"line 1 is 'time .*; expected, for",
         ),
+        (
+            "a long header",
+            CSV.replace("time", "time" + " " * LONGEST),
+            r"line 1 has 1025 characters, 'time {76}'…; expected at most 1000 in a line of",
+        ),
         ("velocity", CSV.replace("(g)", "(m/s)"), r"with the units s and m/s; expected s or ms"),
         ("minutes", CSV.replace("(s)", "(min)"), r"with the units min and g; expected s or ms"),
         (
@@ -232,6 +351,31 @@ FILES = [
             r"line 3: the time 0\.010 follows 0 of line 2; expected equal steps",
         ),
         (
+            "a step below a microsecond",
+            "time (s),acceleration (g)\n0,.1\n1e-320,0\n2e-320,0\n",
+            r"the time step is 9\.99989e-321 s; expected at least 1e-06 s: is its unit another\?",
+        ),
+        (
+            "a time with a huge exponent",
+            CSV.replace("0.00,", "0e99999999999999999999,"),
+            r"line 2 is '0e99999999999999999999,0\.1'; expected a time and an acceleration",
+        ),
+        (
+            "no time but zeros",
+            "time (s),acceleration (g)\n0e9999,.1\n0e9999,.2\n",
+            r"line 3: the time 0e9999 follows 0e9999 of line 2; expected equal steps of 0,",
+        ),
+        (
+            "a step beyond the largest float",
+            "time (s),acceleration (g)\n-1e308,.1\n1e308,.2\n",
+            r"line 3: the time 1e308 follows -1e308 of line 2; expected equal steps of inf,",
+        ),
+        (
+            "a duration beyond the largest float",
+            "time (s),acceleration (g)\n-1.5e308,.1\n-.5e308,.2\n.5e308,.1\n1.5e308,.1\n",
+            r"time_step is inf; expected a finite number",
+        ),
+        (
             "a time that is no number",
             CSV.replace("0.04,", "nan,"),
             r"line 4 is 'nan,0\.4'; expected a time and an acc",
@@ -239,6 +383,12 @@ FILES = [
         ("a word", CSV.replace("0.4", "four"), r"line 4 is '0\.04,four'; expected a time and"),
         ("a third value", CSV.replace("0.4", "0.4,1"), r"line 4 is '0\.04,0\.4,1'"),
         ("not a number", CSV.replace("0.4", "nan"), r"line 4 is '0\.04,nan'"),
+        (
+            "a long word",
+            CSV.replace("0.4", "x" * 5000),
+            r"line 4 is '0\.04,x{75}'…; expected a time and an acceleration, two numbers with",
+        ),
+        ("no motion", CSV[:26] + "0,0\n1,0\n2,0\n", r"all 3 accelerations are zero; expected a gr"),
         ("no value", CSV.replace("0.4", ""), r"line 4 is '0\.04,'"),
         ("beyond 5 g", CSV.replace("0.4", "39.2"), r"line 4: the largest acceleration is 39\.2 g"),
         (
@@ -247,7 +397,15 @@ FILES = [
             r"acceleration is 60 m/s2, 6\.116",
         ),
         ("one sample", CSV[:35], r"holds 1 samples; expected at least two"),
-        ("not UTF-8", CSV.encode().replace(b"0.4", b"\xff"), r"line 4 is not UTF-8"),
+        ("not UTF-8", CSV.encode().replace(b"0.4", b"\xff"), r"line 4 is .* at byte 6 \(0xff\)"),
+        *(
+            row
+            for digits in OTHER_DIGITS
+            for row in [
+                (f"a value {digits}", CSV.replace("0.4", digits), rf"line 4 is '0\.04,{digits}'"),
+                (f"a time {digits}", CSV.replace("0.04", digits), rf"line 4 is '{digits},"),
+            ]
+        ),
     ),
     *rows(".txt", ("another ending", AT2, r"expected a file whose name ends in \.AT2 or \.csv")),
     *rows("", ("no ending", AT2, r"expected a file whose name ends in \.AT2 or \.csv")),

@@ -61,6 +61,8 @@ def read(path: Path) -> Reading:
             f"lines after it hold {len(values)}; "
             f"{'the file is cut short' if len(values) < count else 'there are too many'}"
         )
+    if count < 2:
+        raise ValueError(f"{path}: line {header} says {count} samples; expected at least two")
     return reading(path, step, values, places, unit, header)
 
 

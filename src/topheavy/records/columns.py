@@ -51,6 +51,7 @@ def read(path: Path) -> Reading:
     return reading(path, step, values, places, unit, header=1)
 
 
+@np.errstate(over="ignore", invalid="ignore")  # times beyond the largest float are not regular
 def regular_step(path: Path, printed: list[str], places: list[int]) -> float:
     """Return the step of the times, as they are printed, from the first to the last.
 

@@ -12,10 +12,11 @@ import numpy as np
 from topheavy.records.record import Record
 from topheavy.records.units import Statement
 
-NUMBER = r"(?>[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eEdD][-+]?[0-9]+)?)"
+NUMBER = r"(?>[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eEdD][-+]?[0-9]{1,4})?)"
 """A decimal number as C and Fortran print it, for a regular expression.
 
-Not by `\\d`, which takes the digits of every script.
+Not by `\\d`, which takes the digits of every script. No number has an exponent of five digits,
+and `decimal.Decimal` refuses those of twenty.
 """
 
 _LONGEST_HEADER_LINE = 1000
@@ -90,11 +91,12 @@ def decimal(text: str) -> float:
     ValueError
         For a text that is none; NaN and infinity are none.
     """
-    if re.fullmatch(NUMBER, text.strip()):
-        found = float(re.sub("[dD]", "e", text))
+    bare = text.strip()
+    if re.fullmatch(NUMBER, bare):
+        found = float(re.sub("[dD]", "e", bare))
         if math.isfinite(found):
             return found
-    raise ValueError(f"{quoted(text.strip())} is not a number")
+    raise ValueError(f"{quoted(bare)} is not a number")
 
 
 def reading(
@@ -105,7 +107,7 @@ def reading(
     unit: Statement,
     header: int,
 ) -> Reading:
-    """Return the record of a file; `places` are the lines of its samples.
+    """Return the record of a file; `places` are the lines of its samples, two or more.
 
     Raises
     ------
@@ -119,20 +121,20 @@ def reading(
             "is its unit another?"
         )
     accelerations = np.array(values) * unit.in_g
-    try:
-        record = Record(time_step, accelerations, path.stem)
-    except ValueError as error:
-        raise ValueError(f"{path}: {error}") from None
-    if record.peak_acceleration == 0.0:
+    k = int(np.abs(accelerations).argmax())
+    largest = accelerations[k]
+    if largest == 0.0:
         raise ValueError(
-            f"{path}: all {record.acceleration.size} accelerations are zero; expected a ground "
-            "motion: is it another file or column?"
+            f"{path}: all {len(values)} accelerations are zero; expected a ground motion: is it "
+            "another file or column?"
         )
-    if record.peak_acceleration > _LARGEST:
-        k = int(np.abs(accelerations).argmax())
+    if abs(largest) > _LARGEST:
         raise ValueError(
             f"{path}: line {places[k]}: the largest acceleration is {values[k]:g} {unit.unit}, "
-            f"{accelerations[k]:g} g; expected at most {_LARGEST:g} g, which no record exceeds: "
-            f"line {unit.place} states the unit, {unit.line!r}; is it another?"
+            f"{largest:g} g; expected at most {_LARGEST:g} g, which no record exceeds: line "
+            f"{unit.place} states the unit, {unit.line!r}; is it another?"
         )
-    return Reading(record, unit, header)
+    try:
+        return Reading(Record(time_step, accelerations, path.stem), unit, header)
+    except ValueError as error:
+        raise ValueError(f"{path}: {error}") from None
