@@ -6,9 +6,9 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from replication.workbench import Findings
 from replication.pages.edition_check import close
 from replication.pages.edition_check import main as recheck
+from replication.workbench import Findings
 
 
 def departures(folder: Path, findings: Mapping[str, Findings]) -> Iterator[str]:
