@@ -246,6 +246,13 @@ FILES = [
             AT2.replace("ACCELERATION IN UNITS OF G", "PEAK (G)"),
             r"state no unit",
         ),
+        ("unit of one value", AT2.replace("day", "largest 39.2 (gal)"), READ),
+        ("unit of time", AT2.replace("day", "TIME UNITS: SEC"), READ),
+        (
+            "no unit of time",
+            AT2.replace("day", "UNITS: S^2"),
+            r"line 1 states a unit .*'A site, a ",
+        ),
         ("two units", AT2.replace("day", "day (gal)"), r"line 1 states 'gal' .*line 3 states 'G'"),
         ("beyond 5 g", AT2.replace("0.4", "341.7"), r"line 5: .* 341\.7 G, .*at most 5 g.* line 3"),
         ("far beyond 5 g", AT2.replace("0.4", "1E10"), PEAK + r"1e\+10 G, 1e\+10 g; expected at"),
@@ -269,6 +276,7 @@ FILES = [
         ("as it should be", CSV, READ),
         ("a mark of byte order, CR LF", "\ufeff" + CSV.replace("\n", "\r\n"), READ),
         ("empty lines", CSV.replace("\n", "\n\n"), READ),
+        ("blanks of other scripts", CSV.replace("0.04,0", "\u30000.04\x1f,\x850"), READ),
         ("milliseconds", "t [ms], a [m/s²]\n0,0\n5,.981\n10,-1.962\n", (0.005, (0.0, 0.1, -0.2))),
         (
             "three decimals of a third",
