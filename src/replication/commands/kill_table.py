@@ -1,10 +1,10 @@
 """Insert deliberate faults, one at a time, and find what catches each: `make kill-table`.
 
-The command inserts each fault of faults.yaml into a copy of the tree, never into the library. It
-runs the workflow in the copy with the quick settings, and only the rules of the claims. A verdict
-that differs from the expected one has caught the fault. Otherwise the command runs the tests that
-the fault names; for a fault in the judging it runs these tests first. If no verdict and no test
-fails, a rule has to raise an error; if none does, the fault has survived.
+The command inserts each fault of the paper and of its studies into a copy of the tree, never into
+the library. It runs the workflow in the copy with the quick settings, and only the rules of the
+claims. A verdict that differs from the expected one has caught the fault. Otherwise the command
+runs the tests that the fault names; for a fault in the judging it runs these tests first. If no
+verdict and no test fails, a rule has to raise an error; if none does, the fault has survived.
 
 A run of all faults writes docs/kill_table.csv and .md. A choice of them (`--faults`, `--rotate`)
 only keeps its rows, for a later run.

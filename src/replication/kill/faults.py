@@ -1,4 +1,4 @@
-"""Deliberate faults: what faults.yaml says of each, and how one is put into a tree."""
+"""Deliberate faults: those of the paper and of each study, and how one is put into a tree."""
 
 import hashlib
 import json
@@ -11,7 +11,8 @@ from pathlib import Path
 from replication.inputs.strict_yaml import read_yaml
 from replication.kill.tree_copy import ROOT
 
-FAULTS = ROOT / "faults" / "faults.yaml"
+FAULTS = ("faults/*.yaml", "studies/*/faults.yaml")
+"""The files of faults: those of the paper, and of each study in its folder."""
 JUDGING = "judging"
 """The routes of a fault in the judging itself: its tests run before any verdict is computed."""
 
@@ -27,13 +28,17 @@ class Change:
 
 @dataclass(frozen=True)
 class Fault:
-    """What is wrong, which routes share it, and the tests that are asked about it."""
+    """What is wrong, which routes share it, and the tests that are asked about it.
+
+    `home` is the file that describes it, as a path in the tree.
+    """
 
     name: str
     fault: str
     routes: str
     tests: tuple[str, ...]
     changes: tuple[Change, ...]
+    home: str
 
     @property
     def files(self) -> list[str]:
@@ -47,39 +52,41 @@ class Fault:
         ------
         ValueError
             Naming the fault and the file, if an old text is not there exactly once: the library has
-            moved on, and faults.yaml has to follow.
+            moved on, and its description has to follow.
         """
         texts = {file: (tree / file).read_text(encoding="utf-8") for file in self.files}
         for change in self.changes:
             times = texts[change.file].count(change.old)
             if times != 1:
                 raise ValueError(
-                    f"faults/faults.yaml: {self.name}: {change.file} has {times} times "
+                    f"{self.home}: {self.name}: {change.file} has {times} times "
                     f"{change.old!r}; expected it once"
                 )
             texts[change.file] = texts[change.file].replace(change.old, change.new)
         return texts
 
     def digest(self, tree: Path) -> str:
-        """Return a checksum of the fault's own entry and of the faulty files."""
-        text = json.dumps([asdict(self), self.texts(tree)], sort_keys=True)
+        """Return a checksum of the fault's own entry, wherever it is, and of the faulty files."""
+        entry = {key: part for key, part in asdict(self).items() if key != "home"}
+        text = json.dumps([entry, self.texts(tree)], sort_keys=True)
         return hashlib.sha256(text.encode()).hexdigest()
 
 
 def load(root: Path = ROOT) -> list[Fault]:
-    """Return the faults of faults.yaml, but for those in a study that was removed."""
-    found = []
-    for entry in read_yaml(FAULTS):
-        changes = tuple(Change(**change) for change in entry["changes"])
-        tests = tuple(test for test in entry["tests"] if not _in_removed_study(test, root))
-        if tests and not any(_in_removed_study(change.file, root) for change in changes):
-            found.append(Fault(**entry | {"tests": tests, "changes": changes}))
-    return found
-
-
-def _in_removed_study(file: str, root: Path) -> bool:
-    folder, *inner = Path(file).parts
-    return folder == "studies" and not (root / folder / inner[0]).is_dir()
+    """Return the faults of the paper, then those of each study that is there, by its name."""
+    return [
+        Fault(
+            **entry
+            | {
+                "tests": tuple(entry["tests"]),
+                "changes": tuple(Change(**change) for change in entry["changes"]),
+                "home": path.relative_to(root).as_posix(),
+            }
+        )
+        for pattern in FAULTS
+        for path in sorted(root.glob(pattern))
+        for entry in read_yaml(path)
+    ]
 
 
 @contextmanager

@@ -229,7 +229,7 @@ def read(path: Path) -> list[Row]:
 def current(
     rows: Iterable[Row], faults: Sequence[Fault], ledger: Iterable[Claim], root: Path
 ) -> list[Row]:
-    """Return the rows that still say what catches a fault, in the order of the faults.
+    """Return the rows that still say what catches a fault, in their order.
 
     A row whose fault was reworded, or of which what caught it was removed, is left out: its fault
     has to be run again. Claims and rules that were removed leave the other rows.
@@ -237,17 +237,16 @@ def current(
     claims = {claim.id for claim in ledger}
     files = [root / "Snakefile", *root.glob("src/*/*.smk"), *root.glob("studies/*/*.smk")]
     made = set(re.findall(r"\brule (\w+):", "".join(path.read_text("utf-8") for path in files)))
-    order = {(f.name, f.fault, f.routes, " ".join(f.files)): n for n, f in enumerate(faults)}
-    kept = {}
+    known = {(f.name, f.fault, f.routes, " ".join(f.files)) for f in faults}
+    kept = []
     for row in rows:
         verdicts = [name for name in row.verdicts.split() if name in claims]
         rules = [name for name in row.rules.split() if name in {*made, "all"}]
         tested = bool(row.test) and _is_there(row.test, root)
         left = {"verdict": verdicts, "test": tested, "rule": rules}.get(row.caught_by)
-        place = order.get((row.name, row.fault, row.routes, row.files))
-        if left and place is not None:
-            kept[place] = replace(row, verdicts=" ".join(verdicts), rules=" ".join(rules))
-    return [kept[place] for place in sorted(kept)]
+        if left and (row.name, row.fault, row.routes, row.files) in known:
+            kept.append(replace(row, verdicts=" ".join(verdicts), rules=" ".join(rules)))
+    return kept
 
 
 def _is_there(test: str, root: Path) -> bool:

@@ -28,6 +28,7 @@ ONE = Fault(
     routes="all",
     tests=("test_one.py",),
     changes=(Change("one.py", "x = 1", "x = 2"),),
+    home="faults/one.yaml",
 )
 ROW = Row("one", "One is two.", "all", "one.py", "verdict", "eq1 eq2", "", "", "2026-01-01")
 
@@ -69,20 +70,25 @@ def test_fault_still_fits_the_tree(fault):
         assert f"def {function}" in (ROOT / file).read_text("utf-8") if function else True
 
 
-@pytest.mark.parametrize("study", sorted(path.name for path in (ROOT / "studies").iterdir()))
-def test_faults_in_a_study_go_with_it_and_take_no_other_along(tmp_path, study):
-    for other in (ROOT / "studies").iterdir():
-        if other.name != study:
-            (tmp_path / "studies" / other.name).mkdir(parents=True)
-    left, folder = load(tmp_path), f"studies/{study}/"
-    gone = {
-        f.name
-        for f in FAULTS
-        if any(file.startswith(folder) for file in f.files)
-        or all(test.startswith(folder) for test in f.tests)
-    }
-    assert [fault.name for fault in left] == [name for name in NAMES if name not in gone]
-    assert not any(test.startswith(folder) for fault in left for test in fault.tests)
+def test_faults_of_a_study_go_with_its_folder_and_those_of_the_others_stay(tmp_path):
+    for path in ("faults/one.yaml", "studies/a/faults.yaml", "studies/b/faults.yaml"):
+        entry = {"name": path, "fault": "Wrong.", "routes": "all", "tests": [], "changes": []}
+        (tmp_path / path).parent.mkdir(parents=True)
+        (tmp_path / path).write_text(yaml.safe_dump([entry]), encoding="utf-8")
+    assert [fault.home for fault in load(tmp_path)] == [fault.name for fault in load(tmp_path)]
+    assert len(load(tmp_path)) == 3
+    shutil.rmtree(tmp_path / "studies" / "a")
+    left = [fault.home for fault in load(tmp_path)]
+    assert left == ["faults/one.yaml", "studies/b/faults.yaml"]
+
+
+@pytest.mark.parametrize("fault", FAULTS, ids=NAMES)
+def test_fault_needs_no_study_but_its_own(fault):
+    """It would be lost, or fit no tree, without the other study."""
+    own = Path(fault.home).parent.as_posix() if fault.home.startswith("studies/") else None
+    files = [Path(file) for file in (*fault.files, *fault.tests)]
+    homes = {"/".join(file.parts[:2]) for file in files if file.parts[0] == "studies"}
+    assert homes <= {own}
 
 
 def test_names_are_unique():
@@ -92,7 +98,7 @@ def test_names_are_unique():
 @pytest.mark.parametrize(("text", "times"), [("y = 1\n", 0), ("x = 1\nx = 1\n", 2)])
 def test_fault_that_no_longer_fits_is_named_with_its_file(tmp_path, text, times):
     (tmp_path / "one.py").write_text(text, encoding="utf-8")
-    with pytest.raises(ValueError, match=rf"faults.yaml: one: one.py has {times} times 'x = 1'"):
+    with pytest.raises(ValueError, match=rf"one.yaml: one: one.py has {times} times 'x = 1'"):
         ONE.texts(tmp_path)
 
 
@@ -265,7 +271,7 @@ def waiting(rows):
 def test_published_table_has_faults_as_they_are_and_names_the_others(published):
     kept = [(row.name, row.fault, row.routes, row.files) for row in published]
     faults = [(f.name, f.fault, f.routes, " ".join(f.files)) for f in FAULTS]
-    assert kept == [fault for fault in faults if fault in kept]
+    assert [fault for fault in kept if fault not in faults] == []
     page = (ROOT / "docs" / "kill_table.md").read_text(encoding="utf-8")
     for name in waiting(published):
         assert name in page
