@@ -1,13 +1,12 @@
 """What the published tables of the studies say about the findings that were drawn from them."""
 
-import math
 from collections.abc import Callable, Iterator
 from itertools import combinations
 
 import numpy as np
 import pandas as pd
 
-from steps.redrawn_paper import Drawn, Table, rises
+from steps.redrawn_paper import Drawn, Table
 
 # Study reversals ---------------------------------------------------------------------------------
 
@@ -82,77 +81,6 @@ def _by_frame(rows: pd.DataFrame) -> Iterator[tuple[tuple, pd.DataFrame]]:
 
 
 # Study mechanism ---------------------------------------------------------------------------------
-
-
-def mechanism_equivalence(table: Table) -> Drawn:
-    rows = table("studies/mechanism_equivalence")
-    off = rows.share_apart - rows.share_thinned
-    yield "share_apart", "value", rows.share_apart.mean()
-    yield "share_apart", "error", max(abs(off.mean()), math.sqrt((off**2).mean() / len(off)))
-    for name in ("only_frame_overturns", "only_column_overturns"):
-        yield "identical_response", name, rows[name].mean()
-    largest = rows.lowest_change_largest.max()
-    yield "column_is_never_safer_first", "largest", largest
-    yield "column_is_never_safer_first", "holds", largest <= 0.0
-
-
-def mechanism_verdicts(table: Table) -> Drawn:
-    rows = table("studies/mechanism_verdicts")
-    plastic, agrees = rows.contact == "plastic", rows.engine == rows.theory
-    yield "same_verdicts", "holds", agrees.all()
-    yield "same_verdicts", "pulses", plastic.sum()
-    yield "same_verdicts", "share_plastic", agrees[plastic].mean()
-    yield "same_verdicts", "share_bouncing", agrees[~plastic].mean()
-
-
-def mechanism_rebounds(table: Table) -> Drawn:
-    rows = table("studies/mechanism_rebounds")
-    frames = rows[rows.mass_ratio > 0.0]
-    plastic = frames[frames.plastic].difference.abs().max()
-    yield "impact_at_the_new_pivots", "plastic_apart", plastic
-    yield "maximum_restitution", "largest_of_soft", rows.difference.max()
-
-
-def mechanism_dependence(table: Table) -> Drawn:
-    rows = table("studies/mechanism_dependence")
-    demand = rows[rows.varied == "mass_ratio"].rocking
-    yield "heavier_needs_less", "holds", rises(-demand)
-    yield "heavier_needs_less", "lightest", demand.iloc[0]
-    yield "heavier_needs_less", "heaviest", demand.iloc[-1]
-    yield "impact_asks_for_less_than_rocking", "holds", not (rows.impact > rows.rocking).any()
-
-
-def mechanism_three_bodies(table: Table) -> Drawn:
-    rows = table("studies/mechanism_three_bodies")
-    yield "one_degree_of_freedom", "largest_over_alpha", rows.rotation_apart.max()
-    yield "velocity_ratio", "largest", rows.ratio_apart.max()
-    yield "same_forces", "largest_over_weight", rows.force_apart.max()
-
-
-def mechanism_records(table: Table) -> Drawn:
-    rows = table("studies/mechanism_records")
-    stood = rows[rows.outcome != "overturned"]
-    yield "stays_on_its_seats", "holds", not stood.pulls.any()
-
-
-def mechanism_first_impacts(table: Table) -> Drawn:
-    rows = table("studies/mechanism_first_impacts")
-    limit, coarsest = rows[rows.step == 0.0], rows[rows.step == rows.step.max()]
-    worst = limit.difference.abs().max()
-    yield "largest", "value", worst
-    yield "largest", "error", limit.uncertainty.max()
-    yield "first_impact", "largest", worst
-    yield "first_impact", "before_limit", coarsest.difference.abs().max()
-
-
-def mechanism_slides(table: Table) -> Drawn:
-    rows = table("studies/mechanism_slides")
-    below = rows.friction < rows.tan
-    between = ~below & (rows.friction < rows.needed)
-    name = "slides_as_the_forces_say"
-    yield name, "too_little", below.sum()
-    yield name, "between", between.sum()
-    yield name, "between_that_slide", rows.slides[between].sum()
 
 
 def reversals_vase(table: Table) -> Drawn:
@@ -288,14 +216,6 @@ OF_STUDIES: tuple[Callable[[Table], Drawn], ...] = (
     certainty_records,
     certainty_restitution,
     certainty_theorem,
-    mechanism_dependence,
-    mechanism_equivalence,
-    mechanism_first_impacts,
-    mechanism_rebounds,
-    mechanism_records,
-    mechanism_slides,
-    mechanism_three_bodies,
-    mechanism_verdicts,
     reversals_enough,
     reversals_motions,
     reversals_pulses,
