@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pandas as pd
 
-from replication.workbench import grid, run, truth
+from replication.workbench import Finding, grid, run, truth
 from topheavy import Column, Pulse, RockingFrame, judge
 from topheavy.massless_columns import SIMPLIFICATIONS, simplified
 
@@ -37,11 +37,16 @@ def main(case: dict) -> tuple[pd.DataFrame, dict]:
                         }
                     )
     table = pd.DataFrame(rows)
-    findings = {}
-    for model, cells in table.groupby("model"):
+    return table, findings(table)
+
+
+def findings(allen_errors: pd.DataFrame) -> dict[str, Finding]:
+    """Return the errors of each simplification, from the table of peaks."""
+    found = {}
+    for model, cells in allen_errors.groupby("model"):
         sound = cells.dropna(subset="relative_error")
         slender = sound[sound.slenderness_deg <= 10.0]
-        findings[model.replace(" ", "_")] = truth(
+        found[model.replace(" ", "_")] = truth(
             True,
             median_error=np.median(np.abs(sound.relative_error)),
             largest_overestimate=sound.relative_error.max(),
@@ -50,7 +55,7 @@ def main(case: dict) -> tuple[pd.DataFrame, dict]:
             misjudged=int((cells.exact_overturned != cells.overturned).sum()),
             cells=len(cells),
         )
-    return table, findings
+    return found
 
 
 if __name__ == "__main__":

@@ -4,7 +4,7 @@ import math
 
 import pandas as pd
 
-from replication.workbench import grid, run, truth
+from replication.workbench import Finding, grid, run, truth
 from topheavy import Column, Pulse, RockingFrame, judge
 from topheavy.massless_columns import simplified
 
@@ -36,12 +36,16 @@ def main(case: dict) -> tuple[pd.DataFrame, dict]:
                 for name, block in models.items()
             ]
     table = pd.DataFrame(rows)
-    shares = table.groupby("model").verdict.value_counts(normalize=True)
-    findings = {
+    return table, findings(table)
+
+
+def findings(allen_overturning: pd.DataFrame) -> dict[str, Finding]:
+    """Return the share of the pulses with each outcome, from the table of outcomes."""
+    shares = allen_overturning.groupby("model").verdict.value_counts(normalize=True)
+    return {
         name: truth(True, **{word.replace(" ", "_"): share for word, share in shares[name].items()})
-        for name in models
+        for name in allen_overturning.model.unique()
     }
-    return table, findings
 
 
 if __name__ == "__main__":

@@ -1,51 +1,62 @@
-"""The findings that the published tables determine, computed again from these tables alone."""
+"""The findings that published tables determine, drawn from these tables by their own functions.
 
+`redrawn.py` of a study, and `redrawn_paper` beside this module, name for each rule the function
+`findings` of its step, which takes tables by their names, or the reason why there is none.
+"""
+
+import inspect
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections import ChainMap
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from importlib import import_module
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 import pandas as pd
 
-from replication.workbench import Findings
+from replication.workbench import Finding, Findings
+from steps import redrawn_paper
 from steps.redrawn_paper import OF_PAPER
 from steps.redrawn_studies import OF_STUDIES
 
 DIGITS = {"rel_tol": 1e-6}  # of what is computed from tables of nine digits
 DIGITS_OF_ERROR = {"rel_tol": 0.06}  # errors are published with two digits
 
-SOURCES = {source.__name__: source for source in (*OF_PAPER, *OF_STUDIES)}
+ROOT = Path(__file__).resolve().parents[2]
+Draw: TypeAlias = Callable[..., Mapping[str, Finding | Mapping[str, Any]]]
+"""Takes tables by their names; returns findings, or only those of their entries that it draws."""
+
+NAMED_BY = [
+    redrawn_paper,
+    *(
+        import_module(f"studies.{path.parent.name}.redrawn")
+        for path in sorted(ROOT.glob("studies/*/redrawn.py"))
+    ),
+]
+SOURCES: dict[str, Draw] = {
+    rule: draw for named in NAMED_BY for rule, draw in named.SOURCES.items()
+}
 """What draws findings from published tables, by the name of the rule that made them."""
 
-UNDRAWN = {
-    "allen_histories": "peaks of histories, of which no table is published",
-    "mechanism_admissible": "its table has a row for each of 8832 pulses",
-    "mechanism_forces": "theorems",
-    "reversals_check": "a sample that other solvers judge",
-    "rocking_spectra": "its table has a row for each record and structure",
-    "scale_effects": "two outcomes",
-    "spectra_dimensional": "one amplitude, of the spectra",
-    "stability": "rankings, which have no table",
-    "statements": "single statements, which have no table",
-    "verification": "a sample that other solvers judge",
-}
+BY_HAND = {source.__name__: source for source in (*OF_PAPER, *OF_STUDIES)}
+"""Second formulas for the findings of rules whose steps have no such function yet."""
+
+UNDRAWN: dict[str, str] = dict(ChainMap(*(named.UNDRAWN for named in NAMED_BY)))
 """Why no published table determines the findings of the other rules."""
 
 
 def departures(folder: Path, findings: Mapping[str, Findings]) -> Iterator[str]:
     """Yield the findings that depart from their tables."""
 
-    def table(name: str) -> pd.DataFrame:
-        return pd.read_csv(folder / f"{name}.csv")
-
     for rule in unlisted(findings, published_studies(folder))[0]:
         yield (
             f"findings/{rule}.json: nothing draws these findings from a table; expected {rule} in "
-            "OF_PAPER or OF_STUDIES, or the reason in UNDRAWN of src/steps/redrawn.py"
+            "SOURCES, or the reason in UNDRAWN, of src/steps/redrawn_paper.py or of redrawn.py in "
+            "the folder of the study"
         )
-    for rule in SOURCES.keys() & findings.keys():
-        for name, key, expected in SOURCES[rule](table):
+    for rule in sorted({*SOURCES, *BY_HAND} & findings.keys()):
+        for name, key, expected in entries(rule, folder):
             finding = findings[rule].by_name.get(name)
             found = finding.entries.get(key) if finding else None
             if not same(found, expected, DIGITS_OF_ERROR if key == "error" else DIGITS):
@@ -53,6 +64,32 @@ def departures(folder: Path, findings: Mapping[str, Findings]) -> Iterator[str]:
                     f"findings/{rule}.json: {name}.{key} is {found}, and {expected} by the "
                     "published table that it was drawn from"
                 )
+
+
+def entries(rule: str, folder: Path) -> Iterator[tuple[str, str, Any]]:
+    """Yield each entry that is drawn from the published tables, with its finding and its name.
+
+    The parameters of the function that draws it are names of tables.
+    """
+    if rule in BY_HAND:
+        yield from BY_HAND[rule](lambda name: pd.read_csv(folder / f"{name}.csv"))
+        return
+    draw = SOURCES[rule]
+    tables = [_read(folder, name) for name in inspect.signature(draw).parameters]
+    for name, finding in draw(*tables).items():
+        drawn = finding.entries if isinstance(finding, Finding) else finding
+        for key, entry in drawn.items():
+            yield name, key, entry
+
+
+def _read(folder: Path, name: str) -> pd.DataFrame:
+    """Read a published table as the step had it, of the paper or of a study."""
+    own = folder / f"{name}.csv"
+    table = pd.read_csv(own if own.is_file() else folder / "studies" / own.name)
+    for column in table:
+        if (table[column] == "infinite").any():  # γ, else a number
+            table[column] = [one if one == "infinite" else float(one) for one in table[column]]
+    return table
 
 
 def published_studies(folder: Path) -> list[str]:
@@ -66,7 +103,7 @@ def unlisted(rules: Iterable[str], studies: Iterable[str]) -> tuple[list[str], l
     First those of the paper and of studies that these lists know, of which nothing may be missing;
     then those of other studies, which need no entry to be published.
     """
-    listed = {*SOURCES, *UNDRAWN}
+    listed = {*SOURCES, *BY_HAND, *UNDRAWN}
     heads = [f"{study}_" for study in studies]
     new = tuple(head for head in heads if not any(name.startswith(head) for name in listed))
     missing = sorted({*rules} - listed)
@@ -76,6 +113,8 @@ def unlisted(rules: Iterable[str], studies: Iterable[str]) -> tuple[list[str], l
 
 def same(found: Any, expected: Any, digits: Mapping[str, float]) -> bool:
     """Whether a finding's entry is the expected one; of a mapping, the keys that are expected."""
+    if expected is None:
+        return found is None
     if isinstance(expected, Mapping):
         return isinstance(found, Mapping) and all(
             same(found.get(key), value, digits) for key, value in expected.items()

@@ -17,6 +17,9 @@ from types import FunctionType, ModuleType
 OF_NO_ROW = ("replication", "steps")
 """The packages whose functions no row of a ledger may name (paper/claims.schema.yaml)."""
 
+DRAWS = "findings"
+"""The function of a step that draws findings from its tables; what filled the tables is noted."""
+
 PLACES = {path.name: "src" for path in Path("src").glob("*") if path.name not in OF_NO_ROW}
 PLACES |= {"studies": "."}
 """The packages whose functions are noted, and the folder that each lies in, from the root."""
@@ -134,6 +137,8 @@ def _functions(module: ModuleType) -> Iterator[tuple[str, FunctionType]]:
     """Yield the public functions that a module defines, and the makers of its public classes."""
     for name, member in list(vars(module).items()):
         if name.startswith("_") or getattr(member, "__module__", None) != module.__name__:
+            continue
+        if name == DRAWS:
             continue
         if isinstance(member, type):
             if isinstance(maker := vars(member).get("__init__"), FunctionType):

@@ -106,15 +106,19 @@ def confirmed(case: dict, ensemble: dict, fell: pd.DataFrame) -> Finding:
 def main(case: dict, ensemble: dict) -> tuple[pd.DataFrame, dict]:
     fell = outcomes(case, ensemble)
     table = differences(case, fell)
+    return table, findings(table) | {"second_route": confirmed(case, ensemble, fell)}
+
+
+def findings(certainty_benefit: pd.DataFrame) -> dict[str, Finding]:
+    """Return whether the frame stays the safer one, from the table of differences."""
+    table = certainty_benefit
     both, alone = (table[table.way == way] for way in (BOTH, COLUMN_ALONE))
     lowest = alone[alone.factor == alone.factor.min()]
-    findings = {
+    return {
         "frame_is_safer": truth((both.interval == fragility.POSITIVE).all(), **said(both)),
         "remains": truth((alone.interval == fragility.POSITIVE).all(), **said(alone)),
         "reverses": truth((lowest.interval == fragility.NEGATIVE).all(), **said(lowest)),
-        "second_route": confirmed(case, ensemble, fell),
     }
-    return table, findings
 
 
 def said(rows: pd.DataFrame) -> dict:

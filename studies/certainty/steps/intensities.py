@@ -12,7 +12,7 @@ import numpy as np
 import pandas as pd
 from scipy.stats import beta
 
-from replication.workbench import run, truth
+from replication.workbench import Finding, run, truth
 from steps.spectrum import progress
 from topheavy import (
     Column,
@@ -153,10 +153,7 @@ def main(case: dict, ensemble: dict, structures: dict) -> tuple[pd.DataFrame, di
     large = [s.name for s in under if s.support == "free" and s.height >= ample["height"]]
     framed = velocity[(velocity.support == "free") & velocity.structure.isin(large)]
     modest = framed[framed.level <= ample["pgv"]]
-    each = ["family", "structure", "measure", "level"]
-    wide = table.pivot_table(index=each, columns="support", values="fell")
-    summed = wide.groupby(level=each[:2]).sum()
-    findings = {
+    return table, {
         "ample_stability": truth(
             worst(framed) < ample["probability"],
             holds_when=worst(modest) < ample["probability"],
@@ -166,6 +163,17 @@ def main(case: dict, ensemble: dict, structures: dict) -> tuple[pd.DataFrame, di
             margin=ample["probability"],
             structures=large,
         ),
+        **findings(table),
+        "second_route": confirmed(case, ensemble, under, cells),
+    }
+
+
+def findings(certainty_intensities: pd.DataFrame) -> dict[str, Finding]:
+    """Return whether the support decides, from the table of probabilities."""
+    each = ["family", "structure", "measure", "level"]
+    wide = certainty_intensities.pivot_table(index=each, columns="support", values="fell")
+    summed = wide.groupby(level=each[:2]).sum()
+    return {
         "free_cap_helps": truth(
             (summed.free < summed.bare).all(),
             compared=len(wide),
@@ -178,9 +186,7 @@ def main(case: dict, ensemble: dict, structures: dict) -> tuple[pd.DataFrame, di
             differ=int((wide.fixed != wide.bare).sum()),
             exceptions=int((wide.fixed < wide.bare).sum()),
         ),
-        "second_route": confirmed(case, ensemble, under, cells),
     }
-    return table, findings
 
 
 def work(job: Any) -> tuple:

@@ -87,15 +87,23 @@ def search(case: dict) -> tuple[list[dict], dict]:
                 }
                 | {f"value_{k}": number for k, number in enumerate(values / np.abs(values).max())}
             )
-    confirmed = [row for row in rows if row["last"] < 1.0]
-    return rows, truth(
-        not confirmed and bool(rows),
-        shapes=shapes,
-        apparent=len(rows),
-        confirmed=len(confirmed),
-        largest_apparent=1.0 - min(row["coarse"] for row in rows) if rows else 0.0,
-        finest=finer[-1],
-    )
+    drawn = findings(pd.DataFrame(rows, columns=None if rows else ["coarse", "last"]))
+    holds, *counts = drawn["no_fall_is_found"].items()
+    return rows, truth(holds[1], shapes=shapes, **dict(counts), finest=finer[-1])
+
+
+def findings(certainty_lowest: pd.DataFrame) -> dict[str, Any]:
+    """Return what became of the shapes that seemed to fall; those that did not have no row."""
+    confirmed = certainty_lowest["last"] < 1.0
+    apparent = len(certainty_lowest)
+    return {
+        "no_fall_is_found": {
+            "holds": apparent > 0 and not confirmed.any(),
+            "apparent": apparent,
+            "confirmed": int(confirmed.sum()),
+            "largest_apparent": 1.0 - certainty_lowest.coarse.min() if apparent else 0.0,
+        }
+    }
 
 
 def single_lobes(case: dict, tightened: float) -> dict:

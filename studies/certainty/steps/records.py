@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from replication.workbench import run, truth, value
+from replication.workbench import Finding, run, truth, value
 from steps.rocking_spectra import NUDGE
 from steps.spectrum import progress
 from topheavy import Column, Record, RockingFrame, judge, read_record, reference
@@ -100,6 +100,12 @@ def main(case: dict, structures: dict, records: list[Record]) -> tuple[pd.DataFr
     columns = dict(similar(entry, structures) for entry in case["columns"])
     table = outcomes(records, columns, case["mass_ratios"])
     table["by_scipy"] = by_scipy(table, records, columns, case["checked_by_second_route"])
+    return table, findings(table)
+
+
+def findings(certainty_records: pd.DataFrame) -> dict[str, Finding]:
+    """Return which frames and columns the records overturn, from the table of outcomes."""
+    table = certainty_records
     frames, pairs = table[table.mass_ratio > 0.0], reversals(table)
     beside = pairs.mass_ratio_survives == 0.0
     bare, among = pairs[beside], pairs[~beside]
@@ -109,7 +115,7 @@ def main(case: dict, structures: dict, records: list[Record]) -> tuple[pd.DataFr
     not_told = int(nudged.any(axis=1).sum())
     falls = table.groupby("structure", sort=False).overturned.any()
     tried = {"records": table.record.nunique(), "frames": len(frames)}
-    findings = {
+    return {
         "records": truth(
             len(frames) > 0 and not frames.overturned.any(),
             overturned=int(frames.overturned.sum()),
@@ -135,7 +141,6 @@ def main(case: dict, structures: dict, records: list[Record]) -> tuple[pd.DataFr
         ),
         "napa": value(table.pgv[table.record.str.startswith("napa")].max(), 0.0, "m/s"),
     }
-    return table, findings
 
 
 def work(job: Any) -> tuple:

@@ -35,6 +35,10 @@ WAYS = ("both", "frame alone", "column alone")
 HIGHEST = 0.995
 """Of √r: a block that loses nothing bounces without end, and no solver can follow it."""
 
+OF_PULSES = ["way", "factor", "helps", "harms", "compared", "falls", "least"]
+OF_MOTIONS = ["family", "way", "factor", "less", "less_low", "less_high", "interval"]
+"""The columns of the table under pulses, and of the differences under motions."""
+
 RISES = 1e-8  # of a minimum: the rounding of its bracket
 
 
@@ -234,6 +238,33 @@ def main(case: dict, ensemble: dict) -> tuple[pd.DataFrame, dict]:
     pulses = under_pulses(case)
     table, falls = under_motions(case, ensemble)
     less = pd.DataFrame(falls)
+    whole = pd.concat(
+        [
+            table.assign(under="motions"),
+            pulses.assign(under="pulses"),
+            less.assign(under="difference"),
+        ]
+    )
+    drawn, error = findings(whole), 1.0 / case["levels"]
+    ranges = {name: drawn.pop(name) for name in ("harms_range", "helps_range")}
+    return whole, {
+        **drawn,
+        **{
+            name: value(found["value"], error, lowest=found["lowest"])
+            for name, found in ranges.items()
+        },
+        "scatter_agrees": scatter_agrees(case),
+    }
+
+
+def findings(certainty_restitution: pd.DataFrame) -> dict[str, Any]:
+    """Return what is left of the benefit with other √r, from the table under pulses and motions.
+
+    The errors of the ranges are those of the levels, which are in the config.
+    """
+    rows = certainty_restitution.groupby("under")
+    pulses = rows.get_group("pulses")[OF_PULSES].astype({"compared": int, "falls": int})
+    less = rows.get_group("difference")[OF_MOTIONS]
     joint, apart = less[less.way.isin(["both", "scatter"])], less[less.way.isin(WAYS[1:])]
     together = pulses[pulses.way == "both"]
     kept, fewer = (of[~is_against_the_frame(of)] for of in (pulses, apart))
@@ -242,7 +273,7 @@ def main(case: dict, ensemble: dict) -> tuple[pd.DataFrame, dict]:
         for row in together.itertuples()
         for name in ("helps", "harms")
     }
-    findings = {
+    return {
         "lowest_rises_together": truth(
             together.compared.all() and not together.falls.any(),
             compared=int(together.compared.sum()),
@@ -271,18 +302,9 @@ def main(case: dict, ensemble: dict) -> tuple[pd.DataFrame, dict]:
             least=float(apart.less_low.min()),
             changes=apart.to_dict("records"),
         ),
-        "harms_range": value(
-            together.harms.max(), 1.0 / case["levels"], lowest=together.harms.min()
-        ),
-        "helps_range": value(
-            together.helps.max(), 1.0 / case["levels"], lowest=together.helps.min()
-        ),
-        "scatter_agrees": scatter_agrees(case),
+        "harms_range": {"value": together.harms.max(), "lowest": together.harms.min()},
+        "helps_range": {"value": together.helps.max(), "lowest": together.helps.min()},
     }
-    motions = table.assign(under="motions")
-    return pd.concat(
-        [motions, pulses.assign(under="pulses"), less.assign(under="difference")]
-    ), findings
 
 
 def work(job: Any) -> tuple:

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pandas as pd
 
-from replication.workbench import run, truth
+from replication.workbench import Finding, run, truth
 from steps.spectrum import progress
 from studies.certainty.shapes import motion
 from topheavy import (
@@ -176,31 +176,37 @@ def rows(case: dict, linearised: bool) -> pd.DataFrame:
 
 def main(case: dict) -> tuple[pd.DataFrame, dict]:
     table = pd.concat([rows(case, True), rows(case, False)], ignore_index=True)
-    proved, still_open = table[table.proved], table[~table.proved]
     followed = table[table.ahead.notna()]
     within = followed[followed.proved]
     theorems = reversal_theorems()
-    findings = {
+    grouped = table.groupby(["linearised", "proved", "shape"], as_index=False)
+    counts = grouped.agg(motions=("contradicts", "size"), contradictions=("contradicts", "sum"))
+    return counts, {
         "proofs": truth(
             all(theorem.holds for theorem in theorems), theorems=[t.statement for t in theorems]
         ),
-        "linearised": counted(proved[proved.linearised]),
-        "exact": counted(proved[~proved.linearised]),
-        "exact_open": counted(still_open),
+        **findings(counts),
         "ahead": truth(len(within) > 0 and within.ahead.all(), followed=len(within)),
         "second_route": truth(
             len(followed) > 0 and followed.confirmed.all(), followed=len(followed)
         ),
     }
-    grouped = table.groupby(["linearised", "proved", "shape"], as_index=False)
-    counts = grouped.agg(motions=("contradicts", "size"), contradictions=("contradicts", "sum"))
-    return counts, findings
 
 
-def counted(trials: pd.DataFrame) -> dict:
-    """Return whether no trial contradicts the statement, and how many there are."""
-    found = int(trials.contradicts.sum())
-    return truth(found == 0 and len(trials) > 0, motions=len(trials), contradictions=found)
+def findings(certainty_theorem: pd.DataFrame) -> dict[str, Finding]:
+    """Return whether any motion contradicts the statements, from the table of counts."""
+    proved = certainty_theorem[certainty_theorem.proved]
+    return {
+        "linearised": counted(proved[proved.linearised]),
+        "exact": counted(proved[~proved.linearised]),
+        "exact_open": counted(certainty_theorem[~certainty_theorem.proved]),
+    }
+
+
+def counted(counts: pd.DataFrame) -> Finding:
+    """Return whether no motion contradicts the statement, and how many there are."""
+    motions, found = int(counts.motions.sum()), int(counts.contradictions.sum())
+    return truth(found == 0 and motions > 0, motions=motions, contradictions=found)
 
 
 if __name__ == "__main__":

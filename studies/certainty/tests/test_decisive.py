@@ -26,14 +26,14 @@ SIZES = {"half_width": 0.5, "half_height": 3.0}
 # No reversal without an impact -------------------------------------------------------------------
 
 
-def trials(*contradicts, proved=True):
-    return pd.DataFrame({"contradicts": contradicts, "proved": proved})
+def counts(*contradictions):
+    return pd.DataFrame({"motions": 1, "contradictions": contradictions})
 
 
 def test_one_contradiction_refutes_the_theorem():
-    assert theorem.counted(trials(False, False))["holds"]
-    assert not theorem.counted(trials(False, True))["holds"]
-    assert not theorem.counted(trials())["holds"]
+    assert theorem.counted(counts(0, 0))["holds"]
+    assert not theorem.counted(counts(0, 1))["holds"]
+    assert not theorem.counted(counts())["holds"]
 
 
 def test_frames_in_the_wrong_order_contradict_the_theorem():

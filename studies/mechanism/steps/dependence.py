@@ -78,11 +78,8 @@ def main(case: dict, cap: Cap) -> tuple[pd.DataFrame, dict]:
             for name, at, frame, beam in variants
         ]
     )
-    harder = table[table.impact > table.rocking]
-    heavier = table[table.varied == "mass_ratio"]
-    wide = table.query("varied in ['mass_ratio', 'slenderness']")
     opens = opens_below_the_shortest_bay(base, cap.half_depth)
-    findings = {
+    return table, {
         "seat_opens_in_short_bays": opens,
         "recesses": truth(
             opens["least_in_short_bays"] > 0.0 and (table.impact_least > 0.0).all(),
@@ -90,6 +87,17 @@ def main(case: dict, cap: Cap) -> tuple[pd.DataFrame, dict]:
             condition="the bay is longer than the shortest one without uplift at the column tops",
             shortest_bay_over_width=shortest_bay(base, cap.half_depth) / width,
         ),
+        **findings(table),
+    }
+
+
+def findings(mechanism_dependence: pd.DataFrame) -> dict[str, Finding]:
+    """Return the friction that suffices, and what it falls with, from the table of demands."""
+    table = mechanism_dependence
+    harder = table[table.impact > table.rocking]
+    heavier = table[table.varied == "mass_ratio"]
+    wide = table.query("varied in ['mass_ratio', 'slenderness']")
+    return {
         "impact_asks_for_less_than_rocking": truth(
             harder.empty,
             largest_impact=float(wide.impact.max()),
@@ -105,7 +113,6 @@ def main(case: dict, cap: Cap) -> tuple[pd.DataFrame, dict]:
             wide.rocking.max(), wide.rocking_error.max(), "tan α", least=wide.rocking.min()
         ),
     }
-    return table, findings
 
 
 if __name__ == "__main__":

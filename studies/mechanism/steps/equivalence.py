@@ -10,7 +10,7 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 import pandas as pd
 
-from replication.workbench import grid, run, truth, value
+from replication.workbench import Finding, grid, run, truth, value
 from topheavy import (
     Column,
     Pulse,
@@ -177,38 +177,56 @@ def main(case: dict) -> tuple[pd.DataFrame, pd.DataFrame, dict]:
     table = pd.DataFrame(rows)
     lowered = pd.concat(changes, ignore_index=True)
     ends = [lowered.loc[lowered.change.idxmin()], lowered.loc[lowered.change.idxmax()]]
+    found = findings(table)
+    return (
+        table,
+        drawn,
+        {
+            "identical_response": Finding.of(
+                {
+                    "holds": found["identical_response"].holds,
+                    "holds_when": same,
+                    "condition": "between impacts; or the column is given the frame's √r in place "
+                    "of its own",
+                    **found["identical_response"].entries,
+                    "second_route_agrees": checked,
+                }
+            ),
+            "share_apart": found["share_apart"],
+            # the mean over all pulses, of which the table has the means of its rows
+            "lowest_amplitude": value(
+                lowered.change.mean(), BRACKETS, least=ends[0].change, largest=ends[1].change
+            ),
+            "peak_rotation": found["peak_rotation"],
+            "column_is_never_safer_first": found["column_is_never_safer_first"].with_evidence(
+                pulses=len(lowered),
+                later=int((lowered.change > 0.0).sum()),
+                second_route_agrees=all(map(confirmed, ends)),
+            ),
+        },
+    )
+
+
+def findings(mechanism_equivalence: pd.DataFrame) -> dict[str, Finding]:
+    """Return how far frame and column are apart, from the table of shares and changes."""
+    table = mechanism_equivalence
     worst = table.loc[table.share_apart.idxmax()]
-    findings = {
+    largest = table.lowest_change_largest.max()
+    return {
         "identical_response": truth(
             not table.share_apart.any(),
-            holds_when=same,
-            condition="between impacts; or the column is given the frame's √r in place of its own",
             mean_share_apart=float(table.share_apart.mean()),
             largest_share_apart=float(worst.share_apart),
             largest_at={key: worst[key] for key in ("slenderness", "shape")},
             only_frame_overturns=float(table.only_frame_overturns.mean()),
             only_column_overturns=float(table.only_column_overturns.mean()),
-            second_route_agrees=checked,
         ),
         "share_apart": value(*mean_share(table)),
-        "lowest_amplitude": value(
-            lowered.change.mean(),
-            BRACKETS,
-            least=ends[0].change,
-            largest=ends[1].change,
-        ),
         "peak_rotation": value(
             table.peak_change_median.median(), 1e-8, upper=table.peak_change_95.max()
         ),
-        "column_is_never_safer_first": truth(
-            ends[1].change <= 0.0,
-            largest=ends[1].change,
-            pulses=len(lowered),
-            later=int((lowered.change > 0.0).sum()),
-            second_route_agrees=all(map(confirmed, ends)),
-        ),
+        "column_is_never_safer_first": truth(largest <= 0.0, largest=largest),
     }
-    return table, drawn, findings
 
 
 if __name__ == "__main__":

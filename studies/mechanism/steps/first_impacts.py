@@ -5,7 +5,7 @@ from itertools import pairwise
 
 import pandas as pd
 
-from replication.workbench import truth, value
+from replication.workbench import Finding, truth, value
 from studies.mechanism.steps.engine import run
 from studies.mechanism.steps.rigs import crossing, experiment, models, rig_of
 from topheavy import Cap, simulate
@@ -45,19 +45,24 @@ def main(case: dict, structures: dict, caps: dict[str, Cap]) -> tuple[pd.DataFra
                     }
                 )
     table = pd.DataFrame(rows)
+    return table, findings(table)
+
+
+def findings(mechanism_first_impacts: pd.DataFrame) -> dict[str, Finding]:
+    """Return how far first impacts are from Eq. (23), from the table of their times."""
+    table = mechanism_first_impacts
     limit = table[table.step == 0.0]
     worst = limit.difference.abs().max()
-    findings = {
+    return {
         "first_impact": truth(
             worst < CLOSE,
             largest=worst,
             uncertainty=limit.uncertainty.max(),
             releases=len(limit),
-            before_limit=table[table.step == max(steps)].difference.abs().max(),
+            before_limit=table[table.step == table.step.max()].difference.abs().max(),
         ),
         "largest": value(worst, limit.uncertainty.max()),
     }
-    return table, findings
 
 
 if __name__ == "__main__":

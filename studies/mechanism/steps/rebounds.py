@@ -2,7 +2,7 @@
 
 import pandas as pd
 
-from replication.workbench import truth
+from replication.workbench import Finding, truth
 from studies.mechanism.steps.engine import point_restitution
 from studies.mechanism.steps.rigs import STEPS_IN_CONTACT, experiment, models, rebound, rig_of
 from topheavy import Cap
@@ -40,6 +40,12 @@ def main(case: dict, structures: dict, caps: dict[str, Cap]) -> tuple[pd.DataFra
                 )
     table = pd.DataFrame(rows)
     table["plastic"] = (table.point_restitution < PLASTIC) & (table.time_constant <= HARD)
+    return table, findings(table)
+
+
+def findings(mechanism_rebounds: pd.DataFrame) -> dict[str, Finding]:
+    """Return how far rebounds are from Eq. (25), from their table."""
+    table = mechanism_rebounds
     frames, alone = table[table.mass_ratio > 0.0], table[table.mass_ratio == 0.0]
     plastic, bouncing = frames[frames.plastic], frames[frames.point_restitution >= PLASTIC]
     hard = table[table.time_constant <= HARD]
@@ -51,7 +57,7 @@ def main(case: dict, structures: dict, caps: dict[str, Cap]) -> tuple[pd.DataFra
         "column_apart": alone[alone.time_constant <= HARD].difference.abs().max(),
         "contacts": len(table),
     }
-    findings = {
+    return {
         "impact_at_the_new_pivots": truth(
             frames.difference.abs().max() < CLOSE,
             holds_when=plastic.difference.abs().max() < CLOSE,
@@ -66,7 +72,6 @@ def main(case: dict, structures: dict, caps: dict[str, Cap]) -> tuple[pd.DataFra
             largest_of_soft=table.difference.max(),
         ),
     }
-    return table, findings
 
 
 if __name__ == "__main__":

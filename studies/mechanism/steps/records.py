@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from replication.workbench import run, truth, value
+from replication.workbench import Finding, run, truth, value
 from steps.histories import history
 from studies.mechanism.steps.demand import demand
 from studies.mechanism.steps.setting import cap_of
@@ -36,10 +36,16 @@ def main(
                     }
                 )
     table = pd.DataFrame(rows)
+    return table.replace(math.inf, np.nan), findings(table)
+
+
+def findings(mechanism_records: pd.DataFrame) -> dict[str, Finding]:
+    """Return what the records ask of the contacts, from the table of histories."""
+    table = mechanism_records
     rocked = table[np.isfinite(table.demand)]
     stood = rocked[rocked.outcome != "overturned"]
     largest = stood.loc[stood.demand.idxmax()] if len(stood) else None
-    findings = {
+    return {
         "stays_on_its_seats": truth(not stood.pulls.any(), histories=len(stood)),
         "largest_demand": value(
             largest.demand,
@@ -56,7 +62,6 @@ def main(
             largest_over_tan=float((stood.demand / stood.tan).max()),
         ),
     }
-    return table.replace(math.inf, np.nan), findings
 
 
 def work(job: Any) -> tuple:

@@ -4,7 +4,7 @@ import math
 
 import pandas as pd
 
-from replication.workbench import truth
+from replication.workbench import Finding, truth
 from steps.histories import history
 from studies.mechanism.steps.demand import demand
 from studies.mechanism.steps.engine import slips
@@ -56,9 +56,15 @@ def main(case: dict, structures: dict, caps: dict[str, Cap]) -> tuple[pd.DataFra
                 }
             )
     table = pd.DataFrame(rows)
+    return table, findings(table)
+
+
+def findings(mechanism_slides: pd.DataFrame) -> dict[str, Finding]:
+    """Return whether it slides where the forces of the theory say so, from the table of runs."""
+    table = mechanism_slides
     above, below = table[table.friction >= CLEAR * table.needed], table[table.friction < table.tan]
     between = table[(table.friction >= table.tan) & (table.friction < table.needed)]
-    findings = {
+    return {
         "slides_as_the_forces_say": truth(
             len(above) > 0 and len(below) > 0 and not above.slides.any() and below.slides.all(),
             enough=len(above),
@@ -69,7 +75,6 @@ def main(case: dict, structures: dict, caps: dict[str, Cap]) -> tuple[pd.DataFra
             largest_slip_with_enough=float(above[["base_slip", "seat_slip"]].max().max()),
         ),
     }
-    return table, findings
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from replication.workbench import run, truth
+from replication.workbench import Finding, run, truth
 from steps.histories import ASIDE
 from studies.mechanism.steps.setting import cap_of, pulse_on
 from topheavy import (
@@ -101,9 +101,15 @@ def main(case: dict, cap: Cap, records: list[Record]) -> tuple[pd.DataFrame, dic
         for gamma in case["record_mass_ratios"]
     ]
     table = pd.DataFrame(rows)
+    return table, findings(table)
+
+
+def findings(mechanism_three_bodies: pd.DataFrame) -> dict[str, Finding]:
+    """Return how far the two descriptions are apart, from the table of histories."""
+    table = mechanism_three_bodies
     worst = table[[name for name in table if name.endswith(("_apart", "tilt", "drift"))]].max()
     counted = {"histories": len(table), "impacts": int(table.impacts.sum())}
-    findings = {
+    return {
         "one_degree_of_freedom": truth(
             worst.rotation_apart < AGREE and table.same_outcome.all(),
             largest_over_alpha=worst.rotation_apart,
@@ -120,7 +126,6 @@ def main(case: dict, cap: Cap, records: list[Record]) -> tuple[pd.DataFrame, dic
             forces_compared=int(table.forces_compared.sum()),
         ),
     }
-    return table, findings
 
 
 def work(job: Any) -> tuple:

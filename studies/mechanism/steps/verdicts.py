@@ -3,7 +3,7 @@
 import numpy as np
 import pandas as pd
 
-from replication.workbench import truth
+from replication.workbench import Finding, truth
 from steps.spectra_compared import without
 from studies.mechanism.steps.engine import Motion, slips
 from studies.mechanism.steps.rigs import (
@@ -125,16 +125,35 @@ def main(case: dict, structures: dict, caps: dict[str, Cap]) -> tuple[pd.DataFra
             for row in pulses_around(model, case, contact)
         ]
     )
-    agrees = table.engine == table.theory
-    plastic = table.contact == "plastic"
-    refitted = table.engine == table.theory_with_rebound
-    apart = table[~agrees]
     beside = pd.DataFrame([row for model in frames for row in beside_its_column(model, case)])
     as_theory = (beside.column_overturns == (beside.theory == "column")) & (
         beside.frame_overturns == (beside.theory == "frame")
     )
     reversals = beside[beside.theory == "frame"]
-    findings = {
+    return table, findings(table) | {
+        "frame_outlasts_column": truth(
+            not (beside.frame_overturns & ~beside.column_overturns).any(),
+            pulses=len(beside),
+            only_column=int((beside.column_overturns & ~beside.frame_overturns).sum()),
+            only_frame=int((beside.frame_overturns & ~beside.column_overturns).sum()),
+        ),
+        "beside_as_in_theory": truth(
+            bool(as_theory.all()) and 0 < len(reversals) < len(beside),
+            pulses=len(beside),
+            reversals=len(reversals),
+            apart=int((~as_theory).sum()),
+        ),
+    }
+
+
+def findings(mechanism_verdicts: pd.DataFrame) -> dict[str, Finding]:
+    """Return how often engine and theory agree, from the table of pulses."""
+    table = mechanism_verdicts
+    agrees = table.engine == table.theory
+    plastic = table.contact == "plastic"
+    refitted = table.engine == table.theory_with_rebound
+    apart = table[~agrees]
+    return {
         "same_verdicts": truth(
             bool(agrees.all()),
             holds_when=bool(agrees[plastic].all()) and int(plastic.sum()) >= ENOUGH,
@@ -151,20 +170,7 @@ def main(case: dict, structures: dict, caps: dict[str, Cap]) -> tuple[pd.DataFra
             cap_tilt=float(table.cap_tilt[plastic].max()),
             cap_tilt_bouncing=float(table.cap_tilt[~plastic].max()),
         ),
-        "frame_outlasts_column": truth(
-            not (beside.frame_overturns & ~beside.column_overturns).any(),
-            pulses=len(beside),
-            only_column=int((beside.column_overturns & ~beside.frame_overturns).sum()),
-            only_frame=int((beside.frame_overturns & ~beside.column_overturns).sum()),
-        ),
-        "beside_as_in_theory": truth(
-            bool(as_theory.all()) and 0 < len(reversals) < len(beside),
-            pulses=len(beside),
-            reversals=len(reversals),
-            apart=int((~as_theory).sum()),
-        ),
     }
-    return table, findings
 
 
 if __name__ == "__main__":
