@@ -10,6 +10,7 @@ from .contact_forces import (
 from .fixed_frame import FixedFrame, peak_elastic, peak_elastic_by_scipy, peak_rigid
 from .fixed_mass import FixedMassColumn, MonolithicPortal
 from .frame_forces import base_shear_slope, frame_forces
+from .minimum import LowestOverturning, lowest_overturning
 from .overturning import (
     minimum_overturning,
     overturned_by,
@@ -17,6 +18,7 @@ from .overturning import (
     overturning_map,
 )
 from .pulses import PULSE_SHAPES, Pulse
+from .record_map import overturning_map_of_record
 from .records import Record, read_at2, read_csv, read_record
 from .response import Response
 from .simulate import judge, simulate
@@ -30,6 +32,7 @@ __all__ = [
     "ContactForces",
     "FixedFrame",
     "FixedMassColumn",
+    "LowestOverturning",
     "MonolithicPortal",
     "Pulse",
     "Reaction",
@@ -44,10 +47,12 @@ __all__ = [
     "frame_forces",
     "impact_impulses",
     "judge",
+    "lowest_overturning",
     "minimum_overturning",
     "overturned_by",
     "overturning_intervals",
     "overturning_map",
+    "overturning_map_of_record",
     "peak_elastic",
     "peak_elastic_by_scipy",
     "peak_rigid",

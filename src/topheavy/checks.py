@@ -58,6 +58,19 @@ def numbers(name: str, values: ArrayLike) -> NDArray[np.float64]:
     return np.array(found, dtype=float)
 
 
+def axis(name: str, values: ArrayLike, *, zero_allowed: bool) -> NDArray[np.float64]:
+    """Return `values` as an axis of finite floats above (or from) zero, or raise ValueError."""
+    found = np.atleast_1d(numbers(name, values))
+    if found.ndim != 1 or found.size == 0:
+        raise ValueError(f"{name} has shape {found.shape}; expected a list of numbers, not empty")
+    if not np.isfinite(found).all():
+        raise ValueError(f"{name} holds {found[~np.isfinite(found)][0]}; expected finite numbers")
+    if (found < 0.0).any() or not (zero_allowed or found.all()):
+        sign = "negative" if zero_allowed else "zero or negative"
+        raise ValueError(f"{name} goes down to {found.min():.6g}; it cannot be {sign}")
+    return found
+
+
 def positive(name: str, value: Any, unit: str = "") -> float:
     """Return `value` as a float above zero, or raise ValueError that names it."""
     number = finite(name, value)

@@ -25,6 +25,7 @@ from topheavy.structures import (
     RockingBlock,
     checked_mass_ratio,
     checked_restitution,
+    solitary_size,
 )
 
 
@@ -60,7 +61,7 @@ class _OneBody(ABC):
     @property
     def equivalent_size(self) -> float:
         """3g/4p'², m: size R of the solitary rectangular column with this p'."""
-        return 3.0 * STANDARD_GRAVITY / (4.0 * self.frequency_parameter**2)
+        return solitary_size(self.frequency_parameter)
 
     @property
     def restitution(self) -> float:

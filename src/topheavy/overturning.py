@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from topheavy import checks
 from topheavy.excitation import Excitation
 from topheavy.kernel.forcing import SHAPES
-from topheavy.kernel.grid import outcomes_of
+from topheavy.kernel.grid import Outcomes, outcomes_of
 from topheavy.kernel.lanes import WIDTH
 from topheavy.kernel.outcome import TOLERANCE
 from topheavy.kernel.taylor import oscillator
@@ -64,47 +64,50 @@ def overturning_map(
         (angular_frequency, amplitude). As of `judge`, but for what both leave out of the peak: it
         differs by 1e-10 α or so.
     """
-    import xarray  # here: with pandas it takes a second that only maps need
-
     block = structure.block()
     if checked_shape(shape) == "harmonic":
         raise ValueError("shape is 'harmonic', which goes on forever; expected a pulse that ends")
-    frequencies = _axis("angular_frequencies", angular_frequencies, zero_allowed=False)
-    amplitudes = _axis("amplitudes", amplitudes, zero_allowed=True)
+    frequencies = checks.axis("angular_frequencies", angular_frequencies, zero_allowed=False)
+    amplitudes = checks.axis("amplitudes", amplitudes, zero_allowed=True)
     checks.acceleration("the largest of amplitudes", amplitudes.max())
     scales = frequencies / block.frequency_parameter
-    peak, overturned, impacts = outcomes_of(oscillator(block), SHAPES[shape], scales, amplitudes)
-    dims = ("angular_frequency", "amplitude")
+    return outcomes_dataset(
+        block,
+        outcomes_of(oscillator(block), SHAPES[shape], scales, amplitudes),
+        {
+            "angular_frequency": ("angular_frequency", frequencies, {"units": "rad/s"}),
+            "amplitude": ("amplitude", amplitudes, {"units": "g"}),
+        },
+        shape=shape,
+        frequency_parameter=block.frequency_parameter,
+    )
+
+
+def outcomes_dataset(
+    block: RockingBlock,
+    outcomes: Outcomes,
+    coordinates: dict[str, tuple[str, NDArray[np.float64], dict[str, str]]],
+    **attributes: str | float,
+) -> "xarray.Dataset":
+    """Return the outcomes of `outcomes_of` over its first two coordinates, with their units."""
+    import xarray  # here: with pandas it takes a second that only maps need
+
+    dims = tuple(coordinates)[:2]
+    peak, overturned, impacts = outcomes
     return xarray.Dataset(
         {
             "peak_rotation": (dims, peak, {"units": "rad", "long_name": "largest |θ|"}),
             "overturned": (dims, overturned, {"units": "1"}),
             "impacts": (dims, impacts, {"units": "1", "long_name": "number of impacts"}),
         },
-        coords={
-            "angular_frequency": ("angular_frequency", frequencies, {"units": "rad/s"}),
-            "amplitude": ("amplitude", amplitudes, {"units": "g"}),
-        },
-        attrs={
-            "shape": shape,
-            "frequency_parameter": block.frequency_parameter,
+        coords=coordinates,
+        attrs=attributes
+        | {
             "slenderness": block.slenderness,
             "restitution": block.restitution,
             "linearised": int(block.linearised),
         },
     )
-
-
-def _axis(name: str, values: ArrayLike, *, zero_allowed: bool) -> NDArray[np.float64]:
-    axis = np.atleast_1d(checks.numbers(name, values))
-    if axis.ndim != 1 or axis.size == 0:
-        raise ValueError(f"{name} has shape {axis.shape}; expected a list of numbers, not empty")
-    if not np.isfinite(axis).all():
-        raise ValueError(f"{name} holds {axis[~np.isfinite(axis)][0]}; expected finite numbers")
-    if (axis < 0.0).any() or not (zero_allowed or axis.all()):
-        sign = "negative" if zero_allowed else "zero or negative"
-        raise ValueError(f"{name} goes down to {axis.min():.6g}; it cannot be {sign}")
-    return axis
 
 
 def overturned_by(
@@ -157,7 +160,7 @@ def outcomes_by(
     overturned, impacts : ndarray, shape (n,)
         The impacts before it overturns or the forcing ends and it rests.
     """
-    scales = _axis("factors", factors, zero_allowed=True)
+    scales = checks.axis("factors", factors, zero_allowed=True)
     block = structure.block()
     shape, scale, amplitude, record = _ending_forcing(block, excitation)
     _, overturned, impacts = outcomes_of(
@@ -258,7 +261,7 @@ def minimum_overturning(
     It is the lower end of the first of `overturning_intervals`, of which the others are not sought;
     parameters and errors are those. The bracket is narrow, but it belongs to the resolution: a
     narrower interval may overturn below it, above all under a record. State the resolution with
-    the minimum, and halve it to see whether the minimum changes.
+    the minimum; `topheavy.lowest_overturning` halves it down to a floor and reports each step.
 
     Returns
     -------
@@ -285,14 +288,25 @@ def _grid(
     excitation: Excitation, scale_range: tuple[float, float], resolution: float
 ) -> NDArray[np.float64]:
     """Return the factors that are tried first, of a range and a resolution that are accepted."""
-    first, last = (checks.finite("scale_range", value) for value in scale_range)
+    first, last = checked_range(excitation, scale_range)
+    checks.positive("resolution", resolution)
+    return np.linspace(first, last, max(2, math.ceil((last - first) / resolution) + 1))
+
+
+def checked_range(excitation: Excitation, scale_range: tuple[float, float]) -> tuple[float, float]:
+    """Return the first and the last factor of a range, or raise ValueError for what is none."""
+    ends = checks.numbers("scale_range", scale_range)
+    if ends.shape != (2,):
+        raise ValueError(
+            f"scale_range has shape {ends.shape}; expected two factors, the first and the last"
+        )
+    first, last = (checks.finite("scale_range", value) for value in ends)
     if not first < last:
         raise ValueError(f"scale_range is ({first:.6g}, {last:.6g}); expected it to ascend")
-    checks.positive("resolution", resolution)
     if isinstance(excitation, (Pulse, Record)):
         for factor in (first, last):
             excitation.scaled(factor)  # refuses what it cannot be
-    return np.linspace(first, last, max(2, math.ceil((last - first) / resolution) + 1))
+    return first, last
 
 
 def _width(grid: NDArray[np.float64]) -> float:

@@ -115,6 +115,11 @@ class Pulse(Excitation):
         """How long the pulse lasts, s; infinite for the harmonic."""
         return _SHAPES[self.shape].length / self.angular_frequency
 
+    @property
+    def peak_acceleration(self) -> float:
+        """|amplitude|, g."""
+        return abs(float(self.amplitude))
+
     def scaled(self, factor: float) -> "Pulse":
         """Return the same pulse with its amplitude multiplied by `factor`."""
         return replace(self, amplitude=self.amplitude * checks.finite("factor", factor))

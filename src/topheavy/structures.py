@@ -229,6 +229,16 @@ class Structure(Protocol):
         """Return the block that rocks as the structure does."""
 
 
+def as_block(structure: Structure) -> RockingBlock:
+    """Return the rocking block of a structure, or raise ValueError for what is none."""
+    if not callable(getattr(structure, "block", None)):
+        raise ValueError(
+            f"structure is {structure!r}; expected a Column, a RockingFrame or whatever else "
+            "becomes a RockingBlock by a method block()"
+        )
+    return structure.block()
+
+
 def checked_mass_ratio(value: float) -> float:
     """Return γ as a float from 0 to infinity, or raise ValueError."""
     mass_ratio = checks.number("mass_ratio", value)
@@ -242,6 +252,11 @@ def checked_mass_ratio(value: float) -> float:
 def size_ratio(mass_ratio: float) -> float:
     """Return R̂/R = 1 + γ/(1 + 2γ), Eq. (24); 3/2 for γ = ∞."""
     return 1.5 if mass_ratio == math.inf else 1.0 + 0.5 * mass_ratio / (0.5 + mass_ratio)
+
+
+def solitary_size(frequency_parameter: float) -> float:
+    """Return R = 3g/4p² (m) of the solitary rectangular column with this p (rad/s), of Eq. (3)."""
+    return 3.0 * STANDARD_GRAVITY / (4.0 * frequency_parameter**2)
 
 
 def largest_slenderness(mass_ratio: float) -> float:

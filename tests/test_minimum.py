@@ -1,0 +1,260 @@
+"""The lowest factor that overturns: nested grids, no factor passed over, and words that say so."""
+
+import math
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import topheavy.minimum
+from topheavy import (
+    Column,
+    Pulse,
+    Record,
+    RockingBlock,
+    RockingFrame,
+    judge,
+    lowest_overturning,
+    minimum_overturning,
+    overturned_by,
+    overturning_intervals,
+    read_record,
+    reference,
+)
+from topheavy.minimum import NOT_EXCLUDED
+
+RECORDS = Path(__file__).parents[1] / "data" / "records"
+EL_CENTRO = read_record(RECORDS / "el_centro_1940_NS.AT2")
+PIER = Column(0.8, 4.8)
+BENT = RockingFrame.of_masses(PIER, cap_mass=400.0, column_mass=60.0)
+BLOCK = RockingBlock(2.0, 0.25, 0.9)
+LINEAR = RockingBlock(1.0, 0.25, 0.9, linearised=True)
+SINE = Pulse("one-sine", 0.25, 5.0)
+SHAKING = Record(0.05, 0.3 * np.sin(np.linspace(0, 18, 90)) * np.hanning(90))
+CASES = {
+    "one-sine": (LINEAR, SINE, (1.0, 10.0), 0.003),
+    "one-cosine": (BLOCK, Pulse("one-cosine", 0.25, 5.0), (1.0, 9.0), 0.003),
+    "mirrored": (BLOCK, Pulse("one-sine", -0.25, 10.0), (0.0, 14.0), 0.004),
+    "record": (BLOCK, SHAKING, (0.5, 6.0), 0.002),
+}
+
+
+@pytest.fixture(scope="module")
+def pier():
+    """The pier under El Centro, in steps that are those of an engineer's search."""
+    return lowest_overturning(PIER, EL_CENTRO, (0.0, 3.2), floor=4e-4)
+
+
+# ---------------------------------------------------------------------------- El Centro
+
+
+def test_narrow_interval_below_a_minimum_that_four_steps_agree_on_is_found(pier):
+    found = dict(pier.steps)
+    for step in (0.025, 0.0125, 0.00625, 0.003125):
+        assert found[step] == pytest.approx(2.31890, abs=1e-5)
+    assert pier.factor == pytest.approx(1.96720, abs=1e-5)
+    assert pier.width == pytest.approx(4.4e-4, abs=1e-5)
+    assert pier.acceleration == pier.factor * EL_CENTRO.peak_acceleration
+    assert pier.acceleration == pytest.approx(0.6272, abs=1e-4)
+
+
+@pytest.mark.parametrize("judged", [judge, reference.judge], ids=["Taylor", "SciPy"])
+def test_both_solvers_have_the_narrow_interval(pier, judged):
+    around = 1e-7
+    outcomes = [
+        judged(PIER, EL_CENTRO.scaled(factor)).overturned
+        for factor in (
+            pier.bracket[0] - around,
+            pier.bracket[1] + around,
+            pier.upper[0] - around,
+            pier.upper[1] + around,
+        )
+    ]
+    assert outcomes == [False, True, True, False]
+
+
+def test_minimum_rises_on_grids_that_are_not_nested_and_never_on_nested_ones():
+    apart = [
+        minimum_overturning(BENT, EL_CENTRO, (0.0, 5.0), resolution=step)[1]
+        for step in (0.1, 0.01, 0.001, 0.0005)
+    ]
+    assert apart == pytest.approx([4.003, 3.2263, 3.2297, 3.2212], abs=5e-4)
+    assert apart[2] > apart[1]
+    nested = lowest_overturning(BENT, EL_CENTRO, (0.0, 5.0), floor=5e-4)
+    assert nested.factor <= min(apart) + 1e-9
+    factors = [factor for _, factor in nested.steps if factor is not None]
+    assert factors == sorted(factors, reverse=True)
+
+
+# ---------------------------------------------------------------------------- the search
+
+
+@pytest.fixture
+def tried(monkeypatch):
+    """All factors that a search tries, and their outcomes, in calls."""
+    calls = []
+
+    def recorded(block, excitation, factors):
+        calls.append((factors, overturned_by(block, excitation, factors)))
+        return calls[-1][1]
+
+    monkeypatch.setattr(topheavy.minimum, "overturned_by", recorded)
+    return calls
+
+
+@pytest.mark.parametrize(("block", "excitation", "scales", "floor"), CASES.values(), ids=CASES)
+def test_step_is_halved_to_the_floor_and_no_factor_is_passed_over(
+    tried, block, excitation, scales, floor
+):
+    found = lowest_overturning(block, excitation, scales, floor=floor)
+    steps = [step for step, _ in found.steps]
+    assert steps[0] == scales[1] - scales[0]
+    assert all(one == 2.0 * other for one, other in pairwise(steps))
+    assert steps[-1] <= floor < steps[-2]
+    factors, overturned = (np.concatenate(each) for each in zip(*tried, strict=True))
+    assert found.factors_tried == factors.size
+    # to the bit: a point of a coarser grid is one of each finer grid
+    points = scales[0] + steps[-1] * np.arange(2 ** (len(steps) - 1) + 1)
+    assert np.isin(points[points < found.bracket[0]], factors).all()
+    assert found.factor == factors[overturned].min()
+    assert found.bracket[0] in factors[~overturned]
+    assert found.bracket[0] < found.factor <= found.bracket[0] + 1e-10 * scales[1]
+    assert found.upper[0] in factors[overturned]
+    assert found.upper[1] in factors[~overturned]
+    assert 0.0 < found.upper[1] - found.upper[0] <= 1e-10 * scales[1]
+
+
+@pytest.mark.parametrize(("block", "excitation", "scales", "floor"), CASES.values(), ids=CASES)
+def test_lowest_factor_is_not_above_that_of_the_intervals(block, excitation, scales, floor):
+    found = lowest_overturning(block, excitation, scales, floor=floor)
+    first, *_ = overturning_intervals(
+        block, excitation, scales, resolution=found.steps[-1][0], most_impacts=0
+    )
+    assert found.factor <= first.lower[1] + 1e-9
+    ends = [judge(block, excitation.scaled(factor)).overturned for factor in found.bracket]
+    assert ends == [False, True]
+    assert found.acceleration == pytest.approx(found.factor * excitation.peak_acceleration)
+
+
+def planted(monkeypatch, edges):
+    """Let the factors between each second pair of ascending edges overturn, whatever is shaken."""
+
+    def overturned(block, excitation, factors):
+        return np.searchsorted(edges, factors, side="right") % 2 == 1
+
+    monkeypatch.setattr(topheavy.minimum, "overturned_by", overturned)
+
+
+def test_every_interval_wider_than_the_last_step_is_found_and_its_width_measured(monkeypatch):
+    """Planted at random: intervals of all widths, in ranges of all kinds."""
+    random, narrower = np.random.default_rng(2014), 0
+    for _ in range(300):
+        first = random.choice([0.0, random.uniform(0.0, 3.0)])
+        last = first + random.uniform(0.5, 4.0)
+        begins = np.sort(random.uniform(first, last, 4))
+        room = np.diff([*begins, last])
+        widths = np.minimum(10.0 ** random.uniform(-6.0, 0.0, 4), 0.5 * room)
+        planted(monkeypatch, np.column_stack([begins, begins + widths]).ravel())
+        found = lowest_overturning(BLOCK, SHAKING, (first, last), floor=10 ** random.uniform(-4, 0))
+        step, bracket = found.steps[-1][0], 1e-10 * last
+        wide = np.flatnonzero(widths > step)
+        if found.bracket is None:
+            assert wide.size == 0
+            continue
+        (at,) = np.flatnonzero((begins <= found.factor) & (found.factor < begins + widths))
+        assert wide.size == 0 or at <= wide[0]
+        narrower += widths[at] < step
+        assert found.bracket[0] < begins[at] <= found.factor <= begins[at] + bracket
+        assert found.upper[0] < begins[at] + widths[at] <= found.upper[1]
+        assert found.width == pytest.approx(widths[at], abs=2 * bracket)
+    assert narrower > 50
+
+
+def test_survival_region_wider_than_a_sixteenth_of_the_width_ends_the_interval(monkeypatch):
+    for share in np.linspace(0.02, 0.9, 60):
+        edge = 1.0 + share
+        planted(monkeypatch, np.array([1.0, edge, edge + 1.001 * share / 16, 2.5]))
+        found = lowest_overturning(BLOCK, SHAKING, (0.0, 3.0), floor=0.1)
+        assert found.width == pytest.approx(share, abs=1e-9)
+
+
+def test_halving_stops_at_a_step_equal_to_the_floor():
+    found = lowest_overturning(BLOCK, SHAKING, (0.5, 4.5), floor=0.5)
+    assert [step for step, _ in found.steps] == [4.0, 2.0, 1.0, 0.5]
+    (only,) = lowest_overturning(BLOCK, SHAKING, (0.5, 4.5), floor=9.0).steps
+    assert only[0] == 4.0
+
+
+# ---------------------------------------------------------------------------- ends and words
+
+
+def test_range_that_begins_in_an_interval_says_so():
+    found = lowest_overturning(LINEAR, SINE, (4.0, 8.0), floor=0.1)
+    assert found.bracket == (4.0, 4.0)
+    assert {factor for _, factor in found.steps} == {4.0}
+    assert found.upper[0] == pytest.approx(6.3181, abs=1e-3)
+    assert str(found).startswith("The first factor of the range overturns; it is 4 (1 g), in an ")
+
+
+def test_interval_that_the_range_cuts_off_has_no_width():
+    found = lowest_overturning(LINEAR, SINE, (6.5, 8.0), floor=0.1)
+    assert found.factor == pytest.approx(7.16813, abs=1e-5)
+    assert found.upper is None
+    assert math.isnan(found.width)
+    assert "open at the end of the range" in str(found)
+
+
+def test_where_nothing_overturns_there_is_no_number():
+    found = lowest_overturning(LINEAR, SINE, (0.0, 1.0), floor=0.1)
+    assert (found.bracket, found.upper) == (None, None)
+    assert math.isnan(found.factor)
+    assert math.isnan(found.acceleration)
+    assert math.isnan(found.width)
+    assert {factor for _, factor in found.steps} == {None}
+    assert str(found).startswith("No factor tried from 0 to 1 overturns. The step was halved")
+
+
+def test_words_name_what_was_found_and_what_is_not_excluded(pier):
+    assert str(pier) == (
+        "The lowest factor found that overturns is 1.9672 (0.627183 g), in an interval 0.00044 "
+        "wide. The step was halved from 3.2 to 0.000390625: intervals narrower than the floor are "
+        "not excluded (floor 0.0004)."
+    )
+    assert NOT_EXCLUDED == "intervals narrower than the floor are not excluded"
+
+
+def test_search_never_speaks_of_convergence():
+    assert "converge" not in Path(topheavy.minimum.__file__).read_text(encoding="utf-8").lower()
+
+
+@pytest.mark.parametrize(
+    ("changes", "says"),
+    [
+        ({"scale_range": (2.0, 1.0)}, r"scale_range is \(2, 1\); expected it to ascend"),
+        (
+            {"scale_range": (-1.0, 1.0)},
+            r"scale_range begins at -1; .* give excitation.scaled\(-1\)",
+        ),
+        ({"scale_range": (0.0, math.inf)}, "scale_range is inf"),
+        ({"scale_range": (0.0, 1.0, 2.0)}, r"scale_range has shape \(3,\); expected two factors"),
+        ({"scale_range": 3.0}, r"scale_range has shape \(\); expected two factors"),
+        ({"floor": 0.0}, "floor is 0; expected more than zero"),
+        ({"floor": math.nan}, "floor is nan"),
+        ({"floor": "fine"}, "floor is 'fine'; expected a number"),
+        ({"floor": 1e-11}, "floor is 1e-11; expected at least 3e-10, 1e-10 of the last factor"),
+        ({"structure": 3}, "structure is 3; expected a Column, a RockingFrame"),
+        ({"excitation": 3}, "excitation is 3; expected a Pulse or a Record"),
+        ({"excitation": None}, "excitation is None; expected a Pulse or a Record"),
+        ({"excitation": Pulse("harmonic", 0.3, 5.0)}, "'harmonic'.*forever"),
+    ],
+)
+def test_bad_search_is_refused_by_name_and_value(changes, says):
+    given = {
+        "structure": BLOCK,
+        "excitation": SHAKING,
+        "scale_range": (0.0, 3.0),
+        "floor": 0.1,
+    } | changes
+    with pytest.raises(ValueError, match=says):
+        lowest_overturning(**given)
