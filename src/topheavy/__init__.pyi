@@ -9,6 +9,7 @@ from .contact_forces import (
 )
 from .fixed_frame import FixedFrame, peak_elastic, peak_elastic_by_scipy, peak_rigid
 from .fixed_mass import FixedMassColumn, MonolithicPortal
+from .fragility.estimate import Fragility, fragility
 from .frame_forces import base_shear_slope, frame_forces
 from .overturning import (
     minimum_overturning,
@@ -30,6 +31,7 @@ __all__ = [
     "ContactForces",
     "FixedFrame",
     "FixedMassColumn",
+    "Fragility",
     "MonolithicPortal",
     "Pulse",
     "Reaction",
@@ -41,6 +43,7 @@ __all__ = [
     "column_forces",
     "column_impulse",
     "contact_forces",
+    "fragility",
     "frame_forces",
     "impact_impulses",
     "judge",
