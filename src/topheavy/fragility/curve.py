@@ -51,8 +51,8 @@ def fit(levels: ArrayLike, shares: ArrayLike, *, skewed: bool) -> Array:
     )
     found = np.full((*shares.shape[:-1], 3), math.nan)
     fitted = np.asarray(points_between(shares) >= number)
-    found[fitted, number:] = 0.0
     found[fitted, :number] = _likeliest(powers, centred, shares[fitted])
+    found[~np.isnan(found[..., 0]), number:] = 0.0
     # The terms in (ln s - middle)/width, expanded to those in ln s.
     a, b, c = np.moveaxis(found, -1, 0)
     b, c = b / width, c / width**2
@@ -105,8 +105,11 @@ def curve(levels: ArrayLike, terms: Array) -> Array:
 
 
 def points_between(shares: Array) -> NDArray[np.int64]:
-    """Return the number of levels, of the last axis, whose share is neither 0 nor 1."""
-    return np.asarray(((shares > 0.0) & (shares < 1.0)).sum(axis=-1))
+    """Return the number of levels, of the last axis, whose share is neither 0 nor 1.
+
+    The mean of weights may miss either by rounding.
+    """
+    return np.asarray(((shares > FARTHEST) & (shares < 1.0 - FARTHEST)).sum(axis=-1))
 
 
 def rises_past(share: float, terms: Array) -> Array:
@@ -162,18 +165,18 @@ def dispersions(terms: Array) -> Array:
     return np.asarray(0.5 * (high - low))
 
 
-def why_no_fit(shares: Array, terms: Array) -> str:
+def why_no_fit(shares: Array, terms: Array, *, skewed: bool) -> str:
     """Return why a curve of these shares, shape (n,), has the terms NaN; empty where it has none.
 
-    The terms are those of `fit`.
+    The terms are those of `fit`, with or without the third.
     """
     if np.isfinite(terms).all():
         return ""
-    if not shares.any():
+    if (shares < FARTHEST).all():
         return "no motion overturns it at any level"
-    if (shares == 1.0).all():
+    if (shares > 1.0 - FARTHEST).all():
         return "every motion overturns it at every level"
-    if points_between(shares) < 3:
+    if points_between(shares) < (3 if skewed else 2):
         return (
             f"{points_between(shares)} of the levels have a probability between 0 and 1, which is "
             "too few to fit a curve: add levels between those where none and where all overturn"
@@ -181,13 +184,13 @@ def why_no_fit(shares: Array, terms: Array) -> str:
     return f"no fit of the curve in {MOST_PASSES} passes"
 
 
-def why_no_median(levels: Array, shares: Array, terms: Array) -> str:
+def why_no_median(levels: Array, shares: Array, terms: Array, *, skewed: bool) -> str:
     """Return why a curve of these shares, shape (n,), has no median; empty where it has one."""
     if np.isfinite(medians(levels, terms)):
         return ""
     at = float(rises_past(0.5, terms))
     if not np.isfinite(terms).all() or not math.isfinite(at):
-        return why_no_fit(shares, terms) or "the fitted curve does not rise past 1/2"
+        return why_no_fit(shares, terms, skewed=skewed) or "the fitted curve does not rise past 1/2"
     return (
         f"the fitted curve passes 1/2 at {at:.4g}, which is outside the levels, "
         f"{levels[0]:.4g} to {levels[-1]:.4g}: widen them"

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from reprlib import repr as short
+from reprlib import Repr
 from typing import Any, Literal
 
 import numpy as np
@@ -24,6 +24,10 @@ UNITS = {"PGV": "m/s", "PGA": "g"}
 """The measures of intensity that have a name, and their units."""
 
 FEWEST_RESAMPLES = 100
+
+_SHORT = Repr()
+_SHORT.maxother = 80
+short = _SHORT.repr
 
 
 @dataclass(frozen=True)

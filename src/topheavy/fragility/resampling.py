@@ -67,12 +67,18 @@ class ResampledMeans:
             drawn = self._random.binomial(self._left, size / self._awaited)
         counts = self._random.multinomial(drawn, np.full(size, 1.0 / size))
         self._awaited, self._left = self._awaited - size, self._left - drawn
-        weights = np.vstack([np.ones(size), counts]) / self._motions
-        found = [means(weights, each) for each in outcomes]
+        times = np.vstack([np.ones(size), counts])
+        found = [means(times, each) for each in outcomes]
         self._sums = list(map(np.add, self._sums, found)) if self._sums else found
 
     def means(self) -> list[Array]:
-        """Return the means of each outcome, of shape (1 + resamples, ...).
+        """Return the means of each outcome, of shape (1 + resamples, ...); errors as of `sums`."""
+        return [found / self._motions for found in self.sums()]
+
+    def sums(self) -> list[Array]:
+        """Return the sums of each outcome over the motions, of shape (1 + resamples, ...).
+
+        Those of yes and no are whole numbers, so that equal counts are equal.
 
         Raises
         ------
@@ -113,8 +119,8 @@ def means_within(
         found = ResampledMeans(len(motions), resamples, [seed, number] if number else seed)
         for first in range(0, len(motions), BLOCK):
             found.add([outcomes[motions[first : first + BLOCK]]])
-        total += len(motions) / len(outcomes) * found.means()[0]
-    return total
+        total += found.sums()[0]
+    return total / len(outcomes)
 
 
 def interval(values: Array, confidence: float) -> tuple[Array, Array, Array]:

@@ -31,6 +31,8 @@ def curve_table(
     means: Array,
     terms: Array,
     confidence: float,
+    *,
+    skewed: bool,
 ) -> "xarray.Dataset":
     """Return the `curves` of a `Fragility`, without its coordinates.
 
@@ -45,14 +47,18 @@ def curve_table(
     terms : ndarray, shape (1 + resamples, structures, 3)
         Of the curves of these shares.
     confidence : float
+    skewed : bool
+        As of `fit`.
     """
     import xarray  # here: with pandas it takes a second that only tables need
 
     low, high = exact_interval(overturned, motions, confidence)
     at, one = ("structure", "level"), ("structure",)
     middles, spreads = medians(levels, terms), dispersions(terms)
-    no_fit = [why_no_fit(*each) for each in zip(means[0], terms[0], strict=True)]
-    no_median = [why_no_median(levels, *each) for each in zip(means[0], terms[0], strict=True)]
+    no_fit = [why_no_fit(*each, skewed=skewed) for each in zip(means[0], terms[0], strict=True)]
+    no_median = [
+        why_no_median(levels, *each, skewed=skewed) for each in zip(means[0], terms[0], strict=True)
+    ]
     no_spread = [
         "" if np.isfinite(spread) else reason or "the curve does not rise past Φ(−1) and Φ(1)"
         for spread, reason in zip(spreads[0], no_fit, strict=True)
@@ -65,8 +71,9 @@ def curve_table(
         "fitted": (at, curve(levels, terms[0])),
         "terms": (("structure", "term"), terms[0]),
     }
-    found |= _resampled("median", one, middles, confidence)
-    found |= {"median_reason": (one, _reasons(no_median, middles, found, "median"))}
+    found |= _resampled("median_capacity", one, middles, confidence)
+    reasons = _reasons(no_median, middles, found, "median_capacity")
+    found |= {"median_capacity_reason": (one, reasons)}
     found |= _resampled("dispersion", one, spreads, confidence)
     found |= {"dispersion_reason": (one, _reasons(no_spread, spreads, found, "dispersion"))}
     return xarray.Dataset(found, {"term": list("abc")})
@@ -171,7 +178,7 @@ def _reasons(
         if reason or np.isfinite(both).all()
         else "no resample differs from the one motion"
         if count == resamples
-        else f"{count} of {resamples} resamples have no {name}"
+        else f"{count} of {resamples} resamples have no {name.replace('_', ' ')}"
         for reason, both, count in zip(reasons, ends.T, missing, strict=True)
     ]
     return np.array(said, dtype=object)
