@@ -9,6 +9,7 @@ from .contact_forces import (
 )
 from .fixed_frame import FixedFrame, peak_elastic, peak_elastic_by_scipy, peak_rigid
 from .fixed_mass import FixedMassColumn, MonolithicPortal
+from .fragility.estimate import Fragility, fragility
 from .frame_forces import base_shear_slope, frame_forces
 from .minimum import LowestOverturning, lowest_overturning
 from .overturning import (
@@ -32,6 +33,7 @@ __all__ = [
     "ContactForces",
     "FixedFrame",
     "FixedMassColumn",
+    "Fragility",
     "LowestOverturning",
     "MonolithicPortal",
     "Pulse",
@@ -44,6 +46,7 @@ __all__ = [
     "column_forces",
     "column_impulse",
     "contact_forces",
+    "fragility",
     "frame_forces",
     "impact_impulses",
     "judge",

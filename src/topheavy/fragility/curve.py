@@ -1,0 +1,197 @@
+"""The fragility curve Φ(a + b ln s + c ln² s) over the intensity s: fit, median, dispersion.
+
+With c = 0 the curve is lognormal; c is for the skewness that fragility under scaled motions has.
+Shares may come in any number, those of resamples also. Where nothing can be fitted or found, the
+value is NaN; `why_no_fit` and `why_no_median` give the reason in words.
+"""
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.special import log_ndtr, ndtr, ndtri
+
+MOST_PASSES = 50
+MOST_HALVINGS = 40  # of a pass
+EXPECTED = 25  # passes with the expected curvature of the likelihood; then with the observed one
+CLOSE = 1e-9  # of the score, for a single motion at each level
+ROUNDING = 1e-12  # of the log-likelihood, for a single motion at each level
+FARTHEST = 1e-12  # from 0 and 1, of a fitted share
+
+Array = NDArray[np.float64]
+
+
+def fit(levels: ArrayLike, shares: ArrayLike, *, skewed: bool) -> Array:
+    """Return the likeliest curves Φ(a + b ln s + c ln² s) as (a, b, c); NaN where there is none.
+
+    The same number of motions is at every level. The likelihood is maximised by reweighted least
+    squares (McCullagh & Nelder 1989, Generalized Linear Models, Sec. 2.5), started at the data. A
+    pass that makes the data less likely is halved until it does not: it has gone too far, as passes
+    do where many levels are far from the median. The logarithm of the likelihood is concave, and
+    with as many shares between 0 and 1 as there are terms it has one maximum.
+
+    Parameters
+    ----------
+    levels : array_like, shape (n,)
+        Intensities s, positive and ascending.
+    shares : array_like, shape (..., n)
+        Of the motions, those that overturn at each level.
+    skewed : bool
+        Whether c is fitted; otherwise it is 0.
+
+    Returns
+    -------
+    ndarray, shape (..., 3)
+    """
+    logs, shares = np.log(np.asarray(levels, dtype=float)), np.asarray(shares, dtype=float)
+    middle, width = logs.mean(), np.ptp(logs) / 2.0 or 1.0
+    number = 3 if skewed else 2
+    powers, centred = (
+        np.power.outer(x, np.arange(number)) for x in (logs, (logs - middle) / width)
+    )
+    found = np.full((*shares.shape[:-1], 3), math.nan)
+    fitted = np.asarray(points_between(shares) >= number)
+    found[fitted, :number] = _likeliest(powers, centred, shares[fitted])
+    found[~np.isnan(found[..., 0]), number:] = 0.0
+    # The terms in (ln s - middle)/width, expanded to those in ln s.
+    a, b, c = np.moveaxis(found, -1, 0)
+    b, c = b / width, c / width**2
+    return np.stack([a - b * middle + c * middle**2, b - 2.0 * c * middle, c], axis=-1)
+
+
+def _likeliest(powers: Array, centred: Array, shares: Array) -> Array:
+    """Return the likeliest terms in the centred powers, shape (m, number), of shares (m, n).
+
+    NaN without convergence, which the score in the `powers` of ln s decides.
+    """
+    probit = ndtri(np.clip(shares, 0.02, 0.98))
+    weights, slopes = np.ones_like(shares), np.zeros_like(shares)
+    terms = np.zeros((len(shares), powers.shape[-1]))
+    likely = np.full(len(shares), -math.inf)
+    score = np.zeros_like(terms)
+    for passed in range(MOST_PASSES):
+        normal = centred.T @ (weights[..., None] * centred)
+        right = (weights * probit + slopes) @ centred
+        found = np.linalg.solve(normal, right[..., None])[..., 0]
+        for _ in range(MOST_HALVINGS):
+            probit = found @ centred.T
+            over, under = log_ndtr(probit), log_ndtr(-probit)
+            likelihood = (shares * over + (1.0 - shares) * under).sum(axis=-1)
+            worse = likelihood < likely - ROUNDING
+            if not worse.any():
+                break
+            found[worse] = 0.5 * (found[worse] + terms[worse])
+        terms, likely = found, likelihood
+        density = -0.5 * (probit**2 + math.log(2.0 * math.pi))  # its logarithm, as of the shares
+        up, down = np.exp(density - over), np.exp(density - under)
+        slopes = shares * up - (1.0 - shares) * down
+        weights = up * down  # the expected curvature
+        if passed >= EXPECTED:
+            weights = shares * up * (up + probit) + (1.0 - shares) * down * (down - probit)
+        # At the maximum the residuals are orthogonal to every power.
+        score = np.abs(slopes @ powers)
+        if not (score >= CLOSE).any():
+            return terms
+    return np.where(np.all(score < CLOSE, axis=-1, keepdims=True), terms, math.nan)
+
+
+def _share(line: Array) -> Array:
+    return np.asarray(np.clip(ndtr(line), FARTHEST, 1.0 - FARTHEST))
+
+
+def curve(levels: ArrayLike, terms: Array) -> Array:
+    """Return the fitted shares that overturn, shape (..., n), of the terms of `fit`."""
+    return _share(terms @ np.log(np.asarray(levels)) ** np.arange(3)[:, None])
+
+
+def points_between(shares: Array) -> NDArray[np.int64]:
+    """Return the number of levels, of the last axis, whose share is neither 0 nor 1.
+
+    The mean of weights may miss either by rounding.
+    """
+    return np.asarray(((shares > FARTHEST) & (shares < 1.0 - FARTHEST)).sum(axis=-1))
+
+
+def rises_past(share: float, terms: Array) -> Array:
+    """Return the intensities at which the curves rise past a share; NaN where they do not.
+
+    Parameters
+    ----------
+    share : float
+        Between 0 and 1.
+    terms : ndarray, shape (..., 3)
+        Of `fit`.
+
+    Returns
+    -------
+    ndarray, shape (...)
+    """
+    a, b, c = np.moveaxis(terms, -1, 0)
+    a = a - ndtri(share)
+    with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+        root = np.sqrt(b**2 - 4.0 * a * c)  # the slope at the crossing
+        # One of both forms of the same root: neither subtracts what is nearly equal.
+        found = np.exp(np.where(b >= 0.0, -2.0 * a / (b + root), (root - b) / (2.0 * c)))
+    return np.where((root > 0.0) & np.isfinite(found) & (found > 0.0), found, math.nan)
+
+
+def medians(levels: ArrayLike, terms: Array) -> Array:
+    """Return the median capacities: the intensities at which the curves rise past 1/2.
+
+    A curve says nothing beyond its levels: a median there is NaN.
+
+    Parameters
+    ----------
+    levels : array_like, shape (n,)
+        Ascending.
+    terms : ndarray, shape (..., 3)
+        Of `fit`.
+
+    Returns
+    -------
+    ndarray, shape (...)
+    """
+    levels, found = np.asarray(levels), rises_past(0.5, terms)
+    return np.where((levels[0] < found) & (found < levels[-1]), found, math.nan)
+
+
+def dispersions(terms: Array) -> Array:
+    """Return half of ln(s₈₄/s₁₆), the intensities at which a curve rises past Φ(1) and Φ(−1).
+
+    Of a lognormal curve it is the standard deviation of ln s, 1/b. NaN where a curve does not rise
+    past both.
+    """
+    low, high = (np.log(rises_past(float(ndtr(probit)), terms)) for probit in (-1.0, 1.0))
+    return np.asarray(0.5 * (high - low))
+
+
+def why_no_fit(shares: Array, terms: Array, *, skewed: bool) -> str:
+    """Return why a curve of these shares, shape (n,), has the terms NaN; empty where it has none.
+
+    The terms are those of `fit`, with or without the third.
+    """
+    if np.isfinite(terms).all():
+        return ""
+    if (shares < FARTHEST).all():
+        return "no motion overturns it at any level"
+    if (shares > 1.0 - FARTHEST).all():
+        return "every motion overturns it at every level"
+    if points_between(shares) < (3 if skewed else 2):
+        return (
+            f"{points_between(shares)} of the levels have a probability between 0 and 1, which is "
+            "too few to fit a curve: add levels between those where none and where all overturn"
+        )
+    return f"no fit of the curve in {MOST_PASSES} passes"
+
+
+def why_no_median(levels: Array, shares: Array, terms: Array, *, skewed: bool) -> str:
+    """Return why a curve of these shares, shape (n,), has no median; empty where it has one."""
+    if np.isfinite(medians(levels, terms)):
+        return ""
+    at = float(rises_past(0.5, terms))
+    if not np.isfinite(terms).all() or not math.isfinite(at):
+        return why_no_fit(shares, terms, skewed=skewed) or "the fitted curve does not rise past 1/2"
+    return (
+        f"the fitted curve passes 1/2 at {at:.4g}, which is outside the levels, "
+        f"{levels[0]:.4g} to {levels[-1]:.4g}: widen them"
+    )
