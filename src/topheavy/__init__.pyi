@@ -16,9 +16,10 @@ from .overturning import (
     overturning_intervals,
     overturning_map,
 )
-from .pulses import PULSE_SHAPES, Pulse
+from .pulses import Pulse
 from .records import Record, read_at2, read_csv, read_record
 from .response import Response
+from .shapes import PULSE_SHAPES
 from .simulate import judge, simulate
 from .structures import STANDARD_GRAVITY, Column, RockingBlock, RockingFrame
 

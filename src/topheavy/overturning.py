@@ -11,8 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from topheavy import checks
 from topheavy.excitation import Excitation
 from topheavy.kernel.forcing import SHAPES
-from topheavy.kernel.grid import outcomes_of
-from topheavy.kernel.lanes import WIDTH
+from topheavy.kernel.grid import LANES, outcomes_of
 from topheavy.kernel.outcome import TOLERANCE
 from topheavy.kernel.taylor import oscillator
 from topheavy.pulses import Pulse, checked_shape
@@ -32,10 +31,10 @@ NARROWEST = 1.0 / 1024.0
 BRACKET = 1e-10
 """Width of the brackets, over the larger end of the range."""
 
-TOGETHER = 2 * WIDTH
+TOGETHER = 2 * LANES
 """Factors that are labelled at a time where boundaries are halved."""
 
-AT_A_TIME = 16 * WIDTH
+AT_A_TIME = 16 * LANES
 """Factors that are labelled at a time where only the first that overturns is sought."""
 
 MOST_HALVINGS = 64

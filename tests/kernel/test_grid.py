@@ -12,11 +12,11 @@ from topheavy.kernel.grid import (
     BATCHES,
     FEWEST_FACTORS,
     FEWEST_PULSES,
+    LANES,
     outcome_of,
     outcomes_of,
     record_order,
 )
-from topheavy.kernel.lanes import WIDTH
 from topheavy.kernel.outcome import PULSE_ORDER, TOLERANCE
 from topheavy.kernel.taylor import oscillator
 
@@ -56,7 +56,7 @@ def test_factors_on_a_record_do_not_depend_on_the_number_of_threads(threads):
     same(outcomes_of(BLOCK, forcing.RECORD, steps, factors, record, threads=threads), alone)
 
 
-@pytest.mark.parametrize("size", [(1, 1), (1, WIDTH - 1), (1, WIDTH + 1), (BATCHES, FEWEST_PULSES)])
+@pytest.mark.parametrize("size", [(1, 1), (1, LANES - 1), (1, LANES + 1), (BATCHES, FEWEST_PULSES)])
 def test_every_cell_is_filled_whatever_the_size(size):
     scales, amplitudes = np.linspace(1, 5, size[0]), np.linspace(0.3, 0.4, size[1])
     peak, overturned, _ = outcomes_of(BLOCK, forcing.ONE_SINE, scales, amplitudes)

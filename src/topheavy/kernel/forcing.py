@@ -16,26 +16,24 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from topheavy import shapes
 from topheavy.kernel.compiled import compiled
 
-ONE_SINE, ONE_COSINE, HALF_SINE, CONSTANT, HARMONIC = range(5)
-RICKER_SYMMETRIC, RICKER_ANTISYMMETRIC, RECORD, NONE = range(5, 9)
-SHAPES = {
-    "one-sine": ONE_SINE,
-    "one-cosine": ONE_COSINE,
-    "half-sine": HALF_SINE,
-    "constant": CONSTANT,
-    "harmonic": HARMONIC,
-    "ricker-symmetric": RICKER_SYMMETRIC,
-    "ricker-antisymmetric": RICKER_ANTISYMMETRIC,
-}
+#: The number of each shape of `topheavy.shapes`; a record and no motion have numbers, too.
+SHAPES = {name: number for number, name in enumerate(shapes.SHAPES)}
+ONE_SINE, ONE_COSINE, HALF_SINE = SHAPES["one-sine"], SHAPES["one-cosine"], SHAPES["half-sine"]
+CONSTANT, HARMONIC = SHAPES["constant"], SHAPES["harmonic"]
+RICKER_SYMMETRIC, RICKER_ANTISYMMETRIC = SHAPES["ricker-symmetric"], SHAPES["ricker-antisymmetric"]
+RECORD, NONE = len(SHAPES), len(SHAPES) + 1
 #: Phase ωt at which each shape ends (a record ends by its own time, no motion at once).
-LAST_PHASE = np.array([2, 2, 1, 1, np.inf, 9, 9, 0, 0]) * math.pi
+LAST_PHASE = np.array([*(each.half_periods for each in shapes.SHAPES.values()), 0, 0]) * math.pi
 RICKER_CENTRE = 4.5 * math.pi
 #: y = κ (ωt − centre) is the variable in which a Ricker wavelet is a derivative of exp(−y²).
-KAPPA = np.array([0, 0, 0, 0, 0, 1 / 2, 1 / math.sqrt(6)])
+KAPPA = np.zeros(len(SHAPES))
+KAPPA[RICKER_SYMMETRIC], KAPPA[RICKER_ANTISYMMETRIC] = 1 / 2, 1 / math.sqrt(6)
 #: The order of that derivative.
-DERIVATIVE = np.array([0, 0, 0, 0, 0, 2, 3])
+DERIVATIVE = np.zeros(len(SHAPES), dtype=np.int64)
+DERIVATIVE[RICKER_SYMMETRIC], DERIVATIVE[RICKER_ANTISYMMETRIC] = 2, 3
 #: The amplitude of the antisymmetric wavelet is normalised by its own peak, to five digits.
 ANTISYMMETRIC_PEAK = 1.3801
 #: A pulse that ends has at most five monotone pieces, each of which rounding may cut in two. In as

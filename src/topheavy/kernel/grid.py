@@ -1,7 +1,8 @@
 """Many rocking histories at once: the outcome of every pair of a scale and an amplitude.
 
-A scale is ω/p of a pulse, p Δt of a record. The histories run in the lanes of `pulse_batch` and
-`record_batch`, on all cores; no result depends on how many lanes or cores there are.
+A scale is ω/p of a pulse, p Δt of a record. The histories run in the lanes of the CPU
+(`kernel.lanes`, to which this module is the only door), on all cores; no result depends on how many
+lanes or cores there are.
 """
 
 import math
@@ -15,7 +16,9 @@ from numpy.typing import NDArray
 
 from topheavy.kernel.forcing import NO_RECORD, RECORD, SHAPES, pulse_forcing, record_forcing
 from topheavy.kernel.interrupt import LONG, in_threads
-from topheavy.kernel.lanes import WIDTH
+from topheavy.kernel.lanes.pulses import pulse_outcomes, unsettled
+from topheavy.kernel.lanes.records import record_outcomes
+from topheavy.kernel.lanes.vectors import HAS_FMA, WIDTH
 from topheavy.kernel.outcome import (
     MAX_STEPS,
     PULSE_ORDER,
@@ -24,8 +27,6 @@ from topheavy.kernel.outcome import (
     outcome,
     working_array,
 )
-from topheavy.kernel.pulse_batch import ALONE, pulse_outcomes
-from topheavy.kernel.record_batch import record_outcomes
 from topheavy.kernel.taylor import Oscillator
 
 Array = NDArray[np.float64]
@@ -34,6 +35,8 @@ Outcomes = tuple[Array, NDArray[np.bool_], NDArray[np.int64]]
 #: Cells are split into at most so many batches of neighbours, which do much the same in all lanes.
 #: Threads take up the batches as they come free.
 BATCHES = 64
+#: How many histories run at once in a core, and whether it multiplies and adds in one operation.
+LANES, FUSED = WIDTH, HAS_FMA
 #: The least number of cells in a batch. Fewer would leave lanes idle at its end, or be done before
 #: a second thread has started.
 FEWEST_PULSES, FEWEST_FACTORS = 32 * WIDTH, 4 * WIDTH
@@ -122,12 +125,10 @@ def pulse_outcomes_of(
     scales, amplitudes = (np.broadcast_to(each, size) for each in pairs)
     if lost >= 0:
         raise _unresolved(block, shape, float(scales.flat[lost]), float(amplitudes.flat[lost]))
-    # Row by row: a mask of all cells would need memory as large as one of the results.
-    for i in np.flatnonzero(impacts.min(axis=1, initial=0) == ALONE):
-        for j in np.flatnonzero(impacts[i] == ALONE):
-            cell = (float(scales[i, j]), float(amplitudes[i, j]))
-            alone = outcome_of(block, shape, *cell, tolerance=tolerance)
-            overturned[i, j], peak[i, j], impacts[i, j] = alone[:3]
+    for place in unsettled(impacts):
+        cell = (float(scales.flat[place]), float(amplitudes.flat[place]))
+        found = outcome_of(block, shape, *cell, tolerance=tolerance)
+        overturned.flat[place], peak.flat[place], impacts.flat[place] = found[:3]
     return peak, overturned, impacts
 
 
@@ -147,8 +148,8 @@ def _shared(
     if threads == 1:
         batches = 1  # so that no lane idles at the end of any but the last cells
 
-    def do(batch: int, v: Array) -> int:
-        return int(work(v, batch, batches, *given))
+    def do(batch: int, workspace: Array) -> int:
+        return int(work(workspace, batch, batches, *given))
 
     lost = in_threads([partial(do, batch) for batch in range(batches)], min(threads, batches))
     return min((cell for cell in lost if cell >= 0), default=-1)
@@ -169,8 +170,8 @@ def outcome_of(
     else:
         forcing, order = pulse_forcing(shape, amplitude, scale), PULSE_ORDER
 
-    def call(w: Array) -> Outcome:
-        found: Outcome = outcome(w, order, tolerance, block, forcing, record)
+    def call(workspace: Array) -> Outcome:
+        found: Outcome = outcome(workspace, order, tolerance, block, forcing, record)
         return found
 
     found = in_threads([call])[0] if record.shape[1] > LONG else call(working_array())

@@ -1,7 +1,7 @@
-"""Outcomes of many pulses, one history in each lane (see `lane_steps`).
+"""Outcomes of many pulses, one history in each lane (see `steps`).
 
-A history that ends poised at the barrier is marked, and `grid` follows it once more by the scalar
-kernel, so that a map and `judge` tell the same up to the last bits of a boundary.
+A history that ends poised at the barrier is left to the scalar kernel (`unsettled`), so that a map
+and `judge` tell the same up to the last bits of a boundary.
 
 All lanes take their steps together, each a step of its own length. A lane whose history is over
 takes up the next cell. What follows from the physics of one history (the next uplift, coming to
@@ -23,15 +23,16 @@ from topheavy.kernel.forcing import (
     next_uplift,
     pulse_forcing,
 )
-from topheavy.kernel.lane_steps import (
+from topheavy.kernel.lanes.steps import (
     CENTRE,
     D1,
+    END,
     FACTOR,
+    FREQUENCY,
     IMPACTS,
     LENGTH,
     LONGEST,
     MAX_ORDER,
-    OWN,
     PEAK,
     PUSH,
     ROTATION,
@@ -47,7 +48,7 @@ from topheavy.kernel.lane_steps import (
     still,
     strike,
 )
-from topheavy.kernel.lanes import (
+from topheavy.kernel.lanes.vectors import (
     WIDTH,
     absolute,
     bits,
@@ -65,10 +66,8 @@ from topheavy.kernel.rest import next_tick
 from topheavy.kernel.tail import free_rocking, is_poised
 
 assert PULSE_ORDER <= MAX_ORDER
-#: The end of the pulse, and ω/p.
-END, FREQUENCY = OWN, OWN + 1
-#: In place of the impacts of a history that the scalar kernel has to follow.
-ALONE = -1
+#: In place of the impacts of a history that is left to the scalar kernel.
+UNSETTLED = -1
 
 
 @compiled
@@ -138,7 +137,7 @@ def forcing_at(shape, scales, amplitudes, i, j):
 
 @compiled(nogil=True)
 def pulse_outcomes(
-    v,
+    alone,
     batch,
     batches,
     block,
@@ -153,11 +152,11 @@ def pulse_outcomes(
 ):
     """Fill one of as many parts of the cells as there are `batches`; see `grid.pulse_outcomes_of`.
 
-    A history that ends poised at the barrier gets `ALONE` for its impacts.
+    The cells of histories that end poised at the barrier are found by `unsettled`.
 
     Parameters
     ----------
-    v : array
+    alone : array
         A working array for steps that a lane takes alone, which may say halt (`outcome.HALT`).
     record : array
         `NO_RECORD`. As an argument, not as a constant, it has the type that it has in
@@ -191,9 +190,9 @@ def pulse_outcomes(
                 still(w, lane)
         if busy == 0:
             return lost
-        if v[HALT, 0] != 0.0:
-            return cells[int(v[HALT, 1])]
-        landed, fallen = advance(w, v, block, PULSE_ORDER, tolerance, False, busy)
+        if alone[HALT, 0] != 0.0:
+            return cells[int(alone[HALT, 1])]
+        landed, fallen = advance(w, alone, block, PULSE_ORDER, tolerance, False, busy)
         time, end, step = load(w, TIME), load(w, END), load(w, LENGTH)
         time = select(step >= load(w, LONGEST), end, time + step)
         store(w, TIME, time)
@@ -218,7 +217,7 @@ def pulse_outcomes(
                 fell, highest = tail.overturned, max(highest, tail.peak)
                 count += tail.impacts
                 if is_poised(block, w[ROTATION, lane], w[VELOCITY, lane]):
-                    count = ALONE
+                    count = UNSETTLED
             elif w[STEPS, lane] > MAX_STEPS:
                 lost = cells[lane] if lost < 0 else min(lost, cells[lane])
             else:
@@ -230,3 +229,20 @@ def pulse_outcomes(
             peak[i, j] = math.nan if fell else highest
             overturned[i, j], impacts[i, j] = fell, count
             vacant |= 1 << lane
+
+
+@compiled
+def unsettled(impacts):
+    """Return the flat places of the cells that `pulse_outcomes` left to the scalar kernel.
+
+    A mask of all cells would need memory as large as one of the results.
+    """
+    number = 0
+    for count in impacts.flat:
+        number += count == UNSETTLED
+    places, found = np.empty(number, dtype=np.int64), 0
+    for place, count in enumerate(impacts.flat):
+        if count == UNSETTLED:
+            places[found] = place
+            found += 1
+    return places

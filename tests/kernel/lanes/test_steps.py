@@ -7,7 +7,6 @@ import pytest
 from numba import njit
 
 from topheavy import RockingBlock
-from topheavy.kernel import lane_steps as steps
 from topheavy.kernel.forcing import (
     CONSTANT,
     ONE_COSINE,
@@ -18,7 +17,8 @@ from topheavy.kernel.forcing import (
     ground,
     pulse_forcing,
 )
-from topheavy.kernel.lanes import WIDTH, rows
+from topheavy.kernel.lanes import steps
+from topheavy.kernel.lanes.vectors import WIDTH, rows
 from topheavy.kernel.outcome import (
     FLAT,
     LANDING,

@@ -1,18 +1,20 @@
-"""Taylor steps with proven events, one history in each lane (see `lanes`).
+"""Taylor steps with proven events, one history in each lane (see `vectors`).
 
-The series is that of `taylor`, the proof that of `outcome.advance`: the signs of Bernstein
+The series is that of `kernel.taylor`, the proof that of `outcome.advance`: the signs of Bernstein
 coefficients. Here they are not counted. Where the coefficients rise first and fall then (or the
 other way round, or do one of the two), so does φ: it has at most one turn, and at most one landing
 that follows from its ends. Halley's iteration finds both. A lane in which that is not so, or in
 which the iteration does not surely converge, takes its step by `proven`, as the scalar kernel does.
 
-The working array `w` has a row for every coefficient and every variable. `order` and `is_straight`
-are constants where these functions are called, so that their loops become straight code.
+The array `w` of a batch has a row for every coefficient and every variable, a float a lane. `alone`
+is the working array of the scalar kernel (`outcome.working_array`), for a lane that is taken alone.
+`order` and `is_straight` are constants where these functions are called, so that their loops become
+straight code.
 """
 
 from topheavy.kernel.bernstein import CONVERT
 from topheavy.kernel.compiled import compiled
-from topheavy.kernel.lanes import (
+from topheavy.kernel.lanes.vectors import (
     absolute,
     among,
     bits,
@@ -40,9 +42,8 @@ SIDE, FACTOR, C, D1, CENTRE = range(7 * (MAX_ORDER + 1), 7 * (MAX_ORDER + 1) + 5
 #: τ, the longest step allowed, the step taken; the largest φ so far, and the same or 0 as long as
 #: the rotation is below `rest.LAST_BOUNCE` α; impacts and steps so far.
 TIME, LONGEST, LENGTH, PEAK, ARC, IMPACTS, STEPS = range(CENTRE + 1, CENTRE + 8)
-#: Two rows that a batch may use as it likes, and the number of all.
-OWN = STEPS + 1
-ROWS = OWN + 2
+#: The end of a pulse, and its ω/p; the piece of a record that a lane is at. The number of all rows.
+END, FREQUENCY, PIECE, ROWS = range(STEPS + 1, STEPS + 5)
 
 #: The steps are this much shorter than the rough power says.
 CAUTION = 0.95
@@ -198,28 +199,28 @@ def landing(w, order, step, final, lands):
 
 
 @compiled
-def step_alone(w, v, lane, order, flat):
+def step_alone(w, alone, lane, order, flat):
     """Take the step of one lane as the scalar kernel does; return its event."""
     step, zeros, power = w[LENGTH, lane], 0, 1.0
     while zeros < 3 and w[ROTATION + zeros, lane] == 0.0:
         zeros += 1
     for k in range(order + 1):
-        v[POLYNOMIAL, k] = w[ROTATION + k, lane] * power
+        alone[POLYNOMIAL, k] = w[ROTATION + k, lane] * power
         power *= step
     # order + 0 hides a constant, for which numba would compile it all anew.
-    end, event, w[ARC, lane] = proven(v, order + 0, zeros, flat, w[ARC, lane])
+    end, event, w[ARC, lane] = proven(alone, order + 0, zeros, flat, w[ARC, lane])
     w[LENGTH, lane] = step * end
-    v[HALT, 1] = lane  # which is to blame if this was too much
+    alone[HALT, 1] = lane  # which is to blame if this was too much
     return event
 
 
 @compiled(forceinline=True)
-def advance(w, v, block, order, tolerance, is_straight, active):
+def advance(w, alone, block, order, tolerance, is_straight, active):
     """Find the step of each lane, and what ends it; `LENGTH` and `ARC` take it up.
 
     Parameters
     ----------
-    w, v : array
+    w, alone : array
         The working array, and one for a history alone (`outcome.working_array`).
     active : int
         Bits of the lanes that matter.
@@ -257,10 +258,10 @@ def advance(w, v, block, order, tolerance, is_straight, active):
     store(w, LENGTH, select(hard, step, length))
     store(w, ARC, select(hard, arc, highest))
     landed, fallen, unsettled = bits(lands & ~hard) & active, 0, bits(hard) & active
-    while unsettled and v[HALT, 0] == 0.0:  # one bit less each time
+    while unsettled and alone[HALT, 0] == 0.0:  # one bit less each time
         lane = lowest(unsettled)
         unsettled &= unsettled - 1
-        event = step_alone(w, v, lane, order, block.flat)
+        event = step_alone(w, alone, lane, order, block.flat)
         landed |= (1 << lane) if event == LANDING else 0
         fallen |= (1 << lane) if event == FLAT else 0
     return landed, fallen

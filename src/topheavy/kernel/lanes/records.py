@@ -1,8 +1,8 @@
-"""Outcomes of many factors on one record, one history in each lane (see `lane_steps`).
+"""Outcomes of many factors on one record, one history in each lane (see `steps`).
 
 Every lane is at a piece of the record of its own. Most pieces are passed over by the short series
 of `march`, which proves that they hold no event; a lane for which it does not waits until as many
-lanes need the long series of `lane_steps`. So both work with many lanes at a time. What follows
+lanes need the long series of `steps`. So both work with many lanes at a time. What follows
 from the physics of one history is done by the functions of the scalar kernel.
 """
 
@@ -12,15 +12,15 @@ import numpy as np
 
 from topheavy.kernel.compiled import compiled
 from topheavy.kernel.forcing import next_uplift, piece_at, record_forcing
-from topheavy.kernel.lane_steps import (
+from topheavy.kernel.lanes.steps import (
     ARC,
     COSINE,
     FACTOR,
     IMPACTS,
     LENGTH,
     LONGEST,
-    OWN,
     PEAK,
+    PIECE,
     PUSH,
     ROTATION,
     ROWS,
@@ -35,7 +35,7 @@ from topheavy.kernel.lane_steps import (
     still,
     strike,
 )
-from topheavy.kernel.lanes import (
+from topheavy.kernel.lanes.vectors import (
     WIDTH,
     absolute,
     among,
@@ -59,8 +59,6 @@ from topheavy.kernel.taylor import State
 
 #: Terms of φ in a long step. A piece of p Δt = 0.1 takes one step at the usual tolerance.
 RECORD_ORDER = 9
-#: The piece that a lane is at.
-PIECE = OWN
 #: The long series waits until fewer than this share of the lanes go on without it.
 FEW = WIDTH // 3
 
@@ -161,13 +159,13 @@ def overturns(w, lane, block, forcing, record):
 
 @compiled(nogil=True)
 def record_outcomes(
-    v, batch, batches, block, step, factors, record, tolerance, peak, overturned, impacts
+    alone, batch, batches, block, step, factors, record, tolerance, peak, overturned, impacts
 ):
     """Fill one of as many parts of the factors as there are `batches`; see `grid.outcomes_of`.
 
     Parameters
     ----------
-    v : array
+    alone : array
         A working array for steps that a lane takes alone, which may say halt (`outcome.HALT`).
 
     Returns
@@ -203,14 +201,14 @@ def record_outcomes(
                 w[PIECE, lane] = 0.0
         if marching | stepping == 0:
             return lost
-        if v[HALT, 0] != 0.0:
-            return cells[int(v[HALT, 1])]
+        if alone[HALT, 0] != 0.0:
+            return cells[int(alone[HALT, 1])]
         if stepping == 0 or number(marching) > FEW:
             passed = march_lanes(w, block, samples, step, bound, marching)
             stepping |= marching & ~passed
             marching = passed
             continue
-        landed, fallen = advance(w, v, block, RECORD_ORDER, tolerance, True, stepping)
+        landed, fallen = advance(w, alone, block, RECORD_ORDER, tolerance, True, stepping)
         piece_end, time, taken = (load(w, PIECE) + 1.0) * step, load(w, TIME), load(w, LENGTH)
         time = select(taken >= load(w, LONGEST), piece_end, time + taken)
         store(w, TIME, time)
