@@ -1,13 +1,13 @@
-"""Many rocking histories at once: the outcome of every pair of a scale and an amplitude.
+"""Many rocking histories at once: outcomes of blocks under pulses of one shape, or one record.
 
 A scale is ω/p of a pulse, p Δt of a record. The histories run in the lanes of the CPU
 (`kernel.lanes`, to which this module is the only door), on all cores; no result depends on how many
-lanes or cores there are.
+lanes or cores there are, or on which histories run beside each other.
 """
 
 import math
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any
 
@@ -30,6 +30,7 @@ from topheavy.kernel.outcome import (
 from topheavy.kernel.taylor import Oscillator
 
 Array = NDArray[np.float64]
+Indices = NDArray[np.int64]
 Outcomes = tuple[Array, NDArray[np.bool_], NDArray[np.int64]]
 
 #: Cells are split into at most so many batches of neighbours, which do much the same in all lanes.
@@ -85,20 +86,56 @@ def outcomes_of(
     ArithmeticError
         For a history that takes more than `outcome.MAX_STEPS` steps.
     """
+    how = {"tolerance": tolerance, "threads": threads}
     if shape != RECORD:
-        rows = scales[:, np.newaxis]
-        return pulse_outcomes_of(
-            block, shape, rows, amplitudes, tolerance=tolerance, threads=threads
-        )
+        return pulse_outcomes_of(block, shape, scales[:, np.newaxis], amplitudes, **how)
     size = (len(scales), len(amplitudes))
-    peak, overturned = np.empty(size), np.empty(size, dtype=bool)
-    impacts = np.empty(size, dtype=np.int64)
-    for i, step in enumerate(scales):
-        given = (block, step, amplitudes, record, tolerance, peak[i], overturned[i], impacts[i])
-        fewest, samples = FEWEST_FACTORS, record.shape[1]
-        lost = _shared(record_outcomes, given, len(amplitudes), fewest, samples, threads)
-        if lost >= 0:
-            raise _unresolved(block, shape, float(step), float(amplitudes[lost]))
+    pairs = np.repeat(scales, size[1]), np.tile(amplitudes, size[0])
+    found = _record_outcomes([block], np.zeros(pairs[0].size, np.int64), *pairs, record, **how)
+    return tuple(values.reshape(size) for values in found)
+
+
+def mixed_outcomes_of(
+    blocks: Sequence[Oscillator],
+    shape: int,
+    which: Indices,
+    scales: Array,
+    amplitudes: Array,
+    record: Array = NO_RECORD,
+    *,
+    tolerance: float = TOLERANCE,
+    threads: int | None = None,
+) -> Outcomes:
+    """Return the outcomes of histories of several blocks, each with its scale and amplitude.
+
+    Parameters
+    ----------
+    which : array of int, shape (n,)
+        The block of each history, by its place in `blocks`.
+    scales, amplitudes : array, shape (n,)
+        The rest is as of `outcomes_of`.
+
+    Returns
+    -------
+    peak, overturned, impacts : array, shape (n,)
+    """
+    peak, overturned = np.empty(which.size), np.empty(which.size, dtype=bool)
+    impacts = np.empty(which.size, dtype=np.int64)
+    linearised = np.array([block.linearised for block in blocks])[which]
+    for kind in (False, True):  # the lanes follow one equation at a time
+        (at,) = np.nonzero(linearised == kind)
+        if not at.size:
+            continue
+        alike = [number for number, block in enumerate(blocks) if block.linearised == kind]
+        place = np.searchsorted(alike, which[at])
+        given = ([blocks[number] for number in alike], place, scales[at], amplitudes[at])
+        how = {"tolerance": tolerance, "threads": threads}
+        if shape == RECORD:
+            found = _record_outcomes(*given, record, **how)
+        else:
+            of, *each = given
+            found = _pulse_outcomes(of, shape, *(values[np.newaxis] for values in each), **how)
+        peak[at], overturned[at], impacts[at] = (values.ravel() for values in found)
     return peak, overturned, impacts
 
 
@@ -115,21 +152,66 @@ def pulse_outcomes_of(
 
     The results have two axes, as that has; the rest is as of `outcomes_of`.
     """
+    only = np.zeros((1, 1), np.int64)
+    how = {"tolerance": tolerance, "threads": threads}
+    return _pulse_outcomes([block], shape, only, scales, amplitudes, **how)
+
+
+def _pulse_outcomes(
+    blocks: Sequence[Oscillator],
+    shape: int,
+    which: Indices,
+    scales: Array,
+    amplitudes: Array,
+    *,
+    tolerance: float,
+    threads: int | None,
+) -> Outcomes:
+    """Return the outcomes of all that broadcasting the last three makes; blocks of one equation."""
     size = np.broadcast_shapes(scales.shape, amplitudes.shape)
     peak, overturned = np.empty(size), np.empty(size, dtype=bool)
     impacts = np.empty(size, dtype=np.int64)
     # Copies in C order: for arrays that are strided, transposed or read-only it would compile anew.
-    pairs = [np.array(np.atleast_2d(each), order="C") for each in (scales, amplitudes)]
-    given = (block, shape, *pairs, NO_RECORD, tolerance, peak, overturned, impacts)
-    lost = _shared(pulse_outcomes, given, peak.size, FEWEST_PULSES, 1, threads)
-    scales, amplitudes = (np.broadcast_to(each, size) for each in pairs)
+    cells = [np.array(np.atleast_2d(each), order="C") for each in (which, scales, amplitudes)]
+    given = (blocks[0], _rows(blocks), shape, *cells, NO_RECORD, tolerance)
+    results = (peak, overturned, impacts)
+    lost = _shared(pulse_outcomes, (*given, *results), peak.size, FEWEST_PULSES, 1, threads)
+    which, scales, amplitudes = (np.broadcast_to(each, size) for each in cells)
     if lost >= 0:
-        raise _unresolved(block, shape, float(scales.flat[lost]), float(amplitudes.flat[lost]))
+        cell = (float(scales.flat[lost]), float(amplitudes.flat[lost]))
+        raise _unresolved(blocks[which.flat[lost]], shape, *cell)
     for place in unsettled(impacts):
         cell = (float(scales.flat[place]), float(amplitudes.flat[place]))
-        found = outcome_of(block, shape, *cell, tolerance=tolerance)
+        found = outcome_of(blocks[which.flat[place]], shape, *cell, tolerance=tolerance)
         overturned.flat[place], peak.flat[place], impacts.flat[place] = found[:3]
     return peak, overturned, impacts
+
+
+def _record_outcomes(
+    blocks: Sequence[Oscillator],
+    which: Indices,
+    steps: Array,
+    factors: Array,
+    record: Array,
+    *,
+    tolerance: float,
+    threads: int | None,
+) -> Outcomes:
+    """Return the outcomes of histories under a record, each with its block, p Δt and factor."""
+    peak, overturned = np.empty(which.size), np.empty(which.size, dtype=bool)
+    impacts = np.empty(which.size, dtype=np.int64)
+    given = (blocks[0], _rows(blocks), which, steps, factors, record, tolerance)
+    results = (peak, overturned, impacts)
+    size, samples = (which.size, FEWEST_FACTORS), record.shape[1]
+    lost = _shared(record_outcomes, (*given, *results), *size, samples, threads)
+    if lost >= 0:
+        raise _unresolved(blocks[which[lost]], RECORD, float(steps[lost]), float(factors[lost]))
+    return peak, overturned, impacts
+
+
+def _rows(blocks: Sequence[Oscillator]) -> Array:
+    """Return the blocks as the lanes take them: a row of floats each."""
+    return np.array([block[:5] for block in blocks])
 
 
 def _shared(

@@ -44,7 +44,10 @@ from topheavy.kernel.lanes.steps import (
     advance,
     finish,
     lift,
+    numbered,
     rests,
+    seat,
+    seated,
     still,
     strike,
 )
@@ -74,6 +77,7 @@ UNSETTLED = -1
 def begin(w, lane, block, forcing, record):
     """Let a block stand in a lane; return whether the pulse lifts it."""
     still(w, lane)
+    seat(w, lane, block)
     time, push, rate, side = next_uplift(forcing, record, 0.0, block.level)
     if time >= forcing.end:
         return False
@@ -113,7 +117,7 @@ def renew(w, level, shape):
     else:
         bell = bell * (math.sqrt(2) / ANTISYMMETRIC_PEAK)
         value, rate = y * fma(square, 2.0, -3.0), fma(square, fma(square, -4.0, 12.0), -3.0)
-    store(w, PUSH, fma(bell, value, -level + 0.0 * y))
+    store(w, PUSH, fma(bell, value, -level))
     store(w, PUSH + 1, bell * rate * kappa)
 
 
@@ -129,10 +133,9 @@ def lifts_again(w, lane, block, forcing, record):
 
 
 @compiled(forceinline=True)
-def forcing_at(shape, scales, amplitudes, i, j):
-    """Return the pulse of a cell; an axis of length 1 stands for all its cells."""
-    amplitude = amplitudes[i % amplitudes.shape[0], j % amplitudes.shape[1]]
-    return pulse_forcing(shape, amplitude, scales[i % scales.shape[0], j % scales.shape[1]])
+def at(values, i, j):
+    """Return the value of a cell; an axis of length 1 stands for all its cells."""
+    return values[i if values.shape[0] > 1 else 0, j if values.shape[1] > 1 else 0]
 
 
 @compiled(nogil=True)
@@ -140,8 +143,10 @@ def pulse_outcomes(
     alone,
     batch,
     batches,
-    block,
+    kind,
+    blocks,
     shape,
+    which,
     scales,
     amplitudes,
     record,
@@ -158,6 +163,8 @@ def pulse_outcomes(
     ----------
     alone : array
         A working array for steps that a lane takes alone, which may say halt (`outcome.HALT`).
+    kind, blocks : Oscillator, array
+        The blocks, as `numbered` takes them; `which` has the number of the block of each cell.
     record : array
         `NO_RECORD`. As an argument, not as a constant, it has the type that it has in
         `grid.outcome_of`: what both call is then compiled but once.
@@ -178,8 +185,8 @@ def pulse_outcomes(
             vacant &= vacant - 1
             while coming < last and not lifted:
                 i, j = coming // columns, coming % columns
-                forcing = forcing_at(shape, scales, amplitudes, i, j)
-                lifted = begin(w, lane, block, forcing, record)
+                forcing = pulse_forcing(shape, at(amplitudes, i, j), at(scales, i, j))
+                lifted = begin(w, lane, numbered(kind, blocks, at(which, i, j)), forcing, record)
                 if not lifted:
                     peak[i, j], overturned[i, j], impacts[i, j] = 0.0, False, 0
                 cells[lane] = coming
@@ -192,6 +199,7 @@ def pulse_outcomes(
             return lost
         if alone[HALT, 0] != 0.0:
             return cells[int(alone[HALT, 1])]
+        block = seated(w, kind)
         landed, fallen = advance(w, alone, block, PULSE_ORDER, tolerance, False, busy)
         time, end, step = load(w, TIME), load(w, END), load(w, LENGTH)
         time = select(step >= load(w, LONGEST), end, time + step)
@@ -209,22 +217,23 @@ def pulse_outcomes(
             lane = lowest(ending)
             ending &= ending - 1
             i, j = cells[lane] // columns, cells[lane] % columns
+            own = numbered(kind, blocks, at(which, i, j))
             fell, highest, count = False, w[PEAK, lane], w[IMPACTS, lane]
             if fallen >> lane & 1:
                 fell = True
             elif over >> lane & 1:
-                tail = free_rocking(block, w[ROTATION, lane], w[VELOCITY, lane])
+                tail = free_rocking(own, w[ROTATION, lane], w[VELOCITY, lane])
                 fell, highest = tail.overturned, max(highest, tail.peak)
                 count += tail.impacts
-                if is_poised(block, w[ROTATION, lane], w[VELOCITY, lane]):
+                if is_poised(own, w[ROTATION, lane], w[VELOCITY, lane]):
                     count = UNSETTLED
             elif w[STEPS, lane] > MAX_STEPS:
                 lost = cells[lane] if lost < 0 else min(lost, cells[lane])
             else:
-                forcing = forcing_at(shape, scales, amplitudes, i, j)
-                if not rests(w, lane, block, forcing, record):
+                forcing = pulse_forcing(shape, at(amplitudes, i, j), at(scales, i, j))
+                if not rests(w, lane, own, forcing, record):
                     continue
-                if lifts_again(w, lane, block, forcing, record):
+                if lifts_again(w, lane, own, forcing, record):
                     continue
             peak[i, j] = math.nan if fell else highest
             overturned[i, j], impacts[i, j] = fell, count

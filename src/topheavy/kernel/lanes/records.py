@@ -17,21 +17,27 @@ from topheavy.kernel.lanes.steps import (
     COSINE,
     FACTOR,
     IMPACTS,
+    INVERSE_COS,
     LENGTH,
     LONGEST,
     PEAK,
+    PER_PIECE,
     PIECE,
     PUSH,
     ROTATION,
     ROWS,
     SINE,
     STEPS,
+    TERM,
     TIME,
     VELOCITY,
     advance,
     finish,
     lift,
+    numbered,
     rests,
+    seat,
+    seated,
     still,
     strike,
 )
@@ -64,7 +70,7 @@ FEW = WIDTH // 3
 
 
 @compiled(forceinline=True)
-def march_lanes(w, block, samples, h, bound, marching):
+def march_lanes(w, block, samples, tolerance, marching):
     """Pass over the pieces that `marching` lanes are at, as far as they are proven to hold nothing.
 
     The terms and the proof are those of `march.march`. Lanes for which it fails are made ready for
@@ -73,21 +79,23 @@ def march_lanes(w, block, samples, h, bound, marching):
     Parameters
     ----------
     samples : array
-        Of the record, `h` apart in τ.
-    bound : float
-        On the last term of φ'.
+        Of the record.
+    tolerance : float
+        Bound on the last term of φ', over α.
 
     Returns
     -------
     int
         Bits of the lanes that passed.
     """
-    h2 = h * h / 2
-    h3 = h2 * h / 3
-    h4 = h3 * h / 4
-    h5 = h4 * h / 5
-    h6 = h5 * h / 6
-    h7 = h6 * h / 7
+    h, h2, h3, h4 = load(w, TERM + 1), load(w, TERM + 2), load(w, TERM + 3), load(w, TERM + 4)
+    h5, h6, h7, per_piece = (
+        load(w, TERM + 5),
+        load(w, TERM + 6),
+        load(w, TERM + 7),
+        load(w, PER_PIECE),
+    )
+    bound, inverse_cosine = tolerance * block.slenderness, load(w, INVERSE_COS)
     piece, factor, peak = load(w, PIECE), load(w, FACTOR), load(w, PEAK)
     rotation, velocity, sine, cosine = (
         load(w, ROTATION),
@@ -96,13 +104,13 @@ def march_lanes(w, block, samples, h, bound, marching):
         load(w, COSINE),
     )
     before, after = take(samples, piece), take(samples, piece + 1.0)
-    push, rate = factor * before - block.level, factor * (after - before) * (1.0 / h)
+    push, rate = factor * before - block.level, factor * (after - before) * per_piece
     passed = 0
     if not block.linearised:
         tilt = fma(cosine, block.cosine, sine * block.sine)  # cos(α − φ)
         lean = fma(cosine, block.sine, -(sine * block.cosine))  # sin(α − φ)
-        force = fma(push, tilt, sine * (1.0 / block.cosine))  # Eq. (23)
-        slope = fma(push, lean, cosine * (1.0 / block.cosine))
+        force = fma(push, tilt, sine * inverse_cosine)  # Eq. (23)
+        slope = fma(push, lean, cosine * inverse_cosine)
         d3, d4, d5, d6, d7 = derivatives(force, slope, rate * tilt, rate * lean, velocity)
         c1, c2, c3, c4 = velocity * h, force * h2, d3 * h3, d4 * h4
         c5, c6, c7 = d5 * h5, d6 * h6, d7 * h7
@@ -120,7 +128,7 @@ def march_lanes(w, block, samples, h, bound, marching):
         square = turn * turn  # sin and cos − 1 of a turn so small, to the last digit
         swing = turn + turn * square * (-1 / 6 + square * (1 / 120 - square * (1 / 5040)))
         drop = square * (-1 / 2 + square * (1 / 24 + square * (-1 / 720 + square * (1 / 40320))))
-        store(w, VELOCITY, select(fine, fma(gain, 1.0 / h, velocity), velocity))
+        store(w, VELOCITY, select(fine, fma(gain, per_piece, velocity), velocity))
         store(w, ROTATION, select(fine, rotation + turn, rotation))
         store(w, PEAK, select(fine, maximum(peak, rotation + turn), peak))
         store(w, SINE, select(fine, sine + fma(cosine, swing, sine * drop), sine))
@@ -136,6 +144,16 @@ def march_lanes(w, block, samples, h, bound, marching):
         store(w, TIME, select(halted, piece * h, load(w, TIME)))
         store(w, LONGEST, select(halted, (piece + 1.0) * h - piece * h, load(w, LONGEST)))
     return passed
+
+
+@compiled
+def begin(w, lane, block, h):
+    """Let a block stand in a lane, under a record with samples `h` apart in τ."""
+    still(w, lane)
+    seat(w, lane, block)
+    w[TERM + 1, lane], w[PER_PIECE, lane] = h, 1.0 / h
+    for k in range(2, 8):
+        w[TERM + k, lane] = w[TERM + k - 1, lane] * h / k
 
 
 @compiled
@@ -159,7 +177,19 @@ def overturns(w, lane, block, forcing, record):
 
 @compiled(nogil=True)
 def record_outcomes(
-    alone, batch, batches, block, step, factors, record, tolerance, peak, overturned, impacts
+    alone,
+    batch,
+    batches,
+    kind,
+    blocks,
+    which,
+    steps,
+    factors,
+    record,
+    tolerance,
+    peak,
+    overturned,
+    impacts,
 ):
     """Fill one of as many parts of the factors as there are `batches`; see `grid.outcomes_of`.
 
@@ -167,6 +197,9 @@ def record_outcomes(
     ----------
     alone : array
         A working array for steps that a lane takes alone, which may say halt (`outcome.HALT`).
+    kind, blocks : Oscillator, array
+        The blocks, as `numbered` takes them; `which` has the number of the block of each factor,
+        and `steps` its p Δt.
 
     Returns
     -------
@@ -174,8 +207,8 @@ def record_outcomes(
         The first cell that was given up (see `outcome.MAX_STEPS`), or −1.
     """
     w, cells = rows(ROWS), np.full(WIDTH, -1)
-    samples, end = record[0], (record.shape[1] - 1) * step
-    most_steps, bound = MAX_STEPS + 10 * record.shape[1], tolerance * block.slenderness
+    samples, pieces = record[0], record.shape[1] - 1.0
+    most_steps = MAX_STEPS + 10 * record.shape[1]
     coming, last = batch * factors.size // batches, (batch + 1) * factors.size // batches
     lost, vacant = -1, (1 << WIDTH) - 1
     marching, stepping = 0, 0
@@ -187,9 +220,10 @@ def record_outcomes(
             lane, lifted = lowest(vacant), False
             vacant &= vacant - 1
             while coming < last and not lifted:
-                still(w, lane)
-                forcing = record_forcing(record, step, factors[coming])
-                lifted = lifts(w, lane, block, forcing, record, 0.0)
+                own = numbered(kind, blocks, which[coming])
+                begin(w, lane, own, steps[coming])
+                forcing = record_forcing(record, steps[coming], factors[coming])
+                lifted = lifts(w, lane, own, forcing, record, 0.0)
                 if not lifted:
                     peak[coming], overturned[coming], impacts[coming] = 0.0, False, 0
                 cells[lane] = coming
@@ -203,19 +237,21 @@ def record_outcomes(
             return lost
         if alone[HALT, 0] != 0.0:
             return cells[int(alone[HALT, 1])]
+        block = seated(w, kind)
         if stepping == 0 or number(marching) > FEW:
-            passed = march_lanes(w, block, samples, step, bound, marching)
+            passed = march_lanes(w, block, samples, tolerance, marching)
             stepping |= marching & ~passed
             marching = passed
             continue
         landed, fallen = advance(w, alone, block, RECORD_ORDER, tolerance, True, stepping)
-        piece_end, time, taken = (load(w, PIECE) + 1.0) * step, load(w, TIME), load(w, LENGTH)
+        h, time, taken = load(w, TERM + 1), load(w, TIME), load(w, LENGTH)
+        piece_end = (load(w, PIECE) + 1.0) * h
         time = select(taken >= load(w, LONGEST), piece_end, time + taken)
         store(w, TIME, time)
         rotation, velocity = finish(w, block, RECORD_ORDER, stepping)
         landed = (landed | bits(rotation <= 0.0) & stepping) & ~fallen
         resting = strike(w, block, landed) if landed else 0
-        over = bits(time >= end) & stepping
+        over = bits(time >= pieces * h) & stepping
         outward = bits((rotation > block.slenderness) & (velocity > 0.0)) & stepping
         tired = bits(load(w, STEPS) > most_steps) & stepping
         ended = bits(time >= piece_end) & stepping & ~over
@@ -229,22 +265,23 @@ def record_outcomes(
             lane = lowest(events)
             events &= events - 1
             cell = cells[lane]
-            forcing = record_forcing(record, step, factors[cell])
+            own = numbered(kind, blocks, which[cell])
+            forcing = record_forcing(record, steps[cell], factors[cell])
             fell, highest, count = bool(fallen >> lane & 1), w[PEAK, lane], w[IMPACTS, lane]
             if not fell and over >> lane & 1:
-                tail = free_rocking(block, w[ROTATION, lane], w[VELOCITY, lane])
+                tail = free_rocking(own, w[ROTATION, lane], w[VELOCITY, lane])
                 fell, highest = tail.overturned, max(highest, tail.peak)
                 count += tail.impacts
-            elif not fell and outward >> lane & 1 and overturns(w, lane, block, forcing, record):
+            elif not fell and outward >> lane & 1 and overturns(w, lane, own, forcing, record):
                 fell = True
             elif not fell and tired >> lane & 1:
                 lost = cell if lost < 0 else min(lost, cell)
             elif not fell:
-                if not (resting >> lane & 1 and rests(w, lane, block, forcing, record)):
+                if not (resting >> lane & 1 and rests(w, lane, own, forcing, record)):
                     continue
                 marching &= ~(1 << lane)
                 stepping |= 1 << lane
-                if lifts(w, lane, block, forcing, record, next_tick(w[TIME, lane])):
+                if lifts(w, lane, own, forcing, record, next_tick(w[TIME, lane])):
                     continue
             peak[cell] = math.nan if fell else highest
             overturned[cell], impacts[cell] = fell, count

@@ -30,7 +30,7 @@ from topheavy.kernel.lanes.vectors import (
 )
 from topheavy.kernel.outcome import FLAT, HALT, LANDING, POLYNOMIAL, proven
 from topheavy.kernel.rest import LAST_BOUNCE, comes_to_rest
-from topheavy.kernel.taylor import INVERSE
+from topheavy.kernel.taylor import INVERSE, Oscillator
 
 #: The largest order.
 MAX_ORDER = 15
@@ -42,8 +42,15 @@ SIDE, FACTOR, C, D1, CENTRE = range(7 * (MAX_ORDER + 1), 7 * (MAX_ORDER + 1) + 5
 #: τ, the longest step allowed, the step taken; the largest φ so far, and the same or 0 as long as
 #: the rotation is below `rest.LAST_BOUNCE` α; impacts and steps so far.
 TIME, LONGEST, LENGTH, PEAK, ARC, IMPACTS, STEPS = range(CENTRE + 1, CENTRE + 8)
-#: The end of a pulse, and its ω/p; the piece of a record that a lane is at. The number of all rows.
-END, FREQUENCY, PIECE, ROWS = range(STEPS + 1, STEPS + 5)
+#: The end of a pulse, and its ω/p; the piece of a record that a lane is at.
+END, FREQUENCY, PIECE = range(STEPS + 1, STEPS + 4)
+#: The block of a lane: α, √r, the level, cos α, sin α, 1/cos α.
+ALPHA, RESTITUTION, LEVEL, COS_ALPHA, SIN_ALPHA, INVERSE_COS = range(PIECE + 1, PIECE + 7)
+#: Of a record with samples h = p Δt apart: hᵏ/k! in the row TERM + k, k from 1 to 7, and 1/h.
+TERM = INVERSE_COS
+PER_PIECE = TERM + 8
+#: The number of all rows.
+ROWS = PER_PIECE + 1
 
 #: The steps are this much shorter than the rough power says.
 CAUTION = 0.95
@@ -52,6 +59,29 @@ LANDING_CORRECTION, TURN_CORRECTION = 1e-4, 1e-2
 #: |f f″/2f′²| above which Halley's iteration is not trusted (its correction vanishes with f′).
 MOST_BEND = 0.1
 MOST_CORRECTIONS = 5
+
+
+@compiled
+def numbered(kind, blocks, number):
+    """Return a block: its row of `blocks` has α, √r, level, cos α and sin α, `kind` the rest."""
+    row = blocks[number]
+    return Oscillator(row[0], row[1], row[2], row[3], row[4], kind.flat, kind.linearised)
+
+
+@compiled
+def seat(w, lane, block):
+    """Let the lane have this block."""
+    w[ALPHA, lane], w[RESTITUTION, lane], w[LEVEL, lane] = block[:3]
+    w[COS_ALPHA, lane], w[SIN_ALPHA, lane] = block.cosine, block.sine
+    w[INVERSE_COS, lane] = 1.0 / block.cosine
+
+
+@compiled(forceinline=True)
+def seated(w, kind):
+    """Return the blocks of all lanes as one `Oscillator` of lanes; `kind` has their equation."""
+    angles = (load(w, COS_ALPHA), load(w, SIN_ALPHA))
+    three = (load(w, ALPHA), load(w, RESTITUTION), load(w, LEVEL))
+    return Oscillator(*three, *angles, kind.flat, kind.linearised)
 
 
 @compiled(forceinline=True)
@@ -73,7 +103,7 @@ def expand(w, block, order, is_straight):
             store(w, ROTATION + n + 1, load(w, VELOCITY + n) * INVERSE[n + 1])
             store(w, VELOCITY + n + 1, force * INVERSE[n + 1])
         return
-    inverse_cosine = 1.0 / block.cosine
+    inverse_cosine = load(w, INVERSE_COS)
     first_sine, first_cosine, first_push = load(w, SINE), load(w, COSINE), load(w, PUSH)
     first_velocity, zero = load(w, VELOCITY), load(w, PUSH) * 0.0
     for n in range(order):  # the sums wait for their newest terms, which come last
