@@ -14,6 +14,7 @@ from topheavy.kernel.forcing import (
     RECORD,
     SHAPES,
     prepare_record,
+    prepare_two_records,
     pulse_forcing,
     record_forcing,
 )
@@ -34,7 +35,7 @@ from topheavy.pulses import Pulse
 from topheavy.records import Record
 from topheavy.response import Outcome, Response, initial_motion, sample_times
 from topheavy.structures import RockingBlock, Structure
-from topheavy.vertical import refuse_vertical
+from topheavy.vertical import both_records, refuse_fall
 
 Times = NDArray[np.float64]
 
@@ -81,8 +82,8 @@ def simulate(
         Bound on the last two terms of the Taylor series of φ̇/p in a step, relative to α; from
         1e-16 to 1e-2.
     vertical : Record, optional
-        Vertical ground acceleration, which this solver refuses: `topheavy.reference.simulate` and
-        `topheavy.three_bodies.simulate_three_bodies` take it.
+        Vertical ground acceleration that starts with a record: g, positive upward. Its time step
+        may be another.
 
     Returns
     -------
@@ -94,8 +95,8 @@ def simulate(
     ------
     ValueError
         For values that are not finite, |θ| ≥ π/2 in the exact equation, a harmonic without a
-        duration, a tolerance or a number of samples out of range, or a structure whose √r is
-        negative.
+        duration, a tolerance or a number of samples out of range, a structure whose √r is
+        negative, or a vertical acceleration of −1 g or less.
     ArithmeticError
         For a history of more than `MOST_IMPACTS` impacts or a million steps.
 
@@ -104,16 +105,15 @@ def simulate(
     Taylor steps whose turning points and impacts are proven by the signs of Bernstein coefficients
     (`topheavy.kernel`). `topheavy.reference.simulate` is the second, independent solver.
     """
-    refuse_vertical(vertical)
     block = structure.block()
     times = sample_times(samples)
     tolerance = checked_tolerance(tolerance)
     theta, theta_rate = initial_motion(block, rotation, velocity)
-    shape, scale, amplitude, record = as_forcing(block, excitation)
+    shape, scale, amplitude, record = as_forcing(block, excitation, vertical)
     p = block.frequency_parameter
     until = math.inf if duration is None else p * checks.positive("duration", duration, "s")
     if shape == RECORD:
-        forcing = record_forcing(record, scale, amplitude)
+        forcing = record_forcing(record, scale, amplitude, 1.0)
     else:
         forcing = pulse_forcing(shape, amplitude, scale)
     forcing = forcing._replace(end=min(forcing.end, until))
@@ -159,16 +159,24 @@ def simulate(
     )
 
 
-def judge(structure: Structure, excitation: Excitation, *, tolerance: float = TOLERANCE) -> Ending:
+def judge(
+    structure: Structure,
+    excitation: Excitation,
+    *,
+    tolerance: float = TOLERANCE,
+    vertical: Record | None = None,
+) -> Ending:
     """Return only how the response to a ground motion of finite duration ends.
 
     The same as `simulate`, in microseconds: the free rocking is not integrated. The peak is max|θ|
-    over the whole motion (NaN if overturned), the impacts are counted as in `Response`.
+    over the whole motion (NaN if overturned), the impacts are counted as in `Response`. Free
+    rocking begins when both components have ended.
 
     Raises
     ------
     ValueError
-        For an excitation that is none or goes on forever, or a tolerance out of range.
+        For an excitation that is none or goes on forever, a tolerance out of range, or a vertical
+        acceleration of −1 g or less.
     ArithmeticError
         For a block that bounces too often to be followed.
     """
@@ -177,23 +185,28 @@ def judge(structure: Structure, excitation: Excitation, *, tolerance: float = TO
     if excitation.duration == math.inf:
         raise ValueError("the excitation goes on forever; expected one that ends")
     block = structure.block()
-    shape, scale, amplitude, record = as_forcing(block, excitation)
+    shape, scale, amplitude, record = as_forcing(block, excitation, vertical)
     found = outcome_of(
         oscillator(block),
         shape,
         scale,
         amplitude,
         record,
+        lift=1.0,
         tolerance=checked_tolerance(tolerance),
     )
     return Ending(bool(found.overturned), float(found.peak), int(found.impacts))
 
 
 def as_forcing(
-    block: RockingBlock, excitation: Excitation | None
+    block: RockingBlock, excitation: Excitation | None, vertical: Record | None = None
 ) -> tuple[int, float, float, NDArray[np.float64]]:
     """Return a ground motion as the kernel takes it: shape, ω/p or p Δt, amplitude, record."""
     p = block.frequency_parameter
+    if vertical is not None:
+        across, up = both_records(excitation, vertical)
+        refuse_fall(up)
+        return RECORD, p * across.time_step, 1.0, together(across, up)
     match excitation:
         case None:
             return NONE, 1.0, 0.0, NO_RECORD
@@ -203,6 +216,12 @@ def as_forcing(
         case Record():
             return RECORD, p * excitation.time_step, 1.0, prepare_record(excitation.acceleration)
     raise no_excitation(excitation)
+
+
+def together(across: Record, up: Record) -> NDArray[np.float64]:
+    """Return a horizontal and a vertical record as the kernel takes them."""
+    ratio = up.time_step / across.time_step
+    return prepare_two_records(across.acceleration, up.acceleration, ratio)
 
 
 def checked_tolerance(value: float) -> float:

@@ -91,7 +91,8 @@ def outcomes_of(
         return pulse_outcomes_of(block, shape, scales[:, np.newaxis], amplitudes, **how)
     size = (len(scales), len(amplitudes))
     pairs = np.repeat(scales, size[1]), np.tile(amplitudes, size[0])
-    found = _record_outcomes([block], np.zeros(pairs[0].size, np.int64), *pairs, record, **how)
+    which, lifts = np.zeros(pairs[0].size, np.int64), np.zeros(pairs[0].size)
+    found = _record_outcomes([block], which, *pairs, lifts, record, **how)
     return tuple(values.reshape(size) for values in found)
 
 
@@ -103,6 +104,7 @@ def mixed_outcomes_of(
     amplitudes: Array,
     record: Array = NO_RECORD,
     *,
+    lifts: Array | None = None,
     tolerance: float = TOLERANCE,
     threads: int | None = None,
 ) -> Outcomes:
@@ -114,6 +116,8 @@ def mixed_outcomes_of(
         The block of each history, by its place in `blocks`.
     scales, amplitudes : array, shape (n,)
         The rest is as of `outcomes_of`.
+    lifts : array, shape (n,), optional
+        The factors on the vertical record, of `forcing.prepare_two_records`.
 
     Returns
     -------
@@ -131,7 +135,8 @@ def mixed_outcomes_of(
         given = ([blocks[number] for number in alike], place, scales[at], amplitudes[at])
         how = {"tolerance": tolerance, "threads": threads}
         if shape == RECORD:
-            found = _record_outcomes(*given, record, **how)
+            factors = np.zeros(at.size) if lifts is None else lifts[at]
+            found = _record_outcomes(*given, factors, record, **how)
         else:
             of, *each = given
             found = _pulse_outcomes(of, shape, *(values[np.newaxis] for values in each), **how)
@@ -192,15 +197,16 @@ def _record_outcomes(
     which: Indices,
     steps: Array,
     factors: Array,
+    lifts: Array,
     record: Array,
     *,
     tolerance: float,
     threads: int | None,
 ) -> Outcomes:
-    """Return the outcomes of histories under a record, each with its block, p Δt and factor."""
+    """Return the outcomes of histories under a record, each with its block, p Δt and factors."""
     peak, overturned = np.empty(which.size), np.empty(which.size, dtype=bool)
     impacts = np.empty(which.size, dtype=np.int64)
-    given = (blocks[0], _rows(blocks), which, steps, factors, record, tolerance)
+    given = (blocks[0], _rows(blocks), which, steps, factors, lifts, record, tolerance)
     results = (peak, overturned, impacts)
     size, samples = (which.size, FEWEST_FACTORS), record.shape[1]
     lost = _shared(record_outcomes, (*given, *results), *size, samples, threads)
@@ -244,11 +250,13 @@ def outcome_of(
     amplitude: float,
     record: Array = NO_RECORD,
     *,
+    lift: float = 0.0,
     tolerance: float = TOLERANCE,
 ) -> Outcome:
     """Return the outcome of one history, by the scalar kernel; see `outcomes_of`."""
     if shape == RECORD:
-        forcing, order = record_forcing(record, scale, amplitude), record_order(scale, tolerance)
+        forcing = record_forcing(record, scale, amplitude, lift)
+        order = record_order(scale, tolerance)
     else:
         forcing, order = pulse_forcing(shape, amplitude, scale), PULSE_ORDER
 

@@ -1,9 +1,10 @@
-"""Outcomes of many factors on one record, one history in each lane (see `steps`).
+"""Outcomes of many histories under one record, or a horizontal and a vertical one.
 
-Every lane is at a piece of the record of its own. Most pieces are passed over by the short series
-of `march`, which proves that they hold no event; a lane for which it does not waits until as many
-lanes need the long series of `steps`. So both work with many lanes at a time. What follows
-from the physics of one history is done by the functions of the scalar kernel.
+Each lane has a history (see `steps`), and is at a piece of the record of its own. Most pieces are
+passed over by the short series of `march`, which proves that they hold no event; a lane for which
+it does not waits until as many lanes need the long series of `steps`. So both work with many lanes
+at a time. What follows from the physics of one history is done by the functions of the scalar
+kernel.
 """
 
 import math
@@ -11,14 +12,28 @@ import math
 import numpy as np
 
 from topheavy.kernel.compiled import compiled
-from topheavy.kernel.forcing import next_uplift, piece_at, record_forcing
+from topheavy.kernel.forcing import (
+    AT,
+    START,
+    STOP,
+    UP,
+    UP_STOP,
+    gravity,
+    next_uplift,
+    piece_of,
+    piece_start,
+    record_forcing,
+)
 from topheavy.kernel.lanes.steps import (
     ARC,
+    CHANGE,
     COSINE,
     FACTOR,
+    GRAVITY,
     IMPACTS,
     INVERSE_COS,
     LENGTH,
+    LIFT,
     LONGEST,
     PEAK,
     PER_PIECE,
@@ -70,7 +85,15 @@ FEW = WIDTH // 3
 
 
 @compiled(forceinline=True)
-def march_lanes(w, block, samples, tolerance, marching):
+def edge(record, piece, h):
+    """Return when the pieces begin that lanes name, where samples are `h` apart in τ."""
+    if record.shape[0] > UP:
+        return take(record[AT], piece) * h
+    return piece * h
+
+
+@compiled(forceinline=True)
+def march_lanes(w, block, record, tolerance, marching):
     """Pass over the pieces that `marching` lanes are at, as far as they are proven to hold nothing.
 
     The terms and the proof are those of `march.march`. Lanes for which it fails are made ready for
@@ -78,8 +101,6 @@ def march_lanes(w, block, samples, tolerance, marching):
 
     Parameters
     ----------
-    samples : array
-        Of the record.
     tolerance : float
         Bound on the last term of φ', over α.
 
@@ -103,15 +124,33 @@ def march_lanes(w, block, samples, tolerance, marching):
         load(w, SINE),
         load(w, COSINE),
     )
-    before, after = take(samples, piece), take(samples, piece + 1.0)
-    push, rate = factor * before - block.level, factor * (after - before) * per_piece
+    begin = edge(record, piece, h)
+    longest = edge(record, piece + 1.0, h) - begin
+    before, heavy, heavier = take(record[START], piece), inverse_cosine, h * 0.0
+    if record.shape[0] > UP:
+        share = take(record[AT], piece + 1.0) - take(record[AT], piece)  # of h, this piece takes
+        h, per_piece, power = h * share, per_piece / share, share * share
+        h2, h3, power = h2 * power, h3 * (power * share), power * power
+        h4, h5, power = h4 * power, h5 * (power * share), power * share * share
+        h6, h7 = h6 * power, h7 * (power * share)
+        after, lift, up = take(record[STOP], piece), load(w, LIFT), take(record[UP], piece)
+        gravity = fma(lift, up, h * 0.0 + 1.0)
+        change = lift * (take(record[UP_STOP], piece) - up) * per_piece
+        heavy, heavier = inverse_cosine * gravity, inverse_cosine * change
+        push = factor * before - block.level * gravity
+        rate = factor * (after - before) * per_piece - block.level * change
+    else:
+        after = take(record[START], piece + 1.0)
+        push, rate = factor * before - block.level, factor * (after - before) * per_piece
+        gravity, change = load(w, GRAVITY), load(w, CHANGE)
     passed = 0
     if not block.linearised:
         tilt = fma(cosine, block.cosine, sine * block.sine)  # cos(α − φ)
         lean = fma(cosine, block.sine, -(sine * block.cosine))  # sin(α − φ)
-        force = fma(push, tilt, sine * inverse_cosine)  # Eq. (23)
-        slope = fma(push, lean, cosine * inverse_cosine)
-        d3, d4, d5, d6, d7 = derivatives(force, slope, rate * tilt, rate * lean, velocity)
+        force = fma(push, tilt, sine * heavy)  # Eq. (23)
+        slope = fma(push, lean, cosine * heavy)
+        bend, sway = fma(sine, heavier, rate * tilt), fma(cosine, heavier, rate * lean)
+        d3, d4, d5, d6, d7 = derivatives(force, slope, bend, sway, velocity)
         c1, c2, c3, c4 = velocity * h, force * h2, d3 * h3, d4 * h4
         c5, c6, c7 = d5 * h5, d6 * h6, d7 * h7
         others = absolute(c3) + absolute(c4) + absolute(c5) + absolute(c6) + absolute(c7)
@@ -123,7 +162,7 @@ def march_lanes(w, block, samples, tolerance, marching):
         fine = fine & (h6 * maximum(absolute(d7), 6.0 * absolute(d6)) <= bound)
         fine = fine & (absolute(turn) <= LARGEST_TURN) & (rotation <= block.slenderness)
         fine = fine & (load(w, ARC) > LAST_BOUNCE * block.slenderness)
-        fine = fine & (piece < samples.size - 2.0) & among(marching)
+        fine = fine & (piece < record.shape[1] - 2.0) & among(marching)
         gain = 2.0 * c2 + 3.0 * c3 + 4.0 * c4 + 5.0 * c5 + 6.0 * c6 + 7.0 * c7
         square = turn * turn  # sin and cos − 1 of a turn so small, to the last digit
         swing = turn + turn * square * (-1 / 6 + square * (1 / 120 - square * (1 / 5040)))
@@ -141,17 +180,20 @@ def march_lanes(w, block, samples, tolerance, marching):
         store(w, ARC, select(whole, peak, arc))
         store(w, PUSH, select(halted, push, load(w, PUSH)))
         store(w, PUSH + 1, select(halted, rate, load(w, PUSH + 1)))
-        store(w, TIME, select(halted, piece * h, load(w, TIME)))
-        store(w, LONGEST, select(halted, (piece + 1.0) * h - piece * h, load(w, LONGEST)))
+        store(w, GRAVITY, select(halted, gravity, load(w, GRAVITY)))
+        store(w, CHANGE, select(halted, change, load(w, CHANGE)))
+        store(w, TIME, select(halted, begin, load(w, TIME)))
+        store(w, LONGEST, select(halted, longest, load(w, LONGEST)))
     return passed
 
 
 @compiled
-def begin(w, lane, block, h):
-    """Let a block stand in a lane, under a record with samples `h` apart in τ."""
+def begin(w, lane, block, forcing):
+    """Let a block stand in a lane, under a record."""
+    h = forcing.step
     still(w, lane)
     seat(w, lane, block)
-    w[TERM + 1, lane], w[PER_PIECE, lane] = h, 1.0 / h
+    w[TERM + 1, lane], w[PER_PIECE, lane], w[LIFT, lane] = h, 1.0 / h, forcing.lift
     for k in range(2, 8):
         w[TERM + k, lane] = w[TERM + k - 1, lane] * h / k
 
@@ -163,15 +205,16 @@ def lifts(w, lane, block, forcing, record, time):
     if time >= forcing.end:
         return False
     lift(w, lane, time, push, rate, side, forcing.amplitude)
-    piece = piece_at(forcing, time)
-    w[PIECE, lane], w[LONGEST, lane] = piece, (piece + 1) * forcing.step - time
+    piece = piece_of(forcing, record, time)
+    w[PIECE, lane], w[LONGEST, lane] = piece, piece_start(forcing, record, piece + 1) - time
+    w[GRAVITY, lane], w[CHANGE, lane] = gravity(forcing, record, time)
     return True
 
 
 @compiled
 def overturns(w, lane, block, forcing, record):
     """Say whether the block of a lane is certain to overturn."""
-    state = State(w[ROTATION, lane], w[VELOCITY, lane], 0.0, 1.0, 0.0, 0.0)
+    state = State(w[ROTATION, lane], w[VELOCITY, lane], 0.0, 1.0, 0.0, 0.0, 1.0, 0.0)
     return is_certain_to_overturn(block, forcing, record, w[TIME, lane], state)
 
 
@@ -185,6 +228,7 @@ def record_outcomes(
     which,
     steps,
     factors,
+    lifts_of,
     record,
     tolerance,
     peak,
@@ -199,7 +243,7 @@ def record_outcomes(
         A working array for steps that a lane takes alone, which may say halt (`outcome.HALT`).
     kind, blocks : Oscillator, array
         The blocks, as `numbered` takes them; `which` has the number of the block of each factor,
-        and `steps` its p Δt.
+        `steps` its p Δt, and `lifts_of` the factor on the vertical record that goes with it.
 
     Returns
     -------
@@ -207,7 +251,7 @@ def record_outcomes(
         The first cell that was given up (see `outcome.MAX_STEPS`), or −1.
     """
     w, cells = rows(ROWS), np.full(WIDTH, -1)
-    samples, pieces = record[0], record.shape[1] - 1.0
+    pieces = record[AT, record.shape[1] - 1] if record.shape[0] > UP else record.shape[1] - 1.0
     most_steps = MAX_STEPS + 10 * record.shape[1]
     coming, last = batch * factors.size // batches, (batch + 1) * factors.size // batches
     lost, vacant = -1, (1 << WIDTH) - 1
@@ -221,8 +265,8 @@ def record_outcomes(
             vacant &= vacant - 1
             while coming < last and not lifted:
                 own = numbered(kind, blocks, which[coming])
-                begin(w, lane, own, steps[coming])
-                forcing = record_forcing(record, steps[coming], factors[coming])
+                forcing = record_forcing(record, steps[coming], factors[coming], lifts_of[coming])
+                begin(w, lane, own, forcing)
                 lifted = lifts(w, lane, own, forcing, record, 0.0)
                 if not lifted:
                     peak[coming], overturned[coming], impacts[coming] = 0.0, False, 0
@@ -239,16 +283,17 @@ def record_outcomes(
             return cells[int(alone[HALT, 1])]
         block = seated(w, kind)
         if stepping == 0 or number(marching) > FEW:
-            passed = march_lanes(w, block, samples, tolerance, marching)
+            passed = march_lanes(w, block, record, tolerance, marching)
             stepping |= marching & ~passed
             marching = passed
             continue
         landed, fallen = advance(w, alone, block, RECORD_ORDER, tolerance, True, stepping)
         h, time, taken = load(w, TERM + 1), load(w, TIME), load(w, LENGTH)
-        piece_end = (load(w, PIECE) + 1.0) * h
+        piece_end = edge(record, load(w, PIECE) + 1.0, h)
         time = select(taken >= load(w, LONGEST), piece_end, time + taken)
         store(w, TIME, time)
         rotation, velocity = finish(w, block, RECORD_ORDER, stepping)
+        store(w, GRAVITY, fma(taken, load(w, CHANGE), load(w, GRAVITY)))
         landed = (landed | bits(rotation <= 0.0) & stepping) & ~fallen
         resting = strike(w, block, landed) if landed else 0
         over = bits(time >= pieces * h) & stepping
@@ -266,7 +311,7 @@ def record_outcomes(
             events &= events - 1
             cell = cells[lane]
             own = numbered(kind, blocks, which[cell])
-            forcing = record_forcing(record, steps[cell], factors[cell])
+            forcing = record_forcing(record, steps[cell], factors[cell], lifts_of[cell])
             fell, highest, count = bool(fallen >> lane & 1), w[PEAK, lane], w[IMPACTS, lane]
             if not fell and over >> lane & 1:
                 tail = free_rocking(own, w[ROTATION, lane], w[VELOCITY, lane])

@@ -46,8 +46,10 @@ TIME, LONGEST, LENGTH, PEAK, ARC, IMPACTS, STEPS = range(CENTRE + 1, CENTRE + 8)
 END, FREQUENCY, PIECE = range(STEPS + 1, STEPS + 4)
 #: The block of a lane: α, √r, the level, cos α, sin α, 1/cos α.
 ALPHA, RESTITUTION, LEVEL, COS_ALPHA, SIN_ALPHA, INVERSE_COS = range(PIECE + 1, PIECE + 7)
+#: Gravity G, G', and the factor on the vertical record.
+GRAVITY, CHANGE, LIFT = range(INVERSE_COS + 1, INVERSE_COS + 4)
 #: Of a record with samples h = p Δt apart: hᵏ/k! in the row TERM + k, k from 1 to 7, and 1/h.
-TERM = INVERSE_COS
+TERM = LIFT
 PER_PIECE = TERM + 8
 #: The number of all rows.
 ROWS = PER_PIECE + 1
@@ -74,6 +76,7 @@ def seat(w, lane, block):
     w[ALPHA, lane], w[RESTITUTION, lane], w[LEVEL, lane] = block[:3]
     w[COS_ALPHA, lane], w[SIN_ALPHA, lane] = block.cosine, block.sine
     w[INVERSE_COS, lane] = 1.0 / block.cosine
+    w[GRAVITY, lane], w[CHANGE, lane] = 1.0, 0.0
 
 
 @compiled(forceinline=True)
@@ -86,7 +89,10 @@ def seated(w, kind):
 
 @compiled(forceinline=True)
 def expand(w, block, order, is_straight):
-    """Fill `w` with the solution through its first coefficients; see `taylor.expand`."""
+    """Fill `w` with the solution through its first coefficients; see `taylor.expand`.
+
+    Gravity changes under records alone, of which the push is straight.
+    """
     if not is_straight:
         c, d1 = load(w, C), load(w, D1)
         d0 = d1 * (load(w, TIME) - load(w, CENTRE))
@@ -98,6 +104,10 @@ def expand(w, block, order, is_straight):
     if block.linearised:
         for n in range(order):  # φ'' = φ + q
             force = load(w, ROTATION + n)
+            if is_straight:
+                force = force * load(w, GRAVITY)
+            if is_straight and n > 0:
+                force = fma(load(w, CHANGE), load(w, ROTATION + n - 1), force)
             if n < 2 or not is_straight:
                 force = force + load(w, PUSH + n)
             store(w, ROTATION + n + 1, load(w, VELOCITY + n) * INVERSE[n + 1])
@@ -106,6 +116,9 @@ def expand(w, block, order, is_straight):
     inverse_cosine = load(w, INVERSE_COS)
     first_sine, first_cosine, first_push = load(w, SINE), load(w, COSINE), load(w, PUSH)
     first_velocity, zero = load(w, VELOCITY), load(w, PUSH) * 0.0
+    heavy, heavier = inverse_cosine, zero
+    if is_straight:
+        heavy, heavier = inverse_cosine * load(w, GRAVITY), inverse_cosine * load(w, CHANGE)
     for n in range(order):  # the sums wait for their newest terms, which come last
         cosine, sine, force = zero, zero, zero
         for i in range(1, n):
@@ -124,7 +137,9 @@ def expand(w, block, order, is_straight):
         store(w, TILT + n, tilt)
         cosine = fma(first_cosine, velocity_n, cosine)
         sine = fma(first_sine, velocity_n, sine)
-        force = fma(first_push, tilt, fma(sine_n, inverse_cosine, force))  # Eq. (23)
+        force = fma(first_push, tilt, fma(sine_n, heavy, force))  # Eq. (23)
+        if is_straight and n > 0:
+            force = fma(load(w, SINE + n - 1), heavier, force)
         store(w, ROTATION + n + 1, velocity_n * INVERSE[n + 1])
         store(w, SINE + n + 1, cosine * INVERSE[n + 1])
         store(w, COSINE + n + 1, sine * -INVERSE[n + 1])
@@ -338,7 +353,9 @@ def strike(w, block, landed):
     """
     struck = among(landed)
     velocity = maximum(-load(w, VELOCITY), 0.0) * block.restitution
-    push, side = -load(w, PUSH) - 2.0 * block.level, load(w, SIDE)
+    both, side = 2.0 * block.level, load(w, SIDE)
+    push = -load(w, PUSH) - both * load(w, GRAVITY)
+    rate = -load(w, PUSH + 1) - both * load(w, CHANGE)
     low = load(w, ARC) <= LAST_BOUNCE * block.slenderness
     store(w, IMPACTS, load(w, IMPACTS) + select(struck & ~low, 1.0, 0.0))
     store(w, ARC, select(struck, 0.0, load(w, ARC)))
@@ -349,8 +366,8 @@ def strike(w, block, landed):
     store(w, COSINE, select(struck, 1.0, load(w, COSINE)))
     store(w, VELOCITY, select(struck, velocity, load(w, VELOCITY)))
     store(w, PUSH, select(struck, push, load(w, PUSH)))
-    store(w, PUSH + 1, select(struck, -load(w, PUSH + 1), load(w, PUSH + 1)))
-    weakest = minimum(-push, push + 2.0 * block.level)
+    store(w, PUSH + 1, select(struck, rate, load(w, PUSH + 1)))
+    weakest = minimum(-push, push + both * load(w, GRAVITY))
     energy = weakest * (block.cosine * LAST_BOUNCE * block.slenderness)
     return bits(((weakest > 0.0) & (velocity * velocity <= energy)) | (velocity <= 0.0)) & landed
 
