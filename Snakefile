@@ -8,7 +8,7 @@ its results is in src/replication/rules.smk; each study has rules of its own.
 include: "src/replication/common.smk"
 
 
-from steps.inputs import check_inputs, record_files
+from steps.inputs import check_inputs, record_files, record_paths
 
 read_strictly("config/config.yaml")
 
@@ -32,10 +32,10 @@ for name in config["studies"]:
     include: f"studies/{name}/study.smk"
 
 
-after_the_kernel()
-
-
 include: "src/replication/rules.smk"
+
+
+after_the_kernel()
 
 
 rule all:

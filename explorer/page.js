@@ -65,8 +65,10 @@ function hear({ data }) {
   if ("isSensitive" in data) sensitive(data.index, data.isSensitive);
   if ("minimum" in data) {
     const cell = byId(`minimum${data.index}`);
-    const most = 30 * upliftAcceleration(structuresOf(state)[data.index]);
-    cell.textContent = data.minimum === Infinity ? `> ${round(most)}` : round(data.minimum, 4);
+    const block = structuresOf(state)[data.index], step = searchStep(block, data.minimum);
+    const most = 30 * upliftAcceleration(block), decimals = Math.max(0, Math.round(-Math.log10(step)));
+    cell.textContent = data.minimum === Infinity ? `> ${round(most)}` : data.minimum.toFixed(decimals);
+    cell.title = `search step ${round(step, 2)} g`;
     cell.dataset.value = data.minimum;
     cell.classList.remove("pending");
   }
@@ -309,7 +311,7 @@ function pick(x, y) {
 /** Read a file that was opened or dropped, and shake with it. */
 async function open(file) {
   try {
-    const read = readRecord(file.name, await file.text());
+    const read = readRecord(file.name, new Uint8Array(await file.arrayBuffer()));
     const isNew = !files.has(read.name);
     keep();
     files.set(read.name, { ...read, file: file.name });

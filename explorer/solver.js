@@ -266,6 +266,12 @@ function abruptStart(block, amplitude, omega) {
 /* Ranges over the uplift acceleration that are searched one after the other, and their steps. */
 const WINDOWS = [[1, 1.5, 0.01], [1.5, 3, 0.03], [3, 30, 0.05]];
 
+/** The step (g) of the search at a peak a (g): narrower ranges of peaks that overturn can be missed. */
+function searchStep(block, a) {
+  const level = upliftAcceleration(block);
+  return level * (WINDOWS.find(([, last]) => a <= last * level) ?? WINDOWS.at(-1))[2];
+}
+
 /** The minimum overturning acceleration (g) by bisection, Infinity when none is found up to 30
     times the uplift acceleration. `overturns(a)` says whether a motion of peak a (g) does. */
 function minimumOverturning(block, overturns) {

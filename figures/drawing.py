@@ -13,6 +13,8 @@ MODELS = {  # the simplifications of Allen et al. (1986), one at a time and toge
 
 RECORDS = {
     "el_centro_1940_NS": "El Centro 1940, NS",
+    "napa_2014_68150_090": "South Napa 2014, 090",
+    "napa_2014_68150_360": "South Napa 2014, 360",
     "ridgecrest_2019_CCC_090": "Ridgecrest 2019, CCC 090",
     "ridgecrest_2019_CCC_360": "Ridgecrest 2019, CCC 360",
     "ridgecrest_2019_CLC_090": "Ridgecrest 2019, CLC 090",

@@ -3,12 +3,12 @@
 from figures.drawing import gamma
 from replication.drawing import DOUBLE, GREY, INK, PAPER, letter, make_figure, note, shades, sheet
 
-FORCES = {
-    "base_shear": ("base shear", "o"),
-    "overturning_moment": ("overturning moment", "s"),
-    "bending_moment": ("bending moment", "^"),
+SERIES = {
+    ("base_shear", "pinned"): ("base shear", "o", INK, INK),
+    ("overturning_moment", "pinned"): ("overturning moment", "s", GREY, GREY),
+    ("bending_moment", "pinned"): ("bending moment", "^", INK, INK),
+    ("bending_moment", "guided"): ("the same, tops guided", "^", INK, PAPER),
 }
-HOLLOW = "^"
 MARKS = {"pulse": ".", "record": "+"}
 DRAWN = 1.0  # γ of the ratios
 
@@ -34,16 +34,14 @@ def ratios(axis, table):
     """Draw the range and the median of the ratios over the period of the frame that is held."""
     of = table[(table.mass_ratio == DRAWN) & (table.kind == "pulse")]
     held = list(of.held.unique())
-    for shift, (force, colour) in enumerate(zip(FORCES, (INK, GREY, INK), strict=True)):
-        label, mark = FORCES[force]
-        rows = of[of.force == force].set_index("held").loc[held]
-        x = [place + 0.24 * (shift - 1) for place in range(len(held))]
+    for shift, ((force, top), (label, mark, colour, face)) in enumerate(SERIES.items()):
+        rows = of[(of.force == force) & (of.top == top)].set_index("held").loc[held]
+        x = [place + 0.19 * (shift - 1.5) for place in range(len(held))]
         axis.vlines(x, rows.least, rows.largest, color=colour, linewidth=1.0)
-        face = PAPER if mark == HOLLOW else colour
         how = {"color": colour, "markersize": 3.5, "markerfacecolor": face}
         axis.plot(x, rows["median"], mark, label=label, **how)
     axis.axhline(1.0, color=GREY, linewidth=0.6)
-    axis.set(yscale="log", ylim=(0.04, 14))
+    axis.set(yscale="log", ylim=(0.04, 30))
     axis.set_yticks((0.1, 1, 10), ("0.1", "1", "10"))
     names = [name.removesuffix(" s").replace("rigid", "0\nrigid") for name in held]
     axis.set_xticks(range(len(held)), names)
@@ -57,7 +55,7 @@ def cost(axis, limits):
     levels = sorted(of.mass_ratio.unique())
     for place, (ratio, colour) in enumerate(zip(levels, shades(len(levels)), strict=True)):
         rows = of[of.mass_ratio == ratio]
-        axis.plot(rows["base_shear, rigid"], rows.rotation, ".", color=colour, markersize=3)
+        axis.plot(rows["base_shear, pinned, rigid"], rows.rotation, ".", color=colour, markersize=3)
         fell = int((rows.outcome == "overturned").sum())
         text = f"{gamma(ratio)}: {fell} of {len(rows)} overturned"
         note(axis, text, (0.98, 2.85 - 0.19 * place), color=colour, ha="right", fontsize=7)

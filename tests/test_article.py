@@ -1,9 +1,11 @@
 """The figures of the article, and the alternative text of each."""
 
+import json
 import re
 from pathlib import Path
 
 import pytest
+import typst
 
 from replication.captions import read_captions
 from replication.parts import PAPER, captions_of
@@ -32,3 +34,25 @@ def test_each_drawing_has_an_alternative_text_that_is_not_its_caption(part):
     for path in (path for figure in drawings(part) for path in figure):
         assert captions[path].get("alt"), f"{path} has no alt in {captions_of(part)}"
         assert captions[path]["alt"] not in captions[path]["caption"]
+
+
+@pytest.mark.parametrize(
+    ("value", "digits", "printed"),
+    [(0.053259579, 2, "0.06"), (0.053259579, 3, "0.054"), (0.05, 2, "0.05"), (2.0, 0, "2")],
+)
+def test_printed_bound_is_not_below_the_value_that_it_bounds(tmp_path, value, digits, printed):
+    source = tmp_path / "bound.typ"
+    source.write_text(f"""#import "/paper/format.typ": at-most
+#metadata(at-most({value}, {digits})) <bound>""")
+    for part in ("format.typ", "symbols.typ"):
+        (tmp_path / "paper").mkdir(exist_ok=True)
+        (tmp_path / "paper" / part).write_text((ROOT / "paper" / part).read_text("utf-8"), "utf-8")
+    (tmp_path / "results").mkdir()
+    (tmp_path / "results" / "claims.json").write_text("[]", "utf-8")
+    found = typst.query(source, "<bound>", root=tmp_path, field="value")
+    assert json.loads(found) == [printed]
+
+
+def test_misfit_of_the_fragility_curves_is_printed_as_a_bound():
+    text = (ROOT / "studies/reversals/section_motions.typ").read_text("utf-8")
+    assert "they pass within\n#at-most(motions.misfit.value, 3) of every computed point" in text

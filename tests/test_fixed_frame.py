@@ -20,31 +20,38 @@ from topheavy import (
 )
 
 COLUMN, CAP = Column(0.5, 3.0), Cap(5.0, 0.5)
-RATIOS = [0.0, 1.0, 4.0, math.inf]
+HELD = [(0.0, "pinned")]
+HELD += [(ratio, top) for ratio in (1.0, 4.0, math.inf) for top in ("pinned", "guided")]
 RECORD = read_record("data/records/el_centro_1940_NS.AT2")
 PULSE = Pulse("one-cosine", 0.4, 2.0 * math.pi / 1.5)
 
 
-def of_beam(load_over_weight, ratio):
-    """Shear, overturning moment, and end moments of a beam fixed at its base, guided at its top.
+def shape_of(top, x):
+    """The deflection by a force at the top, over that of the top."""
+    x = sp.sympify(x)
+    return {"pinned": (3 * x**2 - x**3) / 2, "guided": 3 * x**2 - 2 * x**3}[top]
+
+
+def of_beam(load_over_weight, ratio, end):
+    """Shear, overturning moment, and end moments of a beam fixed at its base, pinned or guided.
 
     The load of a column is its weight per length times the given function of x; at the top acts
     half the cap beam's times its value there. EI w⁗ = q is solved with w = w′ = 0 at the base and
-    w′ = 0 at the top, where the shear is the cap beam's load.
+    at the top w″ = 0 if it is pinned, or w′ = 0; the shear there is the cap beam's load.
     """
-    x, first, second, force = sp.symbols("x a b c")
+    x, second, force = sp.symbols("x b c")
     height = 2 * sp.Rational(3)
     columns = 0 if ratio == math.inf else sp.Rational(1) / (1 + sp.nsimplify(ratio))
     spread = columns / 2 / height * load_over_weight(x)
     tip = (1 - columns) / 2 * load_over_weight(1)
-    deflection = force * x**3 + second * x**2 + first
-    load, places = spread, 4
-    for _ in range(places):
+    load = spread
+    for _ in range(4):
         load = sp.integrate(load, x)
     deflection = load * height**4 + force * x**3 + second * x**2
     top = {x: 1}
-    slope, shear = sp.diff(deflection, x) / height, sp.diff(deflection, x, 3) / height**3
-    found = sp.solve([slope.subs(top), shear.subs(top) + tip], [second, force])
+    turns = sp.diff(deflection, x, {"pinned": 2, "guided": 1}[end])
+    shear = sp.diff(deflection, x, 3) / height**3
+    found = sp.solve([turns.subs(top), shear.subs(top) + tip], [second, force])
     moment = sp.diff(deflection, x, 2).subs(found) / height**2
     total = 2 * (sp.integrate(spread, (x, 0, 1)) * height + tip)
     over = 2 * (
@@ -53,52 +60,112 @@ def of_beam(load_over_weight, ratio):
     return [float(total), float(over), float(moment.subs(x, 0)), float(-moment.subs(top))]
 
 
-@pytest.mark.parametrize("ratio", RATIOS)
-def test_rigid_frame_is_a_guided_beam_under_its_inertia(ratio):
-    fixed = FixedFrame(RockingFrame(COLUMN, ratio), CAP)
-    assert fixed.rigid == pytest.approx(of_beam(lambda x: sp.Integer(1), ratio), rel=1e-12)
+@pytest.mark.parametrize(("ratio", "top"), HELD)
+def test_rigid_frame_is_a_beam_under_its_inertia(ratio, top):
+    fixed = FixedFrame(RockingFrame(COLUMN, ratio), CAP, top)
+    expected = of_beam(lambda x: sp.Integer(1), ratio, top)
+    assert fixed.rigid == pytest.approx(expected, rel=1e-12, abs=1e-12)
 
 
-@pytest.mark.parametrize("ratio", RATIOS)
-def test_mode_is_a_guided_beam_under_the_inertia_of_its_shape(ratio):
-    def shape(x):
-        return 3 * sp.sympify(x) ** 2 - 2 * sp.sympify(x) ** 3
-
+@pytest.mark.parametrize(("ratio", "top"), HELD)
+def test_mode_is_a_beam_under_the_inertia_of_its_shape(ratio, top):
     x = sp.Symbol("x")
     columns = 0.0 if ratio == math.inf else 1.0 / (1.0 + ratio)
-    linear, square = (float(sp.integrate(shape(x) ** power, (x, 0, 1))) for power in (1, 2))
+    linear, square = (float(sp.integrate(shape_of(top, x) ** power, (x, 0, 1))) for power in (1, 2))
     participation = (1 - columns + columns * linear) / (1 - columns + columns * square)
-    expected = participation * np.array(of_beam(shape, ratio))
-    fixed = FixedFrame(RockingFrame(COLUMN, ratio), CAP)
-    assert fixed.mode == pytest.approx(expected, rel=1e-12)
+    expected = participation * np.array(of_beam(lambda x: shape_of(top, x), ratio, top))
+    fixed = FixedFrame(RockingFrame(COLUMN, ratio), CAP, top)
+    assert fixed.mode == pytest.approx(expected, rel=1e-12, abs=1e-12)
 
 
-def test_shape_is_that_of_a_force_at_the_guided_top():
+@pytest.mark.parametrize("top", ["pinned", "guided"])
+def test_shape_is_that_of_a_force_at_the_top(top):
     x = sp.Symbol("x")
-    shape = 3 * x**2 - 2 * x**3
+    shape = shape_of(top, x)
     assert [shape.subs(x, 0), shape.subs(x, 1)] == [0, 1]
-    assert [sp.diff(shape, x).subs(x, end) for end in (0, 1)] == [0, 0]
+    assert sp.diff(shape, x).subs(x, 0) == 0
+    assert sp.diff(shape, x, {"pinned": 2, "guided": 1}[top]).subs(x, 1) == 0
     assert sp.diff(shape, x, 4) == 0
 
 
+def test_column_without_a_cap_beam_is_a_cantilever_of_its_own():
+    """By hand: a mass m at h moves with the ground, M = m ü_g h; the weight of both is 2mg."""
+    alone = RockingFrame(COLUMN, 0.0)
+    found = peak_rigid(FixedFrame(alone, CAP, "pinned"), PULSE)
+    assert found.bending_moment == pytest.approx(0.4 * 3.0 / 2.0, rel=1e-12)
+    assert found.overturning_moment == pytest.approx(2.0 * found.bending_moment, rel=1e-12)
+    deeper = FixedFrame(alone, Cap(9.0, 2.0), "pinned")
+    assert peak_elastic([deeper], PULSE, 0.5) == peak_elastic(
+        [FixedFrame(alone, CAP, "pinned")], PULSE, 0.5
+    )
+
+
+def test_cantilever_without_mass_carries_half_the_cap_beam_at_its_top():
+    """By hand: half the weight over ü_g/g, at 2h; a guided column has half of it at each end."""
+    heavy = RockingFrame(COLUMN, math.inf)
+    pinned, guided = (FixedFrame(heavy, CAP, top) for top in ("pinned", "guided"))
+    for forces in (pinned.rigid, pinned.mode):
+        assert forces[2:] == pytest.approx([0.5 * 6.0, 0.0], rel=1e-12)
+    for forces in (guided.rigid, guided.mode):
+        assert forces[2:] == pytest.approx([0.5 * 3.0, 0.5 * 3.0], rel=1e-12)
+
+
+@pytest.mark.parametrize("ratio", [0.0, 1.0, 4.0, math.inf])
+def test_pinned_columns_take_all_of_the_overturning_but_that_of_the_cap_beams_depth(ratio):
+    """The pins are below the centre of the cap beam; a couple of axial forces takes the rest."""
+    fixed = FixedFrame(RockingFrame(COLUMN, ratio), CAP, "pinned")
+    beam = 1.0 if ratio == math.inf else ratio / (1.0 + ratio)
+    for forces, mean in ((fixed.rigid, 1.0), (fixed.mode, 3.0 / 8.0)):
+        of_the_cap = forces[0] * beam / (beam + (1.0 - beam) * mean)
+        assert forces[1] == pytest.approx(2.0 * forces[2] + of_the_cap * CAP.half_depth)
+
+
+def test_mode_of_a_column_alone_is_nearly_the_first_of_a_cantilever():
+    """The exact modes of a uniform cantilever: shear and base moment of the first, and sums."""
+    shears, moments = [], []
+    for root in (1.8751040687, 4.6940911330, 7.8547574382, 10.9955407349):  # cos λ cosh λ = −1
+        sigma = (math.sinh(root) - math.sin(root)) / (math.cosh(root) + math.cos(root))
+        x = np.linspace(0.0, 1.0, 20001)
+        shape = (
+            np.cosh(root * x) - np.cos(root * x) - sigma * (np.sinh(root * x) - np.sin(root * x))
+        )
+        mean, square, first = (np.trapezoid(f, x) for f in (shape, shape**2, shape * x))
+        shears.append(mean**2 / square)
+        moments.append(mean * first / square * 3.0)  # of one column of 6 m, over the weight of two
+    ours = FixedFrame(RockingFrame(COLUMN, 0.0), CAP, "pinned")
+    assert ours.mode[0] == pytest.approx(shears[0], rel=0.03)
+    assert ours.mode[2] == pytest.approx(moments[0], rel=0.03)
+    assert sum(moments) == pytest.approx(ours.rigid[2], rel=0.01)
+
+
+def test_guided_column_needs_a_cap_beam():
+    with pytest.raises(ValueError, match=r"no cap beam \(γ = 0\) that guides its columns"):
+        FixedFrame(RockingFrame(COLUMN, 0.0), CAP, "guided")
+
+
+def test_top_is_pinned_or_guided():
+    with pytest.raises(ValueError, match="top is 'fixed'; expected 'pinned'"):
+        FixedFrame(RockingFrame(COLUMN, 1.0), CAP, "fixed")
+
+
 def test_peak_of_a_rigid_frame_is_that_of_the_ground():
-    fixed = FixedFrame(RockingFrame(COLUMN, 1.0), CAP)
+    fixed = FixedFrame(RockingFrame(COLUMN, 1.0), CAP, "pinned")
     assert peak_rigid(fixed, PULSE).base_shear == pytest.approx(0.4)
     assert peak_rigid(fixed, RECORD).base_shear == pytest.approx(RECORD.peak_acceleration)
     ricker = Pulse("ricker-symmetric", -0.3, 4.0)
     assert peak_rigid(fixed, ricker).base_shear == pytest.approx(0.3)
 
 
-@pytest.mark.parametrize("ratio", RATIOS)
-def test_stiff_frame_is_nearly_rigid(ratio):
-    fixed = FixedFrame(RockingFrame(COLUMN, ratio), CAP)
+@pytest.mark.parametrize(("ratio", "top"), HELD)
+def test_stiff_frame_is_nearly_rigid(ratio, top):
+    fixed = FixedFrame(RockingFrame(COLUMN, ratio), CAP, top)
     pulse = Pulse("one-sine", 0.4, 2.0 * math.pi / 1.5)  # begins without a jump
     (found,) = peak_elastic([fixed], pulse, 0.005)
     assert found == pytest.approx(peak_rigid(fixed, pulse), rel=0.01)
 
 
 def test_resonance_is_that_of_five_per_cent_damping():
-    fixed = FixedFrame(RockingFrame(COLUMN, math.inf), CAP)
+    fixed = FixedFrame(RockingFrame(COLUMN, math.inf), CAP, "pinned")
     times = np.arange(0.0, 60.0, 0.005)
     record = Record(0.005, 0.1 * np.sin(2.0 * math.pi * times), "harmonic")
     (found,) = peak_elastic([fixed], record, 1.0)
@@ -107,7 +174,7 @@ def test_resonance_is_that_of_five_per_cent_damping():
 
 
 def test_suddenly_accelerated_frame_overshoots():
-    fixed = FixedFrame(RockingFrame(COLUMN, math.inf), CAP)
+    fixed = FixedFrame(RockingFrame(COLUMN, math.inf), CAP, "pinned")
     (found,) = peak_elastic([fixed], Record(5.0, np.array([0.2, 0.2]), "step"), 0.5, 2000)
     overshoot = 1.0 + math.exp(-0.05 * math.pi / math.sqrt(1.0 - 0.05**2))
     # the total acceleration also has the damper's part, at most 2ζ of it
@@ -116,8 +183,9 @@ def test_suddenly_accelerated_frame_overshoots():
 
 @pytest.mark.parametrize("period", [0.1, 0.5, 2.0])
 @pytest.mark.parametrize("motion", [PULSE, Record(0.02, RECORD.acceleration[:120], "part")])
-def test_two_solvers_agree(motion, period):
-    fixed = FixedFrame(RockingFrame(COLUMN, 1.0), CAP)
+@pytest.mark.parametrize("top", ["pinned", "guided"])
+def test_two_solvers_agree(motion, period, top):
+    fixed = FixedFrame(RockingFrame(COLUMN, 1.0), CAP, top)
     (found,) = peak_elastic([fixed], motion, period, 1000)
     other = peak_elastic_by_scipy(fixed, motion, period, 1000)
     assert found == pytest.approx(other, rel=5e-5)

@@ -21,8 +21,8 @@ from topheavy import (
     overturning_map,
     simulate,
 )
-from topheavy.kernel.grid import outcomes_of
-from topheavy.overturning import AT_A_TIME, SAFE, Interval, _bisect, _labeller, outcomes_by
+from topheavy.kernel.grid import mixed_outcomes_of
+from topheavy.overturning import AT_A_TIME, SAFE, Interval, _halved, _steered, outcomes_by
 
 BLOCK = RockingBlock(2.0, 0.25, 0.9)
 BOTH = pytest.mark.parametrize("block", [BLOCK, BLOCK.linear()], ids=["exact", "linear"])
@@ -205,10 +205,10 @@ def test_intervals_ascend_and_do_not_overlap(case):
 def test_brackets_have_the_boundary_between_them(case):
     block, excitation, (first, last), resolution, found = case
     narrow = 1.01e-10 * max(abs(first), abs(last))
-    labels = _labeller(block, excitation, None)
 
     def label(scale):
-        return labels(np.array([scale]))[0]
+        overturned, impacts = outcomes_by(block, excitation, [scale])
+        return impacts[0] if overturned[0] else SAFE
 
     for interval in found:
         low, high = interval.lower
@@ -277,11 +277,11 @@ def test_way_9_no_interval_wider_than_the_resolution_is_missed(case):
 def test_way_9_first_scan_has_no_step_wider_than_the_resolution(monkeypatch, last, resolution):
     scans = []
 
-    def scanned(block, shape, scales, amplitudes, record):
+    def scanned(blocks, shape, which, scales, amplitudes, *more, **named):
         scans.append(amplitudes)
-        return outcomes_of(block, shape, scales, amplitudes, record)
+        return mixed_outcomes_of(blocks, shape, which, scales, amplitudes, *more, **named)
 
-    monkeypatch.setattr("topheavy.overturning.outcomes_of", scanned)
+    monkeypatch.setattr("topheavy.overturning.mixed_outcomes_of", scanned)
     overturning_intervals(LINEAR, SINE, (1.0, last), resolution=resolution)
     factors = scans[0] / SINE.amplitude
     assert (factors[0], factors[-1]) == (1.0, last)
@@ -379,6 +379,13 @@ def test_harmonic_has_no_intervals():
 # ---------------------------------------------------------------------------- the search
 
 
+def halved(label, boundary, width, narrowest):
+    """The boundaries of one search, whose factors a function labels."""
+    search = _halved([boundary], width, narrowest)
+    (found,) = _steered([search], lambda asked: [label(each) for each in asked.values()])
+    return found
+
+
 def searched(edges, values, boundary, width=1e-9, narrowest=1e-3):
     """The boundaries of a step function with these `values` between these `edges`."""
 
@@ -387,7 +394,7 @@ def searched(edges, values, boundary, width=1e-9, narrowest=1e-3):
 
     low, high = boundary
     ends = label(np.array([low, high]))
-    return _bisect(label, [(low, high, ends[0], ends[1])], width, narrowest)
+    return halved(label, (low, high, ends[0], ends[1]), width, narrowest)
 
 
 def test_search_closes_in_on_a_boundary():
@@ -470,7 +477,7 @@ def test_halvings_ahead_find_what_halving_one_by_one_finds(monkeypatch):
 
             monkeypatch.setattr("topheavy.overturning.TOGETHER", together)
             ends = label(np.array([0.0, 1.0]))
-            found.append(_bisect(label, [(0.0, 1.0, *ends)], 1e-9, 1e-4))
+            found.append(halved(label, (0.0, 1.0, *ends), 1e-9, 1e-4))
         assert found[0] == found[1]
         met += len(found[0]) > 2
     assert met > 20

@@ -14,6 +14,7 @@ from replication.ledger_check import check_ledger
 from replication.parts import PAPER, Part
 from replication.place import check_place
 from replication.progress import one_line_a_job
+from replication.stopping import end_on_sigterm
 from replication.strict_yaml import read_yaml
 from replication.study_config import read_study_config
 from replication.typeset import reads
@@ -21,6 +22,7 @@ from replication.unmade import made_by, refuse_unmade
 
 check_place()
 close(workflow)
+end_on_sigterm()
 if not workflow.dryrun:
     one_line_a_job()
 
@@ -57,12 +59,17 @@ def everything(wildcards):
     """
     drawn = {table for tables in FIGURES.values() for table in tables}
     wanted = dict.fromkeys(f"results/tables/{table}.csv" for table in sorted(drawn))
-    for each in workflow.rules:
-        if each.name == "crate" or not each.output:
-            continue
+    rules = [each for each in workflow.rules if each.name != "crate" and each.output]
+    for each in rules:
         asked = [*each.input, *([] if each.has_wildcards() else each.output)]
         wanted |= dict.fromkeys(str(path) for path in asked if not callable(path))
-    return [path for path in wanted if "{" not in path]
+    wanted = {path: None for path in wanted if "{" not in path}
+    # A rule with wildcards reads what its jobs read, and these are known by what they make.
+    for each in filter(lambda one: one.has_wildcards(), rules):
+        for path in filter(each.is_producer, list(wanted)):
+            files, *_ = each.expand_input(each.get_wildcards(path))
+            wanted |= dict.fromkeys(map(str, files))
+    return list(wanted)
 
 
 def longest_first():

@@ -66,18 +66,20 @@ class Fault:
         return hashlib.sha256(text.encode()).hexdigest()
 
 
-def load() -> list[Fault]:
-    """Return the faults of faults.yaml."""
-    return [
-        Fault(
-            **entry
-            | {
-                "tests": tuple(entry["tests"]),
-                "changes": tuple(Change(**change) for change in entry["changes"]),
-            }
-        )
-        for entry in read_yaml(FAULTS)
-    ]
+def load(root: Path = ROOT) -> list[Fault]:
+    """Return the faults of faults.yaml, but for those in a study that was removed."""
+    found = []
+    for entry in read_yaml(FAULTS):
+        changes = tuple(Change(**change) for change in entry["changes"])
+        tests = tuple(test for test in entry["tests"] if not _in_removed_study(test, root))
+        if tests and not any(_in_removed_study(change.file, root) for change in changes):
+            found.append(Fault(**entry | {"tests": tests, "changes": changes}))
+    return found
+
+
+def _in_removed_study(file: str, root: Path) -> bool:
+    folder, *inner = Path(file).parts
+    return folder == "studies" and not (root / folder / inner[0]).is_dir()
 
 
 @contextmanager

@@ -28,10 +28,13 @@ class Finding:
         A number with an estimate of its error.
     holds
         Whether a statement is true.
-    meant_value, meant_holds
-        The same for the intended form, where the printed form fails.
+    meant_value
+        Of a printed number that differs from the value: the number that misprinted premises give
+        as they are meant; or the number that should be printed, by the paper's own premises.
+    meant_holds
+        Of a statement that does not hold: whether its intended form does.
     kind
-        The kind of the discrepancy, one of `verdicts.KINDS`.
+        The kind of the discrepancy, one of `verdicts.KINDS`; of a number, "number" by default.
     holds_when
         Whether the statement is true under the condition that the evidence states.
     not_tested

@@ -3,7 +3,7 @@
 import csv
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from datetime import date
 from pathlib import Path
 
@@ -224,6 +224,30 @@ def read(path: Path) -> list[Row]:
     """Return the rows of a published table."""
     with path.open(encoding="utf-8", newline="") as file:
         return [Row(**row) for row in csv.DictReader(file)]
+
+
+def current(
+    rows: Iterable[Row], faults: Sequence[Fault], ledger: Iterable[Claim], root: Path
+) -> list[Row]:
+    """Return the rows that still say what catches a fault, in the order of the faults.
+
+    A row whose fault was reworded, or of which what caught it was removed, is left out: its fault
+    has to be run again. Claims and rules that were removed leave the other rows.
+    """
+    claims = {claim.id for claim in ledger}
+    files = [root / "Snakefile", *root.glob("src/*/*.smk"), *root.glob("studies/*/*.smk")]
+    made = set(re.findall(r"\brule (\w+):", "".join(path.read_text("utf-8") for path in files)))
+    order = {(f.name, f.fault, f.routes, " ".join(f.files)): n for n, f in enumerate(faults)}
+    kept = {}
+    for row in rows:
+        verdicts = [name for name in row.verdicts.split() if name in claims]
+        rules = [name for name in row.rules.split() if name in {*made, "all"}]
+        tested = bool(row.test) and (root / row.test.partition("::")[0]).is_file()
+        left = {"verdict": verdicts, "test": tested, "rule": rules}.get(row.caught_by)
+        place = order.get((row.name, row.fault, row.routes, row.files))
+        if left and place is not None:
+            kept[place] = replace(row, verdicts=" ".join(verdicts), rules=" ".join(rules))
+    return [kept[place] for place in sorted(kept)]
 
 
 def write(

@@ -11,6 +11,7 @@ from typing import Any
 
 from replication.claim import Claim, JudgedClaim
 from replication.crate import read_crate
+from replication.digits import numbers
 from replication.findings import Findings, findings_by_rule, write_findings
 from replication.ledger import OURS, as_text, read_ledger
 from replication.parts import PAPER, ledger_of
@@ -63,12 +64,13 @@ def verdict_table(rows: Sequence[JudgedClaim]) -> list[str]:
         "|---|---|---|---|---|---|---|",
     ]
     for row in rows:
+        digits = numbers(row)
         cells = [
             f"`{row.id}`",
             row.where,
             row.statement,
-            _shown(row.printed, row.unit),
-            _shown(row.computed, row.unit),
+            _shown(row.printed, digits.get("printed", ""), row.unit),
+            _shown(row.computed, digits.get("computed", ""), row.unit),
             row.verdict,
             row.remark,
         ]
@@ -147,16 +149,16 @@ def machine() -> str:
     return f"{os.cpu_count()} cores of {processor}, {platform.system()}, {python}"
 
 
-def _shown(value: object, unit: str) -> str:
+def _shown(value: object, digits: str, unit: str) -> str:
     match value:
         case None:
             return ""
         case bool():
             return "holds" if value else "does not hold"
-        case float() | int():
-            return f"{value:.6g} {unit}".rstrip()
+        case str():
+            return value
         case _:
-            return str(value)
+            return f"{digits} {unit}".rstrip()
 
 
 def publish(tables: Iterable[str], study_tables: Iterable[str] = ()) -> None:
@@ -206,7 +208,8 @@ def publish(tables: Iterable[str], study_tables: Iterable[str] = ()) -> None:
         old.unlink()
     for name in tables:
         shutil.copyfile(results / "tables" / f"{name}.csv", reference / f"{name}.csv")
-    (reference / "studies").mkdir(exist_ok=True)
+    shutil.rmtree(reference / "studies", ignore_errors=True)  # with those of removed studies
+    (reference / "studies").mkdir()
     for name in ours["studies"]:
         shutil.copyfile(f"studies/{name}/config.yaml", reference / "studies" / f"{name}.yaml")
     for name in study_tables:

@@ -4,6 +4,7 @@ A claim is a row of the ledger: a statement of the paper in our words. A finding
 rule for this claim: a value with its error, a truth value, or the reason why it was not computed.
 """
 
+import math
 from collections import Counter
 from collections.abc import Iterable
 from decimal import Decimal
@@ -11,6 +12,7 @@ from typing import Literal, get_args
 
 from replication.claim import Claim, JudgedClaim
 from replication.findings import Finding
+from replication.misprints import one_slip_apart
 
 Verdict = Literal[
     "confirmed", "qualified", "slip", "misprint", "refuted", "by definition", "not tested"
@@ -42,7 +44,9 @@ def verdict_on(claim: Claim, finding: Finding | None) -> Verdict:
     A printed number is confirmed when the computed value agrees within the claim's tolerance, and
     a statement when it holds. A statement that holds only under a stated condition is qualified.
     If the printed form fails and the intended form holds, the kind of discrepancy decides
-    (`KINDS`).
+    (`KINDS`). Of a number, either the premises are misprinted: as they are meant, they give the
+    printed number. Or the number itself is: the meant one agrees with the computed value, and one
+    slip turns it into the printed one (`misprints`). A number that is further off is refuted.
 
     Parameters
     ----------
@@ -89,9 +93,18 @@ def _judge_number(claim: Claim, finding: Finding, tolerance: float) -> Verdict:
 
     if agrees(finding.value):
         return "confirmed"
-    if agrees(finding.meant_value):
+    if agrees(finding.meant_value) or _is_misprinted(claim, finding, tolerance):
         return _by_kind(claim, "number" if finding.kind is None else finding.kind)
     return "refuted"
+
+
+def _is_misprinted(claim: Claim, finding: Finding, tolerance: float) -> bool:
+    """Return whether the number that is meant is the computed one, and one slip from the print."""
+    if finding.meant_value is None or not abs(finding.meant_value - finding.value) <= tolerance:
+        return False
+    last_digit = 2.0 * min(print_rounding(claim.printed), tolerance)  # 3.50 is kept as 3.5
+    decimals = max(0, round(-math.log10(last_digit)))
+    return one_slip_apart(claim.printed, finding.meant_value, decimals)
 
 
 def _by_kind(claim: Claim, kind: str | None) -> Verdict:

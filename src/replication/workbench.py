@@ -85,12 +85,18 @@ def log_to(path: str) -> Iterator[TextIO]:
 
 
 def value(number: float, error: float, unit: str = "", **more: Any) -> Finding:
-    """Return a finding with a value, an estimate of its error, and its unit."""
+    """Return a finding with a value, an estimate of its error, and its unit.
+
+    For a misprint, `meant_value` and `kind` say what is meant (`findings.Finding`).
+    """
     return Finding.of({"value": float(number), "error": float(error), "unit": unit, **_plain(more)})
 
 
 def truth(holds: bool, **evidence: Any) -> Finding:
-    """Return a finding that holds or not, with the evidence."""
+    """Return a finding that holds or not, with the evidence.
+
+    For a misprint, `meant_holds` and `kind` say whether the intended form holds.
+    """
     return Finding.of({"holds": bool(holds), **_plain(evidence)})
 
 

@@ -25,7 +25,21 @@ def named(entries, section):
 
 
 def after_the_kernel():
-    """Make the rules whose scripts use the kernel wait until it is compiled."""
+    """Make the jobs whose scripts use the kernel wait until it is compiled.
+
+    A function among the inputs of a rule names files only when its wildcards are known.
+    """
     for each in workflow.rules:
-        if "src/topheavy/kernel/compiled.py" in each.input and each.name != "kernel":
-            each.set_input("results/kernel.compiled")
+        if each.name == "kernel" or everything in each.input:
+            continue
+        if any(map(callable, each.input)):
+            each.set_input(partial(_compiled, list(each.input)))
+        else:
+            each.set_input(*_compiled(each.input, None))
+
+
+def _compiled(inputs, wildcards):
+    """Return what a job with these inputs has to wait for: the compiled kernel, or nothing."""
+    found = (each(wildcards) if callable(each) else [each] for each in inputs)
+    uses_it = any("src/topheavy/kernel/compiled.py" in each for each in found)
+    return ["results/kernel.compiled"] if uses_it else []

@@ -1,7 +1,7 @@
 """The findings that the published tables determine, computed again from these tables alone."""
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -39,6 +39,11 @@ def evidence(folder: Path, findings: Mapping[str, Findings]) -> Iterator[str]:
     def table(name: str) -> pd.DataFrame:
         return pd.read_csv(folder / f"{name}.csv")
 
+    for rule in unlisted(findings, published_studies(folder))[0]:
+        yield (
+            f"findings/{rule}.json: nothing draws these findings from a table; expected {rule} in "
+            "OF_PAPER or OF_STUDIES, or the reason in UNDRAWN of src/steps/evidence.py"
+        )
     for rule in SOURCES.keys() & findings.keys():
         for name, key, expected in SOURCES[rule](table):
             finding = findings[rule].by_name.get(name)
@@ -48,6 +53,25 @@ def evidence(folder: Path, findings: Mapping[str, Findings]) -> Iterator[str]:
                     f"findings/{rule}.json: {name}.{key} is {found}, and {expected} by the "
                     "published table that it was drawn from"
                 )
+
+
+def published_studies(folder: Path) -> list[str]:
+    """Return the names of the studies of the published edition, each of which has its config."""
+    return sorted(path.stem for path in folder.glob("studies/*.yaml"))
+
+
+def unlisted(rules: Iterable[str], studies: Iterable[str]) -> tuple[list[str], list[str]]:
+    """Return the rules of which neither SOURCES nor UNDRAWN has an entry.
+
+    First those of the paper and of studies that these lists know, of which nothing may be missing;
+    then those of other studies, which need no entry to be published.
+    """
+    listed = {*SOURCES, *UNDRAWN}
+    heads = [f"{study}_" for study in studies]
+    new = tuple(head for head in heads if not any(name.startswith(head) for name in listed))
+    missing = sorted({*rules} - listed)
+    others = [rule for rule in missing if rule.startswith(new)]
+    return [rule for rule in missing if rule not in others], others
 
 
 def same(found: Any, expected: Any, digits: Mapping[str, float]) -> bool:

@@ -76,6 +76,19 @@ def trilith(table: Table) -> Drawn:
     yield kept, "steady_peak_over_alpha", starts.late_peak_over_alpha[1.0]
 
 
+def trilith_states(table: Table) -> Drawn:
+    rows, most, one = table("trilith_states"), "most_starts_keep_rocking", "one_steady_rotation"
+    outcomes = {"keep_rocking": "rocking", "come_to_rest": "rests", "overturn": "overturned"}
+    for name, outcome in outcomes.items():
+        yield most, name, (rows.outcome == outcome).sum()
+    share = (rows.outcome == "rocking").mean()
+    yield most, "starts", len(rows)
+    yield most, "holds", share > 0.5 and set(outcomes.values()) == set(rows.outcome)
+    kept = rows[rows.outcome == "rocking"]
+    yield one, "starts", len(kept)
+    yield one, "steady_over_alpha", kept.steady.median()
+
+
 def allen_errors(table: Table) -> Drawn:
     for model, rows in table("allen_errors").groupby("model"):
         name, error = model.replace(" ", "_"), rows.relative_error.dropna()
@@ -121,13 +134,21 @@ def uplift_limits(table: Table) -> Drawn:
     ratios = table("uplift_ratios")
     rigid = ratios[ratios.held == "rigid"]
     totals = rigid[rigid.force != "bending_moment"]
+    cantilevers = rigid[rigid.top == "pinned"]
     limited = "uplift_limits_forces"
     yield limited, "holds", ratios.largest.max() < 1.0
-    yield limited, "holds_when", totals.largest.max() < 1.0
-    for force, rows in rigid.groupby("force"):
+    yield limited, "holds_when", max(totals.largest.max(), cantilevers.largest.max()) < 1.0
+    for force, rows in totals.groupby("force"):
         yield limited, f"{force}_least", rows.least.min()
         yield limited, f"{force}_largest", rows.largest.max()
-    cells = rigid[rigid.force == "base_shear"]
+    bending, ends = {}, {"least": "min", "largest": "max"}
+    for top, rows in rigid[rigid.force == "bending_moment"].groupby("top"):
+        stand = rows.histories - rows.overturned
+        not_lower = round(float(((1.0 - rows.lower) * stand).sum()))
+        bending[top] = {"histories": int(stand.sum()), "not_lower": not_lower}
+        bending[top] |= {end: float(rows[end].agg(how)) for end, how in ends.items()}
+    yield limited, "bending_moments", bending
+    cells = cantilevers[cantilevers.force == "base_shear"]
     fell = cells.overturned.sum()
     for name in (limited, "uplift_is_beneficial"):
         yield name, "histories", cells.histories.sum()
@@ -153,6 +174,14 @@ def vase(table: Table) -> Drawn:
     wider = portals.slenderness_deg > rows.slenderness_deg[alone].iloc[0]
     yield "portal_has_a_wider_base", "holds", wider.all()
     yield "portal_has_a_wider_base", "minimum_overturning_g", list(portals.minimum_overturning)
+    at = ["mass_ratio", "shape"]
+    frames = rows[rows.structure == "free"]
+    beside = rows[rows.structure == "portal"].merge(frames, on=at, suffixes=("", "_free"))
+    over = beside.minimum_overturning / beside.minimum_overturning_free
+    yield "portal_overturns_last", "holds", (over > 1.0).all()
+    yield "portal_overturns_last", "compared", len(over)
+    yield "portal_overturns_last", "least", over.min()
+    yield "portal_overturns_last", "largest", over.max()
     single = table("vase_shares").dropna(subset="shapley_value")
     for worth, found in single.groupby("worth"):
         shares = found.groupby("taken_from_the_frame").share_of_gain
@@ -170,6 +199,7 @@ OF_PAPER: tuple[Callable[[Table], Drawn], ...] = (
     restitution,
     spectra,
     trilith,
+    trilith_states,
     uplift_limits,
     vase,
 )

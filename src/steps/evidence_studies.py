@@ -171,7 +171,7 @@ def reversals_vase(table: Table) -> Drawn:
 
 def reversals_uplift(table: Table) -> Drawn:
     rows = table("studies/reversals_uplift")
-    cells = rows[(rows.force == "base_shear") & (rows.held == "rigid")]
+    cells = rows[(rows.force == "base_shear") & (rows.held == "rigid") & (rows.top == "pinned")]
     name = "uplift_limits_totals"
     yield name, "histories", cells.motions.sum()
     yield name, "survivors_that_uplift", cells.survivors.sum()
@@ -212,6 +212,29 @@ def certainty_extensions(table: Table) -> Drawn:
     yield "three_bodies", "largest", rows.routes_differ_by.max()
 
 
+def certainty_records(table: Table) -> Drawn:
+    rows = table("studies/certainty_records")
+    frames = rows[rows.mass_ratio > 0.0]
+    falls = rows.pivot_table(
+        index=["record", "structure"], columns="mass_ratio", values="overturned", aggfunc="first"
+    ).astype(bool)
+    light, heavy = falls[0.0], falls.drop(columns=0.0)
+    apart = sum(
+        int((falls[heavier] & ~falls[lighter]).sum())
+        for lighter, heavier in combinations(heavy.columns, 2)
+    )
+    yield "records", "holds", not frames.overturned.any()
+    yield "records", "overturned", frames.overturned.sum()
+    yield "records", "records", rows.record.nunique()
+    yield "records", "frames", len(frames)
+    yield "bare_columns_fall_first", "holds", not heavy[~light].to_numpy().any()
+    yield "lighter_frames_fall_first", "holds", apart == 0
+    asked = rows[rows.by_scipy.notna()]
+    yield "second_route", "asked", len(asked)
+    yield "second_route", "differ", (asked.by_scipy.astype(bool) != asked.overturned).sum()
+    yield "napa", "value", rows.pgv[rows.record.str.startswith("napa")].max()
+
+
 def certainty_restitution(table: Table) -> Drawn:
     rows = table("studies/certainty_restitution")
     pulses, less = (rows[rows.under == name] for name in ("pulses", "difference"))
@@ -226,6 +249,19 @@ def certainty_restitution(table: Table) -> Drawn:
         yield f"probability_falls_{name}", "holds", (part.less_low > 0.0).all()
         yield f"probability_falls_{name}", "compared", len(part)
         yield f"probability_falls_{name}", "least", part.less_low.min()
+
+
+def certainty_benefit(table: Table) -> Drawn:
+    rows = table("studies/certainty_benefit")
+    both, alone = (rows[rows.way == way] for way in ("both", "column alone"))
+    lowest = alone[alone.factor == alone.factor.min()]
+    yield "frame_is_safer", "holds", (both.less_low > 0.0).all()
+    yield "remains", "holds", (alone.less_low > 0.0).all()
+    yield "reverses", "holds", (lowest.less_high < 0.0).all()
+    parts = {"frame_is_safer": both, "remains": alone, "reverses": lowest}
+    for name, part in parts.items():
+        yield name, "compared", len(part)
+        yield name, "changes", part.to_dict("records")
 
 
 def certainty_intensities(table: Table) -> Drawn:
@@ -245,9 +281,11 @@ def certainty_intensities(table: Table) -> Drawn:
 
 
 OF_STUDIES: tuple[Callable[[Table], Drawn], ...] = (
+    certainty_benefit,
     certainty_extensions,
     certainty_intensities,
     certainty_lowest,
+    certainty_records,
     certainty_restitution,
     certainty_theorem,
     mechanism_dependence,

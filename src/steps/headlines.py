@@ -12,8 +12,6 @@ from replication.strict_yaml import read_yaml
 
 LINK = re.compile(r"\]\((?:[^()]|\([^()]*\))*\)")
 DOI = re.compile(r"\[doi:[^\]]*\]")
-STATED_PGV = 0.6
-"""m/s, of the probabilities in the README."""
 COMPARED = re.compile(r"([\d,]+) overturning flags")
 
 
@@ -22,23 +20,64 @@ def found(readme: str) -> str:
     return DOI.sub("", LINK.sub("]", readme.split("\n## Reproduce it")[0]))
 
 
-def motions(reference: Path, table: str, **place: float) -> pd.Series:
-    """Return a row of a table of study reversals: temple columns, near-fault motions."""
-    rows = pd.read_csv(reference / "studies" / f"{table}.csv")
-    rows = rows.query("structure == 'temple' and family == 'near-fault'")
+def motions(reference: Path, table: str, **place: float) -> pd.DataFrame:
+    """Return the rows of a table of study reversals on temple columns, one for each family."""
+    rows = pd.read_csv(reference / "studies" / f"{table}.csv").query("structure == 'temple'")
     for column, value in place.items():
         rows = rows[rows[column] == value]
-    return rows.squeeze()
+    return rows.set_index("family")
 
 
-def stated_motions(reference: Path, level: float) -> pd.DataFrame:
-    """Return how many near-fault motions of a PGV overturn 6 m columns, and of how many.
+def stated_motions(reference: Path, support: str) -> pd.DataFrame:
+    """Return how many motions of the stated PGV overturn 6 m columns, and of how many, by family.
 
-    The rows are the supports of the mass: bare, free and fixed.
+    The support of the mass is bare, free or fixed.
     """
     rows = pd.read_csv(reference / "studies" / "certainty_intensities.csv")
-    rows = rows.query("structure == '6 m temple' and family == 'near-fault' and measure == 'pgv'")
-    return rows[rows.level == level].set_index("support")[["fell", "motions"]]
+    rows = rows.query("structure == '6 m temple' and measure == 'pgv' and support == @support")
+    rows = rows[rows.level == stated_pgv(reference)]
+    return rows.set_index("family")[["fell", "motions", "probability"]]
+
+
+def stated_pgv(reference: Path) -> float:
+    """Return the peak ground velocity in m/s of the probabilities in README and article."""
+    return read_yaml(reference / "studies" / "certainty.yaml")["benefit"]["pgv"]
+
+
+def rises_at_one_period(reference: Path) -> pd.Series:
+    """Return by how much a very heavy cap beam raises the minimum under each pulse of 1.5 s."""
+    rows = pd.read_csv(reference / "vase.csv").set_index("shape")
+    bare = rows[rows.structure == "bare"].minimum_overturning
+    heavy = rows[(rows.structure == "free") & (rows.mass_ratio == math.inf)].minimum_overturning
+    return heavy / bare - 1.0
+
+
+def portals(reference: Path) -> pd.Series:
+    """Return the minimum overturning accelerations (g) of the portals under a one-cosine pulse."""
+    rows = pd.read_csv(reference / "vase.csv")
+    rows = rows[(rows.structure == "portal") & (rows["shape"] == "one-cosine")]
+    return rows.minimum_overturning
+
+
+def from_to(shares: pd.Series, digits: int = 0) -> str:
+    """Return the range of shares in words, in per cent: "17 to 23"."""
+    return f"{100 * shares.min():.{digits}f} to {100 * shares.max():.{digits}f}"
+
+
+def unscaled(reference: Path) -> dict[str, dict[bool, list[float]]]:
+    """Return the γ of 6 m columns that each measured record overturns (True), and that survive it.
+
+    Of the records that overturn any; γ = 0 is the bare column.
+    """
+    rows = pd.read_csv(reference / "studies" / "certainty_records.csv")
+    rows = rows[rows.structure == "6 m temple"]
+    return {
+        str(record): {
+            falls: of.mass_ratio[of.overturned == falls].tolist() for falls in (True, False)
+        }
+        for record, of in rows.groupby("record", sort=False)
+        if of.overturned.any()
+    }
 
 
 def numbers(reference: Path) -> list[str]:
@@ -48,24 +87,33 @@ def numbers(reference: Path) -> list[str]:
     ratios = pd.read_csv(reference / "mass_ratio.csv").set_index("mass_ratio")
     lowest = pd.read_csv(reference / "heavier.csv").set_index("mass_ratio").lowest_overturning_low
     starts = pd.read_csv(reference / "trilith_starts.csv").set_index("share_of_speed")
-    gain = motions(reference, "reversals_medians", mass_ratio=1.0, as_large_as=0).gain
+    states = pd.read_csv(reference / "trilith_states.csv").outcome.value_counts(normalize=True)
+    gains = motions(reference, "reversals_medians", mass_ratio=1.0, as_large_as=0).gain
     reversed_ = motions(reference, "reversals_pairs", lighter=0, heavier=1.0).motions
+    velocity = f"{stated_pgv(reference):.1f}"
+    alone, both = unscaled(reference).values()
     study = read_yaml(reference / "studies" / "reversals.yaml")["pulses"]
     window = study["grids"][study["grid"]]["frequency_ratios"]
     return [
         f"{ratios.size_ratio[math.inf]:.1f}",
+        f"{read_yaml(reference / 'config.yaml')['heavier']['pulse']['period']:.1f}",
         *(f"{lowest[gamma]:.3f}" for gamma in (0.0, math.inf)),
         f"{window['lowest']:.1f}",
         f"{100 * claims['reversals_help']:.1f}",
         f"{100 * claims['reversals_harm']:.1f}",
-        f"{100 * gain:.1f}",
-        f"{100 * reversed_:.1f}",
+        *from_to(gains, 1).split(" to "),
+        *from_to(reversed_, 1).split(" to "),
         f"{ratios.frequency_ratio[math.inf]:.3f}",
         f"{lowest[1.0]:.3f}",
-        f"{STATED_PGV:.1f}",
+        velocity,
+        f"{portals(reference).min():.2f}",
+        velocity,
+        *(f"{gamma:g}" for gamma in alone[True] + both[False] if gamma % 1.0),
         f"{claims['trilith_base_acceleration_in_g']:.3f}",
         f"{claims['trilith_uplift_acceleration']:.3f}",
+        f"{100 * states['rocking']:.1f}",
         f"{starts.late_peak_over_alpha[1.0]:.3f}",
+        *(f"{100 * states[outcome]:.1f}" for outcome in ("rests", "overturned")),
         f"{100 * claims['mechanism_share_apart']:.1f}",
     ]
 

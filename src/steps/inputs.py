@@ -1,6 +1,6 @@
 """Check structures and records of this paper beyond their schema."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -9,7 +9,10 @@ from replication.configuration import check_config, is_number, mapping_in
 from replication.suggestions import hint
 
 RECORDS = "data/records"
-UNORDERED = ("printed_masses", "accelerations")
+VERTICAL = "_UP"
+"""How the name of a vertical component ends."""
+
+UNORDERED = ("printed_masses", "accelerations", "samples")
 """Lists of numbers that need not ascend."""
 
 
@@ -78,13 +81,37 @@ def record_files(folder: str = RECORDS) -> dict[str, str]:
     return files
 
 
+def horizontal(names: Iterable[str]) -> list[str]:
+    """Return the records that are no vertical component, whose names end in VERTICAL."""
+    return [name for name in names if not name.endswith(VERTICAL)]
+
+
+def record_paths(records: str | Mapping[str, Any], files: Mapping[str, str]) -> list[str]:
+    """Return the files of the records of a section of a config.
+
+    Parameters
+    ----------
+    records
+        "horizontal" for every horizontal component that there is, or a mapping with the names
+        `only`, and the reason `because`: results under "no record" or "every record" cannot leave
+        one out silently.
+    files
+        As `record_files` returns them.
+    """
+    names = horizontal(files) if isinstance(records, str) else records["only"]
+    return [files[name] for name in names]
+
+
 def records_exist(config: Mapping[str, Any], folder: str = RECORDS) -> Iterator[str]:
-    """Yield the records that a config names and that do not exist."""
+    """Yield what is wrong with the records that a config names.
+
+    They exist; and those of a list `only` are some, and not all, of the horizontal components.
+    """
     for section in config:
         names = {"record.file": mapping_in(mapping_in(config, section), "record").get("file")}
-        several = mapping_in(config, section).get("records")
-        if isinstance(several, list):
-            names |= {f"records.{place}": name for place, name in enumerate(several)}
+        only = mapping_in(mapping_in(config, section), "records").get("only")
+        only = only if isinstance(only, list) else []
+        names |= {f"records.only.{place}": name for place, name in enumerate(only)}
         for place, name in names.items():
             there = record_files(folder)
             if isinstance(name, str) and name not in there:
@@ -92,3 +119,13 @@ def records_exist(config: Mapping[str, Any], folder: str = RECORDS) -> Iterator[
                     f"{section}.{place} is {name!r}, for which there is no {folder}/{name}.AT2 "
                     f"or .csv; {hint(name, there)}"
                 )
+            elif isinstance(name, str) and place != "record.file" and not horizontal([name]):
+                yield (
+                    f"{section}.{place} is {name!r}, a vertical component; "
+                    "expected a horizontal one"
+                )
+        if only and set(horizontal(record_files(folder))) <= set(map(str, only)):
+            yield (
+                f"{section}.records.only names every horizontal component in {folder}; "
+                "expected some of them, or `records: horizontal`"
+            )

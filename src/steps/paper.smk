@@ -33,6 +33,7 @@ PARTS[PAPER].findings.extend(
         "restitution",
         "moment_rotation",
         "trilith",
+        "trilith_states",
         "allen_histories",
         "allen_errors",
         "allen_overturning",
@@ -52,6 +53,7 @@ PARTS[PAPER].data.append(RECORDS["el_centro_1940_NS"])
 
 # Findings that no claim rests on, and without which no claim is worth much.
 CHECKS = {
+    "trilith_states": ["second_route"],
     "vase": ["second_route"],
     "uplift_limits": ["forces_by_second_routes"],
     "verification": [
@@ -220,6 +222,25 @@ rule trilith:
         "trilith.py"
 
 
+rule trilith_states:
+    input:
+        code("src/steps/trilith_states.py"),
+    output:
+        table="results/tables/trilith_states.csv",
+        findings="results/findings/trilith_states.json",
+    log:
+        "results/logs/trilith_states.log",
+    benchmark:
+        "results/benchmarks/trilith_states.tsv"
+    params:
+        case=case("trilith"),
+        states=config["trilith_states"],
+    message:
+        "The trilith on the same shake table, if it already rocks"
+    script:
+        "trilith_states.py"
+
+
 rule trilith_map:
     input:
         code("src/steps/trilith_map.py"),
@@ -323,7 +344,7 @@ rule heavier:
 rule vase:
     input:
         code("src/steps/vase.py"),
-        records=[RECORDS[name] for name in config["vase"]["records"]],
+        records=record_paths(config["vase"]["records"], RECORDS),
     output:
         summary="results/tables/vase.csv",
         motions="results/tables/vase_motions.csv",
@@ -347,7 +368,7 @@ rule vase:
 rule uplift_limits:
     input:
         code("src/steps/uplift_limits.py"),
-        records=[RECORDS[name] for name in config["uplift_limits"]["records"]],
+        records=record_paths(config["uplift_limits"]["records"], RECORDS),
     output:
         table="results/tables/uplift_limits.csv",
         ratios="results/tables/uplift_ratios.csv",
@@ -484,7 +505,7 @@ rule peak_maps:
 rule rocking_spectra:
     input:
         code("src/steps/rocking_spectra.py"),
-        records=[RECORDS[name] for name in config["rocking_spectra"]["records"]],
+        records=record_paths(config["rocking_spectra"]["records"], RECORDS),
     output:
         table="results/tables/rocking_spectra.csv",
         findings="results/findings/rocking_spectra.json",
@@ -530,7 +551,7 @@ rule assumptions:
         code("src/steps/assumptions/run.py"),
         assumptions="paper/assumptions.yaml",
         ledger=PARTS[PAPER].claims,
-        records=[RECORDS[name] for name in config["assumptions"]["records"]],
+        records=record_paths(config["assumptions"]["records"], RECORDS),
     output:
         table="results/tables/assumptions.csv",
     log:
@@ -546,6 +567,7 @@ rule assumptions:
                 "scale_effects",
                 "stability",
                 "statements",
+                "uplift_limits",
                 "rocking_spectra",
             ]
         }

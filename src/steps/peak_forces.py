@@ -19,10 +19,12 @@ from topheavy import (
     peak_rigid,
     simulate,
 )
-from topheavy.fixed_frame import STEPS
+from topheavy.fixed_frame import STEPS, Top
 
 FORCES = ("base_shear", "overturning_moment", "bending_moment")
 RIGID = "rigid"
+PINNED: Top = "pinned"
+GUIDED: Top = "guided"
 
 
 @dataclass(frozen=True)
@@ -101,17 +103,36 @@ def held_peaks(
     motion: Pulse | Record,
     periods: Sequence[float],
     steps: int = STEPS,
-) -> list[dict[str, dict[str, float]]]:
-    """Return, for each frame held against uplift, its largest forces by its period.
+) -> list[dict[tuple[Top, str], dict[str, float]]]:
+    """Return, for each frame, the largest forces of the frames in `held`.
 
     `steps` are those in a period, as in `peak_elastic`.
     """
-    fixed = [FixedFrame(frame, cap) for frame in frames]
-    found = [{RIGID: peak_rigid(one, motion)._asdict()} for one in fixed]
-    for period in periods:
-        for place, forces in enumerate(peak_elastic(fixed, motion, period, steps)):
-            found[place][f"{period:g} s"] = forces._asdict()
+    fixed = [(place, top) for place, one in enumerate(frames) for top in tops(one.mass_ratio)]
+    held = [FixedFrame(frames[place], cap, top) for place, top in fixed]
+    peaks = {RIGID: [peak_rigid(one, motion) for one in held]}
+    peaks |= {f"{period:g} s": peak_elastic(held, motion, period, steps) for period in periods}
+    found: list[dict[tuple[Top, str], dict[str, float]]] = [{} for _ in frames]
+    for name, forces in peaks.items():
+        for (place, top), one in zip(fixed, forces, strict=True):
+            found[place][top, name] = one._asdict()
     return found
+
+
+def tops(mass_ratio: float) -> tuple[Top, ...]:
+    """Return what the tops of columns held against uplift may be; without a cap beam, pinned."""
+    return (PINNED, GUIDED) if mass_ratio > 0.0 else (PINNED,)
+
+
+def held(mass_ratio: float, periods: Sequence[float]) -> list[tuple[Top, str]]:
+    """Return the frames that a rocking one is compared with: tops, and rigid or the period."""
+    names = [RIGID, *(f"{period:g} s" for period in periods)]
+    return [(top, name) for top in tops(mass_ratio) for name in names]
+
+
+def ratio_of(force: str, top: str, name: str) -> str:
+    """Return the name of the column with a force of the rocking frame over that of a held one."""
+    return f"{force}, {top}, {name}"
 
 
 def _largest(force: np.ndarray) -> float:

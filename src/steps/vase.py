@@ -14,7 +14,7 @@ from replication.findings import Finding
 from replication.workbench import grid, run, truth
 from steps.spectrum import progress
 from steps.vase_poses import poses
-from steps.vase_searches import Minimum, minimum, refined, rivals
+from steps.vase_searches import FINEST, Minimum, minimum, refined, rivals
 from steps.vase_shares import PARAMETERS, WORTHS, shares
 from topheavy import (
     STANDARD_GRAVITY,
@@ -139,6 +139,7 @@ def question(compared: list[dict], structures: list[str], longest: float) -> Fin
         exceptions=len(broken),
         exceptions_under_records=sum(row["kind"] == "record" for row in broken),
         records=sum(row["kind"] == "record" for row in asked),
+        steps={kind.__name__: step for kind, step in FINEST.items()},
     )
 
 
@@ -236,6 +237,15 @@ def ranks(summary: pd.DataFrame) -> bool:
     )
 
 
+def beside_frames(summary: pd.DataFrame) -> Finding:
+    """Return whether each portal overturns later than the frame of its γ under each pulse."""
+    at = ["mass_ratio", "shape"]
+    frames = summary[summary.structure == "free"].set_index(at).minimum_overturning
+    portals = summary[summary.structure == "portal"].set_index(at).minimum_overturning
+    over = portals.to_numpy() / frames.loc[portals.index].to_numpy()
+    return truth(over.min() > 1.0, compared=len(over), least=over.min(), largest=over.max())
+
+
 def main(case: dict, paths: list[str], tightened: float) -> tuple:
     column = Column(**case["column"])
     summary = pd.DataFrame(under_pulses(column, case))
@@ -266,10 +276,12 @@ def main(case: dict, paths: list[str], tightened: float) -> tuple:
             slenderness_deg=portals.slenderness_deg,
             minimum_overturning_g=portals.minimum_overturning,
         ),
+        "portal_overturns_last": beside_frames(summary),
         "shares_of_the_gain": whole_gain(of_shares),
         "second_route": second_route(errors, exceptions, rows, compared),
     }
-    tables = summary, pd.DataFrame(map(plain, rows)), pd.DataFrame(exceptions), of_shares
+    searched = pd.DataFrame(plain(row) | {"search_step": row["found"].step} for row in rows)
+    tables = summary, searched, pd.DataFrame(exceptions), of_shares
     return *tables, pd.DataFrame(poses(column, case)), findings
 
 

@@ -46,11 +46,14 @@ class Minimum:
         Of unit peak: its factor is its peak acceleration in g.
     bracket : (float, float)
         g. Both are infinite when nothing up to the highest acceleration overturns.
+    step : float
+        g, of the search that found it: a narrower range of lower accelerations may be missed.
     """
 
     structure: Structure
     motion: Pulse | Record
     bracket: tuple[float, float]
+    step: float = math.nan
 
     @property
     def acceleration(self) -> float:
@@ -90,7 +93,7 @@ def minimum(structure: Structure, motion: Pulse | Record, highest: float) -> Min
             break
         found = minimum_overturning(structure, motion, scales, resolution=step * uplift)
         if found:
-            return Minimum(structure, motion, found)
+            return Minimum(structure, motion, found, step * uplift)
     return Minimum(structure, motion, (math.inf, math.inf))
 
 
@@ -101,7 +104,7 @@ def refined(found: Minimum, below: float) -> Minimum:
     if not uplift + step < below <= found.bracket[0]:
         return found
     lower = minimum_overturning(found.structure, found.motion, (uplift, below), resolution=step)
-    return replace(found, bracket=lower) if lower else found
+    return replace(found, bracket=lower, step=step) if lower else found
 
 
 def rivals(column: Column, ratios: Sequence[float]) -> Iterator[tuple[str, float, Structure]]:

@@ -11,8 +11,12 @@ from .fixed_frame import FixedFrame, peak_elastic, peak_elastic_by_scipy, peak_r
 from .fixed_mass import FixedMassColumn, MonolithicPortal
 from .frame_forces import base_shear_slope, frame_forces
 from .overturning import (
+    Search,
+    intervals_together,
+    minima_together,
     minimum_overturning,
     overturned_by,
+    overturned_together,
     overturning_intervals,
     overturning_map,
 )
@@ -38,15 +42,19 @@ __all__ = [
     "Response",
     "RockingBlock",
     "RockingFrame",
+    "Search",
     "base_shear_slope",
     "column_forces",
     "column_impulse",
     "contact_forces",
     "frame_forces",
     "impact_impulses",
+    "intervals_together",
     "judge",
+    "minima_together",
     "minimum_overturning",
     "overturned_by",
+    "overturned_together",
     "overturning_intervals",
     "overturning_map",
     "peak_elastic",

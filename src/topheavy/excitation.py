@@ -1,11 +1,14 @@
 """The interface of a ground motion to the solvers: an acceleration in smooth, monotone segments."""
 
-from collections.abc import Callable
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Protocol, overload
+from typing import Any, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+from topheavy import checks
 
 
 def constant_gravity(time: float) -> float:
@@ -66,10 +69,11 @@ class Segment:
         )
 
 
-class Excitation(Protocol):
+class Excitation(ABC):
     """A ground motion: `Pulse` and `Record`."""
 
     @property
+    @abstractmethod
     def duration(self) -> float:
         """How long it lasts, s; infinite for the harmonic."""
         ...
@@ -77,11 +81,22 @@ class Excitation(Protocol):
     @overload
     def excitation(self, t: float) -> float: ...
     @overload
+    def excitation(
+        self, t: Sequence[float] | NDArray[np.floating[Any] | np.integer[Any]]
+    ) -> NDArray[np.float64]: ...
+    @overload
     def excitation(self, t: ArrayLike) -> float | NDArray[np.float64]: ...
     def excitation(self, t: ArrayLike) -> float | NDArray[np.float64]:
         """Return the ground acceleration in g at the time(s) t in s; zero outside the motion."""
+        values = self.accelerations(checks.numbers("t", t))
+        return float(values) if np.ndim(values) == 0 else values
+
+    @abstractmethod
+    def accelerations(self, time: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the ground acceleration in g at an array of times in s; zero outside."""
         ...
 
+    @abstractmethod
     def segments(self, until: float) -> list[Segment]:
         """Return the segments from 0 to the earlier of `until` and the end, in order."""
         ...

@@ -1,8 +1,17 @@
-"""The same frame held against uplift: columns fixed at both ends, rigid or elastic.
+"""The same frame held against uplift, rigid or elastic, by columns that are fixed at their bases.
 
-The cap beam is rigid and, held by two columns, it does not turn. A column bends as a beam that is
-fixed at its base and guided at its top. The rigid frame moves with the ground. The elastic one
-deflects in the shape ψ = 3x² − 2x³ of a force at the top, x = z/2h; the period of that mode is
+The cap beam is rigid and, held by two columns, it does not turn. What it does to the tops of the
+columns is an assumption:
+
+pinned
+    It rests on them, as the cap beam that rocks does, and lets them turn. Each column is a
+    cantilever under its own inertia and half that of the cap beam, at its top.
+guided
+    They are fixed to it, as in a portal. Each column bends as a beam that is guided at its top: it
+    may move there and not turn. A column without a cap beam has nothing that guides it.
+
+The rigid frame moves with the ground. The elastic one deflects in the shape ψ of a force at the
+top, with x = z/2h: (3x² − x³)/2 pinned and 3x² − 2x³ guided. The period of that mode is
 given, as stiffness cannot be known from three numbers. Forces are
 
     F(t) = (F_r − F_m) ü_g/g + F_m A(t)/g,
@@ -15,7 +24,7 @@ A → ü_g, and the frame is rigid. The weight's moment about displaced columns 
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Literal, NamedTuple, TypeAlias, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,6 +40,8 @@ from topheavy.records import Record
 from topheavy.structures import RockingFrame
 
 Array = NDArray[np.float64]
+
+Top: TypeAlias = Literal["pinned", "guided"]
 
 DAMPING = 0.05
 """ζ, of critical damping."""
@@ -52,16 +63,36 @@ class Forces(NamedTuple):
 
 @dataclass(frozen=True)
 class FixedFrame:
-    """A frame whose columns are fixed to the ground and to the cap beam.
+    """A frame whose columns are fixed to the ground, and pinned to the cap beam or guided by it.
 
     Parameters
     ----------
     frame : RockingFrame
     cap : Cap
+    top : str
+        "pinned" or "guided": whether the columns may turn at their tops.
+
+    Raises
+    ------
+    ValueError
+        For another top, and for guided columns without a cap beam (γ = 0).
     """
 
     frame: RockingFrame
     cap: Cap
+    top: Top
+
+    def __post_init__(self) -> None:
+        if self.top not in get_args(Top):
+            raise ValueError(
+                f"top is {self.top!r}; expected 'pinned', columns that may turn at their tops, "
+                "or 'guided', columns that may not"
+            )
+        if self.top == "guided" and self.frame.mass_ratio == 0.0:
+            raise ValueError(
+                "top is 'guided' and the frame has no cap beam (γ = 0) that guides its columns; "
+                "expected 'pinned', which makes them cantilevers, or γ > 0"
+            )
 
     @property
     def _shares(self) -> tuple[float, float]:
@@ -74,27 +105,37 @@ class FixedFrame:
     def rigid(self) -> Array:
         """F_r: base shear, overturning moment, bending moment at base and top; over ü_g/g.
 
-        A force P at the guided top bends a column by P h at both ends; a uniform load w over its
-        length by 4wh²/3 at the base and 2wh²/3 at the top.
+        A force P at the top bends a column at the base by 2Ph if it is pinned there; by Ph, and at
+        the top as well, if it is guided. A uniform load w over its length does so by 2wh² at the
+        base of a pinned one; by 4wh²/3 at the base and 2wh²/3 at the top of a guided one.
         """
         columns, beam = self._shares
         h = self.frame.column.half_height
-        foot, top = (beam / 2.0 + columns / 3.0) * h, (beam / 2.0 + columns / 6.0) * h
+        if self.top == "pinned":
+            foot, top = (beam + columns / 2.0) * h, 0.0
+        else:
+            foot, top = (beam / 2.0 + columns / 3.0) * h, (beam / 2.0 + columns / 6.0) * h
         return np.array([1.0, centre_height(self.frame, self.cap), foot, top])
 
     @property
     def mode(self) -> Array:
         """F_m: as `rigid`, of the load m ψ Γ of the mode.
 
-        ∫ψ² = 13/35, ∫ψ = 1/2, ∫ψx = 7/20, ∫ψ(x − x²/2) = 13/60 and ∫ψx²/2 = 2/15 over the length.
+        Over the length ∫ψ = 3/8, ∫ψ² = 33/140 and ∫ψx = 11/40 pinned; 1/2, 13/35 and 7/20 guided,
+        with ∫ψ(x − x²/2) = 13/60 and ∫ψx²/2 = 2/15.
         """
         columns, beam = self._shares
         h = self.frame.column.half_height
-        participation = (beam + columns / 2.0) / (beam + columns * 13.0 / 35.0)  # Γ
-        arm = beam * (2.0 * h + self.cap.half_depth) + columns * 2.0 * h * 7.0 / 20.0
-        foot = (beam / 2.0 + columns * 13.0 / 60.0) * h
-        top = (beam / 2.0 + columns * 2.0 / 15.0) * h
-        return participation * np.array([beam + columns / 2.0, arm, foot, top])
+        if self.top == "pinned":
+            mean, square, first = 3.0 / 8.0, 33.0 / 140.0, 11.0 / 40.0
+            foot, top = (beam + columns * first) * h, 0.0
+        else:
+            mean, square, first = 1.0 / 2.0, 13.0 / 35.0, 7.0 / 20.0
+            foot = (beam / 2.0 + columns * 13.0 / 60.0) * h
+            top = (beam / 2.0 + columns * 2.0 / 15.0) * h
+        participation = (beam + columns * mean) / (beam + columns * square)  # Γ
+        arm = beam * (2.0 * h + self.cap.half_depth) + columns * 2.0 * h * first
+        return participation * np.array([beam + columns * mean, arm, foot, top])
 
     def forces(self, ground: Array, total: Array) -> Array:
         """Return the four forces of `rigid` as columns, for ü_g and A in g."""

@@ -20,9 +20,9 @@ from topheavy.kernel.outcome import TOLERANCE
 from topheavy.kernel.taylor import Oscillator, oscillator
 from topheavy.pulses import Pulse, checked_shape
 from topheavy.records import Record
-from topheavy.simulate import as_forcing, checked_tolerance, no_excitation
-from topheavy.structures import RockingBlock, Structure
-from topheavy.vertical import refuse_fall
+from topheavy.simulate import Shaking, as_shaking, checked_tolerance, no_excitation
+from topheavy.structures import Structure
+from topheavy.vertical import both_records, refuse_fall
 
 if TYPE_CHECKING:
     import xarray
@@ -166,8 +166,14 @@ def overturned_by(
         For factors that are negative or not finite, for a harmonic, and for a vertical
         acceleration, with its factor, of −1 g or less.
     """
-    how = {"tolerance": tolerance, "vertical": vertical, "scale_vertical": scale_vertical}
-    return outcomes_by(structure, excitation, factors, **how)[0]
+    return outcomes_by(
+        structure,
+        excitation,
+        factors,
+        tolerance=tolerance,
+        vertical=vertical,
+        scale_vertical=scale_vertical,
+    )[0]
 
 
 def outcomes_by(
@@ -468,10 +474,8 @@ class _Subject(NamedTuple):
     """A block under a motion, as the kernel takes both."""
 
     block: Oscillator
-    shape: int
+    shaking: Shaking
     scale: float
-    amplitude: float
-    record: NDArray[np.float64]
     scale_vertical: bool
 
 
@@ -481,58 +485,70 @@ def _answered(
     resolution: float,
     most_impacts: int,
 ) -> list[Answer]:
-    """Return what each search returns; `begin` makes it from its first factors.
+    """Return what each search returns; `begin` makes it from its first factors."""
+    asking = [begin(_grid(search, resolution)) for search in searches]
+    subjects = _subjects(searches)
+
+    def label(asked: Mapping[int, Factors]) -> list[NDArray[np.int64]]:
+        found = _outcomes([subjects[number] for number in asked], [*asked.values()], TOLERANCE)
+        return [np.where(fell, np.minimum(count, most_impacts), SAFE) for fell, count in found]
+
+    return _steered(asking, label)
+
+
+def _steered(
+    asking: Sequence[Generator[_Asked, Any, Answer]],
+    label: Callable[[Mapping[int, Factors]], Sequence[NDArray[np.int64]]],
+) -> list[Answer]:
+    """Return what each search returns; `label` labels factors of several, by their numbers.
 
     The factors that all searches wait for are labelled together. Where they are few, several
     halvings ahead are labelled with them, whichever halves they will turn out to take.
     """
-    grids = [_grid(search, resolution) for search in searches]
-    subjects = _subjects(searches)
-    found: dict[int, Answer] = {}
-    known: dict[int, Mapping[float, int]] = {}
-    asking = {number: begin(grid) for number, grid in enumerate(grids)}
-    waiting = {number: next(search) for number, search in asking.items()}
+    answers: dict[int, Answer] = {}
+    known: dict[int, dict[float, int]] = {number: {} for number in range(len(asking))}
+    waiting = {number: next(search) for number, search in enumerate(asking)}
     while waiting:
         missing = {
             number: asked
             for number, asked in waiting.items()
-            if not known.get(number, {}).keys() >= set(asked.factors.tolist())
+            if not known[number].keys() >= set(asked.factors.tolist())
         }
         count = sum(len(asked.brackets) for asked in missing.values())
         depth = max(1, int(math.log2(TOGETHER / max(count, 1) + 1)))
-        ahead = [
-            np.array([point for one in asked.brackets for point in halvings(*one, depth)])
+        ahead = {
+            number: np.array([factor for one in asked.brackets for factor in halvings(*one, depth)])
             if asked.brackets
             else asked.factors
-            for asked in missing.values()
-        ]
-        outcomes = _outcomes([subjects[number] for number in missing], ahead, TOLERANCE)
-        for number, factors, (overturned, impacts) in zip(missing, ahead, outcomes, strict=True):
-            labels = np.where(overturned, np.minimum(impacts, most_impacts), SAFE)
+            for number, asked in missing.items()
+        }
+        for (number, factors), labels in zip(ahead.items(), label(ahead), strict=True):
             known[number] = dict(zip(factors.tolist(), labels.tolist(), strict=True))
         for number, asked in list(waiting.items()):
             labels = np.array([known[number][factor] for factor in asked.factors.tolist()])
             try:
                 waiting[number] = asking[number].send(labels)
             except StopIteration as end:
-                found[number] = end.value
+                answers[number] = end.value
                 del waiting[number], known[number]
-    return [found[number] for number in range(len(searches))]
+    return [answers[number] for number in range(len(asking))]
 
 
 def _subjects(searches: Sequence[Search]) -> list[_Subject]:
     """Return blocks and motions as the kernel takes them; each motion is prepared but once."""
-    prepared: dict[tuple[int, int], NDArray[np.float64]] = {}
+    prepared: dict[tuple[int, int], Shaking] = {}
     subjects = []
     for search in searches:
         block, excitation, vertical = search.structure.block(), search.excitation, search.vertical
         if vertical is not None:
-            refuse_fall(vertical, search.scale_range if search.scale_vertical else 1.0)
-        shape, scale, amplitude, record = _ending_forcing(block, excitation, vertical)
-        record = prepared.setdefault((id(excitation), id(vertical)), record)
-        subjects.append(
-            _Subject(oscillator(block), shape, scale, amplitude, record, search.scale_vertical)
-        )
+            _, up = both_records(excitation, vertical)
+            refuse_fall(up, search.scale_range if search.scale_vertical else 1.0)
+        key = (id(excitation), id(vertical))
+        if key not in prepared:
+            prepared[key] = _ending(excitation, vertical)
+        shaking = prepared[key]
+        scale = shaking.scale(block)
+        subjects.append(_Subject(oscillator(block), shaking, scale, search.scale_vertical))
     return subjects
 
 
@@ -544,41 +560,40 @@ def _outcomes(
     Histories under one record, or under pulses of one shape, run together.
     """
     groups: dict[tuple[int, int], list[int]] = {}
-    for number, subject in enumerate(subjects):
-        key = (subject.shape, id(subject.record) if subject.shape == RECORD else 0)
-        groups.setdefault(key, []).append(number)
+    for number, (_, shaking, *_) in enumerate(subjects):
+        record = id(shaking.record) if shaking.shape == RECORD else 0
+        groups.setdefault((shaking.shape, record), []).append(number)
     found: dict[int, tuple[NDArray[np.bool_], NDArray[np.int64]]] = {}
     for (shape, _), members in groups.items():
-        alike, sizes = [subjects[k] for k in members], [factors[k].size for k in members]
-        lifts = [
-            factors[k] if subjects[k].scale_vertical else np.ones(n)
-            for k, n in zip(members, sizes, strict=True)
-        ]
+        alike = [subjects[number] for number in members]
+        given = [factors[number] for number in members]
+        sizes = [each.size for each in given]
+        pairs = list(zip(alike, given, strict=True))
         _, overturned, impacts = mixed_outcomes_of(
             [subject.block for subject in alike],
             shape,
             np.repeat(np.arange(len(alike)), sizes),
             np.repeat([subject.scale for subject in alike], sizes),
-            np.concatenate([subjects[k].amplitude * factors[k] for k in members]),
-            alike[0].record,
-            lifts=np.concatenate(lifts),
+            np.concatenate([subject.shaking.amplitude * each for subject, each in pairs]),
+            alike[0].shaking.record,
+            lifts=np.concatenate(
+                [each if subject.scale_vertical else np.ones_like(each) for subject, each in pairs]
+            ),
             tolerance=tolerance,
         )
         cuts = np.cumsum(sizes)[:-1]
-        pairs = zip(np.split(overturned, cuts), np.split(impacts, cuts), strict=True)
-        found |= dict(zip(members, pairs, strict=True))
+        found_here = zip(np.split(overturned, cuts), np.split(impacts, cuts), strict=True)
+        found |= dict(zip(members, found_here, strict=True))
     return [found[number] for number in range(len(subjects))]
 
 
-def _ending_forcing(
-    block: RockingBlock, excitation: Excitation, vertical: Record | None
-) -> tuple[int, float, float, NDArray[np.float64]]:
+def _ending(excitation: Excitation, vertical: Record | None) -> Shaking:
     """Return an excitation as the kernel takes it, if it is one and ends."""
     if excitation is None:
         raise no_excitation(excitation)
     if isinstance(excitation, Pulse) and excitation.duration == math.inf:
         raise ValueError("shape is 'harmonic', which goes on forever; expected a pulse that ends")
-    return as_forcing(block, excitation, vertical)
+    return as_shaking(excitation, vertical)
 
 
 def halvings(low: float, high: float, depth: int) -> list[float]:

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from topheavy import checks
-from topheavy.excitation import Segment
+from topheavy.excitation import Excitation, Segment
 from topheavy.shapes import PULSE_SHAPES, SHAPES
 
 Phase = NDArray[np.float64]
@@ -73,7 +73,7 @@ def checked_shape(shape: str) -> str:
 
 
 @dataclass(frozen=True)
-class Pulse:
+class Pulse(Excitation):
     """A ground acceleration pulse that starts at t = 0.
 
     Parameters
@@ -111,12 +111,10 @@ class Pulse:
         """Return the same pulse with its amplitude multiplied by `factor`."""
         return replace(self, amplitude=self.amplitude * checks.finite("factor", factor))
 
-    def excitation(self, t: ArrayLike) -> float | NDArray[np.float64]:
-        """Return the ground acceleration in g at the time(s) t in s; zero outside the pulse."""
-        time = checks.numbers("t", t)
+    def accelerations(self, time: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the ground acceleration in g at an array of times in s; zero outside the pulse."""
         inside = (time >= 0.0) & (time <= self.duration)
-        value = np.where(inside, self._wave(np.where(inside, time, 0.0)), 0.0)
-        return float(value) if value.ndim == 0 else value
+        return np.where(inside, self._wave(np.where(inside, time, 0.0)), 0.0)
 
     def segments(self, until: float) -> list[Segment]:
         """Return the smooth, monotone segments from 0 to the earlier of `until` and the end."""

@@ -1,6 +1,7 @@
 """Rocking histories by the Taylor solver: `simulate`, and `judge` for the outcome alone."""
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -109,8 +110,10 @@ def simulate(
     times = sample_times(samples)
     tolerance = checked_tolerance(tolerance)
     theta, theta_rate = initial_motion(block, rotation, velocity)
-    shape, scale, amplitude, record = as_forcing(block, excitation, vertical)
-    p = block.frequency_parameter
+    if vertical is not None:
+        refuse_fall(both_records(excitation, vertical)[1])
+    shape, _, amplitude, record = shaking = as_shaking(excitation, vertical)
+    p, scale = block.frequency_parameter, shaking.scale(block)
     until = math.inf if duration is None else p * checks.positive("duration", duration, "s")
     if shape == RECORD:
         forcing = record_forcing(record, scale, amplitude, 1.0)
@@ -184,44 +187,52 @@ def judge(
         raise no_excitation(excitation)
     if excitation.duration == math.inf:
         raise ValueError("the excitation goes on forever; expected one that ends")
-    block = structure.block()
-    shape, scale, amplitude, record = as_forcing(block, excitation, vertical)
+    if vertical is not None:
+        refuse_fall(both_records(excitation, vertical)[1])
+    block, shaking = structure.block(), as_shaking(excitation, vertical)
     found = outcome_of(
         oscillator(block),
-        shape,
-        scale,
-        amplitude,
-        record,
+        shaking.shape,
+        shaking.scale(block),
+        shaking.amplitude,
+        shaking.record,
         lift=1.0,
         tolerance=checked_tolerance(tolerance),
     )
     return Ending(bool(found.overturned), float(found.peak), int(found.impacts))
 
 
-def as_forcing(
-    block: RockingBlock, excitation: Excitation | None, vertical: Record | None = None
-) -> tuple[int, float, float, NDArray[np.float64]]:
-    """Return a ground motion as the kernel takes it: shape, ω/p or p Δt, amplitude, record."""
-    p = block.frequency_parameter
+class Shaking(NamedTuple):
+    """A ground motion for the kernel: its number, ω (rad/s) or Δt (s), amplitude, record."""
+
+    shape: int
+    rate: float
+    amplitude: float
+    record: NDArray[np.float64]
+
+    def scale(self, block: RockingBlock) -> float:
+        """Return ω/p of a pulse, p Δt of a record."""
+        p = block.frequency_parameter
+        return p * self.rate if self.shape == RECORD else self.rate / p
+
+
+def as_shaking(excitation: Excitation | None, vertical: Record | None = None) -> Shaking:
+    """Return a ground motion as the kernel takes it, or raise ValueError if it is none."""
     if vertical is not None:
         across, up = both_records(excitation, vertical)
-        refuse_fall(up)
-        return RECORD, p * across.time_step, 1.0, together(across, up)
+        ratio = up.time_step / across.time_step
+        record = prepare_two_records(across.acceleration, up.acceleration, ratio)
+        return Shaking(RECORD, across.time_step, 1.0, record)
     match excitation:
         case None:
-            return NONE, 1.0, 0.0, NO_RECORD
+            return Shaking(NONE, 1.0, 0.0, NO_RECORD)
         case Pulse():
-            scale = excitation.angular_frequency / p
-            return SHAPES[excitation.shape], scale, float(excitation.amplitude), NO_RECORD
+            number, omega = SHAPES[excitation.shape], excitation.angular_frequency
+            return Shaking(number, omega, float(excitation.amplitude), NO_RECORD)
         case Record():
-            return RECORD, p * excitation.time_step, 1.0, prepare_record(excitation.acceleration)
+            record = prepare_record(excitation.acceleration)
+            return Shaking(RECORD, excitation.time_step, 1.0, record)
     raise no_excitation(excitation)
-
-
-def together(across: Record, up: Record) -> NDArray[np.float64]:
-    """Return a horizontal and a vertical record as the kernel takes them."""
-    ratio = up.time_step / across.time_step
-    return prepare_two_records(across.acceleration, up.acceleration, ratio)
 
 
 def checked_tolerance(value: float) -> float:

@@ -21,7 +21,7 @@ from topheavy.records import Record
 
 
 @dataclass(frozen=True, eq=False)
-class TwoComponents:
+class TwoComponents(Excitation):
     """A horizontal and a vertical record that start together.
 
     Raises
@@ -41,9 +41,9 @@ class TwoComponents:
         """How long either lasts, s."""
         return max(self.horizontal.duration, self.vertical.duration)
 
-    def excitation(self, t: ArrayLike) -> float | NDArray[np.float64]:
-        """Return the horizontal acceleration in g at the time(s) t in s."""
-        return self.horizontal.excitation(t)
+    def accelerations(self, time: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the horizontal acceleration in g at an array of times in s."""
+        return self.horizontal.accelerations(time)
 
     def segments(self, until: float) -> list[Segment]:
         """Return the spans between the samples of either record, up to `until`."""
@@ -55,7 +55,7 @@ class TwoComponents:
         edges = edges[np.append(True, np.diff(edges) > 1e-9 * end)]
         lines = []
         for record in both:
-            line = np.stack([*pairwise(np.atleast_1d(record.excitation(edges)))])
+            line = np.stack([*pairwise(record.accelerations(edges))])
             line[edges[1:] + edges[:-1] > 2.0 * record.duration] = 0.0  # it ends by a jump
             lines.append(line)
         spans = zip(pairwise(edges), *lines, strict=True)

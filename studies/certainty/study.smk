@@ -1,6 +1,14 @@
 """What follows from the equation of motion, for which motion, and how surely."""
 
-CERTAINTY = ["theorem", "lowest", "extensions", "restitution", "intensities"]
+CERTAINTY = [
+    "theorem",
+    "lowest",
+    "extensions",
+    "restitution",
+    "benefit",
+    "intensities",
+    "records",
+]
 
 PARTS["certainty"].figures.update(
     {
@@ -95,10 +103,28 @@ rule certainty_restitution:
         "steps/restitution.py"
 
 
+rule certainty_benefit:
+    input:
+        code("studies/certainty/steps/benefit.py"),
+    output:
+        table="results/tables/certainty_benefit.csv",
+        findings="results/findings/certainty_benefit.json",
+    log:
+        "results/logs/certainty_benefit.log",
+    benchmark:
+        "results/benchmarks/certainty_benefit.tsv"
+    params:
+        case=case("benefit", "certainty"),
+        ensemble=MOTIONS,
+    message:
+        "Study certainty: the benefit of the cap beam if the column loses more at impacts"
+    script:
+        "steps/benefit.py"
+
+
 rule certainty_intensities:
     input:
         code("studies/certainty/steps/intensities.py"),
-        records=[RECORDS[name] for name in case("intensities", "certainty")["records"]],
     output:
         table="results/tables/certainty_intensities.csv",
         findings="results/findings/certainty_intensities.json",
@@ -114,3 +140,23 @@ rule certainty_intensities:
         "Study certainty: probability of overturning at stated intensities"
     script:
         "steps/intensities.py"
+
+
+rule certainty_records:
+    input:
+        code("studies/certainty/steps/records.py"),
+        records=record_paths(case("records", "certainty")["records"], RECORDS),
+    output:
+        table="results/tables/certainty_records.csv",
+        findings="results/findings/certainty_records.json",
+    log:
+        "results/logs/certainty_records.log",
+    benchmark:
+        "results/benchmarks/certainty_records.tsv"
+    params:
+        case=case("records", "certainty"),
+        structures=named(config["structures"], case("records", "certainty")),
+    message:
+        "Study certainty: the records as measured"
+    script:
+        "steps/records.py"

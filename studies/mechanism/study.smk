@@ -62,7 +62,7 @@ rule mechanism_forces:
 rule mechanism_three_bodies:
     input:
         code("studies/mechanism/steps/three_bodies.py"),
-        records=[RECORDS[name] for name in MECHANISM["three_bodies"]["records"]],
+        records=record_paths(MECHANISM["three_bodies"]["records"], RECORDS),
     output:
         table="results/tables/mechanism_three_bodies.csv",
         findings="results/findings/mechanism_three_bodies.json",
@@ -120,7 +120,7 @@ rule mechanism_dependence:
 rule mechanism_records:
     input:
         code("studies/mechanism/steps/records.py"),
-        records=[RECORDS[name] for name in MECHANISM["records"]["records"]],
+        records=record_paths(MECHANISM["records"]["records"], RECORDS),
     output:
         table="results/tables/mechanism_records.csv",
         findings="results/findings/mechanism_records.json",

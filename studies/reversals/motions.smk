@@ -34,9 +34,7 @@ scattergather:
 rule reversals_records:
     input:
         code("studies/reversals/steps/motions_records.py"),
-        records=[
-            RECORDS[name] for name in case("motions_records", "reversals")["records"]
-        ],
+        records=record_paths(case("motions_records", "reversals")["records"], RECORDS),
     output:
         table="results/tables/reversals_records.csv",
         counts="results/tables/reversals_by_record.csv",

@@ -15,7 +15,6 @@ from topheavy import (
     RockingFrame,
     contact_forces,
     overturning_map,
-    read_record,
     simulate,
 )
 from topheavy.contact_forces import column_forces
@@ -235,70 +234,6 @@ def test_named_case_has_the_numbers_of_the_library(browser, records, number):
             assert fallen == {False, True}
 
 
-def test_every_record_is_read_as_the_library_reads_it(browser, request):
-    browser.open(settled=False)
-    paths = sorted((request.config.rootpath / "data" / "records").glob("*.AT2"))
-    assert len(paths) > 5
-    for path in paths:
-        text = path.read_text(encoding="utf-8")
-        found = browser.do(
-            "(({step, samples}) => [step, [...samples]])(readRecord({0}, {1}))", path.name, text
-        )
-        ours = read_record(path)
-        assert found[0] == ours.time_step
-        np.testing.assert_allclose(found[1], ours.acceleration, rtol=1e-14)
-
-
-FILES = {
-    "gal.csv": "time (s),acceleration (gal)\n0.00,0\n0.01,98.1\n0.02,-49\n",
-    "plain.csv": "time (ms),acceleration (m/s²)\n0,0\n5,1\n10,-1\n",
-    "rounded.csv": (
-        "time (s),acceleration (g)\n0.000,0\n0.003,.1\n0.007,.2\n0.010,.1\n0.013,0\n0.017,.1\n"
-    ),
-    "digits.csv": "time (s),acceleration (g)\n0,0\n5.00E-1,.1\n1.00E+0,.2\n1.5,.1\n2,0\n",
-    "percent.AT2": "A title\nACCELERATION IN %G\nNPTS= 4, DT= 0.01 SEC\n 1.0 2.0\n 3.0D0 4.0\n",
-    "old.AT2": "A title\nUNITS: CM/S2\n 3 0.02 NPTS, DT\n 1 2 3\n",
-}
-BAD = {
-    "short.AT2": ("A title\nUNITS OF G\nNPTS= 4, DT= 0.01 SEC\n 1.0 2.0\n", "says 4 samples"),
-    "none.AT2": ("A title\nNPTS= 2, DT= 0.01 SEC\n 1.0 2.0\n", "no unit of acceleration"),
-    "word.AT2": ("UNITS OF G\nNPTS= 2, DT= 0.01 SEC\n 1.0 two\n", '"two" is not a number'),
-    "big.AT2": ("UNITS OF G\nNPTS= 2, DT= 0.01 SEC\n 1.0 9.0\n", "at most 5 g"),
-    "gap.csv": ("time (s),acceleration (g)\n0,0\n0.1,.1\n0.3,.1\n0.4,0\n0.5,.1", "equal steps"),
-    "uneven.csv": (
-        "time (s),acceleration (g)\n0,0\n0.010,.1\n0.024,.1\n0.034,0\n0.048,.1\n0.058,0",
-        "equal steps",
-    ),
-    "head.csv": ("t,a\n0,0\n1,1\n", 'line 1 is "t,a"'),
-    "text.txt": ("1 2 3", "ends in .AT2 or .csv"),
-}
-
-
-@pytest.mark.parametrize("name", FILES)
-def test_unit_is_converted_as_by_the_library(browser, tmp_path, name):
-    browser.open(settled=False)
-    (tmp_path / name).write_text(FILES[name], encoding="utf-8")
-    ours = read_record(tmp_path / name)
-    found = browser.do(
-        "(({step, samples}) => [step, [...samples]])(readRecord({0}, {1}))", name, FILES[name]
-    )
-    assert found[0] == pytest.approx(ours.time_step, rel=1e-14)
-    np.testing.assert_allclose(found[1], ours.acceleration, rtol=1e-14)
-
-
-@pytest.mark.parametrize("name", BAD)
-def test_bad_file_is_refused_with_its_reason_as_by_the_library(browser, tmp_path, name):
-    browser.open(settled=False)
-    text, said = BAD[name]
-    (tmp_path / name).write_text(text, encoding="utf-8")
-    with pytest.raises(ValueError, match=name):
-        read_record(tmp_path / name)
-    script = "(() => { try { readRecord({0}, {1}); } catch (error) { return error.message; } })()"
-    message = browser.do(script, name, text)
-    assert message.startswith(f"{name}: ")
-    assert said in message
-
-
 @pytest.mark.parametrize("number", range(6))
 def test_python_of_a_case_prints_what_the_page_shows(browser, number, capsys, monkeypatch, request):
     monkeypatch.chdir(request.config.rootpath)
@@ -328,3 +263,32 @@ def test_seeded_states_hold_what_they_should():
     assert {state["shape"] for state in found} == set(SHAPES)
     assert {state["eq"] for state in found} == {"exact", "linearised"}
     assert {state["cap"] for state in found} == {"free", "fixed"}
+
+
+def test_page_names_the_steps_in_which_it_searches_the_minimum(browser):
+    browser.open(settled=False)
+    windows = browser.do("WINDOWS")
+    said = browser.do("document.body.textContent.replace(/\\s+/g, ' ')")
+    (_, first, one), (_, second, two), (_, last, three) = windows
+    percents = (round(100 * step, 6) for step in (one, two, three))
+    steps = "steps of {:g} % of it up to {:g} times, of {:g} % up to {:g} times"
+    steps += " and of {:g} % up to {:g} times"
+    ends = zip(percents, (first, second, last), strict=True)
+    assert steps.format(*(number for pair in ends for number in pair)) in said
+
+
+def test_digits_of_the_minimum_follow_from_the_step_of_its_search(browser):
+    """The last printed digit is no finer than a tenth of the step, whatever the motion."""
+    for change in ({}, {"shape": "record"}):
+        browser.open(browser.do("encode({...DEFAULTS, ...{0}})", change))
+        cells = browser.do(
+            """structuresOf(state).map((block, k) => {
+            const cell = document.getElementById(`minimum${k}`), a = Number(cell.dataset.value);
+            return [cell.textContent, a, searchStep(block, a), cell.title];
+            })"""
+        )
+        for text, lowest, step, title in cells:
+            unit = 10.0 ** -len(text.partition(".")[2])
+            assert step / 10.0 < unit < 10.0 * step
+            assert abs(float(text) - lowest) <= 0.5001 * unit
+            assert title == f"search step {step:.2g} g"

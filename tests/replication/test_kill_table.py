@@ -69,6 +69,22 @@ def test_fault_still_fits_the_tree(fault):
         assert f"def {function}" in (ROOT / file).read_text("utf-8") if function else True
 
 
+@pytest.mark.parametrize("study", sorted(path.name for path in (ROOT / "studies").iterdir()))
+def test_faults_in_a_study_go_with_it_and_take_no_other_along(tmp_path, study):
+    for other in (ROOT / "studies").iterdir():
+        if other.name != study:
+            (tmp_path / "studies" / other.name).mkdir(parents=True)
+    left, folder = load(tmp_path), f"studies/{study}/"
+    gone = {
+        f.name
+        for f in FAULTS
+        if any(file.startswith(folder) for file in f.files)
+        or all(test.startswith(folder) for test in f.tests)
+    }
+    assert [fault.name for fault in left] == [name for name in NAMES if name not in gone]
+    assert not any(test.startswith(folder) for fault in left for test in fault.tests)
+
+
 def test_names_are_unique():
     assert len(set(NAMES)) == len(NAMES)
 
@@ -273,6 +289,38 @@ def test_what_caught_a_fault_is_still_there(published):
 def test_published_page_is_that_of_the_table(published):
     page = (ROOT / "docs" / "kill_table.md").read_text(encoding="utf-8")
     assert page == table.page(published, LEDGER, waiting(published))
+
+
+def test_published_table_is_current(published):
+    assert table.current(published, FAULTS, LEDGER, ROOT) == published
+
+
+def test_row_of_which_the_fault_or_what_caught_it_is_gone_is_dropped(tree):
+    (tree / "Snakefile").write_text("rule one:\n", encoding="utf-8")
+    claims = [replace(LEDGER[0], id="eq1")]
+
+    def left(row, faults=(ONE,)):
+        return table.current([row], faults, claims, tree)
+
+    assert left(ROW) == [replace(ROW, verdicts="eq1")]
+    assert left(replace(ROW, verdicts="eq2")) == []
+    assert left(ROW, [replace(ONE, fault="Two is three.")]) == []
+    assert left(ROW, []) == []
+    tested = replace(ROW, caught_by="test", verdicts="", test="test_one.py::test_one")
+    assert left(tested) == [tested]
+    assert left(replace(tested, test="test_two.py::test_two")) == []
+    stopped = replace(ROW, caught_by="rule", verdicts="", rules="one two")
+    assert left(stopped) == [replace(stopped, rules="one")]
+    assert left(replace(stopped, rules="two")) == []
+
+
+def test_publishing_names_the_faults_to_run(monkeypatch, tmp_path, published):
+    monkeypatch.setattr(command, "TABLE", tmp_path / "kill_table")
+    table.write([replace(published[0], fault="Other."), *published[1:]], LEDGER, command.TABLE)
+    command.refresh()
+    assert table.read(tmp_path / "kill_table.csv") == published[1:]
+    page = (tmp_path / "kill_table.md").read_text(encoding="utf-8")
+    assert f"Not run since they were written or changed (1): {published[0].name}." in page
 
 
 # The choice --------------------------------------------------------------------------------------

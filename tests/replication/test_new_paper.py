@@ -8,6 +8,7 @@ import tomllib
 from pathlib import Path
 
 import pytest
+import yaml
 
 from replication.commands import new_paper
 
@@ -115,6 +116,17 @@ def test_published_edition_is_sound(paper):
     done = python(paper, "-m", "steps.recheck", PYTHONPATH=str(paper / "src"))
     assert "paper: 2 confirmed, 0 qualified, 0 slips, 1 misprint" in done.stdout
     assert done.stdout.endswith("tables, claims and pages agree\n"), done.stdout + done.stderr
+
+
+def test_it_is_on_the_branch_on_which_its_workflow_runs(tmp_path):
+    default = {"GIT_CONFIG_GLOBAL": str(tmp_path / "gitconfig")}
+    (tmp_path / "gitconfig").write_text("[init]\n\tdefaultBranch = trunk\n", encoding="utf-8")
+    done = python(ROOT, "-m", "replication.commands.new_paper", str(tmp_path / "far"), **default)
+    assert done.returncode == 0, done.stderr
+    workflow = yaml.safe_load((tmp_path / "far/.github/workflows/ci.yaml").read_text("utf-8"))
+    head = (tmp_path / "far/.git/HEAD").read_text("utf-8").strip()
+    (branch,) = workflow[True]["push"]["branches"]  # YAML 1.1 reads on as true
+    assert head == f"ref: refs/heads/{branch}"
 
 
 JOBS = """

@@ -39,6 +39,14 @@ def verdict(claim, finding):
         ({"value": 0.300, "error": 0.0, "meant_value": 0.275, "kind": "convention"}, "qualified"),
         ({"value": 0.300, "error": 0.0, "meant_value": 0.290}, "refuted"),
         ({"value": 0.300, "error": 0.0, "meant_value": 0.290, "kind": "letter"}, "refuted"),
+        # the print itself is wrong: 0.275 for 0.257
+        ({"value": 0.25702, "error": 0.0, "meant_value": 0.257}, "misprint"),
+        ({"value": 0.25702, "error": 0.0, "meant_value": 0.25702, "kind": "number"}, "misprint"),
+        ({"value": 0.25702, "error": 0.0, "meant_value": 0.257, "kind": "convention"}, "qualified"),
+        ({"value": 0.26102, "error": 0.0, "meant_value": 0.257}, "refuted"),
+        ({"value": 0.300, "error": 0.0, "meant_value": 0.300, "kind": "number"}, "refuted"),
+        ({"value": math.nan, "error": 0.0, "meant_value": 0.257}, "refuted"),
+        ({"value": 0.25702, "error": 0.0, "meant_value": math.nan}, "refuted"),
         ({"value": 0.27451, "error": 0.0}, "confirmed"),
         ({"value": 0.27449, "error": 0.0}, "refuted"),
         ({"value": 0.275, "error": 0.0, "meant_value": 0.290}, "confirmed"),
@@ -74,6 +82,15 @@ def test_a_printed_number_is_held_against_the_computed_one(finding, expected):
 )
 def test_a_statement_is_judged_by_what_holds(finding, expected):
     assert verdict(STATEMENT, finding) == expected
+
+
+def test_digits_that_the_tolerance_tells_of_are_compared_too():
+    claim = replace(NUMBER, printed=3.57, tolerance=5e-5)  # 3.5700 in print
+    for found, expected in [(3.5699457, "misprint"), (3.56, "misprint")]:
+        finding = Finding.of({"value": found, "error": 0.0, "meant_value": found})
+        assert verdict_on(claim, finding) == expected
+    finding = Finding.of({"value": 3.5698457, "error": 0.0, "meant_value": 3.5698457})
+    assert verdict_on(claim, finding) == "refuted"
 
 
 def test_a_value_too_uncertain_for_its_tolerance_gives_no_verdict():

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 import yaml
 
-from steps.inputs import check_inputs, record_files
+from steps.inputs import check_inputs, horizontal, record_files, record_paths
 
 ROOT = Path(__file__).resolve().parents[2]
 CONFIG, QUICK, THOROUGH = (
@@ -202,6 +202,67 @@ def test_two_records_of_one_name_are_refused_naming_both(tmp_path, other):
     assert f"{tmp_path}/{other}" in str(error.value)
     with pytest.raises(ValueError, match="both the record 'el_centro'"):
         check_inputs(CONFIG, "config.yaml", str(ROOT / "config/config.schema.yaml"), str(tmp_path))
+
+
+MEASURED = sorted(
+    path.stem
+    for path in (ROOT / "data" / "records").glob("*.AT2")
+    if "vertical" not in path.read_text(encoding="utf-8").splitlines()[0]
+)
+"""The records whose first line does not call them a vertical component."""
+
+
+def test_name_of_a_record_says_whether_it_is_a_vertical_component():
+    there = record_files(str(ROOT / "data" / "records"))
+    assert horizontal(there) == MEASURED
+    assert len(there) - len(MEASURED) == 3
+
+
+def test_horizontal_means_every_horizontal_component():
+    there = record_files(str(ROOT / "data" / "records"))
+    assert record_paths("horizontal", there) == [there[name] for name in MEASURED]
+    some = {"only": MEASURED[2:3], "because": "a test"}
+    assert record_paths(some, there) == [there[MEASURED[2]]]
+
+
+@pytest.mark.parametrize(
+    ("value", "expected"),
+    [
+        (MEASURED[1:], "expected horizontal (every horizontal component in data/records) or a "),
+        (MEASURED, "expected horizontal (every horizontal component in data/records) or a "),
+        ("horizontl", "did you mean 'horizontal'?"),
+        ({"only": MEASURED[1:]}, "vase.records lacks because"),
+        ({"only": MEASURED[1:], "because": ""}, "vase.records.because is ''"),
+        ({"because": "one will do for this"}, "vase.records lacks only"),
+        ({"only": [], "because": "one will do for this"}, "vase.records.only is []"),
+        (
+            {"only": ["napa_2014_68150_UP"], "because": "one will do for this"},
+            "vase.records.only.0 is 'napa_2014_68150_UP', a vertical component",
+        ),
+        ({"only": ["napa"], "because": "one will do for this"}, "vase.records.only.0 is 'napa'"),
+        (
+            {"only": MEASURED, "because": "one will do for this"},
+            "vase.records.only names every horizontal component in ",
+        ),
+    ],
+)
+def test_no_section_leaves_out_a_record_without_a_reason(value, expected):
+    (fault,) = faults(changed("vase.records", value))
+    assert expected in fault
+
+
+def test_some_records_are_accepted_with_the_reason():
+    some = {"only": MEASURED[1:], "because": "one will do for this"}
+    assert faults(changed("vase.records", some)) == []
+
+
+@pytest.mark.parametrize("study", sorted(ROOT.glob("studies/*/config.schema.yaml")), ids=str)
+def test_schemas_of_studies_define_records_alike(study):
+    of_paper = yaml.safe_load((ROOT / "config" / "config.schema.yaml").read_text("utf-8"))
+    definitions = yaml.safe_load(study.read_text("utf-8")).get("$defs", {})
+    if "records" in definitions:
+        expected = of_paper["$defs"]["records"]["oneOf"]
+        assert definitions["records"]["oneOf"] == expected
 
 
 def test_a_shape_without_a_closed_form_is_refused_where_one_is_needed():

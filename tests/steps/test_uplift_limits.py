@@ -9,8 +9,26 @@ import pytest
 from replication.workbench import truth
 from steps import uplift_limits
 from steps.histories import history
-from steps.peak_forces import FORCES, held_peaks, impact_impulse, rocking_peaks
-from topheavy import Cap, Column, FixedFrame, Pulse, RockingFrame, impact_impulses, peak_rigid
+from steps.peak_forces import (
+    FORCES,
+    GUIDED,
+    PINNED,
+    held,
+    held_peaks,
+    impact_impulse,
+    ratio_of,
+    rocking_peaks,
+)
+from topheavy import (
+    Cap,
+    Column,
+    FixedFrame,
+    Pulse,
+    RockingFrame,
+    impact_impulses,
+    peak_elastic,
+    peak_rigid,
+)
 
 COLUMN, CAP = Column(0.5, 3.0), Cap(5.0, 0.5)
 FRAME = RockingFrame(COLUMN, 1.0)
@@ -59,12 +77,24 @@ def test_impulse_is_that_of_the_contacts_at_the_largest_impact():
     assert impact_impulse(FRAME, course) == pytest.approx(np.abs(total).max(), rel=1e-6)
 
 
-def test_held_frames_are_rigid_first_and_then_by_their_periods():
+def test_held_frames_are_pinned_and_guided_rigid_and_of_each_period():
     (found,) = held_peaks([FRAME], CAP, pulse(2.0), [0.2, 1.0])
-    assert list(found) == ["rigid", "0.2 s", "1 s"]
-    rigid = peak_rigid(FixedFrame(FRAME, CAP), pulse(2.0))._asdict()
-    assert found["rigid"] == rigid
-    assert found["0.2 s"]["base_shear"] > rigid["base_shear"]
+    assert sorted(found) == sorted(held(1.0, [0.2, 1.0]))
+    assert len(found) == 6
+    for top in (PINNED, GUIDED):
+        rigid = peak_rigid(FixedFrame(FRAME, CAP, top), pulse(2.0))._asdict()
+        assert found[top, "rigid"] == rigid
+        (elastic,) = peak_elastic([FixedFrame(FRAME, CAP, top)], pulse(2.0), 0.2)
+        assert found[top, "0.2 s"] == elastic._asdict()
+    moments = [found[top, "rigid"]["bending_moment"] for top in (PINNED, GUIDED)]
+    assert moments[0] > moments[1]
+
+
+def test_column_alone_is_compared_with_a_cantilever_only():
+    alone, frame = held_peaks([RockingFrame(COLUMN, 0.0), FRAME], CAP, pulse(2.0), [0.2])
+    assert list(alone) == held(0.0, [0.2]) == [(PINNED, "rigid"), (PINNED, "0.2 s")]
+    assert len(frame) == 4
+    assert alone[PINNED, "rigid"]["bending_moment"] == pytest.approx(2.0 * TAN * 3.0 / 2.0)
 
 
 @pytest.mark.parametrize("ratio", [0.5, 4.0])
@@ -79,18 +109,19 @@ def test_slopes_are_those_of_three_bodies():
 
 
 def test_summary_counts_what_overturns_and_does_not_average_it():
-    held = [f"{name}, {one}" for name in FORCES for one in ("rigid", "1 s")]
+    ratios = [ratio_of(name, *one) for name in FORCES for one in held(1.0, [1.0])]
     rows = [
-        {"kind": "pulse", "mass_ratio": 1.0, "outcome": outcome} | dict.fromkeys(held, ratio)
+        {"kind": "pulse", "mass_ratio": 1.0, "outcome": outcome} | dict.fromkeys(ratios, ratio)
         for outcome, ratio in (("rests", 0.5), ("rests", 1.5), ("overturned", math.nan))
     ]
     found = uplift_limits.summary(pd.DataFrame(rows), {"periods": [1.0]})
-    assert found.histories.tolist() == [3] * 6
-    assert found.overturned.tolist() == [1] * 6
-    assert found["median"].tolist() == [1.0] * 6
-    assert found.least.tolist() == [0.5] * 6
-    assert found.largest.tolist() == [1.5] * 6
-    assert found.lower.tolist() == [0.5] * 6
+    assert found.top.tolist() == [PINNED, PINNED, GUIDED, GUIDED] * 3
+    assert found.histories.tolist() == [3] * 12
+    assert found.overturned.tolist() == [1] * 12
+    assert found["median"].tolist() == [1.0] * 12
+    assert found.least.tolist() == [0.5] * 12
+    assert found.largest.tolist() == [1.5] * 12
+    assert found.lower.tolist() == [0.5] * 12
 
 
 CASE = {
@@ -124,7 +155,10 @@ def findings(outputs):
 def test_forces_are_limited_beside_a_rigid_frame_alone(findings):
     found = findings["uplift_limits_forces"]
     assert (found["holds"], found["holds_when"]) == (False, True)
-    assert found["bending_moments_not_lower"] > 0
+    bending = found["bending_moments"]
+    assert bending["guided"]["not_lower"] > 0
+    assert bending["pinned"]["not_lower"] == 0
+    assert 0 < bending["guided"]["histories"] < bending["pinned"]["histories"]  # γ = 0 has no guide
     assert 0 < found["overturned"] < found["histories"] == 12
     assert findings["uplift_is_beneficial"]["holds_when"]
     assert findings["forces_by_second_routes"]["holds"]
@@ -189,7 +223,7 @@ def test_slope_that_three_bodies_deny_is_noticed(monkeypatch):
 
 
 def rows(**change):
-    usual = dict.fromkeys((f"{name}, rigid" for name in FORCES), 0.5)
+    usual = dict.fromkeys((ratio_of(name, *one) for name in FORCES for one in held(1.0, [])), 0.5)
     return [
         {"outcome": "rests", "rotation": 0.5, "impulse": 0.1, "shear_after_uplift": 1.0}
         | {"base_shear": 0.9, "mass_ratio": 1.0, "kind": "pulse"}
@@ -200,7 +234,11 @@ def rows(**change):
 
 ROWS = rows()
 RATIOS = pd.DataFrame(
-    {"held": ["rigid", "rigid", "rigid"], "force": FORCES, "least": 0.4, "largest": 0.5}
+    [
+        {"held": "rigid", "force": name, "top": top, "least": 0.4, "largest": 0.5}
+        for name in FORCES
+        for top in (PINNED, GUIDED)
+    ]
 )
 
 
@@ -208,16 +246,20 @@ RATIOS = pd.DataFrame(
     ("force", "outcome", "forces", "totals", "beneficial", "of_the_shear"),
     [
         (None, "rests", True, True, True, True),
-        ("bending_moment", "rests", False, True, False, True),
-        ("overturning_moment", "rests", False, False, False, True),
-        ("base_shear", "rests", False, False, False, False),
+        ("bending_moment guided", "rests", False, True, False, True),  # the portal is no condition
+        ("bending_moment pinned", "rests", False, False, False, True),  # the cantilever is
+        ("overturning_moment guided", "rests", False, False, False, True),
+        ("overturning_moment pinned", "rests", False, False, False, True),
+        ("base_shear guided", "rests", False, False, False, False),
         (None, "overturned", True, True, False, True),  # one that overturns is no benefit
     ],
 )
 def test_each_force_counts_where_it_is_claimed(
     monkeypatch, force, outcome, forces, totals, beneficial, of_the_shear
 ):
-    ratios = RATIOS.assign(largest=[1.1 if name == force else 0.5 for name in FORCES])
+    ratios = RATIOS.assign(
+        largest=[1.1 if f"{row.force} {row.top}" == force else 0.5 for row in RATIOS.itertuples()]
+    )
     given = {"summary": ratios, "second_route": truth(True)}
     given |= {"motions": [(None, {})], "compare": [*ROWS, *rows(outcome=outcome)]}
     for name, found in given.items():

@@ -59,6 +59,21 @@ def test_refinement_finds_what_a_minimum_missed():
     assert vase_searches.refined(missed, 0.25) == missed
 
 
+def test_minimum_has_the_step_of_the_search_that_found_it():
+    uplift = COLUMN.uplift_acceleration
+    found = vase_searches.minimum(COLUMN, PULSE, 2.0)
+    (step,) = (
+        step
+        for low, high, step in vase_searches.WINDOWS[Pulse]
+        if low * uplift < found.acceleration <= high * uplift
+    )
+    assert found.step == pytest.approx(step * uplift)
+    missed = vase_searches.Minimum(COLUMN, PULSE, (0.9, 0.9), 0.05 * uplift)
+    finest = vase_searches.FINEST[Pulse] * uplift
+    assert vase_searches.refined(missed, 0.5).step == pytest.approx(finest)
+    assert vase_searches.refined(missed, 0.25).step == missed.step
+
+
 def row(structure, ours, bare, ratio=1.0, kind="pulse"):
     found, other = (vase_searches.Minimum(COLUMN, PULSE, (value, value)) for value in (ours, bare))
     return {
@@ -255,6 +270,23 @@ def test_portal_stands_on_a_wider_base_or_not(monkeypatch, angle, holds):
     case |= {"sample": {"points": 1}, "checked_by_second_route": 1, "longest": 2.0}
     case |= {"shapes": ["b"]}
     assert vase.main(case, [], 3e-12)[-1]["portal_has_a_wider_base"].holds == holds
+
+
+@pytest.mark.parametrize(
+    ("change", "least"),
+    [
+        ({}, 0.9 / 0.31),
+        ({"portal": {"minimum_overturning": 0.30}}, 0.30 / 0.31),  # above bare and fixed
+        ({"free": {"minimum_overturning": 1.0}}, 0.9),
+    ],
+)
+def test_portal_is_beside_the_frame_under_every_pulse(change, least):
+    other = summary().assign(mass_ratio=2.0, minimum_overturning=0.01)
+    frames = other[other.structure == "free"]  # of another mass: not compared
+    found = vase.beside_frames(pd.concat([summary(**change), frames]))
+    assert found.holds is (least > 1.0)
+    assert found["compared"] == 2
+    assert found["least"] == pytest.approx(least)
 
 
 @pytest.mark.parametrize(("lost", "holds"), [(0.0, True), (0.01, False)])

@@ -22,7 +22,16 @@ from pathlib import Path
 
 from replication.claim import Claim
 from replication.faults import JUDGING, Fault, load
-from replication.kill_table import Row, caught, first_failing, put_to_the_test, workflow, write
+from replication.kill_table import (
+    Row,
+    caught,
+    current,
+    first_failing,
+    put_to_the_test,
+    read,
+    workflow,
+    write,
+)
 from replication.ledger import read_ledger
 from replication.parts import PAPER, ledger_of
 from replication.strict_yaml import read_yaml
@@ -137,6 +146,14 @@ def chosen(faults: list[Fault], names: str | None, number: int | None) -> list[F
             ) from None
         return rotation(faults, number, found.stdout)
     return faults
+
+
+def refresh() -> None:
+    """Write the published table without what no longer holds; its page names the faults to run."""
+    faults, ledger = load(), read_ledger(ledger_files())
+    rows = current(read(TABLE.with_suffix(".csv")), faults, ledger, ROOT)
+    known = {row.name for row in rows}
+    write(rows, ledger, TABLE, [fault.name for fault in faults if fault.name not in known])
 
 
 def processor_seconds() -> float:

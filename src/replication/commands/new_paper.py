@@ -180,5 +180,8 @@ if __name__ == "__main__":
         sys.exit(f"make paper: {error}")
     if shutil.which("git"):
         subprocess.run(["git", "init", "--quiet", str(folder)], check=True)
+        # Its workflow runs on this branch; git init takes the name from the user's settings.
+        on_main = ["git", "-C", str(folder), "symbolic-ref", "HEAD", "refs/heads/main"]
+        subprocess.run(on_main, check=True)
     print(f"{folder} is made. Run it: make -C {folder} reproduce")
     print(f"Then make it yours: {folder}/README.md says in which order.")

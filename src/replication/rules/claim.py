@@ -4,6 +4,7 @@ import sys
 from typing import Any
 
 from replication.claim import Claim
+from replication.digits import decimals
 from replication.findings import Finding, Findings, read_findings
 from replication.ledger import finding_of
 from replication.verdicts import verdict_on
@@ -19,9 +20,13 @@ def verdict_line(claim: Claim, finding: Finding | None, verdict: str) -> str:
         grounds = finding.not_tested
     elif finding.value is not None:
         unit = claim.unit or finding.unit
-        grounds = f"{printed}computed {finding.value:.6g} ± {finding.error:.1g} {unit}".strip()
+        beside = finding.error, claim.printed, claim.tolerance
+        number = decimals(finding.value, *beside)
+        grounds = f"{printed}computed {number} ± {finding.error:.1g} {unit}".strip()
         if finding.meant_value is not None and verdict not in ("confirmed", "refuted"):
-            grounds += f"; what is meant gives {finding.meant_value:.6g} {unit}".rstrip()
+            grounds += (
+                f"; what is meant gives {decimals(finding.meant_value, *beside)} {unit}".rstrip()
+            )
     else:
         meaning = {
             "qualified": f"holds under a condition: {claim.remark}",

@@ -5,6 +5,8 @@ from pathlib import Path
 from typing import Any
 
 from replication.captions import alternative, read_captions
+from replication.digits import of_judged
+from replication.ledger import read_judged
 from replication.typeset import compiled
 from replication.workbench import run
 
@@ -14,6 +16,7 @@ def work(job: Any) -> None:
     options = {
         "studies": ",".join(job.params.studies),
         "tables": json.dumps(job.params.tables),
+        "numbers": json.dumps(of_judged(read_judged("results/claims.json"))),
         "alternatives": json.dumps({path: alternative(entry) for path, entry in captions.items()}),
     }
     pdf = compiled(job.input.source, dict.fromkeys(job.input), options)

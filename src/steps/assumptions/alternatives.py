@@ -8,6 +8,7 @@ from steps.assumptions.choices import (
     held,
     solitary_restitution,
 )
+from steps.peak_forces import GUIDED, PINNED, RIGID
 
 
 def alternatives(case: dict) -> dict[str, dict[str, Choices]]:
@@ -44,5 +45,10 @@ def alternatives(case: dict) -> dict[str, dict[str, Choices]]:
         },
         "overturning": {"beyond": Choices(overturned=beyond_slenderness)},
         "record": {"held": Choices(resampled=held), "curved": Choices(resampled=curved)},
+        "held_frame": {
+            "cantilevers": Choices(held=(PINNED, RIGID)),
+            "portal": Choices(held=(GUIDED, RIGID)),
+            "flexible": Choices(held=(PINNED, case["held"]["flexible"])),
+        },
         "stable": {"pulse_by_pulse": Choices(sense="pulse"), "lowest": Choices(sense="lowest")},
     }

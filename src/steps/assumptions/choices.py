@@ -129,6 +129,7 @@ class Choices:
     table_starts: tuple[float, ...] = (0.0, 1.0)  # shares of its speed taken up at once
     masses: tuple[float, float] | None = None  # kg, cap and both columns; None: γ as printed
     resampled: Callable[[Record], Record] = lambda record: record
+    held: tuple[str, str] | None = None  # tops, and rigid or a period; None: all that are compared
     sense: str = "both"  # of "more stable": for each pulse, or for the minimum amplitude
     tolerance: float = TOLERANCE
     samples: int = 401  # of a pulse that has to be sampled

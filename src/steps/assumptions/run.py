@@ -15,7 +15,7 @@ from replication.ledger import read_ledger
 from replication.strict_yaml import read_yaml
 from replication.verdicts import verdict_on
 from replication.workbench import run
-from steps.assumptions import impact, pulses, rankings, trilith
+from steps.assumptions import held, impact, pulses, rankings, trilith
 from steps.assumptions.alternatives import alternatives
 from steps.assumptions.choices import Choices
 from steps.assumptions.quantity import Cases
@@ -24,7 +24,13 @@ from topheavy import read_record
 UNCLAIMED = Claim(id="", where="", statement="", expected="")
 """In place of the claim of a quantity that has none."""
 
-QUANTITIES = trilith.QUANTITIES | pulses.QUANTITIES | rankings.QUANTITIES | impact.QUANTITIES
+QUANTITIES = (
+    trilith.QUANTITIES
+    | pulses.QUANTITIES
+    | rankings.QUANTITIES
+    | impact.QUANTITIES
+    | held.QUANTITIES
+)
 
 
 def main(assumptions: list[dict], ledger: dict[str, Claim], cases: Cases, tightened: float):

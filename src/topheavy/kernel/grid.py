@@ -86,14 +86,17 @@ def outcomes_of(
     ArithmeticError
         For a history that takes more than `outcome.MAX_STEPS` steps.
     """
-    how = {"tolerance": tolerance, "threads": threads}
     if shape != RECORD:
-        return pulse_outcomes_of(block, shape, scales[:, np.newaxis], amplitudes, **how)
+        rows = scales[:, np.newaxis]
+        return pulse_outcomes_of(
+            block, shape, rows, amplitudes, tolerance=tolerance, threads=threads
+        )
     size = (len(scales), len(amplitudes))
     pairs = np.repeat(scales, size[1]), np.tile(amplitudes, size[0])
     which, lifts = np.zeros(pairs[0].size, np.int64), np.zeros(pairs[0].size)
-    found = _record_outcomes([block], which, *pairs, lifts, record, **how)
-    return tuple(values.reshape(size) for values in found)
+    found = _record_outcomes([block], which, *pairs, lifts, record, tolerance, threads)
+    peak, overturned, impacts = found
+    return peak.reshape(size), overturned.reshape(size), impacts.reshape(size)
 
 
 def mixed_outcomes_of(
@@ -125,21 +128,21 @@ def mixed_outcomes_of(
     """
     peak, overturned = np.empty(which.size), np.empty(which.size, dtype=bool)
     impacts = np.empty(which.size, dtype=np.int64)
-    linearised = np.array([block.linearised for block in blocks])[which]
+    lifts = np.zeros(which.size) if lifts is None else lifts
+    linearised = np.array([block.linearised for block in blocks])
     for kind in (False, True):  # the lanes follow one equation at a time
-        (at,) = np.nonzero(linearised == kind)
+        (members,), (at,) = np.nonzero(linearised == kind), np.nonzero(linearised[which] == kind)
         if not at.size:
             continue
-        alike = [number for number, block in enumerate(blocks) if block.linearised == kind]
-        place = np.searchsorted(alike, which[at])
-        given = ([blocks[number] for number in alike], place, scales[at], amplitudes[at])
-        how = {"tolerance": tolerance, "threads": threads}
+        alike = [blocks[number] for number in members.tolist()]
+        of, scale, amplitude = np.searchsorted(members, which[at]), scales[at], amplitudes[at]
         if shape == RECORD:
-            factors = np.zeros(at.size) if lifts is None else lifts[at]
-            found = _record_outcomes(*given, factors, record, **how)
+            found = _record_outcomes(
+                alike, of, scale, amplitude, lifts[at], record, tolerance, threads
+            )
         else:
-            of, *each = given
-            found = _pulse_outcomes(of, shape, *(values[np.newaxis] for values in each), **how)
+            cells = (of[np.newaxis], scale[np.newaxis], amplitude[np.newaxis])
+            found = _pulse_outcomes(alike, shape, *cells, tolerance, threads)
         peak[at], overturned[at], impacts[at] = (values.ravel() for values in found)
     return peak, overturned, impacts
 
@@ -158,8 +161,7 @@ def pulse_outcomes_of(
     The results have two axes, as that has; the rest is as of `outcomes_of`.
     """
     only = np.zeros((1, 1), np.int64)
-    how = {"tolerance": tolerance, "threads": threads}
-    return _pulse_outcomes([block], shape, only, scales, amplitudes, **how)
+    return _pulse_outcomes([block], shape, only, scales, amplitudes, tolerance, threads)
 
 
 def _pulse_outcomes(
@@ -168,7 +170,6 @@ def _pulse_outcomes(
     which: Indices,
     scales: Array,
     amplitudes: Array,
-    *,
     tolerance: float,
     threads: int | None,
 ) -> Outcomes:
@@ -177,17 +178,20 @@ def _pulse_outcomes(
     peak, overturned = np.empty(size), np.empty(size, dtype=bool)
     impacts = np.empty(size, dtype=np.int64)
     # Copies in C order: for arrays that are strided, transposed or read-only it would compile anew.
-    cells = [np.array(np.atleast_2d(each), order="C") for each in (which, scales, amplitudes)]
-    given = (blocks[0], _rows(blocks), shape, *cells, NO_RECORD, tolerance)
+    numbers = np.array(np.atleast_2d(which), order="C")
+    pairs = [np.array(np.atleast_2d(each), order="C") for each in (scales, amplitudes)]
+    given = (blocks[0], _rows(blocks), shape, numbers, *pairs, NO_RECORD, tolerance)
     results = (peak, overturned, impacts)
     lost = _shared(pulse_outcomes, (*given, *results), peak.size, FEWEST_PULSES, 1, threads)
-    which, scales, amplitudes = (np.broadcast_to(each, size) for each in cells)
+
+    def cell(place: int) -> tuple[Oscillator, int, float, float]:
+        of, scale, amplitude = (np.broadcast_to(each, size).flat for each in (numbers, *pairs))
+        return blocks[int(of[place])], shape, float(scale[place]), float(amplitude[place])
+
     if lost >= 0:
-        cell = (float(scales.flat[lost]), float(amplitudes.flat[lost]))
-        raise _unresolved(blocks[which.flat[lost]], shape, *cell)
+        raise _unresolved(*cell(lost))
     for place in unsettled(impacts):
-        cell = (float(scales.flat[place]), float(amplitudes.flat[place]))
-        found = outcome_of(blocks[which.flat[place]], shape, *cell, tolerance=tolerance)
+        found = outcome_of(*cell(place), tolerance=tolerance)
         overturned.flat[place], peak.flat[place], impacts.flat[place] = found[:3]
     return peak, overturned, impacts
 
@@ -199,7 +203,6 @@ def _record_outcomes(
     factors: Array,
     lifts: Array,
     record: Array,
-    *,
     tolerance: float,
     threads: int | None,
 ) -> Outcomes:

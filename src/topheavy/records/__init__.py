@@ -48,7 +48,8 @@ def read_csv(path: str | Path) -> Record:
     ------
     ValueError
         Naming the file and the line: another header, a unit that is not understood, a line that is
-        not two numbers, times that do not go on in equal steps (a gap), accelerations beyond 5 g.
+        not two numbers, times that do not go on in equal steps (a gap), steps below 1 µs,
+        accelerations that are all zero or beyond 5 g.
     """
     return columns.read(Path(path)).record
 
@@ -64,6 +65,6 @@ def read_at2(path: str | Path) -> Record:
     ValueError
         Naming the file, and the line where there is one: no NPTS and DT, no unit of acceleration
         that is understood or two that contradict, a value that is not a number, more or fewer
-        values than NPTS, accelerations beyond 5 g.
+        values than NPTS, a step below 1 µs, accelerations that are all zero or beyond 5 g.
     """
     return at2.read(Path(path)).record

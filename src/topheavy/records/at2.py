@@ -4,7 +4,14 @@ import math
 import re
 from pathlib import Path
 
-from topheavy.records.reading import NUMBER, Reading, decimal, reading, text_lines
+from topheavy.records.reading import (
+    NUMBER,
+    Reading,
+    check_header,
+    decimal,
+    reading,
+    text_lines,
+)
 from topheavy.records.units import stated_acceleration, time_in_seconds
 
 _HEADER_LINES = 4
@@ -20,10 +27,10 @@ _STEP = rf"""(?P<step>{NUMBER})(?![\d.])
     (?!\w|\s*[/*^]|-|[.,]\d)"""
 _UNIT_BEFORE = r"(?:\s*[(\[]\s*(?P<before>[^\W\d_]+)\s*[)\]])?"
 _FLAGS = re.IGNORECASE | re.VERBOSE
-_COUNT = re.compile(r"\bNPTS\s*[=:]\s*(?P<count>\d+)(?![\d.]|,\d)", _FLAGS)
+_COUNT = re.compile(r"\bNPTS\s*[=:]\s*(?P<count>[0-9]+)(?![\d.]|,\d)", _FLAGS)
 _NAMED_STEP = re.compile(rf"\bDT{_UNIT_BEFORE}\s*[=:]\s*{_STEP}", _FLAGS)
 _OLD_HEADER = re.compile(
-    rf"\s*(?P<count>\d+)[\s,]+{_STEP}[\s,]*NPTS\s*,?\s*DT\b{_UNIT_BEFORE}", _FLAGS
+    rf"\s*(?P<count>[0-9]+)[\s,]+{_STEP}[\s,]*NPTS\s*(?:,\s*)?DT\b{_UNIT_BEFORE}", _FLAGS
 )
 
 
@@ -31,6 +38,7 @@ def read(path: Path) -> Reading:
     """Read a file in the AT2 layout; see `topheavy.read_at2`."""
     lines = text_lines(path)
     header = _header_line(path, lines)
+    check_header(path, lines[:header])
     count, step = _count_and_step(path, header, lines[header - 1])
     try:
         unit = stated_acceleration(lines[:header])

@@ -7,10 +7,17 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from topheavy.records.reading import Reading, decimal, reading, text_lines
+from topheavy.records.reading import (
+    Reading,
+    check_header,
+    decimal,
+    quoted,
+    reading,
+    text_lines,
+)
 from topheavy.records.units import UNDERSTOOD, Statement, acceleration_in_g, time_in_seconds
 
-_COLUMN = re.compile(r"\s*[^()\[\]]*?\s*[(\[](?P<unit>[^()\[\]]*)[)\]]\s*")
+_COLUMN = re.compile(r"[^()\[\]]*[(\[](?P<unit>[^()\[\]]*)[)\]]\s*")
 _HEADER = "time (s),acceleration (g)"
 _COMPUTED = 0.01
 """Of a step: additional tolerance for times that were computed in single precision."""
@@ -19,6 +26,7 @@ _COMPUTED = 0.01
 def read(path: Path) -> Reading:
     """Read a file of two columns; see `topheavy.read_csv`."""
     header, *lines = text_lines(path) or [""]
+    check_header(path, [header])
     in_seconds, unit = _units(path, header)
     times: list[str] = []
     values: list[float] = []
@@ -32,7 +40,7 @@ def read(path: Path) -> Reading:
             values.append(decimal(acceleration))
         except ValueError:
             raise ValueError(
-                f"{path}: line {place} is {line!r}; expected a time and an acceleration, "
+                f"{path}: line {place} is {quoted(line)}; expected a time and an acceleration, "
                 "two numbers with a comma between them"
             ) from None
         times.append(time.strip())
@@ -80,7 +88,7 @@ def _last_digits(printed: list[str]) -> NDArray[np.float64]:
     Programs print either so many decimals or so many significant digits: the most that any of the
     times has.
     """
-    numbers = [Decimal(text) for text in printed]
+    numbers = [Decimal(re.sub("[dD]", "e", text)) for text in printed]
     last = np.array([int(number.as_tuple().exponent) for number in numbers])
     first = np.array([number.adjusted() if number else last.min() for number in numbers])
     digits = (first - last).max()

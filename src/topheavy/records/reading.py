@@ -12,8 +12,20 @@ import numpy as np
 from topheavy.records.record import Record
 from topheavy.records.units import Statement
 
-NUMBER = r"(?>[-+]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][-+]?\d+)?)"
-"""A decimal number as C and Fortran print it, for a regular expression."""
+NUMBER = r"(?>[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eEdD][-+]?[0-9]+)?)"
+"""A decimal number as C and Fortran print it, for a regular expression.
+
+Not by `\\d`, which takes the digits of every script.
+"""
+
+_LONGEST_HEADER_LINE = 1000
+"""Characters. A line of a header has eighty or so; a longer one is no header."""
+
+_SHOWN = 80
+"""Characters of a faulty text that a message repeats."""
+
+_SHORTEST_STEP = 1e-6
+"""s. No accelerogram has a million samples a second: a shorter step is in another unit."""
 
 _LARGEST = 5.0
 """g. No ground acceleration above it has been recorded: what exceeds it is in another unit."""
@@ -49,6 +61,27 @@ def text_lines(path: Path) -> list[str]:
     return found
 
 
+def check_header(path: Path, lines: Sequence[str]) -> None:
+    """Refuse a file with a line of the header that is too long to be one.
+
+    Raises
+    ------
+    ValueError
+        With the file and the line.
+    """
+    for place, line in enumerate(lines, start=1):
+        if len(line) > _LONGEST_HEADER_LINE:
+            raise ValueError(
+                f"{path}: line {place} has {len(line)} characters, {quoted(line)}; expected at "
+                f"most {_LONGEST_HEADER_LINE} in a line of the header"
+            )
+
+
+def quoted(text: str) -> str:
+    """Return a text for a message: in quotes, and only its beginning if it is long."""
+    return repr(text) if len(text) <= _SHOWN else f"{text[:_SHOWN]!r}…"
+
+
 def decimal(text: str) -> float:
     """Return a number, with the exponent of Fortran (1.0D-02) also.
 
@@ -61,7 +94,7 @@ def decimal(text: str) -> float:
         found = float(re.sub("[dD]", "e", text))
         if math.isfinite(found):
             return found
-    raise ValueError(f"{text.strip()!r} is not a number")
+    raise ValueError(f"{quoted(text.strip())} is not a number")
 
 
 def reading(
@@ -77,13 +110,24 @@ def reading(
     Raises
     ------
     ValueError
-        With the file, for what cannot be a record, and the line of an acceleration beyond 5 g.
+        With the file, for what cannot be a record: a time step below 1 µs, accelerations that are
+        all zero, one beyond 5 g, with its line.
     """
+    if 0.0 < time_step < _SHORTEST_STEP:
+        raise ValueError(
+            f"{path}: the time step is {time_step:.6g} s; expected at least {_SHORTEST_STEP:g} s: "
+            "is its unit another?"
+        )
     accelerations = np.array(values) * unit.in_g
     try:
         record = Record(time_step, accelerations, path.stem)
     except ValueError as error:
         raise ValueError(f"{path}: {error}") from None
+    if record.peak_acceleration == 0.0:
+        raise ValueError(
+            f"{path}: all {record.acceleration.size} accelerations are zero; expected a ground "
+            "motion: is it another file or column?"
+        )
     if record.peak_acceleration > _LARGEST:
         k = int(np.abs(accelerations).argmax())
         raise ValueError(

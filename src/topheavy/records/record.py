@@ -8,12 +8,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from topheavy import checks
-from topheavy.excitation import Segment
+from topheavy.excitation import Excitation, Segment
 from topheavy.structures import STANDARD_GRAVITY
 
 
 @dataclass(frozen=True, eq=False)
-class Record:
+class Record(Excitation):
     """A recorded ground acceleration: sample k at k·time_step, linear between, zero outside.
 
     Parameters
@@ -36,10 +36,10 @@ class Record:
     acceleration: NDArray[np.float64]
     name: str = ""
 
-    def __post_init__(self) -> None:
-        checks.positive("time_step", self.time_step, "s")
-        called = f"record {self.name!r}" if self.name else "record"
-        samples = checks.numbers(f"{called}: acceleration", self.acceleration)
+    def __init__(self, time_step: float, acceleration: ArrayLike, name: str = "") -> None:
+        checks.positive("time_step", time_step, "s")
+        called = f"record {name!r}" if name else "record"
+        samples = checks.numbers(f"{called}: acceleration", acceleration)
         if samples.ndim != 1 or samples.size < 2:
             raise ValueError(
                 f"{called}: acceleration has shape {samples.shape}; "
@@ -54,7 +54,9 @@ class Record:
         largest = np.abs(samples).argmax()
         checks.acceleration(f"{called}: sample {largest} of {samples.size}", samples[largest])
         samples.setflags(write=False)
-        object.__setattr__(self, "acceleration", samples)
+        # A dataclass would take only an array: a field has one type, given and kept.
+        for field, value in (("time_step", time_step), ("acceleration", samples), ("name", name)):
+            object.__setattr__(self, field, value)
 
     @property
     def duration(self) -> float:
@@ -78,16 +80,10 @@ class Record:
             self.time_step, checks.finite("factor", factor) * self.acceleration, self.name
         )
 
-    def excitation(self, t: ArrayLike) -> float | NDArray[np.float64]:
-        """Return the ground acceleration in g at the time(s) t in s; zero outside the record."""
-        value = np.interp(
-            checks.numbers("t", t) / self.time_step,
-            np.arange(self.acceleration.size),
-            self.acceleration,
-            left=0.0,
-            right=0.0,
-        )
-        return float(value) if np.ndim(value) == 0 else value
+    def accelerations(self, time: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the ground acceleration in g at times in s, an array; zero outside the record."""
+        samples = np.arange(self.acceleration.size)
+        return np.interp(time / self.time_step, samples, self.acceleration, left=0.0, right=0.0)
 
     def segments(self, until: float) -> list[Segment]:
         """Return the lines between samples, from 0 to the earlier of `until` and the end."""

@@ -38,7 +38,9 @@ _STATED = re.compile(
 _INTRODUCED = re.compile(r"[(\[{]\s*|\bunits?\s+|\bacc(?:el\w*)?\b\.?\s*[:=]\s*", re.IGNORECASE)
 _SAMPLES = re.compile(r"\b(?:acc(?:el\w*)?|data|values?|samples?|points?)\b", re.IGNORECASE)
 _IN = re.compile(r"\bin\s+", re.IGNORECASE)
-_OF_ONE_VALUE = re.compile(r"\b(?:peak|pga|a?max\w*)\b|\d\.\d*\s*$|\.\d+\s*$", re.IGNORECASE)
+_WORD = re.compile(r"[A-Za-z]+\b(?!\s*[/^*-])")
+_PEAK = re.compile(r"\b(?:peak|pga|a?max\w*)\b", re.IGNORECASE)
+_DECIMAL = re.compile(r"(?:(?<=\d)\.\d*|\.\d+)\s*")
 
 
 @dataclass(frozen=True)
@@ -89,15 +91,15 @@ def stated_acceleration(lines: list[str]) -> Statement:
         With the line: when none is stated, when one is not understood, when two contradict.
     """
     found: list[Statement] = []
-    for place, line in enumerate(map(_plain, lines), start=1):
+    for place, line in enumerate((_plain(line).strip() for line in lines), start=1):
         for stated in _STATED.finditer(line):
-            if not _UNIT.match(line, stated.end()) and not _is_time(line[stated.end() :]):
+            if not _UNIT.match(line, stated.end()) and not _is_time(line, stated.end()):
                 raise ValueError(
-                    f"line {place} states a unit that is not understood: {line.strip()!r}; "
+                    f"line {place} states a unit that is not understood: {line!r}; "
                     f"expected {UNDERSTOOD}"
                 )
         units = filter(None, (_UNIT.match(line, end) for end in sorted(_where_units_are(line))))
-        found += [Statement(unit[0], _in_g(unit), place, line.strip()) for unit in units]
+        found += [Statement(unit[0], _in_g(unit), place, line) for unit in units]
     if not found:
         raise ValueError(_nothing_stated(lines))
     for other in found[1:]:
@@ -120,8 +122,13 @@ def _where_units_are(line: str) -> set[int]:
     introductions = [*_INTRODUCED.finditer(line)]
     if samples:
         introductions += _IN.finditer(line, samples.end())
+    peak = _PEAK.search(line)
+    peaks_begin = peak.start() if peak else len(line)
+    numbers_end = {number.end() for number in _DECIMAL.finditer(line)}
     return found | {
-        match.end() for match in introductions if not _OF_ONE_VALUE.search(line[: match.start()])
+        match.end()
+        for match in introductions
+        if match.start() < peaks_begin and match.start() not in numbers_end
     }
 
 
@@ -141,8 +148,8 @@ def _in_g(unit: re.Match[str]) -> float:
     return 0.01 if unit["hundredth"] else 0.001 if unit["thousandth"] else 1.0
 
 
-def _is_time(text: str) -> bool:
-    word = re.match(r"[A-Za-z]+\b(?!\s*[/^*-])", text)
+def _is_time(line: str, start: int) -> bool:
+    word = _WORD.match(line, start)
     return word is not None and time_in_seconds(word[0]) is not None
 
 

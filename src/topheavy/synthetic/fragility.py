@@ -16,6 +16,8 @@ MOST_PASSES = 50
 CLOSE = 1e-9  # of the score, for a single motion at each level
 FARTHEST = 1e-12  # from 0 and 1, of a fitted share
 BLOCK = 1000  # motions whose weights are in memory at a time
+POSITIVE, NEGATIVE = "is positive", "is negative"
+"""In words: an interval that is wholly above zero, and one that is wholly below."""
 
 Array = NDArray[np.float64]
 
@@ -95,6 +97,21 @@ def interval(values: Array, confidence: float) -> tuple[Array, Array, Array]:
     tail = (1.0 - confidence) / 2.0
     low, high = np.quantile(values[1:], (tail, 1.0 - tail), axis=0)
     return values[0], low, high
+
+
+def in_words(low: float, high: float) -> str:
+    """Return what an interval says of the sign: "is positive", "is negative", or "includes zero".
+
+    The words are a predicate of "the interval". An end at zero belongs to it.
+
+    Raises
+    ------
+    ValueError
+        For ends that are not in ascending order, or not numbers.
+    """
+    if not low <= high:
+        raise ValueError(f"an interval goes from {low} to {high}; expected ascending ends")
+    return POSITIVE if low > 0.0 else NEGATIVE if high < 0.0 else "includes zero"
 
 
 def fit(levels: Array, probabilities: Array) -> Array:

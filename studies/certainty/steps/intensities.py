@@ -1,7 +1,7 @@
 """Probability of overturning at stated peak ground velocities and accelerations, with bands.
 
 Bare columns, frames with a free cap beam, and columns with the same mass fixed to the top, under
-the synthetic motions of study reversals, each scaled to the intensity; measured records beside.
+the synthetic motions of study reversals, each scaled to the intensity.
 """
 
 from collections.abc import Mapping
@@ -12,7 +12,7 @@ import numpy as np
 import pandas as pd
 from scipy.stats import beta
 
-from replication.workbench import run, truth, value
+from replication.workbench import run, truth
 from steps.spectrum import progress
 from topheavy import (
     Column,
@@ -21,7 +21,6 @@ from topheavy import (
     RockingFrame,
     judge,
     overturned_by,
-    read_record,
     reference,
 )
 from topheavy.structures import Structure
@@ -113,27 +112,6 @@ def probabilities(cells: pd.DataFrame, confidence: float) -> pd.DataFrame:
     )
 
 
-def under_records(case: dict, records: list[Record], under: list[Subject]) -> list[dict]:
-    """Return the outcomes under the records as measured, and the lowest factor that overturns."""
-    rows = []
-    for record in records:
-        factors = np.arange(1.0, case["largest_factor"], case["factor_step"])
-        for subject in under:
-            fell = overturned_by(subject.structure, record, factors)
-            rows.append(
-                {
-                    "record": record.name,
-                    "pgv": peak_velocity(record),
-                    "pga": record.peak_acceleration,
-                    "structure": subject.name,
-                    "support": subject.support,
-                    "overturned": bool(fell[0]),
-                    "factor": float(factors[fell.argmax()]) if fell.any() else None,
-                }
-            )
-    return rows
-
-
 def confirmed(case: dict, ensemble: dict, under: list[Subject], cells: pd.DataFrame) -> dict:
     """Judge a seeded sample of the cells by SciPy, and at a nudged scale.
 
@@ -167,13 +145,10 @@ def worst(table: pd.DataFrame, **at: Any) -> float:
     return float(table.probability_high.max())
 
 
-def main(
-    case: dict, ensemble: dict, structures: dict, records: list[Record]
-) -> tuple[pd.DataFrame, dict]:
+def main(case: dict, ensemble: dict, structures: dict) -> tuple[pd.DataFrame, dict]:
     under = subjects(case, structures)
     cells = outcomes(case, ensemble, under)
     table = probabilities(cells, case["confidence"])
-    measured = under_records(case, records, under)
     velocity, ample = table[table.measure == "pgv"], case["ample"]
     large = [s.name for s in under if s.support == "free" and s.height >= ample["height"]]
     framed = velocity[(velocity.support == "free") & velocity.structure.isin(large)]
@@ -181,7 +156,6 @@ def main(
     each = ["family", "structure", "measure", "level"]
     wide = table.pivot_table(index=each, columns="support", values="fell")
     summed = wide.groupby(level=each[:2]).sum()
-    free = [row["overturned"] for row in measured if row["support"] == "free"]
     findings = {
         "ample_stability": truth(
             worst(framed) < ample["probability"],
@@ -204,19 +178,13 @@ def main(
             differ=int((wide.fixed != wide.bare).sum()),
             exceptions=int((wide.fixed < wide.bare).sum()),
         ),
-        "records": truth(
-            bool(free) and not any(free),
-            measured=measured,
-        ),
-        "napa": value(max(row["pgv"] for row in measured if "napa" in row["record"]), 0.0, "m/s"),
         "second_route": confirmed(case, ensemble, under, cells),
     }
     return table, findings
 
 
 def work(job: Any) -> tuple:
-    records = [read_record(path) for path in job.input.records]
-    return main(job.params.case, job.params.ensemble, job.params.structures, records)
+    return main(job.params.case, job.params.ensemble, job.params.structures)
 
 
 if __name__ == "__main__":

@@ -144,7 +144,8 @@ def against_the_theorem(case: dict, tightened: float) -> tuple[dict, pd.DataFram
     spec = case["extreme"]
     alpha = math.radians(spec["slenderness"])
     column = Column(case["size"] * math.sin(alpha), case["size"] * math.cos(alpha))
-    pulse = record(np.array(spec["accelerations"]), spec["duration"], column)
+    values = np.repeat(spec["accelerations"], spec["samples"])
+    pulse = record(values, spec["duration"], column)
     pulse = pulse.scaled(spec["amplitude"] / column.uplift_acceleration)
     light, heavy = (RockingFrame(column, case["mass_ratios"][end]) for end in (0, -1))
     time = np.linspace(0.0, 3.0 * pulse.duration, SAMPLES)

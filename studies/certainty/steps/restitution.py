@@ -183,13 +183,11 @@ def under_motions(case: dict, ensemble: dict) -> tuple[pd.DataFrame, list[dict]]
                 means[:, place[light, "factor", of_column]]
                 - means[:, place[heavy, "factor", of_frame]]
             )
-            falls.append(
-                {"family": family, "way": way, "factor": factor} | bounds("less", less, boot)
-            )
+            falls.append({"family": family, "way": way, "factor": factor} | difference(less, boot))
         for low in case["scatter"]:
             less = means[:, place[light, "scatter", low]] - means[:, place[heavy, "scatter", low]]
             falls.append(
-                {"family": family, "way": "scatter", "factor": low} | bounds("less", less, boot)
+                {"family": family, "way": "scatter", "factor": low} | difference(less, boot)
             )
     return pd.DataFrame(rows), falls
 
@@ -202,6 +200,12 @@ def is_against_the_frame(table: pd.DataFrame) -> pd.Series:
 def bounds(name: str, values: np.ndarray, boot: dict) -> dict:
     middle, low, high = fragility.interval(values, boot["confidence"])
     return {name: float(middle), f"{name}_low": float(low), f"{name}_high": float(high)}
+
+
+def difference(less: np.ndarray, boot: dict) -> dict:
+    """Return by how much a probability is lower, with its interval in numbers and in words."""
+    ends = bounds("less", less, boot)
+    return ends | {"interval": fragility.in_words(ends["less_low"], ends["less_high"])}
 
 
 def scatter_agrees(case: dict) -> dict:

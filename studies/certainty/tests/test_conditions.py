@@ -1,5 +1,6 @@
 """Each condition in a result of the study, in a case in which it alone fails."""
 
+import math
 from types import SimpleNamespace
 
 import numpy as np
@@ -7,8 +8,16 @@ import pandas as pd
 import pytest
 
 from replication.workbench import truth
-from studies.certainty.steps import extensions, intensities, lowest, restitution, theorem
-from topheavy import reference
+from studies.certainty.steps import (
+    benefit,
+    extensions,
+    intensities,
+    lowest,
+    records,
+    restitution,
+    theorem,
+)
+from topheavy import Column, Record, reference
 
 SIZES = {"half_width": 0.5, "half_height": 3.0}
 
@@ -62,7 +71,8 @@ EXTREME = {
     "extreme": {
         "slenderness": 10.0,
         "duration": 4.0,
-        "accelerations": [1.0, 1.0],
+        "accelerations": [1.0, -1.0],
+        "samples": [1, 2],
         "amplitude": 1.0,
     },
 }
@@ -220,6 +230,95 @@ def test_scatter_that_scipy_judges_otherwise_is_noticed(monkeypatch):
     assert not restitution.scatter_agrees(case).holds
 
 
+# What of the benefit remains ---------------------------------------------------------------------
+
+
+BOTH, ALONE = benefit.BOTH, benefit.COLUMN_ALONE
+SAID = {
+    **{(BOTH, factor): "is positive" for factor in (0.9, 0.95, 1.0)},
+    (ALONE, 0.9): "is negative",
+    (ALONE, 0.95): "is positive",
+}
+
+
+@pytest.mark.parametrize(
+    ("near_fault", "broadband", "broken"),
+    [
+        ({}, {}, {"remains"}),
+        ({}, {(ALONE, 0.9): "is positive"}, {"remains", "reverses"}),
+        ({}, {(ALONE, 0.9): "includes zero"}, {"remains", "reverses"}),
+        ({}, {(ALONE, 0.95): "includes zero"}, {"remains"}),
+        ({}, {(BOTH, 1.0): "includes zero"}, {"remains", "frame_is_safer"}),
+        ({}, {(BOTH, 0.9): "is negative"}, {"remains", "frame_is_safer"}),
+        (*[{(ALONE, 0.9): "is positive"}] * 2, {"reverses"}),
+        (*[{(ALONE, 0.9): "includes zero"}] * 2, {"remains", "reverses"}),
+    ],
+)
+def test_ranking_is_judged_by_whole_intervals_of_both_families(
+    monkeypatch, near_fault, broadband, broken
+):
+    families = {"near-fault": SAID | near_fault, "broadband": SAID | broadband}
+    table = pd.DataFrame(
+        {"family": family, "way": way, "factor": factor, "interval": words}
+        for family, said in families.items()
+        for (way, factor), words in said.items()
+    )
+    monkeypatch.setattr(benefit, "outcomes", lambda *arguments: None)
+    monkeypatch.setattr(benefit, "differences", lambda *arguments: table)
+    monkeypatch.setattr(benefit, "confirmed", lambda *arguments: truth(True))
+    _, found = benefit.main({}, {})
+    assert {name for name, one in found.items() if one.holds is False} == broken
+
+
+ENSEMBLE = {
+    "run": "default",
+    "runs": {"default": {"motions": 500}},
+    "seed": 2014,
+    "families": ["near-fault", "broadband"],
+    "scenarios": [
+        {"magnitude": 6.5, "distance": 10.0, "site_velocity": 760.0, "directivity": 10.0}
+    ],
+}
+STATED = {
+    "column": SIZES,
+    "mass_ratio": 1.0,
+    "pgv": 0.8,
+    "factors": [0.9, 1.0],
+    "motions": 6,
+    "seed": 3,
+    "checked": 2,
+    "bootstrap": {"resamples": 50, "confidence": 0.95},
+}
+
+
+def test_motions_are_scaled_to_the_stated_velocity(monkeypatch):
+    found = []
+
+    def overturned_by(structure, record, factors):
+        found.extend(record.scaled(float(factor)).peak_velocity for factor in factors)
+        return [False]
+
+    monkeypatch.setattr(benefit, "overturned_by", overturned_by)
+    fell = benefit.outcomes(STATED, ENSEMBLE)
+    assert found == pytest.approx([STATED["pgv"]] * 4 * len(fell))
+    assert fell.family.value_counts().to_dict() == {"near-fault": 6, "broadband": 6}
+
+
+def test_ranking_that_scipy_judges_otherwise_is_noticed(monkeypatch):
+    fell = benefit.outcomes(STATED, ENSEMBLE)
+    right = benefit.confirmed(STATED, ENSEMBLE, fell)
+    assert right.holds
+    assert right["told"] == right["checked"] > 1
+
+    def otherwise(structure, motion):
+        return SimpleNamespace(overturned=not reference.judge(structure, motion).overturned)
+
+    monkeypatch.setattr(benefit, "reference", SimpleNamespace(judge=otherwise))
+    found = benefit.confirmed(STATED, ENSEMBLE, fell)
+    assert not found.holds
+    assert found["differ"] == found["told"]
+
+
 # Stated intensities ------------------------------------------------------------------------------
 
 UNDER = [
@@ -246,31 +345,105 @@ def cells(**fell):
 
 OTHERS = {"bare_12": {0.6: 30, 1.0: 30}, "fixed_12": {0.6: 40, 1.0: 40}}
 
-MEASURED = [
-    {"record": "napa", "pgv": 0.57, "support": support, "overturned": support == "fixed"}
-    for support in intensities.SUPPORTS
-]
+
+@pytest.mark.parametrize(
+    ("fell", "broken", "at_stated"),
+    [
+        ({}, set(), True),
+        ({"free_12": {1.0: 20}} | OTHERS, {"ample_stability"}, True),
+        ({"free_12": {0.6: 20}} | OTHERS, {"ample_stability"}, False),
+        # six of a hundred: the interval reaches beyond the margin of 10 %
+        ({"free_12": {0.6: 6}} | OTHERS, {"ample_stability"}, False),
+        ({"free_6": {0.6: 2, 1.0: 2}}, set(), True),  # lower columns do not count
+        ({"free_6": {0.6: 5}}, {"free_cap_helps"}, True),
+        ({"fixed_6": {0.6: 1}}, {"fixed_mass_harms"}, True),
+    ],
+)
+def test_probabilities_decide_what_they_are_about(monkeypatch, fell, broken, at_stated):
+    given = {"subjects": UNDER, "outcomes": cells(**fell)}
+    for name, found in (given | {"confirmed": truth(True)}).items():
+        monkeypatch.setattr(intensities, name, lambda *arguments, found=found: found)
+    _, found = intensities.main(CASE, {}, {})
+    assert {name for name, one in found.items() if one.holds is False} == broken
+    assert found["ample_stability"].holds_when is at_stated
+
+
+# The measured records ----------------------------------------------------------------------------
+
+RATIOS = [0.0, 0.5, 1.0]
+UNSCALED = {"columns": [{"structure": "temple", "scaled": 1.0}], "mass_ratios": RATIOS}
+BARE, LIGHTER, ALL = "bare_columns_fall_first", "lighter_frames_fall_first", "records"
+
+
+def under_a_record(overturned, **other):
+    """Outcomes of a column and two frames under a record, by all ways but for the `other`."""
+    ways = ("overturned", "smaller_record", "larger_record", "by_scipy")
+    return pd.DataFrame(
+        {"record": "napa_1", "structure": "6 m temple", "mass_ratio": RATIOS, "pgv": 0.5}
+        | {way: list(overturned) for way in ways}
+        | other
+    )
 
 
 @pytest.mark.parametrize(
-    ("fell", "measured", "broken", "at_stated"),
+    ("table", "broken"),
     [
-        ({}, MEASURED, set(), True),
-        ({"free_12": {1.0: 20}} | OTHERS, MEASURED, {"ample_stability"}, True),
-        ({"free_12": {0.6: 20}} | OTHERS, MEASURED, {"ample_stability"}, False),
-        # six of a hundred: the interval reaches beyond the margin of 10 %
-        ({"free_12": {0.6: 6}} | OTHERS, MEASURED, {"ample_stability"}, False),
-        ({"free_6": {0.6: 2, 1.0: 2}}, MEASURED, set(), True),  # lower columns do not count
-        ({"free_6": {0.6: 5}}, MEASURED, {"free_cap_helps"}, True),
-        ({"fixed_6": {0.6: 1}}, MEASURED, {"fixed_mass_harms"}, True),
-        ({}, [row | {"overturned": True} for row in MEASURED], {"records"}, True),
-        ({}, MEASURED[:1], {"records"}, True),  # no frame was tried
+        (under_a_record((False, False, False)), set()),
+        (under_a_record((True, False, False)), set()),
+        (under_a_record((True, True, False)), {ALL}),
+        (under_a_record((True, True, True)), {ALL}),
+        (under_a_record((False, True, False)), {ALL, BARE}),
+        (under_a_record((True, False, True)), {ALL, LIGHTER}),
+        (under_a_record((False, False, True)), {ALL, BARE, LIGHTER}),
+        (under_a_record((True, False, False), by_scipy=[True, False, True]), {"second_route"}),
+        (under_a_record((True, False, False), by_scipy=[None, False, None]), set()),
+        (under_a_record((True, False, False), by_scipy=None), {"second_route"}),
+        (under_a_record((False,) * 3, smaller_record=[False, True, False]), {"second_route"}),
+        (under_a_record((False,) * 3, larger_record=[True, False, False]), {"second_route"}),
+        (under_a_record((True, False, False))[:1], {ALL, BARE, LIGHTER}),  # no frame was tried
+        (under_a_record((True, False, False))[:2], {LIGHTER}),  # there is no lighter frame
     ],
 )
-def test_probabilities_decide_what_they_are_about(monkeypatch, fell, measured, broken, at_stated):
-    given = {"subjects": UNDER, "outcomes": cells(**fell), "under_records": measured}
-    for name, found in (given | {"confirmed": truth(True)}).items():
-        monkeypatch.setattr(intensities, name, lambda *arguments, found=found: found)
-    _, found = intensities.main(CASE, {}, {}, [])
+def test_one_record_is_enough_to_reverse_the_ranking(monkeypatch, table, broken):
+    judged = table.pop("by_scipy")
+    monkeypatch.setattr(records, "outcomes", lambda *arguments: table)
+    monkeypatch.setattr(records, "by_scipy", lambda *arguments: judged)
+    structures = {"temple": SIZES}
+    case = UNSCALED | {"checked_by_second_route": 1}
+    _, found = records.main(case, structures, [])
     assert {name for name, one in found.items() if one.holds is False} == broken
-    assert found["ample_stability"].holds_when is at_stated
+
+
+def test_scipy_judges_every_structure_that_a_record_overturns(monkeypatch):
+    """Of two records, the first overturns a frame; of the second, one history is judged."""
+    asked = []
+
+    def judge(frame, record):
+        asked.append((record.name, frame.mass_ratio))
+        return SimpleNamespace(overturned=record.name == "a" and frame.mass_ratio == 1.0)
+
+    monkeypatch.setattr(records, "reference", SimpleNamespace(judge=judge))
+    first, second = (
+        under_a_record((False, False, falls)).drop(columns="by_scipy").assign(record=name)
+        for name, falls in (("a", True), ("b", False))
+    )
+    shaken = [Record(0.01, np.ones(3), name) for name in ("a", "b")]
+    table = pd.concat([first, second], ignore_index=True)
+    found = records.by_scipy(table, shaken, {"6 m temple": Column(**SIZES)}, 1)
+    assert asked == [("a", 0.0), ("a", 0.5), ("a", 1.0), ("b", 0.0)]
+    assert found[:4].tolist() == [False, False, True, False]
+    assert found[4:].isna().all()
+
+
+def test_records_are_judged_as_measured_and_a_billionth_beside(monkeypatch):
+    peaks = []
+
+    def judge(frame, record):
+        peaks.append(record.peak_acceleration)
+        return SimpleNamespace(overturned=record.peak_acceleration > 0.3, peak=math.nan)
+
+    monkeypatch.setattr(records, "judge", judge)
+    found = records.outcome(Record(0.01, np.array([0.0, 0.3, 0.0])), Column(**SIZES), 0.5)
+    assert peaks == pytest.approx([0.3, 0.3, 0.3], rel=2e-9)
+    assert (found["overturned"], found["smaller_record"]) == (False, False)
+    assert found["larger_record"]

@@ -16,6 +16,7 @@ CASES = {  # the outcomes of the column and of the frame with γ → ∞
     "cannot be decided": UNDECIDED,
 }
 FACTORS = (1, 2, 5, 10, 20)
+COLUMNS = 3
 CROSS = {  # on a cell that cannot be decided: black and magenta are alike in grey print
     "marker": "x",
     "color": PAPER,
@@ -63,15 +64,20 @@ def panel(axis, run):
 
 def draw(reversals_records):
     table = reversals_records
-    figure, axes = sheet(DOUBLE, 116, nrows=2, ncols=3)
     records = table.groupby("record", sort=False)
+    rows = 1 + len(records) // COLUMNS  # the last place is for the key
+    figure, axes = sheet(DOUBLE, 52 * rows, nrows=rows, ncols=COLUMNS)
+    for axis in axes.flat[len(records) :]:
+        axis.axis("off")
     for axis, (_, run) in zip(axes.flat, records, strict=False):
         panel(axis, run)
     for row in axes:
         row[0].set_ylabel("Size of a column, $R$ (m)")
-    letter(axes.flat, [RECORDS.get(name, name.replace("_", " ")) for name, _ in records])
+    letter(
+        axes.flat[: len(records)],
+        [RECORDS.get(name, name.replace("_", " ")) for name, _ in records],
+    )
     key = axes[-1, -1]
-    key.axis("off")
     for place, (words, colour) in enumerate(CASES.items()):
         height = 0.9 - 0.11 * place
         key.plot(

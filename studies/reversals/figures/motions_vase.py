@@ -33,7 +33,7 @@ def fragility(axis, cells, labelled):
 
 
 def forces(axis, bands):
-    of = bands[(bands.held == "rigid") & (bands.family == "near-fault")]
+    of = bands[(bands.held == "rigid") & (bands.family == "near-fault") & (bands.top == "pinned")]
     ratios, levels = sorted(of.mass_ratio.unique()), sorted(of.intensity.unique())
     for place, force in enumerate(FORCES):
         for shift, (ratio, colour) in enumerate(zip(ratios, shades(len(ratios)), strict=True)):

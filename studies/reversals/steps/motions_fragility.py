@@ -241,10 +241,13 @@ def never_rises(less: pd.DataFrame, margin: float) -> Finding:
     """Does every interval of the falls in probability exclude a rise by the margin?
 
     That a rise is not seen is not enough: an interval that is too wide does not exclude it.
+    `words` is the predicate of "the intervals" in a text.
     """
+    excluded = bool((less.less_low > -margin).all())
     return truth(
-        (less.less_low > -margin).all(),
+        excluded,
         margin=margin,
+        words="exclude" if excluded else "do not exclude",
         compared=len(less),
         largest_rise_not_excluded=-float(less.less_low.min()),
         rises=int((less.less_high < 0.0).sum()),

@@ -1,6 +1,6 @@
 """Real records from uplift to collapse: how often the heavier of two frames falls alone.
 
-Five components of two earthquakes are no sample of all: there are counts, and no intervals.
+The components of a few earthquakes are no sample of all: there are counts, and no intervals.
 """
 
 import itertools

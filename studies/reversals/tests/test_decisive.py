@@ -72,7 +72,9 @@ def less(*bounds):
 )
 def test_rise_that_no_interval_excludes_is_not_denied(low, high, holds):
     table = less((0.02, 0.01, 0.03), (0.5 * (low + high), low, high))
-    assert motions_fragility.never_rises(table, 0.05)["holds"] is holds
+    found = motions_fragility.never_rises(table, 0.05)
+    assert found["holds"] is holds
+    assert found["words"] == ("exclude" if holds else "do not exclude")
 
 
 def ensemble(*outcomes):

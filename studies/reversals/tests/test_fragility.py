@@ -66,6 +66,26 @@ def test_interval_holds_the_middle_of_the_resamples():
     assert fragility.interval(values, 0.9) == pytest.approx((5.0, 5.0, 95.0))
 
 
+@pytest.mark.parametrize(
+    ("low", "high", "words"),
+    [
+        (0.01, 0.03, "is positive"),
+        (-0.08, -0.05, "is negative"),
+        (-0.01, 0.03, "includes zero"),
+        (0.0, 0.03, "includes zero"),
+        (-0.03, 0.0, "includes zero"),
+    ],
+)
+def test_words_name_the_sign_of_the_whole_interval(low, high, words):
+    assert fragility.in_words(low, high) == words
+
+
+@pytest.mark.parametrize(("low", "high"), [(0.2, 0.1), (math.nan, 0.1), (0.1, math.nan)])
+def test_ends_in_the_wrong_order_have_no_words(low, high):
+    with pytest.raises(ValueError, match="expected ascending ends"):
+        fragility.in_words(low, high)
+
+
 def test_lognormal_curve_is_found_again():
     centre, spread = np.array([0.8, 1.1]), np.array([0.3, 0.6])
     curves = ndtr(np.log(LEVELS / centre[:, None]) / spread[:, None])

@@ -9,6 +9,7 @@ import pandas as pd
 import pytest
 
 from replication.workbench import truth
+from steps.peak_forces import ratio_of
 from studies.reversals.steps import motions_uplift, motions_vase
 from topheavy import Column, FixedMassColumn, Record, simulate
 from topheavy.synthetic.ensemble import Draw
@@ -77,7 +78,11 @@ def test_second_route_sees_a_wrong_outcome():
 
 
 def row(outcome, ratio, **more):
-    held = {f"{name}, rigid": ratio for name in motions_uplift.FORCES}
+    held = {
+        ratio_of(name, top, "rigid"): ratio
+        for name in motions_uplift.FORCES
+        for top in ("pinned", "guided")
+    }
     labels = {"family": "near-fault", "mass_ratio": 1.0, "intensity": 0.4}
     return labels | {"outcome": outcome, "rotation": 0.2} | held | more
 
@@ -86,9 +91,10 @@ def test_summary_counts_what_overturns_and_averages_the_others():
     rows = [row("rests", 0.4)] * 10 + [row("rests", 0.8)] * 10 + [row("overturned", math.nan)] * 20
     rows += [row("no uplift", 1.0)] * 40
     found = motions_uplift.summary(pd.DataFrame(rows), {"periods": []}, BOOT)
-    assert found.ratio.tolist() == pytest.approx([0.6] * 3)
-    assert found.survivors.tolist() == [20] * 3
-    assert found.overturned.tolist() == [0.25] * 3
+    assert found.top.tolist() == ["pinned", "guided"] * 3
+    assert found.ratio.tolist() == pytest.approx([0.6] * 6)
+    assert found.survivors.tolist() == [20] * 6
+    assert found.overturned.tolist() == [0.25] * 6
     assert ((found.ratio_low < 0.6) & (found.ratio_high > 0.6)).all()
 
 
@@ -129,6 +135,20 @@ def test_larger_forces_are_not_limited(monkeypatch, factor, holds):
     assert findings["shear_is_at_most_that_of_uplift"]["holds"] == holds
     assert findings["uplift_limits_totals"]["survivors_that_uplift"] > 0
     assert findings["uplift_second_route"]["holds"]  # both routes have these forces
+
+
+@pytest.mark.parametrize("name", motions_uplift.FORCES)
+def test_each_force_beside_a_cantilever_can_refute(monkeypatch, name):
+    right = motions_uplift.rocking_peaks
+
+    def larger(*arguments):
+        found = right(*arguments)
+        found.forces[name] *= 5.0
+        return found
+
+    monkeypatch.setattr(motions_uplift, "rocking_peaks", larger)
+    _, findings = motions_uplift.main(CASE, ENSEMBLE)
+    assert not findings["uplift_limits_totals"]["holds"]
 
 
 ORDER = {"sooner": 0.1, "sooner_high": 0.2, "later": 0.1, "later_high": 0.2}
@@ -202,7 +222,9 @@ def test_no_survivor_that_uplifts_shows_no_limit(monkeypatch):
         assert not findings[name]["holds"]
 
 
-NOTHING = pd.DataFrame({"held": ["rigid"], "force": ["base_shear"], "ratio_high": [0.5]})
+NOTHING = pd.DataFrame(
+    {"held": ["rigid"], "top": ["pinned"], "force": ["base_shear"], "ratio_high": [0.5]}
+)
 
 
 def test_peaks_that_scipy_denies_are_noticed(monkeypatch):

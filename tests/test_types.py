@@ -1,0 +1,68 @@
+"""What a user writes passes the strict type checkers, and what is wrong in it does not."""
+
+import json
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+TESTS = Path(__file__).parent
+RECORD = TESTS.parent / "data" / "records" / "el_centro_1940_NS.AT2"
+CHECKERS = {
+    "mypy": ["mypy", "--strict", "--warn-unreachable", "--cache-dir=.cache"],
+    "basedpyright": ["basedpyright", "--pythonpath", sys.executable],
+}
+MISTAKES = """\
+from topheavy import Column, Pulse, Record, judge, simulate
+column = Column(0.5, 4.0)
+pulse = Pulse("one-sine", 0.3, 6.0)
+simulate(column, "one-sine")
+simulate(pulse, column)
+Record("0.02", [0.1, 0.2])
+Pulse("one-sine", "0.3", 6.0)
+print(judge(column, pulse).peak_rotation)
+print(simulate(column, pulse).outcome == "fell")
+print(pulse.excitation([0.1, 0.2]).real_part)
+"""
+
+
+@pytest.fixture(scope="module", params=CHECKERS)
+def checked(request, tmp_path_factory):
+    """Return the function that checks a script in a folder of its own, as a user would."""
+    folder = tmp_path_factory.mktemp("user")
+    (folder / "pyrightconfig.json").write_text(
+        json.dumps({"typeCheckingMode": "strict"}), encoding="utf-8"
+    )
+
+    def check(text: str) -> subprocess.CompletedProcess[str]:
+        (folder / "user.py").write_text(text, encoding="utf-8")
+        return subprocess.run(
+            [sys.executable, "-m", *CHECKERS[request.param], "user.py"],
+            cwd=folder,
+            env={name: value for name, value in os.environ.items() if name != "MYPYPATH"},
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+
+    return check
+
+
+def test_users_script_passes_strict_type_checkers(checked):
+    found = checked((TESTS / "types" / "user.py").read_text(encoding="utf-8"))
+    assert found.returncode == 0, found.stdout + found.stderr
+
+
+def test_every_mistake_of_a_user_is_found(checked):
+    found = checked(MISTAKES)
+    lines = {int(line) for line in re.findall(r"user\.py:(\d+)\b.*error", found.stdout)}
+    assert lines == set(range(4, 11)), found.stdout + found.stderr
+
+
+def test_users_script_runs():
+    script = [sys.executable, "-W", "error", TESTS / "types" / "user.py", RECORD]
+    run = subprocess.run(script, capture_output=True, text=True, check=False)
+    assert (run.returncode, run.stderr) == (0, "")

@@ -1,0 +1,67 @@
+"""A user's script: the library as an engineer would use it. Run and type-checked by test_types."""
+
+import math
+import sys
+from typing import assert_type
+
+import numpy as np
+from numpy.typing import NDArray
+
+import topheavy.reference
+from topheavy import (
+    Cap,
+    Column,
+    Pulse,
+    Record,
+    Response,
+    RockingBlock,
+    RockingFrame,
+    frame_forces,
+    judge,
+    minimum_overturning,
+    overturned_by,
+    overturning_intervals,
+    overturning_map,
+    read_record,
+    simulate,
+)
+from topheavy.free_rocking import quarter_period
+from topheavy.linear import simulate_linear_exact
+
+pier = Column(0.8, 4.8)
+bent = RockingFrame.of_masses(pier, cap_mass=400e3, column_mass=60e3)
+block = RockingBlock(2.0, 0.25, 0.9)
+pulse = Pulse("one-sine", 1.0, 3.0)
+times = np.linspace(0.0, 1.0, 5)
+shaking = Record(0.02, [0.0, 0.1, -0.2, 0.0], "mine")
+measured = read_record(sys.argv[1])
+
+for motion in (pulse, shaking, measured.scaled(1.5)):
+    assert_type(simulate(bent, motion), Response)
+    assert_type(judge(bent, motion).peak, float)
+    assert_type(motion.excitation(0.1), float)
+    assert_type(motion.excitation(times), NDArray[np.float64])
+    assert_type(motion.excitation([0.0, 1]), NDArray[np.float64])
+    assert_type(overturned_by(pier, motion, [1.0, 2.0]).any(), np.bool_)
+    lowest = minimum_overturning(pier, motion, (0, 5), resolution=0.5)
+    assert_type(lowest, tuple[float, float] | None)
+
+for structure in (pier, bent, block, block.linear()):
+    response = simulate(structure, pulse, duration=2, samples=[0.0, 0.5, 1.0])
+    assert_type(response.rotation, NDArray[np.float64])
+    if not response.overturned:
+        print(f"{response.outcome}: {math.degrees(response.peak_rotation):.3g}°")
+    by_scipy = topheavy.reference.simulate(structure, pulse, duration=2, samples=times)
+    assert_type(by_scipy, Response)
+free = simulate(block, rotation=0.1, samples=200)
+assert_type(simulate_linear_exact(block.linear(), pulse), Response)
+assert_type(quarter_period(pier, 0.01), tuple[float, float])
+
+spectrum = overturning_map(bent, "one-cosine", np.linspace(1.0, 4.0, 3), [0.5, 1.0])
+print(spectrum.sizes["amplitude"], spectrum["overturned"].to_numpy().sum())
+for interval in overturning_intervals(bent, pulse, (0.0, 2.0), resolution=0.5):
+    print(interval.lower[0], interval.impacts)
+cap = Cap(span=6.0, half_depth=0.5)
+frame_motion = simulate(bent, shaking, samples=times)
+forces = frame_forces(bent, cap, frame_motion.rotation, frame_motion.velocity)
+assert_type(forces.base_shear, NDArray[np.float64])
