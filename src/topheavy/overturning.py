@@ -400,7 +400,7 @@ class _Asked(NamedTuple):
 
 
 def _intervals(grid: Factors, resolution: float) -> Generator[_Asked, Any, list[Interval]]:
-    """Ask for what `overturning_intervals` needs, and return its intervals."""
+    """Yield the factors that `overturning_intervals` needs; return its intervals."""
     first = float(grid[0])
     labels = yield _Asked(grid, [])
     changes = np.flatnonzero(labels[1:] != labels[:-1])
@@ -419,7 +419,7 @@ def _intervals(grid: Factors, resolution: float) -> Generator[_Asked, Any, list[
 def _minimum(
     grid: Factors, resolution: float
 ) -> Generator[_Asked, Any, tuple[float, float] | None]:
-    """Ask for what `minimum_overturning` needs, and return its bracket."""
+    """Yield the factors that `minimum_overturning` needs; return its bracket."""
     for begin in range(0, grid.size, AT_A_TIME):
         overturns = (yield _Asked(grid[begin : begin + AT_A_TIME], [])) != SAFE
         if overturns.any():
@@ -506,31 +506,35 @@ def _steered(
     halvings ahead are labelled with them, whichever halves they will turn out to take.
     """
     answers: dict[int, Answer] = {}
-    known: dict[int, dict[float, int]] = {number: {} for number in range(len(asking))}
+    known: dict[int, Mapping[float, int]] = {}  # halvings ahead, by the number of the search
     waiting = {number: next(search) for number, search in enumerate(asking)}
     while waiting:
         missing = {
             number: asked
             for number, asked in waiting.items()
-            if not known[number].keys() >= set(asked.factors.tolist())
+            if number not in known or not known[number].keys() >= set(asked.factors.tolist())
         }
         count = sum(len(asked.brackets) for asked in missing.values())
         depth = max(1, int(math.log2(TOGETHER / max(count, 1) + 1)))
         ahead = {
             number: np.array([factor for one in asked.brackets for factor in halvings(*one, depth)])
-            if asked.brackets
+            if asked.brackets and depth > 1
             else asked.factors
             for number, asked in missing.items()
         }
-        for (number, factors), labels in zip(ahead.items(), label(ahead), strict=True):
-            known[number] = dict(zip(factors.tolist(), labels.tolist(), strict=True))
+        found = dict(zip(ahead, label(ahead), strict=True))
         for number, asked in list(waiting.items()):
-            labels = np.array([known[number][factor] for factor in asked.factors.tolist()])
+            labels = found.get(number)
+            if labels is None or ahead[number] is not asked.factors:
+                if labels is not None:
+                    pairs = zip(ahead[number].tolist(), labels.tolist(), strict=True)
+                    known[number] = dict(pairs)
+                labels = np.array([known[number][factor] for factor in asked.factors.tolist()])
             try:
                 waiting[number] = asking[number].send(labels)
             except StopIteration as end:
                 answers[number] = end.value
-                del waiting[number], known[number]
+                del waiting[number]
     return [answers[number] for number in range(len(asking))]
 
 

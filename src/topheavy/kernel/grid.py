@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from topheavy.kernel.forcing import NO_RECORD, RECORD, SHAPES, pulse_forcing, record_forcing
 from topheavy.kernel.interrupt import LONG, in_threads
-from topheavy.kernel.lanes.pulses import pulse_outcomes, unsettled
+from topheavy.kernel.lanes.pulses import pulse_outcomes
 from topheavy.kernel.lanes.records import record_outcomes
 from topheavy.kernel.lanes.vectors import HAS_FMA, WIDTH
 from topheavy.kernel.outcome import (
@@ -178,21 +178,14 @@ def _pulse_outcomes(
     peak, overturned = np.empty(size), np.empty(size, dtype=bool)
     impacts = np.empty(size, dtype=np.int64)
     # Copies in C order: for arrays that are strided, transposed or read-only it would compile anew.
-    numbers = np.array(np.atleast_2d(which), order="C")
-    pairs = [np.array(np.atleast_2d(each), order="C") for each in (scales, amplitudes)]
-    given = (blocks[0], _rows(blocks), shape, numbers, *pairs, NO_RECORD, tolerance)
+    cells = [np.array(np.atleast_2d(each), order="C") for each in (which, scales, amplitudes)]
+    given = (blocks[0], _rows(blocks), shape, *cells, NO_RECORD, PULSE_ORDER, tolerance)
     results = (peak, overturned, impacts)
     lost = _shared(pulse_outcomes, (*given, *results), peak.size, FEWEST_PULSES, 1, threads)
 
-    def cell(place: int) -> tuple[Oscillator, int, float, float]:
-        of, scale, amplitude = (np.broadcast_to(each, size).flat for each in (numbers, *pairs))
-        return blocks[int(of[place])], shape, float(scale[place]), float(amplitude[place])
-
     if lost >= 0:
-        raise _unresolved(*cell(lost))
-    for place in unsettled(impacts):
-        found = outcome_of(*cell(place), tolerance=tolerance)
-        overturned.flat[place], peak.flat[place], impacts.flat[place] = found[:3]
+        of, scale, amplitude = (np.broadcast_to(each, size).flat[lost] for each in cells)
+        raise _unresolved(blocks[int(of)], shape, float(scale), float(amplitude))
     return peak, overturned, impacts
 
 

@@ -74,14 +74,14 @@ def comes_to_rest(block, forcing, record, time, velocity, push, side, peak):
     slight = LAST_BOUNCE * block.slenderness
     near, far = -push, push + 2 * level * weight
     most_near, most_far, heaviest = near, far, weight
-    if forcing.shape == TWO_RECORDS:
-        if time + allowed > time:
+    if time + allowed > time:
+        if forcing.shape == TWO_RECORDS:
             near, most_near, far, most_far, heaviest = _range_of_two(
                 forcing, record, time, time + allowed, side, level
             )
-    elif time + allowed > time:
-        low, high = _range(forcing, record, time, time + allowed, side)
-        near, most_near, far, most_far = level - high, level - low, level + low, level + high
+        else:
+            low, high = _range(forcing, record, time, time + allowed, side)
+            near, most_near, far, most_far = level - high, level - low, level + low, level + high
     if min(near, far) <= 0.0:
         return False
     bound = velocity * velocity / (min(near, far) * cosine)

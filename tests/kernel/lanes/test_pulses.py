@@ -9,7 +9,7 @@ from topheavy import RockingBlock
 from topheavy.kernel.forcing import NO_RECORD, ONE_SINE, SHAPES
 from topheavy.kernel.grid import LANES, outcome_of, outcomes_of
 from topheavy.kernel.lanes.pulses import pulse_outcomes
-from topheavy.kernel.outcome import HALT, TOLERANCE, working_array
+from topheavy.kernel.outcome import HALT, PULSE_ORDER, TOLERANCE, working_array
 from topheavy.kernel.taylor import oscillator
 
 ENDING = sorted(set(SHAPES) - {"harmonic"})
@@ -89,8 +89,8 @@ def filled(workspace):
     block, size = oscillator(RockingBlock(1.0, 0.2, 0.9)), (1, 3 * LANES)
     out = (np.empty(size), np.empty(size, dtype=bool), np.empty(size, dtype=np.int64))
     amplitudes = block.level * np.linspace(1.1, 4.0, size[1])[np.newaxis]
-    pairs = (np.array(np.broadcast_to(values, size)) for values in (3.0, amplitudes))
-    given = (block, ONE_SINE, *pairs, NO_RECORD, TOLERANCE)
+    cells = (np.zeros((1, 1), np.int64), np.full((1, 1), 3.0), amplitudes)
+    given = (block, np.array([block[:5]]), ONE_SINE, *cells, NO_RECORD, PULSE_ORDER, TOLERANCE)
     return pulse_outcomes(workspace, 0, 1, *given, *out)
 
 

@@ -1,6 +1,6 @@
 """Outcomes of many pulses, one history in each lane (see `steps`).
 
-A history that ends poised at the barrier is left to the scalar kernel (`unsettled`), so that a map
+A history that ends poised at the barrier is followed once more by the scalar kernel, so that a map
 and `judge` tell the same up to the last bits of a boundary.
 
 All lanes take their steps together, each a step of its own length. A lane whose history is over
@@ -64,13 +64,11 @@ from topheavy.kernel.lanes.vectors import (
     square_root,
     store,
 )
-from topheavy.kernel.outcome import HALT, MAX_STEPS, PULSE_ORDER
+from topheavy.kernel.outcome import HALT, MAX_STEPS, PULSE_ORDER, outcome
 from topheavy.kernel.rest import next_tick
 from topheavy.kernel.tail import free_rocking, is_poised
 
 assert PULSE_ORDER <= MAX_ORDER
-#: In place of the impacts of a history that is left to the scalar kernel.
-UNSETTLED = -1
 
 
 @compiled
@@ -150,6 +148,7 @@ def pulse_outcomes(
     scales,
     amplitudes,
     record,
+    order,
     tolerance,
     peak,
     overturned,
@@ -157,9 +156,7 @@ def pulse_outcomes(
 ):
     """Fill one of as many parts of the cells as there are `batches`; see `grid.pulse_outcomes_of`.
 
-    The cells of histories that end poised at the barrier are found by `unsettled`.
-
-    Parameters
+        Parameters
     ----------
     alone : array
         A working array for steps that a lane takes alone, which may say halt (`outcome.HALT`).
@@ -168,6 +165,9 @@ def pulse_outcomes(
     record : array
         `NO_RECORD`. As an argument, not as a constant, it has the type that it has in
         `grid.outcome_of`: what both call is then compiled but once.
+
+    order : int
+        That of the scalar kernel. A constant would have it compiled anew, to other last bits.
 
     Returns
     -------
@@ -226,7 +226,11 @@ def pulse_outcomes(
                 fell, highest = tail.overturned, max(highest, tail.peak)
                 count += tail.impacts
                 if is_poised(own, w[ROTATION, lane], w[VELOCITY, lane]):
-                    count = UNSETTLED
+                    forcing = pulse_forcing(shape, at(amplitudes, i, j), at(scales, i, j))
+                    again = outcome(alone, order, tolerance, own, forcing, record)
+                    fell, highest, count = again.overturned, again.peak, again.impacts
+                    if not again.resolved:
+                        lost = cells[lane] if lost < 0 else min(lost, cells[lane])
             elif w[STEPS, lane] > MAX_STEPS:
                 lost = cells[lane] if lost < 0 else min(lost, cells[lane])
             else:
@@ -238,20 +242,3 @@ def pulse_outcomes(
             peak[i, j] = math.nan if fell else highest
             overturned[i, j], impacts[i, j] = fell, count
             vacant |= 1 << lane
-
-
-@compiled
-def unsettled(impacts):
-    """Return the flat places of the cells that `pulse_outcomes` left to the scalar kernel.
-
-    A mask of all cells would need memory as large as one of the results.
-    """
-    number = 0
-    for count in impacts.flat:
-        number += count == UNSETTLED
-    places, found = np.empty(number, dtype=np.int64), 0
-    for place, count in enumerate(impacts.flat):
-        if count == UNSETTLED:
-            places[found] = place
-            found += 1
-    return places
