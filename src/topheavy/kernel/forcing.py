@@ -374,11 +374,17 @@ def _next_uplift_of_two(forcing, record, time, level):
     size, lift, last = abs(forcing.amplitude), abs(forcing.lift), record.shape[1] - 1
     k = piece_of(forcing, record, time)
     while k < last:  # k grows each time
-        if size * record[STRONGEST, k] <= level * (1.0 - lift * record[MOST_UP, k]):
-            break
-        run = k // RUN
-        if k % RUN == 0 and size * record[RUNS, run] <= level * (1.0 - lift * record[UP_RUNS, run]):
-            k += RUN
+        if k % RUN == 0:
+            if size * record[STRONGEST, k] <= level * (1.0 - lift * record[MOST_UP, k]):
+                break
+            if size * record[RUNS, k // RUN] <= level * (1.0 - lift * record[UP_RUNS, k // RUN]):
+                k += RUN
+                continue
+        is_low = size * abs(record[START, k]) <= level * (1.0 + forcing.lift * record[UP, k])
+        if is_low and size * abs(record[STOP, k]) <= level * (
+            1.0 + forcing.lift * record[UP_STOP, k]
+        ):
+            k += 1
             continue
         begin, end = piece_start(forcing, record, k), piece_start(forcing, record, k + 1)
         time = max(time, begin)

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from topheavy.kernel.forcing import NO_RECORD, RECORD, SHAPES, pulse_forcing, record_forcing
+from topheavy.kernel.forcing import NO_RECORD, RECORD, SHAPES, UP, pulse_forcing, record_forcing
 from topheavy.kernel.interrupt import LONG, in_threads
 from topheavy.kernel.lanes.pulses import pulse_outcomes
 from topheavy.kernel.lanes.records import record_outcomes
@@ -202,7 +202,8 @@ def _record_outcomes(
     """Return the outcomes of histories under a record, each with its block, p Δt and factors."""
     peak, overturned = np.empty(which.size), np.empty(which.size, dtype=bool)
     impacts = np.empty(which.size, dtype=np.int64)
-    given = (blocks[0], _rows(blocks), which, steps, factors, lifts, record, tolerance)
+    vertical = record if record.shape[0] > UP else None
+    given = (blocks[0], _rows(blocks), which, steps, factors, lifts, record, vertical, tolerance)
     results = (peak, overturned, impacts)
     size, samples = (which.size, FEWEST_FACTORS), record.shape[1]
     lost = _shared(record_outcomes, (*given, *results), *size, samples, threads)

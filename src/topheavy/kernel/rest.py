@@ -17,9 +17,7 @@ import numpy as np
 from topheavy.kernel.compiled import compiled
 from topheavy.kernel.forcing import (
     MOST_PIECES,
-    STOP,
     TWO_RECORDS,
-    UP_STOP,
     gravity,
     ground,
     next_turn,
@@ -123,23 +121,19 @@ def _range(forcing, record, start, stop, side):
 @compiled
 def _range_of_two(forcing, record, start, stop, side, level):
     """Return the least and largest Γ level − f and Γ level + f on [start, stop], and largest Γ."""
-    value, weight = -side * ground(forcing, record, start)[0], gravity(forcing, record, start)[0]
-    near, far = weight * level - value, weight * level + value
-    most_near, most_far, heaviest = near, far, weight
+    near, most_near, far, most_far, heaviest = np.inf, -np.inf, np.inf, -np.inf, 0.0
     last = record.shape[1] - 1
     for piece in range(piece_of(forcing, record, start), last + 1):
-        begin = piece_start(forcing, record, piece)
+        begin, end = piece_start(forcing, record, piece), stop
         if begin > stop:
             break
-        for ends in (False, True):  # both ends of the piece, or the ground at rest after the last
-            value, weight = 0.0, 1.0
-            if piece < last and not ends:
-                value, _, weight, _ = two_lines(forcing, record, piece)
-            elif piece < last:
-                value = forcing.amplitude * record[STOP, piece]
-                weight = 1.0 + forcing.lift * record[UP_STOP, piece]
-            one, other = weight * level + side * value, weight * level - side * value
-            near, most_near = min(near, one), max(most_near, one)
-            far, most_far = min(far, other), max(most_far, other)
-            heaviest = max(heaviest, weight)
+        value, rate, weight, change = 0.0, 0.0, 1.0, 0.0  # the ground at rest after the last piece
+        if piece < last:
+            value, rate, weight, change = two_lines(forcing, record, piece)
+            end = min(piece_start(forcing, record, piece + 1), stop)
+        for time in (max(begin, start), end):
+            push, heavy = side * (value + rate * (time - begin)), weight + change * (time - begin)
+            near, most_near = min(near, heavy * level + push), max(most_near, heavy * level + push)
+            far, most_far = min(far, heavy * level - push), max(most_far, heavy * level - push)
+            heaviest = max(heaviest, heavy)
     return near, most_near, far, most_far, heaviest

@@ -51,7 +51,7 @@ RECORD = np.empty((3, 0))
 @njit
 def step(w, v, block, is_straight):
     block = steps.seated(w, block)
-    landed, fallen = steps.advance(w, v, block, PULSE_ORDER, TOLERANCE, is_straight, ALL)
+    landed, fallen = steps.advance(w, v, block, PULSE_ORDER, TOLERANCE, is_straight, False, ALL)
     length = w[steps.LENGTH].copy()
     series = w[: 7 * (steps.MAX_ORDER + 1)].copy()
     steps.finish(w, block, PULSE_ORDER, ALL)
@@ -166,7 +166,7 @@ def test_lane_that_is_unsettled_is_stepped_alone():
 
 @njit
 def struck(w, block, landed):
-    return steps.strike(w, steps.seated(w, block), landed)
+    return steps.strike(w, steps.seated(w, block), False, landed)
 
 
 def test_impact_changes_the_struck_lanes_only():

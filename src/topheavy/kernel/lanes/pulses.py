@@ -200,7 +200,7 @@ def pulse_outcomes(
         if alone[HALT, 0] != 0.0:
             return cells[int(alone[HALT, 1])]
         block = seated(w, kind)
-        landed, fallen = advance(w, alone, block, PULSE_ORDER, tolerance, False, busy)
+        landed, fallen = advance(w, alone, block, PULSE_ORDER, tolerance, False, False, busy)
         time, end, step = load(w, TIME), load(w, END), load(w, LENGTH)
         time = select(step >= load(w, LONGEST), end, time + step)
         store(w, TIME, time)
@@ -210,7 +210,7 @@ def pulse_outcomes(
             renew(w, block.level, shape)
         fallen |= bits(certain(w, block, rotation, velocity)) & busy
         landed = (landed | bits(rotation <= 0.0) & busy) & ~fallen
-        resting = strike(w, block, landed) if landed else 0
+        resting = strike(w, block, False, landed) if landed else 0
         over = bits(time >= end) & busy
         ending = fallen | over | resting | bits(load(w, STEPS) > MAX_STEPS) & busy
         while ending:

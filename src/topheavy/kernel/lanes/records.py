@@ -85,15 +85,15 @@ FEW = WIDTH // 3
 
 
 @compiled(forceinline=True)
-def edge(record, piece, h):
+def edge(record, weighs, piece, h):
     """Return when the pieces begin that lanes name, where samples are `h` apart in τ."""
-    if record.shape[0] > UP:
+    if weighs:
         return take(record[AT], piece) * h
     return piece * h
 
 
 @compiled(forceinline=True)
-def march_lanes(w, block, record, tolerance, marching):
+def march_lanes(w, block, record, weighs, tolerance, marching):
     """Pass over the pieces that `marching` lanes are at, as far as they are proven to hold nothing.
 
     The terms and the proof are those of `march.march`. Lanes for which it fails are made ready for
@@ -101,6 +101,8 @@ def march_lanes(w, block, record, tolerance, marching):
 
     Parameters
     ----------
+    weighs : bool
+        Whether the record is of two.
     tolerance : float
         Bound on the last term of φ', over α.
 
@@ -124,10 +126,10 @@ def march_lanes(w, block, record, tolerance, marching):
         load(w, SINE),
         load(w, COSINE),
     )
-    begin = edge(record, piece, h)
-    longest = edge(record, piece + 1.0, h) - begin
+    begin = edge(record, weighs, piece, h)
+    longest = edge(record, weighs, piece + 1.0, h) - begin
     before, heavy, heavier = take(record[START], piece), inverse_cosine, h * 0.0
-    if record.shape[0] > UP:
+    if weighs:
         share = take(record[AT], piece + 1.0) - take(record[AT], piece)  # of h, this piece takes
         h, per_piece, power = h * share, per_piece / share, share * share
         h2, h3, power = h2 * power, h3 * (power * share), power * power
@@ -142,7 +144,7 @@ def march_lanes(w, block, record, tolerance, marching):
     else:
         after = take(record[START], piece + 1.0)
         push, rate = factor * before - block.level, factor * (after - before) * per_piece
-        gravity, change = load(w, GRAVITY), load(w, CHANGE)
+        gravity, change = heavier, heavier
     passed = 0
     if not block.linearised:
         tilt = fma(cosine, block.cosine, sine * block.sine)  # cos(α − φ)
@@ -180,8 +182,9 @@ def march_lanes(w, block, record, tolerance, marching):
         store(w, ARC, select(whole, peak, arc))
         store(w, PUSH, select(halted, push, load(w, PUSH)))
         store(w, PUSH + 1, select(halted, rate, load(w, PUSH + 1)))
-        store(w, GRAVITY, select(halted, gravity, load(w, GRAVITY)))
-        store(w, CHANGE, select(halted, change, load(w, CHANGE)))
+        if weighs:
+            store(w, GRAVITY, select(halted, gravity, load(w, GRAVITY)))
+            store(w, CHANGE, select(halted, change, load(w, CHANGE)))
         store(w, TIME, select(halted, begin, load(w, TIME)))
         store(w, LONGEST, select(halted, longest, load(w, LONGEST)))
     return passed
@@ -230,6 +233,7 @@ def record_outcomes(
     factors,
     lifts_of,
     record,
+    vertical,
     tolerance,
     peak,
     overturned,
@@ -245,13 +249,17 @@ def record_outcomes(
         The blocks, as `numbered` takes them; `which` has the number of the block of each factor,
         `steps` its p Δt, and `lifts_of` the factor on the vertical record that goes with it.
 
+    vertical : array or None
+        `record` once more if it is of two records; None if it is of one.
+
     Returns
     -------
     int
         The first cell that was given up (see `outcome.MAX_STEPS`), or −1.
     """
     w, cells = rows(ROWS), np.full(WIDTH, -1)
-    pieces = record[AT, record.shape[1] - 1] if record.shape[0] > UP else record.shape[1] - 1.0
+    weighs = vertical is not None  # known when this is compiled: one record costs nothing more
+    pieces = record[AT, record.shape[1] - 1] if weighs else record.shape[1] - 1.0
     most_steps = MAX_STEPS + 10 * record.shape[1]
     coming, last = batch * factors.size // batches, (batch + 1) * factors.size // batches
     lost, vacant = -1, (1 << WIDTH) - 1
@@ -283,19 +291,20 @@ def record_outcomes(
             return cells[int(alone[HALT, 1])]
         block = seated(w, kind)
         if stepping == 0 or number(marching) > FEW:
-            passed = march_lanes(w, block, record, tolerance, marching)
+            passed = march_lanes(w, block, record, weighs, tolerance, marching)
             stepping |= marching & ~passed
             marching = passed
             continue
-        landed, fallen = advance(w, alone, block, RECORD_ORDER, tolerance, True, stepping)
+        landed, fallen = advance(w, alone, block, RECORD_ORDER, tolerance, True, weighs, stepping)
         h, time, taken = load(w, TERM + 1), load(w, TIME), load(w, LENGTH)
-        piece_end = edge(record, load(w, PIECE) + 1.0, h)
+        piece_end = edge(record, weighs, load(w, PIECE) + 1.0, h)
         time = select(taken >= load(w, LONGEST), piece_end, time + taken)
         store(w, TIME, time)
         rotation, velocity = finish(w, block, RECORD_ORDER, stepping)
-        store(w, GRAVITY, fma(taken, load(w, CHANGE), load(w, GRAVITY)))
+        if weighs:
+            store(w, GRAVITY, fma(taken, load(w, CHANGE), load(w, GRAVITY)))
         landed = (landed | bits(rotation <= 0.0) & stepping) & ~fallen
-        resting = strike(w, block, landed) if landed else 0
+        resting = strike(w, block, weighs, landed) if landed else 0
         over = bits(time >= pieces * h) & stepping
         outward = bits((rotation > block.slenderness) & (velocity > 0.0)) & stepping
         tired = bits(load(w, STEPS) > most_steps) & stepping

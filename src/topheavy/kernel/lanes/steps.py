@@ -8,8 +8,8 @@ which the iteration does not surely converge, takes its step by `proven`, as the
 
 The array `w` of a batch has a row for every coefficient and every variable, a float a lane. `alone`
 is the working array of the scalar kernel (`outcome.working_array`), for a lane that is taken alone.
-`order` and `is_straight` are constants where these functions are called, so that their loops become
-straight code.
+`order`, `is_straight` and `weighs` are constants where these functions are called, so that their
+loops become straight code.
 """
 
 from topheavy.kernel.bernstein import CONVERT
@@ -76,7 +76,6 @@ def seat(w, lane, block):
     w[ALPHA, lane], w[RESTITUTION, lane], w[LEVEL, lane] = block[:3]
     w[COS_ALPHA, lane], w[SIN_ALPHA, lane] = block.cosine, block.sine
     w[INVERSE_COS, lane] = 1.0 / block.cosine
-    w[GRAVITY, lane], w[CHANGE, lane] = 1.0, 0.0
 
 
 @compiled(forceinline=True)
@@ -88,10 +87,10 @@ def seated(w, kind):
 
 
 @compiled(forceinline=True)
-def expand(w, block, order, is_straight):
+def expand(w, block, order, is_straight, weighs):
     """Fill `w` with the solution through its first coefficients; see `taylor.expand`.
 
-    Gravity changes under records alone, of which the push is straight.
+    `weighs` says that gravity changes, under two records; the push of records is straight.
     """
     if not is_straight:
         c, d1 = load(w, C), load(w, D1)
@@ -104,9 +103,9 @@ def expand(w, block, order, is_straight):
     if block.linearised:
         for n in range(order):  # φ'' = φ + q
             force = load(w, ROTATION + n)
-            if is_straight:
+            if weighs:
                 force = force * load(w, GRAVITY)
-            if is_straight and n > 0:
+            if weighs and n > 0:
                 force = fma(load(w, CHANGE), load(w, ROTATION + n - 1), force)
             if n < 2 or not is_straight:
                 force = force + load(w, PUSH + n)
@@ -117,7 +116,7 @@ def expand(w, block, order, is_straight):
     first_sine, first_cosine, first_push = load(w, SINE), load(w, COSINE), load(w, PUSH)
     first_velocity, zero = load(w, VELOCITY), load(w, PUSH) * 0.0
     heavy, heavier = inverse_cosine, zero
-    if is_straight:
+    if weighs:
         heavy, heavier = inverse_cosine * load(w, GRAVITY), inverse_cosine * load(w, CHANGE)
     for n in range(order):  # the sums wait for their newest terms, which come last
         cosine, sine, force = zero, zero, zero
@@ -138,7 +137,7 @@ def expand(w, block, order, is_straight):
         cosine = fma(first_cosine, velocity_n, cosine)
         sine = fma(first_sine, velocity_n, sine)
         force = fma(first_push, tilt, fma(sine_n, heavy, force))  # Eq. (23)
-        if is_straight and n > 0:
+        if weighs and n > 0:
             force = fma(load(w, SINE + n - 1), heavier, force)
         store(w, ROTATION + n + 1, velocity_n * INVERSE[n + 1])
         store(w, SINE + n + 1, cosine * INVERSE[n + 1])
@@ -260,7 +259,7 @@ def step_alone(w, alone, lane, order, flat):
 
 
 @compiled(forceinline=True)
-def advance(w, alone, block, order, tolerance, is_straight, active):
+def advance(w, alone, block, order, tolerance, is_straight, weighs, active):
     """Find the step of each lane, and what ends it; `LENGTH` and `ARC` take it up.
 
     Parameters
@@ -275,7 +274,7 @@ def advance(w, alone, block, order, tolerance, is_straight, active):
     landed, fallen : int
         Bits of the lanes whose blocks land, and of those whose blocks lie flat, at the end.
     """
-    expand(w, block, order, is_straight)
+    expand(w, block, order, is_straight, weighs)
     step = longest_steps(w, block, order, tolerance)
     low, high, before, final, dips, tops = hull(w, order, step)
     first, arc = load(w, ROTATION), load(w, ARC)
@@ -343,7 +342,7 @@ def finish(w, block, order, active):
 
 
 @compiled(forceinline=True)
-def strike(w, block, landed):
+def strike(w, block, weighs, landed):
     """Let the blocks of these lanes go over to their other side (see `outcome.after_impact`).
 
     Returns
@@ -353,9 +352,11 @@ def strike(w, block, landed):
     """
     struck = among(landed)
     velocity = maximum(-load(w, VELOCITY), 0.0) * block.restitution
-    both, side = 2.0 * block.level, load(w, SIDE)
-    push = -load(w, PUSH) - both * load(w, GRAVITY)
-    rate = -load(w, PUSH + 1) - both * load(w, CHANGE)
+    both, side, rate = 2.0 * block.level, load(w, SIDE), -load(w, PUSH + 1)
+    if weighs:
+        rate = rate - both * load(w, CHANGE)
+        both = both * load(w, GRAVITY)
+    push = -load(w, PUSH) - both
     low = load(w, ARC) <= LAST_BOUNCE * block.slenderness
     store(w, IMPACTS, load(w, IMPACTS) + select(struck & ~low, 1.0, 0.0))
     store(w, ARC, select(struck, 0.0, load(w, ARC)))
@@ -367,7 +368,7 @@ def strike(w, block, landed):
     store(w, VELOCITY, select(struck, velocity, load(w, VELOCITY)))
     store(w, PUSH, select(struck, push, load(w, PUSH)))
     store(w, PUSH + 1, select(struck, rate, load(w, PUSH + 1)))
-    weakest = minimum(-push, push + both * load(w, GRAVITY))
+    weakest = minimum(-push, push + both)
     energy = weakest * (block.cosine * LAST_BOUNCE * block.slenderness)
     return bits(((weakest > 0.0) & (velocity * velocity <= energy)) | (velocity <= 0.0)) & landed
 
