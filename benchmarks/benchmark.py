@@ -34,8 +34,7 @@ from verify_grid import block_of
 from steps.publish import machine
 from topheavy import Column, Record, RockingFrame, read_at2
 from topheavy.kernel.forcing import SHAPES
-from topheavy.kernel.grid import outcomes_of
-from topheavy.kernel.lanes import WIDTH
+from topheavy.kernel.grid import LANES, outcomes_of
 from topheavy.kernel.outcome import TOLERANCE
 from topheavy.kernel.taylor import oscillator
 
@@ -62,7 +61,7 @@ LADDERS = {
     "heyoka": (1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-10, 1e-12, 1e-16),
 }
 TARGETS = {
-    ("pulse", "scalar kernel"): 4.5 if WIDTH == 16 else 3.5,  # AVX-512, AVX2
+    ("pulse", "scalar kernel"): 4.5 if LANES == 16 else 3.5,  # AVX-512, AVX2
     ("pulse", "solve_ivp"): 2000,
     ("pulse", "solve_ivp, our tail"): 400,
     ("pulse", "heyoka"): 100,

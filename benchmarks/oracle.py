@@ -66,16 +66,16 @@ class Flights:
     """heyoka's integrators of the motion on one side: one with events, one without.
 
     `ground` is −s times the ground acceleration, an expression in `hy.time` and the parameters 1
-    and 2; parameter 0 is α.
+    and 2; parameter 0 is α. `gravity` is that over g, an expression in the parameters 3 and 4.
     """
 
-    def __init__(self, ground, linearised, precision):
+    def __init__(self, ground, linearised, precision, gravity=1.0):
         phi, rate = hy.make_vars("phi", "rate")
         alpha = hy.par[0]
         if linearised:
-            curvature = phi - alpha + ground
+            curvature = gravity * (phi - alpha) + ground
         else:
-            curvature = -hy.sin(alpha - phi) + ground * hy.cos(alpha - phi)  # Eq. (23)
+            curvature = -gravity * hy.sin(alpha - phi) + ground * hy.cos(alpha - phi)  # Eq. (23)
         how = {"fp_type": precision}
         self.event, self.peak, self.highest = None, 0.0, 0.0
 
@@ -206,37 +206,48 @@ class PulseOracle:
 class RecordOracle:
     """Outcomes under records: a restart at every sample, where the forcing has a corner."""
 
-    def __init__(self, linearised=False):
+    def __init__(self, linearised=False, vertical=False):
         self.linearised = linearised
-        self.flights = Flights(hy.par[1] + hy.par[2] * hy.time, linearised, float)
+        weight = hy.par[3] + hy.par[4] * hy.time if vertical else 1.0
+        self.flights = Flights(hy.par[1] + hy.par[2] * hy.time, linearised, float, weight)
 
     def __call__(self, slenderness, restitution, samples, step) -> Found:
         """Return the outcome for samples in g, p Δt = `step` apart."""
+        pieces = ((step, pair, (1.0, 1.0)) for pair in pairwise(samples))
+        return self.follow(slenderness, restitution, pieces)
+
+    def follow(self, slenderness, restitution, pieces) -> Found:
+        """Return the outcome for pieces: how long, and a and gravity (g) at both ends of each."""
         flights, alpha = self.flights, slenderness
         level = alpha if self.linearised else math.tan(alpha)
         flights.peak, impacts, moving, side, state = 0.0, 0, False, 1.0, (0.0, 0.0)
         flights.highest = 0.0
-        for first, last in pairwise(samples):
-            time, slope = 0.0, (last - first) / step
+        for step, (first, last), (weight, final) in pieces:
+            time, slope, change = 0.0, (last - first) / step, (final - weight) / step
+
+            def push(sign, at, first=first, slope=slope, weight=weight, change=change):
+                return sign * (first + slope * at) - level * (weight + change * at)
+
+            def zero(sign, slope=slope, change=change, push=push):
+                return -push(sign, 0.0) / (sign * slope - level * change)
+
             while time < step:
-                now = first + slope * time
                 if not moving:
-                    if abs(now) > level * (1 + 1e-14):
-                        side = -np.sign(now)
-                    elif abs(last) > level and last * slope > 0.0:
-                        side = -np.sign(last)
-                        time = (np.sign(last) * level - first) / slope
-                    else:
+                    lifted = [sign for sign in (1.0, -1.0) if push(sign, time) > 1e-14 * level]
+                    later = [sign for sign in (1.0, -1.0) if push(sign, step) > 0.0]
+                    if not lifted and not later:
                         break
-                    stop = step if -side * last >= level else (-side * level - first) / slope
-                    parameters = (alpha, -side * first, -side * slope)
+                    side = -(lifted or later)[0]
+                    time = time if lifted else zero(-side)
+                    stop = step if push(-side, step) >= 0.0 else zero(-side)
+                    parameters = (alpha, -side * first, -side * slope, weight, change)
                     state = flights.push(time, stop, parameters)
                     if state is None:
                         return Found(True, math.nan, impacts)
                     time, moving, flights.highest = stop, True, state[0]
                     continue
-                parameters = (alpha, -side * first, -side * slope)
-                time, state = flights.fly(time, step, state, parameters, level + side * now)
+                parameters = (alpha, -side * first, -side * slope, weight, change)
+                time, state = flights.fly(time, step, state, parameters, -push(-side, time))
                 flights.highest = max(flights.highest, state[0])
                 if flights.event == "flat":
                     return Found(True, math.nan, impacts)
@@ -246,7 +257,7 @@ class RecordOracle:
                 impacts += int(flights.highest > LOW * alpha)
                 velocity, side = -state[1] * restitution, -side
                 state, flights.highest = (1e-24, velocity), 0.0
-                pull = level - abs(first + slope * time)
+                pull = -max(push(1.0, time), push(-1.0, time))
                 low = pull > 0.0 and velocity**2 / (2 * pull) < AT_REST * alpha
                 moving = velocity > 0.0 and not low
         if not moving:

@@ -89,12 +89,8 @@ class Controls {
 
   shapes() {
     const select = made("select", { id: "shape", "aria-describedby": "shape-error" });
-    const words = {
-      "one-sine": "One-sine pulse", "one-cosine": "One-cosine pulse", "half-sine": "Half-sine pulse", constant: "Constant pulse",
-      "ricker-symmetric": "Symmetric Ricker pulse", "ricker-antisymmetric": "Antisymmetric Ricker pulse", harmonic: "Steady sine of a shake table",
-    };
     const pulses = made("optgroup", { label: "Pulses" });
-    for (const [shape, name] of Object.entries(words)) pulses.append(made("option", { value: shape }, name));
+    for (const [shape, name] of Object.entries(DATA.shapes)) pulses.append(made("option", { value: shape }, name));
     this.records = made("optgroup", { label: "Records" });
     select.append(pulses, this.records);
     select.addEventListener("change", () => {

@@ -19,7 +19,11 @@ from numba.extending import is_jitted
 import topheavy.kernel
 
 PACKAGE = Path(topheavy.kernel.__file__).parents[1]
-SOURCES = sorted((PACKAGE / "kernel").glob("[a-z]*.py"))
+KERNEL = PACKAGE / "kernel"
+MODULES = {
+    ".".join(path.relative_to(PACKAGE).with_suffix("").parts): path
+    for path in KERNEL.rglob("[a-z]*.py")
+}
 
 #: Whether bounces of 1e-6 rest 0.1 before the ground passes the uplift level; `rest` asks
 #: `forcing` for the ground.
@@ -86,16 +90,27 @@ def test_change_of_what_a_compiled_function_calls_is_noticed(copy, folder):
     assert ask(copy, cache) == (False, 0)
 
 
+def test_change_of_the_list_of_shapes_is_noticed(copy):
+    """Its lengths are constants in the machine code."""
+    assert ask(copy) == (True, 0)
+    shapes = copy / "topheavy" / "shapes.py"
+    shapes.write_text(shapes.read_text(encoding="utf-8") + "\n", encoding="utf-8")
+    assert ask(copy) == (True, 0)
+
+
 def test_every_kernel_module_is_loaded_with_the_cache():
-    files = {path.stem for path in (PACKAGE / "kernel").glob("*.py")} - {"__init__"}
-    loaded = {name for name in dir(topheavy.kernel) if f"topheavy.kernel.{name}" in sys.modules}
-    assert files == loaded
+    program = "import sys, topheavy.kernel; print(*sys.modules)"
+    found = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=True
+    )
+    loaded = {name.removeprefix("topheavy.") for name in found.stdout.split()}
+    assert {"kernel.grid", "kernel.lanes.steps"} <= MODULES.keys() <= loaded
     assert os.environ.get("NUMBA_CACHE_DIR", "") == numba.config.CACHE_DIR
 
 
 def test_what_a_function_is_compiled_with_is_its_own():
     """numba hands down what a function leaves open, from whichever function calls it first."""
-    modules = [importlib.import_module(f"topheavy.kernel.{path.stem}") for path in SOURCES]
+    modules = [importlib.import_module(f"topheavy.{name}") for name in sorted(MODULES)]
     functions = {f for module in modules for f in vars(module).values() if is_jitted(f)}
     assert len(functions) > 60
     handed_down = {"fastmath", "error_model", "forceinline"}  # numba.core.cpu: inherit_if_not_set

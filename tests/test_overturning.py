@@ -10,19 +10,35 @@ import xarray
 from topheavy import (
     PULSE_SHAPES,
     Column,
+    FixedMassColumn,
+    MonolithicPortal,
     Pulse,
     Record,
     RockingBlock,
     RockingFrame,
+    intervals_together,
     judge,
+    minima_together,
     minimum_overturning,
     overturned_by,
+    overturned_together,
     overturning_intervals,
     overturning_map,
     simulate,
 )
-from topheavy.kernel.grid import outcomes_of
-from topheavy.overturning import AT_A_TIME, SAFE, Interval, _bisect, _labeller, outcomes_by
+from topheavy.kernel.grid import mixed_outcomes_of
+from topheavy.kernel.outcome import TOLERANCE
+from topheavy.overturning import (
+    AT_A_TIME,
+    SAFE,
+    Interval,
+    Search,
+    _halved,
+    _outcomes,
+    _steered,
+    _subjects,
+    outcomes_by,
+)
 
 BLOCK = RockingBlock(2.0, 0.25, 0.9)
 BOTH = pytest.mark.parametrize("block", [BLOCK, BLOCK.linear()], ids=["exact", "linear"])
@@ -205,10 +221,11 @@ def test_intervals_ascend_and_do_not_overlap(case):
 def test_brackets_have_the_boundary_between_them(case):
     block, excitation, (first, last), resolution, found = case
     narrow = 1.01e-10 * max(abs(first), abs(last))
-    labels = _labeller(block, excitation, None)
+    subjects = _subjects([Search(block, excitation, (first, last))])
 
     def label(scale):
-        return labels(np.array([scale]))[0]
+        ((overturned, impacts),) = _outcomes(subjects, [np.array([scale])], TOLERANCE)
+        return impacts[0] if overturned[0] else SAFE
 
     for interval in found:
         low, high = interval.lower
@@ -277,11 +294,11 @@ def test_way_9_no_interval_wider_than_the_resolution_is_missed(case):
 def test_way_9_first_scan_has_no_step_wider_than_the_resolution(monkeypatch, last, resolution):
     scans = []
 
-    def scanned(block, shape, scales, amplitudes, record):
+    def scanned(blocks, shape, which, scales, amplitudes, *more, **named):
         scans.append(amplitudes)
-        return outcomes_of(block, shape, scales, amplitudes, record)
+        return mixed_outcomes_of(blocks, shape, which, scales, amplitudes, *more, **named)
 
-    monkeypatch.setattr("topheavy.overturning.outcomes_of", scanned)
+    monkeypatch.setattr("topheavy.overturning.mixed_outcomes_of", scanned)
     overturning_intervals(LINEAR, SINE, (1.0, last), resolution=resolution)
     factors = scans[0] / SINE.amplitude
     assert (factors[0], factors[-1]) == (1.0, last)
@@ -379,6 +396,13 @@ def test_harmonic_has_no_intervals():
 # ---------------------------------------------------------------------------- the search
 
 
+def halved(label, boundary, width, narrowest):
+    """The boundaries of one search, whose factors a function labels."""
+    search = _halved([boundary], width, narrowest)
+    (found,) = _steered([search], lambda asked: [label(each) for each in asked.values()])
+    return found
+
+
 def searched(edges, values, boundary, width=1e-9, narrowest=1e-3):
     """The boundaries of a step function with these `values` between these `edges`."""
 
@@ -387,7 +411,7 @@ def searched(edges, values, boundary, width=1e-9, narrowest=1e-3):
 
     low, high = boundary
     ends = label(np.array([low, high]))
-    return _bisect(label, [(low, high, ends[0], ends[1])], width, narrowest)
+    return halved(label, (low, high, ends[0], ends[1]), width, narrowest)
 
 
 def test_search_closes_in_on_a_boundary():
@@ -470,7 +494,7 @@ def test_halvings_ahead_find_what_halving_one_by_one_finds(monkeypatch):
 
             monkeypatch.setattr("topheavy.overturning.TOGETHER", together)
             ends = label(np.array([0.0, 1.0]))
-            found.append(_bisect(label, [(0.0, 1.0, *ends)], 1e-9, 1e-4))
+            found.append(halved(label, (0.0, 1.0, *ends), 1e-9, 1e-4))
         assert found[0] == found[1]
         met += len(found[0]) > 2
     assert met > 20
@@ -501,3 +525,87 @@ def test_outcomes_by_are_those_of_judge():
         ends = [judge(BLOCK, excitation.scaled(factor)) for factor in FACTORS]
         assert overturned.tolist() == [end.overturned for end in ends]
         assert impacts.tolist() == [end.impacts for end in ends]
+
+
+# ---------------------------------------------------------------------------- many at once
+
+COLUMN = Column(0.5, 3.0)
+MANY = [
+    COLUMN,
+    RockingFrame(COLUMN, 2.0),
+    FixedMassColumn(COLUMN, 1.0),
+    MonolithicPortal(COLUMN, 1.0, 1.2),
+    COLUMN.block().linear(),
+]
+UP = Record(0.013, 0.2 * np.cos(0.3 * np.arange(160)), "up")
+
+
+def searches():
+    """Unlike structures under unlike motions, of which some are the same object."""
+    record = Record(0.02, 0.25 * np.sin(0.11 * np.arange(140)) + 0.1 * np.sin(0.4 * np.arange(140)))
+    pulses = [Pulse("one-sine", 0.2, 3.0), Pulse("one-sine", 0.2, 5.5), Pulse("constant", 0.3, 4.0)]
+    found = [Search(structure, record, (0.5, 4.0)) for structure in MANY]
+    found += [Search(structure, record, (0.5, 4.0), UP) for structure in MANY[:3]]
+    found += [Search(MANY[1], record, (0.5, 4.0), UP, scale_vertical=False)]
+    found += [Search(one, pulse, (0.9, 7.0)) for one in MANY[::2] for pulse in pulses]
+    return found
+
+
+def test_searches_together_find_what_each_finds_alone():
+    """To the last bit, in their order."""
+    given, together = searches(), intervals_together(searches(), resolution=0.07, most_impacts=1)
+    low = minima_together(given, resolution=0.07)
+    assert len(together) == len(low) == len(given)
+    for search, intervals, bracket in zip(given, together, low, strict=True):
+        named = {"vertical": search.vertical, "scale_vertical": search.scale_vertical}
+        named["resolution"] = 0.07
+        assert intervals == overturning_intervals(*search[:3], most_impacts=1, **named)
+        assert bracket == minimum_overturning(*search[:3], **named)
+        assert bracket == (intervals[0].lower if intervals else None)
+    assert len({intervals[0].lower for intervals in together if intervals}) > 12
+
+
+def test_searches_together_ask_the_kernel_less_often(monkeypatch):
+    calls = []
+
+    def counted(*given, **named):
+        calls.append(given[2].size)
+        return mixed_outcomes_of(*given, **named)
+
+    monkeypatch.setattr("topheavy.overturning.mixed_outcomes_of", counted)
+    for search in searches():
+        overturning_intervals(*search[:3], resolution=0.07)
+    alone = len(calls)
+    calls.clear()
+    intervals_together(searches(), resolution=0.07)
+    assert len(calls) < 0.6 * alone
+
+
+def test_structures_under_one_motion_have_the_outcomes_of_each():
+    record = searches()[0].excitation
+    factors = np.linspace(0.4, 5.0, 23)
+    found = overturned_together(MANY, record, factors, vertical=UP, scale_vertical=False)
+    assert found.shape == (len(MANY), factors.size)
+    for structure, row in zip(MANY, found, strict=True):
+        alone = overturned_by(structure, record, factors, vertical=UP, scale_vertical=False)
+        np.testing.assert_array_equal(row, alone)
+    own = factors * np.arange(1, len(MANY) + 1)[:, np.newaxis]
+    found = overturned_together(MANY, record, own)
+    for structure, row, scales in zip(MANY, found, own, strict=True):
+        np.testing.assert_array_equal(row, overturned_by(structure, record, scales))
+    assert 0 < found.sum() < found.size
+
+
+def test_several_are_refused_with_what_was_expected():
+    record = searches()[0].excitation
+    with pytest.raises(ValueError, match="structures is empty; expected one or more"):
+        overturned_together([], record, [1.0])
+    with pytest.raises(ValueError, match=r"shape \(2, 3\); expected .* each of the 5 structures"):
+        overturned_together(MANY, record, np.ones((2, 3)))
+    for together in (intervals_together, minima_together):
+        with pytest.raises(ValueError, match="searches is empty; expected one or more"):
+            together([], resolution=0.1)
+        with pytest.raises(ValueError, match="excitation is None; expected a Pulse or a Record"):
+            together([*searches(), Search(COLUMN, None, (0.0, 1.0))], resolution=0.1)
+    with pytest.raises(ValueError, match="factors goes down to -1; it cannot be negative"):
+        overturned_together(MANY, record, [-1.0, 2.0])

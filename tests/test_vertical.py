@@ -1,12 +1,29 @@
 """Vertical ground acceleration: two solvers, limits that are known, and what is refused."""
 
 import math
+from functools import partial
 
 import numpy as np
 import pytest
 
-from topheavy import Column, Pulse, Record, RockingFrame, read_record, reference, simulate
+from topheavy import (
+    Column,
+    FixedMassColumn,
+    MonolithicPortal,
+    Pulse,
+    Record,
+    RockingFrame,
+    judge,
+    minimum_overturning,
+    overturned_by,
+    overturned_together,
+    overturning_intervals,
+    read_record,
+    reference,
+    simulate,
+)
 from topheavy.newton_euler import ThreeBodies, uplift_accelerations
+from topheavy.overturning import outcomes_by
 from topheavy.three_bodies import simulate_three_bodies
 from topheavy.vertical import TwoComponents
 
@@ -76,15 +93,173 @@ def test_segments_hold_the_samples_of_both_records():
             assert gravity * segment.acceleration(middle) == pytest.approx(SHAKE.excitation(middle))
 
 
-def test_vertical_is_refused_where_it_is_not_supported():
-    with pytest.raises(ValueError, match="the Taylor solver has no vertical"):
-        simulate(FRAME, SHAKE, vertical=UP)
-    with pytest.raises(ValueError, match="expected two Records"):
-        reference.simulate(FRAME, Pulse("one-sine", 0.3, 6.0), vertical=UP)
-    with pytest.raises(ValueError, match="linearised"):
-        reference.judge(FRAME.block().linear(), SHAKE, vertical=UP)
-    with pytest.raises(ValueError, match=r"sample 0 is -1\.1 g"):
-        reference.simulate(FRAME, SHAKE, vertical=constant(-1.1))
+SOLVERS = (
+    simulate,
+    judge,
+    reference.simulate,
+    reference.judge,
+    lambda *given, **named: overturned_by(*given, [1.0], **named),
+)
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_vertical_of_another_kind_is_refused(solver):
+    for shaking, up in ((Pulse("one-sine", 0.3, 6.0), UP), (SHAKE, 0.1), (SHAKE, [0.1, 0.2])):
+        told = rf"excitation is {type(shaking).__name__} and vertical {type(up).__name__}; expected"
+        with pytest.raises(ValueError, match=told):
+            solver(FRAME, shaking, vertical=up)
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_ground_that_falls_from_under_the_structure_is_refused(solver):
+    falling = Record(0.05, np.array([0.0, 0.4, -0.8, -1.25, 0.0]))
+    told = (
+        r"^vertical: at 0\.15 s its acceleration times 1 is -1\.25 g; expected more than −1 g, .*"
+        r"factors less than 0\.8 are allowed$"
+    )
+    with pytest.raises(ValueError, match=told):
+        solver(FRAME, SHAKE, vertical=falling)
+
+
+def test_search_is_refused_for_its_largest_factor_alone():
+    falling = Record(0.05, np.array([0.0, 0.4, -0.5, 0.0]))
+    told = r"at 0\.1 s .* times 2\.5 is -1\.25 g.*factors less than 2 are allowed"
+    for call in (
+        partial(overturned_by, FRAME, SHAKE, [0.5, 2.5]),
+        partial(overturning_intervals, FRAME, SHAKE, (0.5, 2.5), resolution=0.5),
+        partial(minimum_overturning, FRAME, SHAKE, (0.5, 2.5), resolution=0.5),
+        partial(overturned_together, [COLUMN, FRAME], SHAKE, [0.5, 2.5]),
+    ):
+        with pytest.raises(ValueError, match=told):
+            call(vertical=falling)
+        call(vertical=falling, scale_vertical=False)
+    told = r"times -3 is -1\.2 g.*factors more than -2\.5 are allowed"
+    with pytest.raises(ValueError, match=told):
+        minimum_overturning(FRAME, SHAKE, (-3.0, 0.5), resolution=1.0, vertical=falling)
+    huge = Record(0.05, np.array([0.0, -3.0, 0.0]))  # allowed below a third
+    assert not overturned_by(FRAME, SHAKE, [0.0, 0.3], vertical=huge).any()
+
+
+# What the Taylor solver makes of it ---------------------------------------------------------------
+
+ODD = Record(0.0137, 0.35 * np.cos(20.3 * 0.0137 * np.arange(211)), "a time step of its own")
+LATE = Record(0.05, 0.5 * np.sin(9.0 * 0.05 * np.arange(90)), "longer than the horizontal one")
+ENDED = Record(0.03, np.full(20, -0.6), "ends by a jump, before the horizontal one")
+VERTICALS = pytest.mark.parametrize("up", [UP, ODD, LATE, ENDED], ids=lambda up: up.name)
+EQUATIONS = pytest.mark.parametrize("linearised", [False, True], ids=["exact", "linearised"])
+
+
+@VERTICALS
+@EQUATIONS
+@pytest.mark.parametrize("factor", [1.0, -1.4, 2.6, 4.5])
+def test_both_solvers_agree(up, linearised, factor):
+    block = FRAME.block().linear() if linearised else FRAME.block()
+    shaking = SHAKE.scaled(factor)
+    ours = simulate(block, shaking, samples=TIME, duration=6.0, vertical=up)
+    theirs = reference.simulate(block, shaking, samples=TIME, duration=6.0, vertical=up)
+    assert ours.outcome == theirs.outcome
+    known = np.isfinite(ours.rotation + theirs.rotation)  # not after it has overturned
+    off = ours.rotation[known] - theirs.rotation[known]
+    assert np.abs(off).max() < 1e-7 * block.slenderness
+    assert known.sum() > 100
+    np.testing.assert_allclose(ours.impacts, theirs.impacts, atol=1e-5)
+    plain = simulate(block, shaking, samples=TIME, duration=6.0)
+    moved = np.abs(ours.rotation - plain.rotation)
+    assert np.nanmax(moved) > 1e-3 * block.slenderness
+    alone, other = judge(block, shaking, vertical=up), reference.judge(block, shaking, vertical=up)
+    assert (alone.overturned, alone.impacts) == (other.overturned, other.impacts)
+    np.testing.assert_allclose(alone.peak, other.peak, rtol=0, atol=1e-8 * block.slenderness)
+
+
+@pytest.mark.parametrize("gamma", [0.0, 1.0])
+def test_three_bodies_move_as_the_taylor_solver_says(gamma):
+    frame = RockingFrame(COLUMN, gamma)
+    ours = simulate(frame, SHAKE, samples=TIME, duration=6.0, vertical=UP)
+    bodies = simulate_three_bodies(
+        frame, SHAKE, span=5.0, cap_depth=1.0, duration=6.0, samples=TIME, vertical=UP
+    )
+    np.testing.assert_allclose(bodies.rotation[:, 0], ours.rotation, atol=1e-7)
+
+
+@EQUATIONS
+def test_no_vertical_acceleration_is_none(linearised):
+    block = FRAME.block().linear() if linearised else FRAME.block()
+    still = Record(0.013, np.zeros(150))  # the impacts are counted until both have ended
+    factors = np.linspace(0.8, 8.0, 40)
+    plain = outcomes_by(block, SHAKE, factors)
+    for one, other in zip(plain, outcomes_by(block, SHAKE, factors, vertical=still), strict=True):
+        np.testing.assert_array_equal(one, other)
+    assert 0 < plain[0].sum() < 40
+
+
+@EQUATIONS
+@pytest.mark.parametrize("vertical", [-0.4, 0.0, 0.5])
+@pytest.mark.parametrize("side", [-1.0, 1.0])
+def test_taylor_solver_lifts_at_gravity_times_the_tangent(vertical, side, linearised):
+    block = COLUMN.block().linear() if linearised else COLUMN.block()
+    up, level = constant(vertical, samples=3), (1.0 + vertical) * block.uplift_acceleration
+    for share, moves in ((0.9999, False), (1.0001, True)):
+        push = constant(side * share * level, samples=3)
+        assert (simulate(block, push, vertical=up).outcome != "no uplift") == moves
+        assert (judge(block, push, vertical=up).peak > 0.0) == moves
+    ramp = Record(1.0, np.array([0.0, 4.0 * side * level]))
+    lifted = simulate(block, ramp, samples=4001, vertical=Record(1.0, np.full(2, vertical)))
+    assert lifted.time[np.flatnonzero(lifted.rotation)[0]] == pytest.approx(0.25, abs=2e-2)
+
+
+def test_free_rocking_begins_when_both_have_ended():
+    """Gravity that is less for long after the shaking lets the block rock farther."""
+    longer, shorter = (Record(0.02, np.full(samples, -0.5)) for samples in (200, 31))
+    shock = Record(0.02, 0.25 * np.sin(np.linspace(0.0, math.pi, 31)))
+    peaks = [judge(FRAME, shock, vertical=up).peak for up in (longer, shorter)]
+    truth = [reference.judge(FRAME, shock, vertical=up).peak for up in (longer, shorter)]
+    np.testing.assert_allclose(peaks, truth, rtol=1e-8)
+    assert peaks[0] > 1.01 * peaks[1]
+
+
+@pytest.mark.parametrize("scale_vertical", [False, True])
+@EQUATIONS
+def test_factors_scale_both_or_one(scale_vertical, linearised):
+    block = FRAME.block().linear() if linearised else FRAME.block()
+    factors = np.linspace(0.0, 2.8, 29) + 0.4
+    weak = Record(ODD.time_step, 0.8 * ODD.acceleration)
+    found = outcomes_by(
+        block, SHAKE.scaled(1.8), factors, vertical=weak, scale_vertical=scale_vertical
+    )
+    for factor, overturned, impacts in zip(factors, *found, strict=True):
+        up = weak.scaled(factor) if scale_vertical else weak
+        alone = judge(block, SHAKE.scaled(1.8 * factor), vertical=up)
+        assert (overturned, impacts) == (alone.overturned, alone.impacts)
+    assert 0 < found[0].sum() < factors.size
+    low, high = minimum_overturning(
+        block,
+        SHAKE.scaled(1.8),
+        (0.4, 3.2),
+        resolution=0.1,
+        vertical=weak,
+        scale_vertical=scale_vertical,
+    )
+    for factor, overturned in ((low, False), (high, True)):
+        up = weak.scaled(factor) if scale_vertical else weak
+        truth = reference.judge(
+            block, SHAKE.scaled(1.8 * factor * (1 + 1e-8 * (2 * overturned - 1))), vertical=up
+        )
+        assert truth.overturned == overturned
+
+
+def test_measured_vertical_gives_both_solvers_the_same_outcomes():
+    across = read_record("data/records/napa_2014_68150_090.AT2")
+    up = read_record("data/records/napa_2014_68150_UP.AT2")
+    structures = [COLUMN, FRAME, FixedMassColumn(COLUMN, 1.0), MonolithicPortal(COLUMN, 1.0, 1.2)]
+    factors = np.array([1.0, 1.6, 2.3])
+    found = overturned_together(structures, across, factors, vertical=up)
+    for structure, row in zip(structures, found, strict=True):
+        for factor, overturned in zip(factors, row, strict=True):
+            given = (structure, across.scaled(factor))
+            ours = judge(*given, vertical=up.scaled(factor), tolerance=1e-13)
+            theirs = reference.judge(*given, vertical=up.scaled(factor))
+            assert overturned == ours.overturned == theirs.overturned
+            np.testing.assert_allclose(ours.peak, theirs.peak, rtol=0, atol=1e-6 * 0.165)
 
 
 def test_measured_vertical_moves_both_solvers_alike():

@@ -5,6 +5,7 @@ The outcomes that its named cases promise are computed here with the library.
 
 import json
 import math
+import re
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -21,6 +22,7 @@ from topheavy import (
     read_record,
     simulate,
 )
+from topheavy.shapes import ENDING, SHAPES
 from topheavy.structures import RockingBlock
 
 STYLES = ("uplot/uPlot.min.css", "style.css")
@@ -99,6 +101,25 @@ def checked_cases(cases: list[dict], records: Mapping[str, Record]) -> list[dict
     return [{key: case[key] for key in ("title", "note", "state")} for case in cases]
 
 
+def titles(motions: str) -> dict[str, str]:
+    """Return what the page calls each pulse shape of the library, those that end first.
+
+    `motions` is the text of motions.js.
+
+    Raises
+    ------
+    ValueError
+        When it has a wave that is no shape of the library, or lacks one.
+    """
+    waves = set(re.findall(r'^  "([\w-]+)": \{', motions, re.MULTILINE))
+    if other := waves.symmetric_difference(SHAPES):
+        raise ValueError(
+            f"explorer/motions.js and topheavy.shapes differ by {', '.join(sorted(other))}; "
+            "expected a wave for every shape, and a shape for every wave"
+        )
+    return {name: SHAPES[name].title for name in dict.fromkeys((*ENDING, *SHAPES))}
+
+
 def page(folder: Path, records: Mapping[str, Record]) -> str:
     """Return the whole page as a text, the same each time."""
 
@@ -109,6 +130,7 @@ def page(folder: Path, records: Mapping[str, Record]) -> str:
         return text
 
     data = {
+        "shapes": titles(read("motions.js")),
         "cases": checked_cases(read_yaml(folder / "cases.yaml"), records),
         "records": [
             {

@@ -14,18 +14,16 @@ from steps.spectrum import Line, shard_of, solve
 from topheavy import Column, Pulse, RockingFrame
 
 
-def lines(case: dict) -> list[Line]:
-    """Return the lines of all spectra, in the order of the table."""
-    return [
-        line(*labels)
-        for labels in itertools.product(
-            case["slendernesses"],
-            case["shapes"],
-            case["mass_ratios"],
-            (False, True),
-            map(float, grid(case["frequency_ratios"])),
-        )
-    ]
+def lines(case: dict, shard: str = "1-of-1") -> list[Line]:
+    """Return the lines of all spectra, in the order of the table, or those of a shard."""
+    labels = itertools.product(
+        case["slendernesses"],
+        case["shapes"],
+        case["mass_ratios"],
+        (False, True),
+        map(float, grid(case["frequency_ratios"])),
+    )
+    return [line(*each) for each in shard_of([*labels], shard)]
 
 
 def line(slenderness: float, shape: str, gamma: float, linearised: bool, ratio: float) -> Line:
@@ -48,7 +46,7 @@ def line(slenderness: float, shape: str, gamma: float, linearised: bool, ratio: 
 
 
 def main(case: dict, shard: str) -> pd.DataFrame:
-    return solve(shard_of(lines(case), shard), case)
+    return solve(lines(case, shard), case)
 
 
 if __name__ == "__main__":

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import pandas as pd
 
-from topheavy import Pulse, RockingBlock, overturning_intervals
+from topheavy import Pulse, RockingBlock, Search, intervals_together
 from topheavy.overturning import Interval
 
 MODES = ("without impact", "with impact")
@@ -20,25 +20,45 @@ class Line(NamedTuple):
     pulse: Pulse
 
 
-def intervals(line: Line, case: Mapping[str, Any]) -> list[Interval]:
-    """Return the intervals of a line over the amplitudes of a config entry.
+TOGETHER = 400
+"""Lines that are searched together, so that blocks and frequencies share the kernel's calls."""
+
+
+def intervals(lines: Sequence[Line], case: Mapping[str, Any]) -> Iterator[list[Interval]]:
+    """Yield the intervals of every line over the amplitudes of a config entry.
 
     Close to uplift, under long pulses, the lowest intervals are narrow. The search is therefore
     repeated at the finer resolution below the first interval.
     """
     amplitudes, finer = case["amplitudes"], case["finer"]
     first = amplitudes["lowest"]
-    found = search(line, (first, amplitudes["highest"]), amplitudes["resolution"])
-    if found and first < found[0].lower[0] < finer["below"]:
-        found = search(line, (first, found[0].lower[0]), finer["resolution"]) + found
-    return found
+    for begin in range(0, len(lines), TOGETHER):
+        some = lines[begin : begin + TOGETHER]
+        ranges = [(first, amplitudes["highest"])] * len(some)
+        found = searched(some, ranges, amplitudes["resolution"])
+        ends = {k: of[0].lower[0] for k, of in enumerate(found) if of}
+        again = {k: (first, end) for k, end in ends.items() if first < end < finer["below"]}
+        if again:
+            below = searched([some[k] for k in again], [*again.values()], finer["resolution"])
+            for k, lower in zip(again, below, strict=True):
+                found[k] = lower + found[k]
+        yield from found
 
 
 def search(line: Line, scales: tuple[float, float], resolution: float) -> list[Interval]:
     """Return the intervals in a range, labelled only by whether an impact precedes overturning."""
-    return overturning_intervals(
-        line.block, line.pulse, scales, resolution=resolution, most_impacts=len(MODES) - 1
-    )
+    (found,) = searched([line], [scales], resolution)
+    return found
+
+
+def searched(
+    lines: Sequence[Line], ranges: Sequence[tuple[float, float]], resolution: float
+) -> list[list[Interval]]:
+    """Return the intervals of every line in its range, labelled as by `search`."""
+    searches = [
+        Search(line.block, line.pulse, scales) for line, scales in zip(lines, ranges, strict=True)
+    ]
+    return intervals_together(searches, resolution=resolution, most_impacts=len(MODES) - 1)
 
 
 def solve(lines: Sequence[Line], case: Mapping[str, Any]) -> pd.DataFrame:
@@ -48,7 +68,7 @@ def solve(lines: Sequence[Line], case: Mapping[str, Any]) -> pd.DataFrame:
     the width of the wider bracket, and whether the block overturns before any impact.
     """
 
-    found = progress((intervals(line, case) for line in lines), len(lines), "lines")
+    found = progress(intervals(lines, case), len(lines), "lines")
     table = [
         line.labels | _row(interval)
         for line, several in zip(lines, found, strict=True)
@@ -57,7 +77,7 @@ def solve(lines: Sequence[Line], case: Mapping[str, Any]) -> pd.DataFrame:
     return pd.DataFrame(table, columns=[*lines[0].labels, "lower", "upper", "mode", "bracket"])
 
 
-def shard_of(lines: Sequence[Line], shard: str) -> Sequence[Line]:
+def shard_of(lines: Sequence[Any], shard: str) -> Sequence[Any]:
     """Return every n-th line, as the name of a shard has it: "2-of-8"."""
     number, of = map(int, shard.split("-of-"))
     return lines[number - 1 :: of]

@@ -26,7 +26,8 @@ from topheavy import (
 )
 from topheavy.derivation.notation import alpha, gamma
 from topheavy.free_rocking import Ending, energy_drift
-from topheavy.linear import SHAPES, simulate_linear_exact
+from topheavy.linear import simulate_linear_exact
+from topheavy.shapes import ELEMENTARY
 
 OF_PRINT = 0.005  # of a number: the prints, which have three digits, are that far off at most
 Cell = tuple[RockingBlock, Pulse]
@@ -84,7 +85,7 @@ def agreement(case: dict, tightened: float) -> pd.DataFrame:
         for shape in case["shapes"]:
             sample = list(cells(case, shape, linearised=linearised))
             routes = {"SciPy integration": reference.judge, "tightened tolerance": tight}
-            if linearised and shape in SHAPES:
+            if linearised and shape in ELEMENTARY:
                 routes["exact solution"] = exact
             for name, other in routes.items():
                 equation = "linearised" if linearised else "exact"

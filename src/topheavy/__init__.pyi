@@ -13,15 +13,20 @@ from .fragility.estimate import Fragility, fragility
 from .frame_forces import base_shear_slope, frame_forces
 from .minimum import LowestOverturning, lowest_overturning
 from .overturning import (
+    Search,
+    intervals_together,
+    minima_together,
     minimum_overturning,
     overturned_by,
+    overturned_together,
     overturning_intervals,
     overturning_map,
 )
-from .pulses import PULSE_SHAPES, Pulse
+from .pulses import Pulse
 from .record_map import overturning_map_of_record
 from .records import Record, read_at2, read_csv, read_record
 from .response import Response
+from .shapes import PULSE_SHAPES
 from .simulate import judge, simulate
 from .structures import STANDARD_GRAVITY, Column, RockingBlock, RockingFrame
 
@@ -42,6 +47,7 @@ __all__ = [
     "Response",
     "RockingBlock",
     "RockingFrame",
+    "Search",
     "base_shear_slope",
     "column_forces",
     "column_impulse",
@@ -49,10 +55,13 @@ __all__ = [
     "fragility",
     "frame_forces",
     "impact_impulses",
+    "intervals_together",
     "judge",
     "lowest_overturning",
+    "minima_together",
     "minimum_overturning",
     "overturned_by",
+    "overturned_together",
     "overturning_intervals",
     "overturning_map",
     "overturning_map_of_record",

@@ -24,10 +24,8 @@ from topheavy.excitation import Excitation, Segment, still
 from topheavy.motion import Arc, Event, Motion
 from topheavy.pulses import Pulse
 from topheavy.response import Response
+from topheavy.shapes import ELEMENTARY
 from topheavy.structures import RockingBlock, Structure
-
-SHAPES = ("one-sine", "one-cosine", "half-sine", "constant", "harmonic")
-"""The pulses that have an elementary solution; so have records."""
 
 _TURNED = 1e-10  # φ̇/αp below which a turning point is reached: φ is off by its square
 _NUDGE = 1e-6  # 1/p: the step across a turning point, over which φ changes by its square
@@ -50,16 +48,16 @@ def simulate_linear_exact(
     Raises
     ------
     ValueError
-        For a block that is not linearised, a pulse that is not one of `SHAPES`, and as `simulate`.
+        For a block that is not linearised, a pulse that is not `ELEMENTARY`, and as `simulate`.
     """
     block = structure.block()
     if not block.linearised:
         raise ValueError("the block is not linearised; expected block.linear()")
     pulse = excitation if isinstance(excitation, Pulse) else None
-    if pulse is not None and pulse.shape not in SHAPES:
+    if pulse is not None and pulse.shape not in ELEMENTARY:
         raise ValueError(
             f"shape is {pulse.shape!r}, which has no elementary solution; "
-            f"expected one of {', '.join(SHAPES)}"
+            f"expected one of {', '.join(ELEMENTARY)}"
         )
     return motion.respond(
         block,

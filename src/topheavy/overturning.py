@@ -1,24 +1,28 @@
-"""Overturning maps, and the intervals of acceleration amplitude that overturn."""
+"""Overturning maps, and the intervals of acceleration amplitude that overturn.
+
+Histories run in the lanes of the CPU, whatever their structure: what is asked of several structures
+or motions at once costs less than one after the other, and gives the same to the last bit.
+"""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Generator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from topheavy import checks
 from topheavy.excitation import Excitation
-from topheavy.kernel.forcing import SHAPES
-from topheavy.kernel.grid import Outcomes, outcomes_of
-from topheavy.kernel.lanes import WIDTH
+from topheavy.kernel.forcing import RECORD, SHAPES
+from topheavy.kernel.grid import LANES, Outcomes, mixed_outcomes_of, outcomes_of
 from topheavy.kernel.outcome import TOLERANCE
-from topheavy.kernel.taylor import oscillator
+from topheavy.kernel.taylor import Oscillator, oscillator
 from topheavy.pulses import Pulse, checked_shape
 from topheavy.records import Record
-from topheavy.simulate import as_forcing, checked_tolerance, no_excitation
+from topheavy.simulate import Shaking, as_shaking, checked_tolerance, no_excitation
 from topheavy.structures import RockingBlock, Structure
+from topheavy.vertical import both_records, refuse_fall
 
 if TYPE_CHECKING:
     import xarray
@@ -32,14 +36,19 @@ NARROWEST = 1.0 / 1024.0
 BRACKET = 1e-10
 """Width of the brackets, over the larger end of the range."""
 
-TOGETHER = 2 * WIDTH
+TOGETHER = 2 * LANES
 """Factors that are labelled at a time where boundaries are halved."""
 
-AT_A_TIME = 16 * WIDTH
+AT_A_TIME = 16 * LANES
 """Factors that are labelled at a time where only the first that overturns is sought."""
 
 MOST_HALVINGS = 64
 """The range is at most twice its larger end wide, and 2/`BRACKET` < 2³⁵: 35 rounds are enough."""
+
+
+Factors = NDArray[np.float64]
+Boundary = tuple[float, float, int, int]  # low, high, label below, label above
+Answer = TypeVar("Answer")
 
 
 def overturning_map(
@@ -49,7 +58,8 @@ def overturning_map(
 
     Parameters
     ----------
-    structure : RockingBlock, Column or RockingFrame
+    structure : Structure
+        RockingBlock, Column, RockingFrame, FixedMassColumn or MonolithicPortal.
     shape : str
         A shape of `Pulse` that ends ("harmonic" does not).
     angular_frequencies : array_like
@@ -110,12 +120,24 @@ def outcomes_dataset(
     )
 
 
+class Search(NamedTuple):
+    """A search of factors: `overturning_intervals` and `minimum_overturning` have one each."""
+
+    structure: Structure
+    excitation: Excitation
+    scale_range: tuple[float, float]
+    vertical: Record | None = None
+    scale_vertical: bool = True
+
+
 def overturned_by(
     structure: Structure,
     excitation: Excitation,
     factors: ArrayLike,
     *,
     tolerance: float = TOLERANCE,
+    vertical: Record | None = None,
+    scale_vertical: bool = True,
 ) -> NDArray[np.bool_]:
     """Return which factors on an excitation overturn a block: those of a fragility curve.
 
@@ -124,13 +146,18 @@ def overturned_by(
 
     Parameters
     ----------
-    structure : RockingBlock, Column or RockingFrame
+    structure : Structure
+        RockingBlock, Column, RockingFrame, FixedMassColumn or MonolithicPortal.
     excitation : Pulse or Record
         One that ends.
     factors : array_like, shape (n,)
         Not negative.
     tolerance : float
         As of `simulate`.
+    vertical : Record, optional
+        Vertical ground acceleration that starts with a record: g, positive upward.
+    scale_vertical : bool
+        Whether the factors multiply the vertical acceleration, too.
 
     Returns
     -------
@@ -139,9 +166,17 @@ def overturned_by(
     Raises
     ------
     ValueError
-        For factors that are negative or not finite, and for a harmonic.
+        For factors that are negative or not finite, for a harmonic, and for a vertical
+        acceleration, with its factor, of −1 g or less.
     """
-    return outcomes_by(structure, excitation, factors, tolerance=tolerance)[0]
+    return outcomes_by(
+        structure,
+        excitation,
+        factors,
+        tolerance=tolerance,
+        vertical=vertical,
+        scale_vertical=scale_vertical,
+    )[0]
 
 
 def outcomes_by(
@@ -150,6 +185,8 @@ def outcomes_by(
     factors: ArrayLike,
     *,
     tolerance: float = TOLERANCE,
+    vertical: Record | None = None,
+    scale_vertical: bool = True,
 ) -> tuple[NDArray[np.bool_], NDArray[np.int64]]:
     """Return which factors on an excitation overturn a block, and its impacts under each.
 
@@ -161,17 +198,58 @@ def outcomes_by(
         The impacts before it overturns or the forcing ends and it rests.
     """
     scales = checks.axis("factors", factors, zero_allowed=True)
-    block = structure.block()
-    shape, scale, amplitude, record = _ending_forcing(block, excitation)
-    _, overturned, impacts = outcomes_of(
-        oscillator(block),
-        shape,
-        np.array([scale]),
-        amplitude * scales,
-        record,
-        tolerance=checked_tolerance(tolerance),
+    ends = (float(scales.min()), float(scales.max()))
+    subjects = _subjects([Search(structure, excitation, ends, vertical, scale_vertical)])
+    return _outcomes(subjects, [scales], checked_tolerance(tolerance))[0]
+
+
+def overturned_together(
+    structures: Sequence[Structure],
+    excitation: Excitation,
+    factors: ArrayLike,
+    *,
+    tolerance: float = TOLERANCE,
+    vertical: Record | None = None,
+    scale_vertical: bool = True,
+) -> NDArray[np.bool_]:
+    """Return which factors on one excitation overturn each of several structures.
+
+    Parameters
+    ----------
+    structures : sequence of Structure
+        Of any kinds, m of them.
+    factors : array_like, shape (n,) or (m, n)
+        The same for all, or a row for each; the rest is as of `overturned_by`.
+
+    Returns
+    -------
+    ndarray of bool, shape (m, n)
+
+    Raises
+    ------
+    ValueError
+        For no structures, as many rows of factors as there are not structures, and as
+        `overturned_by`.
+    """
+    structures = _several("structures", structures)
+    given = np.atleast_1d(checks.numbers("factors", factors))
+    if given.ndim > 2 or (given.ndim == 2 and len(given) != len(structures)):
+        raise ValueError(
+            f"factors has shape {given.shape}; expected a list of them, or a row for each of the "
+            f"{len(structures)} structures"
+        )
+    rows = [
+        checks.axis("factors", row, zero_allowed=True)
+        for row in np.broadcast_to(given, (len(structures), given.shape[-1]))
+    ]
+    subjects = _subjects(
+        [
+            Search(one, excitation, (float(row.min()), float(row.max())), vertical, scale_vertical)
+            for one, row in zip(structures, rows, strict=True)
+        ]
     )
-    return overturned[0], impacts[0]
+    found = _outcomes(subjects, rows, checked_tolerance(tolerance))
+    return np.array([overturned for overturned, _ in found])
 
 
 @dataclass(frozen=True)
@@ -194,6 +272,8 @@ def overturning_intervals(
     *,
     resolution: float,
     most_impacts: int | None = None,
+    vertical: Record | None = None,
+    scale_vertical: bool = True,
 ) -> list[Interval]:
     """Return the intervals of the factor on an excitation that overturn a block.
 
@@ -205,7 +285,8 @@ def overturning_intervals(
 
     Parameters
     ----------
-    structure : RockingBlock, Column or RockingFrame
+    structure : Structure
+        RockingBlock, Column, RockingFrame, FixedMassColumn or MonolithicPortal.
     excitation : Pulse or Record
     scale_range : (float, float)
         The first and the last factor.
@@ -214,6 +295,10 @@ def overturning_intervals(
     most_impacts : int, optional
         Count impacts up to this number only: intervals with as many or more become one. The side
         lobes of a Ricker pulse set off long bounces, whose every number is an interval of its own.
+    vertical : Record, optional
+        Vertical ground acceleration that starts with a record: g, positive upward.
+    scale_vertical : bool
+        Whether the factors multiply the vertical acceleration, too.
 
     Returns
     -------
@@ -224,29 +309,25 @@ def overturning_intervals(
     Raises
     ------
     ValueError
-        For a range that does not ascend, a resolution that is not positive, or a harmonic.
+        For a range that does not ascend, a resolution that is not positive, a harmonic, or a
+        vertical acceleration of −1 g or less at a factor of the range.
     """
-    grid = _grid(excitation, scale_range, resolution)
-    first = float(grid[0])
-    if most_impacts is not None and most_impacts < 0:
-        raise ValueError(f"most_impacts is {most_impacts}; expected a number from 0 on")
-    label = _labeller(structure, excitation, most_impacts)
-    labels = label(grid)
-    changes = np.flatnonzero(labels[1:] != labels[:-1])
-    boundaries = _bisect(
-        label,
-        [(grid[i], grid[i + 1], labels[i], labels[i + 1]) for i in changes],
-        _width(grid),
-        NARROWEST * resolution,
+    search = Search(structure, excitation, scale_range, vertical, scale_vertical)
+    most = _most(most_impacts)
+    (found,) = _answered([search], lambda grid: _intervals(grid, resolution), resolution, most)
+    return found
+
+
+def intervals_together(
+    searches: Sequence[Search], *, resolution: float, most_impacts: int | None = None
+) -> list[list[Interval]]:
+    """Return the `overturning_intervals` of several searches, in their order."""
+    return _answered(
+        _several("searches", searches),
+        lambda grid: _intervals(grid, resolution),
+        resolution,
+        _most(most_impacts),
     )
-    intervals, begin, current = [], (first, first), labels[0]
-    for low, high, _, after in boundaries:
-        if current != SAFE:
-            intervals.append(Interval(begin, (low, high), int(current)))
-        begin, current = (low, high), after
-    if current != SAFE:
-        intervals.append(Interval(begin, None, int(current)))
-    return intervals
 
 
 def minimum_overturning(
@@ -255,6 +336,8 @@ def minimum_overturning(
     scale_range: tuple[float, float],
     *,
     resolution: float,
+    vertical: Record | None = None,
+    scale_vertical: bool = True,
 ) -> tuple[float, float] | None:
     """Return a bracket of the lowest factor on an excitation that overturns a block.
 
@@ -268,27 +351,35 @@ def minimum_overturning(
     (float, float), or None
         The first factor twice where that overturns; None where no factor does.
     """
-    grid = _grid(excitation, scale_range, resolution)
-    label = _labeller(structure, excitation, 0)
-    for begin in range(0, grid.size, AT_A_TIME):
-        overturns = label(grid[begin : begin + AT_A_TIME]) != SAFE
-        if overturns.any():
-            at = begin + int(np.argmax(overturns))
-            break
-    else:
-        return None
-    if at == 0:
-        return float(grid[0]), float(grid[0])
-    bracket = [(grid[at - 1], grid[at], SAFE, 0)]
-    ((low, high, *_),) = _bisect(label, bracket, _width(grid), NARROWEST * resolution)
-    return low, high
+    search = Search(structure, excitation, scale_range, vertical, scale_vertical)
+    (found,) = _answered([search], lambda grid: _minimum(grid, resolution), resolution, 0)
+    return found
 
 
-def _grid(
-    excitation: Excitation, scale_range: tuple[float, float], resolution: float
-) -> NDArray[np.float64]:
+def minima_together(
+    searches: Sequence[Search], *, resolution: float
+) -> list[tuple[float, float] | None]:
+    """Return the `minimum_overturning` of several searches, in their order."""
+    given = _several("searches", searches)
+    return _answered(given, lambda grid: _minimum(grid, resolution), resolution, 0)
+
+
+def _several(name: str, values: Sequence[Any]) -> list[Any]:
+    found = list(values)
+    if not found:
+        raise ValueError(f"{name} is empty; expected one or more")
+    return found
+
+
+def _most(most_impacts: int | None) -> int:
+    if most_impacts is not None and most_impacts < 0:
+        raise ValueError(f"most_impacts is {most_impacts}; expected a number from 0 on")
+    return int(np.iinfo(np.int64).max) if most_impacts is None else most_impacts
+
+
+def _grid(search: Search, resolution: float) -> Factors:
     """Return the factors that are tried first, of a range and a resolution that are accepted."""
-    first, last = checked_range(excitation, scale_range)
+    first, last = checked_range(search.excitation, search.scale_range)
     checks.positive("resolution", resolution)
     return np.linspace(first, last, max(2, math.ceil((last - first) / resolution) + 1))
 
@@ -309,55 +400,61 @@ def checked_range(excitation: Excitation, scale_range: tuple[float, float]) -> t
     return first, last
 
 
-def _width(grid: NDArray[np.float64]) -> float:
+def _width(grid: Factors) -> float:
     """Return the width of the brackets of boundaries on a grid."""
     return BRACKET * float(np.abs(grid[[0, -1]]).max())
 
 
-Labels = NDArray[np.int64]
-Boundary = tuple[float, float, int, int]  # low, high, label below, label above
+# What a search asks, and in which order -----------------------------------------------------------
 
 
-def _labeller(
-    structure: Structure, excitation: Excitation, most_impacts: int | None
-) -> Callable[[NDArray[np.float64]], Labels]:
-    """Return the function that labels an array of factors."""
-    block = structure.block()
-    shape, scale, amplitude, record = _ending_forcing(block, excitation)
-    most = np.iinfo(np.int64).max if most_impacts is None else most_impacts
+class _Asked(NamedTuple):
+    """The factors whose labels a search waits for; they are the middles of brackets, or none."""
 
-    def label(factors: NDArray[np.float64]) -> Labels:
-        _, overturned, impacts = outcomes_of(
-            oscillator(block), shape, np.array([scale]), amplitude * factors, record
-        )
-        return np.where(overturned[0], np.minimum(impacts[0], most), SAFE)
-
-    return label
+    factors: Factors
+    brackets: list[tuple[float, float]]
 
 
-def _ending_forcing(
-    block: RockingBlock, excitation: Excitation
-) -> tuple[int, float, float, NDArray[np.float64]]:
-    """Return an excitation as the kernel takes it, if it is one and ends."""
-    if excitation is None:
-        raise no_excitation(excitation)
-    if isinstance(excitation, Pulse) and excitation.duration == math.inf:
-        raise ValueError("shape is 'harmonic', which goes on forever; expected a pulse that ends")
-    return as_forcing(block, excitation)
+def _intervals(grid: Factors, resolution: float) -> Generator[_Asked, Any, list[Interval]]:
+    """Yield the factors that `overturning_intervals` needs; return its intervals."""
+    first = float(grid[0])
+    labels = yield _Asked(grid, [])
+    changes = np.flatnonzero(labels[1:] != labels[:-1])
+    given = [(grid[i], grid[i + 1], labels[i], labels[i + 1]) for i in changes]
+    boundaries = yield from _halved(given, _width(grid), NARROWEST * resolution)
+    intervals, begin, current = [], (first, first), labels[0]
+    for low, high, _, after in boundaries:
+        if current != SAFE:
+            intervals.append(Interval(begin, (low, high), int(current)))
+        begin, current = (low, high), after
+    if current != SAFE:
+        intervals.append(Interval(begin, None, int(current)))
+    return intervals
 
 
-def _bisect(
-    label: Callable[[NDArray[np.float64]], Labels],
-    boundaries: list[Boundary],
-    width: float,
-    narrowest: float,
-) -> list[Boundary]:
-    """Return the boundaries (low, high, label below, label above), halved down to `width`.
+def _minimum(
+    grid: Factors, resolution: float
+) -> Generator[_Asked, Any, tuple[float, float] | None]:
+    """Yield the factors that `minimum_overturning` needs; return its bracket."""
+    for begin in range(0, grid.size, AT_A_TIME):
+        overturns = (yield _Asked(grid[begin : begin + AT_A_TIME], [])) != SAFE
+        if overturns.any():
+            at = begin + int(np.argmax(overturns))
+            break
+    else:
+        return None
+    if at == 0:
+        return float(grid[0]), float(grid[0])
+    bracket = [(grid[at - 1], grid[at], SAFE, 0)]
+    ((low, high, *_),) = yield from _halved(bracket, _width(grid), NARROWEST * resolution)
+    return low, high
 
-    Several halvings ahead are labelled at a time, whichever halves they will turn out to take.
-    """
+
+def _halved(
+    boundaries: list[Boundary], width: float, narrowest: float
+) -> Generator[_Asked, Any, list[Boundary]]:
+    """Return the boundaries (low, high, label below, label above), halved down to `width`."""
     done: list[Boundary] = []
-    known: dict[float, int] = {}
     for _ in range(MOST_HALVINGS):
         open_ones: list[Boundary] = []
         for boundary in boundaries:
@@ -367,13 +464,11 @@ def _bisect(
         if not open_ones:
             return sorted((float(a), float(b), int(c), int(d)) for a, b, c, d in done)
         middles = [0.5 * (low + high) for low, high, _, _ in open_ones]
-        if not known.keys() >= set(middles):
-            depth = max(1, int(math.log2(TOGETHER / len(open_ones) + 1)))
-            ahead = [point for one in open_ones for point in halvings(*one[:2], depth)]
-            known = dict(zip(ahead, label(np.array(ahead)), strict=True))
+        labels = yield _Asked(np.array(middles), [(low, high) for low, high, _, _ in open_ones])
         boundaries = []
-        for (low, high, below, above), middle in zip(open_ones, middles, strict=True):
-            found = known[middle]
+        for (low, high, below, above), middle, found in zip(
+            open_ones, middles, labels, strict=True
+        ):
             if found == below:
                 boundaries.append((middle, high, below, above))
             elif found == above:
@@ -386,6 +481,139 @@ def _bisect(
         f"{len(boundaries)} boundaries are not settled after {MOST_HALVINGS} halvings, among them "
         f"that from {boundaries[0][0]!r} to {boundaries[0][1]!r}; expected brackets of {width:g}"
     )
+
+
+# What answers all searches together ---------------------------------------------------------------
+
+
+class _Subject(NamedTuple):
+    """A block under a motion, as the kernel takes both."""
+
+    block: Oscillator
+    shaking: Shaking
+    scale: float
+    scale_vertical: bool
+
+
+def _answered(
+    searches: Sequence[Search],
+    begin: Callable[[Factors], Generator[_Asked, Any, Answer]],
+    resolution: float,
+    most_impacts: int,
+) -> list[Answer]:
+    """Return what each search returns; `begin` makes it from its first factors."""
+    asking = [begin(_grid(search, resolution)) for search in searches]
+    subjects = _subjects(searches)
+
+    def label(asked: Mapping[int, Factors]) -> list[NDArray[np.int64]]:
+        found = _outcomes([subjects[number] for number in asked], [*asked.values()], TOLERANCE)
+        return [np.where(fell, np.minimum(count, most_impacts), SAFE) for fell, count in found]
+
+    return _steered(asking, label)
+
+
+def _steered(
+    asking: Sequence[Generator[_Asked, Any, Answer]],
+    label: Callable[[Mapping[int, Factors]], Sequence[NDArray[np.int64]]],
+) -> list[Answer]:
+    """Return what each search returns; `label` labels factors of several, by their numbers.
+
+    The factors that all searches wait for are labelled together. Where they are few, several
+    halvings ahead are labelled with them, whichever halves they will turn out to take.
+    """
+    answers: dict[int, Answer] = {}
+    known: dict[int, Mapping[float, int]] = {}  # halvings ahead, by the number of the search
+    waiting = {number: next(search) for number, search in enumerate(asking)}
+    while waiting:
+        missing = {
+            number: asked
+            for number, asked in waiting.items()
+            if number not in known or not known[number].keys() >= set(asked.factors.tolist())
+        }
+        count = sum(len(asked.brackets) for asked in missing.values())
+        depth = max(1, int(math.log2(TOGETHER / max(count, 1) + 1)))
+        ahead = {
+            number: np.array([factor for one in asked.brackets for factor in halvings(*one, depth)])
+            if asked.brackets and depth > 1
+            else asked.factors
+            for number, asked in missing.items()
+        }
+        found = dict(zip(ahead, label(ahead), strict=True))
+        for number, asked in list(waiting.items()):
+            labels = found.get(number)
+            if labels is None or ahead[number] is not asked.factors:
+                if labels is not None:
+                    pairs = zip(ahead[number].tolist(), labels.tolist(), strict=True)
+                    known[number] = dict(pairs)
+                labels = np.array([known[number][factor] for factor in asked.factors.tolist()])
+            try:
+                waiting[number] = asking[number].send(labels)
+            except StopIteration as end:
+                answers[number] = end.value
+                del waiting[number]
+    return [answers[number] for number in range(len(asking))]
+
+
+def _subjects(searches: Sequence[Search]) -> list[_Subject]:
+    """Return blocks and motions as the kernel takes them; each motion is prepared but once."""
+    prepared: dict[tuple[int, int], Shaking] = {}
+    subjects = []
+    for search in searches:
+        block, excitation, vertical = search.structure.block(), search.excitation, search.vertical
+        if vertical is not None:
+            _, up = both_records(excitation, vertical)
+            refuse_fall(up, search.scale_range if search.scale_vertical else 1.0)
+        key = (id(excitation), id(vertical))
+        if key not in prepared:
+            prepared[key] = _ending(excitation, vertical)
+        shaking = prepared[key]
+        scale = shaking.scale(block)
+        subjects.append(_Subject(oscillator(block), shaking, scale, search.scale_vertical))
+    return subjects
+
+
+def _outcomes(
+    subjects: Sequence[_Subject], factors: Sequence[Factors], tolerance: float
+) -> list[tuple[NDArray[np.bool_], NDArray[np.int64]]]:
+    """Return which factors overturn each subject, and its impacts; each has factors of its own.
+
+    Histories under one record, or under pulses of one shape, run together.
+    """
+    groups: dict[tuple[int, int], list[int]] = {}
+    for number, (_, shaking, *_) in enumerate(subjects):
+        record = id(shaking.record) if shaking.shape == RECORD else 0
+        groups.setdefault((shaking.shape, record), []).append(number)
+    found: dict[int, tuple[NDArray[np.bool_], NDArray[np.int64]]] = {}
+    for (shape, _), members in groups.items():
+        alike = [subjects[number] for number in members]
+        given = [factors[number] for number in members]
+        sizes = [each.size for each in given]
+        pairs = list(zip(alike, given, strict=True))
+        _, overturned, impacts = mixed_outcomes_of(
+            [subject.block for subject in alike],
+            shape,
+            np.repeat(np.arange(len(alike)), sizes),
+            np.repeat([subject.scale for subject in alike], sizes),
+            np.concatenate([subject.shaking.amplitude * each for subject, each in pairs]),
+            alike[0].shaking.record,
+            lifts=np.concatenate(
+                [each if subject.scale_vertical else np.ones_like(each) for subject, each in pairs]
+            ),
+            tolerance=tolerance,
+        )
+        cuts = np.cumsum(sizes)[:-1]
+        found_here = zip(np.split(overturned, cuts), np.split(impacts, cuts), strict=True)
+        found |= dict(zip(members, found_here, strict=True))
+    return [found[number] for number in range(len(subjects))]
+
+
+def _ending(excitation: Excitation, vertical: Record | None) -> Shaking:
+    """Return an excitation as the kernel takes it, if it is one and ends."""
+    if excitation is None:
+        raise no_excitation(excitation)
+    if isinstance(excitation, Pulse) and excitation.duration == math.inf:
+        raise ValueError("shape is 'harmonic', which goes on forever; expected a pulse that ends")
+    return as_shaking(excitation, vertical)
 
 
 def halvings(low: float, high: float, depth: int) -> list[float]:

@@ -15,65 +15,57 @@ from numpy.typing import ArrayLike, NDArray
 
 from topheavy import checks
 from topheavy.excitation import Excitation, Segment
+from topheavy.shapes import PULSE_SHAPES, SHAPES
 
 Phase = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class _Shape:
-    """A pulse of unit amplitude in the phase ωt: its wave, its length, where its slope is zero."""
+class _Wave:
+    """A pulse of unit amplitude in the phase ωt: its values, and where its slope is zero."""
 
-    wave: Callable[[Phase], Phase]
-    length: float
+    at: Callable[[Phase], Phase]
     turns: tuple[float, ...] = ()
 
 
-_RICKER_LENGTH = 9.0 * math.pi  # 4.5 T in phase; the main lobe is in the middle
+_RICKER_CENTRE = 4.5 * math.pi  # phase of the middle of the main lobe
 _RICKER_ANTISYMMETRIC_PEAK = 1.3801  # makes the peak 1, to five digits
 
 
 def _ricker_symmetric(phase: Phase) -> Phase:
-    z = (phase - _RICKER_LENGTH / 2) / 2.0  # π τ / T
+    z = (phase - _RICKER_CENTRE) / 2.0  # π τ / T
     return (1.0 - 2.0 * z**2) * np.exp(-(z**2))
 
 
 def _ricker_antisymmetric(phase: Phase) -> Phase:
-    x = (phase - _RICKER_LENGTH / 2) / math.sqrt(3.0)  # 2 π τ / √3 T
+    x = (phase - _RICKER_CENTRE) / math.sqrt(3.0)  # 2 π τ / √3 T
     return (x**2 - 3.0) * x * np.exp(-(x**2) / 2.0) / _RICKER_ANTISYMMETRIC_PEAK
 
 
 def _around_main_lobe(*offsets: float) -> tuple[float, ...]:
     """Return the phases at ± these distances from the main lobe's middle, ascending."""
-    return tuple(sorted({_RICKER_LENGTH / 2 + sign * x for x in offsets for sign in (-1, 1)}))
+    return tuple(sorted({_RICKER_CENTRE + sign * x for x in offsets for sign in (-1, 1)}))
 
 
 _HALF_PI = math.pi / 2
 
-_SHAPES = {
-    "one-sine": _Shape(np.sin, 2 * math.pi, (_HALF_PI, 3 * _HALF_PI)),
-    "one-cosine": _Shape(np.cos, 2 * math.pi, (math.pi,)),
-    "half-sine": _Shape(np.sin, math.pi, (_HALF_PI,)),
-    "constant": _Shape(np.ones_like, math.pi),
-    "harmonic": _Shape(np.sin, math.inf),  # its turns are without end: see Pulse.segments
-    "ricker-symmetric": _Shape(
-        _ricker_symmetric,
-        _RICKER_LENGTH,
-        _around_main_lobe(0.0, math.sqrt(6.0)),
-    ),
-    "ricker-antisymmetric": _Shape(
+_WAVES = {
+    "one-sine": _Wave(np.sin, (_HALF_PI, 3 * _HALF_PI)),
+    "one-cosine": _Wave(np.cos, (math.pi,)),
+    "half-sine": _Wave(np.sin, (_HALF_PI,)),
+    "constant": _Wave(np.ones_like),
+    "harmonic": _Wave(np.sin),  # its turns are without end: see Pulse.segments
+    "ricker-symmetric": _Wave(_ricker_symmetric, _around_main_lobe(0.0, math.sqrt(6.0))),
+    "ricker-antisymmetric": _Wave(
         _ricker_antisymmetric,
-        _RICKER_LENGTH,
         _around_main_lobe(*(math.sqrt(3.0 * (3.0 + s * math.sqrt(6.0))) for s in (-1, 1))),
     ),
 }
 
-PULSE_SHAPES = tuple(_SHAPES)
-"""The names that `Pulse` accepts."""
-
 
 def checked_shape(shape: str) -> str:
     """Return the name of a pulse shape, or raise ValueError with the nearest one that exists."""
-    if shape not in _SHAPES:
+    if shape not in PULSE_SHAPES:
         close = difflib.get_close_matches(str(shape), PULSE_SHAPES, n=1, cutoff=0.5)
         hint = f" (did you mean {close[0]!r}?)" if close else ""
         raise ValueError(f"shape is {shape!r}{hint}; expected one of {', '.join(PULSE_SHAPES)}")
@@ -113,7 +105,7 @@ class Pulse(Excitation):
     @property
     def duration(self) -> float:
         """How long the pulse lasts, s; infinite for the harmonic."""
-        return _SHAPES[self.shape].length / self.angular_frequency
+        return SHAPES[self.shape].half_periods * math.pi / self.angular_frequency
 
     @property
     def peak_acceleration(self) -> float:
@@ -131,10 +123,9 @@ class Pulse(Excitation):
 
     def segments(self, until: float) -> list[Segment]:
         """Return the smooth, monotone segments from 0 to the earlier of `until` and the end."""
-        shape = _SHAPES[self.shape]
         end = min(until, self.duration)
         phase = end * self.angular_frequency
-        turns = shape.turns
+        turns = _WAVES[self.shape].turns
         if self.shape == "harmonic":
             turns = tuple(np.arange(_HALF_PI, phase, math.pi))
         inner = [turn / self.angular_frequency for turn in turns if turn < phase]
@@ -144,7 +135,7 @@ class Pulse(Excitation):
     def _wave(self, time: ArrayLike) -> NDArray[np.float64]:
         """The formula of the pulse, which holds inside its duration."""
         phase = np.asarray(np.multiply(self.angular_frequency, time), dtype=float)
-        return self.amplitude * _SHAPES[self.shape].wave(phase)
+        return self.amplitude * _WAVES[self.shape].at(phase)
 
     def _at(self, time: float) -> float:
         return float(self._wave(time))

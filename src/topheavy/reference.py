@@ -63,7 +63,7 @@ def simulate(
     block = structure.block()
     return motion.respond(
         block,
-        with_vertical(excitation, vertical, linearised=block.linearised),
+        with_vertical(excitation, vertical),
         _flight(tolerance),
         rotation=rotation,
         velocity=velocity,
@@ -90,7 +90,7 @@ def judge(
     block = structure.block()
     course = motion.start(block, 0.0, 0.0)
     course.restitutions = [checks.fraction("restitutions", value) for value in restitutions]
-    ground = with_vertical(excitation, vertical, linearised=block.linearised)
+    ground = with_vertical(excitation, vertical)
     motion.force(block, ground, course, _flight(tolerance))
     end = motion.free_ending(block, course)
     return free_rocking.Ending(
@@ -158,7 +158,7 @@ def _equation(
         return y[1], -square * gravity(t) * (math.sin(lean) + push * math.cos(lean))  # Eq. (23)
 
     def linearised(t: float, y: NDArray[np.float64]) -> tuple[float, float]:
-        return y[1], square * (float(y[0]) - alpha - side * float(acceleration(t)))
+        return y[1], square * gravity(t) * (float(y[0]) - alpha - side * float(acceleration(t)))
 
     return linearised if block.linearised else exact
 

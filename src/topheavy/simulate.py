@@ -1,6 +1,7 @@
 """Rocking histories by the Taylor solver: `simulate`, and `judge` for the outcome alone."""
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,6 +15,7 @@ from topheavy.kernel.forcing import (
     RECORD,
     SHAPES,
     prepare_record,
+    prepare_two_records,
     pulse_forcing,
     record_forcing,
 )
@@ -34,7 +36,7 @@ from topheavy.pulses import Pulse
 from topheavy.records import Record
 from topheavy.response import Outcome, Response, initial_motion, sample_times
 from topheavy.structures import RockingBlock, Structure
-from topheavy.vertical import refuse_vertical
+from topheavy.vertical import both_records, refuse_fall
 
 Times = NDArray[np.float64]
 
@@ -81,8 +83,8 @@ def simulate(
         Bound on the last two terms of the Taylor series of φ̇/p in a step, relative to α; from
         1e-16 to 1e-2.
     vertical : Record, optional
-        Vertical ground acceleration, which this solver refuses: `topheavy.reference.simulate` and
-        `topheavy.three_bodies.simulate_three_bodies` take it.
+        Vertical ground acceleration that starts with a record: g, positive upward. Its time step
+        may be another.
 
     Returns
     -------
@@ -94,8 +96,8 @@ def simulate(
     ------
     ValueError
         For values that are not finite, |θ| ≥ π/2 in the exact equation, a harmonic without a
-        duration, a tolerance or a number of samples out of range, or a structure whose √r is
-        negative.
+        duration, a tolerance or a number of samples out of range, a structure whose √r is
+        negative, or a vertical acceleration of −1 g or less.
     ArithmeticError
         For a history of more than `MOST_IMPACTS` impacts or a million steps.
 
@@ -104,16 +106,17 @@ def simulate(
     Taylor steps whose turning points and impacts are proven by the signs of Bernstein coefficients
     (`topheavy.kernel`). `topheavy.reference.simulate` is the second, independent solver.
     """
-    refuse_vertical(vertical)
     block = structure.block()
     times = sample_times(samples)
     tolerance = checked_tolerance(tolerance)
     theta, theta_rate = initial_motion(block, rotation, velocity)
-    shape, scale, amplitude, record = as_forcing(block, excitation)
-    p = block.frequency_parameter
+    if vertical is not None:
+        refuse_fall(both_records(excitation, vertical)[1])
+    shape, _, amplitude, record = shaking = as_shaking(excitation, vertical)
+    p, scale = block.frequency_parameter, shaking.scale(block)
     until = math.inf if duration is None else p * checks.positive("duration", duration, "s")
     if shape == RECORD:
-        forcing = record_forcing(record, scale, amplitude)
+        forcing = record_forcing(record, scale, amplitude, 1.0)
     else:
         forcing = pulse_forcing(shape, amplitude, scale)
     forcing = forcing._replace(end=min(forcing.end, until))
@@ -163,16 +166,24 @@ def simulate(
     )
 
 
-def judge(structure: Structure, excitation: Excitation, *, tolerance: float = TOLERANCE) -> Ending:
+def judge(
+    structure: Structure,
+    excitation: Excitation,
+    *,
+    tolerance: float = TOLERANCE,
+    vertical: Record | None = None,
+) -> Ending:
     """Return only how the response to a ground motion of finite duration ends.
 
     The same as `simulate`, in microseconds: the free rocking is not integrated. The peak is max|θ|
-    over the whole motion (NaN if overturned), the impacts are counted as in `Response`.
+    over the whole motion (NaN if overturned), the impacts are counted as in `Response`. Free
+    rocking begins when both components have ended.
 
     Raises
     ------
     ValueError
-        For an excitation that is none or goes on forever, or a tolerance out of range.
+        For an excitation that is none or goes on forever, a tolerance out of range, or a vertical
+        acceleration of −1 g or less.
     ArithmeticError
         For a block that bounces too often to be followed.
     """
@@ -180,32 +191,51 @@ def judge(structure: Structure, excitation: Excitation, *, tolerance: float = TO
         raise no_excitation(excitation)
     if excitation.duration == math.inf:
         raise ValueError("the excitation goes on forever; expected one that ends")
-    block = structure.block()
-    shape, scale, amplitude, record = as_forcing(block, excitation)
+    if vertical is not None:
+        refuse_fall(both_records(excitation, vertical)[1])
+    block, shaking = structure.block(), as_shaking(excitation, vertical)
     found = outcome_of(
         oscillator(block),
-        shape,
-        scale,
-        amplitude,
-        record,
+        shaking.shape,
+        shaking.scale(block),
+        shaking.amplitude,
+        shaking.record,
+        lift=1.0,
         tolerance=checked_tolerance(tolerance),
     )
     return Ending(bool(found.overturned), float(found.peak), int(found.impacts))
 
 
-def as_forcing(
-    block: RockingBlock, excitation: Excitation | None
-) -> tuple[int, float, float, NDArray[np.float64]]:
-    """Return a ground motion as the kernel takes it: shape, ω/p or p Δt, amplitude, record."""
-    p = block.frequency_parameter
+class Shaking(NamedTuple):
+    """A ground motion for the kernel: its number, ω (rad/s) or Δt (s), amplitude, record."""
+
+    shape: int
+    rate: float
+    amplitude: float
+    record: NDArray[np.float64]
+
+    def scale(self, block: RockingBlock) -> float:
+        """Return ω/p of a pulse, p Δt of a record."""
+        p = block.frequency_parameter
+        return p * self.rate if self.shape == RECORD else self.rate / p
+
+
+def as_shaking(excitation: Excitation | None, vertical: Record | None = None) -> Shaking:
+    """Return a ground motion as the kernel takes it, or raise ValueError if it is none."""
+    if vertical is not None:
+        across, up = both_records(excitation, vertical)
+        ratio = up.time_step / across.time_step
+        record = prepare_two_records(across.acceleration, up.acceleration, ratio)
+        return Shaking(RECORD, across.time_step, 1.0, record)
     match excitation:
         case None:
-            return NONE, 1.0, 0.0, NO_RECORD
+            return Shaking(NONE, 1.0, 0.0, NO_RECORD)
         case Pulse():
-            scale = excitation.angular_frequency / p
-            return SHAPES[excitation.shape], scale, float(excitation.amplitude), NO_RECORD
+            number, omega = SHAPES[excitation.shape], excitation.angular_frequency
+            return Shaking(number, omega, float(excitation.amplitude), NO_RECORD)
         case Record():
-            return RECORD, p * excitation.time_step, 1.0, prepare_record(excitation.acceleration)
+            record = prepare_record(excitation.acceleration)
+            return Shaking(RECORD, excitation.time_step, 1.0, record)
     raise no_excitation(excitation)
 
 

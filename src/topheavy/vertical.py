@@ -1,4 +1,4 @@
-"""A ground motion with a vertical component, for the solvers that integrate it.
+"""A horizontal and a vertical ground motion together: what is refused, and both in segments.
 
 Vertical ground acceleration v (g, upward) makes gravity (1 + v) g (proved in
 `topheavy.derivation.extension_proofs`). Between impacts
@@ -14,7 +14,7 @@ from functools import partial
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from topheavy.excitation import Excitation, Segment
 from topheavy.records import Record
@@ -27,20 +27,14 @@ class TwoComponents(Excitation):
     Raises
     ------
     ValueError
-        Where the ground falls at 1 g or more, so that nothing presses on it.
+        As `refuse_fall`.
     """
 
     horizontal: Record
     vertical: Record
 
     def __post_init__(self) -> None:
-        lowest = int(self.vertical.acceleration.argmin())
-        if self.vertical.acceleration[lowest] <= -1.0:
-            raise ValueError(
-                f"vertical: sample {lowest} is {self.vertical.acceleration[lowest]:.6g} g; "
-                "expected more than −1 g, as the structure loses contact with ground that falls "
-                "faster: a smaller factor keeps it in contact"
-            )
+        refuse_fall(self.vertical)
 
     @property
     def duration(self) -> float:
@@ -59,8 +53,12 @@ class TwoComponents(Excitation):
         edges = np.append(np.unique(times[times < end]), end)
         # samples that rounding alone keeps apart are one
         edges = edges[np.append(True, np.diff(edges) > 1e-9 * end)]
-        lines = [record.accelerations(edges) for record in both]
-        spans = zip(pairwise(edges), pairwise(lines[0]), pairwise(lines[1]), strict=True)
+        lines = []
+        for record in both:
+            line = np.stack([*pairwise(record.accelerations(edges))])
+            line[edges[1:] + edges[:-1] > 2.0 * record.duration] = 0.0  # it ends by a jump
+            lines.append(line)
+        spans = zip(pairwise(edges), *lines, strict=True)
         found = []
         for (start, stop), across, up in spans:
             gravity = partial(_line, start, stop, 1.0 + up[0], 1.0 + up[1])
@@ -69,38 +67,46 @@ class TwoComponents(Excitation):
         return found
 
 
-def with_vertical(
-    excitation: Excitation | None, vertical: Record | None, *, linearised: bool = False
-) -> Excitation | None:
+def with_vertical(excitation: Excitation | None, vertical: Record | None) -> Excitation | None:
     """Return the ground motion of both components, or the horizontal one if there is no other.
 
     Raises
     ------
     ValueError
-        For a vertical component beside anything but a record, or on a linearised block.
+        As `both_records` and `refuse_fall`.
     """
     if vertical is None:
         return excitation
+    return TwoComponents(*both_records(excitation, vertical))
+
+
+def both_records(excitation: object, vertical: object) -> tuple[Record, Record]:
+    """Return a horizontal and a vertical ground motion if they are Records, or raise ValueError."""
     if not isinstance(vertical, Record) or not isinstance(excitation, Record):
         raise ValueError(
             f"excitation is {type(excitation).__name__} and vertical {type(vertical).__name__}; "
             "expected two Records: sample a pulse to combine it with a vertical component"
         )
-    if linearised:
-        raise ValueError(
-            "vertical is given for a linearised block; expected the exact equation of motion"
-        )
-    return TwoComponents(excitation, vertical)
+    return excitation, vertical
 
 
-def refuse_vertical(vertical: object) -> None:
-    """Raise ValueError if there is a vertical component, which the Taylor solver does not take."""
-    if vertical is not None:
-        raise ValueError(
-            "vertical is given, and the Taylor solver has no vertical ground acceleration; "
-            "expected None, or topheavy.reference.simulate or "
-            "topheavy.three_bodies.simulate_three_bodies in place of topheavy.simulate"
-        )
+def refuse_fall(vertical: Record, factors: ArrayLike = 1.0) -> None:
+    """Raise ValueError where the ground falls at 1 g or more, so that nothing presses on it.
+
+    The message names the time, and the bound of the factors that are allowed.
+    """
+    samples, scales = vertical.acceleration, np.ravel(factors)
+    for factor in (float(scales.max()), float(scales.min())):
+        lowest = int((factor * samples).argmin())
+        found = factor * samples[lowest]
+        if found <= -1.0:
+            side = "less" if factor > 0.0 else "more"
+            raise ValueError(
+                f"vertical: at {lowest * vertical.time_step:.6g} s its acceleration times "
+                f"{factor:.6g} is {found:.6g} g; expected more than −1 g, as the structure loses "
+                f"contact with ground that falls faster: factors {side} than "
+                f"{-1.0 / samples[lowest]:.6g} are allowed"
+            )
 
 
 def _line(start: float, stop: float, first: float, last: float, time: float) -> float:

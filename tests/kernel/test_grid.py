@@ -12,11 +12,12 @@ from topheavy.kernel.grid import (
     BATCHES,
     FEWEST_FACTORS,
     FEWEST_PULSES,
+    LANES,
+    mixed_outcomes_of,
     outcome_of,
     outcomes_of,
     record_order,
 )
-from topheavy.kernel.lanes import WIDTH
 from topheavy.kernel.outcome import PULSE_ORDER, TOLERANCE
 from topheavy.kernel.taylor import oscillator
 
@@ -56,7 +57,7 @@ def test_factors_on_a_record_do_not_depend_on_the_number_of_threads(threads):
     same(outcomes_of(BLOCK, forcing.RECORD, steps, factors, record, threads=threads), alone)
 
 
-@pytest.mark.parametrize("size", [(1, 1), (1, WIDTH - 1), (1, WIDTH + 1), (BATCHES, FEWEST_PULSES)])
+@pytest.mark.parametrize("size", [(1, 1), (1, LANES - 1), (1, LANES + 1), (BATCHES, FEWEST_PULSES)])
 def test_every_cell_is_filled_whatever_the_size(size):
     scales, amplitudes = np.linspace(1, 5, size[0]), np.linspace(0.3, 0.4, size[1])
     peak, overturned, _ = outcomes_of(BLOCK, forcing.ONE_SINE, scales, amplitudes)
@@ -133,3 +134,49 @@ def test_cores_are_those_that_the_process_may_use(monkeypatch):
     outcomes_of(BLOCK, forcing.ONE_SINE, SCALES, AMPLITUDES, threads=2)
     outcomes_of(BLOCK, forcing.ONE_SINE, SCALES[:2], AMPLITUDES[:2])
     assert asked == [3, 2]
+
+
+def mixture(shape, seed):
+    """Histories of unlike blocks in an arbitrary order, of both equations."""
+    rng = np.random.default_rng(seed)
+    blocks = [
+        oscillator(RockingBlock(1.0, math.radians(alpha), restitution, linearised))
+        for alpha, restitution in ((5.0, 0.95), (14.0, 0.9), (31.0, 0.3))
+        for linearised in (False, True)
+    ]
+    which = rng.permutation(np.repeat(np.arange(len(blocks)), 23))
+    scales = rng.choice([0.011, 0.02, 0.043] if shape == forcing.RECORD else [0.7, 3.0, 6.1], 138)
+    levels = np.array([block.level for block in blocks])[which]
+    return blocks, which, scales, levels * rng.uniform(0.9, 6.0, which.size)
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+@pytest.mark.parametrize("shape", [forcing.ONE_SINE, forcing.RICKER_ANTISYMMETRIC, forcing.RECORD])
+def test_histories_of_mixed_blocks_have_the_bits_of_each_alone(shape, threads):
+    record = forcing.NO_RECORD
+    if shape == forcing.RECORD:
+        time = np.linspace(0, 20, 500)
+        record = prepare_record(np.sin(3 * time) + 0.7 * np.sin(1 + 7.7 * time))
+    blocks, which, scales, amplitudes = mixture(shape, 3)
+    found = mixed_outcomes_of(blocks, shape, which, scales, amplitudes, record, threads=threads)
+    assert 0.1 < found[1].mean() < 0.9
+    for k in range(which.size):
+        alone = outcomes_of(
+            blocks[which[k]], shape, scales[k : k + 1], amplitudes[k : k + 1], record
+        )
+        for one, other in zip(found, alone, strict=True):
+            np.testing.assert_array_equal(one[k], other[0, 0])
+
+
+def test_history_of_a_mixture_that_was_given_up_is_named_with_its_block():
+    lossless = oscillator(RockingBlock(1.0, 0.2, 1.0))
+    record = prepare_record(lossless.level * np.array([0.0, 1.0, *np.zeros(300)]))
+    with pytest.raises(ArithmeticError, match=r"1\.0001 times .*p Δt = 1: .*0\.2 rad, restit.* 1,"):
+        mixed_outcomes_of(
+            [BLOCK, lossless],
+            forcing.RECORD,
+            np.array([0, 1, 0]),
+            np.array([0.5, 1.0, 0.5]),
+            np.array([1.2, 1.0001, 1.3]),
+            record,
+        )

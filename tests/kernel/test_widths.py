@@ -12,15 +12,14 @@ import sys
 import numpy as np
 import pytest
 
-from topheavy.kernel.lanes import HAS_FMA, WIDTH
+from topheavy.kernel.grid import FUSED, LANES
 
 ASK = """
 import json, math
 import numpy as np
 from topheavy import RockingBlock
 from topheavy.kernel.forcing import RECORD, SHAPES, prepare_record
-from topheavy.kernel.grid import outcomes_of
-from topheavy.kernel.lanes import HAS_FMA, WIDTH
+from topheavy.kernel.grid import FUSED, LANES, outcomes_of
 from topheavy.kernel.taylor import oscillator
 found = []
 for linearised in (False, True):
@@ -34,7 +33,7 @@ for linearised in (False, True):
     factors = np.geomspace(0.3, 5.0, 40)
     found.append(outcomes_of(block, RECORD, np.array([0.02]), factors, record))
 peaks, overturned, impacts = ([row.tobytes().hex() for row in rows] for rows in zip(*found))
-print(json.dumps([WIDTH, HAS_FMA, peaks, overturned, impacts]))
+print(json.dumps([LANES, FUSED, peaks, overturned, impacts]))
 """
 
 
@@ -56,19 +55,19 @@ def ask(**cpu):
 def here():
     """The results for the CPU of this machine."""
     found = ask()
-    assert found[:2] == (WIDTH, HAS_FMA)
+    assert found[:2] == (LANES, FUSED)
     assert any(0 < np.isnan(peaks).mean() < 1 for peaks in found[2])
     return found
 
 
 @pytest.mark.skipif(
-    platform.machine() not in ("x86_64", "AMD64") or not HAS_FMA,
+    platform.machine() not in ("x86_64", "AMD64") or not FUSED,
     reason="this CPU has one width only",
 )
 def test_narrow_registers_give_the_same_bits(here):
     width, has_fma, *found = ask(NUMBA_CPU_NAME="generic", NUMBA_CPU_FEATURES="+avx,+fma")
     assert width == 4
-    assert width < WIDTH
+    assert width < LANES
     assert has_fma
     for one, other in zip(found[0], here[2], strict=True):
         np.testing.assert_array_equal(one, other)

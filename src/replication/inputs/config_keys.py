@@ -12,6 +12,7 @@ from typing import Any
 
 import yaml
 
+from replication.inputs.configuration import read_schema
 from replication.inputs.schema_words import allowed, entry_of, has_numbers, resolved, unit_of
 from replication.inputs.strict_yaml import read_yaml
 
@@ -51,7 +52,7 @@ def keys(path: Path, used: Mapping[str, Any] | None = None) -> list[Key]:
 
     `used` has the values of a run, where another file went over this one.
     """
-    schema = read_yaml(path.with_name("config.schema.yaml"))
+    schema = read_schema(path.with_name("config.schema.yaml"))
     said = comments(path.read_text(encoding="utf-8"))
     config = read_yaml(path) if used is None else used
     nested = {place: text for place, text in said.items() if place not in config}

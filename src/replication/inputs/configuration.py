@@ -1,9 +1,11 @@
 """Check config.yaml against its schema; the messages say how to correct it."""
 
 import math
+import pkgutil
 import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from itertools import pairwise
+from pathlib import Path
 from typing import Any
 
 from jsonschema import Draft202012Validator, ValidationError
@@ -39,7 +41,7 @@ def check_config(
     ValueError
         With one line for each fault: the file, the place, the value, and what was expected.
     """
-    schema = read_yaml(schema_path)
+    schema = read_schema(schema_path)
     errors = Draft202012Validator(schema).iter_errors(config)
     messages = {message for error in errors for message in messages_of(error)}
     if isinstance(config, Mapping):
@@ -48,6 +50,40 @@ def check_config(
     messages |= {message for place, value in values for message in _numbers(place, value)}
     if messages:
         raise ValueError("\n".join(f"{path}: {message}" for message in sorted(messages)))
+
+
+def read_schema(path: str | Path) -> Any:
+    """Return a JSON schema with the lists that it takes from Python.
+
+    Where it has `values: package.module.NAME`, that list becomes its `enum`: a list that a library
+    has is not said again.
+
+    Raises
+    ------
+    ValueError
+        For a name that is none of a list or tuple.
+    """
+
+    def filled(node: Any) -> Any:
+        if isinstance(node, list):
+            return [filled(item) for item in node]
+        if not isinstance(node, dict):
+            return node
+        found = {key: filled(value) for key, value in node.items()}
+        if isinstance(name := node.get("values"), str):
+            found["enum"] = listed(name)
+        return found
+
+    def listed(name: str) -> list[Any]:
+        try:
+            values = pkgutil.resolve_name(name)
+        except (ImportError, AttributeError, ValueError) as error:
+            raise ValueError(f"{path}: values is {name!r}: {error}; expected a list") from None
+        if not isinstance(values, list | tuple):
+            raise ValueError(f"{path}: values is {name!r}, which is {values!r}; expected a list")
+        return list(values)
+
+    return filled(read_yaml(path))
 
 
 # What the schema says ----------------------------------------------------------------------------

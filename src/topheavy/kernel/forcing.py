@@ -8,6 +8,9 @@ so that a Taylor step needs no sine and no exponential: c = (ω/p)² and d = 0 m
 cosine, c = d = 0 the constant and the straight line between two samples of a record, and d₁ > 0 the
 derivatives of the Gaussian bell that Ricker's wavelets are (the second and the third: Hermite's
 equation).
+
+Under a vertical record v (g, upward) gravity is G = 1 + v, a straight line over a piece, too. The
+pieces lie between the samples of either record; a block at rest is lifted by |a| > G tan α.
 """
 
 import math
@@ -16,26 +19,24 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from topheavy import shapes
 from topheavy.kernel.compiled import compiled
 
-ONE_SINE, ONE_COSINE, HALF_SINE, CONSTANT, HARMONIC = range(5)
-RICKER_SYMMETRIC, RICKER_ANTISYMMETRIC, RECORD, NONE = range(5, 9)
-SHAPES = {
-    "one-sine": ONE_SINE,
-    "one-cosine": ONE_COSINE,
-    "half-sine": HALF_SINE,
-    "constant": CONSTANT,
-    "harmonic": HARMONIC,
-    "ricker-symmetric": RICKER_SYMMETRIC,
-    "ricker-antisymmetric": RICKER_ANTISYMMETRIC,
-}
+#: The number of each shape of `topheavy.shapes`; a record and no motion have numbers, too.
+SHAPES = {name: number for number, name in enumerate(shapes.SHAPES)}
+ONE_SINE, ONE_COSINE, HALF_SINE = SHAPES["one-sine"], SHAPES["one-cosine"], SHAPES["half-sine"]
+CONSTANT, HARMONIC = SHAPES["constant"], SHAPES["harmonic"]
+RICKER_SYMMETRIC, RICKER_ANTISYMMETRIC = SHAPES["ricker-symmetric"], SHAPES["ricker-antisymmetric"]
+RECORD, NONE, TWO_RECORDS = range(len(SHAPES), len(SHAPES) + 3)
 #: Phase ωt at which each shape ends (a record ends by its own time, no motion at once).
-LAST_PHASE = np.array([2, 2, 1, 1, np.inf, 9, 9, 0, 0]) * math.pi
+LAST_PHASE = np.array([*(each.half_periods for each in shapes.SHAPES.values()), 0, 0]) * math.pi
 RICKER_CENTRE = 4.5 * math.pi
 #: y = κ (ωt − centre) is the variable in which a Ricker wavelet is a derivative of exp(−y²).
-KAPPA = np.array([0, 0, 0, 0, 0, 1 / 2, 1 / math.sqrt(6)])
+KAPPA = np.zeros(len(SHAPES))
+KAPPA[RICKER_SYMMETRIC], KAPPA[RICKER_ANTISYMMETRIC] = 1 / 2, 1 / math.sqrt(6)
 #: The order of that derivative.
-DERIVATIVE = np.array([0, 0, 0, 0, 0, 2, 3])
+DERIVATIVE = np.zeros(len(SHAPES), dtype=np.int64)
+DERIVATIVE[RICKER_SYMMETRIC], DERIVATIVE[RICKER_ANTISYMMETRIC] = 2, 3
 #: The amplitude of the antisymmetric wavelet is normalised by its own peak, to five digits.
 ANTISYMMETRIC_PEAK = 1.3801
 #: A pulse that ends has at most five monotone pieces, each of which rounding may cut in two. In as
@@ -45,6 +46,8 @@ MOST_PIECES = 10
 MOST_NEWTON_STEPS = 64
 #: No shape of unit amplitude exceeds this (the antisymmetric wavelet does exceed 1, by 1.4e-5).
 UNIT_BOUND = 1.0001
+#: Samples of two records that are as near, over the duration, are at the same time.
+SAME = 1e-9
 
 #: Phases at which a Ricker wavelet turns: roots of the next Hermite polynomial.
 _SYMMETRIC = 2 * math.sqrt(1.5)
@@ -56,25 +59,31 @@ RICKER_TURNS = RICKER_CENTRE + np.array(
 
 class Forcing(NamedTuple):
     """A ground motion in the time τ = p t: its shape, amplitude (g, or the factor on a record),
-    ω/p (1 for a record), the time at which it is over, and the time between two samples."""
+    ω/p (1 for a record), the time at which it is over, the time between two samples, and the factor
+    on the vertical record."""
 
     shape: int
     amplitude: float
     frequency: float
     end: float
     step: float
+    lift: float = 0.0
 
 
 #: What stands for the record where there is none.
 NO_RECORD = np.empty((3, 0))
 #: Samples whose largest is kept, so that a wait for the next uplift passes over them at once.
 RUN = 32
+#: Rows of a record: samples, or a where a piece begins; the largest |a| from there on; that of each
+#: run. Of two records also: v and the time (over that between two samples) where a piece begins,
+#: a and v where it ends, the largest |v| from there on, and that of each run.
+START, STRONGEST, RUNS, UP, AT, STOP, UP_STOP, MOST_UP, UP_RUNS = range(9)
 
 
 @compiled
 def pulse_forcing(shape, amplitude, frequency):
     """Return the pulse of a shape (a value of `SHAPES`) at ω/p = `frequency`."""
-    return Forcing(shape, amplitude, frequency, LAST_PHASE[shape] / frequency, 1.0)
+    return Forcing(shape, amplitude, frequency, LAST_PHASE[shape] / frequency, 1.0, 0.0)
 
 
 def prepare_record(samples: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -87,17 +96,54 @@ def prepare_record(samples: NDArray[np.float64]) -> NDArray[np.float64]:
         first n/RUN values of the row).
     """
     samples = np.asarray(samples, dtype=float)
-    sizes = np.abs(samples)
-    runs = np.zeros_like(samples)
-    largest = np.maximum.reduceat(sizes, np.arange(0, samples.size, RUN))
+    return np.stack([samples, *_bounds(np.abs(samples))])
+
+
+def prepare_two_records(
+    samples: NDArray[np.float64], vertical: NDArray[np.float64], ratio: float
+) -> NDArray[np.float64]:
+    """Return a horizontal and a vertical record (g) in pieces over which both are straight lines.
+
+    Parameters
+    ----------
+    ratio : float
+        The time between two samples of the vertical record over that of the horizontal one.
+
+    Returns
+    -------
+    ndarray, shape (9, n)
+        A column for each piece, and one for the end of both. A record is zero after its end.
+    """
+    lasts = [samples.size - 1.0, ratio * (vertical.size - 1)]
+    at = np.unique(np.concatenate([np.arange(samples.size), ratio * np.arange(vertical.size)]))
+    # Samples that rounding alone keeps apart are one.
+    at = at[np.append(True, np.diff(at) > SAME * at[-1])]
+    pairs = []
+    for record, step, last in zip((samples, vertical), (1.0, ratio), lasts, strict=True):
+        value = np.interp(at / step, np.arange(record.size), record)
+        over = 0.5 * (at[1:] + at[:-1]) >= last
+        pairs += [np.append(np.where(over, 0.0, value[k : k - 1 or None]), 0.0) for k in (0, 1)]
+    start, stop, up, up_stop = pairs
+    bounds = _bounds(np.maximum(np.abs(start), np.abs(stop)))
+    up_bounds = _bounds(np.maximum(np.abs(up), np.abs(up_stop)))
+    return np.stack([start, *bounds, up, at, stop, up_stop, *up_bounds])
+
+
+def _bounds(sizes: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the largest size from each on, and the largest of each run (the first n/RUN)."""
+    runs = np.zeros_like(sizes)
+    largest = np.maximum.reduceat(sizes, np.arange(0, sizes.size, RUN))
     runs[: largest.size] = largest
-    return np.stack([samples, np.maximum.accumulate(sizes[::-1])[::-1], runs])
+    return np.maximum.accumulate(sizes[::-1])[::-1], runs
 
 
 @compiled
-def record_forcing(record, step, factor):
-    """Return the `record` of `prepare_record`, `step` apart in τ, times `factor`."""
-    return Forcing(RECORD, factor, 1.0, (record.shape[1] - 1) * step, step)
+def record_forcing(record, step, factor, lift=0.0):
+    """Return the `record` that was prepared, `step` apart in τ, times `factor`; see `Forcing`."""
+    last = record.shape[1] - 1
+    if record.shape[0] > UP:
+        return Forcing(TWO_RECORDS, factor, 1.0, record[AT, last] * step, step, lift)
+    return Forcing(RECORD, factor, 1.0, last * step, step, 0.0)
 
 
 @compiled
@@ -121,6 +167,21 @@ def unit_pulse(shape, phase):
 
 
 @compiled
+def piece_of(forcing, record, time):
+    """Return the number of the piece that begins at or before `time`, of one record or of two."""
+    if forcing.shape != TWO_RECORDS:
+        return piece_at(forcing, time)
+    low, high = 0, record.shape[1]
+    while high - low > 1:  # halved each time
+        middle = (low + high) // 2
+        if record[AT, middle] * forcing.step <= time:
+            low = middle
+        else:
+            high = middle
+    return low
+
+
+@compiled
 def piece_at(forcing, time):
     """Return the number of the piece of a record that begins at or before `time`.
 
@@ -134,10 +195,42 @@ def piece_at(forcing, time):
 
 
 @compiled
+def piece_start(forcing, record, piece):
+    """Return when a piece of a record begins."""
+    if forcing.shape == TWO_RECORDS:
+        return record[AT, piece] * forcing.step
+    return piece * forcing.step
+
+
+@compiled
+def two_lines(forcing, record, piece):
+    """Return a, a', G and G' where a piece of two records begins."""
+    length = (record[AT, piece + 1] - record[AT, piece]) * forcing.step
+    push, lift = forcing.amplitude, forcing.lift
+    rate = push * (record[STOP, piece] - record[START, piece]) / length
+    gravity_rate = lift * (record[UP_STOP, piece] - record[UP, piece]) / length
+    return push * record[START, piece], rate, 1.0 + lift * record[UP, piece], gravity_rate
+
+
+@compiled
+def gravity(forcing, record, time):
+    """Return G = 1 + v and G' at `time`; at a sample of a record, G' is that of the next piece."""
+    if forcing.shape != TWO_RECORDS or time >= forcing.end:
+        return 1.0, 0.0
+    piece = min(piece_of(forcing, record, time), record.shape[1] - 2)
+    _, _, value, rate = two_lines(forcing, record, piece)
+    return value + rate * (time - piece_start(forcing, record, piece)), rate
+
+
+@compiled
 def ground(forcing, record, time):
     """Return a and a' at `time`; at a sample of a record, a' is that of the piece that begins."""
     if forcing.shape == NONE or time >= forcing.end:
         return 0.0, 0.0
+    if forcing.shape == TWO_RECORDS:
+        piece = min(piece_of(forcing, record, time), record.shape[1] - 2)
+        value, rate, _, _ = two_lines(forcing, record, piece)
+        return value + rate * (time - piece_start(forcing, record, piece)), rate
     if forcing.shape == RECORD:
         k = min(piece_at(forcing, time), record.shape[1] - 2)
         slope = (record[0, k + 1] - record[0, k]) / forcing.step
@@ -151,7 +244,7 @@ def ground(forcing, record, time):
 def equation(forcing, time):
     """Return c, d₀, d₁ of the equation that the ground acceleration solves, about `time`."""
     shape = forcing.shape
-    if shape in (CONSTANT, RECORD, NONE):
+    if shape in (CONSTANT, RECORD, NONE, TWO_RECORDS):
         return 0.0, 0.0, 0.0
     square = forcing.frequency * forcing.frequency
     if shape in (RICKER_SYMMETRIC, RICKER_ANTISYMMETRIC):
@@ -167,13 +260,19 @@ def equation(forcing, time):
 
 @compiled
 def strongest_after(forcing, record, time):
-    """Return a bound on |a| from `time` on."""
+    """Return bounds on |a|/G and on G from `time` on."""
     if forcing.shape == NONE or time >= forcing.end:
-        return 0.0
+        return 0.0, 1.0
     if forcing.shape == RECORD:
         k = min(piece_at(forcing, time), record.shape[1] - 1)
-        return abs(forcing.amplitude) * record[1, k]
-    return UNIT_BOUND * abs(forcing.amplitude)
+        return abs(forcing.amplitude) * record[1, k], 1.0
+    if forcing.shape == TWO_RECORDS:
+        k = piece_of(forcing, record, time)
+        most = abs(forcing.lift) * record[MOST_UP, k]
+        if most >= 1.0:
+            return np.inf, 1.0 + most
+        return abs(forcing.amplitude) * record[STRONGEST, k] / (1.0 - most), 1.0 + most
+    return UNIT_BOUND * abs(forcing.amplitude), 1.0
 
 
 @compiled
@@ -211,14 +310,16 @@ def next_uplift(forcing, record, time, level):
     time : float
         `inf` if the forcing ends first.
     push : float
-        |a| − level at that time: exactly zero at a crossing.
+        |a| − G level at that time: exactly zero at a crossing.
     rate : float
-        The derivative of |a|.
+        The derivative of the push.
     side : float
         The side s = −sgn a to which the block rocks.
     """
     if forcing.shape == RECORD:
         return _next_uplift_of_record(forcing, record, time, level)
+    if forcing.shape == TWO_RECORDS:
+        return _next_uplift_of_two(forcing, record, time, level)
     if forcing.shape == HARMONIC and abs(forcing.amplitude) <= level:
         return np.inf, 0.0, 0.0, 1.0
     value, rate = ground(forcing, record, time)
@@ -264,6 +365,42 @@ def _next_uplift_of_record(forcing, record, time, level):
             return time, abs(last) - level, sign * ground(forcing, record, time)[1], -sign
         else:
             k += 1
+    return np.inf, 0.0, 0.0, 1.0
+
+
+@compiled
+def _next_uplift_of_two(forcing, record, time, level):
+    """The same for two records: on either side the push ±a − G level is a straight line."""
+    size, lift, last = abs(forcing.amplitude), abs(forcing.lift), record.shape[1] - 1
+    k = piece_of(forcing, record, time)
+    while k < last:  # k grows each time
+        if k % RUN == 0:
+            if size * record[STRONGEST, k] <= level * (1.0 - lift * record[MOST_UP, k]):
+                break
+            if size * record[RUNS, k // RUN] <= level * (1.0 - lift * record[UP_RUNS, k // RUN]):
+                k += RUN
+                continue
+        is_low = size * abs(record[START, k]) <= level * (1.0 + forcing.lift * record[UP, k])
+        if is_low and size * abs(record[STOP, k]) <= level * (
+            1.0 + forcing.lift * record[UP_STOP, k]
+        ):
+            k += 1
+            continue
+        begin, end = piece_start(forcing, record, k), piece_start(forcing, record, k + 1)
+        time = max(time, begin)
+        value, rate, weight, weight_rate = two_lines(forcing, record, k)
+        for sign in (1.0, -1.0):
+            slope = sign * rate - level * weight_rate
+            push = sign * value - level * weight + slope * (time - begin)
+            if push > 0.0:
+                return time, push, slope, -sign
+            above = sign * forcing.amplitude * record[STOP, k]
+            above -= level * (1.0 + forcing.lift * record[UP_STOP, k])
+            if above > 0.0:
+                crossing = max(end - above / slope, time)
+                if crossing < end:
+                    return crossing, 0.0, slope, -sign
+        k += 1  # a crossing that rounds to the end is that of the piece which begins there
     return np.inf, 0.0, 0.0, 1.0
 
 

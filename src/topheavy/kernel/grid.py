@@ -1,21 +1,24 @@
-"""Many rocking histories at once: the outcome of every pair of a scale and an amplitude.
+"""Many rocking histories at once: outcomes of blocks under pulses of one shape, or one record.
 
-A scale is ω/p of a pulse, p Δt of a record. The histories run in the lanes of `pulse_batch` and
-`record_batch`, on all cores; no result depends on how many lanes or cores there are.
+A scale is ω/p of a pulse, p Δt of a record. The histories run in the lanes of the CPU
+(`kernel.lanes`, to which this module is the only door), on all cores; no result depends on how many
+lanes or cores there are, or on which histories run beside each other.
 """
 
 import math
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from topheavy.kernel.forcing import NO_RECORD, RECORD, SHAPES, pulse_forcing, record_forcing
+from topheavy.kernel.forcing import NO_RECORD, RECORD, SHAPES, UP, pulse_forcing, record_forcing
 from topheavy.kernel.interrupt import LONG, in_threads
-from topheavy.kernel.lanes import WIDTH
+from topheavy.kernel.lanes.pulses import pulse_outcomes
+from topheavy.kernel.lanes.records import record_outcomes
+from topheavy.kernel.lanes.vectors import HAS_FMA, WIDTH
 from topheavy.kernel.outcome import (
     MAX_STEPS,
     PULSE_ORDER,
@@ -24,16 +27,17 @@ from topheavy.kernel.outcome import (
     outcome,
     working_array,
 )
-from topheavy.kernel.pulse_batch import ALONE, pulse_outcomes
-from topheavy.kernel.record_batch import record_outcomes
 from topheavy.kernel.taylor import Oscillator
 
 Array = NDArray[np.float64]
+Indices = NDArray[np.int64]
 Outcomes = tuple[Array, NDArray[np.bool_], NDArray[np.int64]]
 
 #: Cells are split into at most so many batches of neighbours, which do much the same in all lanes.
 #: Threads take up the batches as they come free.
 BATCHES = 64
+#: How many histories run at once in a core, and whether it multiplies and adds in one operation.
+LANES, FUSED = WIDTH, HAS_FMA
 #: The least number of cells in a batch. Fewer would leave lanes idle at its end, or be done before
 #: a second thread has started.
 FEWEST_PULSES, FEWEST_FACTORS = 32 * WIDTH, 4 * WIDTH
@@ -88,14 +92,58 @@ def outcomes_of(
             block, shape, rows, amplitudes, tolerance=tolerance, threads=threads
         )
     size = (len(scales), len(amplitudes))
-    peak, overturned = np.empty(size), np.empty(size, dtype=bool)
-    impacts = np.empty(size, dtype=np.int64)
-    for i, step in enumerate(scales):
-        given = (block, step, amplitudes, record, tolerance, peak[i], overturned[i], impacts[i])
-        fewest, samples = FEWEST_FACTORS, record.shape[1]
-        lost = _shared(record_outcomes, given, len(amplitudes), fewest, samples, threads)
-        if lost >= 0:
-            raise _unresolved(block, shape, float(step), float(amplitudes[lost]))
+    pairs = np.repeat(scales, size[1]), np.tile(amplitudes, size[0])
+    which, lifts = np.zeros(pairs[0].size, np.int64), np.zeros(pairs[0].size)
+    found = _record_outcomes([block], which, *pairs, lifts, record, tolerance, threads)
+    peak, overturned, impacts = found
+    return peak.reshape(size), overturned.reshape(size), impacts.reshape(size)
+
+
+def mixed_outcomes_of(
+    blocks: Sequence[Oscillator],
+    shape: int,
+    which: Indices,
+    scales: Array,
+    amplitudes: Array,
+    record: Array = NO_RECORD,
+    *,
+    lifts: Array | None = None,
+    tolerance: float = TOLERANCE,
+    threads: int | None = None,
+) -> Outcomes:
+    """Return the outcomes of histories of several blocks, each with its scale and amplitude.
+
+    Parameters
+    ----------
+    which : array of int, shape (n,)
+        The block of each history, by its place in `blocks`.
+    scales, amplitudes : array, shape (n,)
+        The rest is as of `outcomes_of`.
+    lifts : array, shape (n,), optional
+        The factors on the vertical record, of `forcing.prepare_two_records`.
+
+    Returns
+    -------
+    peak, overturned, impacts : array, shape (n,)
+    """
+    peak, overturned = np.empty(which.size), np.empty(which.size, dtype=bool)
+    impacts = np.empty(which.size, dtype=np.int64)
+    lifts = np.zeros(which.size) if lifts is None else lifts
+    linearised = np.array([block.linearised for block in blocks])
+    for kind in (False, True):  # the lanes follow one equation at a time
+        (members,), (at,) = np.nonzero(linearised == kind), np.nonzero(linearised[which] == kind)
+        if not at.size:
+            continue
+        alike = [blocks[number] for number in members.tolist()]
+        of, scale, amplitude = np.searchsorted(members, which[at]), scales[at], amplitudes[at]
+        if shape == RECORD:
+            found = _record_outcomes(
+                alike, of, scale, amplitude, lifts[at], record, tolerance, threads
+            )
+        else:
+            cells = (of[np.newaxis], scale[np.newaxis], amplitude[np.newaxis])
+            found = _pulse_outcomes(alike, shape, *cells, tolerance, threads)
+        peak[at], overturned[at], impacts[at] = (values.ravel() for values in found)
     return peak, overturned, impacts
 
 
@@ -112,23 +160,61 @@ def pulse_outcomes_of(
 
     The results have two axes, as that has; the rest is as of `outcomes_of`.
     """
+    only = np.zeros((1, 1), np.int64)
+    return _pulse_outcomes([block], shape, only, scales, amplitudes, tolerance, threads)
+
+
+def _pulse_outcomes(
+    blocks: Sequence[Oscillator],
+    shape: int,
+    which: Indices,
+    scales: Array,
+    amplitudes: Array,
+    tolerance: float,
+    threads: int | None,
+) -> Outcomes:
+    """Return the outcomes of all that broadcasting the last three makes; blocks of one equation."""
     size = np.broadcast_shapes(scales.shape, amplitudes.shape)
     peak, overturned = np.empty(size), np.empty(size, dtype=bool)
     impacts = np.empty(size, dtype=np.int64)
     # Copies in C order: for arrays that are strided, transposed or read-only it would compile anew.
-    pairs = [np.array(np.atleast_2d(each), order="C") for each in (scales, amplitudes)]
-    given = (block, shape, *pairs, NO_RECORD, tolerance, peak, overturned, impacts)
-    lost = _shared(pulse_outcomes, given, peak.size, FEWEST_PULSES, 1, threads)
-    scales, amplitudes = (np.broadcast_to(each, size) for each in pairs)
+    cells = [np.array(np.atleast_2d(each), order="C") for each in (which, scales, amplitudes)]
+    given = (blocks[0], _rows(blocks), shape, *cells, NO_RECORD, PULSE_ORDER, tolerance)
+    results = (peak, overturned, impacts)
+    lost = _shared(pulse_outcomes, (*given, *results), peak.size, FEWEST_PULSES, 1, threads)
+
     if lost >= 0:
-        raise _unresolved(block, shape, float(scales.flat[lost]), float(amplitudes.flat[lost]))
-    # Row by row: a mask of all cells would need memory as large as one of the results.
-    for i in np.flatnonzero(impacts.min(axis=1, initial=0) == ALONE):
-        for j in np.flatnonzero(impacts[i] == ALONE):
-            cell = (float(scales[i, j]), float(amplitudes[i, j]))
-            alone = outcome_of(block, shape, *cell, tolerance=tolerance)
-            overturned[i, j], peak[i, j], impacts[i, j] = alone[:3]
+        of, scale, amplitude = (np.broadcast_to(each, size).flat[lost] for each in cells)
+        raise _unresolved(blocks[int(of)], shape, float(scale), float(amplitude))
     return peak, overturned, impacts
+
+
+def _record_outcomes(
+    blocks: Sequence[Oscillator],
+    which: Indices,
+    steps: Array,
+    factors: Array,
+    lifts: Array,
+    record: Array,
+    tolerance: float,
+    threads: int | None,
+) -> Outcomes:
+    """Return the outcomes of histories under a record, each with its block, p Δt and factors."""
+    peak, overturned = np.empty(which.size), np.empty(which.size, dtype=bool)
+    impacts = np.empty(which.size, dtype=np.int64)
+    vertical = record if record.shape[0] > UP else None
+    given = (blocks[0], _rows(blocks), which, steps, factors, lifts, record, vertical, tolerance)
+    results = (peak, overturned, impacts)
+    size, samples = (which.size, FEWEST_FACTORS), record.shape[1]
+    lost = _shared(record_outcomes, (*given, *results), *size, samples, threads)
+    if lost >= 0:
+        raise _unresolved(blocks[which[lost]], RECORD, float(steps[lost]), float(factors[lost]))
+    return peak, overturned, impacts
+
+
+def _rows(blocks: Sequence[Oscillator]) -> Array:
+    """Return the blocks as the lanes take them: a row of floats each."""
+    return np.array([block[:5] for block in blocks])
 
 
 def _shared(
@@ -147,8 +233,8 @@ def _shared(
     if threads == 1:
         batches = 1  # so that no lane idles at the end of any but the last cells
 
-    def do(batch: int, v: Array) -> int:
-        return int(work(v, batch, batches, *given))
+    def do(batch: int, workspace: Array) -> int:
+        return int(work(workspace, batch, batches, *given))
 
     lost = in_threads([partial(do, batch) for batch in range(batches)], min(threads, batches))
     return min((cell for cell in lost if cell >= 0), default=-1)
@@ -161,16 +247,18 @@ def outcome_of(
     amplitude: float,
     record: Array = NO_RECORD,
     *,
+    lift: float = 0.0,
     tolerance: float = TOLERANCE,
 ) -> Outcome:
     """Return the outcome of one history, by the scalar kernel; see `outcomes_of`."""
     if shape == RECORD:
-        forcing, order = record_forcing(record, scale, amplitude), record_order(scale, tolerance)
+        forcing = record_forcing(record, scale, amplitude, lift)
+        order = record_order(scale, tolerance)
     else:
         forcing, order = pulse_forcing(shape, amplitude, scale), PULSE_ORDER
 
-    def call(w: Array) -> Outcome:
-        found: Outcome = outcome(w, order, tolerance, block, forcing, record)
+    def call(workspace: Array) -> Outcome:
+        found: Outcome = outcome(workspace, order, tolerance, block, forcing, record)
         return found
 
     found = in_threads([call])[0] if record.shape[1] > LONG else call(working_array())

@@ -10,9 +10,13 @@ and how both change as the push does,
 F' = E + G φ', G' = H − F φ', E' = H φ', H' = −E φ'. So nothing is stored and nothing waits for a
 sum: a piece costs a third of what `taylor` and `outcome.advance` take, which follow wherever a
 piece is not settled here.
+
+Gravity multiplies sin φ / cos α and cos φ / cos α. It is a straight line, too, and these times its
+slope are added to E and H.
 """
 
 from topheavy.kernel.compiled import compiled
+from topheavy.kernel.forcing import AT, TWO_RECORDS, piece_start, two_lines
 from topheavy.kernel.taylor import State
 
 #: Between two samples the block turns by less than this, so that seven terms give sin and cos.
@@ -36,6 +40,51 @@ def derivatives(force, slope, force_rate, slope_rate, velocity):
         + v * (g * (gg - 33 * ff) + 10 * h * h - 20 * e * e + vv * (15 * ff - 11 * gg + g * vv))
     )  # fmt: skip
     return third, fourth, fifth, sixth, seventh
+
+
+@compiled
+def powers(h):
+    """Return hᵏ/k!, k from 1 to 7."""
+    h2 = h * h / 2
+    h3 = h2 * h / 3
+    h4 = h3 * h / 4
+    h5 = h4 * h / 5
+    h6 = h5 * h / 6
+    h7 = h6 * h / 7
+    return h, h2, h3, h4, h5, h6, h7
+
+
+@compiled(fastmath={"contract"}, forceinline=True)
+def short_series(terms, force, slope, force_rate, slope_rate, velocity, rotation, peak, bound):
+    """Return whether a piece is proven to hold nothing, by how much φ changes in it, and h φ'.
+
+    `terms` are the `powers` of its length, `bound` is that on the last term of φ'.
+    """
+    h, h2, h3, h4, h5, h6, h7 = terms
+    higher = derivatives(force, slope, force_rate, slope_rate, velocity)
+    if h6 * max(abs(higher[4]), 6 * abs(higher[3])) > bound:
+        return False, 0.0, 0.0
+    c1, c2, c3, c4 = h * velocity, h2 * force, h3 * higher[0], h4 * higher[1]
+    c5, c6, c7 = h5 * higher[2], h6 * higher[3], h7 * higher[4]
+    others = abs(c3) + abs(c4) + abs(c5) + abs(c6) + abs(c7)
+    turn = c1 + c2 + (c3 + (c4 + (c5 + (c6 + c7))))
+    rises = min(c1, c1 + 2 * c2) > 7 * others
+    if not rises:
+        low = min(0.5 * c1, c1 + c2, 0.0) - others
+        high = max(0.5 * c1, c1 + c2, 0.0) + others
+        if rotation + low <= 0.0 or rotation + high > peak:
+            return False, 0.0, 0.0
+    gain = 2 * c2 + 3 * c3 + 4 * c4 + 5 * c5 + 6 * c6 + 7 * c7
+    return abs(turn) <= LARGEST_TURN, turn, gain
+
+
+@compiled(fastmath={"contract"}, forceinline=True)
+def turned(sine, cosine, turn):
+    """Return sin and cos of φ and a turn so small that these terms are exact to the last digit."""
+    square = turn * turn
+    swing = turn + turn * square * (-1 / 6 + square * (1 / 120 - square * (1 / 5040)))
+    drop = square * (-1 / 2 + square * (1 / 24 + square * (-1 / 720 + square * (1 / 40320))))
+    return sine + (cosine * swing + sine * drop), cosine + (cosine * drop - sine * swing)
 
 
 @compiled(fastmath={"contract"})
@@ -62,47 +111,61 @@ def march(block, forcing, record, piece, side, state, tolerance, peak):
     peak : float
         The largest φ so far.
     """
+    if forcing.shape == TWO_RECORDS:
+        return march_under_two(block, forcing, record, piece, side, state, tolerance, peak)
     h, factor, frequency = forcing.step, -side * forcing.amplitude, 1.0 / forcing.step
-    h2 = h * h / 2
-    h3 = h2 * h / 3
-    h4 = h3 * h / 4
-    h5 = h4 * h / 5
-    h6 = h5 * h / 6
-    h7 = h6 * h / 7
+    terms = powers(h)
     bound, inverse_cosine = tolerance * block.slenderness, 1.0 / block.cosine
-    rotation, velocity, sine, cosine, push, rate = state
+    rotation, velocity, sine, cosine, push, rate = state[:6]
     # Each round is a piece, and `forcing.end` is not beyond the last sample.
     while rotation <= block.slenderness and (piece + 1) * h < forcing.end:
         tilt = block.cosine * cosine + block.sine * sine  # cos(α − φ)
         lean = block.sine * cosine - block.cosine * sine  # sin(α − φ)
         force = sine * inverse_cosine + push * tilt  # Eq. (23)
         slope = cosine * inverse_cosine + push * lean
-        higher = derivatives(force, slope, rate * tilt, rate * lean, velocity)
-        if h6 * max(abs(higher[4]), 6 * abs(higher[3])) > bound:
+        is_passed, turn, gain = short_series(
+            terms, force, slope, rate * tilt, rate * lean, velocity, rotation, peak, bound
+        )
+        if not is_passed:
             break
-        c1, c2, c3, c4 = h * velocity, h2 * force, h3 * higher[0], h4 * higher[1]
-        c5, c6, c7 = h5 * higher[2], h6 * higher[3], h7 * higher[4]
-        others = abs(c3) + abs(c4) + abs(c5) + abs(c6) + abs(c7)
-        turn = c1 + c2 + (c3 + (c4 + (c5 + (c6 + c7))))
-        rises = min(c1, c1 + 2 * c2) > 7 * others
-        if not rises:
-            low = min(0.5 * c1, c1 + c2, 0.0) - others
-            high = max(0.5 * c1, c1 + c2, 0.0) + others
-            if rotation + low <= 0.0 or rotation + high > peak:
-                break
-        if abs(turn) > LARGEST_TURN:
-            break
-        velocity += frequency * (2 * c2 + 3 * c3 + 4 * c4 + 5 * c5 + 6 * c6 + 7 * c7)
+        velocity += frequency * gain
         rotation += turn
         peak = max(peak, rotation)
-        square = turn * turn  # sin and cos − 1 of a turn so small, to the last digit
-        swing = turn + turn * square * (-1 / 6 + square * (1 / 120 - square * (1 / 5040)))
-        drop = square * (-1 / 2 + square * (1 / 24 + square * (-1 / 720 + square * (1 / 40320))))
-        sine, cosine = (
-            sine + (cosine * swing + sine * drop),
-            cosine + (cosine * drop - sine * swing),
-        )
+        sine, cosine = turned(sine, cosine, turn)
         piece += 1
         push = factor * record[0, piece] - block.level
         rate = factor * (record[0, piece + 1] - record[0, piece]) * frequency
-    return piece, State(rotation, velocity, sine, cosine, push, rate), peak
+    return piece, State(rotation, velocity, sine, cosine, push, rate, 1.0, 0.0), peak
+
+
+@compiled(fastmath={"contract"})
+def march_under_two(block, forcing, record, piece, side, state, tolerance, peak):
+    """The same under two records, whose pieces differ in length."""
+    bound, inverse_cosine = tolerance * block.slenderness, 1.0 / block.cosine
+    rotation, velocity, sine, cosine, push, rate, gravity, change = state
+    while rotation <= block.slenderness and piece_start(forcing, record, piece + 1) < forcing.end:
+        h = (record[AT, piece + 1] - record[AT, piece]) * forcing.step
+        tilt = block.cosine * cosine + block.sine * sine  # cos(α − φ)
+        lean = block.sine * cosine - block.cosine * sine  # sin(α − φ)
+        heavy, heavier = inverse_cosine * gravity, inverse_cosine * change
+        is_passed, turn, gain = short_series(
+            powers(h),
+            sine * heavy + push * tilt,
+            cosine * heavy + push * lean,
+            sine * heavier + rate * tilt,
+            cosine * heavier + rate * lean,
+            velocity,
+            rotation,
+            peak,
+            bound,
+        )
+        if not is_passed:
+            break
+        velocity += gain / h
+        rotation += turn
+        peak = max(peak, rotation)
+        sine, cosine = turned(sine, cosine, turn)
+        piece += 1
+        value, slope, gravity, change = two_lines(forcing, record, piece)
+        push, rate = -side * value - block.level * gravity, -side * slope - block.level * change
+    return piece, State(rotation, velocity, sine, cosine, push, rate, gravity, change), peak

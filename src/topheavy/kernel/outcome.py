@@ -18,11 +18,15 @@ from topheavy.kernel.forcing import (
     RECORD,
     RICKER_ANTISYMMETRIC,
     RICKER_SYMMETRIC,
+    TWO_RECORDS,
     equation,
+    gravity,
     ground,
     next_uplift,
-    piece_at,
+    piece_of,
+    piece_start,
     strongest_after,
+    two_lines,
 )
 from topheavy.kernel.march import march
 from topheavy.kernel.rest import LAST_BOUNCE, comes_to_rest, next_tick
@@ -46,7 +50,7 @@ MAX_STEPS = 200_000
 NOTHING, LANDING, FLAT = range(3)
 #: Rows of the working array after those of `taylor`: the step polynomial and its derivative on
 #: [0, 1], their Bernstein coefficients, the roots found, and the stack of `bernstein.roots`.
-POLYNOMIAL, SLOPE, HULL, SLOPE_HULL, FOUND, STACK = range(6, 12)
+POLYNOMIAL, SLOPE, HULL, SLOPE_HULL, FOUND, STACK = range(7, 13)
 #: The row that begins with 1 when a history is to be given up: see `bernstein.roots` and
 #: `topheavy.kernel.interrupt`.
 HALT = STACK + MAX_DEPTH
@@ -73,17 +77,18 @@ def working_array():
 def is_certain_to_overturn(block, forcing, record, time, state):
     """Say whether no forcing of the strength that is left can bring the block back.
 
-    With |a| ≤ A from now on, φ'' ≥ −√(1 + A²) sin(φ* − φ) with φ* = α + atan A < π/2; linearised,
-    φ'' ≥ −(φ* − φ) with φ* = α + A. A block moving outward with φ' above the square root of that
-    factor times φ* − φ reaches φ*, from where nothing holds it.
+    With |a| ≤ A G from now on, φ'' ≥ −G √(1 + A²) sin(φ* − φ) with φ* = α + atan A < π/2;
+    linearised, φ'' ≥ −G (φ* − φ) with φ* = α + A. A block moving outward with φ' above the square
+    root of the largest such factor times φ* − φ reaches φ*, from where nothing holds it.
     """
     if state.rotation <= block.slenderness or state.velocity <= 0.0:
         return False
-    strength = strongest_after(forcing, record, time)
+    strength, heaviest = strongest_after(forcing, record, time)
     if block.linearised:
-        return state.velocity > block.slenderness + strength - state.rotation
+        way = block.slenderness + strength - state.rotation
+        return state.velocity > math.sqrt(heaviest) * way
     balance = block.slenderness + math.atan(strength)
-    hold = math.sqrt(math.sqrt(1.0 + strength * strength))
+    hold = math.sqrt(math.sqrt(1.0 + strength * strength) * heaviest)
     return balance < block.flat and state.velocity > hold * (balance - state.rotation)
 
 
@@ -209,16 +214,23 @@ def _value(w, order, x):
 def after_impact(block, state):
     """Return the state on the other side: φ' times √r, the push as that side feels it."""
     velocity = max(-state.velocity, 0.0) * block.restitution
-    return State(0.0, velocity, 0.0, 1.0, -state.push - 2 * block.level, -state.rate)
+    push = -state.push - 2 * block.level * state.gravity
+    rate = -state.rate - 2 * block.level * state.gravity_rate
+    return State(0.0, velocity, 0.0, 1.0, push, rate, state.gravity, state.gravity_rate)
 
 
 @compiled
 def at_sample(block, forcing, record, piece, side, state):
-    """Return the state with the push of the piece of a record that begins."""
+    """Return the state with the push and the gravity of the piece of a record that begins."""
+    rotation, velocity, sine, cosine = state.rotation, state.velocity, state.sine, state.cosine
+    if forcing.shape == TWO_RECORDS:
+        value, rate, weight, change = two_lines(forcing, record, piece)
+        push, rate = -side * value - block.level * weight, -side * rate - block.level * change
+        return State(rotation, velocity, sine, cosine, push, rate, weight, change)
     value = forcing.amplitude * record[0, piece]
     rate = forcing.amplitude * (record[0, piece + 1] - record[0, piece]) / forcing.step
     push = -side * value - block.level
-    return State(state.rotation, state.velocity, state.sine, state.cosine, push, -side * rate)
+    return State(rotation, velocity, sine, cosine, push, -side * rate, 1.0, 0.0)
 
 
 @compiled
@@ -229,13 +241,14 @@ def renewed(block, forcing, record, time, side, state):
     """
     value, rate = ground(forcing, record, time)
     push = -side * value - block.level
-    return State(state.rotation, state.velocity, state.sine, state.cosine, push, -side * rate)
+    rotation, velocity, sine, cosine = state.rotation, state.velocity, state.sine, state.cosine
+    return State(rotation, velocity, sine, cosine, push, -side * rate, 1.0, 0.0)
 
 
 @compiled(nogil=True)
 def outcome(w, order, tolerance, block, forcing, record):
     """Return the `Outcome` of a block that is at rest when the forcing begins."""
-    is_record = forcing.shape == RECORD
+    is_record = forcing.shape == RECORD or forcing.shape == TWO_RECORDS
     is_straight = is_record or forcing.shape == CONSTANT or forcing.shape == NONE
     time, peak, impacts, piece, piece_end = 0.0, 0.0, 0, 0, forcing.end
     steps_left = MAX_STEPS + 10 * record.shape[1]
@@ -244,10 +257,12 @@ def outcome(w, order, tolerance, block, forcing, record):
         if time >= forcing.end:
             return Outcome(False, peak, impacts, True)
         is_low = True
-        state, zeros = State(0.0, 0.0, 0.0, 1.0, push, rate), (2 if push > 0.0 else 3)
+        weight = gravity(forcing, record, time)
+        state = State(0.0, 0.0, 0.0, 1.0, push, rate, weight[0], weight[1])
+        zeros = 2 if push > 0.0 else 3
         if is_record:
-            piece = piece_at(forcing, time)
-            piece_end = (piece + 1) * forcing.step
+            piece = piece_of(forcing, record, time)
+            piece_end = piece_start(forcing, record, piece + 1)
         while True:
             steps_left -= 1
             if steps_left < 0 or w[HALT, 0] != 0.0:
@@ -298,5 +313,5 @@ def outcome(w, order, tolerance, block, forcing, record):
                     piece, state, peak = march(
                         block, forcing, record, piece, side, state, tolerance, peak
                     )
-                    time = piece * forcing.step
-                piece_end = (piece + 1) * forcing.step
+                    time = piece_start(forcing, record, piece)
+                piece_end = piece_start(forcing, record, piece + 1)

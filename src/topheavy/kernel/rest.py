@@ -15,7 +15,16 @@ import math
 import numpy as np
 
 from topheavy.kernel.compiled import compiled
-from topheavy.kernel.forcing import MOST_PIECES, ground, next_turn
+from topheavy.kernel.forcing import (
+    MOST_PIECES,
+    TWO_RECORDS,
+    gravity,
+    ground,
+    next_turn,
+    piece_of,
+    piece_start,
+    two_lines,
+)
 
 #: A rotation below this, over α, is no rocking: the impact that ends it is not counted.
 LAST_BOUNCE = 1e-6
@@ -36,12 +45,15 @@ def comes_to_rest(block, forcing, record, time, velocity, push, side, peak):
     that it left with, hence leaves with at most λ = √(r G/g) times that, is off the ground for
     2v/g at most, and all bounces together last 2v/g(1 − λ).
 
+    Under gravity Γ, level − f₂ and level − f₁ are the least and the largest Γ level − f, and the
+    φ̂/cos α of g is times the largest Γ.
+
     Parameters
     ----------
     velocity : float
         φ' after the impact.
     push : float
-        q = −s a − level on the side that it moves to.
+        q = −s a − Γ level on the side that it moves to.
     side : float
         That side.
     peak : float
@@ -50,24 +62,31 @@ def comes_to_rest(block, forcing, record, time, velocity, push, side, peak):
     cosine, level, restitution = block.cosine, block.level, block.restitution
     if velocity <= 0.0:
         return True
-    weakest = -max(push, -push - 2 * level)
+    weight = gravity(forcing, record, time)[0]
+    weakest = -max(push, -push - 2 * level * weight)
     if weakest <= 0.0 or restitution >= 1.0:
         return False
     if velocity * velocity > weakest * cosine * LAST_BOUNCE * block.slenderness:
         return False
     allowed = 4 * velocity / (weakest * cosine * (1 - restitution))
     slight = LAST_BOUNCE * block.slenderness
-    near, far = -push, push + 2 * level
-    most_near, most_far = near, far
+    near, far = -push, push + 2 * level * weight
+    most_near, most_far, heaviest = near, far, weight
     if time + allowed > time:
-        low, high = _range(forcing, record, time, time + allowed, side)
-        near, most_near, far, most_far = level - high, level - low, level + low, level + high
+        if forcing.shape == TWO_RECORDS:
+            near, most_near, far, most_far, heaviest = _range_of_two(
+                forcing, record, time, time + allowed, side, level
+            )
+        else:
+            low, high = _range(forcing, record, time, time + allowed, side)
+            near, most_near, far, most_far = level - high, level - low, level + low, level + high
     if min(near, far) <= 0.0:
         return False
     bound = velocity * velocity / (min(near, far) * cosine)
-    if 2 * bound > min(near, far) * cosine * cosine or bound > min(peak, slight):
+    if 2 * bound * heaviest > min(near, far) * cosine * cosine or bound > min(peak, slight):
         return False
-    pull_near, pull_far = near * cosine - bound / cosine, far * cosine - bound / cosine
+    lost = heaviest * bound / cosine
+    pull_near, pull_far = near * cosine - lost, far * cosine - lost
     ratio = (cosine + bound) * max(most_near / pull_near, most_far / pull_far)
     decay = restitution * math.sqrt(ratio)
     return decay < 1.0 and 2 * velocity <= allowed * min(pull_near, pull_far) * (1 - decay)
@@ -97,3 +116,24 @@ def _range(forcing, record, start, stop, side):
         if time >= forcing.end:
             low, high = min(low, 0.0), max(high, 0.0)
     return low, high
+
+
+@compiled
+def _range_of_two(forcing, record, start, stop, side, level):
+    """Return the least and largest Γ level − f and Γ level + f on [start, stop], and largest Γ."""
+    near, most_near, far, most_far, heaviest = np.inf, -np.inf, np.inf, -np.inf, 0.0
+    last = record.shape[1] - 1
+    for piece in range(piece_of(forcing, record, start), last + 1):
+        begin, end = piece_start(forcing, record, piece), stop
+        if begin > stop:
+            break
+        value, rate, weight, change = 0.0, 0.0, 1.0, 0.0  # the ground at rest after the last piece
+        if piece < last:
+            value, rate, weight, change = two_lines(forcing, record, piece)
+            end = min(piece_start(forcing, record, piece + 1), stop)
+        for time in (max(begin, start), end):
+            push, heavy = side * (value + rate * (time - begin)), weight + change * (time - begin)
+            near, most_near = min(near, heavy * level + push), max(most_near, heavy * level + push)
+            far, most_far = min(far, heavy * level - push), max(most_far, heavy * level - push)
+            heaviest = max(heaviest, heavy)
+    return near, most_near, far, most_far, heaviest

@@ -11,7 +11,11 @@ and linearised, with q = −s a − α,
 
 This is the paper's equation, regrouped so that nothing cancels: φ and q are both zero when the
 block lifts off, and the first derivative that is not zero has the right sign, however
-slender the block and however small the push. sin φ and cos φ obey (sin φ)' = φ' cos φ and
+slender the block and however small the push. Under a vertical acceleration of G − 1 (g, upward)
+
+    φ'' = G sin φ / cos α + q cos(α − φ),    φ'' = G φ + q (linearised),    q = −s a − G tan α
+
+(or G α). sin φ and cos φ obey (sin φ)' = φ' cos φ and
 (cos φ)' = −φ' sin φ, and the push its own linear equation (see `forcing`): a step is
 multiplications and additions only (Jorba & Zou 2005, Exp. Math. 14, 99–117, §§2–3).
 """
@@ -56,7 +60,7 @@ def oscillator(block: RockingBlock) -> Oscillator:
 
 
 class State(NamedTuple):
-    """A rocking block: φ, φ', sin φ, cos φ, the push q and q'."""
+    """A rocking block: φ, φ', sin φ, cos φ, the push q and q', gravity G and G'."""
 
     rotation: float
     velocity: float
@@ -64,11 +68,13 @@ class State(NamedTuple):
     cosine: float
     push: float
     rate: float
+    gravity: float = 1.0
+    gravity_rate: float = 0.0
 
 
-#: Rows of the working array `w`: the coefficients of φ, φ', sin φ, cos φ, cos(α − φ) and q by
+#: Rows of the working array `w`: the coefficients of φ, φ', sin φ, cos φ, cos(α − φ), q and G by
 #: powers of τ − τ₀.
-ROTATION, VELOCITY, SINE, COSINE, TILT, PUSH = range(6)
+ROTATION, VELOCITY, SINE, COSINE, TILT, PUSH, GRAVITY = range(7)
 
 
 @compiled(fastmath={"contract"})
@@ -86,7 +92,10 @@ def expand(w, order, block, state, c, d0, d1, is_straight):
         curvature = (c + d1 * n) * w[PUSH, n] + d0 * (n + 1) * w[PUSH, n + 1]
         w[PUSH, n + 2] = -curvature * (INVERSE[n + 1] * INVERSE[n + 2])
     w[PUSH, 0] = state.push
-    if block.linearised:
+    w[GRAVITY, 0], w[GRAVITY, 1] = state.gravity, state.gravity_rate
+    if state.gravity != 1.0 or state.gravity_rate != 0.0:
+        _expand_under_gravity(w, order, block)
+    elif block.linearised:
         _expand_linearised(w, order, last_push)
     elif is_straight:
         _expand_straight(w, order, block)
@@ -150,6 +159,32 @@ def _expand_straight(w, order, block):
         w[VELOCITY, n + 1] = force * INVERSE[n + 1]
 
 
+@compiled(fastmath={"contract"})
+def _expand_under_gravity(w, order, block):
+    """Both equations where q and G have two terms each."""
+    inverse_cosine, weight, change = 1.0 / block.cosine, w[GRAVITY, 0], w[GRAVITY, 1]
+    turned = ROTATION if block.linearised else SINE
+    for n in range(order):
+        force = weight * w[turned, n]
+        if n > 0:
+            force += change * w[turned, n - 1]
+        if block.linearised:
+            force += w[PUSH, n] if n < 2 else 0.0
+        else:
+            w[TILT, n] = block.cosine * w[COSINE, n] + block.sine * w[SINE, n]
+            force = force * inverse_cosine + w[PUSH, 0] * w[TILT, n]
+            if n > 0:
+                force += w[PUSH, 1] * w[TILT, n - 1]
+            cosine, sine = 0.0, 0.0
+            for i in range(n + 1):
+                cosine += w[COSINE, n - i] * w[VELOCITY, i]
+                sine += w[SINE, n - i] * w[VELOCITY, i]
+            w[SINE, n + 1] = cosine * INVERSE[n + 1]
+            w[COSINE, n + 1] = -sine * INVERSE[n + 1]
+        w[ROTATION, n + 1] = w[VELOCITY, n] * INVERSE[n + 1]
+        w[VELOCITY, n + 1] = force * INVERSE[n + 1]
+
+
 @compiled
 def longest_step(w, order, tolerance, limit):
     """Return the step, at most `limit`, over which the last two terms of φ' are below `tolerance`.
@@ -187,4 +222,5 @@ def evaluate(w, order, block, step, is_straight):
         push, rate = w[PUSH, 0] + step * w[PUSH, 1], w[PUSH, 1]
     if block.linearised:
         sine, cosine = 0.0, 1.0
-    return State(rotation, velocity, sine, cosine, push, rate)
+    weight, change = w[GRAVITY, 0] + step * w[GRAVITY, 1], w[GRAVITY, 1]
+    return State(rotation, velocity, sine, cosine, push, rate, weight, change)

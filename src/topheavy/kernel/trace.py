@@ -17,10 +17,13 @@ from topheavy.kernel.forcing import (
     RECORD,
     RICKER_ANTISYMMETRIC,
     RICKER_SYMMETRIC,
+    TWO_RECORDS,
     Forcing,
+    gravity,
     ground,
     next_uplift,
-    piece_at,
+    piece_of,
+    piece_start,
 )
 from topheavy.kernel.outcome import (
     FLAT,
@@ -101,7 +104,8 @@ def trace(
     time, peak, sample, counted, landed = 0.0, abs(rotation), 0, 0, 0
     moves = rotation != 0.0 or velocity != 0.0
     has_moved, is_low, is_forced, is_over = moves, rotation == 0.0, True, False
-    straight = forcing.shape == RECORD or forcing.shape == CONSTANT or forcing.shape == NONE
+    is_record = forcing.shape == RECORD or forcing.shape == TWO_RECORDS
+    straight = is_record or forcing.shape == CONSTANT or forcing.shape == NONE
     side = math.copysign(1.0, rotation if rotation != 0.0 else velocity)
     state, zeros = _initial_state(block, forcing, record, rotation, velocity, side), 0
     if rotation == 0.0:
@@ -113,9 +117,17 @@ def trace(
             break
         if is_forced and time >= forcing_end:  # the ground comes to rest: judge what follows
             is_forced, straight, order, forcing = False, True, PULSE_ORDER, still(forcing_end)
+            is_record = False
             flight_start, landed_forced = time, landed
             state = State(
-                state.rotation, state.velocity, state.sine, state.cosine, -block.level, 0.0
+                state.rotation,
+                state.velocity,
+                state.sine,
+                state.cosine,
+                -block.level,
+                0.0,
+                1.0,
+                0.0,
             )
             if moves:
                 tail = free_rocking(block, state.rotation, state.velocity)
@@ -133,8 +145,10 @@ def trace(
                 result = RESTS if has_moved else NO_UPLIFT
                 return max(time, forcing_end), result, peak, counted, landed
             time, moves, has_moved, is_low, flight_start = uplift, True, True, True, uplift
-            state, zeros = State(0.0, 0.0, 0.0, 1.0, push, rate), (2 if push > 0.0 else 3)
-            piece = piece_at(forcing, time) if forcing.shape == RECORD else 0
+            weight = gravity(forcing, record, time)
+            state = State(0.0, 0.0, 0.0, 1.0, push, rate, weight[0], weight[1])
+            zeros = 2 if push > 0.0 else 3
+            piece = piece_of(forcing, record, time) if is_record else 0
         is_far = block.linearised and is_over and state.rotation >= math.pi / 2
         is_endless = until == math.inf and not is_forced
         is_poised = is_endless and time - flight_start >= LONGEST_FLIGHT
@@ -147,8 +161,8 @@ def trace(
         piece_end = min(until, flight_start + LONGEST_FLIGHT) if is_endless else until
         if is_forced:
             piece_end = forcing_end
-            if forcing.shape == RECORD:
-                piece_end = min(piece_end, (piece + 1) * forcing.step)
+            if is_record:
+                piece_end = min(piece_end, piece_start(forcing, record, piece + 1))
         start, longest, so_far = time, piece_end - time, (0.0 if is_low else peak)
         step, event, highest = advance(
             w, order, tolerance, block, forcing, time, longest, state, zeros, so_far, straight
@@ -188,7 +202,7 @@ def trace(
                 time = time if moves else next_tick(time)
         elif is_forced and block.linearised and not is_over:
             is_over = is_certain_to_overturn(block, forcing, record, time, state)
-        if forcing.shape == RECORD and time >= piece_end:
+        if is_record and time >= piece_end:
             piece += 1
             if moves and time < forcing_end:
                 state = at_sample(block, forcing, record, piece, side, state)
@@ -214,10 +228,12 @@ def _initial_state(block, forcing, record, rotation, velocity, side):
     value, rate = ground(forcing, record, 0.0)
     phi = abs(rotation)
     sine, cosine = (0.0, 1.0) if block.linearised else (math.sin(phi), math.cos(phi))
-    return State(phi, side * velocity, sine, cosine, -side * value - block.level, -side * rate)
+    weight, change = gravity(forcing, record, 0.0)
+    push, rate = -side * value - block.level * weight, -side * rate - block.level * change
+    return State(phi, side * velocity, sine, cosine, push, rate, weight, change)
 
 
 @compiled
 def still(time):
     """Return the forcing of ground that has been at rest since `time`."""
-    return Forcing(NONE, 0.0, 1.0, time, 1.0)
+    return Forcing(NONE, 0.0, 1.0, time, 1.0, 0.0)

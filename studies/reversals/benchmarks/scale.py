@@ -42,12 +42,12 @@ def motions(part: int) -> tuple[int, int]:
 
 def grid(part: int) -> tuple[int, int]:
     """Compute one of `part` shards of the spectra; return its lines and its least histories."""
-    from steps.spectrum import shard_of, solve
+    from steps.spectrum import solve
     from studies.reversals.steps.pulses_shard import lines
 
     case = config()[0]["pulses"]
     case |= case["grids"][case["grid"]]
-    mine, reach = shard_of(lines(case), f"1-of-{part}"), case["amplitudes"]
+    mine, reach = lines(case, f"1-of-{part}"), case["amplitudes"]
     solve(mine, case)
     steps = (reach["highest"] - reach["lowest"]) / reach["resolution"]
     return len(mine), round(len(mine) * steps)

@@ -2,12 +2,13 @@
 
 from typing import Any
 
+import numpy as np
 import pandas as pd
 
 from replication.workbench import run
 from steps.spectrum import progress
 from studies.reversals.outcomes import written
-from topheavy import overturned_by
+from topheavy import overturned_together
 from topheavy.synthetic.ensemble import Draw, Subject, draws, factors, intensities, subjects
 
 
@@ -17,13 +18,15 @@ def outcomes(draw: Draw, under: list[Subject], levels, of: int) -> list[dict]:
     A structure with a share of the motions gets the first of each scenario, `of` to each.
     """
     record = draw.record()
-    rows = []
-    for subject in under:
-        if draw.number >= subject.share * of:
-            continue
-        fell = overturned_by(subject.frame, record, factors(subject, record, levels))
-        rows.append(draw.labels | subject.labels | {"outcomes": written(fell)})
-    return rows
+    mine = [subject for subject in under if draw.number < subject.share * of]
+    if not mine:
+        return []
+    scales = np.array([factors(subject, record, levels) for subject in mine])
+    fell = overturned_together([subject.frame for subject in mine], record, scales)
+    return [
+        draw.labels | subject.labels | {"outcomes": written(row)}
+        for subject, row in zip(mine, fell, strict=True)
+    ]
 
 
 def main(case: dict, structures: dict, shard: str) -> pd.DataFrame:

@@ -16,16 +16,15 @@ CHANGES = ("both", "size", "restitution")
 """What of the column's p and √r a heavier cap changes; both in truth."""
 
 
-def lines(case: dict) -> list[Line]:
-    """Return the lines of all spectra: whole frames, then the separated of some γ."""
+def lines(case: dict, shard: str = "1-of-1") -> list[Line]:
+    """Return the lines of all spectra, or of a shard: frames, then the separated of some γ."""
     frames = [("both", gamma) for gamma in case["mass_ratios"]]
     frames += product(CHANGES[1:], case["separated"])
     ratios = map(float, grid(case["frequency_ratios"]))
+    labels = product(frames, case["slendernesses"], case["shapes"], ratios)
     return [
         changed_line(*spectrum, change, gamma, ratio)
-        for (change, gamma), *spectrum, ratio in product(
-            frames, case["slendernesses"], case["shapes"], ratios
-        )
+        for (change, gamma), *spectrum, ratio in shard_of([*labels], shard)
     ]
 
 
@@ -50,7 +49,7 @@ def changed(column: RockingBlock, frame: RockingBlock, change: str) -> RockingBl
 
 
 def main(case: dict, shard: str) -> pd.DataFrame:
-    return solve(shard_of(lines(case), shard), case)
+    return solve(lines(case, shard), case)
 
 
 if __name__ == "__main__":

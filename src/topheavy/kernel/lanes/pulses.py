@@ -1,7 +1,7 @@
-"""Outcomes of many pulses, one history in each lane (see `lane_steps`).
+"""Outcomes of many pulses, one history in each lane (see `steps`).
 
-A history that ends poised at the barrier is marked, and `grid` follows it once more by the scalar
-kernel, so that a map and `judge` tell the same up to the last bits of a boundary.
+A history that ends poised at the barrier is followed once more by the scalar kernel, so that a map
+and `judge` tell the same up to the last bits of a boundary.
 
 All lanes take their steps together, each a step of its own length. A lane whose history is over
 takes up the next cell. What follows from the physics of one history (the next uplift, coming to
@@ -23,15 +23,16 @@ from topheavy.kernel.forcing import (
     next_uplift,
     pulse_forcing,
 )
-from topheavy.kernel.lane_steps import (
+from topheavy.kernel.lanes.steps import (
     CENTRE,
     D1,
+    END,
     FACTOR,
+    FREQUENCY,
     IMPACTS,
     LENGTH,
     LONGEST,
     MAX_ORDER,
-    OWN,
     PEAK,
     PUSH,
     ROTATION,
@@ -43,11 +44,14 @@ from topheavy.kernel.lane_steps import (
     advance,
     finish,
     lift,
+    numbered,
     rests,
+    seat,
+    seated,
     still,
     strike,
 )
-from topheavy.kernel.lanes import (
+from topheavy.kernel.lanes.vectors import (
     WIDTH,
     absolute,
     bits,
@@ -60,21 +64,18 @@ from topheavy.kernel.lanes import (
     square_root,
     store,
 )
-from topheavy.kernel.outcome import HALT, MAX_STEPS, PULSE_ORDER
+from topheavy.kernel.outcome import HALT, MAX_STEPS, PULSE_ORDER, outcome
 from topheavy.kernel.rest import next_tick
 from topheavy.kernel.tail import free_rocking, is_poised
 
 assert PULSE_ORDER <= MAX_ORDER
-#: The end of the pulse, and ω/p.
-END, FREQUENCY = OWN, OWN + 1
-#: In place of the impacts of a history that the scalar kernel has to follow.
-ALONE = -1
 
 
 @compiled
 def begin(w, lane, block, forcing, record):
     """Let a block stand in a lane; return whether the pulse lifts it."""
     still(w, lane)
+    seat(w, lane, block)
     time, push, rate, side = next_uplift(forcing, record, 0.0, block.level)
     if time >= forcing.end:
         return False
@@ -114,7 +115,7 @@ def renew(w, level, shape):
     else:
         bell = bell * (math.sqrt(2) / ANTISYMMETRIC_PEAK)
         value, rate = y * fma(square, 2.0, -3.0), fma(square, fma(square, -4.0, 12.0), -3.0)
-    store(w, PUSH, fma(bell, value, -level + 0.0 * y))
+    store(w, PUSH, fma(bell, value, -level))
     store(w, PUSH + 1, bell * rate * kappa)
 
 
@@ -130,22 +131,24 @@ def lifts_again(w, lane, block, forcing, record):
 
 
 @compiled(forceinline=True)
-def forcing_at(shape, scales, amplitudes, i, j):
-    """Return the pulse of a cell; an axis of length 1 stands for all its cells."""
-    amplitude = amplitudes[i % amplitudes.shape[0], j % amplitudes.shape[1]]
-    return pulse_forcing(shape, amplitude, scales[i % scales.shape[0], j % scales.shape[1]])
+def at(values, i, j):
+    """Return the value of a cell; an axis of length 1 stands for all its cells."""
+    return values[i if values.shape[0] > 1 else 0, j if values.shape[1] > 1 else 0]
 
 
 @compiled(nogil=True)
 def pulse_outcomes(
-    v,
+    alone,
     batch,
     batches,
-    block,
+    kind,
+    blocks,
     shape,
+    which,
     scales,
     amplitudes,
     record,
+    order,
     tolerance,
     peak,
     overturned,
@@ -153,15 +156,18 @@ def pulse_outcomes(
 ):
     """Fill one of as many parts of the cells as there are `batches`; see `grid.pulse_outcomes_of`.
 
-    A history that ends poised at the barrier gets `ALONE` for its impacts.
-
-    Parameters
+        Parameters
     ----------
-    v : array
+    alone : array
         A working array for steps that a lane takes alone, which may say halt (`outcome.HALT`).
+    kind, blocks : Oscillator, array
+        The blocks, as `numbered` takes them; `which` has the number of the block of each cell.
     record : array
         `NO_RECORD`. As an argument, not as a constant, it has the type that it has in
         `grid.outcome_of`: what both call is then compiled but once.
+
+    order : int
+        That of the scalar kernel. A constant would have it compiled anew, to other last bits.
 
     Returns
     -------
@@ -179,8 +185,8 @@ def pulse_outcomes(
             vacant &= vacant - 1
             while coming < last and not lifted:
                 i, j = coming // columns, coming % columns
-                forcing = forcing_at(shape, scales, amplitudes, i, j)
-                lifted = begin(w, lane, block, forcing, record)
+                forcing = pulse_forcing(shape, at(amplitudes, i, j), at(scales, i, j))
+                lifted = begin(w, lane, numbered(kind, blocks, at(which, i, j)), forcing, record)
                 if not lifted:
                     peak[i, j], overturned[i, j], impacts[i, j] = 0.0, False, 0
                 cells[lane] = coming
@@ -191,9 +197,10 @@ def pulse_outcomes(
                 still(w, lane)
         if busy == 0:
             return lost
-        if v[HALT, 0] != 0.0:
-            return cells[int(v[HALT, 1])]
-        landed, fallen = advance(w, v, block, PULSE_ORDER, tolerance, False, busy)
+        if alone[HALT, 0] != 0.0:
+            return cells[int(alone[HALT, 1])]
+        block = seated(w, kind)
+        landed, fallen = advance(w, alone, block, PULSE_ORDER, tolerance, False, False, busy)
         time, end, step = load(w, TIME), load(w, END), load(w, LENGTH)
         time = select(step >= load(w, LONGEST), end, time + step)
         store(w, TIME, time)
@@ -203,29 +210,34 @@ def pulse_outcomes(
             renew(w, block.level, shape)
         fallen |= bits(certain(w, block, rotation, velocity)) & busy
         landed = (landed | bits(rotation <= 0.0) & busy) & ~fallen
-        resting = strike(w, block, landed) if landed else 0
+        resting = strike(w, block, False, landed) if landed else 0
         over = bits(time >= end) & busy
         ending = fallen | over | resting | bits(load(w, STEPS) > MAX_STEPS) & busy
         while ending:
             lane = lowest(ending)
             ending &= ending - 1
             i, j = cells[lane] // columns, cells[lane] % columns
+            own = numbered(kind, blocks, at(which, i, j))
             fell, highest, count = False, w[PEAK, lane], w[IMPACTS, lane]
             if fallen >> lane & 1:
                 fell = True
             elif over >> lane & 1:
-                tail = free_rocking(block, w[ROTATION, lane], w[VELOCITY, lane])
+                tail = free_rocking(own, w[ROTATION, lane], w[VELOCITY, lane])
                 fell, highest = tail.overturned, max(highest, tail.peak)
                 count += tail.impacts
-                if is_poised(block, w[ROTATION, lane], w[VELOCITY, lane]):
-                    count = ALONE
+                if is_poised(own, w[ROTATION, lane], w[VELOCITY, lane]):
+                    forcing = pulse_forcing(shape, at(amplitudes, i, j), at(scales, i, j))
+                    again = outcome(alone, order, tolerance, own, forcing, record)
+                    fell, highest, count = again.overturned, again.peak, again.impacts
+                    if not again.resolved:
+                        lost = cells[lane] if lost < 0 else min(lost, cells[lane])
             elif w[STEPS, lane] > MAX_STEPS:
                 lost = cells[lane] if lost < 0 else min(lost, cells[lane])
             else:
-                forcing = forcing_at(shape, scales, amplitudes, i, j)
-                if not rests(w, lane, block, forcing, record):
+                forcing = pulse_forcing(shape, at(amplitudes, i, j), at(scales, i, j))
+                if not rests(w, lane, own, forcing, record):
                     continue
-                if lifts_again(w, lane, block, forcing, record):
+                if lifts_again(w, lane, own, forcing, record):
                     continue
             peak[i, j] = math.nan if fell else highest
             overturned[i, j], impacts[i, j] = fell, count

@@ -7,7 +7,6 @@ import pytest
 from numba import njit
 
 from topheavy import RockingBlock
-from topheavy.kernel import lane_steps as steps
 from topheavy.kernel.forcing import (
     CONSTANT,
     ONE_COSINE,
@@ -18,7 +17,8 @@ from topheavy.kernel.forcing import (
     ground,
     pulse_forcing,
 )
-from topheavy.kernel.lanes import WIDTH, rows
+from topheavy.kernel.lanes import steps
+from topheavy.kernel.lanes.vectors import WIDTH, rows
 from topheavy.kernel.outcome import (
     FLAT,
     LANDING,
@@ -50,7 +50,8 @@ RECORD = np.empty((3, 0))
 
 @njit
 def step(w, v, block, is_straight):
-    landed, fallen = steps.advance(w, v, block, PULSE_ORDER, TOLERANCE, is_straight, ALL)
+    block = steps.seated(w, block)
+    landed, fallen = steps.advance(w, v, block, PULSE_ORDER, TOLERANCE, is_straight, False, ALL)
     length = w[steps.LENGTH].copy()
     series = w[: 7 * (steps.MAX_ORDER + 1)].copy()
     steps.finish(w, block, PULSE_ORDER, ALL)
@@ -73,11 +74,12 @@ def states(shape, seed, *, on_ground=False, block=BLOCK):
     return found
 
 
-def filled(cases):
+def filled(cases, block=BLOCK):
     """The working array with a lane for each state."""
     w = rows(steps.ROWS)
     for lane, (pulse, time, side, state) in enumerate(cases):
         steps.still(w, lane)
+        steps.seat(w, lane, block)
         steps.lift(w, lane, time, state.push, state.rate, side, pulse.amplitude)
         w[steps.ROTATION, lane], w[steps.VELOCITY, lane] = state.rotation, state.velocity
         w[steps.SINE, lane], w[steps.COSINE, lane] = state.sine, state.cosine
@@ -92,7 +94,7 @@ def filled(cases):
 @pytest.mark.parametrize("shape", [ONE_SINE, ONE_COSINE, CONSTANT, RICKER_SYMMETRIC])
 def test_series_is_that_of_the_scalar_kernel(block, shape):
     cases = states(shape, 1, block=block)
-    _, _, _, series = step(filled(cases), working_array(), block, False)
+    _, _, _, series = step(filled(cases, block), working_array(), block, False)
     blocks = series.reshape(7, steps.MAX_ORDER + 1, WIDTH)
     for lane, (pulse, time, _, state) in enumerate(cases):
         alone = working_array()
@@ -115,7 +117,7 @@ def test_step_ends_where_that_of_the_scalar_kernel_does(block, shape, on_ground)
     seen = set()
     for seed in range(40):
         cases = states(shape, seed, on_ground=on_ground, block=block)
-        w = filled(cases)
+        w = filled(cases, block)
         landed, fallen, length, _ = step(w, working_array(), block, False)
         for lane, (pulse, time, _, state) in enumerate(cases):
             alone, zeros = working_array(), 1 if on_ground else 0
@@ -164,7 +166,7 @@ def test_lane_that_is_unsettled_is_stepped_alone():
 
 @njit
 def struck(w, block, landed):
-    return steps.strike(w, block, landed)
+    return steps.strike(w, steps.seated(w, block), False, landed)
 
 
 def test_impact_changes_the_struck_lanes_only():

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from numba import njit
 
-from topheavy.kernel import lanes
-from topheavy.kernel.lanes import (
+from topheavy.kernel.lanes import vectors
+from topheavy.kernel.lanes.vectors import (
     HAS_FMA,
     WIDTH,
     absolute,
@@ -149,6 +149,6 @@ def test_rows_begin_where_the_cpu_loads_them_at_once():
 
 
 def test_width_is_two_registers():
-    features = lanes._FEATURES
+    features = vectors._FEATURES
     registers = 8 if "+avx512f" in features else 4 if "+avx2" in features else 2
     assert 2 * registers == WIDTH

@@ -1,9 +1,10 @@
-"""Outcomes of many factors on one record, one history in each lane (see `lane_steps`).
+"""Outcomes of many histories under one record, or a horizontal and a vertical one.
 
-Every lane is at a piece of the record of its own. Most pieces are passed over by the short series
-of `march`, which proves that they hold no event; a lane for which it does not waits until as many
-lanes need the long series of `lane_steps`. So both work with many lanes at a time. What follows
-from the physics of one history is done by the functions of the scalar kernel.
+Each lane has a history (see `steps`), and is at a piece of the record of its own. Most pieces are
+passed over by the short series of `march`, which proves that they hold no event; a lane for which
+it does not waits until as many lanes need the long series of `steps`. So both work with many lanes
+at a time. What follows from the physics of one history is done by the functions of the scalar
+kernel.
 """
 
 import math
@@ -11,31 +12,51 @@ import math
 import numpy as np
 
 from topheavy.kernel.compiled import compiled
-from topheavy.kernel.forcing import next_uplift, piece_at, record_forcing
-from topheavy.kernel.lane_steps import (
+from topheavy.kernel.forcing import (
+    AT,
+    START,
+    STOP,
+    UP,
+    UP_STOP,
+    gravity,
+    next_uplift,
+    piece_of,
+    piece_start,
+    record_forcing,
+)
+from topheavy.kernel.lanes.steps import (
     ARC,
+    CHANGE,
     COSINE,
     FACTOR,
+    GRAVITY,
     IMPACTS,
+    INVERSE_COS,
     LENGTH,
+    LIFT,
     LONGEST,
-    OWN,
     PEAK,
+    PER_PIECE,
+    PIECE,
     PUSH,
     ROTATION,
     ROWS,
     SINE,
     STEPS,
+    TERM,
     TIME,
     VELOCITY,
     advance,
     finish,
     lift,
+    numbered,
     rests,
+    seat,
+    seated,
     still,
     strike,
 )
-from topheavy.kernel.lanes import (
+from topheavy.kernel.lanes.vectors import (
     WIDTH,
     absolute,
     among,
@@ -59,14 +80,20 @@ from topheavy.kernel.taylor import State
 
 #: Terms of φ in a long step. A piece of p Δt = 0.1 takes one step at the usual tolerance.
 RECORD_ORDER = 9
-#: The piece that a lane is at.
-PIECE = OWN
 #: The long series waits until fewer than this share of the lanes go on without it.
 FEW = WIDTH // 3
 
 
 @compiled(forceinline=True)
-def march_lanes(w, block, samples, h, bound, marching):
+def edge(record, weighs, piece, h):
+    """Return when the pieces begin that lanes name, where samples are `h` apart in τ."""
+    if weighs:
+        return take(record[AT], piece) * h
+    return piece * h
+
+
+@compiled(forceinline=True)
+def march_lanes(w, block, record, weighs, tolerance, marching):
     """Pass over the pieces that `marching` lanes are at, as far as they are proven to hold nothing.
 
     The terms and the proof are those of `march.march`. Lanes for which it fails are made ready for
@@ -74,22 +101,24 @@ def march_lanes(w, block, samples, h, bound, marching):
 
     Parameters
     ----------
-    samples : array
-        Of the record, `h` apart in τ.
-    bound : float
-        On the last term of φ'.
+    weighs : bool
+        Whether the record is of two.
+    tolerance : float
+        Bound on the last term of φ', over α.
 
     Returns
     -------
     int
         Bits of the lanes that passed.
     """
-    h2 = h * h / 2
-    h3 = h2 * h / 3
-    h4 = h3 * h / 4
-    h5 = h4 * h / 5
-    h6 = h5 * h / 6
-    h7 = h6 * h / 7
+    h, h2, h3, h4 = load(w, TERM + 1), load(w, TERM + 2), load(w, TERM + 3), load(w, TERM + 4)
+    h5, h6, h7, per_piece = (
+        load(w, TERM + 5),
+        load(w, TERM + 6),
+        load(w, TERM + 7),
+        load(w, PER_PIECE),
+    )
+    bound, inverse_cosine = tolerance * block.slenderness, load(w, INVERSE_COS)
     piece, factor, peak = load(w, PIECE), load(w, FACTOR), load(w, PEAK)
     rotation, velocity, sine, cosine = (
         load(w, ROTATION),
@@ -97,15 +126,33 @@ def march_lanes(w, block, samples, h, bound, marching):
         load(w, SINE),
         load(w, COSINE),
     )
-    before, after = take(samples, piece), take(samples, piece + 1.0)
-    push, rate = factor * before - block.level, factor * (after - before) * (1.0 / h)
+    begin = edge(record, weighs, piece, h)
+    longest = edge(record, weighs, piece + 1.0, h) - begin
+    before, heavy, heavier = take(record[START], piece), inverse_cosine, h * 0.0
+    if weighs:
+        share = take(record[AT], piece + 1.0) - take(record[AT], piece)  # of h, this piece takes
+        h, per_piece, power = h * share, per_piece / share, share * share
+        h2, h3, power = h2 * power, h3 * (power * share), power * power
+        h4, h5, power = h4 * power, h5 * (power * share), power * share * share
+        h6, h7 = h6 * power, h7 * (power * share)
+        after, lift, up = take(record[STOP], piece), load(w, LIFT), take(record[UP], piece)
+        gravity = fma(lift, up, h * 0.0 + 1.0)
+        change = lift * (take(record[UP_STOP], piece) - up) * per_piece
+        heavy, heavier = inverse_cosine * gravity, inverse_cosine * change
+        push = factor * before - block.level * gravity
+        rate = factor * (after - before) * per_piece - block.level * change
+    else:
+        after = take(record[START], piece + 1.0)
+        push, rate = factor * before - block.level, factor * (after - before) * per_piece
+        gravity, change = heavier, heavier
     passed = 0
     if not block.linearised:
         tilt = fma(cosine, block.cosine, sine * block.sine)  # cos(α − φ)
         lean = fma(cosine, block.sine, -(sine * block.cosine))  # sin(α − φ)
-        force = fma(push, tilt, sine * (1.0 / block.cosine))  # Eq. (23)
-        slope = fma(push, lean, cosine * (1.0 / block.cosine))
-        d3, d4, d5, d6, d7 = derivatives(force, slope, rate * tilt, rate * lean, velocity)
+        force = fma(push, tilt, sine * heavy)  # Eq. (23)
+        slope = fma(push, lean, cosine * heavy)
+        bend, sway = fma(sine, heavier, rate * tilt), fma(cosine, heavier, rate * lean)
+        d3, d4, d5, d6, d7 = derivatives(force, slope, bend, sway, velocity)
         c1, c2, c3, c4 = velocity * h, force * h2, d3 * h3, d4 * h4
         c5, c6, c7 = d5 * h5, d6 * h6, d7 * h7
         others = absolute(c3) + absolute(c4) + absolute(c5) + absolute(c6) + absolute(c7)
@@ -117,12 +164,12 @@ def march_lanes(w, block, samples, h, bound, marching):
         fine = fine & (h6 * maximum(absolute(d7), 6.0 * absolute(d6)) <= bound)
         fine = fine & (absolute(turn) <= LARGEST_TURN) & (rotation <= block.slenderness)
         fine = fine & (load(w, ARC) > LAST_BOUNCE * block.slenderness)
-        fine = fine & (piece < samples.size - 2.0) & among(marching)
+        fine = fine & (piece < record.shape[1] - 2.0) & among(marching)
         gain = 2.0 * c2 + 3.0 * c3 + 4.0 * c4 + 5.0 * c5 + 6.0 * c6 + 7.0 * c7
         square = turn * turn  # sin and cos − 1 of a turn so small, to the last digit
         swing = turn + turn * square * (-1 / 6 + square * (1 / 120 - square * (1 / 5040)))
         drop = square * (-1 / 2 + square * (1 / 24 + square * (-1 / 720 + square * (1 / 40320))))
-        store(w, VELOCITY, select(fine, fma(gain, 1.0 / h, velocity), velocity))
+        store(w, VELOCITY, select(fine, fma(gain, per_piece, velocity), velocity))
         store(w, ROTATION, select(fine, rotation + turn, rotation))
         store(w, PEAK, select(fine, maximum(peak, rotation + turn), peak))
         store(w, SINE, select(fine, sine + fma(cosine, swing, sine * drop), sine))
@@ -135,9 +182,23 @@ def march_lanes(w, block, samples, h, bound, marching):
         store(w, ARC, select(whole, peak, arc))
         store(w, PUSH, select(halted, push, load(w, PUSH)))
         store(w, PUSH + 1, select(halted, rate, load(w, PUSH + 1)))
-        store(w, TIME, select(halted, piece * h, load(w, TIME)))
-        store(w, LONGEST, select(halted, (piece + 1.0) * h - piece * h, load(w, LONGEST)))
+        if weighs:
+            store(w, GRAVITY, select(halted, gravity, load(w, GRAVITY)))
+            store(w, CHANGE, select(halted, change, load(w, CHANGE)))
+        store(w, TIME, select(halted, begin, load(w, TIME)))
+        store(w, LONGEST, select(halted, longest, load(w, LONGEST)))
     return passed
+
+
+@compiled
+def begin(w, lane, block, forcing):
+    """Let a block stand in a lane, under a record."""
+    h = forcing.step
+    still(w, lane)
+    seat(w, lane, block)
+    w[TERM + 1, lane], w[PER_PIECE, lane], w[LIFT, lane] = h, 1.0 / h, forcing.lift
+    for k in range(2, 8):
+        w[TERM + k, lane] = w[TERM + k - 1, lane] * h / k
 
 
 @compiled
@@ -147,28 +208,49 @@ def lifts(w, lane, block, forcing, record, time):
     if time >= forcing.end:
         return False
     lift(w, lane, time, push, rate, side, forcing.amplitude)
-    piece = piece_at(forcing, time)
-    w[PIECE, lane], w[LONGEST, lane] = piece, (piece + 1) * forcing.step - time
+    piece = piece_of(forcing, record, time)
+    w[PIECE, lane], w[LONGEST, lane] = piece, piece_start(forcing, record, piece + 1) - time
+    w[GRAVITY, lane], w[CHANGE, lane] = gravity(forcing, record, time)
     return True
 
 
 @compiled
 def overturns(w, lane, block, forcing, record):
     """Say whether the block of a lane is certain to overturn."""
-    state = State(w[ROTATION, lane], w[VELOCITY, lane], 0.0, 1.0, 0.0, 0.0)
+    state = State(w[ROTATION, lane], w[VELOCITY, lane], 0.0, 1.0, 0.0, 0.0, 1.0, 0.0)
     return is_certain_to_overturn(block, forcing, record, w[TIME, lane], state)
 
 
 @compiled(nogil=True)
 def record_outcomes(
-    v, batch, batches, block, step, factors, record, tolerance, peak, overturned, impacts
+    alone,
+    batch,
+    batches,
+    kind,
+    blocks,
+    which,
+    steps,
+    factors,
+    lifts_of,
+    record,
+    vertical,
+    tolerance,
+    peak,
+    overturned,
+    impacts,
 ):
     """Fill one of as many parts of the factors as there are `batches`; see `grid.outcomes_of`.
 
     Parameters
     ----------
-    v : array
+    alone : array
         A working array for steps that a lane takes alone, which may say halt (`outcome.HALT`).
+    kind, blocks : Oscillator, array
+        The blocks, as `numbered` takes them; `which` has the number of the block of each factor,
+        `steps` its p Δt, and `lifts_of` the factor on the vertical record that goes with it.
+
+    vertical : array or None
+        `record` once more if it is of two records; None if it is of one.
 
     Returns
     -------
@@ -176,8 +258,9 @@ def record_outcomes(
         The first cell that was given up (see `outcome.MAX_STEPS`), or −1.
     """
     w, cells = rows(ROWS), np.full(WIDTH, -1)
-    samples, end = record[0], (record.shape[1] - 1) * step
-    most_steps, bound = MAX_STEPS + 10 * record.shape[1], tolerance * block.slenderness
+    weighs = vertical is not None  # known when this is compiled: one record costs nothing more
+    pieces = record[AT, record.shape[1] - 1] if weighs else record.shape[1] - 1.0
+    most_steps = MAX_STEPS + 10 * record.shape[1]
     coming, last = batch * factors.size // batches, (batch + 1) * factors.size // batches
     lost, vacant = -1, (1 << WIDTH) - 1
     marching, stepping = 0, 0
@@ -189,9 +272,10 @@ def record_outcomes(
             lane, lifted = lowest(vacant), False
             vacant &= vacant - 1
             while coming < last and not lifted:
-                still(w, lane)
-                forcing = record_forcing(record, step, factors[coming])
-                lifted = lifts(w, lane, block, forcing, record, 0.0)
+                own = numbered(kind, blocks, which[coming])
+                forcing = record_forcing(record, steps[coming], factors[coming], lifts_of[coming])
+                begin(w, lane, own, forcing)
+                lifted = lifts(w, lane, own, forcing, record, 0.0)
                 if not lifted:
                     peak[coming], overturned[coming], impacts[coming] = 0.0, False, 0
                 cells[lane] = coming
@@ -203,21 +287,25 @@ def record_outcomes(
                 w[PIECE, lane] = 0.0
         if marching | stepping == 0:
             return lost
-        if v[HALT, 0] != 0.0:
-            return cells[int(v[HALT, 1])]
+        if alone[HALT, 0] != 0.0:
+            return cells[int(alone[HALT, 1])]
+        block = seated(w, kind)
         if stepping == 0 or number(marching) > FEW:
-            passed = march_lanes(w, block, samples, step, bound, marching)
+            passed = march_lanes(w, block, record, weighs, tolerance, marching)
             stepping |= marching & ~passed
             marching = passed
             continue
-        landed, fallen = advance(w, v, block, RECORD_ORDER, tolerance, True, stepping)
-        piece_end, time, taken = (load(w, PIECE) + 1.0) * step, load(w, TIME), load(w, LENGTH)
+        landed, fallen = advance(w, alone, block, RECORD_ORDER, tolerance, True, weighs, stepping)
+        h, time, taken = load(w, TERM + 1), load(w, TIME), load(w, LENGTH)
+        piece_end = edge(record, weighs, load(w, PIECE) + 1.0, h)
         time = select(taken >= load(w, LONGEST), piece_end, time + taken)
         store(w, TIME, time)
         rotation, velocity = finish(w, block, RECORD_ORDER, stepping)
+        if weighs:
+            store(w, GRAVITY, fma(taken, load(w, CHANGE), load(w, GRAVITY)))
         landed = (landed | bits(rotation <= 0.0) & stepping) & ~fallen
-        resting = strike(w, block, landed) if landed else 0
-        over = bits(time >= end) & stepping
+        resting = strike(w, block, weighs, landed) if landed else 0
+        over = bits(time >= pieces * h) & stepping
         outward = bits((rotation > block.slenderness) & (velocity > 0.0)) & stepping
         tired = bits(load(w, STEPS) > most_steps) & stepping
         ended = bits(time >= piece_end) & stepping & ~over
@@ -231,22 +319,23 @@ def record_outcomes(
             lane = lowest(events)
             events &= events - 1
             cell = cells[lane]
-            forcing = record_forcing(record, step, factors[cell])
+            own = numbered(kind, blocks, which[cell])
+            forcing = record_forcing(record, steps[cell], factors[cell], lifts_of[cell])
             fell, highest, count = bool(fallen >> lane & 1), w[PEAK, lane], w[IMPACTS, lane]
             if not fell and over >> lane & 1:
-                tail = free_rocking(block, w[ROTATION, lane], w[VELOCITY, lane])
+                tail = free_rocking(own, w[ROTATION, lane], w[VELOCITY, lane])
                 fell, highest = tail.overturned, max(highest, tail.peak)
                 count += tail.impacts
-            elif not fell and outward >> lane & 1 and overturns(w, lane, block, forcing, record):
+            elif not fell and outward >> lane & 1 and overturns(w, lane, own, forcing, record):
                 fell = True
             elif not fell and tired >> lane & 1:
                 lost = cell if lost < 0 else min(lost, cell)
             elif not fell:
-                if not (resting >> lane & 1 and rests(w, lane, block, forcing, record)):
+                if not (resting >> lane & 1 and rests(w, lane, own, forcing, record)):
                     continue
                 marching &= ~(1 << lane)
                 stepping |= 1 << lane
-                if lifts(w, lane, block, forcing, record, next_tick(w[TIME, lane])):
+                if lifts(w, lane, own, forcing, record, next_tick(w[TIME, lane])):
                     continue
             peak[cell] = math.nan if fell else highest
             overturned[cell], impacts[cell] = fell, count

@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 
 from topheavy import RockingBlock
-from topheavy.kernel import pulse_batch
 from topheavy.kernel.forcing import NO_RECORD, ONE_SINE, SHAPES
-from topheavy.kernel.grid import outcome_of, outcomes_of
-from topheavy.kernel.lanes import WIDTH
-from topheavy.kernel.outcome import HALT, TOLERANCE, working_array
+from topheavy.kernel.grid import LANES, outcome_of, outcomes_of
+from topheavy.kernel.lanes.pulses import pulse_outcomes
+from topheavy.kernel.outcome import HALT, PULSE_ORDER, TOLERANCE, working_array
 from topheavy.kernel.taylor import oscillator
 
 ENDING = sorted(set(SHAPES) - {"harmonic"})
@@ -85,18 +84,18 @@ def test_no_cell_depends_on_the_others():
             np.testing.assert_array_equal(one[i, j], other[0, 0])
 
 
-def filled(v, most_steps=None):
+def filled(workspace):
     """What `pulse_outcomes` returns for a few cells."""
-    block, size = oscillator(RockingBlock(1.0, 0.2, 0.9)), (1, 3 * WIDTH)
+    block, size = oscillator(RockingBlock(1.0, 0.2, 0.9)), (1, 3 * LANES)
     out = (np.empty(size), np.empty(size, dtype=bool), np.empty(size, dtype=np.int64))
     amplitudes = block.level * np.linspace(1.1, 4.0, size[1])[np.newaxis]
-    pairs = (np.array(np.broadcast_to(values, size)) for values in (3.0, amplitudes))
-    given = (block, ONE_SINE, *pairs, NO_RECORD, TOLERANCE)
-    return pulse_batch.pulse_outcomes(v, 0, 1, *given, *out)
+    cells = (np.zeros((1, 1), np.int64), np.full((1, 1), 3.0), amplitudes)
+    given = (block, np.array([block[:5]]), ONE_SINE, *cells, NO_RECORD, PULSE_ORDER, TOLERANCE)
+    return pulse_outcomes(workspace, 0, 1, *given, *out)
 
 
 def test_halt_ends_the_batch():
-    v = working_array()
-    assert filled(v) == -1
-    v[HALT, 0] = 1.0
-    assert filled(v) >= 0
+    workspace = working_array()
+    assert filled(workspace) == -1
+    workspace[HALT, 0] = 1.0
+    assert filled(workspace) >= 0

@@ -1,18 +1,20 @@
-"""Taylor steps with proven events, one history in each lane (see `lanes`).
+"""Taylor steps with proven events, one history in each lane (see `vectors`).
 
-The series is that of `taylor`, the proof that of `outcome.advance`: the signs of Bernstein
+The series is that of `kernel.taylor`, the proof that of `outcome.advance`: the signs of Bernstein
 coefficients. Here they are not counted. Where the coefficients rise first and fall then (or the
 other way round, or do one of the two), so does φ: it has at most one turn, and at most one landing
 that follows from its ends. Halley's iteration finds both. A lane in which that is not so, or in
 which the iteration does not surely converge, takes its step by `proven`, as the scalar kernel does.
 
-The working array `w` has a row for every coefficient and every variable. `order` and `is_straight`
-are constants where these functions are called, so that their loops become straight code.
+The array `w` of a batch has a row for every coefficient and every variable, a float a lane. `alone`
+is the working array of the scalar kernel (`outcome.working_array`), for a lane that is taken alone.
+`order`, `is_straight` and `weighs` are constants where these functions are called, so that their
+loops become straight code.
 """
 
 from topheavy.kernel.bernstein import CONVERT
 from topheavy.kernel.compiled import compiled
-from topheavy.kernel.lanes import (
+from topheavy.kernel.lanes.vectors import (
     absolute,
     among,
     bits,
@@ -28,7 +30,7 @@ from topheavy.kernel.lanes import (
 )
 from topheavy.kernel.outcome import FLAT, HALT, LANDING, POLYNOMIAL, proven
 from topheavy.kernel.rest import LAST_BOUNCE, comes_to_rest
-from topheavy.kernel.taylor import INVERSE
+from topheavy.kernel.taylor import INVERSE, Oscillator
 
 #: The largest order.
 MAX_ORDER = 15
@@ -40,9 +42,17 @@ SIDE, FACTOR, C, D1, CENTRE = range(7 * (MAX_ORDER + 1), 7 * (MAX_ORDER + 1) + 5
 #: τ, the longest step allowed, the step taken; the largest φ so far, and the same or 0 as long as
 #: the rotation is below `rest.LAST_BOUNCE` α; impacts and steps so far.
 TIME, LONGEST, LENGTH, PEAK, ARC, IMPACTS, STEPS = range(CENTRE + 1, CENTRE + 8)
-#: Two rows that a batch may use as it likes, and the number of all.
-OWN = STEPS + 1
-ROWS = OWN + 2
+#: The end of a pulse, and its ω/p; the piece of a record that a lane is at.
+END, FREQUENCY, PIECE = range(STEPS + 1, STEPS + 4)
+#: The block of a lane: α, √r, the level, cos α, sin α, 1/cos α.
+ALPHA, RESTITUTION, LEVEL, COS_ALPHA, SIN_ALPHA, INVERSE_COS = range(PIECE + 1, PIECE + 7)
+#: Gravity G, G', and the factor on the vertical record.
+GRAVITY, CHANGE, LIFT = range(INVERSE_COS + 1, INVERSE_COS + 4)
+#: Of a record with samples h = p Δt apart: hᵏ/k! in the row TERM + k, k from 1 to 7, and 1/h.
+TERM = LIFT
+PER_PIECE = TERM + 8
+#: The number of all rows.
+ROWS = PER_PIECE + 1
 
 #: The steps are this much shorter than the rough power says.
 CAUTION = 0.95
@@ -53,9 +63,35 @@ MOST_BEND = 0.1
 MOST_CORRECTIONS = 5
 
 
+@compiled
+def numbered(kind, blocks, number):
+    """Return a block: its row of `blocks` has α, √r, level, cos α and sin α, `kind` the rest."""
+    row = blocks[number]
+    return Oscillator(row[0], row[1], row[2], row[3], row[4], kind.flat, kind.linearised)
+
+
+@compiled
+def seat(w, lane, block):
+    """Let the lane have this block."""
+    w[ALPHA, lane], w[RESTITUTION, lane], w[LEVEL, lane] = block[:3]
+    w[COS_ALPHA, lane], w[SIN_ALPHA, lane] = block.cosine, block.sine
+    w[INVERSE_COS, lane] = 1.0 / block.cosine
+
+
 @compiled(forceinline=True)
-def expand(w, block, order, is_straight):
-    """Fill `w` with the solution through its first coefficients; see `taylor.expand`."""
+def seated(w, kind):
+    """Return the blocks of all lanes as one `Oscillator` of lanes; `kind` has their equation."""
+    angles = (load(w, COS_ALPHA), load(w, SIN_ALPHA))
+    three = (load(w, ALPHA), load(w, RESTITUTION), load(w, LEVEL))
+    return Oscillator(*three, *angles, kind.flat, kind.linearised)
+
+
+@compiled(forceinline=True)
+def expand(w, block, order, is_straight, weighs):
+    """Fill `w` with the solution through its first coefficients; see `taylor.expand`.
+
+    `weighs` says that gravity changes, under two records; the push of records is straight.
+    """
     if not is_straight:
         c, d1 = load(w, C), load(w, D1)
         d0 = d1 * (load(w, TIME) - load(w, CENTRE))
@@ -67,14 +103,21 @@ def expand(w, block, order, is_straight):
     if block.linearised:
         for n in range(order):  # φ'' = φ + q
             force = load(w, ROTATION + n)
+            if weighs:
+                force = force * load(w, GRAVITY)
+            if weighs and n > 0:
+                force = fma(load(w, CHANGE), load(w, ROTATION + n - 1), force)
             if n < 2 or not is_straight:
                 force = force + load(w, PUSH + n)
             store(w, ROTATION + n + 1, load(w, VELOCITY + n) * INVERSE[n + 1])
             store(w, VELOCITY + n + 1, force * INVERSE[n + 1])
         return
-    inverse_cosine = 1.0 / block.cosine
+    inverse_cosine = load(w, INVERSE_COS)
     first_sine, first_cosine, first_push = load(w, SINE), load(w, COSINE), load(w, PUSH)
     first_velocity, zero = load(w, VELOCITY), load(w, PUSH) * 0.0
+    heavy, heavier = inverse_cosine, zero
+    if weighs:
+        heavy, heavier = inverse_cosine * load(w, GRAVITY), inverse_cosine * load(w, CHANGE)
     for n in range(order):  # the sums wait for their newest terms, which come last
         cosine, sine, force = zero, zero, zero
         for i in range(1, n):
@@ -93,7 +136,9 @@ def expand(w, block, order, is_straight):
         store(w, TILT + n, tilt)
         cosine = fma(first_cosine, velocity_n, cosine)
         sine = fma(first_sine, velocity_n, sine)
-        force = fma(first_push, tilt, fma(sine_n, inverse_cosine, force))  # Eq. (23)
+        force = fma(first_push, tilt, fma(sine_n, heavy, force))  # Eq. (23)
+        if weighs and n > 0:
+            force = fma(load(w, SINE + n - 1), heavier, force)
         store(w, ROTATION + n + 1, velocity_n * INVERSE[n + 1])
         store(w, SINE + n + 1, cosine * INVERSE[n + 1])
         store(w, COSINE + n + 1, sine * -INVERSE[n + 1])
@@ -198,28 +243,28 @@ def landing(w, order, step, final, lands):
 
 
 @compiled
-def step_alone(w, v, lane, order, flat):
+def step_alone(w, alone, lane, order, flat):
     """Take the step of one lane as the scalar kernel does; return its event."""
     step, zeros, power = w[LENGTH, lane], 0, 1.0
     while zeros < 3 and w[ROTATION + zeros, lane] == 0.0:
         zeros += 1
     for k in range(order + 1):
-        v[POLYNOMIAL, k] = w[ROTATION + k, lane] * power
+        alone[POLYNOMIAL, k] = w[ROTATION + k, lane] * power
         power *= step
     # order + 0 hides a constant, for which numba would compile it all anew.
-    end, event, w[ARC, lane] = proven(v, order + 0, zeros, flat, w[ARC, lane])
+    end, event, w[ARC, lane] = proven(alone, order + 0, zeros, flat, w[ARC, lane])
     w[LENGTH, lane] = step * end
-    v[HALT, 1] = lane  # which is to blame if this was too much
+    alone[HALT, 1] = lane  # which is to blame if this was too much
     return event
 
 
 @compiled(forceinline=True)
-def advance(w, v, block, order, tolerance, is_straight, active):
+def advance(w, alone, block, order, tolerance, is_straight, weighs, active):
     """Find the step of each lane, and what ends it; `LENGTH` and `ARC` take it up.
 
     Parameters
     ----------
-    w, v : array
+    w, alone : array
         The working array, and one for a history alone (`outcome.working_array`).
     active : int
         Bits of the lanes that matter.
@@ -229,7 +274,7 @@ def advance(w, v, block, order, tolerance, is_straight, active):
     landed, fallen : int
         Bits of the lanes whose blocks land, and of those whose blocks lie flat, at the end.
     """
-    expand(w, block, order, is_straight)
+    expand(w, block, order, is_straight, weighs)
     step = longest_steps(w, block, order, tolerance)
     low, high, before, final, dips, tops = hull(w, order, step)
     first, arc = load(w, ROTATION), load(w, ARC)
@@ -257,10 +302,10 @@ def advance(w, v, block, order, tolerance, is_straight, active):
     store(w, LENGTH, select(hard, step, length))
     store(w, ARC, select(hard, arc, highest))
     landed, fallen, unsettled = bits(lands & ~hard) & active, 0, bits(hard) & active
-    while unsettled and v[HALT, 0] == 0.0:  # one bit less each time
+    while unsettled and alone[HALT, 0] == 0.0:  # one bit less each time
         lane = lowest(unsettled)
         unsettled &= unsettled - 1
-        event = step_alone(w, v, lane, order, block.flat)
+        event = step_alone(w, alone, lane, order, block.flat)
         landed |= (1 << lane) if event == LANDING else 0
         fallen |= (1 << lane) if event == FLAT else 0
     return landed, fallen
@@ -297,7 +342,7 @@ def finish(w, block, order, active):
 
 
 @compiled(forceinline=True)
-def strike(w, block, landed):
+def strike(w, block, weighs, landed):
     """Let the blocks of these lanes go over to their other side (see `outcome.after_impact`).
 
     Returns
@@ -307,7 +352,11 @@ def strike(w, block, landed):
     """
     struck = among(landed)
     velocity = maximum(-load(w, VELOCITY), 0.0) * block.restitution
-    push, side = -load(w, PUSH) - 2.0 * block.level, load(w, SIDE)
+    both, side, rate = 2.0 * block.level, load(w, SIDE), -load(w, PUSH + 1)
+    if weighs:
+        rate = rate - both * load(w, CHANGE)
+        both = both * load(w, GRAVITY)
+    push = -load(w, PUSH) - both
     low = load(w, ARC) <= LAST_BOUNCE * block.slenderness
     store(w, IMPACTS, load(w, IMPACTS) + select(struck & ~low, 1.0, 0.0))
     store(w, ARC, select(struck, 0.0, load(w, ARC)))
@@ -318,8 +367,8 @@ def strike(w, block, landed):
     store(w, COSINE, select(struck, 1.0, load(w, COSINE)))
     store(w, VELOCITY, select(struck, velocity, load(w, VELOCITY)))
     store(w, PUSH, select(struck, push, load(w, PUSH)))
-    store(w, PUSH + 1, select(struck, -load(w, PUSH + 1), load(w, PUSH + 1)))
-    weakest = minimum(-push, push + 2.0 * block.level)
+    store(w, PUSH + 1, select(struck, rate, load(w, PUSH + 1)))
+    weakest = minimum(-push, push + both)
     energy = weakest * (block.cosine * LAST_BOUNCE * block.slenderness)
     return bits(((weakest > 0.0) & (velocity * velocity <= energy)) | (velocity <= 0.0)) & landed
 
