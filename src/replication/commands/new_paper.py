@@ -38,8 +38,8 @@ LEFT_OUT = ("__pycache__", "template", "kill", "new_paper.py", "kill_table.py", 
 """What of the machine and of the template does not go along."""
 
 ONLY_HERE = (
-    *("heyoka", "hypothesis", "lazy-loader", "llvmlite", "mujoco-core", "numba", "xarray"),
-    "snakemake-executor-plugin-slurm",
+    *("basedpyright", "heyoka", "hypothesis", "lazy-loader", "llvmlite", "mujoco-core", "numba"),
+    *("snakemake-executor-plugin-slurm", "xarray"),
 )
 """Packages that neither the machine nor the example needs."""
 
