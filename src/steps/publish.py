@@ -15,8 +15,6 @@ from steps.explorer_still import still
 
 DOCUMENTS = ("report", "supplement")
 PICTURES = ("vase", "heavier", "peak_maps", "spectra", "structures")
-REVERSALS = "studies/reversals/figures/where.svg"
-"""Where a heavier cap beam prevents and causes overturning."""
 MOVING = "animation.gif"
 PAGE = "explorer.html"
 TABLES = (
@@ -40,42 +38,14 @@ TABLES = (
     "vase_exceptions",
     "vase_shares",
 )
-
-STUDY_TABLES = (
-    "certainty_benefit",
-    "certainty_extensions",
-    "certainty_intensities",
-    "certainty_lowest",
-    "certainty_records",
-    "certainty_restitution",
-    "certainty_theorem",
-    "mechanism_dependence",
-    "mechanism_equivalence",
-    "mechanism_first_impacts",
-    "mechanism_rebounds",
-    "mechanism_records",
-    "mechanism_slides",
-    "mechanism_three_bodies",
-    "mechanism_verdicts",
-    "reversals_areas",
-    "reversals_enough",
-    "reversals_fragility",
-    "reversals_medians",
-    "reversals_pairs",
-    "reversals_records",
-    "reversals_uplift",
-    "reversals_vase_ranks",
-    "reversals_why",
-)
-"""The sources of the studies' findings; too sensitive to the processor to compare runs with."""
+"""Those with which later runs are compared."""
 
 
 def main() -> None:
     results, docs = Path("results"), Path("docs")
-    publish(TABLES, STUDY_TABLES)
+    publish(TABLES)
     for name in PICTURES:
         shutil.copyfile(f"figures/{name}.svg", docs / f"{name}.svg")
-    shutil.copyfile(REVERSALS, docs / "reversals.svg")
     for name in DOCUMENTS:
         shutil.copyfile(f"paper/{name}.pdf", docs / f"{name}.pdf")
     for name in (MOVING, PAGE):

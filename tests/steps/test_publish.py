@@ -217,6 +217,52 @@ def test_table_that_is_gone_is_published_no_more(finished):
     assert [path.name for path in (finished / "tests/reference").glob("*.csv")] == ["new.csv"]
 
 
+@pytest.fixture
+def study(finished):
+    """A study of that run, which publishes a table and a picture."""
+    for path, text in {
+        "results/config.yaml": "studies: [ours]\n",
+        "config/config.yaml": "studies: [ours]\n",
+        "results/tables/ours_new.csv": "x\n2\n",
+        "studies/ours/config.yaml": "{}\n",
+        "studies/ours/claims.yaml": "- {id: ours_b, where: Ours, statement: So, expected: not tested}\n",
+        "studies/ours/edition.yaml": "tables: [ours_new]\npictures: {ours.svg: figures/one.svg}\n",
+        "studies/ours/figures/one.svg": "<svg/>",
+    }.items():
+        (finished / path).parent.mkdir(parents=True, exist_ok=True)
+        (finished / path).write_text(text, encoding="utf-8")
+    return finished
+
+
+def test_study_publishes_what_its_folder_says(study):
+    publish(["new"])
+    made = sorted(path.name for path in (study / "tests/reference/studies").iterdir())
+    assert made == ["ours.yaml", "ours_new.csv"]
+    assert (study / "docs/ours.svg").read_text(encoding="utf-8") == "<svg/>"
+    for name in ("results", "config"):
+        (study / name / "config.yaml").write_text("studies: []\n", encoding="utf-8")
+    publish(["new"])
+    assert list((study / "tests/reference/studies").iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("tables: [ours_old]", r"ours_old.csv does not exist, and studies/ours/edition.yaml names"),
+        (
+            "table: [ours_new]",
+            r"studies/ours/edition.yaml: table is \['ours_new'\]; expected tables",
+        ),
+        ("tables: ours_new", r"studies/ours/edition.yaml: tables is 'ours_new'; expected tables"),
+    ],
+)
+def test_study_that_names_no_table_of_the_run_is_not_published(study, text, said):
+    (study / "studies/ours/edition.yaml").write_text(text, encoding="utf-8")
+    with pytest.raises((SystemExit, ValueError), match=said):
+        publish(["new"])
+    assert not (study / "tests/reference/studies").exists()
+
+
 def test_table_that_the_run_did_not_make_is_not_published(finished):
     with pytest.raises(SystemExit, match=r"tables/old.csv does not exist, and .* names 'old'"):
         publish(["new", "old"])

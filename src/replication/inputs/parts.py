@@ -6,6 +6,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from replication.inputs.strict_yaml import read_yaml
+
 PAPER = ""
 """The name of the part that is the paper."""
 
@@ -55,6 +57,44 @@ class Part:
             return []
         folder = Path("studies", self.name)
         return [f"{folder.as_posix()}/{name}" for name in TEXTS if (folder / name).is_file()]
+
+
+@dataclass(frozen=True)
+class Edition:
+    """What a study adds to the published edition.
+
+    Parameters
+    ----------
+    tables
+        The sources of its findings, by their names in results/tables/.
+    pictures
+        Figures in its folder, by their names in docs/.
+    """
+
+    tables: list[str] = field(default_factory=list)
+    pictures: dict[str, str] = field(default_factory=dict)
+
+
+def edition_of(study: str, root: Path = Path()) -> Edition:
+    """Return what a study adds to the published edition, by its edition.yaml; nothing without one.
+
+    Raises
+    ------
+    ValueError
+        For a key that means nothing, or an entry that is not as `Edition` says.
+    """
+    path = root / "studies" / study / "edition.yaml"
+    if not path.is_file():
+        return Edition()
+    entries = read_yaml(path)
+    kinds = {"tables": list, "pictures": dict}
+    for key, entry in entries.items():
+        if not isinstance(entry, kinds.get(key, ())):
+            raise ValueError(
+                f"studies/{study}/edition.yaml: {key} is {entry!r}; expected tables, a list of "
+                "names in results/tables/, or pictures, files in its folder by their names in docs/"
+            )
+    return Edition(**entries)
 
 
 def drawn_from(script: Path) -> list[str]:

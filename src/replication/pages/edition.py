@@ -9,7 +9,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
-from replication.inputs.parts import PAPER, ledger_of
+from replication.inputs.parts import PAPER, edition_of, ledger_of
 from replication.inputs.strict_yaml import read_yaml
 from replication.judging.claim import Claim, JudgedClaim
 from replication.judging.digits import numbers
@@ -160,18 +160,17 @@ def _shown(value: object, digits: str, unit: str) -> str:
             return f"{digits} {unit}".rstrip()
 
 
-def publish(tables: Iterable[str], study_tables: Iterable[str] = ()) -> None:
+def publish(tables: Iterable[str]) -> None:
     """Copy what every replication publishes of a finished run: `make publish`.
 
     tests/reference/ gets the configs, the tables, the findings, their checksums and the verdicts;
-    docs/ and the README get the pages that show the verdicts.
+    docs/ and the README get the pages that show the verdicts. The edition.yaml of each study names
+    the tables and pictures that it adds.
 
     Parameters
     ----------
     tables
         Those with which later runs are compared.
-    study_tables
-        The sources of the studies' findings. A study that was not part of the run has none.
 
     Raises
     ------
@@ -190,10 +189,14 @@ def publish(tables: Iterable[str], study_tables: Iterable[str] = ()) -> None:
             "expected that of config/config.yaml: make reproduce"
         )
     tables = list(tables)
-    for name in tables:
+    editions = {name: edition_of(name) for name in ours["studies"]}
+    named = dict.fromkeys(tables, "src/steps/publish.py")
+    for study, edition in editions.items():
+        named |= dict.fromkeys(edition.tables, f"studies/{study}/edition.yaml")
+    for name, by in named.items():
         if not (made := results / "tables" / f"{name}.csv").exists():
             sys.exit(
-                f"{made} does not exist, and src/steps/publish.py names {name!r} in TABLES; "
+                f"{made} does not exist, and {by} names {name!r} among its tables; "
                 "expected tables of the run: correct the name, or make reproduce"
             )
     made_by_rules = read_crate().rules
@@ -209,11 +212,13 @@ def publish(tables: Iterable[str], study_tables: Iterable[str] = ()) -> None:
         shutil.copyfile(results / "tables" / f"{name}.csv", reference / f"{name}.csv")
     shutil.rmtree(reference / "studies", ignore_errors=True)  # with those of removed studies
     (reference / "studies").mkdir()
-    for name in ours["studies"]:
-        shutil.copyfile(f"studies/{name}/config.yaml", reference / "studies" / f"{name}.yaml")
-    for name in study_tables:
-        if (made := results / "tables" / f"{name}.csv").exists():
+    for study, edition in editions.items():
+        shutil.copyfile(f"studies/{study}/config.yaml", reference / "studies" / f"{study}.yaml")
+        for name in edition.tables:
+            made = results / "tables" / f"{name}.csv"
             shutil.copyfile(made, reference / "studies" / f"{name}.csv")
+        for name, picture in edition.pictures.items():
+            shutil.copyfile(Path("studies", study, picture), Path("docs", name))
     publish_findings(results / "findings", reference / "findings")
     (reference / CHECKSUMS).write_text(checksums(reference), encoding="utf-8")
     publish_verdicts(read_ledger(map(ledger_of, [PAPER, *ours["studies"]])), Path())

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
 
+from replication.inputs.parts import edition_of
 from replication.workflow.provenance import Job
 from steps import publish
 
@@ -20,7 +21,9 @@ ENDS = {"results/summary.txt", "results/costs.csv", "results/ro-crate-metadata.j
 def unused_outputs(jobs: Iterable[Job]) -> list[str]:
     """The outputs that are no input of another job, not published and not meant for a reader."""
     used = {path for job in jobs if job.rule not in LISTS for path in job.inputs} | ENDS
-    used |= {f"results/tables/{name}.csv" for name in (*publish.TABLES, *publish.STUDY_TABLES)}
+    editions = (edition_of(path.name, ROOT) for path in (ROOT / "studies").iterdir())
+    published = [*publish.TABLES, *(name for edition in editions for name in edition.tables)]
+    used |= {f"results/tables/{name}.csv" for name in published}
     made = (path for job in jobs for path in job.outputs if Path(path).suffix not in READ)
     return sorted(path for path in made if path not in used)
 
