@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import topheavy.shapes
-from replication.configuration import read_schema
-from replication.strict_yaml import read_yaml
+from replication.inputs.configuration import read_schema
+from replication.inputs.strict_yaml import read_yaml
 from steps.explorer import titles
 from topheavy import PULSE_SHAPES, Pulse
 from topheavy.kernel import forcing
