@@ -76,7 +76,7 @@ def definition(name: str, root: str | Path = ".") -> str:
     """Return the full name of the object behind a public name, without importing it.
 
     `lib.simulate` is `lib.simulate.simulate`. A function goes before a module of its
-    name, as in `citations.resolve`.
+    name, as in `citations.resolve`; within a package of its name, a longer name goes on.
 
     Raises
     ------
@@ -85,10 +85,12 @@ def definition(name: str, root: str | Path = ".") -> str:
     """
     module, *parts = name.split(".")
     while parts and _place(module, root).is_dir():
-        if source := _sources(_place(module, root), module).get(parts[0]):
+        inner = f"{module}.{parts[0]}"
+        within = len(parts) > 1 and _place(inner, root).is_dir()  # a package beside its function
+        if not within and (source := _sources(_place(module, root), module).get(parts[0])):
             module = source
         else:
-            module, parts = f"{module}.{parts[0]}", parts[1:]
+            module, parts = inner, parts[1:]
     file = _place(module, root).with_suffix(".py")
     body = ast.parse(file.read_text(encoding="utf-8")).body if file.is_file() else []
     for part in parts:
