@@ -225,7 +225,7 @@ def study(finished):
         "config/config.yaml": "studies: [ours]\n",
         "results/tables/ours_new.csv": "x\n2\n",
         "studies/ours/config.yaml": "{}\n",
-        "studies/ours/claims.yaml": "- {id: ours_b, where: Ours, statement: So, expected: not tested}\n",
+        "studies/ours/claims.yaml": "- {id: b, where: Ours, statement: So, expected: not tested}\n",
         "studies/ours/edition.yaml": "tables: [ours_new]\npictures: {ours.svg: figures/one.svg}\n",
         "studies/ours/figures/one.svg": "<svg/>",
     }.items():
