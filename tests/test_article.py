@@ -51,8 +51,3 @@ def test_printed_bound_is_not_below_the_value_that_it_bounds(tmp_path, value, di
     (tmp_path / "results" / "claims.json").write_text("[]", "utf-8")
     found = typst.query(source, "<bound>", root=tmp_path, field="value")
     assert json.loads(found) == [printed]
-
-
-def test_misfit_of_the_fragility_curves_is_printed_as_a_bound():
-    text = (ROOT / "studies/reversals/section_motions.typ").read_text("utf-8")
-    assert "they pass within\n#at-most(motions.misfit.value, 3) of every computed point" in text

@@ -22,7 +22,7 @@ from replication.workflow.place import check_place
 from replication.workflow.progress import one_line_a_job
 from replication.workflow.stopping import end_on_sigterm
 from replication.inputs.strict_yaml import read_yaml
-from replication.inputs.study_config import read_study_config
+from replication.inputs.study_config import check_needs, read_study_config
 from replication.pages.typeset import reads
 from replication.workflow.unmade import made_by, refuse_unmade
 
@@ -54,6 +54,7 @@ def parts(check):
     studies = {
         name: read_study_config(name, check, over=over) for name in config["studies"]
     }
+    check_needs(studies)
     return {name: Part(name, of) for name, of in {PAPER: config, **studies}.items()}
 
 

@@ -1,5 +1,8 @@
 """What follows from the equation of motion, for which motion, and how surely."""
 
+# The synthetic motions of the study that this one needs.
+ENSEMBLE = case("motions_ensemble", *PARTS["certainty"].config["needs"])
+
 
 rule certainty_theorem:
     output:
@@ -51,7 +54,7 @@ rule certainty_restitution:
         findings="results/findings/certainty_restitution.json",
     params:
         case=case("restitution", "certainty"),
-        ensemble=MOTIONS,
+        ensemble=ENSEMBLE,
     message:
         "Study certainty: how much depends on the impact law"
     script:
@@ -64,7 +67,7 @@ rule certainty_benefit:
         findings="results/findings/certainty_benefit.json",
     params:
         case=case("benefit", "certainty"),
-        ensemble=MOTIONS,
+        ensemble=ENSEMBLE,
     message:
         "Study certainty: the benefit of the cap beam if the column loses more at impacts"
     script:
@@ -77,7 +80,7 @@ rule certainty_intensities:
         findings="results/findings/certainty_intensities.json",
     params:
         case=case("intensities", "certainty"),
-        ensemble=MOTIONS,
+        ensemble=ENSEMBLE,
         structures=named(config["structures"], case("intensities", "certainty")),
     message:
         "Study certainty: probability of overturning at stated intensities"

@@ -97,13 +97,13 @@ def test_page_says_that_a_fault_of_the_print_may_be_ours():
     )
 
 
-OURS = replace(ROW, id="ours", study="reversals", verdict="refuted")
+OURS = replace(ROW, id="ours", study="pendulums", verdict="refuted")
 
 
 def test_paper_and_studies_have_a_table_each():
     paper, study = verdict_page([ROW, OURS]).split("## ")[1:]
     assert paper.startswith("The paper\n")
-    assert study.startswith("The study `reversals`\n")
+    assert study.startswith("The study `pendulums`\n")
     assert "`trilith_size`" in paper
     assert "`ours`" not in paper
     assert "`ours`" in study
@@ -115,7 +115,7 @@ def test_counts_are_of_the_paper_and_of_each_study():
         "| | confirmed | qualified | slip | misprint | refuted | by definition | not tested |"
     )
     assert paper == "| paper | 1 | 0 | 0 | 0 | 0 | 0 | 0 |"
-    assert study == "| study `reversals` | 0 | 0 | 0 | 0 | 2 | 0 | 0 |"
+    assert study == "| study `pendulums` | 0 | 0 | 0 | 0 | 2 | 0 | 0 |"
 
 
 def test_table_of_counts_in_a_page_is_replaced_and_nothing_else():
@@ -225,9 +225,7 @@ def study(finished):
         "config/config.yaml": "studies: [ours]\n",
         "results/tables/ours_new.csv": "x\n2\n",
         "studies/ours/config.yaml": "{}\n",
-        "studies/ours/claims.yaml": (
-            "- {id: ours_b, where: Ours, statement: So, expected: not tested}\n"
-        ),
+        "studies/ours/claims.yaml": "- {id: b, where: Ours, statement: So, expected: not tested}\n",
         "studies/ours/edition.yaml": "tables: [ours_new]\npictures: {ours.svg: figures/one.svg}\n",
         "studies/ours/figures/one.svg": "<svg/>",
     }.items():

@@ -1,6 +1,6 @@
 """Follow-up studies: a folder in studies/ each, with a config of its own."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -47,3 +47,29 @@ def read_study_config(
         paths.insert(0, str(other))
     check(config, " over ".join(paths), str(path.with_name("config.schema.yaml")))
     return config
+
+
+def check_needs(studies: Mapping[str, Mapping[str, Any]]) -> None:
+    """Refuse a study that builds on another one which is not listed before it.
+
+    Parameters
+    ----------
+    studies
+        The config of each study of the run, in the order of the list. Its key `needs`, if any,
+        names the studies on whose settings or results it builds.
+
+    Raises
+    ------
+    ValueError
+        Naming the study, and those that it lacks.
+    """
+    before: list[str] = []
+    for name, config in studies.items():
+        needed = config.get("needs", [])
+        if missing := [other for other in needed if other not in before]:
+            raise ValueError(
+                f"{FOLDER}/{name}/config.yaml: needs has {', '.join(missing)}, and studies of "
+                f"config/config.yaml is [{', '.join(studies)}]; expected {', '.join(needed)} in "
+                f"studies before {name}, or studies without {name}"
+            )
+        before.append(name)

@@ -12,7 +12,7 @@ import yaml
 
 from replication.commands.new_paper import TEMPLATE
 from replication.commands.new_study import LONGEST, create
-from replication.inputs.study_config import read_study_config
+from replication.inputs.study_config import check_needs, read_study_config
 from replication.judging.claim import Claim
 from replication.judging.ledger import read_ledger
 from replication.judging.ledger_check import check_ledger
@@ -212,3 +212,17 @@ def test_study_may_not_reword_a_claim_of_the_paper(tmp_path):
 def test_id_twice_in_one_ledger_is_refused(tmp_path):
     with pytest.raises(ValueError, match="'stable' is given twice"):
         read_ledger(ledgers(tmp_path, [ROW, ROW], [])[:1])
+
+
+def test_study_follows_those_that_it_needs():
+    check_needs({"first": {}, "second": {"needs": ["first"]}, "third": {}})
+    check_needs({"first": {}, "third": {}})
+
+
+@pytest.mark.parametrize("listed", [["second"], ["second", "first"], ["third", "second"]])
+def test_study_without_one_that_it_needs_says_which_is_missing(listed):
+    configs = {"first": {}, "second": {"needs": ["first", "third"]}, "third": {}}
+    lacks = [name for name in ("first", "third") if name not in listed[: listed.index("second")]]
+    said = rf"second/config.yaml: needs has {', '.join(lacks)}, .*expected first, third in studies"
+    with pytest.raises(ValueError, match=said):
+        check_needs({name: configs[name] for name in listed})

@@ -147,7 +147,7 @@ def test_library_yields_what_a_rule_declares_and_no_step():
         ("topheavy.derivation.theorems", "topheavy.derivation.theorems.theorems"),
         ("topheavy.contact_forces", "topheavy.contact_forces.contact_forces"),
         ("topheavy.derivation.contact_forces", "topheavy.derivation.contact.contact_forces"),
-        ("studies.mechanism.steps.verdicts.main", "studies.mechanism.steps.verdicts.main"),
+        ("studies.skeleton.steps.gain.lowest", "studies.skeleton.steps.gain.lowest"),
     ],
 )
 def test_public_name_stands_for_one_definition(name, full):

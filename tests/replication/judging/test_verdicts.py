@@ -182,8 +182,8 @@ def test_tally_names_every_verdict():
         "paper: 3 confirmed, 1 qualified, 0 slips, 2 misprints, 0 refuted, 1 by definition, "
         "1 not tested"
     )
-    assert tally("reversals", VERDICTS) == (
-        "reversals: 1 confirmed, 1 qualified, 1 slip, 1 misprint, 1 refuted, 1 by definition, "
+    assert tally("pendulums", VERDICTS) == (
+        "pendulums: 1 confirmed, 1 qualified, 1 slip, 1 misprint, 1 refuted, 1 by definition, "
         "1 not tested"
     )
 

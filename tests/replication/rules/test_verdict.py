@@ -55,11 +55,11 @@ def test_every_claim_that_came_out_otherwise_is_a_fault_either_way():
 
 
 def test_claims_of_a_study_are_counted_in_a_line_of_their_own():
-    ours = replace(claim("ours", "refuted", "refuted"), study="reversals")
+    ours = replace(claim("ours", "refuted", "refuted"), study="pendulums")
     lines, _ = main([*AS_EXPECTED, ours], compared(), {})
     paper, study = lines.splitlines()
     assert paper.startswith("paper: 2 confirmed, 0 qualified, 0 slips, 1 misprint, 1 refuted, ")
-    assert study.startswith("reversals: 0 confirmed, 0 qualified, 0 slips, 0 misprints, 1 refuted,")
+    assert study.startswith("pendulums: 0 confirmed, 0 qualified, 0 slips, 0 misprints, 1 refuted,")
 
 
 def test_claim_of_a_study_that_came_out_otherwise_is_a_fault():
