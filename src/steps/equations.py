@@ -5,29 +5,34 @@ from dataclasses import asdict
 import pandas as pd
 import sympy as sp
 
-from replication.workbench import run, truth
+from replication.workbench import Finding, run, truth
 from topheavy.derivation import check_printed, theorems
 from topheavy.derivation.motion_proofs import follows_if_a_column_weighs
 
 
 def main() -> tuple[pd.DataFrame, dict]:
-    checks = check_printed()
-    findings = {
+    table = pd.DataFrame([asdict(check) for check in check_printed()])
+    proved = {theorem.id: truth(theorem.holds) for theorem in theorems()}
+    proved["m_c_as_both_columns"] = truth(
+        follows_if_a_column_weighs(sp.Rational(1, 2)),
+        holds_when=follows_if_a_column_weighs(sp.Integer(1)),
+        condition="m_c is the mass of each of the two columns",
+    )
+    return table, findings(table) | proved
+
+
+def findings(equations: pd.DataFrame) -> dict[str, Finding]:
+    """Return whether each equation holds as printed or as meant, from the table of checks."""
+    told = equations.astype(object).where(equations.notna(), None)
+    return {
         check.id: truth(
             check.follows,
             meant_holds=None if check.follows else bool(check.meant_follows and check.fault),
             kind=check.fault or None,
             mended=check.mended or None,
         )
-        for check in checks
+        for check in told.itertuples()
     }
-    findings |= {theorem.id: truth(theorem.holds) for theorem in theorems()}
-    findings["m_c_as_both_columns"] = truth(
-        follows_if_a_column_weighs(sp.Rational(1, 2)),
-        holds_when=follows_if_a_column_weighs(sp.Integer(1)),
-        condition="m_c is the mass of each of the two columns",
-    )
-    return pd.DataFrame([asdict(check) for check in checks]), findings
 
 
 if __name__ == "__main__":

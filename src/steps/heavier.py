@@ -3,8 +3,9 @@
 import math
 
 import numpy as np
+import pandas as pd
 
-from replication.workbench import run, truth
+from replication.workbench import Finding, run, truth
 from topheavy import (
     Column,
     Pulse,
@@ -65,19 +66,26 @@ def main(case: dict, solver: dict) -> tuple[list[dict], list[dict], dict]:
                 "lowest_overturning_high": high,
             }
         )
-    lows = [row["lowest_overturning_low"] for row in summary]
-    highs = [row["lowest_overturning_high"] for row in summary]
-    findings = {
+    table = pd.DataFrame(summary)
+    drawn = findings(table)
+    # narrower than the digits of the table
+    width = (table.lowest_overturning_high - table.lowest_overturning_low).max()
+    survives = drawn["heavier_survives_more"].with_evidence(width_of_brackets=float(width))
+    return histories, summary, drawn | {"heavier_survives_more": survives}
+
+
+def findings(heavier: pd.DataFrame) -> dict[str, Finding]:
+    """Return whether the heavier survive more, from the table of outcomes and brackets."""
+    lows, highs = heavier.lowest_overturning_low, heavier.lowest_overturning_high
+    return {
         "heavier_survives_more": truth(
             all(high < low for high, low in zip(highs, lows[1:], strict=False))
-            and all(row["same_verdict_by_all"] for row in summary),
+            and heavier.same_verdict_by_all.all(),
             lowest_overturning_g=lows,
-            width_of_brackets=max(np.subtract(highs, lows)),
         ),
-        "solitary_column_overturns": truth(summary[0]["outcome"] == "overturned"),
-        "heaviest_survives": truth(summary[-1]["outcome"] != "overturned"),
+        "solitary_column_overturns": truth(heavier.outcome.iloc[0] == "overturned"),
+        "heaviest_survives": truth(heavier.outcome.iloc[-1] != "overturned"),
     }
-    return histories, summary, findings
 
 
 if __name__ == "__main__":

@@ -3,9 +3,10 @@
 import math
 
 import numpy as np
+import pandas as pd
 import sympy as sp
 
-from replication.workbench import run, truth
+from replication.workbench import Finding, run, truth
 from topheavy import Column, RockingBlock, RockingFrame, simulate
 from topheavy.derivation import POSITIVE, potential_energy
 from topheavy.derivation.equilibrium import RECTANGULAR
@@ -84,43 +85,43 @@ def main(case: dict) -> tuple[dict, list[dict], dict]:
         agrees_with_energy(RockingFrame(column, gamma), positive) for gamma in case["mass_ratios"]
     )
     shape = -moment_by_energy(heaviest.mass_ratio, slenderness, positive)[:-1] / solitary[:-1]
-    periods = [row["quarter_period"] for row in rows if not row["linearised"]]
-    degrees_drawn = {row["slenderness_deg"] for row in rows}
-    findings = {
-        "moment_at_uplift": truth(
-            math.isclose(solitary[0], math.sin(slenderness), rel_tol=ROUNDING) and apart < ROUNDING,
-            moment=solitary[0],
-            apart_from_energy=apart,
-        ),
-        "moment_decreases_to_zero": truth(
-            np.all(np.diff(solitary) < 0.0) and abs(solitary[-1]) < ROUNDING, at_alpha=solitary[-1]
-        ),
-        "frame_follows_the_columns_curve": truth(
-            np.ptp(shape) < ROUNDING * shape[0] and apart < ROUNDING,
-            times_as_high=shape[0],
-            apart_from_energy=apart,
-        ),
-        "no_area_enclosed": truth(drift < 1e-8, largest_relative_drift=drift),
-        "period_depends_on_amplitude": truth(
-            all(
-                np.all(
-                    np.diff(
-                        [
-                            row["quarter_period"]
-                            for row in rows
-                            if row["slenderness_deg"] == degrees and not row["linearised"]
-                        ]
-                    )
-                    > 0.0
-                )
-                for degrees in degrees_drawn
+    return (
+        moments,
+        rows,
+        {
+            "moment_at_uplift": truth(
+                math.isclose(solitary[0], math.sin(slenderness), rel_tol=ROUNDING)
+                and apart < ROUNDING,
+                moment=solitary[0],
+                apart_from_energy=apart,
             ),
-            least=min(periods),
-            largest=max(periods),
-            difference_of_routes=max(row["difference_of_routes"] for row in rows),
+            "moment_decreases_to_zero": truth(
+                np.all(np.diff(solitary) < 0.0) and abs(solitary[-1]) < ROUNDING,
+                at_alpha=solitary[-1],
+            ),
+            "frame_follows_the_columns_curve": truth(
+                np.ptp(shape) < ROUNDING * shape[0] and apart < ROUNDING,
+                times_as_high=shape[0],
+                apart_from_energy=apart,
+            ),
+            "no_area_enclosed": truth(drift < 1e-8, largest_relative_drift=drift),
+            **findings(pd.DataFrame(rows)),
+        },
+    )
+
+
+def findings(quarter_period: pd.DataFrame) -> dict[str, Finding]:
+    """Return whether the period grows with the amplitude, from the table of quarter periods."""
+    exact = quarter_period[~quarter_period.linearised]
+    periods = exact.groupby("slenderness_deg").quarter_period
+    return {
+        "period_depends_on_amplitude": truth(
+            all(np.all(np.diff(of_column) > 0.0) for _, of_column in periods),
+            least=exact.quarter_period.min(),
+            largest=exact.quarter_period.max(),
+            difference_of_routes=quarter_period.difference_of_routes.max(),
         ),
     }
-    return moments, rows, findings
 
 
 if __name__ == "__main__":

@@ -18,7 +18,6 @@ import pandas as pd
 from replication.workbench import Finding, Findings
 from steps import redrawn_paper
 from steps.redrawn_paper import OF_PAPER
-from steps.redrawn_studies import OF_STUDIES
 
 DIGITS = {"rel_tol": 1e-6}  # of what is computed from tables of nine digits
 DIGITS_OF_ERROR = {"rel_tol": 0.06}  # errors are published with two digits
@@ -39,7 +38,7 @@ SOURCES: dict[str, Draw] = {
 }
 """What draws findings from published tables, by the name of the rule that made them."""
 
-BY_HAND = {source.__name__: source for source in (*OF_PAPER, *OF_STUDIES)}
+BY_HAND = {source.__name__: source for source in OF_PAPER}
 """Second formulas for the findings of rules whose steps have no such function yet."""
 
 UNDRAWN: dict[str, str] = dict(ChainMap(*(named.UNDRAWN for named in NAMED_BY)))
@@ -119,7 +118,7 @@ def same(found: Any, expected: Any, digits: Mapping[str, float]) -> bool:
         return isinstance(found, Mapping) and all(
             same(found.get(key), value, digits) for key, value in expected.items()
         )
-    if isinstance(expected, list):
+    if isinstance(expected, list | tuple):
         return (
             isinstance(found, list)
             and len(found) == len(expected)

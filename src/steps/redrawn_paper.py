@@ -7,7 +7,16 @@ from typing import Any, TypeAlias
 import numpy as np
 import pandas as pd
 
-from steps import allen_errors, allen_overturning
+from steps import (
+    allen_errors,
+    allen_overturning,
+    equations,
+    heavier,
+    moment_rotation,
+    trilith,
+    trilith_states,
+    uplift_limits,
+)
 
 Table: TypeAlias = Callable[[str], pd.DataFrame]
 Drawn: TypeAlias = Iterator[tuple[str, str, Any]]
@@ -19,30 +28,12 @@ def rises(values: pd.Series) -> bool:
     return bool((np.diff(values) > 0.0).all())
 
 
-def equations(table: Table) -> Drawn:
-    for row in table("equations").itertuples():
-        yield row.id, "holds", bool(row.follows)
-
-
 def mass_ratio(table: Table) -> Drawn:
     rows = table("mass_ratio").set_index("mass_ratio")
     yield "limit_of_frequency_ratio", "value", rows.frequency_ratio[math.inf]
     yield "limit_of_size_ratio", "value", rows.size_ratio[math.inf]
     yield "gain_at_mass_ratio_one", "value", rows.share_of_size_gain[1.0]
     yield "heavier_is_larger", "holds", rises(rows.size_ratio)
-
-
-def heavier(table: Table) -> Drawn:
-    rows = table("heavier")
-    lowest = rows.lowest_overturning_low
-    yield (
-        "heavier_survives_more",
-        "holds",
-        rises(lowest) and bool(rows.same_verdict_by_all.all()),
-    )
-    yield "heavier_survives_more", "lowest_overturning_g", list(lowest)
-    yield "solitary_column_overturns", "holds", rows.outcome.iloc[0] == "overturned"
-    yield "heaviest_survives", "holds", rows.outcome.iloc[-1] != "overturned"
 
 
 def spectra(table: Table) -> Drawn:
@@ -61,36 +52,6 @@ def spectra(table: Table) -> Drawn:
     )
 
 
-def trilith(table: Table) -> Drawn:
-    near = table("trilith_nearness").set_index("quantity")
-    width = near.loc["effective_width_of_columns"]
-    yield "amplitude_to_lift", "value", near.to_lift["amplitude_at_tested_frequency"]
-    yield "frequency_to_lift", "value", near.to_lift["frequency_at_tested_amplitude"]
-    yield "tilt_to_lift", "value", near.to_lift["tilt_of_the_base"]
-    yield "width_to_lift", "value", width.to_lift
-    yield "width_lost_at_each_edge", "value", (width.tested - width.to_lift) / 2.0
-    bracketed = near.other_side_lifts & ~near.safe_side_lifts
-    yield "thresholds_bracketed", "holds", bracketed.all()
-    starts = table("trilith_starts").set_index("share_of_speed")
-    yield "rest_from_rest", "holds", starts.outcome[0.0] == "no uplift"
-    kept = "abrupt_start_keeps_it_rocking"
-    yield kept, "holds", starts.outcome[1.0] == "rocking"
-    yield kept, "steady_peak_over_alpha", starts.late_peak_over_alpha[1.0]
-
-
-def trilith_states(table: Table) -> Drawn:
-    rows, most, one = table("trilith_states"), "most_starts_keep_rocking", "one_steady_rotation"
-    outcomes = {"keep_rocking": "rocking", "come_to_rest": "rests", "overturn": "overturned"}
-    for name, outcome in outcomes.items():
-        yield most, name, (rows.outcome == outcome).sum()
-    share = (rows.outcome == "rocking").mean()
-    yield most, "starts", len(rows)
-    yield most, "holds", share > 0.5 and set(outcomes.values()) == set(rows.outcome)
-    kept = rows[rows.outcome == "rocking"]
-    yield one, "starts", len(kept)
-    yield one, "steady_over_alpha", kept.steady.median()
-
-
 def restitution(table: Table) -> Drawn:
     rows = table("restitution_over_slenderness")
     alone = rows[rows.mass_ratio == 0.0].set_index("slenderness_deg").restitution
@@ -104,44 +65,6 @@ def restitution(table: Table) -> Drawn:
     yield "energy_loss", "cells_that_rock", rocks.sum()
     against = heavy.slenderness_deg[heavy.restitution**2 > solitary**2]
     yield "energy_loss", "least_slenderness_against_deg", against.min()
-
-
-def moment_rotation(table: Table) -> Drawn:
-    rows = table("quarter_period").query("not linearised")
-    columns = rows.groupby("slenderness_deg").quarter_period
-    name = "period_depends_on_amplitude"
-    yield name, "holds", all(rises(periods) for _, periods in columns)
-    yield name, "least", rows.quarter_period.min()
-    yield name, "largest", rows.quarter_period.max()
-
-
-def uplift_limits(table: Table) -> Drawn:
-    slopes = table("uplift_slopes").dropna()
-    yield "slope_by_three_bodies", "frames", len(slopes)
-    ratios = table("uplift_ratios")
-    rigid = ratios[ratios.held == "rigid"]
-    totals = rigid[rigid.force != "bending_moment"]
-    cantilevers = rigid[rigid.top == "pinned"]
-    limited = "uplift_limits_forces"
-    yield limited, "holds", ratios.largest.max() < 1.0
-    yield limited, "holds_when", max(totals.largest.max(), cantilevers.largest.max()) < 1.0
-    for force, rows in totals.groupby("force"):
-        yield limited, f"{force}_least", rows.least.min()
-        yield limited, f"{force}_largest", rows.largest.max()
-    bending, ends = {}, {"least": "min", "largest": "max"}
-    for top, rows in rigid[rigid.force == "bending_moment"].groupby("top"):
-        stand = rows.histories - rows.overturned
-        not_lower = round(float(((1.0 - rows.lower) * stand).sum()))
-        bending[top] = {"histories": int(stand.sum()), "not_lower": not_lower}
-        bending[top] |= {end: float(rows[end].agg(how)) for end, how in ends.items()}
-    yield limited, "bending_moments", bending
-    cells = cantilevers[cantilevers.force == "base_shear"]
-    fell = cells.overturned.sum()
-    for name in (limited, "uplift_is_beneficial"):
-        yield name, "histories", cells.histories.sum()
-        yield name, "overturned", fell
-    yield "uplift_is_beneficial", "holds", fell == 0 and ratios.largest.max() < 1.0
-    yield "uplift_is_beneficial", "holds_when", cells.largest.max() < 1.0
 
 
 def vase(table: Table) -> Drawn:
@@ -177,21 +100,21 @@ def vase(table: Table) -> Drawn:
 
 
 OF_PAPER: tuple[Callable[[Table], Drawn], ...] = (
-    equations,
-    heavier,
     mass_ratio,
-    moment_rotation,
     restitution,
     spectra,
-    trilith,
-    trilith_states,
-    uplift_limits,
     vase,
 )
 
 SOURCES = {
     "allen_errors": allen_errors.findings,
     "allen_overturning": allen_overturning.findings,
+    "equations": equations.findings,
+    "heavier": heavier.findings,
+    "moment_rotation": moment_rotation.findings,
+    "trilith": trilith.findings,
+    "trilith_states": trilith_states.findings,
+    "uplift_limits": uplift_limits.findings,
 }
 """Which functions draw the findings of the paper's rules from their tables."""
 

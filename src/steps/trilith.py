@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
+import pandas as pd
 
 from replication.workbench import Finding, run, truth, value
 from topheavy import Column, RockingFrame, reference, simulate
@@ -191,21 +192,50 @@ def starts(
     usual = shaken(1.0)
     others = (shaken(1.0, tolerance=tightened), shaken(1.0, reference.simulate))
     error = max(np.abs(other.rotation - usual.rotation).max() for other in others) / alpha
+    drawn = of_starts(pd.DataFrame(summary))
     findings = {
-        "rest_from_rest": truth(
-            shaken(0.0).outcome == "no uplift" and not shaken(0.0).rotation.any(),
-            duration=duration,
-        ),
+        "rest_from_rest": drawn["rest_from_rest"].with_evidence(duration=duration),
         "abrupt_start_keeps_it_rocking": truth(
             all(response.outcome == "rocking" for response in (usual, *others)),
             peak_deg=math.degrees(usual.peak_rotation),
             steady_peak_deg=math.degrees(alpha * summary[-1]["late_peak_over_alpha"]),
-            steady_peak_over_alpha=summary[-1]["late_peak_over_alpha"],
+            **drawn["abrupt_start_keeps_it_rocking"],
             error_over_alpha=error,
         ),
         "least_share_that_keeps_rocking": value((low + high) / 2.0, (high - low) / 2.0),
     }
     return summary, histories, findings
+
+
+def of_starts(starts: pd.DataFrame) -> dict[str, Any]:
+    """Return what the least and the most abrupt start come to, from the table of starts."""
+    rest, abrupt = starts.iloc[0], starts.iloc[-1]
+    return {
+        "rest_from_rest": truth(rest.outcome == "no uplift" and rest.peak_over_alpha == 0.0),
+        "abrupt_start_keeps_it_rocking": {"steady_peak_over_alpha": abrupt.late_peak_over_alpha},
+    }
+
+
+def findings(trilith_nearness: pd.DataFrame, trilith_starts: pd.DataFrame) -> dict[str, Any]:
+    """Return how near the test was to uplift; the dimensions and √r are in no table."""
+    return of_starts(trilith_starts) | of_nearness(trilith_nearness)
+
+
+def of_nearness(near: pd.DataFrame) -> dict[str, Finding]:
+    """Return what would have lifted it, from the table of thresholds."""
+    to_lift = near.set_index("quantity").to_lift
+    amplitude = to_lift["amplitude_at_tested_frequency"]
+    frequency = to_lift["frequency_at_tested_amplitude"]
+    width, tilt = to_lift["effective_width_of_columns"], to_lift["tilt_of_the_base"]
+    tested = near.set_index("quantity").tested["effective_width_of_columns"]
+    return {
+        "thresholds_bracketed": truth((near.other_side_lifts & ~near.safe_side_lifts).all()),
+        "amplitude_to_lift": value(amplitude, amplitude * STEP_ASIDE, "mm"),
+        "frequency_to_lift": value(frequency, frequency * STEP_ASIDE, "Hz"),
+        "width_to_lift": value(width, width * STEP_ASIDE, "mm"),
+        "width_lost_at_each_edge": value((tested - width) / 2.0, width * STEP_ASIDE, "mm"),
+        "tilt_to_lift": value(tilt, tilt * STEP_ASIDE, "°"),
+    }
 
 
 def main(
@@ -215,18 +245,8 @@ def main(
     findings = passage(frame, case, printed)
     near = nearness(frame, case)
     summary, histories, started = starts(frame, case, tightened)
-    width = near[2]
     findings |= started | {
-        "thresholds_bracketed": truth(
-            all(row["other_side_lifts"] and not row["safe_side_lifts"] for row in near)
-        ),
-        "amplitude_to_lift": value(near[0]["to_lift"], near[0]["to_lift"] * STEP_ASIDE, "mm"),
-        "frequency_to_lift": value(near[1]["to_lift"], near[1]["to_lift"] * STEP_ASIDE, "Hz"),
-        "width_to_lift": value(width["to_lift"], width["to_lift"] * STEP_ASIDE, "mm"),
-        "width_lost_at_each_edge": value(
-            (width["tested"] - width["to_lift"]) / 2.0, width["to_lift"] * STEP_ASIDE, "mm"
-        ),
-        "tilt_to_lift": value(near[3]["to_lift"], near[3]["to_lift"] * STEP_ASIDE, "°"),
+        **of_nearness(pd.DataFrame(near)),
         "contact_anomalies": anomalies(frame, case, near),
         "acceleration_over_uplift": value(
             table_acceleration(case["table_amplitude"], case["table_frequency"])

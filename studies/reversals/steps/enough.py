@@ -5,7 +5,7 @@ import math
 import pandas as pd
 from scipy.optimize import brentq
 
-from replication.workbench import run, truth, value
+from replication.workbench import Finding, run, truth, value
 from steps.spectra_compared import Place, Spectra
 from steps.spectrum import progress, search
 
@@ -77,9 +77,16 @@ def median(rows: pd.DataFrame, ratios: list[float]) -> tuple[float, float]:
 def main(case: dict, table: pd.DataFrame) -> tuple[pd.DataFrame, dict]:
     spectra = Spectra(case, table).coarser(case["every"])
     found, without_end = solve(spectra, case["shares"])
-    medians, rows = {}, []
+    drawn = findings(found)
+    return found, drawn | {"enough": drawn["enough"].with_evidence(without_end=without_end)}
+
+
+def findings(reversals_enough: pd.DataFrame) -> dict[str, Finding]:
+    """Return the γ that bring shares of the possible increase, from the table of places."""
+    found, medians, rows = reversals_enough, {}, []
+    ratios = sorted(found.frequency_ratio.unique())
     for share, of in found.groupby("share"):
-        medians[f"amplitude_at_{100 * share:.0f}_percent"] = value(*median(of, spectra.ratios))
+        medians[f"amplitude_at_{100 * share:.0f}_percent"] = value(*median(of, ratios))
         rows.append(
             {
                 "share": share,
@@ -92,12 +99,11 @@ def main(case: dict, table: pd.DataFrame) -> tuple[pd.DataFrame, dict]:
             }
         )
     gains = found[found.share == found.share.min()].gain
-    findings = {
+    return {
         **medians,
-        "enough": truth(True, shares=rows, places=len(gains), without_end=without_end),
+        "enough": truth(True, shares=rows, places=len(gains)),
         "gain": truth(bool((gains > 0.0).all()), median=gains.median(), largest=gains.max()),
     }
-    return found, findings
 
 
 if __name__ == "__main__":

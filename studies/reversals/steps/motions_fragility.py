@@ -270,29 +270,40 @@ def main(case: dict, structures: dict, paths: list[str]) -> tuple[dict[str, pd.D
         shares += shares_of_gain(ensemble, medians, case["shares_of_gain"])
         print(ensemble.labels, ensemble.motions, "motions", flush=True)
     tables = {name: pd.concat(parts) for name, parts in tables.items()}
-    pair, less, curve = tables["pairs"], pd.concat(order), tables["fragility"]
-    findings = {
-        "fragility_never_rises": never_rises(less, case["largest_rise"]),
+    drawn = findings(tables["pairs"], tables["fragility"])
+    safer = drawn["heavier_is_safer"]
+    return tables, {
+        "fragility_never_rises": never_rises(pd.concat(order), case["largest_rise"]),
         "heavier_is_safer": truth(
-            not pair.only_heavier.any(),
-            levels=case["intensities"]["points"],
-            cells=int(pair.cells.sum()),
-            least_reversed=float(pair.reversed.min()),
-            most_reversed=float(pair.reversed.max()),
+            safer.pop("holds"), levels=case["intensities"]["points"], **safer
         ),
-        "probability_is_lower": truth(
-            (pair.reversed_high < 0.5).all(), largest_upper_end=float(pair.reversed_high.max())
-        ),
+        "probability_is_lower": drawn["probability_is_lower"],
         "gain_is_that_of_size": truth(
             all(row["excess_low"] <= 0.0 <= row["excess_high"] for row in beyond), beyond=beyond
         ),
-        "misfit": value((curve.probability - curve.fitted).abs().max(), 0.0),
+        "misfit": drawn["misfit"],
         "half_by_one": truth(
             all(row["mass_ratio_high"] < 1.0 for row in shares if row["share"] == 0.5),
             shares=shares,
         ),
     }
-    return tables, findings
+
+
+def findings(reversals_pairs: pd.DataFrame, reversals_fragility: pd.DataFrame) -> dict:
+    """Return what the tables say of pairs and curves; other intervals are of resamples."""
+    pair, curve = reversals_pairs, reversals_fragility
+    return {
+        "heavier_is_safer": {
+            "holds": not pair.only_heavier.any(),
+            "cells": int(pair.cells.sum()),
+            "least_reversed": float(pair.reversed.min()),
+            "most_reversed": float(pair.reversed.max()),
+        },
+        "probability_is_lower": truth(
+            (pair.reversed_high < 0.5).all(), largest_upper_end=float(pair.reversed_high.max())
+        ),
+        "misfit": value((curve.probability - curve.fitted).abs().max(), 0.0),
+    }
 
 
 def work(job: Any) -> tuple:

@@ -98,25 +98,37 @@ def main(case: dict, paths: list[str], tightened: float) -> tuple[pd.DataFrame, 
     found = (row(*run, ratios, tightened) for run in runs)
     table = pd.DataFrame(progress(found, len(runs), "structures under a record"))
     counts = compare(table, case["mass_ratios"])
-    told = read(table.outcomes) != UNTOLD
-    findings = {
-        "heavier_is_safer": truth(
-            not counts.only_heavier.any(),
-            highest=case["factors"]["highest"],
-            compared=int(counts.told.sum()),
-            only_lighter=int(counts.only_lighter.sum()),
-            only_heavier=int(counts.only_heavier.sum()),
-            records_with_counterexamples=int(
+    highest = case["factors"]["highest"]
+    checked = second_route(table, records, ratios, case["checked_by_second_route"])
+    drawn = findings(table)
+    safer = drawn.pop("heavier_is_safer")
+    heavier_is_safer = truth(safer.pop("holds"), highest=highest, **safer)
+    return (
+        table,
+        counts,
+        {"heavier_is_safer": heavier_is_safer, **drawn, "second_route": checked},
+    )
+
+
+def findings(reversals_records: pd.DataFrame) -> dict[str, Any]:
+    """Return how often the heavier of two frames falls alone, from the table of outcomes."""
+    counts = compare(reversals_records, list(reversals_records.mass_ratio.unique()))
+    told = read(reversals_records.outcomes) != UNTOLD
+    return {
+        "heavier_is_safer": {
+            "holds": not counts.only_heavier.any(),
+            "compared": int(counts.told.sum()),
+            "only_lighter": int(counts.only_lighter.sum()),
+            "only_heavier": int(counts.only_heavier.sum()),
+            "records_with_counterexamples": int(
                 (counts.groupby("record").only_heavier.sum() > 0).sum()
             ),
-        ),
+        },
         "fewer_reversals": truth((counts.only_heavier < counts.only_lighter).all()),
         "cells_that_can_be_told": truth(
             told.all(), histories=told.size, not_told=int((~told).sum())
         ),
-        "second_route": second_route(table, records, ratios, case["checked_by_second_route"]),
     }
-    return table, counts, findings
 
 
 def work(job: Any) -> Any:

@@ -137,13 +137,22 @@ def main(case: dict, ensemble: dict, tightened: float) -> tuple:
         tables.append(table)
         ranks += rank
     ranking = pd.DataFrame(ranks)
+    drawn = findings(ranking)
+    lowers = "fixed_mass_lowers_the_capacity"
+    drawn[lowers] = drawn[lowers].with_evidence(motions=int(fell.shape[0]))
+    checked = second_route(*zip(*cells, strict=True), tightened)
+    return pd.concat(tables), ranking, drawn | {"vase_second_route": checked}
+
+
+def findings(reversals_vase_ranks: pd.DataFrame) -> dict[str, Finding]:
+    """Return how the capacities of fixed mass and frame rank, from the table of ranks."""
+    ranking = reversals_vase_ranks
     fixed, free = (ranking[ranking.structure == name] for name in ("fixed", "free"))
-    findings = {
+    return {
         "fixed_mass_lowers_the_capacity": truth(
             (fixed.over_bare_high < 1.0).all(),
             largest=fixed.over_bare.max(),
             least=fixed.over_bare.min(),
-            motions=int(fell.shape[0]),
         ),
         "free_mass_raises_the_capacity": truth(
             (free.over_bare_low > 1.0).all(),
@@ -157,9 +166,7 @@ def main(case: dict, ensemble: dict, tightened: float) -> tuple:
             fixed_later=fixed.later.max(),
             free_sooner=free.sooner.max(),
         ),
-        "vase_second_route": second_route(*zip(*cells, strict=True), tightened),
     }
-    return pd.concat(tables), ranking, findings
 
 
 def work(job: Any) -> tuple:

@@ -191,7 +191,7 @@ def linear_twin(case: dict, found: tuple) -> tuple[Spectra, tuple]:
     return spectra, spectra.counterexample([(light, heavy)], linearised=True)
 
 
-def apart_findings(case: dict, changes: dict[str, Spectra], why: pd.DataFrame) -> dict:
+def apart_findings(why: pd.DataFrame) -> dict[str, Finding]:
     """What p̂ alone, √r alone and both do, over the spectra of each."""
     ends = why[why.heavier == finite(MASSLESS)]
     shares = {
@@ -199,20 +199,17 @@ def apart_findings(case: dict, changes: dict[str, Spectra], why: pd.DataFrame) -
         for change in CHANGES
         for name in SHARES.values()
     }
-    lowest = {change: lowest_apart(changes[change], case["separated"]) for change in CHANGES[1:]}
     return {
         "apart": truth(True, **shares),
         **causes({change: shares[f"{change}_harms"][0] for change in CHANGES}),
-        "lowest_rises_apart": truth(all(found.holds for found in lowest.values()), **lowest),
     }
 
 
-def extent(bands: pd.DataFrame, shares: pd.DataFrame) -> dict:
-    """How much of the maps is reversed, for which pairs and where."""
+def extent(shares: pd.DataFrame) -> dict[str, Finding]:
+    """How much of the maps is reversed, and for which pairs."""
     ends = shares[(shares.lighter == COLUMN) & (shares.heavier == finite(MASSLESS))]
     worst = shares.loc[shares.harms.idxmax()]
     pairs = shares.groupby(["lighter", "heavier"], sort=False)
-    shapes = bands.groupby("shape", sort=False)
     return {
         "helps": value(*mean(ends, "helps")),
         "harms": value(*mean(ends, "harms")),
@@ -229,14 +226,12 @@ def extent(bands: pd.DataFrame, shares: pd.DataFrame) -> dict:
                 for (light, heavy), rows in pairs
             ],
         ),
-        "where": truth(
-            True,
-            shapes=[
-                {"shape": shape, **dict(zip(("from", "to"), _middle(rows), strict=True))}
-                for shape, rows in shapes
-            ],
-        ),
     }
+
+
+def findings(reversals_areas: pd.DataFrame, reversals_why: pd.DataFrame) -> dict[str, Finding]:
+    """Return what shares of the maps say; bands and minima are in the spectra."""
+    return extent(reversals_areas) | apart_findings(reversals_why)
 
 
 def main(case: dict, solver: dict, table: pd.DataFrame) -> tuple[dict[str, pd.DataFrame], dict]:
@@ -247,12 +242,14 @@ def main(case: dict, solver: dict, table: pd.DataFrame) -> tuple[dict[str, pd.Da
     changes = {change: Spectra(case, apart(table, change)) for change in CHANGES}
     separated = [(COLUMN, gamma) for gamma in case["separated"]]
     why = pd.concat(areas(changes[change], separated).assign(change=change) for change in CHANGES)
-    rises, found = spectra.lowest_rises(), spectra.counterexample(pairs)
-    exact, histories = confirmed(spectra, found, solver["tightened"])
-    twin, linear_histories = confirmed(*linear_twin(case, found), solver["tightened"])
+    rises, reversed_at = spectra.lowest_rises(), spectra.counterexample(pairs)
+    exact, histories = confirmed(spectra, reversed_at, solver["tightened"])
+    twin, linear_histories = confirmed(*linear_twin(case, reversed_at), solver["tightened"])
     step = case["amplitudes"]["resolution"]
     span = case["amplitudes"]["highest"] - case["amplitudes"]["lowest"]
-    findings = {
+    lowest = {change: lowest_apart(changes[change], case["separated"]) for change in CHANGES[1:]}
+    drawn = findings(shares, why)
+    found = {
         "heavier_is_more_stable": truth(
             bands.empty,
             holds_when=rises.holds,
@@ -263,8 +260,16 @@ def main(case: dict, solver: dict, table: pd.DataFrame) -> tuple[dict[str, pd.Da
         "lowest_amplitude_rises": rises.with_evidence(widest_missed=step),
         "never_without_impact": without_impact(spectra, pairs),
         "at_every_pair": at_every_pair(bands, pairs),
-        **extent(bands, shares),
-        **apart_findings(case, changes, why),
+        **{name: drawn.pop(name) for name in ("helps", "harms", "most_harm", "pairs")},
+        "where": truth(
+            True,
+            shapes=[
+                {"shape": shape, **dict(zip(("from", "to"), _middle(rows), strict=True))}
+                for shape, rows in bands.groupby("shape", sort=False)
+            ],
+        ),
+        **drawn,
+        "lowest_rises_apart": truth(all(one.holds for one in lowest.values()), **lowest),
         "sample_agrees": sample(spectra, bands, case["sample"], solver["tightened"]),
         # the uniform searches alone, without the halving of every boundary
         "simulations_at_least": value(len(lines(case)) * (math.ceil(span / step) + 1), 0.0),
@@ -281,7 +286,7 @@ def main(case: dict, solver: dict, table: pd.DataFrame) -> tuple[dict[str, pd.Da
         "drawn": maps,
         "histories": pd.concat([histories, linear_histories]),
     }
-    return tables, findings
+    return tables, found
 
 
 def _middle(bands: pd.DataFrame) -> np.ndarray:
