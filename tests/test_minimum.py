@@ -242,7 +242,11 @@ def test_search_never_speaks_of_convergence():
         ({"floor": 0.0}, "floor is 0; expected more than zero"),
         ({"floor": math.nan}, "floor is nan"),
         ({"floor": "fine"}, "floor is 'fine'; expected a number"),
-        ({"floor": 1e-11}, "floor is 1e-11; expected at least 3e-10, 1e-10 of the last factor"),
+        (
+            # from a factor that overturns, so that no search without end would follow
+            {"floor": 1e-11, "scale_range": (4.5, 8.0)},
+            "floor is 1e-11; expected at least 8e-10, 1e-10 of the last factor",
+        ),
         ({"structure": 3}, "structure is 3; expected a Column, a RockingFrame"),
         ({"excitation": 3}, "excitation is 3; expected a Pulse or a Record"),
         ({"excitation": None}, "excitation is None; expected a Pulse or a Record"),

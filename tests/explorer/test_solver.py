@@ -15,6 +15,7 @@ from topheavy import (
     RockingFrame,
     contact_forces,
     overturning_map,
+    overturning_map_of_record,
     simulate,
 )
 from topheavy.contact_forces import column_forces
@@ -157,6 +158,37 @@ def test_spectrum_is_the_map_of_the_library(browser, shape):
     fell = np.where(ours.impacts > 0, 2, 3)
     expected = np.where(ours.overturned, fell, np.where(ours.peak_rotation > 0.0, 1, 0)).T.ravel()
     assert set(codes) == {0, 1, 2, 3}
+    np.testing.assert_array_equal(codes, expected)
+
+
+def test_spectrum_of_a_record_is_the_map_of_the_library(browser, records):
+    """Over the size R of the column, all lengths in proportion, and the record's peak."""
+    browser.open(settled=False)
+    (name, record), *_ = records.items()
+    columns, rows = 24, 18
+    codes = browser.do(
+        """(() => {
+          GRIDS.record = [{1}, {2}];
+          let last;
+          spectrum({...DEFAULTS, shape: "record", record: {0}}, files.get({0}), part => {
+            last = part.codes;
+          });
+          return [...last];
+        })()""",
+        name,
+        columns,
+        rows,
+    )
+    column = Column(0.5, 3.0)
+    ours = overturning_map_of_record(
+        RockingFrame(column, 1.0),
+        record,
+        0.5 * 40.0 ** ((np.arange(columns) + 0.5) / columns),
+        0.93 * (12.0 / 0.93) ** ((np.arange(rows) + 0.5) / rows) * column.uplift_acceleration,
+    )
+    fell = np.where(ours.impacts > 0, 2, 3)
+    expected = np.where(ours.overturned, fell, np.where(ours.peak_rotation > 0.0, 1, 0)).T.ravel()
+    assert set(codes) >= {0, 1, 2}
     np.testing.assert_array_equal(codes, expected)
 
 

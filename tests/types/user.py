@@ -18,10 +18,12 @@ from topheavy import (
     RockingFrame,
     frame_forces,
     judge,
+    lowest_overturning,
     minimum_overturning,
     overturned_by,
     overturning_intervals,
     overturning_map,
+    overturning_map_of_record,
     read_record,
     simulate,
 )
@@ -45,6 +47,9 @@ for motion in (pulse, shaking, measured.scaled(1.5)):
     assert_type(overturned_by(pier, motion, [1.0, 2.0]).any(), np.bool_)
     lowest = minimum_overturning(pier, motion, (0, 5), resolution=0.5)
     assert_type(lowest, tuple[float, float] | None)
+    honest = lowest_overturning(bent, motion, (0, 5), floor=0.5)
+    assert_type(honest.acceleration, float)
+    print(honest)
 
 for structure in (pier, bent, block, block.linear()):
     response = simulate(structure, pulse, duration=2, samples=[0.0, 0.5, 1.0])
@@ -59,6 +64,8 @@ assert_type(quarter_period(pier, 0.01), tuple[float, float])
 
 spectrum = overturning_map(bent, "one-cosine", np.linspace(1.0, 4.0, 3), [0.5, 1.0])
 print(spectrum.sizes["amplitude"], spectrum["overturned"].to_numpy().sum())
+by_size = overturning_map_of_record(bent, measured, [2.0, 5.0], np.linspace(0.2, 1.0, 3))
+print(by_size["overturned"].to_numpy().sum())
 for interval in overturning_intervals(bent, pulse, (0.0, 2.0), resolution=0.5):
     print(interval.lower[0], interval.impacts)
 cap = Cap(span=6.0, half_depth=0.5)
