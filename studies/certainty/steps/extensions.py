@@ -159,7 +159,7 @@ def main(case: dict, records: dict[str, Record]) -> tuple[pd.DataFrame, dict]:
 
 
 def findings(certainty_extensions: pd.DataFrame) -> dict[str, Any]:
-    """Return what the histories say; the agreement that is asked for is in the config."""
+    """Return what the histories say; the agreement required is in the config."""
     table = certainty_extensions
     change = (table.peak / table.peak_without_vertical - 1.0).abs()
     return {
