@@ -34,7 +34,7 @@ def main(root: Path = Path()) -> tuple[list[str], list[str]]:
     reference = root / "tests" / "reference"
     rules = [path.stem for path in (reference / "findings").glob("*.json")]
     lines += [
-        f"{rule}: these findings are as published; src/steps/redrawn.py draws none from a table"
+        f"{rule}: these findings are as published; no redrawn.py draws them from a table"
         for rule in unlisted(rules, published_studies(reference))[1]
     ]
     return lines, faults

@@ -15,7 +15,6 @@ from steps import (
     moment_rotation,
     trilith,
     trilith_states,
-    uplift_limits,
 )
 
 Table: TypeAlias = Callable[[str], pd.DataFrame]
@@ -67,6 +66,35 @@ def restitution(table: Table) -> Drawn:
     yield "energy_loss", "least_slenderness_against_deg", against.min()
 
 
+def uplift_limits(table: Table) -> Drawn:
+    slopes = table("uplift_slopes").dropna()
+    yield "slope_by_three_bodies", "frames", len(slopes)
+    ratios = table("uplift_ratios")
+    rigid = ratios[ratios.held == "rigid"]
+    totals = rigid[rigid.force != "bending_moment"]
+    cantilevers = rigid[rigid.top == "pinned"]
+    limited = "uplift_limits_forces"
+    yield limited, "holds", ratios.largest.max() < 1.0
+    yield limited, "holds_when", max(totals.largest.max(), cantilevers.largest.max()) < 1.0
+    for force, rows in totals.groupby("force"):
+        yield limited, f"{force}_least", rows.least.min()
+        yield limited, f"{force}_largest", rows.largest.max()
+    bending, ends = {}, {"least": "min", "largest": "max"}
+    for top, rows in rigid[rigid.force == "bending_moment"].groupby("top"):
+        stand = rows.histories - rows.overturned
+        not_lower = round(float(((1.0 - rows.lower) * stand).sum()))
+        bending[top] = {"histories": int(stand.sum()), "not_lower": not_lower}
+        bending[top] |= {end: float(rows[end].agg(how)) for end, how in ends.items()}
+    yield limited, "bending_moments", bending
+    cells = cantilevers[cantilevers.force == "base_shear"]
+    fell = cells.overturned.sum()
+    for name in (limited, "uplift_is_beneficial"):
+        yield name, "histories", cells.histories.sum()
+        yield name, "overturned", fell
+    yield "uplift_is_beneficial", "holds", fell == 0 and ratios.largest.max() < 1.0
+    yield "uplift_is_beneficial", "holds_when", cells.largest.max() < 1.0
+
+
 def vase(table: Table) -> Drawn:
     broken = table("vase_exceptions")
     asked = {"fixed_mass_always_lowers": ["fixed"], "frame_always_raises": ["free"]}
@@ -103,6 +131,7 @@ OF_PAPER: tuple[Callable[[Table], Drawn], ...] = (
     mass_ratio,
     restitution,
     spectra,
+    uplift_limits,
     vase,
 )
 
@@ -114,7 +143,6 @@ SOURCES = {
     "moment_rotation": moment_rotation.findings,
     "trilith": trilith.findings,
     "trilith_states": trilith_states.findings,
-    "uplift_limits": uplift_limits.findings,
 }
 """Which functions draw the findings of the paper's rules from their tables."""
 

@@ -260,21 +260,33 @@ def main(case: dict, paths: list[str]) -> tuple:
     ratios, of_slope = summary(table, case), slopes(case)
     stands = table[table.outcome != "overturned"]
     over_uplift = stands.base_shear / stands.shear_after_uplift
-    bodies, drawn = of_slope.dropna(), findings(ratios, of_slope)
-    limits, beneficial = drawn["uplift_limits_forces"], drawn["uplift_is_beneficial"]
-    found = {
+    rigid = ratios[ratios.held == RIGID]
+    totals = rigid[rigid.force != "bending_moment"]
+    cantilevers = rigid[rigid.top == PINNED]
+    bodies = of_slope.dropna()
+    fell = int((table.outcome == "overturned").sum())
+    counted = {"histories": len(table), "overturned": fell}
+    findings = {
         "slope_by_three_bodies": truth(
             len(bodies) > 0
             and np.allclose(bodies.slope, bodies.three_bodies, rtol=0.0, atol=ROUNDING),
             largest_apart=float((bodies.slope - bodies.three_bodies).abs().max()),
-            **drawn["slope_by_three_bodies"],
+            frames=len(bodies),
         ),
         "uplift_limits_forces": truth(
-            limits.pop("holds"),
-            holds_when=limits.pop("holds_when"),
+            ratios.largest.max() < 1.0,
+            holds_when=max(totals.largest.max(), cantilevers.largest.max()) < 1.0,
             condition="the frame survives, and the held one is rigid; for the bending moments, the "
             "columns of the held one are pinned at their tops",
-            **limits,
+            **counted,
+            **{
+                f"{name}_{end}": totals[totals.force == name][end].agg(
+                    {"least": "min", "largest": "max"}[end]
+                )
+                for name in FORCES
+                if name != "bending_moment"
+                for end in ("least", "largest")
+            },
             bending_moments={
                 top: bending(stands[ratio_of("bending_moment", top, RIGID)].dropna())
                 for top in (PINNED, GUIDED)
@@ -285,10 +297,10 @@ def main(case: dict, paths: list[str]) -> tuple:
             ),
         ),
         "uplift_is_beneficial": truth(
-            beneficial.pop("holds"),
-            holds_when=beneficial.pop("holds_when"),
+            fell == 0 and ratios.largest.max() < 1.0,
+            holds_when=totals[totals.force == "base_shear"].largest.max() < 1.0,
             condition="the frame survives; of the base shear, beside a rigid frame",
-            **beneficial,
+            **counted,
             largest_rotation_over_alpha=stands.rotation.max(),
             largest_impulse=stands.impulse.max(),
         ),
@@ -297,38 +309,7 @@ def main(case: dict, paths: list[str]) -> tuple:
         ),
         "forces_by_second_routes": second_route(table, frames, cap, case, tried),
     }
-    return table, ratios, of_slope, found
-
-
-def findings(uplift_ratios: pd.DataFrame, uplift_slopes: pd.DataFrame) -> dict[str, dict[str, Any]]:
-    """Return what uplift limits; single ratios and periods of held frames are not published."""
-    rigid = uplift_ratios[uplift_ratios.held == RIGID]
-    totals = rigid[rigid.force != "bending_moment"]
-    cantilevers = rigid[rigid.top == PINNED]
-    one = cantilevers[cantilevers.force == "base_shear"]
-    limited = uplift_ratios.largest.max() < 1.0
-    counted = {"histories": int(one.histories.sum()), "overturned": int(one.overturned.sum())}
-    return {
-        "slope_by_three_bodies": {"frames": len(uplift_slopes.dropna())},
-        "uplift_limits_forces": {
-            "holds": limited,
-            "holds_when": max(totals.largest.max(), cantilevers.largest.max()) < 1.0,
-            **counted,
-            **{
-                f"{name}_{end}": totals[totals.force == name][end].agg(
-                    {"least": "min", "largest": "max"}[end]
-                )
-                for name in FORCES
-                if name != "bending_moment"
-                for end in ("least", "largest")
-            },
-        },
-        "uplift_is_beneficial": {
-            "holds": counted["overturned"] == 0 and limited,
-            "holds_when": totals[totals.force == "base_shear"].largest.max() < 1.0,
-            **counted,
-        },
-    }
+    return table, ratios, of_slope, findings
 
 
 def bending(ratio: pd.Series) -> dict[str, float]:

@@ -27,6 +27,9 @@ def outer():
     return plain(1)
 
 
+def findings():
+    return plain(1)
+
 def _hidden():
     return 0
 
@@ -76,6 +79,7 @@ def calls(module, act) -> set[str]:
         (lambda m: None, set()),
         (lambda m: m.plain(1), {"plain"}),
         (lambda m: m.outer(), {"outer", "plain"}),
+        (lambda m: m.findings(), {"plain"}),
         (lambda m: m._hidden(), set()),
         (lambda m: m.cached(), {"cached"}),
         (lambda m: m.Thing(), {"Thing"}),
