@@ -1,11 +1,14 @@
 """Every number in the README's findings is one that the workflow published."""
 
+import json
 import re
+import shutil
 from pathlib import Path
 
 import pandas as pd
 import pytest
 
+from replication.inputs.parts import PAPER
 from replication.inputs.strict_yaml import read_yaml
 from replication.judging.claim import JudgedClaim
 from replication.judging.ledger import read_judged
@@ -28,6 +31,18 @@ def claims() -> dict[str, JudgedClaim]:
 
 def test_every_number_is_published():
     assert list(headlines.headlines(ROOT)) == []
+
+
+@pytest.mark.parametrize("study", sorted({part for part, _ in headlines.IN_ORDER} - {PAPER}))
+def test_study_that_is_not_published_has_no_numbers(tmp_path, study):
+    """And those of the paper and of the other studies need none of its files."""
+    gone = shutil.ignore_patterns(f"{study}*")
+    left = Path(shutil.copytree(REFERENCE, tmp_path / "reference", ignore=gone))
+    rows = json.loads((left / "claims.json").read_text(encoding="utf-8"))
+    rows = [row for row in rows if row["study"] != study]
+    (left / "claims.json").write_text(json.dumps(rows), encoding="utf-8")
+    of_others = [of(REFERENCE) for part, of in headlines.IN_ORDER if part != study]
+    assert headlines.numbers(left) == [number for of in of_others for number in of]
 
 
 def said() -> str:

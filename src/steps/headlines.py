@@ -3,11 +3,12 @@
 import json
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pandas as pd
 
+from replication.inputs.parts import PAPER
 from replication.inputs.strict_yaml import read_yaml
 
 LINK = re.compile(r"\]\((?:[^()]|\([^()]*\))*\)")
@@ -80,42 +81,104 @@ def unscaled(reference: Path) -> dict[str, dict[bool, list[float]]]:
     }
 
 
-def numbers(reference: Path) -> list[str]:
-    """Return the decimal numbers of the findings as they are rounded there, in their order."""
+def computed(reference: Path) -> dict[str, float]:
+    """Return the computed value of each published claim, by its id."""
     rows = json.loads((reference / "claims.json").read_text(encoding="utf-8"))
-    claims = {row["id"]: row["computed"] for row in rows}
-    ratios = pd.read_csv(reference / "mass_ratio.csv").set_index("mass_ratio")
-    lowest = pd.read_csv(reference / "heavier.csv").set_index("mass_ratio").lowest_overturning_low
-    starts = pd.read_csv(reference / "trilith_starts.csv").set_index("share_of_speed")
-    states = pd.read_csv(reference / "trilith_states.csv").outcome.value_counts(normalize=True)
-    gains = motions(reference, "reversals_medians", mass_ratio=1.0, as_large_as=0).gain
-    reversed_ = motions(reference, "reversals_pairs", lighter=0, heavier=1.0).motions
-    velocity = f"{stated_pgv(reference):.1f}"
-    alone, both = unscaled(reference).values()
+    return {row["id"]: row["computed"] for row in rows}
+
+
+def ratios(reference: Path) -> pd.DataFrame:
+    """Return the published ratios of size and frequency, by γ."""
+    return pd.read_csv(reference / "mass_ratio.csv").set_index("mass_ratio")
+
+
+def minima(reference: Path) -> pd.Series:
+    """Return the minimum overturning accelerations (g) of heavier and heavier frames, by γ."""
+    rows = pd.read_csv(reference / "heavier.csv").set_index("mass_ratio")
+    return rows.lowest_overturning_low
+
+
+# The numbers in the order of the text ------------------------------------------------------------
+
+
+def of_size(reference: Path) -> list[str]:
+    return [
+        f"{ratios(reference).size_ratio[math.inf]:.1f}",
+        f"{read_yaml(reference / 'config.yaml')['heavier']['pulse']['period']:.1f}",
+        *(f"{minima(reference)[gamma]:.3f}" for gamma in (0.0, math.inf)),
+    ]
+
+
+def of_pulses(reference: Path) -> list[str]:
+    claims = computed(reference)
     study = read_yaml(reference / "studies" / "reversals.yaml")["pulses"]
     window = study["grids"][study["grid"]]["frequency_ratios"]
+    shares = (claims["reversals_help"], claims["reversals_harm"])
+    return [f"{window['lowest']:.1f}", *(f"{100 * share:.1f}" for share in shares)]
+
+
+def of_many_motions(reference: Path) -> list[str]:
+    gains = motions(reference, "reversals_medians", mass_ratio=1.0, as_large_as=0).gain
+    reversed_ = motions(reference, "reversals_pairs", lighter=0, heavier=1.0).motions
+    return [*from_to(gains, 1).split(" to "), *from_to(reversed_, 1).split(" to ")]
+
+
+def of_central_result(reference: Path) -> list[str]:
+    return [f"{ratios(reference).frequency_ratio[math.inf]:.3f}", f"{minima(reference)[1.0]:.3f}"]
+
+
+def of_velocity(reference: Path) -> list[str]:
+    return [f"{stated_pgv(reference):.1f}"]
+
+
+def of_portals(reference: Path) -> list[str]:
+    return [f"{portals(reference).min():.2f}"]
+
+
+def of_records(reference: Path) -> list[str]:
+    alone, both = unscaled(reference).values()
+    return [f"{gamma:g}" for gamma in alone[True] + both[False] if gamma % 1.0]
+
+
+def of_trilith(reference: Path) -> list[str]:
+    claims = computed(reference)
+    starts = pd.read_csv(reference / "trilith_starts.csv").set_index("share_of_speed")
+    states = pd.read_csv(reference / "trilith_states.csv").outcome.value_counts(normalize=True)
     return [
-        f"{ratios.size_ratio[math.inf]:.1f}",
-        f"{read_yaml(reference / 'config.yaml')['heavier']['pulse']['period']:.1f}",
-        *(f"{lowest[gamma]:.3f}" for gamma in (0.0, math.inf)),
-        f"{window['lowest']:.1f}",
-        f"{100 * claims['reversals_help']:.1f}",
-        f"{100 * claims['reversals_harm']:.1f}",
-        *from_to(gains, 1).split(" to "),
-        *from_to(reversed_, 1).split(" to "),
-        f"{ratios.frequency_ratio[math.inf]:.3f}",
-        f"{lowest[1.0]:.3f}",
-        velocity,
-        f"{portals(reference).min():.2f}",
-        velocity,
-        *(f"{gamma:g}" for gamma in alone[True] + both[False] if gamma % 1.0),
         f"{claims['trilith_base_acceleration_in_g']:.3f}",
         f"{claims['trilith_uplift_acceleration']:.3f}",
         f"{100 * states['rocking']:.1f}",
         f"{starts.late_peak_over_alpha[1.0]:.3f}",
         *(f"{100 * states[outcome]:.1f}" for outcome in ("rests", "overturned")),
-        f"{100 * claims['mechanism_share_apart']:.1f}",
     ]
+
+
+def of_mechanism(reference: Path) -> list[str]:
+    return [f"{100 * computed(reference)['mechanism_share_apart']:.1f}"]
+
+
+IN_ORDER: tuple[tuple[str, Callable[[Path], list[str]]], ...] = (
+    (PAPER, of_size),
+    ("reversals", of_pulses),
+    ("reversals", of_many_motions),
+    (PAPER, of_central_result),
+    ("certainty", of_velocity),
+    (PAPER, of_portals),
+    ("certainty", of_velocity),
+    ("certainty", of_records),
+    (PAPER, of_trilith),
+    ("mechanism", of_mechanism),
+)
+"""The part of the work that each passage of the README is of, and its numbers."""
+
+
+def numbers(reference: Path) -> list[str]:
+    """Return the decimal numbers of the findings as they are rounded there, in their order.
+
+    Without a study, the README tells none of its numbers.
+    """
+    there = {PAPER, *(path.stem for path in (reference / "studies").glob("*.yaml"))}
+    return [number for part, of in IN_ORDER if part in there for number in of(reference)]
 
 
 def headlines(root: Path) -> Iterator[str]:
