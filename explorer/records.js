@@ -15,7 +15,7 @@ const UNDERSTOOD = "g, % g, mg, g/10, gal, cm/s², m/s² or mm/s²";
 /* Words, digits and blanks in regular expressions are those of Python: \w, \b and \d of JavaScript know
    English alone, and its blanks are others. Numbers have the digits of ASCII in both. */
 const LETTER = "[\\p{L}\\p{Nl}\\p{No}]", WORD = "[\\p{L}\\p{N}_]", STARTS = `(?<!${WORD})`, ENDS = `(?!${WORD})`;
-const BLANK = "\\t-\\r\\x1c-\\x20\\x85\\p{Z}", DIGIT = "\\p{Nd}";
+const BLANK = "\\t-\\r\\x1c-\\x20\\x85\\p{Z}", DIGIT = "\\p{Decimal_Number}";
 const NUMBER = "[-+]?(?:[0-9]+\\.?[0-9]*|\\.[0-9]+)(?:[eEdD][-+]?[0-9]{1,4})?";
 const expression = (pattern, flags = "iu") =>
   new RegExp(pattern.replaceAll("[\\s", `[${BLANK}`).replaceAll("\\s", `[${BLANK}]`).replaceAll("\\d", DIGIT), flags);
