@@ -20,14 +20,11 @@ FREE = re.compile(
 """Files that may name studies."""
 
 EXCEPTIONS = {
-    "faults/faults.yaml": "a fault in the list of src/steps/redrawn_studies.py",
     "paper/report.typ": "the article has a place of its own for each study that it tells",
     "paper/shown.typ": "the order of the article's figures",
     "profiles/slurm/test/run": "the test of the cluster runs one study, as a user does",
     "profiles/slurm/test/small.yaml": "the test of the cluster runs one study, as a user does",
     "src/steps/headlines.py": "the README tells studies among the findings of the paper",
-    "src/steps/redrawn.py": "why findings of studies follow from no table",
-    "src/steps/redrawn_studies.py": "which findings of studies follow from their tables",
     "tests/replication/workflow/test_graph.py": "jobs of the whole graph, by their rules",
     "tests/steps/test_kernel.py": "a rule whose code depends on wildcards",
     "tests/steps/test_recheck.py": "findings and tables of the published edition",
