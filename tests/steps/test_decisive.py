@@ -65,14 +65,14 @@ def test_exception_that_the_table_missed_is_found_where_the_rise_is_least(table,
 def test_narrow_band_below_the_first_is_found_by_the_finer_search(monkeypatch):
     bands = {0.05: (1.2, 1.4), 0.01: (1.05, 1.06)}
 
-    def found(block, pulse, scales, *, resolution, most_impacts):
+    def found(searches, *, resolution, most_impacts):
         low, high = bands[resolution]
-        return [Interval((low, low), (high, high), 0)] if scales[0] <= low <= scales[1] else []
+        band = [Interval((low, low), (high, high), 0)]
+        return [band if at[0] <= low <= at[1] else [] for at in (s.scale_range for s in searches)]
 
-    monkeypatch.setattr(spectrum, "overturning_intervals", found)
-    line = spectrum.Line({}, None, None)
-    lowest = [one.lower[0] for one in spectrum.intervals(line, LINES)]
-    assert lowest == [1.05, 1.2]
+    monkeypatch.setattr(spectrum, "intervals_together", found)
+    (intervals,) = spectrum.intervals([spectrum.Line({}, None, None)], LINES)
+    assert [one.lower[0] for one in intervals] == [1.05, 1.2]
 
 
 def test_point_of_which_the_second_route_says_otherwise_is_counted(table, monkeypatch):

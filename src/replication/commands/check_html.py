@@ -70,6 +70,7 @@ class Tab:
 
     def __init__(self, socket: WebSocketClientConnection):
         self.socket, self.session, self.count = socket, {}, 0
+        self.target: str | None = None
         self.requests: list[str] = []
         self.errors: list[str] = []
         self.loaded = False
@@ -113,10 +114,12 @@ class Tab:
             self.loaded = True
 
     async def open(self, url: str) -> None:
-        """Open a page in a new tab, which takes the place of the one before."""
-        self.session, self.loaded = {}, False
-        target = (await self.ask("Target.createTarget", url="about:blank"))["targetId"]
-        attached = await self.ask("Target.attachToTarget", targetId=target, flatten=True)
+        """Open a page in a new tab; the one before is closed, so that its workers stop."""
+        before, self.session, self.loaded = self.target, {}, False
+        self.target = (await self.ask("Target.createTarget", url="about:blank"))["targetId"]
+        if before:
+            await self.ask("Target.closeTarget", targetId=before)
+        attached = await self.ask("Target.attachToTarget", targetId=self.target, flatten=True)
         self.session = {"sessionId": attached["sessionId"]}
         for domain in ("Runtime", "Log", "Network", "Page"):
             await self.ask(f"{domain}.enable")

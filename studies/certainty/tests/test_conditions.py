@@ -174,6 +174,7 @@ def changes(**broken):
     rows = [
         {"way": way, "factor": factor, "helps": 0.1, "harms": 0.01, "compared": 9}
         | {"falls": 0, "least": 1.1, "less": 0.2, "less_low": 0.1, "less_high": 0.3}
+        | {"family": "near-fault", "interval": "is positive"}
         | (broken.get(way.replace(" ", "_"), {}) if factor < 1.0 else {})
         for way in (*restitution.WAYS, "scatter")
         for factor in (0.9, 1.0)

@@ -69,6 +69,16 @@ def test_crate_depends_on_what_the_snakefiles_import_and_not_on_what_this_proces
     assert "src/replication/kill/tree_copy.py" not in crate.inputs  # imported above
 
 
+OF_NO_JOB = {
+    "src/topheavy/minimum.py": "for users; no step searches down to a floor yet",
+    "src/topheavy/record_map.py": "for users; the page draws its own map of a record",
+    "src/topheavy/fragility/estimate.py": "for users; studies gather their own outcomes, in shards",
+    "src/topheavy/fragility/inputs.py": "of estimate.py",
+    "src/topheavy/fragility/tables.py": "of estimate.py",
+}
+"""Modules of the library that no job needs, and why they are there."""
+
+
 def test_every_module_of_library_and_studies_is_the_input_of_some_job(jobs):
     used = {path for job in jobs for path in (*job.inputs, *job.scripts)}
     modules = {
@@ -76,8 +86,9 @@ def test_every_module_of_library_and_studies_is_the_input_of_some_job(jobs):
         for pattern in ("src/topheavy/**/*.py", "studies/*/*.py", "studies/*/steps/*.py")
         for path in ROOT.glob(pattern)
         if not path.name.startswith("__") and "skeleton" not in path.parts
+        if path.name != "redrawn.py"  # make check reads it
     }
-    assert modules - used == set()
+    assert modules - used == set(OF_NO_JOB)
 
 
 def test_only_shards_leave_the_machine_that_runs_snakemake():

@@ -104,9 +104,9 @@ def test_step_or_figure_that_no_rule_runs_is_found(jobs):
     lonely = ["figures/lonely.py", "src/steps/lonely.py"]
     files = [*scripts_beside(jobs), *lonely]
     assert unused_scripts(jobs, files, MAKEFILE, snakefiles(jobs)) == lonely
-    without = [job for job in jobs if job.rule != "heavier"]
+    without = [job for job in jobs if job.rule != "allen_histories"]
     assert unused_scripts(without, scripts_beside(jobs), MAKEFILE, snakefiles(jobs)) == [
-        "src/steps/heavier.py"
+        "src/steps/allen_histories.py"
     ]
 
 
