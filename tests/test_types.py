@@ -16,7 +16,7 @@ CHECKERS = {
     "basedpyright": ["basedpyright", "--pythonpath", sys.executable],
 }
 MISTAKES = """\
-from topheavy import Column, Pulse, Record, judge, simulate
+from topheavy import Column, Pulse, Record, fragility, judge, simulate
 column = Column(0.5, 4.0)
 pulse = Pulse("one-sine", 0.3, 6.0)
 simulate(column, "one-sine")
@@ -26,6 +26,8 @@ Pulse("one-sine", "0.3", 6.0)
 print(judge(column, pulse).peak_rotation)
 print(simulate(column, pulse).outcome == "fell")
 print(pulse.excitation([0.1, 0.2]).real_part)
+fragility(column, [pulse], [1.0])
+fragility([column], [pulse], [1.0], "PGD")
 """
 
 
@@ -59,7 +61,7 @@ def test_users_script_passes_strict_type_checkers(checked):
 def test_every_mistake_of_a_user_is_found(checked):
     found = checked(MISTAKES)
     lines = {int(line) for line in re.findall(r"user\.py:(\d+)\b.*error", found.stdout)}
-    assert lines == set(range(4, 11)), found.stdout + found.stderr
+    assert lines == set(range(4, 13)), found.stdout + found.stderr
 
 
 def test_users_script_runs():

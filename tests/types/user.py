@@ -11,11 +11,13 @@ import topheavy.reference
 from topheavy import (
     Cap,
     Column,
+    Fragility,
     Pulse,
     Record,
     Response,
     RockingBlock,
     RockingFrame,
+    fragility,
     frame_forces,
     judge,
     lowest_overturning,
@@ -72,3 +74,11 @@ cap = Cap(span=6.0, half_depth=0.5)
 frame_motion = simulate(bent, shaking, samples=times)
 forces = frame_forces(bent, cap, frame_motion.rotation, frame_motion.velocity)
 assert_type(forces.base_shear, NDArray[np.float64])
+
+motions = [shaking, measured, measured.scaled(2.0)]
+curves = fragility({"pier": pier, "bent": bent}, motions, [0.2, 0.5, 1.0], lowered=(0.05,))
+assert_type(curves, Fragility)
+assert_type(fragility([pier, block], motions, times[1:], "PGA", groups=[1, 2, 2]), Fragility)
+by_duration = fragility([bent], [pulse], [1.0], lambda motion: motion.duration)
+for sentence in curves.pairs["gain_words"].to_numpy():
+    print(f"the interval of the gain {sentence}; intervals are those of {curves.sampling}")
