@@ -171,6 +171,13 @@ def test_every_interval_wider_than_the_last_step_is_found_and_its_width_measured
     assert narrower > 50
 
 
+def test_width_of_an_interval_narrower_than_a_bracket_is_not_zero(monkeypatch):
+    planted(monkeypatch, np.array([1.0, 1.0 + 1e-13]))
+    found = lowest_overturning(BLOCK, SHAKING, (0.0, 2.0), floor=0.1)  # 1 is in the middle
+    assert found.bracket[0] < 1.0 <= found.factor < found.upper[1]
+    assert 1e-13 <= found.width <= 4e-10
+
+
 def test_survival_region_wider_than_a_sixteenth_of_the_width_ends_the_interval(monkeypatch):
     for share in np.linspace(0.02, 0.9, 60):
         edge = 1.0 + share

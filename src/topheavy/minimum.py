@@ -75,11 +75,11 @@ class LowestOverturning:
 
     @property
     def width(self) -> float:
-        """Width of the interval of that factor; NaN where its upper end is not in the range.
+        """Width of its interval, between survived factors; NaN where the upper is not in the range.
 
         A survival region narrower than a sixteenth of the width may lie inside it.
         """
-        return self.upper[0] - self.factor if self.upper else math.nan
+        return self.upper[1] - self.bracket[0] if self.bracket and self.upper else math.nan
 
     def __str__(self) -> str:
         """Say what was found, in which steps, and what is not excluded."""
@@ -114,6 +114,9 @@ def lowest_overturning(
     is found. Each halving tries the new points below the lowest factor found so far; a factor that
     overturns is then bracketed to 1e-10 of the last factor. So no factor tried below the result
     overturns, and an interval wider than the floor cannot lie below it. A narrower one can.
+
+    Under a record an interval may be so narrow that its outcomes hang on digits that no measurement
+    resolves. The `width` shows it; `judge` with another tolerance and `reference.judge` tell.
 
     The cost is about (result − first factor)/floor histories, in lanes. `minimum_overturning`
     searches one grid only.
