@@ -18,16 +18,7 @@ from replication.pages.edition import count_table, verdict_page
 from replication.pages.edition_check import claims, files, pages
 from replication.workbench import truth, value
 from steps.recheck import equations, main
-from steps.redrawn import (
-    BY_HAND,
-    DIGITS,
-    SOURCES,
-    UNDRAWN,
-    departures,
-    published_studies,
-    same,
-    unlisted,
-)
+from steps.redrawn import DIGITS, departures, same, scripts, step, undrawn
 
 ROOT = Path(__file__).resolve().parents[2]
 CLAIM = Claim(
@@ -277,47 +268,20 @@ def test_row_that_no_ledger_has_is_found():
     assert found == ["claim more is not in both the ledger and tests/reference/claims.json"]
 
 
-def test_findings_of_every_rule_are_drawn_or_told_why_not(jobs):
-    reference = ROOT / "tests" / "reference"
-    rules = {path.stem for path in (reference / "findings").glob("*.json")}
-    made = {Path(path).stem for job in jobs for path in job.findings}
-    assert unlisted(rules, published_studies(reference))[0] == []
-    assert {*SOURCES, *BY_HAND, *UNDRAWN} & made <= rules
-    assert not set(SOURCES) & set(UNDRAWN)
-    assert all(UNDRAWN.values())
+def test_findings_of_every_rule_are_drawn_or_said_not_to_be(jobs):
+    made = {Path(path).stem: job for job in jobs for path in job.findings}
+    assert not [rule for rule in made if undrawn(rule) == ""]
+    for rule, job in made.items():
+        assert Path(step(rule).__file__) == ROOT / job.script, (
+            "the rules are read as Snakemake does"
+        )
+    assert len(scripts()) <= len(made)
 
 
-@pytest.fixture
-def published(edition):
-    """Publish findings of another rule and, if it is new, the config of its study; then no more."""
-    made = []
-
-    def publish(rule, study=""):
-        reference = edition / "tests" / "reference"
-        made.append(reference / "findings" / f"{rule}.json")
-        shutil.copyfile(reference / "findings" / "mass_ratio.json", made[-1])
-        if study:
-            made.append(reference / "studies" / f"{study}.yaml")
-            made[-1].write_text("gain: {}\n", encoding="utf-8")
-        return main(edition)
-
-    yield publish
-    for path in made:
-        path.unlink()
-
-
-@pytest.mark.parametrize("rule", ["speed", "reversals_speed"])
-def test_findings_of_a_new_rule_have_to_be_drawn(published, rule):
-    lines, faults = published(rule)
-    told = f"findings/{rule}.json: nothing draws these findings from a table"
-    assert [fault for fault in faults if fault.startswith(told)]
-    assert not [line for line in lines if line.startswith(rule)]
-
-
-def test_findings_of_a_new_study_need_no_entry_and_are_said_not_to_be_drawn(published):
-    lines, faults = published("bridges_gain", study="bridges")
-    assert [line for line in lines if line.startswith("bridges_gain: these findings are as")]
-    assert not [fault for fault in faults if "nothing draws" in fault]
+def test_findings_of_a_rule_that_says_nothing_are_named(edition):
+    reference = edition / "tests" / "reference"
+    (fault,) = departures(reference, {"speed": Findings({})})
+    assert fault.startswith("findings/speed.json: nothing draws these findings from a table")
 
 
 def test_function_that_did_not_run_is_named(tampered):

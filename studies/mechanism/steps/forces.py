@@ -24,6 +24,8 @@ CONTACTS = ("base_left", "base_right", "seat_left", "seat_right")
 ROUNDING = 1e-12  # of the weight of the frame: what double precision leaves
 NEARLY_NONE = 1e-9  # γ of a cap that weighs next to nothing
 
+UNDRAWN = "theorems, and differences that are no more than rounding"
+
 
 def proved() -> Finding:
     found = contact_theorems()
