@@ -365,8 +365,8 @@ def swapped(text):
 @pytest.mark.parametrize(
     ("edit", "told"),
     [
-        (swapped, "README.md, What we found: the numbers are"),
-        (lambda text: text.replace("21.8 %", "31.8 %"), "README.md, What we found: the numbers"),
+        (swapped, "README.md, Reversals: the numbers are"),
+        (lambda text: text.replace("21.8 %", "31.8 %"), "README.md, Many motions: the numbers"),
         (lambda text: text.replace("464,000", "664,000"), "README.md: 664,000 overturning flags"),
     ],
     ids=["swapped", "changed", "flags"],
