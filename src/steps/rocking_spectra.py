@@ -13,10 +13,10 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import Finding, run, truth
-from steps.spectrum import progress
+from steps.shared.histories import NUDGE
+from steps.shared.spectrum import progress
 from topheavy import Column, Record, RockingFrame, judge, read_record, reference
 
-NUDGE = 1e-9  # of a record: what no measurement resolves
 CHANGED = 0.01  # of α: a change of the peak that is not small
 
 

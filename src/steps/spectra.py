@@ -11,7 +11,7 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import run, truth
-from steps.spectra_compared import ORDER, Spectra, finite, of_sample
+from steps.shared.spectra_compared import ORDER, Spectra, finite, of_sample
 
 
 def main(case: dict, solver: dict, lines: pd.DataFrame) -> tuple:

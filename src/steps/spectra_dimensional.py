@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import Finding, run, truth
-from steps.spectrum import Line, solve
+from steps.shared.spectrum import Line, solve
 from topheavy import Column, Pulse, RockingFrame, judge, reference
 
 ROUNDING = 0.004  # of an amplitude: by so much prints of other studies have been found to differ

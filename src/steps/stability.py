@@ -14,7 +14,7 @@ from typing import TypeAlias
 import pandas as pd
 
 from replication.workbench import Finding, grid, run, truth
-from steps.spectra_compared import finite
+from steps.shared.spectra_compared import finite
 from topheavy import Column, Pulse, RockingFrame, judge
 from topheavy.linear import simulate_linear_exact
 from topheavy.structures import size_ratio

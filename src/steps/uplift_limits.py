@@ -12,18 +12,21 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import Finding, grid, run, truth
-from steps.peak_forces import (
+from steps.shared.peak_forces import (
     FORCES,
     GUIDED,
+    MARGIN,
     PINNED,
     RIGID,
+    bending,
     held,
     held_peaks,
     ratio_of,
     rocking_peaks,
+    shear_after_uplift,
     tops,
 )
-from steps.spectrum import progress
+from steps.shared.spectrum import progress
 from topheavy import (
     STANDARD_GRAVITY,
     Cap,
@@ -45,7 +48,6 @@ from topheavy.three_bodies import simulate_three_bodies
 SEED = 2014  # of the samples that the second solvers judge
 CLOSE = 1e-3  # relative: what the peaks of two solvers may differ by
 HALVED = 5e-3  # relative: what half as many samples may change a peak by
-MARGIN = 0.01  # of the base shear just after uplift: what a later one may exceed it by
 SAME = 1e-6  # of the weight and of weight times height: for the three bodies
 STEPS = {"pulse": 200, "record": 60}  # in a period of the held frame; (π/60)²/2 is 1.4e-3
 BESIDE = 1e-3  # over p̂: how far from an impact the forces of the three bodies are compared
@@ -70,12 +72,6 @@ def motions(column: Column, case: dict, paths: list[str]) -> list[tuple[Pulse | 
         )
         for record in map(read_record, paths)
     ]
-
-
-def shear_after_uplift(frame: RockingFrame, peak: float) -> float:
-    """Return V/W of the resting frame that a ground acceleration (g) uplifts at once."""
-    level = frame.uplift_acceleration
-    return level + base_shear_slope(frame) * (peak - level)
 
 
 def compare(
@@ -345,13 +341,6 @@ def findings(
         ),
         "forces_by_second_routes": _agreement(uplift_routes, table),
     }
-
-
-def bending(ratio: pd.Series) -> dict[str, float]:
-    """Count the ratios of bending moments, and those that are not below 1; add their range."""
-    not_lower = int((ratio >= 1.0).sum())
-    ends = {"least": float(ratio.min()), "largest": float(ratio.max())}
-    return {"histories": len(ratio), "not_lower": not_lower} | ends
 
 
 def _longest(ratios: pd.DataFrame) -> float:

@@ -11,7 +11,7 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import Finding, grid, run, truth
-from steps.spectrum import progress
+from steps.shared.spectrum import progress
 from steps.vase_poses import poses
 from steps.vase_searches import FINEST, Minimum, minimum, refined, rivals
 from steps.vase_shares import PARAMETERS, WORTHS, shares

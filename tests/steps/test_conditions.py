@@ -20,7 +20,7 @@ from steps import (
     trilith,
     verification,
 )
-from steps.spectra_compared import Place
+from steps.shared.spectra_compared import Place
 from topheavy import Column, Pulse, RockingFrame
 
 ROOT = Path(__file__).resolve().parents[2]

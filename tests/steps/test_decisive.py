@@ -11,13 +11,12 @@ import yaml
 from steps import (
     restitution,
     rocking_spectra,
-    spectra_compared,
     spectra_shard,
-    spectrum,
     stability,
     trilith,
 )
-from steps.spectra_compared import Spectra
+from steps.shared import spectra_compared, spectrum
+from steps.shared.spectra_compared import Spectra
 from topheavy import Column, Record, RockingFrame
 from topheavy.overturning import Interval
 
@@ -39,7 +38,7 @@ def table():
 
 def swap_the_masses(monkeypatch):
     """Give each line the frame of the other γ, so that what is heavier overturns first."""
-    true = spectra_shard.line
+    true = spectrum.line
 
     def line(slenderness, shape, gamma, linearised, ratio):
         return true(slenderness, shape, 1.0 - gamma, linearised, ratio)

@@ -8,8 +8,8 @@ import pytest
 
 from replication.workbench import truth
 from steps import uplift_limits
-from steps.histories import history
-from steps.peak_forces import (
+from steps.shared.histories import history
+from steps.shared.peak_forces import (
     FORCES,
     GUIDED,
     PINNED,
@@ -18,6 +18,7 @@ from steps.peak_forces import (
     impact_impulse,
     ratio_of,
     rocking_peaks,
+    shear_after_uplift,
 )
 from topheavy import (
     Cap,
@@ -54,7 +55,7 @@ def test_frame_that_overturns_has_no_peaks():
 
 def test_sudden_pulse_has_the_shear_of_uplift_as_its_largest():
     found = rocking_peaks(FRAME, CAP, pulse(3.0, "one-cosine", 8.0), 8)
-    expected = uplift_limits.shear_after_uplift(FRAME, 3.0 * TAN)
+    expected = shear_after_uplift(FRAME, 3.0 * TAN)
     assert found.forces["base_shear"] == pytest.approx(expected, rel=1e-6)
 
 

@@ -11,7 +11,7 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import Finding, run, truth, value
-from steps.spectrum import progress
+from steps.shared.spectrum import progress
 from topheavy import Column, Pulse, Record, RockingFrame, judge, read_record, reference
 from topheavy.derivation import extension_theorems
 from topheavy.three_bodies import simulate_three_bodies

@@ -13,7 +13,7 @@ import pandas as pd
 from scipy.stats import beta
 
 from replication.workbench import Finding, run, truth
-from steps.spectrum import progress
+from steps.shared.spectrum import progress
 from topheavy import (
     Column,
     FixedMassColumn,

@@ -5,7 +5,7 @@ from itertools import pairwise
 import pandas as pd
 
 from replication.workbench import Finding, run, truth, value
-from steps.histories import history
+from steps.shared.histories import history
 from studies.mechanism.steps.demand import demand, impact_demand
 from studies.mechanism.steps.setting import cap_of, pulse_on, slender
 from topheavy import Cap, Column, RockingFrame, judge

@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import Finding, run, truth, value
-from steps.histories import History, history
+from steps.shared.histories import History, history
 from studies.mechanism.steps.setting import cap_of, pulse_on
 from topheavy import (
     STANDARD_GRAVITY,

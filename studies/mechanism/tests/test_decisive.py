@@ -8,7 +8,7 @@ import pandas as pd
 import pytest
 import yaml
 
-from steps.histories import history
+from steps.shared.histories import history
 from studies.mechanism.steps import admissible
 from studies.mechanism.steps.admissible import lightest_without_sliding
 from studies.mechanism.steps.demand import Demand, demand

@@ -11,18 +11,20 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import Finding, run, truth
-from steps.peak_forces import (
+from steps.shared.peak_forces import (
     FORCES,
     GUIDED,
+    MARGIN,
     PINNED,
     RIGID,
+    bending,
     held,
     held_peaks,
     ratio_of,
     rocking_peaks,
+    shear_after_uplift,
 )
-from steps.spectrum import progress
-from steps.uplift_limits import MARGIN, bending, shear_after_uplift
+from steps.shared.spectrum import progress
 from studies.reversals.steps.motions_vase import factors, some
 from topheavy import Cap, Column, RockingFrame, reference, simulate
 from topheavy.synthetic import fragility

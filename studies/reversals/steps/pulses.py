@@ -11,8 +11,8 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import Finding, run, truth, value
-from steps.spectra_compared import ORDER, Place, Spectra, finite, without
-from steps.spectrum import solve
+from steps.shared.spectra_compared import ORDER, Place, Spectra, finite, without
+from steps.shared.spectrum import solve
 from studies.reversals.steps.pulses_shard import CHANGES, lines
 from topheavy import simulate
 from topheavy.linear import simulate_linear_exact

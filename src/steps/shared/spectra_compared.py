@@ -14,8 +14,7 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import Finding, grid, truth
-from steps.spectra_shard import line
-from steps.spectrum import search
+from steps.shared.spectrum import line, search
 from topheavy import judge, reference
 from topheavy.overturning import Interval
 
