@@ -49,7 +49,8 @@ def main(case: dict, solver: dict) -> tuple[pd.DataFrame, dict[str, Finding]]:
 
 def findings(skeleton_gain: pd.DataFrame) -> dict[str, Finding]:
     """Return whether and how much the amplitude rises; `make check` draws them again from here."""
-    table, confirmed = skeleton_gain, skeleton_gain.confirmed_by_both_routes.all()
+    table = skeleton_gain
+    confirmed = table.confirmed_by_both_routes.all()
     first, last = table.iloc[0], table.iloc[-1]
     return {
         "rises": truth(
