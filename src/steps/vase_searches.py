@@ -46,7 +46,7 @@ class Minimum:
     found : LowestOverturning or None
         None where nothing was searched, since the structure does not uplift.
     passed_over : int
-        Intervals below, which are not `told`.
+        Lower intervals whose outcome is too sensitive to decide.
     """
 
     structure: Structure
@@ -66,7 +66,7 @@ class Minimum:
         return 0.5 * (self.acceleration + last)
 
     def told(self, tightened: float) -> bool:
-        """Whether it overturns inside the interval, also nudged and at a tightened tolerance."""
+        """Whether it overturns inside, also if nudged by `NUDGE` and at a tightened tolerance."""
         factors = [self.inside * (1.0 + off) for off in (-NUDGE, 0.0, NUDGE)]
         return bool(
             overturned_by(self.structure, self.motion, factors).all()
@@ -111,7 +111,7 @@ def minimum(
 def lowest_told(
     structure: Structure, motion: Pulse | Record, highest: float, floor: float, tightened: float
 ) -> Minimum:
-    """Return the lowest minimum that is told; the intervals below it are passed over."""
+    """Return the lowest minimum that can be decided; the intervals below it are passed over."""
     one, passed = minimum(structure, motion, highest, floor), 0
     while math.isfinite(one.acceleration) and one.found.upper and not one.told(tightened):
         passed += 1
