@@ -8,8 +8,9 @@ factors), and as the scalar kernel that `simulate` and `judge` use. Ratios are o
 one thread, the least of several rounds in which every method has its turn, so that other work on
 the machine disturbs them little. All is done three times: the published table has the median of
 each value and ratio, the spread of the three values over their median, and the share of the
-processors that other processes used meanwhile. The tables go to results/benchmark/ and, as the
-picture, to docs/.
+processors that other processes used meanwhile. A record without impacts is timed beside them: under
+measured records, impacts limit the ratio of both kernels. The tables go to results/benchmark/ and,
+as the picture, to docs/.
 """
 
 import math
