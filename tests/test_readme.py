@@ -9,6 +9,7 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
+from replication.inputs.strict_yaml import read_yaml
 from replication.judging.claim import JudgedClaim
 from replication.judging.ledger import read_judged
 from replication.pages.edition import count_table
@@ -58,6 +59,17 @@ def test_starts_of_the_trilith_are_as_many_as_said():
     starts = pd.read_csv(REFERENCE / "trilith_states.csv")
     assert f"of {len(starts)} starts in motion" in said()
     assert (starts[["rotation", "velocity"]] != 0.0).any(axis=1).all()
+
+
+def test_floor_of_the_minima_is_that_of_the_search():
+    vase = read_yaml(REFERENCE / "config.yaml")["vase"]
+    assert vase["floor"] == 1e-3
+    assert "narrower than a thousandth of the uplift acceleration are not excluded" in said()
+    broken = pd.read_csv(REFERENCE / "vase_exceptions.csv")
+    records = broken[broken.kind == "record"]
+    assert set(broken.structure) == {"fixed"}
+    assert len(set(records.motion)) == 1
+    assert "Short pulses and one record reverse the first" in said()
 
 
 def test_judged_claims_of_the_paper_are_as_many_as_said(claims):
