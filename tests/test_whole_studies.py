@@ -24,11 +24,6 @@ EXCEPTIONS = {
     "paper/shown.typ": "the order of the article's figures",
     "profiles/slurm/test/run": "the test of the cluster runs one study, as a user does",
     "profiles/slurm/test/small.yaml": "the test of the cluster runs one study, as a user does",
-    "src/steps/headlines.py": "the README tells studies among the findings of the paper",
-    "tests/replication/workflow/test_graph.py": "jobs of the whole graph, by their rules",
-    "tests/steps/test_kernel.py": "a rule whose code depends on wildcards",
-    "tests/steps/test_recheck.py": "findings and tables of the published edition",
-    "tests/test_readme.py": "the README tells studies among the findings of the paper",
 }
 """Files that still name studies, and why."""
 
@@ -96,6 +91,18 @@ def test_study_names_no_other_but_those_that_it_needs(study):
     files = [file for file in source() if file.startswith(f"studies/{study}/")]
     files = [file for file in files if not file.endswith((".md", "claims.yaml"))]
     assert naming(files, studies() - {study, *needed}) == {}
+
+
+SHARED = re.compile(r"^\s*from steps(?!\.shared\b)\S* import", re.MULTILINE)
+OF_A_STEP = {"studies/reversals/steps/motions_vase.py"}  # the structures that a step compares
+
+
+def test_studies_import_of_the_steps_what_is_shared():
+    modules = [
+        file for file in source() if re.match(r"studies/\w+/(steps/|figures/|\w+\.py)", file)
+    ]
+    texts = {file: (ROOT / file).read_text("utf-8") for file in modules if file.endswith(".py")}
+    assert {file for file, text in texts.items() if SHARED.search(text)} == OF_A_STEP
 
 
 @pytest.mark.parametrize(

@@ -3,14 +3,15 @@
 import math
 
 import numpy as np
+import pandas as pd
 
-from replication.workbench import run, truth, value
+from replication.workbench import Finding, run, truth, value
 from topheavy import Column, Pulse, RockingFrame, read_record, reference, simulate
 from topheavy.linear import simulate_linear_exact
 from topheavy.massless_columns import SIMPLIFICATIONS, simplified
 
 
-def main(case: dict, record_path: str, solver: dict) -> tuple[list[dict], dict]:
+def main(case: dict, record_path: str, solver: dict) -> tuple[list[dict], pd.DataFrame, dict]:
     frame = RockingFrame(Column(**case["column"]), case["mass_ratio"])
     pulse = Pulse(
         case["pulse"]["shape"], case["pulse"]["amplitude"], 2 * math.pi / case["pulse"]["period"]
@@ -21,7 +22,7 @@ def main(case: dict, record_path: str, solver: dict) -> tuple[list[dict], dict]:
     }
     models = {"exact": frame.block()} | {name: simplified(frame, name) for name in SIMPLIFICATIONS}
     alpha = frame.slenderness
-    rows, peaks, findings = [], {}, {}
+    rows, peaks = [], []
     for motion, (excitation, duration) in motions.items():
         times = np.linspace(0.0, duration, 1501)
         for model, block in models.items():
@@ -30,16 +31,23 @@ def main(case: dict, record_path: str, solver: dict) -> tuple[list[dict], dict]:
                 simulate(block, excitation, samples=times, tolerance=solver["tightened"]),
                 reference.simulate(block, excitation, samples=times),
             )
-            peaks[motion, model] = response.peak_rotation / alpha
-            findings[f"{motion}_{model.replace(' ', '_')}_peak"] = truth(
-                all(other.outcome == response.outcome for other in others),
-                outcome=response.outcome,
-                peak_over_alpha=None if response.overturned else response.peak_rotation / alpha,
-                error_over_alpha=None
-                if response.overturned
-                else max(abs(other.peak_rotation - response.peak_rotation) for other in others)
-                / alpha,
-            )
+            apart = max(abs(other.peak_rotation - response.peak_rotation) for other in others)
+            peak = {
+                "motion": motion,
+                "model": model,
+                "outcome": response.outcome,
+                "same_outcome_by_all": all(o.outcome == response.outcome for o in others),
+                "peak_over_alpha": response.peak_rotation / alpha,
+                "error_over_alpha": apart / alpha,
+            }
+            if model == "all":  # the linearised equation, which has a solution in closed form
+                oracle = simulate_linear_exact(block, excitation, samples=times)
+                solved = oracle.peak_rotation / alpha
+                found = (0.0, 0.0)
+                if not oracle.overturned:
+                    found = (solved, abs(solved - response.peak_rotation / alpha))
+                peak |= dict(zip(("solved_over_alpha", "solved_apart"), found, strict=True))
+            peaks.append(peak)
             rows += [
                 {
                     "motion": motion,
@@ -52,14 +60,27 @@ def main(case: dict, record_path: str, solver: dict) -> tuple[list[dict], dict]:
                     times, excitation.excitation(times), response.rotation, strict=True
                 )
             ]
-        oracle = simulate_linear_exact(models["all"], excitation, samples=times)
-        peak = peaks[motion, "all"]
-        findings[f"{motion}_exact_solution_of_allen"] = value(
-            0.0 if oracle.overturned else oracle.peak_rotation / alpha,
-            0.0 if oracle.overturned else abs(oracle.peak_rotation / alpha - peak),
-            "α",
+    table = pd.DataFrame(peaks)
+    return rows, table, findings(table)
+
+
+def findings(allen_peaks: pd.DataFrame) -> dict[str, Finding]:
+    """Return the outcome and the peak of each model under each motion, from the table of peaks."""
+    found = {}
+    for motion, models in allen_peaks.groupby("motion", sort=False):
+        for row in models.itertuples():
+            falls = row.outcome == "overturned"
+            found[f"{motion}_{row.model.replace(' ', '_')}_peak"] = truth(
+                row.same_outcome_by_all,
+                outcome=row.outcome,
+                peak_over_alpha=None if falls else row.peak_over_alpha,
+                error_over_alpha=None if falls else row.error_over_alpha,
+            )
+        solved = models.set_index("model").loc["all"]
+        found[f"{motion}_exact_solution_of_allen"] = value(
+            solved.solved_over_alpha, solved.solved_apart, "α"
         )
-    return rows, findings
+    return found
 
 
 if __name__ == "__main__":

@@ -42,6 +42,7 @@ rule kernel:
 rule equations:
     output:
         table="results/tables/equations.csv",
+        theorems="results/tables/theorems.csv",
         findings="results/findings/equations.json",
     message:
         "Testing every equation as it is printed"
@@ -113,8 +114,10 @@ rule sketches:
 
 rule trilith:
     output:
+        numbers="results/tables/trilith_numbers.csv",
         nearness="results/tables/trilith_nearness.csv",
         starts="results/tables/trilith_starts.csv",
+        limits="results/tables/trilith_limits.csv",
         histories="results/tables/trilith_histories.csv",
         findings="results/findings/trilith.json",
     params:
@@ -134,6 +137,7 @@ rule trilith:
 rule trilith_states:
     output:
         table="results/tables/trilith_states.csv",
+        sample="results/tables/trilith_sample.csv",
         findings="results/findings/trilith_states.json",
     params:
         case=case("trilith"),
@@ -164,6 +168,7 @@ rule allen_histories:
         record=RECORDS[config["allen_histories"]["record"]["file"]],
     output:
         table="results/tables/allen_histories.csv",
+        peaks="results/tables/allen_peaks.csv",
         findings="results/findings/allen_histories.json",
     params:
         case=case("allen_histories"),
@@ -241,6 +246,7 @@ rule uplift_limits:
         table="results/tables/uplift_limits.csv",
         ratios="results/tables/uplift_ratios.csv",
         slopes="results/tables/uplift_slopes.csv",
+        routes="results/tables/uplift_routes.csv",
         findings="results/findings/uplift_limits.json",
     params:
         case=case("uplift_limits"),
@@ -253,6 +259,7 @@ rule uplift_limits:
 rule scale_effects:
     output:
         table="results/tables/scale_effects.csv",
+        outcomes="results/tables/scale_outcomes.csv",
         findings="results/findings/scale_effects.json",
     params:
         case=case("scale_effects"),
@@ -265,6 +272,8 @@ rule scale_effects:
 
 rule stability:
     output:
+        minima="results/tables/stability_minima.csv",
+        runs="results/tables/stability_runs.csv",
         findings="results/findings/stability.json",
     params:
         case=case("stability"),
@@ -295,6 +304,7 @@ rule spectra:
     output:
         table="results/tables/spectra.csv",
         areas="results/tables/spectra_areas.csv",
+        sample="results/tables/spectra_sample.csv",
         findings="results/findings/spectra.json",
     params:
         case=config["spectra"],
@@ -351,6 +361,7 @@ rule rocking_spectra:
 
 rule statements:
     output:
+        table="results/tables/statements.csv",
         findings="results/findings/statements.json",
     params:
         case=case("statements"),

@@ -3,8 +3,9 @@
 import math
 
 import numpy as np
+import pandas as pd
 
-from replication.workbench import run, truth, value
+from replication.workbench import Finding, run, truth, value
 from topheavy import Column, RockingFrame
 from topheavy.structures import largest_slenderness
 
@@ -14,9 +15,9 @@ def column(degrees: float) -> Column:
     return Column(math.sin(alpha), math.cos(alpha))
 
 
-def main(case: dict) -> tuple[dict, dict, dict]:
+def main(case: dict) -> tuple[pd.DataFrame, list[dict], dict]:
     slendernesses = np.linspace(0.0, case["largest_slenderness"], case["points"])[1:]
-    over_slenderness = [
+    over_slenderness = pd.DataFrame(
         {
             "slenderness_deg": a,
             "mass_ratio": g,
@@ -24,7 +25,7 @@ def main(case: dict) -> tuple[dict, dict, dict]:
         }
         for g in case["mass_ratios"]
         for a in slendernesses
-    ]
+    )
     gammas = np.concatenate([np.linspace(0.0, 10.0, 201), [math.inf]])
     over_mass_ratio = [
         {
@@ -35,51 +36,62 @@ def main(case: dict) -> tuple[dict, dict, dict]:
         for a in case["slendernesses"]
         for g in gammas
     ]
-    heavy = [row for row in over_slenderness if row["mass_ratio"] > 0.0]
-    solitary = {a: column(a).restitution for a in slendernesses}
-    smaller = [solitary[row["slenderness_deg"]] - row["restitution"] for row in heavy]
-    more_lost = [
-        row["restitution"] ** 2 < solitary[row["slenderness_deg"]] ** 2
-        for row in heavy
-        if row["restitution"] >= 0.0
-    ]
-    counter = [
-        row["slenderness_deg"]
-        for row in heavy
-        if row["restitution"] ** 2 > solitary[row["slenderness_deg"]] ** 2
-    ]
     rounding = float(np.finfo(float).eps)
-    findings = {
-        "smaller_than_solitary": truth(
-            min(smaller) > 0.0, cells=len(smaller), least_difference=min(smaller)
-        ),
+    drawn = findings(over_slenderness)
+    alone = over_slenderness.slenderness_deg.map(lambda a: column(a).restitution)
+    heavy = over_slenderness.mass_ratio > 0.0
+    least = (alone - over_slenderness.restitution)[heavy].min()  # more digits than in the table
+    smaller = drawn["smaller_than_solitary"].with_evidence(least_difference=least)
+    return (
+        over_slenderness,
+        over_mass_ratio,
+        drawn
+        | {
+            "smaller_than_solitary": smaller,
+            "solitary_column_recovered": truth(
+                all(
+                    RockingFrame(column(a), 0.0).restitution == column(a).restitution
+                    for a in slendernesses
+                )
+            ),
+            "massless_columns": truth(
+                all(
+                    math.isclose(
+                        RockingFrame(column(a), math.inf).restitution,
+                        math.cos(2 * math.radians(a)),
+                        rel_tol=1e-12,
+                        abs_tol=1e-12,
+                    )
+                    for a in slendernesses
+                )
+            ),
+            "largest_slenderness_of_column": value(
+                math.degrees(largest_slenderness(0.0)), 90 * rounding, "°"
+            ),
+            "largest_slenderness_of_frame": value(
+                math.degrees(largest_slenderness(math.inf)), 90 * rounding, "°"
+            ),
+        },
+    )
+
+
+def findings(restitution_over_slenderness: pd.DataFrame) -> dict[str, Finding]:
+    """Return whether √r of the frames is smaller than that of their columns, from its table."""
+    table = restitution_over_slenderness
+    alone = table[table.mass_ratio == 0.0].set_index("slenderness_deg").restitution
+    heavy = table[table.mass_ratio > 0.0]
+    solitary = heavy.slenderness_deg.map(alone)
+    smaller = solitary - heavy.restitution
+    more_lost = (heavy.restitution**2 < solitary**2)[heavy.restitution >= 0.0]
+    counter = heavy.slenderness_deg[heavy.restitution**2 > solitary**2]
+    return {
+        "smaller_than_solitary": truth(smaller.min() > 0.0, cells=len(smaller)),
         "energy_loss": truth(
-            more_lost and all(more_lost),
+            len(more_lost) and all(more_lost),
             cells_that_rock=len(more_lost),
             least_slenderness_against_deg=min(counter, default=math.nan),
         ),
-        "solitary_column_recovered": truth(
-            all(RockingFrame(column(a), 0.0).restitution == r for a, r in solitary.items())
-        ),
-        "massless_columns": truth(
-            all(
-                math.isclose(
-                    RockingFrame(column(a), math.inf).restitution,
-                    math.cos(2 * math.radians(a)),
-                    rel_tol=1e-12,
-                    abs_tol=1e-12,
-                )
-                for a in slendernesses
-            )
-        ),
-        "largest_slenderness_of_column": value(
-            math.degrees(largest_slenderness(0.0)), 90 * rounding, "°"
-        ),
-        "largest_slenderness_of_frame": value(
-            math.degrees(largest_slenderness(math.inf)), 90 * rounding, "°"
-        ),
     }
-    return over_slenderness, over_mass_ratio, findings
 
 
 if __name__ == "__main__":

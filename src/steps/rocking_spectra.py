@@ -13,10 +13,10 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import Finding, run, truth
-from steps.spectrum import progress
+from steps.shared.histories import NUDGE
+from steps.shared.spectrum import progress
 from topheavy import Column, Record, RockingFrame, judge, read_record, reference
 
-NUDGE = 1e-9  # of a record: what no measurement resolves
 CHANGED = 0.01  # of α: a change of the peak that is not small
 
 
@@ -73,6 +73,17 @@ def main(case: dict, paths: list[str], tightened: float) -> tuple[pd.DataFrame, 
     runs = [(record, gamma) for record in records.values() for gamma in case["mass_ratios"]]
     found = (spectrum(record, columns, gamma, tightened) for record, gamma in runs)
     table = pd.DataFrame([row for rows in progress(found, len(runs), "spectra") for row in rows])
+    of_told = table.change[table.told & ~table.overturned].max()
+    drawn = findings(table)
+    told = drawn["every_history_can_be_told"].with_evidence(largest_change_of_told=float(of_told))
+    second = second_route(table, records, columns, case["checked_by_second_route"])
+    more = {"every_history_can_be_told": told, "second_route": second}
+    return table.drop(columns="change"), drawn | more
+
+
+def findings(rocking_spectra: pd.DataFrame) -> dict[str, Finding]:
+    """Return how often the larger or heavier overturns alone, from the table of histories."""
+    table, mass_ratios = rocking_spectra, sorted(rocking_spectra.mass_ratio.unique().tolist())
     both = {"index": ["record", "size"], "columns": "mass_ratio", "aggfunc": "first"}
     falls = table.pivot_table(values="overturned", **both).astype(bool)
     falls = falls[table.pivot_table(values="told", **both).astype(bool).all(axis=1)]
@@ -82,16 +93,13 @@ def main(case: dict, paths: list[str], tightened: float) -> tuple[pd.DataFrame, 
         runs = (fallen.to_numpy() for _, fallen in falls[gamma].groupby("record"))
         return sum(int(np.sum(~fallen[:-1] & fallen[1:])) for fallen in runs)
 
-    findings = {
+    return {
         "larger_is_safer_under_every_record": truth(
-            not any(map(reversals, case["mass_ratios"])),
-            reversals=[reversals(gamma) for gamma in case["mass_ratios"]],
+            not any(map(reversals, mass_ratios)),
+            reversals=[reversals(gamma) for gamma in mass_ratios],
         ),
         "heavier_is_safer_under_every_record": truth(
-            not any(
-                (falls[heavy] & ~falls[light]).any()
-                for light, heavy in pairwise(case["mass_ratios"])
-            ),
+            not any((falls[heavy] & ~falls[light]).any() for light, heavy in pairwise(mass_ratios)),
             pairs=[
                 {
                     "lighter": light,
@@ -99,21 +107,18 @@ def main(case: dict, paths: list[str], tightened: float) -> tuple[pd.DataFrame, 
                     "only_lighter_overturns": int((falls[light] & ~falls[heavy]).sum()),
                     "only_heavier_overturns": int((falls[heavy] & ~falls[light]).sum()),
                 }
-                for light, heavy in pairwise(case["mass_ratios"])
+                for light, heavy in pairwise(mass_ratios)
             ],
             compared=len(falls),
-            overturned=[int(falls[gamma].sum()) for gamma in case["mass_ratios"]],
+            overturned=[int(falls[gamma].sum()) for gamma in mass_ratios],
         ),
         "every_history_can_be_told": truth(
             table.told.all(),
             not_told=int((~table.told).sum()),
             histories=len(table),
             nudge=NUDGE,
-            largest_change_of_told=float(table.change[table.told & ~table.overturned].max()),
         ),
-        "second_route": second_route(table, records, columns, case["checked_by_second_route"]),
     }
-    return table.drop(columns="change"), findings
 
 
 def work(job: Any) -> Any:

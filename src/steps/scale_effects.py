@@ -4,12 +4,13 @@ import math
 from dataclasses import replace
 
 import numpy as np
+import pandas as pd
 
-from replication.workbench import run, truth
+from replication.workbench import Finding, run, truth
 from topheavy import Column, Pulse, judge, reference, simulate
 
 
-def main(case: dict, solver: dict) -> tuple[list[dict], dict]:
+def main(case: dict, solver: dict) -> tuple[list[dict], pd.DataFrame, dict]:
     small = Column(**case["column"])
     times_larger, times_longer = case["larger"], case["longer"]
     large = Column(small.half_width * times_larger, small.half_height * times_larger)
@@ -18,7 +19,7 @@ def main(case: dict, solver: dict) -> tuple[list[dict], dict]:
     )
     long = replace(short, angular_frequency=short.angular_frequency / times_longer)
     times = np.linspace(0.0, 8.0 * case["pulse"]["period"], 1201)
-    rows, overturned = [], {}
+    rows, outcomes = [], []
     for column_name, column in (("smaller", small), ("larger", large)):
         for pulse_name, pulse in (("shorter", short), ("longer", long)):
             response = simulate(column, pulse, samples=times)
@@ -28,7 +29,8 @@ def main(case: dict, solver: dict) -> tuple[list[dict], dict]:
             )
             if any(other.overturned != response.overturned for other in others):
                 raise ArithmeticError(f"{column} under {pulse}: the routes disagree")
-            overturned[column_name, pulse_name] = response.overturned
+            outcome = {"column": column_name, "pulse": pulse_name}
+            outcomes.append(outcome | {"overturned": response.overturned})
             rows += [
                 {
                     "column": column_name,
@@ -44,7 +46,14 @@ def main(case: dict, solver: dict) -> tuple[list[dict], dict]:
                     strict=True,
                 )
             ]
-    findings = {
+    table = pd.DataFrame(outcomes)
+    return rows, table, findings(table)
+
+
+def findings(scale_outcomes: pd.DataFrame) -> dict[str, Finding]:
+    """Return whether the larger column survives, and the shorter pulse is survived."""
+    overturned = scale_outcomes.set_index(["column", "pulse"]).overturned
+    return {
         "larger_column_survives": truth(
             overturned["smaller", "longer"] and not overturned["larger", "longer"]
         ),
@@ -52,7 +61,6 @@ def main(case: dict, solver: dict) -> tuple[list[dict], dict]:
             overturned["smaller", "longer"] and not overturned["smaller", "shorter"]
         ),
     }
-    return rows, findings
 
 
 if __name__ == "__main__":

@@ -11,53 +11,59 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import run, truth
-from steps.spectra_compared import ORDER, Spectra, finite
+from steps.shared.spectra_compared import ORDER, Spectra, finite, of_sample
 
 
-def main(case: dict, solver: dict, table: pd.DataFrame) -> tuple[list[dict], dict]:
-    spectra = Spectra(case, table)
+def main(case: dict, solver: dict, lines: pd.DataFrame) -> tuple:
+    spectra = Spectra(case, lines)
     rises = spectra.lowest_rises()
     areas = [row for light, heavy in case["pairs"] for row in spectra.areas(light, heavy)]
     width, place, light, heavy, amplitude = spectra.counterexample(pairwise(case["mass_ratios"]))
     verdicts = [spectra.judged(place, g, amplitude, solver["tightened"]) for g in (light, heavy)]
     if verdicts != [[False] * 2, [True] * 2]:
         raise ArithmeticError(f"γ = {light}, {heavy} at {amplitude:.6g}: not a counterexample")
-    exact = [row for row in areas if not row["linearised"]]
+    table, spec = pd.DataFrame(areas), case["sample"]
+    sample = spectra.sample(spec["points"], spec["seed"], solver["tightened"])
+    drawn = findings(table, sample)
+    return (
+        table,
+        sample,
+        {
+            "lowest_amplitude_rises_with_mass": rises,
+            "heavier_is_more_stable": truth(
+                drawn["heavier_is_more_stable"]["holds"],
+                holds_when=rises.holds,
+                condition="what counts is the lowest amplitude of a pulse that overturns",
+                width_of_band=width,
+                amplitude_over_uplift=amplitude,
+                survives=finite(light),
+                overturns=finite(heavy),
+                **place.described(),
+            ),
+            "areas": drawn["areas"],
+            "sample_agrees": drawn["sample_agrees"],
+        },
+    )
 
-    def share(word: str, pair: int) -> list[float]:
-        lighter = finite(case["pairs"][pair][0])
-        return [row[word] for row in exact if row["lighter"] == lighter]
 
-    findings = {
-        "lowest_amplitude_rises_with_mass": rises,
-        "heavier_is_more_stable": truth(
-            not any(row["only_heavier_overturns"] for row in areas),
-            holds_when=rises.holds,
-            condition="what counts is the lowest amplitude of a pulse that overturns",
-            width_of_band=width,
-            amplitude_over_uplift=amplitude,
-            survives=finite(light),
-            overturns=finite(heavy),
-            **place.described(),
-        ),
-        "areas": truth(
-            True,
-            pairs=[
-                {
-                    "lighter": finite(case["pairs"][pair][0]),
-                    "heavier": finite(case["pairs"][pair][1]),
-                    "only_lighter_overturns": float(np.mean(share("only_lighter_overturns", pair))),
-                    "only_heavier_overturns": float(np.mean(share("only_heavier_overturns", pair))),
-                    "largest_only_heavier": max(share("only_heavier_overturns", pair)),
-                }
-                for pair in range(len(case["pairs"]))
-            ],
-        ),
-        "sample_agrees": spectra.sample(
-            case["sample"]["points"], case["sample"]["seed"], solver["tightened"]
-        ),
+def findings(spectra_areas: pd.DataFrame, spectra_sample: pd.DataFrame) -> dict[str, Any]:
+    """Return the shares of the maps that overturn one frame alone, and whether a sample agrees."""
+    exact = spectra_areas[~spectra_areas.linearised]
+    pairs = [
+        {
+            "lighter": lighter,
+            "heavier": heavier,
+            "only_lighter_overturns": float(np.mean(maps.only_lighter_overturns)),
+            "only_heavier_overturns": float(np.mean(maps.only_heavier_overturns)),
+            "largest_only_heavier": maps.only_heavier_overturns.max(),
+        }
+        for (lighter, heavier), maps in exact.groupby(["lighter", "heavier"], sort=False)
+    ]
+    return {
+        "heavier_is_more_stable": {"holds": not spectra_areas.only_heavier_overturns.any()},
+        "areas": truth(True, pairs=pairs),
+        "sample_agrees": of_sample(spectra_sample),
     }
-    return areas, findings
 
 
 def work(job: Any) -> tuple:

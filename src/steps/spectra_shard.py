@@ -5,13 +5,11 @@ linearised equation too, so that spectra can be compared.
 """
 
 import itertools
-import math
 
 import pandas as pd
 
 from replication.workbench import grid, run
-from steps.spectrum import Line, shard_of, solve
-from topheavy import Column, Pulse, RockingFrame
+from steps.shared.spectrum import Line, line, shard_of, solve
 
 
 def lines(case: dict, shard: str = "1-of-1") -> list[Line]:
@@ -24,25 +22,6 @@ def lines(case: dict, shard: str = "1-of-1") -> list[Line]:
         map(float, grid(case["frequency_ratios"])),
     )
     return [line(*each) for each in shard_of([*labels], shard)]
-
-
-def line(slenderness: float, shape: str, gamma: float, linearised: bool, ratio: float) -> Line:
-    """Return the line of a frame whose columns have a slenderness in degrees."""
-    alpha = math.radians(slenderness)
-    column = Column(math.sin(alpha), math.cos(alpha))
-    block = RockingFrame(column, gamma).block()
-    labels = {
-        "slenderness_deg": slenderness,
-        "shape": shape,
-        "mass_ratio": gamma,
-        "linearised": linearised,
-        "frequency_ratio": ratio,
-    }
-    return Line(
-        labels,
-        block.linear() if linearised else block,
-        Pulse(shape, column.uplift_acceleration, ratio * column.frequency_parameter),
-    )
 
 
 def main(case: dict, shard: str) -> pd.DataFrame:

@@ -11,12 +11,16 @@ from functools import cache
 from itertools import combinations, groupby, pairwise
 from typing import TypeAlias
 
+import pandas as pd
+
 from replication.workbench import Finding, grid, run, truth
+from steps.shared.spectra_compared import finite
 from topheavy import Column, Pulse, RockingFrame, judge
 from topheavy.linear import simulate_linear_exact
 from topheavy.structures import size_ratio
 
 SCANNING = 1e-8  # of α: tolerance of a scan, of which what is quoted is made anew
+RATIO = "frequency_ratio"
 NEARBY = 0.05  # of an amplitude: where the linearised equation is asked
 
 Trial: TypeAlias = tuple[Column | RockingFrame, float]
@@ -61,62 +65,64 @@ class Scan:
             if counter:
                 yield [amplitude for amplitude, *_ in neighbours]
 
-    def ranking(self, order: list[list[Trial]]) -> Finding:
-        """Test whether each trial survives all that earlier ones survive, or has a higher minimum.
+    def ranking(self, order: list[list[Trial]]) -> tuple[list[dict], list[dict]]:
+        """Return the minimum of each trial, and the amplitudes that contradict the ranking.
 
-        In the middle of the widest run of counterexamples, the outcome is computed again at the
-        tightened tolerance. The closed-form solution of the linearised equation, whose boundaries
-        differ, is also searched for counterexamples among the same two trials.
+        A row of the second list is a run of neighbouring amplitudes that an earlier trial of its
+        line survives and a later one does not. In the middle of the widest run, the outcome is
+        computed again at the tightened tolerance. The closed-form solution of the linearised
+        equation, whose boundaries differ, is also searched for counterexamples among its trials.
         """
-        rises = all(
-            self.first(weaker) <= self.first(stronger)
-            for trials in order
-            for weaker, stronger in pairwise(trials)
-        )
+        minima = [
+            {"line": number, **describe(trial), "lowest": self.first(trial)}
+            for number, trials in enumerate(order)
+            for trial in trials
+        ]
         runs = [
             (run, weaker, stronger)
             for trials in order
             for weaker, stronger in combinations(trials, 2)
             for run in self.against(weaker, stronger)
         ]
-        if not runs:
-            return truth(True, first_fall_rises=rises)
-        run, weaker, stronger = max(runs, key=lambda item: len(item[0]))
+        widest = max(runs, key=lambda item: len(item[0]), default=None)
+        rows = [
+            {
+                "low": item[0][0],
+                "high": item[0][-1],
+                "amplitudes": len(item[0]),
+                "middle": item[0][len(item[0]) // 2],
+                **{f"survives_{name}": each for name, each in describe(item[1]).items()},
+                **{f"overturns_{name}": each for name, each in describe(item[2]).items()},
+                "closed_form": self.solved(*item) if item is widest else math.nan,
+            }
+            for item in runs
+        ]
+        return minima, rows
+
+    def solved(self, run: list[float], weaker: Trial, stronger: Trial) -> int:
+        """Count the amplitudes near the middle of a run at which the closed form agrees with it."""
         amplitude = run[len(run) // 2]
-        pair = (weaker, stronger)
         again = [
             judge(trial[0], self.pulse(trial, amplitude), tolerance=self.tightened).overturned
-            for trial in pair
-        ]
-        linearised = [
-            near
-            for near in self.amplitudes
-            if abs(near / amplitude - 1.0) < NEARBY
-            and self.overturned_linearised(stronger, near)
-            and not self.overturned_linearised(weaker, near)
+            for trial in (weaker, stronger)
         ]
         if again != [False, True]:
             raise ArithmeticError(f"{weaker}, {stronger} at {amplitude:.6g}: not a counterexample")
-        return truth(
-            False,
-            holds_when=rises,
-            condition="what counts is the lowest amplitude of the tested pulses that overturns",
-            counterexamples=sum(len(item[0]) for item in runs),
-            amplitude_over_uplift=amplitude,
-            survives=describe(weaker),
-            overturns=describe(stronger),
-            closed_form_counterexamples=len(linearised),
+        return sum(
+            self.overturned_linearised(stronger, near)
+            and not self.overturned_linearised(weaker, near)
+            for near in self.amplitudes
+            if abs(near / amplitude - 1.0) < NEARBY
         )
 
 
 def describe(trial: Trial) -> dict:
     structure, frequency_ratio = trial
     alone = isinstance(structure, Column)
-    gamma = 0.0 if alone else structure.mass_ratio
     return {
         "size": (structure if alone else structure.column).size,
-        "mass_ratio": gamma if math.isfinite(gamma) else "infinite",
-        "frequency_ratio": frequency_ratio,
+        "mass_ratio": 0.0 if alone else structure.mass_ratio,
+        RATIO: frequency_ratio,
     }
 
 
@@ -140,10 +146,44 @@ def orders(case: dict) -> dict[str, list[list[Trial]]]:
     }
 
 
-def main(case: dict, solver: dict) -> dict:
+def main(case: dict, solver: dict) -> tuple[pd.DataFrame, pd.DataFrame, dict]:
     amplitudes = tuple(map(float, grid(case["amplitudes"])))
     scan = Scan(Column(**case["column"]), case["shape"], amplitudes, solver["tightened"])
-    return {name: scan.ranking(order) for name, order in orders(case).items()}
+    found = {name: scan.ranking(order) for name, order in orders(case).items()}
+    tables = [
+        pd.DataFrame([{"ranking": name} | row for name in found for row in found[name][part]])
+        for part in (0, 1)
+    ]
+    return *tables, findings(*tables)
+
+
+def findings(stability_minima: pd.DataFrame, stability_runs: pd.DataFrame) -> dict[str, Finding]:
+    """Test whether each trial survives all that earlier ones survive, or has a higher minimum."""
+    found = {}
+    for name, trials in stability_minima.groupby("ranking", sort=False):
+        lines = [line.lowest.to_list() for _, line in trials.groupby("line")]
+        rises = all(low <= high for line in lines for low, high in pairwise(line))
+        runs = stability_runs.query("ranking == @name") if len(stability_runs) else stability_runs
+        if runs.empty:
+            found[name] = truth(True, first_fall_rises=rises)
+            continue
+        widest = runs.loc[runs.amplitudes.idxmax()]
+        found[name] = truth(
+            False,
+            holds_when=rises,
+            condition="what counts is the lowest amplitude of the tested pulses that overturns",
+            counterexamples=int(runs.amplitudes.sum()),
+            amplitude_over_uplift=widest.middle,
+            survives=_trial(widest, "survives"),
+            overturns=_trial(widest, "overturns"),
+            closed_form_counterexamples=int(widest.closed_form),
+        )
+    return found
+
+
+def _trial(run: pd.Series, which: str) -> dict:
+    """Return the size, γ and frequency of one of the two trials of a run."""
+    return {name: finite(run[f"{which}_{name}"]) for name in ("size", "mass_ratio", RATIO)}
 
 
 if __name__ == "__main__":

@@ -1,11 +1,17 @@
-"""Test statements of the paper that no other rule tests; each gives one finding."""
+"""Test statements of the paper that no other rule tests; each gives one finding.
+
+What is measured for each goes into a table, from which `findings` judges it.
+"""
 
 import math
+from collections.abc import Callable, Mapping
+from typing import TypeAlias
 
 import numpy as np
+import pandas as pd
 import sympy as sp
 
-from replication.workbench import run, truth
+from replication.workbench import Finding, run, truth
 from topheavy import STANDARD_GRAVITY, Column, Pulse, RockingFrame, simulate
 from topheavy.derivation import NEGATIVE, POSITIVE, cap_motion, premises
 from topheavy.derivation.notation import acceleration, alpha, read, vanishes
@@ -20,6 +26,10 @@ SMALLEST = 1e-3  # of α: forces are looked at beyond this rotation, away from i
 SOLVED = 1e-6  # over α: the change of a history when the tolerance is tightened
 TIMES = np.linspace(0.0, 6.0, 601)  # s
 STEP_ASIDE = 1e-6  # of a threshold, to either side
+ERROR, PRINTED = "error at γ = ", "printed: "
+
+Measured: TypeAlias = dict[str, Mapping[str, float | bool]]
+"""What was measured, by the statement and its own name."""
 
 
 def similar(column: Column, scale: float) -> Column:
@@ -30,7 +40,7 @@ def similar(column: Column, scale: float) -> Column:
 # The oscillator ----------------------------------------------------------------------------------
 
 
-def from_below(frame: RockingFrame, cap: dict, pulse: Pulse) -> dict:
+def from_below(frame: RockingFrame, cap: dict, pulse: Pulse) -> Measured:
     """Compare three rigid bodies with the equivalent column, and the forces on their cap.
 
     The bodies use neither Eq. (23) nor Eq. (25). The column has the size R̂ and the frame's √r.
@@ -59,20 +69,18 @@ def from_below(frame: RockingFrame, cap: dict, pulse: Pulse) -> dict:
     needed = mass * np.stack([across + ground * g, up + g], axis=1)
     off = np.abs(bodies.forces[:, 2:].sum(axis=1) - needed)[left]
     return {
-        "identical_response": truth(
-            same < BODIES and own < BODIES,
-            holds_when=same < BODIES,
-            condition="the equivalent column is given the frame's √r in place of its own",
-            apart_over_alpha=same,
-            apart_with_its_own_restitution=own,
-        ),
-        "forces_on_the_cap_balance": truth(
-            len(off) > 0 and off.max() < BODIES * mass * g, instants=len(off), apart=off.max()
-        ),
+        "identical_response": {"given the frame's √r": same, "with its own √r": own},
+        "forces_on_the_cap_balance": {
+            "instants": len(off),
+            "apart": off.max(initial=0.0),
+            "weight": mass * g,
+        },
     }
 
 
-def oscillator(frame: RockingFrame, pulse: Pulse, mass_ratios: list[float], solver: dict) -> dict:
+def oscillator(
+    frame: RockingFrame, pulse: Pulse, mass_ratios: list[float], solver: dict
+) -> Measured:
     column, level = frame.column, frame.uplift_acceleration
 
     large, start = similar(column, 4.0), {"rotation": 0.6 * column.slenderness}
@@ -106,39 +114,37 @@ def oscillator(frame: RockingFrame, pulse: Pulse, mass_ratios: list[float], solv
         if usual.outcome != tight.outcome:
             raise ArithmeticError(f"γ = {gamma:g}: the outcome depends on the tolerance")
         off = np.nanmax(np.abs(usual.rotation - tight.rotation)) / frame.slenderness
-        errors[f"{gamma:g}"] = float(off)
+        errors[f"{ERROR}{gamma:g}"] = float(off)
 
-    solved = max(errors.values()) < SOLVED
     responses = [equation.name for equation in EQUATIONS if equation.printed.startswith("θ =")]
     nearly, limit = RockingFrame(column, 1e9).block().linear(), simplified(frame, "all")
     return {
-        "time_scales_with_p": truth(scaled < IDENTICAL, apart_over_alpha=scaled),
-        "rigid_until_uplift": truth(lifts(1 + STEP_ASIDE) and not lifts(1 - STEP_ASIDE)),
-        "rocks_left_then_right": truth(
-            pulse.excitation(pulse.duration / 8) > 0.0
-            and not response.overturned
-            and before.min() < 0.0 >= before.max()
-            and after.min() >= 0.0 < after.max(),
-            first_impact=first,
-        ),
-        "solved_for_any_mass_ratio": truth(
-            solved and bool(responses),
-            holds_when=solved,
-            condition="what is offered for any γ is the equation, not a response",
-            printed_responses=responses,
-            error_over_alpha=errors,
-        ),
-        "massless_columns_are_a_limit": truth(
-            math.isclose(nearly.frequency_parameter, limit.frequency_parameter, rel_tol=1e-8)
-            and math.isclose(nearly.restitution, limit.restitution, rel_tol=1e-8)
-        ),
+        "time_scales_with_p": {"apart": scaled},
+        "rigid_until_uplift": {
+            "lifts above": lifts(1 + STEP_ASIDE),
+            "lifts below": lifts(1 - STEP_ASIDE),
+        },
+        "rocks_left_then_right": {
+            "overturned": response.overturned,
+            "ground": pulse.excitation(pulse.duration / 8),
+            "first impact": first,
+            "least before": before.min(),
+            "largest before": before.max(),
+            "least after": after.min(),
+            "largest after": after.max(),
+        },
+        "solved_for_any_mass_ratio": errors | {f"{PRINTED}{name}": 1.0 for name in responses},
+        "massless_columns_are_a_limit": {
+            "p̂": abs(nearly.frequency_parameter / limit.frequency_parameter - 1.0),
+            "√r": abs(nearly.restitution / limit.restitution - 1.0),
+        },
     }
 
 
 # Geometry and algebra ----------------------------------------------------------------------------
 
 
-def structure(frame: RockingFrame, mass_ratios: list[float]) -> dict:
+def structure(frame: RockingFrame, mass_ratios: list[float]) -> Measured:
     column = frame.column
     rotations = np.linspace(-column.slenderness, column.slenderness, 101)
     moved = np.transpose(cap_displacement(column, rotations))
@@ -174,26 +180,107 @@ def structure(frame: RockingFrame, mass_ratios: list[float]) -> dict:
         for version in ("printed", "meant")
     }
     return {
-        "cap_stays_on_its_seats": truth(gap < 1e-12, gap_over_size=gap),
-        "centre_of_gravity_rises": truth(
-            np.all(np.diff(heights) > 0.0) and np.all(np.diff(sizes) > 0.0),
-            heights=heights,
-        ),
-        "reactions_need_the_acceleration": truth(cap_motion(NEGATIVE).v_ddot.has(acceleration)),
-        "compact_form": truth(compact["meant"], holds_as_printed=compact["printed"]),
+        "cap_stays_on_its_seats": {"gap": gap},
+        "centre_of_gravity_rises": {
+            f"{name} {number}": found
+            for name, values in (("height", heights), ("size", sizes))
+            for number, found in enumerate(values)
+        },
+        "reactions_need_the_acceleration": {
+            "has it": cap_motion(NEGATIVE).v_ddot.has(acceleration)
+        },
+        "compact_form": compact,
     }
 
 
-def main(case: dict, solver: dict) -> dict:
+# What holds --------------------------------------------------------------------------------------
+
+
+def table_of(measured: Measured) -> pd.DataFrame:
+    """Return a row for each number that was measured; a truth is 1 or 0."""
+    rows = [
+        (statement, quantity, float(number))
+        for statement, numbers in measured.items()
+        for quantity, number in numbers.items()
+    ]
+    return pd.DataFrame(rows, columns=["statement", "quantity", "value"])
+
+
+def findings(statements: pd.DataFrame) -> dict[str, Finding]:
+    """Return which statements hold, from the table of what was measured for each."""
+    rows = {
+        name: of.set_index("quantity").value
+        for name, of in statements.groupby("statement", sort=False)
+    }
+    return {name: JUDGED[name](of) for name, of in rows.items()}
+
+
+def _identical(of: pd.Series) -> Finding:
+    same, own = of["given the frame's √r"], of["with its own √r"]
+    return truth(
+        same < BODIES and own < BODIES,
+        holds_when=bool(same < BODIES),
+        condition="the equivalent column is given the frame's √r in place of its own",
+        apart_over_alpha=same,
+        apart_with_its_own_restitution=own,
+    )
+
+
+def _solved(of: pd.Series) -> Finding:
+    errors = of[of.index.str.startswith(ERROR)]
+    printed = [one.removeprefix(PRINTED) for one in of.index.drop(errors.index)]
+    solved = bool(errors.max() < SOLVED)
+    return truth(
+        solved and bool(printed),
+        holds_when=solved,
+        condition="what is offered for any γ is the equation, not a response",
+        printed_responses=printed,
+        error_over_alpha={name.removeprefix(ERROR): error for name, error in errors.items()},
+    )
+
+
+def _rises(of: pd.Series) -> Finding:
+    heights, sizes = (of[of.index.str.startswith(name)] for name in ("height", "size"))
+    rise = np.all(np.diff(heights) > 0.0) and np.all(np.diff(sizes) > 0.0)
+    return truth(rise, heights=heights.to_list())
+
+
+JUDGED: dict[str, Callable[[pd.Series], Finding]] = {
+    "identical_response": _identical,
+    "forces_on_the_cap_balance": lambda of: truth(
+        of.instants > 0 and of.apart < BODIES * of.weight,
+        instants=int(of.instants),
+        apart=of.apart,
+    ),
+    "time_scales_with_p": lambda of: truth(of.apart < IDENTICAL, apart_over_alpha=of.apart),
+    "rigid_until_uplift": lambda of: truth(of["lifts above"] and not of["lifts below"]),
+    "rocks_left_then_right": lambda of: truth(
+        of.ground > 0.0
+        and not of.overturned
+        and of["least before"] < 0.0 >= of["largest before"]
+        and of["least after"] >= 0.0 < of["largest after"],
+        first_impact=of["first impact"],
+    ),
+    "solved_for_any_mass_ratio": _solved,
+    "massless_columns_are_a_limit": lambda of: truth((of < 1e-8).all()),
+    "cap_stays_on_its_seats": lambda of: truth(of.gap < 1e-12, gap_over_size=of.gap),
+    "centre_of_gravity_rises": _rises,
+    "reactions_need_the_acceleration": lambda of: truth(of["has it"]),
+    "compact_form": lambda of: truth(of.meant, holds_as_printed=bool(of.printed)),
+}
+
+
+def main(case: dict, solver: dict) -> tuple[pd.DataFrame, dict]:
     frame = RockingFrame(Column(**case["column"]), case["mass_ratio"])
     pulse = Pulse(
         case["pulse"]["shape"], case["pulse"]["amplitude"], 2 * math.pi / case["pulse"]["period"]
     )
-    return (
+    table = table_of(
         from_below(frame, case["cap"], pulse)
         | oscillator(frame, pulse, case["mass_ratios"], solver)
         | structure(frame, case["mass_ratios"])
     )
+    return table, findings(table)
 
 
 if __name__ == "__main__":

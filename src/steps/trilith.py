@@ -25,10 +25,45 @@ EPS_PRINT = 1e-12  # printed decimals, which are exact but for their doubles
 STEP_ASIDE = 1e-6  # of a threshold, to either side
 
 
-def passage(frame: RockingFrame, case: dict, printed: dict[str, Any]) -> dict:
-    """The numbers of p. 4, each from the ones before it. `printed` has the values of the ledger."""
-    column, u, f = frame.column, case["table_amplitude"], case["table_frequency"]
-    acceleration = table_acceleration(u, f)
+def numbers(frame: RockingFrame, case: dict) -> pd.DataFrame:
+    """Return the numbers of p. 4, each from the ones before it, with their error and unit."""
+    column, (cap, columns) = frame.column, case["printed_masses"]
+    p, p_frame = column.frequency_parameter, frame.frequency_parameter
+    acceleration = table_acceleration(case["table_amplitude"], case["table_frequency"])
+    uplift = frame.uplift_acceleration
+    rows = [
+        ("tan_slenderness", math.tan(column.slenderness), EPS, ""),
+        ("slenderness", math.degrees(column.slenderness), 90 * EPS, "°"),
+        ("size", column.size, EPS, "m"),
+        ("frequency_parameter", p, 8 * EPS, "rad/s"),
+        ("mass_ratio", cap / columns, EPS, ""),
+        ("frequency_ratio", p_frame / p, EPS, ""),
+        ("frame_frequency_parameter", p_frame, 8 * EPS, "rad/s"),
+        ("base_acceleration", acceleration * STANDARD_GRAVITY, 8 * EPS, "m/s²"),
+        ("base_acceleration_in_g", acceleration, EPS, "g"),
+        ("uplift_acceleration", uplift, EPS, "g"),
+        ("restitution", frame.restitution, EPS, ""),
+        ("acceleration_over_uplift", acceleration / uplift, EPS, ""),
+    ]
+    return pd.DataFrame(rows, columns=["quantity", "value", "error", "unit"])
+
+
+def of_numbers(table: pd.DataFrame) -> dict[str, Finding]:
+    """Return the numbers as findings, and whether the base acceleration is below that of uplift."""
+    found: dict[str, Finding] = {}
+    for row in table.fillna({"unit": ""}).itertuples():
+        found[row.quantity] = value(row.value, row.error, row.unit)
+        if row.quantity == "uplift_acceleration":
+            acceleration = found["base_acceleration_in_g"].value
+            found["stays_below_uplift"] = truth(acceleration < row.value)
+    return found
+
+
+def passage(
+    frame: RockingFrame, case: dict, printed: dict[str, Any], mass_ratio: Finding
+) -> dict[str, Finding]:
+    """Return what depends on the print of p. 4, by the values of the ledger."""
+    column = frame.column
     width, height = printed["trilith_width"], printed["trilith_height"]
     halves = sorted(map(float, re.findall(r"[\d.]+", printed["trilith_half_measures"])))
     ratio = printed["trilith_frame_frequency_parameter"] / printed["trilith_frequency_parameter"]
@@ -43,25 +78,9 @@ def passage(frame: RockingFrame, case: dict, printed: dict[str, Any]) -> dict:
             np.allclose(2.0 * np.array(halves), [width, height], rtol=EPS_PRINT)
             and np.allclose([column.half_width, column.half_height], halves, rtol=EPS_PRINT)
         ),
-        "tan_slenderness": value(math.tan(column.slenderness), EPS),
-        "slenderness": value(math.degrees(column.slenderness), 90 * EPS, "°"),
-        "size": value(column.size, EPS, "m"),
-        "frequency_parameter": value(column.frequency_parameter, 8 * EPS, "rad/s"),
-        "mass_ratio": value(
-            cap / columns,
-            EPS,
-            "",
-            **meant,
-            implied_by_frequencies=implied,
-            cap_mass=frame.mass_ratio * columns,
+        "mass_ratio": mass_ratio.with_evidence(
+            **meant, implied_by_frequencies=implied, cap_mass=frame.mass_ratio * columns
         ),
-        "frequency_ratio": value(frame.frequency_parameter / column.frequency_parameter, EPS),
-        "frame_frequency_parameter": value(frame.frequency_parameter, 8 * EPS, "rad/s"),
-        "base_acceleration": value(acceleration * STANDARD_GRAVITY, 8 * EPS, "m/s²"),
-        "base_acceleration_in_g": value(acceleration, EPS, "g"),
-        "uplift_acceleration": value(frame.uplift_acceleration, EPS, "g"),
-        "stays_below_uplift": truth(acceleration < frame.uplift_acceleration),
-        "restitution": value(frame.restitution, EPS),
     }
 
 
@@ -129,30 +148,27 @@ def tilted(frame: RockingFrame, angle: float) -> RockingFrame:
     )
 
 
-def anomalies(frame: RockingFrame, case: dict, near: list[dict]) -> Finding:
-    """Return whether minor anomalies of the contact let the tested motion lift the frame."""
+def anomalies(frame: RockingFrame, case: dict) -> dict[str, float]:
+    """Return minor anomalies of the contact, and whether the tested motion then lifts the frame."""
     column, minor = frame.column, case["minor"]
     motion = case["table_amplitude"], case["table_frequency"], 4.0 / case["table_frequency"]
     narrower = Column(column.half_width - minor["edge"], column.half_height)
-    enough = {row["quantity"]: row["other_side_lifts"] for row in near}
-    return truth(
-        lifts(replace(frame, column=narrower), *motion)
-        or lifts(tilted(frame, math.radians(minor["tilt"])), *motion),
-        holds_when=enough["effective_width_of_columns"] and enough["tilt_of_the_base"],
-        condition="the base loses the width, or is tilted by the angle, that is stated",
-        minor_edge_mm=1e3 * minor["edge"],
-        minor_tilt_deg=minor["tilt"],
-    )
+    return {
+        "minor_edge_mm": 1e3 * minor["edge"],
+        "minor_tilt_deg": minor["tilt"],
+        "narrower_lifts": lifts(replace(frame, column=narrower), *motion),
+        "tilted_lifts": lifts(tilted(frame, math.radians(minor["tilt"])), *motion),
+    }
 
 
 def starts(
     frame: RockingFrame, case: dict, tightened: float
-) -> tuple[list[dict], list[dict], dict]:
+) -> tuple[list[dict], list[dict], dict[str, float]]:
     """Simulate the shake table's steady sine after starts of increasing abruptness.
 
     The share is the part of the velocity 2πf u₀ that the shake table reaches at once: 0 is an
     acceleration sine from rest, 1 a displacement sine at full velocity. The histories are those of
-    these two ends.
+    these two ends. The last are the limits: the share from which it keeps rocking, and both routes.
     """
     u, f, duration = case["table_amplitude"], case["table_frequency"], case["duration"]
     motion, full = table_motion(u, f), abrupt_start(frame, u, f)
@@ -192,33 +208,81 @@ def starts(
     usual = shaken(1.0)
     others = (shaken(1.0, tolerance=tightened), shaken(1.0, reference.simulate))
     error = max(np.abs(other.rotation - usual.rotation).max() for other in others) / alpha
-    drawn = of_starts(pd.DataFrame(summary))
-    findings = {
-        "rest_from_rest": drawn["rest_from_rest"].with_evidence(duration=duration),
+    limits = {
+        "duration": duration,
+        "abrupt_keeps_rocking": all(one.outcome == "rocking" for one in (usual, *others)),
+        "peak_deg": math.degrees(usual.peak_rotation),
+        "steady_peak_deg": math.degrees(alpha * summary[-1]["late_peak_over_alpha"]),
+        "error_over_alpha": error,
+        "share_that_rests": low,
+        "share_that_rocks": high,
+    }
+    return summary, histories, limits
+
+
+def of_starts(starts: pd.DataFrame, limits: pd.Series) -> dict[str, Finding]:
+    """Return what the starts come to, from the tables of starts and of limits."""
+    rest, abrupt = starts.iloc[0], starts.iloc[-1]
+    low, high = limits.share_that_rests, limits.share_that_rocks
+    return {
+        "rest_from_rest": truth(
+            rest.outcome == "no uplift" and rest.peak_over_alpha == 0.0, duration=limits.duration
+        ),
         "abrupt_start_keeps_it_rocking": truth(
-            all(response.outcome == "rocking" for response in (usual, *others)),
-            peak_deg=math.degrees(usual.peak_rotation),
-            steady_peak_deg=math.degrees(alpha * summary[-1]["late_peak_over_alpha"]),
-            **drawn["abrupt_start_keeps_it_rocking"],
-            error_over_alpha=error,
+            limits.abrupt_keeps_rocking,
+            peak_deg=limits.peak_deg,
+            steady_peak_deg=limits.steady_peak_deg,
+            steady_peak_over_alpha=abrupt.late_peak_over_alpha,
+            error_over_alpha=limits.error_over_alpha,
         ),
         "least_share_that_keeps_rocking": value((low + high) / 2.0, (high - low) / 2.0),
     }
-    return summary, histories, findings
 
 
-def of_starts(starts: pd.DataFrame) -> dict[str, Any]:
-    """Return what the least and the most abrupt start come to, from the table of starts."""
-    rest, abrupt = starts.iloc[0], starts.iloc[-1]
+def of_anomalies(near: pd.DataFrame, limits: pd.Series) -> Finding:
+    """Return whether minor anomalies of the contact let the tested motion lift the frame."""
+    enough = near.set_index("quantity").other_side_lifts
+    return truth(
+        limits.narrower_lifts or limits.tilted_lifts,
+        holds_when=bool(enough["effective_width_of_columns"] and enough["tilt_of_the_base"]),
+        condition="the base loses the width, or is tilted by the angle, that is stated",
+        minor_edge_mm=limits.minor_edge_mm,
+        minor_tilt_deg=limits.minor_tilt_deg,
+    )
+
+
+def no_pure_rocking(started: dict[str, Finding]) -> Finding:
+    """Return whether there was no pure rocking below the uplift acceleration, as the paper says.
+
+    It explains the response that was measured by anomalies of the contact surfaces.
+    """
+    rests = started["rest_from_rest"].holds
+    return truth(
+        rests and not started["abrupt_start_keeps_it_rocking"].holds,
+        holds_when=rests,
+        condition="the table takes up its motion without a jump of velocity above the share stated",
+        share=started["least_share_that_keeps_rocking"].value,
+    )
+
+
+def findings(
+    trilith_numbers: pd.DataFrame,
+    trilith_nearness: pd.DataFrame,
+    trilith_starts: pd.DataFrame,
+    trilith_limits: pd.DataFrame,
+) -> dict[str, Finding]:
+    """Return the numbers of p. 4, how near the test was to uplift, and what starts it."""
+    limits = trilith_limits.set_index("quantity").value
+    started, numbers = of_starts(trilith_starts, limits), of_numbers(trilith_numbers)
+    over_uplift = numbers.pop("acceleration_over_uplift")
     return {
-        "rest_from_rest": truth(rest.outcome == "no uplift" and rest.peak_over_alpha == 0.0),
-        "abrupt_start_keeps_it_rocking": {"steady_peak_over_alpha": abrupt.late_peak_over_alpha},
+        **numbers,
+        **started,
+        **of_nearness(trilith_nearness),
+        "contact_anomalies": of_anomalies(trilith_nearness, limits),
+        "acceleration_over_uplift": over_uplift,
+        "no_pure_rocking": no_pure_rocking(started),
     }
-
-
-def findings(trilith_nearness: pd.DataFrame, trilith_starts: pd.DataFrame) -> dict[str, Any]:
-    """Return how near the test was to uplift; the dimensions and √r are in no table."""
-    return of_starts(trilith_starts) | of_nearness(trilith_nearness)
 
 
 def of_nearness(near: pd.DataFrame) -> dict[str, Finding]:
@@ -238,36 +302,24 @@ def of_nearness(near: pd.DataFrame) -> dict[str, Finding]:
     }
 
 
-def main(
-    case: dict, printed: dict[str, Any], tightened: float
-) -> tuple[dict, list[dict], list[dict], list[dict]]:
+def main(case: dict, printed: dict[str, Any], tightened: float) -> tuple:
     frame = RockingFrame(Column(**case["column"]), case["mass_ratio"])
-    findings = passage(frame, case, printed)
-    near = nearness(frame, case)
-    summary, histories, started = starts(frame, case, tightened)
-    findings |= started | {
-        **of_nearness(pd.DataFrame(near)),
-        "contact_anomalies": anomalies(frame, case, near),
-        "acceleration_over_uplift": value(
-            table_acceleration(case["table_amplitude"], case["table_frequency"])
-            / frame.uplift_acceleration,
-            EPS,
-        ),
-    }
-    # The paper: below the uplift acceleration there was apparently no pure rocking, and anomalies
-    # of the contact surfaces explain the response that was measured.
-    findings["no_pure_rocking"] = truth(
-        findings["rest_from_rest"].holds and not findings["abrupt_start_keeps_it_rocking"].holds,
-        holds_when=findings["rest_from_rest"].holds,
-        condition="the table takes up its motion without a jump of velocity above the share stated",
-        share=findings["least_share_that_keeps_rocking"].value,
+    summary, histories, limits = starts(frame, case, tightened)
+    limits = {name: float(one) for name, one in (limits | anomalies(frame, case)).items()}
+    tables = (
+        numbers(frame, case),
+        pd.DataFrame(nearness(frame, case)),
+        pd.DataFrame(summary),
+        pd.DataFrame(limits.items(), columns=["quantity", "value"]),
     )
-    return findings, near, summary, histories
+    found = findings(*tables)
+    read = passage(frame, case, printed, found["mass_ratio"])
+    found["mass_ratio"] = read.pop("mass_ratio")
+    return *tables, histories, read | found
 
 
 def work(job: Any) -> tuple:
-    findings, *tables = main(job.params.case, job.params.printed, job.params.solver["tightened"])
-    return *tables, findings
+    return main(job.params.case, job.params.printed, job.params.solver["tightened"])
 
 
 if __name__ == "__main__":

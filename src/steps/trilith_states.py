@@ -193,37 +193,54 @@ def _judged(row: Any) -> tuple[Start, Course]:
     return Start(*row[:3]), Course(*row[3:])
 
 
-def second_route(frame: RockingFrame, motion: Pulse, table: pd.DataFrame, spec: dict) -> Finding:
+def second_route(
+    frame: RockingFrame, motion: Pulse, table: pd.DataFrame, spec: dict
+) -> pd.DataFrame:
     """Judge a sample of starts by SciPy: some of all, and some on both sides of a boundary."""
     random = np.random.default_rng(SEED)
     chosen = table.iloc[random.permutation(len(table))[: spec["sample"]["points"]]]
     tried = [_judged(row) for row in chosen.itertuples(index=False)]
     near = beside_a_boundary(frame, motion, table, spec, spec["checked_by_second_route"])
-    differ, apart = 0, 0.0
-    for start, ours in tried + near:
+    rows = []
+    for place, (start, ours) in enumerate(tried + near):
         other = by_scipy(frame, motion, start, spec["duration"])
-        differ += ours.outcome != other.outcome
-        if ours.outcome == other.outcome == "rocking":
-            apart = max(apart, abs(ours.steady - other.steady))
+        rock = ours.outcome == other.outcome == "rocking"
+        rows.append(
+            start._asdict()
+            | {
+                "beside_a_boundary": place >= len(tried),
+                "outcome": ours.outcome,
+                "by_scipy": other.outcome,
+                "apart": abs(ours.steady - other.steady) if rock else 0.0,
+            }
+        )
+    return pd.DataFrame(rows)
+
+
+def _agreement(sample: pd.DataFrame) -> Finding:
+    """Return whether SciPy finds the same, from the table of the sample."""
+    near = int(sample.beside_a_boundary.sum())
+    tried, differ = len(sample) - near, int((sample.outcome != sample.by_scipy).sum())
     return truth(
-        bool(tried) and bool(near) and differ == 0 and apart < ALIKE,
-        starts=len(tried),
-        beside_a_boundary=len(near),
+        bool(tried) and bool(near) and differ == 0 and sample.apart.max() < ALIKE,
+        starts=tried,
+        beside_a_boundary=near,
         outcomes_that_differ=differ,
-        largest_apart_over_alpha=apart,
+        largest_apart_over_alpha=sample.apart.max(),
     )
 
 
-def main(case: dict, spec: dict) -> tuple[pd.DataFrame, dict[str, Finding]]:
-    """Return the outcome of every start, and the findings."""
+def main(case: dict, spec: dict) -> tuple[pd.DataFrame, pd.DataFrame, dict[str, Finding]]:
+    """Return the outcome of every start, a sample of them by SciPy, and the findings."""
     frame = RockingFrame(Column(**case["column"]), case["mass_ratio"])
     motion = table_motion(case["table_amplitude"], case["table_frequency"])
     table = outcomes(frame, motion, spec)
-    drawn, (difference, change) = findings(table), unsettled(table)
+    sample = second_route(frame, motion, table, spec)
+    drawn, (difference, change) = findings(table, sample), unsettled(table)
     drawn["one_steady_rotation"] = drawn["one_steady_rotation"].with_evidence(
         largest_difference=difference, largest_change_to_the_last_quarter=change
     )
-    return table, drawn | {"second_route": second_route(frame, motion, table, spec)}
+    return table, sample, drawn
 
 
 def unsettled(table: pd.DataFrame) -> tuple[float, float]:
@@ -236,8 +253,8 @@ def unsettled(table: pd.DataFrame) -> tuple[float, float]:
     return float(kept.steady.max() - kept.steady.min()), float(change)
 
 
-def findings(trilith_states: pd.DataFrame) -> dict[str, Finding]:
-    """Return what most starts come to, from the table of outcomes."""
+def findings(trilith_states: pd.DataFrame, trilith_sample: pd.DataFrame) -> dict[str, Finding]:
+    """Return what most starts come to, from the tables of outcomes and of the sample."""
     table = trilith_states
     every, kept = counts(table), table[table.outcome == "rocking"]
     return {
@@ -255,6 +272,7 @@ def findings(trilith_states: pd.DataFrame) -> dict[str, Finding]:
             starts=len(kept),
             steady_over_alpha=float(kept.steady.median()),
         ),
+        "second_route": _agreement(trilith_sample),
     }
 
 

@@ -12,18 +12,21 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import Finding, grid, run, truth
-from steps.peak_forces import (
+from steps.shared.peak_forces import (
     FORCES,
     GUIDED,
+    MARGIN,
     PINNED,
     RIGID,
+    bending,
     held,
     held_peaks,
     ratio_of,
     rocking_peaks,
+    shear_after_uplift,
     tops,
 )
-from steps.spectrum import progress
+from steps.shared.spectrum import progress
 from topheavy import (
     STANDARD_GRAVITY,
     Cap,
@@ -45,7 +48,6 @@ from topheavy.three_bodies import simulate_three_bodies
 SEED = 2014  # of the samples that the second solvers judge
 CLOSE = 1e-3  # relative: what the peaks of two solvers may differ by
 HALVED = 5e-3  # relative: what half as many samples may change a peak by
-MARGIN = 0.01  # of the base shear just after uplift: what a later one may exceed it by
 SAME = 1e-6  # of the weight and of weight times height: for the three bodies
 STEPS = {"pulse": 200, "record": 60}  # in a period of the held frame; (π/60)²/2 is 1.4e-3
 BESIDE = 1e-3  # over p̂: how far from an impact the forces of the three bodies are compared
@@ -70,12 +72,6 @@ def motions(column: Column, case: dict, paths: list[str]) -> list[tuple[Pulse | 
         )
         for record in map(read_record, paths)
     ]
-
-
-def shear_after_uplift(frame: RockingFrame, peak: float) -> float:
-    """Return V/W of the resting frame that a ground acceleration (g) uplifts at once."""
-    level = frame.uplift_acceleration
-    return level + base_shear_slope(frame) * (peak - level)
 
 
 def compare(
@@ -201,8 +197,10 @@ def by_three_bodies(frame: RockingFrame, cap: Cap, pulse: Pulse, samples: int) -
     return float(max(np.abs(one[moving]).max() for one in apart))
 
 
-def second_route(table: pd.DataFrame, frames: list, cap: Cap, case: dict, tried: list) -> Finding:
-    """Return how far SciPy's peaks are from the library's, rocking and held, for a sample."""
+def second_route(
+    table: pd.DataFrame, frames: list, cap: Cap, case: dict, tried: list
+) -> pd.DataFrame:
+    """Return how far SciPy and three bodies are from the library, for a sample, a row each."""
     column, random = frames[0].column, np.random.default_rng(SEED)
     stands = table[(table.outcome == "rests") & (table.kind == "pulse")]
     apart = []
@@ -232,6 +230,16 @@ def second_route(table: pd.DataFrame, frames: list, cap: Cap, case: dict, tried:
         for spec in case["three_bodies"]["pulses"]
         for gamma in case["three_bodies"]["mass_ratios"]
     ]
+    found = {"rocking": apart, "held": fixed_apart, "three bodies": bodies}
+    rows = [(route, one) for route, differences in found.items() for one in differences]
+    return pd.DataFrame(rows, columns=["route", "apart"])
+
+
+def _agreement(routes: pd.DataFrame, table: pd.DataFrame) -> Finding:
+    """Return whether the second routes agree, and half as many samples change little."""
+    apart, fixed_apart, bodies = (
+        routes.apart[routes.route == route] for route in ("rocking", "held", "three bodies")
+    )
     worst = [float(np.max(found)) for found in (apart, fixed_apart, bodies, table.error.dropna())]
     return truth(
         max(worst[:2]) < CLOSE and worst[2] < SAME and worst[3] < HALVED,
@@ -258,21 +266,45 @@ def main(case: dict, paths: list[str]) -> tuple:
     found = (compare(frames, cap, motion, labels, case) for motion, labels in tried)
     table = pd.DataFrame(row for rows in progress(found, len(tried), "motions") for row in rows)
     ratios, of_slope = summary(table, case), slopes(case)
+    apart = float((of_slope.slope - of_slope.three_bodies).abs().max())
+    routes = second_route(table, frames, cap, case, tried)
+    drawn = findings(table, ratios, of_slope, routes)
+    return (
+        table,
+        ratios,
+        of_slope,
+        routes,
+        drawn
+        | {
+            "slope_by_three_bodies": truth(
+                largest_apart=apart,  # less than the digits of the table
+                **drawn["slope_by_three_bodies"],
+            ),
+        },
+    )
+
+
+def findings(
+    uplift_limits: pd.DataFrame,
+    uplift_ratios: pd.DataFrame,
+    uplift_slopes: pd.DataFrame,
+    uplift_routes: pd.DataFrame,
+) -> dict[str, Any]:
+    """Return what uplift limits, from the tables of histories, ratios, slopes and second routes."""
+    table, ratios, bodies = uplift_limits, uplift_ratios, uplift_slopes.dropna()
     stands = table[table.outcome != "overturned"]
     over_uplift = stands.base_shear / stands.shear_after_uplift
     rigid = ratios[ratios.held == RIGID]
     totals = rigid[rigid.force != "bending_moment"]
     cantilevers = rigid[rigid.top == PINNED]
-    bodies = of_slope.dropna()
     fell = int((table.outcome == "overturned").sum())
     counted = {"histories": len(table), "overturned": fell}
-    findings = {
-        "slope_by_three_bodies": truth(
-            len(bodies) > 0
+    return {
+        "slope_by_three_bodies": {
+            "holds": len(bodies) > 0
             and np.allclose(bodies.slope, bodies.three_bodies, rtol=0.0, atol=ROUNDING),
-            largest_apart=float((bodies.slope - bodies.three_bodies).abs().max()),
-            frames=len(bodies),
-        ),
+            "frames": len(bodies),
+        },
         "uplift_limits_forces": truth(
             ratios.largest.max() < 1.0,
             holds_when=max(totals.largest.max(), cantilevers.largest.max()) < 1.0,
@@ -291,9 +323,9 @@ def main(case: dict, paths: list[str]) -> tuple:
                 top: bending(stands[ratio_of("bending_moment", top, RIGID)].dropna())
                 for top in (PINNED, GUIDED)
             },
-            longest_period_that_is_limited=_longest(ratios[ratios.force != "bending_moment"], case),
+            longest_period_that_is_limited=_longest(ratios[ratios.force != "bending_moment"]),
             longest_period_of_bending_in_cantilevers=_longest(
-                ratios[(ratios.force == "bending_moment") & (ratios.top == PINNED)], case
+                ratios[(ratios.force == "bending_moment") & (ratios.top == PINNED)]
             ),
         ),
         "uplift_is_beneficial": truth(
@@ -307,23 +339,18 @@ def main(case: dict, paths: list[str]) -> tuple:
         "largest_shear_is_that_of_uplift": truth(
             over_uplift.max() < 1.0 + MARGIN, margin=MARGIN, largest=over_uplift.max()
         ),
-        "forces_by_second_routes": second_route(table, frames, cap, case, tried),
+        "forces_by_second_routes": _agreement(uplift_routes, table),
     }
-    return table, ratios, of_slope, findings
 
 
-def bending(ratio: pd.Series) -> dict[str, float]:
-    """Count the ratios of bending moments, and those that are not below 1; add their range."""
-    not_lower = int((ratio >= 1.0).sum())
-    ends = {"least": float(ratio.min()), "largest": float(ratio.max())}
-    return {"histories": len(ratio), "not_lower": not_lower} | ends
-
-
-def _longest(ratios: pd.DataFrame, case: dict) -> float:
+def _longest(ratios: pd.DataFrame) -> float:
     """Return the longest tested period up to which all of these forces are lower, s."""
-    lower = [ratios[ratios.held == f"{T:g} s"].largest.max() < 1.0 for T in case["periods"]]
-    limited = int(np.argmin([*lower, False]))
-    return float(case["periods"][limited - 1]) if limited else 0.0
+    longest = 0.0
+    for period, rows in ratios[ratios.held != RIGID].groupby("held", sort=False):
+        if rows.largest.max() >= 1.0:
+            break
+        longest = float(period.removesuffix(" s"))
+    return longest
 
 
 def work(job: Any) -> tuple:

@@ -11,7 +11,7 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import Finding, grid, run, truth
-from steps.spectrum import progress
+from steps.shared.spectrum import progress
 from steps.vase_poses import poses
 from steps.vase_searches import Minimum, lowest_told, lowest_wide, minimum, rivals
 from steps.vase_shares import PARAMETERS, WORTHS, shares
@@ -149,19 +149,26 @@ def question(compared: list[dict], structures: list[str], case: dict) -> Finding
     """
     longest = case["longest"]
     asked = [row for row in compared if row["structure"] in structures]
-    broken = [row for row in asked if is_exception(row)]
+    broken = pd.DataFrame(filter(is_exception, asked), columns=["structure", "kind"])
+    found = counted(broken, structures)
     long_ones = [row for row in asked if row["frequency_ratio"] <= longest]
     return truth(
-        not broken,
+        found.pop("holds"),
         holds_when=bool(long_ones) and not any(map(is_exception, long_ones)),
         condition=f"the ground motion is a pulse of ω at most {longest:g} p",
         comparisons=len(asked),
         comparisons_when=len(long_ones),
-        exceptions=len(broken),
-        exceptions_under_records=sum(row["kind"] == "record" for row in broken),
+        **found,
         records=sum(row["kind"] == "record" for row in asked),
         exceptions_of_width={f"{width:g}": reversed_at(asked, width) for width in case["widths"]},
     )
+
+
+def counted(exceptions: pd.DataFrame, structures: list[str]) -> dict[str, Any]:
+    """Return how many exceptions these structures have, and whether there is none."""
+    ours = exceptions[exceptions.structure.isin(structures)]
+    of_records = int((ours.kind == "record").sum())
+    return {"holds": ours.empty, "exceptions": len(ours), "exceptions_under_records": of_records}
 
 
 def reversed_at(rows: list[dict], width: float) -> dict[str, int]:
@@ -275,6 +282,34 @@ def beside_frames(summary: pd.DataFrame) -> Finding:
     return truth(over.min() > 1.0, compared=len(over), least=over.min(), largest=over.max())
 
 
+ASKED = {
+    "fixed_mass_always_lowers": ["fixed"],
+    "frame_always_raises": ["free"],
+    "support_decides": ["fixed", "free"],
+}
+"""Which structures each question about all motions is asked of."""
+
+
+def findings(
+    vase: pd.DataFrame, vase_exceptions: pd.DataFrame, vase_shares: pd.DataFrame
+) -> dict[str, Any]:
+    """Return what follows from the tables of minima, exceptions and shares of the gain."""
+    portals = vase[(vase.structure == "portal") & (vase["shape"] == vase["shape"][0])]
+    fresh = vase_exceptions[vase_exceptions.kind == "fresh"].frequency_ratio
+    asked = {name: counted(vase_exceptions, structures) for name, structures in ASKED.items()}
+    return asked | {
+        "condition_on_a_fresh_grid": {"exceptions_beyond": sorted(fresh)},
+        "portal_has_a_wider_base": truth(
+            (portals.slenderness_deg > vase.slenderness_deg[0]).all(),
+            slenderness_deg=portals.slenderness_deg,
+            minimum_overturning_g=portals.minimum_overturning,
+        ),
+        "portal_overturns_last": beside_frames(vase),
+        "shares_of_the_gain": whole_gain(vase_shares),
+        "second_route": {"exceptions": len(vase_exceptions)},
+    }
+
+
 def main(case: dict, paths: list[str], tightened: float) -> tuple:
     column = Column(**case["column"])
     summary = pd.DataFrame(under_pulses(column, case))
@@ -293,26 +328,19 @@ def main(case: dict, paths: list[str], tightened: float) -> tuple:
     errors = [*(one.error / one.acceleration for one in sample)]
     errors += [*(summary.error / summary.minimum_overturning)]
     of_shares = pd.DataFrame(shares(column, case))
-    portals = summary[(summary.structure == "portal") & (summary["shape"] == case["shapes"][0])]
-    longest = case["longest"]
-    findings = {
-        "fixed_mass_always_lowers": question(compared, ["fixed"], case),
-        "frame_always_raises": question(compared, ["free"], case),
-        "support_decides": question(compared, ["fixed", "free"], case).with_evidence(
-            under_the_pulses_of_the_period=ranks(summary)
-        ),
-        "condition_on_a_fresh_grid": on_a_fresh_grid(compared, longest),
-        "portal_has_a_wider_base": truth(
-            (portals.slenderness_deg > summary.slenderness_deg[0]).all(),
-            slenderness_deg=portals.slenderness_deg,
-            minimum_overturning_g=portals.minimum_overturning,
-        ),
-        "portal_overturns_last": beside_frames(summary),
-        "shares_of_the_gain": whole_gain(of_shares),
-        "second_route": second_route(errors, exceptions, rows),
-    }
+    none = ["structure", "kind", "frequency_ratio"]
+    found = {name: question(compared, of, case) for name, of in ASKED.items()}
+    found["support_decides"] = found["support_decides"].with_evidence(
+        under_the_pulses_of_the_period=ranks(summary)
+    )
+    found["condition_on_a_fresh_grid"] = on_a_fresh_grid(compared, case["longest"])
+    drawn = findings(
+        summary, pd.DataFrame(exceptions, columns=None if exceptions else none), of_shares
+    )
+    found |= {name: one for name, one in drawn.items() if isinstance(one, Finding)}
+    found["second_route"] = second_route(errors, exceptions, rows)
     tables = summary, pd.DataFrame(map(searched, rows)), pd.DataFrame(exceptions), of_shares
-    return *tables, pd.DataFrame(poses(column, case)), findings
+    return *tables, pd.DataFrame(poses(column, case)), found
 
 
 def work(job: Any) -> tuple:

@@ -12,7 +12,7 @@ from functools import cached_property
 
 import numpy as np
 
-from steps.rocking_spectra import NUDGE
+from steps.shared.histories import NUDGE
 from topheavy import (
     Column,
     FixedMassColumn,

@@ -12,7 +12,7 @@ import numpy as np
 import pandas as pd
 import sympy as sp
 
-from replication.workbench import run, truth, value
+from replication.workbench import Finding, run, truth, value
 from topheavy import (
     Column,
     Pulse,
@@ -219,10 +219,22 @@ def distance_from_derivation() -> float:
 
 def main(case: dict, tightened: float) -> tuple[dict[str, pd.DataFrame], dict]:
     routes, order, literature = agreement(case, tightened), convergence(case), published(case)
+    lost, apart = drift(case), distance_from_derivation()
+    found = findings(routes, literature) | {
+        "energy_drift": value(lost, 0.0),
+        "library_follows_the_derivation": truth(apart < 1e-13, largest_difference=apart),
+    }
+    return {"routes": routes, "convergence": order, "published": literature}, found
+
+
+def findings(
+    verification_routes: pd.DataFrame, verification_published: pd.DataFrame
+) -> dict[str, Finding]:
+    """Return whether the solvers agree, and our numbers with the literature, from both tables."""
+    routes, literature = verification_routes, verification_published
     off = (literature.computed - literature.expected).abs()
     off_print = (literature.computed / literature.printed - 1.0).abs()
-    lost = drift(case)
-    findings = {
+    return {
         "routes_agree": truth(
             routes.verdicts_that_differ.sum() == 0 and routes.error_99.max() < 1e-6,
             comparisons=int(routes.cells.sum()),
@@ -234,12 +246,7 @@ def main(case: dict, tightened: float) -> tuple[dict[str, pd.DataFrame], dict]:
             numbers=len(literature),
             farthest_from_print=off_print.max(),
         ),
-        "energy_drift": value(lost, 0.0),
-        "library_follows_the_derivation": truth(
-            (apart := distance_from_derivation()) < 1e-13, largest_difference=apart
-        ),
     }
-    return {"routes": routes, "convergence": order, "published": literature}, findings
 
 
 def work(job: Any) -> tuple:

@@ -39,6 +39,9 @@ rule certainty_extensions:
         ],
     output:
         table="results/tables/certainty_extensions.csv",
+        proofs="results/tables/certainty_proofs.csv",
+        similar="results/tables/certainty_similar.csv",
+        lobes="results/tables/certainty_lobes.csv",
         findings="results/findings/certainty_extensions.json",
     params:
         case=case("extensions", "certainty"),

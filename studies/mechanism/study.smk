@@ -40,6 +40,7 @@ rule mechanism_three_bodies:
 rule mechanism_admissible:
     output:
         table="results/tables/mechanism_admissible.csv",
+        by_mass="results/tables/mechanism_admissible_by_mass.csv",
         findings="results/findings/mechanism_admissible.json",
     params:
         case=case("admissible", "mechanism"),
@@ -53,6 +54,7 @@ rule mechanism_admissible:
 rule mechanism_dependence:
     output:
         table="results/tables/mechanism_dependence.csv",
+        bays="results/tables/mechanism_bays.csv",
         findings="results/findings/mechanism_dependence.json",
     params:
         case=case("dependence", "mechanism"),
@@ -83,6 +85,7 @@ rule mechanism_equivalence:
     output:
         table="results/tables/mechanism_equivalence.csv",
         drawn="results/tables/mechanism_equivalence_map.csv",
+        lowest="results/tables/mechanism_lowest.csv",
         findings="results/findings/mechanism_equivalence.json",
     params:
         case=MECHANISM["equivalence"],

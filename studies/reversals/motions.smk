@@ -60,6 +60,7 @@ rule reversals_check:
             "results/shards/reversals_motions_{scatteritem}.csv"
         ),
     output:
+        table="results/tables/reversals_sample.csv",
         findings="results/findings/reversals_check.json",
     params:
         case=MOTIONS,

@@ -27,6 +27,7 @@ rule reversals_pulses:
         spectra="results/tables/reversals_spectra.csv",
         areas="results/tables/reversals_areas.csv",
         why="results/tables/reversals_why.csv",
+        widths="results/tables/reversals_widths.csv",
         drawn="results/tables/reversals_map.csv",
         histories="results/tables/reversals_histories.csv",
         findings="results/findings/reversals_pulses.json",

@@ -20,7 +20,7 @@ from steps import (
     trilith,
     verification,
 )
-from steps.spectra_compared import Place
+from steps.shared.spectra_compared import Place
 from topheavy import Column, Pulse, RockingFrame
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -104,23 +104,28 @@ def test_heavier_survives_more_by_apart_brackets_and_all_solvers(
 
 @pytest.mark.parametrize(("larger", "holds"), [(2.0, True), (1.001, False)])
 def test_larger_column_survives_the_pulse_that_overturns_the_smaller(larger, holds):
-    _, found = scale_effects.main(case_of("scale_effects", larger=larger), SOLVER)
+    *_, found = scale_effects.main(case_of("scale_effects", larger=larger), SOLVER)
     assert found["larger_column_survives"].holds is holds
 
 
 # Statements --------------------------------------------------------------------------------------
 
 
+GIVEN = RockingFrame(Column(**TEMPLE), 1.0), [0.0, 1.0]
+
+
+def judged(measured):
+    return statements.findings(statements.table_of(measured))
+
+
 def test_compact_form_needs_both_equations(monkeypatch):
-    found = statements.structure(RockingFrame(Column(**TEMPLE), 1.0), [0.0, 1.0])
-    assert found["compact_form"].holds
+    assert judged(statements.structure(*GIVEN))["compact_form"].holds
     wrong = tuple(
         replace(one, meant=one.printed) if one.name == "eq22" else one
         for one in statements.EQUATIONS
     )
     monkeypatch.setattr(statements, "EQUATIONS", wrong)
-    found = statements.structure(RockingFrame(Column(**TEMPLE), 1.0), [0.0, 1.0])
-    assert not found["compact_form"].holds
+    assert not judged(statements.structure(*GIVEN))["compact_form"].holds
 
 
 def test_column_of_another_size_does_not_move_like_the_frame(monkeypatch):
@@ -128,7 +133,7 @@ def test_column_of_another_size_does_not_move_like_the_frame(monkeypatch):
     frame = RockingFrame(Column(**TEMPLE), case["mass_ratio"])
     pulse = Pulse("one-sine", case["pulse"]["amplitude"], 2 * np.pi / case["pulse"]["period"])
     monkeypatch.setattr(statements, "similar", lambda column, scale: column)
-    found = statements.from_below(frame, case["cap"], pulse)["identical_response"]
+    found = judged(statements.from_below(frame, case["cap"], pulse))["identical_response"]
     assert (found.holds, found.holds_when) == (False, False)
 
 
@@ -139,20 +144,20 @@ def test_column_of_another_size_does_not_move_like_the_frame(monkeypatch):
 def test_shake_table_is_below_uplift_up_to_uplift(amplitude, holds):
     frame = RockingFrame(Column(0.11, 0.40), 0.434)
     case = CONFIG["trilith"] | {"table_amplitude": amplitude}
-    assert trilith.passage(frame, case, PRINTED)["stays_below_uplift"].holds is holds
+    found = trilith.of_numbers(trilith.numbers(frame, case))
+    assert found["stays_below_uplift"].holds is holds
 
 
 @pytest.mark.parametrize("rests", [True, False])
-def test_no_pure_rocking_needs_rest_from_rest(monkeypatch, rests):
+def test_no_pure_rocking_needs_rest_from_rest(rests):
     started = {
         "rest_from_rest": truth(rests),
         "abrupt_start_keeps_it_rocking": truth(True),
         "least_share_that_keeps_rocking": value(0.3, 0.01),
     }
-    monkeypatch.setattr(trilith, "starts", lambda frame, case, tightened: ([], [], started))
-    found, *_ = trilith.main(case_of("trilith"), PRINTED, 1e-12)
-    assert found["no_pure_rocking"].holds is False
-    assert found["no_pure_rocking"].holds_when is rests
+    found = trilith.no_pure_rocking(started)
+    assert found.holds is False
+    assert found.holds_when is rests
 
 
 def test_moment_that_is_off_by_a_billionth_and_lost_energy_are_noticed(monkeypatch):

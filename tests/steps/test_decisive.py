@@ -4,19 +4,19 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
+import pandas as pd
 import pytest
 import yaml
 
 from steps import (
     restitution,
     rocking_spectra,
-    spectra_compared,
     spectra_shard,
-    spectrum,
     stability,
     trilith,
 )
-from steps.spectra_compared import Spectra
+from steps.shared import spectra_compared, spectrum
+from steps.shared.spectra_compared import Spectra
 from topheavy import Column, Record, RockingFrame
 from topheavy.overturning import Interval
 
@@ -38,7 +38,7 @@ def table():
 
 def swap_the_masses(monkeypatch):
     """Give each line the frame of the other γ, so that what is heavier overturns first."""
-    true = spectra_shard.line
+    true = spectrum.line
 
     def line(slenderness, shape, gamma, linearised, ratio):
         return true(slenderness, shape, 1.0 - gamma, linearised, ratio)
@@ -77,13 +77,13 @@ def test_narrow_band_below_the_first_is_found_by_the_finer_search(monkeypatch):
 
 def test_point_of_which_the_second_route_says_otherwise_is_counted(table, monkeypatch):
     spectra, true = Spectra(LINES, table[~table.linearised]), spectra_compared.reference.judge
-    assert spectra.sample(4, 1, 3e-12)["differ"] == 0
+    assert spectra_compared.of_sample(spectra.sample(4, 1, 3e-12))["differ"] == 0
 
     def otherwise(block, pulse):
         return SimpleNamespace(overturned=not true(block, pulse).overturned)
 
     monkeypatch.setattr(spectra_compared, "reference", SimpleNamespace(judge=otherwise))
-    found = spectra.sample(4, 1, 3e-12)
+    found = spectra_compared.of_sample(spectra.sample(4, 1, 3e-12))
     assert (found.holds, found["differ"]) == (False, 4)
 
 
@@ -132,7 +132,9 @@ def test_ranking_is_refuted_where_the_stronger_falls_first(
         return SimpleNamespace(overturned=structure == large)
 
     monkeypatch.setattr(stability, "judge", judge)
-    found = Known(small, "one-sine", (1.0, 2.0, 3.0), 3e-12).ranking([[(small, 4.0), (large, 4.0)]])
+    scan = Known(small, "one-sine", (1.0, 2.0, 3.0), 3e-12)
+    tables = map(pd.DataFrame, scan.ranking([[(small, 4.0), (large, 4.0)]]))
+    (found,) = stability.findings(*(table.assign(ranking="larger") for table in tables)).values()
     assert found.holds is holds
     assert found.holds_when is rises
 
@@ -169,7 +171,8 @@ TRILITH = RockingFrame(COLUMN, 0.434)
 
 
 def passage(**printed):
-    return trilith.passage(TRILITH, CONFIG["trilith"], PRINTED | printed)
+    ratio = trilith.of_numbers(trilith.numbers(TRILITH, CONFIG["trilith"]))["mass_ratio"]
+    return trilith.passage(TRILITH, CONFIG["trilith"], PRINTED | printed, ratio)
 
 
 @pytest.mark.parametrize(
@@ -197,9 +200,14 @@ def test_anomalies_that_are_large_enough_lift_the_trilith():
     near = trilith.nearness(TRILITH, case)
     assert [row["quantity"] for row in near][-1] == "tilt_of_the_base"
     assert all(row["other_side_lifts"] and not row["safe_side_lifts"] for row in near)
-    assert not trilith.anomalies(TRILITH, case, near).holds
+
+    def lift(minor):
+        limits = pd.Series(trilith.anomalies(TRILITH, case | {"minor": minor}))
+        return trilith.of_anomalies(pd.DataFrame(near), limits).holds
+
+    assert not lift(case["minor"])
     for minor in ({"edge": 0.023, "tilt": 0.1}, {"edge": 0.001, "tilt": 3.1}):
-        assert trilith.anomalies(TRILITH, case | {"minor": minor}, near).holds
+        assert lift(minor)
 
 
 def test_statement_that_no_mend_saves_is_not_meant(monkeypatch):
@@ -210,6 +218,6 @@ def test_statement_that_no_mend_saves_is_not_meant(monkeypatch):
     slip = PrintedCheck("eq2", 2, "", "a = b", False, "a = a", True, fault="letter", mended="a = a")
     monkeypatch.setattr(equations, "check_printed", lambda: [lost, slip])
     monkeypatch.setattr(equations, "theorems", list)
-    _, found = equations.main()
+    *_, found = equations.main()
     assert (found["eq1"].meant_holds, found["eq1"].kind) == (False, None)
     assert (found["eq2"].meant_holds, found["eq2"].kind) == (True, "letter")

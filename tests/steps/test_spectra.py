@@ -5,7 +5,7 @@ import pandas as pd
 import pytest
 
 from steps import spectra_shard
-from steps.spectra_compared import Place, Spectra, inside, length, overlap
+from steps.shared.spectra_compared import Place, Spectra, inside, length, overlap
 
 CASE = {
     "slendernesses": [14.0],

@@ -8,8 +8,8 @@ import pytest
 
 from replication.workbench import truth
 from steps import uplift_limits
-from steps.histories import history
-from steps.peak_forces import (
+from steps.shared.histories import history
+from steps.shared.peak_forces import (
     FORCES,
     GUIDED,
     PINNED,
@@ -18,6 +18,7 @@ from steps.peak_forces import (
     impact_impulse,
     ratio_of,
     rocking_peaks,
+    shear_after_uplift,
 )
 from topheavy import (
     Cap,
@@ -54,7 +55,7 @@ def test_frame_that_overturns_has_no_peaks():
 
 def test_sudden_pulse_has_the_shear_of_uplift_as_its_largest():
     found = rocking_peaks(FRAME, CAP, pulse(3.0, "one-cosine", 8.0), 8)
-    expected = uplift_limits.shear_after_uplift(FRAME, 3.0 * TAN)
+    expected = shear_after_uplift(FRAME, 3.0 * TAN)
     assert found.forces["base_shear"] == pytest.approx(expected, rel=1e-6)
 
 
@@ -200,14 +201,14 @@ def test_each_second_route_can_refute(monkeypatch, outputs, name, wrong, holds):
         monkeypatch.setattr(uplift_limits, name, higher(name, wrong))
     frames = [RockingFrame(column, gamma) for gamma in CASE["mass_ratios"]]
     tried = uplift_limits.motions(column, CASE, [])[:1]
-    found = uplift_limits.second_route(table, frames, CAP, CASE, tried)
-    assert found["holds"] is holds
+    routes = uplift_limits.second_route(table, frames, CAP, CASE, tried)
+    assert uplift_limits._agreement(routes, table)["holds"] is holds
 
 
 def test_slope_that_three_bodies_deny_is_noticed(monkeypatch):
     case = CASE | {"periods": []}
     right = uplift_limits.slopes(case)
-    given = {"summary": RATIOS, "second_route": truth(True)}
+    given = {"summary": RATIOS, "second_route": None, "_agreement": truth(True)}
     for name, found in given.items():
         monkeypatch.setattr(uplift_limits, name, lambda *arguments, found=found: found)
     monkeypatch.setattr(uplift_limits, "motions", lambda *arguments: [(None, {})])
@@ -260,7 +261,7 @@ def test_each_force_counts_where_it_is_claimed(
     ratios = RATIOS.assign(
         largest=[1.1 if f"{row.force} {row.top}" == force else 0.5 for row in RATIOS.itertuples()]
     )
-    given = {"summary": ratios, "second_route": truth(True)}
+    given = {"summary": ratios, "second_route": None, "_agreement": truth(True)}
     given |= {"motions": [(None, {})], "compare": [*ROWS, *rows(outcome=outcome)]}
     for name, found in given.items():
         monkeypatch.setattr(uplift_limits, name, lambda *arguments, found=found: found)

@@ -326,14 +326,10 @@ def test_rank_of_the_three_is_asked_under_every_pulse_of_the_period(change, hold
 
 @pytest.mark.parametrize(("angle", "holds"), [(9.6, True), (9.4, False)])
 def test_portal_stands_on_a_wider_base_or_not(monkeypatch, angle, holds):
-    table = summary(portal={"slenderness_deg": angle})
-    given = {"under_pulses": table, "motions": [], "shares": [], "whole_gain": truth(True)}
-    for name, found in (given | {"poses": []}).items():
-        monkeypatch.setattr(vase, name, lambda *arguments, found=found: found)
-    case = {"column": {"half_width": 0.5, "half_height": 3.0}, "spectra": {"highest": 12.0}}
-    case |= {"sample": {"points": 1}, "checked_by_second_route": 1, "longest": 2.0}
-    case |= {"shapes": ["b"], "widths": []}
-    assert vase.main(case, [], 3e-12)[-1]["portal_has_a_wider_base"].holds == holds
+    table = summary(portal={"slenderness_deg": angle}).query("shape == 'b'").reset_index()
+    monkeypatch.setattr(vase, "whole_gain", lambda shares: truth(True))
+    none = pd.DataFrame(columns=["structure", "kind", "frequency_ratio"])
+    assert vase.findings(table, none, None)["portal_has_a_wider_base"].holds == holds
 
 
 @pytest.mark.parametrize(

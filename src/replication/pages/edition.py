@@ -160,7 +160,7 @@ def _shown(value: object, digits: str, unit: str) -> str:
             return f"{digits} {unit}".rstrip()
 
 
-def publish(tables: Iterable[str]) -> None:
+def publish(tables: Iterable[str], sources: Iterable[str] = ()) -> None:
     """Copy what every replication publishes of a finished run: `make publish`.
 
     tests/reference/ gets the configs, the tables, the findings, their checksums and the verdicts;
@@ -171,6 +171,8 @@ def publish(tables: Iterable[str]) -> None:
     ----------
     tables
         Those with which later runs are compared.
+    sources
+        Others from which findings follow: too sensitive to the processor to be compared.
 
     Raises
     ------
@@ -188,9 +190,9 @@ def publish(tables: Iterable[str]) -> None:
             f"results/ was made with another config, which differs in {', '.join(sections)}; "
             "expected that of config/config.yaml: make reproduce"
         )
-    tables = list(tables)
+    tables, sources = list(tables), list(sources)
     editions = {name: edition_of(name) for name in ours["studies"]}
-    named = dict.fromkeys(tables, "src/steps/publish.py")
+    named = dict.fromkeys([*tables, *sources], "src/steps/publish.py")
     for study, edition in editions.items():
         named |= dict.fromkeys(edition.tables, f"studies/{study}/edition.yaml")
     for name, by in named.items():
@@ -208,10 +210,12 @@ def publish(tables: Iterable[str]) -> None:
     shutil.copyfile("config/config.yaml", reference / "config.yaml")
     for old in reference.glob("*.csv"):
         old.unlink()
-    for name in tables:
-        shutil.copyfile(results / "tables" / f"{name}.csv", reference / f"{name}.csv")
-    shutil.rmtree(reference / "studies", ignore_errors=True)  # with those of removed studies
-    (reference / "studies").mkdir()
+    for folder in ("sources", "studies"):
+        shutil.rmtree(reference / folder, ignore_errors=True)  # with those of removed studies
+        (reference / folder).mkdir()
+    for folder, names in (("", tables), ("sources", sources)):
+        for name in names:
+            shutil.copyfile(results / "tables" / f"{name}.csv", reference / folder / f"{name}.csv")
     for study, edition in editions.items():
         shutil.copyfile(f"studies/{study}/config.yaml", reference / "studies" / f"{study}.yaml")
         for name in edition.tables:

@@ -8,7 +8,7 @@ from steps.assumptions.choices import (
     held,
     solitary_restitution,
 )
-from steps.peak_forces import GUIDED, PINNED, RIGID
+from steps.shared.peak_forces import GUIDED, PINNED, RIGID
 
 
 def alternatives(case: dict) -> dict[str, dict[str, Choices]]:

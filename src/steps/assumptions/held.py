@@ -9,7 +9,7 @@ import numpy as np
 from replication.workbench import truth
 from steps.assumptions.choices import Choices
 from steps.assumptions.quantity import Cases, Found, Quantity
-from steps.peak_forces import FORCES, PINNED, RIGID, held, held_peaks, rocking_peaks
+from steps.shared.peak_forces import FORCES, PINNED, RIGID, held, held_peaks, rocking_peaks
 from topheavy import Cap, Column, Pulse, RockingFrame, simulate
 
 

@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import Finding, run, truth
-from steps.spectrum import progress
+from steps.shared.spectrum import progress
 from studies.certainty.steps.restitution import changed
 from topheavy import Column, Fragility, RockingFrame, fragility, judge, reference
 from topheavy.fragility.resampling import NEGATIVE, POSITIVE

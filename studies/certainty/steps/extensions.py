@@ -10,12 +10,13 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from replication.workbench import run, truth, value
-from steps.spectrum import progress
+from replication.workbench import Finding, run, truth, value
+from steps.shared.spectrum import progress
 from topheavy import Column, Pulse, Record, RockingFrame, judge, read_record, reference
 from topheavy.derivation import extension_theorems
 from topheavy.three_bodies import simulate_three_bodies
 
+ONE_LOBE = "one"
 SAME = 1e-9  # of α: by how much the peaks of similar structures may differ
 
 OF_COLUMNS = (
@@ -31,14 +32,14 @@ OF_VERTICAL = (
 """The theorems on N columns, and those on vertical acceleration."""
 
 
-def similar(case: dict) -> dict:
-    """Return whether a frame survives a pulse just if its column, with the frame's √r, does in √k.
+def similar(case: dict) -> pd.DataFrame:
+    """Return what pulses do to frames, and to their columns with the frames' √r in the time of √k.
 
     k = R̂/R: the column is shaken by the same amplitude at the √k times higher frequency.
     """
     column, spec = Column(**case["column"]), case["similarity"]
     p, random = column.frequency_parameter, np.random.default_rng(spec["seed"])
-    differ, overturned, largest = 0, 0, 0.0
+    rows = []
     for _ in range(spec["pulses"]):
         gamma = float(random.choice([*random.uniform(0.0, 4.0, 3), math.inf]))
         frame = RockingFrame(column, gamma)
@@ -49,47 +50,40 @@ def similar(case: dict) -> dict:
         one = judge(frame, Pulse(shape, amplitude, omega))
         alike = column.block(frame.restitution)
         other = judge(alike, Pulse(shape, amplitude, omega * slowed))
-        overturned += one.overturned
-        differ += (one.overturned, one.impacts) != (other.overturned, other.impacts)
-        if not one.overturned and not other.overturned:
-            largest = max(largest, abs(one.peak - other.peak) / column.slenderness)
-    return truth(
-        differ == 0 and largest < SAME and 0 < overturned < spec["pulses"],
-        pulses=spec["pulses"],
-        overturned=overturned,
-        differ=differ,
-        peaks_differ_by=largest,
-    )
+        fell = one.overturned or other.overturned
+        rows.append(
+            {
+                "mass_ratio": gamma,
+                "shape": shape,
+                "amplitude": amplitude,
+                "frequency_ratio": omega / p,
+                "overturned": one.overturned,
+                "same": (one.overturned, one.impacts) == (other.overturned, other.impacts),
+                "apart": math.nan if fell else abs(one.peak - other.peak) / column.slenderness,
+            }
+        )
+    return pd.DataFrame(rows)
 
 
-def shows_stability(case: dict) -> dict:
-    """Return whether every pulse that a column survives leaves a heavy frame of it standing.
-
-    The condition is that the pulse has one lobe, for which it is proved.
-    """
+def shows_stability(case: dict) -> pd.DataFrame:
+    """Return which pulses of one and of several lobes overturn a heavy frame and not its column."""
     column, spec = Column(**case["column"]), case["similarity"]
     random = np.random.default_rng(spec["seed"])
-    alone = {"one lobe": 0, "several": 0}
-    shapes = {
-        "one lobe": ["half-sine", "constant"],
-        "several": ["one-sine", "ricker-antisymmetric"],
-    }
+    rows = []
+    shapes = {ONE_LOBE: ["half-sine", "constant"], "several": ["one-sine", "ricker-antisymmetric"]}
     frame = RockingFrame(column, max(case["mass_ratios"]))
     for kind, names in shapes.items():
         for _ in range(spec["pulses"]):
             amplitude = random.uniform(1.0, 10.0) * column.uplift_acceleration
             omega = random.uniform(1.0, 8.0) * column.frequency_parameter
             pulse = Pulse(str(random.choice(names)), amplitude, omega)
-            if judge(frame, pulse).overturned and not judge(column, pulse).overturned:
-                confirmed = reference.judge(frame, pulse).overturned
-                alone[kind] += confirmed and not reference.judge(column, pulse).overturned
-    return truth(
-        not any(alone.values()),
-        holds_when=not alone["one lobe"],
-        condition="the pulse has one lobe",
-        pulses=2 * spec["pulses"],
-        only_the_frame=alone["several"],
-    )
+            alone = all(  # by both solvers
+                route(frame, pulse).overturned and not route(column, pulse).overturned
+                for route in (judge, reference.judge)
+            )
+            row = {"lobes": kind, "shape": pulse.shape, "amplitude": amplitude, "omega": omega}
+            rows.append(row | {"only_the_frame": alone})
+    return pd.DataFrame(rows)
 
 
 def strongest(record: Record, other: Record, duration: float) -> tuple[Record, Record]:
@@ -127,8 +121,7 @@ def history(case: dict, pair: dict, across: Record, up: Record, gamma: float) ->
     }
 
 
-def main(case: dict, records: dict[str, Record]) -> tuple[pd.DataFrame, dict]:
-    theorems = extension_theorems()
+def main(case: dict, records: dict[str, Record]) -> tuple:
     rows = []
     cases = [(pair, gamma) for pair in case["pairs"] for gamma in case["mass_ratios"]]
     for pair, gamma in progress(cases, len(cases), "histories"):
@@ -137,32 +130,34 @@ def main(case: dict, records: dict[str, Record]) -> tuple[pd.DataFrame, dict]:
         )
         rows.append(history(case, pair, across, up, gamma))
     table = pd.DataFrame(rows)
-    drawn = findings(table)
-    proved = {theorem.id: theorem for theorem in theorems}
-    return table, {
-        "size_is_slower_time": truth(
-            proved["size_only_slows_time"].holds, statement=proved["size_only_slows_time"].statement
-        ),
-        "similar": similar(case),
-        "shows_stability": shows_stability(case),
-        "columns": truth(all(proved[name].holds for name in OF_COLUMNS)),
-        "vertical": truth(all(proved[name].holds for name in OF_VERTICAL)),
-        "theorems": truth(
-            all(theorem.holds for theorem in theorems), theorems=[t.statement for t in theorems]
-        ),
-        "three_bodies": truth(
-            (table.routes_differ_by < case["agreement"]).all() and (table.impacts > 1).all(),
-            **drawn["three_bodies"],
-        ),
-        "largest_change": drawn["largest_change"],
-    }
+    theorems = [
+        {"theorem": one.id, "holds": one.holds, "statement": one.statement}
+        for one in extension_theorems()
+    ]
+    tables = table, pd.DataFrame(theorems), similar(case), shows_stability(case)
+    drawn = findings(*tables)
+    agree = (table.routes_differ_by < case["agreement"]).all() and (table.impacts > 1).all()
+    return *tables, drawn | {"three_bodies": truth(agree, **drawn["three_bodies"])}
 
 
-def findings(certainty_extensions: pd.DataFrame) -> dict[str, Any]:
-    """Return what the histories say; the config has the required agreement."""
+def findings(
+    certainty_extensions: pd.DataFrame,
+    certainty_proofs: pd.DataFrame,
+    certainty_similar: pd.DataFrame,
+    certainty_lobes: pd.DataFrame,
+) -> dict[str, Any]:
+    """Return what proofs, pulses and histories say; the config has the required agreement."""
     table = certainty_extensions
     change = (table.peak / table.peak_without_vertical - 1.0).abs()
+    proved = certainty_proofs.set_index("theorem")
+    slower = proved.loc["size_only_slows_time"]
     return {
+        "size_is_slower_time": truth(slower.holds, statement=slower.statement),
+        "similar": _of_similar(certainty_similar),
+        "shows_stability": _of_lobes(certainty_lobes),
+        "columns": truth(proved.holds[[*OF_COLUMNS]].all()),
+        "vertical": truth(proved.holds[[*OF_VERTICAL]].all()),
+        "theorems": truth(proved.holds.all(), theorems=proved.statement),
         "three_bodies": {
             "histories": len(table),
             "largest": table.routes_differ_by.max(),
@@ -172,6 +167,31 @@ def findings(certainty_extensions: pd.DataFrame) -> dict[str, Any]:
             change.max(), table.routes_differ_by.max() / table.peak.min(), median=change.median()
         ),
     }
+
+
+def _of_similar(table: pd.DataFrame) -> Finding:
+    """Return whether each pulse has the same outcome, impacts and peak in both."""
+    overturned, differ = int(table.overturned.sum()), int((~table.same).sum())
+    return truth(
+        differ == 0 and table.apart.max() < SAME and 0 < overturned < len(table),
+        pulses=len(table),
+        overturned=overturned,
+        differ=differ,
+        peaks_differ_by=table.apart.max(),
+    )
+
+
+def _of_lobes(table: pd.DataFrame) -> Finding:
+    """Return whether no pulse overturns the frame alone; for one lobe it is proved."""
+    alone = table[table.only_the_frame]
+    of_one_lobe = alone.lobes == ONE_LOBE
+    return truth(
+        alone.empty,
+        holds_when=not of_one_lobe.any(),
+        condition="the pulse has one lobe",
+        pulses=len(table),
+        only_the_frame=int((~of_one_lobe).sum()),
+    )
 
 
 def work(job: Any) -> tuple:

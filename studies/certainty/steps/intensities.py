@@ -12,7 +12,7 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import Finding, run, truth
-from steps.spectrum import progress
+from steps.shared.spectrum import progress
 from topheavy import (
     Column,
     FixedMassColumn,

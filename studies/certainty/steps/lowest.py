@@ -13,7 +13,7 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import run, truth
-from steps.spectrum import progress
+from steps.shared.spectrum import progress
 from studies.certainty.shapes import record, single_lobe
 from studies.certainty.steps.theorem import at_once
 from topheavy import (

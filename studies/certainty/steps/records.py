@@ -11,8 +11,8 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import Finding, run, truth, value
-from steps.rocking_spectra import NUDGE
-from steps.spectrum import progress
+from steps.shared.histories import NUDGE
+from steps.shared.spectrum import progress
 from topheavy import Column, Record, RockingFrame, judge, read_record, reference
 
 

@@ -12,7 +12,7 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import run, truth, value
-from steps.spectrum import progress
+from steps.shared.spectrum import progress
 from studies.certainty.scattered import overturned_with
 from studies.certainty.shapes import knots, record
 from topheavy import (

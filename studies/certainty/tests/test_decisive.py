@@ -155,14 +155,15 @@ SIMILAR = {
 
 
 def test_frame_with_the_columns_restitution_is_not_similar(monkeypatch):
-    assert extensions.similar(SIMILAR)["holds"]
+    assert extensions._of_similar(extensions.similar(SIMILAR)).holds
     own = Column.block
     monkeypatch.setattr(Column, "block", lambda self, restitution=None: own(self))
-    assert not extensions.similar(SIMILAR)["holds"]
+    assert not extensions._of_similar(extensions.similar(SIMILAR)).holds
 
 
 def test_stability_is_not_shown_by_pulses_of_several_lobes():
-    found = extensions.shows_stability(SIMILAR | {"similarity": {"seed": 24, "pulses": 400}})
+    case = SIMILAR | {"similarity": {"seed": 24, "pulses": 400}}
+    found = extensions._of_lobes(extensions.shows_stability(case))
     assert not found["holds"]
     assert found["holds_when"]
     assert found["only_the_frame"] > 0

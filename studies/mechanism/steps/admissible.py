@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pandas as pd
 
-from replication.workbench import grid, run, truth, value
-from steps.histories import history
+from replication.workbench import Finding, grid, run, truth, value
+from steps.shared.histories import history
 from studies.mechanism.steps.demand import demand
 from studies.mechanism.steps.setting import cap_of, pulse_on
 from topheavy import Cap, Column, RockingFrame
@@ -15,6 +15,7 @@ from topheavy.three_bodies import simulate_three_bodies
 HALVINGS = 14  # of the bracket of an amplitude, a step of the grid at first
 FINER = 8  # times as many samples where a threshold is looked for
 BESIDE = 1e-3  # of an amplitude: how near to a threshold the second route is asked
+KEEPS = "keeps_"
 ROUNDING = 1e-9  # of tan α, and of the weight
 
 
@@ -66,7 +67,7 @@ def first_pull(frame: RockingFrame, cap: Cap, case: dict, table: pd.DataFrame) -
         (_least_by_newton_euler(frame, cap, spec, amplitude) < 0.0) == pulled
         for amplitude, pulled in ((low * (1 - BESIDE), False), (high * (1 + BESIDE), True))
     )
-    return {"amplitude": 0.5 * (low + high), "error": high - low, "at": ratio, "agrees": agrees}
+    return {"first_pull": 0.5 * (low + high), "error": high - low, "at": ratio, "agrees": agrees}
 
 
 def _least_by_newton_euler(frame: RockingFrame, cap: Cap, spec: dict, amplitude: float) -> float:
@@ -82,12 +83,36 @@ def _least_by_newton_euler(frame: RockingFrame, cap: Cap, spec: dict, amplitude:
     return float(np.nanmin(found.forces[:, :, 1]))
 
 
-def lightest_without_sliding(survived: pd.DataFrame, friction: float) -> float:
+def _by_mass_ratio(table: pd.DataFrame, case: dict) -> pd.DataFrame:
+    """Return a row for each γ: what its pulses ask of the contacts, demands over tan α.
+
+    `keeps_…` is the share of survived pulses for which this coefficient of friction is enough.
+    """
+    tan, rows = Column(**case["column"]).uplift_acceleration, []
+    for gamma, cells in table.groupby("mass_ratio"):
+        survived = cells[~cells.overturned]
+        row = {
+            "mass_ratio": gamma,
+            "tan": tan,
+            "pulses": len(cells),
+            "survived": len(survived),
+            "least_demand": cells.demand.min(),
+            "largest_demand": survived.demand.max(),
+            "demand_error": survived.demand_error.max(),
+            "least_vertical": survived.least_vertical.min(),
+            "share_that_pulls": float(survived.pulls.mean()),
+        }
+        keeps = {f"{KEEPS}{f}": (survived.demand * tan <= f).mean() for f in case["frictions"]}
+        rows.append(row | keeps)
+    return pd.DataFrame(rows)
+
+
+def lightest_without_sliding(rows: pd.DataFrame, friction: float) -> float:
     """Return the least γ > 0 above which no frame requires more than this friction (over tan α).
 
     Infinite where the heaviest does.
     """
-    largest = survived[survived.mass_ratio > 0.0].groupby("mass_ratio").demand.max()
+    largest = rows[rows.mass_ratio > 0.0].set_index("mass_ratio").largest_demand
     lightest = math.inf
     for gamma, needed in largest[::-1].items():
         if needed > friction:
@@ -96,59 +121,67 @@ def lightest_without_sliding(survived: pd.DataFrame, friction: float) -> float:
     return lightest
 
 
-def main(case: dict, cap: Cap) -> tuple[pd.DataFrame, dict]:
+def main(case: dict, cap: Cap) -> tuple[pd.DataFrame, pd.DataFrame, dict]:
     column = Column(**case["column"])
-    spec, tan = case["amplitudes"], column.uplift_acceleration
+    spec = case["amplitudes"]
     amplitudes = np.geomspace(spec["lowest"], spec["highest"], spec["points"])
     frames = [RockingFrame(column, gamma) for gamma in case["mass_ratios"]]
     table = pd.DataFrame([row for frame in frames for row in cells(frame, cap, case, amplitudes)])
     table["pulls"] = table.pulls & (table.least_vertical < -ROUNDING)  # γ = 0: no cap beam
-    survived = table[~table.overturned]
-    most = survived.loc[survived.demand.idxmax()]
-    share = {
-        friction: {
-            f"{gamma:g}": float((part.demand * tan <= friction).mean())
-            for gamma, part in survived.groupby("mass_ratio")
-        }
-        for friction in case["frictions"]
-    }
-    enough_from = lightest_without_sliding(survived, max(case["frictions"]) / tan)
-    slides = survived.demand * tan > max(case["frictions"])
-    findings = {
-        "uplift_needs_tan": truth(bool((table.demand >= 1.0 - ROUNDING).all()), cells=len(table)),
+    pulls = [
+        {"mass_ratio": frame.mass_ratio} | found
+        for frame in frames
+        if (found := first_pull(frame, cap, case, table[table.mass_ratio == frame.mass_ratio]))
+    ]
+    none = pd.DataFrame(columns=["mass_ratio", "first_pull", "error", "at", "agrees"])
+    rows = _by_mass_ratio(table, case).merge(pd.DataFrame(pulls) if pulls else none, how="left")
+    return table, rows, findings(rows)
+
+
+def findings(mechanism_admissible_by_mass: pd.DataFrame) -> dict[str, Finding]:
+    """Return where nothing slides and nothing opens, from the table of demands over γ."""
+    rows = mechanism_admissible_by_mass
+    tan, keeps = rows.tan[0], rows.filter(regex=f"^{KEEPS}")
+    frictions = {name: float(name.removeprefix(KEEPS)) for name in keeps}
+    most = rows.loc[rows.largest_demand.idxmax()]
+    enough_from = lightest_without_sliding(rows, max(frictions.values()) / tan)
+    slides = (rows.survived * (1.0 - keeps[max(frictions, key=frictions.get)])).round().sum()
+    found = {
+        "uplift_needs_tan": truth(
+            (rows.least_demand >= 1.0 - ROUNDING).all(), cells=int(rows.pulses.sum())
+        ),
         "no_sliding": truth(
-            bool((survived.demand * tan <= min(case["frictions"])).all()),
+            most.largest_demand * tan <= min(frictions.values()),
             holds_when=enough_from < math.inf,
             condition="μ is the largest that is listed, and the cap at least as heavy as stated",
-            friction=max(case["frictions"]),
+            friction=max(frictions.values()),
             from_mass_ratio=enough_from if enough_from < math.inf else None,
             tan=tan,
-            share_that_rocks_at={str(friction): by for friction, by in share.items()},
-            share_that_slides_at_all=float(slides.mean()),
-            largest_demand=float(most.demand * tan),
-            largest_error=float(survived.demand_error.max() * tan),
+            share_that_rocks_at={
+                f"{friction}": _over_mass_ratio(rows, name) for name, friction in frictions.items()
+            },
+            share_that_slides_at_all=float(slides / rows.survived.sum()),
+            largest_demand=float(most.largest_demand * tan),
+            largest_error=float(rows.demand_error.max() * tan),
         ),
         "stays_on_its_seats": truth(
-            not survived.pulls.any(),
-            survived=len(survived),
-            least_over_weight=float(survived[survived.mass_ratio > 0.0].least_vertical.min()),
-            share_that_pulls={
-                f"{gamma:g}": float(part.pulls.mean())
-                for gamma, part in survived.groupby("mass_ratio")
-            },
+            not rows.share_that_pulls.any(),
+            survived=int(rows.survived.sum()),
+            least_over_weight=float(rows[rows.mass_ratio > 0.0].least_vertical.min()),
+            share_that_pulls=_over_mass_ratio(rows, "share_that_pulls"),
         ),
     }
-    for frame in frames:
-        found = first_pull(frame, cap, case, table[table.mass_ratio == frame.mass_ratio])
-        if found:
-            findings[f"first_pull_{frame.mass_ratio:g}"] = value(
-                found["amplitude"],
-                found["error"],
-                "g tan α",
-                at=found["at"],
-                second_route_agrees=found["agrees"],
-            )
-    return table, findings
+    for row in rows.dropna(subset="first_pull").itertuples():
+        found[f"first_pull_{row.mass_ratio:g}"] = value(
+            row.first_pull, row.error, "g tan α", at=row.at, second_route_agrees=row.agrees
+        )
+    return found
+
+
+def _over_mass_ratio(rows: pd.DataFrame, name: str) -> dict[str, float]:
+    return {
+        f"{gamma:g}": float(share) for gamma, share in zip(rows.mass_ratio, rows[name], strict=True)
+    }
 
 
 if __name__ == "__main__":

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from steps.histories import History
+from steps.shared.histories import History
 from topheavy import Cap, RockingFrame, contact_forces, impact_impulses
 
 Array = NDArray[np.float64]

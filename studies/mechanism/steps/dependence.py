@@ -2,11 +2,10 @@
 
 from itertools import pairwise
 
-import numpy as np
 import pandas as pd
 
 from replication.workbench import Finding, run, truth, value
-from steps.histories import history
+from steps.shared.histories import history
 from studies.mechanism.steps.demand import demand, impact_demand
 from studies.mechanism.steps.setting import cap_of, pulse_on, slender
 from topheavy import Cap, Column, RockingFrame, judge
@@ -42,23 +41,15 @@ def shortest_bay(frame: RockingFrame, half_depth: float) -> float:
     return 2.0 * frame.column.half_width + 2.0 * half_depth * share
 
 
-def opens_below_the_shortest_bay(frame: RockingFrame, half_depth: float) -> Finding:
-    """Return whether a column-top contact opens at impact in all shorter bays, in no longer one."""
+def opens_below_the_shortest_bay(frame: RockingFrame, half_depth: float) -> pd.DataFrame:
+    """Return the least vertical impulse of an impact over the span, around the shortest bay."""
     bay, width = shortest_bay(frame, half_depth), 2.0 * frame.column.half_width
     spans = [width + (bay - width) * k / SCAN for k in range(1, 3 * SCAN) if k != SCAN]
-    least = np.array([impact_demand(frame, Cap(span, half_depth))[1] for span in spans])
-    short = np.array(spans) < bay
-    return truth(
-        ((least < 0.0) == short).all(),
-        spans=len(spans),
-        shortest_bay=bay,
-        over_width=bay / width,
-        least_in_short_bays=least[short].min(),
-        least_in_long_bays=least[~short].min(),
-    )
+    least = [impact_demand(frame, Cap(span, half_depth))[1] for span in spans]
+    return pd.DataFrame({"span": spans, "least": least, "shortest_bay": bay, "width": width})
 
 
-def main(case: dict, cap: Cap) -> tuple[pd.DataFrame, dict]:
+def main(case: dict, cap: Cap) -> tuple[pd.DataFrame, pd.DataFrame, dict]:
     column, gamma = Column(**case["column"]), case["mass_ratio"]
     width = 2.0 * column.half_width
     base = RockingFrame(column, gamma)
@@ -78,26 +69,37 @@ def main(case: dict, cap: Cap) -> tuple[pd.DataFrame, dict]:
             for name, at, frame, beam in variants
         ]
     )
-    opens = opens_below_the_shortest_bay(base, cap.half_depth)
-    return table, {
-        "seat_opens_in_short_bays": opens,
-        "recesses": truth(
-            opens["least_in_short_bays"] > 0.0 and (table.impact_least > 0.0).all(),
-            holds_when=bool(opens["least_in_long_bays"] > 0.0 and (table.impact_least > 0.0).all()),
-            condition="the bay is longer than the shortest one without uplift at the column tops",
-            shortest_bay_over_width=shortest_bay(base, cap.half_depth) / width,
-        ),
-        **findings(table),
-    }
+    bays = opens_below_the_shortest_bay(base, cap.half_depth)
+    return table, bays, findings(table, bays)
 
 
-def findings(mechanism_dependence: pd.DataFrame) -> dict[str, Finding]:
-    """Return the friction that suffices, and what it falls with, from the table of demands."""
-    table = mechanism_dependence
+def findings(
+    mechanism_dependence: pd.DataFrame, mechanism_bays: pd.DataFrame
+) -> dict[str, Finding]:
+    """Return what friction and which bays suffice, from the tables of demands and of bays."""
+    table, bays = mechanism_dependence, mechanism_bays
+    bay, over_width = bays.shortest_bay[0], bays.shortest_bay[0] / bays.width[0]
+    short = bays.span < bay
+    in_short, in_long = bays.least[short].min(), bays.least[~short].min()
+    presses = (table.impact_least > 0.0).all()
     harder = table[table.impact > table.rocking]
     heavier = table[table.varied == "mass_ratio"]
     wide = table.query("varied in ['mass_ratio', 'slenderness']")
     return {
+        "seat_opens_in_short_bays": truth(
+            ((bays.least < 0.0) == short).all(),
+            spans=len(bays),
+            shortest_bay=bay,
+            over_width=over_width,
+            least_in_short_bays=in_short,
+            least_in_long_bays=in_long,
+        ),
+        "recesses": truth(
+            in_short > 0.0 and presses,
+            holds_when=bool(in_long > 0.0 and presses),
+            condition="the bay is longer than the shortest one without uplift at the column tops",
+            shortest_bay_over_width=over_width,
+        ),
         "impact_asks_for_less_than_rocking": truth(
             harder.empty,
             largest_impact=float(wide.impact.max()),

@@ -78,7 +78,8 @@ def lowest_changes(frame: RockingFrame, shape: str, case: dict) -> pd.DataFrame:
         if of_frame > case["amplitudes"]["lowest"] and math.isfinite(of_column):
             change = of_column / of_frame - 1.0
             rows.append(
-                {"frame": frame, "unit": unit, "lower": min(of_frame, of_column), "change": change}
+                {"frame": frame, "unit": unit, "frequency_ratio": ratio}
+                | {"lower": min(of_frame, of_column), "change": change}
             )
     return pd.DataFrame(rows)
 
@@ -143,7 +144,7 @@ def second_route(
     return True
 
 
-def main(case: dict) -> tuple[pd.DataFrame, pd.DataFrame, dict]:
+def main(case: dict) -> tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame, dict]:
     rows, changes, drawn, checked, same = [], [], None, True, True
     for degrees in case["slendernesses"]:
         for gamma in case["mass_ratios"]:
@@ -151,13 +152,12 @@ def main(case: dict) -> tuple[pd.DataFrame, pd.DataFrame, dict]:
             frame = RockingFrame(Column(math.sin(alpha), math.cos(alpha)), gamma)
             for shape in case["shapes"]:
                 peaks = maps((frame.block(), equivalent_column(frame)), frame, shape, case)
-                changes.append(lowest_changes(frame, shape, case))
+                here = {"slenderness": degrees, "mass_ratio": gamma, "shape": shape}
+                changes.append(lowest_changes(frame, shape, case).assign(**here))
                 change = changes[-1].change
                 rows.append(
-                    {
-                        "slenderness": degrees,
-                        "mass_ratio": gamma,
-                        "shape": shape,
+                    here
+                    | {
                         "restitution": frame.restitution,
                         "restitution_of_column": frame.column.restitution,
                     }
@@ -168,7 +168,6 @@ def main(case: dict) -> tuple[pd.DataFrame, pd.DataFrame, dict]:
                         "lowest_change_largest": change.max(),
                     }
                 )
-                here = {"slenderness": degrees, "mass_ratio": gamma, "shape": shape}
                 if here == case["drawn"]:
                     checked = second_route(frame, shape, peaks, case["sample"])
                     same = given_its_restitution(frame, shape, peaks[0], case) < IDENTICAL
@@ -177,10 +176,12 @@ def main(case: dict) -> tuple[pd.DataFrame, pd.DataFrame, dict]:
     table = pd.DataFrame(rows)
     lowered = pd.concat(changes, ignore_index=True)
     ends = [lowered.loc[lowered.change.idxmin()], lowered.loc[lowered.change.idxmax()]]
-    found = findings(table)
+    compared = lowered.drop(columns=["frame", "unit"])
+    found = findings(table, compared)
     return (
         table,
         drawn,
+        compared,
         {
             "identical_response": Finding.of(
                 {
@@ -193,25 +194,21 @@ def main(case: dict) -> tuple[pd.DataFrame, pd.DataFrame, dict]:
                 }
             ),
             "share_apart": found["share_apart"],
-            # the mean over all pulses, of which the table has the means of its rows
-            "lowest_amplitude": value(
-                lowered.change.mean(), BRACKETS, least=ends[0].change, largest=ends[1].change
-            ),
+            "lowest_amplitude": found["lowest_amplitude"],
             "peak_rotation": found["peak_rotation"],
             "column_is_never_safer_first": found["column_is_never_safer_first"].with_evidence(
-                pulses=len(lowered),
-                later=int((lowered.change > 0.0).sum()),
                 second_route_agrees=all(map(confirmed, ends)),
             ),
         },
     )
 
 
-def findings(mechanism_equivalence: pd.DataFrame) -> dict[str, Finding]:
-    """Return how far frame and column are apart, from the table of shares and changes."""
-    table = mechanism_equivalence
+def findings(
+    mechanism_equivalence: pd.DataFrame, mechanism_lowest: pd.DataFrame
+) -> dict[str, Finding]:
+    """Return how far frame and column are apart, from the tables of maps and of minima."""
+    table, change = mechanism_equivalence, mechanism_lowest.change
     worst = table.loc[table.share_apart.idxmax()]
-    largest = table.lowest_change_largest.max()
     return {
         "identical_response": truth(
             not table.share_apart.any(),
@@ -222,10 +219,18 @@ def findings(mechanism_equivalence: pd.DataFrame) -> dict[str, Finding]:
             only_column_overturns=float(table.only_column_overturns.mean()),
         ),
         "share_apart": value(*mean_share(table)),
+        "lowest_amplitude": value(
+            change.mean(), BRACKETS, least=change.min(), largest=change.max()
+        ),
         "peak_rotation": value(
             table.peak_change_median.median(), 1e-8, upper=table.peak_change_95.max()
         ),
-        "column_is_never_safer_first": truth(largest <= 0.0, largest=largest),
+        "column_is_never_safer_first": truth(
+            change.max() <= 0.0,
+            largest=change.max(),
+            pulses=len(change),
+            later=int((change > 0.0).sum()),
+        ),
     }
 
 

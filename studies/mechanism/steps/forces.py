@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import Finding, run, truth, value
-from steps.histories import History, history
+from steps.shared.histories import History, history
 from studies.mechanism.steps.setting import cap_of, pulse_on
 from topheavy import (
     STANDARD_GRAVITY,
@@ -23,6 +23,8 @@ from topheavy.kinematics import cap_acceleration
 CONTACTS = ("base_left", "base_right", "seat_left", "seat_right")
 ROUNDING = 1e-12  # of the weight of the frame: what double precision leaves
 NEARLY_NONE = 1e-9  # γ of a cap that weighs next to nothing
+
+UNDRAWN = "theorems, and differences that are no more than rounding"
 
 
 def proved() -> Finding:

@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import Finding, run, truth, value
-from steps.histories import history
+from steps.shared.histories import history
 from studies.mechanism.steps.demand import demand
 from studies.mechanism.steps.setting import cap_of
 from topheavy import Cap, Column, Record, RockingFrame, read_record

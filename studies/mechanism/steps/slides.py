@@ -5,7 +5,7 @@ import math
 import pandas as pd
 
 from replication.workbench import Finding, truth
-from steps.histories import history
+from steps.shared.histories import history
 from studies.mechanism.steps.demand import demand
 from studies.mechanism.steps.engine import slips
 from studies.mechanism.steps.rigs import (

@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import Finding, run, truth
-from steps.histories import ASIDE
+from steps.shared.histories import ASIDE
 from studies.mechanism.steps.setting import cap_of, pulse_on
 from topheavy import (
     STANDARD_GRAVITY,

@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import Finding, truth
-from steps.spectra_compared import without
+from steps.shared.spectra_compared import without
 from studies.mechanism.steps.engine import Motion, slips
 from studies.mechanism.steps.rigs import (
     FALLEN,

@@ -6,7 +6,6 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from replication.workbench import truth
 from studies.mechanism.steps import (
     admissible,
     dependence,
@@ -73,7 +72,7 @@ def test_one_pulse_of_two_is_enough_to_refute(monkeypatch, change, tan, seats):
     monkeypatch.setattr(admissible, "first_pull", lambda *given: {})
     case = {"column": COLUMN, "mass_ratios": [1.0], "frictions": [0.3, 0.7]}
     case |= {"amplitudes": {"lowest": 1.0, "highest": 2.0, "points": 2}}
-    _, found = admissible.main(case, CAP)
+    *_, found = admissible.main(case, CAP)
     assert found["uplift_needs_tan"].holds is tan
     assert found["stays_on_its_seats"].holds is seats
 
@@ -94,10 +93,10 @@ def test_friction_falls_with_every_heavier_cap(monkeypatch, rocking, impact, fal
         return fixed | {"rocking": next(left), "impact": impact}
 
     monkeypatch.setattr(dependence, "worst", worst)
-    opens = truth(True, least_in_short_bays=-0.1, least_in_long_bays=0.1)
-    monkeypatch.setattr(dependence, "opens_below_the_shortest_bay", lambda *given: opens)
+    bays = pd.DataFrame({"span": [1.0, 3.0], "least": [-0.1, 0.1], "shortest_bay": 2.0, "width": 1})
+    monkeypatch.setattr(dependence, "opens_below_the_shortest_bay", lambda *given: bays)
     case = {"column": COLUMN, "mass_ratio": 1.0, "mass_ratios": [0.5, 1.0, 2.0]}
-    _, found = dependence.main(case | dict.fromkeys(["slendernesses", "spans", "depths"], ()), CAP)
+    *_, found = dependence.main(case | dict.fromkeys(["slendernesses", "spans", "depths"], ()), CAP)
     assert found["heavier_needs_less"].holds is falls
     assert found["impact_asks_for_less_than_rocking"].holds is less
 

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from steps.histories import history
+from steps.shared.histories import history
 from studies.mechanism.steps.demand import demand, impact_demand
 from studies.mechanism.steps.setting import pulse_on
 from topheavy import Cap, Column, RockingFrame, simulate

@@ -42,7 +42,7 @@ def motions(part: int) -> tuple[int, int]:
 
 def grid(part: int) -> tuple[int, int]:
     """Compute one of `part` shards of the spectra; return its lines and its least histories."""
-    from steps.spectrum import solve
+    from steps.shared.spectrum import solve
     from studies.reversals.steps.pulses_shard import lines
 
     case = config()[0]["pulses"]

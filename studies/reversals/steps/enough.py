@@ -6,8 +6,8 @@ import pandas as pd
 from scipy.optimize import brentq
 
 from replication.workbench import Finding, run, truth, value
-from steps.spectra_compared import Place, Spectra
-from steps.spectrum import progress, search
+from steps.shared.spectra_compared import Place, Spectra
+from steps.shared.spectrum import progress, search
 
 CLOSE = 1e-6  # of the gain in R̂: how closely the γ is sought
 FINE = 0.01  # of the gain in amplitude: the resolution of the search

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from replication.workbench import run, truth
-from steps.rocking_spectra import NUDGE
-from steps.spectrum import progress
+from replication.workbench import Finding, run, truth
+from steps.shared.histories import NUDGE
+from steps.shared.spectrum import progress
 from studies.reversals.outcomes import FALLS, STANDS, read
 from topheavy import Record, overturned_by, reference
 from topheavy.structures import Structure
@@ -53,7 +53,9 @@ def boundary(structure: Structure, record: Record, low: float, high: float) -> f
     return 0.5 * (low + high)
 
 
-def main(case: dict, structures: dict, paths: list[str], tightened: float) -> dict:
+def main(
+    case: dict, structures: dict, paths: list[str], tightened: float
+) -> tuple[pd.DataFrame, dict[str, Finding]]:
     every, changing = Rows(paths, lambda table: table), Rows(paths, those_that_change)
     motions = {tuple(draw.labels.values()): draw for draw in draws(case)}
     under = {tuple(subject.labels.values()): subject for subject in subjects(case, structures)}
@@ -86,6 +88,12 @@ def main(case: dict, structures: dict, paths: list[str], tightened: float) -> di
 
     cells = (again(number) for number in range(spec["points"]))
     sample = pd.DataFrame(progress(cells, spec["points"], "cells"))
+    return sample, findings(sample)
+
+
+def findings(reversals_sample: pd.DataFrame) -> dict[str, Finding]:
+    """Return whether tolerance and SciPy change no outcome, from the table of the sample."""
+    sample = reversals_sample
     told = sample[sample.told]
     routes = {"tightened": told.tight, "second_route": told.second_route.dropna().astype(bool)}
     return {
@@ -100,7 +108,7 @@ def main(case: dict, structures: dict, paths: list[str], tightened: float) -> di
     }
 
 
-def work(job: Any) -> dict:
+def work(job: Any) -> tuple:
     case, structures = job.params.case, job.params.structures
     return main(case, structures, job.input.shards, job.params.solver["tightened"])
 

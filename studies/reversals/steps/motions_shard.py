@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import run
-from steps.spectrum import progress
+from steps.shared.spectrum import progress
 from studies.reversals.outcomes import written
 from topheavy import overturned_together
 from topheavy.synthetic.ensemble import Draw, Subject, draws, factors, intensities, subjects

@@ -12,8 +12,8 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import Finding, run, truth
-from steps.rocking_spectra import NUDGE
-from steps.spectrum import progress
+from steps.shared.histories import NUDGE
+from steps.shared.spectrum import progress
 from steps.vase_searches import rivals
 from topheavy import STANDARD_GRAVITY, Column, Record, overturned_by, reference
 from topheavy.fragility.resampling import interval, means, resampled

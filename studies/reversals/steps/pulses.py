@@ -11,8 +11,8 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import Finding, run, truth, value
-from steps.spectra_compared import ORDER, Place, Spectra, finite, without
-from steps.spectrum import solve
+from steps.shared.spectra_compared import ORDER, Place, Spectra, finite, without
+from steps.shared.spectrum import solve
 from studies.reversals.steps.pulses_shard import CHANGES, lines
 from topheavy import simulate
 from topheavy.linear import simulate_linear_exact
@@ -167,10 +167,16 @@ def confirmed(spectra: Spectra, found: tuple, tightened: float) -> tuple[dict, p
     return finding, pd.concat(histories)
 
 
-def at_every_pair(bands: pd.DataFrame, pairs: list[tuple[float, float]]) -> Finding:
+def at_every_pair(shares: pd.DataFrame) -> Finding:
     """Does every pair of γ have a reversal?"""
-    harmed = set(zip(bands.light, bands.heavy, strict=True))
-    return truth(harmed == set(pairs), pairs=len(pairs))
+    harmed = (shares.harms > 0.0).groupby([shares.lighter, shares.heavier]).any()
+    return truth(harmed.all(), pairs=len(harmed))
+
+
+def _widths(bands: pd.DataFrame) -> pd.DataFrame:
+    """Return the width of all bands together at each frequency of a shape."""
+    width = (bands.high - bands.low).rename("width")
+    return width.groupby([bands["shape"], bands.frequency_ratio], sort=False).sum().reset_index()
 
 
 def causes(harms: dict[str, float]) -> dict[str, Finding]:
@@ -229,9 +235,20 @@ def extent(shares: pd.DataFrame) -> dict[str, Finding]:
     }
 
 
-def findings(reversals_areas: pd.DataFrame, reversals_why: pd.DataFrame) -> dict[str, Finding]:
-    """Return what shares of the maps say; bands and minima are in the spectra."""
-    return extent(reversals_areas) | apart_findings(reversals_why)
+def findings(
+    reversals_areas: pd.DataFrame, reversals_why: pd.DataFrame, reversals_widths: pd.DataFrame
+) -> dict[str, Any]:
+    """Return what shares of the maps and widths of bands say; minima are in the spectra."""
+    shapes = [
+        {"shape": shape, **dict(zip(("from", "to"), _middle(rows), strict=True))}
+        for shape, rows in reversals_widths.groupby("shape", sort=False)
+    ]
+    of_bands = {
+        "heavier_is_more_stable": {"holds": reversals_widths.empty},
+        "at_every_pair": at_every_pair(reversals_areas),
+        "where": truth(True, shapes=shapes),
+    }
+    return of_bands | extent(reversals_areas) | apart_findings(reversals_why)
 
 
 def main(case: dict, solver: dict, table: pd.DataFrame) -> tuple[dict[str, pd.DataFrame], dict]:
@@ -248,10 +265,11 @@ def main(case: dict, solver: dict, table: pd.DataFrame) -> tuple[dict[str, pd.Da
     step = case["amplitudes"]["resolution"]
     span = case["amplitudes"]["highest"] - case["amplitudes"]["lowest"]
     lowest = {change: lowest_apart(changes[change], case["separated"]) for change in CHANGES[1:]}
-    drawn = findings(shares, why)
+    widths = _widths(bands)
+    drawn = findings(shares, why, widths)
     found = {
         "heavier_is_more_stable": truth(
-            bands.empty,
+            drawn.pop("heavier_is_more_stable")["holds"],
             holds_when=rises.holds,
             condition="what counts is the lowest amplitude of a pulse that overturns",
             by_the_linearised=twin,
@@ -259,15 +277,9 @@ def main(case: dict, solver: dict, table: pd.DataFrame) -> tuple[dict[str, pd.Da
         ),
         "lowest_amplitude_rises": rises.with_evidence(widest_missed=step),
         "never_without_impact": without_impact(spectra, pairs),
-        "at_every_pair": at_every_pair(bands, pairs),
+        "at_every_pair": drawn.pop("at_every_pair"),
         **{name: drawn.pop(name) for name in ("helps", "harms", "most_harm", "pairs")},
-        "where": truth(
-            True,
-            shapes=[
-                {"shape": shape, **dict(zip(("from", "to"), _middle(rows), strict=True))}
-                for shape, rows in bands.groupby("shape", sort=False)
-            ],
-        ),
+        "where": drawn.pop("where"),
         **drawn,
         "lowest_rises_apart": truth(all(one.holds for one in lowest.values()), **lowest),
         "sample_agrees": sample(spectra, bands, case["sample"], solver["tightened"]),
@@ -283,16 +295,17 @@ def main(case: dict, solver: dict, table: pd.DataFrame) -> tuple[dict[str, pd.Da
         "spectra": whole.drop(columns="change"),
         "areas": shares,
         "why": why,
+        "widths": widths,
         "drawn": maps,
         "histories": pd.concat([histories, linear_histories]),
     }
     return tables, found
 
 
-def _middle(bands: pd.DataFrame) -> np.ndarray:
+def _middle(widths: pd.DataFrame) -> np.ndarray:
     """Return the frequencies between which nine tenths of the reversals lie."""
-    order = bands.sort_values("frequency_ratio")
-    reached = (order.high - order.low).cumsum() / (order.high - order.low).sum()
+    order = widths.sort_values("frequency_ratio")
+    reached = order.width.cumsum() / order.width.sum()
     return order.frequency_ratio.to_numpy()[np.searchsorted(reached, [0.05, 0.95])]
 
 
@@ -300,7 +313,9 @@ def work(job: Any) -> tuple:
     table = pd.concat(map(pd.read_csv, job.input.shards))
     table = table.sort_values(["change", *ORDER], ignore_index=True)
     tables, findings = main(job.params.case, job.params.solver, table)
-    return *(tables[name] for name in ("spectra", "areas", "why", "drawn", "histories")), findings
+    return *(
+        tables[name] for name in ("spectra", "areas", "why", "widths", "drawn", "histories")
+    ), findings
 
 
 if __name__ == "__main__":

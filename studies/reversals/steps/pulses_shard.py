@@ -8,8 +8,7 @@ from itertools import product
 import pandas as pd
 
 from replication.workbench import grid, run
-from steps.spectra_shard import line
-from steps.spectrum import Line, shard_of, solve
+from steps.shared.spectrum import Line, line, shard_of, solve
 from topheavy import RockingBlock
 
 CHANGES = ("both", "size", "restitution")

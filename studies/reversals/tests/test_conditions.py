@@ -33,8 +33,9 @@ def test_cause_of_the_reversals_is_ten_times_the_other(harms, caused, spared):
 
 
 def test_pair_without_a_reversal_is_noticed():
-    assert pulses.at_every_pair(BANDS, [(0.0, 1.0)]).holds
-    assert not pulses.at_every_pair(BANDS, [(0.0, 1.0), (1.0, 4.0)]).holds
+    shares = pd.DataFrame({"lighter": [0.0, 0.0, 1.0], "heavier": [1.0, 1.0, 4.0]})
+    assert pulses.at_every_pair(shares.assign(harms=[0.1, 0.0, 0.1])).holds
+    assert not pulses.at_every_pair(shares.assign(harms=[0.1, 0.1, 0.0])).holds
 
 
 @pytest.mark.parametrize(

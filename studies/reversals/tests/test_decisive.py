@@ -9,7 +9,7 @@ import pytest
 import yaml
 
 from replication.judging.findings import read_findings
-from steps.spectra_compared import Spectra
+from steps.shared.spectra_compared import Spectra
 from studies.reversals.steps import motions_fragility, motions_records, pulses
 from topheavy import STANDARD_GRAVITY, Column, Record
 from topheavy.fragility.resampling import ResampledMeans

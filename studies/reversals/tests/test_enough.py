@@ -4,8 +4,8 @@ import math
 
 import pytest
 
-from steps.spectra_compared import Place
-from steps.spectrum import search
+from steps.shared.spectra_compared import Place
+from steps.shared.spectrum import search
 from studies.reversals.steps.enough import (
     mass_ratio,
     size_gain_needed,

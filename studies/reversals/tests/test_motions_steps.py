@@ -162,7 +162,7 @@ def test_boundary_lies_where_the_outcome_changes():
 
 
 def test_sample_is_judged_again(shards):
-    found = motions_check.main(CASE, STRUCTURES, shards, 3e-12)
+    _, found = motions_check.main(CASE, STRUCTURES, shards, 3e-12)
     assert found["tightened_agrees"]["cells"] + found["tightened_agrees"]["not_told"] == 6
     assert found["second_route_agrees"]["cells"] == 1
 
@@ -173,7 +173,7 @@ def test_sample_of_which_nothing_can_be_told_agrees_with_nothing(shards, monkeyp
 
     monkeypatch.setattr(motions_check, "overturned_by", sensitive)
     monkeypatch.setattr(motions_check, "boundary", lambda frame, record, low, high: low)
-    found = motions_check.main(CASE, STRUCTURES, shards, 3e-12)
+    _, found = motions_check.main(CASE, STRUCTURES, shards, 3e-12)
     assert [one["cells"] for one in found.values()] == [0, 0]
     assert not any(one.holds for one in found.values())
 

@@ -9,7 +9,7 @@ import pandas as pd
 import pytest
 
 from replication.workbench import truth
-from steps.peak_forces import ratio_of
+from steps.shared.peak_forces import ratio_of
 from studies.reversals.steps import motions_uplift, motions_vase
 from topheavy import Column, FixedMassColumn, Record, simulate
 from topheavy.synthetic.ensemble import Draw

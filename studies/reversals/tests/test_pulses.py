@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from steps.spectra_compared import Spectra, without
-from steps.spectrum import solve
+from steps.shared.spectra_compared import Spectra, without
+from steps.shared.spectrum import solve
 from studies.reversals.steps import pulses
 from studies.reversals.steps.pulses_shard import CHANGES, changed, changed_line, lines
 from topheavy import Column, RockingFrame

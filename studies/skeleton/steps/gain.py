@@ -3,7 +3,9 @@
 import math
 from itertools import pairwise
 
-from replication.workbench import run, truth, value
+import pandas as pd
+
+from replication.workbench import Finding, run, truth, value
 from topheavy import Column, Pulse, RockingFrame, judge, minimum_overturning, reference
 
 
@@ -23,14 +25,15 @@ def lowest(frame: RockingFrame, pulse: Pulse, amplitudes: dict) -> tuple[float, 
     return found
 
 
-def main(case: dict, solver: dict) -> tuple[list[dict], dict]:
+def main(case: dict, solver: dict) -> tuple[pd.DataFrame, dict[str, Finding]]:
     column = Column(**case["column"])
     omega = 2 * math.pi / case["pulse"]["period"]
     pulse = Pulse(case["pulse"]["shape"], column.uplift_acceleration, omega)
-    rows, confirmed = [], True
+    rows = []
     for gamma in case["mass_ratios"]:
         frame = RockingFrame(column, gamma)
         low, high = lowest(frame, pulse, case["amplitudes"])
+        confirmed = True
         for scale, falls in ((low * (1 - 1e-6), False), (high * (1 + 1e-6), True)):
             scaled = pulse.scaled(scale)
             routes = (
@@ -38,20 +41,32 @@ def main(case: dict, solver: dict) -> tuple[list[dict], dict]:
                 reference.judge(frame, scaled),
             )
             confirmed &= all(route.overturned == falls for route in routes)
-        rows.append({"mass_ratio": gamma, "lowest_low": low, "lowest_high": high})
-    first, last = rows[0], rows[-1]
-    findings = {
+        row = {"mass_ratio": gamma, "lowest_low": low, "lowest_high": high, "width": high - low}
+        rows.append(row | {"confirmed_by_both_routes": confirmed})
+    table = pd.DataFrame(rows)
+    return table, findings(table)
+
+
+def findings(skeleton_gain: pd.DataFrame) -> dict[str, Finding]:
+    """Return whether and how much the amplitude rises; `make check` draws them again from here."""
+    table = skeleton_gain
+    confirmed = table.confirmed_by_both_routes.all()
+    first, last = table.iloc[0], table.iloc[-1]
+    return {
         "rises": truth(
-            confirmed and all(a["lowest_high"] < b["lowest_low"] for a, b in pairwise(rows)),
+            confirmed
+            and all(
+                a < b
+                for (a, _), (_, b) in pairwise(
+                    zip(table.lowest_high, table.lowest_low, strict=True)
+                )
+            ),
             confirmed_by_both_routes=confirmed,
         ),
         "gain": value(
-            last["lowest_low"] / first["lowest_low"] - 1,
-            (last["lowest_high"] - last["lowest_low"] + first["lowest_high"] - first["lowest_low"])
-            / first["lowest_low"],
+            last.lowest_low / first.lowest_low - 1, (last.width + first.width) / first.lowest_low
         ),
     }
-    return rows, findings
 
 
 if __name__ == "__main__":

@@ -22,7 +22,8 @@ def unused_outputs(jobs: Iterable[Job]) -> list[str]:
     """The outputs that are no input of another job, not published and not meant for a reader."""
     used = {path for job in jobs if job.rule not in LISTS for path in job.inputs} | ENDS
     editions = (edition_of(path.name, ROOT) for path in (ROOT / "studies").iterdir())
-    published = [*publish.TABLES, *(name for edition in editions for name in edition.tables)]
+    published = [*publish.TABLES, *publish.SOURCES]
+    published += [name for edition in editions for name in edition.tables]
     used |= {f"results/tables/{name}.csv" for name in published}
     made = (path for job in jobs for path in job.outputs if Path(path).suffix not in READ)
     return sorted(path for path in made if path not in used)

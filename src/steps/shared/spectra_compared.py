@@ -14,8 +14,7 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import Finding, grid, truth
-from steps.spectra_shard import line
-from steps.spectrum import search
+from steps.shared.spectrum import line, search
 from topheavy import judge, reference
 from topheavy.overturning import Interval
 
@@ -25,6 +24,9 @@ PRINTED = 1e-8  # of an amplitude: the rounding of the shards' tables, with room
 SECOND_LOOK = 20.0  # times finer: the resolution for an apparent exception
 LEAST_RISES = 20  # comparisons with the least rise, looked at again
 NEAR = 0.01  # of an amplitude: how close to a boundary half of the sample is
+
+
+ROUTES = ("at_the_tightened_tolerance", "by_scipy")
 
 
 class Place(NamedTuple):
@@ -182,11 +184,11 @@ class Spectra:
                     widest = ((end - start) / middle, place, light, heavy, middle)
         return widest
 
-    def sample(self, points: int, seed: int, tightened: float) -> Finding:
+    def sample(self, points: int, seed: int, tightened: float) -> pd.DataFrame:
         """Judge points of the map again: half of them anywhere, half close to a boundary."""
         random = np.random.default_rng(seed)
         rows = self.table.iloc[random.integers(len(self.table), size=points)]
-        differ = 0
+        judged = []
         for number, row in enumerate(rows.itertuples()):
             place = Place(row.slenderness_deg, row.shape, row.linearised, row.frequency_ratio)
             if number % 2:
@@ -194,9 +196,11 @@ class Spectra:
                 amplitude = row.lower * (1.0 + away)
             else:
                 amplitude = random.uniform(1.0, self.last)
-            expected = inside(self.at(place, row.mass_ratio), amplitude)
-            differ += self.judged(place, row.mass_ratio, amplitude, tightened) != [expected] * 2
-        return truth(differ == 0, points=points, differ=differ)
+            found = self.judged(place, row.mass_ratio, amplitude, tightened)
+            point = {**place.described(), "mass_ratio": row.mass_ratio, "amplitude": amplitude}
+            point |= {"overturned": inside(self.at(place, row.mass_ratio), amplitude)}
+            judged.append(point | dict(zip(ROUTES, found, strict=True)))
+        return pd.DataFrame(judged)
 
     def judged(self, place: Place, gamma: float, amplitude: float, tightened: float) -> list[bool]:
         """Whether a frame overturns, at the tightened tolerance and by the second solver."""
@@ -206,6 +210,12 @@ class Spectra:
             judge(block, pulse, tolerance=tightened).overturned,
             reference.judge(block, pulse).overturned,
         ]
+
+
+def of_sample(sample: pd.DataFrame) -> Finding:
+    """Return whether both routes confirm every point of a sample."""
+    differ = int(sample[[*ROUTES]].ne(sample.overturned, axis=0).any(axis=1).sum())
+    return truth(differ == 0, points=len(sample), differ=differ)
 
 
 def length(intervals: np.ndarray) -> float:

@@ -5,8 +5,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import pandas as pd
 
-from steps.histories import History, history
+from steps.shared.histories import History, history
 from topheavy import (
     Cap,
     FixedFrame,
@@ -14,6 +15,7 @@ from topheavy import (
     Record,
     Response,
     RockingFrame,
+    base_shear_slope,
     frame_forces,
     peak_elastic,
     peak_rigid,
@@ -23,6 +25,7 @@ from topheavy.fixed_frame import STEPS, Top
 
 FORCES = ("base_shear", "overturning_moment", "bending_moment")
 RIGID = "rigid"
+MARGIN = 0.01  # of the base shear just after uplift: what a later one may exceed it by
 PINNED: Top = "pinned"
 GUIDED: Top = "guided"
 
@@ -138,3 +141,16 @@ def ratio_of(force: str, top: str, name: str) -> str:
 def _largest(force: np.ndarray) -> float:
     """Return the largest of the forces that are determined; 0 where none is."""
     return float(np.nanmax(force, initial=0.0))
+
+
+def shear_after_uplift(frame: RockingFrame, peak: float) -> float:
+    """Return V/W of the resting frame that a ground acceleration (g) uplifts at once."""
+    level = frame.uplift_acceleration
+    return level + base_shear_slope(frame) * (peak - level)
+
+
+def bending(ratio: pd.Series) -> dict[str, float]:
+    """Count the ratios of bending moments, and those that are not below 1; add their range."""
+    not_lower = int((ratio >= 1.0).sum())
+    ends = {"least": float(ratio.min()), "largest": float(ratio.max())}
+    return {"histories": len(ratio), "not_lower": not_lower} | ends

@@ -1,12 +1,13 @@
 """Lines of overturning spectra: all overturning amplitudes at a frequency, as table rows."""
 
+import math
 import time
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import pandas as pd
 
-from topheavy import Pulse, RockingBlock, Search, intervals_together
+from topheavy import Column, Pulse, RockingBlock, RockingFrame, Search, intervals_together
 from topheavy.overturning import Interval
 
 MODES = ("without impact", "with impact")
@@ -18,6 +19,25 @@ class Line(NamedTuple):
     labels: dict[str, Any]
     block: RockingBlock
     pulse: Pulse
+
+
+def line(slenderness: float, shape: str, gamma: float, linearised: bool, ratio: float) -> Line:
+    """Return the line of a frame whose columns have a slenderness in degrees."""
+    alpha = math.radians(slenderness)
+    column = Column(math.sin(alpha), math.cos(alpha))
+    block = RockingFrame(column, gamma).block()
+    labels = {
+        "slenderness_deg": slenderness,
+        "shape": shape,
+        "mass_ratio": gamma,
+        "linearised": linearised,
+        "frequency_ratio": ratio,
+    }
+    return Line(
+        labels,
+        block.linear() if linearised else block,
+        Pulse(shape, column.uplift_acceleration, ratio * column.frequency_parameter),
+    )
 
 
 TOGETHER = 400

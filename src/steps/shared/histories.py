@@ -11,6 +11,7 @@ from topheavy import Pulse, Record, Response, RockingFrame, simulate
 
 Array = NDArray[np.float64]
 
+NUDGE = 1e-9  # of a record: what no measurement resolves
 SCAN = 513  # times in a scan for the point of no return, three times over
 ASIDE = 1e-9  # over p: so near to an impact is each side of it looked at
 CHUNKS = 4.0  # of a period of a pulse: pieces of an arc in which the forces turn at most once or so
