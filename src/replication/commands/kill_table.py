@@ -117,7 +117,7 @@ def kill_table(faults: Sequence[Fault], *, whole: bool = False, cores: int = 1) 
         check_imports(sound)
         files = {test for fault in faults for test in fault.tests}
         files |= {last[fault.name].test for fault in faults if fault.name in last} - {""}
-        if failing := first_failing(sound, sorted(files), cores):
+        if failing := first_failing(sound, sorted(files)):
             raise RuntimeError(f"without a fault: {failing} fails")
         free, making, computed = Queue(), Lock(), set()
         for tree in trees:
