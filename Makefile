@@ -64,6 +64,7 @@ html: | $(UV) ## after a run: write results/report.html with every figure, capti
 test: | $(UV) ## run the tests
 	@$(call WHOLE,CORES); $(DEV) pytest --numprocesses "$$CORES" --dist loadfile --no-loadscope-reorder
 
+SCHEMAS = $(wildcard config/*.schema.yaml studies/*/*.schema.yaml paper/*.schema.yaml)
 lint: export VALIDATE_PYPROJECT_NO_NETWORK = 1
 lint: | $(UV) ## check style, types, spelling, wording and schemas; changes nothing
 	$(DEV) ruff check
@@ -72,8 +73,8 @@ lint: | $(UV) ## check style, types, spelling, wording and schemas; changes noth
 	$(DEV) codespell
 	$(DEV) python -m replication.commands.words
 	$(DEV) snakefmt --check --compact-diff Snakefile $(wildcard src/*/*.smk studies/*/*.smk)
-	for schema in $(wildcard config/*.schema.yaml studies/*/*.schema.yaml paper/*.schema.yaml); do \
-	  $(DEV) check-jsonschema --check-metaschema $$schema && \
+	$(DEV) check-jsonschema --check-metaschema $(SCHEMAS)
+	for schema in $(SCHEMAS); do \
 	  $(DEV) check-jsonschema --schemafile $$schema $${schema%.schema.yaml}.yaml || exit 1; done
 	$(DEV) check-jsonschema --builtin-schema vendor.citation-file-format CITATION.cff
 	$(DEV) check-jsonschema --builtin-schema vendor.github-workflows $(wildcard .github/workflows/*.yaml)

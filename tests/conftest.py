@@ -7,15 +7,23 @@ import pytest
 ROOT = Path(__file__).parents[1]
 
 LONGEST_FIRST = (
+    "test_widths.py",
+    "test_page.py",
     "test_reruns.py",
     "test_graph.py",
-    "test_closing.py",
-    "test_page.py",
-    "test_solver.py",
     "test_endings.py",
+    "test_contact.py",
+    "test_solver.py",
+    "test_closing.py",
     "test_trace.py",
+    "test_vertical.py",
+    "test_theorems.py",
+    "test_types.py",
     "test_check_html.py",
-    "test_simulate.py",
+    "test_records.py",
+    "test_tables.py",
+    "test_verdicts.py",
+    "test_compiled.py",
 )
 """Files that take longest: begun first, no process is left with one of them at the end."""
 

@@ -8,6 +8,7 @@ import shutil
 import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
+from hashlib import sha256
 from pathlib import Path
 
 import numba
@@ -154,29 +155,26 @@ def test_file_of_something_else_is_not_loaded(tmp_path, monkeypatch, foreign):
 
 
 def test_processes_that_write_at_once_leave_whole_files(tmp_path):
-    """Each of many readers finds the whole of what one of the writers left, or nothing."""
-    results = [numba.njit(one_more) for _ in range(2)]
-    overloads = [next(iter(f.overloads.values())) for f in results if f(1)]
-    cache, context = Cache(one_more, tmp_path), results[0].targetctx
-    types = overloads[0].signature.args
-    contents = []
+    """A reader finds the whole of what one of the writers left, whenever it looks."""
+    functions = [numba.njit(one_more) for _ in range(2)]
+    results = [next(iter(f.overloads.values())) for f in functions if f(1)]
+    cache, types, context = Cache(one_more, tmp_path), (numba.int64,), functions[0].targetctx
+    cache.save_overload(types, results[0])
+    (file,) = tmp_path.iterdir()
+    key = cache._key(types, context.codegen())[0]
 
     def write(result):
         for _ in range(100):
             cache.save_overload(types, result)
 
-    def look():
-        for _ in range(300):
-            files = list(tmp_path.glob("*.machine"))
-            contents.extend(path.read_bytes() for path in files)
-
-    with ThreadPoolExecutor(3) as pool:
-        doing = [pool.submit(write, result) for result in overloads] + [pool.submit(look)]
-        for done in doing:
-            done.result()
-    assert contents
-    assert len({len(content) for content in contents}) == 1
-    assert cache.load_overload(types, context).signature == overloads[0].signature
+    contents = []
+    with ThreadPoolExecutor(2) as pool:
+        doing = [pool.submit(write, result) for result in results]
+        while not all(each.done() for each in doing):
+            contents.append(file.read_bytes())
+    assert [each.result() for each in doing] == [None, None]
+    assert {content[:32] == sha256(key + content[32:]).digest() for content in contents} == {True}
+    assert cache.load_overload(types, context).signature == results[0].signature
 
 
 def test_folder_that_cannot_be_written_is_named(tmp_path):

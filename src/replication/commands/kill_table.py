@@ -9,7 +9,7 @@ the fault has survived.
 
 `--whole` lists all verdicts of the paper that a fault in the physics turns, which takes hours. A
 run of all faults writes docs/kill_table.csv and .md. A choice of them (`--faults`, `--rotate`) only
-keeps its rows, for a later run.
+keeps its rows, for a later run or `make publish`.
 """
 
 import argparse
@@ -117,7 +117,7 @@ def kill_table(faults: Sequence[Fault], *, whole: bool = False, cores: int = 1) 
         check_imports(sound)
         files = {test for fault in faults for test in fault.tests}
         files |= {last[fault.name].test for fault in faults if fault.name in last} - {""}
-        if failing := first_failing(sound, sorted(files), cores):
+        if failing := first_failing(sound, sorted(files)):
             raise RuntimeError(f"without a fault: {failing} fails")
         free, making, computed = Queue(), Lock(), set()
         for tree in trees:
@@ -197,9 +197,15 @@ def chosen(faults: list[Fault], names: str | None, number: int | None) -> list[F
 
 
 def refresh() -> None:
-    """Write the published table without what no longer holds; its page names the faults to run."""
-    faults, ledger = load(), read_ledger(ledger_files())
-    rows = current(read(TABLE.with_suffix(".csv")), faults, ledger, ROOT)
+    """Write the published table with what was found since, and without what no longer holds.
+
+    Its page names the faults to run.
+    """
+    faults, ledger, found = load(), read_ledger(ledger_files()), kept(KEPT)
+    rows = {row.name: row for row in read(TABLE.with_suffix(".csv"))}
+    rows |= {fault.name: found[fault.name][1] for fault in faults if not left([fault], found)}
+    listed = [rows[fault.name] for fault in faults if fault.name in rows]
+    rows = current(listed, faults, ledger, ROOT)
     known = {row.name for row in rows}
     write(rows, ledger, TABLE, [fault.name for fault in faults if fault.name not in known])
 

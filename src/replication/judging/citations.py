@@ -79,8 +79,13 @@ def cite(path: str, root: Path) -> Citation:
 
 def library_names(script: str | Path) -> list[str]:
     """Return the dotted paths of what a script takes from the library."""
+    return _library_names(Path(script).read_text(encoding="utf-8"))
+
+
+@functools.cache
+def _library_names(text: str) -> list[str]:
     names = []
-    for node in ast.walk(ast.parse(Path(script).read_text(encoding="utf-8"))):
+    for node in ast.walk(ast.parse(text)):
         if isinstance(node, ast.ImportFrom) and (node.module or "").split(".")[0] in LIBRARIES:
             names += [f"{node.module}.{alias.name}" for alias in node.names]
     return sorted(name for name in set(names) if _is_code(_plain(resolve(name))))

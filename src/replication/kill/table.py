@@ -74,10 +74,9 @@ def verdict(claim: Claim, findings: Mapping[str, Findings], tree: Path) -> str:
         return f"none: {error}"
 
 
-def first_failing(tree: Path, tests: Sequence[str], cores: int = 1) -> str:
+def first_failing(tree: Path, tests: Sequence[str]) -> str:
     """Return the first test that fails, or nothing."""
-    options = ["-q", "-x", "-rfE", "--no-header", "-p", "no:cacheprovider"]
-    options += [f"--numprocesses={cores}", "--dist=loadfile"] if cores > 1 else []
+    options = ("-q", "-x", "-rfE", "--no-header", "-p", "no:cacheprovider")
     code, said = run(tree, "-m", "pytest", *options, *tests)
     if code == 0:
         return ""

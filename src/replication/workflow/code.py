@@ -163,8 +163,13 @@ def _nodes(tree: ast.AST) -> Iterator[ast.AST]:
             waiting.append(node)
 
 
-def _files(root: Path, module: str, name: str) -> Iterator[Path]:
-    """Yield the files that are read when a name is imported from a module."""
+@cache
+def _files(root: Path, module: str, name: str) -> tuple[Path, ...]:
+    """Return the files that are read when a name is imported from a module."""
+    return tuple(_found(root, module, name))
+
+
+def _found(root: Path, module: str, name: str) -> Iterator[Path]:
     if not module:
         return
     parts = module.split(".")

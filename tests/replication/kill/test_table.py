@@ -273,7 +273,7 @@ def trees(monkeypatch, tree):
     }.items():
         monkeypatch.setattr(command, name, value)
 
-    def first_failing(tree, tests, cores=1):
+    def first_failing(tree, tests):
         assert not (tree / "results").exists()
         return "test_one.py::test_one" if "2" in one(tree) else ""
 
@@ -436,8 +436,22 @@ def test_row_of_which_the_fault_or_what_caught_it_is_gone_is_dropped(tree):
     assert left(replace(stopped, rules="two")) == []
 
 
+def test_publishing_takes_what_was_found_since(monkeypatch, tmp_path, published):
+    monkeypatch.setattr(command, "TABLE", tmp_path / "kill_table")
+    monkeypatch.setattr(command, "KEPT", tmp_path / "kept")
+    by_name = {fault.name: fault for fault in FAULTS}
+    again, stale, survived = (replace(row, date="2027-01-01") for row in published[:3])
+    for row in (again, stale, replace(survived, caught_by="SURVIVED")):
+        fault = by_name[row.name]
+        command.keep(command.KEPT, replace(fault, fault="Other.") if row == stale else fault, row)
+    table.write(published[1:], LEDGER, command.TABLE)
+    command.refresh()
+    assert table.read(tmp_path / "kill_table.csv") == [again, *published[1:]]
+
+
 def test_publishing_names_the_faults_to_run(monkeypatch, tmp_path, published):
     monkeypatch.setattr(command, "TABLE", tmp_path / "kill_table")
+    monkeypatch.setattr(command, "KEPT", tmp_path / "none")
     table.write([replace(published[0], fault="Other."), *published[1:]], LEDGER, command.TABLE)
     command.refresh()
     assert table.read(tmp_path / "kill_table.csv") == published[1:]

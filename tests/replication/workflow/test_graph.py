@@ -145,10 +145,6 @@ def rerun(root, path, old="", new=None):
 JUDGED = {"claims", "verdict", "costs", "report", "supplement"}
 
 
-def test_finished_tree_has_nothing_to_do(finished):
-    assert "Nothing to be done" in snakemake(finished, "--dry-run")
-
-
 def test_touched_files_whose_bytes_are_the_same_rerun_nothing(finished):
     """As after a checkout or a copy: all is newer than the results."""
     times = {path: path.stat() for path in finished.rglob("*") if is_source(path, finished)}
