@@ -7,6 +7,8 @@ CONFIG ?= config/thorough.yaml
 ENGINE ?= engine
 GROUPS  = $(if $(value ENGINE),--group "$$ENGINE")
 BENCH   = $(UV) run --locked --no-dev --group bench
+# What `make clean` keeps, as all copies share it (topheavy.kernel.compiled).
+SHARED  = the compiled kernel, in $${NUMBA_CACHE_DIR:-$${XDG_CACHE_HOME:-$$HOME/.cache}}/topheavy
 
 .PHONY: audit kill-table benchmark verify-grid cluster-test paper
 

@@ -78,9 +78,9 @@ def kept(path: Path) -> dict[str, tuple[str, Row]]:
     return {line["row"]["name"]: (line["digest"], Row(**line["row"])) for line in lines}
 
 
-def keep(path: Path, fault: Fault, row: Row) -> None:
-    """Add a row to those that were found."""
-    line = {"digest": fault.digest(ROOT), "row": asdict(row)}
+def keep(path: Path, digest: str, row: Row) -> None:
+    """Add a row to those that were found, with the digest that its fault had when it was run."""
+    line = {"digest": digest, "row": asdict(row)}
     with path.open("a", encoding="utf-8") as file:
         file.write(json.dumps(line, ensure_ascii=False) + "\n")
 
@@ -230,9 +230,9 @@ def main() -> None:
     missing = left(picked, kept(KEPT), whole=options.whole)
     print(f"{len(picked) - len(missing)} of {len(picked)} faults are in {KEPT.name}", flush=True)
     if missing:
-        by_name = {fault.name: fault for fault in missing}
+        digests = {fault.name: fault.digest(ROOT) for fault in missing}  # the tree may change
         for row in kill_table(missing, whole=options.whole, cores=options.cores):
-            keep(KEPT, by_name[row.name], row)
+            keep(KEPT, digests[row.name], row)
             print(f"{processor_seconds():6.0f} s  {row.name}: {caught(row)}", flush=True)
     known = kept(KEPT)
     rows = [known[fault.name][1] for fault in picked]

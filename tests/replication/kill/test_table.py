@@ -330,7 +330,7 @@ def test_rows_of_all_ledgers_are_judged_once():
 def found(monkeypatch, tree):
     """A file in which the row of ONE is kept."""
     monkeypatch.setattr(command, "ROOT", tree)
-    command.keep(tree / "kept", ONE, ROW)
+    command.keep(tree / "kept", ONE.digest(tree), ROW)
     return tree / "kept"
 
 
@@ -353,14 +353,29 @@ def test_fault_whose_file_changed_is_run_again(found, tree):
     assert command.left([ONE], command.kept(found)) == [ONE]
 
 
-def test_whole_list_is_made_once(found):
+def test_row_is_kept_for_the_fault_that_was_run(found, tree, monkeypatch):
+    """The tree may change while a fault is run in its copy."""
+
+    def ran(faults, **options):
+        (tree / "one.py").write_text("x = 1\ny = 1\n", encoding="utf-8")
+        yield ROW
+
+    monkeypatch.setattr(command, "KEPT", tree / "none")
+    monkeypatch.setattr(command, "kill_table", ran)
+    monkeypatch.setattr(command, "load", lambda: [ONE, replace(ONE, name="two")])
+    monkeypatch.setattr("sys.argv", ["kill_table", "--faults=one"])
+    command.main()
+    assert command.left([ONE], command.kept(command.KEPT)) == [ONE]
+
+
+def test_whole_list_is_made_once(found, tree):
     assert command.left([ONE], command.kept(found), whole=True) == [ONE]
-    command.keep(found, ONE, replace(ROW, listed="2026-01-01"))
+    command.keep(found, ONE.digest(tree), replace(ROW, listed="2026-01-01"))
     assert command.left([ONE], command.kept(found), whole=True) == []
 
 
-def test_survivor_is_run_again(found):
-    command.keep(found, ONE, replace(ROW, caught_by="SURVIVED"))
+def test_survivor_is_run_again(found, tree):
+    command.keep(found, ONE.digest(tree), replace(ROW, caught_by="SURVIVED"))
     assert command.left([ONE], command.kept(found)) == [ONE]
 
 
@@ -442,8 +457,8 @@ def test_publishing_takes_what_was_found_since(monkeypatch, tmp_path, published)
     by_name = {fault.name: fault for fault in FAULTS}
     again, stale, survived = (replace(row, date="2027-01-01") for row in published[:3])
     for row in (again, stale, replace(survived, caught_by="SURVIVED")):
-        fault = by_name[row.name]
-        command.keep(command.KEPT, replace(fault, fault="Other.") if row == stale else fault, row)
+        digest = "other" if row == stale else by_name[row.name].digest(ROOT)
+        command.keep(command.KEPT, digest, row)
     table.write(published[1:], LEDGER, command.TABLE)
     command.refresh()
     assert table.read(tmp_path / "kill_table.csv") == [again, *published[1:]]

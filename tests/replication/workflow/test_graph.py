@@ -37,16 +37,6 @@ def test_everything_that_a_run_reads_is_asked_for(jobs):
     assert {path for job in run for path in job.inputs} - asked == set()
 
 
-def test_every_job_that_uses_the_kernel_waits_until_it_is_compiled(jobs):
-    using = [
-        job
-        for job in jobs
-        if "src/topheavy/kernel/compiled.py" in job.inputs and job.rule not in {"kernel", *LAST}
-    ]
-    assert {"heavier", "notebook"} <= {job.rule for job in using}
-    assert [job.rule for job in using if "results/kernel.compiled" not in job.inputs] == []
-
-
 def test_every_module_is_an_input_of_each_job_whose_script_imports_it(jobs):
     gaps = {
         (job.rule, path)
