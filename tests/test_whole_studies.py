@@ -102,7 +102,7 @@ def test_studies_import_of_the_steps_what_is_shared():
         file for file in source() if re.match(r"studies/\w+/(steps/|figures/|\w+\.py)", file)
     ]
     texts = {file: (ROOT / file).read_text("utf-8") for file in modules if file.endswith(".py")}
-    assert {file for file, text in texts.items() if SHARED.search(text)} == OF_A_STEP
+    assert {file for file, text in texts.items() if SHARED.search(text)} <= OF_A_STEP
 
 
 @pytest.mark.parametrize(

@@ -76,7 +76,8 @@ def load(root: Path = ROOT) -> list[Fault]:
     """Return the faults of the paper, then those of each study that is there, by its name."""
     return [
         Fault(
-            **entry
+            **{"routes": JUDGING}
+            | entry
             | {
                 "tests": tuple(entry["tests"]),
                 "changes": tuple(Change(**change) for change in entry["changes"]),
