@@ -95,7 +95,8 @@ def test_only_shards_leave_the_machine_that_runs_snakemake():
         )._workflow
         rules = {rule.name for rule in workflow.rules if not rule.norun}
         sent = rules - workflow._localrules
-    assert sent == {"spectra_shard", "reversals_shard", "reversals_motions_shard"}
+    shards = {"spectra_shard", "reversals_shard", "reversals_motions_shard"}
+    assert sent == shards | {"certainty_rates_shard"}
 
 
 # ---------------------------------------------------------------------------- dry runs
