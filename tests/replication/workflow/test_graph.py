@@ -96,7 +96,7 @@ def test_only_shards_leave_the_machine_that_runs_snakemake():
         rules = {rule.name for rule in workflow.rules if not rule.norun}
         sent = rules - workflow._localrules
     shards = {"spectra_shard", "reversals_shard", "reversals_motions_shard"}
-    assert sent == shards | {"certainty_rates_shard"}
+    assert sent == shards | {"certainty_rates_shard", "reversals_uplift_shard"}
 
 
 # ---------------------------------------------------------------------------- dry runs
