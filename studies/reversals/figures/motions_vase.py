@@ -46,7 +46,7 @@ def forces(axis, bands):
                 face = colour if later else PAPER
                 axis.plot(x, row.ratio, "o", color=colour, markersize=3.5, markerfacecolor=face)
     for shift, (ratio, colour) in enumerate(zip(ratios, shades(len(ratios)), strict=True)):
-        note(axis, gamma(ratio), (1.7, 0.30 - 0.09 * shift), color=colour)
+        note(axis, gamma(ratio), (1.75, 0.92 - 0.09 * shift), color=colour)
     axis.axhline(1.0, color=GREY, linewidth=0.6)
     axis.set(ylim=(0, 1.1), xlim=(-0.5, 2.6), ylabel="Rocking over rigid held (–)")
     axis.set_xticks(range(len(FORCES)), FORCES.values())

@@ -184,6 +184,7 @@ def is_source(path, root):
                 "mechanism_admissible",
                 "mechanism_three_bodies",
                 "reversals_uplift",
+                "reversals_uplift_shard",
                 "statements",
                 "uplift_limits",
                 *JUDGED,
