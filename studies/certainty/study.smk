@@ -2,6 +2,11 @@
 
 # The synthetic motions of the study that this one needs.
 ENSEMBLE = case("motions_ensemble", *PARTS["certainty"].config["needs"])
+RATES = case("rates", "certainty")
+
+
+scattergather:
+    certainty_rates=RATES["runs"][RATES["run"]]["shards"],
 
 
 rule certainty_theorem:
@@ -89,6 +94,39 @@ rule certainty_intensities:
         "Study certainty: probability of overturning at stated intensities"
     script:
         "steps/intensities.py"
+
+
+rule certainty_rates_shard:
+    output:
+        table="results/shards/certainty_rates_{scatteritem}.csv",
+    params:
+        case=RATES,
+        ensemble=ENSEMBLE,
+    message:
+        "Study certainty: all motions at all velocities, shard {wildcards.scatteritem}"
+    script:
+        "steps/rates_shard.py"
+
+
+rule certainty_rates:
+    input:
+        shards=gather.certainty_rates(
+            "results/shards/certainty_rates_{scatteritem}.csv"
+        ),
+    output:
+        motions="results/tables/certainty_motions.csv",
+        rates="results/tables/certainty_rates.csv",
+        survival="results/tables/certainty_survival.csv",
+        scales="results/tables/certainty_scales.csv",
+        findings="results/findings/certainty_rates.json",
+    params:
+        case=RATES,
+        ensemble=ENSEMBLE,
+        solver=config["solver"],
+    message:
+        "Study certainty: the mean annual rate of overturning"
+    script:
+        "steps/rates.py"
 
 
 rule certainty_records:

@@ -3,8 +3,14 @@
 MOTIONS = case("motions_ensemble", "reversals")
 
 
+UPLIFT = case("motions_uplift", "reversals").copy()
+# No parameter: the rows are the same, however many shards there are.
+UPLIFT_SHARDS = UPLIFT.pop("shards")
+
+
 scattergather:
     reversals_motions=MOTIONS["runs"][MOTIONS["run"]]["shards"],
+    reversals_uplift=UPLIFT_SHARDS,
 
 
 rule reversals_records:
@@ -87,12 +93,28 @@ rule reversals_vase:
         "steps/motions_vase.py"
 
 
+rule reversals_uplift_shard:
+    output:
+        table="results/shards/reversals_uplift_{scatteritem}.csv",
+    params:
+        case=UPLIFT,
+        ensemble=MOTIONS,
+    message:
+        "Study reversals: forces that uplift limits, shard {wildcards.scatteritem}"
+    script:
+        "steps/motions_uplift_shard.py"
+
+
 rule reversals_uplift:
+    input:
+        shards=gather.reversals_uplift(
+            "results/shards/reversals_uplift_{scatteritem}.csv"
+        ),
     output:
         table="results/tables/reversals_uplift.csv",
         findings="results/findings/reversals_uplift.json",
     params:
-        case=case("motions_uplift", "reversals"),
+        case=UPLIFT,
         ensemble=MOTIONS,
     message:
         "Study reversals: the forces that uplift limits under synthetic motions"

@@ -7,6 +7,7 @@ from replication.drawing import DOUBLE, GREY, PAPER, letter, make_figure, note, 
 BARE, FREE = shades(2)
 LOOKS = {"bare": ("column", BARE), "fixed": ("mass fixed", FIXED), "free": ("mass carried", FREE)}
 LABELS = {"bare": (1.28, 0.42), "fixed": (0.42, 0.80), "free": (1.28, 0.28)}
+SHOWN = (0.0, 1.0, 4.0)  # γ of the forces
 FORCES = {
     "base_shear": "base shear",
     "overturning_moment": "overturning",
@@ -34,7 +35,7 @@ def fragility(axis, cells, labelled):
 
 def forces(axis, bands):
     of = bands[(bands.held == "rigid") & (bands.family == "near-fault") & (bands.top == "pinned")]
-    ratios, levels = sorted(of.mass_ratio.unique()), sorted(of.intensity.unique())
+    ratios, levels = [g for g in SHOWN if (of.mass_ratio == g).any()], sorted(of.intensity.unique())
     for place, force in enumerate(FORCES):
         for shift, (ratio, colour) in enumerate(zip(ratios, shades(len(ratios)), strict=True)):
             for later, level in enumerate(levels):
@@ -45,7 +46,7 @@ def forces(axis, bands):
                 face = colour if later else PAPER
                 axis.plot(x, row.ratio, "o", color=colour, markersize=3.5, markerfacecolor=face)
     for shift, (ratio, colour) in enumerate(zip(ratios, shades(len(ratios)), strict=True)):
-        note(axis, gamma(ratio), (1.7, 0.30 - 0.09 * shift), color=colour)
+        note(axis, gamma(ratio), (1.75, 0.92 - 0.09 * shift), color=colour)
     axis.axhline(1.0, color=GREY, linewidth=0.6)
     axis.set(ylim=(0, 1.1), xlim=(-0.5, 2.6), ylabel="Rocking over rigid held (–)")
     axis.set_xticks(range(len(FORCES)), FORCES.values())

@@ -1,7 +1,6 @@
 """What uplift limits over the ensemble: ratios of the largest forces, with bands, and the cost.
 
-A motion is drawn anew with its histories on every frame. Histories that overturn are counted; the
-forces are those of the others.
+Histories that overturn are counted; the forces are those of the others.
 """
 
 from collections.abc import Mapping
@@ -19,12 +18,10 @@ from steps.shared.peak_forces import (
     RIGID,
     bending,
     held,
-    held_peaks,
     ratio_of,
     rocking_peaks,
-    shear_after_uplift,
 )
-from steps.shared.spectrum import progress
+from studies.reversals.steps.motions_uplift_shard import cap_of
 from studies.reversals.steps.motions_vase import factors, some
 from topheavy import Cap, Column, RockingFrame, reference, simulate
 from topheavy.fragility.resampling import interval, resampled
@@ -32,34 +29,8 @@ from topheavy.synthetic.ensemble import Draw
 
 CLOSE = 1e-6  # relative: what the peaks of two solvers may differ by
 ROCKS = 0.1  # of α: histories that rock this far are judged again
-STEPS = 60  # in a period of the held frame; a peak is off by 1.4e-3 at most
 
 UNDRAWN = "its table has means of ratios, and the findings count single ones"
-
-
-def histories(draw: Draw, frames: list[RockingFrame], cap: Cap, case: dict) -> list[dict]:
-    """Return a row for each frame and intensity under one motion."""
-    record, rows = draw.record(), []
-    beside = held_peaks(frames, cap, record, case["periods"], STEPS)
-    scales = factors(frames[0].column, record, np.array(case["intensities"]))
-    for frame, fixed in zip(frames, beside, strict=True):
-        for intensity, factor in zip(case["intensities"], scales, strict=True):
-            found = rocking_peaks(frame, cap, record.scaled(factor), case["points"])
-            peak = factor * record.peak_acceleration
-            row = draw.labels | {
-                "mass_ratio": frame.mass_ratio,
-                "intensity": intensity,
-                "outcome": found.outcome,
-                "rotation": found.rotation,
-                "impulse": found.impulse,
-                "error": found.error,
-                "over_uplift": found.forces["base_shear"] / shear_after_uplift(frame, peak),
-            }
-            for name in FORCES:
-                for one, forces in fixed.items():
-                    row[ratio_of(name, *one)] = found.forces[name] / (forces[name] * factor)
-            rows.append(row)
-    return rows
 
 
 def summary(table: pd.DataFrame, case: dict, boot: Mapping[str, Any]) -> pd.DataFrame:
@@ -94,11 +65,10 @@ def second_route(
     rocked: pd.DataFrame, chosen: list[Draw], cap: Cap, column: Column, case: dict
 ) -> Finding:
     """Compare the peaks of the shortest motions under which a frame rocks with those of SciPy."""
-    apart, records = [], {tuple(draw.labels.values()): draw.record() for draw in chosen}
-    large = rocked[rocked.rotation > ROCKS]
-    runs = [(records[row.family, row.scenario, row.motion], row) for row in large.itertuples()]
-    runs.sort(key=lambda run: run[0].acceleration.size)
-    for record, row in runs[: case["checked_by_second_route"]]:
+    apart, motions = [], {tuple(draw.labels.values()): draw for draw in chosen}
+    large = rocked[rocked.rotation > ROCKS].sort_values("samples", kind="stable")
+    for row in large[: case["checked_by_second_route"]].itertuples():
+        record = motions[row.family, row.scenario, row.motion].record()
         (scale,) = factors(column, record, np.array([row.intensity]))
         frame, scaled = RockingFrame(column, row.mass_ratio), record.scaled(scale)
         ours, other = (
@@ -113,13 +83,18 @@ def second_route(
     )
 
 
-def main(case: dict, ensemble: dict) -> tuple:
-    column = Column(**case["column"])
-    cap = Cap(case["cap"]["span"], case["cap"]["depth"] / 2.0)
-    frames = [RockingFrame(column, gamma) for gamma in case["mass_ratios"]]
-    chosen = some(ensemble, case["motions"])
-    found = (histories(draw, frames, cap, case) for draw in chosen)
-    table = pd.DataFrame(row for rows in progress(found, len(chosen), "motions") for row in rows)
+def main(case: dict, ensemble: dict, shards: list[pd.DataFrame]) -> tuple:
+    column, cap = Column(**case["column"]), cap_of(case)
+    keys, chosen = ["family", "scenario", "motion"], some(ensemble, case["motions"])
+    of_family = {family: place for place, family in enumerate(ensemble["families"])}
+    table = pd.concat(shards).sort_values(
+        keys, kind="stable", key=lambda key: key.map(of_family) if key.name == "family" else key
+    )
+    if len(table) != (wanted := len(chosen) * len(case["mass_ratios"]) * len(case["intensities"])):
+        raise ValueError(
+            f"the shards have {len(table)} histories; expected {wanted}: a shard is incomplete, "
+            "delete it and run again"
+        )
     bands = summary(table, case, case["bootstrap"])
     rocked = table[table.outcome == "rests"]
     beside = bands[(bands.held == RIGID) & (bands.top == PINNED)]
@@ -150,7 +125,7 @@ def main(case: dict, ensemble: dict) -> tuple:
 
 
 def work(job: Any) -> tuple:
-    return main(job.params.case, job.params.ensemble)
+    return main(job.params.case, job.params.ensemble, [*map(pd.read_csv, job.input.shards)])
 
 
 if __name__ == "__main__":

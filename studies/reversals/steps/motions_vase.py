@@ -15,7 +15,14 @@ from replication.workbench import Finding, run, truth
 from steps.shared.histories import NUDGE
 from steps.shared.spectrum import progress
 from steps.vase_searches import rivals
-from topheavy import STANDARD_GRAVITY, Column, Record, overturned_by, reference
+from topheavy import (
+    STANDARD_GRAVITY,
+    Column,
+    Record,
+    overturned_by,
+    overturned_together,
+    reference,
+)
 from topheavy.fragility.resampling import interval, means, resampled
 from topheavy.structures import Structure
 from topheavy.synthetic.ensemble import Draw, draws
@@ -123,7 +130,7 @@ def main(case: dict, ensemble: dict, tightened: float) -> tuple:
     for number, draw in enumerate(progress(chosen, len(chosen), "motions")):
         record = draw.record()
         scales = factors(column, record, levels)
-        outcomes.append([overturned_by(one, record, scales) for *_, one in under])
+        outcomes.append(overturned_together([one for *_, one in under], record, scales))
         if number in wanted:  # just below the lowest intensity that overturns, and at it
             place = random.integers(len(under))
             at = max(1, int(np.argmax(outcomes[-1][place])))

@@ -10,7 +10,7 @@ import pytest
 
 from replication.workbench import truth
 from steps.shared.peak_forces import ratio_of
-from studies.reversals.steps import motions_uplift, motions_vase
+from studies.reversals.steps import motions_uplift, motions_uplift_shard, motions_vase
 from topheavy import Column, FixedMassColumn, Record, simulate
 from topheavy.synthetic.ensemble import Draw
 from topheavy.synthetic.motions import Scenario, peak_velocity
@@ -120,17 +120,30 @@ ENSEMBLE = {
 }
 
 
+RIGHT = motions_uplift.rocking_peaks
+
+
+def uplifted(monkeypatch, peaks):
+    """The findings with these peaks of the rocking frame, in the shards and by SciPy."""
+    for module in (motions_uplift, motions_uplift_shard):
+        monkeypatch.setattr(module, "rocking_peaks", peaks)
+    shards = [motions_uplift_shard.main(CASE, ENSEMBLE, f"{n}-of-2") for n in (2, 1)]
+    return motions_uplift.main(CASE, ENSEMBLE, shards)[1]
+
+
+def test_missing_histories_are_missed():
+    with pytest.raises(ValueError, match="the shards have 2 histories; expected 3: a shard is inc"):
+        motions_uplift.main(CASE, ENSEMBLE, [motions_uplift_shard.main(CASE, ENSEMBLE, "1-of-2")])
+
+
 @pytest.mark.parametrize(("factor", "holds"), [(1.0, True), (5.0, False)])
 def test_larger_forces_are_not_limited(monkeypatch, factor, holds):
-    right = motions_uplift.rocking_peaks
-
     def larger(*arguments):
-        found = right(*arguments)
+        found = RIGHT(*arguments)
         found.forces.update({name: factor * force for name, force in found.forces.items()})
         return found
 
-    monkeypatch.setattr(motions_uplift, "rocking_peaks", larger)
-    _, findings = motions_uplift.main(CASE, ENSEMBLE)
+    findings = uplifted(monkeypatch, larger)
     assert findings["uplift_limits_totals"]["holds"] == holds
     assert findings["shear_is_at_most_that_of_uplift"]["holds"] == holds
     assert findings["uplift_limits_totals"]["survivors_that_uplift"] > 0
@@ -140,16 +153,14 @@ def test_larger_forces_are_not_limited(monkeypatch, factor, holds):
 @pytest.mark.parametrize("name", motions_uplift.FORCES)
 def test_each_force_beside_a_cantilever_can_refute(monkeypatch, name):
     """In single histories, whatever the means are."""
-    right = motions_uplift.rocking_peaks
     monkeypatch.setattr(motions_uplift, "summary", lambda *arguments: NOTHING)
 
     def larger(*arguments):
-        found = right(*arguments)
+        found = RIGHT(*arguments)
         found.forces[name] *= 5.0
         return found
 
-    monkeypatch.setattr(motions_uplift, "rocking_peaks", larger)
-    _, findings = motions_uplift.main(CASE, ENSEMBLE)
+    findings = uplifted(monkeypatch, larger)
     assert not findings["uplift_limits_totals"]["holds"]
 
 
@@ -169,7 +180,7 @@ def ranked(monkeypatch, change, order=ORDER):
     ]
     draw = SimpleNamespace(family="near-fault", record=lambda: None)
     given = {"some": [draw], "factors": LEVELS, "curves": (pd.DataFrame(), rows)}
-    given |= {"overturned_by": LEVELS > 1.0, "second_route": truth(True)}
+    given |= {"overturned_together": [LEVELS > 1.0] * 5, "second_route": truth(True)}
     for name, found in given.items():
         monkeypatch.setattr(motions_vase, name, lambda *arguments, found=found: found)
     case = {"column": {"half_width": 0.5, "half_height": 3.0}, "mass_ratios": [0.0, 1.0]}
@@ -209,16 +220,14 @@ def test_one_motion_that_changes_the_order_refutes_every_motion(monkeypatch, fix
 
 def test_no_survivor_that_uplifts_shows_no_limit(monkeypatch):
     """All motions overturn, or none uplifts: then nothing was compared."""
-    right = motions_uplift.rocking_peaks
 
     def overturned(*arguments):
-        found = right(*arguments)
+        found = RIGHT(*arguments)
         nothing = dict.fromkeys(found.forces, math.nan)
         return replace(found, outcome="overturned", forces=nothing, rotation=math.nan)
 
-    monkeypatch.setattr(motions_uplift, "rocking_peaks", overturned)
     monkeypatch.setattr(motions_uplift, "summary", lambda *arguments: NOTHING)
-    _, findings = motions_uplift.main(CASE, ENSEMBLE)
+    findings = uplifted(monkeypatch, overturned)
     assert findings["uplift_limits_totals"]["overturned"] == 3
     for name in ("uplift_limits_totals", "shear_is_at_most_that_of_uplift"):
         assert not findings[name]["holds"]
@@ -230,12 +239,9 @@ NOTHING = pd.DataFrame(
 
 
 def test_peaks_that_scipy_denies_are_noticed(monkeypatch):
-    right = motions_uplift.rocking_peaks
-
     def other(frame, cap, motion, samples, route=simulate):
-        found = right(frame, cap, motion, samples, route)
+        found = RIGHT(frame, cap, motion, samples, route)
         off = 1.0 if route is simulate else 1.0 + 2e-6
         return replace(found, forces={name: off * force for name, force in found.forces.items()})
 
-    monkeypatch.setattr(motions_uplift, "rocking_peaks", other)
-    assert not motions_uplift.main(CASE, ENSEMBLE)[1]["uplift_second_route"]["holds"]
+    assert not uplifted(monkeypatch, other)["uplift_second_route"]["holds"]

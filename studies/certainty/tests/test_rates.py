@@ -1,0 +1,244 @@
+"""Rates and probabilities of the step on rates, where the answer is known or judged anew."""
+
+import math
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from studies.certainty.rated import (
+    BARE,
+    FIXED,
+    FREE,
+    PORTAL,
+    stated,
+    subjects,
+    velocities,
+    written,
+)
+from studies.certainty.rated import read as letters
+from studies.certainty.steps import rates, rates_shard
+from topheavy import Column, FixedMassColumn, MonolithicPortal, RockingFrame, judge
+from topheavy.synthetic.ensemble import draws
+
+COLUMN = Column(0.5, 3.0)
+ENSEMBLE = {
+    "run": "default",
+    "runs": {"default": {"motions": 500}},
+    "seed": 2014,
+    "families": ["near-fault", "broadband"],
+    "scenarios": [
+        {"magnitude": 6.5, "distance": 10.0, "site_velocity": 760.0, "directivity": 10.0},
+        {"magnitude": 7.3, "distance": 10.0, "site_velocity": 760.0, "directivity": 30.0},
+    ],
+}
+CASE = {
+    "column": {"half_width": 0.5, "half_height": 3.0},
+    "mass_ratios": [1.0, math.inf],
+    "span": 5.0,
+    "lowered": [0.1],
+    "run": "default",
+    "runs": {"default": {"shards": 2, "motions": 6}},
+    "velocities": {"lowest": 0.125, "highest": 8.0, "points": 13},
+    "pgv": [0.6, 1.0],
+    "scaled": [0.8],
+    "exponents": [2.0],
+    "ends": [2.0, 8.0],
+    "event": {"pgv": 0.5, "years": 400.0},
+    "centuries": [1, 20],
+    "bootstrap": {"resamples": 100, "confidence": 0.95},
+    "seed": 29,
+    "sample": {"points": 8, "second_route": 2},
+}
+UNDER = subjects(CASE)
+
+
+@pytest.fixture(scope="module")
+def shards() -> pd.DataFrame:
+    found = [rates_shard.main(CASE, ENSEMBLE, shard) for shard in ("1-of-2", "2-of-2")]
+    return pd.concat(found, ignore_index=True)
+
+
+def overturning_from(*capacities, seconds=None):
+    """Shards in which each structure overturns from its PGV on; the second earthquake's `seconds`.
+
+    Structures are in the order of `subjects`: two columns, then two with each kind of cap beam.
+    """
+    return pd.DataFrame(
+        {"family": family, "scenario": place, "motion": number, "pgv": 0.5}
+        | subject.labels
+        | {"outcomes": written(velocities(CASE) >= capacity)}
+        for family in ENSEMBLE["families"]
+        for place, those in enumerate((capacities, seconds or capacities))
+        for number in range(6)
+        for subject, capacity in zip(UNDER, those, strict=True)
+    )
+
+
+def found_in(table):
+    return list(rates.ensembles(table, CASE, ENSEMBLE))
+
+
+# Structures and outcomes --------------------------------------------------------------------------
+
+
+def test_structures_have_the_same_columns_and_cap_beams():
+    own = COLUMN.block()
+    assert [one.block for one in UNDER[:2]] == [own, own.with_restitution(0.9 * own.restitution)]
+    expected = [
+        *(RockingFrame(COLUMN, gamma) for gamma in CASE["mass_ratios"]),
+        *(FixedMassColumn(COLUMN, gamma) for gamma in CASE["mass_ratios"]),
+        *(MonolithicPortal(COLUMN, gamma, 5.0) for gamma in CASE["mass_ratios"]),
+    ]
+    assert [one.block for one in UNDER[2:]] == [one.block() for one in expected]
+    names = [one.structure for one in UNDER]
+    assert names == [BARE] * 2 + [FREE] * 2 + [FIXED] * 2 + [PORTAL] * 2
+
+
+def test_stated_intensity_is_that_of_the_column():
+    (_, level, pgv) = stated(CASE)[-1]
+    assert COLUMN.frequency_parameter * pgv / (9.81 / 6.0) == pytest.approx(level)
+
+
+def test_outcomes_are_those_of_the_scaled_motions(shards):
+    assert len(shards) == 2 * 2 * 6 * len(UNDER)
+    every = draws({**ENSEMBLE, "runs": {"default": {"motions": 6}}})
+    motions = {tuple(draw.labels.values()): draw.record() for draw in every}
+    compared = 0
+    for row in shards[shards.structure != PORTAL].iloc[::17].itertuples():
+        record = motions[row.family, row.scenario, row.motion]
+        labels = (row.structure, row.mass_ratio, row.lowered)
+        (block,) = (one.block for one in UNDER if tuple(one.labels.values()) == labels)
+        scaled = [record.scaled(v / record.peak_velocity) for v in velocities(CASE)]
+        assert scaled[0].peak_velocity == pytest.approx(0.125)
+        assert row.outcomes == written([judge(block, one).overturned for one in scaled])
+        assert row.pgv == record.peak_velocity
+        compared += 1
+    assert compared > 5
+
+
+def test_sample_is_judged_again(shards):
+    found = rates.again(shards, CASE, ENSEMBLE, 3e-12)
+    assert found["tightened_agrees"].holds
+    assert found["tightened_agrees"]["near_a_boundary"] >= 3
+    assert found["second_route_agrees"].holds
+    wrong = shards.assign(outcomes=[written(~row) for row in letters(shards.outcomes)])
+    found = rates.again(wrong, CASE, ENSEMBLE, 3e-12)
+    assert not found["tightened_agrees"].holds
+    assert not found["second_route_agrees"].holds
+
+
+# Rates --------------------------------------------------------------------------------------------
+
+
+def test_rate_is_the_hazard_from_the_boundary_on():
+    """Boundaries are midway between levels, which double every other step: 0.5, 0.707, 1, 1.41."""
+    table = overturning_from(1.0, 0.7, 1.4, 2.0, 0.7, 0.5, 9.0, 9.0)
+    for motions in found_in(table):
+        found = pd.DataFrame(rates.rates(motions, CASE))
+        assert (found.rate_low == found.rate_high).all()  # every motion has the same boundary
+        for row in found.itertuples():
+            place = [tuple(one.labels.values()) for one in UNDER].index(
+                (row.structure, row.mass_ratio, row.lowered)
+            )
+            capacity = (1.0, 0.7071, 1.4142, 2.0, 0.7071, 0.5, math.inf, math.inf)[place]
+            edge = capacity / 2.0**0.25
+            exact = edge**-2.0 - row.highest**-2.0 if edge < row.highest else 0.0
+            assert row.rate == pytest.approx(exact, rel=1e-3)
+            assert row.overturning == (row.motions if edge < row.highest else 0)
+            own = (2.0**-0.25 if row.column == 0.0 else 0.7071 / 2.0**0.25) ** -2.0
+            assert row.over == pytest.approx(exact / (own - row.highest**-2.0), rel=1e-3)
+
+
+def test_motions_are_resampled_within_their_earthquake():
+    one = overturning_from(*[0.5] * 8, seconds=[2.0] * 8)
+    both, first, second = found_in(one)[:3]
+    assert [m.labels["earthquake"] for m in (both, first, second)] == ["both", "M 6.5", "M 7.3"]
+    for motions, shares in ((both, (0.5, 1.0)), (first, (1.0, 1.0)), (second, (0.0, 1.0))):
+        at = [np.flatnonzero(np.isclose(velocities(CASE), v))[0] for v in (1.0, 4.0)]
+        assert motions.means[:, 0, at] == pytest.approx(np.tile(shares, (101, 1)))
+    assert len(both.outcomes) == 2 * len(first.outcomes) == 12
+
+
+def test_order_of_the_shards_does_not_matter(shards):
+    table = shards.sort_values("motion", ascending=False, kind="stable")
+    for one, other in zip(found_in(shards), found_in(table), strict=True):
+        np.testing.assert_array_equal(one.means, other.means)
+
+
+def test_shard_that_is_not_complete_is_named(shards):
+    with pytest.raises(ValueError, match="near-fault: 95 rows of outcomes; expected 12"):
+        found_in(shards[1:])
+
+
+def test_difference_of_probabilities_is_that_of_the_column(shards):
+    for motions in found_in(shards):
+        table = rates.probabilities(motions, CASE)
+        own = table[(table.structure == BARE)].set_index(["lowered", "measure", "level"])
+        for row in table[table.structure == FREE].itertuples():
+            column = own.loc[(row.column, row.measure, row.level)]
+            assert row.less == pytest.approx(column.probability - row.probability)
+            assert row.less_low <= row.less <= row.less_high
+            assert row.probability == row.overturned / row.motions
+            assert row.probability_low <= row.probability <= row.probability_high
+
+
+def test_factors_bring_motions_to_the_stated_velocity():
+    table = overturning_from(*[0.5] * 8)  # every motion has a PGV of 0.5 m/s
+    rows = rates.scales(found_in(table)[0], CASE)
+    assert [(row["pgv"], row["median"], row["p95"]) for row in rows] == [
+        (0.6, pytest.approx(1.2), pytest.approx(1.2)),
+        (1.0, pytest.approx(2.0), pytest.approx(2.0)),
+    ]
+
+
+def test_survival_is_that_of_a_poisson_process():
+    """0.5 m/s once in 400 years is 1 m/s once in 1600; a rate of 16 is once in a century."""
+    rate = {"rate": 16.0, "rate_low": 8.0, "rate_high": 32.0}
+    labels = {"family": "a", "earthquake": "both", "structure": FREE, "mass_ratio": 1.0}
+    labels |= {"lowered": 0.0, "column": 0.0, "exponent": 2.0, "highest": 4.0}
+    one, twenty = rates.survival(pd.DataFrame([labels | rate]), CASE).itertuples()
+    assert (one.centuries, twenty.centuries) == (1, 20)
+    assert one.survival == pytest.approx(math.exp(-1.0))
+    assert (one.survival_low, one.survival_high) == pytest.approx((math.exp(-2), math.exp(-0.5)))
+    assert twenty.survival == pytest.approx(math.exp(-20.0))
+
+
+# What decides -------------------------------------------------------------------------------------
+
+
+def tables(**change):
+    """Rates over the column's as they are expected, but for the `change` of a structure."""
+    over = {FREE: (0.4, 0.5, 0.6), FIXED: (1.5, 1.8, 2.0), PORTAL: (0.0, 0.0, 0.0)}
+    rows = []
+    for name, ends in over.items():
+        for column in (0.0, 0.1):
+            row = {"structure": name, "column": column, "exponent": 2.0, "overturning": 5}
+            row |= dict(zip(("over_low", "over", "over_high"), ends, strict=True))
+            row |= dict(zip(("rate_low", "rate", "rate_high"), ends, strict=True))
+            row |= {"over_coarser": 1.001 * ends[1], "lognormal": 1.05 * ends[1] or math.nan}
+            rows.append(row | (change.get(f"{name}_{column:g}", {})))
+    stated_one = {"structure": FREE, "column": 0.0, "less_low": 0.1, "interval": "is positive"}
+    return pd.DataFrame([stated_one | change.get("stated", {})]), pd.DataFrame(rows)
+
+
+@pytest.mark.parametrize(
+    ("change", "broken"),
+    [
+        ({}, set()),
+        ({"free_0": {"over_high": 1.01}}, {"cap_lowers_the_rate"}),
+        ({"fixed_0": {"over_low": 0.99}}, {"fixed_mass_raises_the_rate"}),
+        ({"portal_0": {"rate_high": 0.45}}, {"portal_has_the_lowest_rate"}),
+        ({"free_0.1": {"over_high": 1.01}}, {"lower_column_keeps_the_order"}),
+        ({"stated": {"interval": "is negative"}}, {"cap_never_raises_the_probability"}),
+        ({"stated": {"interval": "includes zero"}}, set()),
+        ({"stated": {"structure": FIXED}}, {"cap_never_raises_the_probability"}),
+        ({"fixed_0": {"over_coarser": 2.31}}, {"sum_is_fine_enough"}),
+        ({"fixed_0": {"over_coarser": 1.29}}, {"sum_is_fine_enough"}),
+        ({"free_0": {"lognormal": 0.56}}, {"lognormal_curve_agrees"}),
+        ({"free_0": {"lognormal": 0.44}}, {"lognormal_curve_agrees"}),
+    ],
+)
+def test_one_row_is_enough_to_refute(change, broken):
+    found = rates.findings(*tables(**change))
+    assert {name for name, one in found.items() if one.holds is False} == broken

@@ -1,0 +1,62 @@
+"""One shard of the histories in which uplift limits forces: every n-th motion, on every frame."""
+
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from replication.workbench import run
+from steps.shared.peak_forces import FORCES, held_peaks, ratio_of, rocking_peaks, shear_after_uplift
+from steps.shared.spectrum import progress
+from studies.reversals.steps.motions_vase import factors, some
+from topheavy import Cap, Column, RockingFrame
+from topheavy.synthetic.ensemble import Draw
+
+STEPS = 60  # in a period of the held frame; a peak is off by 1.4e-3 at most
+
+
+def cap_of(case: dict) -> Cap:
+    return Cap(case["cap"]["span"], case["cap"]["depth"] / 2.0)
+
+
+def histories(draw: Draw, frames: list[RockingFrame], cap: Cap, case: dict) -> list[dict]:
+    """Return a row for each frame and intensity under one motion."""
+    record, rows = draw.record(), []
+    beside = held_peaks(frames, cap, record, case["periods"], STEPS)
+    scales = factors(frames[0].column, record, np.array(case["intensities"]))
+    for frame, fixed in zip(frames, beside, strict=True):
+        for intensity, factor in zip(case["intensities"], scales, strict=True):
+            found = rocking_peaks(frame, cap, record.scaled(factor), case["points"])
+            peak = factor * record.peak_acceleration
+            row = draw.labels | {
+                "mass_ratio": frame.mass_ratio,
+                "intensity": intensity,
+                "samples": record.acceleration.size,
+                "outcome": found.outcome,
+                "rotation": found.rotation,
+                "impulse": found.impulse,
+                "error": found.error,
+                "over_uplift": found.forces["base_shear"] / shear_after_uplift(frame, peak),
+            }
+            for name in FORCES:
+                for one, forces in fixed.items():
+                    row[ratio_of(name, *one)] = found.forces[name] / (forces[name] * factor)
+            rows.append(row)
+    return rows
+
+
+def main(case: dict, ensemble: dict, shard: str) -> pd.DataFrame:
+    number, of = map(int, shard.split("-of-"))
+    column, cap = Column(**case["column"]), cap_of(case)
+    frames = [RockingFrame(column, gamma) for gamma in case["mass_ratios"]]
+    mine = some(ensemble, case["motions"])[number - 1 :: of]
+    found = (histories(draw, frames, cap, case) for draw in mine)
+    return pd.DataFrame(row for rows in progress(found, len(mine), "motions") for row in rows)
+
+
+def work(job: Any) -> pd.DataFrame:
+    return main(job.params.case, job.params.ensemble, job.wildcards.scatteritem)
+
+
+if __name__ == "__main__":
+    run(snakemake, work)
