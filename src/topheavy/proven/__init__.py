@@ -4,7 +4,7 @@
 
 Every number is a ball of Arb that contains the true one: the structure's dimensions and the ground
 motion are exact decimals, and each step, impact and comparison is rounded outward. What is assumed
-is the model, Arb, and this code; `checker` proves the same again without Arb and without this code.
+is the model, Arb, and this code; `checking` proves the same again without both.
 
 Needs python-flint: `pip install "topheavy[proven]"`.
 """

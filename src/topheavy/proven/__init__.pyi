@@ -1,4 +1,6 @@
 from .blocks import BlockBox
-from .outcome import Outcome, outcome
+from .certificate import certified
+from .march import Outcome
+from .outcome import outcome
 
-__all__ = ["BlockBox", "Outcome", "outcome"]
+__all__ = ["BlockBox", "Outcome", "certified", "outcome"]

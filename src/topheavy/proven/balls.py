@@ -14,10 +14,21 @@ except ImportError as error:
         'install the extra: pip install "topheavy[proven]"'
     ) from error
 
-__all__ = ["Undecided", "arb", "arb_poly", "bounds", "exact", "hull", "power", "precision", "root", "within"]
+__all__ = [
+    "Undecided",
+    "arb",
+    "arb_poly",
+    "bounds",
+    "exact",
+    "hull",
+    "power",
+    "precision",
+    "root",
+    "within",
+]
 
 
-class Undecided(Exception):  # noqa: N818 - not an error: what a proof may say
+class Undecided(Exception):
     """The enclosures do not decide; the argument is the cause in a word."""
 
 

@@ -45,12 +45,14 @@ class BlockBox:
             if not low <= high:
                 raise ValueError(f"{name} is ({low!r}, {high!r}); expected the lower end first")
         for end in (0, 1):
-            RockingBlock(*(_ends(getattr(self, name))[end] for name in names))
+            p, alpha, root = (_ends(getattr(self, name))[end] for name in names)
+            RockingBlock(p, alpha, root)
 
     def block(self) -> RockingBlock:
         """Return the block of the lower ends."""
-        ends = (_ends(x)[0] for x in (self.frequency_parameter, self.slenderness, self.restitution))
-        return RockingBlock(*ends, self.linearised)
+        ends = self.frequency_parameter, self.slenderness, self.restitution
+        p, alpha, root = (_ends(x)[0] for x in ends)
+        return RockingBlock(p, alpha, root, self.linearised)
 
 
 @dataclass(frozen=True)
@@ -87,9 +89,7 @@ def enclosed(structure: Structure | BlockBox, linearised: bool) -> Balls:
             return _one_body(structure, linearised)
         case _:
             of = structure if isinstance(structure, BlockBox) else block
-            p, alpha, root = map(
-                within, (of.frequency_parameter, of.slenderness, of.restitution)
-            )
+            p, alpha, root = map(within, (of.frequency_parameter, of.slenderness, of.restitution))
             return Balls(alpha, p, root, linearised)
 
 

@@ -5,7 +5,7 @@ With φ = |θ|, the side s = sgn θ and κ = p dt/dσ the motion obeys, until φ
     φ'' = −κ² { sin(α − φ) + s a cos(α − φ) },    φ'' = κ² { φ − α − s a }  (linearised)
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from operator import mul
 
 from topheavy.proven.balls import Undecided, arb, arb_poly, hull, power, root
@@ -137,11 +137,11 @@ class Step:
         gain = [arb(0), *(x / (j + 1) for j, x in enumerate(self.power))]
         object.__setattr__(self, "gain", arb_poly(gain))
 
-    quotient: arb_poly = None
-    slope: arb_poly = None
-    rates: arb_poly = None
-    polynomial: arb_poly = None
-    gain: arb_poly = None
+    quotient: arb_poly = field(init=False)
+    slope: arb_poly = field(init=False)
+    rates: arb_poly = field(init=False)
+    polynomial: arb_poly = field(init=False)
+    gain: arb_poly = field(init=False)
 
     def at(self, time: arb) -> tuple[arb, arb]:
         """Return φ and φ' at a time of the step."""
@@ -175,7 +175,7 @@ class Step:
                 if end > 0:
                     continue
                 if end < 0:
-                    return root(self.quotient, self.slope, low, high)
+                    return root(self.quotient, self.slope, arb(low), arb(high))
                 if high == self.h:
                     raise Undecided("end")
             if high - low < _NARROWEST * self.h:
@@ -191,7 +191,9 @@ class Step:
 Series = tuple[list[arb], list[arb]]
 
 
-def step(law: Law, start: Series, pushes: tuple[list[arb], list[arb]], h: float, zeros: int) -> Step:
+def step(
+    law: Law, start: Series, pushes: tuple[list[arb], list[arb]], h: float, zeros: int
+) -> Step:
     """Return a step of length h.
 
     Parameters

@@ -1,13 +1,14 @@
 """The ground motion in balls: its Taylor series, its range, and where it first lifts a block.
 
-Time runs in the phase σ = ωt of a pulse and in samples σ = t/Δt of a record. The motion is then free
-of parameters, and where it begins, bends and ends are known exactly or to the last bit.
+Time runs in the phase σ = ωt of a pulse and in samples σ = t/Δt of a record. The motion then has no
+parameters, and where it begins, bends and ends is known exactly or to the last bit.
 """
 
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 from topheavy.proven.balls import Undecided, arb, exact, hull, power, root
 from topheavy.pulses import Pulse
@@ -48,13 +49,12 @@ class Forcing(ABC):
 
     def range(self, number: int, start: arb, stop: arb) -> arb:
         """Return a ball of all accelerations between two σ, the first in the piece of a number."""
-        found = None
+        found = self.value(self.pieces[number], start)
         for piece in self.pieces[number:]:
             if piece.start > stop:
                 return found
             inside = hull(_later(start, piece.start), _earlier(stop, piece.stop))
-            part = self.value(piece, inside)
-            found = part if found is None else found.union(part)
+            found = found.union(self.value(piece, inside))
         return found if stop < self.pieces[-1].stop else found.union(arb(0))  # then it jumps
 
     def uplift(
@@ -71,7 +71,7 @@ class Forcing(ABC):
             return begin, _sign(at_begin), True
         if not abs(at_begin) < level:
             raise Undecided("uplift")
-        for low, high in zip(edges, edges[1:], strict=False):
+        for low, high in pairwise(edges):
             if high < begin:
                 continue
             at_high = factor * self.value(piece, high)

@@ -1,4 +1,4 @@
-"""When bounces are sure to die out: infinitely many impacts in a finite time, without following them.
+"""When bounces are sure to die out: infinitely many impacts in a finite time.
 
 Let a lie in a ball over a window, and let the pull on the block (−φ''/κ²) be between g > 0 and G on
 a side, for all φ up to the highest bounce. A bounce that starts with φ' = v rises to at most
@@ -29,15 +29,12 @@ def dies_out(
     highest = (speed * speed / (square * weakest)).upper()
     until = (sigma + window).upper()
     ground = factor * forcing.range(number, sigma, until)
-    slowest, loss = None, None
-    for side in (1, -1):
-        pull = law.pull(hull(0, highest), side * ground)
-        least, most = pull.lower(), pull.upper()
-        if not least > 0:
-            return None
-        slowest = least if slowest is None else slowest.min(least)
-        ratio = law.block.restitution * (most / least).sqrt()
-        loss = ratio if loss is None else loss.max(ratio)
+    pulls = [law.pull(hull(0, highest), side * ground) for side in (1, -1)]
+    if not all(pull > 0 for pull in pulls):
+        return None
+    slowest = min((pull.lower() for pull in pulls), key=float)
+    ratios = [(pull.upper() / pull.lower()).sqrt() for pull in pulls]
+    loss = law.block.restitution * ratios[0].max(ratios[1])
     lasts = 2 * speed / (square * slowest * (1 - loss))
     if loss < 1 and speed * speed / (2 * square * slowest) < highest and lasts < window:
         return until, highest
