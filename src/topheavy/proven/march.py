@@ -14,6 +14,9 @@ from topheavy.proven.rest import dies_out
 MOST_IMPACTS = 400
 """Since the block was last at rest."""
 
+MOST_STEPS = 2000
+"""Tried between two samples of a record, or in all of a pulse."""
+
 SHORTEST = 2.0**-80
 """Of the clock of a motion (the phase of a pulse, a sample): a shorter step is not tried."""
 
@@ -33,8 +36,8 @@ class Outcome:
     peak : (float, float) or None
         Between these lies max|θ| (rad) over the whole motion of a survivor; None for others.
     cause : str
-        Why it is undecided: "uplift", "graze", "flat", "end", "start", "enclosure", "impacts" or
-        "separatrix"; empty for others.
+        Why it is undecided: "uplift", "graze", "flat", "end", "start", "enclosure", "impacts",
+        "steps" or "separatrix"; empty for others.
     bits : int
         Precision with which it was decided, or at last tried.
     """
@@ -93,6 +96,7 @@ class March:
         """Return the outcome, or None where the block comes to rest again; or raise Undecided."""
         before = self.rest
         for piece in self.forcing.pieces[before.number :]:
+            self.tried = 0
             while True:
                 if not self.side:
                     if until_rest and self.rest is not before:
@@ -124,9 +128,7 @@ class March:
         self._note("uplift", sigma=lifted[0], side=self.side, jumps=jumps, piece=piece.number)
         return True
 
-    def _flies(
-        self, piece: Piece, made: Step, end: arb, impact: arb | None, is_last: bool
-    ) -> bool:
+    def _flies(self, piece: Piece, made: Step, end: arb, impact: arb | None, is_last: bool) -> bool:
         """Take a step; return whether the block has overturned."""
         self._note("step", h=made.h, box=made.box.phi, impact=impact, last=is_last)
         if self._may_lie_flat(made):
@@ -156,6 +158,9 @@ class March:
         start = self.law.series(self.phi, self.rate, push, self.order)
         h, stretch, cause = self._length(start[0]), 1.0, ""
         while h > SHORTEST:
+            self.tried += 1
+            if self.tried > MOST_STEPS:  # those of a wide box are shorter and shorter
+                raise Undecided("steps")
             is_last = not left > h
             length = stretch * bounds(left)[1] if is_last else h
             try:

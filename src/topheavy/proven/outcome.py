@@ -28,6 +28,7 @@ def outcome(
     *,
     factor: Range = 1.0,
     linearised: bool = False,
+    bits: int = 72,
     trace: list[dict[str, Any]] | None = None,
 ) -> Outcome:
     """Return whether a structure at rest survives a ground motion, proven, or that it is undecided.
@@ -43,6 +44,8 @@ def outcome(
         On the acceleration; a pair asks for the outcome that all factors between share.
     linearised : bool
         Whether the structure obeys the linearised equation.
+    bits : int
+        The least precision of the balls: up to 264.
     trace : list, optional
         Filled with the steps of the proof, for a certificate (`topheavy.proven.certificate`).
 
@@ -54,8 +57,8 @@ def outcome(
     Raises
     ------
     ValueError
-        For no or an endless excitation, a factor that is not finite or does not ascend, and a
-        structure whose √r is negative.
+        For no or an endless excitation, a factor that is not finite or does not ascend, more bits
+        than 264, and a structure whose √r is negative.
     """
     if not isinstance(excitation, (Pulse, Record)):
         raise no_excitation(excitation)
@@ -63,7 +66,11 @@ def outcome(
     low, high = (checks.finite("factor", end) for end in ends)
     if low > high:
         raise ValueError(f"factor is ({low:.6g}, {high:.6g}); expected the lower end first")
-    rungs = _LADDER[:1] if low < high or isinstance(structure, BlockBox) else _LADDER
+    rungs = [rung for rung in _LADDER if rung[0] >= bits]
+    if not rungs:
+        raise ValueError(f"bits is {bits}; expected at most {_LADDER[-1][0]}")
+    if low < high or isinstance(structure, BlockBox):
+        del rungs[1:]
     settings: dict[int, tuple[Balls, Forcing, arb]] = {}
     rest, height = Rest(arb(0)), 0
     while True:
