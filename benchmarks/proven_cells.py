@@ -4,7 +4,7 @@
 
 Structures, pulses and equations are drawn at random, with amplitudes uniform from 1 to 16 times
 uplift. Printed: contradictions, undecided cells by cause, how many of these are far from any
-boundary (the solver gives one outcome at 1 ± 1e-6 times the amplitude), certificates refused, times.
+boundary (the solver gives one outcome at 1 ± 1e-6 times the amplitude), refusals and times.
 """
 
 import json

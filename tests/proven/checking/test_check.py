@@ -2,6 +2,7 @@
 
 import ast
 import copy
+import importlib
 import json
 import math
 import sys
@@ -102,13 +103,30 @@ def test_changed_certificate_is_refused(with_impact, change, reason):
         check(changed(with_impact, change))
 
 
+def test_box_that_does_not_hold_the_motion_is_not_believed(with_impact, monkeypatch):
+    module, courses = importlib.import_module("topheavy.proven.checking.check"), []
+
+    class Seen(module.Course):
+        def __init__(self, *given):
+            super().__init__(*given)
+            courses.append(self)
+
+    monkeypatch.setattr(module, "Course", Seen)
+    boxes = [e for e in with_impact["events"] if e["event"] == "step"]
+    assert check(changed(with_impact, lambda c: [e.update(box=["0", "0"]) for e in c["events"]]))
+    assert len(courses) == len(boxes) > 3
+    for course in courses:
+        phi = course.at(of(Fraction(1, 2)))[0]
+        assert course.box.low <= phi.low <= phi.high <= course.box.high
+
+
 def test_uplift_that_comes_earlier_or_later_is_refused():
     _, certificate = of_pulse(COLUMN, "one-sine", 1.1, 3.0)
     assert check(certificate) == "survives"
     for by in (Fraction(9, 10), Fraction(11, 10)):
         wrong = copy.deepcopy(certificate)
         wrong["events"][0]["sigma"] = [str(Fraction(x) * by) for x in wrong["events"][0]["sigma"]]
-        with pytest.raises(Refused, match="nothing changes its sign|may be an impact"):
+        with pytest.raises(Refused, match=r"nothing changes its sign|may be an impact"):
             check(wrong)
     wrong = changed(certificate, lambda c: c.update(events=[], impacts=0))
     with pytest.raises(Refused, match="the ground may lift the block"):
