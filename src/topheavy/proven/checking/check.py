@@ -24,7 +24,7 @@ from topheavy.proven.checking.intervals import (
 from topheavy.proven.checking.model import Block, Ground
 
 GUARD = 40  # bits beyond those of the search
-FINEST = 4096  # parts into which a span is cut before a sign counts as unproven
+FINEST = 2**30  # a share of a span so small is not cut before a sign counts as unproven
 
 
 def _holds(test: Callable[[Interval], bool], low: int, high: int, what: str) -> None:
@@ -138,6 +138,7 @@ class Check:
             return
         self.phi, self.rate = course.at(end)
         if event["impact"] is not None:
+            self.rate = course.landing(end, self.zeros)
             self.impacts += 1
             self.sigma = self.sigma + end * course.h
             self.phi, self.zeros, self.side = of(0), 1, -self.side

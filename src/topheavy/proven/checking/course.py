@@ -85,6 +85,19 @@ class Course:
             v.append(-h * self.kappa * pull / (k + 1))
         return x, v
 
+    def landing(self, tau: Interval, zeros: int) -> Interval:
+        """Return φ' where φ vanishes, by φ = τ^k q: after a bounce q' knows it more closely.
+
+        The remainder of q' is n R' − k R of two values of one interval.
+        """
+        x, n = self.phi, len(self.phi) - 1
+        slope = [(j - zeros) * x[j] for j in range(zeros + 1, n)] + [n * x[n] - zeros * x[n]]
+        found = horner(slope, tau) / self.h
+        for _ in range(zeros):
+            found = found * tau
+        rate = horner(self.rate, tau)
+        return Interval(max(rate.low, found.low), min(rate.high, found.high))
+
     def at(self, tau: Interval) -> tuple[Interval, Interval]:
         return horner(self.phi, tau), horner(self.rate, tau)
 
