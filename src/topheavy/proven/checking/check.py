@@ -112,7 +112,7 @@ class Check:
             low, high = bracket.low - grow, bracket.high + grow
             if before(Interval(low, low)) and behind(Interval(high, high)):
                 return low, high
-            grow *= 4
+            grow += grow // 4 + 1
         raise Refused("nothing changes its sign in the bracket")
 
     def _step(self, event: dict[str, Any]) -> None:
