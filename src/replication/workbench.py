@@ -32,8 +32,8 @@ def run(job: Any, main: Callable[[Any], Any]) -> None:
         The object `snakemake` that Snakemake puts into every script.
     main
         Takes the job and returns one result for each output of the rule, in the order of the rule:
-        a table for a CSV file, findings for a JSON file, a text as it is. It returns None when it writes its
-        outputs itself.
+        a table for a CSV file, findings for a JSON file, a text as it is. It returns None when it
+        writes its outputs itself.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Proven outcomes: those of the solvers where these agree, and undecided where nobody can tell."""
+"""Proven outcomes: those of the solvers, and undecided where no enclosure decides.
 
 import math
 

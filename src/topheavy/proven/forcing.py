@@ -33,7 +33,7 @@ class Forcing(ABC):
 
     @abstractmethod
     def series(self, piece: Piece, sigma: arb, terms: int) -> list[arb]:
-        """Return that many Taylor coefficients at σ, a ball: all of them, none taken for zero."""
+        """Return that many Taylor coefficients at σ, a ball: all of them, none left out."""
 
     @abstractmethod
     def scale(self, frequency_parameter: arb) -> arb:

@@ -41,7 +41,7 @@ def outcome(
     excitation : Pulse or Record
         One that ends. Each float stands for the decimal that it is printed as.
     factor : float or (float, float)
-        On the acceleration; a pair asks for the outcome that all factors between share.
+        On the acceleration; a pair stands for all factors between, if they share an outcome.
     linearised : bool
         Whether the structure obeys the linearised equation.
     bits : int

@@ -10,7 +10,7 @@ UNIT = 1  # 2^P of all intervals, set by `precision`
 
 
 class Refused(Exception):
-    """A step of the certificate does not follow; the argument says which."""
+    """A step of the certificate does not follow; the argument names it."""
 
 
 def precision(bits: int) -> None:
