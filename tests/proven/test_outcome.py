@@ -1,4 +1,4 @@
-"""Proven outcomes: those of the solvers, and undecided where no enclosure decides.
+"""Proven outcomes: those of the solvers, and undecided where no enclosure decides."""
 
 import math
 
@@ -138,7 +138,7 @@ def test_record_with_many_bounces_is_decided_as_by_the_solver():
 
 
 def test_block_that_reaches_the_ground_under_the_forcing_has_overturned():
-    """A push back after that does not raise it: 8 g for a second, then as much the other way."""
+    """A push of 30 g the other way does not raise it again."""
     ground = Record(0.25, [3.0] * 8 + [-30.0] * 8 + [0.0])
     assert judge(COLUMN, ground).overturned
     assert outcome(COLUMN, ground).outcome == "overturns"
