@@ -10,7 +10,8 @@ import yaml
 ROOT = Path(__file__).resolve().parents[1]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
 LOCK = tomllib.loads((ROOT / "uv.lock").read_text(encoding="utf-8"))
-OPTIONAL = set(PROJECT["dependency-groups"]) - {"dev"}  # groups that nothing installs unasked
+DEFAULT = set(PROJECT["tool"]["uv"]["default-groups"])
+OPTIONAL = set(PROJECT["dependency-groups"]) - {"dev", "proven"}  # nothing installs them unasked
 CONDA = yaml.safe_load((ROOT / "environment.yml").read_text(encoding="utf-8"))
 
 
@@ -44,8 +45,13 @@ def test_conda_has_no_package_that_pyproject_does_not_name():
 
 
 def test_optional_groups_are_not_installed_unasked():
-    defaults = PROJECT["tool"]["uv"].get("default-groups", ["dev"])
-    assert OPTIONAL.isdisjoint(defaults)
+    assert OPTIONAL.isdisjoint(DEFAULT)
+
+
+def test_run_has_what_the_extra_of_the_library_names():
+    groups, extras = PROJECT["dependency-groups"], PROJECT["project"]["optional-dependencies"]
+    assert "proven" in DEFAULT
+    assert groups["proven"] == extras["proven"]
 
 
 def test_conda_takes_the_same_pythons():

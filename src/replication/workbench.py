@@ -32,8 +32,8 @@ def run(job: Any, main: Callable[[Any], Any]) -> None:
         The object `snakemake` that Snakemake puts into every script.
     main
         Takes the job and returns one result for each output of the rule, in the order of the rule:
-        a table for a CSV file, findings for a JSON file. It returns None when it writes its
-        outputs itself.
+        a table for a CSV file, findings for a JSON file, a text as it is. It returns None when it
+        writes its outputs itself.
 
     Raises
     ------
@@ -51,6 +51,8 @@ def run(job: Any, main: Callable[[Any], Any]) -> None:
                 if path.endswith(".json"):
                     made = Findings.of(result)
                     write_findings(path, replace(made, called=tuple(sorted(called))))
+                elif isinstance(result, str):
+                    Path(path).write_text(result, encoding="utf-8")
                 else:
                     write_table(path, result)
         refuse_undeclared(job)

@@ -315,6 +315,23 @@ rule spectra:
         "spectra.py"
 
 
+rule proven:
+    input:
+        vase="results/tables/vase.csv",
+        spectra="results/tables/spectra.csv",
+    output:
+        table="results/tables/proven.csv",
+        certificates="results/certificates/proven.jsonl",
+        findings="results/findings/proven.json",
+    params:
+        case=case("vase"),
+        spectra=config["spectra"],
+    message:
+        "Both sides of minimum overturning accelerations, proven"
+    script:
+        "proven.py"
+
+
 rule spectra_dimensional:
     output:
         table="results/tables/spectra_dimensional.csv",

@@ -27,6 +27,7 @@ TABLES = (
     "quarter_period",
     "restitution_over_mass_ratio",
     "restitution_over_slenderness",
+    "proven",
     "spectra_areas",
     "trilith_map",
     "trilith_nearness",

@@ -1,3 +1,4 @@
+from . import proven
 from .contact_forces import (
     Cap,
     ContactForces,
@@ -68,6 +69,7 @@ __all__ = [
     "peak_elastic",
     "peak_elastic_by_scipy",
     "peak_rigid",
+    "proven",
     "read_at2",
     "read_csv",
     "read_record",

@@ -1,0 +1,128 @@
+"""Prove both sides of minimum overturning accelerations, and outcomes of a sample of the spectra.
+
+A boundary is proven where the acceleration below it is survived and that above it overturns. This
+does not say that nothing lower overturns: below, the searches of the other rules stand.
+"""
+
+import json
+import math
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from replication.workbench import Finding, run, truth
+from steps.spectra_compared import Place, Spectra
+from steps.vase import numbers
+from topheavy import Column, Pulse, judge
+from topheavy.proven import certified
+from topheavy.proven.checking import Refused, check
+from topheavy.structures import Structure
+
+WIDTHS = (1e-8, 1e-7, 1e-6)  # of a minimum: the table has nine digits
+SEED, CELLS, RECHECKED = 28, 200, 20  # a sample of the spectra, and how many of it are proven twice
+NEAREST = 1e-7  # of an amplitude: how close to a boundary half of the sample is
+
+
+def proven(structure: Structure, pulse: Pulse) -> tuple[str, dict | None]:
+    """Return an outcome that search and checker prove, or "undecided", and its certificate."""
+    found, certificate = certified(structure, pulse)
+    return (found.outcome, certificate) if is_checked(certificate) else ("undecided", None)
+
+
+def is_checked(certificate: dict | None) -> bool:
+    """Return whether there is a certificate, and the checker proves the same."""
+    try:
+        return certificate is not None and check(certificate) == certificate["outcome"]
+    except Refused:
+        return False
+
+
+def sides(structure: Structure, pulse: Pulse) -> tuple[float, list[dict]]:
+    """Return a share w such that 1 ∓ w times the pulse is survived and overturns, and the proofs.
+
+    Infinity and no proof if none of `WIDTHS` is proven.
+    """
+    for width in WIDTHS:
+        proofs = [proven(structure, pulse.scaled(1.0 + side * width)) for side in (-1, 1)]
+        if [outcome for outcome, _ in proofs] == ["survives", "overturns"]:
+            return width, [certificate for _, certificate in proofs if certificate]
+    return math.inf, []
+
+
+def boundaries(column: Column, case: dict, table: pd.DataFrame) -> tuple[list[dict], list[dict]]:
+    """Return a row for each structure under the first shape of the period, and the certificates."""
+    shape, rows, certificates = case["shapes"][0], [], []
+    minima = table[table["shape"] == shape].minimum_overturning.tolist()
+    for (name, gamma, span, structure), minimum in zip(numbers(column, case), minima, strict=True):
+        pulse = Pulse(shape, minimum, 2.0 * math.pi / case["period"])
+        width, proofs = sides(structure, pulse)
+        labels = {"structure": name, "mass_ratio": gamma, "span": span}
+        certificates += [labels | proof for proof in proofs]
+        impacts = [proof["impacts"] for proof in proofs] or [-1, -1]
+        rows.append(
+            labels
+            | {"minimum_overturning": minimum, "relative_width": width}
+            | dict(zip(("impacts_below", "impacts_above"), impacts, strict=True))
+        )
+    return rows, certificates
+
+
+def sample(spectra: Spectra) -> Finding:
+    """Return whether proofs agree with the solver: half of the cells anywhere, half near an end.
+
+    A cell that the proof does not decide is counted, and no agreement.
+    """
+    random = np.random.default_rng(SEED)
+    picked = spectra.table.iloc[random.integers(len(spectra.table), size=CELLS)]
+    differ, undecided, twice = 0, 0, 0
+    for number, row in enumerate(picked.itertuples()):
+        place = Place(row.slenderness_deg, row.shape, row.linearised, row.frequency_ratio)
+        if number % 2:
+            away = 10.0 ** random.uniform(math.log10(NEAREST), -2.0)
+            amplitude = row.lower * (1.0 + random.choice([-1.0, 1.0]) * away)
+        else:
+            amplitude = random.uniform(1.0, spectra.last)
+        _, block, pulse = place.line(row.mass_ratio)
+        found, certificate = certified(block, pulse.scaled(amplitude))
+        falls = judge(block, pulse.scaled(amplitude)).overturned
+        undecided += found.outcome == "undecided"
+        differ += found.outcome == ("survives" if falls else "overturns")
+        if number < RECHECKED:
+            twice += is_checked(certificate)
+    return truth(
+        differ == 0 and undecided == 0,
+        cells=CELLS,
+        differ=differ,
+        undecided=undecided,
+        proven_twice=twice,
+        nearest=NEAREST,
+    )
+
+
+def findings(proven: pd.DataFrame) -> dict[str, Finding]:
+    """Return whether every boundary of the table is proven."""
+    widest = float(proven.relative_width.max())
+    return {
+        "boundaries": truth(
+            bool(np.isfinite(proven.relative_width).all()),
+            boundaries=len(proven),
+            largest_relative_width=widest if math.isfinite(widest) else None,
+        )
+    }
+
+
+def main(case: dict, spectra: Spectra, vase: pd.DataFrame) -> tuple[pd.DataFrame, str, dict]:
+    rows, certificates = boundaries(Column(**case["column"]), case, vase)
+    table = pd.DataFrame(rows)
+    lines = "".join(f"{json.dumps(each)}\n" for each in certificates)
+    return table, lines, findings(table) | {"sample": sample(spectra)}
+
+
+def work(job: Any) -> tuple:
+    spectra = Spectra(job.params.spectra, pd.read_csv(job.input.spectra))
+    return main(job.params.case, spectra, pd.read_csv(job.input.vase))
+
+
+if __name__ == "__main__":
+    run(snakemake, work)

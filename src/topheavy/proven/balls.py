@@ -1,0 +1,106 @@
+"""Balls of Arb: exact decimals, hulls, outward bounds, and the refusal to guess."""
+
+import math
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from fractions import Fraction
+from typing import Any
+
+try:
+    from flint import arb, arb_poly, ctx, fmpq
+except ImportError as error:
+    raise ImportError(
+        "topheavy.proven needs python-flint, which is not installed; "
+        'install the extra: pip install "topheavy[proven]"'
+    ) from error
+
+__all__ = [
+    "Undecided",
+    "arb",
+    "arb_poly",
+    "bounds",
+    "exact",
+    "hull",
+    "power",
+    "precision",
+    "root",
+    "within",
+]
+
+
+class Undecided(Exception):
+    """The enclosures do not decide; the argument is the cause in a word."""
+
+
+@contextmanager
+def precision(bits: int) -> Iterator[None]:
+    """Compute in balls of so many bits; the former precision returns at the end."""
+    before, ctx.prec = ctx.prec, bits
+    try:
+        yield
+    finally:
+        ctx.prec = before
+
+
+def decimal(number: float) -> Fraction:
+    """Return the decimal that a float is printed as: 0.1 is 1/10, and not its binary neighbour."""
+    return Fraction(repr(float(number)))
+
+
+def exact(number: float | Fraction) -> arb:
+    """Return the ball of a number that is given, of a float that of its `decimal`."""
+    value = number if isinstance(number, Fraction) else decimal(number)
+    return arb(fmpq(value.numerator, value.denominator))
+
+
+def within(number: Any) -> arb:
+    """Return the ball of a number, or of a pair (low, high) the ball that contains both."""
+    if isinstance(number, tuple):
+        low, high = map(exact, number)
+        return low.union(high)
+    return exact(number)
+
+
+def hull(low: Any, high: Any) -> arb:
+    """Return a ball that contains two numbers or balls, and all between."""
+    return arb(low).union(arb(high))
+
+
+def power(ball: arb, exponent: int) -> arb:
+    """Return a power by products: python-flint's `**` gives NaN for a ball that contains zero."""
+    found = arb(1)
+    for _ in range(exponent):
+        found *= ball
+    return found
+
+
+def bounds(ball: arb) -> tuple[float, float]:
+    """Return floats that enclose a ball: float() rounds to the nearest, which may lie inside."""
+    low, high = float(ball.lower()), float(ball.upper())
+    return math.nextafter(low, -math.inf), math.nextafter(high, math.inf)
+
+
+def root(value: Callable[[arb], arb], slope: Callable[[arb], arb], low: arb, high: arb) -> arb:
+    """Enclose the one root of a function between two numbers where it has different signs.
+
+    Interval Newton, and a bisection where that does not halve the bracket, as close to a zero of
+    the slope. It ends where not even the sign in the middle is known. `value` takes a number and
+    `slope` a ball; the function need not be monotone, only change its sign once.
+    """
+    bracket, rises = hull(low, high), value(arb(low)) < 0
+    while True:
+        middle = bracket.mid()
+        here, steep = value(middle), slope(bracket)
+        if not steep.contains(0):
+            closer = bracket.intersection(middle - here / steep)
+            if closer.rad() < bracket.rad() / 2:
+                bracket = closer
+                continue
+            bracket = closer
+        if here.contains(0):
+            return bracket
+        above = (here > 0) == rises
+        half = hull(bracket.lower(), middle) if above else hull(middle, bracket.upper())
+        if not half.rad() < bracket.rad():
+            return bracket
+        bracket = half

@@ -1,0 +1,112 @@
+"""Certificates: inputs as decimals, the steps of the proof, and what made them."""
+
+import math
+from fractions import Fraction
+from importlib.metadata import version
+from typing import Any
+
+from topheavy.fixed_mass import FixedMassColumn, MonolithicPortal
+from topheavy.proven.balls import arb, decimal
+from topheavy.proven.blocks import BlockBox, Range
+from topheavy.proven.march import Outcome
+from topheavy.proven.outcome import outcome
+from topheavy.pulses import Pulse
+from topheavy.records import Record
+from topheavy.structures import STANDARD_GRAVITY, Column, RockingFrame, Structure
+
+BITS = 136
+"""The steps are short enough for them: the checker has some digits to lose."""
+
+
+def certified(
+    structure: Structure | BlockBox,
+    excitation: Pulse | Record,
+    *,
+    factor: Range = 1.0,
+    linearised: bool = False,
+) -> tuple[Outcome, dict[str, Any] | None]:
+    """Return the outcome of `topheavy.proven.outcome` and its certificate; None if undecided.
+
+    `topheavy.proven.checking.check` verifies it; parameters and errors are those of `outcome`. A
+    BlockBox is refused.
+    """
+    if isinstance(structure, BlockBox):
+        raise ValueError(f"structure is {structure!r}; expected one, as a box has no certificate")
+    steps: list[dict[str, Any]] = []
+    found = outcome(
+        structure, excitation, factor=factor, linearised=linearised, bits=BITS, trace=steps
+    )
+    if found.outcome == "undecided":
+        return found, None
+    low, high = factor if isinstance(factor, tuple) else (factor, factor)
+    return found, {
+        "structure": _structure(structure),
+        "linearised": linearised or structure.block().linearised,
+        "excitation": _excitation(excitation),
+        "factor": [str(decimal(low)), str(decimal(high))],
+        "outcome": found.outcome,
+        "impacts": found.impacts,
+        "peak": found.peak and [_decimal(x) for x in found.peak],
+        "bits": max([BITS, *(step.pop("bits") for step in steps)]),
+        "order": max([2, *(step.pop("order") for step in steps)]),
+        "events": [{key: _plain(value) for key, value in step.items()} for step in steps],
+        "versions": {name: version(name) for name in ("topheavy", "python-flint")},
+    }
+
+
+def _decimal(number: float) -> str:
+    return repr(float(number))
+
+
+def _structure(structure: Structure) -> dict[str, str]:
+    match structure:
+        case Column() | RockingFrame():
+            column = structure if isinstance(structure, Column) else structure.column
+            ratio = 0.0 if isinstance(structure, Column) else structure.mass_ratio
+            return {"kind": "frame", **_sides(column, ratio)}
+        case FixedMassColumn(column=column, mass_ratio=ratio):
+            axis, width = Fraction(0), decimal(structure.cap_width)
+            depth = decimal(structure.cap_depth)
+        case MonolithicPortal(column=column, mass_ratio=ratio):
+            axis = decimal(structure.span) / 2
+            width = 2 * (axis + decimal(column.half_width) + decimal(structure.overhang))
+            depth = decimal(structure.cap_depth)
+        case _:
+            block = structure.block()
+            names = ("slenderness", "frequency_parameter", "restitution")
+            return {"kind": "block", **{name: _decimal(getattr(block, name)) for name in names}}
+    cap = {"axis": str(axis), "cap_width": str(width), "cap_depth": str(depth)}
+    return {"kind": "body", **_sides(column, ratio), **cap}
+
+
+def _sides(column: Column, ratio: float) -> dict[str, str]:
+    return {
+        "half_width": _decimal(column.half_width),
+        "half_height": _decimal(column.half_height),
+        "mass_ratio": "infinite" if ratio == math.inf else _decimal(ratio),
+        "gravity": _decimal(STANDARD_GRAVITY),
+    }
+
+
+def _excitation(excitation: Pulse | Record) -> dict[str, Any]:
+    if isinstance(excitation, Record):
+        samples = [_decimal(x) for x in excitation.acceleration.tolist()]
+        return {"time_step": _decimal(excitation.time_step), "acceleration": samples}
+    return {
+        "shape": excitation.shape,
+        "amplitude": _decimal(excitation.amplitude),
+        "angular_frequency": _decimal(excitation.angular_frequency),
+    }
+
+
+def _plain(value: object) -> object:
+    """Return a ball as the two dyadic numbers that enclose it, and a float exactly."""
+    if isinstance(value, arb):
+        return [_dyadic(value.lower()), _dyadic(value.upper())]
+    return str(Fraction(value)) if isinstance(value, float) else value
+
+
+def _dyadic(number: arb) -> str:
+    """Return a fraction next to the number, wide enough for a hint."""
+    mantissa, exponent = map(int, number.mid().man_exp())
+    return str(Fraction(mantissa) * Fraction(2) ** exponent)

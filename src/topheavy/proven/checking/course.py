@@ -1,0 +1,117 @@
+"""One step of a certificate proven again: its box, its Taylor polynomials and their remainders.
+
+φ, φ', sin φ and cos φ are developed together, where the search develops sin and cos of α − φ.
+"""
+
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import Protocol
+
+from topheavy.proven.checking import intervals
+from topheavy.proven.checking.intervals import Interval, Refused, between, cosine, of, sine
+from topheavy.proven.checking.model import Block, Ground
+
+BOXES = 12  # that are tried around that of a step
+
+
+class State(Protocol):
+    """Where a step starts: the problem, the state at σ, and what of φ's series vanishes."""
+
+    block: Block
+    ground: Ground
+    order: int
+    piece: int
+    side: int
+    sigma: Interval
+    phi: Interval
+    rate: Interval
+    zeros: int
+
+
+class Course:
+    """φ and φ' over a step as polynomials in τ = t/h, the last coefficients being remainders."""
+
+    def __init__(self, start: "State", h: Fraction, hint: Sequence[str]) -> None:
+        block, ground, piece, side = start.block, start.ground, start.piece, start.side
+        self.h, self.kappa = of(h), ground.clock
+        span = start.sigma + self.h.hull(0)
+        phi, rate = start.phi, start.rate
+        image = between(*hint)
+        for _ in range(BOXES):
+            slack = (image.high - image.low) // 16 + (intervals.UNIT >> 30)
+            box = Interval(image.low - slack, image.high + slack)
+            force = -self.kappa * block.pull(box, side * ground.at(piece, span))
+            image = phi + self.h.hull(0) * rate + (self.h * self.h / 2).hull(0) * force
+            if image.inside(box):
+                break
+        else:
+            raise Refused("no box around that of the step holds the motion")
+        self.box = image
+        rates = rate + self.h.hull(0) * force
+        n = start.order
+        self.phi, self.rate = self._develop(start, start.sigma, phi, rate)
+        ends = self._develop(start, span, image, rates)
+        self.phi[n], self.rate[n] = ends[0][n], ends[1][n]
+        for k in range(start.zeros):
+            self.phi[k] = of(0)
+
+    def _develop(
+        self, start: "State", sigma: Interval, phi: Interval, rate: Interval
+    ) -> tuple[list[Interval], list[Interval]]:
+        """Return the coefficients 0 to n of φ and φ'.
+
+        φ' = V,  V' = −κ² pull;  with S, C = sin, cos φ:  S' = C V,  C' = −S V.
+        """
+        block, n = start.block, start.order
+        h = self.h
+        push = [start.side * x for x in start.ground.series(start.piece, sigma, h, n)]
+        x, v, s, c = [phi], [rate], [sine(phi)], [cosine(phi)]
+        near, far = block.cosine, block.sine
+        lean = [near * c[0] + far * s[0]]  # cos(α − φ)
+        for k in range(n):
+            if block.linearised:
+                pull = push[k] - x[k] + (block.alpha if k == 0 else of(0))
+            else:
+                pull = far * c[k] - near * s[k]
+                for j in range(min(k, _last_term(push)) + 1):
+                    pull = pull + push[j] * lean[k - j]
+                turn, back = of(0), of(0)
+                for j in range(k + 1):
+                    turn, back = turn + v[j] * c[k - j], back + v[j] * s[k - j]
+                s.append(h * turn / (k + 1))
+                c.append(-h * back / (k + 1))
+                lean.append(near * c[k + 1] + far * s[k + 1])
+            x.append(h * v[k] / (k + 1))
+            v.append(-h * self.kappa * pull / (k + 1))
+        return x, v
+
+    def landing(self, tau: Interval, zeros: int) -> Interval:
+        """Return φ' where φ vanishes, by φ = τ^k q: after a bounce q' knows it more closely.
+
+        The remainder of q' is n R' − k R of two values of one interval.
+        """
+        x, n = self.phi, len(self.phi) - 1
+        slope = [(j - zeros) * x[j] for j in range(zeros + 1, n)] + [n * x[n] - zeros * x[n]]
+        found = horner(slope, tau) / self.h
+        for _ in range(zeros):
+            found = found * tau
+        rate = horner(self.rate, tau)
+        return Interval(max(rate.low, found.low), min(rate.high, found.high))
+
+    def at(self, tau: Interval) -> tuple[Interval, Interval]:
+        return horner(self.phi, tau), horner(self.rate, tau)
+
+
+def _last_term(push: Sequence[Interval]) -> int:
+    """Return the index of the last coefficient that is not exactly zero."""
+    last = len(push) - 1
+    while last > 0 and push[last].low == push[last].high == 0:
+        last -= 1
+    return last
+
+
+def horner(coefficients: Sequence[Interval], tau: Interval) -> Interval:
+    total = of(0)
+    for coefficient in reversed(coefficients):
+        total = total * tau + coefficient
+    return total

@@ -1,0 +1,145 @@
+"""Intervals of a checker: integers in fixed point, rounded outward, and nothing else.
+
+Only the standard library is used, and no code of the search.
+"""
+
+import math
+from fractions import Fraction
+
+UNIT = 1  # 2^P of all intervals, set by `precision`
+
+
+class Refused(Exception):
+    """A step of the certificate does not follow; the argument names it."""
+
+
+def precision(bits: int) -> None:
+    """Let all intervals from now on have so many bits behind the point."""
+    global UNIT
+    UNIT = 1 << bits
+
+
+class Interval:
+    """Numbers between low/2^P and high/2^P."""
+
+    __slots__ = ("high", "low")
+
+    def __init__(self, low: int, high: int) -> None:
+        self.low, self.high = low, high
+
+    def __add__(self, other: "Interval | int") -> "Interval":
+        other = of(other)
+        return Interval(self.low + other.low, self.high + other.high)
+
+    def __neg__(self) -> "Interval":
+        return Interval(-self.high, -self.low)
+
+    def __sub__(self, other: "Interval | int") -> "Interval":
+        return self + -of(other)
+
+    def __mul__(self, other: "Interval | int") -> "Interval":
+        if isinstance(other, int):
+            ends = self.low * other, self.high * other
+            return Interval(min(ends), max(ends))
+        a, b, c, d = self.low, self.high, other.low, other.high
+        products = a * c, a * d, b * c, b * d
+        return Interval(min(products) // UNIT, -(-max(products) // UNIT))
+
+    def __truediv__(self, other: "Interval | int") -> "Interval":
+        if isinstance(other, int):
+            ends = (self.low, self.high) if other > 0 else (-self.high, -self.low)
+            return Interval(ends[0] // abs(other), -(-ends[1] // abs(other)))
+        if other.low <= 0 <= other.high:
+            raise Refused("a divisor may be zero")
+        pairs = [(n * UNIT, d) for n in (self.low, self.high) for d in (other.low, other.high)]
+        return Interval(min(n // d for n, d in pairs), max(-(-n // d) for n, d in pairs))
+
+    __radd__, __rmul__ = __add__, __mul__
+
+    def __rsub__(self, other: int) -> "Interval":
+        return of(other) - self
+
+    def __gt__(self, other: "Interval | int") -> bool:
+        return self.low > of(other).high
+
+    def __lt__(self, other: "Interval | int") -> bool:
+        return self.high < of(other).low
+
+    def inside(self, other: "Interval") -> bool:
+        return other.low <= self.low and self.high <= other.high
+
+    def hull(self, other: "Interval | int") -> "Interval":
+        other = of(other)
+        return Interval(min(self.low, other.low), max(self.high, other.high))
+
+    def root(self) -> "Interval":
+        if self.low < 0:
+            raise Refused("a root of what may be negative")
+        return Interval(math.isqrt(self.low * UNIT), math.isqrt(self.high * UNIT) + 1)
+
+    def size(self) -> "Interval":
+        """Return |x|."""
+        if self.low < 0 < self.high:
+            return Interval(0, max(-self.low, self.high))
+        return self if self.low >= 0 else -self
+
+
+def of(number: "Interval | int | Fraction") -> Interval:
+    """Return the interval of a number."""
+    if isinstance(number, Interval):
+        return number
+    value = Fraction(number) * UNIT
+    return Interval(math.floor(value), math.ceil(value))
+
+
+def between(low: str, high: str) -> Interval:
+    return of(Fraction(low)).hull(of(Fraction(high)))
+
+
+def _powers(x: int, signs: tuple[int, ...]) -> Interval:
+    """Return Σ sₖ xᵏ/k!, of a number x/2^P, with the signs in turn; 0 leaves a term out."""
+    bits = 64 + 2 * (abs(x) // UNIT)  # what large terms that cancel cost
+    x, unit = x << bits, UNIT << bits
+    total, term, k = 0, unit, 0
+    while abs(term) > 1 or k * unit < 2 * abs(x):
+        total += signs[k % len(signs)] * term
+        k += 1
+        term = term * x // (unit * k)
+    error = 4 * (k + 1) * (1 + (3 ** (abs(x) // unit + 1)))  # each term is short of one unit
+    return Interval((total - error) >> bits, -(-(total + error) >> bits))
+
+
+def _smooth(x: Interval, signs: tuple[int, ...], slope: tuple[int, ...]) -> Interval:
+    """Return sine or cosine of an interval: by its middle m and radius r, |f'| ≤ |f'(m)| + r."""
+    middle, radius = (x.low + x.high) // 2, (x.high - x.low) // 2 + 1
+    value, steep = _powers(middle, signs), UNIT
+    if 16 < radius < UNIT:
+        steep = min(UNIT, _powers(middle, slope).size().high + radius)
+    off = radius * steep // UNIT + 1
+    return Interval(max(value.low - off, -UNIT - 1), min(value.high + off, UNIT + 1))
+
+
+def sine(x: Interval) -> Interval:
+    return _smooth(x, (0, 1, 0, -1), (1, 0, -1, 0))
+
+
+def cosine(x: Interval) -> Interval:
+    return _smooth(x, (1, 0, -1, 0), (0, 1, 0, -1))
+
+
+def exponential(x: Interval) -> Interval:
+    """Return exp(−x) for x ≥ 0, up to a rounding below."""
+    ends = [of(1) / _powers(max(end, 0), (1,)) for end in (x.high, x.low)]
+    return Interval(ends[0].low, ends[1].high)
+
+
+def arctangent(x: Interval) -> Interval:
+    """Return atan x for x > 0: halved until the series is short."""
+    halvings = 8
+    for _ in range(halvings):
+        x = x / ((x * x + 1).root() + 1)
+    square, term, total, k = x * x, x, of(0), 0
+    while term.high > 1:
+        total = total + (term if k % 2 == 0 else -term) / (2 * k + 1)
+        term, k = term * square, k + 1
+    return (total + Interval(-2, 2)) * (1 << halvings)

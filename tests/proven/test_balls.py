@@ -1,0 +1,64 @@
+"""Balls: exact decimals, bounds outward, roots enclosed, and python-flint only where it is used."""
+
+import subprocess
+import sys
+from fractions import Fraction
+
+import pytest
+
+from topheavy.proven.balls import arb, bounds, exact, power, precision, root, within
+
+
+def test_float_stands_for_the_decimal_that_it_is_printed_as():
+    with precision(200):
+        assert (exact(0.1) - arb(1) / 10).contains(0)
+        assert exact(0.1).rad() < arb(2) ** -190
+
+
+@pytest.mark.parametrize("number", ["0.1", "-0.1", "0.7", "3.3", "-2.7"])
+def test_bounds_are_not_inside_the_ball(number):
+    with precision(200):  # in 53 bits the ball's own ends are floats already
+        low, high = bounds(arb(number))
+    assert Fraction(low) < Fraction(number) < Fraction(high)
+
+
+def test_pair_contains_all_between():
+    ball = within((-0.3, 0.7))
+    assert all(ball.contains(exact(x)) for x in (-0.3, 0.0, 0.123, 0.7))
+
+
+def test_power_of_a_ball_around_zero_is_a_number():
+    ball = power(arb(0, 0.5), 3)
+    assert ball.contains(arb(1) / 8)
+    assert ball.contains(arb(-1) / 8)
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+def test_root_is_enclosed_to_the_last_digits_even_near_a_zero_of_the_slope(sign):
+    found = root(
+        lambda x: sign * (power(x, 3) - exact(1e-6)), lambda x: sign * 3 * x * x, arb(-1), arb(1)
+    )
+    assert found.contains(exact(0.01))
+    assert found.rad() < 1e-9
+
+
+def test_precision_returns_to_what_it_was():
+    from flint import ctx
+
+    before = ctx.prec
+    with precision(300):
+        assert ctx.prec == 300
+    assert ctx.prec == before
+
+
+def run(code):
+    return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+
+
+def test_library_imports_no_flint_until_something_is_proven():
+    assert run("import sys, topheavy; sys.exit('flint' in sys.modules)").returncode == 0
+
+
+def test_without_flint_the_error_names_the_extra():
+    found = run("import sys; sys.modules['flint'] = None; import topheavy; topheavy.proven.outcome")
+    assert 'pip install "topheavy[proven]"' in found.stderr
