@@ -12,7 +12,7 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import Finding, run, truth
-from steps.spectra_compared import Place, Spectra
+from steps.shared.spectra_compared import Place, Spectra
 from steps.vase import numbers
 from topheavy import Column, Pulse, judge
 from topheavy.proven import certified
