@@ -3,21 +3,14 @@
 from dataclasses import asdict
 
 import pandas as pd
-import sympy as sp
 
 from replication.workbench import Finding, run, truth
 from topheavy.derivation import check_printed, theorems
-from topheavy.derivation.motion_proofs import follows_if_a_column_weighs
 
 
 def main() -> tuple[pd.DataFrame, dict]:
     table = pd.DataFrame([asdict(check) for check in check_printed()])
     proved = {theorem.id: truth(theorem.holds) for theorem in theorems()}
-    proved["m_c_as_both_columns"] = truth(
-        follows_if_a_column_weighs(sp.Rational(1, 2)),
-        holds_when=follows_if_a_column_weighs(sp.Integer(1)),
-        condition="m_c is the mass of each of the two columns",
-    )
     return table, findings(table) | proved
 
 

@@ -13,6 +13,7 @@ from steps import (
     equations,
     heavier,
     moment_rotation,
+    negative_stiffness,
     trilith,
     trilith_states,
 )
@@ -141,6 +142,7 @@ SOURCES = {
     "equations": equations.findings,
     "heavier": heavier.findings,
     "moment_rotation": moment_rotation.findings,
+    "negative_stiffness": negative_stiffness.findings,
     "trilith": trilith.findings,
     "trilith_states": trilith_states.findings,
 }

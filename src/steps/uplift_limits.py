@@ -154,6 +154,15 @@ def slopes(case: dict) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
+def sliding_shear(peak: pd.Series, friction: float) -> pd.Series:
+    """Return the largest V/W of a rigid block on dry friction under a peak acceleration (g).
+
+    A block that sticks has V/W = |ü_g|/g, at most μ; one that slides has V/W = μ. A block with
+    μ = tan α slides when a column of slenderness α would uplift.
+    """
+    return np.minimum(peak, friction)
+
+
 def _shear_at_rest(frame: RockingFrame, factor: float) -> float:
     """Return V/W of three bodies at rest that ü_g = factor · g tan α turns to the left."""
     bodies = ThreeBodies(frame, span=5.0 * frame.column.size, cap_depth=frame.column.size)
@@ -259,6 +268,8 @@ def main(case: dict, paths: list[str]) -> tuple:
     table = pd.DataFrame(row for rows in progress(found, len(tried), "motions") for row in rows)
     ratios, of_slope = summary(table, case), slopes(case)
     stands = table[table.outcome != "overturned"]
+    slid = sliding_shear(table.peak_acceleration, column.uplift_acceleration)
+    slid = slid / table.peak_acceleration
     over_uplift = stands.base_shear / stands.shear_after_uplift
     rigid = ratios[ratios.held == RIGID]
     totals = rigid[rigid.force != "bending_moment"]
@@ -297,10 +308,14 @@ def main(case: dict, paths: list[str]) -> tuple:
             ),
         ),
         "uplift_is_beneficial": truth(
-            fell == 0 and ratios.largest.max() < 1.0,
-            holds_when=totals[totals.force == "base_shear"].largest.max() < 1.0,
-            condition="the frame survives; of the base shear, beside a rigid frame",
+            fell == 0 and ratios.largest.max() < 1.0 and slid.max() < 1.0,
+            holds_when=totals[totals.force == "base_shear"].largest.max() < 1.0
+            and slid.max() < 1.0,
+            condition="the frame survives; it means the base shear, beside a held rigid frame",
             **counted,
+            sliding_least=slid.min(),
+            sliding_largest=slid.max(),
+            largest_shear_over_sliding=(stands.base_shear / column.uplift_acceleration).max(),
             largest_rotation_over_alpha=stands.rotation.max(),
             largest_impulse=stands.impulse.max(),
         ),

@@ -1,6 +1,7 @@
 """Which functions draw the findings of this study from its tables, by rule; or why none does."""
 
 from studies.mechanism.steps import (
+    beside,
     dependence,
     equivalence,
     first_impacts,
@@ -12,6 +13,7 @@ from studies.mechanism.steps import (
 )
 
 SOURCES = {
+    "mechanism_beside": beside.findings,
     "mechanism_dependence": dependence.findings,
     "mechanism_equivalence": equivalence.findings,
     "mechanism_first_impacts": first_impacts.findings,

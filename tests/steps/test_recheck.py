@@ -207,7 +207,7 @@ def test_findings_follow_from_their_tables(edition):
         ("mechanism_equivalence", "column_is_never_safer_first", "largest", 0.0),
         ("mechanism_equivalence", "share_apart", "error", 1e-5),
         ("mechanism_verdicts", "same_verdicts", "share_bouncing", 1.0),
-        ("mechanism_rebounds", "impact_at_the_new_pivots", "plastic_apart", 0.0),
+        ("mechanism_rebounds", "energy_of_eq25", "plastic_apart", 0.0),
         ("mechanism_dependence", "heavier_needs_less", "lightest", 0.1),
         ("mechanism_three_bodies", "velocity_ratio", "largest", 1e-16),
         ("mechanism_first_impacts", "first_impact", "largest", 1e-9),

@@ -116,10 +116,10 @@ def main(case: dict, cap: Cap) -> tuple[pd.DataFrame, dict]:
     slides = survived.demand * tan > max(case["frictions"])
     findings = {
         "uplift_needs_tan": truth(bool((table.demand >= 1.0 - ROUNDING).all()), cells=len(table)),
-        "no_sliding": truth(
-            bool((survived.demand * tan <= min(case["frictions"])).all()),
+        "friction_is_enough": truth(
+            not slides.any(),
             holds_when=enough_from < math.inf,
-            condition="μ is the largest that is listed, and the cap at least as heavy as stated",
+            condition=f"γ is {enough_from:g} or more",
             friction=max(case["frictions"]),
             from_mass_ratio=enough_from if enough_from < math.inf else None,
             tan=tan,
