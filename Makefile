@@ -102,6 +102,8 @@ clean: ## remove all that the workflow and the tools wrote; keep the environment
 	rm -rf results dist .snakemake figures/*.svg studies/*/figures/*.svg paper/*.pdf
 	rm -rf .kill_table.jsonl .pytest_cache .ruff_cache .mypy_cache .hypothesis
 	find . \( -name .venv -o -name .uv \) -prune -o -name __pycache__ -type d -prune -exec rm -rf {} +
+	@echo "kept: the compiled kernel, which all copies share, in" \
+	  "$${NUMBA_CACHE_DIR:-$${XDG_CACHE_HOME:-$$HOME/.cache}}/topheavy"
 
 .uv/bin/uv:
 	@echo "uv is not on the PATH: fetching uv $(UV_VERSION) into .uv/"

@@ -15,7 +15,6 @@ LONGEST_FIRST = (
     "test_endings.py",
     "test_trace.py",
     "test_check_html.py",
-    "test_kernel_cache.py",
     "test_simulate.py",
 )
 """Files that take longest: begun first, no process is left with one of them at the end."""
@@ -27,6 +26,7 @@ def pytest_collection_modifyitems(items):
     items.sort(key=lambda item: place.get(item.path.name, len(place)))
 
 
+@pytest.hookimpl(optionalhook=True)
 def pytest_xdist_setupnodes():
     """Compile the kernel before several processes need it at the same time."""
     from steps.kernel import main

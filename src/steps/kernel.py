@@ -1,6 +1,6 @@
 """Compile the kernel once: jobs that need it at the same time would each compile it.
 
-numba keeps what it compiled beside the source (`topheavy.kernel`).
+All copies of the same kernel share what was compiled (`topheavy.kernel.compiled`).
 """
 
 import numpy as np

@@ -11,6 +11,18 @@ PIER = Column(0.25, 1.5)
 SHAKE = Record(0.02, [0.0, 0.3, -0.2, 0.1, 0.0], "shake")
 STILL = Record(0.02, [0.0, 0.0, 0.0], "still")
 TINY = Record(1e-9, [0.0, 1.0, 0.0], "tiny")
+
+
+class Crate:
+    """What has a block, and is no structure of the library."""
+
+    def __init__(self, block):
+        self._block = block
+
+    def block(self):
+        return self._block
+
+
 GIVEN = {"structures": {"pier": PIER}, "motions": [SHAKE, SHAKE], "levels": [0.1, 0.2]}
 
 
@@ -28,6 +40,13 @@ GIVEN = {"structures": {"pier": PIER}, "motions": [SHAKE, SHAKE], "levels": [0.1
         ("structures", [], "structures is empty; expected at least one structure"),
         ("structures", [PIER, 3], "structures[1] is 3; expected a structure, for example Column("),
         ("structures", {"x": Column}, "structures['x'] is <class"),
+        (
+            "structures",
+            [PIER, None],
+            "structures[1] is None; expected a structure, for example Col",
+        ),
+        ("structures", [Crate(3)], "structures[0]: block() gives 3; expected a RockingBlock"),
+        ("structures", [Crate(PIER)], "block() gives Column(half_width=0.25, half_height=1.5); ex"),
         ("structures", {1: PIER}, "structures has the name 1; expected a text"),
         ("structures", {"x": SHAKE}, "structures['x'] is"),
         ("structures", [Column(2.0, 1.0)], "structures[0]: slenderness is 1.10715 rad"),
@@ -35,6 +54,7 @@ GIVEN = {"structures": {"pier": PIER}, "motions": [SHAKE, SHAKE], "levels": [0.1
         ("motions", None, "motions is None; expected a list of motions"),
         ("motions", [], "motions is empty; expected at least one motion"),
         ("motions", [SHAKE, "x"], "motions[1] is 'x'; expected a Record or a Pulse"),
+        ("motions", [None], "motions[0] is None; expected a Record or a Pulse"),
         ("motions", [SHAKE, STILL], "motions[1]: PGV of record 'still' is 0 m/s; expected more"),
         ("motions", [TINY], "motions[0] scaled to 0.2: record 'tiny': sample 1 of 3 is"),
         ("motions", [Pulse("one-sine", 1.0, 3.0)], "which has no PGV; expected a Record, or a fun"),
@@ -45,9 +65,12 @@ GIVEN = {"structures": {"pier": PIER}, "motions": [SHAKE, SHAKE], "levels": [0.1
         ("levels", [0.1, 0.3, 0.3], "levels[2] is 0.3 after 0.3; expected levels that increase"),
         ("levels", [0.3, 0.1], "levels[1] is 0.1 after 0.3; expected levels that increase"),
         ("levels", [0.0, 0.1], "levels[0] is 0; expected a positive number"),
+        ("levels", [-0.1, 0.1], "levels[0] is -0.1; expected a positive number"),
+        ("levels", None, "levels: element 0 is None; expected a number"),
         ("levels", [0.1, np.nan], "levels[1] is nan; expected a positive number"),
         ("levels", ["a"], "levels: element 0 is 'a'; expected a number"),
         ("measure", "PGD", "measure is 'PGD'; expected 'PGV', 'PGA' or a function of a motion"),
+        ("measure", None, "measure is None; expected 'PGV', 'PGA' or a function of a motion"),
         ("measure", lambda motion: -1.0, "measure of motions[0] is -1; expected more than zero"),
         ("measure", lambda motion: "x", "measure of motions[0] is 'x'; expected a number"),
         ("groups", "ab", "groups is 'ab'; expected a list, the group of each motion"),
@@ -65,8 +88,15 @@ GIVEN = {"structures": {"pier": PIER}, "motions": [SHAKE, SHAKE], "levels": [0.1
     ],
 )
 def test_bad_argument_is_named_with_its_value(name, value, message):
-    with pytest.raises(ValueError, match=re.escape(message)):
+    with pytest.raises(ValueError, match=re.escape(message)) as caught:
         fragility(**{**GIVEN, name: value})
+    error = caught.value
+    assert error.__suppress_context__ or error.__context__ is None  # one message, and no other
+
+
+def test_still_ground_has_no_acceleration_to_scale():
+    with pytest.raises(ValueError, match=r"motions\[0\]: PGA of record 'still' is 0 g; expected"):
+        fragility(**{**GIVEN, "motions": [STILL], "measure": "PGA"})
 
 
 def test_lowered_needs_a_column():

@@ -1,11 +1,94 @@
 """Means of resampled motions and their intervals, by groups and with values that are missing."""
 
+import math
+
 import numpy as np
 import pytest
 from scipy.stats import bootstrap
 
 from topheavy.fragility import resampling
-from topheavy.fragility.resampling import interval, means, means_within, resampled
+from topheavy.fragility.resampling import (
+    ResampledMeans,
+    in_words,
+    interval,
+    means,
+    means_within,
+    resampled,
+)
+
+
+def test_first_row_is_the_ensemble_and_others_scatter_as_a_binomial():
+    fell = np.arange(400)[:, None] < [40, 200]
+    found = means(resampled(400, 4000, 1), fell)
+    assert found[0] == pytest.approx([0.1, 0.5], rel=1e-12)
+    assert found[1:].mean(axis=0) == pytest.approx([0.1, 0.5], abs=2e-3)
+    assert found[1:].std(axis=0) == pytest.approx(np.sqrt([0.09 / 400, 0.25 / 400]), rel=0.05)
+
+
+def test_structures_that_fall_together_fall_together_in_every_resample():
+    fell = np.random.default_rng(3).random(50) < 0.5
+    found = means(resampled(50, 20, 1), np.stack([fell, ~fell], axis=1))
+    assert np.ptp(found[:, 0]) > 0.05
+    assert found.sum(axis=1) == pytest.approx(np.ones(21))
+
+
+def in_blocks(sizes, *outcomes, resamples=20):
+    found = ResampledMeans(len(outcomes[0]), resamples, 1)
+    for part in np.split(np.arange(len(outcomes[0])), np.cumsum(sizes)):
+        found.add([each[part] for each in outcomes])
+    return found.means()
+
+
+def test_means_of_a_single_block_are_those_of_all_weights():
+    random = np.random.default_rng(5)
+    fell, first = random.random((50, 3, 2)) < 0.3, random.random(50) < 0.5
+    weights = resampled(50, 20, 1)
+    found = in_blocks([], fell, first)
+    assert found[0] == pytest.approx(means(weights, fell), rel=1e-14)
+    assert found[1] == pytest.approx(means(weights, first), rel=1e-14)
+
+
+def test_means_by_blocks_scatter_as_those_of_all_weights():
+    """Motions of the first block fall more often; each resample draws 400, of whichever blocks."""
+    fell = np.arange(400)[:, None] < [40, 200]
+    (means,) = in_blocks([30, 170, 1], fell, resamples=4000)
+    assert means[0] == pytest.approx([0.1, 0.5], rel=1e-12)
+    assert means[1:].mean(axis=0) == pytest.approx([0.1, 0.5], abs=2e-3)
+    assert means[1:].std(axis=0) == pytest.approx(np.sqrt([0.09 / 400, 0.25 / 400]), rel=0.05)
+    (everything,) = in_blocks([30, 170, 1], np.ones(400))
+    assert everything == pytest.approx(np.ones(21), rel=1e-12)
+
+
+def test_missing_motions_are_missed():
+    found = ResampledMeans(50, 20, 1)
+    found.add([np.ones(49)])
+    with pytest.raises(ValueError, match="49 motions were found; expected those of 50"):
+        found.means()
+
+
+def test_interval_holds_the_middle_of_the_resamples():
+    values = np.concatenate([[5.0], np.arange(101.0)])
+    assert interval(values, 0.9) == pytest.approx((5.0, 5.0, 95.0))
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "words"),
+    [
+        (0.01, 0.03, "is positive"),
+        (-0.08, -0.05, "is negative"),
+        (-0.01, 0.03, "includes zero"),
+        (0.0, 0.03, "includes zero"),
+        (-0.03, 0.0, "includes zero"),
+    ],
+)
+def test_words_name_the_sign_of_the_whole_interval(low, high, words):
+    assert in_words(low, high) == words
+
+
+@pytest.mark.parametrize(("low", "high"), [(0.2, 0.1), (math.nan, 0.1), (0.1, math.nan)])
+def test_ends_in_the_wrong_order_have_no_words(low, high):
+    with pytest.raises(ValueError, match="expected ascending ends"):
+        in_words(low, high)
 
 
 def test_one_group_has_the_weights_of_all_motions():

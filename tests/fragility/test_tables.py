@@ -152,6 +152,7 @@ def test_paired_structures_are_compared_under_the_same_motions():
     _, pairs = tables(capacities)
     assert pairs.gain_words.item() == "is positive"
     assert pairs.gain_high.item() - pairs.gain_low.item() < 0.3
+    assert (pairs.less_high - pairs.less_low).max() < 0.25
     alone = capacities.copy()
     random.shuffle(alone[:, 1])
     assert tables(alone)[1].gain_words.item() == "includes zero"

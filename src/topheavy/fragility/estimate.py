@@ -11,7 +11,7 @@ from topheavy.fragility import inputs
 from topheavy.fragility.curve import fit
 from topheavy.fragility.resampling import means_within
 from topheavy.fragility.tables import curve_table, pair_table
-from topheavy.overturning import overturned_by
+from topheavy.overturning import overturned_together
 
 if TYPE_CHECKING:
     import xarray
@@ -158,8 +158,5 @@ def _judged(
     under: Sequence[inputs.Variant], motions: Sequence[inputs.Motion], scales: Array
 ) -> Outcomes:
     """Return which scales overturn, shape (motions, structures, levels)."""
-    found = np.empty((len(motions), len(under), scales.shape[1]), dtype=bool)
-    for number, (motion, factors) in enumerate(zip(motions, scales, strict=True)):
-        for place, one in enumerate(under):
-            found[number, place] = overturned_by(one.block, motion, factors)
-    return found
+    blocks, both = [one.block for one in under], zip(motions, scales, strict=True)
+    return np.array([overturned_together(blocks, motion, factors) for motion, factors in both])

@@ -1,10 +1,126 @@
-"""How the functions of the kernel are compiled."""
+"""How the functions of the kernel are compiled, and where their machine code is kept.
 
-from functools import partial
+numba's own cache is bound to the path of a file, looks at the file of a function only, and may pair
+the machine code of one process with the index of another. This one has a folder for each state of
+the kernel and of what compiles it, and a file for each function and its types: all copies of the
+same code share it.
+"""
+
+import hashlib
+import os
+import pickle
+import platform
+import warnings
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
-from numba import njit
+import llvmlite
+import numba
+import numpy as np
+from numba.core.caching import _Cache
+from numba.core.compiler import CompileResult
+from numba.core.serialize import dumps
 
-#: A decorator. An option that a function leaves open it takes from whichever function is first to
-#: call it: the last bits would then depend on what was compiled before.
-compiled: Any = partial(njit, cache=True, error_model="numpy", fastmath=False, forceinline=False)
+from topheavy import shapes
+
+_DIGEST = hashlib.sha256().digest_size
+
+
+def cache_folder() -> Path:
+    """Return the folder of all compiled code.
+
+    It is `topheavy` in the folder that NUMBA_CACHE_DIR names, or XDG_CACHE_HOME, or in `~/.cache`.
+    """
+    named = os.environ.get("NUMBA_CACHE_DIR") or os.environ.get("XDG_CACHE_HOME")
+    return Path(named or Path.home() / ".cache", "topheavy").absolute()
+
+
+def state(sources: Path, numbers: Path) -> str:
+    """Return a checksum of the sources in a folder, of the file of numbers, and of what compiles.
+
+    `topheavy.shapes` is such a file, as the machine code contains its numbers. Of the variables of
+    numba all but the folder of its cache may change the machine code.
+    """
+    files = [(path.relative_to(sources).as_posix(), path) for path in sources.rglob("*.py")]
+    texts = [(name, path.read_bytes()) for name, path in sorted([*files, ("", numbers)])]
+    versions = (numba.__version__, llvmlite.__version__, np.__version__, platform.python_version())
+    options = {name: value for name, value in os.environ.items() if name.startswith("NUMBA_")}
+    options.pop("NUMBA_CACHE_DIR", None)
+    return hashlib.sha256(repr((texts, versions, sorted(options.items()))).encode()).hexdigest()
+
+
+class Cache(_Cache):
+    """The machine code of a function, in a file for each tuple of types and each CPU.
+
+    The content of a file begins with a checksum of what it was compiled for and of the rest. A file
+    of which it does not hold is compiled anew and replaced. A file is replaced as a whole, so that
+    several processes may write at once.
+    """
+
+    def __init__(self, function: Any, folder: Path) -> None:
+        self.name = f"{function.__module__}.{function.__qualname__}"
+        self.folder = folder
+
+    @property
+    def cache_path(self) -> str:
+        return str(self.folder)
+
+    def enable(self) -> None: ...
+
+    def disable(self) -> None: ...
+
+    def flush(self) -> None: ...
+
+    def _key(self, types: Any, codegen: Any) -> tuple[bytes, Path]:
+        """Return what a file is for, and its path."""
+        key = repr((self.folder.name, self.name, types, codegen.magic_tuple())).encode()
+        return key, self.folder / f"{self.name}-{hashlib.sha256(key).hexdigest()[:16]}.machine"
+
+    def load_overload(self, types: Any, context: Any) -> Any:
+        """Return the compiled function for these types and this CPU, or None."""
+        context.refresh()
+        key, path = self._key(types, context.codegen())
+        try:
+            content = path.read_bytes()
+        except OSError:
+            return None
+        if content[:_DIGEST] != hashlib.sha256(key + content[_DIGEST:]).digest():
+            return None
+        return CompileResult._rebuild(context, *pickle.loads(content[_DIGEST:]))
+
+    def save_overload(self, types: Any, result: Any) -> None:
+        """Keep a compiled function; a folder that cannot be written costs the next process time."""
+        if result.library.has_dynamic_globals:  # addresses of this process
+            return
+        key, path = self._key(types, result.codegen)
+        code = dumps(result._reduce())
+        try:
+            self.folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+            with TemporaryDirectory(dir=self.folder) as mine:
+                file = Path(mine, "machine")
+                file.write_bytes(hashlib.sha256(key + code).digest() + code)
+                file.replace(path)
+        except OSError as error:
+            warnings.warn(
+                f"the compiled kernel is not kept in {self.folder} ({error.strerror}); name a "
+                "folder that can be written in NUMBA_CACHE_DIR, or each process compiles anew",
+                stacklevel=2,
+            )
+
+
+FOLDER = cache_folder() / state(Path(__file__).parent, Path(shapes.__file__))[:16]
+
+
+def compiled(function: Any = None, **options: Any) -> Any:
+    """Return the function compiled at its first call, or the decorator with these options.
+
+    An option that a function leaves open it takes from whichever function is first to call it: the
+    last bits would then depend on what was compiled before. Hence all have a value here.
+    """
+    if function is None:
+        return lambda function: compiled(function, **options)
+    given: Any = {"error_model": "numpy", "fastmath": False, "forceinline": False}
+    dispatcher = numba.njit(**given | options)(function)
+    dispatcher._cache = Cache(function, FOLDER)
+    return dispatcher

@@ -11,37 +11,40 @@ import pandas as pd
 
 from replication.workbench import Finding, run, truth
 from steps.spectrum import progress
-from studies.certainty.steps.restitution import changed, difference
-from topheavy import Column, RockingFrame, judge, overturned_by, reference
+from studies.certainty.steps.restitution import changed
+from topheavy import Column, Fragility, RockingFrame, fragility, judge, reference
+from topheavy.fragility.resampling import NEGATIVE, POSITIVE
 from topheavy.structures import Structure
-from topheavy.synthetic import fragility
 from topheavy.synthetic.ensemble import Draw, draws
 from topheavy.synthetic.motions import peak_velocity
 
 BOTH, COLUMN_ALONE = "both", "column alone"
 
 
-def structures(case: dict) -> dict[tuple[str, float], Structure]:
-    """Return column and frame by each factor on their √r."""
+def called(name: str, factor: float) -> str:
+    """Return the name of a structure with a factor on its √r, as `fragility` names columns."""
+    return name if factor == 1.0 else f"{name}, √r {100.0 * (1.0 - factor):g} % lower"
+
+
+def structures(case: dict) -> dict[str, Structure]:
+    """Return column and frame by name, with each factor on their √r."""
     column = Column(**case["column"])
     named = {"column": column, "frame": RockingFrame(column, case["mass_ratio"])}
     return {
-        (name, factor): changed(one, factor)
+        called(name, factor): one if factor == 1.0 else changed(one, factor)
         for name, one in named.items()
         for factor in case["factors"]
     }
 
 
-def compared(factors: list[float]) -> dict[tuple[str, float], tuple]:
+def compared(factors: list[float]) -> dict[tuple[str, float], tuple[str, str]]:
     """Return the column and the frame of each comparison, by the way and the factor.
 
     The column alone is changed if its factor is lower than 1.
     """
-    found = {(BOTH, factor): (("column", factor), ("frame", factor)) for factor in factors}
+    found = {(BOTH, f): (called("column", f), called("frame", f)) for f in factors}
     lowered = [factor for factor in factors if factor < 1.0]
-    return found | {
-        (COLUMN_ALONE, factor): (("column", factor), ("frame", 1.0)) for factor in lowered
-    }
+    return found | {(COLUMN_ALONE, f): (called("column", f), "frame") for f in lowered}
 
 
 def motions(case: dict, ensemble: dict) -> list[Draw]:
@@ -49,32 +52,51 @@ def motions(case: dict, ensemble: dict) -> list[Draw]:
     return draws({**ensemble, "runs": {ensemble["run"]: {"motions": case["motions"]}}})
 
 
-def outcomes(case: dict, ensemble: dict) -> pd.DataFrame:
+def fragilities(case: dict, ensemble: dict) -> dict[str, Fragility]:
+    """Return for each family the outcomes and differences of frame and column at the stated PGV."""
+    given = structures(case)
+    # `fragility` lowers the √r of the column, and compares it with every frame.
+    lower = [1.0 - factor for factor in case["factors"] if factor < 1.0]
+    under = {name: one for name, one in given.items() if name == "column" or "frame" in name}
+    return {
+        family: fragility(
+            under,
+            [draw.record() for draw in motions(case, ensemble) if draw.family == family],
+            [case["pgv"]],
+            lowered=lower,
+            seed=case["seed"],
+            **case["bootstrap"],
+        )
+        for family in progress(ensemble["families"], len(ensemble["families"]), "families")
+    }
+
+
+def outcomes(found: dict[str, Fragility]) -> pd.DataFrame:
     """Return a row for each motion: its family, and which of the structures it overturns."""
-    under, chosen, rows = structures(case), motions(case, ensemble), []
-    for draw in progress(chosen, len(chosen), "motions"):
-        record = draw.record()
-        scale = [case["pgv"] / peak_velocity(record)]
-        fell = {name: overturned_by(one, record, scale)[0] for name, one in under.items()}
-        rows.append({"family": draw.family} | fell)
-    return pd.DataFrame(rows)
+    return pd.concat(
+        [
+            pd.DataFrame(one.outcomes[..., 0], columns=one.curves.structure).assign(family=family)
+            for family, one in found.items()
+        ],
+        ignore_index=True,
+    )
 
 
-def differences(case: dict, fell: pd.DataFrame) -> pd.DataFrame:
-    """Return for each family and change the probability of the column less that of the frame.
-
-    Column and frame stay paired under each motion.
-    """
-    boot, rows = case["bootstrap"], []
-    for family, part in fell.groupby("family", sort=False):
-        weights = fragility.resampled(len(part), boot["resamples"], case["seed"])
+def differences(case: dict, found: dict[str, Fragility]) -> pd.DataFrame:
+    """Return for each family and change the probability of the column less that of the frame."""
+    rows = []
+    for family, one in found.items():
+        curves, pairs = one.curves.isel(level=0), one.pairs.isel(level=0)
         for (way, factor), (column, frame) in compared(case["factors"]).items():
-            less = part[column].astype(float) - part[frame].astype(float)
+            (pair,) = np.flatnonzero((pairs["first"] == column) & (pairs.second == frame))
+            of = pairs.isel(pair=pair)
             rows.append(
-                {"family": family, "way": way, "factor": factor, "motions": len(part)}
-                | {"column": int(part[column].sum()), "frame": int(part[frame].sum())}
-                | {"only_column": int((less > 0).sum()), "only_frame": int((less < 0).sum())}
-                | difference(fragility.means(weights, less), boot)
+                {"family": family, "way": way, "factor": factor, "motions": len(one.outcomes)}
+                | {"column": int(curves.overturned.sel(structure=column))}
+                | {"frame": int(curves.overturned.sel(structure=frame))}
+                | {"only_column": int(of.only_first), "only_frame": int(of.only_second)}
+                | {name: float(of[name]) for name in ("less", "less_low", "less_high")}
+                | {"interval": of.less_words.item()}
             )
     return pd.DataFrame(rows)
 
@@ -104,9 +126,9 @@ def confirmed(case: dict, ensemble: dict, fell: pd.DataFrame) -> Finding:
 
 
 def main(case: dict, ensemble: dict) -> tuple[pd.DataFrame, dict]:
-    fell = outcomes(case, ensemble)
-    table = differences(case, fell)
-    return table, findings(table) | {"second_route": confirmed(case, ensemble, fell)}
+    found = fragilities(case, ensemble)
+    table = differences(case, found)
+    return table, findings(table) | {"second_route": confirmed(case, ensemble, outcomes(found))}
 
 
 def findings(certainty_benefit: pd.DataFrame) -> dict[str, Finding]:
@@ -115,9 +137,9 @@ def findings(certainty_benefit: pd.DataFrame) -> dict[str, Finding]:
     both, alone = (table[table.way == way] for way in (BOTH, COLUMN_ALONE))
     lowest = alone[alone.factor == alone.factor.min()]
     return {
-        "frame_is_safer": truth((both.interval == fragility.POSITIVE).all(), **said(both)),
-        "remains": truth((alone.interval == fragility.POSITIVE).all(), **said(alone)),
-        "reverses": truth((lowest.interval == fragility.NEGATIVE).all(), **said(lowest)),
+        "frame_is_safer": truth((both.interval == POSITIVE).all(), **said(both)),
+        "remains": truth((alone.interval == POSITIVE).all(), **said(alone)),
+        "reverses": truth((lowest.interval == NEGATIVE).all(), **said(lowest)),
     }
 
 

@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from scipy.stats import beta
 
 from replication.workbench import Finding, run, truth
 from steps.spectrum import progress
@@ -20,9 +19,10 @@ from topheavy import (
     Record,
     RockingFrame,
     judge,
-    overturned_by,
+    overturned_together,
     reference,
 )
+from topheavy.fragility.tables import exact_interval
 from topheavy.structures import Structure
 from topheavy.synthetic.ensemble import draws
 from topheavy.synthetic.motions import peak_velocity
@@ -74,14 +74,6 @@ def intensity(record: Record, measure: str) -> float:
     return peak_velocity(record) if measure == "pgv" else record.peak_acceleration
 
 
-def share_interval(fell: int, of: int, confidence: float) -> tuple[float, float]:
-    """Return the exact interval of a probability (Clopper & Pearson): not empty for none or all."""
-    tail = (1.0 - confidence) / 2.0
-    low = 0.0 if fell == 0 else float(beta.ppf(tail, fell, of - fell + 1))
-    high = 1.0 if fell == of else float(beta.ppf(1.0 - tail, fell + 1, of - fell))
-    return low, high
-
-
 def outcomes(case: dict, ensemble: dict, under: list[Subject]) -> pd.DataFrame:
     """Return a row for each motion and subject: which of all levels overturn it."""
     levels = [(measure, level) for measure in MEASURES for level in case[measure]]
@@ -90,12 +82,12 @@ def outcomes(case: dict, ensemble: dict, under: list[Subject]) -> pd.DataFrame:
     for draw in progress(chosen, len(chosen), "motions"):
         record = draw.record()
         scales = [level / intensity(record, measure) for measure, level in levels]
-        for subject in under:
-            fell = overturned_by(subject.structure, record, scales)
-            rows += [
-                draw.labels | subject.labels | {"measure": m, "level": level, "fell": one}
-                for (m, level), one in zip(levels, fell, strict=True)
-            ]
+        fell = overturned_together([subject.structure for subject in under], record, scales)
+        rows += [
+            draw.labels | subject.labels | {"measure": m, "level": level, "fell": one}
+            for subject, outcomes in zip(under, fell, strict=True)
+            for (m, level), one in zip(levels, outcomes, strict=True)
+        ]
     return pd.DataFrame(rows)
 
 
@@ -103,10 +95,8 @@ def probabilities(cells: pd.DataFrame, confidence: float) -> pd.DataFrame:
     """Return the probability of overturning with its interval, over the motions of each family."""
     keys = ["family", "structure", "support", "mass_ratio", "measure", "level"]
     table = cells.groupby(keys, sort=False, as_index=False).fell.agg(fell="sum", motions="size")
-    ends = [
-        share_interval(f, n, confidence) for f, n in zip(table.fell, table.motions, strict=True)
-    ]
-    low, high = zip(*ends, strict=True)
+    (motions,) = table.motions.unique()  # every family has as many
+    low, high = exact_interval(table.fell.to_numpy(), motions, confidence)
     return table.assign(
         probability=table.fell / table.motions, probability_low=low, probability_high=high
     )

@@ -26,8 +26,8 @@ from topheavy import (
     overturning_intervals,
     reference,
 )
+from topheavy.fragility.resampling import in_words, interval, means, resampled
 from topheavy.structures import Structure
-from topheavy.synthetic import fragility
 from topheavy.synthetic.ensemble import draws
 from topheavy.synthetic.motions import peak_velocity
 
@@ -174,22 +174,22 @@ def under_motions(case: dict, ensemble: dict) -> tuple[pd.DataFrame, list[dict]]
     variants, found = outcomes(case, ensemble)
     boot, rows, falls = case["bootstrap"], [], []
     for family, fell in found.items():
-        weights = fragility.resampled(len(fell), boot["resamples"], case["seed"])
-        means = fragility.means(weights, fell.mean(axis=2))
+        weights = resampled(len(fell), boot["resamples"], case["seed"])
+        shares = means(weights, fell.mean(axis=2))
         place = {variant: number for number, variant in enumerate(variants)}
         for variant, number in place.items():
             gamma, kind, factor = variant
             labels = {"family": family, "mass_ratio": gamma, "kind": kind, "factor": factor}
-            rows.append(labels | bounds("probability", means[:, number], boot))
+            rows.append(labels | bounds("probability", shares[:, number], boot))
         light, heavy = case["mass_ratios"][0], case["mass_ratios"][-1]
         for (way, factor), (of_column, of_frame) in pairs(case["factors"]).items():
             less = (
-                means[:, place[light, "factor", of_column]]
-                - means[:, place[heavy, "factor", of_frame]]
+                shares[:, place[light, "factor", of_column]]
+                - shares[:, place[heavy, "factor", of_frame]]
             )
             falls.append({"family": family, "way": way, "factor": factor} | difference(less, boot))
         for low in case["scatter"]:
-            less = means[:, place[light, "scatter", low]] - means[:, place[heavy, "scatter", low]]
+            less = shares[:, place[light, "scatter", low]] - shares[:, place[heavy, "scatter", low]]
             falls.append(
                 {"family": family, "way": "scatter", "factor": low} | difference(less, boot)
             )
@@ -202,14 +202,14 @@ def is_against_the_frame(table: pd.DataFrame) -> pd.Series:
 
 
 def bounds(name: str, values: np.ndarray, boot: dict) -> dict:
-    middle, low, high = fragility.interval(values, boot["confidence"])
+    middle, low, high = interval(values, boot["confidence"])
     return {name: float(middle), f"{name}_low": float(low), f"{name}_high": float(high)}
 
 
 def difference(less: np.ndarray, boot: dict) -> dict:
     """Return by how much a probability is lower, with its interval in numbers and in words."""
     ends = bounds("less", less, boot)
-    return ends | {"interval": fragility.in_words(ends["less_low"], ends["less_high"])}
+    return ends | {"interval": in_words(ends["less_low"], ends["less_high"])}
 
 
 def scatter_agrees(case: dict) -> dict:

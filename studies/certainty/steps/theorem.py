@@ -25,8 +25,8 @@ from topheavy import (
     simulate,
 )
 from topheavy.derivation import reversal_theorems
+from topheavy.fragility.gain import mass_ratio_of_share
 from topheavy.overturning import halvings, outcomes_by
-from topheavy.synthetic.fragility import mass_ratio_of_share
 
 HALVINGS, AHEAD = 6, 3
 BESIDE = 0.01  # of the factor: what lies between the boundary and the motion that is judged

@@ -17,7 +17,7 @@ from studies.certainty.steps import (
     restitution,
     theorem,
 )
-from topheavy import Column, Record, reference
+from topheavy import Column, Record, judge, reference
 
 SIZES = {"half_width": 0.5, "half_height": 3.0}
 
@@ -264,7 +264,8 @@ def test_ranking_is_judged_by_whole_intervals_of_both_families(
         for family, said in families.items()
         for (way, factor), words in said.items()
     )
-    monkeypatch.setattr(benefit, "outcomes", lambda *arguments: None)
+    for name in ("fragilities", "outcomes"):
+        monkeypatch.setattr(benefit, name, lambda *arguments: None)
     monkeypatch.setattr(benefit, "differences", lambda *arguments: table)
     monkeypatch.setattr(benefit, "confirmed", lambda *arguments: truth(True))
     _, found = benefit.main({}, {})
@@ -288,25 +289,31 @@ STATED = {
     "motions": 6,
     "seed": 3,
     "checked": 2,
-    "bootstrap": {"resamples": 50, "confidence": 0.95},
+    "bootstrap": {"resamples": 100, "confidence": 0.95},
 }
 
 
-def test_motions_are_scaled_to_the_stated_velocity(monkeypatch):
-    found = []
-
-    def overturned_by(structure, record, factors):
-        found.extend(record.scaled(float(factor)).peak_velocity for factor in factors)
-        return [False]
-
-    monkeypatch.setattr(benefit, "overturned_by", overturned_by)
-    fell = benefit.outcomes(STATED, ENSEMBLE)
-    assert found == pytest.approx([STATED["pgv"]] * 4 * len(fell))
-    assert fell.family.value_counts().to_dict() == {"near-fault": 6, "broadband": 6}
+def test_difference_is_that_of_column_and_frame_under_motions_of_the_stated_velocity():
+    found = benefit.fragilities(STATED, ENSEMBLE)
+    table, under = benefit.differences(STATED, found), benefit.structures(STATED)
+    draws = benefit.motions(STATED, ENSEMBLE)
+    assert len(table) == 2 * 3  # families, comparisons
+    for row in table.itertuples():
+        records = [draw.record() for draw in draws if draw.family == row.family]
+        scaled = [record.scaled(STATED["pgv"] / record.peak_velocity) for record in records]
+        names = benefit.compared(STATED["factors"])[row.way, row.factor]
+        column, frame = ([judge(under[n], one).overturned for one in scaled] for n in names)
+        assert (row.motions, row.column, row.frame) == (6, sum(column), sum(frame))
+        assert row.only_column == sum(a and not b for a, b in zip(column, frame, strict=True))
+        assert row.only_frame == sum(b and not a for a, b in zip(column, frame, strict=True))
+        assert row.less == pytest.approx((row.column - row.frame) / 6)
+        assert row.less_low <= row.less <= row.less_high
+    assert table.only_column.any()
+    assert table.only_frame.any()
 
 
 def test_ranking_that_scipy_judges_otherwise_is_noticed(monkeypatch):
-    fell = benefit.outcomes(STATED, ENSEMBLE)
+    fell = benefit.outcomes(benefit.fragilities(STATED, ENSEMBLE))
     right = benefit.confirmed(STATED, ENSEMBLE, fell)
     assert right.holds
     assert right["told"] == right["checked"] > 1

@@ -4,7 +4,7 @@ import numpy as np
 
 from figures.drawing import PULSES
 from replication.drawing import DOUBLE, GREY, INK, PAPER, make_figure, note, sheet
-from topheavy.synthetic.fragility import mass_ratio_of_share
+from topheavy.fragility.gain import mass_ratio_of_share
 
 QUANTILES = [0.0, 0.25, 0.5, 0.75, 1.0]
 

@@ -7,7 +7,7 @@ import numpy as np
 from figures.drawing import gamma
 from figures.palette import CAUSED, PREVENTED
 from replication.drawing import DOUBLE, GREY, INK, PAPER, letter, make_figure, note, sheet
-from topheavy.synthetic.fragility import share_of_size
+from topheavy.fragility.gain import share_of_size
 
 STRUCTURE = "temple"
 FAMILIES = {"near-fault": ("o", -1), "broadband": ("s", 1)}  # marker, side

@@ -19,8 +19,10 @@ import pandas as pd
 
 from replication.workbench import Finding, run, truth, value
 from studies.reversals.outcomes import FALLS, read
+from topheavy.fragility import resampling
+from topheavy.fragility.curve import curve, fit, medians, why_no_median
+from topheavy.fragility.gain import mass_ratios_of_gain
 from topheavy.structures import size_ratio
-from topheavy.synthetic import fragility
 from topheavy.synthetic.ensemble import Subject, intensities, subjects
 
 SUBJECT = ["mass_ratio", "as_large_as"]
@@ -53,7 +55,7 @@ class Ensemble:
     def bounds(self, name: str, values: np.ndarray) -> dict:
         """Return a value of resamples and its interval, named for a table."""
         keys = (name, f"{name}_low", f"{name}_high")
-        return dict(zip(keys, fragility.interval(values, self.confidence), strict=True))
+        return dict(zip(keys, resampling.interval(values, self.confidence), strict=True))
 
 
 def ensembles(case: dict, structures: dict) -> dict[tuple[str, str], Ensemble]:
@@ -74,11 +76,11 @@ def gathered(
 ) -> Iterator[tuple[Ensemble, list[np.ndarray]]]:
     """Yield each ensemble with its means: of the outcomes, then of `differing`.
 
-    Outcomes of `fragility.BLOCK` motions are in memory, however many there are.
+    Outcomes of `resampling.BLOCK` motions are in memory, however many there are.
     """
     found, boot = ensembles(case, structures), case["bootstrap"]
     sums = {
-        key: fragility.ResampledMeans(ensemble.motions, boot["resamples"], case["seed"])
+        key: resampling.ResampledMeans(ensemble.motions, boot["resamples"], case["seed"])
         for key, ensemble in found.items()
     }
     waiting: dict[tuple[str, str], list] = {key: [] for key in found}
@@ -96,7 +98,7 @@ def gathered(
     }
     for key, cells in motions(paths, case["families"]):
         waiting[key].append([cells[one] for one in labels[key]])
-        if len(waiting[key]) == fragility.BLOCK:
+        if len(waiting[key]) == resampling.BLOCK:
             add(key)
     for key, ensemble in found.items():
         if waiting[key]:
@@ -127,7 +129,7 @@ def motions(paths: list[str], families: list[str]) -> Iterator[tuple[tuple[str, 
 
 def curves(ensemble: Ensemble, means: np.ndarray) -> pd.DataFrame:
     """Return fragility over intensity, and by how much it is below that of the lightest frame."""
-    fits = fragility.curve(ensemble.levels, fragility.fit(ensemble.levels, means[0]))
+    fits = curve(ensemble.levels, fit(ensemble.levels, means[0], skewed=True))
     tables = []
     for place, subject in enumerate(ensemble.subjects):
         tables.append(
@@ -141,19 +143,33 @@ def curves(ensemble: Ensemble, means: np.ndarray) -> pd.DataFrame:
     return pd.concat(map(pd.DataFrame, tables))
 
 
-def capacities(ensemble: Ensemble, medians: np.ndarray) -> pd.DataFrame:
+def middles(levels: np.ndarray, shares: np.ndarray) -> np.ndarray:
+    """Return the median capacities, shape (...), of shares that overturn, shape (..., n).
+
+    A study publishes every value that it computes, so that a median which is NaN is an error.
+    """
+    terms = fit(levels, shares, skewed=True)
+    found = medians(levels, terms)
+    for place in np.argwhere(np.isnan(found))[:1]:
+        one = tuple(place)
+        reason = why_no_median(levels, shares[one], terms[one], skewed=True)
+        raise ValueError(f"a fragility curve has no median; expected one for each: {reason}")
+    return found
+
+
+def capacities(ensemble: Ensemble, middle: np.ndarray) -> pd.DataFrame:
     """Return the median capacity of each, and by how much it is above that of the lightest."""
     rows = []
     for place, subject in enumerate(ensemble.subjects):
         gamma = subject.enlarged or subject.frame.mass_ratio
-        gain = medians[:, place] / medians[:, 0] - 1.0
+        gain = middle[:, place] / middle[:, 0] - 1.0
         rows.append(
             ensemble.labels
             | {key: subject.labels[key] for key in SUBJECT}
             | {"motions": ensemble.motions, "size_gain": size_ratio(gamma) - 1.0}
             | {"expected_gain": math.sqrt(size_ratio(gamma)) - 1.0}
-            | ensemble.bounds("median", medians[:, place])
-            | {"median_pgv": medians[0, place] * subject.unit}
+            | ensemble.bounds("median", middle[:, place])
+            | {"median_pgv": middle[0, place] * subject.unit}
             | ensemble.bounds("gain", gain)
         )
     return pd.DataFrame(rows)
@@ -209,14 +225,14 @@ def falls(ensemble: Ensemble, means: np.ndarray) -> pd.DataFrame:
     )
 
 
-def beyond_size(ensemble: Ensemble, medians: np.ndarray) -> list[dict]:
+def beyond_size(ensemble: Ensemble, middle: np.ndarray) -> list[dict]:
     """Return by how much medians of frames exceed those of solitary columns as large."""
     return [
         ensemble.labels
         | {"mass_ratio": subject.enlarged}
         | plain(
             ensemble.bounds(
-                "excess", medians[:, ensemble.frames[subject.enlarged]] / medians[:, place] - 1.0
+                "excess", middle[:, ensemble.frames[subject.enlarged]] / middle[:, place] - 1.0
             )
         )
         for place, subject in enumerate(ensemble.subjects)
@@ -224,12 +240,12 @@ def beyond_size(ensemble: Ensemble, medians: np.ndarray) -> list[dict]:
     ]
 
 
-def shares_of_gain(ensemble: Ensemble, medians: np.ndarray, shares: list[float]) -> list[dict]:
+def shares_of_gain(ensemble: Ensemble, middle: np.ndarray, shares: list[float]) -> list[dict]:
     """Return the γ that bring shares of the gain, where frames go up to γ = ∞."""
     frames = ensemble.frames
     if math.inf not in frames:
         return []
-    found = fragility.mass_ratios_of_gain(list(frames), medians[:, list(frames.values())], shares)
+    found = mass_ratios_of_gain(list(frames), middle[:, list(frames.values())], shares)
     return [
         ensemble.labels | {"share": share} | plain(ensemble.bounds("mass_ratio", values))
         for share, values in zip(shares, found.T, strict=True)
@@ -261,13 +277,13 @@ def plain(bounds: dict) -> dict:
 def main(case: dict, structures: dict, paths: list[str]) -> tuple[dict[str, pd.DataFrame], dict]:
     tables, order, beyond, shares = {"fragility": [], "medians": [], "pairs": []}, [], [], []
     for ensemble, (means, *of_pairs) in gathered(paths, case, structures):
-        medians = fragility.medians(ensemble.levels, means)
+        middle = middles(ensemble.levels, means)
         tables["fragility"].append(curves(ensemble, means))
-        tables["medians"].append(capacities(ensemble, medians))
+        tables["medians"].append(capacities(ensemble, middle))
         tables["pairs"].append(pairs(ensemble, of_pairs))
         order.append(falls(ensemble, means))
-        beyond += beyond_size(ensemble, medians)
-        shares += shares_of_gain(ensemble, medians, case["shares_of_gain"])
+        beyond += beyond_size(ensemble, middle)
+        shares += shares_of_gain(ensemble, middle, case["shares_of_gain"])
         print(ensemble.labels, ensemble.motions, "motions", flush=True)
     tables = {name: pd.concat(parts) for name, parts in tables.items()}
     drawn = findings(tables["pairs"], tables["fragility"])

@@ -25,7 +25,7 @@ from steps.spectrum import progress
 from steps.uplift_limits import MARGIN, bending, shear_after_uplift
 from studies.reversals.steps.motions_vase import factors, some
 from topheavy import Cap, Column, RockingFrame, reference, simulate
-from topheavy.synthetic import fragility
+from topheavy.fragility.resampling import interval, resampled
 from topheavy.synthetic.ensemble import Draw
 
 CLOSE = 1e-6  # relative: what the peaks of two solvers may differ by
@@ -62,7 +62,7 @@ def summary(table: pd.DataFrame, case: dict, boot: Mapping[str, Any]) -> pd.Data
     """Return mean ratios of the survivors that uplift, and shares that overturn, with bands."""
     rows = []
     for labels, cells in table.groupby(["family", "mass_ratio", "intensity"], sort=False):
-        weights = fragility.resampled(len(cells), boot["resamples"], boot["seed"])
+        weights = resampled(len(cells), boot["resamples"], boot["seed"])
         stands = (cells.outcome == "rests").to_numpy(dtype=float)
         fell = (cells.outcome == "overturned").to_numpy(dtype=float)
         counted = weights @ stands
@@ -71,8 +71,8 @@ def summary(table: pd.DataFrame, case: dict, boot: Mapping[str, Any]) -> pd.Data
                 ratio = np.where(stands > 0.0, cells[ratio_of(name, top, one)], 0.0)
                 values = (weights @ ratio) / np.where(counted > 0.0, counted, np.nan)
                 # A resample without a survivor has no mean, and is left out.
-                low_high = fragility.interval(values[~np.isnan(values)], boot["confidence"])
-                share = fragility.interval(weights @ fell, boot["confidence"])
+                low_high = interval(values[~np.isnan(values)], boot["confidence"])
+                share = interval(weights @ fell, boot["confidence"])
                 rows.append(
                     dict(zip(("family", "mass_ratio", "intensity"), labels, strict=True))
                     | {"force": name, "top": top, "held": one, "motions": len(cells)}

@@ -16,8 +16,8 @@ from steps.rocking_spectra import NUDGE
 from steps.spectrum import progress
 from steps.vase_searches import rivals
 from topheavy import STANDARD_GRAVITY, Column, Record, overturned_by, reference
+from topheavy.fragility.resampling import interval, means, resampled
 from topheavy.structures import Structure
-from topheavy.synthetic import fragility
 from topheavy.synthetic.ensemble import Draw, draws
 from topheavy.synthetic.motions import peak_velocity
 
@@ -69,13 +69,13 @@ def curves(
 ) -> tuple[pd.DataFrame, list[dict]]:
     """Return the fragility of each structure, and how it ranks beside the bare column."""
     boot = case["bootstrap"]
-    weights = fragility.resampled(len(outcomes), boot["resamples"], boot["seed"])
+    weights = resampled(len(outcomes), boot["resamples"], boot["seed"])
 
     def bounds(name: str, values: np.ndarray) -> dict:
-        found = fragility.interval(values, boot["confidence"])
+        found = interval(values, boot["confidence"])
         return dict(zip((name, f"{name}_low", f"{name}_high"), found, strict=True))
 
-    means = fragility.means(weights, outcomes)
+    shares = means(weights, outcomes)
     at = first(outcomes, levels)
     tables, ranks = [], []
     for place, (name, gamma, _) in enumerate(under):
@@ -84,19 +84,19 @@ def curves(
             pd.DataFrame(
                 labels
                 | {"intensity": levels}
-                | bounds("probability", means[:, place])
-                | bounds("less", means[:, 0] - means[:, place])
+                | bounds("probability", shares[:, place])
+                | bounds("less", shares[:, 0] - shares[:, place])
             )
         )
         if name == "bare":
             continue
         sooner, later = at[:, place] < at[:, 0], at[:, place] > at[:, 0]
-        apart = capacity_ratio(levels, means[:, 0], means[:, place])
+        apart = capacity_ratio(levels, shares[:, 0], shares[:, place])
         ranks.append(
             labels
             | {"motions": len(outcomes)}
-            | bounds("sooner", fragility.means(weights, sooner))
-            | bounds("later", fragility.means(weights, later))
+            | bounds("sooner", means(weights, sooner))
+            | bounds("later", means(weights, later))
             | bounds("over_bare", apart)
         )
     return pd.concat(tables), ranks

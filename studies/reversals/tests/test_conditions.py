@@ -84,6 +84,7 @@ def findings(monkeypatch, *, reversed_high=0.4, beyond=((0.01, 0.03),), half_hig
     less = {"less": 0.1, "less_low": 0.05, "less_high": 0.2}
     given = {
         "gathered": [(SimpleNamespace(labels={}, levels=None, motions=0), [None])],
+        "middles": np.ones(1),
         "curves": pd.DataFrame([{"probability": 0.5, "fitted": 0.5}]),
         "capacities": pd.DataFrame(),
         "pairs": pd.DataFrame([pair]),
@@ -95,7 +96,6 @@ def findings(monkeypatch, *, reversed_high=0.4, beyond=((0.01, 0.03),), half_hig
         monkeypatch.setattr(
             motions_fragility, name, lambda *arguments, found=found, **options: found
         )
-    monkeypatch.setattr(motions_fragility.fragility, "medians", lambda levels, means: np.ones(1))
     case = {"shares_of_gain": [0.5], "largest_rise": 0.05, "intensities": {"points": 9}}
     return motions_fragility.main(case, {}, [])[1]
 

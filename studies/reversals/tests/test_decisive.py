@@ -12,7 +12,7 @@ from replication.judging.findings import read_findings
 from steps.spectra_compared import Spectra
 from studies.reversals.steps import motions_fragility, motions_records, pulses
 from topheavy import STANDARD_GRAVITY, Column, Record
-from topheavy.synthetic import fragility
+from topheavy.fragility.resampling import ResampledMeans
 from topheavy.synthetic.ensemble import factors, subjects
 
 STUDY = Path(__file__).resolve().parents[1]
@@ -82,7 +82,7 @@ def ensemble(*outcomes):
     under = list(subjects(ENSEMBLE, STRUCTURES))
     fell = np.stack([np.array(one, dtype=bool)[:, None] for one in outcomes], axis=1)
     found = motions_fragility.Ensemble("broadband", under, len(fell), np.ones(1), 0.95)
-    sums = fragility.ResampledMeans(len(fell), 200, 1)
+    sums = ResampledMeans(len(fell), 200, 1)
     sums.add([fell, *motions_fragility.differing(found, fell)])
     return found, sums.means()
 

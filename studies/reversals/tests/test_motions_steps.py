@@ -5,11 +5,13 @@ import math
 import numpy as np
 import pandas as pd
 import pytest
+from scipy.special import ndtr
 
 from studies.reversals.outcomes import FALLS, STANDS, read, written
 from studies.reversals.steps import motions_check, motions_fragility, motions_records, motions_shard
 from topheavy import Column, Record, RockingFrame, judge
-from topheavy.synthetic import fragility
+from topheavy.fragility import resampling
+from topheavy.fragility.resampling import ResampledMeans
 from topheavy.synthetic.ensemble import draws, factors, intensities, subjects
 from topheavy.synthetic.motions import peak_velocity, strength
 
@@ -92,7 +94,7 @@ def test_pairs_count_what_differs():
     ]
     outcomes = np.stack([light, heavy], axis=1) == 1
     ensemble = motions_fragility.Ensemble("broadband", under, len(outcomes), np.ones(3), 0.9)
-    sums = fragility.ResampledMeans(len(outcomes), 50, 1)
+    sums = ResampledMeans(len(outcomes), 50, 1)
     sums.add(motions_fragility.differing(ensemble, outcomes))
     (pair,) = motions_fragility.pairs(ensemble, sums.means()).itertuples()
     assert (pair.only_lighter, pair.only_heavier) == pytest.approx((2 / 6, 1 / 6))
@@ -107,6 +109,24 @@ def test_findings_come_with_intervals_around_their_values(shards):
         assert (table[value] <= table[f"{value}_high"] + 1e-12).all()
     cells = 2 * 3 * 40 * 11  # families, pairs, motions, levels
     assert findings["heavier_is_safer"]["cells"] == cells
+
+
+@pytest.mark.parametrize(
+    ("shares", "reason"),
+    [
+        ([0, 0, 0, 0, 0.5, 1, 1, 1, 1], "1 of the levels have a probability between 0 and 1"),
+        (
+            ndtr(np.log(np.geomspace(0.5, 2.0, 9) / 2.5) / 0.5),
+            "passes 1/2 at 2.5, which is",
+        ),
+    ],
+)
+def test_median_that_is_not_known_is_not_published(shares, reason):
+    levels = np.geomspace(0.5, 2.0, 9)
+    known = ndtr(np.log(levels) / 0.5)
+    assert motions_fragility.middles(levels, np.array([[known]])) == pytest.approx(1.0)
+    with pytest.raises(ValueError, match=f"no median; expected one for each: .*{reason}"):
+        motions_fragility.middles(levels, np.array([[known, shares]]))
 
 
 def test_shards_and_their_order_do_not_matter(shards, tmp_path):
@@ -125,7 +145,7 @@ def test_shards_and_their_order_do_not_matter(shards, tmp_path):
 def test_memory_holds_a_block_of_motions(shards, monkeypatch):
     """Twenty motions a block in place of forty: the same probabilities, other resamples."""
     (whole, _) = motions_fragility.main(CASE, STRUCTURES, shards)
-    monkeypatch.setattr(motions_fragility.fragility, "BLOCK", 20)
+    monkeypatch.setattr(resampling, "BLOCK", 20)
     (parts, _) = motions_fragility.main(CASE, STRUCTURES, shards)
     one, other = whole["fragility"], parts["fragility"]
     assert other.probability.to_numpy() == pytest.approx(one.probability.to_numpy(), rel=1e-12)

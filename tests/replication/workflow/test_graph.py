@@ -72,9 +72,6 @@ def test_crate_depends_on_what_the_snakefiles_import_and_not_on_what_this_proces
 OF_NO_JOB = {
     "src/topheavy/minimum.py": "for users; no step searches down to a floor yet",
     "src/topheavy/record_map.py": "for users; the page draws its own map of a record",
-    "src/topheavy/fragility/estimate.py": "for users; studies gather their own outcomes, in shards",
-    "src/topheavy/fragility/inputs.py": "of estimate.py",
-    "src/topheavy/fragility/tables.py": "of estimate.py",
 }
 """Modules of the library that no job needs, and why they are there."""
 

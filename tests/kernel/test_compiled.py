@@ -1,0 +1,211 @@
+"""Compiled code is shared by all copies of the same kernel, and by nothing else."""
+
+import ctypes
+import importlib
+import json
+import os
+import shutil
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import numba
+import pytest
+from numba.extending import is_jitted
+
+import topheavy
+from topheavy.kernel import compiled
+from topheavy.kernel.compiled import Cache, cache_folder, state
+
+PACKAGE = Path(topheavy.__file__).parent
+
+#: The rate of the push of a one-sine at its beginning; `trace` asks `forcing` for the ground.
+ASK = """
+import json, topheavy.kernel.compiled as compiled
+from topheavy import RockingBlock
+from topheavy.kernel.forcing import NO_RECORD, ONE_SINE, Forcing
+from topheavy.kernel.taylor import oscillator
+from topheavy.kernel.trace import _initial_state as first
+pulse = Forcing(ONE_SINE, 0.3, 1.0, 6.0, 1.0, 0.0)
+found = first(oscillator(RockingBlock(2.0, 0.2, 0.9, True)), pulse, NO_RECORD, 0.0, 0.0, 1.0)
+hits = sum(first.stats.cache_hits.values())
+print(json.dumps([compiled.__file__, str(compiled.FOLDER), found.rate, hits]))
+"""
+
+
+def ask(home: Path, cache: Path) -> tuple[float, int]:
+    """Import the package of `home` in a process of its own: its answer, and what it had cached."""
+    environment = {key: value for key, value in os.environ.items() if "NUMBA" not in key}
+    done = subprocess.run(
+        [sys.executable, "-c", ASK],
+        env=environment | {"PYTHONPATH": str(home), "XDG_CACHE_HOME": str(cache)},
+        cwd=home,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    where, folder, rate, hits = json.loads(done.stdout)
+    assert Path(where).is_relative_to(home)
+    assert Path(folder).parent == cache / "topheavy"
+    assert any(Path(folder).iterdir())
+    return rate, hits
+
+
+def copied(to: Path) -> Path:
+    skipped = shutil.ignore_patterns("__pycache__", "derivation")
+    shutil.copytree(PACKAGE, to / "topheavy", ignore=skipped)
+    return to
+
+
+def test_copies_share_what_is_compiled_until_a_file_that_it_calls_changes(tmp_path):
+    one, other, cache = copied(tmp_path / "one"), copied(tmp_path / "other"), tmp_path / "cache"
+    assert ask(one, cache) == (-0.3, 0)
+    assert ask(other, cache) == (-0.3, 1)
+
+    forcing = other / "topheavy" / "kernel" / "forcing.py"
+    source = forcing.read_text(encoding="utf-8")
+    there = "return forcing.amplitude * value, forcing.amplitude * forcing.frequency * rate"
+    assert source.count(there) == 1
+    forcing.write_text(source.replace(there, there + " * 2"), encoding="utf-8")
+    assert ask(other, cache) == (-0.6, 0)
+    assert ask(one, cache) == (-0.3, 1)
+
+
+@pytest.mark.parametrize("changed", ["kernel/rest.py", "kernel/lanes/steps.py", "shapes.py"])
+def test_change_of_any_source_is_another_state(tmp_path, changed):
+    package = copied(tmp_path) / "topheavy"
+    before = state(package / "kernel", package / "shapes.py")
+    assert before == state(PACKAGE / "kernel", PACKAGE / "shapes.py")
+    (package / changed).write_bytes((package / changed).read_bytes() + b"\n")
+    assert state(package / "kernel", package / "shapes.py") != before
+
+
+@pytest.mark.parametrize(
+    ("variable", "is_another"),
+    [("NUMBA_BOUNDSCHECK", True), ("NUMBA_OPT", True), ("NUMBA_CACHE_DIR", False)],
+)
+def test_option_that_changes_machine_code_is_another_state(monkeypatch, variable, is_another):
+    sources = PACKAGE / "kernel", PACKAGE / "shapes.py"
+    monkeypatch.delenv(variable, raising=False)
+    before = state(*sources)
+    monkeypatch.setenv(variable, "1")
+    assert (state(*sources) != before) == is_another
+
+
+@pytest.mark.parametrize("package", [numba, importlib.import_module("llvmlite")])
+def test_another_compiler_is_another_state(monkeypatch, package):
+    sources = PACKAGE / "kernel", PACKAGE / "shapes.py"
+    before = state(*sources)
+    monkeypatch.setattr(package, "__version__", "0.0")
+    assert state(*sources) != before
+
+
+def test_folder_is_where_the_user_keeps_caches(monkeypatch, tmp_path):
+    monkeypatch.setenv("HOME", str(tmp_path / "home"))
+    monkeypatch.delenv("XDG_CACHE_HOME", raising=False)
+    monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
+    assert cache_folder() == tmp_path / "home" / ".cache" / "topheavy"
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "xdg"))
+    assert cache_folder() == tmp_path / "xdg" / "topheavy"
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "numba"))
+    assert cache_folder() == tmp_path / "numba" / "topheavy"
+
+
+def one_more(x):
+    return x + 1
+
+
+def two_more(x):
+    return x + 2
+
+
+def kept_in(folder, function=one_more):
+    """Return the function, compiled at its first call or loaded, and whether it was loaded."""
+    dispatcher = numba.njit(function)
+    dispatcher._cache = Cache(function, folder)
+    return dispatcher(1), sum(dispatcher.stats.cache_hits.values()) == 1
+
+
+def test_damaged_file_is_compiled_anew_and_replaced(tmp_path):
+    assert kept_in(tmp_path) == (2, False)
+    (file,) = tmp_path.iterdir()
+    whole = file.read_bytes()
+    for damaged in (b"", whole[:-1], whole[:40], whole[:-9] + b"x" + whole[-8:]):
+        file.write_bytes(damaged)
+        assert kept_in(tmp_path) == (2, False)
+        assert kept_in(tmp_path) == (2, True)
+
+
+@pytest.mark.parametrize("foreign", ["function", "state", "cpu"])
+def test_file_of_something_else_is_not_loaded(tmp_path, monkeypatch, foreign):
+    there, here = tmp_path / ("another" if foreign == "state" else "this"), tmp_path / "this"
+    kept_in(there, two_more if foreign == "function" else one_more)
+    (file,) = there.iterdir()
+    if foreign == "cpu":
+        cpu = numba.core.codegen.JITCPUCodegen
+        monkeypatch.setattr(cpu, "magic_tuple", lambda self: ("x86_64", "another", "+avx"))
+    content = file.read_bytes()
+    file.unlink()
+    assert kept_in(here) == (2, False)
+    (own,) = here.iterdir()
+    own.write_bytes(content)
+    assert kept_in(here) == (2, False)
+
+
+def test_processes_that_write_at_once_leave_whole_files(tmp_path):
+    """Each of many readers finds the whole of what one of the writers left, or nothing."""
+    results = [numba.njit(one_more) for _ in range(2)]
+    overloads = [next(iter(f.overloads.values())) for f in results if f(1)]
+    cache, context = Cache(one_more, tmp_path), results[0].targetctx
+    types = overloads[0].signature.args
+    contents = []
+
+    def write(result):
+        for _ in range(100):
+            cache.save_overload(types, result)
+
+    def look():
+        for _ in range(300):
+            files = list(tmp_path.glob("*.machine"))
+            contents.extend(path.read_bytes() for path in files)
+
+    with ThreadPoolExecutor(3) as pool:
+        doing = [pool.submit(write, result) for result in overloads] + [pool.submit(look)]
+        for done in doing:
+            done.result()
+    assert contents
+    assert len({len(content) for content in contents}) == 1
+    assert cache.load_overload(types, context).signature == overloads[0].signature
+
+
+def test_folder_that_cannot_be_written_is_named(tmp_path):
+    blocked = tmp_path / "file"
+    blocked.write_text("", encoding="utf-8")
+    with pytest.warns(UserWarning, match=f"not kept in {blocked / 'state'} .*NUMBA_CACHE_DIR"):
+        assert kept_in(blocked / "state") == (2, False)
+
+
+def test_code_with_an_address_of_this_process_is_not_kept(tmp_path):
+    address = ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_double)(abs)
+
+    def magnitude(x):
+        return address(x)
+
+    assert kept_in(tmp_path, magnitude) == (1.0, False)
+    assert not list(tmp_path.iterdir())
+
+
+def test_what_a_function_is_compiled_with_is_its_own():
+    """numba hands down what a function leaves open, from whichever function calls it first."""
+    names = [
+        ".".join(path.relative_to(PACKAGE.parent).with_suffix("").parts)
+        for path in sorted((PACKAGE / "kernel").rglob("[a-z]*.py"))
+    ]
+    modules = [importlib.import_module(name) for name in names]
+    functions = {f for module in modules for f in vars(module).values() if is_jitted(f)}
+    assert len(functions) > 60
+    handed_down = {"fastmath", "error_model", "forceinline"}  # numba.core.cpu: inherit_if_not_set
+    lacking = {f.__name__ for f in functions if not handed_down <= set(f.targetoptions)}
+    assert lacking == set()
+    assert {f._cache.folder for f in functions} == {compiled.FOLDER}
