@@ -1,6 +1,6 @@
 # What only this paper needs of make, beside the targets of every replication in the Makefile.
 
-OWN    := CELLS CONFIG ENGINE FAULTS ROTATE TO
+OWN    := CELLS CONFIG ENGINE FAULTS LISTED ROTATE TO
 CELLS  ?= 40000
 CONFIG ?= config/thorough.yaml
 # The optional rigid-body engine of the study `mechanism`; `ENGINE=` does not install it.
@@ -17,8 +17,8 @@ audit: | $(UV) ## 3 hours: finer grids, tighter tolerances, all peers, all fault
 
 kill-table: | $(UV) ## put faults into a copy, one at a time: what catches each? (FAULTS=a,b or ROTATE=3)
 	@$(if $(value ROTATE),$(call WHOLE,ROTATE))
-	@$(DEV) python -m replication.commands.kill_table \
-	  $${FAULTS:+"--faults=$$FAULTS"} $${ROTATE:+"--rotate=$$ROTATE"}
+	@$(call WHOLE,CORES); $(DEV) python -m replication.commands.kill_table --cores "$$CORES" \
+	  $${FAULTS:+"--faults=$$FAULTS"} $${ROTATE:+"--rotate=$$ROTATE"} $${LISTED:+--whole}
 
 benchmark: | $(UV) ## time the kernel beside its peers; writes docs/benchmark.csv and .svg (15 minutes)
 	@$(BENCH) python benchmarks/benchmark.py

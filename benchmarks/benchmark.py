@@ -8,8 +8,9 @@ factors), and as the scalar kernel that `simulate` and `judge` use. Ratios are o
 one thread, the least of several rounds in which every method has its turn, so that other work on
 the machine disturbs them little. All is done three times: the published table has the median of
 each value and ratio, the spread of the three values over their median, and the share of the
-processors that other processes used meanwhile. The tables go to results/benchmark/ and, as the
-picture, to docs/.
+processors that other processes used meanwhile. A record without impacts is timed beside them: under
+measured records, impacts limit the ratio of both kernels. The tables go to results/benchmark/ and,
+as the picture, to docs/.
 """
 
 import math
@@ -23,17 +24,19 @@ from functools import cache, partial
 from pathlib import Path
 
 import fresh_process
+import mixtures
 import numpy as np
 import pandas as pd
 import picture
-from kernel import KernelRecord, ScalarRecord, histories, scalar_histories
+from kernel import KernelRecord, ScalarRecord, histories, scalar_factors, scalar_histories
+from kernel import together as kernel_together
 from oracle import Found, PulseOracle, RecordOracle
 from peers import Heyoka, HeyokaRecord, SolveIvp, SolveIvpRecord
 from verify_grid import block_of
 
 from steps.publish import machine
 from topheavy import Column, Record, RockingFrame, read_at2
-from topheavy.kernel.forcing import SHAPES
+from topheavy.kernel.forcing import RECORD, SHAPES, prepare_record, prepare_two_records
 from topheavy.kernel.grid import LANES, outcomes_of
 from topheavy.kernel.outcome import TOLERANCE
 from topheavy.kernel.taylor import oscillator
@@ -66,10 +69,12 @@ TARGETS = {
     ("pulse", "solve_ivp, our tail"): 400,
     ("pulse", "heyoka"): 100,
     ("pulse", "heyoka, our tail"): 18,
-    ("record", "scalar kernel"): 3,
+    ("record", "scalar kernel"): 4,
     ("record", "solve_ivp"): 5000,
-    ("record", "heyoka"): 80,
+    ("record", "heyoka"): 90,
 }
+WITH_VERTICAL = ("napa_2014_68150_090", "ridgecrest_2019_CLC_360")
+LEVELS = np.linspace(0.5, 1.5, 9)  # factors on these, of each structure of `mixtures`
 
 
 def grid() -> tuple[np.ndarray, np.ndarray]:
@@ -271,7 +276,63 @@ def threads() -> list[dict]:
     return [
         figure("the whole grid, one cell", "this kernel", "one thread, wall", one, "µs"),
         figure("the whole grid, one cell", "this kernel", "two threads, wall", two, "µs")
-        | {"ratio": one / two, "target": "≥ 1.8"},
+        | {"ratio": one / two, "target": "≥ 1.75"},
+    ]
+
+
+def together() -> list[dict]:
+    """Return what a history costs among those of its structure, of many, and with vertical motion.
+
+    As many factors in one range are tried, whether on one structure or on several.
+    """
+    given = [structure.block() for structure in mixtures.STRUCTURES]
+    blocks, p = list(map(oscillator, given)), [one.frequency_parameter for one in given]
+    count, works = len(blocks), {}
+    factors = np.linspace(LEVELS[0], LEVELS[-1], LEVELS.size * count)
+    mix = (np.tile(np.arange(count), LEVELS.size), np.repeat(LEVELS, count))
+    for name in WITH_VERTICAL:
+        across, up = (
+            read_at2(f"data/records/{of}.AT2") for of in (name, f"{name.rpartition('_')[0]}_UP")
+        )
+        scales = across.time_step * np.array(p)
+        record = prepare_record(across.acceleration)
+        ratio = up.time_step / across.time_step
+        both = prepare_two_records(across.acceleration, up.acceleration, ratio)
+        works["mixed", name] = partial(kernel_together, blocks, scales, *mix, record), 4
+        for place in range(count):
+            alone = (blocks, scales, np.full(factors.size, place), factors)
+            works["alone", name, place] = partial(kernel_together, *alone, record), 1
+            works["vertical", name, place] = partial(kernel_together, *alone, both), 1
+    timed = least_times(works, ROUNDS)
+    cost = {
+        kind: 1e6 * np.mean([timed[key][0] for key in timed if key[0] == kind]) / factors.size
+        for kind in ("alone", "mixed", "vertical")
+    }
+    what = f"records, one of {factors.size} histories"
+    settings = {"alone": "of one structure", "mixed": f"of {count} structures at once"}
+    settings["vertical"] = "of one structure, with vertical motion"
+    rows = {kind: figure(what, "this kernel", settings[kind], cost[kind], "µs") for kind in cost}
+    for kind, most in (("mixed", 1.1), ("vertical", 1.5)):
+        rows[kind] |= {"ratio": cost[kind] / cost["alone"], "target": f"≤ {most}"}
+    return [*rows.values(), *without_impacts()]
+
+
+def without_impacts() -> list[dict]:
+    """Return what a history costs that has no impact, and the scalar kernel over it.
+
+    Impacts limit the ratio under measured records, where a history has a hundred of them.
+    """
+    block, step = oscillator(BLOCK), 0.01
+    record = prepare_record(np.full(600, 1.0005 * math.tan(BLOCK.slenderness)))
+    factors = np.linspace(1.0, 1.001, 1024)
+    lanes = partial(outcomes_of, block, RECORD, np.array([step]), factors, record, threads=1)
+    scalar = partial(scalar_factors, block, step, factors, record)
+    timed = least_times({"lanes": (lanes, 4), "scalar": (scalar, 2)}, ROUNDS)
+    one, other = (1e6 * timed[key][0] / factors.size for key in ("lanes", "scalar"))
+    what = "record without impacts, one history"
+    return [
+        figure(what, "this kernel", "its default", one, "µs"),
+        figure(what, "scalar kernel", "its default", other, "µs") | {"ratio": other / one},
     ]
 
 
@@ -322,11 +383,14 @@ def median(runs: list[list[dict]]) -> pd.DataFrame:
 
 
 def met(row: dict) -> dict[str, str]:
-    """Return whether the row's ratio is at least, or its value below, its target."""
+    """Return whether the row's ratio is at least or at most, or its value below, its target."""
     if "target" not in row:
         return {}
     sign, bound = row["target"].split()
-    reached = row["ratio"] >= float(bound) if sign == "≥" else row["value"] < float(bound)
+    if sign == "<":
+        reached = row["value"] < float(bound)
+    else:
+        reached = row["ratio"] >= float(bound) if sign == "≥" else row["ratio"] <= float(bound)
     return {"met": "yes" if reached else "no"}
 
 
@@ -354,7 +418,7 @@ def main() -> None:
     for _ in range(RUNS):
         with others(shares):
             curves.append(pd.concat([pulses(), records()]))
-            runs.append(ratios(curves[-1]) + threads() + processes())
+            runs.append(ratios(curves[-1]) + threads() + together() + processes())
     points = pd.concat(curves).groupby(["what", "method", "tolerance"], sort=False).median()
     points = points.reset_index()
     points.to_csv(OUT / "work_precision.csv", index=False, float_format="%.4g")

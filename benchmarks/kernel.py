@@ -12,7 +12,12 @@ from topheavy.kernel.forcing import (
     pulse_forcing,
     record_forcing,
 )
-from topheavy.kernel.grid import outcomes_of, pulse_outcomes_of, record_order
+from topheavy.kernel.grid import (
+    mixed_outcomes_of,
+    outcomes_of,
+    pulse_outcomes_of,
+    record_order,
+)
 from topheavy.kernel.outcome import PULSE_ORDER, TOLERANCE, outcome, working_array
 from topheavy.kernel.taylor import oscillator
 
@@ -75,10 +80,22 @@ class ScalarRecord(KernelRecord):
     """The scalar kernel under the same histories."""
 
     def __call__(self):
-        step, w = float(self.step[0]), working_array()
-        found = np.empty((3, FACTORS.size))
-        order = record_order(step, self.tolerance)
-        given = (self.block, step, FACTORS, self.record, order, self.tolerance)
-        _scalar_factors(w, *given, found)
+        found = scalar_factors(
+            self.block, float(self.step[0]), FACTORS, self.record, self.tolerance
+        )
         overturned, peak, impacts = found[:, FACTORS.size // 2]
         return Found(bool(overturned), float(peak), int(impacts))
+
+
+def scalar_factors(block, step, factors, record, tolerance=TOLERANCE):
+    """Return the rows overturned, peak and impacts under factors on a record."""
+    found = np.empty((3, factors.size))
+    order = record_order(step, tolerance)
+    _scalar_factors(working_array(), block, step, factors, record, order, tolerance, found)
+    return found
+
+
+def together(blocks, scales, which, factors, record):
+    """Judge histories of several blocks on one thread; factors are on both of two records."""
+    given = (blocks, RECORD, which, scales[which], factors, record)
+    return mixed_outcomes_of(*given, lifts=factors, threads=1)

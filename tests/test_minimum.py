@@ -95,8 +95,8 @@ def tried(monkeypatch):
     """All factors that a search tries, and their outcomes, in calls."""
     calls = []
 
-    def recorded(block, excitation, factors):
-        calls.append((factors, overturned_by(block, excitation, factors)))
+    def recorded(block, excitation, factors, **vertical):
+        calls.append((factors, overturned_by(block, excitation, factors, **vertical)))
         return calls[-1][1]
 
     monkeypatch.setattr(topheavy.minimum, "overturned_by", recorded)
@@ -140,7 +140,7 @@ def test_lowest_factor_is_not_above_that_of_the_intervals(block, excitation, sca
 def planted(monkeypatch, edges):
     """Let the factors between each second pair of ascending edges overturn, whatever is shaken."""
 
-    def overturned(block, excitation, factors):
+    def overturned(block, excitation, factors, **vertical):
         return np.searchsorted(edges, factors, side="right") % 2 == 1
 
     monkeypatch.setattr(topheavy.minimum, "overturned_by", overturned)

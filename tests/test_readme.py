@@ -85,6 +85,17 @@ def test_measured_records_that_reverse_the_ranking_unscaled_are_published():
     assert f"but not with γ = {stands}." in said()
 
 
+def test_floor_of_the_minima_is_that_of_the_search():
+    vase = read_yaml(REFERENCE / "config.yaml")["vase"]
+    assert vase["floor"] == 1e-3
+    assert "narrower than a thousandth of the uplift acceleration are not excluded" in said()
+    broken = pd.read_csv(REFERENCE / "vase_exceptions.csv")
+    records = broken[broken.kind == "record"]
+    assert set(broken.structure) == {"fixed"}
+    assert len(set(records.motion)) == 1
+    assert "Short pulses and one record reverse the first" in said()
+
+
 def test_judged_claims_of_the_paper_are_as_many_as_said(claims):
     rows = [claim for claim in claims.values() if not claim.study]
     judged = [claim for claim in rows if claim.verdict != "not tested"]

@@ -6,7 +6,17 @@ import sys
 import numpy as np
 import pytest
 
-from topheavy import STANDARD_GRAVITY, Column, RockingBlock, RockingFrame
+from topheavy import (
+    STANDARD_GRAVITY,
+    Column,
+    Pulse,
+    RockingBlock,
+    RockingFrame,
+    judge,
+    overturned_by,
+    reference,
+    simulate,
+)
 
 COLUMN = Column(0.5, 2.0)  # tan α = 1/4
 STOCKY = Column(2.0, 1.0)  # α = 63.4°: Housner's √r is 1 − 1.5 · 0.8 = −0.2
@@ -388,3 +398,19 @@ def test_masses_give_the_mass_ratio_of_any_number_of_columns():
 def test_impossible_masses_are_refused(masses, columns, message):
     with pytest.raises(ValueError, match=message):
         RockingFrame.of_masses(Column(0.5, 3.0), *masses, columns=columns)
+
+
+@pytest.mark.parametrize("structure", [3, None, Column], ids=repr)
+@pytest.mark.parametrize(
+    "solver",
+    [
+        simulate,
+        judge,
+        reference.simulate,
+        reference.judge,
+        lambda structure, pulse: overturned_by(structure, pulse, [1.0]),
+    ],
+)
+def test_what_is_no_structure_is_refused_by_every_solver(solver, structure):
+    with pytest.raises(ValueError, match=r"^structure is .*; expected a Column, a RockingFrame"):
+        solver(structure, Pulse("one-sine", 0.3, 6.0))

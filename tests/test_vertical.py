@@ -14,6 +14,7 @@ from topheavy import (
     Record,
     RockingFrame,
     judge,
+    lowest_overturning,
     minimum_overturning,
     overturned_by,
     overturned_together,
@@ -128,6 +129,7 @@ def test_search_is_refused_for_its_largest_factor_alone():
         partial(overturned_by, FRAME, SHAKE, [0.5, 2.5]),
         partial(overturning_intervals, FRAME, SHAKE, (0.5, 2.5), resolution=0.5),
         partial(minimum_overturning, FRAME, SHAKE, (0.5, 2.5), resolution=0.5),
+        partial(lowest_overturning, FRAME, SHAKE, (0.5, 2.5), floor=0.5),
         partial(overturned_together, [COLUMN, FRAME], SHAKE, [0.5, 2.5]),
     ):
         with pytest.raises(ValueError, match=told):
@@ -231,20 +233,22 @@ def test_factors_scale_both_or_one(scale_vertical, linearised):
         alone = judge(block, SHAKE.scaled(1.8 * factor), vertical=up)
         assert (overturned, impacts) == (alone.overturned, alone.impacts)
     assert 0 < found[0].sum() < factors.size
-    low, high = minimum_overturning(
-        block,
-        SHAKE.scaled(1.8),
-        (0.4, 3.2),
-        resolution=0.1,
-        vertical=weak,
-        scale_vertical=scale_vertical,
-    )
-    for factor, overturned in ((low, False), (high, True)):
+    search = {"vertical": weak, "scale_vertical": scale_vertical}
+    given = (block, SHAKE.scaled(1.8), (0.4, 3.2))
+    honest = lowest_overturning(*given, floor=0.1, **search)
+    low, high = minimum_overturning(*given, resolution=0.1, **search)
+    ends = ((low, False), (high, True), *zip(honest.bracket, (False, True), strict=True))
+    for factor, overturned in (*ends, *zip(honest.upper, (True, False), strict=True)):
         up = weak.scaled(factor) if scale_vertical else weak
+        inward = 1 if factor < honest.upper[0] else -1
         truth = reference.judge(
-            block, SHAKE.scaled(1.8 * factor * (1 + 1e-8 * (2 * overturned - 1))), vertical=up
+            block,
+            SHAKE.scaled(1.8 * factor * (1 + 1e-8 * inward * (2 * overturned - 1))),
+            vertical=up,
         )
         assert truth.overturned == overturned
+    plain = lowest_overturning(*given, floor=0.1)
+    assert abs(plain.factor - honest.factor) > 1e-3
 
 
 def test_measured_vertical_gives_both_solvers_the_same_outcomes():

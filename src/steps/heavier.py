@@ -11,21 +11,12 @@ from topheavy import (
     Pulse,
     RockingFrame,
     judge,
-    minimum_overturning,
+    lowest_overturning,
     reference,
     simulate,
 )
 
-RESOLUTION = 1e-3  # of the uplift acceleration
-
-
-def lowest_overturning(frame: RockingFrame, pulse: Pulse) -> tuple[float, float]:
-    """Bracket the minimum overturning amplitude (g) of an interval of RESOLUTION or more."""
-    start = frame.uplift_acceleration / pulse.amplitude
-    low, high = minimum_overturning(
-        frame, pulse, (start, 12.0 * start), resolution=RESOLUTION * start
-    )
-    return low * pulse.amplitude, high * pulse.amplitude
+FLOOR, HIGHEST = 1e-3, 12.0  # of the minimum overturning amplitude, over the uplift acceleration
 
 
 def main(case: dict, solver: dict) -> tuple[list[dict], list[dict], dict]:
@@ -42,7 +33,13 @@ def main(case: dict, solver: dict) -> tuple[list[dict], list[dict], dict]:
             judge(frame, pulse, tolerance=solver["tightened"]),
             reference.judge(frame, pulse),
         )
-        low, high = lowest_overturning(frame, pulse)
+        uplift = frame.uplift_acceleration
+        low, high = lowest_overturning(
+            frame,
+            pulse.scaled(1.0 / pulse.amplitude),
+            (uplift, HIGHEST * uplift),
+            floor=FLOOR * uplift,
+        ).bracket
         histories += [
             {"mass_ratio": gamma, "time": t, "acceleration": a, "rotation_over_alpha": theta}
             for t, a, theta in zip(

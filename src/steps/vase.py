@@ -13,7 +13,7 @@ import pandas as pd
 from replication.workbench import Finding, grid, run, truth
 from steps.spectrum import progress
 from steps.vase_poses import poses
-from steps.vase_searches import FINEST, Minimum, minimum, refined, rivals
+from steps.vase_searches import Minimum, lowest_told, lowest_wide, minimum, rivals
 from steps.vase_shares import PARAMETERS, WORTHS, shares
 from topheavy import (
     STANDARD_GRAVITY,
@@ -26,8 +26,9 @@ from topheavy import (
     reference,
 )
 
-HIGHEST = 40.0  # g, of the portals, which no other structure comes near
+PORTALS_HIGHEST = 40.0  # g, where minima are sought; no other structure comes near
 SEED = 2014  # of the sample of boundaries that SciPy judges
+OBJECTS = ("found", "bare", "wide", "bare_wide")  # of a row, which no table holds
 
 
 def numbers(column: Column, case: dict) -> list[tuple[str, float, float, Any]]:
@@ -48,13 +49,13 @@ def numbers(column: Column, case: dict) -> list[tuple[str, float, float, Any]]:
 
 def under_pulses(column: Column, case: dict) -> list[dict]:
     """Return every structure's three numbers, and its minimum under each pulse of the period."""
-    rows = []
+    rows, below = [], case["spectra"]["highest"] * column.uplift_acceleration
     for name, gamma, span, structure in numbers(column, case):
-        block = structure.block()
+        block, highest = structure.block(), PORTALS_HIGHEST if name == "portal" else below
         size = 3.0 * STANDARD_GRAVITY / (4.0 * block.frequency_parameter**2)
         for shape in case["shapes"]:
             pulse = Pulse(shape, 1.0, 2.0 * math.pi / case["period"])
-            found = minimum(structure, pulse, HIGHEST)
+            found = minimum(structure, pulse, highest, case["floor"])
             rows.append(
                 {
                     "structure": name,
@@ -74,22 +75,28 @@ def under_pulses(column: Column, case: dict) -> list[dict]:
 
 
 def search(
-    column: Column, motion: Pulse | Record, ratios: list[float], highest: float, labels: dict
+    column: Column, motion: Pulse | Record, ratios: list[float], case: dict, tightened: float
 ) -> list[dict]:
     """Return the minima of all structures under one motion, each beside that of the bare column."""
     rows: list[dict] = []
+    highest, floor = case["spectra"]["highest"] * column.uplift_acceleration, case["floor"]
     for name, gamma, structure in rivals(column, ratios):
-        found = minimum(structure, motion, highest)
-        bare = rows[0]["found"] if rows else refined(found, min(found.bracket[0], highest))
-        found = refined(found, min(bare.acceleration, highest)) if rows else bare
-        rows.append(labels | {"structure": name, "mass_ratio": gamma, "found": found, "bare": bare})
+        found = lowest_told(structure, motion, highest, floor, tightened)
+        row = {"structure": name, "mass_ratio": gamma, "found": found}
+        row["wide"] = lowest_wide(found, highest, floor, case["widths"])
+        bare = rows[0] if rows else row
+        rows.append(row | {"bare": bare["found"], "bare_wide": bare["wide"]})
     return rows
 
 
 def is_exception(row: dict) -> bool:
     """Whether a fixed mass overturns later than the bare column, or a frame earlier."""
-    ours, bare = row["found"].acceleration, row["bare"].acceleration
-    return {"bare": False, "fixed": ours > bare, "free": ours < bare}[row["structure"]]
+    return is_reversed(row["structure"], row["found"].acceleration, row["bare"].acceleration)
+
+
+def is_reversed(structure: str, ours: float, bare: float) -> bool:
+    """Whether the accelerations that overturn are not in the order fixed, bare, free."""
+    return {"bare": False, "fixed": ours > bare, "free": ours < bare}[structure]
 
 
 def minima(row: dict) -> list[Minimum]:
@@ -97,16 +104,23 @@ def minima(row: dict) -> list[Minimum]:
     return [one for one in (row["found"], row["bare"]) if math.isfinite(one.acceleration)]
 
 
-def is_compared(row: dict, tightened: float) -> bool:
-    """Whether one of the two overturns at all, and the tolerance does not change the minima."""
-    found = minima(row)
-    return row["structure"] != "bare" and bool(found) and all(one.told(tightened) for one in found)
+def is_compared(row: dict) -> bool:
+    """Whether one of the two overturns at all."""
+    return row["structure"] != "bare" and bool(minima(row))
 
 
 def plain(row: dict) -> dict:
     """Return a row of the table; NaN where nothing up to the highest acceleration overturns."""
-    labels = {key: value for key, value in row.items() if key not in ("found", "bare")}
+    labels = {key: value for key, value in row.items() if key not in OBJECTS}
     return labels | {"minimum_overturning": _finite(row["found"])}
+
+
+def searched(row: dict) -> dict:
+    """Return a row with the width of its interval and of lower ones, and the wide intervals, g."""
+    found = row["found"]
+    width = found.found.width if math.isfinite(found.acceleration) else math.nan
+    wide = {f"wider_than_{width:g}": _or_nan(first) for width, first in row["wide"].items()}
+    return plain(row) | {"width": width, "passed_over": found.passed_over} | wide
 
 
 def exception(row: dict) -> dict:
@@ -121,11 +135,19 @@ def exception(row: dict) -> dict:
 
 
 def _finite(found: Minimum) -> float:
-    return found.acceleration if math.isfinite(found.acceleration) else math.nan
+    return _or_nan(found.acceleration)
 
 
-def question(compared: list[dict], structures: list[str], longest: float) -> Finding:
-    """Return whether the structures keep their rank under every motion, as a finding."""
+def _or_nan(value: float) -> float:
+    return value if math.isfinite(value) else math.nan
+
+
+def question(compared: list[dict], structures: list[str], case: dict) -> Finding:
+    """Return whether the structures keep their rank under every motion, as a finding.
+
+    The evidence has how often the lowest intervals of each width do not.
+    """
+    longest = case["longest"]
     asked = [row for row in compared if row["structure"] in structures]
     broken = [row for row in asked if is_exception(row)]
     long_ones = [row for row in asked if row["frequency_ratio"] <= longest]
@@ -138,8 +160,18 @@ def question(compared: list[dict], structures: list[str], longest: float) -> Fin
         exceptions=len(broken),
         exceptions_under_records=sum(row["kind"] == "record" for row in broken),
         records=sum(row["kind"] == "record" for row in asked),
-        steps={kind.__name__: step for kind, step in FINEST.items()},
+        exceptions_of_width={f"{width:g}": reversed_at(asked, width) for width in case["widths"]},
     )
+
+
+def reversed_at(rows: list[dict], width: float) -> dict[str, int]:
+    """Return how many ranks the lowest intervals of a width reverse, by the kind of motion."""
+    found = [
+        row["kind"]
+        for row in rows
+        if is_reversed(row["structure"], row["wide"][width], row["bare_wide"][width])
+    ]
+    return {"pulse": len(found) - found.count("record"), "record": found.count("record")}
 
 
 def on_a_fresh_grid(compared: list[dict], longest: float) -> Finding:
@@ -164,9 +196,7 @@ def sampled(compared: list[dict], kind: str, count: int) -> list[Minimum]:
     return [found[place] for place in np.random.default_rng(SEED).permutation(len(found))[:count]]
 
 
-def second_route(
-    errors: list[float], exceptions: list[dict], rows: list[dict], compared: list[dict]
-) -> Finding:
+def second_route(errors: list[float], exceptions: list[dict], rows: list[dict]) -> Finding:
     """Return whether SciPy finds every boundary of the sample, as a finding.
 
     Of every exception, the structure that overturns later has to survive where the other falls.
@@ -179,7 +209,7 @@ def second_route(
         largest_relative_error=float(np.max(errors)) if found else None,
         exceptions=len(exceptions),
         neither_overturns=sum(not minima(row) for row in asked),
-        not_told=sum(bool(minima(row)) for row in asked) - len(compared),
+        passed_over=sum(row["found"].passed_over for row in rows),
     )
 
 
@@ -248,11 +278,13 @@ def beside_frames(summary: pd.DataFrame) -> Finding:
 def main(case: dict, paths: list[str], tightened: float) -> tuple:
     column = Column(**case["column"])
     summary = pd.DataFrame(under_pulses(column, case))
-    highest = case["spectra"]["highest"] * column.uplift_acceleration
     tried = motions(column, case, paths)
-    found = (search(column, motion, ratios, highest, labels) for motion, ratios, labels in tried)
+    found = (
+        [labels | row for row in search(column, motion, ratios, case, tightened)]
+        for motion, ratios, labels in tried
+    )
     rows = [row for part in progress(found, len(tried), "motions") for row in part]
-    compared = [row for row in rows if is_compared(row, tightened)]
+    compared = [row for row in rows if is_compared(row)]
     broken = [row for row in compared if is_exception(row)]
     exceptions = list(map(exception, broken))
     sample = sampled(compared, "pulse", case["sample"]["points"])
@@ -264,9 +296,9 @@ def main(case: dict, paths: list[str], tightened: float) -> tuple:
     portals = summary[(summary.structure == "portal") & (summary["shape"] == case["shapes"][0])]
     longest = case["longest"]
     findings = {
-        "fixed_mass_always_lowers": question(compared, ["fixed"], longest),
-        "frame_always_raises": question(compared, ["free"], longest),
-        "support_decides": question(compared, ["fixed", "free"], longest).with_evidence(
+        "fixed_mass_always_lowers": question(compared, ["fixed"], case),
+        "frame_always_raises": question(compared, ["free"], case),
+        "support_decides": question(compared, ["fixed", "free"], case).with_evidence(
             under_the_pulses_of_the_period=ranks(summary)
         ),
         "condition_on_a_fresh_grid": on_a_fresh_grid(compared, longest),
@@ -277,10 +309,9 @@ def main(case: dict, paths: list[str], tightened: float) -> tuple:
         ),
         "portal_overturns_last": beside_frames(summary),
         "shares_of_the_gain": whole_gain(of_shares),
-        "second_route": second_route(errors, exceptions, rows, compared),
+        "second_route": second_route(errors, exceptions, rows),
     }
-    searched = pd.DataFrame(plain(row) | {"search_step": row["found"].step} for row in rows)
-    tables = summary, searched, pd.DataFrame(exceptions), of_shares
+    tables = summary, pd.DataFrame(map(searched, rows)), pd.DataFrame(exceptions), of_shares
     return *tables, pd.DataFrame(poses(column, case)), findings
 
 

@@ -1,110 +1,146 @@
-"""The minimum overturning acceleration of bare column, fixed mass and frame, over their motions."""
+"""The minimum overturning acceleration of bare column, fixed mass and frame, over their motions.
+
+Under a record the factors that overturn form many intervals, the lowest of which are often narrower
+than anything that can be measured. Each minimum therefore has the width of its interval. Intervals
+that a relative change of `NUDGE` in the motion removes are passed over, and counted.
+"""
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property, partial
+from functools import cached_property
 
+import numpy as np
+
+from steps.rocking_spectra import NUDGE
 from topheavy import (
     Column,
     FixedMassColumn,
+    LowestOverturning,
     Pulse,
     Record,
     RockingFrame,
     judge,
-    minimum_overturning,
+    lowest_overturning,
+    overturned_by,
     reference,
 )
-from topheavy.free_rocking import Ending
 from topheavy.structures import Structure
 
-WINDOWS = {
-    Pulse: ((1.0, 1.3, 0.001), (1.3, 1.5, 0.01), (1.5, 3.0, 0.03), (3.0, 30.0, 0.05)),
-    Record: ((1.0, 1.5, 0.01), (1.5, 3.0, 0.03), (3.0, 30.0, 0.05)),
-}
-"""Ranges searched one after the other, and their resolution, over the uplift acceleration.
-
-Just above uplift a long pulse has narrow intervals that overturn, one below the other.
-"""
-
-FINEST = {Pulse: 0.005, Record: 0.02}
-"""Resolution below the minimum of the bare column, over the uplift acceleration."""
-
-NUDGE = 1e-6
 DISTANCES = (1e-7, 1e-5, 1e-3)
 """From a boundary, over the boundary: where SciPy is asked, from near to far."""
+
+AT_A_TIME = 512
+"""Factors that are tried in one call where a wide interval is sought."""
 
 
 @dataclass(frozen=True)
 class Minimum:
-    """The lowest acceleration that overturns a structure, and the structure and motion it is of.
+    """The lowest acceleration found that overturns a structure under a motion.
 
     Parameters
     ----------
     structure : Structure
     motion : Pulse or Record
         Of unit peak: its factor is its peak acceleration in g.
-    bracket : (float, float)
-        g. Both are infinite when nothing up to the highest acceleration overturns.
-    step : float
-        g, of the search that found it: a narrower range of lower accelerations may be missed.
+    found : LowestOverturning or None
+        None where nothing was searched, since the structure does not uplift.
+    passed_over : int
+        Lower intervals whose outcome is too sensitive to decide.
     """
 
     structure: Structure
     motion: Pulse | Record
-    bracket: tuple[float, float]
-    step: float = math.nan
+    found: LowestOverturning | None
+    passed_over: int = 0
 
     @property
     def acceleration(self) -> float:
-        """The middle of the bracket, g."""
-        return 0.5 * sum(self.bracket)
+        """In g; infinite where nothing up to the highest acceleration was found to overturn."""
+        return self.found.factor if self.found and self.found.bracket else math.inf
+
+    @property
+    def inside(self) -> float:
+        """The middle of the interval, or of what the range has of it, g."""
+        last = self.found.upper[0] if self.found.upper else self.found.scale_range[1]
+        return 0.5 * (self.acceleration + last)
 
     def told(self, tightened: float) -> bool:
-        """Whether the library at a tightened tolerance finds the boundary at the same place.
-
-        Under a long record an outcome can hang on digits that no measurement resolves.
-        """
-        return self._straddles(NUDGE, partial(judge, tolerance=tightened))
+        """Whether it overturns inside, also if nudged by `NUDGE` and at a tightened tolerance."""
+        factors = [self.inside * (1.0 + off) for off in (-NUDGE, 0.0, NUDGE)]
+        return bool(
+            overturned_by(self.structure, self.motion, factors).all()
+            and judge(
+                self.structure, self.motion.scaled(self.inside), tolerance=tightened
+            ).overturned
+        )
 
     @cached_property
     def error(self) -> float:
         """How far the boundary may be off, g: by SciPy, NaN where it finds none within 1e-3."""
+        low, high = self.found.bracket
         for distance in DISTANCES:
-            if self._straddles(distance, reference.judge):
-                return distance * self.acceleration + self.bracket[1] - self.bracket[0]
+            above = min(high * (1.0 + distance), self.inside)
+            if self._overturns(above) and not self._overturns(low * (1.0 - distance)):
+                return distance * self.acceleration + high - low
         return math.nan
 
-    def _straddles(self, distance: float, route: Callable[..., Ending]) -> bool:
-        """Whether it survives below and overturns above the bracket, at a relative distance."""
-        factors = self.bracket[0] * (1.0 - distance), self.bracket[1] * (1.0 + distance)
-        below, above = (
-            route(self.structure, self.motion.scaled(factor)).overturned for factor in factors
-        )
-        return above and not below
+    def _overturns(self, factor: float) -> bool:
+        return reference.judge(self.structure, self.motion.scaled(factor)).overturned
 
 
-def minimum(structure: Structure, motion: Pulse | Record, highest: float) -> Minimum:
-    """Return the minimum overturning acceleration up to the highest, g."""
+def minimum(
+    structure: Structure,
+    motion: Pulse | Record,
+    highest: float,
+    floor: float,
+    above: float = 0.0,
+) -> Minimum:
+    """Return the minimum overturning acceleration between two, g; none is sought below uplift.
+
+    The floor of `lowest_overturning` is given over the uplift acceleration of the structure.
+    """
     uplift = structure.block().uplift_acceleration
-    for low, high, step in WINDOWS[type(motion)]:
-        scales = (low * uplift, min(high * uplift, highest))
-        if scales[0] >= scales[1]:
-            break
-        found = minimum_overturning(structure, motion, scales, resolution=step * uplift)
-        if found:
-            return Minimum(structure, motion, found, step * uplift)
-    return Minimum(structure, motion, (math.inf, math.inf))
+    ends = (max(uplift, above), highest)
+    if ends[0] >= ends[1]:
+        return Minimum(structure, motion, None)
+    found = lowest_overturning(structure, motion, ends, floor=floor * uplift)
+    return Minimum(structure, motion, found)
 
 
-def refined(found: Minimum, below: float) -> Minimum:
-    """Return the minimum, searched again at the finest resolution below an acceleration, g."""
-    uplift = found.structure.block().uplift_acceleration
-    step = FINEST[type(found.motion)] * uplift
-    if not uplift + step < below <= found.bracket[0]:
-        return found
-    lower = minimum_overturning(found.structure, found.motion, (uplift, below), resolution=step)
-    return replace(found, bracket=lower, step=step) if lower else found
+def lowest_told(
+    structure: Structure, motion: Pulse | Record, highest: float, floor: float, tightened: float
+) -> Minimum:
+    """Return the lowest minimum that can be decided; the intervals below it are passed over."""
+    one, passed = minimum(structure, motion, highest, floor), 0
+    while math.isfinite(one.acceleration) and one.found.upper and not one.told(tightened):
+        passed += 1
+        one = minimum(structure, motion, highest, floor, one.found.upper[1])
+    return replace(one, passed_over=passed)
+
+
+def lowest_wide(
+    one: Minimum, highest: float, floor: float, widths: Sequence[float]
+) -> dict[float, float]:
+    """Return for each width the lowest acceleration from which on all overturn so far, in g.
+
+    They are tried from the minimum on in steps of the floor. Floor and widths are over the uplift
+    acceleration; the result is infinite where there is no such interval.
+    """
+    step = floor * one.structure.block().uplift_acceleration
+    found, run, begin = dict.fromkeys(widths, math.inf), 0, one.acceleration
+    while begin <= highest and math.inf in found.values():
+        factors = begin + step * np.arange(AT_A_TIME)
+        factors = factors[factors <= highest]
+        for factor, fell in zip(
+            factors, overturned_by(one.structure, one.motion, factors), strict=True
+        ):
+            run = run + 1 if fell else 0
+            for width in widths:
+                if run > round(width / floor) and found[width] == math.inf:
+                    found[width] = factor - (run - 1) * step
+        begin += step * AT_A_TIME
+    return found
 
 
 def rivals(column: Column, ratios: Sequence[float]) -> Iterator[tuple[str, float, Structure]]:

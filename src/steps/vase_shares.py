@@ -66,9 +66,8 @@ def survived(block: RockingBlock, column: Column, shape: str, case: dict) -> flo
 def least(block: RockingBlock, column: Column, shape: str, case: dict) -> float:
     """Return the minimum overturning acceleration of a block under the pulse of the period, g."""
     pulse = Pulse(shape, 1.0, 2.0 * math.pi / case["period"])
-    return minimum(
-        block, pulse, case["spectra"]["highest"] * column.uplift_acceleration
-    ).acceleration
+    highest = case["spectra"]["highest"] * column.uplift_acceleration
+    return minimum(block, pulse, highest, case["floor"]).acceleration
 
 
 WORTHS = {"survived share of the map": survived, "minimum overturning acceleration (g)": least}

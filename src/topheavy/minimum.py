@@ -107,6 +107,8 @@ def lowest_overturning(
     scale_range: tuple[float, float],
     *,
     floor: float,
+    vertical: Record | None = None,
+    scale_vertical: bool = True,
 ) -> LowestOverturning:
     """Return the lowest factor on an excitation that is found to overturn, down to a floor.
 
@@ -130,6 +132,10 @@ def lowest_overturning(
         The first and the last factor, not negative.
     floor : float
         The widest step that may be the last.
+    vertical : Record, optional
+        Vertical ground acceleration that starts with a record: g, positive upward.
+    scale_vertical : bool
+        Whether the factors multiply the vertical acceleration, too.
 
     Returns
     -------
@@ -139,7 +145,8 @@ def lowest_overturning(
     ------
     ValueError
         For a range that does not ascend or begins below zero, a floor that is not positive or below
-        1e-10 of the last factor, and a harmonic.
+        1e-10 of the last factor, a harmonic, and a vertical acceleration of −1 g or less at a
+        factor of the range.
     """
     first, last = checked_range(excitation, scale_range)
     if first < 0.0:
@@ -153,7 +160,7 @@ def lowest_overturning(
             f"floor is {floor:.6g}; expected at least {width:.6g}, {BRACKET:g} of the last factor: "
             "brackets are as wide"
         )
-    trials = _Trials(as_block(structure), excitation)
+    trials = _Trials(as_block(structure), excitation, vertical, scale_vertical)
     bracket = trials.first_of((first, last), width)
     step, steps, parts = last - first, [], 1
     while True:
@@ -180,12 +187,20 @@ class _Trials:
 
     block: RockingBlock
     excitation: Pulse | Record
+    vertical: Record | None = None
+    scale_vertical: bool = True
     number: int = 0
 
     def __call__(self, factors: NDArray[np.float64]) -> NDArray[np.bool_]:
         """Return which factors overturn."""
         self.number += factors.size
-        return overturned_by(self.block, self.excitation, factors)
+        return overturned_by(
+            self.block,
+            self.excitation,
+            factors,
+            vertical=self.vertical,
+            scale_vertical=self.scale_vertical,
+        )
 
     def first_of(self, ends: tuple[float, float], width: float) -> tuple[float, float] | None:
         """Return the bracket of the coarsest grid, the two ends of the range alone."""

@@ -21,7 +21,7 @@ from topheavy.kernel.taylor import Oscillator, oscillator
 from topheavy.pulses import Pulse, checked_shape
 from topheavy.records import Record
 from topheavy.simulate import Shaking, as_shaking, checked_tolerance, no_excitation
-from topheavy.structures import RockingBlock, Structure
+from topheavy.structures import RockingBlock, Structure, as_block
 from topheavy.vertical import both_records, refuse_fall
 
 if TYPE_CHECKING:
@@ -74,7 +74,7 @@ def overturning_map(
         (angular_frequency, amplitude). As of `judge`, but for what both leave out of the peak: it
         differs by 1e-10 α or so.
     """
-    block = structure.block()
+    block = as_block(structure)
     if checked_shape(shape) == "harmonic":
         raise ValueError("shape is 'harmonic', which goes on forever; expected a pulse that ends")
     frequencies = checks.axis("angular_frequencies", angular_frequencies, zero_allowed=False)
@@ -559,7 +559,7 @@ def _subjects(searches: Sequence[Search]) -> list[_Subject]:
     prepared: dict[tuple[int, int], Shaking] = {}
     subjects = []
     for search in searches:
-        block, excitation, vertical = search.structure.block(), search.excitation, search.vertical
+        block, excitation, vertical = as_block(search.structure), search.excitation, search.vertical
         if vertical is not None:
             _, up = both_records(excitation, vertical)
             refuse_fall(up, search.scale_range if search.scale_vertical else 1.0)

@@ -19,7 +19,7 @@ from topheavy.excitation import Excitation, Segment, root
 from topheavy.motion import Arc, Event, Motion
 from topheavy.records import Record
 from topheavy.response import Response
-from topheavy.structures import RockingBlock, Structure
+from topheavy.structures import RockingBlock, Structure, as_block
 from topheavy.vertical import with_vertical
 
 TOLERANCE = 1e-11
@@ -60,7 +60,7 @@ def simulate(
     ArithmeticError
         For a history of more than `motion.MOST_IMPACTS` impacts or a million steps in a flight.
     """
-    block = structure.block()
+    block = as_block(structure)
     return motion.respond(
         block,
         with_vertical(excitation, vertical),
@@ -87,7 +87,7 @@ def judge(
     max|θ| over the whole motion (NaN if overturned), the impacts are counted as in `Response`.
     Errors are those of `simulate`.
     """
-    block = structure.block()
+    block = as_block(structure)
     course = motion.start(block, 0.0, 0.0)
     course.restitutions = [checks.fraction("restitutions", value) for value in restitutions]
     ground = with_vertical(excitation, vertical)

@@ -35,7 +35,7 @@ from topheavy.kernel.trace import (
 from topheavy.pulses import Pulse
 from topheavy.records import Record
 from topheavy.response import Outcome, Response, initial_motion, sample_times
-from topheavy.structures import RockingBlock, Structure
+from topheavy.structures import RockingBlock, Structure, as_block
 from topheavy.vertical import both_records, refuse_fall
 
 Times = NDArray[np.float64]
@@ -106,7 +106,7 @@ def simulate(
     Taylor steps whose turning points and impacts are proven by the signs of Bernstein coefficients
     (`topheavy.kernel`). `topheavy.reference.simulate` is the second, independent solver.
     """
-    block = structure.block()
+    block = as_block(structure)
     times = sample_times(samples)
     tolerance = checked_tolerance(tolerance)
     theta, theta_rate = initial_motion(block, rotation, velocity)
@@ -193,7 +193,7 @@ def judge(
         raise ValueError("the excitation goes on forever; expected one that ends")
     if vertical is not None:
         refuse_fall(both_records(excitation, vertical)[1])
-    block, shaking = structure.block(), as_shaking(excitation, vertical)
+    block, shaking = as_block(structure), as_shaking(excitation, vertical)
     found = outcome_of(
         oscillator(block),
         shaking.shape,

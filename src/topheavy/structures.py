@@ -231,7 +231,7 @@ class Structure(Protocol):
 
 def as_block(structure: Structure) -> RockingBlock:
     """Return the rocking block of a structure, or raise ValueError for what is none."""
-    if not callable(getattr(structure, "block", None)):
+    if isinstance(structure, type) or not callable(getattr(structure, "block", None)):
         raise ValueError(
             f"structure is {structure!r}; expected a Column, a RockingFrame or whatever else "
             "becomes a RockingBlock by a method block()"

@@ -77,6 +77,44 @@ def test_each_outcome_is_that_of_the_motion_scaled_to_the_level(measure):
     assert 0.1 < result.outcomes.mean() < 0.9
 
 
+UPS = [Record(0.013, 0.4 * wave(number + 20).acceleration) for number in range(8)]
+
+
+@pytest.mark.parametrize("scale_vertical", [True, False])
+def test_vertical_component_of_each_motion_acts_with_it(found, scale_vertical):
+    both = {"vertical": UPS, "scale_vertical": scale_vertical}
+    levels = LEVELS[:4]
+    outcomes = fragility(STRUCTURES, MOTIONS, levels, resamples=100, **both).outcomes
+    for number, (motion, up) in enumerate(zip(MOTIONS, UPS, strict=True)):
+        factors = levels / motion.peak_velocity
+        lifts = factors if scale_vertical else np.ones(4)
+        for place, structure in enumerate(STRUCTURES.values()):
+            for level, (factor, lift) in enumerate(zip(factors, lifts, strict=True)):
+                given = (structure, motion.scaled(factor))
+                judges = [judge, topheavy.reference.judge] if place == number == 1 else [judge]
+                for route in judges:
+                    truth = route(*given, vertical=up.scaled(lift)).overturned
+                    assert outcomes[number, place, level] == truth
+    assert (outcomes != found.outcomes[:, :5, :4]).sum() > 5
+
+
+@pytest.mark.parametrize(
+    ("vertical", "says"),
+    [
+        (UPS[0], r"vertical is .*Record.*; expected a list of 8 Records"),
+        (UPS[:7], "vertical is .*; expected a list of 8 Records, the vertical component of each"),
+        ([*UPS[:7], 0.1], r"vertical\[7\]: excitation is Record and vertical float; expected two"),
+        (
+            [*UPS[:7], Record(0.05, [0.0, 0.4, -8.0, 0.0])],
+            r"^vertical\[7\]: at 0\.1 s its acceleration .* factors less than 0\.125 are allowed",
+        ),
+    ],
+)
+def test_bad_vertical_is_refused_by_its_motion(vertical, says):
+    with pytest.raises(ValueError, match=says):
+        fragility([PIER], MOTIONS, LEVELS, resamples=100, vertical=vertical)
+
+
 def test_measure_may_be_a_function_and_a_motion_a_pulse():
     def peak_of_pulse(pulse):
         return pulse.amplitude

@@ -90,7 +90,9 @@ def test_heavier_survives_more_by_apart_brackets_and_all_solvers(
     monkeypatch, brackets, agrees, holds
 ):
     left = iter(brackets)
-    monkeypatch.setattr(heavier, "lowest_overturning", lambda frame, pulse: next(left))
+    monkeypatch.setattr(
+        heavier, "lowest_overturning", lambda *_, floor: SimpleNamespace(bracket=next(left))
+    )
     if not agrees:
         otherwise = SimpleNamespace(overturned=False, peak=0.0)
         monkeypatch.setattr(

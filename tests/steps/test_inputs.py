@@ -74,14 +74,21 @@ def test_other_config_is_sound_and_has_only_what_differs(other):
 
 @pytest.mark.parametrize("other", [QUICK, THOROUGH], ids=["quick", "thorough"])
 def test_other_config_changes_how_densely_it_is_sampled_and_no_physics(other):
-    sampling = {"points", "resolution", "cells", "checked_by_second_route", "frames_per_second"}
+    sampling = {
+        "points",
+        "resolution",
+        "floor",
+        "cells",
+        "checked_by_second_route",
+        "frames_per_second",
+    }
     places = [place for place, *_ in differences(CONFIG, other)]
     assert {place.rpartition(".")[2] for place in places} <= sampling | {"studies", "tightened"}
 
 
 def test_thorough_config_is_finer_throughout():
     for place, was, now in differences(CONFIG, THOROUGH):
-        is_finer_when_less = place.endswith(("resolution", "tightened"))
+        is_finer_when_less = place.endswith(("resolution", "floor", "tightened"))
         assert (now < was) if is_finer_when_less else (now > was), place
 
 

@@ -9,10 +9,21 @@ import pytest
 
 from replication.workbench import truth
 from steps import vase, vase_poses, vase_searches, vase_shares
-from topheavy import Column, FixedMassColumn, Pulse, RockingBlock, RockingFrame
+from topheavy import (
+    Column,
+    FixedMassColumn,
+    LowestOverturning,
+    Pulse,
+    RockingBlock,
+    RockingFrame,
+    read_record,
+    reference,
+)
+from topheavy.free_rocking import Ending
 
 COLUMN = Column(0.5, 3.0)
 PULSE = Pulse("one-cosine", 1.0, 2 * math.pi / 1.5)
+ASKED = {"longest": 2.5, "widths": [0.02]}
 CASE = {
     "cap": {"width": 2.6, "depth": 0.6},
     "period": 1.5,
@@ -20,68 +31,111 @@ CASE = {
 }
 
 
+FLOOR = 0.001
+RECORD = read_record("data/records/el_centro_1940_NS.AT2")
+RECORD = RECORD.scaled(1.0 / RECORD.peak_acceleration)
+
+
 def test_minimum_is_the_known_one_and_scipy_agrees():
-    found = vase_searches.minimum(FixedMassColumn(COLUMN, 1.0), PULSE, 2.0)
+    found = vase_searches.minimum(FixedMassColumn(COLUMN, 1.0), PULSE, 2.0, FLOOR)
     assert found.acceleration == pytest.approx(0.20358, abs=1e-4)
     assert 0.0 < found.error < 1e-6
     assert found.told(3e-12)
 
 
+def of(structure, *ends):
+    """A minimum in an interval with given ends, g."""
+    low, *upper = ends
+    last = (upper[0], upper[0]) if upper else None
+    found = LowestOverturning((0.1, 2.0), FLOOR, (), (low, low), last, 1.0, 0)
+    return vase_searches.Minimum(structure, PULSE, found)
+
+
 def test_minimum_that_is_wrong_has_no_error():
-    found = vase_searches.minimum(COLUMN, PULSE, 2.0)
-    wrong = vase_searches.Minimum(COLUMN, PULSE, tuple(1.01 * end for end in found.bracket))
-    assert math.isnan(wrong.error)
-    assert not wrong.told(3e-12)
+    true = vase_searches.minimum(COLUMN, PULSE, 2.0, FLOOR).acceleration
+    assert of(COLUMN, true).error == pytest.approx(1e-7 * true)
+    assert math.isnan(of(COLUMN, 1.01 * true).error)
+
+
+def test_error_of_a_narrow_interval_is_asked_inside_it():
+    true = vase_searches.minimum(COLUMN, PULSE, 2.0, FLOOR).acceleration
+    around = [(1.0 + off) * true for off in (-2e-8, -1e-8, 6e-8)]
+    assert of(COLUMN, around[0], around[2]).error == pytest.approx(1e-7 * true)
+    assert math.isnan(of(COLUMN, around[0], around[1]).error)
 
 
 def test_narrow_interval_above_uplift_is_not_missed():
-    pulse = Pulse("one-sine", 1.0, 0.607059 * COLUMN.frequency_parameter)
-    least = [vase_searches.minimum(one, pulse, 2.0) for one in (COLUMN, RockingFrame(COLUMN, 0.1))]
-    over = [found.acceleration / COLUMN.uplift_acceleration for found in least]
-    assert over == pytest.approx([1.05316, 1.05507], abs=1e-5)  # from 1.06030 on if it is missed
+    """It is narrower than 0.001 of the uplift acceleration; twice the floor leads to 0.17655 g."""
+    pulse = Pulse("one-cosine", 1.0, 0.55 * COLUMN.frequency_parameter)
+    found = vase_searches.minimum(COLUMN, pulse, 2.0, FLOOR)
+    assert found.acceleration == pytest.approx(0.175426, abs=1e-6)
+    assert found.found.width < FLOOR * COLUMN.uplift_acceleration
 
 
-def test_bare_column_is_searched_as_finely_as_its_rivals(monkeypatch):
-    coarse = vase_searches.Minimum(COLUMN, PULSE, (0.9, 0.9))
-    monkeypatch.setattr(vase, "minimum", lambda *_: coarse)
-    (bare, *_) = vase.search(COLUMN, PULSE, [1.0], 2.0, {})
-    assert bare["found"].acceleration == pytest.approx(0.27282, abs=1e-4)
+@pytest.mark.parametrize(("highest", "above"), [(0.25, 0.0), (0.15, 0.0), (2.0, 2.0)])
+def test_nothing_overturns_below_the_highest_acceleration(highest, above):
+    """Also where the highest is below uplift, or nothing is left to search."""
+    found = vase_searches.minimum(COLUMN, PULSE, highest, FLOOR, above)
+    assert found.acceleration == math.inf
 
 
-def test_nothing_overturns_below_the_highest_acceleration():
-    assert vase_searches.minimum(COLUMN, PULSE, 0.25).acceleration == math.inf
+def test_interval_that_a_billionth_of_the_record_removes_is_passed_over():
+    """Two lowest intervals of the column under El Centro are narrower than its last digits."""
+    lowest = vase_searches.minimum(COLUMN, RECORD, 2.0, FLOOR)
+    assert lowest.found.width < 1e-9
+    assert not lowest.told(3e-12)
+    found = vase_searches.lowest_told(COLUMN, RECORD, 2.0, FLOOR, 3e-12)
+    assert found.passed_over == 2
+    assert found.acceleration > lowest.acceleration
+    assert found.told(3e-12)
+    assert found.error < 1e-7
+    outcomes = [
+        reference.judge(COLUMN, RECORD.scaled(found.inside * (1.0 + off))).overturned
+        for off in (-1e-9, 1e-9)
+    ]
+    assert outcomes == [True, True]
 
 
-def test_refinement_finds_what_a_minimum_missed():
-    true = vase_searches.minimum(COLUMN, PULSE, 2.0)
-    missed = vase_searches.Minimum(COLUMN, PULSE, (0.9, 0.9))
-    assert vase_searches.refined(missed, 0.5).acceleration == pytest.approx(true.acceleration)
-    assert vase_searches.refined(missed, 0.25) == missed
+def test_interval_that_a_tighter_tolerance_removes_is_not_told(monkeypatch):
+    one = vase_searches.minimum(COLUMN, PULSE, 2.0, FLOOR)
+    assert one.told(3e-12)
+    monkeypatch.setattr(vase_searches, "judge", lambda *_, tolerance: Ending(False, 0.1, 3))
+    assert not one.told(3e-12)
 
 
-def test_minimum_has_the_step_of_the_search_that_found_it():
-    uplift = COLUMN.uplift_acceleration
-    found = vase_searches.minimum(COLUMN, PULSE, 2.0)
-    (step,) = (
-        step
-        for low, high, step in vase_searches.WINDOWS[Pulse]
-        if low * uplift < found.acceleration <= high * uplift
+def test_minimum_without_an_interval_that_ends_is_not_passed_over():
+    whole = vase_searches.lowest_told(COLUMN, PULSE, 0.275, FLOOR, 3e-12)
+    assert whole.found.upper is None
+    assert (whole.acceleration, whole.passed_over) == (pytest.approx(0.27282, abs=1e-4), 0)
+    assert whole.inside == pytest.approx(0.5 * (whole.acceleration + 0.275))
+
+
+def test_wide_interval_is_the_lowest_in_which_all_steps_overturn(monkeypatch):
+    step = FLOOR * COLUMN.uplift_acceleration
+    ends = 0.2 + step * np.array([0.0, 1.5, 10.0, 13.5, 700.0, 720.5])  # across a call's end
+    monkeypatch.setattr(
+        vase_searches,
+        "overturned_by",
+        lambda structure, motion, factors: np.searchsorted(ends, factors + 1e-9) % 2 == 1,
     )
-    assert found.step == pytest.approx(step * uplift)
-    missed = vase_searches.Minimum(COLUMN, PULSE, (0.9, 0.9), 0.05 * uplift)
-    finest = vase_searches.FINEST[Pulse] * uplift
-    assert vase_searches.refined(missed, 0.5).step == pytest.approx(finest)
-    assert vase_searches.refined(missed, 0.25).step == missed.step
+    found = vase_searches.lowest_wide(of(COLUMN, 0.2), 2.0, FLOOR, [0.001, 0.003, 0.02, 0.021])
+    over = [(found[width] - 0.2) / step for width in (0.001, 0.003, 0.02)]
+    assert over == pytest.approx([0.0, 10.0, 700.0], abs=1e-6)
+    assert found[0.021] == math.inf
+    none = vase_searches.Minimum(COLUMN, PULSE, None)
+    assert vase_searches.lowest_wide(none, 2.0, FLOOR, [0.003]) == {0.003: math.inf}
 
 
 def row(structure, ours, bare, ratio=1.0, kind="pulse"):
-    found, other = (vase_searches.Minimum(COLUMN, PULSE, (value, value)) for value in (ours, bare))
+    found, other = (of(COLUMN, value) for value in (ours, bare))
     return {
         "kind": kind,
         "structure": structure,
         "frequency_ratio": ratio,
         "found": found,
         "bare": other,
+        "wide": {0.02: ours},
+        "bare_wide": {0.02: bare},
     }
 
 
@@ -92,10 +146,6 @@ def test_exceptions_are_a_later_fixed_mass_and_an_earlier_frame():
     assert vase.is_exception(row("free", 0.2, 0.3))
     assert not vase.is_exception(row("free", math.inf, 0.3))
     assert not vase.is_exception(row("bare", 0.3, 0.2))
-
-
-def of(structure, acceleration):
-    return vase_searches.Minimum(structure, PULSE, (acceleration, acceleration))
 
 
 @pytest.mark.parametrize(("fixed", "survives"), [(0.25, False), (0.19, True)])
@@ -116,33 +166,47 @@ def test_second_route_needs_every_boundary_and_every_exception():
         ([1e-7, math.nan], [True], False),
     ):
         exceptions = [{"later_one_survives": one} for one in survives]
-        found = vase.second_route(errors, exceptions, rows, [])
+        found = vase.second_route(errors, exceptions, rows)
         assert found.holds is holds
-        assert (found["neither_overturns"], found["not_told"]) == (1, 1)
+        assert (found["neither_overturns"], found["passed_over"]) == (1, 0)
 
 
-def test_minimum_that_a_tighter_tolerance_moves_is_not_compared():
-    right, other = (vase_searches.minimum(COLUMN, PULSE, 2.0) for _ in range(2))
-    wrong = of(COLUMN, 1.01 * right.acceleration)
-    given = row("free", 0.0, 0.0) | {"bare": other}
-    assert vase.is_compared(given | {"found": right}, 3e-12)
-    assert not vase.is_compared(given | {"found": wrong}, 3e-12)
-    assert not vase.is_compared(given | {"found": right, "structure": "bare"}, 3e-12)
-    assert not vase.is_compared(row("free", math.inf, math.inf), 3e-12)
+def test_rows_are_compared_where_one_of_both_overturns():
+    assert vase.is_compared(row("free", 0.3, math.inf))
+    assert not vase.is_compared(row("free", math.inf, math.inf))
+    assert not vase.is_compared(row("bare", 0.3, 0.3))
+
+
+def test_row_of_the_table_has_the_interval_in_g():
+    wide = {"wide": {0.02: math.inf}}
+    found = vase.searched(row("free", 0.3, 0.2) | {"found": of(COLUMN, 0.3, 0.31)} | wide)
+    assert found["width"] == pytest.approx(0.01)
+    assert found["minimum_overturning"] == 0.3
+    assert math.isnan(found["wider_than_0.02"])
+    assert set(found).isdisjoint(vase.OBJECTS)
+
+
+def test_lowest_wide_intervals_are_ranked_beside_the_minima():
+    narrow = row("free", 0.3, 0.2) | {"wide": {0.02: 0.4}, "bare_wide": {0.02: 0.5}}
+    found = vase.question([narrow, narrow | {"kind": "record"}], ["free"], ASKED)
+    assert found.holds
+    assert found["exceptions_of_width"] == {"0.02": {"pulse": 1, "record": 1}}
+    others = [row("fixed", 0.3, 0.2, kind="fresh"), row("free", 0.3, 0.2)]
+    assert vase.reversed_at(others, 0.02) == {"pulse": 1, "record": 0}
 
 
 def test_exception_under_short_pulses_and_records_qualifies():
     usual = row("fixed", 0.2, 0.3)
     short = row("fixed", 0.4, 0.3, ratio=4.0)
     record = row("fixed", 0.4, 0.3, ratio=math.nan, kind="record")
-    assert vase.question([usual], ["fixed"], 2.5).holds
-    found = vase.question([usual, short, record], ["fixed"], 2.5)
+    assert vase.question([usual], ["fixed"], ASKED).holds
+    found = vase.question([usual, short, record], ["fixed"], ASKED)
     assert (found.holds, found.holds_when) == (False, True)
     assert (found["comparisons"], found["comparisons_when"], found["exceptions"]) == (3, 1, 2)
     assert found["exceptions_under_records"] == found["records"] == 1
-    long_one = vase.question([usual, row("fixed", 0.4, 0.3)], ["fixed"], 2.5)
+    long_one = vase.question([usual, row("fixed", 0.4, 0.3)], ["fixed"], ASKED)
     assert not long_one.holds_when
-    assert not vase.question([short], ["fixed"], 2.5).holds_when
+    assert not vase.question([short], ["fixed"], ASKED).holds_when
 
 
 def test_fresh_grid_tests_the_condition_and_nothing_else():
@@ -268,7 +332,7 @@ def test_portal_stands_on_a_wider_base_or_not(monkeypatch, angle, holds):
         monkeypatch.setattr(vase, name, lambda *arguments, found=found: found)
     case = {"column": {"half_width": 0.5, "half_height": 3.0}, "spectra": {"highest": 12.0}}
     case |= {"sample": {"points": 1}, "checked_by_second_route": 1, "longest": 2.0}
-    case |= {"shapes": ["b"]}
+    case |= {"shapes": ["b"], "widths": []}
     assert vase.main(case, [], 3e-12)[-1]["portal_has_a_wider_base"].holds == holds
 
 

@@ -1,24 +1,31 @@
 """Insert deliberate faults, one at a time, and find what catches each: `make kill-table`.
 
 The command inserts each fault of the paper and of its studies into a copy of the tree, never into
-the library. It runs the workflow in the copy with the quick settings, and only the rules of the
-claims. A verdict that differs from the expected one has caught the fault. Otherwise the command
-runs the tests that the fault names; for a fault in the judging it runs these tests first. If no
-verdict and no test fails, a rule has to raise an error; if none does, the fault has survived.
+the library. It repeats what caught a fault last: a test, or one rule of the workflow, with the
+quick settings. If that no longer catches it, or if the fault is new, the command runs the tests
+that the fault names, then all rules that judge claims. A verdict that differs from the expected one
+has caught the fault. If no verdict and no test fails, a rule has to raise an error; if none does,
+the fault has survived.
 
-A run of all faults writes docs/kill_table.csv and .md. A choice of them (`--faults`, `--rotate`)
-only keeps its rows, for a later run.
+`--whole` lists all verdicts of the paper that a fault in the physics turns, which takes hours. A
+run of all faults writes docs/kill_table.csv and .md. A choice of them (`--faults`, `--rotate`) only
+keeps its rows, for a later run.
 """
 
 import argparse
+import csv
 import json
 import resource
 import shutil
 import subprocess
 import tempfile
 from collections.abc import Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import asdict
+from functools import partial
 from pathlib import Path
+from queue import Queue
+from threading import Lock
 
 from replication.inputs.parts import PAPER, ledger_of
 from replication.inputs.strict_yaml import read_yaml
@@ -78,45 +85,86 @@ def keep(path: Path, fault: Fault, row: Row) -> None:
         file.write(json.dumps(line, ensure_ascii=False) + "\n")
 
 
-def left(faults: Sequence[Fault], known: dict[str, tuple[str, Row]]) -> list[Fault]:
-    """Return the faults to be run: those without a row, that changed, or that survived."""
+def left(
+    faults: Sequence[Fault], known: dict[str, tuple[str, Row]], *, whole: bool = False
+) -> list[Fault]:
+    """Return the faults to be run: those without a row, that changed, or that survived.
+
+    If the `whole` list of verdicts is wanted, also those of whose rows it was never made.
+    """
     return [
         fault
         for fault in faults
         if fault.name not in known
         or known[fault.name][0] != fault.digest(ROOT)
         or known[fault.name][1].caught_by == "SURVIVED"
+        or (whole and fault.routes != JUDGING and not known[fault.name][1].listed)
     ]
 
 
-def kill_table(faults: Sequence[Fault]) -> Iterator[Row]:
-    """Yield the row of each fault, after a run without any in which no verdict may turn.
+def kill_table(faults: Sequence[Fault], *, whole: bool = False, cores: int = 1) -> Iterator[Row]:
+    """Yield the row of each fault as it is found, from as many copies of the tree as cores.
 
-    That run is made before the first verdict; faults that tests catch do not need it.
+    Before, all tests pass without a fault, and no verdict turns by the rules that are asked.
     """
+    ledger, names, made = ledgers(), studies(), ("results", ".snakemake")
+    rows = current(read(TABLE.with_suffix(".csv")), load(), read_ledger(ledger_files()), ROOT)
+    last, seconds = {row.name: row for row in rows}, _seconds(ROOT / "docs" / "costs.csv")
     with tempfile.TemporaryDirectory(prefix="kill-table-") as folder:
-        tree, sound = Path(folder) / "tree", Path(folder) / "sound"
-        copy_tree(tree)
-        check_imports(tree)
-        asked, names, made = ledgers(), studies(), ("results", ".snakemake")
-
-        def begin() -> None:
-            """Begin with the results of no fault: only what depends on one is made again."""
-            if not sound.exists():
-                turned, rules, said = workflow(tree, [*asked["paper"], *asked["studies"]], names)
-                if turned or rules:
-                    raise RuntimeError(f"without a fault: {turned} turn, {rules} raise\n{said}")
-                for name in made:
-                    shutil.copytree(tree / name, sound / name)
-            for name in made:
-                shutil.rmtree(tree / name)
-                shutil.copytree(sound / name, tree / name)
-
-        tests = {test for fault in faults if fault.routes == JUDGING for test in fault.tests}
-        if tests and (failing := first_failing(tree, sorted(tests))):
+        sound, *trees = (Path(folder) / f"tree{number}" for number in range(cores + 1))
+        for tree in (sound, *trees):
+            copy_tree(tree)
+        check_imports(sound)
+        files = {test for fault in faults for test in fault.tests}
+        files |= {last[fault.name].test for fault in faults if fault.name in last} - {""}
+        if failing := first_failing(sound, sorted(files), cores):
             raise RuntimeError(f"without a fault: {failing} fails")
-        for fault in faults:
-            yield put_to_the_test(tree, fault, asked, names, begin)
+        free, making, computed = Queue(), Lock(), set()
+        for tree in trees:
+            free.put(tree)
+
+        def begin(tree: Path, claims: Sequence[Claim]) -> None:
+            """Begin with the results of no fault: only what depends on one is made again."""
+            with making:
+                new = [claim for claim in claims if claim.finding and claim.rule not in computed]
+                if new:
+                    turned, rules, said = workflow(sound, new, names, cores)
+                    if turned or rules:
+                        raise RuntimeError(f"without a fault: {turned} turn, {rules} raise\n{said}")
+                    computed.update(claim.rule for claim in new)
+                clear(tree)
+                for name in made:
+                    shutil.copytree(sound / name, tree / name)
+
+        def clear(tree: Path) -> None:
+            for name in made:
+                shutil.rmtree(tree / name, ignore_errors=True)
+
+        def asked(fault: Fault) -> Row:
+            tree = free.get()
+            try:
+                options = {"last": last.get(fault.name), "seconds": seconds, "whole": whole}
+                begun = partial(begin, tree)
+                return put_to_the_test(tree, fault, ledger, names, begun, **options)
+            finally:
+                clear(tree)  # no test may see the results of a fault
+                free.put(tree)
+
+        with ThreadPoolExecutor(cores) as pool:
+            doing = [pool.submit(asked, fault) for fault in faults]
+            try:
+                for done in as_completed(doing):
+                    yield done.result()
+            finally:
+                pool.shutdown(cancel_futures=True)
+
+
+def _seconds(path: Path) -> dict[str, float]:
+    """Return what each rule costs, by the published table."""
+    if not path.exists():
+        return {}
+    with path.open(encoding="utf-8", newline="") as file:
+        return {row["rule"]: float(row["seconds"]) for row in csv.DictReader(file)}
 
 
 def rotation(faults: list[Fault], number: int, commit: str) -> list[Fault]:
@@ -166,16 +214,19 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--faults", help=f"names, separated by commas; or routes ({JUDGING})")
     parser.add_argument("--rotate", type=int, help="so many, picked by the hash of the commit")
+    parser.add_argument("--whole", action="store_true", help="list all verdicts of the paper")
+    parser.add_argument("--cores", type=int, default=1, help="so many faults at once")
     options = parser.parse_args()
     faults = load()
     picked = chosen(faults, options.faults, options.rotate)
     for fault in faults:
         fault.texts(ROOT)  # one that no longer applies is refused at once
-    missing = left(picked, kept(KEPT))
+    missing = left(picked, kept(KEPT), whole=options.whole)
     print(f"{len(picked) - len(missing)} of {len(picked)} faults are in {KEPT.name}", flush=True)
     if missing:
-        for fault, row in zip(missing, kill_table(missing), strict=True):
-            keep(KEPT, fault, row)
+        by_name = {fault.name: fault for fault in missing}
+        for row in kill_table(missing, whole=options.whole, cores=options.cores):
+            keep(KEPT, by_name[row.name], row)
             print(f"{processor_seconds():6.0f} s  {row.name}: {caught(row)}", flush=True)
     known = kept(KEPT)
     rows = [known[fault.name][1] for fault in picked]

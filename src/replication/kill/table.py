@@ -30,14 +30,15 @@ class Row:
     verdicts: str
     test: str
     rules: str  # those that raise; "all" for a run that was given up
-    date: str  # of the run
+    date: str  # of the last run that caught it
+    listed: str = ""  # date of the last run of all rules of the paper, which lists the verdicts
 
 
 # What catches a fault ----------------------------------------------------------------------------
 
 
 def workflow(
-    tree: Path, ledger: Sequence[Claim], studies: Iterable[str]
+    tree: Path, ledger: Sequence[Claim], studies: Iterable[str], cores: int = 1
 ) -> tuple[list[str], list[str], str]:
     """Run the rules that claims are judged by; return the verdicts that turned, and who raised.
 
@@ -46,7 +47,7 @@ def workflow(
     rules = sorted({row.rule for row in ledger if row.finding})
     findings = [f"results/findings/{rule}.json" for rule in rules]
     settings = ("--configfile", QUICK, "--config", f"studies=[{','.join(studies)}]")
-    options = ("--cores", "2", "--keep-going", *settings)
+    options = ("--cores", str(cores), "--keep-going", *settings)
     code, said = run(tree, "-m", "snakemake", *options, "--", *findings)
     raised = sorted(set(re.findall(r"^Error in rule (\w+):", said, re.MULTILINE)))
     if code and not raised:  # given up, or nothing was run
@@ -73,9 +74,10 @@ def verdict(claim: Claim, findings: Mapping[str, Findings], tree: Path) -> str:
         return f"none: {error}"
 
 
-def first_failing(tree: Path, tests: Sequence[str]) -> str:
+def first_failing(tree: Path, tests: Sequence[str], cores: int = 1) -> str:
     """Return the first test that fails, or nothing."""
-    options = ("-q", "-x", "-rfE", "--no-header", "-p", "no:cacheprovider")
+    options = ["-q", "-x", "-rfE", "--no-header", "-p", "no:cacheprovider"]
+    options += [f"--numprocesses={cores}", "--dist=loadfile"] if cores > 1 else []
     code, said = run(tree, "-m", "pytest", *options, *tests)
     if code == 0:
         return ""
@@ -85,18 +87,39 @@ def first_failing(tree: Path, tests: Sequence[str]) -> str:
     return named[1]
 
 
-def courts(fault: Fault) -> tuple[str, str, str]:
+def courts(fault: Fault, whole: bool) -> tuple[str, str, str]:
     """Return in which order rows of the paper, rows of studies and tests have to catch a fault.
 
-    The verdicts are what a fault would falsify, the paper's first; of those of studies, which cost
-    most, only a fault in a study goes before the tests. The tests are the first for a fault in the
-    judging, which take seconds: they are the cases in which a result is known to be false.
+    The tests are the first, as they take seconds, unless the `whole` list of verdicts is wanted.
+    Then the paper's verdicts are the first, which the fault would falsify; of those of studies,
+    which cost most, only a fault in a study goes before the tests. Faults in the judging are put
+    to their tests first in any case: to the cases in which a result is known to be false.
     """
-    if fault.routes == JUDGING:
+    if fault.routes == JUDGING or not whole:
         return "tests", "paper", "studies"
     if all(file.startswith("studies/") for file in fault.files):
         return "paper", "studies", "tests"
     return "paper", "tests", "studies"
+
+
+def last_time(
+    last: Row | None, ledgers: Mapping[str, Sequence[Claim]], seconds: Mapping[str, float]
+) -> list[tuple[str, Sequence[str], Sequence[Claim]]]:
+    """Return what caught a fault last, to be asked first: its test, or the cheapest rule's claims.
+
+    `seconds` has what a rule costs; rules of the paper go before those of studies.
+    """
+    if last is None:
+        return []
+    if last.test:
+        return [("last", [last.test], [])]
+    turned = set(last.verdicts.split())
+    for ledger in ledgers.values():
+        rules = {claim.rule for claim in ledger if claim.id in turned and claim.finding}
+        if rules:
+            cheapest = min(rules, key=lambda rule: (seconds.get(rule, 0.0), rule))
+            return [("last", [], [claim for claim in ledger if claim.rule == cheapest])]
+    return []
 
 
 def put_to_the_test(
@@ -104,9 +127,13 @@ def put_to_the_test(
     fault: Fault,
     ledgers: Mapping[str, Sequence[Claim]],
     studies: Sequence[str],
-    begin: Callable[[], None],
+    begin: Callable[[Sequence[Claim]], None],
+    *,
+    last: Row | None = None,
+    seconds: Mapping[str, float] | None = None,
+    whole: bool = False,
 ) -> Row:
-    """Return what catches a fault: the first verdict or test, in the order of its courts.
+    """Return what catches a fault: what caught it last, or the first verdict or test of its courts.
 
     Parameters
     ----------
@@ -115,23 +142,40 @@ def put_to_the_test(
     studies
         Their names.
     begin
-        Puts the results of a run without a fault into the tree.
+        Puts the results without a fault into the tree, those of the rules of these claims at least.
+    last
+        The row of the last table. Its verdicts that are not asked again stay in the new row.
+    seconds
+        What a rule costs.
+    whole
+        Whether to list all verdicts of the paper that turn, which costs most.
     """
-    test, verdicts, rules, begun = "", [], [], False
-    for court in courts(fault):
-        if court != "tests" and not begun:
-            begin()
-            begun = True
+    sessions = [
+        *([] if whole else last_time(last, ledgers, seconds or {})),
+        *(
+            (court, *((fault.tests, []) if court == "tests" else ([], ledgers[court])))
+            for court in courts(fault, whole)
+        ),
+    ]
+    today, listed = date.today().isoformat(), ""
+    test, verdicts, rules = "", [], []
+    for court, tests, claims in sessions:
+        if claims:
+            begin(claims)
         with faulty(tree, fault):
-            if court == "tests":
-                test = first_failing(tree, fault.tests)
+            if court == "tests" or tests:
+                test = first_failing(tree, tests)
             else:
-                verdicts, raised, _ = workflow(tree, ledgers[court], studies)
+                verdicts, raised, _ = workflow(tree, claims, studies)
                 rules += raised
+        if court == "paper":
+            listed = today
         if test or verdicts:
             break
-    if test and fault.routes != JUDGING and first_failing(tree, [test]):
-        raise RuntimeError(f"{fault.name}: {test} fails without the fault too")
+    if last and court == "last" and (test or verdicts):
+        again = {*last.verdicts.split()} - {claim.id for claim in claims} | {*verdicts}
+        verdicts = [claim.id for rows in ledgers.values() for claim in rows if claim.id in again]
+        rules, listed = [*last.rules.split(), *rules], last.listed
     ways = {"verdict": verdicts, "test": test, "rule": rules}
     return Row(
         name=fault.name,
@@ -142,7 +186,8 @@ def put_to_the_test(
         verdicts=" ".join(verdicts),
         test=test,
         rules=" ".join(dict.fromkeys(rules)),
-        date=date.today().isoformat(),
+        date=today,
+        listed=listed,
     )
 
 
@@ -166,7 +211,8 @@ def page(rows: Sequence[Row], ledger: Iterable[Claim], waiting: Sequence[str] = 
         "Deliberate faults in the physics and in the judging, one at a time, and what catches",
         "each: a verdict of the ledgers, or else a test. Faults in the judging are put to tests",
         f"first. Written by `make kill-table`, by runs from {dates[0]} to {dates[-1]}; verdicts,",
-        "files and dates are in `kill_table.csv`.",
+        "files and dates are in `kill_table.csv`. A run repeats what caught a fault last;",
+        "its column `listed` has the date at which all rules of the paper were asked, if ever.",
         *_waiting(waiting),
         "",
         "| fault | in words | routes that have it | caught by |",

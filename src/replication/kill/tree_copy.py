@@ -34,11 +34,15 @@ def copy_tree(to: Path) -> None:
 
 
 def run(tree: Path, *command: str) -> tuple[int, str]:
-    """Run Python in a tree with the tree's own packages; return its code and all that it said."""
+    """Run Python in a tree with the tree's own packages; return its code and all that it said.
+
+    Compiled code of a kernel with a fault is kept beside the tree, not in the user's cache.
+    """
+    path, cache = os.pathsep.join([str(tree / "src"), str(tree)]), tree.parent / "machine_code"
     with subprocess.Popen(
         [sys.executable, *command],
         cwd=tree,
-        env=os.environ | {"PYTHONPATH": os.pathsep.join([str(tree / "src"), str(tree)])},
+        env=os.environ | {"PYTHONPATH": path, "NUMBA_CACHE_DIR": str(cache)},
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,

@@ -12,6 +12,7 @@ from topheavy.fragility.curve import fit
 from topheavy.fragility.resampling import means_within
 from topheavy.fragility.tables import curve_table, pair_table
 from topheavy.overturning import overturned_together
+from topheavy.records import Record
 
 if TYPE_CHECKING:
     import xarray
@@ -63,6 +64,8 @@ def fragility(
     levels: ArrayLike,
     measure: inputs.Measure = "PGV",
     *,
+    vertical: Sequence[Record] | None = None,
+    scale_vertical: bool = True,
     groups: Sequence[Hashable] | None = None,
     lowered: Iterable[float] = (),
     skewed: bool = False,
@@ -93,6 +96,10 @@ def fragility(
     measure : {"PGV", "PGA"} or callable
         PGV in m/s, integrated from rest without baseline correction; PGA in g; or a function that
         returns the intensity of a motion, in proportion to its scale.
+    vertical : sequence of Record, optional
+        The vertical component of each motion, which starts with it: g, positive upward.
+    scale_vertical : bool
+        Whether a motion is scaled with its vertical component. The measure is that of the motion.
     groups : sequence, optional
         The group of each motion, such as its earthquake. Motions are then resampled only within
         their group; the intervals do not include the scatter between groups, as `sampling` says.
@@ -114,7 +121,8 @@ def fragility(
     Raises
     ------
     ValueError
-        For an argument that is not as above; it names the argument, the value, what was expected.
+        For an argument that is not as above, and for a vertical acceleration of −1 g or less at a
+        level; it names the argument, the value, what was expected.
 
     References
     ----------
@@ -127,7 +135,9 @@ def fragility(
     steps = inputs.checked_levels(levels)
     members = inputs.checked_groups(groups, len(shaking))
     inputs.checked_resampling(confidence, resamples, seed)
-    outcomes = _judged(under, shaking, inputs.factors(shaking, measure, steps))
+    scales = inputs.factors(shaking, measure, steps)
+    ups = inputs.checked_vertical(vertical, shaking, scales if scale_vertical else np.ones(1))
+    outcomes = _judged(under, zip(shaking, ups, scales, strict=True), scale_vertical)
     means = means_within(outcomes, members or [None] * len(shaking), resamples, seed)
     if len(shaking) == 1:
         means[1:] = np.nan  # a resample of one motion is that motion, and shows no scatter
@@ -155,8 +165,15 @@ def fragility(
 
 
 def _judged(
-    under: Sequence[inputs.Variant], motions: Sequence[inputs.Motion], scales: Array
+    under: Sequence[inputs.Variant],
+    motions: Iterable[tuple[inputs.Motion, Record | None, Array]],
+    scale_vertical: bool,
 ) -> Outcomes:
-    """Return which scales overturn, shape (motions, structures, levels)."""
-    blocks, both = [one.block for one in under], zip(motions, scales, strict=True)
-    return np.array([overturned_together(blocks, motion, factors) for motion, factors in both])
+    """Return which factors overturn, shape (motions, structures, levels)."""
+    blocks = [one.block for one in under]
+    return np.array(
+        [
+            overturned_together(blocks, motion, factors, vertical=up, scale_vertical=scale_vertical)
+            for motion, up, factors in motions
+        ]
+    )

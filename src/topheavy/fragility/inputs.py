@@ -13,6 +13,7 @@ from topheavy import checks
 from topheavy.pulses import Pulse
 from topheavy.records import Record
 from topheavy.structures import Column, RockingBlock, Structure
+from topheavy.vertical import both_records, refuse_fall
 
 Motion = Pulse | Record
 Structures = Mapping[str, Structure] | Sequence[Structure]
@@ -149,6 +150,34 @@ def intensities(motions: Sequence[Motion], measure: Measure) -> Array:
         name = f" of record {motion.name!r}" if motion.name else ""
         found.append(checks.positive(f"{called}: {measure}{name}", value, UNITS[measure]))
     return np.array(found)
+
+
+def checked_vertical(
+    vertical: Sequence[Record] | None, motions: Sequence[Motion], factors: Array
+) -> list[Record | None]:
+    """Return the vertical component of each motion, or None for each.
+
+    Raises
+    ------
+    ValueError
+        Unless there is a `Record` for each motion, itself one, that the `factors` on it, a row for
+        each motion or one for all, leave above −1 g.
+    """
+    if vertical is None:
+        return [None] * len(motions)
+    if not isinstance(vertical, Sequence) or len(vertical) != len(motions):
+        raise ValueError(
+            f"vertical is {short(vertical)}; expected a list of {len(motions)} Records, the "
+            "vertical component of each motion"
+        )
+    rows = np.broadcast_to(factors, (len(motions), factors.shape[-1]))
+    for place, (motion, up, scales) in enumerate(zip(motions, vertical, rows, strict=True)):
+        try:
+            refuse_fall(both_records(motion, up)[1], scales)
+        except ValueError as error:
+            told = str(error).removeprefix("vertical: ")
+            raise ValueError(f"vertical[{place}]: {told}") from None
+    return list(vertical)
 
 
 def checked_levels(levels: ArrayLike) -> Array:

@@ -146,55 +146,164 @@ def test_package_that_is_not_that_of_the_copy_is_named(tmp_path, monkeypatch, pa
 # What catches a fault ----------------------------------------------------------------------------
 
 
-def judge(monkeypatch, tree, fault, turned):
-    """Put a fault to the test, where the ledgers in their order turn so."""
+def judge(monkeypatch, tree, fault, turned, *, fails=True, **options):
+    """Put a fault to the test, where the rules of claims turn these; the rules that were asked."""
     asked = []
 
-    def workflow(tree, ledger, studies):
+    def workflow(tree, claims, studies):
         assert (tree / "one.py").read_text(encoding="utf-8") == "x = 2\n"
-        asked.append(ledger)
-        return turned[ledger], ["a_rule"] if ledger == "studies" else [], ""
+        rules = list(dict.fromkeys(claim.rule for claim in claims))
+        asked.extend(rules)
+        return [name for name in turned if name in {c.id for c in claims}], rules[2:], ""
+
+    def first_failing(tree, tests):
+        asked.extend(tests)
+        return "test_one.py::test_one" if fails else ""
 
     monkeypatch.setattr(table, "workflow", workflow)
-    row = table.put_to_the_test(tree, fault, LEDGERS, [], lambda: None)
+    monkeypatch.setattr(table, "first_failing", first_failing)
+    row = table.put_to_the_test(tree, fault, LEDGERS, [], lambda claims: None, **options)
     return row, asked
 
 
-NOTHING = {"paper": [], "studies": []}
-LEDGERS = {"paper": "paper", "studies": "studies"}
+def of(rule, name):
+    return replace(LEDGER[0], id=name, rule=rule, finding="x")
 
 
-def test_fault_of_the_physics_is_put_to_the_paper_then_to_tests_then_to_studies(monkeypatch, tree):
-    row, asked = judge(monkeypatch, tree, ONE, NOTHING | {"paper": ["eq1"]})
-    assert (row.caught_by, row.verdicts, row.test, asked) == ("verdict", "eq1", "", ["paper"])
-    row, asked = judge(monkeypatch, tree, ONE, NOTHING)
-    assert (row.caught_by, row.test) == ("test", "test_one.py::test_one")
-    assert asked == ["paper"]
-    (tree / "test_one.py").write_text("def test_one():\n    pass\n", encoding="utf-8")
-    row, asked = judge(monkeypatch, tree, ONE, NOTHING | {"studies": ["ours"]})
-    assert (row.caught_by, row.verdicts, row.rules) == ("verdict", "ours", "a_rule")
-    assert asked == ["paper", "studies"]
+LEDGERS = {
+    "paper": [of("a", "eq1"), of("b", "eq2"), of("b", "eq3"), of("c", "eq4")],
+    "studies": [of("d", "ours")],
+}
+PAPERS = ["a", "b", "c"]
 
 
-def test_fault_in_a_study_is_put_to_studies_before_tests():
+def test_first_failing_test_is_named(tree):
+    assert table.first_failing(tree, ["test_one.py"]) == ""
+    with faulty(tree, ONE):
+        assert table.first_failing(tree, ["test_one.py"]) == "test_one.py::test_one"
+
+
+def test_new_fault_is_put_to_tests_then_to_the_paper_then_to_studies(monkeypatch, tree):
+    row, asked = judge(monkeypatch, tree, ONE, ["eq1"])
+    assert (row.caught_by, row.test, row.listed) == ("test", "test_one.py::test_one", "")
+    assert asked == ["test_one.py"]
+    row, asked = judge(monkeypatch, tree, ONE, ["eq1", "ours"], fails=False)
+    assert (row.caught_by, row.verdicts, row.rules) == ("verdict", "eq1", "c")
+    assert (asked, row.listed) == (["test_one.py", *PAPERS], row.date)
+    row, asked = judge(monkeypatch, tree, ONE, ["ours"], fails=False)
+    assert (row.caught_by, row.verdicts, asked) == (
+        "verdict",
+        "ours",
+        ["test_one.py", *PAPERS, "d"],
+    )
+    row, _ = judge(monkeypatch, tree, ONE, [], fails=False)
+    assert (row.caught_by, row.rules) == ("rule", "c")
+
+
+def test_whole_list_puts_a_fault_of_the_physics_to_the_paper_first(monkeypatch, tree):
+    row, asked = judge(monkeypatch, tree, ONE, ["eq1"], last=ROW, whole=True)
+    assert (row.verdicts, row.test, asked, row.listed) == ("eq1", "", PAPERS, row.date)
+    row, asked = judge(monkeypatch, tree, ONE, [], last=ROW, whole=True)
+    assert (row.caught_by, asked) == ("test", [*PAPERS, "test_one.py"])
+
+
+def test_fault_in_a_study_is_put_to_studies_before_tests_for_the_whole_list():
     in_study = replace(ONE, changes=(Change("studies/a/steps/one.py", "1", "2"),))
-    assert table.courts(in_study) == ("paper", "studies", "tests")
-    assert table.courts(replace(in_study, routes=JUDGING)) == ("tests", "paper", "studies")
+    assert table.courts(in_study, True) == ("paper", "studies", "tests")
+    assert table.courts(in_study, False) == ("tests", "paper", "studies")
+    assert table.courts(replace(in_study, routes=JUDGING), True) == ("tests", "paper", "studies")
 
 
-def test_fault_in_the_judging_is_put_to_its_tests_first(monkeypatch, tree):
-    fault = replace(ONE, routes=JUDGING)
-    row, asked = judge(monkeypatch, tree, fault, NOTHING)
-    assert (row.caught_by, row.test, asked) == ("test", "test_one.py::test_one", [])
-    (tree / "test_one.py").write_text("def test_one():\n    pass\n", encoding="utf-8")
-    row, asked = judge(monkeypatch, tree, fault, NOTHING)
-    assert (row.caught_by, row.rules, asked) == ("rule", "a_rule", ["paper", "studies"])
+def test_cheapest_rule_that_caught_a_fault_last_is_asked_first(monkeypatch, tree):
+    last = replace(ROW, verdicts="eq1 eq3 eq4", listed="2026-01-01")
+    options = {"last": last, "seconds": {"a": 9.0, "b": 5.0, "c": 7.0}}
+    row, asked = judge(monkeypatch, tree, ONE, ["eq1", "eq2"], **options)
+    assert asked == ["b"]
+    assert row.verdicts == "eq1 eq2 eq4"  # eq3 was asked again, and does not turn
+    assert (row.caught_by, row.listed) == ("verdict", "2026-01-01")
+    assert row.date > row.listed
+    row, asked = judge(monkeypatch, tree, ONE, [], **options)
+    assert (row.caught_by, row.verdicts, row.listed) == ("test", "", "")
+    assert asked == ["b", "test_one.py"]
 
 
-def test_test_that_fails_without_the_fault_catches_nothing(monkeypatch, tree):
-    (tree / "test_one.py").write_text("def test_one():\n    assert False\n", encoding="utf-8")
-    with pytest.raises(RuntimeError, match="test_one fails without the fault too"):
-        judge(monkeypatch, tree, ONE, NOTHING)
+def test_rule_of_a_study_is_asked_first_only_where_none_of_the_paper_turned(monkeypatch, tree):
+    for turned, rule in (("ours", "d"), ("ours eq4", "c")):
+        last = replace(ROW, verdicts=turned)
+        _, asked = judge(monkeypatch, tree, ONE, turned.split(), last=last, seconds={"c": 9.0})
+        assert asked == [rule]
+
+
+def test_test_that_caught_a_fault_last_is_asked_first(monkeypatch, tree):
+    last = replace(ROW, verdicts="", test="test_one.py::test_one", listed="2026-01-01")
+    row, asked = judge(monkeypatch, tree, ONE, ["eq1"], last=last)
+    assert (row.test, row.listed, asked) == (last.test, last.listed, [last.test])
+
+
+# A run -------------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def trees(monkeypatch, tree):
+    """Copies of the tree of one file in which rules a, b and c are run; what ran in which copy."""
+    ran = []
+
+    def workflow(tree, claims, studies, cores=1):
+        rules = sorted({claim.rule for claim in claims})
+        assert all((tree / "results" / rule).exists() for rule in rules) or "2" not in one(tree)
+        (tree / "results").mkdir(exist_ok=True)
+        (tree / ".snakemake").mkdir(exist_ok=True)
+        for rule in rules:
+            (tree / "results" / rule).touch()
+        ran.append((one(tree), rules))
+        return ["eq1"] if "2" in one(tree) and "a" in rules else [], [], ""
+
+    def one(tree):
+        return (tree / "one.py").read_text(encoding="utf-8")
+
+    for name, value in {
+        "TABLE": tree / "table",
+        "ROOT": tree,
+        "ledgers": lambda: LEDGERS,
+        "studies": list,
+        "ledger_files": list,
+        "current": lambda rows, *given: rows,
+        "check_imports": lambda tree: None,
+        "copy_tree": lambda to: shutil.copytree(tree, to),
+    }.items():
+        monkeypatch.setattr(command, name, value)
+
+    def first_failing(tree, tests, cores=1):
+        assert not (tree / "results").exists()
+        return "test_one.py::test_one" if "2" in one(tree) else ""
+
+    for module in (command, table):
+        monkeypatch.setattr(module, "workflow", workflow)
+        monkeypatch.setattr(module, "first_failing", first_failing)
+    return ran
+
+
+def test_rules_that_are_asked_run_once_without_a_fault_and_no_test_sees_results(trees, tree):
+    table.write([ROW, replace(ROW, name="two")], [], tree / "table.csv")
+    faults = [replace(ONE, name=name) for name in ("one", "two", "three")]
+    rows = {row.name: row.caught_by for row in command.kill_table(faults)}
+    assert rows == {"one": "verdict", "two": "verdict", "three": "test"}
+    assert trees == [("x = 1\n", ["a"]), ("x = 2\n", ["a"]), ("x = 2\n", ["a"])]
+    assert set(rows) == {row.name for row in command.kill_table(faults, cores=2)}
+
+
+def test_test_that_fails_without_a_fault_stops_the_run(trees, tree, monkeypatch):
+    table.write([ROW], [], tree / "table.csv")
+    monkeypatch.setattr(command, "first_failing", lambda *given: "it")
+    with pytest.raises(RuntimeError, match="without a fault: it fails"):
+        list(command.kill_table([ONE]))
+
+
+def test_verdict_that_turns_without_a_fault_stops_the_run(trees, tree, monkeypatch):
+    table.write([replace(ROW, verdicts="eq1")], [], tree / "table.csv")
+    monkeypatch.setattr(command, "workflow", lambda *given: (["eq1"], [], "said"))
+    with pytest.raises(RuntimeError, match=r"without a fault: \['eq1'\] turn"):
+        list(command.kill_table([ONE]))
 
 
 def test_verdict_is_that_of_the_findings_and_of_what_ran():
@@ -242,6 +351,12 @@ def test_fault_that_changed_is_run_again(found, other):
 def test_fault_whose_file_changed_is_run_again(found, tree):
     (tree / "one.py").write_text("x = 1\ny = 1\n", encoding="utf-8")
     assert command.left([ONE], command.kept(found)) == [ONE]
+
+
+def test_whole_list_is_made_once(found):
+    assert command.left([ONE], command.kept(found), whole=True) == [ONE]
+    command.keep(found, ONE, replace(ROW, listed="2026-01-01"))
+    assert command.left([ONE], command.kept(found), whole=True) == []
 
 
 def test_survivor_is_run_again(found):
