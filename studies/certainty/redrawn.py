@@ -5,8 +5,12 @@ from studies.certainty.steps import (
     extensions,
     intensities,
     lowest,
+    reach,
     records,
+    rescaled,
+    restarted,
     restitution,
+    shares,
     theorem,
 )
 
@@ -15,8 +19,12 @@ SOURCES = {
     "certainty_extensions": extensions.findings,
     "certainty_intensities": intensities.findings,
     "certainty_lowest": lowest.findings,
+    "certainty_reach": reach.findings,
     "certainty_records": records.findings,
+    "certainty_rescaled": rescaled.findings,
+    "certainty_restarted": restarted.findings,
     "certainty_restitution": restitution.findings,
+    "certainty_shares": shares.findings,
     "certainty_theorem": theorem.findings,
 }
 
