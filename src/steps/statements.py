@@ -8,7 +8,7 @@ import sympy as sp
 from replication.workbench import run, truth
 from topheavy import STANDARD_GRAVITY, Column, Pulse, RockingFrame, simulate
 from topheavy.derivation import NEGATIVE, POSITIVE, cap_motion, premises
-from topheavy.derivation.notation import acceleration, alpha, read, vanishes
+from topheavy.derivation.notation import acceleration, read, vanishes
 from topheavy.derivation.printed import EQUATIONS
 from topheavy.kinematics import cap_acceleration, cap_displacement, column_outline
 from topheavy.massless_columns import simplified
@@ -162,8 +162,8 @@ def structure(frame: RockingFrame, mass_ratios: list[float]) -> dict:
             vanishes(
                 (
                     read(getattr(names[name], version), side)[1]
-                    - read(getattr(names["eq23"], version), side)[1]
-                ).subs({"a": alpha, "p": p}),
+                    - read(names["eq23"].printed, side)[1]
+                ).subs({"p": p}),
                 side,
             )
             for name, side in sides.items()

@@ -11,6 +11,7 @@ A block with κ = 0 is that of Eq. (23).
 """
 
 import math
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,6 +19,8 @@ from scipy.integrate import solve_ivp
 
 from topheavy.excitation import Excitation
 from topheavy.structures import RockingBlock
+
+Array: TypeAlias = NDArray[np.float64]
 
 FLAT = 1.3  # rad; a block that has reached it stays there
 STILL = 1e-5  # over α p: an impact that leaves a slower block ends the motion
@@ -28,9 +31,10 @@ def least_stiffness(block: RockingBlock) -> float:
     return 1.0 / math.cos(block.slenderness)
 
 
-def restoring_moment(block: RockingBlock, kappa: ArrayLike, phi: ArrayLike) -> NDArray[np.float64]:
+def restoring_moment(block: RockingBlock, kappa: ArrayLike, phi: ArrayLike) -> Array:
     """Return the restoring moment over m g R at |θ| = φ (rad), for the tendon stiffness κ."""
-    return np.sin(block.slenderness - np.asarray(phi)) + np.asarray(kappa) * np.sin(phi)
+    moment: Array = np.sin(block.slenderness - np.asarray(phi)) + np.asarray(kappa) * np.sin(phi)
+    return moment
 
 
 def restrained_peaks(
@@ -41,7 +45,7 @@ def restrained_peaks(
     *,
     duration: float,
     time_step: float,
-) -> NDArray[np.float64]:
+) -> Array:
     """Return the largest |θ| (rad) of blocks with tendons, by the classical Runge–Kutta method.
 
     Parameters
@@ -61,8 +65,9 @@ def restrained_peaks(
     phi, rate, side, peak = (np.zeros(scales.shape) for _ in range(4))
     level, h = block.uplift_acceleration, time_step
 
-    def acceleration(phi: NDArray, side: NDArray, push: NDArray) -> NDArray:
-        return p**2 * (-restoring_moment(block, kappa, phi) - side * push * np.cos(phi - alpha))
+    def acceleration(phi: Array, side: Array, push: Array) -> Array:
+        pushed: Array = side * push * np.cos(phi - alpha)
+        return -(p**2) * (restoring_moment(block, kappa, phi) + pushed)
 
     for step in range(steps):
         first, middle, last = (scales * ground[2 * step + half] for half in range(3))
@@ -92,9 +97,9 @@ def restrained_peaks(
     return peak
 
 
-def _before_crossing(phi: NDArray, rate: NDArray, pull: NDArray) -> NDArray:
+def _before_crossing(phi: Array, rate: Array, pull: Array) -> Array:
     """Return how long before the end of a step φ was 0, by its last position, rate and pull."""
-    before = phi / rate
+    before: Array = phi / rate
     for _ in range(4):  # φ − rate t + pull t²/2 = 0
         before = before - (phi - rate * before + 0.5 * pull * before**2) / (pull * before - rate)
     return before
@@ -114,10 +119,10 @@ def restrained_peak_by_scipy(
     times = np.linspace(0.0, duration, 50 * math.ceil(duration / longest_step) + 1)
     strong = np.abs(motion.excitation(times)) > block.uplift_acceleration
 
-    def returns(t: float, y: NDArray) -> float:
+    def returns(t: float, y: Array) -> float:
         return float(y[0])
 
-    def lies_flat(t: float, y: NDArray) -> float:
+    def lies_flat(t: float, y: Array) -> float:
         return float(y[0]) - FLAT
 
     returns.direction, returns.terminal, lies_flat.terminal = -1.0, True, True  # type: ignore[attr-defined]
@@ -130,7 +135,7 @@ def restrained_peak_by_scipy(
             time, rate = float(later[0]), 0.0
             side = -math.copysign(1.0, motion.excitation(time))
 
-        def moves(t: float, y: NDArray, side: float = side) -> tuple[float, float]:
+        def moves(t: float, y: Array, side: float = side) -> tuple[float, float]:
             free = math.sin(y[0] - alpha) - side * motion.excitation(t) * math.cos(y[0] - alpha)
             return y[1], p**2 * (free - kappa * math.sin(y[0]))
 

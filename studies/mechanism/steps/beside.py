@@ -1,7 +1,7 @@
 """The frame beside its column in the rigid-body engine: which of the two overturns first.
 
 Boxes with unilateral contacts and friction are what a discrete element program computes; Papaloizou
-& Komodromos (2009) compared columns with and without epistyles in such a program.
+& Komodromos (2009) compared columns with and without cap beams in such a program.
 """
 
 import numpy as np
