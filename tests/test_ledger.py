@@ -122,3 +122,12 @@ def test_what_is_not_tested_or_cannot_be_false_has_no_finding():
     for row in LEDGER:
         without = row["expected"] in ("not tested", "by definition")
         assert ("finding" in row) != without, row["id"]
+
+
+def test_limits_are_of_claims_of_the_ledgers():
+    rows = [row for _, _, row in read_rows([ROOT / "paper" / "claims.yaml", *STUDIES])]
+    known = {row["id"]: row for row in rows}
+    limits = yaml.safe_load((ROOT / "paper" / "limits.yaml").read_text(encoding="utf-8"))
+    named = [name for row in limits for name in row["claims"]]
+    assert set(named) <= set(known)
+    assert all("finding" in known[name] for name in named)

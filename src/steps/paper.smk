@@ -12,6 +12,7 @@ CHECKS = {
         "published_numbers",
         "library_follows_the_derivation",
     ],
+    "negative_stiffness": ["second_route", "stiffness_is_positive"],
     "spectra": ["sample_agrees"],
     "spectra_dimensional": ["published_amplitude"],
     "rocking_spectra": ["second_route"],
@@ -254,6 +255,18 @@ rule uplift_limits:
         "The forces of frames that rock, and of frames held against uplift"
     script:
         "uplift_limits.py"
+
+
+rule negative_stiffness:
+    output:
+        table="results/tables/negative_stiffness.csv",
+        findings="results/findings/negative_stiffness.json",
+    params:
+        case=case("negative_stiffness"),
+    message:
+        "The same frame with a stiffness that stays positive"
+    script:
+        "negative_stiffness.py"
 
 
 rule scale_effects:

@@ -24,6 +24,7 @@ TABLES = (
     "heavier",
     "mass_ratio",
     "moment_rotation",
+    "negative_stiffness",
     "quarter_period",
     "restitution_over_mass_ratio",
     "restitution_over_slenderness",

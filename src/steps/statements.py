@@ -14,7 +14,7 @@ import sympy as sp
 from replication.workbench import Finding, run, truth
 from topheavy import STANDARD_GRAVITY, Column, Pulse, RockingFrame, simulate
 from topheavy.derivation import NEGATIVE, POSITIVE, cap_motion, premises
-from topheavy.derivation.notation import acceleration, alpha, read, vanishes
+from topheavy.derivation.notation import acceleration, read, vanishes
 from topheavy.derivation.printed import EQUATIONS
 from topheavy.kinematics import cap_acceleration, cap_displacement, column_outline
 from topheavy.massless_columns import simplified
@@ -116,7 +116,7 @@ def oscillator(
         off = np.nanmax(np.abs(usual.rotation - tight.rotation)) / frame.slenderness
         errors[f"{ERROR}{gamma:g}"] = float(off)
 
-    responses = [equation.name for equation in EQUATIONS if equation.printed.startswith("θ =")]
+    offered = [one.name for one in EQUATIONS if "γ" in one.printed and len(one.sides) == 2]
     nearly, limit = RockingFrame(column, 1e9).block().linear(), simplified(frame, "all")
     return {
         "time_scales_with_p": {"apart": scaled},
@@ -133,7 +133,7 @@ def oscillator(
             "least after": after.min(),
             "largest after": after.max(),
         },
-        "solved_for_any_mass_ratio": errors | {f"{PRINTED}{name}": 1.0 for name in responses},
+        "solved_for_any_mass_ratio": errors | {f"{PRINTED}{name}": 1.0 for name in offered},
         "massless_columns_are_a_limit": {
             "p̂": abs(nearly.frequency_parameter / limit.frequency_parameter - 1.0),
             "√r": abs(nearly.restitution / limit.restitution - 1.0),
@@ -171,8 +171,8 @@ def structure(frame: RockingFrame, mass_ratios: list[float]) -> Measured:
             vanishes(
                 (
                     read(getattr(names[name], version), side)[1]
-                    - read(getattr(names["eq23"], version), side)[1]
-                ).subs({"a": alpha, "p": p}),
+                    - read(names["eq23"].printed, side)[1]
+                ).subs({"p": p}),
                 side,
             )
             for name, side in sides.items()
@@ -228,13 +228,9 @@ def _identical(of: pd.Series) -> Finding:
 
 def _solved(of: pd.Series) -> Finding:
     errors = of[of.index.str.startswith(ERROR)]
-    printed = [one.removeprefix(PRINTED) for one in of.index.drop(errors.index)]
-    solved = bool(errors.max() < SOLVED)
+    offered = {one.removeprefix(PRINTED) for one in of.index.drop(errors.index)}
     return truth(
-        solved and bool(printed),
-        holds_when=solved,
-        condition="what is offered for any γ is the equation, not a response",
-        printed_responses=printed,
+        bool(errors.max() < SOLVED) and offered == {"eq23", "eq24", "eq25"},
         error_over_alpha={name.removeprefix(ERROR): error for name, error in errors.items()},
     )
 

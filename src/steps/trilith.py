@@ -148,19 +148,6 @@ def tilted(frame: RockingFrame, angle: float) -> RockingFrame:
     )
 
 
-def anomalies(frame: RockingFrame, case: dict) -> dict[str, float]:
-    """Return minor anomalies of the contact, and whether the tested motion then lifts the frame."""
-    column, minor = frame.column, case["minor"]
-    motion = case["table_amplitude"], case["table_frequency"], 4.0 / case["table_frequency"]
-    narrower = Column(column.half_width - minor["edge"], column.half_height)
-    return {
-        "minor_edge_mm": 1e3 * minor["edge"],
-        "minor_tilt_deg": minor["tilt"],
-        "narrower_lifts": lifts(replace(frame, column=narrower), *motion),
-        "tilted_lifts": lifts(tilted(frame, math.radians(minor["tilt"])), *motion),
-    }
-
-
 def starts(
     frame: RockingFrame, case: dict, tightened: float
 ) -> tuple[list[dict], list[dict], dict[str, float]]:
@@ -239,23 +226,8 @@ def of_starts(starts: pd.DataFrame, limits: pd.Series) -> dict[str, Finding]:
     }
 
 
-def of_anomalies(near: pd.DataFrame, limits: pd.Series) -> Finding:
-    """Return whether minor anomalies of the contact let the tested motion lift the frame."""
-    enough = near.set_index("quantity").other_side_lifts
-    return truth(
-        limits.narrower_lifts or limits.tilted_lifts,
-        holds_when=bool(enough["effective_width_of_columns"] and enough["tilt_of_the_base"]),
-        condition="the base loses the width, or is tilted by the angle, that is stated",
-        minor_edge_mm=limits.minor_edge_mm,
-        minor_tilt_deg=limits.minor_tilt_deg,
-    )
-
-
 def no_pure_rocking(started: dict[str, Finding]) -> Finding:
-    """Return whether there was no pure rocking below the uplift acceleration, as the paper says.
-
-    It explains the response that was measured by anomalies of the contact surfaces.
-    """
+    """Return whether there was no pure rocking below the uplift acceleration, as the paper says."""
     rests = started["rest_from_rest"].holds
     return truth(
         rests and not started["abrupt_start_keeps_it_rocking"].holds,
@@ -279,7 +251,6 @@ def findings(
         **numbers,
         **started,
         **of_nearness(trilith_nearness),
-        "contact_anomalies": of_anomalies(trilith_nearness, limits),
         "acceleration_over_uplift": over_uplift,
         "no_pure_rocking": no_pure_rocking(started),
     }
@@ -305,7 +276,7 @@ def of_nearness(near: pd.DataFrame) -> dict[str, Finding]:
 def main(case: dict, printed: dict[str, Any], tightened: float) -> tuple:
     frame = RockingFrame(Column(**case["column"]), case["mass_ratio"])
     summary, histories, limits = starts(frame, case, tightened)
-    limits = {name: float(one) for name, one in (limits | anomalies(frame, case)).items()}
+    limits = {name: float(one) for name, one in limits.items()}
     tables = (
         numbers(frame, case),
         pd.DataFrame(nearness(frame, case)),

@@ -150,6 +150,15 @@ def slopes(case: dict) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
+def sliding_shear(peak: pd.Series, friction: float) -> pd.Series:
+    """Return the largest V/W of a rigid block on dry friction under a peak acceleration (g).
+
+    A block that sticks has V/W = |ü_g|/g, at most μ; one that slides has V/W = μ. A block with
+    μ = tan α slides when a column of slenderness α would uplift.
+    """
+    return np.minimum(peak, friction)
+
+
 def _shear_at_rest(frame: RockingFrame, factor: float) -> float:
     """Return V/W of three bodies at rest that ü_g = factor · g tan α turns to the left."""
     bodies = ThreeBodies(frame, span=5.0 * frame.column.size, cap_depth=frame.column.size)
@@ -293,6 +302,8 @@ def findings(
     """Return what uplift limits, from the tables of histories, ratios, slopes and second routes."""
     table, ratios, bodies = uplift_limits, uplift_ratios, uplift_slopes.dropna()
     stands = table[table.outcome != "overturned"]
+    slid = sliding_shear(table.peak_acceleration, column.uplift_acceleration)
+    slid = slid / table.peak_acceleration
     over_uplift = stands.base_shear / stands.shear_after_uplift
     rigid = ratios[ratios.held == RIGID]
     totals = rigid[rigid.force != "bending_moment"]
@@ -329,10 +340,14 @@ def findings(
             ),
         ),
         "uplift_is_beneficial": truth(
-            fell == 0 and ratios.largest.max() < 1.0,
-            holds_when=totals[totals.force == "base_shear"].largest.max() < 1.0,
-            condition="the frame survives; of the base shear, beside a rigid frame",
+            fell == 0 and ratios.largest.max() < 1.0 and slid.max() < 1.0,
+            holds_when=totals[totals.force == "base_shear"].largest.max() < 1.0
+            and slid.max() < 1.0,
+            condition="the frame survives; it means the base shear, beside a held rigid frame",
             **counted,
+            sliding_least=slid.min(),
+            sliding_largest=slid.max(),
+            largest_shear_over_sliding=(stands.base_shear / column.uplift_acceleration).max(),
             largest_rotation_over_alpha=stands.rotation.max(),
             largest_impulse=stands.impulse.max(),
         ),

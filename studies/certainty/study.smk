@@ -21,6 +21,18 @@ rule certainty_theorem:
         "steps/theorem.py"
 
 
+rule certainty_restarted:
+    output:
+        table="results/tables/certainty_restarted.csv",
+        findings="results/findings/certainty_restarted.json",
+    params:
+        case=PARTS["certainty"].config["restarted"],
+    message:
+        "Study certainty: no reversal since a common rest, with vertical motion"
+    script:
+        "steps/restarted.py"
+
+
 rule certainty_lowest:
     output:
         table="results/tables/certainty_lowest.csv",
@@ -142,3 +154,47 @@ rule certainty_records:
         "Study certainty: the records as measured"
     script:
         "steps/records.py"
+
+
+rule certainty_rescaled:
+    input:
+        records=record_paths(case("records", "certainty")["records"], RECORDS),
+    output:
+        table="results/tables/certainty_rescaled.csv",
+        findings="results/findings/certainty_rescaled.json",
+    params:
+        case=case("records", "certainty"),
+        spec=PARTS["certainty"].config["rescaled"],
+        structures=named(config["structures"], case("records", "certainty")),
+    message:
+        "Study certainty: the records a little larger or smaller"
+    script:
+        "steps/rescaled.py"
+
+
+rule certainty_reach:
+    input:
+        records=record_paths(case("reach", "certainty")["records"], RECORDS),
+    output:
+        table="results/tables/certainty_reach.csv",
+        findings="results/findings/certainty_reach.json",
+    params:
+        case=case("reach", "certainty"),
+        ensemble=ENSEMBLE,
+    message:
+        "Study certainty: how often overturning is without an impact"
+    script:
+        "steps/reach.py"
+
+
+rule certainty_shares:
+    output:
+        table="results/tables/certainty_shares.csv",
+        findings="results/findings/certainty_shares.json",
+    params:
+        case=case("shares", "certainty"),
+        ensemble=ENSEMBLE,
+    message:
+        "Study certainty: shares of α, p̂ and √r in the probability"
+    script:
+        "steps/shares.py"

@@ -38,6 +38,12 @@ WRONG = [
     ),
     (
         reversal,
+        "linearised",
+        lambda side: reversal._phi * (1 + reversal._a) - alpha,
+        reversal.difference_grows_under_vertical_acceleration,
+    ),
+    (
+        reversal,
         "frequency_ratio",
         lambda: 1 + gamma,
         reversal.mass_ratio_leaves_only_the_time_scale,

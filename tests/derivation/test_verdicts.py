@@ -18,7 +18,6 @@ FAULTS = {
     "eq20": "convention",
     "eq21": "convention",
     "eq22": "sign",
-    "eq23": "letter",
     "text_p_hat": "radical",
     "text_p_hat_trilith": "bracket",
 }

@@ -27,7 +27,8 @@ def claims_by_id():
     return {claim.id: claim for claim in read_ledger([ROOT / "paper" / "claims.yaml"])}
 
 
-LEDGER = read("paper/assumptions.yaml")
+WHOLE = read("paper/assumptions.yaml")
+LEDGER = WHOLE["open"]
 SCHEMA = read("paper/assumptions.schema.yaml")
 CONFIG = read("config/config.yaml")
 CLAIMS = set(claims_by_id())
@@ -42,7 +43,7 @@ COSINE = Pulse("one-cosine", 0.25, 6.0)
 
 def test_the_ledger_is_well_formed():
     Draft202012Validator.check_schema(SCHEMA)
-    faults = [error.message for error in Draft202012Validator(SCHEMA).iter_errors(LEDGER)]
+    faults = [error.message for error in Draft202012Validator(SCHEMA).iter_errors(WHOLE)]
     assert faults == []
 
 
@@ -51,7 +52,16 @@ def test_the_ledger_is_well_formed():
     [{"id": "Upper"}, {"alternatives": []}, {"reaches": []}, {"where": "here"}, {"extra": "x"}],
 )
 def test_the_schema_refuses(change):
-    assert not Draft202012Validator(SCHEMA).is_valid([LEDGER[0] | change])
+    assert not Draft202012Validator(SCHEMA).is_valid(WHOLE | {"open": [LEDGER[0] | change]})
+
+
+def test_what_an_assumption_requires_is_computed_by_claims_of_ours_that_are_tested():
+    ledgers = [ROOT / "paper" / "claims.yaml", *ROOT.glob("studies/*/claims.yaml")]
+    claims = {claim.id: claim for claim in read_ledger(ledgers)}
+    for row in WHOLE["assumed"]:
+        assert row["id"] not in claims
+        assert {claims[name].expected for name in row["claims"]} <= {"confirmed", "qualified"}
+        assert all(claims[name].study for name in row["claims"])
 
 
 def test_every_alternative_is_run_and_no_other():

@@ -8,7 +8,7 @@ import pytest
 
 from replication.judging.claim import Claim
 from replication.judging.findings import Findings
-from replication.judging.ledger import with_verdict
+from replication.judging.ledger import REPRODUCED, with_verdict
 from replication.origin.recorded import Crate
 from replication.pages import edition as publishing
 from replication.pages.edition import (
@@ -107,6 +107,29 @@ def test_paper_and_studies_have_a_table_each():
     assert "`trilith_size`" in paper
     assert "`ours`" not in paper
     assert "`ours`" in study
+
+
+@pytest.mark.parametrize(
+    ("changes", "shown"),
+    [
+        (
+            {"verdict": "qualified", "condition": "the pulse has one lobe"},
+            "on condition: the pulse has one lobe",
+        ),
+        ({"verdict": "qualified"}, "in another convention"),
+        ({"verdict": "slip"}, "as meant"),
+        ({"verdict": "misprint"}, "as meant"),
+        ({"verdict": "refuted"}, "does not hold"),
+    ],
+)
+def test_no_qualified_claim_is_said_not_to_hold(changes, shown):
+    assert cells(computed=False, **changes)[4] == shown
+
+
+def test_numbers_that_a_new_run_gives_again_are_listed_apart_and_not_counted():
+    again = replace(ROW, id="again", study=REPRODUCED)
+    assert "`again`" in verdict_page([ROW, again]).split("## Numbers of ours")[1]
+    assert count_table([ROW, again]) == count_table([ROW])
 
 
 def test_counts_are_of_the_paper_and_of_each_study():

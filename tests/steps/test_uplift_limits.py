@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pandas as pd
 import pytest
+from scipy.integrate import solve_ivp
 
 from replication.workbench import truth
 from steps import uplift_limits
@@ -284,3 +285,20 @@ def test_larger_forces_are_not_limited(monkeypatch, factor):
     found = uplift_limits.main(CASE, [])[-1]
     assert not found["largest_shear_is_that_of_uplift"]["holds"]
     assert not found["uplift_limits_forces"]["holds_when"]
+
+
+@pytest.mark.parametrize(("amplitude", "friction"), [(0.4, 0.2), (0.15, 0.2)])
+def test_sliding_block_has_at_most_the_shear_of_its_friction(amplitude, friction):
+    """By SciPy, with a friction that is full from a small velocity on."""
+    smooth = 1e-4  # m/s
+
+    def force(velocity):  # over the weight
+        return -friction * np.tanh(velocity / smooth)
+
+    def moves(t, y):
+        return [9.81 * (force(y[0]) - amplitude * np.sin(6.0 * t))]
+
+    found = solve_ivp(moves, (0.0, 3.0), [0.0], method="Radau", max_step=0.005, rtol=1e-8)
+    largest = np.abs(force(found.y[0])).max()
+    shear = uplift_limits.sliding_shear(pd.Series([amplitude]), friction)
+    assert largest == pytest.approx(shear[0], rel=2e-3)

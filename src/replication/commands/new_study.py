@@ -8,7 +8,7 @@ from pathlib import Path
 
 from replication.commands.words import LIST, findings
 from replication.inputs.strict_yaml import read_word, read_yaml
-from replication.judging.ledger import OURS
+from replication.judging.ledger import OURS, REPRODUCED
 from replication.judging.verdicts import by_origin
 
 SKELETON = "skeleton"
@@ -63,7 +63,7 @@ def _meaning(name: str, root: Path) -> str | None:
         return f"which YAML reads as {value!r}, and the config names its studies in YAML"
     if keyword.iskeyword(name):
         return "a keyword of Python, and the tests of a study import its steps by its name"
-    if name in {*by_origin([]), OURS}:
+    if name in {*by_origin([]), OURS, REPRODUCED}:
         return "under which the verdicts count claims that belong to no study"
     if f"{name}/" in (root / ".gitignore").read_text(encoding="utf-8").splitlines():
         return "the name of folders that .gitignore keeps out of git"

@@ -13,8 +13,9 @@ class Claim:
     """A row of the ledger. The head of paper/claims.yaml explains the fields of a row.
 
     Two fields are not part of the row. `study` names the source of the claim: a study, "" for the
-    paper, or `ledger.OURS` for a claim of ours that supports claims of the paper. `ledger` is the
-    file that names its rule and finding.
+    paper, `ledger.OURS` for a claim of ours that supports claims of the paper, or
+    `ledger.REPRODUCED` for a number of ours that a new run gives again. `ledger` is the file that
+    names its rule and finding.
     """
 
     id: str
@@ -30,6 +31,7 @@ class Claim:
     finding: str = ""
     by_definition: bool = False
     ours: bool = False
+    reproduced: bool = False
     expected: str
     remark: str = ""
     study: str = ""
@@ -70,6 +72,7 @@ class JudgedClaim:
     computed: float | bool | None
     meant: float | None
     kind: str
+    condition: str
     error: float | None
     unit: str
     tolerance: float | None

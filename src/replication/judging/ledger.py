@@ -14,6 +14,7 @@ from replication.judging.findings import CALLED, Finding, Findings
 from replication.judging.verdicts import verdict_on
 
 OURS = "ours"
+REPRODUCED = "reproduced"
 JUDGED_BY = ("function", "rule", "finding", "expected", "remark", "by_definition")
 
 
@@ -33,7 +34,7 @@ def read_ledger(paths: Iterable[str | Path]) -> list[Claim]:
         statement of an earlier claim. When a row has an unknown key or lacks a required one.
     """
     return [
-        Claim.of(row, path, OURS if row.get("ours") else study)
+        Claim.of(row, path, next((one for one in (OURS, REPRODUCED) if row.get(one)), study))
         for path, study, row in read_rows(paths)
     ]
 
@@ -137,6 +138,7 @@ def with_verdict(
         computed=found.holds if found.value is None else found.value,
         meant=found.meant_value,
         kind=found.kind or "",
+        condition=found.entries.get("condition", "") if verdict == "qualified" else "",
         error=found.error,
         unit=claim.unit,
         tolerance=claim.tolerance,

@@ -14,16 +14,23 @@ from replication.inputs.strict_yaml import read_yaml
 from replication.judging.claim import Claim, JudgedClaim
 from replication.judging.digits import numbers
 from replication.judging.findings import Findings, findings_by_rule, write_findings
-from replication.judging.ledger import OURS, as_text, read_ledger, with_verdicts
+from replication.judging.ledger import OURS, REPRODUCED, as_text, read_ledger, with_verdicts
 from replication.judging.verdicts import VERDICTS, by_origin
 from replication.origin.recorded import read_crate
 
-TITLES = {"": "The paper", OURS: "Not the paper's claims, and its claims rest on them"}
+TITLES = {
+    "": "The paper",
+    OURS: "Not the paper's claims, and its claims rest on them",
+    REPRODUCED: "Numbers of ours, rounded from an earlier run",
+}
 """The sections of docs/verdicts.md that are not a study's."""
 
 OF_STUDIES = (
-    "These claims are ours. A remark says where we chose a number or a limit after an earlier run; "
-    "the verdict then says that a new run agrees, not that we predicted it."
+    "These claims are ours. A remark says where we chose a limit after an earlier run; the verdict "
+    "then says that a new run agrees, not that we predicted it."
+)
+OF_REPRODUCED = (
+    "Their verdicts say that a new run gives the same number again. They count nowhere as evidence."
 )
 
 CHECKSUMS = "checksums.txt"
@@ -50,8 +57,8 @@ def verdict_page(rows: Sequence[JudgedClaim]) -> str:
     for study, own in parts.items():
         title = TITLES.get(study, f"The study `{study}`")
         lines += ["", f"## {title}", ""]
-        if study not in TITLES:
-            lines += [OF_STUDIES, ""]
+        if study == REPRODUCED or study not in TITLES:
+            lines += [OF_REPRODUCED if study == REPRODUCED else OF_STUDIES, ""]
         lines += verdict_table(own)
     return "\n".join(lines) + "\n"
 
@@ -69,7 +76,7 @@ def verdict_table(rows: Sequence[JudgedClaim]) -> list[str]:
             row.where,
             row.statement,
             _shown(row.printed, digits.get("printed", ""), row.unit),
-            _shown(row.computed, digits.get("computed", ""), row.unit),
+            computed_words(row) or _shown(row.computed, digits.get("computed", ""), row.unit),
             row.verdict,
             row.remark,
         ]
@@ -77,10 +84,22 @@ def verdict_table(rows: Sequence[JudgedClaim]) -> list[str]:
     return lines
 
 
+def computed_words(row: JudgedClaim) -> str:
+    """Return how a statement holds that is true on a condition, or as it is meant; or nothing."""
+    if row.computed is not False:
+        return ""
+    if row.verdict == "qualified":
+        return f"on condition: {row.condition}" if row.condition else "in another convention"
+    return "as meant" if row.verdict in ("slip", "misprint") else ""
+
+
 def count_table(rows: Sequence[JudgedClaim]) -> list[str]:
-    """Return the lines of a table that counts the verdicts, of the paper and of each study."""
+    """Return the lines of a table that counts the verdicts, of the paper and of each study.
+
+    Numbers of ours that a new run gives again are not counted.
+    """
     lines = [COUNTS_HEAD, "|---" * (len(VERDICTS) + 1) + "|"]
-    for name, verdicts in by_origin(rows).items():
+    for name, verdicts in by_origin(row for row in rows if row.study != REPRODUCED).items():
         cells = [name if name in ("paper", OURS) else f"study `{name}`"]
         cells += [str(verdicts.count(verdict)) for verdict in VERDICTS]
         lines.append("| " + " | ".join(cells) + " |")

@@ -80,7 +80,7 @@ def main(assumptions: list[dict], ledger: dict[str, Claim], cases: Cases, tighte
 
 
 def work(job: Any) -> list[dict]:
-    assumptions = read_yaml(job.input.assumptions)
+    assumptions = read_yaml(job.input.assumptions)["open"]
     cases = job.params.cases | {"records": [read_record(path) for path in job.input.records]}
     ledger = {claim.id: claim for claim in read_ledger([job.input.ledger])}
     return main(assumptions, ledger, cases, job.params.solver["tightened"])

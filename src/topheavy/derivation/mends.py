@@ -16,7 +16,7 @@ import sympy as sp
 
 from topheavy.derivation.notation import F_x1, F_x2, F_z1, F_z2
 
-Kind = Literal["convention", "letter", "bracket", "radical", "sign", "number"]
+Kind = Literal["convention", "bracket", "radical", "sign", "number"]
 KINDS: tuple[Kind, ...] = get_args(Kind)
 """From the smallest mend to the largest. A convention changes nothing in the printed form."""
 
@@ -27,7 +27,6 @@ CONVENTIONS: dict[str, dict[sp.Symbol, sp.Expr]] = {
 """Which forces may be counted in the other direction. The paper says in words (p. 3) that the
 ground is positive to the right and a rotation to the left negative, so these stay."""
 
-_ALIKE = {"a": "α", "y": "γ"}
 _BEGIN = re.compile(r"(?<![^ (])(?=[^ )])")
 _END = re.compile(r"(?<=[^ (])(?![^ )])")
 
@@ -53,9 +52,6 @@ class Mend:
 
 def smallest_mend(printed: str, holds: Callable[[Mend], bool]) -> Mend | None:
     """Return the smallest mend of a printed form under which it holds, None if there is none.
-
-    A letter that is read as the one that it looks like changes no statement, and may go with a
-    larger mend, which then names the kind.
 
     Parameters
     ----------
@@ -92,21 +88,10 @@ def mended_quotient(over: float, under: float, printed: str) -> tuple[Mend, floa
 def mends(printed: str) -> Iterator[Mend]:
     """Yield the mends of a form, the smallest first."""
     yield from (Mend("convention", printed, name) for name in CONVENTIONS)
-    read = list(_letters(printed))
-    yield from (Mend("letter", text) for text in read)
-    for text in (printed, *read):
-        yield from (Mend("bracket", other) for other in _brackets(text))
-        yield from (Mend("radical", other) for other in _radicals(text))
-        yield from (Mend("sign", other) for other in _signs(text))
-        yield from (Mend("number", other) for other in _numbers(text))
-
-
-def _letters(text: str) -> Iterator[str]:
-    """Yield the form with one Latin letter read throughout as the Greek one that it looks like."""
-    for letter, meant in _ALIKE.items():
-        other = re.sub(rf"(?<![^\W\d]){letter}(?!\w)", meant, text)
-        if other != text:
-            yield other
+    yield from (Mend("bracket", other) for other in _brackets(printed))
+    yield from (Mend("radical", other) for other in _radicals(printed))
+    yield from (Mend("sign", other) for other in _signs(printed))
+    yield from (Mend("number", other) for other in _numbers(printed))
 
 
 def _brackets(text: str) -> Iterator[str]:

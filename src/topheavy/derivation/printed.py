@@ -2,7 +2,8 @@
 
 Each equation is written as in our transcription of the paper, with round brackets for all brackets,
 a function's argument in brackets, and a denominator after a solidus in brackets if the physics
-requires it (3g/4R is 3g/(4R)). If a printed equation does not follow, its corrected form is given
+requires it (3g/4R is 3g/(4R)). The letter a, which our transcription has for α in Eqs. (19), (22)
+and (23), is read as α. If a printed equation does not follow, its corrected form is given
 next to it. The error may be in the print or in the transcription.
 """
 
@@ -127,12 +128,12 @@ EQUATIONS = (
     ),
     Statement(
         "eq19",
-        "θ̈ = −(1 + 2γ)/(1 + 3γ) 3g/(4R) (sin(a + θ) − ü_g/g cos(a + θ))",
+        "θ̈ = −(1 + 2γ)/(1 + 3γ) 3g/(4R) (sin(α + θ) − ü_g/g cos(α + θ))",
         premises.rectangular_frame,
         _LEFT,
         meant="θ̈ = −(1 + 2γ)/(1 + 3γ) 3g/(4R) (−sin(α + θ) + ü_g/g cos(α + θ))",
         remark="Both terms in the braces have the wrong sign, against Eq. (18). One leading minus"
-        " too many explains it; a stands for α.",
+        " too many explains it.",
     ),
     Statement(
         "eq20",
@@ -158,19 +159,17 @@ EQUATIONS = (
     ),
     Statement(
         "eq22",
-        "θ̈ = −(1 + 2γ)/(1 + 3γ) 3g/(4R) (−sin(a − θ) − ü_g/g cos(a − θ))",
+        "θ̈ = −(1 + 2γ)/(1 + 3γ) 3g/(4R) (−sin(α − θ) − ü_g/g cos(α − θ))",
         premises.rectangular_frame,
         _RIGHT,
         meant="θ̈ = −(1 + 2γ)/(1 + 3γ) 3g/(4R) (sin(α − θ) + ü_g/g cos(α − θ))",
         remark="Both terms in the braces have the wrong sign: the frame would move away from"
-        " upright. One leading minus too many explains it; a stands for α.",
+        " upright. One leading minus too many explains it.",
     ),
     Statement(
         "eq23",
-        "θ̈ = −(1 + 2γ)/(1 + 3γ) p² (sin(a sgn(θ) − θ) + ü_g/g cos(a sgn(θ) − θ))",
+        "θ̈ = −(1 + 2γ)/(1 + 3γ) p² (sin(α sgn(θ) − θ) + ü_g/g cos(α sgn(θ) − θ))",
         premises.rectangular_frame,
-        meant="θ̈ = −(1 + 2γ)/(1 + 3γ) p² (sin(α sgn(θ) − θ) + ü_g/g cos(α sgn(θ) − θ))",
-        remark="Only the letter is wrong, a for α (run together with sgn); the signs are right.",
     ),
     Statement(
         "eq24",

@@ -5,8 +5,9 @@ and feel the same ü_g = a g. Until an impact φ = |θ| obeys φ̈ = p² F(φ), 
 
     F = φ − α − s a  (linearised),    F = sin(φ − α) − s a cos(φ − α)  (exact),
 
-so that y = φ/p² obeys ÿ = F(p² y), and z = y₁ − y₂ starts from z = ż = 0. The text that joins the
-proofs is in the supplement, "Exact statements".
+so that y = φ/p² obeys ÿ = F(p² y), and z = y₁ − y₂ starts from z = ż = 0. So it does after every
+common rest. Over ground with the vertical acceleration v g, v > −1, F becomes F_v. The text that
+joins the proofs is in the supplement, "Exact statements".
 """
 
 from __future__ import annotations
@@ -27,6 +28,7 @@ p_1, p_2 = sp.symbols("p_1 p_2", positive=True)
 _a, _z, _z_dot, _y_dot = sp.symbols("a z z_dot y_dot", real=True)
 _phi, _y, _tau, _excess = sp.symbols("phi y tau epsilon", positive=True)
 _rate = sp.Symbol("phi_dot", real=True)
+_gravity = sp.Symbol("w", positive=True)  # 1 + v
 
 
 def _reduced(side: Side) -> sp.Expr:
@@ -143,6 +145,21 @@ def far_enough_out_nothing_brings_it_back() -> bool:
     return all(found) and sp.simplify(sp.cot(sp.atan(inward)) * inward) == 1
 
 
+def difference_grows_under_vertical_acceleration() -> bool:
+    """Linearised, z̈ = (1 + v)(p₁² z + (p₁² − p₂²) y₂): not negative while z and y₂ are not.
+
+    F_v is 1 + v times F under a/(1 + v) (`extension_proofs`), for every γ. So with 1 + v > 0 it
+    does not fall with φ where F under a/(1 + v) does not.
+    """
+    found = []
+    for side in SIDES:
+        force = _gravity * linearised(side).subs(_a, _a / _gravity)
+        change = force.subs(_phi, p_1**2 * (_y + _z)) - force.subs(_phi, p_2**2 * _y)
+        stated = _gravity * (p_1**2 * _z + (p_1**2 - p_2**2) * _y)
+        found.append(sp.expand(change - stated) == 0)
+    return all(found)
+
+
 def push_in_one_direction_only_helps_that_side() -> bool:
     """With a ≥ 0 towards one side, F there rises with a, and with φ up to α.
 
@@ -176,5 +193,6 @@ PROOFS = (
     lighter_frame_has_the_larger_growing_term,
     larger_rotation_feels_the_larger_push,
     far_enough_out_nothing_brings_it_back,
+    difference_grows_under_vertical_acceleration,
     push_in_one_direction_only_helps_that_side,
 )

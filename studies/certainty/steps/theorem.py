@@ -128,11 +128,11 @@ def peaks(trial: Trial) -> tuple[float, float]:
 
 
 def is_proved(trial: Trial) -> bool:
-    """Return whether the exact theorem covers a motion: inward < cot α, outward · inward < 1."""
+    """Return whether the exact theorem covers a motion: inward ≤ cot α, outward · inward ≤ 1."""
     if trial.heavier.linearised:
         return True
     outward, inward = peaks(trial)
-    return inward * math.tan(trial.heavier.slenderness) < 1.0 and outward * inward < 1.0
+    return inward * math.tan(trial.heavier.slenderness) <= 1.0 and outward * inward <= 1.0
 
 
 def is_ahead(trial: Trial) -> bool:

@@ -150,10 +150,10 @@ def findings(mechanism_admissible_by_mass: pd.DataFrame) -> dict[str, Finding]:
         "uplift_needs_tan": truth(
             (rows.least_demand >= 1.0 - ROUNDING).all(), cells=int(rows.pulses.sum())
         ),
-        "no_sliding": truth(
+        "friction_is_enough": truth(
             most.largest_demand * tan <= min(frictions.values()),
             holds_when=enough_from < math.inf,
-            condition="μ is the largest that is listed, and the cap at least as heavy as stated",
+            condition=f"γ is {enough_from:g} or more",
             friction=max(frictions.values()),
             from_mass_ratio=enough_from if enough_from < math.inf else None,
             tan=tan,

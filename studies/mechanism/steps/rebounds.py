@@ -58,10 +58,10 @@ def findings(mechanism_rebounds: pd.DataFrame) -> dict[str, Finding]:
         "contacts": len(table),
     }
     return {
-        "impact_at_the_new_pivots": truth(
+        "energy_of_eq25": truth(
             frames.difference.abs().max() < CLOSE,
             holds_when=plastic.difference.abs().max() < CLOSE,
-            condition="the contacts are hard and give nothing back",
+            condition="the contacts are hard and do not rebound",
             **evidence,
         ),
         "maximum_restitution": truth(

@@ -1,14 +1,11 @@
 """Does the engine overturn under the pulses that overturn the theory's frame?"""
 
-import numpy as np
 import pandas as pd
 
 from replication.workbench import Finding, truth
-from steps.shared.spectra_compared import without
 from studies.mechanism.steps.engine import Motion, slips
 from studies.mechanism.steps.rigs import (
     FALLEN,
-    HIGHEST,
     Model,
     experiment,
     lowest_overturning,
@@ -18,7 +15,7 @@ from studies.mechanism.steps.rigs import (
     shaken,
     units,
 )
-from topheavy import Cap, Pulse, RockingFrame, judge, overturning_intervals
+from topheavy import Cap, judge
 
 GAP = 0.01  # of the half width b: a corner nearer to a surface than this touches it
 ENOUGH = 30  # pulses
@@ -67,54 +64,6 @@ def _cap_tilt(motion: Motion) -> float:
     return float(abs(motion.pose[standing, -1, 2]).max())
 
 
-def beside_its_column(model: Model, spec: dict) -> list[dict]:
-    """Return what overturns frame and column in the engine, where theory overturns only one.
-
-    For each pulse that is the middle of the widest band of amplitudes that overturns the column
-    alone, and of the widest that overturns the frame alone, where there is one.
-    """
-    alone = Model(model.name, RockingFrame(model.frame.column, 0.0), None)
-    friction, step = spec["friction"], spec["time_step"]
-    settings = spec["contacts"]["plastic"]
-    rows = []
-    for kind, unit in units(model.frame.column, spec["beside"]):
-        sets = [_overturning(one.frame, unit) for one in (alone, model)]
-        for who, amplitude in _bands_apart(*sets).items():
-            falls = [
-                shaken(rig_of(one, step, friction=friction, **settings), unit.scaled(amplitude))[0]
-                for one in (alone, model)
-            ]
-            rows.append(
-                {
-                    "structure": model.name,
-                    **kind,
-                    "amplitude": amplitude,
-                    "theory": who,
-                    "column_overturns": falls[0],
-                    "frame_overturns": falls[1],
-                }
-            )
-    return rows
-
-
-def _overturning(frame: RockingFrame, unit: Pulse) -> np.ndarray:
-    """Return the amplitudes (g) of a pulse that overturn a frame in theory, shape (n, 2)."""
-    tan = frame.uplift_acceleration
-    found = overturning_intervals(frame, unit, (tan, HIGHEST * tan), resolution=0.01 * tan)
-    ends = [(one.lower[1], one.upper[0] if one.upper else HIGHEST * tan) for one in found]
-    return np.array(ends).reshape(-1, 2)
-
-
-def _bands_apart(column: np.ndarray, frame: np.ndarray) -> dict[str, float]:
-    """Return the middle of the widest band that overturns one and not the other, by which one."""
-    bands = {"column": without(column, frame), "frame": without(frame, column)}
-    return {
-        who: float(band[np.argmax(np.diff(band, axis=1)[:, 0])].mean())
-        for who, band in bands.items()
-        if len(band)
-    }
-
-
 def main(case: dict, structures: dict, caps: dict[str, Cap]) -> tuple[pd.DataFrame, dict]:
     frames = models(case["frames"], structures, caps)
     table = pd.DataFrame(
@@ -125,25 +74,7 @@ def main(case: dict, structures: dict, caps: dict[str, Cap]) -> tuple[pd.DataFra
             for row in pulses_around(model, case, contact)
         ]
     )
-    beside = pd.DataFrame([row for model in frames for row in beside_its_column(model, case)])
-    as_theory = (beside.column_overturns == (beside.theory == "column")) & (
-        beside.frame_overturns == (beside.theory == "frame")
-    )
-    reversals = beside[beside.theory == "frame"]
-    return table, findings(table) | {
-        "frame_outlasts_column": truth(
-            not (beside.frame_overturns & ~beside.column_overturns).any(),
-            pulses=len(beside),
-            only_column=int((beside.column_overturns & ~beside.frame_overturns).sum()),
-            only_frame=int((beside.frame_overturns & ~beside.column_overturns).sum()),
-        ),
-        "beside_as_in_theory": truth(
-            bool(as_theory.all()) and 0 < len(reversals) < len(beside),
-            pulses=len(beside),
-            reversals=len(reversals),
-            apart=int((~as_theory).sum()),
-        ),
-    }
+    return table, findings(table)
 
 
 def findings(mechanism_verdicts: pd.DataFrame) -> dict[str, Finding]:

@@ -11,10 +11,10 @@ import yaml
 from steps.shared.histories import history
 from studies.mechanism.steps import admissible
 from studies.mechanism.steps.admissible import lightest_without_sliding
+from studies.mechanism.steps.beside import _bands_apart
 from studies.mechanism.steps.demand import Demand, demand
 from studies.mechanism.steps.equivalence import differences, mean_share
 from studies.mechanism.steps.setting import pulse_on
-from studies.mechanism.steps.verdicts import _bands_apart
 from topheavy import Cap, Column, RockingFrame
 
 COLUMN = Column(0.5, 3.0)
@@ -63,7 +63,7 @@ def test_frame_slides_on_what_its_heaviest_cap_exceeds(largest, holds_when):
         "amplitudes": {"lowest": 1.05, "highest": 2.0, "points": 2},
         "samples": 4,
     }
-    found = admissible.main(case, Cap(5.0, 0.5))[-1]["no_sliding"]
+    found = admissible.main(case, Cap(5.0, 0.5))[-1]["friction_is_enough"]
     assert not found["holds"]
     assert found["holds_when"] is holds_when
     assert (found["from_mass_ratio"] == 1.0) is holds_when

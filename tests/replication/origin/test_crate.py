@@ -70,6 +70,7 @@ CLAIM = JudgedClaim(
     computed=True,
     meant=None,
     kind="",
+    condition="",
     error=None,
     unit="",
     tolerance=None,

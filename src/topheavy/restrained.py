@@ -1,0 +1,159 @@
+"""A rocking block whose stiffness stays positive: an elastic tendon joins its base to the ground.
+
+The tendon runs in the axis of the column, and is slack at rest. Rotated by φ about a corner, the
+middle of a base of width 2b is 2b sin(φ/2) from where it was. A tendon of stiffness k has the
+energy 2 k b² sin²(φ/2) and the moment k b² sin φ. With κ = k b²/(m g R),
+
+    φ̈ = p² { sin(φ − α) − κ sin φ − s (ü_g/g) cos(φ − α) },    φ = |θ|,  s = sgn θ.
+
+The restoring moment rises with φ up to α if κ > 1/cos α; uplift and impact are those of the block.
+A block with κ = 0 is that of Eq. (23).
+"""
+
+import math
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.integrate import solve_ivp
+
+from topheavy.excitation import Excitation
+from topheavy.structures import RockingBlock
+
+Array: TypeAlias = NDArray[np.float64]
+
+FLAT = 1.3  # rad; a block that has reached it stays there
+STILL = 1e-5  # over α p: an impact that leaves a slower block ends the motion
+
+
+def least_stiffness(block: RockingBlock) -> float:
+    """Return κ = 1/cos α, above which the stiffness is positive up to |θ| = α."""
+    return 1.0 / math.cos(block.slenderness)
+
+
+def restoring_moment(block: RockingBlock, kappa: ArrayLike, phi: ArrayLike) -> Array:
+    """Return the restoring moment over m g R at |θ| = φ (rad), for the tendon stiffness κ."""
+    moment: Array = np.sin(block.slenderness - np.asarray(phi)) + np.asarray(kappa) * np.sin(phi)
+    return moment
+
+
+def restrained_peaks(
+    block: RockingBlock,
+    kappa: ArrayLike,
+    motion: Excitation,
+    scales: ArrayLike,
+    *,
+    duration: float,
+    time_step: float,
+) -> Array:
+    """Return the largest |θ| (rad) of blocks with tendons, by the classical Runge–Kutta method.
+
+    Parameters
+    ----------
+    block : RockingBlock
+    kappa, scales : array_like
+        κ of each tendon, and the factor on the ground motion; they broadcast.
+    motion : Excitation
+        In g.
+    duration, time_step : float
+        s. At an impact, a step is cut where its cubic reaches φ = 0.
+    """
+    p, alpha, root_r = block.frequency_parameter, block.slenderness, block.restitution
+    kappa, scales = np.broadcast_arrays(np.asarray(kappa, float), np.asarray(scales, float))
+    steps = math.ceil(duration / time_step)
+    ground = np.asarray(motion.excitation(0.5 * time_step * np.arange(2 * steps + 1)))
+    phi, rate, side, peak = (np.zeros(scales.shape) for _ in range(4))
+    level, h = block.uplift_acceleration, time_step
+
+    def acceleration(phi: Array, side: Array, push: Array) -> Array:
+        pushed: Array = side * push * np.cos(phi - alpha)
+        return -(p**2) * (restoring_moment(block, kappa, phi) + pushed)
+
+    for step in range(steps):
+        first, middle, last = (scales * ground[2 * step + half] for half in range(3))
+        side = np.where((side == 0.0) & (np.abs(first) > level), -np.sign(first), side)
+        moves = (side != 0.0) & (phi < FLAT)
+        if not moves.any():
+            continue
+        k1 = acceleration(phi, side, first)
+        k2 = acceleration(phi + 0.5 * h * rate, side, middle)
+        k3 = acceleration(phi + 0.5 * h * rate + 0.25 * h**2 * k1, side, middle)
+        k4 = acceleration(phi + h * rate + 0.5 * h**2 * k2, side, last)
+        onward = phi + h * rate + h**2 / 6.0 * (k1 + k2 + k3)
+        speed = rate + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
+        hits = moves & (onward < 0.0) & (speed < 0.0)
+        if hits.any():
+            before = _before_crossing(onward, speed, acceleration(onward, side, last))
+            arrival = speed - acceleration(onward, side, last) * before
+            left = -root_r * arrival
+            still = hits & (left < STILL * alpha * p)
+            push = acceleration(np.zeros_like(phi), -side, last)
+            onward = np.where(hits, left * before + 0.5 * push * before**2, onward)
+            speed = np.where(hits, left + push * before, speed)
+            side = np.where(hits, -side, side)
+            onward, speed, side = (np.where(still, 0.0, x) for x in (onward, speed, side))
+        phi, rate = np.where(moves, onward, phi), np.where(moves, speed, rate)
+        peak = np.maximum(peak, phi)
+    return peak
+
+
+def _before_crossing(phi: Array, rate: Array, pull: Array) -> Array:
+    """Return how long before the end of a step φ was 0, by its last position, rate and pull."""
+    before: Array = phi / rate
+    for _ in range(4):  # φ − rate t + pull t²/2 = 0
+        before = before - (phi - rate * before + 0.5 * pull * before**2) / (pull * before - rate)
+    return before
+
+
+def restrained_peak_by_scipy(
+    block: RockingBlock, kappa: float, motion: Excitation, *, duration: float, longest_step: float
+) -> float:
+    """Return the same for one block by DOP853 from impact to impact, each found by its event.
+
+    Raises
+    ------
+    ArithmeticError
+        When the integration fails.
+    """
+    p, alpha = block.frequency_parameter, block.slenderness
+    times = np.linspace(0.0, duration, 50 * math.ceil(duration / longest_step) + 1)
+    strong = np.abs(motion.excitation(times)) > block.uplift_acceleration
+
+    def returns(t: float, y: Array) -> float:
+        return float(y[0])
+
+    def lies_flat(t: float, y: Array) -> float:
+        return float(y[0]) - FLAT
+
+    returns.direction, returns.terminal, lies_flat.terminal = -1.0, True, True  # type: ignore[attr-defined]
+    time, side, rate, peak = 0.0, 0.0, 0.0, 0.0
+    while time < duration:
+        if side == 0.0:
+            later = times[strong & (times >= time)]
+            if not later.size:
+                break
+            time, rate = float(later[0]), 0.0
+            side = -math.copysign(1.0, motion.excitation(time))
+
+        def moves(t: float, y: Array, side: float = side) -> tuple[float, float]:
+            free = math.sin(y[0] - alpha) - side * motion.excitation(t) * math.cos(y[0] - alpha)
+            return y[1], p**2 * (free - kappa * math.sin(y[0]))
+
+        found = solve_ivp(
+            moves,
+            (time, duration),
+            (0.0, rate),
+            method="DOP853",
+            events=(returns, lies_flat),
+            max_step=longest_step,
+            rtol=1e-9,
+            atol=1e-11,
+        )
+        if found.status < 0:
+            raise ArithmeticError(f"{block}, {motion}: {found.message}")
+        peak, time = max(peak, float(found.y[0].max())), float(found.t[-1])
+        if peak >= FLAT or found.status == 0:
+            break
+        rate = -block.restitution * float(found.y[1, -1])
+        side = 0.0 if rate < STILL * alpha * p else -side
+    return min(peak, FLAT)

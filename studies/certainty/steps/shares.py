@@ -1,0 +1,85 @@
+"""Which of α, p̂ and √r carries the difference in probability between the vase and the frame.
+
+As in `steps.vase_shares` for the minimum overturning acceleration and for a map of pulses, each of
+the three is taken from the frame or from the column with the fixed mass. The worth of a block is
+the share of synthetic motions, at a stated PGV, that it survives.
+"""
+
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from steps.spectrum import progress
+
+from replication.workbench import Finding, run, truth
+from steps.vase_shares import PARAMETERS, exchanged, shapley, subsets
+from topheavy import Column, FixedMassColumn, RockingFrame, overturned_together
+from topheavy.synthetic.ensemble import draws
+from topheavy.synthetic.motions import peak_velocity
+
+
+def values_of(case: dict, ensemble: dict) -> pd.DataFrame:
+    """Return the Shapley values of each parameter for each motion, γ and PGV.
+
+    They are linear in the worth, so that their means are those of the share of motions.
+    """
+    column, taken = Column(**case["column"]), list(subsets())
+    some = {**ensemble, "runs": {ensemble["run"]: {"motions": case["motions"]}}}
+    rows, chosen = [], draws(some)
+    for draw in progress(chosen, len(chosen), "motions"):
+        motion = draw.record()
+        scales = [level / peak_velocity(motion) for level in case["pgv"]]
+        for gamma in case["mass_ratios"]:
+            ends = FixedMassColumn(column, gamma).block(), RockingFrame(column, gamma).block()
+            fell = overturned_together([exchanged(*ends, one) for one in taken], motion, scales)
+            for place, level in enumerate(case["pgv"]):
+                worth = {one: float(not f[place]) for one, f in zip(taken, fell, strict=True)}
+                label = {"family": draw.labels["family"], "mass_ratio": gamma, "pgv": level}
+                rows.append(label | shapley(worth))
+    return pd.DataFrame(rows)
+
+
+def shares(values: pd.DataFrame, case: dict) -> pd.DataFrame:
+    """Return the share of each parameter in the gain in probability, with resampled intervals."""
+    random, rows = np.random.default_rng(case["seed"]), []
+    for labels, motions in values.groupby(["family", "mass_ratio", "pgv"], sort=False):
+        each = motions[list(PARAMETERS)].to_numpy()
+        again = random.integers(len(each), size=(case["resamples"], len(each)))
+        sums = each[again].sum(axis=1)
+        of_resamples = sums / sums.sum(axis=1, keepdims=True)
+        tail = 0.5 * (1.0 - case["confidence"])
+        low, high = np.quantile(of_resamples, [tail, 1.0 - tail], axis=0)
+        share = each.sum(axis=0) / each.sum()
+        for place, name in enumerate(PARAMETERS):
+            row = dict(zip(("family", "mass_ratio", "pgv"), labels, strict=True))
+            row |= {"motions": len(each), "gain": each.sum() / len(each), "parameter": name}
+            row |= {"share": share[place], "share_low": low[place], "share_high": high[place]}
+            rows.append(row)
+    return pd.DataFrame(rows)
+
+
+def main(case: dict, ensemble: dict) -> tuple[pd.DataFrame, dict[str, Finding]]:
+    table = shares(values_of(case, ensemble), case)
+    return table, findings(table)
+
+
+def findings(certainty_shares: pd.DataFrame) -> dict[str, Finding]:
+    """Return the range of each parameter's share, and whether α has most, from their table."""
+    table = certainty_shares
+    slenderness = table[table.parameter == "α"]
+    ranges = table.groupby("parameter", sort=False).share.agg(["min", "max"])
+    return {
+        "slenderness_has_most": truth(
+            len(slenderness) > 0 and bool((slenderness.share_low > 0.5).all()),
+            compared=len(slenderness),
+            ranges={name: [float(x) for x in row] for name, row in ranges.iterrows()},
+        )
+    }
+
+
+def work(job: Any) -> tuple:
+    return main(job.params.case, job.params.ensemble)
+
+
+if __name__ == "__main__":
+    run(snakemake, work)

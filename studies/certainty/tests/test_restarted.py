@@ -1,0 +1,61 @@
+"""The theorem since a common rest: what is tried is what is stated."""
+
+from dataclasses import replace
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from studies.certainty.steps import restarted
+
+
+def cases(linearised, count=3):
+    random = np.random.default_rng(3)
+    found = []
+    while len(found) < count:
+        one = restarted.case_of(random, linearised)
+        factor = restarted.factor_beside_a_boundary(one, random) if one else None
+        if factor:
+            found.append((one, factor))
+    return found
+
+
+@pytest.mark.parametrize("linearised", [True, False])
+def test_lighter_frame_overturns_whenever_the_heavier_does(linearised):
+    for one, factor in cases(linearised):
+        assert one.rests()
+        assert (np.abs(one.vertical) > 0.0).any()
+        assert one.vertical.min() > -1.0
+        assert one.overturns(one.pair[1], factor)
+        assert one.overturns(one.pair[0], factor)
+
+
+def test_heavier_frame_does_not_always_overturn_with_the_lighter():
+    found = []
+    for one, _ in cases(False, 6):
+        turned = replace(one, pair=one.pair[::-1])
+        factor = restarted.factor_beside_a_boundary(turned, np.random.default_rng(1))
+        found.append(factor is None or turned.overturns(turned.pair[0], factor))
+    assert not all(found)
+
+
+ROWS = [
+    {"linearised": linear, "covered": True, "contradicts": False, "by_scipy": True}
+    for linear in (True, False)
+]
+
+
+@pytest.mark.parametrize(
+    ("change", "holds", "confirmed"),
+    [
+        ({}, True, True),
+        ({"contradicts": True, "by_scipy": False}, False, True),
+        ({"by_scipy": False}, True, False),
+        ({"covered": False, "contradicts": True}, False, True),  # no exact motion is covered
+        ({"linearised": True}, False, True),
+    ],
+)
+def test_findings_of_motions_that_the_theorems_cover(change, holds, confirmed):
+    found = restarted.findings(pd.DataFrame([ROWS[0], ROWS[1] | change]))
+    assert found["restarted"].holds is holds
+    assert found["second_route"].holds is confirmed

@@ -1,0 +1,34 @@
+"""Shares in a probability: their sum, and the finding where one is too small."""
+
+import pandas as pd
+import pytest
+
+from studies.certainty.steps import shares
+
+CASE = {"seed": 1, "resamples": 200, "confidence": 0.95}
+
+
+def values(alpha, root_r):
+    labels = {"family": "near-fault", "mass_ratio": 1.0, "pgv": 0.6}
+    pairs = zip(alpha, root_r, strict=True)
+    return pd.DataFrame([labels | {"α": a, "p": 0.0, "√r": r} for a, r in pairs])
+
+
+def test_shares_add_up_and_are_those_of_the_sums():
+    found = shares.shares(values([1.0, 0.5, 0.0] * 20, [0.0, 0.5, 0.0] * 20), CASE)
+    assert found.share.tolist() == [0.75, 0.0, 0.25]
+    assert found.gain.tolist() == pytest.approx([2.0 / 3.0] * 3)
+    assert (found.motions == 60).all()
+
+
+@pytest.mark.parametrize(
+    ("alpha", "root_r", "holds"),
+    [
+        ([1.0] * 60 + [0.0] * 20, [0.0] * 60 + [1.0] * 20, True),
+        ([1.0] * 42 + [0.0] * 38, [0.0] * 42 + [1.0] * 38, False),  # its interval includes one half
+        ([1.0] * 20 + [0.0] * 60, [0.0] * 20 + [1.0] * 60, False),
+    ],
+)
+def test_slenderness_has_most_if_its_interval_is_above_one_half(alpha, root_r, holds):
+    table = shares.shares(values(alpha, root_r), CASE)
+    assert shares.findings(table)["slenderness_has_most"].holds is holds
