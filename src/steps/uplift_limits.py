@@ -150,7 +150,7 @@ def slopes(case: dict) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def sliding_shear(peak: pd.Series, friction: float) -> pd.Series:
+def sliding_shear(peak: pd.Series, friction: pd.Series | float) -> pd.Series:
     """Return the largest V/W of a rigid block on dry friction under a peak acceleration (g).
 
     A block that sticks has V/W = |ü_g|/g, at most μ; one that slides has V/W = μ. A block with
@@ -302,8 +302,8 @@ def findings(
     """Return what uplift limits, from the tables of histories, ratios, slopes and second routes."""
     table, ratios, bodies = uplift_limits, uplift_ratios, uplift_slopes.dropna()
     stands = table[table.outcome != "overturned"]
-    slid = sliding_shear(table.peak_acceleration, column.uplift_acceleration)
-    slid = slid / table.peak_acceleration
+    uplift = table.peak_acceleration / table.amplitude
+    slid = sliding_shear(table.peak_acceleration, uplift) / table.peak_acceleration
     over_uplift = stands.base_shear / stands.shear_after_uplift
     rigid = ratios[ratios.held == RIGID]
     totals = rigid[rigid.force != "bending_moment"]
@@ -347,7 +347,7 @@ def findings(
             **counted,
             sliding_least=slid.min(),
             sliding_largest=slid.max(),
-            largest_shear_over_sliding=(stands.base_shear / column.uplift_acceleration).max(),
+            largest_shear_over_sliding=(stands.base_shear / uplift[stands.index]).max(),
             largest_rotation_over_alpha=stands.rotation.max(),
             largest_impulse=stands.impulse.max(),
         ),
