@@ -39,7 +39,7 @@ LEFT_OUT = ("__pycache__", "template", "kill", "new_paper.py", "kill_table.py", 
 
 ONLY_HERE = (
     *("basedpyright", "heyoka", "hypothesis", "lazy-loader", "llvmlite", "mujoco-core", "numba"),
-    *("snakemake-executor-plugin-slurm", "xarray"),
+    *("python-flint", "snakemake-executor-plugin-slurm", "xarray"),
 )
 """Packages that neither the machine nor the example needs."""
 
@@ -126,6 +126,9 @@ def reduced_lock(text: str, name: str) -> str:
     own = next(block for block in blocks if 'source = { editable = "." }' in block)
     root = re.sub('^name = ".*"', f'name = "{name}"', without(ONLY_HERE, own))
     root = re.sub(r"^[\w-]+ = \[\n\]\n", "", root, flags=re.MULTILINE)  # groups that are empty now
+    root = re.sub(
+        r"^\[package.optional-dependencies\]\n\n|^provides-extras = .*\n", "", root, flags=re.M
+    )
     blocks[blocks.index(own)] = root
     edges: dict[str, set[str]] = {}
     for package in _packages(head + "".join(f"[[package]]\n{block}" for block in blocks)):

@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from steps.spectrum import progress
 
 from replication.workbench import Finding, grid, run, truth
+from steps.shared.spectrum import progress
 from topheavy import Column, Pulse, Record, RockingFrame, read_record, reference
 from topheavy.overturning import outcomes_by
 from topheavy.synthetic.ensemble import draws

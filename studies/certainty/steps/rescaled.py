@@ -10,9 +10,9 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 import pandas as pd
-from steps.spectrum import progress
 
 from replication.workbench import Finding, run, truth
+from steps.shared.spectrum import progress
 from studies.certainty.steps.records import similar
 from topheavy import Column, Record, RockingFrame, overturned_by, read_record, reference
 

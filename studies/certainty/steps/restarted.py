@@ -10,9 +10,9 @@ from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
-from steps.spectrum import progress
 
 from replication.workbench import Finding, run, truth
+from steps.shared.spectrum import progress
 from studies.certainty.shapes import motion
 from topheavy import Column, Record, RockingBlock, RockingFrame, reference, simulate
 from topheavy.fragility.gain import mass_ratio_of_share

@@ -9,9 +9,9 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from steps.spectrum import progress
 
 from replication.workbench import Finding, run, truth
+from steps.shared.spectrum import progress
 from steps.vase_shares import PARAMETERS, exchanged, shapley, subsets
 from topheavy import Column, FixedMassColumn, RockingFrame, overturned_together
 from topheavy.synthetic.ensemble import draws

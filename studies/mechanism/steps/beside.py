@@ -6,9 +6,9 @@ Boxes with unilateral contacts and friction are what a discrete element program 
 
 import numpy as np
 import pandas as pd
-from steps.spectra_compared import without
 
 from replication.workbench import Finding, truth
+from steps.shared.spectra_compared import without
 from studies.mechanism.steps.rigs import (
     HIGHEST,
     Model,
