@@ -75,7 +75,7 @@ def second_route(table: pd.DataFrame, frame: RockingFrame, case: dict) -> pd.Ser
             row.stiffness * least_stiffness(block),
             pulse,
             duration=pulse.duration + AFTER / p,
-            longest_step=0.02 / p,
+            longest_step=0.005 / p,
         )
         found[place] = peak / frame.slenderness
     return pd.Series(found, dtype=float).reindex(table.index)
