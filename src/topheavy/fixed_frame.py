@@ -163,10 +163,8 @@ def peak_elastic(
     """
     start, end, step = _steps(excitation, checks.positive("period", period, "s"), steps)
     total = _total_acceleration(start, end, step, period)
-    return [
-        _peaks(np.vstack([one.forces(start, total[:-1]), one.forces(end, total[1:])]))
-        for one in fixed
-    ]
+    course = _outermost(np.c_[np.r_[start, end], np.r_[total[:-1], total[1:]]])
+    return [_peaks(one.forces(*course.T)) for one in fixed]
 
 
 def peak_elastic_by_scipy(
@@ -197,6 +195,16 @@ def peak_elastic_by_scipy(
         total = -2.0 * DAMPING * omega * course.y[1] - omega**2 * course.y[0]
         found.append(fixed.forces(np.array([push(t) for t in times]), total))
     return _peaks(np.vstack(found))
+
+
+def _outermost(course: Array) -> Array:
+    """Return the points (ü_g, A) of a course on which a force, linear in both, can be largest."""
+    from scipy.spatial import ConvexHull, QhullError  # here, as most users never need it
+
+    try:
+        return course[ConvexHull(course).vertices]
+    except QhullError:  # the points lie on a line
+        return course
 
 
 def _peaks(forces: Array) -> Forces:

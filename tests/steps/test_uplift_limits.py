@@ -226,9 +226,11 @@ def test_slope_that_three_bodies_deny_is_noticed(monkeypatch):
 
 def rows(**change):
     usual = dict.fromkeys((ratio_of(name, *one) for name in FORCES for one in held(1.0, [])), 0.5)
+    peak = change.get("peak_acceleration", 1.0)
     return [
         {"outcome": "rests", "rotation": 0.5, "impulse": 0.1, "shear_after_uplift": 1.0}
-        | {"base_shear": 0.9, "mass_ratio": 1.0, "kind": "pulse"}
+        | {"base_shear": 0.9, "mass_ratio": 1.0, "kind": "pulse", "peak_acceleration": peak}
+        | {"amplitude": peak / TAN}
         | usual
         | change
     ]
@@ -270,6 +272,15 @@ def test_each_force_counts_where_it_is_claimed(
     limited, good = found["uplift_limits_forces"], found["uplift_is_beneficial"]
     assert (limited.holds, limited.holds_when) == (forces, totals)
     assert (good.holds, good.holds_when) == (beneficial, of_the_shear)
+
+
+def test_block_that_does_not_slide_shows_no_benefit_of_sliding(monkeypatch):
+    given = {"summary": RATIOS, "second_route": truth(True)}
+    given |= {"motions": [(None, {})], "compare": rows(peak_acceleration=0.9 * TAN)}
+    for name, found in given.items():
+        monkeypatch.setattr(uplift_limits, name, lambda *arguments, found=found: found)
+    good = uplift_limits.main(CASE | {"periods": []}, [])[-1]["uplift_is_beneficial"]
+    assert (good.holds, good.holds_when) == (False, False)
 
 
 @pytest.mark.parametrize("factor", [1.2, 3.0])

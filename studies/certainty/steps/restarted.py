@@ -19,7 +19,6 @@ from topheavy.fragility.gain import mass_ratio_of_share
 
 SAMPLES = 200  # of each motion
 SHOCK = 8  # samples of the first shock
-LASTING = 1.5  # motions: how long a history is followed
 FACTORS = np.geomspace(0.9, 32.0, 9)  # between which boundaries are sought
 HALVINGS = 6
 BESIDE = 0.01  # of the factor: what lies between the boundary and the motion that is judged
@@ -52,9 +51,8 @@ class Case:
     def overturns(self, block: RockingBlock, factor: float, solver=simulate) -> bool:
         """Return whether a block overturns without any impact since the rest."""
         horizontal, vertical = self.records(factor)
-        time = np.linspace(0.0, LASTING * horizontal.duration, 8 * SAMPLES)
-        found = solver(block, horizontal, vertical=vertical, samples=time)
-        since = found.rotation[(time > self.begins) & np.isfinite(found.rotation)]
+        found = solver(block, horizontal, vertical=vertical, samples=8 * SAMPLES)
+        since = found.rotation[(found.time > self.begins) & np.isfinite(found.rotation)]
         moved = since[np.flatnonzero(since)[:1].sum() :] if since.any() else since
         one_side = bool((moved > 0.0).all() or (moved < 0.0).all())
         return found.overturned and not (found.impacts > self.begins).any() and one_side

@@ -7,6 +7,7 @@ import pandas as pd
 import pytest
 
 from studies.certainty.steps import restarted
+from topheavy import Column, Pulse, simulate
 
 
 def cases(linearised, count=3):
@@ -59,3 +60,18 @@ def test_findings_of_motions_that_the_theorems_cover(change, holds, confirmed):
     found = restarted.findings(pd.DataFrame([ROWS[0], ROWS[1] | change]))
     assert found["restarted"].holds is holds
     assert found["second_route"].holds is confirmed
+
+
+def test_overturning_after_an_impact_since_the_rest_does_not_count():
+    block, found = Column(0.5, 3.0).block(), []
+    pulse = Pulse("one-sine", block.uplift_acceleration, 4.0 * block.frequency_parameter)
+    step = pulse.duration / restarted.SAMPLES
+    after = pulse.excitation(step * np.arange(restarted.SAMPLES))
+    before = np.zeros(20)
+    one = restarted.Case((block, block), before, after, np.zeros_like(after), step)
+    for factor in np.linspace(1.2, 15.0, 70):
+        response = simulate(block, one.records(factor)[0])
+        if response.overturned:
+            found.append(bool(response.impacts.size))
+            assert one.overturns(block, factor) is not found[-1]
+    assert set(found) == {True, False}
