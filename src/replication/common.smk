@@ -71,11 +71,12 @@ def everything(wildcards):
         asked = [*each.input, *([] if each.has_wildcards() else each.output)]
         wanted |= dict.fromkeys(str(path) for path in asked if not callable(path))
     wanted = {path: None for path in wanted if "{" not in path}
-    # A rule with wildcards reads what its jobs read, and these are known by what they make.
+    # A rule with wildcards reads and makes what its jobs do, and these are known by one of their files.
     for each in filter(lambda one: one.has_wildcards(), rules):
         for path in filter(each.is_producer, list(wanted)):
             files, *_ = each.expand_input(each.get_wildcards(path))
-            wanted |= dict.fromkeys(map(str, files))
+            made, *_ = each.expand_output(each.get_wildcards(path))
+            wanted |= dict.fromkeys(map(str, [*files, *made]))
     return list(wanted)
 
 

@@ -83,7 +83,12 @@ def test_published_edition_agrees_with_itself():
     lines, faults = main(ROOT)
     assert faults == []
     config = yaml.safe_load((ROOT / "config" / "config.yaml").read_text(encoding="utf-8"))
-    assert [line.split(":")[0] for line in lines] == ["paper", "ours", "reproduced", *config["studies"]]
+    assert [line.split(":")[0] for line in lines] == [
+        "paper",
+        "ours",
+        "reproduced",
+        *config["studies"],
+    ]
 
 
 def test_edition_without_its_claims_says_so(edition):

@@ -275,7 +275,7 @@ def test_each_force_counts_where_it_is_claimed(
 
 
 def test_block_that_does_not_slide_shows_no_benefit_of_sliding(monkeypatch):
-    given = {"summary": RATIOS, "second_route": truth(True)}
+    given = {"summary": RATIOS, "second_route": None, "_agreement": truth(True)}
     given |= {"motions": [(None, {})], "compare": rows(peak_acceleration=0.9 * TAN)}
     for name, found in given.items():
         monkeypatch.setattr(uplift_limits, name, lambda *arguments, found=found: found)

@@ -45,7 +45,8 @@ def test_column_that_is_given_the_restitution_of_the_frame_responds_identically(
 def test_seat_of_massless_columns_opens_below_a_bay_of_2b_and_2d_tan_alpha():
     frame = RockingFrame(COLUMN, math.inf)
     assert shortest_bay(frame, 0.5) == pytest.approx(1.0 + 2 * 0.5 / 6)
-    assert opens_below_the_shortest_bay(frame, 0.5)["holds"]
+    bays = opens_below_the_shortest_bay(frame, 0.5)
+    assert ((bays.least < 0.0) == (bays.span < bays.shortest_bay)).all()
 
 
 def test_three_bodies_agree_with_the_frame_and_with_no_other():

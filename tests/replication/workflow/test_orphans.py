@@ -14,7 +14,7 @@ ROOT = Path(__file__).parents[3]
 
 
 LISTS = {"all", "crate"}  # rules that take everything
-READ = {".svg", ".pdf", ".html", ".ipynb", ".gif", ".png"}
+READ = {".svg", ".pdf", ".html", ".ipynb", ".gif", ".png", ".jsonl"}
 ENDS = {"results/summary.txt", "results/costs.csv", "results/ro-crate-metadata.json"}
 
 
