@@ -202,9 +202,10 @@ def _outermost(course: Array) -> Array:
     from scipy.spatial import ConvexHull, QhullError  # here, as most users never need it
 
     try:
-        return course[ConvexHull(course).vertices]
+        outermost: Array = course[ConvexHull(course).vertices]
     except QhullError:  # the points lie on a line
         return course
+    return outermost
 
 
 def _peaks(forces: Array) -> Forces:
