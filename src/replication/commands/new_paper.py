@@ -126,9 +126,9 @@ def reduced_lock(text: str, name: str) -> str:
     own = next(block for block in blocks if 'source = { editable = "." }' in block)
     root = re.sub('^name = ".*"', f'name = "{name}"', without(ONLY_HERE, own))
     root = re.sub(r"^[\w-]+ = \[\n\]\n", "", root, flags=re.MULTILINE)  # groups that are empty now
-    root = re.sub(
-        r"^\[package.optional-dependencies\]\n\n|^provides-extras = .*\n", "", root, flags=re.M
-    )
+    # Extras that are empty now; groups installed by default, of which `dev` alone is left.
+    gone = r"^\[package.optional-dependencies\]\n\n|^(?:provides-extras|default-groups) = .*\n"
+    root = re.sub(gone, "", root, flags=re.MULTILINE)
     blocks[blocks.index(own)] = root
     edges: dict[str, set[str]] = {}
     for package in _packages(head + "".join(f"[[package]]\n{block}" for block in blocks)):
