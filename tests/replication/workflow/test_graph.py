@@ -170,7 +170,7 @@ def of_study(rule):
     [
         ("figures/heavier.py", {"figure", "report", "supplement"}),
         *((f"studies/{study}/section.typ", {"report", "supplement"}) for study in SOME),
-        *((f"studies/{study}/config.yaml", {"report", "supplement"}) for study in SOME),
+        *((f"studies/{study}/config.yaml", None) for study in SOME),  # its readers may differ
         (
             "src/topheavy/three_bodies.py",
             {
@@ -185,8 +185,10 @@ def of_study(rule):
 )
 def test_change_of_a_module_reruns_its_users_and_nothing_else(finished, jobs, path, rules):
     found = rerun(finished, path) - LAST
+    users = {job.rule for job in jobs if path in job.inputs} - LAST
+    if rules is None:
+        rules = {rule for rule in users if not of_study(rule)}
     assert {rule for rule in found if not of_study(rule)} == rules
-    users = {job.rule for job in jobs if path in job.inputs}
     assert set(filter(of_study, found)) == set(filter(of_study, users))
 
 
