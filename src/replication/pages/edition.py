@@ -1,6 +1,5 @@
 """Publish the findings of a run, the verdicts, and the pages that show them."""
 
-import hashlib
 import os
 import platform
 import shutil
@@ -33,7 +32,6 @@ OF_REPRODUCED = (
     "Their verdicts say that a new run gives the same number again. They count nowhere as evidence."
 )
 
-CHECKSUMS = "checksums.txt"
 DIGITS = 9
 """Of the numbers in the published findings, as in the tables."""
 
@@ -139,21 +137,6 @@ def rounded(found: Any, digits: int = DIGITS) -> Any:
             return found
 
 
-def checksums(reference: Path) -> str:
-    """Return the SHA-256 of each published table, config and finding, a line each.
-
-    Of the text, with line ends as Python reads them, so that a checkout may change those.
-    """
-    found = (reference.rglob(name) for name in ("*.csv", "*.yaml", "findings/*.json"))
-    files = sorted({path for paths in found for path in paths})
-    lines = (
-        f"{hashlib.sha256(path.read_text(encoding='utf-8').encode()).hexdigest()}  "
-        f"{path.relative_to(reference).as_posix()}\n"
-        for path in files
-    )
-    return "".join(lines)
-
-
 def machine() -> str:
     """Return one line that names this machine."""
     cpuinfo = Path("/proc/cpuinfo")
@@ -182,9 +165,9 @@ def _shown(value: object, digits: str, unit: str) -> str:
 def publish(tables: Iterable[str], sources: Iterable[str] = ()) -> None:
     """Copy what every replication publishes of a finished run: `make publish`.
 
-    tests/reference/ gets the configs, the tables, the findings, their checksums and the verdicts;
-    docs/ and the README get the pages that show the verdicts. The edition.yaml of each study names
-    the tables and pictures that it adds.
+    tests/reference/ gets the configs, the tables, the findings and the verdicts; docs/ and the
+    README get the pages that show the verdicts. The edition.yaml of each study names the tables and
+    pictures that it adds. What else is published comes next, and then `seal`.
 
     Parameters
     ----------
@@ -243,7 +226,6 @@ def publish(tables: Iterable[str], sources: Iterable[str] = ()) -> None:
         for name, picture in edition.pictures.items():
             shutil.copyfile(Path("studies", study, picture), Path("docs", name))
     publish_findings(results / "findings", reference / "findings")
-    (reference / CHECKSUMS).write_text(checksums(reference), encoding="utf-8")
     publish_verdicts(read_ledger(map(ledger_of, [PAPER, *ours["studies"]])), Path())
     print("published; a run compares its tables with these: 'make reproduce' before 'make verify'")
 

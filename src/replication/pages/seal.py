@@ -2,6 +2,7 @@
 
 import hashlib
 from collections.abc import Iterable, Iterator
+from contextlib import suppress
 from pathlib import Path
 
 SEAL = "docs/checksums.txt"
@@ -9,8 +10,12 @@ EDITION = ("docs", "tests/reference")
 """The folders of the published files."""
 SOURCES = ("config", "data", "explorer", "figures", "notebooks", "paper", "studies")
 """The folders of the inputs and texts."""
-TOP = ("CITATION.cff", "README.md", "codecheck.yml")
-KINDS = set(".AT2 .bib .css .csv .html .ipynb .js .md .mplstyle .txt .typ .yaml".split())
+TOP = ("CITATION.cff", "README.md", "codecheck.yml", "docs/exhibits.md")
+"""Texts beside these; the last two are those of `make pages`, which needs no run."""
+KINDS = {
+    *(".bib", ".cff", ".css", ".html", ".ipynb", ".js", ".md", ".mplstyle", ".typ"),
+    *(".AT2", ".csv", ".txt", ".yaml"),
+}
 """The endings of inputs and texts; code and what a run writes beside them is neither."""
 MADE_FROM = "# What it was made from"
 HEAD = f"""\
@@ -38,17 +43,16 @@ def outdated(root: Path = Path()) -> Iterator[str]:
 
 
 def checksum(path: Path) -> str:
-    """Return the SHA-256 of a file; of a text with the line ends of Python, whatever the checkout's."""
+    """Return the SHA-256 of a file; of a text with Python's line ends, whatever the checkout's."""
     content = path.read_bytes()
-    try:
+    with suppress(UnicodeDecodeError):  # a picture or a PDF
         content = content.decode("utf-8").replace("\r\n", "\n").encode()
-    except UnicodeDecodeError:
-        pass  # a picture or a PDF
     return hashlib.sha256(content).hexdigest()
 
 
 def _edition(root: Path) -> dict[str, str]:
-    return _checksums(root, (path for name in EDITION for path in (root / name).rglob("*")))
+    found = _checksums(root, (path for name in EDITION for path in (root / name).rglob("*")))
+    return {name: value for name, value in found.items() if name not in TOP}
 
 
 def _sources(root: Path) -> dict[str, str]:
@@ -71,8 +75,12 @@ def _sealed(root: Path) -> list[dict[str, str]]:
     path = root / SEAL
     parts = path.read_text(encoding="utf-8").split(MADE_FROM)
     if len(parts) != 2:
-        raise ValueError(f"{path} has {len(parts) - 1} lines {MADE_FROM!r}; expected one: restore it")
-    rows = [[line.split("  ", 1) for line in part.splitlines() if line[:1] != "#"] for part in parts]
+        raise ValueError(
+            f"{path} has {len(parts) - 1} lines {MADE_FROM!r}; expected one: restore it"
+        )
+    rows = [
+        [line.split("  ", 1) for line in part.splitlines() if line[:1] != "#"] for part in parts
+    ]
     return [{row[1]: row[0] for row in of_part if len(row) == 2} for of_part in rows]
 
 
