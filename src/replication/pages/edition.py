@@ -4,7 +4,8 @@ import os
 import platform
 import shutil
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -12,10 +13,16 @@ from replication.inputs.parts import PAPER, edition_of, ledger_of
 from replication.inputs.strict_yaml import read_yaml
 from replication.judging.claim import Claim, JudgedClaim
 from replication.judging.digits import numbers
-from replication.judging.findings import Findings, findings_by_rule, write_findings
+from replication.judging.findings import (
+    Findings,
+    findings_by_rule,
+    read_findings,
+    write_findings,
+)
 from replication.judging.ledger import OURS, REPRODUCED, as_text, read_ledger, with_verdicts
 from replication.judging.verdicts import VERDICTS, by_origin
 from replication.origin.recorded import read_crate
+from replication.pages.seal import checksum
 
 TITLES = {
     "": "The paper",
@@ -226,6 +233,7 @@ def publish(tables: Iterable[str], sources: Iterable[str] = ()) -> None:
         for name, picture in edition.pictures.items():
             shutil.copyfile(Path("studies", study, picture), Path("docs", name))
     publish_findings(results / "findings", reference / "findings")
+    tie(reference, made_by_rules)
     publish_verdicts(read_ledger(map(ledger_of, [PAPER, *ours["studies"]])), Path())
     print("published; a run compares its tables with these: 'make reproduce' before 'make verify'")
 
@@ -247,6 +255,25 @@ def publish_findings(findings: Path, folder: Path) -> None:
     folder.mkdir(parents=True)
     for rule, of_rule in made.items():
         write_findings(folder / f"{rule}.json", Findings.of(rounded(of_rule.as_json())))
+
+
+def tie(reference: Path, made_by: Mapping[str, str]) -> None:
+    """Put into the published findings of a rule the checksums of its published tables.
+
+    Parameters
+    ----------
+    made_by
+        The rule of each output of the run, by its path.
+    """
+    for path in sorted((reference / "findings").glob("*.json")):
+        rule = made_by[f"results/findings/{path.name}"]
+        own = (
+            table
+            for table in reference.rglob("*.csv")
+            if made_by.get(f"results/tables/{table.name}") == rule
+        )
+        tables = {table.stem: checksum(table) for table in sorted(own)}
+        write_findings(path, replace(read_findings(path), tables=tables))
 
 
 def publish_verdicts(ledger: Sequence[Claim], root: Path) -> None:

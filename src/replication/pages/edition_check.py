@@ -15,7 +15,7 @@ from replication.judging.findings import Findings, findings_by_rule
 from replication.judging.ledger import read_judged, read_ledger, with_verdict
 from replication.judging.verdicts import tallies, tolerance_fault
 from replication.pages.edition import verdict_page, with_counts
-from replication.pages.seal import broken, outdated
+from replication.pages.seal import broken, checksum, outdated
 
 CLAIMS = "tests/reference/claims.json"
 DIFFER = """\
@@ -98,6 +98,15 @@ def configs(root: Path, studies: Iterable[str]) -> Iterator[str]:
                 )
 
 
+def untied(reference: Path, findings: Mapping[str, Findings]) -> Iterator[str]:
+    """Yield the published tables that are not those with which the findings were published."""
+    for rule, of_rule in findings.items():
+        there = {path.stem: path for path in reference.rglob("*.csv")}
+        for table, expected in of_rule.tables.items():
+            if table not in there or checksum(there[table]) != expected:
+                yield f"{table}.csv is not the table that findings/{rule}.json was drawn from"
+
+
 def main(
     departures: Callable[[Path, Mapping[str, Findings]], Iterable[str]], root: Path = Path()
 ) -> tuple[list[str], list[str]]:
@@ -122,6 +131,7 @@ def main(
             *departures(reference, findings),
             *pages(root, rows),
             *configs(root, config["studies"]),
+            *untied(reference, findings),
             *broken(root),
         ]
     except FileNotFoundError as missing:
