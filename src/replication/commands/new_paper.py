@@ -40,7 +40,7 @@ LEFT_OUT = ("__pycache__", "template", "kill", "new_paper.py", "kill_table.py", 
 
 ONLY_HERE = (
     *("basedpyright", "heyoka", "hypothesis", "lazy-loader", "llvmlite", "mujoco-core", "numba"),
-    *("python-flint", "snakemake-executor-plugin-slurm", "xarray"),
+    *("pdoc", "python-flint", "snakemake-executor-plugin-slurm", "xarray"),
 )
 """Packages that neither the machine nor the example needs."""
 
