@@ -28,11 +28,13 @@ if TYPE_CHECKING:
 
 OVERTURNED = "0.75"
 """The grey of what overturns."""
-UNITS = {"PGV": "m/s", "PGA": "g"}
-"""Of the measures of `topheavy.fragility`; one's own measure has none that is known."""
+FALLEN = 1.5
+"""|θ|/α up to which a history is shown: one that goes on overturns."""
 
 
-def history(response: Response, structure: Structure, *, axes: Axes | None = None) -> Axes:
+def history(
+    response: Response, structure: Structure, *, label: str = "", axes: Axes | None = None
+) -> Axes:
     """Draw the rotation over α against time (s), with the impacts; |θ| = α is dotted.
 
     Parameters
@@ -41,15 +43,19 @@ def history(response: Response, structure: Structure, *, axes: Axes | None = Non
         Of `simulate`.
     structure : Structure
         That it is of, for its α.
+    label : str
+        In a legend; by default the outcome.
     """
     axes = _axes(axes)
     alpha = as_block(structure).slenderness
-    (line,) = axes.plot(response.time, response.rotation / alpha, label=response.outcome)
+    (line,) = axes.plot(response.time, response.rotation / alpha, label=label or response.outcome)
     shown = response.impacts[response.impacts <= response.time[-1]]
     axes.plot(shown, np.zeros(shown.size), "|", color=line.get_color())
     for limit in (-1.0, 1.0):
         axes.axhline(limit, color="0.5", linestyle=":", linewidth=0.8)
     axes.set(xlabel="Time, $t$ (s)", ylabel=r"Rotation, $\theta/\alpha$ (–)")
+    if max(map(abs, axes.get_ylim())) > FALLEN:
+        axes.set_ylim(-FALLEN, FALLEN)
     return axes
 
 
@@ -90,7 +96,7 @@ def fragility(found: Fragility, *, axes: Axes | None = None) -> Axes:
         ends = np.array([share - curve.probability_low, curve.probability_high - share])
         points = axes.errorbar(level, share, ends.clip(0.0), fmt=".", capsize=2, label=str(name))
         axes.plot(level, curve.fitted, color=points.lines[0].get_color())
-    unit = UNITS.get(found.measure, "–")
+    unit = found.curves.level.attrs.get("units", "its unit")
     axes.set(
         xlabel=f"{found.measure} ({unit})",
         ylabel="Probability of overturning (–)",
@@ -141,6 +147,7 @@ def structure(
         axes.fill(*corners.T, facecolor="0.9" if "column" in name else "0.6", edgecolor="0.1")
     axes.axhline(0.0, color="0.1", linewidth=1.0, zorder=0)
     axes.set(xlabel="$x$ (m)", ylabel="$z$ (m)", aspect="equal")
+    axes.locator_params(axis="x", nbins=3)
     axes.set_title(rf"$\theta$ = {math.degrees(rotation):.2f}°", fontsize="medium")
     return axes
 
