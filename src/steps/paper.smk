@@ -257,6 +257,22 @@ rule uplift_limits:
         "uplift_limits.py"
 
 
+rule portal:
+    input:
+        records=record_paths(config["portal"]["records"], RECORDS),
+    output:
+        forces="results/tables/portal_forces.csv",
+        columns="results/tables/portal_columns.csv",
+        findings="results/findings/portal.json",
+    params:
+        case=case("portal"),
+        vase=config["vase"],
+    message:
+        "What the joints and feet of a portal carry, and the larger column that gains as much"
+    script:
+        "portal.py"
+
+
 rule negative_stiffness:
     output:
         table="results/tables/negative_stiffness.csv",
