@@ -34,8 +34,9 @@ def resultant(portal, bodies, about, state):
     def moved(parts):
         across, up, mass = np.concatenate(parts, axis=1)
         arm = across - side * portal.half_base
-        x, z = arm * math.cos(theta) + up * math.sin(theta), up * math.cos(theta) - arm * math.sin(
-            theta
+        x, z = (
+            arm * math.cos(theta) + up * math.sin(theta),
+            up * math.cos(theta) - arm * math.sin(theta),
         )
         return x, z, mass
 
@@ -72,9 +73,7 @@ def test_rocking_ends_carry_all_that_is_above_them(portal, state):
         ("joint", hangs): -np.array(resultant(portal, [free], place[hangs], state)),
         ("joint", bears): resultant(portal, [free, cap], place[bears], state),
         ("foot", hangs): np.zeros(3),
-        ("foot", bears): resultant(
-            portal, [left, right, cap], (place[bears][0], 0.0), state
-        ),
+        ("foot", bears): resultant(portal, [left, right, cap], (place[bears][0], 0.0), state),
     }
     for (end, column), expected in above.items():
         ours = [part[column] for part in getattr(found, end)]
@@ -93,8 +92,8 @@ def by_least_work(portal, feet, ground):
     right = np.stack([-z, span + 0 * z, -1 + 0 * z], axis=1)
     energy = root[:, None] * left, root[:, None] * right
     given = root * load, root * (load - ground * z - overturning)
-    rigid = 1e6 if feet == "pinned" else 0.0  # a spring far softer than the columns
-    tied = rigid * np.array([[0, 0, 1], [0, span, -1]]), rigid * np.array([0, -overturning])
+    tight = 1e6 if feet == "pinned" else 0.0  # how hard both moments at the feet are held at 0
+    tied = tight * np.array([[0, 0, 1], [0, span, -1]]), tight * np.array([0, -overturning])
     unknown, *_ = np.linalg.lstsq(
         np.vstack([*energy, tied[0]]), np.concatenate([*given, tied[1]]), rcond=None
     )
@@ -167,7 +166,11 @@ def test_motion_broadcasts():
     for place, state in enumerate(STATES[:3]):
         one = rocking_portal_forces(PORTALS[1], *state)
         np.testing.assert_array_equal(found.joint.moment[place], one.joint.moment)
-    assert standing_portal_forces(PORTALS[1], "fixed", np.zeros((3, 4))).foot.shear.shape == (3, 4, 2)
+    assert standing_portal_forces(PORTALS[1], "fixed", np.zeros((3, 4))).foot.shear.shape == (
+        3,
+        4,
+        2,
+    )
 
 
 def test_other_feet_are_refused():

@@ -7,6 +7,7 @@ CHECKS = {
     "trilith_states": ["second_route"],
     "vase": ["second_route"],
     "uplift_limits": ["forces_by_second_routes"],
+    "portal": ["second_route"],
     "verification": [
         "routes_agree",
         "published_numbers",
