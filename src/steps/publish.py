@@ -28,6 +28,7 @@ TABLES = (
     "quarter_period",
     "restitution_over_mass_ratio",
     "restitution_over_slenderness",
+    "portal_columns",
     "proven",
     "spectra_areas",
     "trilith_map",
@@ -44,6 +45,7 @@ TABLES = (
 
 SOURCES = (
     "allen_peaks",
+    "portal_forces",
     "rocking_spectra",
     "scale_outcomes",
     "spectra_published",
