@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from topheavy import STANDARD_GRAVITY, Cap, Column, FixedFrame, MonolithicPortal, RockingFrame
-from topheavy.portal_forces import rocking_portal_forces, standing_portal_forces
+from topheavy.portal_forces import resting_portal_forces, rocking_portal_forces
 
 COLUMN = Column(0.5, 3.0)
 PORTALS = [
@@ -72,27 +72,27 @@ def test_rocking_ends_carry_all_that_is_above_them(portal, state):
     above = {
         ("joint", hangs): -np.array(resultant(portal, [free], place[hangs], state)),
         ("joint", bears): resultant(portal, [free, cap], place[bears], state),
-        ("foot", hangs): np.zeros(3),
-        ("foot", bears): resultant(portal, [left, right, cap], (place[bears][0], 0.0), state),
+        ("base", hangs): np.zeros(3),
+        ("base", bears): resultant(portal, [left, right, cap], (place[bears][0], 0.0), state),
     }
     for (end, column), expected in above.items():
         ours = [part[column] for part in getattr(found, end)]
         np.testing.assert_allclose(ours, expected, atol=1e-12)
 
 
-def by_least_work(portal, feet, ground):
-    """Shear, axial force and moment of both feet, whose columns store the least bending energy."""
+def by_least_work(portal, bases, ground):
+    """Shear, axial force and moment of both bases, whose columns store the least bending energy."""
     cap = 1.0 if portal.mass_ratio == math.inf else portal.mass_ratio / (1 + portal.mass_ratio)
     nodes, weights = np.polynomial.legendre.leggauss(6)
     z, root, span = 3.0 * (1 + nodes), np.sqrt(weights), portal.span
     load = (1 - cap) / 2 * ground / 6.0 * z**2 / 2
-    # Unknown T, N, M of the left foot; those of the right one are left over by equilibrium.
+    # Unknown T, N, M of the left base; those of the right one are left over by equilibrium.
     overturning = -ground * portal.centre_height - span / 2
     left = np.stack([z, 0 * z, 1 + 0 * z], axis=1)
     right = np.stack([-z, span + 0 * z, -1 + 0 * z], axis=1)
     energy = root[:, None] * left, root[:, None] * right
     given = root * load, root * (load - ground * z - overturning)
-    tight = 1e6 if feet == "pinned" else 0.0  # how hard both moments at the feet are held at 0
+    tight = 1e6 if bases == "pinned" else 0.0  # how hard both moments at the bases are held at 0
     tied = tight * np.array([[0, 0, 1], [0, span, -1]]), tight * np.array([0, -overturning])
     unknown, *_ = np.linalg.lstsq(
         np.vstack([*energy, tied[0]]), np.concatenate([*given, tied[1]]), rcond=None
@@ -102,17 +102,17 @@ def by_least_work(portal, feet, ground):
     return np.stack([unknown, other], axis=1)
 
 
-@pytest.mark.parametrize("feet", ["fixed", "pinned"])
+@pytest.mark.parametrize("bases", ["fixed", "pinned"])
 @pytest.mark.parametrize("portal", PORTALS, ids=str)
-def test_standing_feet_are_those_of_least_work(portal, feet):
-    found = standing_portal_forces(portal, feet, 0.3)
-    np.testing.assert_allclose(found.foot, by_least_work(portal, feet, 0.3), atol=1e-9)
+def test_resting_bases_are_those_of_least_work(portal, bases):
+    found = resting_portal_forces(portal, bases, 0.3)
+    np.testing.assert_allclose(found.base, by_least_work(portal, bases, 0.3), atol=1e-9)
 
 
-@pytest.mark.parametrize("feet", ["fixed", "pinned"])
+@pytest.mark.parametrize("bases", ["fixed", "pinned"])
 @pytest.mark.parametrize("portal", PORTALS, ids=str)
-def test_standing_cap_beam_is_in_balance(portal, feet):
-    joint = standing_portal_forces(portal, feet, 0.3).joint
+def test_resting_cap_beam_is_in_balance(portal, bases):
+    joint = resting_portal_forces(portal, bases, 0.3).joint
     cap = 1.0 if portal.mass_ratio == math.inf else portal.mass_ratio / (1 + portal.mass_ratio)
     assert joint.shear.sum() == pytest.approx(0.3 * cap, abs=1e-14)
     assert joint.axial.sum() == pytest.approx(cap, abs=1e-14)
@@ -120,35 +120,35 @@ def test_standing_cap_beam_is_in_balance(portal, feet):
     assert couple + 0.3 * cap * 0.3 == pytest.approx(0.0, abs=1e-14)  # depth/2 over the joints
 
 
-@pytest.mark.parametrize("feet", ["fixed", "pinned"])
+@pytest.mark.parametrize("bases", ["fixed", "pinned"])
 @pytest.mark.parametrize("sign", [-1, 1])
 @pytest.mark.parametrize("portal", PORTALS, ids=str)
-def test_both_descriptions_have_the_same_resultants_at_uplift(portal, sign, feet):
+def test_both_descriptions_have_the_same_resultants_at_uplift(portal, sign, bases):
     """Where the ground's force reaches the corner, quasi-statically."""
     ground = sign * portal.uplift_acceleration
-    rocking = rocking_portal_forces(portal, 0.0, 0.0, ground).foot
-    standing = standing_portal_forces(portal, feet, ground).foot
-    for foot in (rocking, standing):
-        overturning = foot.moment.sum() + portal.span / 2 * np.diff(foot.axial)
-        assert foot.shear.sum() == pytest.approx(ground, rel=1e-12)
-        assert foot.axial.sum() == pytest.approx(1.0, rel=1e-12)
+    rocking = rocking_portal_forces(portal, 0.0, 0.0, ground).base
+    resting = resting_portal_forces(portal, bases, ground).base
+    for base in (rocking, resting):
+        overturning = base.moment.sum() + portal.span / 2 * np.diff(base.axial)
+        assert base.shear.sum() == pytest.approx(ground, rel=1e-12)
+        assert base.axial.sum() == pytest.approx(1.0, rel=1e-12)
         assert overturning == pytest.approx(-ground * portal.centre_height, rel=1e-12)
     assert np.isnan(rocking_portal_forces(portal, 0.0, 0.0, 0.999 * ground).joint).all()
 
 
 def test_portal_at_rest_carries_its_weight_alone():
-    for feet in ("fixed", "pinned"):
-        foot, joint = standing_portal_forces(PORTALS[1], feet, 0.0)
-        np.testing.assert_array_equal([foot.axial, joint.axial], [[0.5, 0.5], [0.25, 0.25]])
-        assert not np.any([foot.shear, foot.moment, joint.shear, joint.moment])
+    for bases in ("fixed", "pinned"):
+        base, joint = resting_portal_forces(PORTALS[1], bases, 0.0)
+        np.testing.assert_array_equal([base.axial, joint.axial], [[0.5, 0.5], [0.25, 0.25]])
+        assert not np.any([base.shear, base.moment, joint.shear, joint.moment])
 
 
 @pytest.mark.parametrize("portal", PORTALS[1:], ids=str)
 def test_portal_with_fixed_feet_is_the_guided_frame_that_is_held(portal):
     cap = Cap(portal.span, portal.cap_depth / 2)
     guided = FixedFrame(RockingFrame(COLUMN, portal.mass_ratio), cap, "guided").rigid
-    foot, joint = standing_portal_forces(portal, "fixed", 1.0)
-    np.testing.assert_allclose(-foot.moment, guided[2])
+    base, joint = resting_portal_forces(portal, "fixed", 1.0)
+    np.testing.assert_allclose(-base.moment, guided[2])
     np.testing.assert_allclose(joint.moment, guided[3])
 
 
@@ -166,7 +166,7 @@ def test_motion_broadcasts():
     for place, state in enumerate(STATES[:3]):
         one = rocking_portal_forces(PORTALS[1], *state)
         np.testing.assert_array_equal(found.joint.moment[place], one.joint.moment)
-    assert standing_portal_forces(PORTALS[1], "fixed", np.zeros((3, 4))).foot.shear.shape == (
+    assert resting_portal_forces(PORTALS[1], "fixed", np.zeros((3, 4))).base.shear.shape == (
         3,
         4,
         2,
@@ -174,5 +174,5 @@ def test_motion_broadcasts():
 
 
 def test_other_feet_are_refused():
-    with pytest.raises(ValueError, match=r"feet is 'guided'; expected 'fixed'.*or 'pinned'"):
-        standing_portal_forces(PORTALS[1], "guided", 0.1)
+    with pytest.raises(ValueError, match=r"bases is 'guided'; expected 'fixed'.*or 'pinned'"):
+        resting_portal_forces(PORTALS[1], "guided", 0.1)

@@ -269,7 +269,7 @@ rule portal:
         case=case("portal"),
         vase=config["vase"],
     message:
-        "What the joints and feet of a portal carry, and the larger column that gains as much"
+        "What the joints and bases of a portal carry, and the larger column that gains as much"
     script:
         "portal.py"
 

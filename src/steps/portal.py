@@ -1,4 +1,4 @@
-"""The price of the portal: the forces at its joints and feet, over those in the frame's columns.
+"""The price of the portal: the forces at its joints and bases, over those in the frame's columns.
 
 Also its alternative, a larger free-standing column that overturns at the same acceleration.
 """
@@ -27,16 +27,16 @@ from topheavy import (
     frame_forces,
     read_record,
     reference,
+    resting_portal_forces,
     rocking_portal_forces,
     simulate,
-    standing_portal_forces,
 )
-from topheavy.portal_forces import ColumnEnds, Feet, Section
+from topheavy.portal_forces import Bases, ColumnEnds, Section
 
 Forces = dict[str, np.ndarray]
 
-FEET = get_args(Feet)
-FORCES = ("joint_moment", "foot_moment", "joint_shear", "foot_shear")
+BASES = get_args(Bases)
+FORCES = ("joint_moment", "base_moment", "joint_shear", "base_shear")
 SEED = 2014  # of the sample that SciPy judges
 CLOSE = 1e-3  # relative: what the peaks of two solvers may differ by
 HALVED = 5e-3  # relative: what half as many samples may change a peak by
@@ -60,14 +60,14 @@ def of_frame(frame: RockingFrame, cap: Cap, course: History) -> Forces:
 
 
 def of_portal(portal: MonolithicPortal, course: History) -> Forces:
-    """Return the moments and shears at the joints and feet of a portal that rocks."""
+    """Return the moments and shears at the joints and bases of a portal that rocks."""
     return of_ends(rocking_portal_forces(portal, course.rotation, course.velocity, course.ground))
 
 
 def of_ends(ends: ColumnEnds) -> Forces:
-    """Return the moments and shears at the joints and feet."""
-    joint, foot = ends.joint, ends.foot
-    return dict(zip(FORCES, (joint.moment, foot.moment, joint.shear, foot.shear), strict=True))
+    """Return the moments and shears at the joints and bases."""
+    joint, base = ends.joint, ends.base
+    return dict(zip(FORCES, (joint.moment, base.moment, joint.shear, base.shear), strict=True))
 
 
 def largest(
@@ -101,9 +101,9 @@ def compare(
     samples: int,
     route: Callable[..., Response] = simulate,
 ) -> list[dict]:
-    """Return a row for each span and for feet that are fixed or pinned while the portal stands.
+    """Return a row for each span and for bases that are fixed or pinned while the portal rests.
 
-    The standing portal has its largest forces at the largest acceleration that does not uplift it.
+    The resting portal has its largest forces at the largest acceleration that does not uplift it.
     """
     gamma, depth, rows = vase["portals"]["mass_ratio"], vase["cap"]["depth"], []
     frame, peak = RockingFrame(column, gamma), labels["peak_acceleration"]
@@ -116,21 +116,21 @@ def compare(
                 (portal, partial(of_portal, portal)),
             )
         )
-        for feet in FEET:
-            ends = standing_portal_forces(portal, feet, min(peak, portal.uplift_acceleration))
-            stands, foot = of_ends(ends), ends.foot
-            row = labels | {"span": span, "feet": feet}
-            row |= {"frame": freely[0], "portal": rocks[0], "resisted": resisted(portal, foot)}
+        for bases in BASES:
+            ends = resting_portal_forces(portal, bases, min(peak, portal.uplift_acceleration))
+            rests, base = of_ends(ends), ends.base
+            row = labels | {"span": span, "bases": bases}
+            row |= {"frame": freely[0], "portal": rocks[0], "resisted": resisted(portal, base)}
             for name in FORCES:
-                row[name] = max(rocks[1][name], float(np.abs(stands[name]).max()))
+                row[name] = max(rocks[1][name], float(np.abs(rests[name]).max()))
                 row[f"{name}_over_frame"] = row[name] / freely[1][name]
             rows.append(row | {"error": np.fmax(freely[2], rocks[2])})
     return rows
 
 
-def resisted(portal: MonolithicPortal, foot: Section) -> bool:
+def resisted(portal: MonolithicPortal, base: Section) -> bool:
     """Whether the axial forces act within the bases: ground without tension resists no others."""
-    return bool(np.all(np.abs(foot.moment) <= portal.column.half_width * foot.axial))
+    return bool(np.all(np.abs(base.moment) <= portal.column.half_width * base.axial))
 
 
 def larger_columns(column: Column, pulse: Pulse, case: dict, vase: dict) -> list[dict]:
@@ -172,14 +172,14 @@ def larger_columns(column: Column, pulse: Pulse, case: dict, vase: dict) -> list
             middle = math.sqrt(low * high)
             survives = lowest(middle, target).acceleration == math.inf
             low, high = (low, middle) if survives else (middle, high)
-        stands = not reference.judge(similar(high), pulse.scaled(target)).overturned
+        survives = not reference.judge(similar(high), pulse.scaled(target)).overturned
         rows.append(
             {"structure": name, "span": span, "shape": pulse.shape, "minimum_overturning": target}
             | {"size_low": low, "size_high": high, "height": 2.0 * high * column.half_height}
             | {"mass_same_depth": high**2, "mass_similar": high**3}
             | {"mass_of_structure": 2.0 * (1.0 + gamma)}
             | {"rises": bool(np.all(np.diff(minima[: place + 1]) > 0.0))}
-            | {"by_scipy": stands and math.isfinite(lowest(low, target).error)}
+            | {"by_scipy": survives and math.isfinite(lowest(low, target).error)}
         )
     return rows
 
@@ -237,25 +237,25 @@ def second_route(
 
 
 def findings(portal_forces: pd.DataFrame, portal_columns: pd.DataFrame) -> dict[str, Finding]:
-    """Return what the joints and feet carry, and how large a column gains as much."""
+    """Return what the joints and bases carry, and how large a column gains as much."""
     table, columns = portal_forces, portal_columns
     compared = table[table.joint_moment_over_frame.notna()]
-    stands = compared.portal == "no uplift"
-    cases = {f"stands_{feet}": compared[stands & (compared.feet == feet)] for feet in FEET}
-    cases["rocks"] = compared[~stands]
+    rests = compared.portal == "no uplift"
+    cases = {f"rests_{bases}": compared[rests & (compared.bases == bases)] for bases in BASES}
+    cases["rocks"] = compared[~rests]
     least = {name: rows.joint_moment_over_frame.min() for name, rows in cases.items()}
     frame, portal = (columns[columns.structure == name] for name in ("frame", "portal"))
     sure = columns.rises.all() and columns.by_scipy.all()
     return {
         "joints_carry_more": truth(
             min(least.values()) > 1.0,
-            holds_when=min(least["rocks"], least["stands_pinned"]) > 1.0,
-            condition="the portal rocks, or stands on feet that are pinned",
-            histories=len(table) // len(FEET),
-            compared=len(compared) // len(FEET),
-            standing=int(stands.sum()) // len(FEET),
-            rocking=int((~stands).sum()) // len(FEET),
-            resisted={feet: int(cases[f"stands_{feet}"].resisted.sum()) for feet in FEET},
+            holds_when=min(least["rocks"], least["rests_pinned"]) > 1.0,
+            condition="the portal rocks, or rests on pinned bases",
+            histories=len(table) // len(BASES),
+            compared=len(compared) // len(BASES),
+            resting=int(rests.sum()) // len(BASES),
+            rocking=int((~rests).sum()) // len(BASES),
+            resisted={bases: int(cases[f"rests_{bases}"].resisted.sum()) for bases in BASES},
             **{
                 name: {f"{span:g}": ranges(of) for span, of in rows.groupby("span")}
                 for name, rows in cases.items()

@@ -1,19 +1,19 @@
-"""Moments and shears at the joints and feet of a monolithic portal.
+"""Moments and shears at the joints and bases of the columns of a monolithic portal.
 
-While it rocks on one corner, it is statically determinate. The column whose foot is in the air
+While it rocks about one corner, it is statically determinate. The column whose base is in the air
 hangs from its joint. The other one bears the whole portal at its outer edge, half its width b
 beside its axis. By d'Alembert, with t and n for the transverse and axial parts of the acceleration,
-gravity included, and w_c for the weight of a column, its own loads between foot and joint are
+gravity included, and w_c for the weight of a column, its own loads between base and joint are
 
     w_c t and w_c n at mid-height,    moment about the joint w_c (h t₀ + (2h² − b²)/3 θ̈/g),
 
-where t₀ is t at its foot. The balance of the cap beam is not used, so that it checks the rest.
+where t₀ is t at its base. The balance of the cap beam is not used, so that it checks the rest.
 
-While it stands on both feet, it is hyperstatic. The assumptions are a rigid cap beam, two equal
+While it rests on both bases, it is hyperstatic. The assumptions are a rigid cap beam, two equal
 elastic columns that do not change their length, and forces that follow the ground (no vibration).
-Such a cap beam does not turn and guides both columns. Their feet are limits, each an assumption:
-"fixed", they do not turn, or "pinned" at the axes, they turn freely. A foot that only stands on the
-ground is between the two, and can resist at most b times its axial force.
+Such a cap beam does not turn and guides both columns. Their bases are limits, each an assumption:
+"fixed", they do not turn, or "pinned" at the axes, they turn freely. The base of a free-standing
+portal is neither; it resists at most b times its axial force.
 
 Forces are over the weight of the portal. The impulses of impacts are no forces.
 """
@@ -29,7 +29,7 @@ from topheavy.structures import STANDARD_GRAVITY
 
 Array = NDArray[np.float64]
 
-Feet: TypeAlias = Literal["fixed", "pinned"]
+Bases: TypeAlias = Literal["fixed", "pinned"]
 
 
 class Section(NamedTuple):
@@ -45,9 +45,9 @@ class Section(NamedTuple):
 
 
 class ColumnEnds(NamedTuple):
-    """Forces at the feet and at the joints of both columns, over the weight of the portal."""
+    """Forces at the bases and at the joints of both columns, over the weight of the portal."""
 
-    foot: Section
+    base: Section
     joint: Section
 
 
@@ -57,7 +57,7 @@ def rocking_portal_forces(
     velocity: ArrayLike,
     ground_acceleration: ArrayLike = 0.0,
 ) -> ColumnEnds:
-    """Return the forces at the ends of the columns while the portal rocks on one corner.
+    """Return the forces at the ends of the columns while the portal rocks about a corner.
 
     Rotation (rad, signed), velocity (rad/s) and ground acceleration (g) broadcast; the angular
     acceleration is that of Eq. (23) with p' and α'. NaN at rest below the uplift acceleration.
@@ -70,8 +70,7 @@ def rocking_portal_forces(
     )
     b, h = portal.column.half_width, portal.column.half_height
     uplifted = np.where(np.abs(ground) >= portal.uplift_acceleration, -np.sign(ground), np.nan)
-    side = np.where(theta != 0.0, theta, np.where(rate != 0.0, rate, uplifted))
-    side = np.sign(side)
+    side = np.sign(np.where(theta != 0.0, theta, np.where(rate != 0.0, rate, uplifted)))
     lean, cos, sin = portal.slenderness - np.abs(theta), np.cos(theta), np.sin(theta)
     angular = -(portal.frequency_parameter**2) * (side * np.sin(lean) + ground * np.cos(lean))
     turn, spin = angular / STANDARD_GRAVITY, rate**2 / STANDARD_GRAVITY
@@ -86,41 +85,41 @@ def rocking_portal_forces(
     bears = side * axes > 0.0
     whole = pull(0.0, portal.centre_height)
     shear, axial = (bears * force for force in whole)
-    foot = Section(shear, axial, side * b * axial)
-    (at_foot, _), (transverse, along) = pull(axes, 0.0), pull(axes, h)
-    load = h * at_foot + turn * (2.0 * h**2 - b**2) / 3.0
+    base = Section(shear, axial, side * b * axial)
+    (at_base, _), (transverse, along) = pull(axes, 0.0), pull(axes, h)
+    load = h * at_base + turn * (2.0 * h**2 - b**2) / 3.0
     weight = _column_weight(portal)
-    moment = foot.moment + 2.0 * h * shear - weight * load
-    return ColumnEnds(foot, Section(shear - weight * transverse, axial - weight * along, moment))
+    moment = base.moment + 2.0 * h * shear - weight * load
+    return ColumnEnds(base, Section(shear - weight * transverse, axial - weight * along, moment))
 
 
-def standing_portal_forces(
-    portal: MonolithicPortal, feet: Feet, ground_acceleration: ArrayLike
+def resting_portal_forces(
+    portal: MonolithicPortal, bases: Bases, ground_acceleration: ArrayLike
 ) -> ColumnEnds:
-    """Return the forces at the ends of the columns while the portal stands on both feet.
+    """Return the forces at the ends of the columns while the portal rests on both bases.
 
     A column of length 2h under half the cap beam's inertia P at its top and its own w over its
-    length, guided at its top, has the moment Ph + (4/3)wh² at a fixed foot and Ph + (2/3)wh² at the
-    joint; with a pinned foot, 2Ph + 2wh² at the joint.
+    length, guided at its top, has the moment Ph + (4/3)wh² at a fixed base and Ph + (2/3)wh² at the
+    joint; with a pinned base, 2Ph + 2wh² at the joint.
 
     Raises
     ------
     ValueError
-        For other feet.
+        For other bases.
     """
-    if feet not in get_args(Feet):
+    if bases not in get_args(Bases):
         raise ValueError(
-            f"feet is {feet!r}; expected 'fixed', feet that do not turn, or 'pinned', feet that may"
+            f"bases is {bases!r}; expected 'fixed', they do not turn, or 'pinned', they turn freely"
         )
     ground = np.asarray(ground_acceleration, dtype=float)[..., None] * np.ones(2)
     h, column = portal.column.half_height, _column_weight(portal)
     beam = 1.0 - 2.0 * column
-    held = 0.0 if feet == "pinned" else -h * (beam / 2.0 + 2.0 * column / 3.0)
+    held = 0.0 if bases == "pinned" else -h * (beam / 2.0 + 2.0 * column / 3.0)
     couple = (portal.centre_height + 2.0 * held) * ground  # of the axial forces
     axial = 0.5 + np.array([1.0, -1.0]) * couple / portal.span
-    foot = Section(ground / 2.0, axial, held * ground)
+    base = Section(ground / 2.0, axial, held * ground)
     moment = (held + h * (1.0 - column)) * ground
-    return ColumnEnds(foot, Section(beam / 2.0 * ground, axial - column, moment))
+    return ColumnEnds(base, Section(beam / 2.0 * ground, axial - column, moment))
 
 
 def _column_weight(portal: MonolithicPortal) -> float:

@@ -9,7 +9,7 @@ import pytest
 from steps import portal
 from steps.shared.histories import History
 from topheavy import STANDARD_GRAVITY, Cap, Column, MonolithicPortal, Pulse, RockingFrame
-from topheavy.portal_forces import standing_portal_forces
+from topheavy.portal_forces import resting_portal_forces
 
 COLUMN = Column(0.5, 3.0)
 VASE = {
@@ -43,28 +43,28 @@ def test_shears_at_the_ends_of_a_frames_column_differ_by_its_own_load():
     second = -(p**2) * (math.sin(lean) + ground * math.cos(lean)) / STANDARD_GRAVITY
     load = ground * math.cos(theta) - math.sin(theta) + second * 3.0
     load += 0.5 * rate**2 / STANDARD_GRAVITY  # towards the pivot, beside the axis
-    np.testing.assert_allclose(found["foot_shear"] - found["joint_shear"], 0.25 * load, atol=1e-14)
+    np.testing.assert_allclose(found["base_shear"] - found["joint_shear"], 0.25 * load, atol=1e-14)
 
 
-def test_portal_that_stands_has_the_forces_of_the_ground():
-    """h/3 and 5h/12 with fixed feet, 3h/4 with pinned ones, for γ = 1."""
-    found = compared(0.31).set_index("feet")
+def test_portal_that_rests_has_the_forces_of_the_ground():
+    """h/3 and 5h/12 with fixed bases, 3h/4 with pinned ones, for γ = 1."""
+    found = compared(0.31).set_index("bases")
     assert set(found.portal) == {"no uplift"}
     assert found.joint_moment.to_dict() == pytest.approx({"fixed": 0.31, "pinned": 0.6975})
-    assert found.foot_moment.to_dict() == pytest.approx({"fixed": 0.3875, "pinned": 0.0})
+    assert found.base_moment.to_dict() == pytest.approx({"fixed": 0.3875, "pinned": 0.0})
     assert found.joint_shear.tolist() == pytest.approx([0.0775] * 2)
-    assert found.foot_shear.tolist() == pytest.approx([0.155] * 2)
+    assert found.base_shear.tolist() == pytest.approx([0.155] * 2)
     over = found.joint_moment / found.joint_moment_over_frame
     # The contact at its edge bends a frame's column by b times its axial force, half the weight.
     assert over.tolist() == pytest.approx([0.25] * 2, rel=0.3)
 
 
-def test_standing_forces_are_those_below_uplift():
-    found, level = compared(0.6).set_index("feet"), MonolithicPortal(COLUMN, 1.0, 2.4, 0.6)
+def test_resting_forces_are_those_below_uplift():
+    found, level = compared(0.6).set_index("bases"), MonolithicPortal(COLUMN, 1.0, 2.4, 0.6)
     assert set(found.portal) == {"rests"}
     level = level.uplift_acceleration
-    assert found.foot_moment["fixed"] >= 1.25 * level
-    assert found.foot_moment["fixed"] < 1.25 * 0.6  # which only a portal held down would have
+    assert found.base_moment["fixed"] >= 1.25 * level
+    assert found.base_moment["fixed"] < 1.25 * 0.6  # which only a portal held down would have
 
 
 def test_overturning_has_no_forces():
@@ -83,12 +83,12 @@ def test_peaks_are_those_of_many_more_samples_within_their_error():
 
 
 @pytest.mark.parametrize(
-    ("feet", "ground", "resists"),
+    ("bases", "ground", "resists"),
     [("fixed", 0.1, True), ("fixed", 0.3, False), ("pinned", 0.2, True), ("pinned", 0.3, False)],
 )
-def test_ground_without_tension_resists_forces_within_the_bases(feet, ground, resists):
+def test_ground_without_tension_resists_forces_within_the_bases(bases, ground, resists):
     one = MonolithicPortal(COLUMN, 1.0, 2.4, 0.6)
-    assert portal.resisted(one, standing_portal_forces(one, feet, ground).foot) is resists
+    assert portal.resisted(one, resting_portal_forces(one, bases, ground).base) is resists
 
 
 def test_larger_column_is_the_one_that_it_is_compared_with(monkeypatch):
@@ -142,14 +142,14 @@ def test_second_route_sees_another_outcome_another_peak_and_few_samples():
 
 
 def rows(**over):
-    """A portal that stands, and one that rocks, both on either feet, and one without a frame."""
+    """A portal that rests, and one that rocks, each on either bases, and one without a frame."""
     ratios = {"fixed": 0.7, "pinned": 1.5, "rocks": 5.0, "none": math.nan} | over
-    cases = [("no uplift", feet, feet) for feet in ("fixed", "pinned")]
-    cases += [("rests", feet, name) for name in ("rocks", "none") for feet in ("fixed", "pinned")]
+    cases = [("no uplift", bases, bases) for bases in ("fixed", "pinned")]
+    cases += [("rests", bases, name) for name in ("rocks", "none") for bases in ("fixed", "pinned")]
     return pd.DataFrame(
-        {"span": 2.4, "portal": outcome, "feet": feet, "resisted": feet == "pinned"}
+        {"span": 2.4, "portal": outcome, "bases": bases, "resisted": bases == "pinned"}
         | dict.fromkeys(OVER, ratios[name])
-        for outcome, feet, name in cases
+        for outcome, bases, name in cases
     )
 
 
@@ -174,10 +174,10 @@ def columns(**change):
 def test_joints_carry_more_than_the_columns_of_the_frame_or_not(over, holds, holds_when):
     found = portal.findings(rows(**over), columns())["joints_carry_more"]
     assert (found.holds, found.holds_when) == (holds, holds_when)
-    counts = [found[name] for name in ("histories", "compared", "standing", "rocking")]
+    counts = [found[name] for name in ("histories", "compared", "resting", "rocking")]
     assert counts == [3, 2, 1, 1]
     assert found["resisted"] == {"fixed": 0, "pinned": 1}
-    assert found["rocks"]["2.4"]["foot_shear"] == [over.get("rocks", 5.0)] * 2
+    assert found["rocks"]["2.4"]["base_shear"] == [over.get("rocks", 5.0)] * 2
 
 
 @pytest.mark.parametrize(
