@@ -91,17 +91,23 @@ def test_ground_without_tension_resists_forces_within_the_bases(bases, ground, r
     assert portal.resisted(one, resting_portal_forces(one, bases, ground).base) is resists
 
 
-def test_larger_column_is_the_one_that_it_is_compared_with(monkeypatch):
-    def larger(column, gamma):
-        return Column(1.7 * column.half_width, 1.7 * column.half_height)
-
-    monkeypatch.setattr(portal, "RockingFrame", larger)
+@pytest.mark.parametrize(
+    ("goal", "size"),
+    [
+        (Column(1.7 * 0.5, 1.7 * 3.0), 1.7),
+        # Without the impacts' part, the frame is the equivalent column of Eq. (24).
+        (RockingFrame(COLUMN, 1.0).block(COLUMN.restitution), 4.0 / 3.0),
+    ],
+    ids=["column", "frame"],
+)
+def test_larger_column_is_the_one_that_it_is_compared_with(monkeypatch, goal, size):
+    monkeypatch.setattr(portal, "RockingFrame", lambda *given: goal)
     found, other = portal.larger_columns(COLUMN, pulse(1.0), SIZES, VASE)
-    assert found["size_low"] < 1.7 * (1 + 1e-9)
-    assert 1.7 * (1 - 1e-9) < found["size_high"] < found["size_low"] * (1 + 1e-4)
-    assert found["height"] == pytest.approx(6.0 * 1.7, rel=1e-3)
-    assert found["mass_same_depth"] == pytest.approx(1.7**2, rel=1e-3)
-    assert found["mass_similar"] == pytest.approx(1.7**3, rel=1e-3)
+    assert found["size_low"] < size * (1 + 1e-9)
+    assert size * (1 - 1e-9) < found["size_high"] < found["size_low"] * (1 + 1e-4)
+    assert found["height"] == pytest.approx(6.0 * size, rel=1e-3)
+    assert found["mass_same_depth"] == pytest.approx(size**2, rel=1e-3)
+    assert found["mass_similar"] == pytest.approx(size**3, rel=1e-3)
     assert found["mass_of_structure"] == other["mass_of_structure"] == 4.0
     assert found["rises"]
     assert found["by_scipy"]
