@@ -175,7 +175,8 @@ def larger_columns(column: Column, pulse: Pulse, case: dict, vase: dict) -> list
         survives = not reference.judge(similar(high), pulse.scaled(target)).overturned
         rows.append(
             {"structure": name, "span": span, "shape": pulse.shape, "minimum_overturning": target}
-            | {"size_low": low, "size_high": high, "height": 2.0 * high * column.half_height}
+            | {"size_low": low, "size_high": high, "bracket": high / low - 1.0}
+            | {"height": 2.0 * high * column.half_height}
             | {"mass_same_depth": high**2, "mass_similar": high**3}
             | {"mass_of_structure": 2.0 * (1.0 + gamma)}
             | {"rises": bool(np.all(np.diff(minima[: place + 1]) > 0.0))}
@@ -280,8 +281,7 @@ def sizes(rows: pd.DataFrame) -> dict[str, Any]:
     """Return the range of the larger columns' sizes, heights and masses, as evidence."""
     names = ("size_high", "height", "mass_same_depth", "mass_similar")
     found = {name: [float(rows[name].min()), float(rows[name].max())] for name in names}
-    bracket = float((rows.size_high / rows.size_low).max() - 1.0)
-    return {"compared": len(rows), **found, "widest_bracket": bracket}
+    return {"compared": len(rows), **found, "widest_bracket": float(rows.bracket.max())}
 
 
 def main(case: dict, vase: dict, paths: list[str]) -> tuple:

@@ -105,6 +105,7 @@ def test_larger_column_is_the_one_that_it_is_compared_with(monkeypatch, goal, si
     found, other = portal.larger_columns(COLUMN, pulse(1.0), SIZES, VASE)
     assert found["size_low"] < size * (1 + 1e-9)
     assert size * (1 - 1e-9) < found["size_high"] < found["size_low"] * (1 + 1e-4)
+    assert found["bracket"] < 1e-4
     assert found["height"] == pytest.approx(6.0 * size, rel=1e-3)
     assert found["mass_same_depth"] == pytest.approx(size**2, rel=1e-3)
     assert found["mass_similar"] == pytest.approx(size**3, rel=1e-3)
@@ -164,7 +165,9 @@ def columns(**change):
     table = pd.DataFrame(
         {"structure": ["frame", "portal"], "mass_of_structure": 4.0, "rises": True}
     )
-    table = table.assign(by_scipy=True, size_low=[1.3, 3.0], size_high=[1.3, 3.0], height=9.0)
+    table = table.assign(
+        by_scipy=True, size_low=[1.3, 3.0], size_high=[1.3, 3.0], bracket=0.0, height=9.0
+    )
     return table.assign(mass_same_depth=[1.7, 9.0], mass_similar=[2.2, 27.0]).assign(**change)
 
 
