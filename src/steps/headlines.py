@@ -65,7 +65,10 @@ def of_central_result(reference: Path) -> list[str]:
 
 
 def of_portals(reference: Path) -> list[str]:
-    return [f"{portals(reference).min():.2f}"]
+    moments = pd.read_csv(reference / "sources" / "portal_forces.csv").dropna()
+    rests, over = moments.portal == "no uplift", moments.joint_moment_over_frame
+    ranges = [end for of in (over[~rests], over[rests]) for end in (of.min(), of.max())]
+    return [f"{portals(reference).min():.2f}", *(f"{one:.1f}" for one in ranges)]
 
 
 def of_trilith(reference: Path) -> list[str]:

@@ -7,6 +7,7 @@ CHECKS = {
     "trilith_states": ["second_route"],
     "vase": ["second_route"],
     "uplift_limits": ["forces_by_second_routes"],
+    "portal": ["second_route"],
     "verification": [
         "routes_agree",
         "published_numbers",
@@ -255,6 +256,22 @@ rule uplift_limits:
         "The forces of frames that rock, and of frames held against uplift"
     script:
         "uplift_limits.py"
+
+
+rule portal:
+    input:
+        records=record_paths(config["portal"]["records"], RECORDS),
+    output:
+        forces="results/tables/portal_forces.csv",
+        columns="results/tables/portal_columns.csv",
+        findings="results/findings/portal.json",
+    params:
+        case=case("portal"),
+        vase=config["vase"],
+    message:
+        "What the joints and bases of a portal carry, and the larger column that gains as much"
+    script:
+        "portal.py"
 
 
 rule negative_stiffness:

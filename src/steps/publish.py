@@ -29,6 +29,7 @@ TABLES = (
     "quarter_period",
     "restitution_over_mass_ratio",
     "restitution_over_slenderness",
+    "portal_columns",
     "proven",
     "spectra_areas",
     "trilith_map",
@@ -45,6 +46,7 @@ TABLES = (
 
 SOURCES = (
     "allen_peaks",
+    "portal_forces",
     "rocking_spectra",
     "scale_outcomes",
     "spectra_published",

@@ -23,6 +23,7 @@ from .overturning import (
     overturning_intervals,
     overturning_map,
 )
+from .portal_forces import resting_portal_forces, rocking_portal_forces
 from .pulses import Pulse
 from .record_map import overturning_map_of_record
 from .records import Record, read_at2, read_csv, read_record
@@ -74,5 +75,7 @@ __all__ = [
     "read_at2",
     "read_csv",
     "read_record",
+    "resting_portal_forces",
+    "rocking_portal_forces",
     "simulate",
 ]

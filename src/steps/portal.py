@@ -1,0 +1,303 @@
+"""The price of the portal: the forces at its joints and bases, over those in the frame's columns.
+
+Also its alternative, a larger free-standing column that overturns at the same acceleration.
+"""
+
+import math
+from collections.abc import Callable
+from functools import partial
+from typing import Any, get_args
+
+import numpy as np
+import pandas as pd
+
+from replication.workbench import Finding, run, truth
+from steps.shared.histories import History, history
+from steps.shared.spectrum import progress
+from steps.vase_searches import Minimum, minimum
+from topheavy import (
+    Cap,
+    Column,
+    MonolithicPortal,
+    Pulse,
+    Record,
+    Response,
+    RockingFrame,
+    contact_forces,
+    frame_forces,
+    read_record,
+    reference,
+    resting_portal_forces,
+    rocking_portal_forces,
+    simulate,
+)
+from topheavy.portal_forces import Bases, ColumnEnds, Section
+
+Forces = dict[str, np.ndarray]
+
+BASES = get_args(Bases)
+FORCES = ("joint_moment", "base_moment", "joint_shear", "base_shear")
+SEED = 2014  # of the sample that SciPy judges
+CLOSE = 1e-3  # relative: what the peaks of two solvers may differ by
+HALVED = 5e-3  # relative: what half as many samples may change a peak by
+HALVINGS = 12  # of a step between two sizes, in ln size
+
+
+def of_frame(frame: RockingFrame, cap: Cap, course: History) -> Forces:
+    """Return the moments in a frame's columns, at any section, and the shears at their ends.
+
+    Its contacts have no moment about themselves; they bend the columns as they are eccentric.
+    """
+    motion = course.rotation, course.velocity, course.ground
+    moment = frame_forces(frame, cap, *motion).bending_moment
+    cos, sin = np.cos(course.rotation), np.sin(course.rotation)
+    base, top = (
+        np.stack([one.horizontal * cos - one.vertical * sin for one in pair], axis=-1)
+        for contacts in [contact_forces(frame, cap, *motion).contacts]
+        for pair in (contacts[:2], contacts[2:])
+    )
+    return dict(zip(FORCES, (moment, moment, top, base), strict=True))
+
+
+def of_portal(portal: MonolithicPortal, course: History) -> Forces:
+    """Return the moments and shears at the joints and bases of a portal that rocks."""
+    return of_ends(rocking_portal_forces(portal, course.rotation, course.velocity, course.ground))
+
+
+def of_ends(ends: ColumnEnds) -> Forces:
+    """Return the moments and shears at the joints and bases."""
+    joint, base = ends.joint, ends.base
+    return dict(zip(FORCES, (joint.moment, base.moment, joint.shear, base.shear), strict=True))
+
+
+def largest(
+    structure: RockingFrame | MonolithicPortal,
+    motion: Pulse | Record,
+    forces: Callable[[History], Forces],
+    samples: int,
+    route: Callable[..., Response] = simulate,
+) -> tuple[str, dict[str, float], float]:
+    """Return the outcome, the largest forces while it rocks, and what half the samples change.
+
+    The forces are 0 of a structure that does not uplift, and NaN of one that overturns.
+    """
+    course = history(structure, motion, samples, route)
+    if course.outcome == "overturned":
+        return course.outcome, dict.fromkeys(FORCES, math.nan), math.nan
+    found = forces(course)
+    fine, coarse = (
+        {name: float(np.nanmax(np.abs(force[:, ::step]), initial=0.0)) for name, force in of}
+        for step, of in ((1, found.items()), (2, found.items()))
+    )
+    error = max((1.0 - coarse[name] / fine[name] for name in FORCES if fine[name] > 0.0), default=0)
+    return course.outcome, fine, error
+
+
+def compare(
+    column: Column,
+    motion: Pulse | Record,
+    labels: dict,
+    vase: dict,
+    samples: int,
+    route: Callable[..., Response] = simulate,
+) -> list[dict]:
+    """Return a row for each span and for bases that are fixed or pinned while the portal rests.
+
+    The resting portal has its largest forces at the largest acceleration that does not uplift it.
+    """
+    gamma, depth, rows = vase["portals"]["mass_ratio"], vase["cap"]["depth"], []
+    frame, peak = RockingFrame(column, gamma), labels["peak_acceleration"]
+    for span in vase["portals"]["spans"]:
+        cap, portal = Cap(span, depth / 2.0), MonolithicPortal(column, gamma, span, depth)
+        freely, rocks = (
+            largest(one, motion, forces, samples, route)
+            for one, forces in (
+                (frame, partial(of_frame, frame, cap)),
+                (portal, partial(of_portal, portal)),
+            )
+        )
+        for bases in BASES:
+            ends = resting_portal_forces(portal, bases, min(peak, portal.uplift_acceleration))
+            rests, base = of_ends(ends), ends.base
+            row = labels | {"span": span, "bases": bases}
+            row |= {"frame": freely[0], "portal": rocks[0], "resisted": resisted(portal, base)}
+            for name in FORCES:
+                row[name] = max(rocks[1][name], float(np.abs(rests[name]).max()))
+                row[f"{name}_over_frame"] = row[name] / freely[1][name]
+            rows.append(row | {"error": np.fmax(freely[2], rocks[2])})
+    return rows
+
+
+def resisted(portal: MonolithicPortal, base: Section) -> bool:
+    """Whether the axial forces act within the bases: ground without tension resists no others."""
+    return bool(np.all(np.abs(base.moment) <= portal.column.half_width * base.axial))
+
+
+def larger_columns(column: Column, pulse: Pulse, case: dict, vase: dict) -> list[dict]:
+    """Return the smallest similar columns that survive a pulse as a frame and portals do.
+
+    The column is one of sizes in equal ratios, then between two of them. It reaches the minimum
+    overturning acceleration of the other if no acceleration below that is found to overturn it.
+    `rises` is whether the minimum rises with each of these sizes up to there, and `by_scipy`
+    whether SciPy finds that the column on the lower side overturns, and the other one survives.
+
+    Raises
+    ------
+    ValueError
+        When the sizes do not reach so far.
+    """
+    gamma, depth, rows = vase["portals"]["mass_ratio"], vase["cap"]["depth"], []
+    goals: list[tuple[str, float, Any]] = [("frame", math.nan, RockingFrame(column, gamma))]
+    for span in vase["portals"]["spans"]:
+        goals.append(("portal", span, MonolithicPortal(column, gamma, span, depth)))
+    found = [minimum(one, pulse, case["highest"], vase["floor"]).acceleration for *_, one in goals]
+    sizes = np.geomspace(*(case["sizes"][key] for key in ("lowest", "highest", "points")))
+
+    def similar(size: float) -> Column:
+        return Column(size * column.half_width, size * column.half_height)
+
+    def lowest(size: float, highest: float) -> Minimum:
+        return minimum(similar(size), pulse, highest, vase["floor"])
+
+    minima = np.array([lowest(size, max(found) * (1.0 + CLOSE)).acceleration for size in sizes])
+    for (name, span, _), target in zip(goals, found, strict=True):
+        place = int(np.argmax(minima >= target))
+        if place == 0:
+            raise ValueError(
+                f"portal.sizes: no size after {sizes[0]:g} and up to {sizes[-1]:g} is the first to "
+                f"reach {target:.4g} g, as a {name} does under {pulse.shape}; expected one that is"
+            )
+        low, high = sizes[place - 1 : place + 1]
+        for _ in range(HALVINGS):
+            middle = math.sqrt(low * high)
+            survives = lowest(middle, target).acceleration == math.inf
+            low, high = (low, middle) if survives else (middle, high)
+        survives = not reference.judge(similar(high), pulse.scaled(target)).overturned
+        rows.append(
+            {"structure": name, "span": span, "shape": pulse.shape, "minimum_overturning": target}
+            | {"size_low": low, "size_high": high, "bracket": high / low - 1.0}
+            | {"height": 2.0 * high * column.half_height}
+            | {"mass_same_depth": high**2, "mass_similar": high**3}
+            | {"mass_of_structure": 2.0 * (1.0 + gamma)}
+            | {"rises": bool(np.all(np.diff(minima[: place + 1]) > 0.0))}
+            | {"by_scipy": survives and math.isfinite(lowest(low, target).error)}
+        )
+    return rows
+
+
+def unit_pulses(vase: dict) -> list[Pulse]:
+    """Return the pulses of the vase and of their period, of unit amplitude."""
+    return [Pulse(shape, 1.0, 2.0 * math.pi / vase["period"]) for shape in vase["shapes"]]
+
+
+def motions(case: dict, vase: dict, paths: list[str]) -> list[tuple[Pulse | Record, dict, int]]:
+    """Return every motion with its labels and the samples of an arc."""
+    unit: list[tuple[str, str, Pulse | Record]] = [
+        ("pulse", one.shape, one) for one in unit_pulses(vase)
+    ]
+    for record in map(read_record, paths):
+        unit.append(("record", record.name, record.scaled(1.0 / record.peak_acceleration)))
+    return [
+        (
+            motion.scaled(peak),
+            {"kind": kind, "motion": name, "peak_acceleration": peak},
+            case["points"][kind],
+        )
+        for kind, name, motion in unit
+        for peak in case["amplitudes"]
+    ]
+
+
+def second_route(
+    table: pd.DataFrame, tried: list, column: Column, vase: dict, count: int
+) -> Finding:
+    """Return whether SciPy finds the same, in a seeded sample of motions that uplift a portal.
+
+    Half as many samples have to change little, under every motion.
+    """
+    of, outcomes = [*FORCES, *(f"{name}_over_frame" for name in FORCES)], ["frame", "portal"]
+    pairs = []
+    for motion, labels, samples in tried:
+        ours = table[(table[list(labels)] == pd.Series(labels)).all(axis=1)].reset_index()
+        if (ours.portal != "no uplift").any():
+            pairs.append((ours, motion, labels, samples))
+    apart, differ = [], 0
+    for place in np.random.default_rng(SEED).permutation(len(pairs))[:count]:
+        ours, *given = pairs[place]
+        theirs = pd.DataFrame(compare(column, *given[:2], vase, given[2], reference.simulate))
+        differ += int((theirs[outcomes] != ours[outcomes]).to_numpy().sum())
+        apart.append((theirs[of] / ours[of] - 1.0).abs().max(axis=None))
+    worst, halved = float(np.nanmax(apart)), float(table.error.max())
+    return truth(
+        differ == 0 and worst < CLOSE and halved < HALVED,
+        motions=len(apart),
+        differ=differ,
+        largest_relative=worst,
+        largest_change_by_half_the_samples=halved,
+    )
+
+
+def findings(portal_forces: pd.DataFrame, portal_columns: pd.DataFrame) -> dict[str, Finding]:
+    """Return what the joints and bases carry, and how large a column gains as much."""
+    table, columns = portal_forces, portal_columns
+    compared = table[table.joint_moment_over_frame.notna()]
+    rests = compared.portal == "no uplift"
+    cases = {f"rests_{bases}": compared[rests & (compared.bases == bases)] for bases in BASES}
+    cases["rocks"] = compared[~rests]
+    least = {name: rows.joint_moment_over_frame.min() for name, rows in cases.items()}
+    frame, portal = (columns[columns.structure == name] for name in ("frame", "portal"))
+    sure = columns.rises.all() and columns.by_scipy.all()
+    return {
+        "joints_carry_more": truth(
+            min(least.values()) > 1.0,
+            holds_when=min(least["rocks"], least["rests_pinned"]) > 1.0,
+            condition="the portal rocks, or rests on pinned bases",
+            histories=len(table) // len(BASES),
+            compared=len(compared) // len(BASES),
+            resting=int(rests.sum()) // len(BASES),
+            rocking=int((~rests).sum()) // len(BASES),
+            resisted={bases: int(cases[f"rests_{bases}"].resisted.sum()) for bases in BASES},
+            **{
+                name: {f"{span:g}": ranges(of) for span, of in rows.groupby("span")}
+                for name, rows in cases.items()
+            },
+        ),
+        "larger_column_is_lighter_than_the_frame": truth(
+            sure and (frame.mass_similar < frame.mass_of_structure).all(), **sizes(frame)
+        ),
+        "larger_column_is_heavier_than_the_portal": truth(
+            sure and (portal.mass_same_depth > portal.mass_of_structure).all(), **sizes(portal)
+        ),
+    }
+
+
+def ranges(rows: pd.DataFrame) -> dict[str, list[float]]:
+    """Return the range of each force over that of the frame."""
+    over = {name: rows[f"{name}_over_frame"] for name in FORCES}
+    return {name: [float(of.min()), float(of.max())] for name, of in over.items()}
+
+
+def sizes(rows: pd.DataFrame) -> dict[str, Any]:
+    """Return the range of the larger columns' sizes, heights and masses, as evidence."""
+    names = ("size_high", "height", "mass_same_depth", "mass_similar")
+    found = {name: [float(rows[name].min()), float(rows[name].max())] for name in names}
+    return {"compared": len(rows), **found, "widest_bracket": float(rows.bracket.max())}
+
+
+def main(case: dict, vase: dict, paths: list[str]) -> tuple:
+    column = Column(**case["column"])
+    tried = motions(case, vase, paths)
+    found = (compare(column, motion, labels, vase, count) for motion, labels, count in tried)
+    table = pd.DataFrame(row for rows in progress(found, len(tried), "motions") for row in rows)
+    larger = (larger_columns(column, pulse, case, vase) for pulse in unit_pulses(vase))
+    columns = pd.DataFrame(row for rows in larger for row in rows)
+    checked = second_route(table, tried, column, vase, case["checked_by_second_route"])
+    return table, columns, findings(table, columns) | {"second_route": checked}
+
+
+def work(job: Any) -> tuple:
+    return main(job.params.case, job.params.vase, job.input.records)
+
+
+if __name__ == "__main__":
+    run(snakemake, work)

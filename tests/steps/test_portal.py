@@ -1,0 +1,205 @@
+"""The step on the price of the portal, on cases that are known."""
+
+import math
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from steps import portal
+from steps.shared.histories import History
+from topheavy import STANDARD_GRAVITY, Cap, Column, MonolithicPortal, Pulse, RockingFrame
+from topheavy.portal_forces import resting_portal_forces
+
+COLUMN = Column(0.5, 3.0)
+VASE = {
+    "portals": {"mass_ratio": 1.0, "spans": [2.4]},
+    "cap": {"width": 2.6, "depth": 0.6},
+    "shapes": ["one-cosine"],
+    "period": 1.5,
+    "floor": 1e-3,
+}
+SIZES = {"sizes": {"lowest": 1.0, "highest": 4.0, "points": 5}, "highest": 2.0}
+OVER = [f"{name}_over_frame" for name in portal.FORCES]
+
+
+def labels(peak):
+    return {"kind": "pulse", "motion": "one-cosine", "peak_acceleration": peak}
+
+
+def pulse(peak):
+    return Pulse("one-cosine", peak, 2 * math.pi / 1.5)
+
+
+def compared(peak, samples=8):
+    return pd.DataFrame(portal.compare(COLUMN, pulse(peak), labels(peak), VASE, samples))
+
+
+def test_shears_at_the_ends_of_a_frames_column_differ_by_its_own_load():
+    frame, (theta, rate, ground) = RockingFrame(COLUMN, 1.0), (0.05, 0.2, 0.1)
+    state = (np.array([[value]]) for value in (0.0, theta, rate, ground))
+    found = portal.of_frame(frame, Cap(2.4, 0.3), History(*state, 0, "rests"))
+    lean, p = frame.slenderness - theta, frame.frequency_parameter
+    second = -(p**2) * (math.sin(lean) + ground * math.cos(lean)) / STANDARD_GRAVITY
+    load = ground * math.cos(theta) - math.sin(theta) + second * 3.0
+    load += 0.5 * rate**2 / STANDARD_GRAVITY  # towards the pivot, beside the axis
+    np.testing.assert_allclose(found["base_shear"] - found["joint_shear"], 0.25 * load, atol=1e-14)
+
+
+def test_portal_that_rests_has_the_forces_of_the_ground():
+    """h/3 and 5h/12 with fixed bases, 3h/4 with pinned ones, for γ = 1."""
+    found = compared(0.31).set_index("bases")
+    assert set(found.portal) == {"no uplift"}
+    assert found.joint_moment.to_dict() == pytest.approx({"fixed": 0.31, "pinned": 0.6975})
+    assert found.base_moment.to_dict() == pytest.approx({"fixed": 0.3875, "pinned": 0.0})
+    assert found.joint_shear.tolist() == pytest.approx([0.0775] * 2)
+    assert found.base_shear.tolist() == pytest.approx([0.155] * 2)
+    over = found.joint_moment / found.joint_moment_over_frame
+    # The contact at its edge bends a frame's column by b times its axial force, half the weight.
+    assert over.tolist() == pytest.approx([0.25] * 2, rel=0.3)
+
+
+def test_resting_forces_are_those_below_uplift():
+    found, level = compared(0.6).set_index("bases"), MonolithicPortal(COLUMN, 1.0, 2.4, 0.6)
+    assert set(found.portal) == {"rests"}
+    level = level.uplift_acceleration
+    assert found.base_moment["fixed"] >= 1.25 * level
+    assert found.base_moment["fixed"] < 1.25 * 0.6  # which only a portal held down would have
+
+
+def test_overturning_has_no_forces():
+    found = compared(0.95)
+    assert set(found.portal) == set(found.frame) == {"overturned"}
+    assert found[[*portal.FORCES, *OVER]].isna().all(axis=None)
+    assert compared(0.6)[OVER].isna().all(axis=None)  # the frame overturns, the portal does not
+    assert compared(0.6)[[*portal.FORCES]].notna().all(axis=None)
+
+
+def test_peaks_are_those_of_many_more_samples_within_their_error():
+    few, many = (compared(0.6, samples) for samples in (4, 64))
+    ratio = few[[*portal.FORCES]] / many[[*portal.FORCES]]
+    assert (ratio <= 1.0 + 1e-12).all(axis=None)
+    assert (ratio.ge(1.0 - few.error - 1e-12, axis=0)).all(axis=None)
+
+
+@pytest.mark.parametrize(
+    ("bases", "ground", "resists"),
+    [("fixed", 0.1, True), ("fixed", 0.3, False), ("pinned", 0.2, True), ("pinned", 0.3, False)],
+)
+def test_ground_without_tension_resists_forces_within_the_bases(bases, ground, resists):
+    one = MonolithicPortal(COLUMN, 1.0, 2.4, 0.6)
+    assert portal.resisted(one, resting_portal_forces(one, bases, ground).base) is resists
+
+
+@pytest.mark.parametrize(
+    ("goal", "size"),
+    [
+        (Column(1.7 * 0.5, 1.7 * 3.0), 1.7),
+        # Without the impacts' part, the frame is the equivalent column of Eq. (24).
+        (RockingFrame(COLUMN, 1.0).block(COLUMN.restitution), 4.0 / 3.0),
+    ],
+    ids=["column", "frame"],
+)
+def test_larger_column_is_the_one_that_it_is_compared_with(monkeypatch, goal, size):
+    monkeypatch.setattr(portal, "RockingFrame", lambda *given: goal)
+    found, other = portal.larger_columns(COLUMN, pulse(1.0), SIZES, VASE)
+    assert found["size_low"] < size * (1 + 1e-9)
+    assert size * (1 - 1e-9) < found["size_high"] < found["size_low"] * (1 + 1e-4)
+    assert found["bracket"] < 1e-4
+    assert found["height"] == pytest.approx(6.0 * size, rel=1e-3)
+    assert found["mass_same_depth"] == pytest.approx(size**2, rel=1e-3)
+    assert found["mass_similar"] == pytest.approx(size**3, rel=1e-3)
+    assert found["mass_of_structure"] == other["mass_of_structure"] == 4.0
+    assert found["rises"]
+    assert found["by_scipy"]
+    assert other["minimum_overturning"] == pytest.approx(0.918, abs=1e-3)
+
+
+@pytest.mark.parametrize("ends", [(1.0, 2.0), (1.4, 4.0)])  # too small for the portal; too large
+def test_sizes_have_to_reach_both_sides(ends):
+    sizes = {"lowest": ends[0], "highest": ends[1], "points": 3}
+    with pytest.raises(ValueError, match=r"^portal\.sizes: no size after .*; expected one"):
+        portal.larger_columns(COLUMN, pulse(1.0), SIZES | {"sizes": sizes}, VASE)
+
+
+def test_motions_are_brought_to_the_peaks():
+    case = {"amplitudes": [0.2, 0.9], "points": {"pulse": 8, "record": 1}}
+    path = "data/records/el_centro_1940_NS.AT2"
+    tried = portal.motions(case, VASE, [path])
+    assert [labels["peak_acceleration"] for _, labels, _ in tried] == [0.2, 0.9] * 2
+    assert [one.peak_acceleration for one, *_ in tried] == pytest.approx([0.2, 0.9] * 2)
+    assert [(labels["kind"], points) for _, labels, points in tried[1:3]] == [
+        ("pulse", 8),
+        ("record", 1),
+    ]
+
+
+def test_second_route_sees_another_outcome_another_peak_and_few_samples():
+    tried = [(pulse(peak), labels(peak), 2) for peak in (0.2, 0.6)]
+    table = pd.concat([compared(peak, 2) for peak in (0.2, 0.6)])
+    for change, holds in (
+        ({}, True),
+        ({"frame": "rests"}, False),
+        ({"joint_shear": 1.01 * table.joint_shear}, False),
+        ({"error": 0.01}, False),
+    ):
+        found = portal.second_route(table.assign(**change), tried, COLUMN, VASE, 5)
+        assert found.holds is holds
+        assert found["motions"] == 1  # which uplifts the portal
+
+
+def rows(**over):
+    """A portal that rests, and one that rocks, each on either bases, and one without a frame."""
+    ratios = {"fixed": 0.7, "pinned": 1.5, "rocks": 5.0, "none": math.nan} | over
+    cases = [("no uplift", bases, bases) for bases in ("fixed", "pinned")]
+    cases += [("rests", bases, name) for name in ("rocks", "none") for bases in ("fixed", "pinned")]
+    return pd.DataFrame(
+        {"span": 2.4, "portal": outcome, "bases": bases, "resisted": bases == "pinned"}
+        | dict.fromkeys(OVER, ratios[name])
+        for outcome, bases, name in cases
+    )
+
+
+def columns(**change):
+    """A larger column as good as the frame, and one as good as the portal."""
+    table = pd.DataFrame(
+        {"structure": ["frame", "portal"], "mass_of_structure": 4.0, "rises": True}
+    )
+    table = table.assign(
+        by_scipy=True, size_low=[1.3, 3.0], size_high=[1.3, 3.0], bracket=0.0, height=9.0
+    )
+    return table.assign(mass_same_depth=[1.7, 9.0], mass_similar=[2.2, 27.0]).assign(**change)
+
+
+@pytest.mark.parametrize(
+    ("over", "holds", "holds_when"),
+    [
+        ({}, False, True),
+        ({"fixed": 1.1}, True, True),
+        ({"pinned": 0.9}, False, False),
+        ({"rocks": 0.9}, False, False),
+    ],
+)
+def test_joints_carry_more_than_the_columns_of_the_frame_or_not(over, holds, holds_when):
+    found = portal.findings(rows(**over), columns())["joints_carry_more"]
+    assert (found.holds, found.holds_when) == (holds, holds_when)
+    counts = [found[name] for name in ("histories", "compared", "resting", "rocking")]
+    assert counts == [3, 2, 1, 1]
+    assert found["resisted"] == {"fixed": 0, "pinned": 1}
+    assert found["rocks"]["2.4"]["base_shear"] == [over.get("rocks", 5.0)] * 2
+
+
+@pytest.mark.parametrize(
+    ("change", "lighter", "heavier"),
+    [
+        ({}, True, True),
+        ({"mass_similar": [4.1, 69.0]}, False, True),
+        ({"mass_same_depth": [1.7, 3.9]}, True, False),
+        ({"rises": [True, False]}, False, False),
+        ({"by_scipy": [False, True]}, False, False),
+    ],
+)
+def test_larger_columns_are_weighed(change, lighter, heavier):
+    found = portal.findings(rows(), columns(**change))
+    assert found["larger_column_is_lighter_than_the_frame"].holds is lighter
+    assert found["larger_column_is_heavier_than_the_portal"].holds is heavier
