@@ -5,7 +5,7 @@ from replication.drawing import INK, SINGLE, make_figure, shades, sheet
 
 
 def draw(skeleton_gain):
-    table = skeleton_gain
+    table = skeleton_gain[skeleton_gain.lowered == 0.0]
     figure, axis = sheet(SINGLE, 55)
     places = range(len(table))
     axis.bar(places, table.lowest_low, color=shades(len(places)), width=0.62)
