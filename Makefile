@@ -72,6 +72,7 @@ lint: | $(UV) ## check style, types, spelling, wording and schemas; changes noth
 	$(DEV) mypy
 	$(DEV) codespell
 	$(DEV) python -m replication.commands.words
+	@$(DEV) python -m replication.pages.blanks
 	$(DEV) snakefmt --check --compact-diff Snakefile $(wildcard src/*/*.smk studies/*/*.smk)
 	$(DEV) check-jsonschema --check-metaschema $(SCHEMAS)
 	for schema in $(SCHEMAS); do \

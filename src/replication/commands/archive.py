@@ -16,6 +16,7 @@ from pathlib import Path
 from replication.commands.verify import SUMS
 from replication.commands.verify import main as verify
 from replication.origin.recorded import CRATE, read_crate
+from replication.pages import blanks
 from replication.workflow.provenance import source_version, workflow_jobs
 
 FOLDER = Path("dist")
@@ -103,6 +104,7 @@ def main(root: Path = Path()) -> str:
     """
     if reasons := list(refusals(root)):
         sys.exit("\n".join(reasons))
+    blanks.main(root)
     to = root / FOLDER / name_of(root)
     write(root, to)
     data = to.read_bytes()

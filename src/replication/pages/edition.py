@@ -22,6 +22,7 @@ from replication.judging.findings import (
 from replication.judging.ledger import OURS, REPRODUCED, as_text, read_ledger, with_verdicts
 from replication.judging.verdicts import VERDICTS, by_origin
 from replication.origin.recorded import read_crate
+from replication.pages import blanks
 from replication.pages.seal import checksum
 
 TITLES = {
@@ -235,6 +236,7 @@ def publish(tables: Iterable[str], sources: Iterable[str] = ()) -> None:
     publish_findings(results / "findings", reference / "findings")
     tie(reference, made_by_rules)
     publish_verdicts(read_ledger(map(ledger_of, [PAPER, *ours["studies"]])), Path())
+    blanks.main()
     print("published; a run compares its tables with these: 'make reproduce' before 'make verify'")
 
 

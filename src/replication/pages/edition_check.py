@@ -1,6 +1,5 @@
 """Check the published rows, pages and files against each other, without a run."""
 
-import os
 import sys
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -14,6 +13,7 @@ from replication.judging.claim import Claim, JudgedClaim
 from replication.judging.findings import Findings, findings_by_rule
 from replication.judging.ledger import read_judged, read_ledger, with_verdict
 from replication.judging.verdicts import tallies, tolerance_fault
+from replication.pages.blanks import is_release
 from replication.pages.edition import verdict_page, with_counts
 from replication.pages.seal import broken, checksum, outdated
 
@@ -137,7 +137,7 @@ def main(
     except FileNotFoundError as missing:
         return [], [f"{missing.filename} does not exist; expected a file of the published run"]
     changed = list(outdated(root))
-    if os.environ.get("RELEASE", "0") not in ("", "0"):
+    if is_release():
         return tallies(rows), [*faults, *changed]
     return [*tallies(rows), *changed], faults
 
