@@ -31,7 +31,7 @@ from topheavy.fragility.curve import dispersions, fit, medians
 from topheavy.fragility.hazard import lognormal_rate, rate_at_levels
 from topheavy.fragility.resampling import NEGATIVE, in_words, interval, means_within
 from topheavy.fragility.tables import exact_interval
-from topheavy.synthetic.ensemble import draws
+from topheavy.synthetic.ensemble import first_draws
 
 BOTH = "both"
 NUDGE = 1e-9  # of a motion: an outcome that this changes is undecided
@@ -193,7 +193,7 @@ def again(shards: pd.DataFrame, case: dict, ensemble: dict, tightened: float) ->
     random, spec, pgvs = np.random.default_rng(case["seed"]), case["sample"], velocities(case)
     motions = {
         tuple(draw.labels.values()): draw
-        for draw in draws({**ensemble, "run": case["run"], "runs": case["runs"]})
+        for draw in first_draws(ensemble, case["runs"][case["run"]]["motions"])
     }
     under = {tuple(subject.labels.values()): subject.block for subject in subjects(case)}
     fell, size, rows = read(shards.outcomes), grid(case).size, []
