@@ -2,16 +2,18 @@
 
 from typing import Any
 
+import numpy as np
 import pandas as pd
 
 from replication.workbench import run
+from steps.shared.outcomes import written
 from steps.shared.spectrum import progress, shard_of
-from studies.certainty.rated import Subject, subjects, velocities, written
+from studies.certainty.rated import Subject, subjects, velocities
 from topheavy import overturned_together
 from topheavy.synthetic.ensemble import Draw, first_draws
 
 
-def outcomes(draw: Draw, under: list[Subject], pgvs) -> list[dict]:
+def outcomes(draw: Draw, under: list[Subject], pgvs: np.ndarray) -> list[dict]:
     """Return a row for each structure: which PGVs overturn it, and the PGV before scaling, m/s."""
     record = draw.record()
     own = record.peak_velocity
