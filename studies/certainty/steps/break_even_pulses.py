@@ -156,6 +156,8 @@ def findings(certainty_break_even_pulses: pd.DataFrame) -> dict[str, Finding]:
     return {
         "deficit_exists": truth(
             len(some) > 0 and (some.kind == EQUAL).all(),
+            holds_when=len(equal) > 0 and (some[some.rested >= some.frame].kind == EQUAL).all(),
+            condition="with √r = 0, the column's minimum is not below that of the frame",
             compared=len(some),
             equal=len(equal),
             counts=some.kind.value_counts().to_dict(),

@@ -96,6 +96,15 @@ def test_gain_is_the_difference_of_the_counts(groups):
     assert share(own).any()
 
 
+def test_gain_is_resampled_within_each_earthquake(groups):
+    """All columns overturn in one, and none in the other: the gain over no frame is one half."""
+    group, column = groups[0], [one.mass_ratio == 0.0 for one in groups[0].under]
+    first = group.motions.scenario.to_numpy() == 0
+    fell = np.broadcast_to((first[:, None] & column)[..., None], group.fell.shape)
+    table = break_even.gains(group._replace(fell=fell), CASE)
+    assert (table[["gain", "gain_low", "gain_high"]] == 0.5).all(axis=None)
+
+
 def test_scipy_has_to_find_the_sampled_outcomes(groups):
     assert break_even.confirmed(groups, CASE, ENSEMBLE).holds
     wrong = [one._replace(fell=~one.fell) for one in groups]
@@ -190,6 +199,14 @@ def test_minima_are_equal_between_the_deficits():
         assert overturned_by(lower, pulse, scales).any() == falls
 
 
+def test_scipy_has_to_find_a_minimum_on_both_sides():
+    pulse = Pulse("one-cosine", TEMPLE.uplift_acceleration, 2.0 * TEMPLE.frequency_parameter)
+    minima = break_even_pulses.Minima(TEMPLE, pulse, PULSES)
+    found = minima.of(TEMPLE)
+    sides = [minima.by_scipy(TEMPLE, place * found) for place in (0.999, 1.0, 1.001)]
+    assert sides == [False, True, False]
+
+
 def test_no_restitution_matters_under_a_pulse_of_one_lobe():
     """Theorem 3: it overturns without an impact, and the frame from a higher amplitude on."""
     _, _, row = under("half-sine", 3.0)
@@ -214,13 +231,17 @@ def test_column_that_loses_all_may_still_overturn_first():
             {"kind": break_even_pulses.NOT_ABOVE, "deficit_low": math.nan},
             {"deficit_exists", "deficit_exceeds_measured"},
         ),
+        ({"kind": break_even_pulses.ONCE, "rested": 1.5, "deficit_low": 9.0}, {"deficit_exists"}),
         ({"by_scipy": False}, {"minima_by_scipy"}),
     ],
 )
 def test_one_pulse_is_enough_to_refute(change, broken):
     row = {"mass_ratio": 1.0, "kind": break_even_pulses.EQUAL, "by_scipy": True, "changes": 1}
     row |= {"deficit_low": 0.1, "deficit_high": 0.101, "frame": 2.0, "column_high": 2.001}
+    row |= {"rested": 3.0}
     table = pd.DataFrame([row, row | change])
     found = break_even_pulses.findings(table)
     found["deficit_exceeds_measured"] = break_even_pulses.beyond(table, 0.05)
     assert {name for name, one in found.items() if not one.holds} == broken
+    rests_longer = change.get("rested") == 1.5 or "deficit_exists" not in broken
+    assert found["deficit_exists"].holds_when is rests_longer
