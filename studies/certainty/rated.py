@@ -1,12 +1,14 @@
-"""Structures and intensities that the shards and the tables of the step on rates share."""
+"""Structures, intensities and outcomes that steps with a shard for every n-th motion share."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+import pandas as pd
+from numpy.typing import NDArray
 
+from steps.shared.outcomes import FALLS, read
 from topheavy import (
     STANDARD_GRAVITY,
     Column,
@@ -18,7 +20,6 @@ from topheavy import (
 
 BARE, FREE, FIXED, PORTAL = "bare", "free", "fixed", "portal"
 PGV, SCALED = "PGV", "p PGV/(g tan α)"
-SURVIVES, OVERTURNS = "s", "o"
 
 
 @dataclass(frozen=True)
@@ -59,9 +60,8 @@ def grid(case: Mapping[str, Any]) -> NDArray[np.float64]:
     return np.geomspace(spec["lowest"], spec["highest"], spec["points"])
 
 
-def stated(case: Mapping[str, Any]) -> list[tuple[str, float, float]]:
+def stated(column: Column, case: Mapping[str, Any]) -> list[tuple[str, float, float]]:
     """Return measure, level and PGV (m/s) at which probabilities are stated."""
-    column = Column(**case["column"])
     unit = STANDARD_GRAVITY * column.uplift_acceleration / column.frequency_parameter
     return [(PGV, level, level) for level in case["pgv"]] + [
         (SCALED, level, level * unit) for level in case["scaled"]
@@ -70,14 +70,25 @@ def stated(case: Mapping[str, Any]) -> list[tuple[str, float, float]]:
 
 def velocities(case: Mapping[str, Any]) -> NDArray[np.float64]:
     """Return the PGVs of all outcomes: those of the grid, then those that are stated."""
-    return np.concatenate([grid(case), [pgv for *_, pgv in stated(case)]])
+    of_stated = [pgv for *_, pgv in stated(Column(**case["column"]), case)]
+    return np.concatenate([grid(case), of_stated])
 
 
-def written(fell: ArrayLike) -> str:
-    """Return a letter for each outcome."""
-    return "".join(np.where(fell, OVERTURNS, SURVIVES))
+def fallen(rows: pd.DataFrame, motions: int, structures: int) -> tuple[NDArray[np.bool_], Any]:
+    """Return what overturns, (motions, structures, levels), and the first row of each motion.
 
+    The rows are those of one family in all shards, in any order of the motions.
 
-def read(texts: Iterable[str]) -> NDArray[np.bool_]:
-    """Return which outcomes overturn, a row for each text."""
-    return np.array([list(text) for text in texts]) == OVERTURNS
+    Raises
+    ------
+    ValueError
+        When rows are missing, or there are more.
+    """
+    ordered = rows.sort_values(["scenario", "motion"], kind="stable")
+    if len(ordered) != motions * structures:
+        raise ValueError(
+            f"{rows.family.iloc[0]}: {len(ordered)} rows of outcomes; expected {motions} motions "
+            f"of {structures} structures: a shard is incomplete, delete it and run again"
+        )
+    fell = read(ordered.outcomes) == FALLS
+    return fell.reshape(motions, structures, -1), ordered.iloc[::structures]

@@ -5,8 +5,12 @@ ENSEMBLE = case("motions_ensemble", *PARTS["certainty"].config["needs"])
 RATES = case("rates", "certainty")
 
 
+BREAK_EVEN = case("break_even", "certainty")
+
+
 scattergather:
     certainty_rates=RATES["runs"][RATES["run"]]["shards"],
+    certainty_break_even=BREAK_EVEN["runs"][BREAK_EVEN["run"]]["shards"],
 
 
 rule certainty_theorem:
@@ -120,6 +124,24 @@ rule certainty_rates_shard:
         "steps/rates_shard.py"
 
 
+rule certainty_rates_check:
+    input:
+        shards=gather.certainty_rates(
+            "results/shards/certainty_rates_{scatteritem}.csv"
+        ),
+    output:
+        table="results/tables/certainty_rates_check.csv",
+        findings="results/findings/certainty_rates_check.json",
+    params:
+        case=RATES,
+        ensemble=ENSEMBLE,
+        solver=config["solver"],
+    message:
+        "Study certainty: outcomes of the rates judged again"
+    script:
+        "steps/rates_check.py"
+
+
 rule certainty_rates:
     input:
         shards=gather.certainty_rates(
@@ -134,11 +156,55 @@ rule certainty_rates:
     params:
         case=RATES,
         ensemble=ENSEMBLE,
-        solver=config["solver"],
     message:
         "Study certainty: the mean annual rate of overturning"
     script:
         "steps/rates.py"
+
+
+rule certainty_break_even_shard:
+    output:
+        table="results/shards/certainty_break_even_{scatteritem}.csv",
+    params:
+        case=BREAK_EVEN,
+        ensemble=ENSEMBLE,
+    message:
+        "Study certainty: all motions at changed √r, shard {wildcards.scatteritem}"
+    script:
+        "steps/break_even_shard.py"
+
+
+rule certainty_break_even:
+    input:
+        shards=gather.certainty_break_even(
+            "results/shards/certainty_break_even_{scatteritem}.csv"
+        ),
+    output:
+        gains="results/tables/certainty_gains.csv",
+        table="results/tables/certainty_break_even.csv",
+        measured="results/tables/certainty_measured.csv",
+        findings="results/findings/certainty_break_even.json",
+    params:
+        case=BREAK_EVEN,
+        ensemble=ENSEMBLE,
+    message:
+        "Study certainty: the deficit of √r at which the benefit ends"
+    script:
+        "steps/break_even.py"
+
+
+rule certainty_break_even_pulses:
+    output:
+        table="results/tables/certainty_break_even_pulses.csv",
+        findings="results/findings/certainty_break_even_pulses.json",
+    params:
+        case=case("break_even_pulses", "certainty"),
+        pulse=config["heavier"]["pulse"],
+        measured=BREAK_EVEN["measured"],
+    message:
+        "Study certainty: the deficit of √r at which the minima of pulses are equal"
+    script:
+        "steps/break_even_pulses.py"
 
 
 rule certainty_records:

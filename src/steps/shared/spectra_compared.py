@@ -5,7 +5,7 @@ disjoint intervals, shape (n, 2).
 """
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from itertools import pairwise, product
 from typing import NamedTuple
@@ -216,6 +216,12 @@ def of_sample(sample: pd.DataFrame) -> Finding:
     """Return whether both routes confirm every point of a sample."""
     differ = int(sample[[*ROUTES]].ne(sample.overturned, axis=0).any(axis=1).sum())
     return truth(differ == 0, points=len(sample), differ=differ)
+
+
+def ends_of(found: Sequence[Interval], last: float) -> np.ndarray:
+    """Return the amplitudes of intervals, shape (n, 2); of one that goes on, up to the last."""
+    ends = [(one.lower[1], one.upper[0] if one.upper else last) for one in found]
+    return np.array(ends).reshape(-1, 2)
 
 
 def length(intervals: np.ndarray) -> float:

@@ -54,11 +54,16 @@ class Subject:
 
 def draws(case: Mapping[str, Any]) -> list[Draw]:
     """Return all motions of the ensemble, in the order of its tables."""
+    return first_draws(case, case["runs"][case["run"]]["motions"])
+
+
+def first_draws(case: Mapping[str, Any], motions: int) -> list[Draw]:
+    """Return the first motions of each family and scenario, in the order of the tables."""
     return [
         Draw(family, place, number, case["seed"], Scenario(**scenario))
         for family in case["families"]
         for place, scenario in enumerate(case["scenarios"])
-        for number in range(case["runs"][case["run"]]["motions"])
+        for number in range(motions)
     ]
 
 

@@ -15,7 +15,7 @@ from studies.certainty.steps.restitution import changed
 from topheavy import Column, Fragility, RockingFrame, fragility, judge, reference
 from topheavy.fragility.resampling import NEGATIVE, POSITIVE
 from topheavy.structures import Structure
-from topheavy.synthetic.ensemble import Draw, draws
+from topheavy.synthetic.ensemble import first_draws
 from topheavy.synthetic.motions import peak_velocity
 
 BOTH, COLUMN_ALONE = "both", "column alone"
@@ -47,21 +47,17 @@ def compared(factors: list[float]) -> dict[tuple[str, float], tuple[str, str]]:
     return found | {(COLUMN_ALONE, f): (called("column", f), "frame") for f in lowered}
 
 
-def motions(case: dict, ensemble: dict) -> list[Draw]:
-    """Return the first motions of each scenario and family."""
-    return draws({**ensemble, "runs": {ensemble["run"]: {"motions": case["motions"]}}})
-
-
 def fragilities(case: dict, ensemble: dict) -> dict[str, Fragility]:
     """Return for each family the outcomes and differences of frame and column at the stated PGV."""
     given = structures(case)
     # `fragility` lowers the √r of the column, and compares it with every frame.
+    drawn = first_draws(ensemble, case["motions"])
     lower = [1.0 - factor for factor in case["factors"] if factor < 1.0]
     under = {name: one for name, one in given.items() if name == "column" or "frame" in name}
     return {
         family: fragility(
             under,
-            [draw.record() for draw in motions(case, ensemble) if draw.family == family],
+            [draw.record() for draw in drawn if draw.family == family],
             [case["pgv"]],
             lowered=lower,
             seed=case["seed"],
@@ -108,7 +104,8 @@ def confirmed(case: dict, ensemble: dict, fell: pd.DataFrame) -> Finding:
     turn. Outcomes that a billionth of the motion changes are undecided, and are not compared.
     """
     random, under, chosen = np.random.default_rng(case["seed"]), structures(case), set()
-    pairs, all_motions = list(compared(case["factors"]).values()), motions(case, ensemble)
+    pairs = list(compared(case["factors"]).values())
+    all_motions = first_draws(ensemble, case["motions"])
     for place in range(case["checked"]):
         column, frame = pairs[place % len(pairs)]
         apart = np.flatnonzero(fell[column] != fell[frame])

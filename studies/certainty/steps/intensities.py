@@ -24,7 +24,7 @@ from topheavy import (
 )
 from topheavy.fragility.tables import exact_interval
 from topheavy.structures import Structure
-from topheavy.synthetic.ensemble import draws
+from topheavy.synthetic.ensemble import first_draws
 from topheavy.synthetic.motions import peak_velocity
 
 SUPPORTS = ("bare", "free", "fixed")
@@ -77,8 +77,7 @@ def intensity(record: Record, measure: str) -> float:
 def outcomes(case: dict, ensemble: dict, under: list[Subject]) -> pd.DataFrame:
     """Return a row for each motion and subject: which of all levels overturn it."""
     levels = [(measure, level) for measure in MEASURES for level in case[measure]]
-    some = {**ensemble, "runs": {ensemble["run"]: {"motions": case["motions"]}}}
-    rows, chosen = [], draws(some)
+    rows, chosen = [], first_draws(ensemble, case["motions"])
     for draw in progress(chosen, len(chosen), "motions"):
         record = draw.record()
         scales = [level / intensity(record, measure) for measure, level in levels]
@@ -108,8 +107,7 @@ def confirmed(case: dict, ensemble: dict, under: list[Subject], cells: pd.DataFr
     Cells that a billionth of the motion changes are undecided, and are not compared.
     """
     random = np.random.default_rng(case["seed"])
-    some = {**ensemble, "runs": {ensemble["run"]: {"motions": case["motions"]}}}
-    motions = {tuple(draw.labels.values()): draw for draw in draws(some)}
+    motions = {tuple(draw.labels.values()): draw for draw in first_draws(ensemble, case["motions"])}
     named = {(subject.name, subject.support): subject for subject in under}
     differ, told = 0, 0
     for at in progress(

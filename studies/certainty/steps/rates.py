@@ -4,7 +4,7 @@ The hazard falls as PGV⁻ᵏ within stated ends. Each motion contributes by the
 it overturns; no curve is fitted. Intervals are those of motions drawn anew within each earthquake.
 """
 
-from collections.abc import Iterator
+from collections.abc import Hashable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import product
 from typing import Any
@@ -13,29 +13,24 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import Finding, run, truth
-from steps.shared.spectrum import progress
 from studies.certainty.rated import (
     BARE,
     FIXED,
     FREE,
     PORTAL,
     Subject,
+    fallen,
     grid,
-    read,
     stated,
     subjects,
-    velocities,
 )
-from topheavy import RockingBlock, judge, overturned_by, reference
+from topheavy import Column
 from topheavy.fragility.curve import dispersions, fit, medians
 from topheavy.fragility.hazard import lognormal_rate, rate_at_levels
 from topheavy.fragility.resampling import NEGATIVE, in_words, interval, means_within
 from topheavy.fragility.tables import exact_interval
-from topheavy.synthetic.ensemble import draws
 
 BOTH = "both"
-NUDGE = 1e-9  # of a motion: an outcome that this changes is undecided
-HALVINGS = 7  # of a step of the grid, in ln PGV: a boundary is then known to 0.1 %
 SHARE = 1.0  # of a sampling interval: what half of the step of the grid may change
 CLOSE = 0.1  # of a rate: its largest distance from that of a lognormal curve
 
@@ -44,37 +39,31 @@ CLOSE = 0.1  # of a rate: its largest distance from that of a lognormal curve
 class Motions:
     """Motions of a family and of an earthquake, or of both, and which PGVs overturn what.
 
-    `outcomes` has the shape (motions, structures, PGVs); `means` those of the motions and of their
-    resamples, (1 + resamples, structures, PGVs); `pgv` is that of each motion before scaling.
+    `outcomes` has the shape (motions, structures, PGVs); `quakes` is the earthquake of each motion,
+    and `pgv` its PGV before scaling.
     """
 
     labels: dict[str, str]
     outcomes: np.ndarray
-    means: np.ndarray
+    quakes: Sequence[Hashable]
     pgv: np.ndarray
+
+    def means(self, values: np.ndarray, case: dict) -> np.ndarray:
+        """Return the mean over motions and those of resamples, shape (1 + resamples, ...)."""
+        return means_within(values, self.quakes, case["bootstrap"]["resamples"], case["seed"])
 
 
 def ensembles(shards: pd.DataFrame, case: dict, ensemble: dict) -> Iterator[Motions]:
     """Yield the motions of each family, of both earthquakes together and of each apart."""
-    under, pgvs, boot = subjects(case), velocities(case), case["bootstrap"]
     names = [f"M {one['magnitude']:g}" for one in ensemble["scenarios"]]
     wanted = case["runs"][case["run"]]["motions"] * len(names)
     for family in ensemble["families"]:
-        of_family = shards[shards.family == family]
-        rows = of_family.sort_values(["scenario", "motion"], kind="stable")
-        if len(rows) != wanted * len(under):
-            raise ValueError(
-                f"{family}: {len(rows)} rows of outcomes; expected {wanted} motions of "
-                f"{len(under)} structures: a shard is incomplete, delete it and run again"
-            )
-        fell = read(rows.outcomes).reshape(wanted, len(under), pgvs.size)
-        firsts = rows.iloc[:: len(under)]
+        fell, firsts = fallen(shards[shards.family == family], wanted, len(subjects(case)))
         quakes, own = firsts.scenario.to_numpy(), firsts.pgv.to_numpy()
         apart = [(name, quakes == place) for place, name in enumerate(names)]
         for name, chosen in [(BOTH, quakes >= 0), *apart]:
-            some, groups = fell[chosen], quakes[chosen].tolist()
-            means = means_within(some, groups, boot["resamples"], case["seed"])
-            yield Motions({"family": family, "earthquake": name}, some, means, own[chosen])
+            labels = {"family": family, "earthquake": name}
+            yield Motions(labels, fell[chosen], quakes[chosen].tolist(), own[chosen])
 
 
 def pairs(under: list[Subject]) -> list[tuple[int, int]]:
@@ -98,54 +87,62 @@ def named(name: str, values: np.ndarray, case: dict) -> dict:
 
 def probabilities(motions: Motions, case: dict) -> pd.DataFrame:
     """Return the probability at each stated intensity, and how much less it is than a column's."""
-    under, (measures, levels, pgvs) = subjects(case), zip(*stated(case), strict=True)
-    first, parts = grid(case).size, []
-    fell = motions.outcomes[..., first:].sum(axis=0)
+    under, column = subjects(case), Column(**case["column"])
+    measures, levels, pgvs = zip(*stated(column, case), strict=True)
+    some, found = motions.outcomes[..., grid(case).size :], []
+    means, fell = motions.means(some, case), some.sum(axis=0)
     low, high = exact_interval(fell, len(motions.outcomes), case["bootstrap"]["confidence"])
-    for place, column in pairs(under):
-        of, beside = motions.means[:, place, first:], motions.means[:, column, first:]
-        less = named("less", beside - of, case)
+    for place, beside in pairs(under):
+        of = means[:, place]
+        less = named("less", means[:, beside] - of, case)
         words = map(in_words, less["less_low"], less["less_high"])
-        parts.append(
+        found.append(
             motions.labels
             | under[place].labels
-            | {"column": under[column].lowered, "measure": measures, "level": levels, "pgv": pgvs}
+            | {"column": under[beside].lowered, "measure": measures, "level": levels, "pgv": pgvs}
             | {"motions": len(motions.outcomes), "overturned": fell[place]}
             | {"probability": of[0], "probability_low": low[place]}
             | {"probability_high": high[place]}
             | less
             | {"interval": list(words)}
         )
-    return pd.concat(map(pd.DataFrame, parts))
+    return pd.concat(map(pd.DataFrame, found))
 
 
 def rates(motions: Motions, case: dict) -> list[dict]:
     """Return the rate of each structure, over that of a column, by exponent and highest PGV.
 
     Rates are in units of the rate at which PGV exceeds 1 m/s. `coarser` is the rate with every
-    other PGV of the grid, and `over_coarser` that over the column's.
+    other PGV of the grid, and `over_coarser` that over the column's; `over_coarsest` is with every
+    fourth. `change` is what the last halving of the step changes, with its interval.
     """
     under, pgvs, rows = subjects(case), grid(case), []
-    means, fell = (one[..., : pgvs.size] for one in (motions.means, motions.outcomes))
+    fell = motions.outcomes[..., : pgvs.size]
+    means = motions.means(fell, case)
     terms = fit(pgvs, means[0], skewed=False)
     curves = medians(pgvs, terms), dispersions(terms)
     for exponent, highest in product(case["exponents"], case["ends"]):
         ends = pgvs[0], highest
         at = rate_at_levels(pgvs, exponent, ends)
-        found = means @ at
-        coarser = means[0, :, ::2] @ rate_at_levels(pgvs[::2], exponent, ends)
+        found, coarser, coarsest = (
+            means[..., ::step] @ rate_at_levels(pgvs[::step], exponent, ends) for step in (1, 2, 4)
+        )
         formula = lognormal_rate(*curves, exponent, ends)
         some = fell[..., at > 0.0].any(axis=-1).sum(axis=0)
         for place, column in pairs(under):
+            over, rough, roughest = (
+                rate[:, place] / rate[:, column] for rate in (found, coarser, coarsest)
+            )
             rows.append(
                 motions.labels
                 | under[place].labels
                 | {"column": under[column].lowered, "exponent": exponent, "highest": highest}
                 | {"motions": len(fell), "overturning": int(some[place])}
                 | named("rate", found[:, place], case)
-                | {"coarser": coarser[place], "lognormal": formula[place]}
-                | named("over", found[:, place] / found[:, column], case)
-                | {"over_coarser": coarser[place] / coarser[column]}
+                | {"coarser": coarser[0, place], "lognormal": formula[place]}
+                | named("over", over, case)
+                | {"over_coarser": rough[0], "over_coarsest": roughest[0]}
+                | named("change", over - rough, case)
             )
     return rows
 
@@ -185,83 +182,19 @@ def scales(motions: Motions, case: dict) -> list[dict]:
     ]
 
 
-def again(shards: pd.DataFrame, case: dict, ensemble: dict, tightened: float) -> dict[str, Finding]:
-    """Judge a seeded sample of cells at a tighter tolerance, and some of them by SciPy.
-
-    Every other cell is within 0.1 % of a boundary. Undecided outcomes are not compared.
-    """
-    random, spec, pgvs = np.random.default_rng(case["seed"]), case["sample"], velocities(case)
-    motions = {
-        tuple(draw.labels.values()): draw
-        for draw in draws({**ensemble, "run": case["run"], "runs": case["runs"]})
-    }
-    under = {tuple(subject.labels.values()): subject.block for subject in subjects(case)}
-    fell, size, rows = read(shards.outcomes), grid(case).size, []
-    changing = np.flatnonzero(np.diff(fell[:, :size]).any(axis=1))
-    for number in progress(range(spec["points"]), spec["points"], "cells"):
-        near = number % 2 == 1
-        at = int(random.choice(changing) if near else random.integers(len(shards)))
-        row = shards.iloc[at]
-        block = under[row.structure, row.mass_ratio, row.lowered]
-        record = motions[row.family, row.scenario, row.motion].record()
-        if near:
-            place = random.choice(np.flatnonzero(np.diff(fell[at, :size])))
-            ends = beside(block, record, pgvs[place : place + 2] / row.pgv, fell[at, place])
-            side = int(random.integers(2))
-            factor, overturns = ends[side], fell[at, place + side]
-        else:
-            place = random.integers(pgvs.size)
-            factor, overturns = pgvs[place] / row.pgv, fell[at, place]
-        scaled = record.scaled(factor)
-        others = [judge(block, scaled.scaled(1.0 + n)).overturned for n in (-NUDGE, 0.0, NUDGE)]
-        if set(others) != {others[1]}:
-            continue
-        tight = overturned_by(block, record, [factor], tolerance=tightened)[0]
-        rows.append({"near": near, "tightened": tight == overturns})
-        if number < spec["second_route"]:
-            rows[-1]["second_route"] = reference.judge(block, scaled).overturned == overturns
-    told = pd.DataFrame(rows)
-    found = {}
-    for name in ("tightened", "second_route"):
-        agrees = told[name].dropna().astype(bool)
-        found[f"{name}_agrees"] = truth(
-            len(agrees) > 0 and agrees.all(),
-            cells=len(agrees),
-            differ=int((~agrees).sum()),
-            near_a_boundary=int(told.near[agrees.index].sum()),
-            undecided=spec["points"] - len(told),
-        )
-    return found
-
-
-def beside(block: RockingBlock, record: Any, factors: Any, below: bool) -> tuple[float, float]:
-    """Return two factors just below and just above a change of the outcome between two others."""
-    low, high = map(float, factors)
-    for _ in range(HALVINGS):
-        middle = (low * high) ** 0.5
-        if overturned_by(block, record, [middle])[0] == below:
-            low = middle
-        else:
-            high = middle
-    return low, high
-
-
-def main(case: dict, ensemble: dict, paths: list[str], tightened: float) -> tuple:
-    shards = pd.concat(map(pd.read_csv, paths), ignore_index=True)
+def main(case: dict, ensemble: dict, shards: pd.DataFrame) -> tuple:
     stated_ones, summed, scaled = [], [], []
     for motions in ensembles(shards, case, ensemble):
         stated_ones.append(probabilities(motions, case))
         summed += rates(motions, case)
         scaled += scales(motions, case)
     table, rate_table = pd.concat(stated_ones), pd.DataFrame(summed)
-    drawn = findings(table, rate_table)
-    checked = again(shards, case, ensemble, tightened)
     return (
         table,
         rate_table,
         survival(rate_table, case),
         pd.DataFrame(scaled),
-        drawn | checked,
+        findings(table, rate_table),
     )
 
 
@@ -273,7 +206,10 @@ def findings(certainty_motions: pd.DataFrame, certainty_rates: pd.DataFrame) -> 
     free, fixed, portal = (as_it_is[name] for name in (FREE, FIXED, PORTAL))
     lowered = of[FREE][of[FREE].column > 0.0]
     probable = stated_ones[(stated_ones.structure == FREE) & (stated_ones.column == 0.0)]
-    error = (table.over_coarser - table.over).abs() / (table.over_high - table.over_low)
+    some = table[table.over_high > table.over_low]
+    width = some.over_high - some.over_low
+    error = (some.over_coarser - some.over).abs() / width
+    before = (some.over_coarsest - some.over_coarser).abs() / width
     curved = table[np.isfinite(table.lognormal) & (table.column == 0.0)]
     apart = (curved.lognormal / curved.rate - 1.0).abs()
     return {
@@ -301,10 +237,13 @@ def findings(certainty_motions: pd.DataFrame, certainty_rates: pd.DataFrame) -> 
             lower=int((probable.less_low > 0.0).sum()),
         ),
         "sum_is_fine_enough": truth(
-            (error.dropna() < SHARE).all() and error.notna().any(),
+            len(error) > 0 and (error < SHARE).all(),
             limit=SHARE,
+            compared=len(error),
             largest=float(error.max()),
             median=float(error.median()),
+            median_before=float(before.median()),
+            scatter=float(((some.change_low <= 0.0) & (some.change_high >= 0.0)).mean()),
         ),
         "lognormal_curve_agrees": truth(
             len(curved) > 0 and (apart < CLOSE).all(),
@@ -327,8 +266,8 @@ def ranged(rows: pd.DataFrame) -> dict[str, Any]:
 
 
 def work(job: Any) -> tuple:
-    case, solver = job.params.case, job.params.solver
-    return main(case, job.params.ensemble, job.input.shards, solver["tightened"])
+    shards = pd.concat(map(pd.read_csv, job.input.shards), ignore_index=True)
+    return main(job.params.case, job.params.ensemble, shards)
 
 
 if __name__ == "__main__":

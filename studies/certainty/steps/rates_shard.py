@@ -2,16 +2,18 @@
 
 from typing import Any
 
+import numpy as np
 import pandas as pd
 
 from replication.workbench import run
-from steps.shared.spectrum import progress
-from studies.certainty.rated import Subject, subjects, velocities, written
+from steps.shared.outcomes import written
+from steps.shared.spectrum import progress, shard_of
+from studies.certainty.rated import Subject, subjects, velocities
 from topheavy import overturned_together
-from topheavy.synthetic.ensemble import Draw, draws
+from topheavy.synthetic.ensemble import Draw, first_draws
 
 
-def outcomes(draw: Draw, under: list[Subject], pgvs) -> list[dict]:
+def outcomes(draw: Draw, under: list[Subject], pgvs: np.ndarray) -> list[dict]:
     """Return a row for each structure: which PGVs overturn it, and the PGV before scaling, m/s."""
     record = draw.record()
     own = record.peak_velocity
@@ -23,9 +25,8 @@ def outcomes(draw: Draw, under: list[Subject], pgvs) -> list[dict]:
 
 
 def main(case: dict, ensemble: dict, shard: str) -> pd.DataFrame:
-    number, of = map(int, shard.split("-of-"))
-    mine, under = draws({**ensemble, "run": case["run"], "runs": case["runs"]}), subjects(case)
-    mine, pgvs = mine[number - 1 :: of], velocities(case)
+    every = first_draws(ensemble, case["runs"][case["run"]]["motions"])
+    mine, under, pgvs = shard_of(every, shard), subjects(case), velocities(case)
     found = (outcomes(draw, under, pgvs) for draw in mine)
     return pd.DataFrame(row for rows in progress(found, len(mine), "motions") for row in rows)
 

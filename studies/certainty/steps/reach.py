@@ -13,7 +13,7 @@ from replication.workbench import Finding, grid, run, truth
 from steps.shared.spectrum import progress
 from topheavy import Column, Pulse, Record, RockingFrame, read_record, reference
 from topheavy.overturning import outcomes_by
-from topheavy.synthetic.ensemble import draws
+from topheavy.synthetic.ensemble import first_draws
 from topheavy.synthetic.motions import peak_velocity
 
 SEED = 2014
@@ -27,9 +27,8 @@ def motions(
     for shape in case["shapes"]:
         for ratio in grid(case["frequency_ratios"]):
             yield "pulses", Pulse(shape, lifts, ratio * column.frequency_parameter), of_pulses
-    some = {**ensemble, "runs": {ensemble["run"]: {"motions": case["motions"]}}}
     velocities = np.array(case["velocities"])
-    for draw in draws(some):
+    for draw in first_draws(ensemble, case["motions"]):
         motion = draw.record()
         yield f"{draw.labels['family']} motions", motion, velocities / peak_velocity(motion)
     for record in records:

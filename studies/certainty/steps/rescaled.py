@@ -14,7 +14,7 @@ import pandas as pd
 from replication.workbench import Finding, run, truth
 from steps.shared.spectrum import progress
 from studies.certainty.steps.records import similar
-from topheavy import Column, Record, RockingFrame, overturned_by, read_record, reference
+from topheavy import Column, Record, RockingFrame, overturned_together, read_record, reference
 
 
 def reversed_pair(gammas: list[float], falls: np.ndarray) -> tuple[float, float] | None:
@@ -24,13 +24,6 @@ def reversed_pair(gammas: list[float], falls: np.ndarray) -> tuple[float, float]
         if not falls[place] and heavier:
             return gamma, heavier[0]
     return None
-
-
-def outcomes(
-    record: Record, column: Column, gammas: list[float], factors: np.ndarray
-) -> np.ndarray:
-    """Return what overturns, (γ, factors)."""
-    return np.array([overturned_by(RockingFrame(column, g), record, factors) for g in gammas])
 
 
 def by_scipy(
@@ -48,7 +41,7 @@ def rows(
     record: Record, name: str, column: Column, gammas: list[float], factors: np.ndarray
 ) -> Iterator[dict]:
     """Yield a row for each factor, and with the ends of a reversal at the record's own scale."""
-    falls = outcomes(record, column, gammas, factors)
+    falls = overturned_together([RockingFrame(column, g) for g in gammas], record, factors)
     own = int(np.argmin(np.abs(factors - 1.0)))
     pair = reversed_pair(gammas, falls[:, own])
     ends: dict[int, int] = {}  # the first factor that is not reversed, and the last that is

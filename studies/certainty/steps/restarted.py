@@ -53,7 +53,7 @@ class Case:
         horizontal, vertical = self.records(factor)
         found = solver(block, horizontal, vertical=vertical, samples=8 * SAMPLES)
         since = found.rotation[(found.time > self.begins) & np.isfinite(found.rotation)]
-        moved = since[np.flatnonzero(since)[:1].sum() :] if since.any() else since
+        moved = np.trim_zeros(since, "f")
         one_side = bool((moved > 0.0).all() or (moved < 0.0).all())
         return found.overturned and not (found.impacts > self.begins).any() and one_side
 

@@ -12,6 +12,7 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import run, truth, value
+from steps.shared.spectra_compared import ends_of
 from steps.shared.spectrum import progress
 from studies.certainty.scattered import overturned_with
 from studies.certainty.shapes import knots, record
@@ -28,7 +29,7 @@ from topheavy import (
 )
 from topheavy.fragility.resampling import in_words, interval, means, resampled
 from topheavy.structures import Structure
-from topheavy.synthetic.ensemble import draws
+from topheavy.synthetic.ensemble import first_draws
 from topheavy.synthetic.motions import peak_velocity
 
 WAYS = ("both", "frame alone", "column alone")
@@ -67,9 +68,7 @@ def spectrum(block: RockingBlock, pulse: Pulse, case: dict) -> np.ndarray:
         resolution=amplitudes["resolution"],
         most_impacts=1,
     )
-    last = amplitudes["highest"]
-    ends = [(one.lower[1], one.upper[0] if one.upper else last) for one in found]
-    return np.array(ends).reshape(-1, 2)
+    return ends_of(found, amplitudes["highest"])
 
 
 def lowest(block: RockingBlock, pulse: Pulse, case: dict, below: float) -> float:
@@ -146,9 +145,8 @@ def outcomes(case: dict, ensemble: dict) -> tuple[list[tuple], dict[str, np.ndar
     levels = np.geomspace(spec["lowest"], spec["highest"], spec["points"])
     variants = [(g, "factor", f) for g in case["mass_ratios"] for f in case["factors"]]
     variants += [(g, "scatter", low) for g in case["mass_ratios"] for low in case["scatter"]]
-    some = {**ensemble, "runs": {ensemble["run"]: {"motions": case["motions"]}}}
     found: dict[str, list] = {family: [] for family in ensemble["families"]}
-    chosen = draws(some)
+    chosen = first_draws(ensemble, case["motions"])
     for draw in progress(chosen, len(chosen), "motions"):
         motion = draw.record()
         scales = levels * unit / peak_velocity(motion)

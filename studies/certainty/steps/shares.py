@@ -14,7 +14,7 @@ from replication.workbench import Finding, run, truth
 from steps.shared.spectrum import progress
 from steps.vase_shares import PARAMETERS, exchanged, shapley, subsets
 from topheavy import Column, FixedMassColumn, RockingFrame, overturned_together
-from topheavy.synthetic.ensemble import draws
+from topheavy.synthetic.ensemble import first_draws
 from topheavy.synthetic.motions import peak_velocity
 
 
@@ -24,8 +24,7 @@ def values_of(case: dict, ensemble: dict) -> pd.DataFrame:
     They are linear in the worth, so that their means are those of the share of motions.
     """
     column, taken = Column(**case["column"]), list(subsets())
-    some = {**ensemble, "runs": {ensemble["run"]: {"motions": case["motions"]}}}
-    rows, chosen = [], draws(some)
+    rows, chosen = [], first_draws(ensemble, case["motions"])
     for draw in progress(chosen, len(chosen), "motions"):
         motion = draw.record()
         scales = [level / peak_velocity(motion) for level in case["pgv"]]

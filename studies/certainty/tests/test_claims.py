@@ -23,9 +23,19 @@ def lowered():
     return " or ".join(map(str, parts)) + " %"
 
 
+EVEN = CONFIG["break_even"]
+ENDS = "certainty_deficit_ends_the_benefit"
+
+
 @pytest.mark.parametrize(
     ("claim", "words"),
     [
+        (ENDS, f"alone is {100 * EVEN['deficits']['highest']:g} % lower"),
+        (ENDS, f"γ = {', '.join(f'{g:g}' for g in EVEN['mass_ratios'][:-1])} or"),
+        (ENDS, f"or {EVEN['mass_ratios'][-1]:g} over its columns of"),
+        (ENDS, f"of {' or '.join(f'{6 * size:g}' for size in EVEN['sizes'])} m"),
+        (ENDS, f"at {len(EVEN['pgv'] + EVEN['scaled'])} intensities"),
+        (ENDS, f"{EVEN['runs']['default']['motions'] * len(ENSEMBLE['scenarios'])} synthetic"),
         ("certainty_probability_any_restitution", f"{of_a_family('restitution')} synthetic"),
         (
             "certainty_probability_any_restitution",

@@ -18,6 +18,7 @@ from studies.certainty.steps import (
     theorem,
 )
 from topheavy import Column, Record, judge, reference
+from topheavy.synthetic.ensemble import first_draws
 
 SIZES = {"half_width": 0.5, "half_height": 3.0}
 
@@ -297,7 +298,7 @@ STATED = {
 def test_difference_is_that_of_column_and_frame_under_motions_of_the_stated_velocity():
     found = benefit.fragilities(STATED, ENSEMBLE)
     table, under = benefit.differences(STATED, found), benefit.structures(STATED)
-    draws = benefit.motions(STATED, ENSEMBLE)
+    draws = first_draws(ENSEMBLE, STATED["motions"])
     assert len(table) == 2 * 3  # families, comparisons
     for row in table.itertuples():
         records = [draw.record() for draw in draws if draw.family == row.family]

@@ -6,6 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from steps.shared.outcomes import written
 from studies.certainty.rated import (
     BARE,
     FIXED,
@@ -14,11 +15,15 @@ from studies.certainty.rated import (
     stated,
     subjects,
     velocities,
-    written,
 )
-from studies.certainty.rated import read as letters
-from studies.certainty.steps import rates, rates_shard
-from topheavy import Column, FixedMassColumn, MonolithicPortal, RockingFrame, judge
+from studies.certainty.steps import rates, rates_check, rates_shard
+from topheavy import (
+    Column,
+    FixedMassColumn,
+    MonolithicPortal,
+    RockingFrame,
+    judge,
+)
 from topheavy.synthetic.ensemble import draws
 
 COLUMN = Column(0.5, 3.0)
@@ -48,7 +53,7 @@ CASE = {
     "centuries": [1, 20],
     "bootstrap": {"resamples": 100, "confidence": 0.95},
     "seed": 29,
-    "sample": {"points": 8, "second_route": 2},
+    "sample": {"points": 8},
 }
 UNDER = subjects(CASE)
 
@@ -96,7 +101,7 @@ def test_structures_have_the_same_columns_and_cap_beams():
 
 
 def test_stated_intensity_is_that_of_the_column():
-    (_, level, pgv) = stated(CASE)[-1]
+    (_, level, pgv) = stated(COLUMN, CASE)[-1]
     assert COLUMN.frequency_parameter * pgv / (9.81 / 6.0) == pytest.approx(level)
 
 
@@ -117,15 +122,18 @@ def test_outcomes_are_those_of_the_scaled_motions(shards):
     assert compared > 5
 
 
-def test_sample_is_judged_again(shards):
-    found = rates.again(shards, CASE, ENSEMBLE, 3e-12)
-    assert found["tightened_agrees"].holds
-    assert found["tightened_agrees"]["near_a_boundary"] >= 3
-    assert found["second_route_agrees"].holds
-    wrong = shards.assign(outcomes=[written(~row) for row in letters(shards.outcomes)])
-    found = rates.again(wrong, CASE, ENSEMBLE, 3e-12)
-    assert not found["tightened_agrees"].holds
-    assert not found["second_route_agrees"].holds
+def test_sample_is_judged_again_on_all_structures_in_turn(shards):
+    checks, found = rates_check.main(CASE, ENSEMBLE, shards, 3e-12)
+    counts = checks.groupby(["family", "structure", "mass_ratio", "lowered"]).size()
+    assert set(counts) == {2}
+    assert len(counts) == 4
+    for route in ("tightened_agrees", "second_route_agrees"):
+        assert found[route].holds
+        assert found[route]["near_a_boundary"] >= 3
+        assert found[route]["cells"] == checks.decided.sum() > 4
+        assert found[route]["structures"] == 2
+        assert not rates_check.findings(checks.assign(overturns=~checks.overturns))[route].holds
+        assert not rates_check.findings(checks.assign(decided=False))[route].holds
 
 
 # Rates --------------------------------------------------------------------------------------------
@@ -136,7 +144,9 @@ def test_rate_is_the_hazard_from_the_boundary_on():
     table = overturning_from(1.0, 0.7, 1.4, 2.0, 0.7, 0.5, 9.0, 9.0)
     for motions in found_in(table):
         found = pd.DataFrame(rates.rates(motions, CASE))
-        assert (found.rate_low == found.rate_high).all()  # every motion has the same boundary
+        assert np.allclose(
+            found.rate_low, found.rate_high, rtol=1e-12
+        )  # every motion has the same boundary
         for row in found.itertuples():
             place = [tuple(one.labels.values()) for one in UNDER].index(
                 (row.structure, row.mass_ratio, row.lowered)
@@ -147,6 +157,7 @@ def test_rate_is_the_hazard_from_the_boundary_on():
             assert row.rate == pytest.approx(exact, rel=1e-3)
             assert row.overturning == (row.motions if edge < row.highest else 0)
             own = (2.0**-0.25 if row.column == 0.0 else 0.7071 / 2.0**0.25) ** -2.0
+            assert row.change == pytest.approx(row.over - row.over_coarser, abs=1e-12)
             assert row.over == pytest.approx(exact / (own - row.highest**-2.0), rel=1e-3)
 
 
@@ -156,14 +167,16 @@ def test_motions_are_resampled_within_their_earthquake():
     assert [m.labels["earthquake"] for m in (both, first, second)] == ["both", "M 6.5", "M 7.3"]
     for motions, shares in ((both, (0.5, 1.0)), (first, (1.0, 1.0)), (second, (0.0, 1.0))):
         at = [np.flatnonzero(np.isclose(velocities(CASE), v))[0] for v in (1.0, 4.0)]
-        assert motions.means[:, 0, at] == pytest.approx(np.tile(shares, (101, 1)))
+        assert motions.means(motions.outcomes, CASE)[:, 0, at] == pytest.approx(
+            np.tile(shares, (101, 1))
+        )
     assert len(both.outcomes) == 2 * len(first.outcomes) == 12
 
 
 def test_order_of_the_shards_does_not_matter(shards):
     table = shards.sort_values("motion", ascending=False, kind="stable")
     for one, other in zip(found_in(shards), found_in(table), strict=True):
-        np.testing.assert_array_equal(one.means, other.means)
+        np.testing.assert_array_equal(one.outcomes, other.outcomes)
 
 
 def test_shard_that_is_not_complete_is_named(shards):
@@ -216,7 +229,9 @@ def tables(**change):
             row = {"structure": name, "column": column, "exponent": 2.0, "overturning": 5}
             row |= dict(zip(("over_low", "over", "over_high"), ends, strict=True))
             row |= dict(zip(("rate_low", "rate", "rate_high"), ends, strict=True))
-            row |= {"over_coarser": 1.001 * ends[1], "lognormal": 1.05 * ends[1] or math.nan}
+            row |= {"over_coarser": 1.001 * ends[1], "over_coarsest": 1.002 * ends[1]}
+            row |= {"change_low": -0.1, "change_high": 0.1}
+            row |= {"lognormal": 1.05 * ends[1] or math.nan}
             rows.append(row | (change.get(f"{name}_{column:g}", {})))
     stated_one = {"structure": FREE, "column": 0.0, "less_low": 0.1, "interval": "is positive"}
     return pd.DataFrame([stated_one | change.get("stated", {})]), pd.DataFrame(rows)

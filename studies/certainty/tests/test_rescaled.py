@@ -28,7 +28,7 @@ def test_order_is_reversed_if_a_heavier_one_overturns_and_a_lighter_one_survives
 def test_ends_are_the_nearest_factors_at_which_the_pair_is_not_reversed(monkeypatch):
     factors = np.array([0.97, 0.98, 0.99, 1.0, 1.01, 1.02, 1.03])
     falls = np.array([[False] * 7, [False, True, True, True, True, False, True], [False] * 7])
-    monkeypatch.setattr(rescaled, "outcomes", lambda *given: falls)
+    monkeypatch.setattr(rescaled, "overturned_together", lambda *given: falls)
     asked = []
     monkeypatch.setattr(rescaled, "by_scipy", lambda *given: asked.append(given[2:]) or True)
     record, column = Record(0.01, np.zeros(4)), Column(0.5, 3.0)

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import Finding, truth
-from steps.shared.spectra_compared import without
+from steps.shared.spectra_compared import ends_of, without
 from studies.mechanism.steps.rigs import (
     HIGHEST,
     Model,
@@ -39,8 +39,7 @@ def _overturning(frame: RockingFrame, unit: Pulse) -> np.ndarray:
     """Return the amplitudes (g) of a pulse that overturn a frame in theory, shape (n, 2)."""
     tan = frame.uplift_acceleration
     found = overturning_intervals(frame, unit, (tan, HIGHEST * tan), resolution=0.01 * tan)
-    ends = [(one.lower[1], one.upper[0] if one.upper else HIGHEST * tan) for one in found]
-    return np.array(ends).reshape(-1, 2)
+    return ends_of(found, HIGHEST * tan)
 
 
 def _bands_apart(column: np.ndarray, frame: np.ndarray) -> dict[str, float]:

@@ -70,7 +70,7 @@ def gather(number: int) -> tuple[int, int]:
 
 def outcomes(number: int, folder: str) -> None:
     """Write tables like those of the shards; the motions overturn at lognormal intensities."""
-    from studies.reversals.outcomes import written
+    from steps.shared.outcomes import written
     from topheavy.synthetic.ensemble import draws, intensities, subjects
 
     study, structures = config()

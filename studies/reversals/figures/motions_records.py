@@ -6,7 +6,7 @@ from matplotlib.colors import ListedColormap
 from figures.drawing import RECORDS
 from figures.palette import CAUSED, OVERTURNED, PREVENTED, UNDECIDED
 from replication.drawing import DOUBLE, GREY, PAPER, letter, make_figure, note, sheet
-from studies.reversals.outcomes import FALLS, UNTOLD, read
+from steps.shared.outcomes import FALLS, UNTOLD, read
 
 CASES = {  # the outcomes of the column and of the frame with γ → ∞
     "both survive": PAPER,

@@ -12,8 +12,8 @@ import pandas as pd
 
 from replication.workbench import Finding, run, truth
 from steps.shared.histories import NUDGE
+from steps.shared.outcomes import FALLS, STANDS, read
 from steps.shared.spectrum import progress
-from studies.reversals.outcomes import FALLS, STANDS, read
 from topheavy import Record, overturned_by, reference
 from topheavy.structures import Structure
 from topheavy.synthetic.ensemble import draws, factors, intensities, subjects

@@ -18,7 +18,7 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import Finding, run, truth, value
-from studies.reversals.outcomes import FALLS, read
+from steps.shared.outcomes import FALLS, read
 from topheavy.fragility import resampling
 from topheavy.fragility.curve import curve, fit, medians, why_no_median
 from topheavy.fragility.gain import mass_ratios_of_gain

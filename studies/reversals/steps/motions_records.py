@@ -12,8 +12,8 @@ import pandas as pd
 
 from replication.workbench import Finding, run, truth
 from steps.shared.histories import NUDGE
+from steps.shared.outcomes import FALLS, STANDS, UNTOLD, read, written
 from steps.shared.spectrum import progress
-from studies.reversals.outcomes import FALLS, STANDS, UNTOLD, read, written
 from topheavy import Column, Record, RockingFrame, overturned_by, read_record, reference
 
 

@@ -6,8 +6,8 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import run
-from steps.shared.spectrum import progress
-from studies.reversals.outcomes import written
+from steps.shared.outcomes import written
+from steps.shared.spectrum import progress, shard_of
 from topheavy import overturned_together
 from topheavy.synthetic.ensemble import Draw, Subject, draws, factors, intensities, subjects
 
@@ -30,12 +30,8 @@ def outcomes(draw: Draw, under: list[Subject], levels, of: int) -> list[dict]:
 
 
 def main(case: dict, structures: dict, shard: str) -> pd.DataFrame:
-    number, of = map(int, shard.split("-of-"))
-    mine, under, levels = (
-        draws(case)[number - 1 :: of],
-        [*subjects(case, structures)],
-        intensities(case),
-    )
+    mine, levels = shard_of(draws(case), shard), intensities(case)
+    under = [*subjects(case, structures)]
     each = case["runs"][case["run"]]["motions"]
     found = (outcomes(draw, under, levels, each) for draw in mine)
     return pd.DataFrame(row for rows in progress(found, len(mine), "motions") for row in rows)

@@ -22,10 +22,10 @@ from steps.shared.peak_forces import (
     rocking_peaks,
 )
 from studies.reversals.steps.motions_uplift_shard import cap_of
-from studies.reversals.steps.motions_vase import factors, some
+from studies.reversals.steps.motions_vase import factors
 from topheavy import Cap, Column, RockingFrame, reference, simulate
 from topheavy.fragility.resampling import interval, resampled
-from topheavy.synthetic.ensemble import Draw
+from topheavy.synthetic.ensemble import Draw, first_draws
 
 CLOSE = 1e-6  # relative: what the peaks of two solvers may differ by
 ROCKS = 0.1  # of α: histories that rock this far are judged again
@@ -85,7 +85,7 @@ def second_route(
 
 def main(case: dict, ensemble: dict, shards: list[pd.DataFrame]) -> tuple:
     column, cap = Column(**case["column"]), cap_of(case)
-    keys, chosen = ["family", "scenario", "motion"], some(ensemble, case["motions"])
+    keys, chosen = ["family", "scenario", "motion"], first_draws(ensemble, case["motions"])
     of_family = {family: place for place, family in enumerate(ensemble["families"])}
     table = pd.concat(shards).sort_values(
         keys, kind="stable", key=lambda key: key.map(of_family) if key.name == "family" else key

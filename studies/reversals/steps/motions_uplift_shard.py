@@ -7,10 +7,10 @@ import pandas as pd
 
 from replication.workbench import run
 from steps.shared.peak_forces import FORCES, held_peaks, ratio_of, rocking_peaks, shear_after_uplift
-from steps.shared.spectrum import progress
-from studies.reversals.steps.motions_vase import factors, some
+from steps.shared.spectrum import progress, shard_of
+from studies.reversals.steps.motions_vase import factors
 from topheavy import Cap, Column, RockingFrame
-from topheavy.synthetic.ensemble import Draw
+from topheavy.synthetic.ensemble import Draw, first_draws
 
 STEPS = 60  # in a period of the held frame; a peak is off by 1.4e-3 at most
 
@@ -46,10 +46,9 @@ def histories(draw: Draw, frames: list[RockingFrame], cap: Cap, case: dict) -> l
 
 
 def main(case: dict, ensemble: dict, shard: str) -> pd.DataFrame:
-    number, of = map(int, shard.split("-of-"))
     column, cap = Column(**case["column"]), cap_of(case)
     frames = [RockingFrame(column, gamma) for gamma in case["mass_ratios"]]
-    mine = some(ensemble, case["motions"])[number - 1 :: of]
+    mine = shard_of(first_draws(ensemble, case["motions"]), shard)
     found = (histories(draw, frames, cap, case) for draw in mine)
     return pd.DataFrame(row for rows in progress(found, len(mine), "motions") for row in rows)
 

@@ -25,15 +25,10 @@ from topheavy import (
 )
 from topheavy.fragility.resampling import interval, means, resampled
 from topheavy.structures import Structure
-from topheavy.synthetic.ensemble import Draw, draws
+from topheavy.synthetic.ensemble import first_draws
 from topheavy.synthetic.motions import peak_velocity
 
 LEAST = 0.5  # of the motions: a structure that comes last under more of them is not the weakest
-
-
-def some(ensemble: Mapping[str, Any], count: int) -> list[Draw]:
-    """Return the first motions of each scenario and family, in the order of the ensemble."""
-    return [draw for draw in draws(ensemble) if draw.number < count]
 
 
 def geometric(spec: Mapping[str, float]) -> np.ndarray:
@@ -124,7 +119,7 @@ def second_route(
 def main(case: dict, ensemble: dict, tightened: float) -> tuple:
     column = Column(**case["column"])
     under, levels = list(rivals(column, case["mass_ratios"])), geometric(case["intensities"])
-    chosen = some(ensemble, case["motions"])
+    chosen = first_draws(ensemble, case["motions"])
     outcomes, cells, random = [], [], np.random.default_rng(ensemble["seed"])
     wanted = set(random.permutation(len(chosen))[: case["checked_by_second_route"]].tolist())
     for number, draw in enumerate(progress(chosen, len(chosen), "motions")):

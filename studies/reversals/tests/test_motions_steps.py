@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 from scipy.special import ndtr
 
-from studies.reversals.outcomes import FALLS, STANDS, read, written
+from steps.shared.outcomes import FALLS, STANDS, read, written
 from studies.reversals.steps import motions_check, motions_fragility, motions_records, motions_shard
 from topheavy import Column, Record, RockingFrame, judge
 from topheavy.fragility import resampling

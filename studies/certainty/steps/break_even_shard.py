@@ -1,0 +1,41 @@
+"""One shard of the motions: every n-th, on columns and frames with changed √r, at all levels."""
+
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from replication.workbench import run
+from steps.shared.outcomes import written
+from steps.shared.spectrum import progress, shard_of
+from studies.certainty.changed import columns, subjects
+from studies.certainty.rated import stated
+from topheavy import Column, overturned_together
+from topheavy.synthetic.ensemble import Draw, first_draws
+
+
+def outcomes(draw: Draw, column: Column, case: dict) -> list[dict[str, Any]]:
+    """Return a row for each structure: which levels overturn it."""
+    record, under = draw.record(), subjects(column, case)
+    pgvs = np.array([pgv for *_, pgv in stated(column, case)])
+    blocks = [subject.block for subject in under]
+    fell = overturned_together(blocks, record, pgvs / record.peak_velocity)
+    return [
+        draw.labels | subject.labels | {"outcomes": written(row)}
+        for subject, row in zip(under, fell, strict=True)
+    ]
+
+
+def main(case: dict, ensemble: dict, shard: str) -> pd.DataFrame:
+    mine = shard_of(first_draws(ensemble, case["runs"][case["run"]]["motions"]), shard)
+    found = ([outcomes(draw, column, case) for column in columns(case)] for draw in mine)
+    every = progress(found, len(mine), "motions")
+    return pd.DataFrame(row for sizes in every for rows in sizes for row in rows)
+
+
+def work(job: Any) -> Any:
+    return main(job.params.case, job.params.ensemble, job.wildcards.scatteritem)
+
+
+if __name__ == "__main__":
+    run(snakemake, work)
