@@ -18,7 +18,7 @@ from topheavy.records import Record
 from topheavy.simulate import no_excitation
 from topheavy.structures import Structure
 
-LADDER = ((72, 1e-13), (136, 1e-28), (264, 1e-60))
+LADDER = ((72, 1e-13), (136, 1e-28), (264, 1e-60), (520, 1e-130))
 """Bits of the balls, and what the last terms of a step may amount to, relative to 1 rad."""
 
 
@@ -45,7 +45,7 @@ def outcome(
     linearised : bool
         Whether the structure obeys the linearised equation.
     bits : int
-        The least precision of the balls: up to 264.
+        The least precision of the balls: up to 520.
     trace : list, optional
         Filled with the steps of the proof, for a certificate (`topheavy.proven.certificate`).
 
@@ -58,7 +58,7 @@ def outcome(
     ------
     ValueError
         For no or an endless excitation, a factor that is not finite or does not ascend, more bits
-        than 264, and a structure whose √r is negative.
+        than 520, and a structure whose √r is negative.
     """
     if not isinstance(excitation, (Pulse, Record)):
         raise no_excitation(excitation)
