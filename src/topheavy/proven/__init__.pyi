@@ -4,4 +4,12 @@ from .march import Outcome
 from .orbit import SteadyRocking, settles, steady_rocking
 from .outcome import outcome
 
-__all__ = ["BlockBox", "Outcome", "SteadyRocking", "certified", "outcome", "settles", "steady_rocking"]
+__all__ = [
+    "BlockBox",
+    "Outcome",
+    "SteadyRocking",
+    "certified",
+    "outcome",
+    "settles",
+    "steady_rocking",
+]

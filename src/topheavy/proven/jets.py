@@ -1,10 +1,12 @@
 """Balls with their derivatives by the numbers that they depend on: forward differentiation."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Union
 
 from topheavy.proven.balls import arb
 
-Number = "Jet | arb | int"
+Number = Union["Jet", arb, int]
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,6 +60,6 @@ class Jet:
         pairs = zip(self.slopes, other.slopes, strict=True)
         return self.value.contains(other.value) and all(x.contains(y) for x, y in pairs)
 
-    def _with(self, other: "Jet", change) -> "Jet":
+    def _with(self, other: "Jet", change: Callable[[arb, arb], arb]) -> "Jet":
         pairs = zip(self.slopes, other.slopes, strict=True)
         return Jet(change(self.value, other.value), tuple(change(x, y) for x, y in pairs))

@@ -81,9 +81,7 @@ class SteadyRocking:
         return arb_mat(2, 1, [phase - 2 * turns * arb.pi(), march.rate])
 
 
-def steady_rocking(
-    structure: Structure, pulse: Pulse, start: tuple[float, float]
-) -> SteadyRocking:
+def steady_rocking(structure: Structure, pulse: Pulse, start: tuple[float, float]) -> SteadyRocking:
     """Return the steady rocking under a harmonic, and a disk of starts that it attracts.
 
     Parameters
@@ -112,10 +110,10 @@ def steady_rocking(
             off = _length(frame.inv() * (shaken.flight(centre, FINE)[0] - centre)) / (1 - factor)
             if factor < 1 and off < radius:
                 found = centre + frame * _square(off)
-                ends = [bounds(x) for x in found.entries()]
+                phase, velocity = (bounds(x) for x in found.entries())
                 flight = shaken.lands(found, LADDER[1])
-                peak = bounds(flight.least)[0], bounds(flight.most)[1]
-                return SteadyRocking(*ends, peak, bounds(factor)[1], radius, shaken, centre, frame)
+                peak, q = (bounds(flight.least)[0], bounds(flight.most)[1]), bounds(factor)[1]
+                return SteadyRocking(phase, velocity, peak, q, radius, shaken, centre, frame)
     raise Undecided("contraction")
 
 
@@ -197,8 +195,7 @@ def _search(shaken: Shaken, start: arb_mat) -> tuple[arb_mat, arb_mat]:
     centre = np.array(start.tolist(), float)
     for _ in range(NEWTON):
         image, slope = (
-            np.array(x.mid().tolist(), float)
-            for x in shaken.flight(arb_mat(centre.tolist()), FINE)
+            np.array(x.mid().tolist(), float) for x in shaken.flight(arb_mat(centre.tolist()), FINE)
         )
         centre += np.linalg.solve(np.eye(2) - slope, image - centre)
     vectors = np.linalg.eig(slope)[1]
@@ -221,5 +218,5 @@ def _length(vector: arb_mat) -> arb:
 def _norm(matrix: arb_mat) -> arb:
     """Return a bound on the spectral norm."""
     a, b, c, d = matrix.entries()
-    pairs = (a + d, b - c), (a - d, b + c)
-    return sum(_length(arb_mat(2, 1, list(pair))) for pair in pairs).upper() / 2
+    one, other = (arb_mat(2, 1, list(pair)) for pair in ((a + d, b - c), (a - d, b + c)))
+    return (_length(one) + _length(other)).upper() / 2

@@ -6,6 +6,7 @@ the positive side, and each is a map (σ, v) ↦ (σ₁ − π, v₁).
 """
 
 from dataclasses import dataclass
+from typing import Any
 
 from topheavy.proven.balls import Undecided, arb, arb_mat, arb_poly, hull
 from topheavy.proven.blocks import Balls
@@ -95,19 +96,23 @@ class Shaken:
             time, zeros = time + end, 0
         raise Undecided("impacts")
 
-    def _push(self, time: arb | Jet, terms: int) -> list:
+    def _push(self, time: Any, terms: int) -> list[Any]:
         return self.forcing.series(self.forcing.pieces[0], time, terms)
 
     def _step(
-        self, time: Jet, phi: Jet, rate: Jet, zeros: int, order: int
+        self, time: Jet, phi: Any, rate: Any, zeros: int, order: int
     ) -> tuple[Step, arb | None, list[arb_poly]]:
-        """Return a step, when it ends in an impact, and the derivatives of φ over it."""
-        start, h = self.law.series(phi, rate, self._push(time, order), order)[0], LONGEST
+        """Return a step, when it ends in an impact, and the derivatives of φ over it.
+
+        Of a jet the law makes jets, as it makes balls of a ball.
+        """
+        start: list[Any] = self.law.series(phi, rate, self._push(time, order), order)[0]
+        h, cause = LONGEST, ""
         while h > LONGEST / 64:
             over = self._push(time + hull(0, h), order)
             try:
-                box = a_priori(self.law, phi, rate, over[0], h)
-                last = self.law.series(box.phi, box.rate, over, order)[0][order]
+                box: Any = a_priori(self.law, phi, rate, over[0], h)
+                last: Any = self.law.series(box.phi, box.rate, over, order)[0][order]
                 terms = [*start[:order], last]
                 plain = Box(box.phi.value, box.rate.value, box.acceleration.value)
                 step = Step(h, [term.value for term in terms], [], plain, zeros)

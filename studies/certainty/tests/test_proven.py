@@ -11,7 +11,9 @@ EXTREME = [(0.0, "overturns", 2), (float("inf"), "overturns", 0)]
 
 
 def table(extreme=EXTREME, under=(("survives", "survives"), ("overturns", "undecided"))):
-    rows = [{"record": "extreme", "mass_ratio": g, "proven": p, "impacts": n} for g, p, n in extreme]
+    rows = [
+        {"record": "extreme", "mass_ratio": g, "proven": p, "impacts": n} for g, p, n in extreme
+    ]
     rows += [{"record": "a", "by_solver": solver, "proven": found} for solver, found in under]
     return pd.DataFrame(rows)
 
