@@ -1,8 +1,8 @@
 """Flights of a block under a harmonic ground motion, from an impact to the next, with derivatives.
 
 A block leaves the ground at the phase σ with φ' = v, lands, and leaves it again. Half a cycle later
-the harmonic is reversed: seen from the other side, the motion starts anew. So flights are told on
-the positive side, and each is a map (σ, v) ↦ (σ₁ − π, v₁).
+the harmonic is reversed: seen from the other side, the motion starts anew. So every flight is
+described as on the positive side, and is a map (σ, v) ↦ (σ₁ − π, v₁).
 """
 
 from dataclasses import dataclass
