@@ -11,7 +11,7 @@ from typing import Any
 import pandas as pd
 
 from replication.workbench import Finding, run, truth
-from steps.proven import proven
+from steps.shared.proofs import proven
 from studies.certainty.steps.lowest import extreme
 from studies.certainty.steps.records import similar
 from topheavy import Column, Record, RockingFrame, read_record

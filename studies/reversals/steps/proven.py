@@ -12,7 +12,7 @@ from typing import Any
 import pandas as pd
 
 from replication.workbench import Finding, run, truth
-from steps.proven import WIDTHS, proven
+from steps.shared.proofs import WIDTHS, proven
 from steps.shared.spectra_compared import Place, Spectra
 
 REVERSED = ("survives", "overturns")
