@@ -42,14 +42,14 @@ help: ## show this list
 reproduce: | $(UV) ## compute every result, check every claim, compile the report (CORES=2)
 	@$(SNAKEMAKE)
 
-check: | $(UV) ## judge every claim again from the published findings, tables and pages; no run
+check: | $(UV) ## judge every claim again from the published files; no run (RELEASE=1: none older than its texts)
 	@$(RUN) python -m steps.recheck
 
 trace: | $(UV) ## from a figure, table, finding or claim to its source (ITEM=results/claims.json)
 	@$(RUN) python -m replication.commands.trace "$$ITEM"
 
 verify: | $(UV) ## compare every file of a finished run with its RO-Crate
-	@$(RUN) python -m replication.commands.verify
+	@$(UV) run --no-project --no-config --python '>=3.11' python -I -S src/replication/commands/verify.py
 
 archive: | $(UV) ## after a run: one .zip in dist/ with the source and the results
 	@$(RUN) python -m replication.commands.archive

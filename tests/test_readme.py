@@ -134,3 +134,39 @@ def test_run_takes_as_long_as_said():
     least, most = map(int, re.search(r"# (\d+) to (\d+) minutes on two cores", readme).groups())
     minutes = pd.read_csv(ROOT / "docs" / "costs.csv").seconds.sum() / 2 / 60
     assert least - 2 <= minutes <= most
+
+
+def test_equations_are_named_as_the_tables_and_claims_have_them(claims):
+    table = pd.read_csv(REFERENCE / "equations.csv", dtype={"equation": str})
+    faults = table[table.follows.astype(str) == "False"].dropna(subset="equation")
+    for kind, words in (("sign", "have wrong signs"), ("convention", "hold in another sign")):
+        (listed,) = re.findall(rf"Eqs\. ([^;.]*?) {words}", said())
+        expected = faults[faults.fault == kind].equation.drop_duplicates()
+        assert re.findall(r"\((\d+)\)", listed) == list(expected)
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    for words, function in (
+        ("equation of motion", "equation_of_motion"),
+        ("equivalent size", "size_ratio"),
+        ("Eq.", "restitution"),
+    ):
+        named = {int(number) for number in re.findall(rf"{words} \((\d+)\)", readme)}
+        own = {row.equation for row in claims.values() if row.function.endswith(f".{function}")}
+        assert len(named) == 1
+        assert named <= own
+
+
+def test_doi_is_that_of_the_citation():
+    cited = read_yaml(ROOT / "CITATION.cff")["references"][0]["doi"]
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    assert set(re.findall(r"10\.1061/[^\s\]]*\)ST[\d.A-Z-]*\d", readme)) == {cited}
+    assert readme.count(cited) == 2
+
+
+def test_lines_of_the_library_run(tmp_path, monkeypatch, capsys):
+    monkeypatch.setenv("MPLBACKEND", "agg")
+    (lines,) = re.findall(r"```python\n(.*?)```", (ROOT / "README.md").read_text("utf-8"), re.S)
+    (tmp_path / "data").symlink_to(ROOT / "data")
+    monkeypatch.chdir(tmp_path)
+    exec(compile(lines, "README.md", "exec"), {})
+    assert (tmp_path / "bent.png").stat().st_size > 5000
+    assert "The lowest factor found that overturns is " in capsys.readouterr().out

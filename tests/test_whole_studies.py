@@ -21,8 +21,6 @@ FREE = re.compile(
 
 EXCEPTIONS = {
     "paper/limits.yaml": "one list of the limits of the paper's and of the studies' claims",
-    "paper/report.typ": "the article has a place of its own for each study that it tells",
-    "paper/shown.typ": "the order of the article's figures",
     "profiles/slurm/test/run": "the test of the cluster runs one study, as a user does",
     "profiles/slurm/test/small.yaml": "the test of the cluster runs one study, as a user does",
 }

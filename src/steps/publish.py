@@ -11,6 +11,7 @@ from pathlib import Path
 
 from replication.commands import kill_table, pages
 from replication.pages.edition import machine, publish
+from replication.pages.seal import seal
 from steps.explorer_still import still
 
 DOCUMENTS = ("report", "supplement")
@@ -77,6 +78,7 @@ def main() -> None:
     pages.write()
     kill_table.refresh()
     (docs / "machine.txt").write_text(machine() + "\n", encoding="utf-8")
+    seal()
 
 
 if __name__ == "__main__":

@@ -12,7 +12,6 @@ from replication.judging.ledger import REPRODUCED, with_verdict
 from replication.origin.recorded import Crate
 from replication.pages import edition as publishing
 from replication.pages.edition import (
-    checksums,
     count_table,
     publish,
     publish_findings,
@@ -176,19 +175,6 @@ def test_run_that_tested_less_is_not_published(tmp_path):
     ):
         publish_findings(made, published)
     assert (published / "a.json").read_text(encoding="utf-8") == "{}"
-
-
-def test_checksums_are_of_tables_and_findings_whatever_their_line_ends(tmp_path):
-    (tmp_path / "findings").mkdir()
-    (tmp_path / "findings" / "a.json").write_bytes(b"{}\n")
-    (tmp_path / "t.csv").write_bytes(b"x\n1\n")
-    (tmp_path / "claims.json").write_bytes(b"[]")
-    before = checksums(tmp_path)
-    assert [line.split()[1] for line in before.splitlines()] == ["findings/a.json", "t.csv"]
-    (tmp_path / "t.csv").write_bytes(b"x\r\n1\r\n")
-    assert checksums(tmp_path) == before
-    (tmp_path / "t.csv").write_bytes(b"x\n2\n")
-    assert checksums(tmp_path) != before
 
 
 def test_number_without_a_unit_leaves_no_gap():

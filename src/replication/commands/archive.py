@@ -108,7 +108,11 @@ def main(root: Path = Path()) -> str:
     data = to.read_bytes()
     count = len(zipfile.ZipFile(to).namelist())
     checksum = hashlib.sha256(data).hexdigest()
-    return f"{to}: {count} files, {len(data) / 1e6:.1f} MB, SHA-256 {checksum}"
+    sums = hashlib.sha256(zipfile.ZipFile(to).read(SUMS)).hexdigest()
+    return (
+        f"{to}: {count} files, {len(data) / 1e6:.1f} MB, SHA-256 {checksum}\n"
+        f"publish this beside it, which make verify prints of an unpacked one: {SUMS} {sums}"
+    )
 
 
 def _git(root: Path, *words: str) -> bytes:

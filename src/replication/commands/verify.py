@@ -1,20 +1,36 @@
 """Is the tree what the run left? Every file against its RO-Crate: `make verify`.
 
-In an unpacked archive (`make archive`) the source is held against SHA256SUMS, too.
+In an unpacked archive (`make archive`) every file is first held against SHA256SUMS. Until this
+holds, nothing of the folder is imported but this file, so that a file that was added cannot decide:
+`python -I -S` starts it, without the folder's packages.
 """
 
+import hashlib
 import sys
 from collections.abc import Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from replication.origin.recorded import CRATE, Crate, read_crate
-from replication.workflow.provenance import checksum
+if TYPE_CHECKING:
+    from replication.origin.recorded import Crate
 
+CRATE = "results/ro-crate-metadata.json"
 SUMS = "SHA256SUMS"
 """In an archive alone: the checksum of every file in it, as `sha256sum --check` reads them."""
+LOCAL = {
+    ".git",
+    ".mypy_cache",
+    ".pytest_cache",
+    ".ruff_cache",
+    ".snakemake",
+    ".uv",
+    ".venv",
+    "dist",
+}
+"""Folders that commands make in a tree."""
 
 
-def main(crate: Crate, root: Path = Path()) -> list[str]:
+def main(crate: "Crate", root: Path = Path()) -> list[str]:
     """Return a line for each file that is missing, that changed, or that no rule made."""
     faults = []
     for path, expected in crate.checksums.items():
@@ -26,7 +42,7 @@ def main(crate: Crate, root: Path = Path()) -> list[str]:
     return faults
 
 
-def extra(crate: Crate, root: Path) -> Iterator[str]:
+def extra(crate: "Crate", root: Path) -> Iterator[str]:
     """Yield the files that the crate does not know.
 
     In the workflow's own folders these are all; elsewhere, those that look like its outputs: of
@@ -42,41 +58,99 @@ def extra(crate: Crate, root: Path) -> Iterator[str]:
             yield str(name)
 
 
-def changed_source(crate: Crate, root: Path) -> list[str]:
-    """Return a line for each file of an archive that is not as it was packed.
+def packed(root: Path = Path()) -> dict[str, str]:
+    """Return the checksum of each file of an archive, by its path; of no archive, nothing.
 
-    What a run makes is left to the crate, which a new run in the unpacked archive replaces.
+    Raises
+    ------
+    ValueError
+        When a line of SHA256SUMS is not one of `sha256sum`.
     """
-    made = {*crate.rules, *crate.left_out}
-    faults = []
-    for line in (root / SUMS).read_text(encoding="utf-8").splitlines():
-        expected, path = line.split("  ", 1)
-        if path not in made:
-            faults += _fault(path, expected, f"{SUMS} has it", "it was packed", root)
-    return faults
+    if not (root / SUMS).exists():
+        return {}
+    rows = {}
+    text = (root / SUMS).read_text(encoding="utf-8", errors="replace")
+    for number, line in enumerate(text.splitlines(), 1):
+        digest, gap, path = line[:64], line[64:66], line[66:]
+        if gap != "  " or not path or set(digest) - set("0123456789abcdef"):
+            raise ValueError(
+                f"{SUMS}, line {number} is {line[:80]!r}; expected a SHA-256, two blanks and a "
+                "path: unpack the archive again"
+            )
+        rows[path] = digest
+    return rows
+
+
+def unpacked(sums: dict[str, str], root: Path = Path()) -> Iterator[str]:
+    """Yield a line for each file of an archive that is not as it was packed, or that was added.
+
+    The RO-Crate of the run is no fault if it alone differs: a run that gives the same bytes in the
+    unpacked archive lists them again. Its costs differ in each run.
+    """
+    differ_each_run = {CRATE, Path(CRATE).name, "results/costs.csv"}
+    for path, expected in sums.items():
+        if path not in differ_each_run:
+            yield from _fault(path, expected, f"{SUMS} has it", "it was packed", root)
+    for path in sorted(root.rglob("*")):
+        name = path.relative_to(root)
+        if path.is_file() and name.as_posix() not in {*sums, SUMS} and not _is_local(name):
+            yield f"{name.as_posix()} was added: {SUMS} does not have it"
+
+
+def _is_local(name: Path) -> bool:
+    """Tell what commands make in an unpacked archive: caches, an environment, logs of a run."""
+    beside = ("results/logs", "results/benchmarks")
+    return (
+        name.parts[0] in LOCAL
+        or "__pycache__" in name.parts
+        or any(map(name.is_relative_to, beside))
+    )
 
 
 def _fault(path: str, expected: str, source: str, event: str, root: Path) -> list[str]:
     """Return a line when the file is missing or not as it was after the event; else none."""
     if not (root / path).is_file():
         return [f"{path} is missing; {source}"]
-    if (found := checksum(root / path)) != expected:
+    if (found := _checksum(root / path)) != expected:
         return [f"{path} changed after {event}: its SHA-256 is {found}; expected {expected}"]
     return []
 
 
+def _checksum(path: Path) -> str:
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
+
+
+def _archive(sums: dict[str, str]) -> None:
+    """End with what differs in an archive; say what the checksums cannot tell."""
+    faults = list(unpacked(sums))
+    own = sums.get(CRATE) != _checksum(Path(CRATE)) if Path(CRATE).exists() else False
+    if own:
+        print(f"{CRATE} is not the one that was packed: a run was made here, or it was changed")
+    if faults:
+        sys.exit("\n".join(faults))
+    print(f"verified: {len(sums)} files are as {SUMS} has them")
+    if there := sorted(name for name in LOCAL if Path(name).exists()):
+        print(f"not packed, made by commands here or added: {', '.join(there)}")
+    print(
+        f"Who changes a file can make {SUMS} anew. Compare its SHA-256 with that published beside "
+        f"the archive:\n{_checksum(Path(SUMS))}"
+    )
+
+
 if __name__ == "__main__":
-    if not Path(CRATE).exists():
-        sys.exit(f"{CRATE} does not exist; expected a finished run: make reproduce")
     try:
-        crate = read_crate()
+        if sums := packed():
+            _archive(sums)
+        if not Path(CRATE).exists():
+            sys.exit(f"{CRATE} does not exist; expected a finished run: make reproduce")
+        sys.path.insert(0, "src")
+        from replication.origin.recorded import read_crate
+
+        crate = read_crate(CRATE)
     except ValueError as fault:
         sys.exit(str(fault))
-    is_archive = Path(SUMS).exists()
-    faults = [*main(crate), *(changed_source(crate, Path()) if is_archive else [])]
-    if faults:
+    if faults := main(crate):
         sys.exit("\n".join(faults))
     inputs = len(crate.checksums) - len(crate.rules)
     print(f"verified: {len(crate.rules)} outputs and {inputs} inputs are as {CRATE} has them")
-    if is_archive:
-        print(f"verified: the source is as {SUMS} has it")

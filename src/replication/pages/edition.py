@@ -1,11 +1,11 @@
 """Publish the findings of a run, the verdicts, and the pages that show them."""
 
-import hashlib
 import os
 import platform
 import shutil
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -13,10 +13,16 @@ from replication.inputs.parts import PAPER, edition_of, ledger_of
 from replication.inputs.strict_yaml import read_yaml
 from replication.judging.claim import Claim, JudgedClaim
 from replication.judging.digits import numbers
-from replication.judging.findings import Findings, findings_by_rule, write_findings
+from replication.judging.findings import (
+    Findings,
+    findings_by_rule,
+    read_findings,
+    write_findings,
+)
 from replication.judging.ledger import OURS, REPRODUCED, as_text, read_ledger, with_verdicts
 from replication.judging.verdicts import VERDICTS, by_origin
 from replication.origin.recorded import read_crate
+from replication.pages.seal import checksum
 
 TITLES = {
     "": "The paper",
@@ -33,7 +39,6 @@ OF_REPRODUCED = (
     "Their verdicts say that a new run gives the same number again. They count nowhere as evidence."
 )
 
-CHECKSUMS = "checksums.txt"
 DIGITS = 9
 """Of the numbers in the published findings, as in the tables."""
 
@@ -139,21 +144,6 @@ def rounded(found: Any, digits: int = DIGITS) -> Any:
             return found
 
 
-def checksums(reference: Path) -> str:
-    """Return the SHA-256 of each published table, config and finding, a line each.
-
-    Of the text, with line ends as Python reads them, so that a checkout may change those.
-    """
-    found = (reference.rglob(name) for name in ("*.csv", "*.yaml", "findings/*.json"))
-    files = sorted({path for paths in found for path in paths})
-    lines = (
-        f"{hashlib.sha256(path.read_text(encoding='utf-8').encode()).hexdigest()}  "
-        f"{path.relative_to(reference).as_posix()}\n"
-        for path in files
-    )
-    return "".join(lines)
-
-
 def machine() -> str:
     """Return one line that names this machine."""
     cpuinfo = Path("/proc/cpuinfo")
@@ -182,9 +172,9 @@ def _shown(value: object, digits: str, unit: str) -> str:
 def publish(tables: Iterable[str], sources: Iterable[str] = ()) -> None:
     """Copy what every replication publishes of a finished run: `make publish`.
 
-    tests/reference/ gets the configs, the tables, the findings, their checksums and the verdicts;
-    docs/ and the README get the pages that show the verdicts. The edition.yaml of each study names
-    the tables and pictures that it adds.
+    tests/reference/ gets the configs, the tables, the findings and the verdicts; docs/ and the
+    README get the pages that show the verdicts. The edition.yaml of each study names the tables and
+    pictures that it adds. What else is published comes next, and then `seal`.
 
     Parameters
     ----------
@@ -243,7 +233,7 @@ def publish(tables: Iterable[str], sources: Iterable[str] = ()) -> None:
         for name, picture in edition.pictures.items():
             shutil.copyfile(Path("studies", study, picture), Path("docs", name))
     publish_findings(results / "findings", reference / "findings")
-    (reference / CHECKSUMS).write_text(checksums(reference), encoding="utf-8")
+    tie(reference, made_by_rules)
     publish_verdicts(read_ledger(map(ledger_of, [PAPER, *ours["studies"]])), Path())
     print("published; a run compares its tables with these: 'make reproduce' before 'make verify'")
 
@@ -265,6 +255,25 @@ def publish_findings(findings: Path, folder: Path) -> None:
     folder.mkdir(parents=True)
     for rule, of_rule in made.items():
         write_findings(folder / f"{rule}.json", Findings.of(rounded(of_rule.as_json())))
+
+
+def tie(reference: Path, made_by: Mapping[str, str]) -> None:
+    """Put into the published findings of a rule the checksums of its published tables.
+
+    Parameters
+    ----------
+    made_by
+        The rule of each output of the run, by its path.
+    """
+    for path in sorted((reference / "findings").glob("*.json")):
+        rule = made_by[f"results/findings/{path.name}"]
+        own = (
+            table
+            for table in reference.rglob("*.csv")
+            if made_by.get(f"results/tables/{table.name}") == rule
+        )
+        tables = {table.stem: checksum(table) for table in sorted(own)}
+        write_findings(path, replace(read_findings(path), tables=tables))
 
 
 def publish_verdicts(ledger: Sequence[Claim], root: Path) -> None:

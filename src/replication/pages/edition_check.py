@@ -1,5 +1,6 @@
 """Check the published rows, pages and files against each other, without a run."""
 
+import os
 import sys
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -13,7 +14,8 @@ from replication.judging.claim import Claim, JudgedClaim
 from replication.judging.findings import Findings, findings_by_rule
 from replication.judging.ledger import read_judged, read_ledger, with_verdict
 from replication.judging.verdicts import tallies, tolerance_fault
-from replication.pages.edition import CHECKSUMS, checksums, verdict_page, with_counts
+from replication.pages.edition import verdict_page, with_counts
+from replication.pages.seal import broken, checksum, outdated
 
 CLAIMS = "tests/reference/claims.json"
 DIFFER = """\
@@ -96,23 +98,22 @@ def configs(root: Path, studies: Iterable[str]) -> Iterator[str]:
                 )
 
 
-def files(reference: Path) -> Iterator[str]:
-    """Yield the published tables, configs and findings changed since `make publish`."""
-    listed = dict(
-        reversed(line.split("  ", 1))
-        for line in (reference / CHECKSUMS).read_text(encoding="utf-8").splitlines()
-    )
-    there = dict(reversed(line.split("  ", 1)) for line in checksums(reference).splitlines())
-    for name in sorted({*listed, *there}):
-        if listed.get(name) != there.get(name):
-            kind = "changed" if name in listed and name in there else "is not in both"
-            yield f"tests/reference/{name} {kind}: held against {CHECKSUMS} of `make publish`"
+def untied(reference: Path, findings: Mapping[str, Findings]) -> Iterator[str]:
+    """Yield the published tables that are not those with which the findings were published."""
+    for rule, of_rule in findings.items():
+        there = {path.stem: path for path in reference.rglob("*.csv")}
+        for table, expected in of_rule.tables.items():
+            if table not in there or checksum(there[table]) != expected:
+                yield f"{table}.csv is not the table that findings/{rule}.json was drawn from"
 
 
 def main(
     departures: Callable[[Path, Mapping[str, Findings]], Iterable[str]], root: Path = Path()
 ) -> tuple[list[str], list[str]]:
     """Return the tallies of the published claims, and what is wrong with the edition.
+
+    That inputs or texts changed since is wrong of a release: when RELEASE is set. Else the tallies
+    end with it.
 
     Parameters
     ----------
@@ -130,11 +131,15 @@ def main(
             *departures(reference, findings),
             *pages(root, rows),
             *configs(root, config["studies"]),
-            *files(reference),
+            *untied(reference, findings),
+            *broken(root),
         ]
     except FileNotFoundError as missing:
         return [], [f"{missing.filename} does not exist; expected a file of the published run"]
-    return tallies(rows), faults
+    changed = list(outdated(root))
+    if os.environ.get("RELEASE", "0") not in ("", "0"):
+        return tallies(rows), [*faults, *changed]
+    return [*tallies(rows), *changed], faults
 
 
 def close(lines: Iterable[str], faults: Iterable[str]) -> None:

@@ -13,8 +13,12 @@ from replication.workbench import run
 
 def work(job: Any) -> None:
     captions = read_captions(job.input.captions)
+    studies = job.params.studies
     options = {
-        "studies": ",".join(job.params.studies),
+        "studies": ",".join(studies),
+        "articles": ",".join(
+            name for name in studies if Path(f"studies/{name}/article.typ").is_file()
+        ),
         "tables": json.dumps(job.params.tables),
         "numbers": json.dumps(of_judged(read_judged("results/claims.json"))),
         "alternatives": json.dumps({path: alternative(entry) for path, entry in captions.items()}),

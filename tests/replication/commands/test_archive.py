@@ -3,6 +3,7 @@
 import hashlib
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -86,9 +87,8 @@ def unpacked(tree, tmp_path):
 def verified(root):
     """Run what `make verify` runs, with the unpacked machine."""
     return subprocess.run(
-        [sys.executable, "-m", "replication.commands.verify"],
+        [sys.executable, "-I", "-S", "src/replication/commands/verify.py"],
         cwd=root,
-        env=os.environ | {"PYTHONPATH": str(root / "src")},
         capture_output=True,
         text=True,
     )
@@ -125,7 +125,7 @@ def test_archive_has_source_and_results_and_nothing_else(tree):
 def test_unpacked_archive_verifies_and_sha256sum_agrees(unpacked):
     done = verified(unpacked)
     assert done.returncode == 0, done.stderr
-    assert "verified: the source is as SHA256SUMS has it" in done.stdout
+    assert re.search(r"verified: \d+ files are as SHA256SUMS has them", done.stdout)
     assert "verified: 2 outputs and 1 inputs" in done.stdout
     command = ["sha256sum", "--check", "--strict", "--quiet", "SHA256SUMS"]
     subprocess.run(command, cwd=unpacked, check=True)
@@ -142,6 +142,54 @@ def test_file_that_was_tampered_with_is_named(unpacked, path):
 def test_missing_source_is_named(unpacked):
     (unpacked / "pyproject.toml").unlink()
     assert verified(unpacked).stderr == "pyproject.toml is missing; SHA256SUMS has it\n"
+
+
+def forged(root, path):
+    """Change a file and its checksum in both crates, consistently."""
+    before = hashlib.sha256((root / path).read_bytes()).hexdigest()
+    (root / path).write_text("forged\n", encoding="utf-8")
+    after = hashlib.sha256((root / path).read_bytes()).hexdigest()
+    for crate in (root / CRATE, root / Path(CRATE).name):
+        crate.write_text(crate.read_text(encoding="utf-8").replace(before, after), encoding="utf-8")
+
+
+def test_forgery_that_the_crate_agrees_with_is_named(unpacked):
+    forged(unpacked, "results/peaks.csv")
+    done = verified(unpacked)
+    assert done.returncode == 1
+    assert done.stderr.startswith("results/peaks.csv changed after it was packed")
+    assert f"{CRATE} is not the one that was packed" in done.stdout
+
+
+def test_forgery_of_the_checksums_too_has_another_digest(unpacked, tree):
+    (published,) = re.findall(r"SHA256SUMS (\w{64})$", archive.main(tree))
+    assert verified(unpacked).stdout.count(published) == 1
+    forged(unpacked, "results/peaks.csv")
+    files = [line[66:] for line in (unpacked / "SHA256SUMS").read_text("utf-8").splitlines()]
+    sums = (
+        f"{hashlib.sha256((unpacked / name).read_bytes()).hexdigest()}  {name}\n" for name in files
+    )
+    (unpacked / "SHA256SUMS").write_text("".join(sums), encoding="utf-8")
+    done = verified(unpacked)
+    assert done.returncode == 0
+    assert published not in done.stdout
+    assert "Compare its SHA-256 with that published" in done.stdout
+
+
+@pytest.mark.parametrize("name", ["src/sitecustomize.py", "docs/new.txt", "src/hashlib.py"])
+def test_file_that_was_added_is_named_and_not_imported(unpacked, name):
+    (unpacked / name).parent.mkdir(exist_ok=True)
+    (unpacked / name).write_text("raise SystemExit('verified')\n", encoding="utf-8")
+    done = verified(unpacked)
+    assert done.stderr == f"{name} was added: SHA256SUMS does not have it\n"
+
+
+@pytest.mark.parametrize("content", [b"\xff\xfe\x00", b"0  a\n", b"g" * 64 + b"  a\n"])
+def test_checksums_that_are_none_are_refused(unpacked, content):
+    (unpacked / "SHA256SUMS").write_bytes(content)
+    done = verified(unpacked)
+    assert done.returncode == 1
+    assert done.stderr.startswith("SHA256SUMS, line 1 is ")
 
 
 def remove_crate(tree):

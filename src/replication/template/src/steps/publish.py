@@ -2,6 +2,7 @@
 
 from replication.commands import pages
 from replication.pages.edition import publish
+from replication.pages.seal import seal
 
 TABLES = ("period",)
 """Those with which later runs are compared."""
@@ -9,3 +10,4 @@ TABLES = ("period",)
 if __name__ == "__main__":
     publish(TABLES)
     pages.write()
+    seal()
