@@ -150,6 +150,20 @@ rule trilith_states:
         "trilith_states.py"
 
 
+rule trilith_orbit:
+    input:
+        states="results/tables/trilith_states.csv",
+    output:
+        table="results/tables/trilith_orbit.csv",
+        findings="results/findings/trilith_orbit.json",
+    params:
+        case=case("trilith"),
+    message:
+        "The trilith's steady rocking, proven"
+    script:
+        "trilith_orbit.py"
+
+
 rule trilith_map:
     output:
         table="results/tables/trilith_map.csv",

@@ -12,30 +12,15 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import Finding, run, truth
+from steps.shared.proofs import WIDTHS, is_checked, proven
 from steps.shared.spectra_compared import Place, Spectra
 from steps.vase import numbers
 from topheavy import Column, Pulse, judge
 from topheavy.proven import certified
-from topheavy.proven.checking import Refused, check
 from topheavy.structures import Structure
 
-WIDTHS = (1e-8, 1e-7, 1e-6)  # of a minimum: the table has nine digits
 SEED, CELLS, RECHECKED = 28, 200, 20  # a sample of the spectra, and how many of it are proven twice
 NEAREST = 1e-7  # of an amplitude: how close to a boundary half of the sample is
-
-
-def proven(structure: Structure, pulse: Pulse) -> tuple[str, dict | None]:
-    """Return an outcome that search and checker prove, or "undecided", and its certificate."""
-    found, certificate = certified(structure, pulse)
-    return (found.outcome, certificate) if is_checked(certificate) else ("undecided", None)
-
-
-def is_checked(certificate: dict | None) -> bool:
-    """Return whether there is a certificate, and the checker proves the same."""
-    try:
-        return certificate is not None and check(certificate) == certificate["outcome"]
-    except Refused:
-        return False
 
 
 def sides(structure: Structure, pulse: Pulse) -> tuple[float, list[dict]]:

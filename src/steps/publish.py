@@ -57,6 +57,7 @@ SOURCES = (
     "theorems",
     "trilith_limits",
     "trilith_numbers",
+    "trilith_orbit",
     "trilith_sample",
     "uplift_limits",
     "uplift_routes",

@@ -238,6 +238,24 @@ rule certainty_rescaled:
         "steps/rescaled.py"
 
 
+rule certainty_proven:
+    input:
+        rescaled="results/tables/certainty_rescaled.csv",
+        records=record_paths(case("records", "certainty")["records"], RECORDS),
+    output:
+        table="results/tables/certainty_proven.csv",
+        certificates="results/certificates/certainty_proven.jsonl",
+        findings="results/findings/certainty_proven.json",
+    params:
+        case=case("lowest", "certainty"),
+        columns=case("records", "certainty")["columns"],
+        structures=named(config["structures"], case("records", "certainty")),
+    message:
+        "Study certainty: the counterexample and the reversals under records, proven"
+    script:
+        "steps/proven.py"
+
+
 rule certainty_reach:
     input:
         records=record_paths(case("reach", "certainty")["records"], RECORDS),

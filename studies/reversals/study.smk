@@ -40,6 +40,21 @@ rule reversals_pulses:
         "steps/pulses.py"
 
 
+rule reversals_proven:
+    input:
+        spectra="results/tables/reversals_spectra.csv",
+    output:
+        table="results/tables/reversals_proven.csv",
+        certificates="results/certificates/reversals_proven.jsonl",
+        findings="results/findings/reversals_proven.json",
+    params:
+        case=REVERSALS,
+    message:
+        "Study reversals: a reversal of each pair of γ, proven"
+    script:
+        "steps/proven.py"
+
+
 rule reversals_enough:
     input:
         spectra="results/tables/reversals_spectra.csv",

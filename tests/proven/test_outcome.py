@@ -159,7 +159,7 @@ def test_lossless_bounces_are_given_up():
         ({"excitation": None}, "expected a Pulse or a Record"),
         ({"structure": Column(3.0, 1.0)}, "no rocking after an impact"),
         ({"structure": 5}, "structure is 5"),
-        ({"bits": 300}, "bits is 300; expected at most 264"),
+        ({"bits": 600}, "bits is 600; expected at most 520"),
     ],
 )
 def test_bad_value_is_named(change, message):

@@ -1,6 +1,15 @@
 from .blocks import BlockBox
 from .certificate import certified
 from .march import Outcome
+from .orbit import SteadyRocking, settles, steady_rocking
 from .outcome import outcome
 
-__all__ = ["BlockBox", "Outcome", "certified", "outcome"]
+__all__ = [
+    "BlockBox",
+    "Outcome",
+    "SteadyRocking",
+    "certified",
+    "outcome",
+    "settles",
+    "steady_rocking",
+]

@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import Any
 
 try:
-    from flint import arb, arb_poly, ctx, fmpq
+    from flint import arb, arb_mat, arb_poly, ctx, fmpq
 except ImportError as error:
     raise ImportError(
         "topheavy.proven needs python-flint, which is not installed; "
@@ -17,6 +17,7 @@ except ImportError as error:
 __all__ = [
     "Undecided",
     "arb",
+    "arb_mat",
     "arb_poly",
     "bounds",
     "exact",

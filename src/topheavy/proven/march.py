@@ -84,7 +84,7 @@ class March:
             del self.trace[self.rest.traced :]
         kappa = self.forcing.scale(self.block.frequency_parameter)
         self.law = Law(self.block, kappa * kappa)
-        self.h = 1.0
+        self.h, self.tried = 1.0, 0
         digits = -math.log2(self.accuracy)
         self.order = int(digits / 3) + 2
         if isinstance(self.forcing, RecordForcing):  # steps of one sample, of κ in radians
@@ -103,12 +103,18 @@ class March:
                         return None
                     if not self._uplifts(piece):
                         break
-                made, end, impact, is_last = self._step(piece)
-                if self._flies(piece, made, end, impact, is_last):
+                falls, ended = self.advance(piece)
+                if falls:
                     return Outcome("overturns", self.impacts, bits=self.bits)
-                if is_last and impact is None:  # not by comparing σ: both are balls
+                if ended:
                     break
         return self._rocks_freely() if self.side else self._survives()
+
+    def advance(self, piece: Piece) -> tuple[bool, bool]:
+        """Take a step of a block that has left the ground; return if it overturns, if it ends."""
+        made, end, impact, is_last = self._step(piece)
+        falls = self._flies(piece, made, end, impact, is_last)
+        return falls, is_last and impact is None  # not by comparing σ: both are balls
 
     def _survives(self) -> Outcome:
         peak = bounds(self.least)[0], bounds(self.most)[1]

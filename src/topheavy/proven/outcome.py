@@ -18,7 +18,7 @@ from topheavy.records import Record
 from topheavy.simulate import no_excitation
 from topheavy.structures import Structure
 
-_LADDER = ((72, 1e-13), (136, 1e-28), (264, 1e-60))
+LADDER = ((72, 1e-13), (136, 1e-28), (264, 1e-60), (520, 1e-130))
 """Bits of the balls, and what the last terms of a step may amount to, relative to 1 rad."""
 
 
@@ -45,7 +45,7 @@ def outcome(
     linearised : bool
         Whether the structure obeys the linearised equation.
     bits : int
-        The least precision of the balls: up to 264.
+        The least precision of the balls: up to 520.
     trace : list, optional
         Filled with the steps of the proof, for a certificate (`topheavy.proven.certificate`).
 
@@ -58,7 +58,7 @@ def outcome(
     ------
     ValueError
         For no or an endless excitation, a factor that is not finite or does not ascend, more bits
-        than 264, and a structure whose √r is negative.
+        than 520, and a structure whose √r is negative.
     """
     if not isinstance(excitation, (Pulse, Record)):
         raise no_excitation(excitation)
@@ -66,9 +66,9 @@ def outcome(
     low, high = (checks.finite("factor", end) for end in ends)
     if low > high:
         raise ValueError(f"factor is ({low:.6g}, {high:.6g}); expected the lower end first")
-    rungs = [rung for rung in _LADDER if rung[0] >= bits]
+    rungs = [rung for rung in LADDER if rung[0] >= bits]
     if not rungs:
-        raise ValueError(f"bits is {bits}; expected at most {_LADDER[-1][0]}")
+        raise ValueError(f"bits is {bits}; expected at most {LADDER[-1][0]}")
     if low < high or isinstance(structure, BlockBox):
         del rungs[1:]
     settings: dict[int, tuple[Balls, Forcing, arb]] = {}

@@ -147,15 +147,21 @@ def single_lobes(case: dict, tightened: float) -> dict:
     )
 
 
-def against_the_theorem(case: dict, tightened: float) -> tuple[dict, pd.DataFrame]:
-    """Return whether an extreme motion overturns both frames without an impact, or neither."""
+def extreme(case: dict) -> tuple[Record, RockingFrame, RockingFrame]:
+    """Return a motion beyond the theorem, and the lightest and the heaviest frame."""
     spec = case["extreme"]
     alpha = math.radians(spec["slenderness"])
     column = Column(case["size"] * math.sin(alpha), case["size"] * math.cos(alpha))
     values = np.repeat(spec["accelerations"], spec["samples"])
     pulse = record(values, spec["duration"], column)
-    pulse = pulse.scaled(spec["amplitude"] / column.uplift_acceleration)
     light, heavy = (RockingFrame(column, case["mass_ratios"][end]) for end in (0, -1))
+    return pulse.scaled(spec["amplitude"] / column.uplift_acceleration), light, heavy
+
+
+def against_the_theorem(case: dict, tightened: float) -> tuple[dict, pd.DataFrame]:
+    """Return whether an extreme motion overturns both frames without an impact, or neither."""
+    spec = case["extreme"]
+    pulse, light, heavy = extreme(case)
     time = np.linspace(0.0, 3.0 * pulse.duration, SAMPLES)
     routes = {
         frame: (judge(frame, pulse, tolerance=tightened), reference.judge(frame, pulse))

@@ -1,0 +1,67 @@
+"""The proven counterexample and reversals: what makes each finding fail."""
+
+import pandas as pd
+import pytest
+
+from studies.certainty.steps import proven
+from topheavy import Column, Record
+from topheavy.proven import Outcome
+
+EXTREME = [(0.0, "overturns", 2), (float("inf"), "overturns", 0)]
+
+
+def table(extreme=EXTREME, under=(("survives", "survives"), ("overturns", "undecided"))):
+    rows = [
+        {"record": "extreme", "mass_ratio": g, "proven": p, "impacts": n} for g, p, n in extreme
+    ]
+    rows += [{"record": "a", "by_solver": solver, "proven": found} for solver, found in under]
+    return pd.DataFrame(rows)
+
+
+@pytest.mark.parametrize(
+    ("light", "heavy", "holds"),
+    [
+        (("overturns", 2), ("overturns", 0), True),
+        (("survives", 0), ("overturns", 0), True),
+        (("overturns", 0), ("overturns", 0), False),
+        (("overturns", 2), ("overturns", 1), False),
+        (("undecided", -1), ("overturns", 0), False),
+        (("overturns", 2), ("undecided", 0), False),
+    ],
+)
+def test_counterexample_overturns_the_heavier_frame_alone_without_impact(light, heavy, holds):
+    extreme = [(0.0, *light), (float("inf"), *heavy)]
+    assert proven.findings(table(extreme))["beyond_the_theorem"].holds is holds
+
+
+@pytest.mark.parametrize(
+    ("under", "holds"),
+    [
+        ([("survives", "survives"), ("overturns", "undecided")], True),
+        ([("survives", "overturns"), ("overturns", "overturns")], False),
+        ([("survives", "undecided")], False),
+    ],
+)
+def test_no_proven_outcome_under_a_record_differs(under, holds):
+    found = proven.findings(table(under=under))["reversals_under_records"]
+    assert found.holds is holds
+    assert found.entries["undecided"] == sum(end == "undecided" for _, end in under)
+
+
+def test_end_of_a_reversal_is_proven_by_the_frame_that_changed(monkeypatch):
+    asked = []
+
+    def outcome(frame, record, factor):
+        asked.append((frame.mass_ratio, factor))
+        return Outcome("survives", 0)
+
+    monkeypatch.setattr(proven, "outcome", outcome)
+    rows = [("a", "c", 0.99, "0.0 1", 0.0, 1.0, 0.99), ("a", "c", 1.0, "1", None, None, None)]
+    rows.append(("a", "c", 1.02, None, 0.0, 1.0, 1.02))
+    names = ["record", "structure", "factor", "overturned", "survives", "overturns", "end"]
+    rescaled = pd.DataFrame(rows, columns=names)
+    records = [Record(0.01, [0.0, 0.1, 0.0], "a")]
+    found = list(proven.under_records(rescaled, {"c": Column(0.5, 3.0)}, records))
+    assert asked == [(0.0, 1.0), (1.0, 1.0), (0.0, 0.99), (1.0, 1.02)]
+    expected = ["survives", "overturns", "overturns", "survives"]
+    assert [row["by_solver"] for row in found] == expected
