@@ -1,6 +1,7 @@
+from .below import Below, survives_below
 from .blocks import BlockBox
 from .certificate import certified
 from .march import Outcome
 from .outcome import outcome
 
-__all__ = ["BlockBox", "Outcome", "certified", "outcome"]
+__all__ = ["Below", "BlockBox", "Outcome", "certified", "outcome", "survives_below"]
