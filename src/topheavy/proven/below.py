@@ -3,6 +3,7 @@
     0 ─ no uplift ─ bounded by the lemma ─ followed and bounded ─ followed ─ high
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -36,11 +37,17 @@ class Below:
 
 
 def survives_below(
-    structure: Structure, pulse: Pulse, high: float, *, linearised: bool = False
+    structure: Structure,
+    pulse: Pulse,
+    high: float,
+    *,
+    linearised: bool = False,
+    accepts: Callable[[dict[str, Any]], bool] = lambda certificate: True,
 ) -> Below:
     """Return boxes that prove which factors from 0 to `high` on a pulse are survived.
 
-    A box that is not proven is halved, until it is as narrow as `NARROWEST`.
+    A box that is not proven, or whose certificate `accepts` refuses, is halved until it is as narrow
+    as `NARROWEST`. An example of `accepts` is a second proof by `topheavy.proven.checking.check`.
 
     Raises
     ------
@@ -60,7 +67,7 @@ def survives_below(
             bounded=True,
         )
         middle = 0.5 * (low + top)
-        if certificate is not None and found.outcome == "survives":
+        if found.outcome == "survives" and certificate is not None and accepts(certificate):
             below.certificates.append(certificate)
         elif found.outcome == "overturns" or top - low < NARROWEST * high:
             below.open.append(box)

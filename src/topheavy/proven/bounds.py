@@ -7,8 +7,8 @@ With κ, Φ and ψ of `topheavy.proven.flight`, the energy on the side s = ±1 a
 is multiplied by r ≤ 1 at an impact (φ = 0), and zero at rest, where infinitely many impacts in a
 finite time end too. A bound on H that holds between impacts therefore needs no impact.
 
-Lemma. At σ let H ≤ E and φ ≤ X_s ≤ α on either side. Over [σ, σ + h] let s a ≥ m_s and s a' ≤ d_s with
-d_s ≥ 0. Let Y_s ≤ α and F = E + h κ² max d_s ψ(Y_s), and on either side
+Lemma. At σ let H ≤ E and φ ≤ X_s ≤ α on either side. Over [σ, σ + h] let s a ≥ m_s, and g_s at least
+the integral of max(0, s a'). Let Y_s ≤ α and F ≥ E + κ² max g_s ψ(Y_s), and on either side
 
     V(Y_s, m_s) > F, and Y_s ≥ X_s or V(X_s, m_s) > F                        (the wall stops it), or
     Y_s − X_s > h (v(X_s) + v(Y_s))/2,   v(φ)² = 2 max(0, F − V(φ, m_s))     (it does not reach the wall).
@@ -17,7 +17,8 @@ Then H ≤ F and φ ≤ Y_s until σ + h. If V is not concave, the larger v take
 
 Proof. Over [0, α], V is concave in φ for s a ≤ 0 and rises for s a ≥ 0: between two φ it is nowhere
 less than at both. It rises with s a, as ψ ≥ 0. Hence φ ≤ Y_s at σ: a φ with Y_s < φ ≤ X_s would have
-V > F. Let σ₁ be the first time with φ = Y_s. Until then H' ≤ κ² d_s ψ(Y_s), so that H ≤ F, and
+V > F. Let σ₁ be the first time with φ = Y_s. Until then H' ≤ κ² max(0, s a') ψ(Y_s).
+If a' has one sign, H grows on one side alone; else g_s = h d is the same for d ≥ |a'|. So H ≤ F, and
 V(Y_s, m_s) ≤ V ≤ H ≤ F: a wall of the first kind is not reached. One of the second kind is passed
 from X_s to Y_s with φ' ≤ v(φ). As V is concave, v² is at most its chord, and the passage lasts
 at least 2 (Y_s − X_s)/(v(X_s) + v(Y_s)) > h. Each flight begins at a φ ≤ X_s, or at 0.  ∎
@@ -86,23 +87,33 @@ class Bounded:
     def step(self, bound: Bound, until: arb) -> Bound:
         """Return a bound at a later σ, by the lemma."""
         span, h = hull(bound.sigma.lower(), until), (until - bound.sigma).upper()
-        ground = [self.factor * x for x in self.forcing.series(self.piece, span, 2)]
-        least = [(s * ground[0]).lower() for s in SIDES]
-        growth = [(s * ground[1]).upper().max(arb(0)) for s in SIDES]
+        ground, rises = self._ground(bound.sigma, until, span, h)
+        least = [(s * ground).lower() for s in SIDES]
         walls, slack = bound.walls, _SLACK
         for _ in range(_TRIES):
             walls = tuple(x * (1.0 + slack) + _SLACK**2 for x in walls)
             if not all(self.law.block.slenderness > x for x in (*walls, *bound.walls)):
                 break
-            grown = [d * self.law.lever(arb(y)) for d, y in zip(growth, walls, strict=True)]
-            energy = bound.energy + h * self.law.square * grown[0].max(grown[1])
+            grown = [g * self.law.lever(arb(y)) for g, y in zip(rises, walls, strict=True)]
+            energy = bound.energy + self.law.square * grown[0].max(grown[1]) * MARGIN
+            energy = arb(bounds(energy)[1])
             sides = list(zip(bound.walls, walls, least, strict=True))
             if all(_holds(self.law, energy, h, *side) for side in sides):
-                found = replace(bound, sigma=until, energy=bounds(energy)[1], walls=walls)
-                return replace(found, pushed=self._pushed(bound, until, ground[0]))
+                found = replace(bound, sigma=until, energy=float(energy), walls=walls)
+                return replace(found, pushed=self._pushed(bound, until, ground))
             walls = tuple(_proposed(self.law, energy, h, *side) for side in sides)
             slack = min(1.5 * slack, 0.05)
         raise Undecided("bound")
+
+    def _ground(self, start: arb, until: arb, span: arb, h: arb) -> tuple[arb, list[arb]]:
+        """Return a over a step, and by how much s a can grow: where a is monotone, by its ends."""
+        over, slope = (self.factor * x for x in self.forcing.series(self.piece, span, 2))
+        if slope.contains(0):
+            growth = h * abs(slope).upper()
+            return over + hull(-growth, growth), [growth * MARGIN] * 2  # the checker's are wider
+        ends = [self.factor * self.forcing.value(self.piece, x) for x in (start, until)]
+        rises = [(s * (ends[1] - ends[0])).upper().max(arb(0)) for s in SIDES]
+        return ends[0].union(ends[1]), rises
 
     def _pushed(self, bound: Bound, until: arb, ground: arb) -> tuple[int, float, float] | None:
         """Return what is left of W, and the time since, if it is pushed outward all the while."""

@@ -143,7 +143,7 @@ class March:
         bound = block.start(self.sigma, self.side, self.phi, self.rate)
         begin, steps, released = bound, [], None
         for bound in block.carried(begin):
-            steps.append((bound.sigma, bound.walls))
+            steps.append((bound.sigma, bound.energy, bound.walls))
             self.most = self.most.max(arb(max(bound.walls)))
             released = block.released(bound)
             if released:
