@@ -35,7 +35,7 @@ def test_bound_from_rest_holds_the_motions_of_a_box(linearised):
     low, high = 1.02 * LEVEL, 1.06 * LEVEL
     of = bounded((low, high), linearised)
     block = COLUMN.block().linear() if linearised else COLUMN.block()
-    steps = list(of.carried(of.start(arb(0), 0, arb(0), arb(0))))
+    steps = list(of.carried(of.start(arb(0), 0, arb(0), arb(0))))[:-1]  # samples end with it
     times = np.array([float(step.sigma) for step in steps]) / OMEGA
     for factor in np.linspace(low, high, 5):
         one = bounded(float(factor), linearised)
@@ -57,9 +57,10 @@ def test_energy_behind_the_pulse_has_its_last_jump():
     for side, gain in ((-1, 0.25), (1, 0.0)):  # a ends at +0.25 g, which pushed the side −1
         bound = of.start(end, side, arb(phi), arb(rate))
         free = arb(rate) ** 2 / 2 + of.law.potential(arb(phi), arb(0))
-        assert of.energy_behind(bound) > free
+        behind = of.energy_behind(bound)
+        assert behind > free
         lever = of.law.square * of.law.lever(arb(phi))
-        assert of.energy_behind(bound) >= bound.energy + gain * lever
+        assert float(behind) == pytest.approx(float(bound.energy + gain * lever), rel=1e-6)
 
 
 def test_released_state_holds_all_that_began_in_the_bound():
@@ -90,7 +91,7 @@ def test_released_state_holds_all_that_began_in_the_bound():
             assert 0.0 < side * found.velocity[at] / OMEGA <= float(rate.upper()) * (1.0 + 1e-3)
             inward = found.time[side * found.velocity < 0.0]
             late = max(late, inward[inward < time].max(initial=0.0))
-    assert time / 4.0 < late < time
+    assert time / 20.0 < late < time
 
 
 def test_amplitude_that_overturns_is_not_bounded():

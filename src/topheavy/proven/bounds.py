@@ -40,7 +40,7 @@ from topheavy.proven.forcing import Forcing, Piece
 
 SIDES = (1, -1)
 FIRST, GROWTH, LONGEST = 2.0**-12, 1.3, math.pi / 96.0  # steps, in the phase of a pulse
-MARGIN = 1.01  # on energies and times: the enclosures of the checker are wider
+MARGIN = 1.02  # on energies and times: the enclosures of the checker are wider
 _SLACK = 2.0**-20  # of a wall, beyond an equality
 _TRIES = 40
 
@@ -106,13 +106,13 @@ class Bounded:
         raise Undecided("bound")
 
     def _ground(self, start: arb, until: arb, span: arb, h: arb) -> tuple[arb, list[arb]]:
-        """Return a over a step, and by how much s a can grow: where a is monotone, by its ends."""
+        """Return a over a step, where it is monotone by its ends, and by how much s a can grow."""
         over, slope = (self.factor * x for x in self.forcing.series(self.piece, span, 2))
-        if slope.contains(0):
+        rises = [h * (s * slope).upper().max(arb(0)) for s in SIDES]
+        if slope.contains(0):  # here the enclosures of the checker are wider
             growth = h * abs(slope).upper()
-            return over + hull(-growth, growth), [growth * MARGIN] * 2  # the checker's are wider
+            return over + hull(-growth, growth), [growth] * 2
         ends = [self.factor * self.forcing.value(self.piece, x) for x in (start, until)]
-        rises = [(s * (ends[1] - ends[0])).upper().max(arb(0)) for s in SIDES]
         return ends[0].union(ends[1]), rises
 
     def _pushed(self, bound: Bound, until: arb, ground: arb) -> tuple[int, float, float] | None:

@@ -237,7 +237,8 @@ class March:
                 impact = self._impact(made, over)
                 if impact is not None and is_last and not impact < left:
                     if not impact > left:
-                        self.about_end = made, hull(impact.lower(), left.upper())
+                        early = impact.lower() * 15 / 16  # where φ > 0 in wider enclosures too
+                        self.about_end = made, hull(early, left.upper())
                         raise Undecided("end")
                     impact = None
                 end = impact if impact is not None else left if is_last else arb(length)

@@ -63,7 +63,7 @@ class Bound:
         if rate.low <= 0 <= rate.high:
             return over, dict.fromkeys(SIDES, h * rate.size())
         first, last = self.ground.at(0, self.sigma), self.ground.at(0, until)
-        return first.hull(last), {side: side * (last - first) for side in SIDES}
+        return first.hull(last), {side: side * (h * rate) for side in SIDES}
 
     def _wall_holds(self, h: Interval, before: Interval, wall: Interval, push: Interval) -> None:
         if not (wall < self.block.alpha and before < self.block.alpha):
