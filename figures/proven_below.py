@@ -5,6 +5,7 @@ from figures.palette import greys
 from replication.drawing import DOUBLE, GREY, make_figure, note, sheet
 
 KINDS = {"no uplift": "no uplift", "bounded": "bounded by the lemma", "followed": "followed"}
+WIDE = 0.003  # over the boundary: the edges of narrower boxes would hide them
 NAMES = {"bare": "Column", "fixed": "Fixed mass", "free": "Frame"}
 
 
@@ -16,9 +17,11 @@ def draw(proven_below):
         label = NAMES[name] if name == "bare" else f"{NAMES[name]}, {gamma(ratio)}"
         names.append(label)
         for kind, boxes in part[part.kind.isin(KINDS)].groupby("kind"):
-            spans = list(zip(boxes.low / boxes.minimum, (boxes.high - boxes.low) / boxes.minimum, strict=True))
-            look = {"facecolor": colours[kind], "edgecolor": "white", "linewidth": 0.25}
-            axis.broken_barh(spans, (row - 0.32, 0.64), **look)
+            for low, width in zip(boxes.low, boxes.high - boxes.low, strict=True):
+                span = low / boxes.minimum.iloc[0], width / boxes.minimum.iloc[0]
+                edge = 0.3 if span[1] > WIDE else 0.0
+                look = {"facecolor": colours[kind], "edgecolor": "white", "linewidth": edge}
+                axis.broken_barh([span], (row - 0.32, 0.64), **look)
         uplift = part.uplift.iloc[0] / part.minimum.iloc[0]
         axis.plot([uplift] * 2, [row - 0.42, row + 0.42], color=GREY, linewidth=1.0)
     note(axis, "uplift", (uplift, row + 0.46), ha="center", va="bottom", color=GREY)

@@ -4,6 +4,7 @@ import copy
 import json
 import math
 from fractions import Fraction
+from itertools import pairwise
 
 import pytest
 
@@ -30,7 +31,7 @@ def test_boxes_are_whole_below_a_bound(shape):
     assert not found.open
     boxes = edges(found.certificates)
     assert (boxes[0][0], boxes[-1][1]) == (0.0, high)
-    assert all(one[1] == other[0] for one, other in zip(boxes[:-1], boxes[1:], strict=True))
+    assert all(one[1] == other[0] for one, other in pairwise(boxes))
     assert any("bounded" in each for each in kinds(found.certificates))
     assert not any(judge(COLUMN, pulse.scaled(top)).overturned for _, top in boxes)
 

@@ -1,6 +1,6 @@
 """Every factor on a pulse from zero up to a bound survives: boxes of factors, each proven.
 
-    0 ─ no uplift ─ bounded by the lemma ─ followed and bounded ─ followed ─ high
+0 ─ no uplift ─ bounded by the lemma ─ followed and bounded ─ followed ─ high
 """
 
 from collections.abc import Callable
@@ -46,8 +46,8 @@ def survives_below(
 ) -> Below:
     """Return boxes that prove which factors from 0 to `high` on a pulse are survived.
 
-    A box that is not proven, or whose certificate `accepts` refuses, is halved until it is as narrow
-    as `NARROWEST`. An example of `accepts` is a second proof by `topheavy.proven.checking.check`.
+    A box that is not proven, or whose certificate `accepts` refuses, is halved until it is as
+    narrow as `NARROWEST`. `accepts` may be a second proof: `topheavy.proven.checking.check`.
 
     Raises
     ------

@@ -4,30 +4,31 @@ With κ, Φ and ψ of `topheavy.proven.flight`, the energy on the side s = ±1 a
 
     H = φ'²/2 + V,   V(φ, s a) = κ² (Φ(φ) + s a ψ(φ)),   H' = κ² s a' ψ(φ) between impacts,
 
-is multiplied by r ≤ 1 at an impact (φ = 0), and zero at rest, where infinitely many impacts in a
-finite time end too. A bound on H that holds between impacts therefore needs no impact.
+is multiplied by r ≤ 1 at an impact (φ = 0), and zero at rest, where infinitely many impacts in
+a finite time end too. A bound on H that holds between impacts therefore needs no impact.
 
-Lemma. At σ let H ≤ E and φ ≤ X_s ≤ α on either side. Over [σ, σ + h] let s a ≥ m_s, and g_s at least
-the integral of max(0, s a'). Let Y_s ≤ α and F ≥ E + κ² max g_s ψ(Y_s), and on either side
+Lemma. At σ let H ≤ E and φ ≤ X_s ≤ α on either side. Over [σ, σ + h] let s a ≥ m_s, and g_s at
+least the integral of max(0, s a'). Let Y_s ≤ α and F ≥ E + κ² max g_s ψ(Y_s), and on either side
 
-    V(Y_s, m_s) > F, and Y_s ≥ X_s or V(X_s, m_s) > F                        (the wall stops it), or
-    Y_s − X_s > h (v(X_s) + v(Y_s))/2,   v(φ)² = 2 max(0, F − V(φ, m_s))     (it does not reach the wall).
+    V(Y_s, m_s) > F, and Y_s ≥ X_s or V(X_s, m_s) > F                  (the wall stops it), or
+    Y_s − X_s > h (v(X_s) + v(Y_s))/2,   v(φ)² = 2 max(0, F − V(φ, m_s))   (it does not reach it).
 
 Then H ≤ F and φ ≤ Y_s until σ + h. If V is not concave, the larger v takes the place of the mean.
 
-Proof. Over [0, α], V is concave in φ for s a ≤ 0 and rises for s a ≥ 0: between two φ it is nowhere
-less than at both. It rises with s a, as ψ ≥ 0. Hence φ ≤ Y_s at σ: a φ with Y_s < φ ≤ X_s would have
-V > F. Let σ₁ be the first time with φ = Y_s. Until then H' ≤ κ² max(0, s a') ψ(Y_s).
-If a' has one sign, H grows on one side alone; else g_s = h d is the same for d ≥ |a'|. So H ≤ F, and
-V(Y_s, m_s) ≤ V ≤ H ≤ F: a wall of the first kind is not reached. One of the second kind is passed
-from X_s to Y_s with φ' ≤ v(φ). As V is concave, v² is at most its chord, and the passage lasts
-at least 2 (Y_s − X_s)/(v(X_s) + v(Y_s)) > h. Each flight begins at a φ ≤ X_s, or at 0.  ∎
+Proof. Over [0, α], V is concave in φ for s a ≤ 0 and rises for s a ≥ 0: between two φ it is
+nowhere less than at both. It rises with s a, as ψ ≥ 0. Hence φ ≤ Y_s at σ: a φ with Y_s < φ ≤ X_s
+would have V > F. Let σ₁ be the first time with φ = Y_s. Until then H' ≤ κ² max(0, s a') ψ(Y_s).
+If a' has one sign, H grows on one side alone; else g_s = h d is the same for d ≥ |a'|. So H ≤ F,
+and V(Y_s, m_s) ≤ V ≤ H ≤ F: a wall of the first kind is not reached. One of the second kind is
+passed from X_s to Y_s with φ' ≤ v(φ). As V is concave, v² is at most its chord, and the passage
+lasts at least 2 (Y_s − X_s)/(v(X_s) + v(Y_s)) > h. Each flight begins at a φ ≤ X_s, or at 0.  ∎
 
-Release. From σ_c on let the block be pushed outward at rest on the side s: g = −κ² (pull at φ = 0) > 0.
-A block that moves inward on that side has at most W = √(2 (E − min(0, V(X_s)))) at σ_c, and φ'' ≥ g:
-it has turned or landed when ∫ g dσ = W. A flight on the other side, where κ² pull ≥ G > 0, lasts at most
-2 √(2E)/G. It ends on the side s with φ' ≥ 0, and φ' then grows. After both times the block is on the
-side s and moves outward, 0 ≤ φ ≤ X_s and 0 ≤ φ' ≤ W with the E and X_s of that time, however it came.
+Release. From σ_c on let the block be pushed outward at rest on the side s: g = −κ² (pull at φ =
+0) > 0. A block that moves inward on that side has at most W = √(2 (E − min(0, V(X_s)))) at σ_c,
+and φ'' ≥ g: it has turned or landed when ∫ g dσ = W. A flight on the other side, where κ² pull ≥
+G > 0, lasts at most 2 √(2E)/G. It ends on the side s with φ' ≥ 0, and φ' then grows. After both
+times the block is on the side s and moves outward, 0 ≤ φ ≤ X_s and 0 ≤ φ' ≤ W with the E and X_s
+of that time, however it came.
 """
 
 import math
@@ -91,7 +92,7 @@ class Bounded:
         least = [(s * ground).lower() for s in SIDES]
         walls, slack = bound.walls, _SLACK
         for _ in range(_TRIES):
-            walls = tuple(x * (1.0 + slack) + _SLACK**2 for x in walls)
+            walls = walls[0] * (1.0 + slack) + _SLACK**2, walls[1] * (1.0 + slack) + _SLACK**2
             if not all(self.law.block.slenderness > x for x in (*walls, *bound.walls)):
                 break
             grown = [g * self.law.lever(arb(y)) for g, y in zip(rises, walls, strict=True)]
@@ -101,7 +102,8 @@ class Bounded:
             if all(_holds(self.law, energy, h, *side) for side in sides):
                 found = replace(bound, sigma=until, energy=float(energy), walls=walls)
                 return replace(found, pushed=self._pushed(bound, until, ground))
-            walls = tuple(_proposed(self.law, energy, h, *side) for side in sides)
+            one, other = (_proposed(self.law, energy, h, *side) for side in sides)
+            walls = one, other
             slack = min(1.5 * slack, 0.05)
         raise Undecided("bound")
 
@@ -167,9 +169,7 @@ def _holds(law: Law, energy: arb, h: arb, before: float, wall: float, push: arb)
 
 def _mean_rate(law: Law, energy: arb, before: float, wall: float, push: arb) -> arb:
     """Return at least the mean φ' from one wall to the next."""
-    ends = [
-        (2 * (energy - law.potential(arb(x), push)).max(arb(0))).sqrt() for x in (before, wall)
-    ]
+    ends = [(2 * (energy - law.potential(arb(x), push)).max(arb(0))).sqrt() for x in (before, wall)]
     is_concave = push * law.block.slenderness.tan() < 1
     return (ends[0] + ends[1]) / 2 if is_concave else ends[0].max(ends[1])
 

@@ -29,14 +29,21 @@ def certified(
 ) -> tuple[Outcome, dict[str, Any] | None]:
     """Return the outcome of `topheavy.proven.outcome` and its certificate; None if undecided.
 
-    `topheavy.proven.checking.check` verifies it; parameters and errors are those of `outcome`. A
-    BlockBox is refused.
+    `topheavy.proven.checking.check` verifies it, but for wide boxes of factors that it refuses;
+    parameters and errors are those of `outcome`. A BlockBox is refused.
     """
     if isinstance(structure, BlockBox):
         raise ValueError(f"structure is {structure!r}; expected one, as a box has no certificate")
     steps: list[dict[str, Any]] = []
-    options = {"linearised": linearised, "bits": bits, "bounded": bounded}
-    found = outcome(structure, excitation, factor=factor, trace=steps, **options)
+    found = outcome(
+        structure,
+        excitation,
+        factor=factor,
+        linearised=linearised,
+        bits=bits,
+        bounded=bounded,
+        trace=steps,
+    )
     if found.outcome == "undecided":
         return found, None
     low, high = factor if isinstance(factor, tuple) else (factor, factor)

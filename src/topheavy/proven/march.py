@@ -22,7 +22,7 @@ SHORTEST = 2.0**-80
 """Of the clock of a motion (the phase of a pulse, a sample): a shorter step is not tried."""
 
 BOUNDED, BOUNDED_STEPS, BOUNDED_SHORTEST, WIDEST = 6, 100, 2.0**-14, 0.06
-"""How often a motion is bounded, the steps tried until then, the shortest, and the widest impact."""
+"""How often a motion is bounded, steps tried until then, the shortest, and the widest impact."""
 
 FIRST_PUSHED = 0.05
 """Of the clock: about the first step behind a bound. It lets φ grow beyond its enclosure."""
@@ -227,7 +227,8 @@ class March:
         h, stretch, cause = self._length(start[0]), 1.0, ""
         while h > (BOUNDED_SHORTEST if self.bounded else SHORTEST):
             self.tried += 1
-            if self.tried > (BOUNDED_STEPS if self.bounded else MOST_STEPS):  # those of a wide box are shorter and shorter
+            most = BOUNDED_STEPS if self.bounded else MOST_STEPS
+            if self.tried > most:  # those of a wide box are shorter and shorter
                 raise Undecided("steps")
             is_last = not left > h
             length = stretch * bounds(left)[1] if is_last else h

@@ -1,4 +1,4 @@
-"""A bound on a motion proven again: walls that the certificate names, by the lemma of its supplement.
+"""A bound on a motion proven again: walls that the certificate names, by the lemma near uplift.
 
 The energy on the side s is H = φ'²/2 + V, V = κ² (Φ + s a ψ). Impacts lower it, and between them it
 grows by κ² s a' ψ. Each statement of the lemma is tested in intervals; no wall is computed here.
@@ -85,7 +85,9 @@ class Bound:
         if side and side != self.outward:
             self.left, self.waited = self._fastest(side), of(0)
         if side and self.left > 0:
-            self.left = self.left + self.ground.clock * self.block.pull(of(0), side * ground) * lasts
+            self.left = (
+                self.left + self.ground.clock * self.block.pull(of(0), side * ground) * lasts
+            )
         elif side and self.left < 0:
             self.waited = self.waited + lasts
         self.outward = side
@@ -106,7 +108,7 @@ class Bound:
         return self.outward, self.walls[self.outward].hull(0), self._fastest(self.outward).hull(0)
 
     def survives(self) -> bool:
-        """Return whether the energy behind the pulse, where a jumps to zero, is below the barrier."""
+        """Return whether the energy is below the barrier when a has jumped to zero."""
         jump = -self.ground.at(0, self.ground.stops[0])
         gains = [(s * jump * self.block.lever(self.walls[s])).high for s in SIDES]
         energy = self.energy + self.ground.clock * Interval(0, max(*gains, 0))
