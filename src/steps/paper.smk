@@ -376,6 +376,21 @@ rule proven:
         "proven.py"
 
 
+rule proven_below:
+    input:
+        proven="results/tables/proven.csv",
+    output:
+        table="results/tables/proven_below.csv",
+        findings="results/findings/proven_below.json",
+    params:
+        case=case("vase"),
+        mass_ratios=[0.0, 1.0, float("inf")],
+    message:
+        "Nothing below minimum overturning accelerations overturns, proven by boxes"
+    script:
+        "proven_below.py"
+
+
 rule spectra_dimensional:
     output:
         table="results/tables/spectra_dimensional.csv",

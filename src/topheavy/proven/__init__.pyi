@@ -1,3 +1,4 @@
+from .below import Below, survives_below
 from .blocks import BlockBox
 from .certificate import certified
 from .march import Outcome
@@ -5,6 +6,7 @@ from .orbit import SteadyRocking, settles, steady_rocking
 from .outcome import outcome
 
 __all__ = [
+    "Below",
     "BlockBox",
     "Outcome",
     "SteadyRocking",
@@ -12,4 +14,5 @@ __all__ = [
     "outcome",
     "settles",
     "steady_rocking",
+    "survives_below",
 ]

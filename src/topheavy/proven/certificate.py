@@ -24,17 +24,25 @@ def certified(
     *,
     factor: Range = 1.0,
     linearised: bool = False,
+    bits: int = BITS,
+    bounded: bool = False,
 ) -> tuple[Outcome, dict[str, Any] | None]:
     """Return the outcome of `topheavy.proven.outcome` and its certificate; None if undecided.
 
-    `topheavy.proven.checking.check` verifies it; parameters and errors are those of `outcome`. A
-    BlockBox is refused.
+    `topheavy.proven.checking.check` verifies it, but for wide boxes of factors that it refuses;
+    parameters and errors are those of `outcome`. A BlockBox is refused.
     """
     if isinstance(structure, BlockBox):
         raise ValueError(f"structure is {structure!r}; expected one, as a box has no certificate")
     steps: list[dict[str, Any]] = []
     found = outcome(
-        structure, excitation, factor=factor, linearised=linearised, bits=BITS, trace=steps
+        structure,
+        excitation,
+        factor=factor,
+        linearised=linearised,
+        bits=bits,
+        bounded=bounded,
+        trace=steps,
     )
     if found.outcome == "undecided":
         return found, None
@@ -47,7 +55,7 @@ def certified(
         "outcome": found.outcome,
         "impacts": found.impacts,
         "peak": found.peak and [_decimal(x) for x in found.peak],
-        "bits": max([BITS, *(step.pop("bits") for step in steps)]),
+        "bits": max([bits, *(step.pop("bits") for step in steps)]),
         "order": max([2, *(step.pop("order") for step in steps)]),
         "events": [{key: _plain(value) for key, value in step.items()} for step in steps],
         "versions": {name: version(name) for name in ("topheavy", "python-flint")},
@@ -103,6 +111,8 @@ def _plain(value: object) -> object:
     """Return a ball as the two dyadic numbers that enclose it, and a float exactly."""
     if isinstance(value, arb):
         return [_dyadic(value.lower()), _dyadic(value.upper())]
+    if isinstance(value, (list, tuple)):
+        return [_plain(each) for each in value]
     return str(Fraction(value)) if isinstance(value, float) else value
 
 

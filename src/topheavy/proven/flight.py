@@ -5,6 +5,7 @@ With φ = |θ|, the side s = sgn θ and κ = p dt/dσ the motion obeys, until φ
     φ'' = −κ² { sin(α − φ) + s a cos(α − φ) },    φ'' = κ² { φ − α − s a }  (linearised)
 """
 
+import math
 from dataclasses import dataclass, field
 from operator import mul
 
@@ -38,6 +39,23 @@ class Law:
             return self.square * phi * (alpha - phi / 2 + push)
         (sine, cosine), (far, near) = (alpha - phi).sin_cos(), alpha.sin_cos()
         return self.square * (cosine - near + push * (far - sine))
+
+    def lever(self, phi: arb) -> arb:
+        """Return ψ."""
+        if self.block.linearised:
+            return phi
+        return self.block.slenderness.sin() - (self.block.slenderness - phi).sin()
+
+    def turn(self, energy: float, push: float) -> float:
+        """Return about the first φ at which the potential reaches an energy; infinity if none."""
+        alpha, level = float(self.block.slenderness), energy / float(self.square)
+        if self.block.linearised:
+            depth = alpha + push
+            inside = depth * depth - 2.0 * level
+            return depth - math.sqrt(inside) if inside > 0.0 < depth else math.inf
+        depth = alpha + math.atan(push)
+        top = (level + math.cos(alpha) - push * math.sin(alpha)) / math.hypot(1.0, push)
+        return depth - math.acos(top) if -1.0 < top < 1.0 and depth > 0.0 else math.inf
 
     def series(
         self, phi: arb, rate: arb, push: list[arb], terms: int
@@ -102,7 +120,7 @@ def a_priori(law: Law, phi: arb, rate: arb, push: arb, h: float) -> Box:
     for _ in range(_MOST_BOXES):
         acceleration = -law.square * law.pull(box, push)
         image = phi + time * rate + half_square * acceleration
-        if box.contains(image):
+        if image.is_finite() and box.contains(image):
             return Box(image, rate + time * acceleration, acceleration)
         box = box.union(image)
         box += (box - box.mid()) / 8 + arb(0, 1e-30)

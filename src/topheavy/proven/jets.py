@@ -53,6 +53,9 @@ class Jet:
     def union(self, other: "Jet") -> "Jet":
         return self._with(other, lambda x, y: x.union(y))
 
+    def is_finite(self) -> bool:
+        return self.value.is_finite() and all(x.is_finite() for x in self.slopes)
+
     def mid(self) -> "Jet":
         return Jet(self.value.mid(), tuple(x.mid() for x in self.slopes))
 

@@ -7,6 +7,7 @@ from typing import Any, Literal
 
 from topheavy.proven.balls import Undecided, arb, bounds, hull, power, root
 from topheavy.proven.blocks import Balls
+from topheavy.proven.bounds import Bounded
 from topheavy.proven.flight import Law, Step, step
 from topheavy.proven.forcing import Forcing, Piece, RecordForcing
 from topheavy.proven.rest import dies_out
@@ -19,6 +20,12 @@ MOST_STEPS = 2000
 
 SHORTEST = 2.0**-80
 """Of the clock of a motion (the phase of a pulse, a sample): a shorter step is not tried."""
+
+BOUNDED, BOUNDED_STEPS, BOUNDED_SHORTEST, WIDEST = 6, 100, 2.0**-14, 0.06
+"""How often a motion is bounded, steps tried until then, the shortest, and the widest impact."""
+
+FIRST_PUSHED = 0.05
+"""Of the clock: about the first step behind a bound. It lets φ grow beyond its enclosure."""
 
 _PARTS = 8
 """Of a step without an isolated turning point, over each of which the peak is bounded."""
@@ -37,7 +44,7 @@ class Outcome:
         Between these lies max|θ| (rad) over the whole motion of a survivor; None for others.
     cause : str
         Why it is undecided: "uplift", "graze", "flat", "end", "start", "enclosure", "impacts",
-        "steps" or "separatrix"; empty for others.
+        "steps", "separatrix" or "bound"; empty for others.
     bits : int
         Precision with which it was decided, or at last tried.
     """
@@ -76,6 +83,10 @@ class March:
     rate: arb = field(default_factory=lambda: arb(0))
     energy: arb = field(default_factory=lambda: arb(0))  # φ'²/2 + κ² (Φ + s a ψ)
     zeros: int = 0
+    bounded: int = 0  # how often it may be, instead of raising Undecided
+    pushed: bool = False  # outward from a φ ≥ 0, which may be zero, with a φ' ≥ 0
+    result: Outcome | None = None
+    about_end: tuple[Step, arb] | None = None  # a step, and when it lands unless the pulse ends
 
     def __post_init__(self) -> None:
         self.sigma, self.impacts = self.rest.sigma, self.rest.impacts
@@ -96,19 +107,76 @@ class March:
         """Return the outcome, or None where the block comes to rest again; or raise Undecided."""
         before = self.rest
         for piece in self.forcing.pieces[before.number :]:
-            self.tried = 0
-            while True:
-                if not self.side:
-                    if until_rest and self.rest is not before:
-                        return None
-                    if not self._uplifts(piece):
-                        break
-                falls, ended = self.advance(piece)
-                if falls:
-                    return Outcome("overturns", self.impacts, bits=self.bits)
-                if ended:
-                    break
-        return self._rocks_freely() if self.side else self._survives()
+            self.tried, stays = 0, True
+            while stays:
+                if until_rest and not self.side and self.rest is not before:
+                    return None
+                try:
+                    stays = self._goes_on(piece)
+                except Undecided:
+                    if not self.bounded:
+                        raise
+                    self._is_bounded(piece)
+                if self.result:
+                    return self.result
+        return self._survives()
+
+    def _goes_on(self, piece: Piece) -> bool:
+        """Take a step; return whether another of the same piece follows."""
+        if not self.side and not self._uplifts(piece):
+            return False
+        falls, ended = self.advance(piece)
+        if falls:
+            self.result = Outcome("overturns", self.impacts, bits=self.bits)
+        elif ended:
+            if piece is self.forcing.pieces[-1]:
+                self.result = self._rocks_freely()
+            return False
+        return True
+
+    def _is_bounded(self, piece: Piece) -> None:
+        """Bound the motion until its side is known again, or the pulse has ended."""
+        self.bounded, self.tried = self.bounded - 1, 0
+        if self.about_end is not None and len(self.forcing.pieces) == 1:
+            self._lands_about_the_end(*self.about_end)
+        block = Bounded(self.law, self.forcing, piece, self.factor)
+        bound = block.start(self.sigma, self.side, self.phi, self.rate)
+        begin, steps, released = bound, [], None
+        for bound in block.carried(begin):
+            steps.append((bound.sigma, bound.energy, bound.walls))
+            self.most = self.most.max(arb(max(bound.walls)))
+            released = block.released(bound)
+            if released:
+                break
+        self._note(
+            "bounded", energy=begin.energy, walls=begin.walls, steps=steps, released=bool(released)
+        )
+        self.sigma = bound.sigma
+        if released:
+            self.side, self.phi, self.rate = released
+            self.zeros, self.h, self.pushed = 0, FIRST_PUSHED, True
+            push = self.side * self.factor * self.forcing.value(piece, self.sigma)
+            least = self.law.potential(self.phi.upper(), push).lower().min(arb(0))
+            self.energy = hull(least, bound.energy)
+            return
+        energy, alpha = block.energy_behind(bound) / self.law.square, self.block.slenderness
+        barrier = Law(self.block, arb(1)).potential(alpha, arb(0))
+        if not energy < barrier:
+            raise Undecided("bound")
+        self.rate = arb(0)  # not known: the turn is a bound on the peak alone
+        self.result = self._turns(energy, barrier)
+
+    def _lands_about_the_end(self, made: Step, times: arb) -> None:
+        """Land with the energy that it has with the pulse or, if that has ended, without it."""
+        self.about_end = None
+        phi, rate = made.at(times)
+        if not (rate < 0 and phi < self.block.slenderness):
+            return
+        self._note("step", h=made.h, box=made.box.phi, impact=times, last=True, about_end=True)
+        energy = rate * rate / 2 + self.law.potential(phi.upper().max(arb(0)), arb(0))
+        self.sigma, self.phi = self.sigma + times, arb(0)
+        self.rate = self.block.restitution * (2 * energy).sqrt()
+        self.side, self.zeros, self.impacts = -self.side, 1, self.impacts + 1
 
     def advance(self, piece: Piece) -> tuple[bool, bool]:
         """Take a step of a block that has left the ground; return if it overturns, if it ends."""
@@ -147,7 +215,7 @@ class March:
         self.sigma = piece.stop if is_last else self.sigma + end
         self.energy += made.gain(end)
         self._sharpen(piece)
-        self.zeros = 0
+        self.zeros, self.pushed = 0, self.pushed and not self.phi > 0
         if self._is_gone(piece):
             self._note("gone")
             return True
@@ -159,28 +227,31 @@ class March:
         A step in which the enclosures decide nothing is tried again, shorter. One that may end in
         an impact or before it goes on beyond the end of the piece, by the same formula.
         """
-        left = piece.stop - self.sigma
+        left, self.about_end = piece.stop - self.sigma, None
         push = self._push(piece, self.sigma)
         start = self.law.series(self.phi, self.rate, push, self.order)
         h, stretch, cause = self._length(start[0]), 1.0, ""
-        while h > SHORTEST:
+        while h > (BOUNDED_SHORTEST if self.bounded else SHORTEST):
             self.tried += 1
-            if self.tried > MOST_STEPS:  # those of a wide box are shorter and shorter
+            most = BOUNDED_STEPS if self.bounded else MOST_STEPS
+            if self.tried > most:  # those of a wide box are shorter and shorter
                 raise Undecided("steps")
             is_last = not left > h
             length = stretch * bounds(left)[1] if is_last else h
             try:
                 over = self._push(piece, self.sigma + hull(0, length))
                 made = step(self.law, start, (push, over), length, self.zeros)
-                impact = made.impact()
+                impact = self._impact(made, over)
                 if impact is not None and is_last and not impact < left:
                     if not impact > left:
+                        early = impact.lower() * 15 / 16  # where φ > 0 in wider enclosures too
+                        self.about_end = made, hull(early, left.upper())
                         raise Undecided("end")
                     impact = None
                 end = impact if impact is not None else left if is_last else arb(length)
                 if self._may_lie_flat(made) and not made.at(end)[0] > arb.pi() / 2:
                     raise Undecided("flat")
-                self.h = length
+                self.h, self.about_end = length, None
                 return made, end, impact, is_last
             except Undecided as undecided:
                 cause = str(undecided)
@@ -191,6 +262,17 @@ class March:
                 else:
                     h = length * (0.9 if cause == "end" else 0.5)
         raise Undecided(cause)
+
+    def _impact(self, made: Step, push: list[arb]) -> arb | None:
+        if self.pushed:
+            if not self.law.pull(arb(0), push[0]) < 0:
+                raise Undecided("start")
+            return None
+        impact = made.impact()
+        if self.bounded and impact is not None and impact.rad() > WIDEST:
+            self.tried = BOUNDED_STEPS
+            raise Undecided("graze")
+        return impact
 
     def _may_lie_flat(self, made: Step) -> bool:
         return not self.block.linearised and not made.box.phi < arb.pi() / 2
@@ -229,8 +311,6 @@ class March:
 
     def _lands(self, piece: Piece, made: Step, time: arb) -> None:
         self.impacts += 1
-        if self.impacts > self.rest.impacts + MOST_IMPACTS:
-            raise Undecided("impacts")
         self.sigma = self.sigma + time
         landing = made.landing(time)
         self.energy = (self.energy + made.gain(time)).intersection(landing * landing / 2)
@@ -244,6 +324,8 @@ class March:
             return
         if not self.rate > 0:
             raise Undecided("start")
+        if self.impacts > self.rest.impacts + MOST_IMPACTS:
+            raise Undecided("impacts")
         rests = dies_out(self.law, self.forcing, self.factor, piece.number, self.sigma, self.rate)
         if rests is not None:
             self.sigma, highest = rests

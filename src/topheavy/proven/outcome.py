@@ -12,7 +12,7 @@ from topheavy import checks
 from topheavy.proven.balls import Undecided, arb, precision, within
 from topheavy.proven.blocks import Balls, BlockBox, Range, enclosed
 from topheavy.proven.forcing import Forcing, prepared
-from topheavy.proven.march import March, Outcome, Rest
+from topheavy.proven.march import BOUNDED, March, Outcome, Rest
 from topheavy.pulses import Pulse
 from topheavy.records import Record
 from topheavy.simulate import no_excitation
@@ -29,6 +29,7 @@ def outcome(
     factor: Range = 1.0,
     linearised: bool = False,
     bits: int = 72,
+    bounded: bool = False,
     trace: list[dict[str, Any]] | None = None,
 ) -> Outcome:
     """Return whether a structure at rest survives a ground motion, proven, or that it is undecided.
@@ -46,6 +47,9 @@ def outcome(
         Whether the structure obeys the linearised equation.
     bits : int
         The least precision of the balls: up to 520.
+    bounded : bool
+        Whether a motion under a pulse that cannot be followed is bounded instead, by the lemma of
+        `topheavy.proven.bounds`: for boxes of factors that survive.
     trace : list, optional
         Filled with the steps of the proof, for a certificate (`topheavy.proven.certificate`).
 
@@ -69,8 +73,10 @@ def outcome(
     rungs = [rung for rung in LADDER if rung[0] >= bits]
     if not rungs:
         raise ValueError(f"bits is {bits}; expected at most {LADDER[-1][0]}")
-    if low < high or isinstance(structure, BlockBox):
+    if low < high or bounded or isinstance(structure, BlockBox):
         del rungs[1:]
+    if bounded and not isinstance(excitation, Pulse):
+        raise ValueError("bounded is for a Pulse; a Record has none")
     settings: dict[int, tuple[Balls, Forcing, arb]] = {}
     rest, height = Rest(arb(0)), 0
     while True:
@@ -80,6 +86,7 @@ def outcome(
                 range_ = within((low, high) if low < high else low)
                 settings[height] = enclosed(structure, linearised), prepared(excitation), range_
             march = March(*settings[height], bits, accuracy, rest, trace)
+            march.bounded = BOUNDED if bounded else 0
             try:
                 found = march.run(until_rest=height > 0)
             except Undecided as undecided:

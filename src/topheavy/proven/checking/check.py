@@ -11,6 +11,7 @@ from fractions import Fraction
 from typing import Any
 
 from topheavy.proven.checking import intervals
+from topheavy.proven.checking.bounds import Bound, named
 from topheavy.proven.checking.course import Course, horner
 from topheavy.proven.checking.intervals import (
     Interval,
@@ -48,6 +49,7 @@ class Check:
         self.order = given["order"]
         self.sigma, self.phi, self.rate = of(0), of(0), of(0)
         self.side = self.piece = self.impacts = self.zeros = 0
+        self.outward = False  # pushed outward from a φ ≥ 0 with a φ' ≥ 0
         self.result = ""
 
     def run(self, events: Sequence[dict[str, Any]]) -> str:
@@ -127,6 +129,9 @@ class Check:
             raise Refused("a step goes on beyond the piece of the motion")
         course = Course(self, h, event["box"])
         end = left / course.h if event["last"] else of(1)
+        if event.get("about_end"):
+            self._lands_about_the_end(course, between(*event["impact"]) / course.h, end)
+            return
         if event["impact"] is None:
             self._stays_up(course, end)
         else:
@@ -143,16 +148,54 @@ class Check:
             self.sigma = self.sigma + end * course.h
             self.phi, self.zeros, self.side = of(0), 1, -self.side
             self.rate = -self.block.restitution * self.rate
-            if not self.rate > 0 and not self.block.restitution.high == 0:
-                raise Refused("the velocity behind an impact may be zero")
         else:
             self.sigma = self.sigma + course.h
-            self.zeros = 0
+            self.zeros, self.outward = 0, self.outward and not self.phi > 0
             if event["last"]:
                 self.sigma = self.ground.stops[self.piece]
                 self.piece += 1
 
+    def _lands_about_the_end(self, course: Course, impact: Interval, end: Interval) -> None:
+        """Prove that no impact comes before a bracket up to the end, and take the higher energy."""
+        if len(self.ground.stops) > 1 or not impact.low < end.low:
+            raise Refused("only about the end of a pulse")
+        self._stays_up(course, Interval(impact.low, impact.low))
+        times = Interval(impact.low, end.high)
+        phi, rate = course.at(times)
+        if not (rate < 0 and phi < self.block.alpha and end.high <= intervals.UNIT):
+            raise Refused("it may not move inward at the end")
+        above = Interval(max(phi.high, 0), max(phi.high, 0))
+        energy = rate * rate / 2 + self.ground.clock * self.block.potential(above, of(0))
+        self.sigma, self.phi = self.sigma + times * course.h, of(0)
+        self.rate = self.block.restitution * (2 * energy).root()
+        self.side, self.zeros, self.impacts = -self.side, 1, self.impacts + 1
+
+    def _bounded(self, event: dict[str, Any]) -> None:
+        """Follow a bound on the motion, up to a known side or to the end of the pulse."""
+        if len(self.ground.stops) > 1:
+            raise Refused("only under a pulse")
+        bound = Bound(self.block, self.ground, self.sigma)
+        bound.begin(event, self.side, self.phi, self.rate)
+        for given in event["steps"]:
+            bound.step(*named(*given))
+        self.sigma, self.outward = bound.sigma, bool(event["released"])
+        if event["released"]:
+            if not self.sigma < self.ground.stops[0]:
+                raise Refused("the pulse has ended")
+            (self.side, self.phi, self.rate), self.zeros = bound.released(), 0
+        elif not self.sigma.high >= self.ground.stops[0].high:
+            raise Refused("the bound ends before the pulse")
+        elif not bound.survives():
+            raise Refused("the energy may be beyond the barrier")
+        else:
+            self.result = "survives"
+
     def _stays_up(self, course: Course, end: Interval) -> None:
+        if self.outward:
+            ground = self.ground.at(self.piece, self.sigma + (end * course.h).hull(0))
+            if not self.block.pull(of(0), self.side * ground) < 0:
+                raise Refused("the push may end")
+            return
         if self.zeros == 0 and course.box > 0:
             return
         quotient = course.phi[self.zeros :]

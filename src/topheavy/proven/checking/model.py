@@ -44,6 +44,19 @@ class Block:
         s, c = sine(phi), cosine(phi)
         return self.sine * c - self.cosine * s + push * (self.cosine * c + self.sine * s)
 
+    def lever(self, phi: Interval) -> Interval:
+        """ψ = sin α − sin(α − φ), linearised φ."""
+        if self.linearised:
+            return phi
+        return self.sine - self.sine * cosine(phi) + self.cosine * sine(phi)
+
+    def potential(self, phi: Interval, push: Interval) -> Interval:
+        """Φ + s a ψ, Φ = cos(α − φ) − cos α, linearised φ (α − φ/2)."""
+        if self.linearised:
+            return phi * (self.alpha - phi / 2 + push)
+        rise = self.cosine * cosine(phi) + self.sine * sine(phi) - self.cosine
+        return rise + push * self.lever(phi)
+
 
 def _rigid(
     kind: str, of_: dict[str, Fraction], ratio: str

@@ -1,0 +1,76 @@
+"""Every factor on a pulse from zero up to a bound survives: boxes of factors, each proven.
+
+0 ─ no uplift ─ bounded by the lemma ─ followed and bounded ─ followed ─ high
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from topheavy import checks
+from topheavy.proven.certificate import BITS, certified
+from topheavy.pulses import Pulse
+from topheavy.structures import Structure
+
+NARROWEST = 1e-9
+"""Of the highest factor: a narrower box is not cut before it counts as open."""
+
+NARROW = 1e-6
+"""Of the highest factor: narrower boxes get more digits."""
+
+
+@dataclass(frozen=True)
+class Below:
+    """What is proven of all factors from 0 to `high`.
+
+    Attributes
+    ----------
+    certificates : list of dict
+        One for each box of factors that survives, in ascending order (`certified`).
+    open : list of (float, float)
+        The boxes that stayed undecided, or that overturn: none if nothing overturns below.
+    """
+
+    high: float
+    certificates: list[dict[str, Any]]
+    open: list[tuple[float, float]]
+
+
+def survives_below(
+    structure: Structure,
+    pulse: Pulse,
+    high: float,
+    *,
+    linearised: bool = False,
+    accepts: Callable[[dict[str, Any]], bool] = lambda certificate: True,
+) -> Below:
+    """Return boxes that prove which factors from 0 to `high` on a pulse are survived.
+
+    A box that is not proven, or whose certificate `accepts` refuses, is halved until it is as
+    narrow as `NARROWEST`. `accepts` may be a second proof: `topheavy.proven.checking.check`.
+
+    Raises
+    ------
+    ValueError
+        As `topheavy.proven.outcome`, and for a `high` that is not positive.
+    """
+    high = checks.positive("high", high)
+    below, boxes = Below(high, [], []), [(0.0, high)]
+    while boxes:
+        box = low, top = boxes.pop()
+        found, certificate = certified(
+            structure,
+            pulse,
+            factor=box,
+            linearised=linearised,
+            bits=BITS if top - low < NARROW * high else 72,
+            bounded=True,
+        )
+        middle = 0.5 * (low + top)
+        if found.outcome == "survives" and certificate is not None and accepts(certificate):
+            below.certificates.append(certificate)
+        elif found.outcome == "overturns" or top - low < NARROWEST * high:
+            below.open.append(box)
+        else:
+            boxes += [(middle, top), (low, middle)]
+    return below

@@ -1,0 +1,180 @@
+"""Bounds on a motion whose side, impacts and rests are not followed: the lemma near uplift.
+
+With κ, Φ and ψ of `topheavy.proven.flight`, the energy on the side s = ±1 at φ = |θ|,
+
+    H = φ'²/2 + V,   V(φ, s a) = κ² (Φ(φ) + s a ψ(φ)),   H' = κ² s a' ψ(φ) between impacts,
+
+is multiplied by r ≤ 1 at an impact (φ = 0), and zero at rest, where infinitely many impacts in
+a finite time end too. A bound on H that holds between impacts therefore needs no impact.
+
+Lemma. At σ let H ≤ E and φ ≤ X_s ≤ α on either side. Over [σ, σ + h] let s a ≥ m_s, and g_s at
+least the integral of max(0, s a'). Let Y_s ≤ α and F ≥ E + κ² max g_s ψ(Y_s), and on either side
+
+    V(Y_s, m_s) > F, and Y_s ≥ X_s or V(X_s, m_s) > F                  (the wall stops it), or
+    Y_s − X_s > h (v(X_s) + v(Y_s))/2,   v(φ)² = 2 max(0, F − V(φ, m_s))   (it does not reach it).
+
+Then H ≤ F and φ ≤ Y_s until σ + h. If V is not concave, the larger v takes the place of the mean.
+
+Proof. Over [0, α], V is concave in φ for s a ≤ 0 and rises for s a ≥ 0: between two φ it is
+nowhere less than at both. It rises with s a, as ψ ≥ 0. Hence φ ≤ Y_s at σ: a φ with Y_s < φ ≤ X_s
+would have V > F. Let σ₁ be the first time with φ = Y_s. Until then H' ≤ κ² max(0, s a') ψ(Y_s).
+If a' has one sign, H grows on one side alone; else g_s = h d is the same for d ≥ |a'|. So H ≤ F,
+and V(Y_s, m_s) ≤ V ≤ H ≤ F: a wall of the first kind is not reached. One of the second kind is
+passed from X_s to Y_s with φ' ≤ v(φ). As V is concave, v² is at most its chord, and the passage
+lasts at least 2 (Y_s − X_s)/(v(X_s) + v(Y_s)) > h. Each flight begins at a φ ≤ X_s, or at 0.  ∎
+
+Release. From σ_c on let the block be pushed outward at rest on the side s: g = −κ² (pull at φ =
+0) > 0. A block that moves inward on that side has at most W = √(2 (E − min(0, V(X_s)))) at σ_c,
+and φ'' ≥ g: it has turned or landed when ∫ g dσ = W. A flight on the other side, where κ² pull ≥
+G > 0, lasts at most 2 √(2E)/G. It ends on the side s with φ' ≥ 0, and φ' then grows. After both
+times the block is on the side s and moves outward, 0 ≤ φ ≤ X_s and 0 ≤ φ' ≤ W with the E and X_s
+of that time, however it came.
+"""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+from topheavy.proven.balls import Undecided, arb, bounds, hull
+from topheavy.proven.flight import Law
+from topheavy.proven.forcing import Forcing, Piece
+
+SIDES = (1, -1)
+FIRST, GROWTH, LONGEST = 2.0**-12, 1.3, math.pi / 96.0  # steps, in the phase of a pulse
+MARGIN = 1.02  # on energies and times: the enclosures of the checker are wider
+_SLACK = 2.0**-20  # of a wall, beyond an equality
+_TRIES = 40
+
+
+@dataclass(frozen=True)
+class Bound:
+    """H ≤ energy, and φ ≤ walls[0] on the side +1 and walls[1] on the side −1, at a σ."""
+
+    sigma: arb
+    energy: float
+    walls: tuple[float, float]
+    pushed: tuple[int, float, float] | None = None
+    """The side on which it is pushed, the rest of W, and for how long that has been zero."""
+
+
+@dataclass(frozen=True)
+class Bounded:
+    """A block under a pulse whose motion is bounded."""
+
+    law: Law
+    forcing: Forcing
+    piece: Piece
+    factor: arb
+
+    def start(self, sigma: arb, side: int, phi: arb, rate: arb) -> Bound:
+        """Return the bound of a state: at rest for side 0, else of φ and φ' on that side."""
+        if not side:
+            return Bound(sigma, 0.0, (0.0, 0.0))
+        push = side * self.factor * self.forcing.value(self.piece, sigma)
+        slope, middle = self.law.square * self.law.pull(phi, push), phi.mid()
+        energy = self.law.potential(middle, push) + slope * (phi - middle) + rate * rate / 2
+        highest = bounds(phi)[1] * (1.0 + _SLACK) + _SLACK**2
+        walls = (highest, 0.0) if side == 1 else (0.0, highest)
+        return Bound(sigma, max(0.0, bounds(energy)[1]) * MARGIN + _SLACK**2, walls)
+
+    def carried(self, bound: Bound) -> Iterator[Bound]:
+        """Yield bounds until the pulse ends, or raise Undecided where α is not excluded."""
+        stop, h = bounds(self.piece.stop)[1], FIRST
+        while not bound.sigma >= stop:
+            bound = self.step(bound, arb(min(bounds(bound.sigma)[1] + h, stop)))
+            yield bound
+            h = min(GROWTH * h, LONGEST)
+
+    def step(self, bound: Bound, until: arb) -> Bound:
+        """Return a bound at a later σ, by the lemma."""
+        span, h = hull(bound.sigma.lower(), until), (until - bound.sigma).upper()
+        ground, rises = self._ground(bound.sigma, until, span, h)
+        least = [(s * ground).lower() for s in SIDES]
+        walls, slack = bound.walls, _SLACK
+        for _ in range(_TRIES):
+            walls = walls[0] * (1.0 + slack) + _SLACK**2, walls[1] * (1.0 + slack) + _SLACK**2
+            if not all(self.law.block.slenderness > x for x in (*walls, *bound.walls)):
+                break
+            grown = [g * self.law.lever(arb(y)) for g, y in zip(rises, walls, strict=True)]
+            energy = bound.energy + self.law.square * grown[0].max(grown[1]) * MARGIN
+            energy = arb(bounds(energy)[1])
+            sides = list(zip(bound.walls, walls, least, strict=True))
+            if all(_holds(self.law, energy, h, *side) for side in sides):
+                found = replace(bound, sigma=until, energy=float(energy), walls=walls)
+                return replace(found, pushed=self._pushed(bound, until, ground))
+            one, other = (_proposed(self.law, energy, h, *side) for side in sides)
+            walls = one, other
+            slack = min(1.5 * slack, 0.05)
+        raise Undecided("bound")
+
+    def _ground(self, start: arb, until: arb, span: arb, h: arb) -> tuple[arb, list[arb]]:
+        """Return a over a step, where it is monotone by its ends, and by how much s a can grow."""
+        over, slope = (self.factor * x for x in self.forcing.series(self.piece, span, 2))
+        rises = [h * (s * slope).upper().max(arb(0)) for s in SIDES]
+        if slope.contains(0):  # here the enclosures of the checker are wider
+            growth = h * abs(slope).upper()
+            return over + hull(-growth, growth), [growth] * 2
+        ends = [self.factor * self.forcing.value(self.piece, x) for x in (start, until)]
+        return ends[0].union(ends[1]), rises
+
+    def _pushed(self, bound: Bound, until: arb, ground: arb) -> tuple[int, float, float] | None:
+        """Return what is left of W, and the time since, if it is pushed outward all the while."""
+        lasts = (until - bound.sigma).lower()
+        for side in SIDES:
+            gain = -self.law.square * self.law.pull(arb(0), side * ground)
+            if gain > 0:
+                left, waited = bounds(self._fastest(bound, side) * MARGIN)[1], 0.0
+                if bound.pushed is not None and bound.pushed[0] == side:
+                    left, waited = bound.pushed[1:]
+                if left > 0.0:
+                    return side, left - bounds(gain * lasts)[0], waited
+                return side, left, waited + bounds(lasts)[0]
+        return None
+
+    def _fastest(self, bound: Bound, side: int) -> arb:
+        """Return W, on the side on which the block is pushed outward."""
+        push = side * self.factor * self.forcing.value(self.piece, bound.sigma)
+        wall = arb(bound.walls[SIDES.index(side)])
+        return (2 * (bound.energy - self.law.potential(wall, push).min(arb(0)))).sqrt()
+
+    def released(self, bound: Bound) -> tuple[int, arb, arb] | None:
+        """Return side, φ and φ' if it is sure to move outward on a side that is known."""
+        if bound.pushed is None or bound.pushed[1] > 0.0:
+            return None
+        side, _, waited = bound.pushed
+        place, law = SIDES.index(side), self.law
+        back = law.square * law.pull(hull(0, bound.walls[1 - place]), law.block.level)
+        if not waited > MARGIN * 2 * (2 * arb(bound.energy)).sqrt() / back:
+            return None
+        return side, hull(0, bound.walls[place]), hull(0, self._fastest(bound, side))
+
+    def energy_behind(self, bound: Bound) -> arb:
+        """Return a bound on H behind the end of the pulse, where a jumps to zero."""
+        jump = -self.factor * self.forcing.value(self.piece, self.piece.stop)
+        gains = [
+            (s * jump).max(arb(0)) * self.law.lever(arb(wall))
+            for s, wall in zip(SIDES, bound.walls, strict=True)
+        ]
+        return bound.energy + self.law.square * gains[0].max(gains[1])
+
+
+def _holds(law: Law, energy: arb, h: arb, before: float, wall: float, push: arb) -> bool:
+    """Return whether Y_s = `wall` satisfies the lemma with X_s = `before`, F and m_s."""
+    if law.potential(arb(wall), push) > energy and (
+        wall >= before or law.potential(arb(before), push) > energy
+    ):
+        return True
+    return bool(wall - arb(before) > h * _mean_rate(law, energy, before, wall, push))
+
+
+def _mean_rate(law: Law, energy: arb, before: float, wall: float, push: arb) -> arb:
+    """Return at least the mean φ' from one wall to the next."""
+    ends = [(2 * (energy - law.potential(arb(x), push)).max(arb(0))).sqrt() for x in (before, wall)]
+    is_concave = push * law.block.slenderness.tan() < 1
+    return (ends[0] + ends[1]) / 2 if is_concave else ends[0].max(ends[1])
+
+
+def _proposed(law: Law, energy: arb, h: arb, before: float, wall: float, push: arb) -> float:
+    """Return about the least wall that holds, by the energy and mean rate of a first guess."""
+    reached = before + float((h * _mean_rate(law, energy, before, wall, push)).upper())
+    return min(reached, law.turn(float(energy.upper()), float(push)))
