@@ -16,7 +16,7 @@ It models
 It does not model
 
 - sliding: compare the friction that `contact_forces` requires with what there is; beyond it take a
-  rigid-body engine (studies/mechanism has MuJoCo) or discrete elements
+  rigid-body engine (MuJoCo, for instance) or discrete elements
 - rebound, and impacts elsewhere than at the new pivots: `structure.block(restitution=…)` changes
   the loss alone; else a rigid-body engine
 - unequal or inclined columns, a cap beam that tilts, three dimensions: a rigid-body engine
