@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
+from typing import Any
 
 from replication.inputs.strict_yaml import read_yaml
 from replication.kill.tree_copy import ROOT
@@ -75,19 +76,19 @@ class Fault:
 def load(root: Path = ROOT) -> list[Fault]:
     """Return the faults of the paper, then those of each study that is there, by its name."""
     return [
-        Fault(
-            **{"routes": JUDGING}
-            | entry
-            | {
-                "tests": tuple(entry["tests"]),
-                "changes": tuple(Change(**change) for change in entry["changes"]),
-                "home": path.relative_to(root).as_posix(),
-            }
-        )
+        _fault(entry, path.relative_to(root).as_posix())
         for pattern in FAULTS
         for path in sorted(root.glob(pattern))
         for entry in read_yaml(path)
     ]
+
+
+def _fault(entry: dict[str, Any], home: str) -> Fault:
+    """Return the fault of an entry, which has the parts of its only change, or several changes."""
+    only = {part: entry.pop(part) for part in ("file", "old", "new") if part in entry}
+    changes = tuple(Change(**change) for change in entry.pop("changes", [only]))
+    tests = tuple(entry.pop("tests"))
+    return Fault(**{"routes": JUDGING} | entry, tests=tests, changes=changes, home=home)
 
 
 @contextmanager
