@@ -200,6 +200,12 @@ def test_thresholds_of_the_trilith_are_bracketed():
     near = trilith.nearness(TRILITH, case)
     assert [row["quantity"] for row in near][-1] == "tilt_of_the_base"
     assert all(row["other_side_lifts"] and not row["safe_side_lifts"] for row in near)
+    table = pd.DataFrame(near)
+    assert trilith.of_nearness(table)["thresholds_bracketed"].holds
+    for side, lifted in (("safe", True), ("other", False)):
+        wrong = table.copy()
+        wrong.loc[1, f"{side}_side_lifts"] = lifted
+        assert not trilith.of_nearness(wrong)["thresholds_bracketed"].holds
 
 
 def test_statement_that_no_mend_saves_is_not_meant(monkeypatch):

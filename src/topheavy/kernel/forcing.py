@@ -394,7 +394,8 @@ def _next_uplift_of_two(forcing, record, time, level):
         begin, end = piece_start(forcing, record, k), piece_start(forcing, record, k + 1)
         time = max(time, begin)
         value, rate, weight, weight_rate = two_lines(forcing, record, k)
-        for sign in (1.0, -1.0):
+        here = math.copysign(1.0, value + rate * (time - begin))  # the side on which it may lift now
+        for sign in (here, -here):
             slope = sign * rate - level * weight_rate
             push = sign * value - level * weight + slope * (time - begin)
             if push > 0.0:
