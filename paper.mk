@@ -10,7 +10,10 @@ BENCH   = $(UV) run --locked --no-dev --group bench
 # What `make clean` keeps, as all copies share it (topheavy.kernel.compiled).
 SHARED  = the compiled kernel, in $${NUMBA_CACHE_DIR:-$${XDG_CACHE_HOME:-$$HOME/.cache}}/topheavy
 
-.PHONY: audit kill-table benchmark verify-grid cluster-test paper
+.PHONY: api audit kill-table benchmark verify-grid cluster-test paper
+
+api: | $(UV) ## write a page of the library's functions: dist/api/topheavy.html
+	@$(DEV) pdoc topheavy -o dist/api --no-show-source --docformat numpy
 
 audit: | $(UV) ## 3 hours: finer grids, tighter tolerances, all peers, all faults (CONFIG, CELLS, ROTATE)
 	@$(SNAKEMAKE) --configfile "$$CONFIG"

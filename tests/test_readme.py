@@ -160,3 +160,13 @@ def test_doi_is_that_of_the_citation():
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
     assert set(re.findall(r"10\.1061/[^\s\]]*\)ST[\d.A-Z-]*\d", readme)) == {cited}
     assert readme.count(cited) == 2
+
+
+def test_lines_of_the_library_run(tmp_path, monkeypatch, capsys):
+    monkeypatch.setenv("MPLBACKEND", "agg")
+    (lines,) = re.findall(r"```python\n(.*?)```", (ROOT / "README.md").read_text("utf-8"), re.S)
+    (tmp_path / "data").symlink_to(ROOT / "data")
+    monkeypatch.chdir(tmp_path)
+    exec(compile(lines, "README.md", "exec"), {})
+    assert (tmp_path / "bent.png").stat().st_size > 5000
+    assert "The lowest factor found that overturns is " in capsys.readouterr().out

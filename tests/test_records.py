@@ -209,3 +209,15 @@ def test_read_at2_keeps_first_and_last_values_in_place():
 def test_read_record_refuses_another_ending(tmp_path):
     with pytest.raises(ValueError, match=r"motion\.txt: expected .* \.AT2 or \.csv"):
         read_record(tmp_path / "motion.txt")
+
+
+def test_record_is_scaled_to_a_peak():
+    record = Record(0.1, [0.0, 0.2, -0.5, 0.1])
+    assert record.scaled_to(pga=1.0).peak_acceleration == pytest.approx(1.0)
+    assert record.scaled_to(pgv=0.3).peak_velocity == pytest.approx(0.3)
+    assert record.time == pytest.approx([0.0, 0.1, 0.2, 0.3])
+    for wrong in ({}, {"pga": 1.0, "pgv": 1.0}):
+        with pytest.raises(ValueError, match="expected one of both"):
+            record.scaled_to(**wrong)
+    with pytest.raises(ValueError, match="has no acceleration"):
+        Record(0.1, [0.0, 0.0]).scaled_to(pga=1.0)

@@ -12,14 +12,15 @@ from replication.inputs.strict_yaml import read_yaml
 from steps.shared.published import Numbers, computed
 
 STUDIES = Path(__file__).resolve().parents[2] / "studies"
+CODE = re.compile(r"^```.*?^```", re.DOTALL | re.MULTILINE)
 LINK = re.compile(r"\]\((?:[^()]|\([^()]*\))*\)")
 DOI = re.compile(r"\[doi:[^\]]*\]")
 COMPARED = re.compile(r"([\d,]+) overturning flags")
 
 
 def found(readme: str) -> str:
-    """Return the README up to "Reproduce it", without the targets of links: all our findings."""
-    return DOI.sub("", LINK.sub("]", readme.split("\n## Reproduce it")[0]))
+    """Return the README up to "Reproduce it", without code and targets of links: our findings."""
+    return DOI.sub("", LINK.sub("]", CODE.sub("", readme.split("\n## Reproduce it")[0])))
 
 
 def rises_at_one_period(reference: Path) -> pd.Series:

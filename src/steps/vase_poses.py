@@ -6,18 +6,11 @@ from collections.abc import Iterator
 import numpy as np
 
 from topheavy import Column, FixedMassColumn, Pulse, RockingFrame, simulate
-from topheavy.kinematics import cap_displacement, column_outline, turned_with_column
+from topheavy.kinematics import outlines
 from topheavy.structures import Structure
 
 FALL = (0.0, 0.15, 0.4, 0.7, 1.0)  # of the last rotation: poses of what overturns
 CLOSENESS = 1e-9  # m: how far a body may be in the ground
-
-
-def rectangle(middle: float, width: float, low: float, depth: float) -> np.ndarray:
-    """Return the corners of a rectangle, shape (5, 2), m, closed."""
-    left, right = middle - width / 2.0, middle + width / 2.0
-    high = low + depth
-    return np.array([[left, low], [right, low], [right, high], [left, high], [left, low]])
 
 
 def lying(column: Column, corners: np.ndarray) -> float:
@@ -31,23 +24,8 @@ def lying(column: Column, corners: np.ndarray) -> float:
 
 def bodies(structure: Structure, rotation: float, case: dict) -> dict[str, np.ndarray]:
     """Return the outlines of the bodies of a structure that has rocked by θ."""
-    if isinstance(structure, Column):
-        return {"column": column_outline(structure, rotation)}
-    column, cap = structure.column, case["cap"]
-    top = 2.0 * column.half_height
-    if isinstance(structure, FixedMassColumn):
-        corners = rectangle(0.0, cap["width"], top, cap["depth"])
-        return {
-            "column": column_outline(column, rotation),
-            "cap": turned_with_column(column, rotation, corners),
-        }
-    half = cap["width"] - column.half_width  # between the axis of a column and the middle
-    moved = np.array(cap_displacement(column, rotation))
-    return {
-        "left column": column_outline(column, rotation) - [half, 0.0],
-        "right column": column_outline(column, rotation) + [half, 0.0],
-        "cap": rectangle(0.0, 2.0 * cap["width"], top, cap["depth"]) + moved,
-    }
+    width = case["cap"]["width"] * (2.0 if isinstance(structure, RockingFrame) else 1.0)
+    return outlines(structure, rotation, width, case["cap"]["depth"])
 
 
 def rotations(structure: Structure, pulse: Pulse, case: dict) -> tuple[str, list[float]]:

@@ -5,6 +5,23 @@
     RockingFrame(column, γ)   ─┘
 
 Angles are in rad, rotations signed, accelerations in g, everything else in SI units.
+
+It models
+
+- a solitary column, and equal columns under a rigid cap beam: `Column`, `RockingFrame`
+- the mass fixed to one column (a vase) or to both: `FixedMassColumn`, `MonolithicPortal`
+- pulses, records, vertical ground acceleration: `Pulse`, `Record`, `vertical=`
+- the forces at the contacts, and the friction that rocking requires: `contact_forces`
+
+It does not model
+
+- sliding: compare the friction that `contact_forces` requires with what there is; beyond it take a
+  rigid-body engine (studies/mechanism has MuJoCo) or discrete elements
+- rebound, and impacts elsewhere than at the new pivots: `structure.block(restitution=…)` changes
+  the loss alone; else a rigid-body engine
+- unequal or inclined columns, a cap beam that tilts, three dimensions: a rigid-body engine
+- flexible columns, soil, dampers: finite elements (OpenSees, for instance); for one elastic tendon
+  in the axis of a column, slowly, `topheavy.restrained`
 """
 
 import lazy_loader

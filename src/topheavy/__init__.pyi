@@ -1,4 +1,4 @@
-from . import proven
+from . import plot, proven
 from .contact_forces import (
     Cap,
     ContactForces,
@@ -69,6 +69,7 @@ __all__ = [
     "peak_elastic",
     "peak_elastic_by_scipy",
     "peak_rigid",
+    "plot",
     "proven",
     "read_at2",
     "read_csv",

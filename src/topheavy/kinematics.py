@@ -10,7 +10,8 @@ Rotations are in rad, signed (θ > 0 leans to the right); arrays broadcast.
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from topheavy.structures import Column
+from topheavy.fixed_mass import FixedMassColumn, MonolithicPortal
+from topheavy.structures import Column, RockingFrame, Structure
 
 Pair = tuple[NDArray[np.float64], NDArray[np.float64]]
 
@@ -73,3 +74,61 @@ def column_outline(column: Column, rotation: float) -> NDArray[np.float64]:
     b, h = column.half_width, column.half_height
     corners = np.array([[-b, 0.0], [b, 0.0], [b, 2 * h], [-b, 2 * h], [-b, 0.0]])
     return turned_with_column(column, rotation, corners)
+
+
+def outlines(
+    structure: Structure, rotation: float, cap_width: float, cap_depth: float
+) -> dict[str, NDArray[np.float64]]:
+    """Return the corners of the bodies of a structure that has rocked by θ, by their names.
+
+    Parameters
+    ----------
+    structure : Column, FixedMassColumn, RockingFrame or MonolithicPortal
+    rotation : float
+        θ, rad.
+    cap_width, cap_depth : float
+        As the cap is drawn, m: its mass does not follow from them. The outer faces of a frame's
+        columns are under its ends; a portal has its own span.
+
+    Returns
+    -------
+    dict of ndarray, shape (5, 2)
+        m, closed. The origin is on the ground, in the middle of the structure at rest.
+
+    Raises
+    ------
+    ValueError
+        For another structure, which has no bodies.
+    """
+    if isinstance(structure, Column):
+        return {"column": column_outline(structure, rotation)}
+    if not isinstance(structure, FixedMassColumn | MonolithicPortal | RockingFrame):
+        raise ValueError(
+            f"structure is {structure!r}; expected a Column, FixedMassColumn, RockingFrame or "
+            "MonolithicPortal, which have bodies"
+        )
+    column, top = structure.column, 2.0 * structure.column.half_height
+    beam = _rectangle(cap_width, top, cap_depth)
+    if isinstance(structure, FixedMassColumn):
+        return {
+            "column": column_outline(column, rotation),
+            "cap": turned_with_column(column, rotation, beam),
+        }
+    if isinstance(structure, MonolithicPortal):
+        whole = Column(structure.half_base, 1.0)  # whose base is that of the portal
+        upright, axis = column_outline(column, 0.0), np.array([structure.span / 2.0, 0.0])
+        parts = {"left column": upright - axis, "right column": upright + axis, "cap": beam}
+        return {name: turned_with_column(whole, rotation, part) for name, part in parts.items()}
+    axis = np.array([cap_width / 2.0 - column.half_width, 0.0])
+    outline = column_outline(column, rotation)
+    return {
+        "left column": outline - axis,
+        "right column": outline + axis,
+        "cap": beam + np.array(cap_displacement(column, rotation)),
+    }
+
+
+def _rectangle(width: float, low: float, depth: float) -> NDArray[np.float64]:
+    """Return the corners of a rectangle over the origin, shape (5, 2), m, closed."""
+    side, high = width / 2.0, low + depth
+    return np.array([[-side, low], [side, low], [side, high], [-side, high], [-side, low]])

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from topheavy import checks
+from topheavy.keywords import hinted
 from topheavy.overturning import BRACKET, checked_range, overturned_by
 from topheavy.pulses import Pulse
 from topheavy.records import Record
@@ -101,6 +102,7 @@ class LowestOverturning:
         )
 
 
+@hinted
 def lowest_overturning(
     structure: Structure,
     excitation: Pulse | Record,

@@ -18,6 +18,7 @@ from topheavy.kernel.forcing import RECORD, SHAPES
 from topheavy.kernel.grid import LANES, Outcomes, mixed_outcomes_of, outcomes_of
 from topheavy.kernel.outcome import TOLERANCE
 from topheavy.kernel.taylor import Oscillator, oscillator
+from topheavy.keywords import hinted
 from topheavy.pulses import Pulse, checked_shape
 from topheavy.records import Record
 from topheavy.simulate import Shaking, as_shaking, checked_tolerance, no_excitation
@@ -51,6 +52,7 @@ Boundary = tuple[float, float, int, int]  # low, high, label below, label above
 Answer = TypeVar("Answer")
 
 
+@hinted
 def overturning_map(
     structure: Structure, shape: str, angular_frequencies: ArrayLike, amplitudes: ArrayLike
 ) -> "xarray.Dataset":
@@ -130,6 +132,7 @@ class Search(NamedTuple):
     scale_vertical: bool = True
 
 
+@hinted
 def overturned_by(
     structure: Structure,
     excitation: Excitation,
@@ -265,6 +268,7 @@ class Interval:
     impacts: int
 
 
+@hinted
 def overturning_intervals(
     structure: Structure,
     excitation: Excitation,
@@ -330,6 +334,7 @@ def intervals_together(
     )
 
 
+@hinted
 def minimum_overturning(
     structure: Structure,
     excitation: Excitation,

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from topheavy import checks
 from topheavy.excitation import Excitation, Segment
+from topheavy.keywords import hinted
 from topheavy.shapes import PULSE_SHAPES, SHAPES
 
 Phase = NDArray[np.float64]
@@ -72,6 +73,7 @@ def checked_shape(shape: str) -> str:
     return shape
 
 
+@hinted
 @dataclass(frozen=True)
 class Pulse(Excitation):
     """A ground acceleration pulse that starts at t = 0.

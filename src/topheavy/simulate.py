@@ -32,6 +32,7 @@ from topheavy.kernel.trace import (
     UNRESOLVED,
     trace,
 )
+from topheavy.keywords import hinted
 from topheavy.pulses import Pulse
 from topheavy.records import Record
 from topheavy.response import Outcome, Response, initial_motion, sample_times
@@ -54,6 +55,7 @@ _OUTCOMES: dict[int, Outcome] = {
 }
 
 
+@hinted
 def simulate(
     structure: Structure,
     excitation: Excitation | None = None,
@@ -166,6 +168,7 @@ def simulate(
     )
 
 
+@hinted
 def judge(
     structure: Structure,
     excitation: Excitation,

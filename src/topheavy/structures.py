@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from typing import Protocol
 
 from topheavy import checks
+from topheavy.keywords import hinted
 
 STANDARD_GRAVITY = 9.81
 """Acceleration of gravity g, m/s², as the paper's numbers imply it (2.15 m/s² = 0.219 g, p. 4)."""
@@ -65,6 +66,7 @@ class RockingBlock:
         return self
 
 
+@hinted
 @dataclass(frozen=True)
 class Column:
     """A free-standing rigid rectangular column.
@@ -86,6 +88,19 @@ class Column:
     def __post_init__(self) -> None:
         checks.positive("half_width", self.half_width, "m")
         checks.positive("half_height", self.half_height, "m")
+
+    @classmethod
+    def of_dimensions(cls, *, width: float, height: float) -> "Column":
+        """Return the column of a width 2b and a height 2h, m.
+
+        Raises
+        ------
+        ValueError
+            Unless both are positive and finite.
+        """
+        return cls(
+            checks.positive("width", width, "m") / 2.0, checks.positive("height", height, "m") / 2.0
+        )
 
     @property
     def size(self) -> float:
@@ -127,6 +142,7 @@ class Column:
         return RockingBlock(self.frequency_parameter, self.slenderness, restitution)
 
 
+@hinted
 @dataclass(frozen=True)
 class RockingFrame:
     """Two equal free-standing columns under a freely supported rigid cap beam.

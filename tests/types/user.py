@@ -9,30 +9,54 @@ from numpy.typing import NDArray
 
 import topheavy.reference
 from topheavy import (
+    PULSE_SHAPES,
+    STANDARD_GRAVITY,
     Cap,
     Column,
+    ContactForces,
+    FixedFrame,
+    FixedMassColumn,
     Fragility,
+    LowestOverturning,
+    MonolithicPortal,
     Pulse,
+    Reaction,
     Record,
     Response,
     RockingBlock,
     RockingFrame,
+    Search,
+    base_shear_slope,
+    column_forces,
+    column_impulse,
+    contact_forces,
     fragility,
     frame_forces,
+    impact_impulses,
+    intervals_together,
     judge,
     lowest_overturning,
+    minima_together,
     minimum_overturning,
     overturned_by,
+    overturned_together,
     overturning_intervals,
     overturning_map,
     overturning_map_of_record,
+    peak_elastic,
+    peak_elastic_by_scipy,
+    peak_rigid,
+    plot,
+    proven,
+    read_at2,
+    read_csv,
     read_record,
     simulate,
 )
 from topheavy.free_rocking import quarter_period
 from topheavy.linear import simulate_linear_exact
 
-pier = Column(0.8, 4.8)
+pier = Column.of_dimensions(width=1.6, height=9.6)
 bent = RockingFrame.of_masses(pier, cap_mass=400e3, column_mass=60e3)
 block = RockingBlock(2.0, 0.25, 0.9)
 pulse = Pulse("one-sine", 1.0, 3.0)
@@ -82,3 +106,33 @@ assert_type(fragility([pier, block], motions, times[1:], "PGA", groups=[1, 2, 2]
 by_duration = fragility([bent], [pulse], [1.0], lambda motion: motion.duration)
 for sentence in curves.pairs["gain_words"].to_numpy():
     print(f"the interval of the gain {sentence}; intervals are those of {curves.sampling}")
+
+vase = FixedMassColumn(pier, 0.5, cap_width=3.0, cap_depth=1.0)
+portal = MonolithicPortal(pier, 1.0, span=12.0)
+assert_type(lowest_overturning(vase, pulse, (0, 5), floor=0.5), LowestOverturning)
+assert_type(overturned_together([vase, portal, bent], pulse, [1.0, 2.0]), NDArray[np.bool_])
+searches = [Search(vase, pulse, (0.0, 2.0)), Search(bent, measured, (0.0, 2.0), vertical=shaking)]
+assert_type(minima_together(searches, resolution=0.5), list[tuple[float, float] | None])
+print(sum(map(len, intervals_together(searches, resolution=0.5))))
+
+assert_type(contact_forces(bent, cap, 0.01, 0.02, 0.1), ContactForces)
+assert_type(impact_impulses(bent, cap, 0.1), ContactForces)
+assert_type(column_forces(pier, times / 100.0, times), Reaction)
+assert_type(column_impulse(pier, 0.1), Reaction)
+assert_type(base_shear_slope(bent), float)
+held = FixedFrame(bent, cap, "pinned")
+print(peak_rigid(held, pulse), peak_elastic([held], shaking, 0.5), end=" ")
+print(peak_elastic_by_scipy(held, shaking, 0.5), len(PULSE_SHAPES), STANDARD_GRAVITY)
+
+assert_type(read_at2(sys.argv[1]).scaled_to(pgv=0.5), Record)
+assert_type(measured.time, NDArray[np.float64])
+assert_type(proven.outcome(pier, pulse), proven.Outcome)
+for axes in (
+    plot.history(frame_motion, bent),
+    plot.spectrum(spectrum),
+    plot.fragility(curves),
+    plot.structure(portal, 0.05),
+):
+    print(axes.get_xlabel())
+if len(sys.argv) > 2:
+    print(read_csv(sys.argv[2]).duration)

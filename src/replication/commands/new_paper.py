@@ -12,6 +12,7 @@ import tomllib
 from collections.abc import Iterable
 from pathlib import Path
 
+from replication.pages.seal import seal
 from replication.workflow.place import UNQUOTED
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -39,7 +40,7 @@ LEFT_OUT = ("__pycache__", "template", "kill", "new_paper.py", "kill_table.py", 
 
 ONLY_HERE = (
     *("basedpyright", "heyoka", "hypothesis", "lazy-loader", "llvmlite", "mujoco-core", "numba"),
-    *("python-flint", "snakemake-executor-plugin-slurm", "xarray"),
+    *("pdoc", "python-flint", "snakemake-executor-plugin-slurm", "xarray"),
 )
 """Packages that neither the machine nor the example needs."""
 
@@ -81,6 +82,7 @@ def create(to: Path, root: Path = ROOT) -> Path:
         for blank, filled in blanks.items():
             text = text.replace(blank, filled)
         (to / path).write_text(text, encoding="utf-8")
+    seal(to)
     return to
 
 
@@ -126,8 +128,10 @@ def reduced_lock(text: str, name: str) -> str:
     own = next(block for block in blocks if 'source = { editable = "." }' in block)
     root = re.sub('^name = ".*"', f'name = "{name}"', without(ONLY_HERE, own))
     root = re.sub(r"^[\w-]+ = \[\n\]\n", "", root, flags=re.MULTILINE)  # groups that are empty now
-    # Extras that are empty now; groups installed by default, of which `dev` alone is left.
-    gone = r"^\[package.optional-dependencies\]\n\n|^(?:provides-extras|default-groups) = .*\n"
+    gone = (  # the extras of the library, which stays here
+        r"^\[package.optional-dependencies\]\n(?:[^[\n].*\n)*\n|^provides-extras = .*\n"
+        r"|^    .*, marker = \"extra == .*\n"
+    )
     root = re.sub(gone, "", root, flags=re.MULTILINE)
     blocks[blocks.index(own)] = root
     edges: dict[str, set[str]] = {}
@@ -159,6 +163,7 @@ def _shared(pyproject: str, project: str) -> str:
     """Return what every project has in its pyproject.toml: dependencies, groups, tools."""
     begin, end = pyproject.index("# Why each of these"), pyproject.index("[tool.mypy]")
     text = without(ONLY_HERE, pyproject[begin:end])
+    text = re.sub(r"(?m)^(?:# .*\n)*(?:optional-dependencies\..*\n)+", "", text)
     text = re.sub(r'(extend-exclude = \["\*\.ipynb").*', r"\1]", text)
     return text.replace(f"src/{project}", "src/theory")
 

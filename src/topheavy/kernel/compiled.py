@@ -10,7 +10,9 @@ import hashlib
 import os
 import pickle
 import platform
+import sys
 import warnings
+from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -84,6 +86,7 @@ class Cache(_Cache):
         try:
             content = path.read_bytes()
         except OSError:
+            _say_once(self.name)
             return None
         if content[:_DIGEST] != hashlib.sha256(key + content[_DIGEST:]).digest():
             return None
@@ -107,6 +110,22 @@ class Cache(_Cache):
                 "folder that can be written in NUMBA_CACHE_DIR, or each process compiles anew",
                 stacklevel=2,
             )
+
+
+SLOW = tuple(f"topheavy.kernel.{name}." for name in ("lanes", "outcome", "trace"))
+"""Modules whose functions take seconds to compile."""
+
+
+@cache
+def _say() -> None:
+    text = "topheavy compiles its kernel, once on this machine: up to 20 s"
+    print(text, file=sys.stderr, flush=True)
+
+
+def _say_once(function: str) -> None:
+    """Say on stderr that this process compiles, if that takes seconds; of all of it one time."""
+    if function.startswith(SLOW):
+        _say()
 
 
 FOLDER = cache_folder() / state(Path(__file__).parent, Path(shapes.__file__))[:16]

@@ -9,9 +9,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from topheavy import checks
 from topheavy.excitation import Excitation, Segment
+from topheavy.keywords import hinted
 from topheavy.structures import STANDARD_GRAVITY
 
 
+@hinted
 @dataclass(frozen=True, eq=False)
 class Record(Excitation):
     """A recorded ground acceleration: sample k at k·time_step, linear between, zero outside.
@@ -59,6 +61,11 @@ class Record(Excitation):
             object.__setattr__(self, field, value)
 
     @property
+    def time(self) -> NDArray[np.float64]:
+        """Times of the samples, s."""
+        return self.time_step * np.arange(self.acceleration.size, dtype=np.float64)
+
+    @property
     def duration(self) -> float:
         """Time of the last sample, s."""
         return (self.acceleration.size - 1) * self.time_step
@@ -79,6 +86,24 @@ class Record(Excitation):
         return Record(
             self.time_step, checks.finite("factor", factor) * self.acceleration, self.name
         )
+
+    def scaled_to(self, *, pga: float | None = None, pgv: float | None = None) -> "Record":
+        """Return the record scaled to a peak ground acceleration (g) or velocity (m/s).
+
+        Raises
+        ------
+        ValueError
+            Unless one of both is given, is positive, and the record has acceleration.
+        """
+        if (pga is None) == (pgv is None):
+            raise ValueError(f"pga is {pga}, pgv is {pgv}; expected one of both")
+        if pga is not None:
+            wanted, peak = checks.positive("pga", pga, "g"), self.peak_acceleration
+        else:
+            wanted, peak = checks.positive("pgv", pgv, "m/s"), self.peak_velocity
+        if peak == 0.0:
+            raise ValueError(f"record {self.name!r} has no acceleration; expected one to scale")
+        return self.scaled(wanted / peak)
 
     def accelerations(self, time: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the ground acceleration in g at times in s, an array; zero outside the record."""

@@ -98,7 +98,7 @@ def test_uv_takes_the_lock_for_that_of_the_project(paper):
     locked = [each["name"] + each["specifier"] for each in own["metadata"]["requires-dist"]]
     assert locked == project["project"]["dependencies"]
     groups = set(project["dependency-groups"])
-    assert set(own["metadata"]["requires-dev"]) == groups == {"crate", "dev"}
+    assert set(own["metadata"]["requires-dev"]) == groups == {"crate", "dev", "workflow"}
 
 
 def python(paper, *command, **environment):

@@ -66,7 +66,7 @@ def test_seal_that_lost_a_part_is_refused(sealed):
 
 
 def test_each_tracked_file_of_the_edition_and_of_its_sources_is_sealed(tmp_path):
-    """One bit of a file that chance picks is told, of each kind of file in each folder."""
+    """One bit of a file that chance picks is reported, of each kind of file in each folder."""
     command = ["git", "ls-files", *EDITION, *SOURCES, *TOP]
     listed = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
     names = [name for name in listed.stdout.splitlines() if (ROOT / name).is_file()]

@@ -1,0 +1,156 @@
+"""Pictures of results, as Axes of Matplotlib: `pip install "topheavy[plot]"`.
+
+Each function draws into `axes`, or into a new figure, and returns the Axes, to be changed further.
+"""
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from topheavy.fixed_mass import FixedMassColumn, MonolithicPortal
+from topheavy.fragility.estimate import Fragility
+from topheavy.kinematics import outlines
+from topheavy.response import Response
+from topheavy.structures import Column, Structure, as_block
+
+try:
+    import matplotlib.pyplot as plt
+    from matplotlib.axes import Axes
+except ImportError as missing:
+    raise ImportError(
+        "topheavy.plot draws with Matplotlib, which is not installed; expected the extra: "
+        'pip install "topheavy[plot]"'
+    ) from missing
+
+if TYPE_CHECKING:
+    import xarray
+
+OVERTURNED = "0.75"
+"""The grey of what overturns."""
+FALLEN = 1.5
+"""|θ|/α up to which a history is shown: one that goes on overturns."""
+
+
+def history(
+    response: Response, structure: Structure, *, label: str = "", axes: Axes | None = None
+) -> Axes:
+    """Draw the rotation over α against time (s), with the impacts; |θ| = α is dotted.
+
+    Parameters
+    ----------
+    response : Response
+        Of `simulate`.
+    structure : Structure
+        That it is of, for its α.
+    label : str
+        In a legend; by default the outcome.
+    """
+    axes = _axes(axes)
+    alpha = as_block(structure).slenderness
+    (line,) = axes.plot(response.time, response.rotation / alpha, label=label or response.outcome)
+    shown = response.impacts[response.impacts <= response.time[-1]]
+    axes.plot(shown, np.zeros(shown.size), "|", color=line.get_color())
+    for limit in (-1.0, 1.0):
+        axes.axhline(limit, color="0.5", linestyle=":", linewidth=0.8)
+    axes.set(xlabel="Time, $t$ (s)", ylabel=r"Rotation, $\theta/\alpha$ (–)")
+    if max(map(abs, axes.get_ylim())) > FALLEN:
+        axes.set_ylim(-FALLEN, FALLEN)
+    return axes
+
+
+def spectrum(outcomes: "xarray.Dataset", *, axes: Axes | None = None) -> Axes:
+    """Draw the peak rotation over α of a map; what overturns is grey.
+
+    Parameters
+    ----------
+    outcomes : xarray.Dataset
+        Of `overturning_map` (frequency, amplitude) or `overturning_map_of_record` (size, PGA).
+    """
+    axes = _axes(axes)
+    across, up = (outcomes[name] for name in outcomes.peak_rotation.dims)
+    peaks = outcomes.peak_rotation.T / outcomes.attrs["slenderness"]
+    axes.set_facecolor(OVERTURNED)
+    shown = axes.pcolormesh(across, up, peaks, shading="nearest", cmap="Blues", vmin=0.0, vmax=1.0)
+    axes.figure.colorbar(
+        shown, ax=axes, label=r"Peak rotation, $\max|\theta|/\alpha$ (–); grey: overturns"
+    )
+    for side, axis in (("x", across), ("y", up)):
+        name = axis.attrs.get("long_name", axis.name.replace("_", " "))
+        axes.set(**{f"{side}label": f"{name[0].upper()}{name[1:]} ({axis.attrs['units']})"})
+    return axes
+
+
+def fragility(found: Fragility, *, axes: Axes | None = None) -> Axes:
+    """Draw the probability of overturning: points with their intervals, and the fitted curves.
+
+    Parameters
+    ----------
+    found : Fragility
+        Of `topheavy.fragility`.
+    """
+    axes = _axes(axes)
+    for name in found.curves.structure.to_numpy():
+        curve = found.curves.sel(structure=name)
+        level, share = curve.level.to_numpy(), curve.probability.to_numpy()
+        ends = np.array([share - curve.probability_low, curve.probability_high - share])
+        points = axes.errorbar(level, share, ends.clip(0.0), fmt=".", capsize=2, label=str(name))
+        axes.plot(level, curve.fitted, color=points.lines[0].get_color())
+    unit = found.curves.level.attrs.get("units", "its unit")
+    axes.set(
+        xlabel=f"{found.measure} ({unit})",
+        ylabel="Probability of overturning (–)",
+        ylim=(-0.02, 1.02),
+    )
+    axes.legend()
+    return axes
+
+
+def structure(
+    shown: Structure,
+    rotation: float = 0.0,
+    *,
+    cap_width: float | None = None,
+    cap_depth: float | None = None,
+    axes: Axes | None = None,
+) -> Axes:
+    """Draw a structure to scale, rocked by θ.
+
+    Parameters
+    ----------
+    shown : Column, FixedMassColumn, RockingFrame or MonolithicPortal
+    rotation : float
+        θ, rad.
+    cap_width, cap_depth : float, optional
+        Of the cap as it is drawn, m; by default the structure's own. Of a cap without dimensions,
+        as of each frame: twice the height of a column that it shares, or three times the width of
+        its only one; 0.3 of its half height deep.
+
+    Raises
+    ------
+    ValueError
+        For a block, which has no bodies.
+    """
+    axes = _axes(axes)
+    if isinstance(shown, Column):
+        bodies = outlines(shown, rotation, 0.0, 0.0)
+    else:
+        column = getattr(shown, "column", None) or Column(1.0, 1.0)
+        only = isinstance(shown, FixedMassColumn)
+        usual = 6.0 * column.half_width if only else 4.0 * column.half_height
+        if isinstance(shown, MonolithicPortal):
+            usual = shown.span + 2.0 * (column.half_width + shown.overhang)
+        width = cap_width or getattr(shown, "cap_width", 0.0) or usual
+        depth = cap_depth or getattr(shown, "cap_depth", 0.0) or 0.3 * column.half_height
+        bodies = outlines(shown, rotation, width, depth)
+    for name, corners in bodies.items():
+        axes.fill(*corners.T, facecolor="0.9" if "column" in name else "0.6", edgecolor="0.1")
+    axes.axhline(0.0, color="0.1", linewidth=1.0, zorder=0)
+    axes.set(xlabel="$x$ (m)", ylabel="$z$ (m)", aspect="equal")
+    axes.locator_params(axis="x", nbins=3)
+    axes.set_title(rf"$\theta$ = {math.degrees(rotation):.2f}°", fontsize="medium")
+    return axes
+
+
+def _axes(axes: Axes | None) -> Axes:
+    return axes if axes is not None else plt.figure(layout="constrained").add_subplot()

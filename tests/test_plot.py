@@ -1,0 +1,87 @@
+"""The pictures show the numbers of the results, with their units."""
+
+import subprocess
+import sys
+
+import matplotlib as mpl
+import numpy as np
+import pytest
+
+import topheavy
+from topheavy import Column, FixedMassColumn, MonolithicPortal, Pulse, Record, RockingFrame, plot
+
+COLUMN = Column.of_dimensions(width=1.0, height=6.0)
+FRAME = RockingFrame(COLUMN, 1.0)
+
+
+@pytest.fixture(autouse=True)
+def _closed():
+    mpl.use("agg")
+    yield
+    mpl.pyplot.close("all")
+
+
+def test_history_is_in_parts_of_alpha_with_its_impacts():
+    response = topheavy.simulate(FRAME, Pulse("one-sine", 0.4, 6.0), samples=50)
+    axes = plot.history(response, FRAME)
+    line, impacts, *_ = axes.lines
+    assert np.array_equal(line.get_ydata(), response.rotation / FRAME.slenderness)
+    assert len(impacts.get_xdata()) == np.sum(response.impacts <= response.time[-1]) > 0
+    assert "(s)" in axes.get_xlabel()
+
+
+def test_map_has_the_peak_at_its_frequency_and_amplitude():
+    found = topheavy.overturning_map(FRAME, "one-sine", [2.0, 4.0, 8.0], [0.1, 0.3])
+    axes = plot.spectrum(found)
+    shown = axes.collections[0].get_array().reshape(2, 3)
+    assert shown[1, 2] == found.peak_rotation.to_numpy()[2, 1] / FRAME.slenderness > 0
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("Angular frequency (rad/s)", "Amplitude (g)")
+
+
+def test_map_of_a_record_has_its_own_axes():
+    shaking = Record(0.1, [0.0, 0.3, -0.2, 0.1])
+    axes = plot.spectrum(topheavy.overturning_map_of_record(COLUMN, shaking, [1, 2], [0.1, 0.2]))
+    assert axes.get_xlabel() == "Size R of the column (m)"
+    assert axes.get_ylabel() == "Peak ground acceleration (g)"
+
+
+def test_fragility_has_points_with_exact_intervals():
+    motions = [Record(0.1, [0.0, a, -a, 0.0]) for a in (0.3, 0.6, 1.0, 1.5)]
+    found = topheavy.fragility({"one": COLUMN}, motions, [0.5, 2.0, 8.0], measure="PGA")
+    axes = plot.fragility(found)
+    (points,) = axes.containers
+    assert np.array_equal(points.lines[0].get_ydata(), found.curves.probability[0])
+    ends = np.array(points.lines[2][0].get_segments())[:, :, 1]
+    assert ends[:, 0] == pytest.approx(found.curves.probability_low[0])
+    assert axes.get_xlabel() == "PGA (g)"
+
+
+@pytest.mark.parametrize(
+    ("shown", "bodies"),
+    [
+        (COLUMN, 1),
+        (FixedMassColumn(COLUMN, 1.0), 2),
+        (FRAME, 3),
+        (MonolithicPortal(COLUMN, 1, 8), 3),
+    ],
+)
+@pytest.mark.parametrize("rotation", [-0.1, 0.0, 0.1])
+def test_structure_stands_on_the_ground_and_leans_as_it_rocks(shown, bodies, rotation):
+    axes = plot.structure(shown, rotation)
+    assert len(axes.patches) == bodies
+    corners = np.concatenate([patch.get_xy()[:4] for patch in axes.patches])
+    assert corners[:, 1].min() == pytest.approx(0.0, abs=1e-12)
+    high = corners[:, 1] > COLUMN.half_height
+    lean = corners[high, 0].mean() - corners[~high, 0].mean()
+    assert np.sign(lean.round(9)) == np.sign(rotation)
+
+
+def test_block_has_no_bodies():
+    with pytest.raises(ValueError, match="expected a Column, FixedMassColumn, RockingFrame or"):
+        plot.structure(COLUMN.block())
+
+
+def test_without_matplotlib_the_extra_is_named():
+    code = "import sys; sys.modules['matplotlib'] = None; import topheavy; topheavy.plot.history"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert 'pip install "topheavy[plot]"' in done.stderr
