@@ -338,7 +338,12 @@ def test_number_in_the_readme_that_is_not_published_is_named(tampered, edit, tol
     [
         ("config/config.yaml", "mass_ratio: 0.434", "mass_ratio: 0.5", "config/config.yaml: "),
         ("tests/reference/config.yaml", "mass_ratio: 0.434", "mass_ratio: 0.5", "config/config"),
-        ("tests/reference/config.yaml", "\nsolver:", "\ngone: 1\nsolver:", "config/config.yaml: gone"),
+        (
+            "tests/reference/config.yaml",
+            "\nsolver:",
+            "\ngone: 1\nsolver:",
+            "config/config.yaml: gone",
+        ),
     ],
 )
 def test_config_that_is_not_that_of_the_published_run_is_named(tampered, config, old, new, told):

@@ -394,7 +394,7 @@ def _next_uplift_of_two(forcing, record, time, level):
         begin, end = piece_start(forcing, record, k), piece_start(forcing, record, k + 1)
         time = max(time, begin)
         value, rate, weight, weight_rate = two_lines(forcing, record, k)
-        here = math.copysign(1.0, value + rate * (time - begin))  # the side on which it may lift now
+        here = math.copysign(1.0, value + rate * (time - begin))  # only that push may lift now
         for sign in (here, -here):
             slope = sign * rate - level * weight_rate
             push = sign * value - level * weight + slope * (time - begin)
