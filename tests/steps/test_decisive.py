@@ -62,6 +62,13 @@ def test_exception_that_the_table_missed_is_found_where_the_rise_is_least(table,
     assert found["exceptions"] == 6
 
 
+def test_widest_counterexample_is_the_widest_over_its_middle(table, monkeypatch):
+    reversals = np.array([[1.0, 1.2], [4.0, 4.4]])
+    monkeypatch.setattr(Spectra, "reversals", lambda *given: reversals)
+    width, *_, middle = Spectra(LINES, table).counterexample([(0.0, 1.0)])
+    assert (width, middle) == pytest.approx((0.2 / 1.1, 1.1))
+
+
 def test_narrow_band_below_the_first_is_found_by_the_finer_search(monkeypatch):
     bands = {0.05: (1.2, 1.4), 0.01: (1.05, 1.06)}
 
