@@ -1,8 +1,9 @@
 # What only this paper needs of make, beside the targets of every replication in the Makefile.
 
-OWN    := CELLS CONFIG ENGINE FAULTS LISTED ROTATE TO
+OWN    := CELLS CONFIG ENGINE FAULTS LISTED MINUTES ROTATE SEED TO
 CELLS  ?= 40000
 CONFIG ?= config/thorough.yaml
+MINUTES ?= 1
 # The optional rigid-body engine of the study `mechanism`; `ENGINE=` does not install it.
 ENGINE ?= engine
 GROUPS  = $(if $(value ENGINE),--group "$$ENGINE")
@@ -10,7 +11,7 @@ BENCH   = $(UV) run --locked --no-dev --group bench
 # What `make clean` keeps, as all copies share it (topheavy.kernel.compiled).
 SHARED  = the compiled kernel, in $${NUMBA_CACHE_DIR:-$${XDG_CACHE_HOME:-$$HOME/.cache}}/topheavy
 
-.PHONY: api audit kill-table benchmark verify-grid cluster-test paper
+.PHONY: api audit fuzz kill-table benchmark verify-grid cluster-test paper
 
 api: | $(UV) ## write a page of the library's functions: dist/api/topheavy.html
 	@$(DEV) pdoc topheavy -o dist/api --no-show-source --docformat numpy
@@ -24,6 +25,10 @@ kill-table: | $(UV) ## put faults into a copy, one at a time: what catches each?
 	@$(if $(value ROTATE),$(call WHOLE,ROTATE))
 	@$(call WHOLE,CORES); $(DEV) python -m replication.commands.kill_table --cores "$$CORES" \
 	  $${FAULTS:+"--faults=$$FAULTS"} $${ROTATE:+"--rotate=$$ROTATE"} $${LISTED:+--whole}
+
+fuzz: | $(UV) ## search for inputs on which solvers disagree or a function fails (MINUTES=1, SEED)
+	@$(call WHOLE,MINUTES); $(if $(value SEED),$(call WHOLE,SEED);) $(DEV) \
+	  python benchmarks/fuzz.py "$$MINUTES" $${SEED:+"$$SEED"}
 
 benchmark: | $(UV) ## time the kernel beside its peers; writes docs/benchmark.csv and .svg (15 minutes)
 	@$(BENCH) python benchmarks/benchmark.py

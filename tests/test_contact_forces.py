@@ -354,6 +354,16 @@ class TestBadInput:
         with pytest.raises(ValueError, match=r"span is 1\.4 m"):
             impact_impulses(RockingFrame(Column(0.7, 2.0), 1.0), cap, 0.1)
 
+    @pytest.mark.parametrize("value", ["0.1", None, {}])
+    def test_what_is_no_number_is_refused_by_name(self, value):
+        for place, name in enumerate(("rotation", "velocity", "ground_acceleration")):
+            state = [0.1, 0.1, 0.1]
+            state[place] = value
+            with pytest.raises(ValueError, match=f"{name}: element 0 is "):
+                column_forces(SLENDER, *state)
+        with pytest.raises(ValueError, match="velocity: element 0 is "):
+            column_impulse(SLENDER, value)
+
     @pytest.mark.parametrize("rotation", [math.pi / 2, [-1.7, math.nan, 0.1]])
     def test_column_lying_flat_is_no_longer_rocking(self, rotation):
         with pytest.raises(ValueError, match="expected less than π/2"):

@@ -143,6 +143,29 @@ def test_guided_column_needs_a_cap_beam():
         FixedFrame(RockingFrame(COLUMN, 0.0), CAP, "guided")
 
 
+@pytest.mark.parametrize("motion", [None, 3.0, Pulse("harmonic", 0.3, 5.0)])
+def test_motion_has_to_be_one_that_ends(motion):
+    held = FixedFrame(RockingFrame(COLUMN, 1.0), CAP, "pinned")
+    for peaks in (
+        lambda: peak_rigid(held, motion),
+        lambda: peak_elastic([held], motion, 0.4),
+        lambda: peak_elastic_by_scipy(held, motion, 0.4),
+    ):
+        with pytest.raises(ValueError, match=r"excitation is .* that ends"):
+            peaks()
+
+
+@pytest.mark.parametrize("period", [0.0, -1.0, math.inf, "1", None])
+def test_period_is_positive_by_both_solvers(period):
+    held, pulse = FixedFrame(RockingFrame(COLUMN, 1.0), CAP, "pinned"), Pulse("one-sine", 0.3, 5.0)
+    for peaks in (
+        lambda: peak_elastic([held], pulse, period),
+        lambda: peak_elastic_by_scipy(held, pulse, period),
+    ):
+        with pytest.raises(ValueError, match="period is"):
+            peaks()
+
+
 def test_top_is_pinned_or_guided():
     with pytest.raises(ValueError, match="top is 'fixed'; expected 'pinned'"):
         FixedFrame(RockingFrame(COLUMN, 1.0), CAP, "fixed")

@@ -220,3 +220,22 @@ def test_energy_drift_sees_a_motion_that_loses_energy_between_impacts(linearised
     assert energy_drift(block, response, 4) < 1e-8
     damped = dataclasses.replace(response, velocity=response.velocity * 0.99**response.time)
     assert energy_drift(block, damped, 4) > 1e-3
+
+
+@BOTH
+def test_lossless_block_poised_at_its_slenderness_survives(block):
+    lossless = block.with_restitution(1.0)
+    assert ending(lossless, block.slenderness, 0.0).overturned is False
+    assert ending(lossless, math.nextafter(block.slenderness, 1.0), 0.0).overturned
+
+
+def test_drift_is_the_whole_range_of_the_energy_over_its_mean():
+    response = simulate(EXACT, rotation=0.2, duration=1.0, samples=11)
+    velocity = response.velocity.copy()
+    velocity[5] *= 2.0  # of one sample, before the first impact
+    wrong = dataclasses.replace(response, velocity=velocity, impacts=np.array([2.0]))
+    pairs = zip(response.rotation, velocity, strict=True)
+    levels = [energy(EXACT, abs(phi), rate) for phi, rate in pairs]
+    expected = (max(levels) - min(levels)) / np.mean(levels)
+    assert energy_drift(EXACT, wrong, 1) == pytest.approx(expected, rel=1e-12)
+    assert expected > 0.01

@@ -51,7 +51,14 @@ def test_argument_is_passed_word_for_word_and_never_run(make, tmp_path, target, 
 
 
 @pytest.mark.parametrize(
-    ("target", "name"), [("reproduce", "CORES"), ("verify-grid", "CELLS"), ("kill-table", "ROTATE")]
+    ("target", "name"),
+    [
+        ("reproduce", "CORES"),
+        ("verify-grid", "CELLS"),
+        ("kill-table", "ROTATE"),
+        ("fuzz", "MINUTES"),
+        ("fuzz", "SEED"),
+    ],
 )
 @pytest.mark.parametrize("value", ["0", "-1", "abc", "1.5", "2; touch F"])
 def test_what_is_no_whole_number_is_refused(make, tmp_path, target, name, value):

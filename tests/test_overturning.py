@@ -379,6 +379,9 @@ def test_factor_on_a_record_is_that_of_its_scaled_motion():
         ((0.0, 1.0), {"resolution": -0.1}, "resolution is -0.1"),
         ((0.0, 1.0), {"resolution": math.nan}, "resolution is nan"),
         ((0.0, 1.0), {"most_impacts": -1}, "most_impacts is -1"),
+        ((0.0, 1.0), {"most_impacts": 1.5}, "most_impacts is 1.5; expected a whole number"),
+        ((0.0, 1.0), {"most_impacts": math.nan}, "most_impacts is nan"),
+        ((0.0, 1.0), {"most_impacts": "1"}, "most_impacts is '1'"),
     ],
 )
 def test_bad_search_is_refused_by_name_and_value(scale_range, options, says):
@@ -600,6 +603,8 @@ def test_several_are_refused_with_what_was_expected():
     record = searches()[0].excitation
     with pytest.raises(ValueError, match="structures is empty; expected one or more"):
         overturned_together([], record, [1.0])
+    with pytest.raises(ValueError, match="structures is None; expected a list of one or more"):
+        overturned_together(None, record, [1.0])
     with pytest.raises(ValueError, match=r"shape \(2, 3\); expected .* each of the 5 structures"):
         overturned_together(MANY, record, np.ones((2, 3)))
     for together in (intervals_together, minima_together):

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from topheavy import Column, Pulse, RockingFrame, simulate
+from topheavy import Column, Pulse, Record, RockingFrame, simulate
 from topheavy.restrained import (
     least_stiffness,
     restoring_moment,
@@ -54,6 +54,15 @@ def test_both_solvers_agree_through_impacts(kappa):
             BLOCK, kappa, pulse, duration=lasting, longest_step=10 * STEP
         )
         assert one == pytest.approx(other, rel=1e-3)
+
+
+def test_both_solvers_lift_a_block_again_that_came_to_rest():
+    shock = 1.5 * BLOCK.uplift_acceleration * np.sin(np.linspace(0.0, 2.0 * math.pi, 41))
+    twice = Record(0.1 / P, [*shock, *np.zeros(200), *-2.0 * shock])
+    block, how = BLOCK.with_restitution(0.3), {"duration": twice.duration + 8.0 / P}
+    (one,) = restrained_peaks(block, 1.1, twice, [1.0], **how, time_step=0.01 / P)
+    other = restrained_peak_by_scipy(block, 1.1, twice, **how, longest_step=0.05 / P)
+    assert one == pytest.approx(other, rel=1e-3)
 
 
 def test_block_that_is_not_uplifted_stays_at_rest():

@@ -94,6 +94,11 @@ def test_segments_hold_the_samples_of_both_records():
             assert gravity * segment.acceleration(middle) == pytest.approx(SHAKE.excitation(middle))
 
 
+def test_samples_that_more_than_rounding_keeps_apart_begin_segments_of_their_own():
+    ground = TwoComponents(Record(0.05, np.ones(61)), Record(0.0501, np.ones(61)))
+    assert len(ground.segments(math.inf)) == 120
+
+
 SOLVERS = (
     simulate,
     judge,
@@ -120,6 +125,8 @@ def test_ground_that_falls_from_under_the_structure_is_refused(solver):
     )
     with pytest.raises(ValueError, match=told):
         solver(FRAME, SHAKE, vertical=falling)
+    with pytest.raises(ValueError, match=r"at 0\.05 s .* is -1 g; expected more than −1 g"):
+        solver(FRAME, SHAKE, vertical=Record(0.05, [0.0, -1.0, 0.0]))
 
 
 def test_search_is_refused_for_its_largest_factor_alone():

@@ -248,9 +248,9 @@ def _state(
     column: Column, rotation: ArrayLike, velocity: ArrayLike, ground_acceleration: ArrayLike
 ) -> _State:
     theta, rate, ground = np.broadcast_arrays(
-        np.asarray(rotation, dtype=float),
-        np.asarray(velocity, dtype=float),
-        np.asarray(ground_acceleration, dtype=float),
+        checks.numbers("rotation", rotation),
+        checks.numbers("velocity", velocity),
+        checks.numbers("ground_acceleration", ground_acceleration),
     )
     if np.any(np.abs(theta) >= math.pi / 2):
         worst = float(np.nanmax(np.abs(theta)))
@@ -283,7 +283,7 @@ def _jump(column: Column, restitution: float, distance: float, velocity: ArrayLi
     The horizontal velocity drops from θ̇ to √r θ̇ times the height; the vertical one turns from
     falling to rising, as the pivot changes over.
     """
-    rate, alpha = np.asarray(velocity, dtype=float), column.slenderness
+    rate, alpha = checks.numbers("velocity", velocity), column.slenderness
     return _Pair(
         -distance * math.cos(alpha) * (1.0 - restitution) * rate,
         distance * math.sin(alpha) * (1.0 + restitution) * np.abs(rate),

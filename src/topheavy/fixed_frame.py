@@ -24,7 +24,7 @@ A → ü_g, and the frame is rigid. The weight's moment about displaced columns 
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal, NamedTuple, TypeAlias, get_args
+from typing import Literal, NamedTuple, TypeAlias, TypeVar, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,6 +41,7 @@ from topheavy.structures import RockingFrame
 
 Array = NDArray[np.float64]
 
+Motion = TypeVar("Motion", bound=Excitation)
 Top: TypeAlias = Literal["pinned", "guided"]
 
 DAMPING = 0.05
@@ -146,7 +147,7 @@ class FixedFrame:
 
 def peak_rigid(fixed: FixedFrame, excitation: Pulse | Record) -> Forces:
     """Return the largest forces of the rigid frame: those of the peak ground acceleration."""
-    if isinstance(excitation, Record):
+    if isinstance(_ending(excitation), Record):
         largest = excitation.peak_acceleration
     else:
         largest = max(s.largest(s.start, s.stop) for s in excitation.segments(excitation.duration))
@@ -161,7 +162,7 @@ def peak_elastic(
     The oscillator is integrated exactly for a ground acceleration that is linear in each step: a
     record is; a pulse is followed to (2π/steps)²/8 of its amplitude.
     """
-    start, end, step = _steps(excitation, checks.positive("period", period, "s"), steps)
+    start, end, step = _steps(_ending(excitation), checks.positive("period", period, "s"), steps)
     total = _total_acceleration(start, end, step, period)
     course = _outermost(np.c_[np.r_[start, end], np.r_[total[:-1], total[1:]]])
     return [_peaks(one.forces(*course.T)) for one in fixed]
@@ -171,8 +172,8 @@ def peak_elastic_by_scipy(
     fixed: FixedFrame, excitation: Excitation, period: float, steps: int = STEPS
 ) -> Forces:
     """Return the same by SciPy's integration of the equation of motion: the second solver."""
-    omega, found, state = 2.0 * math.pi / period, [], np.zeros(2)
-    end = excitation.duration
+    omega, found, state = 2.0 * math.pi / checks.positive("period", period, "s"), [], np.zeros(2)
+    end = _ending(excitation).duration
     for segment in [*excitation.segments(end), Segment(end, end + period, _no_acceleration)]:
         first, last, push = segment.start, segment.stop, segment.acceleration
 
@@ -180,7 +181,7 @@ def peak_elastic_by_scipy(
             return [y[1], -push(t) - 2.0 * DAMPING * omega * y[1] - omega**2 * y[0]]
 
         times = np.linspace(first, last, max(3, math.ceil((last - first) / period * steps)))
-        scale = max(abs(push(t)) for t in times) or 1.0
+        scale = max(1e-200, *(abs(push(t)) for t in times))  # above what vanishes as a tolerance
         course = solve_ivp(
             equation,
             (first, last),
@@ -195,6 +196,13 @@ def peak_elastic_by_scipy(
         total = -2.0 * DAMPING * omega * course.y[1] - omega**2 * course.y[0]
         found.append(fixed.forces(np.array([push(t) for t in times]), total))
     return _peaks(np.vstack(found))
+
+
+def _ending(excitation: Motion) -> Motion:
+    """Return a ground motion that ends, or raise ValueError."""
+    if not isinstance(excitation, Excitation) or excitation.duration == math.inf:
+        raise ValueError(f"excitation is {excitation!r}; expected a Pulse or a Record that ends")
+    return excitation
 
 
 def _outermost(course: Array) -> Array:

@@ -5,7 +5,7 @@ or motions at once costs less than one after the other, and gives the same to th
 """
 
 import math
-from collections.abc import Callable, Generator, Mapping, Sequence
+from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
@@ -370,16 +370,19 @@ def minima_together(
 
 
 def _several(name: str, values: Sequence[Any]) -> list[Any]:
-    found = list(values)
-    if not found:
+    if not isinstance(values, Iterable):
+        raise ValueError(f"{name} is {values!r}; expected a list of one or more")
+    if not (found := list(values)):
         raise ValueError(f"{name} is empty; expected one or more")
     return found
 
 
 def _most(most_impacts: int | None) -> int:
-    if most_impacts is not None and most_impacts < 0:
-        raise ValueError(f"most_impacts is {most_impacts}; expected a number from 0 on")
-    return int(np.iinfo(np.int64).max) if most_impacts is None else most_impacts
+    if most_impacts is None:
+        return int(np.iinfo(np.int64).max)
+    if not 0.0 <= checks.finite("most_impacts", most_impacts) == int(most_impacts):
+        raise ValueError(f"most_impacts is {most_impacts}; expected a whole number from 0 on")
+    return int(most_impacts)
 
 
 def _grid(search: Search, resolution: float) -> Factors:

@@ -124,6 +124,20 @@ def test_uplifts_are_those_that_the_segments_have(shape, strength):
                 assert push == 0.0
 
 
+@EVERY
+@pytest.mark.parametrize("strength", [1.0001, -2.0, 12.0])
+def test_a_motion_that_is_cut_off_lifts_when_the_whole_does_or_not_at_all(shape, strength):
+    whole = pulse_forcing(SHAPES[shape], strength * 0.25, RATIO)
+    for start in (0.0, *inside(shape, 7)):
+        time, *rest = next_uplift(whole, NO_RECORD, start, 0.25)
+        for cut in inside(shape, 31):
+            found = next_uplift(whole._replace(end=cut), NO_RECORD, start, 0.25)
+            if start < cut and time < cut:
+                assert found == pytest.approx((time, *rest), rel=1e-12, abs=1e-14)
+            else:
+                assert found[0] == math.inf
+
+
 def test_amplitude_at_the_level_does_not_lift():
     for shape in ("one-sine", "one-cosine", "half-sine", "constant", "harmonic"):
         for sign in (-1.0, 1.0):

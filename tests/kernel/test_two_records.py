@@ -105,6 +105,15 @@ def test_next_uplift_is_the_first_time_that_the_push_is_positive(ratio, factor):
     assert True in seen
 
 
+@pytest.mark.parametrize("samples", [[-0.5, 0.5], [0.5, -0.5], [-0.1, 0.5], [0.1, -0.5, 0.5]])
+def test_piece_from_one_side_to_the_other_lifts_as_without_a_vertical_motion(samples):
+    alone, both = prepare_record(samples), prepare_two_records(np.array(samples), np.zeros(3), 1.0)
+    for start in (0.0, 0.001, 0.015):
+        expected = next_uplift(record_forcing(alone, STEP, 1.0), alone, start, 0.2)
+        found = next_uplift(record_forcing(both, STEP, 1.0, 1.0), both, start, 0.2)
+        assert found == pytest.approx(expected, abs=1e-15)
+
+
 def test_bounds_hold_for_the_rest_of_both_records():
     _, _, both = shaken(3, 0.731)
     there = record_forcing(both, STEP, 2.0, -1.1)

@@ -86,6 +86,8 @@ def test_what_is_no_certain_unit_of_acceleration_is_not_understood(text):
         "PGA (g) = 0.319, peak velocity (cm/s)",
         "Peak acceleration in g: 0.319",
         "the largest is 0.319 (g)",
+        "Amax (g) = 0.319",
+        "Maximum acceleration in g: 0.319",
         "Acceleration data, source: G. Smith",
         "g = 9.81 m/s2",
         "",
@@ -101,6 +103,8 @@ def test_two_units_that_contradict_are_refused_with_both_lines():
     says = r"line 1 states 'cm/s2' \('A \(cm/s2\)'\) and line 3 states 'G' \('UNITS OF G'\)"
     with pytest.raises(ValueError, match=says):
         stated_acceleration(["A (cm/s²)", "", "UNITS OF G"])
+    with pytest.raises(ValueError, match=r"line 1 states 'g' .* and line 3 states 'cm/s2'"):
+        stated_acceleration(["A (g)", "UNITS OF G", "A (cm/s²)"])
 
 
 def test_two_units_that_agree_are_one():

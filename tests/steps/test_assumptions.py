@@ -11,7 +11,7 @@ from jsonschema import Draft202012Validator
 
 from replication.judging.ledger import read_ledger
 from replication.workbench import truth
-from steps.assumptions import choices, held, rankings, run, trilith
+from steps.assumptions import choices, held, pulses, rankings, run, trilith
 from steps.assumptions.alternatives import alternatives
 from steps.assumptions.choices import Choices
 from topheavy import Column, Pulse, Record, RockingFrame, judge
@@ -230,6 +230,15 @@ def test_the_smooth_and_the_abrupt_start_are_told_apart():
     assert smooth == (0.0, truth(True, holds_when=True))
     assert abrupt.number > 0.0
     assert abrupt.finding == truth(False, holds_when=False)
+
+
+@pytest.mark.parametrize("last", [-1, -2])
+def test_heavier_frame_that_falls_at_the_same_amplitude_does_not_survive_more(monkeypatch, last):
+    found = [1.0 + 0.1 * k for k in range(len(CONFIG["heavier"]["mass_ratios"]))]
+    minima = iter([*found[:-1], found[last]])
+    monkeypatch.setattr(pulses, "lowest", lambda *given: next(minima))
+    case = CONFIG["heavier"] | {"column": {"half_width": 0.5, "half_height": 3.0}}
+    assert pulses.heavier_survives_more(Choices(), {"heavier": case}).finding.holds == (last == -1)
 
 
 def test_records_shake_the_block_of_the_choice(monkeypatch):

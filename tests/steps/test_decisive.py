@@ -62,6 +62,13 @@ def test_exception_that_the_table_missed_is_found_where_the_rise_is_least(table,
     assert found["exceptions"] == 6
 
 
+def test_widest_counterexample_is_the_widest_over_its_middle(table, monkeypatch):
+    reversals = np.array([[1.0, 1.2], [4.0, 4.4]])
+    monkeypatch.setattr(Spectra, "reversals", lambda *given: reversals)
+    width, *_, middle = Spectra(LINES, table).counterexample([(0.0, 1.0)])
+    assert (width, middle) == pytest.approx((0.2 / 1.1, 1.1))
+
+
 def test_narrow_band_below_the_first_is_found_by_the_finer_search(monkeypatch):
     bands = {0.05: (1.2, 1.4), 0.01: (1.05, 1.06)}
 
@@ -200,6 +207,12 @@ def test_thresholds_of_the_trilith_are_bracketed():
     near = trilith.nearness(TRILITH, case)
     assert [row["quantity"] for row in near][-1] == "tilt_of_the_base"
     assert all(row["other_side_lifts"] and not row["safe_side_lifts"] for row in near)
+    table = pd.DataFrame(near)
+    assert trilith.of_nearness(table)["thresholds_bracketed"].holds
+    for side, lifted in (("safe", True), ("other", False)):
+        wrong = table.copy()
+        wrong.loc[1, f"{side}_side_lifts"] = lifted
+        assert not trilith.of_nearness(wrong)["thresholds_bracketed"].holds
 
 
 def test_statement_that_no_mend_saves_is_not_meant(monkeypatch):

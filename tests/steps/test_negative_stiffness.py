@@ -32,7 +32,7 @@ def test_positive_stiffness_is_counted_by_what_stays_within_alpha(rows, holds):
     assert found["positive_stiffness_stays_within_more"].holds is holds
 
 
-@pytest.mark.parametrize(("by_scipy", "holds"), [(0.605, True), (0.607, False)])
+@pytest.mark.parametrize(("by_scipy", "holds"), [(0.605, True), (0.607, False), (0.593, False)])
 def test_second_route_is_close_in_every_history(by_scipy, holds):
     rows = [LESS, LESS | {"by_scipy": by_scipy}]
     assert findings(pd.DataFrame(rows))["second_route"].holds is holds

@@ -338,6 +338,12 @@ def test_number_in_the_readme_that_is_not_published_is_named(tampered, edit, tol
     [
         ("config/config.yaml", "mass_ratio: 0.434", "mass_ratio: 0.5", "config/config.yaml: "),
         ("tests/reference/config.yaml", "mass_ratio: 0.434", "mass_ratio: 0.5", "config/config"),
+        (
+            "tests/reference/config.yaml",
+            "\nsolver:",
+            "\ngone: 1\nsolver:",
+            "config/config.yaml: gone",
+        ),
     ],
 )
 def test_config_that_is_not_that_of_the_published_run_is_named(tampered, config, old, new, told):
@@ -412,7 +418,8 @@ def test_pages_are_those_of_the_rows(tmp_path):
     (tmp_path / "docs" / "verdicts.md").write_text(verdict_page(rows), encoding="utf-8")
     (tmp_path / "README.md").write_text("\n".join(count_table(rows)) + "\n", encoding="utf-8")
     assert list(pages(tmp_path, rows)) == []
-    assert list(pages(tmp_path, [judged_row(verdict="refuted")]))
+    told = list(pages(tmp_path, [judged_row(verdict="refuted")]))
+    assert [line.split(",")[0] for line in told] == ["docs/verdicts.md", "README.md"]
 
 
 def test_claim_whose_rule_is_not_published_says_so():

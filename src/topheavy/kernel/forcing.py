@@ -283,18 +283,23 @@ def next_turn(forcing, time):
         return min((piece_at(forcing, time) + 1) * forcing.step, forcing.end)
     if shape in (CONSTANT, NONE):
         return forcing.end
-    phase = frequency * time
     if shape in (RICKER_SYMMETRIC, RICKER_ANTISYMMETRIC):
         for turn in RICKER_TURNS[shape - RICKER_SYMMETRIC]:
             if turn / frequency > time:
                 return min(turn / frequency, forcing.end)
         return forcing.end
+    return min(_crest(shape, frequency, time), forcing.end)
+
+
+@compiled
+def _crest(shape, frequency, time):
+    """Return when a sine or a cosine turns next, be it cut off before."""
     shift = 0.0 if shape == ONE_COSINE else 0.5
-    half_turns = math.floor(phase / math.pi - shift) + 1
+    half_turns = math.floor(frequency * time / math.pi - shift) + 1
     turn = (half_turns + shift) * math.pi / frequency
     if turn <= time:
         turn = (half_turns + 1 + shift) * math.pi / frequency
-    return min(turn, forcing.end)
+    return turn
 
 
 @compiled
@@ -389,7 +394,8 @@ def _next_uplift_of_two(forcing, record, time, level):
         begin, end = piece_start(forcing, record, k), piece_start(forcing, record, k + 1)
         time = max(time, begin)
         value, rate, weight, weight_rate = two_lines(forcing, record, k)
-        for sign in (1.0, -1.0):
+        here = math.copysign(1.0, value + rate * (time - begin))  # only that push may lift now
+        for sign in (here, -here):
             slope = sign * rate - level * weight_rate
             push = sign * value - level * weight + slope * (time - begin)
             if push > 0.0:
@@ -410,7 +416,8 @@ def _crossing(forcing, low, high, sign, level):
     shape, strength = forcing.shape, abs(forcing.amplitude)
     if shape < RICKER_SYMMETRIC:  # |a| = A cos(distance from the turn)
         root = math.sqrt((strength - level) * (strength + level))
-        time = high - math.atan2(root, level) / forcing.frequency
+        crest = _crest(shape, forcing.frequency, low)
+        time = crest - math.atan2(root, level) / forcing.frequency
         return max(time, low), forcing.frequency * root
     time = high
     for number in range(2 * MOST_NEWTON_STEPS):  # Newton's step where it stays inside, else halving

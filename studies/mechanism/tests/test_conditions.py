@@ -92,6 +92,7 @@ def test_frame_is_more_stable_in_the_engine_where_the_column_overturns_first(
         ({}, True, True),
         ({"demand": 0.99}, False, True),
         ({"pulls": True, "least_vertical": -0.1}, True, False),
+        ({"pulls": True, "least_vertical": -1e-15}, True, True),
     ],
 )
 def test_one_pulse_of_two_is_enough_to_refute(monkeypatch, change, tan, seats):

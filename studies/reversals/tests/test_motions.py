@@ -82,8 +82,14 @@ def test_the_filter_crosses_zero_at_its_frequency():
 @pytest.mark.parametrize("phase", [0.0, 0.37, 1.5])
 def test_the_pulse_leaves_the_ground_where_it_was(phase):
     drawn = {"Vp": 50.0, "Tp": 2.0, "gamma": 2.4, "nu": phase, "tp": 4.0}
-    pulse = Record(0.001, motions.pulse_acceleration(np.arange(0.0, 8.0, 0.001), drawn))
+    time = np.arange(0.0, 8.0, 0.001)
+    pulse = Record(0.001, motions.pulse_acceleration(time, drawn))
     velocity = motions.velocity(pulse)
+    turn = np.pi * (time - 4.0)
+    wave, bell = np.cos(turn + np.pi * phase), 1.0 + np.cos(turn / 2.4)
+    bell[np.abs(turn) > 2.4 * np.pi] = 0.0
+    expected = 0.25 * bell * (wave - (wave * bell).sum() / bell.sum())
+    assert velocity == pytest.approx(expected, abs=1e-4)
     assert abs(velocity[-1]) < 1e-6
     assert abs(velocity.sum() * 0.001) < 1e-5
     assert 0.3 < np.abs(velocity).max() < 0.55  # V_p, less where the phase is not a multiple of π
@@ -135,13 +141,17 @@ def test_drawn_medians_are_those_predicted():
     for name in ("Vp", "Ia", "f_mid", "D5_95"):
         mean = np.mean([math.log(one[name]) for one in drawn])
         assert abs(mean - means[name]) < 0.2 * spread[name], name  # 4 σ of a mean of 400
+        farthest = max(abs(math.log(one[name]) - means[name]) for one in drawn) / spread[name]
+        assert 1.8 < farthest < 2.0, name
     assert all(2.0 <= one["gamma"] <= 3.2 and 0.0 <= one["nu"] <= 2.0 for one in drawn)
 
 
 def test_measures_of_a_sine():
     time = np.arange(0.0, 100.0, 0.01)
     sine = Record(0.01, 0.2 * np.sin(2.0 * np.pi * time))
-    assert motions.mean_period(sine) == pytest.approx(1.0, rel=1e-3)
+    for period in (1.0, 3.5):
+        slow = Record(0.01 * period, sine.acceleration)
+        assert motions.mean_period(slow) == pytest.approx(period, rel=1e-3)
     assert motions.peak_velocity(sine) == pytest.approx(2.0 * 0.2 * 9.81 / (2 * np.pi), rel=1e-3)
     assert motions.arias_intensity(sine) == pytest.approx(np.pi * 9.81 / 2 * 0.02 * 100, rel=1e-3)
     column = Column(half_width=0.5, half_height=3.0)

@@ -4,10 +4,21 @@ import math
 
 import numpy as np
 import pytest
+from numba import njit
 
 from topheavy import RockingBlock
-from topheavy.kernel.forcing import RECORD, prepare_record
+from topheavy.kernel.forcing import (
+    RECORD,
+    piece_start,
+    prepare_record,
+    prepare_two_records,
+    record_forcing,
+    two_lines,
+)
 from topheavy.kernel.grid import outcome_of, outcomes_of
+from topheavy.kernel.lanes import records, steps
+from topheavy.kernel.lanes.vectors import WIDTH, rows
+from topheavy.kernel.march import powers, short_series
 from topheavy.kernel.outcome import TOLERANCE
 from topheavy.kernel.taylor import oscillator
 
@@ -61,6 +72,61 @@ def test_no_factor_depends_on_the_others():
         cell = outcomes_of(block, RECORD, np.array([STEP]), factors[j : j + 1], record)
         for one, other in zip(whole, cell, strict=True):
             np.testing.assert_array_equal(one[0, j], other[0, 0])
+
+
+@njit
+def march_all(w, block, record, weighs, tolerance):
+    all_lanes = (1 << WIDTH) - 1
+    return records.march_lanes(w, steps.seated(w, block), record, weighs, tolerance, all_lanes)
+
+
+@pytest.mark.parametrize("weighs", [False, True])
+def test_short_series_and_its_bounds_are_those_of_the_scalar_kernel(weighs):
+    """At steps so long, and tolerances so wide, that every term and every bound counts."""
+    block, rng, passed = oscillator(RockingBlock(1.0, 0.25, 0.9)), np.random.default_rng(4), []
+    across, up = rng.uniform(-0.4, 0.4, 60), rng.uniform(-0.5, 0.5, 60)
+    both = prepare_two_records(across, up, 0.731)
+    for case in range(300):
+        step, tolerance = 10.0 ** rng.uniform(-1.5, -0.3), 10.0 ** rng.uniform(-7.0, -1.0)
+        record = both if weighs else prepare_record(across)
+        w, forcing = rows(steps.ROWS), record_forcing(record, step, 1.0, 0.9)
+        pieces, peak = rng.integers(0, 40, WIDTH), 0.24
+        rotation, velocity = rng.uniform(0.01, 0.26, WIDTH), rng.uniform(-0.05, 0.05, WIDTH) / step
+        for lane in range(WIDTH):
+            records.begin(w, lane, block, forcing)
+        w[steps.ROTATION], w[steps.VELOCITY] = rotation, velocity
+        w[steps.SINE], w[steps.COSINE] = np.sin(rotation), np.cos(rotation)
+        w[steps.FACTOR], w[steps.PIECE], w[steps.PEAK], w[steps.ARC] = -1.0, pieces, peak, peak
+        found = march_all(w, block, record, weighs, tolerance)
+        for lane, (k, turn, rate) in enumerate(zip(pieces, rotation, velocity, strict=True)):
+            value, slope, weight, change = (across[k], (across[k + 1] - across[k]) / step, 1.0, 0.0)
+            length = step
+            if weighs:
+                value, slope, weight, change = two_lines(forcing, record, k)
+                length = piece_start(forcing, record, k + 1) - piece_start(forcing, record, k)
+            push, push_rate = -value - block.level * weight, -slope - block.level * change
+            tilt, lean = math.cos(0.25 - turn), math.sin(0.25 - turn)
+            heavy, heavier = weight / math.cos(0.25), change / math.cos(0.25)
+            fine, by, gain = short_series(
+                powers(length),
+                math.sin(turn) * heavy + push * tilt,
+                math.cos(turn) * heavy + push * lean,
+                math.sin(turn) * heavier + push_rate * tilt,
+                math.cos(turn) * heavier + push_rate * lean,
+                rate,
+                turn,
+                peak,
+                tolerance * 0.25,
+            )
+            fine = fine and turn <= 0.25
+            assert found >> lane & 1 == fine, (case, lane)
+            passed.append(fine)
+            if fine:
+                assert w[steps.ROTATION, lane] == pytest.approx(turn + by, abs=1e-14)
+                close = 1e-13 * (1.0 + abs(rate))
+                assert w[steps.VELOCITY, lane] == pytest.approx(rate + gain / length, abs=close)
+                assert w[steps.SINE, lane] == pytest.approx(math.sin(turn + by), abs=1e-14)
+    assert 0.1 < np.mean(passed) < 0.9
 
 
 @pytest.mark.parametrize("samples", [2, 3, 40])

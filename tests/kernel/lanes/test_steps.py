@@ -18,7 +18,7 @@ from topheavy.kernel.forcing import (
     pulse_forcing,
 )
 from topheavy.kernel.lanes import steps
-from topheavy.kernel.lanes.vectors import WIDTH, rows
+from topheavy.kernel.lanes.vectors import WIDTH, among, bits, load, rows, store
 from topheavy.kernel.outcome import (
     FLAT,
     LANDING,
@@ -162,6 +162,36 @@ def test_lane_that_is_unsettled_is_stepped_alone():
     assert w[steps.ARC, 1] == pytest.approx(cubic(inside[0]), rel=1e-12)
     assert w[steps.LENGTH, 1] == pytest.approx(inside[1], rel=1e-10)
     assert (w[steps.LENGTH, 0], w[steps.ARC, 0]) == (1.0, 0.01)
+
+
+@njit
+def root_of_all(w, degree, correction):
+    step, start, stop = load(w, steps.LENGTH), load(w, steps.STEP), load(w, steps.TIME)
+    slope, sought = load(w, steps.STEP + 1) * step, among(ALL)
+    given = (w, steps.STEP, degree, step, start, slope, stop, sought, correction)
+    x, is_found = steps.only_root(*given)
+    store(w, steps.ARC, x)
+    return bits(is_found)
+
+
+def test_root_is_taken_only_where_the_iteration_is_to_be_trusted():
+    """Roots beside a turn, where a correction says little of what is left."""
+    rng, kept = np.random.default_rng(6), []
+    for _ in range(400):
+        w, roots = rows(steps.ROWS), np.empty(WIDTH)
+        for lane in range(WIDTH):
+            root, gap = rng.uniform(0.3, 1.0), 10.0 ** rng.uniform(-4.0, 0.0)
+            others = np.polynomial.Polynomial([3.0, *rng.uniform(-0.6, 0.6, 3)])
+            whole = np.polynomial.Polynomial.fromroots([root, root + gap]) * others
+            w[steps.STEP : steps.STEP + 6, lane] = whole.coef
+            w[steps.LENGTH, lane] = root + 0.5 * gap
+            w[steps.TIME, lane], roots[lane] = whole(root + 0.5 * gap), root
+        found = root_of_all(w, 5, steps.TURN_CORRECTION)
+        off = np.abs(w[steps.ARC] / roots - 1.0)
+        kept += [off[lane] for lane in range(WIDTH) if found >> lane & 1]
+    assert 0.1 < len(kept) / (400 * WIDTH) < 0.95
+    # what Halley's iteration leaves is the square of the bend times the correction
+    assert max(kept) < 2.0 * steps.TURN_CORRECTION * 0.1**2
 
 
 @njit

@@ -105,8 +105,9 @@ def test_all_claims_that_cannot_be_judged_are_named_together():
 
 
 def test_what_was_not_run_for_lack_of_a_package_needs_no_function():
-    row = with_verdict(CLAIM, {"r": Findings.of({"not_tested": "no engine", "called": []})})
-    assert (row.verdict, row.not_tested) == ("not tested", "no engine")
+    claim = replace(CLAIM, remark="It is so for all.")
+    row = with_verdict(claim, {"r": Findings.of({"not_tested": "no engine", "called": []})})
+    assert (row.verdict, row.not_tested, row.remark) == ("not tested", "no engine", "no engine")
 
 
 def test_number_that_is_zero_is_a_number():

@@ -1,0 +1,54 @@
+"""The search for failing inputs: it calls every public function, and tells what it finds."""
+
+import pytest
+from hypothesis import strategies as st
+
+from benchmarks import fuzz
+from topheavy import Pulse, RockingBlock
+from topheavy.free_rocking import Ending
+
+
+def test_every_public_function_is_called_and_every_property_holds(monkeypatch, capsys):
+    monkeypatch.setattr(fuzz, "TURN", 4)
+    assert fuzz.main(0.0, 4) == 0
+    told = capsys.readouterr().out
+    assert told.startswith("seed 4: endings 4, histories 4, ")
+    assert all(f"{name} {fuzz.th.calls[name]}" in told for name in fuzz.public())
+    spoilt = {*fuzz.CALLS} & fuzz.public()  # a few of which a turn so short does not reach
+    assert {name for name in fuzz.public() if not fuzz.th.calls[name]} <= spoilt
+
+
+@pytest.mark.parametrize(
+    ("wrong", "told", "smallest"),
+    [
+        (lambda drawn: 1.0 / (drawn != 17), "ZeroDivisionError", 17),
+        (lambda drawn: [0][drawn > 20], "IndexError", 21),
+    ],
+)
+def test_smallest_failing_case_is_told_with_its_seed(monkeypatch, capsys, wrong, told, smallest):
+    def held(drawn):
+        wrong(drawn)
+
+    monkeypatch.setattr(fuzz, "PROPERTIES", {held: (st.integers(0, 50),)})
+    monkeypatch.setattr(fuzz, "TURN", 500)
+    assert fuzz.main(0.0, 11) == 1
+    out = capsys.readouterr().out
+    assert out.startswith("held fails; to repeat it: make fuzz SEED=11\n")
+    assert told in out
+    assert f"drawn={smallest}," in out
+
+
+@pytest.mark.parametrize("other", [Ending(True, 0.1, 0), Ending(False, 0.100003, 0)])
+def test_solvers_that_differ_on_a_decided_outcome_disagree(other):
+    block, pulse, one = (
+        RockingBlock(2.0, 0.2, 0.9),
+        Pulse("constant", 1.0, 6.0),
+        Ending(False, 0.1, 0),
+    )
+    with pytest.raises(AssertionError, match="Ending"):
+        fuzz.agree(block, pulse, lambda motion: one, lambda motion: other, "two")
+    near = Ending(False, 0.1 + 1e-8, 0)
+    fuzz.agree(block, pulse, lambda motion: one, lambda motion: near, "two")
+    turning = iter([one, *[one, other] * 9])
+    if other.overturned:
+        fuzz.agree(block, pulse, lambda motion: next(turning), lambda motion: other, "undecided")
