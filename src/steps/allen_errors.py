@@ -10,16 +10,16 @@ from topheavy import Column, Pulse, RockingFrame, judge
 from topheavy.massless_columns import SIMPLIFICATIONS, simplified
 
 
-def main(case: dict) -> tuple[pd.DataFrame, dict]:
+def main(settings: dict) -> tuple[pd.DataFrame, dict]:
     rows = []
-    for degrees in grid(case["slendernesses"]):
+    for degrees in grid(settings["slendernesses"]):
         alpha = math.radians(degrees)
         column = Column(math.sin(alpha), math.cos(alpha))
-        omega = case["frequency_ratio"] * column.frequency_parameter
-        for gamma in case["mass_ratios"]:
+        omega = settings["frequency_ratio"] * column.frequency_parameter
+        for gamma in settings["mass_ratios"]:
             frame = RockingFrame(column, gamma)
-            for ratio in grid(case["amplitudes"]):
-                pulse = Pulse(case["shape"], ratio * column.uplift_acceleration, omega)
+            for ratio in grid(settings["amplitudes"]):
+                pulse = Pulse(settings["shape"], ratio * column.uplift_acceleration, omega)
                 exact = judge(frame, pulse)
                 for model in SIMPLIFICATIONS:
                     other = judge(simplified(frame, model), pulse)
@@ -59,4 +59,4 @@ def findings(allen_errors: pd.DataFrame) -> dict[str, Finding]:
 
 
 if __name__ == "__main__":
-    run(snakemake, lambda job: main(job.params.case))
+    run(snakemake, lambda job: main(job.params.settings))

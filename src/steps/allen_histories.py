@@ -11,14 +11,16 @@ from topheavy.linear import simulate_linear_exact
 from topheavy.massless_columns import SIMPLIFICATIONS, simplified
 
 
-def main(case: dict, record_path: str, solver: dict) -> tuple[list[dict], pd.DataFrame, dict]:
-    frame = RockingFrame(Column(**case["column"]), case["mass_ratio"])
+def main(settings: dict, record_path: str, solver: dict) -> tuple[list[dict], pd.DataFrame, dict]:
+    frame = RockingFrame(Column(**settings["column"]), settings["mass_ratio"])
     pulse = Pulse(
-        case["pulse"]["shape"], case["pulse"]["amplitude"], 2 * math.pi / case["pulse"]["period"]
+        settings["pulse"]["shape"],
+        settings["pulse"]["amplitude"],
+        2 * math.pi / settings["pulse"]["period"],
     )
     motions = {
-        "pulse": (pulse, 6.0 * case["pulse"]["period"]),
-        "record": (read_record(record_path).scaled(case["record"]["factor"]), 30.0),
+        "pulse": (pulse, 6.0 * settings["pulse"]["period"]),
+        "record": (read_record(record_path).scaled(settings["record"]["factor"]), 30.0),
     }
     models = {"exact": frame.block()} | {name: simplified(frame, name) for name in SIMPLIFICATIONS}
     alpha = frame.slenderness
@@ -84,4 +86,4 @@ def findings(allen_peaks: pd.DataFrame) -> dict[str, Finding]:
 
 
 if __name__ == "__main__":
-    run(snakemake, lambda job: main(job.params.case, job.input.record, job.params.solver))
+    run(snakemake, lambda job: main(job.params.settings, job.input.record, job.params.solver))

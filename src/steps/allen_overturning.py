@@ -16,15 +16,15 @@ OUTCOMES = {
 }
 
 
-def main(case: dict) -> tuple[pd.DataFrame, dict]:
-    alpha = math.radians(case["slenderness"])
-    frame = RockingFrame(Column(math.sin(alpha), math.cos(alpha)), case["mass_ratio"])
+def main(settings: dict) -> tuple[pd.DataFrame, dict]:
+    alpha = math.radians(settings["slenderness"])
+    frame = RockingFrame(Column(math.sin(alpha), math.cos(alpha)), settings["mass_ratio"])
     p = frame.column.frequency_parameter
     models = {name: simplified(frame, name) for name in ("linearised", "all")}
     rows = []
-    for omega in grid(case["frequency_ratios"]):
-        for amplitude in grid(case["amplitudes"]):
-            pulse = Pulse(case["shape"], amplitude * frame.uplift_acceleration, omega * p)
+    for omega in grid(settings["frequency_ratios"]):
+        for amplitude in grid(settings["amplitudes"]):
+            pulse = Pulse(settings["shape"], amplitude * frame.uplift_acceleration, omega * p)
             exact = judge(frame, pulse).overturned
             rows += [
                 {
@@ -49,4 +49,4 @@ def findings(allen_overturning: pd.DataFrame) -> dict[str, Finding]:
 
 
 if __name__ == "__main__":
-    run(snakemake, lambda job: main(job.params.case))
+    run(snakemake, lambda job: main(job.params.settings))

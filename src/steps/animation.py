@@ -34,9 +34,9 @@ CALM = 0.5  # of α: "survives" is shown once the rotation stays below this
 CLOSENESS = 1e-9  # m: how far a body may be in the ground
 
 
-def structures(case: dict) -> dict[str, Structure]:
+def structures(settings: dict) -> dict[str, Structure]:
     """Return bare column, column with the fixed mass, and frame."""
-    column, gamma, cap = Column(**case["column"]), case["mass_ratio"], case["cap"]
+    column, gamma, cap = Column(**settings["column"]), settings["mass_ratio"], settings["cap"]
     return {
         "column": column,
         "vase": FixedMassColumn(column, gamma, cap["width"], cap["depth"]),
@@ -44,7 +44,7 @@ def structures(case: dict) -> dict[str, Structure]:
     }
 
 
-def rotations(structure: Structure, pulse: Pulse, times: np.ndarray, case: dict) -> np.ndarray:
+def rotations(structure: Structure, pulse: Pulse, times: np.ndarray, settings: dict) -> np.ndarray:
     """Return θ; what has overturned lies on the ground with its column or its mass."""
     response = simulate(structure, pulse, samples=times)
     fell = np.isnan(response.rotation)
@@ -53,7 +53,7 @@ def rotations(structure: Structure, pulse: Pulse, times: np.ndarray, case: dict)
     if not response.overturned:
         return response.rotation
     column = structure if isinstance(structure, Column) else structure.column
-    corners = np.concatenate(list(bodies(structure, 0.0, case).values()))
+    corners = np.concatenate(list(bodies(structure, 0.0, settings).values()))
     flat = math.copysign(lying(column, corners), response.rotation[~fell][-1])
     turned = np.where(fell, flat, response.rotation)
     return np.clip(turned, -abs(flat), abs(flat))
@@ -78,7 +78,7 @@ def ground_displacement(pulse: Pulse, times: np.ndarray) -> np.ndarray:
     return np.interp(times, fine, moved)
 
 
-def stage(pulse: Pulse, times: np.ndarray, case: dict):
+def stage(pulse: Pulse, times: np.ndarray, settings: dict):
     """Draw the fixed parts, and return the figure, the scene, its patches and the marker."""
     figure, (scene, trace) = plt.subplots(
         nrows=2, figsize=SIZE, dpi=DPI, height_ratios=(3.2, 1), layout="constrained"
@@ -89,8 +89,8 @@ def stage(pulse: Pulse, times: np.ndarray, case: dict):
                 np.zeros((5, 2)), facecolor=CAP if body == "cap" else STONE, edgecolor=INK, zorder=2
             )
         )
-        for name, structure in structures(case).items()
-        for body in bodies(structure, 0.0, case)
+        for name, structure in structures(settings).items()
+        for body in bodies(structure, 0.0, settings)
     }
     patches["ground"] = scene.add_patch(
         Polygon(np.zeros((5, 2)), facecolor=EARTH, edgecolor=INK, zorder=1)
@@ -102,10 +102,10 @@ def stage(pulse: Pulse, times: np.ndarray, case: dict):
     fine = np.linspace(0.0, times[-1], 1400)
     trace.plot(fine, pulse.excitation(fine), color=GREY, linewidth=1.2)
     marker = trace.plot([], [], "o", color=INK, markersize=6, clip_on=False)[0]
-    given, size = case["pulse"], case["column"]
+    given, size = settings["pulse"], settings["column"]
     words = f"one cosine, {given['amplitude']:g} g, {given['period']:g} s"
     words += f"; columns of {2 * size['half_height']:g} m × {2 * size['half_width']:g} m"
-    words += f"; mass ratio γ = {case['mass_ratio']:g}"
+    words += f"; mass ratio γ = {settings['mass_ratio']:g}"
     trace.text(given["period"] + 0.1, 0.25, words, fontsize=11, va="center", color=INK)
     trace.set(xlim=(0, times[-1]), ylim=(-0.45, 0.45), yticks=(-0.3, 0, 0.3))
     trace.set_xlabel("Time (s)", fontsize=9)
@@ -130,21 +130,21 @@ def ground_outline(shift: float) -> np.ndarray:
     return np.array([[left, -0.4], [right, -0.4], [right, 0.0], [left, 0.0]])
 
 
-def main(case: dict) -> list[Image.Image]:
-    given, shown = case["pulse"], structures(case)
+def main(settings: dict) -> list[Image.Image]:
+    given, shown = settings["pulse"], structures(settings)
     alpha = shown["column"].slenderness
     pulse = Pulse(given["shape"], given["amplitude"], 2.0 * math.pi / given["period"])
-    times = np.arange(0.0, case["duration"], hundredths(case) / 100.0)
-    theta = {name: rotations(one, pulse, times, case) for name, one in shown.items()}
+    times = np.arange(0.0, settings["duration"], hundredths(settings) / 100.0)
+    theta = {name: rotations(one, pulse, times, settings) for name, one in shown.items()}
     if np.abs(theta["frame"]).max() > alpha:
         raise ArithmeticError("the frame overturns; expected a pulse that it survives")
     shifts = ground_displacement(pulse, times)
-    figure, scene, patches, marker = stage(pulse, times, case)
+    figure, scene, patches, marker = stage(pulse, times, settings)
     words = outcomes(scene, theta, times, alpha)
     canvas, pictures = FigureCanvasAgg(figure), []
     for number, (time, shift) in enumerate(zip(times, shifts, strict=True)):
         for name, structure in shown.items():
-            for body, outline in bodies(structure, theta[name][number], case).items():
+            for body, outline in bodies(structure, theta[name][number], settings).items():
                 if outline[:, 1].min() < -CLOSENESS:
                     raise ArithmeticError(f"{name}: the {body} is in the ground at {time:.3g} s")
                 patches[name, body].set_xy(outline + [PLACES[name] + shift, 0.0])
@@ -171,13 +171,13 @@ def palette() -> Image.Image:
     return found
 
 
-def hundredths(case: dict) -> int:
+def hundredths(settings: dict) -> int:
     """Return the duration of a picture, in hundredths of a second."""
-    return round(100 / case["frames_per_second"])
+    return round(100 / settings["frames_per_second"])
 
 
-def save(path: str, pictures: list[Image.Image], case: dict) -> None:
-    stands = [10 * hundredths(case)] * len(pictures)
+def save(path: str, pictures: list[Image.Image], settings: dict) -> None:
+    stands = [10 * hundredths(settings)] * len(pictures)
     stands[0], stands[-1] = HELD
     first, *others = pictures
     # A GIF counts how often it is played again, a PNG how often it is played.
@@ -189,9 +189,9 @@ def save(path: str, pictures: list[Image.Image], case: dict) -> None:
 
 def work(job: Any) -> None:
     plt.style.use(job.input.style)
-    pictures = main(job.params.case)
+    pictures = main(job.params.settings)
     for path in job.output:  # a GIF, and a PNG for the HTML report, which shows no GIF
-        save(path, pictures, job.params.case)
+        save(path, pictures, job.params.settings)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 """What the paper and its studies pass to their jobs of structures and other named entries."""
 
 
-def case(section, part=PAPER):
+def settings(section, part=PAPER):
     """Return a section of the config of a part, with the column in place of the structure's name."""
     entry = PARTS[part].config[section]
     if "structure" not in entry:

@@ -19,14 +19,16 @@ from topheavy import (
 FLOOR, HIGHEST = 1e-3, 12.0  # of the minimum overturning amplitude, over the uplift acceleration
 
 
-def main(case: dict, solver: dict) -> tuple[list[dict], list[dict], dict]:
-    column = Column(**case["column"])
+def main(settings: dict, solver: dict) -> tuple[list[dict], list[dict], dict]:
+    column = Column(**settings["column"])
     pulse = Pulse(
-        case["pulse"]["shape"], case["pulse"]["amplitude"], 2 * math.pi / case["pulse"]["period"]
+        settings["pulse"]["shape"],
+        settings["pulse"]["amplitude"],
+        2 * math.pi / settings["pulse"]["period"],
     )
-    times = np.linspace(0.0, 6.0 * case["pulse"]["period"], 1201)
+    times = np.linspace(0.0, 6.0 * settings["pulse"]["period"], 1201)
     histories, summary = [], []
-    for gamma in case["mass_ratios"]:
+    for gamma in settings["mass_ratios"]:
         frame = RockingFrame(column, gamma)
         response = simulate(frame, pulse, samples=times)
         others = (
@@ -86,4 +88,4 @@ def findings(heavier: pd.DataFrame) -> dict[str, Finding]:
 
 
 if __name__ == "__main__":
-    run(snakemake, lambda job: main(job.params.case, job.params.solver))
+    run(snakemake, lambda job: main(job.params.settings, job.params.solver))

@@ -12,9 +12,9 @@ from topheavy import Column, RockingFrame
 ROUNDING = 4.0 * np.finfo(float).eps
 
 
-def main(case: dict) -> tuple[pd.DataFrame, dict]:
+def main(settings: dict) -> tuple[pd.DataFrame, dict]:
     column = Column(0.5, 3.0)  # any: the ratios do not depend on it
-    gammas = [*np.linspace(0.0, case["largest"], case["points"]), math.inf]
+    gammas = [*np.linspace(0.0, settings["largest"], settings["points"]), math.inf]
     frames = [RockingFrame(column, gamma) for gamma in gammas]
     p_ratio = np.array([frame.frequency_parameter for frame in frames]) / column.frequency_parameter
     r_ratio = np.array([frame.equivalent_size for frame in frames]) / column.size
@@ -26,7 +26,7 @@ def main(case: dict) -> tuple[pd.DataFrame, dict]:
         "share_of_size_gain": share,
         "share_of_frequency_gain": (1.0 - p_ratio) / (1.0 - p_ratio[-1]),
     }
-    shares, table = np.array(case["shares_of_gain"]), pd.DataFrame(columns)
+    shares, table = np.array(settings["shares_of_gain"]), pd.DataFrame(columns)
     drawn = findings(table)
     gain = drawn.pop("gain_at_mass_ratio_one")
     # differences that are smaller than the digits of the table
@@ -65,4 +65,4 @@ def findings(mass_ratio: pd.DataFrame) -> dict[str, Any]:
 
 
 if __name__ == "__main__":
-    run(snakemake, lambda job: main(job.params.case))
+    run(snakemake, lambda job: main(job.params.settings))

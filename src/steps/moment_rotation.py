@@ -18,13 +18,13 @@ from topheavy.moment_rotation import restoring_moment
 ROUNDING = 1e-12  # of m_c g R
 
 
-def quarter_periods(case: dict) -> list[dict]:
+def quarter_periods(settings: dict) -> list[dict]:
     """Quarter periods by quadrature of the energy integral and by simulation, both times p."""
     rows = []
-    for degrees in case["quarter_period_slendernesses"]:
+    for degrees in settings["quarter_period_slendernesses"]:
         exact = RockingBlock(1.0, math.radians(degrees), 1.0)
         for block in (exact, exact.linear()):
-            for fraction in case["start_fractions"]:
+            for fraction in settings["start_fractions"]:
                 start = fraction * block.slenderness
                 by_energy, _ = quarter_period(block, start)
                 simulated = simulate(block, rotation=start, duration=10.0, samples=2).impacts[0]
@@ -54,10 +54,10 @@ def agrees_with_energy(frame: RockingFrame, rotations: np.ndarray) -> float:
     return float(np.abs(restoring_moment(frame, rotations) + by_energy).max())
 
 
-def main(case: dict) -> tuple[dict, list[dict], dict]:
-    column = Column(**case["column"])
+def main(settings: dict) -> tuple[dict, list[dict], dict]:
+    column = Column(**settings["column"])
     slenderness = column.slenderness
-    fractions = np.linspace(-1.0, 1.0, 2 * case["points"] - 1)
+    fractions = np.linspace(-1.0, 1.0, 2 * settings["points"] - 1)
     fractions = np.sort(np.append(fractions, -1e-12))  # the jump at θ = 0, from both sides
     moments = [
         {
@@ -65,24 +65,25 @@ def main(case: dict) -> tuple[dict, list[dict], dict]:
             "rotation_fraction": fraction,
             "moment": moment,
         }
-        for gamma in case["mass_ratios"]
+        for gamma in settings["mass_ratios"]
         for fraction, moment in zip(
             fractions,
             restoring_moment(RockingFrame(column, gamma), fractions * slenderness),
             strict=True,
         )
     ]
-    rows = quarter_periods(case)
-    blocks = [RockingFrame(column, gamma).block() for gamma in case["mass_ratios"]]
+    rows = quarter_periods(settings)
+    blocks = [RockingFrame(column, gamma).block() for gamma in settings["mass_ratios"]]
     drift = max(
         energy_drift(block, simulate(block, rotation=0.6 * slenderness, samples=4000), flights=5)
         for block in blocks
     )
-    positive = np.linspace(0.0, slenderness, case["points"])
+    positive = np.linspace(0.0, slenderness, settings["points"])
     solitary = -moment_by_energy(0.0, slenderness, positive)
-    heaviest = RockingFrame(column, max(case["mass_ratios"]))
+    heaviest = RockingFrame(column, max(settings["mass_ratios"]))
     apart = max(
-        agrees_with_energy(RockingFrame(column, gamma), positive) for gamma in case["mass_ratios"]
+        agrees_with_energy(RockingFrame(column, gamma), positive)
+        for gamma in settings["mass_ratios"]
     )
     shape = -moment_by_energy(heaviest.mass_ratio, slenderness, positive)[:-1] / solitary[:-1]
     return (
@@ -125,4 +126,4 @@ def findings(quarter_period: pd.DataFrame) -> dict[str, Finding]:
 
 
 if __name__ == "__main__":
-    run(snakemake, lambda job: main(job.params.case))
+    run(snakemake, lambda job: main(job.params.settings))

@@ -21,17 +21,17 @@ SURE = 2e-3  # of the peak: own error of what SciPy computes, too
 SEED = 2014
 
 
-def histories(frame: RockingFrame, case: dict) -> pd.DataFrame:
+def histories(frame: RockingFrame, settings: dict) -> pd.DataFrame:
     """Return the peaks over α without and with tendons, and their change at twice the time step."""
     block, rows = frame.block(), []
     p, alpha, tan = frame.frequency_parameter, frame.slenderness, frame.uplift_acceleration
-    spec = case["amplitudes"]
+    spec = settings["amplitudes"]
     amplitudes = np.geomspace(spec["lowest"], spec["highest"], spec["points"])
-    kappa = least_stiffness(block) * np.array([0.0, *case["stiffnesses"]])
-    for shape in case["shapes"]:
-        for ratio in grid(case["frequency_ratios"]):
+    kappa = least_stiffness(block) * np.array([0.0, *settings["stiffnesses"]])
+    for shape in settings["shapes"]:
+        for ratio in grid(settings["frequency_ratios"]):
             pulse = Pulse(shape, tan, ratio * frame.column.frequency_parameter)
-            steps = math.ceil(pulse.duration * p / case["time_step"])
+            steps = math.ceil(pulse.duration * p / settings["time_step"])
             fine, coarse = (
                 restrained_peaks(
                     block,
@@ -56,15 +56,15 @@ def histories(frame: RockingFrame, case: dict) -> pd.DataFrame:
                     "error": max(errors[0, place], errors[row, place]),
                 }
                 for place, amplitude in enumerate(amplitudes)
-                for row, stiffness in enumerate(case["stiffnesses"], 1)
+                for row, stiffness in enumerate(settings["stiffnesses"], 1)
             ]
     return pd.DataFrame(rows)
 
 
-def second_route(table: pd.DataFrame, frame: RockingFrame, case: dict) -> pd.Series:
+def second_route(table: pd.DataFrame, frame: RockingFrame, settings: dict) -> pd.Series:
     """Return the peak over α by SciPy of a sample of frames with tendons that stay within α."""
     within = table[(table.restrained < 1.0) & (table.error < SURE * table.restrained)]
-    chosen = within.sample(case["sample"], random_state=SEED)
+    chosen = within.sample(settings["sample"], random_state=SEED)
     block, p = frame.block(), frame.frequency_parameter
     found = {}
     for place, row in chosen.iterrows():
@@ -81,15 +81,15 @@ def second_route(table: pd.DataFrame, frame: RockingFrame, case: dict) -> pd.Ser
     return pd.Series(found, dtype=float).reindex(table.index)
 
 
-def main(case: dict) -> tuple[pd.DataFrame, dict[str, Finding]]:
-    frame = RockingFrame(Column(**case["column"]), case["mass_ratio"])
-    table = histories(frame, case)
-    table["by_scipy"] = second_route(table, frame, case)
+def main(settings: dict) -> tuple[pd.DataFrame, dict[str, Finding]]:
+    frame = RockingFrame(Column(**settings["column"]), settings["mass_ratio"])
+    table = histories(frame, settings)
+    table["by_scipy"] = second_route(table, frame, settings)
     phi = np.linspace(0.0, frame.slenderness, 101)
     block = frame.block()
     rises = [
         bool((np.diff(restoring_moment(block, factor * least_stiffness(block), phi)) > 0.0).all())
-        for factor in case["stiffnesses"]
+        for factor in settings["stiffnesses"]
     ]
     found = findings(table)
     return table, found | {"stiffness_is_positive": truth(all(rises), tendons=len(rises))}
@@ -128,7 +128,7 @@ def findings(negative_stiffness: pd.DataFrame) -> dict[str, Finding]:
 
 
 def work(job: Any) -> tuple:
-    return main(job.params.case)
+    return main(job.params.settings)
 
 
 if __name__ == "__main__":

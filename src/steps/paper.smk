@@ -60,7 +60,7 @@ rule mass_ratio:
         table="results/tables/mass_ratio.csv",
         findings="results/findings/mass_ratio.json",
     params:
-        case=config["mass_ratio"],
+        settings=config["mass_ratio"],
     message:
         "p̂ and R̂ over γ"
     script:
@@ -76,7 +76,7 @@ rule restitution:
         over_mass_ratio="results/tables/restitution_over_mass_ratio.csv",
         findings="results/findings/restitution.json",
     params:
-        case=config["restitution"],
+        settings=config["restitution"],
     message:
         "√r over slenderness and γ"
     script:
@@ -92,7 +92,7 @@ rule moment_rotation:
         periods="results/tables/quarter_period.csv",
         findings="results/findings/moment_rotation.json",
     params:
-        case=case("moment_rotation"),
+        settings=settings("moment_rotation"),
     message:
         "Moment–rotation and the period of free rocking"
     script:
@@ -104,7 +104,7 @@ rule sketches:
         outlines="results/tables/outlines.csv",
         free_body="results/tables/free_body.csv",
     params:
-        case=case("sketches"),
+        settings=settings("sketches"),
     message:
         "The paper's two drawings, to scale: Figs. 1 and 2"
     script:
@@ -123,7 +123,7 @@ rule trilith:
         histories="results/tables/trilith_histories.csv",
         findings="results/findings/trilith.json",
     params:
-        case=case("trilith"),
+        settings=settings("trilith"),
         printed={
             claim.id: claim.printed
             for claim in read_ledger([PARTS[PAPER].claims])
@@ -142,7 +142,7 @@ rule trilith_states:
         sample="results/tables/trilith_sample.csv",
         findings="results/findings/trilith_states.json",
     params:
-        case=case("trilith"),
+        settings=settings("trilith"),
         states=config["trilith_states"],
     message:
         "The trilith on the same shake table, if it already rocks"
@@ -157,7 +157,7 @@ rule trilith_orbit:
         table="results/tables/trilith_orbit.csv",
         findings="results/findings/trilith_orbit.json",
     params:
-        case=case("trilith"),
+        settings=settings("trilith"),
     message:
         "The trilith's steady rocking, proven"
     script:
@@ -169,7 +169,7 @@ rule trilith_map:
         table="results/tables/trilith_map.csv",
         uplift="results/tables/trilith_uplift.csv",
     params:
-        case=case("trilith_map"),
+        settings=settings("trilith_map"),
     message:
         "The trilith over amplitude and frequency of the table"
     script:
@@ -187,7 +187,7 @@ rule allen_histories:
         peaks="results/tables/allen_peaks.csv",
         findings="results/findings/allen_histories.json",
     params:
-        case=case("allen_histories"),
+        settings=settings("allen_histories"),
         solver=config["solver"],
     message:
         "Allen et al.: histories under a pulse and a record"
@@ -200,7 +200,7 @@ rule allen_errors:
         table="results/tables/allen_errors.csv",
         findings="results/findings/allen_errors.json",
     params:
-        case=config["allen_errors"],
+        settings=config["allen_errors"],
     message:
         "Allen et al.: error of the peak rotation"
     script:
@@ -212,7 +212,7 @@ rule allen_overturning:
         table="results/tables/allen_overturning.csv",
         findings="results/findings/allen_overturning.json",
     params:
-        case=config["allen_overturning"],
+        settings=config["allen_overturning"],
     message:
         "Allen et al.: overturning misjudged"
     script:
@@ -228,7 +228,7 @@ rule heavier:
         summary="results/tables/heavier.csv",
         findings="results/findings/heavier.json",
     params:
-        case=case("heavier"),
+        settings=settings("heavier"),
         solver=config["solver"],
     message:
         "The same pulse under heavier and heavier caps"
@@ -247,7 +247,7 @@ rule vase:
         poses="results/tables/vase_poses.csv",
         findings="results/findings/vase.json",
     params:
-        case=case("vase"),
+        settings=settings("vase"),
         solver=config["solver"],
     message:
         "The same mass fixed to one column, and carried freely by two"
@@ -265,7 +265,7 @@ rule uplift_limits:
         routes="results/tables/uplift_routes.csv",
         findings="results/findings/uplift_limits.json",
     params:
-        case=case("uplift_limits"),
+        settings=settings("uplift_limits"),
     message:
         "The forces of frames that rock, and of frames held against uplift"
     script:
@@ -280,7 +280,7 @@ rule portal:
         columns="results/tables/portal_columns.csv",
         findings="results/findings/portal.json",
     params:
-        case=case("portal"),
+        settings=settings("portal"),
         vase=config["vase"],
     message:
         "What the joints and bases of a portal carry, and the larger column that gains as much"
@@ -293,7 +293,7 @@ rule negative_stiffness:
         table="results/tables/negative_stiffness.csv",
         findings="results/findings/negative_stiffness.json",
     params:
-        case=case("negative_stiffness"),
+        settings=settings("negative_stiffness"),
     message:
         "The same frame with a stiffness that stays positive"
     script:
@@ -306,7 +306,7 @@ rule scale_effects:
         outcomes="results/tables/scale_outcomes.csv",
         findings="results/findings/scale_effects.json",
     params:
-        case=case("scale_effects"),
+        settings=settings("scale_effects"),
         solver=config["solver"],
     message:
         "Housner's two scale effects"
@@ -320,7 +320,7 @@ rule stability:
         runs="results/tables/stability_runs.csv",
         findings="results/findings/stability.json",
     params:
-        case=case("stability"),
+        settings=settings("stability"),
         solver=config["solver"],
     message:
         "Is the heavier, the larger always the more stable?"
@@ -335,7 +335,7 @@ rule spectra_shard:
     output:
         table="results/shards/spectra_{scatteritem}.csv",
     params:
-        case=config["spectra"],
+        settings=config["spectra"],
     message:
         "Overturning spectra, shard {wildcards.scatteritem}"
     script:
@@ -351,7 +351,7 @@ rule spectra:
         sample="results/tables/spectra_sample.csv",
         findings="results/findings/spectra.json",
     params:
-        case=config["spectra"],
+        settings=config["spectra"],
         solver=config["solver"],
     message:
         "What the overturning spectra say about heavier caps"
@@ -368,7 +368,7 @@ rule proven:
         certificates="results/certificates/proven.jsonl",
         findings="results/findings/proven.json",
     params:
-        case=case("vase"),
+        settings=settings("vase"),
         spectra=config["spectra"],
     message:
         "Both sides of minimum overturning accelerations, proven"
@@ -383,7 +383,7 @@ rule proven_below:
         table="results/tables/proven_below.csv",
         findings="results/findings/proven_below.json",
     params:
-        case=case("vase"),
+        settings=settings("vase"),
         mass_ratios=[0.0, 1.0, float("inf")],
     message:
         "Nothing below minimum overturning accelerations overturns, proven by boxes"
@@ -397,7 +397,7 @@ rule spectra_dimensional:
         published="results/tables/spectra_published.csv",
         findings="results/findings/spectra_dimensional.json",
     params:
-        case=config["spectra_dimensional"],
+        settings=config["spectra_dimensional"],
         structures=named(config["structures"], config["spectra_dimensional"]),
         solver=config["solver"],
     message:
@@ -410,7 +410,7 @@ rule peak_maps:
     output:
         table="results/tables/peak_maps.csv",
     params:
-        case=case("peak_maps"),
+        settings=settings("peak_maps"),
     message:
         "How far they rock, over frequency and amplitude"
     script:
@@ -424,7 +424,7 @@ rule rocking_spectra:
         table="results/tables/rocking_spectra.csv",
         findings="results/findings/rocking_spectra.json",
     params:
-        case=case("rocking_spectra"),
+        settings=settings("rocking_spectra"),
         solver=config["solver"],
     message:
         "Real records under columns of every size"
@@ -440,7 +440,7 @@ rule statements:
         table="results/tables/statements.csv",
         findings="results/findings/statements.json",
     params:
-        case=case("statements"),
+        settings=settings("statements"),
         solver=config["solver"],
     message:
         "What the paper says in words"
@@ -459,8 +459,8 @@ rule assumptions:
     output:
         table="results/tables/assumptions.csv",
     params:
-        cases={
-            name: case(name)
+        sections={
+            name: settings(name)
             for name in [
                 "trilith",
                 "heavier",
@@ -492,7 +492,7 @@ rule verification:
         published="results/tables/verification_published.csv",
         findings="results/findings/verification.json",
     params:
-        case=config["verification"],
+        settings=config["verification"],
         solver=config["solver"],
     message:
         "Routes against each other, and ours against the literature"
@@ -510,7 +510,7 @@ rule animation:
         "results/animation.gif",
         shown("results/animation.png"),
     params:
-        case=case("animation"),
+        settings=settings("animation"),
     message:
         "The animation: the column overturns, the frame survives"
     script:

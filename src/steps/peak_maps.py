@@ -8,15 +8,15 @@ from topheavy import Column, RockingFrame, overturning_map
 DIGITS = 3  # of θmax/α, for a picture
 
 
-def main(case: dict) -> pd.DataFrame:
+def main(settings: dict) -> pd.DataFrame:
     """Return θmax/α (none where overturned): a row for γ and an amplitude, a column for ω/p."""
-    column = Column(**case["column"])
-    ratios, amplitudes = grid(case["frequency_ratios"]), grid(case["amplitudes"])
+    column = Column(**settings["column"])
+    ratios, amplitudes = grid(settings["frequency_ratios"]), grid(settings["amplitudes"])
     tables = []
-    for gamma in case["mass_ratios"]:
+    for gamma in settings["mass_ratios"]:
         found = overturning_map(
             RockingFrame(column, gamma),
-            case["shape"],
+            settings["shape"],
             ratios * column.frequency_parameter,
             amplitudes * column.uplift_acceleration,
         )
@@ -29,4 +29,4 @@ def main(case: dict) -> pd.DataFrame:
 
 
 if __name__ == "__main__":
-    run(snakemake, lambda job: main(job.params.case))
+    run(snakemake, lambda job: main(job.params.settings))

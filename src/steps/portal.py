@@ -133,7 +133,7 @@ def resisted(portal: MonolithicPortal, base: Section) -> bool:
     return bool(np.all(np.abs(base.moment) <= portal.column.half_width * base.axial))
 
 
-def larger_columns(column: Column, pulse: Pulse, case: dict, vase: dict) -> list[dict]:
+def larger_columns(column: Column, pulse: Pulse, settings: dict, vase: dict) -> list[dict]:
     """Return the smallest similar columns that survive a pulse as a frame and portals do.
 
     The column is one of sizes in equal ratios, then between two of them. It reaches the minimum
@@ -150,8 +150,10 @@ def larger_columns(column: Column, pulse: Pulse, case: dict, vase: dict) -> list
     goals: list[tuple[str, float, Any]] = [("frame", math.nan, RockingFrame(column, gamma))]
     for span in vase["portals"]["spans"]:
         goals.append(("portal", span, MonolithicPortal(column, gamma, span, depth)))
-    found = [minimum(one, pulse, case["highest"], vase["floor"]).acceleration for *_, one in goals]
-    sizes = np.geomspace(*(case["sizes"][key] for key in ("lowest", "highest", "points")))
+    found = [
+        minimum(one, pulse, settings["highest"], vase["floor"]).acceleration for *_, one in goals
+    ]
+    sizes = np.geomspace(*(settings["sizes"][key] for key in ("lowest", "highest", "points")))
 
     def similar(size: float) -> Column:
         return Column(size * column.half_width, size * column.half_height)
@@ -190,7 +192,7 @@ def unit_pulses(vase: dict) -> list[Pulse]:
     return [Pulse(shape, 1.0, 2.0 * math.pi / vase["period"]) for shape in vase["shapes"]]
 
 
-def motions(case: dict, vase: dict, paths: list[str]) -> list[tuple[Pulse | Record, dict, int]]:
+def motions(settings: dict, vase: dict, paths: list[str]) -> list[tuple[Pulse | Record, dict, int]]:
     """Return every motion with its labels and the samples of an arc."""
     unit: list[tuple[str, str, Pulse | Record]] = [
         ("pulse", one.shape, one) for one in unit_pulses(vase)
@@ -201,10 +203,10 @@ def motions(case: dict, vase: dict, paths: list[str]) -> list[tuple[Pulse | Reco
         (
             motion.scaled(peak),
             {"kind": kind, "motion": name, "peak_acceleration": peak},
-            case["points"][kind],
+            settings["points"][kind],
         )
         for kind, name, motion in unit
-        for peak in case["amplitudes"]
+        for peak in settings["amplitudes"]
     ]
 
 
@@ -284,19 +286,19 @@ def sizes(rows: pd.DataFrame) -> dict[str, Any]:
     return {"compared": len(rows), **found, "widest_bracket": float(rows.bracket.max())}
 
 
-def main(case: dict, vase: dict, paths: list[str]) -> tuple:
-    column = Column(**case["column"])
-    tried = motions(case, vase, paths)
+def main(settings: dict, vase: dict, paths: list[str]) -> tuple:
+    column = Column(**settings["column"])
+    tried = motions(settings, vase, paths)
     found = (compare(column, motion, labels, vase, count) for motion, labels, count in tried)
     table = pd.DataFrame(row for rows in progress(found, len(tried), "motions") for row in rows)
-    larger = (larger_columns(column, pulse, case, vase) for pulse in unit_pulses(vase))
+    larger = (larger_columns(column, pulse, settings, vase) for pulse in unit_pulses(vase))
     columns = pd.DataFrame(row for rows in larger for row in rows)
-    checked = second_route(table, tried, column, vase, case["checked_by_second_route"])
+    checked = second_route(table, tried, column, vase, settings["checked_by_second_route"])
     return table, columns, findings(table, columns) | {"second_route": checked}
 
 
 def work(job: Any) -> tuple:
-    return main(job.params.case, job.params.vase, job.input.records)
+    return main(job.params.settings, job.params.vase, job.input.records)
 
 
 if __name__ == "__main__":

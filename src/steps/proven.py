@@ -35,12 +35,16 @@ def sides(structure: Structure, pulse: Pulse) -> tuple[float, list[dict]]:
     return math.inf, []
 
 
-def boundaries(column: Column, case: dict, table: pd.DataFrame) -> tuple[list[dict], list[dict]]:
+def boundaries(
+    column: Column, settings: dict, table: pd.DataFrame
+) -> tuple[list[dict], list[dict]]:
     """Return a row for each structure under the first shape of the period, and the certificates."""
-    shape, rows, certificates = case["shapes"][0], [], []
+    shape, rows, certificates = settings["shapes"][0], [], []
     minima = table[table["shape"] == shape].minimum_overturning.tolist()
-    for (name, gamma, span, structure), minimum in zip(numbers(column, case), minima, strict=True):
-        pulse = Pulse(shape, minimum, 2.0 * math.pi / case["period"])
+    for (name, gamma, span, structure), minimum in zip(
+        numbers(column, settings), minima, strict=True
+    ):
+        pulse = Pulse(shape, minimum, 2.0 * math.pi / settings["period"])
         width, proofs = sides(structure, pulse)
         labels = {"structure": name, "mass_ratio": gamma, "span": span}
         certificates += [labels | proof for proof in proofs]
@@ -97,8 +101,8 @@ def findings(proven: pd.DataFrame) -> dict[str, Finding]:
     }
 
 
-def main(case: dict, spectra: Spectra, vase: pd.DataFrame) -> tuple[pd.DataFrame, str, dict]:
-    rows, certificates = boundaries(Column(**case["column"]), case, vase)
+def main(settings: dict, spectra: Spectra, vase: pd.DataFrame) -> tuple[pd.DataFrame, str, dict]:
+    rows, certificates = boundaries(Column(**settings["column"]), settings, vase)
     table = pd.DataFrame(rows)
     lines = "".join(f"{json.dumps(each)}\n" for each in certificates)
     return table, lines, findings(table) | {"sample": sample(spectra)}
@@ -106,7 +110,7 @@ def main(case: dict, spectra: Spectra, vase: pd.DataFrame) -> tuple[pd.DataFrame
 
 def work(job: Any) -> tuple:
     spectra = Spectra(job.params.spectra, pd.read_csv(job.input.spectra))
-    return main(job.params.case, spectra, pd.read_csv(job.input.vase))
+    return main(job.params.settings, spectra, pd.read_csv(job.input.vase))
 
 
 if __name__ == "__main__":

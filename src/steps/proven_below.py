@@ -23,16 +23,16 @@ def kind(certificate: dict) -> str:
     return "bounded" if "bounded" in events else "followed" if events else "no uplift"
 
 
-def boxes(column: Column, case: dict, known: pd.DataFrame, ratios: list[float]) -> list[dict]:
+def boxes(column: Column, settings: dict, known: pd.DataFrame, ratios: list[float]) -> list[dict]:
     """Return the boxes of each structure without a drawn size, up to its proven boundary."""
-    shape, rows = case["shapes"][0], []
+    shape, rows = settings["shapes"][0], []
     for (name, gamma, _, structure), at in zip(
-        numbers(column, case), known.itertuples(), strict=True
+        numbers(column, settings), known.itertuples(), strict=True
     ):
         if name not in ("bare", "fixed", "free") or gamma not in ratios:
             continue
         high = float(f"{at.minimum_overturning * (1.0 - at.relative_width):.15g}")
-        pulse = Pulse(shape, 1.0, 2.0 * math.pi / case["period"])
+        pulse = Pulse(shape, 1.0, 2.0 * math.pi / settings["period"])
         found = survives_below(structure, pulse, high)
         labels = {"structure": name, "mass_ratio": gamma}
         uplift = structure.block().uplift_acceleration
@@ -82,14 +82,14 @@ def findings(proven_below: pd.DataFrame) -> dict[str, Finding]:
     }
 
 
-def main(case: dict, ratios: list[float], known: pd.DataFrame) -> tuple[pd.DataFrame, dict]:
-    table = pd.DataFrame(boxes(Column(**case["column"]), case, known, ratios))
+def main(settings: dict, ratios: list[float], known: pd.DataFrame) -> tuple[pd.DataFrame, dict]:
+    table = pd.DataFrame(boxes(Column(**settings["column"]), settings, known, ratios))
     return table, findings(table)
 
 
 def work(job: Any) -> tuple:
     known = pd.read_csv(job.input.proven)
-    return main(job.params.case, job.params.mass_ratios, known)
+    return main(job.params.settings, job.params.mass_ratios, known)
 
 
 if __name__ == "__main__":

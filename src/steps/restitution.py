@@ -15,15 +15,15 @@ def column(degrees: float) -> Column:
     return Column(math.sin(alpha), math.cos(alpha))
 
 
-def main(case: dict) -> tuple[pd.DataFrame, list[dict], dict]:
-    slendernesses = np.linspace(0.0, case["largest_slenderness"], case["points"])[1:]
+def main(settings: dict) -> tuple[pd.DataFrame, list[dict], dict]:
+    slendernesses = np.linspace(0.0, settings["largest_slenderness"], settings["points"])[1:]
     over_slenderness = pd.DataFrame(
         {
             "slenderness_deg": a,
             "mass_ratio": g,
             "restitution": RockingFrame(column(a), g).restitution,
         }
-        for g in case["mass_ratios"]
+        for g in settings["mass_ratios"]
         for a in slendernesses
     )
     gammas = np.concatenate([np.linspace(0.0, 10.0, 201), [math.inf]])
@@ -33,7 +33,7 @@ def main(case: dict) -> tuple[pd.DataFrame, list[dict], dict]:
             "mass_ratio": g,
             "restitution": RockingFrame(column(a), g).restitution,
         }
-        for a in case["slendernesses"]
+        for a in settings["slendernesses"]
         for g in gammas
     ]
     rounding = float(np.finfo(float).eps)
@@ -95,4 +95,4 @@ def findings(restitution_over_slenderness: pd.DataFrame) -> dict[str, Finding]:
 
 
 if __name__ == "__main__":
-    run(snakemake, lambda job: main(job.params.case))
+    run(snakemake, lambda job: main(job.params.settings))

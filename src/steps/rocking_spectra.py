@@ -61,22 +61,22 @@ def second_route(table: pd.DataFrame, records: dict[str, Record], columns, count
     return truth(differ == 0 and largest < CHANGED, histories=count, largest_difference=largest)
 
 
-def main(case: dict, paths: list[str], tightened: float) -> tuple[pd.DataFrame, dict]:
-    similar = Column(**case["column"])
-    spec = case["sizes"]
+def main(settings: dict, paths: list[str], tightened: float) -> tuple[pd.DataFrame, dict]:
+    similar = Column(**settings["column"])
+    spec = settings["sizes"]
     sizes = np.geomspace(spec["lowest"], spec["highest"], spec["points"])
     columns = [
         Column(*(size / similar.size * half for half in (similar.half_width, similar.half_height)))
         for size in sizes
     ]
     records = {record.name: record for record in map(read_record, paths)}
-    runs = [(record, gamma) for record in records.values() for gamma in case["mass_ratios"]]
+    runs = [(record, gamma) for record in records.values() for gamma in settings["mass_ratios"]]
     found = (spectrum(record, columns, gamma, tightened) for record, gamma in runs)
     table = pd.DataFrame([row for rows in progress(found, len(runs), "spectra") for row in rows])
     of_told = table.change[table.told & ~table.overturned].max()
     drawn = findings(table)
     told = drawn["every_history_can_be_told"].with_evidence(largest_change_of_told=float(of_told))
-    second = second_route(table, records, columns, case["checked_by_second_route"])
+    second = second_route(table, records, columns, settings["checked_by_second_route"])
     more = {"every_history_can_be_told": told, "second_route": second}
     return table.drop(columns="change"), drawn | more
 
@@ -122,7 +122,7 @@ def findings(rocking_spectra: pd.DataFrame) -> dict[str, Finding]:
 
 
 def work(job: Any) -> Any:
-    return main(job.params.case, job.input.records, job.params.solver["tightened"])
+    return main(job.params.settings, job.input.records, job.params.solver["tightened"])
 
 
 if __name__ == "__main__":

@@ -10,15 +10,17 @@ from replication.workbench import Finding, run, truth
 from topheavy import Column, Pulse, judge, reference, simulate
 
 
-def main(case: dict, solver: dict) -> tuple[list[dict], pd.DataFrame, dict]:
-    small = Column(**case["column"])
-    times_larger, times_longer = case["larger"], case["longer"]
+def main(settings: dict, solver: dict) -> tuple[list[dict], pd.DataFrame, dict]:
+    small = Column(**settings["column"])
+    times_larger, times_longer = settings["larger"], settings["longer"]
     large = Column(small.half_width * times_larger, small.half_height * times_larger)
     short = Pulse(
-        case["pulse"]["shape"], case["pulse"]["amplitude"], 2 * math.pi / case["pulse"]["period"]
+        settings["pulse"]["shape"],
+        settings["pulse"]["amplitude"],
+        2 * math.pi / settings["pulse"]["period"],
     )
     long = replace(short, angular_frequency=short.angular_frequency / times_longer)
-    times = np.linspace(0.0, 8.0 * case["pulse"]["period"], 1201)
+    times = np.linspace(0.0, 8.0 * settings["pulse"]["period"], 1201)
     rows, outcomes = [], []
     for column_name, column in (("smaller", small), ("larger", large)):
         for pulse_name, pulse in (("shorter", short), ("longer", long)):
@@ -64,4 +66,4 @@ def findings(scale_outcomes: pd.DataFrame) -> dict[str, Finding]:
 
 
 if __name__ == "__main__":
-    run(snakemake, lambda job: main(job.params.case, job.params.solver))
+    run(snakemake, lambda job: main(job.params.settings, job.params.solver))

@@ -91,30 +91,30 @@ def rows(panel: str, frame: RockingFrame, bodies: dict[str, np.ndarray]) -> list
     ]
 
 
-def structures(case: dict) -> list[dict]:
+def structures(settings: dict) -> list[dict]:
     """Fig. 1: a column, a smaller similar column, and frames of that column with two cap beams."""
-    column, scale = Column(**case["column"]), case["smaller"]
+    column, scale = Column(**settings["column"]), settings["smaller"]
     small = Column(scale * column.half_width, scale * column.half_height)
     drawn = []
     for panel, alone in (("small column", small), ("column", column)):
         bodies = {"column": column_outline(alone, 0.0)}
         drawn += rows(panel, RockingFrame(alone, 0.0), bodies)
-    for panel, gamma in case["mass_ratios"].items():
+    for panel, gamma in settings["mass_ratios"].items():
         frame = RockingFrame(column, gamma)
-        bodies = frame_outlines(frame, 0.0, case["span"], case["overhang"])
+        bodies = frame_outlines(frame, 0.0, settings["span"], settings["overhang"])
         drawn += rows(f"{panel} cap", frame, bodies)
     return drawn
 
 
-def displaced(case: dict) -> tuple[list[dict], list[dict]]:
+def displaced(settings: dict) -> tuple[list[dict], list[dict]]:
     """Fig. 2: the frame at θ < 0 over the frame at rest, and the forces on its cap."""
-    column = Column(case["half_width"], case["half_height"])
-    frame = RockingFrame(column, case["mass_ratio"])
-    theta = case["rotation"] * frame.slenderness
+    column = Column(settings["half_width"], settings["half_height"])
+    frame = RockingFrame(column, settings["mass_ratio"])
+    theta = settings["rotation"] * frame.slenderness
     if theta >= 0.0:
-        raise ValueError(f"rotation is {case['rotation']}; Fig. 2 shows θ < 0")
-    at_rest = frame_outlines(frame, 0.0, case["span"], case["overhang"])
-    bodies = frame_outlines(frame, theta, case["span"], case["overhang"])
+        raise ValueError(f"rotation is {settings['rotation']}; Fig. 2 shows θ < 0")
+    at_rest = frame_outlines(frame, 0.0, settings["span"], settings["overhang"])
+    bodies = frame_outlines(frame, theta, settings["span"], settings["overhang"])
     drawn = rows("at rest", frame, at_rest) + rows("displaced", frame, bodies)
     lines = []
 
@@ -131,11 +131,11 @@ def displaced(case: dict) -> tuple[list[dict], list[dict]]:
         pivot, seat = bodies[body][0], bodies[body][SEAT]
         arrow("displaced", f"O_{number}", pivot, tuple(seat - pivot), 2.0 * column.size, "m")
 
-    arrow("displaced", "ground", np.zeros(2), (0.0, 0.0), case["ground_acceleration"], "g")
+    arrow("displaced", "ground", np.zeros(2), (0.0, 0.0), settings["ground_acceleration"], "g")
 
     # Forces in m per m_b g; the horizontal ones, being small, at a scale of their own.
-    forces = forces_on_cap(frame, theta, case["ground_acceleration"], bodies)
-    up, right = case["arrow_length"], case["arrow_length"] * case["horizontal_stretch"]
+    forces = forces_on_cap(frame, theta, settings["ground_acceleration"], bodies)
+    up, right = settings["arrow_length"], settings["arrow_length"] * settings["horizontal_stretch"]
     seats = {"1": bodies["left column"][SEAT], "2": bodies["right column"][SEAT]}
     middle = bodies["cap"][:4].mean(axis=0)
     for name, force in forces.items():
@@ -145,10 +145,10 @@ def displaced(case: dict) -> tuple[list[dict], list[dict]]:
     return drawn, lines
 
 
-def main(case: dict) -> tuple[list[dict], list[dict]]:
-    outlines, free_body = displaced(case["displaced"])
-    return structures(case) + outlines, free_body
+def main(settings: dict) -> tuple[list[dict], list[dict]]:
+    outlines, free_body = displaced(settings["displaced"])
+    return structures(settings) + outlines, free_body
 
 
 if __name__ == "__main__":
-    run(snakemake, lambda job: main(job.params.case))
+    run(snakemake, lambda job: main(job.params.settings))

@@ -14,15 +14,17 @@ from replication.workbench import run, truth
 from steps.shared.spectra_compared import ORDER, Spectra, finite, of_sample
 
 
-def main(case: dict, solver: dict, lines: pd.DataFrame) -> tuple:
-    spectra = Spectra(case, lines)
+def main(settings: dict, solver: dict, lines: pd.DataFrame) -> tuple:
+    spectra = Spectra(settings, lines)
     rises = spectra.lowest_rises()
-    areas = [row for light, heavy in case["pairs"] for row in spectra.areas(light, heavy)]
-    width, place, light, heavy, amplitude = spectra.counterexample(pairwise(case["mass_ratios"]))
+    areas = [row for light, heavy in settings["pairs"] for row in spectra.areas(light, heavy)]
+    width, place, light, heavy, amplitude = spectra.counterexample(
+        pairwise(settings["mass_ratios"])
+    )
     verdicts = [spectra.judged(place, g, amplitude, solver["tightened"]) for g in (light, heavy)]
     if verdicts != [[False] * 2, [True] * 2]:
         raise ArithmeticError(f"γ = {light}, {heavy} at {amplitude:.6g}: not a counterexample")
-    table, spec = pd.DataFrame(areas), case["sample"]
+    table, spec = pd.DataFrame(areas), settings["sample"]
     sample = spectra.sample(spec["points"], spec["seed"], solver["tightened"])
     drawn = findings(table, sample)
     return (
@@ -68,7 +70,7 @@ def findings(spectra_areas: pd.DataFrame, spectra_sample: pd.DataFrame) -> dict[
 
 def work(job: Any) -> tuple:
     table = pd.concat(map(pd.read_csv, job.input.shards)).sort_values(ORDER, ignore_index=True)
-    return table, *main(job.params.case, job.params.solver, table)
+    return table, *main(job.params.settings, job.params.solver, table)
 
 
 if __name__ == "__main__":

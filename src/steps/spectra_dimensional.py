@@ -25,14 +25,14 @@ def mass_ratio(cap: float | dict) -> float:
     return cap
 
 
-def lines(case: dict, structures: dict) -> list[Line]:
+def lines(settings: dict, structures: dict) -> list[Line]:
     """Return the lines of all spectra; a scale of 1 is an amplitude of 1 g tan α."""
     found = []
-    for name, caps in case["frames"].items():
+    for name, caps in settings["frames"].items():
         column = Column(**structures[name])
-        for shape in case["shapes"]:
+        for shape in settings["shapes"]:
             for gamma in map(mass_ratio, caps):
-                for ratio in frequency_ratios(case["frequency_ratios"]):
+                for ratio in frequency_ratios(settings["frequency_ratios"]):
                     omega = ratio * column.frequency_parameter
                     labels = {
                         "structure": name,
@@ -47,18 +47,18 @@ def lines(case: dict, structures: dict) -> list[Line]:
     return found
 
 
-def published(case: dict, structures: dict, tightened: float) -> tuple[dict, Finding]:
+def published(settings: dict, structures: dict, tightened: float) -> tuple[dict, Finding]:
     """Return the minimum overturning amplitude (g) of a pulse that others have computed.
 
     As a row for the picture, and as a finding.
     """
-    given = case["published"]
+    given = settings["published"]
     column = Column(**structures[given["structure"]])
     frame = RockingFrame(column, given["mass_ratio"])
     printed, omega = given["pulse"]["amplitude"], 2.0 * math.pi / given["pulse"]["period"]
     pulse = Pulse(given["pulse"]["shape"], column.uplift_acceleration, omega)
     labels = {"structure": given["structure"]}
-    lowest = solve([Line(labels, frame.block(), pulse)], case).lower.min()
+    lowest = solve([Line(labels, frame.block(), pulse)], settings).lower.min()
     sides = [pulse.scaled(lowest * (1.0 + away)) for away in (-1e-6, 1e-6)]
     routes = [
         [judge(frame, side, tolerance=tightened).overturned for side in sides],
@@ -85,17 +85,17 @@ def findings(spectra_published: pd.DataFrame) -> dict[str, Any]:
     return {"published_amplitude": both}
 
 
-def main(case: dict, structures: dict, solver: dict) -> tuple[pd.DataFrame, dict, dict]:
-    table = solve(lines(case, structures), case)
+def main(settings: dict, structures: dict, solver: dict) -> tuple[pd.DataFrame, dict, dict]:
+    table = solve(lines(settings, structures), settings)
     for end in ("lower", "upper"):
         table[f"{end}_g"] = table[end] * table.uplift_g
-    row, finding = published(case, structures, solver["tightened"])
+    row, finding = published(settings, structures, solver["tightened"])
     return table, row, {"published_amplitude": finding}
 
 
 def work(job: Any) -> tuple:
     params = job.params
-    table, row, findings = main(params.case, params.structures, params.solver)
+    table, row, findings = main(params.settings, params.structures, params.solver)
     return table, [row], findings
 
 

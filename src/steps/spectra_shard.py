@@ -12,21 +12,21 @@ from replication.workbench import grid, run
 from steps.shared.spectrum import Line, line, shard_of, solve
 
 
-def lines(case: dict, shard: str = "1-of-1") -> list[Line]:
+def lines(settings: dict, shard: str = "1-of-1") -> list[Line]:
     """Return the lines of all spectra, in the order of the table, or those of a shard."""
     labels = itertools.product(
-        case["slendernesses"],
-        case["shapes"],
-        case["mass_ratios"],
+        settings["slendernesses"],
+        settings["shapes"],
+        settings["mass_ratios"],
         (False, True),
-        map(float, grid(case["frequency_ratios"])),
+        map(float, grid(settings["frequency_ratios"])),
     )
     return [line(*each) for each in shard_of([*labels], shard)]
 
 
-def main(case: dict, shard: str) -> pd.DataFrame:
-    return solve(lines(case, shard), case)
+def main(settings: dict, shard: str) -> pd.DataFrame:
+    return solve(lines(settings, shard), settings)
 
 
 if __name__ == "__main__":
-    run(snakemake, lambda job: main(job.params.case, job.wildcards.scatteritem))
+    run(snakemake, lambda job: main(job.params.settings, job.wildcards.scatteritem))

@@ -126,14 +126,14 @@ def describe(trial: Trial) -> dict:
     }
 
 
-def orders(case: dict) -> dict[str, list[list[Trial]]]:
+def orders(settings: dict) -> dict[str, list[list[Trial]]]:
     """Return the rankings: rows of trials, each of which should survive what those before do."""
-    column = Column(**case["column"])
-    frames = [RockingFrame(column, gamma) for gamma in case["mass_ratios"]]
+    column = Column(**settings["column"])
+    frames = [RockingFrame(column, gamma) for gamma in settings["mass_ratios"]]
     b, h = column.half_width, column.half_height
-    sizes = [Column(scale * b, scale * h) for scale in case["sizes"]]
-    equivalent = [Column(s * b, s * h) for s in map(size_ratio, [0.0, *case["mass_ratios"]])]
-    ratios = case["frequency_ratios"]
+    sizes = [Column(scale * b, scale * h) for scale in settings["sizes"]]
+    equivalent = [Column(s * b, s * h) for s in map(size_ratio, [0.0, *settings["mass_ratios"]])]
+    ratios = settings["frequency_ratios"]
     return {
         "heavier_is_more_stable": [[(f, ratio) for f in frames] for ratio in ratios],
         "frame_is_more_stable_than_its_column": [
@@ -146,10 +146,10 @@ def orders(case: dict) -> dict[str, list[list[Trial]]]:
     }
 
 
-def main(case: dict, solver: dict) -> tuple[pd.DataFrame, pd.DataFrame, dict]:
-    amplitudes = tuple(map(float, grid(case["amplitudes"])))
-    scan = Scan(Column(**case["column"]), case["shape"], amplitudes, solver["tightened"])
-    found = {name: scan.ranking(order) for name, order in orders(case).items()}
+def main(settings: dict, solver: dict) -> tuple[pd.DataFrame, pd.DataFrame, dict]:
+    amplitudes = tuple(map(float, grid(settings["amplitudes"])))
+    scan = Scan(Column(**settings["column"]), settings["shape"], amplitudes, solver["tightened"])
+    found = {name: scan.ranking(order) for name, order in orders(settings).items()}
     tables = [
         pd.DataFrame([{"ranking": name} | row for name in found for row in found[name][part]])
         for part in (0, 1)
@@ -187,4 +187,4 @@ def _trial(run: pd.Series, which: str) -> dict:
 
 
 if __name__ == "__main__":
-    run(snakemake, lambda job: main(job.params.case, job.params.solver))
+    run(snakemake, lambda job: main(job.params.settings, job.params.solver))

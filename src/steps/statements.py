@@ -266,18 +266,20 @@ JUDGED: dict[str, Callable[[pd.Series], Finding]] = {
 }
 
 
-def main(case: dict, solver: dict) -> tuple[pd.DataFrame, dict]:
-    frame = RockingFrame(Column(**case["column"]), case["mass_ratio"])
+def main(settings: dict, solver: dict) -> tuple[pd.DataFrame, dict]:
+    frame = RockingFrame(Column(**settings["column"]), settings["mass_ratio"])
     pulse = Pulse(
-        case["pulse"]["shape"], case["pulse"]["amplitude"], 2 * math.pi / case["pulse"]["period"]
+        settings["pulse"]["shape"],
+        settings["pulse"]["amplitude"],
+        2 * math.pi / settings["pulse"]["period"],
     )
     table = table_of(
-        from_below(frame, case["cap"], pulse)
-        | oscillator(frame, pulse, case["mass_ratios"], solver)
-        | structure(frame, case["mass_ratios"])
+        from_below(frame, settings["cap"], pulse)
+        | oscillator(frame, pulse, settings["mass_ratios"], solver)
+        | structure(frame, settings["mass_ratios"])
     )
     return table, findings(table)
 
 
 if __name__ == "__main__":
-    run(snakemake, lambda job: main(job.params.case, job.params.solver))
+    run(snakemake, lambda job: main(job.params.settings, job.params.solver))

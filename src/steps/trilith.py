@@ -25,11 +25,11 @@ EPS_PRINT = 1e-12  # printed decimals, which are exact but for their doubles
 STEP_ASIDE = 1e-6  # of a threshold, to either side
 
 
-def numbers(frame: RockingFrame, case: dict) -> pd.DataFrame:
+def numbers(frame: RockingFrame, settings: dict) -> pd.DataFrame:
     """Return the numbers of p. 4, each from the ones before it, with their error and unit."""
-    column, (cap, columns) = frame.column, case["printed_masses"]
+    column, (cap, columns) = frame.column, settings["printed_masses"]
     p, p_frame = column.frequency_parameter, frame.frequency_parameter
-    acceleration = table_acceleration(case["table_amplitude"], case["table_frequency"])
+    acceleration = table_acceleration(settings["table_amplitude"], settings["table_frequency"])
     uplift = frame.uplift_acceleration
     rows = [
         ("tan_slenderness", math.tan(column.slenderness), EPS, ""),
@@ -60,7 +60,7 @@ def of_numbers(table: pd.DataFrame) -> dict[str, Finding]:
 
 
 def passage(
-    frame: RockingFrame, case: dict, printed: dict[str, Any], mass_ratio: Finding
+    frame: RockingFrame, settings: dict, printed: dict[str, Any], mass_ratio: Finding
 ) -> dict[str, Finding]:
     """Return what depends on the print of p. 4, by the values of the ledger."""
     column = frame.column
@@ -68,7 +68,7 @@ def passage(
     halves = sorted(map(float, re.findall(r"[\d.]+", printed["trilith_half_measures"])))
     ratio = printed["trilith_frame_frequency_parameter"] / printed["trilith_frequency_parameter"]
     implied = (1 - ratio**2) / (3 * ratio**2 - 2)  # (1 + 2γ)/(1 + 3γ) = p̂²/p², solved for γ
-    cap, columns = case["printed_masses"]
+    cap, columns = settings["printed_masses"]
     mended = mended_quotient(cap, columns, f"{printed['trilith_mass_ratio']}")
     meant = {}
     if mended:
@@ -89,9 +89,9 @@ def lifts(frame: RockingFrame, amplitude: float, frequency: float, duration: flo
     return simulate(frame, motion, duration=duration, samples=2).outcome != "no uplift"
 
 
-def nearness(frame: RockingFrame, case: dict) -> list[dict]:
+def nearness(frame: RockingFrame, settings: dict) -> list[dict]:
     """Changes that would have uplifted it, with a simulation on each side of the threshold."""
-    u, f, column = case["table_amplitude"], case["table_frequency"], frame.column
+    u, f, column = settings["table_amplitude"], settings["table_frequency"], frame.column
     short = 4.0 / f  # cycles enough: the peak of the first half cycle decides
     amplitude, frequency = amplitude_to_uplift(frame, f), frequency_to_uplift(frame, u)
     half_width = table_acceleration(u, f) * column.half_height
@@ -149,7 +149,7 @@ def tilted(frame: RockingFrame, angle: float) -> RockingFrame:
 
 
 def starts(
-    frame: RockingFrame, case: dict, tightened: float
+    frame: RockingFrame, settings: dict, tightened: float
 ) -> tuple[list[dict], list[dict], dict[str, float]]:
     """Simulate the shake table's steady sine after starts of increasing abruptness.
 
@@ -157,7 +157,7 @@ def starts(
     acceleration sine from rest, 1 a displacement sine at full velocity. The histories are those of
     these two ends. The last are the limits: the share from which it keeps rocking, and both routes.
     """
-    u, f, duration = case["table_amplitude"], case["table_frequency"], case["duration"]
+    u, f, duration = settings["table_amplitude"], settings["table_frequency"], settings["duration"]
     motion, full = table_motion(u, f), abrupt_start(frame, u, f)
 
     def shaken(share: float, simulate=simulate, **options):
@@ -273,24 +273,24 @@ def of_nearness(near: pd.DataFrame) -> dict[str, Finding]:
     }
 
 
-def main(case: dict, printed: dict[str, Any], tightened: float) -> tuple:
-    frame = RockingFrame(Column(**case["column"]), case["mass_ratio"])
-    summary, histories, limits = starts(frame, case, tightened)
+def main(settings: dict, printed: dict[str, Any], tightened: float) -> tuple:
+    frame = RockingFrame(Column(**settings["column"]), settings["mass_ratio"])
+    summary, histories, limits = starts(frame, settings, tightened)
     limits = {name: float(one) for name, one in limits.items()}
     tables = (
-        numbers(frame, case),
-        pd.DataFrame(nearness(frame, case)),
+        numbers(frame, settings),
+        pd.DataFrame(nearness(frame, settings)),
         pd.DataFrame(summary),
         pd.DataFrame(limits.items(), columns=["quantity", "value"]),
     )
     found = findings(*tables)
-    read = passage(frame, case, printed, found["mass_ratio"])
+    read = passage(frame, settings, printed, found["mass_ratio"])
     found["mass_ratio"] = read.pop("mass_ratio")
     return *tables, histories, read | found
 
 
 def work(job: Any) -> tuple:
-    return main(job.params.case, job.params.printed, job.params.solver["tightened"])
+    return main(job.params.settings, job.params.printed, job.params.solver["tightened"])
 
 
 if __name__ == "__main__":

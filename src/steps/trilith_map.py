@@ -9,17 +9,17 @@ from topheavy.shaking_table import amplitude_to_uplift, table_acceleration, tabl
 CURVE = 361  # points of the curve of uplift, and those of the map
 
 
-def main(case: dict) -> tuple[list[dict], list[dict]]:
+def main(settings: dict) -> tuple[list[dict], list[dict]]:
     """Return the outcomes, and the amplitudes that uplift the trilith over finer frequencies."""
-    frame = RockingFrame(Column(**case["column"]), case["mass_ratio"])
+    frame = RockingFrame(Column(**settings["column"]), settings["mass_ratio"])
     rows = []
-    frequencies = grid(case["frequencies"])
+    frequencies = grid(settings["frequencies"])
     for frequency in frequencies:
-        for amplitude in grid(case["amplitudes"]):
+        for amplitude in grid(settings["amplitudes"]):
             response = simulate(
                 frame,
                 table_motion(amplitude, frequency),
-                duration=case["cycles"] / frequency,
+                duration=settings["cycles"] / frequency,
                 samples=2,
             )
             rows.append(
@@ -40,4 +40,4 @@ def main(case: dict) -> tuple[list[dict], list[dict]]:
 
 
 if __name__ == "__main__":
-    run(snakemake, lambda job: main(job.params.case))
+    run(snakemake, lambda job: main(job.params.settings))

@@ -18,10 +18,10 @@ NAMES = {"rocking": "steady", "rests": "rests", "overturned": "overturns"}
 ALIKE = 1e-6  # of α: the solver reads the steady rotation from samples
 
 
-def orbit(case: dict) -> SteadyRocking:
+def orbit(settings: dict) -> SteadyRocking:
     """Return the steady rocking that an abrupt start of the table leads to, proven."""
-    frame = RockingFrame(Column(**case["column"]), case["mass_ratio"])
-    table = case["table_amplitude"], case["table_frequency"]
+    frame = RockingFrame(Column(**settings["column"]), settings["mass_ratio"])
+    table = settings["table_amplitude"], settings["table_frequency"]
     motion = table_motion(*table)
     speed = abs(abrupt_start(frame, *table)) / motion.angular_frequency
     return steady_rocking(frame, motion, (math.pi, speed))
@@ -53,10 +53,10 @@ def findings(trilith_orbit: pd.DataFrame) -> dict[str, Finding]:
     }
 
 
-def main(case: dict, states: pd.DataFrame) -> tuple[pd.DataFrame, dict[str, Finding]]:
-    found = orbit(case)
+def main(settings: dict, states: pd.DataFrame) -> tuple[pd.DataFrame, dict[str, Finding]]:
+    found = orbit(settings)
     table = starts(found, states)
-    alpha = Column(**case["column"]).slenderness
+    alpha = Column(**settings["column"]).slenderness
     peak = [end / alpha for end in found.peak]
     apart = float((states[states.outcome == "rocking"].steady - peak[0]).abs().max())
     in_velocity = found.radius * math.hypot(*map(float, found.frame.tolist()[1]))
@@ -76,7 +76,7 @@ def main(case: dict, states: pd.DataFrame) -> tuple[pd.DataFrame, dict[str, Find
 
 
 def work(job: Any) -> tuple:
-    return main(job.params.case, pd.read_csv(job.input.states))
+    return main(job.params.settings, pd.read_csv(job.input.states))
 
 
 if __name__ == "__main__":

@@ -230,10 +230,10 @@ def _agreement(sample: pd.DataFrame) -> Finding:
     )
 
 
-def main(case: dict, spec: dict) -> tuple[pd.DataFrame, pd.DataFrame, dict[str, Finding]]:
+def main(settings: dict, spec: dict) -> tuple[pd.DataFrame, pd.DataFrame, dict[str, Finding]]:
     """Return the outcome of every start, a sample of them by SciPy, and the findings."""
-    frame = RockingFrame(Column(**case["column"]), case["mass_ratio"])
-    motion = table_motion(case["table_amplitude"], case["table_frequency"])
+    frame = RockingFrame(Column(**settings["column"]), settings["mass_ratio"])
+    motion = table_motion(settings["table_amplitude"], settings["table_frequency"])
     table = outcomes(frame, motion, spec)
     sample = second_route(frame, motion, table, spec)
     drawn, (difference, change) = findings(table, sample), unsettled(table)
@@ -277,7 +277,7 @@ def findings(trilith_states: pd.DataFrame, trilith_sample: pd.DataFrame) -> dict
 
 
 def work(job: Any) -> tuple:
-    return main(job.params.case, job.params.states)
+    return main(job.params.settings, job.params.states)
 
 
 if __name__ == "__main__":

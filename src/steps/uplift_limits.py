@@ -54,7 +54,7 @@ BESIDE = 1e-3  # over p̂: how far from an impact the forces of the three bodies
 ROUNDING = 1e-9
 
 
-def motions(column: Column, case: dict, paths: list[str]) -> list[tuple[Pulse | Record, dict]]:
+def motions(column: Column, settings: dict, paths: list[str]) -> list[tuple[Pulse | Record, dict]]:
     """Return every motion, of unit peak, with its labels."""
     p = column.frequency_parameter
     pulses = [
@@ -62,8 +62,8 @@ def motions(column: Column, case: dict, paths: list[str]) -> list[tuple[Pulse | 
             Pulse(shape, 1.0, ratio * p),
             {"kind": "pulse", "motion": shape, "frequency_ratio": ratio},
         )
-        for shape in case["shapes"]
-        for ratio in grid(case["frequency_ratios"])
+        for shape in settings["shapes"]
+        for ratio in grid(settings["frequency_ratios"])
     ]
     return pulses + [
         (
@@ -79,14 +79,14 @@ def compare(
     cap: Cap,
     motion: Pulse | Record,
     labels: dict,
-    case: dict,
+    settings: dict,
 ) -> list[dict]:
     """Return a row for each frame and amplitude: the peaks, and their ratios to the held frame's.
 
     The forces of a frame held against uplift are proportional to the amplitude.
     """
-    spec, rows = case[{"pulse": "pulses", "record": "recorded"}[labels["kind"]]], []
-    beside = held_peaks(frames, cap, motion, case["periods"], STEPS[labels["kind"]])
+    spec, rows = settings[{"pulse": "pulses", "record": "recorded"}[labels["kind"]]], []
+    beside = held_peaks(frames, cap, motion, settings["periods"], STEPS[labels["kind"]])
     for frame, fixed in zip(frames, beside, strict=True):
         for ratio in spec["amplitudes"]:
             peak = ratio * frame.uplift_acceleration
@@ -109,12 +109,12 @@ def compare(
     return rows
 
 
-def summary(table: pd.DataFrame, case: dict) -> pd.DataFrame:
+def summary(table: pd.DataFrame, settings: dict) -> pd.DataFrame:
     """Return, for each kind, γ, force and held frame, the range of the ratio among survivors."""
     rows = []
     for (kind, gamma), cells in table.groupby(["kind", "mass_ratio"]):
         for name in FORCES:
-            for top, one in held(gamma, case["periods"]):
+            for top, one in held(gamma, settings["periods"]):
                 ratio = cells[ratio_of(name, top, one)].dropna()
                 rows.append(
                     {
@@ -134,12 +134,12 @@ def summary(table: pd.DataFrame, case: dict) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def slopes(case: dict) -> pd.DataFrame:
+def slopes(settings: dict) -> pd.DataFrame:
     """Return the slope of the base shear just after uplift by formula and by three bodies."""
     rows = []
-    for degrees in case["slope"]["slendernesses"]:
+    for degrees in settings["slope"]["slendernesses"]:
         alpha = math.radians(degrees)
-        for gamma in case["slope"]["mass_ratios"]:
+        for gamma in settings["slope"]["mass_ratios"]:
             frame = RockingFrame(Column(math.sin(alpha), math.cos(alpha)), gamma)
             row = {"slenderness_deg": degrees, "mass_ratio": gamma}
             row |= {"slope": base_shear_slope(frame), "three_bodies": math.nan}
@@ -207,13 +207,13 @@ def by_three_bodies(frame: RockingFrame, cap: Cap, pulse: Pulse, samples: int) -
 
 
 def second_route(
-    table: pd.DataFrame, frames: list, cap: Cap, case: dict, tried: list
+    table: pd.DataFrame, frames: list, cap: Cap, settings: dict, tried: list
 ) -> pd.DataFrame:
     """Return how far SciPy and three bodies are from the library, for a sample, a row each."""
     column, random = frames[0].column, np.random.default_rng(SEED)
     stands = table[(table.outcome == "rests") & (table.kind == "pulse")]
     apart = []
-    chosen = random.permutation(len(stands))[: case["sample"]["points"]]
+    chosen = random.permutation(len(stands))[: settings["sample"]["points"]]
     for _, row in stands.iloc[chosen].iterrows():
         frame = RockingFrame(column, row.mass_ratio)
         pulse = Pulse(
@@ -221,13 +221,15 @@ def second_route(
             row.amplitude * column.uplift_acceleration,
             row.frequency_ratio * column.frequency_parameter,
         )
-        other = rocking_peaks(frame, cap, pulse, case["pulses"]["points"], reference.simulate)
+        other = rocking_peaks(frame, cap, pulse, settings["pulses"]["points"], reference.simulate)
         apart += [abs(other.forces[name] / row[name] - 1.0) for name in FORCES]
     fixed_apart = []
-    for motion, labels in tried[:: max(1, len(tried) // case["checked_by_second_route"])]:
+    for motion, labels in tried[:: max(1, len(tried) // settings["checked_by_second_route"])]:
         if labels["kind"] == "record":
-            motion = Record(motion.time_step, motion.acceleration[: case["sample"]["record_steps"]])
-        for top, period in product(tops(frames[-2].mass_ratio), case["periods"]):
+            motion = Record(
+                motion.time_step, motion.acceleration[: settings["sample"]["record_steps"]]
+            )
+        for top, period in product(tops(frames[-2].mass_ratio), settings["periods"]):
             fixed = FixedFrame(frames[-2], cap, top)
             (one,), other = (
                 peak_elastic([fixed], motion, period),
@@ -236,8 +238,8 @@ def second_route(
             fixed_apart += [abs(a / b - 1.0) for a, b in zip(one, other, strict=True)]
     bodies = [
         by_three_bodies(RockingFrame(column, gamma), cap, _pulse(column, spec), 400)
-        for spec in case["three_bodies"]["pulses"]
-        for gamma in case["three_bodies"]["mass_ratios"]
+        for spec in settings["three_bodies"]["pulses"]
+        for gamma in settings["three_bodies"]["mass_ratios"]
     ]
     found = {"rocking": apart, "held": fixed_apart, "three bodies": bodies}
     rows = [(route, one) for route, differences in found.items() for one in differences]
@@ -267,16 +269,16 @@ def _pulse(column: Column, spec: dict) -> Pulse:
     return Pulse(spec["shape"], peak, spec["frequency_ratio"] * column.frequency_parameter)
 
 
-def main(case: dict, paths: list[str]) -> tuple:
-    column = Column(**case["column"])
-    cap = Cap(case["cap"]["span"], case["cap"]["depth"] / 2.0)
-    frames = [RockingFrame(column, gamma) for gamma in case["mass_ratios"]]
-    tried = motions(column, case, paths)
-    found = (compare(frames, cap, motion, labels, case) for motion, labels in tried)
+def main(settings: dict, paths: list[str]) -> tuple:
+    column = Column(**settings["column"])
+    cap = Cap(settings["cap"]["span"], settings["cap"]["depth"] / 2.0)
+    frames = [RockingFrame(column, gamma) for gamma in settings["mass_ratios"]]
+    tried = motions(column, settings, paths)
+    found = (compare(frames, cap, motion, labels, settings) for motion, labels in tried)
     table = pd.DataFrame(row for rows in progress(found, len(tried), "motions") for row in rows)
-    ratios, of_slope = summary(table, case), slopes(case)
+    ratios, of_slope = summary(table, settings), slopes(settings)
     apart = float((of_slope.slope - of_slope.three_bodies).abs().max())
-    routes = second_route(table, frames, cap, case, tried)
+    routes = second_route(table, frames, cap, settings, tried)
     drawn = findings(table, ratios, of_slope, routes)
     return (
         table,
@@ -369,7 +371,7 @@ def _longest(ratios: pd.DataFrame) -> float:
 
 
 def work(job: Any) -> tuple:
-    return main(job.params.case, job.input.records)
+    return main(job.params.settings, job.input.records)
 
 
 if __name__ == "__main__":

@@ -31,31 +31,31 @@ SEED = 2014  # of the sample of boundaries that SciPy judges
 OBJECTS = ("found", "bare", "wide", "bare_wide")  # of a row, which no table holds
 
 
-def numbers(column: Column, case: dict) -> list[tuple[str, float, float, Any]]:
+def numbers(column: Column, settings: dict) -> list[tuple[str, float, float, Any]]:
     """Return structure, γ, span (NaN but for a portal) and the thing itself."""
-    found = [(*rival[:2], math.nan, rival[2]) for rival in rivals(column, case["mass_ratios"])]
-    width, depth = case["cap"]["width"], case["cap"]["depth"]
+    found = [(*rival[:2], math.nan, rival[2]) for rival in rivals(column, settings["mass_ratios"])]
+    width, depth = settings["cap"]["width"], settings["cap"]["depth"]
     found += [
         ("fixed, of the drawn size", gamma, math.nan, FixedMassColumn(column, gamma, width, depth))
-        for gamma in case["mass_ratios"]
+        for gamma in settings["mass_ratios"]
         if gamma > 0.0
     ]
-    gamma = case["portals"]["mass_ratio"]
+    gamma = settings["portals"]["mass_ratio"]
     return found + [
         ("portal", gamma, span, MonolithicPortal(column, gamma, span, depth))
-        for span in case["portals"]["spans"]
+        for span in settings["portals"]["spans"]
     ]
 
 
-def under_pulses(column: Column, case: dict) -> list[dict]:
+def under_pulses(column: Column, settings: dict) -> list[dict]:
     """Return every structure's three numbers, and its minimum under each pulse of the period."""
-    rows, below = [], case["spectra"]["highest"] * column.uplift_acceleration
-    for name, gamma, span, structure in numbers(column, case):
+    rows, below = [], settings["spectra"]["highest"] * column.uplift_acceleration
+    for name, gamma, span, structure in numbers(column, settings):
         block, highest = structure.block(), PORTALS_HIGHEST if name == "portal" else below
         size = 3.0 * STANDARD_GRAVITY / (4.0 * block.frequency_parameter**2)
-        for shape in case["shapes"]:
-            pulse = Pulse(shape, 1.0, 2.0 * math.pi / case["period"])
-            found = minimum(structure, pulse, highest, case["floor"])
+        for shape in settings["shapes"]:
+            pulse = Pulse(shape, 1.0, 2.0 * math.pi / settings["period"])
+            found = minimum(structure, pulse, highest, settings["floor"])
             rows.append(
                 {
                     "structure": name,
@@ -75,15 +75,15 @@ def under_pulses(column: Column, case: dict) -> list[dict]:
 
 
 def search(
-    column: Column, motion: Pulse | Record, ratios: list[float], case: dict, tightened: float
+    column: Column, motion: Pulse | Record, ratios: list[float], settings: dict, tightened: float
 ) -> list[dict]:
     """Return the minima of all structures under one motion, each beside that of the bare column."""
     rows: list[dict] = []
-    highest, floor = case["spectra"]["highest"] * column.uplift_acceleration, case["floor"]
+    highest, floor = settings["spectra"]["highest"] * column.uplift_acceleration, settings["floor"]
     for name, gamma, structure in rivals(column, ratios):
         found = lowest_told(structure, motion, highest, floor, tightened)
         row = {"structure": name, "mass_ratio": gamma, "found": found}
-        row["wide"] = lowest_wide(found, highest, floor, case["widths"])
+        row["wide"] = lowest_wide(found, highest, floor, settings["widths"])
         bare = rows[0] if rows else row
         rows.append(row | {"bare": bare["found"], "bare_wide": bare["wide"]})
     return rows
@@ -142,12 +142,12 @@ def _or_nan(value: float) -> float:
     return value if math.isfinite(value) else math.nan
 
 
-def question(compared: list[dict], structures: list[str], case: dict) -> Finding:
+def question(compared: list[dict], structures: list[str], settings: dict) -> Finding:
     """Return whether the structures keep their rank under every motion, as a finding.
 
     The evidence has how often the lowest intervals of each width do not.
     """
-    longest = case["longest"]
+    longest = settings["longest"]
     asked = [row for row in compared if row["structure"] in structures]
     broken = pd.DataFrame(filter(is_exception, asked), columns=["structure", "kind"])
     found = counted(broken, structures)
@@ -160,7 +160,9 @@ def question(compared: list[dict], structures: list[str], case: dict) -> Finding
         comparisons_when=len(long_ones),
         **found,
         records=sum(row["kind"] == "record" for row in asked),
-        exceptions_of_width={f"{width:g}": reversed_at(asked, width) for width in case["widths"]},
+        exceptions_of_width={
+            f"{width:g}": reversed_at(asked, width) for width in settings["widths"]
+        },
     )
 
 
@@ -236,7 +238,7 @@ def whole_gain(table: pd.DataFrame) -> Finding:
 
 
 def motions(
-    column: Column, case: dict, paths: list[str]
+    column: Column, settings: dict, paths: list[str]
 ) -> list[tuple[Pulse | Record, list[float], dict]]:
     """Return every motion, of unit peak, with the γ that it is tried with and its labels.
 
@@ -249,14 +251,14 @@ def motions(
             spec["mass_ratios"],
             {"kind": kind, "motion": shape, "frequency_ratio": ratio},
         )
-        for kind, spec in (("pulse", case["spectra"]), ("fresh", case["fresh"]))
+        for kind, spec in (("pulse", settings["spectra"]), ("fresh", settings["fresh"]))
         for shape in spec["shapes"]
         for ratio in grid(spec["frequency_ratios"])
     ]
     return pulses + [
         (
             record.scaled(1.0 / np.abs(record.acceleration).max()),
-            case["record_mass_ratios"],
+            settings["record_mass_ratios"],
             {"kind": "record", "motion": record.name, "frequency_ratio": math.nan},
         )
         for record in map(read_record, paths)
@@ -310,41 +312,41 @@ def findings(
     }
 
 
-def main(case: dict, paths: list[str], tightened: float) -> tuple:
-    column = Column(**case["column"])
-    summary = pd.DataFrame(under_pulses(column, case))
-    tried = motions(column, case, paths)
+def main(settings: dict, paths: list[str], tightened: float) -> tuple:
+    column = Column(**settings["column"])
+    summary = pd.DataFrame(under_pulses(column, settings))
+    tried = motions(column, settings, paths)
     found = (
-        [labels | row for row in search(column, motion, ratios, case, tightened)]
+        [labels | row for row in search(column, motion, ratios, settings, tightened)]
         for motion, ratios, labels in tried
     )
     rows = [row for part in progress(found, len(tried), "motions") for row in part]
     compared = [row for row in rows if is_compared(row)]
     broken = [row for row in compared if is_exception(row)]
     exceptions = list(map(exception, broken))
-    sample = sampled(compared, "pulse", case["sample"]["points"])
-    sample += sampled(compared, "record", case["checked_by_second_route"])
+    sample = sampled(compared, "pulse", settings["sample"]["points"])
+    sample += sampled(compared, "record", settings["checked_by_second_route"])
     sample += [one for row in broken for one in minima(row)]
     errors = [*(one.error / one.acceleration for one in sample)]
     errors += [*(summary.error / summary.minimum_overturning)]
-    of_shares = pd.DataFrame(shares(column, case))
+    of_shares = pd.DataFrame(shares(column, settings))
     none = ["structure", "kind", "frequency_ratio"]
-    found = {name: question(compared, of, case) for name, of in ASKED.items()}
+    found = {name: question(compared, of, settings) for name, of in ASKED.items()}
     found["support_decides"] = found["support_decides"].with_evidence(
         under_the_pulses_of_the_period=ranks(summary)
     )
-    found["condition_on_a_fresh_grid"] = on_a_fresh_grid(compared, case["longest"])
+    found["condition_on_a_fresh_grid"] = on_a_fresh_grid(compared, settings["longest"])
     drawn = findings(
         summary, pd.DataFrame(exceptions, columns=None if exceptions else none), of_shares
     )
     found |= {name: one for name, one in drawn.items() if isinstance(one, Finding)}
     found["second_route"] = second_route(errors, exceptions, rows)
     tables = summary, pd.DataFrame(map(searched, rows)), pd.DataFrame(exceptions), of_shares
-    return *tables, pd.DataFrame(poses(column, case)), found
+    return *tables, pd.DataFrame(poses(column, settings)), found
 
 
 def work(job: Any) -> tuple:
-    return main(job.params.case, job.input.records, job.params.solver["tightened"])
+    return main(job.params.settings, job.input.records, job.params.solver["tightened"])
 
 
 if __name__ == "__main__":

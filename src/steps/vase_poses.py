@@ -22,13 +22,13 @@ def lying(column: Column, corners: np.ndarray) -> float:
     return float(np.min(math.pi / 2.0 - np.arctan2(raised[:, 0] - column.half_width, raised[:, 1])))
 
 
-def bodies(structure: Structure, rotation: float, case: dict) -> dict[str, np.ndarray]:
+def bodies(structure: Structure, rotation: float, settings: dict) -> dict[str, np.ndarray]:
     """Return the outlines of the bodies of a structure that has rocked by θ."""
-    width = case["cap"]["width"] * (2.0 if isinstance(structure, RockingFrame) else 1.0)
-    return outlines(structure, rotation, width, case["cap"]["depth"])
+    width = settings["cap"]["width"] * (2.0 if isinstance(structure, RockingFrame) else 1.0)
+    return outlines(structure, rotation, width, settings["cap"]["depth"])
 
 
-def rotations(structure: Structure, pulse: Pulse, case: dict) -> tuple[str, list[float]]:
+def rotations(structure: Structure, pulse: Pulse, settings: dict) -> tuple[str, list[float]]:
     """Return the outcome, and the rotations that are drawn, the last one last.
 
     Of a structure that survives these are its largest rotations to both sides, and 0.
@@ -45,25 +45,25 @@ def rotations(structure: Structure, pulse: Pulse, case: dict) -> tuple[str, list
         )
     seen = response.rotation[~np.isnan(response.rotation)]
     column = structure if isinstance(structure, Column) else structure.column
-    corners = np.concatenate(list(bodies(structure, 0.0, case).values()))
+    corners = np.concatenate(list(bodies(structure, 0.0, settings).values()))
     last = math.copysign(lying(column, corners), seen[-1])
     return response.outcome, [last * share for share in FALL]
 
 
-def poses(column: Column, case: dict) -> Iterator[dict]:
+def poses(column: Column, settings: dict) -> Iterator[dict]:
     """Yield a row for each corner of each body of each pose."""
-    gamma, cap = case["picture"]["mass_ratio"], case["cap"]
+    gamma, cap = settings["picture"]["mass_ratio"], settings["cap"]
     structures = {
         "bare": column,
         "fixed": FixedMassColumn(column, gamma, cap["width"], cap["depth"]),
         "free": RockingFrame(column, gamma),
     }
-    for amplitude in case["picture"]["amplitudes"]:
-        pulse = Pulse("one-cosine", amplitude, 2.0 * math.pi / case["period"])
+    for amplitude in settings["picture"]["amplitudes"]:
+        pulse = Pulse("one-cosine", amplitude, 2.0 * math.pi / settings["period"])
         for name, structure in structures.items():
-            outcome, drawn = rotations(structure, pulse, case)
+            outcome, drawn = rotations(structure, pulse, settings)
             for pose, rotation in enumerate(drawn):
-                for body, outline in bodies(structure, rotation, case).items():
+                for body, outline in bodies(structure, rotation, settings).items():
                     if outline[:, 1].min() < -CLOSENESS:
                         raise ArithmeticError(f"{name}: the {body} is in the ground")
                     for x, y in outline:

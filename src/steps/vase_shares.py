@@ -54,32 +54,34 @@ def shapley(worth: Mapping[tuple[str, ...], float]) -> dict[str, float]:
     return values
 
 
-def survived(block: RockingBlock, column: Column, shape: str, case: dict) -> float:
+def survived(block: RockingBlock, column: Column, shape: str, settings: dict) -> float:
     """Return the share of the map that a block survives; its axes are those of the column."""
-    spec = case["shares"]
+    spec = settings["shares"]
     frequencies = grid(spec["frequency_ratios"]) * column.frequency_parameter
     amplitudes = grid(spec["amplitudes"]) * column.uplift_acceleration
     found = overturning_map(block, shape, frequencies, amplitudes)
     return float(1.0 - np.mean(found.overturned.to_numpy()))
 
 
-def least(block: RockingBlock, column: Column, shape: str, case: dict) -> float:
+def least(block: RockingBlock, column: Column, shape: str, settings: dict) -> float:
     """Return the minimum overturning acceleration of a block under the pulse of the period, g."""
-    pulse = Pulse(shape, 1.0, 2.0 * math.pi / case["period"])
-    highest = case["spectra"]["highest"] * column.uplift_acceleration
-    return minimum(block, pulse, highest, case["floor"]).acceleration
+    pulse = Pulse(shape, 1.0, 2.0 * math.pi / settings["period"])
+    highest = settings["spectra"]["highest"] * column.uplift_acceleration
+    return minimum(block, pulse, highest, settings["floor"]).acceleration
 
 
 WORTHS = {"survived share of the map": survived, "minimum overturning acceleration (g)": least}
 
 
-def shares(column: Column, case: dict) -> list[dict]:
+def shares(column: Column, settings: dict) -> list[dict]:
     """Return a row for each worth, shape, γ and subset, with the Shapley value of single ones."""
     rows = []
-    for worth_of, shape, gamma in product(WORTHS, case["shapes"], case["shares"]["mass_ratios"]):
+    for worth_of, shape, gamma in product(
+        WORTHS, settings["shapes"], settings["shares"]["mass_ratios"]
+    ):
         fixed, free = FixedMassColumn(column, gamma).block(), RockingFrame(column, gamma).block()
         worth = {
-            subset: WORTHS[worth_of](exchanged(fixed, free, subset), column, shape, case)
+            subset: WORTHS[worth_of](exchanged(fixed, free, subset), column, shape, settings)
             for subset in subsets()
         }
         values, gain = shapley(worth), worth[tuple(PARAMETERS)] - worth[()]

@@ -33,20 +33,20 @@ OF_PRINT = 0.005  # of a number: the prints, which have three digits, are that f
 Cell = tuple[RockingBlock, Pulse]
 
 
-def cells(case: dict, shape: str, *, linearised: bool) -> Iterator[Cell]:
+def cells(settings: dict, shape: str, *, linearised: bool) -> Iterator[Cell]:
     """Draw the seeded sample of one ensemble."""
-    draw = np.random.default_rng(case["seed"])
-    for number in range(case["cells"]):
-        alpha = math.radians(draw.uniform(*case["slendernesses"]))
+    draw = np.random.default_rng(settings["seed"])
+    for number in range(settings["cells"]):
+        alpha = math.radians(draw.uniform(*settings["slendernesses"]))
         column = Column(math.sin(alpha), math.cos(alpha))
-        block = RockingFrame(column, draw.choice(case["mass_ratios"])).block()
+        block = RockingFrame(column, draw.choice(settings["mass_ratios"])).block()
         block = block.linear() if linearised else block
-        omega = draw.uniform(*case["frequency_ratios"]) * column.frequency_parameter
-        ratio = draw.uniform(*case["amplitudes"])
+        omega = draw.uniform(*settings["frequency_ratios"]) * column.frequency_parameter
+        ratio = draw.uniform(*settings["amplitudes"])
         level = block.uplift_acceleration
         if number % 2:
             found = overturning_intervals(
-                block, Pulse(shape, level, omega), (1.0, case["amplitudes"][1]), resolution=0.05
+                block, Pulse(shape, level, omega), (1.0, settings["amplitudes"][1]), resolution=0.05
             )
             if found:
                 ratio = found[0].lower[0] * (1.0 + draw.uniform(-0.01, 0.01))
@@ -70,7 +70,7 @@ def compare(sample: list[Cell], route: Callable, other: Callable) -> dict:
     }
 
 
-def agreement(case: dict, tightened: float) -> pd.DataFrame:
+def agreement(settings: dict, tightened: float) -> pd.DataFrame:
     """Compare the Taylor solver with SciPy, the exact solution, and a tighter tolerance."""
 
     def tight(block: RockingBlock, pulse: Pulse):
@@ -82,8 +82,8 @@ def agreement(case: dict, tightened: float) -> pd.DataFrame:
 
     rows = []
     for linearised in (False, True):
-        for shape in case["shapes"]:
-            sample = list(cells(case, shape, linearised=linearised))
+        for shape in settings["shapes"]:
+            sample = list(cells(settings, shape, linearised=linearised))
             routes = {"SciPy integration": reference.judge, "tightened tolerance": tight}
             if linearised and shape in ELEMENTARY:
                 routes["exact solution"] = exact
@@ -95,9 +95,9 @@ def agreement(case: dict, tightened: float) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def convergence(case: dict) -> pd.DataFrame:
+def convergence(settings: dict) -> pd.DataFrame:
     """Error of the peak against the tolerance of the kernel, on the sample of the first shape."""
-    sample = list(cells(case, case["shapes"][0], linearised=False))
+    sample = list(cells(settings, settings["shapes"][0], linearised=False))
     best = [judge(*cell, tolerance=1e-14) for cell in sample]
     rows = []
     for tolerance in 10.0 ** np.arange(-4, -13, -1.0):
@@ -116,10 +116,10 @@ def convergence(case: dict) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def drift(case: dict) -> float:
+def drift(settings: dict) -> float:
     """Largest relative change of energy between two impacts of free rocking."""
     worst = 0.0
-    for degrees in case["slendernesses"]:
+    for degrees in settings["slendernesses"]:
         block = RockingBlock(2.0, math.radians(degrees), 0.9)
         for each in (block, block.linear()):
             response = simulate(each, rotation=0.8 * block.slenderness, samples=4000)
@@ -138,7 +138,7 @@ def boundary(block: RockingBlock, pulse: Pulse, near: float, which: str = "lower
     return min(middles, key=lambda middle: abs(middle - near))
 
 
-def published(case: dict) -> pd.DataFrame:
+def published(settings: dict) -> pd.DataFrame:
     """The numbers of the literature, as printed and as computed here."""
     slender = RockingBlock(1.0, 0.25, 0.9, linearised=True)
     zhang = RockingBlock(2.14, 0.25, 0.9, linearised=True)
@@ -153,7 +153,7 @@ def published(case: dict) -> pd.DataFrame:
         decay, rotation=0.5 * 0.25, samples=np.linspace(impacts[4], impacts[5], 20001)[1:-1]
     )
     one_sine = Pulse("one-sine", 1.0, 5.0)
-    near = {row["quantity"]: row["expected"] for row in case["published"]}
+    near = {row["quantity"]: row["expected"] for row in settings["published"]}
     computed = {
         "housner_quarter_period": free,
         "exact_quarter_period": bent.impacts[0],
@@ -183,12 +183,12 @@ def published(case: dict) -> pd.DataFrame:
     }
     return pd.DataFrame(
         {
-            "quantity": [row["quantity"] for row in case["published"]],
-            "source": [row["source"] for row in case["published"]],
-            "printed": [row["printed"] for row in case["published"]],
-            "expected": [row["expected"] for row in case["published"]],
-            "tolerance": [row["tolerance"] for row in case["published"]],
-            "computed": [computed[row["quantity"]] for row in case["published"]],
+            "quantity": [row["quantity"] for row in settings["published"]],
+            "source": [row["source"] for row in settings["published"]],
+            "printed": [row["printed"] for row in settings["published"]],
+            "expected": [row["expected"] for row in settings["published"]],
+            "tolerance": [row["tolerance"] for row in settings["published"]],
+            "computed": [computed[row["quantity"]] for row in settings["published"]],
         }
     )
 
@@ -217,9 +217,13 @@ def distance_from_derivation() -> float:
     return worst
 
 
-def main(case: dict, tightened: float) -> tuple[dict[str, pd.DataFrame], dict]:
-    routes, order, literature = agreement(case, tightened), convergence(case), published(case)
-    lost, apart = drift(case), distance_from_derivation()
+def main(settings: dict, tightened: float) -> tuple[dict[str, pd.DataFrame], dict]:
+    routes, order, literature = (
+        agreement(settings, tightened),
+        convergence(settings),
+        published(settings),
+    )
+    lost, apart = drift(settings), distance_from_derivation()
     found = findings(routes, literature) | {
         "energy_drift": value(lost, 0.0),
         "library_follows_the_derivation": truth(apart < 1e-13, largest_difference=apart),
@@ -250,7 +254,7 @@ def findings(
 
 
 def work(job: Any) -> tuple:
-    tables, findings = main(job.params.case, job.params.solver["tightened"])
+    tables, findings = main(job.params.settings, job.params.solver["tightened"])
     return tables["routes"], tables["convergence"], tables["published"], findings
 
 

@@ -33,21 +33,21 @@ def shares(spec: Mapping[str, float]) -> NDArray[np.float64]:
     return np.round(np.arange(int(spec["highest"] / spec["step"] + 1e-9) + 1) * spec["step"], 9)
 
 
-def columns(case: Mapping[str, Any]) -> list[Column]:
+def columns(settings: Mapping[str, Any]) -> list[Column]:
     """Return the similar columns, in the order of `sizes`."""
-    own = Column(**case["column"])
-    return [Column(s * own.half_width, s * own.half_height) for s in case["sizes"]]
+    own = Column(**settings["column"])
+    return [Column(s * own.half_width, s * own.half_height) for s in settings["sizes"]]
 
 
-def subjects(column: Column, case: Mapping[str, Any]) -> list[Subject]:
+def subjects(column: Column, settings: Mapping[str, Any]) -> list[Subject]:
     """Return the column with each deficit, and the frames with each raise, to HIGHEST at most."""
     height, own, found = 2.0 * column.half_height, column.block(), []
-    for share in shares(case["deficits"]):
+    for share in shares(settings["deficits"]):
         lower = own.with_restitution((1.0 - share) * own.restitution)
         found.append(Subject(height, column, 0.0, float(share), lower))
-    for gamma in case["mass_ratios"]:
+    for gamma in settings["mass_ratios"]:
         frame = RockingFrame(column, gamma).block()
-        raises, most = shares(case["raises"]), HIGHEST / frame.restitution - 1.0
+        raises, most = shares(settings["raises"]), HIGHEST / frame.restitution - 1.0
         if raises[-1] > most:
             raises = np.append(raises[raises < most], most)
         for share in raises:

@@ -40,38 +40,38 @@ class Subject:
         }
 
 
-def subjects(case: Mapping[str, Any]) -> list[Subject]:
+def subjects(settings: Mapping[str, Any]) -> list[Subject]:
     """Return the bare column, also with a lower √r, and what carries each cap beam."""
-    column = Column(**case["column"])
-    own, ratios = column.block(), case["mass_ratios"]
+    column = Column(**settings["column"])
+    own, ratios = column.block(), settings["mass_ratios"]
     found = [
         Subject(BARE, 0.0, share, own.with_restitution((1.0 - share) * own.restitution))
-        for share in (0.0, *case["lowered"])
+        for share in (0.0, *settings["lowered"])
     ]
     found += [Subject(FREE, g, 0.0, RockingFrame(column, g).block()) for g in ratios]
     found += [Subject(FIXED, g, 0.0, FixedMassColumn(column, g).block()) for g in ratios]
-    portals = [(g, MonolithicPortal(column, g, case["span"])) for g in ratios]
+    portals = [(g, MonolithicPortal(column, g, settings["span"])) for g in ratios]
     return found + [Subject(PORTAL, g, 0.0, portal.block()) for g, portal in portals]
 
 
-def grid(case: Mapping[str, Any]) -> NDArray[np.float64]:
+def grid(settings: Mapping[str, Any]) -> NDArray[np.float64]:
     """Return the PGVs, m/s, over which rates are summed: every other one is a grid, too."""
-    spec = case["velocities"]
+    spec = settings["velocities"]
     return np.geomspace(spec["lowest"], spec["highest"], spec["points"])
 
 
-def stated(column: Column, case: Mapping[str, Any]) -> list[tuple[str, float, float]]:
+def stated(column: Column, settings: Mapping[str, Any]) -> list[tuple[str, float, float]]:
     """Return measure, level and PGV (m/s) at which probabilities are stated."""
     unit = STANDARD_GRAVITY * column.uplift_acceleration / column.frequency_parameter
-    return [(PGV, level, level) for level in case["pgv"]] + [
-        (SCALED, level, level * unit) for level in case["scaled"]
+    return [(PGV, level, level) for level in settings["pgv"]] + [
+        (SCALED, level, level * unit) for level in settings["scaled"]
     ]
 
 
-def velocities(case: Mapping[str, Any]) -> NDArray[np.float64]:
+def velocities(settings: Mapping[str, Any]) -> NDArray[np.float64]:
     """Return the PGVs of all outcomes: those of the grid, then those that are stated."""
-    of_stated = [pgv for *_, pgv in stated(Column(**case["column"]), case)]
-    return np.concatenate([grid(case), of_stated])
+    of_stated = [pgv for *_, pgv in stated(Column(**settings["column"]), settings)]
+    return np.concatenate([grid(settings), of_stated])
 
 
 def fallen(rows: pd.DataFrame, motions: int, structures: int) -> tuple[NDArray[np.bool_], Any]:

@@ -1,11 +1,11 @@
 """What follows from the equation of motion, for which motion, and how surely."""
 
 # The synthetic motions of the study that this one needs.
-ENSEMBLE = case("motions_ensemble", *PARTS["certainty"].config["needs"])
-RATES = case("rates", "certainty")
+ENSEMBLE = settings("motions_ensemble", *PARTS["certainty"].config["needs"])
+RATES = settings("rates", "certainty")
 
 
-BREAK_EVEN = case("break_even", "certainty")
+BREAK_EVEN = settings("break_even", "certainty")
 
 
 scattergather:
@@ -18,7 +18,7 @@ rule certainty_theorem:
         table="results/tables/certainty_theorem.csv",
         findings="results/findings/certainty_theorem.json",
     params:
-        case=case("theorem", "certainty"),
+        settings=settings("theorem", "certainty"),
     message:
         "Study certainty: no reversal without an impact"
     script:
@@ -30,7 +30,7 @@ rule certainty_restarted:
         table="results/tables/certainty_restarted.csv",
         findings="results/findings/certainty_restarted.json",
     params:
-        case=PARTS["certainty"].config["restarted"],
+        settings=PARTS["certainty"].config["restarted"],
     message:
         "Study certainty: no reversal since a common rest, with vertical motion"
     script:
@@ -43,7 +43,7 @@ rule certainty_lowest:
         histories="results/tables/certainty_lowest_histories.csv",
         findings="results/findings/certainty_lowest.json",
     params:
-        case=case("lowest", "certainty"),
+        settings=settings("lowest", "certainty"),
         solver=config["solver"],
     message:
         "Study certainty: a pulse that needs less to overturn the heavier frame"
@@ -55,7 +55,7 @@ rule certainty_extensions:
     input:
         records=[
             RECORDS[name]
-            for pair in case("extensions", "certainty")["pairs"]
+            for pair in settings("extensions", "certainty")["pairs"]
             for name in (pair["horizontal"], pair["vertical"])
         ],
     output:
@@ -65,7 +65,7 @@ rule certainty_extensions:
         lobes="results/tables/certainty_lobes.csv",
         findings="results/findings/certainty_extensions.json",
     params:
-        case=case("extensions", "certainty"),
+        settings=settings("extensions", "certainty"),
     message:
         "Study certainty: similarity, several columns, vertical acceleration"
     script:
@@ -77,7 +77,7 @@ rule certainty_restitution:
         table="results/tables/certainty_restitution.csv",
         findings="results/findings/certainty_restitution.json",
     params:
-        case=case("restitution", "certainty"),
+        settings=settings("restitution", "certainty"),
         ensemble=ENSEMBLE,
     message:
         "Study certainty: how much depends on the impact law"
@@ -90,7 +90,7 @@ rule certainty_benefit:
         table="results/tables/certainty_benefit.csv",
         findings="results/findings/certainty_benefit.json",
     params:
-        case=case("benefit", "certainty"),
+        settings=settings("benefit", "certainty"),
         ensemble=ENSEMBLE,
     message:
         "Study certainty: the benefit of the cap beam if the column loses more at impacts"
@@ -103,9 +103,9 @@ rule certainty_intensities:
         table="results/tables/certainty_intensities.csv",
         findings="results/findings/certainty_intensities.json",
     params:
-        case=case("intensities", "certainty"),
+        settings=settings("intensities", "certainty"),
         ensemble=ENSEMBLE,
-        structures=named(config["structures"], case("intensities", "certainty")),
+        structures=named(config["structures"], settings("intensities", "certainty")),
     message:
         "Study certainty: probability of overturning at stated intensities"
     script:
@@ -116,7 +116,7 @@ rule certainty_rates_shard:
     output:
         table="results/shards/certainty_rates_{scatteritem}.csv",
     params:
-        case=RATES,
+        settings=RATES,
         ensemble=ENSEMBLE,
     message:
         "Study certainty: all motions at all velocities, shard {wildcards.scatteritem}"
@@ -133,7 +133,7 @@ rule certainty_rates_check:
         table="results/tables/certainty_rates_check.csv",
         findings="results/findings/certainty_rates_check.json",
     params:
-        case=RATES,
+        settings=RATES,
         ensemble=ENSEMBLE,
         solver=config["solver"],
     message:
@@ -154,7 +154,7 @@ rule certainty_rates:
         scales="results/tables/certainty_scales.csv",
         findings="results/findings/certainty_rates.json",
     params:
-        case=RATES,
+        settings=RATES,
         ensemble=ENSEMBLE,
     message:
         "Study certainty: the mean annual rate of overturning"
@@ -166,7 +166,7 @@ rule certainty_break_even_shard:
     output:
         table="results/shards/certainty_break_even_{scatteritem}.csv",
     params:
-        case=BREAK_EVEN,
+        settings=BREAK_EVEN,
         ensemble=ENSEMBLE,
     message:
         "Study certainty: all motions at changed √r, shard {wildcards.scatteritem}"
@@ -185,7 +185,7 @@ rule certainty_break_even:
         measured="results/tables/certainty_measured.csv",
         findings="results/findings/certainty_break_even.json",
     params:
-        case=BREAK_EVEN,
+        settings=BREAK_EVEN,
         ensemble=ENSEMBLE,
     message:
         "Study certainty: the deficit of √r at which the benefit ends"
@@ -198,7 +198,7 @@ rule certainty_break_even_pulses:
         table="results/tables/certainty_break_even_pulses.csv",
         findings="results/findings/certainty_break_even_pulses.json",
     params:
-        case=case("break_even_pulses", "certainty"),
+        settings=settings("break_even_pulses", "certainty"),
         pulse=config["heavier"]["pulse"],
         measured=BREAK_EVEN["measured"],
     message:
@@ -209,13 +209,13 @@ rule certainty_break_even_pulses:
 
 rule certainty_records:
     input:
-        records=record_paths(case("records", "certainty")["records"], RECORDS),
+        records=record_paths(settings("records", "certainty")["records"], RECORDS),
     output:
         table="results/tables/certainty_records.csv",
         findings="results/findings/certainty_records.json",
     params:
-        case=case("records", "certainty"),
-        structures=named(config["structures"], case("records", "certainty")),
+        settings=settings("records", "certainty"),
+        structures=named(config["structures"], settings("records", "certainty")),
     message:
         "Study certainty: the records as measured"
     script:
@@ -224,14 +224,14 @@ rule certainty_records:
 
 rule certainty_rescaled:
     input:
-        records=record_paths(case("records", "certainty")["records"], RECORDS),
+        records=record_paths(settings("records", "certainty")["records"], RECORDS),
     output:
         table="results/tables/certainty_rescaled.csv",
         findings="results/findings/certainty_rescaled.json",
     params:
-        case=case("records", "certainty"),
+        settings=settings("records", "certainty"),
         spec=PARTS["certainty"].config["rescaled"],
-        structures=named(config["structures"], case("records", "certainty")),
+        structures=named(config["structures"], settings("records", "certainty")),
     message:
         "Study certainty: the records a little larger or smaller"
     script:
@@ -241,15 +241,15 @@ rule certainty_rescaled:
 rule certainty_proven:
     input:
         rescaled="results/tables/certainty_rescaled.csv",
-        records=record_paths(case("records", "certainty")["records"], RECORDS),
+        records=record_paths(settings("records", "certainty")["records"], RECORDS),
     output:
         table="results/tables/certainty_proven.csv",
         certificates="results/certificates/certainty_proven.jsonl",
         findings="results/findings/certainty_proven.json",
     params:
-        case=case("lowest", "certainty"),
-        columns=case("records", "certainty")["columns"],
-        structures=named(config["structures"], case("records", "certainty")),
+        settings=settings("lowest", "certainty"),
+        columns=settings("records", "certainty")["columns"],
+        structures=named(config["structures"], settings("records", "certainty")),
     message:
         "Study certainty: the counterexample and the reversals under records, proven"
     script:
@@ -258,12 +258,12 @@ rule certainty_proven:
 
 rule certainty_reach:
     input:
-        records=record_paths(case("reach", "certainty")["records"], RECORDS),
+        records=record_paths(settings("reach", "certainty")["records"], RECORDS),
     output:
         table="results/tables/certainty_reach.csv",
         findings="results/findings/certainty_reach.json",
     params:
-        case=case("reach", "certainty"),
+        settings=settings("reach", "certainty"),
         ensemble=ENSEMBLE,
     message:
         "Study certainty: how often overturning is without an impact"
@@ -276,7 +276,7 @@ rule certainty_shares:
         table="results/tables/certainty_shares.csv",
         findings="results/findings/certainty_shares.json",
     params:
-        case=case("shares", "certainty"),
+        settings=settings("shares", "certainty"),
         ensemble=ENSEMBLE,
     message:
         "Study certainty: shares of α, p̂ and √r in the probability"

@@ -14,7 +14,7 @@ rule mechanism_forces:
         table="results/tables/mechanism_forces.csv",
         findings="results/findings/mechanism_forces.json",
     params:
-        case=case("forces", "mechanism"),
+        settings=settings("forces", "mechanism"),
         cap=MECHANISM["caps"][MECHANISM["forces"]["structure"]],
     message:
         "Study mechanism: the contact forces, proved and in their limits"
@@ -29,7 +29,7 @@ rule mechanism_three_bodies:
         table="results/tables/mechanism_three_bodies.csv",
         findings="results/findings/mechanism_three_bodies.json",
     params:
-        case=case("three_bodies", "mechanism"),
+        settings=settings("three_bodies", "mechanism"),
         cap=MECHANISM["caps"][MECHANISM["three_bodies"]["structure"]],
     message:
         "Study mechanism: three bodies beside one degree of freedom"
@@ -43,7 +43,7 @@ rule mechanism_admissible:
         by_mass="results/tables/mechanism_admissible_by_mass.csv",
         findings="results/findings/mechanism_admissible.json",
     params:
-        case=case("admissible", "mechanism"),
+        settings=settings("admissible", "mechanism"),
         cap=MECHANISM["caps"][MECHANISM["admissible"]["structure"]],
     message:
         "Study mechanism: where nothing slides and nothing opens"
@@ -57,7 +57,7 @@ rule mechanism_dependence:
         bays="results/tables/mechanism_bays.csv",
         findings="results/findings/mechanism_dependence.json",
     params:
-        case=case("dependence", "mechanism"),
+        settings=settings("dependence", "mechanism"),
         cap=MECHANISM["caps"][MECHANISM["dependence"]["structure"]],
     message:
         "Study mechanism: the friction that suffices"
@@ -72,7 +72,7 @@ rule mechanism_records:
         table="results/tables/mechanism_records.csv",
         findings="results/findings/mechanism_records.json",
     params:
-        case=MECHANISM["records"],
+        settings=MECHANISM["records"],
         structures=named(config["structures"], MECHANISM["records"]),
         caps=named(MECHANISM["caps"], MECHANISM["records"]),
     message:
@@ -88,7 +88,7 @@ rule mechanism_equivalence:
         lowest="results/tables/mechanism_lowest.csv",
         findings="results/findings/mechanism_equivalence.json",
     params:
-        case=MECHANISM["equivalence"],
+        settings=MECHANISM["equivalence"],
     message:
         "Study mechanism: the frame beside its equivalent column"
     script:
@@ -107,7 +107,7 @@ rule mechanism_engine:
     wildcard_constraints:
         experiment="|".join(EXPERIMENTS),
     params:
-        case=lambda wildcards: MECHANISM["engine"][wildcards.experiment],
+        settings=lambda wildcards: MECHANISM["engine"][wildcards.experiment],
         structures=lambda wildcards: named(
             config["structures"], MECHANISM["engine"][wildcards.experiment]
         ),

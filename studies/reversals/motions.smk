@@ -1,9 +1,9 @@
 """Is a heavier cap always more stable? The half of the study about ground motions."""
 
-MOTIONS = case("motions_ensemble", "reversals")
+MOTIONS = settings("motions_ensemble", "reversals")
 
 
-UPLIFT = case("motions_uplift", "reversals").copy()
+UPLIFT = settings("motions_uplift", "reversals").copy()
 # No parameter: the rows are the same, however many shards there are.
 UPLIFT_SHARDS = UPLIFT.pop("shards")
 
@@ -15,13 +15,15 @@ scattergather:
 
 rule reversals_records:
     input:
-        records=record_paths(case("motions_records", "reversals")["records"], RECORDS),
+        records=record_paths(
+            settings("motions_records", "reversals")["records"], RECORDS
+        ),
     output:
         table="results/tables/reversals_records.csv",
         counts="results/tables/reversals_by_record.csv",
         findings="results/findings/reversals_records.json",
     params:
-        case=case("motions_records", "reversals"),
+        settings=settings("motions_records", "reversals"),
         solver=config["solver"],
     message:
         "Study reversals: real records, from uplift to collapse"
@@ -33,7 +35,7 @@ rule reversals_motions_shard:
     output:
         table="results/shards/reversals_motions_{scatteritem}.csv",
     params:
-        case=MOTIONS,
+        settings=MOTIONS,
         structures=named(config["structures"], MOTIONS),
     message:
         "Study reversals: synthetic motions, shard {wildcards.scatteritem}"
@@ -52,7 +54,7 @@ rule reversals_motions:
         medians="results/tables/reversals_medians.csv",
         findings="results/findings/reversals_motions.json",
     params:
-        case=MOTIONS,
+        settings=MOTIONS,
         structures=named(config["structures"], MOTIONS),
     message:
         "Study reversals: fragility, and how often the heavier falls alone"
@@ -69,7 +71,7 @@ rule reversals_check:
         table="results/tables/reversals_sample.csv",
         findings="results/findings/reversals_check.json",
     params:
-        case=MOTIONS,
+        settings=MOTIONS,
         structures=named(config["structures"], MOTIONS),
         solver=config["solver"],
     message:
@@ -84,7 +86,7 @@ rule reversals_vase:
         ranks="results/tables/reversals_vase_ranks.csv",
         findings="results/findings/reversals_vase.json",
     params:
-        case=case("motions_vase", "reversals"),
+        settings=settings("motions_vase", "reversals"),
         ensemble=MOTIONS,
         solver=config["solver"],
     message:
@@ -97,7 +99,7 @@ rule reversals_uplift_shard:
     output:
         table="results/shards/reversals_uplift_{scatteritem}.csv",
     params:
-        case=UPLIFT,
+        settings=UPLIFT,
         ensemble=MOTIONS,
     message:
         "Study reversals: forces that uplift limits, shard {wildcards.scatteritem}"
@@ -114,7 +116,7 @@ rule reversals_uplift:
         table="results/tables/reversals_uplift.csv",
         findings="results/findings/reversals_uplift.json",
     params:
-        case=UPLIFT,
+        settings=UPLIFT,
         ensemble=MOTIONS,
     message:
         "Study reversals: the forces that uplift limits under synthetic motions"

@@ -1,7 +1,7 @@
 """Is a heavier cap always more stable? The half about pulses."""
 
 # Of the grids in the config, the one that its key `grid` names.
-REVERSALS = case("pulses", "reversals").copy()
+REVERSALS = settings("pulses", "reversals").copy()
 REVERSALS |= REVERSALS.pop("grids")[REVERSALS.pop("grid")]
 
 
@@ -13,7 +13,7 @@ rule reversals_shard:
     output:
         table="results/shards/reversals_{scatteritem}.csv",
     params:
-        case=REVERSALS,
+        settings=REVERSALS,
     message:
         "Study reversals: spectra of every pair of p̂ and √r, shard {wildcards.scatteritem}"
     script:
@@ -32,7 +32,7 @@ rule reversals_pulses:
         histories="results/tables/reversals_histories.csv",
         findings="results/findings/reversals_pulses.json",
     params:
-        case=REVERSALS | case("reading", "reversals"),
+        settings=REVERSALS | settings("reading", "reversals"),
         solver=config["solver"],
     message:
         "Study reversals: where a heavier cap harms, and why"
@@ -48,7 +48,7 @@ rule reversals_proven:
         certificates="results/certificates/reversals_proven.jsonl",
         findings="results/findings/reversals_proven.json",
     params:
-        case=REVERSALS,
+        settings=REVERSALS,
     message:
         "Study reversals: a reversal of each pair of γ, proven"
     script:
@@ -62,7 +62,7 @@ rule reversals_enough:
         table="results/tables/reversals_enough.csv",
         findings="results/findings/reversals_enough.json",
     params:
-        case=REVERSALS | case("enough", "reversals"),
+        settings=REVERSALS | settings("enough", "reversals"),
     message:
         "Study reversals: how heavy a cap is enough"
     script:

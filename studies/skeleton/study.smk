@@ -6,7 +6,7 @@ rule skeleton_gain:
         table="results/tables/skeleton_gain.csv",
         findings="results/findings/skeleton_gain.json",
     params:
-        case=case("gain", "skeleton"),
+        settings=settings("gain", "skeleton"),
         solver=config["solver"],
     message:
         "Study skeleton: the lowest amplitude that overturns"

@@ -11,16 +11,18 @@ from steps.assumptions.choices import (
 from steps.shared.peak_forces import GUIDED, PINNED, RIGID
 
 
-def alternatives(case: dict) -> dict[str, dict[str, Choices]]:
+def alternatives(settings: dict) -> dict[str, dict[str, Choices]]:
     """Return every alternative, by its assumption and its own name in the ledger."""
-    root, wait = case["restitution"], case["wait"]
+    root, wait = settings["restitution"], settings["wait"]
     return {
-        "gravity": {name: Choices(gravity=g) for name, g in case["gravity"].items()},
+        "gravity": {name: Choices(gravity=g) for name, g in settings["gravity"].items()},
         "masses": {
             name: Choices(masses=(mass["cap"], mass["columns"]))
-            for name, mass in case["masses"].items()
+            for name, mass in settings["masses"].items()
         },
-        "section": {name: Choices(section=section) for name, section in case["section"].items()},
+        "section": {
+            name: Choices(section=section) for name, section in settings["section"].items()
+        },
         "restitution": {
             "fixed": Choices(restitution=lambda structure: root["fixed"]),
             "solitary": Choices(restitution=solitary_restitution),
@@ -32,7 +34,7 @@ def alternatives(case: dict) -> dict[str, dict[str, Choices]]:
             "housners": Choices(massless_restitution=solitary_restitution),
         },
         "equation": {"linearised": Choices(linearised=True)},
-        "pulse_start": {name: Choices(ramp=share) for name, share in case["ramp"].items()},
+        "pulse_start": {name: Choices(ramp=share) for name, share in settings["ramp"].items()},
         "table_start": {
             "smooth": Choices(table_starts=(0.0,)),
             "abrupt": Choices(table_starts=(1.0,)),
@@ -48,7 +50,7 @@ def alternatives(case: dict) -> dict[str, dict[str, Choices]]:
         "held_frame": {
             "cantilevers": Choices(held=(PINNED, RIGID)),
             "portal": Choices(held=(GUIDED, RIGID)),
-            "flexible": Choices(held=(PINNED, case["held"]["flexible"])),
+            "flexible": Choices(held=(PINNED, settings["held"]["flexible"])),
         },
         "stable": {"pulse_by_pulse": Choices(sense="pulse"), "lowest": Choices(sense="lowest")},
     }

@@ -8,27 +8,27 @@ import numpy as np
 
 from replication.workbench import truth
 from steps.assumptions.choices import Choices
-from steps.assumptions.quantity import Cases, Found, Quantity
+from steps.assumptions.quantity import Found, Quantity, Sections
 from steps.shared.peak_forces import FORCES, PINNED, RIGID, held, held_peaks, rocking_peaks
 from topheavy import Cap, Column, Pulse, RockingFrame, simulate
 
 
-def limits(choices: Choices, cases: Cases) -> Found:
+def limits(choices: Choices, sections: Sections) -> Found:
     """The largest ratio of the bending moments of survivors, and whether all forces are smaller.
 
     The condition is that of the claim: a rigid held frame and, for bending moments, pinned tops.
     """
-    case, few = cases["uplift_limits"], cases["assumptions"]["held"]
-    column = Column(**case["column"])
+    settings, few = sections["uplift_limits"], sections["assumptions"]["held"]
+    column = Column(**settings["column"])
     frames = [RockingFrame(column, gamma) for gamma in few["mass_ratios"]]
-    cap = Cap(case["cap"]["span"], case["cap"]["depth"] / 2.0)
-    points = case["pulses"]["points"] * (1 if choices.samples == Choices.samples else 2)
+    cap = Cap(settings["cap"]["span"], settings["cap"]["depth"] / 2.0)
+    points = settings["pulses"]["points"] * (1 if choices.samples == Choices.samples else 2)
     route = partial(simulate, tolerance=choices.tolerance)
-    compared = [one for one in held(math.inf, case["periods"]) if choices.held in (None, one)]
+    compared = [one for one in held(math.inf, settings["periods"]) if choices.held in (None, one)]
     ratios: dict[tuple[str, str, str], list[float]] = {}
     for shape, ratio, peak in product(few["shapes"], few["frequency_ratios"], few["amplitudes"]):
         pulse = Pulse(shape, peak * column.uplift_acceleration, ratio * column.frequency_parameter)
-        beside = held_peaks(frames, cap, pulse, case["periods"])
+        beside = held_peaks(frames, cap, pulse, settings["periods"])
         for frame, fixed in zip(frames, beside, strict=True):
             rocking = rocking_peaks(frame, cap, pulse, points, route).forces
             for name, one in product(FORCES, [one for one in compared if one in fixed]):

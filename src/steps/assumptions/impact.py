@@ -7,7 +7,7 @@ import numpy as np
 
 from replication.workbench import grid, truth
 from steps.assumptions.choices import Choices
-from steps.assumptions.quantity import Cases, Found, Quantity
+from steps.assumptions.quantity import Found, Quantity, Sections
 from topheavy import Column, Pulse, RockingFrame, judge
 from topheavy.massless_columns import SIMPLIFICATIONS, simplified
 
@@ -17,42 +17,42 @@ def slender(degrees: float) -> Column:
     return Column(math.sin(alpha), math.cos(alpha))
 
 
-def restitutions(choices: Choices, cases: Cases) -> Iterator[tuple[float, float]]:
+def restitutions(choices: Choices, sections: Sections) -> Iterator[tuple[float, float]]:
     """√r of column and frame, over slenderness and γ > 0; negative if they do not keep rocking."""
-    case = cases["restitution"]
-    for column in map(slender, np.linspace(1.0, case["largest_slenderness"], 60)):
-        for gamma in case["mass_ratios"]:
+    settings = sections["restitution"]
+    for column in map(slender, np.linspace(1.0, settings["largest_slenderness"], 60)):
+        for gamma in settings["mass_ratios"]:
             if gamma > 0.0:
                 frame = RockingFrame(column, gamma)
                 yield choices.factors(column)[1], choices.factors(frame)[1]
 
 
-def restitution_is_smaller(choices: Choices, cases: Cases) -> Found:
+def restitution_is_smaller(choices: Choices, sections: Sections) -> Found:
     """The smallest difference between √r of the column and √r of its frame."""
-    least = min(column - frame for column, frame in restitutions(choices, cases))
+    least = min(column - frame for column, frame in restitutions(choices, sections))
     return Found(least, truth(least > 0.0))
 
 
-def more_energy_is_dissipated(choices: Choices, cases: Cases) -> Found:
+def more_energy_is_dissipated(choices: Choices, sections: Sections) -> Found:
     """The number of frames that keep rocking and lose no more energy than their column."""
-    rocking = [pair for pair in restitutions(choices, cases) if min(pair) >= 0.0]
+    rocking = [pair for pair in restitutions(choices, sections) if min(pair) >= 0.0]
     against = [(column, frame) for column, frame in rocking if not frame**2 < column**2]
     return Found(len(against), truth(not against))
 
 
-def allen_error(choices: Choices, cases: Cases) -> Found:
+def allen_error(choices: Choices, sections: Sections) -> Found:
     """The median error of their model's peak, and whether p̂ for γ → ∞ causes most of it."""
-    case = cases["allen_errors"]
+    settings = sections["allen_errors"]
     errors: dict[str, list[float]] = {name: [] for name in SIMPLIFICATIONS}
-    for column in map(slender, grid(case["slendernesses"])):
-        omega = case["frequency_ratio"] * column.frequency_parameter
-        for gamma in case["mass_ratios"]:
+    for column in map(slender, grid(settings["slendernesses"])):
+        omega = settings["frequency_ratio"] * column.frequency_parameter
+        for gamma in settings["mass_ratios"]:
             frame = RockingFrame(column, gamma)
             models = {name: simplified(frame, name) for name in SIMPLIFICATIONS}
             for name in ("massless restitution", "all"):
                 models[name] = models[name].with_restitution(choices.massless_restitution(frame))
-            for ratio in grid(case["amplitudes"]):
-                pulse = Pulse(case["shape"], ratio * column.uplift_acceleration, omega)
+            for ratio in grid(settings["amplitudes"]):
+                pulse = Pulse(settings["shape"], ratio * column.uplift_acceleration, omega)
                 peak = judge(frame, pulse, tolerance=choices.tolerance).peak
                 for name, model in models.items():
                     other = judge(model, pulse, tolerance=choices.tolerance).peak
@@ -65,7 +65,7 @@ def allen_error(choices: Choices, cases: Cases) -> Found:
 QUANTITIES = {
     "least deficit of √r": Quantity("restitution_is_smaller", "", restitution_is_smaller),
     "frames that lose no more": Quantity(
-        "more_energy_is_dissipated", "cases", more_energy_is_dissipated
+        "more_energy_is_dissipated", "sections", more_energy_is_dissipated
     ),
     "Allen et al.: median error": Quantity(None, "of the peak", allen_error),
 }

@@ -9,7 +9,7 @@ import numpy as np
 
 from replication.workbench import truth
 from steps.assumptions.choices import Choices, Structure
-from steps.assumptions.quantity import Cases, Found, Quantity
+from steps.assumptions.quantity import Found, Quantity, Sections
 from topheavy import Column, Pulse, RockingFrame, judge, simulate
 
 STEP = 0.05  # of the pulse's amplitude: of the factors among which the lowest is sought
@@ -19,8 +19,8 @@ APART = 1e-4  # of an amplitude: what is closer is not told apart
 ALIKE = 1e-3  # of α: histories that are this close are called identical
 
 
-def a_pulse(case: dict) -> Pulse:
-    spec = case["pulse"]
+def a_pulse(settings: dict) -> Pulse:
+    spec = settings["pulse"]
     return Pulse(spec["shape"], spec["amplitude"], 2.0 * math.pi / spec["period"])
 
 
@@ -52,62 +52,68 @@ def lowest(choices: Choices, structure: Structure, pulse: Pulse, most: float) ->
     return high
 
 
-def heavier_survives_more(choices: Choices, cases: Cases) -> Found:
-    case = cases["heavier"]
-    column = Column(**case["column"])
-    pulse = replace(a_pulse(case), amplitude=column.uplift_acceleration)
-    frames = [RockingFrame(column, gamma) for gamma in case["mass_ratios"]]
+def heavier_survives_more(choices: Choices, sections: Sections) -> Found:
+    settings = sections["heavier"]
+    column = Column(**settings["column"])
+    pulse = replace(a_pulse(settings), amplitude=column.uplift_acceleration)
+    frames = [RockingFrame(column, gamma) for gamma in settings["mass_ratios"]]
     found = [lowest(choices, frame, pulse, MOST) for frame in frames]
     rises = all(low < high for low, high in pairwise(found))
     return Found(found[-1] / found[0] - 1.0, truth(rises))
 
 
-def column_falls(choices: Choices, cases: Cases) -> Found:
+def column_falls(choices: Choices, sections: Sections) -> Found:
     """The minimum overturning amplitude of the column, in g, and whether the pulse overturns it."""
-    column, pulse = Column(**cases["heavier"]["column"]), a_pulse(cases["heavier"])
+    column, pulse = Column(**sections["heavier"]["column"]), a_pulse(sections["heavier"])
     level = column.uplift_acceleration
     found = lowest(choices, column, replace(pulse, amplitude=level), MOST)
     return Found(found * level, truth(choices.falls(column, pulse)))
 
 
-def heaviest_stands(choices: Choices, cases: Cases) -> Found:
-    case = cases["heavier"]
-    frame, pulse = RockingFrame(Column(**case["column"]), case["mass_ratios"][-1]), a_pulse(case)
+def heaviest_stands(choices: Choices, sections: Sections) -> Found:
+    settings = sections["heavier"]
+    frame, pulse = (
+        RockingFrame(Column(**settings["column"]), settings["mass_ratios"][-1]),
+        a_pulse(settings),
+    )
     return Found(peak(choices, frame, pulse), truth(not choices.falls(frame, pulse)))
 
 
-def scale_effect(choices: Choices, cases: Cases, larger: bool) -> Found:
+def scale_effect(choices: Choices, sections: Sections, larger: bool) -> Found:
     """The peak of a larger column, or under a shorter pulse, if the first column overturns."""
-    case = cases["scale_effects"]
-    small, short = Column(**case["column"]), a_pulse(case)
-    long = replace(short, angular_frequency=short.angular_frequency / case["longer"])
-    survivor, pulse = (similar(small, case["larger"]), long) if larger else (small, short)
+    settings = sections["scale_effects"]
+    small, short = Column(**settings["column"]), a_pulse(settings)
+    long = replace(short, angular_frequency=short.angular_frequency / settings["longer"])
+    survivor, pulse = (similar(small, settings["larger"]), long) if larger else (small, short)
     holds = choices.falls(small, long) and not choices.falls(survivor, pulse)
     return Found(peak(choices, survivor, pulse), truth(holds))
 
 
-def lowest_rises(choices: Choices, cases: Cases) -> Found:
+def lowest_rises(choices: Choices, sections: Sections) -> Found:
     """Count the steps of γ over which the minimum overturning amplitude falls."""
-    case = cases["assumptions"]["spectra"]
-    column = Column(**cases["stability"]["column"])
+    settings = sections["assumptions"]["spectra"]
+    column = Column(**sections["stability"]["column"])
     p = choices.block(column).frequency_parameter
-    frames = [RockingFrame(column, gamma) for gamma in case["mass_ratios"]]
+    frames = [RockingFrame(column, gamma) for gamma in settings["mass_ratios"]]
     exceptions = 0
-    for shape in case["shapes"]:
-        for ratio in case["frequency_ratios"]:
+    for shape in settings["shapes"]:
+        for ratio in settings["frequency_ratios"]:
             pulse = Pulse(shape, column.uplift_acceleration, ratio * p)
-            found = [lowest(choices, frame, pulse, case["most"]) for frame in frames]
+            found = [lowest(choices, frame, pulse, settings["most"]) for frame in frames]
             exceptions += sum(high < low * (1.0 - APART) for low, high in pairwise(found))
     return Found(exceptions, truth(exceptions == 0))
 
 
-def identical_response(choices: Choices, cases: Cases) -> Found:
+def identical_response(choices: Choices, sections: Sections) -> Found:
     """How far the frame is from the equivalent column with that column's own √r, over α.
 
     The equivalent column has the size that gives it the frame's p̂: of Eq. (24) for rectangles.
     """
-    case = cases["statements"]
-    frame, pulse = RockingFrame(Column(**case["column"]), case["mass_ratio"]), a_pulse(case)
+    settings = sections["statements"]
+    frame, pulse = (
+        RockingFrame(Column(**settings["column"]), settings["mass_ratio"]),
+        a_pulse(settings),
+    )
     block, alone = choices.block(frame), choices.block(frame.column)
     scale = (alone.frequency_parameter / block.frequency_parameter) ** 2
     own = choices.block(similar(frame.column, scale))
@@ -136,7 +142,7 @@ QUANTITIES = {
         "duration_effect_by_example", "α", partial(scale_effect, larger=False)
     ),
     "lowest amplitude falls with γ": Quantity(
-        "lowest_amplitude_rises_with_mass", "cases", lowest_rises
+        "lowest_amplitude_rises_with_mass", "sections", lowest_rises
     ),
     "frame and equivalent column": Quantity("identical_response", "α", identical_response),
 }

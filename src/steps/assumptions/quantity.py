@@ -6,7 +6,7 @@ from typing import Any, NamedTuple, TypeAlias
 from replication.workbench import Finding
 from steps.assumptions.choices import Choices
 
-Cases: TypeAlias = dict[str, Any]
+Sections: TypeAlias = dict[str, Any]
 """The sections of the config, by name, and the records."""
 
 
@@ -22,4 +22,4 @@ class Quantity(NamedTuple):
 
     claim: str | None
     unit: str
-    find: Callable[[Choices, Cases], Found]
+    find: Callable[[Choices, Sections], Found]

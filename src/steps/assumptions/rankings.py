@@ -10,7 +10,7 @@ import numpy as np
 from replication.workbench import grid, truth
 from steps.assumptions.choices import Choices, beyond_slenderness, by_energy
 from steps.assumptions.pulses import similar
-from steps.assumptions.quantity import Cases, Found, Quantity
+from steps.assumptions.quantity import Found, Quantity, Sections
 from steps.stability import Trial, orders
 from topheavy import Column, Pulse, RockingFrame, judge, overturning_map
 
@@ -29,13 +29,18 @@ def overturned(
     return np.array([choices.falls(structure, pulse.scaled(factor)) for factor in amplitudes])
 
 
-def ranking(choices: Choices, cases: Cases, name: str) -> Found:
+def ranking(choices: Choices, sections: Sections, name: str) -> Found:
     """Count the amplitudes that overturn only the trial that should be more stable."""
-    case = cases["stability"]
-    column, amplitudes = Column(**case["column"]), tuple(map(float, grid(case["amplitudes"])))
-    order = orders(case)[name]
+    settings = sections["stability"]
+    column, amplitudes = (
+        Column(**settings["column"]),
+        tuple(map(float, grid(settings["amplitudes"]))),
+    )
+    order = orders(settings)[name]
     # The sense is a matter of reading the scan, not of making it.
-    over = partial(overturned, replace(choices, sense="both"), column, case["shape"], amplitudes)
+    over = partial(
+        overturned, replace(choices, sense="both"), column, settings["shape"], amplitudes
+    )
 
     def first(trial: Trial) -> float:
         return amplitudes[int(over(trial).argmax())] if over(trial).any() else math.inf
@@ -54,7 +59,7 @@ def ranking(choices: Choices, cases: Cases, name: str) -> Found:
     return Found(against, finding)
 
 
-def heavier_falls_alone_on_the_map(choices: Choices, cases: Cases) -> Found:
+def heavier_falls_alone_on_the_map(choices: Choices, sections: Sections) -> Found:
     """Count the pulses of a dense map that overturn only the heavier of two neighbouring frames.
 
     The map uses two criteria; each pulse that it finds is judged again.
@@ -63,14 +68,17 @@ def heavier_falls_alone_on_the_map(choices: Choices, cases: Cases) -> Found:
         raise ValueError(
             f"overturned is {choices.overturned}; expected by_energy or beyond_slenderness"
         )
-    case = cases["assumptions"]["map"]
-    column = Column(**cases["stability"]["column"])
+    settings = sections["assumptions"]["map"]
+    column = Column(**sections["stability"]["column"])
     p, level = column.frequency_parameter, column.uplift_acceleration
     limit = column.slenderness if choices.overturned is beyond_slenderness else math.inf
-    omegas, amplitudes = grid(case["frequency_ratios"]) * p, grid(case["amplitudes"]) * level
-    frames = [RockingFrame(column, gamma) for gamma in case["mass_ratios"]]
+    omegas, amplitudes = (
+        grid(settings["frequency_ratios"]) * p,
+        grid(settings["amplitudes"]) * level,
+    )
+    frames = [RockingFrame(column, gamma) for gamma in settings["mass_ratios"]]
     count, rises = 0, True
-    for shape in case["shapes"]:
+    for shape in settings["shapes"]:
         maps = [overturning_map(choices.block(f), shape, omegas, amplitudes) for f in frames]
         falls = [(found.overturned | (found.peak_rotation > limit)).values for found in maps]
         for (light, stands), (heavy, fallen) in pairwise(zip(frames, falls, strict=True)):
@@ -87,17 +95,17 @@ def heavier_falls_alone_on_the_map(choices: Choices, cases: Cases) -> Found:
     return Found(count, truth(count == 0, holds_when=rises))
 
 
-def heavier_falls_alone_under_records(choices: Choices, cases: Cases) -> Found:
+def heavier_falls_alone_under_records(choices: Choices, sections: Sections) -> Found:
     """Count the sizes and records for which only the heavier frame overturns."""
-    case, spec = cases["rocking_spectra"], cases["assumptions"]["record_sizes"]
-    column = Column(**case["column"])
+    settings, spec = sections["rocking_spectra"], sections["assumptions"]["record_sizes"]
+    column = Column(**settings["column"])
     count = 0
-    for record in map(choices.resampled, cases["records"]):
+    for record in map(choices.resampled, sections["records"]):
         for size in np.geomspace(spec["lowest"], spec["highest"], spec["points"]):
             scaled = similar(column, size / column.size)
             falls = [
                 judge(choices.block(frame), record, tolerance=choices.tolerance).overturned
-                for frame in (RockingFrame(scaled, gamma) for gamma in case["mass_ratios"])
+                for frame in (RockingFrame(scaled, gamma) for gamma in settings["mass_ratios"])
             ]
             count += sum(heavy and not light for light, heavy in pairwise(falls))
     return Found(count, truth(count == 0))
@@ -117,5 +125,5 @@ QUANTITIES = {
     "map: heavier falls alone": Quantity(
         "heavier_is_more_stable", "pulses", heavier_falls_alone_on_the_map
     ),
-    "records: heavier falls alone": Quantity(None, "cases", heavier_falls_alone_under_records),
+    "records: heavier falls alone": Quantity(None, "sections", heavier_falls_alone_under_records),
 }

@@ -18,7 +18,7 @@ from replication.workbench import run
 from steps.assumptions import held, impact, pulses, rankings, trilith
 from steps.assumptions.alternatives import alternatives
 from steps.assumptions.choices import Choices
-from steps.assumptions.quantity import Cases
+from steps.assumptions.quantity import Sections
 from topheavy import read_record
 
 UNCLAIMED = Claim(id="", where="", statement="", expected="")
@@ -33,14 +33,14 @@ QUANTITIES = (
 )
 
 
-def main(assumptions: list[dict], ledger: dict[str, Claim], cases: Cases, tightened: float):
+def main(assumptions: list[dict], ledger: dict[str, Claim], sections: Sections, tightened: float):
     """Return the rows of the table: each quantity, ours and by each alternative that reaches it."""
 
     @cache
     def found(name: str, choices: Choices) -> tuple[float, float, str]:
         """Return a quantity's number, an estimate of its error, and its verdict."""
         finer = replace(choices, tolerance=tightened, samples=2 * choices.samples - 1)
-        first, again = (QUANTITIES[name].find(option, cases) for option in (choices, finer))
+        first, again = (QUANTITIES[name].find(option, sections) for option in (choices, finer))
         claim = ledger.get(QUANTITIES[name].claim or "", UNCLAIMED)
         verdict = verdict_on(claim, first.finding)
         if verdict != verdict_on(claim, again.finding):
@@ -49,7 +49,7 @@ def main(assumptions: list[dict], ledger: dict[str, Claim], cases: Cases, tighte
         return first.number, abs(first.number - again.number) if told else 0.0, verdict
 
     rows = []
-    made = alternatives(cases["assumptions"])
+    made = alternatives(sections["assumptions"])
     for assumption in assumptions:
         for alternative in assumption["alternatives"]:
             for name in assumption["reaches"]:
@@ -81,9 +81,9 @@ def main(assumptions: list[dict], ledger: dict[str, Claim], cases: Cases, tighte
 
 def work(job: Any) -> list[dict]:
     assumptions = read_yaml(job.input.assumptions)["open"]
-    cases = job.params.cases | {"records": [read_record(path) for path in job.input.records]}
+    sections = job.params.sections | {"records": [read_record(path) for path in job.input.records]}
     ledger = {claim.id: claim for claim in read_ledger([job.input.ledger])}
-    return main(assumptions, ledger, cases, job.params.solver["tightened"])
+    return main(assumptions, ledger, sections, job.params.solver["tightened"])
 
 
 if __name__ == "__main__":

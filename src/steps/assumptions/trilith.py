@@ -6,7 +6,7 @@ import numpy as np
 
 from replication.workbench import truth, value
 from steps.assumptions.choices import Choices
-from steps.assumptions.quantity import Cases, Found, Quantity
+from steps.assumptions.quantity import Found, Quantity, Sections
 from topheavy import Column, RockingBlock, RockingFrame, simulate
 from topheavy.derivation.mends import mended_quotient
 from topheavy.shaking_table import abrupt_start, table_acceleration, table_motion
@@ -15,20 +15,20 @@ from topheavy.structures import STANDARD_GRAVITY
 EPS = 1e-14
 
 
-def trilith(choices: Choices, cases: Cases) -> tuple[RockingBlock, RockingBlock]:
+def trilith(choices: Choices, sections: Sections) -> tuple[RockingBlock, RockingBlock]:
     """Return the solitary column and the frame."""
-    case = cases["trilith"]
-    cap, columns = choices.masses or (case["mass_ratio"], 1.0)
-    column = Column(**case["column"])
+    settings = sections["trilith"]
+    cap, columns = choices.masses or (settings["mass_ratio"], 1.0)
+    column = Column(**settings["column"])
     return choices.block(column), choices.block(RockingFrame(column, cap / columns))
 
 
-def passage(choices: Choices, cases: Cases) -> dict[str, float]:
+def passage(choices: Choices, sections: Sections) -> dict[str, float]:
     """The numbers of p. 4, by their claims."""
-    case, (column, frame) = cases["trilith"], trilith(choices, cases)
-    level = table_acceleration(case["table_amplitude"], case["table_frequency"])
+    settings, (column, frame) = sections["trilith"], trilith(choices, sections)
+    level = table_acceleration(settings["table_amplitude"], settings["table_frequency"])
     level *= STANDARD_GRAVITY / choices.gravity  # in the g that is chosen
-    cap, columns = choices.masses or case["printed_masses"]
+    cap, columns = choices.masses or settings["printed_masses"]
     return {
         "trilith_frequency_parameter": column.frequency_parameter,
         "trilith_frequency_ratio": frame.frequency_parameter / column.frequency_parameter,
@@ -40,22 +40,22 @@ def passage(choices: Choices, cases: Cases) -> dict[str, float]:
     }
 
 
-def number(choices: Choices, cases: Cases, claim: str) -> Found:
-    found = passage(choices, cases)[claim]
+def number(choices: Choices, sections: Sections, claim: str) -> Found:
+    found = passage(choices, sections)[claim]
     if claim == "trilith_stays_below_uplift":
         return Found(found, truth(found < 1.0))
     meant = {}
     if claim == "trilith_mass_ratio":
-        cap, columns = choices.masses or cases["trilith"]["printed_masses"]
-        if mended := mended_quotient(cap, columns, f"{cases['trilith']['mass_ratio']}"):
+        cap, columns = choices.masses or sections["trilith"]["printed_masses"]
+        if mended := mended_quotient(cap, columns, f"{sections['trilith']['mass_ratio']}"):
             meant = {"meant_value": mended[1], "kind": mended[0].kind}
     return Found(found, value(found, EPS, **meant))
 
 
-def no_pure_rocking(choices: Choices, cases: Cases) -> Found:
+def no_pure_rocking(choices: Choices, sections: Sections) -> Found:
     """The largest steady rotation over α after all starts, and whether it always comes to rest."""
-    case, (_, frame) = cases["trilith"], trilith(choices, cases)
-    u, f, duration = case["table_amplitude"], case["table_frequency"], case["duration"]
+    settings, (_, frame) = sections["trilith"], trilith(choices, sections)
+    u, f, duration = settings["table_amplitude"], settings["table_frequency"], settings["duration"]
     # In the chosen g the same motion of the table has another acceleration; p̂² takes g along.
     motion = table_motion(u, f).scaled(STANDARD_GRAVITY / choices.gravity)
     full = abrupt_start(frame, u, f) * STANDARD_GRAVITY / choices.gravity

@@ -52,17 +52,19 @@ class Place(NamedTuple):
 class Spectra:
     """The table of intervals, by line."""
 
-    def __init__(self, case: Mapping, table: pd.DataFrame):
-        self.case, self.table = case, table
+    def __init__(self, settings: Mapping, table: pd.DataFrame):
+        self.settings, self.table = settings, table
         self.models = [bool(linearised) for linearised in np.unique(table.linearised)]
-        self.first, self.last = case["amplitudes"]["lowest"], case["amplitudes"]["highest"]
-        self.ratios = [float(ratio) for ratio in grid(case["frequency_ratios"])]
+        self.first, self.last = settings["amplitudes"]["lowest"], settings["amplitudes"]["highest"]
+        self.ratios = [float(ratio) for ratio in grid(settings["frequency_ratios"])]
 
     def coarser(self, every: int) -> "Spectra":
         """The same spectra at every n-th frequency."""
-        spec = self.case["frequency_ratios"]
+        spec = self.settings["frequency_ratios"]
         points = (spec["points"] - 1) // every + 1
-        return Spectra({**self.case, "frequency_ratios": {**spec, "points": points}}, self.table)
+        return Spectra(
+            {**self.settings, "frequency_ratios": {**spec, "points": points}}, self.table
+        )
 
     @cached_property
     def intervals(self) -> dict[tuple, np.ndarray]:
@@ -82,8 +84,8 @@ class Spectra:
         return float(found[0, 0]) if len(found) else math.inf
 
     def places(self) -> Iterator[Place]:
-        case = self.case
-        for key in product(case["slendernesses"], case["shapes"], self.models, self.ratios):
+        settings = self.settings
+        for key in product(settings["slendernesses"], settings["shapes"], self.models, self.ratios):
             yield Place(*key)
 
     def reversals(self, place: Place, light: float, heavy: float) -> np.ndarray:
@@ -97,7 +99,7 @@ class Spectra:
         """
         compared, apparent, proven, rising = 0, [], [], []
         for place in self.places():
-            for light, heavy in pairwise(self.case["mass_ratios"]):
+            for light, heavy in pairwise(self.settings["mass_ratios"]):
                 low, high = self.lowest(place, light), self.lowest(place, heavy)
                 compared += min(low, high) < math.inf
                 if high < low - PRINTED * low:
@@ -119,7 +121,7 @@ class Spectra:
             "closest_looked_at_again": len(closest),
             "largest_apparent": max((low / high - 1.0 for *_, low, high in apparent), default=0.0),
             "exceptions": len(proven),
-            "resolution_of_the_second_look": self.case["finer"]["resolution"] / SECOND_LOOK,
+            "resolution_of_the_second_look": self.settings["finer"]["resolution"] / SECOND_LOOK,
         }
         if largest:
             evidence |= largest[1].described() | {
@@ -132,7 +134,7 @@ class Spectra:
     def again(self, place: Place, gamma: float, lowest: float) -> tuple[float, float]:
         """Bracket the minimum overturning amplitude at the finest resolution."""
         top = min(self.last, lowest * (1.0 + NEAR))
-        finest = self.case["finer"]["resolution"] / SECOND_LOOK
+        finest = self.settings["finer"]["resolution"] / SECOND_LOOK
         found: list[Interval] = search(place.line(gamma), (self.first, top), finest)
         return found[0].lower if found else (top, math.inf)
 
@@ -142,7 +144,7 @@ class Spectra:
         whole = (self.ratios[-1] - self.ratios[0]) * (self.last - uplift)
         rows = []
         for slenderness, shape, linearised in product(
-            self.case["slendernesses"], self.case["shapes"], self.models
+            self.settings["slendernesses"], self.settings["shapes"], self.models
         ):
             places = [Place(slenderness, shape, linearised, ratio) for ratio in self.ratios]
             pairs = [(self.at(place, light), self.at(place, heavy)) for place in places]

@@ -44,13 +44,13 @@ TOGETHER = 400
 """Lines that are searched together, so that blocks and frequencies share the kernel's calls."""
 
 
-def intervals(lines: Sequence[Line], case: Mapping[str, Any]) -> Iterator[list[Interval]]:
+def intervals(lines: Sequence[Line], settings: Mapping[str, Any]) -> Iterator[list[Interval]]:
     """Yield the intervals of every line over the amplitudes of a config entry.
 
     Close to uplift, under long pulses, the lowest intervals are narrow. The search is therefore
     repeated at the finer resolution below the first interval.
     """
-    amplitudes, finer = case["amplitudes"], case["finer"]
+    amplitudes, finer = settings["amplitudes"], settings["finer"]
     first = amplitudes["lowest"]
     for begin in range(0, len(lines), TOGETHER):
         some = lines[begin : begin + TOGETHER]
@@ -81,14 +81,14 @@ def searched(
     return intervals_together(searches, resolution=resolution, most_impacts=len(MODES) - 1)
 
 
-def solve(lines: Sequence[Line], case: Mapping[str, Any]) -> pd.DataFrame:
+def solve(lines: Sequence[Line], settings: Mapping[str, Any]) -> pd.DataFrame:
     """Return the overturning intervals of every line, over the scale of its pulse.
 
     A row has the middles of the brackets of both ends (no upper one where the range ends first),
     the width of the wider bracket, and whether the block overturns before any impact.
     """
 
-    found = progress(intervals(lines, case), len(lines), "lines")
+    found = progress(intervals(lines, settings), len(lines), "lines")
     table = [
         line.labels | _row(interval)
         for line, several in zip(lines, found, strict=True)

@@ -26,14 +26,14 @@ def called(name: str, factor: float) -> str:
     return name if factor == 1.0 else f"{name}, √r {100.0 * (1.0 - factor):g} % lower"
 
 
-def structures(case: dict) -> dict[str, Structure]:
+def structures(settings: dict) -> dict[str, Structure]:
     """Return column and frame by name, with each factor on their √r."""
-    column = Column(**case["column"])
-    named = {"column": column, "frame": RockingFrame(column, case["mass_ratio"])}
+    column = Column(**settings["column"])
+    named = {"column": column, "frame": RockingFrame(column, settings["mass_ratio"])}
     return {
         called(name, factor): one if factor == 1.0 else changed(one, factor)
         for name, one in named.items()
-        for factor in case["factors"]
+        for factor in settings["factors"]
     }
 
 
@@ -47,21 +47,21 @@ def compared(factors: list[float]) -> dict[tuple[str, float], tuple[str, str]]:
     return found | {(COLUMN_ALONE, f): (called("column", f), "frame") for f in lowered}
 
 
-def fragilities(case: dict, ensemble: dict) -> dict[str, Fragility]:
+def fragilities(settings: dict, ensemble: dict) -> dict[str, Fragility]:
     """Return for each family the outcomes and differences of frame and column at the stated PGV."""
-    given = structures(case)
+    given = structures(settings)
     # `fragility` lowers the √r of the column, and compares it with every frame.
-    drawn = first_draws(ensemble, case["motions"])
-    lower = [1.0 - factor for factor in case["factors"] if factor < 1.0]
+    drawn = first_draws(ensemble, settings["motions"])
+    lower = [1.0 - factor for factor in settings["factors"] if factor < 1.0]
     under = {name: one for name, one in given.items() if name == "column" or "frame" in name}
     return {
         family: fragility(
             under,
             [draw.record() for draw in drawn if draw.family == family],
-            [case["pgv"]],
+            [settings["pgv"]],
             lowered=lower,
-            seed=case["seed"],
-            **case["bootstrap"],
+            seed=settings["seed"],
+            **settings["bootstrap"],
         )
         for family in progress(ensemble["families"], len(ensemble["families"]), "families")
     }
@@ -78,12 +78,12 @@ def outcomes(found: dict[str, Fragility]) -> pd.DataFrame:
     )
 
 
-def differences(case: dict, found: dict[str, Fragility]) -> pd.DataFrame:
+def differences(settings: dict, found: dict[str, Fragility]) -> pd.DataFrame:
     """Return for each family and change the probability of the column less that of the frame."""
     rows = []
     for family, one in found.items():
         curves, pairs = one.curves.isel(level=0), one.pairs.isel(level=0)
-        for (way, factor), (column, frame) in compared(case["factors"]).items():
+        for (way, factor), (column, frame) in compared(settings["factors"]).items():
             (pair,) = np.flatnonzero((pairs["first"] == column) & (pairs.second == frame))
             of = pairs.isel(pair=pair)
             rows.append(
@@ -97,16 +97,16 @@ def differences(case: dict, found: dict[str, Fragility]) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def confirmed(case: dict, ensemble: dict, fell: pd.DataFrame) -> Finding:
+def confirmed(settings: dict, ensemble: dict, fell: pd.DataFrame) -> Finding:
     """Return whether SciPy overturns the same structures, as a finding.
 
     A seeded sample of the motions that overturn only one of frame and column, of every change in
     turn. Outcomes that a billionth of the motion changes are undecided, and are not compared.
     """
-    random, under, chosen = np.random.default_rng(case["seed"]), structures(case), set()
-    pairs = list(compared(case["factors"]).values())
-    all_motions = first_draws(ensemble, case["motions"])
-    for place in range(case["checked"]):
+    random, under, chosen = np.random.default_rng(settings["seed"]), structures(settings), set()
+    pairs = list(compared(settings["factors"]).values())
+    all_motions = first_draws(ensemble, settings["motions"])
+    for place in range(settings["checked"]):
         column, frame = pairs[place % len(pairs)]
         apart = np.flatnonzero(fell[column] != fell[frame])
         at = int(random.choice(apart))
@@ -114,7 +114,7 @@ def confirmed(case: dict, ensemble: dict, fell: pd.DataFrame) -> Finding:
     told, differ = 0, 0
     for at, name in progress(sorted(chosen), len(chosen), "checks"):
         record = all_motions[at].record()
-        scaled = record.scaled(case["pgv"] / peak_velocity(record))
+        scaled = record.scaled(settings["pgv"] / peak_velocity(record))
         near = {judge(under[name], scaled.scaled(1.0 + n)).overturned for n in (-1e-9, 0.0, 1e-9)}
         if len(near) == 1:
             told += 1
@@ -122,10 +122,10 @@ def confirmed(case: dict, ensemble: dict, fell: pd.DataFrame) -> Finding:
     return truth(differ == 0 and told > 0, checked=len(chosen), told=told, differ=differ)
 
 
-def main(case: dict, ensemble: dict) -> tuple[pd.DataFrame, dict]:
-    found = fragilities(case, ensemble)
-    table = differences(case, found)
-    return table, findings(table) | {"second_route": confirmed(case, ensemble, outcomes(found))}
+def main(settings: dict, ensemble: dict) -> tuple[pd.DataFrame, dict]:
+    found = fragilities(settings, ensemble)
+    table = differences(settings, found)
+    return table, findings(table) | {"second_route": confirmed(settings, ensemble, outcomes(found))}
 
 
 def findings(certainty_benefit: pd.DataFrame) -> dict[str, Finding]:
@@ -146,7 +146,7 @@ def said(rows: pd.DataFrame) -> dict:
 
 
 def work(job: Any) -> tuple:
-    return main(job.params.case, job.params.ensemble)
+    return main(job.params.settings, job.params.ensemble)
 
 
 if __name__ == "__main__":

@@ -46,23 +46,23 @@ class Group(NamedTuple):
     motions: pd.DataFrame
 
 
-def groups(shards: pd.DataFrame, case: dict, ensemble: dict) -> Iterator[Group]:
+def groups(shards: pd.DataFrame, settings: dict, ensemble: dict) -> Iterator[Group]:
     """Yield the outcomes in all shards, by size and family."""
-    motions = case["runs"][case["run"]]["motions"] * len(ensemble["scenarios"])
-    for column in columns(case):
-        under = subjects(column, case)
+    motions = settings["runs"][settings["run"]]["motions"] * len(ensemble["scenarios"])
+    for column in columns(settings):
+        under = subjects(column, settings)
         here = shards[np.isclose(shards.height, under[0].height)]
         for family in ensemble["families"]:
             fell, firsts = fallen(here[here.family == family], motions, len(under))
             yield Group(family, column, under, fell, firsts)
 
 
-def gains(group: Group, case: dict) -> pd.DataFrame:
+def gains(group: Group, settings: dict) -> pd.DataFrame:
     """Return the gain and its interval, by γ, changed √r and intensity."""
-    under, boot, found = group.under, case["bootstrap"], []
-    measures, levels, pgvs = zip(*stated(group.column, case), strict=True)
+    under, boot, found = group.under, settings["bootstrap"], []
+    measures, levels, pgvs = zip(*stated(group.column, settings), strict=True)
     quakes = group.motions.scenario.tolist()
-    means = means_within(group.fell, quakes, boot["resamples"], case["seed"])
+    means = means_within(group.fell, quakes, boot["resamples"], settings["seed"])
     for way, gamma, place, first, second in compared(under):
         ends = interval(means[:, first] - means[:, second], boot["confidence"])
         found.append(
@@ -76,27 +76,27 @@ def gains(group: Group, case: dict) -> pd.DataFrame:
     return pd.concat(map(pd.DataFrame, found))
 
 
-def confirmed(sampled: list[Group], case: dict, ensemble: dict) -> Finding:
+def confirmed(sampled: list[Group], settings: dict, ensemble: dict) -> Finding:
     """Return whether SciPy finds the same outcomes, each the lowest level that overturns.
 
     Of a seeded sample. Outcomes that a billionth of the motion changes are not compared.
     """
-    random, told, differ = np.random.default_rng(case["seed"]), 0, 0
-    every = first_draws(ensemble, case["runs"][case["run"]]["motions"])
+    random, told, differ = np.random.default_rng(settings["seed"]), 0, 0
+    every = first_draws(ensemble, settings["runs"][settings["run"]]["motions"])
     draws = {tuple(draw.labels.values()): draw for draw in every}
-    for number in range(case["checked"]):
+    for number in range(settings["checked"]):
         group = sampled[number % len(sampled)]
         motion, place = random.choice(np.argwhere(group.fell.any(axis=-1)))
         level = int(np.argmax(group.fell[motion, place]))
         row = group.motions.iloc[motion]
         record = draws[row.family, row.scenario, row.motion].record()
-        *_, pgv = stated(group.column, case)[level]
+        *_, pgv = stated(group.column, settings)[level]
         block, scaled = group.under[place].block, record.scaled(pgv / record.peak_velocity)
         near = {judge(block, scaled.scaled(1.0 + n)).overturned for n in (-NUDGE, 0.0, NUDGE)}
         if len(near) == 1:
             told += 1
             differ += reference.judge(block, scaled).overturned != group.fell[motion, place, level]
-    return truth(differ == 0 and told > 0, checked=case["checked"], told=told, differ=differ)
+    return truth(differ == 0 and told > 0, checked=settings["checked"], told=told, differ=differ)
 
 
 def break_even(table: pd.DataFrame) -> pd.DataFrame:
@@ -124,13 +124,15 @@ def break_even(table: pd.DataFrame) -> pd.DataFrame:
     return pd.DataFrame(found).replace([np.inf, -np.inf], np.nan)
 
 
-def main(case: dict, ensemble: dict, shards: pd.DataFrame) -> tuple:
-    found = list(groups(shards, case, ensemble))
-    table = pd.concat([gains(group, case) for group in found], ignore_index=True)
+def main(settings: dict, ensemble: dict, shards: pd.DataFrame) -> tuple:
+    found = list(groups(shards, settings, ensemble))
+    table = pd.concat([gains(group, settings) for group in found], ignore_index=True)
     sets = break_even(table)
-    measured = dict(zip(("least", "largest"), ([share] for share in case["measured"]), strict=True))
-    more = {"remains_at_measured": remains(sets, max(case["measured"]))}
-    more["break_even_by_scipy"] = confirmed(found, case, ensemble)
+    measured = dict(
+        zip(("least", "largest"), ([share] for share in settings["measured"]), strict=True)
+    )
+    more = {"remains_at_measured": remains(sets, max(settings["measured"]))}
+    more["break_even_by_scipy"] = confirmed(found, settings, ensemble)
     return table, sets, pd.DataFrame(measured), findings(sets) | more
 
 
@@ -184,7 +186,7 @@ def remains(table: pd.DataFrame, deficit: float) -> Finding:
 
 def work(job: Any) -> tuple:
     shards = pd.concat(map(pd.read_csv, job.input.shards), ignore_index=True)
-    return main(job.params.case, job.params.ensemble, shards)
+    return main(job.params.settings, job.params.ensemble, shards)
 
 
 if __name__ == "__main__":

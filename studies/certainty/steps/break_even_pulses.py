@@ -39,24 +39,24 @@ BESIDE = 1e-6  # of a minimum: how far from it SciPy judges
 ROUNDING = 1e-8
 
 
-def pulses(column: Column, case: dict, heavier: dict) -> list[Pulse]:
+def pulses(column: Column, settings: dict, heavier: dict) -> list[Pulse]:
     """Return the pulse of `heavier` and those of the grid, all with the amplitude of uplift."""
     tan, p = column.uplift_acceleration, column.frequency_parameter
     own = Pulse(heavier["shape"], tan, 2.0 * math.pi / heavier["period"])
-    ratios = grid(case["frequency_ratios"])
+    ratios = grid(settings["frequency_ratios"])
     return [
         own,
-        *(Pulse(shape, tan, ratio * p) for shape, ratio in product(case["shapes"], ratios)),
+        *(Pulse(shape, tan, ratio * p) for shape, ratio in product(settings["shapes"], ratios)),
     ]
 
 
 class Minima:
     """Minimum overturning amplitudes (g tan α) under one pulse, in one range."""
 
-    def __init__(self, column: Column, pulse: Pulse, case: dict):
-        self.block, self.pulse, self.step = column.block(), pulse, case["deficit"]["step"]
-        self.range = 1.0, case["amplitudes"]["highest"]
-        self.resolution = case["amplitudes"]["resolution"]
+    def __init__(self, column: Column, pulse: Pulse, settings: dict):
+        self.block, self.pulse, self.step = column.block(), pulse, settings["deficit"]["step"]
+        self.range = 1.0, settings["amplitudes"]["highest"]
+        self.resolution = settings["amplitudes"]["resolution"]
 
     def lowered(self, deficit: float) -> RockingBlock:
         """Return the column with √r lowered by a share."""
@@ -99,12 +99,12 @@ class Minima:
         ] == [False, True]
 
 
-def compared(column: Column, pulse: Pulse, case: dict) -> list[dict[str, Any]]:
+def compared(column: Column, pulse: Pulse, settings: dict) -> list[dict[str, Any]]:
     """Return a row for each frame: whether, and between which deficits, the minima are equal."""
-    minima, rows = Minima(column, pulse, case), []
+    minima, rows = Minima(column, pulse, settings), []
     once = minima.without_impact()
     deficits, of_column = minima.of_columns()
-    for gamma in case["mass_ratios"]:
+    for gamma in settings["mass_ratios"]:
         frame = RockingFrame(column, gamma)
         own = minima.of(frame)
         row = {"shape": pulse.shape, "mass_ratio": gamma, "frame": own, "column": of_column[0]}
@@ -124,7 +124,7 @@ def compared(column: Column, pulse: Pulse, case: dict) -> list[dict[str, Any]]:
             row["kind"] = BEYOND
         else:
             at = int(np.argmin(below))
-            width = case["deficit"]["bracket"]
+            width = settings["deficit"]["bracket"]
             ends = [*minima.crossing(deficits[at - 1], deficits[at], level, width)]
             row |= dict(zip(("deficit_low", "deficit_high"), ends, strict=True))
         lows = [minima.of(minima.lowered(end)) for end in ends]
@@ -138,10 +138,10 @@ def compared(column: Column, pulse: Pulse, case: dict) -> list[dict[str, Any]]:
     return rows
 
 
-def main(case: dict, heavier: dict, measured: list[float]) -> tuple[pd.DataFrame, dict]:
-    column = Column(**case["column"])
-    every = pulses(column, case, heavier)
-    found = progress((compared(column, one, case) for one in every), len(every), "pulses")
+def main(settings: dict, heavier: dict, measured: list[float]) -> tuple[pd.DataFrame, dict]:
+    column = Column(**settings["column"])
+    every = pulses(column, settings, heavier)
+    found = progress((compared(column, one, settings) for one in every), len(every), "pulses")
     table = pd.DataFrame(row for rows in found for row in rows)
     exceeds = {"deficit_exceeds_measured": beyond(table, max(measured))}
     return table, findings(table) | exceeds
@@ -185,7 +185,7 @@ def beyond(table: pd.DataFrame, deficit: float) -> Finding:
 
 
 def work(job: Any) -> tuple:
-    return main(job.params.case, job.params.pulse, job.params.measured)
+    return main(job.params.settings, job.params.pulse, job.params.measured)
 
 
 if __name__ == "__main__":

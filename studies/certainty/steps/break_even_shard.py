@@ -14,10 +14,10 @@ from topheavy import Column, overturned_together
 from topheavy.synthetic.ensemble import Draw, first_draws
 
 
-def outcomes(draw: Draw, column: Column, case: dict) -> list[dict[str, Any]]:
+def outcomes(draw: Draw, column: Column, settings: dict) -> list[dict[str, Any]]:
     """Return a row for each structure: which levels overturn it."""
-    record, under = draw.record(), subjects(column, case)
-    pgvs = np.array([pgv for *_, pgv in stated(column, case)])
+    record, under = draw.record(), subjects(column, settings)
+    pgvs = np.array([pgv for *_, pgv in stated(column, settings)])
     blocks = [subject.block for subject in under]
     fell = overturned_together(blocks, record, pgvs / record.peak_velocity)
     return [
@@ -26,15 +26,15 @@ def outcomes(draw: Draw, column: Column, case: dict) -> list[dict[str, Any]]:
     ]
 
 
-def main(case: dict, ensemble: dict, shard: str) -> pd.DataFrame:
-    mine = shard_of(first_draws(ensemble, case["runs"][case["run"]]["motions"]), shard)
-    found = ([outcomes(draw, column, case) for column in columns(case)] for draw in mine)
+def main(settings: dict, ensemble: dict, shard: str) -> pd.DataFrame:
+    mine = shard_of(first_draws(ensemble, settings["runs"][settings["run"]]["motions"]), shard)
+    found = ([outcomes(draw, column, settings) for column in columns(settings)] for draw in mine)
     every = progress(found, len(mine), "motions")
     return pd.DataFrame(row for sizes in every for rows in sizes for row in rows)
 
 
 def work(job: Any) -> Any:
-    return main(job.params.case, job.params.ensemble, job.wildcards.scatteritem)
+    return main(job.params.settings, job.params.ensemble, job.wildcards.scatteritem)
 
 
 if __name__ == "__main__":

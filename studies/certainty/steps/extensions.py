@@ -32,12 +32,12 @@ OF_VERTICAL = (
 """The theorems on N columns, and those on vertical acceleration."""
 
 
-def similar(case: dict) -> pd.DataFrame:
+def similar(settings: dict) -> pd.DataFrame:
     """Return what pulses do to frames, and to their columns with the frames' √r in the time of √k.
 
     k = R̂/R: the column is shaken by the same amplitude at the √k times higher frequency.
     """
-    column, spec = Column(**case["column"]), case["similarity"]
+    column, spec = Column(**settings["column"]), settings["similarity"]
     p, random = column.frequency_parameter, np.random.default_rng(spec["seed"])
     rows = []
     for _ in range(spec["pulses"]):
@@ -65,13 +65,13 @@ def similar(case: dict) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def shows_stability(case: dict) -> pd.DataFrame:
+def shows_stability(settings: dict) -> pd.DataFrame:
     """Return which pulses of one and of several lobes overturn a heavy frame and not its column."""
-    column, spec = Column(**case["column"]), case["similarity"]
+    column, spec = Column(**settings["column"]), settings["similarity"]
     random = np.random.default_rng(spec["seed"])
     rows = []
     shapes = {ONE_LOBE: ["half-sine", "constant"], "several": ["one-sine", "ricker-antisymmetric"]}
-    frame = RockingFrame(column, max(case["mass_ratios"]))
+    frame = RockingFrame(column, max(settings["mass_ratios"]))
     for kind, names in shapes.items():
         for _ in range(spec["pulses"]):
             amplitude = random.uniform(1.0, 10.0) * column.uplift_acceleration
@@ -96,11 +96,11 @@ def strongest(record: Record, other: Record, duration: float) -> tuple[Record, R
     return tuple(Record(step, one.acceleration[window], one.name) for one in (record, other))
 
 
-def history(case: dict, pair: dict, across: Record, up: Record, gamma: float) -> dict:
+def history(settings: dict, pair: dict, across: Record, up: Record, gamma: float) -> dict:
     """Return how a frame moves under both components, by both routes, and under one alone."""
-    frame, caps = RockingFrame(Column(**case["column"]), gamma), case["cap"]
+    frame, caps = RockingFrame(Column(**settings["column"]), gamma), settings["cap"]
     across, up = across.scaled(pair["factor"]), up.scaled(pair["factor"])
-    time = np.arange(0.0, case["duration"], case["sampled_every"])
+    time = np.arange(0.0, settings["duration"], settings["sampled_every"])
     both = reference.simulate(frame, across, samples=time, duration=time[-1], vertical=up)
     alone = reference.simulate(frame, across, samples=time, duration=time[-1])
     bodies = simulate_three_bodies(
@@ -121,22 +121,22 @@ def history(case: dict, pair: dict, across: Record, up: Record, gamma: float) ->
     }
 
 
-def main(case: dict, records: dict[str, Record]) -> tuple:
+def main(settings: dict, records: dict[str, Record]) -> tuple:
     rows = []
-    cases = [(pair, gamma) for pair in case["pairs"] for gamma in case["mass_ratios"]]
+    cases = [(pair, gamma) for pair in settings["pairs"] for gamma in settings["mass_ratios"]]
     for pair, gamma in progress(cases, len(cases), "histories"):
         across, up = strongest(
-            records[pair["horizontal"]], records[pair["vertical"]], case["duration"]
+            records[pair["horizontal"]], records[pair["vertical"]], settings["duration"]
         )
-        rows.append(history(case, pair, across, up, gamma))
+        rows.append(history(settings, pair, across, up, gamma))
     table = pd.DataFrame(rows)
     theorems = [
         {"theorem": one.id, "holds": one.holds, "statement": one.statement}
         for one in extension_theorems()
     ]
-    tables = table, pd.DataFrame(theorems), similar(case), shows_stability(case)
+    tables = table, pd.DataFrame(theorems), similar(settings), shows_stability(settings)
     drawn = findings(*tables)
-    agree = (table.routes_differ_by < case["agreement"]).all() and (table.impacts > 1).all()
+    agree = (table.routes_differ_by < settings["agreement"]).all() and (table.impacts > 1).all()
     return *tables, drawn | {"three_bodies": truth(agree, **drawn["three_bodies"])}
 
 
@@ -195,7 +195,7 @@ def _of_lobes(table: pd.DataFrame) -> Finding:
 
 
 def work(job: Any) -> tuple:
-    return main(job.params.case, {r.name: r for r in map(read_record, job.input.records)})
+    return main(job.params.settings, {r.name: r for r in map(read_record, job.input.records)})
 
 
 if __name__ == "__main__":

@@ -50,13 +50,13 @@ class Subject:
         }
 
 
-def subjects(case: Mapping[str, Any], structures: Mapping[str, Any]) -> list[Subject]:
+def subjects(settings: Mapping[str, Any], structures: Mapping[str, Any]) -> list[Subject]:
     """Return all structures, each with its three supports.
 
     Those of `scaled` are similar to a named structure, so many times as large.
     """
     found = []
-    for entry in case["columns"]:
+    for entry in settings["columns"]:
         dimensions = structures[entry["structure"]]
         column = Column(*(entry["scaled"] * dimensions[k] for k in ("half_width", "half_height")))
         height, gamma = 2.0 * column.half_height, entry["mass_ratio"]
@@ -74,10 +74,10 @@ def intensity(record: Record, measure: str) -> float:
     return peak_velocity(record) if measure == "pgv" else record.peak_acceleration
 
 
-def outcomes(case: dict, ensemble: dict, under: list[Subject]) -> pd.DataFrame:
+def outcomes(settings: dict, ensemble: dict, under: list[Subject]) -> pd.DataFrame:
     """Return a row for each motion and subject: which of all levels overturn it."""
-    levels = [(measure, level) for measure in MEASURES for level in case[measure]]
-    rows, chosen = [], first_draws(ensemble, case["motions"])
+    levels = [(measure, level) for measure in MEASURES for level in settings[measure]]
+    rows, chosen = [], first_draws(ensemble, settings["motions"])
     for draw in progress(chosen, len(chosen), "motions"):
         record = draw.record()
         scales = [level / intensity(record, measure) for measure, level in levels]
@@ -101,17 +101,19 @@ def probabilities(cells: pd.DataFrame, confidence: float) -> pd.DataFrame:
     )
 
 
-def confirmed(case: dict, ensemble: dict, under: list[Subject], cells: pd.DataFrame) -> dict:
+def confirmed(settings: dict, ensemble: dict, under: list[Subject], cells: pd.DataFrame) -> dict:
     """Judge a seeded sample of the cells by SciPy, and at a nudged scale.
 
     Cells that a billionth of the motion changes are undecided, and are not compared.
     """
-    random = np.random.default_rng(case["seed"])
-    motions = {tuple(draw.labels.values()): draw for draw in first_draws(ensemble, case["motions"])}
+    random = np.random.default_rng(settings["seed"])
+    motions = {
+        tuple(draw.labels.values()): draw for draw in first_draws(ensemble, settings["motions"])
+    }
     named = {(subject.name, subject.support): subject for subject in under}
     differ, told = 0, 0
     for at in progress(
-        random.choice(len(cells), case["checked"], False), case["checked"], "checks"
+        random.choice(len(cells), settings["checked"], False), settings["checked"], "checks"
     ):
         cell = cells.iloc[at]
         record = motions[cell.family, cell.scenario, cell.motion].record()
@@ -121,7 +123,7 @@ def confirmed(case: dict, ensemble: dict, under: list[Subject], cells: pd.DataFr
         if len(nudged) == 1:
             told += 1
             differ += reference.judge(structure, scaled).overturned != cell.fell
-    return truth(differ == 0 and told > 0, checked=case["checked"], told=told, differ=differ)
+    return truth(differ == 0 and told > 0, checked=settings["checked"], told=told, differ=differ)
 
 
 def worst(table: pd.DataFrame, **at: Any) -> float:
@@ -133,11 +135,11 @@ def worst(table: pd.DataFrame, **at: Any) -> float:
     return float(table.probability_high.max())
 
 
-def main(case: dict, ensemble: dict, structures: dict) -> tuple[pd.DataFrame, dict]:
-    under = subjects(case, structures)
-    cells = outcomes(case, ensemble, under)
-    table = probabilities(cells, case["confidence"])
-    velocity, ample = table[table.measure == "pgv"], case["ample"]
+def main(settings: dict, ensemble: dict, structures: dict) -> tuple[pd.DataFrame, dict]:
+    under = subjects(settings, structures)
+    cells = outcomes(settings, ensemble, under)
+    table = probabilities(cells, settings["confidence"])
+    velocity, ample = table[table.measure == "pgv"], settings["ample"]
     large = [s.name for s in under if s.support == "free" and s.height >= ample["height"]]
     framed = velocity[(velocity.support == "free") & velocity.structure.isin(large)]
     modest = framed[framed.level <= ample["pgv"]]
@@ -152,7 +154,7 @@ def main(case: dict, ensemble: dict, structures: dict) -> tuple[pd.DataFrame, di
             structures=large,
         ),
         **findings(table),
-        "second_route": confirmed(case, ensemble, under, cells),
+        "second_route": confirmed(settings, ensemble, under, cells),
     }
 
 
@@ -178,7 +180,7 @@ def findings(certainty_intensities: pd.DataFrame) -> dict[str, Finding]:
 
 
 def work(job: Any) -> tuple:
-    return main(job.params.case, job.params.ensemble, job.params.structures)
+    return main(job.params.settings, job.params.ensemble, job.params.structures)
 
 
 if __name__ == "__main__":

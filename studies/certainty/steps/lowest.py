@@ -42,16 +42,16 @@ def minimum(structure: Structure, pulse: Record, highest: float, step: float) ->
     return float(scales[fell.argmax()]) if fell.any() else math.inf
 
 
-def search(case: dict) -> tuple[list[dict], dict]:
+def search(settings: dict) -> tuple[list[dict], dict]:
     """Search for a shape whose minimum falls from the lightest to the heaviest frame.
 
     A coarse grid of amplitudes guides the search towards falls. Each shape that seems to fall on it
     is judged again on the finer grids, as long as it seems to.
     """
-    spec, column = case["search"], Column(**case["column"])
+    spec, column = settings["search"], Column(**settings["column"])
     random = np.random.default_rng(spec["seed"])
     coarse, *finer = reversed(spec["steps"])
-    light, heavy = (RockingFrame(column, case["mass_ratios"][end]) for end in (0, -1))
+    light, heavy = (RockingFrame(column, settings["mass_ratios"][end]) for end in (0, -1))
     kept: list[tuple[float, np.ndarray, float]] = []
     rows: list[dict] = []
     shapes = 0
@@ -106,12 +106,12 @@ def findings(certainty_lowest: pd.DataFrame) -> dict[str, Any]:
     }
 
 
-def single_lobes(case: dict, tightened: float) -> dict:
+def single_lobes(settings: dict, tightened: float) -> dict:
     """Return whether every lobe overturns from one amplitude on, without impact, later if heavier.
 
     Below and above one boundary of each lobe, SciPy judges too.
     """
-    spec, random = case["lobes"], np.random.default_rng(case["lobes"]["seed"])
+    spec, random = settings["lobes"], np.random.default_rng(settings["lobes"]["seed"])
     exceptions, overturned, differ = 0, 0, 0
     for number in progress(range(spec["pulses"]), spec["pulses"], "lobes"):
         alpha = math.radians(random.uniform(*spec["slendernesses"]))
@@ -119,7 +119,7 @@ def single_lobes(case: dict, tightened: float) -> dict:
         duration = math.exp(random.uniform(math.log(1.0), math.log(30.0)))
         pulse = record(single_lobe(random), duration, column)
         minima = []
-        for gamma in case["mass_ratios"]:
+        for gamma in settings["mass_ratios"]:
             block = RockingFrame(column, gamma).block()
             block = block.linear() if number % 2 else block
             scales = spec["lowest"], spec["highest"]
@@ -147,21 +147,21 @@ def single_lobes(case: dict, tightened: float) -> dict:
     )
 
 
-def extreme(case: dict) -> tuple[Record, RockingFrame, RockingFrame]:
+def extreme(settings: dict) -> tuple[Record, RockingFrame, RockingFrame]:
     """Return a motion beyond the theorem, and the lightest and the heaviest frame."""
-    spec = case["extreme"]
+    spec = settings["extreme"]
     alpha = math.radians(spec["slenderness"])
-    column = Column(case["size"] * math.sin(alpha), case["size"] * math.cos(alpha))
+    column = Column(settings["size"] * math.sin(alpha), settings["size"] * math.cos(alpha))
     values = np.repeat(spec["accelerations"], spec["samples"])
     pulse = record(values, spec["duration"], column)
-    light, heavy = (RockingFrame(column, case["mass_ratios"][end]) for end in (0, -1))
+    light, heavy = (RockingFrame(column, settings["mass_ratios"][end]) for end in (0, -1))
     return pulse.scaled(spec["amplitude"] / column.uplift_acceleration), light, heavy
 
 
-def against_the_theorem(case: dict, tightened: float) -> tuple[dict, pd.DataFrame]:
+def against_the_theorem(settings: dict, tightened: float) -> tuple[dict, pd.DataFrame]:
     """Return whether an extreme motion overturns both frames without an impact, or neither."""
-    spec = case["extreme"]
-    pulse, light, heavy = extreme(case)
+    spec = settings["extreme"]
+    pulse, light, heavy = extreme(settings)
     time = np.linspace(0.0, 3.0 * pulse.duration, SAMPLES)
     routes = {
         frame: (judge(frame, pulse, tolerance=tightened), reference.judge(frame, pulse))
@@ -191,19 +191,19 @@ def history(frame: RockingFrame, pulse: Record, time: np.ndarray) -> pd.DataFram
     )
 
 
-def main(case: dict, solver: dict) -> tuple[pd.DataFrame, pd.DataFrame, dict]:
-    rows, searched = search(case)
-    extreme, histories = against_the_theorem(case, solver["tightened"])
+def main(settings: dict, solver: dict) -> tuple[pd.DataFrame, pd.DataFrame, dict]:
+    rows, searched = search(settings)
+    extreme, histories = against_the_theorem(settings, solver["tightened"])
     findings = {
         "no_fall_is_found": searched,
-        "single_lobes": single_lobes(case, solver["tightened"]),
+        "single_lobes": single_lobes(settings, solver["tightened"]),
         "exact_for_any_motion": extreme,
     }
     return pd.DataFrame(rows), histories, findings
 
 
 def work(job: Any) -> tuple:
-    return main(job.params.case, job.params.solver)
+    return main(job.params.settings, job.params.solver)
 
 
 if __name__ == "__main__":

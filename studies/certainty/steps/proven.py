@@ -18,9 +18,9 @@ from topheavy import Column, Record, RockingFrame, read_record
 from topheavy.proven import outcome
 
 
-def beyond_the_theorem(case: dict) -> tuple[list[dict], list[dict]]:
+def beyond_the_theorem(settings: dict) -> tuple[list[dict], list[dict]]:
     """Return what is proven of the lightest and the heaviest frame, and the certificates."""
-    pulse, *frames = extreme(case)
+    pulse, *frames = extreme(settings)
     found = [proven(frame, pulse) for frame in frames]
     rows = [
         {"record": "extreme", "mass_ratio": frame.mass_ratio, "factor": 1.0, "proven": name}
@@ -79,9 +79,9 @@ def findings(certainty_proven: pd.DataFrame) -> dict[str, Finding]:
 
 
 def main(
-    case: dict, rescaled: pd.DataFrame, columns: Mapping[str, Column], records: list[Record]
+    settings: dict, rescaled: pd.DataFrame, columns: Mapping[str, Column], records: list[Record]
 ) -> tuple[pd.DataFrame, str, dict[str, Finding]]:
-    rows, certificates = beyond_the_theorem(case)
+    rows, certificates = beyond_the_theorem(settings)
     table = pd.DataFrame([*rows, *under_records(rescaled, columns, records)])
     lines = "".join(f"{json.dumps(each)}\n" for each in certificates)
     return table, lines, findings(table)
@@ -91,7 +91,7 @@ def work(job: Any) -> tuple:
     given = job.params
     columns = dict(similar(entry, given.structures) for entry in given.columns)
     records = [read_record(path) for path in job.input.records]
-    return main(given.case, pd.read_csv(job.input.rescaled), columns, records)
+    return main(given.settings, pd.read_csv(job.input.rescaled), columns, records)
 
 
 if __name__ == "__main__":

@@ -48,17 +48,19 @@ class Motions:
     quakes: Sequence[Hashable]
     pgv: np.ndarray
 
-    def means(self, values: np.ndarray, case: dict) -> np.ndarray:
+    def means(self, values: np.ndarray, settings: dict) -> np.ndarray:
         """Return the mean over motions and those of resamples, shape (1 + resamples, ...)."""
-        return means_within(values, self.quakes, case["bootstrap"]["resamples"], case["seed"])
+        return means_within(
+            values, self.quakes, settings["bootstrap"]["resamples"], settings["seed"]
+        )
 
 
-def ensembles(shards: pd.DataFrame, case: dict, ensemble: dict) -> Iterator[Motions]:
+def ensembles(shards: pd.DataFrame, settings: dict, ensemble: dict) -> Iterator[Motions]:
     """Yield the motions of each family, of both earthquakes together and of each apart."""
     names = [f"M {one['magnitude']:g}" for one in ensemble["scenarios"]]
-    wanted = case["runs"][case["run"]]["motions"] * len(names)
+    wanted = settings["runs"][settings["run"]]["motions"] * len(names)
     for family in ensemble["families"]:
-        fell, firsts = fallen(shards[shards.family == family], wanted, len(subjects(case)))
+        fell, firsts = fallen(shards[shards.family == family], wanted, len(subjects(settings)))
         quakes, own = firsts.scenario.to_numpy(), firsts.pgv.to_numpy()
         apart = [(name, quakes == place) for place, name in enumerate(names)]
         for name, chosen in [(BOTH, quakes >= 0), *apart]:
@@ -79,22 +81,22 @@ def pairs(under: list[Subject]) -> list[tuple[int, int]]:
     ]
 
 
-def named(name: str, values: np.ndarray, case: dict) -> dict:
+def named(name: str, values: np.ndarray, settings: dict) -> dict:
     """Return a value and the ends of its interval, named for a table."""
-    found = interval(values, case["bootstrap"]["confidence"])
+    found = interval(values, settings["bootstrap"]["confidence"])
     return dict(zip((name, f"{name}_low", f"{name}_high"), found, strict=True))
 
 
-def probabilities(motions: Motions, case: dict) -> pd.DataFrame:
+def probabilities(motions: Motions, settings: dict) -> pd.DataFrame:
     """Return the probability at each stated intensity, and how much less it is than a column's."""
-    under, column = subjects(case), Column(**case["column"])
-    measures, levels, pgvs = zip(*stated(column, case), strict=True)
-    some, found = motions.outcomes[..., grid(case).size :], []
-    means, fell = motions.means(some, case), some.sum(axis=0)
-    low, high = exact_interval(fell, len(motions.outcomes), case["bootstrap"]["confidence"])
+    under, column = subjects(settings), Column(**settings["column"])
+    measures, levels, pgvs = zip(*stated(column, settings), strict=True)
+    some, found = motions.outcomes[..., grid(settings).size :], []
+    means, fell = motions.means(some, settings), some.sum(axis=0)
+    low, high = exact_interval(fell, len(motions.outcomes), settings["bootstrap"]["confidence"])
     for place, beside in pairs(under):
         of = means[:, place]
-        less = named("less", means[:, beside] - of, case)
+        less = named("less", means[:, beside] - of, settings)
         words = map(in_words, less["less_low"], less["less_high"])
         found.append(
             motions.labels
@@ -109,19 +111,19 @@ def probabilities(motions: Motions, case: dict) -> pd.DataFrame:
     return pd.concat(map(pd.DataFrame, found))
 
 
-def rates(motions: Motions, case: dict) -> list[dict]:
+def rates(motions: Motions, settings: dict) -> list[dict]:
     """Return the rate of each structure, over that of a column, by exponent and highest PGV.
 
     Rates are in units of the rate at which PGV exceeds 1 m/s. `coarser` is the rate with every
     other PGV of the grid, and `over_coarser` that over the column's; `over_coarsest` is with every
     fourth. `change` is what the last halving of the step changes, with its interval.
     """
-    under, pgvs, rows = subjects(case), grid(case), []
+    under, pgvs, rows = subjects(settings), grid(settings), []
     fell = motions.outcomes[..., : pgvs.size]
-    means = motions.means(fell, case)
+    means = motions.means(fell, settings)
     terms = fit(pgvs, means[0], skewed=False)
     curves = medians(pgvs, terms), dispersions(terms)
-    for exponent, highest in product(case["exponents"], case["ends"]):
+    for exponent, highest in product(settings["exponents"], settings["ends"]):
         ends = pgvs[0], highest
         at = rate_at_levels(pgvs, exponent, ends)
         found, coarser, coarsest = (
@@ -138,25 +140,25 @@ def rates(motions: Motions, case: dict) -> list[dict]:
                 | under[place].labels
                 | {"column": under[column].lowered, "exponent": exponent, "highest": highest}
                 | {"motions": len(fell), "overturning": int(some[place])}
-                | named("rate", found[:, place], case)
+                | named("rate", found[:, place], settings)
                 | {"coarser": coarser[0, place], "lognormal": formula[place]}
-                | named("over", over, case)
+                | named("over", over, settings)
                 | {"over_coarser": rough[0], "over_coarsest": roughest[0]}
-                | named("change", over - rough, case)
+                | named("change", over - rough, settings)
             )
     return rows
 
 
-def survival(table: pd.DataFrame, case: dict) -> pd.DataFrame:
+def survival(table: pd.DataFrame, settings: dict) -> pd.DataFrame:
     """Return the probability of no overturning in some centuries, from the table of rates.
 
     Overturnings are those of a Poisson process: the structure is restored after each.
     """
-    event, parts = case["event"], []
+    event, parts = settings["event"], []
     some = table[(table.column == 0.0) & table.structure.isin([BARE, FREE])]
     annual = event["pgv"] ** some.exponent / event["years"]  # times PGV > 1 m/s
     keys = ["family", "earthquake", "structure", "mass_ratio", "lowered", "exponent", "highest"]
-    for centuries in case["centuries"]:
+    for centuries in settings["centuries"]:
         expected = {key: some[key] * annual * 100.0 * centuries for key in RATE}
         parts.append(
             some[keys].assign(
@@ -172,27 +174,27 @@ def survival(table: pd.DataFrame, case: dict) -> pd.DataFrame:
 RATE = ("rate", "rate_low", "rate_high")
 
 
-def scales(motions: Motions, case: dict) -> list[dict]:
+def scales(motions: Motions, settings: dict) -> list[dict]:
     """Return the median and the 95th percentile of the factors that bring motions to a PGV."""
     return [
         motions.labels
         | {"pgv": pgv, "motions": len(motions.pgv)}
         | dict(zip(("median", "p95"), np.quantile(pgv / motions.pgv, (0.5, 0.95)), strict=True))
-        for pgv in case["pgv"]
+        for pgv in settings["pgv"]
     ]
 
 
-def main(case: dict, ensemble: dict, shards: pd.DataFrame) -> tuple:
+def main(settings: dict, ensemble: dict, shards: pd.DataFrame) -> tuple:
     stated_ones, summed, scaled = [], [], []
-    for motions in ensembles(shards, case, ensemble):
-        stated_ones.append(probabilities(motions, case))
-        summed += rates(motions, case)
-        scaled += scales(motions, case)
+    for motions in ensembles(shards, settings, ensemble):
+        stated_ones.append(probabilities(motions, settings))
+        summed += rates(motions, settings)
+        scaled += scales(motions, settings)
     table, rate_table = pd.concat(stated_ones), pd.DataFrame(summed)
     return (
         table,
         rate_table,
-        survival(rate_table, case),
+        survival(rate_table, settings),
         pd.DataFrame(scaled),
         findings(table, rate_table),
     )
@@ -267,7 +269,7 @@ def ranged(rows: pd.DataFrame) -> dict[str, Any]:
 
 def work(job: Any) -> tuple:
     shards = pd.concat(map(pd.read_csv, job.input.shards), ignore_index=True)
-    return main(job.params.case, job.params.ensemble, shards)
+    return main(job.params.settings, job.params.ensemble, shards)
 
 
 if __name__ == "__main__":

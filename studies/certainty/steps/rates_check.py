@@ -25,12 +25,12 @@ def cell(
     block: RockingBlock,
     rows: pd.DataFrame,
     draws: dict,
-    case: dict,
+    settings: dict,
     near: bool,
     random: np.random.Generator,
 ) -> tuple[bool, Record, bool]:
     """Return whether a random cell of a structure is near a boundary, its motion, its outcome."""
-    pgvs, size, fell = velocities(case), grid(case).size, read(rows.outcomes) == FALLS
+    pgvs, size, fell = velocities(settings), grid(settings).size, read(rows.outcomes) == FALLS
     changing = np.flatnonzero(np.diff(fell[:, :size]).any(axis=1))
     near = near and changing.size > 0
     at = int(random.choice(changing) if near else random.integers(len(rows)))
@@ -60,18 +60,18 @@ def beside(
 
 
 def main(
-    case: dict, ensemble: dict, shards: pd.DataFrame, tightened: float
+    settings: dict, ensemble: dict, shards: pd.DataFrame, tightened: float
 ) -> tuple[pd.DataFrame, dict[str, Finding]]:
-    under, families, found = subjects(case), ensemble["families"], []
-    every = first_draws(ensemble, case["runs"][case["run"]]["motions"])
+    under, families, found = subjects(settings), ensemble["families"], []
+    every = first_draws(ensemble, settings["runs"][settings["run"]]["motions"])
     draws = {tuple(draw.labels.values()): draw for draw in every}
     groups = dict(iter(shards.groupby(["family", "structure", "mass_ratio", "lowered"])))
-    random, points = np.random.default_rng(case["seed"]), case["sample"]["points"]
+    random, points = np.random.default_rng(settings["seed"]), settings["sample"]["points"]
     for number in progress(range(points), points, "cells"):
         rest, near = divmod(number, 2)
         family, one = families[rest % len(families)], under[rest // len(families) % len(under)]
         rows = groups[family, *one.labels.values()]
-        near, motion, falls = cell(one.block, rows, draws, case, bool(near), random)
+        near, motion, falls = cell(one.block, rows, draws, settings, bool(near), random)
         nudged = [judge(one.block, motion.scaled(1.0 + n)).overturned for n in (-NUDGE, 0.0, NUDGE)]
         found.append(
             {"family": family, **one.labels, "near": near, "overturns": falls}
@@ -103,7 +103,7 @@ def findings(certainty_rates_check: pd.DataFrame) -> dict[str, Finding]:
 
 def work(job: Any) -> tuple:
     shards = pd.concat(map(pd.read_csv, job.input.shards), ignore_index=True)
-    return main(job.params.case, job.params.ensemble, shards, job.params.solver["tightened"])
+    return main(job.params.settings, job.params.ensemble, shards, job.params.solver["tightened"])
 
 
 if __name__ == "__main__":

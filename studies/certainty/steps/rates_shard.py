@@ -24,15 +24,15 @@ def outcomes(draw: Draw, under: list[Subject], pgvs: np.ndarray) -> list[dict]:
     ]
 
 
-def main(case: dict, ensemble: dict, shard: str) -> pd.DataFrame:
-    every = first_draws(ensemble, case["runs"][case["run"]]["motions"])
-    mine, under, pgvs = shard_of(every, shard), subjects(case), velocities(case)
+def main(settings: dict, ensemble: dict, shard: str) -> pd.DataFrame:
+    every = first_draws(ensemble, settings["runs"][settings["run"]]["motions"])
+    mine, under, pgvs = shard_of(every, shard), subjects(settings), velocities(settings)
     found = (outcomes(draw, under, pgvs) for draw in mine)
     return pd.DataFrame(row for rows in progress(found, len(mine), "motions") for row in rows)
 
 
 def work(job: Any) -> Any:
-    return main(job.params.case, job.params.ensemble, job.wildcards.scatteritem)
+    return main(job.params.settings, job.params.ensemble, job.wildcards.scatteritem)
 
 
 if __name__ == "__main__":

@@ -20,34 +20,34 @@ SEED = 2014
 
 
 def motions(
-    case: dict, ensemble: dict, column: Column, records: list[Record]
+    settings: dict, ensemble: dict, column: Column, records: list[Record]
 ) -> Iterator[tuple[str, Pulse | Record, np.ndarray]]:
     """Yield each ground motion with its kind and the factors on it."""
-    lifts, of_pulses = column.uplift_acceleration, grid(case["amplitudes"])
-    for shape in case["shapes"]:
-        for ratio in grid(case["frequency_ratios"]):
+    lifts, of_pulses = column.uplift_acceleration, grid(settings["amplitudes"])
+    for shape in settings["shapes"]:
+        for ratio in grid(settings["frequency_ratios"]):
             yield "pulses", Pulse(shape, lifts, ratio * column.frequency_parameter), of_pulses
-    velocities = np.array(case["velocities"])
-    for draw in first_draws(ensemble, case["motions"]):
+    velocities = np.array(settings["velocities"])
+    for draw in first_draws(ensemble, settings["motions"]):
         motion = draw.record()
         yield f"{draw.labels['family']} motions", motion, velocities / peak_velocity(motion)
     for record in records:
-        yield "records", record, np.geomspace(1.0, case["largest"], case["points"])
+        yield "records", record, np.geomspace(1.0, settings["largest"], settings["points"])
 
 
 def main(
-    case: dict, ensemble: dict, records: list[Record]
+    settings: dict, ensemble: dict, records: list[Record]
 ) -> tuple[pd.DataFrame, dict[str, Finding]]:
-    column, random = Column(**case["column"]), np.random.default_rng(SEED)
-    asked, rows = list(motions(case, ensemble, column, records)), []
+    column, random = Column(**settings["column"]), np.random.default_rng(SEED)
+    asked, rows = list(motions(settings, ensemble, column, records)), []
     for kind, motion, factors in progress(asked, len(asked), "motions"):
-        for gamma in case["mass_ratios"]:
+        for gamma in settings["mass_ratios"]:
             frame = RockingFrame(column, gamma)
             overturned, impacts = outcomes_by(frame, motion, factors)
             row = {"kind": kind, "mass_ratio": gamma, "histories": len(factors)}
             row |= {"overturned": int(overturned.sum())}
             row |= {"without_impact": int((overturned & (impacts == 0)).sum())}
-            if overturned.any() and random.random() < case["sampled"]:
+            if overturned.any() and random.random() < settings["sampled"]:
                 at = int(random.choice(np.flatnonzero(overturned)))
                 other = reference.judge(frame, motion.scaled(factors[at]))
                 same = other.overturned and (other.impacts == 0) == (impacts[at] == 0)
@@ -82,7 +82,7 @@ def findings(certainty_reach: pd.DataFrame) -> dict[str, Finding]:
 
 def work(job: Any) -> tuple:
     records = [read_record(path) for path in job.input.records]
-    return main(job.params.case, job.params.ensemble, records)
+    return main(job.params.settings, job.params.ensemble, records)
 
 
 if __name__ == "__main__":

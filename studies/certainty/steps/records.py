@@ -96,10 +96,10 @@ def reversals(table: pd.DataFrame) -> pd.DataFrame:
     return pairs[pairs.mass_ratio_survives < pairs.mass_ratio_overturns]
 
 
-def main(case: dict, structures: dict, records: list[Record]) -> tuple[pd.DataFrame, dict]:
-    columns = dict(similar(entry, structures) for entry in case["columns"])
-    table = outcomes(records, columns, case["mass_ratios"])
-    table["by_scipy"] = by_scipy(table, records, columns, case["checked_by_second_route"])
+def main(settings: dict, structures: dict, records: list[Record]) -> tuple[pd.DataFrame, dict]:
+    columns = dict(similar(entry, structures) for entry in settings["columns"])
+    table = outcomes(records, columns, settings["mass_ratios"])
+    table["by_scipy"] = by_scipy(table, records, columns, settings["checked_by_second_route"])
     return table, findings(table)
 
 
@@ -145,7 +145,7 @@ def findings(certainty_records: pd.DataFrame) -> dict[str, Finding]:
 
 def work(job: Any) -> tuple:
     records = [read_record(path) for path in job.input.records]
-    return main(job.params.case, job.params.structures, records)
+    return main(job.params.settings, job.params.structures, records)
 
 
 if __name__ == "__main__":

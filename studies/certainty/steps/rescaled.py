@@ -66,16 +66,18 @@ def rows(
 
 
 def main(
-    case: dict, spec: dict, structures: dict, records: list[Record]
+    settings: dict, spec: dict, structures: dict, records: list[Record]
 ) -> tuple[pd.DataFrame, dict[str, Finding]]:
-    columns: Mapping[str, Column] = dict(similar(entry, structures) for entry in case["columns"])
+    columns: Mapping[str, Column] = dict(
+        similar(entry, structures) for entry in settings["columns"]
+    )
     steps = round(spec["widest"] / spec["step"])
     factors = 1.0 + spec["step"] * np.arange(-steps, steps + 1)
     asked = [(record, name) for record in records for name in columns]
     table = pd.DataFrame(
         row
         for record, name in progress(asked, len(asked), "columns under a record")
-        for row in rows(record, name, columns[name], case["mass_ratios"], factors)
+        for row in rows(record, name, columns[name], settings["mass_ratios"], factors)
     )
     return table, findings(table)
 
@@ -113,7 +115,7 @@ def findings(certainty_rescaled: pd.DataFrame) -> dict[str, Finding]:
 
 def work(job) -> tuple:
     records = [read_record(path) for path in job.input.records]
-    return main(job.params.case, job.params.spec, job.params.structures, records)
+    return main(job.params.settings, job.params.spec, job.params.structures, records)
 
 
 if __name__ == "__main__":

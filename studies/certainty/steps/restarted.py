@@ -112,9 +112,9 @@ def factor_beside_a_boundary(case: Case, random: np.random.Generator) -> float |
     return float(factor) if case.overturns(heavier, factor) else None
 
 
-def main(case: dict) -> tuple[pd.DataFrame, dict[str, Finding]]:
-    random, rows = np.random.default_rng(case["seed"]), []
-    for number in progress(range(case["motions"]), case["motions"], "motions"):
+def main(settings: dict) -> tuple[pd.DataFrame, dict[str, Finding]]:
+    random, rows = np.random.default_rng(settings["seed"]), []
+    for number in progress(range(settings["motions"]), settings["motions"], "motions"):
         factor = None
         while factor is None:
             while (one := case_of(random, linearised=number % 2 == 0)) is None:
@@ -126,7 +126,7 @@ def main(case: dict) -> tuple[pd.DataFrame, dict[str, Finding]]:
             "covered": one.covered(factor),
             "contradicts": not one.overturns(lighter, factor),
         }
-        if number % (case["motions"] // case["confirmed"]) == 0:
+        if number % (settings["motions"] // settings["confirmed"]) == 0:
             row["by_scipy"] = all(
                 one.overturns(block, factor, reference.simulate) for block in one.pair
             )
@@ -159,4 +159,4 @@ def findings(certainty_restarted: pd.DataFrame) -> dict[str, Finding]:
 
 
 if __name__ == "__main__":
-    run(snakemake, lambda job: main(job.params.case))
+    run(snakemake, lambda job: main(job.params.settings))

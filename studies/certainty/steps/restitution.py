@@ -58,9 +58,9 @@ def pairs(factors: list[float]) -> dict[tuple[str, float], tuple[float, float]]:
     return found | {("column alone", factor): (factor, 1.0) for factor in factors}
 
 
-def spectrum(block: RockingBlock, pulse: Pulse, case: dict) -> np.ndarray:
+def spectrum(block: RockingBlock, pulse: Pulse, settings: dict) -> np.ndarray:
     """Return the intervals of amplitude (g tan α) that overturn, shape (n, 2)."""
-    amplitudes = case["amplitudes"]
+    amplitudes = settings["amplitudes"]
     found = overturning_intervals(
         block,
         pulse,
@@ -71,10 +71,10 @@ def spectrum(block: RockingBlock, pulse: Pulse, case: dict) -> np.ndarray:
     return ends_of(found, amplitudes["highest"])
 
 
-def lowest(block: RockingBlock, pulse: Pulse, case: dict, below: float) -> float:
+def lowest(block: RockingBlock, pulse: Pulse, settings: dict, below: float) -> float:
     """Return the minimum (g tan α) by the finer resolution, at most `below` or the highest."""
-    ends = case["amplitudes"]["lowest"], min(below, case["amplitudes"]["highest"])
-    found = minimum_overturning(block, pulse, ends, resolution=case["amplitudes"]["finer"])
+    ends = settings["amplitudes"]["lowest"], min(below, settings["amplitudes"]["highest"])
+    found = minimum_overturning(block, pulse, ends, resolution=settings["amplitudes"]["finer"])
     return found[1] if found else below
 
 
@@ -87,22 +87,22 @@ def only_first(first: np.ndarray, second: np.ndarray, levels: np.ndarray) -> flo
     return float((inside[0] & ~inside[1]).mean())
 
 
-def under_pulses(case: dict) -> pd.DataFrame:
+def under_pulses(settings: dict) -> pd.DataFrame:
     """Return, for each change of √r, the shares of the maps saved and lost, and the least rise."""
-    amplitudes = case["amplitudes"]
-    levels = np.linspace(amplitudes["lowest"], amplitudes["highest"], case["levels"])
+    amplitudes = settings["amplitudes"]
+    levels = np.linspace(amplitudes["lowest"], amplitudes["highest"], settings["levels"])
     ratios = np.linspace(
-        *(case["frequency_ratios"][key] for key in ("lowest", "highest", "points"))
+        *(settings["frequency_ratios"][key] for key in ("lowest", "highest", "points"))
     )
-    places = list(product(case["slendernesses"], case["shapes"], ratios))
-    factors, rows = case["factors"], []
+    places = list(product(settings["slendernesses"], settings["shapes"], ratios))
+    factors, rows = settings["factors"], []
     for degrees, shape, ratio in progress(places, len(places), "frequencies"):
         alpha = math.radians(degrees)
         column = Column(math.sin(alpha), math.cos(alpha))
         pulse = Pulse(shape, column.uplift_acceleration, ratio * column.frequency_parameter)
         light, heavy = (
             {
-                factor: spectrum(changed(RockingFrame(column, gamma), factor), pulse, case)
+                factor: spectrum(changed(RockingFrame(column, gamma), factor), pulse, settings)
                 for factor in factors
             }
             for gamma in (0.0, math.inf)
@@ -112,7 +112,7 @@ def under_pulses(case: dict) -> pd.DataFrame:
             minima = [found[0, 0] if len(found) else math.inf for found in (one, other)]
             if minima[1] < minima[0] * (1.0 - RISES):
                 # a narrow interval of the column may have been missed below
-                minima[0] = lowest(changed(column, of_column), pulse, case, minima[0])
+                minima[0] = lowest(changed(column, of_column), pulse, settings, minima[0])
             rows.append(
                 {
                     "way": way,
@@ -134,25 +134,27 @@ def under_pulses(case: dict) -> pd.DataFrame:
     )
 
 
-def outcomes(case: dict, ensemble: dict) -> tuple[list[tuple], dict[str, np.ndarray]]:
+def outcomes(settings: dict, ensemble: dict) -> tuple[list[tuple], dict[str, np.ndarray]]:
     """Return the variants, and for each family which of its motions overturn each, at each level.
 
     A variant is (γ, kind, number): kind "factor" with its factor, or "scatter" with its range.
     """
-    column = Column(**case["column"])
+    column = Column(**settings["column"])
     unit = STANDARD_GRAVITY * column.uplift_acceleration / column.frequency_parameter
-    spec = case["intensities"]
+    spec = settings["intensities"]
     levels = np.geomspace(spec["lowest"], spec["highest"], spec["points"])
-    variants = [(g, "factor", f) for g in case["mass_ratios"] for f in case["factors"]]
-    variants += [(g, "scatter", low) for g in case["mass_ratios"] for low in case["scatter"]]
+    variants = [(g, "factor", f) for g in settings["mass_ratios"] for f in settings["factors"]]
+    variants += [
+        (g, "scatter", low) for g in settings["mass_ratios"] for low in settings["scatter"]
+    ]
     found: dict[str, list] = {family: [] for family in ensemble["families"]}
-    chosen = first_draws(ensemble, case["motions"])
+    chosen = first_draws(ensemble, settings["motions"])
     for draw in progress(chosen, len(chosen), "motions"):
         motion = draw.record()
         scales = levels * unit / peak_velocity(motion)
         # one row of draws for all structures: the impacts of a motion are equally bad for each
-        lots = np.random.default_rng([case["seed"], draw.place, draw.number]).uniform(
-            size=(levels.size, case["impacts"])
+        lots = np.random.default_rng([settings["seed"], draw.place, draw.number]).uniform(
+            size=(levels.size, settings["impacts"])
         )
         fell = []
         for gamma, kind, number in variants:
@@ -160,33 +162,33 @@ def outcomes(case: dict, ensemble: dict) -> tuple[list[tuple], dict[str, np.ndar
             if kind == "factor":
                 fell.append(overturned_by(changed(frame, number), motion, scales))
             else:
-                factors = number + (case["scatter_highest"] - number) * lots
+                factors = number + (settings["scatter_highest"] - number) * lots
                 ratios = np.minimum(HIGHEST, frame.restitution * factors)
                 fell.append(overturned_with(frame, motion, scales, ratios))
         found[draw.family].append(fell)
     return variants, {family: np.array(rows) for family, rows in found.items()}
 
 
-def under_motions(case: dict, ensemble: dict) -> tuple[pd.DataFrame, list[dict]]:
+def under_motions(settings: dict, ensemble: dict) -> tuple[pd.DataFrame, list[dict]]:
     """Return the mean probability of overturning of each variant, and its fall with γ."""
-    variants, found = outcomes(case, ensemble)
-    boot, rows, falls = case["bootstrap"], [], []
+    variants, found = outcomes(settings, ensemble)
+    boot, rows, falls = settings["bootstrap"], [], []
     for family, fell in found.items():
-        weights = resampled(len(fell), boot["resamples"], case["seed"])
+        weights = resampled(len(fell), boot["resamples"], settings["seed"])
         shares = means(weights, fell.mean(axis=2))
         place = {variant: number for number, variant in enumerate(variants)}
         for variant, number in place.items():
             gamma, kind, factor = variant
             labels = {"family": family, "mass_ratio": gamma, "kind": kind, "factor": factor}
             rows.append(labels | bounds("probability", shares[:, number], boot))
-        light, heavy = case["mass_ratios"][0], case["mass_ratios"][-1]
-        for (way, factor), (of_column, of_frame) in pairs(case["factors"]).items():
+        light, heavy = settings["mass_ratios"][0], settings["mass_ratios"][-1]
+        for (way, factor), (of_column, of_frame) in pairs(settings["factors"]).items():
             less = (
                 shares[:, place[light, "factor", of_column]]
                 - shares[:, place[heavy, "factor", of_frame]]
             )
             falls.append({"family": family, "way": way, "factor": factor} | difference(less, boot))
-        for low in case["scatter"]:
+        for low in settings["scatter"]:
             less = shares[:, place[light, "scatter", low]] - shares[:, place[heavy, "scatter", low]]
             falls.append(
                 {"family": family, "way": "scatter", "factor": low} | difference(less, boot)
@@ -210,17 +212,17 @@ def difference(less: np.ndarray, boot: dict) -> dict:
     return ends | {"interval": in_words(ends["less_low"], ends["less_high"])}
 
 
-def scatter_agrees(case: dict) -> dict:
+def scatter_agrees(settings: dict) -> dict:
     """Return whether SciPy gives the same outcomes with the same √r at each impact."""
-    column, random = Column(**case["column"]), np.random.default_rng(case["seed"])
-    spec, differ, overturned = case["scatter_checked"], 0, 0
+    column, random = Column(**settings["column"]), np.random.default_rng(settings["seed"])
+    spec, differ, overturned = settings["scatter_checked"], 0, 0
     for _ in progress(range(spec), spec, "checks"):
-        gamma = float(random.choice(case["mass_ratios"]))
+        gamma = float(random.choice(settings["mass_ratios"]))
         frame = RockingFrame(column, gamma)
         motion = record(knots(random), random.uniform(2.0, 20.0), column)
         factor = np.array([math.exp(random.uniform(0.1, 2.0))])
         factors = random.uniform(
-            min(case["scatter"]), case["scatter_highest"], (1, case["impacts"])
+            min(settings["scatter"]), settings["scatter_highest"], (1, settings["impacts"])
         )
         ratios = np.minimum(HIGHEST, frame.restitution * factors)
         fell = overturned_with(frame, motion, factor, ratios)[0]
@@ -232,9 +234,9 @@ def scatter_agrees(case: dict) -> dict:
     )
 
 
-def main(case: dict, ensemble: dict) -> tuple[pd.DataFrame, dict]:
-    pulses = under_pulses(case)
-    table, falls = under_motions(case, ensemble)
+def main(settings: dict, ensemble: dict) -> tuple[pd.DataFrame, dict]:
+    pulses = under_pulses(settings)
+    table, falls = under_motions(settings, ensemble)
     less = pd.DataFrame(falls)
     whole = pd.concat(
         [
@@ -243,7 +245,7 @@ def main(case: dict, ensemble: dict) -> tuple[pd.DataFrame, dict]:
             less.assign(under="difference"),
         ]
     )
-    drawn, error = findings(whole), 1.0 / case["levels"]
+    drawn, error = findings(whole), 1.0 / settings["levels"]
     ranges = {name: drawn.pop(name) for name in ("harms_range", "helps_range")}
     return whole, {
         **drawn,
@@ -251,7 +253,7 @@ def main(case: dict, ensemble: dict) -> tuple[pd.DataFrame, dict]:
             name: value(found["value"], error, lowest=found["lowest"])
             for name, found in ranges.items()
         },
-        "scatter_agrees": scatter_agrees(case),
+        "scatter_agrees": scatter_agrees(settings),
     }
 
 
@@ -306,7 +308,7 @@ def findings(certainty_restitution: pd.DataFrame) -> dict[str, Any]:
 
 
 def work(job: Any) -> tuple:
-    return main(job.params.case, job.params.ensemble)
+    return main(job.params.settings, job.params.ensemble)
 
 
 if __name__ == "__main__":

@@ -18,35 +18,35 @@ from topheavy.synthetic.ensemble import first_draws
 from topheavy.synthetic.motions import peak_velocity
 
 
-def values_of(case: dict, ensemble: dict) -> pd.DataFrame:
+def values_of(settings: dict, ensemble: dict) -> pd.DataFrame:
     """Return the Shapley values of each parameter for each motion, γ and PGV.
 
     They are linear in the worth, so that their means are those of the share of motions.
     """
-    column, taken = Column(**case["column"]), list(subsets())
-    rows, chosen = [], first_draws(ensemble, case["motions"])
+    column, taken = Column(**settings["column"]), list(subsets())
+    rows, chosen = [], first_draws(ensemble, settings["motions"])
     for draw in progress(chosen, len(chosen), "motions"):
         motion = draw.record()
-        scales = [level / peak_velocity(motion) for level in case["pgv"]]
-        for gamma in case["mass_ratios"]:
+        scales = [level / peak_velocity(motion) for level in settings["pgv"]]
+        for gamma in settings["mass_ratios"]:
             ends = FixedMassColumn(column, gamma).block(), RockingFrame(column, gamma).block()
             fell = overturned_together([exchanged(*ends, one) for one in taken], motion, scales)
-            for place, level in enumerate(case["pgv"]):
+            for place, level in enumerate(settings["pgv"]):
                 worth = {one: float(not f[place]) for one, f in zip(taken, fell, strict=True)}
                 label = {"family": draw.labels["family"], "mass_ratio": gamma, "pgv": level}
                 rows.append(label | shapley(worth))
     return pd.DataFrame(rows)
 
 
-def shares(values: pd.DataFrame, case: dict) -> pd.DataFrame:
+def shares(values: pd.DataFrame, settings: dict) -> pd.DataFrame:
     """Return the share of each parameter in the gain in probability, with resampled intervals."""
-    random, rows = np.random.default_rng(case["seed"]), []
+    random, rows = np.random.default_rng(settings["seed"]), []
     for labels, motions in values.groupby(["family", "mass_ratio", "pgv"], sort=False):
         each = motions[list(PARAMETERS)].to_numpy()
-        again = random.integers(len(each), size=(case["resamples"], len(each)))
+        again = random.integers(len(each), size=(settings["resamples"], len(each)))
         sums = each[again].sum(axis=1)
         of_resamples = sums / sums.sum(axis=1, keepdims=True)
-        tail = 0.5 * (1.0 - case["confidence"])
+        tail = 0.5 * (1.0 - settings["confidence"])
         low, high = np.quantile(of_resamples, [tail, 1.0 - tail], axis=0)
         share = each.sum(axis=0) / each.sum()
         for place, name in enumerate(PARAMETERS):
@@ -57,8 +57,8 @@ def shares(values: pd.DataFrame, case: dict) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def main(case: dict, ensemble: dict) -> tuple[pd.DataFrame, dict[str, Finding]]:
-    table = shares(values_of(case, ensemble), case)
+def main(settings: dict, ensemble: dict) -> tuple[pd.DataFrame, dict[str, Finding]]:
+    table = shares(values_of(settings, ensemble), settings)
     return table, findings(table)
 
 
@@ -77,7 +77,7 @@ def findings(certainty_shares: pd.DataFrame) -> dict[str, Finding]:
 
 
 def work(job: Any) -> tuple:
-    return main(job.params.case, job.params.ensemble)
+    return main(job.params.settings, job.params.ensemble)
 
 
 if __name__ == "__main__":

@@ -150,10 +150,10 @@ def is_ahead(trial: Trial) -> bool:
     return bool((ahead[both] > -ROUNDING * trial.heavier.slenderness).all())
 
 
-def rows(case: dict, linearised: bool) -> pd.DataFrame:
+def rows(settings: dict, linearised: bool) -> pd.DataFrame:
     """Judge the lighter frame of every trial."""
-    random = np.random.default_rng([case["seed"], int(linearised)])
-    found, spec = [], case["runs"][case["run"]]
+    random = np.random.default_rng([settings["seed"], int(linearised)])
+    found, spec = [], settings["runs"][settings["run"]]
     every = max(1, spec["motions"] // spec["followed"])
     for number in progress(range(spec["motions"]), spec["motions"], "motions"):
         while (one := trial(random, linearised)) is None:
@@ -174,8 +174,8 @@ def rows(case: dict, linearised: bool) -> pd.DataFrame:
     return pd.DataFrame(found)
 
 
-def main(case: dict) -> tuple[pd.DataFrame, dict]:
-    table = pd.concat([rows(case, True), rows(case, False)], ignore_index=True)
+def main(settings: dict) -> tuple[pd.DataFrame, dict]:
+    table = pd.concat([rows(settings, True), rows(settings, False)], ignore_index=True)
     followed = table[table.ahead.notna()]
     within = followed[followed.proved]
     theorems = reversal_theorems()
@@ -210,4 +210,4 @@ def counted(counts: pd.DataFrame) -> Finding:
 
 
 if __name__ == "__main__":
-    run(snakemake, lambda job: main(job.params.case))
+    run(snakemake, lambda job: main(job.params.settings))

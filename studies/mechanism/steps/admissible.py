@@ -19,15 +19,15 @@ KEEPS = "keeps_"
 ROUNDING = 1e-9  # of tan α, and of the weight
 
 
-def cells(frame: RockingFrame, cap: Cap, case: dict, amplitudes: np.ndarray) -> list[dict]:
+def cells(frame: RockingFrame, cap: Cap, settings: dict, amplitudes: np.ndarray) -> list[dict]:
     """Return what every pulse asks of the contacts, demands over tan α."""
     tan, rows = frame.uplift_acceleration, []
-    for ratio in grid(case["frequency_ratios"]):
+    for ratio in grid(settings["frequency_ratios"]):
         for amplitude in amplitudes:
             pulse = pulse_on(
-                frame.column, {"shape": case["shape"], "frequency_ratio": ratio}, amplitude
+                frame.column, {"shape": settings["shape"], "frequency_ratio": ratio}, amplitude
             )
-            found = demand(frame, cap, history(frame, pulse, case["samples"]))
+            found = demand(frame, cap, history(frame, pulse, settings["samples"]))
             rows.append(
                 {
                     "mass_ratio": frame.mass_ratio,
@@ -45,16 +45,18 @@ def cells(frame: RockingFrame, cap: Cap, case: dict, amplitudes: np.ndarray) -> 
     return rows
 
 
-def first_pull(frame: RockingFrame, cap: Cap, case: dict, table: pd.DataFrame) -> dict:
+def first_pull(frame: RockingFrame, cap: Cap, settings: dict, table: pd.DataFrame) -> dict:
     """Return the lowest amplitude of the map at which a contact opens, and its ω/p."""
     starts = table[table.pulls].sort_values(["amplitude", "frequency_ratio"])
     if starts.empty:
         return {}
     ratio = float(starts.frequency_ratio.iloc[0])
-    spec = {"shape": case["shape"], "frequency_ratio": ratio}
+    spec = {"shape": settings["shape"], "frequency_ratio": ratio}
 
     def pulls(amplitude: float) -> bool:
-        course = history(frame, pulse_on(frame.column, spec, amplitude), FINER * case["samples"])
+        course = history(
+            frame, pulse_on(frame.column, spec, amplitude), FINER * settings["samples"]
+        )
         return demand(frame, cap, course).least < 0.0
 
     at = table[table.frequency_ratio == ratio].amplitude
@@ -83,12 +85,12 @@ def _least_by_newton_euler(frame: RockingFrame, cap: Cap, spec: dict, amplitude:
     return float(np.nanmin(found.forces[:, :, 1]))
 
 
-def _by_mass_ratio(table: pd.DataFrame, case: dict) -> pd.DataFrame:
+def _by_mass_ratio(table: pd.DataFrame, settings: dict) -> pd.DataFrame:
     """Return a row for each γ: what its pulses ask of the contacts, demands over tan α.
 
     `keeps_…` is the share of survived pulses for which this coefficient of friction is enough.
     """
-    tan, rows = Column(**case["column"]).uplift_acceleration, []
+    tan, rows = Column(**settings["column"]).uplift_acceleration, []
     for gamma, cells in table.groupby("mass_ratio"):
         survived = cells[~cells.overturned]
         row = {
@@ -102,7 +104,7 @@ def _by_mass_ratio(table: pd.DataFrame, case: dict) -> pd.DataFrame:
             "least_vertical": survived.least_vertical.min(),
             "share_that_pulls": float(survived.pulls.mean()),
         }
-        keeps = {f"{KEEPS}{f}": (survived.demand * tan <= f).mean() for f in case["frictions"]}
+        keeps = {f"{KEEPS}{f}": (survived.demand * tan <= f).mean() for f in settings["frictions"]}
         rows.append(row | keeps)
     return pd.DataFrame(rows)
 
@@ -121,20 +123,22 @@ def lightest_without_sliding(rows: pd.DataFrame, friction: float) -> float:
     return lightest
 
 
-def main(case: dict, cap: Cap) -> tuple[pd.DataFrame, pd.DataFrame, dict]:
-    column = Column(**case["column"])
-    spec = case["amplitudes"]
+def main(settings: dict, cap: Cap) -> tuple[pd.DataFrame, pd.DataFrame, dict]:
+    column = Column(**settings["column"])
+    spec = settings["amplitudes"]
     amplitudes = np.geomspace(spec["lowest"], spec["highest"], spec["points"])
-    frames = [RockingFrame(column, gamma) for gamma in case["mass_ratios"]]
-    table = pd.DataFrame([row for frame in frames for row in cells(frame, cap, case, amplitudes)])
+    frames = [RockingFrame(column, gamma) for gamma in settings["mass_ratios"]]
+    table = pd.DataFrame(
+        [row for frame in frames for row in cells(frame, cap, settings, amplitudes)]
+    )
     table["pulls"] = table.pulls & (table.least_vertical < -ROUNDING)  # γ = 0: no cap beam
     pulls = [
         {"mass_ratio": frame.mass_ratio} | found
         for frame in frames
-        if (found := first_pull(frame, cap, case, table[table.mass_ratio == frame.mass_ratio]))
+        if (found := first_pull(frame, cap, settings, table[table.mass_ratio == frame.mass_ratio]))
     ]
     none = pd.DataFrame(columns=["mass_ratio", "first_pull", "error", "at", "agrees"])
-    rows = _by_mass_ratio(table, case).merge(pd.DataFrame(pulls) if pulls else none, how="left")
+    rows = _by_mass_ratio(table, settings).merge(pd.DataFrame(pulls) if pulls else none, how="left")
     return table, rows, findings(rows)
 
 
@@ -185,4 +189,4 @@ def _over_mass_ratio(rows: pd.DataFrame, name: str) -> dict[str, float]:
 
 
 if __name__ == "__main__":
-    run(snakemake, lambda job: main(job.params.case, cap_of(job.params.cap)))
+    run(snakemake, lambda job: main(job.params.settings, cap_of(job.params.cap)))

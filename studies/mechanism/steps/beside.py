@@ -81,9 +81,9 @@ def beside_its_column(model: Model, spec: dict) -> list[dict]:
     return rows
 
 
-def main(case: dict, structures: dict, caps: dict[str, Cap]) -> tuple[pd.DataFrame, dict]:
-    frames = models(case["frames"], structures, caps)
-    table = pd.DataFrame([row for model in frames for row in beside_its_column(model, case)])
+def main(settings: dict, structures: dict, caps: dict[str, Cap]) -> tuple[pd.DataFrame, dict]:
+    frames = models(settings["frames"], structures, caps)
+    table = pd.DataFrame([row for model in frames for row in beside_its_column(model, settings)])
     return table, findings(table)
 
 

@@ -13,16 +13,16 @@ from topheavy import Cap, Column, RockingFrame, judge
 SCAN = 400  # bays, from columns that touch to the longest, at which contact is checked
 
 
-def worst(frame: RockingFrame, cap: Cap, case: dict) -> dict:
+def worst(frame: RockingFrame, cap: Cap, settings: dict) -> dict:
     """Return the largest demand (over tan α) and least reaction under pulses that are survived."""
     tan, found = frame.uplift_acceleration, []
-    for ratio in case["frequency_ratios"]:
-        for amplitude in case["amplitudes"]:
-            spec = {"shape": case["shape"], "frequency_ratio": ratio}
+    for ratio in settings["frequency_ratios"]:
+        for amplitude in settings["amplitudes"]:
+            spec = {"shape": settings["shape"], "frequency_ratio": ratio}
             pulse = pulse_on(frame.column, spec, amplitude)
             if judge(frame, pulse).overturned:
                 break
-            found.append(demand(frame, cap, history(frame, pulse, case["samples"])))
+            found.append(demand(frame, cap, history(frame, pulse, settings["samples"])))
     friction, least = impact_demand(frame, cap)
     return {
         "rocking": max(one.friction for one in found) / tan,
@@ -49,23 +49,25 @@ def opens_below_the_shortest_bay(frame: RockingFrame, half_depth: float) -> pd.D
     return pd.DataFrame({"span": spans, "least": least, "shortest_bay": bay, "width": width})
 
 
-def main(case: dict, cap: Cap) -> tuple[pd.DataFrame, pd.DataFrame, dict]:
-    column, gamma = Column(**case["column"]), case["mass_ratio"]
+def main(settings: dict, cap: Cap) -> tuple[pd.DataFrame, pd.DataFrame, dict]:
+    column, gamma = Column(**settings["column"]), settings["mass_ratio"]
     width = 2.0 * column.half_width
     base = RockingFrame(column, gamma)
-    variants = [("mass_ratio", g, RockingFrame(column, g), cap) for g in case["mass_ratios"]]
+    variants = [("mass_ratio", g, RockingFrame(column, g), cap) for g in settings["mass_ratios"]]
     variants += [
         ("slenderness", a, RockingFrame(slender(a, column.half_width), gamma), cap)
-        for a in case["slendernesses"]
+        for a in settings["slendernesses"]
     ]
-    variants += [("span", span, base, Cap(span * width, cap.half_depth)) for span in case["spans"]]
     variants += [
-        ("depth", depth, base, Cap(cap.span, depth * width / 2.0)) for depth in case["depths"]
+        ("span", span, base, Cap(span * width, cap.half_depth)) for span in settings["spans"]
+    ]
+    variants += [
+        ("depth", depth, base, Cap(cap.span, depth * width / 2.0)) for depth in settings["depths"]
     ]
     table = pd.DataFrame(
         [
             {"varied": name, "value": at, "tan": frame.uplift_acceleration}
-            | worst(frame, beam, case)
+            | worst(frame, beam, settings)
             for name, at, frame, beam in variants
         ]
     )
@@ -118,4 +120,4 @@ def findings(
 
 
 if __name__ == "__main__":
-    run(snakemake, lambda job: main(job.params.case, cap_of(job.params.cap)))
+    run(snakemake, lambda job: main(job.params.settings, cap_of(job.params.cap)))

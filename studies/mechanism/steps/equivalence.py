@@ -35,10 +35,10 @@ def equivalent_column(frame: RockingFrame) -> RockingBlock:
 
 
 def maps(
-    blocks: Iterable[RockingBlock], frame: RockingFrame, shape: str, case: dict
+    blocks: Iterable[RockingBlock], frame: RockingFrame, shape: str, settings: dict
 ) -> list[pd.DataFrame]:
     """Return maps of the peak rotation over α, NaN where overturned, over ω/p and a/(g tan α)."""
-    ratios, amplitudes = grid(case["frequency_ratios"]), grid(case["amplitudes"])
+    ratios, amplitudes = grid(settings["frequency_ratios"]), grid(settings["amplitudes"])
     omega, tan = ratios * frame.column.frequency_parameter, frame.uplift_acceleration
     found = [overturning_map(block, shape, omega, amplitudes * tan) for block in blocks]
     return [
@@ -48,34 +48,34 @@ def maps(
 
 
 def given_its_restitution(
-    frame: RockingFrame, shape: str, peaks: pd.DataFrame, case: dict
+    frame: RockingFrame, shape: str, peaks: pd.DataFrame, settings: dict
 ) -> float:
     """Return how far (over α) the column's map is from the frame's, given the frame's √r."""
     column = equivalent_column(frame).with_restitution(frame.restitution)
-    (found,) = maps((column,), frame, shape, case)
+    (found,) = maps((column,), frame, shape, settings)
     if not (found.isna() == peaks.isna()).to_numpy().all():
         return math.inf
     return float((found - peaks).abs().max().max())
 
 
-def lowest(block: RockingBlock | RockingFrame, unit: Pulse, case: dict) -> float:
+def lowest(block: RockingBlock | RockingFrame, unit: Pulse, settings: dict) -> float:
     """Return the lowest factor on a pulse of amplitude g tan α that overturns; NaN for none."""
-    spec = case["amplitudes"]
+    spec = settings["amplitudes"]
     step = (spec["highest"] - spec["lowest"]) / (spec["points"] - 1)
     found = minimum_overturning(block, unit, (spec["lowest"], spec["highest"]), resolution=step)
     return found[0] if found else math.nan
 
 
-def lowest_changes(frame: RockingFrame, shape: str, case: dict) -> pd.DataFrame:
+def lowest_changes(frame: RockingFrame, shape: str, settings: dict) -> pd.DataFrame:
     """Return the minimum overturning amplitudes (g tan α) of frame and equivalent column."""
     rows = []
-    for ratio in grid(case["frequency_ratios"])[:: case["every"]]:
+    for ratio in grid(settings["frequency_ratios"])[:: settings["every"]]:
         omega = ratio * frame.column.frequency_parameter
         unit = Pulse(shape, frame.uplift_acceleration, omega)
         of_frame, of_column = (
-            lowest(block, unit, case) for block in (frame, equivalent_column(frame))
+            lowest(block, unit, settings) for block in (frame, equivalent_column(frame))
         )
-        if of_frame > case["amplitudes"]["lowest"] and math.isfinite(of_column):
+        if of_frame > settings["amplitudes"]["lowest"] and math.isfinite(of_column):
             change = of_column / of_frame - 1.0
             rows.append(
                 {"frame": frame, "unit": unit, "frequency_ratio": ratio}
@@ -144,16 +144,16 @@ def second_route(
     return True
 
 
-def main(case: dict) -> tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame, dict]:
+def main(settings: dict) -> tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame, dict]:
     rows, changes, drawn, checked, same = [], [], None, True, True
-    for degrees in case["slendernesses"]:
-        for gamma in case["mass_ratios"]:
+    for degrees in settings["slendernesses"]:
+        for gamma in settings["mass_ratios"]:
             alpha = math.radians(degrees)
             frame = RockingFrame(Column(math.sin(alpha), math.cos(alpha)), gamma)
-            for shape in case["shapes"]:
-                peaks = maps((frame.block(), equivalent_column(frame)), frame, shape, case)
+            for shape in settings["shapes"]:
+                peaks = maps((frame.block(), equivalent_column(frame)), frame, shape, settings)
                 here = {"slenderness": degrees, "mass_ratio": gamma, "shape": shape}
-                changes.append(lowest_changes(frame, shape, case).assign(**here))
+                changes.append(lowest_changes(frame, shape, settings).assign(**here))
                 change = changes[-1].change
                 rows.append(
                     here
@@ -168,9 +168,9 @@ def main(case: dict) -> tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame, dict]:
                         "lowest_change_largest": change.max(),
                     }
                 )
-                if here == case["drawn"]:
-                    checked = second_route(frame, shape, peaks, case["sample"])
-                    same = given_its_restitution(frame, shape, peaks[0], case) < IDENTICAL
+                if here == settings["drawn"]:
+                    checked = second_route(frame, shape, peaks, settings["sample"])
+                    same = given_its_restitution(frame, shape, peaks[0], settings) < IDENTICAL
                     kind = 2 * peaks[0].isna().astype(int) + peaks[1].isna().astype(int)
                     drawn = kind.rename_axis("frequency_ratio").reset_index()
     table = pd.DataFrame(rows)
@@ -235,4 +235,4 @@ def findings(
 
 
 if __name__ == "__main__":
-    run(snakemake, lambda job: main(job.params.case))
+    run(snakemake, lambda job: main(job.params.settings))

@@ -13,16 +13,16 @@ from topheavy import Cap, simulate
 CLOSE = 0.01  # of the time of the first impact
 
 
-def main(case: dict, structures: dict, caps: dict[str, Cap]) -> tuple[pd.DataFrame, dict]:
+def main(settings: dict, structures: dict, caps: dict[str, Cap]) -> tuple[pd.DataFrame, dict]:
     """Return times of the first impact by time step, and their limit, beside the theory.
 
     The contacts harden with the steps. The limit is that of an error of first order, and its
     uncertainty what it moved by the last halving.
     """
     rows = []
-    steps = sorted(case["time_steps"], reverse=True)
-    for model in models(case["frames"], structures, caps):
-        for lean in case["leans"]:
+    steps = sorted(settings["time_steps"], reverse=True)
+    for model in models(settings["frames"], structures, caps):
+        for lean in settings["leans"]:
             rotation = lean * model.frame.slenderness
             theory = float(simulate(model.frame, rotation=rotation, samples=2).impacts[0])
             rigs = [rig_of(model, step) for step in steps]

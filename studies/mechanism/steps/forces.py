@@ -89,15 +89,15 @@ def table_of(frame: RockingFrame, cap: Cap, course: History) -> pd.DataFrame:
     return pd.DataFrame({name: values.ravel() for name, values in columns.items()})
 
 
-def main(case: dict, cap: Cap) -> tuple[pd.DataFrame, dict]:
-    frame = RockingFrame(Column(**case["column"]), case["mass_ratio"])
-    pulse: Pulse = pulse_on(frame.column, case["pulse"])
-    course = history(frame, pulse, case["samples"])
+def main(settings: dict, cap: Cap) -> tuple[pd.DataFrame, dict]:
+    frame = RockingFrame(Column(**settings["column"]), settings["mass_ratio"])
+    pulse: Pulse = pulse_on(frame.column, settings["pulse"])
+    course = history(frame, pulse, settings["samples"])
     findings = {
         "theorems": proved(),
         "solitary_column_recovered": solitary(frame.column, cap, course),
         "weight_and_inertia": balanced(frame, cap, course),
-        "start_of_one_cosine": start(case["start"]),
+        "start_of_one_cosine": start(settings["start"]),
     }
     table = table_of(frame, cap, course)
     shown = table.time < frame.column.frequency_parameter * pulse.duration * 3.0
@@ -105,4 +105,4 @@ def main(case: dict, cap: Cap) -> tuple[pd.DataFrame, dict]:
 
 
 if __name__ == "__main__":
-    run(snakemake, lambda job: main(job.params.case, cap_of(job.params.cap)))
+    run(snakemake, lambda job: main(job.params.settings, cap_of(job.params.cap)))

@@ -12,17 +12,17 @@ PLASTIC = 0.2  # restitution of a point mass, below which a contact is without r
 HARD = 0.01  # over p: a contact that is over within this is called hard
 
 
-def main(case: dict, structures: dict, caps: dict[str, Cap]) -> tuple[pd.DataFrame, dict]:
+def main(settings: dict, structures: dict, caps: dict[str, Cap]) -> tuple[pd.DataFrame, dict]:
     """Return the rebound at the first impact against the damping of the contacts, and Eq. (25).
 
     The time step resolves both the time constant and the period of the contact. Each row also
     contains the restitution of a point mass with the same spring and damper.
     """
     rows = []
-    for model in models(case["frames"], structures, caps):
-        rotation = case["lean"] * model.frame.slenderness
-        for ratio in case["damping_ratios"]:
-            for constant in case["time_constants"]:
+    for model in models(settings["frames"], structures, caps):
+        rotation = settings["lean"] * model.frame.slenderness
+        for ratio in settings["damping_ratios"]:
+            for constant in settings["time_constants"]:
                 step = constant * min(1.0, ratio) / STEPS_IN_CONTACT
                 contact = {"time_constant": constant, "damping_ratio": ratio}
                 found = rebound(rig_of(model, step, **contact), rotation)

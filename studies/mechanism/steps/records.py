@@ -14,14 +14,14 @@ from topheavy import Cap, Column, Record, RockingFrame, read_record
 
 
 def main(
-    case: dict, structures: dict, caps: dict[str, Cap], records: list[Record]
+    settings: dict, structures: dict, caps: dict[str, Cap], records: list[Record]
 ) -> tuple[pd.DataFrame, dict]:
     rows = []
-    for name, ratios in case["frames"].items():
+    for name, ratios in settings["frames"].items():
         column = Column(**structures[name])
         for frame in (RockingFrame(column, gamma) for gamma in ratios):
             for record in records:
-                found = demand(frame, caps[name], history(frame, record, case["samples"]))
+                found = demand(frame, caps[name], history(frame, record, settings["samples"]))
                 rows.append(
                     {
                         "structure": name,
@@ -66,7 +66,7 @@ def findings(mechanism_records: pd.DataFrame) -> dict[str, Finding]:
 
 def work(job: Any) -> tuple:
     return main(
-        job.params.case,
+        job.params.settings,
         job.params.structures,
         {name: cap_of(entry) for name, entry in job.params.caps.items()},
         [read_record(path) for path in job.input.records],

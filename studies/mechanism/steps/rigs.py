@@ -46,7 +46,7 @@ def experiment(job, main: Callable[..., tuple[pd.DataFrame, dict]]) -> None:
         if job.params.engine is None:
             return pd.DataFrame({"not_tested": [NO_ENGINE]}), {"not_tested": NO_ENGINE}
         caps = {name: cap_of(entry) for name, entry in job.params.caps.items()}
-        return main(job.params.case, job.params.structures, caps)
+        return main(job.params.settings, job.params.structures, caps)
 
     workbench.run(job, work)
 

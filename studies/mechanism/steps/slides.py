@@ -29,15 +29,15 @@ def needed(model: Model, pulse: Pulse, cap: Cap, samples: int) -> float:
     return demand(model.frame, cap, history(model.frame, pulse, samples)).whole
 
 
-def main(case: dict, structures: dict, caps: dict[str, Cap]) -> tuple[pd.DataFrame, dict]:
+def main(settings: dict, structures: dict, caps: dict[str, Cap]) -> tuple[pd.DataFrame, dict]:
     rows = []
-    for model in models(case["frames"], structures, caps):
+    for model in models(settings["frames"], structures, caps):
         frame, b = model.frame, model.frame.column.half_width
-        ((kind, unit),) = units(frame.column, [case["pulse"]])
+        ((kind, unit),) = units(frame.column, [settings["pulse"]])
         pulse = lowest_overturning(frame, unit).scaled(kind["factor"])
-        enough = needed(model, pulse, caps[model.name], case["samples"])
-        for friction in case["frictions"]:
-            rig = rig_of(model, case["time_step"], friction=friction)
+        enough = needed(model, pulse, caps[model.name], settings["samples"])
+        for friction in settings["frictions"]:
+            rig = rig_of(model, settings["time_step"], friction=friction)
             overturned, peak, motion = shaken(rig, pulse)
             base, seat = slips(rig, motion, gap=GAP * b)
             rows.append(

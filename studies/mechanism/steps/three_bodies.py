@@ -82,23 +82,29 @@ def compare(
     }
 
 
-def main(case: dict, cap: Cap, records: list[Record]) -> tuple[pd.DataFrame, dict]:
-    column = Column(**case["column"])
+def main(settings: dict, cap: Cap, records: list[Record]) -> tuple[pd.DataFrame, dict]:
+    column = Column(**settings["column"])
     rows = [
         compare(
             RockingFrame(column, gamma),
             cap,
             pulse_on(column, pulse),
-            case["duration"],
-            case["samples"],
+            settings["duration"],
+            settings["samples"],
         )
-        for pulse in case["pulses"]
-        for gamma in case["mass_ratios"]
+        for pulse in settings["pulses"]
+        for gamma in settings["mass_ratios"]
     ]
     rows += [
-        compare(RockingFrame(column, gamma), cap, record, case["record_duration"], case["samples"])
+        compare(
+            RockingFrame(column, gamma),
+            cap,
+            record,
+            settings["record_duration"],
+            settings["samples"],
+        )
         for record in records
-        for gamma in case["record_mass_ratios"]
+        for gamma in settings["record_mass_ratios"]
     ]
     table = pd.DataFrame(rows)
     return table, findings(table)
@@ -130,7 +136,7 @@ def findings(mechanism_three_bodies: pd.DataFrame) -> dict[str, Finding]:
 
 def work(job: Any) -> tuple:
     records = [read_record(path) for path in job.input.records]
-    return main(job.params.case, cap_of(job.params.cap), records)
+    return main(job.params.settings, cap_of(job.params.cap), records)
 
 
 if __name__ == "__main__":

@@ -64,14 +64,14 @@ def _cap_tilt(motion: Motion) -> float:
     return float(abs(motion.pose[standing, -1, 2]).max())
 
 
-def main(case: dict, structures: dict, caps: dict[str, Cap]) -> tuple[pd.DataFrame, dict]:
-    frames = models(case["frames"], structures, caps)
+def main(settings: dict, structures: dict, caps: dict[str, Cap]) -> tuple[pd.DataFrame, dict]:
+    frames = models(settings["frames"], structures, caps)
     table = pd.DataFrame(
         [
             row
             for model in frames
-            for contact in case["contacts"]
-            for row in pulses_around(model, case, contact)
+            for contact in settings["contacts"]
+            for row in pulses_around(model, settings, contact)
         ]
     )
     return table, findings(table)

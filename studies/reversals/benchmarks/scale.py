@@ -45,10 +45,10 @@ def grid(part: int) -> tuple[int, int]:
     from steps.shared.spectrum import solve
     from studies.reversals.steps.pulses_shard import lines
 
-    case = config()[0]["pulses"]
-    case |= case["grids"][case["grid"]]
-    mine, reach = lines(case, f"1-of-{part}"), case["amplitudes"]
-    solve(mine, case)
+    settings = config()[0]["pulses"]
+    settings |= settings["grids"][settings["grid"]]
+    mine, reach = lines(settings, f"1-of-{part}"), settings["amplitudes"]
+    solve(mine, settings)
     steps = (reach["highest"] - reach["lowest"]) / reach["resolution"]
     return len(mine), round(len(mine) * steps)
 
@@ -58,12 +58,12 @@ def gather(number: int) -> tuple[int, int]:
     from studies.reversals.steps.motions_fragility import main
 
     study, structures = config()
-    case = study["motions_ensemble"]
-    case["runs"]["default"]["motions"] = number
+    settings = study["motions_ensemble"]
+    settings["runs"]["default"]["motions"] = number
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run([sys.executable, __file__, "outcomes", str(number), folder], check=True)
         paths = sorted(map(str, Path(folder).glob("*.csv")))
-        main(case, structures, paths)
+        main(settings, structures, paths)
         letters = sum(pd.read_csv(path).outcomes.str.len().sum() for path in paths)
     return 4 * number, int(letters)
 
@@ -74,13 +74,13 @@ def outcomes(number: int, folder: str) -> None:
     from topheavy.synthetic.ensemble import draws, intensities, subjects
 
     study, structures = config()
-    case = study["motions_ensemble"]
-    case["runs"]["default"]["motions"] = number
-    levels, random = intensities(case), np.random.default_rng(SEED)
-    under, shards = list(subjects(case, structures)), case["runs"]["larger"]["shards"]
+    settings = study["motions_ensemble"]
+    settings["runs"]["default"]["motions"] = number
+    levels, random = intensities(settings), np.random.default_rng(SEED)
+    under, shards = list(subjects(settings, structures)), settings["runs"]["larger"]["shards"]
     for shard in range(shards):
         rows = []
-        for draw in draws(case)[shard::shards]:
+        for draw in draws(settings)[shard::shards]:
             strength = random.normal(0.0, 0.3)
             for subject in under:
                 if draw.number < subject.share * number:

@@ -24,13 +24,15 @@ def size_gain_of_frequency_gain(share: float) -> float:
     return 2.0 * (ratio**-2 - 1.0)
 
 
-def size_gain_needed(place: Place, share: float, ends: tuple[float, float], case: dict) -> float:
+def size_gain_needed(
+    place: Place, share: float, ends: tuple[float, float], settings: dict
+) -> float:
     """Return the share of the gain in R̂ that gives a share of the gain in minimum amplitude.
 
     `ends` are the minimum overturning amplitudes of the column and of the frame with γ → ∞.
     """
     first, last = ends
-    resolution = min(case["amplitudes"]["resolution"], FINE * (last - first))
+    resolution = min(settings["amplitudes"]["resolution"], FINE * (last - first))
 
     def beyond(size_gain: float) -> float:
         if size_gain in (0.0, 1.0):  # by definition, where the lowest band may be narrow
@@ -55,7 +57,7 @@ def solve(spectra: Spectra, shares: list[float]) -> tuple[pd.DataFrame, int]:
             without_end += 1
             continue
         for share in shares:
-            needed = size_gain_needed(place, share, ends, spectra.case)
+            needed = size_gain_needed(place, share, ends, spectra.settings)
             rows.append(
                 place.described()
                 | {"share": share, "gain": ends[1] / ends[0] - 1.0}
@@ -74,9 +76,9 @@ def median(rows: pd.DataFrame, ratios: list[float]) -> tuple[float, float]:
     return middle, max(abs(middle - half) for half in halves)
 
 
-def main(case: dict, table: pd.DataFrame) -> tuple[pd.DataFrame, dict]:
-    spectra = Spectra(case, table).coarser(case["every"])
-    found, without_end = solve(spectra, case["shares"])
+def main(settings: dict, table: pd.DataFrame) -> tuple[pd.DataFrame, dict]:
+    spectra = Spectra(settings, table).coarser(settings["every"])
+    found, without_end = solve(spectra, settings["shares"])
     drawn = findings(found)
     return found, drawn | {"enough": drawn["enough"].with_evidence(without_end=without_end)}
 
@@ -107,4 +109,4 @@ def findings(reversals_enough: pd.DataFrame) -> dict[str, Finding]:
 
 
 if __name__ == "__main__":
-    run(snakemake, lambda job: main(job.params.case, pd.read_csv(job.input.spectra)))
+    run(snakemake, lambda job: main(job.params.settings, pd.read_csv(job.input.spectra)))

@@ -54,13 +54,13 @@ def boundary(structure: Structure, record: Record, low: float, high: float) -> f
 
 
 def main(
-    case: dict, structures: dict, paths: list[str], tightened: float
+    settings: dict, structures: dict, paths: list[str], tightened: float
 ) -> tuple[pd.DataFrame, dict[str, Finding]]:
     every, changing = Rows(paths, lambda table: table), Rows(paths, those_that_change)
-    motions = {tuple(draw.labels.values()): draw for draw in draws(case)}
-    under = {tuple(subject.labels.values()): subject for subject in subjects(case, structures)}
-    levels, spec = intensities(case), case["sample"]
-    rng = np.random.default_rng(case["seed"])
+    motions = {tuple(draw.labels.values()): draw for draw in draws(settings)}
+    under = {tuple(subject.labels.values()): subject for subject in subjects(settings, structures)}
+    levels, spec = intensities(settings), settings["sample"]
+    rng = np.random.default_rng(settings["seed"])
 
     def again(number: int) -> dict:
         """Judge one cell of the sample; odd ones are moved close to a boundary."""
@@ -109,8 +109,8 @@ def findings(reversals_sample: pd.DataFrame) -> dict[str, Finding]:
 
 
 def work(job: Any) -> tuple:
-    case, structures = job.params.case, job.params.structures
-    return main(case, structures, job.input.shards, job.params.solver["tightened"])
+    settings, structures = job.params.settings, job.params.structures
+    return main(settings, structures, job.input.shards, job.params.solver["tightened"])
 
 
 if __name__ == "__main__":

@@ -58,29 +58,32 @@ class Ensemble:
         return dict(zip(keys, resampling.interval(values, self.confidence), strict=True))
 
 
-def ensembles(case: dict, structures: dict) -> dict[tuple[str, str], Ensemble]:
+def ensembles(settings: dict, structures: dict) -> dict[tuple[str, str], Ensemble]:
     """Return the ensembles by family and structure, in the order of the tables."""
-    under, levels = list(subjects(case, structures)), intensities(case)
-    each, confidence = case["runs"][case["run"]]["motions"], case["bootstrap"]["confidence"]
+    under, levels = list(subjects(settings, structures)), intensities(settings)
+    each, confidence = (
+        settings["runs"][settings["run"]]["motions"],
+        settings["bootstrap"]["confidence"],
+    )
     found = {}
-    for family in case["families"]:
-        for entry in case["cases"]:
+    for family in settings["families"]:
+        for entry in settings["cases"]:
             mine = [subject for subject in under if subject.structure == entry["structure"]]
-            motions = len(case["scenarios"]) * math.ceil(entry["share"] * each)
+            motions = len(settings["scenarios"]) * math.ceil(entry["share"] * each)
             found[family, entry["structure"]] = Ensemble(family, mine, motions, levels, confidence)
     return found
 
 
 def gathered(
-    paths: list[str], case: dict, structures: dict
+    paths: list[str], settings: dict, structures: dict
 ) -> Iterator[tuple[Ensemble, list[np.ndarray]]]:
     """Yield each ensemble with its means: of the outcomes, then of `differing`.
 
     Outcomes of `resampling.BLOCK` motions are in memory, however many there are.
     """
-    found, boot = ensembles(case, structures), case["bootstrap"]
+    found, boot = ensembles(settings, structures), settings["bootstrap"]
     sums = {
-        key: resampling.ResampledMeans(ensemble.motions, boot["resamples"], case["seed"])
+        key: resampling.ResampledMeans(ensemble.motions, boot["resamples"], settings["seed"])
         for key, ensemble in found.items()
     }
     waiting: dict[tuple[str, str], list] = {key: [] for key in found}
@@ -96,7 +99,7 @@ def gathered(
         key: [(s.enlarged, s.frame.mass_ratio) for s in ensemble.subjects]
         for key, ensemble in found.items()
     }
-    for key, cells in motions(paths, case["families"]):
+    for key, cells in motions(paths, settings["families"]):
         waiting[key].append([cells[one] for one in labels[key]])
         if len(waiting[key]) == resampling.BLOCK:
             add(key)
@@ -274,24 +277,26 @@ def plain(bounds: dict) -> dict:
     return {key: float(number) for key, number in bounds.items()}
 
 
-def main(case: dict, structures: dict, paths: list[str]) -> tuple[dict[str, pd.DataFrame], dict]:
+def main(
+    settings: dict, structures: dict, paths: list[str]
+) -> tuple[dict[str, pd.DataFrame], dict]:
     tables, order, beyond, shares = {"fragility": [], "medians": [], "pairs": []}, [], [], []
-    for ensemble, (means, *of_pairs) in gathered(paths, case, structures):
+    for ensemble, (means, *of_pairs) in gathered(paths, settings, structures):
         middle = middles(ensemble.levels, means)
         tables["fragility"].append(curves(ensemble, means))
         tables["medians"].append(capacities(ensemble, middle))
         tables["pairs"].append(pairs(ensemble, of_pairs))
         order.append(falls(ensemble, means))
         beyond += beyond_size(ensemble, middle)
-        shares += shares_of_gain(ensemble, middle, case["shares_of_gain"])
+        shares += shares_of_gain(ensemble, middle, settings["shares_of_gain"])
         print(ensemble.labels, ensemble.motions, "motions", flush=True)
     tables = {name: pd.concat(parts) for name, parts in tables.items()}
     drawn = findings(tables["pairs"], tables["fragility"])
     safer = drawn["heavier_is_safer"]
     return tables, {
-        "fragility_never_rises": never_rises(pd.concat(order), case["largest_rise"]),
+        "fragility_never_rises": never_rises(pd.concat(order), settings["largest_rise"]),
         "heavier_is_safer": truth(
-            safer.pop("holds"), levels=case["intensities"]["points"], **safer
+            safer.pop("holds"), levels=settings["intensities"]["points"], **safer
         ),
         "probability_is_lower": drawn["probability_is_lower"],
         "gain_is_that_of_size": truth(
@@ -323,7 +328,7 @@ def findings(reversals_pairs: pd.DataFrame, reversals_fragility: pd.DataFrame) -
 
 
 def work(job: Any) -> tuple:
-    tables, findings = main(job.params.case, job.params.structures, job.input.shards)
+    tables, findings = main(job.params.settings, job.params.structures, job.input.shards)
     return tables["fragility"], tables["pairs"], tables["medians"], findings
 
 

@@ -87,19 +87,22 @@ def second_route(table: pd.DataFrame, records: dict[str, Record], ratios, count:
     return truth(differ == 0, histories=count, differ=differ)
 
 
-def main(case: dict, paths: list[str], tightened: float) -> tuple[pd.DataFrame, ...]:
+def main(settings: dict, paths: list[str], tightened: float) -> tuple[pd.DataFrame, ...]:
     records = {record.name: record for record in map(read_record, paths)}
-    ratios = geometric(case["factors"])
+    ratios = geometric(settings["factors"])
     runs = list(
         itertools.product(
-            records.values(), case["slendernesses"], geometric(case["sizes"]), case["mass_ratios"]
+            records.values(),
+            settings["slendernesses"],
+            geometric(settings["sizes"]),
+            settings["mass_ratios"],
         )
     )
     found = (row(*run, ratios, tightened) for run in runs)
     table = pd.DataFrame(progress(found, len(runs), "structures under a record"))
-    counts = compare(table, case["mass_ratios"])
-    highest = case["factors"]["highest"]
-    checked = second_route(table, records, ratios, case["checked_by_second_route"])
+    counts = compare(table, settings["mass_ratios"])
+    highest = settings["factors"]["highest"]
+    checked = second_route(table, records, ratios, settings["checked_by_second_route"])
     drawn = findings(table)
     safer = drawn.pop("heavier_is_safer")
     heavier_is_safer = truth(safer.pop("holds"), highest=highest, **safer)
@@ -132,7 +135,7 @@ def findings(reversals_records: pd.DataFrame) -> dict[str, Any]:
 
 
 def work(job: Any) -> Any:
-    return main(job.params.case, job.input.records, job.params.solver["tightened"])
+    return main(job.params.settings, job.input.records, job.params.solver["tightened"])
 
 
 if __name__ == "__main__":

@@ -29,16 +29,16 @@ def outcomes(draw: Draw, under: list[Subject], levels, of: int) -> list[dict]:
     ]
 
 
-def main(case: dict, structures: dict, shard: str) -> pd.DataFrame:
-    mine, levels = shard_of(draws(case), shard), intensities(case)
-    under = [*subjects(case, structures)]
-    each = case["runs"][case["run"]]["motions"]
+def main(settings: dict, structures: dict, shard: str) -> pd.DataFrame:
+    mine, levels = shard_of(draws(settings), shard), intensities(settings)
+    under = [*subjects(settings, structures)]
+    each = settings["runs"][settings["run"]]["motions"]
     found = (outcomes(draw, under, levels, each) for draw in mine)
     return pd.DataFrame(row for rows in progress(found, len(mine), "motions") for row in rows)
 
 
 def work(job: Any) -> Any:
-    return main(job.params.case, job.params.structures, job.wildcards.scatteritem)
+    return main(job.params.settings, job.params.structures, job.wildcards.scatteritem)
 
 
 if __name__ == "__main__":

@@ -33,7 +33,7 @@ ROCKS = 0.1  # of α: histories that rock this far are judged again
 UNDRAWN = "its table has means of ratios, and the findings count single ones"
 
 
-def summary(table: pd.DataFrame, case: dict, boot: Mapping[str, Any]) -> pd.DataFrame:
+def summary(table: pd.DataFrame, settings: dict, boot: Mapping[str, Any]) -> pd.DataFrame:
     """Return mean ratios of the survivors that uplift, and shares that overturn, with bands."""
     rows = []
     for labels, cells in table.groupby(["family", "mass_ratio", "intensity"], sort=False):
@@ -42,7 +42,7 @@ def summary(table: pd.DataFrame, case: dict, boot: Mapping[str, Any]) -> pd.Data
         fell = (cells.outcome == "overturned").to_numpy(dtype=float)
         counted = weights @ stands
         for name in FORCES:
-            for top, one in held(labels[1], case["periods"]):
+            for top, one in held(labels[1], settings["periods"]):
                 ratio = np.where(stands > 0.0, cells[ratio_of(name, top, one)], 0.0)
                 values = (weights @ ratio) / np.where(counted > 0.0, counted, np.nan)
                 # A resample without a survivor has no mean, and is left out.
@@ -62,17 +62,17 @@ def summary(table: pd.DataFrame, case: dict, boot: Mapping[str, Any]) -> pd.Data
 
 
 def second_route(
-    rocked: pd.DataFrame, chosen: list[Draw], cap: Cap, column: Column, case: dict
+    rocked: pd.DataFrame, chosen: list[Draw], cap: Cap, column: Column, settings: dict
 ) -> Finding:
     """Compare the peaks of the shortest motions under which a frame rocks with those of SciPy."""
     apart, motions = [], {tuple(draw.labels.values()): draw for draw in chosen}
     large = rocked[rocked.rotation > ROCKS].sort_values("samples", kind="stable")
-    for row in large[: case["checked_by_second_route"]].itertuples():
+    for row in large[: settings["checked_by_second_route"]].itertuples():
         record = motions[row.family, row.scenario, row.motion].record()
         (scale,) = factors(column, record, np.array([row.intensity]))
         frame, scaled = RockingFrame(column, row.mass_ratio), record.scaled(scale)
         ours, other = (
-            rocking_peaks(frame, cap, scaled, case["points"], route)
+            rocking_peaks(frame, cap, scaled, settings["points"], route)
             for route in (simulate, reference.simulate)
         )
         apart += [abs(ours.forces[name] / other.forces[name] - 1.0) for name in FORCES]
@@ -83,19 +83,21 @@ def second_route(
     )
 
 
-def main(case: dict, ensemble: dict, shards: list[pd.DataFrame]) -> tuple:
-    column, cap = Column(**case["column"]), cap_of(case)
-    keys, chosen = ["family", "scenario", "motion"], first_draws(ensemble, case["motions"])
+def main(settings: dict, ensemble: dict, shards: list[pd.DataFrame]) -> tuple:
+    column, cap = Column(**settings["column"]), cap_of(settings)
+    keys, chosen = ["family", "scenario", "motion"], first_draws(ensemble, settings["motions"])
     of_family = {family: place for place, family in enumerate(ensemble["families"])}
     table = pd.concat(shards).sort_values(
         keys, kind="stable", key=lambda key: key.map(of_family) if key.name == "family" else key
     )
-    if len(table) != (wanted := len(chosen) * len(case["mass_ratios"]) * len(case["intensities"])):
+    if len(table) != (
+        wanted := len(chosen) * len(settings["mass_ratios"]) * len(settings["intensities"])
+    ):
         raise ValueError(
             f"the shards have {len(table)} histories; expected {wanted}: a shard is incomplete, "
             "delete it and run again"
         )
-    bands = summary(table, case, case["bootstrap"])
+    bands = summary(table, settings, settings["bootstrap"])
     rocked = table[table.outcome == "rests"]
     beside = bands[(bands.held == RIGID) & (bands.top == PINNED)]
     ratios = rocked[[ratio_of(name, PINNED, RIGID) for name in FORCES]]
@@ -119,13 +121,13 @@ def main(case: dict, ensemble: dict, shards: list[pd.DataFrame]) -> tuple:
             margin=MARGIN,
             largest=rocked.over_uplift.max(),
         ),
-        "uplift_second_route": second_route(rocked, chosen, cap, column, case),
+        "uplift_second_route": second_route(rocked, chosen, cap, column, settings),
     }
     return bands, findings
 
 
 def work(job: Any) -> tuple:
-    return main(job.params.case, job.params.ensemble, [*map(pd.read_csv, job.input.shards)])
+    return main(job.params.settings, job.params.ensemble, [*map(pd.read_csv, job.input.shards)])
 
 
 if __name__ == "__main__":

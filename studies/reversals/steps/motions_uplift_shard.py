@@ -15,18 +15,18 @@ from topheavy.synthetic.ensemble import Draw, first_draws
 STEPS = 60  # in a period of the held frame; a peak is off by 1.4e-3 at most
 
 
-def cap_of(case: dict) -> Cap:
-    return Cap(case["cap"]["span"], case["cap"]["depth"] / 2.0)
+def cap_of(settings: dict) -> Cap:
+    return Cap(settings["cap"]["span"], settings["cap"]["depth"] / 2.0)
 
 
-def histories(draw: Draw, frames: list[RockingFrame], cap: Cap, case: dict) -> list[dict]:
+def histories(draw: Draw, frames: list[RockingFrame], cap: Cap, settings: dict) -> list[dict]:
     """Return a row for each frame and intensity under one motion."""
     record, rows = draw.record(), []
-    beside = held_peaks(frames, cap, record, case["periods"], STEPS)
-    scales = factors(frames[0].column, record, np.array(case["intensities"]))
+    beside = held_peaks(frames, cap, record, settings["periods"], STEPS)
+    scales = factors(frames[0].column, record, np.array(settings["intensities"]))
     for frame, fixed in zip(frames, beside, strict=True):
-        for intensity, factor in zip(case["intensities"], scales, strict=True):
-            found = rocking_peaks(frame, cap, record.scaled(factor), case["points"])
+        for intensity, factor in zip(settings["intensities"], scales, strict=True):
+            found = rocking_peaks(frame, cap, record.scaled(factor), settings["points"])
             peak = factor * record.peak_acceleration
             row = draw.labels | {
                 "mass_ratio": frame.mass_ratio,
@@ -45,16 +45,16 @@ def histories(draw: Draw, frames: list[RockingFrame], cap: Cap, case: dict) -> l
     return rows
 
 
-def main(case: dict, ensemble: dict, shard: str) -> pd.DataFrame:
-    column, cap = Column(**case["column"]), cap_of(case)
-    frames = [RockingFrame(column, gamma) for gamma in case["mass_ratios"]]
-    mine = shard_of(first_draws(ensemble, case["motions"]), shard)
-    found = (histories(draw, frames, cap, case) for draw in mine)
+def main(settings: dict, ensemble: dict, shard: str) -> pd.DataFrame:
+    column, cap = Column(**settings["column"]), cap_of(settings)
+    frames = [RockingFrame(column, gamma) for gamma in settings["mass_ratios"]]
+    mine = shard_of(first_draws(ensemble, settings["motions"]), shard)
+    found = (histories(draw, frames, cap, settings) for draw in mine)
     return pd.DataFrame(row for rows in progress(found, len(mine), "motions") for row in rows)
 
 
 def work(job: Any) -> pd.DataFrame:
-    return main(job.params.case, job.params.ensemble, job.wildcards.scatteritem)
+    return main(job.params.settings, job.params.ensemble, job.wildcards.scatteritem)
 
 
 if __name__ == "__main__":

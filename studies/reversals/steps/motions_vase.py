@@ -67,10 +67,10 @@ def capacity_ratio(levels: np.ndarray, one: np.ndarray, other: np.ndarray) -> np
 
 
 def curves(
-    family: str, under: list, outcomes: np.ndarray, levels: np.ndarray, case: dict
+    family: str, under: list, outcomes: np.ndarray, levels: np.ndarray, settings: dict
 ) -> tuple[pd.DataFrame, list[dict]]:
     """Return the fragility of each structure, and how it ranks beside the bare column."""
-    boot = case["bootstrap"]
+    boot = settings["bootstrap"]
     weights = resampled(len(outcomes), boot["resamples"], boot["seed"])
 
     def bounds(name: str, values: np.ndarray) -> dict:
@@ -116,12 +116,15 @@ def second_route(
     return truth(differ == 0 and compared > 0, cells=compared, differ=differ)
 
 
-def main(case: dict, ensemble: dict, tightened: float) -> tuple:
-    column = Column(**case["column"])
-    under, levels = list(rivals(column, case["mass_ratios"])), geometric(case["intensities"])
-    chosen = first_draws(ensemble, case["motions"])
+def main(settings: dict, ensemble: dict, tightened: float) -> tuple:
+    column = Column(**settings["column"])
+    under, levels = (
+        list(rivals(column, settings["mass_ratios"])),
+        geometric(settings["intensities"]),
+    )
+    chosen = first_draws(ensemble, settings["motions"])
     outcomes, cells, random = [], [], np.random.default_rng(ensemble["seed"])
-    wanted = set(random.permutation(len(chosen))[: case["checked_by_second_route"]].tolist())
+    wanted = set(random.permutation(len(chosen))[: settings["checked_by_second_route"]].tolist())
     for number, draw in enumerate(progress(chosen, len(chosen), "motions")):
         record = draw.record()
         scales = factors(column, record, levels)
@@ -135,7 +138,7 @@ def main(case: dict, ensemble: dict, tightened: float) -> tuple:
     fell, families = np.array(outcomes), np.array([draw.family for draw in chosen])
     tables, ranks = [], []
     for family in ensemble["families"]:
-        table, rank = curves(family, under, fell[families == family], levels, case)
+        table, rank = curves(family, under, fell[families == family], levels, settings)
         tables.append(table)
         ranks += rank
     ranking = pd.DataFrame(ranks)
@@ -172,7 +175,7 @@ def findings(reversals_vase_ranks: pd.DataFrame) -> dict[str, Finding]:
 
 
 def work(job: Any) -> tuple:
-    return main(job.params.case, job.params.ensemble, job.params.solver["tightened"])
+    return main(job.params.settings, job.params.ensemble, job.params.solver["tightened"])
 
 
 if __name__ == "__main__":

@@ -78,8 +78,8 @@ def findings(reversals_proven: pd.DataFrame) -> dict[str, Finding]:
     }
 
 
-def main(case: dict, table: pd.DataFrame) -> tuple[pd.DataFrame, str, dict[str, Finding]]:
-    spectra, gammas = Spectra(case, table), case["mass_ratios"]
+def main(settings: dict, table: pd.DataFrame) -> tuple[pd.DataFrame, str, dict[str, Finding]]:
+    spectra, gammas = Spectra(settings, table), settings["mass_ratios"]
     found = [*of_pairs(spectra, gammas), *of_widest(spectra, gammas)]
     rows = pd.DataFrame(row for row, _ in found)
     lines = "".join(f"{json.dumps(each)}\n" for _, both in found for each in both)
@@ -87,7 +87,7 @@ def main(case: dict, table: pd.DataFrame) -> tuple[pd.DataFrame, str, dict[str, 
 
 
 def work(job: Any) -> tuple:
-    return main(job.params.case, pd.read_csv(job.input.spectra))
+    return main(job.params.settings, pd.read_csv(job.input.spectra))
 
 
 if __name__ == "__main__":

@@ -98,7 +98,7 @@ def sample(spectra: Spectra, bands: pd.DataFrame, spec: dict, tightened: float) 
 
 def without_impact(spectra: Spectra, pairs: list[tuple[float, float]]) -> Finding:
     """Are there reversals in which the heavier frame overturns without an impact?"""
-    at_once = Spectra(spectra.case, spectra.table[spectra.table["mode"] == "without impact"])
+    at_once = Spectra(spectra.settings, spectra.table[spectra.table["mode"] == "without impact"])
     widths, compared = [0.0], 0
     for place in spectra.places():
         for light, heavy in pairs:
@@ -187,12 +187,12 @@ def causes(harms: dict[str, float]) -> dict[str, Finding]:
     }
 
 
-def linear_twin(case: dict, found: tuple) -> tuple[Spectra, tuple]:
+def linear_twin(settings: dict, found: tuple) -> tuple[Spectra, tuple]:
     """Return the widest band of the linearised equation at the place of a counterexample."""
     _, place, light, heavy, _ = found
     place = place._replace(linearised=True)
-    table = solve([place.line(gamma) for gamma in (light, heavy)], case)
-    alone = case | {"slendernesses": [place.slenderness], "shapes": [place.shape]}
+    table = solve([place.line(gamma) for gamma in (light, heavy)], settings)
+    alone = settings | {"slendernesses": [place.slenderness], "shapes": [place.shape]}
     spectra = Spectra(alone, table)
     return spectra, spectra.counterexample([(light, heavy)], linearised=True)
 
@@ -251,20 +251,22 @@ def findings(
     return of_bands | extent(reversals_areas) | apart_findings(reversals_why)
 
 
-def main(case: dict, solver: dict, table: pd.DataFrame) -> tuple[dict[str, pd.DataFrame], dict]:
+def main(settings: dict, solver: dict, table: pd.DataFrame) -> tuple[dict[str, pd.DataFrame], dict]:
     whole = table[table.change == "both"]
-    spectra = Spectra(case, whole)
-    pairs = list(combinations(case["mass_ratios"], 2))
+    spectra = Spectra(settings, whole)
+    pairs = list(combinations(settings["mass_ratios"], 2))
     bands, shares = reversals(spectra, pairs), areas(spectra, pairs)
-    changes = {change: Spectra(case, apart(table, change)) for change in CHANGES}
-    separated = [(COLUMN, gamma) for gamma in case["separated"]]
+    changes = {change: Spectra(settings, apart(table, change)) for change in CHANGES}
+    separated = [(COLUMN, gamma) for gamma in settings["separated"]]
     why = pd.concat(areas(changes[change], separated).assign(change=change) for change in CHANGES)
     rises, reversed_at = spectra.lowest_rises(), spectra.counterexample(pairs)
     exact, histories = confirmed(spectra, reversed_at, solver["tightened"])
-    twin, linear_histories = confirmed(*linear_twin(case, reversed_at), solver["tightened"])
-    step = case["amplitudes"]["resolution"]
-    span = case["amplitudes"]["highest"] - case["amplitudes"]["lowest"]
-    lowest = {change: lowest_apart(changes[change], case["separated"]) for change in CHANGES[1:]}
+    twin, linear_histories = confirmed(*linear_twin(settings, reversed_at), solver["tightened"])
+    step = settings["amplitudes"]["resolution"]
+    span = settings["amplitudes"]["highest"] - settings["amplitudes"]["lowest"]
+    lowest = {
+        change: lowest_apart(changes[change], settings["separated"]) for change in CHANGES[1:]
+    }
     widths = _widths(bands)
     drawn = findings(shares, why, widths)
     found = {
@@ -282,11 +284,11 @@ def main(case: dict, solver: dict, table: pd.DataFrame) -> tuple[dict[str, pd.Da
         "where": drawn.pop("where"),
         **drawn,
         "lowest_rises_apart": truth(all(one.holds for one in lowest.values()), **lowest),
-        "sample_agrees": sample(spectra, bands, case["sample"], solver["tightened"]),
+        "sample_agrees": sample(spectra, bands, settings["sample"], solver["tightened"]),
         # the uniform searches alone, without the halving of every boundary
-        "simulations_at_least": value(len(lines(case)) * (math.ceil(span / step) + 1), 0.0),
+        "simulations_at_least": value(len(lines(settings)) * (math.ceil(span / step) + 1), 0.0),
     }
-    drawn = case | {"slendernesses": case["drawn"]}
+    drawn = settings | {"slendernesses": settings["drawn"]}
     maps = pd.concat(
         parts(Spectra(drawn, apart(table, change)), COLUMN, MASSLESS).assign(change=change)
         for change in CHANGES
@@ -312,7 +314,7 @@ def _middle(widths: pd.DataFrame) -> np.ndarray:
 def work(job: Any) -> tuple:
     table = pd.concat(map(pd.read_csv, job.input.shards))
     table = table.sort_values(["change", *ORDER], ignore_index=True)
-    tables, findings = main(job.params.case, job.params.solver, table)
+    tables, findings = main(job.params.settings, job.params.solver, table)
     return *(
         tables[name] for name in ("spectra", "areas", "why", "widths", "drawn", "histories")
     ), findings

@@ -15,12 +15,12 @@ CHANGES = ("both", "size", "restitution")
 """What of the column's p and √r a heavier cap changes; both in truth."""
 
 
-def lines(case: dict, shard: str = "1-of-1") -> list[Line]:
+def lines(settings: dict, shard: str = "1-of-1") -> list[Line]:
     """Return the lines of all spectra, or of a shard: frames, then the separated of some γ."""
-    frames = [("both", gamma) for gamma in case["mass_ratios"]]
-    frames += product(CHANGES[1:], case["separated"])
-    ratios = map(float, grid(case["frequency_ratios"]))
-    labels = product(frames, case["slendernesses"], case["shapes"], ratios)
+    frames = [("both", gamma) for gamma in settings["mass_ratios"]]
+    frames += product(CHANGES[1:], settings["separated"])
+    ratios = map(float, grid(settings["frequency_ratios"]))
+    labels = product(frames, settings["slendernesses"], settings["shapes"], ratios)
     return [
         changed_line(*spectrum, change, gamma, ratio)
         for (change, gamma), *spectrum, ratio in shard_of([*labels], shard)
@@ -47,9 +47,9 @@ def changed(column: RockingBlock, frame: RockingBlock, change: str) -> RockingBl
     raise ValueError(f"change is {change!r}; expected one of {', '.join(CHANGES)}")
 
 
-def main(case: dict, shard: str) -> pd.DataFrame:
-    return solve(lines(case, shard), case)
+def main(settings: dict, shard: str) -> pd.DataFrame:
+    return solve(lines(settings, shard), settings)
 
 
 if __name__ == "__main__":
-    run(snakemake, lambda job: main(job.params.case, job.wildcards.scatteritem))
+    run(snakemake, lambda job: main(job.params.settings, job.wildcards.scatteritem))

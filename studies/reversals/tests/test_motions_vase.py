@@ -179,7 +179,7 @@ def ranked(monkeypatch, change, order=ORDER):
         for changed in ({}, change.get(name, {}))
     ]
     draw = SimpleNamespace(family="near-fault", record=lambda: None)
-    given = {"some": [draw], "factors": LEVELS, "curves": (pd.DataFrame(), rows)}
+    given = {"first_draws": [draw], "factors": LEVELS, "curves": (pd.DataFrame(), rows)}
     given |= {"overturned_together": [LEVELS > 1.0] * 5, "second_route": truth(True)}
     for name, found in given.items():
         monkeypatch.setattr(motions_vase, name, lambda *arguments, found=found: found)

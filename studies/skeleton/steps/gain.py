@@ -29,19 +29,19 @@ def lowest(block: RockingBlock, pulse: Pulse, amplitudes: dict) -> tuple[float, 
     return found.bracket
 
 
-def main(case: dict, solver: dict) -> tuple[pd.DataFrame, dict[str, Finding]]:
-    column = Column(**case["column"])
-    omega = 2 * math.pi / case["pulse"]["period"]
-    pulse = Pulse(case["pulse"]["shape"], column.uplift_acceleration, omega)
+def main(settings: dict, solver: dict) -> tuple[pd.DataFrame, dict[str, Finding]]:
+    column = Column(**settings["column"])
+    omega = 2 * math.pi / settings["pulse"]["period"]
+    pulse = Pulse(settings["pulse"]["shape"], column.uplift_acceleration, omega)
     rows = []
     # Last, the column whose √r alone is lower: how much of the gain depends on the impact law?
     for gamma, lowered in [
-        *((gamma, 0.0) for gamma in case["mass_ratios"]),
-        (0.0, case["lowered"]),
+        *((gamma, 0.0) for gamma in settings["mass_ratios"]),
+        (0.0, settings["lowered"]),
     ]:
         block = RockingFrame(column, gamma).block()
         block = block.with_restitution((1.0 - lowered) * block.restitution)
-        low, high = lowest(block, pulse, case["amplitudes"])
+        low, high = lowest(block, pulse, settings["amplitudes"])
         confirmed = True
         for scale, falls in ((low * (1 - 1e-6), False), (high * (1 + 1e-6), True)):
             scaled = pulse.scaled(scale)
@@ -85,4 +85,4 @@ def gain(one: pd.Series, other: pd.Series) -> Finding:
 
 
 if __name__ == "__main__":
-    run(snakemake, lambda job: main(job.params.case, job.params.solver))
+    run(snakemake, lambda job: main(job.params.settings, job.params.solver))

@@ -47,7 +47,7 @@ def test_new_study_is_registered_and_sound(project, name):
     ledger = folder / "claims.yaml"
     check_ledger([str(ledger)], [f"{name}_gain"], project)
     text = ledger.read_text("utf-8")
-    own = text.replace("topheavy.minimum_overturning", f"studies.{name}.steps.gain.lowest")
+    own = text.replace("topheavy.lowest_overturning", f"studies.{name}.steps.gain.lowest")
     assert own != text
     ledger.write_text(own, "utf-8")
     check_ledger([str(ledger)], [f"{name}_gain"], project)
@@ -145,9 +145,9 @@ def test_made_study_has_the_style_that_lint_demands_for_every_length_of_its_name
 def test_file_of_the_same_name_as_one_over_the_papers_goes_over_a_study_s(project):
     over = project / "studies" / "skeleton" / "quick.yaml"
     plain = read_study_config("skeleton", CHECK, str(project / "studies"))
-    over.write_text("gain: { amplitudes: { resolution: 0.5 } }\n", encoding="utf-8")
+    over.write_text("gain: { amplitudes: { floor: 0.5 } }\n", encoding="utf-8")
     found = read_study_config("skeleton", CHECK, str(project / "studies"), over=["quick.yaml"])
-    assert found["gain"]["amplitudes"] == plain["gain"]["amplitudes"] | {"resolution": 0.5}
+    assert found["gain"]["amplitudes"] == plain["gain"]["amplitudes"] | {"floor": 0.5}
     assert read_study_config("skeleton", CHECK, str(project / "studies")) == plain
     assert read_study_config("skeleton", CHECK, str(project / "studies"), over=["x.yaml"]) == plain
     over.write_text("gain: { amplitude: 1.0 }\n", encoding="utf-8")

@@ -18,7 +18,7 @@ rule period:
         table="results/tables/period.csv",
         findings="results/findings/period.json",
     params:
-        case=config["period"],
+        settings=config["period"],
     message:
         "The period over the amplitude"
     script:

@@ -10,8 +10,8 @@ from theory.motion import PRINTED, period_of_small_swings, theta0
 from theory.period import by_elliptic_integral, by_integration
 
 
-def main(case: dict) -> tuple[dict, dict]:
-    degrees = grid(case["amplitudes"])
+def main(settings: dict) -> tuple[dict, dict]:
+    degrees = grid(settings["amplitudes"])
     amplitudes = np.radians(degrees)
     first = by_elliptic_integral(amplitudes)
     second = np.array([by_integration(amplitude) for amplitude in amplitudes])
@@ -26,10 +26,10 @@ def main(case: dict) -> tuple[dict, dict]:
     worst = np.abs(first - second).max()
     findings = {
         "at_right_angle": value(right, abs(right - by_integration(math.pi / 2))),
-        "routes_agree": truth(worst < case["agreement"], worst=worst),
+        "routes_agree": truth(worst < settings["agreement"], worst=worst),
     }
     return table, findings
 
 
 if __name__ == "__main__":
-    run(snakemake, lambda job: main(job.params.case))
+    run(snakemake, lambda job: main(job.params.settings))

@@ -6,7 +6,7 @@ rule skeleton_limit:
         table="results/tables/skeleton_limit.csv",
         findings="results/findings/skeleton_limit.json",
     params:
-        case=PARTS["skeleton"].config["limit"],
+        settings=PARTS["skeleton"].config["limit"],
     message:
         "Study skeleton: the largest amplitude of small swings"
     script:

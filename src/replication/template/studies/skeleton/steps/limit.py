@@ -17,10 +17,10 @@ def largest_amplitude(share: float) -> float:
     return brentq(lambda amplitude: by_elliptic_integral(amplitude) - 1.0 - share, 0.0, 3.1)
 
 
-def main(case: dict) -> tuple[list[dict], dict]:
+def main(settings: dict) -> tuple[list[dict], dict]:
     rows = [
         {"share": share, "amplitude_deg": math.degrees(largest_amplitude(share))}
-        for share in case["shares"]
+        for share in settings["shares"]
     ]
     gaps = [
         abs(by_integration(math.radians(row["amplitude_deg"])) - 1.0 - row["share"]) for row in rows
@@ -37,4 +37,4 @@ def main(case: dict) -> tuple[list[dict], dict]:
 
 
 if __name__ == "__main__":
-    run(snakemake, lambda job: main(job.params.case))
+    run(snakemake, lambda job: main(job.params.settings))
