@@ -46,9 +46,11 @@ def test_solvers_that_differ_on_a_decided_outcome_disagree(other):
         Ending(False, 0.1, 0),
     )
     with pytest.raises(AssertionError, match="Ending"):
-        fuzz.agree(block, pulse, lambda motion: one, lambda motion: other, "two")
+        fuzz.agree(block, pulse, lambda *_, **__: one, lambda *_, **__: other, "two")
     near = Ending(False, 0.1 + 1e-8, 0)
-    fuzz.agree(block, pulse, lambda motion: one, lambda motion: near, "two")
+    fuzz.agree(block, pulse, lambda *_, **__: one, lambda *_, **__: near, "two")
     turning = iter([one, *[one, other] * 9])
     if other.overturned:
-        fuzz.agree(block, pulse, lambda motion: next(turning), lambda motion: other, "undecided")
+        fuzz.agree(
+            block, pulse, lambda *_, **__: next(turning), lambda *_, **__: other, "undecided"
+        )

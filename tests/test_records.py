@@ -33,6 +33,14 @@ def test_record_is_linear_between_samples(record):
     np.testing.assert_allclose(np.diff(record.excitation(fine), 2), 0.0, atol=1e-14)
 
 
+def test_last_sample_is_that_of_the_end_and_of_no_later_time():
+    for step in np.random.default_rng(1).uniform(0.001, 1.0, 200):
+        for size in (2, 4, 100):
+            record = Record(float(step), np.full(size, 0.5))
+            assert record.excitation(record.duration) == 0.5
+            assert record.excitation(math.nextafter(record.duration, math.inf)) == 0.0
+
+
 def test_record_is_zero_outside_its_duration(record):
     outside = np.array([-1.0, -1e-9, 0.08 + 1e-9, 0.1, 1e3])
     assert np.all(record.excitation(outside) == 0)

@@ -108,7 +108,9 @@ class Record(Excitation):
     def accelerations(self, time: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the ground acceleration in g at times in s, an array; zero outside the record."""
         samples = np.arange(self.acceleration.size)
-        return np.interp(time / self.time_step, samples, self.acceleration, left=0.0, right=0.0)
+        place = np.minimum(time / self.time_step, samples[-1])  # not beyond the end by a rounding
+        inside = (time >= 0.0) & (time <= self.duration)
+        return np.where(inside, np.interp(place, samples, self.acceleration), 0.0)
 
     def segments(self, until: float) -> list[Segment]:
         """Return the lines between samples, from 0 to the earlier of `until` and the end."""
