@@ -9,13 +9,18 @@ const axis = (more) => ({
   grid: { stroke: () => colour("line"), width: 1 }, ticks: { stroke: () => colour("line"), width: 1, size: 4 }, ...more,
 });
 
-/** Keep a chart as large as its place. */
+/** Do something in a task of its own, so that many such things never hold the page up together. */
+const soon = (work) => setTimeout(work);
+
+/** The size of a chart that fills its place. */
+const sizeOf = (place) => ({ width: Math.max(120, place.clientWidth), height: Math.max(40, place.clientHeight) });
+
+/** Keep a chart as large as its place. `chart` returns it, or nothing as long as there is none. */
 function fit(chart, place) {
-  const size = () => ({ width: Math.max(120, place.clientWidth), height: Math.max(40, place.clientHeight) });
-  new ResizeObserver(() => {
-    const { width, height } = size();
-    if (width !== chart.width || height !== chart.height) chart.setSize({ width, height });
-  }).observe(place);
+  new ResizeObserver(() => soon(() => {
+    const { width, height } = sizeOf(place);
+    if (chart() && (width !== chart().width || height !== chart().height)) chart().setSize({ width, height });
+  })).observe(place);
 }
 
 /** One history over time, with a line at the time that is shown; a press moves that time. */
@@ -25,7 +30,7 @@ class Strip {
     this.stroke = "ink";
     this.levels = [];
     this.chart = new uPlot({
-      width: Math.max(120, place.clientWidth), height: Math.max(40, place.clientHeight), legend: { show: false }, padding: [6, 8, last ? 0 : 6, 0],
+      ...sizeOf(place), legend: { show: false }, padding: [6, 8, last ? 0 : 6, 0],
       cursor: { y: false, points: { show: false }, drag: { x: false, y: false }, sync: { key: "time" } },
       scales: { x: { time: false }, y: { range: () => this.range } },
       axes: [
@@ -43,7 +48,7 @@ class Strip {
     };
     this.chart.over.addEventListener("pointerdown", move);
     this.chart.over.addEventListener("pointermove", move);
-    fit(this.chart, place);
+    fit(() => this.chart, place);
   }
 
   /** Shade |θ| < α, or draw the levels of uplift. */
@@ -66,11 +71,15 @@ class Strip {
   }
 
   show(times, values, range, stroke, levels = []) {
-    Object.assign(this, { range, stroke, levels });
-    this.chart.setData([times, values]);
+    soon(() => {
+      Object.assign(this, { range, stroke, levels });
+      this.chart.setData([times, values]);
+      this.at(this.time);
+    });
   }
 
   at(time) {
+    this.time = time;
     this.head.style.transform = `translateX(${this.chart.valToPos(time, "x")}px)`;
   }
 }
@@ -82,6 +91,14 @@ class Spectrum {
     this.pick = pick;
     this.image = document.createElement("canvas");
     this.plane = null;
+    fit(() => this.chart, place);
+    place.addEventListener("keydown", (event) => {
+      const [right, up] = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] }[event.key] ?? [];
+      if (right === undefined) return;
+      event.preventDefault();
+      const { x, y, here, columns, rows, isRecord } = this.plane, ratio = ([low, high], cells) => (high / low) ** (1 / cells);
+      pick(isRecord ? here.x * ratio(x, columns) ** right : Math.max(x[0], here.x + (right * (x[1] - x[0])) / columns), here.y * ratio(y, rows) ** up);
+    });
   }
 
   /** Set the plane: its axes anew when they change, and no cells until its own come. `contents` is
@@ -97,8 +114,7 @@ class Spectrum {
       const ticks = (low, high) => [0.1, 0.2, 0.5, 1, 2, 3, 5, 10, 20, 50, 100, 200, 500].filter((v) => v >= low && v <= high);
       const log = { distr: 3, log: 10 };
       this.chart = new uPlot({
-        width: Math.max(120, this.place.clientWidth), height: Math.max(80, this.place.clientHeight), legend: { show: false },
-        padding: [8, 10, 0, 0], cursor: { drag: { x: false, y: false }, points: { show: false } },
+        ...sizeOf(this.place), legend: { show: false }, padding: [8, 10, 0, 0], cursor: { drag: { x: false, y: false }, points: { show: false } },
         scales: {
           x: { time: false, range: () => this.plane.x, ...(plane.isRecord ? log : {}) },
           y: { range: () => this.plane.y, ...log },
@@ -121,8 +137,6 @@ class Spectrum {
         const box = over.getBoundingClientRect();
         this.pick(this.chart.posToVal(event.clientX - box.left, "x"), this.chart.posToVal(event.clientY - box.top, "y"));
       });
-      if (!this.watched) new ResizeObserver(() => this.chart.setSize({ width: this.place.clientWidth, height: this.place.clientHeight })).observe(this.place);
-      this.watched = true;
     } else this.chart.redraw(false, false);
   }
 

@@ -94,7 +94,7 @@ class Controls {
     this.records = made("optgroup", { label: "Records" });
     select.append(pulses, this.records);
     select.addEventListener("change", () => {
-      const [shape, name] = select.value.split(/:(.*)/);
+      const [shape, name] = select.value.split(/:(.*)/s);
       this.apply(shape === "record" ? { shape, record: name } : { shape }, true, "shape");
     });
     return made("div", { class: "field", id: "shape-field" }, made("label", { for: "shape" }, "Shape"), select,
@@ -119,7 +119,7 @@ class Controls {
       document.body.classList.remove("over");
       if (event.dataTransfer.files[0]) this.open(event.dataTransfer.files[0]);
     });
-    return made("div", { id: "drop" }, button, " or drop a file here, AT2 or CSV. It stays on this computer.", file,
+    return made("div", { id: "drop" }, button, " or drop a file here, AT2 or CSV. It stays on this computer. ", made("span", { id: "reading", role: "status" }), file,
       made("p", { class: "error", id: "record-error", role: "alert" }));
   }
 

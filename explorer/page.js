@@ -2,11 +2,12 @@
 /* The page: one state, two workers that compute from it, and everything that shows what they found. */
 
 const DATA = JSON.parse(byId("data").textContent);
-const ENGINE = URL.createObjectURL(new Blob([...document.querySelectorAll("script.engine")].map((script) => script.textContent), { type: "text/javascript" }));
+const inWorkers = (scripts) => URL.createObjectURL(new Blob([...document.querySelectorAll(scripts)].map((script) => script.textContent), { type: "text/javascript" }));
+const ENGINE = inWorkers("script.engine"), READER = inWorkers("script.engine, script.reader");
 const CASES = DATA.cases.map((each) => encode({ ...DEFAULTS, ...each.state }));
 const TITLES = { column: "Column", vase: "Vase: mass fixed to it", frame: "Frame: mass carried freely", portal: "Frame: cap beam fixed to both" };
 
-const files = new Map(); // records by name; `opened` numbers them, so that a file of the same name is another
+const files = new Map(); // records by name, the samples of those that were opened in a blob; `opened` numbers them, so that a file of the same name is another
 let state = { ...DEFAULTS };
 let found = null; // the histories that are shown
 let awaited = {}; // the record that the address names and the page has not, and the factor on it
@@ -20,34 +21,44 @@ const round = (number, digits = 3) => {
 
 // The workers ------------------------------------------------------------------------------------
 
-let quick = new Worker(ENGINE), slow = null;
-let isBusy = false, waits = false, survey = 0; // the number of the only survey whose answers count
+const quick = new Worker(ENGINE);
+let slow = null, reader = null, held = null; // the record that the quick one has
+let isBusy = true, waits = false, survey = 0; // the number of the only survey whose answers count
 
-/** Request the histories of the state; while one is computed, only the last question waits. */
+/** The record of the state, if that has one. */
+const fileOf = ({ shape, record }) => (shape === "record" ? files.get(record) : undefined);
+
+/** Request the histories of the state; while one is computed, or no chart is there, only the last question waits. */
 function ask() {
   if (isBusy) {
     waits = true;
     return;
   }
   isBusy = true;
-  quick.postMessage({ id: encode(state), task: "histories", state, file: files.get(state.record) });
+  const file = fileOf(state), isNew = file && file !== held;
+  quick.postMessage({ id: encode(state), task: "histories", state, ...(isNew ? { file } : {}) });
+  held = file ?? held;
 }
 
 quick.onmessage = ({ data }) => {
-  isBusy = false;
   const began = performance.now();
   if (!data.error) receive(data);
   else if (data.id === encode(state)) controls.tell("shape", data.error);
   performance.measure("drawing", { start: began });
-  if (waits) {
-    waits = false;
-    ask();
-  }
+  answered();
 };
+
+/** Ask what waited. */
+function answered() {
+  isBusy = false;
+  if (!waits) return;
+  waits = false;
+  ask();
+}
 
 /** Start minima and spectrum anew; the spectrum only where it is not whole yet. */
 function askSurvey() {
-  const file = files.get(state.record);
+  const file = fileOf(state);
   spectrumChart.frame(planeOf(state, file), planeKey(state, file));
   const needsSpectrum = !spectrumChart.cells?.isWhole;
   slow = new Worker(ENGINE);
@@ -101,8 +112,7 @@ const seek = (to) => {
   pause();
   show(to);
 };
-const strips = [0, 1, 2].map((k) => new Strip(byId(`history${k}`), { label: "θ/α", last: k === 2, seek, band: true }));
-const groundStrip = new Strip(byId("ground"), { label: "g", last: true, seek, band: false });
+const strips = []; // three of rotations, then the ground's
 const spectrumChart = new Spectrum(byId("spectrum"), pick);
 
 /** Show new histories: charts, numbers, outcome and the pose at the present time. */
@@ -118,7 +128,7 @@ function receive(answer) {
     byId(`history${k}`).setAttribute("aria-label", `Rotation of the ${of.name} over time: ${outcome(of)}`);
   });
   const largest = 1.15 * Math.max(answer.peak, level);
-  groundStrip.show(list, Array.from(answer.ground), [-largest, largest], "ink", [-level, level]);
+  strips[3].show(list, Array.from(answer.ground), [-largest, largest], "ink", [-level, level]);
   byId("ground").setAttribute("aria-label", `Ground acceleration over time, peak ${round(answer.peak)} g`);
   scene.outcomes(structures);
   table(structures);
@@ -164,7 +174,7 @@ function show(t) {
     return between(of.theta);
   });
   scene.pose(poses, between(displacement), peak ? between(ground) / Math.max(peak, structures[0].uplift) : 0);
-  [...strips, groundStrip].forEach((strip) => strip.at(time));
+  strips.forEach((strip) => strip.at(time));
   byId("time").value = (1000 * time) / until;
   byId("time").setAttribute("aria-valuetext", `${time.toFixed(2)} s`);
   byId("clock").textContent = `${time.toFixed(2)} s`;
@@ -251,7 +261,7 @@ function update() {
 }
 
 function redraw() {
-  const began = performance.now(), file = files.get(state.record);
+  const began = performance.now(), file = fileOf(state);
   isUpdating = false;
   ask();
   scene.build(state);
@@ -259,7 +269,7 @@ function redraw() {
     scene.outcomes(found.structures);
     show(time);
   }
-  spectrumChart.frame(planeOf(state, file), planeKey(state, file));
+  if (strips.length > 3) spectrumChart.frame(planeOf(state, file), planeKey(state, file));
   const here = encode(state), same = CASES.indexOf(here);
   byId("note").textContent = same >= 0 ? DATA.cases[same].note : "";
   [...byId("cases").children].forEach((button, k) => button.setAttribute("aria-pressed", String(k === same)));
@@ -273,7 +283,7 @@ function redraw() {
 
 /** When the state has rested for a moment: its address, its Python, its minima and its spectrum. */
 function settle() {
-  const { here } = planeOf(state, files.get(state.record));
+  const { here } = planeOf(state, fileOf(state));
   byId("spectrum").setAttribute("aria-label", `Overturning spectrum of the frame; this case is at ${round(here.x)} and ${round(here.y)}`);
   byId("python").textContent = inPython(state, files.get(state.record)?.file);
   history.replaceState(null, "", `#${encode(state)}`);
@@ -305,24 +315,32 @@ function pick(x, y) {
   if (state.shape === "record") {
     const scale = x / alone.lever;
     const sizes = Object.fromEntries(["b", "h", "L"].map((key) => [key, short(state[key] * scale)]));
-    controls.apply({ ...sizes, x: short(a / peakOf(files.get(state.record).samples)) }, true, "shape");
+    controls.apply({ ...sizes, x: short(a / fileOf(state).peak) }, true, "shape");
   } else controls.apply({ a: short(a), T: short((2 * Math.PI) / (x * alone.p)) }, true, "shape");
 }
 
-/** Read a file that was opened or dropped, and shake with it. */
-async function open(file) {
-  try {
-    const read = readRecord(file.name, new Uint8Array(await file.arrayBuffer()));
-    const isNew = !files.has(read.name);
-    keep();
-    files.set(read.name, { ...read, file: file.name, opened: ++opened });
-    if (isNew) controls.offer(read.name, `${file.name}, ${round(peakOf(read.samples))} g`);
-    state = { ...state, shape: "half-sine" }; // so that a file of the same name is taken anew
-    controls.tell("record", "");
-    controls.apply({ shape: "record", record: read.name, x: read.name === awaited.record ? awaited.x : 1 }, true, "shape");
-  } catch (error) {
-    controls.tell("record", error.message);
-  }
+/** Read a file that was opened or dropped, in a worker of its own, and shake with it. The last one counts. */
+function open(file) {
+  reader?.terminate();
+  reader = new Worker(READER);
+  byId("reading").textContent = `Reading ${file.name} …`;
+  reader.onmessage = ({ data }) => {
+    reader.terminate();
+    byId("reading").textContent = "";
+    controls.tell("record", data.error ?? "");
+    if (data.read) take(data.read);
+  };
+  reader.postMessage(file);
+}
+
+/** Shake with a record that was read. */
+function take(read) {
+  const { name, file, peak } = read, isNew = !files.has(name);
+  keep();
+  files.set(name, { ...read, opened: ++opened });
+  if (isNew) controls.offer(name, `${file}, ${round(peak)} g`);
+  state = { ...state, shape: "half-sine" }; // so that a file of the same name is taken anew
+  controls.apply({ shape: "record", record: name, x: name === awaited.record ? awaited.x : 1 }, true, "shape");
 }
 
 /** Take the state from the address. */
@@ -338,7 +356,8 @@ function readAddress() {
 }
 
 for (const each of DATA.records) {
-  files.set(each.name, { name: each.name, file: `${each.name}.AT2`, step: each.step, samples: Float64Array.from(each.samples) });
+  const samples = Float64Array.from(each.samples), peak = samples.reduce((largest, a) => Math.max(largest, Math.abs(a)), 0);
+  files.set(each.name, { ...each, file: `${each.name}.AT2`, samples, peak });
   controls.offer(each.name, each.title);
 }
 DATA.cases.forEach((each) => {
@@ -363,6 +382,19 @@ byId("copy").addEventListener("click", async () => {
 addEventListener("hashchange", () => location.hash.slice(1) !== encode(state) && readAddress());
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
   spectrumChart.recolour();
-  [...strips, groundStrip].forEach((strip) => strip.chart.redraw());
+  strips.forEach((strip) => strip.chart.redraw());
 });
 readAddress();
+
+/** Make the charts one after another, so that none of them holds the page up; then request what they show. */
+async function makeCharts() {
+  for (const id of ["history0", "history1", "history2", "ground"]) {
+    await new Promise(soon);
+    const isGround = id === "ground";
+    strips.push(new Strip(byId(id), { label: isGround ? "g" : "θ/α", last: strips.length > 1, seek, band: !isGround }));
+  }
+  await new Promise(soon);
+  spectrumChart.frame(planeOf(state, fileOf(state)), planeKey(state, fileOf(state)));
+  answered();
+}
+makeCharts();

@@ -1,5 +1,6 @@
 "use strict";
-/* Read a ground motion from the bytes of a file, PEER AT2 or two-column CSV. The page sends it nowhere.
+/* Read a ground motion from the bytes of a file, PEER AT2 or two-column CSV. The page sends it nowhere:
+   it runs this file in a worker only, since its expressions take long to compile.
 
    The rules are those of the library's `topheavy.records`, and tests hold both readers to one table of
    odd and bad files: what the library refuses, this page refuses in the same words. */
@@ -8,6 +9,7 @@ const LARGEST = 5; // g: no record exceeds it
 const LONGEST_STEP = 0.2; // s: a longer DT without unit is in ms
 const SHORTEST_STEP = 1e-6; // s: a shorter step is in another unit
 const HEADER_LINES = 4, LONGEST_HEADER_LINE = 1000; // characters
+const MOST_SAMPLES = 2_000_000, LARGEST_FILE = 100_000_000; // bytes: fifty for each of so many samples
 const SHOWN = 80; // characters of a faulty text that a message repeats
 const COMPUTED = 0.01; // of a step: additional tolerance for times that were computed in single precision
 const UNDERSTOOD = "g, % g, mg, g/10, gal, cm/s², m/s² or mm/s²";
@@ -20,7 +22,7 @@ const NUMBER = "[-+]?(?:[0-9]+\\.?[0-9]*|\\.[0-9]+)(?:[eEdD][-+]?[0-9]{1,4})?";
 const expression = (pattern, flags = "iu") =>
   new RegExp(pattern.replaceAll("[\\s", `[${BLANK}`).replaceAll("\\s", `[${BLANK}]`).replaceAll("\\d", DIGIT), flags);
 
-const BLANKS = expression("\\s+"), AROUND = expression("^\\s+|(?<!\\s)\\s+$", "gu");
+const TOKENS = new RegExp(`[^${BLANK}]+`, "gu"), AROUND = expression("^\\s+|(?<!\\s)\\s+$", "gu");
 const trimmed = (text) => text.replace(AROUND, "");
 
 /** The match of a sticky expression at a place in a line; null where none is. */
@@ -154,6 +156,11 @@ const COUNT = expression(`${STARTS}NPTS\\s*[=:]\\s*(?<count>[0-9]+)(?![\\d.]|,\\
 const NAMED_STEP = expression(`${STARTS}DT${UNIT_BEFORE}\\s*[=:]\\s*${TIME_STEP}`);
 const OLD_HEADER = expression(`^\\s*(?<count>[0-9]+)[\\s,]+${TIME_STEP}[\\s,]*NPTS\\s*(?:,\\s*)?DT${ENDS}${UNIT_BEFORE}`);
 
+/** Refuse a record of too many samples; `says` is what gives the count. */
+function checkCount(says, count) {
+  if (count > MOST_SAMPLES) throw new Error(`${says} ${count}; expected at most ${MOST_SAMPLES} samples: shorten the record, or take fewer samples a second`);
+}
+
 /** Refuse a line of a header that is too long to be one. */
 function checkHeader(lines) {
   lines.forEach((line, k) => {
@@ -184,14 +191,16 @@ function readAt2(lines) {
   checkHeader(lines.slice(0, header));
   const [count, step] = countAndStep(lines[header - 1], header);
   const unit = statedAcceleration(lines.slice(0, header)), values = [], places = [];
+  checkCount(`line ${header} gives NPTS as`, count);
   lines.slice(header).forEach((text, k) => {
-    for (const token of text.split(BLANKS).filter(Boolean)) {
+    for (const [token] of text.matchAll(TOKENS)) {
       try {
         values.push(decimal(token));
       } catch (error) {
         throw new Error(`line ${header + k + 1}: ${error.message}; expected accelerations in ${unit.unit}`);
       }
       places.push(header + k + 1);
+      checkCount(`line ${header + k + 1} holds sample`, values.length);
     }
   });
   if (BigInt(values.length) !== count) {
@@ -252,6 +261,7 @@ function readCsv([header, ...lines]) {
       throw new Error(`line ${k + 2} is ${quoted(text)}; expected a time and an acceleration, two numbers with a comma between them`);
     }
     places.push(k + 2);
+    checkCount(`line ${k + 2} holds sample`, values.length);
   });
   if (values.length < 2) throw new Error(`holds ${values.length} samples; expected at least two`);
   return { step: second * regularStep(times, places), values, places, unit: { unit: columns[1], inG: inG(match.groups), place: 1, line: header } };
@@ -271,7 +281,13 @@ function textLines(bytes) {
   throw new Error(`line ${before.length} is not UTF-8 at byte ${place} (0x${bytes[wrong].toString(16).padStart(2, "0")}); expected a UTF-8 file: save it as such`);
 }
 
-/** The record in a file, from its bytes: its name without the ending, its step in s, its samples in g.
+/** Refuse a file that is too large, before it is read. */
+function checkSize(file, size) {
+  if (size > LARGEST_FILE) throw new Error(`${file}: the file has ${size} bytes; expected at most ${LARGEST_FILE}, fifty for each of ${MOST_SAMPLES} samples: shorten the record`);
+}
+
+/** The record in a file, from its bytes: its name without the ending, its step in s, its samples in g,
+    and the largest of them.
 
     Throws an Error with the fault, what was expected, and the line. */
 function readRecord(file, bytes) {
@@ -288,8 +304,20 @@ function readRecord(file, bytes) {
     }
     if (!Number.isFinite(step)) throw new Error(`time_step is ${short(step)}; expected a finite number`);
     if (!(step > 0)) throw new Error(`time_step is ${short(step)} s; expected more than zero`);
-    return { name: file.replace(/\.[^.]*$/, ""), step, samples };
+    return { name: file.replace(/\.[^.]*$/, ""), file, step, samples, peak: Math.abs(samples[largest]) };
   } catch (error) {
     throw new Error(`${file}: ${error.message}`);
   }
+}
+
+if (typeof window === "undefined" && typeof postMessage === "function") {
+  onmessage = async ({ data: file }) => {
+    try {
+      checkSize(file.name, file.size);
+      const read = readRecord(file.name, new Uint8Array(await file.arrayBuffer()));
+      postMessage({ read: { ...read, samples: new Blob([read.samples]) } }); // which the page hands on without a copy
+    } catch (error) {
+      postMessage({ error: error.message });
+    }
+  };
 }

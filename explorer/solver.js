@@ -67,7 +67,7 @@ function root(c, order, radius, above) {
 
 const TOLERANCE = 1e-12; // of the last two terms of φ in a step, over α
 const SMALL = 1e-6; // over α: a smaller rotation is not counted, and may be the last
-const MOST_STEPS = 1e6;
+const MOST_STEPS = 4e6;
 const [ROTATION, SINE, COSINE, TILT, GROUND] = Array.from({ length: 5 }, () => new Float64Array(17));
 const WORK = new Float64Array(17), FOUND = [];
 
@@ -190,7 +190,7 @@ function carry(block, motion, state, keep) {
       Object.assign(state, { side: -state.side, rotation: 0, height: 0, zeros: 1 });
       state.moving = !comesToRest(block, motion, state);
     }
-    if (++state.steps > MOST_STEPS) throw new RangeError("more than a million steps: a shorter motion, or a smaller √r, has fewer");
+    if (++state.steps > MOST_STEPS) throw new RangeError("more than four million steps: a shorter motion, or a smaller √r, has fewer");
   }
 }
 

@@ -72,11 +72,11 @@ function encode(state) {
 function decode(hash) {
   const state = { ...DEFAULTS }, faults = {};
   for (const [key, text] of new URLSearchParams(hash.replace(/^#/, ""))) {
-    if (key in FIELDS) {
+    if (Object.hasOwn(FIELDS, key)) {
       const number = typed(text), message = fault(key, number, text);
       if (message) faults[key] = `The address: ${message}`;
       else state[key] = number;
-    } else if (key in CHOICES) {
+    } else if (Object.hasOwn(CHOICES, key)) {
       if (CHOICES[key].includes(text)) state[key] = text;
       else faults[key] = `The address: “${text}” is not known; expected ${CHOICES[key].join(", ")}`;
     } else if (key === "record") state.record = text;

@@ -37,14 +37,13 @@ function structuresOf(state, scale = 1) {
 }
 
 const omegaOf = (state) => (2 * Math.PI) / state.T;
-const peakOf = (samples) => samples.reduce((largest, a) => Math.max(largest, Math.abs(a)), 0);
 
 /** The peak ground acceleration of a state, g. */
-const accelerationOf = (state, file) => (state.shape === "record" ? state.x * peakOf(file.samples) : state.a);
+const accelerationOf = (state, file) => (state.shape === "record" ? state.x * file.peak : state.a);
 
 /** The ground motion of a state, with another peak acceleration (g) or ω (rad/s) if given. */
 function motionOf(state, file, a = accelerationOf(state, file), omega = omegaOf(state)) {
-  if (state.shape === "record") return record(file.samples, file.step, a / peakOf(file.samples));
+  if (state.shape === "record") return record(file.samples, file.step, a / file.peak);
   // A displacement of the ground that begins with + sin ωt has this acceleration.
   if (state.shape === "harmonic") return pulse("harmonic", -a, omega, state.D);
   return pulse(state.shape, a, omega);
@@ -189,8 +188,11 @@ function withRegions(codes, columns, rows) {
 }
 
 if (typeof window === "undefined" && typeof postMessage === "function") {
-  onmessage = ({ data: { id, task, state, file, needsSpectrum } }) => {
+  let held; // the record that was sent last; a question without one is about it
+  onmessage = ({ data: { id, task, state, file = held, needsSpectrum } }) => {
     try {
+      if (file?.samples instanceof Blob) file = { ...file, samples: new Float64Array(new FileReaderSync().readAsArrayBuffer(file.samples)) };
+      held = file;
       if (task === "histories") {
         postMessage({ id, ...histories(state, file) });
         return;

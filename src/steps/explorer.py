@@ -29,7 +29,9 @@ STYLES = ("uplot/uPlot.min.css", "style.css")
 UPLOT = "uplot/uPlot.iife.min.js"
 ENGINE = ("structures.js", "motions.js", "solver.js", "worker.js")
 """The scripts that the page's workers run, too."""
-SCRIPTS = ("records.js", "state.js", "scene.js", "charts.js", "controls.js", "page.js")
+READER = "records.js"
+"""What only the worker runs that reads a file, after the scripts of the others."""
+SCRIPTS = ("state.js", "scene.js", "charts.js", "controls.js", "page.js")
 
 DEFAULTS = {"r": None, "cap": "free", "eq": "exact", "x": 1.0, "start": "smooth"}
 """Of the fields that a named case may leave out, as in state.js."""
@@ -146,6 +148,7 @@ def page(folder: Path, records: Mapping[str, Record]) -> str:
         "styles": "\n".join(map(read, STYLES)),
         "uplot": f"/*\n{read('uplot/LICENSE')}*/\n{read(UPLOT)}",
         "engine": "\n".join(f'<script class="engine">{read(name)}</script>' for name in ENGINE),
+        "reader": f'<script class="reader" type="text/plain">{read(READER)}</script>',
         "scripts": "\n".join(f"<script>{read(name)}</script>" for name in SCRIPTS),
         "data": json.dumps(data, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c"),
     }

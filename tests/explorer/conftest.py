@@ -1,6 +1,7 @@
 """The page to play with, put together anew and opened in a headless browser."""
 
 import asyncio
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -49,13 +50,47 @@ class Browser:
         )
         scheme = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
         self.ask("Emulation.setEmulatedMedia", features=[scheme])
+        self.load(address)
+        if settled:
+            self.settle()
+
+    def load(self, address=""):
+        """Load the page at an address in the tab as it is."""
         self.tab.loaded = False
         url = (self.folder / "explorer.html").as_uri() + (f"#{address}" if address else "")
         self.ask("Page.navigate", url=url)
         while not self.tab.loaded:
             self.runner.run(self.tab.next_message())
-        if settled:
-            self.settle()
+
+    def choose(self, path):
+        """Put a file from the disk into the page, as `chosen`, without opening it there."""
+        made = "Object.assign(document.createElement('input'), {type: 'file'})"
+        held = self.ask("Runtime.evaluate", expression=made)["result"]["objectId"]
+        self.ask("DOM.setFileInputFiles", objectId=held, files=[str(path)])
+        code = "function() { window.chosen = this.files[0]; }"
+        self.ask("Runtime.callFunctionOn", objectId=held, functionDeclaration=code)
+
+    def answer(self, path, does):
+        """Do what opens the browser's dialog of files, and choose one in it."""
+        with self.noted("Page.fileChooserOpened") as chosen:
+            self.ask("Page.setInterceptFileChooserDialog", enabled=True)
+            does()
+            while not chosen:
+                self.runner.run(self.tab.next_message())
+        node = chosen[0]["backendNodeId"]
+        self.ask("DOM.setFileInputFiles", backendNodeId=node, files=[str(path)])
+        self.ask("Page.setInterceptFileChooserDialog", enabled=False)
+
+    @contextmanager
+    def noted(self, *kinds):
+        """Yield a list that the events of these kinds are appended to."""
+        note, found = self.tab.note, []
+        self.tab.note = lambda kind, event: (
+            found.append(event) if kind in kinds else None,
+            note(kind, event),
+        )
+        yield found
+        self.tab.note = note
 
     def settle(self):
         """Wait until histories, minima and spectrum are those of the state."""

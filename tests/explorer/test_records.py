@@ -1,16 +1,30 @@
 """The page's reader of records against the library's."""
 
 from base64 import b64encode
+from hashlib import sha256
+from pathlib import Path
 
 import numpy as np
+import pytest
 
-from tests.records.files import CSV, FILES, REPEATED, STEPS, UNCERTAIN_STEPS, at2
+from tests.records.files import (
+    BODIES,
+    CSV,
+    FILES,
+    LARGEST,
+    MOST,
+    REPEATED,
+    STEPS,
+    UNCERTAIN_STEPS,
+    at2,
+    longest,
+)
 from tests.records.test_units import HEADERS, SPELLINGS
 from topheavy import read_record
 
 EDITED = 2000  # files
 ODD = "é²−%;\t\x1f\u2028\ufeff٢１🏛'\"\\"  # letters that they get, too
-MANY = 300_000  # samples: of 50 minutes at 100 Hz; more than a call takes as arguments
+READER = Path(__file__).parents[2] / "explorer" / "records.js"
 
 # Of files, each its name and its bytes: step and samples, or the message that refuses it.
 READ = """{0}.map(([name, bytes]) => {
@@ -42,6 +56,41 @@ COSTS = """(() => {
 })()"""
 
 
+# Milliseconds that the reader takes for each file, the least of three.
+FILE_COSTS = """{0}.map(([name, bytes]) => {
+  const content = Uint8Array.from(atob(bytes), each => each.charCodeAt(0));
+  return Math.min(...Array.from({length: 3}, () => {
+    const begun = performance.now();
+    try { readRecord(name, content); } catch ({message}) {
+      if (!message.startsWith(name)) throw new Error(message);
+    }
+    return performance.now() - begun;
+  }));
+})"""
+
+# What the page's own worker answers of a chosen file: step, number and hash of samples; or why not.
+IN_A_WORKER = """new Promise(resolve => {
+  const worker = new Worker(READER);
+  worker.onmessage = async ({data: {read, error}}) => {
+    worker.terminate();
+    if (error) return resolve(error);
+    const bytes = await read.samples.arrayBuffer();
+    const hash = new Uint8Array(await crypto.subtle.digest("SHA-256", bytes));
+    const digits = [...hash].map(byte => byte.toString(16).padStart(2, "0")).join("");
+    resolve([read.step, bytes.byteLength / 8, digits]);
+  };
+  worker.postMessage(window.chosen);
+})"""
+
+
+@pytest.fixture
+def reading(browser):
+    """The page, and in it what otherwise only its worker runs: the reader of records."""
+    browser.open(settled=False)
+    browser.do(READER.read_text(encoding="utf-8"))
+    return browser
+
+
 def by_the_page(browser, files):
     """What the page reads of files, each the ending of its name and its bytes."""
     given = [[f"motion{ending}", b64encode(content).decode()] for ending, content in files]
@@ -67,9 +116,8 @@ def by_both(browser, path, files):
     return answers
 
 
-def test_file_of_the_table_is_read_or_refused_as_by_the_library(browser, tmp_path):
-    browser.open(settled=False)
-    by_both(browser, tmp_path, [(row.ending, row.encoded) for row in FILES])
+def test_file_of_the_table_is_read_or_refused_as_by_the_library(reading, tmp_path):
+    by_both(reading, tmp_path, [(row.ending, row.encoded) for row in FILES])
 
 
 def edited(number):
@@ -99,35 +147,57 @@ def edited(number):
             yield ".AT2", text.replace("ACCELERATION IN UNITS OF G", edit(statement)).encode()
 
 
-def test_edited_file_is_read_or_refused_as_by_the_library(browser, tmp_path):
-    browser.open(settled=False)
-    answers = by_both(browser, tmp_path, list(edited(EDITED)))
+def test_edited_file_is_read_or_refused_as_by_the_library(reading, tmp_path):
+    answers = by_both(reading, tmp_path, list(edited(EDITED)))
     assert 0.2 < sum(isinstance(found, list) for found in answers) / EDITED < 0.8
 
 
-def test_every_record_is_read_as_the_library_reads_it(browser, request, tmp_path):
-    browser.open(settled=False)
+def test_every_record_is_read_as_the_library_reads_it(reading, request, tmp_path):
     paths = sorted((request.config.rootpath / "data" / "records").glob("*.AT2"))
     assert len(paths) > 5
-    by_both(browser, tmp_path, [(path.suffix, path.read_bytes()) for path in paths])
+    by_both(reading, tmp_path, [(path.suffix, path.read_bytes()) for path in paths])
 
 
-def test_long_record_is_read(browser, tmp_path):
-    browser.open(settled=False)
-    samples = [f"{0.3 * np.sin(0.1 * k):.5f}" for k in range(MANY)]
-    values = "\n".join(samples)
-    rows = "".join(f"{k / 100:.2f},{a}\n" for k, a in enumerate(samples))
-    files = [
-        (".AT2", f"UNITS OF G\nNPTS= {MANY}, DT= .01 SEC\n{values}\n".encode()),
-        (".csv", f"time (s),acceleration (g)\n{rows}".encode()),
-    ]
-    for _, found in by_both(browser, tmp_path, files):
-        assert len(found) == MANY
+def test_most_samples_are_read_as_by_the_library_and_one_more_is_refused(reading, tmp_path):
+    for samples in (MOST, MOST + 1):
+        for ending, content in longest(samples):
+            path = tmp_path / f"motion{ending}"
+            path.write_bytes(content)
+            reading.choose(path)
+            found = reading.do(IN_A_WORKER)
+            if samples > MOST:
+                assert "holds sample 2000001; expected at most 2000000 samples: short" in found
+            else:
+                record = read_record(path)
+                assert found == [record.time_step, MOST, sha256(record.acceleration).hexdigest()]
 
 
-def test_cost_of_a_header_grows_in_proportion_to_its_length(browser):
-    browser.open(settled=False)
-    costs = browser.do(COSTS, REPEATED, [500, 4000])
+def test_file_that_is_too_large_is_refused_before_it_is_read(reading, tmp_path):
+    path = tmp_path / "motion.AT2"
+    with path.open("wb") as file:
+        file.truncate(LARGEST + 1)  # without a block on the disk
+    reading.choose(path)
+    found = reading.do(IN_A_WORKER)
+    with pytest.raises(ValueError, match="100000001 bytes; expected at most") as error:
+        read_record(path)
+    assert found == str(error.value).replace(str(path), path.name)
+
+
+def test_cost_of_a_header_grows_in_proportion_to_its_length(reading):
+    costs = reading.do(COSTS, REPEATED, [500, 4000])
     assert len(costs) == 4 * len(REPEATED)
     for reader, part, (short, long) in costs:
         assert long < 3 * 8 * short + 2.0, (reader, part)  # ms; in proportion it is 8
+
+
+def test_cost_of_a_file_grows_in_proportion_to_its_length(reading):
+    numbers = (2000, 16000)
+    for body, made in BODIES.items():
+        files = [made(number) for number in numbers]
+        encoded = [
+            (ending, content if isinstance(content, bytes) else content.encode())
+            for ending, content in files
+        ]
+        given = [[f"motion{ending}", b64encode(content).decode()] for ending, content in encoded]
+        short, long = reading.do(FILE_COSTS, given)
+        assert long < 3 * 8 * short + 4.0, body  # ms; in proportion it is 8

@@ -4,6 +4,7 @@ What is expected of the library's reader is expected of the page's (`explorer/re
 """
 
 import re
+from collections.abc import Iterator
 from typing import NamedTuple
 
 SAMPLES = (0.1, -0.2, 0.4, 0.0, -0.3)
@@ -14,6 +15,8 @@ CSV = "time (s),acceleration (g)\n0.00,0.1\n0.02,-0.2\n0.04,0.4\n0.06,0.0\n0.08,
 READ = (0.02, SAMPLES)
 PEAK = "line 5: the largest acceleration is "
 LONGEST = 1000  # characters of a line of a header
+MOST = 2_000_000  # samples
+LARGEST = 100_000_000  # bytes of a file
 TEMPLE = "🏛"  # one character, of two units of JavaScript
 
 STEPS = [
@@ -48,6 +51,32 @@ UNCERTAIN_STEPS = [
     *("NPTS= 5, DT= .02 s²", "NPTS= 5, DT= .02 constructor", "NPTS= 5, DTS= .02"),
     *("NPTS= 5, DT= .02.", "NPTS= 5., DT= .02"),
 ]
+
+
+BODIES = {
+    # what grows with a number n in a file that is read or refused: its ending and its content
+    "samples of AT2": lambda n: (".AT2", HEADER.format(n=n) + "-0.1234567E-02\n" * n),
+    "samples in one line": lambda n: (".AT2", HEADER.format(n=n) + "0.1 " * n),
+    "empty lines": lambda n: (".AT2", AT2 + "\n" * 20 * n),
+    "blanks in a line": lambda n: (".AT2", AT2 + " " * 20 * n),
+    "one long word": lambda n: (".AT2", AT2 + "x" * 20 * n),
+    "one long number": lambda n: (".AT2", AT2.replace("0.4", "0.4" + "1" * 20 * n)),
+    "samples of CSV": lambda n: (".csv", CSV[:26] + "".join(f"{k}e-2,.1\n" for k in range(n))),
+    "digits of a time": lambda n: (".csv", CSV.replace("0.04", "0.04" + "0" * 20 * n)),
+    "blanks between times": lambda n: (".csv", CSV + "0.1" + " " * 20 * n + "1,0\n"),
+    "commas": lambda n: (".csv", CSV + "," * 20 * n),
+    "bytes that are not UTF-8": lambda n: (".csv", CSV.encode() + b"\xff" * 20 * n),
+}
+
+
+def longest(samples: int) -> Iterator[tuple[str, bytes]]:
+    """Yield the ending and the content of a file of each kind with so many samples."""
+    values = [b"0.3141592", b"-.1414214"]
+    pairs = b"".join(b"%b %b\n" % (*values,) for _ in range(samples // 2))
+    header = HEADER.format(n=min(samples, MOST)).encode()
+    yield ".AT2", header + pairs + values[0] * (samples % 2)
+    rows = (b"%.2f,%b\n" % (k / 100, values[k % 2]) for k in range(samples))
+    yield ".csv", CSV[:26].encode() + b"".join(rows)
 
 
 OTHER_DIGITS = ["०.१", "０.１", "0.٢", "²"]
@@ -117,13 +146,15 @@ FILES = [
         (
             "NPTS of 900 digits",
             at2(f"NPTS= {'1' * 900}, DT= .02"),
-            r"line 4 says 1{900} samples, '",
+            r"line 4 gives NPTS as 1{900}; expected at most 2000000 samples: shorten the record",
         ),
         (
             "NPTS of 5000 digits",
             at2(f"NPTS= {'1' * 5000}, DT= .02"),
             r"line 4 has 5015 characters, 'NPTS= 1{74}'…; expected at most 1000 in a line of the",
         ),
+        ("NPTS beyond the limit", at2(f"NPTS= {MOST + 1}, DT= .02"), r"gives NPTS as 2000001; exp"),
+        ("NPTS at the limit", at2(f"NPTS= {MOST}, DT= .02"), r"line 4 says 2000000 .* hold 5"),
         ("NPTS with a digit of another script", at2("NPTS= 5०, DT= .02"), r"line 4 is 'NPTS= 5०"),
         ("zeros before NPTS", at2("NPTS= 0005, DT= .02"), READ),
         (

@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 
-from tests.records.files import FILES
+from tests.records.files import FILES, LARGEST, MOST, longest
 from topheavy import read_record
 
 
@@ -24,3 +24,26 @@ def test_file_is_read_or_refused_in_one_line_with_its_name_and_reason(tmp_path, 
     assert record.time_step == pytest.approx(step, rel=1e-13)
     np.testing.assert_allclose(record.acceleration, samples, rtol=1e-13)
     assert record.name == "motion"
+
+
+def test_most_samples_are_read_and_one_more_is_refused(tmp_path):
+    for samples in (MOST, MOST + 1):
+        for ending, content in longest(samples):
+            path = tmp_path / f"motion{ending}"
+            path.write_bytes(content)
+            if samples == MOST:
+                record = read_record(path)
+                assert record.acceleration.size == MOST
+                assert record.acceleration[-2:].tolist() == [0.3141592, -0.1414214]
+                continue
+            says = r"motion\.\w+: line \d+ holds sample 2000001; expected at most 2000000 samples"
+            with pytest.raises(ValueError, match=says):
+                read_record(path)
+
+
+def test_file_that_is_too_large_is_refused_before_it_is_read(tmp_path):
+    path = tmp_path / "motion.AT2"
+    with path.open("wb") as file:
+        file.truncate(LARGEST + 1)  # without a block on the disk
+    with pytest.raises(ValueError, match=r"motion\.AT2: the file has 100000001 bytes; expected at"):
+        read_record(path)

@@ -49,8 +49,9 @@ def read_csv(path: str | Path) -> Record:
     ValueError
         Naming the file and the line: another header, a unit that is not understood, a line that is
         not two numbers, fewer than two samples, times that do not go on in equal steps (a gap),
-        steps below 1 µs, accelerations that are all zero or beyond 5 g. A line of the header has
-        at most 1000 characters, an exponent four digits.
+        steps below 1 µs, accelerations that are all zero or beyond 5 g. A file has at most 10⁸
+        bytes and two million samples, a line of the header 1000 characters, an exponent four
+        digits.
     """
     return columns.read(Path(path)).record
 
@@ -67,6 +68,7 @@ def read_at2(path: str | Path) -> Record:
         Naming the file, and the line where there is one: no NPTS and DT, no unit of acceleration
         that is understood or two that contradict, a value that is not a number, more or fewer
         values than NPTS or fewer than two, a step below 1 µs, accelerations that are all zero or
-        beyond 5 g. A line of the header has at most 1000 characters, an exponent four digits.
+        beyond 5 g. A file has at most 10⁸ bytes and two million samples, a line of the header 1000
+        characters, an exponent four digits.
     """
     return at2.read(Path(path)).record

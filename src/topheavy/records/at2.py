@@ -7,6 +7,7 @@ from pathlib import Path
 from topheavy.records.reading import (
     NUMBER,
     Reading,
+    check_count,
     check_header,
     decimal,
     reading,
@@ -26,6 +27,7 @@ _STEP = rf"""(?P<step>{NUMBER})(?![\d.])
       |(?!\s*[(\[]?{_NO_UNIT}[^\W\d_]))
     (?!\w|\s*[/*^]|-|[.,]\d)"""
 _UNIT_BEFORE = r"(?:\s*[(\[]\s*(?P<before>[^\W\d_]+)\s*[)\]])?"
+_TOKEN = re.compile(r"\S+")
 _FLAGS = re.IGNORECASE | re.VERBOSE
 _COUNT = re.compile(r"\bNPTS\s*[=:]\s*(?P<count>[0-9]+)(?![\d.]|,\d)", _FLAGS)
 _NAMED_STEP = re.compile(rf"\bDT{_UNIT_BEFORE}\s*[=:]\s*{_STEP}", _FLAGS)
@@ -44,17 +46,19 @@ def read(path: Path) -> Reading:
         unit = stated_acceleration(lines[:header])
     except ValueError as error:
         raise ValueError(f"{path}: {error}") from None
+    check_count(path, f"line {header} gives NPTS as", count)
     values: list[float] = []
     places: list[int] = []
     for place, line in enumerate(lines[header:], start=header + 1):
-        for token in line.split():
+        for token in _TOKEN.finditer(line):
             try:
-                values.append(decimal(token))
+                values.append(decimal(token[0]))
             except ValueError as error:
                 raise ValueError(
                     f"{path}: line {place}: {error}; expected accelerations in {unit.unit}"
                 ) from None
             places.append(place)
+            check_count(path, f"line {place} holds sample", len(values))
     if len(values) != count:
         raise ValueError(
             f"{path}: line {header} says {count} samples, {lines[header - 1].strip()!r}, and the "

@@ -9,8 +9,10 @@ from numpy.typing import NDArray
 
 from topheavy.records.reading import (
     Reading,
+    check_count,
     check_header,
     decimal,
+    in_c,
     quoted,
     reading,
     text_lines,
@@ -45,6 +47,7 @@ def read(path: Path) -> Reading:
             ) from None
         times.append(time.strip())
         places.append(place)
+        check_count(path, f"line {place} holds sample", len(values))
     if len(values) < 2:
         raise ValueError(f"{path}: holds {len(values)} samples; expected at least two")
     step = in_seconds * regular_step(path, times, places)
@@ -89,7 +92,7 @@ def _last_digits(printed: list[str]) -> NDArray[np.float64]:
     Programs print either so many decimals or so many significant digits: the most that any of the
     times has.
     """
-    numbers = [Decimal(re.sub("[dD]", "e", text)) for text in printed]
+    numbers = [Decimal(in_c(text)) for text in printed]
     last = np.array([int(number.as_tuple().exponent) for number in numbers])
     first = np.array([number.adjusted() if number else last.min() for number in numbers])
     digits = (first - last).max()

@@ -19,6 +19,14 @@ Not by `\\d`, which takes the digits of every script. No number has an exponent 
 and `decimal.Decimal` refuses those of twenty.
 """
 
+_DECIMAL = re.compile(NUMBER)
+
+MOST_SAMPLES = 2_000_000
+"""In a record: almost three hours at 200 Hz."""
+
+LARGEST_FILE = 100_000_000
+"""Bytes: fifty for each of so many samples."""
+
 _LONGEST_HEADER_LINE = 1000
 """Characters. A line of a header has eighty or so; a longer one is no header."""
 
@@ -47,8 +55,14 @@ def text_lines(path: Path) -> list[str]:
     Raises
     ------
     ValueError
-        With the first line that is not UTF-8.
+        For a file beyond LARGEST_FILE; with the first line that is not UTF-8.
     """
+    size = path.stat().st_size
+    if size > LARGEST_FILE:
+        raise ValueError(
+            f"{path}: the file has {size} bytes; expected at most {LARGEST_FILE}, fifty for each "
+            f"of {MOST_SAMPLES} samples: shorten the record"
+        )
     found = []
     raw = path.read_bytes().removeprefix(codecs.BOM_UTF8)
     for place, line in enumerate(raw.splitlines(), start=1):
@@ -78,9 +92,29 @@ def check_header(path: Path, lines: Sequence[str]) -> None:
             )
 
 
+def check_count(path: Path, says: str, count: int) -> None:
+    """Refuse a record of more than MOST_SAMPLES; `says` is what gives the count, with its line.
+
+    Raises
+    ------
+    ValueError
+        With the file and the line.
+    """
+    if count > MOST_SAMPLES:
+        raise ValueError(
+            f"{path}: {says} {count}; expected at most {MOST_SAMPLES} samples: shorten the record, "
+            "or take fewer samples a second"
+        )
+
+
 def quoted(text: str) -> str:
     """Return a text for a message: in quotes, and only its beginning if it is long."""
     return repr(text) if len(text) <= _SHOWN else f"{text[:_SHOWN]!r}…"
+
+
+def in_c(number: str) -> str:
+    """Return a number as C prints it: with an e in place of the d of Fortran."""
+    return number.replace("d", "e").replace("D", "e")
 
 
 def decimal(text: str) -> float:
@@ -92,8 +126,8 @@ def decimal(text: str) -> float:
         For a text that is none; NaN and infinity are none.
     """
     bare = text.strip()
-    if re.fullmatch(NUMBER, bare):
-        found = float(re.sub("[dD]", "e", bare))
+    if _DECIMAL.fullmatch(bare):
+        found = float(in_c(bare))
         if math.isfinite(found):
             return found
     raise ValueError(f"{quoted(bare)} is not a number")
