@@ -1,5 +1,5 @@
 "use strict";
-/* Read a ground motion from the bytes of a file, PEER AT2 or two-column CSV. The page sends it nowhere:
+/* Read a ground motion from the bytes of a file, PEER AT2 or CSV. The page sends it nowhere:
    it runs this file in a worker only, since its expressions take long to compile.
 
    The rules are those of the library's `topheavy.records`, and tests hold both readers to one table of
@@ -240,31 +240,48 @@ function regularStep(printed, places) {
 
 const COLUMN = expression("^[^()[\\]]*[([](?<unit>[^()[\\]]*)[)\\]]\\s*$");
 
-function readCsv([header, ...lines]) {
-  checkHeader([header]);
-  const columns = header.split(",").map((part) => part.match(COLUMN)?.groups.unit).map((unit) => unit && trimmed(unit));
-  if (columns.length !== 2 || columns.includes(undefined)) throw new Error(`line 1 is ${repr(header)}; expected, for example, 'time (s),acceleration (g)'`);
-  const second = inSeconds(columns[0]), match = trimmed(inAscii(columns[1])).match(WHOLE_UNIT);
-  if (second === undefined || !match) {
-    throw new Error(`line 1 is ${repr(header)}, with the units ${columns.join(" and ")}; expected s or ms for the times, and ${UNDERSTOOD} for the accelerations`);
+const SEPARATORS = { ";": "a semicolon", "\t": "a tab", ",": "a comma" }; // beside the first two, a comma is a decimal point
+
+/** How the columns lie: what separates them, which two are read, and their units. */
+function layoutOf(header, place) {
+  const separator = Object.keys(SEPARATORS).find((mark) => header.includes(mark)) ?? ",", parts = header.split(separator);
+  const units = parts.map((part) => trimmed(part.match(COLUMN)?.groups.unit ?? "")), said = `line ${place} is ${repr(header)}`;
+  if (parts.length < 2 || (parts.length === 2 && !units.every(Boolean))) throw new Error(`${said}; expected, for example, 'time (s),acceleration (g)'`);
+  const matches = units.map((unit) => trimmed(inAscii(unit)).match(WHOLE_UNIT)), places = [...units.keys()];
+  let times = places.filter((k) => inSeconds(units[k]) !== undefined), found = places.filter((k) => matches[k]);
+  if (parts.length === 2) [times, found] = [times.filter((k) => k === 0), found.filter((k) => k === 1)];
+  if (!times.length || !found.length) {
+    const listed = parts.length > 2 ? units.filter(Boolean).join(", ") : units.join(" and ");
+    throw new Error(`${said}, with the units ${listed}; expected s or ms for the times, and ${UNDERSTOOD} for the accelerations`);
   }
-  const times = [], values = [], places = [];
+  const names = found.map((k) => repr(trimmed(parts[k].split(/[([]/)[0])));
+  if (found.length > 1) throw new Error(`${said}; expected one column of acceleration; those are ${names.join(", ")}: name one as \`column\`, or take the others out`);
+  const [time] = times, [value] = found;
+  return { separator, count: parts.length, time, value, second: inSeconds(units[time]), unit: { unit: units[value], inG: inG(matches[value].groups), place, line: header } };
+}
+
+function readCsv(all) {
+  const above = all.findIndex((line) => !/^[#%]/.test(line)), begin = above < 0 ? all.length : above;
+  const header = all[begin] ?? "", lines = all.slice(begin + 1);
+  checkHeader([...all.slice(0, begin), header]);
+  const { separator, count, time, value, second, unit } = layoutOf(header, begin + 1), times = [], values = [], places = [];
   lines.forEach((text, k) => {
     if (!trimmed(text)) return;
+    const place = begin + k + 2;
     try {
-      const pair = text.split(",");
-      if (pair.length !== 2) throw new Error("not two");
-      decimal(pair[0]);
-      values.push(decimal(pair[1]));
-      times.push(trimmed(pair[0]));
+      const parts = text.split(separator).map((part) => (separator === "," ? part : part.replaceAll(",", ".")));
+      if (parts.length !== count) throw new Error("not as many");
+      decimal(parts[time]);
+      values.push(decimal(parts[value]));
+      times.push(trimmed(parts[time]));
     } catch {
-      throw new Error(`line ${k + 2} is ${quoted(text)}; expected a time and an acceleration, two numbers with a comma between them`);
+      throw new Error(`line ${place} is ${quoted(text)}; expected a time and an acceleration, ${count === 2 ? "two numbers" : `${count} columns`} with ${SEPARATORS[separator]} between them`);
     }
-    places.push(k + 2);
-    checkCount(`line ${k + 2} holds sample`, values.length);
+    places.push(place);
+    checkCount(`line ${place} holds sample`, values.length);
   });
   if (values.length < 2) throw new Error(`holds ${values.length} samples; expected at least two`);
-  return { step: second * regularStep(times, places), values, places, unit: { unit: columns[1], inG: inG(match.groups), place: 1, line: header } };
+  return { step: second * regularStep(times, places), values, places, unit };
 }
 
 // Both ----------------------------------------------------------------------------------------------

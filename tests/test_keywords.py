@@ -2,7 +2,17 @@
 
 import pytest
 
-from topheavy import Column, Pulse, Record, RockingFrame, judge, simulate
+from topheavy import (
+    Column,
+    Pulse,
+    Record,
+    RockingFrame,
+    fragility,
+    judge,
+    lowest_overturning,
+    plot,
+    simulate,
+)
 
 COLUMN = Column(0.5, 3.0)
 PULSE = Pulse("one-sine", 0.3, 6.0)
@@ -20,6 +30,12 @@ PULSE = Pulse("one-sine", 0.3, 6.0)
         (lambda: Record(dt=0.01, acceleration=[0, 1]), "it is called time_step"),
         (lambda: Pulse("one-sine", 0.3, omega=6.0), "it is called angular_frequency"),
         (lambda: judge(COLUMN, PULSE, zzz=1), "expected structure, excitation"),
+        (lambda: Pulse("one-sine", 0.3, period=1.0), "angular_frequency is 2π over it"),
+        (lambda: simulate(COLUMN, PULSE, scale=2.0), r"excitation.scaled\(factor\)"),
+        (lambda: lowest_overturning(COLUMN, PULSE, (0, 5), resolution=1), "it is called floor"),
+        (lambda: fragility([COLUMN], [PULSE], [1.0], lowerd=[0.1]), "did you mean 'lowered'"),
+        (lambda: plot.structure(COLUMN, ax=None), "it is called axes"),
+        (lambda: Record(0.1, [0, 1]).scaled_to(PGV=1.0), "did you mean 'pgv'"),
     ],
 )
 def test_wrong_keyword_names_the_right_one(wrong, told):

@@ -12,7 +12,9 @@ SYNONYMS = {
     **dict.fromkeys(("gamma", "ratio"), "mass_ratio"),
     **dict.fromkeys(("record", "pulse", "motion", "ground_motion"), "excitation"),
     **dict.fromkeys(("dt", "step"), "time_step"),
-    **dict.fromkeys(("omega", "frequency", "period"), "angular_frequency"),
+    "omega": "angular_frequency",
+    "resolution": "floor, the narrowest interval that the search cannot miss",
+    "ax": "axes",
     **dict.fromkeys(("b", "h"), "half_width and half_height"),
 }
 """What the library calls what others call otherwise."""
@@ -24,6 +26,9 @@ ELSEWHERE = {
     **dict.fromkeys(("width", "height"), WHOLE),
     **dict.fromkeys(("cap_mass", "column_mass", "mass"), MASSES),
     **dict.fromkeys(("restitution", "r", "eta"), LOSS),
+    "period": "angular_frequency is 2π over it, in rad/s",
+    "frequency": "angular_frequency is 2π times it, in rad/s",
+    **dict.fromkeys(("scale", "factor"), "excitation.scaled(factor) scales a pulse or record"),
     **dict.fromkeys(("pga", "pgv"), "record.scaled_to(pga=…) or (pgv=…) scales a record"),
 }
 """What has a way of its own."""
@@ -55,9 +60,9 @@ def hinted(named: Named) -> Named:
 
 def _meant(name: str, names: list[str]) -> str:
     synonym = SYNONYMS.get(name, "")
-    if synonym and synonym.split()[0] in names:
+    if synonym and synonym.replace(",", "").split()[0] in names:
         return f"it is called {synonym}"
-    if name in ELSEWHERE:
+    if name in ELSEWHERE and name.lower() not in names:
         return ELSEWHERE[name]
-    close = difflib.get_close_matches(name, names, n=1)
+    close = difflib.get_close_matches(name.lower(), names, n=1)
     return f"did you mean {close[0]!r}?" if close else f"expected {', '.join(names)}"

@@ -10,21 +10,14 @@ import numpy as np
 
 from topheavy.fixed_mass import FixedMassColumn, MonolithicPortal
 from topheavy.fragility.estimate import Fragility
+from topheavy.keywords import hinted
 from topheavy.kinematics import outlines
 from topheavy.response import Response
 from topheavy.structures import Column, Structure, as_block
 
-try:
-    import matplotlib.pyplot as plt
-    from matplotlib.axes import Axes
-except ImportError as missing:
-    raise ImportError(
-        "topheavy.plot draws with Matplotlib, which is not installed; expected the extra: "
-        'pip install "topheavy[plot]"'
-    ) from missing
-
 if TYPE_CHECKING:
     import xarray
+    from matplotlib.axes import Axes
 
 OVERTURNED = "0.75"
 """The grey of what overturns."""
@@ -32,9 +25,10 @@ FALLEN = 1.5
 """|θ|/α up to which a history is shown: one that goes on overturns."""
 
 
+@hinted
 def history(
-    response: Response, structure: Structure, *, label: str = "", axes: Axes | None = None
-) -> Axes:
+    response: Response, structure: Structure, *, label: str = "", axes: "Axes | None" = None
+) -> "Axes":
     """Draw the rotation over α against time (s), with the impacts; |θ| = α is dotted.
 
     Parameters
@@ -59,7 +53,8 @@ def history(
     return axes
 
 
-def spectrum(outcomes: "xarray.Dataset", *, axes: Axes | None = None) -> Axes:
+@hinted
+def spectrum(outcomes: "xarray.Dataset", *, axes: "Axes | None" = None) -> "Axes":
     """Draw the peak rotation over α of a map; what overturns is grey.
 
     Parameters
@@ -75,13 +70,17 @@ def spectrum(outcomes: "xarray.Dataset", *, axes: Axes | None = None) -> Axes:
     axes.figure.colorbar(
         shown, ax=axes, label=r"Peak rotation, $\max|\theta|/\alpha$ (–); grey: overturns"
     )
+    axes.set_title(
+        outcomes.attrs.get("shape", "") or outcomes.attrs.get("record", ""), fontsize="medium"
+    )
     for side, axis in (("x", across), ("y", up)):
         name = axis.attrs.get("long_name", axis.name.replace("_", " "))
         axes.set(**{f"{side}label": f"{name[0].upper()}{name[1:]} ({axis.attrs['units']})"})
     return axes
 
 
-def fragility(found: Fragility, *, axes: Axes | None = None) -> Axes:
+@hinted
+def fragility(found: Fragility, *, axes: "Axes | None" = None) -> "Axes":
     """Draw the probability of overturning: points with their intervals, and the fitted curves.
 
     Parameters
@@ -90,11 +89,15 @@ def fragility(found: Fragility, *, axes: Axes | None = None) -> Axes:
         Of `topheavy.fragility`.
     """
     axes = _axes(axes)
-    for name in found.curves.structure.to_numpy():
+    names = found.curves.structure.to_numpy()
+    for place, name in enumerate(names):
         curve = found.curves.sel(structure=name)
         level, share = curve.level.to_numpy(), curve.probability.to_numpy()
         ends = np.array([share - curve.probability_low, curve.probability_high - share])
-        points = axes.errorbar(level, share, ends.clip(0.0), fmt=".", capsize=2, label=str(name))
+        aside = 0.15 * (place - (len(names) - 1) / 2) / len(names) * np.gradient(level)
+        points = axes.errorbar(
+            level + aside, share, ends.clip(0.0), fmt=".", capsize=2, label=str(name)
+        )
         axes.plot(level, curve.fitted, color=points.lines[0].get_color())
     unit = found.curves.level.attrs.get("units", "its unit")
     axes.set(
@@ -106,14 +109,15 @@ def fragility(found: Fragility, *, axes: Axes | None = None) -> Axes:
     return axes
 
 
+@hinted
 def structure(
     shown: Structure,
     rotation: float = 0.0,
     *,
     cap_width: float | None = None,
     cap_depth: float | None = None,
-    axes: Axes | None = None,
-) -> Axes:
+    axes: "Axes | None" = None,
+) -> "Axes":
     """Draw a structure to scale, rocked by θ.
 
     Parameters
@@ -152,5 +156,12 @@ def structure(
     return axes
 
 
-def _axes(axes: Axes | None) -> Axes:
+def _axes(axes: "Axes | None") -> "Axes":
+    try:
+        import matplotlib.pyplot as plt
+    except ImportError as missing:
+        raise ImportError(
+            "topheavy.plot draws with Matplotlib, which is not installed; expected the extra: "
+            'pip install "topheavy[plot]", in a clone pip install ".[plot]"'
+        ) from missing
     return axes if axes is not None else plt.figure(layout="constrained").add_subplot()

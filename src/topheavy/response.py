@@ -16,7 +16,7 @@ MOST_SAMPLES = 10_000_000
 Outcome = Literal["no uplift", "rests", "rocking", "overturned"]
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Response:
     """A rocking history and its outcome.
 
@@ -54,6 +54,12 @@ class Response:
     def overturned(self) -> bool:
         """Whether it overturned."""
         return self.outcome == "overturned"
+
+    def __repr__(self) -> str:
+        return (
+            f"Response({self.outcome!r}, peak_rotation={self.peak_rotation:.6g}, "
+            f"number_of_impacts={self.number_of_impacts}, {self.time.size} samples)"
+        )
 
 
 def sample_times(samples: int | ArrayLike) -> int | NDArray[np.float64]:

@@ -90,6 +90,7 @@ class Column:
         checks.positive("half_height", self.half_height, "m")
 
     @classmethod
+    @hinted
     def of_dimensions(cls, *, width: float, height: float) -> "Column":
         """Return the column of a width 2b and a height 2h, m.
 
@@ -170,6 +171,7 @@ class RockingFrame:
         checked_mass_ratio(self.mass_ratio)
 
     @classmethod
+    @hinted
     def of_masses(
         cls, column: Column, cap_mass: float, column_mass: float, columns: int = 2
     ) -> "RockingFrame":

@@ -307,6 +307,47 @@ FILES = [
         ("as it should be", CSV, READ),
         ("a mark of byte order, CR LF", "\ufeff" + CSV.replace("\n", "\r\n"), READ),
         ("empty lines", CSV.replace("\n", "\n\n"), READ),
+        ("semicolons", CSV.replace(",", ";"), READ),
+        ("semicolons, decimal commas", CSV.replace(",", ";").replace(".", ","), READ),
+        ("tabs", CSV.replace(",", "\t"), READ),
+        ("tabs, decimal commas", CSV.replace(",", "\t").replace(".", ","), READ),
+        ("comments above the header", "# a site, a day\n% by (hand)\n" + CSV, READ),
+        (
+            "a comment of the other kind",
+            "// a site\n" + CSV,
+            r"line 1 is '// a site'; expected, for",
+        ),
+        (
+            "a fault below comments",
+            "# a\n" + CSV + "0.1,x\n",
+            r"line 8 is '0.1,x'; expected a time",
+        ),
+        ("comments alone", "# a\n% b\n", r"line 3 is ''; expected, for example"),
+        (
+            "three columns, one of acceleration",
+            "no;time (s);velocity (m/s);a (m/s²)\n1;0,0;9;0\n2;0,5;9;0,981\n3;1;9;-1,962\n",
+            (0.5, (0.0, 0.1, -0.2)),
+        ),
+        (
+            "three columns, two of acceleration",
+            "t (s),NS (g),EW (g)\n0,.1,.2\n1,.1,.2\n",
+            r"line 1 is .*; expected one column of acceleration; those are 'NS', 'EW': name one",
+        ),
+        (
+            "three columns without an acceleration",
+            "t (s),v (m/s),u (m)\n0,1,2\n1,1,2\n",
+            r"line 1 is .*, with the units s, m/s, m; expected s or ms",
+        ),
+        (
+            "a column too few in a line",
+            "t (s);v (m/s);a (g)\n0;1;.2\n1;.2\n",
+            r"line 3 is '1;.2'; expected a time and an acceleration, 3 columns with a semicolon",
+        ),
+        (
+            "a decimal comma between commas",
+            CSV.replace("0.04", "0,04"),
+            r"line 4 is '0,04,0.4'; exp",
+        ),
         ("blanks of other scripts", CSV.replace("0.04,0", "\u30000.04\x1f,\x850"), READ),
         ("milliseconds", "t [ms], a [m/s²]\n0,0\n5,.981\n10,-1.962\n", (0.005, (0.0, 0.1, -0.2))),
         (
@@ -338,8 +379,8 @@ FILES = [
         ),
         (
             "a third column without a unit",
-            "time (s),a (g),b\n",
-            r"line 1 is 'time \(s\),a \(g\),b'",
+            "time (s),a (g),b\n0,.1,x\n",
+            r"holds 1 samples; expected at least two",
         ),
         ("two units of a column", CSV.replace("(g)", "(g) (gal)"), r"line 1 is 'time .*; expected"),
         (

@@ -134,3 +134,23 @@ def test_steps_that_grow_are_refused(write):
 def test_digits_too_coarse_to_show_a_gap_are_refused(write):
     with pytest.raises(ValueError, match="expected equal steps"):
         read_csv(write(of_times([f"{k / 128:.2f}" for k in range(100)])))
+
+
+THREE = "t (s),NS (g),EW (m/s²)\n0,.1,.981\n1,.1,1.962\n"
+
+
+def test_named_column_is_read(tmp_path):
+    (tmp_path / "a.csv").write_text(THREE, encoding="utf-8")
+    assert read_csv(tmp_path / "a.csv", column="ns").acceleration == pytest.approx([0.1, 0.1])
+    east = read_record(tmp_path / "a.csv", column="EW")
+    assert east.acceleration == pytest.approx([0.1, 0.2])
+    with pytest.raises(ValueError, match="that is called 'UD'; those are 'NS', 'EW'"):
+        read_csv(tmp_path / "a.csv", column="UD")
+    with pytest.raises(ValueError, match=r"ends in .csv, which alone has columns"):
+        read_record(tmp_path / "a.at2", column="NS")
+
+
+def test_metres_that_are_called_g_are_warned_of(tmp_path):
+    (tmp_path / "a.csv").write_text("t (s),a (g)\n0,.1\n1,2.5\n", encoding="utf-8")
+    with pytest.warns(UserWarning, match=r"line 3: the largest acceleration is 2.5 g.*m/s²"):
+        read_csv(tmp_path / "a.csv")

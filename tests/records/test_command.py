@@ -78,3 +78,16 @@ def test_command_fails_without_a_traceback(tmp_path):
     assert run.returncode == 1
     assert run.stderr.startswith("error: ")
     assert run.stderr.count("\n") == 1
+
+
+def test_several_files_are_a_table(file, tmp_path, capsys):
+    second = tmp_path / "b.csv"
+    second.write_text("t (s);N (g);E (g)\n0;.1;.2\n1;.1;.3\n", encoding="utf-8")
+    assert main([str(file), str(second), "--column", "E"]) == 1  # AT2 has no columns
+    assert "which alone has columns" in capsys.readouterr().err
+    second.write_text("t (s);N (g)\n0;.1\n1;.1\n", encoding="utf-8")
+    assert main([str(file), str(second)]) == 0
+    head, *rows = capsys.readouterr().out.splitlines()
+    assert head.split("  ")[0] == "file"
+    assert [row.split()[0] for row in rows] == ["motion.AT2", "b.csv"]
+    assert rows[1].split()[-2:] == ["0.1", "0.981"]

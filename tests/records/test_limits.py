@@ -13,7 +13,7 @@ READERS = {
     "unit": lambda line: units.stated_acceleration([f"data {line}x"]),
     "step": lambda line: at2._count_and_step(Path("x"), 4, f"NPTS= 5, {line}x"),
     "old step": lambda line: at2._count_and_step(Path("x"), 4, f"5 .01 NPTS{line}x"),
-    "columns": lambda line: columns._units(Path("x"), f"{line}x,"),
+    "columns": lambda line: columns._layout(Path("x"), f"{line}x,", 1, ""),
 }
 
 

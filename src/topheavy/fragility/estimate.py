@@ -11,6 +11,7 @@ from topheavy.fragility import inputs
 from topheavy.fragility.curve import fit
 from topheavy.fragility.resampling import means_within
 from topheavy.fragility.tables import curve_table, pair_table
+from topheavy.keywords import hinted
 from topheavy.overturning import overturned_together
 from topheavy.records import Record
 
@@ -58,6 +59,7 @@ class Fragility:
     confidence: float
 
 
+@hinted
 def fragility(
     structures: inputs.Structures,
     motions: Sequence[inputs.Motion],
@@ -92,7 +94,8 @@ def fragility(
     motions : sequence of Record
         Also of Pulse, if measure is a function.
     levels : array_like, shape (n,)
-        Of the intensity: positive and increasing.
+        Of the intensity: positive and increasing. A motion may overturn a structure at one and not
+        at the next: medians and intervals depend on few levels, and fifty are few seconds.
     measure : {"PGV", "PGA"} or callable
         PGV in m/s, integrated from rest without baseline correction; PGA in g; or a function that
         returns the intensity of a motion, in proportion to its scale.

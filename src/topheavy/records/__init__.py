@@ -1,6 +1,6 @@
-"""Recorded ground motions, and the readers of PEER's AT2 layout and of two-column CSV.
+"""Recorded ground motions, and the readers of PEER's AT2 layout and of columns of text.
 
-`python -m topheavy.records FILE` prints how a file is understood.
+`python -m topheavy.records FILE …` prints how files are understood.
 """
 
 from pathlib import Path
@@ -12,37 +12,42 @@ from topheavy.records.record import Record
 __all__ = ["Reading", "Record", "read", "read_at2", "read_csv", "read_record"]
 
 
-def read(path: str | Path) -> Reading:
-    """Read a file, PEER AT2 or two-column CSV as its name ends: the record and its stated unit.
+def read(path: str | Path, column: str = "") -> Reading:
+    """Read a file, PEER AT2 or CSV as its name ends: the record and its stated unit.
 
     Raises
     ------
     ValueError
         For another ending, or a file that `read_at2` or `read_csv` refuses.
     """
-    readers = {".at2": at2.read, ".csv": columns.read}
-    reader = readers.get(Path(path).suffix.lower())
-    if reader is None:
-        raise ValueError(f"{path}: expected a file whose name ends in .AT2 or .csv")
-    return reader(Path(path))
+    ending = Path(path).suffix.lower()
+    if ending == ".at2" and not column:
+        return at2.read(Path(path))
+    if ending == ".csv":
+        return columns.read(Path(path), column)
+    wanted = ".csv, which alone has columns" if column else ".AT2 or .csv"
+    raise ValueError(f"{path}: expected a file whose name ends in {wanted}")
 
 
-def read_record(path: str | Path) -> Record:
-    """Read a record in g from a file, PEER AT2 or two-column CSV as its name ends.
+def read_record(path: str | Path, column: str = "") -> Record:
+    """Read a record in g from a file, PEER AT2 or CSV as its name ends.
 
     Raises
     ------
     ValueError
         For another ending, or a file that `read_at2` or `read_csv` refuses.
     """
-    return read(path).record
+    return read(path, column).record
 
 
-def read_csv(path: str | Path) -> Record:
+def read_csv(path: str | Path, column: str = "") -> Record:
     """Read a record with the header `time (s),acceleration (g)` and a line for each sample.
 
-    Other units in the header are converted. The time step is the difference of the last and the
-    first time over the number of steps.
+    Semicolons or tabs may separate the columns; a comma is a decimal point then. Lines above the
+    header that begin with # or % are comments. Of more columns, the first with a unit of time is
+    read, and the one with a unit of acceleration, or that which `column` names. Other units are
+    converted. The time step is the difference of the last and the first time over the number of
+    steps. A warning says if the unit is g and an acceleration exceeds 2 g.
 
     Raises
     ------
@@ -53,7 +58,7 @@ def read_csv(path: str | Path) -> Record:
         bytes and two million samples, a line of the header 1000 characters, an exponent four
         digits.
     """
-    return columns.read(Path(path)).record
+    return columns.read(Path(path), column).record
 
 
 def read_at2(path: str | Path) -> Record:

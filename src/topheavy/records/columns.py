@@ -1,7 +1,10 @@
-"""Records in two columns of CSV, times and accelerations, with a line that names their units."""
+"""Records in columns of text, times and accelerations, with a line that names their units."""
 
+import math
 import re
+from dataclasses import dataclass
 from decimal import Decimal
+from itertools import takewhile
 from pathlib import Path
 
 import numpy as np
@@ -25,33 +28,63 @@ _COMPUTED = 0.01
 """Of a step: additional tolerance for times that were computed in single precision."""
 
 
-def read(path: Path) -> Reading:
-    """Read a file of two columns; see `topheavy.read_csv`."""
-    header, *lines = text_lines(path) or [""]
-    check_header(path, [header])
-    in_seconds, unit = _units(path, header)
+_COMMENT = ("#", "%")
+_SEPARATORS = {";": "a semicolon", "\t": "a tab", ",": "a comma"}
+"""Beside one that is no comma, a comma is a decimal point."""
+
+
+@dataclass(frozen=True)
+class _Layout:
+    """The line of the header, what separates columns, which two are read, and their units."""
+
+    place: int
+    separator: str
+    count: int
+    columns: tuple[int, int]
+    in_seconds: float
+    unit: Statement
+
+    def pair(self, line: str) -> tuple[str, float]:
+        """Return the time as it is printed, and the acceleration; raise ValueError for neither."""
+        parts = line.split(self.separator)
+        if len(parts) != self.count:
+            raise ValueError
+        if self.separator != ",":
+            parts = [part.replace(",", ".") for part in parts]
+        time, acceleration = (parts[k] for k in self.columns)
+        decimal(time)
+        return time.strip(), decimal(acceleration)
+
+
+def read(path: Path, column: str = "") -> Reading:
+    """Read a file of columns; see `topheavy.read_csv`."""
+    lines = text_lines(path)
+    above = sum(1 for _ in takewhile(lambda line: line.startswith(_COMMENT), lines))
+    header, *rows = lines[above:] or [""]
+    check_header(path, [*lines[:above], header])
+    layout = _layout(path, header, above + 1, column)
     times: list[str] = []
     values: list[float] = []
     places: list[int] = []
-    for place, line in enumerate(lines, start=2):
+    for place, line in enumerate(rows, start=above + 2):
         if not line.strip():
             continue
         try:
-            time, acceleration = line.split(",")
-            decimal(time)
-            values.append(decimal(acceleration))
+            time, acceleration = layout.pair(line)
         except ValueError:
+            wanted = "two numbers" if layout.count == 2 else f"{layout.count} columns"
             raise ValueError(
                 f"{path}: line {place} is {quoted(line)}; expected a time and an acceleration, "
-                "two numbers with a comma between them"
+                f"{wanted} with {_SEPARATORS[layout.separator]} between them"
             ) from None
-        times.append(time.strip())
+        values.append(acceleration)
+        times.append(time)
         places.append(place)
         check_count(path, f"line {place} holds sample", len(values))
     if len(values) < 2:
         raise ValueError(f"{path}: holds {len(values)} samples; expected at least two")
-    step = in_seconds * regular_step(path, times, places)
-    return reading(path, step, values, places, unit, header=1)
+    step = layout.in_seconds * regular_step(path, times, places)
+    return reading(path, step, values, places, layout.unit, header=layout.place)
 
 
 @np.errstate(over="ignore", invalid="ignore")  # times beyond the largest float are not regular
@@ -100,16 +133,45 @@ def _last_digits(printed: list[str]) -> NDArray[np.float64]:
     return finest
 
 
-def _units(path: Path, header: str) -> tuple[float, Statement]:
-    """Return the units of the two columns: of time in s, and of acceleration."""
-    columns = [_COLUMN.fullmatch(part) for part in header.split(",")]
-    units = [match["unit"].strip() for match in columns if match]
-    if len(units) != 2 or len(columns) != 2:
-        raise ValueError(f"{path}: line 1 is {header!r}; expected, for example, {_HEADER!r}")
-    in_seconds, in_g = time_in_seconds(units[0]), acceleration_in_g(units[1])
-    if in_seconds is None or in_g is None:
+def _layout(path: Path, header: str, place: int, column: str) -> _Layout:
+    """Return how the columns lie; `column` names that of the acceleration, where there are several.
+
+    Raises
+    ------
+    ValueError
+        With the line: no two columns with units, units that are not understood, several
+        accelerations of which none is named, a name that none has.
+    """
+    separator = next(mark for mark in _SEPARATORS if mark in header or mark == ",")
+    parts = header.split(separator)
+    matches = [_COLUMN.fullmatch(part) for part in parts]
+    units = [match["unit"].strip() if match else "" for match in matches]
+    said = f"{path}: line {place} is {header!r}"
+    if len(parts) < 2 or (len(parts) == 2 and not all(units)):
+        raise ValueError(f"{said}; expected, for example, {_HEADER!r}")
+    seconds = [time_in_seconds(unit) for unit in units]
+    in_g = [acceleration_in_g(unit) for unit in units]
+    if len(parts) == 2:
+        times, found = [0] if seconds[0] else [], [1] if in_g[1] else []
+    else:
+        times = [k for k, one in enumerate(seconds) if one]
+        found = [k for k, one in enumerate(in_g) if one]
+    if not times or not found:
+        listed = ", ".join(filter(None, units)) if len(parts) > 2 else " and ".join(units)
         raise ValueError(
-            f"{path}: line 1 is {header!r}, with the units {units[0]} and {units[1]}; expected "
+            f"{said}, with the units {listed}; expected "
             f"s or ms for the times, and {UNDERSTOOD} for the accelerations"
         )
-    return in_seconds, Statement(units[1], in_g, 1, header)
+    names = {k: re.split(r"[(\[]", parts[k])[0].strip() for k in found}
+    if column:
+        found = [k for k in found if names[k].casefold() == column.strip().casefold()]
+    if len(found) != 1:
+        raise ValueError(
+            f"{said}; expected one column of acceleration"
+            + (f" that is called {column!r}" if column else "")
+            + f"; those are {', '.join(map(repr, names.values()))}: "
+            "name one as `column`, or take the others out"
+        )
+    k = found[0]
+    unit = Statement(units[k], in_g[k] or math.nan, place, header)
+    return _Layout(place, separator, len(parts), (times[0], k), seconds[times[0]] or math.nan, unit)

@@ -3,6 +3,7 @@
 import codecs
 import math
 import re
+import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -36,6 +37,7 @@ _SHOWN = 80
 _SHORTEST_STEP = 1e-6
 """s. No accelerogram has a million samples a second: a shorter step is in another unit."""
 
+_SELDOM = 2.0
 _LARGEST = 5.0
 """g. No ground acceleration above it has been recorded: what exceeds it is in another unit."""
 
@@ -167,6 +169,12 @@ def reading(
             f"{path}: line {places[k]}: the largest acceleration is {values[k]:g} {unit.unit}, "
             f"{largest:g} g; expected at most {_LARGEST:g} g, which no record exceeds: line "
             f"{unit.place} states the unit, {unit.line!r}; is it another?"
+        )
+    if unit.in_g == 1.0 and abs(largest) > _SELDOM:
+        warnings.warn(
+            f"{path}: line {places[k]}: the largest acceleration is {largest:.3g} g, and few "
+            f"records exceed {_SELDOM:g} g: is the unit m/s²?",
+            stacklevel=4,
         )
     try:
         return Reading(Record(time_step, accelerations, path.stem), unit, header)

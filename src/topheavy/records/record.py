@@ -87,6 +87,7 @@ class Record(Excitation):
             self.time_step, checks.finite("factor", factor) * self.acceleration, self.name
         )
 
+    @hinted
     def scaled_to(self, *, pga: float | None = None, pgv: float | None = None) -> "Record":
         """Return the record scaled to a peak ground acceleration (g) or velocity (m/s).
 
