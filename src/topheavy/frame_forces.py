@@ -110,12 +110,17 @@ def _bending(
     squared = frame.frequency_parameter**2
     angular = -squared * (side * np.sin(lean) + ground * np.cos(lean))  # Eq. (23)
     sin, cos, b = np.sin(theta), np.cos(theta), column.half_width
-    transverse = (foot.horizontal * cos - foot.vertical * sin)[..., None]
-    axial = (foot.horizontal * sin + foot.vertical * cos)[..., None]
+    transverse = foot.horizontal * cos - foot.vertical * sin
+    axial = foot.horizontal * sin + foot.vertical * cos
     spread = weight / (2.0 * column.half_height * STANDARD_GRAVITY)
     steady = STANDARD_GRAVITY * (ground * cos - sin) + side * b * rate**2
-    turn, steady, z = angular[..., None], steady[..., None], np.array(SECTIONS)
-    z = 2.0 * column.half_height * z
-    inertia = turn * z**3 / 6.0 + steady * z**2 / 2.0 - turn * b**2 / 3.0 * z
-    found: Array = -(side * b)[..., None] * axial - transverse * z + spread * inertia
-    return -found
+    # A polynomial of the third degree in the height z above the foot.
+    terms = (
+        side * b * axial,
+        transverse + spread * angular * b**2 / 3.0,
+        -spread * steady / 2.0,
+        -spread * angular / 6.0,
+    )
+    powers = np.vander(2.0 * column.half_height * np.array(SECTIONS), 4, increasing=True).T
+    found: Array = np.stack(terms, -1) @ powers
+    return found

@@ -51,6 +51,8 @@ from topheavy import (
     read_at2,
     read_csv,
     read_record,
+    resting_portal_forces,
+    rocking_portal_forces,
     simulate,
 )
 from topheavy.free_rocking import quarter_period
@@ -111,6 +113,7 @@ vase = FixedMassColumn(pier, 0.5, cap_width=3.0, cap_depth=1.0)
 portal = MonolithicPortal(pier, 1.0, span=12.0)
 assert_type(lowest_overturning(vase, pulse, (0, 5), floor=0.5), LowestOverturning)
 assert_type(overturned_together([vase, portal, bent], pulse, [1.0, 2.0]), NDArray[np.bool_])
+print(rocking_portal_forces(portal, 0.01, 0.02, 0.1), resting_portal_forces(portal, "fixed", 0.1))
 searches = [Search(vase, pulse, (0.0, 2.0)), Search(bent, measured, (0.0, 2.0), vertical=shaking)]
 assert_type(minima_together(searches, resolution=0.5), list[tuple[float, float] | None])
 print(sum(map(len, intervals_together(searches, resolution=0.5))))
