@@ -2,7 +2,7 @@
 
 from figures.drawing import gamma
 from figures.palette import greys
-from replication.drawing import DOUBLE, GREY, make_figure, note, sheet
+from replication.drawing import DOUBLE, GREY, PAPER, make_figure, note, sheet
 
 KINDS = {"no uplift": "no uplift", "bounded": "bounded by the lemma", "followed": "followed"}
 WIDE = 0.003  # over the boundary: the edges of narrower boxes would hide them
@@ -20,7 +20,7 @@ def draw(proven_below):
             for low, width in zip(boxes.low, boxes.high - boxes.low, strict=True):
                 span = low / boxes.minimum.iloc[0], width / boxes.minimum.iloc[0]
                 edge = 0.3 if span[1] > WIDE else 0.0
-                look = {"facecolor": colours[kind], "edgecolor": "white", "linewidth": edge}
+                look = {"facecolor": colours[kind], "edgecolor": PAPER, "linewidth": edge}
                 axis.broken_barh([span], (row - 0.32, 0.64), **look)
         uplift = part.uplift.iloc[0] / part.minimum.iloc[0]
         axis.plot([uplift] * 2, [row - 0.42, row + 0.42], color=GREY, linewidth=1.0)

@@ -110,6 +110,8 @@ def _ground(pulse: Pulse | None, block: RockingBlock, segment: Segment) -> Groun
             amplitude * np.cos(np.multiply(omega, t)),
             -amplitude * omega * np.sin(np.multiply(omega, t)),
         )
+    if pulse.shape not in ("one-sine", "half-sine", "harmonic"):
+        raise ValueError(f"shape is {pulse.shape!r}, which has no exact solution here")
     return lambda t: (
         amplitude * np.sin(np.multiply(omega, t)),
         amplitude * omega * np.cos(np.multiply(omega, t)),

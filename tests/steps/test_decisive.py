@@ -64,7 +64,7 @@ def test_exception_that_the_table_missed_is_found_where_the_rise_is_least(table,
 
 def test_widest_counterexample_is_the_widest_over_its_middle(table, monkeypatch):
     reversals = np.array([[1.0, 1.2], [4.0, 4.4]])
-    monkeypatch.setattr(Spectra, "reversals", lambda *given: reversals)
+    monkeypatch.setattr(Spectra, Spectra.reversals.__name__, lambda *given: reversals)
     width, *_, middle = Spectra(LINES, table).counterexample([(0.0, 1.0)])
     assert (width, middle) == pytest.approx((0.2 / 1.1, 1.1))
 

@@ -23,7 +23,7 @@ def beyond_the_theorem(settings: dict) -> tuple[list[dict], list[dict]]:
     pulse, *frames = extreme(settings)
     found = [proven(frame, pulse) for frame in frames]
     rows = [
-        {"record": "extreme", "mass_ratio": frame.mass_ratio, "factor": 1.0, "proven": name}
+        {"record": "extreme", "mass_ratio": frame.mass_ratio, "proven": name}
         | {"impacts": certificate["impacts"] if certificate else -1}
         for frame, (name, certificate) in zip(frames, found, strict=True)
     ]
@@ -33,23 +33,14 @@ def beyond_the_theorem(settings: dict) -> tuple[list[dict], list[dict]]:
 def under_records(
     rescaled: pd.DataFrame, columns: Mapping[str, Column], records: list[Record]
 ) -> Iterator[dict]:
-    """Yield what is proven of each reversed pair at the record's own scale, and at an end of it.
-
-    At an end, one frame suffices to say that the pair is not reversed: the lighter one if it
-    overturns, and else the heavier one.
-    """
+    """Yield what is proven of each reversed pair at the record's own scale."""
     named = {record.name: record for record in records}
-    ends = rescaled[rescaled.end.notna()].fillna({"overturned": ""})
+    ends = rescaled[rescaled.end.notna()]
     for (name, structure), rows in ends.groupby(["record", "structure"]):
         light, heavy = rows.survives.iloc[0], rows.overturns.iloc[0]
-        asked = [(light, 1.0, "survives"), (heavy, 1.0, "overturns")]
-        for row in rows.itertuples():
-            falls = light in map(float, row.overturned.split())
-            asked.append((light if falls else heavy, row.end, "overturns" if falls else "survives"))
-        for gamma, factor, expected in asked:
-            frame = RockingFrame(columns[structure], gamma)
-            found = outcome(frame, named[name], factor=factor)
-            row = {"record": name, "structure": structure, "mass_ratio": gamma, "factor": factor}
+        for gamma, expected in ((light, "survives"), (heavy, "overturns")):
+            found = outcome(RockingFrame(columns[structure], gamma), named[name])
+            row = {"record": name, "structure": structure, "mass_ratio": gamma}
             row |= {"by_solver": expected, "proven": found.outcome, "impacts": found.impacts}
             yield row
 

@@ -48,20 +48,17 @@ def test_no_proven_outcome_under_a_record_differs(under, holds):
     assert found.entries["undecided"] == sum(end == "undecided" for _, end in under)
 
 
-def test_end_of_a_reversal_is_proven_by_the_frame_that_changed(monkeypatch):
+def test_reversed_pair_of_each_record_is_proven_at_its_own_scale(monkeypatch):
     asked = []
 
-    def outcome(frame, record, factor):
-        asked.append((frame.mass_ratio, factor))
+    def outcome(frame, record):
+        asked.append((frame.mass_ratio, record.name))
         return Outcome("survives", 0)
 
     monkeypatch.setattr(proven, "outcome", outcome)
-    rows = [("a", "c", 0.99, "0.0 1", 0.0, 1.0, 0.99), ("a", "c", 1.0, "1", None, None, None)]
-    rows.append(("a", "c", 1.02, None, 0.0, 1.0, 1.02))
-    names = ["record", "structure", "factor", "overturned", "survives", "overturns", "end"]
-    rescaled = pd.DataFrame(rows, columns=names)
-    records = [Record(0.01, [0.0, 0.1, 0.0], "a")]
+    names = ["record", "structure", "survives", "overturns", "end"]
+    rows = [("a", "c", 0.0, 1.0, 0.99), ("a", "c", None, None, None), ("a", "c", 0.0, 1.0, 1.02)]
+    rescaled, records = pd.DataFrame(rows, columns=names), [Record(0.01, [0.0, 0.1, 0.0], "a")]
     found = list(proven.under_records(rescaled, {"c": Column(0.5, 3.0)}, records))
-    assert asked == [(0.0, 1.0), (1.0, 1.0), (0.0, 0.99), (1.0, 1.02)]
-    expected = ["survives", "overturns", "overturns", "survives"]
-    assert [row["by_solver"] for row in found] == expected
+    assert asked == [(0.0, "a"), (1.0, "a")]
+    assert [row["by_solver"] for row in found] == ["survives", "overturns"]
