@@ -170,3 +170,46 @@ def test_lines_of_the_library_run(tmp_path, monkeypatch, capsys):
     exec(compile(lines, "README.md", "exec"), {})
     assert (tmp_path / "bent.png").stat().st_size > 5000
     assert "The lowest factor found that overturns is " in capsys.readouterr().out
+
+
+def published(rule: str) -> dict:
+    return json.loads((REFERENCE / "findings" / f"{rule}.json").read_text(encoding="utf-8"))
+
+
+def test_counts_of_the_findings_are_the_published_ones():
+    raises = published("vase")["frame_always_raises"]
+    wide = sum(raises["exceptions_of_width"]["0.02"].values())
+    assert (
+        f"None of {raises['comparisons']} comparisons reverses the second, but {wide} do" in said()
+    )
+    assert raises["exceptions"] == 0
+    price = published("portal")["joints_carry_more"]
+    forces = pd.read_csv(REFERENCE / "sources" / "portal_forces.csv").dropna()
+    rocks = forces[forces.portal != "no uplift"].drop_duplicates(
+        ["motion", "peak_acceleration", "span"]
+    )
+    records = (rocks.kind == "record").sum()
+    assert price["resisted"]["fixed"] == 0
+    assert f"In {price['rocking']} comparisons in which the portal rocks" in said()
+    assert f"and both survive, {records} of them under records" in said()
+    ends = published("certainty_break_even")["deficit_ends_the_benefit"]
+    least, most, median = (f"{100 * ends[name]:.0f}" for name in ("least", "most", "median"))
+    assert (
+        f"deficits of {least} to {most} % (median {median} %, over {ends['compared']} comp"
+        in said()
+    )
+    less = pd.read_csv(REFERENCE / "studies" / "certainty_benefit.csv").query("way == 'both'")
+    ranges = [sorted(100 * less[less.factor == factor].less) for factor in (1.0, 0.9)]
+    first, last = ("–".join(f"{one:.0f}" for one in both) for both in ranges)
+    assert f"from {first} to {last} percentage points" in said()
+    rescaled = published("certainty_rescaled")["reversals_end"]
+    assert f"Two of {rescaled['groups']} pairs of a measured component" in said()
+    assert rescaled["own"] == 2
+
+
+def test_citation_counts_the_claims(claims):
+    paper = [row for row in claims.values() if row.study == ""]
+    judged = [row for row in paper if row.verdict not in ("not tested", "by definition")]
+    abstract = " ".join(read_yaml(ROOT / "CITATION.cff")["abstract"].split())
+    judged_too = len(judged) + sum(row.verdict == "by definition" for row in paper)
+    assert f"as {len(paper)} claims, of which {judged_too} are judged" in abstract

@@ -66,8 +66,9 @@ def of_central_result(reference: Path) -> list[str]:
 
 def of_portals(reference: Path) -> list[str]:
     moments = pd.read_csv(reference / "sources" / "portal_forces.csv").dropna()
-    rests, over = moments.portal == "no uplift", moments.joint_moment_over_frame
-    ranges = [end for of in (over[~rests], over[rests]) for end in (of.min(), of.max())]
+    over, rests = moments.joint_moment_over_frame, moments.portal == "no uplift"
+    of_both = (over[~rests], over[rests & (moments.bases == "pinned")])
+    ranges = [end for of in of_both for end in (of.min(), of.max())]
     return [f"{portals(reference).min():.2f}", *(f"{one:.1f}" for one in ranges)]
 
 

@@ -2,11 +2,14 @@
 
 from pathlib import Path
 
-from steps.shared.published import Numbers, computed
+from replication.judging.findings import read_findings
+from steps.shared.published import Numbers
 
 
 def of_mechanism(reference: Path) -> list[str]:
-    return [f"{100 * computed(reference)['mechanism_share_apart']:.1f}"]
+    apart = read_findings(reference / "findings" / "mechanism_equivalence.json")
+    shares = (apart["share_apart"].value, apart["identical_response"]["largest_share_apart"])
+    return [f"{100 * share:.1f}" for share in shares]
 
 
 HEADLINES: dict[str, Numbers] = {

@@ -24,9 +24,10 @@ def of_pulses(reference: Path) -> list[str]:
 
 
 def of_many_motions(reference: Path) -> list[str]:
-    gains = motions(reference, "reversals_medians", mass_ratio=1.0, as_large_as=0).gain
+    gains = motions(reference, "reversals_medians", mass_ratio=1.0, as_large_as=0)
     reversed_ = motions(reference, "reversals_pairs", lighter=0, heavier=1.0).motions
-    return [*from_to(gains, 1).split(" to "), *from_to(reversed_, 1).split(" to ")]
+    ends = [f"{100 * end:.1f}" for end in (gains.gain_low.min(), gains.gain_high.max())]
+    return [*from_to(gains.gain, 1).split(" to "), *ends, *from_to(reversed_, 1).split(" to ")]
 
 
 HEADLINES: dict[str, Numbers] = {"Reversals": of_pulses, "Many motions": of_many_motions}
