@@ -166,3 +166,12 @@ def test_bad_value_is_named(change, message):
     given = {"structure": COLUMN, "excitation": PULSE} | change
     with pytest.raises(ValueError, match=message):
         outcome(given.pop("structure"), given.pop("excitation"), **given)
+
+
+@pytest.mark.parametrize("bits", [72, 136, 264])
+def test_block_that_is_lifted_as_it_lands_without_rebound_is_not_at_rest(bits):
+    """√r = 0, and |a| beyond the level at the landing: no state of rest is known exactly there."""
+    pulse, factor = Pulse("one-cosine", 1.0, 5.0), 0.7330958355867645
+    block = RockingBlock(2.0, 0.2, 0.0)
+    assert judge(block, pulse.scaled(factor)).overturned
+    assert outcome(block, pulse, factor=factor, bits=bits).outcome == "overturns"

@@ -53,7 +53,7 @@ class Bound:
     sigma: arb
     energy: float
     walls: tuple[float, float]
-    pushed: tuple[int, float, float] | None = None
+    pushed: tuple[int, float, float, float] | None = None
     """The side on which it is pushed, the rest of W, and for how long that has been zero."""
 
 
@@ -101,7 +101,7 @@ class Bounded:
             sides = list(zip(bound.walls, walls, least, strict=True))
             if all(_holds(self.law, energy, h, *side) for side in sides):
                 found = replace(bound, sigma=until, energy=float(energy), walls=walls)
-                return replace(found, pushed=self._pushed(bound, until, ground))
+                return replace(found, pushed=self._pushed(bound, found, ground))
             one, other = (_proposed(self.law, energy, h, *side) for side in sides)
             walls = one, other
             slack = min(1.5 * slack, 0.05)
@@ -117,18 +117,26 @@ class Bounded:
         ends = [self.factor * self.forcing.value(self.piece, x) for x in (start, until)]
         return ends[0].union(ends[1]), rises
 
-    def _pushed(self, bound: Bound, until: arb, ground: arb) -> tuple[int, float, float] | None:
-        """Return what is left of W, and the time since, if it is pushed outward all the while."""
-        lasts = (until - bound.sigma).lower()
+    def _pushed(
+        self, bound: Bound, found: Bound, ground: arb
+    ) -> tuple[int, float, float, float] | None:
+        """Return what is left of W, the time since, and the highest wall on the other side so far.
+
+        None unless it is pushed outward all the while.
+        """
+        lasts = (found.sigma - bound.sigma).lower()
         for side in SIDES:
             gain = -self.law.square * self.law.pull(arb(0), side * ground)
             if gain > 0:
                 left, waited = bounds(self._fastest(bound, side) * MARGIN)[1], 0.0
+                other = 1 - SIDES.index(side)
+                across = max(bound.walls[other], found.walls[other])
                 if bound.pushed is not None and bound.pushed[0] == side:
-                    left, waited = bound.pushed[1:]
+                    left, waited = bound.pushed[1:3]
+                    across = max(across, bound.pushed[3])
                 if left > 0.0:
-                    return side, left - bounds(gain * lasts)[0], waited
-                return side, left, waited + bounds(lasts)[0]
+                    return side, left - bounds(gain * lasts)[0], waited, across
+                return side, left, waited + bounds(lasts)[0], across
         return None
 
     def _fastest(self, bound: Bound, side: int) -> arb:
@@ -141,9 +149,9 @@ class Bounded:
         """Return side, φ and φ' if it is sure to move outward on a side that is known."""
         if bound.pushed is None or bound.pushed[1] > 0.0:
             return None
-        side, _, waited = bound.pushed
+        side, _, waited, across = bound.pushed
         place, law = SIDES.index(side), self.law
-        back = law.square * law.pull(hull(0, bound.walls[1 - place]), law.block.level)
+        back = law.square * law.pull(hull(0, across), law.block.level)
         if not waited > MARGIN * 2 * (2 * arb(bound.energy)).sqrt() / back:
             return None
         return side, hull(0, bound.walls[place]), hull(0, self._fastest(bound, side))

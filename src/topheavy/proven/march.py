@@ -244,8 +244,10 @@ class March:
                 impact = self._impact(made, over)
                 if impact is not None and is_last and not impact < left:
                     if not impact > left:
-                        early = impact.lower() * 15 / 16  # where φ > 0 in wider enclosures too
-                        self.about_end = made, hull(early, left.upper())
+                        early = impact.lower().min(left.lower()).max(arb(0)).lower()
+                        early = early * 15 / 16  # where φ > 0 in wider enclosures too
+                        if not self._may_lie_flat(made):
+                            self.about_end = made, hull(early, left.upper())
                         raise Undecided("end")
                     impact = None
                 end = impact if impact is not None else left if is_last else arb(length)
@@ -320,7 +322,10 @@ class March:
             self.rate = self.rate.intersection((2 * self.energy).sqrt())
         self.side, self.zeros = -self.side, 1
         if self.block.restitution == 0:
+            before = self.rest
             self._rests(piece, arb(0))
+            if not abs(self.factor * self.forcing.value(piece, self.sigma)) < self.block.level:
+                self.rest = before  # it is lifted at once, at a time that is a ball
             return
         if not self.rate > 0:
             raise Undecided("start")
@@ -390,7 +395,7 @@ class March:
 
     def _turns(self, energy: arb, barrier: arb) -> Outcome:
         """Return a survivor that next turns at the φ < α of an energy below the barrier."""
-        below = barrier - energy
+        below = (barrier - energy).max(arb(0))
         if self.block.linearised:
             turn = self.block.slenderness - (2 * below).sqrt()
         else:

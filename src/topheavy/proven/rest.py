@@ -32,7 +32,7 @@ def dies_out(
     pulls = [law.pull(hull(0, highest), side * ground) for side in (1, -1)]
     if not all(pull > 0 for pull in pulls):
         return None
-    slowest = min((pull.lower() for pull in pulls), key=float)
+    slowest = pulls[0].lower().min(pulls[1].lower())
     ratios = [(pull.upper() / pull.lower()).sqrt() for pull in pulls]
     loss = law.block.restitution * ratios[0].max(ratios[1])
     lasts = 2 * speed / (square * slowest * (1 - loss))

@@ -11,7 +11,15 @@ from pathlib import Path
 
 import pytest
 
-from topheavy import Column, FixedMassColumn, MonolithicPortal, Pulse, Record, RockingFrame
+from topheavy import (
+    Column,
+    FixedMassColumn,
+    MonolithicPortal,
+    Pulse,
+    Record,
+    RockingBlock,
+    RockingFrame,
+)
 from topheavy.proven import BlockBox, certified
 from topheavy.proven.checking import Refused, check, intervals
 from topheavy.proven.checking.intervals import Interval, arctangent, cosine, exponential, of, sine
@@ -196,3 +204,44 @@ def test_arithmetic_of_intervals_is_rounded_outward():
     ):
         assert Fraction(found.low, 256) <= true <= Fraction(found.high, 256)
         assert found.high - found.low < 40
+
+
+def forged(structure, excitation, events, outcome="survives", impacts=0, **changes):
+    """A certificate of a problem with events that somebody wrote."""
+    certificate = certified(structure, excitation)[1]
+    change = {"events": events, "outcome": outcome, "impacts": impacts} | changes
+    return json.loads(json.dumps(certificate | change))
+
+
+def test_event_that_calls_a_method_is_refused():
+    certificate = forged(COLUMN, Pulse("one-cosine", 0.5, 4.2), [])
+    other = certified(COLUMN, Pulse("one-cosine", 0.1, 4.2))[1]
+    certificate["events"] = json.loads(json.dumps([{"event": "_init__"} | other]))
+    with pytest.raises(Refused, match="expected one of uplift"):
+        check(certificate)
+
+
+def test_block_without_rebound_does_not_rest_in_the_air():
+    block, pulse = RockingBlock(2.0, 0.2, 0.0), Pulse("half-sine", 1.0, 3.0)
+    events = certified(block, pulse)[1]["events"]
+    assert check(json.loads(json.dumps(certified(block, pulse)[1]))) == "overturns"
+    rests = {"event": "rests", "sigma": ["3", "4"], "highest": ["0", "0"], "bits": 72, "order": 20}
+    with pytest.raises(Refused, match="has not just bounced"):
+        check(forged(block, pulse, [*events[:2], rests]))
+
+
+def test_uplift_before_the_block_came_to_rest_is_refused():
+    record = Record(0.1, [0.0, 0.75, 0.0, -0.75, *[0.0] * 40])
+    certificate = json.loads(json.dumps(certified(COLUMN, record)[1]))
+    first = certificate["events"][0]
+    assert first["event"] == "uplift"
+    certificate["events"] = [first | {"piece": len(record.acceleration)}]
+    with pytest.raises(Refused, match="the piece is over, or there is none"):
+        check(certificate)
+
+
+def test_unknown_shape_of_a_certificate_is_refused():
+    certificate = forged(COLUMN, Pulse("one-cosine", 0.1, 4.2), [])
+    certificate["excitation"]["shape"] = "harmonic"
+    with pytest.raises(ValueError, match="shape is 'harmonic'; expected one of half-sine"):
+        check(certificate)

@@ -40,6 +40,9 @@ def _holds(test: Callable[[Interval], bool], low: int, high: int, what: str) -> 
             parts += [(middle, high), (low, middle)]
 
 
+EVENTS = ("uplift", "step", "bounded", "gone", "rests")
+
+
 class Check:
     """The motion of a certificate, proven event by event."""
 
@@ -57,6 +60,8 @@ class Check:
             if self.result:
                 raise Refused(f"event {number} comes after the outcome")
             try:
+                if event["event"] not in EVENTS:
+                    raise Refused(f"no event; expected one of {', '.join(EVENTS)}")
                 getattr(self, "_" + event["event"])(event)
             except Refused as reason:
                 raise Refused(f"event {number}, {event['event']}: {reason}") from None
@@ -71,6 +76,8 @@ class Check:
         side, level = event["side"], self.block.level
         bracket = between(*event["sigma"])
         piece = event["piece"]
+        if not self.piece <= piece < len(self.ground.stops):
+            raise Refused("the piece is over, or there is none")
         if event["jumps"]:
             if self.sigma.low or self.sigma.high or piece:
                 raise Refused("only where the motion begins can it jump")
@@ -83,6 +90,9 @@ class Check:
                 lambda x: -side * self.ground.at(piece, x) < level,
                 lambda x: -side * self.ground.at(piece, x) > level,
             )
+            begins = self.ground.stops[piece - 1].high if piece else 0
+            if not low >= max(self.sigma.high, begins):
+                raise Refused("it begins earlier than the piece, or than the block came to rest")
             self._still(Interval(low, low), piece, -side)
             self.sigma, self.zeros = Interval(low, high), 3
         self.piece, self.side, self.phi, self.rate = piece, side, of(0), of(0)
@@ -97,8 +107,10 @@ class Check:
             def below(x: Interval, number: int = number) -> bool:
                 if self.ground.at(number, x).size() < level:
                     return True
-                rate = rising * self.ground.series(number, x, of(1), 2)[1]
-                return bool(rising) and number == piece and x.high == until.high and rate > 0
+                if not (rising and number == piece and x.high == until.high):
+                    return False
+                first = self.ground.at(number, Interval(x.low, x.low)).size() < level
+                return first and rising * self.ground.series(number, x, of(1), 2)[1] > 0
 
             if low < high:
                 _holds(below, low, high, "the ground may lift the block earlier")
@@ -127,6 +139,8 @@ class Check:
             h = max(h, Fraction(left.high, intervals.UNIT))  # it ends with the piece
         elif not of(h) < left:
             raise Refused("a step goes on beyond the piece of the motion")
+        if not h > 0:
+            raise Refused("a step goes back")
         course = Course(self, h, event["box"])
         end = left / course.h if event["last"] else of(1)
         if event.get("about_end"):
@@ -159,6 +173,8 @@ class Check:
         """Prove that no impact comes before a bracket up to the end, and take the higher energy."""
         if len(self.ground.stops) > 1 or not impact.low < end.low:
             raise Refused("only about the end of a pulse")
+        if impact.low < 0 or not (self.block.linearised or course.box < arctangent(of(1)) * 2):
+            raise Refused("it may lie flat, or the impact comes before the step")
         self._stays_up(course, Interval(impact.low, impact.low))
         times = Interval(impact.low, end.high)
         phi, rate = course.at(times)
@@ -206,8 +222,8 @@ class Check:
         low, high = self._widened(
             bracket, lambda x: course.at(x)[0] > 0, lambda x: course.at(x)[0] < 0
         )
-        if high > intervals.UNIT:
-            raise Refused("the impact may come after the end of the step")
+        if high > intervals.UNIT or low < 0:
+            raise Refused("the impact may come outside of the step")
         quotient = course.phi[self.zeros :]
 
         def positive(x: Interval) -> bool:
@@ -239,18 +255,18 @@ class Check:
             s, c = sine(self.phi), cosine(self.phi)
             across = self.block.cosine * s - self.block.sine * c  # sin(φ − α)
             along = self.block.cosine * c + self.block.sine * s
-            beyond = across > 0 and (not along > 0 or across > largest * along)
+            beyond = across > 0 and (along < 0 or across > largest * along)
         if not beyond:
             raise Refused("a later push may bring it back")
         self.result = "overturns"
 
     def _rests(self, event: dict[str, Any]) -> None:
         """The bounces die out before the ground can lift the block."""
+        if not (self.side and self.zeros == 1 and of(1) > self.block.restitution):
+            raise Refused("it has not just bounced, or loses nothing")
         if self.block.restitution.high == 0:
             self.side = 0
             return
-        if self.zeros != 1 or not of(1) > self.block.restitution:
-            raise Refused("it has not just bounced, or loses nothing")
         until = of(Fraction(event["sigma"][1])) + of(Fraction(1, 2**60))
         ground = self.ground.over(self.piece, self.sigma, until)
         highest = of(Fraction(event["highest"][1]) * Fraction(1025, 1024))

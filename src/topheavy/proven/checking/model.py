@@ -94,9 +94,12 @@ class Ground:
             self.amplitude = Fraction(given["amplitude"])
             self.clock = square / of(Fraction(given["angular_frequency"]) ** 2)
             turns = {"half-sine": 1, "constant": 1, "one-sine": 2, "one-cosine": 2}
+            turns |= {"ricker-symmetric": 9, "ricker-antisymmetric": 9}
+            if self.shape not in turns:
+                raise ValueError(f"shape is {self.shape!r}; expected one of {', '.join(turns)}")
             # π = 16 atan 1/5 − 4 atan 1/239
             pi = 16 * arctangent(of(Fraction(1, 5))) - 4 * arctangent(of(Fraction(1, 239)))
-            self.pi, self.stops = pi, [pi * turns.get(self.shape, 9)]
+            self.pi, self.stops = pi, [pi * turns[self.shape]]
             peak = abs(self.amplitude) * LARGEST_WAVE
         self.largest = of(peak) * self.factor.size()
 
