@@ -31,6 +31,7 @@ TABLES = (
     "restitution_over_slenderness",
     "portal_columns",
     "proven",
+    "proven_below",
     "spectra_areas",
     "trilith_map",
     "trilith_nearness",
