@@ -114,7 +114,7 @@ def _bending(
     axial = foot.horizontal * sin + foot.vertical * cos
     spread = weight / (2.0 * column.half_height * STANDARD_GRAVITY)
     steady = STANDARD_GRAVITY * (ground * cos - sin) + side * b * rate**2
-    # A polynomial of the third degree in the height z above the foot.
+    # A polynomial of the third degree in the height z above the base.
     terms = (
         side * b * axial,
         transverse + spread * angular * b**2 / 3.0,

@@ -26,7 +26,7 @@ def blanks(root: Path = Path()) -> Iterator[str]:
 
 
 def is_release() -> bool:
-    """Return whether RELEASE asks for the demands of a release."""
+    """Return whether RELEASE requires the demands of a release."""
     return os.environ.get("RELEASE", "0") not in ("", "0")
 
 
