@@ -9,7 +9,7 @@ import shutil
 import subprocess
 import sys
 import tomllib
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from replication.pages.seal import seal
@@ -133,6 +133,13 @@ def reduced_lock(text: str, name: str) -> str:
         r"|^    .*, marker = \"extra == .*\n"
     )
     root = re.sub(gone, "", root, flags=re.MULTILINE)
+    groups = re.findall(r"^([\w-]+) = \[", root.split("requires-dev]")[1], flags=re.MULTILINE)
+    root = re.sub(
+        r"^default-groups = \[(.*)\]$",
+        lambda line: f"default-groups = [{', '.join(_named(line[1], groups))}]",
+        root,
+        flags=re.MULTILINE,
+    )
     blocks[blocks.index(own)] = root
     edges: dict[str, set[str]] = {}
     for package in _packages(head + "".join(f"[[package]]\n{block}" for block in blocks)):
@@ -149,6 +156,12 @@ def reduced_lock(text: str, name: str) -> str:
     kept = {block: re.match('name = "(.*)"', block)[1] for block in blocks}
     parts = [block for block in sorted(blocks, key=kept.get) if kept[block] in reached]
     return head + "\n".join(f"[[package]]\n{block.rstrip()}\n" for block in parts)
+
+
+def _named(listed: str, groups: Iterable[str]) -> Iterator[str]:
+    """Yield those of a list of quoted groups that are there."""
+    groups = set(groups)
+    return (each for each in listed.split(", ") if each.strip('"') in groups)
 
 
 def _packages(lock: str) -> list[dict]:

@@ -1,5 +1,6 @@
 """Another paper: what `make paper` makes is complete and consistent, without this one."""
 
+import json
 import os
 import re
 import subprocess
@@ -99,6 +100,8 @@ def test_uv_takes_the_lock_for_that_of_the_project(paper):
     assert locked == project["project"]["dependencies"]
     groups = set(project["dependency-groups"])
     assert set(own["metadata"]["requires-dev"]) == groups == {"crate", "dev", "workflow"}
+    default = project["tool"]["uv"]["default-groups"]
+    assert f"default-groups = {json.dumps(default)}\n" in (paper / "uv.lock").read_text("utf-8")
 
 
 def python(paper, *command, **environment):
