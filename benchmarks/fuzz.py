@@ -407,6 +407,7 @@ ODD = st.sampled_from(
 COLUMN, PULSE = topheavy.Column(0.5, 3.0), topheavy.Pulse("one-sine", 0.3, 6.0)
 FRAME, CAP = topheavy.RockingFrame(COLUMN, 1.0), topheavy.Cap(3.0, 0.3)
 RECORD = topheavy.Record(0.05, 0.4 * np.sin(np.arange(60.0)))
+PORTAL = topheavy.MonolithicPortal(COLUMN, 1.0, 5.0)
 FIXED = topheavy.FixedFrame(FRAME, CAP, "pinned")
 MOVED = {"rotation": 0.1, "velocity": 0.0, "ground_acceleration": 0.2}
 SOUGHT = {"structure": COLUMN, "excitation": PULSE, "scale_range": (0.5, 2.0)}
@@ -441,6 +442,8 @@ CALLS: dict[str, dict[str, Any]] = {  # what may be spoilt is not what a type ha
     "peak_elastic": {"fixed": [FIXED], **HELD},
     "peak_elastic_by_scipy": {"fixed": FIXED, **HELD},
     "peak_rigid": {"fixed": FIXED, "excitation": PULSE},
+    "resting_portal_forces": {"portal": PORTAL, "bases": "fixed", "ground_acceleration": 0.1},
+    "rocking_portal_forces": {"portal": PORTAL, **MOVED},
     "simulate": {"structure": COLUMN, "excitation": PULSE, "rotation": 0.01, "velocity": 0.1,
                  "duration": 2.0, "samples": 5, "tolerance": 1e-9},
 }
