@@ -24,6 +24,7 @@ from typing import Literal, NamedTuple, TypeAlias, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from topheavy import checks
 from topheavy.fixed_mass import MonolithicPortal
 from topheavy.structures import STANDARD_GRAVITY
 
@@ -65,7 +66,9 @@ def rocking_portal_forces(
     theta, rate, ground = (
         one[..., None]
         for one in np.broadcast_arrays(
-            *(np.asarray(given, dtype=float) for given in (rotation, velocity, ground_acceleration))
+            checks.numbers("rotation", rotation),
+            checks.numbers("velocity", velocity),
+            checks.numbers("ground_acceleration", ground_acceleration),
         )
     )
     b, h = portal.column.half_width, portal.column.half_height
@@ -107,11 +110,11 @@ def resting_portal_forces(
     ValueError
         For other bases.
     """
-    if bases not in get_args(Bases):
+    if not isinstance(bases, str) or bases not in get_args(Bases):
         raise ValueError(
             f"bases is {bases!r}; expected 'fixed', they do not turn, or 'pinned', they turn freely"
         )
-    ground = np.asarray(ground_acceleration, dtype=float)[..., None] * np.ones(2)
+    ground = checks.numbers("ground_acceleration", ground_acceleration)[..., None] * np.ones(2)
     h, column = portal.column.half_height, _column_weight(portal)
     beam = 1.0 - 2.0 * column
     held = 0.0 if bases == "pinned" else -h * (beam / 2.0 + 2.0 * column / 3.0)
