@@ -62,7 +62,7 @@ def _meant(name: str, names: list[str]) -> str:
     synonym = SYNONYMS.get(name, "")
     if synonym and synonym.replace(",", "").split()[0] in names:
         return f"it is called {synonym}"
-    if name in ELSEWHERE and name.lower() not in names:
+    if name in ELSEWHERE:
         return ELSEWHERE[name]
     close = difflib.get_close_matches(name.lower(), names, n=1)
     return f"did you mean {close[0]!r}?" if close else f"expected {', '.join(names)}"

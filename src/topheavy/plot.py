@@ -13,7 +13,7 @@ from topheavy.fragility.estimate import Fragility
 from topheavy.keywords import hinted
 from topheavy.kinematics import outlines
 from topheavy.response import Response
-from topheavy.structures import Column, Structure, as_block
+from topheavy.structures import RockingFrame, Structure, as_block
 
 if TYPE_CHECKING:
     import xarray
@@ -136,17 +136,16 @@ def structure(
         For a block, which has no bodies.
     """
     axes = _axes(axes)
-    if isinstance(shown, Column):
-        bodies = outlines(shown, rotation, 0.0, 0.0)
-    else:
-        column = getattr(shown, "column", None) or Column(1.0, 1.0)
+    width = depth = 0.0
+    if isinstance(shown, FixedMassColumn | MonolithicPortal | RockingFrame):
+        column = shown.column
         only = isinstance(shown, FixedMassColumn)
         usual = 6.0 * column.half_width if only else 4.0 * column.half_height
         if isinstance(shown, MonolithicPortal):
             usual = shown.span + 2.0 * (column.half_width + shown.overhang)
         width = cap_width or getattr(shown, "cap_width", 0.0) or usual
         depth = cap_depth or getattr(shown, "cap_depth", 0.0) or 0.3 * column.half_height
-        bodies = outlines(shown, rotation, width, depth)
+    bodies = outlines(shown, rotation, width, depth)
     for name, corners in bodies.items():
         axes.fill(*corners.T, facecolor="0.9" if "column" in name else "0.6", edgecolor="0.1")
     axes.axhline(0.0, color="0.1", linewidth=1.0, zorder=0)

@@ -136,7 +136,7 @@ def reduced_lock(text: str, name: str) -> str:
     groups = re.findall(r"^([\w-]+) = \[", root.split("requires-dev]")[1], flags=re.MULTILINE)
     root = re.sub(
         r"^default-groups = \[(.*)\]$",
-        lambda line: f"default-groups = [{', '.join(_named(line[1], groups))}]",
+        lambda line: f"default-groups = [{', '.join(_named(line[1], {*groups}))}]",
         root,
         flags=re.MULTILINE,
     )
@@ -158,9 +158,8 @@ def reduced_lock(text: str, name: str) -> str:
     return head + "\n".join(f"[[package]]\n{block.rstrip()}\n" for block in parts)
 
 
-def _named(listed: str, groups: Iterable[str]) -> Iterator[str]:
+def _named(listed: str, groups: set[str]) -> Iterator[str]:
     """Yield those of a list of quoted groups that are there."""
-    groups = set(groups)
     return (each for each in listed.split(", ") if each.strip('"') in groups)
 
 

@@ -91,9 +91,10 @@ def unpacked(sums: dict[str, str], root: Path = Path()) -> Iterator[str]:
     for path, expected in sums.items():
         if path not in differ_each_run:
             yield from _fault(path, expected, f"{SUMS} has it", "it was packed", root)
+    known = {*sums, SUMS}
     for path in sorted(root.rglob("*")):
         name = path.relative_to(root)
-        if path.is_file() and name.as_posix() not in {*sums, SUMS} and not _is_local(name):
+        if path.is_file() and name.as_posix() not in known and not _is_local(name):
             yield f"{name.as_posix()} was added: {SUMS} does not have it"
 
 
@@ -124,8 +125,7 @@ def _checksum(path: Path) -> str:
 def _archive(sums: dict[str, str]) -> None:
     """End with what differs in an archive; say what the checksums cannot tell."""
     faults = list(unpacked(sums))
-    own = sums.get(CRATE) != _checksum(Path(CRATE)) if Path(CRATE).exists() else False
-    if own:
+    if Path(CRATE).exists() and sums.get(CRATE) != _checksum(Path(CRATE)):
         print(f"{CRATE} is not the one that was packed: a run was made here, or it was changed")
     if faults:
         sys.exit("\n".join(faults))
