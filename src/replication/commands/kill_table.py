@@ -29,7 +29,7 @@ from replication.inputs.parts import PAPER, ledger_of
 from replication.inputs.strict_yaml import read_yaml
 from replication.judging.claim import Claim
 from replication.judging.ledger import read_ledger
-from replication.kill.faults import JUDGING, Fault, load
+from replication.kill.faults import FAULTS, JUDGING, Fault, load
 from replication.kill.table import (
     Row,
     caught,
@@ -209,6 +209,8 @@ def main() -> None:
     parser.add_argument("--cores", type=int, default=1, help="so many faults at once")
     options = parser.parse_args()
     faults = load()
+    if not faults:
+        raise SystemExit(f"there are no faults; expected some in {' or '.join(FAULTS)}")
     picked = chosen(faults, options.faults, options.rotate)
     for fault in faults:
         fault.texts(ROOT)  # one that no longer applies is refused at once
