@@ -6,6 +6,7 @@ three numbers are all that the dynamics sees of either: p, α and √r.
 """
 
 import math
+import warnings
 from dataclasses import dataclass, replace
 from typing import Protocol
 
@@ -14,6 +15,11 @@ from topheavy.keywords import hinted
 
 STANDARD_GRAVITY = 9.81
 """Acceleration of gravity g, m/s², as the paper's numbers imply it (2.15 m/s² = 0.219 g, p. 4)."""
+
+HIGHEST = 200.0
+"""Of a column, m: beyond it, a warning asks whether the lengths are in mm."""
+USUAL_MASS_RATIOS = (0.01, 100.0)
+"""Of a frame by its masses: beyond them, a warning asks whether both are in one unit."""
 
 
 @dataclass(frozen=True)
@@ -74,7 +80,7 @@ class Column:
     Parameters
     ----------
     half_width, half_height : float
-        b and h, m.
+        b and h, m. A warning says if that is a column of more than `HIGHEST`.
 
     Raises
     ------
@@ -88,6 +94,12 @@ class Column:
     def __post_init__(self) -> None:
         checks.positive("half_width", self.half_width, "m")
         checks.positive("half_height", self.half_height, "m")
+        if (height := 2.0 * max(self.half_width, self.half_height)) > HIGHEST:
+            warnings.warn(
+                f"a side of the column is {height:.6g} m long, and few exceed {HIGHEST:g} m: are "
+                f"the lengths in mm? Then it is {height / 1000.0:.6g} m",
+                stacklevel=4,  # who called the class
+            )
 
     @classmethod
     @hinted
@@ -185,7 +197,8 @@ class RockingFrame:
         column : Column
             Each of them.
         cap_mass, column_mass : float
-            m_b of the cap beam and m_c of one column, in the same unit.
+            m_b of the cap beam and m_c of one column, in the same unit. A warning asks whether they
+            are if γ is beyond `USUAL_MASS_RATIOS`.
         columns : int
             N, 2 or more: a cap beam on one column would tilt.
 
@@ -198,7 +211,15 @@ class RockingFrame:
         if not isinstance(columns, int) or isinstance(columns, bool) or columns < 2:
             raise ValueError(f"columns is {columns!r}; expected a whole number from 2 on")
         cap = checks.not_negative("cap_mass", cap_mass)
-        return cls(column, cap / (columns * checks.positive("column_mass", column_mass)))
+        ratio = cap / (columns * checks.positive("column_mass", column_mass))
+        low, high = USUAL_MASS_RATIOS
+        if cap and not low <= ratio <= high:
+            warnings.warn(
+                f"cap_mass is {cap:.6g} and column_mass {column_mass:.6g}: γ is {ratio:.3g}, and few "
+                f"frames are beyond {low:g} to {high:g}: are both in the same unit?",
+                stacklevel=3,  # who called this
+            )
+        return cls(column, ratio)
 
     @property
     def slenderness(self) -> float:
