@@ -5,6 +5,8 @@ column, Eq. (23) against Eq. (3), with the same slenderness and a lower frequenc
 three numbers are all that the dynamics sees of either: p, α and √r.
 """
 
+from __future__ import annotations
+
 import math
 import warnings
 from dataclasses import dataclass, replace
@@ -59,15 +61,15 @@ class RockingBlock:
         """Ground acceleration (g) above which it uplifts: tan α, or α when linearised."""
         return self.slenderness if self.linearised else math.tan(self.slenderness)
 
-    def with_restitution(self, value: float) -> "RockingBlock":
+    def with_restitution(self, value: float) -> RockingBlock:
         """Return the same block with another √r in [0, 1]."""
         return replace(self, restitution=value)
 
-    def linear(self) -> "RockingBlock":
+    def linear(self) -> RockingBlock:
         """Return the same block under the linearised equation of motion."""
         return replace(self, linearised=True)
 
-    def block(self) -> "RockingBlock":
+    def block(self) -> RockingBlock:
         """Return the block itself, so that columns, frames and blocks are used alike."""
         return self
 
@@ -103,7 +105,7 @@ class Column:
 
     @classmethod
     @hinted
-    def of_dimensions(cls, *, width: float, height: float) -> "Column":
+    def of_dimensions(cls, *, width: float, height: float) -> Column:
         """Return the column of a width 2b and a height 2h, m.
 
         Raises
@@ -186,7 +188,7 @@ class RockingFrame:
     @hinted
     def of_masses(
         cls, column: Column, cap_mass: float, column_mass: float, columns: int = 2
-    ) -> "RockingFrame":
+    ) -> RockingFrame:
         """Return the frame of a cap beam on two or more equal columns, by its masses.
 
         The number N of columns enters by γ = m_b/(N m_c) alone; two give the paper's m_b/2m_c.
@@ -215,8 +217,8 @@ class RockingFrame:
         low, high = USUAL_MASS_RATIOS
         if cap and not low <= ratio <= high:
             warnings.warn(
-                f"cap_mass is {cap:.6g} and column_mass {column_mass:.6g}: γ is {ratio:.3g}, and few "
-                f"frames are beyond {low:g} to {high:g}: are both in the same unit?",
+                f"cap_mass is {cap:.6g} and column_mass {column_mass:.6g}: γ is {ratio:.3g}; few "
+                f"are beyond {low:g} to {high:g}: are both in the same unit?",
                 stacklevel=3,  # who called this
             )
         return cls(column, ratio)
