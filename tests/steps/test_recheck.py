@@ -219,6 +219,14 @@ def test_finding_follows_from_its_table(rule):
     assert len(faults) == len(drawn) > 0
 
 
+def test_table_without_what_its_finding_needs_is_named(tmp_path):
+    table = (REFERENCE / "sources" / "statements.csv").read_text(encoding="utf-8")
+    (tmp_path / "statements.csv").write_text(table.replace("largest", "lorgest"), encoding="utf-8")
+    findings = findings_by_rule([REFERENCE / "findings" / "statements.json"])
+    (fault,) = departures(tmp_path, findings)
+    assert fault.startswith("findings/statements.json cannot be drawn from statements (.csv): ")
+
+
 @pytest.mark.parametrize(
     ("found", "expected", "is_same"),
     [
