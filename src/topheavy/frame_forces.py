@@ -12,6 +12,8 @@ rotary inertia. Signs are such that all three are positive for a frame at rest u
 The impulses of an impact are no forces and are not among these; see `impact_impulses`.
 """
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 

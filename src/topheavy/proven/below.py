@@ -3,6 +3,8 @@
 0 ─ no uplift ─ bounded by the lemma ─ followed and bounded ─ followed ─ high
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any

@@ -1,5 +1,7 @@
 """Certificates: inputs as decimals, the steps of the proof, and what made them."""
 
+from __future__ import annotations
+
 import math
 from fractions import Fraction
 from importlib.metadata import version
