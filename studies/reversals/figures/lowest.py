@@ -11,7 +11,7 @@ def draw(reversals_spectra):
     keys = ["slenderness_deg", "shape", "mass_ratio", "frequency_ratio"]
     lowest = reversals_spectra.groupby(keys).lower.min()
     ratios = np.sort(reversals_spectra.mass_ratio.unique())
-    figure, axes = sheet(DOUBLE, 95, nrows=2, ncols=4, sharex=True, sharey=True)
+    figure, axes = sheet(DOUBLE, 78, nrows=2, ncols=4, sharex=True, sharey=True)
     for row, slenderness in zip(axes, slendernesses, strict=True):
         for axis, (shape, words) in zip(row, PULSES.items(), strict=True):
             column = lowest.loc[slenderness, shape, 0.0]
