@@ -6,7 +6,7 @@ from replication.drawing import DOUBLE, make_figure, note, shades, sheet
 BARE, FREE = shades(2)
 SUPPORTS = {
     "fixed": (FIXED, "s", "same mass fixed"),
-    "bare": (BARE, "^", "bare columns"),
+    "bare": (BARE, "^", "solitary columns"),
     "free": (FREE, "o", "free cap beam"),
 }
 FAMILIES = ("near-fault", "broadband")
