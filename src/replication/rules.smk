@@ -133,7 +133,6 @@ for document in DOCUMENTS:
             f"results/benchmarks/{document}.tsv"
         params:
             studies=config["studies"],
-            tables=FIGURES,
         message:
             f"Compiling the {document}"
         script:

@@ -60,7 +60,7 @@ def draw(certainty_rates):
         axis.set_yticks([0.3, 0.5, 1, 2, 5, 10], ["0.3", "0.5", "1", "2", "5", "10"])
         axis.set_xlabel(r"Mass ratio, $\gamma$ (–), by equal steps of $\hat R$")
         axis.minorticks_off()
-    axes[0].set_ylabel("Rate over that of the bare column (–)")
+    axes[0].set_ylabel("Rate over that of the solitary column (–)")
     for place, (colour, face, words) in enumerate(SUPPORTS.values()):
         at, height = axes[0].transAxes, 0.94 - 0.07 * place
         how = {"color": colour, "markerfacecolor": face, "markersize": 3.2, "transform": at}
