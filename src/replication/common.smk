@@ -18,6 +18,7 @@ from replication.origin.recorded import CRATE
 from replication.judging.ledger import read_judged, read_ledger
 from replication.judging.ledger_check import check_ledger
 from replication.inputs.parts import PAPER, Part
+from replication.workflow.lock import one_run_at_a_time
 from replication.workflow.place import check_place
 from replication.workflow.progress import one_line_a_job
 from replication.workflow.stopping import end_on_sigterm
@@ -29,6 +30,7 @@ from replication.workflow.unmade import made_by, refuse_unmade
 check_place()
 close(workflow)
 end_on_sigterm()
+one_run_at_a_time()
 if not workflow.dryrun:
     one_line_a_job()
 
