@@ -17,6 +17,7 @@ from replication.workflow.costs import longest_jobs
 from replication.origin.recorded import CRATE
 from replication.judging.ledger import read_judged, read_ledger
 from replication.judging.ledger_check import check_ledger
+from replication.inputs.configuration import Sections
 from replication.inputs.parts import PAPER, Part
 from replication.workflow.lock import one_run_at_a_time
 from replication.workflow.place import check_place
@@ -53,8 +54,13 @@ def parts(check):
     """
     over = [Path(each).name for each in workflow.configfiles]
     over = [each for each in dict.fromkeys(over) if each != "config.yaml"]
+    global config
+    config = Sections(config, "config/config.yaml")
     studies = {
-        name: read_study_config(name, check, over=over) for name in config["studies"]
+        name: Sections(
+            read_study_config(name, check, over=over), f"studies/{name}/config.yaml"
+        )
+        for name in config["studies"]
     }
     check_needs(studies)
     return {name: Part(name, of) for name, of in {PAPER: config, **studies}.items()}
