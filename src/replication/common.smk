@@ -25,7 +25,7 @@ from replication.workflow.progress import one_line_a_job
 from replication.workflow.stopping import end_on_sigterm
 from replication.inputs.strict_yaml import read_yaml
 from replication.inputs.study_config import check_needs, read_study_config
-from replication.pages.typeset import reads
+from replication.pages.typeset import reads, refuse_unshown
 from replication.workflow.unmade import made_by, refuse_unmade
 
 check_place()
