@@ -16,7 +16,7 @@ from replication.judging.findings import Findings, findings_by_rule
 from replication.judging.ledger import read_rows
 from replication.judging.verdicts import tolerance_fault
 
-SCHEMA = "paper/claims.schema.yaml"
+SCHEMA = "src/replication/judging/claims.schema.yaml"
 PUBLISHED = "tests/reference/findings"
 
 
