@@ -193,5 +193,8 @@ check_captions(
     [claim.id for claim in CLAIMS],
     made_by(workflow.rules),
 )
+refuse_unshown(
+    FIGURES, reads(*(f"paper/{document}.typ" for document in DOCUMENTS), *SECTIONS)
+)
 longest_first()
 only_shards_leave_this_machine()
