@@ -21,10 +21,8 @@ COPIED = (
     ".ci/run",
     ".github/workflows/ci.yaml",
     ".gitignore",
-    "environment.yml",
     "figures/style.mplstyle",
     "profiles/default/config.yaml",
-    "src/replication/tests/test_environment.py",
     "src/replication/tests/test_house.py",
 )
 """Files that are the same for every paper, but for the name of the project in them."""
@@ -37,9 +35,6 @@ ONLY_HERE = (
     *("pdoc", "python-flint", "snakemake-executor-plugin-slurm", "xarray"),
 )
 """Packages that neither the machine nor the example needs."""
-
-OWN_REASONS = ("scipy", "sympy")
-"""Packages for which the template gives reasons of its own."""
 
 
 def create(to: Path, root: Path = ROOT) -> Path:
@@ -61,22 +56,12 @@ def create(to: Path, root: Path = ROOT) -> Path:
         shutil.copy2(root / path, to / path)
         text = _read(to / path).replace(project, name)
         (to / path).write_text(text, encoding="utf-8")
-    environment = without(ONLY_HERE, _read(to / "environment.yml"))
-    (to / "environment.yml").write_text(environment, encoding="utf-8")
     (to / "uv.lock").write_text(reduced_lock(_read(root / "uv.lock"), name), encoding="utf-8")
     for path in ("LICENSE", "LICENSE-CC-BY"):
         (to / path).write_text(_licence(_read(root / path)), encoding="utf-8")
-    reasons = re.findall(r"^- `[\w.-]+`: .*\n", _read(root / "CONTRIBUTING.md"), re.MULTILINE)
-    blanks = {
-        "@NAME@": name,
-        "@SHARED@\n": _shared(_read(root / "pyproject.toml"), project),
-        "@REASONS@\n": without((*ONLY_HERE, *OWN_REASONS), "".join(reasons)),
-    }
-    for path in ("pyproject.toml", "CONTRIBUTING.md"):
-        text = _read(to / path)
-        for blank, filled in blanks.items():
-            text = text.replace(blank, filled)
-        (to / path).write_text(text, encoding="utf-8")
+    text = _read(to / "pyproject.toml").replace("@NAME@", name)
+    text = text.replace("@SHARED@\n", _shared(_read(root / "pyproject.toml"), project))
+    (to / "pyproject.toml").write_text(text, encoding="utf-8")
     seal(to)
     return to
 
