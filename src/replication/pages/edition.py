@@ -216,6 +216,7 @@ def publish(tables: Iterable[str], sources: Iterable[str] = ()) -> None:
     Path("docs").mkdir(exist_ok=True)
     reference.mkdir(parents=True, exist_ok=True)
     shutil.copyfile("config/config.yaml", reference / "config.yaml")
+    shutil.copyfile(results / "costs.csv", "docs/costs.csv")
     for old in reference.glob("*.csv"):
         old.unlink()
     for folder in ("sources", "studies"):
