@@ -3,6 +3,7 @@
 import json
 import re
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
@@ -43,6 +44,10 @@ def cells(**changes) -> list[str]:
     """The cells of the row that a claim becomes."""
     last = verdict_table([replace(ROW, **changes)])[-1]
     return [cell.strip() for cell in re.split(r"(?<!\\)\|", last)[1:-1]]
+
+
+def page(*rows) -> str:
+    return verdict_page(rows, Path("tests/reference"))
 
 
 def test_claim_becomes_a_row_under_the_heads_of_its_columns():
@@ -87,21 +92,19 @@ def test_bar_in_the_text_does_not_end_the_cell(column):
 
 
 def test_page_ends_with_one_newline():
-    assert verdict_page([ROW]).endswith("|\n")
-    assert not verdict_page([ROW]).endswith("\n\n")
+    assert page(ROW).endswith("|\n")
+    assert not page(ROW).endswith("\n\n")
 
 
 def test_page_says_that_a_fault_of_the_print_may_be_ours():
-    assert "A slip or misprint may be a fault of the text that we worked from" in verdict_page(
-        [ROW]
-    )
+    assert "A slip or misprint may be a fault of the text that we worked from" in page(ROW)
 
 
 OURS = replace(ROW, id="ours", study="pendulums", verdict="refuted")
 
 
 def test_paper_and_studies_have_a_table_each():
-    paper, study = verdict_page([ROW, OURS]).split("## ")[1:]
+    paper, study = page(ROW, OURS).split("## ")[1:]
     assert paper.startswith("The paper\n")
     assert study.startswith("The study `pendulums`\n")
     assert 'id="trilith_size"' in paper
@@ -128,7 +131,7 @@ def test_no_qualified_claim_is_said_not_to_hold(changes, shown):
 
 def test_numbers_that_a_new_run_gives_again_are_listed_apart_and_not_counted():
     again = replace(ROW, id="again", study=REPRODUCED)
-    assert 'id="again"' in verdict_page([ROW, again]).split("## Numbers of ours")[1]
+    assert 'id="again"' in page(ROW, again).split("## Numbers of ours")[1]
     assert count_table([ROW, again]) == count_table([ROW])
 
 

@@ -18,20 +18,14 @@ from replication.workflow.place import UNQUOTED
 ROOT = Path(__file__).resolve().parents[3]
 TEMPLATE = Path(__file__).parents[1] / "template"
 COPIED = (
-    ".ci/ro-crate-1.1-context.jsonld",
     ".ci/run",
-    ".ci/validate_crate.py",
     ".github/workflows/ci.yaml",
     ".gitignore",
-    "Makefile",
     "environment.yml",
     "figures/style.mplstyle",
-    "paper/article.typ",
-    "paper/claims.schema.yaml",
-    "paper/format.typ",
     "profiles/default/config.yaml",
-    "tests/replication/test_house.py",
-    "tests/test_environment.py",
+    "src/replication/tests/test_environment.py",
+    "src/replication/tests/test_house.py",
 )
 """Files that are the same for every paper, but for the name of the project in them."""
 
@@ -61,6 +55,7 @@ def create(to: Path, root: Path = ROOT) -> Path:
     ignored = shutil.ignore_patterns(*LEFT_OUT)
     shutil.copytree(TEMPLATE, to, ignore=ignored, dirs_exist_ok=True)
     shutil.copytree(root / "src/replication", to / "src/replication", ignore=ignored)
+    shutil.rmtree(to / "src/replication/tests")
     for path in COPIED:
         (to / path).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy2(root / path, to / path)

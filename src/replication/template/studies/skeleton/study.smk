@@ -7,7 +7,5 @@ rule skeleton_limit:
         findings="results/findings/skeleton_limit.json",
     params:
         settings=PARTS["skeleton"].config["limit"],
-    message:
-        "Study skeleton: the largest amplitude of small swings"
     script:
         "steps/limit.py"

@@ -1,0 +1,127 @@
+"""A rule says only what is special about it: the rest follows from its script."""
+
+import subprocess
+import sys
+
+import pytest
+from snakemake.exceptions import WorkflowError
+
+from replication.workflow import completion
+from replication.workflow.provenance import makers, workflow_jobs
+
+SNAKEFILE = """\
+from replication.workflow.completion import complete, findings_made
+
+rule all:
+    input:
+        "results/plain.csv",
+        expand("results/{n}_each.json", n=["a", "b"]),
+
+rule plain:
+    output:
+        "results/plain.csv",
+    script:
+        "steps/plain.py"
+
+rule each:
+    input:
+        data="data.txt",
+    output:
+        findings="results/{n}_each.json",
+    wildcard_constraints:
+        n="a|b",
+    script:
+        "steps/{wildcards.n}.py"
+
+rule logged:
+    input:
+        "steps/plain.py",
+    output:
+        "results/logged.csv",
+    log:
+        "own/place.log",
+    script:
+        "steps/plain.py"
+"""
+ENDING = "\ncomplete(workflow)\n"
+
+
+@pytest.fixture
+def made(tmp_path, monkeypatch):
+    """The job that makes each output, of a small workflow with an ending."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "steps").mkdir()
+    plain = '"""Draw {a} line.\n\nTwice."""\nimport steps.used'
+    for name, text in {"plain": plain, "used": "", "a": "", "b": ""}.items():
+        (tmp_path / "steps" / f"{name}.py").write_text(text)
+    (tmp_path / "data.txt").write_text("1")
+
+    def read(ending=ENDING):
+        (tmp_path / "Snakefile").write_text(SNAKEFILE + ending)
+        return makers(workflow_jobs(tmp_path, targets=["all", "logged"]))
+
+    return read
+
+
+def test_script_and_its_modules_are_inputs_and_log_and_benchmark_have_the_name_of_the_rule(made):
+    job = made()["results/plain.csv"]
+    assert sorted(job.inputs) == ["steps/plain.py", "steps/used.py"]
+    assert job.logs == ("results/logs/plain.log", "results/benchmarks/plain.tsv")
+
+
+def test_message_is_the_first_line_of_the_docstring(made, capfd):
+    made()
+    assert subprocess.run(
+        [sys.executable, "-m", "snakemake", "-n", "--cores", "1", "results/plain.csv"], check=True
+    )
+    assert "Draw {a} line\n" in "".join(capfd.readouterr())
+
+
+def test_script_with_a_wildcard_is_an_input_of_its_own_job(made):
+    jobs = made()
+    for name in "ab":
+        job = jobs[f"results/{name}_each.json"]
+        assert job.inputs == ("data.txt", f"steps/{name}.py")
+        assert job.logs == (
+            f"results/logs/each_{name}.log",
+            f"results/benchmarks/each_{name}.tsv",
+        )
+
+
+def test_rule_keeps_its_own_log_and_what_it_declares_is_not_said_twice(made):
+    job = made()["results/logged.csv"]
+    assert job.inputs == ("steps/plain.py", "steps/used.py")
+    assert job.logs == ("own/place.log",)
+
+
+def test_rule_that_is_not_timed_has_no_benchmark(made):
+    job = made("\ncomplete(workflow, timed=False)\n")["results/plain.csv"]
+    assert job.logs == ("results/logs/plain.log",)
+
+
+def test_completing_twice_changes_nothing(made):
+    once = made()
+    twice = made(ENDING + ENDING)
+    assert [job.inputs for job in twice.values()] == [job.inputs for job in once.values()]
+    assert [job.logs for job in twice.values()] == [job.logs for job in once.values()]
+
+
+def test_findings_are_the_outputs_of_that_name(made):
+    made('\nassert list(findings_made(workflow.rules)) == ["a_each", "b_each"]\n')
+
+
+def test_rule_without_a_script_is_refused(made):
+    shell = '\nrule shell:\n    output:\n        "out.txt"\n    shell:\n        "touch {output}"\n'
+    with pytest.raises((ValueError, WorkflowError), match=r"rule shell makes out\.txt without a s"):
+        made(shell + ENDING)
+
+
+def test_snakemake_still_has_what_completion_sets(made, monkeypatch):
+    """Without a modifier Snakemake refuses a path: so it is read, and not only set."""
+    for name in completion.MODIFIERS:
+        monkeypatch.setattr(
+            completion, "MODIFIERS", tuple(m for m in completion.MODIFIERS if m != name)
+        )
+        with pytest.raises((AssertionError, WorkflowError)):
+            made()
+        monkeypatch.undo()
