@@ -328,7 +328,7 @@ def test_table_that_does_not_bear_its_finding_is_found(tampered):
 @pytest.mark.parametrize(
     ("page", "old", "new", "told"),
     [
-        ("docs/verdicts.md", "| `eq1` |", "| `eq_1` |", "docs/verdicts.md, line "),
+        ("docs/verdicts.md", 'id="eq1"', 'id="eq_1"', "docs/verdicts.md, line "),
         ("docs/verdicts.md", "| confirmed |", "| refuted |", "docs/verdicts.md, line "),
         ("README.md", "| paper | ", "| paper | 1", "README.md, line "),
         ("README.md", "| study `mechanism` | ", "| study `mechanism` | 1", "README.md, line "),

@@ -68,21 +68,23 @@ def verdict_page(rows: Sequence[JudgedClaim], reference: Path) -> str:
 
 
 def verdict_table(rows: Sequence[JudgedClaim]) -> list[str]:
-    """Return the lines of a table with one claim in each."""
-    lines = [
-        "| claim | where | in our words | printed | computed | verdict | remark |",
-        "|---|---|---|---|---|---|---|",
-    ]
+    """Return the lines of a table with one claim in each; its id is the anchor of a link to it.
+
+    Four columns fit on a screen; what belongs together is in lines of one cell.
+    """
+    lines = ["| claim, in our words | verdict | condition, remark | where |", "|---|---|---|---|"]
     for row in rows:
         digits = numbers(row)
+        compared = [
+            f"{name} {shown}"
+            for name in ("printed", "computed")
+            if (shown := _shown(getattr(row, name), digits.get(name, ""), row.unit))
+        ]
         cells = [
-            f"`{row.id}`",
+            f'<a id="{row.id}"></a>{row.statement}<br><sub>[{row.id}](#{row.id})</sub>',
+            "<br>".join([row.verdict, *compared]),
+            "<br>".join(filter(None, [computed_words(row), row.remark])),
             row.where,
-            row.statement,
-            _shown(row.printed, digits.get("printed", ""), row.unit),
-            computed_words(row) or _shown(row.computed, digits.get("computed", ""), row.unit),
-            row.verdict,
-            row.remark,
         ]
         lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
     return lines
@@ -158,10 +160,8 @@ def machine() -> str:
 
 def _shown(value: object, digits: str, unit: str) -> str:
     match value:
-        case None:
+        case None | bool():  # the verdict says it
             return ""
-        case bool():
-            return "holds" if value else "does not hold"
         case str():
             return value
         case _:
