@@ -73,6 +73,20 @@ def test_readme_names_every_place_of_the_example(paper):
     assert unnamed == []
 
 
+def test_example_imports_no_more_than_a_paper_may(paper):
+    text = (paper / update.MACHINE / "README.md").read_text("utf-8")
+    listed = tuple(re.findall(r"`(replication\.[\w.]+)`", text))
+    imported = re.compile(r"^ *from (replication[\w.]*) import (\w+)", re.MULTILINE)
+    found = {
+        ".".join(names)
+        for path in files(paper)
+        if path.suffix in {".py", ".smk", ""}
+        for names in imported.findall(path.read_text("utf-8"))
+    }
+    assert found
+    assert [name for name in found if not name.startswith(listed)] == []
+
+
 def test_what_is_the_same_for_every_paper_is_kept_once(paper):
     for path in new_paper.COPIED:
         assert not (new_paper.TEMPLATE / path).exists()

@@ -13,7 +13,7 @@ from replication.judging.claim import Claim
 from replication.origin.recorded import Crate
 from replication.workflow.provenance import Job
 
-ROOT = Path(__file__).parents[4]
+ROOT = Path(__file__).parents[3]
 CLAIM = Claim(
     id="peak_is_low",
     where="p. 3, Eq. (24)",
