@@ -168,21 +168,21 @@ class Bounded:
 
 def _holds(law: Law, energy: arb, h: arb, before: float, wall: float, push: arb) -> bool:
     """Return whether Y_s = `wall` satisfies the lemma with X_s = `before`, F and m_s."""
-    if law.potential(arb(wall), push) > energy and (
-        wall >= before or law.potential(arb(before), push) > energy
-    ):
+    levels = [law.potential(arb(x), push) for x in (before, wall)]
+    if levels[1] > energy and (wall >= before or levels[0] > energy):
         return True
-    return bool(wall - arb(before) > h * _mean_rate(law, energy, before, wall, push))
+    return bool(wall - arb(before) > h * _mean_rate(law, energy, levels, push))
 
 
-def _mean_rate(law: Law, energy: arb, before: float, wall: float, push: arb) -> arb:
-    """Return at least the mean φ' from one wall to the next."""
-    ends = [(2 * (energy - law.potential(arb(x), push)).max(arb(0))).sqrt() for x in (before, wall)]
+def _mean_rate(law: Law, energy: arb, levels: list[arb], push: arb) -> arb:
+    """Return at least the mean φ' from one wall to the next, by the potential at both."""
+    ends = [(2 * (energy - level).max(arb(0))).sqrt() for level in levels]
     is_concave = push * law.block.slenderness.tan() < 1
     return (ends[0] + ends[1]) / 2 if is_concave else ends[0].max(ends[1])
 
 
 def _proposed(law: Law, energy: arb, h: arb, before: float, wall: float, push: arb) -> float:
     """Return about the least wall that holds, by the energy and mean rate of a first guess."""
-    reached = before + float((h * _mean_rate(law, energy, before, wall, push)).upper())
+    levels = [law.potential(arb(x), push) for x in (before, wall)]
+    reached = before + float((h * _mean_rate(law, energy, levels, push)).upper())
     return min(reached, law.turn(float(energy.upper()), float(push)))

@@ -7,6 +7,7 @@ With φ = |θ|, the side s = sgn θ and κ = p dt/dσ the motion obeys, until φ
 
 import math
 from dataclasses import dataclass, field
+from functools import cached_property
 from operator import mul
 
 from topheavy.proven.balls import Undecided, arb, arb_poly, hull, power, root
@@ -24,6 +25,11 @@ class Law:
     block: Balls
     square: arb
 
+    @cached_property
+    def at_rest(self) -> tuple[arb, arb]:
+        """Sine and cosine of α, in the precision of the first call."""
+        return self.block.slenderness.sin_cos()
+
     def pull(self, phi: arb, push: arb) -> arb:
         """Return −φ''/κ² at φ under s·a."""
         alpha = self.block.slenderness
@@ -37,14 +43,14 @@ class Law:
         alpha = self.block.slenderness
         if self.block.linearised:
             return self.square * phi * (alpha - phi / 2 + push)
-        (sine, cosine), (far, near) = (alpha - phi).sin_cos(), alpha.sin_cos()
+        (sine, cosine), (far, near) = (alpha - phi).sin_cos(), self.at_rest
         return self.square * (cosine - near + push * (far - sine))
 
     def lever(self, phi: arb) -> arb:
         """Return ψ."""
         if self.block.linearised:
             return phi
-        return self.block.slenderness.sin() - (self.block.slenderness - phi).sin()
+        return self.at_rest[0] - (self.block.slenderness - phi).sin()
 
     def turn(self, energy: float, push: float) -> float:
         """Return about the first φ at which the potential reaches an energy; infinity if none."""
