@@ -259,10 +259,15 @@ def overturned_together(
 
 @dataclass(frozen=True)
 class Interval:
-    """Scales that overturn, with one number of impacts before.
+    """An interval of factors that overturn, all after one number of impacts.
 
-    `lower` and `upper` are pairs (low, high) with the boundary between them. Where the range
-    begins in an interval, `lower` is its first scale twice; where it ends in one, `upper` is None.
+    Attributes
+    ----------
+    lower, upper : (float, float)
+        Its ends, each as a pair of factors with the boundary between them. Where the range begins
+        in the interval, `lower` is the first factor twice; where it ends in it, `upper` is None.
+    impacts : int
+        Before the fall: 0 is mode 2 of Zhang & Makris (2001).
     """
 
     lower: tuple[float, float]
