@@ -48,7 +48,10 @@ def pages() -> dict[str, Callable[[], str]]:
     """Return, by the path of each page, what returns its text."""
     inputs = {config_of(PAPER): "README.md"} | {config_of(name): "INPUTS.md" for name in studies()}
     return {
-        **{str(Path(path).with_name(page)): partial(config_page, Path(path)) for path, page in inputs.items()},
+        **{
+            str(Path(path).with_name(page)): partial(config_page, Path(path))
+            for path, page in inputs.items()
+        },
         "codecheck.yml": codecheck,
         "docs/exhibits.md": exhibits,
     }
