@@ -439,9 +439,10 @@ def test_spectrum_of_the_same_plane_stays(browser, edit):
 
 def test_map_follows_the_mass_while_it_is_dragged(browser):
     browser.open()
-    browser.do("clearTimeout(rested), change({g: 4}, false), clearTimeout(rested)")  # no survey
+    before = browser.do(CODES)
+    browser.do("change({g: 4}, false), clearTimeout(rested)")  # no survey
     browser.do("new Promise(next => setTimeout(next, 1000))")
-    sketched = browser.do(CODES)
+    assert before != (sketched := browser.do(CODES))
     browser.do("settle()")
     browser.settle()
     whole = browser.do(CODES)
