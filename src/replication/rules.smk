@@ -148,6 +148,7 @@ rule crate:
         everything,
         configuration="config/config.yaml",
         lock="uv.lock",
+        machine="src/replication/VERSION",
         project="pyproject.toml",
         citation="CITATION.cff",
         claims="results/claims.json",

@@ -198,6 +198,12 @@ DRAWN = sorted(
 )
 
 
+def test_four_fifths_of_all_entries_are_drawn_again():
+    drawn = sum(len(list(entries(rule, REFERENCE))) for rule in DRAWN)
+    findings = findings_by_rule(REFERENCE.glob("findings/*.json")).values()
+    assert drawn >= 0.8 * sum(len(one.entries) for of in findings for one in of.by_name.values())
+
+
 def other(entry):
     """Another entry of the same type."""
     match entry:

@@ -24,6 +24,9 @@ NAMES = {
 """The patterns of the schemas, in words."""
 
 
+DRAFT = "; of a new section, `make schema` drafts what the schema says"
+
+
 class Sections(dict[str, Any]):
     """A config, which names its file when it lacks a section that a rule takes."""
 
@@ -65,7 +68,11 @@ def check_config(
     """
     schema = read_schema(schema_path)
     errors = Draft202012Validator(schema).iter_errors(config)
-    messages = {message for error in errors for message in messages_of(error)}
+    messages = {
+        message + DRAFT * message.startswith("the top level has an unknown key")
+        for error in errors
+        for message in messages_of(error)
+    }
     if isinstance(config, Mapping):
         messages |= {message for check in checks for message in check(config)}
     values = ((place, value) for place, value in _walk(config) if _last(place) not in unordered)

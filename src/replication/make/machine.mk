@@ -25,15 +25,15 @@ export PYTHONDONTWRITEBYTECODE :=
 
 # Commands receive these variables unchanged through the environment, so that neither make nor the
 # shell can interpret a value as code.
-GIVEN := CORES FAULTS ITEM LISTED NAME ROTATE TO $(OWN)
+GIVEN := CORES FAULTS FROM ITEM LISTED NAME ROTATE TO $(OWN)
 $(foreach name,$(GIVEN),$(eval override $(name) := $$(value $(name))))
 export $(GIVEN)
 WHOLE = case "$$$(1)" in ''|0*|*[!0-9]*) \
   echo "$(1) is '$$$(1)'; expected a whole number from 1 on" >&2; exit 2;; esac
-SNAKEMAKE = $(call WHOLE,CORES); $(RUN) snakemake --cores "$$CORES"
+SNAKEMAKE = $(call WHOLE,CORES); $(RUN) python -m replication.commands.run --cores "$$CORES"
 
-.PHONY: help reproduce check trace verify archive html test lint pages publish kill-table study paper \
-  unlock clean
+.PHONY: help reproduce claim check trace verify archive html test lint pages schema publish \
+  kill-table study paper update unlock clean
 
 help: ## show this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/make \1|\2/p' $(wordlist 2,9,$(MAKEFILE_LIST)) $(firstword $(MAKEFILE_LIST)) | \
@@ -41,6 +41,10 @@ help: ## show this list
 
 reproduce: | $(UV) ## compute every result, check every claim, compile the report (CORES=2)
 	@$(SNAKEMAKE)
+
+claim: | $(UV) ## begin a claim, or judge one that the ledger has: make claim NAME=my_claim
+	@$(RUN) python -m replication.commands.new_claim "$$NAME"
+	@$(SNAKEMAKE) "claim_$$NAME"
 
 check: | $(UV) ## judge every claim again from the published files; no run (RELEASE=1: none older than its texts)
 	@$(RUN) python -m steps.recheck
@@ -81,7 +85,7 @@ lint: | $(UV) ## check style, types, spelling, wording and schemas; changes noth
 	  $(DEV) check-jsonschema --schemafile $$schema $${schema%.schema.yaml}.yaml || exit 1; done
 	$(DEV) check-jsonschema --builtin-schema vendor.citation-file-format CITATION.cff
 	$(DEV) check-jsonschema --builtin-schema vendor.github-workflows $(wildcard .github/workflows/*.yaml)
-	$(DEV) validate-pyproject pyproject.toml
+	$(DEV) validate-pyproject pyproject.toml src/replication/pyproject.toml
 # Snakemake's lint demands a conda environment or container for every rule. One lock file serves all
 # rules here, so we ignore this demand and no other.
 	$(DEV) snakemake --lint 2>&1 | awk ' \
@@ -90,8 +94,11 @@ lint: | $(UV) ## check style, types, spelling, wording and schemas; changes noth
 	  /^    \* / && !/\* Specify a conda environment or container for each rule/ { found = 1 } \
 	  END { if (found || !ran) { printf "%s", text; exit 1 } }'
 
-pages: | $(UV) ## write the pages that need no run: input numbers, codecheck.yml, docs/exhibits.md
+pages: | $(UV) ## write the pages that need no run: input numbers; codecheck.yml, docs/exhibits.md if they exist
 	@$(RUN) python -m replication.commands.pages
+
+schema: | $(UV) ## draft what the schemas of the configs say of sections that they lack
+	@$(RUN) python -m replication.commands.draft_schema
 
 publish: | $(UV) ## copy results to docs/ and tests/reference/; read the diff, then commit it
 	@$(RUN) python -m steps.publish
@@ -104,10 +111,13 @@ kill-table: | $(UV) ## put faults into a copy, one at a time: what catches each?
 study: | $(UV) ## begin a follow-up study: make study NAME=my_study (FOLLOW-UP.md)
 	@$(RUN) python -m replication.commands.new_study "$$NAME"
 
+update: | $(UV) ## replace the machine of a paper by a newer one: make update FROM=../folder or a git URL
+	@$(UV) run --no-project --no-config --python '>=3.11' python -I -S src/replication/commands/update.py "$$FROM"
+
 paper: | $(UV) ## begin the replication of another paper: make paper TO=../other (FOLLOW-UP.md)
 	@$(RUN) python -m replication.commands.new_paper "$$TO"
 
-unlock: | $(UV) ## after a killed run left the directory locked (no other run may be going on)
+unlock: | $(UV) ## after a killed run left the folder locked; refused beside a run
 	@$(RUN) snakemake --unlock
 
 clean: ## remove all that the workflow and the tools wrote; keep the environment

@@ -53,7 +53,7 @@ def verdict_page(rows: Sequence[JudgedClaim], reference: Path) -> str:
         "# The verdict on every claim",
         "",
         "Computed by the workflow (`results/claims.json`); this page is written by `make publish`.",
-        f"Judged from `tests/reference/`; the SHA-256 of its list of files is `{digest(reference)}`.",
+        f"Judged from `tests/reference/`; SHA-256 of its list of files: `{digest(reference)}`.",
         "A slip or misprint may be a fault of the text that we worked from, and not of the print.",
         "",
         *count_table(rows),
@@ -216,6 +216,7 @@ def publish(tables: Iterable[str], sources: Iterable[str] = ()) -> None:
     Path("docs").mkdir(exist_ok=True)
     reference.mkdir(parents=True, exist_ok=True)
     shutil.copyfile("config/config.yaml", reference / "config.yaml")
+    shutil.copyfile(results / "costs.csv", "docs/costs.csv")
     for old in reference.glob("*.csv"):
         old.unlink()
     for folder in ("sources", "studies"):

@@ -12,7 +12,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from snakemake.exceptions import WorkflowError
+from snakemake.exceptions import CliException
 from snakemake.persistence import PersistenceBase
 
 HOLDER = Path(".snakemake/run")
@@ -25,13 +25,13 @@ KILLED = "a run in this folder was killed and left it locked; expected no lock: 
 
 @contextmanager
 def alone() -> Iterator[None]:
-    """Hold the folder for this process, or raise a WorkflowError if another one does."""
+    """Hold the folder for this process, or raise a CliException if another one does."""
     HOLDER.parent.mkdir(exist_ok=True)
     with HOLDER.open("a+", encoding="utf-8") as holder:
         try:
             fcntl.flock(holder, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
-            raise WorkflowError(LIVE.format(HOLDER.read_text(encoding="utf-8"))) from None
+            raise CliException(LIVE.format(HOLDER.read_text(encoding="utf-8"))) from None
         holder.truncate(0)
         holder.write(str(os.getpid()))
         holder.flush()
@@ -47,7 +47,7 @@ def one_run_at_a_time() -> None:
     def locked(self: Any) -> Iterator[None]:
         with alone():
             if self.locked:
-                raise WorkflowError(KILLED)
+                raise CliException(KILLED)
             with lock(self):
                 yield
 

@@ -84,11 +84,11 @@ def plane(axis, spectra, areas, example):
     note(axis, "both survive", (7.0, 13.0), color=SURVIVES)
     words = f"overturning caused\non {100 * here.harms:.1f} % of the map"
     at = {"xytext": (4.7, 10.9), "color": CAUSED, "arrowprops": LEADER}
-    note(axis, words, (3.32, 8.2), **at)
+    note(axis, words, (3.2, 8.1), **at)
     words = f"overturning prevented\non {100 * here.helps:.1f} % of the map"
     note(axis, words, (5.2, 6.4), color=SURVIVES)
-    note(axis, "column", (4.4, 3.2), color=STRUCTURES[0.0])
-    words = r"frame, $\gamma\to\infty$"
+    note(axis, "column", (4.55, 3.2), color=STRUCTURES[0.0])
+    words = "frame,\n$\\gamma\\to\\infty$"
     note(axis, words, (3.75, 4.9), ha="right", color=STRUCTURES[math.inf])
 
 

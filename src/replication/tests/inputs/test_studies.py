@@ -119,8 +119,6 @@ def test_made_study_has_the_style_that_lint_demands_for_every_length_of_its_name
     for name in ("config", "studies/skeleton"):
         shutil.copytree(origin / name, tmp_path / name)
     shutil.copy(ROOT / ".gitignore", tmp_path)
-    (tmp_path / "paper").mkdir()
-    shutil.copy(origin / "paper" / "words.yaml", tmp_path / "paper")
     folders = [
         create(letter + "o" * length, tmp_path)
         for length, letter in enumerate(ascii_lowercase[:LONGEST])

@@ -22,6 +22,7 @@ JOB = Job("peaks", "Snakefile:1", (), (), (), (), (), {}, None, {}, False)
 FILES = {
     "Snakefile": "rule peaks:\n",
     "uv.lock": "lock",
+    rule.MACHINE: "1.2.0",
     "src/peaks.py": "compute()\n",
     "src/beside.py": "help()\n",
     "figures/peaks.py": "draw()\n",
@@ -47,7 +48,7 @@ FIGURE = replace(
     outputs=("figures/peaks.svg",),
 )
 COSTS = replace(JOB, rule="costs", scripts=("src/peaks.py",), outputs=("results/costs.csv",))
-LAST = replace(JOB, rule="crate", inputs=("Snakefile", "uv.lock"), outputs=(CRATE,))
+LAST = replace(JOB, rule="crate", inputs=("Snakefile", "uv.lock", rule.MACHINE), outputs=(CRATE,))
 KEYS = {
     "": [Key("column.height", "its height", "m", "a number > 0", (6.0,), "p. 4")],
     "wind": [Key("ratios", "mass ratio", "1", "0 or more values", ([0.0, float("inf")],), "")],
@@ -96,6 +97,7 @@ def made(tmp_path, monkeypatch):
         KEYS,
         [CLAIM, replace(CLAIM, id="ours", study="ours", rule="", verdict="not tested")],
         {"numpy": "2.4.6"},
+        "1.2.0",
         PROJECT,
         CITATION,
     )
@@ -138,9 +140,9 @@ def test_file_that_is_no_crate_of_a_run_is_refused(tmp_path, text):
 
 def test_run_has_every_input_parameter_and_output_and_each_job_its_own(entities):
     run = entities["#run"]
-    given = ["Snakefile", "figures/peaks.py", "src/beside.py", "src/peaks.py", "uv.lock"]
+    given = ["Snakefile", "figures/peaks.py", "src/beside.py", "src/peaks.py", rule.MACHINE]
     values = ["#value/column.height", "#value/wind.ratios"]
-    assert links(run, "object") == [*given, *values]
+    assert links(run, "object") == [*given, "uv.lock", *values]
     outputs = ["figures/peaks.svg", "results/findings/peaks.json", "results/peaks.csv"]
     assert links(run, "result") == outputs
     figure = entities["#job/figures/peaks.svg"]
@@ -175,6 +177,7 @@ def test_root_names_authors_licence_date_and_software(entities):
     assert links(root, "license") == ["https://spdx.org/licenses/MIT"]
     (numpy,) = links(entities["Snakefile"], "softwareRequirements")
     assert entities[numpy]["softwareVersion"] == "2.4.6"
+    assert entities[rule.MACHINE]["version"] == "1.2.0"
 
 
 def test_citation_without_a_date_is_refused():
@@ -185,7 +188,7 @@ def test_citation_without_a_date_is_refused():
 
 def test_every_output_of_the_workflow_but_the_costs_is_listed(jobs, monkeypatch, tmp_path):
     monkeypatch.setattr(rule.entities, "checksum", lambda path: "")
-    crate = rule.main(jobs, ["results/costs.csv"], {}, [], {}, PROJECT, CITATION)
+    crate = rule.main(jobs, ["results/costs.csv"], {}, [], {}, "", PROJECT, CITATION)
     (tmp_path / "crate.json").write_text(json.dumps(crate))
     listed = read_crate(tmp_path / "crate.json")
     made = {path for job in jobs for path in job.outputs}
