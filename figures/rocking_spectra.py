@@ -8,7 +8,7 @@ from figures.drawing import RECORDS, gamma
 from figures.palette import HATCHED, PEAKS, UNDECIDED
 from replication.drawing import DOUBLE, GREY, make_figure, note, sheet
 
-COLUMNS = 3
+COLUMNS = 4
 TICKS = (0.5, 1, 2, 5, 10, 20)
 HIGH = 0.8  # of a strip, over the distance of two
 

@@ -2,6 +2,7 @@
 
 import json
 import re
+import shutil
 from pathlib import Path
 
 import pytest
@@ -42,11 +43,11 @@ def test_each_drawing_has_an_alternative_text_that_is_not_its_caption(part):
 )
 def test_printed_bound_is_not_below_the_value_that_it_bounds(tmp_path, value, digits, printed):
     source = tmp_path / "bound.typ"
-    source.write_text(f"""#import "/paper/format.typ": at-most
+    source.write_text(f"""#import "/src/replication/typst/format.typ": at-most
 #metadata(at-most({value}, {digits})) <bound>""")
-    for part in ("format.typ", "symbols.typ"):
-        (tmp_path / "paper").mkdir(exist_ok=True)
-        (tmp_path / "paper" / part).write_text((ROOT / "paper" / part).read_text("utf-8"), "utf-8")
+    for part in ("src/replication/typst/format.typ", "paper/symbols.typ"):
+        (tmp_path / part).parent.mkdir(parents=True)
+        shutil.copy(ROOT / part, tmp_path / part)
     (tmp_path / "results").mkdir()
     (tmp_path / "results" / "claims.json").write_text("[]", "utf-8")
     found = typst.query(source, "<bound>", root=tmp_path, field="value")

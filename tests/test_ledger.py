@@ -13,7 +13,8 @@ from replication.judging.ledger import read_rows
 
 ROOT = Path(__file__).resolve().parents[1]
 LEDGER = yaml.safe_load((ROOT / "paper" / "claims.yaml").read_text(encoding="utf-8"))
-SCHEMA = yaml.safe_load((ROOT / "paper" / "claims.schema.yaml").read_text(encoding="utf-8"))
+SCHEMA = ROOT / "src/replication/judging/claims.schema.yaml"
+SCHEMA = yaml.safe_load(SCHEMA.read_text(encoding="utf-8"))
 CONFIG = yaml.safe_load((ROOT / "config" / "config.yaml").read_text(encoding="utf-8"))
 STUDIES = [ROOT / "studies" / name / "claims.yaml" for name in CONFIG["studies"]]
 FINDINGS = findings_by_rule((ROOT / "tests" / "reference" / "findings").glob("*.json"))

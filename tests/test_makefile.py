@@ -12,8 +12,9 @@ ROOT = Path(__file__).resolve().parents[1]
 @pytest.fixture
 def make(tmp_path):
     """Run make with a uv that prints what it is asked to run."""
-    for name in ("Makefile", "paper.mk"):
-        shutil.copy(ROOT / name, tmp_path)
+    for name in ("Makefile", "src/replication/make/machine.mk"):
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(ROOT / name, tmp_path / name)
     uv = tmp_path / "uv"
     uv.write_text('#!/bin/sh\nfor word; do printf "<%s>" "$word"; done\n', encoding="utf-8")
     uv.chmod(0o755)

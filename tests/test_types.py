@@ -2,6 +2,7 @@
 
 import json
 import os
+import pydoc
 import re
 import subprocess
 import sys
@@ -73,6 +74,12 @@ def test_users_script_runs():
     )
     said = [line for line in run.stderr.splitlines() if "compiles its kernel" not in line]
     assert (run.returncode, said) == (0, [])
+
+
+@pytest.mark.parametrize("name", topheavy.__all__)
+def test_help_shows_the_types_by_their_short_names(name):
+    shown = pydoc.plain(pydoc.render_doc(getattr(topheavy, name)))
+    assert not re.search(r"numpy\.ndarray|_typing|topheavy\.structures\.Structure", shown)
 
 
 def test_users_script_has_every_public_name():

@@ -133,7 +133,6 @@ for document in DOCUMENTS:
             f"results/benchmarks/{document}.tsv"
         params:
             studies=config["studies"],
-            tables=FIGURES,
         message:
             f"Compiling the {document}"
         script:
@@ -149,6 +148,7 @@ rule crate:
         everything,
         configuration="config/config.yaml",
         lock="uv.lock",
+        machine="src/replication/VERSION",
         project="pyproject.toml",
         citation="CITATION.cff",
         claims="results/claims.json",
@@ -193,6 +193,9 @@ check_captions(
     [f"{figure}.svg" for figure in FIGURES],
     [claim.id for claim in CLAIMS],
     made_by(workflow.rules),
+)
+refuse_unshown(
+    FIGURES, reads(*(f"paper/{document}.typ" for document in DOCUMENTS), *SECTIONS)
 )
 longest_first()
 only_shards_leave_this_machine()

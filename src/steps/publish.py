@@ -78,7 +78,6 @@ def main() -> None:
     for name in (MOVING, PAGE):
         shutil.copyfile(results / name, docs / name)
     still(docs / PAGE, docs / "explorer.png")
-    shutil.copyfile(results / "costs.csv", docs / "costs.csv")
     pages.write()
     kill_table.refresh()
     (docs / "machine.txt").write_text(machine() + "\n", encoding="utf-8")

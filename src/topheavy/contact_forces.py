@@ -16,6 +16,8 @@ leaves one unknown. The moment balance of the cap beam, which the paper omits, d
 same equations. Rotations are in rad, signed; the ground acceleration is in g. Arrays broadcast.
 """
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 from functools import reduce
@@ -230,7 +232,7 @@ class _Pair(NamedTuple):
     horizontal: Array
     vertical: Array
 
-    def times(self, factor: float) -> "_Pair":
+    def times(self, factor: float) -> _Pair:
         return _Pair(factor * self.horizontal, factor * self.vertical)
 
 

@@ -21,6 +21,8 @@ oscillator of the period. What the mode leaves out follows the ground: as the pe
 A → ü_g, and the frame is rigid. The weight's moment about displaced columns is left out.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass

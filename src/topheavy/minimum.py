@@ -5,6 +5,8 @@ narrowest. A search on one grid misses it without a sign. Here every grid holds 
 one before, so that a finer grid never finds a higher minimum.
 """
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 

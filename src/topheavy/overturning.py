@@ -4,6 +4,8 @@ Histories run in the lanes of the CPU, whatever their structure: what is asked o
 or motions at once costs less than one after the other, and gives the same to the last bit.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -55,7 +57,7 @@ Answer = TypeVar("Answer")
 @hinted
 def overturning_map(
     structure: Structure, shape: str, angular_frequencies: ArrayLike, amplitudes: ArrayLike
-) -> "xarray.Dataset":
+) -> xarray.Dataset:
     """Return which pulses overturn a block, and how far it rocks under the others.
 
     Parameters
@@ -100,7 +102,7 @@ def outcomes_dataset(
     outcomes: Outcomes,
     coordinates: dict[str, tuple[str, NDArray[np.float64], dict[str, str]]],
     **attributes: str | float,
-) -> "xarray.Dataset":
+) -> xarray.Dataset:
     """Return the outcomes of `outcomes_of` over its first two coordinates, with their units."""
     import xarray  # here: with pandas it takes a second that only maps need
 

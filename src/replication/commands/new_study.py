@@ -6,8 +6,8 @@ import shutil
 import sys
 from pathlib import Path
 
-from replication.commands.words import LIST, findings
-from replication.inputs.strict_yaml import read_word, read_yaml
+from replication.commands.words import LIST, findings, phrases_of
+from replication.inputs.strict_yaml import read_word
 from replication.judging.ledger import OURS, REPRODUCED
 from replication.judging.verdicts import by_origin
 
@@ -34,7 +34,7 @@ def create(name: str, root: Path = Path()) -> Path:
             f"NAME is {name!r}; expected a lower-case letter, then lower-case letters, digits "
             f"or _, at most {LONGEST} in all"
         )
-    if meaning := _meaning(name, root):
+    if meaning := meaning_of(name, root):
         raise ValueError(
             f"NAME is {name!r}, {meaning}; expected another name, for example '{name[:14]}_study'"
         )
@@ -57,7 +57,7 @@ def create(name: str, root: Path = Path()) -> Path:
     return folder
 
 
-def _meaning(name: str, root: Path) -> str | None:
+def meaning_of(name: str, root: Path) -> str | None:
     """Return what else a name means to a program that reads it, or None."""
     if (value := read_word(name)) != name:
         return f"which YAML reads as {value!r}, and the config names its studies in YAML"
@@ -67,7 +67,7 @@ def _meaning(name: str, root: Path) -> str | None:
         return "under which the verdicts count claims that belong to no study"
     if f"{name}/" in (root / ".gitignore").read_text(encoding="utf-8").splitlines():
         return "the name of folders that .gitignore keeps out of git"
-    for _, _, better in findings(name, read_yaml(root / LIST)["phrases"]):
+    for _, _, better in findings(name, phrases_of(root)):
         return f"a word that {LIST} asks to avoid ({better}), so that `make lint` would refuse it"
     return None
 

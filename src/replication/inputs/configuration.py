@@ -16,8 +16,33 @@ from replication.inputs.suggestions import hint
 NAMES = {
     "^[a-z][a-z0-9_]*$": "a lower-case letter, then lower-case letters, digits or _",
     "^[A-Za-z0-9_]+$": "letters, digits or _",
+    r"\.$": "a sentence, which ends with a full stop",
+    r"^(?!steps|replication)[a-z]\w*(\.[A-Za-z_]\w*)+$": (
+        "a function with its module, such as lib.shapes.area, neither of steps nor of replication"
+    ),
 }
-"""The patterns of names in the schemas, in words."""
+"""The patterns of the schemas, in words."""
+
+
+DRAFT = "; of a new section, `make schema` drafts what the schema says"
+
+
+class Sections(dict[str, Any]):
+    """A config, which names its file when it lacks a section that a rule takes."""
+
+    def __init__(self, config: Mapping[str, Any], path: str) -> None:
+        super().__init__(config)
+        self.path = path
+
+    def __missing__(self, name: str) -> Any:
+        """Refuse a section that is not there."""
+        raise ValueError(
+            f"{self.path} has no section {name!r}, which a rule takes; {hint(name, self)}"
+        )
+
+    def __reduce__(self) -> tuple[type[dict[str, Any]], tuple[dict[str, Any]]]:
+        """Reach a job as a plain mapping, so that the job loads no module for it."""
+        return dict, (dict(self),)
 
 
 def check_config(
@@ -43,7 +68,11 @@ def check_config(
     """
     schema = read_schema(schema_path)
     errors = Draft202012Validator(schema).iter_errors(config)
-    messages = {message for error in errors for message in messages_of(error)}
+    messages = {
+        message + DRAFT * message.startswith("the top level has an unknown key")
+        for error in errors
+        for message in messages_of(error)
+    }
     if isinstance(config, Mapping):
         messages |= {message for check in checks for message in check(config)}
     values = ((place, value) for place, value in _walk(config) if _last(place) not in unordered)

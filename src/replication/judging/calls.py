@@ -15,7 +15,7 @@ from pathlib import Path
 from types import FunctionType, ModuleType
 
 OF_NO_ROW = ("replication", "steps")
-"""The packages whose functions no row of a ledger may name (paper/claims.schema.yaml)."""
+"""The packages whose functions no row of a ledger may name (claims.schema.yaml)."""
 
 DRAWS = "findings"
 """The function of a step that draws findings from its tables; what filled the tables is noted."""

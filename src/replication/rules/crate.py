@@ -30,6 +30,8 @@ PROFILES = {
 SHA256 = "https://w3id.org/ro/terms/workflow-run#sha256"
 """What `sha256` means; the context of RO-Crate 1.1 has no such term."""
 
+MACHINE = "src/replication/VERSION"
+
 SNAKEMAKE = {
     "@id": "https://w3id.org/workflowhub/workflow-ro-crate#snakemake",
     "@type": "ComputerLanguage",
@@ -44,6 +46,7 @@ def main(
     config: Mapping[str, Iterable[Key]],
     claims: Iterable[JudgedClaim],
     software: Mapping[str, str],
+    machine: str,
     project: Mapping[str, Any],
     citation: Mapping[str, Any],
 ) -> dict[str, Any]:
@@ -59,6 +62,8 @@ def main(
         The keys of the paper's config and of the studies', by the name of the part.
     software
         The version of every package, by its name.
+    machine
+        The version of the machine.
     project, citation
         The table `project` of pyproject.toml, and the content of CITATION.cff.
     """
@@ -89,6 +94,10 @@ def main(
         "input": refs(parameters),
         "softwareRequirements": refs(packages),
     }
+    described = {
+        WORKFLOW: workflow,
+        MACHINE: {"name": "The version of src/replication", "version": machine},
+    }
     root = about.root(citation, project) | {
         "author": refs(authors),
         "license": refs(licences),
@@ -104,7 +113,7 @@ def main(
     for name, value in root.items():
         crate.root_dataset[name] = value
     for entity in files:
-        crate.add_jsonld(entity | (workflow if entity["@id"] == WORKFLOW else {}))
+        crate.add_jsonld(entity | described.get(entity["@id"], {}))
     who = [*profiles, *authors, *licences, *written_by, paper, SNAKEMAKE]
     for entity in [*who, *packages, *parameters, *values, *actions, *reviews, unlisted]:
         crate.add_jsonld(dict(entity))
@@ -120,6 +129,7 @@ def work(job: Any) -> None:
         {part: keys(Path(config_of(part)), used) for part, used in job.params.configs.items()},
         read_judged(job.input.claims),
         installed(_toml(job.input.lock), groups),
+        Path(MACHINE).read_text(encoding="utf-8").strip(),
         project["project"],
         read_yaml(job.input.citation),
     )

@@ -89,6 +89,7 @@ def main(source: Path, executed: Path, page: Path) -> None:
         timeout=300,
         record_timing=False,
         resources={"metadata": {"path": str(source.parent)}},
+        extra_arguments=["--log-level=ERROR"],  # not that the kernel listens on this machine
     )
     client.execute()
     for cell in notebook.cells:

@@ -1,5 +1,7 @@
 """A march of verified steps from impact to impact, which ends in an outcome or in Undecided."""
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass, field
 from itertools import pairwise

@@ -1,4 +1,4 @@
-"""How far a pendulum may swing before small-swing theory fails: a study to begin with."""
+"""How many intervals an integral requires: a study to begin with."""
 
 
 rule skeleton_limit:

@@ -4,8 +4,8 @@ import math
 
 import pytest
 
-from studies.skeleton.steps.limit import largest_amplitude
+from studies.skeleton.steps.limit import error_of
 
 
-def test_small_share_is_that_of_the_series():
-    assert largest_amplitude(1e-6) == pytest.approx(math.sqrt(16e-6), rel=1e-6)
+def test_error_falls_with_the_square_of_the_intervals():
+    assert error_of(1000) == pytest.approx(math.pi**2 / 12e6, rel=1e-5)

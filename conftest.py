@@ -1,0 +1,40 @@
+"""What all tests share: the order in which several processes take them."""
+
+import pytest
+
+from replication.tests.conftest import claims, jobs  # noqa: F401
+
+LONGEST_FIRST = (
+    "test_widths.py",
+    "test_page.py",
+    "test_reruns.py",
+    "test_graph.py",
+    "test_endings.py",
+    "test_contact.py",
+    "test_solver.py",
+    "test_closing.py",
+    "test_trace.py",
+    "test_vertical.py",
+    "test_theorems.py",
+    "test_types.py",
+    "test_check_html.py",
+    "test_records.py",
+    "test_tables.py",
+    "test_verdicts.py",
+    "test_compiled.py",
+)
+"""Files that take longest: begun first, no process is left with one of them at the end."""
+
+
+def pytest_collection_modifyitems(items):
+    """Put the files that take longest before the others."""
+    place = {name: number for number, name in enumerate(LONGEST_FIRST)}
+    items.sort(key=lambda item: place.get(item.path.name, len(place)))
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_setupnodes():
+    """Compile the kernel before several processes need it at the same time."""
+    from steps.kernel import main
+
+    main()

@@ -1,0 +1,293 @@
+"""The archive of a finished run: the same bytes twice, whole, and verified where it is unpacked."""
+
+import hashlib
+import json
+import os
+import py_compile
+import re
+import shutil
+import subprocess
+import sys
+import zipfile
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from replication.commands import archive
+from replication.origin.recorded import CRATE
+from replication.workflow.provenance import Job
+
+ROOT = Path(__file__).resolve().parents[4]
+JOB = Job("peaks", "Snakefile:1", (), (), (), (), (), {}, None, {}, False)
+LEFT_OUT = ["results/costs.csv", "results/logs", CRATE]
+RESULTS = {"results/peaks.csv": "1\n", "figures/peaks.svg": "<svg/>\n"}
+
+
+def git(root, *words):
+    who = ["-c", "user.name=x", "-c", "user.email=x@x.org", "-c", "commit.gpgsign=false"]
+    command = ["git", "-C", root, *who, *words]
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout.strip()
+
+
+@pytest.fixture
+def tree(tmp_path, monkeypatch):
+    """A clone with the machine in it, and a finished run, none of whose rules is to run again."""
+    root = tmp_path / "tree"
+    root.mkdir()
+    skipped = shutil.ignore_patterns("__pycache__", "template")
+    shutil.copytree(ROOT / "src/replication", root / "src/replication", ignore=skipped)
+    source = {
+        "pyproject.toml": '[project]\nname = "peaks"\nversion = "0.1.0"\n',
+        "figures/peaks.py": "draw()\n",
+        "run": "#!/bin/sh\n",
+        ".gitignore": "results/\n*.svg\ndist/\n__pycache__/\n",
+    }
+    extra = {"results/costs.csv": "rule,seconds\n", "results/logs/peaks.log": "said\n"}
+    for path, text in {**source, **RESULTS, **extra}.items():
+        (root / path).parent.mkdir(parents=True, exist_ok=True)
+        (root / path).write_text(text, encoding="utf-8")
+    (root / "run").chmod(0o755)
+    git(root, "init", "-q")
+    git(root, "add", ".")
+    git(root, "commit", "-q", "-m", "first")
+    list_results(root)
+    monkeypatch.setattr(archive, "pending", lambda root: [])
+    return root
+
+
+def list_results(root):
+    """Write the crate, as the last rule of a run does: what a command reads of it."""
+    files = {path: (root / path).read_bytes() for path in (*RESULTS, "figures/peaks.py")}
+    entities = [
+        {"@id": path, "@type": "File", "sha256": hashlib.sha256(data).hexdigest()}
+        for path, data in files.items()
+    ]
+    entities += [
+        {"@id": "Snakefile", "@type": "File", "version": git(root, "rev-parse", "HEAD")},
+        {"@id": "#left_out", "@type": "PropertyValue", "value": LEFT_OUT},
+        {
+            "@id": "#job/results/peaks.csv",
+            "@type": "CreateAction",
+            "name": "peaks",
+            "result": [{"@id": path} for path in RESULTS],
+        },
+    ]
+    (root / CRATE).write_text(json.dumps({"@graph": entities}), encoding="utf-8")
+
+
+@pytest.fixture
+def unpacked(tree, tmp_path):
+    """The archive in an empty folder elsewhere, without git."""
+    archive.main(tree)
+    with zipfile.ZipFile(tree / "dist/peaks-0.1.0.zip") as packed:
+        packed.extractall(tmp_path / "elsewhere")
+    return tmp_path / "elsewhere"
+
+
+def verified(root):
+    """Run what `make verify` runs, with the unpacked machine."""
+    return subprocess.run(
+        [sys.executable, "-I", "-S", "src/replication/commands/verify.py"],
+        cwd=root,
+        capture_output=True,
+        text=True,
+    )
+
+
+def test_two_archives_have_the_same_bytes_whatever_times_and_permissions(tree):
+    said = archive.main(tree)
+    path = tree / "dist/peaks-0.1.0.zip"
+    first = path.read_bytes()
+    for each in (tree / "run", *map(tree.joinpath, RESULTS)):
+        os.utime(each, (1e9, 1e9))
+        each.chmod(0o700 if each.name == "run" else 0o600)
+    archive.main(tree)
+    assert path.read_bytes() == first
+    assert f"{path}: " in said
+    assert hashlib.sha256(first).hexdigest() in said
+
+
+def test_archive_has_source_and_results_and_nothing_else(tree):
+    archive.main(tree)
+    with zipfile.ZipFile(tree / "dist/peaks-0.1.0.zip") as packed:
+        names = packed.namelist()
+        modes = {info.filename: info.external_attr >> 16 for info in packed.infolist()}
+    assert names == sorted(names)
+    listed = git(tree, "ls-files").splitlines()
+    others = ["SHA256SUMS", "ro-crate-metadata.json", "results/costs.csv", CRATE]
+    assert sorted(names) == sorted([*listed, *RESULTS, *others])
+    with zipfile.ZipFile(tree / "dist/peaks-0.1.0.zip") as packed:  # a crate lies at its root
+        assert packed.read("ro-crate-metadata.json") == packed.read(CRATE)
+    assert modes["run"] == 0o100755
+    assert modes["results/peaks.csv"] == 0o100644
+
+
+def test_unpacked_archive_verifies_and_sha256sum_agrees(unpacked):
+    done = verified(unpacked)
+    assert done.returncode == 0, done.stderr
+    assert re.search(r"verified: \d+ files are as SHA256SUMS has them", done.stdout)
+    assert "verified: 2 outputs and 1 inputs" in done.stdout
+    command = ["sha256sum", "--check", "--strict", "--quiet", "SHA256SUMS"]
+    subprocess.run(command, cwd=unpacked, check=True)
+
+
+@pytest.mark.parametrize("path", ["results/peaks.csv", "figures/peaks.svg", "figures/peaks.py"])
+def test_file_that_was_tampered_with_is_named(unpacked, path):
+    (unpacked / path).write_text("other\n", encoding="utf-8")
+    done = verified(unpacked)
+    assert done.returncode == 1
+    assert done.stderr.startswith(f"{path} changed after ")
+
+
+def test_missing_source_is_named(unpacked):
+    (unpacked / "pyproject.toml").unlink()
+    assert verified(unpacked).stderr == "pyproject.toml is missing; SHA256SUMS has it\n"
+
+
+def forged(root, path):
+    """Change a file and its checksum in both crates, consistently."""
+    before = hashlib.sha256((root / path).read_bytes()).hexdigest()
+    (root / path).write_text("forged\n", encoding="utf-8")
+    after = hashlib.sha256((root / path).read_bytes()).hexdigest()
+    for crate in (root / CRATE, root / Path(CRATE).name):
+        crate.write_text(crate.read_text(encoding="utf-8").replace(before, after), encoding="utf-8")
+
+
+def test_forgery_that_the_crate_agrees_with_is_named(unpacked):
+    forged(unpacked, "results/peaks.csv")
+    done = verified(unpacked)
+    assert done.returncode == 1
+    assert done.stderr.startswith("results/peaks.csv changed after it was packed")
+    assert f"{CRATE} is not the one that was packed" in done.stdout
+
+
+def test_forgery_of_the_checksums_too_has_another_digest(unpacked, tree):
+    (published,) = re.findall(r"SHA256SUMS (\w{64})$", archive.main(tree))
+    assert verified(unpacked).stdout.count(published) == 1
+    forged(unpacked, "results/peaks.csv")
+    files = [line[66:] for line in (unpacked / "SHA256SUMS").read_text("utf-8").splitlines()]
+    sums = (
+        f"{hashlib.sha256((unpacked / name).read_bytes()).hexdigest()}  {name}\n" for name in files
+    )
+    (unpacked / "SHA256SUMS").write_text("".join(sums), encoding="utf-8")
+    done = verified(unpacked)
+    assert done.returncode == 0
+    assert published not in done.stdout
+    assert "Compare its SHA-256 with that published" in done.stdout
+
+
+@pytest.mark.parametrize("name", ["src/sitecustomize.py", "docs/new.txt", "src/hashlib.py"])
+def test_file_that_was_added_is_named_and_not_imported(unpacked, name):
+    (unpacked / name).parent.mkdir(exist_ok=True)
+    (unpacked / name).write_text("raise SystemExit('verified')\n", encoding="utf-8")
+    done = verified(unpacked)
+    assert done.stderr == f"{name} was added: SHA256SUMS does not have it\n"
+
+
+@pytest.mark.parametrize("path", ["results/costs.csv", CRATE])
+def test_what_each_run_writes_anew_is_named_and_no_fault(unpacked, path):
+    with (unpacked / path).open("a", encoding="utf-8") as file:
+        file.write("\n")
+    done = verified(unpacked)
+    assert done.stdout.startswith(f"{path} is not the one that was packed: a run was made here, or")
+    assert done.returncode == 0
+
+
+def test_crate_of_the_whole_archive_is_held(unpacked):
+    (unpacked / "ro-crate-metadata.json").write_text("{}", encoding="utf-8")
+    assert verified(unpacked).stderr.startswith("ro-crate-metadata.json changed after it was pack")
+
+
+def test_compiled_file_that_was_added_is_named_and_not_run(unpacked):
+    module = unpacked / "src/replication/origin/recorded.py"
+    source, kept = module.read_bytes(), module.stat()
+    module.write_bytes(b"raise SystemExit".ljust(len(source)))
+    os.utime(module, ns=(kept.st_atime_ns, kept.st_mtime_ns))
+    py_compile.compile(str(module))
+    module.write_bytes(source)
+    os.utime(module, ns=(kept.st_atime_ns, kept.st_mtime_ns))
+    done = verified(unpacked)
+    assert "made by commands here or added: __pycache__\n" in done.stdout
+    assert "verified: 2 outputs" in done.stdout
+
+
+@pytest.mark.parametrize("empty", [True, False])
+def test_archive_without_checksums_is_refused(unpacked, empty):
+    (unpacked / "SHA256SUMS").unlink()
+    if empty:
+        (unpacked / "SHA256SUMS").touch()
+    assert verified(unpacked).stderr.startswith("SHA256SUMS is missing or empty; an archive has")
+
+
+@pytest.mark.parametrize("content", [b"\xff\xfe\x00", b"0  a\n", b"g" * 64 + b"  a\n"])
+def test_checksums_that_are_none_are_refused(unpacked, content):
+    (unpacked / "SHA256SUMS").write_bytes(content)
+    done = verified(unpacked)
+    assert done.returncode == 1
+    assert done.stderr.startswith("SHA256SUMS, line 1 is ")
+
+
+def remove_crate(tree):
+    (tree / CRATE).unlink()
+
+
+def spoil_crate(tree):
+    (tree / CRATE).write_text("{}", encoding="utf-8")
+
+
+def change_result(tree):
+    (tree / "results/peaks.csv").write_text("2\n", encoding="utf-8")
+
+
+def change_source(tree):
+    (tree / "run").write_text("#!/bin/sh\ntrue\n", encoding="utf-8")
+
+
+def commit_after_the_run(tree):
+    change_source(tree)
+    git(tree, "commit", "-q", "-a", "-m", "second")
+
+
+def commit_an_input_after_the_run(tree):
+    (tree / "figures/peaks.py").write_text("draw(2)\n", encoding="utf-8")
+    git(tree, "commit", "-q", "-a", "-m", "second")
+
+
+def remove_git(tree):
+    shutil.rmtree(tree / ".git")
+
+
+@pytest.mark.parametrize(
+    ("spoil", "told"),
+    [
+        (remove_crate, "expected a finished run: make reproduce"),
+        (spoil_crate, "is not the RO-Crate of a run"),
+        (change_result, "results/peaks.csv changed after rule peaks made it"),
+        (change_source, "the tree differs from its commit"),
+        (commit_an_input_after_the_run, "figures/peaks.py changed after the run"),
+        (commit_after_the_run, f"rm {CRATE} && make reproduce"),
+        (remove_git, "is no git repository"),
+    ],
+)
+def test_unfinished_or_unverified_run_is_refused(tree, spoil, told):
+    spoil(tree)
+    with pytest.raises(SystemExit, match=told):
+        archive.main(tree)
+    assert not (tree / "dist").exists()
+
+
+def test_run_that_would_go_on_is_refused_with_its_rules(tree, monkeypatch):
+    monkeypatch.undo()
+    jobs = [replace(JOB, outputs=("a",), pending=True), replace(JOB, rule="all", pending=True)]
+    jobs += [replace(JOB, rule="done", outputs=("b",))]
+    monkeypatch.setattr(archive, "workflow_jobs", lambda root, targets: jobs)
+    with pytest.raises(SystemExit, match="out of date, in peaks: make reproduce"):
+        archive.main(tree)
+
+
+def test_run_is_archived_again_after_its_results_are_listed_for_the_commit(tree):
+    commit_after_the_run(tree)
+    list_results(tree)
+    archive.main(tree)
+    assert (tree / "dist/peaks-0.1.0.zip").exists()

@@ -1,0 +1,163 @@
+"""Another paper: what `make paper` makes is complete and consistent, without this one."""
+
+import os
+import re
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+import yaml
+
+from replication.commands import new_paper, update
+
+ROOT = Path(__file__).resolve().parents[4]
+TEXT = {
+    ".py",
+    ".smk",
+    ".typ",
+    ".yaml",
+    ".yml",
+    ".md",
+    ".toml",
+    ".cff",
+    ".ipynb",
+    ".mplstyle",
+    ".bib",
+}
+
+
+@pytest.fixture(scope="module")
+def paper(tmp_path_factory):
+    return new_paper.create(tmp_path_factory.mktemp("papers") / "Swinging_far")
+
+
+def files(folder):
+    """The files of a paper, without its machine."""
+    machine = folder / update.MACHINE
+    return [p for p in folder.rglob("*") if p.is_file() and machine not in p.parents]
+
+
+def test_nothing_of_this_paper_goes_along(paper):
+    ours = re.compile(
+        r"topheavy(?! founders)|rocking|trilith|overturn|\bMakris|columns under|mujoco|heyoka", re.I
+    )
+    found = [
+        f"{path.relative_to(paper)}: {line}"
+        for path in paper.rglob("*")
+        if path.is_file() and path.name != "uv.lock"
+        for line in path.read_text(encoding="utf-8").splitlines()
+        if ours.search(line)
+    ]
+    assert found == []
+
+
+def test_every_blank_is_filled_and_every_gap_is_marked(paper):
+    assert [p for p in files(paper) if re.search(r"@[A-Z]+@", p.read_text("utf-8"))] == []
+    marked = {str(p.relative_to(paper)) for p in files(paper) if "BLANK" in p.read_text("utf-8")}
+    assert {"README.md", "CITATION.cff", "pyproject.toml", "paper/report.typ", "LICENSE"} <= marked
+
+
+def test_readme_names_every_place_of_the_example(paper):
+    readme = (paper / "README.md").read_text("utf-8")
+    example = re.compile(r"pendulum|period|theory\.motion|swing(?!ing)")
+    unnamed = []
+    for path in files(paper):
+        place = path.relative_to(paper)
+        of_example = example.search(f"{place}\n" + path.read_text("utf-8"))
+        if not of_example or place.name == "README.md":
+            continue
+        if not any(f"`{each.as_posix()}`" in readme for each in (place, *place.parents)):
+            unnamed.append(str(place))
+    assert unnamed == []
+
+
+def test_what_is_the_same_for_every_paper_is_kept_once(paper):
+    for path in new_paper.COPIED:
+        assert not (new_paper.TEMPLATE / path).exists()
+        assert (paper / path).stat().st_mode == (ROOT / path).stat().st_mode
+    assert update.changed(paper / update.MACHINE) == []
+    assert update.changed(ROOT / update.MACHINE, paper / update.MACHINE / update.SUMS) == []
+
+
+def test_lock_has_the_versions_of_ours_and_no_package_too_many(paper):
+    lock = tomllib.loads((paper / "uv.lock").read_text("utf-8"))["package"]
+    ours = tomllib.loads((ROOT / "uv.lock").read_text("utf-8"))["package"]
+    names = [package["name"] for package in lock]
+    assert names == sorted(names)
+    versions = {(p["name"], p["version"]) for p in lock} - {("swinging-far", "0.1.0")}
+    assert versions < {(p["name"], p["version"]) for p in ours}
+    assert {"snakemake", "sympy", "pytest"} <= set(names)
+    assert not {"topheavy", "heyoka", "mujoco-core", "numba", "xarray"} & set(names)
+
+
+def python(paper, *command, **environment):
+    """Run Python in the folder of the paper."""
+    return subprocess.run(
+        [sys.executable, *command],
+        cwd=paper,
+        env=os.environ | environment,
+        capture_output=True,
+        text=True,
+    )
+
+
+def test_published_edition_is_sound(paper):
+    done = python(paper, "-m", "steps.recheck", PYTHONPATH=str(paper / "src"))
+    assert "paper: 2 confirmed, 0 qualified, 0 slips, 1 misprint" in done.stdout
+    assert done.stdout.endswith("tables, claims and pages agree\n"), done.stdout + done.stderr
+
+
+def test_it_is_on_the_branch_on_which_its_workflow_runs(tmp_path):
+    default = {"GIT_CONFIG_GLOBAL": str(tmp_path / "gitconfig")}
+    (tmp_path / "gitconfig").write_text("[init]\n\tdefaultBranch = trunk\n", encoding="utf-8")
+    done = python(ROOT, "-m", "replication.commands.new_paper", str(tmp_path / "far"), **default)
+    assert done.returncode == 0, done.stderr
+    workflow = yaml.safe_load((tmp_path / "far/.github/workflows/ci.yaml").read_text("utf-8"))
+    head = (tmp_path / "far/.git/HEAD").read_text("utf-8").strip()
+    (branch,) = workflow[True]["push"]["branches"]  # YAML 1.1 reads on as true
+    assert head == f"ref: refs/heads/{branch}"
+
+
+JOBS = """
+import replication, theory
+from replication.workflow.provenance import workflow_jobs
+jobs = {job.rule for job in workflow_jobs()}
+print(replication.__file__, theory.__file__, *sorted(jobs), sep="\\n")
+"""
+
+
+def test_its_workflow_is_read_from_its_own_folder(paper):
+    done = python(paper, "-c", JOBS, PYTHONPATH=str(paper / "src"))
+    machine, theory, *rules = done.stdout.splitlines()
+    assert Path(machine).is_relative_to(paper)
+    assert Path(theory).is_relative_to(paper)
+    assert {"equations", "period", "claim_eq2", "report"} <= set(rules)
+
+
+def test_workflow_refuses_the_machine_of_another_folder(paper):
+    done = python(paper, "-m", "snakemake", "--cores=1", "--dry-run")
+    assert done.returncode == 1
+    assert f"expected {paper}/src/replication: this folder is a copy" in done.stdout
+
+
+@pytest.mark.parametrize(
+    ("name", "told"),
+    [
+        ("full", "is not empty"),
+        ("with space", "has the character ' '"),
+        ("___", "expected one with letters"),
+        ("numpy", "is not the name of a package"),
+        (str(ROOT / "other"), "which lies in"),
+        ("", "is not empty"),
+    ],
+)
+def test_folder_that_cannot_be_one_is_refused_and_left_alone(tmp_path, name, told):
+    (tmp_path / "full").mkdir()
+    (tmp_path / "full" / "thesis.tex").touch()
+    before = files(tmp_path)
+    with pytest.raises(ValueError, match=told):
+        new_paper.create(tmp_path / name)
+    assert files(tmp_path) == before
+    assert not (ROOT / "other").exists()

@@ -1,0 +1,83 @@
+"""The words to avoid: found in prose, and only there."""
+
+from pathlib import Path
+
+import pytest
+import yaml
+
+from replication.commands import words
+
+ROOT = Path(__file__).resolve().parents[4]
+LIST = yaml.safe_load((ROOT / "paper" / "words.yaml").read_text(encoding="utf-8"))
+PHRASES = {"is had|are had": "gives", "seat|seats": "column-top contact"}
+
+
+def tree(folder, name, text, **entries):
+    """A root with one file to check, and the list of words for it."""
+    (folder / "paper").mkdir()
+    (folder / name).write_text(text, encoding="utf-8")
+    content = {"phrases": PHRASES, "files": [name], "except": []} | entries
+    (folder / "paper" / "words.yaml").write_text(yaml.safe_dump(content), encoding="utf-8")
+    return folder
+
+
+def test_phrase_is_named_with_file_line_and_advice(tmp_path, capsys):
+    root = tree(tmp_path, "a.md", "One line.\nHalf of the gain is had at once.\n")
+    assert words.main(root) == 1
+    assert "a.md:2: 'is had'; better: gives\n" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("text", "line"),
+    [
+        ("The gain is\nhad at once.", 1),
+        ("\n# The gain is\n# had at once.\n", 2),
+        ("Seats open.", 1),
+        ("a seat.", 1),
+    ],
+)
+def test_phrase_is_found_across_lines_and_with_a_capital(text, line):
+    ((found, *_),) = words.findings(text, PHRASES)
+    assert found == line
+
+
+@pytest.mark.parametrize(
+    "text", ["This hadron.", "A seated person", "stays_on_its_seats", "re-seat"]
+)
+def test_parts_of_longer_words_are_ignored(text):
+    assert not list(words.findings(text, PHRASES))
+
+
+def test_code_is_not_prose():
+    code = (
+        'seat = table["seat"]  # a seat\nword = f"the seat {seat} opens"\n"""Two\n\n  seats."""\n'
+    )
+    found = [(line, phrase) for line, phrase, _ in words.findings(words.prose(code), PHRASES)]
+    assert found == [(1, "seat"), (2, "seat"), (5, "seats")]
+
+
+def test_clean_tree_passes(tmp_path, capsys):
+    assert words.main(tree(tmp_path, "a.md", "The cap beam gives half of the gain.\n")) == 0
+    assert not capsys.readouterr().out
+
+
+def test_excluded_file_is_not_checked(tmp_path):
+    assert words.main(tree(tmp_path, "a.md", "It is had.", **{"except": ["a.md"]})) == 0
+
+
+@pytest.mark.parametrize("key", ["files", "except"])
+def test_entry_that_matches_no_file_is_refused(tmp_path, key):
+    root = tree(tmp_path, "a.md", "", **{key: ["b.md"]})
+    with pytest.raises(ValueError, match=rf"words\.yaml: {key} has 'b\.md', which matches no file"):
+        words.main(root)
+
+
+@pytest.mark.parametrize("phrase", LIST["phrases"])
+def test_list_finds_each_of_its_phrases(phrase):
+    for alternative in phrase.split("|"):
+        assert list(words.findings(f"Here {alternative} is.", {phrase: LIST["phrases"][phrase]}))
+
+
+def test_advice_is_not_itself_a_phrase_to_avoid():
+    for better in LIST["phrases"].values():
+        assert not list(words.findings(better, LIST["phrases"]))

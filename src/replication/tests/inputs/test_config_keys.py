@@ -1,0 +1,148 @@
+"""The keys of a config and their page: meaning, unit, bounds, value and source of each."""
+
+from pathlib import Path
+
+import pytest
+import yaml
+
+from replication.inputs.config_keys import comments, keys
+from replication.inputs.schema_words import allowed
+from replication.pages.config_page import config_page
+
+ROOT = Path(__file__).resolve().parents[4]
+
+CONFIGS = [
+    path.relative_to(ROOT)
+    for path in (ROOT / "config/config.yaml", *sorted(ROOT.glob("studies/*/config.yaml")))
+]
+SCHEMA = """
+description: Of all.
+properties:
+  columns:
+    patternProperties:
+      "^[a-z]+$": { properties: { height: { $ref: "#/$defs/length", description: its height } } }
+  shaking:
+    properties:
+      periods: { $ref: "#/$defs/grid", unit: s, description: of the pulse }
+      slopes:
+        allOf: [{ $ref: "#/$defs/grid" }]
+        unit: degrees
+        properties: { highest: { exclusiveMaximum: 45 } }
+      motions:
+        type: array
+        items: { properties: { file: { type: string }, factor: { type: number, unit: "1" } } }
+$defs:
+  length: { unit: m, type: number, exclusiveMinimum: 0, maximum: 1000 }
+  count: { description: number of values, type: integer, minimum: 2 }
+  grid:
+    properties:
+      lowest: { type: number, exclusiveMinimum: 0 }
+      highest: { type: number }
+      points: { $ref: "#/$defs/count" }
+"""
+CONFIG = """\
+# The head of the file.
+
+# Of two | sizes.
+columns:
+  low: { height: 1.0 } # p. 4
+  high: { height: 8.0 }
+
+shaking:
+  periods: { lowest: 0.1, highest: 2.0, points: 5 } # ours
+  # above
+  slopes: { lowest: 1.0, highest: 20.0, points: 3 }
+  motions: # of 1940
+    - { file: "a # b", factor: 2.0 } # as recorded
+    - { file: c, factor: 3.0 }
+"""
+
+
+@pytest.fixture
+def config(tmp_path):
+    (tmp_path / "config.schema.yaml").write_text(SCHEMA, encoding="utf-8")
+    (tmp_path / "config.yaml").write_text(CONFIG, encoding="utf-8")
+    return tmp_path / "config.yaml"
+
+
+@pytest.fixture
+def by_place(config):
+    return {key.place: key for key in keys(config)}
+
+
+def test_every_value_has_its_key(by_place):
+    grid = ("lowest", "highest", "points")
+    assert list(by_place) == [
+        "columns.low.height",
+        "columns.high.height",
+        *(f"shaking.{name}.{key}" for name in ("periods", "slopes") for key in grid),
+        "shaking.motions[].file",
+        "shaking.motions[].factor",
+    ]
+
+
+def test_meaning_unit_and_bounds_are_the_nearest_in_the_schema(by_place):
+    height = by_place["columns.low.height"]
+    assert (height.meaning, height.unit) == ("its height", "m")
+    assert height.allowed == "a number > 0, ≤ 1000"
+    period = by_place["shaking.periods.lowest"]
+    assert (period.meaning, period.unit) == ("of the pulse", "s")
+    assert by_place["shaking.slopes.highest"].allowed == "a number < 45"
+    assert by_place["shaking.slopes.highest"].unit == "degrees"
+
+
+def test_count_has_no_unit_and_what_the_schema_says_of_all_is_of_no_key(by_place):
+    points = by_place["shaking.periods.points"]
+    assert (points.meaning, points.unit) == ("number of values", "")
+    assert points.allowed == "a whole number ≥ 2"
+    assert by_place["shaking.slopes.lowest"].meaning == ""
+
+
+def test_value_and_source_are_those_of_the_config(by_place):
+    assert by_place["columns.low.height"].value == "1.0"
+    assert by_place["columns.low.height"].source == "p. 4"
+    assert by_place["columns.high.height"].source == ""
+    assert by_place["shaking.periods.points"].source == "ours"
+    assert by_place["shaking.slopes.points"].source == "above"
+    assert by_place["shaking.motions[].factor"].value == "2.0; 3.0"
+    assert by_place["shaking.motions[].factor"].source == "as recorded"
+
+
+def test_comment_is_no_part_of_a_text_and_the_head_is_of_no_key():
+    assert comments(CONFIG)["columns"] == "Of two | sizes."
+    assert comments(CONFIG)["shaking.motions[]"] == "as recorded"
+    assert "head" not in " ".join(comments(CONFIG).values())
+
+
+def test_page_gives_the_comment_of_a_section_once_and_a_row_a_key(config):
+    page = config_page(config)
+    assert page.count("Of two | sizes.") == 1
+    assert "\n\nThe head of the file.\n\n## columns" in page
+    row = "| `columns.low.height` | its height | m | a number > 0, ≤ 1000 | `1.0` | p. 4 |"
+    assert row in page.splitlines()
+    assert sum(line.startswith("| `") for line in page.splitlines()) == len(keys(config))
+
+
+@pytest.mark.parametrize(
+    ("schema", "said"),
+    [
+        ("{ enum: [a, b] }", "one of a, b"),
+        (
+            "{ type: array, minItems: 2, maxItems: 2, items: { type: number } }",
+            "2 values, each a number",
+        ),
+        ("{ oneOf: [{ type: integer }, { title: a mapping }] }", "a whole number or a mapping"),
+        ("{ type: array, minItems: 1, items: { enum: [a] } }", "1 or more values, each one of a"),
+        ("{ type: array, maxItems: 3, items: { type: string } }", "0 to 3 values, each a text"),
+    ],
+)
+def test_bounds_are_told_in_words(schema, said):
+    assert allowed(yaml.safe_load(schema), {}) == said
+
+
+@pytest.mark.parametrize("path", CONFIGS, ids=str)
+def test_our_schemas_say_what_each_key_means_and_the_unit_of_each_number(path):
+    found = keys(ROOT / path)
+    lacking = [key.place for key in found if not key.meaning]
+    lacking += [key.place for key in found if "a number" in key.allowed and not key.unit]
+    assert lacking == [], f"expected description and unit in {path.with_name('config.schema.yaml')}"

@@ -1,0 +1,153 @@
+"""The ledger is refused before anything is computed: file, row, what was expected."""
+
+import json
+import shutil
+from pathlib import Path
+
+import pytest
+import yaml
+
+from replication.judging.ledger import read_ledger
+from replication.judging.ledger_check import check_ledger
+from replication.judging.verdicts import print_rounding, verdict_on
+from replication.workbench import value
+
+ROOT = Path(__file__).resolve().parents[4]
+ROW = {
+    "id": "row",
+    "where": "p. 1",
+    "statement": "It is so.",
+    "function": "topheavy.simulate",
+    "rule": "heavier",
+    "finding": "heavier_survives_more",
+    "expected": "confirmed",
+}
+NUMBER = {"printed": 0.275, "tolerance": 5e-4, "because": "half a unit"}
+MISSPELT = "expctd"
+RULES = ["heavier", "statements"]
+
+
+@pytest.fixture
+def tree(tmp_path):
+    schema = "src/replication/judging/claims.schema.yaml"
+    folders = ("paper", "src/topheavy", "studies/own", "tests/reference/findings")
+    for name in (*folders, Path(schema).parent):
+        (tmp_path / name).mkdir(parents=True)
+    shutil.copyfile(ROOT / schema, tmp_path / schema)
+    for name in ("__init__.pyi", "simulate.py"):
+        shutil.copyfile(ROOT / "src/topheavy" / name, tmp_path / "src/topheavy" / name)
+    findings = {"heavier_survives_more": {"holds": True}, "called": []}
+    path = tmp_path / "tests/reference/findings/heavier.json"
+    path.write_text(json.dumps(findings), encoding="utf-8")
+    return tmp_path
+
+
+def check(tree, *rows, own=()):
+    paths = [tree / "paper" / "claims.yaml"]
+    paths[0].write_text(yaml.safe_dump(list(rows)), encoding="utf-8")
+    if own:
+        paths.append(tree / "studies" / "own" / "claims.yaml")
+        paths[1].write_text(yaml.safe_dump(list(own)), encoding="utf-8")
+    check_ledger(paths, RULES, tree)
+
+
+def without(*keys):
+    return {key: ROW[key] for key in ROW if key not in keys}
+
+
+def test_rows_that_are_right_pass(tree):
+    check(
+        tree,
+        ROW,
+        ROW | NUMBER | {"id": "number"},
+        {"id": "lost", "where": "p. 1", "statement": "It was.", "expected": "not tested"}
+        | {"remark": "A matter of history."},
+        {"id": "name", "where": "p. 1", "statement": "It is called so.", "by_definition": True}
+        | {"expected": "by definition", "remark": "It defines γ."},
+        own=[
+            {"id": "row", "rule": "statements", "finding": "more", "expected": "refuted"}
+            | {"function": "topheavy.judge", "remark": "It fails."}
+        ],
+    )
+
+
+@pytest.mark.parametrize(
+    ("row", "told"),
+    [
+        (without("expected") | {MISSPELT: "confirmed"}, "unknown key 'expctd'; did you mean"),
+        (ROW | {"expected": "qualifed"}, "expected is 'qualifed'; did you mean 'qualified'?"),
+        (ROW | {"rule": "heavyer"}, 'findings="results/findings/heavyer.json"; did you mean'),
+        (ROW | {"rule": "nosuch"}, 'output findings="results/findings/nosuch.json"; expected one'),
+        (ROW | {"statement": "It falls"}, "'It falls'; expected a sentence, which ends with"),
+        (ROW | {"function": "steps.heavier.main"}, "expected a function with its module, such as"),
+        (ROW | {"finding": "heavier_survive_more"}, "did you mean 'heavier_survives_more'?"),
+        (ROW | {"function": "topheavy.simulat"}, "function: topheavy.simulat is no function or cl"),
+        (ROW | NUMBER | {"tolerance": 0.1}, "tolerance 0.1 is more than a tenth"),
+        (ROW | NUMBER | {"tolerance": 0.001}, "would confirm a value twice as far off"),
+        (without("where"), "lacks where"),
+        (ROW | {"printed": 0.275, "because": "half a unit"}, "the row has because and lacks tole"),
+        (ROW | {"expected": "refuted"}, "lacks remark"),
+        (ROW | {"expected": "by definition", "remark": "So."}, "cannot be false has no finding"),
+        (ROW | {"by_definition": True}, "is marked so, and nothing else is"),
+        (without("rule", "function", "finding") | {"expected": "by definition", "remark": "So."},
+         "lacks by_definition"),
+        (ROW | {"id": "Upper"}, "id is 'Upper'"),
+    ],
+)  # fmt: skip
+def test_row_that_is_wrong_is_named_with_its_file(tree, row, told):
+    with pytest.raises(ValueError, match=r"claims\.yaml") as error:
+        check(tree, row)
+    line = next(line for line in str(error.value).splitlines() if told in line)
+    assert line.startswith(f"{tree}/paper/claims.yaml: {row['id']}: ")
+
+
+def test_every_fault_is_told_at_once(tree):
+    with pytest.raises(ValueError, match=r"claims\.yaml") as error:
+        check(tree, ROW | {"rule": "nosuch"}, ROW | {"id": "other", "expected": "qualifed"})
+    assert len(str(error.value).splitlines()) == 2
+
+
+def test_study_that_judges_a_claim_of_the_paper_is_the_file_that_is_named(tree):
+    with pytest.raises(ValueError, match=r"studies/own/claims.yaml: row: rule is 'nosuch'"):
+        check(tree, ROW, own=[{**without("where", "statement"), "rule": "nosuch"}])
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("", "is empty; expected"),
+        ("id: row\n", "holds a dict; expected a list of claims"),
+        ("- where: p. 1\n  statement: It is so.\n", r"row 1 has no id \(It is so.\)"),
+        ("- id: a\n- more\n", r"row 2 has no id \(more\)"),
+        ("- id: a\n- id: a\n", "the id 'a' is given twice"),
+    ],
+)
+def test_file_that_is_no_ledger_is_named(tree, text, told):
+    path = tree / "paper" / "claims.yaml"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(ValueError, match=f"paper/claims.yaml:? {told}"):
+        check_ledger([path], RULES, tree)
+
+
+def test_new_finding_that_a_source_spells_is_no_slip(tree):
+    new = ROW | {"finding": "heavier_survive_more"}
+    (tree / "src" / "step.py").write_text('findings = {"heavier_survive_more": 1}\n')
+    check(tree, new)
+
+
+def test_finding_like_none_that_is_published_is_new(tree):
+    check(tree, ROW | {"finding": "columns_stand"})
+
+
+def test_finding_of_a_rule_that_has_published_none_is_new(tree):
+    check(tree, ROW | {"rule": "statements", "finding": "anything"})
+
+
+def test_no_row_of_ours_confirms_a_value_twice_as_far_off_as_its_digits_allow():
+    paths = [ROOT / "paper" / "claims.yaml", *sorted(ROOT.glob("studies/*/claims.yaml"))]
+    claims = [claim for claim in read_ledger(paths) if claim.tolerance is not None]
+    assert len(claims) > 10
+    for claim in claims:
+        for side in (-1.0, 1.0):
+            off = claim.printed + 2.0001 * side * print_rounding(claim.printed)
+            assert verdict_on(claim, value(off, 0.0)) == "refuted", claim.id

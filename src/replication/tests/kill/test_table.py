@@ -1,0 +1,504 @@
+"""The deliberate faults: each still fits the tree, and the table has what caught it."""
+
+import os
+import shutil
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+import yaml
+
+from replication.commands import kill_table as command
+from replication.judging.calls import definition
+from replication.judging.findings import Findings
+from replication.judging.ledger import read_ledger
+from replication.kill import table as table
+from replication.kill import tree_copy
+from replication.kill.faults import JUDGING, Change, Fault, faulty, load
+from replication.kill.table import Row
+from replication.workbench import truth
+
+ROOT = Path(__file__).resolve().parents[4]
+FAULTS = load()
+LEDGER = read_ledger(command.ledger_files())
+NAMES = [fault.name for fault in FAULTS]
+ONE = Fault(
+    name="one",
+    fault="One is two.",
+    routes="all",
+    tests=("test_one.py",),
+    changes=(Change("one.py", "x = 1", "x = 2"),),
+    home="faults/one.yaml",
+)
+ROW = Row("one", "One is two.", "all", "one.py", "verdict", "eq1 eq2", "", "", "2026-01-01")
+
+
+@pytest.fixture(scope="module")
+def published():
+    return table.read(ROOT / "docs" / "kill_table.csv")
+
+
+@pytest.fixture
+def tree(tmp_path):
+    """A tree of one file, and a test of it that passes.
+
+    The file is old, as in a copy, so that Python does not take the faulty one's bytecode for its.
+    """
+    (tmp_path / "one.py").write_text("x = 1\n", encoding="utf-8")
+    os.utime(tmp_path / "one.py", (0.0, 1e9))
+    test = "from one import x\n\n\ndef test_one():\n    assert x == 1\n"
+    (tmp_path / "test_one.py").write_text(test, encoding="utf-8")
+    return tmp_path
+
+
+# The faults --------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("fault", FAULTS, ids=NAMES)
+def test_fault_still_fits_the_tree(fault):
+    for file, text in fault.texts(ROOT).items():
+        assert file.startswith(("src/", "studies/", "config/", "explorer/"))
+        assert text != (ROOT / file).read_text(encoding="utf-8")
+        if file.endswith(".yaml"):
+            assert yaml.safe_load(text)
+        elif not file.endswith(".js"):
+            compile(text, file, "exec")  # a fault of the sense, not of the syntax
+    assert fault.tests
+    for test in fault.tests:
+        file, _, function = test.partition("::")
+        assert (ROOT / file).exists()
+        assert f"def {function}" in (ROOT / file).read_text("utf-8") if function else True
+
+
+def test_faults_of_a_study_go_with_its_folder_and_those_of_the_others_stay(tmp_path):
+    for path in ("faults/one.yaml", "studies/a/faults.yaml", "studies/b/faults.yaml"):
+        entry = {"name": path, "fault": "Wrong.", "routes": "all", "tests": [], "changes": []}
+        (tmp_path / path).parent.mkdir(parents=True)
+        (tmp_path / path).write_text(yaml.safe_dump([entry]), encoding="utf-8")
+    assert [fault.home for fault in load(tmp_path)] == [fault.name for fault in load(tmp_path)]
+    assert len(load(tmp_path)) == 3
+    shutil.rmtree(tmp_path / "studies" / "a")
+    left = [fault.home for fault in load(tmp_path)]
+    assert left == ["faults/one.yaml", "studies/b/faults.yaml"]
+
+
+@pytest.mark.parametrize("fault", FAULTS, ids=NAMES)
+def test_fault_needs_no_study_but_its_own(fault):
+    """It would be lost, or fit no tree, without the other study."""
+    own = Path(fault.home).parent.as_posix() if fault.home.startswith("studies/") else None
+    files = [Path(file) for file in (*fault.files, *fault.tests)]
+    homes = {"/".join(file.parts[:2]) for file in files if file.parts[0] == "studies"}
+    assert homes <= {own}
+
+
+def test_names_are_unique():
+    assert len(set(NAMES)) == len(NAMES)
+
+
+@pytest.mark.parametrize(("text", "times"), [("y = 1\n", 0), ("x = 1\nx = 1\n", 2)])
+def test_fault_that_no_longer_fits_is_named_with_its_file(tmp_path, text, times):
+    (tmp_path / "one.py").write_text(text, encoding="utf-8")
+    with pytest.raises(ValueError, match=rf"one.yaml: one: one.py has {times} times 'x = 1'"):
+        ONE.texts(tmp_path)
+
+
+def test_fault_leaves_no_trace(tree):
+    file = tree / "one.py"
+    before = file.stat().st_mtime_ns
+    with faulty(tree, ONE):
+        assert file.read_text(encoding="utf-8") == "x = 2\n"
+    assert file.read_text(encoding="utf-8") == "x = 1\n"
+    assert file.stat().st_mtime_ns == before
+
+
+# The copy ----------------------------------------------------------------------------------------
+
+
+def packages(folder):
+    for name in tree_copy.IMPORTED:
+        home = folder / ("src" if (ROOT / "src" / name).is_dir() else ".") / name
+        home.mkdir(parents=True)
+        (home / "__init__.py").touch()
+
+
+def test_copy_that_has_all_packages_passes(tmp_path):
+    packages(tmp_path)
+    tree_copy.check_imports(tmp_path)
+
+
+@pytest.mark.parametrize("package", tree_copy.IMPORTED)
+def test_package_that_is_not_that_of_the_copy_is_named(tmp_path, monkeypatch, package):
+    packages(tmp_path)
+    home = tmp_path / ("src" if (ROOT / "src" / package).is_dir() else ".") / package
+    shutil.rmtree(home)
+    elsewhere = tmp_path.with_name(f"{tmp_path.name}_elsewhere")
+    (elsewhere / package).mkdir(parents=True)
+    (elsewhere / package / "__init__.py").touch()
+    put_first = f"import sys; sys.path.insert(0, {str(elsewhere)!r}); "
+    run = tree_copy.run
+    monkeypatch.setattr(
+        tree_copy, "run", lambda tree, option, code, name: run(tree, option, put_first + code, name)
+    )
+    with pytest.raises(RuntimeError, match=rf"imports {package} from .*; expected it from the"):
+        tree_copy.check_imports(tmp_path)
+
+
+# What catches a fault ----------------------------------------------------------------------------
+
+
+def judge(monkeypatch, tree, fault, turned, *, fails=True, **options):
+    """Put a fault to the test, where the rules of claims turn these; the rules that were asked."""
+    asked = []
+
+    def workflow(tree, claims, studies):
+        assert (tree / "one.py").read_text(encoding="utf-8") == "x = 2\n"
+        rules = list(dict.fromkeys(claim.rule for claim in claims))
+        asked.extend(rules)
+        return [name for name in turned if name in {c.id for c in claims}], rules[2:], ""
+
+    def first_failing(tree, tests):
+        asked.extend(tests)
+        return "test_one.py::test_one" if fails else ""
+
+    monkeypatch.setattr(table, "workflow", workflow)
+    monkeypatch.setattr(table, "first_failing", first_failing)
+    row = table.put_to_the_test(tree, fault, LEDGERS, [], lambda claims: None, **options)
+    return row, asked
+
+
+def of(rule, name):
+    return replace(LEDGER[0], id=name, rule=rule, finding="x")
+
+
+LEDGERS = {
+    "paper": [of("a", "eq1"), of("b", "eq2"), of("b", "eq3"), of("c", "eq4")],
+    "studies": [of("d", "ours")],
+}
+PAPERS = ["a", "b", "c"]
+
+
+def test_first_failing_test_is_named(tree):
+    assert table.first_failing(tree, ["test_one.py"]) == ""
+    with faulty(tree, ONE):
+        assert table.first_failing(tree, ["test_one.py"]) == "test_one.py::test_one"
+
+
+def test_new_fault_is_put_to_tests_then_to_the_paper_then_to_studies(monkeypatch, tree):
+    row, asked = judge(monkeypatch, tree, ONE, ["eq1"])
+    assert (row.caught_by, row.test, row.listed) == ("test", "test_one.py::test_one", "")
+    assert asked == ["test_one.py"]
+    row, asked = judge(monkeypatch, tree, ONE, ["eq1", "ours"], fails=False)
+    assert (row.caught_by, row.verdicts, row.rules) == ("verdict", "eq1", "c")
+    assert (asked, row.listed) == (["test_one.py", *PAPERS], row.date)
+    row, asked = judge(monkeypatch, tree, ONE, ["ours"], fails=False)
+    assert (row.caught_by, row.verdicts, asked) == (
+        "verdict",
+        "ours",
+        ["test_one.py", *PAPERS, "d"],
+    )
+    row, _ = judge(monkeypatch, tree, ONE, [], fails=False)
+    assert (row.caught_by, row.rules) == ("rule", "c")
+
+
+def test_whole_list_puts_a_fault_of_the_physics_to_the_paper_first(monkeypatch, tree):
+    row, asked = judge(monkeypatch, tree, ONE, ["eq1"], last=ROW, whole=True)
+    assert (row.verdicts, row.test, asked, row.listed) == ("eq1", "", PAPERS, row.date)
+    row, asked = judge(monkeypatch, tree, ONE, [], last=ROW, whole=True)
+    assert (row.caught_by, asked) == ("test", [*PAPERS, "test_one.py"])
+
+
+def test_fault_in_a_study_is_put_to_studies_before_tests_for_the_whole_list():
+    in_study = replace(ONE, changes=(Change("studies/a/steps/one.py", "1", "2"),))
+    assert table.courts(in_study, True) == ("paper", "studies", "tests")
+    assert table.courts(in_study, False) == ("tests", "paper", "studies")
+    assert table.courts(replace(in_study, routes=JUDGING), True) == ("tests", "paper", "studies")
+
+
+def test_cheapest_rule_that_caught_a_fault_last_is_asked_first(monkeypatch, tree):
+    last = replace(ROW, verdicts="eq1 eq3 eq4", listed="2026-01-01")
+    options = {"last": last, "seconds": {"a": 9.0, "b": 5.0, "c": 7.0}}
+    row, asked = judge(monkeypatch, tree, ONE, ["eq1", "eq2"], **options)
+    assert asked == ["b"]
+    assert row.verdicts == "eq1 eq2 eq4"  # eq3 was asked again, and does not turn
+    assert (row.caught_by, row.listed) == ("verdict", "2026-01-01")
+    assert row.date > row.listed
+    row, asked = judge(monkeypatch, tree, ONE, [], **options)
+    assert (row.caught_by, row.verdicts, row.listed) == ("test", "", "")
+    assert asked == ["b", "test_one.py"]
+
+
+def test_rule_of_a_study_is_asked_first_only_where_none_of_the_paper_turned(monkeypatch, tree):
+    for turned, rule in (("ours", "d"), ("ours eq4", "c")):
+        last = replace(ROW, verdicts=turned)
+        _, asked = judge(monkeypatch, tree, ONE, turned.split(), last=last, seconds={"c": 9.0})
+        assert asked == [rule]
+
+
+def test_test_that_caught_a_fault_last_is_asked_first(monkeypatch, tree):
+    last = replace(ROW, verdicts="", test="test_one.py::test_one", listed="2026-01-01")
+    row, asked = judge(monkeypatch, tree, ONE, ["eq1"], last=last)
+    assert (row.test, row.listed, asked) == (last.test, last.listed, [last.test])
+
+
+# A run -------------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def trees(monkeypatch, tree):
+    """Copies of the tree of one file in which rules a, b and c are run; what ran in which copy."""
+    ran = []
+
+    def workflow(tree, claims, studies, cores=1):
+        rules = sorted({claim.rule for claim in claims})
+        assert all((tree / "results" / rule).exists() for rule in rules) or "2" not in one(tree)
+        (tree / "results").mkdir(exist_ok=True)
+        (tree / ".snakemake").mkdir(exist_ok=True)
+        for rule in rules:
+            (tree / "results" / rule).touch()
+        ran.append((one(tree), rules))
+        return ["eq1"] if "2" in one(tree) and "a" in rules else [], [], ""
+
+    def one(tree):
+        return (tree / "one.py").read_text(encoding="utf-8")
+
+    for name, value in {
+        "TABLE": tree / "table",
+        "ROOT": tree,
+        "ledgers": lambda: LEDGERS,
+        "studies": list,
+        "ledger_files": list,
+        "current": lambda rows, *given: rows,
+        "check_imports": lambda tree: None,
+        "copy_tree": lambda to: shutil.copytree(tree, to),
+    }.items():
+        monkeypatch.setattr(command, name, value)
+
+    def first_failing(tree, tests):
+        assert not (tree / "results").exists()
+        return "test_one.py::test_one" if "2" in one(tree) else ""
+
+    for module in (command, table):
+        monkeypatch.setattr(module, "workflow", workflow)
+        monkeypatch.setattr(module, "first_failing", first_failing)
+    return ran
+
+
+def test_rules_that_are_asked_run_once_without_a_fault_and_no_test_sees_results(trees, tree):
+    table.write([ROW, replace(ROW, name="two")], [], tree / "table.csv")
+    faults = [replace(ONE, name=name) for name in ("one", "two", "three")]
+    rows = {row.name: row.caught_by for row in command.kill_table(faults)}
+    assert rows == {"one": "verdict", "two": "verdict", "three": "test"}
+    assert trees == [("x = 1\n", ["a"]), ("x = 2\n", ["a"]), ("x = 2\n", ["a"])]
+    assert set(rows) == {row.name for row in command.kill_table(faults, cores=2)}
+
+
+def test_test_that_fails_without_a_fault_stops_the_run(trees, tree, monkeypatch):
+    table.write([ROW], [], tree / "table.csv")
+    monkeypatch.setattr(command, "first_failing", lambda *given: "it")
+    with pytest.raises(RuntimeError, match="without a fault: it fails"):
+        list(command.kill_table([ONE]))
+
+
+def test_verdict_that_turns_without_a_fault_stops_the_run(trees, tree, monkeypatch):
+    table.write([replace(ROW, verdicts="eq1")], [], tree / "table.csv")
+    monkeypatch.setattr(command, "workflow", lambda *given: (["eq1"], [], "said"))
+    with pytest.raises(RuntimeError, match=r"without a fault: \['eq1'\] turn"):
+        list(command.kill_table([ONE]))
+
+
+def test_verdict_is_that_of_the_findings_and_of_what_ran():
+    (claim,) = (row for row in LEDGER if row.id == "eq1")
+    called = definition(claim.function, ROOT)
+    for holds, verdict in ((True, "confirmed"), (False, "refuted")):
+        findings = Findings({claim.finding: truth(holds)}, (called,))
+        assert table.verdict(claim, {claim.rule: findings}, ROOT) == verdict
+    uncalled = Findings({claim.finding: truth(True)})
+    assert "never called" in table.verdict(claim, {claim.rule: uncalled}, ROOT)
+    assert table.verdict(claim, {}, ROOT).startswith("none: ")
+
+
+def test_rows_of_all_ledgers_are_judged_once():
+    paper, studies = command.ledgers().values()
+    assert sorted(row.id for row in paper + studies) == sorted(row.id for row in LEDGER)
+    assert {row.study for row in studies} >= set(command.studies())
+
+
+# What is kept ------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def found(monkeypatch, tree):
+    """A file in which the row of ONE is kept."""
+    monkeypatch.setattr(command, "ROOT", tree)
+    command.keep(tree / "kept", ONE.digest(tree), ROW)
+    return tree / "kept"
+
+
+def test_fault_that_has_its_row_is_not_run_again(found):
+    assert command.kept(found)["one"][1] == ROW
+    assert command.left([ONE], command.kept(found)) == []
+    assert command.left([ONE], command.kept(found.with_name("none"))) == [ONE]
+
+
+@pytest.mark.parametrize(
+    "other", [{"fault": "Two."}, {"tests": ("x.py",)}, {"changes": (Change("one.py", "1", "3"),)}]
+)
+def test_fault_that_changed_is_run_again(found, other):
+    changed = replace(ONE, **other)
+    assert command.left([changed], command.kept(found)) == [changed]
+
+
+def test_fault_whose_file_changed_is_run_again(found, tree):
+    (tree / "one.py").write_text("x = 1\ny = 1\n", encoding="utf-8")
+    assert command.left([ONE], command.kept(found)) == [ONE]
+
+
+def test_row_is_kept_for_the_fault_that_was_run(found, tree, monkeypatch):
+    """The tree may change while a fault is run in its copy."""
+
+    def ran(faults, **options):
+        (tree / "one.py").write_text("x = 1\ny = 1\n", encoding="utf-8")
+        yield ROW
+
+    monkeypatch.setattr(command, "KEPT", tree / "none")
+    monkeypatch.setattr(command, "kill_table", ran)
+    monkeypatch.setattr(command, "load", lambda: [ONE, replace(ONE, name="two")])
+    monkeypatch.setattr("sys.argv", ["kill_table", "--faults=one"])
+    command.main()
+    assert command.left([ONE], command.kept(command.KEPT)) == [ONE]
+
+
+def test_whole_list_is_made_once(found, tree):
+    assert command.left([ONE], command.kept(found), whole=True) == [ONE]
+    command.keep(found, ONE.digest(tree), replace(ROW, listed="2026-01-01"))
+    assert command.left([ONE], command.kept(found), whole=True) == []
+
+
+def test_survivor_is_run_again(found, tree):
+    command.keep(found, ONE.digest(tree), replace(ROW, caught_by="SURVIVED"))
+    assert command.left([ONE], command.kept(found)) == [ONE]
+
+
+# The published table -----------------------------------------------------------------------------
+
+
+def test_page_says_which_faults_turn_each_claim():
+    claims = [
+        replace(LEDGER[0], id=name, study=study, finding="x")
+        for name, study in (("eq1", ""), ("z", "s"))
+    ]
+    page = table.page([ROW, replace(ROW, name="two", verdicts="eq1")], claims)
+    assert "| `eq1` | the paper | `one`, `two` |" in page
+    assert "| `z` | s | no fault of this table |" in page
+    assert "Of 2 claims that are tested, 1 are turned by at least one fault." in page
+
+
+def waiting(rows):
+    """The faults that were not run since they were written or changed."""
+    return [name for name in NAMES if name not in {row.name for row in rows}]
+
+
+def test_published_table_has_faults_as_they_are_and_names_the_others(published):
+    kept = [(row.name, row.fault, row.routes, row.files) for row in published]
+    faults = [(f.name, f.fault, f.routes, " ".join(f.files)) for f in FAULTS]
+    assert [fault for fault in kept if fault not in faults] == []
+    page = (ROOT / "docs" / "kill_table.md").read_text(encoding="utf-8")
+    for name in waiting(published):
+        assert name in page
+
+
+def test_published_table_has_no_survivor(published):
+    assert {row.caught_by for row in published} <= {"verdict", "rule", "test"}
+    assert all(row.verdicts or row.rules or row.test for row in published)
+
+
+def test_what_caught_a_fault_is_still_there(published):
+    files = [ROOT / "Snakefile", *ROOT.glob("src/*/*.smk"), *ROOT.glob("studies/*/*.smk")]
+    rules = "\n".join(path.read_text(encoding="utf-8") for path in files)
+    for row in published:
+        assert set(row.verdicts.split()) <= {claim.id for claim in LEDGER}
+        assert all(f"rule {rule}:" in rules for rule in row.rules.split())  # all: given up
+        file, *_, test = row.test.split("::") if row.test else ("", "")
+        assert not file or f"def {test}(" in (ROOT / file).read_text(encoding="utf-8")
+
+
+def test_published_page_is_that_of_the_table(published):
+    page = (ROOT / "docs" / "kill_table.md").read_text(encoding="utf-8")
+    assert page == table.page(published, LEDGER, waiting(published))
+
+
+def test_published_table_is_current(published):
+    assert table.current(published, FAULTS, LEDGER, ROOT) == published
+
+
+def test_row_of_which_the_fault_or_what_caught_it_is_gone_is_dropped(tree):
+    (tree / "Snakefile").write_text("rule one:\n", encoding="utf-8")
+    claims = [replace(LEDGER[0], id="eq1")]
+
+    def left(row, faults=(ONE,)):
+        return table.current([row], faults, claims, tree)
+
+    assert left(ROW) == [replace(ROW, verdicts="eq1")]
+    assert left(replace(ROW, verdicts="eq2")) == []
+    assert left(ROW, [replace(ONE, fault="Two is three.")]) == []
+    assert left(ROW, []) == []
+    tested = replace(ROW, caught_by="test", verdicts="", test="test_one.py::test_one")
+    assert left(tested) == [tested]
+    assert left(replace(tested, test="test_two.py::test_two")) == []
+    assert left(replace(tested, test="test_one.py::test_renamed")) == []
+    stopped = replace(ROW, caught_by="rule", verdicts="", rules="one two")
+    assert left(stopped) == [replace(stopped, rules="one")]
+    assert left(replace(stopped, rules="two")) == []
+
+
+def test_publishing_takes_what_was_found_since(monkeypatch, tmp_path, published):
+    monkeypatch.setattr(command, "TABLE", tmp_path / "kill_table")
+    monkeypatch.setattr(command, "KEPT", tmp_path / "kept")
+    by_name = {fault.name: fault for fault in FAULTS}
+    again, stale, survived = (replace(row, date="2027-01-01") for row in published[:3])
+    for row in (again, stale, replace(survived, caught_by="SURVIVED")):
+        digest = "other" if row == stale else by_name[row.name].digest(ROOT)
+        command.keep(command.KEPT, digest, row)
+    table.write(published[1:], LEDGER, command.TABLE)
+    command.refresh()
+    assert table.read(tmp_path / "kill_table.csv") == [again, *published[1:]]
+
+
+def test_publishing_names_the_faults_to_run(monkeypatch, tmp_path, published):
+    monkeypatch.setattr(command, "TABLE", tmp_path / "kill_table")
+    monkeypatch.setattr(command, "KEPT", tmp_path / "none")
+    table.write([replace(published[0], fault="Other."), *published[1:]], LEDGER, command.TABLE)
+    command.refresh()
+    assert table.read(tmp_path / "kill_table.csv") == published[1:]
+    page = (tmp_path / "kill_table.md").read_text(encoding="utf-8")
+    names = waiting(published[1:])
+    assert published[0].name in names
+    assert f"written or changed ({len(names)}): {', '.join(names)}." in page
+
+
+# The choice --------------------------------------------------------------------------------------
+
+
+def test_commit_picks_different_faults_and_every_fault_has_its_turn():
+    picked = [command.rotation(FAULTS, 3, f"{commit:x}") for commit in range(len(FAULTS))]
+    assert all(len({fault.name for fault in three}) == 3 for three in picked)
+    assert {fault.name for three in picked for fault in three} == set(NAMES)
+    assert command.rotation(FAULTS, 3, "a0573f3\n") == command.rotation(FAULTS, 3, "a0573f3")
+
+
+def test_unknown_fault_is_refused_with_those_that_there_are():
+    with pytest.raises(SystemExit, match="no fault is named 'gremlin'; there are cap_without"):
+        command.chosen(FAULTS, "p_for_p_hat,gremlin", None)
+
+
+def test_faults_of_a_route_are_chosen_together():
+    judging = command.chosen(FAULTS, JUDGING, None)
+    assert judging
+    assert judging == [fault for fault in FAULTS if fault.routes == JUDGING]
+
+
+def test_rotation_without_a_repository_says_what_to_do(tmp_path, monkeypatch):
+    monkeypatch.setattr(command, "ROOT", tmp_path)
+    monkeypatch.setenv("GIT_CEILING_DIRECTORIES", str(tmp_path.parent))
+    with pytest.raises(SystemExit, match="no git repository here; expected one, or names"):
+        command.chosen(FAULTS, None, 3)

@@ -1,0 +1,237 @@
+"""The RO-Crate of a run: what it lists, that it can be read back, and that it is a valid one."""
+
+import hashlib
+import json
+import os
+import re
+import shutil
+import subprocess
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from replication.inputs.config_keys import Key
+from replication.judging.claim import JudgedClaim
+from replication.origin.recorded import CRATE, read_crate
+from replication.rules import crate as rule
+from replication.workflow.provenance import Job
+
+ROOT = Path(__file__).parents[4]
+JOB = Job("peaks", "Snakefile:1", (), (), (), (), (), {}, None, {}, False)
+FILES = {
+    "Snakefile": "rule peaks:\n",
+    "uv.lock": "lock",
+    rule.MACHINE: "1.2.0",
+    "src/peaks.py": "compute()\n",
+    "src/beside.py": "help()\n",
+    "figures/peaks.py": "draw()\n",
+    "results/peaks.csv": "1\n",
+    "results/findings/peaks.json": "{}\n",
+    "results/costs.csv": "2\n",
+    "figures/peaks.svg": "<svg/>\n",
+}
+STEP = replace(
+    JOB,
+    rule="peaks_of_all",  # claims name the findings
+    scripts=("src/peaks.py",),
+    inputs=("src/beside.py",),
+    outputs=("results/peaks.csv", "results/findings/peaks.json"),
+    findings=("results/findings/peaks.json",),
+    logs=("results/logs/peaks.log",),
+)
+FIGURE = replace(
+    JOB,
+    rule="figure",
+    scripts=("figures/peaks.py",),
+    inputs=("results/peaks.csv",),
+    outputs=("figures/peaks.svg",),
+)
+COSTS = replace(JOB, rule="costs", scripts=("src/peaks.py",), outputs=("results/costs.csv",))
+LAST = replace(JOB, rule="crate", inputs=("Snakefile", "uv.lock", rule.MACHINE), outputs=(CRATE,))
+KEYS = {
+    "": [Key("column.height", "its height", "m", "a number > 0", (6.0,), "p. 4")],
+    "wind": [Key("ratios", "mass ratio", "1", "0 or more values", ([0.0, float("inf")],), "")],
+}
+PROJECT = {"description": "On peaks", "version": "0.1.0"}
+CITATION = {
+    "title": "Peaks again",
+    "authors": [{"family-names": "Doe", "given-names": "Jo"}, {"name": "The team"}],
+    "date-released": "2026-01-02",
+    "license": ["MIT"],
+    "references": [{"title": "Peaks", "authors": [{"name": "An author"}], "doi": "10.1000/1"}],
+}
+CLAIM = JudgedClaim(
+    id="peak_is_low",
+    study="",
+    where="p. 3",
+    equation=None,
+    statement="The peak is low.",
+    printed=None,
+    computed=True,
+    meant=None,
+    kind="",
+    condition="",
+    error=None,
+    unit="",
+    tolerance=None,
+    verdict="confirmed",
+    expected="confirmed",
+    not_tested="",
+    remark="",
+    function="f",
+    rule="peaks",
+)
+
+
+@pytest.fixture
+def made(tmp_path, monkeypatch):
+    """The crate of a step, a figure drawn from it, and what a run costs."""
+    monkeypatch.chdir(tmp_path)
+    for name, text in FILES.items():
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text(text)
+    return rule.main(
+        [STEP, FIGURE, COSTS, LAST],
+        ["results/costs.csv"],
+        KEYS,
+        [CLAIM, replace(CLAIM, id="ours", study="ours", rule="", verdict="not tested")],
+        {"numpy": "2.4.6"},
+        "1.2.0",
+        PROJECT,
+        CITATION,
+    )
+
+
+@pytest.fixture
+def entities(made):
+    return {entity["@id"]: entity for entity in made["@graph"]}
+
+
+def sha256(text: str) -> str:
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def links(entity, name):
+    return [each["@id"] for each in entity[name]]
+
+
+def test_crate_that_is_read_back_has_checksums_rules_and_what_is_left_out(made):
+    Path(CRATE).write_text(json.dumps(made))
+    found = read_crate()
+    listed = FILES.keys() - {"results/costs.csv"}
+    assert found.checksums == {path: sha256(FILES[path]) for path in listed}
+    assert found.rules == {
+        "figures/peaks.svg": "figure",
+        "results/peaks.csv": "peaks_of_all",
+        "results/findings/peaks.json": "peaks_of_all",
+    }
+    assert found.left_out == ("results/costs.csv", "results/logs", CRATE)
+    assert found.folders == ["results"]  # a source lies in figures/
+    assert found.version == "unknown"  # there is no repository here
+
+
+@pytest.mark.parametrize("text", ["{", "{}", '{"@graph": []}', "[]"])
+def test_file_that_is_no_crate_of_a_run_is_refused(tmp_path, text):
+    (tmp_path / "crate.json").write_text(text)
+    with pytest.raises(ValueError, match=r"is not the RO-Crate of a run .* make reproduce"):
+        read_crate(tmp_path / "crate.json")
+
+
+def test_run_has_every_input_parameter_and_output_and_each_job_its_own(entities):
+    run = entities["#run"]
+    given = ["Snakefile", "figures/peaks.py", "src/beside.py", "src/peaks.py", rule.MACHINE]
+    values = ["#value/column.height", "#value/wind.ratios"]
+    assert links(run, "object") == [*given, "uv.lock", *values]
+    outputs = ["figures/peaks.svg", "results/findings/peaks.json", "results/peaks.csv"]
+    assert links(run, "result") == outputs
+    figure = entities["#job/figures/peaks.svg"]
+    assert figure["name"] == "figure"
+    assert figure["instrument"] == {"@id": "figures/peaks.py"}
+    assert links(figure, "object") == ["results/peaks.csv"]
+    assert links(entities["#job/results/peaks.csv"], "object") == []  # its module is the script's
+
+
+def test_parameter_has_meaning_unit_and_value(entities):
+    assert entities["#parameter/column.height"]["description"] == "its height"
+    assert entities["#value/column.height"]["value"] == 6.0
+    assert entities["#value/column.height"]["unitText"] == "m"
+    assert entities["#value/wind.ratios"]["value"] == "[0.0, .inf]"  # JSON has no infinity
+
+
+def test_claim_has_its_verdict_and_its_findings(entities):
+    claim = entities["#claim/peak_is_low"]
+    assert entities[claim["reviewRating"]["@id"]]["ratingValue"] == "confirmed"
+    assert claim["isBasedOn"] == {"@id": "results/findings/peaks.json"}
+    assert claim["itemReviewed"] == {"@id": "https://doi.org/10.1000/1"}
+    ours = entities["#claim/ours"]
+    assert entities[ours["reviewRating"]["@id"]]["ratingValue"] == "not tested"
+    assert ours["itemReviewed"] == {"@id": "./"}
+
+
+def test_root_names_authors_licence_date_and_software(entities):
+    root = entities["./"]
+    assert root["datePublished"] == "2026-01-02"
+    assert links(root, "author") == ["#author/Jo_Doe", "#author/The_team"]
+    assert entities["#author/Jo_Doe"]["@type"] == "Person"
+    assert links(root, "license") == ["https://spdx.org/licenses/MIT"]
+    (numpy,) = links(entities["Snakefile"], "softwareRequirements")
+    assert entities[numpy]["softwareVersion"] == "2.4.6"
+    assert entities[rule.MACHINE]["version"] == "1.2.0"
+
+
+def test_citation_without_a_date_is_refused():
+    citation = {name: value for name, value in CITATION.items() if name != "date-released"}
+    with pytest.raises(ValueError, match=r"CITATION.cff has no date-released"):
+        rule.about.root(citation, {"description": "", "version": ""})
+
+
+def test_every_output_of_the_workflow_but_the_costs_is_listed(jobs, monkeypatch, tmp_path):
+    monkeypatch.setattr(rule.entities, "checksum", lambda path: "")
+    crate = rule.main(jobs, ["results/costs.csv"], {}, [], {}, "", PROJECT, CITATION)
+    (tmp_path / "crate.json").write_text(json.dumps(crate))
+    listed = read_crate(tmp_path / "crate.json")
+    made = {path for job in jobs for path in job.outputs}
+    assert made - set(listed.rules) == {"results/costs.csv", CRATE}
+    given = {path for job in jobs for path in (*job.inputs, *job.scripts)}
+    assert given - set(listed.checksums) == {"results/costs.csv", CRATE}
+    assert listed.folders == ["results"]
+
+
+REQUIRED = {
+    "./": "license",
+    "#run": "instrument",
+    "#parameter/column.height": "additionalType",
+}
+"""By entity, a property that the profile requires."""
+
+
+@pytest.fixture
+def validated(tmp_path):
+    """Validate a crate in an environment of its own, which takes seconds; return what is said."""
+    uv = os.environ.get("UV") or shutil.which("uv")  # `uv run` tells where it is
+    if not uv:
+        pytest.skip("there is no uv, which installs the validator of RO-Crates")
+
+    def validate(crate):
+        (tmp_path / Path(CRATE).name).write_text(json.dumps(crate))
+        group = ["--quiet", "--isolated", "--locked", "--only-group", "crate", "--project", ROOT]
+        script = ROOT / "src/replication/ci/validate_crate.py"
+        command = [uv, "run", *group, "python", script, tmp_path]
+        done = subprocess.run(command, capture_output=True, text=True)
+        return done.returncode, done.stdout + done.stderr
+
+    return validate
+
+
+def test_crate_is_valid(made, validated):
+    assert validated(made) == (0, f"{Path.cwd()} is a valid Workflow Run RO-Crate\n")
+
+
+def test_crate_without_required_properties_is_not_valid(made, entities, validated):
+    for entity, name in REQUIRED.items():
+        del entities[entity][name]
+    code, said = validated(made)
+    assert code == 1
+    for name in REQUIRED.values():
+        assert re.search(f"MUST have an? `?{name}`? ?", said), said

@@ -1,0 +1,92 @@
+"""The seal of the edition tells of each published file, input and text that changed."""
+
+import random
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from replication.pages.seal import EDITION, KINDS, SEAL, SOURCES, TOP, broken, outdated, seal
+
+ROOT = Path(__file__).parents[4]
+
+
+@pytest.fixture
+def sealed(tmp_path):
+    """A small tree with an edition and what it was made from."""
+    for name in ("docs/report.pdf", "tests/reference/t.csv", "paper/report.typ", *TOP):
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_bytes(b"\xff\r\n" if name.endswith("pdf") else b"one\ntwo\n")
+    (tmp_path / "paper" / "report.pdf").write_bytes(b"of a run")
+    seal(tmp_path)
+    assert [*broken(tmp_path), *outdated(tmp_path)] == []
+    return tmp_path
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "told"),
+    [
+        ("docs/report.pdf", b"\xff\n", "docs/report.pdf changed"),
+        ("tests/reference/t.csv", b"one\ntwo \n", "tests/reference/t.csv changed"),
+        ("docs/new.csv", b"1", "docs/new.csv is new"),
+        ("docs/report.pdf", None, "docs/report.pdf is gone"),
+    ],
+)
+def test_published_file_that_changed_is_named(sealed, name, content, told):
+    if content is None:
+        (sealed / name).unlink()
+    else:
+        (sealed / name).write_bytes(content)
+    (fault,) = broken(sealed)
+    assert fault.startswith(told)
+    assert list(outdated(sealed)) == []
+
+
+@pytest.mark.parametrize("name", ["paper/report.typ", "README.md", "docs/exhibits.md"])
+def test_edition_is_older_than_a_text_that_changed(sealed, name):
+    (sealed / name).write_bytes(b"one\nthree\n")
+    assert list(broken(sealed)) == []
+    assert [name in line for line in outdated(sealed)] == [True]
+
+
+@pytest.mark.parametrize(
+    ("name", "content"),
+    [("tests/reference/t.csv", b"one\r\ntwo\r\n"), ("paper/report.pdf", b"new")],
+)
+def test_line_ends_of_a_checkout_and_what_a_run_makes_are_no_change(sealed, name, content):
+    (sealed / name).write_bytes(content)
+    assert [*broken(sealed), *outdated(sealed)] == []
+
+
+def test_seal_that_lost_a_part_is_refused(sealed):
+    (sealed / SEAL).write_text("abc  docs/report.pdf\n", encoding="utf-8")
+    with pytest.raises(ValueError, match=r"checksums.txt has 0 lines"):
+        list(broken(sealed))
+
+
+def test_each_tracked_file_of_the_edition_and_of_its_sources_is_sealed(tmp_path):
+    """One bit of a file that chance picks is reported, of each kind of file in each folder."""
+    command = ["git", "ls-files", *EDITION, *SOURCES, *TOP]
+    listed = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    names = [name for name in listed.stdout.splitlines() if (ROOT / name).is_file()]
+    names = [name for name in names if Path(name).suffix in KINDS or name.startswith(EDITION)]
+    if not names:
+        pytest.skip("no git here, which lists the files")
+    kinds = {(name.split("/")[0], Path(name).suffix): [] for name in names}
+    for name in names:
+        kinds[name.split("/")[0], Path(name).suffix].append(name)
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(ROOT / name, tmp_path / name)
+    seal(tmp_path)
+    for picked in (random.choice(of_kind) for of_kind in kinds.values()):
+        content = bytearray((tmp_path / picked).read_bytes())
+        if picked == SEAL or not content:
+            continue
+        place = random.randrange(len(content))
+        content[place] ^= 1
+        (tmp_path / picked).write_bytes(content)
+        told = [*broken(tmp_path), *outdated(tmp_path)]
+        assert any(picked in line for line in told), f"byte {place} of {picked}"
+        content[place] ^= 1
+        (tmp_path / picked).write_bytes(content)

@@ -1,0 +1,181 @@
+"""CI in two depths: slow parts take turns, each has one, and what is left out is said."""
+
+import os
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[3]
+CI = "src/replication/ci"
+ALWAYS = [
+    "a browser",
+    "installation and lint",
+    "make reproduce",
+    "make reproduce, once more",
+    "make check",
+    "make verify",
+    "make test",
+]
+IGNORED = "results/\nmade\n*.svg\n*.pdf\nmake\nchromium\n"
+MAKE = """#!/bin/sh
+echo "$1" >> made
+if [ "$1" = reproduce ]; then
+  mkdir -p results/tables results/findings
+  for name in tables/a.csv findings/a.json claims.json; do
+    test -e results/$name || echo bytes > results/$name
+  done
+  echo "Nothing to be done"
+fi
+"""
+
+
+class Tree:
+    """A repository with the scripts of CI, and a make that writes down its targets."""
+
+    def __init__(self, folder, paper=True):
+        self.folder = folder
+        self.environment = os.environ | {
+            "PATH": f"{folder}:{os.environ['PATH']}",
+            "GIT_CONFIG_GLOBAL": "/dev/null",
+            "GIT_CEILING_DIRECTORIES": str(folder.parent),
+        }
+        ignored = None if paper else shutil.ignore_patterns("paper")
+        for part in (".ci", CI):
+            shutil.copytree(ROOT / part, folder / part, ignore=ignored)
+        for name, text in (("make", MAKE), ("chromium", "#!/bin/sh\n")):
+            (folder / name).write_text(text, encoding="utf-8")
+            (folder / name).chmod(0o755)
+        (folder / ".gitignore").write_text(IGNORED, encoding="utf-8")
+        self.run("git", "init", "--quiet")
+
+    def run(self, *command, **environment):
+        return subprocess.run(
+            command,
+            cwd=self.folder,
+            env=self.environment | environment,
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            text=True,
+        )
+
+    def commit(self):
+        who = ("-c", "user.name=a", "-c", "user.email=a@b.c")
+        self.run("git", "add", "--all")
+        done = self.run("git", *who, "commit", "--quiet", "--allow-empty", "--message=x")
+        assert done.returncode == 0, done.stderr
+
+    def plan(self, *words):
+        """Return which parts would run, and which are left out."""
+        done = self.run("bash", ".ci/run", "plan", *words)
+        assert done.returncode == 0, done.stderr
+        left = re.findall(r"^!!! LEFT OUT: ([^:]+): ", done.stderr, re.MULTILINE)
+        return re.findall(r"^=== (.+)$", done.stdout, re.MULTILINE), left
+
+    def commit_whose_turn_is(self, part):
+        for _ in range(200):
+            self.commit()
+            if part in self.plan()[0]:
+                return
+        pytest.fail(f"of 200 commits, none picks {part!r}")
+
+
+@pytest.fixture
+def tree(tmp_path):
+    return Tree(tmp_path)
+
+
+def test_every_part_has_its_turn_and_all_leaves_out_nothing_but_the_cluster(tree):
+    tree.commit()
+    everything, left = tree.plan("all")
+    assert left == ["make cluster-test"]
+    slow = set(everything) - set(ALWAYS)
+    assert {"every twelfth step again", "make archive", "a study comes and goes"} < slow
+    assert {"another paper, uncommitted", "another paper, committed"} < slow
+    waiting = set(slow)
+    for _ in range(200):
+        tree.commit()
+        runs, left = tree.plan()
+        assert [part for part in runs if part in ALWAYS] == ALWAYS
+        assert runs[-1] == "make test"
+        assert set(runs) & slow
+        assert set(left) - {"make cluster-test"} == set(everything) - set(runs)
+        if not (waiting := waiting - set(runs)):
+            break
+    assert waiting == set()
+
+
+def test_paper_without_parts_of_its_own_has_the_turns_that_it_needs(tmp_path):
+    tree = Tree(tmp_path, paper=False)
+    tree.commit()
+    everything, left = tree.plan("all")
+    assert left == []
+    assert set(everything) - set(ALWAYS) == {
+        "every twelfth step again",
+        "make archive",
+        "make html",
+        "a study comes and goes",
+    }
+    for part in ("every twelfth step again", "make html", "a study comes and goes"):
+        tree.commit_whose_turn_is(part)
+
+
+def test_without_a_commit_everything_runs_but_the_archive(tree):
+    runs, left = tree.plan()
+    assert set(left) == {"make cluster-test", "make archive"}
+    assert {"every twelfth step again", "another paper, committed"} < set(runs)
+    assert tree.plan("all") == (runs, left)
+
+
+def test_tree_that_differs_from_its_commit_is_not_archived_and_that_is_said(tree):
+    tree.commit()
+    (tree.folder / "note").touch()
+    assert "make archive" in tree.plan("all")[1]
+
+
+@pytest.mark.parametrize("words", [("most",), ("all", "all"), ("all", "plan")])
+def test_unknown_depth_is_refused(tree, words):
+    done = tree.run("bash", ".ci/run", *words)
+    assert done.returncode == 1
+    assert f".ci/run: unknown: {' '.join(words)}; expected nothing, all, plan" in done.stderr
+
+
+@pytest.mark.parametrize("committed", [True, False])
+def test_steps_are_made_again_without_studies_shards_and_notebooks(tmp_path, committed):
+    tree = Tree(tmp_path, paper=False)
+    script = tree.folder / CI / "run"
+    others = r"^slow 1 .*\n|^slow 2 .*\n"  # which a make that makes nothing cannot pass
+    text = re.sub(others, "", script.read_text("utf-8"), flags=re.MULTILINE)
+    script.write_text(text, "utf-8")
+    if committed:
+        tree.commit()
+    done = tree.run("bash", ".ci/run")
+    assert done.returncode == 0, done.stdout + done.stderr
+    made = (tree.folder / "made").read_text("utf-8").split()
+    assert made == ["lint", "reproduce", "reproduce", "check", "verify", "reproduce", "test"]
+    assert done.stderr.count("=== Nothing is left out.") == 2  # at the start and at the end
+
+
+def test_other_bytes_of_a_step_that_is_made_again_are_told(tmp_path):
+    tree = Tree(tmp_path, paper=False)
+    tree.commit_whose_turn_is("every twelfth step again")
+    make = (tree.folder / "make").read_text("utf-8")
+    (tree.folder / "make").write_text(make.replace("echo bytes", "wc -l made"), "utf-8")
+    done = tree.run("bash", ".ci/run")
+    assert done.returncode == 1
+    assert "results/findings/a.json: FAILED" in done.stdout
+    assert ".ci/run: these files of a second run differ from the first run's" in done.stderr
+    assert done.stderr.startswith("\n!!! LEFT OUT: ")
+
+
+def test_first_part_that_fails_ends_the_run(tmp_path):
+    tree = Tree(tmp_path, paper=False)
+    tree.commit()
+    with (tree.folder / "make").open("a", encoding="utf-8") as make:
+        make.write('test "$1" != check\n')
+    done = tree.run("bash", ".ci/run")
+    assert done.returncode != 0
+    made = (tree.folder / "made").read_text("utf-8").split()
+    assert made == ["lint", "reproduce", "reproduce", "check"]

@@ -1,0 +1,70 @@
+"""Each figure says in its SVG what it shows."""
+
+from pathlib import Path
+from xml.etree import ElementTree
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pandas as pd
+import pytest
+
+from figures.mass_ratio import draw
+from replication.drawing import described, letter, save, sheet
+from replication.inputs.parts import PAPER, captions_of
+from replication.pages.captions import alternative, read_captions
+
+ROOT = Path(__file__).resolve().parents[3]
+SVG = "{http://www.w3.org/2000/svg}"
+WORDS = {"title": "Size & frequency", "alt": "Two curves, one > 1 and\n one < 1."}
+
+
+@pytest.fixture
+def figure():
+    with plt.style.context(ROOT / "figures" / "style.mplstyle"):
+        yield draw(pd.read_csv(ROOT / "tests" / "reference" / "mass_ratio.csv"))
+    plt.close("all")
+
+
+def test_figure_has_a_role_a_title_and_a_description(figure, tmp_path):
+    save(figure, tmp_path / "a.svg", **WORDS)
+    root = ElementTree.parse(tmp_path / "a.svg").getroot()
+    assert root.get("role") == "img"
+    assert [child.tag for child in root[:2]] == [f"{SVG}title", f"{SVG}desc"]
+    assert [child.text for child in root[:2]] == [
+        WORDS["title"],
+        "Two curves, one > 1 and one < 1.",
+    ]
+
+
+def test_last_bits_of_the_layout_change_no_byte(figure, tmp_path):
+    save(figure, tmp_path / "one.svg", **WORDS)
+    axes = figure.axes[0]
+    axes.set_position(np.nextafter(axes.get_position(original=True).bounds, 1.0))
+    save(figure, tmp_path / "other.svg", **WORDS)
+    assert (tmp_path / "one.svg").read_bytes() == (tmp_path / "other.svg").read_bytes()
+
+
+@pytest.mark.parametrize(
+    ("svg", "title", "alt"), [("<svg >", "", "b"), ("<svg >", "a", " "), ("<p>", "a", "b")]
+)
+def test_figure_without_words_is_refused(svg, title, alt):
+    with pytest.raises(ValueError, match=r"expected two texts and an SVG: write title and alt"):
+        described(svg, title, alt)
+
+
+def test_every_figure_of_a_run_gets_its_title_and_alternative_text(jobs):
+    drawn = {job.outputs[0]: job.params for job in jobs if job.rule == "figure"}
+    assert len(drawn) > 20
+    studies = {path.split("/")[1] for path in drawn if path.startswith("studies/")}
+    captions = read_captions(ROOT / captions_of(part) for part in (PAPER, *sorted(studies)))
+    for path, params in drawn.items():
+        given = {name: params[name] for name in ("title", "alt")}
+        entry = captions[path]
+        assert given == {"title": entry["title"], "alt": alternative(entry)}, path
+
+
+def test_letters_of_a_drawing_run_on_from_the_one_above():
+    figure, axes = sheet(88.0, 40.0, ncols=2)
+    letter(axes, ["Size", "Frequency"], first="c")
+    assert [axis.get_title() for axis in axes] == ["(c) Size", "(d) Frequency"]
+    plt.close(figure)

@@ -1,0 +1,127 @@
+"""Nothing lies about: each script is run, each output is used, by Snakemake's own reading."""
+
+import ast
+import re
+from collections.abc import Iterable
+from dataclasses import replace
+from pathlib import Path
+
+from replication.inputs.parts import edition_of
+from replication.workflow.provenance import Job
+from steps import publish
+
+ROOT = Path(__file__).parents[4]
+
+
+LISTS = {"all", "crate"}  # rules that take everything
+READ = {".svg", ".pdf", ".html", ".ipynb", ".gif", ".png", ".jsonl"}
+ENDS = {"results/summary.txt", "results/costs.csv", "results/ro-crate-metadata.json"}
+
+
+def unused_outputs(jobs: Iterable[Job]) -> list[str]:
+    """The outputs that are no input of another job, not published and not meant for a reader."""
+    used = {path for job in jobs if job.rule not in LISTS for path in job.inputs} | ENDS
+    editions = (edition_of(path.name, ROOT) for path in (ROOT / "studies").iterdir())
+    published = [*publish.TABLES, *publish.SOURCES]
+    published += [name for edition in editions for name in edition.tables]
+    used |= {f"results/tables/{name}.csv" for name in published}
+    made = (path for job in jobs for path in job.outputs if Path(path).suffix not in READ)
+    return sorted(path for path in made if path not in used)
+
+
+def unused_scripts(
+    jobs: Iterable[Job], files: Iterable[str], makefile: str, snakefiles: str
+) -> list[str]:
+    """Those of the files that no job runs or reads, no target of the Makefile runs, none imports.
+
+    A used script may import them, or a Snakefile; these two come as text.
+    """
+    files = set(files)
+    dotted = {path: path.removesuffix(".py").removeprefix("src/") for path in files}
+    modules = {name.replace("/", "."): path for path, name in dotted.items()}
+    imported = re.findall(r"^from ([\w.]+) import", snakefiles, flags=re.MULTILINE)
+    imported += re.findall(r"python -m ([\w.]+)", makefile)
+    listed = (job for job in jobs if job.rule not in LISTS)
+    waiting = {path for job in listed for path in (*job.scripts, *job.inputs)}
+    waiting |= {path for job in jobs for path in job.scripts}
+    waiting |= {modules[name] for name in imported if name in modules}
+    used: set[str] = set()
+    while waiting:
+        path = waiting.pop()
+        used.add(path)
+        if path in files:
+            names = imports((ROOT / path).read_text(encoding="utf-8"))
+            waiting |= {modules[name] for name in names if name in modules} - used
+    return sorted(files - used)
+
+
+def imports(text: str) -> set[str]:
+    """The modules that a script imports, and what could be one: a name from a package."""
+    nodes = list(ast.walk(ast.parse(text)))
+    plain = {alias.name for node in nodes if isinstance(node, ast.Import) for alias in node.names}
+    named = [node for node in nodes if isinstance(node, ast.ImportFrom)]
+    inner = {f"{node.module}.{alias.name}" for node in named for alias in node.names}
+    return plain | {node.module or "" for node in named} | inner
+
+
+def snakefiles(jobs: Iterable[Job]) -> str:
+    """The text of all files that have rules."""
+    paths = {job.place.rpartition(":")[0] for job in jobs} | {"src/replication/common.smk"}
+    return "\n".join((ROOT / path).read_text(encoding="utf-8") for path in paths)
+
+
+def scripts_beside(jobs: Iterable[Job]) -> list[str]:
+    """Every script in the folders that scripts of rules lie in."""
+    folders = {Path(script).parent for job in jobs for script in job.scripts}
+    machine = (ROOT / "src" / "replication").rglob("*.py")
+    folders |= {path.relative_to(ROOT).parent for path in machine if "template" not in path.parts}
+    found = [path for folder in folders for path in (ROOT / folder).glob("*.py")]
+    return [str(path.relative_to(ROOT)) for path in found if path.name != "__init__.py"]
+
+
+MAKEFILES = ("Makefile", "src/replication/make/machine.mk")
+MAKEFILE = "".join((ROOT / name).read_text(encoding="utf-8") for name in MAKEFILES)
+
+
+def test_every_output_is_used_or_reported(jobs):
+    assert unused_outputs(jobs) == []
+
+
+def test_output_that_nothing_uses_is_found(jobs):
+    heavier = next(job for job in jobs if job.rule == "heavier")
+    more = replace(heavier, outputs=(*heavier.outputs, "results/tables/lonely.csv"))
+    assert unused_outputs([*jobs, more]) == ["results/tables/lonely.csv"]
+
+
+def test_table_is_unused_without_the_figure_drawn_from_it(jobs):
+    without = [replace(job, inputs=()) if job.rule == "figure" else job for job in jobs]
+    assert "results/tables/peak_maps.csv" in unused_outputs(without)
+
+
+def test_every_script_is_run_or_imported(jobs):
+    assert unused_scripts(jobs, scripts_beside(jobs), MAKEFILE, snakefiles(jobs)) == []
+
+
+def test_step_or_figure_that_no_rule_runs_is_found(jobs):
+    lonely = ["figures/lonely.py", "src/steps/lonely.py"]
+    files = [*scripts_beside(jobs), *lonely]
+    assert unused_scripts(jobs, files, MAKEFILE, snakefiles(jobs)) == lonely
+    without = [job for job in jobs if job.rule != "allen_histories"]
+    assert unused_scripts(without, scripts_beside(jobs), MAKEFILE, snakefiles(jobs)) == [
+        "src/steps/allen_histories.py"
+    ]
+
+
+def test_module_is_used_as_long_as_a_used_script_imports_it(jobs):
+    files = scripts_beside(jobs)
+    assert "src/replication/judging/citations.py" in files
+    without = MAKEFILE.replace("python -m replication.commands.trace", "")
+    assert unused_scripts(jobs, files, without, snakefiles(jobs)) == [
+        "src/replication/commands/trace.py",
+        "src/replication/judging/citations.py",
+    ]
+
+
+def test_every_rule_has_a_job(jobs):
+    named = re.findall(r"^(?:rule|checkpoint) (\w+):", snakefiles(jobs), flags=re.MULTILINE)
+    assert set(named) - {job.rule for job in jobs} == set()

@@ -1,0 +1,292 @@
+"""Whatever is missing, failed or interrupted is made again by the plain command."""
+
+import json
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+import yaml
+
+ROOT = Path(__file__).parents[4]
+
+SNAKEFILE = f"""
+from replication.workflow.code import code
+
+FIGURES = {{"figures/line": ["counts"]}}
+
+
+include: "{ROOT}/src/replication/common.smk"
+
+
+rule all:
+    default_target: True
+    input:
+        everything,
+        CRATE,
+
+
+rule counts:
+    input:
+        code("src/steps/counts.py"),
+    output:
+        table="results/tables/counts.csv",
+        findings="results/findings/counts.json",
+    log:
+        "results/logs/counts.log",
+    script:
+        "src/steps/counts.py"
+
+
+rule figure:
+    input:
+        lambda wildcards: code(f"{{wildcards.figure}}.py"),
+        tables=lambda wildcards: [f"results/tables/{{t}}.csv" for t in FIGURES[wildcards.figure]],
+    output:
+        "{{figure}}.svg",
+    log:
+        "results/logs/{{figure}}.log",
+    wildcard_constraints:
+        figure="|".join(FIGURES),
+    script:
+        "{{wildcards.figure}}.py"
+
+
+rule claims:
+    input:
+        code("src/steps/judging.py"),
+        ledger="ledger.json",
+        findings="results/findings/counts.json",
+        drawn=[f"{{figure}}.svg" for figure in FIGURES],
+    output:
+        "results/claims.json",
+    log:
+        "results/logs/claims.log",
+    script:
+        "src/steps/judging.py"
+
+
+rule crate:
+    input:
+        everything,
+    output:
+        CRATE,
+    log:
+        "results/logs/crate.log",
+    shell:
+        "touch {{output}}"
+"""
+
+COUNTS = """
+from replication.workbench import run
+from figures.beside import NUMBER
+
+
+def main():
+    return [{"n": NUMBER}], {"n": {"value": NUMBER, "error": 0.0}}
+
+
+if __name__ == "__main__":
+    run(snakemake, lambda job: main())
+"""
+
+FIGURE = """
+from pathlib import Path
+
+from replication.workbench import run
+
+
+def draw(job):
+    Path(job.output[0]).write_text(Path(job.input.tables[0]).read_text())
+
+
+if __name__ == "__main__":
+    run(snakemake, draw)
+"""
+
+CLAIMS = """
+import json
+from pathlib import Path
+
+from replication.workbench import run
+
+
+def judge(job):
+    found = json.loads(Path(job.input.findings).read_text())
+    name = json.loads(Path(job.input.ledger).read_text())
+    Path(job.output[0]).write_text(json.dumps(found[name]["value"]))
+
+
+if __name__ == "__main__":
+    run(snakemake, judge)
+"""
+
+MADE = [
+    "figures/line.svg",
+    "results/claims.json",
+    "results/findings/counts.json",
+    "results/tables/counts.csv",
+]
+
+
+PROFILE = yaml.safe_load((ROOT / "profiles/default/config.yaml").read_text(encoding="utf-8"))
+
+
+def command(*options):
+    triggers = ["--rerun-triggers", *PROFILE["rerun-triggers"]]
+    base = [sys.executable, "-m", "snakemake", "--cores=1", "--scheduler=greedy"]
+    return [*base, *triggers, *options]
+
+
+def make(root):
+    """Run the workflow; return its exit status, and which rules ran."""
+    done = subprocess.run(
+        command(),
+        cwd=root,
+        capture_output=True,
+        text=True,
+        timeout=120,
+    )
+    text = done.stdout + done.stderr
+    told = r"(?: s  |^Error in rule )(counts|figure|claims):?$"
+    return done.returncode, set(re.findall(told, text, flags=re.MULTILINE))
+
+
+def claimed(root):
+    return json.loads((root / "results/claims.json").read_text())
+
+
+def build(root):
+    for name, text in {
+        "Snakefile": SNAKEFILE,
+        "src/steps/counts.py": COUNTS,
+        "figures/beside.py": "NUMBER = 1\n",
+        "src/steps/judging.py": CLAIMS,
+        "figures/line.py": FIGURE,
+        "ledger.json": '"n"',
+    }.items():
+        path = root / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+
+
+def edit(root, name, old, new):
+    path = root / name
+    text = path.read_text()
+    assert old in text
+    path.write_text(text.replace(old, new))
+
+
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory):
+    root = tmp_path_factory.mktemp("finished")
+    build(root)
+    assert make(root) == (0, {"counts", "figure", "claims"})
+    assert claimed(root) == 1
+    return root
+
+
+@pytest.fixture
+def tree(finished, tmp_path):
+    """The finished tree, in a folder of its own."""
+    root = tmp_path / "tree"
+    shutil.copytree(finished, root)  # with the times of the files
+    return root
+
+
+def test_touched_files_rerun_nothing(tree):
+    for path in tree.rglob("*"):
+        if path.suffix in (".py", ".json") and "results" not in path.parts:
+            path.touch()
+    assert make(tree) == (0, set())
+
+
+def test_step_that_raises_fails_again_until_it_is_mended(tree):
+    edit(tree, "src/steps/counts.py", "return", "raise RuntimeError('x')\n    return")
+    assert make(tree) == (1, {"counts"})
+    assert make(tree) == (1, {"counts"})
+    edit(tree, "src/steps/counts.py", "raise RuntimeError('x')\n    return", "return")
+    assert make(tree) == (0, {"counts", "figure", "claims"})
+
+
+def test_change_in_an_imported_module_reruns_what_depends_on_it(tree):
+    edit(tree, "figures/beside.py", "1", "2")
+    assert make(tree) == (0, {"counts", "figure", "claims"})
+    assert claimed(tree) == 2
+
+
+def test_module_that_is_loaded_behind_the_declared_ones_fails_the_run(tree):
+    (tree / "figures/hidden.py").write_text("")
+    edit(tree, "src/steps/counts.py", "return", "exec('import ' + 'figures.hidden')\n    return")
+    assert make(tree)[0] == 1
+    log = (tree / "results/logs/counts.log").read_text()
+    assert "rule counts loaded figures/hidden.py, which is not among its inputs" in log
+
+
+@pytest.mark.parametrize("kind", [signal.SIGINT, signal.SIGTERM])
+def test_interrupted_step_is_made_again(tree, kind):
+    slow = "import time, pathlib; pathlib.Path('began').touch(); time.sleep(60)\n    return"
+    edit(tree, "src/steps/counts.py", "return", slow)
+    edit(tree, "figures/beside.py", "1", "3")
+    run = subprocess.Popen(
+        command(),
+        cwd=tree,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        start_new_session=True,
+    )
+    while not (tree / "began").exists():
+        assert run.poll() is None
+        time.sleep(0.05)
+    os.killpg(run.pid, kind)  # as a terminal does
+    assert run.wait(timeout=60) != 0
+    edit(tree, "src/steps/counts.py", slow, "return")
+    assert make(tree) == (0, {"counts", "figure", "claims"})
+    assert claimed(tree) == 3
+
+
+@pytest.mark.parametrize("name", MADE)
+def test_deleted_output_is_made_again(tree, name):
+    (tree / name).unlink()
+    code, rules = make(tree)
+    assert code == 0
+    assert rules
+    assert (tree / name).exists()
+
+
+def test_claim_of_a_misspelt_finding_fails_again_until_it_is_mended(tree):
+    (tree / "ledger.json").write_text('"m"')
+    assert make(tree) == (1, {"claims"})
+    assert make(tree) == (1, {"claims"})
+    (tree / "ledger.json").write_text('"n"')
+    assert make(tree) == (0, {"claims"})
+
+
+FULL = """
+mount -t tmpfs -o size=256k tmpfs results/tables || exit 77
+head -c 1M /dev/zero > results/tables/fill 2>/dev/null
+{run} && exit 1
+umount results/tables
+exit 0
+"""
+
+
+def test_full_disk_fails_and_is_made_good(tree):
+    edit(tree, "figures/beside.py", "1", "4")
+    script = FULL.format(run=" ".join(command("--quiet=all")))
+    done = subprocess.run(
+        ["unshare", "--mount", "--map-root-user", "sh", "-c", script],
+        cwd=tree,
+        capture_output=True,
+        text=True,
+    )
+    if done.returncode == 77 or "unshare" in done.stderr:
+        pytest.skip(f"no file system can be mounted here: {done.stderr.strip()}")
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert make(tree) == (0, {"counts", "figure", "claims"})
+    assert claimed(tree) == 4
