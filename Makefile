@@ -31,6 +31,9 @@ fuzz: | $(UV) ## search for inputs on which solvers disagree or a function fails
 benchmark: | $(UV) ## time the kernel beside its peers; writes docs/benchmark.csv and .svg (15 minutes)
 	@$(BENCH) python benchmarks/benchmark.py
 
+stills: | $(UV) ## take the pictures of docs/explorer.html anew, at three sizes of screen
+	@$(RUN) python -m steps.explorer_still
+
 verify-grid: | $(UV) ## compare overturning flags with an independent route (CELLS=40000 a set)
 	@$(call WHOLE,CELLS)
 	@$(BENCH) python benchmarks/verify_grid.py "$$CELLS"

@@ -45,7 +45,7 @@ class Scene {
     const width = Math.max(...rows.map(total)) + 2 * coarse(moved);
 
     // The names keep their size on the screen: a pixel is so many metres.
-    const pixel = Math.max(width / (this.svg.clientWidth || 600), (rows.length * (top + 0.2 * h)) / (0.4 * innerHeight));
+    const pixel = Math.max(width / (this.svg.clientWidth || 600), (rows.length * (top + 0.2 * h)) / ((isNarrow ? 0.4 : 0.26) * innerHeight));
     const pitch = top + 0.2 * h + 24 * pixel, height = rows.length * pitch + 16 * pixel;
     this.svg.replaceChildren();
     this.svg.setAttribute("viewBox", `0 ${-top} ${width} ${height}`);

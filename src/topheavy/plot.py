@@ -96,7 +96,7 @@ def fragility(found: Fragility, *, axes: Axes | None = None) -> Axes:
         curve = found.curves.sel(structure=name)
         level, share = curve.level.to_numpy(), curve.probability.to_numpy()
         ends = np.array([share - curve.probability_low, curve.probability_high - share])
-        aside = 0.15 * (place - (len(names) - 1) / 2) / len(names) * np.gradient(level)
+        aside = 0.6 * (place - (len(names) - 1) / 2) / len(names) * np.gradient(level)
         points = axes.errorbar(
             level + aside, share, ends.clip(0.0), fmt=".", capsize=2, label=str(name)
         )

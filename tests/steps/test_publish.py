@@ -54,8 +54,8 @@ def test_claim_becomes_a_row_under_the_heads_of_its_columns():
     lines = verdict_table([ROW])
     heads = [cell.strip() for cell in lines[-3].split("|")[1:-1]]
     shown = dict(zip(heads, cells(), strict=True))
-    link = '<a id="trilith_size"></a>the size of the column<br><sub>[trilith_size](#trilith_size)</sub>'
-    assert shown["claim, in our words"] == link
+    anchor, link = '<a id="trilith_size"></a>', "<br><sub>[trilith_size](#trilith_size)</sub>"
+    assert shown["claim, in our words"] == f"{anchor}the size of the column{link}"
     assert shown["verdict"] == "confirmed<br>printed 0.415 m<br>computed 0.4148 m"
     assert shown["condition, remark"] == ""
     assert shown["where"] == "p. 3"
