@@ -46,7 +46,7 @@ def draw(reversals_fragility):
     table = table[(table.structure == STRUCTURE) & (table.as_large_as == 0)]
     ratios = sorted(table.mass_ratio.unique())
     colours = dict(zip(ratios, shades(len(ratios)), strict=True))
-    figure, axes = sheet(DOUBLE, 114, nrows=2, ncols=2, sharey="row")
+    figure, axes = sheet(DOUBLE, 98, nrows=2, ncols=2, sharey="row")
     for column, family in zip(axes.T, FAMILIES, strict=True):
         curves = table[table.family == family]
         fragility(column[0], curves, colours)
