@@ -14,7 +14,7 @@ SHARED  = the compiled kernel, in $${NUMBA_CACHE_DIR:-$${XDG_CACHE_HOME:-$$HOME/
 .PHONY: api audit fuzz kill-table benchmark verify-grid cluster-test paper
 
 api: | $(UV) ## write a page of the library's functions: dist/api/topheavy.html
-	@$(DEV) python -c "import topheavy; [getattr(topheavy, name) for name in topheavy.__all__]; \
+	@$(DEV) python -W 'ignore:Error parsing type annotation' -c "import topheavy; [getattr(topheavy, name) for name in topheavy.__all__]; \
 	  from pdoc.__main__ import cli; cli('topheavy -o dist/api --no-show-source --docformat numpy'.split())"
 
 audit: | $(UV) ## 3 hours: finer grids, tighter tolerances, all peers, all faults (CONFIG, CELLS, ROTATE)
