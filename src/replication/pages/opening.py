@@ -12,8 +12,8 @@ TITLES = {"qualified": "On a condition", "misprint": "Misprints", "refuted": "Re
 """The verdicts whose claims are told first, and what stands above these."""
 
 
-def opening(root: Path = Path()) -> dict[str, str | list[str]]:
-    """Return headings with their texts, in reStructuredText, from CITATION.cff and results/."""
+def opening(root: Path = Path()) -> dict[str, list[str]]:
+    """Return headings with their lines, in reStructuredText, from CITATION.cff and results/."""
     cited = read_yaml(root / "CITATION.cff")
     rows = read_judged(root / "results" / "claims.json")
     start = "Figures and their claims are in the menu on the left, by subject."
@@ -22,7 +22,7 @@ def opening(root: Path = Path()) -> dict[str, str | list[str]]:
         for verdict, title in TITLES.items()
     }
     return {
-        cited["title"]: " ".join([escaped(cited.get("abstract", "")), start]),
+        escaped(cited["title"]): [escaped(f"{cited.get('abstract', '')} {start}")],
         "Verdicts": [escaped(line) for line in tallies(rows)],
         **{title: lines for title, lines in told.items() if lines},
     }
