@@ -37,7 +37,8 @@ def restitution(axis, table):
         axis.plot(finite.mass_ratio, finite.restitution, color=INK)
         axis.plot(0, finite.restitution.iloc[0], "o", color=INK, markersize=3, clip_on=False)
         name = r"$\alpha$ = " if place == 0 else ""
-        note(axis, f"{name}{slenderness:g}°", (10.15, limit), annotation_clip=False)
+        at = {"xytext": (0, 2 - 2 * place), "textcoords": "offset points"} if place < 2 else {}
+        note(axis, f"{name}{slenderness:g}°", (10.15, limit), annotation_clip=False, **at)
     axis.set(xlim=(0, 10), ylim=(0.46, 1.02), xlabel=r"Mass ratio, $\gamma$ (–)")
     axis.set_ylabel(r"Restitution, $\sqrt{r}$ (–)")
 

@@ -19,18 +19,10 @@ from topheavy import (
     simulate,
 )
 from topheavy.contact_forces import column_forces
+from topheavy.shapes import ENDING
 
 STATES = 700  # three structures each
-SHAPES = (
-    "one-sine",
-    "one-cosine",
-    "half-sine",
-    "constant",
-    "ricker-symmetric",
-    "ricker-antisymmetric",
-    "harmonic",
-    "record",
-)
+SHAPES = (*ENDING, "harmonic", "record")
 NEAR = 1e-6  # relative distance from a boundary, within which outcomes may differ
 CLOSE = 1e-5  # of α: how far peaks may differ
 SLIGHT = 1e-9  # a relative change of the motion that leaves a well-conditioned peak as it is

@@ -85,7 +85,7 @@ def test_interval_that_a_billionth_of_the_record_removes_is_passed_over():
     lowest = vase_searches.minimum(COLUMN, RECORD, 2.0, FLOOR)
     assert lowest.found.width < 1e-9
     assert not lowest.told(3e-12)
-    found = vase_searches.lowest_told(COLUMN, RECORD, 2.0, FLOOR, 3e-12)
+    found = vase_searches.lowest_told(lowest, 2.0, FLOOR, 3e-12)
     assert found.passed_over == 2
     assert found.acceleration > lowest.acceleration
     assert found.told(3e-12)
@@ -105,7 +105,8 @@ def test_interval_that_a_tighter_tolerance_removes_is_not_told(monkeypatch):
 
 
 def test_minimum_without_an_interval_that_ends_is_not_passed_over():
-    whole = vase_searches.lowest_told(COLUMN, PULSE, 0.275, FLOOR, 3e-12)
+    lowest = vase_searches.minimum(COLUMN, PULSE, 0.275, FLOOR)
+    whole = vase_searches.lowest_told(lowest, 0.275, FLOOR, 3e-12)
     assert whole.found.upper is None
     assert (whole.acceleration, whole.passed_over) == (pytest.approx(0.27282, abs=1e-4), 0)
     assert whole.inside == pytest.approx(0.5 * (whole.acceleration + 0.275))

@@ -51,7 +51,7 @@ def main() -> dict:
 if __name__ == "__main__":
     run(snakemake, lambda job: main())
 '''
-FUNCTION = '''"""The number of the claim {name}. At first it is π: replace this by your equation."""
+FUNCTION = '''"""The claim {name}: at first it is π, which your equation replaces."""
 
 import numpy as np
 

@@ -26,7 +26,9 @@ COPIED = (
     "profiles/default/config.yaml",
     "uv.lock",
 )
-"""Files that are the same for every paper; uv then takes out of its lock what is not needed."""
+"""Files that are the same for every paper, but for the name of the project in them.
+
+uv then takes out of its lock what is not needed."""
 
 
 def create(to: Path, root: Path = ROOT) -> Path:
@@ -43,9 +45,11 @@ def create(to: Path, root: Path = ROOT) -> Path:
     left_out = shutil.ignore_patterns("__pycache__", "*.svg")
     shutil.copytree(TEMPLATE, to, ignore=left_out, dirs_exist_ok=True)
     version = copy_machine(root / MACHINE, to / MACHINE)
+    project = tomllib.loads(_read(root / "pyproject.toml"))["project"]["name"]
     for path in COPIED:
         (to / path).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy2(root / path, to / path)
+        (to / path).write_text(_read(to / path).replace(project, name), encoding="utf-8")
     for path in ("LICENSE", "LICENSE-CC-BY"):
         (to / path).write_text(_licence(_read(root / path)), encoding="utf-8")
     for path in ("pyproject.toml", "README.md"):

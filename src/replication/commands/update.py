@@ -98,6 +98,7 @@ def replace(newer: Path, root: Path = Path()) -> None:
 
 def main(source: str) -> None:
     """Find the newer machine, and let it replace ours."""
+    sys.stdout.reconfigure(line_buffering=True)  # uv and make write to it, too
     with tempfile.TemporaryDirectory() as clone:
         folder = Path(source)
         if source and not folder.is_dir():

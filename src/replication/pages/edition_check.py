@@ -119,32 +119,18 @@ def main(
         rows = read_judged(root / CLAIMS)
         faults = [
             *claims(ledger, findings, rows, root),
-            *_told(departures, reference, findings),
+            *departures(reference, findings),
             *pages(root, rows),
             *configs(root, config["studies"]),
             *broken(root),
         ]
     except FileNotFoundError as missing:
-        return [], [f"{missing.filename} does not exist; expected a file of the published run"]
+        what = "expected a file of the published run, or no check of it in src/steps/recheck.py"
+        return [], [f"{missing.filename} does not exist; {what}"]
     changed = list(outdated(root))
     if is_release():
         return tallies(rows), [*faults, *changed]
     return [*tallies(rows), *changed], faults
-
-
-def _told(
-    departures: Callable[[Path, Mapping[str, Findings]], Iterable[str]],
-    reference: Path,
-    findings: Mapping[str, Findings],
-) -> Iterator[str]:
-    """Yield the departures, and the file that they read and that is not published."""
-    try:
-        yield from departures(reference, findings)
-    except FileNotFoundError as missing:
-        yield (
-            f"src/steps/recheck.py reads {missing.filename}, which is not published; expected a "
-            "table of TABLES in src/steps/publish.py: add it there, or take its check out"
-        )
 
 
 def close(lines: Iterable[str], faults: Iterable[str]) -> None:

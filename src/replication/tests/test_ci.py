@@ -19,6 +19,7 @@ ALWAYS = [
     "make verify",
     "make test",
 ]
+CLUSTER = {"make cluster-test"}  # of a paper that has one
 IGNORED = "results/\nmade\n*.svg\n*.pdf\nmake\nchromium\n"
 MAKE = """#!/bin/sh
 echo "$1" >> made
@@ -90,10 +91,9 @@ def tree(tmp_path):
 def test_every_part_has_its_turn_and_all_leaves_out_nothing_but_the_cluster(tree):
     tree.commit()
     everything, left = tree.plan("all")
-    assert left == ["make cluster-test"]
+    assert set(left) <= CLUSTER
     slow = set(everything) - set(ALWAYS)
     assert {"every twelfth step again", "make archive", "a study comes and goes"} < slow
-    assert {"another paper, uncommitted", "another paper, committed"} < slow
     waiting = set(slow)
     for _ in range(200):
         tree.commit()
@@ -101,7 +101,7 @@ def test_every_part_has_its_turn_and_all_leaves_out_nothing_but_the_cluster(tree
         assert [part for part in runs if part in ALWAYS] == ALWAYS
         assert runs[-1] == "make test"
         assert set(runs) & slow
-        assert set(left) - {"make cluster-test"} == set(everything) - set(runs)
+        assert set(left) - CLUSTER == set(everything) - set(runs)
         if not (waiting := waiting - set(runs)):
             break
     assert waiting == set()
@@ -124,8 +124,8 @@ def test_paper_without_parts_of_its_own_has_the_turns_that_it_needs(tmp_path):
 
 def test_without_a_commit_everything_runs_but_the_archive(tree):
     runs, left = tree.plan()
-    assert set(left) == {"make cluster-test", "make archive"}
-    assert {"every twelfth step again", "another paper, committed"} < set(runs)
+    assert set(left) - CLUSTER == {"make archive"}
+    assert {"every twelfth step again", "a study comes and goes"} < set(runs)
     assert tree.plan("all") == (runs, left)
 
 

@@ -14,7 +14,7 @@ from topheavy.proven.certificate import BITS, certified
 from topheavy.pulses import Pulse
 from topheavy.structures import Structure
 
-NARROWEST = 1e-9
+NARROWEST = 1e-11
 """Of the highest factor: a box that is not wider counts as open if it is not proven."""
 
 NARROW = 1e-6

@@ -194,5 +194,7 @@ class _Side:
 
     def _mean_rate(self) -> arb:
         """Return at least the mean φ' from one wall to the next."""
-        one, other = ((2 * (self.energy - x)).upper().max(arb(0)).sqrt() for x in (self.old, self.at))
+        one, other = (
+            (2 * (self.energy - x)).upper().max(arb(0)).sqrt() for x in (self.old, self.at)
+        )
         return (one + other) / 2 if self.is_concave else one.max(other)

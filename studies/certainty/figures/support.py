@@ -7,7 +7,7 @@ BARE, FREE = shades(2)
 STRUCTURE, PGV = "6 m temple", 0.6  # m/s
 SUPPORTS = {  # from the lowest row upwards
     "free": ("frame, $\\gamma$ = 1:\nmass carried freely", FREE),
-    "bare": ("column", BARE),
+    "bare": ("solitary column", BARE),
     "fixed": ("vase, $\\gamma$ = 1:\nmass fixed to it", FIXED),
 }
 FAMILIES = {"near-fault": ("o", 0.14), "broadband": ("s", -0.14)}  # marker and place in a row

@@ -46,7 +46,7 @@ def test_nothing_of_this_paper_goes_along(paper):
     found = [
         f"{path.relative_to(paper)}: {line}"
         for path in paper.rglob("*")
-        if path.is_file() and path.name != "uv.lock"
+        if path.is_file() and path.name not in ("uv.lock", "test_new_paper.py")
         for line in path.read_text(encoding="utf-8").splitlines()
         if ours.search(line)
     ]
@@ -71,6 +71,20 @@ def test_readme_names_every_place_of_the_example(paper):
         if not any(f"`{each.as_posix()}`" in readme for each in (place, *place.parents)):
             unnamed.append(str(place))
     assert unnamed == []
+
+
+def test_example_imports_no_more_than_a_paper_may(paper):
+    text = (paper / update.MACHINE / "README.md").read_text("utf-8")
+    listed = tuple(re.findall(r"`(replication\.[\w.]+)`", text))
+    imported = re.compile(r"^ *from (replication[\w.]*) import (\w+)", re.MULTILINE)
+    found = {
+        ".".join(names)
+        for path in files(paper)
+        if path.suffix in {".py", ".smk", ""}
+        for names in imported.findall(path.read_text("utf-8"))
+    }
+    assert found
+    assert [name for name in found if not name.startswith(listed)] == []
 
 
 def test_what_is_the_same_for_every_paper_is_kept_once(paper):

@@ -43,7 +43,7 @@ def test_figure_is_drawn_from_the_tables_that_its_function_takes(study):
 
 def test_section_that_a_rule_takes_and_the_config_lacks_is_named_with_its_file():
     config = Sections({"period": {}, "mass": {}}, "config/config.yaml")
-    said = "config/config.yaml has no section 'peroid', .*; did you mean 'period'"
+    said = "config/config.yaml has no section 'periods', .*; did you mean 'period'"
     with pytest.raises(ValueError, match=said):
-        config["peroid"]
+        config["periods"]
     assert type(pickle.loads(pickle.dumps(config))) is dict  # a job loads no module for it

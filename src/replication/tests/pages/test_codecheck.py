@@ -1,8 +1,8 @@
 """codecheck.yml: what CODECHECK 2.0 demands of an author, and nothing that a check would add."""
 
 from dataclasses import replace
+from pathlib import Path
 
-import pytest
 import yaml
 
 from replication.pages.codecheck import codecheck_file, manifest
@@ -67,14 +67,11 @@ def test_missing_orcid_is_told_and_a_doi_is_the_reference():
     assert yaml.safe_load(text)["paper"]["reference"] == "https://doi.org/10.1/x"
 
 
-@pytest.mark.parametrize(
-    "path", ["paper/report.pdf", "figures/vase.svg", "results/tables/vase.csv"]
-)
-def test_every_figure_table_and_document_of_the_run_is_listed(jobs, path):
+def test_every_figure_table_and_document_of_the_run_is_listed(jobs):
     made = {out for job in jobs for out in job.outputs}
     captions = {out: {"title": out} for out in made if out.endswith(".svg")}
     listed = [entry["file"] for entry in manifest(jobs, captions)]
-    assert path in listed
     assert len(set(listed)) == len(listed)
     kinds = (".pdf", ".svg")
     assert {out for out in made if out.endswith(kinds)} <= set(listed) <= made
+    assert {Path(path).suffix for path in listed} >= {*kinds, ".csv"}

@@ -1,4 +1,4 @@
-"""A second run, and `make unlock`, are refused beside a run, and a killed run is told from that."""
+"""A second run and `make unlock` are refused beside a run, and not after a killed one."""
 
 import os
 import signal

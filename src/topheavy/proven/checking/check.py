@@ -181,7 +181,8 @@ class Check:
         if not (rate < 0 and phi < self.block.alpha and end.high <= intervals.UNIT):
             raise Refused("it may not move inward at the end")
         above = Interval(max(phi.high, 0), max(phi.high, 0))
-        energy = rate * rate / 2 + self.ground.clock * self.block.potential(above, of(0))
+        fallen = self.ground.clock * self.block.potential(above, of(0))
+        energy = rate * rate / 2 + fallen.hull(0)
         self.sigma, self.phi = self.sigma + times * course.h, of(0)
         self.rate = self.block.restitution * (2 * energy).root()
         self.side, self.zeros, self.impacts = -self.side, 1, self.impacts + 1
@@ -312,13 +313,12 @@ class Check:
             across = block.sine * c - block.cosine * s  # sin(α − φ)
             inside, outside = across > 0, across < 0
         rebound = block.restitution * block.restitution * (surplus + barrier) - barrier
-        if surplus < 0 and inside:
+        inward = self.rate < 0 and (inside or surplus > 0)
+        if (surplus < 0 and inside) or (inward and rebound < 0):
             self.result = "survives"
-        elif (surplus < 0 and outside) or (surplus > 0 and self.rate > 0):
+        elif (outside and (surplus < 0 or self.rate > 0)) or (surplus > 0 and self.rate > 0):
             self.result = "overturns"
-        elif surplus > 0 and self.rate < 0 and rebound < 0:
-            self.result = "survives"
-        elif surplus > 0 and self.rate < 0 and rebound > 0:
+        elif inward and rebound > 0:
             self.result, self.impacts = "overturns", self.impacts + 1
         else:
             raise Refused("its energy is too near the barrier")

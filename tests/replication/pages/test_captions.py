@@ -14,7 +14,7 @@ from replication.judging.claim import Claim
 from replication.judging.ledger import with_verdict
 from replication.pages.captions import captioned, read_captions, verdict
 
-ROOT = Path(__file__).resolve().parents[4]
+ROOT = Path(__file__).resolve().parents[3]
 STUDIES = sorted(path.parent for path in ROOT.glob("studies/*/study.smk"))
 
 

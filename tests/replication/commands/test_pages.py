@@ -6,7 +6,7 @@ import pytest
 
 from replication.commands import pages
 
-ROOT = Path(__file__).resolve().parents[4]
+ROOT = Path(__file__).resolve().parents[3]
 
 
 def test_committed_pages_are_up_to_date(monkeypatch):

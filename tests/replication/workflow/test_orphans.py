@@ -10,7 +10,7 @@ from replication.inputs.parts import edition_of
 from replication.workflow.provenance import Job
 from steps import publish
 
-ROOT = Path(__file__).parents[4]
+ROOT = Path(__file__).parents[3]
 
 
 LISTS = {"all", "crate"}  # rules that take everything

@@ -18,7 +18,7 @@ from replication.kill.faults import JUDGING, Change, Fault, faulty, load
 from replication.kill.table import Row
 from replication.workbench import truth
 
-ROOT = Path(__file__).resolve().parents[4]
+ROOT = Path(__file__).resolve().parents[3]
 FAULTS = load()
 LEDGER = read_ledger(command.ledger_files())
 NAMES = [fault.name for fault in FAULTS]

@@ -13,7 +13,7 @@ from replication.drawing import described, letter, save, sheet
 from replication.inputs.parts import PAPER, captions_of
 from replication.pages.captions import alternative, read_captions
 
-ROOT = Path(__file__).resolve().parents[3]
+ROOT = Path(__file__).resolve().parents[2]
 SVG = "{http://www.w3.org/2000/svg}"
 WORDS = {"title": "Size & frequency", "alt": "Two curves, one > 1 and\n one < 1."}
 

@@ -15,7 +15,7 @@ from replication.commands.new_study import SKELETON
 from replication.kill.tree_copy import copy_tree
 from replication.workflow.code import code
 
-ROOT = Path(__file__).parents[4]
+ROOT = Path(__file__).parents[3]
 
 
 LAST = {"all", "crate"}  # rules that take everything

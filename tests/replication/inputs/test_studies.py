@@ -18,7 +18,7 @@ from replication.judging.ledger import read_ledger
 from replication.judging.ledger_check import check_ledger
 from steps.inputs import RECORDS, check_inputs
 
-ROOT = Path(__file__).resolve().parents[4]
+ROOT = Path(__file__).resolve().parents[3]
 CHECK = partial(check_inputs, structures={"temple": {"half_width": 0.5, "half_height": 3.0}})
 
 

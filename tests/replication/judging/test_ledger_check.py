@@ -12,7 +12,7 @@ from replication.judging.ledger_check import check_ledger
 from replication.judging.verdicts import print_rounding, verdict_on
 from replication.workbench import value
 
-ROOT = Path(__file__).resolve().parents[4]
+ROOT = Path(__file__).resolve().parents[3]
 ROW = {
     "id": "row",
     "where": "p. 1",

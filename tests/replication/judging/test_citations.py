@@ -7,7 +7,7 @@ import pytest
 
 from replication.judging.citations import cite, equations_in, library_names, printed_list
 
-ROOT = Path(__file__).parents[4]
+ROOT = Path(__file__).parents[3]
 CODE = sorted((ROOT / "src" / "topheavy").rglob("*.py"))
 NUMBERED = re.compile(r"\b[Ee]q(?:s|n|ns|uations?)?\b\.?\s*\(?\d+\)?")
 
