@@ -25,6 +25,7 @@ from replication.workflow.progress import one_line_a_job
 from replication.workflow.stopping import end_on_sigterm
 from replication.inputs.strict_yaml import read_yaml
 from replication.inputs.study_config import check_needs, read_study_config
+from replication.pages.opening import opening
 from replication.pages.typeset import reads, refuse_unshown
 from replication.workflow.unmade import made_by, refuse_unmade
 
@@ -34,6 +35,9 @@ end_on_sigterm()
 one_run_at_a_time()
 if not workflow.dryrun:
     one_line_a_job()
+
+
+report: "pages/opening.rst"
 
 
 def read_strictly(path):

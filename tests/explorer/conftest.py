@@ -37,7 +37,7 @@ class Browser:
         return self.runner.run(self.tab.do(script, *values))
 
     def open(self, address="g=1", *, width=1440, height=900, dark=False, settled=True):
-        """Open the page at an address, at a size and in a scheme of colours. At "" it asks first."""
+        """Open the page at an address, at a size and in a colour scheme. At "" it asks first."""
         self.tab.errors.clear()
         self.tab.requests.clear()
         self.runner.run(self.tab.open("about:blank"))

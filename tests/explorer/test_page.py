@@ -496,9 +496,10 @@ def test_first_visit_asks_for_a_guess_and_then_shows(browser):
 OUTSIDE = """(() => {
   const at = element => element.getBoundingClientRect(), frame = at(scene.svg);
   const boxes = scene.groups.map(at);
-  const isApart = (a, b) => a.right <= b.left || b.right <= a.left || a.bottom <= b.top || b.bottom <= a.top;
+  const isApart = (a, b) => a.right <= b.left || b.right <= a.left
+    || a.bottom <= b.top || b.bottom <= a.top;
   return boxes.flatMap((box, k) => [
-    ...(box.left < frame.left || box.right > frame.right || box.top < frame.top ? [[k, "out"]] : []),
+    ...(box.left < frame.left || box.right > frame.right || box.top < frame.top ? [[k]] : []),
     ...boxes.slice(k + 1).flatMap((other, l) => (isApart(box, other) ? [] : [[k, k + 1 + l]])),
   ]);
 })()"""

@@ -58,11 +58,13 @@ verify: | $(UV) ## compare every file of a finished run with its RO-Crate
 archive: | $(UV) ## after a run: one .zip in dist/ with the source and the results
 	@$(RUN) python -m replication.commands.archive
 
+OPENING = --report-metadata src/replication/pages/opening.yaml \
+  --report-stylesheet src/replication/pages/opening.css
 html: | $(UV) ## after a run: write results/report.html with every figure, caption and verdict
 	@test -e results/ro-crate-metadata.json || { \
 	  echo "there is no finished run; run 'make reproduce' first" >&2; exit 1; }
-	@$(RUN) snakemake --report results/report.html --quiet all || { \
-	  $(RUN) snakemake --report results/report.html all; exit 1; } # --quiet hides the error, too
+	@$(RUN) snakemake --report results/report.html $(OPENING) --quiet all || { \
+	  $(RUN) snakemake --report results/report.html $(OPENING) all; exit 1; } # --quiet hides the error, too
 	@$(RUN) python -m replication.commands.check_html results/report.html
 
 test: | $(UV) ## run the tests
