@@ -150,7 +150,8 @@ class Bounded:
         """Return W, on the side on which the block is pushed outward."""
         push = side * self.factor * self.forcing.value(self.piece, bound.sigma)
         wall = arb(bound.walls[SIDES.index(side)])
-        return (2 * (bound.energy - self.law.potential(wall, push).min(arb(0)))).sqrt()
+        square = 2 * (bound.energy - self.law.potential(wall, push).min(arb(0)))
+        return square.upper().max(arb(0)).sqrt()
 
     def released(self, bound: Bound) -> tuple[int, arb, arb] | None:
         """Return side, φ and φ' if it is sure to move outward on a side that is known."""
@@ -196,5 +197,7 @@ class _Side:
 
     def _mean_rate(self) -> arb:
         """Return at least the mean φ' from one wall to the next."""
-        one, other = ((2 * (self.energy - x)).upper().max(arb(0)).sqrt() for x in (self.old, self.at))
+        one, other = (
+            (2 * (self.energy - x)).upper().max(arb(0)).sqrt() for x in (self.old, self.at)
+        )
         return (one + other) / 2 if self.is_concave else one.max(other)
