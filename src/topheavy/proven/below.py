@@ -24,7 +24,7 @@ NARROW = 1e-6
 SPARE = 0.1
 """Of a box: so far beyond each end it is proven, since the enclosures of the checker are wider."""
 
-NARROWER, WIDER = 0.6, 1.3
+NARROWER, WIDER = 0.7, 1.2
 """The width of the next box over that of a box that is not proven, and of one that is."""
 
 

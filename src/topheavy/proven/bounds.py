@@ -150,7 +150,8 @@ class Bounded:
         """Return W, on the side on which the block is pushed outward."""
         push = side * self.factor * self.forcing.value(self.piece, bound.sigma)
         wall = arb(bound.walls[SIDES.index(side)])
-        return (2 * (bound.energy - self.law.potential(wall, push).min(arb(0)))).sqrt()
+        square = 2 * (bound.energy - self.law.potential(wall, push).min(arb(0)))
+        return square.upper().max(arb(0)).sqrt()
 
     def released(self, bound: Bound) -> tuple[int, arb, arb] | None:
         """Return side, φ and φ' if it is sure to move outward on a side that is known."""

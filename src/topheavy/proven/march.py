@@ -1,7 +1,5 @@
 """A march of verified steps from impact to impact, which ends in an outcome or in Undecided."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, field
 from itertools import pairwise
@@ -390,7 +388,8 @@ class March:
         self.least = self.least.max(self.phi)
         self.most = self.most.max(self.phi)
         rebound = power(self.block.restitution, 2) * (surplus + barrier)
-        falls = (surplus > 0 and self.rate > 0) or (off < 0 and (surplus < 0 or self.rate > 0))
+        beyond = off < 0 and (surplus < 0 or self.rate > 0)
+        falls = beyond or (surplus > 0 and self.rate > 0)
         inward = self.rate < 0 and (surplus > 0 or off > 0)
         if falls or (inward and rebound > barrier):
             return Outcome("overturns", self.impacts + inward, bits=self.bits)
