@@ -92,7 +92,11 @@ def _licence(text: str) -> str:
     text, *_ = text.partition("\n---")  # below it follows what it covers here
     text = re.sub(r" ?The ground motions in [^.]*\.", "", text)
     return re.sub(
-        r"^(Copyright .*\n)", r"\1Copyright (c) BLANK: year, your names\n", text, flags=re.M
+        r"^(Copyright .*\n)",
+        r"\1Copyright (c) BLANK: year, your names\n",
+        text,
+        count=1,
+        flags=re.M,
     )
 
 
