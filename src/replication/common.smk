@@ -59,13 +59,13 @@ def parts(check):
     over = [Path(each).name for each in workflow.configfiles]
     over = [each for each in dict.fromkeys(over) if each != "config.yaml"]
     global config
-    config = Sections(config, "config/config.yaml")
+    config = Sections(config)
     studies = {
-        name: Sections(
-            read_study_config(name, check, over=over), f"studies/{name}/config.yaml"
-        )
+        name: Sections(read_study_config(name, check, over=over))
         for name in config["studies"]
     }
+    for name, section in studies.items():
+        section.path = f"studies/{name}/config.yaml"
     check_needs(studies)
     return {name: Part(name, of) for name, of in {PAPER: config, **studies}.items()}
 

@@ -10,7 +10,7 @@ from replication.commands.check_html import BROWSERS, Tab, find_browser, opened
 
 SIZES = {"": (1440, 900), "_tablet": (820, 1180), "_phone": (390, 844)}
 """Of the screens, by what the name of the picture adds to that of the page."""
-CASE = "#g=1"  # by which nobody is asked for a guess
+CASE = "#g=1"  # with which the page requests no guess
 TIME = 2.6  # s: the first case, before anything has fallen
 SETTLED = """new Promise(resolve => {
   const look = () => {

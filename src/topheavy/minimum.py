@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Generator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -187,7 +187,7 @@ Asking: TypeAlias = Generator[Asked, Any, tuple[float, float] | None]
 
 def _lowest(search: Search, floor: float) -> Generator[Asked, Any, LowestOverturning]:
     """Yield the factors that `lowest_overturning` needs; return what it finds."""
-    excitation = search.excitation
+    excitation = cast("Pulse | Record", search.excitation)
     first, last = checked_range(excitation, search.scale_range)
     if first < 0.0:
         raise ValueError(

@@ -205,6 +205,7 @@ def finished(tmp_path, monkeypatch):
         "results/config.yaml": "studies: []\n",
         "config/config.yaml": "studies: []\n",
         "results/claims.json": "[]",
+        "results/costs.csv": "rule,seconds\n",
         "results/tables/new.csv": "x\n1\n",
         "results/findings/rule.json": json.dumps({"size": {"holds": True}, "called": []}),
         "tests/reference/old.csv": "x\n1\n",

@@ -1,6 +1,6 @@
 """Draft the sections that the schema of a config lacks, from its values: `make schema`.
 
-Meanings come from the comments. Units and bounds are the author's to fill in, marked BLANK.
+Meanings come from the comments. Units are the author's to fill in, marked BLANK, and so are bounds.
 """
 
 import re
@@ -25,18 +25,15 @@ def draft(value: Any, place: str, said: Mapping[str, str]) -> dict[str, Any]:
     match value:
         case Mapping():
             inner = {key: draft(each, f"{place}.{key}", said) for key, each in value.items()}
-            kind = {"type": "object", "additionalProperties": False}
-            return about | kind | {"required": [*value], "properties": inner}
+            kind = {"type": "object", "additionalProperties": False, "required": [*value]}
+            return about | kind | {"properties": inner}
         case [first, *_]:
             return about | {"type": "array", "items": draft(first, f"{place}[]", said)}
-        case bool():
-            return about | {"type": "boolean"}
-        case int():
-            return about | {"type": "integer"}
         case float():
             return about | {"unit": UNIT, "type": "number"}
-        case _:
-            return about | {"type": "string"}
+        case bool() | int():
+            return about | {"type": "boolean" if isinstance(value, bool) else "integer"}
+    return about | {"type": "string"}
 
 
 def add_missing(path: Path) -> list[str]:
@@ -47,20 +44,18 @@ def add_missing(path: Path) -> list[str]:
     ValueError
         When the schema does not end with `properties`, or lists `required` on several lines.
     """
-    schema = path.with_name("config.schema.yaml")
-    text, config = schema.read_text(encoding="utf-8"), read_yaml(path)
-    known = read_yaml(schema)
-    missing = {key: config[key] for key in config if key not in known["properties"]}
-    if not missing:
+    schema, config = path.with_name("config.schema.yaml"), read_yaml(path)
+    text, known = schema.read_text(encoding="utf-8"), read_yaml(schema)
+    if not (missing := [key for key in config if key not in known["properties"]]):
         return []
     if [*known][-1] != "properties" or not REQUIRED.search(text):
         raise ValueError(f"{schema}: expected `required: […]` on one line, and `properties` last")
     said = comments(path.read_text(encoding="utf-8"))
-    drafts = {key: draft(value, key, said) for key, value in missing.items()}
+    drafts = {key: draft(config[key], key, said) for key in missing}
     body = yaml.safe_dump(drafts, allow_unicode=True, sort_keys=False, width=100)
     text = REQUIRED.sub(lambda line: f"required: [{', '.join([line[1], *missing])}]", text, count=1)
     schema.write_text(f"{text.rstrip()}\n\n{indent(body, '  ')}", encoding="utf-8")
-    return [*missing]
+    return missing
 
 
 if __name__ == "__main__":

@@ -7,9 +7,8 @@ that the fault names, then all rules that judge claims. A verdict that differs f
 has caught the fault. If no verdict and no test fails, a rule has to raise an error; if none does,
 the fault has survived.
 
-`--whole` lists all verdicts of the paper that a fault in the physics turns, which takes hours. A
-run of all faults writes docs/kill_table.csv and .md. A choice of them (`--faults`, `--rotate`) only
-keeps its rows, for a later run or `make publish`.
+A run of all faults writes docs/kill_table.csv and .md. A choice of them (`--faults`, `--rotate`)
+only keeps its rows, for a later run or `make publish`.
 """
 
 import argparse
@@ -39,6 +38,7 @@ from replication.kill.table import (
     first_failing,
     put_to_the_test,
     read,
+    row_of,
     workflow,
     write,
 )
@@ -75,7 +75,7 @@ def kept(path: Path) -> dict[str, tuple[str, Row]]:
     if not path.exists():
         return {}
     lines = map(json.loads, path.read_text(encoding="utf-8").splitlines())
-    return {line["row"]["name"]: (line["digest"], Row(**line["row"])) for line in lines}
+    return {line["row"]["name"]: (line["digest"], row_of(line["row"])) for line in lines}
 
 
 def keep(path: Path, digest: str, row: Row) -> None:
@@ -85,24 +85,18 @@ def keep(path: Path, digest: str, row: Row) -> None:
         file.write(json.dumps(line, ensure_ascii=False) + "\n")
 
 
-def left(
-    faults: Sequence[Fault], known: dict[str, tuple[str, Row]], *, whole: bool = False
-) -> list[Fault]:
-    """Return the faults to be run: those without a row, that changed, or that survived.
-
-    If the `whole` list of verdicts is wanted, also those of whose rows it was never made.
-    """
+def left(faults: Sequence[Fault], known: dict[str, tuple[str, Row]]) -> list[Fault]:
+    """Return the faults to be run: those without a row, that changed, or that survived."""
     return [
         fault
         for fault in faults
         if fault.name not in known
         or known[fault.name][0] != fault.digest(ROOT)
         or known[fault.name][1].caught_by == "SURVIVED"
-        or (whole and fault.routes != JUDGING and not known[fault.name][1].listed)
     ]
 
 
-def kill_table(faults: Sequence[Fault], *, whole: bool = False, cores: int = 1) -> Iterator[Row]:
+def kill_table(faults: Sequence[Fault], *, cores: int = 1) -> Iterator[Row]:
     """Yield the row of each fault as it is found, from as many copies of the tree as cores.
 
     Before, all tests pass without a fault, and no verdict turns by the rules that are asked.
@@ -143,9 +137,8 @@ def kill_table(faults: Sequence[Fault], *, whole: bool = False, cores: int = 1) 
         def asked(fault: Fault) -> Row:
             tree = free.get()
             try:
-                options = {"last": last.get(fault.name), "seconds": seconds, "whole": whole}
-                begun = partial(begin, tree)
-                return put_to_the_test(tree, fault, ledger, names, begun, **options)
+                known = {"last": last.get(fault.name), "seconds": seconds}
+                return put_to_the_test(tree, fault, ledger, names, partial(begin, tree), **known)
             finally:
                 clear(tree)  # no test may see the results of a fault
                 free.put(tree)
@@ -220,18 +213,17 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--faults", help=f"names, separated by commas; or routes ({JUDGING})")
     parser.add_argument("--rotate", type=int, help="so many, picked by the hash of the commit")
-    parser.add_argument("--whole", action="store_true", help="list all verdicts of the paper")
     parser.add_argument("--cores", type=int, default=1, help="so many faults at once")
     options = parser.parse_args()
     faults = load()
     picked = chosen(faults, options.faults, options.rotate)
     for fault in faults:
         fault.texts(ROOT)  # one that no longer applies is refused at once
-    missing = left(picked, kept(KEPT), whole=options.whole)
+    missing = left(picked, kept(KEPT))
     print(f"{len(picked) - len(missing)} of {len(picked)} faults are in {KEPT.name}", flush=True)
     if missing:
         digests = {fault.name: fault.digest(ROOT) for fault in missing}  # the tree may change
-        for row in kill_table(missing, whole=options.whole, cores=options.cores):
+        for row in kill_table(missing, cores=options.cores):
             keep(KEPT, digests[row.name], row)
             print(f"{processor_seconds():6.0f} s  {row.name}: {caught(row)}", flush=True)
     known = kept(KEPT)

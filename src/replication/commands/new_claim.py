@@ -4,11 +4,10 @@ It gets a row of the ledger, a function of the library, a step that calls it, an
 that the ledger has is left as it is.
 """
 
-import re
 import sys
 from pathlib import Path
 
-from replication.commands.new_study import meaning_of
+from replication.commands.new_study import check_name, names_of
 from replication.inputs.parts import PAPER, ledger_of
 from replication.inputs.strict_yaml import read_yaml
 from replication.judging.calls import OF_NO_ROW
@@ -74,22 +73,13 @@ def create(name: str, root: Path = Path()) -> list[str]:
     studies = read_yaml(root / "config/config.yaml")["studies"]
     if name in {row.id for row in read_ledger(root / ledger_of(p) for p in [PAPER, *studies])}:
         return []
-    if not re.fullmatch(r"[a-z][a-z0-9_]*", name) or len(name) > LONGEST:
-        raise ValueError(
-            f"NAME is {name!r}; expected a lower-case letter, then lower-case letters, digits "
-            f"or _, at most {LONGEST} in all"
-        )
-    if meaning := meaning_of(name, root):
-        raise ValueError(f"NAME is {name!r}, {meaning}; expected another name")
+    check_name(name, root, LONGEST)
     packages = {path.parent.name for path in (root / "src").glob("*/__init__.py")}
     library, *_ = sorted(packages - {*OF_NO_ROW})
-    new = {f"src/{library}/{name}.py": FUNCTION, f"src/steps/{name}.py": STEP}
-    taken = [path for path in new if (root / path).exists()]
-    if re.search(rf"^rule {name}:", (root / RULES).read_text(encoding="utf-8"), re.MULTILINE):
-        taken.append(f"the rule in {RULES}")
-    if taken:
-        raise ValueError(f"NAME is {name!r}, and {taken[0]} exists; expected a new name")
-    new = {ledger_of(PAPER): ROW} | new | {RULES: RULE}
+    if name in names_of(root) | {path.stem for path in root.glob("src/*/*.py")}:
+        raise ValueError(f"NAME is {name!r}, as a rule, result or module is; expected a new name")
+    modules = {f"src/{library}/{name}.py": FUNCTION, f"src/steps/{name}.py": STEP}
+    new = {ledger_of(PAPER): ROW, **modules, RULES: RULE}
     for path, text in new.items():
         with (root / path).open("a", encoding="utf-8") as file:
             file.write(text.format(name=name, library=library))

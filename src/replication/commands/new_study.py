@@ -29,15 +29,7 @@ def create(name: str, root: Path = Path()) -> Path:
         line `studies: [...]`.
     """
     folder, config = root / "studies" / name, root / "config" / "config.yaml"
-    if not re.fullmatch(r"[a-z][a-z0-9_]*", name) or len(name) > LONGEST:
-        raise ValueError(
-            f"NAME is {name!r}; expected a lower-case letter, then lower-case letters, digits "
-            f"or _, at most {LONGEST} in all"
-        )
-    if meaning := meaning_of(name, root):
-        raise ValueError(
-            f"NAME is {name!r}, {meaning}; expected another name, for example '{name[:14]}_study'"
-        )
+    check_name(name, root, LONGEST)
     if folder.exists():
         raise ValueError(f"NAME is {name!r}, and {folder} exists; expected a new name")
     if taken := _taken(name, root):
@@ -57,7 +49,20 @@ def create(name: str, root: Path = Path()) -> Path:
     return folder
 
 
-def meaning_of(name: str, root: Path) -> str | None:
+def check_name(name: str, root: Path, longest: int) -> None:
+    """Raise ValueError for a name of a study or claim that cannot be one, or means something."""
+    if not re.fullmatch(r"[a-z][a-z0-9_]*", name) or len(name) > longest:
+        raise ValueError(
+            f"NAME is {name!r}; expected a lower-case letter, then lower-case letters, digits "
+            f"or _, at most {longest} in all"
+        )
+    if meaning := _meaning(name, root):
+        raise ValueError(
+            f"NAME is {name!r}, {meaning}; expected another name, for example 'my_{name[:14]}'"
+        )
+
+
+def _meaning(name: str, root: Path) -> str | None:
     """Return what else a name means to a program that reads it, or None."""
     if (value := read_word(name)) != name:
         return f"which YAML reads as {value!r}, and the config names its studies in YAML"
@@ -72,16 +77,20 @@ def meaning_of(name: str, root: Path) -> str | None:
     return None
 
 
-def _taken(name: str, root: Path) -> list[str]:
-    """Return the names, of the paper and of studies, that would be mixed up with the new one's."""
+def names_of(root: Path) -> set[str]:
+    """Return the names of rules, results, figures, notebooks and documents."""
     snakefiles = [*sorted(root.glob("src/*/*.smk")), *sorted(root.glob("studies/*/*.smk"))]
     texts = [path.read_text(encoding="utf-8") for path in snakefiles]
     names = {found for text in texts for both in NAMES.findall(text) for found in both if found}
     made = ("figures/*.py", "notebooks/*.ipynb", "paper/*.typ")
-    names |= {path.stem for pattern in made for path in root.glob(pattern)}
+    return names | {path.stem for pattern in made for path in root.glob(pattern)}
+
+
+def _taken(name: str, root: Path) -> list[str]:
+    """Return the names, of the paper and of studies, that would be mixed up with the new one's."""
     studies = [path.parent.name for path in root.glob("studies/*/study.smk")]
     return [
-        *sorted(other for other in names if other.startswith(name)),
+        *sorted(other for other in names_of(root) if other.startswith(name)),
         *sorted(study for study in studies if name.startswith(f"{study}_")),
     ]
 

@@ -102,7 +102,7 @@ def main(source: str) -> None:
     with tempfile.TemporaryDirectory() as clone:
         folder = Path(source)
         if source and not folder.is_dir():
-            subprocess.run(["git", "clone", "--quiet", "--depth=1", source, clone])
+            subprocess.run(["git", "clone", "--quiet", "--depth=1", "--", source, clone])
             folder = Path(clone)
         newer = (folder / MACHINE).resolve()
         script = newer / "commands" / "update.py"

@@ -28,21 +28,17 @@ DRAFT = "; of a new section, `make schema` drafts what the schema says"
 
 
 class Sections(dict[str, Any]):
-    """A config, which names its file when it lacks a section that a rule takes."""
+    """A config that names its file when it lacks a section that a rule takes."""
 
-    def __init__(self, config: Mapping[str, Any], path: str) -> None:
-        super().__init__(config)
-        self.path = path
+    path = "config/config.yaml"
 
     def __missing__(self, name: str) -> Any:
-        """Refuse a section that is not there."""
         raise ValueError(
             f"{self.path} has no section {name!r}, which a rule takes; {hint(name, self)}"
         )
 
-    def __reduce__(self) -> tuple[type[dict[str, Any]], tuple[dict[str, Any]]]:
-        """Reach a job as a plain mapping, so that the job loads no module for it."""
-        return dict, (dict(self),)
+    def __reduce__(self) -> tuple[type, tuple[Any]]:
+        return dict, (dict(self),)  # a job loads no module for it
 
 
 def check_config(

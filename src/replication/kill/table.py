@@ -10,7 +10,7 @@ from pathlib import Path
 from replication.judging.claim import Claim
 from replication.judging.findings import Findings, read_findings
 from replication.judging.ledger import with_verdict
-from replication.kill.faults import JUDGING, Fault, faulty
+from replication.kill.faults import Fault, faulty
 from replication.kill.tree_copy import run
 
 QUICK = "config/quick.yaml"
@@ -31,7 +31,11 @@ class Row:
     test: str
     rules: str  # those that raise; "all" for a run that was given up
     date: str  # of the last run that caught it
-    listed: str = ""  # date of the last run of all rules of the paper, which lists the verdicts
+
+
+def row_of(entry: Mapping[str, str]) -> Row:
+    """Return the row of an entry, which may have columns that older tables had."""
+    return Row(**{field.name: entry[field.name] for field in fields(Row)})
 
 
 # What catches a fault ----------------------------------------------------------------------------
@@ -86,21 +90,6 @@ def first_failing(tree: Path, tests: Sequence[str]) -> str:
     return named[1]
 
 
-def courts(fault: Fault, whole: bool) -> tuple[str, str, str]:
-    """Return in which order rows of the paper, rows of studies and tests have to catch a fault.
-
-    The tests are the first, as they take seconds, unless the `whole` list of verdicts is wanted.
-    Then the paper's verdicts are the first, which the fault would falsify; of those of studies,
-    which cost most, only a fault in a study goes before the tests. Faults in the judging are put
-    to their tests first in any case: to the cases in which a result is known to be false.
-    """
-    if fault.routes == JUDGING or not whole:
-        return "tests", "paper", "studies"
-    if all(file.startswith("studies/") for file in fault.files):
-        return "paper", "studies", "tests"
-    return "paper", "tests", "studies"
-
-
 def last_time(
     last: Row | None, ledgers: Mapping[str, Sequence[Claim]], seconds: Mapping[str, float]
 ) -> list[tuple[str, Sequence[str], Sequence[Claim]]]:
@@ -130,9 +119,8 @@ def put_to_the_test(
     *,
     last: Row | None = None,
     seconds: Mapping[str, float] | None = None,
-    whole: bool = False,
 ) -> Row:
-    """Return what catches a fault: what caught it last, or the first verdict or test of its courts.
+    """Return what catches a fault: what caught it last; or its tests, the paper's rows, studies'.
 
     Parameters
     ----------
@@ -146,17 +134,12 @@ def put_to_the_test(
         The row of the last table. Its verdicts that are not asked again stay in the new row.
     seconds
         What a rule costs.
-    whole
-        Whether to list all verdicts of the paper that turn, which costs most.
     """
     sessions = [
-        *([] if whole else last_time(last, ledgers, seconds or {})),
-        *(
-            (court, *((fault.tests, []) if court == "tests" else ([], ledgers[court])))
-            for court in courts(fault, whole)
-        ),
+        *last_time(last, ledgers, seconds or {}),
+        ("tests", fault.tests, []),  # they take seconds
+        *((court, [], ledgers[court]) for court in ("paper", "studies")),
     ]
-    today, listed = date.today().isoformat(), ""
     test, verdicts, rules = "", [], []
     for court, tests, claims in sessions:
         if claims:
@@ -167,14 +150,12 @@ def put_to_the_test(
             else:
                 verdicts, raised, _ = workflow(tree, claims, studies)
                 rules += raised
-        if court == "paper":
-            listed = today
         if test or verdicts:
             break
     if last and court == "last" and (test or verdicts):
         again = {*last.verdicts.split()} - {claim.id for claim in claims} | {*verdicts}
         verdicts = [claim.id for rows in ledgers.values() for claim in rows if claim.id in again]
-        rules, listed = [*last.rules.split(), *rules], last.listed
+        rules = [*last.rules.split(), *rules]
     ways = {"verdict": verdicts, "test": test, "rule": rules}
     return Row(
         name=fault.name,
@@ -185,8 +166,7 @@ def put_to_the_test(
         verdicts=" ".join(verdicts),
         test=test,
         rules=" ".join(dict.fromkeys(rules)),
-        date=today,
-        listed=listed,
+        date=date.today().isoformat(),
     )
 
 
@@ -208,10 +188,9 @@ def page(rows: Sequence[Row], ledger: Iterable[Claim], waiting: Sequence[str] = 
         "# What catches a fault",
         "",
         "Deliberate faults in the physics and in the judging, one at a time, and what catches",
-        "each: a verdict of the ledgers, or else a test. Faults in the judging are put to tests",
-        f"first. Written by `make kill-table`, by runs from {dates[0]} to {dates[-1]}; verdicts,",
-        "files and dates are in `kill_table.csv`. A run repeats what caught a fault last;",
-        "its column `listed` has the date at which all rules of the paper were asked, if ever.",
+        "each: a test, or else a verdict of the ledgers. Written by `make kill-table`, by runs",
+        f"from {dates[0]} to {dates[-1]}; files and dates are in `kill_table.csv`. A run repeats",
+        "what caught a fault last, and asks no further.",
         *_waiting(waiting),
         "",
         "| fault | in words | routes that have it | caught by |",
@@ -268,7 +247,7 @@ def caught(row: Row) -> str:
 def read(path: Path) -> list[Row]:
     """Return the rows of a published table."""
     with path.open(encoding="utf-8", newline="") as file:
-        return [Row(**row) for row in csv.DictReader(file)]
+        return list(map(row_of, csv.DictReader(file)))
 
 
 def current(

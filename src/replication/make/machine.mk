@@ -25,7 +25,7 @@ export PYTHONDONTWRITEBYTECODE :=
 
 # Commands receive these variables unchanged through the environment, so that neither make nor the
 # shell can interpret a value as code.
-GIVEN := CORES FAULTS FROM ITEM LISTED NAME ROTATE TO $(OWN)
+GIVEN := CORES FAULTS FROM ITEM NAME ROTATE TO $(OWN)
 $(foreach name,$(GIVEN),$(eval override $(name) := $$(value $(name))))
 export $(GIVEN)
 WHOLE = case "$$$(1)" in ''|0*|*[!0-9]*) \
@@ -108,7 +108,7 @@ publish: | $(UV) ## copy results to docs/ and tests/reference/; read the diff, t
 kill-table: | $(UV) ## put faults into a copy, one at a time: what catches each? (FAULTS=a,b or ROTATE=3)
 	@$(if $(value ROTATE),$(call WHOLE,ROTATE))
 	@$(call WHOLE,CORES); $(DEV) python -m replication.commands.kill_table --cores "$$CORES" \
-	  $${FAULTS:+"--faults=$$FAULTS"} $${ROTATE:+"--rotate=$$ROTATE"} $${LISTED:+--whole}
+	  $${FAULTS:+"--faults=$$FAULTS"} $${ROTATE:+"--rotate=$$ROTATE"}
 
 study: | $(UV) ## begin a follow-up study: make study NAME=my_study (FOLLOW-UP.md)
 	@$(RUN) python -m replication.commands.new_study "$$NAME"

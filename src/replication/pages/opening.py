@@ -9,7 +9,7 @@ from replication.judging.verdicts import tallies
 from replication.pages.captions import escaped
 
 TITLES = {"qualified": "On a condition", "misprint": "Misprints", "refuted": "Refuted"}
-"""The verdicts whose claims are told first, and what stands above these."""
+"""The verdicts whose claims come first, and their headings."""
 
 
 def opening(root: Path = Path()) -> dict[str, list[str]]:

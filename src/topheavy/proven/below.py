@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from topheavy import checks
+from topheavy.proven.balls import decimal
 from topheavy.proven.certificate import BITS, certified
 from topheavy.pulses import Pulse
 from topheavy.structures import Structure
@@ -20,7 +21,10 @@ NARROWEST = 1e-11
 NARROW = 1e-6
 """Of the highest factor: narrower boxes get more digits."""
 
-NARROWER, WIDER = 0.6, 1.3
+SPARE = 0.1
+"""Of a box: so far beyond each end it is proven, since the enclosures of the checker are wider."""
+
+NARROWER, WIDER = 0.7, 1.2
 """The width of the next box over that of a box that is not proven, and of one that is."""
 
 
@@ -64,14 +68,17 @@ def survives_below(
     while low < high:
         top = min(low + width, high)
         width = top - low
+        spare = SPARE * width
         found, certificate = certified(
             structure,
             pulse,
-            factor=(low, top),
+            factor=(max(0.0, low - spare), top + spare),
             linearised=linearised,
             bits=BITS if width < NARROW * high else 72,
             bounded=True,
         )
+        if certificate is not None:
+            certificate["factor"] = [str(decimal(end)) for end in (low, top)]
         if found.outcome == "survives" and certificate is not None and accepts(certificate):
             below.certificates.append(certificate)
         elif found.outcome == "overturns" or width < NARROWEST * high:

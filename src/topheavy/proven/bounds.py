@@ -40,7 +40,8 @@ from topheavy.proven.flight import Law
 from topheavy.proven.forcing import Forcing, Piece
 
 SIDES = (1, -1)
-FIRST, GROWTH, LONGEST = 2.0**-12, 1.3, math.pi / 96.0  # steps, in the phase of a pulse
+FIRST, GROWTH, LONGEST = 2.0**-6, 1.3, math.pi / 96.0  # steps, in the phase of a pulse
+START = 1.1  # on time, energy and wall where it begins: the enclosures of the checker are wider
 MARGIN = 1.02  # on energies and times: the enclosures of the checker are wider
 _SLACK = 2.0**-20  # of a wall, beyond an equality
 _TRIES = 40
@@ -68,14 +69,15 @@ class Bounded:
 
     def start(self, sigma: arb, side: int, phi: arb, rate: arb) -> Bound:
         """Return the bound of a state: at rest for side 0, else of φ and φ' on that side."""
+        sigma = sigma.mid() + START * (sigma - sigma.mid())
         if not side:
             return Bound(sigma, 0.0, (0.0, 0.0))
         push = side * self.factor * self.forcing.value(self.piece, sigma)
         slope, middle = self.law.square * self.law.pull(phi, push), phi.mid()
         energy = self.law.potential(middle, push) + slope * (phi - middle) + rate * rate / 2
-        highest = bounds(phi)[1] * (1.0 + _SLACK) + _SLACK**2
+        highest = bounds(phi)[1] * START + _SLACK**2
         walls = (highest, 0.0) if side == 1 else (0.0, highest)
-        return Bound(sigma, max(0.0, bounds(energy)[1]) * MARGIN + _SLACK**2, walls)
+        return Bound(sigma, max(0.0, bounds(energy)[1]) * START + _SLACK**2, walls)
 
     def carried(self, bound: Bound) -> Iterator[Bound]:
         """Yield bounds until the pulse ends, or raise Undecided where α is not excluded."""
@@ -148,7 +150,8 @@ class Bounded:
         """Return W, on the side on which the block is pushed outward."""
         push = side * self.factor * self.forcing.value(self.piece, bound.sigma)
         wall = arb(bound.walls[SIDES.index(side)])
-        return (2 * (bound.energy - self.law.potential(wall, push).min(arb(0)))).sqrt()
+        square = 2 * (bound.energy - self.law.potential(wall, push).min(arb(0)))
+        return square.upper().max(arb(0)).sqrt()
 
     def released(self, bound: Bound) -> tuple[int, arb, arb] | None:
         """Return side, φ and φ' if it is sure to move outward on a side that is known."""

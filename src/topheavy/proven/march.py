@@ -1,7 +1,5 @@
 """A march of verified steps from impact to impact, which ends in an outcome or in Undecided."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, field
 from itertools import pairwise
@@ -23,8 +21,9 @@ MOST_STEPS = 2000
 SHORTEST = 2.0**-80
 """Of the clock of a motion (the phase of a pulse, a sample): a shorter step is not tried."""
 
-BOUNDED, BOUNDED_STEPS, BOUNDED_SHORTEST, WIDEST = 6, 100, 2.0**-14, 0.06
-"""How often a motion is bounded, steps tried until then, the shortest, and the widest impact."""
+BOUNDED, BOUNDED_STEPS, BOUNDED_SHORTEST, WIDEST = 6, 100, 0.3, 0.06
+"""How often a motion is bounded, steps tried until then, the shortest over the first that is tried,
+and the widest impact."""
 
 OF_A_BOX = 1e-6
 """Of the relative width of a box of factors: what the last terms of a step may amount to."""
@@ -240,7 +239,8 @@ class March:
         push = self._push(piece, self.sigma)
         start = self.law.series(self.phi, self.rate, push, self.order)
         h, stretch, cause = self._length(start[0]), 1.0, ""
-        while h > (BOUNDED_SHORTEST if self.bounded else SHORTEST):
+        shortest = BOUNDED_SHORTEST * h if self.bounded else SHORTEST
+        while h > shortest:
             self.tried += 1
             most = BOUNDED_STEPS if self.bounded else MOST_STEPS
             if self.tried > most:  # those of a wide box are shorter and shorter
@@ -388,7 +388,8 @@ class March:
         self.least = self.least.max(self.phi)
         self.most = self.most.max(self.phi)
         rebound = power(self.block.restitution, 2) * (surplus + barrier)
-        falls = (surplus > 0 and self.rate > 0) or (off < 0 and (surplus < 0 or self.rate > 0))
+        beyond = off < 0 and (surplus < 0 or self.rate > 0)
+        falls = beyond or (surplus > 0 and self.rate > 0)
         inward = self.rate < 0 and (surplus > 0 or off > 0)
         if falls or (inward and rebound > barrier):
             return Outcome("overturns", self.impacts + inward, bits=self.bits)

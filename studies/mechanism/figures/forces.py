@@ -12,7 +12,7 @@ LINES = {  # contact: label, colour, dashes
 
 def draw(mechanism_forces):
     table, last = mechanism_forces, mechanism_forces.time.max()
-    figure, axes = sheet(DOUBLE, 80, nrows=2, ncols=2, sharex=True)
+    figure, axes = sheet(DOUBLE, 74, nrows=2, ncols=2, sharex=True)
     motion, vertical, horizontal, demand = axes.ravel()
     motion.plot(table.time, table.rotation, color=INK)
     motion.plot(table.time, table.ground, color=GREY, linewidth=0.8)

@@ -66,7 +66,7 @@ def falls(axis, pairs):
 
 
 def draw(reversals_pairs, reversals_medians, mass_ratio):
-    figure, axes = sheet(DOUBLE, 78, ncols=2)
+    figure, axes = sheet(DOUBLE, 66, ncols=2)
     gains(axes[0], reversals_medians[reversals_medians.structure == STRUCTURE], mass_ratio)
     falls(axes[1], reversals_pairs[reversals_pairs.structure == STRUCTURE])
     letter(axes, ["Gain of the median capacity", "Outcomes that differ"])

@@ -32,7 +32,7 @@ def map_axis(axis, cells):
 
 
 def draw(reversals_map, reversals_why):
-    figure, axes = sheet(DOUBLE, 108, nrows=3, ncols=4, sharex=True, sharey=True)
+    figure, axes = sheet(DOUBLE, 102, nrows=3, ncols=4, sharex=True, sharey=True)
     slenderness = reversals_map.slenderness_deg.max()
     why = reversals_why[reversals_why.heavier == "infinite"]
     for row, (change, name) in zip(axes, ROWS.items(), strict=True):

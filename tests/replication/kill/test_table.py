@@ -185,11 +185,11 @@ def test_first_failing_test_is_named(tree):
 
 def test_new_fault_is_put_to_tests_then_to_the_paper_then_to_studies(monkeypatch, tree):
     row, asked = judge(monkeypatch, tree, ONE, ["eq1"])
-    assert (row.caught_by, row.test, row.listed) == ("test", "test_one.py::test_one", "")
+    assert (row.caught_by, row.test) == ("test", "test_one.py::test_one")
     assert asked == ["test_one.py"]
     row, asked = judge(monkeypatch, tree, ONE, ["eq1", "ours"], fails=False)
     assert (row.caught_by, row.verdicts, row.rules) == ("verdict", "eq1", "c")
-    assert (asked, row.listed) == (["test_one.py", *PAPERS], row.date)
+    assert asked == ["test_one.py", *PAPERS]
     row, asked = judge(monkeypatch, tree, ONE, ["ours"], fails=False)
     assert (row.caught_by, row.verdicts, asked) == (
         "verdict",
@@ -200,30 +200,16 @@ def test_new_fault_is_put_to_tests_then_to_the_paper_then_to_studies(monkeypatch
     assert (row.caught_by, row.rules) == ("rule", "c")
 
 
-def test_whole_list_puts_a_fault_of_the_physics_to_the_paper_first(monkeypatch, tree):
-    row, asked = judge(monkeypatch, tree, ONE, ["eq1"], last=ROW, whole=True)
-    assert (row.verdicts, row.test, asked, row.listed) == ("eq1", "", PAPERS, row.date)
-    row, asked = judge(monkeypatch, tree, ONE, [], last=ROW, whole=True)
-    assert (row.caught_by, asked) == ("test", [*PAPERS, "test_one.py"])
-
-
-def test_fault_in_a_study_is_put_to_studies_before_tests_for_the_whole_list():
-    in_study = replace(ONE, changes=(Change("studies/a/steps/one.py", "1", "2"),))
-    assert table.courts(in_study, True) == ("paper", "studies", "tests")
-    assert table.courts(in_study, False) == ("tests", "paper", "studies")
-    assert table.courts(replace(in_study, routes=JUDGING), True) == ("tests", "paper", "studies")
-
-
 def test_cheapest_rule_that_caught_a_fault_last_is_asked_first(monkeypatch, tree):
-    last = replace(ROW, verdicts="eq1 eq3 eq4", listed="2026-01-01")
+    last = replace(ROW, verdicts="eq1 eq3 eq4")
     options = {"last": last, "seconds": {"a": 9.0, "b": 5.0, "c": 7.0}}
     row, asked = judge(monkeypatch, tree, ONE, ["eq1", "eq2"], **options)
     assert asked == ["b"]
     assert row.verdicts == "eq1 eq2 eq4"  # eq3 was asked again, and does not turn
-    assert (row.caught_by, row.listed) == ("verdict", "2026-01-01")
-    assert row.date > row.listed
+    assert row.caught_by == "verdict"
+    assert row.date > last.date
     row, asked = judge(monkeypatch, tree, ONE, [], **options)
-    assert (row.caught_by, row.verdicts, row.listed) == ("test", "", "")
+    assert (row.caught_by, row.verdicts) == ("test", "")
     assert asked == ["b", "test_one.py"]
 
 
@@ -235,9 +221,9 @@ def test_rule_of_a_study_is_asked_first_only_where_none_of_the_paper_turned(monk
 
 
 def test_test_that_caught_a_fault_last_is_asked_first(monkeypatch, tree):
-    last = replace(ROW, verdicts="", test="test_one.py::test_one", listed="2026-01-01")
+    last = replace(ROW, verdicts="", test="test_one.py::test_one")
     row, asked = judge(monkeypatch, tree, ONE, ["eq1"], last=last)
-    assert (row.test, row.listed, asked) == (last.test, last.listed, [last.test])
+    assert (row.test, asked) == (last.test, [last.test])
 
 
 # A run -------------------------------------------------------------------------------------------
@@ -368,12 +354,6 @@ def test_row_is_kept_for_the_fault_that_was_run(found, tree, monkeypatch):
     assert command.left([ONE], command.kept(command.KEPT)) == [ONE]
 
 
-def test_whole_list_is_made_once(found, tree):
-    assert command.left([ONE], command.kept(found), whole=True) == [ONE]
-    command.keep(found, ONE.digest(tree), replace(ROW, listed="2026-01-01"))
-    assert command.left([ONE], command.kept(found), whole=True) == []
-
-
 def test_survivor_is_run_again(found, tree):
     command.keep(found, ONE.digest(tree), replace(ROW, caught_by="SURVIVED"))
     assert command.left([ONE], command.kept(found)) == [ONE]
@@ -396,30 +376,6 @@ def test_page_says_which_faults_turn_each_claim():
 def waiting(rows):
     """The faults that were not run since they were written or changed."""
     return [name for name in NAMES if name not in {row.name for row in rows}]
-
-
-def test_published_table_has_faults_as_they_are_and_names_the_others(published):
-    kept = [(row.name, row.fault, row.routes, row.files) for row in published]
-    faults = [(f.name, f.fault, f.routes, " ".join(f.files)) for f in FAULTS]
-    assert [fault for fault in kept if fault not in faults] == []
-    page = (ROOT / "docs" / "kill_table.md").read_text(encoding="utf-8")
-    for name in waiting(published):
-        assert name in page
-
-
-def test_published_table_has_no_survivor(published):
-    assert {row.caught_by for row in published} <= {"verdict", "rule", "test"}
-    assert all(row.verdicts or row.rules or row.test for row in published)
-
-
-def test_what_caught_a_fault_is_still_there(published):
-    files = [ROOT / "Snakefile", *ROOT.glob("src/*/*.smk"), *ROOT.glob("studies/*/*.smk")]
-    rules = "\n".join(path.read_text(encoding="utf-8") for path in files)
-    for row in published:
-        assert set(row.verdicts.split()) <= {claim.id for claim in LEDGER}
-        assert all(f"rule {rule}:" in rules for rule in row.rules.split())  # all: given up
-        file, *_, test = row.test.split("::") if row.test else ("", "")
-        assert not file or f"def {test}(" in (ROOT / file).read_text(encoding="utf-8")
 
 
 def test_published_page_is_that_of_the_table(published):

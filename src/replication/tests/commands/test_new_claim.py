@@ -45,8 +45,9 @@ def test_new_claim_fits_together_in_the_style_that_lint_demands(paper, monkeypat
         ("a" * (LONGEST + 1), "at most"),
         ("true", "which YAML reads as True"),
         ("lambda", "a keyword of Python"),
-        ("period", "src/theory/period.py exists"),
-        ("equations", "src/steps/equations.py exists"),
+        ("equations", "as a rule, result or module is"),
+        ("motion", "as a rule, result or module is"),
+        ("verdict", "as a rule, result or module is"),
     ],
 )
 def test_name_that_cannot_be_one_changes_nothing(paper, name, told):

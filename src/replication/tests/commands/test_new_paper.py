@@ -123,15 +123,19 @@ def test_published_edition_is_sound(paper):
     assert done.stdout.endswith("tables, claims and pages agree\n"), done.stdout + done.stderr
 
 
-def test_it_is_on_the_branch_on_which_its_workflow_runs(tmp_path):
-    default = {"GIT_CONFIG_GLOBAL": str(tmp_path / "gitconfig")}
+def test_first_commit_is_on_the_branch_on_which_its_workflow_runs(paper, tmp_path, monkeypatch):
     (tmp_path / "gitconfig").write_text("[init]\n\tdefaultBranch = trunk\n", encoding="utf-8")
-    done = python(ROOT, "-m", "replication.commands.new_paper", str(tmp_path / "far"), **default)
-    assert done.returncode == 0, done.stderr
-    workflow = yaml.safe_load((tmp_path / "far/.github/workflows/ci.yaml").read_text("utf-8"))
-    head = (tmp_path / "far/.git/HEAD").read_text("utf-8").strip()
+    for name in ("GLOBAL", "SYSTEM"):
+        monkeypatch.setenv(f"GIT_CONFIG_{name}", str(tmp_path / "gitconfig"))
+    workflow = yaml.safe_load((paper / ".github/workflows/ci.yaml").read_text("utf-8"))
     (branch,) = workflow[True]["push"]["branches"]  # YAML 1.1 reads on as true
-    assert head == f"ref: refs/heads/{branch}"
+    head = tmp_path / ".git/refs/heads" / branch
+    assert "git knows no author, so type: git config" in new_paper.first_commit(tmp_path)
+    assert not head.exists()
+    for name in ("AUTHOR_NAME", "AUTHOR_EMAIL", "COMMITTER_NAME", "COMMITTER_EMAIL"):
+        monkeypatch.setenv(f"GIT_{name}", "a@b.c")
+    assert f"committed on the branch {branch}" in new_paper.first_commit(tmp_path)
+    assert head.exists()
 
 
 JOBS = """

@@ -42,7 +42,7 @@ def test_figure_is_drawn_from_the_tables_that_its_function_takes(study):
 
 
 def test_section_that_a_rule_takes_and_the_config_lacks_is_named_with_its_file():
-    config = Sections({"period": {}, "mass": {}}, "config/config.yaml")
+    config = Sections({"period": {}, "mass": {}})
     said = "config/config.yaml has no section 'periods', .*; did you mean 'period'"
     with pytest.raises(ValueError, match=said):
         config["periods"]

@@ -7,5 +7,6 @@ import pytest
 from studies.skeleton.steps.limit import error_of
 
 
-def test_error_falls_with_the_square_of_the_intervals():
-    assert error_of(1000) == pytest.approx(math.pi**2 / 12e6, rel=1e-5)
+def test_error_is_that_of_the_sum_in_closed_form():
+    half = math.pi / 20
+    assert error_of(10) == pytest.approx(1.0 - half / math.tan(half), rel=1e-10)
