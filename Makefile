@@ -16,7 +16,7 @@ include src/replication/make/machine.mk
 .PHONY: api audit fuzz benchmark verify-grid cluster-test
 
 api: | $(UV) ## write a page of the library's functions: dist/api/topheavy.html
-	@$(DEV) python -c "import topheavy; [getattr(topheavy, name) for name in topheavy.__all__]; \
+	@$(DEV) python -W 'ignore:Error parsing type annotation' -c "import topheavy; [getattr(topheavy, name) for name in topheavy.__all__]; \
 	  from pdoc.__main__ import cli; cli('topheavy -o dist/api --no-show-source --docformat numpy'.split())"
 
 audit: | $(UV) ## 3 hours: finer grids, tighter tolerances, all peers, all faults (CONFIG, CELLS, ROTATE)
@@ -30,6 +30,9 @@ fuzz: | $(UV) ## search for inputs on which solvers disagree or a function fails
 
 benchmark: | $(UV) ## time the kernel beside its peers; writes docs/benchmark.csv and .svg (15 minutes)
 	@$(BENCH) python benchmarks/benchmark.py
+
+stills: | $(UV) ## take the pictures of docs/explorer.html anew, at three sizes of screen
+	@$(RUN) python -m steps.explorer_still
 
 verify-grid: | $(UV) ## compare overturning flags with an independent route (CELLS=40000 a set)
 	@$(call WHOLE,CELLS)

@@ -19,7 +19,6 @@ from pathlib import Path
 import numpy as np
 
 from topheavy import (
-    PULSE_SHAPES,
     Pulse,
     Record,
     Response,
@@ -30,9 +29,10 @@ from topheavy import (
     read_record,
     simulate,
 )
+from topheavy.shapes import ENDING
 
 RECORDS = Path(__file__).parent.parent / "data" / "records"
-SHAPES = sorted(set(PULSE_SHAPES) - {"harmonic"})
+SHAPES = sorted(ENDING)
 #: Relative distance from a pulse's boundary beyond which all calls have to agree.
 PULSE_MARGIN = 1e-12
 #: Such calls are made beside a boundary, at these relative distances.

@@ -36,6 +36,7 @@ from topheavy.frame_forces import centre_height
 from topheavy.newton_euler import ThreeBodies, accelerations, impact
 from topheavy.pulses import Pulse
 from topheavy.records import Record
+from topheavy.shapes import ENDING
 from topheavy.structures import RockingBlock, Structure
 
 #: Cases of a property in its turn, s of the processor for one, and the first two of all turns.
@@ -114,7 +115,7 @@ def motions(draw: st.DrawFn, structure: Structure, most: int = 40) -> Pulse | Re
     beside = [math.nextafter(1.0, 2.0), math.nextafter(1.0, 0.0), 1.0 + 1e-9, 1.0]
     size = level * draw(edged(0.0, 12.0, *beside)) * draw(st.sampled_from([-1.0, 1.0]))
     if draw(st.booleans()):
-        shape = draw(st.sampled_from(sorted({*th.PULSE_SHAPES} - {"harmonic"})))
+        shape = draw(st.sampled_from(sorted(ENDING)))
         return th.Pulse(shape, size, p * draw(edged(0.2, 30.0, 1.0)))
     samples = st.one_of(st.floats(-1.0, 1.0), st.sampled_from([0.0, 1.0, 1.0, -1.0, 0.5]))
     values = draw(st.lists(samples, min_size=2, max_size=most))

@@ -1,5 +1,5 @@
 "use strict";
-/* Histories and the overturning spectrum, drawn by uPlot in the colours of the page. */
+/* Histories and the map of overturning, drawn by uPlot in the colours of the page. */
 
 const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 const AXIS_FONT = "12px system-ui, sans-serif";
@@ -84,7 +84,23 @@ class Strip {
   }
 }
 
-/** The overturning spectrum: an image of outcomes, and where the state is. */
+/** The boundary of the cells whose code has a bit: segments from and to the middle between neighbours. */
+function boundary(codes, columns, rows, bit) {
+  const segments = [], has = (i, j) => (codes[i + columns * j] & bit) !== 0;
+  for (let i = 0; i + 1 < columns; i++) {
+    for (let j = 0; j + 1 < rows; j++) {
+      const a = has(i, j), b = has(i + 1, j), c = has(i + 1, j + 1), d = has(i, j + 1), crossed = [];
+      if (a !== b) crossed.push([i + 1, j + 0.5]);
+      if (b !== c) crossed.push([i + 1.5, j + 1]);
+      if (c !== d) crossed.push([i + 1, j + 1.5]);
+      if (d !== a) crossed.push([i + 0.5, j + 1]);
+      for (let k = 0; k < crossed.length; k += 2) segments.push([crossed[k], crossed[k + 1]]);
+    }
+  }
+  return segments;
+}
+
+/** The map of overturning: which of two structures overturn, their boundaries, and where the state is. */
 class Spectrum {
   constructor(place, pick) {
     this.place = place;
@@ -101,13 +117,14 @@ class Spectrum {
     });
   }
 
-  /** Set the plane: its axes anew when they change, and no cells until its own come. `contents` is
-      all that its cells depend on, as a text. */
-  frame(plane, contents) {
-    const axes = JSON.stringify([plane.x, plane.y, plane.isRecord]);
+  /** Set the plane: its axes anew when they change, and no cells until its own come. `keys` are two
+      texts on which its cells depend; if only the second changes and `keeps`, the old ones wait for new. */
+  frame(plane, keys, keeps) {
+    const axes = JSON.stringify([plane.x, plane.y, plane.isRecord]), [column, frame] = keys;
     this.plane = plane;
-    if (contents !== this.contents) this.cells = null;
-    this.contents = contents;
+    if (this.cells && column === this.keys[0] && frame !== this.keys[1] && keeps) this.cells.isWhole = false;
+    else if (column !== this.keys?.[0] || frame !== this.keys[1]) this.cells = null;
+    this.keys = keys;
     if (axes !== this.axes) {
       this.axes = axes;
       this.chart?.destroy();
@@ -141,15 +158,24 @@ class Spectrum {
   }
 
   /** Take the outcomes of the plane's cells, row by row from the lowest amplitude up; `share` of them are known. */
-  outcomes({ codes, columns, rows, share }) {
-    this.cells = { codes: withRegions(codes, columns, rows), columns, rows, isWhole: share === 1 };
+  outcomes({ id, codes, columns, rows, share }) {
+    const [solid, dotted] = [new Path2D(), new Path2D()]; // in cells
+    for (const [from, to] of boundary(codes, columns, rows, FRAME_FALLS)) {
+      solid.moveTo(...from);
+      solid.lineTo(...to);
+    }
+    for (const [from] of boundary(codes, columns, rows, COLUMN_FALLS)) {
+      dotted.moveTo(...from);
+      dotted.lineTo(...from);
+    }
+    this.cells = { id, codes, columns, rows, lines: [[solid, 1.5], [dotted, 2.8]], isWhole: share === 1 };
     this.recolour();
   }
 
   recolour() {
     if (!this.cells) return;
     const { codes, columns, rows } = this.cells;
-    const names = ["paper", "pale-survives", "pale-overturns", "overturns", "region"];
+    const names = ["paper", "prevented", "caused", "both"]; // by their codes
     const probe = document.createElement("canvas").getContext("2d", { willReadFrequently: true });
     const palette = names.map((name) => {
       probe.fillStyle = colour(name);
@@ -165,8 +191,20 @@ class Spectrum {
 
   paint({ ctx, bbox }) {
     if (!this.cells) return;
+    const { columns, rows, lines } = this.cells;
+    ctx.save();
     ctx.imageSmoothingEnabled = false;
     ctx.drawImage(this.image, bbox.left, bbox.top, bbox.width, bbox.height);
+    ctx.strokeStyle = colour("ink");
+    ctx.lineCap = "round";
+    const scaled = new DOMMatrix([bbox.width / columns, 0, 0, -bbox.height / rows, bbox.left, bbox.top + bbox.height]);
+    for (const [line, width] of lines) {
+      const path = new Path2D();
+      path.addPath(line, scaled);
+      ctx.lineWidth = width * devicePixelRatio;
+      ctx.stroke(path);
+    }
+    ctx.restore();
   }
 
   /** Draw "you are here". */

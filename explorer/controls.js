@@ -33,9 +33,9 @@ class Controls {
   constructor(change, open) {
     Object.assign(this, { change, open, state: { ...DEFAULTS }, refused: {} });
     const structure = byId("structure"), motion = byId("motion");
-    for (const key of ["b", "h", "g", "L"]) structure.append(this.number(key));
     structure.append(
-      this.choice("cap", "Cap beam of the frame", { free: "rests freely", fixed: "fixed to both" }),
+      ...["b", "h", "g"].map((key) => this.number(key)), this.masses(), this.number("L"),
+      this.choice("cap", "Cap beam on two columns", { free: "free: frame", fixed: "fixed: portal" }),
       this.choice("own", "Coefficient of restitution √r", { formula: "Eq. (25)", own: "own" }),
       this.number("r"),
       this.choice("eq", "Equation of motion", { exact: "exact", linearised: "linearised" }),
@@ -70,6 +70,20 @@ class Controls {
     slider.addEventListener("input", () => slide(false));
     slider.addEventListener("change", () => slide(true));
     return field;
+  }
+
+  /** The masses that give γ; what is typed stays as long as γ is theirs. */
+  masses() {
+    const input = (id, label, value) => made("input", { id, type: "text", inputmode: "decimal", value, "aria-label": label, "aria-describedby": "g-error" });
+    const pair = this.pair = [input("beam", "Mass of the cap beam", "2"), input("each", "Mass of one column", "1")];
+    const type = (isFinal) => {
+      const [beam, each] = pair.map((one) => typed(one.value)), ratio = each > 0 ? beam / (2 * each) : NaN;
+      const isNone = fault("g", ratio, "γ") !== "";
+      this.tell("g", isNone ? "the masses give no γ; expected a cap beam from 0, over a column above 0" : "");
+      if (!isNone) this.apply({ g: ratio }, isFinal, "g");
+    };
+    for (const one of pair) for (const kind of ["input", "change"]) one.addEventListener(kind, () => type(kind === "change"));
+    return made("p", { id: "masses" }, "or masses: beam", pair[0], "column", pair[1]);
   }
 
   choice(key, label, options) {
@@ -164,6 +178,8 @@ class Controls {
       if (document.activeElement !== slider || fromSlider(key, Number(slider.value)) !== state[key]) slider.value = toSlider(key, state[key]);
       slider.setAttribute("aria-valuetext", `${shown(state[key])} ${FIELDS[key].unit}`);
     }
+    const [beam, each] = this.pair, mass = typed(each.value);
+    if (mass > 0 && typed(beam.value) / (2 * mass) !== state.g) beam.value = shown(Number((2 * state.g * mass).toPrecision(4)));
     byId("size").textContent = `column ${shown(2 * state.b)} m wide, ${shown(2 * state.h)} m high`;
     for (const key of ["cap", "eq", "start"]) byId(`${key}-${state[key]}`).checked = true;
     byId(state.r === null ? "own-formula" : "own-own").checked = true;

@@ -1,11 +1,12 @@
 "use strict";
-/* The page: one state, two workers that compute from it, and everything that shows what they found. */
+/* The page: one state, the workers that compute from it, and everything that shows what they found. */
 
 const DATA = JSON.parse(byId("data").textContent);
 const inWorkers = (scripts) => URL.createObjectURL(new Blob([...document.querySelectorAll(scripts)].map((script) => script.textContent), { type: "text/javascript" }));
 const ENGINE = inWorkers("script.engine"), READER = inWorkers("script.engine, script.reader");
 const CASES = DATA.cases.map((each) => encode({ ...DEFAULTS, ...each.state }));
-const TITLES = { column: "Column", vase: "Vase: mass fixed to it", frame: "Frame: mass carried freely", portal: "Frame: cap beam fixed to both" };
+const TITLES = { column: "Column", vase: "Vase: mass fixed to it", frame: "Frame: mass carried freely", portal: "Portal: cap beam fixed to both" };
+const NARROW = matchMedia("(max-width: 700px)");
 
 const files = new Map(); // records by name, the samples of those that were opened in a blob; `opened` numbers them, so that a file of the same name is another
 let state = { ...DEFAULTS };
@@ -21,45 +22,63 @@ const round = (number, digits = 3) => {
 
 // The workers ------------------------------------------------------------------------------------
 
-const quick = new Worker(ENGINE);
-let slow = null, reader = null, held = null; // the record that the quick one has
-let isBusy = true, waits = false, survey = 0; // the number of the only survey whose answers count
+let slow = null, reader = null, survey = 0; // the number of the only survey whose answers count
 
 /** The record of the state, if that has one. */
 const fileOf = ({ shape, record }) => (shape === "record" ? files.get(record) : undefined);
 
-/** Request the histories of the state; while one is computed, or no chart is there, only the last question waits. */
-function ask() {
-  if (isBusy) {
-    waits = true;
-    return;
+/** A worker with one task; while it computes, or is not ready, only the last question waits. */
+class Quick {
+  constructor(task, hear) {
+    Object.assign(this, { task, worker: new Worker(ENGINE), isBusy: true, waits: false, held: null }); // the record that it has
+    this.worker.onmessage = ({ data }) => {
+      const began = performance.now();
+      if (!data.error) hear(data);
+      else if (data.id === encode(state)) controls.tell("shape", data.error);
+      performance.measure("drawing", { start: began });
+      this.ready();
+    };
   }
-  isBusy = true;
-  const file = fileOf(state), isNew = file && file !== held;
-  quick.postMessage({ id: encode(state), task: "histories", state, ...(isNew ? { file } : {}) });
-  held = file ?? held;
+
+  ask() {
+    this.waits = this.isBusy;
+    if (this.isBusy) return;
+    this.isBusy = true;
+    const file = fileOf(state), isNew = file && file !== this.held;
+    this.worker.postMessage({ id: encode(state), task: this.task, state, ...(isNew ? { file } : {}) });
+    this.held = file ?? this.held;
+  }
+
+  /** Ask what waited. */
+  ready() {
+    this.isBusy = false;
+    if (this.waits) this.ask();
+  }
 }
 
-quick.onmessage = ({ data }) => {
-  const began = performance.now();
-  if (!data.error) receive(data);
-  else if (data.id === encode(state)) controls.tell("shape", data.error);
-  performance.measure("drawing", { start: began });
-  answered();
-};
+const quick = new Quick("histories", receive), sketch = new Quick("sketch", outline);
 
-/** Ask what waited. */
-function answered() {
-  isBusy = false;
-  if (!waits) return;
-  waits = false;
-  ask();
+/** Whether a map of the state takes a moment only, so that it follows while a slider is dragged. */
+const isSketched = ({ shape }) => shape !== "record" && shape !== "harmonic";
+
+/** Show a coarse map, unless it is of another plane or the survey has a finer one. */
+function outline(data) {
+  const { cells, keys } = spectrumChart;
+  if (isSketched(state) && data.of === keys?.[0] && !cells?.isWhole && cells?.id !== survey) spectrumChart.outcomes(data);
 }
 
-/** Start minima and spectrum anew; the spectrum only where it is not whole yet. */
+/** Set the plane of the map, and whom it compares. */
+function frameMap() {
+  const file = fileOf(state), other = state.cap === "fixed" ? "the portal" : "the frame";
+  spectrumChart.frame(planeOf(state, file), planeKeys(state, file), isSketched(state));
+  byId("map-title").textContent = `Overturning of the column and of ${other}`;
+  for (const name of document.querySelectorAll("#key .other")) name.textContent = other;
+}
+
+/** Start minima and map anew; the map only where it is not whole yet. */
 function askSurvey() {
   const file = fileOf(state);
-  spectrumChart.frame(planeOf(state, file), planeKey(state, file));
+  frameMap();
   const needsSpectrum = !spectrumChart.cells?.isWhole;
   slow = new Worker(ENGINE);
   slow.onmessage = hear;
@@ -71,7 +90,10 @@ function askSurvey() {
 function dropSurvey() {
   survey += 1;
   slow?.terminate();
+  minima.length = 0;
 }
+
+const minima = [];
 
 function hear({ data }) {
   if (data.id !== survey) return;
@@ -83,7 +105,7 @@ function hear({ data }) {
     const most = 30 * upliftAcceleration(block), decimals = Math.max(0, Math.round(-Math.log10(step)));
     cell.textContent = data.minimum === Infinity ? `> ${round(most)}` : data.minimum.toFixed(decimals);
     cell.title = `search step ${round(step, 2)} g`;
-    cell.dataset.value = data.minimum;
+    minima[data.index] = cell.dataset.value = data.minimum;
     cell.classList.remove("pending");
   }
   if ("codes" in data) {
@@ -94,7 +116,7 @@ function hear({ data }) {
 
 /** Mark the numbers of a motion that nobody can compute to the digits that are shown. */
 function sensitive(index, is) {
-  byId("rows").children[index].dataset.sensitive = is;
+  for (const place of [byId("rows").children[index], byId(`caption${index}`)]) place.dataset.sensitive = is;
   byId("sensitive").hidden = !document.querySelector('[data-sensitive="true"]');
 }
 
@@ -107,7 +129,7 @@ function progress(share) {
 // What is shown -----------------------------------------------------------------------------------
 
 const controls = new Controls(change, open);
-const scene = new Scene(byId("scene"), [...byId("names").children]);
+const scene = new Scene(byId("scene"));
 const seek = (to) => {
   pause();
   show(to);
@@ -130,9 +152,10 @@ function receive(answer) {
   const largest = 1.15 * Math.max(answer.peak, level);
   strips[3].show(list, Array.from(answer.ground), [-largest, largest], "ink", [-level, level]);
   byId("ground").setAttribute("aria-label", `Ground acceleration over time, peak ${round(answer.peak)} g`);
+  scene.build(state, found, NARROW.matches);
   scene.outcomes(structures);
   table(structures);
-  byId("verdict").innerHTML = structures.map((of, k) => `${["Column", "vase", "frame"][k]} <span class="${word(of)}-word">${outcome(of)}</span>`).join(", ");
+  byId("verdict").innerHTML = structures.map((of, k) => `${k ? of.name : "Column"} <span class="${word(of)}-word">${outcome(of)}</span>`).join(", ");
   show(Math.min(time, until));
   document.documentElement.dataset.shown = answer.id; // of the state that was asked about
 }
@@ -186,6 +209,7 @@ function play() {
   if (!found) return;
   if (time >= found.times.at(-1)) show(0);
   isPlaying = wantsToPlay = true;
+  reveal();
   byId("toggle").textContent = "Pause";
   before = performance.now();
   requestAnimationFrame(tick);
@@ -227,6 +251,42 @@ addEventListener("keydown", (event) => {
   does();
 });
 
+// The guess of a first visit ------------------------------------------------------------------------
+
+/** Whether nobody has been asked yet, and the address names no case. */
+function isFirstVisit() {
+  try {
+    return !location.hash && localStorage.asked !== (localStorage.asked = "yes");
+  } catch { // a browser that keeps nothing
+    return !location.hash;
+  }
+}
+
+/** Hide what would tell, and ask. */
+function askFirst() {
+  document.documentElement.classList.add("guessing");
+  byId("guess").hidden = false;
+}
+
+/** Show what was hidden. */
+function reveal() {
+  document.documentElement.classList.remove("guessing");
+  byId("guess").hidden = true;
+}
+
+[...document.querySelectorAll("#guess button")].forEach((button, guess) => button.addEventListener("click", () => {
+  const of = encode(state);
+  play();
+  byId("toggle").focus();
+  const answer = () => {
+    if (encode(state) !== of) return;
+    if (minima.length < 3 || minima.includes(undefined)) return void setTimeout(answer, 50);
+    const order = [0, 1, 2].sort((one, other) => minima[one] - minima[other]), at = (k) => `the ${found.structures[order[k]].name} from ${minima[order[k]].toFixed(2)} g`;
+    byId("answer").textContent = `${guess === order[0] ? "Right" : "No"}: ${at(0)}, ${at(1)}, ${at(2)}. Here is ${round(found.peak)} g; drag the mass ratio, and watch both boundaries.`;
+  };
+  answer();
+}));
+
 // Changes of the state ------------------------------------------------------------------------------
 
 /** Take a change of the state, or return what contradicts it; the picture then stays. */
@@ -238,6 +298,7 @@ function change(patch, isFinal) {
   const wrong = contradiction(next);
   if (wrong) return wrong;
   const isNew = encode(next) !== encode(state);
+  if (isNew) reveal();
   state = next;
   if (isNew) update();
   if (isFinal && wantsToPlay && !matchMedia("(prefers-reduced-motion: reduce)").matches) {
@@ -253,6 +314,7 @@ let isUpdating = false, rested = 0;
 function update() {
   document.documentElement.dataset.spectrum = "computing";
   dropSurvey();
+  byId("answer").textContent = "";
   controls.show(state);
   if (!isUpdating) requestAnimationFrame(redraw);
   isUpdating = true;
@@ -261,15 +323,16 @@ function update() {
 }
 
 function redraw() {
-  const began = performance.now(), file = fileOf(state);
+  const began = performance.now();
   isUpdating = false;
-  ask();
-  scene.build(state);
+  quick.ask();
+  scene.build(state, found, NARROW.matches);
   if (found) {
     scene.outcomes(found.structures);
     show(time);
   }
-  if (strips.length > 3) spectrumChart.frame(planeOf(state, file), planeKey(state, file));
+  if (strips.length > 3) frameMap();
+  if (isSketched(state) && !spectrumChart.cells?.isWhole) sketch.ask();
   const here = encode(state), same = CASES.indexOf(here);
   byId("note").textContent = same >= 0 ? DATA.cases[same].note : "";
   [...byId("cases").children].forEach((button, k) => button.setAttribute("aria-pressed", String(k === same)));
@@ -284,7 +347,7 @@ function redraw() {
 /** When the state has rested for a moment: its address, its Python, its minima and its spectrum. */
 function settle() {
   const { here } = planeOf(state, fileOf(state));
-  byId("spectrum").setAttribute("aria-label", `Overturning spectrum of the frame; this case is at ${round(here.x)} and ${round(here.y)}`);
+  byId("spectrum").setAttribute("aria-label", `${byId("map-title").textContent}; this case is at ${round(here.x)} and ${round(here.y)}`);
   byId("python").textContent = inPython(state, files.get(state.record)?.file);
   history.replaceState(null, "", `#${encode(state)}`);
   askSurvey();
@@ -296,10 +359,12 @@ function keep() {
 }
 
 /** Show a whole new state, from its beginning. */
-function start(next) {
+function start(next, isFirst = false) {
   state = next;
   time = 0;
   update();
+  if (isFirst) return askFirst();
+  reveal();
   if (matchMedia("(prefers-reduced-motion: reduce)").matches) return;
   wantsToPlay = true;
   pause();
@@ -351,7 +416,7 @@ function readAddress() {
     faults.shape = `The address: the record “${next.record}” is not in this page; open or drop its file`;
     Object.assign(next, { shape: DEFAULTS.shape, record: "" });
   }
-  start(next);
+  start(next, isFirstVisit());
   for (const [key, message] of Object.entries(faults)) controls.tell(key, message);
 }
 
@@ -380,6 +445,10 @@ byId("copy").addEventListener("click", async () => {
   }
 });
 addEventListener("hashchange", () => location.hash.slice(1) !== encode(state) && readAddress());
+addEventListener("resize", () => {
+  scene.measure();
+  if (!isUpdating) requestAnimationFrame(redraw);
+});
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
   spectrumChart.recolour();
   strips.forEach((strip) => strip.chart.redraw());
@@ -394,7 +463,8 @@ async function makeCharts() {
     strips.push(new Strip(byId(id), { label: isGround ? "g" : "θ/α", last: strips.length > 1, seek, band: !isGround }));
   }
   await new Promise(soon);
-  spectrumChart.frame(planeOf(state, fileOf(state)), planeKey(state, fileOf(state)));
-  answered();
+  frameMap();
+  quick.ready();
+  sketch.ready();
 }
 makeCharts();

@@ -6,7 +6,7 @@ const FIELDS = {
   b: { label: "Half width b", unit: "m", slider: [0.05, 2], least: 0.001, most: 1000 },
   h: { label: "Half height h", unit: "m", slider: [0.2, 10], least: 0.001, most: 1000 },
   g: { label: "Mass ratio γ", unit: "", slider: null, least: 0, most: Infinity,
-    hint: "cap beam over both columns, 0 to ∞" },
+    hint: "cap beam over both columns, e.g. 1/4 or ∞" },
   L: { label: "Span L of the frame", unit: "m", slider: [0.3, 20], least: 0.001, most: 1000, hint: "between the axes of its columns" },
   r: { label: "Own √r", unit: "", slider: [0, 1], least: 0, most: 1, linear: true },
   a: { label: "Amplitude", unit: "g", slider: [0.02, 5], least: 0, most: 20 },
@@ -25,11 +25,12 @@ const DEFAULTS = {
 
 const MOST_PERIODS = 400; // of a steady sine, so that its spectrum takes minutes at most
 
-/** A number as it is typed: a decimal comma and ∞ are understood. NaN when it is none. */
+/** A number as it is typed: a decimal comma, a fraction and ∞ are understood. NaN when it is none. */
 function typed(text) {
-  const plain = text.trim().replace("−", "-").replace(",", ".");
+  const plain = text.trim().replace("−", "-").replaceAll(",", ".");
   if (/^\+?(∞|inf|infinity)$/i.test(plain)) return Infinity;
-  return /^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i.test(plain) ? Number(plain) : NaN;
+  const [over, under = 1, ...more] = plain.split("/").map((part) => (/^\s*[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?\s*$/i.test(part) ? Number(part) : NaN));
+  return under > 0 && under < Infinity && !more.length ? over / under : NaN;
 }
 
 /** What is wrong with a number for a field, or "". */
@@ -92,8 +93,9 @@ function decode(hash) {
 /** The same case in Python, with the library; a record is read from its file. */
 function inPython(state, file = `${state.record}.AT2`) {
   const float = (number) => (number === Infinity ? "math.inf" : String(number));
-  const names = ["column", "vase", "frame"], size = `${float(state.b)}, ${float(state.h)}`;
+  const size = `${float(state.b)}, ${float(state.h)}`;
   const third = state.cap === "fixed" ? `MonolithicPortal(column, ${float(state.g)}, ${float(state.L)})` : `RockingFrame(column, ${float(state.g)})`;
+  const name = state.cap === "fixed" ? "portal" : "frame";
   const classes = ["Column", "FixedMassColumn", state.cap === "fixed" ? "MonolithicPortal" : "RockingFrame", "simulate"];
   const own = state.r === null ? "" : float(state.r), linear = state.eq === "linearised" ? ".linear()" : "";
   const isRecord = state.shape === "record", isSteady = state.shape === "harmonic";
@@ -103,14 +105,14 @@ function inPython(state, file = `${state.record}.AT2`) {
   let options = isSteady ? `, duration=${float(state.D)}` : "";
   const lines = [
     "import math", "", `from topheavy import ${classes.sort().join(", ")}`, "",
-    `column = Column(${size})`, `vase = FixedMassColumn(column, ${float(state.g)})`, `frame = ${third}`, motion,
+    `column = Column(${size})`, `vase = FixedMassColumn(column, ${float(state.g)})`, `${name} = ${third}`, motion,
   ];
   if (isSteady && state.start === "abrupt") {
     lines.push("table = float(motion.excitation(math.pi / 2 / motion.angular_frequency)) / motion.angular_frequency  # velocity / g");
     options += ", velocity=block.frequency_parameter**2 * (1.0 if block.linearised else math.cos(block.slenderness)) * table";
   }
   lines.push(
-    `for name, structure in {"column": column, "vase": vase, "frame": frame}.items():`,
+    `for name, structure in {"column": column, "vase": vase, "${name}": ${name}}.items():`,
     `    block = structure.block(${own})${linear}`,
     `    response = simulate(block, motion${options})`,
     "    print(name, response.outcome, response.peak_rotation / block.slenderness)",

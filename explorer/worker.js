@@ -1,15 +1,15 @@
 "use strict";
-/* From the state of the controls to histories, numbers and the overturning spectrum.
+/* From the state of the controls to histories, numbers and the map of overturning.
 
-   The page's two workers run this file: one answers "histories" while a slider is dragged, the other
-   one "survey", which takes longer and reports its progress. */
+   The page's workers run this file: one answers "histories" and one "sketch" while a slider is
+   dragged, the third one "survey", which takes longer and reports its progress. */
 
 const CAP_DEPTH = 0.2; // of h: as drawn; the friction of a frame depends on it, its motion does not
 const SAMPLES = 1500;
-const GRIDS = { pulse: [96, 64], record: [48, 36] }; // cells of the spectrum
+const GRIDS = { pulse: [96, 64], record: [48, 36] }; // cells of the map
 
-/** What each cell of the spectrum holds. */
-const [NOTHING, SURVIVES, WITH_IMPACT, WITHOUT_IMPACT, REGION] = [0, 1, 2, 3, 4];
+/** What a cell of the map holds: the sum of those that overturn. */
+const [COLUMN_FALLS, FRAME_FALLS] = [1, 2];
 
 /** Column, vase, and the frame with its cap beam free or fixed.
 
@@ -124,39 +124,38 @@ function planeOf(state, file) {
   return { isRecord, x, y, here, columns, rows };
 }
 
-/** Everything that the spectrum depends on, as a text: while it stays, the spectrum stays. */
-function planeKey(state, file) {
-  const { x, y, isRecord } = planeOf(state, file), block = structuresOf(state)[2], alone = column(state.b, state.h);
-  const ratio = (number) => number.toPrecision(10);
+/** Everything that the map depends on, as two texts: of the column, and of the other structure. While
+    they stay, the map stays. */
+function planeKeys(state, file) {
+  const { x, y, isRecord } = planeOf(state, file), [alone, , other] = structuresOf(state);
+  const digits = (...numbers) => numbers.map((number) => number.toPrecision(10));
+  const isSteady = state.shape === "harmonic";
   return [
-    state.shape, state.eq, state.shape === "harmonic" ? [state.start, ratio(state.D * block.p)] : "",
-    isRecord ? [file.name, file.opened] : "", ratio(block.alpha), ratio(block.restitution),
-    ratio(block.p / alone.p), ratio(alone.alpha), x, y,
-  ].join();
+    [state.shape, state.eq, x, y, isRecord && [file.name, file.opened], isSteady && [state.start, digits(state.D * alone.p)], digits(alone.alpha, alone.restitution)],
+    digits(other.alpha, other.restitution, other.p / alone.p),
+  ].map(String);
 }
 
-/** The outcome of one point of the plane. */
-function cellOf(state, file, plane, alone, x, y) {
-  const a = y * Math.tan(alone.alpha);
-  const block = plane.isRecord ? structuresOf(state, x / alone.lever)[2] : plane.block;
-  const omega = plane.isRecord ? 1 : x * alone.p;
-  const found = rock(block, motionOf(state, file, a, omega), startOf(state, block, a, omega));
-  if (found.overturned) return found.impacts ? WITH_IMPACT : WITHOUT_IMPACT;
-  return found.moved ? SURVIVES : NOTHING;
+/** Which of column and frame (or portal) overturn at one point of the plane. */
+function cellOf(state, file, plane, blocks, x, y) {
+  const a = y * Math.tan(blocks[0].alpha), omega = plane.isRecord ? 1 : x * blocks[0].p;
+  const [alone, , other] = plane.isRecord ? structuresOf(state, x / blocks[0].lever) : blocks;
+  const falls = (block) => rock(block, motionOf(state, file, a, omega), startOf(state, block, a, omega)).overturned;
+  return (falls(alone) ? COLUMN_FALLS : 0) + (falls(other) ? FRAME_FALLS : 0);
 }
 
-/** Fill the spectrum in four rounds, each twice as fine, and report each tenth of a second. */
-function spectrum(state, file, report) {
-  const plane = planeOf(state, file), { columns, rows, x, y } = plane, alone = column(state.b, state.h);
-  plane.block = structuresOf(state)[2];
+/** Fill the map in four rounds, each twice as fine, and report each tenth of a second. A sketch ends
+    with cells of a finest stride above 1. */
+function spectrum(state, file, report, finest = 1) {
+  const plane = planeOf(state, file), { columns, rows, x, y } = plane, blocks = structuresOf(state);
   const codes = new Uint8Array(columns * rows), isKnown = new Uint8Array(columns * rows);
   const place = ([low, high], share, isLog) => (isLog ? low * (high / low) ** share : low + (high - low) * share);
   let done = 0, reported = performance.now();
-  for (const stride of [8, 4, 2, 1]) {
+  for (let stride = 8; stride >= finest; stride /= 2) {
     for (let i = 0; i < columns; i += stride) {
       for (let j = 0; j < rows; j += stride) {
         if (isKnown[i + columns * j]) continue;
-        const code = cellOf(state, file, plane, alone, place(x, (i + 0.5) / columns, plane.isRecord), place(y, (j + 0.5) / rows, true));
+        const code = cellOf(state, file, plane, blocks, place(x, (i + 0.5) / columns, plane.isRecord), place(y, (j + 0.5) / rows, true));
         isKnown[i + columns * j] = 1;
         done += 1;
         for (let k = i; k < Math.min(i + stride, columns); k++) {
@@ -170,21 +169,7 @@ function spectrum(state, file, report) {
       }
     }
   }
-  report({ codes, columns, rows, share: 1 });
-}
-
-/** Mark what survives above the minimum overturning amplitude at the same x: survival regions. */
-function withRegions(codes, columns, rows) {
-  const marked = codes.slice();
-  for (let i = 0; i < columns; i++) {
-    let isAbove = false;
-    for (let j = 0; j < rows; j++) {
-      const code = codes[i + columns * j];
-      isAbove ||= code === WITH_IMPACT || code === WITHOUT_IMPACT;
-      if (isAbove && code === SURVIVES) marked[i + columns * j] = REGION;
-    }
-  }
-  return marked;
+  report({ codes, columns, rows, share: done / codes.length });
 }
 
 if (typeof window === "undefined" && typeof postMessage === "function") {
@@ -195,6 +180,12 @@ if (typeof window === "undefined" && typeof postMessage === "function") {
       held = file;
       if (task === "histories") {
         postMessage({ id, ...histories(state, file) });
+        return;
+      }
+      if (task === "sketch") {
+        let coarse;
+        spectrum(state, file, (part) => (coarse = part), 2);
+        postMessage({ id, of: planeKeys(state, file)[0], ...coarse });
         return;
       }
       const blocks = structuresOf(state);

@@ -24,9 +24,7 @@ def panel(axis, cells, norm):
 
 def draw(allen_errors):
     ratios = sorted(allen_errors.mass_ratio.unique())
-    figure, axes = sheet(
-        DOUBLE, 104, nrows=len(ratios), ncols=len(MODELS), sharex=True, sharey=True
-    )
+    figure, axes = sheet(DOUBLE, 86, nrows=len(ratios), ncols=len(MODELS), sharex=True, sharey=True)
     norm = BoundaryNorm(LEVELS, ERRORS.N, extend="both")
     for row, mass_ratio in zip(axes, ratios, strict=True):
         for axis, (model, words) in zip(row, MODELS.items(), strict=True):

@@ -9,7 +9,7 @@ MOTIONS = {"pulse": "One-sine pulse", "record": "El Centro 1940, scaled"}
 
 def draw(allen_histories):
     figure, axes = sheet(
-        DOUBLE, 112, nrows=5, ncols=2, sharex="col", height_ratios=(0.7, 1, 1, 1, 1)
+        DOUBLE, 84, nrows=5, ncols=2, sharex="col", height_ratios=(0.7, 1, 1, 1, 1)
     )
     for column, motion in zip(axes.T, MOTIONS, strict=True):
         runs = allen_histories[allen_histories.motion == motion].groupby("model")

@@ -19,7 +19,7 @@ TITLES = {
 
 
 def draw(allen_overturning):
-    figure, axes = sheet(DOUBLE, 80, ncols=2, sharey=True)
+    figure, axes = sheet(DOUBLE, 66, ncols=2, sharey=True)
     codes = {outcome: code for code, outcome in enumerate(OUTCOMES)}
     for axis, model in zip(axes, TITLES, strict=True):
         cells = allen_overturning[allen_overturning.model == model]

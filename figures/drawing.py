@@ -2,6 +2,7 @@
 
 import math
 
+import numpy as np
 from matplotlib.axes import Axes
 
 MODELS = {  # the simplifications of Allen et al. (1986), one at a time and together
@@ -33,6 +34,11 @@ PULSES = {
 def gamma(value: float) -> str:
     """Return "γ = …" for a mass ratio."""
     return r"$\gamma=\infty$" if math.isinf(value) else f"$\\gamma$ = {value:g}"
+
+
+def by_size(mass_ratio, ratios):
+    """Return places of mass ratios on an axis by equal steps of R̂, from the table of Eq. (24)."""
+    return np.interp(ratios, mass_ratio.mass_ratio, mass_ratio.share_of_size_gain)
 
 
 def amplitude_axis(axis: Axes) -> None:

@@ -108,7 +108,7 @@ def forces(axis, cap, lines, ground):
 
 
 def draw(outlines, free_body):
-    figure, (left, right) = sheet(DOUBLE, 72, ncols=2)
+    figure, (left, right) = sheet(DOUBLE, 64, ncols=2)
     lines = free_body.set_index("name")
     rotation(left, outlines, lines[lines.panel == "displaced"])
     cap = outlines[(outlines.panel == "displaced") & (outlines.body == "cap")]

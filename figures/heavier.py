@@ -45,7 +45,7 @@ def draw(heavier_histories, heavier):
     keys = ascii_lowercase[: len(heavier)]
     half = (len(keys) + 1) // 2
     mosaic = f"{keys[:half]}Z;{keys[half:].ljust(half, '.')}Z"
-    figure, axes = sheet(DOUBLE, 84, mosaic, width_ratios=(*[1] * half, 1.25))
+    figure, axes = sheet(DOUBLE, 80, mosaic, width_ratios=(*[1] * half, 1.25))
     colours, runs = shades(len(heavier)), heavier_histories.groupby("mass_ratio")
     for key, case in zip(keys, heavier.itertuples(), strict=True):
         shaken = history(axes[key], runs.get_group(case.mass_ratio), case)

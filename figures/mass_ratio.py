@@ -1,40 +1,53 @@
-"""Size and frequency parameter of the equivalent column against mass ratio: Eqs. (23), (24)."""
+"""Size and coefficient of restitution of the frame against its mass ratio: Eqs. (24), (25)."""
 
 import numpy as np
 
-from replication.drawing import DOUBLE, GREY, INK, PAPER, letter, make_figure, note, sheet
+from replication.drawing import GREY, INK, PAPER, SINGLE, letter, make_figure, note, sheet
 
-GAMMA = r"Mass ratio, $\gamma = m_\mathrm{b}/2m_\mathrm{c}$ (–)"
+AS_HEAVY = 1.0  # γ of a cap beam as heavy as both columns
+ASIDE = {"textcoords": "offset points"}
 
 
-def draw(mass_ratio):
-    finite = mass_ratio[np.isfinite(mass_ratio.mass_ratio)]
-    last = mass_ratio.iloc[-1]
-    figure, axes = sheet(DOUBLE, 56, ncols=2)
-    panels = (
-        ("size_ratio", "share_of_size_gain", r"limit $3/2$", r"$\hat{R}$"),
-        ("frequency_ratio", "share_of_frequency_gain", r"limit $\sqrt{2/3}$", r"$\hat{p}$"),
+def size(axis, mass_ratio):
+    """Draw R̂/R, its limit, and what γ = 1 gives of the increase."""
+    finite, last = mass_ratio[np.isfinite(mass_ratio.mass_ratio)], mass_ratio.iloc[-1]
+    axis.axhline(last.size_ratio, color=GREY, linestyle=(0, (4, 2)), linewidth=0.8)
+    limit = r"limit 3/2 for $\gamma\to\infty$"
+    note(axis, limit, (10, last.size_ratio), xytext=(0, 7), ha="right", color=GREY, **ASIDE)
+    axis.plot(finite.mass_ratio, finite.size_ratio, color=INK)
+    axis.plot(0, 1, "o", color=INK, markersize=3.5, clip_on=False, zorder=3)
+    note(axis, "solitary column", (0, 1), xytext=(9, 0), **ASIDE)
+    reached, share = (
+        float(np.interp(AS_HEAVY, finite.mass_ratio, finite[name]))
+        for name in ("size_ratio", "share_of_size_gain")
     )
-    for axis, (name, share, limit, of) in zip(axes, panels, strict=True):
-        up = 1 if last[name] > 1.0 else -1
-        beside = {"textcoords": "offset points"}
-        axis.axhline(last[name], color=GREY, linestyle=(0, (4, 2)), linewidth=0.8)
-        limit += r" for $\gamma\to\infty$"
-        note(axis, limit, (10, last[name]), xytext=(0, 7 * up), ha="right", color=GREY, **beside)
-        axis.plot(finite.mass_ratio, finite[name], color=INK)
-        axis.plot(0, 1, "o", color=INK, markersize=3.5, clip_on=False, zorder=3)
-        note(axis, "solitary column", (0, 1), xytext=(8, 0), **beside)
-        for part in (0.5, 0.9):
-            at = np.interp(part, finite[share], finite.mass_ratio)
-            reached = np.interp(part, finite[share], finite[name])
-            text = f"{100 * part:.0f} % of the change in {of} at $\\gamma$ = {at:.2g}"
-            axis.plot(at, reached, "o", color=INK, markerfacecolor=PAPER, markersize=3.5, zorder=3)
-            note(axis, text, (at, reached), xytext=(5, -9 * up), **beside)
-    axes[0].set(xlabel=GAMMA, ylabel=r"Size, $\hat{R}/R$ (–)", ylim=(0.97, 1.55))
-    axes[1].set(xlabel=GAMMA, ylabel=r"Frequency parameter, $\hat{p}/p$ (–)", ylim=(0.79, 1.01))
-    for axis in axes:
-        axis.set_xlim(0, 10)
-    letter(axes, ["Size of the equivalent column", "Frequency parameter of the frame"])
+    axis.plot(AS_HEAVY, reached, "o", color=INK, markerfacecolor=PAPER, markersize=4, zorder=3)
+    words = (
+        f"$\\gamma$ = {AS_HEAVY:g}: {reached:.2f}, or {100 * share:.0f} %\nof the possible increase"
+    )
+    note(axis, words, (AS_HEAVY, reached), xytext=(8, -9), **ASIDE)
+    axis.set(xlim=(0, 10), ylim=(0.97, 1.56), ylabel=r"Size, $\hat{R}/R$ (–)")
+
+
+def restitution(axis, table):
+    """Draw √r for several slendernesses, from the solitary column to its limit (dashed)."""
+    for place, (slenderness, line) in enumerate(table.groupby("slenderness_deg")):
+        finite, limit = line[np.isfinite(line.mass_ratio)], line.restitution.iloc[-1]
+        axis.axhline(limit, color=GREY, linewidth=0.8, linestyle=(0, (4, 2)))
+        axis.plot(finite.mass_ratio, finite.restitution, color=INK)
+        axis.plot(0, finite.restitution.iloc[0], "o", color=INK, markersize=3, clip_on=False)
+        name = r"$\alpha$ = " if place == 0 else ""
+        at = {"xytext": (0, 2 - 2 * place), "textcoords": "offset points"} if place < 2 else {}
+        note(axis, f"{name}{slenderness:g}°", (10.15, limit), annotation_clip=False, **at)
+    axis.set(xlim=(0, 10), ylim=(0.46, 1.02), xlabel=r"Mass ratio, $\gamma$ (–)")
+    axis.set_ylabel(r"Restitution, $\sqrt{r}$ (–)")
+
+
+def draw(mass_ratio, restitution_over_mass_ratio):
+    figure, axes = sheet(SINGLE, 84, nrows=2, sharex=True, height_ratios=(1.35, 1))
+    size(axes[0], mass_ratio)
+    restitution(axes[1], restitution_over_mass_ratio)
+    letter(axes, ["Size of the equivalent column", "Coefficient of restitution of the frame"])
     return figure
 
 

@@ -11,7 +11,7 @@ LEVELS = [0, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.1]  # of 
 
 def draw(peak_maps):
     ratios = sorted(peak_maps.mass_ratio.unique())
-    figure, axes = sheet(DOUBLE, 66, ncols=len(ratios), sharey=True)
+    figure, axes = sheet(DOUBLE, 58, ncols=len(ratios), sharey=True)
     norm = BoundaryNorm(LEVELS, PEAKS.N, extend="max")
     for axis, mass_ratio in zip(axes, ratios, strict=True):
         cells = peak_maps[peak_maps.mass_ratio == mass_ratio].drop(columns="mass_ratio")

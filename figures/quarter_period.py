@@ -5,7 +5,7 @@ from replication.drawing import DOUBLE, GREY, INK, letter, make_figure, note, sh
 
 
 def draw(quarter_period):
-    figure, (left, right) = sheet(DOUBLE, 58, ncols=2)
+    figure, (left, right) = sheet(DOUBLE, 52, ncols=2)
     exact = quarter_period[~quarter_period.linearised].groupby("slenderness_deg")
     linear = quarter_period[quarter_period.linearised].groupby("slenderness_deg")
     for (slenderness, line), colour in zip(exact, greys(len(exact)), strict=True):

@@ -8,7 +8,7 @@ from figures.drawing import RECORDS, gamma
 from figures.palette import HATCHED, PEAKS, UNDECIDED
 from replication.drawing import DOUBLE, GREY, make_figure, note, sheet
 
-COLUMNS = 3
+COLUMNS = 4
 TICKS = (0.5, 1, 2, 5, 10, 20)
 HIGH = 0.8  # of a strip, over the distance of two
 
@@ -40,7 +40,7 @@ def draw(rocking_spectra):
     ratios = sorted(rocking_spectra.mass_ratio.unique())
     records = rocking_spectra.groupby("record", sort=False)
     rows = 1 + len(records) // COLUMNS  # the last place is for the key
-    figure, axes = sheet(DOUBLE, 38 * rows, nrows=rows, ncols=COLUMNS, sharey=True, squeeze=False)
+    figure, axes = sheet(DOUBLE, 37 * rows, nrows=rows, ncols=COLUMNS, sharey=True, squeeze=False)
     for axis in axes.flat[len(records) :]:
         axis.axis("off")
     for axis, (record, cells) in zip(axes.flat, records, strict=False):
@@ -51,8 +51,8 @@ def draw(rocking_spectra):
     patches = [Patch(linewidth=0, label="overturns", **HATCHED)]
     patches += [Patch(color=UNDECIDED, linewidth=0, label="cannot be decided")]
     key.legend(handles=patches, loc="upper left", handlelength=1.4, borderaxespad=0)
-    words = "cannot be decided: the outcome changes\nif the record is rescaled by $10^{-9}$"
-    note(key, words, (0.0, 0.47), xycoords="axes fraction", fontsize=7)
+    words = "(the outcome changes if the record\nis rescaled by $10^{-9}$)"
+    note(key, words, (0.0, 0.42), xycoords="axes fraction", fontsize=7)
     bar = key.inset_axes((0.02, 0.14, 0.9, 0.1))
     figure.colorbar(ScalarMappable(cmap=PEAKS), cax=bar, orientation="horizontal")
     bar.set_xlabel(r"survives; peak rotation, $\theta_\mathrm{max}/\alpha$ (–)")

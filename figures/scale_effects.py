@@ -8,7 +8,7 @@ DASHES = {"smaller": (0, (4, 1.5)), "larger": "-"}
 
 def draw(scale_effects):
     figure, axes = sheet(
-        DOUBLE, 76, nrows=2, ncols=2, sharex=True, sharey="row", height_ratios=(0.45, 1)
+        DOUBLE, 58, nrows=2, ncols=2, sharex=True, sharey="row", height_ratios=(0.45, 1)
     )
     for (top, bottom), pulse in zip(axes.T, ("shorter", "longer"), strict=True):
         runs = scale_effects[scale_effects.pulse == pulse].groupby("column")

@@ -47,7 +47,7 @@ def draw(spectra_dimensional, spectra_published):
     heights = spectra_dimensional.groupby("structure", sort=False).height.first()
     names, shapes = list(heights.index), list(dict.fromkeys(spectra_dimensional["shape"]))
     grid = {"nrows": len(names), "ncols": 2 * len(shapes), "squeeze": False}
-    figure, axes = sheet(DOUBLE, 4 + 52 * len(names), **grid)
+    figure, axes = sheet(DOUBLE, 4 + 42 * len(names), **grid)
     for row, name in zip(axes, names, strict=True):
         for place, shape in enumerate(shapes):
             table = spectra_dimensional

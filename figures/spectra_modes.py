@@ -30,7 +30,7 @@ def draw(spectra):
     slenderness = spectra.slenderness_deg.min()
     spectra = spectra.rename(columns={"frequency_ratio": "x"})
     ratios = [0.0, 1.0, np.inf]
-    figure, axes = sheet(DOUBLE, 140, nrows=3, ncols=4, sharex=True, sharey=True)
+    figure, axes = sheet(DOUBLE, 112, nrows=3, ncols=4, sharex=True, sharey=True)
     for row, mass_ratio in zip(axes, ratios, strict=True):
         of = (spectra.mass_ratio == mass_ratio) & (spectra.slenderness_deg == slenderness)
         for axis, (shape, words) in zip(row, PULSES.items(), strict=True):

@@ -1,12 +1,12 @@
-"""Outcome of the trilith on a shake table in steady harmonic motion, and its published test."""
+"""Outcome of the trilith on a shake table in steady harmonic motion, its test, and two starts."""
 
 import numpy as np
 from matplotlib.colors import ListedColormap
 
-from figures.palette import AT_ONCE, ROCKS
-from replication.drawing import DOUBLE, INK, letter, make_figure, note, sheet
+from figures.palette import AT_ONCE, ROCKS, SURVIVES
+from replication.drawing import DOUBLE, GREY, INK, letter, make_figure, note, sheet
 
-ARROW = {"arrowstyle": "-|>", "color": INK, "shrinkA": 0, "shrinkB": 0, "mutation_scale": 7}
+LEADER = {"arrowstyle": "-", "color": INK, "linewidth": 0.6, "shrinkA": 1, "shrinkB": 2}
 
 
 def outcomes(axis, cells, uplift):
@@ -22,70 +22,50 @@ def outcomes(axis, cells, uplift):
     axis.pcolormesh(grid.columns, grid.index, grid, **how)
 
 
-def draw(trilith_map, trilith_uplift, trilith_nearness):
-    figure, (left, right) = sheet(DOUBLE, 74, ncols=2, width_ratios=(1.25, 1))
-    near = trilith_nearness.set_index("quantity")
-    amplitude = near.loc["amplitude_at_tested_frequency"]
-    frequency = near.loc["frequency_at_tested_amplitude"]
-    width = near.loc["effective_width_of_columns"]
-    test = (frequency.tested, amplitude.tested)
-    along, threshold = trilith_uplift.frequency_hz, trilith_uplift.amplitude_to_uplift_mm
-    outcomes(left, trilith_map, (along, threshold))
-    left.fill_between(along, threshold, 21, color=ROCKS, linewidth=0)
-    for axis in (left, right):
-        axis.plot(along, threshold, color=INK)
-        axis.plot(*test, "o", color=INK, markersize=4, zorder=4)
-        axis.set(
-            xlabel="Frequency of the shake table, $f$ (Hz)",
-            ylabel="Amplitude of the shake table, $u_0$ (mm)",
-        )
-    note(left, "stays at rest", (1.2, 6.8))
-    note(left, "rocks", (5.0, 9.0))
-    note(left, "overturns", (8.2, 17))
-    note(
-        left,
-        r"$u_0=g\,\tan\alpha/(2\pi f)^2$",
-        (2.3, 14.8),
-        xytext=(3, 0),
-        textcoords="offset points",
-    )
-    note(left, "test", test, xytext=(-5, -5), textcoords="offset points", ha="right")
-    left.set(xlim=(1, 10), ylim=(0.75, 20.25), xticks=range(1, 11), yticks=range(5, 21, 5))
+def plane(axis, cells, uplift, nearness):
+    """Draw the outcomes over frequency and amplitude of the table, and the published test."""
+    along, threshold = uplift.frequency_hz, uplift.amplitude_to_uplift_mm
+    outcomes(axis, cells, (along, threshold))
+    axis.fill_between(along, threshold, 21, color=ROCKS, linewidth=0)
+    axis.plot(along, threshold, color=INK)
+    tested = nearness.set_index("quantity").tested
+    test = [
+        tested[f"{one}_at_tested_{other}"]
+        for one, other in (("frequency", "amplitude"), ("amplitude", "frequency"))
+    ]
+    axis.plot(*test, "o", color=INK, markersize=4, zorder=4)
+    words = f"test: {test[0]:g} Hz, {test[1]:g} mm"
+    axis.annotate(words, test, (1.15, 1.9), fontsize=7.5, va="center", arrowprops=LEADER)
+    note(axis, "stays\nat rest", (1.2, 8.5))
+    note(axis, "rocks", (5.0, 9.0), color=SURVIVES)
+    note(axis, "overturns", (8.2, 17))
+    note(axis, "uplift", (2.2, 16.0), xytext=(3, 0), textcoords="offset points")
+    axis.set(xlim=(1, 10), ylim=(0.75, 20.25), xticks=range(1, 11), yticks=range(5, 21, 5))
+    axis.set(xlabel="Frequency of the shake table (Hz)", ylabel="Amplitude of the shake table (mm)")
 
-    right.fill_between(along, threshold, 20, color=ROCKS, linewidth=0)
-    right.plot(along, threshold * width.to_lift / width.tested, "--", color=INK, linewidth=0.9)
-    right.annotate("", (test[0], amplitude.to_lift), test, arrowprops=ARROW)
-    right.annotate("", (frequency.to_lift, test[1]), test, arrowprops=ARROW)
-    more = {"textcoords": "offset points"}
-    note(
-        right,
-        f"uplifts at {amplitude.to_lift:.2f} mm",
-        (test[0], amplitude.to_lift),
-        xytext=(4, 7),
-        **more,
-    )
-    note(
-        right,
-        f"uplifts at {frequency.to_lift:.2f} Hz",
-        (frequency.to_lift, test[1]),
-        xytext=(4, 4),
-        **more,
-    )
-    words = f"test of Peña et al.:\n{test[1]:g} mm, {test[0]:g} Hz"
-    note(right, words, test, xytext=(-6, -11), ha="right", **more)
-    at = (2.9, np.interp(2.9, along, threshold))
-    note(
-        right,
-        f"columns as built,\n{width.tested:g} mm wide",
-        at,
-        xytext=(6, 8),
-        textcoords="offset points",
-    )
-    words = f"base contact on\n{width.to_lift:.0f} mm only"
-    note(right, words, (2.55, 3.6))
-    right.set(xlim=(2.5, 4.3), ylim=(3, 9))
+
+def histories(axis, runs, steady):
+    """Draw the rotations after a smooth and after an abrupt start, and the steady amplitude."""
+    runs = runs.groupby("share_of_speed")
+    abrupt, smooth = runs.get_group(1.0), runs.get_group(0.0)
+    axis.plot(abrupt.time, abrupt.rotation_over_alpha, color=SURVIVES, linewidth=0.8)
+    axis.plot(smooth.time, smooth.rotation_over_alpha, color=INK, linewidth=1.6)
+    for level in (-steady, steady):
+        axis.axhline(level, color=GREY, linewidth=0.7, linestyle=(0, (4, 2)))
+    note(axis, "table at full speed at once: keeps rocking", (1.6, 0.108), color=SURVIVES)
+    words = f"steady amplitude {steady:.3f}$\\,\\alpha$"
+    note(axis, words, (11.9, -0.085), ha="right", color=GREY)
+    note(axis, "table from\nrest: stays\nat rest", (12.2, 0.0), annotation_clip=False)
+    axis.set(xlim=(0, abrupt.time.max()), ylim=(-0.125, 0.125))
+    axis.set(xlabel="Time, $t$ (s)", ylabel=r"Rotation, $\theta/\alpha$ (–)")
+
+
+def draw(trilith_map, trilith_uplift, trilith_nearness, trilith_starts, trilith_histories):
+    figure, (left, right) = sheet(DOUBLE, 60, ncols=2, width_ratios=(1, 1.15))
+    plane(left, trilith_map, trilith_uplift, trilith_nearness)
+    histories(right, trilith_histories, trilith_starts.late_peak_over_alpha.iloc[-1])
     letter(
-        [left, right], ["Outcome after ten cycles from rest", "Distance of the test from uplift"]
+        [left, right], ["Outcome after a smooth start", "The test, after two starts of the table"]
     )
     return figure
 

@@ -25,8 +25,8 @@ def drawings(part: str) -> list[list[str]]:
     return [[f"{folder}/{name}.svg" for name in re.findall(r'"([^"]*)"', one)] for one in found]
 
 
-def test_article_has_eight_figures():
-    assert sum(len(drawings(part)) for part in SOURCES) == 8
+def test_article_has_ten_figures():
+    assert sum(len(drawings(part)) for part in SOURCES) == 10
 
 
 @pytest.mark.parametrize("part", SOURCES, ids=lambda part: part or "paper")

@@ -71,9 +71,9 @@ def test_what_is_no_whole_number_is_refused(make, tmp_path, target, name, value)
 
 
 def test_cores_and_the_optional_group_are_passed(make):
-    run = "<run><--locked><--no-dev>"
-    assert make("reproduce", "CORES=7").stdout == (f"{run}<--group><engine><snakemake><--cores><7>")
-    assert make("reproduce", "ENGINE=").stdout == f"{run}<snakemake><--cores><2>"
+    run, of = "<run><--locked><--no-dev>", "<python><-m><replication.commands.run><--cores>"
+    assert make("reproduce", "CORES=7").stdout == f"{run}<--group><engine>{of}<7>"
+    assert make("reproduce", "ENGINE=").stdout == f"{run}{of}<2>"
     assert "<--rotate=3>" in make("kill-table", "ROTATE=3").stdout
 
 

@@ -17,12 +17,12 @@ from topheavy import (
     judge,
     lowest_overturning,
     minimum_overturning,
-    overturned_by,
     overturning_intervals,
     read_record,
     reference,
 )
 from topheavy.minimum import NOT_EXCLUDED
+from topheavy.overturning import outcomes_of_subjects
 
 RECORDS = Path(__file__).parents[1] / "data" / "records"
 EL_CENTRO = read_record(RECORDS / "el_centro_1940_NS.AT2")
@@ -95,11 +95,12 @@ def tried(monkeypatch):
     """All factors that a search tries, and their outcomes, in calls."""
     calls = []
 
-    def recorded(block, excitation, factors, **vertical):
-        calls.append((factors, overturned_by(block, excitation, factors, **vertical)))
-        return calls[-1][1]
+    def recorded(subjects, factors, tolerance):
+        found = outcomes_of_subjects(subjects, factors, tolerance)
+        calls.extend(zip(factors, (fell for fell, _ in found), strict=True))
+        return found
 
-    monkeypatch.setattr(topheavy.minimum, "overturned_by", recorded)
+    monkeypatch.setattr(topheavy.minimum, "outcomes_of_subjects", recorded)
     return calls
 
 
@@ -140,10 +141,10 @@ def test_lowest_factor_is_not_above_that_of_the_intervals(block, excitation, sca
 def planted(monkeypatch, edges):
     """Let the factors between each second pair of ascending edges overturn, whatever is shaken."""
 
-    def overturned(block, excitation, factors, **vertical):
-        return np.searchsorted(edges, factors, side="right") % 2 == 1
+    def outcomes(subjects, factors, tolerance):
+        return [(np.searchsorted(edges, each, side="right") % 2 == 1, None) for each in factors]
 
-    monkeypatch.setattr(topheavy.minimum, "overturned_by", overturned)
+    monkeypatch.setattr(topheavy.minimum, "outcomes_of_subjects", outcomes)
 
 
 def test_every_interval_wider_than_the_last_step_is_found_and_its_width_measured(monkeypatch):

@@ -34,10 +34,10 @@ from topheavy.overturning import (
     Interval,
     Search,
     _halved,
-    _outcomes,
-    _steered,
-    _subjects,
     outcomes_by,
+    outcomes_of_subjects,
+    steered,
+    subjects_of,
 )
 
 BLOCK = RockingBlock(2.0, 0.25, 0.9)
@@ -221,10 +221,10 @@ def test_intervals_ascend_and_do_not_overlap(case):
 def test_brackets_have_the_boundary_between_them(case):
     block, excitation, (first, last), resolution, found = case
     narrow = 1.01e-10 * max(abs(first), abs(last))
-    subjects = _subjects([Search(block, excitation, (first, last))])
+    subjects = subjects_of([Search(block, excitation, (first, last))])
 
     def label(scale):
-        ((overturned, impacts),) = _outcomes(subjects, [np.array([scale])], TOLERANCE)
+        ((overturned, impacts),) = outcomes_of_subjects(subjects, [np.array([scale])], TOLERANCE)
         return impacts[0] if overturned[0] else SAFE
 
     for interval in found:
@@ -402,7 +402,7 @@ def test_harmonic_has_no_intervals():
 def halved(label, boundary, width, narrowest):
     """The boundaries of one search, whose factors a function labels."""
     search = _halved([boundary], width, narrowest)
-    (found,) = _steered([search], lambda asked: [label(each) for each in asked.values()])
+    (found,) = steered([search], lambda asked: [label(each) for each in asked.values()])
     return found
 
 

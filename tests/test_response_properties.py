@@ -9,17 +9,9 @@ from hypothesis import strategies as st
 
 from topheavy import Column, Pulse, Record, RockingBlock, RockingFrame, judge, simulate
 from topheavy import reference as second
+from topheavy.shapes import ENDING
 
 few = settings(max_examples=15, deadline=None, derandomize=True, database=None)
-
-SHAPES = (
-    "one-sine",
-    "one-cosine",
-    "half-sine",
-    "constant",
-    "ricker-symmetric",
-    "ricker-antisymmetric",
-)
 
 
 @st.composite
@@ -38,7 +30,7 @@ def shaken_blocks(draw) -> tuple[RockingBlock, Pulse]:
     block = draw(blocks())
     strength = draw(st.floats(1.02, 5.0)) * draw(st.sampled_from([-1.0, 1.0]))
     pulse = Pulse(
-        draw(st.sampled_from(SHAPES)),
+        draw(st.sampled_from(ENDING)),
         strength * block.uplift_acceleration,
         draw(st.floats(2.0, 10.0)) * block.frequency_parameter,
     )
@@ -158,7 +150,7 @@ def test_factor_of_two_on_both_frequencies_changes_no_bit(case, factor):
     st.floats(3.0, 25.0),
     st.floats(0.5, 20.0),
     st.one_of(st.floats(0.0, 20.0), st.just(math.inf)),
-    st.sampled_from(SHAPES),
+    st.sampled_from(ENDING),
     st.floats(1.02, 5.0),
     st.floats(2.0, 10.0),
     st.booleans(),

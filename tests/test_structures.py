@@ -400,6 +400,21 @@ def test_impossible_masses_are_refused(masses, columns, message):
         RockingFrame.of_masses(Column(0.5, 3.0), *masses, columns=columns)
 
 
+@pytest.mark.parametrize(
+    ("make", "asked"),
+    [
+        (lambda: Column(800.0, 4800.0), r"9600 m long, .* in mm\? Then it is 9.6 m"),
+        (lambda: Column(0.8, 4800.0), "9600 m long"),
+        (lambda: RockingFrame.of_masses(COLUMN, 400.0, 60e3), r"γ is 0.00333; .* same unit"),
+        (lambda: RockingFrame.of_masses(COLUMN, 400e3, 60.0), r"γ is 3.33e\+03; .* same unit"),
+    ],
+)
+def test_what_is_probably_in_another_unit_is_asked_where_it_was_written(make, asked):
+    with pytest.warns(UserWarning, match=asked) as caught:
+        make()
+    assert caught[0].filename == __file__
+
+
 @pytest.mark.parametrize("structure", [3, None, Column], ids=repr)
 @pytest.mark.parametrize(
     "solver",

@@ -1,7 +1,9 @@
 """What a user writes passes the strict type checkers, and what is wrong in it does not."""
 
+import inspect
 import json
 import os
+import pydoc
 import re
 import subprocess
 import sys
@@ -73,6 +75,23 @@ def test_users_script_runs():
     )
     said = [line for line in run.stderr.splitlines() if "compiles its kernel" not in line]
     assert (run.returncode, said) == (0, [])
+
+
+@pytest.mark.parametrize("name", topheavy.__all__)
+def test_help_shows_the_types_by_their_short_names(name):
+    shown = pydoc.plain(pydoc.render_doc(getattr(topheavy, name)))
+    assert not re.search(r"numpy\.ndarray|_typing|topheavy\.structures\.Structure", shown)
+
+
+def test_what_a_public_function_returns_is_public():
+    functions = filter(inspect.isfunction, (getattr(topheavy, name) for name in topheavy.__all__))
+    returned = " ".join(str(inspect.signature(one).return_annotation) for one in functions)
+    assert set(re.findall(r"[A-Z]\w+", returned)) <= {
+        *topheavy.__all__,
+        "NDArray",
+        "Dataset",
+        "None",
+    }
 
 
 def test_users_script_has_every_public_name():

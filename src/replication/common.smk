@@ -17,20 +17,27 @@ from replication.workflow.costs import longest_jobs
 from replication.origin.recorded import CRATE
 from replication.judging.ledger import read_judged, read_ledger
 from replication.judging.ledger_check import check_ledger
+from replication.inputs.configuration import Sections
 from replication.inputs.parts import PAPER, Part
+from replication.workflow.lock import one_run_at_a_time
 from replication.workflow.place import check_place
 from replication.workflow.progress import one_line_a_job
 from replication.workflow.stopping import end_on_sigterm
 from replication.inputs.strict_yaml import read_yaml
 from replication.inputs.study_config import check_needs, read_study_config
-from replication.pages.typeset import reads
+from replication.pages.opening import opening
+from replication.pages.typeset import reads, refuse_unshown
 from replication.workflow.unmade import made_by, refuse_unmade
 
 check_place()
 close(workflow)
 end_on_sigterm()
+one_run_at_a_time()
 if not workflow.dryrun:
     one_line_a_job()
+
+
+report: "pages/opening.rst"
 
 
 def read_strictly(path):
@@ -51,9 +58,14 @@ def parts(check):
     """
     over = [Path(each).name for each in workflow.configfiles]
     over = [each for each in dict.fromkeys(over) if each != "config.yaml"]
+    global config
+    config = Sections(config)
     studies = {
-        name: read_study_config(name, check, over=over) for name in config["studies"]
+        name: Sections(read_study_config(name, check, over=over))
+        for name in config["studies"]
     }
+    for name, section in studies.items():
+        section.path = f"studies/{name}/config.yaml"
     check_needs(studies)
     return {name: Part(name, of) for name, of in {PAPER: config, **studies}.items()}
 

@@ -71,8 +71,6 @@ rule claims:
         findings=expand("results/findings/{name}.json", name=FINDINGS),
     output:
         "results/claims.json",
-    message:
-        "Judging every claim"
     script:
         "rules/every_claim.py"
 
@@ -89,8 +87,6 @@ rule compare:
         config="results/config.yaml",
     params:
         config=config,
-    message:
-        "Comparing the tables with the reference tables"
     script:
         "rules/compare.py"
 
@@ -104,8 +100,6 @@ rule verdict:
         "results/summary.txt",
     params:
         checks=CHECKS,
-    message:
-        "Holding the verdicts against what is expected of them"
     script:
         "rules/verdict.py"
 
@@ -118,8 +112,6 @@ rule costs:
         ),
     output:
         "results/costs.csv",
-    message:
-        "Adding up what the run cost"
     script:
         "rules/costs.py"
 
@@ -141,7 +133,6 @@ for document in DOCUMENTS:
             f"results/benchmarks/{document}.tsv"
         params:
             studies=config["studies"],
-            tables=FIGURES,
         message:
             f"Compiling the {document}"
         script:
@@ -171,8 +162,6 @@ rule crate:
             "results/report.html",
             "results/benchmark",
         ],
-    message:
-        "Listing every input and output with its checksum"
     script:
         "rules/crate.py"
 
@@ -204,6 +193,9 @@ check_captions(
     [f"{figure}.svg" for figure in FIGURES],
     [claim.id for claim in CLAIMS],
     made_by(workflow.rules),
+)
+refuse_unshown(
+    FIGURES, reads(*(f"paper/{document}.typ" for document in DOCUMENTS), *SECTIONS)
 )
 longest_first()
 only_shards_leave_this_machine()

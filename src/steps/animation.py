@@ -15,7 +15,8 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.patches import Polygon
 from PIL import Image
 
-from figures.palette import CAP, EARTH, OVERTURNS, STONE, SURVIVES
+from figures.palette import CAP, EARTH, OVERTURNED, OVERTURNS, ROCKS, STONE, SURVIVES
+from figures.vase import NAMES
 from replication.drawing import GREY, INK, PAPER
 from replication.workbench import run
 from steps.vase_poses import bodies, lying
@@ -27,7 +28,9 @@ SIZE, DPI = (8.4, 4.2), 100  # inches
 HELD = (600, 1800)  # ms: duration of the first and the last picture
 PLAYS = 3
 PLACES = {"column": 0.0, "vase": 10.2, "frame": 22.6}  # m: the middle of each
-NAMES = {"column": "Column", "vase": "Mass fixed to it", "frame": "Mass carried freely by two"}
+IN_FIGURE = {"column": "bare", "vase": "fixed", "frame": "free"}
+COLOURS = {"overturns": (OVERTURNED, OVERTURNS), "survives": (ROCKS, SURVIVES)}
+"""Of a column, and of a mass and all edges, as in the figure of the same three."""
 VIEW = (-4.5, 28.0, -1.6, 8.4)  # m
 FALLING = 2.0  # of α: "overturns" is shown once the rotation stays above this
 CALM = 0.5  # of α: "survives" is shown once the rotation stays below this
@@ -98,7 +101,8 @@ def stage(pulse: Pulse, times: np.ndarray, settings: dict):
     scene.set(xlim=VIEW[:2], ylim=VIEW[2:], aspect="equal")
     scene.axis("off")
     for name, middle in PLACES.items():
-        scene.text(middle, VIEW[3], NAMES[name], va="top", ha="center", fontsize=11, color=INK)
+        how = {"va": "top", "ha": "center", "fontsize": 11, "color": INK}
+        scene.text(middle, VIEW[3], NAMES[IN_FIGURE[name]].replace("\n", " "), **how)
     fine = np.linspace(0.0, times[-1], 1400)
     trace.plot(fine, pulse.excitation(fine), color=GREY, linewidth=1.2)
     marker = trace.plot([], [], "o", color=INK, markersize=6, clip_on=False)[0]
@@ -114,13 +118,12 @@ def stage(pulse: Pulse, times: np.ndarray, settings: dict):
 
 
 def outcomes(scene, theta: dict[str, np.ndarray], times: np.ndarray, alpha: float) -> list:
-    """Write what happens to each under it, hidden, with the time from which it is shown."""
+    """Write what happens to each under it, hidden; return names, words, and from when they show."""
     found = []
     for name, middle in PLACES.items():
         word, since = told(theta[name], times, alpha)
-        colour = OVERTURNS if word == "overturns" else SURVIVES
-        how = {"ha": "center", "va": "bottom", "fontsize": 12, "color": colour, "visible": False}
-        found.append((scene.text(middle, VIEW[2], word, **how), since))
+        how = {"ha": "center", "va": "bottom", "fontsize": 12, "color": COLOURS[word][1]}
+        found.append((name, scene.text(middle, VIEW[2], word, visible=False, **how), since))
     return found
 
 
@@ -150,8 +153,14 @@ def main(settings: dict) -> list[Image.Image]:
                 patches[name, body].set_xy(outline + [PLACES[name] + shift, 0.0])
         patches["ground"].set_xy(ground_outline(shift))
         marker.set_data([time], [pulse.excitation(time)])
-        for word, since in words:
-            word.set_visible(time >= since)
+        for name, word, since in words:
+            if time >= since and not word.get_visible():
+                word.set_visible(True)
+                for body in bodies(shown[name], 0.0, settings):
+                    pale, full = COLOURS[word.get_text()]
+                    patches[name, body].set(
+                        facecolor=full if body == "cap" else pale, edgecolor=full
+                    )
         canvas.draw()
         pictures.append(Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB"))
     plt.close(figure)
@@ -161,7 +170,10 @@ def main(settings: dict) -> list[Image.Image]:
 def palette() -> Image.Image:
     """Return the colours of every picture: those drawn with, blended with ink and with white."""
     drawn = np.array(
-        [mpl.colors.to_rgb(c) for c in (STONE, CAP, EARTH, OVERTURNS, SURVIVES, GREY, PAPER)]
+        [
+            mpl.colors.to_rgb(c)
+            for c in (STONE, CAP, EARTH, OVERTURNED, OVERTURNS, ROCKS, SURVIVES, GREY, PAPER)
+        ]
     )
     others = np.array([mpl.colors.to_rgb(c) for c in (INK, PAPER)])
     shares = np.linspace(0.0, 1.0, BLENDS)

@@ -1,11 +1,16 @@
-"""Take the still of the page to play with that the README shows."""
+"""Take the stills of the page to play with, one a size of screen: `make stills`.
+
+The README shows that of the largest.
+"""
 
 import asyncio
 from pathlib import Path
 
 from replication.commands.check_html import BROWSERS, Tab, find_browser, opened
 
-WIDTH, HEIGHT = 1440, 900
+SIZES = {"": (1440, 900), "_tablet": (820, 1180), "_phone": (390, 844)}
+"""Of the screens, by what the name of the picture adds to that of the page."""
+CASE = "#g=1"  # with which the page requests no guess
 TIME = 2.6  # s: the first case, before anything has fallen
 SETTLED = """new Promise(resolve => {
   const look = () => {
@@ -17,12 +22,12 @@ SETTLED = """new Promise(resolve => {
 })"""
 
 
-async def _take(tab: Tab, page: Path, picture: Path) -> None:
+async def _take(tab: Tab, page: Path, picture: Path, width: int, height: int) -> None:
     await tab.open("about:blank")
-    size = {"width": WIDTH, "height": HEIGHT, "deviceScaleFactor": 1, "mobile": False}
+    size = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < height}
     await tab.ask("Emulation.setDeviceMetricsOverride", **size)
     tab.loaded = False
-    await tab.ask("Page.navigate", url=page.resolve().as_uri())
+    await tab.ask("Page.navigate", url=page.resolve().as_uri() + CASE)
     while not tab.loaded:
         await tab.next_message()
     await tab.do(SETTLED)
@@ -30,15 +35,20 @@ async def _take(tab: Tab, page: Path, picture: Path) -> None:
     await tab.picture(picture)
 
 
-def still(page: Path, picture: Path) -> None:
-    """Write a PNG of a page, or say that the old one is kept, as there is no browser."""
+def stills(page: Path) -> None:
+    """Write the PNGs beside a page, or say that the old ones stay, as there is no browser."""
     browser = find_browser()
     if browser is None:
-        print(f"{picture}: not taken anew, since none of {', '.join(BROWSERS)} is on the PATH")
+        print(f"{page}: no stills taken, since none of {', '.join(BROWSERS)} is on the PATH")
         return
 
     async def take() -> None:
         async with opened(browser) as tab:
-            await _take(tab, page, picture)
+            for name, size in SIZES.items():
+                await _take(tab, page, page.with_name(f"{page.stem}{name}.png"), *size)
 
     asyncio.run(take())
+
+
+if __name__ == "__main__":
+    stills(Path("docs/explorer.html"))

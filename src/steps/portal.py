@@ -14,7 +14,7 @@ import pandas as pd
 from replication.workbench import Finding, run, truth
 from steps.shared.histories import History, history
 from steps.shared.spectrum import progress
-from steps.vase_searches import Minimum, minimum
+from steps.vase_searches import Minimum, minima, minimum
 from topheavy import (
     Cap,
     Column,
@@ -70,27 +70,35 @@ def of_ends(ends: ColumnEnds) -> Forces:
     return dict(zip(FORCES, (joint.moment, base.moment, joint.shear, base.shear), strict=True))
 
 
-def largest(
+def followed(
     structure: RockingFrame | MonolithicPortal,
     motion: Pulse | Record,
-    forces: Callable[[History], Forces],
     samples: int,
-    route: Callable[..., Response] = simulate,
-) -> tuple[str, dict[str, float], float]:
-    """Return the outcome, the largest forces while it rocks, and what half the samples change.
+    route: Callable[..., Response],
+) -> tuple[str, History | None]:
+    """Return the outcome, and the history unless the structure overturns."""
+    whole = route(structure, motion, samples=2)
+    if whole.overturned:
+        return whole.outcome, None
+    return whole.outcome, history(structure, motion, samples, route, whole)
+
+
+def largest(
+    course: History | None, forces: Callable[[History], Forces]
+) -> tuple[dict[str, float], float]:
+    """Return the largest forces while a structure rocks, and what half the samples change.
 
     The forces are 0 of a structure that does not uplift, and NaN of one that overturns.
     """
-    course = history(structure, motion, samples, route)
-    if course.outcome == "overturned":
-        return course.outcome, dict.fromkeys(FORCES, math.nan), math.nan
+    if course is None:
+        return dict.fromkeys(FORCES, math.nan), math.nan
     found = forces(course)
     fine, coarse = (
         {name: float(np.nanmax(np.abs(force[:, ::step]), initial=0.0)) for name, force in of}
         for step, of in ((1, found.items()), (2, found.items()))
     )
     error = max((1.0 - coarse[name] / fine[name] for name in FORCES if fine[name] > 0.0), default=0)
-    return course.outcome, fine, error
+    return fine, error
 
 
 def compare(
@@ -107,24 +115,22 @@ def compare(
     """
     gamma, depth, rows = vase["portals"]["mass_ratio"], vase["cap"]["depth"], []
     frame, peak = RockingFrame(column, gamma), labels["peak_acceleration"]
+    of_motion = motion, samples, route
+    freed, freely = followed(frame, *of_motion)  # whatever its span
     for span in vase["portals"]["spans"]:
         cap, portal = Cap(span, depth / 2.0), MonolithicPortal(column, gamma, span, depth)
-        freely, rocks = (
-            largest(one, motion, forces, samples, route)
-            for one, forces in (
-                (frame, partial(of_frame, frame, cap)),
-                (portal, partial(of_portal, portal)),
-            )
-        )
+        outcome, rocks = followed(portal, *of_motion)
+        in_frame, changed = largest(freely, partial(of_frame, frame, cap))
+        rocking, change = largest(rocks, partial(of_portal, portal))
         for bases in BASES:
             ends = resting_portal_forces(portal, bases, min(peak, portal.uplift_acceleration))
             rests, base = of_ends(ends), ends.base
             row = labels | {"span": span, "bases": bases}
-            row |= {"frame": freely[0], "portal": rocks[0], "resisted": resisted(portal, base)}
+            row |= {"frame": freed, "portal": outcome, "resisted": resisted(portal, base)}
             for name in FORCES:
-                row[name] = max(rocks[1][name], float(np.abs(rests[name]).max()))
-                row[f"{name}_over_frame"] = row[name] / freely[1][name]
-            rows.append(row | {"error": np.fmax(freely[2], rocks[2])})
+                row[name] = max(rocking[name], float(np.abs(rests[name]).max()))
+                row[f"{name}_over_frame"] = row[name] / in_frame[name]
+            rows.append(row | {"error": np.fmax(changed, change)})
     return rows
 
 
@@ -150,9 +156,9 @@ def larger_columns(column: Column, pulse: Pulse, settings: dict, vase: dict) -> 
     goals: list[tuple[str, float, Any]] = [("frame", math.nan, RockingFrame(column, gamma))]
     for span in vase["portals"]["spans"]:
         goals.append(("portal", span, MonolithicPortal(column, gamma, span, depth)))
-    found = [
-        minimum(one, pulse, settings["highest"], vase["floor"]).acceleration for *_, one in goals
-    ]
+    structures = [structure for *_, structure in goals]
+    of_goals = minima(structures, pulse, settings["highest"], vase["floor"])
+    found = [one.acceleration for one in of_goals]
     sizes = np.geomspace(*(settings["sizes"][key] for key in ("lowest", "highest", "points")))
 
     def similar(size: float) -> Column:
@@ -161,9 +167,11 @@ def larger_columns(column: Column, pulse: Pulse, settings: dict, vase: dict) -> 
     def lowest(size: float, highest: float) -> Minimum:
         return minimum(similar(size), pulse, highest, vase["floor"])
 
-    minima = np.array([lowest(size, max(found) * (1.0 + CLOSE)).acceleration for size in sizes])
+    highest = max(found) * (1.0 + CLOSE)
+    of_sizes = minima([similar(size) for size in sizes], pulse, highest, vase["floor"])
+    rising = np.array([one.acceleration for one in of_sizes])
     for (name, span, _), target in zip(goals, found, strict=True):
-        place = int(np.argmax(minima >= target))
+        place = int(np.argmax(rising >= target))
         if place == 0:
             raise ValueError(
                 f"portal.sizes: no size after {sizes[0]:g} and up to {sizes[-1]:g} is the first to "
@@ -181,7 +189,7 @@ def larger_columns(column: Column, pulse: Pulse, settings: dict, vase: dict) -> 
             | {"height": 2.0 * high * column.half_height}
             | {"mass_same_depth": high**2, "mass_similar": high**3}
             | {"mass_of_structure": 2.0 * (1.0 + gamma)}
-            | {"rises": bool(np.all(np.diff(minima[: place + 1]) > 0.0))}
+            | {"rises": bool(np.all(np.diff(rising[: place + 1]) > 0.0))}
             | {"by_scipy": survives and math.isfinite(lowest(low, target).error)}
         )
     return rows

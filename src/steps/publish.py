@@ -12,7 +12,7 @@ from pathlib import Path
 from replication.commands import kill_table, pages
 from replication.pages.edition import machine, publish
 from replication.pages.seal import seal
-from steps.explorer_still import still
+from steps.explorer_still import stills
 
 DOCUMENTS = ("report", "supplement")
 PICTURES = ("vase", "heavier", "peak_maps", "spectra", "structures")
@@ -77,8 +77,7 @@ def main() -> None:
         shutil.copyfile(f"paper/{name}.pdf", docs / f"{name}.pdf")
     for name in (MOVING, PAGE):
         shutil.copyfile(results / name, docs / name)
-    still(docs / PAGE, docs / "explorer.png")
-    shutil.copyfile(results / "costs.csv", docs / "costs.csv")
+    stills(docs / PAGE)
     pages.write()
     kill_table.refresh()
     (docs / "machine.txt").write_text(machine() + "\n", encoding="utf-8")

@@ -76,9 +76,9 @@ def departures(folder: Path, findings: Mapping[str, Findings]) -> Iterator[str]:
     """Yield the findings that depart from their tables."""
     for rule in sorted(findings):
         try:
-            drawn = [] if undrawn(rule) else entries(rule, folder)
-        except LookupError as missing:
-            yield str(missing.args[0])
+            drawn = [] if undrawn(rule) else list(entries(rule, folder))
+        except LookupError as fault:
+            yield str(fault.args[0])
             continue
         for name, key, expected in drawn:
             finding = findings[rule].by_name.get(name)
@@ -91,10 +91,23 @@ def departures(folder: Path, findings: Mapping[str, Findings]) -> Iterator[str]:
 
 
 def entries(rule: str, folder: Path) -> Iterator[tuple[str, str, Any]]:
-    """Yield each entry that is drawn from the published tables, with its finding and its name."""
+    """Yield each entry that is drawn from the published tables, with its finding and its name.
+
+    Raises
+    ------
+    LookupError
+        When the tables have not what the findings are drawn from.
+    """
     draw = step(rule).findings
-    tables = [_read(folder, name) for name in inspect.signature(draw).parameters]
-    for name, finding in draw(*tables).items():
+    names = list(inspect.signature(draw).parameters)
+    tables = [_read(folder, name) for name in names]
+    try:
+        found = draw(*tables)
+    except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as fault:
+        raise LookupError(
+            f"findings/{rule}.json cannot be drawn from {', '.join(names)} (.csv): {fault!r}"
+        ) from fault
+    for name, finding in found.items():
         drawn = finding.entries if isinstance(finding, Finding) else finding
         for key, entry in drawn.items():
             yield name, key, entry

@@ -13,7 +13,7 @@ import pandas as pd
 from replication.workbench import Finding, grid, run, truth
 from steps.shared.spectrum import progress
 from steps.vase_poses import poses
-from steps.vase_searches import Minimum, lowest_told, lowest_wide, minimum, rivals
+from steps.vase_searches import Minimum, lowest_told, lowest_wide, minima, minimum, rivals
 from steps.vase_shares import PARAMETERS, WORTHS, shares
 from topheavy import (
     STANDARD_GRAVITY,
@@ -80,8 +80,10 @@ def search(
     """Return the minima of all structures under one motion, each beside that of the bare column."""
     rows: list[dict] = []
     highest, floor = settings["spectra"]["highest"] * column.uplift_acceleration, settings["floor"]
-    for name, gamma, structure in rivals(column, ratios):
-        found = lowest_told(structure, motion, highest, floor, tightened)
+    under = [*rivals(column, ratios)]
+    first = minima([structure for *_, structure in under], motion, highest, floor)
+    for (name, gamma, _), lowest in zip(under, first, strict=True):
+        found = lowest_told(lowest, highest, floor, tightened)
         row = {"structure": name, "mass_ratio": gamma, "found": found}
         row["wide"] = lowest_wide(found, highest, floor, settings["widths"])
         bare = rows[0] if rows else row
@@ -99,14 +101,14 @@ def is_reversed(structure: str, ours: float, bare: float) -> bool:
     return {"bare": False, "fixed": ours > bare, "free": ours < bare}[structure]
 
 
-def minima(row: dict) -> list[Minimum]:
+def both(row: dict) -> list[Minimum]:
     """Return those of a structure and of the bare column that there are."""
     return [one for one in (row["found"], row["bare"]) if math.isfinite(one.acceleration)]
 
 
 def is_compared(row: dict) -> bool:
     """Whether one of the two overturns at all."""
-    return row["structure"] != "bare" and bool(minima(row))
+    return row["structure"] != "bare" and bool(both(row))
 
 
 def plain(row: dict) -> dict:
@@ -217,7 +219,7 @@ def second_route(errors: list[float], exceptions: list[dict], rows: list[dict]) 
         boundaries=len(errors),
         largest_relative_error=float(np.max(errors)) if found else None,
         exceptions=len(exceptions),
-        neither_overturns=sum(not minima(row) for row in asked),
+        neither_overturns=sum(not both(row) for row in asked),
         passed_over=sum(row["found"].passed_over for row in rows),
     )
 
@@ -326,7 +328,7 @@ def main(settings: dict, paths: list[str], tightened: float) -> tuple:
     exceptions = list(map(exception, broken))
     sample = sampled(compared, "pulse", settings["sample"]["points"])
     sample += sampled(compared, "record", settings["checked_by_second_route"])
-    sample += [one for row in broken for one in minima(row)]
+    sample += [one for row in broken for one in both(row)]
     errors = [*(one.error / one.acceleration for one in sample)]
     errors += [*(summary.error / summary.minimum_overturning)]
     of_shares = pd.DataFrame(shares(column, settings))

@@ -1,11 +1,11 @@
-"""What one pulse does to bare column, fixed mass and frame: outlines of the bodies, to scale."""
+"""What one pulse does to column, vase, frame and portal: outlines of the bodies, to scale."""
 
 import math
 from collections.abc import Iterator
 
 import numpy as np
 
-from topheavy import Column, FixedMassColumn, Pulse, RockingFrame, simulate
+from topheavy import Column, FixedMassColumn, MonolithicPortal, Pulse, RockingFrame, simulate
 from topheavy.kinematics import outlines
 from topheavy.structures import Structure
 
@@ -24,23 +24,25 @@ def lying(column: Column, corners: np.ndarray) -> float:
 
 def bodies(structure: Structure, rotation: float, settings: dict) -> dict[str, np.ndarray]:
     """Return the outlines of the bodies of a structure that has rocked by θ."""
-    width = settings["cap"]["width"] * (2.0 if isinstance(structure, RockingFrame) else 1.0)
+    columns = 2.0 if isinstance(structure, RockingFrame | MonolithicPortal) else 1.0
+    width = settings["cap"]["width"] * columns
     return outlines(structure, rotation, width, settings["cap"]["depth"])
 
 
 def rotations(structure: Structure, pulse: Pulse, settings: dict) -> tuple[str, list[float]]:
     """Return the outcome, and the rotations that are drawn, the last one last.
 
-    Of a structure that survives these are its largest rotations to both sides, and 0.
+    Of a structure that survives these are its largest rotations to both sides, if any, and 0.
     """
     times = np.linspace(0.0, 6.0 * pulse.duration, 4001)
     response = simulate(structure, pulse, samples=times)
     if not response.overturned:
         theta = response.rotation
-        return response.outcome, [float(theta.min()), float(theta.max()), 0.0]
-    if isinstance(structure, RockingFrame):
+        return response.outcome, [*sorted({float(theta.min()), float(theta.max())} - {0.0}), 0.0]
+    if isinstance(structure, RockingFrame | MonolithicPortal):
+        kind = "frame" if isinstance(structure, RockingFrame) else "portal"
         raise ValueError(
-            f"vase.picture: the frame overturns at {pulse.amplitude:.6g} g; expected amplitudes "
+            f"vase.picture: the {kind} overturns at {pulse.amplitude:.6g} g; expected amplitudes "
             "that it survives, since its bodies part when it falls"
         )
     seen = response.rotation[~np.isnan(response.rotation)]
@@ -57,6 +59,9 @@ def poses(column: Column, settings: dict) -> Iterator[dict]:
         "bare": column,
         "fixed": FixedMassColumn(column, gamma, cap["width"], cap["depth"]),
         "free": RockingFrame(column, gamma),
+        "portal": MonolithicPortal(
+            column, gamma, 2.0 * (cap["width"] - column.half_width), cap["depth"]
+        ),
     }
     for amplitude in settings["picture"]["amplitudes"]:
         pulse = Pulse("one-cosine", amplitude, 2.0 * math.pi / settings["period"])

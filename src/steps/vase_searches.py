@@ -20,11 +20,12 @@ from topheavy import (
     Pulse,
     Record,
     RockingFrame,
+    Search,
     judge,
-    lowest_overturning,
     overturned_by,
     reference,
 )
+from topheavy.minimum import lowest_together
 from topheavy.structures import Structure
 
 DISTANCES = (1e-7, 1e-5, 1e-3)
@@ -100,22 +101,40 @@ def minimum(
 
     The floor of `lowest_overturning` is given over the uplift acceleration of the structure.
     """
-    uplift = structure.block().uplift_acceleration
-    ends = (max(uplift, above), highest)
-    if ends[0] >= ends[1]:
-        return Minimum(structure, motion, None)
-    found = lowest_overturning(structure, motion, ends, floor=floor * uplift)
-    return Minimum(structure, motion, found)
+    return minima([structure], motion, highest, floor, above)[0]
 
 
-def lowest_told(
-    structure: Structure, motion: Pulse | Record, highest: float, floor: float, tightened: float
-) -> Minimum:
-    """Return the lowest minimum that can be decided; the intervals below it are passed over."""
-    one, passed = minimum(structure, motion, highest, floor), 0
+def minima(
+    structures: Sequence[Structure],
+    motion: Pulse | Record,
+    highest: float,
+    floor: float,
+    above: float = 0.0,
+) -> list[Minimum]:
+    """Return the `minimum` of each structure; they are searched together."""
+    levels = [structure.block().uplift_acceleration for structure in structures]
+    found = [Minimum(structure, motion, None) for structure in structures]
+    sought = [place for place, level in enumerate(levels) if max(level, above) < highest]
+    searches = [
+        Search(structures[place], motion, (max(levels[place], above), highest)) for place in sought
+    ]
+    if not searches:
+        return found
+    lowest = lowest_together(searches, [floor * levels[place] for place in sought])
+    for place, one in zip(sought, lowest, strict=True):
+        found[place] = replace(found[place], found=one)
+    return found
+
+
+def lowest_told(one: Minimum, highest: float, floor: float, tightened: float) -> Minimum:
+    """Return the lowest minimum that can be decided, from the lowest one on.
+
+    The intervals below it are passed over.
+    """
+    passed = 0
     while math.isfinite(one.acceleration) and one.found.upper and not one.told(tightened):
         passed += 1
-        one = minimum(structure, motion, highest, floor, one.found.upper[1])
+        one = minimum(one.structure, one.motion, highest, floor, one.found.upper[1])
     return replace(one, passed_over=passed)
 
 

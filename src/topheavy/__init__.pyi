@@ -8,12 +8,14 @@ from .contact_forces import (
     contact_forces,
     impact_impulses,
 )
-from .fixed_frame import FixedFrame, peak_elastic, peak_elastic_by_scipy, peak_rigid
+from .fixed_frame import FixedFrame, Forces, peak_elastic, peak_elastic_by_scipy, peak_rigid
 from .fixed_mass import FixedMassColumn, MonolithicPortal
 from .fragility.estimate import Fragility, fragility
-from .frame_forces import base_shear_slope, frame_forces
+from .frame_forces import FrameForces, base_shear_slope, frame_forces
+from .free_rocking import Ending
 from .minimum import LowestOverturning, lowest_overturning
 from .overturning import (
+    Interval,
     Search,
     intervals_together,
     minima_together,
@@ -23,7 +25,7 @@ from .overturning import (
     overturning_intervals,
     overturning_map,
 )
-from .portal_forces import resting_portal_forces, rocking_portal_forces
+from .portal_forces import ColumnEnds, resting_portal_forces, rocking_portal_forces
 from .pulses import Pulse
 from .record_map import overturning_map_of_record
 from .records import Record, read_at2, read_csv, read_record
@@ -37,10 +39,15 @@ __all__ = [
     "STANDARD_GRAVITY",
     "Cap",
     "Column",
+    "ColumnEnds",
     "ContactForces",
+    "Ending",
     "FixedFrame",
     "FixedMassColumn",
+    "Forces",
     "Fragility",
+    "FrameForces",
+    "Interval",
     "LowestOverturning",
     "MonolithicPortal",
     "Pulse",

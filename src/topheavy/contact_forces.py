@@ -16,6 +16,8 @@ leaves one unknown. The moment balance of the cap beam, which the paper omits, d
 same equations. Rotations are in rad, signed; the ground acceleration is in g. Arrays broadcast.
 """
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 from functools import reduce
@@ -230,18 +232,20 @@ class _Pair(NamedTuple):
     horizontal: Array
     vertical: Array
 
-    def times(self, factor: float) -> "_Pair":
+    def times(self, factor: float) -> _Pair:
         return _Pair(factor * self.horizontal, factor * self.vertical)
 
 
 class _State(NamedTuple):
-    """θ, θ̇, ü_g (g), the side s (NaN at rest) and the lean α − |θ|, of one shape."""
+    """θ, θ̇, ü_g (g), the side s (NaN at rest), the lean α − |θ|, its sine and cosine."""
 
     rotation: Array
     velocity: Array
     ground: Array
     side: Array
     lean: Array
+    sine: Array
+    cosine: Array
 
 
 def _state(
@@ -258,7 +262,8 @@ def _state(
     uplifted = np.where(np.abs(ground) >= column.uplift_acceleration, -np.sign(ground), np.nan)
     moving = np.where(rate != 0.0, np.sign(rate), uplifted)
     side = np.where(theta != 0.0, np.sign(theta), moving)
-    return _State(theta, rate, ground, side, column.slenderness - np.abs(theta))
+    lean = column.slenderness - np.abs(theta)
+    return _State(theta, rate, ground, side, lean, np.sin(lean), np.cos(lean))
 
 
 def _load(at: _State, distance: float, frequency: float) -> _Pair:
@@ -267,7 +272,7 @@ def _load(at: _State, distance: float, frequency: float) -> _Pair:
     The body moves with the diagonal through the pivot, and rides on the accelerating ground: the
     column's centre at R, the cap at 2R. That its force is (ü_g + ẍ, g + z̈)/g is Newton's law.
     """
-    s, sin, cos = at.side, np.sin(at.lean), np.cos(at.lean)
+    s, sin, cos = at.side, at.sine, at.cosine
     acceleration = -(frequency**2) * (s * sin + at.ground * cos)  # Eq. (23)
     across = distance * acceleration / STANDARD_GRAVITY
     inward = distance * at.velocity**2 / STANDARD_GRAVITY

@@ -1,5 +1,7 @@
 """The interface of a ground motion to the solvers: an acceleration in smooth, monotone segments."""
 
+from __future__ import annotations
+
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass

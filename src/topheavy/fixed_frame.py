@@ -21,6 +21,8 @@ oscillator of the period. What the mode leaves out follows the ground: as the pe
 A → ü_g, and the frame is rigid. The weight's moment about displaced columns is left out.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -164,7 +166,8 @@ def peak_elastic(
     """
     start, end, step = _steps(_ending(excitation), checks.positive("period", period, "s"), steps)
     total = _total_acceleration(start, end, step, period)
-    course = _outermost(np.c_[np.r_[start, end], np.r_[total[:-1], total[1:]]])
+    jumps = np.append(np.flatnonzero(end[:-1] != start[1:]), end.size - 1)  # else a point is twice
+    course = _outermost(np.c_[np.r_[start, end[jumps]], np.r_[total[:-1], total[jumps + 1]]])
     return [_peaks(one.forces(*course.T)) for one in fixed]
 
 

@@ -14,6 +14,8 @@ edge, for the mass M,
 has neither structure; they are what its cap beam would do if it could not turn against the columns.
 """
 
+from __future__ import annotations
+
 import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass

@@ -12,6 +12,8 @@ rotary inertia. Signs are such that all three are positive for a frame at rest u
 The impulses of an impact are no forces and are not among these; see `impact_impulses`.
 """
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 
@@ -73,7 +75,7 @@ def frame_forces(
     return FrameForces(
         np.where(rests, ground, left.horizontal + right.horizontal),
         np.where(rests, ground * centre_height(frame, cap), moment),
-        np.stack([_bending(frame, side, theta, rate, ground, foot) for foot in (left, right)], -2),
+        _bending(frame, side, theta, rate, ground, (left, right)),
     )
 
 
@@ -102,25 +104,27 @@ def _side(theta: Array, rate: Array, ground: Array) -> Array:
 
 
 def _bending(
-    frame: RockingFrame, side: Array, theta: Array, rate: Array, ground: Array, foot: Reaction
+    frame: RockingFrame,
+    side: Array,
+    theta: Array,
+    rate: Array,
+    ground: Array,
+    feet: tuple[Reaction, ...],
 ) -> Array:
-    """Return the bending moment of one column at the SECTIONS over the weight of the frame, m."""
+    """Return the bending moments of the columns at the SECTIONS over the weight of the frame, m."""
     column, lean = frame.column, frame.slenderness - np.abs(theta)
     weight = 0.0 if frame.mass_ratio == math.inf else 0.5 / (1.0 + frame.mass_ratio)
     squared = frame.frequency_parameter**2
     angular = -squared * (side * np.sin(lean) + ground * np.cos(lean))  # Eq. (23)
     sin, cos, b = np.sin(theta), np.cos(theta), column.half_width
-    transverse = foot.horizontal * cos - foot.vertical * sin
-    axial = foot.horizontal * sin + foot.vertical * cos
     spread = weight / (2.0 * column.half_height * STANDARD_GRAVITY)
     steady = STANDARD_GRAVITY * (ground * cos - sin) + side * b * rate**2
-    # A polynomial of the third degree in the height z above the base.
-    terms = (
-        side * b * axial,
-        transverse + spread * angular * b**2 / 3.0,
-        -spread * steady / 2.0,
-        -spread * angular / 6.0,
-    )
-    powers = np.vander(2.0 * column.half_height * np.array(SECTIONS), 4, increasing=True).T
-    found: Array = np.stack(terms, -1) @ powers
+    # A polynomial of the third degree in the height z above the base, for each column.
+    terms = np.empty((4, len(feet), *theta.shape))
+    for of_column, foot in zip(np.moveaxis(terms, 1, 0), feet, strict=True):
+        of_column[0] = side * b * (foot.horizontal * sin + foot.vertical * cos)
+        of_column[1] = foot.horizontal * cos - foot.vertical * sin + spread * angular * b**2 / 3.0
+    terms[2], terms[3] = -spread * steady / 2.0, -spread * angular / 6.0
+    powers = np.vander(2.0 * column.half_height * np.array(SECTIONS), 4, increasing=True)
+    found: Array = np.moveaxis(np.tensordot(powers, terms, 1), [1, 0], [-2, -1])
     return found

@@ -8,6 +8,8 @@ integration is necessary. With φ = |θ| and φ̇ its rate,
 where w is the area under the moment–rotation curve of Fig. 1(b). Its summit is at φ = α.
 """
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 

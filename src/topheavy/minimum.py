@@ -5,18 +5,32 @@ narrowest. A search on one grid misses it without a sign. Here every grid holds 
 one before, so that a finer grid never finds a higher minimum.
 """
 
+from __future__ import annotations
+
 import math
+from collections.abc import Generator, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any, TypeAlias, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from topheavy import checks
+from topheavy.kernel.outcome import TOLERANCE
 from topheavy.keywords import hinted
-from topheavy.overturning import BRACKET, checked_range, overturned_by
+from topheavy.overturning import (
+    BRACKET,
+    Asked,
+    Factors,
+    Search,
+    checked_range,
+    outcomes_of_subjects,
+    steered,
+    subjects_of,
+)
 from topheavy.pulses import Pulse
 from topheavy.records import Record
-from topheavy.structures import RockingBlock, Structure, as_block
+from topheavy.structures import Structure
 
 NOT_EXCLUDED = "intervals narrower than the floor are not excluded"
 """What a search on grids cannot say of the lowest factor that overturns."""
@@ -150,7 +164,31 @@ def lowest_overturning(
         1e-10 of the last factor, a harmonic, and a vertical acceleration of −1 g or less at a
         factor of the range.
     """
-    first, last = checked_range(excitation, scale_range)
+    search = Search(structure, excitation, scale_range, vertical, scale_vertical)
+    (found,) = lowest_together([search], [floor])
+    return found
+
+
+def lowest_together(searches: Sequence[Search], floors: Sequence[float]) -> list[LowestOverturning]:
+    """Return the `lowest_overturning` of several searches in their order, each with its floor."""
+    asking = [_lowest(*given) for given in zip(searches, floors, strict=True)]
+    subjects = subjects_of(searches)
+
+    def label(asked: Mapping[int, Factors]) -> list[NDArray[np.bool_]]:
+        of = [subjects[number] for number in asked]
+        return [fell for fell, _ in outcomes_of_subjects(of, [*asked.values()], TOLERANCE)]
+
+    return steered(asking, label)
+
+
+Asking: TypeAlias = Generator[Asked, Any, tuple[float, float] | None]
+"""It yields factors, is sent which of them overturn, and returns a bracket."""
+
+
+def _lowest(search: Search, floor: float) -> Generator[Asked, Any, LowestOverturning]:
+    """Yield the factors that `lowest_overturning` needs; return what it finds."""
+    excitation = cast("Pulse | Record", search.excitation)
+    first, last = checked_range(excitation, search.scale_range)
     if first < 0.0:
         raise ValueError(
             f"scale_range begins at {first:.6g}; expected factors from zero on: for the mirrored "
@@ -162,8 +200,8 @@ def lowest_overturning(
             f"floor is {floor:.6g}; expected at least {width:.6g}, {BRACKET:g} of the last factor: "
             "brackets are as wide"
         )
-    trials = _Trials(as_block(structure), excitation, vertical, scale_vertical)
-    bracket = trials.first_of((first, last), width)
+    trials = _Trials()
+    bracket = yield from trials.first_of((first, last), width)
     step, steps, parts = last - first, [], 1
     while True:
         steps.append((step, bracket[1] if bracket else None))
@@ -171,13 +209,14 @@ def lowest_overturning(
             break
         step, parts = 0.5 * step, 2 * parts
         below = bracket[0] if bracket else last
-        bracket = trials.between(first, step, parts, below, width) or bracket
+        bracket = (yield from trials.between(first, step, parts, below, width)) or bracket
+    upper = (yield from trials.upper_end(bracket[1], last, width)) if bracket else None
     return LowestOverturning(
         scale_range=(first, last),
         floor=floor,
         steps=tuple(steps),
         bracket=bracket,
-        upper=trials.upper_end(bracket[1], last, width) if bracket else None,
+        upper=upper,
         unit_acceleration=excitation.peak_acceleration,
         factors_tried=trials.number,
     )
@@ -185,36 +224,23 @@ def lowest_overturning(
 
 @dataclass
 class _Trials:
-    """A block under factors on an excitation; it counts them."""
+    """The parts of a search; it counts the factors that they ask."""
 
-    block: RockingBlock
-    excitation: Pulse | Record
-    vertical: Record | None = None
-    scale_vertical: bool = True
     number: int = 0
 
-    def __call__(self, factors: NDArray[np.float64]) -> NDArray[np.bool_]:
-        """Return which factors overturn."""
+    def of(self, factors: Factors) -> Asked:
         self.number += factors.size
-        return overturned_by(
-            self.block,
-            self.excitation,
-            factors,
-            vertical=self.vertical,
-            scale_vertical=self.scale_vertical,
-        )
+        return Asked(factors, [])
 
-    def first_of(self, ends: tuple[float, float], width: float) -> tuple[float, float] | None:
+    def first_of(self, ends: tuple[float, float], width: float) -> Asking:
         """Return the bracket of the coarsest grid, the two ends of the range alone."""
         first, last = ends
-        begins, finishes = self(np.array(ends))
+        begins, finishes = yield self.of(np.array(ends))
         if begins:
             return first, first
-        return self.section(first, last, width) if finishes else None
+        return (yield from self.section(first, last, width)) if finishes else None
 
-    def between(
-        self, first: float, step: float, parts: int, below: float, width: float
-    ) -> tuple[float, float] | None:
+    def between(self, first: float, step: float, parts: int, below: float, width: float) -> Asking:
         """Return the bracket of the lowest new point that overturns, of a grid just halved.
 
         Its old points, the even ones, are survived where they are lower than `below`.
@@ -225,28 +251,28 @@ class _Trials:
             factors = factors[factors < below]
             if factors.size == 0:
                 return None
-            overturned = self(factors)
+            overturned = yield self.of(factors)
             if overturned.any():
                 at = int(np.argmax(overturned))
                 before = first + step * (int(places[at]) - 1)
-                return self.section(before, float(factors[at]), width)
+                return (yield from self.section(before, float(factors[at]), width))
         return None
 
     def section(
         self, low: float, high: float, width: float, *, sought: bool = True
-    ) -> tuple[float, float]:
+    ) -> Generator[Asked, Any, tuple[float, float]]:
         """Narrow a bracket to `width`, always to the lowest point tried with the sought outcome.
 
         Halving would pass over lower factors that it tried in vain: here none that was tried is.
         """
         while high - low > width:
             points = np.linspace(low, high, SECTIONS + 1)
-            met = np.append(self(points[1:-1]) == sought, True)
+            met = np.append((yield self.of(points[1:-1])) == sought, True)
             at = int(np.argmax(met))
             low, high = float(points[at]), float(points[at + 1])
         return low, high
 
-    def upper_end(self, lowest: float, last: float, width: float) -> tuple[float, float] | None:
+    def upper_end(self, lowest: float, last: float, width: float) -> Asking:
         """Return the upper end of the interval that begins at `lowest`, or None beyond the range.
 
         The distances tried grow in proportion, so that the interval may have any width.
@@ -257,8 +283,10 @@ class _Trials:
         count = 2 + int(math.log(span / width, GROWTH)) if span > width else 1
         distances = np.geomspace(min(width, span), span, count)
         points = np.array([lowest, *np.minimum(lowest + distances, last)])
-        survived = ~self(points[1:])
+        survived = ~(yield self.of(points[1:]))
         if not survived.any():
             return None
         at = int(np.argmax(survived))
-        return self.section(float(points[at]), float(points[at + 1]), width, sought=False)
+        return (
+            yield from self.section(float(points[at]), float(points[at + 1]), width, sought=False)
+        )

@@ -4,6 +4,8 @@ Histories run in the lanes of the CPU, whatever their structure: what is asked o
 or motions at once costs less than one after the other, and gives the same to the last bit.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -55,7 +57,7 @@ Answer = TypeVar("Answer")
 @hinted
 def overturning_map(
     structure: Structure, shape: str, angular_frequencies: ArrayLike, amplitudes: ArrayLike
-) -> "xarray.Dataset":
+) -> xarray.Dataset:
     """Return which pulses overturn a block, and how far it rocks under the others.
 
     Parameters
@@ -100,7 +102,7 @@ def outcomes_dataset(
     outcomes: Outcomes,
     coordinates: dict[str, tuple[str, NDArray[np.float64], dict[str, str]]],
     **attributes: str | float,
-) -> "xarray.Dataset":
+) -> xarray.Dataset:
     """Return the outcomes of `outcomes_of` over its first two coordinates, with their units."""
     import xarray  # here: with pandas it takes a second that only maps need
 
@@ -202,8 +204,8 @@ def outcomes_by(
     """
     scales = checks.axis("factors", factors, zero_allowed=True)
     ends = (float(scales.min()), float(scales.max()))
-    subjects = _subjects([Search(structure, excitation, ends, vertical, scale_vertical)])
-    return _outcomes(subjects, [scales], checked_tolerance(tolerance))[0]
+    subjects = subjects_of([Search(structure, excitation, ends, vertical, scale_vertical)])
+    return outcomes_of_subjects(subjects, [scales], checked_tolerance(tolerance))[0]
 
 
 def overturned_together(
@@ -245,22 +247,27 @@ def overturned_together(
         checks.axis("factors", row, zero_allowed=True)
         for row in np.broadcast_to(given, (len(structures), given.shape[-1]))
     ]
-    subjects = _subjects(
+    subjects = subjects_of(
         [
             Search(one, excitation, (float(row.min()), float(row.max())), vertical, scale_vertical)
             for one, row in zip(structures, rows, strict=True)
         ]
     )
-    found = _outcomes(subjects, rows, checked_tolerance(tolerance))
+    found = outcomes_of_subjects(subjects, rows, checked_tolerance(tolerance))
     return np.array([overturned for overturned, _ in found])
 
 
 @dataclass(frozen=True)
 class Interval:
-    """Scales that overturn, with one number of impacts before.
+    """An interval of factors that overturn, all after one number of impacts.
 
-    `lower` and `upper` are pairs (low, high) with the boundary between them. Where the range
-    begins in an interval, `lower` is its first scale twice; where it ends in one, `upper` is None.
+    Attributes
+    ----------
+    lower, upper : (float, float)
+        Its ends, each as a pair of factors with the boundary between them. Where the range begins
+        in the interval, `lower` is the first factor twice; where it ends in it, `upper` is None.
+    impacts : int
+        Before the fall: 0 is mode 2 of Zhang & Makris (2001).
     """
 
     lower: tuple[float, float]
@@ -416,17 +423,17 @@ def _width(grid: Factors) -> float:
 # What a search asks, and in which order -----------------------------------------------------------
 
 
-class _Asked(NamedTuple):
+class Asked(NamedTuple):
     """The factors whose labels a search waits for; they are the middles of brackets, or none."""
 
     factors: Factors
     brackets: list[tuple[float, float]]
 
 
-def _intervals(grid: Factors, resolution: float) -> Generator[_Asked, Any, list[Interval]]:
+def _intervals(grid: Factors, resolution: float) -> Generator[Asked, Any, list[Interval]]:
     """Yield the factors that `overturning_intervals` needs; return its intervals."""
     first = float(grid[0])
-    labels = yield _Asked(grid, [])
+    labels = yield Asked(grid, [])
     changes = np.flatnonzero(labels[1:] != labels[:-1])
     given = [(grid[i], grid[i + 1], labels[i], labels[i + 1]) for i in changes]
     boundaries = yield from _halved(given, _width(grid), NARROWEST * resolution)
@@ -440,12 +447,10 @@ def _intervals(grid: Factors, resolution: float) -> Generator[_Asked, Any, list[
     return intervals
 
 
-def _minimum(
-    grid: Factors, resolution: float
-) -> Generator[_Asked, Any, tuple[float, float] | None]:
+def _minimum(grid: Factors, resolution: float) -> Generator[Asked, Any, tuple[float, float] | None]:
     """Yield the factors that `minimum_overturning` needs; return its bracket."""
     for begin in range(0, grid.size, AT_A_TIME):
-        overturns = (yield _Asked(grid[begin : begin + AT_A_TIME], [])) != SAFE
+        overturns = (yield Asked(grid[begin : begin + AT_A_TIME], [])) != SAFE
         if overturns.any():
             at = begin + int(np.argmax(overturns))
             break
@@ -460,7 +465,7 @@ def _minimum(
 
 def _halved(
     boundaries: list[Boundary], width: float, narrowest: float
-) -> Generator[_Asked, Any, list[Boundary]]:
+) -> Generator[Asked, Any, list[Boundary]]:
     """Return the boundaries (low, high, label below, label above), halved down to `width`."""
     done: list[Boundary] = []
     for _ in range(MOST_HALVINGS):
@@ -472,7 +477,7 @@ def _halved(
         if not open_ones:
             return sorted((float(a), float(b), int(c), int(d)) for a, b, c, d in done)
         middles = [0.5 * (low + high) for low, high, _, _ in open_ones]
-        labels = yield _Asked(np.array(middles), [(low, high) for low, high, _, _ in open_ones])
+        labels = yield Asked(np.array(middles), [(low, high) for low, high, _, _ in open_ones])
         boundaries = []
         for (low, high, below, above), middle, found in zip(
             open_ones, middles, labels, strict=True
@@ -505,24 +510,26 @@ class _Subject(NamedTuple):
 
 def _answered(
     searches: Sequence[Search],
-    begin: Callable[[Factors], Generator[_Asked, Any, Answer]],
+    begin: Callable[[Factors], Generator[Asked, Any, Answer]],
     resolution: float,
     most_impacts: int,
 ) -> list[Answer]:
     """Return what each search returns; `begin` makes it from its first factors."""
     asking = [begin(_grid(search, resolution)) for search in searches]
-    subjects = _subjects(searches)
+    subjects = subjects_of(searches)
 
     def label(asked: Mapping[int, Factors]) -> list[NDArray[np.int64]]:
-        found = _outcomes([subjects[number] for number in asked], [*asked.values()], TOLERANCE)
+        found = outcomes_of_subjects(
+            [subjects[number] for number in asked], [*asked.values()], TOLERANCE
+        )
         return [np.where(fell, np.minimum(count, most_impacts), SAFE) for fell, count in found]
 
-    return _steered(asking, label)
+    return steered(asking, label)
 
 
-def _steered(
-    asking: Sequence[Generator[_Asked, Any, Answer]],
-    label: Callable[[Mapping[int, Factors]], Sequence[NDArray[np.int64]]],
+def steered(
+    asking: Sequence[Generator[Asked, Any, Answer]],
+    label: Callable[[Mapping[int, Factors]], Sequence[NDArray[Any]]],
 ) -> list[Answer]:
     """Return what each search returns; `label` labels factors of several, by their numbers.
 
@@ -562,7 +569,7 @@ def _steered(
     return [answers[number] for number in range(len(asking))]
 
 
-def _subjects(searches: Sequence[Search]) -> list[_Subject]:
+def subjects_of(searches: Sequence[Search]) -> list[_Subject]:
     """Return blocks and motions as the kernel takes them; each motion is prepared but once."""
     prepared: dict[tuple[int, int], Shaking] = {}
     subjects = []
@@ -580,7 +587,7 @@ def _subjects(searches: Sequence[Search]) -> list[_Subject]:
     return subjects
 
 
-def _outcomes(
+def outcomes_of_subjects(
     subjects: Sequence[_Subject], factors: Sequence[Factors], tolerance: float
 ) -> list[tuple[NDArray[np.bool_], NDArray[np.int64]]]:
     """Return which factors overturn each subject, and its impacts; each has factors of its own.

@@ -3,6 +3,8 @@
 Each function draws into `axes`, or into a new figure, and returns the Axes, to be changed further.
 """
 
+from __future__ import annotations
+
 import math
 from typing import TYPE_CHECKING
 
@@ -27,8 +29,8 @@ FALLEN = 1.5
 
 @hinted
 def history(
-    response: Response, structure: Structure, *, label: str = "", axes: "Axes | None" = None
-) -> "Axes":
+    response: Response, structure: Structure, *, label: str = "", axes: Axes | None = None
+) -> Axes:
     """Draw the rotation over α against time (s), with the impacts; |θ| = α is dotted.
 
     Parameters
@@ -54,7 +56,7 @@ def history(
 
 
 @hinted
-def spectrum(outcomes: "xarray.Dataset", *, axes: "Axes | None" = None) -> "Axes":
+def spectrum(outcomes: xarray.Dataset, *, axes: Axes | None = None) -> Axes:
     """Draw the peak rotation over α of a map; what overturns is grey.
 
     Parameters
@@ -80,7 +82,7 @@ def spectrum(outcomes: "xarray.Dataset", *, axes: "Axes | None" = None) -> "Axes
 
 
 @hinted
-def fragility(found: Fragility, *, axes: "Axes | None" = None) -> "Axes":
+def fragility(found: Fragility, *, axes: Axes | None = None) -> Axes:
     """Draw the probability of overturning: points with their intervals, and the fitted curves.
 
     Parameters
@@ -94,7 +96,7 @@ def fragility(found: Fragility, *, axes: "Axes | None" = None) -> "Axes":
         curve = found.curves.sel(structure=name)
         level, share = curve.level.to_numpy(), curve.probability.to_numpy()
         ends = np.array([share - curve.probability_low, curve.probability_high - share])
-        aside = 0.15 * (place - (len(names) - 1) / 2) / len(names) * np.gradient(level)
+        aside = 0.6 * (place - (len(names) - 1) / 2) / len(names) * np.gradient(level)
         points = axes.errorbar(
             level + aside, share, ends.clip(0.0), fmt=".", capsize=2, label=str(name)
         )
@@ -116,8 +118,8 @@ def structure(
     *,
     cap_width: float | None = None,
     cap_depth: float | None = None,
-    axes: "Axes | None" = None,
-) -> "Axes":
+    axes: Axes | None = None,
+) -> Axes:
     """Draw a structure to scale, rocked by θ.
 
     Parameters
@@ -155,7 +157,7 @@ def structure(
     return axes
 
 
-def _axes(axes: "Axes | None") -> "Axes":
+def _axes(axes: Axes | None) -> Axes:
     try:
         import matplotlib.pyplot as plt
     except ImportError as missing:

@@ -18,6 +18,8 @@ portal is neither; it resists at most b times its axial force.
 Forces are over the weight of the portal. The impulses of impacts are no forces.
 """
 
+from __future__ import annotations
+
 import math
 from typing import Literal, NamedTuple, TypeAlias, get_args
 

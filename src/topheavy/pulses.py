@@ -4,6 +4,8 @@ One-sine, one-cosine: Zhang & Makris (2001), Makris & Roussos (2000). Half-sine,
 (1963). Ricker wavelets as in Makris & Vassiliou (2013), with the main lobe 2.25 T after the start.
 """
 
+from __future__ import annotations
+
 import difflib
 import math
 from collections.abc import Callable
@@ -114,7 +116,7 @@ class Pulse(Excitation):
         """|amplitude|, g."""
         return abs(float(self.amplitude))
 
-    def scaled(self, factor: float) -> "Pulse":
+    def scaled(self, factor: float) -> Pulse:
         """Return the same pulse with its amplitude multiplied by `factor`."""
         return replace(self, amplitude=self.amplitude * checks.finite("factor", factor))
 

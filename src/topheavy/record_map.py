@@ -1,5 +1,7 @@
 """Which similar structures a recorded ground motion overturns, over size and peak acceleration."""
 
+from __future__ import annotations
+
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -19,7 +21,7 @@ if TYPE_CHECKING:
 
 def overturning_map_of_record(
     structure: Structure, record: Record, sizes: ArrayLike, peak_accelerations: ArrayLike
-) -> "xarray.Dataset":
+) -> xarray.Dataset:
     """Return which sizes of a structure a record overturns, and how far the others rock.
 
     All lengths of the structure change in proportion, so that its slenderness and restitution stay

@@ -31,6 +31,9 @@ SMALLEST_TOLERANCE, LARGEST_TOLERANCE = 1e-13, 1e-2
 MOST_STEPS = 1_000_000
 """Of a flight in one segment; the solver refuses steps that are below rounding, but not so many."""
 
+SHORT = 0.05
+"""1/p. A step of DOP853 over so short a piece of the forcing needs no search for its length."""
+
 _DEGREE = 7  # of DOP853's interpolating polynomial
 _NODES = chebyshev.chebpts1(_DEGREE + 1)
 _TO_SERIES = np.linalg.inv(chebyshev.chebvander(_NODES, _DEGREE))
@@ -91,7 +94,7 @@ def judge(
     course = motion.start(block, 0.0, 0.0)
     course.restitutions = [checks.fraction("restitutions", value) for value in restitutions]
     ground = with_vertical(excitation, vertical)
-    motion.force(block, ground, course, _flight(tolerance))
+    motion.force(block, ground, course, _flight(tolerance, keep=False))
     end = motion.free_ending(block, course)
     return free_rocking.Ending(
         overturned=end.overturned,
@@ -100,14 +103,18 @@ def judge(
     )
 
 
-def _flight(tolerance: float) -> motion.Flight:
-    """Return the integration at a tolerance, or raise ValueError with the accepted range."""
+def _flight(tolerance: float, *, keep: bool = True) -> motion.Flight:
+    """Return the integration at a tolerance, or raise ValueError with the accepted range.
+
+    `keep` says whether the history is wanted, and not only how it ends.
+    """
     low, high = SMALLEST_TOLERANCE, LARGEST_TOLERANCE
-    return partial(_fly, checks.within("tolerance", tolerance, low, high))
+    return partial(_fly, checks.within("tolerance", tolerance, low, high), keep)
 
 
 def _fly(
     tolerance: float,
+    keep: bool,
     block: RockingBlock,
     segment: Segment,
     stop: float,
@@ -116,6 +123,8 @@ def _fly(
 ) -> Event | None:
     """Integrate on one side to `stop`, or to the impact or fall that comes first."""
     alpha, p = block.slenderness, block.frequency_parameter
+    ahead = stop - course.time
+    largest = math.inf if keep else _largest(block, segment)
     solver = DOP853(
         _equation(block, segment, course.side),
         course.time,
@@ -123,6 +132,7 @@ def _fly(
         stop,
         rtol=tolerance,
         atol=[tolerance * alpha, tolerance * alpha * p],
+        first_step=ahead if 0.0 < p * ahead < SHORT else None,
     )
     for _ in range(MOST_STEPS):
         if solver.status != "running":
@@ -130,6 +140,12 @@ def _fly(
         message = solver.step()
         if solver.status == "failed":
             raise ArithmeticError(f"{block}: no step is possible at {solver.t:.6g} s: {message}")
+        ends = course.rotation, float(solver.y[0])
+        aside = largest * (solver.t - solver.t_old) ** 2 / 8.0  # of the chord of φ at most
+        if min(ends) - aside > 0.0 and max(ends) + aside < min(course.ceiling, course.peak):
+            course.height, course.time = max(course.height, *ends), solver.t
+            course.rotation, course.rate = map(float, solver.y)
+            continue  # nothing happens in this step
         step = solver.dense_output()
         event, course.time = _first_event(step, course, possible)
         course.arcs.append(Arc(step.t_old, course.time, course.side, step))
@@ -149,18 +165,44 @@ def _equation(
     block: RockingBlock, segment: Segment, side: int
 ) -> Callable[[float, NDArray[np.float64]], tuple[float, float]]:
     """Return the equation of motion (φ, φ̇)' on one side: Eq. (23), or linearised."""
-    alpha, square = block.slenderness, block.frequency_parameter**2
-    acceleration, gravity = segment.acceleration, segment.gravity
+    equation = _linearised if block.linearised else _exact
+    square = block.frequency_parameter**2
+    return partial(equation, block.slenderness, square, segment.acceleration, segment.gravity, side)
 
-    def exact(t: float, y: NDArray[np.float64]) -> tuple[float, float]:
-        lean = alpha - float(y[0])
-        push = side * float(acceleration(t))
-        return y[1], -square * gravity(t) * (math.sin(lean) + push * math.cos(lean))  # Eq. (23)
 
-    def linearised(t: float, y: NDArray[np.float64]) -> tuple[float, float]:
-        return y[1], square * gravity(t) * (float(y[0]) - alpha - side * float(acceleration(t)))
+def _exact(
+    alpha: float,
+    square: float,
+    acceleration: Callable[[float], float],
+    gravity: Callable[[float], float],
+    side: int,
+    t: float,
+    y: NDArray[np.float64],
+) -> tuple[float, float]:
+    lean = alpha - float(y[0])
+    push = side * float(acceleration(t))
+    return y[1], -square * gravity(t) * (math.sin(lean) + push * math.cos(lean))  # Eq. (23)
 
-    return linearised if block.linearised else exact
+
+def _linearised(
+    alpha: float,
+    square: float,
+    acceleration: Callable[[float], float],
+    gravity: Callable[[float], float],
+    side: int,
+    t: float,
+    y: NDArray[np.float64],
+) -> tuple[float, float]:
+    return y[1], square * gravity(t) * (float(y[0]) - alpha - side * float(acceleration(t)))
+
+
+def _largest(block: RockingBlock, segment: Segment) -> float:
+    """Return a bound on |φ̈| of the exact equation, rad/s²; none is known of the linearised one."""
+    if block.linearised:
+        return math.inf
+    ends = segment.start, segment.stop
+    gravity = max(map(segment.gravity, ends))
+    return block.frequency_parameter**2 * gravity * (1.0 + segment.largest(*ends))
 
 
 def _first_event(step: DenseOutput, course: Motion, possible: bool) -> tuple[Event | None, float]:
@@ -171,10 +213,11 @@ def _first_event(step: DenseOutput, course: Motion, possible: bool) -> tuple[Eve
     step is cut at the turning points of φ, between which a sign change is found for certain.
     """
     middle, half = (step.t_old + step.t) / 2.0, (step.t - step.t_old) / 2.0
-    series = _TO_SERIES @ step(middle + half * _NODES)[0]
+    heights = step(middle + half * _NODES)[0]
+    series = _TO_SERIES @ heights
     reach = np.abs(series[1:]).sum()
     if series[0] - reach > 0.0 and series[0] + reach < min(course.ceiling, course.peak):
-        course.height = max(course.height, series[0] - reach)
+        course.height = max(course.height, float(heights.max()))
         return None, step.t
     slope = _TO_SLOPE @ series
     real = np.empty(0)

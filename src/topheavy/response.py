@@ -1,5 +1,7 @@
 """The response of a rocking block: what `simulate` returns."""
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 from typing import Literal

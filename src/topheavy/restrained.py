@@ -14,6 +14,7 @@ import math
 from typing import TypeAlias
 
 import numpy as np
+from numba import njit
 from numpy.typing import ArrayLike, NDArray
 from scipy.integrate import solve_ivp
 
@@ -58,51 +59,56 @@ def restrained_peaks(
     duration, time_step : float
         s. At an impact, a step is cut where its cubic reaches φ = 0.
     """
-    p, alpha, root_r = block.frequency_parameter, block.slenderness, block.restitution
-    kappa, scales = np.broadcast_arrays(np.asarray(kappa, float), np.asarray(scales, float))
     steps = math.ceil(duration / time_step)
     ground = np.asarray(motion.excitation(0.5 * time_step * np.arange(2 * steps + 1)))
-    phi, rate, side, peak = (np.zeros(scales.shape) for _ in range(4))
-    level, h = block.uplift_acceleration, time_step
+    kappa, scales = np.broadcast_arrays(np.asarray(kappa, float), np.asarray(scales, float))
+    given = block.slenderness, block.frequency_parameter, block.restitution
+    level, peaks = block.uplift_acceleration, np.empty(scales.shape)
+    for place in np.ndindex(*scales.shape):
+        peaks[place] = _peak(*given, level, kappa[place], scales[place] * ground, time_step)
+    return peaks
 
-    def acceleration(phi: Array, side: Array, push: Array) -> Array:
-        pushed: Array = side * push * np.cos(phi - alpha)
-        return -(p**2) * (restoring_moment(block, kappa, phi) + pushed)
 
-    for step in range(steps):
-        first, middle, last = (scales * ground[2 * step + half] for half in range(3))
-        side = np.where((side == 0.0) & (np.abs(first) > level), -np.sign(first), side)
-        moves = (side != 0.0) & (phi < FLAT)
-        if not moves.any():
-            continue
-        k1 = acceleration(phi, side, first)
-        k2 = acceleration(phi + 0.5 * h * rate, side, middle)
-        k3 = acceleration(phi + 0.5 * h * rate + 0.25 * h**2 * k1, side, middle)
-        k4 = acceleration(phi + h * rate + 0.5 * h**2 * k2, side, last)
-        onward = phi + h * rate + h**2 / 6.0 * (k1 + k2 + k3)
-        speed = rate + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
-        hits = moves & (onward < 0.0) & (speed < 0.0)
-        if hits.any():
-            before = _before_crossing(onward, speed, acceleration(onward, side, last))
-            arrival = speed - acceleration(onward, side, last) * before
-            left = -root_r * arrival
-            still = hits & (left < STILL * alpha * p)
-            push = acceleration(np.zeros_like(phi), -side, last)
-            onward = np.where(hits, left * before + 0.5 * push * before**2, onward)
-            speed = np.where(hits, left + push * before, speed)
-            side = np.where(hits, -side, side)
-            onward, speed, side = (np.where(still, 0.0, x) for x in (onward, speed, side))
-        phi, rate = np.where(moves, onward, phi), np.where(moves, speed, rate)
-        peak = np.maximum(peak, phi)
+@njit(cache=True)
+def _acceleration(alpha, p, kappa, phi, pushed):  # type: ignore[no-untyped-def]
+    moment = math.sin(alpha - phi) + kappa * math.sin(phi)
+    return -(p**2) * (moment + pushed * math.cos(phi - alpha))
+
+
+@njit(cache=True)
+def _peak(alpha, p, root_r, level, kappa, ground, h):  # type: ignore[no-untyped-def]
+    """Return the largest φ (rad) over a ground acceleration at every half of a step h, s."""
+    phi, rate, side, peak = 0.0, 0.0, 0.0, 0.0
+    for step in range(0, ground.size - 2, 2):
+        first, middle, last = ground[step], ground[step + 1], ground[step + 2]
+        if side == 0.0:
+            if abs(first) <= level:
+                continue
+            side = -math.copysign(1.0, first)
+        k1 = _acceleration(alpha, p, kappa, phi, side * first)
+        k2 = _acceleration(alpha, p, kappa, phi + 0.5 * h * rate, side * middle)
+        onward = phi + 0.5 * h * rate + 0.25 * h**2 * k1
+        k3 = _acceleration(alpha, p, kappa, onward, side * middle)
+        onward = phi + h * rate + 0.5 * h**2 * k2
+        k4 = _acceleration(alpha, p, kappa, onward, side * last)
+        phi += h * rate + h**2 / 6.0 * (k1 + k2 + k3)
+        rate += h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
+        if phi < 0.0 and rate < 0.0:
+            pull = _acceleration(alpha, p, kappa, phi, side * last)
+            before = phi / rate  # how long before the end of the step φ was 0
+            for _ in range(4):  # φ − rate t + pull t²/2 = 0
+                excess = phi - rate * before + 0.5 * pull * before**2
+                before -= excess / (pull * before - rate)
+            left = -root_r * (rate - pull * before)
+            side = -side
+            push = _acceleration(alpha, p, kappa, 0.0, side * last)
+            phi, rate = left * before + 0.5 * push * before**2, left + push * before
+            if left < STILL * alpha * p:
+                phi, rate, side = 0.0, 0.0, 0.0
+        peak = max(peak, phi)
+        if phi >= FLAT:
+            break
     return peak
-
-
-def _before_crossing(phi: Array, rate: Array, pull: Array) -> Array:
-    """Return how long before the end of a step φ was 0, by its last position, rate and pull."""
-    before: Array = phi / rate
-    for _ in range(4):  # φ − rate t + pull t²/2 = 0
-        before = before - (phi - rate * before + 0.5 * pull * before**2) / (pull * before - rate)
-    return before
 
 
 def restrained_peak_by_scipy(

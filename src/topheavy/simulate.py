@@ -1,5 +1,7 @@
 """Rocking histories by the Taylor solver: `simulate`, and `judge` for the outcome alone."""
 
+from __future__ import annotations
+
 import math
 from typing import NamedTuple
 

@@ -5,7 +5,10 @@ column, Eq. (23) against Eq. (3), with the same slenderness and a lower frequenc
 three numbers are all that the dynamics sees of either: p, α and √r.
 """
 
+from __future__ import annotations
+
 import math
+import warnings
 from dataclasses import dataclass, replace
 from typing import Protocol
 
@@ -14,6 +17,11 @@ from topheavy.keywords import hinted
 
 STANDARD_GRAVITY = 9.81
 """Acceleration of gravity g, m/s², as the paper's numbers imply it (2.15 m/s² = 0.219 g, p. 4)."""
+
+HIGHEST = 200.0
+"""Of a column, m: beyond it, a warning asks whether the lengths are in mm."""
+USUAL_MASS_RATIOS = (0.01, 100.0)
+"""Of a frame by its masses: beyond them, a warning asks whether both are in one unit."""
 
 
 @dataclass(frozen=True)
@@ -53,15 +61,15 @@ class RockingBlock:
         """Ground acceleration (g) above which it uplifts: tan α, or α when linearised."""
         return self.slenderness if self.linearised else math.tan(self.slenderness)
 
-    def with_restitution(self, value: float) -> "RockingBlock":
+    def with_restitution(self, value: float) -> RockingBlock:
         """Return the same block with another √r in [0, 1]."""
         return replace(self, restitution=value)
 
-    def linear(self) -> "RockingBlock":
+    def linear(self) -> RockingBlock:
         """Return the same block under the linearised equation of motion."""
         return replace(self, linearised=True)
 
-    def block(self) -> "RockingBlock":
+    def block(self) -> RockingBlock:
         """Return the block itself, so that columns, frames and blocks are used alike."""
         return self
 
@@ -74,7 +82,7 @@ class Column:
     Parameters
     ----------
     half_width, half_height : float
-        b and h, m.
+        b and h, m. A warning says if that is a column of more than `HIGHEST`.
 
     Raises
     ------
@@ -88,10 +96,16 @@ class Column:
     def __post_init__(self) -> None:
         checks.positive("half_width", self.half_width, "m")
         checks.positive("half_height", self.half_height, "m")
+        if (height := 2.0 * max(self.half_width, self.half_height)) > HIGHEST:
+            warnings.warn(
+                f"a side of the column is {height:.6g} m long, and few exceed {HIGHEST:g} m: are "
+                f"the lengths in mm? Then it is {height / 1000.0:.6g} m",
+                stacklevel=4,  # who called the class
+            )
 
     @classmethod
     @hinted
-    def of_dimensions(cls, *, width: float, height: float) -> "Column":
+    def of_dimensions(cls, *, width: float, height: float) -> Column:
         """Return the column of a width 2b and a height 2h, m.
 
         Raises
@@ -174,7 +188,7 @@ class RockingFrame:
     @hinted
     def of_masses(
         cls, column: Column, cap_mass: float, column_mass: float, columns: int = 2
-    ) -> "RockingFrame":
+    ) -> RockingFrame:
         """Return the frame of a cap beam on two or more equal columns, by its masses.
 
         The number N of columns enters by γ = m_b/(N m_c) alone; two give the paper's m_b/2m_c.
@@ -185,7 +199,8 @@ class RockingFrame:
         column : Column
             Each of them.
         cap_mass, column_mass : float
-            m_b of the cap beam and m_c of one column, in the same unit.
+            m_b of the cap beam and m_c of one column, in the same unit. A warning asks whether they
+            are if γ is beyond `USUAL_MASS_RATIOS`.
         columns : int
             N, 2 or more: a cap beam on one column would tilt.
 
@@ -198,7 +213,15 @@ class RockingFrame:
         if not isinstance(columns, int) or isinstance(columns, bool) or columns < 2:
             raise ValueError(f"columns is {columns!r}; expected a whole number from 2 on")
         cap = checks.not_negative("cap_mass", cap_mass)
-        return cls(column, cap / (columns * checks.positive("column_mass", column_mass)))
+        ratio = cap / (columns * checks.positive("column_mass", column_mass))
+        low, high = USUAL_MASS_RATIOS
+        if cap and not low <= ratio <= high:
+            warnings.warn(
+                f"cap_mass is {cap:.6g} and column_mass {column_mass:.6g}: γ is {ratio:.3g}; few "
+                f"are beyond {low:g} to {high:g}: are both in the same unit?",
+                stacklevel=3,  # who called this
+            )
+        return cls(column, ratio)
 
     @property
     def slenderness(self) -> float:

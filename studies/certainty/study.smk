@@ -19,8 +19,6 @@ rule certainty_theorem:
         findings="results/findings/certainty_theorem.json",
     params:
         settings=settings("theorem", "certainty"),
-    message:
-        "Study certainty: no reversal without an impact"
     script:
         "steps/theorem.py"
 
@@ -31,8 +29,6 @@ rule certainty_restarted:
         findings="results/findings/certainty_restarted.json",
     params:
         settings=PARTS["certainty"].config["restarted"],
-    message:
-        "Study certainty: no reversal since a common rest, with vertical motion"
     script:
         "steps/restarted.py"
 
@@ -45,8 +41,6 @@ rule certainty_lowest:
     params:
         settings=settings("lowest", "certainty"),
         solver=config["solver"],
-    message:
-        "Study certainty: a pulse that needs less to overturn the heavier frame"
     script:
         "steps/lowest.py"
 
@@ -66,8 +60,6 @@ rule certainty_extensions:
         findings="results/findings/certainty_extensions.json",
     params:
         settings=settings("extensions", "certainty"),
-    message:
-        "Study certainty: similarity, several columns, vertical acceleration"
     script:
         "steps/extensions.py"
 
@@ -79,8 +71,6 @@ rule certainty_restitution:
     params:
         settings=settings("restitution", "certainty"),
         ensemble=ENSEMBLE,
-    message:
-        "Study certainty: how much depends on the impact law"
     script:
         "steps/restitution.py"
 
@@ -92,8 +82,6 @@ rule certainty_benefit:
     params:
         settings=settings("benefit", "certainty"),
         ensemble=ENSEMBLE,
-    message:
-        "Study certainty: the benefit of the cap beam if the column loses more at impacts"
     script:
         "steps/benefit.py"
 
@@ -106,8 +94,6 @@ rule certainty_intensities:
         settings=settings("intensities", "certainty"),
         ensemble=ENSEMBLE,
         structures=named(config["structures"], settings("intensities", "certainty")),
-    message:
-        "Study certainty: probability of overturning at stated intensities"
     script:
         "steps/intensities.py"
 
@@ -118,8 +104,6 @@ rule certainty_rates_shard:
     params:
         settings=RATES,
         ensemble=ENSEMBLE,
-    message:
-        "Study certainty: all motions at all velocities, shard {wildcards.scatteritem}"
     script:
         "steps/rates_shard.py"
 
@@ -136,8 +120,6 @@ rule certainty_rates_check:
         settings=RATES,
         ensemble=ENSEMBLE,
         solver=config["solver"],
-    message:
-        "Study certainty: outcomes of the rates judged again"
     script:
         "steps/rates_check.py"
 
@@ -156,8 +138,6 @@ rule certainty_rates:
     params:
         settings=RATES,
         ensemble=ENSEMBLE,
-    message:
-        "Study certainty: the mean annual rate of overturning"
     script:
         "steps/rates.py"
 
@@ -168,8 +148,6 @@ rule certainty_break_even_shard:
     params:
         settings=BREAK_EVEN,
         ensemble=ENSEMBLE,
-    message:
-        "Study certainty: all motions at changed √r, shard {wildcards.scatteritem}"
     script:
         "steps/break_even_shard.py"
 
@@ -187,8 +165,6 @@ rule certainty_break_even:
     params:
         settings=BREAK_EVEN,
         ensemble=ENSEMBLE,
-    message:
-        "Study certainty: the deficit of √r at which the benefit ends"
     script:
         "steps/break_even.py"
 
@@ -201,8 +177,6 @@ rule certainty_break_even_pulses:
         settings=settings("break_even_pulses", "certainty"),
         pulse=config["heavier"]["pulse"],
         measured=BREAK_EVEN["measured"],
-    message:
-        "Study certainty: the deficit of √r at which the minima of pulses are equal"
     script:
         "steps/break_even_pulses.py"
 
@@ -216,8 +190,6 @@ rule certainty_records:
     params:
         settings=settings("records", "certainty"),
         structures=named(config["structures"], settings("records", "certainty")),
-    message:
-        "Study certainty: the records as measured"
     script:
         "steps/records.py"
 
@@ -232,8 +204,6 @@ rule certainty_rescaled:
         settings=settings("records", "certainty"),
         spec=PARTS["certainty"].config["rescaled"],
         structures=named(config["structures"], settings("records", "certainty")),
-    message:
-        "Study certainty: the records a little larger or smaller"
     script:
         "steps/rescaled.py"
 
@@ -250,8 +220,6 @@ rule certainty_proven:
         settings=settings("lowest", "certainty"),
         columns=settings("records", "certainty")["columns"],
         structures=named(config["structures"], settings("records", "certainty")),
-    message:
-        "Study certainty: the counterexample and the reversals under records, proven"
     script:
         "steps/proven.py"
 
@@ -265,8 +233,6 @@ rule certainty_reach:
     params:
         settings=settings("reach", "certainty"),
         ensemble=ENSEMBLE,
-    message:
-        "Study certainty: how often overturning is without an impact"
     script:
         "steps/reach.py"
 
@@ -278,7 +244,5 @@ rule certainty_shares:
     params:
         settings=settings("shares", "certainty"),
         ensemble=ENSEMBLE,
-    message:
-        "Study certainty: shares of α, p̂ and √r in the probability"
     script:
         "steps/shares.py"

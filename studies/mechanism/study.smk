@@ -16,8 +16,6 @@ rule mechanism_forces:
     params:
         settings=settings("forces", "mechanism"),
         cap=MECHANISM["caps"][MECHANISM["forces"]["structure"]],
-    message:
-        "Study mechanism: the contact forces, proved and in their limits"
     script:
         "steps/forces.py"
 
@@ -31,8 +29,6 @@ rule mechanism_three_bodies:
     params:
         settings=settings("three_bodies", "mechanism"),
         cap=MECHANISM["caps"][MECHANISM["three_bodies"]["structure"]],
-    message:
-        "Study mechanism: three bodies beside one degree of freedom"
     script:
         "steps/three_bodies.py"
 
@@ -45,8 +41,6 @@ rule mechanism_admissible:
     params:
         settings=settings("admissible", "mechanism"),
         cap=MECHANISM["caps"][MECHANISM["admissible"]["structure"]],
-    message:
-        "Study mechanism: where nothing slides and nothing opens"
     script:
         "steps/admissible.py"
 
@@ -59,8 +53,6 @@ rule mechanism_dependence:
     params:
         settings=settings("dependence", "mechanism"),
         cap=MECHANISM["caps"][MECHANISM["dependence"]["structure"]],
-    message:
-        "Study mechanism: the friction that suffices"
     script:
         "steps/dependence.py"
 
@@ -75,8 +67,6 @@ rule mechanism_records:
         settings=MECHANISM["records"],
         structures=named(config["structures"], MECHANISM["records"]),
         caps=named(MECHANISM["caps"], MECHANISM["records"]),
-    message:
-        "Study mechanism: friction and compression under real records"
     script:
         "steps/records.py"
 
@@ -89,8 +79,6 @@ rule mechanism_equivalence:
         findings="results/findings/mechanism_equivalence.json",
     params:
         settings=MECHANISM["equivalence"],
-    message:
-        "Study mechanism: the frame beside its equivalent column"
     script:
         "steps/equivalence.py"
 

@@ -25,8 +25,6 @@ rule reversals_records:
     params:
         settings=settings("motions_records", "reversals"),
         solver=config["solver"],
-    message:
-        "Study reversals: real records, from uplift to collapse"
     script:
         "steps/motions_records.py"
 
@@ -37,8 +35,6 @@ rule reversals_motions_shard:
     params:
         settings=MOTIONS,
         structures=named(config["structures"], MOTIONS),
-    message:
-        "Study reversals: synthetic motions, shard {wildcards.scatteritem}"
     script:
         "steps/motions_shard.py"
 
@@ -56,8 +52,6 @@ rule reversals_motions:
     params:
         settings=MOTIONS,
         structures=named(config["structures"], MOTIONS),
-    message:
-        "Study reversals: fragility, and how often the heavier falls alone"
     script:
         "steps/motions_fragility.py"
 
@@ -74,8 +68,6 @@ rule reversals_check:
         settings=MOTIONS,
         structures=named(config["structures"], MOTIONS),
         solver=config["solver"],
-    message:
-        "Study reversals: a sample of the ensemble, judged again"
     script:
         "steps/motions_check.py"
 
@@ -89,8 +81,6 @@ rule reversals_vase:
         settings=settings("motions_vase", "reversals"),
         ensemble=MOTIONS,
         solver=config["solver"],
-    message:
-        "Study reversals: the fixed mass and the frame under synthetic motions"
     script:
         "steps/motions_vase.py"
 
@@ -101,8 +91,6 @@ rule reversals_uplift_shard:
     params:
         settings=UPLIFT,
         ensemble=MOTIONS,
-    message:
-        "Study reversals: forces that uplift limits, shard {wildcards.scatteritem}"
     script:
         "steps/motions_uplift_shard.py"
 
@@ -118,7 +106,5 @@ rule reversals_uplift:
     params:
         settings=UPLIFT,
         ensemble=MOTIONS,
-    message:
-        "Study reversals: the forces that uplift limits under synthetic motions"
     script:
         "steps/motions_uplift.py"

@@ -14,8 +14,6 @@ rule reversals_shard:
         table="results/shards/reversals_{scatteritem}.csv",
     params:
         settings=REVERSALS,
-    message:
-        "Study reversals: spectra of every pair of p̂ and √r, shard {wildcards.scatteritem}"
     script:
         "steps/pulses_shard.py"
 
@@ -34,8 +32,6 @@ rule reversals_pulses:
     params:
         settings=REVERSALS | settings("reading", "reversals"),
         solver=config["solver"],
-    message:
-        "Study reversals: where a heavier cap harms, and why"
     script:
         "steps/pulses.py"
 
@@ -49,8 +45,6 @@ rule reversals_proven:
         findings="results/findings/reversals_proven.json",
     params:
         settings=REVERSALS,
-    message:
-        "Study reversals: a reversal of each pair of γ, proven"
     script:
         "steps/proven.py"
 
@@ -63,8 +57,6 @@ rule reversals_enough:
         findings="results/findings/reversals_enough.json",
     params:
         settings=REVERSALS | settings("enough", "reversals"),
-    message:
-        "Study reversals: how heavy a cap is enough"
     script:
         "steps/enough.py"
 

@@ -8,7 +8,5 @@ rule skeleton_gain:
     params:
         settings=settings("gain", "skeleton"),
         solver=config["solver"],
-    message:
-        "Study skeleton: the lowest amplitude that overturns"
     script:
         "steps/gain.py"

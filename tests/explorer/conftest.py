@@ -36,8 +36,8 @@ class Browser:
     def do(self, script, *values):
         return self.runner.run(self.tab.do(script, *values))
 
-    def open(self, address="", *, width=1440, height=900, dark=False, settled=True):
-        """Open the page at an address, at a size and in a scheme of colours."""
+    def open(self, address="g=1", *, width=1440, height=900, dark=False, settled=True):
+        """Open the page at an address, at a size and in a colour scheme. At "" it asks first."""
         self.tab.errors.clear()
         self.tab.requests.clear()
         self.runner.run(self.tab.open("about:blank"))

@@ -130,10 +130,14 @@ def test_cores_are_those_that_the_process_may_use(monkeypatch):
 
     monkeypatch.setattr(interrupt, "ThreadPoolExecutor", Pool)
     monkeypatch.setattr(grid.os, "sched_getaffinity", lambda _: {0, 3, 5})
+    monkeypatch.delenv("OMP_NUM_THREADS", raising=False)
     outcomes_of(BLOCK, forcing.ONE_SINE, SCALES, AMPLITUDES)
     outcomes_of(BLOCK, forcing.ONE_SINE, SCALES, AMPLITUDES, threads=2)
     outcomes_of(BLOCK, forcing.ONE_SINE, SCALES[:2], AMPLITUDES[:2])
     assert asked == [3, 2]
+    for named, cores in (("2", 2), ("8", 3), ("0", 3), ("", 3)):
+        monkeypatch.setenv("OMP_NUM_THREADS", named)
+        assert grid.cores() == cores
 
 
 def mixture(shape, seed):

@@ -6,7 +6,7 @@ from fractions import Fraction
 
 import pytest
 
-from topheavy.proven.balls import arb, bounds, exact, power, precision, root, within
+from topheavy.proven.balls import Undecided, arb, bounds, exact, power, precision, root, within
 
 
 def test_float_stands_for_the_decimal_that_it_is_printed_as():
@@ -20,6 +20,11 @@ def test_bounds_are_not_inside_the_ball(number):
     with precision(200):  # in 53 bits the ball's own ends are floats already
         low, high = bounds(arb(number))
     assert Fraction(low) < Fraction(number) < Fraction(high)
+
+
+def test_ball_that_is_no_number_has_no_bounds():
+    with pytest.raises(Undecided, match="enclosure"):
+        bounds(arb(-1).sqrt())
 
 
 def test_pair_contains_all_between():

@@ -8,7 +8,7 @@ import pytest
 from topheavy import Column, Pulse, judge, simulate
 from topheavy.proven.balls import Undecided, arb, hull, precision, within
 from topheavy.proven.blocks import enclosed
-from topheavy.proven.bounds import SIDES, Bound, Bounded
+from topheavy.proven.bounds import SIDES, START, Bound, Bounded
 from topheavy.proven.flight import Law
 from topheavy.proven.forcing import prepared
 
@@ -46,7 +46,7 @@ def test_bound_from_rest_holds_the_motions_of_a_box(linearised):
             wall = step.walls[SIDES.index(side)]
             state = one.start(step.sigma, side, arb(abs(phi)), arb(rate / OMEGA))
             assert abs(phi) <= wall * (1.0 + 1e-9)
-            assert state.energy / 1.01 <= step.energy + 1e-10
+            assert state.energy / START <= step.energy + 1e-10
             closest = max(closest, abs(phi) / wall)
         assert closest > 0.5  # the first flight, which is all that is known of it
 
@@ -59,7 +59,7 @@ def test_energy_behind_the_pulse_has_its_last_jump():
         free = arb(rate) ** 2 / 2 + of.law.potential(arb(phi), arb(0))
         behind = of.energy_behind(bound)
         assert behind > free
-        lever = of.law.square * of.law.lever(arb(phi))
+        lever = of.law.square * of.law.lever(arb(START * phi))
         assert float(behind) == pytest.approx(float(bound.energy + gain * lever), rel=1e-6)
 
 

@@ -113,6 +113,19 @@ def settled(linearised):
         assert marched(alpha + off, rate, linearised)._rocks_freely().outcome == ends
 
 
+@pytest.mark.parametrize("linearised", [False, True])
+def test_block_with_the_energy_of_the_barrier_is_decided_by_its_direction(linearised):
+    off, square = arb("0.01"), marched(arb(0), arb(0), linearised).law.square
+    rate = (square * (off * off if linearised else 2 - 2 * off.cos())).sqrt()
+    for phi, velocity, ends in (
+        (arb("0.25") - off, -rate, "survives"),
+        (arb("0.25") + off, rate, "overturns"),
+    ):
+        assert marched(phi, velocity, linearised)._rocks_freely().outcome == ends
+    with pytest.raises(Undecided, match="separatrix"):
+        marched(arb("0.25") - off, rate, linearised)._rocks_freely()
+
+
 def test_impact_behind_the_forcing_costs_energy():
     """Inward from beyond α: fast enough, it passes upright and overturns."""
     fast, slow = arb("-0.9"), arb("-0.055")

@@ -60,6 +60,6 @@ def test_pulse_and_structures_are_told_in_numbers():
         "one cosine, 0.29 g, 1.5 s",
         "columns of 6 m × 1 m",
         "γ = 1",
-        *animation.NAMES.values(),
+        *(animation.NAMES[name].replace("\n", " ") for name in animation.IN_FIGURE.values()),
     ):
         assert words in told

@@ -13,6 +13,7 @@ from topheavy import (
     Column,
     FixedMassColumn,
     LowestOverturning,
+    MonolithicPortal,
     Pulse,
     RockingBlock,
     RockingFrame,
@@ -84,7 +85,7 @@ def test_interval_that_a_billionth_of_the_record_removes_is_passed_over():
     lowest = vase_searches.minimum(COLUMN, RECORD, 2.0, FLOOR)
     assert lowest.found.width < 1e-9
     assert not lowest.told(3e-12)
-    found = vase_searches.lowest_told(COLUMN, RECORD, 2.0, FLOOR, 3e-12)
+    found = vase_searches.lowest_told(lowest, 2.0, FLOOR, 3e-12)
     assert found.passed_over == 2
     assert found.acceleration > lowest.acceleration
     assert found.told(3e-12)
@@ -104,7 +105,8 @@ def test_interval_that_a_tighter_tolerance_removes_is_not_told(monkeypatch):
 
 
 def test_minimum_without_an_interval_that_ends_is_not_passed_over():
-    whole = vase_searches.lowest_told(COLUMN, PULSE, 0.275, FLOOR, 3e-12)
+    lowest = vase_searches.minimum(COLUMN, PULSE, 0.275, FLOOR)
+    whole = vase_searches.lowest_told(lowest, 0.275, FLOOR, 3e-12)
     assert whole.found.upper is None
     assert (whole.acceleration, whole.passed_over) == (pytest.approx(0.27282, abs=1e-4), 0)
     assert whole.inside == pytest.approx(0.5 * (whole.acceleration + 0.275))
@@ -260,9 +262,11 @@ def test_picture_shows_what_happens_to_each(poses):
         (0.24, "bare"): False,
         (0.24, "fixed"): True,
         (0.24, "free"): False,
+        (0.24, "portal"): False,
         (0.29, "bare"): True,
         (0.29, "fixed"): True,
         (0.29, "free"): False,
+        (0.29, "portal"): False,
     }
 
 
@@ -272,7 +276,8 @@ def test_bodies_keep_their_sides_and_lie_on_the_ground_at_last(poses):
     for of, rows in itertools.groupby(poses, key=lambda p: [p[name] for name in key]):
         corners = [(p["x"], p["y"], p["last"]) for p in rows]
         sides = [math.dist(a[:2], b[:2]) for a, b in itertools.pairwise(corners)]
-        expected = {1.0, 6.0} if "column" in of[3] else {0.6, 5.2 if of[1] == "free" else 2.6}
+        width = 5.2 if of[1] in ("free", "portal") else 2.6
+        expected = {1.0, 6.0} if "column" in of[3] else {0.6, width}
         assert {round(side, 9) for side in sides} == expected
         if corners[0][2]:
             lowest.setdefault((of[0], of[1]), []).append(min(y for _, y, _ in corners))
@@ -287,10 +292,19 @@ def test_fixed_cap_meets_the_ground_before_its_column_lies_flat():
     assert last == pytest.approx(math.pi / 2 - math.atan2(0.8, 6.0), rel=1e-12)
 
 
-def test_frame_that_would_overturn_is_refused():
-    pulse = Pulse("one-cosine", 0.5, 2 * math.pi / 1.5)
-    with pytest.raises(ValueError, match=r"vase\.picture: the frame overturns at 0\.5 g; expected"):
-        vase_poses.rotations(RockingFrame(COLUMN, 1.0), pulse, CASE)
+@pytest.mark.parametrize(
+    ("kind", "structure", "amplitude"),
+    [
+        ("frame", RockingFrame(COLUMN, 1.0), 0.5),
+        ("portal", MonolithicPortal(COLUMN, 1.0, 4.2, 0.6), 8.0),
+    ],
+)
+def test_frame_that_would_overturn_is_refused(kind, structure, amplitude):
+    pulse = Pulse("one-cosine", amplitude, 2 * math.pi / 1.5)
+    with pytest.raises(
+        ValueError, match=rf"vase\.picture: the {kind} overturns at {amplitude:g} g; expected"
+    ):
+        vase_poses.rotations(structure, pulse, CASE)
 
 
 # What the step concludes ------------------------------------------------------------------------

@@ -13,10 +13,15 @@ from topheavy import (
     STANDARD_GRAVITY,
     Cap,
     Column,
+    ColumnEnds,
     ContactForces,
+    Ending,
     FixedFrame,
     FixedMassColumn,
+    Forces,
     Fragility,
+    FrameForces,
+    Interval,
     LowestOverturning,
     MonolithicPortal,
     Pulse,
@@ -68,6 +73,7 @@ measured = read_record(sys.argv[1])
 
 for motion in (pulse, shaking, measured.scaled(1.5)):
     assert_type(simulate(bent, motion), Response)
+    assert_type(judge(bent, motion), Ending)
     assert_type(judge(bent, motion).peak, float)
     assert_type(motion.excitation(0.1), float)
     assert_type(motion.excitation(times), NDArray[np.float64])
@@ -95,10 +101,12 @@ print(spectrum.sizes["amplitude"], spectrum["overturned"].to_numpy().sum())
 by_size = overturning_map_of_record(bent, measured, [2.0, 5.0], np.linspace(0.2, 1.0, 3))
 print(by_size["overturned"].to_numpy().sum())
 for interval in overturning_intervals(bent, pulse, (0.0, 2.0), resolution=0.5):
+    assert_type(interval, Interval)
     print(interval.lower[0], interval.impacts)
 cap = Cap(span=6.0, half_depth=0.5)
 frame_motion = simulate(bent, shaking, samples=times)
 forces = frame_forces(bent, cap, frame_motion.rotation, frame_motion.velocity)
+assert_type(forces, FrameForces)
 assert_type(forces.base_shear, NDArray[np.float64])
 
 motions = [shaking, measured, measured.scaled(2.0)]
@@ -113,7 +121,8 @@ vase = FixedMassColumn(pier, 0.5, cap_width=3.0, cap_depth=1.0)
 portal = MonolithicPortal(pier, 1.0, span=12.0)
 assert_type(lowest_overturning(vase, pulse, (0, 5), floor=0.5), LowestOverturning)
 assert_type(overturned_together([vase, portal, bent], pulse, [1.0, 2.0]), NDArray[np.bool_])
-print(rocking_portal_forces(portal, 0.01, 0.02, 0.1), resting_portal_forces(portal, "fixed", 0.1))
+assert_type(rocking_portal_forces(portal, 0.01, 0.02, 0.1), ColumnEnds)
+print(resting_portal_forces(portal, "fixed", 0.1))
 searches = [Search(vase, pulse, (0.0, 2.0)), Search(bent, measured, (0.0, 2.0), vertical=shaking)]
 assert_type(minima_together(searches, resolution=0.5), list[tuple[float, float] | None])
 print(sum(map(len, intervals_together(searches, resolution=0.5))))
@@ -124,7 +133,8 @@ assert_type(column_forces(pier, times / 100.0, times), Reaction)
 assert_type(column_impulse(pier, 0.1), Reaction)
 assert_type(base_shear_slope(bent), float)
 held = FixedFrame(bent, cap, "pinned")
-print(peak_rigid(held, pulse), peak_elastic([held], shaking, 0.5), end=" ")
+assert_type(peak_rigid(held, pulse), Forces)
+print(peak_elastic([held], shaking, 0.5), end=" ")
 print(peak_elastic_by_scipy(held, shaking, 0.5), len(PULSE_SHAPES), STANDARD_GRAVITY)
 
 assert_type(read_at2(sys.argv[1]).scaled_to(pgv=0.5), Record)

@@ -6,8 +6,8 @@ import shutil
 import sys
 from pathlib import Path
 
-from replication.commands.words import LIST, findings
-from replication.inputs.strict_yaml import read_word, read_yaml
+from replication.commands.words import LIST, findings, phrases_of
+from replication.inputs.strict_yaml import read_word
 from replication.judging.ledger import OURS, REPRODUCED
 from replication.judging.verdicts import by_origin
 
@@ -29,15 +29,7 @@ def create(name: str, root: Path = Path()) -> Path:
         line `studies: [...]`.
     """
     folder, config = root / "studies" / name, root / "config" / "config.yaml"
-    if not re.fullmatch(r"[a-z][a-z0-9_]*", name) or len(name) > LONGEST:
-        raise ValueError(
-            f"NAME is {name!r}; expected a lower-case letter, then lower-case letters, digits "
-            f"or _, at most {LONGEST} in all"
-        )
-    if meaning := _meaning(name, root):
-        raise ValueError(
-            f"NAME is {name!r}, {meaning}; expected another name, for example '{name[:14]}_study'"
-        )
+    check_name(name, root, LONGEST)
     if folder.exists():
         raise ValueError(f"NAME is {name!r}, and {folder} exists; expected a new name")
     if taken := _taken(name, root):
@@ -57,6 +49,19 @@ def create(name: str, root: Path = Path()) -> Path:
     return folder
 
 
+def check_name(name: str, root: Path, longest: int) -> None:
+    """Raise ValueError for a name of a study or claim that cannot be one, or means something."""
+    if not re.fullmatch(r"[a-z][a-z0-9_]*", name) or len(name) > longest:
+        raise ValueError(
+            f"NAME is {name!r}; expected a lower-case letter, then lower-case letters, digits "
+            f"or _, at most {longest} in all"
+        )
+    if meaning := _meaning(name, root):
+        raise ValueError(
+            f"NAME is {name!r}, {meaning}; expected another name, for example 'my_{name[:14]}'"
+        )
+
+
 def _meaning(name: str, root: Path) -> str | None:
     """Return what else a name means to a program that reads it, or None."""
     if (value := read_word(name)) != name:
@@ -67,21 +72,25 @@ def _meaning(name: str, root: Path) -> str | None:
         return "under which the verdicts count claims that belong to no study"
     if f"{name}/" in (root / ".gitignore").read_text(encoding="utf-8").splitlines():
         return "the name of folders that .gitignore keeps out of git"
-    for _, _, better in findings(name, read_yaml(root / LIST)["phrases"]):
+    for _, _, better in findings(name, phrases_of(root)):
         return f"a word that {LIST} asks to avoid ({better}), so that `make lint` would refuse it"
     return None
 
 
-def _taken(name: str, root: Path) -> list[str]:
-    """Return the names, of the paper and of studies, that would be mixed up with the new one's."""
+def names_of(root: Path) -> set[str]:
+    """Return the names of rules, results, figures, notebooks and documents."""
     snakefiles = [*sorted(root.glob("src/*/*.smk")), *sorted(root.glob("studies/*/*.smk"))]
     texts = [path.read_text(encoding="utf-8") for path in snakefiles]
     names = {found for text in texts for both in NAMES.findall(text) for found in both if found}
     made = ("figures/*.py", "notebooks/*.ipynb", "paper/*.typ")
-    names |= {path.stem for pattern in made for path in root.glob(pattern)}
+    return names | {path.stem for pattern in made for path in root.glob(pattern)}
+
+
+def _taken(name: str, root: Path) -> list[str]:
+    """Return the names, of the paper and of studies, that would be mixed up with the new one's."""
     studies = [path.parent.name for path in root.glob("studies/*/study.smk")]
     return [
-        *sorted(other for other in names if other.startswith(name)),
+        *sorted(other for other in names_of(root) if other.startswith(name)),
         *sorted(study for study in studies if name.startswith(f"{study}_")),
     ]
 

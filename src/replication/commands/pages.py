@@ -44,13 +44,19 @@ def exhibits() -> str:
     return exhibits_page(jobs(), captions(), read_costs(Path("docs/costs.csv")))
 
 
+ASKED = {"codecheck.yml": codecheck, "docs/exhibits.md": exhibits}
+"""The pages that only a paper has in which their file, maybe empty, is there."""
+
+
 def pages() -> dict[str, Callable[[], str]]:
     """Return, by the path of each page, what returns its text."""
-    configs = [Path(config_of(part)) for part in [PAPER, *studies()]]
+    inputs = {config_of(PAPER): "README.md"} | {config_of(name): "INPUTS.md" for name in studies()}
     return {
-        **{str(path.with_name("README.md")): partial(config_page, path) for path in configs},
-        "codecheck.yml": codecheck,
-        "docs/exhibits.md": exhibits,
+        **{
+            str(Path(path).with_name(page)): partial(config_page, Path(path))
+            for path, page in inputs.items()
+        },
+        **{path: text for path, text in ASKED.items() if Path(path).is_file()},
     }
 
 

@@ -16,7 +16,7 @@ from datetime import datetime
 from pathlib import Path
 
 from replication.judging.calls import LIBRARIES
-from replication.judging.citations import cite, library_names, printed_list
+from replication.judging.citations import cite, citing, library_names, printed_list
 from replication.judging.claim import Claim
 from replication.judging.findings import read_findings
 from replication.judging.ledger import finding_of
@@ -134,6 +134,8 @@ def _claim_lines(claim: Claim, path: str | None, root: Path) -> Iterator[str]:
         yield f"  ledger    {row}"
     if claim.function:
         yield f"  function  {_cited(claim.function)}"
+    for place in citing(claim.equation, ROOT) if claim.equation else ():
+        yield f"  cited by  {place}"
     if path is None or (root / path).exists():
         finding = finding_of(claim, read_findings(root / path)) if path else None
         yield f"  verdict   {verdict_line(claim, finding, verdict_on(claim, finding))}"

@@ -6,6 +6,7 @@ holds, nothing of the folder is imported but this file, so that a file that was 
 """
 
 import hashlib
+import os
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -17,16 +18,12 @@ if TYPE_CHECKING:
 CRATE = "results/ro-crate-metadata.json"
 SUMS = "SHA256SUMS"
 """In an archive alone: the checksum of every file in it, as `sha256sum --check` reads them."""
-LOCAL = {
-    ".git",
-    ".mypy_cache",
-    ".pytest_cache",
-    ".ruff_cache",
-    ".snakemake",
-    ".uv",
-    ".venv",
-    "dist",
-}
+COPY = Path(CRATE).name
+"""In an archive alone, at its root: the RO-Crate as it was packed."""
+OF_A_RUN = (CRATE, "results/costs.csv")
+"""What each run in an unpacked archive writes anew."""
+CACHES = (".mypy_cache", ".pytest_cache", ".ruff_cache", ".snakemake", "__pycache__")
+LOCAL = (".git", ".uv", ".venv", "dist", "results/logs", "results/benchmarks", *CACHES)
 """Folders that commands make in a tree."""
 
 
@@ -64,10 +61,12 @@ def packed(root: Path = Path()) -> dict[str, str]:
     Raises
     ------
     ValueError
-        When a line of SHA256SUMS is not one of `sha256sum`.
+        When a line of SHA256SUMS is not one of `sha256sum`, or an archive has none.
     """
-    if not (root / SUMS).exists():
+    if not (root / SUMS).exists() and not (root / COPY).exists():
         return {}
+    if not (root / SUMS).exists() or not (root / SUMS).stat().st_size:
+        raise ValueError(f"{SUMS} is missing or empty; an archive has one: unpack it again")
     rows = {}
     text = (root / SUMS).read_text(encoding="utf-8", errors="replace")
     for number, line in enumerate(text.splitlines(), 1):
@@ -84,28 +83,22 @@ def packed(root: Path = Path()) -> dict[str, str]:
 def unpacked(sums: dict[str, str], root: Path = Path()) -> Iterator[str]:
     """Yield a line for each file of an archive that is not as it was packed, or that was added.
 
-    The RO-Crate of the run is no fault if it alone differs: a run that gives the same bytes in the
-    unpacked archive lists them again. Its costs differ in each run.
+    What a run in the unpacked archive writes anew is no fault, though its results be the same.
     """
-    differ_each_run = {CRATE, Path(CRATE).name, "results/costs.csv"}
     for path, expected in sums.items():
-        if path not in differ_each_run:
+        if path not in OF_A_RUN:
             yield from _fault(path, expected, f"{SUMS} has it", "it was packed", root)
     known = {*sums, SUMS}
     for path in sorted(root.rglob("*")):
         name = path.relative_to(root)
-        if path.is_file() and name.as_posix() not in known and not _is_local(name):
+        if path.is_file() and name.as_posix() not in known and not _local(name):
             yield f"{name.as_posix()} was added: {SUMS} does not have it"
 
 
-def _is_local(name: Path) -> bool:
-    """Tell what commands make in an unpacked archive: caches, an environment, logs of a run."""
-    beside = ("results/logs", "results/benchmarks")
-    return (
-        name.parts[0] in LOCAL
-        or "__pycache__" in name.parts
-        or any(map(name.is_relative_to, beside))
-    )
+def _local(name: Path) -> str:
+    """Return which folder that commands make has a file; of no such folder, nothing."""
+    of_name = (folder for folder in LOCAL if name.is_relative_to(folder))
+    return next(of_name, "__pycache__" if "__pycache__" in name.parts else "")
 
 
 def _fault(path: str, expected: str, source: str, event: str, root: Path) -> list[str]:
@@ -125,12 +118,13 @@ def _checksum(path: Path) -> str:
 def _archive(sums: dict[str, str]) -> None:
     """End with what differs in an archive; say what the checksums cannot tell."""
     faults = list(unpacked(sums))
-    if Path(CRATE).exists() and sums.get(CRATE) != _checksum(Path(CRATE)):
-        print(f"{CRATE} is not the one that was packed: a run was made here, or it was changed")
+    for path in OF_A_RUN:
+        if path in sums and Path(path).exists() and sums[path] != _checksum(Path(path)):
+            print(f"{path} is not the one that was packed: a run was made here, or it was changed")
     if faults:
         sys.exit("\n".join(faults))
     print(f"verified: {len(sums)} files are as {SUMS} has them")
-    if there := sorted(name for name in LOCAL if Path(name).exists()):
+    if there := sorted({*map(_local, filter(Path.is_file, Path().rglob("*")))} - {""}):
         print(f"not packed, made by commands here or added: {', '.join(there)}")
     print(
         f"Who changes a file can make {SUMS} anew. Compare its SHA-256 with that published beside "
@@ -145,6 +139,7 @@ if __name__ == "__main__":
         if not Path(CRATE).exists():
             sys.exit(f"{CRATE} does not exist; expected a finished run: make reproduce")
         sys.path.insert(0, "src")
+        sys.pycache_prefix, sys.dont_write_bytecode = os.devnull, True  # no compiled file is read
         from replication.origin.recorded import read_crate
 
         crate = read_crate(CRATE)

@@ -1,4 +1,4 @@
-"""Find words and phrases that paper/words.yaml asks authors to avoid: `make lint`."""
+"""Find words and phrases that paper/words.yaml, if there is one, advises against: `make lint`."""
 
 import io
 import re
@@ -75,13 +75,19 @@ def findings(text: str, phrases: Mapping[str, str]) -> Iterator[tuple[int, str, 
             )
 
 
+def phrases_of(root: Path = Path()) -> dict[str, str]:
+    """Return the phrases to avoid, with the advice for each; none without a list."""
+    return read_yaml(root / LIST)["phrases"] if (root / LIST).is_file() else {}
+
+
 def main(root: Path = Path()) -> int:
-    words = read_yaml(root / LIST)
-    found = 0
+    if not (phrases := phrases_of(root)):
+        return 0
+    words, found = read_yaml(root / LIST), 0
     for path in files_of(words, root):
         text = path.read_text(encoding="utf-8")
         text = prose(text) if path.suffix == ".py" else text
-        for line, phrase, better in sorted(findings(text, words["phrases"])):
+        for line, phrase, better in sorted(findings(text, phrases)):
             print(f"{path.relative_to(root)}:{line}: '{phrase}'; better: {better}")
             found += 1
     if found:

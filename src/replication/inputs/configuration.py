@@ -16,8 +16,29 @@ from replication.inputs.suggestions import hint
 NAMES = {
     "^[a-z][a-z0-9_]*$": "a lower-case letter, then lower-case letters, digits or _",
     "^[A-Za-z0-9_]+$": "letters, digits or _",
+    r"\.$": "a sentence, which ends with a full stop",
+    r"^(?!steps|replication)[a-z]\w*(\.[A-Za-z_]\w*)+$": (
+        "a function with its module, such as lib.shapes.area, neither of steps nor of replication"
+    ),
 }
-"""The patterns of names in the schemas, in words."""
+"""The patterns of the schemas, in words."""
+
+
+DRAFT = "; of a new section, `make schema` drafts what the schema says"
+
+
+class Sections(dict[str, Any]):
+    """A config that names its file when it lacks a section that a rule takes."""
+
+    path = "config/config.yaml"
+
+    def __missing__(self, name: str) -> Any:
+        raise ValueError(
+            f"{self.path} has no section {name!r}, which a rule takes; {hint(name, self)}"
+        )
+
+    def __reduce__(self) -> tuple[type, tuple[Any]]:
+        return dict, (dict(self),)  # a job loads no module for it
 
 
 def check_config(
@@ -43,7 +64,11 @@ def check_config(
     """
     schema = read_schema(schema_path)
     errors = Draft202012Validator(schema).iter_errors(config)
-    messages = {message for error in errors for message in messages_of(error)}
+    messages = {
+        message + DRAFT * message.startswith("the top level has an unknown key")
+        for error in errors
+        for message in messages_of(error)
+    }
     if isinstance(config, Mapping):
         messages |= {message for check in checks for message in check(config)}
     values = ((place, value) for place, value in _walk(config) if _last(place) not in unordered)

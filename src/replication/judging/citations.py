@@ -77,6 +77,17 @@ def cite(path: str, root: Path) -> Citation:
     return Citation(path, f"{file}:{line}", frozenset(own), frozenset(own | reached))
 
 
+def citing(number: int, root: Path) -> Iterator[str]:
+    """Yield the functions of the library whose own source cites an equation: name, file, line."""
+    for path in sorted(path for name in LIBRARIES for path in (root / "src" / name).rglob("*.py")):
+        text = path.read_text(encoding="utf-8")
+        for node in ast.walk(ast.parse(text)) if f"({number})" in text else ():
+            if isinstance(node, ast.FunctionDef):
+                source = ast.get_source_segment(text, node) or ""
+                if number in equations_in(source):
+                    yield f"{node.name}  {path.relative_to(root)}:{node.lineno}"
+
+
 def library_names(script: str | Path) -> list[str]:
     """Return the dotted paths of what a script takes from the library."""
     return _library_names(Path(script).read_text(encoding="utf-8"))

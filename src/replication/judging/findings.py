@@ -11,9 +11,6 @@ from typing import Any
 CALLED = "called"
 """The entry beside the findings of a rule that lists the functions which made them."""
 
-TABLES = "tables"
-"""The entry beside published findings that has the checksums of the rule's published tables."""
-
 NOT_TESTED = "not_tested"
 """The entry in place of the findings of a rule that lacks an optional package: the reason."""
 
@@ -99,7 +96,6 @@ class Findings:
     by_name: Mapping[str, Finding]
     called: tuple[str, ...] = ()
     not_tested: str = ""
-    tables: Mapping[str, str] = field(default_factory=dict)
 
     @classmethod
     def of(cls, content: Mapping[str, Any]) -> "Findings":
@@ -108,31 +104,25 @@ class Findings:
         Raises
         ------
         ValueError
-            When an entry is no finding, or a finding has a reserved name; the message names it.
+            When an entry is no finding, or a finding has the name CALLED; the message names it.
         """
-        called, tables = content.get(CALLED, []), content.get(TABLES, {})
+        called = content.get(CALLED, [])
         if not isinstance(called, list):
             raise ValueError(
                 f"a finding is called {CALLED!r}, the name of the list of functions that ran; "
                 "expected another name"
             )
-        if isinstance(tables, Finding):
-            raise ValueError(
-                f"a finding is called {TABLES!r}, the name of the checksums of published tables; "
-                "expected another name"
-            )
         found, reason = {}, content.get(NOT_TESTED, "")
         for name, entries in content.items():
-            if name not in (CALLED, NOT_TESTED, TABLES):
+            if name not in (CALLED, NOT_TESTED):
                 found[name] = entries if isinstance(entries, Finding) else _named(name, entries)
-        return cls(found, tuple(called), reason, tables)
+        return cls(found, tuple(called), reason)
 
     def as_json(self) -> dict[str, Any]:
         """Return the content of the JSON file."""
         reason = {NOT_TESTED: self.not_tested} if self.not_tested else {}
         found = {name: dict(finding.entries) for name, finding in self.by_name.items()}
-        tables = {TABLES: dict(self.tables)} if self.tables else {}
-        return reason | found | {CALLED: list(self.called)} | tables
+        return reason | found | {CALLED: list(self.called)}
 
     def __getitem__(self, name: str) -> Finding:
         return self.by_name[name]

@@ -72,7 +72,9 @@ def _faults(
     if not claim.rule:
         return
     if claim.rule not in rules:
-        yield f"rule is {claim.rule!r}, which makes no findings; {hint(claim.rule, rules)}"
+        made = f'findings="results/findings/{claim.rule}.json"'
+        known = hint(claim.rule, rules)
+        yield f"rule is {claim.rule!r}, and no rule has the output {made}; {known}"
         return
     try:
         definition(claim.function, root)

@@ -29,10 +29,10 @@ $(foreach name,$(GIVEN),$(eval override $(name) := $$(value $(name))))
 export $(GIVEN)
 WHOLE = case "$$$(1)" in ''|0*|*[!0-9]*) \
   echo "$(1) is '$$$(1)'; expected a whole number from 1 on" >&2; exit 2;; esac
-SNAKEMAKE = $(call WHOLE,CORES); $(RUN) snakemake --cores "$$CORES"
+SNAKEMAKE = $(call WHOLE,CORES); $(RUN) python -m replication.commands.run --cores "$$CORES"
 
-.PHONY: help reproduce check trace verify archive html test lint pages publish kill-table study paper \
-  update unlock clean
+.PHONY: help reproduce claim check trace verify archive html test lint pages schema publish \
+  kill-table study paper update unlock clean
 
 help: ## show this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/make \1|\2/p' $(wordlist 2,9,$(MAKEFILE_LIST)) $(firstword $(MAKEFILE_LIST)) | \
@@ -40,6 +40,10 @@ help: ## show this list
 
 reproduce: | $(UV) ## compute every result, check every claim, compile the report (CORES=2)
 	@$(SNAKEMAKE)
+
+claim: | $(UV) ## begin a claim, or judge one that the ledger has: make claim NAME=my_claim
+	@$(RUN) python -m replication.commands.new_claim "$$NAME"
+	@$(SNAKEMAKE) "claim_$$NAME"
 
 check: | $(UV) ## judge every claim again from the published files; no run (RELEASE=1: none older than its texts)
 	@$(RUN) python -m steps.recheck
@@ -53,11 +57,13 @@ verify: | $(UV) ## compare every file of a finished run with its RO-Crate
 archive: | $(UV) ## after a run: one .zip in dist/ with the source and the results
 	@$(RUN) python -m replication.commands.archive
 
+OPENING = --report-metadata src/replication/pages/opening.yaml \
+  --report-stylesheet src/replication/pages/opening.css
 html: | $(UV) ## after a run: write results/report.html with every figure, caption and verdict
 	@test -e results/ro-crate-metadata.json || { \
 	  echo "there is no finished run; run 'make reproduce' first" >&2; exit 1; }
-	@$(RUN) snakemake --report results/report.html --quiet all || { \
-	  $(RUN) snakemake --report results/report.html all; exit 1; } # --quiet hides the error, too
+	@$(RUN) snakemake --report results/report.html $(OPENING) --quiet all || { \
+	  $(RUN) snakemake --report results/report.html $(OPENING) all; exit 1; } # --quiet hides the error, too
 	@$(RUN) python -m replication.commands.check_html results/report.html
 
 test: | $(UV) ## run the tests
@@ -89,8 +95,11 @@ lint: | $(UV) ## check style, types, spelling, wording and schemas; changes noth
 	  /^    \* / && !/\* Specify a conda environment or container for each rule/ { found = 1 } \
 	  END { if (found || !ran) { printf "%s", text; exit 1 } }'
 
-pages: | $(UV) ## write the pages that need no run: input numbers, codecheck.yml, docs/exhibits.md
+pages: | $(UV) ## write the pages that need no run: input numbers; codecheck.yml, docs/exhibits.md if they exist
 	@$(RUN) python -m replication.commands.pages
+
+schema: | $(UV) ## draft what the schemas of the configs say of sections that they lack
+	@$(RUN) python -m replication.commands.draft_schema
 
 publish: | $(UV) ## copy results to docs/ and tests/reference/; read the diff, then commit it
 	@$(RUN) python -m steps.publish
@@ -109,7 +118,7 @@ update: | $(UV) ## replace the machine of a paper by a newer one: make update FR
 paper: | $(UV) ## begin the replication of another paper: make paper TO=../other (FOLLOW-UP.md)
 	@$(RUN) python -m replication.commands.new_paper "$$TO"
 
-unlock: | $(UV) ## after a killed run left the directory locked (no other run may be going on)
+unlock: | $(UV) ## after a killed run left the folder locked; refused beside a run
 	@$(RUN) snakemake --unlock
 
 clean: ## remove all that the workflow and the tools wrote; keep the environment

@@ -1,4 +1,4 @@
-"""The README.md beside a config: every key with its unit, bounds, value and source."""
+"""The page beside a config: every key with its unit, bounds, value and source."""
 
 import re
 from itertools import groupby

@@ -4,8 +4,7 @@ import os
 import platform
 import shutil
 import sys
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -13,17 +12,12 @@ from replication.inputs.parts import PAPER, edition_of, ledger_of
 from replication.inputs.strict_yaml import read_yaml
 from replication.judging.claim import Claim, JudgedClaim
 from replication.judging.digits import numbers
-from replication.judging.findings import (
-    Findings,
-    findings_by_rule,
-    read_findings,
-    write_findings,
-)
+from replication.judging.findings import Findings, findings_by_rule, write_findings
 from replication.judging.ledger import OURS, REPRODUCED, as_text, read_ledger, with_verdicts
 from replication.judging.verdicts import VERDICTS, by_origin
 from replication.origin.recorded import read_crate
 from replication.pages import blanks
-from replication.pages.seal import checksum
+from replication.pages.seal import digest
 
 TITLES = {
     "": "The paper",
@@ -47,8 +41,11 @@ COUNTS_HEAD = "| | " + " | ".join(VERDICTS) + " |"
 """The first line of the table that counts the verdicts, in docs/verdicts.md and in the README."""
 
 
-def verdict_page(rows: Sequence[JudgedClaim]) -> str:
-    """Return docs/verdicts.md: the counts, then the rows of the paper and of each study apart."""
+def verdict_page(rows: Sequence[JudgedClaim], reference: Path) -> str:
+    """Return docs/verdicts.md: the counts, then the rows of the paper and of each study apart.
+
+    One digest ties the page to the folder of the findings and tables that it was judged from.
+    """
     parts = {row.study: [] for row in rows}
     for row in rows:
         parts[row.study].append(row)
@@ -56,6 +53,7 @@ def verdict_page(rows: Sequence[JudgedClaim]) -> str:
         "# The verdict on every claim",
         "",
         "Computed by the workflow (`results/claims.json`); this page is written by `make publish`.",
+        f"Judged from `tests/reference/`; SHA-256 of its list of files: `{digest(reference)}`.",
         "A slip or misprint may be a fault of the text that we worked from, and not of the print.",
         "",
         *count_table(rows),
@@ -70,21 +68,23 @@ def verdict_page(rows: Sequence[JudgedClaim]) -> str:
 
 
 def verdict_table(rows: Sequence[JudgedClaim]) -> list[str]:
-    """Return the lines of a table with one claim in each."""
-    lines = [
-        "| claim | where | in our words | printed | computed | verdict | remark |",
-        "|---|---|---|---|---|---|---|",
-    ]
+    """Return the lines of a table with one claim in each; its id is the anchor of a link to it.
+
+    Four columns fit on a screen; what belongs together is in lines of one cell.
+    """
+    lines = ["| claim, in our words | verdict | condition, remark | where |", "|---|---|---|---|"]
     for row in rows:
         digits = numbers(row)
+        compared = [
+            f"{name} {shown}"
+            for name in ("printed", "computed")
+            if (shown := _shown(getattr(row, name), digits.get(name, ""), row.unit))
+        ]
         cells = [
-            f"`{row.id}`",
+            f'<a id="{row.id}"></a>{row.statement}<br><sub>[{row.id}](#{row.id})</sub>',
+            "<br>".join([row.verdict, *compared]),
+            "<br>".join(filter(None, [computed_words(row), row.remark])),
             row.where,
-            row.statement,
-            _shown(row.printed, digits.get("printed", ""), row.unit),
-            computed_words(row) or _shown(row.computed, digits.get("computed", ""), row.unit),
-            row.verdict,
-            row.remark,
         ]
         lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
     return lines
@@ -160,10 +160,8 @@ def machine() -> str:
 
 def _shown(value: object, digits: str, unit: str) -> str:
     match value:
-        case None:
+        case None | bool():  # the verdict says it
             return ""
-        case bool():
-            return "holds" if value else "does not hold"
         case str():
             return value
         case _:
@@ -218,6 +216,7 @@ def publish(tables: Iterable[str], sources: Iterable[str] = ()) -> None:
     Path("docs").mkdir(exist_ok=True)
     reference.mkdir(parents=True, exist_ok=True)
     shutil.copyfile("config/config.yaml", reference / "config.yaml")
+    shutil.copyfile(results / "costs.csv", "docs/costs.csv")
     for old in reference.glob("*.csv"):
         old.unlink()
     for folder in ("sources", "studies"):
@@ -234,7 +233,6 @@ def publish(tables: Iterable[str], sources: Iterable[str] = ()) -> None:
         for name, picture in edition.pictures.items():
             shutil.copyfile(Path("studies", study, picture), Path("docs", name))
     publish_findings(results / "findings", reference / "findings")
-    tie(reference, made_by_rules)
     publish_verdicts(read_ledger(map(ledger_of, [PAPER, *ours["studies"]])), Path())
     blanks.main()
     print("published; a run compares its tables with these: 'make reproduce' before 'make verify'")
@@ -259,30 +257,11 @@ def publish_findings(findings: Path, folder: Path) -> None:
         write_findings(folder / f"{rule}.json", Findings.of(rounded(of_rule.as_json())))
 
 
-def tie(reference: Path, made_by: Mapping[str, str]) -> None:
-    """Put into the published findings of a rule the checksums of its published tables.
-
-    Parameters
-    ----------
-    made_by
-        The rule of each output of the run, by its path.
-    """
-    for path in sorted((reference / "findings").glob("*.json")):
-        rule = made_by[f"results/findings/{path.name}"]
-        own = (
-            table
-            for table in reference.rglob("*.csv")
-            if made_by.get(f"results/tables/{table.name}") == rule
-        )
-        tables = {table.stem: checksum(table) for table in sorted(own)}
-        write_findings(path, replace(read_findings(path), tables=tables))
-
-
 def publish_verdicts(ledger: Sequence[Claim], root: Path) -> None:
     """Judge the published findings; write claims.json, docs/verdicts.md and the README's counts."""
     reference = root / "tests" / "reference"
     rows = with_verdicts(ledger, findings_by_rule((reference / "findings").glob("*.json")), root)
     (reference / "claims.json").write_text(as_text(rows), encoding="utf-8")
-    (root / "docs" / "verdicts.md").write_text(verdict_page(rows), encoding="utf-8")
+    (root / "docs" / "verdicts.md").write_text(verdict_page(rows, reference), encoding="utf-8")
     readme = root / "README.md"
     readme.write_text(with_counts(readme.read_text(encoding="utf-8"), rows), encoding="utf-8")

@@ -50,6 +50,11 @@ def checksum(path: Path) -> str:
     return hashlib.sha256(content).hexdigest()
 
 
+def digest(folder: Path) -> str:
+    """Return one SHA-256 of all files of a folder, of a list as `sha256sum` writes it."""
+    return hashlib.sha256(_lines(_checksums(folder, folder.rglob("*"))).encode()).hexdigest()
+
+
 def _edition(root: Path) -> dict[str, str]:
     found = _checksums(root, (path for name in EDITION for path in (root / name).rglob("*")))
     return {name: value for name, value in found.items() if name not in TOP}

@@ -11,6 +11,7 @@ FILE = re.compile(
 )
 FOUND = re.compile(r'\bfound\("(\w+)"\)')
 TABLE = re.compile(r'\btable-of\("(\w+)"\)')
+PICTURE = re.compile(r'\bpicture\(\s*("\w+"|\([^)]*\))')
 
 
 def reads(*sources: str | Path, root: str | Path = ".") -> list[str]:
@@ -44,6 +45,35 @@ def reads(*sources: str | Path, root: str | Path = ".") -> list[str]:
         waiting += [f"results/findings/{name}.json" for name in FOUND.findall(text)]
         waiting += [f"results/tables/{name}.csv" for name in TABLE.findall(text)]
     return sorted(found)
+
+
+def refuse_unshown(figures: Iterable[str], sources: Iterable[str]) -> None:
+    """Refuse a figure that no document shows.
+
+    Parameters
+    ----------
+    figures
+        Paths from the root, without the ending.
+    sources
+        The files that the documents read; those that end with .typ show pictures.
+
+    Raises
+    ------
+    ValueError
+        With one line for each such figure.
+    """
+    shown = set()
+    for source in (Path(each) for each in sources if each.endswith(".typ")):
+        for names in PICTURE.findall(source.read_text(encoding="utf-8")):
+            for name in re.findall(r'"(\w+)"', names):
+                shown |= {f"figures/{name}", f"{source.parent.as_posix()}/figures/{name}"}
+    if faults := [
+        f"{each}.py draws a figure that no document shows; expected "
+        f'#picture("{Path(each).name}", […]) in a document or a section, or no such script'
+        for each in figures
+        if each not in shown
+    ]:
+        raise ValueError("\n".join(faults))
 
 
 def compiled(source: str, inputs: Iterable[str], options: Mapping[str, str]) -> bytes:

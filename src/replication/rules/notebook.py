@@ -14,6 +14,13 @@ PAGE = """
 {%- block html_head_js -%}{%- endblock -%}
 {%- block html_head_js_mathjax -%}{%- endblock -%}
 {%- block html_head_js_mermaidjs -%}{%- endblock -%}
+{%- block html_head_css -%}
+{{ super() }}
+<style>
+.jp-OutputArea-output:has(> math) { overflow: visible; padding: 0.4em 0; }
+.jp-RenderedHTMLCommon :is(th, td) { text-align: left !important; }
+</style>
+{%- endblock -%}
 {%- block data_latex -%}
 <div class="jp-OutputArea-output">{{ output.data["text/latex"] | mathml }}</div>
 {%- endblock -%}
@@ -89,6 +96,7 @@ def main(source: Path, executed: Path, page: Path) -> None:
         timeout=300,
         record_timing=False,
         resources={"metadata": {"path": str(source.parent)}},
+        extra_arguments=["--log-level=ERROR"],  # not that the kernel listens on this machine
     )
     client.execute()
     for cell in notebook.cells:

@@ -19,7 +19,6 @@ def work(job: Any) -> None:
         "articles": ",".join(
             name for name in studies if Path(f"studies/{name}/article.typ").is_file()
         ),
-        "tables": json.dumps(job.params.tables),
         "numbers": json.dumps(of_judged(read_judged("results/claims.json"))),
         "alternatives": json.dumps({path: alternative(entry) for path, entry in captions.items()}),
     }

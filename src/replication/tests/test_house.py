@@ -123,6 +123,11 @@ def test_studies_and_figures_use_the_stable_surface_of_the_machine():
     assert [line for line in found if not any(name in f"{line}." for name in surface)] == []
 
 
+def test_figure_scripts_compute_no_physics():
+    assert importers(files("figures"), *LIBRARIES) == []
+    assert importers([p for p in files("studies") if p.parent.name == "figures"], *LIBRARIES) == []
+
+
 def test_nothing_imports_a_study_but_the_study_itself():
     outside = files("src", "figures", "notebooks", "benchmarks", "tests")
     assert importers(outside, "studies") == []

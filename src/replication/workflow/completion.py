@@ -1,9 +1,10 @@
-"""What a rule has without saying so: the code of its script as inputs, a log, a benchmark.
+"""What a rule has without saying so: inputs from its script, a message, a log, a benchmark.
 
 The modifiers of paths are no part of Snakemake's interface: only this module sets them, and its
 test fails when Snakemake drops them.
 """
 
+import ast
 import os
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
@@ -19,10 +20,11 @@ MODIFIERS = ("input_modifier", "log_modifier", "benchmark_modifier")
 
 
 def complete(workflow: Any, *, timed: bool = True) -> None:
-    """Give each rule that has a script the code of it as inputs, and a log if it has none.
+    """Give each rule that has a script the code of it as inputs, and what it lacks of the rest.
 
-    Log and benchmark have the name of the rule, and the values of its wildcards. So the script is
-    an input, too: Snakemake compares the contents of inputs, and of scripts only the times.
+    The message is the first line of the script's docstring; log and benchmark have the name of the
+    rule, and the values of its wildcards. The script is an input, too: Snakemake compares the
+    contents of inputs, and of scripts only the times.
 
     Parameters
     ----------
@@ -49,7 +51,10 @@ def complete(workflow: Any, *, timed: bool = True) -> None:
         for name in MODIFIERS:
             if getattr(rule, name) is None:
                 setattr(rule, name, workflow.modifier.path_modifier)
-        rule.set_input(*_code_of(rule))
+        script, needed = _code_of(rule)
+        rule.set_input(*(item for item in needed if item not in list(rule.input)))
+        if rule.message is None and "{" not in script:
+            rule.message = _message(script, rule.wildcard_names)
         if rule.log:
             continue
         name = "_".join([rule.name, *(f"{{{word}}}" for word in sorted(rule.wildcard_names))])
@@ -77,8 +82,17 @@ class CodeOf:
         return code(self.script.format(wildcards=wildcards))
 
 
-def _code_of(rule: Any) -> list[Any]:
-    """Return what is missing among the inputs of a rule: its script, and what this imports."""
+def _code_of(rule: Any) -> tuple[str, list[Any]]:
+    """Return the script of a rule, and its inputs of code: the script, and what this imports."""
     script = os.path.relpath(rule.basedir.join(rule.script).get_path_or_uri(secret_free=True))
-    needed = [CodeOf(script)] if "{" in script else code(script)
-    return [item for item in needed if item not in list(rule.input)]
+    return script, [CodeOf(script)] if "{" in script else code(script)
+
+
+def _message(script: str, wildcards: Iterable[str]) -> str | None:
+    """Return what a script does, as its docstring begins, and of which of its jobs."""
+    if not script.endswith(".py"):
+        return None
+    said = ast.get_docstring(ast.parse(Path(script).read_text(encoding="utf-8"))) or script
+    line = said.splitlines()[0].removesuffix(".").replace("{", "{{").replace("}", "}}")
+    of = ", ".join(f"{{wildcards.{word}}}" for word in sorted(wildcards))
+    return f"{line} ({of})" if of else line

@@ -1,21 +1,36 @@
-"""Let SIGTERM end a run as Ctrl-C does."""
+"""Let Ctrl-C and SIGTERM end a run and its jobs with one line."""
 
+import os
 import signal
-from typing import Any
+from contextlib import suppress
+from typing import Any, NoReturn
 
-from snakemake.scheduling.job_scheduler import JobScheduler
+import psutil
+
+SAYS = "Interrupted. The same command goes on: what is finished is kept."
+
+
+def interrupt(*_: Any) -> NoReturn:
+    """Print one line, end the jobs, and let Snakemake clean up without a word.
+
+    Snakemake's own handler of SIGTERM takes the scheduler's lock. Python runs a handler in the main
+    thread, which may hold this lock: the run would wait for itself, with its folder locked.
+    """
+    for number in (signal.SIGINT, signal.SIGTERM):
+        # uv passes on to its child what the whole process group has received already.
+        signal.signal(number, lambda *_: None)
+    os.write(2, f"\n{SAYS}\n".encode())
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    for stream in (1, 2):
+        os.dup2(nowhere, stream)
+    for job in psutil.Process().children(recursive=True):
+        with suppress(psutil.NoSuchProcess):
+            job.terminate()
+    raise KeyboardInterrupt
 
 
 def end_on_sigterm() -> None:
-    """Let SIGTERM interrupt Snakemake's scheduler.
-
-    Snakemake's own handler takes the scheduler's lock. Python runs a handler in the main thread,
-    which may hold this lock: the run would wait for itself, without end and with its folder locked.
-    """
-
-    def interrupt(*_: Any) -> None:
-        # uv passes on to its child what the whole process group has received already.
-        signal.signal(signal.SIGTERM, lambda *_: None)
-        raise KeyboardInterrupt
+    """Let SIGTERM interrupt Snakemake's scheduler."""
+    from snakemake.scheduling.job_scheduler import JobScheduler
 
     JobScheduler.exit_gracefully = interrupt

@@ -37,12 +37,14 @@ def history(
     excitation: Pulse | Record,
     samples: int,
     route: Callable[..., Response] = simulate,
+    whole: Response | None = None,
 ) -> History:
     """Return a whole history by one of the solvers; one that overturns up to its last |θ| = α.
 
-    Each arc holds both its ends and 2·samples − 1 times between them, evenly.
+    Each arc holds both its ends and 2·samples − 1 times between them, evenly. `whole` is the
+    response from 0 to its end, where the caller has it.
     """
-    found = route(frame, excitation, samples=2)
+    found = whole or route(frame, excitation, samples=2)
     if isinstance(excitation, Pulse):
         step = 2.0 * math.pi / excitation.angular_frequency / CHUNKS
     else:

@@ -62,10 +62,11 @@ def rocking_peaks(
     route: Callable[..., Response] = simulate,
 ) -> Peaks:
     """Return the largest forces between the impacts of a history by one of the solvers."""
-    course = history(frame, motion, samples, route)
-    if course.outcome == "overturned":
+    whole = route(frame, motion, samples=2)
+    if whole.overturned:
         nothing = dict.fromkeys(FORCES, math.nan)
-        return Peaks(nothing, math.nan, math.nan, math.nan, course.outcome)
+        return Peaks(nothing, math.nan, math.nan, math.nan, whole.outcome)
+    course = history(frame, motion, samples, route, whole)
     # At rest there is less shear than at uplift, where the forces go on without a jump.
     moves = course.rotation.any(axis=1)
     arcs = moves if moves.any() else ~moves
@@ -75,6 +76,7 @@ def rocking_peaks(
     fine, coarse = ({}, {})
     for name in FORCES:
         force = np.abs(getattr(found, name))
+        force = np.fmax.reduce(force, axis=tuple(range(2, force.ndim)))  # of both columns' sections
         fine[name], coarse[name] = _largest(force), _largest(force[:, ::2])
     moved = [name for name in FORCES if fine[name] > 0.0]
     return Peaks(

@@ -1,5 +1,7 @@
 """Fragility of structures under scaled motions, from outcomes to curves, intervals and pairs."""
 
+from __future__ import annotations
+
 from collections.abc import Hashable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -51,8 +53,8 @@ class Fragility:
         Of each interval for itself, not of several together.
     """
 
-    curves: "xarray.Dataset"
-    pairs: "xarray.Dataset"
+    curves: xarray.Dataset
+    pairs: xarray.Dataset
     outcomes: Outcomes
     measure: str
     sampling: str

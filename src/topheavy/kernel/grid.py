@@ -74,7 +74,7 @@ def outcomes_of(
     record : array
         As `forcing.prepare_record` gives it.
     threads : int, optional
-        One for each core that the process may use, unless given.
+        As `cores`, unless given.
 
     Returns
     -------
@@ -229,7 +229,7 @@ def _shared(
     batches = max(1, min(BATCHES, cells // fewest))
     if batches == 1 and cells * samples <= LONG:
         return int(work(working_array(), 0, 1, *given))
-    threads = threads or len(os.sched_getaffinity(0))
+    threads = threads or cores()
     if threads == 1:
         batches = 1  # so that no lane idles at the end of any but the last cells
 
@@ -238,6 +238,15 @@ def _shared(
 
     lost = in_threads([partial(do, batch) for batch in range(batches)], min(threads, batches))
     return min((cell for cell in lost if cell >= 0), default=-1)
+
+
+def cores() -> int:
+    """Return how many cores the process may use, or OMP_NUM_THREADS if that is less.
+
+    Snakemake sets it for each job: with jobs on all cores, a second thread only costs time.
+    """
+    own, asked = len(os.sched_getaffinity(0)), os.environ.get("OMP_NUM_THREADS", "")
+    return min(own, int(asked)) if asked.isdigit() and int(asked) > 0 else own
 
 
 def outcome_of(

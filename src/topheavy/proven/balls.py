@@ -76,8 +76,16 @@ def power(ball: arb, exponent: int) -> arb:
 
 
 def bounds(ball: arb) -> tuple[float, float]:
-    """Return floats that enclose a ball: float() rounds to the nearest, which may lie inside."""
+    """Return floats that enclose a ball: float() rounds to the nearest, which may lie inside.
+
+    Raises
+    ------
+    Undecided
+        For NaN, which a float comparison would take for a number.
+    """
     low, high = float(ball.lower()), float(ball.upper())
+    if math.isnan(low) or math.isnan(high):
+        raise Undecided("enclosure")
     return math.nextafter(low, -math.inf), math.nextafter(high, math.inf)
 
 

@@ -3,20 +3,29 @@
 0 ─ no uplift ─ bounded by the lemma ─ followed and bounded ─ followed ─ high
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 from topheavy import checks
+from topheavy.proven.balls import decimal
 from topheavy.proven.certificate import BITS, certified
 from topheavy.pulses import Pulse
 from topheavy.structures import Structure
 
-NARROWEST = 1e-9
-"""Of the highest factor: a narrower box is not cut before it counts as open."""
+NARROWEST = 1e-11
+"""Of the highest factor: a box that is not wider counts as open if it is not proven."""
 
 NARROW = 1e-6
 """Of the highest factor: narrower boxes get more digits."""
+
+SPARE = 0.1
+"""Of a box: so far beyond each end it is proven, since the enclosures of the checker are wider."""
+
+NARROWER, WIDER = 0.7, 1.2
+"""The width of the next box over that of a box that is not proven, and of one that is."""
 
 
 @dataclass(frozen=True)
@@ -46,8 +55,8 @@ def survives_below(
 ) -> Below:
     """Return boxes that prove which factors from 0 to `high` on a pulse are survived.
 
-    A box that is not proven, or whose certificate `accepts` refuses, is halved until it is as
-    narrow as `NARROWEST`. `accepts` may be a second proof: `topheavy.proven.checking.check`.
+    A box that is not proven, or whose certificate `accepts` refuses, is tried again narrower, down
+    to `NARROWEST`. `accepts` may be a second proof: `topheavy.proven.checking.check`.
 
     Raises
     ------
@@ -55,22 +64,27 @@ def survives_below(
         As `topheavy.proven.outcome`, and for a `high` that is not positive.
     """
     high = checks.positive("high", high)
-    below, boxes = Below(high, [], []), [(0.0, high)]
-    while boxes:
-        box = low, top = boxes.pop()
+    below, low, width = Below(high, [], []), 0.0, high
+    while low < high:
+        top = min(low + width, high)
+        width = top - low
+        spare = SPARE * width
         found, certificate = certified(
             structure,
             pulse,
-            factor=box,
+            factor=(max(0.0, low - spare), top + spare),
             linearised=linearised,
-            bits=BITS if top - low < NARROW * high else 72,
+            bits=BITS if width < NARROW * high else 72,
             bounded=True,
         )
-        middle = 0.5 * (low + top)
+        if certificate is not None:
+            certificate["factor"] = [str(decimal(end)) for end in (low, top)]
         if found.outcome == "survives" and certificate is not None and accepts(certificate):
             below.certificates.append(certificate)
-        elif found.outcome == "overturns" or top - low < NARROWEST * high:
-            below.open.append(box)
+        elif found.outcome == "overturns" or width < NARROWEST * high:
+            below.open.append((low, top))
         else:
-            boxes += [(middle, top), (low, middle)]
+            width *= NARROWER
+            continue
+        low, width = top, WIDER * width
     return below

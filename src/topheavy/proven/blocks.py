@@ -4,6 +4,8 @@ A float of the structure stands for the decimal that it is printed as. α, p and
 to take the floats of `Column.block()` would prove something about another column.
 """
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 

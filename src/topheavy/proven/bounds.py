@@ -40,7 +40,8 @@ from topheavy.proven.flight import Law
 from topheavy.proven.forcing import Forcing, Piece
 
 SIDES = (1, -1)
-FIRST, GROWTH, LONGEST = 2.0**-12, 1.3, math.pi / 96.0  # steps, in the phase of a pulse
+FIRST, GROWTH, LONGEST = 2.0**-6, 1.3, math.pi / 96.0  # steps, in the phase of a pulse
+START = 1.1  # on time, energy and wall where it begins: the enclosures of the checker are wider
 MARGIN = 1.02  # on energies and times: the enclosures of the checker are wider
 _SLACK = 2.0**-20  # of a wall, beyond an equality
 _TRIES = 40
@@ -68,14 +69,15 @@ class Bounded:
 
     def start(self, sigma: arb, side: int, phi: arb, rate: arb) -> Bound:
         """Return the bound of a state: at rest for side 0, else of φ and φ' on that side."""
+        sigma = sigma.mid() + START * (sigma - sigma.mid())
         if not side:
             return Bound(sigma, 0.0, (0.0, 0.0))
         push = side * self.factor * self.forcing.value(self.piece, sigma)
         slope, middle = self.law.square * self.law.pull(phi, push), phi.mid()
         energy = self.law.potential(middle, push) + slope * (phi - middle) + rate * rate / 2
-        highest = bounds(phi)[1] * (1.0 + _SLACK) + _SLACK**2
+        highest = bounds(phi)[1] * START + _SLACK**2
         walls = (highest, 0.0) if side == 1 else (0.0, highest)
-        return Bound(sigma, max(0.0, bounds(energy)[1]) * MARGIN + _SLACK**2, walls)
+        return Bound(sigma, max(0.0, bounds(energy)[1]) * START + _SLACK**2, walls)
 
     def carried(self, bound: Bound) -> Iterator[Bound]:
         """Yield bounds until the pulse ends, or raise Undecided where α is not excluded."""
@@ -90,20 +92,25 @@ class Bounded:
         span, h = hull(bound.sigma.lower(), until), (until - bound.sigma).upper()
         ground, rises = self._ground(bound.sigma, until, span, h)
         least = [(s * ground).lower() for s in SIDES]
-        walls, slack = bound.walls, _SLACK
+        concave = [bool(m * self.law.block.slenderness.tan() < 1) for m in least]
+        energy, walls = arb(bound.energy), bound.walls
+        before = [self.law.potential(arb(x), m) for x, m in zip(walls, least, strict=True)]
+        sides = [*map(_Side, walls, walls, before, before, [energy] * 2, concave)]
+        slack = _SLACK
         for _ in range(_TRIES):
-            walls = walls[0] * (1.0 + slack) + _SLACK**2, walls[1] * (1.0 + slack) + _SLACK**2
+            turns = [self.law.turn(float(energy), float(m)) for m in least]
+            one, other = (min(x.reached(h), turn) for x, turn in zip(sides, turns, strict=True))
+            walls = one * (1.0 + slack) + _SLACK**2, other * (1.0 + slack) + _SLACK**2
             if not all(self.law.block.slenderness > x for x in (*walls, *bound.walls)):
                 break
             grown = [g * self.law.lever(arb(y)) for g, y in zip(rises, walls, strict=True)]
             energy = bound.energy + self.law.square * grown[0].max(grown[1]) * MARGIN
             energy = arb(bounds(energy)[1])
-            sides = list(zip(bound.walls, walls, least, strict=True))
-            if all(_holds(self.law, energy, h, *side) for side in sides):
+            at = [self.law.potential(arb(y), m) for y, m in zip(walls, least, strict=True)]
+            sides = [*map(_Side, bound.walls, walls, before, at, [energy] * 2, concave)]
+            if all(side.holds(h) for side in sides):
                 found = replace(bound, sigma=until, energy=float(energy), walls=walls)
                 return replace(found, pushed=self._pushed(bound, found, ground))
-            one, other = (_proposed(self.law, energy, h, *side) for side in sides)
-            walls = one, other
             slack = min(1.5 * slack, 0.05)
         raise Undecided("bound")
 
@@ -143,7 +150,8 @@ class Bounded:
         """Return W, on the side on which the block is pushed outward."""
         push = side * self.factor * self.forcing.value(self.piece, bound.sigma)
         wall = arb(bound.walls[SIDES.index(side)])
-        return (2 * (bound.energy - self.law.potential(wall, push).min(arb(0)))).sqrt()
+        square = 2 * (bound.energy - self.law.potential(wall, push).min(arb(0)))
+        return square.upper().max(arb(0)).sqrt()
 
     def released(self, bound: Bound) -> tuple[int, arb, arb] | None:
         """Return side, φ and φ' if it is sure to move outward on a side that is known."""
@@ -166,23 +174,30 @@ class Bounded:
         return bound.energy + self.law.square * gains[0].max(gains[1])
 
 
-def _holds(law: Law, energy: arb, h: arb, before: float, wall: float, push: arb) -> bool:
-    """Return whether Y_s = `wall` satisfies the lemma with X_s = `before`, F and m_s."""
-    if law.potential(arb(wall), push) > energy and (
-        wall >= before or law.potential(arb(before), push) > energy
-    ):
-        return True
-    return bool(wall - arb(before) > h * _mean_rate(law, energy, before, wall, push))
+@dataclass(frozen=True)
+class _Side:
+    """X_s, Y_s, V at both under m_s, F, and whether V is concave."""
 
+    before: float
+    wall: float
+    old: arb
+    at: arb
+    energy: arb
+    is_concave: bool
 
-def _mean_rate(law: Law, energy: arb, before: float, wall: float, push: arb) -> arb:
-    """Return at least the mean φ' from one wall to the next."""
-    ends = [(2 * (energy - law.potential(arb(x), push)).max(arb(0))).sqrt() for x in (before, wall)]
-    is_concave = push * law.block.slenderness.tan() < 1
-    return (ends[0] + ends[1]) / 2 if is_concave else ends[0].max(ends[1])
+    def holds(self, h: arb) -> bool:
+        """Return whether Y_s satisfies the lemma."""
+        if self.at > self.energy and (self.wall >= self.before or self.old > self.energy):
+            return True
+        return bool(self.wall - arb(self.before) > h * self._mean_rate())
 
+    def reached(self, h: arb) -> float:
+        """Return about where the mean rate takes it."""
+        return self.before + float((h * self._mean_rate()).upper())
 
-def _proposed(law: Law, energy: arb, h: arb, before: float, wall: float, push: arb) -> float:
-    """Return about the least wall that holds, by the energy and mean rate of a first guess."""
-    reached = before + float((h * _mean_rate(law, energy, before, wall, push)).upper())
-    return min(reached, law.turn(float(energy.upper()), float(push)))
+    def _mean_rate(self) -> arb:
+        """Return at least the mean φ' from one wall to the next."""
+        one, other = (
+            (2 * (self.energy - x)).upper().max(arb(0)).sqrt() for x in (self.old, self.at)
+        )
+        return (one + other) / 2 if self.is_concave else one.max(other)

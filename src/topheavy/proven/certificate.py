@@ -1,7 +1,10 @@
 """Certificates: inputs as decimals, the steps of the proof, and what made them."""
 
+from __future__ import annotations
+
 import math
 from fractions import Fraction
+from functools import cache
 from importlib.metadata import version
 from typing import Any
 
@@ -58,8 +61,13 @@ def certified(
         "bits": max([bits, *(step.pop("bits") for step in steps)]),
         "order": max([2, *(step.pop("order") for step in steps)]),
         "events": [{key: _plain(value) for key, value in step.items()} for step in steps],
-        "versions": {name: version(name) for name in ("topheavy", "python-flint")},
+        "versions": _versions(),
     }
+
+
+@cache
+def _versions() -> dict[str, str]:
+    return {name: version(name) for name in ("topheavy", "python-flint")}
 
 
 def _decimal(number: float) -> str:

@@ -23,6 +23,12 @@ class Law:
 
     block: Balls
     square: arb
+    sine: arb = field(init=False)
+    cosine: arb = field(init=False)
+
+    def __post_init__(self) -> None:
+        for name, value in zip(("sine", "cosine"), self.block.slenderness.sin_cos(), strict=True):
+            object.__setattr__(self, name, value)
 
     def pull(self, phi: arb, push: arb) -> arb:
         """Return −φ''/κ² at φ under s·a."""
@@ -37,14 +43,14 @@ class Law:
         alpha = self.block.slenderness
         if self.block.linearised:
             return self.square * phi * (alpha - phi / 2 + push)
-        (sine, cosine), (far, near) = (alpha - phi).sin_cos(), alpha.sin_cos()
-        return self.square * (cosine - near + push * (far - sine))
+        sine, cosine = (alpha - phi).sin_cos()
+        return self.square * (cosine - self.cosine + push * (self.sine - sine))
 
     def lever(self, phi: arb) -> arb:
         """Return ψ."""
         if self.block.linearised:
             return phi
-        return self.block.slenderness.sin() - (self.block.slenderness - phi).sin()
+        return self.sine - (self.block.slenderness - phi).sin()
 
     def turn(self, energy: float, push: float) -> float:
         """Return about the first φ at which the potential reaches an energy; infinity if none."""

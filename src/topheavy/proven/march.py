@@ -21,8 +21,12 @@ MOST_STEPS = 2000
 SHORTEST = 2.0**-80
 """Of the clock of a motion (the phase of a pulse, a sample): a shorter step is not tried."""
 
-BOUNDED, BOUNDED_STEPS, BOUNDED_SHORTEST, WIDEST = 6, 100, 2.0**-14, 0.06
-"""How often a motion is bounded, steps tried until then, the shortest, and the widest impact."""
+BOUNDED, BOUNDED_STEPS, BOUNDED_SHORTEST, WIDEST = 6, 100, 0.3, 0.06
+"""How often a motion is bounded, steps tried until then, the shortest over the first that is tried,
+and the widest impact."""
+
+OF_A_BOX = 1e-6
+"""Of the relative width of a box of factors: what the last terms of a step may amount to."""
 
 FIRST_PUSHED = 0.05
 """Of the clock: about the first step behind a bound. It lets φ grow beyond its enclosure."""
@@ -96,6 +100,9 @@ class March:
         kappa = self.forcing.scale(self.block.frequency_parameter)
         self.law = Law(self.block, kappa * kappa)
         self.h, self.tried = 1.0, 0
+        if not self.factor.contains(0):  # a box of factors is wider than its motions are accurate
+            width = float(self.factor.rad() / abs(self.factor.mid()))
+            self.accuracy = max(self.accuracy, OF_A_BOX * width)
         digits = -math.log2(self.accuracy)
         self.order = int(digits / 3) + 2
         if isinstance(self.forcing, RecordForcing):  # steps of one sample, of κ in radians
@@ -173,9 +180,10 @@ class March:
         if not (rate < 0 and phi < self.block.slenderness):
             return
         self._note("step", h=made.h, box=made.box.phi, impact=times, last=True, about_end=True)
-        energy = rate * rate / 2 + self.law.potential(phi.upper().max(arb(0)), arb(0))
+        energy = rate * rate / 2 + hull(0, self.law.potential(phi.upper().max(arb(0)), arb(0)))
+        ends = [end.max(arb(0)).sqrt() for end in ((2 * energy).lower(), (2 * energy).upper())]
         self.sigma, self.phi = self.sigma + times, arb(0)
-        self.rate = self.block.restitution * (2 * energy).sqrt()
+        self.rate = self.block.restitution * hull(*ends)
         self.side, self.zeros, self.impacts = -self.side, 1, self.impacts + 1
 
     def advance(self, piece: Piece) -> tuple[bool, bool]:
@@ -231,7 +239,8 @@ class March:
         push = self._push(piece, self.sigma)
         start = self.law.series(self.phi, self.rate, push, self.order)
         h, stretch, cause = self._length(start[0]), 1.0, ""
-        while h > (BOUNDED_SHORTEST if self.bounded else SHORTEST):
+        shortest = BOUNDED_SHORTEST * h if self.bounded else SHORTEST
+        while h > shortest:
             self.tried += 1
             most = BOUNDED_STEPS if self.bounded else MOST_STEPS
             if self.tried > most:  # those of a wide box are shorter and shorter
@@ -379,18 +388,15 @@ class March:
         self.least = self.least.max(self.phi)
         self.most = self.most.max(self.phi)
         rebound = power(self.block.restitution, 2) * (surplus + barrier)
-        if surplus < 0:
-            if off < 0:
-                return Outcome("overturns", self.impacts, bits=self.bits)
-            if off > 0:
-                return self._turns(rebound if self.rate < 0 else surplus + barrier, barrier)
-        elif surplus > 0:
-            if self.rate > 0:
-                return Outcome("overturns", self.impacts, bits=self.bits)
-            if self.rate < 0 and rebound > barrier:
-                return Outcome("overturns", self.impacts + 1, bits=self.bits)
-            if self.rate < 0 and rebound < barrier:
-                return self._turns(rebound, barrier)
+        beyond = off < 0 and (surplus < 0 or self.rate > 0)
+        falls = beyond or (surplus > 0 and self.rate > 0)
+        inward = self.rate < 0 and (surplus > 0 or off > 0)
+        if falls or (inward and rebound > barrier):
+            return Outcome("overturns", self.impacts + inward, bits=self.bits)
+        if inward and rebound < barrier:
+            return self._turns(rebound, barrier)
+        if surplus < 0 and off > 0:
+            return self._turns(surplus + barrier, barrier)
         raise Undecided("separatrix")
 
     def _turns(self, energy: arb, barrier: arb) -> Outcome:

@@ -7,6 +7,8 @@ Every motion that leaves the ground in the disk does so at each impact, and each
 this point, by q or less (Banach's theorem). To rest below uplift and to overturn is final, too.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

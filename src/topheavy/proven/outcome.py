@@ -6,6 +6,8 @@ A narrow problem that stays undecided is tried again with more digits and terms.
 structures is not: its own width decides. Infinitely many impacts in a finite time end in rest.
 """
 
+from __future__ import annotations
+
 from typing import Any
 
 from topheavy import checks

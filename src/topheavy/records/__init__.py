@@ -3,6 +3,8 @@
 `python -m topheavy.records FILE …` prints how files are understood.
 """
 
+from __future__ import annotations
+
 from pathlib import Path
 
 from topheavy.records import at2, columns

@@ -1,5 +1,7 @@
 """Recorded ground motions: samples in equal steps, joined by straight lines."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from functools import partial
 from itertools import pairwise
@@ -81,14 +83,14 @@ class Record(Excitation):
         steps = (self.acceleration[1:] + self.acceleration[:-1]) / 2.0 * self.time_step
         return float(np.abs(np.cumsum(steps)).max()) * STANDARD_GRAVITY
 
-    def scaled(self, factor: float) -> "Record":
+    def scaled(self, factor: float) -> Record:
         """Return the same record with all accelerations multiplied by `factor`."""
         return Record(
             self.time_step, checks.finite("factor", factor) * self.acceleration, self.name
         )
 
     @hinted
-    def scaled_to(self, *, pga: float | None = None, pgv: float | None = None) -> "Record":
+    def scaled_to(self, *, pga: float | None = None, pgv: float | None = None) -> Record:
         """Return the record scaled to a peak ground acceleration (g) or velocity (m/s).
 
         Raises

@@ -53,6 +53,9 @@ It drifts by less than 0.1 Hz meanwhile."""
 FORGOTTEN = 1e-5
 """The response of the filter to one impulse is followed until it has decayed to this."""
 
+SMALL = math.sqrt(np.finfo(float).eps)
+"""Step of the differences by which an envelope is fitted."""
+
 Vector = NDArray[np.float64]
 
 PULSE = ("Vp", "Tp", "gamma", "nu", "tp")
@@ -262,8 +265,14 @@ def envelope(t5: float, t30: float, t95: float) -> tuple[float, float, float]:
     def misfit(free: Vector) -> Vector:
         return times_of((0.05, 0.30, 0.95), *shape(free)) - (t5, t30, t95)
 
+    def slopes(free: Vector) -> Vector:
+        # SciPy's own differences to the last bit; all that it asks before each takes twice the time
+        here, ahead = misfit(free), free + SMALL * np.copysign(np.maximum(1.0, np.abs(free)), free)
+        moved = np.where(np.eye(3, dtype=bool), ahead, free)
+        return np.transpose([misfit(x) - here for x in moved]) / (ahead - free)
+
     start = [float(logit(0.7)), math.log(2.0 / t95), math.log(t30)]
-    return shape(least_squares(misfit, start, method="lm", xtol=1e-10).x)
+    return shape(least_squares(misfit, start, slopes, method="lm", xtol=1e-10).x)
 
 
 def times_of(shares: ArrayLike, rise: float, decay: float, peak: float) -> Vector:

@@ -16,7 +16,7 @@ def draw(certainty_break_even, certainty_measured):
     (measured,) = certainty_measured.itertuples()
     heights, ratios = sorted(table.height.unique()), sorted(table.mass_ratio.unique())
     colours = shades(len(ratios))
-    figure, axes = sheet(DOUBLE, 112, nrows=len(heights), ncols=2, sharey=True, squeeze=False)
+    figure, axes = sheet(DOUBLE, 86, nrows=len(heights), ncols=2, sharey=True, squeeze=False)
     titles = []
     for row, height in zip(axes, heights, strict=True):
         for axis, family in zip(row, FAMILIES, strict=True):

@@ -23,7 +23,7 @@ def draw(certainty_restitution):
             how = {"color": colour, "markersize": 3}
             how["markerfacecolor"] = PAPER if face == PAPER else colour
             axes[0].plot(rows.factor, 100 * share, marker + line, **how)
-    axes[0].set(ylabel="Share of the plane (%)", ylim=(0, None))
+    axes[0].set(ylabel="Share of the map (%)", ylim=(0, None))
     less = table[table.under == "difference"]
     for axis, family in zip(axes[1:], FAMILIES, strict=True):
         for shift, (way, (marker, colour, face, _)) in enumerate(WAYS.items()):

@@ -6,7 +6,7 @@ from replication.drawing import DOUBLE, make_figure, note, shades, sheet
 BARE, FREE = shades(2)
 SUPPORTS = {
     "fixed": (FIXED, "s", "same mass fixed"),
-    "bare": (BARE, "^", "bare columns"),
+    "bare": (BARE, "^", "solitary columns"),
     "free": (FREE, "o", "free cap beam"),
 }
 FAMILIES = ("near-fault", "broadband")
@@ -18,7 +18,7 @@ def draw(certainty_intensities):
     table = certainty_intensities[certainty_intensities.measure == "pgv"]
     structures = list(dict.fromkeys(table.structure))
     figure, axes = sheet(
-        DOUBLE, 96, nrows=2, ncols=len(structures), sharex=True, sharey=True, squeeze=False
+        DOUBLE, 74, nrows=2, ncols=len(structures), sharex=True, sharey=True, squeeze=False
     )
     for row, family in zip(axes, FAMILIES, strict=True):
         for axis, structure in zip(row, structures, strict=True):

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from figures.drawing import by_size
 from figures.palette import FIXED
 from replication.drawing import (
     DARKEST,
@@ -14,7 +15,6 @@ from replication.drawing import (
     note,
     sheet,
 )
-from topheavy.fragility.gain import share_of_size
 
 FAMILIES = ("near-fault", "broadband")
 MARKS = ("o", "s", "^")  # by exponent, ascending
@@ -26,7 +26,7 @@ MIDDLE = 2.0  # exponent of the lines for columns with a lower √r
 SHIFT = 0.012
 
 
-def draw(certainty_rates):
+def draw(certainty_rates, mass_ratio):
     table = certainty_rates[certainty_rates.earthquake == "both"]
     table = table[(table.highest == table.highest.max()) & (table.column == 0)]
     exponents = sorted(table.exponent.unique())
@@ -38,7 +38,7 @@ def draw(certainty_rates):
             for shift, (exponent, mark) in enumerate(zip(exponents, MARKS, strict=True)):
                 rows = here[(here.structure == name) & (here.exponent == exponent)]
                 axis.errorbar(
-                    share_of_size(rows.mass_ratio) + (shift - 1) * SHIFT,
+                    by_size(mass_ratio, rows.mass_ratio) + (shift - 1) * SHIFT,
                     rows.over,
                     yerr=np.array([rows.over - rows.over_low, rows.over_high - rows.over]),
                     fmt=mark,
@@ -53,14 +53,13 @@ def draw(certainty_rates):
             words = f"column, √r {100 * column.lowered:g} % lower"
             note(axis, words, (0.02, column.over * 1.04), color=GREY, va="bottom", fontsize=7)
         axis.axhline(1.0, color=INK, linewidth=0.6)
-        axis.set_xticks(
-            share_of_size(ratios), [r"$\infty$" if np.isinf(g) else f"{g:g}" for g in ratios]
-        )
+        names = [r"$\infty$" if np.isinf(g) else f"{g:g}" for g in ratios]
+        axis.set_xticks(by_size(mass_ratio, ratios), names)
         axis.set(yscale="log", ylim=(0.3, 10), xlim=(0.0, 1.06))
         axis.set_yticks([0.3, 0.5, 1, 2, 5, 10], ["0.3", "0.5", "1", "2", "5", "10"])
         axis.set_xlabel(r"Mass ratio, $\gamma$ (–), by equal steps of $\hat R$")
         axis.minorticks_off()
-    axes[0].set_ylabel("Rate over that of the bare column (–)")
+    axes[0].set_ylabel("Rate over that of the solitary column (–)")
     for place, (colour, face, words) in enumerate(SUPPORTS.values()):
         at, height = axes[0].transAxes, 0.94 - 0.07 * place
         how = {"color": colour, "markerfacecolor": face, "markersize": 3.2, "transform": at}

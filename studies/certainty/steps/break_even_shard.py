@@ -8,16 +8,15 @@ import pandas as pd
 from replication.workbench import run
 from steps.shared.outcomes import written
 from steps.shared.spectrum import progress, shard_of
-from studies.certainty.changed import columns, subjects
+from studies.certainty.changed import Subject, columns, subjects
 from studies.certainty.rated import stated
-from topheavy import Column, overturned_together
+from topheavy import overturned_together
 from topheavy.synthetic.ensemble import Draw, first_draws
 
 
-def outcomes(draw: Draw, column: Column, settings: dict) -> list[dict[str, Any]]:
-    """Return a row for each structure: which levels overturn it."""
-    record, under = draw.record(), subjects(column, settings)
-    pgvs = np.array([pgv for *_, pgv in stated(column, settings)])
+def outcomes(draw: Draw, under: list[Subject], pgvs: np.ndarray) -> list[dict[str, Any]]:
+    """Return a row for each structure: which of its levels, a row of `pgvs` (m/s), overturn it."""
+    record = draw.record()
     blocks = [subject.block for subject in under]
     fell = overturned_together(blocks, record, pgvs / record.peak_velocity)
     return [
@@ -28,9 +27,10 @@ def outcomes(draw: Draw, column: Column, settings: dict) -> list[dict[str, Any]]
 
 def main(settings: dict, ensemble: dict, shard: str) -> pd.DataFrame:
     mine = shard_of(first_draws(ensemble, settings["runs"][settings["run"]]["motions"]), shard)
-    found = ([outcomes(draw, column, settings) for column in columns(settings)] for draw in mine)
-    every = progress(found, len(mine), "motions")
-    return pd.DataFrame(row for sizes in every for rows in sizes for row in rows)
+    under = [one for column in columns(settings) for one in subjects(column, settings)]
+    pgvs = np.array([[pgv for *_, pgv in stated(one.column, settings)] for one in under])
+    found = (outcomes(draw, under, pgvs) for draw in mine)
+    return pd.DataFrame(row for rows in progress(found, len(mine), "motions") for row in rows)
 
 
 def work(job: Any) -> Any:

@@ -8,6 +8,7 @@ from replication.drawing import DOUBLE, INK, letter, make_figure, note, sheet
 
 LEVELS = [1.0, 1.2, 1.5, 2.0, 3.0, 4.0, 6.0]  # of tan α
 HIGHEST = 24.0
+BARE = {"facecolor": OVERTURNED, "edgecolor": "none"}
 
 
 def draw(mechanism_admissible):
@@ -35,21 +36,20 @@ def draw(mechanism_admissible):
             axis.contour(
                 pulls.columns, pulls.index, pulls.astype(float), [0.5], colors=OPENS, linewidths=1
             )
-            bare = {"facecolor": OVERTURNED, "edgecolor": "none", "pad": 1}
-            above = table[table.pulls].amplitude.min()
-            words = "tension at a column top"
-            note(axis, words, (5.0, 1.12 * above), color=OPENS, ha="center", fontsize=7, bbox=bare)
+            if mass_ratio == min(ratio for ratio in ratios if ratio > 0.0):
+                at = (3.2, 0.72 * table[table.pulls].amplitude.min())
+                words, bare = "tension at a\ncolumn top", BARE | {"pad": 1}
+                note(axis, words, at, color=OPENS, ha="center", fontsize=7, bbox=bare)
         amplitude_axis(axis)
         axis.set(ylim=(1, HIGHEST), xlabel=r"Frequency, $\omega/p$ (–)")
         axis.set_yticks(ticks := (1, 2, 3, 5, 10, 20), map(str, ticks))
     axes[0].set_ylabel(r"Amplitude, $a/(g\,\tan\alpha)$ (–)")
-    bare = {"facecolor": OVERTURNED, "edgecolor": "none", "pad": 2}
-    note(axes[0], "overturns", (2.6, 12.0), ha="center", color=INK, bbox=bare)
+    note(axes[0], "overturns", (2.6, 12.0), ha="center", color=INK, bbox=BARE | {"pad": 2})
     bar = figure.colorbar(image, ax=axes, ticks=LEVELS, pad=0.01)
     bar.set_label(r"Required coefficient of friction, $\mu/\tan\alpha$ (–)")
     bar.ax.set_yticks([], minor=True)
     bar.ax.set_yticklabels([f"{level:g}" for level in LEVELS])
-    letter(axes, [gamma(g) + (", alone" if g == 0 else "") for g in ratios])
+    letter(axes, [gamma(g) + (", solitary column" if g == 0 else "") for g in ratios])
     return figure
 
 

@@ -9,16 +9,15 @@ from replication.drawing import DOUBLE, GREY, INK, letter, make_figure, note, sh
 LABELS = {
     "mass_ratio": r"Mass ratio, $\gamma$ (–)",
     "slenderness": r"Slenderness, $\alpha$ (°)",
-    "span": "Span over width of a column (–)",
-    "depth": "Depth of cap beam over width of a column (–)",
+    "span": "Span over column width (–)",
+    "depth": "Depth over column width (–)",
 }
-CROWDED = (1.35,)  # a tick without its label
+CROWDED = (0.05, 1.2, 1.35)  # ticks without a label
 HIGHEST = 7.2  # of tan α, drawn
 
 
 def draw(mechanism_dependence, mechanism_records):
-    mosaic = "AB;CD;EE"
-    figure, axes = sheet(DOUBLE, 142, mosaic, height_ratios=(1, 1, 1.15))
+    figure, axes = sheet(DOUBLE, 98, "ABCD;EEEE")
     for axis, (name, label) in zip(list(axes.values())[:4], LABELS.items(), strict=True):
         table = mechanism_dependence[mechanism_dependence.varied == name]
         rocking = table.rocking.replace(np.inf, np.nan)
@@ -31,11 +30,10 @@ def draw(mechanism_dependence, mechanism_records):
             ticks = [tick for tick in table.value if tick not in CROWDED]
             axis.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
             axis.set_xticks([], minor=True)
-    for axis in (axes["A"], axes["C"]):
-        axis.set_ylabel(r"Required friction, $\mu/\tan\alpha$ (–)")
+    axes["A"].set_ylabel(r"Required friction, $\mu/\tan\alpha$ (–)")
     note(axes["A"], "rocking", (0.3, 3.0))
     note(axes["A"], "impacts", (0.06, 0.45), color=GREY)
-    note(axes["C"], "below: a column top opens", (1.42, 6.6), color=INK)
+    note(axes["C"], "below: a column\ntop opens", (1.62, 6.5), color=INK)
     records = axes["E"]
     _records(records, mechanism_records)
     titles = ["Mass ratio", "Slenderness", "Bay", "Depth of the cap beam", "Measured records"]

@@ -10,7 +10,7 @@ STYLES = ("o-", "s--", "^-.", "D:")
 
 
 def draw(mechanism_equivalence, mechanism_equivalence_map):
-    figure, (left, middle, right) = sheet(DOUBLE, 68, ncols=3, width_ratios=(1.2, 1, 1))
+    figure, (left, middle, right) = sheet(DOUBLE, 58, ncols=3, width_ratios=(1.2, 1, 1))
     cells = mechanism_equivalence_map.set_index("frequency_ratio").T
     colours = ListedColormap([PAPER, PREVENTED, CAUSED, OVERTURNED])
     left.pcolormesh(
@@ -40,7 +40,7 @@ def draw(mechanism_equivalence, mechanism_equivalence_map):
         axis.set_xticks(ticks, [f"{tick:.3g}" for tick in ticks])
         axis.set_xlabel(r"Slenderness, $\alpha$ (°)")
     middle.set(ylabel="Pulses with different outcomes (%)", ylim=(0, 10))
-    right.set(ylabel="Minimum amplitude, column against frame (%)")
+    right.set(ylabel="Column against frame (%)")
     right.axhline(0.0, color=GREY, linewidth=0.5)
     middle.legend(loc="upper left", ncols=2, fontsize=6.5, columnspacing=0.8)
     letter(

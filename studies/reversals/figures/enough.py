@@ -4,13 +4,13 @@ import numpy as np
 
 from figures.drawing import PULSES
 from replication.drawing import DOUBLE, GREY, INK, PAPER, make_figure, note, sheet
-from topheavy.fragility.gain import mass_ratio_of_share
 
 QUANTILES = [0.0, 0.25, 0.5, 0.75, 1.0]
 
 
 def draw(reversals_enough):
     shares = np.sort(reversals_enough.share.unique())
+    places = reversals_enough.sort_values("size_gain")  # γ is linear in 1/(1 − size_gain)
     figure, axes = sheet(DOUBLE, 62, ncols=len(shares), sharey=True)
     for axis, share in zip(axes, shares, strict=True):
         of = reversals_enough[reversals_enough.share == share]
@@ -21,7 +21,8 @@ def draw(reversals_enough):
             axis.plot([low, high], [place] * 2, color=INK, linewidth=0.8)
             axis.plot([lower, upper], [place] * 2, color=INK, linewidth=6, solid_capstyle="butt")
             axis.plot(middle, place, "o", color=PAPER, markeredgecolor=INK, markersize=4)
-        size, middle = mass_ratio_of_share(share), of.mass_ratio.median()
+        size = np.interp(1 / (1 - share), 1 / (1 - places.size_gain), places.mass_ratio)
+        middle = of.mass_ratio.median()
         axis.axvline(size, color=INK, linewidth=0.9)
         axis.axvline(middle, color=GREY, linewidth=0.9, linestyle=(0, (3, 2)))
         note(axis, r"$\hat{R}$  ", (size, -0.62), color=INK, ha="right")

@@ -11,7 +11,7 @@ def draw(reversals_spectra):
     keys = ["slenderness_deg", "shape", "mass_ratio", "frequency_ratio"]
     lowest = reversals_spectra.groupby(keys).lower.min()
     ratios = np.sort(reversals_spectra.mass_ratio.unique())
-    figure, axes = sheet(DOUBLE, 95, nrows=2, ncols=4, sharex=True, sharey=True)
+    figure, axes = sheet(DOUBLE, 78, nrows=2, ncols=4, sharex=True, sharey=True)
     for row, slenderness in zip(axes, slendernesses, strict=True):
         for axis, (shape, words) in zip(row, PULSES.items(), strict=True):
             column = lowest.loc[slenderness, shape, 0.0]
@@ -23,7 +23,7 @@ def draw(reversals_spectra):
                 axis.set_title(words)
             else:
                 axis.set_xlabel(r"Frequency, $\omega/p$ (–)")
-        row[0].set_ylabel(f"$\\alpha$ = {slenderness:.3g}°\nMinimum amplitude, ratio (–)")
+        row[0].set_ylabel(f"$\\alpha$ = {slenderness:.3g}°\nRatio of minima (–)")
         row[0].set(yscale="log", xlim=(0.5, 10), xticks=(1, 2, 4, 6, 8, 10))
         row[0].set_yticks(ticks := (1, 1.5, 2, 3, 4, 6), [f"{tick:g}" for tick in ticks])
         row[0].set_yticks([], minor=True)

@@ -46,7 +46,7 @@ def draw(reversals_fragility):
     table = table[(table.structure == STRUCTURE) & (table.as_large_as == 0)]
     ratios = sorted(table.mass_ratio.unique())
     colours = dict(zip(ratios, shades(len(ratios)), strict=True))
-    figure, axes = sheet(DOUBLE, 114, nrows=2, ncols=2, sharey="row")
+    figure, axes = sheet(DOUBLE, 98, nrows=2, ncols=2, sharey="row")
     for column, family in zip(axes.T, FAMILIES, strict=True):
         curves = table[table.family == family]
         fragility(column[0], curves, colours)
@@ -64,8 +64,8 @@ def draw(reversals_fragility):
     axes[0, 0].set_ylabel("Probability of overturning (–)")
     axes[1, 0].set_ylabel("Reduction (percentage points)")
     for place, (ratio, colour) in enumerate(colours.items()):
-        words = gamma(ratio) + (", no cap" if ratio == 0 else "")
-        at = (0.8, 0.53 - 0.075 * place)
+        words = gamma(ratio) + (", solitary column" if ratio == 0 else "")
+        at = (0.69, 0.45 - 0.066 * place)
         note(axes[0, 1], words, at, color=colour, xycoords="axes fraction")
     return figure
 

@@ -4,10 +4,9 @@ import math
 
 import numpy as np
 
-from figures.drawing import gamma
+from figures.drawing import by_size, gamma
 from figures.palette import CAUSED, PREVENTED
 from replication.drawing import DOUBLE, GREY, INK, PAPER, letter, make_figure, note, sheet
-from topheavy.fragility.gain import share_of_size
 
 STRUCTURE = "temple"
 FAMILIES = {"near-fault": ("o", -1), "broadband": ("s", 1)}  # marker, side
@@ -16,10 +15,10 @@ SHIFT = 0.007  # so that the two families stand beside each other
 LEFT = 0.72  # of the axis for reversals, over that for the other cells
 
 
-def gains(axis, medians):
+def gains(axis, medians, mass_ratio):
     frames = medians[(medians.as_large_as == 0) & (medians.family == "near-fault")]
-    by_size = share_of_size(frames.mass_ratio), 100 * frames.expected_gain
-    axis.plot(*by_size, color=GREY, linewidth=0.9)
+    x = by_size(mass_ratio, frames.mass_ratio)
+    axis.plot(x, 100 * frames.expected_gain, color=GREY, linewidth=0.9)
     note(axis, r"if only $\hat p\,\mathrm{PGV}$ mattered", (0.45, 5.4), color=GREY)
     for family, (marker, side) in FAMILIES.items():
         run = medians[(medians.family == family) & (medians.gain != 0)]
@@ -28,11 +27,11 @@ def gains(axis, medians):
             ratios = points.as_large_as if solitary else points.mass_ratio
             errors = 100 * np.array([points.gain - points.gain_low, points.gain_high - points.gain])
             how = {"fmt": marker, "markersize": 3.5, "linewidth": 0.9, "markerfacecolor": face}
-            x = share_of_size(ratios) + SHIFT * (side - 4 * solitary)
+            x = by_size(mass_ratio, ratios) + SHIFT * (side - 4 * solitary)
             axis.errorbar(x, 100 * points.gain, errors, color=INK, **how)
     ratios = sorted(medians.mass_ratio.unique())
     names = [r"$\infty$" if math.isinf(ratio) else f"{ratio:g}" for ratio in ratios]
-    axis.set_xticks(share_of_size(ratios), names)
+    axis.set_xticks(by_size(mass_ratio, ratios), names)
     axis.set(xlabel=r"Mass ratio, $\gamma$ (–), by equal steps of $\hat R$", ylim=(0, 40))
     axis.set_ylabel("Gain of the median overturning PGV (%)")
     for place, (family, (marker, _)) in enumerate(FAMILIES.items()):
@@ -66,9 +65,9 @@ def falls(axis, pairs):
     note(axis, "only the column overturns", (0.03 * reach, top))
 
 
-def draw(reversals_pairs, reversals_medians):
-    figure, axes = sheet(DOUBLE, 78, ncols=2)
-    gains(axes[0], reversals_medians[reversals_medians.structure == STRUCTURE])
+def draw(reversals_pairs, reversals_medians, mass_ratio):
+    figure, axes = sheet(DOUBLE, 66, ncols=2)
+    gains(axes[0], reversals_medians[reversals_medians.structure == STRUCTURE], mass_ratio)
     falls(axes[1], reversals_pairs[reversals_pairs.structure == STRUCTURE])
     letter(axes, ["Gain of the median capacity", "Outcomes that differ"])
     return figure

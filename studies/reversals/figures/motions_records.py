@@ -16,7 +16,7 @@ CASES = {  # the outcomes of the column and of the frame with γ → ∞
     "cannot be decided": UNDECIDED,
 }
 FACTORS = (1, 2, 5, 10, 20)
-COLUMNS = 3
+COLUMNS = 4
 CROSS = {  # on a cell that cannot be decided: black and magenta are alike in grey print
     "marker": "x",
     "color": PAPER,
@@ -48,7 +48,7 @@ def panel(axis, run):
     middles = np.sqrt(edges[:-1] * edges[1:])
     untold_rows, untold_columns = np.nonzero(places == len(CASES) - 1)
     axis.plot(middles[untold_columns], untold_rows + 0.5, **CROSS)
-    axis.set(xscale="log", xlabel="Scale of the record over that at uplift (–)")
+    axis.set(xscale="log", xlabel="Scale over that at uplift (–)")
     axis.set_xticks(FACTORS, map(str, FACTORS))
     axis.set_xticks([], minor=True)
     each = light["size"].nunique()
@@ -60,13 +60,14 @@ def panel(axis, run):
     sizes = light["size"].to_numpy()
     marked = [row for row in range(len(sizes)) if row % each in (0, each // 2, each - 1)]
     axis.set_yticks([row + 0.5 for row in marked], [f"{sizes[row]:.2g}" for row in marked])
+    axis.tick_params(axis="y", labelsize=6)
 
 
 def draw(reversals_records):
     table = reversals_records
     records = table.groupby("record", sort=False)
     rows = 1 + len(records) // COLUMNS  # the last place is for the key
-    figure, axes = sheet(DOUBLE, 52 * rows, nrows=rows, ncols=COLUMNS)
+    figure, axes = sheet(DOUBLE, 50 * rows, nrows=rows, ncols=COLUMNS)
     for axis in axes.flat[len(records) :]:
         axis.axis("off")
     for axis, (_, run) in zip(axes.flat, records, strict=False):

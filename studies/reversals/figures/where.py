@@ -1,107 +1,150 @@
-"""Where only the frame or only its solitary column overturns, and how often, for pairs of γ."""
+"""Where only the frame or only its solitary column overturns, one reversal, and how often."""
+
+import math
 
 import numpy as np
-from matplotlib.patches import Patch
+from matplotlib.patches import PathPatch
+from matplotlib.path import Path
 
 from figures.drawing import PULSES
-from figures.palette import CAUSED, OVERTURNED, PREVENTED, tint
-from replication.drawing import DOUBLE, GREY, PAPER, letter, make_figure, note, sheet
+from figures.palette import CAUSED, OVERTURNED, OVERTURNS, PREVENTED, SURVIVES
+from replication.drawing import (
+    DOUBLE,
+    GREY,
+    INK,
+    PALE,
+    PAPER,
+    letter,
+    make_figure,
+    note,
+    shades,
+    sheet,
+)
 
-COLOURS = {"both": OVERTURNED, "helps": PREVENTED, "harms": CAUSED}
-NAMES = {"both": "both overturn", "helps": "prevented by cap beam", "harms": "caused by cap beam"}
-HIGHEST = 16.0  # a/(g tan α)
+WINDOW = (0.5, 10.0, 1.0, 16.0)  # ω/p and a/(g tan α): the plane whose shares are given
+STRUCTURES = dict(zip((0.0, math.inf), shades(2), strict=True))  # colours, by γ
+LEADER = {"arrowstyle": "-", "color": CAUSED, "linewidth": 0.7, "shrinkA": 1, "shrinkB": 0}
 
 
-def map_axis(axis, cells):
-    """Draw what only the lighter, only the heavier and both overturn, over ω and amplitude.
+def outlines(cells):
+    """Return the outlines of the regions that overturn a structure: vertices, shape (n, 2).
 
-    One bar for each frequency, because narrow survival regions are too steep to be joined.
+    The first two are the regions without an impact and, of those after one, the widest interval at
+    each frequency. They join the computed frequencies. The others are narrower intervals.
     """
-    step = np.diff(np.unique(cells.x)).min()
-    for mode, colour in COLOURS.items():
-        of = cells[cells["mode"] == mode]
-        seam = 0.0 if mode == "harms" else 0.25  # a seam would widen slivers
-        how = {"color": colour, "edgecolor": colour, "linewidth": seam, "label": NAMES[mode]}
-        axis.bar(of.x, of.upper - of.lower, step, bottom=of.lower, **how)
-    axis.set(yscale="log", xlim=(0.5, 10), ylim=(0.95, HIGHEST), xticks=(1, 2, 4, 6, 8, 10))
-    axis.set_yticks(ticks := (1, 2, 4, 8, 16), map(str, ticks))
-    axis.set_yticks([], minor=True)
+    step = np.diff(np.unique(cells.frequency_ratio)).min()
+    at_once = cells[cells["mode"] == "without impact"]
+    after = cells[cells["mode"] == "with impact"]
+    after = after.assign(width=after.upper - after.lower).sort_values(["frequency_ratio", "width"])
+    widest = after.groupby("frequency_ratio").tail(1)
+    found = []
+    for region in (at_once, widest):
+        up = region.upper.fillna(WINDOW[3]).clip(upper=WINDOW[3])
+        there, back = (
+            np.column_stack([region.frequency_ratio, edge]) for edge in (region.lower, up)
+        )
+        found.append(np.vstack([there, back[::-1], there[:1]]))
+    for x, low, high in after.drop(widest.index)[["frequency_ratio", "lower", "upper"]].to_numpy():
+        left, right = x - step / 2, x + step / 2
+        found.append(
+            np.array([[left, low], [right, low], [right, high], [left, high], [left, low]])
+        )
+    return found
+
+
+def beside(table, example):
+    """Return the rows of the shape and the slenderness of an example."""
+    same = (table["shape"] == example["shape"]) & (table.slenderness_deg == example.slenderness_deg)
+    return table[same]
+
+
+def plane(axis, spectra, areas, example):
+    """Draw what only the column, only the frame and both overturn, and the boundaries of each."""
+    of = beside(spectra, example)
+    of = of[~of.linearised & of.mass_ratio.isin(STRUCTURES)]
+    found = {ratio: outlines(cells) for ratio, cells in of.groupby("mass_ratio")}
+    paths = {
+        ratio: Path.make_compound_path(*[Path(one, closed=True) for one in each])
+        for ratio, each in found.items()
+    }
+    column, frame = (paths[ratio] for ratio in STRUCTURES)
+    for path, colour in ((frame, CAUSED), (column, PREVENTED), (column, OVERTURNED)):
+        patch = axis.add_patch(PathPatch(path, facecolor=colour, linewidth=0))
+    patch.set_clip_path(frame, axis.transData)
+    for ratio, colour in STRUCTURES.items():
+        for one in found[ratio][:2]:
+            axis.plot(*one.T, color=colour, linewidth=1.1)
+    axis.set(xlim=WINDOW[:2], ylim=WINDOW[2:], xticks=(1, 2, 4, 6, 8, 10), yticks=(1, 4, 8, 12, 16))
+    axis.set(xlabel=r"Frequency, $\omega/p$ (–)", ylabel=r"Amplitude, $a/(g\,\tan\alpha)$ (–)")
+    place = (example.frequency_ratio, example.amplitude_over_uplift)
+    axis.plot(*place, "o", color=INK, markerfacecolor=PAPER, markersize=7.5, zorder=4)
+    note(axis, "1", place, ha="center", va="center_baseline", fontsize=7, zorder=5)
+    (here,) = beside(areas, example).itertuples()
+    note(axis, "both overturn", (0.7, 13.0), color=OVERTURNS)
+    note(axis, "both survive", (7.0, 13.0), color=SURVIVES)
+    words = f"overturning caused\non {100 * here.harms:.1f} % of the map"
+    at = {"xytext": (4.7, 10.9), "color": CAUSED, "arrowprops": LEADER}
+    note(axis, words, (3.2, 8.1), **at)
+    words = f"overturning prevented\non {100 * here.helps:.1f} % of the map"
+    note(axis, words, (5.2, 6.4), color=SURVIVES)
+    note(axis, "column", (4.55, 3.2), color=STRUCTURES[0.0])
+    words = "frame,\n$\\gamma\\to\\infty$"
+    note(axis, words, (3.75, 4.9), ha="right", color=STRUCTURES[math.inf])
+
+
+def histories(axis, exact):
+    """Draw the rotations of both structures under the pulse that is marked on the map."""
+    pulse = exact.time[exact.acceleration != 0.0].max()
+    axis.axhspan(-1, 1, color=PALE, linewidth=0)
+    axis.axvspan(0, pulse, ymax=0.03, color=GREY, linewidth=0)
+    note(axis, "pulse", (pulse + 0.05, -1.75), color=GREY)
+    for ratio, words, colour, at in (
+        (0.0, "column survives", SURVIVES, (1.75, -0.75)),
+        (math.inf, "frame overturns", OVERTURNS, (1.6, 1.4)),
+    ):
+        run = exact[exact.mass_ratio == ratio]
+        axis.plot(run.time, run.rotation_over_alpha, color=colour)
+        theta = run.rotation_over_alpha.to_numpy()
+        first = np.flatnonzero(theta[:-1] * theta[1:] < 0.0)[0]
+        how = {"color": colour, "markerfacecolor": PAPER, "markersize": 3.5}
+        axis.plot(run.time.iloc[first], 0.0, "o", **how, zorder=3)
+        note(axis, words, at, color=colour)
+    axis.set(xlim=(0, 3), ylim=(-2, 2), yticks=(-2, -1, 0, 1, 2))
+    axis.set(xlabel=r"Time, $t\,\omega/2\pi$ (–)", ylabel=r"Rotation, $\theta/\alpha$ (–)")
 
 
 def shares(axis, areas):
-    """Draw the shares of overturning prevented (up) and caused (down), by shape and slenderness."""
+    """Draw the shares of overturning prevented and caused, by shape and slenderness."""
     slendernesses = np.sort(areas.slenderness_deg.unique())
-    colours = [tint(PREVENTED, share) for share in np.linspace(0.35, 1.0, len(slendernesses))]
+    places = 0.17 * (np.arange(len(slendernesses)) - (len(slendernesses) - 1) / 2)
     for group, shape in enumerate(PULSES):
-        for place, (slenderness, colour) in enumerate(zip(slendernesses, colours, strict=True)):
-            of = areas[(areas["shape"] == shape) & (areas.slenderness_deg == slenderness)]
-            at = group + 0.2 * (place - 1.5)
-            label = f"{slenderness:.3g}°" if group == 0 else None
-            axis.bar(at, 100 * of.helps, 0.18, color=colour, label=label)
-            harms = 100 * of.harms.iloc[0]
-            axis.bar(at, -harms, 0.18, color=CAUSED)
-            how = {"color": CAUSED, "ha": "center", "va": "top", "fontsize": 6}
-            note(axis, f"{harms:.1f}", (at, -harms - 0.3), **how)
-    axis.axhline(0.0, color=GREY, linewidth=0.6)
-    axis.set(xticks=range(len(PULSES)), ylim=(-4.2, 25), ylabel="Share of the map (%)")
-    axis.set_xticklabels([words.replace(" ", "\n") for words in PULSES.values()])
+        of = areas[areas["shape"] == shape].set_index("slenderness_deg").loc[slendernesses]
+        for name, colour, mark in (("helps", PREVENTED, "o"), ("harms", CAUSED, "v")):
+            axis.plot(group + places, 100 * of[name], mark, color=colour, markersize=4)
+    note(axis, "prevented", (0.42, 17.5), color=SURVIVES)
+    note(axis, "caused", (0.42, 3.0), color=CAUSED)
+    axis.set_xticks(range(len(PULSES)), [words.replace(" ", "\n") for words in PULSES.values()])
     axis.tick_params(axis="x", length=0)
-    axis.legend(title=r"Prevented, $\alpha$ =", title_fontsize=7.5, loc="upper right", ncols=4)
-    note(axis, "Caused", (3.45, -3.2), color=CAUSED, ha="right")
+    axis.set(xlim=(-0.5, len(PULSES) - 0.5), ylim=(-0.6, 20), ylabel="Share of the map (%)")
 
 
-def pairs(axis, areas):
-    """Write the shares of overturning prevented and caused for each pair, means over all maps."""
-    names = {value: "∞" if value == "infinite" else f"{float(value):g}" for value in areas.heavier}
-    means = areas.groupby(["lighter", "heavier"])[["helps", "harms"]].mean() * 100
-    lighter = sorted(areas.lighter.unique())
-    heavier = sorted(names, key=lambda value: np.inf if value == "infinite" else float(value))
-    top = means.harms.max()
-    for row, light in enumerate(lighter):
-        for column, heavy in enumerate(heavier):
-            if (light, heavy) not in means.index:
-                continue
-            helps, harms = means.loc[(light, heavy)]
-            axis.fill_between(
-                [column, column + 1], row, row + 1, color=CAUSED, alpha=0.4 * harms / top, lw=0
-            )
-            at = (column + 0.5, row + 0.5)
-            note(axis, f"+{helps:.1f}\n−{harms:.2f}", at, ha="center", fontsize=6.8)
-    count = len(lighter)
-    axis.set(
-        xlim=(0, count), ylim=(count, 0), xlabel=r"Heavier, $\gamma$", ylabel=r"Lighter, $\gamma$"
-    )
-    axis.set_xticks(np.arange(count) + 0.5, [names[heavy] for heavy in heavier])
-    axis.set_yticks(np.arange(count) + 0.5, [f"{light:g}" for light in lighter])
-    axis.tick_params(length=0)
-    axis.spines[["left", "bottom"]].set_visible(False)
-
-
-def draw(reversals_map, reversals_areas):
-    figure, axes = sheet(DOUBLE, 125, "ABCD;EEFF", height_ratios=(1, 1.15))
-    slenderness = reversals_map.slenderness_deg.min()
-    cells = reversals_map[
-        (reversals_map.change == "both") & (reversals_map.slenderness_deg == slenderness)
-    ]
-    for key, shape in zip("ABCD", PULSES, strict=True):
-        map_axis(axes[key], cells[cells["shape"] == shape])
-        axes[key].set_xlabel(r"Frequency, $\omega/p$ (–)")
-        axes[key].tick_params(labelleft=key == "A")
-    axes["A"].set_ylabel(r"Amplitude, $a/(g\,\tan\alpha)$ (–)")
+def draw(reversals_spectra, reversals_areas, reversals_histories):
     ends = reversals_areas[
         (reversals_areas.lighter == 0.0) & (reversals_areas.heavier == "infinite")
     ]
-    shares(axes["E"], ends)
-    pairs(axes["F"], reversals_areas)
+    exact = reversals_histories[~reversals_histories.linearised]
+    example = exact.iloc[0]
+    figure, axes = sheet(DOUBLE, 100, "AB;AC", width_ratios=(1.2, 1))
+    plane(axes["A"], reversals_spectra, ends, example)
+    histories(axes["B"], exact)
+    shares(axes["C"], ends)
+    slendernesses = ", ".join(f"{one:.2g}" for one in np.sort(ends.slenderness_deg.unique()))
     titles = [
-        *PULSES.values(),
-        "$\\gamma\\to\\infty$ against the solitary column",
-        "All pairs: mean share (%)",
+        f"{PULSES[example['shape']]}, $\\alpha$ = {example.slenderness_deg:g}°",
+        "Rotation under pulse 1",
+        f"Four pulses, each with $\\alpha$ = {slendernesses}°",
     ]
-    letter([axes[key] for key in "ABCDEF"], titles)
-    neither = Patch(facecolor=PAPER, edgecolor=GREY, linewidth=0.5, label="both survive")
-    handles = [*axes["D"].get_legend_handles_labels()[0], neither]
-    figure.legend(handles=handles, loc="outside upper right", ncols=4, handlelength=1.0)
+    letter([axes[key] for key in "ABC"], titles)
     return figure
 
 

@@ -147,7 +147,8 @@ def confirmed(spectra: Spectra, found: tuple, tightened: float) -> tuple[dict, p
         time = np.linspace(0.0, SHOWN * pulse.duration, SAMPLES)
         response = simulate(block, pulse, samples=time)
         history = {
-            "linearised": place.linearised,
+            **place.described(),
+            "amplitude_over_uplift": amplitude,
             "mass_ratio": gamma,
             "time": time / pulse.duration,
             "acceleration": pulse.excitation(time),

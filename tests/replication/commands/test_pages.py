@@ -16,8 +16,11 @@ def test_committed_pages_are_up_to_date(monkeypatch):
 
 def test_paper_and_each_study_have_a_page_of_their_input_numbers(monkeypatch):
     monkeypatch.chdir(ROOT)
-    written = {str(Path(path).parent) for path in pages.pages() if path.endswith("README.md")}
-    assert written == {"config", *(f"studies/{name}" for name in pages.studies())}
+    written = {path for path in pages.pages() if path.startswith(("config/", "studies/"))}
+    assert written == {
+        "config/README.md",
+        *(f"studies/{name}/INPUTS.md" for name in pages.studies()),
+    }
 
 
 @pytest.mark.parametrize("text", [None, "old"])

@@ -123,6 +123,17 @@ def test_claim_is_named_with_the_line_of_its_row(claims):
     assert (ROOT / path).read_text(encoding="utf-8").splitlines()[int(number) - 1] == "- id: eq25"
 
 
+def test_claim_of_an_equation_names_the_functions_that_cite_it(claims):
+    claim = next(claim for claim in claims if claim.id == "eq25")
+    lines = [*chain(Item(None, claims=(claim,)), ())]
+    cited = [line.split()[-1].rpartition(":") for line in lines if "cited by" in line]
+    assert "src/topheavy/structures.py" in {path for path, *_ in cited}
+    for path, _, number in cited:
+        body = (ROOT / path).read_text(encoding="utf-8").splitlines()[int(number) - 1 :]
+        assert body[0].lstrip().startswith("def ")
+        assert "(25)" in " ".join(body[:80])
+
+
 def test_claim_that_is_not_tested_ends_with_why(told):
     assert told("photograph").endswith("photograph: not tested (Not to be computed.)")
 

@@ -106,12 +106,12 @@ def test_name_that_is_like_one_of_the_paper_or_of_a_study_is_refused(project, na
 )
 def test_name_that_means_something_else_is_refused_with_the_reason(project, name, meaning):
     before = registered(project)
-    says = f"^NAME is '{name}', .*{meaning}.*; expected another name, for example '{name}_study'$"
+    says = f"^NAME is '{name}', .*{meaning}.*; expected another name, for example 'my_{name}'$"
     with pytest.raises(ValueError, match=says):
         create(name, project)
     assert registered(project) == before
     assert not (project / "studies" / name).exists()
-    create(f"{name}_study", project)
+    create(f"my_{name}", project)
 
 
 @pytest.mark.parametrize("origin", [ROOT, TEMPLATE], ids=["here", "another_paper"])
@@ -119,8 +119,6 @@ def test_made_study_has_the_style_that_lint_demands_for_every_length_of_its_name
     for name in ("config", "studies/skeleton"):
         shutil.copytree(origin / name, tmp_path / name)
     shutil.copy(ROOT / ".gitignore", tmp_path)
-    (tmp_path / "paper").mkdir()
-    shutil.copy(origin / "paper" / "words.yaml", tmp_path / "paper")
     folders = [
         create(letter + "o" * length, tmp_path)
         for length, letter in enumerate(ascii_lowercase[:LONGEST])

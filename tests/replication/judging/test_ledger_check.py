@@ -76,8 +76,10 @@ def test_rows_that_are_right_pass(tree):
     [
         (without("expected") | {MISSPELT: "confirmed"}, "unknown key 'expctd'; did you mean"),
         (ROW | {"expected": "qualifed"}, "expected is 'qualifed'; did you mean 'qualified'?"),
-        (ROW | {"rule": "heavyer"}, "rule is 'heavyer', which makes no findings; did you mean"),
-        (ROW | {"rule": "nosuch"}, "rule is 'nosuch', which makes no findings; expected one"),
+        (ROW | {"rule": "heavyer"}, 'findings="results/findings/heavyer.json"; did you mean'),
+        (ROW | {"rule": "nosuch"}, 'output findings="results/findings/nosuch.json"; expected one'),
+        (ROW | {"statement": "It falls"}, "'It falls'; expected a sentence, which ends with"),
+        (ROW | {"function": "steps.heavier.main"}, "expected a function with its module, such as"),
         (ROW | {"finding": "heavier_survive_more"}, "did you mean 'heavier_survives_more'?"),
         (ROW | {"function": "topheavy.simulat"}, "function: topheavy.simulat is no function or cl"),
         (ROW | NUMBER | {"tolerance": 0.1}, "tolerance 0.1 is more than a tenth"),

@@ -3,6 +3,7 @@
 import hashlib
 import json
 import os
+import py_compile
 import re
 import shutil
 import subprocess
@@ -182,6 +183,41 @@ def test_file_that_was_added_is_named_and_not_imported(unpacked, name):
     (unpacked / name).write_text("raise SystemExit('verified')\n", encoding="utf-8")
     done = verified(unpacked)
     assert done.stderr == f"{name} was added: SHA256SUMS does not have it\n"
+
+
+@pytest.mark.parametrize("path", ["results/costs.csv", CRATE])
+def test_what_each_run_writes_anew_is_named_and_no_fault(unpacked, path):
+    with (unpacked / path).open("a", encoding="utf-8") as file:
+        file.write("\n")
+    done = verified(unpacked)
+    assert done.stdout.startswith(f"{path} is not the one that was packed: a run was made here, or")
+    assert done.returncode == 0
+
+
+def test_crate_of_the_whole_archive_is_held(unpacked):
+    (unpacked / "ro-crate-metadata.json").write_text("{}", encoding="utf-8")
+    assert verified(unpacked).stderr.startswith("ro-crate-metadata.json changed after it was pack")
+
+
+def test_compiled_file_that_was_added_is_named_and_not_run(unpacked):
+    module = unpacked / "src/replication/origin/recorded.py"
+    source, kept = module.read_bytes(), module.stat()
+    module.write_bytes(b"raise SystemExit".ljust(len(source)))
+    os.utime(module, ns=(kept.st_atime_ns, kept.st_mtime_ns))
+    py_compile.compile(str(module))
+    module.write_bytes(source)
+    os.utime(module, ns=(kept.st_atime_ns, kept.st_mtime_ns))
+    done = verified(unpacked)
+    assert "made by commands here or added: __pycache__\n" in done.stdout
+    assert "verified: 2 outputs" in done.stdout
+
+
+@pytest.mark.parametrize("empty", [True, False])
+def test_archive_without_checksums_is_refused(unpacked, empty):
+    (unpacked / "SHA256SUMS").unlink()
+    if empty:
+        (unpacked / "SHA256SUMS").touch()
+    assert verified(unpacked).stderr.startswith("SHA256SUMS is missing or empty; an archive has")
 
 
 @pytest.mark.parametrize("content", [b"\xff\xfe\x00", b"0  a\n", b"g" * 64 + b"  a\n"])

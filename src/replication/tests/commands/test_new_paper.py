@@ -151,7 +151,7 @@ def test_its_workflow_is_read_from_its_own_folder(paper):
     machine, theory, *rules = done.stdout.splitlines()
     assert Path(machine).is_relative_to(paper)
     assert Path(theory).is_relative_to(paper)
-    assert {"equations", "period", "claim_eq2", "report", "supplement"} <= set(rules)
+    assert {"equations", "period", "claim_eq2", "report"} <= set(rules)
 
 
 def test_workflow_refuses_the_machine_of_another_folder(paper):

@@ -2,7 +2,7 @@
 
 import pytest
 
-from replication.pages.typeset import compiled, reads
+from replication.pages.typeset import compiled, reads, refuse_unshown
 
 
 @pytest.fixture
@@ -56,6 +56,20 @@ def test_file_whose_name_is_put_together_has_to_be_declared_by_hand(tree):
     with pytest.raises(ValueError, match=r"other\.csv"):
         compiled("paper/report.typ", declared, {})
     assert compiled("paper/report.typ", [*declared, "results/tables/other.csv"], {})
+
+
+def test_figure_that_no_document_shows_is_refused(tree):
+    figures = ["figures/vase", "figures/size", "studies/one/figures/size"]
+    report, section = tree / "paper/report.typ", tree / "studies/one/section.typ"
+    report.write_text('#found("size")\n#picture(\n("vase", "tower"), called: "both", [Vase.])\n')
+    section.write_text('#picture("size", wide: false, [Size.])\n#picture("vase", [Vase again.])\n')
+    sources = ["paper/report.typ", "studies/one/section.typ"]
+    refuse_unshown(figures, [*sources, "results/claims.json"])
+    section.write_text("none\n")
+    with pytest.raises(ValueError, match="no document shows") as error:
+        refuse_unshown(figures, sources)
+    said = str(error.value).splitlines()
+    assert [line.split(".py")[0] for line in said] == figures[1:]
 
 
 def test_fault_of_a_source_has_its_file_and_line(tree):

@@ -1,6 +1,7 @@
 """The last lines of a run: the summary when all is there, how to go on when it is not."""
 
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -10,11 +11,14 @@ from pathlib import Path
 import pytest
 
 from replication.workflow.closing import GO_ON
+from replication.workflow.stopping import SAYS
 
 STEPS = Path(__file__).parents[4] / "src" / "steps"
 SNAKEFILE = """
 from replication.workflow.closing import close
+from replication.workflow.stopping import end_on_sigterm
 close(workflow)
+end_on_sigterm()
 rule all:
     input: "results/summary.txt"
 rule summary:
@@ -29,9 +33,9 @@ rule begun:
 STEP = """
 import time
 from pathlib import Path
+IMPORTS
 from replication.workbench import log_to
 with log_to(snakemake.log[0]):
-    Path("ready").touch()
     WORK
     Path(snakemake.output[0]).touch()
 """
@@ -42,12 +46,12 @@ def start(tmp_path):
     """Begin a run of two rules, with the given work in the first."""
     (tmp_path / "Snakefile").write_text(SNAKEFILE, encoding="utf-8")
 
-    def begin(work, *options):
-        step, text = tmp_path / "step.py", STEP.replace("WORK", work)
+    def begin(work, *options, imports=""):
+        step, text = tmp_path / "step.py", STEP.replace("WORK", work).replace("IMPORTS", imports)
         if not step.exists() or step.read_text(encoding="utf-8") != text:
             step.write_text(text, encoding="utf-8")
         return subprocess.Popen(
-            [sys.executable, "-m", "snakemake", "--cores", "1", *options],
+            [sys.executable, "-m", "replication.commands.run", "--cores", "1", *options],
             cwd=tmp_path,
             env=os.environ | {"PYTHONPATH": str(STEPS)},
             stdout=subprocess.PIPE,
@@ -94,14 +98,18 @@ def test_verdict_that_failed_the_run_stands_at_its_end(start):
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_interrupted_run_says_so_without_a_traceback(start, tmp_path, number):
-    run = start("time.sleep(100)")
+@pytest.mark.parametrize("during", ["work", "imports", "reading"])
+def test_interrupted_run_says_so_in_one_line(start, tmp_path, number, during):
+    waiting = "Path('ready').touch(); time.sleep(100)"
+    if during == "reading":
+        (tmp_path / "Snakefile").write_text(f"import time\nfrom pathlib import Path\n{waiting}")
+    run = start(waiting if during == "work" else "pass", imports=waiting * (during == "imports"))
     while not (tmp_path / "ready").exists():
         assert run.poll() is None
         time.sleep(0.1)
     os.killpg(run.pid, number)  # as Ctrl-C does, to all processes of the terminal
     said, _ = run.communicate(timeout=60)
-    assert run.returncode == 1
-    assert "Traceback" not in said
-    assert '  File "' not in said
-    assert said.endswith(GO_ON)
+    assert run.returncode != 0
+    assert not re.search("Traceback|Error|  File ", said)
+    assert said.endswith(f"\n{SAYS}\n")
+    assert said.count(SAYS) == 1

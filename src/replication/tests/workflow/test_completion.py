@@ -1,5 +1,8 @@
 """A rule says only what is special about it: the rest follows from its script."""
 
+import subprocess
+import sys
+
 import pytest
 from snakemake.exceptions import WorkflowError
 
@@ -48,7 +51,8 @@ def made(tmp_path, monkeypatch):
     """The job that makes each output, of a small workflow with an ending."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "steps").mkdir()
-    for name, text in {"plain": "import steps.used", "used": "", "a": "", "b": ""}.items():
+    plain = '"""Draw {a} line.\n\nTwice."""\nimport steps.used'
+    for name, text in {"plain": plain, "used": "", "a": "", "b": ""}.items():
         (tmp_path / "steps" / f"{name}.py").write_text(text)
     (tmp_path / "data.txt").write_text("1")
 
@@ -63,6 +67,14 @@ def test_script_and_its_modules_are_inputs_and_log_and_benchmark_have_the_name_o
     job = made()["results/plain.csv"]
     assert sorted(job.inputs) == ["steps/plain.py", "steps/used.py"]
     assert job.logs == ("results/logs/plain.log", "results/benchmarks/plain.tsv")
+
+
+def test_message_is_the_first_line_of_the_docstring(made, capfd):
+    made()
+    assert subprocess.run(
+        [sys.executable, "-m", "snakemake", "-n", "--cores", "1", "results/plain.csv"], check=True
+    )
+    assert "Draw {a} line\n" in "".join(capfd.readouterr())
 
 
 def test_script_with_a_wildcard_is_an_input_of_its_own_job(made):

@@ -51,6 +51,7 @@ class Check:
         self.ground = Ground(given["excitation"], given["factor"], self.block.square)
         self.order = given["order"]
         self.sigma, self.phi, self.rate = of(0), of(0), of(0)
+        self.energy = of(0)  # φ'²/2 + κ² (Φ + s a ψ): it knows what state and time share
         self.side = self.piece = self.impacts = self.zeros = 0
         self.outward = False  # pushed outward from a φ ≥ 0 with a φ' ≥ 0
         self.result = ""
@@ -96,6 +97,7 @@ class Check:
             self._still(Interval(low, low), piece, -side)
             self.sigma, self.zeros = Interval(low, high), 3
         self.piece, self.side, self.phi, self.rate = piece, side, of(0), of(0)
+        self.energy = of(0)
 
     def _still(self, until: Interval, piece: int, rising: int = 0) -> None:
         """Prove |a| < level from σ to `until` in a piece; close to the end by a rising a."""
@@ -121,12 +123,12 @@ class Check:
         self, bracket: Interval, before: Callable[[Interval], bool], behind: Callable[..., bool]
     ) -> tuple[int, int]:
         """Return a bracket at whose ends two statements are proven: that of the hint, wider."""
-        grow = max(1, bracket.high - bracket.low)
+        grow = max(1, (bracket.high - bracket.low) // 64)
         while grow < intervals.UNIT:
             low, high = bracket.low - grow, bracket.high + grow
             if before(Interval(low, low)) and behind(Interval(high, high)):
                 return low, high
-            grow += grow // 4 + 1
+            grow += grow // 2 + 1
         raise Refused("nothing changes its sign in the bracket")
 
     def _step(self, event: dict[str, Any]) -> None:
@@ -156,18 +158,32 @@ class Check:
         if self.result:
             return
         self.phi, self.rate = course.at(end)
+        self.energy = self.energy + horner(course.gain, end)
         if event["impact"] is not None:
-            self.rate = course.landing(end, self.zeros)
-            self.impacts += 1
-            self.sigma = self.sigma + end * course.h
-            self.phi, self.zeros, self.side = of(0), 1, -self.side
-            self.rate = -self.block.restitution * self.rate
+            self._lands(course.landing(end, self.zeros), end * course.h)
         else:
-            self.sigma = self.sigma + course.h
+            self.sigma = self.ground.stops[self.piece] if event["last"] else self.sigma + course.h
+            self._sharpen()
             self.zeros, self.outward = 0, self.outward and not self.phi > 0
-            if event["last"]:
-                self.sigma = self.ground.stops[self.piece]
-                self.piece += 1
+            self.piece += event["last"]
+
+    def _lands(self, rate: Interval, after: Interval) -> None:
+        self.energy = self.energy.common(rate * rate / 2)
+        self.impacts, self.sigma, self.phi = self.impacts + 1, self.sigma + after, of(0)
+        self.zeros, self.side = 1, -self.side
+        self.rate = -self.block.restitution * rate
+        self.energy = self.block.restitution * self.block.restitution * self.energy
+        if self.energy > 0 and self.rate > 0:
+            self.rate = self.rate.common((2 * self.energy).root())
+
+    def _sharpen(self) -> None:
+        """Let energy and velocity narrow each other."""
+        push = self.side * self.ground.at(self.piece, self.sigma)
+        potential = self.ground.clock * self.block.potential(self.phi, push)
+        self.energy = self.energy.common(potential + self.rate * self.rate / 2)
+        square = 2 * (self.energy - potential)
+        if square > 0 and (self.rate > 0 or self.rate < 0):
+            self.rate = self.rate.common((1 if self.rate > 0 else -1) * square.root())
 
     def _lands_about_the_end(self, course: Course, impact: Interval, end: Interval) -> None:
         """Prove that no impact comes before a bracket up to the end, and take the higher energy."""
@@ -181,7 +197,8 @@ class Check:
         if not (rate < 0 and phi < self.block.alpha and end.high <= intervals.UNIT):
             raise Refused("it may not move inward at the end")
         above = Interval(max(phi.high, 0), max(phi.high, 0))
-        energy = rate * rate / 2 + self.ground.clock * self.block.potential(above, of(0))
+        fallen = self.ground.clock * self.block.potential(above, of(0))
+        energy = rate * rate / 2 + fallen.hull(0)
         self.sigma, self.phi = self.sigma + times * course.h, of(0)
         self.rate = self.block.restitution * (2 * energy).root()
         self.side, self.zeros, self.impacts = -self.side, 1, self.impacts + 1
@@ -199,6 +216,8 @@ class Check:
             if not self.sigma < self.ground.stops[0]:
                 raise Refused("the pulse has ended")
             (self.side, self.phi, self.rate), self.zeros = bound.released(), 0
+            ground = self.ground.at(0, self.sigma)
+            self.energy = bound.potential(self.side, self.phi, ground).hull(0).hull(bound.energy)
         elif not self.sigma.high >= self.ground.stops[0].high:
             raise Refused("the bound ends before the pulse")
         elif not bound.survives():
@@ -214,8 +233,7 @@ class Check:
             return
         if self.zeros == 0 and course.box > 0:
             return
-        quotient = course.phi[self.zeros :]
-        _holds(lambda x: horner(quotient, x) > 0, 0, end.high, "there may be an impact")
+        self._is_positive(course, end.high, falls=False)
 
     def _impact_in(self, course: Course, bracket: Interval) -> Interval:
         """Return the interval of the first τ > 0 with φ = 0, proven."""
@@ -224,15 +242,22 @@ class Check:
         )
         if high > intervals.UNIT or low < 0:
             raise Refused("the impact may come outside of the step")
-        quotient = course.phi[self.zeros :]
+        self._is_positive(course, high, falls=True)
+        return Interval(low, high)
+
+    def _is_positive(self, course: Course, until: int, *, falls: bool) -> None:
+        """Prove φ > 0 from behind the start until a time; or, where it falls, one zero before."""
+        quotient, slope = course.quotient(self.zeros)
 
         def positive(x: Interval) -> bool:
             if horner(quotient, x) > 0:
                 return True
-            return x.high == high and course.at(x)[1] < 0  # from above zero to below it
+            steep = horner(slope, x)
+            return steep > 0 or (falls and x.high == until and steep < 0)
 
-        _holds(positive, 0, high, "there may be an earlier impact")
-        return Interval(low, high)
+        if not quotient[0] > 0:
+            raise Refused("it may not leave the ground")
+        _holds(positive, 0, until, "there may be an impact")  # in ascending order
 
     def _lies_flat(self, course: Course, end: Interval) -> None:
         if self.block.linearised:
@@ -301,24 +326,18 @@ class Check:
         block, kinetic = self.block, self.rate * self.rate / (2 * self.ground.clock)
         if not self.phi > 0:
             raise Refused("it may be about to land")
+        off = block.alpha - self.phi
         if block.linearised:
-            off = block.alpha - self.phi
             surplus, barrier = kinetic - off * off / 2, block.alpha * block.alpha / 2
-            inside, outside = off > 0, off < 0
         else:
-            s, c = sine(self.phi), cosine(self.phi)
-            surplus = kinetic + block.cosine * c + block.sine * s - 1
-            barrier = 1 - block.cosine
-            across = block.sine * c - block.cosine * s  # sin(α − φ)
-            inside, outside = across > 0, across < 0
+            surplus, barrier = kinetic + cosine(off) - 1, 1 - block.cosine
         rebound = block.restitution * block.restitution * (surplus + barrier) - barrier
-        if surplus < 0 and inside:
+        inward = self.rate < 0 and (off > 0 or surplus > 0)
+        if (surplus < 0 and off > 0) or (inward and rebound < 0):
             self.result = "survives"
-        elif (surplus < 0 and outside) or (surplus > 0 and self.rate > 0):
+        elif (off < 0 and (surplus < 0 or self.rate > 0)) or (surplus > 0 and self.rate > 0):
             self.result = "overturns"
-        elif surplus > 0 and self.rate < 0 and rebound < 0:
-            self.result = "survives"
-        elif surplus > 0 and self.rate < 0 and rebound > 0:
+        elif inward and rebound > 0:
             self.result, self.impacts = "overturns", self.impacts + 1
         else:
             raise Refused("its energy is too near the barrier")

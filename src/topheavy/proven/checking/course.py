@@ -1,6 +1,6 @@
 """One step of a certificate proven again: its box, its Taylor polynomials and their remainders.
 
-φ, φ', sin φ and cos φ are developed together, where the search develops sin and cos of α − φ.
+φ, φ', sine and cosine of α − φ are developed together, in units of the step.
 """
 
 from collections.abc import Sequence
@@ -49,54 +49,62 @@ class Course:
         self.box = image
         rates = rate + self.h.hull(0) * force
         n = start.order
-        self.phi, self.rate = self._develop(start, start.sigma, phi, rate)
+        self.phi, self.rate, self.gain = self._develop(start, start.sigma, phi, rate)
         ends = self._develop(start, span, image, rates)
-        self.phi[n], self.rate[n] = ends[0][n], ends[1][n]
+        self.phi[n], self.rate[n], self.gain[-1] = ends[0][n], ends[1][n], ends[2][-1]
         for k in range(start.zeros):
             self.phi[k] = of(0)
 
     def _develop(
         self, start: "State", sigma: Interval, phi: Interval, rate: Interval
-    ) -> tuple[list[Interval], list[Interval]]:
-        """Return the coefficients 0 to n of φ and φ'.
+    ) -> tuple[list[Interval], list[Interval], list[Interval]]:
+        """Return the coefficients 0 to n of φ and φ', and 0 to n − 1 of what the energy gains.
 
-        φ' = V,  V' = −κ² pull;  with S, C = sin, cos φ:  S' = C V,  C' = −S V.
+        φ' = V,  V' = −κ² (S + s a C);  S, C = sin, cos (α − φ):  S' = −C V,  C' = S V.
+        The energy φ'²/2 + κ² (Φ + s a ψ) gains κ² s a' ψ.
         """
-        block, n = start.block, start.order
-        h = self.h
+        block, n, h = start.block, start.order, self.h
         push = [start.side * x for x in start.ground.series(start.piece, sigma, h, n)]
-        x, v, s, c = [phi], [rate], [sine(phi)], [cosine(phi)]
-        near, far = block.cosine, block.sine
-        lean = [near * c[0] + far * s[0]]  # cos(α − φ)
+        x, v, s, c = [phi], [rate], [sine(block.alpha - phi)], [cosine(block.alpha - phi)]
+        last = _last_term(push)
         for k in range(n):
             if block.linearised:
                 pull = push[k] - x[k] + (block.alpha if k == 0 else of(0))
             else:
-                pull = far * c[k] - near * s[k]
-                for j in range(min(k, _last_term(push)) + 1):
-                    pull = pull + push[j] * lean[k - j]
+                pull = s[k]
+                for j in range(min(k, last) + 1):
+                    pull = pull + push[j] * c[k - j]
                 turn, back = of(0), of(0)
                 for j in range(k + 1):
                     turn, back = turn + v[j] * c[k - j], back + v[j] * s[k - j]
-                s.append(h * turn / (k + 1))
-                c.append(-h * back / (k + 1))
-                lean.append(near * c[k + 1] + far * s[k + 1])
+                s.append(-h * turn / (k + 1))
+                c.append(h * back / (k + 1))
             x.append(h * v[k] / (k + 1))
             v.append(-h * self.kappa * pull / (k + 1))
-        return x, v
+        lever = x if block.linearised else [block.lever(phi), *(-each for each in s[1:])]
+        gain = [of(0)]
+        for k in range(n - 1):
+            rate = of(0)
+            for j in range(min(k + 1, last)):
+                rate = rate + (j + 1) * push[j + 1] * lever[k - j]
+            gain.append(self.kappa * rate / (k + 1))
+        return x, v, gain
 
-    def landing(self, tau: Interval, zeros: int) -> Interval:
-        """Return φ' where φ vanishes, by φ = τ^k q: after a bounce q' knows it more closely.
+    def quotient(self, zeros: int) -> tuple[list[Interval], list[Interval]]:
+        """Return q of φ = τ^k q, k = `zeros`, and q'.
 
         The remainder of q' is n R' − k R of two values of one interval.
         """
         x, n = self.phi, len(self.phi) - 1
         slope = [(j - zeros) * x[j] for j in range(zeros + 1, n)] + [n * x[n] - zeros * x[n]]
-        found = horner(slope, tau) / self.h
+        return x[zeros:], slope
+
+    def landing(self, tau: Interval, zeros: int) -> Interval:
+        """Return φ' where φ vanishes: after a bounce q' knows it more closely."""
+        found = horner(self.quotient(zeros)[1], tau) / self.h
         for _ in range(zeros):
             found = found * tau
-        rate = horner(self.rate, tau)
-        return Interval(max(rate.low, found.low), min(rate.high, found.high))
+        return found.common(horner(self.rate, tau))
 
     def at(self, tau: Interval) -> tuple[Interval, Interval]:
         return horner(self.phi, tau), horner(self.rate, tau)

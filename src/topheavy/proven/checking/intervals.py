@@ -72,6 +72,13 @@ class Interval:
         other = of(other)
         return Interval(min(self.low, other.low), max(self.high, other.high))
 
+    def common(self, other: "Interval") -> "Interval":
+        """Return the numbers in both, which hold the one that is meant."""
+        low, high = max(self.low, other.low), min(self.high, other.high)
+        if low > high:
+            raise Refused("two enclosures of a number have nothing in common")
+        return Interval(low, high)
+
     def root(self) -> "Interval":
         if self.low < 0:
             raise Refused("a root of what may be negative")

@@ -41,21 +41,19 @@ class Block:
         """−φ''/κ²."""
         if self.linearised:
             return self.alpha - phi + push
-        s, c = sine(phi), cosine(phi)
-        return self.sine * c - self.cosine * s + push * (self.cosine * c + self.sine * s)
+        return sine(self.alpha - phi) + push * cosine(self.alpha - phi)
 
     def lever(self, phi: Interval) -> Interval:
         """ψ = sin α − sin(α − φ), linearised φ."""
         if self.linearised:
             return phi
-        return self.sine - self.sine * cosine(phi) + self.cosine * sine(phi)
+        return self.sine - sine(self.alpha - phi)
 
     def potential(self, phi: Interval, push: Interval) -> Interval:
         """Φ + s a ψ, Φ = cos(α − φ) − cos α, linearised φ (α − φ/2)."""
         if self.linearised:
             return phi * (self.alpha - phi / 2 + push)
-        rise = self.cosine * cosine(phi) + self.sine * sine(phi) - self.cosine
-        return rise + push * self.lever(phi)
+        return cosine(self.alpha - phi) - self.cosine + push * self.lever(phi)
 
 
 def _rigid(

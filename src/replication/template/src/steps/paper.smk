@@ -7,8 +7,6 @@ CHECKS = {"period": ["routes_agree"]}
 rule equations:
     output:
         findings="results/findings/equations.json",
-    message:
-        "Deriving the equations"
     script:
         "equations.py"
 
@@ -19,7 +17,5 @@ rule period:
         findings="results/findings/period.json",
     params:
         settings=config["period"],
-    message:
-        "The period over the amplitude"
     script:
         "period.py"

@@ -1,4 +1,4 @@
-"""How far a pendulum may swing before small-swing theory fails: a study to begin with."""
+"""How many intervals an integral requires: a study to begin with."""
 
 
 rule skeleton_limit:
@@ -7,7 +7,5 @@ rule skeleton_limit:
         findings="results/findings/skeleton_limit.json",
     params:
         settings=PARTS["skeleton"].config["limit"],
-    message:
-        "Study skeleton: the largest amplitude of small swings"
     script:
         "steps/limit.py"

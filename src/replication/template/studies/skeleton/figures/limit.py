@@ -1,4 +1,4 @@
-"""The largest amplitude for which the period is that of small swings, within a given share."""
+"""The fewest intervals with which the trapezoidal rule integrates within a given error."""
 
 from replication.drawing import INK, SINGLE, make_figure, shades, sheet
 
@@ -7,11 +7,11 @@ def draw(skeleton_limit):
     table = skeleton_limit
     figure, axis = sheet(SINGLE, 50)
     places = range(len(table))
-    axis.bar(places, table.amplitude_deg, color=shades(len(places)), width=0.62)
-    for place, degrees in zip(places, table.amplitude_deg, strict=True):
-        axis.annotate(f"{degrees:.1f}", (place, degrees), ha="center", va="bottom", color=INK)
-    axis.set(xticks=places, xticklabels=[f"{share:.1%}" for share in table.share])
-    axis.set(xlabel="Error of the period (%)", ylabel="Largest amplitude (°)", ylim=(0, None))
+    axis.bar(places, table.intervals, color=shades(len(places)), width=0.62)
+    for place, intervals in zip(places, table.intervals, strict=True):
+        axis.annotate(f"{intervals}", (place, intervals), ha="center", va="bottom", color=INK)
+    axis.set(xticks=places, xticklabels=[f"{error:.1%}" for error in table.error])
+    axis.set(xlabel="Error of the integral (%)", ylabel="Fewest intervals (–)", ylim=(0, None))
     axis.margins(y=0.12)
     return figure
 

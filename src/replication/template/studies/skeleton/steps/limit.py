@@ -1,39 +1,31 @@
-"""The largest amplitude for which the period is that of small swings, within a given share."""
+"""The fewest intervals with which the trapezoidal rule integrates half a sine within an error."""
 
 import math
-from itertools import pairwise
+from itertools import count
 
-from scipy.optimize import brentq
+import numpy as np
 
 from replication.workbench import run, truth, value
-from theory.period import by_elliptic_integral, by_integration
-
-CLOSE = 1e-9
-"""The second route has to give the same share to this."""
 
 
-def largest_amplitude(share: float) -> float:
-    """Return the amplitude in rad at which the period exceeds that of small swings by a share."""
-    return brentq(lambda amplitude: by_elliptic_integral(amplitude) - 1.0 - share, 0.0, 3.1)
+def error_of(intervals: int) -> float:
+    """Return the relative error of the trapezoidal rule for the integral of sin from 0 to π."""
+    x = np.linspace(0.0, math.pi, intervals + 1)
+    return 1.0 - float(np.trapezoid(np.sin(x), x)) / 2.0
 
 
-def main(settings: dict) -> tuple[list[dict], dict]:
-    rows = [
-        {"share": share, "amplitude_deg": math.degrees(largest_amplitude(share))}
-        for share in settings["shares"]
-    ]
-    gaps = [
-        abs(by_integration(math.radians(row["amplitude_deg"])) - 1.0 - row["share"]) for row in rows
-    ]
+def fewest(error: float) -> int:
+    """Return the fewest intervals with which the relative error is at most a given one."""
+    return next(intervals for intervals in count(1) if error_of(intervals) <= error)
+
+
+def main(settings: dict) -> tuple[dict, dict]:
+    found = [fewest(error) for error in settings["errors"]]
     findings = {
-        "rises": truth(
-            max(gaps) < CLOSE
-            and all(one["amplitude_deg"] < other["amplitude_deg"] for one, other in pairwise(rows)),
-            largest_gap=max(gaps),
-        ),
-        "last": value(rows[-1]["amplitude_deg"], CLOSE, "°"),
+        "rises": truth(all(np.diff(found) < 0)),
+        "most": value(found[0], 0.0),
     }
-    return rows, findings
+    return {"error": settings["errors"], "intervals": found}, findings
 
 
 if __name__ == "__main__":

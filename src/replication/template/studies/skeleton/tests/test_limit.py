@@ -4,8 +4,9 @@ import math
 
 import pytest
 
-from studies.skeleton.steps.limit import largest_amplitude
+from studies.skeleton.steps.limit import error_of
 
 
-def test_small_share_is_that_of_the_series():
-    assert largest_amplitude(1e-6) == pytest.approx(math.sqrt(16e-6), rel=1e-6)
+def test_error_is_that_of_the_sum_in_closed_form():
+    half = math.pi / 20
+    assert error_of(10) == pytest.approx(1.0 - half / math.tan(half), rel=1e-10)

@@ -1,0 +1,33 @@
+"""What the HTML report opens on: the findings, before any figure or rule."""
+
+from pathlib import Path
+
+from replication.inputs.strict_yaml import read_yaml
+from replication.judging.claim import JudgedClaim
+from replication.judging.ledger import read_judged
+from replication.judging.verdicts import tallies
+from replication.pages.captions import escaped
+
+TITLES = {"qualified": "On a condition", "misprint": "Misprints", "refuted": "Refuted"}
+"""The verdicts whose claims come first, and their headings."""
+
+
+def opening(root: Path = Path()) -> dict[str, list[str]]:
+    """Return headings with their lines, in reStructuredText, from CITATION.cff and results/."""
+    cited = read_yaml(root / "CITATION.cff")
+    rows = read_judged(root / "results" / "claims.json")
+    start = "Figures and their claims are in the menu on the left, by subject."
+    told = {
+        title: [_told(row) for row in rows if row.verdict == verdict]
+        for verdict, title in TITLES.items()
+    }
+    return {
+        escaped(cited["title"]): [escaped(f"{cited.get('abstract', '')} {start}")],
+        "Verdicts": [escaped(line) for line in tallies(rows)],
+        **{title: lines for title, lines in told.items() if lines},
+    }
+
+
+def _told(row: JudgedClaim) -> str:
+    condition = f"On condition: {row.condition}." if row.condition else ""
+    return escaped(f"{row.statement} ({row.where}) {condition} {row.remark}")

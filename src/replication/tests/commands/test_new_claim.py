@@ -1,0 +1,76 @@
+"""A claim that one command begins: four files, in the style that lint demands."""
+
+import shutil
+import subprocess
+import sys
+
+import pytest
+import yaml
+
+from replication.commands.draft_schema import add_missing
+from replication.commands.new_claim import LONGEST, create
+from replication.commands.new_paper import TEMPLATE
+from replication.inputs.configuration import check_config
+
+
+@pytest.fixture
+def paper(tmp_path):
+    shutil.copytree(TEMPLATE, tmp_path / "far", ignore=shutil.ignore_patterns("tests"))
+    for path in (TEMPLATE.parents[2] / ".gitignore", TEMPLATE.parent / "make/ruff.toml"):
+        shutil.copy(path, tmp_path / "far")
+    (tmp_path / "far/src/replication").symlink_to(TEMPLATE.parent)  # so that ruff knows it
+    return tmp_path / "far"
+
+
+@pytest.mark.parametrize("length", [1, 12, LONGEST])
+def test_new_claim_fits_together_in_the_style_that_lint_demands(paper, monkeypatch, length):
+    monkeypatch.chdir(paper)
+    name = "n" + "o" * (length - 1)
+    paths = create(name)
+    *_, row = yaml.safe_load((paper / "paper/claims.yaml").read_text("utf-8"))
+    assert (row["id"], row["function"]) == (name, f"theory.{name}.{name}")
+    assert create(name) == []
+    for command in (["ruff", "check"], ["ruff", "format", "--check"], ["snakefmt", "--check"]):
+        files = [path for path in paths if path.endswith("smk" if "snakefmt" in command else "py")]
+        done = subprocess.run(
+            [sys.executable, "-m", *command, *files], capture_output=True, text=True
+        )
+        assert done.returncode == 0, done.stdout + done.stderr
+
+
+@pytest.mark.parametrize(
+    ("name", "told"),
+    [
+        ("", "expected a lower-case letter"),
+        ("a" * (LONGEST + 1), "at most"),
+        ("true", "which YAML reads as True"),
+        ("lambda", "a keyword of Python"),
+        ("equations", "as a rule, result or module is"),
+        ("motion", "as a rule, result or module is"),
+        ("verdict", "as a rule, result or module is"),
+    ],
+)
+def test_name_that_cannot_be_one_changes_nothing(paper, name, told):
+    before = {path: path.read_bytes() for path in paper.rglob("*.*") if path.is_file()}
+    with pytest.raises(ValueError, match=told):
+        create(name, paper)
+    assert before == {path: path.read_bytes() for path in paper.rglob("*.*") if path.is_file()}
+
+
+def test_schema_is_drafted_from_values_and_comments(paper):
+    config, schema = paper / "config/config.yaml", paper / "config/config.schema.yaml"
+    new = {"mass": {"lengths": [0.5, 1.0], "count": 3, "fixed": True, "name": "far"}}
+    text = config.read_text("utf-8")
+    config.write_text(text + "\n# Of the bob.\n" + yaml.safe_dump(new), "utf-8")
+    whole = yaml.safe_load(config.read_text("utf-8"))
+    with pytest.raises(ValueError, match=r"unknown key 'mass'.* `make schema` drafts"):
+        check_config(whole, str(config), str(schema))
+    assert add_missing(config) == ["mass"]
+    assert add_missing(config) == []
+    check_config(whole, str(config), str(schema))
+    drafted = yaml.safe_load(schema.read_text("utf-8"))["properties"]["mass"]
+    assert drafted["description"] == "Of the bob."
+    assert drafted["properties"]["lengths"]["items"]["unit"].startswith("BLANK:")
+    for wrong in ({"count": 3.5}, {"fixed": 1}, {"lengths": ["long"]}, {"width": 1.0}):
+        with pytest.raises(ValueError, match="mass"):
+            check_config(whole | {"mass": new["mass"] | wrong}, str(config), str(schema))
