@@ -8,7 +8,7 @@ from requests_cache import CachedRequest, CachedResponse, CachedSession
 from rocrate_validator.services import validate
 
 CONTEXT = "https://w3id.org/ro/crate/1.1/context"
-COPY = Path(__file__).with_name("ro-crate-1.1-context.jsonld")
+COPY = Path(__file__).with_name(".ro-crate-1.1-context.jsonld")
 """The context, as the package rocrate 0.13.0 has it (Apache 2.0), without white space."""
 
 
