@@ -70,7 +70,8 @@ def replace(newer: Path, root: Path = Path()) -> None:
     Raises
     ------
     SystemExit
-        When it is refused, when uv cannot lock (ours is back then), or when `make check` fails.
+        When it is refused, when uv cannot lock (ours is back then), or when `make pages` or
+        `make check` fails.
     """
     ours = root / MACHINE
     if reasons := list(refusals(ours, newer)):
@@ -90,8 +91,9 @@ def replace(newer: Path, root: Path = Path()) -> None:
     text = readme.read_text(encoding="utf-8")
     link = f"[{{}}]({MACHINE}/CHANGES.md)"
     readme.write_text(text.replace(link.format(before), link.format(now)), encoding="utf-8")
-    if subprocess.run(["make", "--no-print-directory", "check"], cwd=root).returncode:
-        sys.exit(f"make update: the machine is {now} now, and make check fails as it says above")
+    for target in ("pages", "check"):
+        if subprocess.run(["make", "--no-print-directory", target], cwd=root).returncode:
+            sys.exit(f"make update: the machine is {now} now; make {target} fails as it says above")
     print(f"The machine is {now} now. Left for you: what its changes ask of a paper (above);")
     print("make reproduce lint test; read the diff, and commit it.")
 
