@@ -68,7 +68,7 @@ def create(to: Path, root: Path = ROOT) -> Path:
 
 def _publish(to: Path) -> None:
     """Publish the example, which has findings and a table of an earlier run."""
-    (to / "docs").mkdir()
+    (to / "docs").mkdir(exist_ok=True)
     shutil.copyfile(to / config_of(PAPER), to / "tests/reference/config.yaml")
     publish_verdicts(read_ledger([to / ledger_of(PAPER)]), to)
     seal(to)
