@@ -1,5 +1,6 @@
 """Is a folder a valid Workflow Run RO-Crate 0.5? Needs the group `crate`, and no network."""
 
+import gzip
 import sys
 import tempfile
 from pathlib import Path
@@ -8,7 +9,7 @@ from requests_cache import CachedRequest, CachedResponse, CachedSession
 from rocrate_validator.services import validate
 
 CONTEXT = "https://w3id.org/ro/crate/1.1/context"
-COPY = Path(__file__).with_name("ro-crate-1.1-context.jsonld")
+COPY = Path(__file__).with_name("ro-crate-1.1-context.jsonld.gz")
 """The context, as the package rocrate 0.13.0 has it (Apache 2.0), without white space."""
 
 
@@ -18,7 +19,7 @@ def keep_context(cache: Path) -> None:
         request = CachedRequest(method="GET", url=CONTEXT)
         session.cache.save_response(
             CachedResponse(
-                content=COPY.read_bytes(),
+                content=gzip.decompress(COPY.read_bytes()),
                 headers={"Content-Type": "application/ld+json"},
                 request=request,
                 status_code=200,

@@ -46,7 +46,7 @@ def test_file_is_written_as_it_was_read(tmp_path, content):
     ("entries", "told"),
     [
         ({"holds": False, "meant_hold": True}, "'meant_hold'; did you mean 'meant_holds'"),
-        ({"value": 1.0, "eror": 0.1}, "'eror'; did you mean 'error'"),
+        ({"value": 1.0, "err_or": 0.1}, "'err_or'; did you mean 'error'"),
         ({"holds": False, "hold_when": True}, "'hold_when'; did you mean 'holds_when'"),
         ({"value": 1.0}, "has value; expected either 'value' and 'error'"),
         ({"value": 1.0, "error": 0.1, "holds": True}, "expected either"),
