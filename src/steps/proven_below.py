@@ -9,7 +9,7 @@ from typing import Any
 import pandas as pd
 
 from replication.workbench import Finding, run, truth
-from steps.proven import is_checked
+from steps.shared.proofs import is_checked
 from steps.vase import numbers
 from topheavy import Column, Pulse
 from topheavy.proven import survives_below
@@ -26,6 +26,7 @@ def kind(certificate: dict) -> str:
 def boxes(column: Column, settings: dict, known: pd.DataFrame, ratios: list[float]) -> list[dict]:
     """Return the boxes of each structure with one of these γ, up to its proven boundary."""
     shape, rows = settings["shapes"][0], []
+    known = known[known["shape"] == shape]
     for (name, gamma, span, structure), at in zip(
         numbers(column, settings), known.itertuples(), strict=True
     ):
@@ -38,7 +39,8 @@ def boxes(column: Column, settings: dict, known: pd.DataFrame, ratios: list[floa
         uplift = structure.block().uplift_acceleration
         for number, certificate in enumerate(found.certificates):
             low, top = (_number(x) for x in certificate["factor"])
-            checked = is_checked(certificate) if number % RECHECKED == 0 else None
+            asked = certificate, structure, pulse, (low, top)
+            checked = is_checked(*asked) if number % RECHECKED == 0 else None
             rows.append(
                 labels
                 | {"low": low, "high": top, "kind": kind(certificate)}

@@ -41,7 +41,7 @@ from replication.kill.table import (
     workflow,
     write,
 )
-from replication.kill.tree_copy import ROOT, check_imports, copy_tree
+from replication.kill.tree_copy import ROOT, copy_tree
 from replication.workflow.costs import read_costs
 
 TABLE = ROOT / "docs" / "kill_table"
@@ -109,7 +109,6 @@ def kill_table(faults: Sequence[Fault], *, cores: int = 1) -> Iterator[Row]:
         sound, *trees = (Path(folder) / f"tree{number}" for number in range(cores + 1))
         for tree in (sound, *trees):
             copy_tree(tree)
-        check_imports(sound)
         files = {test for fault in faults for test in fault.tests}
         files |= {last[fault.name].test for fault in faults if fault.name in last} - {""}
         if failing := first_failing(sound, sorted(files)):
