@@ -48,25 +48,12 @@ def reads(*sources: str | Path, root: str | Path = ".") -> list[str]:
 
 
 def refuse_unshown(figures: Iterable[str], sources: Iterable[str]) -> None:
-    """Refuse a figure that no document shows.
-
-    Parameters
-    ----------
-    figures
-        Paths from the root, without the ending.
-    sources
-        The files that the documents read; those that end with .typ show pictures.
-
-    Raises
-    ------
-    ValueError
-        With one line for each such figure.
-    """
+    """Raise ValueError for figures (paths without ending) that no source of a document shows."""
     shown = set()
     for source in (Path(each) for each in sources if each.endswith(".typ")):
-        for names in PICTURE.findall(source.read_text(encoding="utf-8")):
-            for name in re.findall(r'"(\w+)"', names):
-                shown |= {f"figures/{name}", f"{source.parent.as_posix()}/figures/{name}"}
+        calls = PICTURE.findall(source.read_text(encoding="utf-8"))
+        for name in re.findall(r'"(\w+)"', " ".join(calls)):
+            shown |= {f"figures/{name}", f"{source.parent.as_posix()}/figures/{name}"}
     if faults := [
         f"{each}.py draws a figure that no document shows; expected "
         f'#picture("{Path(each).name}", […]) in a document or a section, or no such script'

@@ -16,11 +16,8 @@ from snakemake.exceptions import CliException
 from snakemake.persistence import PersistenceBase
 
 HOLDER = Path(".snakemake/run")
-LIVE = (
-    "a run is going on in this folder (process {}); expected none: wait for its end, or end it by "
-    "Ctrl-C"
-)
-KILLED = "a run in this folder was killed and left it locked; expected no lock: make unlock"
+LIVE = "a run is going on here (process {}); expected none: wait for its end, or end it by Ctrl-C"
+KILLED = "a run was killed here and left the folder locked; expected no lock: make unlock"
 
 
 @contextmanager
