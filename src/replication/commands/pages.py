@@ -13,7 +13,7 @@ from replication.inputs.strict_yaml import read_yaml
 from replication.pages.captions import read_captions
 from replication.pages.codecheck import codecheck_file
 from replication.pages.config_page import config_page
-from replication.pages.exhibits import exhibits_page
+from replication.pages.exhibits import exhibits_page, read_numbers
 from replication.workflow.costs import read_costs
 from replication.workflow.provenance import Job, workflow_jobs
 
@@ -41,7 +41,12 @@ def codecheck() -> str:
 
 def exhibits() -> str:
     """Return the text of docs/exhibits.md."""
-    return exhibits_page(jobs(), captions(), read_costs(Path("docs/costs.csv")))
+    return exhibits_page(
+        jobs(),
+        captions(),
+        read_costs(Path("docs/costs.csv")),
+        read_numbers(Path("docs/figures.csv")),
+    )
 
 
 ASKED = {"codecheck.yml": codecheck, "docs/exhibits.md": exhibits}
