@@ -482,7 +482,7 @@ def test_first_visit_asks_for_a_guess_and_then_shows(browser):
     assert browser.do(is_seen) == [False] * 3
     browser.do("document.querySelector('#guess button').click()")
     browser.do("new Promise(next => setTimeout(next, 300))")
-    minima = [browser.do(f"minima[{k}].toFixed(2)") for k in range(3)]
+    minima = [browser.do(f"minima[{k}].toFixed(3)") for k in range(3)]
     told = browser.do("document.getElementById('answer').textContent")
     first, second, third = sorted(zip(minima, ("column", "vase", "frame"), strict=True))
     order = ", ".join(f"the {name} from {a} g" for a, name in (first, second, third))

@@ -16,7 +16,7 @@ from replication.pages.codecheck import codecheck_file
 from replication.pages.config_page import config_page
 from replication.pages.edition import verdict_page
 from replication.pages.edition_check import CLAIMS
-from replication.pages.exhibits import exhibits_page
+from replication.pages.exhibits import exhibits_page, read_numbers
 from replication.pages.seal import VERDICTS
 from replication.workflow.costs import read_costs
 from replication.workflow.provenance import Job, workflow_jobs
@@ -45,7 +45,12 @@ def codecheck() -> str:
 
 def exhibits() -> str:
     """Return the text of docs/exhibits.md."""
-    return exhibits_page(jobs(), captions(), read_costs(Path("docs/costs.csv")))
+    return exhibits_page(
+        jobs(),
+        captions(),
+        read_costs(Path("docs/costs.csv")),
+        read_numbers(Path("docs/figures.csv")),
+    )
 
 
 def verdicts() -> str:

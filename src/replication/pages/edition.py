@@ -18,6 +18,7 @@ from replication.judging.verdicts import VERDICTS, by_origin
 from replication.origin.recorded import read_crate
 from replication.pages import blanks
 from replication.pages.seal import digest
+from replication.pages.typeset import figure_numbers, options_of
 
 TITLES = {
     "": "The paper",
@@ -217,6 +218,9 @@ def publish(tables: Iterable[str], sources: Iterable[str] = ()) -> None:
     reference.mkdir(parents=True, exist_ok=True)
     shutil.copyfile("config/config.yaml", reference / "config.yaml")
     shutil.copyfile(results / "costs.csv", "docs/costs.csv")
+    numbers = figure_numbers(options_of(ours["studies"], {}))
+    lines = ["figure,number", *(f"{path},{number}" for path, number in numbers.items())]
+    Path("docs/figures.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
     for old in reference.glob("*.csv"):
         old.unlink()
     for folder in ("sources", "studies"):

@@ -1,7 +1,8 @@
 """The page docs/exhibits.md: for each figure its script and tables, and what these cost."""
 
+import csv
 from collections.abc import Collection, Iterable, Mapping
-from pathlib import PurePath
+from pathlib import Path, PurePath
 from typing import Any
 
 from replication.workflow.provenance import Job, makers
@@ -9,12 +10,13 @@ from replication.workflow.provenance import Job, makers
 HEAD = """\
 # From figure to table to cost
 
-`make pages` writes this page from the workflow, the captions and `docs/costs.csv`. Time is that of
+`make pages` writes this page from the workflow, the captions, `docs/costs.csv` and
+`docs/figures.csv`. Figures with S are in the supplement, the others in the article. Time is that of
 all jobs that the figure needs, one after another, in the published run. Memory is that of the
 largest of these jobs. Times of less than a second are not listed.
 
-| figure | drawn by | from | computed by | time in s | memory in MB |
-|---|---|---|---|---|---|
+| figure | title | drawn by | from | computed by | time in s | memory in MB |
+|---|---|---|---|---|---|---|
 """
 
 
@@ -22,6 +24,7 @@ def exhibits_page(
     jobs: Iterable[Job],
     captions: Mapping[str, Mapping[str, Any]],
     costs: Mapping[str, tuple[float, float]],
+    numbers: Mapping[str, str],
 ) -> str:
     """Return the page: a row for each result with a caption that is drawn from tables.
 
@@ -33,6 +36,8 @@ def exhibits_page(
         Of the results, by their paths.
     costs
         Seconds and megabytes of each job, from `replication.workflow.costs.read_costs`.
+    numbers
+        Of the figures, by their paths.
     """
     made = makers(jobs)
     rows = []
@@ -43,6 +48,7 @@ def exhibits_page(
         needed = [costs[name] for name in measured(path, made) if name in costs]
         seconds, memory = sum(cost[0] for cost in needed), max((c[1] for c in needed), default=0)
         cells = (
+            numbers.get(path, ""),
             caption["title"].replace("|", "\\|"),
             _listed(job.scripts),
             _listed(PurePath(table).name for table in tables),
@@ -69,6 +75,14 @@ def measured(path: str, made: Mapping[str, Job]) -> Collection[str]:
         logs = map(PurePath, made[each].logs)
         found |= {log.stem: None for log in logs if log.suffix == ".tsv"}
     return found
+
+
+def read_numbers(path: Path) -> dict[str, str]:
+    """Return the numbers of the figures, by their paths; none where they are not published yet."""
+    if not path.is_file():
+        return {}
+    with path.open(encoding="utf-8", newline="") as file:
+        return {row["figure"]: row["number"] for row in csv.DictReader(file)}
 
 
 def _listed(names: Iterable[str]) -> str:

@@ -5,8 +5,8 @@ from pathlib import Path
 from replication.inputs.strict_yaml import read_yaml
 from replication.judging.claim import JudgedClaim
 from replication.judging.ledger import read_judged
-from replication.judging.verdicts import tallies
-from replication.pages.captions import escaped
+from replication.judging.verdicts import by_origin
+from replication.pages.captions import escaped, verdict
 
 TITLES = {"qualified": "On a condition", "misprint": "Misprints", "refuted": "Refuted"}
 """The verdicts whose claims come first, and their headings."""
@@ -18,12 +18,13 @@ def opening(root: Path = Path()) -> dict[str, list[str]]:
     rows = read_judged(root / "results" / "claims.json")
     start = "Figures and their claims are in the menu on the left, by subject."
     told = {
-        title: [_told(row) for row in rows if row.verdict == verdict]
-        for verdict, title in TITLES.items()
+        title: [_told(row) for row in rows if row.verdict == of] for of, title in TITLES.items()
     }
     return {
         escaped(cited["title"]): [escaped(f"{cited.get('abstract', '')} {start}")],
-        "Verdicts": [escaped(line) for line in tallies(rows)],
+        "Verdicts": [
+            escaped(f"{name}: {verdict(found)}") for name, found in by_origin(rows).items()
+        ],
         **{title: lines for title, lines in told.items() if lines},
     }
 

@@ -1,10 +1,16 @@
 """The report: find the files that its Typst sources read, and compile it."""
 
+import json
 import re
 import shutil
 import tempfile
 from collections.abc import Iterable, Mapping
 from pathlib import Path
+from typing import Any
+
+from replication.judging.digits import of_judged
+from replication.judging.ledger import read_judged
+from replication.pages.captions import alternative
 
 FILE = re.compile(
     r'\b(?:import|include|json|csv|yaml|toml|xml|read|image|bibliography)\s*\(?\s*"([^"@]+\.\w+)"'
@@ -99,6 +105,41 @@ def compiled(source: str, inputs: Iterable[str], options: Mapping[str, str]) -> 
         except typst.TypstError as fault:  # its text has no place; the diagnostic has
             places = re.sub(rf"\S*{re.escape(Path(folder).name)}/", "", fault.diagnostic)
             raise ValueError(f"{source} cannot be compiled\n{places}") from None
+
+
+def options_of(studies: Iterable[str], captions: Mapping[str, Mapping[str, Any]]) -> dict[str, str]:
+    """Return the values of `sys.inputs` in the documents, after a run."""
+    articles = [name for name in studies if Path(f"studies/{name}/article.typ").is_file()]
+    return {
+        "studies": ",".join(studies),
+        "articles": ",".join(articles),
+        "numbers": json.dumps(of_judged(read_judged("results/claims.json"))),
+        "alternatives": json.dumps({path: alternative(entry) for path, entry in captions.items()}),
+    }
+
+
+def figure_numbers(options: Mapping[str, str]) -> dict[str, str]:
+    """Return the number of each picture's figure, in the article or, with S, in the supplement.
+
+    Both are compiled in the working folder, with the figures and results of a run.
+    """
+    import typst
+
+    found = {}
+    for name, letter in (("report", ""), ("supplement", "S")):
+        if not (source := Path("paper", f"{name}.typ")).is_file():
+            continue
+        images = typst.query(
+            str(source),
+            "figure.where(kind: image)",
+            root=".",
+            ignore_system_fonts=True,
+            sys_inputs=dict(options),
+        )
+        for number, figure in enumerate(json.loads(images), 1):
+            for path in re.findall(r'"source": "/([^"]+)"', json.dumps(figure["body"])):
+                found[path] = f"{letter}{number}"
+    return found
 
 
 def _from_root(name: str, source: str) -> str:

@@ -39,9 +39,10 @@ def costs(tmp_path):
 
 
 def test_cost_is_that_of_all_jobs_that_the_figure_needs(costs):
-    page = exhibits_page(JOBS, {"figures/peaks.svg": {"title": "Peaks |θ|"}}, costs)
+    captions, numbers = {"figures/peaks.svg": {"title": "Peaks |θ|"}}, {"figures/peaks.svg": "S2"}
+    page = exhibits_page(JOBS, captions, costs, numbers)
     assert page.splitlines()[-1] == (
-        r"| Peaks \|θ\| | `figures/peaks.py` | `peaks.csv` | `src/peaks.py` | 31 | 300 |"
+        r"| S2 | Peaks \|θ\| | `figures/peaks.py` | `peaks.csv` | `src/peaks.py` | 31 | 300 |"
     )
 
 
@@ -51,5 +52,5 @@ def test_job_is_counted_once_and_no_other_job_is():
 
 
 def test_cost_that_was_not_measured_is_left_open():
-    page = exhibits_page(JOBS, {"figures/peaks.svg": {"title": "Peaks"}}, {})
+    page = exhibits_page(JOBS, {"figures/peaks.svg": {"title": "Peaks"}}, {}, {})
     assert page.endswith("| `src/peaks.py` |  |  |\n")

@@ -2,7 +2,7 @@
 
 import pytest
 
-from replication.pages.typeset import compiled, reads, refuse_unshown
+from replication.pages.typeset import compiled, figure_numbers, reads, refuse_unshown
 
 
 @pytest.fixture
@@ -76,3 +76,16 @@ def test_fault_of_a_source_has_its_file_and_line(tree):
     (tree / "studies/one/section.typ").write_text("One.\n\n#none.a\n")
     with pytest.raises(ValueError, match=r"(?s)fields on type none.* studies/one/section\.typ:3:"):
         compiled("paper/report.typ", reads("paper/report.typ"), {})
+
+
+def test_figures_of_article_and_supplement_are_numbered_by_picture(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    svg = '<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"/>'
+    for name in ("a", "b", "c"):
+        (tmp_path / f"{name}.svg").write_text(svg, encoding="utf-8")
+    (tmp_path / "paper").mkdir()
+    shown = '#figure(image("/{}.svg"), caption: [])\n#figure(table([1]), caption: [])\n'
+    for name, pictures in (("report", "bc"), ("supplement", "a")):
+        text = "".join(map(shown.format, pictures))
+        (tmp_path / "paper" / f"{name}.typ").write_text(text, encoding="utf-8")
+    assert figure_numbers({}) == {"b.svg": "1", "c.svg": "2", "a.svg": "S1"}
