@@ -84,7 +84,7 @@ class Strip {
   }
 }
 
-/** The boundary of the cells whose code has a bit, as segments between the middles of neighbours. */
+/** The boundary of the cells whose code has a bit: segments from and to the middle between neighbours. */
 function boundary(codes, columns, rows, bit) {
   const segments = [], has = (i, j) => (codes[i + columns * j] & bit) !== 0;
   for (let i = 0; i + 1 < columns; i++) {
@@ -159,8 +159,16 @@ class Spectrum {
 
   /** Take the outcomes of the plane's cells, row by row from the lowest amplitude up; `share` of them are known. */
   outcomes({ id, codes, columns, rows, share }) {
-    const lines = [FRAME_FALLS, COLUMN_FALLS].map((bit) => boundary(codes, columns, rows, bit));
-    this.cells = { id, codes, columns, rows, lines, isWhole: share === 1 };
+    const [solid, dotted] = [new Path2D(), new Path2D()]; // in cells
+    for (const [from, to] of boundary(codes, columns, rows, FRAME_FALLS)) {
+      solid.moveTo(...from);
+      solid.lineTo(...to);
+    }
+    for (const [from] of boundary(codes, columns, rows, COLUMN_FALLS)) {
+      dotted.moveTo(...from);
+      dotted.lineTo(...from);
+    }
+    this.cells = { id, codes, columns, rows, lines: [[solid, 1.5], [dotted, 2.8]], isWhole: share === 1 };
     this.recolour();
   }
 
@@ -187,17 +195,15 @@ class Spectrum {
     ctx.save();
     ctx.imageSmoothingEnabled = false;
     ctx.drawImage(this.image, bbox.left, bbox.top, bbox.width, bbox.height);
-    ctx.strokeStyle = ctx.fillStyle = colour("ink");
-    ctx.lineWidth = 1.5 * devicePixelRatio;
-    ctx.beginPath();
-    const [solid, dotted] = lines, dot = 2.5 * devicePixelRatio;
-    const at = ([i, j]) => [bbox.left + (i / columns) * bbox.width, bbox.top + (1 - j / rows) * bbox.height];
-    for (const [from, to] of solid) {
-      ctx.moveTo(...at(from));
-      ctx.lineTo(...at(to));
+    ctx.strokeStyle = colour("ink");
+    ctx.lineCap = "round";
+    const scaled = new DOMMatrix([bbox.width / columns, 0, 0, -bbox.height / rows, bbox.left, bbox.top + bbox.height]);
+    for (const [line, width] of lines) {
+      const path = new Path2D();
+      path.addPath(line, scaled);
+      ctx.lineWidth = width * devicePixelRatio;
+      ctx.stroke(path);
     }
-    ctx.stroke();
-    for (const [from] of dotted) ctx.fillRect(...at(from).map((place) => place - dot / 2), dot, dot);
     ctx.restore();
   }
 

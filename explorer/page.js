@@ -445,7 +445,10 @@ byId("copy").addEventListener("click", async () => {
   }
 });
 addEventListener("hashchange", () => location.hash.slice(1) !== encode(state) && readAddress());
-addEventListener("resize", () => !isUpdating && requestAnimationFrame(redraw));
+addEventListener("resize", () => {
+  scene.measure();
+  if (!isUpdating) requestAnimationFrame(redraw);
+});
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
   spectrumChart.recolour();
   strips.forEach((strip) => strip.chart.redraw());

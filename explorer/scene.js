@@ -14,6 +14,13 @@ function drawn(kind, attributes, parent) {
 class Scene {
   constructor(svg) {
     this.svg = svg;
+    this.measure();
+  }
+
+  /** Take the width on the screen, at the start and when it changes. */
+  measure() {
+    this.available = this.svg.clientWidth || 600;
+    this.shown = "";
   }
 
   /** Build the bodies of a state at rest, so far apart that none leaves the picture or meets another.
@@ -45,8 +52,11 @@ class Scene {
     const width = Math.max(...rows.map(total)) + 2 * coarse(moved);
 
     // The names keep their size on the screen: a pixel is so many metres.
-    const pixel = Math.max(width / (this.svg.clientWidth || 600), (rows.length * (top + 0.2 * h)) / ((isNarrow ? 0.4 : 0.26) * innerHeight));
+    const pixel = Math.max(width / this.available, (rows.length * (top + 0.2 * h)) / ((isNarrow ? 0.4 : 0.26) * innerHeight));
     const pitch = top + 0.2 * h + 24 * pixel, height = rows.length * pitch + 16 * pixel;
+    const shown = String([b, h, L, state.g, fixed, reach, top, width, pixel]);
+    if (shown === this.shown) return;
+    this.shown = shown;
     this.svg.replaceChildren();
     this.svg.setAttribute("viewBox", `0 ${-top} ${width} ${height}`);
     this.svg.style.setProperty("--weight", state.g === Infinity ? 1 : state.g / (0.5 + state.g));

@@ -1,5 +1,7 @@
 """Boxes of amplitudes that survive, from zero to the proven boundary of each structure."""
 
+import math
+
 from figures.drawing import gamma
 from figures.palette import greys
 from replication.drawing import DOUBLE, GREY, PAPER, make_figure, note, sheet
@@ -7,13 +9,15 @@ from replication.drawing import DOUBLE, GREY, PAPER, make_figure, note, sheet
 KINDS = {"no uplift": "no uplift", "bounded": "bounded by the lemma", "followed": "followed"}
 WIDE = 0.003  # over the boundary: the edges of narrower boxes would hide them
 NAMES = {"bare": "Column", "fixed": "Fixed mass", "free": "Frame"}
+DRAWN = (0.0, 1.0, math.inf)  # mass ratios
 
 
 def draw(proven_below):
     colours = dict(zip(KINDS, greys(len(KINDS)), strict=True))
     figure, axis = sheet(DOUBLE, 70)
     names = []
-    for row, ((name, ratio), part) in enumerate(proven_below.groupby(["structure", "mass_ratio"])):
+    shown = proven_below[proven_below.structure.isin(NAMES) & proven_below.mass_ratio.isin(DRAWN)]
+    for row, ((name, ratio), part) in enumerate(shown.groupby(["structure", "mass_ratio"])):
         label = NAMES[name] if name == "bare" else f"{NAMES[name]}, {gamma(ratio)}"
         names.append(label)
         for kind, boxes in part[part.kind.isin(KINDS)].groupby("kind"):

@@ -61,7 +61,9 @@ def of_size(reference: Path) -> list[str]:
 
 
 def of_central_result(reference: Path) -> list[str]:
-    return [f"{ratios(reference).frequency_ratio[math.inf]:.3f}", f"{minima(reference)[1.0]:.3f}"]
+    minimum = minima(reference)
+    ratio = ratios(reference).frequency_ratio[math.inf]
+    return [f"{one:.3f}" for one in (ratio, minimum[1.0], minimum[0.0])]
 
 
 def of_portals(reference: Path) -> list[str]:
@@ -69,7 +71,8 @@ def of_portals(reference: Path) -> list[str]:
     over, rests = moments.joint_moment_over_frame, moments.portal == "no uplift"
     of_both = (over[~rests], over[rests & (moments.bases == "pinned")])
     ranges = [end for of in of_both for end in (of.min(), of.max())]
-    return [f"{portals(reference).min():.2f}", *(f"{one:.1f}" for one in ranges)]
+    minima = portals(reference)
+    return [f"{minima.min():.2f}", f"{minima.max():.1f}", *(f"{one:.1f}" for one in ranges)]
 
 
 def of_trilith(reference: Path) -> list[str]:

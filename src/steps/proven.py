@@ -6,6 +6,7 @@ does not say that nothing lower overturns: below, the searches of the other rule
 
 import json
 import math
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -38,15 +39,14 @@ def sides(structure: Structure, pulse: Pulse) -> tuple[float, list[dict]]:
 def boundaries(
     column: Column, settings: dict, table: pd.DataFrame
 ) -> tuple[list[dict], list[dict]]:
-    """Return a row for each structure under the first shape of the period, and the certificates."""
-    shape, rows, certificates = settings["shapes"][0], [], []
-    minima = table[table["shape"] == shape].minimum_overturning.tolist()
-    for (name, gamma, span, structure), minimum in zip(
-        numbers(column, settings), minima, strict=True
-    ):
+    """Return a row for each structure and shape of the period, and the certificates."""
+    rows, certificates = [], []
+    minima, shapes = table.minimum_overturning.tolist(), settings["shapes"]
+    of_each = product(numbers(column, settings), shapes)
+    for ((name, gamma, span, structure), shape), minimum in zip(of_each, minima, strict=True):
         pulse = Pulse(shape, minimum, 2.0 * math.pi / settings["period"])
         width, proofs = sides(structure, pulse)
-        labels = {"structure": name, "mass_ratio": gamma, "span": span}
+        labels = {"structure": name, "mass_ratio": gamma, "span": span, "shape": shape}
         certificates += [labels | proof for proof in proofs]
         impacts = [proof["impacts"] for proof in proofs] or [-1, -1]
         rows.append(
@@ -73,12 +73,13 @@ def sample(spectra: Spectra) -> Finding:
         else:
             amplitude = random.uniform(1.0, spectra.last)
         _, block, pulse = place.line(row.mass_ratio)
-        found, certificate = certified(block, pulse.scaled(amplitude))
-        falls = judge(block, pulse.scaled(amplitude)).overturned
+        pulse = pulse.scaled(amplitude)
+        found, certificate = certified(block, pulse)
+        falls = judge(block, pulse).overturned
         undecided += found.outcome == "undecided"
         differ += found.outcome == ("survives" if falls else "overturns")
         if number < RECHECKED:
-            twice += is_checked(certificate)
+            twice += is_checked(certificate, block, pulse)
     return truth(
         differ == 0 and undecided == 0,
         cells=CELLS,

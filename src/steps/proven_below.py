@@ -1,6 +1,6 @@
 """Prove that nothing below minimum overturning accelerations overturns: boxes of amplitudes.
 
-A box is of the search alone, in ball arithmetic; the checker proves a sample of them again.
+The boxes are of the search alone, in ball arithmetic; the checker proves a sample of them again.
 """
 
 import math
@@ -9,12 +9,12 @@ from typing import Any
 import pandas as pd
 
 from replication.workbench import Finding, run, truth
-from steps.proven import is_checked
+from steps.shared.proofs import is_checked
 from steps.vase import numbers
 from topheavy import Column, Pulse
 from topheavy.proven import survives_below
 
-RECHECKED = 10  # the checker proves one box of so many again, where it can
+RECHECKED = 50  # the checker proves one box of so many again, where it can
 
 
 def kind(certificate: dict) -> str:
@@ -24,21 +24,23 @@ def kind(certificate: dict) -> str:
 
 
 def boxes(column: Column, settings: dict, known: pd.DataFrame, ratios: list[float]) -> list[dict]:
-    """Return the boxes of each structure without a drawn size, up to its proven boundary."""
+    """Return the boxes of each structure with one of these γ, up to its proven boundary."""
     shape, rows = settings["shapes"][0], []
-    for (name, gamma, _, structure), at in zip(
+    known = known[known["shape"] == shape]
+    for (name, gamma, span, structure), at in zip(
         numbers(column, settings), known.itertuples(), strict=True
     ):
-        if name not in ("bare", "fixed", "free") or gamma not in ratios:
+        if gamma not in ratios:
             continue
         high = float(f"{at.minimum_overturning * (1.0 - at.relative_width):.15g}")
         pulse = Pulse(shape, 1.0, 2.0 * math.pi / settings["period"])
         found = survives_below(structure, pulse, high)
-        labels = {"structure": name, "mass_ratio": gamma}
+        labels = {"structure": name, "mass_ratio": gamma, "span": span}
         uplift = structure.block().uplift_acceleration
         for number, certificate in enumerate(found.certificates):
             low, top = (_number(x) for x in certificate["factor"])
-            checked = is_checked(certificate) if number % RECHECKED == 0 else None
+            asked = certificate, structure, pulse, (low, top)
+            checked = is_checked(*asked) if number % RECHECKED == 0 else None
             rows.append(
                 labels
                 | {"low": low, "high": top, "kind": kind(certificate)}
@@ -61,9 +63,9 @@ def _number(text: str) -> float:
 
 def findings(proven_below: pd.DataFrame) -> dict[str, Finding]:
     """Return for how many structures the boxes leave nothing open from zero to the boundary."""
-    table = proven_below.sort_values(["structure", "mass_ratio", "low"])
-    whole = 0
-    groups = table.groupby(["structure", "mass_ratio"])
+    labels = ["structure", "mass_ratio", "span"]
+    table, whole = proven_below.sort_values([*labels, "low"]), 0
+    groups = table.groupby(labels, dropna=False)
     for _, part in groups:
         closed = part.low.tolist()[1:] == part.high.tolist()[:-1] and part.low.iloc[0] == 0.0
         closed &= part.high.iloc[-1] == part.minimum.iloc[0]

@@ -54,7 +54,7 @@ class Browser:
         if settled:
             self.settle()
 
-    def load(self, address="g=1"):
+    def load(self, address=""):
         """Load the page at an address in the tab as it is."""
         self.tab.loaded = False
         url = (self.folder / "explorer.html").as_uri() + (f"#{address}" if address else "")

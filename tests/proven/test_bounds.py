@@ -1,6 +1,7 @@
 """Bounds without impacts: they hold every motion that the solver follows, and know u's jumps."""
 
 import math
+from itertools import product
 
 import numpy as np
 import pytest
@@ -49,6 +50,17 @@ def test_bound_from_rest_holds_the_motions_of_a_box(linearised):
             assert state.energy / START <= step.energy + 1e-10
             closest = max(closest, abs(phi) / wall)
         assert closest > 0.5  # the first flight, which is all that is known of it
+
+
+def test_bound_of_a_box_of_states_holds_its_corners():
+    ends = [(0.8, 1.2), (0.01, 0.02), (-0.03, 0.03), (0.2, 0.3)]  # σ, φ, φ', factor
+    sigma, phi, rate, _ = (hull(*map(str, pair)) for pair in ends)
+    for side in SIDES:
+        start = bounded(ends[-1]).start(sigma, side, phi, rate)
+        for *state, factor in product(*ends):
+            one = bounded(factor).start(arb(state[0]), side, *map(arb, state[1:]))
+            assert one.energy <= start.energy * 1.001
+            assert max(one.walls) <= max(start.walls)
 
 
 def test_energy_behind_the_pulse_has_its_last_jump():

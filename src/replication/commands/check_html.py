@@ -138,6 +138,11 @@ async def look(tab: Tab, page: Path, captions: dict[str, dict]) -> list[str]:
     await tab.open(page.resolve().as_uri())
     held = {path: rest for path, *rest in await tab.do(RESULTS)}
     faults = [f"{path} is not in the report" for path in sorted(set(captions) - set(held))]
+    opening = await tab.do(
+        "typeof metadata === 'object' && Object.keys(metadata).length ? workflow_desc : ''"
+    )
+    if not opening or "system-message" in opening:
+        faults.append("the report does not open on a sound text (opening.rst)")
     faults += [f"{path} has no caption" for path in sorted(set(held) - set(captions))]
     for path in sorted(set(held) & set(captions)):
         uri, caption, said, width = held[path]

@@ -12,7 +12,6 @@ only keeps its rows, for a later run or `make publish`.
 """
 
 import argparse
-import csv
 import json
 import resource
 import shutil
@@ -30,7 +29,7 @@ from replication.inputs.parts import PAPER, ledger_of
 from replication.inputs.strict_yaml import read_yaml
 from replication.judging.claim import Claim
 from replication.judging.ledger import read_ledger
-from replication.kill.faults import JUDGING, Fault, load
+from replication.kill.faults import FAULTS, JUDGING, Fault, load
 from replication.kill.table import (
     Row,
     caught,
@@ -42,7 +41,8 @@ from replication.kill.table import (
     workflow,
     write,
 )
-from replication.kill.tree_copy import ROOT, check_imports, copy_tree
+from replication.kill.tree_copy import ROOT, copy_tree
+from replication.workflow.costs import read_costs
 
 TABLE = ROOT / "docs" / "kill_table"
 KEPT = ROOT / ".kill_table.jsonl"
@@ -103,12 +103,12 @@ def kill_table(faults: Sequence[Fault], *, cores: int = 1) -> Iterator[Row]:
     """
     ledger, names, made = ledgers(), studies(), ("results", ".snakemake")
     rows = current(read(TABLE.with_suffix(".csv")), load(), read_ledger(ledger_files()), ROOT)
-    last, seconds = {row.name: row for row in rows}, _seconds(ROOT / "docs" / "costs.csv")
+    last, costs = {row.name: row for row in rows}, read_costs(ROOT / "docs" / "costs.csv")
+    seconds = {name: cost[0] for name, cost in costs.items()}
     with tempfile.TemporaryDirectory(prefix="kill-table-") as folder:
         sound, *trees = (Path(folder) / f"tree{number}" for number in range(cores + 1))
         for tree in (sound, *trees):
             copy_tree(tree)
-        check_imports(sound)
         files = {test for fault in faults for test in fault.tests}
         files |= {last[fault.name].test for fault in faults if fault.name in last} - {""}
         if failing := first_failing(sound, sorted(files)):
@@ -150,14 +150,6 @@ def kill_table(faults: Sequence[Fault], *, cores: int = 1) -> Iterator[Row]:
                     yield done.result()
             finally:
                 pool.shutdown(cancel_futures=True)
-
-
-def _seconds(path: Path) -> dict[str, float]:
-    """Return what each rule costs, by the published table."""
-    if not path.exists():
-        return {}
-    with path.open(encoding="utf-8", newline="") as file:
-        return {row["rule"]: float(row["seconds"]) for row in csv.DictReader(file)}
 
 
 def rotation(faults: list[Fault], number: int, commit: str) -> list[Fault]:
@@ -216,6 +208,8 @@ def main() -> None:
     parser.add_argument("--cores", type=int, default=1, help="so many faults at once")
     options = parser.parse_args()
     faults = load()
+    if not faults:
+        raise SystemExit(f"there are no faults; expected some in {' or '.join(FAULTS)}")
     picked = chosen(faults, options.faults, options.rotate)
     for fault in faults:
         fault.texts(ROOT)  # one that no longer applies is refused at once

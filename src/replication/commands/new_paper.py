@@ -13,6 +13,9 @@ import tomllib
 from pathlib import Path
 
 from replication.commands.update import MACHINE, copy_machine
+from replication.inputs.parts import PAPER, config_of, ledger_of
+from replication.judging.ledger import read_ledger
+from replication.pages.edition import publish_verdicts
 from replication.pages.seal import seal
 from replication.workflow.place import UNQUOTED
 
@@ -59,8 +62,16 @@ def create(to: Path, root: Path = ROOT) -> Path:
     locked = subprocess.run([uv, "lock", "--quiet"], cwd=to, capture_output=True, text=True)
     if locked.returncode:
         raise ValueError(f"uv cannot lock the packages of {to}:\n{locked.stderr}")
-    seal(to)
+    _publish(to)
     return to
+
+
+def _publish(to: Path) -> None:
+    """Publish the example, which has findings and a table of an earlier run."""
+    (to / "docs").mkdir(exist_ok=True)
+    shutil.copyfile(to / config_of(PAPER), to / "tests/reference/config.yaml")
+    publish_verdicts(read_ledger([to / ledger_of(PAPER)]), to)
+    seal(to)
 
 
 def _checked_name(to: Path, root: Path) -> str:
@@ -91,9 +102,8 @@ def _licence(text: str) -> str:
     """Return a licence of the authors of the machine and of the new ones."""
     text, *_ = text.partition("\n---")  # below it follows what it covers here
     text = re.sub(r" ?The ground motions in [^.]*\.", "", text)
-    return re.sub(
-        r"^(Copyright .*\n)", r"\1Copyright (c) BLANK: year, your names\n", text, flags=re.M
-    )
+    ours = r"\1Copyright (c) BLANK: year, your names\n"
+    return re.sub(r"^(Copyright .*\n)", ours, text, count=1, flags=re.MULTILINE)
 
 
 def _read(path: Path) -> str:

@@ -1,6 +1,6 @@
-"""Write the pages that follow from workflow, config and published costs: `make pages`.
+"""Write the pages that follow from workflow, config and what is published: `make pages`.
 
-No run is necessary, and no result goes into them but the costs.
+No run is necessary.
 """
 
 from collections.abc import Callable, Iterator
@@ -10,10 +10,14 @@ from typing import Any
 
 from replication.inputs.parts import PAPER, captions_of, config_of
 from replication.inputs.strict_yaml import read_yaml
+from replication.judging.ledger import read_judged
 from replication.pages.captions import read_captions
 from replication.pages.codecheck import codecheck_file
 from replication.pages.config_page import config_page
+from replication.pages.edition import verdict_page
+from replication.pages.edition_check import CLAIMS
 from replication.pages.exhibits import exhibits_page
+from replication.pages.seal import VERDICTS
 from replication.workflow.costs import read_costs
 from replication.workflow.provenance import Job, workflow_jobs
 
@@ -44,6 +48,11 @@ def exhibits() -> str:
     return exhibits_page(jobs(), captions(), read_costs(Path("docs/costs.csv")))
 
 
+def verdicts() -> str:
+    """Return the text of docs/verdicts.md, by the published rows."""
+    return verdict_page(read_judged(CLAIMS), Path(CLAIMS).parent)
+
+
 ASKED = {"codecheck.yml": codecheck, "docs/exhibits.md": exhibits}
 """The pages that only a paper has in which their file, maybe empty, is there."""
 
@@ -57,6 +66,7 @@ def pages() -> dict[str, Callable[[], str]]:
             for path, page in inputs.items()
         },
         **{path: text for path, text in ASKED.items() if Path(path).is_file()},
+        **({VERDICTS: verdicts} if Path(CLAIMS).is_file() else {}),
     }
 
 

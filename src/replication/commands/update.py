@@ -17,10 +17,13 @@ MACHINE = "src/replication"
 SUMS = "SHA256SUMS"
 """In a paper alone: the checksum of each file of the machine, as it was copied."""
 
+CACHE = re.compile(r"/(?:\.|__pycache__/)")
+"""In the path of what a tool keeps for itself."""
+
 
 def copy_machine(source: Path, to: Path) -> str:
     """Copy a machine, list the checksums of its files, and return its version."""
-    shutil.copytree(source, to, ignore=shutil.ignore_patterns("__pycache__", SUMS))
+    shutil.copytree(source, to, ignore=shutil.ignore_patterns("__pycache__", ".*", SUMS))
     lines = (f"{value}  {path}\n" for path, value in _checksums(to).items())
     (to / SUMS).write_text("".join(lines), encoding="utf-8")
     return version(to)
@@ -70,12 +73,16 @@ def replace(newer: Path, root: Path = Path()) -> None:
     Raises
     ------
     SystemExit
-        When it is refused, when uv cannot lock (ours is back then), or when `make check` fails.
+        When it is refused, when uv cannot lock (ours is back then), or when `make pages` or
+        `make check` fails.
     """
     ours = root / MACHINE
     if reasons := list(refusals(ours, newer)):
         sys.exit("\n".join(["make update: nothing is changed", *reasons]))
     before, now = version(ours), version(newer)
+    if _checksums(ours) == _checksums(newer):
+        print(f"The machine is {now}, as that of FROM: nothing to do")
+        return
     print(f"The machine: {before} → {now}\n")
     print(news((newer / "CHANGES.md").read_text(encoding="utf-8"), before))
     aside = ours.with_name("replication.before")
@@ -90,8 +97,9 @@ def replace(newer: Path, root: Path = Path()) -> None:
     text = readme.read_text(encoding="utf-8")
     link = f"[{{}}]({MACHINE}/CHANGES.md)"
     readme.write_text(text.replace(link.format(before), link.format(now)), encoding="utf-8")
-    if subprocess.run(["make", "--no-print-directory", "check"], cwd=root).returncode:
-        sys.exit(f"make update: the machine is {now} now, and make check fails as it says above")
+    for target in ("pages", "check"):
+        if subprocess.run(["make", "--no-print-directory", target], cwd=root).returncode:
+            sys.exit(f"make update: the machine is {now} now; make {target} fails as it says above")
     print(f"The machine is {now} now. Left for you: what its changes ask of a paper (above);")
     print("make reproduce lint test; read the diff, and commit it.")
 
@@ -119,11 +127,11 @@ def main(source: str) -> None:
 
 
 def _checksums(machine: Path) -> dict[str, str]:
-    found = (path for path in sorted(machine.rglob("*")) if "__pycache__" not in path.parts)
+    found = {path.relative_to(machine): path for path in sorted(machine.rglob("*"))}
     return {
-        path.relative_to(machine).as_posix(): _checksum(path)
-        for path in found
-        if path.is_file() and path.name != SUMS
+        name.as_posix(): _checksum(path)
+        for name, path in found.items()
+        if path.is_file() and path.name != SUMS and not CACHE.search(f"/{name.as_posix()}")
     }
 
 

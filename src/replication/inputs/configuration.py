@@ -192,7 +192,10 @@ def _numbers(place: str, value: Any) -> Iterator[str]:
     elif isinstance(value, list):
         numbers = [item for item in value if is_number(item)]
         if any(first >= second for first, second in pairwise(numbers)):
-            yield f"{place} is {value}; expected numbers in ascending order"
+            yield (
+                f"{place} is {value}; expected numbers in ascending order; write a vector as a "
+                "mapping, { x: 1, y: 0 }"
+            )
 
 
 def _walk(value: Any, *path: str | int) -> Iterator[tuple[str, Any]]:

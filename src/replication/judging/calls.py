@@ -104,8 +104,9 @@ def definition(name: str, root: str | Path = ".") -> str:
 
 
 def _place(module: str, root: str | Path) -> Path:
-    parts = module.split(".")
-    return Path(root, PLACES.get(parts[0], "."), *parts)
+    top, *parts = module.split(".")
+    in_src = top not in OF_NO_ROW and Path(root, "src", top).is_dir()
+    return Path(root, "src" if in_src else ".", top, *parts)
 
 
 def _module_name(path: str) -> str:

@@ -50,7 +50,8 @@ def workflow(
     """
     rules = sorted({row.rule for row in ledger if row.finding})
     findings = [f"results/findings/{rule}.json" for rule in rules]
-    settings = ("--configfile", QUICK, "--config", f"studies=[{','.join(studies)}]")
+    quick = ("--configfile", QUICK) if (tree / QUICK).exists() else ()
+    settings = (*quick, "--config", f"studies=[{','.join(studies)}]")
     options = ("--cores", str(cores), "--keep-going", *settings)
     code, said = run(tree, "-m", "snakemake", *options, "--", *findings)
     raised = sorted(set(re.findall(r"^Error in rule (\w+):", said, re.MULTILINE)))
@@ -245,7 +246,9 @@ def caught(row: Row) -> str:
 
 
 def read(path: Path) -> list[Row]:
-    """Return the rows of a published table."""
+    """Return the rows of a published table; none before the first one."""
+    if not path.exists():
+        return []
     with path.open(encoding="utf-8", newline="") as file:
         return list(map(row_of, csv.DictReader(file)))
 

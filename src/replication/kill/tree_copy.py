@@ -10,8 +10,6 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[3]
 LONGEST = 900.0
 """s: a command that takes longer hangs."""
-IMPORTED = (*sorted(path.name for path in (ROOT / "src").glob("[a-z]*")), "studies", "figures")
-"""The packages that a copy has to import from itself."""
 
 
 def copy_tree(to: Path) -> None:
@@ -55,22 +53,3 @@ def run(tree: Path, *command: str) -> tuple[int, str]:
             said, _ = process.communicate()
             said += f"\ngiven up after {LONGEST:g} s"
     return process.returncode, said
-
-
-def check_imports(tree: Path) -> None:
-    """Refuse a copy whose commands would run the code of another tree.
-
-    Raises
-    ------
-    RuntimeError
-        Naming the package, and the folder that it is imported from.
-    """
-    found = "import importlib, sys; m = importlib.import_module(sys.argv[1]); print(*m.__path__)"
-    for package in IMPORTED:
-        code, said = run(tree, "-c", found, package)
-        where = said.strip()
-        if code or not Path(where).resolve().is_relative_to(tree.resolve()):
-            raise RuntimeError(
-                f"the copy {tree} imports {package} from {where}; expected it from the copy: "
-                "a fault put there would not be run"
-            )

@@ -1,5 +1,6 @@
-# The machine's part of make, which the Makefile of a paper includes. All commands use uv and the committed lock file. If uv is missing, the first
-# command installs it into .uv/ (delete that folder to remove it).
+# The machine's part of make, which the Makefile of a paper includes. Before, a paper may set options of
+# uv in GROUPS, and names of its variables in OWN. All commands use uv and the committed lock file. If uv
+# is missing, the first command installs it into .uv/ (delete that folder to remove it).
 
 CORES      ?= 2
 PYTHON     ?= python3
@@ -17,8 +18,6 @@ RUN = $(UV) run --locked --no-dev $(GROUPS)
 DEV = $(UV) run --locked $(GROUPS)
 
 .DEFAULT_GOAL := help
-
-# The paper may set options of uv in GROUPS, and names of its variables in OWN, before it includes this.
 
 # A run starts a hundred Pythons. Where compiled modules are not kept, each would compile all anew.
 export PYTHONDONTWRITEBYTECODE :=

@@ -1,6 +1,5 @@
 """Captions of the HTML report, and the verdicts on the claims that belong to each result."""
 
-import difflib
 import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
@@ -8,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from replication.inputs.strict_yaml import read_yaml
+from replication.inputs.suggestions import hint
 from replication.judging.claim import JudgedClaim
 from replication.judging.verdicts import VERDICTS
 
@@ -69,16 +69,11 @@ def check_captions(
         if not is_made(result):
             faults.append(f"the captions have {result}, which no rule makes; delete this entry")
         faults += [
-            f"the caption of {result} names {name!r}; {_unknown(name, claims)}"
+            f"the caption of {result} names {name!r}; {hint(name, claims)}"
             for name in sorted(set(entry["claims"]) - claims)
         ]
     if faults:
         raise ValueError("\n".join(faults))
-
-
-def _unknown(claim: str, claims: Iterable[str]) -> str:
-    close = difflib.get_close_matches(claim, claims, n=1)
-    return f"did you mean {close[0]!r}?" if close else "expected ids of claims"
 
 
 def captioned(
@@ -90,19 +85,9 @@ def captioned(
     ----------
     claims
         The judged ledger, results/claims.json.
-
-    Raises
-    ------
-    ValueError
-        When the result has no caption, or its caption names a claim that is not in the ledger.
     """
-    if result not in captions:
-        raise ValueError(NO_CAPTION.format(result))
     entry = captions[result]
     judged = {claim.id: claim for claim in claims}
-    unknown = sorted(set(entry["claims"]) - set(judged))
-    if unknown:
-        raise ValueError(f"the caption of {result} names {unknown[0]!r}; expected ids of claims")
     about = [judged[key] for key in entry["claims"]]
     return {
         "title": entry["title"],

@@ -21,7 +21,7 @@ from topheavy import (
     RockingFrame,
 )
 from topheavy.proven import BlockBox, certified
-from topheavy.proven.checking import Refused, check, intervals
+from topheavy.proven.checking import Refused, check, concerns, intervals
 from topheavy.proven.checking.intervals import Interval, arctangent, cosine, exponential, of, sine
 from topheavy.shapes import ENDING
 
@@ -49,6 +49,25 @@ def test_proven_outcomes_are_proven_again(shape, linearised):
         structure = STRUCTURES[(place + n) % len(STRUCTURES)]
         found, certificate = of_pulse(structure, shape, scale, ratio, linearised=linearised)
         assert check(certificate) == found.outcome
+
+
+@pytest.mark.parametrize("structure", [COLUMN, *STRUCTURES])
+def test_certificate_is_about_the_problem_that_was_asked_alone(structure):
+    pulse, record = Pulse("one-sine", 0.05, 3.0), Record(0.1, [0.0, 0.02, 0.01])
+    of_record = certified(structure, record, factor=(0.5, 1.5))[1]
+    concerns(of_record, structure, record, (0.5, 1.5))
+    certificate = certified(structure, pulse)[1]
+    concerns(certificate, structure, pulse)
+    for change, reason in (
+        ((RockingFrame(COLUMN, 1.00001), pulse), "another structure"),
+        ((structure.block().linear(), pulse), "another equation|another structure"),
+        ((structure, pulse.scaled(1.0000001)), "another ground"),
+        ((structure, Pulse("one-cosine", 0.05, 3.0)), "another ground"),
+        ((structure, record), "another ground"),
+        ((structure, pulse, (0.9, 1.0)), "another factor"),
+    ):
+        with pytest.raises(Refused, match=reason):
+            concerns(certificate, *change)
 
 
 def test_record_with_rests_and_a_box_of_factors_are_proven_again():

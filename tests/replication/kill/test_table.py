@@ -13,7 +13,6 @@ from replication.judging.calls import definition
 from replication.judging.findings import Findings
 from replication.judging.ledger import read_ledger
 from replication.kill import table as table
-from replication.kill import tree_copy
 from replication.kill.faults import JUDGING, Change, Fault, faulty, load
 from replication.kill.table import Row
 from replication.workbench import truth
@@ -109,38 +108,6 @@ def test_fault_leaves_no_trace(tree):
         assert file.read_text(encoding="utf-8") == "x = 2\n"
     assert file.read_text(encoding="utf-8") == "x = 1\n"
     assert file.stat().st_mtime_ns == before
-
-
-# The copy ----------------------------------------------------------------------------------------
-
-
-def packages(folder):
-    for name in tree_copy.IMPORTED:
-        home = folder / ("src" if (ROOT / "src" / name).is_dir() else ".") / name
-        home.mkdir(parents=True)
-        (home / "__init__.py").touch()
-
-
-def test_copy_that_has_all_packages_passes(tmp_path):
-    packages(tmp_path)
-    tree_copy.check_imports(tmp_path)
-
-
-@pytest.mark.parametrize("package", tree_copy.IMPORTED)
-def test_package_that_is_not_that_of_the_copy_is_named(tmp_path, monkeypatch, package):
-    packages(tmp_path)
-    home = tmp_path / ("src" if (ROOT / "src" / package).is_dir() else ".") / package
-    shutil.rmtree(home)
-    elsewhere = tmp_path.with_name(f"{tmp_path.name}_elsewhere")
-    (elsewhere / package).mkdir(parents=True)
-    (elsewhere / package / "__init__.py").touch()
-    put_first = f"import sys; sys.path.insert(0, {str(elsewhere)!r}); "
-    run = tree_copy.run
-    monkeypatch.setattr(
-        tree_copy, "run", lambda tree, option, code, name: run(tree, option, put_first + code, name)
-    )
-    with pytest.raises(RuntimeError, match=rf"imports {package} from .*; expected it from the"):
-        tree_copy.check_imports(tmp_path)
 
 
 # What catches a fault ----------------------------------------------------------------------------
@@ -254,7 +221,6 @@ def trees(monkeypatch, tree):
         "studies": list,
         "ledger_files": list,
         "current": lambda rows, *given: rows,
-        "check_imports": lambda tree: None,
         "copy_tree": lambda to: shutil.copytree(tree, to),
     }.items():
         monkeypatch.setattr(command, name, value)

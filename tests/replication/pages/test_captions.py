@@ -108,16 +108,6 @@ def test_verdict_counts_in_the_order_of_the_verdicts():
     assert verdict([]) == "no claim"
 
 
-def test_result_without_a_caption_is_named():
-    with pytest.raises(ValueError, match=r"b\.svg has no caption; expected one"):
-        captioned("b.svg", {"a.svg": ENTRY}, [CLAIM])
-
-
-def test_claim_that_is_not_in_the_ledger_is_named():
-    with pytest.raises(ValueError, match=r"caption of a\.svg names 'rises'; expected ids"):
-        captioned("a.svg", {"a.svg": ENTRY}, [])
-
-
 def test_result_captioned_twice_is_refused(tmp_path):
     paths = [tmp_path / "a.yaml", tmp_path / "b.yaml"]
     for path in paths:

@@ -21,6 +21,7 @@ CAPTIONS = {
 
 # What the report of Snakemake has that is looked at.
 PAGE = """<!doctype html><meta charset="utf-8"><script>
+var metadata = {Claims: 1}, workflow_desc = "<h1>Verdicts</h1>";
 var results = {"a.svg": {data_uri: URI, caption: "<p>What is seen.</p>"}};
 </script>"""
 
@@ -67,6 +68,14 @@ def test_requests_errors_and_a_bad_caption_are_found():
 @needs_browser
 def test_figure_that_cannot_be_drawn_is_found():
     assert faults_of(PAGE, "<svg") == ["a.svg cannot be drawn"]
+
+
+@needs_browser
+@pytest.mark.parametrize(("old", "new"), [("Claims: 1", ""), ("Verdicts", "system-message")])
+def test_report_that_opens_on_the_graph_of_rules_or_on_a_bad_text_is_found(old, new):
+    assert faults_of(PAGE.replace(old, new)) == [
+        "the report does not open on a sound text (opening.rst)"
+    ]
 
 
 @needs_browser
