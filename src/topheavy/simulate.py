@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -239,9 +240,14 @@ def as_shaking(excitation: Excitation | None, vertical: Record | None = None) ->
             number, omega = SHAPES[excitation.shape], excitation.angular_frequency
             return Shaking(number, omega, float(excitation.amplitude), NO_RECORD)
         case Record():
-            record = prepare_record(excitation.acceleration)
-            return Shaking(RECORD, excitation.time_step, 1.0, record)
+            return Shaking(RECORD, excitation.time_step, 1.0, _prepared(excitation))
     raise no_excitation(excitation)
+
+
+@lru_cache(maxsize=2)
+def _prepared(record: Record) -> NDArray[np.float64]:
+    """Return a record as the kernel reads it; one record often follows itself."""
+    return prepare_record(record.acceleration)
 
 
 def checked_tolerance(value: float) -> float:

@@ -67,7 +67,7 @@ html: | $(UV) ## after a run: write results/report.html with every figure, capti
 	@$(RUN) python -m replication.commands.check_html results/report.html
 
 test: | $(UV) ## run the tests
-	@$(call WHOLE,CORES); $(DEV) pytest --numprocesses "$$CORES" --dist loadfile --no-loadscope-reorder
+	@$(call WHOLE,CORES); OMP_NUM_THREADS=1 $(DEV) pytest --numprocesses "$$CORES" --dist loadfile --no-loadscope-reorder
 
 LEDGER_SCHEMA = src/replication/judging/claims.schema.yaml
 SCHEMAS = $(wildcard config/*.schema.yaml studies/*/*.schema.yaml paper/*.schema.yaml)

@@ -33,7 +33,7 @@ def base_shear(side: Side) -> sp.Expr:
 
 def after_uplift(side: Side) -> sp.Expr:
     """The base shear over the weight as the resting frame starts to turn to this side."""
-    return sp.simplify(side.upright(base_shear(side)).subs(velocity, 0))
+    return side.upright(base_shear(side)).subs(velocity, 0)
 
 
 def slope() -> sp.Expr:

@@ -22,6 +22,7 @@ from topheavy.derivation.geometry import above_top, cap_contact, centre
 from topheavy.derivation.notation import (
     NEGATIVE,
     POSITIVE,
+    CircleField,
     F_z1,
     I_o,
     R,
@@ -84,7 +85,8 @@ def fixed_restitution(side: Side = POSITIVE) -> sp.Expr:
     balance = _balance(side, column, cap, velocity_after - velocity_before)
     upright = [side.upright(equation) for equation in balance]
     after = solve(upright, velocity_after, COUPLE, F_z1, only=velocity_after)[velocity_after]
-    return sp.factor(sp.simplify(after.subs(RECTANGULAR) / velocity_before))
+    ratio = sp.expand_trig(after.subs(RECTANGULAR) / velocity_before)
+    return sp.factor(CircleField([ratio]).reduced(ratio))
 
 
 @cache
@@ -98,7 +100,8 @@ def fixed_fourth_power(side: Side = NEGATIVE) -> sp.Expr:
     """p'⁴: θ̈ at rest is −p'² sin α' sgn θ, and its derivative by |θ| is p'² cos α' sgn θ."""
     free = fixed_motion(side).subs(ground_acceleration, 0)
     slope = side.upright(sp.diff(free, side.rotation))
-    return sp.factor(sp.simplify(side.upright(free) ** 2 + slope**2))
+    power = sp.expand_trig(side.upright(free) ** 2 + slope**2)
+    return sp.factor(CircleField([power]).reduced(power))
 
 
 @cache

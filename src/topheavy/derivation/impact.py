@@ -16,6 +16,7 @@ from topheavy.derivation.equilibrium import RECTANGULAR
 from topheavy.derivation.geometry import cap_motion, centre
 from topheavy.derivation.notation import (
     POSITIVE,
+    CircleField,
     Side,
     alpha,
     gamma,
@@ -44,7 +45,8 @@ def _cap_velocity(side: Side) -> sp.Matrix:
 def _ratio(balance: list[sp.Expr]) -> sp.Expr:
     """θ̇_2/θ̇_1 from a balance of impulses."""
     ratio = solve(balance, velocity_after)[velocity_after] / velocity_before
-    return sp.simplify(ratio.subs(RECTANGULAR))
+    ratio = sp.expand_trig(ratio.subs(RECTANGULAR))
+    return CircleField([ratio]).reduced(ratio)
 
 
 def frame_impact(side: Side) -> list[sp.Expr]:

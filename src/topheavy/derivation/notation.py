@@ -153,7 +153,9 @@ class CircleField:
         functions += sorted(roots, key=str)
         functions += sorted({f for e in expressions for f in e.atoms(sp.atan, sp.pi.func)}, key=str)
         self.plain = {function: sp.Dummy() for function in functions}
-        present = {symbol for each in expressions for symbol in each.subs(self.plain).free_symbols}
+        self._roots = {root: self.plain[root] for root in roots}
+        self._others = {f: symbol for f, symbol in self.plain.items() if f not in self._roots}
+        present = {symbol for each in expressions for symbol in self._named(each).free_symbols}
         named = list(self.plain.values())  # the cosines lead, hence powers of these are reduced
         self._field = sp.QQ.frac_field(*named, *sorted(present - set(named), key=str))
         self._circles = [
@@ -163,6 +165,11 @@ class CircleField:
             for angle in angles
         ]
 
+    def _named(self, expression: sp.Expr) -> sp.Expr:
+        """Return an expression with symbols for functions; other powers of a root need `subs`."""
+        named = sp.sympify(expression).xreplace(self._others)
+        return named.subs(self._roots) if self._roots else named
+
     def fraction(self, expression: sp.Expr) -> tuple[Any, Any]:
         """Return numerator and denominator; the expression is zero if and only if the first is.
 
@@ -171,7 +178,7 @@ class CircleField:
         ZeroDivisionError
             If the denominator is zero on the circles.
         """
-        found = self._field.from_sympy(sp.sympify(expression).subs(self.plain))
+        found = self._field.from_sympy(self._named(expression))
         parts = found.numer.rem(self._circles), found.denom.rem(self._circles)
         if not parts[1]:
             raise ZeroDivisionError(f"{expression} has the denominator 0")

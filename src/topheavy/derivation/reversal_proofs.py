@@ -12,6 +12,8 @@ joins the proofs is in the supplement, "Exact statements".
 
 from __future__ import annotations
 
+from functools import cache
+
 import sympy as sp
 
 from topheavy.derivation.equilibrium import equation_of_motion, frequency_ratio, squared_frequency
@@ -31,6 +33,7 @@ _rate = sp.Symbol("phi_dot", real=True)
 _gravity = sp.Symbol("w", positive=True)  # 1 + v
 
 
+@cache
 def _reduced(side: Side) -> sp.Expr:
     """F of the frame: s θ̈/p̂², with θ = s φ and ü_g = a g."""
     motion = equation_of_motion(side).rhs
@@ -38,6 +41,7 @@ def _reduced(side: Side) -> sp.Expr:
     return sp.simplify(reduced.subs({ground_acceleration: _a * g, side.rotation: side.sign * _phi}))
 
 
+@cache
 def linearised(side: Side) -> sp.Expr:
     """F to the first order in φ, α and a."""
     small = {symbol: _excess * symbol for symbol in (_phi, alpha, _a)}

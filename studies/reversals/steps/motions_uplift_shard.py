@@ -24,9 +24,10 @@ def histories(draw: Draw, frames: list[RockingFrame], cap: Cap, settings: dict) 
     record, rows = draw.record(), []
     beside = held_peaks(frames, cap, record, settings["periods"], STEPS)
     scales = factors(frames[0].column, record, np.array(settings["intensities"]))
+    scaled = [record.scaled(factor) for factor in scales]
     for frame, fixed in zip(frames, beside, strict=True):
-        for intensity, factor in zip(settings["intensities"], scales, strict=True):
-            found = rocking_peaks(frame, cap, record.scaled(factor), settings["points"])
+        for intensity, factor, motion in zip(settings["intensities"], scales, scaled, strict=True):
+            found = rocking_peaks(frame, cap, motion, settings["points"])
             peak = factor * record.peak_acceleration
             row = draw.labels | {
                 "mass_ratio": frame.mass_ratio,
