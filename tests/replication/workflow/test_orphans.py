@@ -74,11 +74,12 @@ def scripts_beside(jobs: Iterable[Job]) -> list[str]:
     """Every script in the folders that scripts of rules lie in."""
     folders = {Path(script).parent for job in jobs for script in job.scripts}
     machine = (ROOT / "src" / "replication").rglob("*.py")
-    folders |= {path.relative_to(ROOT).parent for path in machine if "template" not in path.parts}
+    folders |= {path.relative_to(ROOT).parent for path in machine if not OTHER & {*path.parts}}
     found = [path for folder in folders for path in (ROOT / folder).glob("*.py")]
     return [str(path.relative_to(ROOT)) for path in found if path.name != "__init__.py"]
 
 
+OTHER = {"ci", "template", "tests"}  # of the machine, run by others
 MAKEFILES = ("Makefile", "src/replication/make/machine.mk")
 MAKEFILE = "".join((ROOT / name).read_text(encoding="utf-8") for name in MAKEFILES)
 
