@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from figures.mass_ratio import draw
+from figures.restitution import draw
 from replication.drawing import described, letter, save, sheet
 from replication.inputs.parts import PAPER, captions_of
 from replication.pages.captions import alternative, read_captions
@@ -21,7 +21,7 @@ WORDS = {"title": "Size & frequency", "alt": "Two curves, one > 1 and\n one < 1.
 @pytest.fixture
 def figure():
     with plt.style.context(ROOT / "figures" / "style.mplstyle"):
-        yield draw(pd.read_csv(ROOT / "tests" / "reference" / "mass_ratio.csv"))
+        yield draw(pd.read_csv(ROOT / "tests" / "reference" / "restitution_over_slenderness.csv"))
     plt.close("all")
 
 

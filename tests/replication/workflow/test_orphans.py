@@ -73,13 +73,13 @@ def snakefiles(jobs: Iterable[Job]) -> str:
 def scripts_beside(jobs: Iterable[Job]) -> list[str]:
     """Every script in the folders that scripts of rules lie in."""
     folders = {Path(script).parent for job in jobs for script in job.scripts}
-    machine = (path.relative_to(ROOT) for path in (ROOT / "src/replication").rglob("*.py"))
-    others = {"template", "tests", "ci"}  # begun with, run by pytest and by .ci/run
-    folders |= {path.parent for path in machine if not others & {*path.parts}}
+    machine = (ROOT / "src" / "replication").rglob("*.py")
+    folders |= {path.relative_to(ROOT).parent for path in machine if not OTHER & {*path.parts}}
     found = [path for folder in folders for path in (ROOT / folder).glob("*.py")]
     return [str(path.relative_to(ROOT)) for path in found if path.name != "__init__.py"]
 
 
+OTHER = {"ci", "template", "tests"}  # of the machine, run by others
 MAKEFILES = ("Makefile", "src/replication/make/machine.mk")
 MAKEFILE = "".join((ROOT / name).read_text(encoding="utf-8") for name in MAKEFILES)
 

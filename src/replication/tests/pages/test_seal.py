@@ -7,7 +7,17 @@ from pathlib import Path
 
 import pytest
 
-from replication.pages.seal import EDITION, KINDS, SEAL, SOURCES, TOP, broken, outdated, seal
+from replication.pages.seal import (
+    EDITION,
+    KINDS,
+    SEAL,
+    SOURCES,
+    TOP,
+    VERDICTS,
+    broken,
+    outdated,
+    seal,
+)
 
 ROOT = Path(__file__).parents[4]
 
@@ -81,7 +91,7 @@ def test_each_tracked_file_of_the_edition_and_of_its_sources_is_sealed(tmp_path)
     seal(tmp_path)
     for picked in (random.choice(of_kind) for of_kind in kinds.values()):
         content = bytearray((tmp_path / picked).read_bytes())
-        if picked == SEAL or not content:
+        if picked in (SEAL, VERDICTS) or not content:  # `make check` holds each line of the pages
             continue
         place = random.randrange(len(content))
         content[place] ^= 1
