@@ -4,8 +4,9 @@ With κ, Φ and ψ of `topheavy.proven.flight`, the energy on the side s = ±1 a
 
     H = φ'²/2 + V,   V(φ, s a) = κ² (Φ(φ) + s a ψ(φ)),   H' = κ² s a' ψ(φ) between impacts,
 
-is multiplied by r ≤ 1 at an impact (φ = 0), and zero at rest, where infinitely many impacts in
-a finite time end too. A bound on H that holds between impacts therefore needs no impact.
+is φ'²/2 at an impact (φ = 0), which multiplies it by r ≤ 1 as √r ≤ 1, and zero at rest, where
+infinitely many impacts in a finite time end too. A bound on H that holds between impacts therefore
+needs no impact.
 
 Lemma. At σ let H ≤ E and φ ≤ X_s ≤ α on either side. Over [σ, σ + h] let s a ≥ m_s, and g_s at
 least the integral of max(0, s a'). Let Y_s ≤ α and F ≥ E + κ² max g_s ψ(Y_s), and on either side

@@ -48,7 +48,8 @@ class Outcome:
         Between these lies max|θ| (rad) over the whole motion of a survivor; None for others.
     cause : str
         Why it is undecided: "uplift", "graze", "flat", "end", "start", "enclosure", "impacts",
-        "steps", "separatrix" or "bound"; empty for others.
+        "steps", "separatrix" or "bound"; empty for others. Bounces multiply every error: under a
+        record they end as "end", where an impact may come before or after a sample, or as "start".
     bits : int
         Precision with which it was decided, or at last tried.
     """

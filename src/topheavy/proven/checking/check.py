@@ -199,7 +199,8 @@ class Check:
         above = Interval(max(phi.high, 0), max(phi.high, 0))
         fallen = self.ground.clock * self.block.potential(above, of(0))
         energy = rate * rate / 2 + fallen.hull(0)
-        self.sigma, self.phi = self.sigma + times * course.h, of(0)
+        after, stop = self.sigma + times * course.h, self.ground.stops[0]
+        self.sigma, self.phi = Interval(after.low, min(after.high, stop.high)), of(0)
         self.rate = self.block.restitution * (2 * energy).root()
         self.side, self.zeros, self.impacts = -self.side, 1, self.impacts + 1
 
