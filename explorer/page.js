@@ -282,7 +282,7 @@ function reveal() {
     if (encode(state) !== of) return;
     if (minima.length < 3 || minima.includes(undefined)) return void setTimeout(answer, 50);
     const order = [0, 1, 2].sort((one, other) => minima[one] - minima[other]), at = (k) => `the ${found.structures[order[k]].name} from ${minima[order[k]].toFixed(3)} g`;
-    byId("answer").textContent = `${guess === order[0] ? "Right" : "No"}: ${at(0)}, ${at(1)}, ${at(2)}. Here is ${round(found.peak)} g. Drag the mass ratio: the boundary of the frame moves away from that of the column.`;
+    byId("answer").textContent = `${guess === order[0] ? "Correct" : "No"}: ${at(0)}, ${at(1)}, ${at(2)}. Shown is one shaking, ${round(found.peak)} g. Drag the mass ratio: the boundary of the frame moves away from that of the column.`;
   };
   answer();
 }));
