@@ -36,21 +36,6 @@ def test_boxes_are_whole_below_a_bound(shape):
     assert not any(judge(COLUMN, pulse.scaled(top)).overturned for _, top in boxes)
 
 
-def proven_twice(certificate):
-    try:
-        return check(certificate) == "survives"
-    except Refused:
-        return False
-
-
-def test_every_box_of_the_column_up_to_its_minimum_is_proven_twice():
-    found = survives_below(COLUMN, PULSE, 0.2728227, accepts=proven_twice)
-    assert not found.open
-    boxes = edges(found.certificates)
-    assert (boxes[0][0], boxes[-1][1]) == (0.0, 0.2728227)
-    assert all(one[1] == other[0] for one, other in pairwise(boxes))
-
-
 def bounded(factor):
     found, certificate = certified(COLUMN, PULSE, factor=factor, bits=72, bounded=True)
     return found, json.loads(json.dumps(certificate))
@@ -102,3 +87,18 @@ def test_changed_bound_is_refused(box, change, reason):
     change(wrong, wrong["events"][0])
     with pytest.raises(Refused, match=reason):
         check(wrong)
+
+
+def proven_twice(certificate):
+    try:
+        return check(certificate) == "survives"
+    except Refused:
+        return False
+
+
+def test_every_box_of_the_column_up_to_its_minimum_is_proven_twice():
+    found = survives_below(COLUMN, PULSE, 0.2728227, accepts=proven_twice)
+    assert not found.open
+    boxes = edges(found.certificates)
+    assert (boxes[0][0], boxes[-1][1]) == (0.0, 0.2728227)
+    assert all(one[1] == other[0] for one, other in pairwise(boxes))
