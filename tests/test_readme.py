@@ -99,6 +99,12 @@ def test_rise_under_each_pulse_of_the_period_is_published():
     assert f"shapes of pulses of this period, it rises by {from_to(rises)} %" in said()
 
 
+def test_minima_are_said_to_be_proven_where_the_ledger_confirms_it(claims):
+    assert "under a very heavy cap beam; both are proven" in said()
+    for proof in ("minimum_is_a_proven_boundary", "nothing_below_the_minimum_overturns"):
+        assert claims[proof].verdict == "confirmed"
+
+
 def test_portal_is_said_to_overturn_later_where_the_ledger_confirms_it(claims):
     assert "A portal overturns later still" in said()
     assert claims["portal_overturns_last"].verdict == "confirmed"
