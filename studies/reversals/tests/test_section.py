@@ -7,4 +7,4 @@ STUDY = Path(__file__).parents[1]
 
 def test_misfit_of_the_fragility_curves_is_printed_as_a_bound():
     text = (STUDY / "section_motions.typ").read_text("utf-8")
-    assert "they pass within\n#at-most(motions.misfit.value, 3) of every computed point" in text
+    assert "They pass within\n#at-most(motions.misfit.value, 3) of every computed point" in text
