@@ -8,8 +8,9 @@ is φ'²/2 at an impact (φ = 0), which multiplies it by r ≤ 1 as √r ≤ 1, 
 infinitely many impacts in a finite time end too. A bound on H that holds between impacts therefore
 needs no impact.
 
-Lemma. At σ let H ≤ E and φ ≤ X_s ≤ α on either side. Over [σ, σ + h] let s a ≥ m_s, and g_s at
-least the integral of max(0, s a'). Let Y_s ≤ α and F ≥ E + κ² max g_s ψ(Y_s), and on either side
+Lemma. At σ let H ≤ E and φ ≤ X_s, 0 ≤ X_s ≤ α, on either side. Over [σ, σ + h] let s a ≥ m_s,
+and g_s at least the integral of max(0, s a'). Let 0 ≤ Y_s ≤ α and F ≥ E + κ² max g_s ψ(Y_s), and
+on either side
 
     V(Y_s, m_s) > F, and Y_s ≥ X_s or V(X_s, m_s) > F                  (the wall stops it), or
     Y_s − X_s > h (v(X_s) + v(Y_s))/2,   v(φ)² = 2 max(0, F − V(φ, m_s))   (it does not reach it).

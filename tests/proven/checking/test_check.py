@@ -264,3 +264,83 @@ def test_unknown_shape_of_a_certificate_is_refused():
     certificate["excitation"]["shape"] = "harmonic"
     with pytest.raises(ValueError, match="shape is 'harmonic'; expected one of half-sine"):
         check(certificate)
+
+
+BLOCK = RockingBlock(2.0, 0.25, 0.9)
+
+
+def refused(certificate, words):
+    with pytest.raises(Refused, match=words):
+        check(certificate)
+
+
+def invented(amplitude, events, **given):
+    """A certificate of a block that nobody proved: it survives a sine of 1 rad/s."""
+    of = {"kind": "block", "slenderness": "0.25", "frequency_parameter": "2.0"}
+    pulse = {"shape": "one-sine", "amplitude": str(amplitude), "angular_frequency": "1.0"}
+    return {
+        "structure": of | {"restitution": "0.9"} | given,
+        "linearised": False,
+        "excitation": pulse,
+        "factor": ["1.0", "1.0"],
+        "outcome": "survives",
+        "impacts": 0,
+        "bits": 72,
+        "order": 20,
+        "events": events,
+    }
+
+
+def test_wall_below_zero_is_refused():
+    """The potential is periodic: a wall a turn below would be high at both of its ends."""
+    below, tiny = "-6.283184307179586476925", "1/1000000000000000000000000000000"
+    steps = [
+        [["0", "1/10000000000"], "1/10000000000", [below, below]],
+        [["0", "6.2831853071796"], "2/10000000000", [tiny, tiny]],
+    ]
+    bound = {"event": "bounded", "energy": "1/10000000000000000000000000", "released": False}
+    bound |= {"walls": ["1/1000000", "1/1000000"], "steps": steps}
+    refused(invented(10.0, [bound]), "below zero")
+
+
+def test_side_that_multiplies_the_motion_is_refused():
+    certificate = json.loads(json.dumps(certified(BLOCK, Pulse("one-sine", 1.0, 3.0))[1]))
+    certificate["excitation"]["amplitude"] = "0.1"
+    for event in certificate["events"]:
+        if event["event"] == "uplift":
+            event["side"] *= 10
+    refused(certificate, "1 or -1")
+
+
+def test_bound_without_a_step_is_refused():
+    """It would have walls beyond α, and an energy below the barrier on the far side of it."""
+    certificate = json.loads(json.dumps(certified(BLOCK, Pulse("one-sine", 0.60214, 4.0))[1]))
+    assert certificate["outcome"] == "overturns"
+    events = [event for event in certificate["events"] if event["event"] != "gone"]
+    energy = repr(0.25 * (1 - math.cos(0.25)) * 0.9999)
+    bound = {"event": "bounded", "energy": energy, "walls": ["1.5", "1.5"], "steps": []}
+    certificate |= {"outcome": "survives", "events": [*events, bound | {"released": False}]}
+    refused(certificate, "ends before the pulse")
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [({"restitution": "1.1"}, "from 0 to 1"), ({"restitution": "-0.1"}, "from 0 to 1")],
+)
+def test_block_that_gains_energy_is_refused(change, words):
+    refused(invented(0.1, [], **change), words)
+
+
+def test_landing_in_the_middle_of_a_pulse_and_a_short_series_are_refused():
+    certificate = json.loads(json.dumps(certified(BLOCK, Pulse("one-cosine", 1.3, 8.0))[1]))
+    lands = next(event for event in certificate["events"] if event.get("impact"))
+    refused(certificate | {"order": 3}, "below 4")
+    lands |= {"last": False, "about_end": True}
+    refused(certificate, "before the end of a pulse")
+
+
+def test_motion_that_lifts_the_block_before_the_bracket_is_refused():
+    rest = {"time_step": "0.05", "acceleration": ["3", "-3", "0"]}
+    certificate = invented(1.0, []) | {"excitation": rest}
+    uplift = {"event": "uplift", "side": 1, "sigma": ["35/4096", "2275/4096"], "piece": 0}
+    refused(certificate | {"events": [uplift | {"jumps": False}]}, "lifted it before")

@@ -44,6 +44,8 @@ class Bound:
         """Prove the lemma for a step, and take its energy and walls."""
         if not until > self.sigma:
             raise Refused("a step goes back")
+        if any(wall.low < 0 for wall in walls.values()):
+            raise Refused("a wall is below zero")
         lasts = until - self.sigma
         h = Interval(lasts.high, lasts.high)
         ground, rises = self._ground(until, h)

@@ -75,6 +75,8 @@ class Check:
         if self.side:
             raise Refused("the block is not at rest")
         side, level = event["side"], self.block.level
+        if side not in (1, -1):
+            raise Refused("a side is 1 or -1")
         bracket = between(*event["sigma"])
         piece = event["piece"]
         if not self.piece <= piece < len(self.ground.stops):
@@ -94,6 +96,8 @@ class Check:
             begins = self.ground.stops[piece - 1].high if piece else 0
             if not low >= max(self.sigma.high, begins):
                 raise Refused("it begins earlier than the piece, or than the block came to rest")
+            if not self.ground.at(piece, Interval(low, low)).size() < level:
+                raise Refused("the ground may have lifted it before")
             self._still(Interval(low, low), piece, -side)
             self.sigma, self.zeros = Interval(low, high), 3
         self.piece, self.side, self.phi, self.rate = piece, side, of(0), of(0)
@@ -136,6 +140,8 @@ class Check:
             raise Refused("the block is at rest")
         if not self.sigma < self.ground.stops[self.piece]:
             raise Refused("the piece of the motion has ended")
+        if self.order < 4:
+            raise Refused("the order is below 4")
         h, left = Fraction(event["h"]), self.ground.stops[self.piece] - self.sigma
         if event["last"]:
             h = max(h, Fraction(left.high, intervals.UNIT))  # it ends with the piece
@@ -146,6 +152,8 @@ class Check:
         course = Course(self, h, event["box"])
         end = left / course.h if event["last"] else of(1)
         if event.get("about_end"):
+            if not event["last"]:
+                raise Refused("it lands before the end of a pulse")
             self._lands_about_the_end(course, between(*event["impact"]) / course.h, end)
             return
         if event["impact"] is None:
@@ -219,7 +227,7 @@ class Check:
             (self.side, self.phi, self.rate), self.zeros = bound.released(), 0
             ground = self.ground.at(0, self.sigma)
             self.energy = bound.potential(self.side, self.phi, ground).hull(0).hull(bound.energy)
-        elif not self.sigma.high >= self.ground.stops[0].high:
+        elif not self.sigma.low >= self.ground.stops[0].high:
             raise Refused("the bound ends before the pulse")
         elif not bound.survives():
             raise Refused("the energy may be beyond the barrier")
@@ -291,6 +299,8 @@ class Check:
         if not (self.side and self.zeros == 1 and of(1) > self.block.restitution):
             raise Refused("it has not just bounced, or loses nothing")
         if self.block.restitution.high == 0:
+            if not self.ground.at(self.piece, self.sigma).size() < self.block.level:
+                raise Refused("the ground may lift it at once")
             self.side = 0
             return
         until = of(Fraction(event["sigma"][1])) + of(Fraction(1, 2**60))

@@ -6,6 +6,7 @@ from typing import Any
 
 from topheavy.proven.checking.intervals import (
     Interval,
+    Refused,
     arctangent,
     between,
     cosine,
@@ -28,6 +29,8 @@ class Block:
             self.sine, self.cosine = sine(self.alpha), cosine(self.alpha)
             self.square = of(value["frequency_parameter"]) * of(value["frequency_parameter"])
             self.restitution = of(value["restitution"])
+            if not 0 <= value["restitution"] <= 1:
+                raise Refused("√r is not from 0 to 1")
         else:
             ratio = given["mass_ratio"]
             base, height, inertia, self.restitution = _rigid(given["kind"], value, ratio)
