@@ -31,12 +31,12 @@ PRESS = """(async () => {
   }
 })()"""
 SHAKEN = """new Promise((resolve, reject) => {
-  const before = opened, deadline = Date.now() + 55000;
+  const before = opened, deadline = Date.now() + 170000;
   open(chosen);
   const look = () => {
     const {shown} = document.documentElement.dataset;
     if (opened > before && shown === encode(state)) resolve(setTimeout(resolve, 800));
-    else if (Date.now() > deadline) reject(new Error("not shaken after 55 s"));
+    else if (Date.now() > deadline) reject(new Error("not shaken after 170 s"));
     else setTimeout(look, 50);
   };
   look();

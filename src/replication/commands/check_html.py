@@ -35,7 +35,7 @@ OPTIONS = (
 )
 NO_NETWORK = "--host-resolver-rules=MAP * ~NOTFOUND"
 LOCAL = ("file:", "data:", "blob:", "about:", "chrome-extension:", "chrome:")
-PATIENCE = 60.0  # s, for one answer of the browser
+PATIENCE = 180.0  # s, for one answer of the browser
 LARGEST_MESSAGE = 2**28  # bytes
 
 RESULTS = """Promise.all(Object.entries(results).map(async ([path, entry]) => {
