@@ -165,35 +165,18 @@ def _equation(
     block: RockingBlock, segment: Segment, side: int
 ) -> Callable[[float, NDArray[np.float64]], tuple[float, float]]:
     """Return the equation of motion (φ, φ̇)' on one side: Eq. (23), or linearised."""
-    equation = _linearised if block.linearised else _exact
-    square = block.frequency_parameter**2
-    return partial(equation, block.slenderness, square, segment.acceleration, segment.gravity, side)
+    alpha, square = block.slenderness, block.frequency_parameter**2
+    acceleration, gravity = segment.acceleration, segment.gravity
 
+    def exact(t: float, y: NDArray[np.float64]) -> tuple[float, float]:
+        lean = alpha - float(y[0])
+        push = side * float(acceleration(t))
+        return y[1], -square * gravity(t) * (math.sin(lean) + push * math.cos(lean))  # Eq. (23)
 
-def _exact(
-    alpha: float,
-    square: float,
-    acceleration: Callable[[float], float],
-    gravity: Callable[[float], float],
-    side: int,
-    t: float,
-    y: NDArray[np.float64],
-) -> tuple[float, float]:
-    lean = alpha - float(y[0])
-    push = side * float(acceleration(t))
-    return y[1], -square * gravity(t) * (math.sin(lean) + push * math.cos(lean))  # Eq. (23)
+    def linearised(t: float, y: NDArray[np.float64]) -> tuple[float, float]:
+        return y[1], square * gravity(t) * (float(y[0]) - alpha - side * float(acceleration(t)))
 
-
-def _linearised(
-    alpha: float,
-    square: float,
-    acceleration: Callable[[float], float],
-    gravity: Callable[[float], float],
-    side: int,
-    t: float,
-    y: NDArray[np.float64],
-) -> tuple[float, float]:
-    return y[1], square * gravity(t) * (float(y[0]) - alpha - side * float(acceleration(t)))
+    return linearised if block.linearised else exact
 
 
 def _largest(block: RockingBlock, segment: Segment) -> float:

@@ -92,7 +92,7 @@ def solve(
     left out; F_z1 stays free then.
     """
     circles = CircleField(balance)
-    equations = [circles._named(equation) for equation in balance]  # rational: solved fast
+    equations = [circles.named(equation) for equation in balance]  # rational: solved fast
     present = {symbol for equation in balance for symbol in equation.free_symbols}
     forces = [f for f in (*GROUND_1, *GROUND_2, F_x1, F_x2, F_z2) if f in present]
     (solution,) = sp.linsolve(equations, [*unknowns, *forces])

@@ -155,7 +155,7 @@ class CircleField:
         self.plain = {function: sp.Dummy() for function in functions}
         self._roots = {root: self.plain[root] for root in roots}
         self._others = {f: symbol for f, symbol in self.plain.items() if f not in self._roots}
-        present = {symbol for each in expressions for symbol in self._named(each).free_symbols}
+        present = {symbol for each in expressions for symbol in self.named(each).free_symbols}
         named = list(self.plain.values())  # the cosines lead, hence powers of these are reduced
         self._field = sp.QQ.frac_field(*named, *sorted(present - set(named), key=str))
         self._circles = [
@@ -165,7 +165,7 @@ class CircleField:
             for angle in angles
         ]
 
-    def _named(self, expression: sp.Expr) -> sp.Expr:
+    def named(self, expression: sp.Expr) -> sp.Expr:
         """Return an expression with symbols for functions; other powers of a root need `subs`."""
         named = sp.sympify(expression).xreplace(self._others)
         return named.subs(self._roots) if self._roots else named
@@ -178,7 +178,7 @@ class CircleField:
         ZeroDivisionError
             If the denominator is zero on the circles.
         """
-        found = self._field.from_sympy(self._named(expression))
+        found = self._field.from_sympy(self.named(expression))
         parts = found.numer.rem(self._circles), found.denom.rem(self._circles)
         if not parts[1]:
             raise ZeroDivisionError(f"{expression} has the denominator 0")
