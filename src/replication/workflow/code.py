@@ -56,11 +56,16 @@ def code(*scripts: str | Path, root: str | Path = ".") -> list[str]:
     found = {Path(script) for script in scripts}
     waiting = list(found)
     while waiting:
-        for path in _imported(root, waiting.pop()) - found:
+        for path in _read(root, waiting.pop())[0] - found:
             found.add(path)
             if path.suffix != ".pyi":
                 waiting.append(path)
     return sorted(map(str, found))
+
+
+def docstring(script: str | Path, root: str | Path = ".") -> str:
+    """Return the docstring of a Python file, from the root; empty without one."""
+    return _read(Path(root), Path(script))[1]
 
 
 def results_read(notebook: str | Path) -> list[str]:
@@ -89,10 +94,12 @@ def undeclared(declared: Iterable[str], root: str | Path = ".") -> list[str]:
 
 
 @cache
-def _imported(root: Path, path: Path) -> frozenset[Path]:
-    """Return what one file imports itself, packages above it included."""
-    names = _names(_tree(root, path), path, _package(path))
-    return frozenset(file for name in names for file in _files(root, *name))
+def _read(root: Path, path: Path) -> tuple[frozenset[Path], str]:
+    """Return what one file imports itself, packages above it included, and its docstring."""
+    tree = _tree(root, path)
+    names = _names(tree, path, _package(path))
+    files = frozenset(file for name in names for file in _files(root, *name))
+    return files, ast.get_docstring(tree) or ""
 
 
 def _tree(root: Path, path: Path) -> ast.Module:

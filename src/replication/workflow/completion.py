@@ -4,7 +4,6 @@ The modifiers of paths are no part of Snakemake's interface: only this module se
 test fails when Snakemake drops them.
 """
 
-import ast
 import os
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
@@ -13,7 +12,7 @@ from typing import Any
 
 from snakemake.io import expand, strip_wildcard_constraints
 
-from replication.workflow.code import code
+from replication.workflow.code import code, docstring
 
 MODIFIERS = ("input_modifier", "log_modifier", "benchmark_modifier")
 """What Snakemake applies to the paths of a rule; None where the rule has no such paths."""
@@ -92,7 +91,12 @@ def _message(script: str, wildcards: Iterable[str]) -> str | None:
     """Return what a script does, as its docstring begins, and of which of its jobs."""
     if not script.endswith(".py"):
         return None
-    said = ast.get_docstring(ast.parse(Path(script).read_text(encoding="utf-8"))) or script
-    line = said.splitlines()[0].removesuffix(".").replace("{", "{{").replace("}", "}}")
+    line = (
+        (docstring(script) or script)
+        .splitlines()[0]
+        .removesuffix(".")
+        .replace("{", "{{")
+        .replace("}", "}}")
+    )
     of = ", ".join(f"{{wildcards.{word}}}" for word in sorted(wildcards))
     return f"{line} ({of})" if of else line
