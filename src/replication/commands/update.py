@@ -17,13 +17,12 @@ MACHINE = "src/replication"
 SUMS = "SHA256SUMS"
 """In a paper alone: the checksum of each file of the machine, as it was copied."""
 
-CACHE = re.compile(r"/(?:\.|__pycache__/)")
-"""In the path of what a tool keeps for itself."""
-
 
 def copy_machine(source: Path, to: Path) -> str:
     """Copy a machine, list the checksums of its files, and return its version."""
-    shutil.copytree(source, to, ignore=shutil.ignore_patterns("__pycache__", ".*", SUMS))
+    for name, path in _files(source).items():
+        (to / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy2(path, to / name)
     lines = (f"{value}  {path}\n" for path, value in _checksums(to).items())
     (to / SUMS).write_text("".join(lines), encoding="utf-8")
     return version(to)
@@ -126,13 +125,20 @@ def main(source: str) -> None:
             sys.exit(done.returncode)
 
 
-def _checksums(machine: Path) -> dict[str, str]:
+def _files(machine: Path) -> dict[str, Path]:
+    """Return the files of a machine by name, without its list and the caches of tools."""
     found = {path.relative_to(machine): path for path in sorted(machine.rglob("*"))}
     return {
-        name.as_posix(): _checksum(path)
+        name.as_posix(): path
         for name, path in found.items()
-        if path.is_file() and path.name != SUMS and not CACHE.search(f"/{name.as_posix()}")
+        if path.is_file()
+        and path.name != SUMS
+        and not any(part == "__pycache__" or part.startswith(".") for part in name.parts)
     }
+
+
+def _checksums(machine: Path) -> dict[str, str]:
+    return {name: _checksum(path) for name, path in _files(machine).items()}
 
 
 def _checksum(path: Path) -> str:
