@@ -116,6 +116,17 @@ def test_edition_without_its_claims_says_so(edition):
         away.rename(path)
 
 
+def test_edition_of_an_older_machine_says_which_part_of_a_row_is_missing(edition):
+    path = edition / "tests/reference/claims.json"
+    kept = path.read_text(encoding="utf-8")
+    path.write_text(kept.replace('"condition": ', '"terms": ', 1), encoding="utf-8")
+    try:
+        lines, faults = main(edition)
+    finally:
+        path.write_text(kept, encoding="utf-8")
+    assert lines == [] and len(faults) == 1 and "'terms'" in faults[0]
+
+
 def test_check_that_reads_an_unpublished_table_names_the_check(edition):
     def reads(folder, _):
         yield (folder / "gone.csv").read_text()

@@ -111,7 +111,7 @@ def kill_table(faults: Sequence[Fault], *, cores: int = 1) -> Iterator[Row]:
             copy_tree(tree)
         files = {test for fault in faults for test in fault.tests}
         files |= {last[fault.name].test for fault in faults if fault.name in last} - {""}
-        if failing := first_failing(sound, sorted(files)):
+        if failing := first_failing(sound, sorted(files), cores):
             raise RuntimeError(f"without a fault: {failing} fails")
         free, making, computed = Queue(), Lock(), set()
         for tree in trees:

@@ -79,9 +79,10 @@ def verdict(claim: Claim, findings: Mapping[str, Findings], tree: Path) -> str:
         return f"none: {error}"
 
 
-def first_failing(tree: Path, tests: Sequence[str]) -> str:
-    """Return the first test that fails, or nothing."""
+def first_failing(tree: Path, tests: Sequence[str], cores: int = 0) -> str:
+    """Return the first test that fails, or nothing; with `cores`, by so many processes."""
     options = ("-q", "-x", "-rfE", "--no-header", "-p", "no:cacheprovider")
+    options += (f"-n{cores}", "--dist=loadfile")
     code, said = run(tree, "-m", "pytest", *options, *tests)
     if code == 0:
         return ""

@@ -127,6 +127,8 @@ def main(
     except FileNotFoundError as missing:
         what = "expected a file of the published run, or no check of it in src/steps/recheck.py"
         return [], [f"{missing.filename} does not exist; {what}"]
+    except ValueError as unreadable:
+        return [], [str(unreadable)]
     changed = list(outdated(root))
     if is_release():
         return tallies(rows), [*faults, *changed]

@@ -28,7 +28,8 @@ def main(
     ]
     faults += [
         f"results/tables/{row.table} differs from tests/reference/{row.table} "
-        f"(largest relative difference {row.largest_difference:.2g})"
+        f"(largest relative difference {row.largest_difference:.2g}): if it is meant to, copy it "
+        "there, run again, and make publish"
         for row in comparison.itertuples()
         if row.verdict == "differs"
     ]

@@ -225,7 +225,7 @@ def trees(monkeypatch, tree):
     }.items():
         monkeypatch.setattr(command, name, value)
 
-    def first_failing(tree, tests):
+    def first_failing(tree, tests, cores=0):
         assert not (tree / "results").exists()
         return "test_one.py::test_one" if "2" in one(tree) else ""
 
