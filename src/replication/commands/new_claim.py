@@ -93,4 +93,5 @@ if __name__ == "__main__":
         sys.exit(f"make claim: {error}")
     if written:
         print(f"{sys.argv[1]} is a new claim. Make it yours, and run the same command again:")
-        print(*(f"  {path}" for path in written), sep="\n", flush=True)
+        print(*(f"  {path}" for path in written), sep="\n")
+        print("To take it back, delete the modules, and the ends of the other two.", flush=True)

@@ -46,7 +46,12 @@ def decimals(
 
 
 def beside_print(value: float, printed: float, tolerance: float) -> str:
-    """Return a number to a tenth of a tolerance, so that a reader sees whether it agrees."""
+    """Return a number to a tenth of a tolerance, so that a reader sees whether it agrees.
+
+    A whole number beside a whole one stays one.
+    """
+    if isinstance(printed, int) and float(value).is_integer():
+        return f"{value:.0f}"
     agrees = abs(value - printed) <= tolerance
     allowed = Decimal(repr(tolerance))
     for digits in range(_decimals(0.1 * tolerance), MOST_DECIMALS):

@@ -26,7 +26,7 @@ def found(**fields):
         (0.27549, 0.275, 5e-4, "0.27549"),  # 0.2755 might be rounded to 0.276
         (0.27551, 0.275, 5e-4, "0.27551"),  # and to 0.275
         (0.2755, 0.275, 5e-4, "0.2755"),
-        (265.0, 265, 0.5, "265.0"),
+        (265.02, 265, 0.5, "265.0"),
         (-0.2, -0.2, 0.05, "-0.20"),
         (1.2345678e-7, 1.2e-7, 5e-9, "0.000000123"),
     ],
@@ -35,6 +35,11 @@ def test_number_beside_a_printed_one_is_shown_to_a_tenth_of_the_tolerance(
     value, printed, tolerance, shown
 ):
     assert beside_print(value, printed, tolerance).rstrip("0") == shown.rstrip("0")
+
+
+def test_a_whole_number_beside_a_whole_print_has_no_point():
+    assert [beside_print(n, 20001, 0.5) for n in (20001.0, 20003.0)] == ["20001", "20003"]
+    assert beside_print(20001.0, 20001.0, 0.5) == "20001.0"
 
 
 @pytest.mark.parametrize("tolerance", [5e-1, 5e-3, 5e-4, 3e-4, 1e-9])
