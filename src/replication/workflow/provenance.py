@@ -4,7 +4,7 @@ import hashlib
 import os
 import subprocess
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -36,16 +36,16 @@ class Job:
     """
 
     rule: str
-    place: str
-    scripts: tuple[str, ...]
-    inputs: tuple[str, ...]
-    outputs: tuple[str, ...]
-    logs: tuple[str, ...]
-    findings: tuple[str, ...]
-    params: Mapping[str, Any]
-    made: float | None
-    checksums: Mapping[str, str]
-    pending: bool
+    place: str = ""
+    scripts: tuple[str, ...] = ()
+    inputs: tuple[str, ...] = ()
+    outputs: tuple[str, ...] = ()
+    logs: tuple[str, ...] = ()
+    findings: tuple[str, ...] = ()
+    params: Mapping[str, Any] = field(default_factory=dict)
+    made: float | None = None
+    checksums: Mapping[str, str] = field(default_factory=dict)
+    pending: bool = False
 
 
 def workflow_jobs(

@@ -23,12 +23,10 @@ ROOT = Path(__file__).parents[4]
 
 
 @pytest.fixture
-def sealed(tmp_path):
+def sealed(tmp_path, plant):
     """A small tree with an edition and what it was made from."""
-    for name in ("docs/report.pdf", "tests/reference/t.csv", "paper/report.typ", *TOP):
-        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
-        (tmp_path / name).write_bytes(b"\xff\r\n" if name.endswith("pdf") else b"one\ntwo\n")
-    (tmp_path / "paper" / "report.pdf").write_bytes(b"of a run")
+    texts = dict.fromkeys(("tests/reference/t.csv", "paper/report.typ", *TOP), "one\ntwo\n")
+    plant(tmp_path, {"docs/report.pdf": b"\xff\r\n", "paper/report.pdf": "of a run", **texts})
     seal(tmp_path)
     assert [*broken(tmp_path), *outdated(tmp_path)] == []
     return tmp_path

@@ -7,7 +7,6 @@ import shutil
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
@@ -137,21 +136,13 @@ MADE = [
 PROFILE = yaml.safe_load((ROOT / "profiles/default/config.yaml").read_text(encoding="utf-8"))
 
 
-def command(*options):
-    triggers = ["--rerun-triggers", *PROFILE["rerun-triggers"]]
-    base = [sys.executable, "-m", "snakemake", "--cores=1", "--scheduler=greedy"]
-    return [*base, *triggers, *options]
+OPTIONS = ["--scheduler=greedy", "--rerun-triggers", *PROFILE["rerun-triggers"]]
+COMMAND = [sys.executable, "-m", "snakemake", "--cores=1", *OPTIONS]
 
 
 def make(root):
     """Run the workflow; return its exit status, and which rules ran."""
-    done = subprocess.run(
-        command(),
-        cwd=root,
-        capture_output=True,
-        text=True,
-        timeout=120,
-    )
+    done = subprocess.run(COMMAND, cwd=root, capture_output=True, text=True, timeout=120)
     text = done.stdout + done.stderr
     told = r"(?: s  |^Error in rule )(counts|figure|claims):?$"
     return done.returncode, set(re.findall(told, text, flags=re.MULTILINE))
@@ -159,20 +150,6 @@ def make(root):
 
 def claimed(root):
     return json.loads((root / "results/claims.json").read_text())
-
-
-def build(root):
-    for name, text in {
-        "Snakefile": SNAKEFILE,
-        "src/steps/counts.py": COUNTS,
-        "figures/beside.py": "NUMBER = 1\n",
-        "src/steps/judging.py": CLAIMS,
-        "figures/line.py": FIGURE,
-        "ledger.json": '"n"',
-    }.items():
-        path = root / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text)
 
 
 def edit(root, name, old, new):
@@ -183,9 +160,16 @@ def edit(root, name, old, new):
 
 
 @pytest.fixture(scope="module")
-def finished(tmp_path_factory):
-    root = tmp_path_factory.mktemp("finished")
-    build(root)
+def finished(tmp_path_factory, plant):
+    files = {
+        "Snakefile": SNAKEFILE,
+        "src/steps/counts.py": COUNTS,
+        "figures/beside.py": "NUMBER = 1\n",
+        "src/steps/judging.py": CLAIMS,
+        "figures/line.py": FIGURE,
+        "ledger.json": '"n"',
+    }
+    root = plant(tmp_path_factory.mktemp("finished"), files)
     assert make(root) == (0, {"counts", "figure", "claims"})
     assert claimed(root) == 1
     return root
@@ -229,20 +213,11 @@ def test_module_that_is_loaded_behind_the_declared_ones_fails_the_run(tree):
 
 
 @pytest.mark.parametrize("kind", [signal.SIGINT, signal.SIGTERM])
-def test_interrupted_step_is_made_again(tree, kind):
+def test_interrupted_step_is_made_again(tree, begin, kind):
     slow = "import time, pathlib; pathlib.Path('began').touch(); time.sleep(60)\n    return"
     edit(tree, "src/steps/counts.py", "return", slow)
     edit(tree, "figures/beside.py", "1", "3")
-    run = subprocess.Popen(
-        command(),
-        cwd=tree,
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-        start_new_session=True,
-    )
-    while not (tree / "began").exists():
-        assert run.poll() is None
-        time.sleep(0.05)
+    run = begin(*OPTIONS, until="began", folder=tree)
     os.killpg(run.pid, kind)  # as a terminal does
     assert run.wait(timeout=60) != 0
     edit(tree, "src/steps/counts.py", slow, "return")
@@ -278,7 +253,7 @@ exit 0
 
 def test_full_disk_fails_and_is_made_good(tree):
     edit(tree, "figures/beside.py", "1", "4")
-    script = FULL.format(run=" ".join(command("--quiet=all")))
+    script = FULL.format(run=" ".join([*COMMAND, "--quiet=all"]))
     done = subprocess.run(
         ["unshare", "--mount", "--map-root-user", "sh", "-c", script],
         cwd=tree,
