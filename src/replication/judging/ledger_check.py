@@ -23,16 +23,9 @@ PUBLISHED = "tests/reference/findings"
 def check_ledger(
     paths: Iterable[str | Path], rules: Collection[str], root: str | Path = "."
 ) -> None:
-    """Refuse a ledger that breaks its schema, or names what does not exist.
+    """Refuse ledgers, the paper's first, that break their schema, or name what does not exist.
 
-    Parameters
-    ----------
-    paths
-        The ledgers, the paper's first.
-    rules
-        The rules that make findings.
-    root
-        The root of the repository, with the schema, the sources and the published findings.
+    `rules` make findings; schema, sources and published findings lie below `root`.
 
     Raises
     ------

@@ -23,14 +23,7 @@ def complete(workflow: Any, *, timed: bool = True) -> None:
 
     The message is the first line of the script's docstring; log and benchmark have the name of the
     rule, and the values of its wildcards. The script is an input, too: Snakemake compares the
-    contents of inputs, and of scripts only the times.
-
-    Parameters
-    ----------
-    workflow : snakemake.workflow.Workflow
-        As a Snakefile has it, with the rules that it has so far.
-    timed
-        Whether a rule without a log gets a benchmark as well.
+    contents of inputs, and of scripts only the times. Without `timed`, no rule gets a benchmark.
 
     Raises
     ------

@@ -55,14 +55,8 @@ def workflow_jobs(
 ) -> list[Job]:
     """Return every job that the targets need, from the Snakefile; nothing is run.
 
-    Parameters
-    ----------
-    root
-        Where the Snakefile lies.
-    config
-        Replaces entries of the config file.
-    targets
-        Rules or files; by default every rule that can be requested by name.
+    The entries of `config` replace those of the config file. Targets are rules or files; by default
+    every rule that can be requested by name.
     """
     # Imported here: it takes a second, and those who only want Job do not need it.
     from snakemake.api import SnakemakeApi

@@ -129,18 +129,14 @@ def test_file_that_is_no_ledger_is_named(tree, text, told):
         check_ledger([path], RULES, tree)
 
 
-def test_new_finding_that_a_source_spells_is_no_slip(tree):
-    new = ROW | {"finding": "heavier_survive_more"}
+def test_finding_that_is_new_is_no_slip(tree):
     (tree / "src" / "step.py").write_text('findings = {"heavier_survive_more": 1}\n')
-    check(tree, new)
-
-
-def test_finding_like_none_that_is_published_is_new(tree):
-    check(tree, ROW | {"finding": "columns_stand"})
-
-
-def test_finding_of_a_rule_that_has_published_none_is_new(tree):
-    check(tree, ROW | {"rule": "statements", "finding": "anything"})
+    for new in (
+        {"finding": "heavier_survive_more"},  # a source spells it
+        {"finding": "columns_stand"},  # like none that is published
+        {"rule": "statements", "finding": "anything"},  # of a rule that has published none
+    ):
+        check(tree, ROW | new)
 
 
 def test_no_row_of_ours_confirms_a_value_twice_as_far_off_as_its_digits_allow():

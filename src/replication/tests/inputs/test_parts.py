@@ -21,9 +21,6 @@ def test_study_writes_a_section_and_its_parts_of_the_article_if_it_has_any(study
     assert Part("one", {}).sections == ["studies/one/section.typ"]
     (study / "article.typ").touch()
     assert Part("one", {}).sections == ["studies/one/section.typ", "studies/one/article.typ"]
-
-
-def test_paper_has_no_section(study):
     (study.parent / "section.typ").touch()
     assert Part(PAPER, {}).sections == []
 
@@ -36,9 +33,7 @@ def test_figure_is_drawn_from_the_tables_that_its_function_takes(study):
     )
     (script.parent / "colours.py").write_text("INK = 'black'\n")
     assert drawn_from(script) == ["one_lengths", "one_widths"]
-    assert Part("one", {}).figures == {
-        "studies/one/figures/line": ["one_lengths", "one_widths"],
-    }
+    assert Part("one", {}).figures == {"studies/one/figures/line": ["one_lengths", "one_widths"]}
 
 
 def test_section_that_a_rule_takes_and_the_config_lacks_is_named_with_its_file():
