@@ -122,22 +122,17 @@ def _lines(node: yaml.Node, place: str) -> Iterator[tuple[str, int]]:
 
     Of the keys on one line only the first is yielded, and of a list the first item that has a line.
     """
+    entries: list[tuple[str, yaml.Node, yaml.Node]] = []
     if isinstance(node, yaml.MappingNode):
-        for key, value in node.value:
-            below = f"{place}.{key.value}" if place else key.value
-            yield below, key.start_mark.line
-            for inner, line in _lines(value, below):
-                if line != key.start_mark.line:
-                    yield inner, line
+        above = f"{place}." if place else ""
+        entries = [(f"{above}{key.value}", key, value) for key, value in node.value]
     elif isinstance(node, yaml.SequenceNode):
-        for item in node.value:
-            if isinstance(item, yaml.MappingNode):
-                yield f"{place}[]", item.start_mark.line
-                yield from (
-                    (inner, line)
-                    for inner, line in _lines(item, f"{place}[]")
-                    if line != item.start_mark.line
-                )
+        items = (item for item in node.value if isinstance(item, yaml.MappingNode))
+        entries = [(f"{place}[]", item, item) for item in items]
+    for below, begin, inner in entries:
+        here = begin.start_mark.line
+        yield below, here
+        yield from ((at, line) for at, line in _lines(inner, below) if line != here)
 
 
 def _yaml(value: Any) -> str:

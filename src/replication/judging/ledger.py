@@ -122,7 +122,13 @@ def with_verdict(
     verdict = verdict_on(claim, finding)
     found = finding or Finding()
     if finding and not finding.not_tested:
-        refuse_uncalled(claim, of_rule.called, root)
+        name, called = definition(claim.function, root), of_rule.called
+        if name not in called:
+            raise ValueError(
+                f"claim {claim.id}: its rule {claim.rule} never called {name}; expected a function "
+                f"that computes its finding, one of those under '{CALLED}' in the findings of the "
+                "rule"
+            )
     given = {each.name for each in fields(JudgedClaim)} & vars(claim).keys() - {"remark"}
     return JudgedClaim(
         **{name: getattr(claim, name) for name in given},
@@ -156,16 +162,6 @@ def with_verdicts(
     if faults:
         raise ValueError("\n".join(faults))
     return rows
-
-
-def refuse_uncalled(claim: Claim, called: Iterable[str], root: str | Path = ".") -> None:
-    """Raise ValueError when the function that a row names did not run while its rule did."""
-    name = definition(claim.function, root)
-    if name not in called:
-        raise ValueError(
-            f"claim {claim.id}: its rule {claim.rule} never called {name}; expected a function "
-            f"that computes its finding, one of those under '{CALLED}' in the findings of the rule"
-        )
 
 
 def as_text(rows: Iterable[JudgedClaim]) -> str:

@@ -149,13 +149,6 @@ def tolerance_fault(claim: Claim) -> str:
     return ""
 
 
-def tally(name: str, verdicts: Iterable[str]) -> str:
-    """Return a closing line of a run: how many claims of the paper or a study have each verdict."""
-    count = Counter(verdicts)
-    words = {v: v if count[v] == 1 else PLURALS.get(v, v) for v in VERDICTS}
-    return f"{name}: " + ", ".join(f"{count[v]} {words[v]}" for v in VERDICTS)
-
-
 def by_origin(rows: Iterable[JudgedClaim]) -> dict[str, list[str]]:
     """Return the verdicts of judged rows, apart for the paper and for each study."""
     verdicts: dict[str, list[str]] = {"paper": []}
@@ -165,5 +158,10 @@ def by_origin(rows: Iterable[JudgedClaim]) -> dict[str, list[str]]:
 
 
 def tallies(rows: Iterable[JudgedClaim]) -> list[str]:
-    """Return the closing line of the paper, and one for each study."""
-    return [tally(name, verdicts) for name, verdicts in by_origin(rows).items()]
+    """Return the closing lines of a run: of the paper, and of each study, how many verdicts."""
+    lines = []
+    for name, verdicts in by_origin(rows).items():
+        count = Counter(verdicts)
+        words = {v: v if count[v] == 1 else PLURALS.get(v, v) for v in VERDICTS}
+        lines.append(f"{name}: " + ", ".join(f"{count[v]} {words[v]}" for v in VERDICTS))
+    return lines

@@ -2,6 +2,7 @@
 
 import os
 import platform
+import re
 import shutil
 import sys
 from collections.abc import Iterable, Sequence
@@ -121,16 +122,12 @@ def with_counts(page: str, rows: Sequence[JudgedClaim]) -> str:
     ValueError
         When the page has no such table.
     """
-    lines = page.splitlines(keepends=True)
-    starts = [number for number, line in enumerate(lines) if line.rstrip() == COUNTS_HEAD]
-    if len(starts) != 1:
-        raise ValueError(f"the page has {len(starts)} lines {COUNTS_HEAD!r}; expected one")
-    end = starts[0]
-    while end < len(lines) and lines[end].startswith("|"):
-        end += 1
-    return "".join(
-        [*lines[: starts[0]], *(f"{line}\n" for line in count_table(rows)), *lines[end:]]
-    )
+    table = "".join(f"{line}\n" for line in count_table(rows))
+    old = rf"^{re.escape(COUNTS_HEAD)} *\n(?:\|.*(?:\n|\Z))*"
+    made, times = re.subn(old, lambda _: table, page, flags=re.MULTILINE)
+    if times != 1:
+        raise ValueError(f"the page has {times} lines {COUNTS_HEAD!r}; expected one")
+    return made
 
 
 def rounded(found: Any, digits: int = DIGITS) -> Any:

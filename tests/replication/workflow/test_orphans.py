@@ -57,11 +57,13 @@ def unused_scripts(
 
 def imports(text: str) -> set[str]:
     """The modules that a script imports, and what could be one: a name from a package."""
-    nodes = list(ast.walk(ast.parse(text)))
-    plain = {alias.name for node in nodes if isinstance(node, ast.Import) for alias in node.names}
-    named = [node for node in nodes if isinstance(node, ast.ImportFrom)]
-    inner = {f"{node.module}.{alias.name}" for node in named for alias in node.names}
-    return plain | {node.module or "" for node in named} | inner
+    found = set()
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.Import | ast.ImportFrom):
+            module = getattr(node, "module", None)
+            names = {alias.name for alias in node.names}
+            found |= {module, *(f"{module}.{name}" for name in names)} if module else names
+    return found
 
 
 def snakefiles(jobs: Iterable[Job]) -> str:
