@@ -14,8 +14,6 @@ import yaml
 ROOT = Path(__file__).parents[4]
 
 SNAKEFILE = f"""
-from replication.workflow.code import code
-
 FIGURES = {{"figures/line": ["counts"]}}
 
 
@@ -26,24 +24,18 @@ rule all:
     default_target: True
     input:
         everything,
-        CRATE,
 
 
 rule counts:
-    input:
-        code("src/steps/counts.py"),
     output:
         table="results/tables/counts.csv",
         findings="results/findings/counts.json",
-    log:
-        "results/logs/counts.log",
     script:
         "src/steps/counts.py"
 
 
 rule figure:
     input:
-        lambda wildcards: code(f"{{wildcards.figure}}.py"),
         tables=lambda wildcards: [f"results/tables/{{t}}.csv" for t in FIGURES[wildcards.figure]],
     output:
         "{{figure}}.svg",
@@ -57,30 +49,19 @@ rule figure:
 
 rule claims:
     input:
-        code("src/steps/judging.py"),
         ledger="ledger.json",
         findings="results/findings/counts.json",
         drawn=[f"{{figure}}.svg" for figure in FIGURES],
     output:
         "results/claims.json",
-    log:
-        "results/logs/claims.log",
     script:
         "src/steps/judging.py"
 
 
-rule crate:
-    input:
-        everything,
-    output:
-        CRATE,
-    log:
-        "results/logs/crate.log",
-    shell:
-        "touch {{output}}"
+complete(workflow)
 """
 
-COUNTS = """
+COUNTS = """'''counts'''
 from replication.workbench import run
 from figures.beside import NUMBER
 
@@ -95,22 +76,15 @@ if __name__ == "__main__":
 
 FIGURE = """
 from pathlib import Path
-
 from replication.workbench import run
 
-
-def draw(job):
-    Path(job.output[0]).write_text(Path(job.input.tables[0]).read_text())
-
-
 if __name__ == "__main__":
-    run(snakemake, draw)
+    run(snakemake, lambda job: Path(job.input.tables[0]).read_text())
 """
 
-CLAIMS = """
+CLAIMS = """'''claims'''
 import json
 from pathlib import Path
-
 from replication.workbench import run
 
 
