@@ -174,17 +174,12 @@ def test_every_output_of_the_workflow_but_the_costs_is_listed(jobs, monkeypatch,
     assert listed.folders == ["results"]
 
 
-REQUIRED = {
-    "./": "license",
-    "#run": "instrument",
-    "#parameter/column.height": "additionalType",
-}
+REQUIRED = {"./": "license", "#run": "instrument", "#parameter/column.height": "additionalType"}
 """By entity, a property that the profile requires."""
 
 
-@pytest.fixture
-def validated(tmp_path):
-    """Validate a crate in an environment of its own, which takes seconds; return what is said."""
+def test_crate_is_valid_and_not_without_required_properties(tmp_path, made, entities):
+    """The validator has an environment of its own, which takes seconds."""
     uv = os.environ.get("UV") or shutil.which("uv")  # `uv run` tells where it is
     if not uv:
         pytest.skip("there is no uv, which installs the validator of RO-Crates")
@@ -197,17 +192,10 @@ def validated(tmp_path):
         done = subprocess.run(command, capture_output=True, text=True)
         return done.returncode, done.stdout + done.stderr
 
-    return validate
-
-
-def test_crate_is_valid(made, validated):
-    assert validated(made) == (0, f"{Path.cwd()} is a valid Workflow Run RO-Crate\n")
-
-
-def test_crate_without_required_properties_is_not_valid(made, entities, validated):
+    assert validate(made) == (0, f"{Path.cwd()} is a valid Workflow Run RO-Crate\n")
     for entity, name in REQUIRED.items():
         del entities[entity][name]
-    code, said = validated(made)
+    code, said = validate(made)
     assert code == 1
     for name in REQUIRED.values():
         assert re.search(f"MUST have an? `?{name}`? ?", said), said

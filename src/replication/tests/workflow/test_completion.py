@@ -79,10 +79,8 @@ def test_script_with_a_wildcard_is_an_input_of_its_own_job(made):
     for name in "ab":
         job = jobs[f"results/{name}_each.json"]
         assert job.inputs == ("data.txt", f"steps/{name}.py")
-        assert job.logs == (
-            f"results/logs/each_{name}.log",
-            f"results/benchmarks/each_{name}.tsv",
-        )
+        logs = f"results/logs/each_{name}.log", f"results/benchmarks/each_{name}.tsv"
+        assert job.logs == logs
 
 
 @pytest.mark.parametrize("times", [1, 2])
