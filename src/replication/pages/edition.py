@@ -146,12 +146,9 @@ def rounded(found: Any, digits: int = DIGITS) -> Any:
 def machine() -> str:
     """Return one line that names this machine."""
     cpuinfo = Path("/proc/cpuinfo")
-    names = [
-        line.split(":", 1)[1].strip()
-        for line in (cpuinfo.read_text().splitlines() if cpuinfo.exists() else [])
-        if line.startswith("model name")
-    ]
-    processor = names[0] if names else platform.processor() or platform.machine()
+    known = cpuinfo.read_text() if cpuinfo.exists() else ""
+    model = re.search(r"^model name\s*:(.*)", known, re.MULTILINE)
+    processor = model[1].strip() if model else platform.processor() or platform.machine()
     python = f"Python {platform.python_version()}"
     return f"{os.cpu_count()} cores of {processor}, {platform.system()}, {python}"
 
@@ -223,16 +220,14 @@ def publish(tables: Iterable[str], sources: Iterable[str] = ()) -> None:
     for folder in ("sources", "studies"):
         shutil.rmtree(reference / folder, ignore_errors=True)  # with those of removed studies
         (reference / folder).mkdir()
-    for folder, names in (("", tables), ("sources", sources)):
-        for name in names:
-            shutil.copyfile(results / "tables" / f"{name}.csv", reference / folder / f"{name}.csv")
+    copies = [*((name, "") for name in tables), *((name, "sources") for name in sources)]
     for study, edition in editions.items():
         shutil.copyfile(f"studies/{study}/config.yaml", reference / "studies" / f"{study}.yaml")
-        for name in edition.tables:
-            made = results / "tables" / f"{name}.csv"
-            shutil.copyfile(made, reference / "studies" / f"{name}.csv")
+        copies += ((name, "studies") for name in edition.tables)
         for name, picture in edition.pictures.items():
             shutil.copyfile(Path("studies", study, picture), Path("docs", name))
+    for name, folder in copies:
+        shutil.copyfile(results / "tables" / f"{name}.csv", reference / folder / f"{name}.csv")
     publish_findings(results / "findings", reference / "findings")
     publish_verdicts(read_ledger(map(ledger_of, [PAPER, *ours["studies"]])), Path())
     blanks.main()

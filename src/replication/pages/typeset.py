@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-from replication.judging.digits import of_judged
+from replication.judging.digits import numbers
 from replication.judging.ledger import read_judged
 from replication.pages.captions import alternative
 
@@ -93,10 +93,11 @@ def compiled(source: str, inputs: Iterable[str], options: Mapping[str, str]) -> 
 def options_of(studies: Iterable[str], captions: Mapping[str, Mapping[str, Any]]) -> dict[str, str]:
     """Return the values of `sys.inputs` in the documents, after a run."""
     articles = [name for name in studies if Path(f"studies/{name}/article.typ").is_file()]
+    in_decimals = {row.id: numbers(row) for row in read_judged("results/claims.json")}
     return {
         "studies": ",".join(studies),
         "articles": ",".join(articles),
-        "numbers": json.dumps(of_judged(read_judged("results/claims.json"))),
+        "numbers": json.dumps(in_decimals),
         "alternatives": json.dumps({path: alternative(entry) for path, entry in captions.items()}),
     }
 

@@ -10,6 +10,9 @@ from typing import Any
 
 from replication.inputs.strict_yaml import read_yaml
 
+ALL_TRIGGERS = ["mtime", "input", "params", "code", "software-env"]
+"""What makes a run repeat a job, where the default profile says nothing else."""
+
 
 @dataclass(frozen=True)
 class Job:
@@ -78,18 +81,13 @@ def workflow_jobs(
         workflow = parsed._workflow
         if targets is None:
             targets = [rule.name for rule in workflow.rules if not rule.has_wildcards()]
-        triggers = RerunTrigger.parse_choices_set(rerun_triggers(root))
+        profile = Path(root, "profiles", "default", "config.yaml")
+        known = read_yaml(profile) if profile.is_file() else {}
+        triggers = RerunTrigger.parse_choices_set(known.get("rerun-triggers", ALL_TRIGGERS))
         parsed.dag(DAGSettings(targets=set(targets), rerun_triggers=triggers))
         workflow._prepare_dag(forceall=False, ignore_incomplete=True, lock_warn_only=True)
         workflow._build_dag()
         return [_job(job, workflow) for job in workflow.dag.jobs]
-
-
-def rerun_triggers(root: str | Path = ".") -> list[str]:
-    """Return what makes a run repeat a job: as the default profile says, or all without one."""
-    profile = Path(root, "profiles", "default", "config.yaml")
-    known = read_yaml(profile) if profile.is_file() else {}
-    return known.get("rerun-triggers", ["mtime", "input", "params", "code", "software-env"])
 
 
 def makers(jobs: Iterable[Job]) -> dict[str, Job]:

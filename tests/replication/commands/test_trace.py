@@ -254,49 +254,35 @@ def test_job_is_found_by_its_findings_and_not_by_the_name_of_its_rule(told):
     assert told("peaks.low", jobs).startswith("claim peak_is_low")
 
 
-def evidence(claim):
-    """What a finding of the claim could be."""
-    return {"holds": True} if claim.tolerance is None else {"value": 1.0, "error": 0.0}
-
-
-@pytest.fixture
-def clone(tmp_path, monkeypatch):
-    """The code of the repository, before a run."""
+def test_every_output_claim_and_finding_is_traced_before_and_after_a_run(
+    tmp_path, monkeypatch, jobs, claims
+):
     ignored = shutil.ignore_patterns("*.svg", "*.nb?")
     for name in ("src", "studies", "figures"):
         shutil.copytree(ROOT / name, tmp_path / name, ignore=ignored)
     monkeypatch.chdir(tmp_path)
-    return tmp_path
 
+    def trace(name):
+        return "\n".join(chain(find(name, jobs, claims), jobs))
 
-def trace(name, jobs, claims):
-    """What `make trace` prints of a name."""
-    return "\n".join(chain(find(name, jobs, claims), jobs))
-
-
-@pytest.mark.usefixtures("clone")
-def test_every_output_and_claim_is_traced_before_a_run(jobs, claims):
     for path in (path for job in jobs for path in job.outputs):
-        lines = trace(path, jobs, claims)
+        lines = trace(path)
         assert f"{path}  not there\n" in lines
         assert "\n  rule  " in lines
     for claim in claims:
-        lines = trace(claim.id, jobs, claims)
+        lines = trace(claim.id)
         assert lines.startswith(f"claim {claim.id}: ")
-        grounds = f": {claim.expected} ("
-        assert ("\n  rule  " if claim.finding else grounds) in lines
-
-
-def test_every_claim_and_finding_is_traced_after_a_run(clone, jobs, claims):
+        assert ("\n  rule  " if claim.finding else f": {claim.expected} (") in lines
     judged = [claim for claim in claims if claim.finding]
-    for path in (path for job in jobs for path in job.findings):
-        rule = Path(path).stem
-        found = {claim.finding: evidence(claim) for claim in judged if claim.rule == rule}
-        Path(path).parent.mkdir(parents=True, exist_ok=True)
-        Path(path).write_text(json.dumps(found), encoding="utf-8")
+    truth, number = {"holds": True}, {"value": 1.0, "error": 0.0}
+    for path in (Path(path) for job in jobs for path in job.findings):
+        own = (claim for claim in judged if claim.rule == path.stem)
+        found = {claim.finding: truth if claim.tolerance is None else number for claim in own}
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(json.dumps(found), encoding="utf-8")
     for claim in judged:
         for name in (claim.id, f"{claim.rule}.{claim.finding}"):
-            lines = trace(name, jobs, claims)
+            lines = trace(name)
             assert f"  verdict   {claim.id}: " in lines
             assert f"/{claim.rule}.json  sha256" in lines
 

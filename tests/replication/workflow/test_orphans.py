@@ -1,12 +1,12 @@
 """Nothing lies about: each script is run, each output is used, by Snakemake's own reading."""
 
-import ast
 import re
 from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
 
 from replication.inputs.parts import edition_of
+from replication.tests.test_house import imports
 from replication.workflow.provenance import Job
 from steps import publish
 
@@ -50,20 +50,11 @@ def unused_scripts(
         path = waiting.pop()
         used.add(path)
         if path in files:
-            names = imports((ROOT / path).read_text(encoding="utf-8"))
+            names = {
+                part for name in imports(ROOT / path) for part in (name, name.rpartition(".")[0])
+            }
             waiting |= {modules[name] for name in names if name in modules} - used
     return sorted(files - used)
-
-
-def imports(text: str) -> set[str]:
-    """The modules that a script imports, and what could be one: a name from a package."""
-    found = set()
-    for node in ast.walk(ast.parse(text)):
-        if isinstance(node, ast.Import | ast.ImportFrom):
-            module = getattr(node, "module", None)
-            names = {alias.name for alias in node.names}
-            found |= {module, *(f"{module}.{name}" for name in names)} if module else names
-    return found
 
 
 def snakefiles(jobs: Iterable[Job]) -> str:
