@@ -21,24 +21,15 @@ from replication.inputs.strict_yaml import read_yaml
 class Key:
     """A key of the config that holds a value: a number, a text, or a list of such.
 
-    Parameters
-    ----------
-    place
-        Its path, dotted; `[]` stands for each item of a list of mappings.
-    meaning, unit, allowed
-        As the schema has them; "" where it says nothing.
-    values
-        Its value; inside a list of mappings, that of each item.
-    source
-        The nearest comment in config.yaml: of its line, or of a mapping or list that contains it,
-        below the section; the page gives the comment of the section once.
+    Its source is the nearest comment in config.yaml: of its line, or of a mapping or list that
+    contains it, below the section. Meaning, unit and bounds are "" where the schema has none.
     """
 
-    place: str
+    place: str  # its path, dotted; `[]` stands for each item of a list of mappings
     meaning: str
     unit: str
     allowed: str
-    values: tuple[Any, ...]
+    values: tuple[Any, ...]  # one; inside a list of mappings, that of each item
     source: str
 
     @property

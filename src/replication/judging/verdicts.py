@@ -46,15 +46,8 @@ def verdict_on(claim: Claim, finding: Finding | None) -> Verdict:
     If the printed form fails and the intended form holds, the kind of discrepancy decides
     (`KINDS`). Of a number, either the premises are misprinted: as they are meant, they give the
     printed number. Or the number itself is: the meant one agrees with the computed value, and one
-    slip turns it into the printed one (`misprints`). A number that is further off is refuted.
-
-    Parameters
-    ----------
-    claim
-        With `printed` and `tolerance` where a number is claimed; `by_definition` where the claim
-        cannot be false.
-    finding
-        None for a claim that cannot be false and for a claim that is not tested.
+    slip turns it into the printed one (`misprints`). A number that is further off is refuted. A
+    claim that cannot be false has no finding, nor has one that is not tested.
 
     Raises
     ------

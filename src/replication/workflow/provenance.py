@@ -16,39 +16,19 @@ ALL_TRIGGERS = ["mtime", "input", "params", "code", "software-env"]
 
 @dataclass(frozen=True)
 class Job:
-    """One job of the workflow: a rule with its wildcards filled in.
-
-    Parameters
-    ----------
-    rule, place
-        Name of the rule; its file and line.
-    scripts
-        What it runs: one script, or none.
-    inputs, outputs, logs
-        Paths from the root; logs include the benchmark.
-    findings
-        The outputs that contain findings.
-    params
-        The numbers from the config.
-    made
-        Time of the last run, in s since 1970; None if Snakemake has no record.
-    checksums
-        Those that Snakemake recorded of its inputs at that time. It leaves out large files.
-    pending
-        Whether Snakemake would run it now.
-    """
+    """One job of the workflow: a rule with its wildcards filled in. Paths are from the root."""
 
     rule: str
-    place: str = ""
-    scripts: tuple[str, ...] = ()
+    place: str = ""  # file and line of the rule
+    scripts: tuple[str, ...] = ()  # one, or none
     inputs: tuple[str, ...] = ()
     outputs: tuple[str, ...] = ()
-    logs: tuple[str, ...] = ()
-    findings: tuple[str, ...] = ()
-    params: Mapping[str, Any] = field(default_factory=dict)
-    made: float | None = None
-    checksums: Mapping[str, str] = field(default_factory=dict)
-    pending: bool = False
+    logs: tuple[str, ...] = ()  # with the benchmark
+    findings: tuple[str, ...] = ()  # outputs that contain findings
+    params: Mapping[str, Any] = field(default_factory=dict)  # numbers from the config
+    made: float | None = None  # time of the last run, s since 1970; None without a record of it
+    checksums: Mapping[str, str] = field(default_factory=dict)  # of inputs then; not of large files
+    pending: bool = False  # whether Snakemake would run it now
 
 
 def workflow_jobs(

@@ -50,9 +50,8 @@ def unused_scripts(
         path = waiting.pop()
         used.add(path)
         if path in files:
-            names = {
-                part for name in imports(ROOT / path) for part in (name, name.rpartition(".")[0])
-            }
+            names = set(imports(ROOT / path))
+            names |= {name.rpartition(".")[0] for name in names}
             waiting |= {modules[name] for name in names if name in modules} - used
     return sorted(files - used)
 
