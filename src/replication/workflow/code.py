@@ -91,13 +91,8 @@ def _read(root: Path, path: Path) -> tuple[frozenset[Path], str]:
 def _tree(root: Path, path: Path) -> ast.Module:
     text = (root / path).read_text(encoding="utf-8")
     if path.suffix == ".ipynb":
-        cells = json.loads(text)["cells"]
-        lines = (
-            line
-            for cell in cells
-            if cell["cell_type"] == "code"
-            for line in "".join(cell["source"]).splitlines()
-        )
+        cells = (cell for cell in json.loads(text)["cells"] if cell["cell_type"] == "code")
+        lines = "\n".join("".join(cell["source"]) for cell in cells).splitlines()
         text = "\n".join(line for line in lines if not line.startswith(("%", "!")))
     elif path.suffix != ".py":  # a Snakefile, of which Python can read these statements alone
         text = "\n".join(IMPORT.findall(text))
