@@ -34,12 +34,11 @@ def write(path, *rows):
 
 
 @pytest.fixture
-def paths(tmp_path):
+def paths(tmp_path, plant):
     """The ledgers of a paper and of its study `own`."""
-    found = [tmp_path / "paper" / "claims.yaml", tmp_path / "studies" / "own" / "claims.yaml"]
-    for path in found:
-        path.parent.mkdir(parents=True)
-    return found
+    names = ["paper/claims.yaml", "studies/own/claims.yaml"]
+    plant(tmp_path, dict.fromkeys(names, ""))
+    return [tmp_path / name for name in names]
 
 
 def test_row_says_whose_claim_it_is(paths):

@@ -1,14 +1,13 @@
 """The ledger is refused before anything is computed: file, row, what was expected."""
 
 import json
-import shutil
 from pathlib import Path
 
 import pytest
 import yaml
 
 from replication.judging.ledger import read_ledger
-from replication.judging.ledger_check import check_ledger
+from replication.judging.ledger_check import PUBLISHED, SCHEMA, check_ledger
 from replication.judging.verdicts import print_rounding, verdict_on
 from replication.workbench import value
 
@@ -28,18 +27,13 @@ RULES = ["heavier", "statements"]
 
 
 @pytest.fixture
-def tree(tmp_path):
-    schema = "src/replication/judging/claims.schema.yaml"
-    folders = ("paper", "src/topheavy", "studies/own", "tests/reference/findings")
-    for name in (*folders, Path(schema).parent):
-        (tmp_path / name).mkdir(parents=True)
-    shutil.copyfile(ROOT / schema, tmp_path / schema)
-    for name in ("__init__.pyi", "simulate.py"):
-        shutil.copyfile(ROOT / "src/topheavy" / name, tmp_path / "src/topheavy" / name)
+def tree(tmp_path, plant):
+    copied = [SCHEMA, "src/topheavy/__init__.pyi", "src/topheavy/simulate.py"]
+    files = {name: (ROOT / name).read_bytes() for name in copied}
     findings = {"heavier_survives_more": {"holds": True}, "called": []}
-    path = tmp_path / "tests/reference/findings/heavier.json"
-    path.write_text(json.dumps(findings), encoding="utf-8")
-    return tmp_path
+    published = {f"{PUBLISHED}/heavier.json": json.dumps(findings)}
+    ledgers = {"paper/claims.yaml": "", "studies/own/claims.yaml": ""}
+    return plant(tmp_path, files | published | ledgers)
 
 
 def check(tree, *rows, own=()):
