@@ -2,7 +2,7 @@
 
 import pytest
 
-from replication.tests.conftest import claims, jobs  # noqa: F401
+from replication.tests.conftest import claims, jobs, plant  # noqa: F401
 
 LONGEST_FIRST = (
     "test_widths.py",

@@ -55,16 +55,11 @@ def run(job: Any, main: Callable[[Any], Any]) -> None:
                     Path(path).write_text(result, encoding="utf-8")
                 else:
                     write_table(path, result)
-        refuse_undeclared(job)
-
-
-def refuse_undeclared(job: Any) -> None:
-    """Fail when the process loaded a module of the repository that its rule does not declare."""
-    if gap := undeclared(job.input):
-        raise RuntimeError(
-            f"rule {job.rule} loaded {', '.join(gap)}, which is not among its inputs: a change "
-            "there would leave its results stale; expected an import statement in its code"
-        )
+        if gap := undeclared(job.input):
+            raise RuntimeError(
+                f"rule {job.rule} loaded {', '.join(gap)}, which is not among its inputs: a change "
+                "there would leave its results stale; expected an import statement in its code"
+            )
 
 
 @contextmanager

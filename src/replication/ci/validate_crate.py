@@ -13,35 +13,30 @@ COPY = Path(__file__).with_name("ro-crate-1.1-context.jsonld.gz")
 """The context, as the package rocrate 0.13.0 has it (Apache 2.0), without white space."""
 
 
-def keep_context(cache: Path) -> None:
-    """Put the copy of the context where the validator looks for pages that it has fetched."""
-    with CachedSession(str(cache), backend="sqlite") as session:
-        request = CachedRequest(method="GET", url=CONTEXT)
-        session.cache.save_response(
-            CachedResponse(
+def faults(crate: str) -> list[str]:
+    """Return what the validator finds that a crate must have and has not.
+
+    The copy of the context lies where the validator looks for pages that it has fetched.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        cache = Path(folder, "cache")
+        with CachedSession(str(cache), backend="sqlite") as session:
+            page = CachedResponse(
                 content=gzip.decompress(COPY.read_bytes()),
                 headers={"Content-Type": "application/ld+json"},
-                request=request,
+                request=CachedRequest(method="GET", url=CONTEXT),
                 status_code=200,
                 url=CONTEXT,
             )
-        )
-
-
-def faults(crate: str) -> list[str]:
-    """Return what the validator finds that a crate must have and has not."""
-    with tempfile.TemporaryDirectory() as folder:
-        cache = Path(folder, "cache")
-        keep_context(cache)
-        result = validate(
-            {
-                "rocrate_uri": crate,
-                "profile_identifier": "workflow-run-crate-0.5",
-                "requirement_severity": "REQUIRED",
-                "offline": True,
-                "cache_path": cache,
-            }
-        )
+            session.cache.save_response(page)
+        settings = {
+            "rocrate_uri": crate,
+            "profile_identifier": "workflow-run-crate-0.5",
+            "requirement_severity": "REQUIRED",
+            "offline": True,
+            "cache_path": cache,
+        }
+        result = validate(settings)
     found = {f"{each.message} ({each.violatingEntity})" for each in result.get_issues()}
     return sorted(found) if found or result.passed() else ["the validator gives no reason"]
 

@@ -10,7 +10,6 @@ import subprocess
 import sys
 import tomllib
 import zipfile
-from collections.abc import Iterator
 from pathlib import Path
 
 from replication.commands.verify import SUMS
@@ -33,35 +32,29 @@ def pending(root: Path) -> list[str]:
     return sorted({job.rule for job in jobs if job.pending and job.outputs})
 
 
-def refusals(root: Path) -> Iterator[str]:
-    """Yield why a tree cannot be archived, and what to do; nothing if it can."""
+def refusal(root: Path) -> str:
+    """Return why a tree cannot be archived, and what to do; "" if it can."""
     if not (root / CRATE).exists():
-        yield f"{CRATE} does not exist; expected a finished run: make reproduce"
-        return
-    now = source_version(root)
-    if not now:
-        yield f"{root.resolve()} is no git repository; expected a clone, whose commit is archived"
-        return
+        return f"{CRATE} does not exist; expected a finished run: make reproduce"
+    if not (now := source_version(root)):
+        return f"{root.resolve()} is no git repository; expected a clone, whose commit is archived"
     if now.endswith("-dirty"):
-        yield "the tree differs from its commit (git status); commit or remove these changes"
-        return
+        return "the tree differs from its commit (git status); commit or remove these changes"
     if rules := pending(root):
-        yield f"the run is not finished or out of date, in {', '.join(rules)}: make reproduce"
-        return
+        return f"the run is not finished or out of date, in {', '.join(rules)}: make reproduce"
     try:
         crate = read_crate(root / CRATE)
     except ValueError as fault:
-        yield str(fault)
-        return
+        return str(fault)
     if faults := verify(crate, root):
-        yield from faults
-        yield "expected the files of the run: remove those above, then make reproduce"
-        return
+        left = "expected the files of the run: remove those above, then make reproduce"
+        return "\n".join([*faults, left])
     if crate.version != now:
-        yield (
+        return (
             f"{CRATE} was written at commit {crate.version}; expected {now}: "
             f"rm {CRATE} && make reproduce, which lists the same results again"
         )
+    return ""
 
 
 def members(root: Path) -> dict[str, bytes]:
@@ -75,7 +68,7 @@ def members(root: Path) -> dict[str, bytes]:
 
 
 def write(root: Path, to: Path) -> None:
-    """Write the archive of a tree that `refusals` does not refuse."""
+    """Write the archive of a tree that has no `refusal`."""
     entries = _git(root, "ls-files", "-z", "--stage").decode().split("\0")
     executable = {entry.split("\t")[1] for entry in entries if entry.startswith("100755")}
     to.parent.mkdir(parents=True, exist_ok=True)
@@ -102,8 +95,8 @@ def main(root: Path = Path()) -> str:
     SystemExit
         When the tree has no finished run, or files that differ from it or from the commit.
     """
-    if reasons := list(refusals(root)):
-        sys.exit("\n".join(reasons))
+    if reason := refusal(root):
+        sys.exit(reason)
     blanks.main(root)
     to = root / FOLDER / name_of(root)
     write(root, to)

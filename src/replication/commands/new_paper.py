@@ -89,16 +89,13 @@ def _checked_name(to: Path, root: Path) -> str:
             ". _ - / alone, since Snakemake starts its jobs without quoting that path"
         )
     name = re.sub(r"[^a-z0-9]+", "-", to.name.lower()).strip("-")
-    if not name or name in {package["name"] for package in _packages(_read(root / "uv.lock"))}:
+    lock = tomllib.loads(_read(root / "uv.lock"))
+    if not name or name in {package["name"] for package in lock["package"]}:
         raise ValueError(
             f"TO is {to}, and its last part is the name of the project; expected one with letters "
             "or digits that is not the name of a package that the project uses"
         )
     return name
-
-
-def _packages(lock: str) -> list[dict]:
-    return tomllib.loads(lock)["package"]
 
 
 def _licence(text: str) -> str:

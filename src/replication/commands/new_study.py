@@ -41,7 +41,8 @@ def create(name: str, root: Path = Path()) -> Path:
     line = REGISTER.search(text)
     if line is None:
         raise ValueError(f"{config} has no line 'studies: [...]'; expected one to add {name} to")
-    shutil.copytree(folder.with_name(SKELETON), folder, ignore=lambda _, names: _not_copied(names))
+    left_out = shutil.ignore_patterns("__pycache__", "*.svg")
+    shutil.copytree(folder.with_name(SKELETON), folder, ignore=left_out)
     for path in filter(Path.is_file, sorted(folder.rglob("*"))):
         path.write_text(path.read_text(encoding="utf-8").replace(SKELETON, name), encoding="utf-8")
     names = [*filter(None, line[1].split(", ")), name]
@@ -93,10 +94,6 @@ def _taken(name: str, root: Path) -> list[str]:
         *sorted(other for other in names_of(root) if other.startswith(name)),
         *sorted(study for study in studies if name.startswith(f"{study}_")),
     ]
-
-
-def _not_copied(names: list[str]) -> list[str]:
-    return [name for name in names if name == "__pycache__" or name.endswith(".svg")]
 
 
 if __name__ == "__main__":

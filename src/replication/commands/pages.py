@@ -6,7 +6,6 @@ No run is necessary.
 from collections.abc import Callable, Iterator
 from functools import cache, partial
 from pathlib import Path
-from typing import Any
 
 from replication.inputs.parts import PAPER, captions_of, config_of
 from replication.inputs.strict_yaml import read_yaml
@@ -27,52 +26,33 @@ def studies() -> list[str]:
     return read_yaml(config_of(PAPER))["studies"]
 
 
-def captions() -> dict[str, dict[str, Any]]:
-    """Return the captions of the paper and of its studies."""
-    return read_captions(captions_of(part) for part in [PAPER, *studies()])
-
-
 @cache
 def jobs() -> list[Job]:
     """Return the jobs of `rule all`; reading the workflow takes seconds."""
     return workflow_jobs(targets=["all"])
 
 
-def codecheck() -> str:
-    """Return the text of codecheck.yml."""
-    return codecheck_file(jobs(), captions(), read_yaml("CITATION.cff"))
-
-
-def exhibits() -> str:
-    """Return the text of docs/exhibits.md."""
-    return exhibits_page(
-        jobs(),
-        captions(),
-        read_costs(Path("docs/costs.csv")),
-        read_numbers(Path("docs/figures.csv")),
-    )
-
-
-def verdicts() -> str:
-    """Return the text of docs/verdicts.md, by the published rows."""
-    return verdict_page(read_judged(CLAIMS), Path(CLAIMS).parent)
-
-
-ASKED = {"codecheck.yml": codecheck, "docs/exhibits.md": exhibits}
-"""The pages that only a paper has in which their file, maybe empty, is there."""
-
-
 def pages() -> dict[str, Callable[[], str]]:
-    """Return, by the path of each page, what returns its text."""
-    inputs = {config_of(PAPER): "README.md"} | {config_of(name): "INPUTS.md" for name in studies()}
-    return {
-        **{
-            str(Path(path).with_name(page)): partial(config_page, Path(path))
-            for path, page in inputs.items()
-        },
-        **{path: text for path, text in ASKED.items() if Path(path).is_file()},
-        **({VERDICTS: verdicts} if Path(CLAIMS).is_file() else {}),
+    """Return, by the path of each page, what returns its text.
+
+    A paper has codecheck.yml and docs/exhibits.md only if their file, maybe empty, is there.
+    """
+    parts = [PAPER, *studies()]
+    captions = read_captions(map(captions_of, parts))
+    costs, numbers = read_costs(Path("docs/costs.csv")), read_numbers(Path("docs/figures.csv"))
+    asked: dict[str, Callable[[], str]] = {
+        "codecheck.yml": lambda: codecheck_file(jobs(), captions, read_yaml("CITATION.cff")),
+        "docs/exhibits.md": lambda: exhibits_page(jobs(), captions, costs, numbers),
     }
+    found = {path: text for path, text in asked.items() if Path(path).is_file()}
+    if Path(CLAIMS).is_file():
+        found[VERDICTS] = lambda: verdict_page(read_judged(CLAIMS), Path(CLAIMS).parent)
+    for part in parts:
+        config = Path(config_of(part))
+        found[str(config.with_name("INPUTS.md" if part else "README.md"))] = partial(
+            config_page, config
+        )
+    return found
 
 
 def write() -> None:

@@ -21,24 +21,15 @@ from replication.inputs.strict_yaml import read_yaml
 class Key:
     """A key of the config that holds a value: a number, a text, or a list of such.
 
-    Parameters
-    ----------
-    place
-        Its path, dotted; `[]` stands for each item of a list of mappings.
-    meaning, unit, allowed
-        As the schema has them; "" where it says nothing.
-    values
-        Its value; inside a list of mappings, that of each item.
-    source
-        The nearest comment in config.yaml: of its line, or of a mapping or list that contains it,
-        below the section; the page gives the comment of the section once.
+    Its source is the nearest comment in config.yaml: of its line, or of a mapping or list that
+    contains it, below the section. Meaning, unit and bounds are "" where the schema has none.
     """
 
-    place: str
+    place: str  # its path, dotted; `[]` stands for each item of a list of mappings
     meaning: str
     unit: str
     allowed: str
-    values: tuple[Any, ...]
+    values: tuple[Any, ...]  # one; inside a list of mappings, that of each item
     source: str
 
     @property
@@ -122,22 +113,17 @@ def _lines(node: yaml.Node, place: str) -> Iterator[tuple[str, int]]:
 
     Of the keys on one line only the first is yielded, and of a list the first item that has a line.
     """
+    entries: list[tuple[str, yaml.Node, yaml.Node]] = []
     if isinstance(node, yaml.MappingNode):
-        for key, value in node.value:
-            below = f"{place}.{key.value}" if place else key.value
-            yield below, key.start_mark.line
-            for inner, line in _lines(value, below):
-                if line != key.start_mark.line:
-                    yield inner, line
+        above = f"{place}." if place else ""
+        entries = [(f"{above}{key.value}", key, value) for key, value in node.value]
     elif isinstance(node, yaml.SequenceNode):
-        for item in node.value:
-            if isinstance(item, yaml.MappingNode):
-                yield f"{place}[]", item.start_mark.line
-                yield from (
-                    (inner, line)
-                    for inner, line in _lines(item, f"{place}[]")
-                    if line != item.start_mark.line
-                )
+        items = (item for item in node.value if isinstance(item, yaml.MappingNode))
+        entries = [(f"{place}[]", item, item) for item in items]
+    for below, begin, inner in entries:
+        here = begin.start_mark.line
+        yield below, here
+        yield from ((at, line) for at, line in _lines(inner, below) if line != here)
 
 
 def _yaml(value: Any) -> str:

@@ -23,6 +23,12 @@ NAMES = {
 }
 """The patterns of the schemas, in words."""
 
+BOUNDS = {
+    "minimum": "at least",
+    "maximum": "at most",
+    "exclusiveMinimum": "more than",
+    "exclusiveMaximum": "less than",
+}
 
 DRAFT = "; of a new section, `make schema` drafts what the schema says"
 
@@ -50,12 +56,8 @@ def check_config(
 ) -> None:
     """Refuse a config that breaks its schema, or whose entries do not fit together.
 
-    Parameters
-    ----------
-    checks
-        Of this paper: each yields what is wrong with the entries of a config.
-    unordered
-        Names of lists of numbers that need not ascend.
+    Each of the `checks`, which are of a paper, yields what is wrong with the entries. Lists of
+    numbers ascend, but for those with the names `unordered`.
 
     Raises
     ------
@@ -71,8 +73,9 @@ def check_config(
     }
     if isinstance(config, Mapping):
         messages |= {message for check in checks for message in check(config)}
-    values = ((place, value) for place, value in _walk(config) if _last(place) not in unordered)
-    messages |= {message for place, value in values for message in _numbers(place, value)}
+    for place, value in _walk(config):
+        if place.rpartition(".")[2] not in unordered:
+            messages |= {*_numbers(place, value)}
     if messages:
         raise ValueError("\n".join(f"{path}: {message}" for message in sorted(messages)))
 
@@ -143,14 +146,8 @@ def messages_of(error: ValidationError) -> Iterator[str]:
                 missing = [other for other in needed if other not in error.instance]
                 if key in error.instance and missing:
                     yield f"{place} has {key} and lacks {', '.join(missing)}"
-        case "minimum":
-            yield f"{place} is {error.instance}; expected at least {error.validator_value}"
-        case "maximum":
-            yield f"{place} is {error.instance}; expected at most {error.validator_value}"
-        case "exclusiveMinimum":
-            yield f"{place} is {error.instance}; expected more than {error.validator_value}"
-        case "exclusiveMaximum":
-            yield f"{place} is {error.instance}; expected less than {error.validator_value}"
+        case bound if bound in BOUNDS:
+            yield f"{place} is {error.instance}; expected {BOUNDS[bound]} {error.validator_value}"
         case "enum":
             yield f"{place} is {error.instance!r}; {hint(error.instance, error.validator_value)}"
         case "pattern":
@@ -200,17 +197,9 @@ def _numbers(place: str, value: Any) -> Iterator[str]:
 
 def _walk(value: Any, *path: str | int) -> Iterator[tuple[str, Any]]:
     yield _dotted(path), value
-    items: Iterable[tuple[Any, Any]] = ()
-    if isinstance(value, Mapping):
-        items = value.items()
-    elif isinstance(value, list):
-        items = enumerate(value)
-    for key, item in items:
+    items = enumerate(value) if isinstance(value, list) else ()
+    for key, item in value.items() if isinstance(value, Mapping) else items:
         yield from _walk(item, *path, key)
-
-
-def _last(place: str) -> str:
-    return place.rpartition(".")[2]
 
 
 def _dotted(path: Iterable[str | int]) -> str:

@@ -17,21 +17,11 @@ TEXTS = ("section.typ", "article.typ")
 
 @dataclass(frozen=True)
 class Part:
-    """A part of the work: its folder, its config, and its figures.
+    """A part of the work: its folder, its config, and its figures."""
 
-    Parameters
-    ----------
-    name
-        PAPER, or that of a study.
-    config
-        The numbers of its rules.
-    data
-        The files that its notebooks read, beside the code that they import.
-    """
-
-    name: str
-    config: Mapping[str, Any]
-    data: list[str] = field(default_factory=list)
+    name: str  # PAPER, or that of a study
+    config: Mapping[str, Any]  # the numbers of its rules
+    data: list[str] = field(default_factory=list)  # what its notebooks read, but for code
 
     @property
     def claims(self) -> str:
@@ -61,18 +51,10 @@ class Part:
 
 @dataclass(frozen=True)
 class Edition:
-    """What a study adds to the published edition.
+    """What a study adds to the published edition: tables of results/tables, pictures of docs."""
 
-    Parameters
-    ----------
-    tables
-        The sources of its findings, by their names in results/tables/.
-    pictures
-        Figures in its folder, by their names in docs/.
-    """
-
-    tables: list[str] = field(default_factory=list)
-    pictures: dict[str, str] = field(default_factory=dict)
+    tables: list[str] = field(default_factory=list)  # from which its findings follow
+    pictures: dict[str, str] = field(default_factory=dict)  # figures in its folder, by their names
 
 
 def edition_of(study: str, root: Path = Path()) -> Edition:

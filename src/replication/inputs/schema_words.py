@@ -6,6 +6,8 @@ from typing import Any
 
 from replication.inputs.configuration import NAMES
 
+SIGNS = {"exclusiveMinimum": ">", "minimum": "≥", "exclusiveMaximum": "<", "maximum": "≤"}
+
 
 def entry_of(schema: Mapping[str, Any], name: str) -> Mapping[str, Any]:
     """Return the schema of an entry of a mapping."""
@@ -59,15 +61,9 @@ def allowed(schema: Mapping[str, Any], root: Mapping[str, Any]) -> str:
             each = allowed(schema.get("items", {}), root)
             return f"{_range(schema, 'minItems', 'maxItems')} values, each {each}".strip()
         case "integer" | "number" as kind:
-            low, high = schema.get("minimum"), schema.get("maximum")
-            limits = [
-                f"> {schema['exclusiveMinimum']:g}" if "exclusiveMinimum" in schema else "",
-                f"≥ {low:g}" if low is not None else "",
-                f"< {schema['exclusiveMaximum']:g}" if "exclusiveMaximum" in schema else "",
-                f"≤ {high:g}" if high is not None else "",
-            ]
+            limits = [f"{sign} {schema[word]:g}" for word, sign in SIGNS.items() if word in schema]
             kind = "a whole number" if kind == "integer" else "a number"
-            return f"{kind} {', '.join(filter(None, limits))}".strip()
+            return f"{kind} {', '.join(limits)}".strip()
         case "string":
             return NAMES.get(schema.get("pattern"), schema.get("pattern", "a text"))
         case other:

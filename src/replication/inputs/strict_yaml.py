@@ -96,20 +96,15 @@ def _check_extent(path: str | Path, text: str) -> None:
     """
     within: list[tuple[str | None, int]] = []  # the anchor of what is open, the parts before it
     extents: dict[str, int] = {}  # of what an anchor names
-    parts = 0
-
-    def refuse(event: yaml.Event, problem: str) -> ValueError:
-        return ValueError(f"{path}, line {event.start_mark.line + 1}: {problem}")
-
+    parts, problem = 0, ""
     with suppress(yaml.YAMLError):
         for event in yaml.parse(text, Loader=_Parser):
             match event:
                 case yaml.AliasEvent(anchor=name):
                     if name in (anchor for anchor, _ in within):
-                        raise refuse(
-                            event,
+                        problem = (
                             f"the alias *{name} is within the value that it names, which then has "
-                            "no end; expected an alias of another value",
+                            "no end; expected an alias of another value"
                         )
                     parts += extents.get(name, 0)
                 case yaml.ScalarEvent(anchor=name):
@@ -124,17 +119,17 @@ def _check_extent(path: str | Path, text: str) -> None:
                     if name:
                         extents[name] = parts - before
             if len(within) > MOST_LEVELS:
-                raise refuse(
-                    event,
+                problem = (
                     f"more than {MOST_LEVELS} lists and mappings are within each other; expected "
-                    "fewer: is a bracket missing?",
+                    "fewer: is a bracket missing?"
                 )
             if parts > MOST_PARTS:
-                raise refuse(
-                    event,
+                problem = (
                     f"the file has more than {MOST_PARTS} values and keys up to here, each alias "
-                    "(*name) counted as all of its value; expected fewer",
+                    "(*name) counted as all of its value; expected fewer"
                 )
+            if problem:
+                raise ValueError(f"{path}, line {event.start_mark.line + 1}: {problem}")
 
 
 def _told(error: yaml.MarkedYAMLError) -> str:

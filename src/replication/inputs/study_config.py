@@ -19,14 +19,10 @@ def read_study_config(
 ) -> dict[str, Any]:
     """Read and check the config of a study.
 
-    Parameters
-    ----------
-    check
-        Raises a ValueError for what is wrong with a config, given its path and that of its schema.
-    over
-        The names of files beside config.yaml that go over it, where there are such: with
-        `--configfile config/quick.yaml` those of the paper go over the paper's, and those of
-        quick.yaml in a study's folder over the study's.
+    The files beside config.yaml with the names `over` go over it, where there are such: with
+    `--configfile config/quick.yaml` that of the paper goes over the paper's config, and quick.yaml
+    in the folder of a study over the study's. `check` raises a ValueError, given the config, its
+    path and that of its schema.
 
     Raises
     ------
@@ -50,13 +46,7 @@ def read_study_config(
 
 
 def check_needs(studies: Mapping[str, Mapping[str, Any]]) -> None:
-    """Refuse a study that builds on another one which is not listed before it.
-
-    Parameters
-    ----------
-    studies
-        The config of each study of the run, in the order of the list. Its key `needs`, if any,
-        names the studies on whose settings or results it builds.
+    """Refuse a study that builds on another one, named in its `needs`, which is not listed before.
 
     Raises
     ------

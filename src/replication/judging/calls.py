@@ -32,16 +32,9 @@ LIBRARIES = frozenset(PLACES) - {"studies"}
 def noted(modules: Iterable[tuple[str, ModuleType]]) -> Iterator[set[str]]:
     """Record the public functions and classes of modules that are called inside this context.
 
-    Parameters
-    ----------
-    modules
-        Each with the dotted name under which its functions are noted.
-
-    Yields
-    ------
-    set of str
-        The full names, such as `lib.shapes.Body.mass`; it grows with the calls.
-        A class is called when an object of it is made.
+    It yields the full names, such as `lib.shapes.Body.mass`, a set that grows with the calls: each
+    begins with the dotted name that a module is given with. A class is called when an object of it
+    is made.
     """
     called: set[str] = set()
     waiting = {}

@@ -161,6 +161,4 @@ def _is_code(value: Any) -> bool:
     )
 
 
-@functools.cache
-def _source(part: Any) -> str:
-    return inspect.getsource(part)
+_source = functools.cache(inspect.getsource)

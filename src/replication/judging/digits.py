@@ -1,7 +1,6 @@
 """The digits of a number in print: as many as its tolerance, or else its error, justifies."""
 
 import math
-from collections.abc import Iterable
 from decimal import Decimal
 
 from replication.judging.claim import JudgedClaim
@@ -12,13 +11,8 @@ MOST_FIGURES = 6
 MOST_DECIMALS = 17
 
 
-def of_judged(rows: Iterable[JudgedClaim]) -> dict[str, dict[str, str]]:
-    """Return the printed, computed and intended numbers of each claim in decimals, by its id."""
-    return {row.id: numbers(row) for row in rows}
-
-
 def numbers(row: JudgedClaim) -> dict[str, str]:
-    """Return the numbers of a judged claim in decimals, by their fields; without texts and truths.
+    """Return the printed, computed and meant number of a claim in decimals; no texts and truths.
 
     A number beside a printed one is shown to a tenth of the claim's tolerance. It has more digits
     where these would round an agreement away, or feign one. Any other number has the decimals that

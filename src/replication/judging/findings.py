@@ -22,37 +22,20 @@ LIKE_A_FIELD = 0.85
 class Finding:
     """The result of a rule for a claim: a number, a truth, or the reason why there is neither.
 
-    Parameters
-    ----------
-    value, error, unit
-        A number with an estimate of its error.
-    holds
-        Whether a statement is true.
-    meant_value
-        Of a printed number that differs from the value: the number that misprinted premises give
-        as they are meant; or the number that should be printed, by the paper's own premises.
-    meant_holds
-        Of a statement that does not hold: whether its intended form does.
-    kind
-        The kind of the discrepancy, one of `verdicts.KINDS`; of a number, "number" by default.
-    holds_when
-        Whether the statement is true under the condition that the evidence states.
-    not_tested
-        The reason why nothing was computed.
-    entries
-        All of these that were given, and the evidence, in the order of the JSON file.
+    Of a printed number that differs from the value, `meant_value` is the number that misprinted
+    premises give as they are meant; or the number that should be printed, by the paper's premises.
     """
 
     value: float | None = None
-    error: float | None = None
+    error: float | None = None  # an estimate
     unit: str = ""
-    holds: bool | None = None
+    holds: bool | None = None  # whether a statement is true
     meant_value: float | None = None
-    meant_holds: bool | None = None
-    kind: str | None = None
-    holds_when: bool | None = None
-    not_tested: str = ""
-    entries: Mapping[str, Any] = field(default_factory=dict, repr=False)
+    meant_holds: bool | None = None  # where it does not hold: whether its intended form does
+    kind: str | None = None  # of the discrepancy, one of verdicts.KINDS; of a number, "number"
+    holds_when: bool | None = None  # whether it holds on the condition in the evidence
+    not_tested: str = ""  # the reason why nothing was computed
+    entries: Mapping[str, Any] = field(default_factory=dict, repr=False)  # all given, and evidence
 
     @classmethod
     def of(cls, entries: Mapping[str, Any]) -> "Finding":

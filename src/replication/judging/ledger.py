@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import asdict
+from dataclasses import asdict, fields
 from pathlib import Path
 from typing import Any
 
@@ -108,14 +108,9 @@ def finding_of(claim: Claim, findings: Findings) -> Finding | None:
 def with_verdict(
     claim: Claim, findings: Mapping[str, Findings], root: str | Path = "."
 ) -> JudgedClaim:
-    """Return the claim with the result for it and the verdict.
+    """Return the claim with the result for it and the verdict, by the findings of each rule.
 
-    Parameters
-    ----------
-    findings
-        The findings of each rule, by the name of the rule.
-    root
-        The root of the repository, in which the function of the claim is looked up.
+    The function of the claim is looked up in the repository `root`.
 
     Raises
     ------
@@ -127,27 +122,24 @@ def with_verdict(
     verdict = verdict_on(claim, finding)
     found = finding or Finding()
     if finding and not finding.not_tested:
-        refuse_uncalled(claim, of_rule.called, root)
+        name, called = definition(claim.function, root), of_rule.called
+        if name not in called:
+            raise ValueError(
+                f"claim {claim.id}: its rule {claim.rule} never called {name}; expected a function "
+                f"that computes its finding, one of those under '{CALLED}' in the findings of the "
+                "rule"
+            )
+    given = {each.name for each in fields(JudgedClaim)} & vars(claim).keys() - {"remark"}
     return JudgedClaim(
-        id=claim.id,
-        study=claim.study,
-        where=claim.where,
-        equation=claim.equation,
-        statement=claim.statement,
-        printed=claim.printed,
+        **{name: getattr(claim, name) for name in given},
         computed=found.holds if found.value is None else found.value,
         meant=found.meant_value,
         kind=found.kind or "",
         condition=found.entries.get("condition", "") if verdict == "qualified" else "",
         error=found.error,
-        unit=claim.unit,
-        tolerance=claim.tolerance,
         verdict=verdict,
-        expected=claim.expected,
         not_tested=found.not_tested,
         remark=found.not_tested or claim.remark,
-        function=claim.function,
-        rule=claim.rule,
     )
 
 
@@ -170,16 +162,6 @@ def with_verdicts(
     if faults:
         raise ValueError("\n".join(faults))
     return rows
-
-
-def refuse_uncalled(claim: Claim, called: Iterable[str], root: str | Path = ".") -> None:
-    """Raise ValueError when the function that a row names did not run while its rule did."""
-    name = definition(claim.function, root)
-    if name not in called:
-        raise ValueError(
-            f"claim {claim.id}: its rule {claim.rule} never called {name}; expected a function "
-            f"that computes its finding, one of those under '{CALLED}' in the findings of the rule"
-        )
 
 
 def as_text(rows: Iterable[JudgedClaim]) -> str:

@@ -23,16 +23,9 @@ PUBLISHED = "tests/reference/findings"
 def check_ledger(
     paths: Iterable[str | Path], rules: Collection[str], root: str | Path = "."
 ) -> None:
-    """Refuse a ledger that breaks its schema, or names what does not exist.
+    """Refuse ledgers, the paper's first, that break their schema, or name what does not exist.
 
-    Parameters
-    ----------
-    paths
-        The ledgers, the paper's first.
-    rules
-        The rules that make findings.
-    root
-        The root of the repository, with the schema, the sources and the published findings.
+    `rules` make findings; schema, sources and published findings lie below `root`.
 
     Raises
     ------
@@ -80,8 +73,14 @@ def _faults(
         definition(claim.function, root)
     except ValueError as error:
         yield f"function: {error}"
-    if claim.rule in published:
-        yield from _finding_faults(claim, published[claim.rule], root)
+    known = published[claim.rule].by_name if claim.rule in published else {}
+    close = difflib.get_close_matches(claim.finding, sorted(known), n=1)
+    # What resembles a published finding is misspelt, unless a source has it; then it is new.
+    if close and claim.finding not in known and not _is_written(claim.finding, root):
+        yield (
+            f"finding is {claim.finding!r}, which rule {claim.rule} has not published and no "
+            f"source spells; did you mean {close[0]!r}?"
+        )
 
 
 def _told(error: ValidationError, schema: Mapping[str, Any]) -> Iterator[str]:
@@ -90,23 +89,6 @@ def _told(error: ValidationError, schema: Mapping[str, Any]) -> Iterator[str]:
         yield f"the row breaks a rule of the ledger: {clause['description']}"
         return
     yield from (message.replace("the top level", "the row") for message in messages_of(error))
-
-
-def _finding_faults(claim: Claim, known: Findings, root: Path) -> Iterator[str]:
-    """Yield the findings that are probably misspelt.
-
-    A finding is known if its rule published it. An unknown finding that resembles a known one is
-    misspelt, unless a source of the steps or studies contains it; then it is new.
-    """
-    name = claim.finding
-    if name in known.by_name or _is_written(name, root):
-        return
-    close = difflib.get_close_matches(name, sorted(known), n=1)
-    if close:
-        yield (
-            f"finding is {name!r}, which rule {claim.rule} has not published and no source "
-            f"spells; did you mean {close[0]!r}?"
-        )
 
 
 def _is_written(name: str, root: Path) -> bool:

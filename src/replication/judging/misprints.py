@@ -7,14 +7,8 @@ def one_slip_apart(printed: float, meant: float, decimals: int) -> bool:
     """Return whether one slip of a writer or typesetter can turn one number into the other.
 
     A slip is a wrong, lost or added digit; two neighbouring digits that are exchanged; a wrong
-    sign; a moved decimal point; or a last digit that is rounded to the wrong side.
-
-    Parameters
-    ----------
-    printed, meant
-        The number that is printed, and the one that should be; the latter is rounded.
-    decimals
-        So many decimals are printed.
+    sign; a moved decimal point; or a last digit that is rounded to the wrong side. The number that
+    is meant is rounded to the decimals that are printed.
     """
     one, other = f"{printed:.{decimals}f}", f"{meant:.{decimals}f}"
     if one == other:

@@ -46,15 +46,8 @@ def verdict_on(claim: Claim, finding: Finding | None) -> Verdict:
     If the printed form fails and the intended form holds, the kind of discrepancy decides
     (`KINDS`). Of a number, either the premises are misprinted: as they are meant, they give the
     printed number. Or the number itself is: the meant one agrees with the computed value, and one
-    slip turns it into the printed one (`misprints`). A number that is further off is refuted.
-
-    Parameters
-    ----------
-    claim
-        With `printed` and `tolerance` where a number is claimed; `by_definition` where the claim
-        cannot be false.
-    finding
-        None for a claim that cannot be false and for a claim that is not tested.
+    slip turns it into the printed one (`misprints`). A number that is further off is refuted. A
+    claim that cannot be false has no finding, nor has one that is not tested.
 
     Raises
     ------
@@ -149,13 +142,6 @@ def tolerance_fault(claim: Claim) -> str:
     return ""
 
 
-def tally(name: str, verdicts: Iterable[str]) -> str:
-    """Return a closing line of a run: how many claims of the paper or a study have each verdict."""
-    count = Counter(verdicts)
-    words = {v: v if count[v] == 1 else PLURALS.get(v, v) for v in VERDICTS}
-    return f"{name}: " + ", ".join(f"{count[v]} {words[v]}" for v in VERDICTS)
-
-
 def by_origin(rows: Iterable[JudgedClaim]) -> dict[str, list[str]]:
     """Return the verdicts of judged rows, apart for the paper and for each study."""
     verdicts: dict[str, list[str]] = {"paper": []}
@@ -165,5 +151,10 @@ def by_origin(rows: Iterable[JudgedClaim]) -> dict[str, list[str]]:
 
 
 def tallies(rows: Iterable[JudgedClaim]) -> list[str]:
-    """Return the closing line of the paper, and one for each study."""
-    return [tally(name, verdicts) for name, verdicts in by_origin(rows).items()]
+    """Return the closing lines of a run: of the paper, and of each study, how many verdicts."""
+    lines = []
+    for name, verdicts in by_origin(rows).items():
+        count = Counter(verdicts)
+        words = {v: v if count[v] == 1 else PLURALS.get(v, v) for v in VERDICTS}
+        lines.append(f"{name}: " + ", ".join(f"{count[v]} {words[v]}" for v in VERDICTS))
+    return lines

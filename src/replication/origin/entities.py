@@ -80,13 +80,7 @@ def _action(job: Job, left_out: Collection[str]) -> Entity:
 
 
 def parameters(keys: Mapping[str, Iterable[Key]]) -> tuple[list[Entity], list[Entity]]:
-    """Return the parameters of the workflow, and the values that the run gave them.
-
-    Parameters
-    ----------
-    keys
-        Of each config, by the name of the part that it is of.
-    """
+    """Return the parameters of the workflow, the keys of each part, and what the run gave them."""
     formal, values = [], []
     for part, found in keys.items():
         for key in found:
@@ -123,12 +117,7 @@ def _value(key: Key) -> Any:
 def reviews(claims: Iterable[JudgedClaim], findings: Mapping[str, str], paper: str) -> list[Entity]:
     """Return the verdict on each claim, after the verdicts that there are.
 
-    Parameters
-    ----------
-    findings
-        The file with the findings of each rule.
-    paper
-        The `@id` of the paper, of which the claims without a study are.
+    Of each rule the file with its findings is given. Claims without a study are the paper's.
     """
     claims = list(claims)
     ratings = {

@@ -22,24 +22,12 @@ LEFT_OUT = "#left_out"
 
 @dataclass(frozen=True)
 class Crate:
-    """The files of a run.
+    """The files of a run."""
 
-    Parameters
-    ----------
-    checksums
-        SHA-256 of every input and output, by its path.
-    rules
-        The rule of every output, by its path.
-    left_out
-        Files and folders that differ each run.
-    version
-        The commit of the source, as `rules.crate.source_version` returns it.
-    """
-
-    checksums: Mapping[str, str]
-    rules: Mapping[str, str]
-    left_out: tuple[str, ...]
-    version: str
+    checksums: Mapping[str, str]  # SHA-256 of every input and output, by its path
+    rules: Mapping[str, str]  # of every output, by its path
+    left_out: tuple[str, ...]  # files and folders that differ each run
+    version: str  # the commit of the source, as `provenance.source_version` returns it
 
     @property
     def folders(self) -> list[str]:

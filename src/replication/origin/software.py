@@ -10,14 +10,8 @@ def installed(lock: Mapping[str, Any], groups: Iterable[str] = ()) -> dict[str, 
     """Return the version of Python and of every installed package that a run may use, by name.
 
     These are the dependencies of the project and of these packages. What only tests or benchmarks
-    use is not among them: its presence makes no difference.
-
-    Parameters
-    ----------
-    lock
-        The content of uv.lock.
-    groups
-        The optional groups of pyproject.toml that results depend on.
+    use is not among them: its presence makes no difference. Results may depend on optional groups
+    of pyproject.toml, too.
     """
     packages = {package["name"]: package for package in lock["package"]}
     (project,) = (each for each in lock["package"] if each["source"].get("editable") == ".")

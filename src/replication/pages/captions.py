@@ -12,6 +12,9 @@ from replication.judging.claim import JudgedClaim
 from replication.judging.verdicts import VERDICTS
 
 MARKUP = re.compile(r"([\\*`|_])")
+TOLD = ("where", "statement", "verdict", "remark")
+"""What the report tells of a claim."""
+
 NO_CAPTION = (
     "{} has no caption; expected one in figures/captions.yaml or, for a study, in its captions.yaml"
 )
@@ -48,15 +51,6 @@ def check_captions(
 ) -> None:
     """Refuse captions that leave a figure out, or name what does not exist.
 
-    Parameters
-    ----------
-    figures
-        The paths of all figures.
-    claims
-        The ids of all claims.
-    is_made
-        Whether a rule makes a file, by its path.
-
     Raises
     ------
     ValueError
@@ -79,13 +73,7 @@ def check_captions(
 def captioned(
     result: str, captions: Mapping[str, Mapping[str, Any]], claims: Iterable[JudgedClaim]
 ) -> dict[str, Any]:
-    """Return title, caption and claims of a result, with texts escaped for reStructuredText.
-
-    Parameters
-    ----------
-    claims
-        The judged ledger, results/claims.json.
-    """
+    """Return title, caption and judged claims of a result, escaped for reStructuredText."""
     entry = captions[result]
     judged = {claim.id: claim for claim in claims}
     about = [judged[key] for key in entry["claims"]]
@@ -95,13 +83,7 @@ def captioned(
         "caption": escaped(entry["caption"]),
         "alt": escaped(alternative(entry)),
         "verdict": verdict(claim.verdict for claim in about),
-        "claims": [
-            {
-                key: escaped(getattr(claim, key))
-                for key in ("where", "statement", "verdict", "remark")
-            }
-            for claim in about
-        ],
+        "claims": [{key: escaped(getattr(claim, key)) for key in TOLD} for claim in about],
     }
 
 

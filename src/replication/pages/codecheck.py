@@ -30,26 +30,15 @@ NO_ORCID = """\
 def codecheck_file(
     jobs: Iterable[Job], captions: Mapping[str, Mapping[str, Any]], citation: Mapping[str, Any]
 ) -> str:
-    """Return the text of codecheck.yml.
-
-    Parameters
-    ----------
-    jobs
-        Those of `rule all`.
-    captions
-        Of the results, by their paths.
-    citation
-        The content of CITATION.cff.
-    """
+    """Return the text of codecheck.yml, of the jobs of `rule all` and the captions by path."""
     authors = [_author(each) for each in citation["authors"]]
     lacking = [author["name"] for author in authors if "ORCID" not in author]
+    reference = "paper/report.pdf of this repository; CITATION.cff has no DOI"
+    if "doi" in citation:
+        reference = f"https://doi.org/{citation['doi']}"
     content = {
         "version": SPECIFICATION,
-        "paper": {
-            "title": citation["title"],
-            "authors": authors,
-            "reference": _reference(citation),
-        },
+        "paper": {"title": citation["title"], "authors": authors, "reference": reference},
         "manifest": manifest(jobs, captions),
     }
     text = yaml.safe_dump(content, allow_unicode=True, sort_keys=False, width=1000)
@@ -73,13 +62,9 @@ def manifest(
             shown = sorted(out for out in drawn if out in captions)
             comments[path] = f"Table, computed by {', '.join(job.scripts)}"
             comments[path] += f"; drawn in {', '.join(shown)}" if shown else ""
-    order = sorted(comments, key=lambda path: (_rank(path), path))
+    rank = {".pdf": 0, ".csv": 2}  # documents come first, tables last
+    order = sorted(comments, key=lambda path: (rank.get(PurePath(path).suffix, 1), path))
     return [{"file": path, "comment": comments[path]} for path in order]
-
-
-def _rank(path: str) -> int:
-    """Documents come first, tables last."""
-    return {".pdf": 0, ".csv": 2}.get(PurePath(path).suffix, 1)
 
 
 def _author(entry: Mapping[str, str]) -> dict[str, str]:
@@ -87,9 +72,3 @@ def _author(entry: Mapping[str, str]) -> dict[str, str]:
     if "orcid" in entry:
         author["ORCID"] = entry["orcid"].removeprefix("https://orcid.org/")
     return author
-
-
-def _reference(citation: Mapping[str, Any]) -> str:
-    if "doi" in citation:
-        return f"https://doi.org/{citation['doi']}"
-    return "paper/report.pdf of this repository; CITATION.cff has no DOI"

@@ -2,6 +2,7 @@
 
 import os
 import platform
+import re
 import shutil
 import sys
 from collections.abc import Iterable, Sequence
@@ -121,16 +122,12 @@ def with_counts(page: str, rows: Sequence[JudgedClaim]) -> str:
     ValueError
         When the page has no such table.
     """
-    lines = page.splitlines(keepends=True)
-    starts = [number for number, line in enumerate(lines) if line.rstrip() == COUNTS_HEAD]
-    if len(starts) != 1:
-        raise ValueError(f"the page has {len(starts)} lines {COUNTS_HEAD!r}; expected one")
-    end = starts[0]
-    while end < len(lines) and lines[end].startswith("|"):
-        end += 1
-    return "".join(
-        [*lines[: starts[0]], *(f"{line}\n" for line in count_table(rows)), *lines[end:]]
-    )
+    table = "".join(f"{line}\n" for line in count_table(rows))
+    old = rf"^{re.escape(COUNTS_HEAD)} *\n(?:\|.*(?:\n|\Z))*"
+    made, times = re.subn(old, lambda _: table, page, flags=re.MULTILINE)
+    if times != 1:
+        raise ValueError(f"the page has {times} lines {COUNTS_HEAD!r}; expected one")
+    return made
 
 
 def rounded(found: Any, digits: int = DIGITS) -> Any:
@@ -149,12 +146,9 @@ def rounded(found: Any, digits: int = DIGITS) -> Any:
 def machine() -> str:
     """Return one line that names this machine."""
     cpuinfo = Path("/proc/cpuinfo")
-    names = [
-        line.split(":", 1)[1].strip()
-        for line in (cpuinfo.read_text().splitlines() if cpuinfo.exists() else [])
-        if line.startswith("model name")
-    ]
-    processor = names[0] if names else platform.processor() or platform.machine()
+    known = cpuinfo.read_text() if cpuinfo.exists() else ""
+    model = re.search(r"^model name\s*:(.*)", known, re.MULTILINE)
+    processor = model[1].strip() if model else platform.processor() or platform.machine()
     python = f"Python {platform.python_version()}"
     return f"{os.cpu_count()} cores of {processor}, {platform.system()}, {python}"
 
@@ -226,16 +220,14 @@ def publish(tables: Iterable[str], sources: Iterable[str] = ()) -> None:
     for folder in ("sources", "studies"):
         shutil.rmtree(reference / folder, ignore_errors=True)  # with those of removed studies
         (reference / folder).mkdir()
-    for folder, names in (("", tables), ("sources", sources)):
-        for name in names:
-            shutil.copyfile(results / "tables" / f"{name}.csv", reference / folder / f"{name}.csv")
+    copies = [*((name, "") for name in tables), *((name, "sources") for name in sources)]
     for study, edition in editions.items():
         shutil.copyfile(f"studies/{study}/config.yaml", reference / "studies" / f"{study}.yaml")
-        for name in edition.tables:
-            made = results / "tables" / f"{name}.csv"
-            shutil.copyfile(made, reference / "studies" / f"{name}.csv")
+        copies += ((name, "studies") for name in edition.tables)
         for name, picture in edition.pictures.items():
             shutil.copyfile(Path("studies", study, picture), Path("docs", name))
+    for name, folder in copies:
+        shutil.copyfile(results / "tables" / f"{name}.csv", reference / folder / f"{name}.csv")
     publish_findings(results / "findings", reference / "findings")
     publish_verdicts(read_ledger(map(ledger_of, [PAPER, *ours["studies"]])), Path())
     blanks.main()

@@ -104,12 +104,8 @@ def main(
     """Return the tallies of the published claims, and what is wrong with the edition.
 
     That inputs or texts changed since is wrong of a release: when RELEASE is set. Else the tallies
-    end with it.
-
-    Parameters
-    ----------
-    departures
-        Yields what is wrong with the published tables and with the findings drawn from them.
+    end with it. `departures` yields what is wrong with the published tables, and with the findings
+    drawn from them.
     """
     config = read_yaml(root / "config" / "config.yaml")
     ledger = read_ledger(root / ledger_of(name) for name in [PAPER, *config["studies"]])

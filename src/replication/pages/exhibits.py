@@ -1,7 +1,7 @@
 """The page docs/exhibits.md: for each figure its script and tables, and what these cost."""
 
 import csv
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path, PurePath
 from typing import Any
 
@@ -28,16 +28,8 @@ def exhibits_page(
 ) -> str:
     """Return the page: a row for each result with a caption that is drawn from tables.
 
-    Parameters
-    ----------
-    jobs
-        Those of `rule all`.
-    captions
-        Of the results, by their paths.
-    costs
-        Seconds and megabytes of each job, from `replication.workflow.costs.read_costs`.
-    numbers
-        Of the figures, by their paths.
+    Captions and numbers are by the paths of the results; the jobs are those of `rule all`, and
+    their costs those of `replication.workflow.costs.read_costs`.
     """
     made = makers(jobs)
     rows = []
@@ -45,7 +37,7 @@ def exhibits_page(
         job = made[path]
         tables = sorted(each for each in job.inputs if each in made and each.endswith(".csv"))
         scripts = {script: None for table in tables for script in made[table].scripts}
-        needed = [costs[name] for name in measured(path, made) if name in costs]
+        needed = [costs[name] for name in _measured(path, made) if name in costs]
         seconds, memory = sum(cost[0] for cost in needed), max((c[1] for c in needed), default=0)
         cells = (
             numbers.get(path, ""),
@@ -60,21 +52,15 @@ def exhibits_page(
     return HEAD + "".join(rows)
 
 
-def measured(path: str, made: Mapping[str, Job]) -> Collection[str]:
-    """Return the names under which the costs list the jobs that an output needs, directly or not.
-
-    These are the names of the jobs' benchmark files.
-    """
-    found: dict[str, None] = {}
+def _measured(path: str, made: Mapping[str, Job]) -> set[str]:
+    """Return the names of the benchmarks of the jobs that an output needs, directly or not."""
     waiting, seen = [path], set()
     while waiting:
-        if (each := waiting.pop()) in seen or each not in made:
-            continue
-        seen.add(each)
-        waiting += made[each].inputs
-        logs = map(PurePath, made[each].logs)
-        found |= {log.stem: None for log in logs if log.suffix == ".tsv"}
-    return found
+        if (each := waiting.pop()) in made and each not in seen:
+            seen.add(each)
+            waiting += made[each].inputs
+    logs = [PurePath(log) for each in seen for log in made[each].logs]
+    return {log.stem for log in logs if log.suffix == ".tsv"}
 
 
 def read_numbers(path: Path) -> dict[str, str]:

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-from replication.judging.digits import of_judged
+from replication.judging.digits import numbers
 from replication.judging.ledger import read_judged
 from replication.pages.captions import alternative
 
@@ -24,18 +24,7 @@ def reads(*sources: str | Path, root: str | Path = ".") -> list[str]:
     """Return the files that Typst sources read, through the sources that they include.
 
     A source names a file in quotes, or as a table or findings. `compiled` fails on any other file.
-
-    Parameters
-    ----------
-    sources
-        Typst files, from the root; they are part of the answer.
-    root
-        The folder that Typst calls /.
-
-    Returns
-    -------
-    list of str
-        Paths from the root, sorted.
+    All paths are from the root, the folder that Typst calls /; the sources are in the answer.
     """
     found: set[str] = set()
     waiting = [str(source) for source in sources]
@@ -47,7 +36,8 @@ def reads(*sources: str | Path, root: str | Path = ".") -> list[str]:
         if not path.endswith(".typ"):
             continue
         text = (Path(root) / path).read_text(encoding="utf-8")
-        waiting += [_from_root(name, path) for name in FILE.findall(text)]
+        for name in FILE.findall(text):
+            waiting.append(name[1:] if name[0] == "/" else str(Path(path).parent / name))
         waiting += [f"results/findings/{name}.json" for name in FOUND.findall(text)]
         waiting += [f"results/tables/{name}.csv" for name in TABLE.findall(text)]
     return sorted(found)
@@ -73,14 +63,7 @@ def compiled(source: str, inputs: Iterable[str], options: Mapping[str, str]) -> 
     """Return the PDF of a Typst source, compiled beside its declared inputs and nothing else.
 
     A file that the source reads and that is not declared therefore stops the run. Otherwise the
-    report could become outdated.
-
-    Parameters
-    ----------
-    source, inputs
-        Paths from the root, which is the working folder.
-    options
-        The values of `sys.inputs` in the source.
+    report could become outdated. The options are the values of `sys.inputs` in the source.
 
     Raises
     ------
@@ -110,10 +93,11 @@ def compiled(source: str, inputs: Iterable[str], options: Mapping[str, str]) -> 
 def options_of(studies: Iterable[str], captions: Mapping[str, Mapping[str, Any]]) -> dict[str, str]:
     """Return the values of `sys.inputs` in the documents, after a run."""
     articles = [name for name in studies if Path(f"studies/{name}/article.typ").is_file()]
+    in_decimals = {row.id: numbers(row) for row in read_judged("results/claims.json")}
     return {
         "studies": ",".join(studies),
         "articles": ",".join(articles),
-        "numbers": json.dumps(of_judged(read_judged("results/claims.json"))),
+        "numbers": json.dumps(in_decimals),
         "alternatives": json.dumps({path: alternative(entry) for path, entry in captions.items()}),
     }
 
@@ -140,8 +124,3 @@ def figure_numbers(options: Mapping[str, str]) -> dict[str, str]:
             for path in re.findall(r'"source": "/([^"]+)"', json.dumps(figure["body"])):
                 found[path] = f"{letter}{number}"
     return found
-
-
-def _from_root(name: str, source: str) -> str:
-    """Return the path of a file from the root, as a source names it."""
-    return name[1:] if name.startswith("/") else str(Path(source).parent / name)

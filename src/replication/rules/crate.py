@@ -50,22 +50,9 @@ def main(
     project: Mapping[str, Any],
     citation: Mapping[str, Any],
 ) -> dict[str, Any]:
-    """Return the crate as JSON-LD.
+    """Return the crate as JSON-LD: of the jobs of `rule all`, and the keys of each part's config.
 
-    Parameters
-    ----------
-    jobs
-        Those of `rule all`.
-    differs_each_run
-        Outputs that differ each run or are made after it; they have no checksum, nor have the logs.
-    config
-        The keys of the paper's config and of the studies', by the name of the part.
-    software
-        The version of every package, by its name.
-    machine
-        The version of the machine.
-    project, citation
-        The table `project` of pyproject.toml, and the content of CITATION.cff.
+    Outputs that differ each run or are made after it have no checksum, nor have the logs.
     """
     left_out = {CRATE, *differs_each_run}
     parameters, values = entities.parameters(config)

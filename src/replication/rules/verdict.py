@@ -38,7 +38,9 @@ def main(
         for name, finding in checks.items()
         if not finding.holds
     ]
-    return "\n".join([*untested(claims), *tallies(claims)]), faults
+    reasons = Counter(row.not_tested for row in claims if row.not_tested)
+    lines = [f"{count} claims not tested here: {reason}" for reason, count in reasons.items()]
+    return "\n".join([*lines, *tallies(claims)]), faults
 
 
 def _numbers(row: JudgedClaim) -> str:
@@ -51,12 +53,6 @@ def _numbers(row: JudgedClaim) -> str:
 def _evidence(finding: Finding) -> str:
     entries = (f"{name} = {entry}" for name, entry in finding.entries.items() if name != "holds")
     return ", ".join(entries) or "no evidence given"
-
-
-def untested(claims: Sequence[JudgedClaim]) -> list[str]:
-    """Return a line for each reason why claims were not tested that a full run tests."""
-    reasons = Counter(row.not_tested for row in claims if row.not_tested)
-    return [f"{count} claims not tested here: {reason}" for reason, count in reasons.items()]
 
 
 def work(job: Any) -> None:

@@ -15,7 +15,6 @@ OPTIONAL = set(PROJECT["dependency-groups"]) - DEFAULT  # nothing installs them 
 MACHINE = tomllib.loads((ROOT / "src/replication/pyproject.toml").read_text(encoding="utf-8"))
 FOR_CONDA = ROOT / "environment.yml"
 CONDA = yaml.safe_load(FOR_CONDA.read_text(encoding="utf-8")) if FOR_CONDA.exists() else None
-with_conda = pytest.mark.skipif(not CONDA, reason="no environment.yml")
 
 
 def name_of(requirement):
@@ -43,16 +42,12 @@ def pinned_for_conda():
     return dict(re.split("=+", pin) for pin in pins)
 
 
-@with_conda
-@pytest.mark.parametrize("name", sorted(needed()))
-def test_conda_has_the_one_version_that_the_lock_holds(name):
-    locked = [package["version"] for package in LOCK["package"] if package["name"] == name]
-    assert [pinned_for_conda().get(name)] == locked
-
-
-@with_conda
-def test_conda_has_no_package_that_pyproject_does_not_name():
-    assert set(pinned_for_conda()) <= needed()
+@pytest.mark.skipif(not CONDA, reason="no environment.yml")
+def test_conda_has_what_pyproject_names_in_the_versions_of_the_lock():
+    locked = [(package["name"], package.get("version")) for package in LOCK["package"]]
+    assert sorted(pinned_for_conda().items()) == sorted(p for p in locked if p[0] in needed())
+    (python,) = (p for p in CONDA["dependencies"][:-1] if name_of(p) == "python")
+    assert python == "python" + PROJECT["project"]["requires-python"]
 
 
 def test_what_benchmarks_engines_and_clusters_need_is_not_installed_unasked():
@@ -65,12 +60,6 @@ def test_run_has_what_the_extras_of_the_library_name():
     installed |= {*MACHINE["project"]["optional-dependencies"]["workflow"]}
     extras = PROJECT["project"].get("optional-dependencies", {})
     assert {requirement for names in extras.values() for requirement in names} <= installed
-
-
-@with_conda
-def test_conda_takes_the_same_pythons():
-    (python,) = (p for p in CONDA["dependencies"][:-1] if name_of(p) == "python")
-    assert python == "python" + PROJECT["project"]["requires-python"]
 
 
 def test_each_dependency_has_its_reason_in_contributing():

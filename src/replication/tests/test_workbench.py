@@ -1,6 +1,5 @@
 """What every step does at its edges."""
 
-import json
 import math
 import sys
 
@@ -42,22 +41,14 @@ def test_findings_are_plain_and_survive_being_written(tmp_path):
         "number": value(np.float64(1.5), np.float32(0.25), "m", meant_value=np.float64(2.0)),
         "fact": truth(np.bool_(True), peaks=np.array([1.0, 2.0]), name="α"),
     }
-    assert findings["number"].entries == {
-        "value": 1.5,
-        "error": 0.25,
-        "unit": "m",
-        "meant_value": 2.0,
-    }
+    number = {"value": 1.5, "error": 0.25, "unit": "m", "meant_value": 2.0}
+    assert findings["number"].entries == number
     assert findings["fact"].entries == {"holds": True, "peaks": [1.0, 2.0], "name": "α"}
     assert type(findings["fact"].holds) is bool
     path = tmp_path / "findings.json"
     write_findings(path, Findings(findings, ("a.b",)))
-    text = path.read_text(encoding="utf-8")
-    entries = {name: finding.entries for name, finding in findings.items()}
-    assert json.loads(text) == entries | {"called": ["a.b"]}
     assert read_findings(path) == Findings(findings, ("a.b",))
-    assert "α" in text
-    assert text.endswith("}\n")
+    assert "α" in path.read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize("number", [math.nan, math.inf])
@@ -73,29 +64,15 @@ def test_table_is_read_back_to_its_nine_digits(tmp_path):
     path = tmp_path / "table.csv"
     rows = [{"x": 1 / 3, "n": 2, "name": "a"}, {"x": math.nan, "n": 3, "name": "b, c"}]
     write_table(str(path), rows)
-    table = pd.read_csv(path)
-    assert list(table.columns) == ["x", "n", "name"]
-    assert table.x[0] == pytest.approx(1 / 3, rel=1e-9)
-    assert math.isnan(table.x[1])
-    assert table.n.tolist() == [2, 3]
-    assert table.name.tolist() == ["a", "b, c"]
-    assert b"\r" not in path.read_bytes()
+    assert path.read_bytes() == b'x,n,name\n0.333333333,2,a\n,3,"b, c"\n'
+    assert math.isnan(pd.read_csv(path).x[1])
 
 
 def test_table_is_the_same_bytes_from_rows_columns_and_frames(tmp_path):
-    columns = {"x": [0.1, 0.2], "y": ["a", "b"]}
-    forms = columns, pd.DataFrame(columns), [{"x": 0.1, "y": "a"}, {"x": 0.2, "y": "b"}]
-    written = set()
-    for form in forms:
+    columns = {"x": [0.1, 0.123456789 * (1 + 1e-13)], "y": ["a", "b"]}
+    for form in (columns, frame := pd.DataFrame(columns), frame.to_dict("records")):
         write_table(str(tmp_path / "table.csv"), form)
-        written.add((tmp_path / "table.csv").read_bytes())
-    assert written == {b"x,y\n0.1,a\n0.2,b\n"}
-
-
-def test_digits_beyond_the_ninth_are_not_written(tmp_path):
-    for number in (0.123456789, 0.123456789 * (1 + 1e-13)):
-        write_table(str(tmp_path / "table.csv"), {"x": [number]})
-        assert (tmp_path / "table.csv").read_text(encoding="utf-8") == "x\n0.123456789\n"
+        assert (tmp_path / "table.csv").read_bytes() == b"x,y\n0.1,a\n0.123456789,b\n"
 
 
 def test_grid_runs_evenly_from_lowest_to_highest():

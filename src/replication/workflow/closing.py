@@ -33,12 +33,7 @@ def faults(jobs: Iterable[Any], begun: float) -> Iterator[str]:
 def last_lines(workflow: Any, begun: float) -> str:
     """Return the verdicts if every result exists; otherwise return how to continue the run.
 
-    Parameters
-    ----------
-    workflow : snakemake.workflow.Workflow
-        As a Snakefile has it; parts of a run that was never begun have nothing to say.
-    begun
-        When the run began, in seconds since the epoch: older logs are of other runs.
+    The run began at `begun`, s since the epoch: older logs are of other runs.
     """
     if workflow.scheduler is None or workflow.dryrun or workflow.exec_mode != ExecMode.DEFAULT:
         return ""

@@ -30,20 +30,9 @@ def code(*scripts: str | Path, root: str | Path = ".") -> list[str]:
     """Return scripts, and the files of the repository that they import, directly or not.
 
     A name that a package loads lazily (SPEC 1: its `__init__.pyi` says from where) counts as an
-    import of the module that defines it, and not of the whole package.
-
-    Parameters
-    ----------
-    scripts
-        Python files, notebooks or Snakefiles, from the root. They are in the answer: Snakemake
-        compares the contents of inputs, and of the script of a rule only the time.
-    root
-        The root of the repository.
-
-    Returns
-    -------
-    list of str
-        Paths from the root, sorted.
+    import of the module that defines it, and not of the whole package. Scripts are Python files,
+    notebooks or Snakefiles; they are in the answer, as Snakemake compares the contents of inputs,
+    and of the script of a rule only the time. All paths are from the root, and sorted.
 
     Raises
     ------
@@ -76,10 +65,7 @@ def results_read(notebook: str | Path) -> list[str]:
 def undeclared(declared: Iterable[str], root: str | Path = ".") -> list[str]:
     """Return the files of the repository that this process has imported and that are not declared.
 
-    Parameters
-    ----------
-    declared
-        Paths from the root, or absolute.
+    A declared path is from the root, or absolute.
     """
     root = Path(root).resolve()
     known = {(root / path).resolve() for path in declared}
@@ -105,13 +91,8 @@ def _read(root: Path, path: Path) -> tuple[frozenset[Path], str]:
 def _tree(root: Path, path: Path) -> ast.Module:
     text = (root / path).read_text(encoding="utf-8")
     if path.suffix == ".ipynb":
-        cells = json.loads(text)["cells"]
-        lines = (
-            line
-            for cell in cells
-            if cell["cell_type"] == "code"
-            for line in "".join(cell["source"]).splitlines()
-        )
+        cells = (cell for cell in json.loads(text)["cells"] if cell["cell_type"] == "code")
+        lines = "\n".join("".join(cell["source"]) for cell in cells).splitlines()
         text = "\n".join(line for line in lines if not line.startswith(("%", "!")))
     elif path.suffix != ".py":  # a Snakefile, of which Python can read these statements alone
         text = "\n".join(IMPORT.findall(text))

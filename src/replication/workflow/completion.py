@@ -23,14 +23,7 @@ def complete(workflow: Any, *, timed: bool = True) -> None:
 
     The message is the first line of the script's docstring; log and benchmark have the name of the
     rule, and the values of its wildcards. The script is an input, too: Snakemake compares the
-    contents of inputs, and of scripts only the times.
-
-    Parameters
-    ----------
-    workflow : snakemake.workflow.Workflow
-        As a Snakefile has it, with the rules that it has so far.
-    timed
-        Whether a rule without a log gets a benchmark as well.
+    contents of inputs, and of scripts only the times. Without `timed`, no rule gets a benchmark.
 
     Raises
     ------
@@ -50,7 +43,8 @@ def complete(workflow: Any, *, timed: bool = True) -> None:
         for name in MODIFIERS:
             if getattr(rule, name) is None:
                 setattr(rule, name, workflow.modifier.path_modifier)
-        script, needed = _code_of(rule)
+        script = os.path.relpath(rule.basedir.join(rule.script).get_path_or_uri(secret_free=True))
+        needed = [CodeOf(script)] if "{" in script else code(script)
         rule.set_input(*(item for item in needed if item not in list(rule.input)))
         if rule.message is None and "{" not in script:
             rule.message = _message(script, rule.wildcard_names)
@@ -81,22 +75,11 @@ class CodeOf:
         return code(self.script.format(wildcards=wildcards))
 
 
-def _code_of(rule: Any) -> tuple[str, list[Any]]:
-    """Return the script of a rule, and its inputs of code: the script, and what this imports."""
-    script = os.path.relpath(rule.basedir.join(rule.script).get_path_or_uri(secret_free=True))
-    return script, [CodeOf(script)] if "{" in script else code(script)
-
-
 def _message(script: str, wildcards: Iterable[str]) -> str | None:
     """Return what a script does, as its docstring begins, and of which of its jobs."""
     if not script.endswith(".py"):
         return None
-    line = (
-        (docstring(script) or script)
-        .splitlines()[0]
-        .removesuffix(".")
-        .replace("{", "{{")
-        .replace("}", "}}")
-    )
+    line, *_ = (docstring(script) or script).splitlines()
+    line = line.removesuffix(".").replace("{", "{{").replace("}", "}}")
     of = ", ".join(f"{{wildcards.{word}}}" for word in sorted(wildcards))
     return f"{line} ({of})" if of else line

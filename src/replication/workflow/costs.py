@@ -10,11 +10,7 @@ _SHARD = re.compile(r"_\d+-of-\d+$")
 def read_costs(path: Path) -> dict[str, tuple[float, float]]:
     """Return seconds and megabytes of each job, by its name; none before the first edition.
 
-    Parameters
-    ----------
-    path
-        Table of the columns rule, seconds and memory_mb. A shard's name ends with _1-of-4, for
-        example.
+    A shard's name ends with _1-of-4, for example.
     """
     if not path.exists():
         return {}

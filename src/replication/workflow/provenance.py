@@ -4,48 +4,31 @@ import hashlib
 import os
 import subprocess
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from replication.inputs.strict_yaml import read_yaml
 
+ALL_TRIGGERS = ["mtime", "input", "params", "code", "software-env"]
+"""What makes a run repeat a job, where the default profile says nothing else."""
+
 
 @dataclass(frozen=True)
 class Job:
-    """One job of the workflow: a rule with its wildcards filled in.
-
-    Parameters
-    ----------
-    rule, place
-        Name of the rule; its file and line.
-    scripts
-        What it runs: one script, or none.
-    inputs, outputs, logs
-        Paths from the root; logs include the benchmark.
-    findings
-        The outputs that contain findings.
-    params
-        The numbers from the config.
-    made
-        Time of the last run, in s since 1970; None if Snakemake has no record.
-    checksums
-        Those that Snakemake recorded of its inputs at that time. It leaves out large files.
-    pending
-        Whether Snakemake would run it now.
-    """
+    """One job of the workflow: a rule with its wildcards filled in. Paths are from the root."""
 
     rule: str
-    place: str
-    scripts: tuple[str, ...]
-    inputs: tuple[str, ...]
-    outputs: tuple[str, ...]
-    logs: tuple[str, ...]
-    findings: tuple[str, ...]
-    params: Mapping[str, Any]
-    made: float | None
-    checksums: Mapping[str, str]
-    pending: bool
+    place: str = ""  # file and line of the rule
+    scripts: tuple[str, ...] = ()  # one, or none
+    inputs: tuple[str, ...] = ()
+    outputs: tuple[str, ...] = ()
+    logs: tuple[str, ...] = ()  # with the benchmark
+    findings: tuple[str, ...] = ()  # outputs that contain findings
+    params: Mapping[str, Any] = field(default_factory=dict)  # numbers from the config
+    made: float | None = None  # time of the last run, s since 1970; None without a record of it
+    checksums: Mapping[str, str] = field(default_factory=dict)  # of inputs then; not of large files
+    pending: bool = False  # whether Snakemake would run it now
 
 
 def workflow_jobs(
@@ -55,14 +38,8 @@ def workflow_jobs(
 ) -> list[Job]:
     """Return every job that the targets need, from the Snakefile; nothing is run.
 
-    Parameters
-    ----------
-    root
-        Where the Snakefile lies.
-    config
-        Replaces entries of the config file.
-    targets
-        Rules or files; by default every rule that can be requested by name.
+    The entries of `config` replace those of the config file. Targets are rules or files; by default
+    every rule that can be requested by name.
     """
     # Imported here: it takes a second, and those who only want Job do not need it.
     from snakemake.api import SnakemakeApi
@@ -84,18 +61,13 @@ def workflow_jobs(
         workflow = parsed._workflow
         if targets is None:
             targets = [rule.name for rule in workflow.rules if not rule.has_wildcards()]
-        triggers = RerunTrigger.parse_choices_set(rerun_triggers(root))
+        profile = Path(root, "profiles", "default", "config.yaml")
+        known = read_yaml(profile) if profile.is_file() else {}
+        triggers = RerunTrigger.parse_choices_set(known.get("rerun-triggers", ALL_TRIGGERS))
         parsed.dag(DAGSettings(targets=set(targets), rerun_triggers=triggers))
         workflow._prepare_dag(forceall=False, ignore_incomplete=True, lock_warn_only=True)
         workflow._build_dag()
         return [_job(job, workflow) for job in workflow.dag.jobs]
-
-
-def rerun_triggers(root: str | Path = ".") -> list[str]:
-    """Return what makes a run repeat a job: as the default profile says, or all without one."""
-    profile = Path(root, "profiles", "default", "config.yaml")
-    known = read_yaml(profile) if profile.is_file() else {}
-    return known.get("rerun-triggers", ["mtime", "input", "params", "code", "software-env"])
 
 
 def makers(jobs: Iterable[Job]) -> dict[str, Job]:

@@ -14,27 +14,15 @@ RESULTS = "results/"
 
 
 def made_by(rules: Iterable[Any]) -> Callable[[str], bool]:
-    """Return the function that tells whether one of the rules makes a file, by its path.
-
-    Parameters
-    ----------
-    rules : iterable of snakemake.rules.Rule
-    """
+    """Return the function that tells whether one of Snakemake's rules makes a file, by its path."""
     outputs = [output for rule in rules for output in rule.output]
     return lambda path: any(output.match(path) for output in outputs)
 
 
 def refuse_unmade(rules: Iterable[Any], tables: Collection[str], reference: Path) -> None:
-    """Refuse rules that read a file in results/ which no rule makes.
+    """Refuse rules of Snakemake, or figures, that read a file in results/ which no rule makes.
 
-    Parameters
-    ----------
-    rules : iterable of snakemake.rules.Rule
-        All rules of the workflow.
-    tables
-        The names of the tables that the figures read.
-    reference
-        The folder of the published tables; the workflow compares a table of its own with each.
+    The figures read `tables`. The workflow compares a table with each published one (`reference`).
 
     Raises
     ------

@@ -32,20 +32,19 @@ UNTESTED = Claim(
 )
 EQUATIONS = [replace(UNTESTED, id=name) for name in ("eq9_positive", "eq19", "eq9_negative")]
 LEDGER = [CLAIM, UNTESTED, *EQUATIONS]
-JOB = Job("", "Snakefile:1", (), (), (), (), (), {}, 0.0, {}, False)
-STEP = replace(
-    JOB,
-    rule="peaks",
-    place="Snakefile:7",
+STEP = Job(
+    "peaks",
+    "Snakefile:7",
+    made=0.0,
     scripts=("src/steps/peaks.py",),
     inputs=("data/record.AT2",),
     outputs=("results/tables/peaks.csv", "results/findings/peaks.json"),
     findings=("results/findings/peaks.json",),
     params={"case": {"points": 3}},
 )
-FIGURE = replace(
-    JOB,
-    rule="figure",
+FIGURE = Job(
+    "figure",
+    made=0.0,
     scripts=("figures/peaks.py",),
     inputs=("results/tables/peaks.csv",),
     outputs=("figures/peaks.svg",),
@@ -54,7 +53,7 @@ JOBS = [FIGURE, STEP]
 
 
 @pytest.fixture
-def tree(tmp_path):
+def tree(tmp_path, plant):
     """Files of a finished run."""
     files = {
         "src/steps/peaks.py": "from topheavy import RockingFrame\n",
@@ -70,10 +69,7 @@ def tree(tmp_path):
         ),
         "figures/peaks.svg": "<svg/>\n",
     }
-    for name, text in files.items():
-        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
-        (tmp_path / name).write_text(text)
-    return tmp_path
+    return plant(tmp_path, files)
 
 
 @pytest.fixture
@@ -116,22 +112,21 @@ def test_chain_of_a_claim_begins_in_the_paper(told):
     assert "data/record.AT2" in text
 
 
-def test_claim_is_named_with_the_line_of_its_row(claims):
-    claim = next(claim for claim in claims if claim.id == "eq25")
-    line = next(line for line in chain(Item(None, claims=(claim,)), ()) if "ledger" in line)
-    path, _, number = line.split()[-1].rpartition(":")
-    assert (ROOT / path).read_text(encoding="utf-8").splitlines()[int(number) - 1] == "- id: eq25"
-
-
-def test_claim_of_an_equation_names_the_functions_that_cite_it(claims):
+def test_claim_of_an_equation_names_its_row_and_the_functions_that_cite_it(claims):
     claim = next(claim for claim in claims if claim.id == "eq25")
     lines = [*chain(Item(None, claims=(claim,)), ())]
-    cited = [line.split()[-1].rpartition(":") for line in lines if "cited by" in line]
-    assert "src/topheavy/structures.py" in {path for path, *_ in cited}
-    for path, _, number in cited:
+    places = [
+        (line, *line.split()[-1].split(":")) for line in lines if ".yaml:" in line or "cit" in line
+    ]
+    assert "src/topheavy/structures.py" in {path for _, path, _ in places}
+    for line, path, number in places:
         body = (ROOT / path).read_text(encoding="utf-8").splitlines()[int(number) - 1 :]
-        assert body[0].lstrip().startswith("def ")
-        assert "(25)" in " ".join(body[:80])
+        if line.startswith("  ledger  "):
+            assert body[0] == "- id: eq25"
+        else:
+            assert line.startswith("  cited by  ")
+            assert body[0].lstrip().startswith("def ")
+            assert "(25)" in " ".join(body[:80])
 
 
 def test_claim_that_is_not_tested_ends_with_why(told):
@@ -139,36 +134,34 @@ def test_claim_that_is_not_tested_ends_with_why(told):
 
 
 @pytest.mark.parametrize(
-    "name",
-    ["peaks.height", "findings/peaks.json:height", "peaks.height.value", "peaks.json:height.error"],
+    ("name", "begins"),
+    [
+        ("peaks.height", 'height = {"value": 0.5, "error": 1e-09, "unit": "m"}'),
+        ("findings/peaks.json:height", 'height = {"value": 0.5'),
+        ("peaks.height.value", 'height = {"value": 0.5'),
+        ("peaks.json:height.error", 'height = {"value": 0.5'),
+        ("peaks.pull_0.2", 'pull_0.2 = {"value": 0.1'),
+        ("peaks.json:pull_0.2.value", 'pull_0.2 = {"value": 0.1'),
+        ("peaks.low", "claim peak_is_low"),
+        ("peaks.csv", "results/tables/peaks.csv  sha256 "),
+        ("tables/peaks.csv", "results/tables/peaks.csv  sha256 "),
+    ],
 )
-def test_number_is_found_by_its_rule_or_its_file(told, name):
+def test_item_is_found_by_its_rule_its_file_or_the_end_of_its_path(told, name, begins):
     text = told(name)
-    assert text.startswith('height = {"value": 0.5, "error": 1e-09, "unit": "m"}')
+    assert text.startswith(begins)
+    assert ("claim" in text) == (name == "peaks.low")  # which it judges
     assert "data/record.AT2" in text
 
 
-@pytest.mark.parametrize("name", ["peaks.pull_0.2", "peaks.json:pull_0.2.value"])
-def test_finding_with_a_point_in_its_name_is_found(told, name):
-    assert told(name).startswith('pull_0.2 = {"value": 0.1')
-
-
-def test_claims_that_a_finding_judges_are_told_with_it(told):
-    assert told("peaks.low").startswith("claim peak_is_low")
-    assert "claim" not in told("peaks.height")
-
-
-def test_table_is_found_by_the_end_of_its_path(told):
-    assert told("peaks.csv") == told("tables/peaks.csv") == told("results/tables/peaks.csv")
-
-
 def test_input_that_changed_since_the_run_is_marked(told):
-    recorded = {"data/record.AT2": hashlib.sha256(b"0.1\n").hexdigest()}
-    text = told("peaks.csv", [FIGURE, replace(STEP, checksums=recorded)])
-    assert "CHANGED" not in text
-    assert "of all 1 inputs; 1 of them are recorded, and as in the run" in text
-    recorded = {"data/record.AT2": hashlib.sha256(b"0.2\n").hexdigest()}
-    text = told("peaks.csv", [FIGURE, replace(STEP, checksums=recorded)])
+    def text_of(record):
+        recorded = {"data/record.AT2": hashlib.sha256(record).hexdigest()}
+        return told("peaks.csv", [FIGURE, replace(STEP, checksums=recorded)])
+
+    assert "CHANGED" not in text_of(b"0.1\n")
+    assert "of all 1 inputs; 1 of them are recorded, and as in the run" in text_of(b"0.1\n")
+    text = text_of(b"0.2\n")
     assert f"CHANGED   data/record.AT2  {digest('0.1' + chr(10))}; it was" in text
     assert "of all 1 inputs; 0 of them" in text
 
@@ -189,30 +182,21 @@ def test_missing_input_is_named(told, tree):
     assert "  MISSING   data/record.AT2" in told("peaks.csv")
 
 
-def test_modules_beside_the_script_come_before_inputs_and_those_of_the_library_do_not(told, tree):
+def test_modules_beside_the_script_come_before_inputs_and_those_of_the_library_do_not(
+    told, tree, plant
+):
     modules = ("src/steps/beside.py", "src/topheavy/pulses.py", "src/replication/workbench.py")
-    for path in modules:
-        (tree / path).parent.mkdir(parents=True, exist_ok=True)
-        (tree / path).write_text("from topheavy import Pulse\n")
+    plant(tree, dict.fromkeys(modules, "from topheavy import Pulse\n"))
     inputs = (*modules, "data/record.AT2")
     text = told("peaks.csv", [FIGURE, replace(STEP, inputs=inputs)])
     kinds = [line.split()[0] for line in text.splitlines() if line.startswith("  ")]
-    assert kinds == [
-        "rule",
-        "script",
-        "module",
-        "function",
-        "function",
-        "config",
-        "input",
-        "sha256",
-    ]
+    assert " ".join(kinds) == "rule script module function function config input sha256"
     assert "  function  topheavy.Pulse" in text
 
 
 def test_shards_of_a_rule_share_a_line_and_a_block(told, tree):
     shards = [
-        replace(JOB, rule="shard", scripts=("src/steps/peaks.py",), outputs=(f"results/{n}.csv",))
+        Job("shard", made=0.0, scripts=("src/steps/peaks.py",), outputs=(f"results/{n}.csv",))
         for n in range(8)
     ]
     paths = tuple(path for job in shards for path in job.outputs)
@@ -259,7 +243,7 @@ def test_unknown_name_gets_one_message_with_what_is_close(told, name, message):
 
 
 def test_end_of_two_paths_names_both(told):
-    other = replace(JOB, rule="other", outputs=("results/other/peaks.csv",))
+    other = Job("other", outputs=("results/other/peaks.csv",))
     with pytest.raises(ValueError, match=r"results/other/peaks\.csv, results/tables/peaks\.csv"):
         told("peaks.csv", [*JOBS, other])
 
@@ -270,50 +254,35 @@ def test_job_is_found_by_its_findings_and_not_by_the_name_of_its_rule(told):
     assert told("peaks.low", jobs).startswith("claim peak_is_low")
 
 
-def evidence(claim):
-    """What a finding of the claim could be."""
-    return {"holds": True} if claim.tolerance is None else {"value": 1.0, "error": 0.0}
-
-
-@pytest.fixture
-def clone(tmp_path, monkeypatch):
-    """The code of the repository, before a run."""
+def test_every_output_claim_and_finding_is_traced_before_and_after_a_run(
+    tmp_path, monkeypatch, jobs, claims
+):
+    ignored = shutil.ignore_patterns("*.svg", "*.nb?")
     for name in ("src", "studies", "figures"):
-        shutil.copytree(
-            ROOT / name, tmp_path / name, ignore=shutil.ignore_patterns("*.svg", "*.nb?")
-        )
+        shutil.copytree(ROOT / name, tmp_path / name, ignore=ignored)
     monkeypatch.chdir(tmp_path)
-    return tmp_path
 
+    def trace(name):
+        return "\n".join(chain(find(name, jobs, claims), jobs))
 
-def trace(name, jobs, claims):
-    """What `make trace` prints of a name."""
-    return "\n".join(chain(find(name, jobs, claims), jobs))
-
-
-@pytest.mark.usefixtures("clone")
-def test_every_output_and_claim_is_traced_before_a_run(jobs, claims):
     for path in (path for job in jobs for path in job.outputs):
-        lines = trace(path, jobs, claims)
+        lines = trace(path)
         assert f"{path}  not there\n" in lines
         assert "\n  rule  " in lines
     for claim in claims:
-        lines = trace(claim.id, jobs, claims)
+        lines = trace(claim.id)
         assert lines.startswith(f"claim {claim.id}: ")
-        grounds = f": {claim.expected} ("
-        assert ("\n  rule  " if claim.finding else grounds) in lines
-
-
-def test_every_claim_and_finding_is_traced_after_a_run(clone, jobs, claims):
+        assert ("\n  rule  " if claim.finding else f": {claim.expected} (") in lines
     judged = [claim for claim in claims if claim.finding]
-    for path in (path for job in jobs for path in job.findings):
-        rule = Path(path).stem
-        found = {claim.finding: evidence(claim) for claim in judged if claim.rule == rule}
-        Path(path).parent.mkdir(parents=True, exist_ok=True)
-        Path(path).write_text(json.dumps(found), encoding="utf-8")
+    truth, number = {"holds": True}, {"value": 1.0, "error": 0.0}
+    for path in (Path(path) for job in jobs for path in job.findings):
+        own = (claim for claim in judged if claim.rule == path.stem)
+        found = {claim.finding: truth if claim.tolerance is None else number for claim in own}
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(json.dumps(found), encoding="utf-8")
     for claim in judged:
         for name in (claim.id, f"{claim.rule}.{claim.finding}"):
-            lines = trace(name, jobs, claims)
+            lines = trace(name)
             assert f"  verdict   {claim.id}: " in lines
             assert f"/{claim.rule}.json  sha256" in lines
 

@@ -33,37 +33,32 @@ def write(path, *rows):
     path.write_text(yaml.safe_dump([whole | row for row in rows]), encoding="utf-8")
 
 
-def test_rows_of_all_files_come_in_order(tmp_path):
-    paths = [tmp_path / "first.yaml", tmp_path / "second.yaml"]
-    write(paths[0], {"id": "b"}, {"id": "a"})
+@pytest.fixture
+def paths(tmp_path, plant):
+    """The ledgers of a paper and of its study `own`."""
+    names = ["paper/claims.yaml", "studies/own/claims.yaml"]
+    plant(tmp_path, dict.fromkeys(names, ""))
+    return [tmp_path / name for name in names]
+
+
+def test_row_says_whose_claim_it_is(paths):
+    write(paths[0], {"id": "b"}, {"id": "a", "ours": True})
     write(paths[1], {"id": "c", "printed": 2})
     claims = read_ledger(paths)
-    assert [claim.id for claim in claims] == ["b", "a", "c"]
+    assert [(each.id, each.study) for each in claims] == [("b", ""), ("a", "ours"), ("c", "own")]
     assert claims[2].printed == 2
-
-
-def test_row_says_whose_claim_it_is(tmp_path):
-    paths = [tmp_path / "paper" / "claims.yaml", tmp_path / "studies" / "own" / "claims.yaml"]
-    for path in paths:
-        path.parent.mkdir(parents=True)
-    write(paths[0], {"id": "a"}, {"id": "b", "ours": True})
-    write(paths[1], {"id": "c"})
-    assert [claim.study for claim in read_ledger(paths)] == ["", "ours", "own"]
 
 
 @pytest.mark.parametrize(
     ("change", "others"),
     [({"statement": "It is not."}, "statement"), ({"printed": 2, "tolerance": 0.5}, "printed, to")],
 )
-def test_study_changes_what_judges_a_claim_and_not_the_claim(tmp_path, change, others):
-    paths = [tmp_path / "paper" / "claims.yaml", tmp_path / "studies" / "own" / "claims.yaml"]
-    for path in paths:
-        path.parent.mkdir(parents=True)
-    write(paths[0], {"id": "a", "rule": "r", "finding": "old"})
-    row = {"id": "a", "expected": "confirmed", "rule": "s", "finding": "new"}
+def test_study_changes_what_judges_a_claim_and_not_the_claim(paths, change, others):
+    write(paths[0], {"id": "a", "rule": "r", "finding": "old", "remark": "Why."})
+    row = {"id": "a", "expected": "refuted", "rule": "s", "finding": "new"}
     paths[1].write_text(yaml.safe_dump([row]), encoding="utf-8")
     (claim,) = read_ledger(paths)
-    assert (claim.rule, claim.finding, claim.statement) == ("s", "new", "It is so.")
+    assert claim == Claim.of({"where": "p. 1", "statement": "It is so.", **row}, paths[1])
     paths[1].write_text(yaml.safe_dump([row | change]), encoding="utf-8")
     with pytest.raises(ValueError, match=f"a is a claim of the paper; .* not {others}"):
         read_ledger(paths)
@@ -79,6 +74,8 @@ def test_finding_that_the_rule_does_not_make_is_named():
     told = "the claim c names the finding 'rihgt', which rule r does not make; did you mean 'right'"
     with pytest.raises(ValueError, match=told):
         finding_of(replace(CLAIM, finding="rihgt"), Findings.of({"right": {"holds": False}}))
+    with pytest.raises(ValueError, match="names the finding 'called', which rule r does not make"):
+        finding_of(replace(CLAIM, finding="called"), Findings.of({"called": []}))
 
 
 def found(called, **finding):
@@ -117,11 +114,6 @@ def test_number_that_is_zero_is_a_number():
     assert isinstance(row.computed, float)
 
 
-def test_list_of_functions_is_no_finding():
-    with pytest.raises(ValueError, match="names the finding 'called', which rule r does not make"):
-        finding_of(replace(CLAIM, finding="called"), Findings.of({"called": []}))
-
-
 def test_judged_rows_are_read_as_they_were_written(tmp_path):
     rows = [with_verdict(CLAIM, found(["topheavy.simulate.simulate"], holds=True))]
     path = tmp_path / "claims.json"
@@ -139,13 +131,10 @@ def test_judged_rows_are_read_as_they_were_written(tmp_path):
         ({"study": "mine"}, "has an unknown key 'study'; expected one of id, where"),
     ],
 )
-def test_misspelt_key_is_refused_with_a_suggestion(tmp_path, row, told):
-    write(tmp_path / "claims.yaml", {"id": "c"} | row)
+def test_misspelt_key_is_refused_with_a_suggestion(paths, row, told):
+    write(paths[0], {"id": "c"} | row)
     with pytest.raises(ValueError, match=rf"claims\.yaml: c: the row {told}"):
-        read_ledger([tmp_path / "claims.yaml"])
-
-
-def test_row_that_lacks_a_key_is_named(tmp_path):
-    (tmp_path / "claims.yaml").write_text("- id: c\n  where: p. 1\n", encoding="utf-8")
+        read_ledger(paths[:1])
+    paths[0].write_text("- id: c\n  where: p. 1\n", encoding="utf-8")
     with pytest.raises(ValueError, match=r"c: the row lacks statement, expected"):
-        read_ledger([tmp_path / "claims.yaml"])
+        read_ledger(paths[:1])

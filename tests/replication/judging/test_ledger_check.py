@@ -1,14 +1,13 @@
 """The ledger is refused before anything is computed: file, row, what was expected."""
 
 import json
-import shutil
 from pathlib import Path
 
 import pytest
 import yaml
 
 from replication.judging.ledger import read_ledger
-from replication.judging.ledger_check import check_ledger
+from replication.judging.ledger_check import PUBLISHED, SCHEMA, check_ledger
 from replication.judging.verdicts import print_rounding, verdict_on
 from replication.workbench import value
 
@@ -28,18 +27,13 @@ RULES = ["heavier", "statements"]
 
 
 @pytest.fixture
-def tree(tmp_path):
-    schema = "src/replication/judging/claims.schema.yaml"
-    folders = ("paper", "src/topheavy", "studies/own", "tests/reference/findings")
-    for name in (*folders, Path(schema).parent):
-        (tmp_path / name).mkdir(parents=True)
-    shutil.copyfile(ROOT / schema, tmp_path / schema)
-    for name in ("__init__.pyi", "simulate.py"):
-        shutil.copyfile(ROOT / "src/topheavy" / name, tmp_path / "src/topheavy" / name)
+def tree(tmp_path, plant):
+    copied = [SCHEMA, "src/topheavy/__init__.pyi", "src/topheavy/simulate.py"]
+    files = {name: (ROOT / name).read_bytes() for name in copied}
     findings = {"heavier_survives_more": {"holds": True}, "called": []}
-    path = tmp_path / "tests/reference/findings/heavier.json"
-    path.write_text(json.dumps(findings), encoding="utf-8")
-    return tmp_path
+    published = {f"{PUBLISHED}/heavier.json": json.dumps(findings)}
+    ledgers = {"paper/claims.yaml": "", "studies/own/claims.yaml": ""}
+    return plant(tmp_path, files | published | ledgers)
 
 
 def check(tree, *rows, own=()):
@@ -129,18 +123,14 @@ def test_file_that_is_no_ledger_is_named(tree, text, told):
         check_ledger([path], RULES, tree)
 
 
-def test_new_finding_that_a_source_spells_is_no_slip(tree):
-    new = ROW | {"finding": "heavier_survive_more"}
+def test_finding_that_is_new_is_no_slip(tree):
     (tree / "src" / "step.py").write_text('findings = {"heavier_survive_more": 1}\n')
-    check(tree, new)
-
-
-def test_finding_like_none_that_is_published_is_new(tree):
-    check(tree, ROW | {"finding": "columns_stand"})
-
-
-def test_finding_of_a_rule_that_has_published_none_is_new(tree):
-    check(tree, ROW | {"rule": "statements", "finding": "anything"})
+    for new in (
+        {"finding": "heavier_survive_more"},  # a source spells it
+        {"finding": "columns_stand"},  # like none that is published
+        {"rule": "statements", "finding": "anything"},  # of a rule that has published none
+    ):
+        check(tree, ROW | new)
 
 
 def test_no_row_of_ours_confirms_a_value_twice_as_far_off_as_its_digits_allow():

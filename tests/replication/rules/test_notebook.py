@@ -1,7 +1,6 @@
 """The notebooks in git are stripped and use the library; executed ones are the same bytes."""
 
 import ast
-import json
 from contextlib import nullcontext
 from pathlib import Path
 
@@ -11,65 +10,45 @@ import pytest
 from replication.rules import notebook as step
 
 NOTEBOOKS = sorted((Path(__file__).parents[3] / "notebooks").glob("*.ipynb"))
-every_notebook = pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
-
-
-def cells(path: Path) -> list[dict]:
-    return json.loads(path.read_text(encoding="utf-8"))["cells"]
-
-
-def code(path: Path) -> list[ast.Module]:
-    return [ast.parse("".join(cell["source"])) for cell in cells(path) if "outputs" in cell]
 
 
 def test_both_notebooks_are_there():
     assert {path.stem for path in NOTEBOOKS} == {"derivation", "play"}
 
 
-@every_notebook
-def test_notebook_is_stripped(path):
-    for cell in cells(path):
-        assert cell["metadata"] == {}
-        assert cell.get("outputs", []) == []
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+def test_notebook_is_stripped_and_numbered_and_uses_the_library(path):
+    nbformat.validate(notebook := nbformat.read(path, as_version=nbformat.NO_CONVERT))
+    cells = notebook.cells
+    assert cells[0].cell_type == "markdown"
+    assert [cell.id for cell in cells] == [f"{path.stem}-{n:02}" for n in range(1, len(cells) + 1)]
+    for cell in cells:
+        assert (cell.metadata, cell.get("outputs", [])) == ({}, [])
         assert cell.get("execution_count") is None
-    metadata = json.loads(path.read_text(encoding="utf-8"))["metadata"]
     # a version of Python would change with whoever opened it last
-    assert "version" not in metadata.get("language_info", {})
-
-
-@every_notebook
-def test_cells_are_named_after_the_notebook_and_numbered(path):
-    expected = [f"{path.stem}-{number:02}" for number in range(1, len(cells(path)) + 1)]
-    assert [cell["id"] for cell in cells(path)] == expected
-
-
-@every_notebook
-def test_notebook_is_of_the_format_that_it_says(path):
-    nbformat.validate(nbformat.read(path, as_version=nbformat.NO_CONVERT))
-    assert cells(path)[0]["cell_type"] == "markdown"
-
-
-@every_notebook
-def test_notebook_defines_nothing_and_uses_the_library(path):
-    nodes = [node for tree in code(path) for node in ast.walk(tree)]
+    assert "version" not in notebook.metadata.get("language_info", {})
+    code = [ast.parse(cell.source) for cell in cells if "outputs" in cell]  # no magics, no shell
+    nodes = [node for tree in code for node in ast.walk(tree)]
     definitions = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef, ast.Lambda)
     assert not [ast.unparse(node) for node in nodes if isinstance(node, definitions)]
     imported = {node.module for node in nodes if isinstance(node, ast.ImportFrom)}
     assert any(module.split(".")[0] == "topheavy" for module in imported)
 
 
-@every_notebook
-def test_every_line_of_a_notebook_belongs_to_a_cell_that_runs_alone(path):
-    # no magics and no shell: each cell is plain Python, which ast has parsed
-    assert code(path)
+@pytest.fixture
+def written(tmp_path):
+    """Write a notebook of one cell, and return its path."""
+
+    def write(code):
+        cell = nbformat.v4.new_code_cell(code, id="small-01")
+        nbformat.write(nbformat.v4.new_notebook(cells=[cell]), tmp_path / "small.ipynb")
+        return tmp_path / "small.ipynb"
+
+    return write
 
 
-def test_executed_notebook_is_the_same_bytes_each_time(tmp_path):
-    source = tmp_path / "small.ipynb"
-    content = nbformat.v4.new_notebook(
-        cells=[nbformat.v4.new_code_cell("print(6 * 7)", id="small-01")]
-    )
-    nbformat.write(content, source)
+def test_executed_notebook_is_the_same_bytes_each_time(tmp_path, written):
+    source = written("print(6 * 7)")
     before = source.read_bytes()
     made = []
     for turn in ("first", "second"):
@@ -90,15 +69,13 @@ def page_of(*cells):
 @pytest.mark.parametrize(
     ("latex", "expected"),
     [
-        (r"$\displaystyle \ddot{\theta} = \frac{3}{2}$", "<mfrac><mrow><mn>3</mn>"),
-        (
-            r"$\displaystyle \left[\begin{matrix}R\end{matrix}\right]$",
-            "<mtable><mtr><mtd><mi>R</mi>",
-        ),
+        (r"\ddot{\theta} = \frac{3}{2}", "<mfrac><mrow><mn>3</mn>"),
+        (r"\left[\begin{matrix}R\end{matrix}\right]", "<mtable><mtr><mtd><mi>R</mi>"),
     ],
 )
 def test_formula_of_an_output_is_mathml(latex, expected):
-    output = nbformat.v4.new_output("display_data", data={"text/latex": latex, "text/plain": "x"})
+    data = {"text/latex": rf"$\displaystyle {latex}$", "text/plain": "x"}
+    output = nbformat.v4.new_output("display_data", data=data)
     page = page_of(nbformat.v4.new_code_cell("x", id="small-01", outputs=[output]))
     assert expected in page
     assert "$" not in page.partition("<main>")[2]
@@ -119,12 +96,9 @@ def test_page_asks_no_network():
     assert "<script src" not in page
 
 
-def test_notebook_that_fails_stops_the_run(tmp_path):
-    source = tmp_path / "broken.ipynb"
-    content = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell("1 / 0", id="broken-01")])
-    nbformat.write(content, source)
+def test_notebook_that_fails_stops_the_run(tmp_path, written):
     with pytest.raises(Exception, match="ZeroDivisionError"):
-        step.main(source, tmp_path / "executed.ipynb", tmp_path / "page.html")
+        step.main(written("1 / 0"), tmp_path / "executed.ipynb", tmp_path / "page.html")
     assert not (tmp_path / "executed.ipynb").exists()
 
 
@@ -140,7 +114,6 @@ def test_picture_without_an_alternative_text_is_refused(metadata, told):
 def test_page_has_the_alternative_text_of_a_picture():
     shown = {"image/png": {"alt": "A line & a point."}}
     output = nbformat.v4.new_output("display_data", {"image/png": "iVBORw=="}, metadata=shown)
-    cell = nbformat.v4.new_code_cell("show()", outputs=[output])
-    page = step.render(nbformat.v4.new_notebook(cells=[cell]), "play")
+    page = page_of(nbformat.v4.new_code_cell("show()", outputs=[output]))
     assert 'alt="A line &amp; a point."' in page
     assert "No description" not in page

@@ -1,12 +1,12 @@
 """Nothing lies about: each script is run, each output is used, by Snakemake's own reading."""
 
-import ast
 import re
 from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
 
 from replication.inputs.parts import edition_of
+from replication.tests.test_house import imports
 from replication.workflow.provenance import Job
 from steps import publish
 
@@ -50,18 +50,10 @@ def unused_scripts(
         path = waiting.pop()
         used.add(path)
         if path in files:
-            names = imports((ROOT / path).read_text(encoding="utf-8"))
+            names = set(imports(ROOT / path))
+            names |= {name.rpartition(".")[0] for name in names}
             waiting |= {modules[name] for name in names if name in modules} - used
     return sorted(files - used)
-
-
-def imports(text: str) -> set[str]:
-    """The modules that a script imports, and what could be one: a name from a package."""
-    nodes = list(ast.walk(ast.parse(text)))
-    plain = {alias.name for node in nodes if isinstance(node, ast.Import) for alias in node.names}
-    named = [node for node in nodes if isinstance(node, ast.ImportFrom)]
-    inner = {f"{node.module}.{alias.name}" for node in named for alias in node.names}
-    return plain | {node.module or "" for node in named} | inner
 
 
 def snakefiles(jobs: Iterable[Job]) -> str:

@@ -9,7 +9,6 @@ import shutil
 import subprocess
 import sys
 import zipfile
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -19,7 +18,6 @@ from replication.origin.recorded import CRATE
 from replication.workflow.provenance import Job
 
 ROOT = Path(__file__).resolve().parents[4]
-JOB = Job("peaks", "Snakefile:1", (), (), (), (), (), {}, None, {}, False)
 LEFT_OUT = ["results/costs.csv", "results/logs", CRATE]
 RESULTS = {"results/peaks.csv": "1\n", "figures/peaks.svg": "<svg/>\n"}
 
@@ -31,7 +29,7 @@ def git(root, *words):
 
 
 @pytest.fixture
-def tree(tmp_path, monkeypatch):
+def tree(tmp_path, plant, monkeypatch):
     """A clone with the machine in it, and a finished run, none of whose rules is to run again."""
     root = tmp_path / "tree"
     root.mkdir()
@@ -44,9 +42,7 @@ def tree(tmp_path, monkeypatch):
         ".gitignore": "results/\n*.svg\ndist/\n__pycache__/\n",
     }
     extra = {"results/costs.csv": "rule,seconds\n", "results/logs/peaks.log": "said\n"}
-    for path, text in {**source, **RESULTS, **extra}.items():
-        (root / path).parent.mkdir(parents=True, exist_ok=True)
-        (root / path).write_text(text, encoding="utf-8")
+    plant(root, {**source, **RESULTS, **extra})
     (root / "run").chmod(0o755)
     git(root, "init", "-q")
     git(root, "add", ".")
@@ -111,14 +107,11 @@ def test_two_archives_have_the_same_bytes_whatever_times_and_permissions(tree):
 def test_archive_has_source_and_results_and_nothing_else(tree):
     archive.main(tree)
     with zipfile.ZipFile(tree / "dist/peaks-0.1.0.zip") as packed:
-        names = packed.namelist()
         modes = {info.filename: info.external_attr >> 16 for info in packed.infolist()}
-    assert names == sorted(names)
+        assert packed.read("ro-crate-metadata.json") == packed.read(CRATE)  # at the root
     listed = git(tree, "ls-files").splitlines()
     others = ["SHA256SUMS", "ro-crate-metadata.json", "results/costs.csv", CRATE]
-    assert sorted(names) == sorted([*listed, *RESULTS, *others])
-    with zipfile.ZipFile(tree / "dist/peaks-0.1.0.zip") as packed:  # a crate lies at its root
-        assert packed.read("ro-crate-metadata.json") == packed.read(CRATE)
+    assert list(modes) == sorted([*listed, *RESULTS, *others])
     assert modes["run"] == 0o100755
     assert modes["results/peaks.csv"] == 0o100644
 
@@ -132,45 +125,39 @@ def test_unpacked_archive_verifies_and_sha256sum_agrees(unpacked):
     subprocess.run(command, cwd=unpacked, check=True)
 
 
-@pytest.mark.parametrize("path", ["results/peaks.csv", "figures/peaks.svg", "figures/peaks.py"])
-def test_file_that_was_tampered_with_is_named(unpacked, path):
-    (unpacked / path).write_text("other\n", encoding="utf-8")
+@pytest.mark.parametrize(
+    "path",
+    ["results/peaks.csv", "figures/peaks.svg", "figures/peaks.py", "ro-crate-metadata.json"],
+)
+def test_file_that_was_tampered_with_or_is_missing_is_named(unpacked, path):
+    (unpacked / path).write_text("{}", encoding="utf-8")
+    (unpacked / "pyproject.toml").unlink()
     done = verified(unpacked)
     assert done.returncode == 1
-    assert done.stderr.startswith(f"{path} changed after ")
+    assert f"{path} changed after it was packed: its SHA-256 is " in done.stderr
+    assert "pyproject.toml is missing; SHA256SUMS has it\n" in done.stderr
 
 
-def test_missing_source_is_named(unpacked):
-    (unpacked / "pyproject.toml").unlink()
-    assert verified(unpacked).stderr == "pyproject.toml is missing; SHA256SUMS has it\n"
-
-
-def forged(root, path):
-    """Change a file and its checksum in both crates, consistently."""
-    before = hashlib.sha256((root / path).read_bytes()).hexdigest()
-    (root / path).write_text("forged\n", encoding="utf-8")
-    after = hashlib.sha256((root / path).read_bytes()).hexdigest()
-    for crate in (root / CRATE, root / Path(CRATE).name):
-        crate.write_text(crate.read_text(encoding="utf-8").replace(before, after), encoding="utf-8")
-
-
-def test_forgery_that_the_crate_agrees_with_is_named(unpacked):
-    forged(unpacked, "results/peaks.csv")
+def test_forgery_that_the_crates_agree_with_is_named_and_that_of_all_sums_has_another(
+    unpacked, tree
+):
+    (published,) = re.findall(r"SHA256SUMS (\w{64})$", archive.main(tree))
+    assert verified(unpacked).stdout.count(published) == 1
+    path = unpacked / "results/peaks.csv"
+    before = hashlib.sha256(path.read_bytes()).hexdigest()
+    path.write_text("forged\n", encoding="utf-8")
+    after = hashlib.sha256(path.read_bytes()).hexdigest()
+    crate = (unpacked / CRATE).read_text(encoding="utf-8").replace(before, after)
+    for name in (CRATE, Path(CRATE).name):
+        (unpacked / name).write_text(crate, encoding="utf-8")
     done = verified(unpacked)
     assert done.returncode == 1
     assert done.stderr.startswith("results/peaks.csv changed after it was packed")
     assert f"{CRATE} is not the one that was packed" in done.stdout
-
-
-def test_forgery_of_the_checksums_too_has_another_digest(unpacked, tree):
-    (published,) = re.findall(r"SHA256SUMS (\w{64})$", archive.main(tree))
-    assert verified(unpacked).stdout.count(published) == 1
-    forged(unpacked, "results/peaks.csv")
-    files = [line[66:] for line in (unpacked / "SHA256SUMS").read_text("utf-8").splitlines()]
-    sums = (
-        f"{hashlib.sha256((unpacked / name).read_bytes()).hexdigest()}  {name}\n" for name in files
-    )
-    (unpacked / "SHA256SUMS").write_text("".join(sums), encoding="utf-8")
+    sums = (unpacked / "SHA256SUMS").read_text("utf-8")
+    command = ["sha256sum", *(line[66:] for line in sums.splitlines())]
+    sums = subprocess.run(command, cwd=unpacked, check=True, capture_output=True).stdout
+    (unpacked / "SHA256SUMS").write_bytes(sums)
     done = verified(unpacked)
     assert done.returncode == 0
     assert published not in done.stdout
@@ -194,84 +181,55 @@ def test_what_each_run_writes_anew_is_named_and_no_fault(unpacked, path):
     assert done.returncode == 0
 
 
-def test_crate_of_the_whole_archive_is_held(unpacked):
-    (unpacked / "ro-crate-metadata.json").write_text("{}", encoding="utf-8")
-    assert verified(unpacked).stderr.startswith("ro-crate-metadata.json changed after it was pack")
-
-
 def test_compiled_file_that_was_added_is_named_and_not_run(unpacked):
     module = unpacked / "src/replication/origin/recorded.py"
-    source, kept = module.read_bytes(), module.stat()
-    module.write_bytes(b"raise SystemExit".ljust(len(source)))
-    os.utime(module, ns=(kept.st_atime_ns, kept.st_mtime_ns))
-    py_compile.compile(str(module))
-    module.write_bytes(source)
-    os.utime(module, ns=(kept.st_atime_ns, kept.st_mtime_ns))
+    source = module.read_bytes()
+    for content in (b"raise SystemExit".ljust(len(source)), source):
+        module.write_bytes(content)
+        os.utime(module, (1e9, 1e9))
+        if content != source:
+            py_compile.compile(str(module))
     done = verified(unpacked)
     assert "made by commands here or added: __pycache__\n" in done.stdout
     assert "verified: 2 outputs" in done.stdout
 
 
-@pytest.mark.parametrize("empty", [True, False])
-def test_archive_without_checksums_is_refused(unpacked, empty):
+@pytest.mark.parametrize(
+    ("content", "told"),
+    [
+        (None, " is missing or empty; an archive has"),
+        (b"", " is missing or empty; an archive has"),
+        *((text, ", line 1 is ") for text in (b"\xff\xfe\x00", b"0  a\n", b"g" * 64 + b"  a\n")),
+    ],
+)
+def test_archive_without_sound_checksums_is_refused(unpacked, content, told):
     (unpacked / "SHA256SUMS").unlink()
-    if empty:
-        (unpacked / "SHA256SUMS").touch()
-    assert verified(unpacked).stderr.startswith("SHA256SUMS is missing or empty; an archive has")
-
-
-@pytest.mark.parametrize("content", [b"\xff\xfe\x00", b"0  a\n", b"g" * 64 + b"  a\n"])
-def test_checksums_that_are_none_are_refused(unpacked, content):
-    (unpacked / "SHA256SUMS").write_bytes(content)
+    if content is not None:
+        (unpacked / "SHA256SUMS").write_bytes(content)
     done = verified(unpacked)
     assert done.returncode == 1
-    assert done.stderr.startswith("SHA256SUMS, line 1 is ")
-
-
-def remove_crate(tree):
-    (tree / CRATE).unlink()
-
-
-def spoil_crate(tree):
-    (tree / CRATE).write_text("{}", encoding="utf-8")
-
-
-def change_result(tree):
-    (tree / "results/peaks.csv").write_text("2\n", encoding="utf-8")
-
-
-def change_source(tree):
-    (tree / "run").write_text("#!/bin/sh\ntrue\n", encoding="utf-8")
-
-
-def commit_after_the_run(tree):
-    change_source(tree)
-    git(tree, "commit", "-q", "-a", "-m", "second")
-
-
-def commit_an_input_after_the_run(tree):
-    (tree / "figures/peaks.py").write_text("draw(2)\n", encoding="utf-8")
-    git(tree, "commit", "-q", "-a", "-m", "second")
-
-
-def remove_git(tree):
-    shutil.rmtree(tree / ".git")
+    assert done.stderr.startswith(f"SHA256SUMS{told}")
 
 
 @pytest.mark.parametrize(
-    ("spoil", "told"),
+    ("path", "committed", "told"),
     [
-        (remove_crate, "expected a finished run: make reproduce"),
-        (spoil_crate, "is not the RO-Crate of a run"),
-        (change_result, "results/peaks.csv changed after rule peaks made it"),
-        (change_source, "the tree differs from its commit"),
-        (commit_an_input_after_the_run, "figures/peaks.py changed after the run"),
-        (commit_after_the_run, f"rm {CRATE} && make reproduce"),
-        (remove_git, "is no git repository"),
+        ("remove " + CRATE, False, "expected a finished run: make reproduce"),
+        (CRATE, False, "is not the RO-Crate of a run"),
+        ("results/peaks.csv", False, "results/peaks.csv changed after rule peaks made it"),
+        ("run", False, "the tree differs from its commit"),
+        ("figures/peaks.py", True, "figures/peaks.py changed after the run"),
+        ("run", True, f"rm {CRATE} && make reproduce"),
+        ("remove .git", False, "is no git repository"),
     ],
 )
-def test_unfinished_or_unverified_run_is_refused(tree, spoil, told):
-    spoil(tree)
+def test_unfinished_or_unverified_run_is_refused(tree, path, committed, told):
+    if path.startswith("remove "):
+        (tree / path.removeprefix("remove ")).rename(tree.with_name("removed"))
+    else:
+        (tree / path).write_text("{}", encoding="utf-8")
+    if committed:
+        git(tree, "commit", "-q", "-a", "-m", "second")
     with pytest.raises(SystemExit, match=told):
         archive.main(tree)
     assert not (tree / "dist").exists()
@@ -279,15 +237,16 @@ def test_unfinished_or_unverified_run_is_refused(tree, spoil, told):
 
 def test_run_that_would_go_on_is_refused_with_its_rules(tree, monkeypatch):
     monkeypatch.undo()
-    jobs = [replace(JOB, outputs=("a",), pending=True), replace(JOB, rule="all", pending=True)]
-    jobs += [replace(JOB, rule="done", outputs=("b",))]
+    jobs = [Job("peaks", outputs=("a",), pending=True), Job("all", pending=True)]
+    jobs += [Job("done", outputs=("b",))]
     monkeypatch.setattr(archive, "workflow_jobs", lambda root, targets: jobs)
     with pytest.raises(SystemExit, match="out of date, in peaks: make reproduce"):
         archive.main(tree)
 
 
 def test_run_is_archived_again_after_its_results_are_listed_for_the_commit(tree):
-    commit_after_the_run(tree)
+    (tree / "run").write_text("#!/bin/sh\ntrue\n", encoding="utf-8")
+    git(tree, "commit", "-q", "-a", "-m", "second")
     list_results(tree)
     archive.main(tree)
     assert (tree / "dist/peaks-0.1.0.zip").exists()

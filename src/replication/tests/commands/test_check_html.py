@@ -40,11 +40,6 @@ def in_a_folder_of_its_own(tmp_path, monkeypatch):
 
 
 @needs_browser
-def test_sound_page_has_no_fault():
-    assert faults_of(PAGE) == []
-
-
-@needs_browser
 def test_requests_errors_and_a_bad_caption_are_found():
     found = faults_of(
         PAGE.replace(
@@ -65,23 +60,25 @@ def test_requests_errors_and_a_bad_caption_are_found():
         assert any(told.startswith(fault) for told in found), (fault, found)
 
 
-@needs_browser
-def test_figure_that_cannot_be_drawn_is_found():
-    assert faults_of(PAGE, "<svg") == ["a.svg cannot be drawn"]
+OPENING = "the report does not open on a sound text (opening.rst)"
 
 
 @needs_browser
-@pytest.mark.parametrize(("old", "new"), [("Claims: 1", ""), ("Verdicts", "system-message")])
-def test_report_that_opens_on_the_graph_of_rules_or_on_a_bad_text_is_found(old, new):
-    assert faults_of(PAGE.replace(old, new)) == [
-        "the report does not open on a sound text (opening.rst)"
-    ]
-
-
-@needs_browser
-def test_captioned_result_that_is_missing_is_found():
-    captions = CAPTIONS | {"b.svg": CAPTIONS["a.svg"]}
-    assert "b.svg is not in the report" in faults_of(PAGE, captions=captions)
+@pytest.mark.parametrize(
+    ("old", "new", "figure", "captions", "found"),
+    [
+        ("", "", FIGURE, CAPTIONS, []),
+        ("Claims: 1", "", FIGURE, CAPTIONS, [OPENING]),
+        ("Verdicts", "system-message", FIGURE, CAPTIONS, [OPENING]),
+        ("", "", "<svg", CAPTIONS, ["a.svg cannot be drawn"]),
+        ("", "", FIGURE, CAPTIONS | {"b.svg": {}}, ["b.svg is not in the report"]),
+        ("", "", FIGURE, {}, ["a.svg has no caption"]),
+    ],
+)
+def test_page_is_held_against_the_captions_and_what_the_workflow_wrote(
+    old, new, figure, captions, found
+):
+    assert faults_of(PAGE.replace(old, new), figure, captions) == found
 
 
 def test_no_browser_on_the_path_is_none():

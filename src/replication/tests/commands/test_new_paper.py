@@ -13,19 +13,6 @@ import yaml
 from replication.commands import new_paper, update
 
 ROOT = Path(__file__).resolve().parents[4]
-TEXT = {
-    ".py",
-    ".smk",
-    ".typ",
-    ".yaml",
-    ".yml",
-    ".md",
-    ".toml",
-    ".cff",
-    ".ipynb",
-    ".mplstyle",
-    ".bib",
-}
 
 
 @pytest.fixture(scope="module")

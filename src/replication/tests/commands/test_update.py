@@ -1,7 +1,6 @@
 """Another machine takes the place of an unchanged one, or none does and the reason is said."""
 
 import os
-import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -28,30 +27,30 @@ First.
 TOOLS = {"uv": 'echo "$@" >> locked\n', "make": 'echo "$@" >> checked\n'}
 
 
-def machine(folder, version):
-    """A tree with a machine of one module beside the command."""
-    place = folder / update.MACHINE
-    (place / "commands").mkdir(parents=True)
-    shutil.copy(UPDATE, place / "commands")
-    files = {"VERSION": f"{version}\n", "CHANGES.md": CHANGES, "part.py": f"V = '{version}'\n"}
-    for name, text in files.items():
-        (place / name).write_text(text, encoding="utf-8")
-    return folder
+@pytest.fixture
+def machine(tmp_path, plant):
+    """Make a tree with a machine of one module beside the command."""
+
+    def make(version):
+        files = {"VERSION": f"{version}\n", "CHANGES.md": CHANGES, "part.py": f"V = '{version}'\n"}
+        files["commands/update.py"] = UPDATE.read_bytes()
+        plant(tmp_path / version / update.MACHINE, files)
+        return tmp_path / version
+
+    return make
 
 
 @pytest.fixture
-def newer(tmp_path):
-    return machine(tmp_path / "newer", "1.1.0")
+def newer(machine):
+    return machine("1.1.0")
 
 
 @pytest.fixture
-def paper(tmp_path):
+def paper(tmp_path, machine, plant):
     """A paper with the machine 1.0.0."""
-    older = machine(tmp_path / "older", "1.0.0")
-    update.copy_machine(older / update.MACHINE, tmp_path / "paper" / update.MACHINE)
+    update.copy_machine(machine("1.0.0") / update.MACHINE, tmp_path / "paper" / update.MACHINE)
     readme = "The machine, [1.0.0](src/replication/CHANGES.md).\n"
-    (tmp_path / "paper" / "README.md").write_text(readme, encoding="utf-8")
-    return tmp_path / "paper"
+    return plant(tmp_path / "paper", {"README.md": readme})
 
 
 def updated(paper, source, by=None, **fails):
@@ -122,8 +121,8 @@ def test_machine_that_is_not_as_it_was_copied_is_kept(paper, newer, spoil, said)
     assert tree(paper) == before
 
 
-def test_older_or_changed_machine_is_not_taken(paper, newer, tmp_path):
-    older = machine(tmp_path / "oldest", "0.9.10")
+def test_older_or_changed_machine_is_not_taken(paper, newer, machine, tmp_path):
+    older = machine("0.9.10")
     assert "FROM has version 0.9.10; expected at least 1.0.0" in updated(paper, older).stderr
     other = tmp_path / "other" / update.MACHINE
     update.copy_machine(newer / update.MACHINE, other)
@@ -138,15 +137,12 @@ def test_what_is_no_other_machine_is_refused(paper, source):
     assert f"FROM is '{source}'; expected another folder, or a repository" in done.stderr
 
 
-def test_without_a_lock_nothing_is_changed(paper, newer):
+def test_without_a_lock_nothing_is_changed_and_a_check_that_fails_is_told(paper, newer):
     before = tree(paper)
     done = updated(paper, newer, uv=2)
     assert "uv cannot lock the packages; nothing is changed" in done.stderr
     (paper / "locked").unlink()
     assert tree(paper) == before
-
-
-def test_check_that_fails_is_told(paper, newer):
     done = updated(paper, newer, make=2)
     assert done.returncode == 1
     assert "the machine is 1.1.0 now; make pages fails as it says above" in done.stderr

@@ -9,12 +9,10 @@ from replication.judging.claim import Claim
 from replication.judging.findings import Finding
 from replication.judging.ledger import with_verdict
 from replication.judging.verdicts import (
-    KINDS,
     VERDICTS,
     by_origin,
     print_rounding,
     tallies,
-    tally,
     tolerance_fault,
     verdict_on,
 )
@@ -104,12 +102,9 @@ def test_a_value_that_is_not_a_number_confirms_nothing():
         verdict(NUMBER, {"value": 0.275, "error": math.nan})
 
 
-def test_a_number_needs_a_value():
+def test_a_number_needs_a_value_and_a_statement_a_truth():
     with pytest.raises(ValueError, match="claim n: the finding has no value; expected a number"):
         verdict(NUMBER, {"holds": True})
-
-
-def test_a_statement_needs_a_truth():
     with pytest.raises(ValueError, match="claim s: the finding has no truth; expected 'holds'"):
         verdict(STATEMENT, {"value": 1.0, "error": 0.0})
 
@@ -119,11 +114,6 @@ def test_discrepancy_of_no_known_kind_gives_no_verdict(kind):
     finding = {"holds": False, "meant_holds": True, "kind": kind}
     with pytest.raises(ValueError, match=f"claim s: .* is {kind!r}; expected one of sign, number"):
         verdict(STATEMENT, finding)
-
-
-def test_every_kind_has_a_verdict_that_is_one():
-    assert set(KINDS.values()) == {"misprint", "slip", "qualified"}
-    assert set(KINDS.values()) < set(VERDICTS)
 
 
 def test_claim_that_cannot_be_false_is_not_confirmed():
@@ -170,22 +160,19 @@ def test_tolerance_under_which_nothing_could_fail_is_told(printed, tolerance, ex
     claim = replace(NUMBER, printed=printed, tolerance=tolerance, expected=expected)
     assert fault in tolerance_fault(claim)
     assert bool(fault) == bool(tolerance_fault(claim))
-
-
-def test_statement_has_no_tolerance_to_check():
     assert tolerance_fault(STATEMENT) == ""
 
 
 def test_tally_names_every_verdict():
     verdicts = ["confirmed"] * 3 + ["misprint"] * 2 + ["qualified", "by definition", "not tested"]
-    assert tally("paper", verdicts) == (
+    rows = [replace(UNTESTED, verdict=verdict) for verdict in verdicts]
+    rows += [replace(UNTESTED, study="pendulums", verdict=verdict) for verdict in VERDICTS]
+    assert tallies(rows) == [
         "paper: 3 confirmed, 1 qualified, 0 slips, 2 misprints, 0 refuted, 1 by definition, "
-        "1 not tested"
-    )
-    assert tally("pendulums", VERDICTS) == (
+        "1 not tested",
         "pendulums: 1 confirmed, 1 qualified, 1 slip, 1 misprint, 1 refuted, 1 by definition, "
-        "1 not tested"
-    )
+        "1 not tested",
+    ]
 
 
 def test_paper_and_studies_are_counted_apart_the_paper_first():
@@ -193,13 +180,5 @@ def test_paper_and_studies_are_counted_apart_the_paper_first():
         replace(UNTESTED, study=study, verdict=verdict)
         for study, verdict in [("b", "refuted"), ("", "confirmed"), ("a", "slip"), ("b", "slip")]
     ]
-    assert by_origin(rows) == {
-        "paper": ["confirmed"],
-        "b": ["refuted", "slip"],
-        "a": ["slip"],
-    }
-    assert [line.split(",")[0] for line in tallies(rows)] == [
-        "paper: 1 confirmed",
-        "b: 0 confirmed",
-        "a: 0 confirmed",
-    ]
+    found = {"paper": ["confirmed"], "b": ["refuted", "slip"], "a": ["slip"]}
+    assert list(by_origin(rows).items()) == list(found.items())

@@ -12,13 +12,13 @@ from pathlib import Path
 import pytest
 
 from replication.inputs.config_keys import Key
-from replication.judging.claim import JudgedClaim
+from replication.judging.claim import Claim
+from replication.judging.ledger import with_verdict
 from replication.origin.recorded import CRATE, read_crate
 from replication.rules import crate as rule
 from replication.workflow.provenance import Job
 
 ROOT = Path(__file__).parents[4]
-JOB = Job("peaks", "Snakefile:1", (), (), (), (), (), {}, None, {}, False)
 FILES = {
     "Snakefile": "rule peaks:\n",
     "uv.lock": "lock",
@@ -31,24 +31,22 @@ FILES = {
     "results/costs.csv": "2\n",
     "figures/peaks.svg": "<svg/>\n",
 }
-STEP = replace(
-    JOB,
-    rule="peaks_of_all",  # claims name the findings
+STEP = Job(
+    "peaks_of_all",  # claims name the findings
     scripts=("src/peaks.py",),
     inputs=("src/beside.py",),
     outputs=("results/peaks.csv", "results/findings/peaks.json"),
     findings=("results/findings/peaks.json",),
     logs=("results/logs/peaks.log",),
 )
-FIGURE = replace(
-    JOB,
-    rule="figure",
+FIGURE = Job(
+    "figure",
     scripts=("figures/peaks.py",),
     inputs=("results/peaks.csv",),
     outputs=("figures/peaks.svg",),
 )
-COSTS = replace(JOB, rule="costs", scripts=("src/peaks.py",), outputs=("results/costs.csv",))
-LAST = replace(JOB, rule="crate", inputs=("Snakefile", "uv.lock", rule.MACHINE), outputs=(CRATE,))
+COSTS = Job("costs", scripts=("src/peaks.py",), outputs=("results/costs.csv",))
+LAST = Job("crate", inputs=("Snakefile", "uv.lock", rule.MACHINE), outputs=(CRATE,))
 KEYS = {
     "": [Key("column.height", "its height", "m", "a number > 0", (6.0,), "p. 4")],
     "wind": [Key("ratios", "mass ratio", "1", "0 or more values", ([0.0, float("inf")],), "")],
@@ -61,36 +59,14 @@ CITATION = {
     "license": ["MIT"],
     "references": [{"title": "Peaks", "authors": [{"name": "An author"}], "doi": "10.1000/1"}],
 }
-CLAIM = JudgedClaim(
-    id="peak_is_low",
-    study="",
-    where="p. 3",
-    equation=None,
-    statement="The peak is low.",
-    printed=None,
-    computed=True,
-    meant=None,
-    kind="",
-    condition="",
-    error=None,
-    unit="",
-    tolerance=None,
-    verdict="confirmed",
-    expected="confirmed",
-    not_tested="",
-    remark="",
-    function="f",
-    rule="peaks",
-)
+UNTESTED = Claim(id="peak_is_low", where="p. 3", statement="The peak is low.", expected="confirmed")
+CLAIM = replace(with_verdict(UNTESTED, {}), verdict="confirmed", rule="peaks")
 
 
 @pytest.fixture
-def made(tmp_path, monkeypatch):
+def made(tmp_path, plant, monkeypatch):
     """The crate of a step, a figure drawn from it, and what a run costs."""
-    monkeypatch.chdir(tmp_path)
-    for name, text in FILES.items():
-        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
-        (tmp_path / name).write_text(text)
+    monkeypatch.chdir(plant(tmp_path, FILES))
     return rule.main(
         [STEP, FIGURE, COSTS, LAST],
         ["results/costs.csv"],
@@ -198,17 +174,12 @@ def test_every_output_of_the_workflow_but_the_costs_is_listed(jobs, monkeypatch,
     assert listed.folders == ["results"]
 
 
-REQUIRED = {
-    "./": "license",
-    "#run": "instrument",
-    "#parameter/column.height": "additionalType",
-}
+REQUIRED = {"./": "license", "#run": "instrument", "#parameter/column.height": "additionalType"}
 """By entity, a property that the profile requires."""
 
 
-@pytest.fixture
-def validated(tmp_path):
-    """Validate a crate in an environment of its own, which takes seconds; return what is said."""
+def test_crate_is_valid_and_not_without_required_properties(tmp_path, made, entities):
+    """The validator has an environment of its own, which takes seconds."""
     uv = os.environ.get("UV") or shutil.which("uv")  # `uv run` tells where it is
     if not uv:
         pytest.skip("there is no uv, which installs the validator of RO-Crates")
@@ -221,17 +192,10 @@ def validated(tmp_path):
         done = subprocess.run(command, capture_output=True, text=True)
         return done.returncode, done.stdout + done.stderr
 
-    return validate
-
-
-def test_crate_is_valid(made, validated):
-    assert validated(made) == (0, f"{Path.cwd()} is a valid Workflow Run RO-Crate\n")
-
-
-def test_crate_without_required_properties_is_not_valid(made, entities, validated):
+    assert validate(made) == (0, f"{Path.cwd()} is a valid Workflow Run RO-Crate\n")
     for entity, name in REQUIRED.items():
         del entities[entity][name]
-    code, said = validated(made)
+    code, said = validate(made)
     assert code == 1
     for name in REQUIRED.values():
         assert re.search(f"MUST have an? `?{name}`? ?", said), said

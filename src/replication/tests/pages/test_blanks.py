@@ -6,12 +6,10 @@ from replication.pages.blanks import blanks, main
 
 
 @pytest.fixture
-def tree(tmp_path):
-    (tmp_path / "paper").mkdir()
-    (tmp_path / "paper" / "report.typ").write_text("= One\nauthors: BLANK: your names\n")
-    (tmp_path / "paper" / "report.pdf").write_bytes(b"BLANK: \xff")
-    (tmp_path / "README.md").write_text("A blank line.\n")
-    return tmp_path
+def tree(tmp_path, plant):
+    report = {"report.typ": "= One\nauthors: BLANK: your names\n", "report.pdf": b"BLANK: \xff"}
+    plant(tmp_path / "paper", report)
+    return plant(tmp_path, {"README.md": "A blank line.\n"})
 
 
 def test_mark_is_listed_with_its_place(tree, capsys):

@@ -6,7 +6,7 @@ from replication.pages.typeset import compiled, figure_numbers, reads, refuse_un
 
 
 @pytest.fixture
-def tree(tmp_path, monkeypatch):
+def tree(tmp_path, plant, monkeypatch):
     files = {
         "paper/report.typ": '#import "format.typ": *\n#include "/studies/one/section.typ"\n'
         '#let mass = found("mass_ratio")\n#table-of("heavier").len()\n#mass.a\n'
@@ -19,11 +19,7 @@ def tree(tmp_path, monkeypatch):
         "results/tables/heavier.csv": "x\n1\n",
         "results/tables/other.csv": "x\n1\n",
     }
-    for name, text in files.items():
-        path = tmp_path / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text)
-    monkeypatch.chdir(tmp_path)
+    monkeypatch.chdir(plant(tmp_path, files))
     return tmp_path
 
 
@@ -38,13 +34,11 @@ def test_sources_data_tables_and_findings_are_found(tree):
     ]
 
 
-def test_report_is_compiled_beside_what_it_reads(tree):
-    assert compiled("paper/report.typ", reads("paper/report.typ"), {}).startswith(b"%PDF")
-
-
 @pytest.mark.parametrize("missing", ["results/tables/heavier.csv", "studies/one/config.yaml"])
 def test_file_that_is_read_and_not_declared_stops_the_compiler(tree, missing):
-    declared = [path for path in reads("paper/report.typ") if path != missing]
+    declared = reads("paper/report.typ")
+    assert compiled("paper/report.typ", declared, {}).startswith(b"%PDF")
+    declared.remove(missing)
     with pytest.raises(ValueError, match="not found"):
         compiled("paper/report.typ", declared, {})
 
@@ -78,14 +72,10 @@ def test_fault_of_a_source_has_its_file_and_line(tree):
         compiled("paper/report.typ", reads("paper/report.typ"), {})
 
 
-def test_figures_of_article_and_supplement_are_numbered_by_picture(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
+def test_figures_of_article_and_supplement_are_numbered_by_picture(tree, plant):
     svg = '<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"/>'
-    for name in ("a", "b", "c"):
-        (tmp_path / f"{name}.svg").write_text(svg, encoding="utf-8")
-    (tmp_path / "paper").mkdir()
+    plant(tree, dict.fromkeys(("a.svg", "b.svg", "c.svg"), svg))
     shown = '#figure(image("/{}.svg"), caption: [])\n#figure(table([1]), caption: [])\n'
     for name, pictures in (("report", "bc"), ("supplement", "a")):
-        text = "".join(map(shown.format, pictures))
-        (tmp_path / "paper" / f"{name}.typ").write_text(text, encoding="utf-8")
+        plant(tree, {f"paper/{name}.typ": "".join(map(shown.format, pictures))})
     assert figure_numbers({}) == {"b.svg": "1", "c.svg": "2", "a.svg": "S1"}

@@ -12,7 +12,7 @@ ROOT = Path(__file__).parents[4]
 
 
 @pytest.fixture
-def tree(tmp_path):
+def tree(tmp_path, plant):
     """A small repository: a lazy package, steps beside each other, a study."""
     files = {
         "src/lib/__init__.py": "import lazy_loader\n"
@@ -28,11 +28,7 @@ def tree(tmp_path):
         "src/steps/shared.py": "import lib\nSHARED = lib.Shape\n",
         "studies/one/deep.py": "DEEP = 1\n",
     }
-    for name, text in files.items():
-        path = tmp_path / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text)
-    return tmp_path
+    return plant(tmp_path, files)
 
 
 def imported_by(tree, text, name="src/steps/step.py"):
@@ -43,65 +39,39 @@ def imported_by(tree, text, name="src/steps/step.py"):
 LAZY = ["src/lib/__init__.py", "src/lib/__init__.pyi"]
 
 
-def test_lazy_name_is_found_in_the_module_that_defines_it_and_no_other(tree):
-    assert imported_by(tree, "from lib import Shape") == [*LAZY, "src/lib/shapes.py"]
+SHAPES = [*LAZY, "src/lib/shapes.py"]
+FORCES = [*LAZY, "src/lib/forces.py", "src/lib/shapes.py"]
+FILES = [*LAZY, "src/lib/files/__init__.py", "src/lib/files/text.py"]
+INNER = [*LAZY, "src/lib/inner/__init__.py", "src/lib/inner/core.py"]
+NO_PACKAGES = "from steps.shared import SHARED\nfrom studies.one.deep import DEEP\n"
+FOR_TYPES = "from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    from lib import force\n"
+CELL = """{"cells": [{"cell_type": "code",
+"source": ["%matplotlib inline\\n", "import lib\\n", "lib.Shape"]}]}"""
+ALL = "from lib import (\n    Shape,\n)\n\nrule all:\n    input: 'from lib import force'\n"
 
 
-def test_lazy_name_of_an_inner_package_is_found(tree):
-    assert imported_by(tree, "from lib import read")[2:] == [
-        "src/lib/files/__init__.py",
-        "src/lib/files/text.py",
-    ]
+@pytest.mark.parametrize(
+    ("name", "text", "found"),
+    [
+        ("step.py", "from lib import Shape", SHAPES),
+        ("step.py", "from lib import read", FILES),
+        ("step.py", "from lib.forces import force", FORCES),
+        ("step.py", "import lib as l\nprint(l.force)", FORCES),
+        ("step.py", "def f():\n    import lib.inner", INNER),
+        ("step.py", NO_PACKAGES, [*SHAPES, "src/steps/shared.py", "studies/one/deep.py"]),
+        ("step.py", FOR_TYPES, []),
+        ("step.py", "import numpy as np\nfrom scipy.integrate import quad\n", []),
+        ("play.ipynb", CELL, SHAPES),
+        ("Snakefile", ALL, SHAPES),
+        ("more.smk", "include: 'x'\nimport lib.forces\n", FORCES),
+    ],
+)
+def test_modules_of_the_repository_that_a_file_imports_are_found(tree, name, text, found):
+    assert imported_by(tree, text, f"src/steps/{name}") == found
 
 
 def test_script_itself_is_there_too(tree):
     assert code("src/lib/shapes.py", root=tree) == ["src/lib/shapes.py"]
-
-
-def test_what_a_module_imports_is_found_too(tree):
-    both = ["src/lib/forces.py", "src/lib/shapes.py"]
-    assert imported_by(tree, "from lib.forces import force") == [*LAZY, *both]
-
-
-def test_attribute_of_an_imported_package_counts_as_import(tree):
-    assert imported_by(tree, "import lib as l\nprint(l.force)")[2:] == [
-        "src/lib/forces.py",
-        "src/lib/shapes.py",
-    ]
-
-
-def test_import_inside_a_function_is_found(tree):
-    assert "src/lib/inner/core.py" in imported_by(tree, "def f():\n    import lib.inner")
-
-
-def test_modules_of_folders_without_init_are_found(tree):
-    text = "from steps.shared import SHARED\nfrom studies.one.deep import DEEP\n"
-    found = imported_by(tree, text)
-    assert {"src/steps/shared.py", "src/lib/shapes.py", "studies/one/deep.py"} <= set(found)
-
-
-def test_import_for_types_alone_is_left_out(tree):
-    text = "from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    from lib import force\n"
-    assert imported_by(tree, text) == []
-
-
-def test_packages_from_elsewhere_are_left_out(tree):
-    assert imported_by(tree, "import numpy as np\nfrom scipy.integrate import quad\n") == []
-
-
-def test_code_of_a_notebook_is_read(tree):
-    cell = '{"cells": [{"cell_type": "code", "source": ["%matplotlib inline\\n", "import lib\\n", '
-    cell += '"lib.Shape"]}]}'
-    assert imported_by(tree, cell, "src/steps/play.ipynb") == [*LAZY, "src/lib/shapes.py"]
-
-
-def test_imports_of_a_snakefile_are_found(tree):
-    text = "from lib import (\n    Shape,\n)\n\nrule all:\n    input: 'from lib import force'\n"
-    assert imported_by(tree, text, "Snakefile")[2:] == ["src/lib/shapes.py"]
-    assert imported_by(tree, "include: 'x'\nimport lib.forces\n", "more.smk")[2:] == [
-        "src/lib/forces.py",
-        "src/lib/shapes.py",
-    ]
 
 
 def test_import_of_a_name_that_is_only_known_later_is_refused(tree):

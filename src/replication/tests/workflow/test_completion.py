@@ -43,20 +43,17 @@ rule logged:
     script:
         "steps/plain.py"
 """
-ENDING = "\ncomplete(workflow)\n"
 
 
 @pytest.fixture
-def made(tmp_path, monkeypatch):
+def made(tmp_path, plant, monkeypatch):
     """The job that makes each output, of a small workflow with an ending."""
     monkeypatch.chdir(tmp_path)
-    (tmp_path / "steps").mkdir()
     plain = '"""Draw {a} line.\n\nTwice."""\nimport steps.used'
-    for name, text in {"plain": plain, "used": "", "a": "", "b": ""}.items():
-        (tmp_path / "steps" / f"{name}.py").write_text(text)
-    (tmp_path / "data.txt").write_text("1")
+    steps = {"steps/plain.py": plain, **{f"steps/{name}.py": "" for name in ("used", "a", "b")}}
+    plant(tmp_path, steps | {"data.txt": "1"})
 
-    def read(ending=ENDING):
+    def read(ending="\ncomplete(workflow)\n"):
         (tmp_path / "Snakefile").write_text(SNAKEFILE + ending)
         return makers(workflow_jobs(tmp_path, targets=["all", "logged"]))
 
@@ -82,38 +79,27 @@ def test_script_with_a_wildcard_is_an_input_of_its_own_job(made):
     for name in "ab":
         job = jobs[f"results/{name}_each.json"]
         assert job.inputs == ("data.txt", f"steps/{name}.py")
-        assert job.logs == (
-            f"results/logs/each_{name}.log",
-            f"results/benchmarks/each_{name}.tsv",
-        )
+        logs = f"results/logs/each_{name}.log", f"results/benchmarks/each_{name}.tsv"
+        assert job.logs == logs
 
 
-def test_rule_keeps_its_own_log_and_what_it_declares_is_not_said_twice(made):
-    job = made()["results/logged.csv"]
+@pytest.mark.parametrize("times", [1, 2])
+def test_rule_keeps_its_own_log_and_what_it_declares_is_not_said_twice(made, times):
+    job = made("\ncomplete(workflow)\n" * times)["results/logged.csv"]
     assert job.inputs == ("steps/plain.py", "steps/used.py")
     assert job.logs == ("own/place.log",)
 
 
-def test_rule_that_is_not_timed_has_no_benchmark(made):
-    job = made("\ncomplete(workflow, timed=False)\n")["results/plain.csv"]
+def test_rule_that_is_not_timed_has_no_benchmark_and_findings_are_outputs_of_that_name(made):
+    names = 'assert list(findings_made(workflow.rules)) == ["a_each", "b_each"]\n'
+    job = made(f"\ncomplete(workflow, timed=False)\n{names}")["results/plain.csv"]
     assert job.logs == ("results/logs/plain.log",)
-
-
-def test_completing_twice_changes_nothing(made):
-    once = made()
-    twice = made(ENDING + ENDING)
-    assert [job.inputs for job in twice.values()] == [job.inputs for job in once.values()]
-    assert [job.logs for job in twice.values()] == [job.logs for job in once.values()]
-
-
-def test_findings_are_the_outputs_of_that_name(made):
-    made('\nassert list(findings_made(workflow.rules)) == ["a_each", "b_each"]\n')
 
 
 def test_rule_without_a_script_is_refused(made):
     shell = '\nrule shell:\n    output:\n        "out.txt"\n    shell:\n        "touch {output}"\n'
     with pytest.raises((ValueError, WorkflowError), match=r"rule shell makes out\.txt without a s"):
-        made(shell + ENDING)
+        made(f"{shell}\ncomplete(workflow)\n")
 
 
 def test_snakemake_still_has_what_completion_sets(made, monkeypatch):

@@ -1,8 +1,6 @@
 """A run prints one line for each job, and the whole log of one that failed."""
 
 import re
-import subprocess
-import sys
 
 import pytest
 
@@ -20,28 +18,24 @@ rule write:
 
 
 @pytest.fixture
-def run(tmp_path):
-    def begin(wrong):
-        text = SNAKEFILE.replace("WRONG", wrong)
-        (tmp_path / "Snakefile").write_text(text, encoding="utf-8")
-        command = ["snakemake", "--cores=1", "--scheduler=greedy", "--show-failed-logs"]
-        return subprocess.run(
-            [sys.executable, "-m", *command], cwd=tmp_path, capture_output=True, text=True
-        )
+def told(tmp_path, ran):
+    def run(wrong):
+        (tmp_path / "Snakefile").write_text(SNAKEFILE.replace("WRONG", wrong))
+        return ran("--scheduler=greedy", "--show-failed-logs")
 
-    return begin
+    return run
 
 
-def test_each_job_has_one_line_with_its_share_and_time(run):
-    said = run("nobody").stderr
+def test_each_job_has_one_line_with_its_share_and_time(told):
+    _, said = told("nobody")
     lines = re.findall(r"^ +(\d) of 3 +\d+\.\d s  (.*)$", said, flags=re.MULTILINE)
     assert [number for number, _ in lines] == ["1", "2", "3"]
     assert {name for _, name in lines} == {"Writing a", "Writing b", "all"}
     assert not re.search("Select jobs|Execute 1|Finished jobid", said)
 
 
-def test_log_of_a_failed_job_is_printed(run):
-    done = run("b")
-    assert done.returncode == 1
-    assert "Error in rule write" in done.stderr
-    assert "told" in done.stderr
+def test_log_of_a_failed_job_is_printed(told):
+    status, said = told("b")
+    assert status == 1
+    assert "Error in rule write" in said
+    assert "told" in said

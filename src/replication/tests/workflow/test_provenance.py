@@ -38,61 +38,46 @@ rule sum:
 
 
 @pytest.fixture(scope="module")
-def tree(tmp_path_factory):
+def tree(tmp_path_factory, plant):
     """The small workflow, run once."""
-    root = tmp_path_factory.mktemp("workflow")
-    for folder in ("in", "scripts"):
-        (root / folder).mkdir()
-    (root / "Snakefile").write_text(SNAKEFILE)
-    (root / "config.yaml").write_text("factor: 2\n")
-    (root / "in" / "a.txt").write_text("1\n")
-    (root / "scripts" / "a.py").write_text(
-        "import shutil\nshutil.copyfile(snakemake.input[0], snakemake.output[0])\n"
-    )
+    copy = "import shutil\nshutil.copyfile(snakemake.input[0], snakemake.output[0])\n"
+    files = {"Snakefile": SNAKEFILE, "config.yaml": "factor: 2\n", "in/a.txt": "1\n"}
+    root = plant(tmp_path_factory.mktemp("workflow"), files | {"scripts/a.py": copy})
     before = workflow_jobs(root)
     command = [sys.executable, "-m", "snakemake", "--cores=1", "--scheduler=greedy", "--quiet=all"]
     subprocess.run(command, cwd=root, check=True, capture_output=True)
     return root, before
 
 
-def test_jobs_are_known_before_they_ran(tree):
-    _, before = tree
+def test_jobs_are_known_before_they_ran(tree, monkeypatch, tmp_path):
+    root, before = tree
     assert {job.rule for job in before} == {"all", "copy", "sum"}
     assert [job.made for job in before] == [None] * 3
     assert all(job.pending for job in before)
+    monkeypatch.chdir(tmp_path)
+    workflow_jobs(root)
+    assert list(tmp_path.iterdir()) == []
+    assert tmp_path.cwd() == tmp_path
 
 
-def test_job_has_its_wildcards_filled_in_and_its_place(tree):
-    root, _ = tree
-    copy = makers(workflow_jobs(root))["out/a.copy"]
+def test_job_has_its_wildcards_its_place_its_params_and_its_findings(tree):
+    made = makers(workflow_jobs(tree[0]))
+    copy, total = made["out/a.copy"], made["out/sum.txt"]
     line = SNAKEFILE.splitlines().index("rule copy:") + 1
     assert (copy.rule, copy.inputs, copy.logs) == ("copy", ("in/a.txt",), ("logs/a.log",))
     assert copy.scripts == ("scripts/a.py",)
     assert copy.place == f"Snakefile:{line}"
+    assert (total.params, total.findings) == ({"factor": 2}, ("out/sum.txt",))
 
 
-def test_params_and_findings_are_told(tree):
+def test_config_can_be_replaced_and_job_is_pending_by_the_triggers_of_the_profile(tree, plant):
     root, _ = tree
-    total = makers(workflow_jobs(root))["out/sum.txt"]
-    assert total.params == {"factor": 2}
-    assert total.findings == ("out/sum.txt",)
-
-
-def test_config_can_be_replaced(tree):
-    root, _ = tree
-    total = makers(workflow_jobs(root, config={"factor": 3}))["out/sum.txt"]
-    assert total.params == {"factor": 3}
-    assert total.pending
-
-
-def test_job_is_pending_by_the_triggers_of_the_profile(tree):
-    root, _ = tree
-    profile = root / "profiles" / "default" / "config.yaml"
-    profile.parent.mkdir(parents=True)
-    for triggers, pending in (("[mtime, input]", False), ("[mtime, input, params]", True)):
-        profile.write_text(f"rerun-triggers: {triggers}\n")
-        assert makers(workflow_jobs(root, config={"factor": 3}))["out/sum.txt"].pending == pending
-    profile.unlink()
+    profile = "profiles/default/config.yaml"
+    for triggers, pending in ((["mtime", "input"], False), (["mtime", "params"], True), ([], True)):
+        plant(root, {profile: f"rerun-triggers: {triggers}\n" if triggers else "cores: 1"})
+        total = makers(workflow_jobs(root, config={"factor": 3}))["out/sum.txt"]
+        assert (total.params, total.pending) == ({"factor": 3}, pending)
+    (root / profile).unlink()
 
 
 def test_record_of_the_run_has_what_the_inputs_were(tree):
@@ -110,24 +95,16 @@ def test_record_of_the_run_has_what_the_inputs_were(tree):
         (root / "in" / "a.txt").write_text("1\n")
 
 
-def test_source_without_git_has_no_version(tmp_path):
-    assert source_version(tmp_path) == ""
-
-
-def test_source_inside_another_repository_has_no_version(tmp_path):
-    subprocess.run(["git", "init", "-q", tmp_path], check=True)
-    inside = tmp_path / "archive"
-    inside.mkdir()
-    assert source_version(inside) == ""
-
-
 def test_version_is_the_commit_and_whether_the_tree_differs(tmp_path):
     def git(*words):
         who = ["-c", "user.name=x", "-c", "user.email=x@x.org", "-c", "commit.gpgsign=false"]
         command = ["git", "-C", tmp_path, *who, *words]
         return subprocess.run(command, check=True, capture_output=True, text=True).stdout.strip()
 
+    assert source_version(tmp_path) == ""
     git("init", "-q")
+    (tmp_path / "archive").mkdir()
+    assert source_version(tmp_path / "archive") == ""  # another repository is above it
     (tmp_path / "file").write_text("1")
     git("add", "file")
     git("commit", "-q", "-m", "first")
@@ -135,10 +112,3 @@ def test_version_is_the_commit_and_whether_the_tree_differs(tmp_path):
     assert source_version(tmp_path) == commit
     (tmp_path / "file").write_text("2")
     assert source_version(tmp_path) == f"{commit}-dirty"
-
-
-def test_folder_is_left_as_it_was(tree, monkeypatch, tmp_path):
-    monkeypatch.chdir(tmp_path)
-    workflow_jobs(tree[0])
-    assert list(tmp_path.iterdir()) == []
-    assert tmp_path.cwd() == tmp_path

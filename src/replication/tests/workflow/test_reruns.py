@@ -1,13 +1,11 @@
 """Whatever is missing, failed or interrupted is made again by the plain command."""
 
-import json
 import os
 import re
 import shutil
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
@@ -16,8 +14,6 @@ import yaml
 ROOT = Path(__file__).parents[4]
 
 SNAKEFILE = f"""
-from replication.workflow.code import code
-
 FIGURES = {{"figures/line": ["counts"]}}
 
 
@@ -28,24 +24,18 @@ rule all:
     default_target: True
     input:
         everything,
-        CRATE,
 
 
 rule counts:
-    input:
-        code("src/steps/counts.py"),
     output:
         table="results/tables/counts.csv",
         findings="results/findings/counts.json",
-    log:
-        "results/logs/counts.log",
     script:
         "src/steps/counts.py"
 
 
 rule figure:
     input:
-        lambda wildcards: code(f"{{wildcards.figure}}.py"),
         tables=lambda wildcards: [f"results/tables/{{t}}.csv" for t in FIGURES[wildcards.figure]],
     output:
         "{{figure}}.svg",
@@ -59,30 +49,19 @@ rule figure:
 
 rule claims:
     input:
-        code("src/steps/judging.py"),
         ledger="ledger.json",
         findings="results/findings/counts.json",
         drawn=[f"{{figure}}.svg" for figure in FIGURES],
     output:
         "results/claims.json",
-    log:
-        "results/logs/claims.log",
     script:
         "src/steps/judging.py"
 
 
-rule crate:
-    input:
-        everything,
-    output:
-        CRATE,
-    log:
-        "results/logs/crate.log",
-    shell:
-        "touch {{output}}"
+complete(workflow)
 """
 
-COUNTS = """
+COUNTS = """'''counts'''
 from replication.workbench import run
 from figures.beside import NUMBER
 
@@ -97,22 +76,15 @@ if __name__ == "__main__":
 
 FIGURE = """
 from pathlib import Path
-
 from replication.workbench import run
 
-
-def draw(job):
-    Path(job.output[0]).write_text(Path(job.input.tables[0]).read_text())
-
-
 if __name__ == "__main__":
-    run(snakemake, draw)
+    run(snakemake, lambda job: Path(job.input.tables[0]).read_text())
 """
 
-CLAIMS = """
+CLAIMS = """'''claims'''
 import json
 from pathlib import Path
-
 from replication.workbench import run
 
 
@@ -137,42 +109,16 @@ MADE = [
 PROFILE = yaml.safe_load((ROOT / "profiles/default/config.yaml").read_text(encoding="utf-8"))
 
 
-def command(*options):
-    triggers = ["--rerun-triggers", *PROFILE["rerun-triggers"]]
-    base = [sys.executable, "-m", "snakemake", "--cores=1", "--scheduler=greedy"]
-    return [*base, *triggers, *options]
+OPTIONS = ["--scheduler=greedy", "--rerun-triggers", *PROFILE["rerun-triggers"]]
+COMMAND = [sys.executable, "-m", "snakemake", "--cores=1", *OPTIONS]
 
 
 def make(root):
     """Run the workflow; return its exit status, and which rules ran."""
-    done = subprocess.run(
-        command(),
-        cwd=root,
-        capture_output=True,
-        text=True,
-        timeout=120,
-    )
+    done = subprocess.run(COMMAND, cwd=root, capture_output=True, text=True, timeout=120)
     text = done.stdout + done.stderr
     told = r"(?: s  |^Error in rule )(counts|figure|claims):?$"
     return done.returncode, set(re.findall(told, text, flags=re.MULTILINE))
-
-
-def claimed(root):
-    return json.loads((root / "results/claims.json").read_text())
-
-
-def build(root):
-    for name, text in {
-        "Snakefile": SNAKEFILE,
-        "src/steps/counts.py": COUNTS,
-        "figures/beside.py": "NUMBER = 1\n",
-        "src/steps/judging.py": CLAIMS,
-        "figures/line.py": FIGURE,
-        "ledger.json": '"n"',
-    }.items():
-        path = root / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text)
 
 
 def edit(root, name, old, new):
@@ -183,11 +129,18 @@ def edit(root, name, old, new):
 
 
 @pytest.fixture(scope="module")
-def finished(tmp_path_factory):
-    root = tmp_path_factory.mktemp("finished")
-    build(root)
+def finished(tmp_path_factory, plant):
+    files = {
+        "Snakefile": SNAKEFILE,
+        "src/steps/counts.py": COUNTS,
+        "figures/beside.py": "NUMBER = 1\n",
+        "src/steps/judging.py": CLAIMS,
+        "figures/line.py": FIGURE,
+        "ledger.json": '"n"',
+    }
+    root = plant(tmp_path_factory.mktemp("finished"), files)
     assert make(root) == (0, {"counts", "figure", "claims"})
-    assert claimed(root) == 1
+    assert (root / "results/claims.json").read_text() == "1"
     return root
 
 
@@ -217,7 +170,7 @@ def test_step_that_raises_fails_again_until_it_is_mended(tree):
 def test_change_in_an_imported_module_reruns_what_depends_on_it(tree):
     edit(tree, "figures/beside.py", "1", "2")
     assert make(tree) == (0, {"counts", "figure", "claims"})
-    assert claimed(tree) == 2
+    assert (tree / "results/claims.json").read_text() == "2"
 
 
 def test_module_that_is_loaded_behind_the_declared_ones_fails_the_run(tree):
@@ -229,25 +182,16 @@ def test_module_that_is_loaded_behind_the_declared_ones_fails_the_run(tree):
 
 
 @pytest.mark.parametrize("kind", [signal.SIGINT, signal.SIGTERM])
-def test_interrupted_step_is_made_again(tree, kind):
+def test_interrupted_step_is_made_again(tree, begin, kind):
     slow = "import time, pathlib; pathlib.Path('began').touch(); time.sleep(60)\n    return"
     edit(tree, "src/steps/counts.py", "return", slow)
     edit(tree, "figures/beside.py", "1", "3")
-    run = subprocess.Popen(
-        command(),
-        cwd=tree,
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-        start_new_session=True,
-    )
-    while not (tree / "began").exists():
-        assert run.poll() is None
-        time.sleep(0.05)
+    run = begin(*OPTIONS, until="began", folder=tree)
     os.killpg(run.pid, kind)  # as a terminal does
     assert run.wait(timeout=60) != 0
     edit(tree, "src/steps/counts.py", slow, "return")
     assert make(tree) == (0, {"counts", "figure", "claims"})
-    assert claimed(tree) == 3
+    assert (tree / "results/claims.json").read_text() == "3"
 
 
 @pytest.mark.parametrize("name", MADE)
@@ -278,7 +222,7 @@ exit 0
 
 def test_full_disk_fails_and_is_made_good(tree):
     edit(tree, "figures/beside.py", "1", "4")
-    script = FULL.format(run=" ".join(command("--quiet=all")))
+    script = FULL.format(run=" ".join([*COMMAND, "--quiet=all"]))
     done = subprocess.run(
         ["unshare", "--mount", "--map-root-user", "sh", "-c", script],
         cwd=tree,
@@ -289,4 +233,4 @@ def test_full_disk_fails_and_is_made_good(tree):
         pytest.skip(f"no file system can be mounted here: {done.stderr.strip()}")
     assert done.returncode == 0, done.stdout + done.stderr
     assert make(tree) == (0, {"counts", "figure", "claims"})
-    assert claimed(tree) == 4
+    assert (tree / "results/claims.json").read_text() == "4"

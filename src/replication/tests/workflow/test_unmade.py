@@ -23,38 +23,33 @@ class Rule:
 
 CURVE = Rule("curve", ["src/steps/curve.py"], ["results/tables/curve.csv"])
 SHARD = Rule("shard", [lambda wildcards: []], ["results/shards/{n}.csv"])
-NOWHERE = Path("nowhere")
 
 
 def test_rules_that_read_what_others_make_are_accepted():
     reader = Rule("report", ["results/tables/curve.csv", "results/shards/3.csv", "paper/x.typ"])
-    refuse_unmade([CURVE, SHARD, reader], ["curve"], NOWHERE)
+    refuse_unmade([CURVE, SHARD, reader], ["curve"], Path("nowhere"))
 
 
-def test_result_that_no_rule_makes_is_refused_with_its_reader():
-    reader = Rule("report", ["results/tables/curv.csv"])
-    with pytest.raises(ValueError, match=r"^rule report reads \S+/curv.csv, which .* 'curve'\?$"):
-        refuse_unmade([CURVE, reader], [], NOWHERE)
-
-
-def test_text_that_names_the_missing_result_is_named(tmp_path):
-    texts = [tmp_path / "report.typ", tmp_path / "format.typ"]
-    for text, words in zip(texts, ('#let curve = found("curv")', "nothing"), strict=True):
-        text.write_text(words, encoding="utf-8")
-    reader = Rule("report", ["results/findings/curv.json", *map(str, texts)])
-    with pytest.raises(ValueError, match=rf"^rule report \({texts[0]}\) reads results/findings/cu"):
-        refuse_unmade([CURVE, reader], [], NOWHERE)
-
-
-def test_table_of_a_figure_that_no_rule_makes_is_refused():
-    with pytest.raises(ValueError, match=r"a figure reads results/tables/old.csv.* one of curve"):
-        refuse_unmade([CURVE], ["old"], NOWHERE)
-
-
-def test_published_table_that_the_workflow_no_longer_makes_is_to_be_deleted(tmp_path):
-    (tmp_path / "old.csv").touch()
-    with pytest.raises(ValueError, match=rf"delete {tmp_path}/old.csv if the workflow no longer"):
-        refuse_unmade([CURVE, Rule("compare", ["results/tables/old.csv"])], [], tmp_path)
+@pytest.mark.parametrize(
+    ("inputs", "tables", "told"),
+    [
+        (["results/tables/curv.csv"], [], r"^rule report reads \S+/curv.csv, which .* 'curve'\?$"),
+        (
+            ["results/findings/curv.json", "report.typ", "format.typ"],
+            [],
+            r"^rule report \(report.typ\) reads results/findings/cu",
+        ),
+        ([], ["ol"], "a figure reads results/tables/ol.csv.* one of curve"),
+        (["results/tables/old.csv"], [], "delete ref/old.csv if the workflow no longer"),
+    ],
+)
+def test_result_that_no_rule_makes_is_refused_with_its_reader(
+    tmp_path, plant, monkeypatch, inputs, tables, told
+):
+    texts = {"report.typ": '#let curve = found("curv")', "format.typ": "nothing", "ref/old.csv": ""}
+    monkeypatch.chdir(plant(tmp_path, texts))
+    with pytest.raises(ValueError, match=told):
+        refuse_unmade([CURVE, Rule("report", inputs)], tables, Path("ref"))
 
 
 CAPTIONS = {"results/tables/curve.csv": {"claims": ["eq_1"]}}
