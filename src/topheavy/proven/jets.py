@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from operator import add
 from typing import Union
 
 from topheavy.proven.balls import arb
@@ -9,7 +10,7 @@ from topheavy.proven.balls import arb
 Number = Union["Jet", arb, int]
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(eq=False, slots=True)
 class Jet:
     """A ball, and those of its derivatives; a number beside it is a constant."""
 
@@ -19,7 +20,7 @@ class Jet:
     def __add__(self, other: Number) -> "Jet":
         if not isinstance(other, Jet):
             return Jet(self.value + other, self.slopes)
-        return self._with(other, lambda x, y: x + y)
+        return self._with(other, add)
 
     def __neg__(self) -> "Jet":
         return Jet(-self.value, tuple(-x for x in self.slopes))
@@ -51,7 +52,7 @@ class Jet:
     # Of a box, part by part: what `flight.a_priori` asks.
 
     def union(self, other: "Jet") -> "Jet":
-        return self._with(other, lambda x, y: x.union(y))
+        return self._with(other, arb.union)
 
     def is_finite(self) -> bool:
         return self.value.is_finite() and all(x.is_finite() for x in self.slopes)
@@ -64,5 +65,5 @@ class Jet:
         return self.value.contains(other.value) and all(x.contains(y) for x, y in pairs)
 
     def _with(self, other: "Jet", change: Callable[[arb, arb], arb]) -> "Jet":
-        pairs = zip(self.slopes, other.slopes, strict=True)
-        return Jet(change(self.value, other.value), tuple(change(x, y) for x, y in pairs))
+        slopes = tuple(map(change, self.slopes, other.slopes))
+        return Jet(change(self.value, other.value), slopes)
