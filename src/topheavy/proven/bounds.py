@@ -35,7 +35,7 @@ of that time, however it came.
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from topheavy.proven.balls import Undecided, arb, bounds, hull
 from topheavy.proven.flight import Law
@@ -47,6 +47,7 @@ START = 1.1  # on time, energy and wall where it begins: the enclosures of the c
 MARGIN = 1.02  # on energies and times: the enclosures of the checker are wider
 _SLACK = 2.0**-20  # of a wall, beyond an equality
 _TRIES = 40
+_ZERO = arb(0)
 
 
 @dataclass(frozen=True)
@@ -94,25 +95,20 @@ class Bounded:
         span, h = hull(bound.sigma.lower(), until), (until - bound.sigma).upper()
         ground, rises = self._ground(bound.sigma, until, span, h)
         least = [(s * ground).lower() for s in SIDES]
-        concave = [bool(m * self.law.block.slenderness.tan() < 1) for m in least]
-        energy, walls = arb(bound.energy), bound.walls
-        before = [self.law.potential(arb(x), m) for x, m in zip(walls, least, strict=True)]
-        sides = [*map(_Side, walls, walls, before, before, [energy] * 2, concave)]
-        slack = _SLACK
-        for _ in range(_TRIES):
-            turns = [self.law.turn(float(energy), float(m)) for m in least]
-            one, other = (min(x.reached(h), turn) for x, turn in zip(sides, turns, strict=True))
-            walls = one * (1.0 + slack) + _SLACK**2, other * (1.0 + slack) + _SLACK**2
-            if not all(self.law.block.slenderness > x for x in (*walls, *bound.walls)):
+        energy, alpha = arb(bound.energy), self.law.block.slenderness
+        one, other = (_Side(self.law, h, *x, energy) for x in zip(bound.walls, least, strict=True))
+        slack, tries = _SLACK, _TRIES if all(alpha > x for x in bound.walls) else 0
+        for _ in range(tries):
+            one.move(slack)
+            other.move(slack)
+            if not (alpha > one.wall and alpha > other.wall):
                 break
-            grown = [g * self.law.lever(arb(y)) for g, y in zip(rises, walls, strict=True)]
-            energy = bound.energy + self.law.square * grown[0].max(grown[1]) * MARGIN
-            energy = arb(bounds(energy)[1])
-            at = [self.law.potential(arb(y), m) for y, m in zip(walls, least, strict=True)]
-            sides = [*map(_Side, bound.walls, walls, before, at, [energy] * 2, concave)]
-            if all(side.holds(h) for side in sides):
-                found = replace(bound, sigma=until, energy=float(energy), walls=walls)
-                return replace(found, pushed=self._pushed(bound, found, ground))
+            grown = (rises[0] * one.lever).max(rises[1] * other.lever)
+            energy = arb(bounds(bound.energy + self.law.square * grown * MARGIN)[1])
+            if one.holds(energy) & other.holds(energy):
+                walls = one.wall, other.wall
+                pushed = self._pushed(bound, until, walls, ground)
+                return Bound(until, float(energy), walls, pushed)
             slack = min(1.5 * slack, 0.05)
         raise Undecided("bound")
 
@@ -127,22 +123,22 @@ class Bounded:
         return ends[0].union(ends[1]), rises
 
     def _pushed(
-        self, bound: Bound, found: Bound, ground: arb
+        self, bound: Bound, until: arb, walls: tuple[float, float], ground: arb
     ) -> tuple[int, float, float, float] | None:
         """Return what is left of W, the time since, and the highest wall on the other side so far.
 
         None unless it is pushed outward all the while.
         """
-        lasts = (found.sigma - bound.sigma).lower()
         for side in SIDES:
             gain = -self.law.square * self.law.pull(arb(0), side * ground)
             if gain > 0:
-                left, waited = bounds(self._fastest(bound, side) * MARGIN)[1], 0.0
-                other = 1 - SIDES.index(side)
-                across = max(bound.walls[other], found.walls[other])
+                lasts, other = (until - bound.sigma).lower(), 1 - SIDES.index(side)
+                across = max(bound.walls[other], walls[other])
                 if bound.pushed is not None and bound.pushed[0] == side:
                     left, waited = bound.pushed[1:3]
                     across = max(across, bound.pushed[3])
+                else:
+                    left, waited = bounds(self._fastest(bound, side) * MARGIN)[1], 0.0
                 if left > 0.0:
                     return side, left - bounds(gain * lasts)[0], waited, across
                 return side, left, waited + bounds(lasts)[0], across
@@ -176,30 +172,27 @@ class Bounded:
         return bound.energy + self.law.square * gains[0].max(gains[1])
 
 
-@dataclass(frozen=True)
 class _Side:
-    """X_s, Y_s, V at both under m_s, F, and whether V is concave."""
+    """A step on one side: X_s, Y_s, V at both under m_s, F, and whether V is concave."""
 
-    before: float
-    wall: float
-    old: arb
-    at: arb
-    energy: arb
-    is_concave: bool
+    def __init__(self, law: Law, h: arb, before: float, least: arb, energy: arb) -> None:
+        self.law, self.h, self.before, self.wall, self.least = law, h, before, before, least
+        self.old = self.at = law.potential(arb(before), least)
+        self.is_concave = bool(least * law.tangent < 1)
+        self.holds(energy)
 
-    def holds(self, h: arb) -> bool:
-        """Return whether Y_s satisfies the lemma."""
-        if self.at > self.energy and (self.wall >= self.before or self.old > self.energy):
+    def move(self, slack: float) -> None:
+        """Move Y_s about to where F takes it, and a share beyond."""
+        turn = self.law.turn(float(self.energy), float(self.least))
+        reached = min(self.before + float(self.way), turn)
+        self.wall = reached * (1.0 + slack) + _SLACK**2
+        self.at, self.lever = self.law.wall(arb(self.wall), self.least)
+
+    def holds(self, energy: arb) -> bool:
+        """Return whether Y_s satisfies the lemma with F."""
+        one, other = ((2 * (energy - x)).upper().max(_ZERO).sqrt() for x in (self.old, self.at))
+        mean = (one + other) / 2 if self.is_concave else one.max(other)
+        self.energy, self.way = energy, self.h * mean
+        if self.at > energy and (self.wall >= self.before or self.old > energy):
             return True
-        return bool(self.wall - arb(self.before) > h * self._mean_rate())
-
-    def reached(self, h: arb) -> float:
-        """Return about where the mean rate takes it."""
-        return self.before + float((h * self._mean_rate()).upper())
-
-    def _mean_rate(self) -> arb:
-        """Return at least the mean φ' from one wall to the next."""
-        one, other = (
-            (2 * (self.energy - x)).upper().max(arb(0)).sqrt() for x in (self.old, self.at)
-        )
-        return (one + other) / 2 if self.is_concave else one.max(other)
+        return bool(self.wall - arb(self.before) > self.way)

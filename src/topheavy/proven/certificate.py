@@ -121,10 +121,14 @@ def _plain(value: object) -> object:
         return [_dyadic(value.lower()), _dyadic(value.upper())]
     if isinstance(value, (list, tuple)):
         return [_plain(each) for each in value]
-    return str(Fraction(value)) if isinstance(value, float) else value
+    return _ratio(*value.as_integer_ratio()) if isinstance(value, float) else value
 
 
 def _dyadic(number: arb) -> str:
     """Return a fraction next to the number, wide enough for a hint."""
-    mantissa, exponent = map(int, number.mid().man_exp())
-    return str(Fraction(mantissa) * Fraction(2) ** exponent)
+    mantissa, exponent = map(int, number.mid().man_exp())  # which is odd, or 0
+    return _ratio(mantissa << max(exponent, 0), 1 << max(-exponent, 0))
+
+
+def _ratio(top: int, below: int) -> str:
+    return f"{top}/{below}" if below > 1 else str(top)

@@ -7,6 +7,7 @@ With φ = |θ|, the side s = sgn θ and κ = p dt/dσ the motion obeys, until φ
 
 import math
 from dataclasses import dataclass, field
+from functools import cached_property
 from operator import mul
 
 from topheavy.proven.balls import Undecided, arb, arb_poly, hull, power, root
@@ -25,10 +26,15 @@ class Law:
     square: arb
     sine: arb = field(init=False)
     cosine: arb = field(init=False)
+    tangent: arb = field(init=False)
+    _floats: tuple[float, float, float, float] = field(init=False)
 
     def __post_init__(self) -> None:
         for name, value in zip(("sine", "cosine"), self.block.slenderness.sin_cos(), strict=True):
             object.__setattr__(self, name, value)
+        object.__setattr__(self, "tangent", self.block.slenderness.tan())
+        alpha, square = float(self.block.slenderness), float(self.square)
+        object.__setattr__(self, "_floats", (alpha, square, math.sin(alpha), math.cos(alpha)))
 
     def pull(self, phi: arb, push: arb) -> arb:
         """Return −φ''/κ² at φ under s·a."""
@@ -40,11 +46,16 @@ class Law:
 
     def potential(self, phi: arb, push: arb) -> arb:
         """Return κ² (Φ + s a ψ), of which −φ'' is the derivative by φ."""
+        return self.wall(phi, push)[0]
+
+    def wall(self, phi: arb, push: arb) -> tuple[arb, arb]:
+        """Return κ² (Φ + s a ψ), and ψ."""
         alpha = self.block.slenderness
         if self.block.linearised:
-            return self.square * phi * (alpha - phi / 2 + push)
+            return self.square * phi * (alpha - phi / 2 + push), phi
         sine, cosine = (alpha - phi).sin_cos()
-        return self.square * (cosine - self.cosine + push * (self.sine - sine))
+        lever = self.sine - sine
+        return self.square * (cosine - self.cosine + push * lever), lever
 
     def lever(self, phi: arb) -> arb:
         """Return ψ."""
@@ -54,13 +65,14 @@ class Law:
 
     def turn(self, energy: float, push: float) -> float:
         """Return about the first φ at which the potential reaches an energy; infinity if none."""
-        alpha, level = float(self.block.slenderness), energy / float(self.square)
+        alpha, square, sine, cosine = self._floats
+        level = energy / square
         if self.block.linearised:
             depth = alpha + push
             inside = depth * depth - 2.0 * level
             return depth - math.sqrt(inside) if inside > 0.0 < depth else math.inf
         depth = alpha + math.atan(push)
-        top = (level + math.cos(alpha) - push * math.sin(alpha)) / math.hypot(1.0, push)
+        top = (level + cosine - push * sine) / math.hypot(1.0, push)
         return depth - math.acos(top) if -1.0 < top < 1.0 and depth > 0.0 else math.inf
 
     def series(
@@ -79,22 +91,22 @@ class Law:
         push = _trimmed(push)
         # With S, C = sin, cos (α − φ):  S' = −C φ',  C' = S φ'
         one, other = (alpha - phi).sin_cos()
-        sines, cosines, rates = [one], [other], [rate]
+        sines, cosines, rates, back = [one], [other], [rate], -square
         for k in range(terms - 1):
-            pushed = sum(map(mul, push[: k + 1], cosines[::-1]))
-            found.append(-square * (sines[k] + pushed) / ((k + 1) * (k + 2)))
+            pushed = sum(map(mul, push, reversed(cosines)))
+            found.append(back * (sines[k] + pushed) / ((k + 1) * (k + 2)))
             if k < terms - 2:
-                sine = sum(map(mul, rates, cosines[::-1]))
-                cosine = sum(map(mul, rates, sines[::-1]))
+                sine = sum(map(mul, rates, reversed(cosines)))
+                cosine = sum(map(mul, rates, reversed(sines)))
                 sines.append(-sine / (k + 1))
                 cosines.append(cosine / (k + 1))
                 rates.append((k + 2) * found[k + 2])
         return found, [alpha.sin() - sines[0], *(-x for x in sines[1:])]
 
-    def power(self, push: list[arb], psi: list[arb]) -> list[arb]:
-        """Return the coefficients of κ² s a' ψ, the rate of the energy φ'²/2 + κ² (Φ + s a ψ)."""
+    def power(self, push: list[arb], psi: list[arb], which: range) -> list[arb]:
+        """Return coefficients of κ² s a' ψ, the rate of the energy φ'²/2 + κ² (Φ + s a ψ)."""
         slopes = [(j + 1) * x for j, x in enumerate(_trimmed(push)[1:])]
-        return [self.square * sum(map(mul, slopes, psi[k::-1]), arb(0)) for k in range(len(psi))]
+        return [self.square * sum(map(mul, slopes, psi[k::-1]), arb(0)) for k in which]
 
 
 def _trimmed(series: list[arb]) -> list[arb]:
@@ -145,8 +157,29 @@ class Step:
     zeros: int
     """φ/t^zeros does not vanish at t = 0: 1 behind an impact, 2 or 3 from rest."""
 
-    def __post_init__(self) -> None:
-        """Set up φ/t^k and its derivative.
+    @cached_property
+    def polynomial(self) -> arb_poly:
+        """φ."""
+        return arb_poly(self.coefficients)
+
+    @cached_property
+    def rates(self) -> arb_poly:
+        """φ'."""
+        return arb_poly([j * x for j, x in enumerate(self.coefficients)][1:])
+
+    @cached_property
+    def gain(self) -> arb_poly:
+        """What the energy has gained."""
+        return arb_poly([arb(0), *(x / (j + 1) for j, x in enumerate(self.power))])
+
+    @cached_property
+    def quotient(self) -> arb_poly:
+        """φ/t^k, k = `zeros`."""
+        return arb_poly(self.coefficients[self.zeros :])
+
+    @cached_property
+    def slope(self) -> arb_poly:
+        """(φ/t^k)'.
 
         The remainder ρ of φ is R t^N and its derivative is N R' t^(N−1), with R and R' in one ball
         but not equal: that of ρ/t^k is (N R' − k R) t^(N−k−1), and not (N − k) R t^(N−k−1).
@@ -154,18 +187,7 @@ class Step:
         c, k = self.coefficients, self.zeros
         last = len(c) - 1
         slopes = [(j - k) * c[j] for j in range(k + 1, last)] + [last * c[last] - k * c[last]]
-        rates = [j * c[j] for j in range(1, last + 1)]
-        for name, value in (("quotient", c[k:]), ("slope", slopes), ("rates", rates)):
-            object.__setattr__(self, name, arb_poly(value))
-        object.__setattr__(self, "polynomial", arb_poly(c))
-        gain = [arb(0), *(x / (j + 1) for j, x in enumerate(self.power))]
-        object.__setattr__(self, "gain", arb_poly(gain))
-
-    quotient: arb_poly = field(init=False)
-    slope: arb_poly = field(init=False)
-    rates: arb_poly = field(init=False)
-    polynomial: arb_poly = field(init=False)
-    gain: arb_poly = field(init=False)
+        return arb_poly(slopes)
 
     def at(self, time: arb) -> tuple[arb, arb]:
         """Return φ and φ' at a time of the step."""
@@ -234,5 +256,6 @@ def step(
     box = a_priori(law, phi[0], phi[1], over[0], h)
     ends = law.series(box.phi, box.rate, over, order)
     coefficients = [*[arb(0)] * zeros, *phi[zeros:order], ends[0][order]]
-    power = law.power(at_start, psi)[:-1] + law.power(over, ends[1])[-1:]
+    last = len(psi) - 1
+    power = law.power(at_start, psi, range(last)) + law.power(over, ends[1], range(last, last + 1))
     return Step(h, coefficients, power, box, zeros)

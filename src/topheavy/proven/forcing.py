@@ -8,7 +8,9 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from functools import cache
+from itertools import cycle, pairwise
+from operator import truediv
 
 from topheavy.proven.balls import Undecided, arb, exact, hull, power, root
 from topheavy.pulses import Pulse
@@ -159,11 +161,12 @@ def _cosine(sigma: arb, terms: int) -> list[arb]:
 
 
 def _cycle(derivatives: Sequence[arb], terms: int) -> list[arb]:
-    found, factorial = [], 1
-    for k in range(terms):
-        factorial *= max(k, 1)
-        found.append(derivatives[k % 4] / factorial)
-    return found
+    return list(map(truediv, cycle(derivatives), _factorials(terms)))
+
+
+@cache
+def _factorials(terms: int) -> tuple[arb, ...]:
+    return tuple(arb(math.factorial(k)) for k in range(terms))  # exact in any precision
 
 
 def _constant(sigma: arb, terms: int) -> list[arb]:

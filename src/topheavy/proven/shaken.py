@@ -106,13 +106,14 @@ class Shaken:
 
         Of a jet the law makes jets, as it makes balls of a ball.
         """
-        start: list[Any] = self.law.series(phi, rate, self._push(time, order), order)[0]
+        law = self.law
+        start: list[Any] = law.series(phi, rate, self._push(time, order), order)[0]
         h, cause = LONGEST, ""
         while h > LONGEST / 64:
             over = self._push(time + hull(0, h), order)
             try:
-                box: Any = a_priori(self.law, phi, rate, over[0], h)
-                last: Any = self.law.series(box.phi, box.rate, over, order)[0][order]
+                box: Any = a_priori(law, phi, rate, over[0], h)
+                last: Any = law.series(box.phi, box.rate, over, order)[0][order]
                 terms = [*start[:order], last]
                 plain = Box(box.phi.value, box.rate.value, box.acceleration.value)
                 step = Step(h, [term.value for term in terms], [], plain, zeros)

@@ -7,6 +7,7 @@ import json
 import math
 import sys
 from fractions import Fraction
+from itertools import product
 from pathlib import Path
 
 import pytest
@@ -22,7 +23,15 @@ from topheavy import (
 )
 from topheavy.proven import BlockBox, certified
 from topheavy.proven.checking import Refused, check, concerns, intervals
-from topheavy.proven.checking.intervals import Interval, arctangent, cosine, exponential, of, sine
+from topheavy.proven.checking.intervals import (
+    Interval,
+    arctangent,
+    cosine,
+    dot,
+    exponential,
+    of,
+    sine,
+)
 from topheavy.shapes import ENDING
 
 COLUMN = Column(0.5, 3.0)
@@ -227,6 +236,15 @@ def test_arithmetic_of_intervals_is_rounded_outward():
     ):
         assert Fraction(found.low, 256) <= true <= Fraction(found.high, 256)
         assert found.high - found.low < 40
+
+
+def test_sum_of_products_has_the_ends_of_its_corners_whatever_their_signs():
+    intervals.precision(0)
+    spans = [Interval(a, b) for a in range(-2, 3) for b in range(a, 3)]
+    for x, y in product(spans, spans):
+        corners = [p * q for p in (x.low, x.high) for q in (y.low, y.high)]
+        for found in (x * y, dot([x, of(1), of(9)], [y, of(0)])):
+            assert (found.low, found.high) == (min(corners), max(corners))
 
 
 def forged(structure, excitation, events, outcome="survives", impacts=0, **changes):

@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import Protocol
 
 from topheavy.proven.checking import intervals
-from topheavy.proven.checking.intervals import Interval, Refused, between, cosine, of, sine
+from topheavy.proven.checking.intervals import Interval, Refused, between, cosine, dot, of, sine
 from topheavy.proven.checking.model import Block, Ground
 
 BOXES = 12  # that are tried around that of a step
@@ -49,46 +49,41 @@ class Course:
         self.box = image
         rates = rate + self.h.hull(0) * force
         n = start.order
-        self.phi, self.rate, self.gain = self._develop(start, start.sigma, phi, rate)
+        self.phi, self.rate, slopes, lever = self._develop(start, start.sigma, phi, rate)
         ends = self._develop(start, span, image, rates)
-        self.phi[n], self.rate[n], self.gain[-1] = ends[0][n], ends[1][n], ends[2][-1]
+        self.phi[n], self.rate[n] = ends[0][n], ends[1][n]
+        gains = [self._gain(slopes, lever, k) for k in range(1, n - 1)]
+        self.gain = [of(0), *gains, self._gain(*ends[2:], n - 1)]
         for k in range(start.zeros):
             self.phi[k] = of(0)
 
     def _develop(
         self, start: "State", sigma: Interval, phi: Interval, rate: Interval
-    ) -> tuple[list[Interval], list[Interval], list[Interval]]:
-        """Return the coefficients 0 to n of φ and φ', and 0 to n − 1 of what the energy gains.
+    ) -> tuple[list[Interval], list[Interval], list[Interval], list[Interval]]:
+        """Return the coefficients 0 to n of φ and φ', and those of s a' and ψ.
 
         φ' = V,  V' = −κ² (S + s a C);  S, C = sin, cos (α − φ):  S' = −C V,  C' = S V.
-        The energy φ'²/2 + κ² (Φ + s a ψ) gains κ² s a' ψ.
         """
         block, n, h = start.block, start.order, self.h
         push = [start.side * x for x in start.ground.series(start.piece, sigma, h, n)]
         x, v, s, c = [phi], [rate], [sine(block.alpha - phi)], [cosine(block.alpha - phi)]
-        last = _last_term(push)
+        back, force = -h, -h * self.kappa
         for k in range(n):
             if block.linearised:
                 pull = push[k] - x[k] + (block.alpha if k == 0 else of(0))
             else:
-                pull = s[k]
-                for j in range(min(k, last) + 1):
-                    pull = pull + push[j] * c[k - j]
-                turn, back = of(0), of(0)
-                for j in range(k + 1):
-                    turn, back = turn + v[j] * c[k - j], back + v[j] * s[k - j]
-                s.append(-h * turn / (k + 1))
-                c.append(h * back / (k + 1))
+                pull = s[k] + dot(push, c[::-1])
+                falls, grows = dot(v, c[::-1]), dot(v, s[::-1])
+                s.append(back * falls / (k + 1))
+                c.append(h * grows / (k + 1))
             x.append(h * v[k] / (k + 1))
-            v.append(-h * self.kappa * pull / (k + 1))
+            v.append(force * pull / (k + 1))
         lever = x if block.linearised else [block.lever(phi), *(-each for each in s[1:])]
-        gain = [of(0)]
-        for k in range(n - 1):
-            rate = of(0)
-            for j in range(min(k + 1, last)):
-                rate = rate + (j + 1) * push[j + 1] * lever[k - j]
-            gain.append(self.kappa * rate / (k + 1))
-        return x, v, gain
+        return x, v, [(j + 1) * each for j, each in enumerate(push[1:])], lever
+
+    def _gain(self, slopes: list[Interval], lever: list[Interval], k: int) -> Interval:
+        """Return coefficient k > 0 of what φ'²/2 + κ² (Φ + s a ψ) gains, at a rate of κ² s a' ψ."""
+        return self.kappa * dot(slopes, lever[k - 1 :: -1]) / k
 
     def quotient(self, zeros: int) -> tuple[list[Interval], list[Interval]]:
         """Return q of φ = τ^k q, k = `zeros`, and q'.
@@ -108,14 +103,6 @@ class Course:
 
     def at(self, tau: Interval) -> tuple[Interval, Interval]:
         return horner(self.phi, tau), horner(self.rate, tau)
-
-
-def _last_term(push: Sequence[Interval]) -> int:
-    """Return the index of the last coefficient that is not exactly zero."""
-    last = len(push) - 1
-    while last > 0 and push[last].low == push[last].high == 0:
-        last -= 1
-    return last
 
 
 def horner(coefficients: Sequence[Interval], tau: Interval) -> Interval:

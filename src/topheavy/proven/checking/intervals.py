@@ -4,9 +4,12 @@ Only the standard library is used, and no code of the search.
 """
 
 import math
+from collections.abc import Iterable
 from fractions import Fraction
+from functools import lru_cache
 
-UNIT = 1  # 2^P of all intervals, set by `precision`
+PLACES = 0  # P of all intervals, set by `precision`
+UNIT = 1  # 2^P
 
 
 class Refused(Exception):
@@ -15,8 +18,8 @@ class Refused(Exception):
 
 def precision(bits: int) -> None:
     """Let all intervals from now on have so many bits behind the point."""
-    global UNIT
-    UNIT = 1 << bits
+    global PLACES, UNIT
+    PLACES, UNIT = bits, 1 << bits
 
 
 class Interval:
@@ -28,7 +31,8 @@ class Interval:
         self.low, self.high = low, high
 
     def __add__(self, other: "Interval | int") -> "Interval":
-        other = of(other)
+        if not isinstance(other, Interval):
+            other = of(other)
         return Interval(self.low + other.low, self.high + other.high)
 
     def __neg__(self) -> "Interval":
@@ -43,7 +47,7 @@ class Interval:
             return Interval(min(ends), max(ends))
         a, b, c, d = self.low, self.high, other.low, other.high
         products = a * c, a * d, b * c, b * d
-        return Interval(min(products) // UNIT, -(-max(products) // UNIT))
+        return Interval(min(products) >> PLACES, -(-max(products) >> PLACES))
 
     def __truediv__(self, other: "Interval | int") -> "Interval":
         if isinstance(other, int):
@@ -95,23 +99,44 @@ def of(number: "Interval | int | Fraction") -> Interval:
     """Return the interval of a number."""
     if isinstance(number, Interval):
         return number
+    if isinstance(number, int):
+        return Interval(number * UNIT, number * UNIT)
     value = Fraction(number) * UNIT
     return Interval(math.floor(value), math.ceil(value))
+
+
+def dot(one: Iterable[Interval], other: Iterable[Interval]) -> Interval:
+    """Return the sum of products, rounded once, up to the end of the shorter series."""
+    low = high = 0
+    for x, y in zip(one, other, strict=False):
+        a, b, c, d = x.low, x.high, y.low, y.high
+        if a >= 0:
+            low += (a if c >= 0 else b) * c
+            high += (b if d >= 0 else a) * d
+        elif b <= 0:
+            low += (a if d >= 0 else b) * d
+            high += (b if c >= 0 else a) * c
+        else:
+            low += min(a * d, b * c)
+            high += max(a * c, b * d)
+    return Interval(low >> PLACES, -(-high >> PLACES))
 
 
 def between(low: str, high: str) -> Interval:
     return of(Fraction(low)).hull(of(Fraction(high)))
 
 
-def _powers(x: int, signs: tuple[int, ...]) -> Interval:
-    """Return Σ sₖ xᵏ/k!, of a number x/2^P, with the signs in turn; 0 leaves a term out."""
-    bits = 64 + 2 * (abs(x) // UNIT)  # what large terms that cancel cost
-    x, unit = x << bits, UNIT << bits
+@lru_cache(64)
+def _powers(x: int, signs: tuple[int, ...], places: int) -> Interval:
+    """Return Σ sₖ xᵏ/k! of a number x/2^places, with the signs in turn; 0 leaves a term out."""
+    bits = 64 + 2 * (abs(x) >> places)  # what large terms that cancel cost
+    x, places = x << bits, places + bits
+    unit = 1 << places
     total, term, k = 0, unit, 0
     while abs(term) > 1 or k * unit < 2 * abs(x):
         total += signs[k % len(signs)] * term
         k += 1
-        term = term * x // (unit * k)
+        term = (term * x >> places) // k
     error = 4 * (k + 1) * (1 + (3 ** (abs(x) // unit + 1)))  # each term is short of one unit
     return Interval((total - error) >> bits, -(-(total + error) >> bits))
 
@@ -119,9 +144,9 @@ def _powers(x: int, signs: tuple[int, ...]) -> Interval:
 def _smooth(x: Interval, signs: tuple[int, ...], slope: tuple[int, ...]) -> Interval:
     """Return sine or cosine of an interval: by its middle m and radius r, |f'| ≤ |f'(m)| + r."""
     middle, radius = (x.low + x.high) // 2, (x.high - x.low) // 2 + 1
-    value, steep = _powers(middle, signs), UNIT
+    value, steep = _powers(middle, signs, PLACES), UNIT
     if 16 < radius < UNIT:
-        steep = min(UNIT, _powers(middle, slope).size().high + radius)
+        steep = min(UNIT, _powers(middle, slope, PLACES).size().high + radius)
     off = radius * steep // UNIT + 1
     return Interval(max(value.low - off, -UNIT - 1), min(value.high + off, UNIT + 1))
 
@@ -136,7 +161,7 @@ def cosine(x: Interval) -> Interval:
 
 def exponential(x: Interval) -> Interval:
     """Return exp(−x) for x ≥ 0, up to a rounding below."""
-    ends = [of(1) / _powers(max(end, 0), (1,)) for end in (x.high, x.low)]
+    ends = [of(1) / _powers(max(end, 0), (1,), PLACES) for end in (x.high, x.low)]
     return Interval(ends[0].low, ends[1].high)
 
 

@@ -10,6 +10,7 @@ from topheavy.proven.checking.intervals import (
     arctangent,
     between,
     cosine,
+    dot,
     exponential,
     of,
     sine,
@@ -140,7 +141,7 @@ class Ground:
             cube = [(y * y - 3) * y, (3 * (y * y) - 3) * step, 3 * y * step * step]
             peak = of(Fraction(13801, 10000))
             factors = [x / peak for x in (*cube, step * step * step)]
-        return _product(factors, bell, terms)
+        return [dot(factors, bell[k::-1]) for k in range(terms)]
 
     def at(self, piece: int, sigma: Interval) -> Interval:
         return self.series(piece, sigma, of(1), 1)[0]
@@ -158,13 +159,3 @@ class Ground:
 
 def _least(one: Interval, other: Interval) -> Interval:
     return Interval(min(one.low, other.low), min(one.high, other.high))
-
-
-def _product(one: Sequence[Interval], other: Sequence[Interval], terms: int) -> list[Interval]:
-    found = []
-    for k in range(terms):
-        total = of(0)
-        for j in range(max(0, k - len(other) + 1), min(k, len(one) - 1) + 1):
-            total = total + one[j] * other[k - j]
-        found.append(total)
-    return found
