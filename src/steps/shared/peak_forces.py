@@ -16,12 +16,12 @@ from topheavy import (
     Response,
     RockingFrame,
     base_shear_slope,
+    largest_forces,
     peak_elastic,
     peak_rigid,
     simulate,
 )
 from topheavy.fixed_frame import STEPS, Top
-from topheavy.frame_forces import largest_forces
 
 FORCES = ("base_shear", "overturning_moment", "bending_moment")
 RIGID = "rigid"
