@@ -1,7 +1,7 @@
 """Forces of a rocking frame at an instant, and the largest of a history, over its weight.
 
-`topheavy.frame_forces` says what they are, `topheavy.contact_forces` where those of the contacts
-come from. Units are m and s; the ground acceleration is in g.
+They are defined in `topheavy.frame_forces`, and those at the contacts in `topheavy.contact_forces`.
+Units are m and s; the ground acceleration is in g.
 """
 
 import math
