@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from topheavy import STANDARD_GRAVITY, Cap, Column, RockingFrame, base_shear_slope, contact_forces
-from topheavy.frame_forces import SECTIONS, centre_height, frame_forces
+from topheavy.frame_forces import SECTIONS, centre_height, frame_forces, largest_forces
 from topheavy.kinematics import cap_acceleration
 
 COLUMN, CAP = Column(0.5, 3.0), Cap(5.0, 0.5)
@@ -137,3 +137,20 @@ def test_uplift_begins_without_a_jump(ratio, sign):
     assert moves.base_shear == pytest.approx(rests.base_shear, rel=1e-9)
     assert moves.overturning_moment == pytest.approx(rests.overturning_moment, rel=1e-9)
     assert np.isnan(rests.bending_moment).all()
+
+
+@pytest.mark.parametrize("ratio", RATIOS)
+def test_largest_forces_are_those_of_arcs_that_move_or_of_all_if_none_does(ratio):
+    frame = RockingFrame(COLUMN, ratio)
+    theta, rate, ground = 1e-3 * np.random.default_rng(3).normal(size=(3, 50, 3))
+    theta[:25], rate[:25], ground[:25] = 0.0, 0.0, 0.99 * COLUMN.uplift_acceleration
+    theta[25, 0] = 0.0  # one instant without rotation is not rest
+    for arcs, counted in ((slice(None), slice(25, None)), (slice(25), slice(25))):
+        found = frame_forces(frame, CAP, *(each[counted] for each in (theta, rate, ground)))
+        for row, step in zip(
+            largest_forces(frame, CAP, theta[arcs], rate[arcs], ground[arcs]), (1, 2), strict=True
+        ):
+            assert row.tolist() == [
+                np.nanmax(np.abs(force[:, ::step]), initial=0.0)
+                for force in (found.base_shear, found.overturning_moment, found.bending_moment)
+            ]

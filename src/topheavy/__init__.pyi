@@ -11,7 +11,7 @@ from .contact_forces import (
 from .fixed_frame import FixedFrame, Forces, peak_elastic, peak_elastic_by_scipy, peak_rigid
 from .fixed_mass import FixedMassColumn, MonolithicPortal
 from .fragility.estimate import Fragility, fragility
-from .frame_forces import FrameForces, base_shear_slope, frame_forces
+from .frame_forces import FrameForces, base_shear_slope, frame_forces, largest_forces
 from .free_rocking import Ending
 from .minimum import LowestOverturning, lowest_overturning
 from .overturning import (
@@ -66,6 +66,7 @@ __all__ = [
     "impact_impulses",
     "intervals_together",
     "judge",
+    "largest_forces",
     "lowest_overturning",
     "minima_together",
     "minimum_overturning",

@@ -151,10 +151,10 @@ def contact_forces(
     ValueError
         For a rotation of π/2 or more, or a span that is not more than the columns' width 2b.
     """
-    _check_span(frame, cap)
+    check_span(frame, cap)
     at = _state(frame.column, rotation, velocity, ground_acceleration)
     size, p_hat = frame.column.size, frame.frequency_parameter
-    each, beam = _weights(frame.mass_ratio)
+    each, beam = weights(frame.mass_ratio)
     on_column = _load(at, size, p_hat)  # Eqs. (10), (11)
     on_cap = _load(at, 2.0 * size, p_hat)  # Eqs. (12), (13)
     return _shared(frame, cap, at.side, at.lean, on_column.times(each), on_cap.times(beam))
@@ -202,9 +202,9 @@ def impact_impulses(frame: RockingFrame, cap: Cap, velocity: ArrayLike) -> Conta
     ValueError
         When √r of Eq. (25) is negative, or the span is not more than the columns' width 2b.
     """
-    _check_span(frame, cap)
+    check_span(frame, cap)
     column, restitution = frame.column, frame.block().restitution
-    each, beam = _weights(frame.mass_ratio)
+    each, beam = weights(frame.mass_ratio)
     centre = _jump(column, restitution, column.size, velocity)
     ends = _jump(column, restitution, 2.0 * column.size, velocity)
     side = np.sign(np.asarray(velocity, dtype=float))
@@ -248,9 +248,10 @@ class _State(NamedTuple):
     cosine: Array
 
 
-def _state(
-    column: Column, rotation: ArrayLike, velocity: ArrayLike, ground_acceleration: ArrayLike
-) -> _State:
+def checked_motion(
+    rotation: ArrayLike, velocity: ArrayLike, ground_acceleration: ArrayLike
+) -> tuple[Array, Array, Array]:
+    """Return θ, θ̇ and ü_g as arrays of one shape, or raise ValueError for θ of π/2 or more."""
     theta, rate, ground = np.broadcast_arrays(
         checks.numbers("rotation", rotation),
         checks.numbers("velocity", velocity),
@@ -259,6 +260,13 @@ def _state(
     if np.any(np.abs(theta) >= math.pi / 2):
         worst = float(np.nanmax(np.abs(theta)))
         raise ValueError(f"rotation is up to {worst:.6g} rad; expected less than π/2, lying flat")
+    return theta, rate, ground
+
+
+def _state(
+    column: Column, rotation: ArrayLike, velocity: ArrayLike, ground_acceleration: ArrayLike
+) -> _State:
+    theta, rate, ground = checked_motion(rotation, velocity, ground_acceleration)
     uplifted = np.where(np.abs(ground) >= column.uplift_acceleration, -np.sign(ground), np.nan)
     moving = np.where(rate != 0.0, np.sign(rate), uplifted)
     side = np.where(theta != 0.0, np.sign(theta), moving)
@@ -317,14 +325,15 @@ def _shared(
     return ContactForces(base_left, base_right, left, right)
 
 
-def _weights(mass_ratio: float) -> tuple[float, float]:
+def weights(mass_ratio: float) -> tuple[float, float]:
     """Return the shares of one column and of the cap in the weight of the frame."""
     if mass_ratio == math.inf:
         return 0.0, 1.0
     return 0.5 / (1.0 + mass_ratio), mass_ratio / (1.0 + mass_ratio)
 
 
-def _check_span(frame: RockingFrame, cap: Cap) -> None:
+def check_span(frame: RockingFrame, cap: Cap) -> None:
+    """Raise ValueError unless the columns are further apart than they are wide."""
     width = 2.0 * frame.column.half_width
     if not cap.span > width:
         raise ValueError(

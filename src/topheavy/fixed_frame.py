@@ -209,9 +209,18 @@ def _ending(excitation: Motion) -> Motion:
 
 
 def _outermost(course: Array) -> Array:
-    """Return the points (ü_g, A) of a course on which a force, linear in both, can be largest."""
+    """Return the points (ü_g, A) of a course on which a force, linear in both, can be largest.
+
+    Those inside the quadrilateral of the least and the largest ü_g and A are left out first.
+    """
     from scipy.spatial import ConvexHull, QhullError  # here, as most users never need it
 
+    x, y = course.T
+    corners = course[[*course.argmin(axis=0), *course.argmax(axis=0)]]  # counterclockwise
+    outside = np.zeros(x.size, dtype=bool)
+    for (x0, y0), (x1, y1) in zip(corners, np.roll(corners, -1, axis=0), strict=True):
+        outside |= (x1 - x0) * (y - y0) <= (y1 - y0) * (x - x0)
+    course = course[outside]
     try:
         outermost: Array = course[ConvexHull(course).vertices]
     except QhullError:  # the points lie on a line

@@ -20,13 +20,16 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from topheavy.contact_forces import Cap, Reaction, contact_forces
+from topheavy.contact_forces import Cap, check_span, checked_motion, weights
+from topheavy.kernel.forces import Frame, forces_along, largest_along
 from topheavy.structures import STANDARD_GRAVITY, RockingFrame
 
 Array = NDArray[np.float64]
 
 SECTIONS = (0.0, 0.25, 0.5, 0.75, 1.0)
 """Heights over 2h at which the bending moments are computed."""
+
+HEIGHTS = np.array(SECTIONS)
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,22 +64,32 @@ def frame_forces(
     Parameters are those of `contact_forces`. At rest, base shear and overturning moment are those
     of the ground's acceleration; the bending moments are NaN, since whole faces are in contact.
     """
-    forces = contact_forces(frame, cap, rotation, velocity, ground_acceleration)
-    theta, rate, ground = np.broadcast_arrays(
-        *(np.asarray(given, dtype=float) for given in (rotation, velocity, ground_acceleration))
-    )
-    left, right = forces.base_left, forces.base_right
-    rests = (theta == 0.0) & (rate == 0.0) & np.isnan(left.vertical)
-    side = _side(theta, rate, ground)
-    pivot = side * frame.column.half_width
-    moment = -sum(
-        (pivot + end * cap.span / 2.0) * foot.vertical for end, foot in ((-1, left), (1, right))
-    )
+    motion = checked_motion(rotation, velocity, ground_acceleration)
+    shape, count = motion[0].shape, motion[0].size
+    found = np.empty(count), np.empty(count), np.empty((count, 2, len(SECTIONS)))
+    forces_along(_numbers(frame, cap), *map(np.ravel, motion), HEIGHTS, *found)
+    shear, moment, bending = found
     return FrameForces(
-        np.where(rests, ground, left.horizontal + right.horizontal),
-        np.where(rests, ground * centre_height(frame, cap), moment),
-        _bending(frame, side, theta, rate, ground, (left, right)),
+        shear.reshape(shape), moment.reshape(shape), bending.reshape(*shape, *bending.shape[1:])
     )
+
+
+def largest_forces(
+    frame: RockingFrame, cap: Cap, rotation: Array, velocity: Array, ground_acceleration: Array
+) -> NDArray[np.float64]:
+    """Return the largest moduli of the forces of `frame_forces` in all arcs that move.
+
+    The motion has the shape (arcs, samples). At rest there is less shear than at uplift, where the
+    forces go on without a jump; where no arc moves, all count.
+
+    Returns
+    -------
+    ndarray, shape (2, 3)
+        Of all samples, and of every other one: base shear, overturning moment, bending moment.
+    """
+    motion = map(np.ascontiguousarray, checked_motion(rotation, velocity, ground_acceleration))
+    found: Array = largest_along(_numbers(frame, cap), *motion, HEIGHTS)
+    return found
 
 
 def base_shear_slope(frame: RockingFrame) -> float:
@@ -98,33 +111,18 @@ def centre_height(frame: RockingFrame, cap: Cap) -> float:
     return columns * h + (1.0 - columns) * (2.0 * h + cap.half_depth)
 
 
-def _side(theta: Array, rate: Array, ground: Array) -> Array:
-    """Return sgn θ, or at θ = 0 the side that the frame turns to."""
-    return np.sign(np.where(theta != 0.0, theta, np.where(rate != 0.0, rate, -ground)))
-
-
-def _bending(
-    frame: RockingFrame,
-    side: Array,
-    theta: Array,
-    rate: Array,
-    ground: Array,
-    feet: tuple[Reaction, ...],
-) -> Array:
-    """Return the bending moments of the columns at the SECTIONS over the weight of the frame, m."""
-    column, lean = frame.column, frame.slenderness - np.abs(theta)
-    weight = 0.0 if frame.mass_ratio == math.inf else 0.5 / (1.0 + frame.mass_ratio)
-    squared = frame.frequency_parameter**2
-    angular = -squared * (side * np.sin(lean) + ground * np.cos(lean))  # Eq. (23)
-    sin, cos, b = np.sin(theta), np.cos(theta), column.half_width
-    spread = weight / (2.0 * column.half_height * STANDARD_GRAVITY)
-    steady = STANDARD_GRAVITY * (ground * cos - sin) + side * b * rate**2
-    # A polynomial of the third degree in the height z above the base, for each column.
-    terms = np.empty((4, len(feet), *theta.shape))
-    for of_column, foot in zip(np.moveaxis(terms, 1, 0), feet, strict=True):
-        of_column[0] = side * b * (foot.horizontal * sin + foot.vertical * cos)
-        of_column[1] = foot.horizontal * cos - foot.vertical * sin + spread * angular * b**2 / 3.0
-    terms[2], terms[3] = -spread * steady / 2.0, -spread * angular / 6.0
-    powers = np.vander(2.0 * column.half_height * np.array(SECTIONS), 4, increasing=True)
-    found: Array = np.moveaxis(np.tensordot(powers, terms, 1), [1, 0], [-2, -1])
-    return found
+def _numbers(frame: RockingFrame, cap: Cap) -> Frame:
+    check_span(frame, cap)
+    column = frame.column
+    return Frame(
+        column.size,
+        column.half_width,
+        column.half_height,
+        column.uplift_acceleration,
+        frame.frequency_parameter**2,
+        *weights(frame.mass_ratio),
+        cap.span,
+        cap.half_depth,
+        centre_height(frame, cap),
+        STANDARD_GRAVITY,
+    )

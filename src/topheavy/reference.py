@@ -4,6 +4,8 @@ Every step's interpolating polynomial is cut at its turning points into monotone
 impact inside a step, grazing or double, is missed.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable, Sequence
 from functools import partial

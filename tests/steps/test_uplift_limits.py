@@ -26,10 +26,12 @@ from topheavy import (
     Column,
     FixedFrame,
     Pulse,
+    Record,
     RockingFrame,
     impact_impulses,
     peak_elastic,
     peak_rigid,
+    simulate,
 )
 
 COLUMN, CAP = Column(0.5, 3.0), Cap(5.0, 0.5)
@@ -77,6 +79,19 @@ def test_impulse_is_that_of_the_contacts_at_the_largest_impact():
     impulses = impact_impulses(FRAME, CAP, np.array(rates))
     total = impulses.base_left.horizontal + impulses.base_right.horizontal
     assert impact_impulse(FRAME, course) == pytest.approx(np.abs(total).max(), rel=1e-6)
+
+
+def test_history_under_a_record_begins_at_rest_and_holds_all_that_moves():
+    record = Record(0.01, np.append(np.zeros(100), 2.0 * TAN * np.sin(np.arange(60) / 10.0)))
+    course = history(FRAME, record, 4)
+    assert 1.0 < course.time[0, 0] < 1.1
+    assert course.time[-1, -1] > record.duration
+    assert course.rotation[0, 0] == 0.0 != course.rotation[0, -1]
+    peak = simulate(FRAME, record).peak_rotation
+    assert np.abs(course.rotation).max() == pytest.approx(peak, rel=1e-2)
+    quiet = history(FRAME, record.scaled(0.4), 4)
+    assert quiet.time[0, 0] < 0.01
+    assert not quiet.rotation.any()
 
 
 def test_held_frames_are_pinned_and_guided_rigid_and_of_each_period():

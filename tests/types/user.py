@@ -40,6 +40,7 @@ from topheavy import (
     impact_impulses,
     intervals_together,
     judge,
+    largest_forces,
     lowest_overturning,
     minima_together,
     minimum_overturning,
@@ -108,6 +109,8 @@ frame_motion = simulate(bent, shaking, samples=times)
 forces = frame_forces(bent, cap, frame_motion.rotation, frame_motion.velocity)
 assert_type(forces, FrameForces)
 assert_type(forces.base_shear, NDArray[np.float64])
+arc = frame_motion.rotation[np.newaxis], frame_motion.velocity[np.newaxis]
+assert_type(largest_forces(bent, cap, *arc, 0.0 * arc[0]), NDArray[np.float64])
 
 motions = [shaking, measured, measured.scaled(2.0)]
 curves = fragility({"pier": pier, "bent": bent}, motions, [0.2, 0.5, 1.0], lowered=(0.05,))

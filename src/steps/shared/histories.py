@@ -41,8 +41,9 @@ def history(
 ) -> History:
     """Return a whole history by one of the solvers; one that overturns up to its last |θ| = α.
 
-    Each arc holds both its ends and 2·samples − 1 times between them, evenly. `whole` is the
-    response from 0 to its end, where the caller has it.
+    Each arc holds both its ends and 2·samples − 1 times between them, evenly. Under a record the
+    arcs begin with the piece in which the ground first uplifts it. `whole` is the response from 0
+    to its end, where the caller has it.
     """
     found = whole or route(frame, excitation, samples=2)
     if isinstance(excitation, Pulse):
@@ -53,6 +54,9 @@ def history(
     if found.outcome == "overturned":
         end = _point_of_no_return(frame, excitation, end)
     kinks = np.arange(round(excitation.duration / step) + 1) * step
+    if isinstance(excitation, Record):
+        lifting = np.abs(excitation.acceleration) >= frame.uplift_acceleration
+        kinks = kinks[max(int(lifting.argmax()) - 1, 0) :]  # all, where none does
     knots = np.concatenate([kinks, found.impacts])
     knots = np.unique(np.append(knots[knots < end], end))
     aside = ASIDE / frame.frequency_parameter

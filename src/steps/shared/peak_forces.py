@@ -16,7 +16,7 @@ from topheavy import (
     Response,
     RockingFrame,
     base_shear_slope,
-    frame_forces,
+    largest_forces,
     peak_elastic,
     peak_rigid,
     simulate,
@@ -67,17 +67,8 @@ def rocking_peaks(
         nothing = dict.fromkeys(FORCES, math.nan)
         return Peaks(nothing, math.nan, math.nan, math.nan, whole.outcome)
     course = history(frame, motion, samples, route, whole)
-    # At rest there is less shear than at uplift, where the forces go on without a jump.
-    moves = course.rotation.any(axis=1)
-    arcs = moves if moves.any() else ~moves
-    found = frame_forces(
-        frame, cap, course.rotation[arcs], course.velocity[arcs], course.ground[arcs]
-    )
-    fine, coarse = ({}, {})
-    for name in FORCES:
-        force = np.abs(getattr(found, name))
-        force = np.fmax.reduce(force, axis=tuple(range(2, force.ndim)))  # of both columns' sections
-        fine[name], coarse[name] = _largest(force), _largest(force[:, ::2])
+    found = largest_forces(frame, cap, course.rotation, course.velocity, course.ground)
+    fine, coarse = (dict(zip(FORCES, row, strict=True)) for row in found.tolist())
     moved = [name for name in FORCES if fine[name] > 0.0]
     return Peaks(
         fine,
@@ -138,11 +129,6 @@ def held(mass_ratio: float, periods: Sequence[float]) -> list[tuple[Top, str]]:
 def ratio_of(force: str, top: str, name: str) -> str:
     """Return the name of the column with a force of the rocking frame over that of a held one."""
     return f"{force}, {top}, {name}"
-
-
-def _largest(force: np.ndarray) -> float:
-    """Return the largest of the forces that are determined; 0 where none is."""
-    return float(np.nanmax(force, initial=0.0))
 
 
 def shear_after_uplift(frame: RockingFrame, peak: float) -> float:
