@@ -10,7 +10,7 @@ from pathlib import Path
 from replication.judging.claim import Claim
 from replication.judging.findings import Findings, read_findings
 from replication.judging.ledger import with_verdict
-from replication.kill.faults import Fault, faulty
+from replication.kill.faults import JUDGING, Fault, faulty
 from replication.kill.tree_copy import run
 
 QUICK = "config/quick.yaml"
@@ -124,6 +124,8 @@ def put_to_the_test(
 ) -> Row:
     """Return what catches a fault: what caught it last; or its tests, the paper's rows, studies'.
 
+    No row is computed by a fault in the judging.
+
     Parameters
     ----------
     ledgers
@@ -137,10 +139,11 @@ def put_to_the_test(
     seconds
         What a rule costs.
     """
+    courts = () if fault.routes == JUDGING else ("paper", "studies")
     sessions = [
         *last_time(last, ledgers, seconds or {}),
         ("tests", fault.tests, []),  # they take seconds
-        *((court, [], ledgers[court]) for court in ("paper", "studies")),
+        *((court, [], ledgers[court]) for court in courts),
     ]
     test, verdicts, rules = "", [], []
     for court, tests, claims in sessions:

@@ -5,6 +5,7 @@ import signal
 import subprocess
 import sys
 import time
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -53,6 +54,7 @@ def begin(tmp_path):
                 stderr=subprocess.STDOUT,
                 text=True,
                 start_new_session=True,  # as a terminal, whose signals reach all processes
+                preexec_fn=partial(signal.signal, signal.SIGINT, signal.SIG_DFL),  # under nohup
             )
         )
         while until and not (folder / until).exists():

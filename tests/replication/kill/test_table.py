@@ -145,6 +145,12 @@ def test_first_failing_test_is_named(tree):
         assert table.first_failing(tree, ["test_one.py"]) == "test_one.py::test_one"
 
 
+def test_fault_in_the_judging_that_no_test_catches_survives_at_once(monkeypatch, tree):
+    judging = replace(ONE, routes=JUDGING)
+    row, asked = judge(monkeypatch, tree, judging, ["eq1"], fails=False)
+    assert (row.caught_by, asked) == ("SURVIVED", ["test_one.py"])
+
+
 def test_new_fault_is_put_to_tests_then_to_the_paper_then_to_studies(monkeypatch, tree):
     row, asked = judge(monkeypatch, tree, ONE, ["eq1"])
     assert (row.caught_by, row.test) == ("test", "test_one.py::test_one")
