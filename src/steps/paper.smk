@@ -338,7 +338,7 @@ rule proven_below:
         findings="results/findings/proven_below.json",
     params:
         settings=settings("vase"),
-        mass_ratios=[0.0, 0.25, 0.5, 1.0, 2.0, 4.0, float("inf")],
+        mass_ratios=config["proven_below"]["mass_ratios"],
     script:
         "proven_below.py"
 
