@@ -76,7 +76,8 @@ def slow(browser):
             rounds.append(longest_task(does))
         assert min(rounds) < LONGEST, rounds
 
-    browser.open()
+    browser.open(moves=True)
+    browser.settle(whole=True)
     browser.ask("Emulation.setCPUThrottlingRate", rate=SLOWED)
     browser.longest = least
     yield browser
@@ -85,7 +86,7 @@ def slow(browser):
 
 
 def test_page_opens_in_short_tasks(slow):
-    slow.longest(lambda: (slow.load(), slow.settle()))
+    slow.longest(lambda: (slow.load(), slow.settle(whole=True)))
 
 
 @pytest.mark.parametrize("slider", ["h-slider", "a-slider"])
