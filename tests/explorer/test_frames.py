@@ -11,7 +11,7 @@ from tests.records.files import MOST, longest
 SLOWED = 4
 LONGEST = 250.0  # ms: 75 to 92 on a quiet machine, where the bar is 100; more under load
 ROUNDS = 5
-TRACED = "disabled-by-default-devtools.timeline"
+TRACED = "-*,disabled-by-default-devtools.timeline"
 
 DRAG = """new Promise(resolve => {
   const slider = document.getElementById({0});
@@ -19,23 +19,24 @@ DRAG = """new Promise(resolve => {
   const move = () => {
     slider.value = 300 + (count * 37) % 400;
     slider.dispatchEvent(new Event("input", {bubbles: true}));
-    if (++count < 40) requestAnimationFrame(move);
-    else setTimeout(resolve, 800);
+    if (++count < 20) requestAnimationFrame(move);
+    else setTimeout(resolve, 400);
   };
   requestAnimationFrame(move);
 })"""
 PRESS = """(async () => {
   for (const button of document.querySelectorAll("#cases button")) {
     button.click();
-    await new Promise(resolve => setTimeout(resolve, 800));
+    await new Promise(resolve => setTimeout(resolve, 500));
   }
 })()"""
 SHAKEN = """new Promise((resolve, reject) => {
   const before = opened, deadline = Date.now() + 170000;
+  pause();
   open(chosen);
   const look = () => {
     const {shown} = document.documentElement.dataset;
-    if (opened > before && shown === encode(state)) resolve(setTimeout(resolve, 800));
+    if (opened > before && shown === encode(state)) setTimeout(resolve, 300);
     else if (Date.now() > deadline) reject(new Error("not shaken after 170 s"));
     else setTimeout(look, 50);
   };
@@ -43,7 +44,7 @@ SHAKEN = """new Promise((resolve, reject) => {
 })"""
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def slow(browser):
     """The page on the slowed processor, and how long its longest task takes in something."""
 
