@@ -586,10 +586,14 @@ def test_quick_edits_end_without_error_in_the_spectrum_of_the_last(browser):
         assert browser.tab.errors == []
         assert browser.do("spectrumChart.cells?.columns ?? 48") == 48
         browser.settle()
-        assert browser.tab.errors == []
-    browser.settle(whole=True)
-    assert browser.tab.errors == []
-    assert browser.do("spectrumChart.cells.codes.length") == 48 * 36
+        found = browser.do(
+            """(async () => {
+              for (let k = 0; k < 600 && !spectrumChart.cells; ++k)
+                await new Promise(next => setTimeout(next, 50));
+              return spectrumChart.cells.codes.length;
+            })()"""
+        )
+        assert (found, browser.tab.errors) == (48 * 36, [])
 
 
 def test_press_in_the_spectrum_goes_there(browser):
