@@ -23,6 +23,24 @@ SETTLED = """new Promise((resolve, reject) => {
   setTimeout(look, 50);
 })"""
 
+# Opens a file by {0}, and waits for what the page tells of it: "" if it is read.
+READ = """new Promise((resolve, reject) => {
+  const deadline = Date.now() + 60000, known = opened;
+  const look = () => {
+    const told = document.getElementById("record-error").textContent;
+    if (told || opened > known) resolve(told);
+    else if (Date.now() > deadline) reject(new Error("not read after a minute"));
+    else setTimeout(look, 20);
+  };
+  {0};
+  look();
+})"""
+DROP = """(() => {
+  const data = new DataTransfer();
+  data.items.add(new File([{0}], {1}));
+  dispatchEvent(new DragEvent("drop", {dataTransfer: data, cancelable: true}));
+})()"""
+
 
 class Browser:
     """A tab that is driven line by line."""
@@ -74,6 +92,14 @@ class Browser:
         self.ask("DOM.setFileInputFiles", objectId=held, files=[str(path)])
         code = "function() { window.chosen = this.files[0]; }"
         self.ask("Runtime.callFunctionOn", objectId=held, functionDeclaration=code)
+
+    def read(self, script="", *values):
+        """Open a file by a script, and return what the page tells of it: "" if it is read."""
+        return self.do(READ.replace("{0}", script), *values)
+
+    def drop(self, name, text):
+        """Drop a file on the page, and return what it tells of it."""
+        return self.read(DROP, text, name)
 
     def answer(self, path, does):
         """Do what opens the browser's dialog of files, and choose one in it."""

@@ -325,34 +325,27 @@ def test_bad_address_is_told_at_its_fields(browser):
     assert "the record “gone” is not in this page" in browser.do(errors)[1]
 
 
-DROP = """(() => {
-  const data = new DataTransfer();
-  data.items.add(new File([{1}], {0}));
-  dispatchEvent(new DragEvent("drop", {dataTransfer: data, cancelable: true}));
-})()"""
+def square(peak, period=25, number=150, step=0.02):
+    """A file of a record that changes its sign after each half period of so many samples."""
+    rows = (f"{k * step:.3f},{peak * (-1) ** (k // period)}\n" for k in range(number))
+    return "time (s),acceleration (g)\n" + "".join(rows)
 
 
 def test_record_is_dropped_in_and_a_bad_one_is_refused(browser):
     browser.open()
-    lines = "\n".join(f"{k / 50:.2f},{0.4 * (-1) ** (k // 25)}" for k in range(150))
-    browser.do(DROP, "mine.csv", f"time (s),acceleration (g)\n{lines}\n")
-    browser.do("new Promise(resolve => setTimeout(resolve, 300))")
+    assert browser.drop("mine.csv", square(0.4)) == ""
     browser.settle()
     after = state_of(browser)
     assert "shape=record&x=1&record=mine" in after.replace("&start=smooth", "")
     assert browser.do("found.peak") == pytest.approx(0.4)
-    browser.do(DROP, "bad.csv", "t,a\n1,2\n")
-    browser.do("new Promise(resolve => setTimeout(resolve, 300))")
-    assert "line 1 is" in browser.do("document.getElementById('record-error').textContent")
+    assert "line 1 is" in browser.drop("bad.csv", "t,a\n1,2\n")
     assert state_of(browser) == after
     assert browser.tab.requests == []
 
 
 def test_record_of_the_address_is_opened_with_its_factor(browser):
     browser.open("shape=record&record=mine&x=3")
-    lines = "\n".join(f"{k / 50:.2f},{0.1 * (-1) ** (k // 25)}" for k in range(150))
-    browser.do(DROP, "mine.csv", f"time (s),acceleration (g)\n{lines}\n")
-    browser.do("new Promise(resolve => setTimeout(resolve, 300))")
+    browser.drop("mine.csv", square(0.1))
     browser.settle()
     assert browser.do("found.peak") == pytest.approx(0.3)
     assert '("data/records/mine.csv")' in browser.do(
@@ -364,10 +357,7 @@ def test_file_of_the_same_name_and_length_is_another_record(browser):
     browser.open()
     spectra = []
     for period in (20, 60):
-        lines = (f"{k / 50:.2f},{0.4 * (-1) ** (k // period)}" for k in range(150))
-        text = "\n".join(["time (s),acceleration (g)", *lines])
-        browser.do(DROP, "mine.csv", text)
-        browser.do("new Promise(resolve => setTimeout(resolve, 300))")
+        browser.drop("mine.csv", square(0.4, period))
         browser.settle(whole=True)
         spectra.append(browser.do(CODES))
     assert spectra[0] != spectra[1]
@@ -375,20 +365,12 @@ def test_file_of_the_same_name_and_length_is_another_record(browser):
 
 def test_long_record_is_shown(browser):
     browser.open(settled=False)
-    text = "time (s),acceleration (g)\n" + "".join(
-        f"{k / 1000:.3f},{0.4 * (-1) ** (k // 500)}\n" for k in range(300_000)
-    )
-    browser.do(DROP, "long.csv", text)
+    assert browser.drop("long.csv", square(0.4, 500, 300_000, 0.001)) == ""
     browser.do(
-        """new Promise((resolve, reject) => {
-          const deadline = Date.now() + 60000, told = document.getElementById("record-error");
-          const look = () => {
-            if (told.textContent || Date.now() > deadline) reject(new Error(told.textContent));
-            else if (document.documentElement.dataset.shown?.includes("record=long")) resolve();
-            else setTimeout(look, 50);
-          };
-          look();
-        })"""
+        """(async () => {
+          for (let k = 0; !document.documentElement.dataset.shown?.includes("record=long"); ++k)
+            await new Promise((next, fail) => (k < 1200 ? setTimeout(next, 50) : fail()));
+        })()"""
     )
     assert browser.do("files.get('long').samples.size") == 8 * 300_000
     assert browser.do("MOST_STEPS") >= 2 * MOST  # of records: a step each, and as many for impacts
