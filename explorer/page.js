@@ -91,6 +91,11 @@ function dropSurvey() {
   survey += 1;
   slow?.terminate();
   minima.length = 0;
+  for (const cell of document.querySelectorAll('[id^="minimum"]')) {
+    cell.textContent = "…"; // the last number is of another state
+    cell.classList.add("pending");
+  }
+  [...byId("rows").children].forEach((_, k) => sensitive(k, false));
 }
 
 const minima = [];
@@ -336,11 +341,6 @@ function redraw() {
   const here = encode(state), same = CASES.indexOf(here);
   byId("note").textContent = same >= 0 ? DATA.cases[same].note : "";
   [...byId("cases").children].forEach((button, k) => button.setAttribute("aria-pressed", String(k === same)));
-  for (const cell of document.querySelectorAll('[id^="minimum"]')) {
-    cell.textContent = "…"; // the last number is of another state
-    cell.classList.add("pending");
-  }
-  [...byId("rows").children].forEach((_, k) => sensitive(k, false));
   performance.measure("frame", { start: began });
 }
 

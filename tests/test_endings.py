@@ -291,7 +291,7 @@ from topheavy import *
 signal.signal(signal.SIGINT, signal.default_int_handler)  # that a shell's background job ignores
 block = RockingBlock(2.0, 0.25, 0.95)
 def shaking():
-    return Record(0.01, np.tile(0.27 * np.sin(np.arange(5_000_000) * 0.06), 6))
+    return Record(0.01, np.tile(0.27 * np.sin(np.arange(5_000_000) * 0.06), 3))
 def nudge():  # a lossless block bounces a hundred times a sample
     samples = np.zeros(3_000_000)
     samples[1] = 1.0001 * np.tan(0.25)
@@ -312,7 +312,7 @@ def interrupt():
     os.kill(os.getpid(), signal.SIGINT)
 for name, call in calls.items():
     motion, sent = {"simulate": shaking, "judge": nudge}.get(name, str)(), []
-    threading.Timer(1.0, interrupt).start()
+    threading.Timer(0.5, interrupt).start()
     try:
         call(motion)
         sys.exit(f"{name} finished")

@@ -193,11 +193,7 @@ def test_solver_follows_the_exact_history(shape):
 
 @pytest.mark.parametrize(
     ("structure", "factor"),
-    [
-        (Column(0.3, 1.5), 1.0),
-        (RockingFrame(Column(0.3, 1.5), 4.0), 1.0),
-        (Column(0.3, 1.5), 4.0),
-    ],
+    [(Column(0.3, 1.5), 1.0), (RockingFrame(Column(0.3, 1.5), 4.0), 1.0), (Column(0.3, 1.5), 4.0)],
     ids=["column", "frame", "column, shaken until it overturns"],
 )
 def test_solver_agrees_with_the_exact_solution_in_el_centro(structure, factor):

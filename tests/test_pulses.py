@@ -41,11 +41,7 @@ KNOWN_VALUES = [
     ("ricker-symmetric", RICKER_CENTRE, 1.0),
     ("ricker-symmetric", RICKER_CENTRE + PERIOD / (math.pi * math.sqrt(2)), 0.0),
     # side lobes: −2 e^(−3/2) where 2π²τ²/T² = 3
-    (
-        "ricker-symmetric",
-        RICKER_CENTRE - PERIOD * math.sqrt(3 / 2) / math.pi,
-        -2 * math.exp(-1.5),
-    ),
+    ("ricker-symmetric", RICKER_CENTRE - PERIOD * math.sqrt(3 / 2) / math.pi, -2 * math.exp(-1.5)),
     ("ricker-antisymmetric", RICKER_CENTRE, 0.0),
     # (4π²τ²/3T² − 3) vanishes at τ = 3T/2π
     ("ricker-antisymmetric", RICKER_CENTRE + 1.5 * PERIOD / math.pi, 0.0),
@@ -133,8 +129,7 @@ def test_symmetric_pulse_is_even_about_its_middle(shape):
 
 
 @pytest.mark.parametrize(
-    ("shape", "tolerance"),
-    [("one-sine", 1e-9), ("one-cosine", 1e-9), ("ricker-symmetric", 1e-6)],
+    ("shape", "tolerance"), [("one-sine", 1e-9), ("one-cosine", 1e-9), ("ricker-symmetric", 1e-6)]
 )
 def test_ground_comes_to_rest_when_the_pulse_ends(shape, tolerance):
     pulse = Pulse(shape, 1.0, OMEGA)

@@ -102,10 +102,7 @@ def brute_force(
         k2 = fall(x + h / 2 * v, side, a1)
         k3 = fall(x + h / 2 * v + h * h / 4 * k1, side, a1)
         k4 = fall(x + h * v + h * h / 2 * k2, side, a2)
-        return (
-            x + h * v + h * h / 6 * (k1 + k2 + k3),
-            v + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4),
-        )
+        return (x + h * v + h * h / 6 * (k1 + k2 + k3), v + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4))
 
     def first_root(function, h):
         return brentq(function, 0.0, h, xtol=1e-15, rtol=1e-14)

@@ -16,15 +16,7 @@ from topheavy.derivation import (
 from topheavy.derivation import fixed_proofs as proofs
 from topheavy.derivation.bodies import half_depth
 from topheavy.derivation.fixed_mass import I_b
-from topheavy.derivation.notation import (
-    R,
-    acceleration,
-    alpha,
-    g,
-    gamma,
-    ground_acceleration,
-    m_c,
-)
+from topheavy.derivation.notation import R, acceleration, alpha, g, gamma, ground_acceleration, m_c
 
 
 def values(body):

@@ -54,11 +54,7 @@ def energies(rotation, rate, ground):
 @pytest.mark.parametrize("side", SIDES, ids=lambda side: side.label)
 @pytest.mark.parametrize(("lean", "rate", "ground"), [(0.05, 0.3, 0.0), (0.25, -0.8, 0.6)])
 def test_energies_are_those_of_turned_rectangles(side, lean, rate, ground):
-    values = PARAMETERS | {
-        side.rotation: side.sign * lean,
-        velocity: rate,
-        ground_velocity: ground,
-    }
+    values = PARAMETERS | {side.rotation: side.sign * lean, velocity: rate, ground_velocity: ground}
     derived = [float(sp.N(e(side).subs(values))) for e in (kinetic_energy, potential_energy)]
     np.testing.assert_allclose(derived, energies(side.sign * lean, rate, ground), rtol=1e-7)
 

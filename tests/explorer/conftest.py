@@ -15,13 +15,31 @@ SETTLED = """new Promise((resolve, reject) => {
   const deadline = Date.now() + 120000;
   const look = () => {
     const { shown, spectrum } = document.documentElement.dataset;
-    const isDone = spectrum === "done" && !document.querySelector(".pending");
+    const isDone = !document.querySelector(".pending") && (spectrum === "done" || !{0});
     if (shown === encode(state) && isDone) resolve(true);
     else if (Date.now() > deadline) reject(new Error("not settled after two minutes"));
     else setTimeout(look, 30);
   };
   setTimeout(look, 50);
 })"""
+
+# Opens a file by {0}, and waits for what the page tells of it: "" if it is read.
+READ = """new Promise((resolve, reject) => {
+  const deadline = Date.now() + 60000, known = opened;
+  const look = () => {
+    const told = document.getElementById("record-error").textContent;
+    if (told || opened > known) resolve(told);
+    else if (Date.now() > deadline) reject(new Error("not read after a minute"));
+    else setTimeout(look, 20);
+  };
+  {0};
+  look();
+})"""
+DROP = """(() => {
+  const data = new DataTransfer();
+  data.items.add(new File([{0}], {1}));
+  dispatchEvent(new DragEvent("drop", {dataTransfer: data, cancelable: true}));
+})()"""
 
 
 class Browser:
@@ -36,23 +54,28 @@ class Browser:
     def do(self, script, *values):
         return self.runner.run(self.tab.do(script, *values))
 
-    def open(self, address="g=1", *, width=1440, height=900, dark=False, settled=True):
-        """Open the page at an address, at a size and in a colour scheme. At "" it asks first."""
+    def open(self, address="g=1", *, width=1440, height=900, dark=False, moves=False, settled=True):
+        """Open the page at an address, at a size and in a colour scheme. At "" it asks first.
+
+        Unless it `moves`, it is shown to somebody who prefers that it does not.
+        """
         self.tab.errors.clear()
         self.tab.requests.clear()
         self.runner.run(self.tab.open("about:blank"))
-        self.ask(
-            "Emulation.setDeviceMetricsOverride",
-            width=width,
-            height=height,
-            deviceScaleFactor=1,
-            mobile=False,
-        )
-        scheme = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
-        self.ask("Emulation.setEmulatedMedia", features=[scheme])
+        self.resize(width, height)
+        preferred = {
+            "prefers-color-scheme": "dark" if dark else "light",
+            "prefers-reduced-motion": "" if moves else "reduce",
+        }
+        features = [{"name": name, "value": value} for name, value in preferred.items()]
+        self.ask("Emulation.setEmulatedMedia", features=features)
         self.load(address)
         if settled:
             self.settle()
+
+    def resize(self, width, height=900):
+        size = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False}
+        self.ask("Emulation.setDeviceMetricsOverride", **size)
 
     def load(self, address=""):
         """Load the page at an address in the tab as it is."""
@@ -69,6 +92,14 @@ class Browser:
         self.ask("DOM.setFileInputFiles", objectId=held, files=[str(path)])
         code = "function() { window.chosen = this.files[0]; }"
         self.ask("Runtime.callFunctionOn", objectId=held, functionDeclaration=code)
+
+    def read(self, script="", *values):
+        """Open a file by a script, and return what the page tells of it: "" if it is read."""
+        return self.do(READ.replace("{0}", script), *values)
+
+    def drop(self, name, text):
+        """Drop a file on the page, and return what it tells of it."""
+        return self.read(DROP, text, name)
 
     def answer(self, path, does):
         """Do what opens the browser's dialog of files, and choose one in it."""
@@ -92,9 +123,9 @@ class Browser:
         yield found
         self.tab.note = note
 
-    def settle(self):
-        """Wait until histories, minima and spectrum are those of the state."""
-        self.do(SETTLED)
+    def settle(self, whole=False):
+        """Wait until histories and minima are those of the state, and for the whole spectrum."""
+        self.do(SETTLED, whole)
 
 
 @pytest.fixture(scope="session")

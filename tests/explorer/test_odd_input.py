@@ -24,23 +24,6 @@ EXTREMES = """Object.keys(SHAPES).concat("record").flatMap(shape => CHOICES.eq.f
         && !(of.moved && eq === "exact" && Number.isNaN(of.friction)));
     return [[shape, eq, cap, key, end, isSound]];
   })))))"""
-# Opens a file by {0}, and waits for what the page tells of it: "" if it is read.
-OPENED = """new Promise((resolve, reject) => {
-  const deadline = Date.now() + 60000, known = [...files.keys()].length;
-  const look = () => {
-    const told = document.getElementById("record-error").textContent;
-    if (told || [...files.keys()].length > known) resolve(told);
-    else if (Date.now() > deadline) reject(new Error("not read after a minute"));
-    else setTimeout(look, 20);
-  };
-  {0};
-  look();
-})"""
-DROP = """(() => {
-  const data = new DataTransfer();
-  data.items.add(new File([{0}], {1}));
-  dispatchEvent(new DragEvent("drop", {dataTransfer: data, cancelable: true}));
-})()"""
 HEADER = "time (s),acceleration (g)\n"
 RECORD = HEADER + "".join(f"{k / 50},{0.3 * (-1) ** (k // 25)}\n" for k in range(99))
 SHAPE = """(() => {
@@ -59,8 +42,7 @@ IN_ADDRESS = """Object.keys(FIELDS).filter(key => {
 @pytest.mark.parametrize("name", NAMES)
 def test_name_of_a_record_is_only_ever_a_text(browser, name):
     browser.open()
-    drop = OPENED.replace("{0}", DROP)
-    assert browser.do(drop, RECORD, f"{name}.csv") == ""
+    assert browser.drop(f"{name}.csv", RECORD) == ""
     browser.settle()
     assert browser.do("state.record") == name
     assert browser.do(SHAPE, "half-sine") == "half-sine"
@@ -69,7 +51,7 @@ def test_name_of_a_record_is_only_ever_a_text(browser, name):
     nodes = ast.walk(ast.parse(browser.do(TEXT, "python")))
     texts = [node.value for node in nodes if isinstance(node, ast.Constant)]
     assert f"data/records/{name}.csv" in texts
-    assert browser.do(drop, f"{name},a\n", f"{name} 2.csv").startswith(f"{name} 2.csv: line 1 is ")
+    assert browser.drop(f"{name} 2.csv", f"{name},a\n").startswith(f"{name} 2.csv: line 1 is ")
     assert browser.do("document.querySelectorAll('main img').length") == 0
     browser.open(browser.do("location.hash.slice(1)"))
     assert f"the record “{name}” is not in this page" in browser.do(TEXT, "shape-error")
@@ -133,7 +115,7 @@ def test_everything_is_done_with_the_keyboard_only(browser, tmp_path):
     path.write_text(RECORD, encoding="utf-8")
     reach(browser, "at.textContent.startsWith('Open a record')")
     browser.answer(path, lambda: press(browser, "Enter", 13, "\r"))
-    browser.do(OPENED.replace("{0}", ""))
+    browser.read()
     assert browser.do("state.record") == "mine"
     browser.settle()
     reach(browser, "at.id === 'spectrum'")

@@ -67,8 +67,7 @@ def here():
 
 
 @pytest.mark.skipif(
-    platform.machine() not in ("x86_64", "AMD64") or not FUSED,
-    reason="this CPU has one width only",
+    platform.machine() not in ("x86_64", "AMD64") or not FUSED, reason="this CPU has one width only"
 )
 def test_narrow_registers_give_the_same_bits(here):
     width, has_fma, *found = ask(NUMBA_CPU_NAME="generic", NUMBA_CPU_FEATURES="+avx,+fma")

@@ -4,7 +4,6 @@ What is expected of the library's reader is expected of the page's (`explorer/re
 """
 
 import re
-from collections.abc import Iterator
 from typing import NamedTuple
 
 SAMPLES = (0.1, -0.2, 0.4, 0.0, -0.3)
@@ -69,14 +68,15 @@ BODIES = {
 }
 
 
-def longest(samples: int) -> Iterator[tuple[str, bytes]]:
-    """Yield the ending and the content of a file of each kind with so many samples."""
-    values = [b"0.3141592", b"-.1414214"]
-    pairs = b"".join(b"%b %b\n" % (*values,) for _ in range(samples // 2))
-    header = HEADER.format(n=min(samples, MOST)).encode()
-    yield ".AT2", header + pairs + values[0] * (samples % 2)
-    rows = (b"%.2f,%b\n" % (k / 100, values[k % 2]) for k in range(samples))
-    yield ".csv", CSV[:26].encode() + b"".join(rows)
+def longest(samples: int = MOST) -> bytes:
+    """Return a file of PEER's kind with the most samples, or with so many."""
+    return HEADER.format(n=samples).encode() + b"0.3141592 -.1414214\n" * (samples // 2)
+
+
+def too_long() -> bytes:
+    """Return columns with one sample more than these."""
+    rows = (b"%.2f,0.3141592\n" % (k / 100) for k in range(MOST + 1))
+    return CSV[:26].encode() + b"".join(rows)
 
 
 OTHER_DIGITS = ["०.१", "０.１", "0.٢", "²"]

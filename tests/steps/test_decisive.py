@@ -8,13 +8,7 @@ import pandas as pd
 import pytest
 import yaml
 
-from steps import (
-    restitution,
-    rocking_spectra,
-    spectra_shard,
-    stability,
-    trilith,
-)
+from steps import restitution, rocking_spectra, spectra_shard, stability, trilith
 from steps.shared import spectra_compared, spectrum
 from steps.shared.spectra_compared import Spectra
 from topheavy import Column, Record, RockingFrame

@@ -15,7 +15,7 @@ from replication.judging.claim import Claim
 from replication.judging.findings import Finding, Findings, findings_by_rule
 from replication.judging.ledger import read_judged, read_ledger, with_verdict
 from replication.pages.edition import count_table, verdict_page
-from replication.pages.edition_check import claims, pages
+from replication.pages.edition_check import CLAIMS, claims, pages
 from replication.pages.edition_check import main as check_edition
 from replication.pages.seal import SEAL, seal
 from replication.workbench import truth, value
@@ -73,7 +73,7 @@ def tampered(edition, faults_before):
     """
     kept = {edition / SEAL: (edition / SEAL).read_bytes()}
 
-    def change(name, edit):
+    def change(name, edit, check=main):
         path = edition / name
         kept[path] = path.read_bytes()
         text = path.read_text(encoding="utf-8")
@@ -81,7 +81,7 @@ def tampered(edition, faults_before):
         assert new != text
         path.write_text(new, encoding="utf-8")
         seal(edition)
-        return [fault for fault in main(edition)[1] if fault not in faults_before]
+        return [fault for fault in check(edition)[1] if fault not in faults_before]
 
     yield change
     for path, content in kept.items():
@@ -136,17 +136,6 @@ def test_check_that_reads_an_unpublished_table_names_the_check(edition):
     assert faults == [f"{edition / 'tests/reference/gone.csv'} {MISSING}"]
 
 
-def row(change):
-    """Edit the published row of a claim."""
-
-    def edit(text, name):
-        rows = json.loads(text)
-        change(next(row for row in rows if row["id"] == name))
-        return json.dumps(rows, indent=1, ensure_ascii=False) + "\n"
-
-    return edit
-
-
 @pytest.mark.parametrize(
     ("name", "field", "new"),
     [
@@ -162,18 +151,18 @@ def row(change):
         ("trilith_size", "unit", "km"),
     ],
 )
-def test_every_field_of_a_published_row_is_made_anew(tampered, name, field, new):
-    faults = tampered(
-        "tests/reference/claims.json",
-        lambda text: row(lambda r: r.update({field: new}))(text, name),
+def test_every_field_of_a_published_row_is_made_anew(name, field, new):
+    claim, row = (
+        next(row for row in rows if row.id == name)
+        for rows in (read_ledger([ROOT / "paper/claims.yaml"]), read_judged(ROOT / CLAIMS))
     )
-    assert any(
-        f.startswith(f"claim {name}: {field} is {new!r} in tests/reference/") for f in faults
-    )
+    findings = findings_by_rule((REFERENCE / "findings").glob("*.json"))
+    (fault,) = claims([claim], findings, [replace(row, **{field: new})], ROOT)
+    assert fault.startswith(f"claim {name}: {field} is {new!r} in tests/reference/")
 
 
 def test_every_truth_that_is_flipped_is_noticed(edition):
-    rows = read_judged(edition / "tests" / "reference" / "claims.json")
+    rows = read_judged(edition / CLAIMS)
     paths = [edition / "paper" / "claims.yaml", *sorted(edition.glob("studies/*/claims.yaml"))]
     findings = findings_by_rule((edition / "tests" / "reference" / "findings").glob("*.json"))
     flipped = {r.id for r in rows if isinstance(r.computed, bool)}
@@ -349,8 +338,11 @@ def test_table_that_does_not_bear_its_finding_is_found(tampered):
     ],
 )
 def test_page_that_says_otherwise_is_named(tampered, page, old, new, told):
-    faults = tampered(page, lambda text: text.replace(old, new, 1))
-    assert any(fault.startswith(told) for fault in faults)
+    def wrong(root):
+        return [], list(pages(root, read_judged(root / CLAIMS)))
+
+    (fault,) = tampered(page, lambda text: text.replace(old, new, 1), wrong)
+    assert fault.startswith(told)
 
 
 def swapped(text):

@@ -101,10 +101,7 @@ def test_most_starts_keep_rocking_and_some_end_in_each_other_way(monkeypatch, co
     found = judged(monkeypatch, courses)["most_starts_keep_rocking"]
     assert found["holds"] is holds
     assert found["starts"] == len(courses)
-    assert (found["come_to_rest"], found["overturn"]) == (
-        courses.count(RESTS),
-        courses.count(FELL),
-    )
+    assert (found["come_to_rest"], found["overturn"]) == (courses.count(RESTS), courses.count(FELL))
 
 
 @pytest.mark.parametrize(

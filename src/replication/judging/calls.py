@@ -85,7 +85,7 @@ def definition(name: str, root: str | Path = ".") -> str:
         else:
             module, parts = inner, parts[1:]
     file = _place(module, root).with_suffix(".py")
-    body = ast.parse(file.read_text(encoding="utf-8")).body if file.is_file() else []
+    body = _parsed(file.read_text(encoding="utf-8")) if file.is_file() else []
     for part in parts:
         found = [
             n for n in body if isinstance(n, ast.FunctionDef | ast.ClassDef) and n.name == part
@@ -94,6 +94,11 @@ def definition(name: str, root: str | Path = ".") -> str:
     if not (parts and body):
         raise ValueError(f"{name} is no function or class of the repository")
     return ".".join([module, *parts])
+
+
+@functools.cache  # many rows name functions of the same file
+def _parsed(text: str) -> list[ast.stmt]:
+    return ast.parse(text).body
 
 
 def _place(module: str, root: str | Path) -> Path:

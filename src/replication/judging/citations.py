@@ -81,9 +81,10 @@ def citing(number: int, root: Path) -> Iterator[str]:
     """Yield the functions of the library whose own source cites an equation: name, file, line."""
     for path in sorted(path for name in LIBRARIES for path in (root / "src" / name).rglob("*.py")):
         text = path.read_text(encoding="utf-8")
+        lines = text.split("\n")
         for node in ast.walk(ast.parse(text)) if f"({number})" in text else ():
             if isinstance(node, ast.FunctionDef):
-                source = ast.get_source_segment(text, node) or ""
+                source = "\n".join(lines[node.lineno - 1 : node.end_lineno])
                 if number in equations_in(source):
                     yield f"{node.name}  {path.relative_to(root)}:{node.lineno}"
 

@@ -9,15 +9,7 @@ import pytest
 from studies.certainty.scattered import overturned_with
 from studies.certainty.shapes import FAMILIES, record, single_lobe
 from studies.certainty.steps import benefit, extensions, intensities, lowest, restitution, theorem
-from topheavy import (
-    Column,
-    FixedMassColumn,
-    Record,
-    RockingFrame,
-    judge,
-    overturned_by,
-    reference,
-)
+from topheavy import Column, FixedMassColumn, Record, RockingFrame, judge, overturned_by, reference
 
 COLUMN = Column(0.5, 3.0)
 SIZES = {"half_width": 0.5, "half_height": 3.0}
@@ -147,11 +139,7 @@ def test_fall_on_all_grids_is_found():
 
 # Extensions --------------------------------------------------------------------------------------
 
-SIMILAR = {
-    "column": SIZES,
-    "mass_ratios": [0.0, 4.0],
-    "similarity": {"seed": 3, "pulses": 60},
-}
+SIMILAR = {"column": SIZES, "mass_ratios": [0.0, 4.0], "similarity": {"seed": 3, "pulses": 60}}
 
 
 def test_frame_with_the_columns_restitution_is_not_similar(monkeypatch):

@@ -7,23 +7,9 @@ import pandas as pd
 import pytest
 
 from steps.shared.outcomes import written
-from studies.certainty.rated import (
-    BARE,
-    FIXED,
-    FREE,
-    PORTAL,
-    stated,
-    subjects,
-    velocities,
-)
+from studies.certainty.rated import BARE, FIXED, FREE, PORTAL, stated, subjects, velocities
 from studies.certainty.steps import rates, rates_check, rates_shard
-from topheavy import (
-    Column,
-    FixedMassColumn,
-    MonolithicPortal,
-    RockingFrame,
-    judge,
-)
+from topheavy import Column, FixedMassColumn, MonolithicPortal, RockingFrame, judge
 from topheavy.synthetic.ensemble import draws
 
 COLUMN = Column(0.5, 3.0)

@@ -6,11 +6,7 @@ import pytest
 
 from steps.shared.spectra_compared import Place
 from steps.shared.spectrum import search
-from studies.reversals.steps.enough import (
-    mass_ratio,
-    size_gain_needed,
-    size_gain_of_frequency_gain,
-)
+from studies.reversals.steps.enough import mass_ratio, size_gain_needed, size_gain_of_frequency_gain
 from topheavy import Column, RockingFrame
 
 COLUMN = Column(1.0, 4.0)

@@ -115,10 +115,7 @@ def test_findings_come_with_intervals_around_their_values(shards):
     ("shares", "reason"),
     [
         ([0, 0, 0, 0, 0.5, 1, 1, 1, 1], "1 of the levels have a probability between 0 and 1"),
-        (
-            ndtr(np.log(np.geomspace(0.5, 2.0, 9) / 2.5) / 0.5),
-            "passes 1/2 at 2.5, which is",
-        ),
+        (ndtr(np.log(np.geomspace(0.5, 2.0, 9) / 2.5) / 0.5), "passes 1/2 at 2.5, which is"),
     ],
 )
 def test_median_that_is_not_known_is_not_published(shares, reason):
