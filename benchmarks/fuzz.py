@@ -325,6 +325,10 @@ def forces(frame: Any, data: st.DataObject) -> None:
     assert np.abs(got - expected / weight).max() <= 1e-9 * scale * cap.span / column.half_width
     whole = th.frame_forces(frame, cap, theta, rate, ground)
     assert abs(whole.base_shear - expected[:2, 0].sum() / weight) <= 1e-9 * scale
+    course = (np.array([[0.0, each]]) for each in (theta, rate, ground))
+    largest = th.largest_forces(frame, cap, *course)[0]
+    assert largest[0] == abs(whole.base_shear)
+    assert largest[1] == abs(whole.overturning_moment)
     alone = th.column_forces(column, theta, rate, ground)
     still = th.contact_forces(th.RockingFrame(column, 0.0), cap, theta, rate, ground)
     assert abs(2.0 * still.base_left.vertical - alone.vertical) <= 1e-9 * scale
@@ -431,6 +435,7 @@ CALLS: dict[str, dict[str, Any]] = {  # what may be spoilt is not what a type ha
     "fragility": {"structures": [COLUMN], "motions": [RECORD], "levels": [0.1, 0.4]},
     "frame_forces": {"frame": FRAME, "cap": CAP, **MOVED},
     "impact_impulses": {"frame": FRAME, "cap": CAP, "velocity": 0.3},
+    "largest_forces": {"frame": FRAME, "cap": CAP} | {k: [[0.0, v]] for k, v in MOVED.items()},
     "judge": {"structure": FRAME, "excitation": PULSE, "tolerance": 1e-9, "vertical": None},
     "lowest_overturning": {**SOUGHT, "floor": 0.1},
     "minimum_overturning": {**SOUGHT, "resolution": 0.1},
