@@ -2,12 +2,13 @@
 
 import math
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 from numpy.polynomial import Polynomial
 
-from topheavy import Pulse, RockingBlock
+from topheavy import Column, Pulse, RockingBlock, read_record
 from topheavy.motion import Event, start
 from topheavy.reference import _first_event, judge, simulate
 
@@ -49,6 +50,12 @@ def test_judge_says_what_simulate_says(case):
     # simulate goes on to integrate the free rocking that judge has in closed form
     close = 1e-9 * case[0].slenderness
     assert end.peak == pytest.approx(response.peak_rotation, abs=close, nan_ok=True)
+
+
+def test_no_impact_is_missed_in_a_step_whose_ends_are_both_above_the_ground():
+    block, path = Column(0.5, 3.0).block(), "data/records/el_centro_1940_NS.AT2"
+    motion = read_record(Path(__file__).parents[1] / path).scaled(1.03389856)
+    assert judge(block, motion).impacts == simulate(block, motion, samples=2).number_of_impacts
 
 
 @pytest.mark.parametrize("case", CASES[:15], ids=lambda case: case[1].shape)
