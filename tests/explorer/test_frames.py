@@ -108,3 +108,7 @@ def test_long_record_is_read_and_shaken_in_short_tasks(slow, tmp_path):
     assert slow.do("files.get('long').samples.size") == 8 * LONG
     slow.longest(lambda: slow.do(DRAG, "x-slider"))
     assert slow.tab.errors == []
+
+
+def test_each_chart_has_a_task_of_its_own(slow):
+    assert not slow.do("(() => {let begun = false; soon(() => {begun = true;}); return begun;})()")
