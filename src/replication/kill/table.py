@@ -86,7 +86,7 @@ def first_failing(tree: Path, tests: Sequence[str], cores: int = 0) -> str:
     code, said = run(tree, "-m", "pytest", *options, *tests)
     if code == 0:
         return ""
-    named = re.search(r"^(?:FAILED|ERROR) (\S+\.py(?:::[^\s\[]+)?)", said, re.MULTILINE)
+    named = re.search(r"^(?:FAILED|ERROR) ([^\s\[]+\.py(?:::[^\s\[]+)?)", said, re.MULTILINE)
     if not named:
         raise RuntimeError(f"pytest ended with {code} and named no test:\n{said[-2000:]}")
     return named[1]

@@ -143,6 +143,12 @@ def test_first_failing_test_is_named(tree):
     assert table.first_failing(tree, ["test_one.py"]) == ""
     with faulty(tree, ONE):
         assert table.first_failing(tree, ["test_one.py"]) == "test_one.py::test_one"
+        of_a_file = """import pytest
+@pytest.mark.parametrize("path", ["a.py"])
+def test_path(path): assert False
+"""
+        (tree / "test_paths.py").write_text(of_a_file, encoding="utf-8")
+        assert table.first_failing(tree, ["test_paths.py"]) == "test_paths.py::test_path"
 
 
 def test_fault_in_the_judging_that_no_test_catches_survives_at_once(monkeypatch, tree):
