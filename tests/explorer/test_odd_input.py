@@ -117,7 +117,7 @@ def test_everything_is_done_with_the_keyboard_only(browser, tmp_path):
     browser.answer(path, lambda: press(browser, "Enter", 13, "\r"))
     browser.read()
     assert browser.do("state.record") == "mine"
-    browser.settle()
+    browser.settle(whole=True)
     reach(browser, "at.id === 'spectrum'")
     before = browser.do("planeOf(state, fileOf(state)).here")
     for key, code in (("ArrowUp", 38), ("ArrowRight", 39), ("ArrowRight", 39), ("ArrowLeft", 37)):

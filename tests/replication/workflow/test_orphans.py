@@ -65,8 +65,8 @@ def snakefiles(jobs: Iterable[Job]) -> str:
 def scripts_beside(jobs: Iterable[Job]) -> list[str]:
     """Every script in the folders that scripts of rules lie in."""
     folders = {Path(script).parent for job in jobs for script in job.scripts}
-    machine = (ROOT / "src" / "replication").rglob("*.py")
-    folders |= {path.relative_to(ROOT).parent for path in machine if not OTHER & {*path.parts}}
+    machine = (path.relative_to(ROOT) for path in (ROOT / "src" / "replication").rglob("*.py"))
+    folders |= {path.parent for path in machine if not OTHER & {*path.parts}}
     found = [path for folder in folders for path in (ROOT / folder).glob("*.py")]
     return [str(path.relative_to(ROOT)) for path in found if path.name != "__init__.py"]
 
