@@ -200,4 +200,4 @@ def test_cost_of_a_file_grows_in_proportion_to_its_length(reading):
         ]
         given = [[f"motion{ending}", b64encode(content).decode()] for ending, content in encoded]
         short, long = reading.do(FILE_COSTS, given)
-        assert long < 4 * 8 * short + 8.0, body  # ms; in proportion it is 8, by the square 64
+        assert long < 3 * 8 * short + 4.0, body  # ms; in proportion it is 8

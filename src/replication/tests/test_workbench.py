@@ -1,5 +1,6 @@
 """What every step does at its edges."""
 
+import json
 import math
 import sys
 
@@ -47,8 +48,12 @@ def test_findings_are_plain_and_survive_being_written(tmp_path):
     assert type(findings["fact"].holds) is bool
     path = tmp_path / "findings.json"
     write_findings(path, Findings(findings, ("a.b",)))
+    text = path.read_text(encoding="utf-8")
+    entries = {name: finding.entries for name, finding in findings.items()}
+    assert json.loads(text) == entries | {"called": ["a.b"]}
     assert read_findings(path) == Findings(findings, ("a.b",))
-    assert "α" in path.read_text(encoding="utf-8")
+    assert "α" in text
+    assert text.endswith("}\n")
 
 
 @pytest.mark.parametrize("number", [math.nan, math.inf])

@@ -97,15 +97,19 @@ class Bounded:
         least = [(s * ground).lower() for s in SIDES]
         energy, alpha = arb(bound.energy), self.law.block.slenderness
         one, other = (_Side(self.law, h, *x, energy) for x in zip(bound.walls, least, strict=True))
-        slack, tries = _SLACK, _TRIES if all(alpha > x for x in bound.walls) else 0
-        for _ in range(tries):
+        if not all(alpha > x for x in bound.walls):
+            raise Undecided("bound")
+        slack = _SLACK
+        for _ in range(_TRIES):
             one.move(slack)
             other.move(slack)
             if not (alpha > one.wall and alpha > other.wall):
                 break
             grown = (rises[0] * one.lever).max(rises[1] * other.lever)
             energy = arb(bounds(bound.energy + self.law.square * grown * MARGIN)[1])
-            if one.holds(energy) & other.holds(energy):
+            one.limit(energy)
+            other.limit(energy)
+            if one.holds() and other.holds():
                 walls = one.wall, other.wall
                 pushed = self._pushed(bound, until, walls, ground)
                 return Bound(until, float(energy), walls, pushed)
@@ -179,7 +183,7 @@ class _Side:
         self.law, self.h, self.before, self.wall, self.least = law, h, before, before, least
         self.old = self.at = law.potential(arb(before), least)
         self.is_concave = bool(least * law.tangent < 1)
-        self.holds(energy)
+        self.limit(energy)
 
     def move(self, slack: float) -> None:
         """Move Y_s about to where F takes it, and a share beyond."""
@@ -188,11 +192,14 @@ class _Side:
         self.wall = reached * (1.0 + slack) + _SLACK**2
         self.at, self.lever = self.law.wall(arb(self.wall), self.least)
 
-    def holds(self, energy: arb) -> bool:
-        """Return whether Y_s satisfies the lemma with F."""
+    def limit(self, energy: arb) -> None:
+        """Take F, and how far φ can come from X_s meanwhile."""
         one, other = ((2 * (energy - x)).upper().max(_ZERO).sqrt() for x in (self.old, self.at))
         mean = (one + other) / 2 if self.is_concave else one.max(other)
         self.energy, self.way = energy, self.h * mean
-        if self.at > energy and (self.wall >= self.before or self.old > energy):
+
+    def holds(self) -> bool:
+        """Return whether Y_s satisfies the lemma."""
+        if self.at > self.energy and (self.wall >= self.before or self.old > self.energy):
             return True
         return bool(self.wall - arb(self.before) > self.way)

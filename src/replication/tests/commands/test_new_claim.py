@@ -46,6 +46,7 @@ def test_new_claim_fits_together_in_the_style_that_lint_demands(paper, monkeypat
         ("", "expected a lower-case letter"),
         ("a" * (LONGEST + 1), "at most"),
         ("true", "which YAML reads as True"),
+        ("lambda", "a keyword of Python"),
         ("equations", "as a rule, result or module is"),
         ("motion", "as a rule, result or module is"),
         ("verdict", "as a rule, result or module is"),

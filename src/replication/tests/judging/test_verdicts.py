@@ -9,6 +9,7 @@ from replication.judging.claim import Claim
 from replication.judging.findings import Finding
 from replication.judging.ledger import with_verdict
 from replication.judging.verdicts import (
+    KINDS,
     VERDICTS,
     by_origin,
     print_rounding,
@@ -114,6 +115,11 @@ def test_discrepancy_of_no_known_kind_gives_no_verdict(kind):
     finding = {"holds": False, "meant_holds": True, "kind": kind}
     with pytest.raises(ValueError, match=f"claim s: .* is {kind!r}; expected one of sign, number"):
         verdict(STATEMENT, finding)
+
+
+def test_every_kind_has_a_verdict_that_is_one():
+    assert set(KINDS.values()) == {"misprint", "slip", "qualified"}
+    assert set(KINDS.values()) < set(VERDICTS)
 
 
 def test_claim_that_cannot_be_false_is_not_confirmed():
