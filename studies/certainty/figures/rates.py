@@ -50,8 +50,10 @@ def draw(certainty_rates, mass_ratio):
         columns = here[(here.structure == "bare") & (here.exponent == MIDDLE)]
         for column in columns[columns.lowered > 0].itertuples():
             axis.axhline(column.over, color=GREY, linewidth=0.8, linestyle="--")
+            highest = column.over == columns.over.where(columns.lowered > 0).max()
+            beside, side = (1.04, "bottom") if highest else (0.96, "top")
             words = f"column, √r {100 * column.lowered:g} % lower"
-            note(axis, words, (0.02, column.over * 1.04), color=GREY, va="bottom", fontsize=7)
+            note(axis, words, (0.02, column.over * beside), color=GREY, va=side, fontsize=7)
         axis.axhline(1.0, color=INK, linewidth=0.6)
         names = [r"$\infty$" if np.isinf(g) else f"{g:g}" for g in ratios]
         axis.set_xticks(by_size(mass_ratio, ratios), names)

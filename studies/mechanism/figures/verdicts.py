@@ -34,7 +34,7 @@ def draw(mechanism_verdicts, mechanism_slides, mechanism_rebounds):
         note(right, f"{structure}\n{gamma(mass_ratio)}", end, color=colour, fontsize=7)
         right.axvline(part.needed.iloc[0] / tan, color=colour, linestyle="--", linewidth=0.9)
     right.axvline(1.0, color=GREY, linestyle=":", linewidth=0.8)
-    note(right, r"$\tan\alpha$", (0.96, 1.4), color=GREY, ha="right")
+    note(right, r"$\tan\alpha$", (0.93, 0.0045), color=GREY, ha="right")
     right.set(xlabel=r"Friction, $\mu/\tan\alpha$ (–)", ylabel="Longest slide over $b$ (–)")
     right.set_xticks(ticks := (0.5, 1, 2, 4), map(str, ticks))
     right.set_xticks([], minor=True)

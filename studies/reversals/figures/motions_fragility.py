@@ -64,8 +64,9 @@ def draw(reversals_fragility):
     axes[0, 0].set_ylabel("Probability of overturning (–)")
     axes[1, 0].set_ylabel("Reduction (percentage points)")
     for place, (ratio, colour) in enumerate(colours.items()):
-        words = gamma(ratio) + (", solitary column" if ratio == 0 else "")
-        at = (0.69, 0.45 - 0.066 * place)
+        words = gamma(ratio) + (", column" if ratio == 0 else "")
+        column, row = divmod(place, -(-len(ratios) // 2))
+        at = (0.58 + 0.25 * column, 0.41 - 0.105 * row)
         note(axes[0, 1], words, at, color=colour, xycoords="axes fraction")
     return figure
 
