@@ -17,7 +17,7 @@ HIGHEST = 7.2  # of tan α, drawn
 
 
 def draw(mechanism_dependence, mechanism_records):
-    figure, axes = sheet(DOUBLE, 98, "ABCD;EEEE")
+    figure, axes = sheet(DOUBLE, 88, "ABCD;EEEE")
     for axis, (name, label) in zip(list(axes.values())[:4], LABELS.items(), strict=True):
         table = mechanism_dependence[mechanism_dependence.varied == name]
         rocking = table.rocking.replace(np.inf, np.nan)
@@ -32,7 +32,7 @@ def draw(mechanism_dependence, mechanism_records):
             axis.set_xticks([], minor=True)
     axes["A"].set_ylabel(r"Required friction, $\mu/\tan\alpha$ (–)")
     note(axes["A"], "rocking", (0.3, 3.0))
-    note(axes["A"], "impacts", (0.06, 0.45), color=GREY)
+    note(axes["A"], "impacts", (0.06, 0.34), color=GREY)
     note(axes["C"], "below: a column\ntop opens", (1.62, 6.5), color=INK)
     records = axes["E"]
     _records(records, mechanism_records)

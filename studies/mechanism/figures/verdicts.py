@@ -18,7 +18,7 @@ TICKS = (-50, -20, -10, -5, -2, -1, 0, 1, 2, 5)  # %; the axis is linear between
 
 
 def draw(mechanism_verdicts, mechanism_slides, mechanism_rebounds):
-    figure, axes = sheet(DOUBLE, 78, ncols=3, width_ratios=(1.5, 1, 1))
+    figure, axes = sheet(DOUBLE, 70, ncols=3, width_ratios=(1.5, 1, 1))
     letter(axes, ["Outcomes near the minimum", "Sliding", "Coefficient of restitution"])
     tables = (mechanism_verdicts, mechanism_slides, mechanism_rebounds)
     if sum(untested(axis, table) for axis, table in zip(axes, tables, strict=True)):
