@@ -18,7 +18,8 @@ from topheavy.kernel.forcing import NO_RECORD, RECORD, SHAPES, UP, pulse_forcing
 from topheavy.kernel.interrupt import LONG, in_threads
 from topheavy.kernel.lanes.pulses import pulse_outcomes
 from topheavy.kernel.lanes.records import record_outcomes
-from topheavy.kernel.lanes.vectors import HAS_FMA, WIDTH
+from topheavy.kernel.lanes.steps import ROWS
+from topheavy.kernel.lanes.vectors import HAS_FMA, WIDTH, rows
 from topheavy.kernel.outcome import (
     MAX_STEPS,
     PULSE_ORDER,
@@ -228,13 +229,13 @@ def _shared(
     """Let the threads do all cells, in batches; return the first cell given up, or −1."""
     batches = max(1, min(BATCHES, cells // fewest))
     if batches == 1 and cells * samples <= LONG:
-        return int(work(working_array(), 0, 1, *given))
+        return int(work(rows(ROWS), working_array(), 0, 1, *given))
     threads = threads or cores()
     if threads == 1:
         batches = 1  # so that no lane idles at the end of any but the last cells
 
     def do(batch: int, workspace: Array) -> int:
-        return int(work(workspace, batch, batches, *given))
+        return int(work(rows(ROWS), workspace, batch, batches, *given))
 
     lost = in_threads([partial(do, batch) for batch in range(batches)], min(threads, batches))
     return min((cell for cell in lost if cell >= 0), default=-1)

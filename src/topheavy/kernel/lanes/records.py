@@ -9,8 +9,6 @@ kernel.
 
 import math
 
-import numpy as np
-
 from topheavy.kernel.compiled import compiled
 from topheavy.kernel.forcing import (
     AT,
@@ -26,6 +24,7 @@ from topheavy.kernel.forcing import (
 )
 from topheavy.kernel.lanes.steps import (
     ARC,
+    CELL,
     CHANGE,
     COSINE,
     FACTOR,
@@ -40,7 +39,6 @@ from topheavy.kernel.lanes.steps import (
     PIECE,
     PUSH,
     ROTATION,
-    ROWS,
     SINE,
     STEPS,
     TERM,
@@ -67,7 +65,6 @@ from topheavy.kernel.lanes.vectors import (
     maximum,
     minimum,
     number,
-    rows,
     select,
     store,
     take,
@@ -223,6 +220,7 @@ def overturns(w, lane, block, forcing, record):
 
 @compiled(nogil=True)
 def record_outcomes(
+    w,
     alone,
     batch,
     batches,
@@ -257,7 +255,6 @@ def record_outcomes(
     int
         The first cell that was given up (see `outcome.MAX_STEPS`), or −1.
     """
-    w, cells = rows(ROWS), np.full(WIDTH, -1)
     weighs = vertical is not None  # known when this is compiled: one record costs nothing more
     pieces = record[AT, record.shape[1] - 1] if weighs else record.shape[1] - 1.0
     most_steps = MAX_STEPS + 10 * record.shape[1]
@@ -278,7 +275,7 @@ def record_outcomes(
                 lifted = lifts(w, lane, own, forcing, record, 0.0)
                 if not lifted:
                     peak[coming], overturned[coming], impacts[coming] = 0.0, False, 0
-                cells[lane] = coming
+                w[CELL, lane] = coming
                 coming += 1
             if lifted:
                 stepping |= 1 << lane
@@ -288,7 +285,7 @@ def record_outcomes(
         if marching | stepping == 0:
             return lost
         if alone[HALT, 0] != 0.0:
-            return cells[int(alone[HALT, 1])]
+            return int(w[CELL, int(alone[HALT, 1])])
         block = seated(w, kind)
         if stepping == 0 or number(marching) > FEW:
             passed = march_lanes(w, block, record, weighs, tolerance, marching)
@@ -318,7 +315,7 @@ def record_outcomes(
         while events:
             lane = lowest(events)
             events &= events - 1
-            cell = cells[lane]
+            cell = int(w[CELL, lane])
             own = numbered(kind, blocks, which[cell])
             forcing = record_forcing(record, steps[cell], factors[cell], lifts_of[cell])
             fell, highest, count = bool(fallen >> lane & 1), w[PEAK, lane], w[IMPACTS, lane]
