@@ -53,8 +53,10 @@ TERM = LIFT
 PER_PIECE = TERM + 8
 #: The number of the history in a lane.
 CELL = PER_PIECE + 1
+#: See `tail.safe_speed`.
+SAFE_SPEED = CELL + 1
 #: The number of all rows.
-ROWS = CELL + 1
+ROWS = SAFE_SPEED + 1
 
 #: The steps are this much shorter than the rough power says.
 CAUTION = 0.95
