@@ -181,6 +181,7 @@ def overturned_by(
         tolerance=tolerance,
         vertical=vertical,
         scale_vertical=scale_vertical,
+        in_full=False,
     )[0]
 
 
@@ -192,10 +193,11 @@ def outcomes_by(
     tolerance: float = TOLERANCE,
     vertical: Record | None = None,
     scale_vertical: bool = True,
+    in_full: bool = True,
 ) -> tuple[NDArray[np.bool_], NDArray[np.int64]]:
     """Return which factors on an excitation overturn a block, and its impacts under each.
 
-    Parameters and errors are those of `overturned_by`.
+    Parameters and errors are those of `overturned_by`; `in_full` is as of `mixed_outcomes_of`.
 
     Returns
     -------
@@ -205,7 +207,8 @@ def outcomes_by(
     scales = checks.axis("factors", factors, zero_allowed=True)
     ends = (float(scales.min()), float(scales.max()))
     subjects = subjects_of([Search(structure, excitation, ends, vertical, scale_vertical)])
-    return outcomes_of_subjects(subjects, [scales], checked_tolerance(tolerance))[0]
+    bound = checked_tolerance(tolerance)
+    return outcomes_of_subjects(subjects, [scales], bound, in_full=in_full)[0]
 
 
 def overturned_together(
@@ -588,10 +591,15 @@ def subjects_of(searches: Sequence[Search]) -> list[_Subject]:
 
 
 def outcomes_of_subjects(
-    subjects: Sequence[_Subject], factors: Sequence[Factors], tolerance: float
+    subjects: Sequence[_Subject],
+    factors: Sequence[Factors],
+    tolerance: float,
+    *,
+    in_full: bool = False,
 ) -> list[tuple[NDArray[np.bool_], NDArray[np.int64]]]:
     """Return which factors overturn each subject, and its impacts; each has factors of its own.
 
+    Unless `in_full`, the impacts of a subject that survives may be those of a part of the record.
     Histories under one record, or under pulses of one shape, run together.
     """
     groups: dict[tuple[int, int], list[int]] = {}
@@ -615,6 +623,7 @@ def outcomes_of_subjects(
                 [each if subject.scale_vertical else np.ones_like(each) for subject, each in pairs]
             ),
             tolerance=tolerance,
+            in_full=in_full,
         )
         cuts = np.cumsum(sizes)[:-1]
         found_here = zip(np.split(overturned, cuts), np.split(impacts, cuts), strict=True)

@@ -8,6 +8,7 @@ import pytest
 from topheavy import Pulse, Record
 from topheavy.kernel import forcing
 from topheavy.kernel.forcing import (
+    IMPULSE,
     NO_RECORD,
     RUN,
     SHAPES,
@@ -258,6 +259,13 @@ def test_wait_for_uplift_passes_over_weak_runs_only(length):
                     assert lifted == math.inf
                 else:
                     assert max(time, (k - 1) * step) <= lifted <= k * step
+
+
+def test_impulse_to_come_is_the_area_under_the_moduli_of_the_samples():
+    samples = np.sin(np.arange(40) ** 2)
+    for k in (0, 7, 38, 39):
+        area = np.trapezoid(np.abs(samples[k:]))
+        assert prepare_record(samples)[IMPULSE, k] == pytest.approx(area, abs=1e-14)
 
 
 def test_largest_of_each_run_is_kept():

@@ -53,7 +53,7 @@ def test_pieces_are_the_lines_of_both_records(ratio):
     there = record_forcing(both, STEP, -1.5, 0.8)
     one, other = Record(STEP, -1.5 * across), Record(ratio * STEP, 0.8 * up)
     segments = TwoComponents(one, other).segments(math.inf)
-    assert both.shape == (9, len(segments) + 1)
+    assert both.shape == (10, len(segments) + 1)
     assert there.end == pytest.approx(max(one.duration, other.duration))
     for piece, segment in enumerate(segments):
         assert piece_start(there, both, piece) == pytest.approx(segment.start)

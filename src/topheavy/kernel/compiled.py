@@ -135,11 +135,13 @@ def compiled(function: Any = None, **options: Any) -> Any:
     """Return the function compiled at its first call, or the decorator with these options.
 
     An option that a function leaves open it takes from whichever function is first to call it: the
-    last bits would then depend on what was compiled before. Hence all have a value here.
+    last bits would then depend on what was compiled before. Hence all have a value here. Without
+    `_nrt` numba does not count the references to arrays, by atomic operations that take a tenth of
+    the time of a history. A function that makes an array needs it, and is called by Python alone.
     """
     if function is None:
         return lambda function: compiled(function, **options)
-    given: Any = {"error_model": "numpy", "fastmath": False, "forceinline": False}
+    given: Any = {"error_model": "numpy", "fastmath": False, "forceinline": False, "_nrt": False}
     dispatcher = numba.njit(**given | options)(function)
     dispatcher._cache = Cache(function, FOLDER)
     return dispatcher

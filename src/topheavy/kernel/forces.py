@@ -77,7 +77,7 @@ def forces_along(frame, theta, rate, ground, heights, shear, moment, bending):
         shear[i], moment[i] = forces_at(frame, theta[i], rate[i], ground[i], heights, bending[i])
 
 
-@compiled
+@compiled(_nrt=True)
 def largest_along(frame, theta, rate, ground, heights):
     """Return the largest moduli of the three forces in arcs, shape (arcs, samples), that move.
 

@@ -75,9 +75,10 @@ NO_RECORD = np.empty((3, 0))
 #: Samples whose largest is kept, so that a wait for the next uplift passes over them at once.
 RUN = 32
 #: Rows of a record: samples, or a where a piece begins; the largest |a| from there on; that of each
-#: run. Of two records also: v and the time (over that between two samples) where a piece begins,
-#: a and v where it ends, the largest |v| from there on, and that of each run.
-START, STRONGEST, RUNS, UP, AT, STOP, UP_STOP, MOST_UP, UP_RUNS = range(9)
+#: run; the sum of |a| over the pieces from there on (∞ if two records). Of two records also: v and
+#: the time (over that between two samples) where a piece begins, a and v where it ends, the largest
+#: |v| from there on, and that of each run.
+START, STRONGEST, RUNS, IMPULSE, UP, AT, STOP, UP_STOP, MOST_UP, UP_RUNS = range(10)
 
 
 @compiled
@@ -91,12 +92,14 @@ def prepare_record(samples: NDArray[np.float64]) -> NDArray[np.float64]:
 
     Returns
     -------
-    ndarray, shape (3, n)
-        The samples, the largest |sample| from each on, and the largest of each `RUN` samples (the
-        first n/RUN values of the row).
+    ndarray, shape (4, n)
+        The samples, the largest |sample| from each on, the largest of each `RUN` samples (the first
+        n/RUN values of the row), and the sum of |a| from each on: no less than ∫|a| over Δt.
     """
     samples = np.asarray(samples, dtype=float)
-    return np.stack([samples, *_bounds(np.abs(samples))])
+    sizes = np.abs(samples)
+    pieces = np.append(0.5 * (sizes[1:] + sizes[:-1]), 0.0)
+    return np.stack([samples, *_bounds(sizes), np.cumsum(pieces[::-1])[::-1]])
 
 
 def prepare_two_records(
@@ -111,7 +114,7 @@ def prepare_two_records(
 
     Returns
     -------
-    ndarray, shape (9, n)
+    ndarray, shape (10, n)
         A column for each piece, and one for the end of both. A record is zero after its end.
     """
     lasts = [samples.size - 1.0, ratio * (vertical.size - 1)]
@@ -126,7 +129,8 @@ def prepare_two_records(
     start, stop, up, up_stop = pairs
     bounds = _bounds(np.maximum(np.abs(start), np.abs(stop)))
     up_bounds = _bounds(np.maximum(np.abs(up), np.abs(up_stop)))
-    return np.stack([start, *bounds, up, at, stop, up_stop, *up_bounds])
+    unknown = np.full(at.size, np.inf)
+    return np.stack([start, *bounds, unknown, up, at, stop, up_stop, *up_bounds])
 
 
 def _bounds(sizes: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

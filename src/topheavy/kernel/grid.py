@@ -18,7 +18,8 @@ from topheavy.kernel.forcing import NO_RECORD, RECORD, SHAPES, UP, pulse_forcing
 from topheavy.kernel.interrupt import LONG, in_threads
 from topheavy.kernel.lanes.pulses import pulse_outcomes
 from topheavy.kernel.lanes.records import record_outcomes
-from topheavy.kernel.lanes.vectors import HAS_FMA, WIDTH
+from topheavy.kernel.lanes.steps import ROWS
+from topheavy.kernel.lanes.vectors import HAS_FMA, WIDTH, rows
 from topheavy.kernel.outcome import (
     MAX_STEPS,
     PULSE_ORDER,
@@ -94,7 +95,7 @@ def outcomes_of(
     size = (len(scales), len(amplitudes))
     pairs = np.repeat(scales, size[1]), np.tile(amplitudes, size[0])
     which, lifts = np.zeros(pairs[0].size, np.int64), np.zeros(pairs[0].size)
-    found = _record_outcomes([block], which, *pairs, lifts, record, tolerance, threads)
+    found = _record_outcomes([block], which, *pairs, lifts, record, tolerance, True, threads)
     peak, overturned, impacts = found
     return peak.reshape(size), overturned.reshape(size), impacts.reshape(size)
 
@@ -109,6 +110,7 @@ def mixed_outcomes_of(
     *,
     lifts: Array | None = None,
     tolerance: float = TOLERANCE,
+    in_full: bool = True,
     threads: int | None = None,
 ) -> Outcomes:
     """Return the outcomes of histories of several blocks, each with its scale and amplitude.
@@ -121,6 +123,9 @@ def mixed_outcomes_of(
         The rest is as of `outcomes_of`.
     lifts : array, shape (n,), optional
         The factors on the vertical record, of `forcing.prepare_two_records`.
+    in_full : bool
+        If not, a history under a record ends once it is sure to survive (`tail.safe_speed`), and
+        its peak and impacts are those so far.
 
     Returns
     -------
@@ -138,7 +143,7 @@ def mixed_outcomes_of(
         of, scale, amplitude = np.searchsorted(members, which[at]), scales[at], amplitudes[at]
         if shape == RECORD:
             found = _record_outcomes(
-                alike, of, scale, amplitude, lifts[at], record, tolerance, threads
+                alike, of, scale, amplitude, lifts[at], record, tolerance, in_full, threads
             )
         else:
             cells = (of[np.newaxis], scale[np.newaxis], amplitude[np.newaxis])
@@ -197,13 +202,25 @@ def _record_outcomes(
     lifts: Array,
     record: Array,
     tolerance: float,
+    in_full: bool,
     threads: int | None,
 ) -> Outcomes:
     """Return the outcomes of histories under a record, each with its block, p Δt and factors."""
     peak, overturned = np.empty(which.size), np.empty(which.size, dtype=bool)
     impacts = np.empty(which.size, dtype=np.int64)
     vertical = record if record.shape[0] > UP else None
-    given = (blocks[0], _rows(blocks), which, steps, factors, lifts, record, vertical, tolerance)
+    given = (
+        blocks[0],
+        _rows(blocks),
+        which,
+        steps,
+        factors,
+        lifts,
+        record,
+        vertical,
+        tolerance,
+        in_full,
+    )
     results = (peak, overturned, impacts)
     size, samples = (which.size, FEWEST_FACTORS), record.shape[1]
     lost = _shared(record_outcomes, (*given, *results), *size, samples, threads)
@@ -228,13 +245,13 @@ def _shared(
     """Let the threads do all cells, in batches; return the first cell given up, or −1."""
     batches = max(1, min(BATCHES, cells // fewest))
     if batches == 1 and cells * samples <= LONG:
-        return int(work(working_array(), 0, 1, *given))
+        return int(work(rows(ROWS), working_array(), 0, 1, *given))
     threads = threads or cores()
     if threads == 1:
         batches = 1  # so that no lane idles at the end of any but the last cells
 
     def do(batch: int, workspace: Array) -> int:
-        return int(work(workspace, batch, batches, *given))
+        return int(work(rows(ROWS), workspace, batch, batches, *given))
 
     lost = in_threads([partial(do, batch) for batch in range(batches)], min(threads, batches))
     return min((cell for cell in lost if cell >= 0), default=-1)

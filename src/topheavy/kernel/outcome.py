@@ -67,7 +67,7 @@ class Outcome(NamedTuple):
     resolved: bool
 
 
-@compiled
+@compiled(_nrt=True)
 def working_array():
     """Return the array that a history works in; a thread needs one for all its histories."""
     return np.zeros((HALT + 1, MAX_DEGREE + 3))

@@ -46,6 +46,17 @@ def barrier(block):
 
 
 @compiled
+def safe_speed(block):
+    """Return the speed below which, with the impulse still to come, a block surely survives.
+
+    Between impacts dK = −s a cos(α − φ) φ' dτ, |φ'| ≤ √(2K) below φ = α, and impacts lower K: hence
+    √(2K) grows by ∫|a| dτ at most, and a block that stays below the barrier survives. A thousandth
+    covers the errors of the steps.
+    """
+    return 0.999 * math.sqrt(2.0 * barrier(block))
+
+
+@compiled
 def surplus(block, rotation, velocity):
     """Return H, without cancellation near φ = α."""
     kinetic = 0.5 * velocity * velocity

@@ -9,6 +9,8 @@ from topheavy import RockingBlock
 from topheavy.kernel.forcing import NO_RECORD, ONE_SINE, SHAPES
 from topheavy.kernel.grid import LANES, outcome_of, outcomes_of
 from topheavy.kernel.lanes.pulses import pulse_outcomes
+from topheavy.kernel.lanes.steps import ROWS
+from topheavy.kernel.lanes.vectors import rows
 from topheavy.kernel.outcome import HALT, PULSE_ORDER, TOLERANCE, working_array
 from topheavy.kernel.taylor import oscillator
 
@@ -91,7 +93,7 @@ def filled(workspace):
     amplitudes = block.level * np.linspace(1.1, 4.0, size[1])[np.newaxis]
     cells = (np.zeros((1, 1), np.int64), np.full((1, 1), 3.0), amplitudes)
     given = (block, np.array([block[:5]]), ONE_SINE, *cells, NO_RECORD, PULSE_ORDER, TOLERANCE)
-    return pulse_outcomes(workspace, 0, 1, *given, *out)
+    return pulse_outcomes(rows(ROWS), workspace, 0, 1, *given, *out)
 
 
 def test_halt_ends_the_batch():

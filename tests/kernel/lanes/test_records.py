@@ -15,11 +15,12 @@ from topheavy.kernel.forcing import (
     record_forcing,
     two_lines,
 )
-from topheavy.kernel.grid import outcome_of, outcomes_of
+from topheavy.kernel.grid import mixed_outcomes_of, outcome_of, outcomes_of
 from topheavy.kernel.lanes import records, steps
 from topheavy.kernel.lanes.vectors import WIDTH, rows
 from topheavy.kernel.march import powers, short_series
 from topheavy.kernel.outcome import TOLERANCE
+from topheavy.kernel.tail import safe_speed
 from topheavy.kernel.taylor import oscillator
 
 STEP = 0.02
@@ -74,6 +75,35 @@ def test_no_factor_depends_on_the_others():
             np.testing.assert_array_equal(one[0, j], other[0, 0])
 
 
+def both_ways(block, step, factors, record):
+    """Overturned and impacts of histories that end once they are safe, and of those in full."""
+    which, steps_of = np.zeros(factors.size, int), np.full(factors.size, step)
+    given = ([block], RECORD, which, steps_of, factors, record)
+    return [mixed_outcomes_of(*given, in_full=in_full)[1:] for in_full in (False, True)]
+
+
+@pytest.mark.parametrize("linearised", [False, True], ids=["exact", "linearised"])
+def test_history_that_ends_once_it_is_safe_has_the_same_outcome(linearised):
+    block, shorter = oscillator(RockingBlock(1.0, 0.2, 0.95, linearised)), 0
+    for seed in range(5):
+        factors = block.level / 0.3 * np.geomspace(0.2, 6.0, 200)
+        (fell, some), (overturned, impacts) = both_ways(block, STEP, factors, shaking(seed))
+        np.testing.assert_array_equal(fell, overturned)
+        np.testing.assert_array_equal(some[fell], impacts[fell])
+        assert (some <= impacts).all()
+        shorter += (some < impacts).sum()
+    assert shorter > 100
+
+
+def test_impulse_that_overturns_a_block_is_no_more_than_the_safe_one():
+    """Sharp where gravity has no time to act, of a linearised block: φ' grows by the impulse."""
+    block, step = oscillator(RockingBlock(1.0, 0.2, 0.9, linearised=True)), 1e-5
+    impulse = prepare_record(np.array([0.0, 1.0, *np.zeros(50)]))
+    factors = np.array([0.998, 1.001, 1.003]) * safe_speed(block) / step
+    (fell, _), (overturned, _) = both_ways(block, step, factors, impulse)
+    assert fell.tolist() == overturned.tolist() == [False, False, True]
+
+
 @njit
 def march_all(w, block, record, weighs, tolerance):
     all_lanes = (1 << WIDTH) - 1
@@ -93,7 +123,7 @@ def test_short_series_and_its_bounds_are_those_of_the_scalar_kernel(weighs):
         pieces, peak = rng.integers(0, 40, WIDTH), 0.24
         rotation, velocity = rng.uniform(0.01, 0.26, WIDTH), rng.uniform(-0.05, 0.05, WIDTH) / step
         for lane in range(WIDTH):
-            records.begin(w, lane, block, forcing)
+            records.begin(w, lane, block, forcing, True)
         w[steps.ROTATION], w[steps.VELOCITY] = rotation, velocity
         w[steps.SINE], w[steps.COSINE] = np.sin(rotation), np.cos(rotation)
         w[steps.FACTOR], w[steps.PIECE], w[steps.PEAK], w[steps.ARC] = -1.0, pieces, peak, peak

@@ -10,8 +10,6 @@ rest, the free rocking after the pulse) is done by the functions of the scalar k
 
 import math
 
-import numpy as np
-
 from topheavy.kernel.compiled import compiled
 from topheavy.kernel.forcing import (
     ANTISYMMETRIC_PEAK,
@@ -24,6 +22,7 @@ from topheavy.kernel.forcing import (
     pulse_forcing,
 )
 from topheavy.kernel.lanes.steps import (
+    CELL,
     CENTRE,
     D1,
     END,
@@ -36,7 +35,6 @@ from topheavy.kernel.lanes.steps import (
     PEAK,
     PUSH,
     ROTATION,
-    ROWS,
     STEPS,
     TIME,
     VELOCITY,
@@ -59,7 +57,6 @@ from topheavy.kernel.lanes.vectors import (
     fma,
     load,
     lowest,
-    rows,
     select,
     square_root,
     store,
@@ -138,6 +135,7 @@ def at(values, i, j):
 
 @compiled(nogil=True)
 def pulse_outcomes(
+    w,
     alone,
     batch,
     batches,
@@ -174,7 +172,6 @@ def pulse_outcomes(
     int
         The first cell that was given up (see `outcome.MAX_STEPS`), or −1.
     """
-    w, cells = rows(ROWS), np.full(WIDTH, -1)
     columns = peak.shape[1]
     coming, last = batch * peak.size // batches, (batch + 1) * peak.size // batches
     lost, busy, vacant = -1, 0, (1 << WIDTH) - 1
@@ -189,7 +186,7 @@ def pulse_outcomes(
                 lifted = begin(w, lane, numbered(kind, blocks, at(which, i, j)), forcing, record)
                 if not lifted:
                     peak[i, j], overturned[i, j], impacts[i, j] = 0.0, False, 0
-                cells[lane] = coming
+                w[CELL, lane] = coming
                 coming += 1
             if lifted:
                 busy |= 1 << lane
@@ -198,7 +195,7 @@ def pulse_outcomes(
         if busy == 0:
             return lost
         if alone[HALT, 0] != 0.0:
-            return cells[int(alone[HALT, 1])]
+            return int(w[CELL, int(alone[HALT, 1])])
         block = seated(w, kind)
         landed, fallen = advance(w, alone, block, PULSE_ORDER, tolerance, False, False, busy)
         time, end, step = load(w, TIME), load(w, END), load(w, LENGTH)
@@ -216,7 +213,8 @@ def pulse_outcomes(
         while ending:
             lane = lowest(ending)
             ending &= ending - 1
-            i, j = cells[lane] // columns, cells[lane] % columns
+            cell = int(w[CELL, lane])
+            i, j = cell // columns, cell % columns
             own = numbered(kind, blocks, at(which, i, j))
             fell, highest, count = False, w[PEAK, lane], w[IMPACTS, lane]
             if fallen >> lane & 1:
@@ -230,9 +228,9 @@ def pulse_outcomes(
                     again = outcome(alone, order, tolerance, own, forcing, record)
                     fell, highest, count = again.overturned, again.peak, again.impacts
                     if not again.resolved:
-                        lost = cells[lane] if lost < 0 else min(lost, cells[lane])
+                        lost = cell if lost < 0 else min(lost, cell)
             elif w[STEPS, lane] > MAX_STEPS:
-                lost = cells[lane] if lost < 0 else min(lost, cells[lane])
+                lost = cell if lost < 0 else min(lost, cell)
             else:
                 forcing = pulse_forcing(shape, at(amplitudes, i, j), at(scales, i, j))
                 if not rests(w, lane, own, forcing, record):

@@ -9,11 +9,10 @@ kernel.
 
 import math
 
-import numpy as np
-
 from topheavy.kernel.compiled import compiled
 from topheavy.kernel.forcing import (
     AT,
+    IMPULSE,
     START,
     STOP,
     UP,
@@ -26,6 +25,7 @@ from topheavy.kernel.forcing import (
 )
 from topheavy.kernel.lanes.steps import (
     ARC,
+    CELL,
     CHANGE,
     COSINE,
     FACTOR,
@@ -40,7 +40,7 @@ from topheavy.kernel.lanes.steps import (
     PIECE,
     PUSH,
     ROTATION,
-    ROWS,
+    SAFE_SPEED,
     SINE,
     STEPS,
     TERM,
@@ -67,7 +67,6 @@ from topheavy.kernel.lanes.vectors import (
     maximum,
     minimum,
     number,
-    rows,
     select,
     store,
     take,
@@ -75,7 +74,7 @@ from topheavy.kernel.lanes.vectors import (
 from topheavy.kernel.march import LARGEST_TURN, derivatives
 from topheavy.kernel.outcome import HALT, MAX_STEPS, is_certain_to_overturn
 from topheavy.kernel.rest import LAST_BOUNCE, next_tick
-from topheavy.kernel.tail import free_rocking
+from topheavy.kernel.tail import free_rocking, safe_speed
 from topheavy.kernel.taylor import State
 
 #: Terms of φ in a long step. A piece of p Δt = 0.1 takes one step at the usual tolerance.
@@ -191,11 +190,12 @@ def march_lanes(w, block, record, weighs, tolerance, marching):
 
 
 @compiled
-def begin(w, lane, block, forcing):
-    """Let a block stand in a lane, under a record."""
+def begin(w, lane, block, forcing, in_full):
+    """Let a block stand in a lane, under a record; `in_full` is that of `record_outcomes`."""
     h = forcing.step
     still(w, lane)
     seat(w, lane, block)
+    w[SAFE_SPEED, lane] = 0.0 if in_full else safe_speed(block)
     w[TERM + 1, lane], w[PER_PIECE, lane], w[LIFT, lane] = h, 1.0 / h, forcing.lift
     for k in range(2, 8):
         w[TERM + k, lane] = w[TERM + k - 1, lane] * h / k
@@ -203,12 +203,14 @@ def begin(w, lane, block, forcing):
 
 @compiled
 def lifts(w, lane, block, forcing, record, time):
-    """Let the block of a lane wait at rest from `time` on; return whether the record lifts it."""
+    """Let the block of a lane wait at rest from `time` on; return whether it may overturn."""
     time, push, rate, side = next_uplift(forcing, record, time, block.level)
     if time >= forcing.end:
         return False
-    lift(w, lane, time, push, rate, side, forcing.amplitude)
     piece = piece_of(forcing, record, time)
+    if abs(forcing.amplitude) * forcing.step * record[IMPULSE, piece] < w[SAFE_SPEED, lane]:
+        return False
+    lift(w, lane, time, push, rate, side, forcing.amplitude)
     w[PIECE, lane], w[LONGEST, lane] = piece, piece_start(forcing, record, piece + 1) - time
     w[GRAVITY, lane], w[CHANGE, lane] = gravity(forcing, record, time)
     return True
@@ -223,6 +225,7 @@ def overturns(w, lane, block, forcing, record):
 
 @compiled(nogil=True)
 def record_outcomes(
+    w,
     alone,
     batch,
     batches,
@@ -235,6 +238,7 @@ def record_outcomes(
     record,
     vertical,
     tolerance,
+    in_full,
     peak,
     overturned,
     impacts,
@@ -251,13 +255,15 @@ def record_outcomes(
 
     vertical : array or None
         `record` once more if it is of two records; None if it is of one.
+    in_full : bool
+        Whether a history is followed once it is sure to survive: only then are the peak and the
+        impacts those of all of it.
 
     Returns
     -------
     int
         The first cell that was given up (see `outcome.MAX_STEPS`), or −1.
     """
-    w, cells = rows(ROWS), np.full(WIDTH, -1)
     weighs = vertical is not None  # known when this is compiled: one record costs nothing more
     pieces = record[AT, record.shape[1] - 1] if weighs else record.shape[1] - 1.0
     most_steps = MAX_STEPS + 10 * record.shape[1]
@@ -274,11 +280,11 @@ def record_outcomes(
             while coming < last and not lifted:
                 own = numbered(kind, blocks, which[coming])
                 forcing = record_forcing(record, steps[coming], factors[coming], lifts_of[coming])
-                begin(w, lane, own, forcing)
+                begin(w, lane, own, forcing, in_full)
                 lifted = lifts(w, lane, own, forcing, record, 0.0)
                 if not lifted:
                     peak[coming], overturned[coming], impacts[coming] = 0.0, False, 0
-                cells[lane] = coming
+                w[CELL, lane] = coming
                 coming += 1
             if lifted:
                 stepping |= 1 << lane
@@ -288,7 +294,7 @@ def record_outcomes(
         if marching | stepping == 0:
             return lost
         if alone[HALT, 0] != 0.0:
-            return cells[int(alone[HALT, 1])]
+            return int(w[CELL, int(alone[HALT, 1])])
         block = seated(w, kind)
         if stepping == 0 or number(marching) > FEW:
             passed = march_lanes(w, block, record, weighs, tolerance, marching)
@@ -305,6 +311,8 @@ def record_outcomes(
             store(w, GRAVITY, fma(taken, load(w, CHANGE), load(w, GRAVITY)))
         landed = (landed | bits(rotation <= 0.0) & stepping) & ~fallen
         resting = strike(w, block, weighs, landed) if landed else 0
+        coming_speed = absolute(load(w, FACTOR)) * h * take(record[IMPULSE], load(w, PIECE))
+        safe = bits(load(w, VELOCITY) + coming_speed < load(w, SAFE_SPEED)) & landed
         over = bits(time >= pieces * h) & stepping
         outward = bits((rotation > block.slenderness) & (velocity > 0.0)) & stepping
         tired = bits(load(w, STEPS) > most_steps) & stepping
@@ -314,15 +322,17 @@ def record_outcomes(
         store(w, PIECE, select(among(ended), load(w, PIECE) + 1.0, load(w, PIECE)))
         stepping &= ~ended
         marching |= ended
-        events = fallen | over | resting | outward | tired
+        events = fallen | safe | over | resting | outward | tired
         while events:
             lane = lowest(events)
             events &= events - 1
-            cell = cells[lane]
+            cell = int(w[CELL, lane])
             own = numbered(kind, blocks, which[cell])
             forcing = record_forcing(record, steps[cell], factors[cell], lifts_of[cell])
             fell, highest, count = bool(fallen >> lane & 1), w[PEAK, lane], w[IMPACTS, lane]
-            if not fell and over >> lane & 1:
+            if safe >> lane & 1:
+                pass
+            elif not fell and over >> lane & 1:
                 tail = free_rocking(own, w[ROTATION, lane], w[VELOCITY, lane])
                 fell, highest = tail.overturned, max(highest, tail.peak)
                 count += tail.impacts

@@ -51,8 +51,12 @@ GRAVITY, CHANGE, LIFT = range(INVERSE_COS + 1, INVERSE_COS + 4)
 #: Of a record with samples h = p Δt apart: hᵏ/k! in the row TERM + k, k from 1 to 7, and 1/h.
 TERM = LIFT
 PER_PIECE = TERM + 8
+#: The number of the history in a lane.
+CELL = PER_PIECE + 1
+#: See `tail.safe_speed`.
+SAFE_SPEED = CELL + 1
 #: The number of all rows.
-ROWS = PER_PIECE + 1
+ROWS = SAFE_SPEED + 1
 
 #: The steps are this much shorter than the rough power says.
 CAUTION = 0.95

@@ -303,7 +303,7 @@ def take(typing, array, places):
     return lanes(array, lanes), write
 
 
-@compiled
+@compiled(_nrt=True)
 def rows(count):
     """Return `count` rows of zeros, a float a lane, each where the CPU loads it at once."""
     raw = np.zeros((count + 1) * WIDTH)
