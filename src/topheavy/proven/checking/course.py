@@ -106,7 +106,10 @@ class Course:
 
 
 def horner(coefficients: Sequence[Interval], tau: Interval) -> Interval:
-    total = of(0)
+    low = high = 0
+    a, b, places = tau.low, tau.high, intervals.PLACES
     for coefficient in reversed(coefficients):
-        total = total * tau + coefficient
-    return total
+        products = low * a, low * b, high * a, high * b
+        low = (min(products) >> places) + coefficient.low
+        high = coefficient.high - (-max(products) >> places)
+    return Interval(low, high)
