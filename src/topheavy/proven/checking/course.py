@@ -8,7 +8,16 @@ from fractions import Fraction
 from typing import Protocol
 
 from topheavy.proven.checking import intervals
-from topheavy.proven.checking.intervals import Interval, Refused, between, cosine, dot, extremes, of, sine
+from topheavy.proven.checking.intervals import (
+    Interval,
+    Refused,
+    between,
+    cosine,
+    dot,
+    extremes,
+    of,
+    sine,
+)
 from topheavy.proven.checking.model import Block, Ground
 
 BOXES = 12  # that are tried around that of a step
