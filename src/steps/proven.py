@@ -13,7 +13,7 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import Finding, run, truth
-from steps.shared.proofs import WIDTHS, is_checked, proven
+from steps.shared.proofs import DIGITS, WIDTHS, is_checked, proven
 from steps.shared.spectra_compared import Place, Spectra
 from steps.vase import numbers
 from topheavy import Column, Pulse, judge
@@ -74,7 +74,7 @@ def sample(spectra: Spectra) -> Finding:
             amplitude = random.uniform(1.0, spectra.last)
         _, block, pulse = place.line(row.mass_ratio)
         pulse = pulse.scaled(amplitude)
-        found, certificate = certified(block, pulse)
+        found, certificate = certified(block, pulse, bits=DIGITS[0])
         falls = judge(block, pulse).overturned
         undecided += found.outcome == "undecided"
         differ += found.outcome == ("survives" if falls else "overturns")

@@ -68,6 +68,7 @@ def test_range_contains_all_samples_on_the_way_and_the_rest_behind_the_end():
     inside = forcing.range(1, arb("1.5"), arb("2.5"))
     assert inside.contains(exact(-0.3))
     assert not inside.contains(exact(0.2))
+    assert prepared(Record(0.02, [0.1, 0.2, 0.3])).range(0, arb("0.5"), arb(2)).contains(0)
     behind = prepared(Pulse("constant", 0.4, 1.0)).range(0, arb(3), arb(4))
     assert behind.contains(0)
     assert behind.contains(exact(0.4))

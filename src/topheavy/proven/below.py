@@ -18,14 +18,15 @@ from topheavy.structures import Structure
 NARROWEST = 1e-11
 """Of the highest factor: a box that is not wider counts as open if it is not proven."""
 
-NARROW = 1e-6
+NARROW = 1e-9
 """Of the highest factor: narrower boxes get more digits."""
 
 SPARE = 0.1
 """Of a box: so far beyond each end it is proven, since the enclosures of the checker are wider."""
 
-NARROWER, WIDER = 0.7, 1.2
-"""The width of the next box over that of a box that is not proven, and of one that is."""
+NARROWER, AGAIN, WIDER = 0.7, 0.95, 1.1
+"""The width of the next box over that of one that is not proven, of one that had to become narrower
+before it was, and of one that is proven at once."""
 
 
 @dataclass(frozen=True)
@@ -64,7 +65,7 @@ def survives_below(
         As `topheavy.proven.outcome`, and for a `high` that is not positive.
     """
     high = checks.positive("high", high)
-    below, low, width = Below(high, [], []), 0.0, high
+    below, low, width, after = Below(high, [], []), 0.0, high, WIDER
     while low < high:
         top = min(low + width, high)
         width = top - low
@@ -84,7 +85,7 @@ def survives_below(
         elif found.outcome == "overturns" or width < NARROWEST * high:
             below.open.append((low, top))
         else:
-            width *= NARROWER
+            width, after = NARROWER * width, AGAIN
             continue
-        low, width = top, WIDER * width
+        low, width, after = top, after * width, WIDER
     return below

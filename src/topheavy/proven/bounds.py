@@ -42,10 +42,10 @@ from topheavy.proven.flight import Law
 from topheavy.proven.forcing import Forcing, Piece
 
 SIDES = (1, -1)
-FIRST, GROWTH, LONGEST = 2.0**-6, 1.3, math.pi / 96.0  # steps, in the phase of a pulse
+FIRST, GROWTH, LONGEST = 2.0**-6, 1.3, math.pi / 48.0  # steps, in the phase of a pulse
 START = 1.1  # on time, energy and wall where it begins: the enclosures of the checker are wider
 MARGIN = 1.02  # on energies and times: the enclosures of the checker are wider
-_SLACK = 2.0**-20  # of a wall, beyond an equality
+_SLACK, _LEAST = 2.0**-16, 2.0**-40  # of a wall, beyond an equality: its share, and at least
 _TRIES = 40
 _ZERO = arb(0)
 
@@ -78,9 +78,9 @@ class Bounded:
         push = side * self.factor * self.forcing.value(self.piece, sigma)
         slope, middle = self.law.square * self.law.pull(phi, push), phi.mid()
         energy = self.law.potential(middle, push) + slope * (phi - middle) + rate * rate / 2
-        highest = bounds(phi)[1] * START + _SLACK**2
+        highest = bounds(phi)[1] * START + _LEAST
         walls = (highest, 0.0) if side == 1 else (0.0, highest)
-        return Bound(sigma, max(0.0, bounds(energy)[1]) * START + _SLACK**2, walls)
+        return Bound(sigma, max(0.0, bounds(energy)[1]) * START + _LEAST, walls)
 
     def carried(self, bound: Bound) -> Iterator[Bound]:
         """Yield bounds until the pulse ends, or raise Undecided where α is not excluded."""
@@ -189,7 +189,7 @@ class _Side:
         """Move Y_s about to where F takes it, and a share beyond."""
         turn = self.law.turn(float(self.energy), float(self.least))
         reached = min(self.before + float(self.way), turn)
-        self.wall = reached * (1.0 + slack) + _SLACK**2
+        self.wall = reached * (1.0 + slack) + _LEAST
         self.at, self.lever = self.law.wall(arb(self.wall), self.least)
 
     def limit(self, energy: arb) -> None:

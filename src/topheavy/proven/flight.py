@@ -10,8 +10,11 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from operator import mul
 
-from topheavy.proven.balls import Undecided, arb, arb_poly, hull, power, root
+from topheavy.proven.balls import Undecided, arb, arb_poly, hull, power, precision, root
 from topheavy.proven.blocks import Balls
+
+COARSE = 64
+"""Bits for the coefficients over a box, which is wider than their rounding."""
 
 _MOST_BOXES = 12
 _NARROWEST = 2.0**-30
@@ -254,7 +257,8 @@ def step(
     (phi, psi), (at_start, over) = start, pushes
     order = len(phi) - 1
     box = a_priori(law, phi[0], phi[1], over[0], h)
-    ends = law.series(box.phi, box.rate, over, order)
+    with precision(COARSE):
+        ends = law.series(box.phi, box.rate, over, order)
     coefficients = [*[arb(0)] * zeros, *phi[zeros:order], ends[0][order]]
     last = len(psi) - 1
     power = law.power(at_start, psi, range(last)) + law.power(over, ends[1], range(last, last + 1))

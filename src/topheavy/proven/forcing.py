@@ -12,7 +12,7 @@ from functools import cache
 from itertools import cycle, pairwise
 from operator import truediv
 
-from topheavy.proven.balls import Undecided, arb, exact, hull, power, root
+from topheavy.proven.balls import Undecided, arb, bounds, exact, hull, power, root
 from topheavy.pulses import Pulse
 from topheavy.records import Record
 from topheavy.shapes import SHAPES
@@ -49,15 +49,9 @@ class Forcing(ABC):
     def largest(self, number: int) -> arb:
         """Return max|a| from a piece on, by its number."""
 
+    @abstractmethod
     def range(self, number: int, start: arb, stop: arb) -> arb:
         """Return a ball of all accelerations between two σ, the first in the piece of a number."""
-        found = self.value(self.pieces[number], start)
-        for piece in self.pieces[number:]:
-            if piece.start > stop:
-                return found
-            inside = hull(_later(start, piece.start), _earlier(stop, piece.stop))
-            found = found.union(self.value(piece, inside))
-        return found if stop < self.pieces[-1].stop else found.union(arb(0))  # then it jumps
 
     def uplift(
         self, piece: Piece, factor: arb, level: arb, begin: arb
@@ -119,6 +113,11 @@ class PulseForcing(Forcing):
     def largest(self, number: int) -> arb:
         return self._largest
 
+    def range(self, number: int, start: arb, stop: arb) -> arb:
+        piece = self.pieces[number]
+        found = self.value(piece, hull(start, _earlier(stop, piece.stop)))
+        return found if stop < piece.stop else found.union(arb(0))  # then it jumps
+
 
 class RecordForcing(Forcing):
     """A record in its samples: straight lines from each to the next."""
@@ -138,6 +137,15 @@ class RecordForcing(Forcing):
         first, second = self.samples[piece.number : piece.number + 2]
         slope = second - first
         return [first + slope * (sigma - piece.number), slope, *[arb(0)] * (terms - 2)][:terms]
+
+    def range(self, number: int, start: arb, stop: arb) -> arb:
+        last = int(bounds(stop)[1])
+        is_over = last >= len(self.pieces)  # then it jumps
+        at_stop = arb(0) if is_over else self.value(self.pieces[last], stop)
+        found = self.value(self.pieces[number], start).union(at_stop)
+        for sample in self.samples[number + 1 : last + 1]:  # lines between: no more than these
+            found = found.union(sample)
+        return found
 
     def largest(self, number: int) -> arb:
         return self._largest[number]

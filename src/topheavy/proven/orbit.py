@@ -105,7 +105,7 @@ def steady_rocking(structure: Structure, pulse: Pulse, start: tuple[float, float
     """
     with precision(LADDER[-1][0]):
         shaken = Shaken(enclosed(structure, linearised=False), Harmonic(pulse))
-    with precision(LADDER[1][0]):
+    with precision(LADDER[2][0]):
         centre, frame = _search(shaken, arb_mat(2, 1, list(start)))
         for radius in RADII:
             factor = contraction(shaken, centre, frame, radius)
@@ -113,7 +113,7 @@ def steady_rocking(structure: Structure, pulse: Pulse, start: tuple[float, float
             if factor < 1 and off < radius:
                 found = centre + frame * _square(off)
                 phase, velocity = (bounds(x) for x in found.entries())
-                flight = shaken.lands(found, LADDER[1])
+                flight = shaken.lands(found, LADDER[2])
                 peak, q = (bounds(flight.least)[0], bounds(flight.most)[1]), bounds(factor)[1]
                 return SteadyRocking(phase, velocity, peak, q, radius, shaken, centre, frame)
     raise Undecided("contraction")

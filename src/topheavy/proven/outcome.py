@@ -20,7 +20,7 @@ from topheavy.records import Record
 from topheavy.simulate import no_excitation
 from topheavy.structures import Structure
 
-LADDER = ((72, 1e-13), (136, 1e-28), (264, 1e-60), (392, 1e-95), (520, 1e-130))
+LADDER = ((72, 1e-13), (104, 1e-20), (136, 1e-28), (264, 1e-60), (392, 1e-95), (520, 1e-130))
 """Bits of the balls, and what the last terms of a step may amount to, relative to 1 rad."""
 
 

@@ -8,7 +8,16 @@ from fractions import Fraction
 from typing import Protocol
 
 from topheavy.proven.checking import intervals
-from topheavy.proven.checking.intervals import Interval, Refused, between, cosine, dot, of, sine
+from topheavy.proven.checking.intervals import (
+    Interval,
+    Refused,
+    between,
+    cosine,
+    dot,
+    extremes,
+    of,
+    sine,
+)
 from topheavy.proven.checking.model import Block, Ground
 
 BOXES = 12  # that are tried around that of a step
@@ -106,7 +115,9 @@ class Course:
 
 
 def horner(coefficients: Sequence[Interval], tau: Interval) -> Interval:
-    total = of(0)
+    low = high = 0
+    a, b, places = tau.low, tau.high, intervals.PLACES
     for coefficient in reversed(coefficients):
-        total = total * tau + coefficient
-    return total
+        low, high = extremes(low, high, a, b)
+        low, high = (low >> places) + coefficient.low, coefficient.high - (-high >> places)
+    return Interval(low, high)

@@ -45,9 +45,8 @@ class Interval:
         if isinstance(other, int):
             ends = self.low * other, self.high * other
             return Interval(min(ends), max(ends))
-        a, b, c, d = self.low, self.high, other.low, other.high
-        products = a * c, a * d, b * c, b * d
-        return Interval(min(products) >> PLACES, -(-max(products) >> PLACES))
+        low, high = extremes(self.low, self.high, other.low, other.high)
+        return Interval(low >> PLACES, -(-high >> PLACES))
 
     def __truediv__(self, other: "Interval | int") -> "Interval":
         if isinstance(other, int):
@@ -105,20 +104,21 @@ def of(number: "Interval | int | Fraction") -> Interval:
     return Interval(math.floor(value), math.ceil(value))
 
 
+def extremes(a: int, b: int, c: int, d: int) -> tuple[int, int]:
+    """Return the lowest and the highest product of a number from a to b and one from c to d."""
+    if a >= 0:
+        return (a if c >= 0 else b) * c, (b if d >= 0 else a) * d
+    if b <= 0:
+        return (a if d >= 0 else b) * d, (b if c >= 0 else a) * c
+    return min(a * d, b * c), max(a * c, b * d)
+
+
 def dot(one: Iterable[Interval], other: Iterable[Interval]) -> Interval:
     """Return the sum of products, rounded once, up to the end of the shorter series."""
     low = high = 0
     for x, y in zip(one, other, strict=False):
-        a, b, c, d = x.low, x.high, y.low, y.high
-        if a >= 0:
-            low += (a if c >= 0 else b) * c
-            high += (b if d >= 0 else a) * d
-        elif b <= 0:
-            low += (a if d >= 0 else b) * d
-            high += (b if c >= 0 else a) * c
-        else:
-            low += min(a * d, b * c)
-            high += max(a * c, b * d)
+        least, most = extremes(x.low, x.high, y.low, y.high)
+        low, high = low + least, high + most
     return Interval(low >> PLACES, -(-high >> PLACES))
 
 
