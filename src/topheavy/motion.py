@@ -89,8 +89,9 @@ class Motion:
     arcs: list[Arc] = field(default_factory=list)
 
     def arrive(self, time: float, rotation: float, rate: float) -> None:
-        """Go on to a state of the same flight, between which and this one φ is no higher."""
+        """Go on to a state of the same flight; between both φ is no higher, or below the peak."""
         self.height = max(self.height, self.rotation, rotation)
+        self.peak = max(self.peak, rotation)
         self.time, self.rotation, self.rate = time, rotation, rate
 
 

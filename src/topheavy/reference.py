@@ -162,7 +162,7 @@ def _fly(
         if solver.status == "failed":
             raise ArithmeticError(f"{block}: no step is possible at {solver.t:.6g} s: {message}")
         rotation, rate = solver.y.tolist()
-        if _is_eventless(course, float(solver.t), rotation, largest):
+        if _is_eventless(course, float(solver.t), rotation, rate, largest):
             course.arrive(float(solver.t), rotation, rate)
             continue
         step = solver.dense_output()
@@ -186,23 +186,28 @@ def _glides(glide: ode, p: float, stop: float, course: Motion, largest: float) -
     `largest` is that of `_is_eventless`.
     """
     expected = course.rotation + course.rate * (stop - course.time)
-    if not _is_eventless(course, stop, expected, largest):
-        return False  # mostly; the integration decides
+    if not _is_eventless(course, stop, expected, course.rate, largest):
+        return False  # most likely
     glide.set_initial_value([course.rotation, course.rate / p], course.time)
-    rotation, rate = glide.integrate(stop).tolist()
-    if not (glide.successful() and _is_eventless(course, stop, rotation, largest)):
+    rotation, scaled = glide.integrate(stop).tolist()
+    if not (glide.successful() and _is_eventless(course, stop, rotation, p * scaled, largest)):
         return False
-    course.arrive(stop, rotation, p * rate)
+    course.arrive(stop, rotation, p * scaled)
     return True
 
 
-def _is_eventless(course: Motion, time: float, rotation: float, largest: float) -> bool:
-    """Return whether a motion to this φ surely has no impact, fall or new peak on the way.
+def _is_eventless(
+    course: Motion, time: float, rotation: float, rate: float, largest: float
+) -> bool:
+    """Return whether a motion to this φ and φ̇ surely has no impact, fall or inner peak on the way.
 
-    `largest` is a bound on |φ̈|, rad/s².
+    `largest` is a bound on |φ̈|, rad/s². No φ̇ is nearer to 0 than the mean at the ends by more than
+    half of what that changes in the time.
     """
-    ends = course.rotation, rotation
-    aside = largest * (time - course.time) ** 2 / 8.0  # of the chord of φ at most
+    ends, ahead = (course.rotation, rotation), time - course.time
+    if abs(course.rate + rate) > largest * ahead:  # φ̇ has one sign
+        return rotation > 0.0 and max(ends) < course.ceiling
+    aside = largest * ahead**2 / 8.0  # of the chord of φ at most
     return min(ends) - aside > 0.0 and max(ends) + aside < min(course.ceiling, course.peak)
 
 
