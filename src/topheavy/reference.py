@@ -259,8 +259,8 @@ def _first_event(step: DenseOutput, course: Motion, possible: bool) -> tuple[Eve
         return float(step(t)[0]) - above
 
     before, value = step.t_old, float(heights[0])
-    turns = [(time, height(time)) for time in middle + half * real]
-    for time, upcoming in (*turns, (step.t, float(heights[-1]))):
+    inside = [(time, height(time)) for time in middle + half * real]
+    for time, upcoming in (*inside, (step.t, float(heights[-1]))):
         if possible and value >= 0.0 > upcoming:
             return Event.IMPACT, root(height, before, time)
         if value <= course.ceiling < upcoming:
