@@ -139,8 +139,12 @@ def trace(
             if uplift >= forcing_end:  # beyond the cut of a record
                 uplift = math.inf
             # A motion that ends by rest has its end at the last landing or, later, at rest.
-            stays = uplift == math.inf and (time < forcing_end or not has_moved)
-            while sample < times.size and (times[sample] < uplift or stays):
+            stays = time < forcing_end or not has_moved
+            while (
+                sample < times.size
+                and times[sample] <= uplift
+                and (stays or times[sample] < math.inf)
+            ):
                 samples[0, sample], samples[1, sample] = 0.0, 0.0
                 sample += 1
             if uplift == math.inf:
