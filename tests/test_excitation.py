@@ -155,7 +155,8 @@ def test_segments_of_a_pulse_have_no_gap_and_follow_it(shape, amplitude, share):
     assert [segment.start for segment in segments] == edges[:-1]
     for segment in segments:
         for time in np.linspace(segment.start, segment.stop, 7):
-            assert segment.acceleration(time) == pulse.excitation(time)
+            expected = pytest.approx(pulse.excitation(time), rel=1e-14, abs=0.0)
+            assert segment.acceleration(time) == expected
 
 
 @pytest.mark.parametrize("shape", PULSE_SHAPES)

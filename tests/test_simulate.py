@@ -426,6 +426,24 @@ def twin_record(peak: float, gap: float, second: float = 1.0) -> Record:
 
 
 @BOTH
+@pytest.mark.parametrize(
+    ("pulse", "rotation"),
+    [
+        (Pulse("half-sine", 0.1, 4.0), 0.0),  # no uplift
+        (Pulse("one-sine", 0.4, 6.0), 0.1),  # at rest after the forcing
+        (Pulse("ricker-symmetric", 0.27, 12.0), 0.0),  # at rest before its end
+        (Pulse("one-sine", 0.9, 3.0), 0.0),  # overturned
+    ],
+)
+def test_first_and_last_of_samples_are_those_of_any_number(block, pulse, rotation):
+    few, more = (simulate(block, pulse, rotation=rotation, samples=n) for n in (2, 3))
+    assert few.outcome == more.outcome
+    for name in ("time", "rotation", "velocity"):
+        expected = pytest.approx(getattr(more, name)[[0, 2]], abs=1e-13)
+        assert getattr(few, name) == expected
+
+
+@BOTH
 @pytest.mark.parametrize("restitution", [0.0, 0.3])
 def test_block_lifts_again_after_it_has_come_to_rest(block, restitution):
     block = block.with_restitution(restitution)

@@ -10,10 +10,12 @@ import difflib
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from topheavy import checks
 from topheavy.excitation import Excitation, Segment
@@ -25,9 +27,13 @@ Phase = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class _Wave:
-    """A pulse of unit amplitude in the phase ωt: its values, and where its slope is zero."""
+    """A pulse of unit amplitude in the phase ωt: its values, and where its slope is zero.
+
+    `at_one` has the same at a single phase, which numpy takes ten times as long for.
+    """
 
     at: Callable[[Phase], Phase]
+    at_one: Callable[[float], float]
     turns: tuple[float, ...] = ()
 
 
@@ -35,14 +41,14 @@ _RICKER_CENTRE = 4.5 * math.pi  # phase of the middle of the main lobe
 _RICKER_ANTISYMMETRIC_PEAK = 1.3801  # makes the peak 1, to five digits
 
 
-def _ricker_symmetric(phase: Phase) -> Phase:
+def _ricker_symmetric(phase: Any, exp: Any = np.exp) -> Any:
     z = (phase - _RICKER_CENTRE) / 2.0  # π τ / T
-    return (1.0 - 2.0 * z**2) * np.exp(-(z**2))
+    return (1.0 - 2.0 * z**2) * exp(-(z**2))
 
 
-def _ricker_antisymmetric(phase: Phase) -> Phase:
+def _ricker_antisymmetric(phase: Any, exp: Any = np.exp) -> Any:
     x = (phase - _RICKER_CENTRE) / math.sqrt(3.0)  # 2 π τ / √3 T
-    return (x**2 - 3.0) * x * np.exp(-(x**2) / 2.0) / _RICKER_ANTISYMMETRIC_PEAK
+    return (x**2 - 3.0) * x * exp(-(x**2) / 2.0) / _RICKER_ANTISYMMETRIC_PEAK
 
 
 def _around_main_lobe(*offsets: float) -> tuple[float, ...]:
@@ -53,14 +59,19 @@ def _around_main_lobe(*offsets: float) -> tuple[float, ...]:
 _HALF_PI = math.pi / 2
 
 _WAVES = {
-    "one-sine": _Wave(np.sin, (_HALF_PI, 3 * _HALF_PI)),
-    "one-cosine": _Wave(np.cos, (math.pi,)),
-    "half-sine": _Wave(np.sin, (_HALF_PI,)),
-    "constant": _Wave(np.ones_like),
-    "harmonic": _Wave(np.sin),  # its turns are without end: see Pulse.segments
-    "ricker-symmetric": _Wave(_ricker_symmetric, _around_main_lobe(0.0, math.sqrt(6.0))),
+    "one-sine": _Wave(np.sin, math.sin, (_HALF_PI, 3 * _HALF_PI)),
+    "one-cosine": _Wave(np.cos, math.cos, (math.pi,)),
+    "half-sine": _Wave(np.sin, math.sin, (_HALF_PI,)),
+    "constant": _Wave(np.ones_like, lambda phase: 1.0),
+    "harmonic": _Wave(np.sin, math.sin),  # its turns are without end: see Pulse.segments
+    "ricker-symmetric": _Wave(
+        _ricker_symmetric,
+        partial(_ricker_symmetric, exp=math.exp),
+        _around_main_lobe(0.0, math.sqrt(6.0)),
+    ),
     "ricker-antisymmetric": _Wave(
         _ricker_antisymmetric,
+        partial(_ricker_antisymmetric, exp=math.exp),
         _around_main_lobe(*(math.sqrt(3.0 * (3.0 + s * math.sqrt(6.0))) for s in (-1, 1))),
     ),
 }
@@ -123,7 +134,8 @@ class Pulse(Excitation):
     def accelerations(self, time: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the ground acceleration in g at an array of times in s; zero outside the pulse."""
         inside = (time >= 0.0) & (time <= self.duration)
-        return np.where(inside, self._wave(np.where(inside, time, 0.0)), 0.0)
+        phase = self.angular_frequency * np.where(inside, time, 0.0)
+        return np.where(inside, self.amplitude * _WAVES[self.shape].at(phase), 0.0)
 
     def segments(self, until: float) -> list[Segment]:
         """Return the smooth, monotone segments from 0 to the earlier of `until` and the end."""
@@ -136,10 +148,7 @@ class Pulse(Excitation):
         edges = [0.0, *inner, end]
         return [Segment(start, stop, self._at) for start, stop in pairwise(edges) if start < stop]
 
-    def _wave(self, time: ArrayLike) -> NDArray[np.float64]:
-        """The formula of the pulse, which holds inside its duration."""
-        phase = np.asarray(np.multiply(self.angular_frequency, time), dtype=float)
-        return self.amplitude * _WAVES[self.shape].at(phase)
-
     def _at(self, time: float) -> float:
-        return float(self._wave(time))
+        """The formula of the pulse, which holds inside its duration."""
+        phase = float(self.angular_frequency * time)
+        return float(self.amplitude * _WAVES[self.shape].at_one(phase))

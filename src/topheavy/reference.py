@@ -13,7 +13,7 @@ from functools import partial
 import numpy as np
 from numpy.polynomial import chebyshev
 from numpy.typing import ArrayLike, NDArray
-from scipy.integrate import DOP853, DenseOutput
+from scipy.integrate import DOP853, DenseOutput, ode
 from scipy.optimize import brentq
 
 from topheavy import checks, free_rocking, motion
@@ -35,6 +35,9 @@ MOST_STEPS = 1_000_000
 
 SHORT = 0.05
 """1/p. A step of DOP853 over so short a piece of the forcing needs no search for its length."""
+
+Bend = Callable[[float, float], float]
+"""The equation of motion on one side: φ̈ from the time and φ."""
 
 _DEGREE = 7  # of DOP853's interpolating polynomial
 _NODES = chebyshev.chebpts1(_DEGREE + 1)
@@ -96,7 +99,7 @@ def judge(
     course = motion.start(block, 0.0, 0.0)
     course.restitutions = [checks.fraction("restitutions", value) for value in restitutions]
     ground = with_vertical(excitation, vertical)
-    motion.force(block, ground, course, _flight(tolerance, keep=False))
+    motion.force(block, ground, course, _flight(tolerance, block))
     end = motion.free_ending(block, course)
     return free_rocking.Ending(
         overturned=end.overturned,
@@ -105,18 +108,30 @@ def judge(
     )
 
 
-def _flight(tolerance: float, *, keep: bool = True) -> motion.Flight:
+def _flight(tolerance: float, judged: RockingBlock | None = None) -> motion.Flight:
     """Return the integration at a tolerance, or raise ValueError with the accepted range.
 
-    `keep` says whether the history is wanted, and not only how it ends.
+    The history is not kept of a block that is only judged: SciPy's compiled DOP853 takes it over
+    short pieces of the forcing. The state is φ and φ̇/p, as it has one tolerance for both.
     """
     low, high = SMALLEST_TOLERANCE, LARGEST_TOLERANCE
-    return partial(_fly, checks.within("tolerance", tolerance, low, high), keep)
+    tolerance, glide = checks.within("tolerance", tolerance, low, high), None
+    if judged:
+        first, absolute = SHORT / judged.frequency_parameter, tolerance * judged.slenderness
+        glide = ode(_slopes).set_integrator(
+            "dop853", rtol=tolerance, atol=absolute, first_step=first
+        )
+    return partial(_fly, tolerance, glide)
+
+
+def _slopes(t: float, y: NDArray[np.float64], bend: Bend, p: float) -> list[float]:
+    rotation, rate = y.tolist()
+    return [p * rate, bend(t, rotation) / p]
 
 
 def _fly(
     tolerance: float,
-    keep: bool,
+    glide: ode | None,
     block: RockingBlock,
     segment: Segment,
     stop: float,
@@ -126,15 +141,19 @@ def _fly(
     """Integrate on one side to `stop`, or to the impact or fall that comes first."""
     alpha, p = block.slenderness, block.frequency_parameter
     ahead = stop - course.time
-    largest = math.inf if keep else _largest(block, segment)
+    is_short = 0.0 < p * ahead < SHORT
+    largest = _largest(block, segment) if glide else math.inf
+    bend = _equation(block, segment, course.side)
+    if glide and is_short and _glides(glide.set_f_params(bend, p), p, stop, course, largest):
+        return None
     solver = DOP853(
-        _equation(block, segment, course.side),
+        lambda t, y: (y[1], bend(float(t), float(y[0]))),
         course.time,
         [course.rotation, course.rate],
         stop,
         rtol=tolerance,
         atol=[tolerance * alpha, tolerance * alpha * p],
-        first_step=ahead if 0.0 < p * ahead < SHORT else None,
+        first_step=ahead if is_short else None,
     )
     for _ in range(MOST_STEPS):
         if solver.status != "running":
@@ -142,16 +161,14 @@ def _fly(
         message = solver.step()
         if solver.status == "failed":
             raise ArithmeticError(f"{block}: no step is possible at {solver.t:.6g} s: {message}")
-        ends = course.rotation, float(solver.y[0])
-        aside = largest * (solver.t - solver.t_old) ** 2 / 8.0  # of the chord of φ at most
-        if min(ends) - aside > 0.0 and max(ends) + aside < min(course.ceiling, course.peak):
-            course.height, course.time = max(course.height, *ends), solver.t
-            course.rotation, course.rate = map(float, solver.y)
-            continue  # nothing happens in this step
+        rotation, rate = solver.y.tolist()
+        if _is_eventless(course, float(solver.t), rotation, rate, largest):
+            course.arrive(float(solver.t), rotation, rate)
+            continue
         step = solver.dense_output()
         event, course.time = _first_event(step, course, possible)
         course.arcs.append(Arc(step.t_old, course.time, course.side, step))
-        course.rotation, course.rate = (float(value) for value in step(course.time))
+        course.rotation, course.rate = step(course.time).tolist() if event else (rotation, rate)
         if event is not None:
             return event
     else:
@@ -163,20 +180,48 @@ def _fly(
     return None
 
 
-def _equation(
-    block: RockingBlock, segment: Segment, side: int
-) -> Callable[[float, NDArray[np.float64]], tuple[float, float]]:
-    """Return the equation of motion (φ, φ̇)' on one side: Eq. (23), or linearised."""
+def _glides(glide: ode, p: float, stop: float, course: Motion, largest: float) -> bool:
+    """Carry the motion to `stop` at once if nothing happens on the way, and return whether so.
+
+    `largest` is that of `_is_eventless`.
+    """
+    expected = course.rotation + course.rate * (stop - course.time)
+    if not _is_eventless(course, stop, expected, course.rate, largest):
+        return False  # most likely
+    glide.set_initial_value([course.rotation, course.rate / p], course.time)
+    rotation, scaled = glide.integrate(stop).tolist()
+    if not (glide.successful() and _is_eventless(course, stop, rotation, p * scaled, largest)):
+        return False
+    course.arrive(stop, rotation, p * scaled)
+    return True
+
+
+def _is_eventless(
+    course: Motion, time: float, rotation: float, rate: float, largest: float
+) -> bool:
+    """Return whether a motion to this φ and φ̇ surely has no impact, fall or inner peak on the way.
+
+    `largest` is a bound on |φ̈|, rad/s². No φ̇ is nearer to 0 than the mean at the ends by more than
+    half of what that changes in the time.
+    """
+    ends, ahead = (course.rotation, rotation), time - course.time
+    if abs(course.rate + rate) > largest * ahead:  # φ̇ has one sign
+        return rotation > 0.0 and max(ends) < course.ceiling
+    aside = largest * ahead**2 / 8.0  # of the chord of φ at most
+    return min(ends) - aside > 0.0 and max(ends) + aside < min(course.ceiling, course.peak)
+
+
+def _equation(block: RockingBlock, segment: Segment, side: int) -> Bend:
+    """Return the equation of motion on one side: Eq. (23), or linearised."""
     alpha, square = block.slenderness, block.frequency_parameter**2
     acceleration, gravity = segment.acceleration, segment.gravity
 
-    def exact(t: float, y: NDArray[np.float64]) -> tuple[float, float]:
-        lean = alpha - float(y[0])
-        push = side * float(acceleration(t))
-        return y[1], -square * gravity(t) * (math.sin(lean) + push * math.cos(lean))  # Eq. (23)
+    def exact(t: float, rotation: float) -> float:
+        lean, push = alpha - rotation, side * acceleration(t)
+        return -square * gravity(t) * (math.sin(lean) + push * math.cos(lean))  # Eq. (23)
 
-    def linearised(t: float, y: NDArray[np.float64]) -> tuple[float, float]:
-        return y[1], square * gravity(t) * (float(y[0]) - alpha - side * float(acceleration(t)))
+    def linearised(t: float, rotation: float) -> float:
+        return square * gravity(t) * (rotation - alpha - side * acceleration(t))
 
     return linearised if block.linearised else exact
 
@@ -198,8 +243,8 @@ def _first_event(step: DenseOutput, course: Motion, possible: bool) -> tuple[Eve
     step is cut at the turning points of φ, between which a sign change is found for certain.
     """
     middle, half = (step.t_old + step.t) / 2.0, (step.t - step.t_old) / 2.0
-    heights = step(middle + half * _NODES)[0]
-    series = _TO_SERIES @ heights
+    heights = step(np.array([step.t_old, *(middle + half * _NODES), step.t]))[0]
+    series = _TO_SERIES @ heights[1:-1]
     reach = np.abs(series[1:]).sum()
     if series[0] - reach > 0.0 and series[0] + reach < min(course.ceiling, course.peak):
         course.height = max(course.height, float(heights.max()))
@@ -213,9 +258,9 @@ def _first_event(step: DenseOutput, course: Motion, possible: bool) -> tuple[Eve
     def height(t: float, above: float = 0.0) -> float:
         return float(step(t)[0]) - above
 
-    before, value = step.t_old, height(step.t_old)
-    for time in (*(middle + half * real), step.t):
-        upcoming = height(time)
+    before, value = step.t_old, float(heights[0])
+    inside = [(time, height(time)) for time in middle + half * real]
+    for time, upcoming in (*inside, (step.t, float(heights[-1]))):
         if possible and value >= 0.0 > upcoming:
             return Event.IMPACT, root(height, before, time)
         if value <= course.ceiling < upcoming:

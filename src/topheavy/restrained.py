@@ -11,6 +11,7 @@ A block with κ = 0 is that of Eq. (23).
 """
 
 import math
+from bisect import bisect
 from typing import TypeAlias
 
 import numpy as np
@@ -124,6 +125,12 @@ def restrained_peak_by_scipy(
     p, alpha = block.frequency_parameter, block.slenderness
     times = np.linspace(0.0, duration, 50 * math.ceil(duration / longest_step) + 1)
     strong = np.abs(motion.excitation(times)) > block.uplift_acceleration
+    segments = motion.segments(duration)
+    starts = [one.start for one in segments]
+
+    def ground(t: float) -> float:
+        one = segments[bisect(starts, t) - 1]
+        return one.acceleration(t) if t <= one.stop else 0.0
 
     def returns(t: float, y: Array) -> float:
         return float(y[0])
@@ -139,11 +146,12 @@ def restrained_peak_by_scipy(
             if not later.size:
                 break
             time, rate = float(later[0]), 0.0
-            side = -math.copysign(1.0, motion.excitation(time))
+            side = -math.copysign(1.0, ground(time))
 
         def moves(t: float, y: Array, side: float = side) -> tuple[float, float]:
-            free = math.sin(y[0] - alpha) - side * motion.excitation(t) * math.cos(y[0] - alpha)
-            return y[1], p**2 * (free - kappa * math.sin(y[0]))
+            phi, rate = y.tolist()
+            free = math.sin(phi - alpha) - side * ground(float(t)) * math.cos(phi - alpha)
+            return rate, p**2 * (free - kappa * math.sin(phi))
 
         found = solve_ivp(
             moves,

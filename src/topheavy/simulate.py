@@ -149,14 +149,19 @@ def simulate(
             )
         return motion, impacts, found
 
-    last = math.inf
+    last, found = math.inf, None
     if isinstance(times, int):
-        last = until if duration is not None else follow(until, np.empty(0))[2][0]
+        last = until
+        if duration is None:
+            found = follow(until, np.array([0.0, math.inf]))
+            last = found[2][0]
         times = np.linspace(0.0, last / p if duration is None else duration, times)
     elif duration is None:
         until = max(p * float(times[-1]), forcing.end)
-    # The last of uniform times is the end, and no rounding of p (end/p) above it.
-    motion, impacts, (_, result, peak, counted, landed) = follow(until, np.minimum(p * times, last))
+    if found is None or times.size > 2:
+        # The last of uniform times is the end, and no rounding of p (end/p) above it.
+        found = follow(until, np.minimum(p * times, last))
+    motion, impacts, (_, result, peak, counted, landed) = found
     outcome = _OUTCOMES[int(result)]
     if outcome == "rests" and block.restitution == 1.0:
         outcome = "rocking"  # the kernel follows no bounces that are too low to count

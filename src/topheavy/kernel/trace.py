@@ -82,7 +82,7 @@ def trace(
         the block leaves φ = α to the other side than its energy says.
     times : array
         Ascending τ; `samples`, of shape (2, times.size), takes θ and dθ/dτ there, and keeps what it
-        had beyond the end of a block that does not rest.
+        had beyond the end of a block that does not rest. The last may be infinite: the end.
     impacts : array
         Takes the times of impacts.
 
@@ -138,7 +138,13 @@ def trace(
             uplift, push, rate, side = next_uplift(forcing, record, time, block.level)
             if uplift >= forcing_end:  # beyond the cut of a record
                 uplift = math.inf
-            while sample < times.size and times[sample] <= uplift:
+            # A motion that ends by rest has its end at the last landing or, later, at rest.
+            stays = time < forcing_end or not has_moved
+            while (
+                sample < times.size
+                and times[sample] <= uplift
+                and (stays or times[sample] < math.inf)
+            ):
                 samples[0, sample], samples[1, sample] = 0.0, 0.0
                 sample += 1
             if uplift == math.inf:
@@ -178,6 +184,8 @@ def trace(
             samples[0, sample] = side * there.rotation
             samples[1, sample] = side * there.velocity
             sample += 1
+        if sample < times.size and times[sample] == math.inf:
+            samples[0, sample], samples[1, sample] = side * ahead.rotation, side * ahead.velocity
         state, zeros = ahead, 0
         if forcing.shape == RICKER_SYMMETRIC or forcing.shape == RICKER_ANTISYMMETRIC:
             state = renewed(block, forcing, record, time, side, state)
