@@ -32,12 +32,13 @@ LONGEST_FIRST = (
 
 @pytest.hookimpl(wrapper=True)
 def pytest_collection():
-    """Let no garbage be looked for while tests are collected, nor among them later: a third less."""
+    """Look for no garbage while tests are collected, and not among them later."""
     gc.disable()
     try:
         return (yield)
     finally:
         gc.freeze()
+        gc.set_threshold(50_000, 20, 50)  # seldom: SymPy and SciPy make many objects that stay
         gc.enable()
 
 
