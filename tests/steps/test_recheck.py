@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pandas as pd
 import pytest
-import yaml
 
+from replication.inputs.strict_yaml import read_yaml
 from replication.judging.claim import Claim
 from replication.judging.findings import Finding, Findings, findings_by_rule
 from replication.judging.ledger import read_judged, read_ledger, with_verdict
@@ -65,7 +65,7 @@ def _drawn_once(monkeypatch):
 def edition(tmp_path_factory):
     """A copy of what is published, and of what it is checked by."""
     root = tmp_path_factory.mktemp("edition") / "tree"
-    config = yaml.safe_load((ROOT / "config" / "config.yaml").read_text(encoding="utf-8"))
+    config = read_yaml(ROOT / "config" / "config.yaml")
     wanted = ["README.md", "config/config.yaml", "docs/verdicts.md", "docs/verify_grid.csv"]
     wanted += ["paper/claims.yaml"]
     for study in config["studies"]:
@@ -114,7 +114,7 @@ def tampered(edition, faults_before):
 def test_published_edition_agrees_with_itself():
     lines, faults = main(ROOT)
     assert faults == []
-    config = yaml.safe_load((ROOT / "config" / "config.yaml").read_text(encoding="utf-8"))
+    config = read_yaml(ROOT / "config" / "config.yaml")
     lines = [line for line in lines if not line.startswith("the edition is older than")]
     assert [line.split(":")[0] for line in lines] == [
         "paper",
