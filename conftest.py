@@ -1,5 +1,7 @@
 """What all tests share: the order in which several processes take them."""
 
+import gc
+
 import pytest
 
 from replication.tests.conftest import claims, jobs, plant  # noqa: F401
@@ -26,6 +28,18 @@ LONGEST_FIRST = (
     "test_compiled.py",
 )
 """Files that take longest: begun first, no process is left with one of them at the end."""
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_collection():
+    """Look for no garbage while tests are collected, and not among them later."""
+    gc.disable()
+    try:
+        return (yield)
+    finally:
+        gc.freeze()
+        gc.set_threshold(50_000, 20, 50)  # seldom: SymPy and SciPy make many objects that stay
+        gc.enable()
 
 
 def pytest_collection_modifyitems(items):

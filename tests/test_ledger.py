@@ -5,17 +5,17 @@ from collections import Counter
 from pathlib import Path
 
 import pytest
-import yaml
 from jsonschema import Draft202012Validator
 
+from replication.inputs.strict_yaml import read_yaml
 from replication.judging.findings import findings_by_rule
 from replication.judging.ledger import read_rows
 
 ROOT = Path(__file__).resolve().parents[1]
-LEDGER = yaml.safe_load((ROOT / "paper" / "claims.yaml").read_text(encoding="utf-8"))
+LEDGER = read_yaml(ROOT / "paper" / "claims.yaml")
 SCHEMA = ROOT / "src/replication/judging/claims.schema.yaml"
-SCHEMA = yaml.safe_load(SCHEMA.read_text(encoding="utf-8"))
-CONFIG = yaml.safe_load((ROOT / "config" / "config.yaml").read_text(encoding="utf-8"))
+SCHEMA = read_yaml(SCHEMA)
+CONFIG = read_yaml(ROOT / "config" / "config.yaml")
 STUDIES = [ROOT / "studies" / name / "claims.yaml" for name in CONFIG["studies"]]
 FINDINGS = findings_by_rule((ROOT / "tests" / "reference" / "findings").glob("*.json"))
 
@@ -128,7 +128,7 @@ def test_what_is_not_tested_or_cannot_be_false_has_no_finding():
 def test_limits_are_of_claims_of_the_ledgers():
     rows = [row for _, _, row in read_rows([ROOT / "paper" / "claims.yaml", *STUDIES])]
     known = {row["id"]: row for row in rows}
-    limits = yaml.safe_load((ROOT / "paper" / "limits.yaml").read_text(encoding="utf-8"))
+    limits = read_yaml(ROOT / "paper" / "limits.yaml")
     named = [name for row in limits for name in row["claims"]]
     assert set(named) <= set(known)
     assert all("finding" in known[name] for name in named)

@@ -11,14 +11,15 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, TextIO
-
-import numpy as np
-import pandas as pd
+from typing import TYPE_CHECKING, Any, TextIO
 
 from replication.judging.calls import library, noted
 from replication.judging.findings import Finding, Findings, write_findings
 from replication.workflow.code import undeclared
+
+if TYPE_CHECKING:
+    import numpy as np
+    import pandas as pd
 
 DIGITS = "%.9g"
 
@@ -98,13 +99,17 @@ def truth(holds: bool, **evidence: Any) -> Finding:
     return Finding.of({"holds": bool(holds), **_plain(evidence)})
 
 
-def write_table(path: str, columns: Mapping[str, Any] | pd.DataFrame) -> None:
+def write_table(path: str, columns: "Mapping[str, Any] | pd.DataFrame") -> None:
     """Write a table as CSV, in the digits that are justified."""
+    import pandas as pd  # for 0.3 s, which steps without a table need not take
+
     pd.DataFrame(columns).to_csv(path, index=False, float_format=DIGITS, lineterminator="\n")
 
 
-def grid(spec: Mapping[str, float]) -> np.ndarray:
+def grid(spec: Mapping[str, float]) -> "np.ndarray":
     """Return the uniform grid of a config entry with lowest, highest and points."""
+    import numpy as np
+
     return np.linspace(spec["lowest"], spec["highest"], int(spec["points"]))
 
 

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import yaml
 from jsonschema import Draft202012Validator
 
+from replication.inputs.strict_yaml import read_yaml
 from replication.judging.ledger import read_ledger
 from replication.workbench import truth
 from steps.assumptions import choices, held, pulses, rankings, run, trilith
@@ -20,7 +20,7 @@ ROOT = Path(__file__).resolve().parents[2]
 
 
 def read(path):
-    return yaml.safe_load((ROOT / path).read_text(encoding="utf-8"))
+    return read_yaml(ROOT / path)
 
 
 def claims_by_id():

@@ -7,8 +7,8 @@ from types import SimpleNamespace
 import numpy as np
 import pandas as pd
 import pytest
-import yaml
 
+from replication.inputs.strict_yaml import read_yaml
 from replication.workbench import truth, value
 from steps import (
     heavier,
@@ -24,10 +24,10 @@ from steps.shared.spectra_compared import Place
 from topheavy import Column, Pulse, RockingFrame
 
 ROOT = Path(__file__).resolve().parents[2]
-CONFIG = yaml.safe_load((ROOT / "config/config.yaml").read_text(encoding="utf-8"))
+CONFIG = read_yaml(ROOT / "config/config.yaml")
 PRINTED = {
     row["id"]: row["printed"]
-    for row in yaml.safe_load((ROOT / "paper/claims.yaml").read_text(encoding="utf-8"))
+    for row in read_yaml(ROOT / "paper/claims.yaml")
     if row["id"].startswith("trilith_") and "printed" in row
 }
 TEMPLE = {"half_width": 0.5, "half_height": 3.0}

@@ -6,8 +6,8 @@ from types import SimpleNamespace
 import numpy as np
 import pandas as pd
 import pytest
-import yaml
 
+from replication.inputs.strict_yaml import read_yaml
 from steps import restitution, rocking_spectra, spectra_shard, stability, trilith
 from steps.shared import spectra_compared, spectrum
 from steps.shared.spectra_compared import Spectra
@@ -162,10 +162,10 @@ def test_frame_that_loses_no_more_than_its_column_is_noticed(monkeypatch):
 # The trilith --------------------------------------------------------------------------------------
 
 ROOT = Path(__file__).resolve().parents[2]
-CONFIG = yaml.safe_load((ROOT / "config/config.yaml").read_text(encoding="utf-8"))
+CONFIG = read_yaml(ROOT / "config/config.yaml")
 PRINTED = {
     row["id"]: row["printed"]
-    for row in yaml.safe_load((ROOT / "paper/claims.yaml").read_text(encoding="utf-8"))
+    for row in read_yaml(ROOT / "paper/claims.yaml")
     if row["id"].startswith("trilith_") and "printed" in row
 }
 TRILITH = RockingFrame(COLUMN, 0.434)

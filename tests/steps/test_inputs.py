@@ -5,14 +5,13 @@ import math
 from pathlib import Path
 
 import pytest
-import yaml
 
+from replication.inputs.strict_yaml import read_yaml
 from steps.inputs import check_inputs, horizontal, record_files, record_paths
 
 ROOT = Path(__file__).resolve().parents[2]
 CONFIG, QUICK, THOROUGH = (
-    yaml.safe_load((ROOT / "config" / name).read_text(encoding="utf-8"))
-    for name in ("config.yaml", "quick.yaml", "thorough.yaml")
+    read_yaml(ROOT / "config" / name) for name in ("config.yaml", "quick.yaml", "thorough.yaml")
 )
 
 
@@ -265,8 +264,8 @@ def test_some_records_are_accepted_with_the_reason():
 
 @pytest.mark.parametrize("study", sorted(ROOT.glob("studies/*/config.schema.yaml")), ids=str)
 def test_schemas_of_studies_define_records_alike(study):
-    of_paper = yaml.safe_load((ROOT / "config" / "config.schema.yaml").read_text("utf-8"))
-    definitions = yaml.safe_load(study.read_text("utf-8")).get("$defs", {})
+    of_paper = read_yaml(ROOT / "config" / "config.schema.yaml")
+    definitions = read_yaml(study).get("$defs", {})
     if "records" in definitions:
         expected = of_paper["$defs"]["records"]["oneOf"]
         assert definitions["records"]["oneOf"] == expected

@@ -4,13 +4,13 @@ import copy
 from pathlib import Path
 
 import pytest
-import yaml
 
+from replication.inputs.strict_yaml import read_yaml
 from steps.inputs import check_inputs
 from steps.spectra_dimensional import lines, mass_ratio
 
 ROOT = Path(__file__).resolve().parents[2]
-CONFIG = yaml.safe_load((ROOT / "config" / "config.yaml").read_text(encoding="utf-8"))
+CONFIG = read_yaml(ROOT / "config" / "config.yaml")
 
 
 def with_pier(caps):

@@ -2,13 +2,12 @@
 
 import os
 import signal
-import subprocess
-import sys
 import time
-from functools import partial
 from pathlib import Path
 
 import pytest
+
+from replication.tests.begun import Run
 
 ROOT = Path(__file__).parents[3]
 
@@ -45,37 +44,21 @@ def begin(tmp_path):
     """Begin Snakemake in a folder, and wait until a file is there; no run outlasts the test."""
     runs = []
 
-    def start(*options, until=None, module="snakemake", folder=tmp_path):
-        runs.append(
-            subprocess.Popen(
-                [sys.executable, "-m", module, "--cores=1", *options],
-                cwd=folder,
-                stdout=subprocess.PIPE,
-                stderr=subprocess.STDOUT,
-                text=True,
-                start_new_session=True,  # as a terminal, whose signals reach all processes
-                preexec_fn=partial(signal.signal, signal.SIGINT, signal.SIG_DFL),  # under nohup
-            )
-        )
+    def start(*options, until=None, folder=tmp_path, **given):
+        runs.append(run := Run(folder, "--cores=1", *options, **given))
         while until and not (folder / until).exists():
-            assert runs[-1].poll() is None, runs[-1].communicate()[0]
-            time.sleep(0.1)
-        return runs[-1]
+            assert run.process.is_alive(), run.communicate()
+            time.sleep(0.02)
+        return run
 
     yield start
     for run in runs:
-        if run.poll() is None:
-            os.killpg(run.pid, signal.SIGKILL)
-        run.communicate()
+        if run.process.is_alive():
+            os.killpg(run.process.pid, signal.SIGKILL)
+            run.process.join()
 
 
 @pytest.fixture
 def ran(begin):
     """Let Snakemake run to its end; return its status and what it said."""
-
-    def end(*options, **where):
-        run = begin(*options, **where)
-        said, _ = run.communicate(timeout=120)
-        return run.returncode, said
-
-    return end
+    return lambda *options, **where: begin(*options, **where).communicate()

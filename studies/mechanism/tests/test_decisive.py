@@ -6,8 +6,8 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
-import yaml
 
+from replication.inputs.strict_yaml import read_yaml
 from steps.shared.histories import history
 from studies.mechanism.steps import admissible
 from studies.mechanism.steps.admissible import lightest_without_sliding
@@ -86,7 +86,7 @@ def test_both_sides_count_among_pulses_with_another_outcome():
 
 def test_share_of_one_side_is_outside_the_tolerance_of_the_claim():
     path = Path(__file__).resolve().parents[1] / "claims.yaml"
-    rows = yaml.safe_load(path.read_text(encoding="utf-8"))
+    rows = read_yaml(path)
     (claim,) = (row for row in rows if row["id"] == "mechanism_share_apart")
     for wrong in (0.0, 0.0002, 0.5 * claim["printed"], 1.5 * claim["printed"]):
         assert abs(wrong - claim["printed"]) > claim["tolerance"]

@@ -6,8 +6,8 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
-import yaml
 
+from replication.inputs.strict_yaml import read_yaml
 from replication.judging.findings import read_findings
 from steps.shared.spectra_compared import Spectra
 from studies.reversals.steps import motions_fragility, motions_records, pulses
@@ -107,7 +107,7 @@ def test_small_rises_that_add_up_are_noticed():
 
 
 def test_remark_gives_the_published_limits():
-    rows = yaml.safe_load((STUDY / "claims.yaml").read_text(encoding="utf-8"))
+    rows = read_yaml(STUDY / "claims.yaml")
     remark = next(row for row in rows if row["id"] == "reversals_fragility")["remark"]
     reference = STUDY.parents[1] / "tests" / "reference"
     found = read_findings(reference / "findings" / "reversals_motions.json")

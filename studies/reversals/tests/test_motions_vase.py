@@ -120,7 +120,15 @@ ENSEMBLE = {
 }
 
 
-RIGHT = motions_uplift.rocking_peaks
+PEAKS, ONCE = motions_uplift.rocking_peaks, {}
+
+
+def right(frame, cap, motion, *given):
+    """The peaks of the rocking frame, computed once for all tests, and theirs to change."""
+    key = frame, cap, motion.time_step, motion.acceleration.tobytes(), given
+    if key not in ONCE:
+        ONCE[key] = PEAKS(frame, cap, motion, *given)
+    return replace(ONCE[key], forces=dict(ONCE[key].forces))
 
 
 def uplifted(monkeypatch, peaks):
@@ -139,7 +147,7 @@ def test_missing_histories_are_missed():
 @pytest.mark.parametrize(("factor", "holds"), [(1.0, True), (5.0, False)])
 def test_larger_forces_are_not_limited(monkeypatch, factor, holds):
     def larger(*arguments):
-        found = RIGHT(*arguments)
+        found = right(*arguments)
         found.forces.update({name: factor * force for name, force in found.forces.items()})
         return found
 
@@ -156,7 +164,7 @@ def test_each_force_beside_a_cantilever_can_refute(monkeypatch, name):
     monkeypatch.setattr(motions_uplift, "summary", lambda *arguments: NOTHING)
 
     def larger(*arguments):
-        found = RIGHT(*arguments)
+        found = right(*arguments)
         found.forces[name] *= 5.0
         return found
 
@@ -222,7 +230,7 @@ def test_no_survivor_that_uplifts_shows_no_limit(monkeypatch):
     """All motions overturn, or none uplifts: then nothing was compared."""
 
     def overturned(*arguments):
-        found = RIGHT(*arguments)
+        found = right(*arguments)
         nothing = dict.fromkeys(found.forces, math.nan)
         return replace(found, outcome="overturned", forces=nothing, rotation=math.nan)
 
@@ -240,7 +248,7 @@ NOTHING = pd.DataFrame(
 
 def test_peaks_that_scipy_denies_are_noticed(monkeypatch):
     def other(frame, cap, motion, samples, route=simulate):
-        found = RIGHT(frame, cap, motion, samples, route)
+        found = right(frame, cap, motion, samples, route)
         off = 1.0 if route is simulate else 1.0 + 2e-6
         return replace(found, forces={name: off * force for name, force in found.forces.items()})
 

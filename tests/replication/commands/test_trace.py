@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from replication.commands import trace as trace_command
 from replication.commands.trace import Item, chain, find
 from replication.judging.claim import Claim
 from replication.origin.recorded import Crate
@@ -261,6 +262,14 @@ def test_every_output_claim_and_finding_is_traced_before_and_after_a_run(
     for name in ("src", "studies", "figures"):
         shutil.copytree(ROOT / name, tmp_path / name, ignore=ignored)
     monkeypatch.chdir(tmp_path)
+    lines_of, once = trace_command._job_lines, {}
+
+    def kept(job, *given):
+        if id(job) not in once:
+            once[id(job)] = [*lines_of(job, *given)]
+        return once[id(job)]
+
+    monkeypatch.setattr(trace_command, "_job_lines", kept)  # of a job, the same in each chain
 
     def trace(name):
         return "\n".join(chain(find(name, jobs, claims), jobs))
@@ -280,6 +289,7 @@ def test_every_output_claim_and_finding_is_traced_before_and_after_a_run(
         found = {claim.finding: truth if claim.tolerance is None else number for claim in own}
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(json.dumps(found), encoding="utf-8")
+    once.clear()  # which of a run are others
     for claim in judged:
         for name in (claim.id, f"{claim.rule}.{claim.finding}"):
             lines = trace(name)

@@ -9,6 +9,7 @@ import yaml
 from docutils.core import publish_parts
 from jinja2 import Environment
 
+from replication.inputs.strict_yaml import read_yaml
 from replication.judging.claim import Claim
 from replication.judging.ledger import with_verdict
 from replication.pages.captions import captioned, read_captions, verdict
@@ -18,7 +19,7 @@ STUDIES = sorted(path.parent for path in ROOT.glob("studies/*/study.smk"))
 
 
 def read(path):
-    return yaml.safe_load(path.read_text(encoding="utf-8"))
+    return read_yaml(path)
 
 
 OURS = [ROOT / "figures", *STUDIES]

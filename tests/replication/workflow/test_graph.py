@@ -2,8 +2,6 @@
 
 import os
 import re
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -13,6 +11,7 @@ from snakemake.settings.types import OutputSettings, ResourceSettings
 
 from replication.commands.new_study import SKELETON
 from replication.kill.tree_copy import copy_tree
+from replication.tests.begun import Run
 from replication.workflow.code import code
 
 ROOT = Path(__file__).parents[3]
@@ -87,15 +86,10 @@ def test_only_shards_leave_the_machine_that_runs_snakemake():
 
 
 def snakemake(root, *options):
-    done = subprocess.run(
-        [sys.executable, "-m", "snakemake", "--cores=1", "--scheduler=greedy", *options],
-        cwd=root,
-        env=os.environ | {"PYTHONPATH": str(root / "src")},
-        capture_output=True,
-        text=True,
-    )
-    assert done.returncode == 0, done.stdout + done.stderr
-    return done.stdout + done.stderr
+    env = os.environ | {"PYTHONPATH": str(root / "src")}
+    status, said = Run(root, "--cores=1", "--scheduler=greedy", *options, env=env).communicate()
+    assert status == 0, said
+    return said
 
 
 @pytest.fixture(scope="module")

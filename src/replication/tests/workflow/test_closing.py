@@ -113,9 +113,9 @@ def test_interrupted_run_says_so_in_one_line(step, begin, tmp_path, number, duri
     if during == "reading":
         (tmp_path / "Snakefile").write_text(f"import time\nfrom pathlib import Path\n{WAITING}")
     run = begin(module="replication.commands.run", until="ready")
-    os.killpg(run.pid, number)  # as Ctrl-C does, to all processes of the terminal
-    said, _ = run.communicate(timeout=60)
-    assert run.returncode != 0
+    os.killpg(run.process.pid, number)  # as Ctrl-C does, to all processes of the terminal
+    status, said = run.communicate(timeout=60)
+    assert status != 0
     assert not re.search("Traceback|Error|  File ", said)
     assert said.endswith(f"\n{SAYS}\n")
     assert said.count(SAYS) == 1
@@ -124,10 +124,10 @@ def test_interrupted_run_says_so_in_one_line(step, begin, tmp_path, number, duri
 def test_run_that_is_asked_to_end_while_its_scheduler_is_busy_ends(tmp_path, begin):
     (tmp_path / "Snakefile").write_text(BUSY)
     run = begin(until="held")
-    os.killpg(run.pid, signal.SIGTERM)
-    run.terminate()  # as uv does, once more
-    said, _ = run.communicate(timeout=60)
-    assert run.returncode == 1, said
+    os.killpg(run.process.pid, signal.SIGTERM)
+    run.process.terminate()  # as uv does, once more
+    status, said = run.communicate(timeout=60)
+    assert status == 1, said
     assert "Traceback" not in said
     assert not (tmp_path / "second").exists()
     assert not [*Path(tmp_path, ".snakemake", "locks").glob("*")]

@@ -20,10 +20,10 @@ def test_folder_is_one_run_s_until_that_ends(tmp_path, begin, ran):
     for options in ([], ["--unlock"]):
         status, text = ran(*options)
         assert status == 1
-        assert LIVE.format(run.pid) in text
+        assert LIVE.format(run.process.pid) in text
     assert ran("--dry-run")[0] == 0
-    os.killpg(run.pid, signal.SIGKILL)
-    run.wait()
+    os.killpg(run.process.pid, signal.SIGKILL)
+    run.communicate()
     status, text = ran("--rerun-incomplete")
     assert status == 1
     assert KILLED in text

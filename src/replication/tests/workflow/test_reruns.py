@@ -11,6 +11,8 @@ from pathlib import Path
 import pytest
 import yaml
 
+from replication.tests.begun import Run
+
 ROOT = Path(__file__).parents[4]
 
 SNAKEFILE = f"""
@@ -110,15 +112,13 @@ PROFILE = yaml.safe_load((ROOT / "profiles/default/config.yaml").read_text(encod
 
 
 OPTIONS = ["--scheduler=greedy", "--rerun-triggers", *PROFILE["rerun-triggers"]]
-COMMAND = [sys.executable, "-m", "snakemake", "--cores=1", *OPTIONS]
 
 
 def make(root):
     """Run the workflow; return its exit status, and which rules ran."""
-    done = subprocess.run(COMMAND, cwd=root, capture_output=True, text=True, timeout=120)
-    text = done.stdout + done.stderr
+    status, said = Run(root, "--cores=1", *OPTIONS).communicate()
     told = r"(?: s  |^Error in rule )(counts|figure|claims):?$"
-    return done.returncode, set(re.findall(told, text, flags=re.MULTILINE))
+    return status, set(re.findall(told, said, flags=re.MULTILINE))
 
 
 def edit(root, name, old, new):
@@ -187,8 +187,8 @@ def test_interrupted_step_is_made_again(tree, begin, kind):
     edit(tree, "src/steps/counts.py", "return", slow)
     edit(tree, "figures/beside.py", "1", "3")
     run = begin(*OPTIONS, until="began", folder=tree)
-    os.killpg(run.pid, kind)  # as a terminal does
-    assert run.wait(timeout=60) != 0
+    os.killpg(run.process.pid, kind)  # as a terminal does
+    assert run.communicate(timeout=60)[0] != 0
     edit(tree, "src/steps/counts.py", slow, "return")
     assert make(tree) == (0, {"counts", "figure", "claims"})
     assert (tree / "results/claims.json").read_text() == "3"
@@ -222,7 +222,8 @@ exit 0
 
 def test_full_disk_fails_and_is_made_good(tree):
     edit(tree, "figures/beside.py", "1", "4")
-    script = FULL.format(run=" ".join([*COMMAND, "--quiet=all"]))
+    run = [sys.executable, "-m", "snakemake", "--cores=1", *OPTIONS, "--quiet=all"]
+    script = FULL.format(run=" ".join(run))
     done = subprocess.run(
         ["unshare", "--mount", "--map-root-user", "sh", "-c", script],
         cwd=tree,
