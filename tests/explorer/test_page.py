@@ -44,7 +44,7 @@ DRAG = """new Promise(resolve => {
   const move = () => {
     slider.value = 300 + (count * 37) % 400;
     slider.dispatchEvent(new Event("input", {bubbles: true}));
-    if (++count < 60) requestAnimationFrame(move);
+    if (++count < 90) requestAnimationFrame(move);
     else setTimeout(() => resolve(performance.getEntriesByType("measure").map(
       entry => [entry.name, entry.duration])), 500);
   };
@@ -228,7 +228,7 @@ def test_laptop_shows_everything_on_one_screen(browser):
 
 @pytest.mark.parametrize("address", ["g=1", "shape=record&record=el_centro_1940_NS&x=2"])
 def test_handlers_are_short_while_a_slider_is_dragged(browser, address):
-    browser.open(address, moves=True)
+    browser.open(address, moves=True, until="minima")
     rounds = []
     for _ in range(5):  # other work of this machine can lengthen a round, and never shortens one
         found = browser.do(DRAG, "h-slider")
@@ -236,10 +236,10 @@ def test_handlers_are_short_while_a_slider_is_dragged(browser, address):
             kind: sorted(duration for name, duration in found if name == kind)
             for kind in ("handler", "frame", "drawing")
         }
-        assert len(of["handler"]) == 60
+        assert len(of["handler"]) == 90
         assert min(map(len, of.values())) > 3
         # The longest twentieth is left out: it is when the machine gave the time to another.
-        rounds.append((of["handler"][56], median(of["frame"]), median(of["drawing"])))
+        rounds.append((of["handler"][85], median(of["frame"]), median(of["drawing"])))
         if max(rounds[-1]) < LONGEST:
             return
     assert min(map(max, rounds)) < LONGEST, rounds
