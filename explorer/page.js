@@ -286,7 +286,7 @@ function reveal() {
   const answer = () => {
     if (encode(state) !== of) return;
     if (minima.length < 3 || minima.includes(undefined)) return void setTimeout(answer, 50);
-    const order = [0, 1, 2].sort((one, other) => minima[one] - minima[other]), at = (k) => `the ${found.structures[order[k]].name} from ${minima[order[k]].toFixed(3)} g`;
+    const order = [0, 1, 2].sort((one, other) => minima[one] - minima[other]), at = (k) => `the ${found.structures[order[k]].name}${k ? "" : " overturns"} from ${minima[order[k]].toFixed(3)} g`;
     byId("answer").textContent = `${guess === order[0] ? "Correct" : "No"}: ${at(0)}, ${at(1)}, ${at(2)}. Shown is one shaking, ${round(found.peak)} g. Drag the mass ratio: the boundary of the frame moves away from that of the column.`;
   };
   answer();
@@ -346,6 +346,8 @@ function redraw() {
 
 /** When the state has rested for a moment: its address, its Python, its minima and its spectrum. */
 function settle() {
+  clearTimeout(rested);
+  rested = 0;
   const { here } = planeOf(state, fileOf(state));
   byId("spectrum").setAttribute("aria-label", `${byId("map-title").textContent}; this case is at ${round(here.x)} and ${round(here.y)}`);
   byId("python").textContent = inPython(state, files.get(state.record)?.file);

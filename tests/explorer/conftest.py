@@ -14,13 +14,15 @@ ROOT = Path(__file__).parents[2]
 SETTLED = """new Promise((resolve, reject) => {
   const deadline = Date.now() + 120000;
   const look = () => {
-    const { shown, spectrum } = document.documentElement.dataset;
-    const isDone = !document.querySelector(".pending") && (spectrum === "done" || !{0});
-    if (shown === encode(state) && isDone) resolve(true);
-    else if (Date.now() > deadline) reject(new Error("not settled after two minutes"));
-    else setTimeout(look, 30);
+    const { shown, spectrum } = document.documentElement.dataset, isShown = shown === encode(state);
+    if (isShown && rested && {0} !== "histories") settle();
+    const hasMinima = isShown && !document.querySelector(".pending");
+    if ({histories: isShown, minima: hasMinima, spectrum: hasMinima && spectrum === "done"}[{0}]) {
+      resolve(true);
+    } else if (Date.now() > deadline) reject(new Error("not settled after two minutes"));
+    else setTimeout(look, 10);
   };
-  setTimeout(look, 50);
+  setTimeout(look, 20);
 })"""
 
 # Opens a file by {0}, and waits for what the page tells of it: "" if it is read.
@@ -47,6 +49,7 @@ class Browser:
 
     def __init__(self, runner, tab, folder):
         self.runner, self.tab, self.folder = runner, tab, folder
+        self.has_only_computed = False
 
     def ask(self, method, **params):
         return self.runner.run(self.tab.ask(method, **params))
@@ -54,14 +57,24 @@ class Browser:
     def do(self, script, *values):
         return self.runner.run(self.tab.do(script, *values))
 
-    def open(self, address="g=1", *, width=1440, height=900, dark=False, moves=False, settled=True):
+    def open(
+        self,
+        address="g=1",
+        *,
+        width=1440,
+        height=900,
+        dark=False,
+        moves=False,
+        until="histories",
+    ):
         """Open the page at an address, at a size and in a colour scheme. At "" it asks first.
 
-        Unless it `moves`, it is shown to somebody who prefers that it does not.
+        Unless it `moves`, it is shown to somebody who prefers that it does not. It is loaded anew
+        in the same tab: its workers stop, and its code is not compiled again.
         """
         self.tab.errors.clear()
         self.tab.requests.clear()
-        self.runner.run(self.tab.open("about:blank"))
+        self.visit("about:blank")
         self.resize(width, height)
         preferred = {
             "prefers-color-scheme": "dark" if dark else "light",
@@ -70,8 +83,19 @@ class Browser:
         features = [{"name": name, "value": value} for name, value in preferred.items()]
         self.ask("Emulation.setEmulatedMedia", features=features)
         self.load(address)
-        if settled:
-            self.settle()
+        if until:
+            self.settle(until)
+
+    def open_to_compute(self):
+        """Have the page's functions: one page serves all tests in a row that only call these."""
+        if not self.has_only_computed:
+            self.open()
+        self.has_only_computed = True
+
+    def begin(self, change):
+        """Show the state that differs from the usual one by a change, from its beginning."""
+        self.do("start({...DEFAULTS, ...{0}})", change)
+        self.settle("minima")
 
     def resize(self, width, height=900):
         size = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False}
@@ -79,8 +103,10 @@ class Browser:
 
     def load(self, address=""):
         """Load the page at an address in the tab as it is."""
-        self.tab.loaded = False
-        url = (self.folder / "explorer.html").as_uri() + (f"#{address}" if address else "")
+        self.visit((self.folder / "explorer.html").as_uri() + (f"#{address}" if address else ""))
+
+    def visit(self, url):
+        self.tab.loaded = self.has_only_computed = False
         self.ask("Page.navigate", url=url)
         while not self.tab.loaded:
             self.runner.run(self.tab.next_message())
@@ -123,9 +149,12 @@ class Browser:
         yield found
         self.tab.note = note
 
-    def settle(self, whole=False):
-        """Wait until histories and minima are those of the state, and for the whole spectrum."""
-        self.do(SETTLED, whole)
+    def settle(self, until="histories"):
+        """Wait until histories are those of the state, or minima, too, or the whole spectrum, too.
+
+        The page's pause before it computes minima is left out.
+        """
+        self.do(SETTLED, until)
 
 
 @pytest.fixture(scope="session")
@@ -139,7 +168,7 @@ def text(records):
     return page(ROOT / "explorer", records)
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def browser(text, tmp_path_factory):
     found = find_browser()
     if found is None:
@@ -149,5 +178,6 @@ def browser(text, tmp_path_factory):
     with asyncio.Runner() as runner:
         context = opened(found)
         tab = runner.run(context.__aenter__())
+        runner.run(tab.open("about:blank"))
         yield Browser(runner, tab, folder)
         runner.run(context.__aexit__(None, None, None))

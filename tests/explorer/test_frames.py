@@ -78,8 +78,7 @@ def slow(browser):
             rounds.append(longest_task(does))
         assert min(rounds) < LONGEST, rounds
 
-    browser.open(moves=True)
-    browser.settle(whole=True)
+    browser.open(moves=True, until="spectrum")
     browser.ask("Emulation.setCPUThrottlingRate", rate=SLOWED)
     browser.longest = least
     yield browser
@@ -88,7 +87,7 @@ def slow(browser):
 
 
 def test_page_opens_in_short_tasks(slow):
-    slow.longest(lambda: (slow.load(), slow.settle(whole=True)))
+    slow.longest(lambda: (slow.load(), slow.settle("spectrum")))
 
 
 @pytest.mark.parametrize("slider", ["h-slider", "a-slider"])

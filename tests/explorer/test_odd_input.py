@@ -47,7 +47,7 @@ def test_name_of_a_record_is_only_ever_a_text(browser, name):
     assert browser.do("state.record") == name
     assert browser.do(SHAPE, "half-sine") == "half-sine"
     assert browser.do(SHAPE, f"record:{name}") == "record"
-    browser.settle()
+    browser.settle("minima")
     nodes = ast.walk(ast.parse(browser.do(TEXT, "python")))
     texts = [node.value for node in nodes if isinstance(node, ast.Constant)]
     assert f"data/records/{name}.csv" in texts
@@ -60,7 +60,7 @@ def test_name_of_a_record_is_only_ever_a_text(browser, name):
 
 
 def test_what_is_no_finite_number_is_refused_in_every_field(browser):
-    browser.open(settled=False)
+    browser.open_to_compute()
     taken = {text: browser.do(IN_ADDRESS, text) for text in NUMBERS}
     assert {text: keys for text, keys in taken.items() if keys} == {"1e999": ["g"]}  # γ → ∞
 
@@ -72,7 +72,7 @@ def test_address_that_names_what_every_object_has_is_as_if_it_did_not(browser):
 
 
 def test_histories_are_finite_at_both_ends_of_every_field(browser):
-    browser.open()
+    browser.open_to_compute()
     found = browser.do(EXTREMES)
     assert len(found) > 400
     assert [row for row in found if not row[-1]] == []
@@ -117,7 +117,7 @@ def test_everything_is_done_with_the_keyboard_only(browser, tmp_path):
     browser.answer(path, lambda: press(browser, "Enter", 13, "\r"))
     browser.read()
     assert browser.do("state.record") == "mine"
-    browser.settle(whole=True)
+    browser.settle("spectrum")
     reach(browser, "at.id === 'spectrum'")
     before = browser.do("planeOf(state, fileOf(state)).here")
     for key, code in (("ArrowUp", 38), ("ArrowRight", 39), ("ArrowRight", 39), ("ArrowLeft", 37)):

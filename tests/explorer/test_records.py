@@ -87,8 +87,8 @@ IN_A_WORKER = """new Promise(resolve => {
 @pytest.fixture
 def reading(browser):
     """The page, and in it what otherwise only its worker runs: the reader of records."""
-    browser.open(settled=False)
-    browser.do(READER.read_text(encoding="utf-8"))
+    browser.open_to_compute()
+    browser.do("typeof readRecord") == "function" or browser.do(READER.read_text(encoding="utf-8"))
     return browser
 
 
@@ -199,5 +199,12 @@ def test_cost_of_a_file_grows_in_proportion_to_its_length(reading):
             for ending, content in files
         ]
         given = [[f"motion{ending}", b64encode(content).decode()] for ending, content in encoded]
-        short, long = reading.do(FILE_COSTS, given)
-        assert long < 3 * 8 * short + 4.0, body  # ms; in proportion it is 8
+        costs = []
+        for _ in range(
+            5
+        ):  # other work of this machine can lengthen a round, and never shortens one
+            costs.append(reading.do(FILE_COSTS, given))
+            short, long = map(min, zip(*costs, strict=True))
+            if is_proportional := long < 3 * 8 * short + 4.0:  # ms; in proportion it is 8
+                break
+        assert is_proportional, (body, costs)

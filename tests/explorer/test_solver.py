@@ -99,7 +99,7 @@ def is_conditioned(block, state, records):
 
 
 def test_outcomes_and_peaks_are_those_of_the_library(browser, records):
-    browser.open(settled=False)
+    browser.open_to_compute()
     asked = list(states(STATES))
     answers = browser.do(ANSWERS, [in_json(state) for state in asked])
     compared = overturned = excluded = 0
@@ -125,7 +125,7 @@ def test_outcomes_and_peaks_are_those_of_the_library(browser, records):
 
 @pytest.mark.parametrize("shape", ["one-cosine", "ricker-symmetric"])
 def test_spectrum_is_the_map_of_the_library(browser, shape):
-    browser.open(settled=False)
+    browser.open_to_compute()
     columns, rows = 40, 30
     codes = browser.do(
         """(() => {
@@ -156,7 +156,7 @@ def test_spectrum_is_the_map_of_the_library(browser, shape):
 
 def test_spectrum_of_a_record_is_the_map_of_the_library(browser, records):
     """Over the size R of the column, all lengths in proportion, and the record's peak."""
-    browser.open(settled=False)
+    browser.open_to_compute()
     (name, record), *_ = records.items()
     columns, rows = 24, 18
     codes = browser.do(
@@ -187,7 +187,7 @@ def test_spectrum_of_a_record_is_the_map_of_the_library(browser, records):
 
 
 def test_required_friction_is_that_of_the_library(browser):
-    browser.open(settled=False)
+    browser.open_to_compute()
     random = np.random.default_rng(2014)
     column, cap = Column(0.5, 3.0), Cap(5.0, 0.3)
     alpha = column.slenderness
@@ -209,7 +209,7 @@ def test_required_friction_is_that_of_the_library(browser):
 
 def test_required_friction_of_a_vase_follows_from_the_motion_of_its_centre(browser):
     """By Newton's law: a centre at R' from the edge, differentiated in time."""
-    browser.open(settled=False)
+    browser.open_to_compute()
     vase = FixedMassColumn(Column(0.5, 3.0), 1.0)
     lever, alpha = math.hypot(vase.half_base, vase.centre_height), vase.slenderness
     theta, rate, a, step = 0.4 * alpha, -0.3, 0.2, 1e-4
@@ -238,10 +238,10 @@ def searched(structure, unit, windows):
 
 @pytest.mark.parametrize("number", range(6))
 def test_named_case_has_the_numbers_of_the_library(browser, records, number):
-    browser.open(settled=False)
+    browser.open_to_compute()
     case = browser.do("DATA.cases[{0}]", number)
     state = {"L": 5.0, "r": None} | case["state"]
-    browser.open(browser.do("encode({...DEFAULTS, ...{0}})", case["state"]))
+    browser.begin(case["state"])
     assert browser.do("document.getElementById('note').textContent") == case["note"]
     shown = browser.do(
         """found.structures.map((of, k) => [of.p, of.alpha, of.restitution, of.overturned, of.moved,
@@ -273,7 +273,7 @@ def test_named_case_has_the_numbers_of_the_library(browser, records, number):
 @pytest.mark.parametrize("number", range(6))
 def test_python_of_a_case_prints_what_the_page_shows(browser, number, capsys, monkeypatch, request):
     monkeypatch.chdir(request.config.rootpath)
-    browser.open(settled=False)
+    browser.open_to_compute()
     code = browser.do("inPython({...DEFAULTS, ...DATA.cases[{0}].state})", number)
     case = browser.do("DATA.cases[{0}].state", number)
     exec(compile(code, "case", "exec"), {})
@@ -302,7 +302,7 @@ def test_seeded_states_hold_what_they_should():
 
 
 def test_page_names_the_steps_in_which_it_searches_the_minimum(browser):
-    browser.open(settled=False)
+    browser.open_to_compute()
     windows = browser.do("WINDOWS")
     said = browser.do("document.body.textContent.replace(/\\s+/g, ' ')")
     (_, first, one), (_, second, two), (_, last, three) = windows
@@ -315,8 +315,9 @@ def test_page_names_the_steps_in_which_it_searches_the_minimum(browser):
 
 def test_digits_of_the_minimum_follow_from_the_step_of_its_search(browser):
     """The last printed digit is no finer than a tenth of the step, whatever the motion."""
-    for change in ({}, {"shape": "record"}):
-        browser.open(browser.do("encode({...DEFAULTS, ...{0}})", change))
+    browser.open_to_compute()
+    for change in ({}, {"shape": "record", "record": "el_centro_1940_NS"}):
+        browser.begin(change)
         cells = browser.do(
             """structuresOf(state).map((block, k) => {
             const cell = document.getElementById(`minimum${k}`), a = Number(cell.dataset.value);
