@@ -20,12 +20,13 @@ def files(*folders: str, root: Path = ROOT) -> list[Path]:
     """Python files, notebooks, rules of folders, but for the machine's template and tests."""
     found = [path for folder in folders for path in (root / folder).rglob("*")]
     endings = (".py", ".pyi", ".ipynb", ".smk")
-    return [p for p in found if p.suffix in endings and _seen(p)]
+    return [p for p in found if p.suffix in endings and _seen(p, root)]
 
 
-def _seen(path: Path) -> bool:
+def _seen(path: Path, root: Path) -> bool:
     other = (ROOT / "src/replication/template", ROOT / "src/replication/tests")
-    return not any(part.startswith(".") for part in path.parts) and not {*path.parents} & {*other}
+    inside = path.relative_to(root).parts
+    return not any(part.startswith(".") for part in inside) and not {*path.parents} & {*other}
 
 
 def imports(path: Path) -> Iterator[str]:
@@ -104,8 +105,9 @@ def test_machine_has_few_rooms_and_few_ways_between_them_and_none_leads_back():
 
 
 def test_studies_and_figures_use_the_stable_surface_of_the_machine():
+    tests = {"tests", "benchmarks"}
     paths = files("figures", "studies")
-    scripts = [path for path in paths if not {"tests", "benchmarks"} & {*path.parts}]
+    scripts = [path for path in paths if not tests & {*path.relative_to(ROOT).parts}]
     surface = (" replication.workbench.", " replication.drawing.")
     found = importers(scripts, "replication")
     assert found
