@@ -1,13 +1,18 @@
 """Let Ctrl-C and SIGTERM end a run and its jobs with one line."""
 
+import logging
 import os
 import signal
+import time
 from contextlib import suppress
 from typing import Any, NoReturn
 
 import psutil
 
 SAYS = "Interrupted. The same command goes on: what is finished is kept."
+
+PAUSE = 0.2
+"""s: an error that is logged waits so long for the handler of a signal."""
 
 
 def interrupt(*_: Any) -> NoReturn:
@@ -30,7 +35,16 @@ def interrupt(*_: Any) -> NoReturn:
 
 
 def end_on_sigterm() -> None:
-    """Let SIGTERM interrupt Snakemake's scheduler."""
+    """Let SIGTERM interrupt Snakemake's scheduler, and `interrupt` precede errors."""
+    from snakemake.logging import logger
     from snakemake.scheduling.job_scheduler import JobScheduler
 
     JobScheduler.exit_gracefully = interrupt
+    logger.addFilter(after_signals)
+
+
+def after_signals(record: logging.LogRecord) -> bool:
+    """Let an error wait: a signal may have ended its job, and `interrupt` silences the rest."""
+    if record.levelno >= logging.ERROR:
+        time.sleep(PAUSE)
+    return True

@@ -1,14 +1,16 @@
 """The last lines of a run: the summary when all is there, how to go on when it is not."""
 
+import logging
 import os
 import re
 import signal
 from pathlib import Path
+from threading import Thread
 
 import pytest
 
 from replication.workflow.closing import GO_ON
-from replication.workflow.stopping import SAYS
+from replication.workflow.stopping import SAYS, after_signals
 
 SNAKEFILE = """
 from replication.workflow.closing import close
@@ -119,6 +121,24 @@ def test_interrupted_run_says_so_in_one_line(step, begin, tmp_path, number, duri
     assert not re.search("Traceback|Error|  File ", said)
     assert said.endswith(f"\n{SAYS}\n")
     assert said.count(SAYS) == 1
+
+
+def test_signal_is_handled_before_the_error_of_the_job_that_it_ended():
+    order = []
+    error = logging.makeLogRecord({"levelno": logging.ERROR})
+
+    def fail():
+        os.kill(os.getpid(), signal.SIGTERM)
+        order.extend(["error"] * after_signals(error))
+
+    before = signal.signal(signal.SIGTERM, lambda *_: order.append("signal"))
+    try:
+        job = Thread(target=fail)
+        job.start()
+        job.join()
+    finally:
+        signal.signal(signal.SIGTERM, before)
+    assert order == ["signal", "error"]
 
 
 def test_run_that_is_asked_to_end_while_its_scheduler_is_busy_ends(tmp_path, begin):
