@@ -9,8 +9,8 @@ import pytest
 from numpy.polynomial import Polynomial
 
 from topheavy import Column, Pulse, RockingBlock, read_record
-from topheavy.motion import Event, start
-from topheavy.reference import _first_event, judge, simulate
+from topheavy.motion import COUNTED_PEAK, Event, start
+from topheavy.reference import _first_event, _is_eventless, judge, simulate
 
 BLOCK = RockingBlock(2.0, 0.25, 0.9)
 
@@ -206,3 +206,13 @@ def test_grazing_impact_is_met_however_long_the_steps_are(tolerance):
             tolerance=tolerance,
         )
         assert response.number_of_impacts == impacts
+
+
+@pytest.mark.parametrize(("share", "expected"), [(0.9, True), (0.9999, False), (1.1, True)])
+def test_peak_between_two_samples_that_may_count_is_looked_for(share, expected):
+    """An impact is counted by the peak before it, which may lie above both ends of a step."""
+    course, end = start(BLOCK, 0.0, 0.0), share * COUNTED_PEAK * BLOCK.slenderness
+    course.rotation, course.rate, course.peak = end, 1e-7, 0.1
+    aside = 1e-3 * COUNTED_PEAK * BLOCK.slenderness  # how far a turn may be above the ends
+    largest = 8.0 * aside / 0.01**2
+    assert _is_eventless(course, 0.01, end, -1e-7, largest) is expected

@@ -30,6 +30,9 @@ COUNTED_PEAK = 1e-6
 """Of α: an impact that ends a rotation below is not counted, since a block that bounces to rest has
 infinitely many."""
 
+DRAWN_PEAK = 1e-3
+"""The same where each impact has a √r of its own: no solver knows the order of smaller bounces."""
+
 MOST_FREE_IMPACTS = 1000
 """A history without a duration ends after this many impacts behind the forcing."""
 
@@ -79,6 +82,7 @@ class Motion:
     rate: float  # φ̇, rad/s
     moving: bool
     ceiling: float  # φ from which nothing brings it back, rad
+    counted: float  # φ: an impact that ends a lower rotation is not counted, rad
     peak: float
     height: float = 0.0  # largest φ of this flight, rad
     launching: bool = False  # uplifted, and pushed on since without a break
@@ -149,6 +153,7 @@ def start(block: RockingBlock, rotation: float, velocity: float) -> Motion:
         rate=side * theta_rate,
         moving=theta != 0.0 or theta_rate != 0.0,
         ceiling=math.pi / 2,
+        counted=COUNTED_PEAK * block.slenderness,
         peak=abs(theta),
         height=abs(theta),
     )
@@ -232,7 +237,7 @@ def _impact(block: RockingBlock, segments: list[Segment], motion: Motion) -> Non
             "a shorter duration or a smaller restitution has fewer"
         )
     ratio = _next_restitution(block, motion)
-    if motion.height > COUNTED_PEAK * block.slenderness:
+    if motion.height > motion.counted:
         motion.impacts.append(motion.time)
     motion.height = 0.0
     motion.side = -motion.side

@@ -90,7 +90,7 @@ def judge(
 ) -> free_rocking.Ending:
     """Return only how the response to a ground motion of finite duration ends.
 
-    `restitutions` are √r of the counted impacts in turn, after which the block's own is taken.
+    `restitutions` are those of `topheavy.judge`.
     As `simulate` has it, without the history: the free rocking is not integrated. The peak is
     max|θ| over the whole motion (NaN if overturned), the impacts are counted as in `Response`.
     Errors are those of `simulate`.
@@ -98,6 +98,8 @@ def judge(
     block = as_block(structure)
     course = motion.start(block, 0.0, 0.0)
     course.restitutions = [checks.fraction("restitutions", value) for value in restitutions]
+    if course.restitutions:
+        course.counted = motion.DRAWN_PEAK * block.slenderness
     ground = with_vertical(excitation, vertical)
     motion.force(block, ground, course, _flight(tolerance, block))
     end = motion.free_ending(block, course)
@@ -208,6 +210,8 @@ def _is_eventless(
     if abs(course.rate + rate) > largest * ahead:  # φ̇ has one sign
         return rotation > 0.0 and max(ends) < course.ceiling
     aside = largest * ahead**2 / 8.0  # of the chord of φ at most
+    if max(course.height, *ends) <= course.counted < max(ends) + aside:
+        return False  # whether its impact counts is open
     return min(ends) - aside > 0.0 and max(ends) + aside < min(course.ceiling, course.peak)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -183,6 +184,7 @@ def judge(
     *,
     tolerance: float = TOLERANCE,
     vertical: Record | None = None,
+    restitutions: Sequence[float] = (),
 ) -> Ending:
     """Return only how the response to a ground motion of finite duration ends.
 
@@ -190,11 +192,14 @@ def judge(
     over the whole motion (NaN if overturned), the impacts are counted as in `Response`. Free
     rocking begins when both components have ended.
 
+    `restitutions` are √r of the impacts in turn, after which the block's own is taken. Impacts
+    that end a rotation of 1e-3 α or less then do not count, and take the next of them.
+
     Raises
     ------
     ValueError
         For an excitation that is none or goes on forever, a tolerance out of range, or a vertical
-        acceleration of −1 g or less.
+        acceleration of −1 g or less, or a restitution outside of 0 to 1.
     ArithmeticError
         For a block that bounces too often to be followed.
     """
@@ -212,6 +217,7 @@ def judge(
         shaking.amplitude,
         shaking.record,
         lift=1.0,
+        ratios=np.array([checks.fraction("restitutions", value) for value in restitutions]),
         tolerance=checked_tolerance(tolerance),
     )
     return Ending(bool(found.overturned), float(found.peak), int(found.impacts))

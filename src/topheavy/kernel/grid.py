@@ -22,6 +22,7 @@ from topheavy.kernel.lanes.steps import ROWS
 from topheavy.kernel.lanes.vectors import HAS_FMA, WIDTH, rows
 from topheavy.kernel.outcome import (
     MAX_STEPS,
+    NO_RATIOS,
     PULSE_ORDER,
     TOLERANCE,
     Outcome,
@@ -274,9 +275,10 @@ def outcome_of(
     record: Array = NO_RECORD,
     *,
     lift: float = 0.0,
+    ratios: Array = NO_RATIOS,
     tolerance: float = TOLERANCE,
 ) -> Outcome:
-    """Return the outcome of one history, by the scalar kernel; see `outcomes_of`."""
+    """Return the outcome of one history, by the scalar kernel; see `outcomes_of` and `outcome`."""
     if shape == RECORD:
         forcing = record_forcing(record, scale, amplitude, lift)
         order = record_order(scale, tolerance)
@@ -284,7 +286,7 @@ def outcome_of(
         forcing, order = pulse_forcing(shape, amplitude, scale), PULSE_ORDER
 
     def call(workspace: Array) -> Outcome:
-        found: Outcome = outcome(workspace, order, tolerance, block, forcing, record)
+        found: Outcome = outcome(workspace, order, tolerance, block, forcing, record, ratios)
         return found
 
     found = in_threads([call])[0] if record.shape[1] > LONG else call(working_array())

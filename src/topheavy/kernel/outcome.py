@@ -29,9 +29,9 @@ from topheavy.kernel.forcing import (
     two_lines,
 )
 from topheavy.kernel.march import march
-from topheavy.kernel.rest import LAST_BOUNCE, comes_to_rest, next_tick
+from topheavy.kernel.rest import DRAWN_BOUNCE, LAST_BOUNCE, comes_to_rest, next_tick
 from topheavy.kernel.tail import free_rocking
-from topheavy.kernel.taylor import ROTATION, State, evaluate, expand, longest_step
+from topheavy.kernel.taylor import ROTATION, Oscillator, State, evaluate, expand, longest_step
 
 #: Terms of φ in a step of a pulse.
 PULSE_ORDER = 15
@@ -245,13 +245,32 @@ def renewed(block, forcing, record, time, side, state):
     return State(rotation, velocity, sine, cosine, push, -side * rate, 1.0, 0.0)
 
 
+@compiled
+def at_impact(block, ratios, impacts):
+    """Return the block with the √r of its next impact: its own after the last of the ratios."""
+    alpha, ratio, level, cosine, sine, flat, linearised = block
+    if impacts < ratios.size:
+        ratio = ratios[impacts]
+    return Oscillator(alpha, ratio, level, cosine, sine, flat, linearised)
+
+
+#: What stands for the ratios where every impact has the √r of the block.
+NO_RATIOS = np.empty(0)
+
+
 @compiled(nogil=True)
-def outcome(w, order, tolerance, block, forcing, record):
-    """Return the `Outcome` of a block that is at rest when the forcing begins."""
+def outcome(w, order, tolerance, block, forcing, record, ratios):
+    """Return the `Outcome` of a block that is at rest when the forcing begins.
+
+    The k-th impact that counts has the k-th of the `ratios` as √r, and those after the last one
+    that of the block. Where there are ratios, an impact counts above `DRAWN_BOUNCE` α.
+    """
     is_record = forcing.shape == RECORD or forcing.shape == TWO_RECORDS
     is_straight = is_record or forcing.shape == CONSTANT or forcing.shape == NONE
     time, peak, impacts, piece, piece_end = 0.0, 0.0, 0, 0, forcing.end
     steps_left = MAX_STEPS + 10 * record.shape[1]
+    block, own = at_impact(block, ratios, 0), block
+    lowest = (DRAWN_BOUNCE if ratios.size > 0 else LAST_BOUNCE) * block.slenderness
     while True:
         time, push, rate, side = next_uplift(forcing, record, time, block.level)
         if time >= forcing.end:
@@ -283,7 +302,7 @@ def outcome(w, order, tolerance, block, forcing, record):
                 is_straight,
             )
             peak = max(peak, highest)
-            is_low = is_low and highest <= LAST_BOUNCE * block.slenderness
+            is_low = is_low and highest <= lowest
             time = piece_end if step >= longest else time + step
             state, zeros = evaluate(w, order, block, step, is_straight), 0
             if forcing.shape == RICKER_SYMMETRIC or forcing.shape == RICKER_ANTISYMMETRIC:
@@ -291,10 +310,10 @@ def outcome(w, order, tolerance, block, forcing, record):
             if event == FLAT:
                 return Outcome(True, math.nan, impacts, True)
             if event == LANDING or state.rotation <= 0.0:
-                impacts += 0 if is_low else 1
-                side = -side
                 state, zeros = after_impact(block, state), 1
-                is_low = True
+                impacts += 0 if is_low else 1
+                block = at_impact(own, ratios, impacts)
+                side, is_low = -side, True
                 if time < forcing.end and comes_to_rest(
                     block, forcing, record, time, state.velocity, state.push, side, peak
                 ):

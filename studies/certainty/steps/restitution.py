@@ -11,17 +11,17 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from replication.workbench import run, truth, value
+from replication.workbench import Finding, run, truth, value
 from steps.shared.spectra_compared import ends_of
 from steps.shared.spectrum import progress
-from studies.certainty.scattered import overturned_with
-from studies.certainty.shapes import knots, record
 from topheavy import (
     STANDARD_GRAVITY,
     Column,
     Pulse,
+    Record,
     RockingBlock,
     RockingFrame,
+    judge,
     minimum_overturning,
     overturned_by,
     overturning_intervals,
@@ -29,7 +29,7 @@ from topheavy import (
 )
 from topheavy.fragility.resampling import in_words, interval, means, resampled
 from topheavy.structures import Structure
-from topheavy.synthetic.ensemble import first_draws
+from topheavy.synthetic.ensemble import Draw, first_draws
 from topheavy.synthetic.motions import peak_velocity
 
 WAYS = ("both", "frame alone", "column alone")
@@ -41,6 +41,8 @@ OF_MOTIONS = ["family", "way", "factor", "less", "less_low", "less_high", "inter
 """The columns of the table under pulses, and of the differences under motions."""
 
 RISES = 1e-8  # of a minimum: the rounding of its bracket
+NEAR = 1e-3  # of a factor: how far a boundary of overturning is at most, of half of the sample
+NUDGE = 1e-9  # of a motion: an outcome that this changes is undecided
 
 
 def changed(structure: Structure, factor: float) -> RockingBlock:
@@ -134,15 +136,36 @@ def under_pulses(settings: dict) -> pd.DataFrame:
     )
 
 
+def levels_of(settings: dict) -> np.ndarray:
+    """Return the PGVs in m/s at which the motions are judged."""
+    column, spec = Column(**settings["column"]), settings["intensities"]
+    unit = STANDARD_GRAVITY * column.uplift_acceleration / column.frequency_parameter
+    return unit * np.geomspace(spec["lowest"], spec["highest"], spec["points"])
+
+
+def scattered(settings: dict, draw: Draw, restitution: float, low: float) -> np.ndarray:
+    """Return √r of each impact of a motion at each level, shape (levels, impacts).
+
+    The same draws for all structures: the impacts of a motion are equally bad for each.
+    """
+    seed = [settings["seed"], draw.place, draw.number]
+    shape = settings["intensities"]["points"], settings["impacts"]
+    lots = np.random.default_rng(seed).uniform(size=shape)
+    factors = low + (settings["scatter_highest"] - low) * lots
+    return np.minimum(HIGHEST, restitution * factors)
+
+
+def overturns(frame: RockingFrame, motion: Record, factor: float, ratios: np.ndarray) -> bool:
+    """Return whether a frame overturns that has these √r at its impacts."""
+    return judge(frame, motion.scaled(factor), restitutions=ratios).overturned
+
+
 def outcomes(settings: dict, ensemble: dict) -> tuple[list[tuple], dict[str, np.ndarray]]:
     """Return the variants, and for each family which of its motions overturn each, at each level.
 
     A variant is (γ, kind, number): kind "factor" with its factor, or "scatter" with its range.
     """
-    column = Column(**settings["column"])
-    unit = STANDARD_GRAVITY * column.uplift_acceleration / column.frequency_parameter
-    spec = settings["intensities"]
-    levels = np.geomspace(spec["lowest"], spec["highest"], spec["points"])
+    column, levels = Column(**settings["column"]), levels_of(settings)
     variants = [(g, "factor", f) for g in settings["mass_ratios"] for f in settings["factors"]]
     variants += [
         (g, "scatter", low) for g in settings["mass_ratios"] for low in settings["scatter"]
@@ -151,20 +174,16 @@ def outcomes(settings: dict, ensemble: dict) -> tuple[list[tuple], dict[str, np.
     chosen = first_draws(ensemble, settings["motions"])
     for draw in progress(chosen, len(chosen), "motions"):
         motion = draw.record()
-        scales = levels * unit / peak_velocity(motion)
-        # one row of draws for all structures: the impacts of a motion are equally bad for each
-        lots = np.random.default_rng([settings["seed"], draw.place, draw.number]).uniform(
-            size=(levels.size, settings["impacts"])
-        )
-        fell = []
+        scales, fell = levels / peak_velocity(motion), []
         for gamma, kind, number in variants:
             frame = RockingFrame(column, gamma)
             if kind == "factor":
                 fell.append(overturned_by(changed(frame, number), motion, scales))
             else:
-                factors = number + (settings["scatter_highest"] - number) * lots
-                ratios = np.minimum(HIGHEST, frame.restitution * factors)
-                fell.append(overturned_with(frame, motion, scales, ratios))
+                rows = scattered(settings, draw, frame.restitution, number)
+                fell.append(
+                    [overturns(frame, motion, *one) for one in zip(scales, rows, strict=True)]
+                )
         found[draw.family].append(fell)
     return variants, {family: np.array(rows) for family, rows in found.items()}
 
@@ -212,25 +231,51 @@ def difference(less: np.ndarray, boot: dict) -> dict:
     return ends | {"interval": in_words(ends["less_low"], ends["less_high"])}
 
 
-def scatter_agrees(settings: dict) -> dict:
-    """Return whether SciPy gives the same outcomes with the same √r at each impact."""
+def beside_a_boundary(
+    frame: RockingFrame, motion: Record, factor: float, ratios: np.ndarray
+) -> float:
+    """Return a factor with the same outcome that is within NEAR of one with the other outcome."""
+    fell, other = overturns(frame, motion, factor, ratios), factor
+    while overturns(frame, motion, other, ratios) == fell:
+        factor, other = other, other * (0.9 if fell else 1.1)
+    while abs(other / factor - 1.0) > NEAR:
+        middle = math.sqrt(factor * other)
+        if overturns(frame, motion, middle, ratios) == fell:
+            factor = middle
+        else:
+            other = middle
+    return factor
+
+
+def scatter_agrees(settings: dict, ensemble: dict) -> Finding:
+    """Return whether SciPy gives the same outcomes, of a seeded sample of those with scattered √r.
+
+    Every second one is brought beside a boundary. Those that NUDGE changes are not compared.
+    """
     column, random = Column(**settings["column"]), np.random.default_rng(settings["seed"])
-    spec, differ, overturned = settings["scatter_checked"], 0, 0
-    for _ in progress(range(spec), spec, "checks"):
-        gamma = float(random.choice(settings["mass_ratios"]))
-        frame = RockingFrame(column, gamma)
-        motion = record(knots(random), random.uniform(2.0, 20.0), column)
-        factor = np.array([math.exp(random.uniform(0.1, 2.0))])
-        factors = random.uniform(
-            min(settings["scatter"]), settings["scatter_highest"], (1, settings["impacts"])
-        )
-        ratios = np.minimum(HIGHEST, frame.restitution * factors)
-        fell = overturned_with(frame, motion, factor, ratios)[0]
-        other = reference.judge(frame, motion.scaled(float(factor[0])), restitutions=ratios[0])
-        differ += bool(fell) != other.overturned
-        overturned += bool(fell)
+    chosen, levels = first_draws(ensemble, settings["motions"]), levels_of(settings)
+    differ, told, overturned, count = 0, 0, 0, settings["scatter_checked"]
+    for number in progress(range(count), count, "checks"):
+        draw = chosen[random.integers(len(chosen))]
+        frame = RockingFrame(column, float(random.choice(settings["mass_ratios"])))
+        low, level = float(random.choice(settings["scatter"])), random.integers(levels.size)
+        motion = draw.record()
+        ratios = scattered(settings, draw, frame.restitution, low)[level]
+        factor = levels[level] / peak_velocity(motion)
+        if number % 2:
+            factor = beside_a_boundary(frame, motion, factor, ratios)
+        near = {overturns(frame, motion, factor * (1.0 + n), ratios) for n in (-NUDGE, 0.0, NUDGE)}
+        if len(near) == 1:
+            other = reference.judge(frame, motion.scaled(factor), restitutions=ratios)
+            told, overturned = told + 1, overturned + other.overturned
+            differ += other.overturned not in near
     return truth(
-        differ == 0 and 0 < overturned < spec, compared=spec, differ=differ, overturned=overturned
+        differ == 0 and 0 < overturned < told,
+        compared=told,
+        of=count,
+        near_a_boundary=count // 2,
+        differ=differ,
+        overturned=overturned,
     )
 
 
@@ -253,7 +298,7 @@ def main(settings: dict, ensemble: dict) -> tuple[pd.DataFrame, dict]:
             name: value(found["value"], error, lowest=found["lowest"])
             for name, found in ranges.items()
         },
-        "scatter_agrees": scatter_agrees(settings),
+        "scatter_agrees": scatter_agrees(settings, ensemble),
     }
 
 

@@ -17,7 +17,7 @@ from studies.certainty.steps import (
     restitution,
     theorem,
 )
-from topheavy import Column, Record, judge, reference
+from topheavy import Column, Record, RockingFrame, judge, reference
 from topheavy.synthetic.ensemble import first_draws
 
 SIZES = {"half_width": 0.5, "half_height": 3.0}
@@ -214,23 +214,41 @@ def test_one_change_of_restitution_is_enough_to_refute(
         "under_motions",
         lambda case, ensemble: (pd.DataFrame(), table.to_dict("records")),
     )
-    monkeypatch.setattr(restitution, "scatter_agrees", lambda case: truth(True))
+    monkeypatch.setattr(restitution, "scatter_agrees", lambda *given: truth(True))
     _, found = restitution.main({"levels": 501}, {})
     assert {name for name, one in found.items() if one.holds is False} == broken
     assert {name for name, one in found.items() if one.holds_when is False} == unconditional
 
 
+SCATTERED = {"column": SIZES, "seed": 1, "scatter_checked": 4, "mass_ratios": [0.0, 1.0]}
+SCATTERED |= {"scatter": [0.9], "scatter_highest": 1.05, "impacts": 40, "motions": 2}
+SCATTERED |= {"intensities": {"lowest": 0.8, "highest": 1.6, "points": 3}}
+
+
 def test_scatter_that_scipy_judges_otherwise_is_noticed(monkeypatch):
-    case = {"column": SIZES, "seed": 1, "scatter_checked": 12, "mass_ratios": [0.0, 1.0]}
-    case |= {"scatter": [0.9], "scatter_highest": 1.05, "impacts": 40}
-    assert restitution.scatter_agrees(case).holds
+    assert restitution.scatter_agrees(SCATTERED, ENSEMBLE).holds
 
     def otherwise(frame, motion, restitutions):
         found = reference.judge(frame, motion, restitutions=restitutions)
         return SimpleNamespace(overturned=not found.overturned)
 
     monkeypatch.setattr(restitution, "reference", SimpleNamespace(judge=otherwise))
-    assert not restitution.scatter_agrees(case).holds
+    assert not restitution.scatter_agrees(SCATTERED, ENSEMBLE).holds
+
+
+@pytest.mark.parametrize("intensity", [0.5, 2.0])
+def test_half_of_the_scattered_sample_is_beside_a_boundary(intensity):
+    draw = first_draws(ENSEMBLE, 1)[0]
+    frame, motion = RockingFrame(Column(**SIZES), 1.0), draw.record()
+    ratios = restitution.scattered(SCATTERED, draw, frame.restitution, 0.9)[0]
+    factor = intensity / motion.peak_velocity
+    beside = restitution.beside_a_boundary(frame, motion, factor, ratios)
+    around = beside * (1.0 + restitution.NEAR * np.linspace(-1.0, 1.0, 201))
+    first, second, *others = (
+        restitution.overturns(frame, motion, one, ratios) for one in (factor, beside, *around)
+    )
+    assert first == second
+    assert set(others) == {True, False}
 
 
 # What of the benefit remains ---------------------------------------------------------------------

@@ -6,10 +6,10 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from studies.certainty.scattered import overturned_with
+import topheavy
 from studies.certainty.shapes import FAMILIES, record, single_lobe
 from studies.certainty.steps import benefit, extensions, intensities, lowest, restitution, theorem
-from topheavy import Column, FixedMassColumn, Record, RockingFrame, judge, overturned_by, reference
+from topheavy import Column, FixedMassColumn, Record, RockingFrame, judge, reference
 
 COLUMN = Column(0.5, 3.0)
 SIZES = {"half_width": 0.5, "half_height": 3.0}
@@ -168,41 +168,52 @@ def test_both_components_keep_their_common_time():
 # The impact law ----------------------------------------------------------------------------------
 
 
-def test_equal_restitutions_are_those_of_the_kernel():
-    random = np.random.default_rng(3)
-    frame, factors = RockingFrame(COLUMN, 1.0), np.geomspace(1.0, 8.0, 9)
-    differ = 0
-    for _ in range(20):
-        shaken = record(random.uniform(-1.0, 1.0, 8), random.uniform(2.0, 20.0), COLUMN)
-        ratios = np.full((9, 1), frame.restitution)
-        found = overturned_with(frame, shaken, factors, ratios)
-        differ += np.count_nonzero(found != overturned_by(frame, shaken, factors))
-    assert differ <= 1  # of 180, some next to a boundary
+def shaken(random, values):
+    return record(random.uniform(-1.0, 1.0, values), random.uniform(2.0, 20.0), COLUMN)
+
+
+def test_equal_restitutions_are_those_of_the_block():
+    random, frame = np.random.default_rng(3), RockingFrame(COLUMN, 1.0)
+    for _ in range(100):
+        motion = shaken(random, 8).scaled(random.uniform(1.0, 8.0))
+        equal = judge(frame, motion, restitutions=[frame.restitution] * 60)
+        assert equal.overturned == judge(frame, motion).overturned
 
 
 def test_each_impact_has_its_own_restitution():
     """Some motions overturn the column, and not if its second impact takes all its speed."""
-    random, factors = np.random.default_rng(5), np.array([1.5, 2.5, 4.0])
-    rows = np.array([[0.95, 0.95, 0.95], [0.95, 0.0, 0.95]])
-    differ = 0
-    for _ in range(20):
-        shaken = record(random.uniform(-1.0, 1.0, 10), random.uniform(8.0, 20.0), COLUMN)
-        found = [overturned_with(COLUMN, shaken, factors, np.tile(r, (3, 1))) for r in rows]
-        stated = [
-            [reference.judge(COLUMN, shaken.scaled(f), restitutions=r).overturned for f in factors]
-            for r in rows
-        ]
-        assert np.array_equal(found, stated)
+    random, differ = np.random.default_rng(5), 0
+    for _ in range(60):
+        motion = shaken(random, 10).scaled(random.uniform(1.5, 4.0))
+        stated = []
+        for row in ([0.95, 0.95, 0.95], [0.95, 0.0, 0.95]):
+            ours, scipys = (
+                of.judge(COLUMN, motion, restitutions=row) for of in (topheavy, reference)
+            )
+            assert (ours.overturned, ours.impacts) == (scipys.overturned, scipys.impacts)
+            stated.append(ours.overturned)
         differ += stated[0] != stated[1]
     assert differ > 2
 
 
+def test_bounces_too_low_to_be_told_apart_take_no_restitution():
+    """A train of them comes before the rotation whose impact decides."""
+    ground = np.concatenate(
+        [np.tile([0.2, 0.2, -0.2, -0.2], 20), [0.0] * 10, [0.5] * 12, [-0.5] * 8]
+    )
+    motion = Record(0.05, ground)
+    for row in ([0.99] * 3 + [0.0] * 200, [0.0] + [0.99] * 200):
+        ours, scipys = (of.judge(COLUMN, motion, restitutions=row) for of in (topheavy, reference))
+        assert ours.overturned == scipys.overturned
+        assert ours.impacts == scipys.impacts < judge(COLUMN, motion).impacts
+
+
 def test_library_takes_its_own_restitution_where_none_is_given():
-    shaken = record(np.array([1.0, -1.0, 0.8, -0.9]), 12.0, COLUMN).scaled(2.0)
-    own = reference.judge(COLUMN, shaken)
-    assert own == reference.judge(COLUMN, shaken, restitutions=[COLUMN.restitution] * 9)
-    with pytest.raises(ValueError, match=r"restitutions is 1\.2"):
-        reference.judge(COLUMN, shaken, restitutions=[1.2])
+    motion = record(np.array([1.0, -1.0, 0.8, -0.9]), 12.0, COLUMN).scaled(2.0)
+    for of in (topheavy, reference):
+        assert repr(of.judge(COLUMN, motion, restitutions=[])) == repr(of.judge(COLUMN, motion))
+        with pytest.raises(ValueError, match=r"restitutions is 1\.2"):
+            of.judge(COLUMN, motion, restitutions=[1.2])
 
 
 def test_factor_never_brings_restitution_above_the_highest():

@@ -61,7 +61,7 @@ from topheavy.kernel.lanes.vectors import (
     square_root,
     store,
 )
-from topheavy.kernel.outcome import HALT, MAX_STEPS, PULSE_ORDER, outcome
+from topheavy.kernel.outcome import HALT, MAX_STEPS, NO_RATIOS, PULSE_ORDER, outcome
 from topheavy.kernel.rest import next_tick
 from topheavy.kernel.tail import free_rocking, is_poised
 
@@ -225,7 +225,7 @@ def pulse_outcomes(
                 count += tail.impacts
                 if is_poised(own, w[ROTATION, lane], w[VELOCITY, lane]):
                     forcing = pulse_forcing(shape, at(amplitudes, i, j), at(scales, i, j))
-                    again = outcome(alone, order, tolerance, own, forcing, record)
+                    again = outcome(alone, order, tolerance, own, forcing, record, NO_RATIOS)
                     fell, highest, count = again.overturned, again.peak, again.impacts
                     if not again.resolved:
                         lost = cell if lost < 0 else min(lost, cell)
