@@ -126,7 +126,7 @@ def minima(axis, summary, poses):
 
 
 def beyond(axis, portals, poses):
-    """Write the minimum of the portal that is drawn, which is beyond the axis."""
+    """Write what is beyond the axis of the portal that is drawn: its minimum, or what ends it."""
     cap = poses[(poses.structure == "portal") & (poses.body == "cap")]
     column = poses[(poses.structure == "bare") & (poses.body == "column") & (poses.rotation == 0.0)]
     span = cap.x.max() - cap.x.min() - (column.x.max() - column.x.min())
@@ -136,6 +136,8 @@ def beyond(axis, portals, poses):
     axis.annotate("", *ends, arrowprops=arrow | {"mutation_scale": 6})
     glyph(axis, "portal", (drawn.mass_ratio + 0.45, HIGHEST - 0.029))
     words = f"portal: {drawn.minimum_overturning:.1f} g, off the scale"
+    if math.isnan(drawn.minimum_overturning):
+        words = f"portal: off the ground from {drawn.pulled_from:.1f} g"
     note(axis, words, (drawn.mass_ratio + 0.85, HIGHEST - 0.017))
 
 

@@ -15,6 +15,7 @@ STUDIES = Path(__file__).resolve().parents[2] / "studies"
 CODE = re.compile(r"^```.*?^```", re.DOTALL | re.MULTILINE)
 LINK = re.compile(r"\]\((?:[^()]|\([^()]*\))*\)")
 DOI = re.compile(r"\[doi:[^\]]*\]")
+ENDS = ["min", "max"]
 COMPARED = re.compile(r"([\d,]+) overturning flags")
 
 
@@ -31,11 +32,10 @@ def rises_at_one_period(reference: Path) -> pd.Series:
     return heavy / bare - 1.0
 
 
-def portals(reference: Path) -> pd.Series:
-    """Return the minimum overturning accelerations (g) of the portals under a one-cosine pulse."""
+def portals(reference: Path) -> pd.DataFrame:
+    """Return the portals under a one-cosine pulse."""
     rows = pd.read_csv(reference / "vase.csv")
-    rows = rows[(rows.structure == "portal") & (rows["shape"] == "one-cosine")]
-    return rows.minimum_overturning
+    return rows[(rows.structure == "portal") & (rows["shape"] == "one-cosine")]
 
 
 def ratios(reference: Path) -> pd.DataFrame:
@@ -67,12 +67,18 @@ def of_central_result(reference: Path) -> list[str]:
 
 
 def of_portals(reference: Path) -> list[str]:
-    moments = pd.read_csv(reference / "sources" / "portal_forces.csv").dropna()
-    over, rests = moments.joint_moment_over_frame, moments.portal == "no uplift"
-    of_both = (over[~rests], over[rests & (moments.bases == "pinned")])
-    ranges = [end for of in of_both for end in (of.min(), of.max())]
-    minima = portals(reference)
-    return [f"{minima.min():.2f}", f"{minima.max():.1f}", *(f"{one:.1f}" for one in ranges)]
+    moments = pd.read_csv(reference / "sources" / "portal_forces.csv")
+    held = moments[moments.resisted].groupby("state").joint_moment_over_frame
+    ranges = [end for state in ("rocks", "rests_pinned") for end in held.get_group(state).agg(ENDS)]
+    rows = portals(reference)
+    (quoted,) = rows.dropna(subset="minimum_overturning").itertuples()
+    pulled = rows.dropna(subset="pulled_from")
+    return [
+        f"{quoted.minimum_overturning:.2f}",
+        *(f"{span:.1f}" for span in (quoted.span, *pulled.span)),
+        f"{pulled.pulled_from.min():.1f}",
+        *(f"{one:.1f}" for one in ranges),
+    ]
 
 
 def of_trilith(reference: Path) -> list[str]:

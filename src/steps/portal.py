@@ -1,5 +1,7 @@
 """The price of the portal: the forces at its joints and bases, over those in the frame's columns.
 
+Nothing is said of a motion in which the ground would have to pull the base of the portal.
+
 Also its alternative, a larger free-standing column that overturns at the same acceleration.
 """
 
@@ -12,6 +14,7 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import Finding, run, truth
+from steps.shared.bearing import bearing, on_the_ground
 from steps.shared.histories import History, history
 from steps.shared.spectrum import progress
 from steps.vase_searches import Minimum, minima, minimum
@@ -36,6 +39,7 @@ from topheavy.portal_forces import Bases, ColumnEnds, Section
 Forces = dict[str, np.ndarray]
 
 BASES = get_args(Bases)
+STATES = ("rocks", *(f"rests_{bases}" for bases in BASES))
 FORCES = ("joint_moment", "base_moment", "joint_shear", "base_shear")
 SEED = 2014  # of the sample that SciPy judges
 CLOSE = 1e-3  # relative: what the peaks of two solvers may differ by
@@ -109,9 +113,10 @@ def compare(
     samples: int,
     route: Callable[..., Response] = simulate,
 ) -> list[dict]:
-    """Return a row for each span and for bases that are fixed or pinned while the portal rests.
+    """Return the rows of each span: while the portal rocks, or rests on fixed or pinned bases.
 
-    The resting portal has its largest forces at the largest acceleration that does not uplift it.
+    A portal that rocks has no forces where the ground would have to pull its base, and the
+    friction that it requires. `resisted` is whether the ground can hold the bases.
     """
     gamma, depth, rows = vase["portals"]["mass_ratio"], vase["cap"]["depth"], []
     frame, peak = RockingFrame(column, gamma), labels["peak_acceleration"]
@@ -121,16 +126,22 @@ def compare(
         cap, portal = Cap(span, depth / 2.0), MonolithicPortal(column, gamma, span, depth)
         outcome, rocks = followed(portal, *of_motion)
         in_frame, changed = largest(freely, partial(of_frame, frame, cap))
-        rocking, change = largest(rocks, partial(of_portal, portal))
-        for bases in BASES:
-            ends = resting_portal_forces(portal, bases, min(peak, portal.uplift_acceleration))
-            rests, base = of_ends(ends), ends.base
-            row = labels | {"span": span, "bases": bases}
-            row |= {"frame": freed, "portal": outcome, "resisted": resisted(portal, base)}
-            for name in FORCES:
-                row[name] = max(rocking[name], float(np.abs(rests[name]).max()))
-                row[f"{name}_over_frame"] = row[name] / in_frame[name]
-            rows.append(row | {"error": np.fmax(changed, change)})
+        row = labels | {"span": span, "frame": freed, "portal": outcome}
+        found = []
+        if outcome == "no uplift":
+            for bases in BASES:
+                ends = resting_portal_forces(portal, bases, peak)
+                forces = {name: float(np.abs(of).max()) for name, of in of_ends(ends).items()}
+                how = {"state": f"rests_{bases}", "resisted": resisted(portal, ends.base)}
+                found.append(how | forces | {"friction": math.nan, "error": changed})
+        else:
+            least, friction = on_the_ground(portal, rocks) if rocks else (math.nan, math.nan)
+            rocking, change = largest(rocks if least > 0.0 else None, partial(of_portal, portal))
+            how = {"state": "rocks", "resisted": least > 0.0, "friction": friction}
+            found.append(how | rocking | {"error": np.fmax(changed, change)})
+        for one in found:
+            over = {f"{name}_over_frame": one[name] / in_frame[name] for name in FORCES}
+            rows.append(row | one | over)
     return rows
 
 
@@ -142,6 +153,7 @@ def resisted(portal: MonolithicPortal, base: Section) -> bool:
 def larger_columns(column: Column, pulse: Pulse, settings: dict, vase: dict) -> list[dict]:
     """Return the smallest similar columns that survive a pulse as a frame and portals do.
 
+    Of portals those whose base is not pulled up to their minimum; `friction` is what they require.
     The column is one of sizes in equal ratios, then between two of them. It reaches the minimum
     overturning acceleration of the other if no acceleration below that is found to overturn it.
     `rises` is whether the minimum rises with each of these sizes up to there, and `by_scipy`
@@ -153,12 +165,15 @@ def larger_columns(column: Column, pulse: Pulse, settings: dict, vase: dict) -> 
         When the sizes do not reach so far.
     """
     gamma, depth, rows = vase["portals"]["mass_ratio"], vase["cap"]["depth"], []
-    goals: list[tuple[str, float, Any]] = [("frame", math.nan, RockingFrame(column, gamma))]
-    for span in vase["portals"]["spans"]:
-        goals.append(("portal", span, MonolithicPortal(column, gamma, span, depth)))
-    structures = [structure for *_, structure in goals]
-    of_goals = minima(structures, pulse, settings["highest"], vase["floor"])
-    found = [one.acceleration for one in of_goals]
+    spans = vase["portals"]["spans"]
+    of_each = [RockingFrame(column, gamma)]
+    of_each += [MonolithicPortal(column, gamma, span, depth) for span in spans]
+    of_goals = minima(of_each, pulse, settings["highest"], vase["floor"])
+    goals = [("frame", math.nan, math.nan, of_goals[0].acceleration)]
+    for span, portal, one in zip(spans, of_each[1:], of_goals[1:], strict=True):
+        borne = bearing(portal, pulse, one.found.bracket[0])
+        if borne.pulled_from == math.inf:
+            goals.append(("portal", span, borne.friction, one.acceleration))
     sizes = np.geomspace(*(settings["sizes"][key] for key in ("lowest", "highest", "points")))
 
     def similar(size: float) -> Column:
@@ -167,10 +182,10 @@ def larger_columns(column: Column, pulse: Pulse, settings: dict, vase: dict) -> 
     def lowest(size: float, highest: float) -> Minimum:
         return minimum(similar(size), pulse, highest, vase["floor"])
 
-    highest = max(found) * (1.0 + CLOSE)
+    highest = max(target for *_, target in goals) * (1.0 + CLOSE)
     of_sizes = minima([similar(size) for size in sizes], pulse, highest, vase["floor"])
     rising = np.array([one.acceleration for one in of_sizes])
-    for (name, span, _), target in zip(goals, found, strict=True):
+    for name, span, friction, target in goals:
         place = int(np.argmax(rising >= target))
         if place == 0:
             raise ValueError(
@@ -188,7 +203,7 @@ def larger_columns(column: Column, pulse: Pulse, settings: dict, vase: dict) -> 
             | {"size_low": low, "size_high": high, "bracket": high / low - 1.0}
             | {"height": 2.0 * high * column.half_height}
             | {"mass_same_depth": high**2, "mass_similar": high**3}
-            | {"mass_of_structure": 2.0 * (1.0 + gamma)}
+            | {"mass_of_structure": 2.0 * (1.0 + gamma), "friction": friction}
             | {"rises": bool(np.all(np.diff(rising[: place + 1]) > 0.0))}
             | {"by_scipy": survives and math.isfinite(lowest(low, target).error)}
         )
@@ -229,7 +244,7 @@ def second_route(
     pairs = []
     for motion, labels, samples in tried:
         ours = table[(table[list(labels)] == pd.Series(labels)).all(axis=1)].reset_index()
-        if (ours.portal != "no uplift").any():
+        if (ours.state == "rocks").any():
             pairs.append((ours, motion, labels, samples))
     apart, differ = [], 0
     for place in np.random.default_rng(SEED).permutation(len(pairs))[:count]:
@@ -251,32 +266,35 @@ def findings(portal_forces: pd.DataFrame, portal_columns: pd.DataFrame) -> dict[
     """Return what the joints and bases carry, and how large a column gains as much."""
     table, columns = portal_forces, portal_columns
     compared = table[table.joint_moment_over_frame.notna()]
-    rests = compared.portal == "no uplift"
-    cases = {f"rests_{bases}": compared[rests & (compared.bases == bases)] for bases in BASES}
-    cases["rocks"] = compared[~rests]
-    least = {name: rows.joint_moment_over_frame.min() for name, rows in cases.items()}
+    cases = {name: compared[compared.state == name] for name in STATES}
+    held = {name: rows[rows.resisted] for name, rows in cases.items()}
+    shared = held["rocks"].joint_moment.round(2).value_counts()
+    least = min(rows.joint_moment_over_frame.min() for rows in held.values() if len(rows))
     frame, portal = (columns[columns.structure == name] for name in ("frame", "portal"))
     sure = columns.rises.all() and columns.by_scipy.all()
     return {
         "joints_carry_more": truth(
-            min(least.values()) > 1.0,
-            holds_when=min(least["rocks"], least["rests_pinned"]) > 1.0,
-            condition="the portal rocks, or rests on pinned bases",
-            histories=len(table) // len(BASES),
-            compared=len(compared) // len(BASES),
-            resting=int(rests.sum()) // len(BASES),
-            rocking=int((~rests).sum()) // len(BASES),
-            resisted={bases: int(cases[f"rests_{bases}"].resisted.sum()) for bases in BASES},
+            least > 1.0,
+            compared=sum(map(len, held.values())),
+            resting=len(cases["rests_pinned"]),
+            rocking=len(held["rocks"]),
+            pulled=int((table.state.eq("rocks") & table.friction.notna() & ~table.resisted).sum()),
+            resisted={name: len(rows) for name, rows in held.items()},
+            largest_friction=float(held["rocks"].friction.max()),
+            of_one_moment=int(shared.max()),
+            one_moment=float(shared.idxmax()),
             **{
                 name: {f"{span:g}": ranges(of) for span, of in rows.groupby("span")}
-                for name, rows in cases.items()
+                for name, rows in held.items()
             },
         ),
         "larger_column_is_lighter_than_the_frame": truth(
             sure and (frame.mass_similar < frame.mass_of_structure).all(), **sizes(frame)
         ),
         "larger_column_is_heavier_than_the_portal": truth(
-            sure and (portal.mass_same_depth > portal.mass_of_structure).all(), **sizes(portal)
+            sure and (portal.mass_same_depth > portal.mass_of_structure).all(),
+            largest_friction=float(portal.friction.max()),
+            **sizes(portal),
         ),
     }
 

@@ -44,6 +44,8 @@ def boundaries(
     minima, shapes = table.minimum_overturning.tolist(), settings["shapes"]
     of_each = product(numbers(column, settings), shapes)
     for ((name, gamma, span, structure), shape), minimum in zip(of_each, minima, strict=True):
+        if math.isnan(minimum):
+            continue  # a portal whose base is pulled before
         pulse = Pulse(shape, minimum, 2.0 * math.pi / settings["period"])
         width, proofs = sides(structure, pulse)
         labels = {"structure": name, "mass_ratio": gamma, "span": span, "shape": shape}

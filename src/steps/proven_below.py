@@ -26,12 +26,13 @@ def kind(certificate: dict) -> str:
 def boxes(column: Column, settings: dict, known: pd.DataFrame, ratios: list[float]) -> list[dict]:
     """Return the boxes of each structure with one of these γ, up to its proven boundary."""
     shape, rows = settings["shapes"][0], []
-    known = known[known["shape"] == shape]
-    for (name, gamma, span, structure), at in zip(
-        numbers(column, settings), known.itertuples(), strict=True
-    ):
-        if gamma not in ratios:
+    labels = ["structure", "mass_ratio", "span"]
+    known = known[known["shape"] == shape].fillna({"span": 0.0}).set_index(labels)
+    for name, gamma, span, structure in numbers(column, settings):
+        place = name, gamma, 0.0 if math.isnan(span) else span
+        if gamma not in ratios or place not in known.index:
             continue
+        at = known.loc[place]
         high = float(f"{at.minimum_overturning * (1.0 - at.relative_width):.15g}")
         pulse = Pulse(shape, 1.0, 2.0 * math.pi / settings["period"])
         found = survives_below(structure, pulse, high)

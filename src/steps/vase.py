@@ -11,6 +11,7 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import Finding, grid, run, truth
+from steps.shared.bearing import bearing
 from steps.shared.spectrum import progress
 from steps.vase_poses import poses
 from steps.vase_searches import Minimum, lowest_told, lowest_wide, minima, minimum, rivals
@@ -27,6 +28,7 @@ from topheavy import (
 )
 
 PORTALS_HIGHEST = 40.0  # g, where minima are sought; no other structure comes near
+BESIDE = 1e-3  # over the peak acceleration from which a base is pulled: where SciPy is asked
 SEED = 2014  # of the sample of boundaries that SciPy judges
 OBJECTS = ("found", "bare", "wide", "bare_wide")  # of a row, which no table holds
 
@@ -48,7 +50,10 @@ def numbers(column: Column, settings: dict) -> list[tuple[str, float, float, Any
 
 
 def under_pulses(column: Column, settings: dict) -> list[dict]:
-    """Return every structure's three numbers, and its minimum under each pulse of the period."""
+    """Return every structure's three numbers, and its minimum under each pulse of the period.
+
+    A portal whose base is pulled below its minimum has none: there the model does not hold.
+    """
     rows, below = [], settings["spectra"]["highest"] * column.uplift_acceleration
     for name, gamma, span, structure in numbers(column, settings):
         block, highest = structure.block(), PORTALS_HIGHEST if name == "portal" else below
@@ -69,9 +74,27 @@ def under_pulses(column: Column, settings: dict) -> list[dict]:
                     "shape": shape,
                     "minimum_overturning": found.acceleration,
                     "error": found.error,
+                    **(held_down(structure, pulse, found) if name == "portal" else {}),
                 }
             )
     return rows
+
+
+def held_down(portal: MonolithicPortal, pulse: Pulse, found: Minimum) -> dict[str, float]:
+    """Return the peak from which the base is pulled, with SciPy's error, or the friction up to it.
+
+    Where it is pulled, the minimum and its error are NaN.
+    """
+    last = found.found.bracket[0]
+    borne = bearing(portal, pulse, last)
+    row = {"friction": borne.friction, "pulled_from": math.nan, "pulled_error": math.nan}
+    if borne.pulled_from == math.inf:
+        return row
+    ends = borne.pulled_from * (1.0 - BESIDE), borne.pulled_from * (1.0 + BESIDE)
+    scipys = (bearing(portal, pulse, end, reference.simulate, 1).pulled_from for end in ends)
+    agrees = [end < math.inf for end in scipys] == [False, True]
+    row |= {"pulled_from": borne.pulled_from, "minimum_overturning": math.nan, "error": math.nan}
+    return row | {"pulled_error": BESIDE * borne.pulled_from if agrees else math.inf}
 
 
 def search(
@@ -278,12 +301,26 @@ def ranks(summary: pd.DataFrame) -> bool:
 
 
 def beside_frames(summary: pd.DataFrame) -> Finding:
-    """Return whether each portal overturns later than the frame of its γ under each pulse."""
+    """Return whether each portal overturns later than the frame of its γ under each pulse.
+
+    A portal whose base is pulled counts up to there, as nothing lower overturns it.
+    """
     at = ["mass_ratio", "shape"]
     frames = summary[summary.structure == "free"].set_index(at).minimum_overturning
-    portals = summary[summary.structure == "portal"].set_index(at).minimum_overturning
-    over = portals.to_numpy() / frames.loc[portals.index].to_numpy()
-    return truth(over.min() > 1.0, compared=len(over), least=over.min(), largest=over.max())
+    portals = summary[summary.structure == "portal"].set_index(at)
+    reached = portals.minimum_overturning.fillna(portals.pulled_from)
+    over = reached.to_numpy() / frames.loc[portals.index].to_numpy()
+    quoted = portals.minimum_overturning.notna()
+    return truth(
+        over.min() > 1.0,
+        compared=len(over),
+        quoted=int(quoted.sum()),
+        pulled=int((~quoted).sum()),
+        pulled_by_scipy=int(np.isfinite(portals.pulled_error[~quoted]).sum()),
+        least_pulled_from=float(portals.pulled_from.min()),
+        largest_friction=float(portals.friction[quoted].max()),
+        least=over.min(),
+    )
 
 
 ASKED = {
@@ -306,7 +343,6 @@ def findings(
         "portal_has_a_wider_base": truth(
             (portals.slenderness_deg > vase.slenderness_deg[0]).all(),
             slenderness_deg=portals.slenderness_deg,
-            minimum_overturning_g=portals.minimum_overturning,
         ),
         "portal_overturns_last": beside_frames(vase),
         "shares_of_the_gain": whole_gain(vase_shares),
@@ -330,7 +366,9 @@ def main(settings: dict, paths: list[str], tightened: float) -> tuple:
     sample += sampled(compared, "record", settings["checked_by_second_route"])
     sample += [one for row in broken for one in both(row)]
     errors = [*(one.error / one.acceleration for one in sample)]
-    errors += [*(summary.error / summary.minimum_overturning)]
+    quoted = summary[summary.minimum_overturning.notna()]
+    errors += [*(quoted.error / quoted.minimum_overturning)]
+    errors += [*(summary.pulled_error / summary.pulled_from).dropna()]
     of_shares = pd.DataFrame(shares(column, settings))
     none = ["structure", "kind", "frequency_ratio"]
     found = {name: question(compared, of, settings) for name, of in ASKED.items()}

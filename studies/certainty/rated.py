@@ -13,12 +13,11 @@ from topheavy import (
     STANDARD_GRAVITY,
     Column,
     FixedMassColumn,
-    MonolithicPortal,
     RockingBlock,
     RockingFrame,
 )
 
-BARE, FREE, FIXED, PORTAL = "bare", "free", "fixed", "portal"
+BARE, FREE, FIXED = "bare", "free", "fixed"
 PGV, SCALED = "PGV", "p PGV/(g tan α)"
 
 
@@ -49,9 +48,7 @@ def subjects(settings: Mapping[str, Any]) -> list[Subject]:
         for share in (0.0, *settings["lowered"])
     ]
     found += [Subject(FREE, g, 0.0, RockingFrame(column, g).block()) for g in ratios]
-    found += [Subject(FIXED, g, 0.0, FixedMassColumn(column, g).block()) for g in ratios]
-    portals = [(g, MonolithicPortal(column, g, settings["span"])) for g in ratios]
-    return found + [Subject(PORTAL, g, 0.0, portal.block()) for g, portal in portals]
+    return found + [Subject(FIXED, g, 0.0, FixedMassColumn(column, g).block()) for g in ratios]
 
 
 def grid(settings: Mapping[str, Any]) -> NDArray[np.float64]:

@@ -48,7 +48,7 @@ def test_shears_at_the_ends_of_a_frames_column_differ_by_its_own_load():
 
 def test_portal_that_rests_has_the_forces_of_the_ground():
     """h/3 and 5h/12 with fixed bases, 3h/4 with pinned ones, for γ = 1."""
-    found = compared(0.31).set_index("bases")
+    found = compared(0.31).set_index("state").rename(lambda name: name.removeprefix("rests_"))
     assert set(found.portal) == {"no uplift"}
     assert found.joint_moment.to_dict() == pytest.approx({"fixed": 0.31, "pinned": 0.6975})
     assert found.base_moment.to_dict() == pytest.approx({"fixed": 0.3875, "pinned": 0.0})
@@ -59,12 +59,19 @@ def test_portal_that_rests_has_the_forces_of_the_ground():
     assert over.tolist() == pytest.approx([0.25] * 2, rel=0.3)
 
 
-def test_resting_forces_are_those_below_uplift():
-    found, level = compared(0.6).set_index("bases"), MonolithicPortal(COLUMN, 1.0, 2.4, 0.6)
-    assert set(found.portal) == {"rests"}
-    level = level.uplift_acceleration
-    assert found.base_moment["fixed"] >= 1.25 * level
-    assert found.base_moment["fixed"] < 1.25 * 0.6  # which only a portal held down would have
+def test_portal_that_rocks_has_no_forces_of_rest():
+    (found,) = compared(0.6).itertuples()
+    assert (found.state, found.portal, found.resisted) == ("rocks", "rests", True)
+    assert 0.36 < found.friction < 0.5  # tan α' just after uplift
+
+
+def test_portal_whose_base_is_pulled_has_no_forces():
+    wide = VASE | {"portals": {"mass_ratio": 1.0, "spans": [5.0]}}
+    for peak, pulled in ((1.6, False), (1.8, True)):
+        (found,) = portal.compare(COLUMN, pulse(peak), labels(peak), wide, 8)
+        assert found["portal"] == "rests"  # it does not overturn
+        assert found["resisted"] is not pulled
+        assert np.isnan([found[name] for name in portal.FORCES]).all() == pulled
 
 
 def test_overturning_has_no_forces():
@@ -102,7 +109,9 @@ def test_ground_without_tension_resists_forces_within_the_bases(bases, ground, r
 )
 def test_larger_column_is_the_one_that_it_is_compared_with(monkeypatch, goal, size):
     monkeypatch.setattr(portal, "RockingFrame", lambda *given: goal)
-    found, other = portal.larger_columns(COLUMN, pulse(1.0), SIZES, VASE)
+    spans = VASE | {"portals": {"mass_ratio": 1.0, "spans": [2.4, 5.0]}}  # the last one is pulled
+    case = SIZES | {"highest": 12.0}
+    found, other = portal.larger_columns(COLUMN, pulse(1.0), case, spans)
     assert found["size_low"] < size * (1 + 1e-9)
     assert size * (1 - 1e-9) < found["size_high"] < found["size_low"] * (1 + 1e-4)
     assert found["bracket"] < 1e-4
@@ -149,15 +158,18 @@ def test_second_route_sees_another_outcome_another_peak_and_few_samples():
 
 
 def rows(**over):
-    """A portal that rests, and one that rocks, each on either bases, and one without a frame."""
-    ratios = {"fixed": 0.7, "pinned": 1.5, "rocks": 5.0, "none": math.nan} | over
-    cases = [("no uplift", bases, bases) for bases in ("fixed", "pinned")]
-    cases += [("rests", bases, name) for name in ("rocks", "none") for bases in ("fixed", "pinned")]
+    """A portal that rests on each bases, three that rock and one that overturns; NaN: no frame."""
+    ratios = {"fixed": 0.7, "pinned": 1.5, "rocks": 5.0, "pulled": 0.5, "none": math.nan} | over
+    states = {name: f"rests_{name}" for name in ("fixed", "pinned")}
     return pd.DataFrame(
-        {"span": 2.4, "portal": outcome, "bases": bases, "resisted": bases == "pinned"}
-        | dict.fromkeys(OVER, ratios[name])
-        for outcome, bases, name in cases
+        {"span": 2.4, "state": states.get(name, "rocks"), "resisted": name not in PULLED}
+        | {"joint_moment": ratio / 4.0, "friction": math.nan if name == "none" else 0.4}
+        | dict.fromkeys(OVER, ratio)
+        for name, ratio in ratios.items()
     )
+
+
+PULLED = ("fixed", "pulled", "none")
 
 
 def columns(**change):
@@ -166,27 +178,28 @@ def columns(**change):
         {"structure": ["frame", "portal"], "mass_of_structure": 4.0, "rises": True}
     )
     table = table.assign(
-        by_scipy=True, size_low=[1.3, 3.0], size_high=[1.3, 3.0], bracket=0.0, height=9.0
+        friction=0.4,
+        by_scipy=True,
+        size_low=[1.3, 3.0],
+        size_high=[1.3, 3.0],
+        bracket=0.0,
+        height=9.0,
     )
     return table.assign(mass_same_depth=[1.7, 9.0], mass_similar=[2.2, 27.0]).assign(**change)
 
 
 @pytest.mark.parametrize(
-    ("over", "holds", "holds_when"),
-    [
-        ({}, False, True),
-        ({"fixed": 1.1}, True, True),
-        ({"pinned": 0.9}, False, False),
-        ({"rocks": 0.9}, False, False),
-    ],
+    ("over", "holds"),
+    [({}, True), ({"fixed": 1.1}, True), ({"pinned": 0.9}, False), ({"rocks": 0.9}, False)],
 )
-def test_joints_carry_more_than_the_columns_of_the_frame_or_not(over, holds, holds_when):
+def test_joints_carry_more_where_the_ground_holds_the_portal_or_not(over, holds):
     found = portal.findings(rows(**over), columns())["joints_carry_more"]
-    assert (found.holds, found.holds_when) == (holds, holds_when)
-    counts = [found[name] for name in ("histories", "compared", "resting", "rocking")]
-    assert counts == [3, 2, 1, 1]
-    assert found["resisted"] == {"fixed": 0, "pinned": 1}
+    assert found.holds is holds
+    counts = [found[name] for name in ("compared", "resting", "rocking", "pulled")]
+    assert counts == [2, 1, 1, 1]
+    assert found["resisted"] == {"rocks": 1, "rests_fixed": 0, "rests_pinned": 1}
     assert found["rocks"]["2.4"]["base_shear"] == [over.get("rocks", 5.0)] * 2
+    assert (found["of_one_moment"], found["largest_friction"]) == (1, 0.4)
 
 
 @pytest.mark.parametrize(

@@ -307,6 +307,19 @@ def test_frame_that_would_overturn_is_refused(kind, structure, amplitude):
         vase_poses.rotations(structure, pulse, CASE)
 
 
+def test_portal_whose_base_is_pulled_has_no_minimum():
+    case = CASE | {"mass_ratios": [0.0], "shapes": ["one-cosine"], "period": 1.5, "floor": 1e-3}
+    case |= {"portals": {"mass_ratio": 1.0, "spans": [2.4, 4.2]}, "spectra": {"highest": 12.0}}
+    narrow, wide = vase.under_pulses(COLUMN, case)[1:]
+    assert narrow["minimum_overturning"] == pytest.approx(0.918, abs=1e-3)
+    assert math.isnan(narrow["pulled_from"])
+    assert narrow["friction"] == pytest.approx(0.458, abs=1e-3)
+    assert math.isnan(wide["minimum_overturning"])
+    assert math.isnan(wide["error"])
+    assert wide["pulled_from"] == pytest.approx(1.72, abs=0.01)
+    assert wide["pulled_error"] < 0.002
+
+
 # What the step concludes ------------------------------------------------------------------------
 
 MINIMA = {"bare": 0.27, "fixed": 0.20, "free": 0.31, "portal": 0.9}
@@ -318,6 +331,7 @@ def summary(**change):
     rows = [
         {"structure": name, "shape": shape, "mass_ratio": 1.0, "slenderness_deg": ANGLES[name]}
         | {"minimum_overturning": MINIMA[name], "error": 1e-8}
+        | {"friction": 0.4, "pulled_from": math.nan, "pulled_error": math.nan}
         | (change.get(name, {}) if shape == "b" else {})
         for name in MINIMA
         for shape in ("a", "b")
@@ -351,6 +365,7 @@ def test_portal_stands_on_a_wider_base_or_not(monkeypatch, angle, holds):
     [
         ({}, 0.9 / 0.31),
         ({"portal": {"minimum_overturning": 0.30}}, 0.30 / 0.31),  # above bare and fixed
+        ({"portal": {"minimum_overturning": math.nan, "pulled_from": 0.30}}, 0.30 / 0.31),
         ({"free": {"minimum_overturning": 1.0}}, 0.9),
     ],
 )

@@ -17,7 +17,6 @@ from studies.certainty.rated import (
     BARE,
     FIXED,
     FREE,
-    PORTAL,
     Subject,
     fallen,
     grid,
@@ -203,9 +202,8 @@ def main(settings: dict, ensemble: dict, shards: pd.DataFrame) -> tuple:
 def findings(certainty_motions: pd.DataFrame, certainty_rates: pd.DataFrame) -> dict[str, Finding]:
     """Return what the tables say of every family and earthquake, exponent and highest PGV."""
     stated_ones, table = certainty_motions, certainty_rates
-    of = {name: table[table.structure == name] for name in (FREE, FIXED, PORTAL)}
-    as_it_is = {name: rows[rows.column == 0.0] for name, rows in of.items()}
-    free, fixed, portal = (as_it_is[name] for name in (FREE, FIXED, PORTAL))
+    of = {name: table[table.structure == name] for name in (FREE, FIXED)}
+    free, fixed = (rows[rows.column == 0.0] for rows in of.values())
     lowered = of[FREE][of[FREE].column > 0.0]
     probable = stated_ones[(stated_ones.structure == FREE) & (stated_ones.column == 0.0)]
     some = table[table.over_high > table.over_low]
@@ -217,11 +215,6 @@ def findings(certainty_motions: pd.DataFrame, certainty_rates: pd.DataFrame) -> 
     return {
         "cap_lowers_the_rate": truth((free.over_high < 1.0).all(), **ranged(free)),
         "fixed_mass_raises_the_rate": truth((fixed.over_low > 1.0).all(), **ranged(fixed)),
-        "portal_has_the_lowest_rate": truth(
-            len(portal) > 0 and portal.rate_high.max() < free.rate_low.min(),
-            overturning=int(portal.overturning.max()),
-            **ranged(portal),
-        ),
         "lower_column_keeps_the_order": truth(
             (lowered.over_high < 1.0).all(),
             by_share={

@@ -7,9 +7,9 @@ import pandas as pd
 import pytest
 
 from steps.shared.outcomes import written
-from studies.certainty.rated import BARE, FIXED, FREE, PORTAL, stated, subjects, velocities
+from studies.certainty.rated import BARE, FIXED, FREE, stated, subjects, velocities
 from studies.certainty.steps import rates, rates_check, rates_shard
-from topheavy import Column, FixedMassColumn, MonolithicPortal, RockingFrame, judge
+from topheavy import Column, FixedMassColumn, RockingFrame, judge
 from topheavy.synthetic.ensemble import draws
 
 COLUMN = Column(0.5, 3.0)
@@ -26,7 +26,6 @@ ENSEMBLE = {
 CASE = {
     "column": {"half_width": 0.5, "half_height": 3.0},
     "mass_ratios": [1.0, math.inf],
-    "span": 5.0,
     "lowered": [0.1],
     "run": "default",
     "runs": {"default": {"shards": 2, "motions": 6}},
@@ -79,11 +78,10 @@ def test_structures_have_the_same_columns_and_cap_beams():
     expected = [
         *(RockingFrame(COLUMN, gamma) for gamma in CASE["mass_ratios"]),
         *(FixedMassColumn(COLUMN, gamma) for gamma in CASE["mass_ratios"]),
-        *(MonolithicPortal(COLUMN, gamma, 5.0) for gamma in CASE["mass_ratios"]),
     ]
     assert [one.block for one in UNDER[2:]] == [one.block() for one in expected]
     names = [one.structure for one in UNDER]
-    assert names == [BARE] * 2 + [FREE] * 2 + [FIXED] * 2 + [PORTAL] * 2
+    assert names == [BARE] * 2 + [FREE] * 2 + [FIXED] * 2
 
 
 def test_stated_intensity_is_that_of_the_column():
@@ -96,7 +94,7 @@ def test_outcomes_are_those_of_the_scaled_motions(shards):
     every = draws({**ENSEMBLE, "runs": {"default": {"motions": 6}}})
     motions = {tuple(draw.labels.values()): draw.record() for draw in every}
     compared = 0
-    for row in shards[shards.structure != PORTAL].iloc[::17].itertuples():
+    for row in shards.iloc[::17].itertuples():
         record = motions[row.family, row.scenario, row.motion]
         labels = (row.structure, row.mass_ratio, row.lowered)
         (block,) = (one.block for one in UNDER if tuple(one.labels.values()) == labels)
@@ -127,7 +125,7 @@ def test_sample_is_judged_again_on_all_structures_in_turn(shards):
 
 def test_rate_is_the_hazard_from_the_boundary_on():
     """Boundaries are midway between levels, which double every other step: 0.5, 0.707, 1, 1.41."""
-    table = overturning_from(1.0, 0.7, 1.4, 2.0, 0.7, 0.5, 9.0, 9.0)
+    table = overturning_from(1.0, 0.7, 1.4, 9.0, 0.7, 0.5)
     for motions in found_in(table):
         found = pd.DataFrame(rates.rates(motions, CASE))
         assert np.allclose(
@@ -137,7 +135,7 @@ def test_rate_is_the_hazard_from_the_boundary_on():
             place = [tuple(one.labels.values()) for one in UNDER].index(
                 (row.structure, row.mass_ratio, row.lowered)
             )
-            capacity = (1.0, 0.7071, 1.4142, 2.0, 0.7071, 0.5, math.inf, math.inf)[place]
+            capacity = (1.0, 0.7071, 1.4142, math.inf, 0.7071, 0.5)[place]
             edge = capacity / 2.0**0.25
             exact = edge**-2.0 - row.highest**-2.0 if edge < row.highest else 0.0
             assert row.rate == pytest.approx(exact, rel=1e-3)
@@ -148,7 +146,7 @@ def test_rate_is_the_hazard_from_the_boundary_on():
 
 
 def test_motions_are_resampled_within_their_earthquake():
-    one = overturning_from(*[0.5] * 8, seconds=[2.0] * 8)
+    one = overturning_from(*[0.5] * 6, seconds=[2.0] * 6)
     both, first, second = found_in(one)[:3]
     assert [m.labels["earthquake"] for m in (both, first, second)] == ["both", "M 6.5", "M 7.3"]
     for motions, shares in ((both, (0.5, 1.0)), (first, (1.0, 1.0)), (second, (0.0, 1.0))):
@@ -166,7 +164,7 @@ def test_order_of_the_shards_does_not_matter(shards):
 
 
 def test_shard_that_is_not_complete_is_named(shards):
-    with pytest.raises(ValueError, match="near-fault: 95 rows of outcomes; expected 12"):
+    with pytest.raises(ValueError, match="near-fault: 71 rows of outcomes; expected 12"):
         found_in(shards[1:])
 
 
@@ -183,7 +181,7 @@ def test_difference_of_probabilities_is_that_of_the_column(shards):
 
 
 def test_factors_bring_motions_to_the_stated_velocity():
-    table = overturning_from(*[0.5] * 8)  # every motion has a PGV of 0.5 m/s
+    table = overturning_from(*[0.5] * 6)  # every motion has a PGV of 0.5 m/s
     rows = rates.scales(found_in(table)[0], CASE)
     assert [(row["pgv"], row["median"], row["p95"]) for row in rows] == [
         (0.6, pytest.approx(1.2), pytest.approx(1.2)),
@@ -208,7 +206,7 @@ def test_survival_is_that_of_a_poisson_process():
 
 def tables(**change):
     """Rates over the column's as they are expected, but for the `change` of a structure."""
-    over = {FREE: (0.4, 0.5, 0.6), FIXED: (1.5, 1.8, 2.0), PORTAL: (0.0, 0.0, 0.0)}
+    over = {FREE: (0.4, 0.5, 0.6), FIXED: (1.5, 1.8, 2.0)}
     rows = []
     for name, ends in over.items():
         for column in (0.0, 0.1):
@@ -229,7 +227,6 @@ def tables(**change):
         ({}, set()),
         ({"free_0": {"over_high": 1.01}}, {"cap_lowers_the_rate"}),
         ({"fixed_0": {"over_low": 0.99}}, {"fixed_mass_raises_the_rate"}),
-        ({"portal_0": {"rate_high": 0.45}}, {"portal_has_the_lowest_rate"}),
         ({"free_0.1": {"over_high": 1.01}}, {"lower_column_keeps_the_order"}),
         ({"stated": {"interval": "is negative"}}, {"cap_never_raises_the_probability"}),
         ({"stated": {"interval": "includes zero"}}, set()),
