@@ -69,10 +69,10 @@ function outline(data) {
 
 /** Set the plane of the map, and whom it compares. */
 function frameMap() {
-  const file = fileOf(state), other = state.cap === "fixed" ? "the portal" : "the frame";
+  const file = fileOf(state), other = state.cap === "fixed" ? "the portal, or where it leaves the ground" : "the frame";
   spectrumChart.frame(planeOf(state, file), planeKeys(state, file), isSketched(state));
   byId("map-title").textContent = `Overturning of the column and of ${other}`;
-  for (const name of document.querySelectorAll("#key .other")) name.textContent = other;
+  for (const name of document.querySelectorAll("#key .other")) name.textContent = other.split(",")[0];
 }
 
 /** Start minima and map anew; the map only where it is not whole yet. */
@@ -108,7 +108,8 @@ function hear({ data }) {
     const cell = byId(`minimum${data.index}`);
     const block = structuresOf(state)[data.index], step = searchStep(block, data.minimum);
     const most = 30 * upliftAcceleration(block), decimals = Math.max(0, Math.round(-Math.log10(step)));
-    cell.textContent = data.minimum === Infinity ? `> ${round(most)}` : data.minimum.toFixed(decimals);
+    const number = data.minimum === Infinity ? `> ${round(most)}` : data.minimum.toFixed(decimals);
+    cell.textContent = data.leaves ? `leaves the ground from ${number}` : number;
     cell.title = `search step ${round(step, 2)} g`;
     minima[data.index] = cell.dataset.value = data.minimum;
     cell.classList.remove("pending");
@@ -150,7 +151,7 @@ function receive(answer) {
   const list = Array.from(times), level = structures[0].uplift;
   structures.forEach((of, k) => {
     const reach = Math.max(1.4, of.overturned ? 0 : 1.15 * of.peak);
-    strips[k].show(list, toList(of.theta, of.alpha), [-reach, reach], of.overturned ? "overturns" : "survives");
+    strips[k].show(list, toList(of.theta, of.alpha), [-reach, reach], word(of));
     byId(`caption${k}`).innerHTML = `${TITLES[of.name]} <span class="${word(of)}-word">${outcome(of)}</span>`;
     byId(`history${k}`).setAttribute("aria-label", `Rotation of the ${of.name} over time: ${outcome(of)}`);
   });
@@ -165,8 +166,8 @@ function receive(answer) {
   document.documentElement.dataset.shown = answer.id; // of the state that was asked about
 }
 
-const word = (of) => (of.overturned ? "overturns" : "survives");
-const outcome = (of) => (of.overturned ? "overturns" : of.moved ? "survives" : "does not uplift");
+const word = (of) => (of.leaves ? "outside" : of.overturned ? "overturns" : "survives");
+const outcome = (of) => (of.leaves ? "leaves the ground, outside the model" : of.overturned ? "overturns" : of.moved ? "survives" : "does not uplift");
 
 for (const k of [0, 1, 2]) {
   const row = made("tr", {}, made("th", { scope: "row" }));
@@ -179,8 +180,8 @@ function table(structures) {
   const rows = byId("rows");
   structures.forEach((of, k) => {
     const numbers = [
-      TITLES[of.name].split(":")[0], outcome(of), of.overturned ? "–" : round(of.peak), null, round(of.uplift, 4), round((of.alpha * 180) / Math.PI, 4),
-      `${k === 2 ? "p̂ = " : "p = "}${round(of.p, 4)}`, `${k === 2 ? "R̂ = " : "R = "}${round(of.size, 4)}`, round(of.restitution, 4), of.moved ? round(of.friction) : "–",
+      TITLES[of.name].split(":")[0], outcome(of), of.overturned || of.leaves ? "–" : round(of.peak), null, round(of.uplift, 4), round((of.alpha * 180) / Math.PI, 4),
+      `${k === 2 ? "p̂ = " : "p = "}${round(of.p, 4)}`, `${k === 2 ? "R̂ = " : "R = "}${round(of.size, 4)}`, round(of.restitution, 4), of.moved && !of.leaves ? round(of.friction) : "–",
     ];
     numbers.forEach((text, i) => text !== null && (rows.children[k].children[i].textContent = text));
     rows.children[k].children[1].className = `${word(of)}-word`;

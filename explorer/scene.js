@@ -106,7 +106,7 @@ class Scene {
 
   /** Colour each structure by its outcome. */
   outcomes(structures) {
-    this.groups.forEach((group, k) => group.setAttribute("class", structures[k].overturned ? "overturns" : "survives"));
+    this.groups.forEach((group, k) => group.setAttribute("class", structures[k].leaves ? "outside" : structures[k].overturned ? "overturns" : "survives"));
   }
 
   /** Show the rotations (rad), the ground displacement (m) and its acceleration over the largest. */

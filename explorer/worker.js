@@ -49,6 +49,17 @@ function motionOf(state, file, a = accelerationOf(state, file), omega = omegaOf(
   return pulse(state.shape, a, omega);
 }
 
+/** Whether the ground would have to pull the base of a portal: the model then has no answer. */
+const leavesGround = (block, motion, found) => block.name === "portal" && largestFriction(block, motion, found) === Infinity;
+
+/** Whether a structure overturns under a motion of peak a (g), or is a portal that leaves the ground. */
+function failsAt(state, file, block, a, omega) {
+  const motion = motionOf(state, file, a, omega), start = startOf(state, block, a, omega);
+  if (block.name !== "portal") return rock(block, motion, start).overturned;
+  const found = rock(block, motion, { ...start, until: motion.end + 10 / block.p });
+  return found.overturned || leavesGround(block, motion, found);
+}
+
 /** How a structure starts: at rest, or with the velocity of an abrupt start. */
 function startOf(state, block, a, omega = omegaOf(state)) {
   const abrupt = state.shape === "harmonic" && state.start === "abrupt";
@@ -65,7 +76,7 @@ function histories(state, file) {
     return {
       name: block.name, alpha: block.alpha, p: block.p, size: equivalentSize(block), restitution: block.restitution,
       uplift: upliftAcceleration(block), theta, overturned: found.overturned, moved: found.moved,
-      peak: found.peak / block.alpha, impacts: found.impacts, flatAt: found.flatAt,
+      peak: found.peak / block.alpha, impacts: found.impacts, flatAt: found.flatAt, leaves: leavesGround(block, motion, found),
       friction: block.linearised ? NaN : largestFriction(block, motion, found),
     };
   });
@@ -91,9 +102,12 @@ function displacementOf(times, ground) {
   return moved;
 }
 
-/** The minimum overturning acceleration of a structure under the motion of a state, g. */
+/** The minimum overturning acceleration of a structure under the motion of a state, g; of a portal
+    that leaves the ground below, the least acceleration at which it does. */
 function minimumOf(state, file, block) {
-  return minimumOverturning(block, (a) => rock(block, motionOf(state, file, a), startOf(state, block, a)).overturned);
+  const minimum = minimumOverturning(block, (a) => failsAt(state, file, block, a)), a = minimum * (1 + 1e-9);
+  const leaves = block.name === "portal" && minimum < Infinity && !rock(block, motionOf(state, file, a), startOf(state, block, a)).overturned;
+  return { minimum, leaves };
 }
 
 /** Whether a relative change of the motion by 10⁻⁹ changes the outcome, or the peak by α/1000. */
@@ -140,8 +154,8 @@ function planeKeys(state, file) {
 function cellOf(state, file, plane, blocks, x, y) {
   const a = y * Math.tan(blocks[0].alpha), omega = plane.isRecord ? 1 : x * blocks[0].p;
   const [alone, , other] = plane.isRecord ? structuresOf(state, x / blocks[0].lever) : blocks;
-  const falls = (block) => rock(block, motionOf(state, file, a, omega), startOf(state, block, a, omega)).overturned;
-  return (falls(alone) ? COLUMN_FALLS : 0) + (falls(other) ? FRAME_FALLS : 0);
+  const fails = (block) => failsAt(state, file, block, a, omega);
+  return (fails(alone) ? COLUMN_FALLS : 0) + (fails(other) ? FRAME_FALLS : 0);
 }
 
 /** Fill the map in four rounds, each twice as fine, and report each tenth of a second. A sketch ends
@@ -190,7 +204,7 @@ if (typeof window === "undefined" && typeof postMessage === "function") {
       }
       const blocks = structuresOf(state);
       blocks.forEach((block, index) => postMessage({ id, index, isSensitive: isSensitive(state, file, block) }));
-      blocks.forEach((block, index) => postMessage({ id, index, minimum: minimumOf(state, file, block) }));
+      blocks.forEach((block, index) => postMessage({ id, index, ...minimumOf(state, file, block) }));
       if (needsSpectrum) spectrum(state, file, (part) => postMessage({ id, ...part }));
     } catch (error) {
       postMessage({ id, error: error.message });

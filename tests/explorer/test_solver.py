@@ -7,10 +7,13 @@ import numpy as np
 import pytest
 
 from steps.explorer import DEFAULTS, blocks, motion, options
+from steps.shared.bearing import bearing
 from topheavy import (
     Cap,
     Column,
     FixedMassColumn,
+    MonolithicPortal,
+    Pulse,
     RockingFrame,
     contact_forces,
     minimum_overturning,
@@ -234,6 +237,33 @@ def searched(structure, unit, windows):
         if found:
             return 0.5 * sum(found)
     return math.inf
+
+
+OFF = "leaves the ground from 1.68"
+
+
+@pytest.mark.parametrize(
+    ("span", "peak", "leaves", "shown"),
+    [(2.6, 0.9, False, "1.11"), (4.2, 1.6, False, OFF), (4.2, 1.8, True, OFF)],
+)
+def test_portal_that_leaves_the_ground_has_no_minimum(browser, span, peak, leaves, shown):
+    browser.open_to_compute()
+    state = {"b": 0.5, "h": 3.0, "g": 1.0, "L": span, "cap": "fixed", "shape": "one-cosine"}
+    browser.begin(state | {"a": peak, "T": 1.5})
+    of = browser.do("found.structures[2]")
+    assert of["leaves"] is leaves
+    words = browser.do("document.getElementById('caption2').textContent")
+    assert ("outside the model" in words) == leaves
+    assert words.endswith("survives") == (not leaves)
+    cell = browser.do("[minimum2.textContent, Number(minimum2.dataset.value)]")
+    assert cell[0] == shown
+    alone = MonolithicPortal(Column(0.5, 3.0), 1.0, span)
+    motion = Pulse("one-cosine", 1.0, 2.0 * math.pi / 1.5)
+    if shown == OFF:
+        expected, step = bearing(alone, motion, 1.8).pulled_from, 3e-3  # of the page's pieces
+    else:
+        expected, step = minimum_overturning(alone, motion, (0.5, 2.0), resolution=1e-3)[0], 1e-6
+    assert cell[1] == pytest.approx(expected, rel=step)
 
 
 @pytest.mark.parametrize("number", range(6))
