@@ -385,6 +385,7 @@ function pick(x, y) {
     const sizes = Object.fromEntries(["b", "h", "L"].map((key) => [key, short(state[key] * scale)]));
     controls.apply({ ...sizes, x: short(a / fileOf(state).peak) }, true, "shape");
   } else controls.apply({ a: short(a), T: short((2 * Math.PI) / (x * alone.p)) }, true, "shape");
+  spectrumChart.plane = planeOf(state, fileOf(state)); // a key may come before the next picture
 }
 
 /** Read a file that was opened or dropped, in a worker of its own, and shake with it. The last one counts. */
