@@ -6,6 +6,8 @@ import pandas as pd
 
 from steps.shared.published import Numbers, computed, config_of, from_to
 
+FAMILIES = ("near-fault", "broadband")
+
 
 def motions(reference: Path, table: str, **place: float) -> pd.DataFrame:
     """Return the rows of a table of the study on temple columns, one for each family."""
@@ -25,9 +27,11 @@ def of_pulses(reference: Path) -> list[str]:
 
 def of_many_motions(reference: Path) -> list[str]:
     gains = motions(reference, "reversals_medians", mass_ratio=1.0, as_large_as=0)
-    reversed_ = motions(reference, "reversals_pairs", lighter=0, heavier=1.0).motions
+    pairs = motions(reference, "reversals_pairs", lighter=0, heavier=1.0)
+    differ = (pairs.only_heavier, pairs.only_lighter)
+    shares = [f"{100 * share:.1f}" for of in differ for share in of[[*FAMILIES]]]
     ends = [f"{100 * end:.1f}" for end in (gains.gain_low.min(), gains.gain_high.max())]
-    return [*from_to(gains.gain, 1).split(" to "), *ends, *from_to(reversed_, 1).split(" to ")]
+    return [*from_to(gains.gain, 1).split(" to "), *ends, *shares]
 
 
 HEADLINES: dict[str, Numbers] = {"Reversals": of_pulses, "Many motions": of_many_motions}

@@ -181,37 +181,41 @@ def capacities(ensemble: Ensemble, middle: np.ndarray) -> pd.DataFrame:
 def differing(ensemble: Ensemble, outcomes: np.ndarray) -> list[np.ndarray]:
     """Return for each pair of frames the cells in which only the lighter, only the heavier falls.
 
-    With the motions under which the heavier alone falls at some level, these are three arrays. The
-    outcomes have the shape (motions, subjects, levels).
+    The outcomes have the shape (motions, subjects, levels).
     """
     found = []
     for i, j in itertools.combinations(ensemble.frames.values(), 2):
         one, other = outcomes[:, i], outcomes[:, j]
-        found += [one & ~other, other & ~one, (other & ~one).any(axis=1)]
+        found += [one & ~other, other & ~one]
     return found
+
+
+def over_levels(shares: np.ndarray) -> np.ndarray:
+    """Return the mean of shares of shape (..., levels) over the logarithm of the intensity.
+
+    By the trapezoidal rule, so that more levels in the same range give nearly the same mean.
+    """
+    return np.trapezoid(shares, axis=-1) / (shares.shape[-1] - 1)
 
 
 def pairs(ensemble: Ensemble, means: list[np.ndarray]) -> pd.DataFrame:
     """Return for each pair of frames the shares of cells, motions at levels, that differ.
 
-    `means` are those of `differing`.
-
-    `reversed` is the share of these in which the heavier falls; `motions` the share of the motions
-    that do it at some level.
+    `means` are those of `differing`; the shares are means over the levels. `reversed` is the share
+    of these in which the heavier falls.
     """
     rows = []
     cells = ensemble.motions * ensemble.levels.size
-    triples = zip(means[::3], means[1::3], means[2::3], strict=True)
     of_pairs = itertools.combinations(ensemble.frames, 2)
-    for (light, heavy), (bought, lost, some) in zip(of_pairs, triples, strict=True):
-        bought, lost = bought.mean(axis=1), lost.mean(axis=1)
+    both = zip(means[::2], means[1::2], strict=True)
+    for (light, heavy), shares in zip(of_pairs, both, strict=True):
+        bought, lost = map(over_levels, shares)
         rows.append(
             ensemble.labels
             | {"lighter": light, "heavier": heavy, "cells": cells}
             | ensemble.bounds("only_lighter", bought)
             | ensemble.bounds("only_heavier", lost)
             | ensemble.bounds("reversed", lost / (bought + lost + TINY))
-            | ensemble.bounds("motions", some)
         )
     return pd.DataFrame(rows)
 

@@ -1,20 +1,30 @@
 """The steps about motions: what is paired, counted and told."""
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import pytest
 from scipy.special import ndtr
 
+from replication.inputs.strict_yaml import read_yaml
 from steps.shared.outcomes import FALLS, STANDS, read, written
 from studies.reversals.steps import motions_check, motions_fragility, motions_records, motions_shard
-from topheavy import Column, Record, RockingFrame, judge
+from topheavy import (
+    STANDARD_GRAVITY,
+    Column,
+    Record,
+    RockingFrame,
+    judge,
+    overturned_together,
+)
 from topheavy.fragility import resampling
 from topheavy.fragility.resampling import ResampledMeans
-from topheavy.synthetic.ensemble import draws, factors, intensities, subjects
+from topheavy.synthetic.ensemble import draws, factors, first_draws, intensities, subjects
 from topheavy.synthetic.motions import peak_velocity, strength
 
+ROOT = Path(__file__).resolve().parents[3]
 STRUCTURES = {"temple": {"half_width": 0.5, "half_height": 3.0}}
 CASE = {
     "run": "default",
@@ -97,13 +107,46 @@ def test_pairs_count_what_differs():
     sums = ResampledMeans(len(outcomes), 50, 1)
     sums.add(motions_fragility.differing(ensemble, outcomes))
     (pair,) = motions_fragility.pairs(ensemble, sums.means()).itertuples()
-    assert (pair.only_lighter, pair.only_heavier) == pytest.approx((2 / 6, 1 / 6))
-    assert (pair.reversed, pair.motions) == pytest.approx((1 / 3, 1 / 2))
+    assert (pair.only_lighter, pair.only_heavier) == pytest.approx((3 / 8, 1 / 8))
+    assert pair.reversed == pytest.approx(1 / 4)
+
+
+def test_shares_hardly_depend_on_the_number_of_levels():
+    """Twice as many levels move the published shares by less than half of their intervals."""
+    study, config = (
+        read_yaml(ROOT / path) for path in ("studies/reversals/config.yaml", "config/config.yaml")
+    )
+    case = study["motions_ensemble"]
+    column = Column(**config["structures"]["temple"])
+    under = [RockingFrame(column, gamma) for gamma in (0.0, 1.0)]
+    unit = STANDARD_GRAVITY * column.uplift_acceleration / column.frequency_parameter
+    ends = [case["intensities"][end] for end in ("lowest", "highest")]
+    count = case["intensities"]["points"]
+    pgvs = np.broadcast_to(unit * np.geomspace(*ends, 2 * count - 1), (2, 2 * count - 1))
+    table = pd.read_csv(ROOT / "tests/reference/studies/reversals_pairs.csv")
+    table = table.query("structure == 'temple' and lighter == 0 and heavier == 1")
+    for row in table.itertuples():
+        fell = np.array(
+            [
+                overturned_together(under, record, pgvs / record.peak_velocity)
+                for draw in first_draws(case, 100)
+                if draw.family == row.family
+                for record in [draw.record()]
+            ]
+        )
+        light, heavy = fell[:, 0], fell[:, 1]
+        for name, cells in (("only_lighter", light & ~heavy), ("only_heavier", heavy & ~light)):
+            twice, once = (
+                float(motions_fragility.over_levels(cells.mean(axis=0)[::step])) for step in (1, 2)
+            )
+            width = getattr(row, f"{name}_high") - getattr(row, f"{name}_low")
+            assert abs(twice - once) < 0.5 * width
 
 
 def test_findings_come_with_intervals_around_their_values(shards):
     tables, findings = motions_fragility.main(CASE, STRUCTURES, shards)
-    for name, value in (("fragility", "probability"), ("medians", "median"), ("pairs", "motions")):
+    values = {"fragility": "probability", "medians": "median", "pairs": "only_heavier"}
+    for name, value in values.items():
         table = tables[name]
         assert (table[f"{value}_low"] <= table[value] + 1e-12).all()
         assert (table[value] <= table[f"{value}_high"] + 1e-12).all()
