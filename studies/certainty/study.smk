@@ -158,8 +158,8 @@ rule certainty_break_even:
             "results/shards/certainty_break_even_{scatteritem}.csv"
         ),
     output:
-        gains="results/tables/certainty_gains.csv",
         table="results/tables/certainty_break_even.csv",
+        median="results/tables/certainty_break_even_median.csv",
         measured="results/tables/certainty_measured.csv",
         findings="results/findings/certainty_break_even.json",
     params:

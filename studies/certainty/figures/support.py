@@ -12,9 +12,10 @@ SUPPORTS = {  # from the lowest row upwards
 }
 FAMILIES = {"near-fault": ("o", 0.14), "broadband": ("s", -0.14)}  # marker and place in a row
 WAYS = {  # from the lowest row upwards
-    ("column alone", 0.9): "10 % lower",
-    ("column alone", 0.95): "5 % lower",
-    ("both", 1.0): "by Eq. (25)",
+    ("column alone", 0.9): "column, 10 % lower",
+    ("column alone", 0.95): "column, 5 % lower",
+    ("both", 1.0): "both by Eq. (25)",
+    ("frame alone", 0.95): "frame, 5 % lower",
 }
 
 
@@ -31,7 +32,7 @@ def dots(axis, rows, value, at, colour, family):
 def draw(certainty_intensities, certainty_benefit):
     table = certainty_intensities
     table = table[(table.structure == STRUCTURE) & (table.measure == "pgv") & (table.level == PGV)]
-    figure, axes = sheet(SINGLE, 84, nrows=2, height_ratios=(1.15, 1))
+    figure, axes = sheet(SINGLE, 90, nrows=2, height_ratios=(1.15, 1.15))
     for at, (support, (_, colour)) in enumerate(SUPPORTS.items()):
         for family in FAMILIES:
             rows = table[(table.support == support) & (table.family == family)]
@@ -47,19 +48,17 @@ def draw(certainty_intensities, certainty_benefit):
             ]
             dots(axes[1], rows, "less", at, INK, family)
     axes[1].axvline(0.0, color=GREY, linewidth=0.7)
-    note(axes[1], "frame is safer", (0.5, 2.62), color=GREY)
-    note(axes[1], "column is safer", (-0.5, 2.62), color=GREY, ha="right")
+    note(axes[1], "frame is safer", (0.5, 3.62), color=GREY)
+    note(axes[1], "column is safer", (-0.5, 3.62), color=GREY, ha="right")
     axes[0].set(xlim=(0, 65), ylim=(-0.5, 2.5), xlabel="Probability of overturning (%)")
     axes[0].set_yticks(range(3), [words for words, _ in SUPPORTS.values()])
-    axes[1].set(xlim=(-13, 18), ylim=(-0.5, 2.85))
+    axes[1].set(xlim=(-13, 24), ylim=(-0.5, 3.95))
     axes[1].set_xlabel("Probability of column less that of frame (points)")
-    axes[1].set_yticks(range(3), WAYS.values())
-    axes[1].set_ylabel(r"$\sqrt{r}$ of the column")
+    axes[1].set_yticks(range(4), WAYS.values())
+    axes[1].set_ylabel(r"$\sqrt{r}$")
     for axis in axes:
         axis.tick_params(axis="y", length=0)
-    letter(
-        axes, [f"Overturning at a PGV of {PGV:g} m/s", "Benefit, if the column alone loses more"]
-    )
+    letter(axes, [f"Overturning at a PGV of {PGV:g} m/s", "Benefit, if one of the two loses more"])
     return figure
 
 

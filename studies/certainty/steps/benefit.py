@@ -11,14 +11,14 @@ import pandas as pd
 
 from replication.workbench import Finding, run, truth
 from steps.shared.spectrum import progress
-from studies.certainty.steps.restitution import changed
+from studies.certainty.steps.restitution import bounds, changed
 from topheavy import Column, Fragility, RockingFrame, fragility, judge, reference
-from topheavy.fragility.resampling import NEGATIVE, POSITIVE
+from topheavy.fragility.resampling import NEGATIVE, POSITIVE, means, resampled
 from topheavy.structures import Structure
 from topheavy.synthetic.ensemble import first_draws
 from topheavy.synthetic.motions import peak_velocity
 
-BOTH, COLUMN_ALONE = "both", "column alone"
+BOTH, COLUMN_ALONE, FRAME_ALONE = "both", "column alone", "frame alone"
 
 
 def called(name: str, factor: float) -> str:
@@ -40,11 +40,12 @@ def structures(settings: dict) -> dict[str, Structure]:
 def compared(factors: list[float]) -> dict[tuple[str, float], tuple[str, str]]:
     """Return the column and the frame of each comparison, by the way and the factor.
 
-    The column alone is changed if its factor is lower than 1.
+    One of them alone is changed if the factor is lower than 1.
     """
     found = {(BOTH, f): (called("column", f), called("frame", f)) for f in factors}
     lowered = [factor for factor in factors if factor < 1.0]
-    return found | {(COLUMN_ALONE, f): (called("column", f), "frame") for f in lowered}
+    found |= {(COLUMN_ALONE, f): (called("column", f), "frame") for f in lowered}
+    return found | {(FRAME_ALONE, f): ("column", called("frame", f)) for f in lowered}
 
 
 def fragilities(settings: dict, ensemble: dict) -> dict[str, Fragility]:
@@ -79,9 +80,15 @@ def outcomes(found: dict[str, Fragility]) -> pd.DataFrame:
 
 
 def differences(settings: dict, found: dict[str, Fragility]) -> pd.DataFrame:
-    """Return for each family and change the probability of the column less that of the frame."""
-    rows = []
+    """Return for each family and change the probabilities of column and frame, compared.
+
+    The first less the second, and the second over the first, with intervals of the same resamples.
+    """
+    rows, boot = [], settings["bootstrap"]
     for family, one in found.items():
+        weights = resampled(len(one.outcomes), boot["resamples"], settings["seed"])
+        names = one.curves.structure.to_numpy().tolist()
+        shares = dict(zip(names, means(weights, one.outcomes[..., 0]).T, strict=True))
         curves, pairs = one.curves.isel(level=0), one.pairs.isel(level=0)
         for (way, factor), (column, frame) in compared(settings["factors"]).items():
             (pair,) = np.flatnonzero((pairs["first"] == column) & (pairs.second == frame))
@@ -93,8 +100,14 @@ def differences(settings: dict, found: dict[str, Fragility]) -> pd.DataFrame:
                 | {"only_column": int(of.only_first), "only_frame": int(of.only_second)}
                 | {name: float(of[name]) for name in ("less", "less_low", "less_high")}
                 | {"interval": of.less_words.item()}
+                | bounds("over", over(shares[frame], shares[column]), boot)
             )
     return pd.DataFrame(rows)
+
+
+def over(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    """Return the ratio of two shares in each resample, NaN where the second is zero."""
+    return first / np.where(second > 0.0, second, np.nan)
 
 
 def confirmed(settings: dict, ensemble: dict, fell: pd.DataFrame) -> Finding:
@@ -134,10 +147,22 @@ def findings(certainty_benefit: pd.DataFrame) -> dict[str, Finding]:
     both, alone = (table[table.way == way] for way in (BOTH, COLUMN_ALONE))
     lowest = alone[alone.factor == alone.factor.min()]
     return {
-        "frame_is_safer": truth((both.interval == POSITIVE).all(), **said(both)),
+        "frame_is_safer": truth(
+            (both.interval == POSITIVE).all(), shrinks=shrinks(both), **said(both)
+        ),
         "remains": truth((alone.interval == POSITIVE).all(), **said(alone)),
         "reverses": truth((lowest.interval == NEGATIVE).all(), **said(lowest)),
     }
+
+
+def shrinks(both: pd.DataFrame) -> bool:
+    """Return whether the difference of each family is smaller the lower the common factor is.
+
+    The intervals for the lowest factor have to lie below those of Eq. (25).
+    """
+    of = both.set_index(["factor", "family"])
+    lowest, unchanged = of.loc[both.factor.min()], of.loc[1.0]
+    return bool((lowest.less_high < unchanged.less_low).all())
 
 
 def said(rows: pd.DataFrame) -> dict:

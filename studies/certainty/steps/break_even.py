@@ -1,36 +1,35 @@
-"""At which deficit of the column's √r, or raise of the frame's, the benefit of the cap beam ends.
+"""At which deficit of the column's √r the benefit of the cap beam ends.
 
-The gain is the probability that the column overturns less that of the frame under the same motions,
-drawn anew within each earthquake. It is undecided where its interval includes zero.
+The benefit is the probability that the column overturns less that of the frame, under the same
+motions. With a lower √r the column overturns less often, and the estimated difference falls, but
+for the scatter of a finite number of motions. It ends where its non-increasing (isotonic) fit is 0.
 """
 
+import math
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
+from scipy.optimize import isotonic_regression
 
 from replication.workbench import Finding, run, truth
-from studies.certainty.changed import COLUMN, FRAME, Subject, columns, subjects
+from steps.shared.spectrum import progress
+from studies.certainty.changed import Subject, columns, shares, subjects
 from studies.certainty.rated import fallen, stated
+from studies.certainty.second import beside_a_boundary
 from topheavy import Column, judge, reference
-from topheavy.fragility.resampling import NEGATIVE, POSITIVE, in_words, interval, means_within
+from topheavy.fragility.resampling import means_within
 from topheavy.synthetic.ensemble import first_draws
 
 NUDGE = 1e-9  # of a motion: an outcome that this changes is undecided
-KEYS = ["family", "height", "mass_ratio", "way", "measure", "level"]
+LEAST, MOST = (
+    0.05,
+    0.95,
+)  # of the columns, of the frames that overturn: where a benefit is asked for
+FINE = 0.1  # of the interval of a deficit: what half the step may move it by
 
-
-def compared(under: list[Subject]) -> Iterator[tuple[str, float, int, int, int]]:
-    """Yield way, γ, and the places of the changed structure, of column and of frame compared."""
-    column = [place for place, one in enumerate(under) if one.mass_ratio == 0.0]
-    frames = [place for place, one in enumerate(under) if one.mass_ratio > 0.0]
-    for place in frames:
-        one = under[place]
-        yield FRAME, one.mass_ratio, place, column[0], place
-        if one.change == 0.0:
-            for lowered in column:
-                yield COLUMN, one.mass_ratio, lowered, lowered, place
+Vector = np.ndarray
 
 
 class Group(NamedTuple):
@@ -57,129 +56,163 @@ def groups(shards: pd.DataFrame, settings: dict, ensemble: dict) -> Iterator[Gro
             yield Group(family, column, under, fell, firsts)
 
 
-def gains(group: Group, settings: dict) -> pd.DataFrame:
-    """Return the gain and its interval, by γ, changed √r and intensity."""
-    under, boot, found = group.under, settings["bootstrap"], []
-    measures, levels, pgvs = zip(*stated(group.column, settings), strict=True)
-    quakes = group.motions.scenario.tolist()
-    means = means_within(group.fell, quakes, boot["resamples"], settings["seed"])
-    for way, gamma, place, first, second in compared(under):
-        ends = interval(means[:, first] - means[:, second], boot["confidence"])
-        found.append(
-            {"family": group.family, "height": under[0].height, "mass_ratio": gamma, "way": way}
-            | {"change": under[place].change, "restitution": under[place].block.restitution}
-            | {"measure": measures, "level": levels, "pgv": pgvs, "motions": len(quakes)}
-            | {"column": means[0, first], "frame": means[0, second]}
-            | dict(zip(("gain", "gain_low", "gain_high"), ends, strict=True))
-            | {"interval": list(map(in_words, *ends[1:]))}
-        )
-    return pd.concat(map(pd.DataFrame, found))
+def end_of(deficits: Vector, benefits: Vector) -> float:
+    """Return the deficit at which the non-increasing fit of the benefits reaches zero.
+
+    Lines join the centres of its blocks, over which it is constant. Infinite where it is positive
+    in the last block.
+    """
+    fit = isotonic_regression(benefits, increasing=False)
+    first, last = fit.blocks[:-1], fit.blocks[1:] - 1
+    centres, values = 0.5 * (deficits[first] + deficits[last]), fit.x[first]
+    ended = np.flatnonzero(values <= 0.0)
+    if not ended.size:
+        return math.inf
+    place = int(ended[0])
+    if place == 0:
+        return 0.0
+    before, step = place - 1, centres[place] - centres[place - 1]
+    return float(centres[before] + step * values[before] / (values[before] - values[place]))
+
+
+def ends(group: Group, settings: dict, seed: int) -> Iterator[tuple[dict, Vector]]:
+    """Yield the labels of each cell, and its ends: of the ensemble, then of its resamples.
+
+    Only of cells in which at no deficit enough columns overturn, and enough frames do not. Motions
+    are resampled within each earthquake, the same for all structures and levels.
+    """
+    deficits, under = shares(settings["deficits"]), group.under
+    quakes, resamples = group.motions.scenario.tolist(), settings["bootstrap"]["resamples"]
+    means = means_within(group.fell, quakes, resamples, seed)
+    for place, frame in enumerate(under[deficits.size :], start=deficits.size):
+        for number, (measure, level, pgv) in enumerate(stated(group.column, settings)):
+            column, other = means[:, : deficits.size, number], means[:, place, number]
+            if column[0, 0] < LEAST or other[0] > MOST:
+                continue
+            benefits = column - other[:, None]
+            labels = {"family": group.family, "height": frame.height}
+            labels |= {"mass_ratio": frame.mass_ratio, "measure": measure, "level": level}
+            labels |= {"pgv": pgv, "column": column[0, 0], "frame": other[0]}
+            labels["coarser"] = end_of(deficits[::2], benefits[0, ::2])
+            yield labels, np.array([end_of(deficits, one) for one in benefits])
+
+
+def bounds(found: Vector, confidence: float) -> dict[str, float]:
+    """Return an end and its interval; infinite where it is beyond the last deficit."""
+    tail = (1.0 - confidence) / 2.0
+    low, high = np.quantile(found[1:], (tail, 1.0 - tail), method="nearest")
+    return {"end": found[0], "end_low": low, "end_high": high}
 
 
 def confirmed(sampled: list[Group], settings: dict, ensemble: dict) -> Finding:
-    """Return whether SciPy finds the same outcomes, each the lowest level that overturns.
+    """Return whether SciPy finds the same outcomes, of a seeded sample, half beside a boundary.
 
-    Of a seeded sample. Outcomes that a billionth of the motion changes are not compared.
+    Outcomes that a billionth of the motion changes are not compared.
     """
     random, told, differ = np.random.default_rng(settings["seed"]), 0, 0
     every = first_draws(ensemble, settings["runs"][settings["run"]]["motions"])
     draws = {tuple(draw.labels.values()): draw for draw in every}
-    for number in range(settings["checked"]):
+    count = settings["checked"]
+    for number in progress(range(count), count, "checks"):
         group = sampled[number % len(sampled)]
-        motion, place = random.choice(np.argwhere(group.fell.any(axis=-1)))
-        level = int(np.argmax(group.fell[motion, place]))
-        row = group.motions.iloc[motion]
+        motion, place = (int(random.integers(size)) for size in group.fell.shape[:2])
+        level = int(random.integers(group.fell.shape[2]))
+        row, block = group.motions.iloc[motion], group.under[place].block
         record = draws[row.family, row.scenario, row.motion].record()
         *_, pgv = stated(group.column, settings)[level]
-        block, scaled = group.under[place].block, record.scaled(pgv / record.peak_velocity)
-        near = {judge(block, scaled.scaled(1.0 + n)).overturned for n in (-NUDGE, 0.0, NUDGE)}
+        factor = pgv / record.peak_velocity
+
+        def overturns(by: float, block=block, record=record) -> bool:
+            return judge(block, record.scaled(by)).overturned
+
+        fell = bool(group.fell[motion, place, level])
+        if number % 2:
+            factor = beside_a_boundary(overturns, factor)
+        near = {overturns(factor * (1.0 + n)) for n in (-NUDGE, 0.0, NUDGE)}
         if len(near) == 1:
             told += 1
-            differ += reference.judge(block, scaled).overturned != group.fell[motion, place, level]
-    return truth(differ == 0 and told > 0, checked=settings["checked"], told=told, differ=differ)
-
-
-def break_even(table: pd.DataFrame) -> pd.DataFrame:
-    """Return for each comparison the changes at which the interval of the gain includes zero.
-
-    `lowest` and `highest` are the ends of this set on the grid; `connected` says that it has all
-    changes between them. NaN if the set is empty. `until` is the first change at which the
-    interval is not positive, NaN if there is none.
-    """
-    found = []
-    for labels, rows in table.groupby(KEYS, sort=False):
-        unchanged, last = rows.iloc[0], rows.iloc[-1]
-        places = np.flatnonzero(~rows.interval.isin([POSITIVE, NEGATIVE]))
-        change, ended = rows.change.to_numpy(), (rows.interval != POSITIVE).to_numpy()
-        zero = change[places]
-        found.append(
-            dict(zip(KEYS, labels, strict=True))
-            | {"column": unchanged.column, "frame": unchanged.frame}
-            | {"unchanged": unchanged.interval, "changed_most": last.interval}
-            | {"lowest": zero.min(initial=np.inf), "highest": zero.max(initial=-np.inf)}
-            | {"until": change[ended].min(initial=np.inf)}
-            | {"undecided": len(zero), "connected": bool((np.diff(places) == 1).all())}
-            | {"largest": last.change, "restitution": last.restitution}
-        )
-    return pd.DataFrame(found).replace([np.inf, -np.inf], np.nan)
+            differ += reference.judge(block, record.scaled(factor)).overturned != fell
+    return truth(
+        differ == 0 and told > 0,
+        checked=settings["checked"],
+        near_a_boundary=settings["checked"] // 2,
+        told=told,
+        differ=differ,
+    )
 
 
 def main(settings: dict, ensemble: dict, shards: pd.DataFrame) -> tuple:
-    found = list(groups(shards, settings, ensemble))
-    table = pd.concat([gains(group, settings) for group in found], ignore_index=True)
-    sets = break_even(table)
+    found, confidence = (
+        list(groups(shards, settings, ensemble)),
+        settings["bootstrap"]["confidence"],
+    )
+    rows, every = [], []
+    for group in found:
+        seed = settings["seed"] + ensemble["families"].index(group.family)
+        for labels, of in ends(group, settings, seed):
+            rows.append(labels | bounds(of, confidence))
+            every.append(of)
+    table = pd.DataFrame(rows)
+    middle = np.median(every, axis=0)
+    coarser = {"coarser": np.median(table.coarser)}
+    median = pd.DataFrame([coarser | bounds(middle, confidence)])
     measured = dict(
         zip(("least", "largest"), ([share] for share in settings["measured"]), strict=True)
     )
-    more = {"remains_at_measured": remains(sets, max(settings["measured"]))}
+    largest = float(shares(settings["deficits"])[-1])
+    more = {"remains_at_measured": remains(table, max(settings["measured"]))}
     more["break_even_by_scipy"] = confirmed(found, settings, ensemble)
-    return table, sets, pd.DataFrame(measured), findings(sets) | more
+    drawn = findings(table, median)
+    drawn["benefit_ends"] = drawn["benefit_ends"].with_evidence(largest=largest)
+    return table, median, pd.DataFrame(measured), drawn | more
 
 
-def findings(certainty_break_even: pd.DataFrame) -> dict[str, Finding]:
-    """Return where the benefit ends, from the table of sets.
-
-    Asked are the comparisons in which the interval is positive with √r of Eq. (25).
-    """
-    table = certainty_break_even
-    safer = table[table.unchanged == POSITIVE]
-    lowered, raised = (safer[safer.way == way] for way in (COLUMN, FRAME))
+def findings(
+    certainty_break_even: pd.DataFrame, certainty_break_even_median: pd.DataFrame
+) -> dict[str, Finding]:
+    """Return where the benefit ends, from the table of cells and their median."""
+    table, (median,) = certainty_break_even, certainty_break_even_median.to_dict("records")
+    known = table[np.isfinite(table.end)]
+    quoted = [median, table.loc[known.end.idxmin()], table.loc[known.end.idxmax()]]
+    moved = moves(pd.DataFrame(quoted))
     return {
-        "deficit_ends_the_benefit": truth(
-            len(lowered) > 0 and bool((lowered.changed_most != POSITIVE).all()), **ranged(lowered)
+        "benefit_ends": truth(
+            len(table) > 0 and len(known) == len(table),
+            compared=len(table),
+            beyond=len(table) - len(known),
+            least=float(table.end.min()),
+            most=float(known.end.max()),
+            lowest_end=float(table.end_low.min()),
+            median=told(median["end"]),
+            median_low=told(median["end_low"]),
+            median_high=told(median["end_high"]),
         ),
-        "raise_ends_the_benefit": truth(
-            len(raised) > 0 and bool((raised.changed_most != POSITIVE).all()), **ranged(raised)
-        ),
-        "undecided_deficits_are_connected": truth(
-            len(lowered) > 0 and bool(lowered.connected.all()),
-            compared=len(lowered),
-            apart=int((~lowered.connected.astype(bool)).sum()),
+        "step_is_fine_enough": truth(
+            bool((moved < FINE).all()),
+            limit=FINE,
+            largest=float(moved.max()),
+            cells_beyond=int((moves(table) >= FINE).sum()),
         ),
     }
 
 
-def ranged(rows: pd.DataFrame) -> dict[str, Any]:
-    """Return the evidence: what becomes of the comparisons, and from and up to which changes."""
-    return {
-        "compared": len(rows),
-        "remains": int((rows.changed_most == POSITIVE).sum()),
-        "reversed": int((rows.changed_most == NEGATIVE).sum()),
-        "least": float(rows.until.min()),
-        "most": float(rows.until.max()),
-        "median": float(rows.until.median()),
-        "largest": float(rows.largest.max()),
-    }
+def moves(rows: pd.DataFrame) -> pd.Series:
+    """Return by how much of its interval half the step moves an end."""
+    return (rows.coarser - rows.end).abs() / (rows.end_high - rows.end_low)
+
+
+def told(end: float) -> float | None:
+    """Return an end, None if it is beyond the last deficit: JSON has no infinity."""
+    return float(end) if math.isfinite(end) else None
 
 
 def remains(table: pd.DataFrame, deficit: float) -> Finding:
-    """Return whether the interval stays positive up to a deficit of the column's √r."""
-    safer = table[(table.unchanged == POSITIVE) & (table.way == COLUMN)]
-    kept = ~(safer.until <= deficit)
+    """Return whether the benefit ends beyond a deficit, in each cell."""
+    kept = table.end > deficit
     return truth(
-        len(safer) > 0 and bool(kept.all()),
+        len(table) > 0 and bool(kept.all()),
         deficit=deficit,
-        compared=len(safer),
+        compared=len(table),
         kept=int(kept.sum()),
     )
 

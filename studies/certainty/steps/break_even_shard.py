@@ -27,8 +27,12 @@ def outcomes(draw: Draw, under: list[Subject], pgvs: np.ndarray) -> list[dict[st
 
 def main(settings: dict, ensemble: dict, shard: str) -> pd.DataFrame:
     mine = shard_of(first_draws(ensemble, settings["runs"][settings["run"]]["motions"]), shard)
-    under = [one for column in columns(settings) for one in subjects(column, settings)]
-    pgvs = np.array([[pgv for *_, pgv in stated(one.column, settings)] for one in under])
+    of_each = [(column, subjects(column, settings)) for column in columns(settings)]
+    under = [one for _, some in of_each for one in some]
+    levels = [
+        [pgv for *_, pgv in stated(column, settings)] for column, some in of_each for _ in some
+    ]
+    pgvs = np.array(levels)
     found = (outcomes(draw, under, pgvs) for draw in mine)
     return pd.DataFrame(row for rows in progress(found, len(mine), "motions") for row in rows)
 

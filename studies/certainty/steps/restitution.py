@@ -14,6 +14,7 @@ import pandas as pd
 from replication.workbench import Finding, run, truth, value
 from steps.shared.spectra_compared import ends_of
 from steps.shared.spectrum import progress
+from studies.certainty.second import beside_a_boundary
 from topheavy import (
     STANDARD_GRAVITY,
     Column,
@@ -41,7 +42,6 @@ OF_MOTIONS = ["family", "way", "factor", "less", "less_low", "less_high", "inter
 """The columns of the table under pulses, and of the differences under motions."""
 
 RISES = 1e-8  # of a minimum: the rounding of its bracket
-NEAR = 1e-3  # of a factor: how far a boundary of overturning is at most, of half of the sample
 NUDGE = 1e-9  # of a motion: an outcome that this changes is undecided
 
 
@@ -231,22 +231,6 @@ def difference(less: np.ndarray, boot: dict) -> dict:
     return ends | {"interval": in_words(ends["less_low"], ends["less_high"])}
 
 
-def beside_a_boundary(
-    frame: RockingFrame, motion: Record, factor: float, ratios: np.ndarray
-) -> float:
-    """Return a factor with the same outcome that is within NEAR of one with the other outcome."""
-    fell, other = overturns(frame, motion, factor, ratios), factor
-    while overturns(frame, motion, other, ratios) == fell:
-        factor, other = other, other * (0.9 if fell else 1.1)
-    while abs(other / factor - 1.0) > NEAR:
-        middle = math.sqrt(factor * other)
-        if overturns(frame, motion, middle, ratios) == fell:
-            factor = middle
-        else:
-            other = middle
-    return factor
-
-
 def scatter_agrees(settings: dict, ensemble: dict) -> Finding:
     """Return whether SciPy gives the same outcomes, of a seeded sample of those with scattered √r.
 
@@ -263,7 +247,7 @@ def scatter_agrees(settings: dict, ensemble: dict) -> Finding:
         ratios = scattered(settings, draw, frame.restitution, low)[level]
         factor = levels[level] / peak_velocity(motion)
         if number % 2:
-            factor = beside_a_boundary(frame, motion, factor, ratios)
+            factor = beside_a_boundary(lambda by: overturns(frame, motion, by, ratios), factor)  # noqa: B023
         near = {overturns(frame, motion, factor * (1.0 + n), ratios) for n in (-NUDGE, 0.0, NUDGE)}
         if len(near) == 1:
             other = reference.judge(frame, motion.scaled(factor), restitutions=ratios)

@@ -6,10 +6,9 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from studies.certainty.changed import COLUMN, FRAME, columns, subjects
+from studies.certainty.changed import columns, subjects
 from studies.certainty.rated import stated
 from studies.certainty.steps import break_even, break_even_pulses, break_even_shard
-from studies.certainty.steps.restitution import HIGHEST
 from studies.certainty.tests.test_rates import COLUMN as TEMPLE
 from studies.certainty.tests.test_rates import ENSEMBLE
 from topheavy import Pulse, RockingFrame, overturned_by
@@ -20,7 +19,6 @@ CASE = {
     "sizes": [1.0, 2.0],
     "mass_ratios": [1e-12, 4.0],
     "deficits": {"highest": 1.0, "step": 0.25},
-    "raises": {"highest": 0.15, "step": 0.02},
     "run": "default",
     "runs": {"default": {"shards": 2, "motions": 4}},
     "pgv": [0.6, 1.0],
@@ -47,62 +45,54 @@ def groups():
 # Structures and gains -----------------------------------------------------------------------------
 
 
-def test_changed_restitutions_end_at_none_and_at_all():
+def test_columns_are_lowered_and_frames_are_not():
     small, large = columns(CASE)
     assert large == type(small)(1.0, 6.0)
-    under = subjects(small, CASE)
-    own = small.restitution
+    under, own = subjects(small, CASE), small.restitution
     lowered = [one.block.restitution for one in under if one.mass_ratio == 0.0]
     assert lowered == pytest.approx([own, 0.75 * own, 0.5 * own, 0.25 * own, 0.0])
-    assert under[0].block == small.block()
-    for gamma in CASE["mass_ratios"]:
-        some = [one for one in under if one.mass_ratio == gamma]
-        frame = RockingFrame(small, gamma)
-        assert some[0].block == frame.block()
-        assert some[-1].block.restitution == pytest.approx(HIGHEST)
-        for one in some:
-            assert one.block.restitution == pytest.approx((1.0 + one.change) * frame.restitution)
-    wide = subjects(small, CASE | {"raises": {"highest": 0.02, "step": 0.01}})
-    assert [one.change for one in wide[-3:]] == pytest.approx([0.0, 0.01, 0.02])
+    frames = [one.block for one in under if one.mass_ratio > 0.0]
+    assert [under[0].block, *frames] == [
+        RockingFrame(small, gamma).block() for gamma in (0.0, *CASE["mass_ratios"])
+    ]
 
 
-def test_gain_is_the_difference_of_the_counts(groups):
-    """Also in the limits: a frame without a cap beam gains nothing, a column is gained on as is."""
+def test_cells_have_the_benefit_of_the_counts(groups):
+    """At each deficit, in the cells in which enough columns and not too many frames overturn."""
     assert [(one.family, one.under[0].height) for one in groups] == [
         (family, height) for height in (6.0, 12.0) for family in ENSEMBLE["families"]
     ]
     group = groups[0]
-    table = break_even.gains(group, CASE)
     records = [d.record() for d in first_draws(ENSEMBLE, 4) if d.family == group.family]
-    pgvs = np.array([pgv for *_, pgv in stated(group.column, CASE)])
+    levels = stated(group.column, CASE)
 
-    def share(structure):
-        fell = [
-            overturned_by(structure, one, np.array(pgvs) / one.peak_velocity) for one in records
-        ]
-        return np.mean(fell, axis=0)
+    def shares(structure):
+        pgvs = np.array([pgv for *_, pgv in levels])
+        return np.mean([overturned_by(structure, r, pgvs / r.peak_velocity) for r in records], 0)
 
-    own, frame = TEMPLE.block(), RockingFrame(TEMPLE, 4.0).block()
-    for way, change, column, other in (
-        (COLUMN, 0.0, own, frame),
-        (COLUMN, 0.25, own.with_restitution(0.75 * own.restitution), frame),
-        (FRAME, 0.04, own, frame.with_restitution(1.04 * frame.restitution)),
-    ):
-        rows = table[(table.way == way) & (table.change == change) & (table.mass_ratio == 4.0)]
-        assert rows.gain.tolist() == pytest.approx(share(column) - share(other))
-        assert ((rows.gain_low <= rows.gain) & (rows.gain <= rows.gain_high)).all()
-    without = table[(table.mass_ratio < 1.0) & (table.change == 0.0)]
-    assert (without[["gain", "gain_low", "gain_high"]] == 0.0).all(axis=None)
-    assert share(own).any()
+    own, frame = TEMPLE.block(), shares(RockingFrame(TEMPLE, 4.0))
+    deficits = np.arange(5) / 4.0
+    column = [shares(own.with_restitution((1.0 - d) * own.restitution)) for d in deficits]
+    found = [(row, end) for row, end in break_even.ends(group, CASE, 1) if row["mass_ratio"] == 4.0]
+    asked = (column[0] >= 0.05) & (frame <= 0.95)
+    assert [row["level"] for row, _ in found] == [levels[k][1] for k in np.flatnonzero(asked)]
+    assert asked.any()
+    for (row, ends), k in zip(found, np.flatnonzero(asked), strict=True):
+        assert (row["column"], row["frame"]) == pytest.approx((column[0][k], frame[k]))
+        benefits = np.array(column)[:, k] - frame[k]
+        assert ends[0] == break_even.end_of(deficits, benefits)
+        assert row["coarser"] == break_even.end_of(deficits[::2], benefits[::2])
+        assert len(ends) == 101
 
 
-def test_gain_is_resampled_within_each_earthquake(groups):
-    """All columns overturn in one, and none in the other: the gain over no frame is one half."""
-    group, column = groups[0], [one.mass_ratio == 0.0 for one in groups[0].under]
+def test_motions_are_resampled_within_each_earthquake(groups):
+    """All columns overturn in one, and all frames in the other: no resample has a benefit."""
+    group = groups[0]
     first = group.motions.scenario.to_numpy() == 0
-    fell = np.broadcast_to((first[:, None] & column)[..., None], group.fell.shape)
-    table = break_even.gains(group._replace(fell=fell), CASE)
-    assert (table[["gain", "gain_low", "gain_high"]] == 0.5).all(axis=None)
+    column = np.array([one.mass_ratio == 0.0 for one in group.under])
+    fell = np.broadcast_to((first[:, None] == column)[..., None], group.fell.shape)
+    for _, ends in break_even.ends(group._replace(fell=fell), CASE, 1):
+        assert (ends == 0.0).all()
 
 
 def test_scipy_has_to_find_the_sampled_outcomes(groups):
@@ -111,69 +101,58 @@ def test_scipy_has_to_find_the_sampled_outcomes(groups):
     assert not break_even.confirmed(wrong, CASE, ENSEMBLE).holds
 
 
-# Sets ---------------------------------------------------------------------------------------------
-
-WORDS = {"+": "is positive", "-": "is negative", "0": "includes zero"}
-
-
-def sets(*signs, way=COLUMN):
-    """The sets of comparisons whose interval is positive, undecided or negative at each change."""
-    rows = [
-        dict(zip(break_even.KEYS, ("a", 6.0, float(number), way, "PGV", 0.6), strict=True))
-        | {"change": change / 100, "restitution": 0.9, "column": 0.5, "frame": 0.4}
-        | {"interval": WORDS[sign]}
-        for number, each in enumerate(signs)
-        for change, sign in enumerate(each)
-    ]
-    return break_even.break_even(pd.DataFrame(rows))
+# Where the benefit ends --------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
-    ("signs", "lowest", "highest", "until", "undecided", "connected"),
+    ("benefits", "end"),
     [
-        ("++00-", 0.02, 0.03, 0.02, 2, True),
-        ("+0+0-", 0.01, 0.03, 0.01, 2, False),
-        ("+0-0-", 0.01, 0.03, 0.01, 2, False),
-        ("++---", math.nan, math.nan, 0.02, 0, True),
-        ("+++++", math.nan, math.nan, math.nan, 0, True),
-        ("00000", 0.0, 0.04, 0.0, 5, True),
+        ([4, 2, -2, -4], 1.5),
+        ([4, 2, 0, -4], 2.0),
+        ([4, 1, 3, -4], 1.5 + 1.5 / 3.0),  # the middle two are one block at 1.5 with 2
+        ([3, -1, 1, -3], 1.5),  # a benefit that comes back is not the end of one that goes
+        ([4, 3, 2, 1], math.inf),
+        ([0, 1, -1, -2], 0.5 + 0.5 / 1.5 * 1.5),
+        ([-1, -2, -3, -4], 0.0),
     ],
 )
-def test_set_of_undecided_changes(signs, lowest, highest, until, undecided, connected):
-    (row,) = sets(signs).itertuples()
-    found = (row.lowest, row.highest, row.until)
-    assert found == pytest.approx((lowest, highest, until), nan_ok=True)
-    assert (row.undecided, row.connected, row.largest) == (undecided, connected, 0.04)
-    assert (row.unchanged, row.changed_most) == (WORDS[signs[0]], WORDS[signs[-1]])
+def test_benefit_ends_where_its_non_increasing_fit_is_zero(benefits, end):
+    found = break_even.end_of(np.arange(4.0), np.array(benefits, dtype=float))
+    assert found == pytest.approx(end)
+
+
+def test_interval_may_end_beyond_the_last_deficit():
+    found = np.array([0.1, *np.linspace(0.0, 0.2, 81)])
+    expected = {"end": 0.1, "end_low": 0.005, "end_high": 0.195}
+    assert break_even.bounds(found, 0.95) == pytest.approx(expected)
+    beyond = np.append(found, [math.inf] * 4)
+    assert break_even.bounds(beyond, 0.95)["end_high"] == math.inf
+
+
+def cells(*ends, coarser=0.0):
+    table = pd.DataFrame({"end": ends, "end_low": 0.04, "end_high": 0.14})
+    return table.assign(coarser=table.end + coarser)
 
 
 @pytest.mark.parametrize(
-    ("signs", "broken"),
+    ("table", "broken"),
     [
-        (("++0-", "00--"), set()),  # where the frame is not safer at first, nothing is asked
-        (("++0-", "++++"), {"ends"}),
-        (("++0-", "+0+-"), set()),
-        (("++0-", "+0+0-"), {"connected"}),
-        (("00--",), {"ends", "connected"}),
+        (cells(0.05, 0.1), set()),
+        (cells(0.05, math.inf), {"benefit_ends"}),
+        (cells(0.05, 0.1, coarser=0.011), {"step_is_fine_enough"}),
     ],
 )
-def test_what_the_sets_decide(signs, broken):
-    lowered = break_even.findings(sets(*signs))
-    found = {"ends": lowered["deficit_ends_the_benefit"]}
-    found["connected"] = lowered["undecided_deficits_are_connected"]
+def test_what_the_ends_decide(table, broken):
+    found = break_even.findings(table, cells(0.08))
     assert {name for name, one in found.items() if not one.holds} == broken
-    raised = break_even.findings(sets(*signs, way=FRAME))["raise_ends_the_benefit"]
-    assert raised.holds is ("ends" not in broken)
-    assert not break_even.findings(sets(*signs, way=FRAME))["deficit_ends_the_benefit"].holds
+    assert found["benefit_ends"]["median"] == 0.08
+    assert found["benefit_ends"]["least"] == 0.05
 
 
 def test_benefit_remains_up_to_a_deficit():
-    table = sets("+++0-", "++++-", "00---")
-    assert break_even.remains(table, 0.02).holds
-    assert not break_even.remains(table, 0.03).holds
-    assert break_even.remains(table, 0.03)["kept"] == 1
-    assert not break_even.remains(sets("++---"), 0.02).holds  # it reverses without an undecided one
-    assert not break_even.remains(sets("00---"), 0.0).holds  # nothing to remain
+    assert break_even.remains(cells(0.051, 0.1), 0.05).holds
+    found = break_even.remains(cells(0.05, 0.1), 0.05)
+    assert (found.holds, found["kept"], found["compared"]) == (False, 1, 2)
 
 
 # Pulses -------------------------------------------------------------------------------------------

@@ -32,7 +32,7 @@ ENDS = "certainty_deficit_ends_the_benefit"
     [
         (ENDS, f"alone is {100 * EVEN['deficits']['highest']:g} % lower"),
         (ENDS, f"γ = {', '.join(f'{g:g}' for g in EVEN['mass_ratios'][:-1])} or"),
-        (ENDS, f"or {EVEN['mass_ratios'][-1]:g} over its columns of"),
+        (ENDS, f"or {EVEN['mass_ratios'][-1]:g} over columns of"),
         (ENDS, f"of {' or '.join(f'{6 * size:g}' for size in EVEN['sizes'])} m"),
         (ENDS, f"at {len(EVEN['pgv'] + EVEN['scaled'])} intensities"),
         (ENDS, f"{EVEN['runs']['default']['motions'] * len(ENSEMBLE['scenarios'])} synthetic"),

@@ -8,6 +8,7 @@ import pandas as pd
 import pytest
 
 from replication.workbench import truth
+from studies.certainty.second import NEAR, beside_a_boundary
 from studies.certainty.steps import (
     benefit,
     extensions,
@@ -242,8 +243,8 @@ def test_half_of_the_scattered_sample_is_beside_a_boundary(intensity):
     frame, motion = RockingFrame(Column(**SIZES), 1.0), draw.record()
     ratios = restitution.scattered(SCATTERED, draw, frame.restitution, 0.9)[0]
     factor = intensity / motion.peak_velocity
-    beside = restitution.beside_a_boundary(frame, motion, factor, ratios)
-    around = beside * (1.0 + restitution.NEAR * np.linspace(-1.0, 1.0, 201))
+    beside = beside_a_boundary(lambda by: restitution.overturns(frame, motion, by, ratios), factor)
+    around = beside * (1.0 + NEAR * np.linspace(-1.0, 1.0, 201))
     first, second, *others = (
         restitution.overturns(frame, motion, one, ratios) for one in (factor, beside, *around)
     )
@@ -281,6 +282,7 @@ def test_ranking_is_judged_by_whole_intervals_of_both_families(
     families = {"near-fault": SAID | near_fault, "broadband": SAID | broadband}
     table = pd.DataFrame(
         {"family": family, "way": way, "factor": factor, "interval": words}
+        | {"less_low": 10.0 * factor - 1.0, "less_high": 10.0 * factor - 0.5}
         for family, said in families.items()
         for (way, factor), words in said.items()
     )
@@ -290,6 +292,9 @@ def test_ranking_is_judged_by_whole_intervals_of_both_families(
     monkeypatch.setattr(benefit, "confirmed", lambda *arguments: truth(True))
     _, found = benefit.main({}, {})
     assert {name for name, one in found.items() if one.holds is False} == broken
+    assert found["frame_is_safer"]["shrinks"]
+    wide = table.assign(less_high=table.less_high + 0.6)
+    assert not benefit.findings(wide)["frame_is_safer"]["shrinks"]
 
 
 ENSEMBLE = {
@@ -317,7 +322,7 @@ def test_difference_is_that_of_column_and_frame_under_motions_of_the_stated_velo
     found = benefit.fragilities(STATED, ENSEMBLE)
     table, under = benefit.differences(STATED, found), benefit.structures(STATED)
     draws = first_draws(ENSEMBLE, STATED["motions"])
-    assert len(table) == 2 * 3  # families, comparisons
+    assert len(table) == 2 * 4  # families, comparisons
     for row in table.itertuples():
         records = [draw.record() for draw in draws if draw.family == row.family]
         scaled = [record.scaled(STATED["pgv"] / record.peak_velocity) for record in records]
@@ -328,6 +333,8 @@ def test_difference_is_that_of_column_and_frame_under_motions_of_the_stated_velo
         assert row.only_frame == sum(b and not a for a, b in zip(column, frame, strict=True))
         assert row.less == pytest.approx((row.column - row.frame) / 6)
         assert row.less_low <= row.less <= row.less_high
+        if row.column:
+            assert row.over == pytest.approx(row.frame / row.column)
     assert table.only_column.any()
     assert table.only_frame.any()
 

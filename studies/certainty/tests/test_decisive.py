@@ -250,14 +250,15 @@ def test_lowered_restitution_of_the_column_alone_reverses_the_order():
 BENEFIT = {"column": SIZES, "mass_ratio": 1.0, "factors": [0.9, 1.0]}
 
 
-def test_restitution_is_lowered_of_both_or_of_the_column_alone():
+def test_restitution_is_lowered_of_both_or_of_one_alone():
     found, own = benefit.structures(BENEFIT), RockingFrame(COLUMN, 1.0)
     for (way, factor), (column, frame) in benefit.compared([0.9, 1.0]).items():
-        assert found[column].restitution == pytest.approx(factor * COLUMN.restitution)
-        lowered = factor if way == "both" else 1.0
+        lowered = 1.0 if way == "frame alone" else factor
+        assert found[column].restitution == pytest.approx(lowered * COLUMN.restitution)
+        lowered = 1.0 if way == "column alone" else factor
         assert found[frame].restitution == pytest.approx(lowered * own.restitution)
     assert found["frame"] == own
-    ways = [("both", 0.9), ("both", 1.0), ("column alone", 0.9)]
+    ways = [("both", 0.9), ("both", 1.0), ("column alone", 0.9), ("frame alone", 0.9)]
     assert list(benefit.compared([0.9, 1.0])) == ways
 
 
