@@ -45,10 +45,7 @@ def of_velocity(reference: Path) -> list[str]:
 
 def of_records(reference: Path) -> list[str]:
     alone, both = unscaled(reference).values()
-    rows = pd.read_csv(reference / "studies" / "certainty_rescaled.csv").dropna(subset="end")
-    ends = (rows.end - 1.0).abs().groupby(rows.record).min()
-    gammas = [f"{gamma:g}" for gamma in alone[True] + both[False] if gamma % 1.0]
-    return [*(f"{100 * end:.2f}" for end in ends), *gammas]
+    return [f"{gamma:g}" for gamma in alone[True] + both[False] if gamma % 1.0]
 
 
 HEADLINES: dict[str, Numbers] = {

@@ -196,6 +196,7 @@ rule certainty_records:
 
 rule certainty_rescaled:
     input:
+        known="results/tables/certainty_records.csv",
         records=record_paths(settings("records", "certainty")["records"], RECORDS),
     output:
         table="results/tables/certainty_rescaled.csv",
@@ -210,7 +211,7 @@ rule certainty_rescaled:
 
 rule certainty_proven:
     input:
-        rescaled="results/tables/certainty_rescaled.csv",
+        known="results/tables/certainty_records.csv",
         records=record_paths(settings("records", "certainty")["records"], RECORDS),
     output:
         table="results/tables/certainty_proven.csv",

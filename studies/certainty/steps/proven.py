@@ -13,7 +13,7 @@ import pandas as pd
 from replication.workbench import Finding, run, truth
 from steps.shared.proofs import proven
 from studies.certainty.steps.lowest import extreme
-from studies.certainty.steps.records import similar
+from studies.certainty.steps.records import reversals, similar
 from topheavy import Column, Record, RockingFrame, read_record
 from topheavy.proven import outcome
 
@@ -31,13 +31,12 @@ def beyond_the_theorem(settings: dict) -> tuple[list[dict], list[dict]]:
 
 
 def under_records(
-    rescaled: pd.DataFrame, columns: Mapping[str, Column], records: list[Record]
+    known: pd.DataFrame, columns: Mapping[str, Column], records: list[Record]
 ) -> Iterator[dict]:
-    """Yield what is proven of each reversed pair at the record's own scale."""
+    """Yield what is proven of a pair that each record reverses: the lightest one of each."""
     named = {record.name: record for record in records}
-    ends = rescaled[rescaled.end.notna()]
-    for (name, structure), rows in ends.groupby(["record", "structure"]):
-        light, heavy = rows.survives.iloc[0], rows.overturns.iloc[0]
+    for (name, structure), rows in reversals(known).groupby(["record", "structure"]):
+        light, heavy = rows.iloc[0][["mass_ratio_survives", "mass_ratio_overturns"]]
         for gamma, expected in ((light, "survives"), (heavy, "overturns")):
             found = outcome(RockingFrame(columns[structure], gamma), named[name])
             row = {"record": name, "structure": structure, "mass_ratio": gamma}
@@ -70,10 +69,10 @@ def findings(certainty_proven: pd.DataFrame) -> dict[str, Finding]:
 
 
 def main(
-    settings: dict, rescaled: pd.DataFrame, columns: Mapping[str, Column], records: list[Record]
+    settings: dict, known: pd.DataFrame, columns: Mapping[str, Column], records: list[Record]
 ) -> tuple[pd.DataFrame, str, dict[str, Finding]]:
     rows, certificates = beyond_the_theorem(settings)
-    table = pd.DataFrame([*rows, *under_records(rescaled, columns, records)])
+    table = pd.DataFrame([*rows, *under_records(known, columns, records)])
     lines = "".join(f"{json.dumps(each)}\n" for each in certificates)
     return table, lines, findings(table)
 
@@ -82,7 +81,7 @@ def work(job: Any) -> tuple:
     given = job.params
     columns = dict(similar(entry, given.structures) for entry in given.columns)
     records = [read_record(path) for path in job.input.records]
-    return main(given.settings, pd.read_csv(job.input.rescaled), columns, records)
+    return main(given.settings, pd.read_csv(job.input.known), columns, records)
 
 
 if __name__ == "__main__":

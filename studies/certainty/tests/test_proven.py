@@ -56,9 +56,9 @@ def test_reversed_pair_of_each_record_is_proven_at_its_own_scale(monkeypatch):
         return Outcome("survives", 0)
 
     monkeypatch.setattr(proven, "outcome", outcome)
-    names = ["record", "structure", "survives", "overturns", "end"]
-    rows = [("a", "c", 0.0, 1.0, 0.99), ("a", "c", None, None, None), ("a", "c", 0.0, 1.0, 1.02)]
-    rescaled, records = pd.DataFrame(rows, columns=names), [Record(0.01, [0.0, 0.1, 0.0], "a")]
-    found = list(proven.under_records(rescaled, {"c": Column(0.5, 3.0)}, records))
+    rows = [("a", "c", gamma, gamma in (1.0, 4.0)) for gamma in (0.0, 1.0, 2.0, 4.0)]
+    known = pd.DataFrame(rows, columns=["record", "structure", "mass_ratio", "overturned"])
+    records = [Record(0.01, [0.0, 0.1, 0.0], "a")]
+    found = list(proven.under_records(known, {"c": Column(0.5, 3.0)}, records))
     assert asked == [(0.0, "a"), (1.0, "a")]
     assert [row["by_solver"] for row in found] == ["survives", "overturns"]

@@ -1,70 +1,132 @@
-"""Reversals under a rescaled record: each condition of the finding, where it alone fails."""
+"""Reversals under a rescaled and a filtered record, where the answer is known."""
+
+import math
+from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
 import pytest
 
 from studies.certainty.steps import rescaled
-from topheavy import Column, Record
+from topheavy import Column, Record, RockingFrame, judge, reference
 
 GAMMAS = [0.0, 1.0, 4.0]
+COLUMN = Column(0.5, 3.0)
+TIME = 0.01 * np.arange(3000)
+RECORD = Record(0.01, 0.4 * np.exp(-(((TIME - 8.0) / 2.0) ** 2)) * np.sin(5.0 * TIME), "a")
+SPEC = {"widths": [0.01, 0.3], "points": 41, "checked": 4}
+FILTERS = {"orders": [2, 4], "corners": [0.1]}
 
 
 @pytest.mark.parametrize(
-    ("falls", "pair"),
+    ("falls", "reversed_"),
     [
-        ([False, False, False], None),
-        ([True, True, True], None),
-        ([True, False, False], None),
-        ([False, True, False], (0.0, 1.0)),
-        ([True, False, True], (1.0, 4.0)),
-        ([False, False, True], (0.0, 4.0)),
+        ([False, False, False], False),
+        ([True, True, True], False),
+        ([True, False, False], False),
+        ([False, True, False], True),
+        ([True, False, True], True),
+        ([False, False, True], True),
     ],
 )
-def test_order_is_reversed_if_a_heavier_one_overturns_and_a_lighter_one_survives(falls, pair):
-    assert rescaled.reversed_pair(GAMMAS, np.array(falls)) == pair
+def test_order_is_reversed_if_a_heavier_one_overturns_and_a_lighter_one_survives(falls, reversed_):
+    assert rescaled.is_reversed(np.array([falls]).T).tolist() == [reversed_]
 
 
-def test_ends_are_the_nearest_factors_at_which_the_pair_is_not_reversed(monkeypatch):
-    factors = np.array([0.97, 0.98, 0.99, 1.0, 1.01, 1.02, 1.03])
-    falls = np.array([[False] * 7, [False, True, True, True, True, False, True], [False] * 7])
-    monkeypatch.setattr(rescaled, "overturned_together", lambda *given: falls)
-    asked = []
-    monkeypatch.setattr(rescaled, "by_scipy", lambda *given: asked.append(given[2:]) or True)
-    record, column = Record(0.01, np.zeros(4)), Column(0.5, 3.0)
-    found = pd.DataFrame(rescaled.rows(record, "c", column, GAMMAS, factors))
-    assert found[found.end.notna()].end.tolist() == [0.97, 1.02]
-    assert asked == [((0.0, 1.0), 0.98, 0.97), ((0.0, 1.0), 1.01, 1.02)]
+@pytest.mark.parametrize("order", [2, 4])
+def test_filter_passes_what_is_fast_in_phase_and_stops_what_is_slow(order):
+    fast, slow = np.sin(2.0 * math.pi * TIME), np.sin(2.0 * math.pi * 0.01 * TIME + 0.3)
+    found = rescaled.filtered(Record(0.01, fast + slow, "b"), order, 0.1)
+    pad = round(1.5 * order / 0.1 / 0.01)
+    inside = found.acceleration[pad:-pad]
+    assert inside.size == TIME.size
+    middle = slice(1000, 2000)
+    np.testing.assert_allclose(inside[middle], fast[middle], atol=0.05)
+    assert (found.name, found.time_step) == ("b", 0.01)
+    assert rescaled.filtered(RECORD, 0, 0.0) is RECORD
 
 
-def table(ends=(0.996, 1.001), own=True):
-    rows = [
-        {"record": "a", "structure": "c", "factor": factor, "overturned": None, "reversed": False}
-        for factor in (0.95, 0.98, 0.99, 1.0, 1.01, 1.02, 1.05)
-    ]
-    rows[3]["reversed"] = own
-    for row, end in zip((rows[2], rows[4]), ends, strict=False):
-        row |= {"end": end, "survives": 0.0, "overturns": 1.0, "by_scipy": True}
-    return pd.DataFrame(rows)
+@pytest.mark.parametrize("order", [2, 4])
+def test_ground_comes_to_rest_within_the_pads(order):
+    """A step of the ground's velocity, which an offset would leave moving."""
+    push = Record(0.01, np.where((TIME > 5.0) & (TIME < 5.5), 0.2, 0.0))
+    found = rescaled.filtered(push, order, 0.1).acceleration
+    velocity = np.cumsum(found) * 0.01
+    assert abs(velocity[-1]) < 0.02 * np.abs(velocity).max()
+
+
+def test_shares_are_those_of_single_judgements():
+    for row in rescaled.rows(RECORD, COLUMN, GAMMAS, SPEC):
+        factors = 1.0 + row["width"] * np.linspace(-1.0, 1.0, 41)
+        falls = np.array(
+            [
+                [judge(RockingFrame(COLUMN, g), RECORD.scaled(f)).overturned for f in factors]
+                for g in GAMMAS
+            ]
+        )
+        assert row["share"] == rescaled.is_reversed(falls).mean()
+        assert row["coarser"] == rescaled.is_reversed(falls[:, ::2]).mean()
+        assert row["overturned"] == " ".join(
+            f"{g:g}" for g, fell in zip(GAMMAS, falls[:, 20], strict=True) if fell
+        )
+
+
+def test_only_records_that_overturn_anything_are_rescaled(monkeypatch):
+    structures = {"temple": {"half_width": 0.5, "half_height": 3.0}}
+    columns = [{"structure": "temple", "scaled": scale} for scale in (1.0, 2.0)]
+    known = pd.DataFrame(
+        {"record": "a", "structure": ["6 m temple", "12 m temple"], "overturned": [True, False]}
+    )
+    monkeypatch.setattr(rescaled, "second_route", lambda *given: given)
+    settings = {"columns": columns, "mass_ratios": GAMMAS}
+    spec = SPEC | {"filter": FILTERS}
+    table, _ = rescaled.main(settings, spec, structures, [RECORD], known)
+    assert set(table.structure) == {"6 m temple"}
+    assert table.groupby(["order", "corner"]).size().to_dict() == {
+        (0, 0.0): 2,
+        (2, 0.1): 2,
+        (4, 0.1): 2,
+    }
+
+
+def test_scipy_has_to_give_the_same_outcomes(monkeypatch):
+    cases = [(RECORD, COLUMN)]
+    assert rescaled.second_route(cases, GAMMAS, SPEC).holds
+
+    def otherwise(frame, motion):
+        return SimpleNamespace(overturned=not reference.judge(frame, motion).overturned)
+
+    monkeypatch.setattr(rescaled, "reference", SimpleNamespace(judge=otherwise))
+    assert not rescaled.second_route(cases, GAMMAS, SPEC).holds
+
+
+def table(*cells, moved=0.0):
+    """Of each order, what overturns and whether that is reversed; order 0 is the record."""
+    return pd.DataFrame(
+        {"record": "a", "structure": "c", "order": order, "corner": 0.1 * (order > 0)}
+        | {"overturned": fell or None, "reversed": reversed_, "width": 0.01}
+        | {"share": 0.5, "coarser": 0.5 + moved}
+        for order, (fell, reversed_) in zip((0, 2, 4), cells, strict=True)
+    )
 
 
 @pytest.mark.parametrize(
-    ("found", "holds"),
+    ("second", "fourth", "said"),
     [
-        (table(), True),
-        (table(ends=(0.996,)), False),  # it does not end upward
-        (table(ends=(0.98, 1.001)), False),
-        (table(own=False), False),
+        (("1", True), ("0.5", True), "is reversed"),
+        (("", False), ("", False), "overturns nothing"),
+        (("0", False), ("", False), "is not reversed"),
+        (("1", True), ("0", False), "depends on the order of the filter"),
+        (("1", True), ("", False), "depends on the order of the filter"),
     ],
 )
-def test_reversal_ends_within_one_percent_on_both_sides(found, holds):
-    one = rescaled.findings(found)["reversals_end"]
-    assert one.holds is holds
-    if holds:
-        assert one["within"]["0.01"] == {"changed": 1, "reversed": 1}
+def test_words_say_what_all_orders_share(second, fourth, said):
+    found = rescaled.findings(table(("1", True), second, fourth))["shares_hold_at_half_the_step"]
+    assert [one["said"] for one in found["filtered"]] == [said]
+    assert found["shares"] == {"a, c": {"0.01": 0.5}}
 
 
-def test_scipy_has_to_confirm_every_end():
-    found = table()
-    found.loc[2, "by_scipy"] = False
-    assert not rescaled.findings(found)["ends_by_scipy"].holds
+@pytest.mark.parametrize(("moved", "holds"), [(0.019, True), (-0.021, False)])
+def test_shares_may_not_depend_on_the_number_of_scales(moved, holds):
+    found = rescaled.findings(table(*[("1", True)] * 3, moved=moved))
+    assert found["shares_hold_at_half_the_step"].holds is holds
