@@ -13,7 +13,6 @@ CHECKS = {
         "published_numbers",
         "library_follows_the_derivation",
     ],
-    "negative_stiffness": ["second_route", "stiffness_is_positive"],
     "spectra": ["sample_agrees"],
     "spectra_dimensional": ["published_amplitude"],
     "rocking_spectra": ["second_route"],
@@ -252,16 +251,6 @@ rule portal:
         vase=config["vase"],
     script:
         "portal.py"
-
-
-rule negative_stiffness:
-    output:
-        table="results/tables/negative_stiffness.csv",
-        findings="results/findings/negative_stiffness.json",
-    params:
-        settings=settings("negative_stiffness"),
-    script:
-        "negative_stiffness.py"
 
 
 rule scale_effects:

@@ -25,7 +25,6 @@ TABLES = (
     "heavier",
     "mass_ratio",
     "moment_rotation",
-    "negative_stiffness",
     "quarter_period",
     "restitution_over_mass_ratio",
     "restitution_over_slenderness",

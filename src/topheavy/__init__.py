@@ -20,8 +20,7 @@ It does not model
 - rebound, and impacts elsewhere than at the new pivots: `structure.block(restitution=…)` changes
   the loss alone; else a rigid-body engine
 - unequal or inclined columns, a cap beam that tilts, three dimensions: a rigid-body engine
-- flexible columns, soil, dampers: finite elements (OpenSees, for instance); for one elastic tendon
-  in the axis of a column, slowly, `topheavy.restrained`
+- flexible columns, soil, dampers, tendons: finite elements (OpenSees, for instance)
 """
 
 import lazy_loader

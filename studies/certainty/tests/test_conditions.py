@@ -70,13 +70,11 @@ def test_trials_decide_what_they_are_about(monkeypatch, change, broken):
 EXTREME = {
     "size": 3.0,
     "mass_ratios": [0.0, np.inf],
-    "extreme": {
-        "slenderness": 10.0,
-        "duration": 4.0,
-        "accelerations": [1.0, -1.0],
-        "samples": [1, 2],
-        "amplitude": 1.0,
-    },
+    "extremes": [
+        {"slenderness": slenderness, "duration": 4.0, "accelerations": [1.0, -1.0]}
+        | {"samples": [1, 2], "amplitude": 1.0}
+        for slenderness in (10.0, 20.0)
+    ],
 }
 
 
@@ -94,6 +92,8 @@ def test_extreme_motion_overturns_the_heavier_frame_alone_at_once(monkeypatch, l
     monkeypatch.setattr(lowest, "at_once", lambda block, pulse: True)
     found, _ = lowest.against_the_theorem(EXTREME, 1e-12)
     assert found.holds is holds
+    assert found["exceptions"] == (0 if holds else 2)
+    assert found["slenderness"] == [10.0, 20.0]
 
 
 def test_extreme_motion_that_scipy_denies_proves_nothing(monkeypatch):

@@ -12,7 +12,9 @@ EXTREME = [(0.0, "overturns", 2), (float("inf"), "overturns", 0)]
 
 def table(extreme=EXTREME, under=(("survives", "survives"), ("overturns", "undecided"))):
     rows = [
-        {"record": "extreme", "mass_ratio": g, "proven": p, "impacts": n} for g, p, n in extreme
+        {"record": "extreme", "structure": slope, "mass_ratio": g, "proven": p, "impacts": n}
+        for slope, some in (("20°", EXTREME), ("30°", extreme))
+        for g, p, n in some
     ]
     rows += [{"record": "a", "by_solver": solver, "proven": found} for solver, found in under]
     return pd.DataFrame(rows)

@@ -99,10 +99,8 @@ def findings(mechanism_beside: pd.DataFrame) -> dict[str, Finding]:
     )
     reversals = bands.theory == "frame"
     return {
-        "discrete_elements_agree": truth(
-            len(last) >= ENOUGH and not only_frame.any(),
-            holds_when=len(last) >= ENOUGH and bool(only_column[last.index].all()),
-            condition="more stable means a higher minimum overturning acceleration",
+        "column_overturns_first": truth(
+            len(last) >= ENOUGH and bool(only_column[last.index].all()),
             pulses=len(last),
             column_first=int(only_column[last.index].sum()),
             step=STEP - 1.0,
