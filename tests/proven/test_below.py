@@ -98,8 +98,8 @@ def test_changed_bound_is_refused(box, change, reason):
 
 
 @pytest.mark.parametrize(("shape", "high"), [("half-sine", 0.3571855), ("one-cosine", 0.181)])
-def test_every_box_of_the_column_up_to_its_minimum_is_proven_twice(shape, high):
-    """Of the one-cosine only the first part: that all is proven, a run publishes."""
+def test_boxes_of_the_column_are_proven_twice(shape, high):
+    """Under the half-sine up to its minimum, under the one-cosine the first part only."""
     pulse, answers = Pulse(shape, 1.0, PULSE.angular_frequency), []
 
     def proven_twice(certificate):
