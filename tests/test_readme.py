@@ -1,215 +1,166 @@
-"""Every number in the README's findings is one that the workflow published."""
+"""README and docs/findings.md say what is published: numbers, words, links and lines that run."""
 
 import json
 import re
 import shutil
-from collections import Counter
-from importlib import import_module
 from pathlib import Path
 
 import pandas as pd
 import pytest
 
 from replication.inputs.strict_yaml import read_yaml
-from replication.judging.claim import JudgedClaim
 from replication.judging.ledger import read_judged
-from replication.pages.edition import count_table
 from steps import headlines
-from steps.shared.published import from_to
+from steps.shared.published import Published, need, span, with_interval
 
 ROOT = Path(__file__).parents[1]
 REFERENCE = ROOT / "tests" / "reference"
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+PROSE = re.sub(r"```.*?```|\]\((?:[^()]|\([^()]*\))*\)|doi:\S+", " ", README, flags=re.DOTALL)
+OPPOSITE = {"raises": "lowers", "rises": "falls", "prevents": "causes", "weakest": "strongest"}
+OPPOSITE |= {"less": "more", "Yes": "No", "only the frame": "only the column"}
+HELD = {"2014", "25", "3.11", "3.13"}  # by the tests below: the paper's year, Eq. (25), Pythons
 
 
-def found() -> str:
-    return headlines.found((ROOT / "README.md").read_text(encoding="utf-8"))
-
-
-@pytest.fixture(scope="module")
-def claims() -> dict[str, JudgedClaim]:
-    rows = read_judged(REFERENCE / "claims.json")
-    return {row.id: row for row in rows}
-
-
-def test_every_number_is_published():
+def test_passages_are_those_of_the_published_results():
     assert list(headlines.headlines(ROOT)) == []
+
+
+@pytest.fixture
+def copy(tmp_path):
+    """A tree with README, findings and the published results."""
+    shutil.copytree(REFERENCE, tmp_path / "tests" / "reference")
+    (tmp_path / "docs").mkdir()
+    for name in ("README.md", headlines.FINDINGS, "docs/costs.csv", "docs/verify_grid.csv"):
+        shutil.copyfile(ROOT / name, tmp_path / name)
+    return tmp_path
+
+
+def numbers() -> list[str]:
+    found = dict.fromkeys(re.findall(r"(?<![\w.])\d[\d,]*(?:\.\d+)?", PROSE))
+    return [number for number in found if number not in HELD]
+
+
+@pytest.mark.parametrize("number", numbers())
+def test_wrong_number_of_the_readme_is_noticed(copy, number):
+    digit = str((int(number[-1]) + 1) % 10)
+    wrong = re.sub(rf"(?<![\w.]){re.escape(number)}(?![\w.]\d)", number[:-1] + digit, README)
+    assert wrong != README
+    (copy / "README.md").write_text(wrong, encoding="utf-8")
+    assert list(headlines.headlines(copy))
+
+
+@pytest.mark.parametrize("word", [word for word in OPPOSITE if word in PROSE])
+def test_opposite_word_of_the_readme_is_noticed(copy, word):
+    wrong = README.replace(word, OPPOSITE[word], 1)
+    assert wrong != README
+    (copy / "README.md").write_text(wrong, encoding="utf-8")
+    assert list(headlines.headlines(copy))
+
+
+def test_wrong_number_of_the_findings_is_noticed(copy):
+    page = copy / headlines.FINDINGS
+    text = page.read_text(encoding="utf-8")
+    page.write_text(text.replace("93.4 %", "94.3 %"), encoding="utf-8")
+    (error,) = headlines.headlines(copy)
+    assert error.startswith("docs/findings.md: ")
+
+
+@pytest.mark.parametrize(
+    ("claim", "passage"),
+    [
+        ("lowest_amplitude_rises_with_mass", "lowest_amplitude"),
+        ("certainty_frame_is_safer", "certainty_frame_is_safer"),
+        ("reversals_motions", "reversals_motions"),
+    ],
+)
+def test_passage_whose_claim_has_another_verdict_is_refused(copy, claim, passage):
+    path = copy / "tests" / "reference" / "claims.json"
+    rows = json.loads(path.read_text(encoding="utf-8"))
+    for row in rows:
+        if row["id"] == claim:
+            row["verdict"] = "qualified"
+    path.write_text(json.dumps(rows), encoding="utf-8")
+    assert any(passage in error for error in headlines.headlines(copy))
+
+
+def test_heading_without_a_passage_is_named(copy):
+    (copy / "README.md").write_text(README.replace("**Size.**", "**Sizes.**"), encoding="utf-8")
+    (error,) = headlines.headlines(copy)
+    assert "'Sizes' is no title of a finding; expected one of Size, " in error
 
 
 @pytest.mark.parametrize(
     "study", sorted(path.parent.name for path in ROOT.glob("studies/*/headlines.py"))
 )
-def test_study_that_is_not_published_has_no_numbers(tmp_path, study):
-    """And those of the paper and of the other studies need none of its files."""
-    gone = shutil.ignore_patterns(f"{study}*")
-    left = Path(shutil.copytree(REFERENCE, tmp_path / "reference", ignore=gone))
-    rows = json.loads((left / "claims.json").read_text(encoding="utf-8"))
-    rows = [row for row in rows if row["study"] != study]
-    (left / "claims.json").write_text(json.dumps(rows), encoding="utf-8")
-    own = import_module(f"studies.{study}.headlines").HEADLINES
-    every = headlines.by_passage(REFERENCE)
-    assert own.keys() <= every.keys()
-    others = {passage: of for passage, of in every.items() if passage not in own}
-    assert headlines.by_passage(left) == others
-
-
-def said() -> str:
-    return " ".join(found().split())
-
-
-def test_starts_of_the_trilith_are_as_many_as_said():
-    starts = pd.read_csv(REFERENCE / "trilith_states.csv")
-    assert f"of {len(starts)} starts in motion" in said()
-    assert (starts[["rotation", "velocity"]] != 0.0).any(axis=1).all()
-
-
-def test_floor_of_the_minima_is_that_of_the_search():
-    vase = read_yaml(REFERENCE / "config.yaml")["vase"]
-    assert vase["floor"] == 1e-3
-    assert "Those narrower than a thousandth are not excluded" in said()
-    broken = pd.read_csv(REFERENCE / "vase_exceptions.csv")
-    records = broken[broken.kind == "record"]
-    assert set(broken.structure) == {"fixed"}
-    assert len(set(records.motion)) == 1
-    assert "Short pulses and one record reverse the first" in said()
-
-
-def test_judged_claims_of_the_paper_are_as_many_as_said(claims):
-    of = Counter(claim.verdict for claim in claims.values() if not claim.study)
-    wrong = of["slip"] + of["misprint"]
-    assert (
-        f"Of their {of.total()} claims, {of['confirmed']} are confirmed and {of['qualified']} hold "
-        f"only on conditions that we state and test; {wrong} have slips or misprints in our text, "
-        f"{of['by definition']} is a definition, {of['not tested']} were not tested, and none is "
-        "refuted." in said()
-    )
-    assert of["refuted"] == 0
+def test_study_that_is_not_published_has_no_passages(copy, study):
+    folder = copy / "tests" / "reference"
+    config = (folder / "config.yaml").read_text(encoding="utf-8")
+    listed = config.replace(f"{study}, ", "", 1).replace(f", {study}]", "]", 1)
+    assert listed != config
+    (folder / "config.yaml").write_text(listed, encoding="utf-8")
+    for path in [*folder.glob(f"studies/{study}*"), *folder.glob(f"findings/{study}*")]:
+        path.unlink()
+    whole, left = headlines.passages(REFERENCE), headlines.passages(folder)
+    assert left.items() < whole.items()
 
 
 @pytest.mark.parametrize(
     ("shares", "digits", "words"),
-    [([0.05, 0.09], 0, "5 to 9"), ([0.26, 0.163], 1, "16.3 to 26.0"), ([0.1], 0, "10 to 10")],
+    [([0.05, 0.09], 0, "5 to 9"), ([0.26, 0.163], 1, "16.3 to 26.0"), ([0.1], 0, "10")],
 )
 def test_range_has_both_its_ends(shares, digits, words):
-    assert from_to(pd.Series(shares), digits) == words
+    assert span(pd.Series(shares), digits) == words
 
 
-def test_rise_under_each_pulse_of_the_period_is_published():
-    rises = headlines.rises_at_one_period(REFERENCE)
-    assert len(rises) == 3
-    assert f"shapes of pulses of this period, it rises by {from_to(rises)} %" in said()
+def test_interval_stands_behind_its_number():
+    row = {"end": 0.085, "end_low": 0.082, "end_high": 0.092}
+    assert with_interval(row, "end") == "8.5 (8.2 to 9.2)"
 
 
-def test_minima_are_said_to_be_proven_where_the_ledger_confirms_it(claims):
-    assert "under a very heavy cap beam; both are proven" in said()
-    for proof in ("minimum_is_a_proven_boundary", "nothing_below_the_minimum_overturns"):
-        assert claims[proof].verdict == "confirmed"
+def test_words_that_results_do_not_bear_are_refused():
+    with pytest.raises(ValueError, match=r"^it falls: rewrite the headline"):
+        need(False, "it falls")
+    with pytest.raises(ValueError, match="eq23 is confirmed and not refuted"):
+        Published(REFERENCE).need(eq23="refuted")
 
 
-def test_portal_is_said_to_overturn_later_where_the_ledger_confirms_it(claims):
-    assert "A portal overturns later still" in said()
-    assert claims["portal_overturns_last"].verdict == "confirmed"
-
-
-def test_two_thirds_of_the_gain_are_had_at_mass_ratio_one():
-    share = pd.read_csv(REFERENCE / "mass_ratio.csv").set_index("mass_ratio").share_of_size_gain
-    assert "Two thirds of the gain" in found()
-    assert share[1.0] == pytest.approx(2 / 3, abs=1e-9)
-
-
-def test_equations_said_to_be_wrong_are_those_of_their_kind(claims):
-    equations = pd.read_csv(REFERENCE / "equations.csv")
-    parts = (found().split("Eqs.")[1].split("have")[0], found().split("Eqs.")[2].split("hold")[0])
-    for said, fault in zip(parts, ("sign", "convention"), strict=True):
-        numbers = {int(n) for n in re.findall(r"\((\d+)\)", said)}
-        assert numbers == {int(n) for n in equations[equations.fault == fault].equation}
-
-
-def test_lowest_amplitude_is_said_to_rise_where_the_ledger_confirms_it(claims):
-    assert "minimum overturning acceleration rises with γ" in said()
-    assert claims["lowest_amplitude_rises_with_mass"].verdict == "confirmed"
+def test_readme_is_short():
+    assert len(README.splitlines()) <= 80
+    assert len(README.split()) <= 1000
 
 
 def test_links_lead_somewhere():
-    text = (ROOT / "README.md").read_text(encoding="utf-8")
-    for target in re.findall(r"\]\(([^)#]+)\)", text):
-        if not target.startswith("http"):
-            assert (ROOT / target).exists(), f"README.md links to {target}, which does not exist"
+    for page in (README, (ROOT / headlines.FINDINGS).read_text(encoding="utf-8")):
+        folder = ROOT if page is README else ROOT / "docs"
+        for target in re.findall(r"\]\(([^)#]+)\)", page):
+            if not target.startswith("http"):
+                assert (folder / target).exists(), f"{target} does not exist"
 
 
-def test_table_of_verdicts_counts_the_claims_of_paper_and_studies_apart():
-    assert "\n".join(count_table(read_judged(REFERENCE / "claims.json"))) in found()
+def test_pythons_are_those_of_the_package():
+    low, high = re.findall(r"3\.(\d+)", (ROOT / "pyproject.toml").read_text("utf-8"))[:2]
+    assert f"Python 3.{low} to 3.{int(high) - 1} and make" in " ".join(README.split())
 
 
-def test_run_takes_as_long_as_said():
-    """Figures and documents, which the published costs leave out, take up to two minutes more."""
-    readme = (ROOT / "README.md").read_text(encoding="utf-8")
-    least, most = map(int, re.search(r"# (\d+) to (\d+) minutes on two cores", readme).groups())
-    minutes = pd.read_csv(ROOT / "docs" / "costs.csv").seconds.sum() / 2 / 60
-    assert least - 2 <= minutes <= most
-
-
-def test_equations_are_named_as_the_tables_and_claims_have_them(claims):
-    table = pd.read_csv(REFERENCE / "equations.csv", dtype={"equation": str})
-    faults = table[table.follows.astype(str) == "False"].dropna(subset="equation")
-    for kind, words in (("sign", "have wrong signs"), ("convention", "hold in another sign")):
-        (listed,) = re.findall(rf"Eqs\. ([^;.]*?) {words}", said())
-        expected = faults[faults.fault == kind].equation.drop_duplicates()
-        assert re.findall(r"\((\d+)\)", listed) == list(expected)
-    readme = (ROOT / "README.md").read_text(encoding="utf-8")
-    for words, function in (
-        ("equation of motion", "equation_of_motion"),
-        ("equivalent size", "size_ratio"),
-        ("Eq.", "restitution"),
-    ):
-        named = {int(number) for number in re.findall(rf"{words} \((\d+)\)", readme)}
-        own = {row.equation for row in claims.values() if row.function.endswith(f".{function}")}
-        assert len(named) == 1
-        assert named <= own
-
-
-def test_doi_is_that_of_the_citation():
-    cited = read_yaml(ROOT / "CITATION.cff")["references"][0]["doi"]
-    readme = (ROOT / "README.md").read_text(encoding="utf-8")
-    assert set(re.findall(r"10\.1061/[^\s\]]*\)ST[\d.A-Z-]*\d", readme)) == {cited}
-    assert readme.count(cited) == 2
+def test_doi_and_year_are_those_of_the_citation():
+    cited = read_yaml(ROOT / "CITATION.cff")["references"][0]
+    assert set(re.findall(r"10\.1061/[^\s\]]*\)ST[\d.A-Z-]*\d", README)) == {cited["doi"]}
+    assert f"({cited['year']}, [doi:{cited['doi']}]" in README
 
 
 def test_lines_of_the_library_run(tmp_path, monkeypatch, capsys):
     monkeypatch.setenv("MPLBACKEND", "agg")
-    (lines,) = re.findall(r"```python\n(.*?)```", (ROOT / "README.md").read_text("utf-8"), re.S)
+    (lines,) = re.findall(r"```python\n(.*?)```", README, re.S)
     (tmp_path / "data").symlink_to(ROOT / "data")
     monkeypatch.chdir(tmp_path)
     exec(compile(lines, "README.md", "exec"), {})
-    assert (tmp_path / "bent.png").stat().st_size > 5000
     assert "The lowest factor found that overturns is " in capsys.readouterr().out
+    assert [path.name for path in tmp_path.iterdir()] == ["data"]  # nothing blocks an archive
 
 
-def published(rule: str) -> dict:
-    return json.loads((REFERENCE / "findings" / f"{rule}.json").read_text(encoding="utf-8"))
-
-
-def test_counts_of_the_findings_are_the_published_ones():
-    raises = published("vase")["frame_always_raises"]
-    wide = sum(raises["exceptions_of_width"]["0.02"].values())
-    assert (
-        f"None of {raises['comparisons']} comparisons reverses the second; if intervals narrower "
-        f"than 2 % of the uplift acceleration are left out, {wide} do" in said()
-    )
-    assert raises["exceptions"] == 0
-    price = published("portal")["joints_carry_more"]
-    forces = pd.read_csv(REFERENCE / "sources" / "portal_forces.csv").dropna()
-    rocks = forces[forces.portal != "no uplift"].drop_duplicates(
-        ["motion", "peak_acceleration", "span"]
-    )
-    records = (rocks.kind == "record").sum()
-    assert price["resisted"]["fixed"] == 0
-    assert f"In {price['rocking']} comparisons in which the portal rocks" in said()
-    assert f"and both survive, {records} of them under records" in said()
-
-
-def test_citation_counts_the_claims(claims):
-    paper = [row for row in claims.values() if row.study == ""]
-    judged = [row for row in paper if row.verdict not in ("not tested", "by definition")]
+def test_citation_counts_the_claims():
+    paper = [row for row in read_judged(REFERENCE / "claims.json") if row.study == ""]
+    judged = [row for row in paper if row.verdict != "not tested"]
     abstract = " ".join(read_yaml(ROOT / "CITATION.cff")["abstract"].split())
-    judged_too = len(judged) + sum(row.verdict == "by definition" for row in paper)
-    assert f"as {len(paper)} claims, of which {judged_too} are judged" in abstract
+    assert f"as {len(paper)} claims, of which {len(judged)} are judged" in abstract

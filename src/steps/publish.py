@@ -12,6 +12,7 @@ from pathlib import Path
 from replication.commands import kill_table, pages
 from replication.pages.edition import machine, publish
 from replication.pages.seal import seal
+from steps import headlines
 from steps.explorer_still import stills
 
 DOCUMENTS = ("report", "supplement")
@@ -78,6 +79,7 @@ def main() -> None:
         shutil.copyfile(results / name, docs / name)
     stills(docs / PAGE)
     pages.write()
+    headlines.write()
     kill_table.refresh()
     (docs / "machine.txt").write_text(machine() + "\n", encoding="utf-8")
     seal()

@@ -373,17 +373,9 @@ def swapped(text):
     return text.replace("12.2 %", "?").replace("0.6 %", "12.2 %").replace("?", "0.6 %")
 
 
-@pytest.mark.parametrize(
-    ("edit", "told"),
-    [
-        (swapped, "README.md, Reversals: the numbers are"),
-        (lambda text: text.replace("21.8 %", "31.8 %"), "README.md, Many motions: the numbers"),
-        (lambda text: text.replace("464,000", "664,000"), "README.md: 664,000 overturning flags"),
-    ],
-    ids=["swapped", "changed", "flags"],
-)
-def test_number_in_the_readme_that_is_not_published_is_named(tampered, edit, told):
-    assert any(fault.startswith(told) for fault in tampered("README.md", edit))
+def test_number_in_the_readme_that_is_not_published_is_named(tampered):
+    faults = tampered("README.md", lambda text: text.replace("0.273 g", "0.373 g", 1))
+    assert any(fault.startswith("README.md: ") for fault in faults)
 
 
 @pytest.mark.parametrize(
