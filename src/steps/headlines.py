@@ -15,14 +15,11 @@ from pathlib import Path
 
 import pandas as pd
 
-from replication.judging.ledger import read_judged
-from replication.pages.edition import count_table
 from steps.shared.published import WORDS, Passage, Published, need, span
 
 STUDIES = Path(__file__).resolve().parents[2] / "studies"
 WIDTH = 118
 PARAGRAPH = re.compile(r"^(?:- )?\*\*(.+?)\.?\*\*.*?(?=\n\n|\n- |\Z)", re.DOTALL | re.MULTILINE)
-TABLE = re.compile(r"^\| \| confirmed .*?(?=\n\n|\Z)", re.DOTALL | re.MULTILINE)
 FINDINGS = "docs/findings.md"
 
 HEAD = """# What we found
@@ -241,7 +238,7 @@ def findings_page(folder: Path) -> str:
 
 
 def readme(text: str, folder: Path) -> str:
-    """Return README.md with its passages and its table of verdicts written anew.
+    """Return README.md with its passages written anew.
 
     Raises
     ------
@@ -265,8 +262,7 @@ def readme(text: str, folder: Path) -> str:
         filled = textwrap.fill(write(results), WIDTH, break_on_hyphens=False)
         text, count = re.subn(pattern, lambda _, filled=filled: filled, text, flags=re.DOTALL)
         need(count == 1, f"README.md has {count} passages that match {pattern!r}")
-    table = "\n".join(count_table(read_judged(folder / "claims.json")))
-    return TABLE.sub(lambda _: table, text)
+    return text
 
 
 def of_minutes(results: Published) -> str:
