@@ -50,7 +50,7 @@ def of_many_motions(results: Published) -> str:
 
 
 def of_reasons(results: Published) -> str:
-    results.need(reversals_after_an_impact="confirmed")
+    results.need(reversals_never_without_impact="confirmed")
     apart = results.finding("reversals_pulses", "apart")
     size, restitution = apart["size_harms"][0], apart["restitution_harms"][0]
     need(
