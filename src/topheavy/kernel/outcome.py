@@ -313,7 +313,8 @@ def outcome(w, order, tolerance, block, forcing, record, ratios):
                 state, zeros = after_impact(block, state), 1
                 impacts += 0 if is_low else 1
                 block = at_impact(own, ratios, impacts)
-                side, is_low = -side, True
+                side = -side
+                is_low = True
                 if time < forcing.end and comes_to_rest(
                     block, forcing, record, time, state.velocity, state.push, side, peak
                 ):
