@@ -17,13 +17,13 @@ def of_conditions(results: Published) -> str:
     )
     middle = with_interval(even, "median")
     return (
-        f"The beam lies loose, nothing slides, contacts do not rebound. Of {motions} motions of each "
-        f"family, scaled to a peak velocity of {pgv:.1f} m/s, {span(bare.probability)} % overturn a "
-        f"6 m column alone, and {span(free.probability)} % the frame. The estimate of this benefit "
-        "falls to zero if the column alone keeps less of its velocity at its impacts than the "
-        f"formula says, {100 * even['least']:.1f} to {100 * even['most']:.1f} % less, median "
-        f"{middle} %, in {even['compared']} comparisons. Nobody has measured this for a frame, as "
-        "far as we know."
+        f"The beam lies loose, nothing slides, contacts do not rebound. Of {motions} motions of "
+        f"each family, scaled to a peak velocity of {pgv:.1f} m/s, {span(bare.probability)} % "
+        f"overturn a 6 m column alone, and {span(free.probability)} % the frame. The estimate of "
+        "this benefit falls to zero if the column alone keeps less of its velocity at its "
+        f"impacts than the formula says, {100 * even['least']:.1f} to {100 * even['most']:.1f} % "
+        f"less, median {middle} %, in {even['compared']} comparisons. Nobody has measured this "
+        "for a frame, as far as we know."
     )
 
 

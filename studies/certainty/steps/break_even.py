@@ -26,7 +26,7 @@ NUDGE = 1e-9  # of a motion: an outcome that this changes is undecided
 LEAST, MOST = (
     0.05,
     0.95,
-)  # of the columns, of the frames that overturn: where a benefit is asked for
+)  # of the columns, of the frames that overturn: where a benefit may end
 FINE = 0.1  # of the interval of a deficit: what half the step may move it by
 
 Vector = np.ndarray
