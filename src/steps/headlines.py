@@ -18,7 +18,7 @@ import pandas as pd
 from steps.shared.published import WORDS, Passage, Published, need, span
 
 STUDIES = Path(__file__).resolve().parents[2] / "studies"
-WIDTH = 118
+WIDTH = 126
 ROUGH = 0.7  # a coefficient of friction above it is said
 PARAGRAPH = re.compile(r"^(?:- )?\*\*(.+?)\.?\*\*.*?(?=\n\n|\n- |\Z)", re.DOTALL | re.MULTILINE)
 FINDINGS = "docs/findings.md"
@@ -58,9 +58,8 @@ def of_verdicts(results: Published) -> str:
         f"Of their {of.total()} claims, {of['confirmed']} are confirmed and {of['qualified']} "
         f"hold only on conditions that we state and test; {wrong} have slips or misprints in our "
         f"text, {of['by definition']} is a definition, {of['not tested']} were not tested, and "
-        "none is refuted. That text is a transcription: a slip may be its own, not the paper's. "
-        'The rows "ours" and of the studies are our own claims, and the refuted ones our '
-        "hypotheses:"
+        "none is refuted. That text is a transcription: a slip may be its own. Other rows are our "
+        "own claims, the refuted ones hypotheses:"
     )
 
 

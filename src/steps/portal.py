@@ -286,6 +286,7 @@ def findings(portal_forces: pd.DataFrame, portal_columns: pd.DataFrame) -> dict[
             **{
                 name: {f"{span:g}": ranges(of) for span, of in rows.groupby("span")}
                 for name, rows in held.items()
+                if len(rows)
             },
         ),
         "larger_column_is_lighter_than_the_frame": truth(

@@ -17,8 +17,9 @@ def of_pulses(results: Published) -> str:
     )
     shapes, slopes = (WORDS[len(study[name])] for name in ("shapes", "slendernesses"))
     return (
-        f"On our map, pulses of {frequencies} the frequency parameter of the column and of "
-        f"{amplitudes} the uplift acceleration, a very heavy beam prevents overturning on "
+        f"On our map, pulses of {frequencies} the frequency parameter of the column (how fast it "
+        f"rocks) and of {amplitudes} the acceleration above which it begins to rock, a very heavy "
+        "beam prevents overturning on "
         f"{100 * helps:.1f} % of the area, and causes it on {100 * harms:.1f} % (means over "
         f"{shapes} pulse shapes and {slopes} slendernesses)."
     )

@@ -13,6 +13,7 @@ from topheavy.kernel.forcing import NO_RECORD, Forcing, prepare_record, pulse_fo
 from topheavy.kernel.outcome import (
     FLAT,
     LANDING,
+    NO_RATIOS,
     NOTHING,
     PULSE_ORDER,
     ROTATION,
@@ -36,7 +37,7 @@ def shaken(block, shape, strength, ratio, tolerance=TOLERANCE, record=NO_RECORD)
     """The outcome under a pulse of `strength` times the uplift level, at ω/p = `ratio`."""
     there = oscillator(block)
     motion = pulse_forcing(forcing.SHAPES[shape], strength * there.level, ratio)
-    return outcome(working_array(), PULSE_ORDER, tolerance, there, motion, record)
+    return outcome(working_array(), PULSE_ORDER, tolerance, there, motion, record, NO_RATIOS)
 
 
 def aloft(block, rotation, velocity, push=None):
@@ -224,7 +225,7 @@ def test_record_of_a_sampled_pulse_tends_to_the_pulse():
         times = np.linspace(0, math.pi / 2, number + 1)
         record = prepare_record(0.25 * np.sin(4.0 * times))
         motion = forcing.record_forcing(record, float(times[1]), 1.0)
-        found = outcome(working_array(), 9, TOLERANCE, oscillator(block), motion, record)
+        found = outcome(working_array(), 9, TOLERANCE, oscillator(block), motion, record, NO_RATIOS)
         errors.append(abs(found.peak - exact.peak))
     assert errors[0] / errors[2] == pytest.approx(16, rel=0.1)  # second order in Δt
 
@@ -234,7 +235,7 @@ def test_history_that_bounces_without_end_is_given_up():
     lossless = oscillator(RockingBlock(1.0, 0.2, 1.0))
     record = prepare_record(1.0001 * lossless.level * np.array([0.0, 1.0, *np.zeros(300)]))
     motion = forcing.record_forcing(record, 1.0, 1.0)
-    lost = outcome(working_array(), PULSE_ORDER, TOLERANCE, lossless, motion, record)
+    lost = outcome(working_array(), PULSE_ORDER, TOLERANCE, lossless, motion, record, NO_RATIOS)
     assert not lost.resolved
     assert not lost.overturned
     assert math.isnan(lost.peak)

@@ -67,7 +67,7 @@ def edition(tmp_path_factory):
     root = tmp_path_factory.mktemp("edition") / "tree"
     config = read_yaml(ROOT / "config" / "config.yaml")
     wanted = ["README.md", "config/config.yaml", "docs/verdicts.md", "docs/verify_grid.csv"]
-    wanted += ["paper/claims.yaml"]
+    wanted += ["paper/claims.yaml", "docs/costs.csv", "docs/findings.md"]
     for study in config["studies"]:
         wanted += [f"studies/{study}/{name}.yaml" for name in ("claims", "config")]
     for name in wanted:
