@@ -149,7 +149,7 @@ def test_licence_and_equation_are_those_that_are_meant():
 
 def test_pythons_are_those_of_the_package():
     low, high = re.findall(r"3\.(\d+)", (ROOT / "pyproject.toml").read_text("utf-8"))[:2]
-    assert f"Python 3.{low} to 3.{int(high) - 1} and make" in " ".join(README.split())
+    assert f"Python 3.{low} to 3.{int(high) - 1}; we ran" in " ".join(README.split())
 
 
 def test_doi_and_year_are_those_of_the_citation():

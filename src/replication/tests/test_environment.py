@@ -1,6 +1,9 @@
-"""The conda environment and the reasons for each dependency keep up with the lock."""
+"""The list for pip and the reasons for each dependency keep up with the lock."""
 
+import os
 import re
+import shutil
+import subprocess
 import tomllib
 from pathlib import Path
 
@@ -9,12 +12,11 @@ import yaml
 
 ROOT = Path(__file__).resolve().parents[3]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
-LOCK = tomllib.loads((ROOT / "uv.lock").read_text(encoding="utf-8"))
 DEFAULT = set(PROJECT["tool"]["uv"]["default-groups"])
 OPTIONAL = set(PROJECT["dependency-groups"]) - DEFAULT  # nothing installs them unasked
 MACHINE = tomllib.loads((ROOT / "src/replication/pyproject.toml").read_text(encoding="utf-8"))
+FOR_PIP = ROOT / "requirements.txt"
 FOR_CONDA = ROOT / "environment.yml"
-CONDA = yaml.safe_load(FOR_CONDA.read_text(encoding="utf-8")) if FOR_CONDA.exists() else None
 
 
 def name_of(requirement):
@@ -28,26 +30,25 @@ def declared(left_out=frozenset()):
     return {name_of(requirement) for group in groups for requirement in group} - {"replication"}
 
 
-def needed():
-    """Names of all packages that a run or a test needs, those of the machine included."""
-    extras = MACHINE["project"]["optional-dependencies"]
-    return declared(OPTIONAL) | {name_of(each) for name in DEFAULT for each in extras.get(name, [])}
+@pytest.mark.skipif(not FOR_PIP.exists(), reason="no requirements.txt")
+def test_list_for_pip_is_that_of_the_lock():
+    head, _, listed = FOR_PIP.read_text(encoding="utf-8").partition("\n")
+    command = re.search(r"uv export .*", head).group().split()
+    uv = os.environ.get("UV") or shutil.which("uv") or str(ROOT / ".uv" / "bin" / "uv")
+    command[0] = uv
+    made = subprocess.run(
+        [*command, "--offline", "--quiet"], cwd=ROOT, capture_output=True, text=True, check=True
+    )
+    assert listed == made.stdout, f"requirements.txt is older than uv.lock: {head.lstrip('# ')}"
+    asked = {word for flag, word in zip(command, command[1:], strict=False) if flag == "--group"}
+    assert asked | DEFAULT >= set(PROJECT["tool"]["replication"]["groups"])
 
 
-def pinned_for_conda():
-    """Names and versions in environment.yml, those that pip installs included."""
-    *packages, python_packages = CONDA["dependencies"]
-    pins = [p for p in packages if name_of(p) not in {"python", "pip"}]
-    pins += [p for p in python_packages["pip"] if not p.startswith("-")]
-    return dict(re.split("=+", pin) for pin in pins)
-
-
-@pytest.mark.skipif(not CONDA, reason="no environment.yml")
-def test_conda_has_what_pyproject_names_in_the_versions_of_the_lock():
-    locked = [(package["name"], package.get("version")) for package in LOCK["package"]]
-    assert sorted(pinned_for_conda().items()) == sorted(p for p in locked if p[0] in needed())
-    (python,) = (p for p in CONDA["dependencies"][:-1] if name_of(p) == "python")
-    assert python == "python" + PROJECT["project"]["requires-python"]
+@pytest.mark.skipif(not FOR_CONDA.exists(), reason="no environment.yml")
+def test_conda_has_python_and_pip_which_has_the_list():
+    conda = yaml.safe_load(FOR_CONDA.read_text(encoding="utf-8"))
+    python = "python" + PROJECT["project"]["requires-python"]
+    assert conda["dependencies"] == [python, "pip", {"pip": ["-r requirements.txt"]}]
 
 
 def test_what_benchmarks_engines_and_clusters_need_is_not_installed_unasked():

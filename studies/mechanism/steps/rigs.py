@@ -22,7 +22,8 @@ from topheavy import Cap, Column, Pulse, RockingFrame, minimum_overturning, simu
 
 NO_ENGINE = (
     "needs the optional group `engine` (MuJoCo), which is not installed: "
-    "run `make reproduce`, or `uv run --group engine snakemake --cores 2`"
+    "run `make reproduce`, or `uv run --group engine snakemake --cores 2`; "
+    "with pip or conda, `pip install -r requirements.txt`"
 )
 
 FALLEN = math.pi / 3  # rad, from where no pulse brings a column back; the cap is still aloft
