@@ -1,5 +1,6 @@
 """The list for pip and the reasons for each dependency keep up with the lock."""
 
+import itertools
 import os
 import re
 import shutil
@@ -40,7 +41,7 @@ def test_list_for_pip_is_that_of_the_lock():
         [*command, "--offline", "--quiet"], cwd=ROOT, capture_output=True, text=True, check=True
     )
     assert listed == made.stdout, f"requirements.txt is older than uv.lock: {head.lstrip('# ')}"
-    asked = {word for flag, word in zip(command, command[1:], strict=False) if flag == "--group"}
+    asked = {word for flag, word in itertools.pairwise(command) if flag == "--group"}
     assert asked | DEFAULT >= set(PROJECT["tool"]["replication"]["groups"])
 
 
