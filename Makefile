@@ -13,30 +13,33 @@ SHARED  = the compiled kernel, in $${NUMBA_CACHE_DIR:-$${XDG_CACHE_HOME:-$$HOME/
 
 include src/replication/make/machine.mk
 
-.PHONY: api audit fuzz benchmark verify-grid cluster-test
+.PHONY: notebooks api audit fuzz benchmark verify-grid cluster-test
+
+notebooks: | $(UV) ## open the notebooks in JupyterLab: the derivation, and a frame to play with
+	@$(UV) run --locked $(GROUPS) --group notebooks jupyter lab notebooks
 
 api: | $(UV) ## write a page of the library's functions: dist/api/topheavy.html
 	@$(DEV) python -W 'ignore:Error parsing type annotation' -c "import topheavy; [getattr(topheavy, name) for name in topheavy.__all__]; \
 	  from pdoc.__main__ import cli; cli('topheavy -o dist/api --no-show-source --docformat numpy'.split())"
 
-audit: | $(UV) ## 3 hours: finer grids, tighter tolerances, all peers, all faults (CONFIG, CELLS, ROTATE)
+audit: | $(UV) ##- 3 hours: finer grids, tighter tolerances, all peers, all faults (CONFIG, CELLS, ROTATE)
 	@$(SNAKEMAKE) --configfile "$$CONFIG"
 	@$(MAKE) --no-print-directory verify-grid benchmark kill-table
 	@echo "results/ is that of $$CONFIG now: 'make reproduce' brings ours back"
 
-fuzz: | $(UV) ## search for inputs on which solvers disagree or a function fails (MINUTES=1, SEED)
+fuzz: | $(UV) ##- search for inputs on which solvers disagree or a function fails (MINUTES=1, SEED)
 	@$(call WHOLE,MINUTES); $(if $(value SEED),$(call WHOLE,SEED);) $(DEV) \
 	  python benchmarks/fuzz.py "$$MINUTES" $${SEED:+"$$SEED"}
 
-benchmark: | $(UV) ## time the kernel beside its peers; writes docs/benchmark.csv and .svg (15 minutes)
+benchmark: | $(UV) ##- time the kernel beside its peers; writes docs/benchmark.csv and .svg (15 minutes)
 	@$(BENCH) python benchmarks/benchmark.py
 
-stills: | $(UV) ## take the pictures of docs/explorer.html anew, at three sizes of screen
+stills: | $(UV) ##- take the pictures of docs/explorer.html anew, at three sizes of screen
 	@$(RUN) python -m steps.explorer_still
 
-verify-grid: | $(UV) ## compare overturning flags with an independent route (CELLS=40000 a set)
+verify-grid: | $(UV) ##- compare overturning flags with an independent route (CELLS=40000 a set)
 	@$(call WHOLE,CELLS)
 	@$(BENCH) python benchmarks/verify_grid.py "$$CELLS"
 
-cluster-test: | $(UV) ## as root on Debian: start SLURM here, compare its bytes with ours (5 minutes)
+cluster-test: | $(UV) ##- as root on Debian: start SLURM here, compare its bytes with ours (5 minutes)
 	@$(RUN) --group cluster profiles/slurm/test/run

@@ -132,12 +132,20 @@ def test_readme_is_short():
     assert len(README.split()) <= 1000
 
 
-def test_links_lead_somewhere():
-    for page in (README, (ROOT / headlines.FINDINGS).read_text(encoding="utf-8")):
-        folder = ROOT if page is README else ROOT / "docs"
-        for target in re.findall(r"\]\(([^)#]+)\)", page):
-            if not target.startswith("http"):
-                assert (folder / target).exists(), f"{target} does not exist"
+@pytest.mark.parametrize("name", ["README.md", headlines.FINDINGS, "docs/index.html"])
+def test_links_lead_somewhere(name):
+    text, folder = (ROOT / name).read_text(encoding="utf-8"), (ROOT / name).parent
+    targets = re.findall(r"\]\(([^)#]+)\)", text) + re.findall(r'(?:href|src)="([^"#]+)"', text)
+    assert targets
+    for target in targets:
+        if not target.startswith("http"):
+            assert (folder / target).exists(), f"{name}: {target} does not exist"
+
+
+def test_index_has_the_answer_of_the_readme():
+    page = " ".join((ROOT / "docs/index.html").read_text(encoding="utf-8").split())
+    answer = re.search(r"\*\*(Yes for.*?)\*\*", " ".join(README.split())).group(1)
+    assert f"<strong>{answer.rstrip(':')}.</strong>" in page
 
 
 def test_licence_and_equation_are_those_that_are_meant():

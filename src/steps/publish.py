@@ -19,6 +19,7 @@ DOCUMENTS = ("report", "supplement")
 PICTURES = ("vase", "heavier", "peak_maps", "spectra", "structures")
 MOVING = "animation.gif"
 PAGE = "explorer.html"
+NOTEBOOKS = ("derivation", "play")
 TABLES = (
     "allen_errors",
     "allen_overturning",
@@ -77,6 +78,8 @@ def main() -> None:
         shutil.copyfile(f"paper/{name}.pdf", docs / f"{name}.pdf")
     for name in (MOVING, PAGE):
         shutil.copyfile(results / name, docs / name)
+    for name in NOTEBOOKS:
+        shutil.copyfile(results / "notebooks" / f"{name}.html", docs / f"notebook_{name}.html")
     stills(docs / PAGE)
     pages.write()
     headlines.write()

@@ -34,9 +34,12 @@ SNAKEMAKE = $(call WHOLE,CORES); $(RUN) python -m replication.commands.run --cor
 .PHONY: help reproduce claim check trace verify archive html test lint pages schema publish \
   kill-table study paper update unlock clean
 
+LISTED = $(wordlist 2,9,$(MAKEFILE_LIST)) $(firstword $(MAKEFILE_LIST))
+LINES  = while IFS='|' read -r target text; do printf '  %-17s %s\n' "$$target" "$$text"; done
 help: ## show this list
-	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/make \1|\2/p' $(wordlist 2,9,$(MAKEFILE_LIST)) $(firstword $(MAKEFILE_LIST)) | \
-	  while IFS='|' read -r target text; do printf '  %-16s %s\n' "$$target" "$$text"; done
+	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/make \1|\2/p' $(LISTED) | $(LINES)
+	@echo; echo "for maintainers"
+	@sed -n 's/^\([a-z-]*\):.*##- \(.*\)/make \1|\2/p' $(LISTED) | $(LINES)
 
 reproduce: | $(UV) ## compute every result, check every claim, compile the report (CORES=2)
 	@$(SNAKEMAKE)
@@ -54,7 +57,7 @@ trace: | $(UV) ## from a figure, table, finding or claim to its source (ITEM=res
 verify: | $(UV) ## compare every file of a finished run with its RO-Crate
 	@$(UV) run --no-project --no-config --python '>=3.11' python -I -S src/replication/commands/verify.py
 
-archive: | $(UV) ## after a run: one .zip in dist/ with the source and the results
+archive: | $(UV) ##- after a run: one .zip in dist/ with the source and the results
 	@$(RUN) python -m replication.commands.archive
 
 OPENING = --report-metadata src/replication/pages/opening.yaml \
@@ -72,7 +75,7 @@ test: | $(UV) ## run the tests
 LEDGER_SCHEMA = src/replication/judging/claims.schema.yaml
 SCHEMAS = $(wildcard config/*.schema.yaml studies/*/*.schema.yaml paper/*.schema.yaml)
 lint: export VALIDATE_PYPROJECT_NO_NETWORK = 1
-lint: | $(UV) ## check style, types, spelling, wording and schemas; changes nothing
+lint: | $(UV) ##- check style, types, spelling, wording and schemas; changes nothing
 	$(DEV) ruff check
 	$(DEV) ruff format --check
 	$(DEV) mypy
@@ -95,16 +98,16 @@ lint: | $(UV) ## check style, types, spelling, wording and schemas; changes noth
 	  /^    \* / && !/\* Specify a conda environment or container for each rule/ { found = 1 } \
 	  END { if (found || !ran) { printf "%s", text; exit 1 } }'
 
-pages: | $(UV) ## write the pages that need no run: input numbers; codecheck.yml, docs/exhibits.md if they exist
+pages: | $(UV) ##- write the pages that need no run: input numbers; codecheck.yml, docs/exhibits.md if they exist
 	@$(RUN) python -m replication.commands.pages
 
-schema: | $(UV) ## draft what the schemas of the configs say of sections that they lack
+schema: | $(UV) ##- draft what the schemas of the configs say of sections that they lack
 	@$(RUN) python -m replication.commands.draft_schema
 
-publish: | $(UV) ## copy results to docs/ and tests/reference/; read the diff, then commit it
+publish: | $(UV) ##- copy results to docs/ and tests/reference/; read the diff, then commit it
 	@$(RUN) python -m steps.publish
 
-kill-table: | $(UV) ## put faults into a copy, one at a time: what catches each? (FAULTS=a,b or ROTATE=3)
+kill-table: | $(UV) ##- put faults into a copy, one at a time: what catches each? (FAULTS=a,b or ROTATE=3)
 	@$(if $(value ROTATE),$(call WHOLE,ROTATE))
 	@$(call WHOLE,CORES); $(DEV) python -m replication.commands.kill_table --cores "$$CORES" \
 	  $${FAULTS:+"--faults=$$FAULTS"} $${ROTATE:+"--rotate=$$ROTATE"}
@@ -112,16 +115,16 @@ kill-table: | $(UV) ## put faults into a copy, one at a time: what catches each?
 study: | $(UV) ## begin a follow-up study: make study NAME=my_study (FOLLOW-UP.md)
 	@$(RUN) python -m replication.commands.new_study "$$NAME"
 
-update: | $(UV) ## replace the machine of a paper by a newer one: make update FROM=../folder or a git URL
+update: | $(UV) ##- replace the machine of a paper by a newer one: make update FROM=../folder or a git URL
 	@$(UV) run --no-project --no-config --python '>=3.11' python -I -S src/replication/commands/update.py "$$FROM"
 
-paper: | $(UV) ## begin the replication of another paper: make paper TO=../other (FOLLOW-UP.md)
+paper: | $(UV) ##- begin the replication of another paper: make paper TO=../other (FOLLOW-UP.md)
 	@$(RUN) python -m replication.commands.new_paper "$$TO"
 
-unlock: | $(UV) ## after a killed run left the folder locked; refused beside a run
+unlock: | $(UV) ##- after a killed run left the folder locked; refused beside a run
 	@$(RUN) snakemake --unlock
 
-clean: ## remove all that the workflow and the tools wrote; keep the environment
+clean: ##- remove all that the workflow and the tools wrote; keep the environment
 	rm -rf results dist .snakemake figures/*.svg studies/*/figures/*.svg paper/*.pdf
 	rm -rf .kill_table.jsonl .pytest_cache .ruff_cache .mypy_cache .hypothesis
 	find . \( -name .venv -o -name .uv \) -prune -o -name __pycache__ -type d -prune -exec rm -rf {} +
