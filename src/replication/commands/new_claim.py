@@ -16,6 +16,9 @@ from replication.judging.ledger import read_ledger
 LONGEST = 30
 """Letters of a name: so few that no line that contains it needs another break."""
 RULES = "src/steps/paper.smk"
+"""Where the paper's rules are, unless they are in the Snakefile itself, before its studies."""
+
+STUDIES = '\nfor name in config["studies"]:'
 ROW = """\
 - id: {name}
   where: "BLANK: the page, and the equation or figure"
@@ -79,10 +82,18 @@ def create(name: str, root: Path = Path()) -> list[str]:
     if name in names_of(root) | {path.stem for path in root.glob("src/*/*.py")}:
         raise ValueError(f"NAME is {name!r}, as a rule, result or module is; expected a new name")
     modules = {f"src/{library}/{name}.py": FUNCTION, f"src/steps/{name}.py": STEP}
-    new = {ledger_of(PAPER): ROW, **modules, RULES: RULE}
+    rules = RULES if (root / RULES).exists() else "Snakefile"
+    new = {ledger_of(PAPER): ROW, **modules, rules: RULE}
     for path, text in new.items():
-        with (root / path).open("a", encoding="utf-8") as file:
-            file.write(text.format(name=name, library=library))
+        written = text.format(name=name, library=library)
+        before = (root / path).read_text(encoding="utf-8") if (root / path).exists() else ""
+        if path == "Snakefile":
+            first, studies, rest = before.partition(STUDIES)
+            script = written.replace('script:\n        "', 'script:\n        "src/steps/')
+            written = first.rstrip("\n") + "\n" + script + "\n" + studies + rest
+        else:
+            written = before + written
+        (root / path).write_text(written, encoding="utf-8")
     return [*new]
 
 
@@ -94,4 +105,4 @@ if __name__ == "__main__":
     if written:
         print(f"{sys.argv[1]} is a new claim. Make it yours, and run the same command again:")
         print(*(f"  {path}" for path in written), sep="\n")
-        print("To take it back, delete the modules, and the ends of the other two.", flush=True)
+        print("To take it back, delete the modules, the row and the rule.", flush=True)

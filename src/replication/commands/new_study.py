@@ -80,7 +80,8 @@ def _meaning(name: str, root: Path) -> str | None:
 
 def names_of(root: Path) -> set[str]:
     """Return the names of rules, results, figures, notebooks and documents."""
-    snakefiles = [*sorted(root.glob("src/*/*.smk")), *sorted(root.glob("studies/*/*.smk"))]
+    kinds = ("Snakefile", "src/*/*.smk", "studies/*/*.smk")
+    snakefiles = [path for kind in kinds for path in sorted(root.glob(kind))]
     texts = [path.read_text(encoding="utf-8") for path in snakefiles]
     names = {found for text in texts for both in NAMES.findall(text) for found in both if found}
     made = ("figures/*.py", "notebooks/*.ipynb", "paper/*.typ")

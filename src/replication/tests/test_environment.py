@@ -53,7 +53,9 @@ def test_conda_has_python_and_pip_which_has_the_list():
 
 
 def test_what_benchmarks_engines_and_clusters_need_is_not_installed_unasked():
-    assert {"bench", "cluster", "crate", "engine", "notebooks"} & set(PROJECT["dependency-groups"]) == OPTIONAL
+    assert {"bench", "cluster", "crate", "engine", "notebooks"} & set(
+        PROJECT["dependency-groups"]
+    ) == OPTIONAL
 
 
 def test_run_has_what_the_extras_of_the_library_name():

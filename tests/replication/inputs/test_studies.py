@@ -27,7 +27,7 @@ def project(tmp_path):
     shutil.copy(ROOT / "config" / "config.yaml", tmp_path / "config")
     shutil.copy(ROOT / ".gitignore", tmp_path)
     shutil.copytree(ROOT / "studies" / "skeleton", tmp_path / "studies" / "skeleton")
-    for name in ("src", "figures", "notebooks", "paper"):
+    for name in ("Snakefile", "src", "figures", "notebooks", "paper"):
         (tmp_path / name).symlink_to(ROOT / name)
     return tmp_path
 

@@ -40,6 +40,21 @@ def test_new_claim_fits_together_in_the_style_that_lint_demands(paper, monkeypat
         subprocess.run([sys.executable, "-m", *command, *check, *files], check=True)
 
 
+def test_rule_of_a_new_claim_stands_in_the_snakefile_that_has_the_others(paper):
+    rules = paper / "src/steps/paper.smk"
+    snakefile = paper / "Snakefile"
+    text = snakefile.read_text("utf-8").replace('include: "src/steps/paper.smk"\n', "")
+    snakefile.write_text(text, "utf-8")
+    rules.unlink()
+    assert "Snakefile" in create("probe", paper)
+    before, after = snakefile.read_text("utf-8").split('\nfor name in config["studies"]:')
+    assert "rule probe:" in before
+    assert '    script:\n        "src/steps/probe.py"\n' in before
+    assert after == text.split('\nfor name in config["studies"]:')[1]
+    check = [sys.executable, "-m", "snakefmt", "--check", str(snakefile)]
+    subprocess.run(check, check=True, capture_output=True)
+
+
 @pytest.mark.parametrize(
     ("name", "told"),
     [
