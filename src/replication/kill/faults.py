@@ -12,7 +12,7 @@ from typing import Any
 from replication.inputs.strict_yaml import read_yaml
 from replication.kill.tree_copy import ROOT
 
-FAULTS = ("faults/*.yaml", "studies/*/faults.yaml")
+FAULTS = ("faults/*.yaml", "tests/faults/*.yaml", "studies/*/faults.yaml")
 """The files of faults: those of the paper, and of each study in its folder."""
 JUDGING = "judging"
 """The routes of a fault in the judging itself: its tests run before any verdict is computed."""

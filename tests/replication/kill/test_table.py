@@ -70,13 +70,13 @@ def test_fault_still_fits_the_tree(fault):
 
 
 def test_faults_of_a_study_go_with_its_folder_and_those_of_the_others_stay(tmp_path, plant):
-    paths = ["faults/one.yaml", "studies/a/faults.yaml", "studies/b/faults.yaml"]
+    paths = ["faults/one.yaml", "tests/faults/two.yaml", "studies/a/faults.yaml", "studies/b/faults.yaml"]
     for path in paths:
         entry = {"name": path, "fault": "Wrong.", "routes": "all", "tests": [], "changes": []}
         plant(tmp_path, {path: yaml.safe_dump([entry])})
     assert [(fault.home, fault.name) for fault in load(tmp_path)] == [(p, p) for p in paths]
     shutil.rmtree(tmp_path / "studies" / "a")
-    assert [fault.home for fault in load(tmp_path)] == [paths[0], paths[2]]
+    assert [fault.home for fault in load(tmp_path)] == [*paths[:2], paths[3]]
 
 
 @pytest.mark.parametrize("fault", FAULTS, ids=NAMES)
