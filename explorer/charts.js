@@ -35,7 +35,7 @@ class Strip {
       scales: { x: { time: false }, y: { range: () => this.range } },
       axes: [
         axis({ show: last, size: 22, label: "Time (s)" }),
-        axis({ size: 36, label, space: 18 }),
+        axis({ size: 36, label, space: 18, ...(band ? { splits: () => [-1, 0, 1] } : {}) }),
       ],
       series: [{}, { stroke: () => colour(this.stroke), width: 1.5, spanGaps: false }],
       hooks: { drawClear: [(u) => this.shade(u, band)] },

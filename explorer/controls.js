@@ -36,7 +36,7 @@ class Controls {
     structure.append(
       ...["b", "h", "g"].map((key) => this.number(key)), this.masses(), this.number("L"),
       this.choice("cap", "Cap beam on two columns", { free: "free: frame", fixed: "fixed: portal" }),
-      this.choice("own", "Coefficient of restitution √r", { formula: "Eq. (25)", own: "own" }),
+      this.choice("own", "Coefficient of restitution √r", { formula: "by its formula", own: "own" }),
       this.number("r"),
       this.choice("eq", "Equation of motion", { exact: "exact", linearised: "linearised" }),
     );
@@ -52,10 +52,13 @@ class Controls {
     const field = made("div", { class: "field", id: `${key}-field` },
       made("label", { for: key }, label, ...(hint ? [made("small", {}, hint)] : [])), text, made("span", { class: "unit" }, unit), slider,
       made("p", { class: "error", id: `${key}-error`, role: "alert" }));
+    let held = null; // the number when the field was entered: what is typed towards an invalid entry does not stay
+    text.addEventListener("focus", () => (held = this.state[key]));
     const type = (isFinal) => {
       const number = typed(text.value), message = fault(key, number, text.value);
-      this.tell(key, message);
-      if (!message) this.apply({ [key]: number }, isFinal, key);
+      if (!message) return void this.apply({ [key]: number }, isFinal, key);
+      if (held !== null && this.state[key] !== held) this.apply({ [key]: held }, isFinal, key);
+      this.tell(key, this.state[key] === null ? message : `${message}; ${shown(this.state[key])} is kept`);
     };
     text.addEventListener("input", () => type(false));
     text.addEventListener("change", () => type(true));
@@ -131,7 +134,7 @@ class Controls {
     addEventListener("drop", (event) => {
       event.preventDefault();
       document.body.classList.remove("over");
-      if (event.dataTransfer.files[0]) this.open(event.dataTransfer.files[0]);
+      if (event.dataTransfer.files[0]) this.open(...event.dataTransfer.files);
     });
     return made("div", { id: "drop" }, button, " or drop a file here, AT2 or CSV. It stays on this computer. ", made("span", { id: "reading", role: "status" }), file,
       made("p", { class: "error", id: "record-error", role: "alert" }));
@@ -174,7 +177,7 @@ class Controls {
     for (const key of Object.keys(FIELDS)) {
       if (state[key] === null) continue;
       const text = byId(key), slider = byId(`${key}-slider`);
-      if (typed(text.value) !== state[key]) text.value = shown(state[key]);
+      if (typed(text.value) !== state[key] && !(document.activeElement === text && fault(key, typed(text.value), text.value))) text.value = shown(state[key]);
       if (document.activeElement !== slider || fromSlider(key, Number(slider.value)) !== state[key]) slider.value = toSlider(key, state[key]);
       slider.setAttribute("aria-valuetext", `${shown(state[key])} ${FIELDS[key].unit}`);
     }

@@ -388,8 +388,9 @@ function pick(x, y) {
   spectrumChart.plane = planeOf(state, fileOf(state)); // a key may come before the next picture
 }
 
-/** Read a file that was opened or dropped, in a worker of its own, and shake with it. The last one counts. */
-function open(file) {
+/** Read a file that was opened or dropped, in a worker of its own, and shake with it. The last one counts;
+    files that came with it are named. */
+function open(file, ...others) {
   reader?.terminate();
   reader = new Worker(READER);
   byId("reading").textContent = `Reading ${file.name} …`;
@@ -398,6 +399,7 @@ function open(file) {
     byId("reading").textContent = "";
     controls.tell("record", data.error ?? "");
     if (data.read) take(data.read);
+    if (others.length) controls.tell("record", `${data.error ?? `${file.name} was read`}; not ${others.map((one) => one.name).join(", ")}: drop one file at a time`);
   };
   reader.postMessage(file);
 }

@@ -2,10 +2,12 @@
 
 import json
 import re
+from pathlib import Path
 from statistics import median
 
 import pytest
 
+from replication.inputs.strict_yaml import read_yaml
 from steps.explorer import checked_cases, page
 from tests.records.files import MOST
 
@@ -622,3 +624,49 @@ def test_data_of_the_page_are_those_of_its_sources(text, records):
     (record,) = data["records"]
     assert record["samples"] == records["el_centro_1940_NS"].acceleration.tolist()
     assert len(data["cases"]) == 6
+
+
+def test_page_names_paper_version_and_licence(browser):
+    cited = read_yaml(Path(__file__).parents[2] / "CITATION.cff")
+    browser.open_to_compute()
+    said, links = browser.do(
+        """[document.querySelector("footer").textContent.replace(/\\s+/g, " "),
+        [...document.querySelectorAll("footer a")].map(each => each.getAttribute("href"))]"""
+    )
+    doi = cited["references"][0]["doi"]
+    assert f"doi:{doi}" in said
+    assert f"topheavy {cited['version']}: article" in said
+    assert said.endswith("MIT licence; text CC BY 4.0.")
+    assert links[0] == f"https://doi.org/{doi}"
+
+
+@pytest.mark.parametrize(("typed", "kept"), [("43%", 1.0), ("4 apples", 1.0), ("2.5", 2.5)])
+def test_invalid_entry_keeps_the_last_valid_number(browser, typed, kept):
+    """Each letter is an entry: 43 % was γ = 43 before its last one."""
+    browser.open_to_compute()
+    browser.begin({"g": 1.0})
+    browser.do("document.getElementById('g').focus()")
+    browser.do("document.getElementById('g').select()")
+    for letter in typed:
+        browser.ask("Input.insertText", text=letter)
+    text, error = browser.do("[g.value, document.getElementById('g-error').textContent]")
+    assert browser.do("state.g") == kept
+    assert text == typed
+    assert (f"; {kept:g} is kept" in error) == (typed != "2.5")
+
+
+def test_of_several_dropped_files_those_that_are_not_read_are_named(browser):
+    browser.open_to_compute()
+    told = browser.do(
+        """new Promise(resolve => {
+          const data = new DataTransfer();
+          for (const name of ["one.csv", "two.csv", "three.csv"]) data.items.add(new File(
+            ["time (s),acceleration (g)\\n0.00,0\\n0.01,0.1\\n0.02,0\\n"], name));
+          dispatchEvent(new DragEvent("drop", {dataTransfer: data, cancelable: true}));
+          const look = () => document.getElementById("record-error").textContent
+            ? resolve(document.getElementById("record-error").textContent) : setTimeout(look, 20);
+          look();
+        })"""
+    )
+    assert told == "one.csv was read; not two.csv, three.csv: drop one file at a time"
+    assert browser.do("state.record") == "one"

@@ -70,7 +70,12 @@ def test_fault_still_fits_the_tree(fault):
 
 
 def test_faults_of_a_study_go_with_its_folder_and_those_of_the_others_stay(tmp_path, plant):
-    paths = ["faults/one.yaml", "tests/faults/two.yaml", "studies/a/faults.yaml", "studies/b/faults.yaml"]
+    paths = [
+        "faults/one.yaml",
+        "tests/faults/two.yaml",
+        "studies/a/faults.yaml",
+        "studies/b/faults.yaml",
+    ]
     for path in paths:
         entry = {"name": path, "fault": "Wrong.", "routes": "all", "tests": [], "changes": []}
         plant(tmp_path, {path: yaml.safe_dump([entry])})
