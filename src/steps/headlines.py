@@ -124,7 +124,7 @@ def of_support(results: Published) -> str:
     pulses = lowers["exceptions"] - lowers["exceptions_under_records"]
     return (
         "A mass lowers the minimum of a column if it is fixed to its top, and raises it if two "
-        f"columns carry it freely. {pulses} short pulses and one record (uncorrected) reverse the first. None "
+        f"columns carry it freely. {pulses} short pulses and one record reverse the first. None "
         f"of {raises['comparisons']} comparisons reverses the second; if intervals narrower than "
         f"2 % of the uplift acceleration are left out, {wide} do. Those narrower than a "
         "thousandth are not excluded."
