@@ -10,6 +10,7 @@ import pytest
 
 from replication.inputs.strict_yaml import read_yaml
 from replication.judging.ledger import read_judged
+from replication.pages.blanks import blanks
 from replication.pages.edition import with_counts
 from steps import headlines
 from steps.shared.published import Published, need, span, with_interval
@@ -181,3 +182,13 @@ def test_citation_counts_the_claims():
     judged = [row for row in paper if row.verdict != "not tested"]
     abstract = " ".join(read_yaml(ROOT / "CITATION.cff")["abstract"].split())
     assert f"as {len(paper)} claims, of which {len(judged)} are judged" in abstract
+
+
+def test_only_the_citation_has_what_its_owner_fills_in():
+    assert [line.split(": ", 1)[1][:28] for line in blanks(ROOT)] == [
+        'BLANK: names of the authors"',
+        "BLANK: address, and e-mail o",
+        "BLANK: neither exists yet. O",
+    ]
+    assert all(line.startswith("CITATION.cff:") for line in blanks(ROOT))
+    assert "BLANK" not in (ROOT / "codecheck.yml").read_text(encoding="utf-8")

@@ -11,6 +11,7 @@ from typing import Any
 import yaml
 
 from replication.origin.about import name_of
+from replication.pages.blanks import MARK
 from replication.workflow.provenance import Job, makers
 
 SPECIFICATION = "https://codecheck.org.uk/spec/config/2.0/"
@@ -22,6 +23,9 @@ HEAD = """\
 # No CODECHECK has been done: codechecker, report, summary and certificate are missing for this
 # reason. The person who checks adds them.
 """
+UNNAMED = {"name": "see CITATION.cff"}
+"""Who stands for authors that are still to be filled in there."""
+
 NO_ORCID = """\
 # The specification requires the ORCID of each author; CITATION.cff has none of {}.
 """
@@ -32,7 +36,7 @@ def codecheck_file(
 ) -> str:
     """Return the text of codecheck.yml, of the jobs of `rule all` and the captions by path."""
     authors = [_author(each) for each in citation["authors"]]
-    lacking = [author["name"] for author in authors if "ORCID" not in author]
+    lacking = [one["name"] for one in authors if one != UNNAMED and "ORCID" not in one]
     reference = "paper/report.pdf of this repository; CITATION.cff has no DOI"
     if "doi" in citation:
         reference = f"https://doi.org/{citation['doi']}"
@@ -68,6 +72,8 @@ def manifest(
 
 
 def _author(entry: Mapping[str, str]) -> dict[str, str]:
+    if name_of(entry).startswith(MARK):
+        return UNNAMED
     author = {"name": name_of(entry)}
     if "orcid" in entry:
         author["ORCID"] = entry["orcid"].removeprefix("https://orcid.org/")
