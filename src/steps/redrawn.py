@@ -29,7 +29,7 @@ ROOT = Path(__file__).resolve().parents[2]
 def scripts() -> dict[str, Path]:
     """Return the script of each rule that makes findings, by the name of their file."""
     found = {}
-    for path in (*ROOT.glob("src/steps/*.smk"), *ROOT.glob("studies/*/*.smk")):
+    for path in (ROOT / "Snakefile", *ROOT.glob("studies/*/*.smk")):
         for rule in re.split(r"(?m)^rule ", path.read_text(encoding="utf-8")):
             made = re.search(r'"results/findings/(\S+)\.json"', rule.split("\n    script:")[0])
             script = re.search(r'\n    script:\s*"(.+)"', rule)
