@@ -174,11 +174,11 @@ def test_no_history_comes_near_the_most_steps(monkeypatch, shape, block):
     for strength, ratio in EXTREMES:
         motion = pulse_forcing(forcing.SHAPES[shape], strength * there.level, ratio)
         given = (w, outcome.PULSE_ORDER, outcome.TOLERANCE, there, motion, NO_RECORD)
-        assert outcome.outcome.py_func(*given).resolved
+        assert outcome.outcome.py_func(*given, outcome.NO_RATIOS).resolved
         rest = (0.0, 0.0, math.inf, np.empty(0), np.empty((2, 0)), np.empty(1000))
         assert trace.trace.py_func(*given, *rest)[1] != trace.UNRESOLVED
     monkeypatch.setattr(outcome, "MAX_STEPS", 0)
-    assert not outcome.outcome.py_func(*given).resolved
+    assert not outcome.outcome.py_func(*given, outcome.NO_RATIOS).resolved
     monkeypatch.setattr(trace, "MOST_STEPS", 0)
     assert trace.trace.py_func(*given, *rest)[1] == trace.UNRESOLVED
 

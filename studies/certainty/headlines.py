@@ -82,7 +82,7 @@ def of_impacts(results: Published) -> str:
         f"at deficits of the column's √r alone of {100 * even['least']:.1f} to "
         f"{100 * even['most']:.1f} %, median {with_interval(even, 'median')} %, over "
         f"{even['compared']} comparisons that share motions. Nobody has measured which of the two "
-        "is lower; a rigid-body engine, with rebound, lowers that of the frame."
+        "is lower, as far as we know; a rigid-body engine, with rebound, lowers that of the frame."
     )
 
 

@@ -131,7 +131,7 @@ def test_without_a_commit_or_when_the_tree_differs_from_it_everything_runs_but_t
 def test_unknown_depth_is_refused(tree, words):
     done = tree.run("bash", ".ci/run", *words)
     assert done.returncode == 1
-    assert f".ci/run: unknown: {' '.join(words)}; expected nothing, all, plan" in done.stderr
+    assert f".ci/run: unknown part: {' '.join(words)}; expected nothing, all, plan" in done.stderr
 
 
 @pytest.mark.parametrize("committed", [True, False])
