@@ -23,7 +23,7 @@ configfile: "config/config.yaml"
 check_inputs(config, config_files(), "config/config.schema.yaml")
 RECORDS = record_files()
 
-# The paper, and its follow-up studies, each a folder (FOLLOW-UP.md).
+# The paper, and its follow-up studies, each a folder (studies/FOLLOW-UP.md).
 PARTS = parts(partial(check_inputs, structures=config["structures"]))
 
 
@@ -478,7 +478,7 @@ rule animation:
 
 rule explorer:
     input:
-        sorted(str(path) for path in Path("explorer").rglob("*") if path.is_file()),
+        sorted(str(path) for path in Path("src/explorer").rglob("*") if path.is_file()),
         record=RECORDS["el_centro_1940_NS"],
     output:
         "results/explorer.html",

@@ -1,4 +1,4 @@
-"""The lines of FOLLOW-UP.md do what they say."""
+"""The lines of studies/FOLLOW-UP.md do what they say."""
 
 import re
 from pathlib import Path
@@ -8,7 +8,7 @@ import yaml
 from topheavy import read_record
 
 ROOT = Path(__file__).parents[1]
-GUIDE = (ROOT / "FOLLOW-UP.md").read_text(encoding="utf-8")
+GUIDE = (ROOT / "studies/FOLLOW-UP.md").read_text(encoding="utf-8")
 
 
 def test_step_of_the_guide_computes_what_its_claim_states():
@@ -16,7 +16,7 @@ def test_step_of_the_guide_computes_what_its_claim_states():
     rows = [yaml.safe_load(block) for block in re.findall(r"```yaml\n(- id.*?)```", GUIDE, re.S)]
     ((claim,),) = rows
     names = {"__name__": "step"}
-    exec(compile(step, "FOLLOW-UP.md", "exec"), names)
+    exec(compile(step, "studies/FOLLOW-UP.md", "exec"), names)
     found = names["main"](read_record(ROOT / "data/records/el_centro_1940_NS.AT2"))
     assert found[claim["finding"]].holds  # "survives the record as it was measured"
     assert "as it was measured" in claim["statement"]

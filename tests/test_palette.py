@@ -122,7 +122,7 @@ def test_lightest_line_can_be_seen():
 
 @pytest.mark.parametrize("name", ["OVERTURNS", "SURVIVES", "PREVENTED", "CAUSED"])
 def test_explorer_shows_outcomes_in_the_same_colours(name):
-    style = (ROOT / "explorer" / "style.css").read_text(encoding="utf-8")
+    style = (ROOT / "src/explorer" / "style.css").read_text(encoding="utf-8")
     first = re.search(rf"--{name.lower()}: (#[0-9a-f]{{6}});", style)
     assert first is not None
     assert first[1] == getattr(palette, name)

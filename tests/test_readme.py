@@ -150,7 +150,7 @@ def test_index_has_the_answer_of_the_readme():
 
 
 def test_licence_and_equation_are_those_that_are_meant():
-    assert "Attribution 4.0 International" in (ROOT / "LICENSE-CC-BY").read_text("utf-8")
+    assert "Attribution 4.0 International" in (ROOT / "docs/LICENSE-CC-BY").read_text("utf-8")
     claims = Published(REFERENCE).claims
     assert "`make trace ITEM=eq25` leads from Eq. (25)" in " ".join(README.split())
     assert claims["eq25"]["equation"] == 25

@@ -61,7 +61,7 @@ def test_schema_that_names_no_list_is_refused(tmp_path, name, told):
 
 
 def test_page_has_every_shape_and_no_other():
-    motions = (ROOT / "explorer" / "motions.js").read_text(encoding="utf-8")
+    motions = (ROOT / "src/explorer" / "motions.js").read_text(encoding="utf-8")
     assert set(titles(motions)) == set(SHAPES)
     for wrong in (
         motions.replace('"half-sine": {', '"halfsine": {'),

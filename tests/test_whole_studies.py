@@ -14,7 +14,7 @@ ROOT = Path(__file__).parents[1]
 FREE = re.compile(
     r"docs/|tests/reference/|codecheck\.yml$"  # what commands write
     r"|.*\.(md|bib|ipynb)$|paper/(claims|words|assumptions)\.yaml$"  # prose
-    r"|uv\.lock$|explorer/uplot/"  # by others
+    r"|uv\.lock$|src/explorer/uplot/"  # by others
     r"|config/config\.yaml$"  # the list `studies`
 )
 """Files that may name studies."""

@@ -1,4 +1,4 @@
-"""Put the page to play with together from explorer/: one file that needs no network.
+"""Put the page to play with together from src/explorer/: one file that needs no network.
 
 The outcomes that its named cases promise are computed here with the library.
 """
@@ -97,8 +97,8 @@ def checked_cases(cases: list[dict], records: Mapping[str, Record]) -> list[dict
         found = outcomes(case["state"], records)
         if found != case["outcomes"]:
             raise ValueError(
-                f"explorer/cases.yaml: {case['title']!r} promises {case['outcomes']} for column, "
-                f"vase and frame; the library computes {found}: correct the case or its note"
+                f"src/explorer/cases.yaml: {case['title']!r} promises {case['outcomes']} for "
+                f"column, vase and frame; the library computes {found}: correct one of the two"
             )
     return [{key: case[key] for key in ("title", "note", "state")} for case in cases]
 
@@ -116,7 +116,7 @@ def titles(motions: str) -> dict[str, str]:
     waves = set(re.findall(r'^  "([\w-]+)": \{', motions, re.MULTILINE))
     if other := waves.symmetric_difference(SHAPES):
         raise ValueError(
-            f"explorer/motions.js and topheavy.shapes differ by {', '.join(sorted(other))}; "
+            f"src/explorer/motions.js and topheavy.shapes differ by {', '.join(sorted(other))}; "
             "expected a wave for every shape, and a shape for every wave"
         )
     return {name: SHAPES[name].title for name in dict.fromkeys((*ENDING, *SHAPES))}
@@ -163,7 +163,7 @@ def page(folder: Path, records: Mapping[str, Record]) -> str:
 def work(job: Any) -> None:
     path = Path(job.input.record)
     records = {path.stem: read_record(path)}
-    text = page(Path("explorer"), records)
+    text = page(Path("src/explorer"), records)
     Path(job.output[0]).write_text(text, encoding="utf-8", newline="\n")
     print(f"{len(text.encode()) / 1e3:.0f} kB")
 

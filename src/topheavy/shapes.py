@@ -1,7 +1,7 @@
 """Which pulse shapes exist. Library, kernel, config schemas and explorer take them from this list.
 
 A new shape also needs its wave and turning points in `pulses`, its wave and equation in
-`kernel.forcing`, and both in explorer/motions.js: three independent forms of one formula.
+`kernel.forcing`, and both in src/explorer/motions.js: three independent forms of one formula.
 """
 
 import math

@@ -1,7 +1,9 @@
-"""Where a second solver is asked: beside a change of outcome."""
+"""Where a second solver is asked: beside a change of outcome, and where the first is sure."""
 
 import math
 from collections.abc import Callable
+
+from steps.shared.histories import NUDGE
 
 NEAR = 1e-3
 """Of a factor on a motion: how far a change of outcome is at most."""
@@ -19,3 +21,9 @@ def beside_a_boundary(overturns: Callable[[float], bool], factor: float) -> floa
         else:
             other = middle
     return factor
+
+
+def decided(overturns: Callable[[float], bool], factor: float) -> bool | None:
+    """Return the outcome at a factor on a motion; None, if a nudge of the motion changes it."""
+    near = {overturns(factor * (1.0 + nudge)) for nudge in (-NUDGE, 0.0, NUDGE)}
+    return near.pop() if len(near) == 1 else None

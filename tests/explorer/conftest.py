@@ -165,7 +165,7 @@ def records():
 
 @pytest.fixture(scope="session")
 def text(records):
-    return page(ROOT / "explorer", records)
+    return page(ROOT / "src/explorer", records)
 
 
 @pytest.fixture(scope="session")

@@ -83,7 +83,7 @@ def state_of(browser):
 
 
 def test_same_bytes_twice(text, records, request):
-    assert page(request.config.rootpath / "explorer", records) == text
+    assert page(request.config.rootpath / "src/explorer", records) == text
     assert text.encode() == text.encode("utf-8")
     assert "{{" not in re.sub(r"\$\{\{", "", text.split("<script>")[0])
 
@@ -469,10 +469,9 @@ def test_first_visit_asks_for_a_guess_and_then_shows(browser):
     browser.do("localStorage.clear()")
     browser.load("")
     browser.settle("minima")
-    is_seen = "['verdict', 'history0', 'spectrum'].map(id => document.getElementById(id)" + (
-        ".checkVisibility({visibilityProperty: true}))"
-    )
-    assert browser.do(is_seen) == [False] * 3
+    ids = ["verdict", "history0", "spectrum", "cases", "controls"]
+    is_seen = f"{ids}.map(id => byId(id).checkVisibility({{visibilityProperty: true}}))"
+    assert browser.do(is_seen) == [False] * 5
     browser.do("document.querySelector('#guess button').click()")
     browser.do("new Promise(next => setTimeout(next, 300))")
     minima = [browser.do(f"minima[{k}].toFixed(3)") for k in range(3)]
@@ -480,10 +479,24 @@ def test_first_visit_asks_for_a_guess_and_then_shows(browser):
     first, second, third = sorted(zip(minima, ("column", "vase", "frame"), strict=True))
     order = ", ".join(f"the {name} from {a} g" for a, name in (second, third))
     assert told.startswith(f"No: the {first[1]} overturns from {first[0]} g, {order}.")
-    assert browser.do(is_seen) == [True] * 3
+    assert browser.do(is_seen) == [True] * 5
     browser.do("history.replaceState(null, '', location.pathname)")
     browser.load("")
     assert browser.do("document.getElementById('guess').hidden") is True
+
+
+ON_SCREEN = """(() => {
+  const places = ["g-slider", "spectrum"].map(id => document.getElementById(id));
+  scrollTo(0, scrollY + places[1].getBoundingClientRect().bottom - innerHeight);
+  return places.map(place => place.getBoundingClientRect()).map(({top, bottom}) =>
+    top >= 0 && bottom <= innerHeight + 1);
+})()"""
+
+
+@pytest.mark.parametrize(("width", "height"), [(390, 844), (820, 1180), (1440, 900)])
+def test_mass_ratio_and_the_map_that_it_moves_are_on_one_screen(browser, width, height):
+    browser.open(width=width, height=height)
+    assert browser.do(ON_SCREEN) == [True, True]
 
 
 OUTSIDE = """(() => {

@@ -25,7 +25,7 @@ from topheavy import read_record
 
 EDITED = 2000  # files
 ODD = "é²−%;\t\x1f\u2028\ufeff٢１🏛'\"\\"  # letters that they get, too
-READER = Path(__file__).parents[2] / "explorer" / "records.js"
+READER = Path(__file__).parents[2] / "src/explorer/records.js"
 
 # Of files, each its name and its bytes: step and samples, or the message that refuses it.
 READ = """{0}.map(([name, bytes]) => {

@@ -1,6 +1,6 @@
 """One table of odd and bad files of ground motions, on which both readers are tested.
 
-What is expected of the library's reader is expected of the page's (`explorer/records.js`), too.
+What is expected of the library's reader is expected of the page's (`src/explorer/records.js`), too.
 """
 
 import re

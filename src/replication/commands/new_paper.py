@@ -54,7 +54,8 @@ def create(to: Path, root: Path = ROOT) -> Path:
         (to / path).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy2(root / path, to / path)
         (to / path).write_text(_read(to / path).replace(project, name), encoding="utf-8")
-    for path in ("LICENSE", "LICENSE-CC-BY"):
+    (to / "docs").mkdir()
+    for path in ("LICENSE", "docs/LICENSE-CC-BY"):
         (to / path).write_text(_licence(_read(root / path)), encoding="utf-8")
     for path in ("pyproject.toml", "README.md"):
         text = _read(to / path).replace("@NAME@", name).replace("@VERSION@", version)
@@ -69,7 +70,6 @@ def create(to: Path, root: Path = ROOT) -> Path:
 
 def _publish(to: Path) -> None:
     """Publish the example, which has findings and a table of an earlier run."""
-    (to / "docs").mkdir()
     config = to / config_of(PAPER)
     config.with_name("README.md").write_text(config_page(config), encoding="utf-8")
     shutil.copyfile(to / config_of(PAPER), to / "tests/reference/config.yaml")

@@ -103,4 +103,4 @@ if __name__ == "__main__":
     except ValueError as error:
         sys.exit(f"make study: {error}")
     print(f"{folder} is made, and named in config/config.yaml. Run it: make reproduce")
-    print(f"FOLLOW-UP.md explains how to change each file. Begin in {folder}/steps.")
+    print(f"studies/FOLLOW-UP.md explains how to change each file. Begin in {folder}/steps.")

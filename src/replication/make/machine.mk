@@ -112,13 +112,13 @@ kill-table: | $(UV) ##- put faults into a copy, one at a time: what catches each
 	@$(call WHOLE,CORES); $(DEV) python -m replication.commands.kill_table --cores "$$CORES" \
 	  $${FAULTS:+"--faults=$$FAULTS"} $${ROTATE:+"--rotate=$$ROTATE"}
 
-study: | $(UV) ## begin a follow-up study: make study NAME=my_study (FOLLOW-UP.md)
+study: | $(UV) ## begin a follow-up study: make study NAME=my_study (studies/FOLLOW-UP.md)
 	@$(RUN) python -m replication.commands.new_study "$$NAME"
 
 update: | $(UV) ##- replace the machine of a paper by a newer one: make update FROM=../folder or a git URL
 	@$(UV) run --no-project --no-config --python '>=3.11' python -I -S src/replication/commands/update.py "$$FROM"
 
-paper: | $(UV) ##- begin the replication of another paper: make paper TO=../other (FOLLOW-UP.md)
+paper: | $(UV) ##- begin the replication of another paper: make paper TO=../other (studies/FOLLOW-UP.md)
 	@$(RUN) python -m replication.commands.new_paper "$$TO"
 
 unlock: | $(UV) ##- after a killed run left the folder locked; refused beside a run

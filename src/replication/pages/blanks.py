@@ -10,7 +10,7 @@ from pathlib import Path
 
 MARK = "BLANK:"
 FOLDERS = ("config", "docs", "figures", "notebooks", "paper", "studies")
-TOP = ("CITATION.cff", "CONTRIBUTING.md", "FOLLOW-UP.md", "LICENSE", "README.md", "pyproject.toml")
+TOP = ("CITATION.cff", "CONTRIBUTING.md", "LICENSE", "README.md", "pyproject.toml")
 KINDS = {".bib", ".cff", ".ipynb", ".md", ".toml", ".typ", ".yaml", ""}
 
 

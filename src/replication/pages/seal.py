@@ -8,7 +8,7 @@ from pathlib import Path
 SEAL = "docs/checksums.txt"
 EDITION = ("docs", "tests/reference")
 """The folders of the published files."""
-SOURCES = ("config", "data", "explorer", "figures", "notebooks", "paper", "studies")
+SOURCES = ("config", "data", "figures", "notebooks", "paper", "src/explorer", "studies")
 """The folders of the inputs and texts."""
 TOP = ("CITATION.cff", "README.md", "codecheck.yml", "docs/exhibits.md")
 """Texts beside these; the last two are those of `make pages`, which needs no run."""

@@ -17,16 +17,13 @@ from replication.workbench import Finding, run, truth
 from steps.shared.spectrum import progress
 from studies.certainty.changed import Subject, columns, shares, subjects
 from studies.certainty.rated import fallen, stated
-from studies.certainty.second import beside_a_boundary
+from studies.certainty.second import beside_a_boundary, decided
 from topheavy import Column, judge, reference
 from topheavy.fragility.resampling import means_within
 from topheavy.synthetic.ensemble import first_draws
 
-NUDGE = 1e-9  # of a motion: an outcome that this changes is undecided
-LEAST, MOST = (
-    0.05,
-    0.95,
-)  # of the columns, of the frames that overturn: where a benefit may end
+LEAST = 0.05  # of the columns, and
+MOST = 0.95  # of the frames, that overturn where a benefit may end
 FINE = 0.1  # of the interval of a deficit: what half the step may move it by
 
 Vector = np.ndarray
@@ -128,8 +125,7 @@ def confirmed(sampled: list[Group], settings: dict, ensemble: dict) -> Finding:
         fell = bool(group.fell[motion, place, level])
         if number % 2:
             factor = beside_a_boundary(overturns, factor)
-        near = {overturns(factor * (1.0 + n)) for n in (-NUDGE, 0.0, NUDGE)}
-        if len(near) == 1:
+        if decided(overturns, factor) is not None:
             told += 1
             differ += reference.judge(block, record.scaled(factor)).overturned != fell
     return truth(
@@ -142,10 +138,8 @@ def confirmed(sampled: list[Group], settings: dict, ensemble: dict) -> Finding:
 
 
 def main(settings: dict, ensemble: dict, shards: pd.DataFrame) -> tuple:
-    found, confidence = (
-        list(groups(shards, settings, ensemble)),
-        settings["bootstrap"]["confidence"],
-    )
+    found = list(groups(shards, settings, ensemble))
+    confidence = settings["bootstrap"]["confidence"]
     rows, every = [], []
     for group in found:
         seed = settings["seed"] + ensemble["families"].index(group.family)
@@ -156,15 +150,14 @@ def main(settings: dict, ensemble: dict, shards: pd.DataFrame) -> tuple:
     middle = np.median(every, axis=0)
     coarser = {"coarser": np.median(table.coarser)}
     median = pd.DataFrame([coarser | bounds(middle, confidence)])
-    measured = dict(
-        zip(("least", "largest"), ([share] for share in settings["measured"]), strict=True)
-    )
+    least, most = settings["measured"]
+    measured = pd.DataFrame([{"least": least, "largest": most}])
     largest = float(shares(settings["deficits"])[-1])
-    more = {"remains_at_measured": remains(table, max(settings["measured"]))}
+    more = {"remains_at_measured": remains(table, most)}
     more["break_even_by_scipy"] = confirmed(found, settings, ensemble)
     drawn = findings(table, median)
     drawn["benefit_ends"] = drawn["benefit_ends"].with_evidence(largest=largest)
-    return table, median, pd.DataFrame(measured), drawn | more
+    return table, median, measured, drawn | more
 
 
 def findings(

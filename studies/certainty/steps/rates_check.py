@@ -4,6 +4,7 @@ The sample takes all structures and families in turn. Every other cell is within
 boundary, if the structure has one.
 """
 
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -13,11 +14,11 @@ from replication.workbench import Finding, run, truth
 from steps.shared.outcomes import FALLS, read
 from steps.shared.spectrum import progress
 from studies.certainty.rated import grid, subjects, velocities
+from studies.certainty.second import decided
 from topheavy import Record, RockingBlock, judge, overturned_by, reference
 from topheavy.synthetic.ensemble import first_draws
 
 ROUTES = ("tightened", "second_route")
-NUDGE = 1e-9  # of a motion: an outcome that this changes is undecided
 HALVINGS = 7  # of a step of the grid, in ln PGV: a boundary is then known to 0.1 %
 
 
@@ -43,6 +44,11 @@ def cell(
     ends = beside(block, record, pgvs[place : place + 2] / row.pgv, fell[at, place])
     side = int(random.integers(2))
     return near, record.scaled(ends[side]), fell[at, place + side]
+
+
+def overturns(block: RockingBlock, motion: Record, factor: float) -> bool:
+    """Return whether a motion times a factor overturns a block."""
+    return judge(block, motion.scaled(factor)).overturned
 
 
 def beside(
@@ -72,10 +78,10 @@ def main(
         family, one = families[rest % len(families)], under[rest // len(families) % len(under)]
         rows = groups[family, *one.labels.values()]
         near, motion, falls = cell(one.block, rows, draws, settings, bool(near), random)
-        nudged = [judge(one.block, motion.scaled(1.0 + n)).overturned for n in (-NUDGE, 0.0, NUDGE)]
+        fell = decided(partial(overturns, one.block, motion), 1.0)
         found.append(
             {"family": family, **one.labels, "near": near, "overturns": falls}
-            | {"decided": len(set(nudged)) == 1}
+            | {"decided": fell is not None}
             | {"tightened": judge(one.block, motion, tolerance=tightened).overturned}
             | {"second_route": reference.judge(one.block, motion).overturned}
         )

@@ -18,9 +18,8 @@ import pandas as pd
 from scipy.signal import butter, sosfiltfilt
 
 from replication.workbench import Finding, run, truth
-from steps.shared.histories import NUDGE
 from steps.shared.spectrum import progress
-from studies.certainty.second import beside_a_boundary
+from studies.certainty.second import beside_a_boundary, decided
 from studies.certainty.steps.records import similar
 from topheavy import (
     Column,
@@ -100,10 +99,10 @@ def second_route(
         factor = 1.0 + max(spec["widths"]) * random.uniform(-1.0, 1.0)
         if number % 2:
             factor = beside_a_boundary(overturns, factor)
-        near = {overturns(factor * (1.0 + n)) for n in (-NUDGE, 0.0, NUDGE)}
-        if len(near) == 1:
+        fell = decided(overturns, factor)
+        if fell is not None:
             told += 1
-            differ += reference.judge(frame, record.scaled(factor)).overturned not in near
+            differ += reference.judge(frame, record.scaled(factor)).overturned != fell
     return truth(differ == 0 and told > 0, checked=spec["checked"], told=told, differ=differ)
 
 

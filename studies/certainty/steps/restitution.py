@@ -5,6 +5,7 @@ by the probability of overturning over the ensemble of study reversals.
 """
 
 import math
+from functools import partial
 from itertools import product
 from typing import Any
 
@@ -14,7 +15,7 @@ import pandas as pd
 from replication.workbench import Finding, run, truth, value
 from steps.shared.spectra_compared import ends_of
 from steps.shared.spectrum import progress
-from studies.certainty.second import beside_a_boundary
+from studies.certainty.second import beside_a_boundary, decided
 from topheavy import (
     STANDARD_GRAVITY,
     Column,
@@ -42,7 +43,6 @@ OF_MOTIONS = ["family", "way", "factor", "less", "less_low", "less_high", "inter
 """The columns of the table under pulses, and of the differences under motions."""
 
 RISES = 1e-8  # of a minimum: the rounding of its bracket
-NUDGE = 1e-9  # of a motion: an outcome that this changes is undecided
 
 
 def changed(structure: Structure, factor: float) -> RockingBlock:
@@ -234,7 +234,7 @@ def difference(less: np.ndarray, boot: dict) -> dict:
 def scatter_agrees(settings: dict, ensemble: dict) -> Finding:
     """Return whether SciPy gives the same outcomes, of a seeded sample of those with scattered √r.
 
-    Every second one is brought beside a boundary. Those that NUDGE changes are not compared.
+    Every second one is brought beside a boundary. Those that are not `decided` are not compared.
     """
     column, random = Column(**settings["column"]), np.random.default_rng(settings["seed"])
     chosen, levels = first_draws(ensemble, settings["motions"]), levels_of(settings)
@@ -246,13 +246,14 @@ def scatter_agrees(settings: dict, ensemble: dict) -> Finding:
         motion = draw.record()
         ratios = scattered(settings, draw, frame.restitution, low)[level]
         factor = levels[level] / peak_velocity(motion)
+        falls = partial(overturns, frame, motion, ratios=ratios)
         if number % 2:
-            factor = beside_a_boundary(lambda by: overturns(frame, motion, by, ratios), factor)  # noqa: B023
-        near = {overturns(frame, motion, factor * (1.0 + n), ratios) for n in (-NUDGE, 0.0, NUDGE)}
-        if len(near) == 1:
+            factor = beside_a_boundary(falls, factor)
+        fell = decided(falls, factor)
+        if fell is not None:
             other = reference.judge(frame, motion.scaled(factor), restitutions=ratios)
             told, overturned = told + 1, overturned + other.overturned
-            differ += other.overturned not in near
+            differ += other.overturned != fell
     return truth(
         differ == 0 and 0 < overturned < told,
         compared=told,

@@ -8,7 +8,7 @@ import pandas as pd
 import pytest
 
 from replication.workbench import truth
-from studies.certainty.second import NEAR, beside_a_boundary
+from studies.certainty.second import NEAR, beside_a_boundary, decided
 from studies.certainty.steps import (
     benefit,
     extensions,
@@ -250,6 +250,11 @@ def test_half_of_the_scattered_sample_is_beside_a_boundary(intensity):
     )
     assert first == second
     assert set(others) == {True, False}
+
+
+def test_outcome_that_a_nudge_changes_is_not_decided():
+    found = [decided(lambda by: by > 1.0, factor) for factor in (0.9, 1.0, 1.0 + 1e-10, 1.1)]
+    assert found == [False, None, None, True]
 
 
 # What of the benefit remains ---------------------------------------------------------------------

@@ -71,6 +71,7 @@ function outline(data) {
 function frameMap() {
   const file = fileOf(state), other = state.cap === "fixed" ? "the portal, or where it leaves the ground" : "the frame";
   spectrumChart.frame(planeOf(state, file), planeKeys(state, file), isSketched(state));
+  byId("across").textContent = file ? "" : "ω is 2π over the period, and p = √(3g/(4R)) is smaller for a larger column. ";
   byId("map-title").textContent = `Overturning of the column and of ${other}`;
   for (const name of document.querySelectorAll("#key .other")) name.textContent = other.split(",")[0];
 }
@@ -152,7 +153,7 @@ function receive(answer) {
   structures.forEach((of, k) => {
     const reach = Math.max(1.4, of.overturned ? 0 : 1.15 * of.peak);
     strips[k].show(list, toList(of.theta, of.alpha), [-reach, reach], word(of));
-    byId(`caption${k}`).innerHTML = `${TITLES[of.name]} <span class="${word(of)}-word">${outcome(of)}</span>`;
+    byId(`caption${k}`).innerHTML = `${TITLES[of.name]} <span class="${word(of)}-word">${outcome(of)}</span>${k ? "" : " <small>rotation θ: at ±α, gravity no longer brings it back</small>"}`;
     byId(`history${k}`).setAttribute("aria-label", `Rotation of the ${of.name} over time: ${outcome(of)}`);
   });
   const largest = 1.15 * Math.max(answer.peak, level);
@@ -276,8 +277,10 @@ function askFirst() {
 
 /** Show what was hidden. */
 function reveal() {
+  if (byId("guess").hidden) return;
   document.documentElement.classList.remove("guessing");
   byId("guess").hidden = true;
+  dispatchEvent(new Event("resize")); // the drawing has less room
 }
 
 [...document.querySelectorAll("#guess button")].forEach((button, guess) => button.addEventListener("click", () => {

@@ -36,13 +36,13 @@ class Controls {
     structure.append(
       ...["b", "h", "g"].map((key) => this.number(key)), this.masses(), this.number("L"),
       this.choice("cap", "Cap beam on two columns", { free: "free: frame", fixed: "fixed: portal" }),
-      this.choice("own", "Coefficient of restitution √r", { formula: "by its formula", own: "own" }),
+      this.choice("own", "Coefficient of restitution √r", { formula: "by its formula", own: "own" }, "rotational velocity after an impact over that before"),
       this.number("r"),
-      this.choice("eq", "Equation of motion", { exact: "exact", linearised: "linearised" }),
+      this.choice("eq", "Equation of motion", { exact: "exact", linearised: "linearised" }, "linearised: for small rotations of slender columns"),
     );
     motion.append(this.shapes());
     for (const key of ["a", "T", "D"]) motion.append(this.number(key));
-    motion.append(this.choice("start", "Start of the shake table", { smooth: "smooth", abrupt: "abrupt" }), this.number("x"), this.drop());
+    motion.append(this.choice("start", "Start of the shake table", { smooth: "smooth", abrupt: "abrupt" }, "abrupt: at its full velocity"), this.number("x"), this.drop());
   }
 
   number(key) {
@@ -89,9 +89,9 @@ class Controls {
     return made("p", { id: "masses" }, "or masses: beam", pair[0], "column", pair[1]);
   }
 
-  choice(key, label, options) {
+  choice(key, label, options, hint) {
     const group = made("div", { class: "choice", id: `${key}-field`, role: "radiogroup", "aria-labelledby": `${key}-label` },
-      made("span", { id: `${key}-label` }, label));
+      made("span", { id: `${key}-label` }, label), ...(hint ? [made("small", {}, hint)] : []));
     for (const [option, words] of Object.entries(options)) {
       const radio = made("input", { type: "radio", name: key, value: option, id: `${key}-${option}` });
       radio.addEventListener("change", () => {
