@@ -119,7 +119,7 @@ def motions(draw: st.DrawFn, structure: Structure, most: int = 40) -> Pulse | Re
         return th.Pulse(shape, size, p * draw(edged(0.2, 30.0, 1.0)))
     samples = st.one_of(st.floats(-1.0, 1.0), st.sampled_from([0.0, 1.0, 1.0, -1.0, 0.5]))
     values = draw(st.lists(samples, min_size=2, max_size=most))
-    return th.Record(draw(st.floats(0.005, 1.0)) / p, size * np.array(values))
+    return th.Record(draw(st.floats(0.005, 1.0)) / p, size * np.array(values), unit="g")
 
 
 @st.composite
@@ -429,6 +429,7 @@ CALLS: dict[str, dict[str, Any]] = {  # what may be spoilt is not what a type ha
     "Record": {"time_step": 0.1, "acceleration": [0.0, 0.5, 0.0]},
     "RockingBlock": {"frequency_parameter": 2.0, "slenderness": 0.2, "restitution": 0.9},
     "RockingFrame": {"column": COLUMN, "mass_ratio": 1.0},
+    "cap_displacement": {"column": COLUMN, "rotation": 0.1},
     "column_forces": {"column": COLUMN, **MOVED},
     "column_impulse": {"column": COLUMN, "velocity": 0.3},
     "contact_forces": {"frame": FRAME, "cap": CAP, **MOVED},
@@ -464,7 +465,8 @@ def refusals(name: str, data: st.DataObject) -> None:
         st.sampled_from(sorted({*CALLS[name]} - {"frame", "cap", "column", "fixed", "portal"}))
     )
     arguments = CALLS[name] | {key: data.draw(ODD)}
-    with suppress(ValueError), np.errstate(all="ignore"):
+    with suppress(ValueError), np.errstate(all="ignore"), warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # it asks whether a number is meant
         getattr(th, name)(**arguments)
 
 

@@ -2,6 +2,8 @@
 
 import shutil
 import subprocess
+import time
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -84,3 +86,33 @@ def test_report_before_a_run_says_what_to_do(make, tmp_path):
     (tmp_path / "results").mkdir()
     (tmp_path / "results" / "ro-crate-metadata.json").touch()
     assert "<--report>" in make("html").stdout
+
+
+def test_uv_of_an_unpacked_archive_is_not_started(make, tmp_path):
+    planted = tmp_path / ".uv/bin/uv"
+    planted.parent.mkdir(parents=True)
+    (tmp_path / "uv").rename(planted)
+    alone = {"PATH": "/usr/bin:/bin", "HOME": str(tmp_path / "home")}
+    command = ["make", "-n", "reproduce"]
+    ask = partial(subprocess.run, command, cwd=tmp_path, env=alone, capture_output=True, text=True)
+    assert ".uv/bin/uv run" in ask().stdout
+    (tmp_path / "SHA256SUMS").write_text("", encoding="utf-8")
+    assert f"exec {tmp_path}/home/.cache/replication-uv-" in ask().stdout
+    assert " .uv/bin/uv" not in ask().stdout
+
+
+def test_verify_starts_no_python_of_the_folder(make):
+    assert "<python><find><--system>" in make("verify").stderr
+
+
+def test_signal_to_make_alone_reaches_the_run(make, tmp_path):
+    (tmp_path / "uv").write_text("#!/bin/sh\necho $$\nexec sleep 60\n", encoding="utf-8")
+    command = ["make", f"UV={tmp_path}/uv", "reproduce"]
+    with subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, text=True) as run:
+        number = int(run.stdout.readline())
+        run.terminate()
+        run.wait(timeout=10)
+    until = time.monotonic() + 10.0
+    while Path(f"/proc/{number}").exists() and time.monotonic() < until:
+        time.sleep(0.05)
+    assert not Path(f"/proc/{number}").exists()

@@ -58,6 +58,19 @@ def test_record_keeps_its_name_and_needs_none(record):
     assert Record(0.02, SAMPLES).name == ""
 
 
+@pytest.mark.parametrize(
+    ("unit", "factor"), [("g", 1.0), ("m/s2", 9.81), ("cm/s²", 981.0), ("gal", 981.0), ("mg", 1e3)]
+)
+def test_record_in_memory_is_converted_to_g(record, unit, factor):
+    found = Record(0.02, factor * np.array(SAMPLES), unit=unit)
+    np.testing.assert_allclose(found.acceleration, record.acceleration, rtol=1e-15)
+
+
+def test_unit_that_is_none_of_acceleration_is_refused():
+    with pytest.raises(ValueError, match=r"record 'a': unit is 'm/s'; expected g, % g"):
+        Record(0.02, SAMPLES, "a", unit="m/s")
+
+
 def test_record_excitation_of_an_array_is_that_of_its_elements(record):
     time = np.linspace(-0.02, 0.1, 30).reshape(5, 6)
     values = record.excitation(time)

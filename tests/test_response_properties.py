@@ -44,7 +44,7 @@ def recorded_blocks(draw) -> tuple[RockingBlock, Record]:
     samples = draw(st.lists(st.floats(-1.0, 1.0), min_size=2, max_size=25))
     strength = draw(st.floats(0.5, 6.0)) * block.uplift_acceleration
     step = draw(st.floats(0.01, 0.3)) / block.frequency_parameter
-    return block, Record(step, strength * np.array(samples))
+    return block, Record(step, strength * np.array(samples), unit="g")
 
 
 def level(block: RockingBlock, rotation, velocity):

@@ -9,7 +9,10 @@ import pytest
 from topheavy import (
     STANDARD_GRAVITY,
     Column,
+    FixedMassColumn,
+    MonolithicPortal,
     Pulse,
+    Record,
     RockingBlock,
     RockingFrame,
     judge,
@@ -400,19 +403,51 @@ def test_impossible_masses_are_refused(masses, columns, message):
         RockingFrame.of_masses(Column(0.5, 3.0), *masses, columns=columns)
 
 
+@pytest.mark.filterwarnings("always")
 @pytest.mark.parametrize(
     ("make", "asked"),
     [
-        (lambda: Column(800.0, 4800.0), r"9600 m long, .* in mm\? Then it is 9.6 m"),
+        (lambda: Column(800.0, 4800.0), r"9600 m long, .* in cm or mm\? Then it is 96 or 9.6 m"),
+        (lambda: Column.of_dimensions(width=140.0, height=900.0), "900 m long.* is 9 or 0.9 m"),
         (lambda: Column(0.8, 4800.0), "9600 m long"),
-        (lambda: RockingFrame.of_masses(COLUMN, 400.0, 60e3), r"γ is 0.00333; .* same unit"),
-        (lambda: RockingFrame.of_masses(COLUMN, 400e3, 60.0), r"γ is 3.33e\+03; .* same unit"),
+        (lambda: RockingFrame.of_masses(COLUMN, 400.0, 60e3), r"_ratio is 0.00333; .* same unit"),
+        (lambda: RockingFrame.of_masses(COLUMN, 400e3, 60.0), r"is 3333.33; .* different units"),
+        (lambda: RockingFrame(COLUMN, 365), "mass_ratio is 365; few exceed 100: is it a mass"),
+        (lambda: FixedMassColumn(COLUMN, 365), "mass_ratio is 365; few exceed 100"),
+        (lambda: MonolithicPortal(COLUMN, 365, 5.0), "mass_ratio is 365; few exceed 100"),
+        (lambda: Record(0.1, [0.0, 3.13]), "record: the largest acceleration is 3.13 g.*m/s²"),
     ],
 )
-def test_what_is_probably_in_another_unit_is_asked_where_it_was_written(make, asked):
+def test_what_is_probably_a_mistake_is_asked_where_it_was_written(make, asked):
     with pytest.warns(UserWarning, match=asked) as caught:
         make()
-    assert caught[0].filename == __file__
+    assert [one.filename for one in caught] == [__file__]
+
+
+@pytest.mark.filterwarnings("error")
+def test_what_is_meant_is_not_asked():
+    frames = [RockingFrame(COLUMN, math.inf), RockingFrame(COLUMN, 100.0)]
+    assert frames[0].restitution < frames[1].restitution
+    meant = Record(0.1, [0.0, 3.13], unit="g")
+    assert meant.scaled(2.0).scaled_to(pga=5.0).peak_acceleration == pytest.approx(5.0)
+
+
+def test_column_says_its_whole_dimensions():
+    assert "2.8 m wide, 18 m high" in repr(Column(1.4, 9.0))
+
+
+def test_swapped_width_and_height_are_suspected():
+    with pytest.raises(ValueError, match=r"no rocking after an impact.* width and height swapped"):
+        judge(Column.of_dimensions(width=9.0, height=1.4), Pulse("one-sine", 0.3, 6.0))
+
+
+@pytest.mark.parametrize("solver", [simulate, judge])
+def test_array_given_for_another_argument_is_not_printed_whole(solver):
+    long = np.arange(1e4).reshape(-1, 2)
+    for arguments in ((long, Pulse("one-sine", 0.3, 6.0)), (COLUMN, long)):
+        with pytest.raises(ValueError, match="expected a") as refused:
+            solver(*arguments)
+        assert len(str(refused.value)) < 300
 
 
 @pytest.mark.parametrize("structure", [3, None, Column], ids=repr)

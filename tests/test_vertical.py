@@ -145,7 +145,7 @@ def test_search_is_refused_for_its_largest_factor_alone():
     told = r"times -3 is -1\.2 g.*factors more than -2\.5 are allowed"
     with pytest.raises(ValueError, match=told):
         minimum_overturning(FRAME, SHAKE, (-3.0, 0.5), resolution=1.0, vertical=falling)
-    huge = Record(0.05, np.array([0.0, -3.0, 0.0]))  # allowed below a third
+    huge = Record(0.05, np.array([0.0, -3.0, 0.0]), unit="g")  # allowed below a third
     assert not overturned_by(FRAME, SHAKE, [0.0, 0.3], vertical=huge).any()
 
 

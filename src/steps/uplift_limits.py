@@ -227,7 +227,9 @@ def second_route(
     for motion, labels in tried[:: max(1, len(tried) // settings["checked_by_second_route"])]:
         if labels["kind"] == "record":
             motion = Record(
-                motion.time_step, motion.acceleration[: settings["sample"]["record_steps"]]
+                motion.time_step,
+                motion.acceleration[: settings["sample"]["record_steps"]],
+                unit="g",
             )
         for top, period in product(tops(frames[-2].mass_ratio), settings["periods"]):
             fixed = FixedFrame(frames[-2], cap, top)

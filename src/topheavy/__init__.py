@@ -1,6 +1,6 @@
 """The rocking frame of Makris & Vassiliou (2014) as a solitary rocking column.
 
-    Column(b, h)              ─┐
+    Column                    ─┐
                                ├─►  RockingBlock(p, α, √r)  ─►  simulate · overturning · spectra
     RockingFrame(column, γ)   ─┘
 
@@ -24,6 +24,8 @@ It does not model
 """
 
 import lazy_loader
+
+__version__ = "0.1.0"
 
 # A name is loaded from its module when it is first used (SPEC 1); __init__.pyi says from which.
 __getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -13,6 +13,7 @@ from .fixed_mass import FixedMassColumn, MonolithicPortal
 from .fragility.estimate import Fragility, fragility
 from .frame_forces import FrameForces, base_shear_slope, frame_forces, largest_forces
 from .free_rocking import Ending
+from .kinematics import cap_displacement
 from .minimum import LowestOverturning, lowest_overturning
 from .overturning import (
     Interval,
@@ -32,7 +33,9 @@ from .records import Record, read_at2, read_csv, read_record
 from .response import Response
 from .shapes import PULSE_SHAPES
 from .simulate import judge, simulate
-from .structures import STANDARD_GRAVITY, Column, RockingBlock, RockingFrame
+from .structures import STANDARD_GRAVITY, Column, RockingBlock, RockingFrame, Structure
+
+__version__: str
 
 __all__ = [
     "PULSE_SHAPES",
@@ -57,7 +60,9 @@ __all__ = [
     "RockingBlock",
     "RockingFrame",
     "Search",
+    "Structure",
     "base_shear_slope",
+    "cap_displacement",
     "column_forces",
     "column_impulse",
     "contact_forces",

@@ -1,6 +1,10 @@
 """Check single values; the messages give the value and the expected one."""
 
 import math
+import sys
+import warnings
+from pathlib import Path
+from reprlib import Repr
 from typing import Any
 
 import numpy as np
@@ -8,6 +12,24 @@ from numpy.typing import ArrayLike, NDArray
 
 LARGEST_ACCELERATION = 1e6
 """Of a ground motion, g. Far beyond any; far below where squares overflow and a fall is missed."""
+
+LARGEST_RECORDED = 2.0
+"""g. Few ground accelerations exceed it: a warning asks for the unit of one that does."""
+
+_SHORT = Repr()
+_SHORT.maxother = 80
+short = _SHORT.repr
+"""What a message shows of a value: its repr, and only the beginning and end of a long one."""
+
+_HERE = str(Path(__file__).parent)
+
+
+def warn(message: str) -> None:
+    """Warn in the line from which the library was called."""
+    frame, level = sys._getframe(1), 2
+    while frame.f_back and frame.f_code.co_filename.startswith((_HERE, "<string>")):
+        frame, level = frame.f_back, level + 1
+    warnings.warn(message, stacklevel=level)
 
 
 def number(name: str, value: Any) -> float:
@@ -26,7 +48,7 @@ def number(name: str, value: Any) -> float:
     try:
         return float(plain)
     except (TypeError, ValueError, OverflowError):
-        raise ValueError(f"{name} is {plain!r}; expected a number") from None
+        raise ValueError(f"{name} is {short(plain)}; expected a number") from None
 
 
 def finite(name: str, value: Any) -> float:
@@ -122,7 +144,7 @@ def within_quarter_turn(name: str, value: Any) -> float:
 def within(name: str, value: Any, low: float, high: float) -> float:
     """Return `value` as a float inside [low, high], or raise ValueError that names it."""
     if not (isinstance(value, (float, int)) and low <= value <= high):
-        raise ValueError(f"{name} is {value!r}; expected a float from {low:g} to {high:g}")
+        raise ValueError(f"{name} is {short(value)}; expected a float from {low:g} to {high:g}")
     return value
 
 

@@ -34,6 +34,7 @@ from scipy.integrate import solve_ivp
 from scipy.signal import lfilter
 
 from topheavy import checks
+from topheavy.checks import short
 from topheavy.contact_forces import Cap
 from topheavy.excitation import Excitation, Segment
 from topheavy.frame_forces import centre_height
@@ -204,7 +205,9 @@ def peak_elastic_by_scipy(
 def _ending(excitation: Motion) -> Motion:
     """Return a ground motion that ends, or raise ValueError."""
     if not isinstance(excitation, Excitation) or excitation.duration == math.inf:
-        raise ValueError(f"excitation is {excitation!r}; expected a Pulse or a Record that ends")
+        raise ValueError(
+            f"excitation is {short(excitation)}; expected a Pulse or a Record that ends"
+        )
     return excitation
 
 

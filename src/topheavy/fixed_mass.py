@@ -21,6 +21,7 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 
 from topheavy import checks
+from topheavy.checks import short
 from topheavy.structures import (
     STANDARD_GRAVITY,
     Column,
@@ -190,7 +191,7 @@ class MonolithicPortal(_OneBody):
 
 def _check(column: Column, mass_ratio: float) -> None:
     if not isinstance(column, Column):
-        raise ValueError(f"column is {column!r}; expected a Column")
+        raise ValueError(f"column is {short(column)}; expected a Column")
     checked_mass_ratio(mass_ratio)
 
 

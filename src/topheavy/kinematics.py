@@ -7,17 +7,36 @@ differs from the printed form for θ > 0.
 Rotations are in rad, signed (θ > 0 leans to the right); arrays broadcast.
 """
 
+from __future__ import annotations
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from topheavy import checks
+from topheavy.checks import short
 from topheavy.fixed_mass import FixedMassColumn, MonolithicPortal
 from topheavy.structures import Column, RockingFrame, Structure
 
 Pair = tuple[NDArray[np.float64], NDArray[np.float64]]
 
 
-def cap_displacement(column: Column, rotation: ArrayLike) -> Pair:
-    """Return the horizontal and vertical displacements u, v of the cap beam, m: Eqs. (4), (7)."""
+def cap_displacement(
+    column: Column, rotation: ArrayLike
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the horizontal and vertical displacements u, v of the cap beam, m: Eqs. (4), (7).
+
+    Parameters
+    ----------
+    column : Column
+        Each of those under the cap beam.
+    rotation : array_like
+        θ, rad; u and v have its shape.
+
+    Raises
+    ------
+    ValueError
+        For rotations that are no numbers.
+    """
     side, lean = _side_and_lean(column, rotation)
     alpha, diagonal = column.slenderness, 2.0 * column.size
     u = side * diagonal * (np.sin(alpha) - np.sin(lean))  # Eq. (4)
@@ -47,7 +66,7 @@ def cap_acceleration(
 
 def _side_and_lean(column: Column, rotation: ArrayLike) -> Pair:
     """Return s (+1 at θ = 0, where the formulas of both sides agree in u and v) and α − |θ|."""
-    theta = np.asarray(rotation, dtype=float)
+    theta = checks.numbers("rotation", rotation)
     return np.where(theta < 0.0, -1.0, 1.0), column.slenderness - np.abs(theta)
 
 
@@ -104,7 +123,7 @@ def outlines(
         return {"column": column_outline(structure, rotation)}
     if not isinstance(structure, FixedMassColumn | MonolithicPortal | RockingFrame):
         raise ValueError(
-            f"structure is {structure!r}; expected a Column, FixedMassColumn, RockingFrame or "
+            f"structure is {short(structure)}; expected a Column, FixedMassColumn, RockingFrame or "
             "MonolithicPortal, which have bodies"
         )
     column, top = structure.column, 2.0 * structure.column.half_height

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from topheavy import checks
+from topheavy.checks import short
 from topheavy.excitation import Excitation
 from topheavy.kernel.forcing import RECORD, SHAPES
 from topheavy.kernel.grid import LANES, Outcomes, mixed_outcomes_of, outcomes_of
@@ -381,7 +382,7 @@ def minima_together(
 
 def _several(name: str, values: Sequence[Any]) -> list[Any]:
     if not isinstance(values, Iterable):
-        raise ValueError(f"{name} is {values!r}; expected a list of one or more")
+        raise ValueError(f"{name} is {short(values)}; expected a list of one or more")
     if not (found := list(values)):
         raise ValueError(f"{name} is empty; expected one or more")
     return found

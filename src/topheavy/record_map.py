@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from topheavy import checks
+from topheavy.checks import short
 from topheavy.kernel.forcing import RECORD, prepare_record
 from topheavy.kernel.grid import outcomes_of
 from topheavy.kernel.taylor import oscillator
@@ -53,7 +54,8 @@ def overturning_map_of_record(
     block = as_block(structure)
     if not isinstance(record, Record):
         raise ValueError(
-            f"record is {record!r}; expected a Record (overturning_map maps the pulses of a shape)"
+            f"record is {short(record)}; expected a Record (overturning_map "
+            "maps the pulses of a shape)"
         )
     peak = record.peak_acceleration
     if peak == 0.0:

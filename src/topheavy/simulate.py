@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from topheavy import checks
+from topheavy.checks import short
 from topheavy.excitation import Excitation
 from topheavy.free_rocking import Ending
 from topheavy.kernel.forcing import (
@@ -269,7 +270,7 @@ def checked_tolerance(value: float) -> float:
 def no_excitation(value: object) -> ValueError:
     """Return the error that refuses what is no ground motion."""
     return ValueError(
-        f"excitation is {value!r}; expected a Pulse or a Record, for example "
+        f"excitation is {short(value)}; expected a Pulse or a Record, for example "
         'Pulse("one-sine", 0.3, 6.0) with 0.3 g and 6 rad/s'
     )
 

@@ -8,20 +8,22 @@ three numbers are all that the dynamics sees of either: p, α and √r.
 from __future__ import annotations
 
 import math
-import warnings
 from dataclasses import dataclass, replace
 from typing import Protocol
 
 from topheavy import checks
+from topheavy.checks import short
 from topheavy.keywords import hinted
 
 STANDARD_GRAVITY = 9.81
 """Acceleration of gravity g, m/s², as the paper's numbers imply it (2.15 m/s² = 0.219 g, p. 4)."""
 
 HIGHEST = 200.0
-"""Of a column, m: beyond it, a warning asks whether the lengths are in mm."""
-USUAL_MASS_RATIOS = (0.01, 100.0)
-"""Of a frame by its masses: beyond them, a warning asks whether both are in one unit."""
+"""Of a column, m: beyond it, a warning asks whether the lengths are in cm or mm."""
+LARGEST_MASS_RATIO = 100.0
+"""γ: above it, unless it is infinite, a warning asks whether a mass was given for a ratio."""
+SMALLEST_MASS_RATIO = 0.01
+"""γ of a frame by its masses: below it, a warning asks whether both are in one unit."""
 
 
 @dataclass(frozen=True)
@@ -97,11 +99,18 @@ class Column:
         checks.positive("half_width", self.half_width, "m")
         checks.positive("half_height", self.half_height, "m")
         if (height := 2.0 * max(self.half_width, self.half_height)) > HIGHEST:
-            warnings.warn(
+            checks.warn(
                 f"a side of the column is {height:.6g} m long, and few exceed {HIGHEST:g} m: are "
-                f"the lengths in mm? Then it is {height / 1000.0:.6g} m",
-                stacklevel=4,  # who called the class
+                f"the lengths in cm or mm? Then it is {height / 100.0:.6g} or "
+                f"{height / 1000.0:.6g} m"
             )
+
+    def __repr__(self) -> str:
+        """Return both fields and, as these are easily taken for the whole, the dimensions."""
+        return (
+            f"Column(half_width={self.half_width!r}, half_height={self.half_height!r}: "
+            f"{2.0 * self.half_width:.6g} m wide, {2.0 * self.half_height:.6g} m high)"
+        )
 
     @classmethod
     @hinted
@@ -168,7 +177,8 @@ class RockingFrame:
         Either of the two.
     mass_ratio : float
         γ = m_b / 2 m_c, the mass of the cap beam over that of both columns; from 0 (the solitary
-        column) to `math.inf` (the limit of Allen et al. 1986: columns without mass).
+        column) to `math.inf` (the limit of Allen et al. 1986: columns without mass). A warning says
+        if a finite one exceeds `LARGEST_MASS_RATIO`.
 
     Raises
     ------
@@ -181,7 +191,7 @@ class RockingFrame:
 
     def __post_init__(self) -> None:
         if not isinstance(self.column, Column):
-            raise ValueError(f"column is {self.column!r}; expected a Column")
+            raise ValueError(f"column is {short(self.column)}; expected a Column")
         checked_mass_ratio(self.mass_ratio)
 
     @classmethod
@@ -200,7 +210,7 @@ class RockingFrame:
             Each of them.
         cap_mass, column_mass : float
             m_b of the cap beam and m_c of one column, in the same unit. A warning asks whether they
-            are if γ is beyond `USUAL_MASS_RATIOS`.
+            are if γ is below `SMALLEST_MASS_RATIO` or above `LARGEST_MASS_RATIO`.
         columns : int
             N, 2 or more: a cap beam on one column would tilt.
 
@@ -214,12 +224,10 @@ class RockingFrame:
             raise ValueError(f"columns is {columns!r}; expected a whole number from 2 on")
         cap = checks.not_negative("cap_mass", cap_mass)
         ratio = cap / (columns * checks.positive("column_mass", column_mass))
-        low, high = USUAL_MASS_RATIOS
-        if cap and not low <= ratio <= high:
-            warnings.warn(
-                f"cap_mass is {cap:.6g} and column_mass {column_mass:.6g}: γ is {ratio:.3g}; few "
-                f"are beyond {low:g} to {high:g}: are both in the same unit?",
-                stacklevel=3,  # who called this
+        if 0.0 < ratio < SMALLEST_MASS_RATIO:
+            checks.warn(
+                f"mass_ratio is {ratio:.3g}; few are below {SMALLEST_MASS_RATIO:g}: are cap_mass, "
+                f"{cap:.6g}, and column_mass, {column_mass:.6g}, in the same unit?"
             )
         return cls(column, ratio)
 
@@ -274,18 +282,24 @@ def as_block(structure: Structure) -> RockingBlock:
     """Return the rocking block of a structure, or raise ValueError for what is none."""
     if isinstance(structure, type) or not callable(getattr(structure, "block", None)):
         raise ValueError(
-            f"structure is {structure!r}; expected a Column, a RockingFrame or whatever else "
+            f"structure is {short(structure)}; expected a Column, a RockingFrame or whatever else "
             "becomes a RockingBlock by a method block()"
         )
     return structure.block()
 
 
 def checked_mass_ratio(value: float) -> float:
-    """Return γ as a float from 0 to infinity, or raise ValueError."""
+    """Return γ as a float from 0 to infinity, or raise ValueError; warn of one that few have."""
     mass_ratio = checks.number("mass_ratio", value)
     if not mass_ratio >= 0.0:
         raise ValueError(
             f"mass_ratio is {mass_ratio:.6g}; expected γ = m_b / 2 m_c from 0 to infinity"
+        )
+    if LARGEST_MASS_RATIO < mass_ratio < math.inf:
+        checks.warn(
+            f"mass_ratio is {mass_ratio:.6g}; few exceed {LARGEST_MASS_RATIO:g}: is it a mass, or "
+            "are two masses in different units? RockingFrame.of_masses takes masses in the same "
+            "unit, and math.inf is the limit of columns without mass"
         )
     return mass_ratio
 
@@ -320,6 +334,7 @@ def checked_restitution(restitution: float, slenderness: float, largest: float) 
         raise ValueError(
             f"slenderness is {slenderness:.6g} rad ({math.degrees(slenderness):.4g}°), for which "
             f"√r is {restitution:.4g}: no rocking after an impact; the largest α that rocks is "
-            f"{largest:.6g} rad ({math.degrees(largest):.4g}°); or give a restitution from 0 to 1"
+            f"{largest:.6g} rad ({math.degrees(largest):.4g}°). Are width and height swapped? Or "
+            "give a restitution from 0 to 1"
         )
     return restitution

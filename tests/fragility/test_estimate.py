@@ -105,7 +105,7 @@ def test_vertical_component_of_each_motion_acts_with_it(found, scale_vertical):
         (UPS[:7], "vertical is .*; expected a list of 8 Records, the vertical component of each"),
         ([*UPS[:7], 0.1], r"vertical\[7\]: excitation is Record and vertical float; expected two"),
         (
-            [*UPS[:7], Record(0.05, [0.0, 0.4, -8.0, 0.0])],
+            [*UPS[:7], Record(0.05, [0.0, 0.4, -8.0, 0.0], unit="g")],
             r"^vertical\[7\]: at 0\.1 s its acceleration .* factors less than 0\.125 are allowed",
         ),
     ],

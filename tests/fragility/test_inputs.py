@@ -33,12 +33,16 @@ GIVEN = {"structures": {"pier": PIER}, "motions": [SHAKE, SHAKE], "levels": [0.1
         (
             "structures",
             PIER,
-            "structures is Column(half_width=0.25, half_height=1.5); expected a map",
+            "structures is Column(half_width=0.25, half_height=1.5: 0.5",
         ),
         ("structures", "pier", "structures is 'pier'; expected a mapping"),
         ("structures", {}, "structures is empty; expected at least one structure"),
         ("structures", [], "structures is empty; expected at least one structure"),
-        ("structures", [PIER, 3], "structures[1] is 3; expected a structure, for example Column("),
+        (
+            "structures",
+            [PIER, 3],
+            "structures[1] is 3; expected a structure",
+        ),
         ("structures", {"x": Column}, "structures['x'] is <class"),
         (
             "structures",
@@ -46,7 +50,11 @@ GIVEN = {"structures": {"pier": PIER}, "motions": [SHAKE, SHAKE], "levels": [0.1
             "structures[1] is None; expected a structure, for example Col",
         ),
         ("structures", [Crate(3)], "structures[0]: block() gives 3; expected a RockingBlock"),
-        ("structures", [Crate(PIER)], "block() gives Column(half_width=0.25, half_height=1.5); ex"),
+        (
+            "structures",
+            [Crate(PIER)],
+            "block() gives Column(half_width=0.25, half_height=1.5: 0.5 m",
+        ),
         ("structures", {1: PIER}, "structures has the name 1; expected a text"),
         ("structures", {"x": SHAKE}, "structures['x'] is"),
         ("structures", [Column(2.0, 1.0)], "structures[0]: slenderness is 1.10715 rad"),

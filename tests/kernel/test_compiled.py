@@ -184,6 +184,17 @@ def test_folder_that_cannot_be_written_is_named(tmp_path):
         assert kept_in(blocked / "state") == (2, False)
 
 
+@pytest.mark.parametrize("mode", [0o720, 0o702])
+def test_folder_that_others_can_write_is_neither_read_nor_written(tmp_path, mode):
+    folder = tmp_path / f"{mode:o}"
+    assert [kept_in(folder) for _ in range(2)] == [(2, False), (2, True)]
+    folder.chmod(mode)
+    before = sorted(folder.iterdir())
+    with pytest.warns(UserWarning, match=f"others can write to {folder}, .*NUMBA_CACHE_DIR"):
+        assert not kept_in(folder)[1]
+    assert sorted(folder.iterdir()) == before
+
+
 def test_code_with_an_address_of_this_process_is_not_kept(tmp_path):
     address = ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_double)(abs)
 

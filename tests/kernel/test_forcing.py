@@ -170,7 +170,7 @@ def test_way_8_a_ricker_wavelet_lifts_the_block_in_its_side_lobe():
 def test_record_is_that_of_the_library():
     samples = np.random.default_rng(1).normal(size=40)
     record, there = prepare_record(samples), record_forcing(prepare_record(samples), 0.07, -1.5)
-    library = Record(0.07, -1.5 * samples)
+    library = Record(0.07, -1.5 * samples, unit="g")
     assert there.end == pytest.approx(library.duration)
     times = np.linspace(0.0, there.end, 333)[:-1]
     found = np.array([ground(there, record, time) for time in times])
@@ -193,7 +193,7 @@ def test_strongest_sample_still_to_come_is_kept_below_each_sample():
 def test_uplifts_of_a_record_are_those_that_its_segments_have(factor):
     samples, level = np.random.default_rng(2).normal(size=60) * 0.15, 0.25
     record = prepare_record(samples)
-    there, library = record_forcing(record, 0.07, factor), Record(0.07, factor * samples)
+    there, library = record_forcing(record, 0.07, factor), Record(0.07, factor * samples, unit="g")
     for start in np.linspace(0.0, 59 * 0.07, 201):
         expected = math.inf
         for segment in library.segments(math.inf):

@@ -152,7 +152,7 @@ def test_record_with_many_bounces_is_decided_as_by_the_solver():
 
 def test_block_that_reaches_the_ground_under_the_forcing_has_overturned():
     """A push of 30 g the other way does not raise it again."""
-    ground = Record(0.25, [3.0] * 8 + [-30.0] * 8 + [0.0])
+    ground = Record(0.25, [3.0] * 8 + [-30.0] * 8 + [0.0], unit="g")
     assert judge(COLUMN, ground).overturned
     assert outcome(COLUMN, ground).outcome == "overturns"
 

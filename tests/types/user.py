@@ -31,7 +31,9 @@ from topheavy import (
     RockingBlock,
     RockingFrame,
     Search,
+    Structure,
     base_shear_slope,
+    cap_displacement,
     column_forces,
     column_impulse,
     contact_forces,
@@ -86,7 +88,8 @@ for motion in (pulse, shaking, measured.scaled(1.5)):
     assert_type(honest.acceleration, float)
     print(honest)
 
-for structure in (pier, bent, block, block.linear()):
+structures: list[Structure] = [pier, bent, block, block.linear()]
+for structure in structures:
     response = simulate(structure, pulse, duration=2, samples=[0.0, 0.5, 1.0])
     assert_type(response.rotation, NDArray[np.float64])
     if not response.overturned:
@@ -135,6 +138,8 @@ assert_type(impact_impulses(bent, cap, 0.1), ContactForces)
 assert_type(column_forces(pier, times / 100.0, times), Reaction)
 assert_type(column_impulse(pier, 0.1), Reaction)
 assert_type(base_shear_slope(bent), float)
+assert_type(cap_displacement(pier, 0.1)[0], NDArray[np.float64])
+print(topheavy.__version__)
 held = FixedFrame(bent, cap, "pinned")
 assert_type(peak_rigid(held, pulse), Forces)
 print(peak_elastic([held], shaking, 0.5), end=" ")

@@ -41,12 +41,18 @@ def create(name: str, root: Path = Path()) -> Path:
     line = REGISTER.search(text)
     if line is None:
         raise ValueError(f"{config} has no line 'studies: [...]'; expected one to add {name} to")
+    names = [*filter(None, line[1].split(", "))]
+    if name in names:
+        raise ValueError(
+            f"NAME is {name!r}, which the list studies in {config} has already, without a folder: "
+            "take it out there, or choose another name"
+        )
     left_out = shutil.ignore_patterns("__pycache__", "*.svg")
     shutil.copytree(folder.with_name(SKELETON), folder, ignore=left_out)
     for path in filter(Path.is_file, sorted(folder.rglob("*"))):
         path.write_text(path.read_text(encoding="utf-8").replace(SKELETON, name), encoding="utf-8")
-    names = [*filter(None, line[1].split(", ")), name]
-    config.write_text(REGISTER.sub(f"studies: [{', '.join(names)}]", text), encoding="utf-8")
+    listed = ", ".join([*names, name])
+    config.write_text(REGISTER.sub(f"studies: [{listed}]", text), encoding="utf-8")
     return folder
 
 
@@ -100,7 +106,7 @@ def _taken(name: str, root: Path) -> list[str]:
 if __name__ == "__main__":
     try:
         folder = create(sys.argv[1])
-    except ValueError as error:
+    except (OSError, ValueError) as error:
         sys.exit(f"make study: {error}")
     print(f"{folder} is made, and named in config/config.yaml. Run it: make reproduce")
     print(f"studies/FOLLOW-UP.md explains how to change each file. Begin in {folder}/steps.")

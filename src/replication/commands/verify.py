@@ -51,7 +51,7 @@ def extra(crate: "Crate", root: Path) -> Iterator[str]:
     for path in found:
         name = path.relative_to(root)
         known = str(name) in crate.checksums or any(map(name.is_relative_to, crate.left_out))
-        if path.is_file() and not known:
+        if not known and not _is_folder(path):
             yield str(name)
 
 
@@ -91,8 +91,15 @@ def unpacked(sums: dict[str, str], root: Path = Path()) -> Iterator[str]:
     known = {*sums, SUMS}
     for path in sorted(root.rglob("*")):
         name = path.relative_to(root)
-        if path.is_file() and name.as_posix() not in known and not _local(name):
+        if path.is_symlink() and not _local(name):
+            yield f"{name.as_posix()} is a link, and an archive has none: unpack it again"
+        elif not _is_folder(path) and name.as_posix() not in known and not _local(name):
             yield f"{name.as_posix()} was added: {SUMS} does not have it"
+
+
+def _is_folder(path: Path) -> bool:
+    """Return whether a path is a folder of the tree: a link to one may lead out of it."""
+    return path.is_dir() and not path.is_symlink()
 
 
 def _local(name: Path) -> str:
@@ -103,6 +110,8 @@ def _local(name: Path) -> str:
 
 def _fault(path: str, expected: str, source: str, event: str, root: Path) -> list[str]:
     """Return a line when the file is missing or not as it was after the event; else none."""
+    if (root / path).is_symlink():
+        return [f"{path} is a link; expected the file itself, as {source}"]
     if not (root / path).is_file():
         return [f"{path} is missing; {source}"]
     if (found := _checksum(root / path)) != expected:
@@ -138,7 +147,7 @@ if __name__ == "__main__":
             _archive(sums)
         if not Path(CRATE).exists():
             sys.exit(f"{CRATE} does not exist; expected a finished run: make reproduce")
-        sys.path.insert(0, "src")
+        sys.path.append("src")  # behind the standard library: nothing here stands in for it
         sys.pycache_prefix, sys.dont_write_bytecode = os.devnull, True  # no compiled file is read
         from replication.origin.recorded import read_crate
 

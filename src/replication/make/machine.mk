@@ -13,7 +13,9 @@ $(error the path $(CURDIR) has a space or one of $(UNQUOTED) in it; expected let
   and . _ - / alone: move the folder, delete its .venv, and run again)
 endif
 
-UV  := $(shell command -v uv 2>/dev/null || echo .uv/bin/uv)
+# In an unpacked archive, anybody may have put a .uv: there it is kept outside.
+UV_HOME := $(if $(wildcard SHA256SUMS),$(or $(XDG_CACHE_HOME),$(HOME)/.cache)/replication-uv-$(UV_VERSION),.uv)
+UV  := $(shell command -v uv 2>/dev/null || echo $(UV_HOME)/bin/uv)
 RUN = $(UV) run --locked --no-dev $(GROUPS)
 DEV = $(UV) run --locked $(GROUPS)
 
@@ -29,7 +31,7 @@ $(foreach name,$(GIVEN),$(eval override $(name) := $$(value $(name))))
 export $(GIVEN)
 WHOLE = case "$$$(1)" in ''|0*|*[!0-9]*) \
   echo "$(1) is '$$$(1)'; expected a whole number from 1 on" >&2; exit 2;; esac
-SNAKEMAKE = $(call WHOLE,CORES); $(RUN) python -m replication.commands.run --cores "$$CORES"
+SNAKEMAKE = $(call WHOLE,CORES); exec $(RUN) python -m replication.commands.run --cores "$$CORES"
 
 .PHONY: help reproduce claim check trace verify archive html test lint pages schema publish \
   kill-table study paper update unlock clean
@@ -55,7 +57,8 @@ trace: | $(UV) ## from a figure, table, finding or claim to its source (ITEM=res
 	@$(RUN) python -m replication.commands.trace "$$ITEM"
 
 verify: | $(UV) ## compare every file of a finished run with its RO-Crate
-	@$(UV) run --no-project --no-config --python '>=3.11' python -I -S src/replication/commands/verify.py
+	@python=$$($(UV) python find --system --no-project --no-config '>=3.11') && \
+	  "$$python" -I -S src/replication/commands/verify.py
 
 archive: | $(UV) ##- after a run: one .zip in dist/ with the source and the results
 	@$(RUN) python -m replication.commands.archive
@@ -130,10 +133,10 @@ clean: ##- remove all that the workflow and the tools wrote; keep the environmen
 	find . \( -name .venv -o -name .uv \) -prune -o -name __pycache__ -type d -prune -exec rm -rf {} +
 	@$(if $(value SHARED),echo "kept: $(SHARED)")
 
-.uv/bin/uv:
-	@echo "uv is not on the PATH: fetching uv $(UV_VERSION) into .uv/"
-	@$(PYTHON) -m venv --clear .uv || { \
-	  echo "'$(PYTHON) -m venv .uv' failed. On Debian or Ubuntu 'apt install python3-venv' helps;"; \
+$(UV_HOME)/bin/uv:
+	@echo "uv is not on the PATH: fetching uv $(UV_VERSION) into $(UV_HOME)/"
+	@$(PYTHON) -m venv --clear $(UV_HOME) || { \
+	  echo "'$(PYTHON) -m venv $(UV_HOME)' failed. On Debian or Ubuntu 'apt install python3-venv' helps;"; \
 	  echo "anywhere, installing uv does: https://docs.astral.sh/uv/getting-started/installation/"; \
-	  rm -rf .uv; exit 1; } >&2
-	@.uv/bin/python -m pip install --quiet --disable-pip-version-check uv==$(UV_VERSION)
+	  rm -rf $(UV_HOME); exit 1; } >&2
+	@$(UV_HOME)/bin/python -m pip install --quiet --disable-pip-version-check uv==$(UV_VERSION)

@@ -1,4 +1,4 @@
-"""Let Ctrl-C and SIGTERM end a run and its jobs with one line."""
+"""Let Ctrl-C, a closed terminal and SIGTERM end a run and its jobs with one line."""
 
 import logging
 import os
@@ -11,6 +11,9 @@ import psutil
 
 SAYS = "Interrupted. The same command goes on: what is finished is kept."
 
+SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT)
+"""Those that `interrupt` answers."""
+
 PAUSE = 0.2
 """s: an error that is logged waits so long for the handler of a signal."""
 
@@ -21,7 +24,7 @@ def interrupt(*_: Any) -> NoReturn:
     Snakemake's own handler of SIGTERM takes the scheduler's lock. Python runs a handler in the main
     thread, which may hold this lock: the run would wait for itself, with its folder locked.
     """
-    for number in (signal.SIGINT, signal.SIGTERM):
+    for number in SIGNALS:
         # uv passes on to its child what the whole process group has received already.
         signal.signal(number, lambda *_: None)
     os.write(2, f"\n{SAYS}\n".encode())

@@ -71,7 +71,9 @@ def ramped(pulse: Pulse, share: float, samples: int) -> Record:
 
 def held(record: Record, parts: int = 4) -> Record:
     """Return a record whose samples are held until the next, but for the last of `parts`."""
-    return Record(record.time_step / parts, np.repeat(record.acceleration, parts), record.name)
+    return Record(
+        record.time_step / parts, np.repeat(record.acceleration, parts), record.name, unit="g"
+    )
 
 
 def curved(record: Record, parts: int = 4) -> Record:
@@ -81,7 +83,7 @@ def curved(record: Record, parts: int = 4) -> Record:
     old = np.arange(record.acceleration.size)
     new = np.arange((old.size - 1) * parts + 1) / parts
     values = CubicSpline(old, record.acceleration)(new)
-    return Record(record.time_step / parts, values, record.name)
+    return Record(record.time_step / parts, values, record.name, unit="g")
 
 
 # When it has overturned --------------------------------------------------------------------------

@@ -3,13 +3,13 @@
 import math
 from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from reprlib import Repr
 from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from topheavy import checks
+from topheavy.checks import short
 from topheavy.pulses import Pulse
 from topheavy.records import Record
 from topheavy.structures import Column, RockingBlock, Structure
@@ -25,10 +25,6 @@ UNITS = {"PGV": "m/s", "PGA": "g"}
 """The measures of intensity that have a name, and their units."""
 
 FEWEST_RESAMPLES = 100
-
-_SHORT = Repr()
-_SHORT.maxother = 80
-short = _SHORT.repr
 
 
 @dataclass(frozen=True)
@@ -58,7 +54,9 @@ def variants(structures: Structures, lowered: Iterable[float]) -> list[Variant]:
         for name, key, structure in _named(structures)
     ]
     if not isinstance(lowered, Iterable):
-        raise ValueError(f"lowered is {lowered!r}; expected a list of shares, for example (0.05,)")
+        raise ValueError(
+            f"lowered is {short(lowered)}; expected a list of shares, for example (0.05,)"
+        )
     shares = [checks.fraction(f"lowered[{i}]", share) for i, share in enumerate(lowered)]
     for place, share in enumerate(shares):
         if not 0.0 < share < 1.0 or share in shares[:place]:
@@ -134,7 +132,9 @@ def factors(motions: Sequence[Motion], measure: Measure, levels: Array) -> Array
 def intensities(motions: Sequence[Motion], measure: Measure) -> Array:
     """Return the intensity of each motion: PGV in m/s, PGA in g, or by a function."""
     if not callable(measure) and measure not in UNITS:
-        raise ValueError(f"measure is {measure!r}; expected 'PGV', 'PGA' or a function of a motion")
+        raise ValueError(
+            f"measure is {short(measure)}; expected 'PGV', 'PGA' or a function of a motion"
+        )
     found = []
     for place, motion in enumerate(motions):
         called = f"motions[{place}]"
@@ -237,7 +237,7 @@ def checked_resampling(confidence: float, resamples: int, seed: int) -> None:
     for name, value, least in (("resamples", resamples, FEWEST_RESAMPLES), ("seed", seed, 0)):
         whole = isinstance(value, (int, np.integer)) and not isinstance(value, bool)
         if not whole or value < least:
-            raise ValueError(f"{name} is {value!r}; expected a whole number from {least} on")
+            raise ValueError(f"{name} is {short(value)}; expected a whole number from {least} on")
 
 
 def _named(structures: object) -> list[tuple[str, str | int, Any]]:
@@ -266,7 +266,8 @@ def _named(structures: object) -> list[tuple[str, str | int, Any]]:
 def _block(called: str, structure: Any) -> RockingBlock:
     if isinstance(structure, type) or not callable(getattr(structure, "block", None)):
         raise ValueError(
-            f"{called} is {short(structure)}; expected a structure, for example Column(0.8, 4.8)"
+            f"{called} is {short(structure)}; expected a structure, for example "
+            "Column.of_dimensions(width=1.6, height=9.6)"
         )
     try:
         found = structure.block()

@@ -11,7 +11,6 @@ import os
 import pickle
 import platform
 import sys
-import warnings
 from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -24,7 +23,7 @@ from numba.core.caching import _Cache
 from numba.core.compiler import CompileResult
 from numba.core.serialize import dumps
 
-from topheavy import shapes
+from topheavy import checks, shapes
 
 _DIGEST = hashlib.sha256().digest_size
 
@@ -84,6 +83,8 @@ class Cache(_Cache):
         context.refresh()
         key, path = self._key(types, context.codegen())
         try:
+            if _is_others(self.folder):
+                return None
             content = path.read_bytes()
         except OSError:
             _say_once(self.name)
@@ -94,8 +95,8 @@ class Cache(_Cache):
 
     def save_overload(self, types: Any, result: Any) -> None:
         """Keep a compiled function; a folder that cannot be written costs the next process time."""
-        if result.library.has_dynamic_globals:  # addresses of this process
-            return
+        if result.library.has_dynamic_globals or _is_others(self.folder):
+            return  # addresses of this process; what somebody else may have written
         key, path = self._key(types, result.codegen)
         code = dumps(result._reduce())
         try:
@@ -105,11 +106,26 @@ class Cache(_Cache):
                 file.write_bytes(hashlib.sha256(key + code).digest() + code)
                 file.replace(path)
         except OSError as error:
-            warnings.warn(
-                f"the compiled kernel is not kept in {self.folder} ({error.strerror}); name a "
-                "folder that can be written in NUMBA_CACHE_DIR, or each process compiles anew",
-                stacklevel=2,
-            )
+            _warn(f"the compiled kernel is not kept in {self.folder} ({error.strerror})")
+
+
+def _is_others(folder: Path) -> bool:
+    """Return, with a warning, whether another user may have written in a folder."""
+    if not hasattr(os, "getuid") or not folder.exists():
+        return False
+    found = folder.stat()
+    if is_others := found.st_uid not in (0, os.getuid()) or bool(found.st_mode & 0o022):
+        _warn(f"others can write to {folder}, so no compiled kernel is taken from it")
+    return is_others
+
+
+@cache
+def _warn(reason: str) -> None:
+    """Warn once a process: each function of the kernel meets the same folder."""
+    checks.warn(
+        f"{reason}; name a folder that you alone can write in NUMBA_CACHE_DIR, or each process "
+        "compiles anew"
+    )
 
 
 SLOW = tuple(f"topheavy.kernel.{name}." for name in ("lanes", "outcome", "trace"))

@@ -8,6 +8,7 @@ from functools import cache
 from importlib.metadata import version
 from typing import Any
 
+from topheavy.checks import short
 from topheavy.fixed_mass import FixedMassColumn, MonolithicPortal
 from topheavy.proven.balls import arb, decimal
 from topheavy.proven.blocks import BlockBox, Range
@@ -36,7 +37,9 @@ def certified(
     parameters and errors are those of `outcome`. A BlockBox is refused.
     """
     if isinstance(structure, BlockBox):
-        raise ValueError(f"structure is {structure!r}; expected one, as a box has no certificate")
+        raise ValueError(
+            f"structure is {short(structure)}; expected one, as a box has no certificate"
+        )
     steps: list[dict[str, Any]] = []
     found = outcome(
         structure,

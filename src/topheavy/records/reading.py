@@ -3,13 +3,13 @@
 import codecs
 import math
 import re
-import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
+from topheavy import checks
 from topheavy.records.record import Record
 from topheavy.records.units import Statement
 
@@ -37,7 +37,6 @@ _SHOWN = 80
 _SHORTEST_STEP = 1e-6
 """s. No accelerogram has a million samples a second: a shorter step is in another unit."""
 
-_SELDOM = 2.0
 _LARGEST = 5.0
 """g. No ground acceleration above it has been recorded: what exceeds it is in another unit."""
 
@@ -170,13 +169,12 @@ def reading(
             f"{largest:g} g; expected at most {_LARGEST:g} g, which no record exceeds: line "
             f"{unit.place} states the unit, {unit.line!r}; is it another?"
         )
-    if unit.in_g == 1.0 and abs(largest) > _SELDOM:
-        warnings.warn(
+    if unit.in_g == 1.0 and abs(largest) > checks.LARGEST_RECORDED:
+        checks.warn(
             f"{path}: line {places[k]}: the largest acceleration is {largest:.3g} g, and few "
-            f"records exceed {_SELDOM:g} g: is the unit m/s²?",
-            stacklevel=4,
+            f"records exceed {checks.LARGEST_RECORDED:g} g: is the unit m/s²?"
         )
     try:
-        return Reading(Record(time_step, accelerations, path.stem), unit, header)
+        return Reading(Record(time_step, accelerations, path.stem, unit="g"), unit, header)
     except ValueError as error:
         raise ValueError(f"{path}: {error}") from None

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from topheavy import checks
 from topheavy.excitation import Excitation, Segment
 from topheavy.keywords import hinted
+from topheavy.records.units import UNDERSTOOD, acceleration_in_g
 from topheavy.structures import STANDARD_GRAVITY
 
 
@@ -28,19 +29,37 @@ class Record(Excitation):
         In g, n ≥ 2.
     name : str
         What to call it in figures and messages.
+    unit : str, optional
+        Of the samples given, as a file may state it: "m/s2", "gal", "%g". They are converted to g.
+        Without one they are taken as g, and a warning says if one exceeds
+        `checks.LARGEST_RECORDED`; write "g" to say that this is meant.
 
     Raises
     ------
     ValueError
-        For a step that is not positive, fewer than two samples, or a sample that is masked, not
-        finite or beyond `checks.LARGEST_ACCELERATION`.
+        For a step that is not positive, fewer than two samples, a sample that is masked, not
+        finite or beyond `checks.LARGEST_ACCELERATION`, or a unit that is not understood.
+
+    Examples
+    --------
+    A record of eqsig (m/s²) and a trace of ObsPy after `remove_response(output="ACC")` (m/s²):
+
+    >>> Record(signal.dt, signal.values, unit="m/s2")  # doctest: +SKIP
+    >>> Record(trace.stats.delta, trace.data, unit="m/s2")  # doctest: +SKIP
     """
 
     time_step: float
     acceleration: NDArray[np.float64]
     name: str = ""
 
-    def __init__(self, time_step: float, acceleration: ArrayLike, name: str = "") -> None:
+    def __init__(
+        self,
+        time_step: float,
+        acceleration: ArrayLike,
+        name: str = "",
+        *,
+        unit: str | None = None,
+    ) -> None:
         checks.positive("time_step", time_step, "s")
         called = f"record {name!r}" if name else "record"
         samples = checks.numbers(f"{called}: acceleration", acceleration)
@@ -55,8 +74,15 @@ class Record(Excitation):
                 f"{called}: sample {bad[0]} of {samples.size} is {samples[bad[0]]}; "
                 "expected finite accelerations in g"
             )
+        samples *= _in_g(called, unit)
         largest = np.abs(samples).argmax()
         checks.acceleration(f"{called}: sample {largest} of {samples.size}", samples[largest])
+        if unit is None and (peak := abs(samples[largest])) > checks.LARGEST_RECORDED:
+            checks.warn(
+                f"{called}: the largest acceleration is {peak:.3g} g, and few records exceed "
+                f"{checks.LARGEST_RECORDED:g} g: is the unit m/s²? Then give unit='m/s2'; "
+                "unit='g' says that g is meant"
+            )
         samples.setflags(write=False)
         # A dataclass would take only an array: a field has one type, given and kept.
         for field, value in (("time_step", time_step), ("acceleration", samples), ("name", name)):
@@ -85,9 +111,8 @@ class Record(Excitation):
 
     def scaled(self, factor: float) -> Record:
         """Return the same record with all accelerations multiplied by `factor`."""
-        return Record(
-            self.time_step, checks.finite("factor", factor) * self.acceleration, self.name
-        )
+        acceleration = checks.finite("factor", factor) * self.acceleration
+        return Record(self.time_step, acceleration, self.name, unit="g")
 
     @hinted
     def scaled_to(self, *, pga: float | None = None, pgv: float | None = None) -> Record:
@@ -126,6 +151,13 @@ class Record(Excitation):
             slope = (second - first) / self.time_step
             found.append(Segment(start, min(stop, until), partial(_line, start, first, slope)))
         return found
+
+
+def _in_g(called: str, unit: str | None) -> float:
+    found = 1.0 if unit is None else acceleration_in_g(str(unit))
+    if found is None:
+        raise ValueError(f"{called}: unit is {unit!r}; expected {UNDERSTOOD}")
+    return found
 
 
 def _line(start: float, value: float, slope: float, time: float) -> float:

@@ -293,10 +293,14 @@ def motion(seed: int, number: int, scenario: Scenario, *, pulse: bool) -> Record
     noise = filtered(rng.standard_normal(time.size), frequency(time, drawn), drawn["damping"])
     corner = 10.0 ** (1.4071 - 0.3452 * scenario.magnitude)  # Hz [4, 5]
     shaking, before = high_passed(noise * modulation(time, drawn), corner)
-    shaking *= math.sqrt(drawn["Ia"] / 100.0 / arias_intensity(Record(TIME_STEP, shaking)))
+    shaking *= math.sqrt(
+        drawn["Ia"] / 100.0 / arias_intensity(Record(TIME_STEP, shaking, unit="g"))
+    )
     if pulse:
         shaking[before : before + time.size] += pulse_acceleration(time, drawn)
-    return Record(TIME_STEP, shaking, f"{'near fault' if pulse else 'broadband'} {seed}:{number}")
+    return Record(
+        TIME_STEP, shaking, f"{'near fault' if pulse else 'broadband'} {seed}:{number}", unit="g"
+    )
 
 
 def modulation(time: Vector, drawn: dict[str, float]) -> Vector:

@@ -47,7 +47,7 @@ def filtered(record: Record, order: int, corner: float) -> Record:
     pad = np.zeros(round(PADS * order / corner * rate))
     padded = np.concatenate([pad, record.acceleration, pad])
     sections = butter(order, corner, "highpass", fs=rate, output="sos")
-    return Record(record.time_step, sosfiltfilt(sections, padded, padlen=0), record.name)
+    return Record(record.time_step, sosfiltfilt(sections, padded, padlen=0), record.name, unit="g")
 
 
 def is_reversed(falls: np.ndarray) -> np.ndarray:

@@ -46,7 +46,9 @@ class Case:
         still = np.zeros_like(self.before)
         horizontal = np.concatenate([self.before, factor * self.after])
         vertical = np.concatenate([still, self.vertical])
-        return Record(self.time_step, horizontal), Record(self.time_step, vertical)
+        return Record(self.time_step, horizontal, unit="g"), Record(
+            self.time_step, vertical, unit="g"
+        )
 
     def overturns(self, block: RockingBlock, factor: float, solver=simulate) -> bool:
         """Return whether a block overturns without any impact since the rest."""
@@ -59,7 +61,7 @@ class Case:
 
     def rests(self) -> bool:
         """Return whether both blocks have uplifted and rest when the second part begins."""
-        shock = Record(self.time_step, self.before)
+        shock = Record(self.time_step, self.before, unit="g")
         ends = [simulate(block, shock, samples=[self.begins]) for block in self.pair]
         return all(end.impacts.size > 0 and end.rotation[-1] == 0.0 for end in ends)
 

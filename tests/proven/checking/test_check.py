@@ -345,4 +345,4 @@ def test_landing_in_the_middle_of_a_pulse_and_a_short_series_are_refused():
 def test_motion_that_lifts_the_block_before_the_bracket_is_refused():
     uplift = {"event": "uplift", "side": 1, "sigma": ["35/4096", "2275/4096"], "piece": 0}
     events = [uplift | {"jumps": False}]
-    refused(forged(BLOCK, Record(0.05, [3.0, -3.0, 0.0]), events), "lifted it before")
+    refused(forged(BLOCK, Record(0.05, [3.0, -3.0, 0.0], unit="g"), events), "lifted it before")

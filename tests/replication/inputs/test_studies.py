@@ -36,6 +36,14 @@ def registered(project):
     return yaml.safe_load((project / "config" / "config.yaml").read_text("utf-8"))["studies"]
 
 
+def test_name_that_the_config_lists_already_is_not_written_twice(project):
+    shutil.rmtree(create("vases", project))
+    before = registered(project)
+    with pytest.raises(ValueError, match=r"'vases', which the list studies in .* has already"):
+        create("vases", project)
+    assert registered(project) == before
+
+
 @pytest.mark.parametrize("name", ["bridges", "bent_2b"])
 def test_new_study_is_registered_and_sound(project, name):
     before = registered(project)

@@ -126,6 +126,29 @@ def test_unpacked_archive_verifies_and_sha256sum_agrees(unpacked):
 
 
 @pytest.mark.parametrize(
+    ("path", "make", "told"),
+    [
+        ("src/json", lambda path: path.symlink_to("../results/logs"), "is a link"),
+        ("src/gone", lambda path: path.symlink_to("nowhere"), "is a link"),
+        ("src/pipe", os.mkfifo, "was added"),
+        ("src/json/__init__.py", lambda path: path.write_text("print('planted')"), "was added"),
+        ("figures", lambda path: path.rename("f") and path.symlink_to("f"), "is a link"),
+        ("run", lambda path: path.unlink() or path.symlink_to("figures/peaks.py"), "is a link"),
+    ],
+)
+def test_link_or_module_that_was_added_is_named_and_not_run(
+    unpacked, monkeypatch, path, make, told
+):
+    monkeypatch.chdir(unpacked)
+    (unpacked / path).parent.mkdir(exist_ok=True)
+    make(unpacked / path)
+    done = verified(unpacked)
+    assert done.returncode == 1
+    assert f"{path} {told}" in done.stderr
+    assert "planted" not in done.stdout
+
+
+@pytest.mark.parametrize(
     "path",
     ["results/peaks.csv", "figures/peaks.svg", "figures/peaks.py", "ro-crate-metadata.json"],
 )

@@ -49,3 +49,13 @@ def test_file_that_is_not_as_the_run_left_it_is_named(plant, tmp_path, name, tol
 def test_missing_file_names_the_rule_that_makes_it(plant, tmp_path):
     (plant(tmp_path, FILES) / "figures/peaks.svg").unlink()
     assert main(CRATE, tmp_path) == ["figures/peaks.svg is missing; rule peaks makes it"]
+
+
+def test_link_in_place_of_a_file_or_beside_one_is_named(plant, tmp_path):
+    path = plant(tmp_path, FILES) / "figures/peaks.svg"
+    path.rename(tmp_path / "other.svg")
+    path.symlink_to(tmp_path / "other.svg")
+    (tmp_path / "results/more").symlink_to(tmp_path / "figures")
+    link, extra = main(CRATE, tmp_path)
+    assert link.startswith("figures/peaks.svg is a link; expected the file itself")
+    assert extra == "results/more is extra: no rule made it"

@@ -6,11 +6,13 @@ import re
 import signal
 from pathlib import Path
 from threading import Thread
+from types import SimpleNamespace
 
 import pytest
 
+from replication.commands.run import no_place
 from replication.workflow.closing import GO_ON
-from replication.workflow.stopping import SAYS, after_signals
+from replication.workflow.stopping import SAYS, SIGNALS, after_signals
 
 SNAKEFILE = """
 from replication.workflow.closing import close
@@ -108,7 +110,7 @@ def test_failed_run_says_how_to_go_on_and_which_verdict_failed_it(step, ran):
     assert said.endswith(GO_ON)
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("number", SIGNALS)
 @pytest.mark.parametrize("during", ["work", "imports", "reading"])
 def test_interrupted_run_says_so_in_one_line(step, begin, tmp_path, number, during):
     step(WAITING if during == "work" else "pass", imports=WAITING * (during == "imports"))
@@ -121,6 +123,17 @@ def test_interrupted_run_says_so_in_one_line(step, begin, tmp_path, number, duri
     assert not re.search("Traceback|Error|  File ", said)
     assert said.endswith(f"\n{SAYS}\n")
     assert said.count(SAYS) == 1
+
+
+def test_run_does_not_begin_where_it_cannot_write(tmp_path, monkeypatch):
+    assert no_place(tmp_path) is None
+    monkeypatch.setattr("shutil.disk_usage", lambda _: SimpleNamespace(free=12_300_000))
+    assert no_place(tmp_path).endswith("12 MB free on the disk; expected 200: make room")
+    monkeypatch.setattr("os.access", lambda *_: False)
+    assert (
+        no_place(tmp_path)
+        == f"{tmp_path} cannot be written; expected a folder of your own: copy it"
+    )
 
 
 def test_signal_is_handled_before_the_error_of_the_job_that_it_ended():
