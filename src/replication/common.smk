@@ -19,6 +19,7 @@ from replication.judging.ledger import read_judged, read_ledger
 from replication.judging.ledger_check import check_ledger
 from replication.inputs.configuration import Sections
 from replication.inputs.parts import PAPER, Part
+from replication.workflow.origins import Origins, published_results
 from replication.workflow.lock import one_run_at_a_time
 from replication.workflow.place import check_place
 from replication.workflow.progress import one_line_a_job

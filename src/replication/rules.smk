@@ -14,7 +14,8 @@ SNAKEFILES = [
     os.path.relpath(each.get_path_or_uri(secret_free=True))
     for each in workflow.included
 ]
-REFERENCES = sorted(map(str, Path("tests/reference").glob("*.csv")))
+ORIGINS = Origins(workflow.rules)
+PUBLISHED = {made: path for made, path in published_results().items() if ORIGINS.of(made)}
 
 check_ledger(LEDGER, FINDINGS)
 CLAIMS = read_ledger(LEDGER)
@@ -77,16 +78,17 @@ rule claims:
 
 rule compare:
     input:
-        tables=[
-            path.replace("tests/reference", "results/tables") for path in REFERENCES
-        ],
-        references=REFERENCES,
-        config="tests/reference/config.yaml",
+        results=list(PUBLISHED),
+        published=list(PUBLISHED.values()),
+        origins=sorted(Path("tests/reference").glob("origins.json")),
     output:
         table="results/comparison.csv",
         config="results/config.yaml",
+        origins="results/origins.json",
     params:
         config=config,
+        results=PUBLISHED,
+        origins={made: ORIGINS.of(made) for made in PUBLISHED},
     script:
         "rules/compare.py"
 

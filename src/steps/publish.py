@@ -44,7 +44,7 @@ TABLES = (
     "vase_exceptions",
     "vase_shares",
 )
-"""Those with which later runs are compared."""
+"""Those with which later runs are compared most strictly."""
 
 SOURCES = (
     "allen_peaks",
@@ -66,7 +66,7 @@ SOURCES = (
     "verification_published",
     "verification_routes",
 )
-"""Other tables from which findings follow; no later run is compared with them."""
+"""Other tables from which findings follow."""
 
 
 def main() -> None:

@@ -37,6 +37,16 @@ class Ending:
     peak: float
     impacts: int
 
+    def __eq__(self, other: object) -> bool:
+        """Return whether both are the same; peaks that are NaN are (Python 3.13 denies it)."""
+        if not isinstance(other, Ending):
+            return NotImplemented
+        peaks = self.peak == other.peak or (math.isnan(self.peak) and math.isnan(other.peak))
+        return peaks and (self.overturned, self.impacts) == (other.overturned, other.impacts)
+
+    def __hash__(self) -> int:
+        return hash((self.overturned, self.impacts))
+
 
 def potential(block: RockingBlock, rotation: float) -> float:
     """Return w(φ), the potential energy over I·p², of φ in rad."""

@@ -24,9 +24,7 @@ def no_place(folder: Path = Path()) -> str | None:
 
 if __name__ == "__main__":
     for number in SIGNALS:
-        if (
-            signal.getsignal(number) != signal.SIG_IGN or number == signal.SIGINT
-        ):  # nohup ignores one
+        if number != signal.SIGHUP or signal.getsignal(number) != signal.SIG_IGN:  # as under nohup
             signal.signal(number, interrupt)
     if reason := no_place():
         sys.exit(reason)

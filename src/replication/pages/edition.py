@@ -211,6 +211,7 @@ def publish(tables: Iterable[str], sources: Iterable[str] = ()) -> None:
     Path("docs").mkdir(exist_ok=True)
     reference.mkdir(parents=True, exist_ok=True)
     shutil.copyfile("config/config.yaml", reference / "config.yaml")
+    shutil.copyfile(results / "origins.json", reference / "origins.json")
     shutil.copyfile(results / "costs.csv", "docs/costs.csv")
     numbers = figure_numbers(options_of(ours["studies"], {}))
     lines = ["figure,number", *(f"{path},{number}" for path, number in numbers.items())]

@@ -1,63 +1,113 @@
-"""The tables of this run beside the reference tables that are committed in tests/reference/.
+"""The tables and findings of this run beside those that are published in tests/reference/.
 
-The config of this run is kept beside them, for the report and for `make publish`.
+The config of this run is kept beside the comparison, for the report and for `make publish`, and so
+are the parameters and inputs of its jobs. A result is compared unless these differ from those of
+the published run, in its job or in one upstream.
 """
 
+import json
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pandas as pd
 import yaml
 
-from replication.inputs.strict_yaml import read_yaml
+from replication.judging.findings import read_findings
 from replication.workbench import run, write_table
 
-
-def largest_difference(table: pd.DataFrame, reference: pd.DataFrame, absolute: float) -> float:
-    """Return the largest |difference| over |reference| + absolute; inf where they do not match."""
-    if list(table.columns) != list(reference.columns) or len(table) != len(reference):
-        return float("inf")
-    worst = 0.0
-    for name in reference.columns:
-        ours, theirs = table[name], reference[name]
-        if pd.api.types.is_numeric_dtype(theirs) and pd.api.types.is_numeric_dtype(ours):
-            ours, theirs = ours.astype(float), theirs.astype(float)
-            same = (ours == theirs) | (ours.isna() & theirs.isna())
-            ratio = (ours - theirs).abs() / (theirs.abs() + absolute)
-            worst = max(worst, float(np.where(same, 0.0, ratio.fillna(np.inf)).max(initial=0.0)))
-        elif not ours.equals(theirs):
-            return float("inf")
-    return worst
+COLUMNS = ["result", "published", "verdict", "departs"]
 
 
-def main(tables: list[str], references: list[str], changed: list[str], bounds: dict) -> list[dict]:
-    ours = {Path(path).name: path for path in tables}
-    rows = []
-    for path in references:
-        name = Path(path).name
-        difference = float("nan")
-        if not changed:
-            difference = largest_difference(
-                pd.read_csv(ours[name]), pd.read_csv(path), bounds["absolute"]
+def departures(ours: pd.DataFrame, theirs: pd.DataFrame, bounds: Mapping) -> Iterator[str]:
+    """Yield each column in which a table departs from the published one.
+
+    A number may differ by `relative` of it or by `absolute`, a whole number also by `counts`, if
+    the bounds have that.
+    """
+    for name in [*theirs, *(name for name in ours if name not in theirs)]:
+        if name not in ours or name not in theirs:
+            yield f"{name} (only {'here' if name in ours else 'published'})"
+            continue
+        whole = all(pd.api.types.is_integer_dtype(one[name]) for one in (ours, theirs))
+        absolute = bounds.get("counts", 0) if whole else bounds["absolute"]
+        try:
+            pd.testing.assert_series_equal(
+                ours[name],
+                theirs[name],
+                check_dtype=False,
+                rtol=bounds["relative"],
+                atol=absolute,
             )
+        except AssertionError:
+            yield name
+
+
+def read(path: str | Path) -> pd.DataFrame:
+    """Return a table, or findings as one row with an entry of evidence in each column."""
+    if Path(path).suffix == ".csv":
+        return pd.read_csv(path)
+    found = read_findings(path).as_json()
+    return pd.DataFrame([dict(_entries("", {name: found[name] for name in read_findings(path)}))])
+
+
+def _entries(name: str, entry: Any) -> Iterator[tuple[str, Any]]:
+    if isinstance(entry, Mapping | list):
+        items = entry.items() if isinstance(entry, Mapping) else enumerate(entry)
+        for key, inner in items:
+            yield from _entries(f"{name}.{key}".removeprefix("."), inner)
+    else:
+        yield name, entry
+
+
+def main(
+    results: Mapping[str, str],
+    origins: Mapping[str, Mapping[str, str]],
+    published: Mapping[str, str] | None,
+    bounds: Mapping,
+) -> list[dict]:
+    """Return a row for each result: whether it agrees with what is published, or why neither.
+
+    `results` are the paths of ours and of the published; `origins` the jobs of each of ours with
+    checksums, its own the last; `published` those of the published run, None if it kept none.
+    Bounds are those of tables; whatever else is published has `bounds["sampled"]`.
+    """
+    own = {path: [*jobs][-1] for path, jobs in origins.items()}
+    untested = {
+        own[path]: reason
+        for path in results
+        if path.endswith(".json") and (reason := read_findings(path).not_tested)
+    }
+    tables = {own[path] for path, there in results.items() if Path(there).match("reference/*.csv")}
+    rows = []
+    for path, there in results.items():
+        others = published if published is not None else origins[path]
+        changed = [job for job, value in origins[path].items() if others.get(job) != value]
+        columns = []
         if changed:
-            verdict = "not compared: config.yaml differs in " + ", ".join(changed)
+            verdict = f"not compared: parameters or inputs differ of {', '.join(changed)}"
+        elif reasons := [untested[job] for job in origins[path] if job in untested]:
+            verdict = f"not compared: {reasons[0]}"
         else:
-            verdict = "agrees" if difference <= bounds["relative"] else "differs"
-        rows.append({"table": name, "largest_difference": difference, "verdict": verdict})
-        print(f"{name}: {verdict} ({difference:.2g})")
+            strict = Path(there).match("reference/*.csv") or (
+                there.endswith(".json") and own[path] in tables
+            )
+            within = bounds if strict else bounds.get("sampled", bounds)
+            columns = list(departures(read(path), read(there), within))
+            verdict = "differs" if columns else "agrees"
+        rows.append(dict(zip(COLUMNS, (path, there, verdict, ", ".join(columns)), strict=True)))
+        print(f"{path}: {verdict} {rows[-1]['departs']}")
     return rows
 
 
 def work(job: Any) -> None:
-    published = read_yaml(job.input.config)
+    published = Path("tests/reference/origins.json")
+    jobs = {name: value for each in job.params.origins.values() for name, value in each.items()}
+    Path(job.output.origins).write_text(json.dumps(jobs, indent=1, sort_keys=True) + "\n", "utf-8")
+    known = json.loads(published.read_text("utf-8")) if published.is_file() else None
     used = job.params.config
-    sections = {*published, *used} - {"studies"}  # those have tables of their own
-    changed = sorted(key for key in sections if published.get(key) != used.get(key))
-    rows = main(job.input.tables, job.input.references, changed, used["reproducibility"])
-    columns = ["table", "largest_difference", "verdict"]
-    write_table(job.output.table, pd.DataFrame(rows, columns=columns))
+    rows = main(job.params.results, job.params.origins, known, used["reproducibility"])
+    write_table(job.output.table, pd.DataFrame(rows, columns=COLUMNS))
     text = yaml.safe_dump(dict(used), allow_unicode=True, sort_keys=False)
     Path(job.output.config).write_text(text, encoding="utf-8")
 

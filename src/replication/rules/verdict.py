@@ -27,8 +27,7 @@ def main(
         if row.verdict != row.expected and not row.not_tested
     ]
     faults += [
-        f"results/tables/{row.table} differs from tests/reference/{row.table} "
-        f"(largest relative difference {row.largest_difference:.2g}): if it is meant to, copy it "
+        f"{row.result} differs from {row.published} in {row.departs}: if it is meant to, copy it "
         "there, run again, and make publish"
         for row in comparison.itertuples()
         if row.verdict == "differs"
@@ -40,6 +39,10 @@ def main(
     ]
     reasons = Counter(row.not_tested for row in claims if row.not_tested)
     lines = [f"{count} claims not tested here: {reason}" for reason, count in reasons.items()]
+    skipped = comparison[comparison.verdict.astype(str).str.startswith("not compared")]
+    for reason, rows in skipped.groupby("verdict", sort=False):
+        names = ", ".join(path.removeprefix("results/") for path in rows.result)
+        lines.append(f"{len(rows)} of {len(comparison)} published results {reason}: {names}")
     return "\n".join([*lines, *tallies(claims)]), faults
 
 

@@ -1,21 +1,24 @@
-"""The comparison of a run's tables with those that are committed."""
+"""The comparison of a run's tables and findings with those that are published."""
 
+import json
 import math
 
 import pandas as pd
 import pytest
 
-from replication.rules.compare import largest_difference, main
+from replication.rules.compare import departures, main, read
 
 TABLE = pd.DataFrame(
     {
         "mass_ratio": [0.0, 1.0, math.inf],
         "peak": [0.1, 0.2, math.nan],
         "impacts": [0, 2, 1],
+        "holds": [False, False, True],
         "name": ["a", "b", "c"],
     }
 )
 BOUNDS = {"relative": 1e-6, "absolute": 1e-9}
+LOOSE = {"relative": 0.02, "absolute": 0.01, "counts": 1}
 
 
 def changed(column: str, row: int, value) -> pd.DataFrame:
@@ -24,22 +27,31 @@ def changed(column: str, row: int, value) -> pd.DataFrame:
     return table
 
 
-def test_table_does_not_differ_from_itself():
-    assert largest_difference(TABLE, TABLE.copy(), 1e-9) == 0.0
+@pytest.mark.parametrize("bounds", [BOUNDS, LOOSE])
+def test_table_does_not_depart_from_itself(bounds):
+    assert list(departures(TABLE, TABLE.copy(), bounds)) == []
 
 
 @pytest.mark.parametrize("sign", [1, -1])
 def test_difference_is_relative_with_an_absolute_floor(sign):
-    other = changed("peak", 1, 0.2 + sign * 1e-3)
-    assert largest_difference(other, TABLE, 0.0) == pytest.approx(5e-3)
-    assert largest_difference(other, TABLE, 0.8) == pytest.approx(1e-3)
-    at_zero = changed("mass_ratio", 0, sign * 1e-12)
-    assert largest_difference(at_zero, TABLE, 1e-9) == pytest.approx(1e-3)
+    def departs(value, **bounds):
+        return [*departures(changed("peak", 1, value), TABLE, bounds)]
+
+    assert departs(0.2 + sign * 1e-3, relative=4.9e-3, absolute=0.0) == ["peak"]
+    assert departs(0.2 + sign * 1e-3, relative=5.1e-3, absolute=0.0) == []
+    assert departs(0.2 + sign * 1e-3, relative=0.0, absolute=1.1e-3) == []
+    assert departs(0.2 + sign * 1e-3, relative=0.0, absolute=0.9e-3) == ["peak"]
 
 
-def test_largest_of_all_columns_counts():
-    other = changed("peak", 1, 0.2002).assign(impacts=[0, 3, 1])
-    assert largest_difference(other, TABLE, 0.0) == pytest.approx(0.5)
+def test_every_column_that_departs_is_named():
+    other = changed("peak", 1, 0.2002).assign(impacts=[0, 5, 1], name=["a", "b", "d"])
+    assert list(departures(other, TABLE, BOUNDS)) == ["peak", "impacts", "name"]
+
+
+@pytest.mark.parametrize(("value", "departs"), [(3, []), (4, ["impacts"])])
+def test_counts_of_samples_may_differ_by_a_few(value, departs):
+    assert list(departures(changed("impacts", 1, value), TABLE, LOOSE)) == departs
+    assert list(departures(changed("impacts", 1, value), TABLE, BOUNDS)) == ["impacts"]
 
 
 @pytest.mark.parametrize(
@@ -50,43 +62,74 @@ def test_largest_of_all_columns_counts():
         ("peak", 0, math.inf),
         ("mass_ratio", 2, 5.0),
         ("mass_ratio", 2, -math.inf),
+        ("holds", 0, True),
         ("name", 1, "x"),
         ("peak", 1, "much"),
     ],
 )
-def test_what_has_no_distance_is_infinitely_far(column, row, value):
-    assert largest_difference(changed(column, row, value), TABLE, 1e-9) > 1e9
+def test_what_has_no_distance_departs(column, row, value):
+    assert list(departures(changed(column, row, value), TABLE, LOOSE)) == [column]
 
 
 @pytest.mark.parametrize(
-    "other",
-    [TABLE.iloc[:2], TABLE.drop(columns="name"), TABLE.rename(columns={"peak": "top"})],
-    ids=["a row less", "a column less", "another name"],
+    ("other", "departs"),
+    [
+        (TABLE.iloc[:2], list(TABLE)),
+        (TABLE.drop(columns="name"), ["name (only published)"]),
+        (TABLE.assign(top=1), ["top (only here)"]),
+    ],
 )
-def test_tables_of_another_form_are_infinitely_far(other):
-    assert largest_difference(other, TABLE, 1e-9) == math.inf
-    assert largest_difference(TABLE, other, 1e-9) == math.inf
+def test_tables_of_another_form_depart(other, departs):
+    assert list(departures(other, TABLE, LOOSE)) == departs
 
 
-def test_other_truth_is_a_difference():
-    truths = TABLE.assign(holds=[False, False, True])
-    assert largest_difference(truths, truths.copy(), 1e-9) == 0.0
-    assert largest_difference(truths.assign(holds=True), truths, 1e-9) >= 1.0
+@pytest.fixture
+def run(plant, tmp_path, monkeypatch):
+    """A run of two jobs of which the second reads the first, and what is published of both."""
+    monkeypatch.chdir(tmp_path)
+    found = json.dumps({"lowest": {"value": 0.3, "error": 0.0, "of": [1, 2]}, "called": []})
+    files = {"tables/one": TABLE.to_csv(index=False), "tables/two": TABLE.to_csv(index=False)}
+    files = {f"{name}.csv": text for name, text in files.items()} | {"findings/two.json": found}
+    plant(tmp_path, {f"results/{name}": text for name, text in files.items()})
+    there = {
+        "results/tables/one.csv": "tests/reference/one.csv",
+        "results/tables/two.csv": "tests/reference/studies/two.csv",
+        "results/findings/two.json": "tests/reference/findings/two.json",
+    }
+    plant(tmp_path, {there[f"results/{name}"]: text for name, text in files.items()})
+    jobs = {"one": "a", "two": "b"}
+    origins = {path: jobs if "two" in path else {"one": "a"} for path in there}
+    return lambda published, bounds=BOUNDS | {"sampled": LOOSE}: [
+        (row["verdict"], row["departs"]) for row in main(there, origins, published, bounds)
+    ]
 
 
-def test_table_agrees_differs_or_is_not_compared_when_the_config_was_changed(tmp_path):
-    ours, theirs = tmp_path / "ours" / "peaks.csv", tmp_path / "reference" / "peaks.csv"
-    for path in (ours, theirs):
-        path.parent.mkdir()
-        TABLE.to_csv(path, index=False)
-    for value, keys, verdict, difference in (
-        (0.2 + 1e-8, [], "agrees", 5e-8),
-        (0.2 + 1e-6, [], "differs", 5e-6),
-        (9.0, ["one", "other"], "not compared: config.yaml differs in one, other", math.nan),
-    ):
-        changed("peak", 1, value).to_csv(ours, index=False)
-        (row,) = main([str(ours)], [str(theirs)], keys, BOUNDS)
-        assert (row["table"], row["verdict"]) == ("peaks.csv", verdict)
-        assert row["largest_difference"] == pytest.approx(difference, rel=1e-4, nan_ok=True)
-    with pytest.raises(KeyError, match="peaks"):  # the run did not make it
-        main([], [str(theirs)], [], BOUNDS)
+AGREES = ("agrees", "")
+
+
+def test_only_what_depends_on_a_change_is_not_compared(run):
+    assert run({"one": "a", "two": "b"}) == run(None) == [AGREES] * 3
+    two = ("not compared: parameters or inputs differ of two", "")
+    assert run({"one": "a", "two": "c"}) == run({"one": "a"}) == [AGREES, two, two]
+    assert [verdict[-6:] for verdict, _ in run({"one": "c", "two": "b"})] == ["of one"] * 3
+
+
+def test_a_main_table_has_the_strict_bounds_and_the_rest_those_of_samples(run):
+    for name in ("one", "two"):
+        changed("peak", 1, 0.201).to_csv(f"results/tables/{name}.csv", index=False)
+    assert run(None) == [("differs", "peak"), AGREES, AGREES]
+    changed("peak", 1, 0.301).to_csv("results/tables/two.csv", index=False)
+    assert run(None)[1:] == [("differs", "peak"), AGREES]
+    assert run(None, BOUNDS)[1:] == [("differs", "peak"), AGREES]
+
+
+def test_finding_that_departs_is_named_with_its_entry(run, tmp_path):
+    path = tmp_path / "results/findings/two.json"
+    path.write_text(path.read_text().replace("[1, 2]", "[1, 9]"))
+    assert run(None)[2] == ("differs", "lowest.of.1")
+    assert list(read(path)) == ["lowest.value", "lowest.error", "lowest.of.0", "lowest.of.1"]
+
+
+def test_job_that_tested_nothing_is_not_compared(run, tmp_path):
+    (tmp_path / "results/findings/two.json").write_text('{"not_tested": "no engine"}')
+    assert run(None) == [AGREES, *[("not compared: no engine", "")] * 2]

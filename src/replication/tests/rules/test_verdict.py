@@ -19,9 +19,10 @@ def claim(name: str, verdict: str, expected: str, not_tested: str = "") -> Judge
 def compared(**verdicts: str) -> pd.DataFrame:
     return pd.DataFrame(
         {
-            "table": [f"{name}.csv" for name in verdicts],
-            "largest_difference": 2e-3,
+            "result": [f"results/tables/{name}.csv" for name in verdicts],
+            "published": [f"tests/reference/{name}.csv" for name in verdicts],
             "verdict": list(verdicts.values()),
+            "departs": ["peak" if verdict == "differs" else "" for verdict in verdicts.values()],
         }
     )
 
@@ -73,9 +74,9 @@ def test_claim_that_lacks_an_optional_package_is_told_and_is_no_fault():
 
 def test_only_a_table_that_differs_is_a_fault():
     tables = compared(first="agrees", second="differs", third="not compared: other config")
-    (fault,) = main(AS_EXPECTED, tables, {})[1]
-    assert "results/tables/second.csv differs from tests/reference/second.csv" in fault
-    assert "0.002" in fault
+    lines, (fault,) = main(AS_EXPECTED, tables, {})
+    assert "results/tables/second.csv differs from tests/reference/second.csv in peak" in fault
+    assert lines.startswith("1 of 3 published results not compared: other config: tables/third.csv")
 
 
 def test_check_of_ours_that_fails_is_a_fault_with_its_evidence():

@@ -1,0 +1,54 @@
+"""What the numbers of a result depend on beside code: parameters and inputs of its jobs.
+
+`Rule.is_producer`, `get_wildcards`, `expand_input` and `expand_params` are no part of Snakemake's
+interface: only this module calls them, and its test fails when Snakemake drops them.
+"""
+
+import hashlib
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+CODE = (".ipynb", ".py", ".pyi", ".smk")
+"""The endings of inputs that are code: a result is compared whatever made it."""
+
+
+class Origins:
+    """The jobs that each result depends on, by the rules of a workflow."""
+
+    def __init__(self, rules: Iterable[Any]) -> None:
+        self.rules = [rule for rule in rules if rule.output]
+        self.found: dict[str, dict[str, str]] = {}
+
+    def of(self, result: str) -> dict[str, str]:
+        """Return, for the job of a result and those upstream, a checksum of parameters and inputs.
+
+        Of inputs that a job makes, its checksum is there; of a file that none makes and that is no
+        code, its content is in the checksum of the job that reads it.
+        """
+        if result not in self.found:
+            makers = [rule for rule in self.rules if rule.is_producer(result)]
+            self.found[result] = self._of(makers[0], result) if makers else {}
+        return self.found[result]
+
+    def _of(self, rule: Any, result: str) -> dict[str, str]:
+        words = rule.get_wildcards(result)
+        read = rule.expand_input(words)[0]
+        params, _ = rule.expand_params(words, read, rule.expand_output(words)[0], None)
+        own, jobs = hashlib.sha256(repr([*params]).encode()), {}
+        for path in sorted(map(str, read)):
+            above = self.of(path)
+            jobs |= above
+            if not above and not path.endswith(CODE) and Path(path).is_file():
+                own.update(path.encode() + hashlib.sha256(Path(path).read_bytes()).digest())
+        words.pop("scatteritem", None)  # the parts of an ensemble are made alike
+        name = "_".join([rule.name, *words.values()])
+        return jobs | {name: own.hexdigest()[:16]}
+
+
+def published_results(folder: Path = Path("tests/reference")) -> dict[str, str]:
+    """Return the published tables and findings, by the paths of those that a run makes."""
+    tables = [path for part in (".", "sources", "studies") for path in folder.glob(f"{part}/*.csv")]
+    found = {f"results/tables/{path.name}": str(path) for path in sorted(tables)}
+    findings = sorted(folder.glob("findings/*.json"))
+    return found | {f"results/findings/{path.name}": str(path) for path in findings}
