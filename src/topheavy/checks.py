@@ -13,6 +13,12 @@ from numpy.typing import ArrayLike, NDArray
 LARGEST_ACCELERATION = 1e6
 """Of a ground motion, g. Far beyond any; far below where squares overflow and a fall is missed."""
 
+LARGEST = {"m": 1e9, "s": 1e9, "rad/s": 1e9}
+"""Of a number with this unit: far beyond any; far below where powers of it overflow."""
+
+MOST_CELLS = 100_000_000
+"""Of a map or of a search, which are held in memory."""
+
 LARGEST_RECORDED = 2.0
 """g. Few ground accelerations exceed it: a warning asks for the unit of one that does."""
 
@@ -98,7 +104,7 @@ def positive(name: str, value: Any, unit: str = "") -> float:
     number = finite(name, value)
     if number <= 0.0:
         raise ValueError(f"{name} is {_with_unit(number, unit)}; expected more than zero")
-    return number
+    return _within_reason(name, number, unit)
 
 
 def not_negative(name: str, value: Any, unit: str = "") -> float:
@@ -106,7 +112,13 @@ def not_negative(name: str, value: Any, unit: str = "") -> float:
     number = finite(name, value)
     if number < 0.0:
         raise ValueError(f"{name} is {_with_unit(number, unit)}; expected zero or more")
-    return number
+    return _within_reason(name, number, unit)
+
+
+def cells(name: str, *sizes: int) -> None:
+    """Raise ValueError that names what asks for more cells than a machine may have memory for."""
+    if (count := math.prod(sizes)) > MOST_CELLS:
+        raise ValueError(f"{name}: {count:.3g} cells; expected at most {MOST_CELLS:.0e}")
 
 
 def wider_than_column(span: Any, width: float) -> float:
@@ -153,6 +165,12 @@ def fraction(name: str, value: Any) -> float:
     number = finite(name, value)
     if not 0.0 <= number <= 1.0:
         raise ValueError(f"{name} is {number:.6g}; expected a value from 0 to 1")
+    return number
+
+
+def _within_reason(name: str, number: float, unit: str) -> float:
+    if number > (most := LARGEST.get(unit, math.inf)):
+        raise ValueError(f"{name} is {number:.6g} {unit}; expected at most {most:.0e} {unit}")
     return number
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple, overload
@@ -10,11 +11,29 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from topheavy import checks
+from topheavy.checks import short
 
 
 def constant_gravity(time: float) -> float:
     """The effective gravity over g of ground without vertical acceleration: 1."""
     return 1.0
+
+
+def no_excitation(value: object) -> ValueError:
+    """Return the error that refuses what is no ground motion."""
+    return ValueError(
+        f"excitation is {short(value)}; expected a Pulse or a Record, for example "
+        'Pulse("one-sine", 0.3, 6.0) with 0.3 g and 6 rad/s'
+    )
+
+
+def checked_excitation(value: object, *, ends: bool = False) -> Excitation:
+    """Return a ground motion, and one that ends where that is asked for, or raise ValueError."""
+    if not isinstance(value, Excitation):
+        raise no_excitation(value)
+    if ends and value.duration == math.inf:
+        raise ValueError("the excitation goes on forever; expected one that ends")
+    return value
 
 
 _MOST_HALVINGS = 10_000

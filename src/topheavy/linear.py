@@ -25,7 +25,7 @@ from topheavy.motion import Arc, Event, Motion
 from topheavy.pulses import Pulse
 from topheavy.response import Response
 from topheavy.shapes import ELEMENTARY
-from topheavy.structures import RockingBlock, Structure
+from topheavy.structures import RockingBlock, Structure, as_block
 
 _TURNED = 1e-10  # φ̇/αp below which a turning point is reached: φ is off by its square
 _NUDGE = 1e-6  # 1/p: the step across a turning point, over which φ changes by its square
@@ -50,7 +50,7 @@ def simulate_linear_exact(
     ValueError
         For a block that is not linearised, a pulse that is not `ELEMENTARY`, and as `simulate`.
     """
-    block = structure.block()
+    block = as_block(structure)
     if not block.linearised:
         raise ValueError("the block is not linearised; expected block.linear()")
     pulse = excitation if isinstance(excitation, Pulse) else None

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from topheavy import checks, free_rocking
-from topheavy.excitation import Excitation, Segment, still
+from topheavy.excitation import Excitation, Segment, checked_excitation, still
 from topheavy.response import Outcome, Response, initial_motion, sample_times
 from topheavy.structures import RockingBlock
 
@@ -171,6 +171,7 @@ def force(
         checks.positive("duration", duration, "s")
     if excitation is None:
         return 0.0
+    checked_excitation(excitation)
     forcing_end = min(excitation.duration, math.inf if duration is None else duration)
     if forcing_end == math.inf:
         raise ValueError("duration is not given; expected one, as this excitation goes on forever")

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from topheavy import checks
 from topheavy.checks import short
-from topheavy.excitation import Excitation
+from topheavy.excitation import Excitation, no_excitation
 from topheavy.kernel.forcing import RECORD, SHAPES
 from topheavy.kernel.grid import LANES, Outcomes, mixed_outcomes_of, outcomes_of
 from topheavy.kernel.outcome import TOLERANCE
@@ -24,7 +24,7 @@ from topheavy.kernel.taylor import Oscillator, oscillator
 from topheavy.keywords import hinted
 from topheavy.pulses import Pulse, checked_shape
 from topheavy.records import Record
-from topheavy.simulate import Shaking, as_shaking, checked_tolerance, no_excitation
+from topheavy.simulate import Shaking, as_shaking, checked_tolerance
 from topheavy.structures import RockingBlock, Structure, as_block
 from topheavy.vertical import both_records, refuse_fall
 
@@ -85,6 +85,7 @@ def overturning_map(
     frequencies = checks.axis("angular_frequencies", angular_frequencies, zero_allowed=False)
     amplitudes = checks.axis("amplitudes", amplitudes, zero_allowed=True)
     checks.acceleration("the largest of amplitudes", amplitudes.max())
+    checks.cells("angular_frequencies by amplitudes", frequencies.size, amplitudes.size)
     scales = frequencies / block.frequency_parameter
     return outcomes_dataset(
         block,
@@ -399,8 +400,11 @@ def _most(most_impacts: int | None) -> int:
 def _grid(search: Search, resolution: float) -> Factors:
     """Return the factors that are tried first, of a range and a resolution that are accepted."""
     first, last = checked_range(search.excitation, search.scale_range)
-    checks.positive("resolution", resolution)
-    return np.linspace(first, last, max(2, math.ceil((last - first) / resolution) + 1))
+    steps = (last - first) / checks.positive("resolution", resolution)
+    checks.cells(
+        f"resolution is {resolution:g} of {first:g} to {last:g}", math.ceil(min(steps, 1e18))
+    )
+    return np.linspace(first, last, max(2, math.ceil(steps) + 1))
 
 
 def checked_range(excitation: Excitation, scale_range: tuple[float, float]) -> tuple[float, float]:

@@ -66,6 +66,7 @@ def overturning_map_of_record(
     lengths = checks.axis("sizes", sizes, zero_allowed=False)
     accelerations = checks.axis("peak_accelerations", peak_accelerations, zero_allowed=True)
     checks.acceleration("the largest of peak_accelerations", accelerations.max())
+    checks.cells("sizes by peak_accelerations", lengths.size, accelerations.size)
     column = structure if isinstance(structure, Column) else getattr(structure, "column", None)
     size = column.size if isinstance(column, Column) else solitary_size(block.frequency_parameter)
     frequencies = block.frequency_parameter * np.sqrt(size / lengths)

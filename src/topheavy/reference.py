@@ -17,7 +17,7 @@ from scipy.integrate import DOP853, DenseOutput, ode
 from scipy.optimize import brentq
 
 from topheavy import checks, free_rocking, motion
-from topheavy.excitation import Excitation, Segment, root
+from topheavy.excitation import Excitation, Segment, checked_excitation, root
 from topheavy.motion import Arc, Event, Motion
 from topheavy.records import Record
 from topheavy.response import Response
@@ -96,6 +96,7 @@ def judge(
     Errors are those of `simulate`.
     """
     block = as_block(structure)
+    checked_excitation(excitation, ends=True)
     course = motion.start(block, 0.0, 0.0)
     course.restitutions = [checks.fraction("restitutions", value) for value in restitutions]
     if course.restitutions:

@@ -83,8 +83,10 @@ def sample_times(samples: int | ArrayLike) -> int | NDArray[np.float64]:
             )
         return int(number)
     times = np.array(samples, dtype=float)
-    if times.ndim != 1 or times.size == 0 or not np.all(np.isfinite(times)):
-        raise ValueError("samples holds no times or some that are not finite; expected times in s")
+    if times.ndim != 1 or times.size == 0:
+        raise ValueError(f"samples has shape {times.shape}; expected a list of times in s")
+    if not np.isfinite(times).all():
+        raise ValueError("samples holds times that are not finite; expected times in s")
     if times[0] < 0.0 or np.any(np.diff(times) <= 0.0):
         raise ValueError("samples is not an increasing array of times from 0 on")
     return times

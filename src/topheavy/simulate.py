@@ -11,8 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from topheavy import checks
-from topheavy.checks import short
-from topheavy.excitation import Excitation
+from topheavy.excitation import Excitation, checked_excitation, no_excitation
 from topheavy.free_rocking import Ending
 from topheavy.kernel.forcing import (
     NO_RECORD,
@@ -204,10 +203,7 @@ def judge(
     ArithmeticError
         For a block that bounces too often to be followed.
     """
-    if not isinstance(excitation, (Pulse, Record)):
-        raise no_excitation(excitation)
-    if excitation.duration == math.inf:
-        raise ValueError("the excitation goes on forever; expected one that ends")
+    checked_excitation(excitation, ends=True)
     if vertical is not None:
         refuse_fall(both_records(excitation, vertical)[1])
     block, shaking = as_block(structure), as_shaking(excitation, vertical)
@@ -265,14 +261,6 @@ def _prepared(record: Record) -> NDArray[np.float64]:
 def checked_tolerance(value: float) -> float:
     """Return a tolerance of the kernel, or raise ValueError with the range that is accepted."""
     return checks.within("tolerance", value, SMALLEST_TOLERANCE, LARGEST_TOLERANCE)
-
-
-def no_excitation(value: object) -> ValueError:
-    """Return the error that refuses what is no ground motion."""
-    return ValueError(
-        f"excitation is {short(value)}; expected a Pulse or a Record, for example "
-        'Pulse("one-sine", 0.3, 6.0) with 0.3 g and 6 rad/s'
-    )
 
 
 def _named(excitation: Excitation | None) -> str:

@@ -16,7 +16,7 @@ from scipy.integrate import DOP853, DenseOutput
 from scipy.optimize import brentq
 
 from topheavy import checks
-from topheavy.excitation import Excitation, Segment, still
+from topheavy.excitation import Excitation, Segment, checked_excitation, still
 from topheavy.motion import REST_PEAK
 from topheavy.newton_euler import (
     COLUMNS,
@@ -173,10 +173,13 @@ def simulate_three_bodies(
     """
     bodies = ThreeBodies(frame, span, cap_depth)
     until = checks.positive("duration", duration, "s")
+    checks.within("tolerance", tolerance, 1e-13, 1e-2)  # as SciPy takes it
     times = sample_times(samples)
     if isinstance(times, int):
         times = np.linspace(0.0, until, times)
     ground = with_vertical(excitation, vertical)
+    if ground is not None:
+        checked_excitation(ground)
     segments = [] if ground is None else ground.segments(until)
     end = segments[-1].stop if segments else 0.0
     if end < until:

@@ -6,6 +6,7 @@ crate lies at its root: the whole archive is an RO-Crate.
 """
 
 import hashlib
+import os
 import subprocess
 import sys
 import tomllib
@@ -50,11 +51,15 @@ def refusal(root: Path) -> str:
         left = "expected the files of the run: remove those above, then make reproduce"
         return "\n".join([*faults, left])
     if crate.version != now:
-        return (
-            f"{CRATE} was written at commit {crate.version}; expected {now}: "
-            f"rm {CRATE} && make reproduce, which lists the same results again"
-        )
+        renew(root)
     return ""
+
+
+def renew(root: Path) -> None:
+    """Write the crate anew, which names an earlier commit: of a run that is up to date."""
+    (root / CRATE).unlink()
+    command = [sys.executable, "-m", "snakemake", "--cores", "1", "--quiet", "all", "--", CRATE]
+    subprocess.run(command, cwd=root, check=True, env=os.environ | {"PYTHONPATH": "src:."})
 
 
 def members(root: Path) -> dict[str, bytes]:

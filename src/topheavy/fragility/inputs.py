@@ -25,6 +25,7 @@ UNITS = {"PGV": "m/s", "PGA": "g"}
 """The measures of intensity that have a name, and their units."""
 
 FEWEST_RESAMPLES = 100
+MOST_RESAMPLES = 100_000
 
 
 @dataclass(frozen=True)
@@ -238,6 +239,8 @@ def checked_resampling(confidence: float, resamples: int, seed: int) -> None:
         whole = isinstance(value, (int, np.integer)) and not isinstance(value, bool)
         if not whole or value < least:
             raise ValueError(f"{name} is {short(value)}; expected a whole number from {least} on")
+    if resamples > MOST_RESAMPLES:
+        raise ValueError(f"resamples is {resamples}; expected at most {MOST_RESAMPLES}")
 
 
 def _named(structures: object) -> list[tuple[str, str | int, Any]]:

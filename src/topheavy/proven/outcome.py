@@ -11,13 +11,13 @@ from __future__ import annotations
 from typing import Any
 
 from topheavy import checks
+from topheavy.excitation import no_excitation
 from topheavy.proven.balls import Undecided, arb, precision, within
 from topheavy.proven.blocks import Balls, BlockBox, Range, enclosed
 from topheavy.proven.forcing import Forcing, prepared
 from topheavy.proven.march import BOUNDED, March, Outcome, Rest
 from topheavy.pulses import Pulse
 from topheavy.records import Record
-from topheavy.simulate import no_excitation
 from topheavy.structures import Structure
 
 LADDER = ((72, 1e-13), (104, 1e-20), (136, 1e-28), (264, 1e-60), (392, 1e-95), (520, 1e-130))
