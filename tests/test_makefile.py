@@ -107,7 +107,7 @@ def test_verify_starts_no_python_of_the_folder(make):
 
 def test_signal_to_make_alone_reaches_the_run(make, tmp_path):
     (tmp_path / "uv").write_text("#!/bin/sh\necho $$\nexec sleep 60\n", encoding="utf-8")
-    command = ["make", f"UV={tmp_path}/uv", "reproduce"]
+    command = ["make", "--no-print-directory", f"UV={tmp_path}/uv", "reproduce"]
     with subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, text=True) as run:
         number = int(run.stdout.readline())
         run.terminate()

@@ -270,3 +270,24 @@ def test_bad_search_is_refused_by_name_and_value(changes, says):
     } | changes
     with pytest.raises(ValueError, match=says):
         lowest_overturning(**given)
+
+
+def test_first_wide_interval_is_found_beside_a_narrow_lower_one():
+    column = Column.of_dimensions(width=1.4, height=9.0)
+    found = lowest_overturning(column, EL_CENTRO, (0.0, 8.0), floor=0.01, wider_than=0.05)
+    every = overturning_intervals(column, EL_CENTRO, (0, 8), resolution=0.005, most_impacts=0)
+    wide = [one for one in every if not one.upper or one.upper[0] - one.lower[1] > 0.05]
+    assert found.wide.lower == pytest.approx(wide[0].lower, abs=0.02)
+    assert found.wide.lower[1] >= found.factor
+    told = f"wider than 0.05 begins at {found.wide.lower[1]:.6g}"
+    assert told in str(found)
+    assert f"({found.wide.lower[1] * EL_CENTRO.peak_acceleration:.6g} g)" in str(found)
+    assert "wider than" not in str(lowest_overturning(column, EL_CENTRO, (0.0, 8.0), floor=0.01))
+
+
+def test_no_wide_interval_in_the_range_is_said():
+    found = lowest_overturning(PIER, SINE, (0.0, 1e-3), floor=1e-3, wider_than=1e-3)
+    assert found.wide is None
+    assert "The first interval wider than 0.001 is not in the range" in str(found)
+    with pytest.raises(ValueError, match="wider_than is 0; expected more than zero"):
+        lowest_overturning(PIER, SINE, (0.0, 1.0), floor=0.1, wider_than=0.0)

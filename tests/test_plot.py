@@ -45,14 +45,16 @@ def test_map_of_a_record_has_its_own_axes():
     assert axes.get_ylabel() == "Peak ground acceleration (g)"
 
 
-def test_fragility_has_points_with_exact_intervals():
+def test_fragility_has_points_in_bands_of_exact_intervals():
     motions = [Record(0.1, [0.0, a, -a, 0.0]) for a in (0.3, 0.6, 1.0, 1.5)]
     found = topheavy.fragility({"one": COLUMN}, motions, [0.5, 2.0, 8.0], measure="PGA")
     axes = plot.fragility(found)
-    (points,) = axes.containers
-    assert np.array_equal(points.lines[0].get_ydata(), found.curves.probability[0])
-    ends = np.array(points.lines[2][0].get_segments())[:, :, 1]
-    assert ends[:, 0] == pytest.approx(found.curves.probability_low[0])
+    points, _ = axes.lines
+    assert np.array_equal(points.get_ydata(), found.curves.probability[0])
+    (band,) = axes.collections
+    corners = {tuple(corner) for corner in band.get_paths()[0].vertices}
+    for end in (found.curves.probability_low, found.curves.probability_high):
+        assert set(zip(found.curves.level.values, end[0].values, strict=True)) <= corners
     assert axes.get_xlabel() == "PGA (g)"
 
 

@@ -10,6 +10,7 @@ import pytest
 from topheavy import (
     Cap,
     Column,
+    Ending,
     FixedMassColumn,
     MonolithicPortal,
     Pulse,
@@ -138,3 +139,11 @@ FINE = np.linspace(0.1, 1.0, 20_000)
 def test_what_would_exhaust_the_machine_is_refused_by_its_name(ask, message):
     with pytest.raises(ValueError, match="^" + re.escape(message)):
         ask()
+
+
+def test_endings_that_overturn_are_the_same_whatever_made_their_nan():
+    one, other = (Ending(True, float("nan"), 2) for _ in range(2))
+    assert one == other
+    assert hash(one) == hash(other)
+    assert one != Ending(True, math.nan, 1)
+    assert Ending(False, 0.1, 0) == Ending(False, 0.1, 0) != Ending(False, 0.2, 0)

@@ -15,6 +15,7 @@ from topheavy import (
     Record,
     RockingBlock,
     RockingFrame,
+    fragility,
     judge,
     overturned_by,
     reference,
@@ -415,6 +416,13 @@ def test_impossible_masses_are_refused(masses, columns, message):
         (lambda: RockingFrame(COLUMN, 365), "mass_ratio is 365; few exceed 100: is it a mass"),
         (lambda: FixedMassColumn(COLUMN, 365), "mass_ratio is 365; few exceed 100"),
         (lambda: MonolithicPortal(COLUMN, 365, 5.0), "mass_ratio is 365; few exceed 100"),
+        (lambda: MonolithicPortal(COLUMN, 1.0, 6000.0), "span is 6000 m.*is it in cm or mm"),
+        (lambda: Record(10.0, [0.0, 0.1]), "time_step is 10 s.*is it in ms"),
+        (lambda: Record(0.1, [0.0, 0.1]).scaled_to(pgv=60), "pgv is 60 m/s.*is it in cm/s"),
+        (
+            lambda: fragility([COLUMN], [Record(0.1, [0.0, 0.1])], [20.0, 60.0]),
+            "levels go up to 60 m/s.*are they in cm/s",
+        ),
         (lambda: Record(0.1, [0.0, 3.13]), "record: the largest acceleration is 3.13 g.*m/s²"),
     ],
 )
@@ -432,8 +440,9 @@ def test_what_is_meant_is_not_asked():
     assert meant.scaled(2.0).scaled_to(pga=5.0).peak_acceleration == pytest.approx(5.0)
 
 
-def test_column_says_its_whole_dimensions():
+def test_column_says_its_whole_dimensions_and_a_pulse_its_units():
     assert "2.8 m wide, 18 m high" in repr(Column(1.4, 9.0))
+    assert repr(Pulse("one-sine", 0.3, 2.0 * math.pi)).endswith(": 0.3 g, period 1 s)")
 
 
 def test_swapped_width_and_height_are_suspected():

@@ -22,6 +22,15 @@ MOST_CELLS = 100_000_000
 LARGEST_RECORDED = 2.0
 """g. Few ground accelerations exceed it: a warning asks for the unit of one that does."""
 
+LONGEST_STEP = 4.0
+"""s. Few records have a longer time step: a warning asks whether it is in ms."""
+
+LARGEST_VELOCITY = 5.0
+"""m/s. Few ground motions exceed it: a warning asks whether a velocity is in cm/s."""
+
+LONGEST = 200.0
+"""m. Few structures exceed it: a warning asks whether a length is in cm or mm."""
+
 _SHORT = Repr()
 _SHORT.maxother = 80
 short = _SHORT.repr
@@ -124,6 +133,8 @@ def cells(name: str, *sizes: int) -> None:
 def wider_than_column(span: Any, width: float) -> float:
     """Return the span (m) between the axes of columns of a width (m), or raise ValueError."""
     number = positive("span", span, "m")
+    if number > LONGEST:
+        warn(f"span is {number:.6g} m, and few exceed {LONGEST:g} m: is it in cm or mm?")
     if number <= width:
         raise ValueError(
             f"span is {number:.6g} m; expected more than the width of a column, "

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
-from typing import Any, NamedTuple, overload
+from typing import Any, NamedTuple, cast, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -27,13 +27,13 @@ def no_excitation(value: object) -> ValueError:
     )
 
 
-def checked_excitation(value: object, *, ends: bool = False) -> Excitation:
+def checked_excitation(value: Any, *, ends: bool = False) -> Excitation:
     """Return a ground motion, and one that ends where that is asked for, or raise ValueError."""
-    if not isinstance(value, Excitation):
+    if isinstance(value, type) or not callable(getattr(value, "segments", None)):
         raise no_excitation(value)
     if ends and value.duration == math.inf:
         raise ValueError("the excitation goes on forever; expected one that ends")
-    return value
+    return cast("Excitation", value)
 
 
 _MOST_HALVINGS = 10_000

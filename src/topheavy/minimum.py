@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Generator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, TypeAlias, cast
 
 import numpy as np
@@ -22,8 +22,10 @@ from topheavy.overturning import (
     BRACKET,
     Asked,
     Factors,
+    Interval,
     Search,
     checked_range,
+    intervals_together,
     outcomes_of_subjects,
     steered,
     subjects_of,
@@ -68,6 +70,11 @@ class LowestOverturning:
         Peak ground acceleration of the factor 1, g.
     factors_tried : int
         How many histories the search took.
+    wider_than : float
+        Of an interval of factors that was sought besides: more than this wide. 0 if none was.
+    wide : Interval or None
+        The lowest such interval, on a grid with steps of an eighth of this width; survival regions
+        narrower than a step may lie inside it. None where there is none.
     """
 
     scale_range: tuple[float, float]
@@ -77,6 +84,8 @@ class LowestOverturning:
     upper: tuple[float, float] | None
     unit_acceleration: float
     factors_tried: int
+    wider_than: float = 0.0
+    wide: Interval | None = None
 
     @property
     def factor(self) -> float:
@@ -110,6 +119,13 @@ class LowestOverturning:
                 f"The {which} {verb} {self.factor:.6g} ({self.acceleration:.6g} g), "
                 f"in an interval {wide}"
             )
+        if self.wider_than:
+            factor = self.wide.lower[1] if self.wide else math.nan
+            found += f". The first interval wider than {self.wider_than:.6g} " + (
+                f"begins at {factor:.6g} ({factor * self.unit_acceleration:.6g} g)"
+                if self.wide
+                else "is not in the range"
+            )
         return (
             f"{found}. The step was halved from {self.steps[0][0]:.6g} to {self.steps[-1][0]:.6g}: "
             f"{NOT_EXCLUDED} (floor {self.floor:.6g})."
@@ -123,6 +139,7 @@ def lowest_overturning(
     scale_range: tuple[float, float],
     *,
     floor: float,
+    wider_than: float | None = None,
     vertical: Record | None = None,
     scale_vertical: bool = True,
 ) -> LowestOverturning:
@@ -148,6 +165,9 @@ def lowest_overturning(
         The first and the last factor, not negative.
     floor : float
         The widest step that may be the last.
+    wider_than : float, optional
+        Also find the lowest interval of factors that is wider than this. Under a record the lowest
+        factor often lies in an interval so narrow that no measured motion would meet it.
     vertical : Record, optional
         Vertical ground acceleration that starts with a record: g, positive upward.
     scale_vertical : bool
@@ -166,7 +186,12 @@ def lowest_overturning(
     """
     search = Search(structure, excitation, scale_range, vertical, scale_vertical)
     (found,) = lowest_together([search], [floor])
-    return found
+    if wider_than is None:
+        return found
+    step = checks.positive("wider_than", wider_than) / 8.0
+    (intervals,) = intervals_together([search], resolution=step, most_impacts=0)
+    wide = (one for one in intervals if not one.upper or one.upper[0] - one.lower[1] > wider_than)
+    return replace(found, wider_than=float(wider_than), wide=next(wide, None))
 
 
 def lowest_together(searches: Sequence[Search], floors: Sequence[float]) -> list[LowestOverturning]:

@@ -83,7 +83,7 @@ def spectrum(outcomes: xarray.Dataset, *, axes: Axes | None = None) -> Axes:
 
 @hinted
 def fragility(found: Fragility, *, axes: Axes | None = None) -> Axes:
-    """Draw the probability of overturning: points with their intervals, and the fitted curves.
+    """Draw the probability of overturning: points, their intervals as bands, the fitted curves.
 
     Parameters
     ----------
@@ -92,15 +92,13 @@ def fragility(found: Fragility, *, axes: Axes | None = None) -> Axes:
     """
     axes = _axes(axes)
     names = found.curves.structure.to_numpy()
-    for place, name in enumerate(names):
+    for name in names:
         curve = found.curves.sel(structure=name)
-        level, share = curve.level.to_numpy(), curve.probability.to_numpy()
-        ends = np.array([share - curve.probability_low, curve.probability_high - share])
-        aside = 0.6 * (place - (len(names) - 1) / 2) / len(names) * np.gradient(level)
-        points = axes.errorbar(
-            level + aside, share, ends.clip(0.0), fmt=".", capsize=2, label=str(name)
-        )
-        axes.plot(level, curve.fitted, color=points.lines[0].get_color())
+        (points,) = axes.plot(curve.level, curve.probability, ".", label=str(name))
+        colour = points.get_color()
+        ends = curve.probability_low, curve.probability_high
+        axes.fill_between(curve.level, *ends, color=colour, alpha=0.15, linewidth=0.0)
+        axes.plot(curve.level, curve.fitted, color=colour)
     unit = found.curves.level.attrs.get("units", "its unit")
     axes.set(
         xlabel=f"{found.measure} ({unit})",

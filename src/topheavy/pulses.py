@@ -117,6 +117,15 @@ class Pulse(Excitation):
         checks.acceleration("amplitude", self.amplitude)
         checks.positive("angular_frequency", self.angular_frequency, "rad/s")
 
+    def __repr__(self) -> str:
+        """Return the fields and, as a frequency in Hz is easily given, their units."""
+        period = 2.0 * math.pi / self.angular_frequency
+        return (
+            f"Pulse({self.shape!r}, amplitude={self.amplitude!r}, "
+            f"angular_frequency={self.angular_frequency!r}: "
+            f"{self.amplitude:.4g} g, period {period:.4g} s)"
+        )
+
     @property
     def duration(self) -> float:
         """How long the pulse lasts, s; infinite for the harmonic."""

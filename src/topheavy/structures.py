@@ -18,8 +18,6 @@ from topheavy.keywords import hinted
 STANDARD_GRAVITY = 9.81
 """Acceleration of gravity g, m/s², as the paper's numbers imply it (2.15 m/s² = 0.219 g, p. 4)."""
 
-HIGHEST = 200.0
-"""Of a column, m: beyond it, a warning asks whether the lengths are in cm or mm."""
 LARGEST_MASS_RATIO = 100.0
 """γ: above it, unless it is infinite, a warning asks whether a mass was given for a ratio."""
 SMALLEST_MASS_RATIO = 0.01
@@ -84,7 +82,7 @@ class Column:
     Parameters
     ----------
     half_width, half_height : float
-        b and h, m. A warning says if that is a column of more than `HIGHEST`.
+        b and h, m. A warning says if that is a column of more than `checks.LONGEST`.
 
     Raises
     ------
@@ -98,11 +96,11 @@ class Column:
     def __post_init__(self) -> None:
         checks.positive("half_width", self.half_width, "m")
         checks.positive("half_height", self.half_height, "m")
-        if (height := 2.0 * max(self.half_width, self.half_height)) > HIGHEST:
+        if (height := 2.0 * max(self.half_width, self.half_height)) > checks.LONGEST:
             checks.warn(
-                f"a side of the column is {height:.6g} m long, and few exceed {HIGHEST:g} m: are "
-                f"the lengths in cm or mm? Then it is {height / 100.0:.6g} or "
-                f"{height / 1000.0:.6g} m"
+                f"a side of the column is {height:.6g} m long, and few exceed "
+                f"{checks.LONGEST:g} m: are the lengths in cm or mm? Then it is "
+                f"{height / 100.0:.6g} or {height / 1000.0:.6g} m"
             )
 
     def __repr__(self) -> str:

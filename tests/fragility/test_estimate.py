@@ -1,5 +1,6 @@
 """The public function: which histories it judges, and what it returns of them."""
 
+import re
 import subprocess
 import sys
 
@@ -195,6 +196,7 @@ def test_structures_of_a_list_are_named():
         ([1.0], ""),
     ],
 )
+@pytest.mark.filterwarnings("ignore:levels go up")
 @pytest.mark.parametrize("skewed", [False, True])
 def test_levels_that_give_no_curve_give_a_reason(levels, reason, skewed):
     found = fragility(STRUCTURES, MOTIONS, levels, skewed=skewed, resamples=100)
@@ -246,3 +248,20 @@ def test_name_is_the_function_whatever_is_imported_first():
         "assert {'fragility', 'Fragility'} <= set(dir(topheavy))\n"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def test_text_has_medians_gains_and_reasons():
+    motions = [wave(number) for number in range(20)]
+    told = str(
+        fragility(
+            {"pier": PIER, "bent": RockingFrame(PIER, 2.0)}, motions, np.geomspace(0.05, 2.0, 12)
+        )
+    )
+    first, pier, bent, pair = told.splitlines()
+    assert first.startswith("20 motions, PGV from 0.05 to 2 m/s; 95% intervals, sampling of 20")
+    assert re.fullmatch(r"pier: median [\d.]+ \([\d.]+ to [\d.]+\) m/s", pier)
+    assert bent.startswith("bent: median ")
+    assert pair.startswith(("bent over pier: gain ", "pier over bent: gain "))
+    with pytest.warns(UserWarning, match="in cm/s"):
+        in_cm = str(fragility([PIER], motions, [20.0, 60.0, 200.0]))  # taken as m/s
+    assert re.search(r"Column 1: median nan \(nan to nan\) m/s: \w+", in_cm)

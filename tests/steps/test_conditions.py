@@ -174,20 +174,22 @@ def test_moment_that_is_off_by_a_billionth_and_lost_energy_are_noticed(monkeypat
 
 
 @pytest.mark.parametrize(
-    ("computed", "expected", "holds"),
+    ("computed", "expected", "numbers", "holds"),
     [
-        (1.0, 1.0, True),
-        (1.004, 1.004, True),
-        (1.002, 1.0, False),  # off ours
-        (1.006, 1.006, False),  # off the print
+        (1.0, 1.0, 10, True),
+        (1.004, 1.004, 10, True),
+        (1.002, 1.0, 10, False),  # off ours
+        (1.006, 1.006, 10, False),  # off the print
+        (1.0, 1.0, 9, False),  # too few
+        (1.0, 1.0, 0, False),
     ],
 )
 def test_number_of_the_literature_is_held_against_ours_and_the_print(
-    monkeypatch, computed, expected, holds
+    monkeypatch, computed, expected, numbers, holds
 ):
     routes = {"verdicts_that_differ": [0], "error_99": [0.0], "cells": [9]}
-    literature = {"printed": [1.0], "expected": [expected], "tolerance": [1e-3]}
-    literature |= {"computed": [computed]}
+    row = {"printed": 1.0, "expected": expected, "tolerance": 1e-3, "computed": computed}
+    literature = {name: [number] * numbers for name, number in row.items()}
     given = {"agreement": routes, "convergence": {}, "published": literature}
     for name, table in given.items():
         found = pd.DataFrame(table)

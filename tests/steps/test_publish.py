@@ -203,6 +203,7 @@ def finished(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     for path, text in {
         "results/config.yaml": "studies: []\n",
+        "results/origins.json": "{}\n",
         "config/config.yaml": "studies: []\n",
         "results/claims.json": "[]",
         "results/costs.csv": "rule,seconds\n",
@@ -236,6 +237,7 @@ def study(finished):
     """A study of that run, which publishes a table and a picture."""
     for path, text in {
         "results/config.yaml": "studies: [ours]\n",
+        "results/origins.json": "{}\n",
         "config/config.yaml": "studies: [ours]\n",
         "results/tables/ours_new.csv": "x\n2\n",
         "studies/ours/config.yaml": "{}\n",

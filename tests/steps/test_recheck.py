@@ -16,7 +16,7 @@ from replication.judging.claim import Claim
 from replication.judging.findings import Finding, Findings, findings_by_rule
 from replication.judging.ledger import read_judged, read_ledger, with_verdict
 from replication.pages.edition import count_table, verdict_page
-from replication.pages.edition_check import CLAIMS, claims, pages
+from replication.pages.edition_check import CLAIMS, claims, close, pages
 from replication.pages.edition_check import main as check_edition
 from replication.pages.seal import SEAL, seal
 from replication.workbench import truth, value
@@ -128,6 +128,41 @@ MISSING = (
     "does not exist; expected a file of the published run, or no check of it in "
     "src/steps/recheck.py"
 )
+
+
+@pytest.mark.parametrize(
+    ("name", "edit"),
+    [
+        ("paper/claims.yaml", lambda text: text.replace("statement:", "statemend:", 1)),
+        ("paper/claims.yaml", lambda text: text + "\n- : ["),
+        ("tests/reference/findings/vase.json", lambda text: text[:-20]),
+        ("tests/reference/findings/vase.json", lambda text: "[]"),
+        ("tests/reference/vase.csv", lambda text: text.replace("mass_ratio", "ratio", 1)),
+        ("tests/reference/config.yaml", lambda text: text.replace("vase:", "vases:", 1)),
+        ("config/config.yaml", lambda text: text.replace("studies:", "study:", 1)),
+    ],
+)
+def test_broken_file_is_told_in_a_line(edition, name, edit):
+    path = edition / name
+    whole = path.read_text("utf-8")
+    path.write_text(edit(whole), "utf-8")
+    try:
+        faults = main(edition)[1]
+    finally:
+        path.write_text(whole, "utf-8")
+    assert faults
+    assert not any("Traceback" in fault for fault in faults)
+
+
+def test_last_line_says_how_many_inputs_and_texts_are_newer_than_the_edition(capsys):
+    for older, told in (
+        (["the edition is older than a, which changed"] * 2, "2 inputs and"),
+        ([], "the published"),
+    ):
+        with pytest.raises(SystemExit) as ended:
+            close(["paper: 3", *older], [])
+        assert ended.value.code == 0
+        assert capsys.readouterr().out.splitlines()[-1].startswith(told)
 
 
 def test_edition_without_its_claims_says_so(edition):

@@ -15,9 +15,10 @@ from replication.judging.ledger import read_judged, read_ledger, with_verdict
 from replication.judging.verdicts import tallies, tolerance_fault
 from replication.pages.blanks import is_release
 from replication.pages.edition import verdict_page, with_counts
-from replication.pages.seal import broken, outdated
+from replication.pages.seal import OLDER, broken, outdated
 
 CLAIMS = "tests/reference/claims.json"
+AGREE = "the published findings, tables, claims and pages agree"
 DIFFER = """\
 The published findings, tables, claims and pages differ. If you changed the workflow on purpose,
 run 'make reproduce', then 'make publish', and read the diff. If not, restore the files above."""
@@ -107,11 +108,11 @@ def main(
     end with it. `departures` yields what is wrong with the published tables, and with the findings
     drawn from them.
     """
-    config = read_yaml(root / "config" / "config.yaml")
-    ledger = read_ledger(root / ledger_of(name) for name in [PAPER, *config["studies"]])
     reference = root / "tests" / "reference"
-    findings = findings_by_rule((reference / "findings").glob("*.json"))
     try:
+        config = read_yaml(root / "config" / "config.yaml")
+        ledger = read_ledger(root / ledger_of(name) for name in [PAPER, *config["studies"]])
+        findings = findings_by_rule((reference / "findings").glob("*.json"))
         rows = read_judged(root / CLAIMS)
         faults = [
             *claims(ledger, findings, rows, root),
@@ -125,6 +126,9 @@ def main(
         return [], [f"{missing.filename} does not exist; {what}"]
     except ValueError as unreadable:
         return [], [str(unreadable)]
+    except (AttributeError, KeyError, TypeError) as broken_file:
+        what = "a published table or finding, or a section of the config, lacks what is read of it"
+        return [], [f"{what}: {type(broken_file).__name__}: {broken_file}"]
     changed = list(outdated(root))
     if is_release():
         return tallies(rows), [*faults, *changed]
@@ -134,7 +138,12 @@ def main(
 def close(lines: Iterable[str], faults: Iterable[str]) -> None:
     """Print what `main` returned, and end the process: with an error if there is a fault."""
     sys.stdout.reconfigure(errors="replace")  # a terminal may know no Greek letters
-    faults = list(faults)
+    lines, faults = list(lines), list(faults)
     print(*faults, *lines, sep="\n")
-    print(DIFFER if faults else "the published findings, tables, claims and pages agree")
+    print(DIFFER if faults else AGREE)
+    if older := sum(line.startswith(OLDER) for line in lines):
+        print(
+            f"{older} inputs and texts changed since `make publish`: what was checked is older, "
+            "and with RELEASE=1 that is an error"
+        )
     sys.exit(bool(faults))

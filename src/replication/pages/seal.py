@@ -12,6 +12,8 @@ SOURCES = ("config", "data", "figures", "notebooks", "paper", "src/explorer", "s
 """The folders of the inputs and texts."""
 TOP = ("CITATION.cff", "README.md", "codecheck.yml", "docs/exhibits.md")
 """Texts beside these; the last two are those of `make pages`, which needs no run."""
+OLDER = "the edition is older than"
+"""With this begins the line of an input or text that changed since."""
 VERDICTS = "docs/verdicts.md"
 """Not sealed: it follows from the published rows line by line, and `make pages` writes it anew."""
 KINDS = {
@@ -42,7 +44,7 @@ def broken(root: Path = Path()) -> Iterator[str]:
 def outdated(root: Path = Path()) -> Iterator[str]:
     """Yield the inputs and texts that changed since the edition was made."""
     for name, kind in _changes(_sealed(root)[1], _sources(root)):
-        yield f"the edition is older than {name}, which {kind} since `make publish`"
+        yield f"{OLDER} {name}, which {kind} since `make publish`"
 
 
 def checksum(path: Path) -> str:

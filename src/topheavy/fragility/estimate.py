@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from topheavy import checks
 from topheavy.fragility import inputs
 from topheavy.fragility.curve import fit
 from topheavy.fragility.resampling import means_within
@@ -59,6 +60,30 @@ class Fragility:
     measure: str
     sampling: str
     confidence: float
+
+    def __str__(self) -> str:
+        """Say the median of each structure and the gain of each pair, with intervals or reasons."""
+        unit = self.curves.level.attrs.get("units", "")
+        first, last = (f"{float(self.curves.level[at]):.4g}" for at in (0, -1))
+        levels = f"{self.measure} from {first} to {last} {unit}".rstrip()
+        motions = f"{self.outcomes.shape[0]} motions, {levels}"
+        lines = [f"{motions}; {self.confidence:.0%} intervals, {self.sampling}"]
+        for place in range(self.curves.sizes["structure"]):
+            row = self.curves.isel(structure=place)
+            lines.append(f"{row.structure.item()}: median {_told(row, 'median_capacity', unit)}")
+        for place in range(self.pairs.sizes["pair"]):
+            row = self.pairs.isel(pair=place)
+            both = f"{row['second'].item()} over {row['first'].item()}"
+            lines.append(f"{both}: gain {_told(row, 'gain', '')}")
+        return "\n".join(lines)
+
+
+def _told(row: xarray.Dataset, name: str, unit: str) -> str:
+    """Return a value with its interval and unit, and the reason why one of these is unknown."""
+    value, low, high = (float(row[part]) for part in (name, f"{name}_low", f"{name}_high"))
+    known = f"{value:.3g} ({low:.3g} to {high:.3g}) {unit}".strip()
+    reason = row[f"{name}_reason"].item()
+    return f"{known}: {reason}" if reason else known
 
 
 @hinted
@@ -138,6 +163,8 @@ def fragility(
     under = inputs.variants(structures, lowered)
     shaking = inputs.checked_motions(motions)
     steps = inputs.checked_levels(levels)
+    if measure == "PGV" and steps[-1] > 2.0 * checks.LARGEST_VELOCITY:
+        checks.warn(f"levels go up to {steps[-1]:.6g} m/s, and few motions do: are they in cm/s?")
     members = inputs.checked_groups(groups, len(shaking))
     inputs.checked_resampling(confidence, resamples, seed)
     scales = inputs.factors(shaking, measure, steps)

@@ -61,6 +61,8 @@ class Record(Excitation):
         unit: str | None = None,
     ) -> None:
         checks.positive("time_step", time_step, "s")
+        if unit is None and time_step > checks.LONGEST_STEP:
+            checks.warn(f"time_step is {time_step:.6g} s, and few are as long: is it in ms?")
         called = f"record {name!r}" if name else "record"
         samples = checks.numbers(f"{called}: acceleration", acceleration)
         if samples.ndim != 1 or samples.size < 2:
@@ -129,6 +131,10 @@ class Record(Excitation):
             wanted, peak = checks.positive("pga", pga, "g"), self.peak_acceleration
         else:
             wanted, peak = checks.positive("pgv", pgv, "m/s"), self.peak_velocity
+            if wanted > checks.LARGEST_VELOCITY:
+                checks.warn(
+                    f"pgv is {wanted:.6g} m/s, and few motions have as much: is it in cm/s?"
+                )
         if peak == 0.0:
             raise ValueError(f"record {self.name!r} has no acceleration; expected one to scale")
         return self.scaled(wanted / peak)

@@ -217,7 +217,7 @@ def test_library_takes_its_own_restitution_where_none_is_given():
 
 
 def test_factor_never_brings_restitution_above_the_highest():
-    assert restitution.changed(COLUMN, 1.05).restitution == restitution.HIGHEST < 1.0
+    assert restitution.changed(COLUMN, 1.05).restitution == restitution.HIGHEST == 0.995
     assert restitution.changed(COLUMN, 0.9).restitution == pytest.approx(0.9 * COLUMN.restitution)
     assert restitution.changed(COLUMN, 1.0) == COLUMN.block()
 

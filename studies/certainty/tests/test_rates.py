@@ -1,6 +1,7 @@
 """Rates and probabilities of the step on rates, where the answer is known or judged anew."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pandas as pd
@@ -187,6 +188,15 @@ def test_factors_bring_motions_to_the_stated_velocity():
         (0.6, pytest.approx(1.2), pytest.approx(1.2)),
         (1.0, pytest.approx(2.0), pytest.approx(2.0)),
     ]
+
+
+def test_ninety_fifth_percentile_of_the_factors_is_not_the_ninetieth():
+    (motions,) = found_in(overturning_from(*[0.5] * 6))[:1]
+    motions = replace(motions, pgv=np.linspace(0.3, 0.6, 41))
+    row = rates.scales(motions, CASE)[0]
+    factors = np.sort(row["pgv"] / motions.pgv)
+    assert row["p95"] == pytest.approx(factors[38])  # of 41: 95 % of the way to the last
+    assert row["median"] == pytest.approx(factors[20])
 
 
 def test_survival_is_that_of_a_poisson_process():

@@ -1,5 +1,8 @@
 """Synthetic motions: seeds, limits of the filter and the pulse, and published predictions."""
 
+import ast
+import hashlib
+import inspect
 import math
 
 import numpy as np
@@ -37,6 +40,52 @@ def test_a_motion_does_not_depend_on_how_many_are_asked_for(family):
         assert np.array_equal(one.acceleration, other.acceleration)
     assert not np.array_equal(few[0].acceleration[:3000], few[1].acceleration[:3000])
     assert not np.array_equal(few[0].acceleration, family(4, 1, ROCK)[0].acceleration)
+
+
+def test_mean_period_takes_the_stated_band_alone():
+    time = np.arange(0.0, 100.0, 0.01)
+    inside = np.sin(2.0 * np.pi * time)
+    for outside in (0.2, 25.0):  # Hz, beyond 0.25 to 20
+        both = Record(0.01, inside + np.sin(2.0 * np.pi * outside * time))
+        assert motions.mean_period(both) == pytest.approx(1.0, rel=0.02)
+
+
+@pytest.mark.parametrize(
+    ("family", "size", "pga", "pgv", "samples"),
+    [
+        (
+            motions.broadband,
+            12960,
+            0.144393716,
+            0.0864095966,
+            {3240: -0.0146368123, 6480: 0.0179176433, 4992: 0.144393716},
+        ),
+        (
+            motions.near_fault,
+            10125,
+            0.443136717,
+            0.60860568,
+            {2531: -7.17876416e-05, 5062: 0.0308828742, 3714: -0.443136717},
+        ),
+    ],
+)
+def test_a_motion_is_that_of_the_first_edition(family, size, pga, pgv, samples):
+    (record,) = family(7, 1, ROCK)
+    assert record.acceleration.size == size
+    assert record.peak_acceleration == pytest.approx(pga, rel=1e-6)
+    assert record.peak_velocity == pytest.approx(pgv, rel=1e-6)
+    found = {place: record.acceleration[place] for place in samples}
+    assert found == pytest.approx(samples, rel=1e-5, abs=1e-9)
+
+
+def test_coefficients_are_those_that_were_compared_with_both_sources():
+    tree = ast.parse(inspect.getsource(motions))
+    constants = [node.value for node in ast.walk(tree) if isinstance(node, ast.Constant)]
+    numbers = sorted(float(value) for value in constants if type(value) in (int, float))
+    digest = hashlib.sha256(repr(numbers).encode()).hexdigest()
+    assert (len(numbers), digest[:16]) == (365, "bf685c401721c015"), (
+        "a number of the model changed: compare it with [4] and [5], then state the new digest"
+    )
 
 
 def test_a_scenario_outside_the_data_is_refused():

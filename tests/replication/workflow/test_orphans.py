@@ -15,7 +15,12 @@ ROOT = Path(__file__).parents[3]
 
 LISTS = {"all", "crate"}  # rules that take everything
 READ = {".svg", ".pdf", ".html", ".ipynb", ".gif", ".png", ".jsonl"}
-ENDS = {"results/summary.txt", "results/costs.csv", "results/ro-crate-metadata.json"}
+ENDS = {
+    "results/summary.txt",
+    "results/origins.json",
+    "results/costs.csv",
+    "results/ro-crate-metadata.json",
+}
 
 
 def unused_outputs(jobs: Iterable[Job]) -> list[str]:

@@ -148,6 +148,13 @@ def test_link_or_module_that_was_added_is_named_and_not_run(
     assert "planted" not in done.stdout
 
 
+def test_module_of_the_folder_stands_in_for_none_of_python(unpacked):
+    for name in ("SHA256SUMS", "ro-crate-metadata.json"):  # so that it counts as a finished tree
+        (unpacked / name).unlink()
+    (unpacked / "src/json.py").write_text("print('planted')", encoding="utf-8")
+    assert "planted" not in verified(unpacked).stdout
+
+
 @pytest.mark.parametrize(
     "path",
     ["results/peaks.csv", "figures/peaks.svg", "figures/peaks.py", "ro-crate-metadata.json"],
