@@ -198,7 +198,8 @@ def test_resonance_is_that_of_five_per_cent_damping():
 
 def test_suddenly_accelerated_frame_overshoots():
     fixed = FixedFrame(RockingFrame(COLUMN, math.inf), CAP, "pinned")
-    (found,) = peak_elastic([fixed], Record(5.0, np.array([0.2, 0.2], unit="g"), "step"), 0.5, 2000)
+    record = Record(5.0, np.array([0.2, 0.2]), "step", unit="g")
+    (found,) = peak_elastic([fixed], record, 0.5, 2000)
     overshoot = 1.0 + math.exp(-0.05 * math.pi / math.sqrt(1.0 - 0.05**2))
     # the total acceleration also has the damper's part, at most 2ζ of it
     assert 0.2 * overshoot <= found.base_shear < 0.2 * overshoot * 1.01
