@@ -253,12 +253,6 @@ def test_harmonic_needs_a_duration_here_too():
         simulate_linear_exact(BLOCK, Pulse("harmonic", 0.5, 5.0))
 
 
-@pytest.mark.parametrize("value", [math.nan, math.inf])
-def test_initial_state_that_is_not_finite_is_refused(value):
-    with pytest.raises(ValueError, match=f"rotation.*{value}"):
-        simulate_linear_exact(BLOCK, rotation=value)
-
-
 @pytest.mark.parametrize("amplitude", [1e160, 1e200, -1e300])
 @pytest.mark.parametrize("shape", PULSE_SHAPES)
 def test_amplitude_that_would_overflow_is_refused(shape, amplitude):

@@ -3,9 +3,11 @@
 The outcomes that its named cases promise are computed here with the library.
 """
 
+import hashlib
 import json
 import math
 import re
+from base64 import b64encode
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -157,7 +159,23 @@ def page(folder: Path, records: Mapping[str, Record]) -> str:
         if text.count(f"{{{{ {name} }}}}") != 1:
             raise ValueError(f"{folder / 'page.html'}: expected one place for {name}")
         text = text.replace(f"{{{{ {name} }}}}", part)
-    return text
+    return text.replace("{{ policy }}", policy(text))
+
+
+def policy(text: str) -> str:
+    """Return the policy of a page: what is in it may run, by its hash, and nothing else."""
+
+    def hashes(*opening: str) -> str:
+        found = (part for tag in opening for part in text.split(tag)[1:])
+        ends = [part.split("</script>")[0].split("</style>")[0].encode() for part in found]
+        digests = (b64encode(hashlib.sha256(part).digest()).decode() for part in ends)
+        return " ".join(f"'sha256-{digest}'" for digest in digests)
+
+    scripts, styles = hashes("<script>", '<script class="engine">'), hashes("<style>")
+    return (
+        f"default-src 'none'; script-src {scripts} blob:; worker-src blob:; "
+        f"style-src {styles}; img-src data:; base-uri 'none'; form-action 'none'"
+    )
 
 
 def work(job: Any) -> None:

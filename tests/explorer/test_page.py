@@ -464,6 +464,18 @@ def test_mass_ratio_is_given_by_masses_or_a_fraction(browser, fields, gamma):
     assert browser.do("state.g") == gamma
 
 
+def test_nothing_runs_that_the_page_was_not_made_with(browser, text):
+    (stated,) = re.findall(r'Content-Security-Policy" content="([^"]*)"', text)
+    assert "unsafe" not in stated
+    assert "base-uri 'none'; form-action 'none'" in stated
+    browser.open()
+    added = "Object.assign(document.createElement('script'), {textContent: 'window.planted = 1'})"
+    browser.do(f"document.body.append({added})")
+    browser.do("new Promise(next => setTimeout(next, 100))")
+    assert browser.do("window.planted ?? null") is None
+    browser.tab.errors.clear()  # that it was refused
+
+
 def test_first_visit_asks_for_a_guess_and_then_shows(browser):
     browser.open(until=None)
     browser.do("localStorage.clear()")
