@@ -185,3 +185,11 @@ def test_segments_of_a_record_have_no_gap_and_follow_it(until):
     middles = [(segment.start + segment.stop) / 2 for segment in segments]
     found = [segment.acceleration(t) for segment, t in zip(segments, middles, strict=True)]
     np.testing.assert_allclose(found, record.excitation(middles), atol=1e-13)
+
+
+def test_least_gravity_of_a_segment_is_that_of_its_lower_end():
+    for low, high in ((0.5, 1.5), (1.5, 0.5)):
+        segment = Segment(0.0, 1.0, lambda t: 0.0, lambda t, a=low, b=high: a + (b - a) * t)
+        assert segment.least_gravity(-1.0, 2.0) == 0.5
+        assert segment.least_gravity(0.0, 0.5) == min(low, 1.0)
+        assert segment.least_gravity(2.0, 3.0) == 1.0

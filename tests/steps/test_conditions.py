@@ -21,7 +21,7 @@ from steps import (
     verification,
 )
 from steps.shared.spectra_compared import Place
-from topheavy import Column, Pulse, RockingFrame
+from topheavy import Column, Pulse, RockingFrame, simulate
 
 ROOT = Path(__file__).resolve().parents[2]
 CONFIG = read_yaml(ROOT / "config/config.yaml")
@@ -106,6 +106,17 @@ def test_heavier_survives_more_by_apart_brackets_and_all_solvers(
 def test_larger_column_survives_the_pulse_that_overturns_the_smaller(larger, holds):
     *_, found = scale_effects.main(case_of("scale_effects", larger=larger), SOLVER)
     assert found["larger_column_survives"].holds is holds
+
+
+@pytest.mark.parametrize("module", ["judge", "reference"])
+def test_one_route_that_denies_an_outcome_ends_the_comparison(monkeypatch, module):
+    def denied(column, pulse, **options):
+        return SimpleNamespace(overturned=not simulate(column, pulse, samples=2).overturned)
+
+    other = denied if module == "judge" else SimpleNamespace(judge=denied)
+    monkeypatch.setattr(scale_effects, module, other)
+    with pytest.raises(ArithmeticError, match="the routes disagree"):
+        scale_effects.main(case_of("scale_effects"), SOLVER)
 
 
 # Statements --------------------------------------------------------------------------------------

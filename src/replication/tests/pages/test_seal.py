@@ -44,6 +44,8 @@ OLDER = "the edition is older than "
         ("docs/report.pdf", None, "docs/report.pdf is gone"),
         ("paper/report.typ", b"one\nthree\n", f"{OLDER}paper/report.typ, which changed"),
         ("README.md", b"one\nthree\n", f"{OLDER}README.md, which changed"),
+        ("data/records/a.AT2", b"1\n", f"{OLDER}data/records/a.AT2, which is new"),
+        ("src/explorer/page.js", b"1\n", f"{OLDER}src/explorer/page.js, which is new"),
         ("docs/exhibits.md", b"one\nthree\n", f"{OLDER}docs/exhibits.md, which changed"),
         ("tests/reference/t.csv", b"one\r\ntwo\r\n", None),  # line ends of a checkout
         ("paper/report.pdf", b"new", None),  # made by a run
@@ -53,6 +55,7 @@ def test_published_file_input_or_text_that_changed_is_named(sealed, name, conten
     if content is None:
         (sealed / name).unlink()
     else:
+        (sealed / name).parent.mkdir(parents=True, exist_ok=True)
         (sealed / name).write_bytes(content)
     faults = [*broken(sealed), *outdated(sealed)]
     assert [fault.startswith(str(told)) for fault in faults] == [True] * bool(told)
