@@ -15,7 +15,9 @@ SNAKEFILES = [
     for each in workflow.included
 ]
 ORIGINS = Origins(workflow.rules)
-PUBLISHED = {made: path for made, path in published_results().items() if ORIGINS.of(made)}
+PUBLISHED = {
+    made: path for made, path in published_results().items() if ORIGINS.of(made)
+}
 
 check_ledger(LEDGER, FINDINGS)
 CLAIMS = read_ledger(LEDGER)

@@ -20,7 +20,7 @@ MOST_CELLS = 100_000_000
 """Of a map or of a search, which are held in memory."""
 
 LARGEST_RECORDED = 2.0
-"""g. Few ground accelerations exceed it: a warning asks for the unit of one that does."""
+"""g. Few ground accelerations exceed it: of one that does a warning asks the unit."""
 
 LONGEST_STEP = 4.0
 """s. Few records have a longer time step: a warning asks whether it is in ms."""
@@ -125,7 +125,7 @@ def not_negative(name: str, value: Any, unit: str = "") -> float:
 
 
 def cells(name: str, *sizes: int) -> None:
-    """Raise ValueError that names what asks for more cells than a machine may have memory for."""
+    """Raise ValueError that names what has more cells than a machine may have memory for."""
     if (count := math.prod(sizes)) > MOST_CELLS:
         raise ValueError(f"{name}: {count:.3g} cells; expected at most {MOST_CELLS:.0e}")
 

@@ -28,7 +28,7 @@ def no_excitation(value: object) -> ValueError:
 
 
 def checked_excitation(value: Any, *, ends: bool = False) -> Excitation:
-    """Return a ground motion, and one that ends where that is asked for, or raise ValueError."""
+    """Return a ground motion, and one that ends where `ends` is true, or raise ValueError."""
     if isinstance(value, type) or not callable(getattr(value, "segments", None)):
         raise no_excitation(value)
     if ends and value.duration == math.inf:

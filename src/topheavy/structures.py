@@ -104,7 +104,7 @@ class Column:
             )
 
     def __repr__(self) -> str:
-        """Return both fields and, as these are easily taken for the whole, the dimensions."""
+        """Return both fields and, as these are easily mistaken for the whole, the dimensions."""
         return (
             f"Column(half_width={self.half_width!r}, half_height={self.half_height!r}: "
             f"{2.0 * self.half_width:.6g} m wide, {2.0 * self.half_height:.6g} m high)"

@@ -147,7 +147,7 @@ if __name__ == "__main__":
             _archive(sums)
         if not Path(CRATE).exists():
             sys.exit(f"{CRATE} does not exist; expected a finished run: make reproduce")
-        sys.path.append("src")  # behind the standard library: nothing here stands in for it
+        sys.path.append("src")  # behind the standard library: nothing here replaces it
         sys.pycache_prefix, sys.dont_write_bytecode = os.devnull, True  # no compiled file is read
         from replication.origin.recorded import read_crate
 

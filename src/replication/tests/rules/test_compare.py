@@ -130,6 +130,14 @@ def test_finding_that_departs_is_named_with_its_entry(run, tmp_path):
     assert list(read(path)) == ["lowest.value", "lowest.error", "lowest.of.0", "lowest.of.1"]
 
 
+@pytest.mark.parametrize(("error", "departs"), [("0.0149", ""), ("0.03", "lowest.error")])
+def test_error_is_compared_by_its_two_published_digits(run, tmp_path, error, departs):
+    here, there = (tmp_path / f"{top}/findings/two.json" for top in ("results", "tests/reference"))
+    there.write_text(there.read_text().replace("0.0", "0.015"))
+    here.write_text(here.read_text().replace("0.0", error))
+    assert run(None)[2][1] == run(None, BOUNDS)[2][1] == departs
+
+
 def test_job_that_tested_nothing_is_not_compared(run, tmp_path):
     (tmp_path / "results/findings/two.json").write_text('{"not_tested": "no engine"}')
     assert run(None) == [AGREES, *[("not compared: no engine", "")] * 2]
