@@ -114,12 +114,15 @@ def test_map_has_the_place_of_the_case(page):
 
 def test_sketch_of_another_plane_and_answers_of_another_state_are_not_shown(page):
     page.settle("spectrum")
+    page.do("spectrumChart.cells.isWhole = false, spectrumChart.cells.id = -9")
     before = page.do("[spectrumChart.cells.id, minima[0]]")
     sketch = "codes: new Uint8Array(4), columns: 2, rows: 2, share: 0.1"
-    page.do(f"spectrumChart.cells.isWhole = false, outline({{id: -5, of: 'other', {sketch}}})")
+    page.do(f"outline({{id: -5, of: 'other', {sketch}}})")
     page.do(f"hear({{data: {{id: survey - 1, {sketch}}}}})")
     page.do("hear({data: {id: survey - 1, index: 0, minimum: 9}})")
     assert page.do("[spectrumChart.cells.id, minima[0]]") == before
+    page.do(f"outline({{id: -5, of: spectrumChart.keys[0], {sketch}}})")
+    assert page.do("spectrumChart.cells.id") == -5  # one of this plane is shown
 
 
 # The strips --------------------------------------------------------------------------------------
