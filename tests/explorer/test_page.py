@@ -223,6 +223,14 @@ def test_phone_shows_the_outcome_beside_every_field(browser):
         assert browser.do(f"{box}.top", name) >= browser.do(f"{box}.bottom", "verdict")
 
 
+def test_tablet_keeps_the_mass_ratio_beside_the_map_that_it_moves(browser):
+    browser.open(width=1024, height=768, until="minima")
+    browser.do("document.getElementById('map').scrollIntoView({block: 'end'})")
+    box = "document.getElementById({0}).getBoundingClientRect()"
+    assert browser.do(f"{box}.top", "g-field") >= 0
+    assert max(browser.do(f"{box}.bottom", name) for name in ("g-field", "map")) <= 769
+
+
 def test_laptop_shows_everything_on_one_screen(browser):
     browser.open(width=1440, height=900, until="minima")
     assert browser.do("document.body.getBoundingClientRect().bottom") <= 900
