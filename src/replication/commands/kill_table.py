@@ -9,6 +9,10 @@ the fault has survived.
 
 A run of all faults writes docs/kill_table.csv and .md. A choice of them (`--faults`, `--rotate`)
 only keeps its rows, for a later run or `make publish`.
+
+`--all` asks another question: how many tests fail on a fault? It runs the tests that the fault
+names and those that import what it changes, to their end, and writes docs/kill_counts.csv after
+each. A test that is the only one of a fault stays.
 """
 
 import argparse
@@ -29,6 +33,7 @@ from replication.inputs.parts import PAPER, ledger_of
 from replication.inputs.strict_yaml import read_yaml
 from replication.judging.claim import Claim
 from replication.judging.ledger import read_ledger
+from replication.kill import counts
 from replication.kill.faults import FAULTS, JUDGING, Fault, load
 from replication.kill.table import (
     Row,
@@ -45,6 +50,7 @@ from replication.kill.tree_copy import ROOT, copy_tree
 from replication.workflow.costs import read_costs
 
 TABLE = ROOT / "docs" / "kill_table"
+COUNTS = ROOT / "docs" / "kill_counts.csv"
 KEPT = ROOT / ".kill_table.jsonl"
 
 
@@ -152,6 +158,42 @@ def kill_table(faults: Sequence[Fault], *, cores: int = 1) -> Iterator[Row]:
                 pool.shutdown(cancel_futures=True)
 
 
+def count_tests(faults: Sequence[Fault], *, cores: int = 1) -> Iterator[dict[str, str]]:
+    """Yield how many tests fail on each fault, from as many copies of the tree as cores."""
+    with tempfile.TemporaryDirectory(prefix="kill-counts-") as folder:
+        free = Queue()
+        for number in range(cores):
+            copy_tree(tree := Path(folder) / f"tree{number}")
+            free.put(tree)
+
+        def counted(fault: Fault) -> dict[str, str]:
+            tree = free.get()
+            try:
+                return counts.row(fault, tree, counts.failing(tree, fault))
+            finally:
+                free.put(tree)
+
+        with ThreadPoolExecutor(cores) as pool:
+            doing = [pool.submit(counted, fault) for fault in faults]
+            try:
+                for done in as_completed(doing):
+                    yield done.result()
+            finally:
+                pool.shutdown(cancel_futures=True)
+
+
+def count(faults: Sequence[Fault], picked: Sequence[Fault], cores: int) -> None:
+    """Write how many tests fail on each of some faults; those whose row holds are not run again."""
+    rows = counts.merged(faults, ROOT, counts.read(COUNTS))
+    done = {row["name"] for row in rows}
+    missing = [fault for fault in picked if fault.name not in done]
+    print(f"{len(picked) - len(missing)} of {len(picked)} faults are in {COUNTS.name}", flush=True)
+    for row in count_tests(missing, cores=cores) if missing else ():
+        rows = counts.merged(faults, ROOT, rows, [row])
+        counts.write(COUNTS, rows)
+        print(f"{row['name']}: {row['caught_by_n']} tests fail {row['tests']}", flush=True)
+
+
 def rotation(faults: list[Fault], number: int, commit: str) -> list[Fault]:
     """Return so many of the faults, spread over the list, as the hash of a commit picks them."""
     number, start = min(number, len(faults)), int(commit, 16) % len(faults)
@@ -205,6 +247,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--faults", help=f"names, separated by commas; or routes ({JUDGING})")
     parser.add_argument("--rotate", type=int, help="so many, picked by the hash of the commit")
+    parser.add_argument("--all", action="store_true", help="count the tests that fail on each")
     parser.add_argument("--cores", type=int, default=1, help="so many faults at once")
     options = parser.parse_args()
     faults = load()
@@ -213,6 +256,8 @@ def main() -> None:
     picked = chosen(faults, options.faults, options.rotate)
     for fault in faults:
         fault.texts(ROOT)  # one that no longer applies is refused at once
+    if options.all:
+        return count(faults, picked, options.cores)
     missing = left(picked, kept(KEPT))
     print(f"{len(picked) - len(missing)} of {len(picked)} faults are in {KEPT.name}", flush=True)
     if missing:

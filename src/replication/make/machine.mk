@@ -110,10 +110,10 @@ schema: | $(UV) ##- draft what the schemas of the configs say of sections that t
 publish: | $(UV) ##- copy results to docs/ and tests/reference/; read the diff, then commit it
 	@$(RUN) python -m steps.publish
 
-kill-table: | $(UV) ##- put faults into a copy, one at a time: what catches each? (FAULTS=a,b or ROTATE=3)
+kill-table: | $(UV) ##- put faults into a copy, one at a time: what catches each? (FAULTS=a,b or ROTATE=3; ALL=1: how many tests?)
 	@$(if $(value ROTATE),$(call WHOLE,ROTATE))
 	@$(call WHOLE,CORES); $(DEV) python -m replication.commands.kill_table --cores "$$CORES" \
-	  $${FAULTS:+"--faults=$$FAULTS"} $${ROTATE:+"--rotate=$$ROTATE"}
+	  $${FAULTS:+"--faults=$$FAULTS"} $${ROTATE:+"--rotate=$$ROTATE"} $${ALL:+--all}
 
 study: | $(UV) ## begin a follow-up study: make study NAME=my_study (studies/FOLLOW-UP.md)
 	@$(RUN) python -m replication.commands.new_study "$$NAME"

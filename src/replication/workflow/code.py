@@ -52,6 +52,11 @@ def code(*scripts: str | Path, root: str | Path = ".") -> list[str]:
     return sorted(map(str, found))
 
 
+def imported(root: str | Path, script: str | Path) -> frozenset[Path]:
+    """Return the files of the repository that one file imports itself, from the root."""
+    return _read(Path(root), Path(script))[0]
+
+
 def docstring(script: str | Path, root: str | Path = ".") -> str:
     """Return the docstring of a Python file, from the root; empty without one."""
     return _read(Path(root), Path(script))[1]
