@@ -257,7 +257,8 @@ def main() -> None:
     for fault in faults:
         fault.texts(ROOT)  # one that no longer applies is refused at once
     if options.all:
-        return count(faults, picked, options.cores)
+        count(faults, picked, options.cores)
+        return
     missing = left(picked, kept(KEPT))
     print(f"{len(picked) - len(missing)} of {len(picked)} faults are in {KEPT.name}", flush=True)
     if missing:

@@ -6,7 +6,16 @@ from replication.commands import kill_table as command
 from replication.kill import counts
 from replication.kill.faults import Change, Fault
 
-TESTS = "from one import x\n\n\ndef test_first():\n    assert x == 1\n\n\ndef test_last():\n    assert x < 2\n"
+TESTS = """from one import x
+
+
+def test_first():
+    assert x == 1
+
+
+def test_last():
+    assert x < 2
+"""
 
 
 def fault(new: str, tests: tuple[str, ...] = ("tests/test_named.py",)) -> Fault:
