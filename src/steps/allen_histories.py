@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pandas as pd
 
-from replication.workbench import Finding, run, truth, value
+from replication.workbench import Finding, run, truth
 from topheavy import Column, Pulse, RockingFrame, read_record, reference, simulate
 from topheavy.linear import simulate_linear_exact
 from topheavy.massless_columns import SIMPLIFICATIONS, simplified
@@ -67,22 +67,20 @@ def main(settings: dict, record_path: str, solver: dict) -> tuple[list[dict], pd
 
 
 def findings(allen_peaks: pd.DataFrame) -> dict[str, Finding]:
-    """Return the outcome and the peak of each model under each motion, from the table of peaks."""
-    found = {}
-    for motion, models in allen_peaks.groupby("motion", sort=False):
-        for row in models.itertuples():
-            falls = row.outcome == "overturned"
-            found[f"{motion}_{row.model.replace(' ', '_')}_peak"] = truth(
-                row.same_outcome_by_all,
-                outcome=row.outcome,
-                peak_over_alpha=None if falls else row.peak_over_alpha,
-                error_over_alpha=None if falls else row.error_over_alpha,
-            )
-        solved = models.set_index("model").loc["all"]
-        found[f"{motion}_exact_solution_of_allen"] = value(
-            solved.solved_over_alpha, solved.solved_apart, "α"
+    """Return the peak of each model under each motion, from the table of peaks."""
+    stands = allen_peaks[allen_peaks.outcome != "overturned"]
+    peaks = {
+        motion: dict(zip(rows.model.str.replace(" ", "_"), rows.peak_over_alpha, strict=True))
+        for motion, rows in stands.groupby("motion", sort=False)
+    }
+    return {
+        "peaks_over_alpha": truth(
+            allen_peaks.same_outcome_by_all.all(),
+            **peaks,
+            largest_error=float(stands.error_over_alpha.max()),
+            exact_solution_apart=float(allen_peaks.solved_apart.max()),
         )
-    return found
+    }
 
 
 if __name__ == "__main__":

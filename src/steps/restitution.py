@@ -54,17 +54,6 @@ def main(settings: dict) -> tuple[pd.DataFrame, list[dict], dict]:
                     for a in slendernesses
                 )
             ),
-            "massless_columns": truth(
-                all(
-                    math.isclose(
-                        RockingFrame(column(a), math.inf).restitution,
-                        math.cos(2 * math.radians(a)),
-                        rel_tol=1e-12,
-                        abs_tol=1e-12,
-                    )
-                    for a in slendernesses
-                )
-            ),
             "largest_slenderness_of_column": value(
                 math.degrees(largest_slenderness(0.0)), 90 * rounding, "°"
             ),

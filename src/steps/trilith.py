@@ -42,7 +42,6 @@ def numbers(frame: RockingFrame, settings: dict) -> pd.DataFrame:
         ("base_acceleration", acceleration * STANDARD_GRAVITY, 8 * EPS, "m/s²"),
         ("base_acceleration_in_g", acceleration, EPS, "g"),
         ("uplift_acceleration", uplift, EPS, "g"),
-        ("restitution", frame.restitution, EPS, ""),
         ("acceleration_over_uplift", acceleration / uplift, EPS, ""),
     ]
     return pd.DataFrame(rows, columns=["quantity", "value", "error", "unit"])

@@ -335,15 +335,10 @@ def findings(
     vase: pd.DataFrame, vase_exceptions: pd.DataFrame, vase_shares: pd.DataFrame
 ) -> dict[str, Any]:
     """Return what follows from the tables of minima, exceptions and shares of the gain."""
-    portals = vase[(vase.structure == "portal") & (vase["shape"] == vase["shape"][0])]
     fresh = vase_exceptions[vase_exceptions.kind == "fresh"].frequency_ratio
     asked = {name: counted(vase_exceptions, structures) for name, structures in ASKED.items()}
     return asked | {
         "condition_on_a_fresh_grid": {"exceptions_beyond": sorted(fresh)},
-        "portal_has_a_wider_base": truth(
-            (portals.slenderness_deg > vase.slenderness_deg[0]).all(),
-            slenderness_deg=portals.slenderness_deg,
-        ),
         "portal_overturns_last": beside_frames(vase),
         "shares_of_the_gain": whole_gain(vase_shares),
         "second_route": {"exceptions": len(vase_exceptions)},

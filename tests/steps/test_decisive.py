@@ -8,7 +8,7 @@ import pandas as pd
 import pytest
 
 from replication.inputs.strict_yaml import read_yaml
-from steps import restitution, rocking_spectra, spectra_shard, stability, trilith
+from steps import equations, restitution, rocking_spectra, spectra_shard, stability, trilith
 from steps.shared import spectra_compared, spectrum
 from steps.shared.spectra_compared import Spectra
 from topheavy import Column, Record, RockingFrame
@@ -210,13 +210,24 @@ def test_thresholds_of_the_trilith_are_bracketed():
 
 
 def test_statement_that_no_mend_saves_is_not_meant(monkeypatch):
-    from steps import equations
     from topheavy.derivation import PrintedCheck
 
     lost = PrintedCheck("eq1", 1, "", "a = b", False, meant="a = a", meant_follows=True)
     slip = PrintedCheck("eq2", 2, "", "a = b", False, "a = a", True, fault="letter", mended="a = a")
     monkeypatch.setattr(equations, "check_printed", lambda: [lost, slip])
-    monkeypatch.setattr(equations, "theorems", list)
+    proofs = [SimpleNamespace(id=name, holds=True) for name in (*equations.JUDGED, "other")]
+    monkeypatch.setattr(equations, "theorems", lambda: proofs)
     *_, found = equations.main()
     assert (found["eq1"].meant_holds, found["eq1"].kind) == (False, None)
     assert (found["eq2"].meant_holds, found["eq2"].kind) == (True, "letter")
+
+
+@pytest.mark.parametrize("name", [*equations.JUDGED[:2], "other"])
+def test_theorem_that_fails_is_named_whether_or_not_a_row_judges_it(name):
+    theorems = pd.DataFrame({"theorem": [*equations.JUDGED, "other"], "holds": True})
+    theorems.loc[theorems.theorem == name, "holds"] = False
+    none = pd.DataFrame(columns=["id", "follows", "meant_follows", "fault", "mended"])
+    found = equations.findings(none, theorems)
+    assert found["theorems_hold"].entries["fails"] == [name]
+    failed = {one for one, entry in found.items() if entry.holds is False}
+    assert failed == {"theorems_hold", name} - {"other"}

@@ -7,7 +7,6 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from replication.workbench import truth
 from steps import vase, vase_poses, vase_searches, vase_shares
 from topheavy import (
     Column,
@@ -350,14 +349,6 @@ def summary(**change):
 )
 def test_rank_of_the_three_is_asked_under_every_pulse_of_the_period(change, holds):
     assert vase.ranks(summary(**change)) is holds
-
-
-@pytest.mark.parametrize(("angle", "holds"), [(9.6, True), (9.4, False)])
-def test_portal_stands_on_a_wider_base_or_not(monkeypatch, angle, holds):
-    table = summary(portal={"slenderness_deg": angle}).query("shape == 'b'").reset_index()
-    monkeypatch.setattr(vase, "whole_gain", lambda shares: truth(True))
-    none = pd.DataFrame(columns=["structure", "kind", "frequency_ratio"])
-    assert vase.findings(table, none, None)["portal_has_a_wider_base"].holds == holds
 
 
 @pytest.mark.parametrize(

@@ -84,6 +84,7 @@ lint: | $(UV) ##- check style, types, spelling, wording and schemas; changes not
 	$(DEV) mypy
 	$(DEV) codespell
 	$(DEV) python -m replication.commands.words
+	$(DEV) python -m replication.commands.readers
 	@$(DEV) python -m replication.pages.blanks
 	$(DEV) snakefmt --check --compact-diff Snakefile $(wildcard src/*/*.smk studies/*/*.smk)
 	$(DEV) check-jsonschema --check-metaschema $(SCHEMAS) $(LEDGER_SCHEMA)

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from replication.workbench import Finding, run, truth, value
+from replication.workbench import Finding, run, truth
 from steps.shared.spectrum import progress
 from topheavy import Column, Pulse, Record, RockingFrame, judge, read_record, reference
 from topheavy.derivation import extension_theorems
@@ -148,7 +148,6 @@ def findings(
 ) -> dict[str, Any]:
     """Return what proofs, pulses and histories say; the config has the required agreement."""
     table = certainty_extensions
-    change = (table.peak / table.peak_without_vertical - 1.0).abs()
     proved = certainty_proofs.set_index("theorem")
     slower = proved.loc["size_only_slows_time"]
     return {
@@ -157,15 +156,11 @@ def findings(
         "shows_stability": _of_lobes(certainty_lobes),
         "columns": truth(proved.holds[[*OF_COLUMNS]].all()),
         "vertical": truth(proved.holds[[*OF_VERTICAL]].all()),
-        "theorems": truth(proved.holds.all(), theorems=proved.statement),
         "three_bodies": {
             "histories": len(table),
             "largest": table.routes_differ_by.max(),
             "impacts": int(table.impacts.sum()),
         },
-        "largest_change": value(
-            change.max(), table.routes_differ_by.max() / table.peak.min(), median=change.median()
-        ),
     }
 
 

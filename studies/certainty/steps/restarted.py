@@ -144,18 +144,16 @@ def findings(certainty_restarted: pd.DataFrame) -> dict[str, Finding]:
     asked = covered[covered.by_scipy.notna()]
     found = int(covered.contradicts.sum())
     linear = covered.linearised.astype(bool)
+    agree = len(asked) > 0 and bool((asked.by_scipy.astype(bool) != asked.contradicts).all())
     return {
         "restarted": truth(
-            found == 0 and linear.any() and not linear.all(),
+            found == 0 and linear.any() and not linear.all() and agree,
             motions=len(covered),
             linearised=int(linear.sum()),
             contradictions=found,
             open=len(table) - len(covered),
             open_contradictions=int(table.contradicts.sum()) - found,
-        ),
-        "second_route": truth(
-            len(asked) > 0 and bool((asked.by_scipy.astype(bool) != asked.contradicts).all()),
-            motions=len(asked),
+            by_scipy=len(asked),
         ),
     }
 

@@ -315,9 +315,6 @@ def findings(certainty_restitution: pd.DataFrame) -> dict[str, Any]:
             condition="the column's √r is not lowered alone",
             changes=pulses.to_dict("records"),
         ),
-        "helps_more_than_harms": truth(
-            (pulses.helps > pulses.harms).all(), least=float((pulses.helps / pulses.harms).min())
-        ),
         "probability_falls_together": truth(
             (joint.less_low > 0.0).all(),
             compared=len(joint),

@@ -130,9 +130,9 @@ COURSE = {"routes_differ_by": 1e-9, "impacts": 3, "peak": 0.4, "peak_without_ver
         ({}, "", set()),
         ({"routes_differ_by": 2e-6}, "", {"three_bodies"}),
         ({"impacts": 1}, "", {"three_bodies"}),
-        ({}, PROOFS[0], {"size_is_slower_time", "theorems"}),
-        *(({}, name, {"columns", "theorems"}) for name in PROOFS[1:4]),
-        *(({}, name, {"vertical", "theorems"}) for name in PROOFS[4:]),
+        ({}, PROOFS[0], {"size_is_slower_time"}),
+        *(({}, name, {"columns"}) for name in PROOFS[1:4]),
+        *(({}, name, {"vertical"}) for name in PROOFS[4:]),
     ],
 )
 def test_one_history_and_one_proof_are_enough_to_refute(monkeypatch, change, false, broken):
@@ -149,7 +149,6 @@ def test_one_history_and_one_proof_are_enough_to_refute(monkeypatch, change, fal
     *_, found = extensions.main(case, {"a": None, "b": None})
     wrong = {name for name, one in found.items() if one.holds is False}
     assert wrong == broken
-    assert found["largest_change"].value == pytest.approx(0.2)
 
 
 def test_similar_structures_have_the_same_peaks(monkeypatch):
@@ -201,7 +200,6 @@ FALLS, FALLS_APART = "probability_falls_together", "probability_falls_apart"
         ("scatter", {"less_low": -0.01}, {FALLS}, set()),
         ("frame_alone", {"less_low": -0.01}, {FALLS_APART}, {FALLS_APART}),
         ("column_alone", {"less_low": -0.01}, {FALLS_APART}, set()),
-        ("frame_alone", {"harms": 0.2}, {"helps_more_than_harms"}, set()),
     ],
 )
 def test_one_change_of_restitution_is_enough_to_refute(

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pandas as pd
 
-from replication.workbench import Finding, grid, run, truth, value
+from replication.workbench import Finding, grid, run, truth
 from steps.shared.histories import history
 from studies.mechanism.steps.demand import demand
 from studies.mechanism.steps.setting import cap_of, pulse_on
@@ -150,7 +150,8 @@ def findings(mechanism_admissible_by_mass: pd.DataFrame) -> dict[str, Finding]:
     most = rows.loc[rows.largest_demand.idxmax()]
     enough_from = lightest_without_sliding(rows, max(frictions.values()) / tan)
     slides = (rows.survived * (1.0 - keeps[max(frictions, key=frictions.get)])).round().sum()
-    found = {
+    pulls = rows.dropna(subset="first_pull")
+    return {
         "uplift_needs_tan": truth(
             (rows.least_demand >= 1.0 - ROUNDING).all(), cells=int(rows.pulses.sum())
         ),
@@ -174,12 +175,12 @@ def findings(mechanism_admissible_by_mass: pd.DataFrame) -> dict[str, Finding]:
             least_over_weight=float(rows[rows.mass_ratio > 0.0].least_vertical.min()),
             share_that_pulls=_over_mass_ratio(rows, "share_that_pulls"),
         ),
+        "first_pull": truth(
+            pulls.agrees.all(),
+            over_uplift=_over_mass_ratio(pulls, "first_pull"),
+            largest_error=float(pulls.error.max()),
+        ),
     }
-    for row in rows.dropna(subset="first_pull").itertuples():
-        found[f"first_pull_{row.mass_ratio:g}"] = value(
-            row.first_pull, row.error, "g tan α", at=row.at, second_route_agrees=row.agrees
-        )
-    return found
 
 
 def _over_mass_ratio(rows: pd.DataFrame, name: str) -> dict[str, float]:

@@ -4,7 +4,7 @@ from itertools import pairwise
 
 import pandas as pd
 
-from replication.workbench import Finding, run, truth, value
+from replication.workbench import Finding, run, truth
 from steps.shared.histories import history
 from studies.mechanism.steps.demand import demand, impact_demand
 from studies.mechanism.steps.setting import cap_of, pulse_on, slender
@@ -112,9 +112,6 @@ def findings(
             lightest=float(heavier.rocking.iloc[0]),
             heaviest=float(heavier.rocking.iloc[-1]),
             error=float(heavier.rocking_error.max()),
-        ),
-        "sufficient": value(
-            wide.rocking.max(), wide.rocking_error.max(), "tan α", least=wide.rocking.min()
         ),
     }
 

@@ -5,7 +5,7 @@ from itertools import pairwise
 
 import pandas as pd
 
-from replication.workbench import Finding, truth, value
+from replication.workbench import Finding, truth
 from studies.mechanism.steps.engine import run
 from studies.mechanism.steps.rigs import crossing, experiment, models, rig_of
 from topheavy import Cap, simulate
@@ -61,7 +61,6 @@ def findings(mechanism_first_impacts: pd.DataFrame) -> dict[str, Finding]:
             releases=len(limit),
             before_limit=table[table.step == table.step.max()].difference.abs().max(),
         ),
-        "largest": value(worst, limit.uncertainty.max()),
     }
 
 

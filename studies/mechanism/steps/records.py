@@ -54,13 +54,6 @@ def findings(mechanism_records: pd.DataFrame) -> dict[str, Finding]:
             over_tan=largest.demand / largest.tan,
             structure=largest.structure,
         ),
-        "counted": truth(
-            len(rocked) > 0,
-            rocked=len(rocked),
-            stood=len(stood),
-            no_uplift=int((table.outcome == "no uplift").sum()),
-            largest_over_tan=float((stood.demand / stood.tan).max()),
-        ),
     }
 
 

@@ -104,7 +104,6 @@ def findings(reversals_enough: pd.DataFrame) -> dict[str, Finding]:
     return {
         **medians,
         "enough": truth(True, shares=rows, places=len(gains)),
-        "gain": truth(bool((gains > 0.0).all()), median=gains.median(), largest=gains.max()),
     }
 
 
