@@ -16,11 +16,21 @@ Name = tuple[str, str]
 
 TAKEN = re.compile(r'\bfound\("(\w+)"\)(?:\.at\("([^"]+)"\)|\.(\w+))')
 BOUND = re.compile(r'\blet ([\w-]+) = found\("(\w+)"\)(?![.\w])')
+COMPUTED = re.compile(r'\bfound\((?!"\w+"\)|rule\))')
 IN_PYTHON = re.compile(r'\bfinding\(\s*"(\w+)",\s*"([\w.]+)"\s*\)')
 
 
 def in_typst(text: str, bound: Iterable[Name]) -> Iterator[Name]:
-    """Yield the findings that a Typst source takes; `bound` has names, and the rule of each."""
+    """Yield the findings that a Typst source takes; `bound` has names, and the rule of each.
+
+    Raises
+    ------
+    ValueError
+        If the name of a rule is not there as it is: what is taken is then not known.
+    """
+    if found := COMPUTED.search(text):
+        line = text[found.start() :].split("\n")[0]
+        raise ValueError(f'{line!r} computes the name of a rule; expected found("rule")')
     for rule, quoted, plain in TAKEN.findall(text):
         yield rule, quoted or plain
     for name, rule in bound:

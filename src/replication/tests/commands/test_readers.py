@@ -93,3 +93,8 @@ def test_exception_that_nothing_needs_is_named_and_there_are_few(tree, lost):
 def test_condition_on_a_name_reads_it():
     bound = [("it", "a")]
     assert [*in_typst('#if "same" in it [yes] #if "same" in its [no]', bound)] == [("a", "same")]
+
+
+def test_computed_name_of_a_rule_is_refused():
+    with pytest.raises(ValueError, match="computes the name of a rule"):
+        [*in_typst('#let of(rule) = found("mechanism_" + rule)', [])]
