@@ -17,7 +17,7 @@ from numba.extending import is_jitted
 
 import topheavy
 from topheavy.kernel import compiled
-from topheavy.kernel.compiled import Cache, cache_folder, state
+from topheavy.kernel.compiled import _FolderCache, cache_folder, state
 
 PACKAGE = Path(topheavy.__file__).parent
 
@@ -124,7 +124,7 @@ def two_more(x):
 def kept_in(folder, function=one_more):
     """Return the function, compiled at its first call or loaded, and whether it was loaded."""
     dispatcher = numba.njit(function)
-    dispatcher._cache = Cache(function, folder)
+    dispatcher._cache = _FolderCache(function, folder)
     return dispatcher(1), sum(dispatcher.stats.cache_hits.values()) == 1
 
 
@@ -158,7 +158,7 @@ def test_processes_that_write_at_once_leave_whole_files(tmp_path):
     """A reader finds the whole of what one of the writers left, whenever it looks."""
     functions = [numba.njit(one_more) for _ in range(2)]
     results = [next(iter(f.overloads.values())) for f in functions if f(1)]
-    cache, types, context = Cache(one_more, tmp_path), (numba.int64,), functions[0].targetctx
+    cache, types, context = _FolderCache(one_more, tmp_path), (numba.int64,), functions[0].targetctx
     cache.save_overload(types, results[0])
     (file,) = tmp_path.iterdir()
     key = cache._key(types, context.codegen())[0]

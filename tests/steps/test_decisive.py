@@ -1,5 +1,6 @@
 """Each result that a claim of the paper depends on, in a small case in which it is false."""
 
+import math
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -8,7 +9,15 @@ import pandas as pd
 import pytest
 
 from replication.inputs.strict_yaml import read_yaml
-from steps import equations, restitution, rocking_spectra, spectra_shard, stability, trilith
+from steps import (
+    allen_histories,
+    equations,
+    restitution,
+    rocking_spectra,
+    spectra_shard,
+    stability,
+    trilith,
+)
 from steps.shared import spectra_compared, spectrum
 from steps.shared.spectra_compared import Spectra
 from topheavy import Column, Record, RockingFrame
@@ -231,3 +240,16 @@ def test_theorem_that_fails_is_named_whether_or_not_a_row_judges_it(name):
     assert found["theorems_hold"].entries["fails"] == [name]
     failed = {one for one, entry in found.items() if entry.holds is False}
     assert failed == {"theorems_hold", name} - {"other"}
+
+
+@pytest.mark.parametrize("change", [{"solved_apart": 1e-6}, {"same_outcome_by_all": False}])
+def test_one_history_of_the_model_is_enough_to_refute(change):
+    names = ("motion", "model", "outcome", "peak_over_alpha", "error_over_alpha")
+    row = dict(zip(names, ("pulse", "all", "came to rest", 0.7, 1e-9), strict=True))
+    row |= {"same_outcome_by_all": True, "solved_apart": 1e-10}
+    fallen = row | {"model": "exact", "outcome": "overturned", "solved_apart": math.nan}
+    found = allen_histories.findings(pd.DataFrame([row, fallen]))["peaks_over_alpha"]
+    assert found.holds
+    assert found.entries["pulse"] == {"all": 0.7}  # what overturns has no peak
+    table = pd.DataFrame([row | change, fallen])
+    assert not allen_histories.findings(table)["peaks_over_alpha"].holds

@@ -51,7 +51,7 @@ def state(sources: Path, numbers: Path) -> str:
     return hashlib.sha256(repr((texts, versions, sorted(options.items()))).encode()).hexdigest()
 
 
-class Cache(_Cache):
+class _FolderCache(_Cache):
     """The machine code of a function, in a file for each tuple of types and each CPU.
 
     The content of a file begins with a checksum of what it was compiled for and of the rest. A file
@@ -159,5 +159,5 @@ def compiled(function: Any = None, **options: Any) -> Any:
         return lambda function: compiled(function, **options)
     given: Any = {"error_model": "numpy", "fastmath": False, "forceinline": False, "_nrt": False}
     dispatcher = numba.njit(**given | options)(function)
-    dispatcher._cache = Cache(function, FOLDER)
+    dispatcher._cache = _FolderCache(function, FOLDER)
     return dispatcher

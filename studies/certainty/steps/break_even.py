@@ -153,17 +153,18 @@ def main(settings: dict, ensemble: dict, shards: pd.DataFrame) -> tuple:
     least, most = settings["measured"]
     measured = pd.DataFrame([{"least": least, "largest": most}])
     largest = float(shares(settings["deficits"])[-1])
-    more = {"remains_at_measured": remains(table, most)}
-    more["break_even_by_scipy"] = confirmed(found, settings, ensemble)
-    drawn = findings(table, median)
+    drawn = findings(table, median, measured)
     drawn["benefit_ends"] = drawn["benefit_ends"].with_evidence(largest=largest)
-    return table, median, measured, drawn | more
+    by_scipy = confirmed(found, settings, ensemble)
+    return table, median, measured, drawn | {"break_even_by_scipy": by_scipy}
 
 
 def findings(
-    certainty_break_even: pd.DataFrame, certainty_break_even_median: pd.DataFrame
+    certainty_break_even: pd.DataFrame,
+    certainty_break_even_median: pd.DataFrame,
+    certainty_measured: pd.DataFrame,
 ) -> dict[str, Finding]:
-    """Return where the benefit ends, from the table of cells and their median."""
+    """Return where the benefit ends, from the tables of cells, their median and measured ends."""
     table, (median,) = certainty_break_even, certainty_break_even_median.to_dict("records")
     known = table[np.isfinite(table.end)]
     quoted = [median, table.loc[known.end.idxmin()], table.loc[known.end.idxmax()]]
@@ -186,6 +187,7 @@ def findings(
             largest=float(moved.max()),
             cells_beyond=int((moves(table) >= FINE).sum()),
         ),
+        "remains_at_measured": remains(table, float(certainty_measured.largest[0])),
     }
 
 

@@ -143,17 +143,19 @@ def main(settings: dict, heavier: dict, measured: list[float]) -> tuple[pd.DataF
     every = pulses(column, settings, heavier)
     found = progress((compared(column, one, settings) for one in every), len(every), "pulses")
     table = pd.DataFrame(row for rows in found for row in rows)
-    exceeds = {"deficit_exceeds_measured": beyond(table, max(measured))}
-    return table, findings(table) | exceeds
+    return table, findings(table, pd.DataFrame([{"largest": max(measured)}]))
 
 
-def findings(certainty_break_even_pulses: pd.DataFrame) -> dict[str, Finding]:
-    """Return whether a deficit makes the minima equal, from the table of pulses."""
+def findings(
+    certainty_break_even_pulses: pd.DataFrame, certainty_measured: pd.DataFrame
+) -> dict[str, Finding]:
+    """Return whether a deficit makes the minima equal, from the tables of pulses and deficits."""
     table = certainty_break_even_pulses
     some = table[table.kind != BEYOND]
     equal = some[some.kind == EQUAL]
     own = equal[equal.index < table.mass_ratio.nunique()]  # the first pulse is that of `heavier`
     return {
+        "deficit_exceeds_measured": beyond(table, float(certainty_measured.largest[0])),
         "deficit_exists": truth(
             len(some) > 0 and (some.kind == EQUAL).all(),
             holds_when=len(equal) > 0 and (some[some.rested >= some.frame].kind == EQUAL).all(),

@@ -176,20 +176,22 @@ def rows(settings: dict, linearised: bool) -> pd.DataFrame:
 
 def main(settings: dict) -> tuple[pd.DataFrame, dict]:
     table = pd.concat([rows(settings, True), rows(settings, False)], ignore_index=True)
-    followed = table[table.ahead.notna()]
-    within = followed[followed.proved]
     theorems = reversal_theorems()
-    grouped = table.groupby(["linearised", "proved", "shape"], as_index=False)
-    counts = grouped.agg(motions=("contradicts", "size"), contradictions=("contradicts", "sum"))
+    told = {"followed": table.ahead.notna()}
+    told |= {name: table[name].eq(True) for name in ("ahead", "confirmed")}
+    grouped = table.assign(**told).groupby(["linearised", "proved", "shape"], as_index=False)
+    counts = grouped.agg(
+        motions=("contradicts", "size"),
+        contradictions=("contradicts", "sum"),
+        followed=("followed", "sum"),
+        ahead=("ahead", "sum"),
+        by_scipy=("confirmed", "sum"),
+    )
     return counts, {
         "proofs": truth(
             all(theorem.holds for theorem in theorems), theorems=[t.statement for t in theorems]
         ),
         **findings(counts),
-        "ahead": truth(len(within) > 0 and within.ahead.all(), followed=len(within)),
-        "second_route": truth(
-            len(followed) > 0 and followed.confirmed.all(), followed=len(followed)
-        ),
     }
 
 
@@ -200,7 +202,15 @@ def findings(certainty_theorem: pd.DataFrame) -> dict[str, Finding]:
         "linearised": counted(proved[proved.linearised]),
         "exact": counted(proved[~proved.linearised]),
         "exact_open": counted(certainty_theorem[~certainty_theorem.proved]),
+        "ahead": all_of_the_followed(proved, "ahead"),
+        "second_route": all_of_the_followed(certainty_theorem, "by_scipy"),
     }
+
+
+def all_of_the_followed(counts: pd.DataFrame, name: str) -> Finding:
+    """Return whether each motion that was followed is one of those that a column counts."""
+    followed = int(counts.followed.sum())
+    return truth(0 < followed == counts[name].sum(), followed=followed)
 
 
 def counted(counts: pd.DataFrame) -> Finding:

@@ -143,7 +143,7 @@ def cells(*ends, coarser=0.0):
     ],
 )
 def test_what_the_ends_decide(table, broken):
-    found = break_even.findings(table, cells(0.08))
+    found = break_even.findings(table, cells(0.08), pd.DataFrame([{"largest": 0.04}]))
     assert {name for name, one in found.items() if not one.holds} == broken
     assert found["benefit_ends"]["median"] == 0.08
     assert found["benefit_ends"]["least"] == 0.05
@@ -219,8 +219,7 @@ def test_one_pulse_is_enough_to_refute(change, broken):
     row |= {"deficit_low": 0.1, "deficit_high": 0.101, "frame": 2.0, "column_high": 2.001}
     row |= {"rested": 3.0}
     table = pd.DataFrame([row, row | change])
-    found = break_even_pulses.findings(table)
-    found["deficit_exceeds_measured"] = break_even_pulses.beyond(table, 0.05)
+    found = break_even_pulses.findings(table, pd.DataFrame([{"largest": 0.05}]))
     assert {name for name, one in found.items() if not one.holds} == broken
     rests_longer = change.get("rested") == 1.5 or "deficit_exists" not in broken
     assert found["deficit_exists"].holds_when is rests_longer

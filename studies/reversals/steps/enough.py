@@ -10,6 +10,7 @@ from steps.shared.spectra_compared import Place, Spectra
 from steps.shared.spectrum import progress, search
 
 CLOSE = 1e-6  # of the gain in R̂: how closely the γ is sought
+JUDGED = (0.5, 0.9)  # the shares that rows judge
 FINE = 0.01  # of the gain in amplitude: the resolution of the search
 
 
@@ -88,7 +89,8 @@ def findings(reversals_enough: pd.DataFrame) -> dict[str, Finding]:
     found, medians, rows = reversals_enough, {}, []
     ratios = sorted(found.frequency_ratio.unique())
     for share, of in found.groupby("share"):
-        medians[f"amplitude_at_{100 * share:.0f}_percent"] = value(*median(of, ratios))
+        if share in JUDGED:
+            medians[f"amplitude_at_{100 * share:.0f}_percent"] = value(*median(of, ratios))
         rows.append(
             {
                 "share": share,
