@@ -359,6 +359,7 @@ rule proven_below:
         proven="results/tables/proven.csv",
     output:
         table="results/tables/proven_below.csv",
+        structures="results/tables/proven_below_structures.csv",
         findings="results/findings/proven_below.json",
     params:
         settings=settings("vase"),

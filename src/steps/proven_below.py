@@ -14,6 +14,7 @@ from steps.vase import numbers
 from topheavy import Column, Pulse
 from topheavy.proven import survives_below
 
+LABELS = ["structure", "mass_ratio", "span"]
 RECHECKED = 50  # the checker proves one box of so many again, where it can
 
 
@@ -26,8 +27,7 @@ def kind(certificate: dict) -> str:
 def boxes(column: Column, settings: dict, known: pd.DataFrame, ratios: list[float]) -> list[dict]:
     """Return the boxes of each structure with one of these γ, up to its proven boundary."""
     shape, rows = settings["shapes"][0], []
-    labels = ["structure", "mass_ratio", "span"]
-    known = known[known["shape"] == shape].fillna({"span": 0.0}).set_index(labels)
+    known = known[known["shape"] == shape].fillna({"span": 0.0}).set_index(LABELS)
     for name, gamma, span, structure in numbers(column, settings):
         place = name, gamma, 0.0 if math.isnan(span) else span
         if gamma not in ratios or place not in known.index:
@@ -62,32 +62,48 @@ def _number(text: str) -> float:
     return int(top) / int(below or 1)
 
 
-def findings(proven_below: pd.DataFrame) -> dict[str, Finding]:
+def by_structure(boxes: pd.DataFrame) -> pd.DataFrame:
+    """Return for each structure how many boxes there are, and whether they leave nothing open."""
+    return pd.DataFrame(
+        dict(zip(LABELS, place, strict=True))
+        | {
+            "minimum": part.minimum.iloc[0],
+            "boxes": int((part.kind != "open").sum()),
+            "by_lemma": int((part.kind == "bounded").sum()),
+            "open": int((part.kind == "open").sum()),
+            "asked_twice": int(part.checked.notna().sum()),
+            "proven_twice": int((part.checked == True).sum()),  # noqa: E712 - None is neither
+            "whole": is_whole(part.sort_values("low")),
+        }
+        for place, part in boxes.groupby(LABELS, dropna=False)
+    )
+
+
+def is_whole(boxes: pd.DataFrame) -> bool:
+    """Return whether boxes, by their lower ends, go from zero to the minimum without a gap."""
+    ends = [0.0, *boxes.high], [*boxes.low, boxes.minimum.iloc[0]]
+    return bool(ends[0] == ends[1] and not (boxes.kind == "open").any())
+
+
+def findings(proven_below_structures: pd.DataFrame) -> dict[str, Finding]:
     """Return for how many structures the boxes leave nothing open from zero to the boundary."""
-    labels = ["structure", "mass_ratio", "span"]
-    table, whole = proven_below.sort_values([*labels, "low"]), 0
-    groups = table.groupby(labels, dropna=False)
-    for _, part in groups:
-        closed = part.low.tolist()[1:] == part.high.tolist()[:-1] and part.low.iloc[0] == 0.0
-        closed &= part.high.iloc[-1] == part.minimum.iloc[0]
-        whole += closed and not (part.kind == "open").any()
+    table = proven_below_structures
+    counts = ("whole", "boxes", "by_lemma", "open", "asked_twice", "proven_twice")
     return {
         "nothing_below": truth(
-            whole == groups.ngroups,
-            structures=groups.ngroups,
-            whole=whole,
-            boxes=int((table.kind != "open").sum()),
-            by_lemma=int((table.kind == "bounded").sum()),
-            open=int((table.kind == "open").sum()),
-            asked_twice=int(table.checked.notna().sum()),
-            proven_twice=int((table.checked == True).sum()),  # noqa: E712 - None is neither
+            bool(table.whole.all()),
+            structures=len(table),
+            **{name: int(table[name].sum()) for name in counts},
         )
     }
 
 
-def main(settings: dict, ratios: list[float], known: pd.DataFrame) -> tuple[pd.DataFrame, dict]:
+def main(
+    settings: dict, ratios: list[float], known: pd.DataFrame
+) -> tuple[pd.DataFrame, pd.DataFrame, dict]:
     table = pd.DataFrame(boxes(Column(**settings["column"]), settings, known, ratios))
-    return table, findings(table)
+    structures = by_structure(table)
+    return table, structures, findings(structures)
 
 
 def work(job: Any) -> tuple:

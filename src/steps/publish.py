@@ -32,7 +32,7 @@ TABLES = (
     "restitution_over_slenderness",
     "portal_columns",
     "proven",
-    "proven_below",
+    "proven_below_structures",
     "spectra_areas",
     "trilith_map",
     "trilith_nearness",

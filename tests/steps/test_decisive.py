@@ -12,6 +12,7 @@ from replication.inputs.strict_yaml import read_yaml
 from steps import (
     allen_histories,
     equations,
+    proven_below,
     restitution,
     rocking_spectra,
     spectra_shard,
@@ -253,3 +254,31 @@ def test_one_history_of_the_model_is_enough_to_refute(change):
     assert found.entries["pulse"] == {"all": 0.7}  # what overturns has no peak
     table = pd.DataFrame([row | change, fallen])
     assert not allen_histories.findings(table)["peaks_over_alpha"].holds
+
+
+BOXES = pd.DataFrame(
+    [
+        {"low": 0.2, "high": 0.3, "kind": "bounded", "checked": True},
+        {"low": 0.0, "high": 0.2, "kind": "no uplift", "checked": None},
+    ]
+).assign(structure="bare", mass_ratio=0.0, span=math.nan, minimum=0.3)
+
+
+@pytest.mark.parametrize(
+    ("change", "whole"),
+    [
+        ({}, True),
+        ({"low": [0.21, 0.0]}, False),  # a gap
+        ({"low": [0.2, 0.01]}, False),  # not from zero
+        ({"minimum": 0.31}, False),  # not to the minimum
+        ({"kind": ["open", "no uplift"]}, False),
+    ],
+)
+def test_boxes_prove_what_they_cover_without_a_gap(change, whole):
+    both = [BOXES, BOXES.assign(**{"mass_ratio": 1.0} | change)]
+    table = proven_below.by_structure(pd.concat(both))
+    assert table.whole.tolist() == [True, whole]
+    found = proven_below.findings(table)["nothing_below"]
+    assert (found.holds, found["whole"], found["structures"]) == (whole, 1 + whole, 2)
+    counts = [found[name] for name in ("boxes", "by_lemma", "asked_twice", "proven_twice")]
+    assert counts == ([4, 2, 2, 2] if "kind" not in change else [3, 1, 2, 2])

@@ -15,7 +15,6 @@ from topheavy.three_bodies import simulate_three_bodies
 HALVINGS = 14  # of the bracket of an amplitude, a step of the grid at first
 FINER = 8  # times as many samples where a threshold is looked for
 BESIDE = 1e-3  # of an amplitude: how near to a threshold the second route is asked
-KEEPS = "keeps_"
 ROUNDING = 1e-9  # of tan α, and of the weight
 
 
@@ -104,7 +103,7 @@ def _by_mass_ratio(table: pd.DataFrame, settings: dict) -> pd.DataFrame:
             "least_vertical": survived.least_vertical.min(),
             "share_that_pulls": float(survived.pulls.mean()),
         }
-        keeps = {f"{KEEPS}{f}": (survived.demand * tan <= f).mean() for f in settings["frictions"]}
+        keeps = {f"keeps_{f}": (survived.demand * tan <= f).mean() for f in settings["frictions"]}
         rows.append(row | keeps)
     return pd.DataFrame(rows)
 
@@ -145,8 +144,8 @@ def main(settings: dict, cap: Cap) -> tuple[pd.DataFrame, pd.DataFrame, dict]:
 def findings(mechanism_admissible_by_mass: pd.DataFrame) -> dict[str, Finding]:
     """Return where nothing slides and nothing opens, from the table of demands over γ."""
     rows = mechanism_admissible_by_mass
-    tan, keeps = rows.tan[0], rows.filter(regex=f"^{KEEPS}")
-    frictions = {name: float(name.removeprefix(KEEPS)) for name in keeps}
+    tan, keeps = rows.tan[0], rows.filter(regex="^keeps_")
+    frictions = {name: float(name.removeprefix("keeps_")) for name in keeps}
     most = rows.loc[rows.largest_demand.idxmax()]
     enough_from = lightest_without_sliding(rows, max(frictions.values()) / tan)
     slides = (rows.survived * (1.0 - keeps[max(frictions, key=frictions.get)])).round().sum()

@@ -27,7 +27,8 @@ MANY = 10.0  # times the area of the other cause: chosen after we had seen both
 def areas(spectra: Spectra, pairs: list[tuple[float, float]]) -> pd.DataFrame:
     """Return the shares of every map on which the heavier cap helps, and harms.
 
-    The columns `…_by_two` and `…_by_four` have them with the step in ω so many times as wide.
+    The columns `helps_by_two`, `helps_by_four`, and so for harms, have them with the step in ω so
+    many times as wide.
     """
     fine, twice, four_times = (
         pd.DataFrame(row for pair in pairs for row in grid.areas(*pair))
