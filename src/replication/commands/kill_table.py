@@ -21,13 +21,14 @@ import resource
 import shutil
 import subprocess
 import tempfile
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import asdict
 from functools import partial
 from pathlib import Path
 from queue import Queue
 from threading import Lock
+from typing import Any
 
 from replication.inputs.parts import PAPER, ledger_of
 from replication.inputs.strict_yaml import read_yaml
@@ -102,6 +103,30 @@ def left(faults: Sequence[Fault], known: dict[str, tuple[str, Row]]) -> list[Fau
     ]
 
 
+def side_by_side(
+    do: Callable[[Path, Fault], Any], faults: Sequence[Fault], trees: Sequence[Path]
+) -> Iterator[Any]:
+    """Yield what is found of each fault as it is found, each in one of the trees."""
+    free: Queue[Path] = Queue()
+    for tree in trees:
+        free.put(tree)
+
+    def in_a_tree(fault: Fault) -> Any:
+        tree = free.get()
+        try:
+            return do(tree, fault)
+        finally:
+            free.put(tree)
+
+    with ThreadPoolExecutor(len(trees)) as pool:
+        doing = [pool.submit(in_a_tree, fault) for fault in faults]
+        try:
+            for done in as_completed(doing):
+                yield done.result()
+        finally:
+            pool.shutdown(cancel_futures=True)
+
+
 def kill_table(faults: Sequence[Fault], *, cores: int = 1) -> Iterator[Row]:
     """Yield the row of each fault as it is found, from as many copies of the tree as cores.
 
@@ -119,9 +144,7 @@ def kill_table(faults: Sequence[Fault], *, cores: int = 1) -> Iterator[Row]:
         files |= {last[fault.name].test for fault in faults if fault.name in last} - {""}
         if failing := first_failing(sound, sorted(files), cores):
             raise RuntimeError(f"without a fault: {failing} fails")
-        free, making, computed = Queue(), Lock(), set()
-        for tree in trees:
-            free.put(tree)
+        making, computed = Lock(), set()
 
         def begin(tree: Path, claims: Sequence[Claim]) -> None:
             """Begin with the results of no fault: only what depends on one is made again."""
@@ -140,46 +163,27 @@ def kill_table(faults: Sequence[Fault], *, cores: int = 1) -> Iterator[Row]:
             for name in made:
                 shutil.rmtree(tree / name, ignore_errors=True)
 
-        def asked(fault: Fault) -> Row:
-            tree = free.get()
+        def asked(tree: Path, fault: Fault) -> Row:
             try:
                 known = {"last": last.get(fault.name), "seconds": seconds}
                 return put_to_the_test(tree, fault, ledger, names, partial(begin, tree), **known)
             finally:
                 clear(tree)  # no test may see the results of a fault
-                free.put(tree)
 
-        with ThreadPoolExecutor(cores) as pool:
-            doing = [pool.submit(asked, fault) for fault in faults]
-            try:
-                for done in as_completed(doing):
-                    yield done.result()
-            finally:
-                pool.shutdown(cancel_futures=True)
+        yield from side_by_side(asked, faults, trees)
 
 
 def count_tests(faults: Sequence[Fault], *, cores: int = 1) -> Iterator[dict[str, str]]:
     """Yield how many tests fail on each fault, from as many copies of the tree as cores."""
     with tempfile.TemporaryDirectory(prefix="kill-counts-") as folder:
-        free = Queue()
-        for number in range(cores):
-            copy_tree(tree := Path(folder) / f"tree{number}")
-            free.put(tree)
+        trees = [Path(folder) / f"tree{number}" for number in range(cores)]
+        for tree in trees:
+            copy_tree(tree)
 
-        def counted(fault: Fault) -> dict[str, str]:
-            tree = free.get()
-            try:
-                return counts.row(fault, tree, counts.failing(tree, fault))
-            finally:
-                free.put(tree)
+        def counted(tree: Path, fault: Fault) -> dict[str, str]:
+            return counts.row(fault, tree, counts.failing(tree, fault))
 
-        with ThreadPoolExecutor(cores) as pool:
-            doing = [pool.submit(counted, fault) for fault in faults]
-            try:
-                for done in as_completed(doing):
-                    yield done.result()
-            finally:
-                pool.shutdown(cancel_futures=True)
+        yield from side_by_side(counted, faults, trees)
 
 
 def count(faults: Sequence[Fault], picked: Sequence[Fault], cores: int) -> None:

@@ -18,7 +18,7 @@ from typing import Any
 from replication.inputs.parts import PAPER, ledger_of
 from replication.inputs.strict_yaml import read_yaml
 from replication.judging.ledger import read_ledger
-from replication.judging.readers import Name, readers
+from replication.judging.readers import Name, having_readers
 
 EXCEPTIONS = Path("paper/unread.yaml")
 MOST = 20
@@ -38,40 +38,39 @@ def texts(root: Path, patterns: Iterable[str]) -> dict[str, str]:
     return {name: (root / name).read_text(encoding="utf-8") for name in mine}
 
 
-def unread_findings(root: Path) -> list[Name]:
+def unread_findings(root: Path, sources: Mapping[str, str]) -> list[Name]:
     """Return the published findings that no row, document, page or check takes."""
     names = read_yaml(root / "config/config.yaml").get("studies") or []
     ledgers = [root / ledger_of(name) for name in (PAPER, *names)]
     claims = [*read_ledger(ledgers[:1]), *read_ledger(ledgers)]  # a study may rewrite a row
-    sources = texts(root, (*SOURCES, *TEXTS))
     checks: dict[str, list[str]] = {}
     for text in sources.values():
         for found in CHECKS.findall(text):
             checks |= ast.literal_eval(found)
-    known = readers(claims, checks, sources)
+    known = having_readers(claims, checks, sources)
     published = {
         (path.stem, name)
         for path in (root / "tests/reference/findings").glob("*.json")
         for name in json.loads(path.read_text(encoding="utf-8"))
         if name not in {"called", "not_tested"}
     }
-    return sorted(published - known.keys())
+    return sorted(published - known)
 
 
-def unread_names(names: Iterable[str], sources: Iterable[str]) -> list[str]:
-    """Return the names that are no word of a source, and not made by an f-string of one."""
-    words: set[str] = set()
-    made: set[str] = set()
-    for text in sources:
-        words |= {*re.findall(r"[\w-]+", text), *re.findall(r'"([^"\n]+)"', text)}
-        made |= {*re.findall(r'f"((?:\w|\{[^{}"]*\})*_(?:\w|\{[^{}"]*\})*)"', text)}
-    shapes = (re.sub(r"\{[^{}]*\}", "*", shape) for shape in made if "{" in shape)
-    wild = [shape for shape in shapes if re.search(r"[a-z]{3}", shape)]
-    return [
-        name
-        for name in names
-        if name not in words and not any(fnmatch.fnmatch(name, shape) for shape in wild)
-    ]
+class Words:
+    """The words of sources, and the shapes of names that their f-strings make."""
+
+    def __init__(self, sources: Iterable[str]) -> None:
+        self.words: set[str] = set()
+        made: set[str] = set()
+        for text in sources:
+            self.words |= {*re.findall(r"[\w-]+", text), *re.findall(r'"([^"\n]+)"', text)}
+            made |= {*re.findall(r'f"((?:\w|\{[^{}"]*\})*_(?:\w|\{[^{}"]*\})*)"', text)}
+        shapes = {re.sub(r"\{[^{}]*\}", "*", shape) for shape in made if "{" in shape}
+        self.shapes = [shape for shape in shapes if re.search(r"[a-z]{3}", shape)]
+
+    def __contains__(self, name: str) -> bool:
+        return name in self.words or any(fnmatch.fnmatch(name, shape) for shape in self.shapes)
 
 
 def keys(section: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, str]]:
@@ -84,22 +83,22 @@ def keys(section: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, str
 
 def faults(root: Path = Path()) -> Iterator[str]:
     """Yield what nobody reads, and exceptions that nothing needs."""
-    for rule, name in unread_findings(root):
+    sources = texts(root, (*SOURCES, *TEXTS))
+    for rule, name in unread_findings(root, sources):
         yield (
             f"finding {rule}.{name} has no reader; expected a row, a text, or an entry in CHECKS "
             "that names it, or no such finding"
         )
-    sources = texts(root, (*SOURCES, *TEXTS, *SHOWN)).values()
+    words = Words([*sources.values(), *texts(root, SHOWN).values()])
     unread: dict[str, str] = {}
     for path in sorted([*root.glob("config/config.yaml"), *root.glob("studies/*/config.yaml")]):
-        of = dict(keys(read_yaml(path)))
-        lost = set(unread_names(set(of.values()), sources))
-        unread |= {f"{path.relative_to(root)}: {key}": "key" for key in of if of[key] in lost}
+        lost = (key for key, name in keys(read_yaml(path)) if name not in words)
+        unread |= {f"{path.relative_to(root)}: {key}": "key" for key in lost}
     for path in sorted(root.glob("tests/reference/**/*.csv")):
         with path.open(encoding="utf-8", newline="") as file:
             columns = next(csv.reader(file))
-        for name in unread_names(columns, sources):
-            unread[f"{path.relative_to(root)}: {name}"] = "column"
+        lost = (name for name in columns if name not in words)
+        unread |= {f"{path.relative_to(root)}: {name}": "column" for name in lost}
     listed = read_yaml(root / EXCEPTIONS) if (root / EXCEPTIONS).exists() else {}
     for entry, kind in unread.items():
         if not any(fnmatch.fnmatch(entry, pattern) for pattern in listed):

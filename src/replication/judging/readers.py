@@ -40,33 +40,28 @@ def in_typst(text: str, bound: Iterable[Name]) -> Iterator[Name]:
             yield rule, quoted or plain or asked
 
 
-def readers(
+def having_readers(
     claims: Iterable[Claim], checks: Mapping[str, Iterable[str]], sources: Mapping[str, str]
-) -> dict[Name, set[str]]:
-    """Return the readers of each finding that has one.
+) -> set[Name]:
+    """Return the findings that have a reader.
 
     Parameters
     ----------
     claims
-        Rows of all ledgers: their reader is called after the study, or "paper".
+        Rows of all ledgers.
     checks
         The findings of each rule that have to hold though no row says so.
     sources
         The texts of Typst and Python sources by their paths.
     """
-    found: dict[Name, set[str]] = {}
-    for claim in claims:
-        if claim.finding:
-            found.setdefault((claim.rule, claim.finding), set()).add(claim.study or "paper")
-    for rule, names in checks.items():
-        for name in names:
-            found.setdefault((rule, name), set()).add("check")
+    found = {(claim.rule, claim.finding) for claim in claims if claim.finding}
+    found |= {(rule, name) for rule, names in checks.items() for name in names}
     bound: dict[PurePosixPath, set[Name]] = {}
     for path, text in sources.items():
         bound.setdefault(PurePosixPath(path).parent, set()).update(BOUND.findall(text))
     for path, text in sources.items():
         in_folder = bound[PurePosixPath(path).parent]
-        taken = in_typst(text, in_folder) if path.endswith(".typ") else IN_PYTHON.findall(text)
-        for name in taken:
-            found.setdefault(name, set()).add(path)
+        found |= {
+            *(in_typst(text, in_folder) if path.endswith(".typ") else IN_PYTHON.findall(text))
+        }
     return found

@@ -1,12 +1,11 @@
 """How many tests fail on a fault: all are run that may notice it, and none stops the others."""
 
 import csv
-import re
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
+from replication.kill import table
 from replication.kill.faults import Fault, faulty
-from replication.kill.tree_copy import run
 from replication.workflow.code import imported
 
 COLUMNS = ["name", "digest", "caught_by_n", "tests"]
@@ -31,21 +30,14 @@ def _imported(root: Path, path: Path) -> frozenset[Path]:
 
 
 def failing(tree: Path, fault: Fault) -> list[str]:
-    """Return the test functions of a tree that fail on a fault, each once.
-
-    Raises
-    ------
-    RuntimeError
-        If pytest failed and named no test.
-    """
+    """Return the test functions of a tree that fail on a fault, each once."""
     options = ("-q", "-rfE", "--no-header", "--tb=no", "-n0", "-p", "no:cacheprovider")
     files = test_files(tree, fault)
     with faulty(tree, fault):
-        code, said = run(tree, "-m", "pytest", *options, *files)
-    found = re.findall(r"^(?:FAILED|ERROR) ([^\s\[]+\.py(?:::[^\s\[]+)?)", said, re.MULTILINE)
-    if code and not found:
-        raise RuntimeError(f"{fault.name}: pytest ended with {code} and named no test:\n{said}")
-    return list(dict.fromkeys(found))
+        try:
+            return table.failing(tree, *options, *files)
+        except RuntimeError as error:
+            raise RuntimeError(f"{fault.name}: {error}") from None
 
 
 def row(fault: Fault, root: Path, tests: Sequence[str]) -> dict[str, str]:

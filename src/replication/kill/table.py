@@ -83,13 +83,22 @@ def first_failing(tree: Path, tests: Sequence[str], cores: int = 0) -> str:
     """Return the first test that fails, or nothing; with `cores`, by so many processes."""
     options = ("-q", "-x", "-rfE", "--no-header", "-p", "no:cacheprovider")
     options += (f"-n{cores}", "--dist=loadfile")
-    code, said = run(tree, "-m", "pytest", *options, *tests)
-    if code == 0:
-        return ""
-    named = re.search(r"^(?:FAILED|ERROR) ([^\s\[]+\.py(?:::[^\s\[]+)?)", said, re.MULTILINE)
-    if not named:
+    return next(iter(failing(tree, *options, *tests)), "")
+
+
+def failing(tree: Path, *options: str) -> list[str]:
+    """Return the test functions that fail by pytest with these options and tests, each once.
+
+    Raises
+    ------
+    RuntimeError
+        If pytest failed and named no test.
+    """
+    code, said = run(tree, "-m", "pytest", *options)
+    named = re.findall(r"^(?:FAILED|ERROR) ([^\s\[]+\.py(?:::[^\s\[]+)?)", said, re.MULTILINE)
+    if code and not named:
         raise RuntimeError(f"pytest ended with {code} and named no test:\n{said[-2000:]}")
-    return named[1]
+    return list(dict.fromkeys(named))
 
 
 def last_time(
