@@ -130,7 +130,7 @@ def shaken(draw: st.DrawFn, given: st.SearchStrategy[Structure] = structures) ->
     if isinstance(motion, Record) and draw(st.booleans()):
         values = draw(st.lists(edged(-0.8, 0.8, 0.0), min_size=2, max_size=40))
         ratio = draw(edged(0.3, 3.0, 1.0, 0.5))
-        vertical = th.Record(ratio * motion.time_step, values)
+        vertical = th.Record(ratio * motion.time_step, values, unit="g")
     return structure, motion, vertical
 
 
