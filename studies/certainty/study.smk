@@ -3,9 +3,8 @@
 # The synthetic motions of the study that this one needs.
 ENSEMBLE = settings("motions_ensemble", *PARTS["certainty"].config["needs"])
 RATES = settings("rates", "certainty")
-
-
 BREAK_EVEN = settings("break_even", "certainty")
+INTENSITIES = settings("intensities", "certainty")
 
 # The second solver, SciPy, on samples: no row says so, and the run fails without.
 CHECKS |= {
@@ -20,8 +19,28 @@ CHECKS |= {
 
 
 scattergather:
-    certainty_rates=RATES["runs"][RATES["run"]]["shards"],
-    certainty_break_even=BREAK_EVEN["runs"][BREAK_EVEN["run"]]["shards"],
+    certainty_sweep=ENSEMBLE["runs"][ENSEMBLE["run"]]["shards"],
+
+
+# All that the steps ask of the motions, in one sweep.
+rule certainty_sweep_shard:
+    output:
+        "results/shards/certainty_{scatteritem}.npz",
+    params:
+        asked={
+            "rates": RATES,
+            "break_even": BREAK_EVEN,
+            "intensities": INTENSITIES,
+            "structures": named(config["structures"], INTENSITIES),
+            "benefit": settings("benefit", "certainty"),
+            "shares": settings("shares", "certainty"),
+        },
+        ensemble=ENSEMBLE,
+    script:
+        "steps/sweep.py"
+
+
+SWEPT = gather.certainty_sweep("results/shards/certainty_{scatteritem}.npz")
 
 
 rule certainty_theorem:
@@ -87,6 +106,8 @@ rule certainty_restitution:
 
 
 rule certainty_benefit:
+    input:
+        shards=SWEPT,
     output:
         table="results/tables/certainty_benefit.csv",
         findings="results/findings/certainty_benefit.json",
@@ -98,32 +119,22 @@ rule certainty_benefit:
 
 
 rule certainty_intensities:
+    input:
+        shards=SWEPT,
     output:
         table="results/tables/certainty_intensities.csv",
         findings="results/findings/certainty_intensities.json",
     params:
-        settings=settings("intensities", "certainty"),
+        settings=INTENSITIES,
         ensemble=ENSEMBLE,
-        structures=named(config["structures"], settings("intensities", "certainty")),
+        structures=named(config["structures"], INTENSITIES),
     script:
         "steps/intensities.py"
 
 
-rule certainty_rates_shard:
-    output:
-        table="results/shards/certainty_rates_{scatteritem}.csv",
-    params:
-        settings=RATES,
-        ensemble=ENSEMBLE,
-    script:
-        "steps/rates_shard.py"
-
-
 rule certainty_rates_check:
     input:
-        shards=gather.certainty_rates(
-            "results/shards/certainty_rates_{scatteritem}.csv"
-        ),
+        shards=SWEPT,
     output:
         table="results/tables/certainty_rates_check.csv",
         findings="results/findings/certainty_rates_check.json",
@@ -137,9 +148,7 @@ rule certainty_rates_check:
 
 rule certainty_rates:
     input:
-        shards=gather.certainty_rates(
-            "results/shards/certainty_rates_{scatteritem}.csv"
-        ),
+        shards=SWEPT,
     output:
         motions="results/tables/certainty_motions.csv",
         rates="results/tables/certainty_rates.csv",
@@ -153,21 +162,9 @@ rule certainty_rates:
         "steps/rates.py"
 
 
-rule certainty_break_even_shard:
-    output:
-        table="results/shards/certainty_break_even_{scatteritem}.csv",
-    params:
-        settings=BREAK_EVEN,
-        ensemble=ENSEMBLE,
-    script:
-        "steps/break_even_shard.py"
-
-
 rule certainty_break_even:
     input:
-        shards=gather.certainty_break_even(
-            "results/shards/certainty_break_even_{scatteritem}.csv"
-        ),
+        shards=SWEPT,
     output:
         table="results/tables/certainty_break_even.csv",
         median="results/tables/certainty_break_even_median.csv",
@@ -250,6 +247,8 @@ rule certainty_reach:
 
 
 rule certainty_shares:
+    input:
+        shards=SWEPT,
     output:
         table="results/tables/certainty_shares.csv",
         findings="results/findings/certainty_shares.json",

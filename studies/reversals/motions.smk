@@ -3,9 +3,8 @@
 MOTIONS = settings("motions_ensemble", "reversals")
 
 
-UPLIFT = settings("motions_uplift", "reversals").copy()
-# No parameter: the rows are the same, however many shards there are.
-UPLIFT_SHARDS = UPLIFT.pop("shards")
+UPLIFT = settings("motions_uplift", "reversals")
+VASE = settings("motions_vase", "reversals")
 
 # The second solver, SciPy, on samples: no row says so, and the run fails without.
 CHECKS |= {
@@ -16,8 +15,24 @@ CHECKS |= {
 
 
 scattergather:
-    reversals_motions=MOTIONS["runs"][MOTIONS["run"]]["shards"],
-    reversals_uplift=UPLIFT_SHARDS,
+    reversals_sweep=MOTIONS["runs"][MOTIONS["run"]]["shards"],
+
+
+# All that the steps ask of the motions, in one sweep.
+rule reversals_sweep_shard:
+    output:
+        "results/shards/reversals_{scatteritem}.npz",
+    params:
+        asked={
+            "motions": MOTIONS,
+            "structures": named(config["structures"], MOTIONS),
+            "vase": VASE,
+        },
+    script:
+        "steps/motions_sweep.py"
+
+
+SWEPT = gather.reversals_sweep("results/shards/reversals_{scatteritem}.npz")
 
 
 rule reversals_records:
@@ -36,21 +51,9 @@ rule reversals_records:
         "steps/motions_records.py"
 
 
-rule reversals_motions_shard:
-    output:
-        table="results/shards/reversals_motions_{scatteritem}.csv",
-    params:
-        settings=MOTIONS,
-        structures=named(config["structures"], MOTIONS),
-    script:
-        "steps/motions_shard.py"
-
-
 rule reversals_motions:
     input:
-        shards=gather.reversals_motions(
-            "results/shards/reversals_motions_{scatteritem}.csv"
-        ),
+        shards=SWEPT,
     output:
         fragility="results/tables/reversals_fragility.csv",
         pairs="results/tables/reversals_pairs.csv",
@@ -65,9 +68,7 @@ rule reversals_motions:
 
 rule reversals_check:
     input:
-        shards=gather.reversals_motions(
-            "results/shards/reversals_motions_{scatteritem}.csv"
-        ),
+        shards=SWEPT,
     output:
         table="results/tables/reversals_sample.csv",
         findings="results/findings/reversals_check.json",
@@ -80,33 +81,20 @@ rule reversals_check:
 
 
 rule reversals_vase:
+    input:
+        shards=SWEPT,
     output:
         fragility="results/tables/reversals_vase.csv",
         ranks="results/tables/reversals_vase_ranks.csv",
         findings="results/findings/reversals_vase.json",
     params:
-        settings=settings("motions_vase", "reversals"),
+        settings=VASE,
         ensemble=MOTIONS,
-        solver=config["solver"],
     script:
         "steps/motions_vase.py"
 
 
-rule reversals_uplift_shard:
-    output:
-        table="results/shards/reversals_uplift_{scatteritem}.csv",
-    params:
-        settings=UPLIFT,
-        ensemble=MOTIONS,
-    script:
-        "steps/motions_uplift_shard.py"
-
-
 rule reversals_uplift:
-    input:
-        shards=gather.reversals_uplift(
-            "results/shards/reversals_uplift_{scatteritem}.csv"
-        ),
     output:
         table="results/tables/reversals_uplift.csv",
         findings="results/findings/reversals_uplift.json",

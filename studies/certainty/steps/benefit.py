@@ -4,37 +4,26 @@ Frame and column, with √r of Eq. (25) and with a factor on it, under all synth
 reversals, each scaled to a stated peak ground velocity.
 """
 
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from replication.workbench import Finding, run, truth
+from steps.shared.second import by_scipy
 from steps.shared.spectrum import progress
-from studies.certainty.steps.restitution import bounds, changed
-from topheavy import Column, Fragility, RockingFrame, fragility, judge, reference
-from topheavy.fragility.resampling import NEGATIVE, POSITIVE, means, resampled
-from topheavy.structures import Structure
-from topheavy.synthetic.ensemble import first_draws
-from topheavy.synthetic.motions import peak_velocity
+from steps.shared.sweep import Swept, read_answers
+from studies.certainty.under import factored, named
+from topheavy.fragility.ensemble import Ensemble
+from topheavy.fragility.resampling import NEGATIVE, POSITIVE, in_words
 
 BOTH, COLUMN_ALONE, FRAME_ALONE = "both", "column alone", "frame alone"
 
 
-def called(name: str, factor: float) -> str:
-    """Return the name of a structure with a factor on its √r, as `fragility` names columns."""
-    return name if factor == 1.0 else f"{name}, √r {100.0 * (1.0 - factor):g} % lower"
-
-
-def structures(settings: dict) -> dict[str, Structure]:
-    """Return column and frame by name, with each factor on their √r."""
-    column = Column(**settings["column"])
-    named = {"column": column, "frame": RockingFrame(column, settings["mass_ratio"])}
-    return {
-        called(name, factor): one if factor == 1.0 else changed(one, factor)
-        for name, one in named.items()
-        for factor in settings["factors"]
-    }
+def names_of(settings: dict) -> list[str]:
+    """Return the names of the structures, in the order of their outcomes."""
+    return [subject.labels["structure"] for subject in factored(settings).subjects]
 
 
 def compared(factors: list[float]) -> dict[tuple[str, float], tuple[str, str]]:
@@ -42,65 +31,31 @@ def compared(factors: list[float]) -> dict[tuple[str, float], tuple[str, str]]:
 
     One of them alone is changed if the factor is lower than 1.
     """
-    found = {(BOTH, f): (called("column", f), called("frame", f)) for f in factors}
+    found = {(BOTH, f): (named("column", f), named("frame", f)) for f in factors}
     lowered = [factor for factor in factors if factor < 1.0]
-    found |= {(COLUMN_ALONE, f): (called("column", f), "frame") for f in lowered}
-    return found | {(FRAME_ALONE, f): ("column", called("frame", f)) for f in lowered}
+    found |= {(COLUMN_ALONE, f): (named("column", f), "frame") for f in lowered}
+    return found | {(FRAME_ALONE, f): ("column", named("frame", f)) for f in lowered}
 
 
-def fragilities(settings: dict, ensemble: dict) -> dict[str, Fragility]:
-    """Return for each family the outcomes and differences of frame and column at the stated PGV."""
-    given = structures(settings)
-    # `fragility` lowers the √r of the column, and compares it with every frame.
-    drawn = first_draws(ensemble, settings["motions"])
-    lower = [1.0 - factor for factor in settings["factors"] if factor < 1.0]
-    under = {name: one for name, one in given.items() if name == "column" or "frame" in name}
-    return {
-        family: fragility(
-            under,
-            [draw.record() for draw in drawn if draw.family == family],
-            [settings["pgv"]],
-            lowered=lower,
-            seed=settings["seed"],
-            **settings["bootstrap"],
-        )
-        for family in progress(ensemble["families"], len(ensemble["families"]), "families")
-    }
-
-
-def outcomes(found: dict[str, Fragility]) -> pd.DataFrame:
-    """Return a row for each motion: its family, and which of the structures it overturns."""
-    return pd.concat(
-        [
-            pd.DataFrame(one.outcomes[..., 0], columns=one.curves.structure).assign(family=family)
-            for family, one in found.items()
-        ],
-        ignore_index=True,
-    )
-
-
-def differences(settings: dict, found: dict[str, Fragility]) -> pd.DataFrame:
+def differences(settings: dict, of_family: dict[str, Ensemble]) -> pd.DataFrame:
     """Return for each family and change the probabilities of column and frame, compared.
 
     The first less the second, and the second over the first, with intervals of the same resamples.
     """
-    rows, boot = [], settings["bootstrap"]
-    for family, one in found.items():
-        weights = resampled(len(one.outcomes), boot["resamples"], settings["seed"])
-        names = one.curves.structure.to_numpy().tolist()
-        shares = dict(zip(names, means(weights, one.outcomes[..., 0]).T, strict=True))
-        curves, pairs = one.curves.isel(level=0), one.pairs.isel(level=0)
-        for (way, factor), (column, frame) in compared(settings["factors"]).items():
-            (pair,) = np.flatnonzero((pairs["first"] == column) & (pairs.second == frame))
-            of = pairs.isel(pair=pair)
+    names, rows = names_of(settings), []
+    for family, ensemble in of_family.items():
+        fell, shares = ensemble.outcomes[..., 0].T, ensemble.means()[..., 0].T
+        for (way, factor), pair in compared(settings["factors"]).items():
+            column, frame = map(names.index, pair)
+            less = ensemble.bounds("less", shares[column] - shares[frame])
             rows.append(
-                {"family": family, "way": way, "factor": factor, "motions": len(one.outcomes)}
-                | {"column": int(curves.overturned.sel(structure=column))}
-                | {"frame": int(curves.overturned.sel(structure=frame))}
-                | {"only_column": int(of.only_first), "only_frame": int(of.only_second)}
-                | {name: float(of[name]) for name in ("less", "less_low", "less_high")}
-                | {"interval": of.less_words.item()}
-                | bounds("over", over(shares[frame], shares[column]), boot)
+                {"family": family, "way": way, "factor": factor, "motions": len(fell[0])}
+                | {"column": fell[column].sum(), "frame": fell[frame].sum()}
+                | {"only_column": (fell[column] & ~fell[frame]).sum()}
+                | {"only_frame": (fell[frame] & ~fell[column]).sum()}
+                | less
+                | {"interval": in_words(less["less_low"], less["less_high"])}
+                | ensemble.bounds("over", over(shares[frame], shares[column]))
             )
     return pd.DataFrame(rows)
 
@@ -110,35 +65,34 @@ def over(first: np.ndarray, second: np.ndarray) -> np.ndarray:
     return first / np.where(second > 0.0, second, np.nan)
 
 
-def confirmed(settings: dict, ensemble: dict, fell: pd.DataFrame) -> Finding:
-    """Return whether SciPy overturns the same structures, as a finding.
+def sampled(settings: dict, swept: Swept) -> Iterator[tuple]:
+    """Yield a seeded sample of the motions that overturn one of frame and column, for SciPy.
 
-    A seeded sample of the motions that overturn only one of frame and column, of every change in
-    turn. Outcomes that a billionth of the motion changes are undecided, and are not compared.
+    Of every change in turn.
     """
-    random, under, chosen = np.random.default_rng(settings["seed"]), structures(settings), set()
-    pairs = list(compared(settings["factors"]).values())
-    all_motions = first_draws(ensemble, settings["motions"])
-    for place in range(settings["checked"]):
-        column, frame = pairs[place % len(pairs)]
-        apart = np.flatnonzero(fell[column] != fell[frame])
-        at = int(random.choice(apart))
+    random, names = np.random.default_rng(settings["seed"]), names_of(settings)
+    blocks = [subject.block for subject in factored(settings).subjects]
+    pairs, fell = list(compared(settings["factors"]).values()), swept.outcomes[..., 0]
+    chosen = set()
+    for number in range(settings["checked"]):
+        column, frame = map(names.index, pairs[number % len(pairs)])
+        at = int(random.choice(np.flatnonzero(fell[:, column] != fell[:, frame])))
         chosen |= {(at, column), (at, frame)}
-    told, differ = 0, 0
-    for at, name in progress(sorted(chosen), len(chosen), "checks"):
-        record = all_motions[at].record()
-        scaled = record.scaled(settings["pgv"] / peak_velocity(record))
-        near = {judge(under[name], scaled.scaled(1.0 + n)).overturned for n in (-1e-9, 0.0, 1e-9)}
-        if len(near) == 1:
-            told += 1
-            differ += reference.judge(under[name], scaled).overturned != fell[name][at]
-    return truth(differ == 0 and told > 0, checked=len(chosen), told=told, differ=differ)
+    for at, place in progress(sorted(chosen), len(chosen), "checks"):
+        factor = settings["pgv"] / swept.peaks[at]
+        yield blocks[place], swept.draws[at].record(), factor, bool(fell[at, place])
 
 
-def main(settings: dict, ensemble: dict) -> tuple[pd.DataFrame, dict]:
-    found = fragilities(settings, ensemble)
-    table = differences(settings, found)
-    return table, findings(table) | {"second_route": confirmed(settings, ensemble, outcomes(found))}
+def main(settings: dict, ensemble: dict, swept: Swept) -> tuple[pd.DataFrame, dict]:
+    of_family = {
+        family: Ensemble(
+            swept.of_family(family).outcomes, None, seed=settings["seed"], **settings["bootstrap"]
+        )
+        for family in ensemble["families"]
+    }
+    table, agreed = differences(settings, of_family), by_scipy(sampled(settings, swept))
+    confirmed = truth(agreed["differ"] == 0 and agreed["told"] > 0, **agreed)
+    return table, findings(table) | {"second_route": confirmed}
 
 
 def findings(certainty_benefit: pd.DataFrame) -> dict[str, Finding]:
@@ -171,7 +125,9 @@ def said(rows: pd.DataFrame) -> dict:
 
 
 def work(job: Any) -> tuple:
-    return main(job.params.settings, job.params.ensemble)
+    settings, ensemble = job.params.settings, job.params.ensemble
+    swept = read_answers(job.input.shards, "benefit", ensemble, settings["motions"])
+    return main(settings, ensemble, swept)
 
 
 if __name__ == "__main__":

@@ -6,7 +6,8 @@ for the scatter of a finite number of motions. It ends where its non-increasing 
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -14,13 +15,12 @@ import pandas as pd
 from scipy.optimize import isotonic_regression
 
 from replication.workbench import Finding, run, truth
+from steps.shared.second import beside_a_boundary, by_scipy, overturns
 from steps.shared.spectrum import progress
-from studies.certainty.changed import Subject, columns, shares, subjects
-from studies.certainty.rated import fallen, stated
-from studies.certainty.second import beside_a_boundary, decided
-from topheavy import Column, judge, reference
-from topheavy.fragility.resampling import means_within
-from topheavy.synthetic.ensemble import first_draws
+from steps.shared.sweep import Subject, Swept, read_answers
+from studies.certainty.under import columns, deficits, lowered, stated
+from topheavy import Column
+from topheavy.fragility.ensemble import Ensemble
 
 LEAST = 0.05  # of the columns, and
 MOST = 0.95  # of the frames, that overturn where a benefit may end
@@ -30,27 +30,20 @@ Vector = np.ndarray
 
 
 class Group(NamedTuple):
-    """Structures of one size under the motions of one family, and which levels overturn them.
-
-    `fell` has the shape (motions, structures, levels); `motions` a row for each motion.
-    """
+    """Structures of one size under the motions of one family, and which levels overturn them."""
 
     family: str
     column: Column
-    under: list[Subject]
-    fell: np.ndarray
-    motions: pd.DataFrame
+    under: Sequence[Subject]
+    swept: Swept
 
 
-def groups(shards: pd.DataFrame, settings: dict, ensemble: dict) -> Iterator[Group]:
-    """Yield the outcomes in all shards, by size and family."""
-    motions = settings["runs"][settings["run"]]["motions"] * len(ensemble["scenarios"])
-    for column in columns(settings):
-        under = subjects(column, settings)
-        here = shards[np.isclose(shards.height, under[0].height)]
+def groups(answered: Sequence[Swept], settings: dict, ensemble: dict) -> Iterator[Group]:
+    """Yield the outcomes by size and family; there is an answer for each size."""
+    for column, swept in zip(columns(settings), answered, strict=True):
+        under = lowered(column, settings).subjects
         for family in ensemble["families"]:
-            fell, firsts = fallen(here[here.family == family], motions, len(under))
-            yield Group(family, column, under, fell, firsts)
+            yield Group(family, column, under, swept.of_family(family))
 
 
 def end_of(deficits: Vector, benefits: Vector) -> float:
@@ -78,20 +71,20 @@ def ends(group: Group, settings: dict, seed: int) -> Iterator[tuple[dict, Vector
     Only of cells in which at no deficit enough columns overturn, and enough frames do not. Motions
     are resampled within each earthquake, the same for all structures and levels.
     """
-    deficits, under = shares(settings["deficits"]), group.under
-    quakes, resamples = group.motions.scenario.tolist(), settings["bootstrap"]["resamples"]
-    means = means_within(group.fell, quakes, resamples, seed)
-    for place, frame in enumerate(under[deficits.size :], start=deficits.size):
+    shares, swept = deficits(settings["deficits"]), group.swept
+    quakes = swept.scenarios.tolist()
+    means = Ensemble(swept.outcomes, quakes, seed=seed, **settings["bootstrap"]).means()
+    for place, frame in enumerate(group.under[shares.size :], start=shares.size):
         for number, (measure, level, pgv) in enumerate(stated(group.column, settings)):
-            column, other = means[:, : deficits.size, number], means[:, place, number]
+            column, other = means[:, : shares.size, number], means[:, place, number]
             if column[0, 0] < LEAST or other[0] > MOST:
                 continue
             benefits = column - other[:, None]
-            labels = {"family": group.family, "height": frame.height}
-            labels |= {"mass_ratio": frame.mass_ratio, "measure": measure, "level": level}
+            labels = {"family": group.family, **frame.labels, "measure": measure, "level": level}
+            del labels["deficit"]
             labels |= {"pgv": pgv, "column": column[0, 0], "frame": other[0]}
-            labels["coarser"] = end_of(deficits[::2], benefits[0, ::2])
-            yield labels, np.array([end_of(deficits, one) for one in benefits])
+            labels["coarser"] = end_of(shares[::2], benefits[0, ::2])
+            yield labels, np.array([end_of(shares, one) for one in benefits])
 
 
 def bounds(found: Vector, confidence: float) -> dict[str, float]:
@@ -101,44 +94,24 @@ def bounds(found: Vector, confidence: float) -> dict[str, float]:
     return {"end": found[0], "end_low": low, "end_high": high}
 
 
-def confirmed(sampled: list[Group], settings: dict, ensemble: dict) -> Finding:
-    """Return whether SciPy finds the same outcomes, of a seeded sample, half beside a boundary.
-
-    Outcomes that a billionth of the motion changes are not compared.
-    """
-    random, told, differ = np.random.default_rng(settings["seed"]), 0, 0
-    every = first_draws(ensemble, settings["runs"][settings["run"]]["motions"])
-    draws = {tuple(draw.labels.values()): draw for draw in every}
-    count = settings["checked"]
+def sampled(some: list[Group], settings: dict) -> Iterator[tuple]:
+    """Yield a seeded sample of the outcomes, half of them beside a boundary, for SciPy."""
+    random, count = np.random.default_rng(settings["seed"]), settings["checked"]
     for number in progress(range(count), count, "checks"):
-        group = sampled[number % len(sampled)]
-        motion, place = (int(random.integers(size)) for size in group.fell.shape[:2])
-        level = int(random.integers(group.fell.shape[2]))
-        row, block = group.motions.iloc[motion], group.under[place].block
-        record = draws[row.family, row.scenario, row.motion].record()
+        group = some[number % len(some)]
+        outcomes = group.swept.outcomes
+        motion, place = (int(random.integers(size)) for size in outcomes.shape[:2])
+        level = int(random.integers(outcomes.shape[2]))
+        block, record = group.under[place].block, group.swept.draws[motion].record()
         *_, pgv = stated(group.column, settings)[level]
-        factor = pgv / record.peak_velocity
-
-        def overturns(by: float, block=block, record=record) -> bool:
-            return judge(block, record.scaled(by)).overturned
-
-        fell = bool(group.fell[motion, place, level])
+        factor = pgv / group.swept.peaks[motion]
         if number % 2:
-            factor = beside_a_boundary(overturns, factor)
-        if decided(overturns, factor) is not None:
-            told += 1
-            differ += reference.judge(block, record.scaled(factor)).overturned != fell
-    return truth(
-        differ == 0 and told > 0,
-        checked=settings["checked"],
-        near_a_boundary=settings["checked"] // 2,
-        told=told,
-        differ=differ,
-    )
+            factor = beside_a_boundary(partial(overturns, block, record), factor)
+        yield block, record, factor, bool(outcomes[motion, place, level])
 
 
-def main(settings: dict, ensemble: dict, shards: pd.DataFrame) -> tuple:
-    found = list(groups(shards, settings, ensemble))
+def main(settings: dict, ensemble: dict, answered: Sequence[Swept]) -> tuple:
+    found = list(groups(answered, settings, ensemble))
     confidence = settings["bootstrap"]["confidence"]
     rows, every = [], []
     for group in found:
@@ -152,11 +125,17 @@ def main(settings: dict, ensemble: dict, shards: pd.DataFrame) -> tuple:
     median = pd.DataFrame([coarser | bounds(middle, confidence)])
     least, most = settings["measured"]
     measured = pd.DataFrame([{"least": least, "largest": most}])
-    largest = float(shares(settings["deficits"])[-1])
+    largest = float(deficits(settings["deficits"])[-1])
     drawn = findings(table, median, measured)
     drawn["benefit_ends"] = drawn["benefit_ends"].with_evidence(largest=largest)
-    by_scipy = confirmed(found, settings, ensemble)
-    return table, median, measured, drawn | {"break_even_by_scipy": by_scipy}
+    agreed, checked = by_scipy(sampled(found, settings)), settings["checked"]
+    confirmed = truth(
+        agreed["differ"] == 0 and agreed["told"] > 0,
+        checked=checked,
+        near_a_boundary=checked // 2,
+        **agreed,
+    )
+    return table, median, measured, drawn | {"break_even_by_scipy": confirmed}
 
 
 def findings(
@@ -213,8 +192,12 @@ def remains(table: pd.DataFrame, deficit: float) -> Finding:
 
 
 def work(job: Any) -> tuple:
-    shards = pd.concat(map(pd.read_csv, job.input.shards), ignore_index=True)
-    return main(job.params.settings, job.params.ensemble, shards)
+    settings, ensemble = job.params.settings, job.params.ensemble
+    answered = [
+        read_answers(job.input.shards, f"break_even_{place}", ensemble, settings["motions"])
+        for place in range(len(settings["sizes"]))
+    ]
+    return main(settings, ensemble, answered)
 
 
 if __name__ == "__main__":

@@ -4,145 +4,71 @@ Bare columns, frames with a free cap beam, and columns with the same mass fixed 
 the synthetic motions of study reversals, each scaled to the intensity.
 """
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from itertools import product
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from replication.workbench import Finding, run, truth
+from steps.shared.second import by_scipy
 from steps.shared.spectrum import progress
-from topheavy import (
-    Column,
-    FixedMassColumn,
-    Record,
-    RockingFrame,
-    judge,
-    overturned_together,
-    reference,
-)
+from steps.shared.sweep import Asked, Swept, read_answers
+from studies.certainty.under import FREE, MEASURES, similar, supported
 from topheavy.fragility.tables import exact_interval
-from topheavy.structures import Structure
-from topheavy.synthetic.ensemble import first_draws
-from topheavy.synthetic.motions import peak_velocity
-
-SUPPORTS = ("bare", "free", "fixed")
-MEASURES = ("pgv", "pga")
 
 
-@dataclass(frozen=True)
-class Subject:
-    """A structure: columns by name, bare, under a free cap beam, or with its mass fixed."""
-
-    name: str
-    support: str
-    mass_ratio: float
-    height: float  # of the columns, m
-    structure: Structure
-
-    @property
-    def labels(self) -> dict[str, Any]:
-        return {
-            "structure": self.name,
-            "support": self.support,
-            "mass_ratio": self.mass_ratio,
-        }
-
-
-def subjects(settings: Mapping[str, Any], structures: Mapping[str, Any]) -> list[Subject]:
-    """Return all structures, each with its three supports.
-
-    Those of `scaled` are similar to a named structure, so many times as large.
-    """
-    found = []
-    for entry in settings["columns"]:
-        dimensions = structures[entry["structure"]]
-        column = Column(*(entry["scaled"] * dimensions[k] for k in ("half_width", "half_height")))
-        height, gamma = 2.0 * column.half_height, entry["mass_ratio"]
-        name = f"{height:g} m {entry['structure']}"
-        found += [
-            Subject(name, "bare", 0.0, height, column),
-            Subject(name, "free", gamma, height, RockingFrame(column, gamma)),
-            Subject(name, "fixed", gamma, height, FixedMassColumn(column, gamma)),
-        ]
-    return found
-
-
-def intensity(record: Record, measure: str) -> float:
-    """Return PGV (m/s) or PGA (g) of a record."""
-    return peak_velocity(record) if measure == "pgv" else record.peak_acceleration
-
-
-def outcomes(settings: dict, ensemble: dict, under: list[Subject]) -> pd.DataFrame:
-    """Return a row for each motion and subject: which of all levels overturn it."""
-    levels = [(measure, level) for measure in MEASURES for level in settings[measure]]
-    rows, chosen = [], first_draws(ensemble, settings["motions"])
-    for draw in progress(chosen, len(chosen), "motions"):
-        record = draw.record()
-        scales = [level / intensity(record, measure) for measure, level in levels]
-        fell = overturned_together([subject.structure for subject in under], record, scales)
-        rows += [
-            draw.labels | subject.labels | {"measure": m, "level": level, "fell": one}
-            for subject, outcomes in zip(under, fell, strict=True)
-            for (m, level), one in zip(levels, outcomes, strict=True)
-        ]
-    return pd.DataFrame(rows)
-
-
-def probabilities(cells: pd.DataFrame, confidence: float) -> pd.DataFrame:
+def probabilities(
+    answers: Mapping[str, tuple[Asked, Swept]], families: list[str], confidence: float
+) -> pd.DataFrame:
     """Return the probability of overturning with its interval, over the motions of each family."""
-    keys = ["family", "structure", "support", "mass_ratio", "measure", "level"]
-    table = cells.groupby(keys, sort=False, as_index=False).fell.agg(fell="sum", motions="size")
-    (motions,) = table.motions.unique()  # every family has as many
-    low, high = exact_interval(table.fell.to_numpy(), motions, confidence)
-    return table.assign(
-        probability=table.fell / table.motions, probability_low=low, probability_high=high
-    )
+    counted = {}
+    for family, (measure, (asked, swept)) in product(families, answers.items()):
+        fell = swept.of_family(family).outcomes
+        counts, motions = fell.sum(axis=0), len(fell)
+        low, high = exact_interval(counts, motions, confidence)
+        for place, subject in enumerate(asked.subjects):
+            labels = {"family": family, **subject.labels, "measure": measure}
+            found = {"level": asked.levels, "fell": counts[place], "motions": motions}
+            found |= {"probability": counts[place] / motions}
+            found |= {"probability_low": low[place], "probability_high": high[place]}
+            counted[family, place, measure] = pd.DataFrame(labels | found)
+    places = range(len(asked.subjects))
+    return pd.concat(counted[key] for key in product(families, places, answers))
 
 
-def confirmed(settings: dict, ensemble: dict, under: list[Subject], cells: pd.DataFrame) -> dict:
-    """Judge a seeded sample of the cells by SciPy, and at a nudged scale.
-
-    Cells that a billionth of the motion changes are undecided, and are not compared.
-    """
-    random = np.random.default_rng(settings["seed"])
-    motions = {
-        tuple(draw.labels.values()): draw for draw in first_draws(ensemble, settings["motions"])
-    }
-    named = {(subject.name, subject.support): subject for subject in under}
-    differ, told = 0, 0
-    for at in progress(
-        random.choice(len(cells), settings["checked"], False), settings["checked"], "checks"
-    ):
-        cell = cells.iloc[at]
-        record = motions[cell.family, cell.scenario, cell.motion].record()
-        scaled = record.scaled(cell.level / intensity(record, cell.measure))
-        structure = named[cell.structure, cell.support].structure
-        nudged = {judge(structure, scaled.scaled(1.0 + n)).overturned for n in (-1e-9, 0.0, 1e-9)}
-        if len(nudged) == 1:
-            told += 1
-            differ += reference.judge(structure, scaled).overturned != cell.fell
-    return truth(differ == 0 and told > 0, checked=settings["checked"], told=told, differ=differ)
+def sampled(answers: Mapping[str, tuple[Asked, Swept]], settings: dict) -> Iterator[tuple]:
+    """Yield a seeded sample of the outcomes, for SciPy."""
+    random, count = np.random.default_rng(settings["seed"]), settings["checked"]
+    for number in progress(range(count), count, "checks"):
+        asked, swept = answers[MEASURES[number % len(MEASURES)]]
+        motion, place, level = (int(random.integers(size)) for size in swept.outcomes.shape)
+        factor = asked.levels[level] / swept.peaks[motion]
+        record, block = swept.draws[motion].record(), asked.subjects[place].block
+        yield block, record, factor, bool(swept.outcomes[motion, place, level])
 
 
-def worst(table: pd.DataFrame, **at: Any) -> float:
-    """Return the largest upper end of an interval among the rows with these labels."""
-    for name, wanted in at.items():
-        table = table[
-            table[name].isin(wanted) if isinstance(wanted, list) else table[name] == wanted
-        ]
+def worst(table: pd.DataFrame) -> float:
+    """Return the largest upper end of an interval."""
     return float(table.probability_high.max())
 
 
-def main(settings: dict, ensemble: dict, structures: dict) -> tuple[pd.DataFrame, dict]:
-    under = subjects(settings, structures)
-    cells = outcomes(settings, ensemble, under)
-    table = probabilities(cells, settings["confidence"])
-    velocity, ample = table[table.measure == "pgv"], settings["ample"]
-    large = [s.name for s in under if s.support == "free" and s.height >= ample["height"]]
-    framed = velocity[(velocity.support == "free") & velocity.structure.isin(large)]
+def main(
+    settings: dict, ensemble: dict, structures: dict, swept: Mapping[str, Swept]
+) -> tuple[pd.DataFrame, dict]:
+    answers = {one: (supported(settings, structures, one), swept[one]) for one in MEASURES}
+    table = probabilities(answers, ensemble["families"], settings["confidence"])
+    ample = settings["ample"]
+    large = [
+        name
+        for name, column, _ in similar(settings, structures)
+        if 2.0 * column.half_height >= ample["height"]
+    ]
+    velocity = table[table.measure == "pgv"]
+    framed = velocity[(velocity.support == FREE) & velocity.structure.isin(large)]
     modest = framed[framed.level <= ample["pgv"]]
+    agreed = by_scipy(sampled(answers, settings))
     return table, {
         "ample_stability": truth(
             worst(framed) < ample["probability"],
@@ -154,7 +80,9 @@ def main(settings: dict, ensemble: dict, structures: dict) -> tuple[pd.DataFrame
             structures=large,
         ),
         **findings(table),
-        "second_route": confirmed(settings, ensemble, under, cells),
+        "second_route": truth(
+            agreed["differ"] == 0 and agreed["told"] > 0, checked=settings["checked"], **agreed
+        ),
     }
 
 
@@ -180,7 +108,11 @@ def findings(certainty_intensities: pd.DataFrame) -> dict[str, Finding]:
 
 
 def work(job: Any) -> tuple:
-    return main(job.params.settings, job.params.ensemble, job.params.structures)
+    settings, ensemble = job.params.settings, job.params.ensemble
+    swept = {
+        one: read_answers(job.input.shards, one, ensemble, settings["motions"]) for one in MEASURES
+    }
+    return main(settings, ensemble, job.params.structures, swept)
 
 
 if __name__ == "__main__":

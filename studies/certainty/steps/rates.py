@@ -4,8 +4,7 @@ The hazard falls as PGV⁻ᵏ within stated ends. Each motion contributes by the
 it overturns; no curve is fitted. Intervals are those of motions drawn anew within each earthquake.
 """
 
-from collections.abc import Hashable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
 from itertools import product
 from typing import Any
 
@@ -13,20 +12,13 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import Finding, run, truth
-from studies.certainty.rated import (
-    BARE,
-    FIXED,
-    FREE,
-    Subject,
-    fallen,
-    grid,
-    stated,
-    subjects,
-)
+from steps.shared.sweep import Subject, Swept, read_answers
+from studies.certainty.under import BARE, FIXED, FREE, grid, rated, stated
 from topheavy import Column
 from topheavy.fragility.curve import dispersions, fit, medians
+from topheavy.fragility.ensemble import Ensemble
 from topheavy.fragility.hazard import lognormal_rate, rate_at_levels
-from topheavy.fragility.resampling import NEGATIVE, in_words, interval, means_within
+from topheavy.fragility.resampling import NEGATIVE, in_words
 from topheavy.fragility.tables import exact_interval
 
 BOTH = "both"
@@ -34,74 +26,56 @@ SHARE = 1.0  # of a sampling interval: what half of the step of the grid may cha
 CLOSE = 0.1  # of a rate: its largest distance from that of a lognormal curve
 
 
-@dataclass(frozen=True, eq=False)
-class Motions:
-    """Motions of a family and of an earthquake, or of both, and which PGVs overturn what.
-
-    `outcomes` has the shape (motions, structures, PGVs); `quakes` is the earthquake of each motion,
-    and `pgv` its PGV before scaling.
-    """
-
-    labels: dict[str, str]
-    outcomes: np.ndarray
-    quakes: Sequence[Hashable]
-    pgv: np.ndarray
-
-    def means(self, values: np.ndarray, settings: dict) -> np.ndarray:
-        """Return the mean over motions and those of resamples, shape (1 + resamples, ...)."""
-        return means_within(
-            values, self.quakes, settings["bootstrap"]["resamples"], settings["seed"]
-        )
-
-
-def ensembles(shards: pd.DataFrame, settings: dict, ensemble: dict) -> Iterator[Motions]:
-    """Yield the motions of each family, of both earthquakes together and of each apart."""
+def ensembles(
+    swept: Swept, settings: dict, ensemble: dict
+) -> Iterator[tuple[dict[str, str], Swept, Ensemble]]:
+    """Yield labels, motions and outcomes of each family: of both earthquakes, and of each apart."""
     names = [f"M {one['magnitude']:g}" for one in ensemble["scenarios"]]
-    wanted = settings["runs"][settings["run"]]["motions"] * len(names)
     for family in ensemble["families"]:
-        fell, firsts = fallen(shards[shards.family == family], wanted, len(subjects(settings)))
-        quakes, own = firsts.scenario.to_numpy(), firsts.pgv.to_numpy()
-        apart = [(name, quakes == place) for place, name in enumerate(names)]
-        for name, chosen in [(BOTH, quakes >= 0), *apart]:
-            labels = {"family": family, "earthquake": name}
-            yield Motions(labels, fell[chosen], quakes[chosen].tolist(), own[chosen])
+        of = swept.of_family(family)
+        apart = [(name, of.scenarios == place) for place, name in enumerate(names)]
+        for name, some in [(BOTH, of.scenarios >= 0), *apart]:
+            these = of.chosen(some)
+            found = Ensemble(
+                these.outcomes,
+                these.scenarios.tolist(),
+                seed=settings["seed"],
+                **settings["bootstrap"],
+            )
+            yield {"family": family, "earthquake": name}, these, found
 
 
-def pairs(under: list[Subject]) -> list[tuple[int, int]]:
+def pairs(under: Sequence[Subject]) -> list[tuple[int, int]]:
     """Return the places of each structure and of the bare column that it is compared with.
 
     A frame is compared with every column, also with a lower √r; all others with that as it is.
     """
-    columns = [place for place, one in enumerate(under) if one.structure == BARE]
+    kinds = [one.labels["structure"] for one in under]
+    columns = [place for place, kind in enumerate(kinds) if kind == BARE]
     return [
         (place, column)
-        for place, one in enumerate(under)
-        for column in (columns if one.structure == FREE else columns[:1])
+        for place, kind in enumerate(kinds)
+        for column in (columns if kind == FREE else columns[:1])
     ]
 
 
-def named(name: str, values: np.ndarray, settings: dict) -> dict:
-    """Return a value and the ends of its interval, named for a table."""
-    found = interval(values, settings["bootstrap"]["confidence"])
-    return dict(zip((name, f"{name}_low", f"{name}_high"), found, strict=True))
-
-
-def probabilities(motions: Motions, settings: dict) -> pd.DataFrame:
+def probabilities(labels: dict, ensemble: Ensemble, settings: dict) -> pd.DataFrame:
     """Return the probability at each stated intensity, and how much less it is than a column's."""
-    under, column = subjects(settings), Column(**settings["column"])
+    under, column = rated(settings).subjects, Column(**settings["column"])
     measures, levels, pgvs = zip(*stated(column, settings), strict=True)
-    some, found = motions.outcomes[..., grid(settings).size :], []
-    means, fell = motions.means(some, settings), some.sum(axis=0)
-    low, high = exact_interval(fell, len(motions.outcomes), settings["bootstrap"]["confidence"])
+    some, found = ensemble.outcomes[..., grid(settings).size :], []
+    means, fell, motions = ensemble.means(some), some.sum(axis=0), len(some)
+    low, high = exact_interval(fell, motions, ensemble.confidence)
     for place, beside in pairs(under):
         of = means[:, place]
-        less = named("less", means[:, beside] - of, settings)
+        less = ensemble.bounds("less", means[:, beside] - of)
         words = map(in_words, less["less_low"], less["less_high"])
         found.append(
-            motions.labels
+            labels
             | under[place].labels
-            | {"column": under[beside].lowered, "measure": measures, "level": levels, "pgv": pgvs}
-            | {"motions": len(motions.outcomes), "overturned": fell[place]}
+            | {"column": under[beside].labels["lowered"]}
+            | {"measure": measures, "level": levels, "pgv": pgvs}
+            | {"motions": motions, "overturned": fell[place]}
             | {"probability": of[0], "probability_low": low[place]}
             | {"probability_high": high[place]}
             | less
@@ -110,16 +84,16 @@ def probabilities(motions: Motions, settings: dict) -> pd.DataFrame:
     return pd.concat(map(pd.DataFrame, found))
 
 
-def rates(motions: Motions, settings: dict) -> list[dict]:
+def rates(labels: dict, ensemble: Ensemble, settings: dict) -> list[dict]:
     """Return the rate of each structure, over that of a column, by exponent and highest PGV.
 
     Rates are in units of the rate at which PGV exceeds 1 m/s. `coarser` is the rate with every
     other PGV of the grid, and `over_coarser` that over the column's; `over_coarsest` is with every
     fourth. `change` is what the last halving of the step changes, with its interval.
     """
-    under, pgvs, rows = subjects(settings), grid(settings), []
-    fell = motions.outcomes[..., : pgvs.size]
-    means = motions.means(fell, settings)
+    under, pgvs, rows = rated(settings).subjects, grid(settings), []
+    fell = ensemble.outcomes[..., : pgvs.size]
+    means = ensemble.means(fell)
     terms = fit(pgvs, means[0], skewed=False)
     curves = medians(pgvs, terms), dispersions(terms)
     for exponent, highest in product(settings["exponents"], settings["ends"]):
@@ -135,15 +109,16 @@ def rates(motions: Motions, settings: dict) -> list[dict]:
                 rate[:, place] / rate[:, column] for rate in (found, coarser, coarsest)
             )
             rows.append(
-                motions.labels
+                labels
                 | under[place].labels
-                | {"column": under[column].lowered, "exponent": exponent, "highest": highest}
+                | {"column": under[column].labels["lowered"]}
+                | {"exponent": exponent, "highest": highest}
                 | {"motions": len(fell), "overturning": int(some[place])}
-                | named("rate", found[:, place], settings)
+                | ensemble.bounds("rate", found[:, place])
                 | {"coarser": coarser[0, place], "lognormal": formula[place]}
-                | named("over", over, settings)
+                | ensemble.bounds("over", over)
                 | {"over_coarser": rough[0], "over_coarsest": roughest[0]}
-                | named("change", over - rough, settings)
+                | ensemble.bounds("change", over - rough)
             )
     return rows
 
@@ -173,22 +148,22 @@ def survival(table: pd.DataFrame, settings: dict) -> pd.DataFrame:
 RATE = ("rate", "rate_low", "rate_high")
 
 
-def scales(motions: Motions, settings: dict) -> list[dict]:
+def scales(labels: dict, peaks: np.ndarray, settings: dict) -> list[dict]:
     """Return the median and the 95th percentile of the factors that bring motions to a PGV."""
     return [
-        motions.labels
-        | {"pgv": pgv, "motions": len(motions.pgv)}
-        | dict(zip(("median", "p95"), np.quantile(pgv / motions.pgv, (0.5, 0.95)), strict=True))
+        labels
+        | {"pgv": pgv, "motions": len(peaks)}
+        | dict(zip(("median", "p95"), np.quantile(pgv / peaks, (0.5, 0.95)), strict=True))
         for pgv in settings["pgv"]
     ]
 
 
-def main(settings: dict, ensemble: dict, shards: pd.DataFrame) -> tuple:
+def main(settings: dict, ensemble: dict, swept: Swept) -> tuple:
     stated_ones, summed, scaled = [], [], []
-    for motions in ensembles(shards, settings, ensemble):
-        stated_ones.append(probabilities(motions, settings))
-        summed += rates(motions, settings)
-        scaled += scales(motions, settings)
+    for labels, motions, outcomes in ensembles(swept, settings, ensemble):
+        stated_ones.append(probabilities(labels, outcomes, settings))
+        summed += rates(labels, outcomes, settings)
+        scaled += scales(labels, motions.peaks, settings)
     table, rate_table = pd.concat(stated_ones), pd.DataFrame(summed)
     return (
         table,
@@ -261,8 +236,9 @@ def ranged(rows: pd.DataFrame) -> dict[str, Any]:
 
 
 def work(job: Any) -> tuple:
-    shards = pd.concat(map(pd.read_csv, job.input.shards), ignore_index=True)
-    return main(job.params.settings, job.params.ensemble, shards)
+    settings, ensemble = job.params.settings, job.params.ensemble
+    swept = read_answers(job.input.shards, "rates", ensemble, settings["motions"])
+    return main(settings, ensemble, swept)
 
 
 if __name__ == "__main__":

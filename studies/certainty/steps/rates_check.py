@@ -11,12 +11,11 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import Finding, run, truth
-from steps.shared.outcomes import FALLS, read
+from steps.shared.second import decided, overturns
 from steps.shared.spectrum import progress
-from studies.certainty.rated import grid, subjects, velocities
-from studies.certainty.second import decided
+from steps.shared.sweep import Swept, read_answers
+from studies.certainty.under import grid, rated, velocities
 from topheavy import Record, RockingBlock, judge, overturned_by, reference
-from topheavy.synthetic.ensemble import first_draws
 
 ROUTES = ("tightened", "second_route")
 HALVINGS = 7  # of a step of the grid, in ln PGV: a boundary is then known to 0.1 %
@@ -24,31 +23,25 @@ HALVINGS = 7  # of a step of the grid, in ln PGV: a boundary is then known to 0.
 
 def cell(
     block: RockingBlock,
-    rows: pd.DataFrame,
-    draws: dict,
+    swept: Swept,
+    place: int,
     settings: dict,
     near: bool,
     random: np.random.Generator,
 ) -> tuple[bool, Record, bool]:
     """Return whether a random cell of a structure is near a boundary, its motion, its outcome."""
-    pgvs, size, fell = velocities(settings), grid(settings).size, read(rows.outcomes) == FALLS
+    pgvs, size, fell = velocities(settings), grid(settings).size, swept.outcomes[:, place]
     changing = np.flatnonzero(np.diff(fell[:, :size]).any(axis=1))
     near = near and changing.size > 0
-    at = int(random.choice(changing) if near else random.integers(len(rows)))
-    row = rows.iloc[at]
-    record = draws[row.family, row.scenario, row.motion].record()
+    at = int(random.choice(changing) if near else random.integers(len(fell)))
+    record, peak = swept.draws[at].record(), swept.peaks[at]
     if not near:
-        place = random.integers(pgvs.size)
-        return near, record.scaled(pgvs[place] / row.pgv), fell[at, place]
-    place = random.choice(np.flatnonzero(np.diff(fell[at, :size])))
-    ends = beside(block, record, pgvs[place : place + 2] / row.pgv, fell[at, place])
+        level = random.integers(pgvs.size)
+        return near, record.scaled(pgvs[level] / peak), fell[at, level]
+    level = random.choice(np.flatnonzero(np.diff(fell[at, :size])))
+    ends = beside(block, record, pgvs[level : level + 2] / peak, fell[at, level])
     side = int(random.integers(2))
-    return near, record.scaled(ends[side]), fell[at, place + side]
-
-
-def overturns(block: RockingBlock, motion: Record, factor: float) -> bool:
-    """Return whether a motion times a factor overturns a block."""
-    return judge(block, motion.scaled(factor)).overturned
+    return near, record.scaled(ends[side]), fell[at, level + side]
 
 
 def beside(
@@ -66,24 +59,22 @@ def beside(
 
 
 def main(
-    settings: dict, ensemble: dict, shards: pd.DataFrame, tightened: float
+    settings: dict, ensemble: dict, swept: Swept, tightened: float
 ) -> tuple[pd.DataFrame, dict[str, Finding]]:
-    under, families, found = subjects(settings), ensemble["families"], []
-    every = first_draws(ensemble, settings["runs"][settings["run"]]["motions"])
-    draws = {tuple(draw.labels.values()): draw for draw in every}
-    groups = dict(iter(shards.groupby(["family", "structure", "mass_ratio", "lowered"])))
+    under, families, found = rated(settings).subjects, ensemble["families"], []
+    of_family = {family: swept.of_family(family) for family in families}
     random, points = np.random.default_rng(settings["seed"]), settings["sample"]["points"]
     for number in progress(range(points), points, "cells"):
         rest, near = divmod(number, 2)
-        family, one = families[rest % len(families)], under[rest // len(families) % len(under)]
-        rows = groups[family, *one.labels.values()]
-        near, motion, falls = cell(one.block, rows, draws, settings, bool(near), random)
-        fell = decided(partial(overturns, one.block, motion), 1.0)
+        family, place = families[rest % len(families)], rest // len(families) % len(under)
+        block = under[place].block
+        near, motion, falls = cell(block, of_family[family], place, settings, bool(near), random)
+        fell = decided(partial(overturns, block, motion), 1.0)
         found.append(
-            {"family": family, **one.labels, "near": near, "overturns": falls}
+            {"family": family, **under[place].labels, "near": near, "overturns": falls}
             | {"decided": fell is not None}
-            | {"tightened": judge(one.block, motion, tolerance=tightened).overturned}
-            | {"second_route": reference.judge(one.block, motion).overturned}
+            | {"tightened": judge(block, motion, tolerance=tightened).overturned}
+            | {"second_route": reference.judge(block, motion).overturned}
         )
     table = pd.DataFrame(found)
     return table, findings(table)
@@ -108,8 +99,9 @@ def findings(certainty_rates_check: pd.DataFrame) -> dict[str, Finding]:
 
 
 def work(job: Any) -> tuple:
-    shards = pd.concat(map(pd.read_csv, job.input.shards), ignore_index=True)
-    return main(job.params.settings, job.params.ensemble, shards, job.params.solver["tightened"])
+    settings, ensemble = job.params.settings, job.params.ensemble
+    swept = read_answers(job.input.shards, "rates", ensemble, settings["motions"])
+    return main(settings, ensemble, swept, job.params.solver["tightened"])
 
 
 if __name__ == "__main__":

@@ -14,7 +14,6 @@ from steps.shared.spectrum import progress
 from topheavy import Column, Pulse, Record, RockingFrame, read_record, reference
 from topheavy.overturning import outcomes_by
 from topheavy.synthetic.ensemble import first_draws
-from topheavy.synthetic.motions import peak_velocity
 
 SEED = 2014
 
@@ -30,7 +29,7 @@ def motions(
     velocities = np.array(settings["velocities"])
     for draw in first_draws(ensemble, settings["motions"]):
         motion = draw.record()
-        yield f"{draw.labels['family']} motions", motion, velocities / peak_velocity(motion)
+        yield f"{draw.labels['family']} motions", motion, velocities / motion.peak_velocity
     for record in records:
         yield "records", record, np.geomspace(1.0, settings["largest"], settings["points"])
 

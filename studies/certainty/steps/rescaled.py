@@ -18,8 +18,8 @@ import pandas as pd
 from scipy.signal import butter, sosfiltfilt
 
 from replication.workbench import Finding, run, truth
+from steps.shared.second import beside_a_boundary, decided
 from steps.shared.spectrum import progress
-from studies.certainty.second import beside_a_boundary, decided
 from studies.certainty.steps.records import similar
 from topheavy import (
     Column,

@@ -13,9 +13,10 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import Finding, run, truth, value
+from steps.shared.second import beside_a_boundary, decided
 from steps.shared.spectra_compared import ends_of
 from steps.shared.spectrum import progress
-from studies.certainty.second import beside_a_boundary, decided
+from studies.certainty.under import HIGHEST, changed
 from topheavy import (
     STANDARD_GRAVITY,
     Column,
@@ -29,28 +30,16 @@ from topheavy import (
     overturning_intervals,
     reference,
 )
-from topheavy.fragility.resampling import in_words, interval, means, resampled
-from topheavy.structures import Structure
+from topheavy.fragility.ensemble import Ensemble
+from topheavy.fragility.resampling import in_words
 from topheavy.synthetic.ensemble import Draw, first_draws
-from topheavy.synthetic.motions import peak_velocity
 
 WAYS = ("both", "frame alone", "column alone")
-HIGHEST = 0.995
-"""Of √r: a block that loses nothing bounces without end, and no solver can follow it."""
-
 OF_PULSES = ["way", "factor", "helps", "harms", "compared", "falls", "least"]
 OF_MOTIONS = ["family", "way", "factor", "less", "less_low", "less_high", "interval"]
 """The columns of the table under pulses, and of the differences under motions."""
 
 RISES = 1e-8  # of a minimum: the rounding of its bracket
-
-
-def changed(structure: Structure, factor: float) -> RockingBlock:
-    """Return the block with √r times a factor, at most HIGHEST."""
-    block = structure.block()
-    if factor == 1.0:
-        return block
-    return block.with_restitution(min(HIGHEST, factor * block.restitution))
 
 
 def pairs(factors: list[float]) -> dict[tuple[str, float], tuple[float, float]]:
@@ -103,18 +92,15 @@ def under_pulses(settings: dict) -> pd.DataFrame:
         column = Column(math.sin(alpha), math.cos(alpha))
         pulse = Pulse(shape, column.uplift_acceleration, ratio * column.frequency_parameter)
         light, heavy = (
-            {
-                factor: spectrum(changed(RockingFrame(column, gamma), factor), pulse, settings)
-                for factor in factors
-            }
-            for gamma in (0.0, math.inf)
+            {factor: spectrum(changed(block, factor), pulse, settings) for factor in factors}
+            for block in (column.block(), RockingFrame(column, math.inf).block())
         )
         for (way, factor), (of_column, of_frame) in pairs(factors).items():
             one, other = light[of_column], heavy[of_frame]
             minima = [found[0, 0] if len(found) else math.inf for found in (one, other)]
             if minima[1] < minima[0] * (1.0 - RISES):
                 # a narrow interval of the column may have been missed below
-                minima[0] = lowest(changed(column, of_column), pulse, settings, minima[0])
+                minima[0] = lowest(changed(column.block(), of_column), pulse, settings, minima[0])
             rows.append(
                 {
                     "way": way,
@@ -174,11 +160,11 @@ def outcomes(settings: dict, ensemble: dict) -> tuple[list[tuple], dict[str, np.
     chosen = first_draws(ensemble, settings["motions"])
     for draw in progress(chosen, len(chosen), "motions"):
         motion = draw.record()
-        scales, fell = levels / peak_velocity(motion), []
+        scales, fell = levels / motion.peak_velocity, []
         for gamma, kind, number in variants:
             frame = RockingFrame(column, gamma)
             if kind == "factor":
-                fell.append(overturned_by(changed(frame, number), motion, scales))
+                fell.append(overturned_by(changed(frame.block(), number), motion, scales))
             else:
                 rows = scattered(settings, draw, frame.restitution, number)
                 fell.append(
@@ -191,27 +177,27 @@ def outcomes(settings: dict, ensemble: dict) -> tuple[list[tuple], dict[str, np.
 def under_motions(settings: dict, ensemble: dict) -> tuple[pd.DataFrame, list[dict]]:
     """Return the mean probability of overturning of each variant, and its fall with γ."""
     variants, found = outcomes(settings, ensemble)
-    boot, rows, falls = settings["bootstrap"], [], []
+    rows, falls = [], []
     for family, fell in found.items():
-        weights = resampled(len(fell), boot["resamples"], settings["seed"])
-        shares = means(weights, fell.mean(axis=2))
+        motions = Ensemble(fell, None, seed=settings["seed"], **settings["bootstrap"])
+        shares = motions.means(fell.mean(axis=2))
         place = {variant: number for number, variant in enumerate(variants)}
         for variant, number in place.items():
             gamma, kind, factor = variant
             labels = {"family": family, "mass_ratio": gamma, "kind": kind, "factor": factor}
-            rows.append(labels | bounds("probability", shares[:, number], boot))
+            rows.append(labels | motions.bounds("probability", shares[:, number]))
         light, heavy = settings["mass_ratios"][0], settings["mass_ratios"][-1]
         for (way, factor), (of_column, of_frame) in pairs(settings["factors"]).items():
             less = (
                 shares[:, place[light, "factor", of_column]]
                 - shares[:, place[heavy, "factor", of_frame]]
             )
-            falls.append({"family": family, "way": way, "factor": factor} | difference(less, boot))
+            labels = {"family": family, "way": way, "factor": factor}
+            falls.append(labels | difference(motions, less))
         for low in settings["scatter"]:
             less = shares[:, place[light, "scatter", low]] - shares[:, place[heavy, "scatter", low]]
-            falls.append(
-                {"family": family, "way": "scatter", "factor": low} | difference(less, boot)
-            )
+            labels = {"family": family, "way": "scatter", "factor": low}
+            falls.append(labels | difference(motions, less))
     return pd.DataFrame(rows), falls
 
 
@@ -220,14 +206,9 @@ def is_against_the_frame(table: pd.DataFrame) -> pd.Series:
     return (table.way == "column alone") & (table.factor < 1.0)
 
 
-def bounds(name: str, values: np.ndarray, boot: dict) -> dict:
-    middle, low, high = interval(values, boot["confidence"])
-    return {name: float(middle), f"{name}_low": float(low), f"{name}_high": float(high)}
-
-
-def difference(less: np.ndarray, boot: dict) -> dict:
+def difference(ensemble: Ensemble, less: np.ndarray) -> dict:
     """Return by how much a probability is lower, with its interval in numbers and in words."""
-    ends = bounds("less", less, boot)
+    ends = ensemble.bounds("less", less)
     return ends | {"interval": in_words(ends["less_low"], ends["less_high"])}
 
 
@@ -245,7 +226,7 @@ def scatter_agrees(settings: dict, ensemble: dict) -> Finding:
         low, level = float(random.choice(settings["scatter"])), random.integers(levels.size)
         motion = draw.record()
         ratios = scattered(settings, draw, frame.restitution, low)[level]
-        factor = levels[level] / peak_velocity(motion)
+        factor = levels[level] / motion.peak_velocity
         falls = partial(overturns, frame, motion, ratios=ratios)
         if number % 2:
             factor = beside_a_boundary(falls, factor)

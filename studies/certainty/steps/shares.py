@@ -11,29 +11,24 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import Finding, run, truth
-from steps.shared.spectrum import progress
-from steps.vase_shares import PARAMETERS, exchanged, shapley, subsets
-from topheavy import Column, FixedMassColumn, RockingFrame, overturned_together
-from topheavy.synthetic.ensemble import first_draws
-from topheavy.synthetic.motions import peak_velocity
+from steps.shared.sweep import Swept, read_answers
+from steps.vase_shares import PARAMETERS, shapley, subsets
+from studies.certainty.under import exchanges
 
 
-def values_of(settings: dict, ensemble: dict) -> pd.DataFrame:
+def values_of(settings: dict, swept: Swept) -> pd.DataFrame:
     """Return the Shapley values of each parameter for each motion, γ and PGV.
 
     They are linear in the worth, so that their means are those of the share of motions.
     """
-    column, taken = Column(**settings["column"]), list(subsets())
-    rows, chosen = [], first_draws(ensemble, settings["motions"])
-    for draw in progress(chosen, len(chosen), "motions"):
-        motion = draw.record()
-        scales = [level / peak_velocity(motion) for level in settings["pgv"]]
+    labels = [subject.labels for subject in exchanges(settings).subjects]
+    places = {(one["mass_ratio"], one["free"]): place for place, one in enumerate(labels)}
+    rows = []
+    for draw, fell in zip(swept.draws, swept.outcomes, strict=True):
         for gamma in settings["mass_ratios"]:
-            ends = FixedMassColumn(column, gamma).block(), RockingFrame(column, gamma).block()
-            fell = overturned_together([exchanged(*ends, one) for one in taken], motion, scales)
-            for place, level in enumerate(settings["pgv"]):
-                worth = {one: float(not f[place]) for one, f in zip(taken, fell, strict=True)}
-                label = {"family": draw.labels["family"], "mass_ratio": gamma, "pgv": level}
+            for number, level in enumerate(settings["pgv"]):
+                worth = {one: float(not fell[places[gamma, one], number]) for one in subsets()}
+                label = {"family": draw.family, "mass_ratio": gamma, "pgv": level}
                 rows.append(label | shapley(worth))
     return pd.DataFrame(rows)
 
@@ -57,8 +52,8 @@ def shares(values: pd.DataFrame, settings: dict) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def main(settings: dict, ensemble: dict) -> tuple[pd.DataFrame, dict[str, Finding]]:
-    table = shares(values_of(settings, ensemble), settings)
+def main(settings: dict, swept: Swept) -> tuple[pd.DataFrame, dict[str, Finding]]:
+    table = shares(values_of(settings, swept), settings)
     return table, findings(table)
 
 
@@ -77,7 +72,9 @@ def findings(certainty_shares: pd.DataFrame) -> dict[str, Finding]:
 
 
 def work(job: Any) -> tuple:
-    return main(job.params.settings, job.params.ensemble)
+    settings = job.params.settings
+    motions = settings["motions"]
+    return main(settings, read_answers(job.input.shards, "shares", job.params.ensemble, motions))
 
 
 if __name__ == "__main__":

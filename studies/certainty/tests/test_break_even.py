@@ -1,16 +1,18 @@
 """Where the benefit of the cap beam ends: sets, limits, and each condition of the findings."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pandas as pd
 import pytest
 
-from studies.certainty.changed import columns, subjects
-from studies.certainty.rated import stated
-from studies.certainty.steps import break_even, break_even_pulses, break_even_shard
+from steps.shared import sweep
+from steps.shared.second import by_scipy
+from studies.certainty.steps import break_even, break_even_pulses
 from studies.certainty.tests.test_rates import COLUMN as TEMPLE
 from studies.certainty.tests.test_rates import ENSEMBLE
+from studies.certainty.under import columns, lowered, stated
 from topheavy import Pulse, RockingFrame, overturned_by
 from topheavy.synthetic.ensemble import first_draws
 
@@ -19,8 +21,7 @@ CASE = {
     "sizes": [1.0, 2.0],
     "mass_ratios": [1e-12, 4.0],
     "deficits": {"highest": 1.0, "step": 0.25},
-    "run": "default",
-    "runs": {"default": {"shards": 2, "motions": 4}},
+    "motions": 4,
     "pgv": [0.6, 1.0],
     "scaled": [0.8],
     "bootstrap": {"resamples": 100, "confidence": 0.95},
@@ -38,8 +39,10 @@ PULSES = {
 
 @pytest.fixture(scope="module")
 def groups():
-    found = [break_even_shard.main(CASE, ENSEMBLE, shard) for shard in ("1-of-2", "2-of-2")]
-    return list(break_even.groups(pd.concat(found, ignore_index=True), CASE, ENSEMBLE))
+    asked = {str(place): lowered(one, CASE) for place, one in enumerate(columns(CASE))}
+    shards = [sweep.sweep(asked, ENSEMBLE, "1-of-1")]
+    answered = [sweep.answers(shards, name, ENSEMBLE, 4) for name in asked]
+    return list(break_even.groups(answered, CASE, ENSEMBLE))
 
 
 # Structures and gains -----------------------------------------------------------------------------
@@ -48,10 +51,10 @@ def groups():
 def test_columns_are_lowered_and_frames_are_not():
     small, large = columns(CASE)
     assert large == type(small)(1.0, 6.0)
-    under, own = subjects(small, CASE), small.restitution
-    lowered = [one.block.restitution for one in under if one.mass_ratio == 0.0]
-    assert lowered == pytest.approx([own, 0.75 * own, 0.5 * own, 0.25 * own, 0.0])
-    frames = [one.block for one in under if one.mass_ratio > 0.0]
+    under, own = lowered(small, CASE).subjects, small.restitution
+    ratios = [one.block.restitution for one in under if one.labels["mass_ratio"] == 0.0]
+    assert ratios == pytest.approx([own, 0.75 * own, 0.5 * own, 0.25 * own, 0.0])
+    frames = [one.block for one in under if one.labels["mass_ratio"] > 0.0]
     assert [under[0].block, *frames] == [
         RockingFrame(small, gamma).block() for gamma in (0.0, *CASE["mass_ratios"])
     ]
@@ -59,7 +62,7 @@ def test_columns_are_lowered_and_frames_are_not():
 
 def test_cells_have_the_benefit_of_the_counts(groups):
     """At each deficit, in the cells in which enough columns and not too many frames overturn."""
-    assert [(one.family, one.under[0].height) for one in groups] == [
+    assert [(one.family, one.under[0].labels["height"]) for one in groups] == [
         (family, height) for height in (6.0, 12.0) for family in ENSEMBLE["families"]
     ]
     group = groups[0]
@@ -88,17 +91,27 @@ def test_cells_have_the_benefit_of_the_counts(groups):
 def test_motions_are_resampled_within_each_earthquake(groups):
     """All columns overturn in one, and all frames in the other: no resample has a benefit."""
     group = groups[0]
-    first = group.motions.scenario.to_numpy() == 0
-    column = np.array([one.mass_ratio == 0.0 for one in group.under])
-    fell = np.broadcast_to((first[:, None] == column)[..., None], group.fell.shape)
-    for _, ends in break_even.ends(group._replace(fell=fell), CASE, 1):
+    first = group.swept.scenarios == 0
+    column = np.array([one.labels["mass_ratio"] == 0.0 for one in group.under])
+    fell = np.broadcast_to((first[:, None] == column)[..., None], group.swept.outcomes.shape)
+    changed = group._replace(swept=replace(group.swept, outcomes=fell))
+    for _, ends in break_even.ends(changed, CASE, 1):
         assert (ends == 0.0).all()
 
 
-def test_scipy_has_to_find_the_sampled_outcomes(groups):
-    assert break_even.confirmed(groups, CASE, ENSEMBLE).holds
-    wrong = [one._replace(fell=~one.fell) for one in groups]
-    assert not break_even.confirmed(wrong, CASE, ENSEMBLE).holds
+def test_sampled_outcomes_are_those_of_the_cells(groups):
+    cells = list(break_even.sampled(groups, CASE))
+    assert len(cells) == CASE["checked"]
+    assert by_scipy(cells) == {"told": CASE["checked"], "differ": 0}
+
+
+@pytest.mark.parametrize(("told", "differ", "holds"), [(3, 0, True), (3, 1, False), (0, 0, False)])
+def test_scipy_has_to_find_the_sampled_outcomes(groups, monkeypatch, told, differ, holds):
+    agreed = {"told": told, "differ": differ}
+    monkeypatch.setattr(break_even, "by_scipy", lambda cells: agreed)
+    monkeypatch.setattr(break_even, "groups", lambda *given: groups)
+    found = break_even.main(CASE, ENSEMBLE, [])[-1]["break_even_by_scipy"]
+    assert found.holds is holds
 
 
 # Where the benefit ends --------------------------------------------------------------------------

@@ -35,7 +35,7 @@ ENDS = "certainty_deficit_ends_the_benefit"
         (ENDS, f"or {EVEN['mass_ratios'][-1]:g} over columns of"),
         (ENDS, f"of {' or '.join(f'{6 * size:g}' for size in EVEN['sizes'])} m"),
         (ENDS, f"at {len(EVEN['pgv'] + EVEN['scaled'])} intensities"),
-        (ENDS, f"{EVEN['runs']['default']['motions'] * len(ENSEMBLE['scenarios'])} synthetic"),
+        (ENDS, f"{of_a_family('break_even')} synthetic"),
         ("certainty_probability_any_restitution", f"{of_a_family('restitution')} synthetic"),
         (
             "certainty_probability_any_restitution",
@@ -53,7 +53,7 @@ def test_claim_states_the_numbers_of_the_config(claim, words):
     assert words in " ".join(CLAIMS[claim]["statement"].split())
 
 
-@pytest.mark.parametrize("section", ["benefit", "intensities"])
+@pytest.mark.parametrize("section", ["benefit", "intensities", "rates", "break_even"])
 def test_stated_probabilities_take_all_motions_of_the_ensemble(section):
     assert CONFIG[section]["motions"] == ENSEMBLE["runs"][ENSEMBLE["run"]]["motions"]
 

@@ -8,7 +8,8 @@ import pandas as pd
 import pytest
 
 from replication.workbench import truth
-from studies.certainty.second import NEAR, beside_a_boundary, decided
+from steps.shared import sweep
+from steps.shared.second import NEAR, beside_a_boundary, by_scipy
 from studies.certainty.steps import (
     benefit,
     extensions,
@@ -18,6 +19,7 @@ from studies.certainty.steps import (
     restitution,
     theorem,
 )
+from studies.certainty.under import factored, supported
 from topheavy import Column, Record, RockingFrame, judge, reference
 from topheavy.synthetic.ensemble import first_draws
 
@@ -250,11 +252,6 @@ def test_half_of_the_scattered_sample_is_beside_a_boundary(intensity):
     assert set(others) == {True, False}
 
 
-def test_outcome_that_a_nudge_changes_is_not_decided():
-    found = [decided(lambda by: by > 1.0, factor) for factor in (0.9, 1.0, 1.0 + 1e-10, 1.1)]
-    assert found == [False, None, None, True]
-
-
 # What of the benefit remains ---------------------------------------------------------------------
 
 
@@ -289,11 +286,10 @@ def test_ranking_is_judged_by_whole_intervals_of_both_families(
         for family, said in families.items()
         for (way, factor), words in said.items()
     )
-    for name in ("fragilities", "outcomes"):
-        monkeypatch.setattr(benefit, name, lambda *arguments: None)
     monkeypatch.setattr(benefit, "differences", lambda *arguments: table)
-    monkeypatch.setattr(benefit, "confirmed", lambda *arguments: truth(True))
-    _, found = benefit.main({}, {})
+    monkeypatch.setattr(benefit, "sampled", lambda *arguments: [])
+    _, found = benefit.main({}, {"families": []}, None)
+    found = {name: one for name, one in found.items() if name != "second_route"}
     assert {name for name, one in found.items() if one.holds is False} == broken
     assert found["frame_is_safer"]["shrinks"]
     wide = table.assign(less_high=table.less_high + 0.6)
@@ -321,9 +317,15 @@ STATED = {
 }
 
 
-def test_difference_is_that_of_column_and_frame_under_motions_of_the_stated_velocity():
-    found = benefit.fragilities(STATED, ENSEMBLE)
-    table, under = benefit.differences(STATED, found), benefit.structures(STATED)
+@pytest.fixture(scope="module")
+def answered():
+    shard = sweep.sweep({"benefit": factored(STATED)}, ENSEMBLE, "1-of-1")
+    return sweep.answers([shard], "benefit", ENSEMBLE, STATED["motions"])
+
+
+def test_difference_is_that_of_column_and_frame_under_motions_of_the_stated_velocity(answered):
+    table = benefit.main(STATED, ENSEMBLE, answered)[0]
+    under = {one.labels["structure"]: one.block for one in factored(STATED).subjects}
     draws = first_draws(ENSEMBLE, STATED["motions"])
     assert len(table) == 2 * 4  # families, comparisons
     for row in table.itertuples():
@@ -342,43 +344,49 @@ def test_difference_is_that_of_column_and_frame_under_motions_of_the_stated_velo
     assert table.only_frame.any()
 
 
-def test_ranking_that_scipy_judges_otherwise_is_noticed(monkeypatch):
-    fell = benefit.outcomes(benefit.fragilities(STATED, ENSEMBLE))
-    right = benefit.confirmed(STATED, ENSEMBLE, fell)
-    assert right.holds
-    assert right["told"] == right["checked"] > 1
+def test_sampled_ranking_has_one_that_overturns_and_one_that_does_not(answered):
+    cells = list(benefit.sampled(STATED, answered))
+    assert len(cells) > 1
+    assert {fell for *_, fell in cells} == {True, False}
+    assert by_scipy(cells) == {"told": len(cells), "differ": 0}
 
-    def otherwise(structure, motion):
-        return SimpleNamespace(overturned=not reference.judge(structure, motion).overturned)
 
-    monkeypatch.setattr(benefit, "reference", SimpleNamespace(judge=otherwise))
-    found = benefit.confirmed(STATED, ENSEMBLE, fell)
-    assert not found.holds
-    assert found["differ"] == found["told"]
+@pytest.mark.parametrize(("told", "differ", "holds"), [(3, 0, True), (3, 1, False), (0, 0, False)])
+def test_scipy_has_to_find_the_sampled_outcomes(answered, monkeypatch, told, differ, holds):
+    for module in (benefit, intensities):
+        monkeypatch.setattr(module, "by_scipy", lambda cells: {"told": told, "differ": differ})
+    assert benefit.main(STATED, ENSEMBLE, answered)[-1]["second_route"].holds is holds
+    assert intensities.main(CASE, FAMILY, STRUCTURES, cells())[-1]["second_route"].holds is holds
 
 
 # Stated intensities ------------------------------------------------------------------------------
 
-UNDER = [
-    SimpleNamespace(name=f"{height} m temple", support=support, height=height)
-    for height in (6.0, 12.0)
-    for support in intensities.SUPPORTS
-]
-CASE = {"confidence": 0.95, "ample": {"height": 12.0, "pgv": 0.6, "probability": 0.1}}
+CASE = {
+    "columns": [{"structure": "temple", "scaled": k, "mass_ratio": 1.0} for k in (1.0, 2.0)],
+    "pgv": [0.6, 1.0],
+    "pga": [0.2],
+    "motions": 100,
+    "seed": 1,
+    "checked": 4,
+    "confidence": 0.95,
+    "ample": {"height": 12.0, "pgv": 0.6, "probability": 0.1},
+}
+STRUCTURES, FAMILY = {"temple": SIZES}, ENSEMBLE | {"families": ["near-fault"]}
 
 
 def cells(**fell):
     """Outcomes of 100 motions; `fell` counts what overturns a support at a level of a height."""
     usual = {"bare": 3, "free": 1, "fixed": 5}
-    return pd.concat(
-        pd.DataFrame(
-            {"family": "a", "structure": one.name, "support": one.support, "mass_ratio": 1.0}
-            | {"measure": "pgv", "level": level, "fell": np.arange(100) < number}
-        )
-        for one in UNDER
-        for level in (0.6, 1.0)
-        for number in [fell.get(f"{one.support}_{one.height:g}", {}).get(level, usual[one.support])]
-    )
+    draws, found = first_draws(FAMILY, 100), {}
+    for measure in ("pgv", "pga"):
+        asked, counts = supported(CASE, STRUCTURES, measure), []
+        for subject in asked.subjects:
+            support, height = subject.labels["support"], subject.labels["structure"].split()[0]
+            given = fell.get(f"{support}_{height}", {})
+            counts.append([given.get(level, usual[support]) for level in asked.levels.tolist()])
+        outcomes = np.arange(100)[:, None, None] < (measure == "pgv") * np.array(counts)
+        found[measure] = sweep.Swept(draws, np.full(100, 0.5), outcomes)
+    return found
 
 
 OTHERS = {"bare_12": {0.6: 30, 1.0: 30}, "fixed_12": {0.6: 40, 1.0: 40}}
@@ -398,10 +406,8 @@ OTHERS = {"bare_12": {0.6: 30, 1.0: 30}, "fixed_12": {0.6: 40, 1.0: 40}}
     ],
 )
 def test_probabilities_decide_what_they_are_about(monkeypatch, fell, broken, at_stated):
-    given = {"subjects": UNDER, "outcomes": cells(**fell)}
-    for name, found in (given | {"confirmed": truth(True)}).items():
-        monkeypatch.setattr(intensities, name, lambda *arguments, found=found: found)
-    _, found = intensities.main(CASE, {}, {})
+    monkeypatch.setattr(intensities, "by_scipy", lambda sample: {"told": 1, "differ": 0})
+    _, found = intensities.main(CASE, FAMILY, STRUCTURES, cells(**fell))
     assert {name for name, one in found.items() if one.holds is False} == broken
     assert found["ample_stability"].holds_when is at_stated
 

@@ -7,9 +7,12 @@ import pandas as pd
 import pytest
 
 import topheavy
+from steps.shared import sweep
 from studies.certainty.shapes import FAMILIES, record, single_lobe
 from studies.certainty.steps import benefit, extensions, intensities, lowest, restitution, theorem
+from studies.certainty.under import HIGHEST, changed, factored, supported
 from topheavy import Column, FixedMassColumn, Record, RockingFrame, judge, reference
+from topheavy.synthetic.ensemble import Draw
 
 COLUMN = Column(0.5, 3.0)
 SIZES = {"half_width": 0.5, "half_height": 3.0}
@@ -217,9 +220,10 @@ def test_library_takes_its_own_restitution_where_none_is_given():
 
 
 def test_factor_never_brings_restitution_above_the_highest():
-    assert restitution.changed(COLUMN, 1.05).restitution == restitution.HIGHEST == 0.995
-    assert restitution.changed(COLUMN, 0.9).restitution == pytest.approx(0.9 * COLUMN.restitution)
-    assert restitution.changed(COLUMN, 1.0) == COLUMN.block()
+    own = COLUMN.block()
+    assert changed(own, 1.05).restitution == HIGHEST == 0.995
+    assert changed(own, 0.9).restitution == pytest.approx(0.9 * own.restitution)
+    assert changed(own, 1.0) == own
 
 
 def test_factors_are_applied_to_column_and_frame_as_named():
@@ -247,17 +251,18 @@ def test_lowered_restitution_of_the_column_alone_reverses_the_order():
     assert table.helps["frame alone", 0.7] > table.helps["both", 1.0]
 
 
-BENEFIT = {"column": SIZES, "mass_ratio": 1.0, "factors": [0.9, 1.0]}
+BENEFIT = {"column": SIZES, "mass_ratio": 1.0, "factors": [0.9, 1.0], "pgv": 0.6, "motions": 1}
 
 
 def test_restitution_is_lowered_of_both_or_of_one_alone():
-    found, own = benefit.structures(BENEFIT), RockingFrame(COLUMN, 1.0)
+    own = RockingFrame(COLUMN, 1.0)
+    found = {one.labels["structure"]: one.block for one in factored(BENEFIT).subjects}
     for (way, factor), (column, frame) in benefit.compared([0.9, 1.0]).items():
         lowered = 1.0 if way == "frame alone" else factor
         assert found[column].restitution == pytest.approx(lowered * COLUMN.restitution)
         lowered = 1.0 if way == "column alone" else factor
         assert found[frame].restitution == pytest.approx(lowered * own.restitution)
-    assert found["frame"] == own
+    assert found["frame"] == own.block()
     ways = [("both", 0.9), ("both", 1.0), ("column alone", 0.9), ("frame alone", 0.9)]
     assert list(benefit.compared([0.9, 1.0])) == ways
 
@@ -270,26 +275,18 @@ STRUCTURES = {"temple": SIZES}
 
 def test_supports_carry_the_same_mass():
     case = {"columns": [{"structure": "temple", "scaled": 2.0, "mass_ratio": 1.5}]}
-    bare, free, fixed = intensities.subjects(case, STRUCTURES)
-    assert bare.structure == Column(1.0, 6.0)
-    assert free.structure == RockingFrame(Column(1.0, 6.0), 1.5)
-    assert fixed.structure == FixedMassColumn(Column(1.0, 6.0), 1.5)
-    assert {one.name for one in (bare, free, fixed)} == {"12 m temple"}
-
-
-@pytest.mark.parametrize("measure", ["pgv", "pga"])
-def test_motion_has_the_stated_intensity(measure):
-    shaken = Record(0.01, 0.3 * np.sin(np.linspace(0.0, 20.0, 400)))
-    scaled = shaken.scaled(0.5 / intensities.intensity(shaken, measure))
-    found = scaled.peak_velocity if measure == "pgv" else scaled.peak_acceleration
-    assert found == pytest.approx(0.5)
+    asked = supported(case | {"pgv": [0.4], "motions": 1}, STRUCTURES, "pgv").subjects
+    column = Column(1.0, 6.0)
+    same = column, RockingFrame(column, 1.5), FixedMassColumn(column, 1.5)
+    assert [one.block for one in asked] == [one.block() for one in same]
+    assert {one.labels["structure"] for one in asked} == {"12 m temple"}
+    assert [one.labels["support"] for one in asked] == ["bare", "free", "fixed"]
 
 
 def test_ample_stability_needs_the_upper_end_of_the_interval():
-    cells = pd.DataFrame(
-        {"family": "a", "structure": "s", "support": "free", "mass_ratio": 1.0}
-        | {"measure": "pgv", "level": 0.6, "fell": [False] * 30}
-    )
-    table = intensities.probabilities(cells, 0.95)
+    asked = sweep.Asked([sweep.Subject({"support": "free"}, COLUMN.block())], np.array([0.6]), 30)
+    draws = [Draw("a", 0, number, 0, None) for number in range(30)]
+    swept = sweep.Swept(draws, np.ones(30), np.zeros((30, 1, 1), dtype=bool))
+    table = intensities.probabilities({"pgv": (asked, swept)}, ["a"], 0.95)
     assert table.probability.item() == 0.0
-    assert intensities.worst(table, support="free") > 0.1  # thirty survivors do not show 10 %
+    assert intensities.worst(table) > 0.1  # thirty survivors do not show 10 %

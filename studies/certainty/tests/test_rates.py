@@ -1,17 +1,16 @@
 """Rates and probabilities of the step on rates, where the answer is known or judged anew."""
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pandas as pd
 import pytest
 
-from steps.shared.outcomes import written
-from studies.certainty.rated import BARE, FIXED, FREE, stated, subjects, velocities
-from studies.certainty.steps import rates, rates_check, rates_shard
-from topheavy import Column, FixedMassColumn, RockingFrame, judge
-from topheavy.synthetic.ensemble import draws
+from steps.shared import second, sweep
+from studies.certainty.steps import rates, rates_check
+from studies.certainty.under import BARE, FIXED, FREE, rated, stated, velocities
+from topheavy import Column, FixedMassColumn, RockingFrame
+from topheavy.synthetic.ensemble import first_draws
 
 COLUMN = Column(0.5, 3.0)
 ENSEMBLE = {
@@ -28,8 +27,7 @@ CASE = {
     "column": {"half_width": 0.5, "half_height": 3.0},
     "mass_ratios": [1.0, math.inf],
     "lowered": [0.1],
-    "run": "default",
-    "runs": {"default": {"shards": 2, "motions": 6}},
+    "motions": 6,
     "velocities": {"lowest": 0.125, "highest": 8.0, "points": 13},
     "pgv": [0.6, 1.0],
     "scaled": [0.8],
@@ -38,36 +36,33 @@ CASE = {
     "event": {"pgv": 0.5, "years": 400.0},
     "centuries": [1, 20],
     "bootstrap": {"resamples": 100, "confidence": 0.95},
-    "seed": 29,
+    "seed": 30,
     "sample": {"points": 8},
 }
-UNDER = subjects(CASE)
+UNDER = rated(CASE).subjects
+NAMES = [tuple(one.labels.values()) for one in UNDER]
 
 
 @pytest.fixture(scope="module")
-def shards() -> pd.DataFrame:
-    found = [rates_shard.main(CASE, ENSEMBLE, shard) for shard in ("1-of-2", "2-of-2")]
-    return pd.concat(found, ignore_index=True)
+def swept() -> sweep.Swept:
+    asked = {"rates": rated(CASE)}
+    shards = [sweep.sweep(asked, ENSEMBLE, shard) for shard in ("1-of-2", "2-of-2")]
+    return sweep.answers(shards, "rates", ENSEMBLE, 6)
 
 
 def overturning_from(*capacities, seconds=None):
-    """Shards in which each structure overturns from its PGV on; the second earthquake's `seconds`.
+    """Outcomes with which each structure overturns from its PGV on; the second quake's `seconds`.
 
-    Structures are in the order of `subjects`: two columns, then two with each kind of cap beam.
+    Structures are in the order of `rated`: two columns, then two with each kind of cap beam.
     """
-    return pd.DataFrame(
-        {"family": family, "scenario": place, "motion": number, "pgv": 0.5}
-        | subject.labels
-        | {"outcomes": written(velocities(CASE) >= capacity)}
-        for family in ENSEMBLE["families"]
-        for place, those in enumerate((capacities, seconds or capacities))
-        for number in range(6)
-        for subject, capacity in zip(UNDER, those, strict=True)
-    )
+    of_quakes = [np.array(those) for those in (capacities, seconds or capacities)]
+    draws = first_draws(ENSEMBLE, 6)
+    outcomes = [velocities(CASE) >= of_quakes[draw.place][:, None] for draw in draws]
+    return sweep.Swept(draws, np.full(len(draws), 0.5), np.array(outcomes))
 
 
-def found_in(table):
-    return list(rates.ensembles(table, CASE, ENSEMBLE))
+def found_in(swept):
+    return list(rates.ensembles(swept, CASE, ENSEMBLE))
 
 
 # Structures and outcomes --------------------------------------------------------------------------
@@ -81,7 +76,7 @@ def test_structures_have_the_same_columns_and_cap_beams():
         *(FixedMassColumn(COLUMN, gamma) for gamma in CASE["mass_ratios"]),
     ]
     assert [one.block for one in UNDER[2:]] == [one.block() for one in expected]
-    names = [one.structure for one in UNDER]
+    names = [name for name, *_ in NAMES]
     assert names == [BARE] * 2 + [FREE] * 2 + [FIXED] * 2
 
 
@@ -90,25 +85,8 @@ def test_stated_intensity_is_that_of_the_column():
     assert COLUMN.frequency_parameter * pgv / (9.81 / 6.0) == pytest.approx(level)
 
 
-def test_outcomes_are_those_of_the_scaled_motions(shards):
-    assert len(shards) == 2 * 2 * 6 * len(UNDER)
-    every = draws({**ENSEMBLE, "runs": {"default": {"motions": 6}}})
-    motions = {tuple(draw.labels.values()): draw.record() for draw in every}
-    compared = 0
-    for row in shards.iloc[::17].itertuples():
-        record = motions[row.family, row.scenario, row.motion]
-        labels = (row.structure, row.mass_ratio, row.lowered)
-        (block,) = (one.block for one in UNDER if tuple(one.labels.values()) == labels)
-        scaled = [record.scaled(v / record.peak_velocity) for v in velocities(CASE)]
-        assert scaled[0].peak_velocity == pytest.approx(0.125)
-        assert row.outcomes == written([judge(block, one).overturned for one in scaled])
-        assert row.pgv == record.peak_velocity
-        compared += 1
-    assert compared > 5
-
-
-def test_sample_is_judged_again_on_all_structures_in_turn(shards):
-    checks, found = rates_check.main(CASE, ENSEMBLE, shards, 3e-12)
+def test_sample_is_judged_again_on_all_structures_in_turn(swept):
+    checks, found = rates_check.main(CASE, ENSEMBLE, swept, 3e-12)
     counts = checks.groupby(["family", "structure", "mass_ratio", "lowered"]).size()
     assert set(counts) == {2}
     assert len(counts) == 4
@@ -121,21 +99,28 @@ def test_sample_is_judged_again_on_all_structures_in_turn(shards):
         assert not rates_check.findings(checks.assign(decided=False))[route].holds
 
 
+def test_sampled_motion_has_the_outcome_of_its_cell(swept):
+    random = np.random.default_rng(3)
+    for number in range(12):
+        near, place = bool(number % 2), number % len(UNDER)
+        cell = rates_check.cell(UNDER[place].block, swept, place, CASE, near, random)
+        _, motion, falls = cell
+        assert second.overturns(UNDER[place].block, motion, 1.0) == falls
+
+
 # Rates --------------------------------------------------------------------------------------------
 
 
 def test_rate_is_the_hazard_from_the_boundary_on():
     """Boundaries are midway between levels, which double every other step: 0.5, 0.707, 1, 1.41."""
     table = overturning_from(1.0, 0.7, 1.4, 9.0, 0.7, 0.5)
-    for motions in found_in(table):
-        found = pd.DataFrame(rates.rates(motions, CASE))
+    for labels, _, outcomes in found_in(table):
+        found = pd.DataFrame(rates.rates(labels, outcomes, CASE))
         assert np.allclose(
             found.rate_low, found.rate_high, rtol=1e-12
         )  # every motion has the same boundary
         for row in found.itertuples():
-            place = [tuple(one.labels.values()) for one in UNDER].index(
-                (row.structure, row.mass_ratio, row.lowered)
-            )
+            place = NAMES.index((row.structure, row.mass_ratio, row.lowered))
             capacity = (1.0, 0.7071, 1.4142, math.inf, 0.7071, 0.5)[place]
             edge = capacity / 2.0**0.25
             exact = edge**-2.0 - row.highest**-2.0 if edge < row.highest else 0.0
@@ -148,30 +133,22 @@ def test_rate_is_the_hazard_from_the_boundary_on():
 
 def test_motions_are_resampled_within_their_earthquake():
     one = overturning_from(*[0.5] * 6, seconds=[2.0] * 6)
-    both, first, second = found_in(one)[:3]
-    assert [m.labels["earthquake"] for m in (both, first, second)] == ["both", "M 6.5", "M 7.3"]
-    for motions, shares in ((both, (0.5, 1.0)), (first, (1.0, 1.0)), (second, (0.0, 1.0))):
+    both, *apart = found_in(one)[:3]
+    names = [labels["earthquake"] for labels, *_ in (both, *apart)]
+    assert names == ["both", "M 6.5", "M 7.3"]
+    for (_, _, found), shares in (
+        (both, (0.5, 1.0)),
+        (apart[0], (1.0, 1.0)),
+        (apart[1], (0.0, 1.0)),
+    ):
         at = [np.flatnonzero(np.isclose(velocities(CASE), v))[0] for v in (1.0, 4.0)]
-        assert motions.means(motions.outcomes, CASE)[:, 0, at] == pytest.approx(
-            np.tile(shares, (101, 1))
-        )
-    assert len(both.outcomes) == 2 * len(first.outcomes) == 12
+        assert found.means()[:, 0, at] == pytest.approx(np.tile(shares, (101, 1)))
+    assert len(both[-1].outcomes) == 2 * len(apart[0][-1].outcomes) == 12
 
 
-def test_order_of_the_shards_does_not_matter(shards):
-    table = shards.sort_values("motion", ascending=False, kind="stable")
-    for one, other in zip(found_in(shards), found_in(table), strict=True):
-        np.testing.assert_array_equal(one.outcomes, other.outcomes)
-
-
-def test_shard_that_is_not_complete_is_named(shards):
-    with pytest.raises(ValueError, match="near-fault: 71 rows of outcomes; expected 12"):
-        found_in(shards[1:])
-
-
-def test_difference_of_probabilities_is_that_of_the_column(shards):
-    for motions in found_in(shards):
-        table = rates.probabilities(motions, CASE)
+def test_difference_of_probabilities_is_that_of_the_column(swept):
+    for labels, _, outcomes in found_in(swept):
+        table = rates.probabilities(labels, outcomes, CASE)
         own = table[(table.structure == BARE)].set_index(["lowered", "measure", "level"])
         for row in table[table.structure == FREE].itertuples():
             column = own.loc[(row.column, row.measure, row.level)]
@@ -182,8 +159,7 @@ def test_difference_of_probabilities_is_that_of_the_column(shards):
 
 
 def test_factors_bring_motions_to_the_stated_velocity():
-    table = overturning_from(*[0.5] * 6)  # every motion has a PGV of 0.5 m/s
-    rows = rates.scales(found_in(table)[0], CASE)
+    rows = rates.scales({}, np.full(24, 0.5), CASE)  # every motion has a PGV of 0.5 m/s
     assert [(row["pgv"], row["median"], row["p95"]) for row in rows] == [
         (0.6, pytest.approx(1.2), pytest.approx(1.2)),
         (1.0, pytest.approx(2.0), pytest.approx(2.0)),
@@ -191,10 +167,9 @@ def test_factors_bring_motions_to_the_stated_velocity():
 
 
 def test_ninety_fifth_percentile_of_the_factors_is_not_the_ninetieth():
-    (motions,) = found_in(overturning_from(*[0.5] * 6))[:1]
-    motions = replace(motions, pgv=np.linspace(0.3, 0.6, 41))
-    row = rates.scales(motions, CASE)[0]
-    factors = np.sort(row["pgv"] / motions.pgv)
+    peaks = np.linspace(0.3, 0.6, 41)
+    row = rates.scales({}, peaks, CASE)[0]
+    factors = np.sort(row["pgv"] / peaks)
     assert row["p95"] == pytest.approx(factors[38])  # of 41: 95 % of the way to the last
     assert row["median"] == pytest.approx(factors[20])
 

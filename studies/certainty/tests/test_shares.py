@@ -1,9 +1,14 @@
 """Shares in a probability: their sum, and the finding where one is too small."""
 
+import numpy as np
 import pandas as pd
 import pytest
 
+from steps.shared import sweep
 from studies.certainty.steps import shares
+from studies.certainty.tests.test_rates import ENSEMBLE
+from studies.certainty.under import exchanges
+from topheavy.synthetic.ensemble import first_draws
 
 CASE = {"seed": 1, "resamples": 200, "confidence": 0.95}
 
@@ -32,3 +37,16 @@ def test_shares_add_up_and_are_those_of_the_sums():
 def test_slenderness_has_most_if_its_interval_is_above_one_half(alpha, root_r, holds):
     table = shares.shares(values(alpha, root_r), CASE)
     assert shares.findings(table)["slenderness_has_most"].holds is holds
+
+
+def test_worth_of_a_block_is_that_it_survives():
+    """All that have α of the fixed mass overturn, and no others: α has all."""
+    case = CASE | {"column": {"half_width": 0.5, "half_height": 3.0}, "motions": 1}
+    case |= {"mass_ratios": [1.0, 4.0], "pgv": [0.4, 0.6]}
+    fixed = ["α" not in one.labels["free"] for one in exchanges(case).subjects]
+    draws = first_draws(ENSEMBLE, 1)
+    outcomes = np.broadcast_to(np.array(fixed)[:, None], (len(draws), len(fixed), 2))
+    found = shares.values_of(case, sweep.Swept(draws, np.ones(len(draws)), outcomes))
+    assert len(found) == len(draws) * 2 * 2
+    assert found.α.to_numpy() == pytest.approx(1.0)
+    assert not found[["p", "√r"]].any(axis=None)

@@ -13,7 +13,6 @@ import time
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 
 from replication.inputs.strict_yaml import read_yaml
 from replication.kill.tree_copy import copy_tree
@@ -32,12 +31,14 @@ def config() -> tuple[dict, dict]:
 
 def motions(part: int) -> tuple[int, int]:
     """Compute one of `part` shards of the ensemble; return its motions and its histories."""
-    from studies.reversals.steps.motions_shard import main
+    from steps.shared.sweep import sweep
+    from studies.reversals.under import frames_and_columns
 
     study, structures = config()
-    table = main(study["motions_ensemble"], structures, f"1-of-{part}")
-    cells = table.outcomes.str.len().sum()
-    return table.groupby(["family", "scenario"]).motion.nunique().sum(), int(cells)
+    asked = frames_and_columns(study["motions_ensemble"], structures)
+    found = sweep(asked, study["motions_ensemble"], f"1-of-{part}")
+    outcomes = [of for name, of in found.items() if name.endswith("outcomes")]
+    return max(map(len, outcomes)), sum(of.size for of in outcomes)
 
 
 def grid(part: int) -> tuple[int, int]:
@@ -54,41 +55,28 @@ def grid(part: int) -> tuple[int, int]:
 
 
 def gather(number: int) -> tuple[int, int]:
-    """Gather random outcomes of so many motions of each scenario; return motions and histories."""
+    """Read random outcomes of so many motions of each scenario; return motions and histories.
+
+    The motions overturn at lognormal intensities.
+    """
+    from steps.shared.sweep import Swept
     from studies.reversals.steps.motions_fragility import main
+    from studies.reversals.under import frames_and_columns, intensities
+    from topheavy.synthetic.ensemble import first_draws
 
     study, structures = config()
-    settings = study["motions_ensemble"]
-    settings["runs"]["default"]["motions"] = number
-    with tempfile.TemporaryDirectory() as folder:
-        subprocess.run([sys.executable, __file__, "outcomes", str(number), folder], check=True)
-        paths = sorted(map(str, Path(folder).glob("*.csv")))
-        main(settings, structures, paths)
-        letters = sum(pd.read_csv(path).outcomes.str.len().sum() for path in paths)
-    return 4 * number, int(letters)
-
-
-def outcomes(number: int, folder: str) -> None:
-    """Write tables like those of the shards; the motions overturn at lognormal intensities."""
-    from steps.shared.outcomes import written
-    from topheavy.synthetic.ensemble import draws, intensities, subjects
-
-    study, structures = config()
-    settings = study["motions_ensemble"]
-    settings["runs"]["default"]["motions"] = number
-    levels, random = intensities(settings), np.random.default_rng(SEED)
-    under, shards = list(subjects(settings, structures)), settings["runs"]["larger"]["shards"]
-    for shard in range(shards):
-        rows = []
-        for draw in draws(settings)[shard::shards]:
-            strength = random.normal(0.0, 0.3)
-            for subject in under:
-                if draw.number < subject.share * number:
-                    gain = 0.1 * min(subject.frame.mass_ratio or subject.enlarged, 2.0)
-                    fell = np.log(levels) > strength + gain + random.normal(0.0, 0.05)
-                    rows.append(draw.labels | subject.labels | {"outcomes": written(fell)})
-        if rows:
-            pd.DataFrame(rows).to_csv(Path(folder, f"{shard}.csv"), index=False)
+    settings, random = study["motions_ensemble"], np.random.default_rng(SEED)
+    settings["runs"][settings["run"]]["motions"] = number
+    answered = {}
+    for name, asked in frames_and_columns(settings, structures).items():
+        draws = first_draws(settings, asked.motions)
+        gammas = [one.labels["mass_ratio"] or one.labels["as_large_as"] for one in asked.subjects]
+        capacity = random.normal(0.0, 0.3, (len(draws), 1)) + 0.1 * np.minimum(gammas, 2.0)
+        capacity += random.normal(0.0, 0.05, capacity.shape)
+        fell = np.log(intensities(settings)) > capacity[..., None]
+        answered[name] = Swept(draws, np.ones(len(draws)), fell)
+    main(settings, structures, answered)
+    return 4 * number, sum(one.outcomes.size for one in answered.values())
 
 
 def graph(shards: int) -> tuple[int, int]:
@@ -158,7 +146,5 @@ if __name__ == "__main__":
     match sys.argv[1:]:
         case []:
             main()
-        case ["outcomes", number, folder]:
-            outcomes(int(number), folder)
         case [name, size]:
             measured(name, size)

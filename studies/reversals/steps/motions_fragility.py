@@ -4,144 +4,80 @@ Intervals are those of motions drawn anew from the ensemble; frames stay paired 
 Families of motions are kept apart.
 """
 
-import csv
-import heapq
 import itertools
 import math
-from collections.abc import Iterator
-from contextlib import ExitStack
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from operator import itemgetter
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from replication.workbench import Finding, run, truth, value
-from steps.shared.outcomes import FALLS, read
-from topheavy.fragility import resampling
+from steps.shared.sweep import Subject, Swept, read_answers
+from studies.reversals.under import frames_and_columns, intensities, unit
+from topheavy import Column
 from topheavy.fragility.curve import curve, fit, medians, why_no_median
+from topheavy.fragility.ensemble import Ensemble
 from topheavy.fragility.gain import mass_ratios_of_gain
 from topheavy.structures import size_ratio
-from topheavy.synthetic.ensemble import Subject, intensities, subjects
 
-SUBJECT = ["mass_ratio", "as_large_as"]
 TINY = 1e-12  # a share: where no cell differs, none is reversed
 
 
 @dataclass(frozen=True, eq=False)
-class Ensemble:
+class Case:
     """One family of motions on the frames and columns of one structure."""
 
     family: str
-    subjects: list[Subject]
-    motions: int
+    subjects: Sequence[Subject]
+    unit: float  # PGV in m/s at a level of 1
     levels: np.ndarray
-    confidence: float
+    found: Ensemble
 
     @property
     def labels(self) -> dict:
-        return {"family": self.family, "structure": self.subjects[0].structure}
+        return {"family": self.family, "structure": self.subjects[0].labels["structure"]}
+
+    @property
+    def motions(self) -> int:
+        return len(self.found.outcomes)
 
     @property
     def frames(self) -> dict[float, int]:
         """The places of the frames, by γ."""
-        return {s.frame.mass_ratio: i for i, s in enumerate(self.subjects) if not s.enlarged}
+        each = enumerate(one.labels for one in self.subjects)
+        return {of["mass_ratio"]: place for place, of in each if not of["as_large_as"]}
 
-    def place(self, as_large_as: float) -> int:
-        """The place of the solitary column that is as large as R̂ of this γ."""
-        return [subject.enlarged for subject in self.subjects].index(as_large_as)
-
-    def bounds(self, name: str, values: np.ndarray) -> dict:
-        """Return a value of resamples and its interval, named for a table."""
-        keys = (name, f"{name}_low", f"{name}_high")
-        return dict(zip(keys, resampling.interval(values, self.confidence), strict=True))
+    @property
+    def columns(self) -> dict[float, int]:
+        """The places of the solitary columns, by the γ of the frame that is as large."""
+        each = enumerate(one.labels for one in self.subjects)
+        return {of["as_large_as"]: place for place, of in each if of["as_large_as"]}
 
 
-def ensembles(settings: dict, structures: dict) -> dict[tuple[str, str], Ensemble]:
-    """Return the ensembles by family and structure, in the order of the tables."""
-    under, levels = list(subjects(settings, structures)), intensities(settings)
-    each, confidence = (
-        settings["runs"][settings["run"]]["motions"],
-        settings["bootstrap"]["confidence"],
-    )
-    found = {}
+def cases(settings: dict, structures: dict, answered: Mapping[str, Swept]) -> Iterator[Case]:
+    """Yield the outcomes by family and structure, in the order of the tables."""
+    asked, levels = frames_and_columns(settings, structures), intensities(settings)
     for family in settings["families"]:
-        for entry in settings["cases"]:
-            mine = [subject for subject in under if subject.structure == entry["structure"]]
-            motions = len(settings["scenarios"]) * math.ceil(entry["share"] * each)
-            found[family, entry["structure"]] = Ensemble(family, mine, motions, levels, confidence)
-    return found
+        for name, one in asked.items():
+            outcomes = answered[name].of_family(family).outcomes
+            found = Ensemble(outcomes, None, seed=settings["seed"], **settings["bootstrap"])
+            yield Case(family, one.subjects, unit(Column(**structures[name])), levels, found)
 
 
-def gathered(
-    paths: list[str], settings: dict, structures: dict
-) -> Iterator[tuple[Ensemble, list[np.ndarray]]]:
-    """Yield each ensemble with its means: of the outcomes, then of `differing`.
-
-    Outcomes of `resampling.BLOCK` motions are in memory, however many there are.
-    """
-    found, boot = ensembles(settings, structures), settings["bootstrap"]
-    sums = {
-        key: resampling.ResampledMeans(ensemble.motions, boot["resamples"], settings["seed"])
-        for key, ensemble in found.items()
-    }
-    waiting: dict[tuple[str, str], list] = {key: [] for key in found}
-
-    def add(key: tuple[str, str]) -> None:
-        texts = [text for motion in waiting[key] for text in motion]
-        ensemble = found[key]
-        fell = read(texts).reshape(-1, len(ensemble.subjects), ensemble.levels.size) == FALLS
-        sums[key].add([fell, *differing(ensemble, fell)])
-        waiting[key].clear()
-
-    labels = {
-        key: [(s.enlarged, s.frame.mass_ratio) for s in ensemble.subjects]
-        for key, ensemble in found.items()
-    }
-    for key, cells in motions(paths, settings["families"]):
-        waiting[key].append([cells[one] for one in labels[key]])
-        if len(waiting[key]) == resampling.BLOCK:
-            add(key)
-    for key, ensemble in found.items():
-        if waiting[key]:
-            add(key)
-        yield ensemble, sums[key].means()
-
-
-def motions(paths: list[str], families: list[str]) -> Iterator[tuple[tuple[str, str], dict]]:
-    """Yield family and structure of every motion, and its outcomes by (as_large_as, mass_ratio).
-
-    They come in the order of the ensemble, which every shard has, whatever shards there are.
-    """
-
-    def number(row: dict) -> tuple[int, int, int]:
-        return families.index(row["family"]), int(row["scenario"]), int(row["motion"])
-
-    with ExitStack() as stack:
-        files = [stack.enter_context(open(path, encoding="utf-8", newline="")) for path in paths]
-        rows = heapq.merge(*map(csv.DictReader, files), key=number)
-        for (family, structure, *_), cells in itertools.groupby(
-            rows, itemgetter("family", "structure", "scenario", "motion")
-        ):
-            outcomes = {
-                (float(c["as_large_as"]), float(c["mass_ratio"])): c["outcomes"] for c in cells
-            }
-            yield (family, structure), outcomes
-
-
-def curves(ensemble: Ensemble, means: np.ndarray) -> pd.DataFrame:
+def curves(case: Case, means: np.ndarray) -> pd.DataFrame:
     """Return fragility over intensity, and by how much it is below that of the lightest frame."""
-    fits = curve(ensemble.levels, fit(ensemble.levels, means[0], skewed=True))
+    fits = curve(case.levels, fit(case.levels, means[0], skewed=True))
     tables = []
-    for place, subject in enumerate(ensemble.subjects):
+    for place, subject in enumerate(case.subjects):
         tables.append(
-            ensemble.labels
-            | {key: subject.labels[key] for key in SUBJECT}
-            | {"intensity": ensemble.levels, "pgv": ensemble.levels * subject.unit}
-            | ensemble.bounds("probability", means[:, place])
+            case.labels
+            | subject.labels
+            | {"intensity": case.levels, "pgv": case.levels * case.unit}
+            | case.found.bounds("probability", means[:, place])
             | {"fitted": fits[place]}
-            | ensemble.bounds("less", means[:, 0] - means[:, place])
+            | case.found.bounds("less", means[:, 0] - means[:, place])
         )
     return pd.concat(map(pd.DataFrame, tables))
 
@@ -160,31 +96,31 @@ def middles(levels: np.ndarray, shares: np.ndarray) -> np.ndarray:
     return found
 
 
-def capacities(ensemble: Ensemble, middle: np.ndarray) -> pd.DataFrame:
+def capacities(case: Case, middle: np.ndarray) -> pd.DataFrame:
     """Return the median capacity of each, and by how much it is above that of the lightest."""
     rows = []
-    for place, subject in enumerate(ensemble.subjects):
-        gamma = subject.enlarged or subject.frame.mass_ratio
+    for place, subject in enumerate(case.subjects):
+        gamma = subject.labels["as_large_as"] or subject.labels["mass_ratio"]
         gain = middle[:, place] / middle[:, 0] - 1.0
         rows.append(
-            ensemble.labels
-            | {key: subject.labels[key] for key in SUBJECT}
-            | {"motions": ensemble.motions, "size_gain": size_ratio(gamma) - 1.0}
+            case.labels
+            | subject.labels
+            | {"motions": case.motions, "size_gain": size_ratio(gamma) - 1.0}
             | {"expected_gain": math.sqrt(size_ratio(gamma)) - 1.0}
-            | ensemble.bounds("median", middle[:, place])
-            | {"median_pgv": middle[0, place] * subject.unit}
-            | ensemble.bounds("gain", gain)
+            | case.found.bounds("median", middle[:, place])
+            | {"median_pgv": middle[0, place] * case.unit}
+            | case.found.bounds("gain", gain)
         )
     return pd.DataFrame(rows)
 
 
-def differing(ensemble: Ensemble, outcomes: np.ndarray) -> list[np.ndarray]:
+def differing(case: Case, outcomes: np.ndarray) -> list[np.ndarray]:
     """Return for each pair of frames the cells in which only the lighter, only the heavier falls.
 
     The outcomes have the shape (motions, subjects, levels).
     """
     found = []
-    for i, j in itertools.combinations(ensemble.frames.values(), 2):
+    for i, j in itertools.combinations(case.frames.values(), 2):
         one, other = outcomes[:, i], outcomes[:, j]
         found += [one & ~other, other & ~one]
     return found
@@ -200,63 +136,58 @@ def over_levels(shares: np.ndarray) -> np.ndarray:
     return shares @ (weights / weights.sum())
 
 
-def pairs(ensemble: Ensemble, means: list[np.ndarray]) -> pd.DataFrame:
+def pairs(case: Case, means: list[np.ndarray]) -> pd.DataFrame:
     """Return for each pair of frames the shares of cells, motions at levels, that differ.
 
     `means` are those of `differing`; the shares are means over the levels. `reversed` is the share
     of these in which the heavier falls.
     """
     rows = []
-    cells = ensemble.motions * ensemble.levels.size
-    of_pairs = itertools.combinations(ensemble.frames, 2)
+    cells = case.motions * case.levels.size
+    of_pairs = itertools.combinations(case.frames, 2)
     both = zip(means[::2], means[1::2], strict=True)
     for (light, heavy), shares in zip(of_pairs, both, strict=True):
         bought, lost = map(over_levels, shares)
         rows.append(
-            ensemble.labels
+            case.labels
             | {"lighter": light, "heavier": heavy, "cells": cells}
-            | ensemble.bounds("only_lighter", bought)
-            | ensemble.bounds("only_heavier", lost)
-            | ensemble.bounds("reversed", lost / (bought + lost + TINY))
+            | case.found.bounds("only_lighter", bought)
+            | case.found.bounds("only_heavier", lost)
+            | case.found.bounds("reversed", lost / (bought + lost + TINY))
         )
     return pd.DataFrame(rows)
 
 
-def falls(ensemble: Ensemble, means: np.ndarray) -> pd.DataFrame:
+def falls(case: Case, means: np.ndarray) -> pd.DataFrame:
     """Return by how much each frame's fragility is below that of every lighter one.
 
     Small rises from frame to frame could add up; comparing neighbours would not show it.
     """
-    light, heavy = np.transpose([*itertools.combinations(ensemble.frames.values(), 2)])
+    light, heavy = np.transpose([*itertools.combinations(case.frames.values(), 2)])
     less = means[:, light] - means[:, heavy]
     return pd.DataFrame(
-        {key: np.ravel(found) for key, found in ensemble.bounds("less", less).items()}
+        {key: np.ravel(found) for key, found in case.found.bounds("less", less).items()}
     )
 
 
-def beyond_size(ensemble: Ensemble, middle: np.ndarray) -> list[dict]:
+def beyond_size(case: Case, middle: np.ndarray) -> list[dict]:
     """Return by how much medians of frames exceed those of solitary columns as large."""
     return [
-        ensemble.labels
-        | {"mass_ratio": subject.enlarged}
-        | plain(
-            ensemble.bounds(
-                "excess", middle[:, ensemble.frames[subject.enlarged]] / middle[:, place] - 1.0
-            )
-        )
-        for place, subject in enumerate(ensemble.subjects)
-        if subject.enlarged
+        case.labels
+        | {"mass_ratio": gamma}
+        | plain(case.found.bounds("excess", middle[:, case.frames[gamma]] / middle[:, place] - 1.0))
+        for gamma, place in case.columns.items()
     ]
 
 
-def shares_of_gain(ensemble: Ensemble, middle: np.ndarray, shares: list[float]) -> list[dict]:
+def shares_of_gain(case: Case, middle: np.ndarray, shares: list[float]) -> list[dict]:
     """Return the γ that bring shares of the gain, where frames go up to γ = ∞."""
-    frames = ensemble.frames
+    frames = case.frames
     if math.inf not in frames:
         return []
     found = mass_ratios_of_gain(list(frames), middle[:, list(frames.values())], shares)
     return [
-        ensemble.labels | {"share": share} | plain(ensemble.bounds("mass_ratio", values))
+        case.labels | {"share": share} | plain(case.found.bounds("mass_ratio", values))
         for share, values in zip(shares, found.T, strict=True)
     ]
 
@@ -284,18 +215,20 @@ def plain(bounds: dict) -> dict:
 
 
 def main(
-    settings: dict, structures: dict, paths: list[str]
+    settings: dict, structures: dict, answered: Mapping[str, Swept]
 ) -> tuple[dict[str, pd.DataFrame], dict]:
     tables, order, beyond, shares = {"fragility": [], "medians": [], "pairs": []}, [], [], []
-    for ensemble, (means, *of_pairs) in gathered(paths, settings, structures):
-        middle = middles(ensemble.levels, means)
-        tables["fragility"].append(curves(ensemble, means))
-        tables["medians"].append(capacities(ensemble, middle))
-        tables["pairs"].append(pairs(ensemble, of_pairs))
-        order.append(falls(ensemble, means))
-        beyond += beyond_size(ensemble, middle)
-        shares += shares_of_gain(ensemble, middle, settings["shares_of_gain"])
-        print(ensemble.labels, ensemble.motions, "motions", flush=True)
+    for case in cases(settings, structures, answered):
+        means = case.found.means()
+        of_pairs = list(map(case.found.means, differing(case, case.found.outcomes)))
+        middle = middles(case.levels, means)
+        tables["fragility"].append(curves(case, means))
+        tables["medians"].append(capacities(case, middle))
+        tables["pairs"].append(pairs(case, of_pairs))
+        order.append(falls(case, means))
+        beyond += beyond_size(case, middle)
+        shares += shares_of_gain(case, middle, settings["shares_of_gain"])
+        print(case.labels, case.motions, "motions", flush=True)
     tables = {name: pd.concat(parts) for name, parts in tables.items()}
     drawn = findings(tables["pairs"], tables["fragility"])
     safer = drawn["heavier_is_safer"]
@@ -334,7 +267,12 @@ def findings(reversals_pairs: pd.DataFrame, reversals_fragility: pd.DataFrame) -
 
 
 def work(job: Any) -> tuple:
-    tables, findings = main(job.params.settings, job.params.structures, job.input.shards)
+    settings, structures = job.params.settings, job.params.structures
+    answered = {
+        name: read_answers(job.input.shards, name, settings, asked.motions)
+        for name, asked in frames_and_columns(settings, structures).items()
+    }
+    tables, findings = main(settings, structures, answered)
     return tables["fragility"], tables["pairs"], tables["medians"], findings
 
 

@@ -18,19 +18,54 @@ from steps.shared.peak_forces import (
     RIGID,
     bending,
     held,
+    held_peaks,
     ratio_of,
     rocking_peaks,
+    shear_after_uplift,
 )
-from studies.reversals.steps.motions_uplift_shard import cap_of
-from studies.reversals.steps.motions_vase import factors
+from steps.shared.spectrum import progress
+from studies.reversals.under import unit
 from topheavy import Cap, Column, RockingFrame, reference, simulate
 from topheavy.fragility.resampling import interval, resampled
 from topheavy.synthetic.ensemble import Draw, first_draws
 
+STEPS = 60  # in a period of the held frame; a peak is off by 1.4e-3 at most
 CLOSE = 1e-6  # relative: what the peaks of two solvers may differ by
 ROCKS = 0.1  # of α: histories that rock this far are judged again
 
 UNDRAWN = "its table has means of ratios, and the findings count single ones"
+
+
+def cap_of(settings: dict) -> Cap:
+    return Cap(settings["cap"]["span"], settings["cap"]["depth"] / 2.0)
+
+
+def histories(draw: Draw, frames: list[RockingFrame], cap: Cap, settings: dict) -> list[dict]:
+    """Return a row for each frame and intensity under one motion."""
+    record, rows = draw.record(), []
+    beside = held_peaks(frames, cap, record, settings["periods"], STEPS)
+    levels = unit(frames[0].column) * np.array(settings["intensities"])
+    scales = levels / record.peak_velocity
+    scaled = [record.scaled(factor) for factor in scales]
+    for frame, fixed in zip(frames, beside, strict=True):
+        for intensity, factor, motion in zip(settings["intensities"], scales, scaled, strict=True):
+            found = rocking_peaks(frame, cap, motion, settings["points"])
+            peak = factor * record.peak_acceleration
+            row = draw.labels | {
+                "mass_ratio": frame.mass_ratio,
+                "intensity": intensity,
+                "samples": record.acceleration.size,
+                "outcome": found.outcome,
+                "rotation": found.rotation,
+                "impulse": found.impulse,
+                "error": found.error,
+                "over_uplift": found.forces["base_shear"] / shear_after_uplift(frame, peak),
+            }
+            for name in FORCES:
+                for one, forces in fixed.items():
+                    row[ratio_of(name, *one)] = found.forces[name] / (forces[name] * factor)
+            rows.append(row)
+    return rows
 
 
 def summary(table: pd.DataFrame, settings: dict, boot: Mapping[str, Any]) -> pd.DataFrame:
@@ -69,7 +104,7 @@ def second_route(
     large = rocked[rocked.rotation > ROCKS].sort_values("samples", kind="stable")
     for row in large[: settings["checked_by_second_route"]].itertuples():
         record = motions[row.family, row.scenario, row.motion].record()
-        (scale,) = factors(column, record, np.array([row.intensity]))
+        scale = row.intensity * unit(column) / record.peak_velocity
         frame, scaled = RockingFrame(column, row.mass_ratio), record.scaled(scale)
         ours, other = (
             rocking_peaks(frame, cap, scaled, settings["points"], route)
@@ -83,20 +118,12 @@ def second_route(
     )
 
 
-def main(settings: dict, ensemble: dict, shards: list[pd.DataFrame]) -> tuple:
+def main(settings: dict, ensemble: dict) -> tuple:
     column, cap = Column(**settings["column"]), cap_of(settings)
-    keys, chosen = ["family", "scenario", "motion"], first_draws(ensemble, settings["motions"])
-    of_family = {family: place for place, family in enumerate(ensemble["families"])}
-    table = pd.concat(shards).sort_values(
-        keys, kind="stable", key=lambda key: key.map(of_family) if key.name == "family" else key
-    )
-    if len(table) != (
-        wanted := len(chosen) * len(settings["mass_ratios"]) * len(settings["intensities"])
-    ):
-        raise ValueError(
-            f"the shards have {len(table)} histories; expected {wanted}: a shard is incomplete, "
-            "delete it and run again"
-        )
+    frames = [RockingFrame(column, gamma) for gamma in settings["mass_ratios"]]
+    chosen = first_draws(ensemble, settings["motions"])
+    found = (histories(draw, frames, cap, settings) for draw in chosen)
+    table = pd.DataFrame(row for of in progress(found, len(chosen), "motions") for row in of)
     bands = summary(table, settings, settings["bootstrap"])
     rocked = table[table.outcome == "rests"]
     beside = bands[(bands.held == RIGID) & (bands.top == PINNED)]
@@ -127,7 +154,7 @@ def main(settings: dict, ensemble: dict, shards: list[pd.DataFrame]) -> tuple:
 
 
 def work(job: Any) -> tuple:
-    return main(job.params.settings, job.params.ensemble, [*map(pd.read_csv, job.input.shards)])
+    return main(job.params.settings, job.params.ensemble)
 
 
 if __name__ == "__main__":

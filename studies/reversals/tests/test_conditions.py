@@ -83,8 +83,10 @@ def findings(monkeypatch, *, reversed_high=0.4, beyond=((0.01, 0.03),), half_hig
     """The findings on an ensemble of which only these numbers are given."""
     pair = {"only_heavier": 0.1, "cells": 9, "reversed": 0.3, "reversed_high": reversed_high}
     less = {"less": 0.1, "less_low": 0.05, "less_high": 0.2}
+    nothing = SimpleNamespace(means=lambda *values: None, outcomes=None)
     given = {
-        "gathered": [(SimpleNamespace(labels={}, levels=None, motions=0), [None])],
+        "cases": [SimpleNamespace(labels={}, levels=None, motions=0, found=nothing)],
+        "differing": [],
         "middles": np.ones(1),
         "curves": pd.DataFrame([{"probability": 0.5, "fitted": 0.5}]),
         "capacities": pd.DataFrame(),
@@ -98,7 +100,7 @@ def findings(monkeypatch, *, reversed_high=0.4, beyond=((0.01, 0.03),), half_hig
             motions_fragility, name, lambda *arguments, found=found, **options: found
         )
     case = {"shares_of_gain": [0.5], "largest_rise": 0.05, "intensities": {"points": 9}}
-    return motions_fragility.main(case, {}, [])[1]
+    return motions_fragility.main(case, {}, {})[1]
 
 
 @pytest.mark.parametrize(

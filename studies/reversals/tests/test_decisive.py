@@ -11,9 +11,9 @@ from replication.inputs.strict_yaml import read_yaml
 from replication.judging.findings import read_findings
 from steps.shared.spectra_compared import Spectra
 from studies.reversals.steps import motions_fragility, motions_records, pulses
+from studies.reversals.under import frames_and_columns
 from topheavy import STANDARD_GRAVITY, Column, Record
-from topheavy.fragility.resampling import ResampledMeans
-from topheavy.synthetic.ensemble import factors, subjects
+from topheavy.fragility.ensemble import Ensemble
 
 STUDY = Path(__file__).resolve().parents[1]
 CASE = {
@@ -25,6 +25,9 @@ CASE = {
     "finer": {"below": 1.3, "resolution": 0.01},
 }
 ENSEMBLE = {
+    "run": "default",
+    "runs": {"default": {"motions": 1}},
+    "intensities": {"lowest": 1.0, "highest": 2.0, "points": 2},
     "cases": [{"structure": "temple", "share": 1.0, "mass_ratios": [0.0, 1.0, math.inf]}],
     "as_large_as": [],
 }
@@ -79,12 +82,11 @@ def test_rise_that_no_interval_excludes_is_not_denied(low, high, holds):
 
 def ensemble(*outcomes):
     """Frames of γ = 0, 1 and ∞, each with its outcomes over motions, and the means over these."""
-    under = list(subjects(ENSEMBLE, STRUCTURES))
+    under = frames_and_columns(ENSEMBLE, STRUCTURES)["temple"].subjects
     fell = np.stack([np.array(one, dtype=bool)[:, None] for one in outcomes], axis=1)
-    found = motions_fragility.Ensemble("broadband", under, len(fell), np.ones(1), 0.95)
-    sums = ResampledMeans(len(fell), 200, 1)
-    sums.add([fell, *motions_fragility.differing(found, fell)])
-    return found, sums.means()
+    found = Ensemble(fell, None, 200, 1, 0.95)
+    case = motions_fragility.Case("broadband", under, 1.0, np.ones(1), found)
+    return case, [found.means(one) for one in (fell, *motions_fragility.differing(case, fell))]
 
 
 @pytest.mark.parametrize("rising", [False, True])
@@ -121,11 +123,10 @@ def test_remark_gives_the_published_limits():
 
 def test_all_frames_of_a_structure_are_shaken_alike():
     column = Column(**STRUCTURES["temple"])
-    record = Record(0.01, 0.2 * np.sin(np.linspace(0.0, 20.0, 400)))
-    scales = [factors(one, record, np.array([1.0, 2.0])) for one in subjects(ENSEMBLE, STRUCTURES)]
-    assert all(np.array_equal(one, scales[0]) for one in scales)
     unit = STANDARD_GRAVITY * column.uplift_acceleration / column.frequency_parameter
-    assert next(subjects(ENSEMBLE, STRUCTURES)).unit == pytest.approx(unit)
+    assert frames_and_columns(ENSEMBLE, STRUCTURES)["temple"].levels == pytest.approx(
+        [unit, 2.0 * unit]
+    )
 
 
 def test_outcome_that_a_billionth_of_the_record_changes_is_not_told(monkeypatch):

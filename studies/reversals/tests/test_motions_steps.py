@@ -9,8 +9,10 @@ import pytest
 from scipy.special import ndtr
 
 from replication.inputs.strict_yaml import read_yaml
+from steps.shared import sweep
 from steps.shared.outcomes import FALLS, STANDS, read, written
-from studies.reversals.steps import motions_check, motions_fragility, motions_records, motions_shard
+from studies.reversals.steps import motions_check, motions_fragility, motions_records
+from studies.reversals.under import frames_and_columns, intensities
 from topheavy import (
     STANDARD_GRAVITY,
     Column,
@@ -20,9 +22,9 @@ from topheavy import (
     overturned_together,
 )
 from topheavy.fragility import resampling
-from topheavy.fragility.resampling import ResampledMeans
-from topheavy.synthetic.ensemble import draws, factors, first_draws, intensities, subjects
-from topheavy.synthetic.motions import peak_velocity, strength
+from topheavy.fragility.ensemble import Ensemble
+from topheavy.synthetic.ensemble import draws, first_draws
+from topheavy.synthetic.motions import strength
 
 ROOT = Path(__file__).resolve().parents[3]
 STRUCTURES = {"temple": {"half_width": 0.5, "half_height": 3.0}}
@@ -45,22 +47,21 @@ CASE = {
 }
 
 
+ASKED = frames_and_columns(CASE, STRUCTURES)
+
+
 @pytest.fixture(scope="module")
-def shards(tmp_path_factory) -> list[str]:
-    folder = tmp_path_factory.mktemp("shards")
-    paths = [str(folder / f"{shard}.csv") for shard in ("1-of-2", "2-of-2")]
-    for path, shard in zip(paths, ("1-of-2", "2-of-2"), strict=True):
-        motions_shard.main(CASE, STRUCTURES, shard).to_csv(path, index=False)
-    return paths
+def answered() -> dict[str, sweep.Swept]:
+    shards = [sweep.sweep(ASKED, CASE, shard) for shard in ("1-of-2", "2-of-2")]
+    return {name: sweep.answers(shards, name, CASE, one.motions) for name, one in ASKED.items()}
 
 
-def test_motion_has_the_intensity_that_it_is_scaled_to():
-    record, level = draws(CASE)[0].record(), intensities(CASE)
-    frame = next(subjects(CASE, STRUCTURES))
-    for factor, wanted in zip(factors(frame, record, level), level, strict=True):
-        scaled = record.scaled(factor)
-        assert strength(scaled, Column(**STRUCTURES["temple"]))[1] == pytest.approx(wanted)
-        assert peak_velocity(scaled) == pytest.approx(wanted * frame.unit)
+def test_levels_are_those_of_the_solitary_column():
+    (asked,), column = ASKED.values(), Column(**STRUCTURES["temple"])
+    record = draws(CASE)[0].record()
+    for factor, wanted in zip(asked.levels / record.peak_velocity, intensities(CASE), strict=True):
+        assert strength(record.scaled(factor), column)[1] == pytest.approx(wanted)
+    assert asked.motions == 20  # half of forty
 
 
 def test_motions_of_all_scenarios_and_families_differ():
@@ -71,42 +72,25 @@ def test_motions_of_all_scenarios_and_families_differ():
 
 
 def test_larger_column_has_the_frequency_parameter_of_its_frame():
-    found = {tuple(s.labels.values()): s for s in subjects(CASE, STRUCTURES)}
-    frame, column = found["temple", 1.0, 0.0].frame, found["temple", 0.0, 1.0].frame
+    (asked,) = ASKED.values()
+    found = {tuple(one.labels.values()): one.block for one in asked.subjects}
+    frame, column = found["temple", 1.0, 0.0], found["temple", 0.0, 1.0]
     assert column.frequency_parameter == pytest.approx(frame.frequency_parameter, rel=1e-14)
     assert column.restitution > frame.restitution
-
-
-def test_shards_hold_each_motion_of_the_share_once(shards):
-    table = pd.concat(map(pd.read_csv, shards))
-    assert len(table) == 2 * 2 * 20 * 4  # families, scenarios, half of forty motions, subjects
-    assert not table.duplicated(["family", "scenario", "motion", "mass_ratio", "as_large_as"]).any()
-    assert table.motion.max() == 19
-
-
-def test_outcomes_are_those_of_the_scaled_motion(shards):
-    table = pd.concat(pd.read_csv(path) for path in shards)
-    row = table[(table.family == "broadband") & (table.mass_ratio == math.inf)].iloc[0]
-    draw = next(d for d in draws(CASE) if list(d.labels.values()) == list(row.iloc[:3]))
-    subject = next(s for s in subjects(CASE, STRUCTURES) if s.frame.mass_ratio == math.inf)
-    record = draw.record()
-    scales = factors(subject, record, intensities(CASE))
-    found = [judge(subject.frame, record.scaled(scale)).overturned for scale in scales]
-    assert row.outcomes == written(found)
+    assert found["temple", 0.0, 0.0] == Column(**STRUCTURES["temple"]).block()
 
 
 def test_pairs_count_what_differs():
     light, heavy = np.array([[1, 1, 0], [1, 0, 1]]), np.array([[1, 0, 1], [0, 0, 1]])
-    column = Column(0.5, 3.0)
+    outcomes = np.stack([light, heavy], axis=1) == 1
     under = [
-        next(s for s in subjects(CASE, STRUCTURES) if s.frame == RockingFrame(column, gamma))
+        sweep.Subject({"structure": "temple", "mass_ratio": gamma, "as_large_as": 0.0}, None)
         for gamma in (0.0, 1.0)
     ]
-    outcomes = np.stack([light, heavy], axis=1) == 1
-    ensemble = motions_fragility.Ensemble("broadband", under, len(outcomes), np.ones(3), 0.9)
-    sums = ResampledMeans(len(outcomes), 50, 1)
-    sums.add(motions_fragility.differing(ensemble, outcomes))
-    (pair,) = motions_fragility.pairs(ensemble, sums.means()).itertuples()
+    found = Ensemble(outcomes, None, 50, 1, 0.9)
+    case = motions_fragility.Case("broadband", under, 1.0, np.ones(3), found)
+    means = [found.means(one) for one in motions_fragility.differing(case, outcomes)]
+    (pair,) = motions_fragility.pairs(case, means).itertuples()
     assert (pair.only_lighter, pair.only_heavier) == pytest.approx((3 / 8, 1 / 8))
     assert pair.reversed == pytest.approx(1 / 4)
 
@@ -143,8 +127,8 @@ def test_shares_hardly_depend_on_the_number_of_levels():
             assert abs(twice - once) < 0.5 * width
 
 
-def test_findings_come_with_intervals_around_their_values(shards):
-    tables, findings = motions_fragility.main(CASE, STRUCTURES, shards)
+def test_findings_come_with_intervals_around_their_values(answered):
+    tables, findings = motions_fragility.main(CASE, STRUCTURES, answered)
     values = {"fragility": "probability", "medians": "median", "pairs": "only_heavier"}
     for name, value in values.items():
         table = tables[name]
@@ -169,24 +153,11 @@ def test_median_that_is_not_known_is_not_published(shares, reason):
         motions_fragility.middles(levels, np.array([[known, shares]]))
 
 
-def test_shards_and_their_order_do_not_matter(shards, tmp_path):
-    descending = {"by": ["family", "scenario", "motion"], "ascending": [False, True, True]}
-    table = pd.concat(map(pd.read_csv, shards)).sort_values(**descending, kind="stable")
-    parts = [tmp_path / f"{number}.csv" for number in (2, 0, 1)]
-    for number, path in enumerate(parts):
-        table[table.motion % 3 == number].to_csv(path, index=False)
-    (tables, _), (others, _) = (
-        motions_fragility.main(CASE, STRUCTURES, paths) for paths in (shards, parts)
-    )
-    for name, found in tables.items():
-        pd.testing.assert_frame_equal(found, others[name], check_exact=True)
-
-
-def test_memory_holds_a_block_of_motions(shards, monkeypatch):
+def test_memory_holds_a_block_of_motions(answered, monkeypatch):
     """Twenty motions a block in place of forty: the same probabilities, other resamples."""
-    (whole, _) = motions_fragility.main(CASE, STRUCTURES, shards)
+    (whole, _) = motions_fragility.main(CASE, STRUCTURES, answered)
     monkeypatch.setattr(resampling, "BLOCK", 20)
-    (parts, _) = motions_fragility.main(CASE, STRUCTURES, shards)
+    (parts, _) = motions_fragility.main(CASE, STRUCTURES, answered)
     one, other = whole["fragility"], parts["fragility"]
     assert other.probability.to_numpy() == pytest.approx(one.probability.to_numpy(), rel=1e-12)
     assert (other.probability_low != one.probability_low).any()
@@ -201,19 +172,19 @@ def test_boundary_lies_where_the_outcome_changes():
     assert below != above
 
 
-def test_sample_is_judged_again(shards):
-    _, found = motions_check.main(CASE, STRUCTURES, shards, 3e-12)
+def test_sample_is_judged_again(answered):
+    _, found = motions_check.main(CASE, STRUCTURES, answered, 3e-12)
     assert found["tightened_agrees"]["cells"] + found["tightened_agrees"]["not_told"] == 6
     assert found["second_route_agrees"]["cells"] == 1
 
 
-def test_sample_of_which_nothing_can_be_told_agrees_with_nothing(shards, monkeypatch):
+def test_sample_of_which_nothing_can_be_told_agrees_with_nothing(answered, monkeypatch):
     def sensitive(frame, record, factors, tolerance=None):
         return np.arange(len(factors)) == 1  # a change by a billionth, and only that, overturns
 
     monkeypatch.setattr(motions_check, "overturned_by", sensitive)
     monkeypatch.setattr(motions_check, "boundary", lambda frame, record, low, high: low)
-    _, found = motions_check.main(CASE, STRUCTURES, shards, 3e-12)
+    _, found = motions_check.main(CASE, STRUCTURES, answered, 3e-12)
     assert [one["cells"] for one in found.values()] == [0, 0]
     assert not any(one.holds for one in found.values())
 

@@ -2,20 +2,19 @@
 
 import math
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
 import pytest
 
-from replication.workbench import truth
 from steps.shared.peak_forces import ratio_of
-from studies.reversals.steps import motions_uplift, motions_uplift_shard, motions_vase
-from topheavy import Column, FixedMassColumn, Record, simulate
+from steps.shared.sweep import Swept
+from studies.reversals.steps import motions_uplift, motions_vase
+from topheavy import simulate
+from topheavy.fragility.ensemble import Ensemble
 from topheavy.synthetic.ensemble import Draw
-from topheavy.synthetic.motions import Scenario, peak_velocity
+from topheavy.synthetic.motions import Scenario
 
-COLUMN = Column(0.5, 3.0)
 LEVELS = np.geomspace(0.25, 4.0, 9)
 BOOT = {"resamples": 200, "confidence": 0.95, "seed": 14}
 DRAW = Draw("near-fault", 0, 0, 2014, Scenario(6.5, 10.0, 760.0, 10.0))
@@ -25,9 +24,6 @@ def outcomes(*capacities):
     """Outcomes of two motions: structures overturn from these levels on, a tenth later in one."""
     found = [[level * late <= LEVELS for level in capacities] for late in (1.0, 1.1)]
     return np.array(found * 20)
-
-
-UNDER = [("bare", 0.0, None), ("fixed", 1.0, None), ("free", 1.0, None)]
 
 
 def test_first_level_that_overturns_is_found_and_none_is_infinite():
@@ -43,10 +39,11 @@ def test_capacity_ratio_is_that_of_curves_that_are_shifted():
 
 
 def test_ranks_count_motions_that_change_the_order():
-    case = {"bootstrap": BOOT}
+    case = {"column": {"half_width": 0.5, "half_height": 3.0}, "mass_ratios": [1.0], "motions": 20}
+    case |= {"intensities": {"lowest": 0.25, "highest": 4.0, "points": 9}}
     fell = outcomes(0.99, 0.49, 1.9)
     fell[0, 1] = LEVELS >= 3.9  # one of forty: the fixed mass overturns last
-    table, ranks = motions_vase.curves("near-fault", UNDER, fell, LEVELS, case)
+    table, ranks = motions_vase.curves("near-fault", Ensemble(fell, None, **BOOT), case)
     fixed, free = ranks
     assert fixed["later"] == pytest.approx(1 / 40)
     assert fixed["sooner"] == pytest.approx(39 / 40)
@@ -55,26 +52,16 @@ def test_ranks_count_motions_that_change_the_order():
     assert set(table.structure) == {"bare", "fixed", "free"}
 
 
-def test_factors_bring_a_motion_to_its_intensity():
-    record = Record(0.01, np.sin(np.arange(400) / 20.0), "any")
-    (factor,) = motions_vase.factors(COLUMN, record, np.array([0.7]))
-    speed = peak_velocity(record.scaled(factor))
-    assert COLUMN.frequency_parameter * speed / (9.81 / 6) == pytest.approx(0.7)
-
-
-def test_told_refuses_what_a_nudge_changes(monkeypatch):
-    record = DRAW.record()
-    calm = np.array([0.01])
-    assert motions_vase.told(COLUMN, record, calm, 3e-12)
-    nudged = iter([[False], [False], [True], [False]])
-    monkeypatch.setattr(motions_vase, "overturned_by", lambda *_, **__: np.array(next(nudged)))
-    assert not motions_vase.told(COLUMN, record, calm, 3e-12)
-
-
-def test_second_route_sees_a_wrong_outcome():
-    cells = [(FixedMassColumn(COLUMN, 1.0), DRAW.record(), 0.01)]
-    assert motions_vase.second_route(cells, [False], 3e-12)["holds"]
-    assert not motions_vase.second_route(cells, [True], 3e-12)["holds"]
+def test_sampled_cells_are_just_below_the_lowest_intensity_and_at_it():
+    case = {"column": {"half_width": 0.5, "half_height": 3.0}, "mass_ratios": [1.0], "motions": 1}
+    case |= {"intensities": {"lowest": 0.25, "highest": 4.0, "points": 9}}
+    case |= {"checked_by_second_route": 2}
+    fell = outcomes(0.99, 0.49, 1.9)[:2]
+    swept = Swept([DRAW, DRAW], np.array([0.5, 0.25]), fell)
+    cells = list(motions_vase.sampled(case, swept, 14))
+    assert [falls for *_, falls in cells] == [False, True] * 2
+    for (*_, below, _), (*_, at, _) in zip(cells[::2], cells[1::2], strict=True):
+        assert at / below == pytest.approx(2.0**0.5)
 
 
 def row(outcome, ratio, **more):
@@ -132,16 +119,9 @@ def right(frame, cap, motion, *given):
 
 
 def uplifted(monkeypatch, peaks):
-    """The findings with these peaks of the rocking frame, in the shards and by SciPy."""
-    for module in (motions_uplift, motions_uplift_shard):
-        monkeypatch.setattr(module, "rocking_peaks", peaks)
-    shards = [motions_uplift_shard.main(CASE, ENSEMBLE, f"{n}-of-2") for n in (2, 1)]
-    return motions_uplift.main(CASE, ENSEMBLE, shards)[1]
-
-
-def test_missing_histories_are_missed():
-    with pytest.raises(ValueError, match="the shards have 2 histories; expected 3: a shard is inc"):
-        motions_uplift.main(CASE, ENSEMBLE, [motions_uplift_shard.main(CASE, ENSEMBLE, "1-of-2")])
+    """The findings with these peaks of the rocking frame, also by SciPy."""
+    monkeypatch.setattr(motions_uplift, "rocking_peaks", peaks)
+    return motions_uplift.main(CASE, ENSEMBLE)[1]
 
 
 @pytest.mark.parametrize(("factor", "holds"), [(1.0, True), (5.0, False)])
@@ -172,10 +152,11 @@ def test_each_force_beside_a_cantilever_can_refute(monkeypatch, name):
     assert not findings["uplift_limits_totals"]["holds"]
 
 
+AGREED = {"told": 1, "differ": 0}
 ORDER = {"sooner": 0.1, "sooner_high": 0.2, "later": 0.1, "later_high": 0.2}
 
 
-def ranked(monkeypatch, change, order=ORDER):
+def ranked(monkeypatch, change, order=ORDER, agreed=AGREED):
     """The findings of the vase over the ensemble, of which only these ranks are given."""
     usual = {
         "fixed": {"over_bare": 0.7, "over_bare_low": 0.6, "over_bare_high": 0.8},
@@ -186,15 +167,17 @@ def ranked(monkeypatch, change, order=ORDER):
         for name in usual
         for changed in ({}, change.get(name, {}))
     ]
-    draw = SimpleNamespace(family="near-fault", record=lambda: None)
-    given = {"first_draws": [draw], "factors": LEVELS, "curves": (pd.DataFrame(), rows)}
-    given |= {"overturned_together": [LEVELS > 1.0] * 5, "second_route": truth(True)}
-    for name, found in given.items():
-        monkeypatch.setattr(motions_vase, name, lambda *arguments, found=found: found)
-    case = {"column": {"half_width": 0.5, "half_height": 3.0}, "mass_ratios": [0.0, 1.0]}
-    case |= {"intensities": {"lowest": 0.25, "highest": 4.0, "points": 9}, "motions": 1}
+    monkeypatch.setattr(motions_vase, "curves", lambda *given: (pd.DataFrame(), rows))
+    monkeypatch.setattr(motions_vase, "by_scipy", lambda cells: agreed)
+    swept = Swept([DRAW], np.ones(1), np.zeros((1, 1, 1), dtype=bool))
     ensemble = {"seed": 14, "families": ["near-fault"]}
-    return motions_vase.main(case | {"checked_by_second_route": 1}, ensemble, 3e-12)[-1]
+    return motions_vase.main({"bootstrap": BOOT}, ensemble, swept)[-1]
+
+
+@pytest.mark.parametrize(("told", "differ", "holds"), [(3, 0, True), (3, 1, False), (0, 0, False)])
+def test_scipy_has_to_find_the_sampled_outcomes(monkeypatch, told, differ, holds):
+    found = ranked(monkeypatch, {}, agreed={"told": told, "differ": differ})
+    assert found["vase_second_route"].holds is holds
 
 
 @pytest.mark.parametrize(
