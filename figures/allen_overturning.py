@@ -1,5 +1,6 @@
 """Where the linearised equation, and the whole model of Allen et al., misjudge overturning."""
 
+import numpy as np
 from matplotlib.colors import ListedColormap
 from matplotlib.patches import Patch
 
@@ -22,11 +23,13 @@ def draw(allen_overturning):
     figure, axes = sheet(DOUBLE, 66, ncols=2, sharey=True)
     codes = {outcome: code for code, outcome in enumerate(OUTCOMES)}
     for axis, model in zip(axes, TITLES, strict=True):
-        cells = allen_overturning[allen_overturning.model == model]
-        cells = cells.assign(code=cells.verdict.map(codes))
-        grid = cells.pivot_table(
-            index="amplitude_over_uplift", columns="frequency_ratio", values="code"
+        runs = allen_overturning[allen_overturning.model == model]
+        cells = runs.loc[runs.index.repeat(runs.cells)]
+        amplitudes = [np.linspace(run.lowest, run.highest, run.cells) for run in runs.itertuples()]
+        cells = cells.assign(
+            code=cells.verdict.map(codes), amplitude=np.round(np.concatenate(amplitudes), 9)
         )
+        grid = cells.pivot_table(index="amplitude", columns="frequency_ratio", values="code")
         axis.pcolormesh(
             grid.columns,
             grid.index,

@@ -59,26 +59,29 @@ class Claim:
         return cls(**row, study=study, ledger=ledger)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class JudgedClaim:
-    """A row of results/claims.json: a claim, the result for it, and the verdict."""
+    """A row of results/claims.json: a claim, the result for it, and the verdict.
+
+    The published row has no field that is as its default here.
+    """
 
     id: str
-    study: str
+    study: str = ""
     where: str
-    equation: int | None
+    equation: int | None = None
     statement: str
-    printed: float | str | None
-    computed: float | bool | None
-    meant: float | None
-    kind: str
-    condition: str
-    error: float | None
-    unit: str
-    tolerance: float | None
+    printed: float | str | None = None
+    computed: float | bool | None = None
+    meant: float | None = None
+    kind: str = ""
+    condition: str = ""
+    error: float | None = None
+    unit: str = ""
+    tolerance: float | None = None
     verdict: str
     expected: str
-    not_tested: str
-    remark: str
-    function: str
-    rule: str
+    not_tested: str = ""
+    remark: str = ""
+    function: str = ""
+    rule: str = ""

@@ -164,9 +164,12 @@ def with_verdicts(
     return rows
 
 
-def as_text(rows: Iterable[JudgedClaim]) -> str:
-    """Return the judged ledger as results/claims.json has it."""
+def as_text(rows: Iterable[JudgedClaim], *, published: bool = False) -> str:
+    """Return the judged ledger as results/claims.json has it, or as it is published."""
     text = [asdict(row) for row in rows]
+    if published:
+        usual = {each.name: each.default for each in fields(JudgedClaim)}
+        text = [{key: of for key, of in row.items() if of != usual[key]} for row in text]
     return json.dumps(text, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
 
@@ -176,7 +179,7 @@ def read_judged(path: str | Path) -> list[JudgedClaim]:
     Raises
     ------
     ValueError
-        When a row has other keys than those of a JudgedClaim.
+        When a row has other keys than those of a JudgedClaim, or lacks one without a default.
     """
     rows = []
     for row in json.loads(Path(path).read_text(encoding="utf-8")):

@@ -258,7 +258,8 @@ def publish_verdicts(ledger: Sequence[Claim], root: Path) -> None:
     """Judge the published findings; write claims.json, docs/verdicts.md and the README's counts."""
     reference = root / "tests" / "reference"
     rows = with_verdicts(ledger, findings_by_rule((reference / "findings").glob("*.json")), root)
-    (reference / "claims.json").write_text(as_text(rows), encoding="utf-8")
+    text = as_text(rows, published=True)
+    (reference / "claims.json").write_text(text, encoding="utf-8")
     (root / "docs" / "verdicts.md").write_text(verdict_page(rows, reference), encoding="utf-8")
     readme = root / "README.md"
     readme.write_text(with_counts(readme.read_text(encoding="utf-8"), rows), encoding="utf-8")

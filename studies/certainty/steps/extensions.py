@@ -33,8 +33,9 @@ OF_VERTICAL = (
 
 
 def similar(settings: dict) -> pd.DataFrame:
-    """Return what pulses do to frames, and to their columns with the frames' √r in the time of √k.
+    """Return how often frames do as their columns do with the frames' √r in the time of √k.
 
+    By the shape of the pulses: in how many impacts and outcome differ, and how far peaks are apart.
     k = R̂/R: the column is shaken by the same amplitude at the √k times higher frequency.
     """
     column, spec = Column(**settings["column"]), settings["similarity"]
@@ -53,20 +54,26 @@ def similar(settings: dict) -> pd.DataFrame:
         fell = one.overturned or other.overturned
         rows.append(
             {
-                "mass_ratio": gamma,
                 "shape": shape,
-                "amplitude": amplitude,
-                "frequency_ratio": omega / p,
                 "overturned": one.overturned,
-                "same": (one.overturned, one.impacts) == (other.overturned, other.impacts),
+                "differ": (one.overturned, one.impacts) != (other.overturned, other.impacts),
                 "apart": math.nan if fell else abs(one.peak - other.peak) / column.slenderness,
             }
         )
-    return pd.DataFrame(rows)
+    return (
+        pd.DataFrame(rows)
+        .groupby("shape", as_index=False, sort=False)
+        .agg(
+            pulses=("differ", "size"),
+            overturned=("overturned", "sum"),
+            differ=("differ", "sum"),
+            apart=("apart", "max"),
+        )
+    )
 
 
 def shows_stability(settings: dict) -> pd.DataFrame:
-    """Return which pulses of one and of several lobes overturn a heavy frame and not its column."""
+    """Return how many pulses of one and of several lobes overturn a heavy frame, not its column."""
     column, spec = Column(**settings["column"]), settings["similarity"]
     random = np.random.default_rng(spec["seed"])
     rows = []
@@ -81,9 +88,9 @@ def shows_stability(settings: dict) -> pd.DataFrame:
                 route(frame, pulse).overturned and not route(column, pulse).overturned
                 for route in (judge, reference.judge)
             )
-            row = {"lobes": kind, "shape": pulse.shape, "amplitude": amplitude, "omega": omega}
-            rows.append(row | {"only_the_frame": alone})
-    return pd.DataFrame(rows)
+            rows.append({"lobes": kind, "shape": pulse.shape, "only_the_frame": alone})
+    grouped = pd.DataFrame(rows).groupby(["lobes", "shape"], as_index=False, sort=False)
+    return grouped.only_the_frame.agg(pulses="size", only_the_frame="sum")
 
 
 def strongest(record: Record, other: Record, duration: float) -> tuple[Record, Record]:
@@ -166,10 +173,12 @@ def findings(
 
 def _of_similar(table: pd.DataFrame) -> Finding:
     """Return whether each pulse has the same outcome, impacts and peak in both."""
-    overturned, differ = int(table.overturned.sum()), int((~table.same).sum())
+    pulses, overturned, differ = (
+        int(table[name].sum()) for name in ("pulses", "overturned", "differ")
+    )
     return truth(
-        differ == 0 and table.apart.max() < SAME and 0 < overturned < len(table),
-        pulses=len(table),
+        differ == 0 and table.apart.max() < SAME and 0 < overturned < pulses,
+        pulses=pulses,
         overturned=overturned,
         differ=differ,
         peaks_differ_by=table.apart.max(),
@@ -178,14 +187,13 @@ def _of_similar(table: pd.DataFrame) -> Finding:
 
 def _of_lobes(table: pd.DataFrame) -> Finding:
     """Return whether no pulse overturns the frame alone; for one lobe it is proved."""
-    alone = table[table.only_the_frame]
-    of_one_lobe = alone.lobes == ONE_LOBE
+    of_one_lobe = table.lobes == ONE_LOBE
     return truth(
-        alone.empty,
-        holds_when=not of_one_lobe.any(),
+        not table.only_the_frame.any(),
+        holds_when=not table.only_the_frame[of_one_lobe].any(),
         condition="the pulse has one lobe",
-        pulses=len(table),
-        only_the_frame=int((~of_one_lobe).sum()),
+        pulses=int(table.pulses.sum()),
+        only_the_frame=int(table.only_the_frame[~of_one_lobe].sum()),
     )
 
 

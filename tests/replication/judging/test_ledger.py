@@ -119,6 +119,10 @@ def test_judged_rows_are_read_as_they_were_written(tmp_path):
     path = tmp_path / "claims.json"
     path.write_text(as_text(rows), encoding="utf-8")
     assert read_judged(path) == rows
+    sparse = as_text(rows, published=True)
+    assert "null" not in sparse
+    path.write_text(sparse, encoding="utf-8")
+    assert read_judged(path) == rows
     path.write_text(as_text(rows).replace('"error"', '"eror"'), encoding="utf-8")
     with pytest.raises(ValueError, match=r"claims.json: c: .*'eror'"):
         read_judged(path)
