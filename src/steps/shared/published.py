@@ -3,7 +3,7 @@
 import json
 from collections import Counter
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -11,6 +11,7 @@ from typing import Any, TypeAlias
 import pandas as pd
 
 from replication.inputs.strict_yaml import read_yaml
+from replication.judging.ledger import read_judged
 
 FAMILIES = ("near-fault", "broadband")
 """Of the synthetic motions, in the order in which their numbers stand."""
@@ -41,8 +42,7 @@ class Published:
     @cached_property
     def claims(self) -> dict[str, dict[str, Any]]:
         """The judged claims, by their id."""
-        rows = json.loads((self.folder / "claims.json").read_text(encoding="utf-8"))
-        return {row["id"]: row for row in rows}
+        return {row.id: asdict(row) for row in read_judged(self.folder / "claims.json")}
 
     def counts(self) -> Counter[str]:
         """Return how many claims of the paper have each verdict."""
