@@ -2,6 +2,7 @@
 
 import csv
 from collections.abc import Iterable, Mapping
+from math import fsum
 from pathlib import Path, PurePath
 from typing import Any
 
@@ -38,7 +39,8 @@ def exhibits_page(
         tables = sorted(each for each in job.inputs if each in made and each.endswith(".csv"))
         scripts = {script: None for table in tables for script in made[table].scripts}
         needed = [costs[name] for name in _measured(path, made) if name in costs]
-        seconds, memory = sum(cost[0] for cost in needed), max((c[1] for c in needed), default=0)
+        seconds = fsum(cost[0] for cost in needed)  # whatever their order: they are of a set
+        memory = max((cost[1] for cost in needed), default=0)
         cells = (
             numbers.get(path, ""),
             caption["title"].replace("|", "\\|"),

@@ -1,5 +1,8 @@
 """The page of the figures: what draws and computes each, and what it costs."""
 
+from itertools import permutations
+
+from replication.pages import exhibits
 from replication.pages.exhibits import exhibits_page
 from replication.workflow.provenance import Job
 
@@ -35,3 +38,14 @@ def test_cost_is_that_of_each_job_that_the_figure_needs_once():
 def test_cost_that_was_not_measured_is_left_open():
     page = exhibits_page(JOBS, {"figures/peaks.svg": {"title": "Peaks"}}, {}, {})
     assert page.endswith("| `src/peaks.py` |  |  |\n")
+
+
+def test_cost_does_not_depend_on_the_order_of_the_jobs(monkeypatch):
+    costs = {"a": (0.1, 1), "b": (0.2, 1), "c": (0.5, 1), "d": (0.7, 1)}
+    assert {f"{sum(costs[name][0] for name in order):.0f}" for order in permutations(costs)} > {"2"}
+    pages = set()
+    for order in permutations(costs):
+        monkeypatch.setattr(exhibits, "_measured", lambda *given, order=order: order)
+        pages.add(exhibits_page(JOBS, {"figures/peaks.svg": {"title": "Peaks"}}, costs, {}))
+    (page,) = pages
+    assert page.endswith("| `src/peaks.py` | 2 | 1 |\n")
