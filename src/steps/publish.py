@@ -6,6 +6,7 @@ with which later runs are compared, and their config. The pages that need no run
 and the table of deliberate faults loses what no longer holds.
 """
 
+import gzip
 import shutil
 from pathlib import Path
 
@@ -69,6 +70,15 @@ SOURCES = (
 """Other tables from which findings follow."""
 
 
+CERTIFICATES = "certificates.jsonl.gz"
+
+
+def certificates(folder: Path, path: Path) -> None:
+    """Write all certificates into one file, the same bytes for the same certificates."""
+    lines = b"".join(each.read_bytes() for each in sorted(folder.glob("*.jsonl")))
+    path.write_bytes(gzip.compress(lines, mtime=0))
+
+
 def main() -> None:
     results, docs = Path("results"), Path("docs")
     publish(TABLES, SOURCES)
@@ -80,6 +90,7 @@ def main() -> None:
         shutil.copyfile(results / name, docs / name)
     for name in NOTEBOOKS:
         shutil.copyfile(results / "notebooks" / f"{name}.html", docs / f"notebook_{name}.html")
+    certificates(results / "certificates", docs / CERTIFICATES)
     stills(docs / PAGE)
     pages.write()
     headlines.write()

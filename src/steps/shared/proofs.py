@@ -1,5 +1,8 @@
 """Outcomes that search and checker prove, and how close to a boundary."""
 
+import json
+from collections.abc import Iterable
+
 from topheavy import Pulse, Record
 from topheavy.proven import certified
 from topheavy.proven.certificate import BITS
@@ -33,3 +36,9 @@ def is_checked(
         return check(certificate) == certificate["outcome"]
     except Refused:
         return False
+
+
+def as_lines(certificates: Iterable[tuple[str, dict]]) -> str:
+    """Return certificates in JSON Lines, each with the claim that it is a part of."""
+    made = ({"claim": claim, **certificate} for claim, certificate in certificates)
+    return "".join(f"{json.dumps(each, ensure_ascii=False, allow_nan=False)}\n" for each in made)

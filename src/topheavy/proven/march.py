@@ -239,7 +239,7 @@ class March:
         left, self.about_end = piece.stop - self.sigma, None
         push = self._push(piece, self.sigma)
         start = self.law.series(self.phi, self.rate, push, self.order)
-        h, stretch, cause = self._length(start[0]), 1.0, ""
+        h, stretch, cause = self._length(start[0]), 1.0, "enclosure"
         shortest = BOUNDED_SHORTEST * h if self.bounded else SHORTEST
         while h > shortest:
             self.tried += 1

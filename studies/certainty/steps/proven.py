@@ -4,21 +4,20 @@ Of the counterexamples, search and checker prove outcome and number of impacts. 
 search does, and may leave an outcome undecided.
 """
 
-import json
 from collections.abc import Iterator, Mapping
 from typing import Any
 
 import pandas as pd
 
 from replication.workbench import Finding, run, truth
-from steps.shared.proofs import proven
+from steps.shared.proofs import as_lines, proven
 from studies.certainty.steps.lowest import extreme
 from studies.certainty.steps.records import reversals, similar
 from topheavy import Column, Record, RockingFrame, read_record
 from topheavy.proven import outcome
 
 
-def beyond_the_theorem(settings: dict) -> tuple[list[dict], list[dict]]:
+def beyond_the_theorem(settings: dict) -> tuple[list[dict], list[tuple[str, dict]]]:
     """Return what is proven of the lightest and the heaviest frames, and the certificates."""
     rows, certificates = [], []
     for spec in settings["extremes"]:
@@ -30,7 +29,8 @@ def beyond_the_theorem(settings: dict) -> tuple[list[dict], list[dict]]:
                 | {"mass_ratio": frame.mass_ratio}
                 | {"impacts": certificate["impacts"] if certificate else -1}
             )
-            certificates += [certificate] if certificate else []
+            claim = f"beyond theorem 3: α = {spec['slenderness']:g}°, γ = {frame.mass_ratio:g}"
+            certificates += [(claim, certificate)] if certificate else []
     return rows, certificates
 
 
@@ -81,8 +81,7 @@ def main(
 ) -> tuple[pd.DataFrame, str, dict[str, Finding]]:
     rows, certificates = beyond_the_theorem(settings)
     table = pd.DataFrame([*rows, *under_records(known, columns, records)])
-    lines = "".join(f"{json.dumps(each)}\n" for each in certificates)
-    return table, lines, findings(table)
+    return table, as_lines(certificates), findings(table)
 
 
 def work(job: Any) -> tuple:

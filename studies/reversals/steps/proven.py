@@ -4,7 +4,6 @@ A reversal is proven where the lighter frame is proven to survive a pulse and th
 overturned by it, by the search and by the checker.
 """
 
-import json
 from collections.abc import Iterator
 from itertools import combinations
 from typing import Any
@@ -12,13 +11,15 @@ from typing import Any
 import pandas as pd
 
 from replication.workbench import Finding, run, truth
-from steps.shared.proofs import WIDTHS, proven
+from steps.shared.proofs import WIDTHS, as_lines, proven
 from steps.shared.spectra_compared import Place, Spectra
 
 REVERSED = ("survives", "overturns")
 
 
-def judged(place: Place, pair: tuple[float, float], amplitude: float) -> tuple[dict, list[dict]]:
+def judged(
+    place: Place, pair: tuple[float, float], amplitude: float
+) -> tuple[dict, list[tuple[str, dict]]]:
     """Return what is proven of the lighter and of the heavier frame, and the certificates."""
     found = []
     for gamma in pair:
@@ -27,10 +28,12 @@ def judged(place: Place, pair: tuple[float, float], amplitude: float) -> tuple[d
     light, heavy = pair
     row = place._asdict() | {"light": light, "heavy": heavy, "amplitude": amplitude}
     row |= {"lighter": found[0][0], "heavier": found[1][0]}
-    return row, [certificate for _, certificate in found if certificate]
+    claims = [f"reversal of γ = {light:g} and {heavy:g}: the block of γ = {g:g}" for g in pair]
+    of_both = zip(claims, found, strict=True)
+    return row, [(claim, certificate) for claim, (_, certificate) in of_both if certificate]
 
 
-def of_pairs(spectra: Spectra, gammas: list[float]) -> Iterator[tuple[dict, list[dict]]]:
+def of_pairs(spectra: Spectra, gammas: list[float]) -> Iterator[tuple[dict, list]]:
     """Yield the middle of the widest band of each pair."""
     for pair in combinations(gammas, 2):
         _, place, *_, middle = spectra.counterexample([pair])
@@ -38,7 +41,7 @@ def of_pairs(spectra: Spectra, gammas: list[float]) -> Iterator[tuple[dict, list
         yield row | {"of": "pair"}, certificates
 
 
-def of_widest(spectra: Spectra, gammas: list[float]) -> list[tuple[dict, list[dict]]]:
+def of_widest(spectra: Spectra, gammas: list[float]) -> list[tuple[dict, list]]:
     """Return both sides of both ends of the widest band, as close as they are proven."""
     width, place, *pair, middle = spectra.counterexample(combinations(gammas, 2))
     found = []
@@ -82,8 +85,7 @@ def main(settings: dict, table: pd.DataFrame) -> tuple[pd.DataFrame, str, dict[s
     spectra, gammas = Spectra(settings, table), settings["mass_ratios"]
     found = [*of_pairs(spectra, gammas), *of_widest(spectra, gammas)]
     rows = pd.DataFrame(row for row, _ in found)
-    lines = "".join(f"{json.dumps(each)}\n" for _, both in found for each in both)
-    return rows, lines, findings(rows)
+    return rows, as_lines(each for _, both in found for each in both), findings(rows)
 
 
 def work(job: Any) -> tuple:

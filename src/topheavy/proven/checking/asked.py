@@ -4,11 +4,8 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
-from topheavy.proven.checking import intervals
-from topheavy.proven.checking.intervals import Refused, of
-from topheavy.proven.checking.model import Block
-
-CLOSE = Fraction(1, 10**12)  # a certificate has the dimensions, a block floats computed from them
+from .intervals import Refused
+from .schema import validated
 
 
 def concerns(
@@ -19,26 +16,20 @@ def concerns(
 ) -> None:
     """Raise `Refused` if a certificate is about another problem than this one.
 
+    All dimensions are compared exactly, as the shortest decimals of the numbers that were given.
+
     Parameters
     ----------
     certificate : dict
         As `check` takes it.
     structure, excitation, factor
-        As `topheavy.proven.outcome` takes them. α, p² and √r are compared to twelve digits with
-        those that the structure's own formulas give, all else exactly.
+        As `topheavy.proven.outcome` takes them, but for a box of structures: a certificate is of
+        one.
     """
-    intervals.precision(100)
-    block = structure.block()
-    mine = Block(certificate["structure"], certificate["linearised"])
-    square = Fraction(block.frequency_parameter) ** 2
-    for found, asked in (
-        (mine.alpha, block.slenderness),
-        (mine.square, square),
-        (mine.restitution, block.restitution),
-    ):
-        if not (found - of(Fraction(asked))).size() < of(CLOSE):
-            raise Refused("it is about another structure")
-    if certificate["linearised"] != block.linearised:
+    validated(certificate)
+    if _numbers(certificate["structure"]) != _numbers(_dimensions(structure)):
+        raise Refused("it is about another structure")
+    if certificate["linearised"] != structure.block().linearised:
         raise Refused("it is about another equation")
     if not _moves(certificate["excitation"], excitation):
         raise Refused("it is about another ground motion")
@@ -46,8 +37,48 @@ def concerns(
         raise Refused("it is about another factor")
 
 
+def _decimal(number: float) -> Fraction:
+    return Fraction(repr(float(number)))
+
+
+def _numbers(given: dict[str, Any]) -> dict[str, Any]:
+    words = ("kind", "infinite")
+    return {
+        key: value if key in words or value in words else Fraction(value)
+        for key, value in given.items()
+    }
+
+
+def _dimensions(structure: Any) -> dict[str, Any]:
+    """Return what a certificate has to say of a structure, known by the names of its class."""
+    kinds = {each.__name__ for each in type(structure).__mro__}
+    if "BlockBox" in kinds:
+        raise Refused("a box of structures has no certificate")
+    if not kinds & {"Column", "RockingFrame", "FixedMassColumn", "MonolithicPortal"}:
+        block = structure.block()
+        names = "slenderness", "frequency_parameter", "restitution"
+        return {"kind": "block"} | {name: _decimal(getattr(block, name)) for name in names}
+    column = getattr(structure, "column", structure)
+    ratio = getattr(structure, "mass_ratio", 0.0)
+    found: dict[str, Any] = {
+        "half_width": _decimal(column.half_width),
+        "half_height": _decimal(column.half_height),
+        "mass_ratio": "infinite" if ratio == float("inf") else _decimal(ratio),
+        "gravity": _decimal(9.81),
+    }
+    if kinds & {"Column", "RockingFrame"}:
+        return found | {"kind": "frame"}
+    if "MonolithicPortal" in kinds:
+        axis = _decimal(structure.span) / 2
+        width = 2 * (axis + found["half_width"] + _decimal(structure.overhang))
+    else:
+        axis, width = Fraction(0), _decimal(structure.cap_width)
+    cap = {"axis": axis, "cap_width": width, "cap_depth": _decimal(structure.cap_depth)}
+    return found | cap | {"kind": "body"}
+
+
 def _equal(given: Sequence[str], asked: Sequence[float]) -> bool:
-    return [Fraction(x) for x in given] == [Fraction(repr(float(x))) for x in asked]
+    return [Fraction(x) for x in given] == [_decimal(x) for x in asked]
 
 
 def _moves(given: dict[str, Any], excitation: Any) -> bool:

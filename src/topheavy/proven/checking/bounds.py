@@ -7,8 +7,8 @@ grows by κ² s a' ψ. Each statement of the lemma is tested in intervals; no wa
 from fractions import Fraction
 from typing import Any
 
-from topheavy.proven.checking.intervals import Interval, Refused, of
-from topheavy.proven.checking.model import Block, Ground
+from .intervals import Interval, Refused, of
+from .model import Block, Ground
 
 SIDES = (1, -1)
 

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import Protocol
 
-from topheavy.proven.checking import intervals
-from topheavy.proven.checking.intervals import (
+from . import intervals
+from .intervals import (
     Interval,
     Refused,
     between,
@@ -18,7 +18,7 @@ from topheavy.proven.checking.intervals import (
     of,
     sine,
 )
-from topheavy.proven.checking.model import Block, Ground
+from .model import Block, Ground
 
 BOXES = 12  # that are tried around that of a step
 

@@ -1,0 +1,79 @@
+"""Verify certificates with the standard library alone: python3 -I -S src/topheavy/proven/checking.
+
+A line tells what each certificate of the files (JSON Lines, also compressed by gzip) proves. The
+first that proves nothing ends it with status 1.
+"""
+
+import gzip
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+if not __package__:  # run as a folder, which is a package of its own then
+    folder = Path(sys.path[0]).resolve()
+    sys.path[0], __package__ = str(folder.parent), folder.name
+
+from .check import check
+from .intervals import Refused
+
+USAGE = "usage: python3 -I -S src/topheavy/proven/checking FILE…"
+
+
+def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    found = dict(pairs)
+    if len(found) < len(pairs):
+        raise Refused("a key stands twice")
+    return found
+
+
+def _no_number(text: str) -> Any:
+    raise Refused(f"{text} is no JSON")
+
+
+def parsed(line: str) -> Any:
+    """Return a certificate from its JSON; one with a key twice, or with NaN, is refused."""
+    try:
+        return json.loads(line, object_pairs_hook=_once, parse_constant=_no_number)
+    except (ValueError, RecursionError) as fault:
+        raise Refused(f"no JSON: {fault}") from None
+
+
+def told(certificate: dict[str, Any]) -> str:
+    """Return in words what a certificate is about."""
+    structure, ground = certificate["structure"], certificate["excitation"]
+    sizes = ", ".join(f"{key} {value}" for key, value in structure.items() if key != "kind")
+    motion = f"a record of {len(ground.get('acceleration', []))} samples"
+    if "shape" in ground:
+        motion = f"{ground['shape']}, {ground['amplitude']} g, {ground['angular_frequency']} rad/s"
+    low, high = certificate["factor"]
+    scaled = "" if low == high == "1" else f", times {low} to {high}"
+    linearised = ", linearised" if certificate["linearised"] else ""
+    return (
+        f"{structure['kind']} ({sizes}){linearised} under {motion}{scaled}: "
+        f"{certificate['outcome']}, impacts: {certificate['impacts']}"
+    )
+
+
+def main(paths: list[str]) -> str | None:
+    """Print a line for each certificate; return why one is refused."""
+    if not paths:
+        return USAGE
+    for path in paths:
+        opened = gzip.open if path.endswith(".gz") else open
+        try:
+            with opened(path, "rt", encoding="utf-8") as lines:
+                for number, line in enumerate(lines, 1):
+                    where = f"{path}, line {number}"
+                    certificate = parsed(line)
+                    check(certificate)
+                    print(f"{where}: proven: {told(certificate)}")
+        except Refused as reason:
+            return f"{where} is refused: {reason}"
+        except (OSError, EOFError, UnicodeDecodeError) as fault:
+            return f"{path} cannot be read: {fault}"
+    return None
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
