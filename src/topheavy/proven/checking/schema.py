@@ -61,7 +61,7 @@ def one_of(*given: Any) -> Test:
 
 
 def either(*tests: Test) -> Test:
-    """Return a test that one of several has to pass; the last says what was expected."""
+    """Return a test that one of several has to pass; the last gives what was expected."""
 
     def test(where: str, value: Any) -> None:
         for one in tests[:-1]:
