@@ -133,7 +133,8 @@ def aloft():
 def test_shallow_dip_between_two_ends_aloft_is_an_impact(width):
     event, time = _first_event(Step(0.2 - width, 0.2 + width, scale=0.1), aloft(), True)
     assert event is Event.IMPACT
-    assert time == pytest.approx(Step.time(0.2 - width), abs=1e-9)
+    # two roots so close amplify the rounding of the coefficients, which differs between machines
+    assert time == pytest.approx(Step.time(0.2 - width), abs=max(1e-9, 4e-15 / width))
 
 
 @pytest.mark.parametrize("clearance", [0.3, 1e-2, 1e-4, 1e-6])

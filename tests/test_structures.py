@@ -418,6 +418,8 @@ def test_impossible_masses_are_refused(masses, columns, message):
         (lambda: MonolithicPortal(COLUMN, 365, 5.0), "mass_ratio is 365; few exceed 100"),
         (lambda: MonolithicPortal(COLUMN, 1.0, 6000.0), "span is 6000 m.*is it in cm or mm"),
         (lambda: Record(10.0, [0.0, 0.1]), "time_step is 10 s.*is it in ms"),
+        (lambda: Pulse("one-sine", 392.0, 6.28), "amplitude is 392 g.*is it in m/s² or cm/s²"),
+        (lambda: simulate(COLUMN, rotation=1.0), "rotation is 1 rad.*is the rotation in degrees"),
         (lambda: Record(0.1, [0.0, 0.1]).scaled_to(pgv=60), "pgv is 60 m/s.*is it in cm/s"),
         (
             lambda: fragility([COLUMN], [Record(0.1, [0.0, 0.1])], [20.0, 60.0]),

@@ -22,11 +22,17 @@ MOST_CELLS = 100_000_000
 LARGEST_RECORDED = 2.0
 """g. Few ground accelerations exceed it: of one that does a warning asks the unit."""
 
+LARGEST_PULSE = 50.0
+"""g. Few pulses are as strong: a warning asks whether an amplitude is in m/s² or cm/s²."""
+
 LONGEST_STEP = 4.0
 """s. Few records have a longer time step: a warning asks whether it is in ms."""
 
 LARGEST_VELOCITY = 5.0
 """m/s. Few ground motions exceed it: a warning asks whether a velocity is in cm/s."""
+
+FARTHEST_START = 2.0
+"""Of α. Few histories begin with a larger rotation: a warning asks whether it is in degrees."""
 
 LONGEST = 200.0
 """m. Few structures exceed it: a warning asks whether a length is in cm or mm."""

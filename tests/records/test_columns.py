@@ -150,7 +150,14 @@ def test_named_column_is_read(tmp_path):
         read_record(tmp_path / "a.at2", column="NS")
 
 
-def test_metres_that_are_called_g_are_warned_of(tmp_path):
-    (tmp_path / "a.csv").write_text("t (s),a (g)\n0,.1\n1,2.5\n", encoding="utf-8")
-    with pytest.warns(UserWarning, match=r"line 3: the largest acceleration is 2.5 g.*m/s²"):
+@pytest.mark.parametrize(
+    ("text", "asked"),
+    [
+        ("t (s),a (g)\n0,.1\n1,2.5\n", r"line 3: the largest acceleration is 2.5 g.*m/s²"),
+        ("t (s),a (g)\n0,.1\n10,.2\n", r"time step is 10 s.*is it in ms"),
+    ],
+)
+def test_another_unit_than_the_header_states_is_asked(tmp_path, text, asked):
+    (tmp_path / "a.csv").write_text(text, encoding="utf-8")
+    with pytest.warns(UserWarning, match=asked):
         read_csv(tmp_path / "a.csv")

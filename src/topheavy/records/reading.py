@@ -175,6 +175,9 @@ def reading(
             f"records exceed {checks.LARGEST_RECORDED:g} g: is the unit m/s²?"
         )
     try:
-        return Reading(Record(time_step, accelerations, path.stem, unit="g"), unit, header)
+        record = Record(time_step, accelerations, path.stem, unit="g")
     except ValueError as error:
         raise ValueError(f"{path}: {error}") from None
+    if time_step > checks.LONGEST_STEP:
+        checks.warn(f"{path}: the time step is {time_step:.6g} s, and few are longer: is it in ms?")
+    return Reading(record, unit, header)
