@@ -53,6 +53,10 @@ It drifts by less than 0.1 Hz meanwhile."""
 FORGOTTEN = 1e-5
 """The response of the filter to one impulse is followed until it has decayed to this."""
 
+DIGITS = 9
+"""Decimals of the normal values that are kept: BLAS differs in the last bits between processors, and
+of one draw of six the fit of the envelope would make another motion of that."""
+
 SMALL = math.sqrt(np.finfo(float).eps)
 """Step of the differences by which an envelope is fitted."""
 
@@ -224,7 +228,8 @@ def _draw(rng: np.random.Generator, scenario: Scenario, model: Model) -> dict[st
         errors = factor @ rng.standard_normal(len(means))
         if np.abs(errors).max() > FARTHEST:
             continue
-        normal = dict(zip(model.names, means + model.deviations * errors, strict=True))
+        values = np.round(means + model.deviations * errors, DIGITS)
+        normal = dict(zip(model.names, values, strict=True))
         drawn = {name: _MARGINALS.get(name, math.exp)(value) for name, value in normal.items()}
         if "Vp" in drawn and drawn["tp"] < drawn["gamma"] * drawn["Tp"] / 2.0:
             continue  # the pulse would begin before the motion [4, 5]
