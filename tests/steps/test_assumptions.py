@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from jsonschema import Draft202012Validator
 
+from replication.inputs.configuration import read_schema
 from replication.inputs.strict_yaml import read_yaml
 from replication.judging.ledger import read_ledger
 from replication.workbench import truth
@@ -29,7 +30,7 @@ def claims_by_id():
 
 WHOLE = read("paper/assumptions.yaml")
 LEDGER = WHOLE["open"]
-SCHEMA = read("paper/assumptions.schema.yaml")
+SCHEMA = read_schema(ROOT / "paper/assumptions.schema.yaml")
 CONFIG = read("config/config.yaml")
 CLAIMS = set(claims_by_id())
 COLUMN = Column(0.5, 3.0)

@@ -3,7 +3,6 @@
 Meanings come from the comments. Units are the author's to fill in, marked BLANK, and so are bounds.
 """
 
-import re
 from collections.abc import Mapping
 from pathlib import Path
 from textwrap import indent
@@ -16,7 +15,6 @@ from replication.inputs.parts import PAPER, config_of
 from replication.inputs.strict_yaml import read_yaml
 
 UNIT = 'BLANK: the unit, "1" without one'
-REQUIRED = re.compile(r"^required: \[(.*)\]$", re.MULTILINE)
 
 
 def draft(value: Any, place: str, said: Mapping[str, str]) -> dict[str, Any]:
@@ -25,8 +23,7 @@ def draft(value: Any, place: str, said: Mapping[str, str]) -> dict[str, Any]:
     match value:
         case Mapping():
             inner = {key: draft(each, f"{place}.{key}", said) for key, each in value.items()}
-            kind = {"type": "object", "additionalProperties": False, "required": [*value]}
-            return about | kind | {"properties": inner}
+            return about | {"properties": inner} if about else inner
         case [first, *_]:
             return about | {"type": "array", "items": draft(first, f"{place}[]", said)}
         case float():
@@ -42,18 +39,17 @@ def add_missing(path: Path) -> list[str]:
     Raises
     ------
     ValueError
-        When the schema does not end with `properties`, or lists `required` on several lines.
+        When the schema does not end with `properties`.
     """
     schema, config = path.with_name("config.schema.yaml"), read_yaml(path)
     text, known = schema.read_text(encoding="utf-8"), read_yaml(schema)
     if not (missing := [key for key in config if key not in known["properties"]]):
         return []
-    if [*known][-1] != "properties" or not REQUIRED.search(text):
-        raise ValueError(f"{schema}: expected `required: […]` on one line, and `properties` last")
+    if [*known][-1] != "properties":
+        raise ValueError(f"{schema}: expected `properties` last")
     said = comments(path.read_text(encoding="utf-8"))
     drafts = {key: draft(config[key], key, said) for key in missing}
     body = yaml.safe_dump(drafts, allow_unicode=True, sort_keys=False, width=100)
-    text = REQUIRED.sub(lambda line: f"required: [{', '.join([line[1], *missing])}]", text, count=1)
     schema.write_text(f"{text.rstrip()}\n\n{indent(body, '  ')}", encoding="utf-8")
     return missing
 

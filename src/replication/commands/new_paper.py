@@ -15,7 +15,6 @@ from pathlib import Path
 from replication.commands.update import MACHINE, copy_machine
 from replication.inputs.parts import PAPER, config_of, ledger_of
 from replication.judging.ledger import read_ledger
-from replication.pages.config_page import config_page
 from replication.pages.edition import publish_verdicts
 from replication.pages.seal import seal
 from replication.workflow.place import UNQUOTED
@@ -70,8 +69,6 @@ def create(to: Path, root: Path = ROOT) -> Path:
 
 def _publish(to: Path) -> None:
     """Publish the example, which has findings and a table of an earlier run."""
-    config = to / config_of(PAPER)
-    config.with_name("README.md").write_text(config_page(config), encoding="utf-8")
     shutil.copyfile(to / config_of(PAPER), to / "tests/reference/config.yaml")
     publish_verdicts(read_ledger([to / ledger_of(PAPER)]), to)
     seal(to)

@@ -4,7 +4,7 @@ No run is necessary.
 """
 
 from collections.abc import Callable, Iterator
-from functools import cache, partial
+from functools import cache
 from pathlib import Path
 
 from replication.inputs.parts import PAPER, captions_of, config_of
@@ -12,7 +12,6 @@ from replication.inputs.strict_yaml import read_yaml
 from replication.judging.ledger import read_judged
 from replication.pages.captions import read_captions
 from replication.pages.codecheck import codecheck_file
-from replication.pages.config_page import config_page
 from replication.pages.edition import verdict_page
 from replication.pages.edition_check import CLAIMS
 from replication.pages.exhibits import exhibits_page, read_numbers
@@ -47,11 +46,6 @@ def pages() -> dict[str, Callable[[], str]]:
     found = {path: text for path, text in asked.items() if Path(path).is_file()}
     if Path(CLAIMS).is_file():
         found[VERDICTS] = lambda: verdict_page(read_judged(CLAIMS), Path(CLAIMS).parent)
-    for part in parts:
-        config = Path(config_of(part))
-        found[str(config.with_name("INPUTS.md" if part else "README.md"))] = partial(
-            config_page, config
-        )
     return found
 
 

@@ -1,8 +1,7 @@
-"""The keys of a config, each with its meaning, unit, bounds, value and source.
+"""The keys of a config, each with its meaning, unit and value; the comments of a config.
 
-The schema gives meaning, unit and bounds; config.yaml gives the value and, in its comments, the
-source. `unit` is an annotation of ours in the schema, "1" for a number without dimension. A key
-without a description or a unit takes those of the mapping or list that contains it.
+The schema gives meaning and unit. `unit` is an annotation of ours, "1" for a number without
+dimension. A key without a description or a unit takes those of what contains it.
 """
 
 from collections.abc import Iterator, Mapping
@@ -13,7 +12,7 @@ from typing import Any
 import yaml
 
 from replication.inputs.configuration import read_schema
-from replication.inputs.schema_words import allowed, entry_of, has_numbers, resolved, unit_of
+from replication.inputs.schema_words import entry_of, has_numbers, resolved, unit_of
 from replication.inputs.strict_yaml import read_yaml
 
 
@@ -21,16 +20,13 @@ from replication.inputs.strict_yaml import read_yaml
 class Key:
     """A key of the config that holds a value: a number, a text, or a list of such.
 
-    Its source is the nearest comment in config.yaml: of its line, or of a mapping or list that
-    contains it, below the section. Meaning, unit and bounds are "" where the schema has none.
+    Meaning and unit are "" where the schema has none.
     """
 
     place: str  # its path, dotted; `[]` stands for each item of a list of mappings
     meaning: str
     unit: str
-    allowed: str
     values: tuple[Any, ...]  # one; inside a list of mappings, that of each item
-    source: str
 
     @property
     def value(self) -> str:
@@ -44,13 +40,11 @@ def keys(path: Path, used: Mapping[str, Any] | None = None) -> list[Key]:
     `used` has the values of a run, where another file went over this one.
     """
     schema = read_schema(path.with_name("config.schema.yaml"))
-    said = comments(path.read_text(encoding="utf-8"))
     config = read_yaml(path) if used is None else used
-    nested = {place: text for place, text in said.items() if place not in config}
     return [
         key
         for name, value in config.items()
-        for key in _keys(name, [value], entry_of(schema, name), schema, {}, nested, "")
+        for key in _keys(name, [value], entry_of(schema, name), schema, {})
     ]
 
 
@@ -60,27 +54,24 @@ def _keys(
     schema: Mapping[str, Any],
     root: Mapping[str, Any],
     outer: Mapping[str, str],
-    said: Mapping[str, str],
-    source: str,
 ) -> Iterator[Key]:
     """Yield the keys at a place; `values` has more than one entry inside a list of mappings."""
     schema = resolved(schema, root)
     inherited = {name: schema.get(name, outer.get(name, "")) for name in ("description", "unit")}
-    source = said.get(place, source)
     if all(isinstance(value, Mapping) for value in values):
         for name in dict.fromkeys(name for value in values for name in value):
             inner = [value[name] for value in values if name in value]
             below = f"{place}.{name}" if place else str(name)
-            yield from _keys(below, inner, entry_of(schema, name), root, inherited, said, source)
+            yield from _keys(below, inner, entry_of(schema, name), root, inherited)
         return
     items = [item for value in values if isinstance(value, list) for item in value]
     if items and all(isinstance(item, Mapping) for item in items):
         of_items = schema.get("items", {})
-        yield from _keys(f"{place}[]", items, of_items, root, inherited, said, source)
+        yield from _keys(f"{place}[]", items, of_items, root, inherited)
         return
     meaning = one_line(inherited["description"])
     unit = unit_of(schema, root) or (inherited["unit"] if has_numbers(schema, root) else "")
-    yield Key(place, meaning, unit, allowed(schema, root), tuple(values), source)
+    yield Key(place, meaning, unit, tuple(values))
 
 
 def comments(text: str) -> dict[str, str]:

@@ -3,6 +3,7 @@
 import math
 import pkgutil
 import re
+import sys
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from itertools import pairwise
 from pathlib import Path
@@ -80,11 +81,22 @@ def check_config(
         raise ValueError("\n".join(f"{path}: {message}" for message in sorted(messages)))
 
 
-def read_schema(path: str | Path) -> Any:
-    """Return a JSON schema with the lists that it takes from Python.
+OF_SCHEMAS = {"properties", "patternProperties", "$defs"}
+"""Keywords whose values have a schema for each name."""
 
-    Where it has `values: package.module.NAME`, that list becomes its `enum`: a list that a library
-    has is not said again.
+COMBINED = {"type", "$ref", "allOf", "oneOf"}
+"""With one of these, `properties` is a part of a schema, and is taken as written."""
+
+APPLIED = OF_SCHEMAS | {"items", "additionalProperties"}
+
+
+def read_schema(path: str | Path) -> Any:
+    """Return the JSON schema of a file in which what is usual is left out.
+
+    A mapping of nothing but names and their schemas stands for `properties`. What has
+    properties, and nothing of `COMBINED`, is an object without other keys, and each of them is
+    `required` unless it says which. Where it has `values: package.module.NAME`, that list becomes
+    its `enum`: a list that a library has is not said again.
 
     Raises
     ------
@@ -97,7 +109,17 @@ def read_schema(path: str | Path) -> Any:
             return [filled(item) for item in node]
         if not isinstance(node, dict):
             return node
-        found = {key: filled(value) for key, value in node.items()}
+        if node and not APPLIED & set(node) and all(isinstance(one, dict) for one in node.values()):
+            node = {"properties": node}
+        found = {
+            key: {name: filled(one) for name, one in value.items()}
+            if key in OF_SCHEMAS
+            else filled(value)
+            for key, value in node.items()
+        }
+        if "properties" in found and not COMBINED & set(found):
+            closed = {"type": "object", "additionalProperties": False}
+            found = closed | {"required": [*found["properties"]]} | found
         if isinstance(name := node.get("values"), str):
             found["enum"] = listed(name)
         return found
@@ -214,3 +236,17 @@ def mapping_in(parent: Any, key: Any) -> Mapping[str, Any]:
     """Return an entry if it is a mapping, or else an empty one: the schema has told of it."""
     entry = parent.get(key) if isinstance(parent, Mapping) else None
     return entry if isinstance(entry, Mapping) else {}
+
+
+def main(paths: Iterable[str]) -> str | None:
+    """Return what is wrong with schemas, or with the files beside them that they are of."""
+    for path in paths:
+        schema, of = read_schema(path), path.replace(".schema.yaml", ".yaml")
+        Draft202012Validator.check_schema(schema)
+        for error in Draft202012Validator(schema).iter_errors(read_yaml(of)):
+            return f"{of}: {', '.join(messages_of(error))}"
+    return None
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

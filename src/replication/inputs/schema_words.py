@@ -1,12 +1,8 @@
-"""What a JSON schema says of a key, in words: its unit, and the values that it allows."""
+"""What a JSON schema says of a key: its entry, resolved, and its unit."""
 
 import re
 from collections.abc import Mapping
 from typing import Any
-
-from replication.inputs.configuration import NAMES
-
-SIGNS = {"exclusiveMinimum": ">", "minimum": "≥", "exclusiveMaximum": "<", "maximum": "≤"}
 
 
 def entry_of(schema: Mapping[str, Any], name: str) -> Mapping[str, Any]:
@@ -47,31 +43,3 @@ def has_numbers(schema: Mapping[str, Any], root: Mapping[str, Any]) -> bool:
     schema = resolved(schema, root)
     inner = [*schema.get("oneOf", []), *([schema["items"]] if "items" in schema else [])]
     return schema.get("type") == "number" or any(has_numbers(each, root) for each in inner)
-
-
-def allowed(schema: Mapping[str, Any], root: Mapping[str, Any]) -> str:
-    """Return in words which values a schema allows."""
-    schema = resolved(schema, root)
-    if "oneOf" in schema:
-        return " or ".join(each.get("title") or allowed(each, root) for each in schema["oneOf"])
-    if "enum" in schema:
-        return "one of " + ", ".join(map(str, schema["enum"]))
-    match schema.get("type"):
-        case "array":
-            each = allowed(schema.get("items", {}), root)
-            return f"{_range(schema, 'minItems', 'maxItems')} values, each {each}".strip()
-        case "integer" | "number" as kind:
-            limits = [f"{sign} {schema[word]:g}" for word, sign in SIGNS.items() if word in schema]
-            kind = "a whole number" if kind == "integer" else "a number"
-            return f"{kind} {', '.join(limits)}".strip()
-        case "string":
-            return NAMES.get(schema.get("pattern"), schema.get("pattern", "a text"))
-        case other:
-            return f"{other or 'any value'}"
-
-
-def _range(schema: Mapping[str, Any], low: str, high: str) -> str:
-    least, most = schema.get(low, 0), schema.get(high)
-    if most is None:
-        return f"{least} or more"
-    return f"{most}" if least == most else f"{least} to {most}"

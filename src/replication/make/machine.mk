@@ -87,10 +87,9 @@ lint: | $(UV) ##- check style, types, spelling, wording and schemas; changes not
 	$(DEV) python -m replication.commands.readers
 	@$(DEV) python -m replication.pages.blanks
 	$(DEV) snakefmt --check --compact-diff Snakefile $(wildcard src/*/*.smk studies/*/*.smk)
-	$(DEV) check-jsonschema --check-metaschema $(SCHEMAS) $(LEDGER_SCHEMA)
+	$(DEV) python -m replication.inputs.configuration $(SCHEMAS)
+	$(DEV) check-jsonschema --check-metaschema $(LEDGER_SCHEMA)
 	$(DEV) check-jsonschema --schemafile $(LEDGER_SCHEMA) paper/claims.yaml
-	for schema in $(SCHEMAS); do \
-	  $(DEV) check-jsonschema --schemafile $$schema $${schema%.schema.yaml}.yaml || exit 1; done
 	$(DEV) check-jsonschema --builtin-schema vendor.citation-file-format CITATION.cff
 	$(DEV) check-jsonschema --builtin-schema vendor.github-workflows $(wildcard .github/workflows/*.yaml)
 	$(DEV) validate-pyproject pyproject.toml src/replication/pyproject.toml

@@ -14,15 +14,6 @@ def test_committed_pages_are_up_to_date(monkeypatch):
     assert list(pages.outdated()) == []
 
 
-def test_paper_and_each_study_have_a_page_of_their_input_numbers(monkeypatch):
-    monkeypatch.chdir(ROOT)
-    written = {path for path in pages.pages() if path.startswith(("config/", "studies/"))}
-    assert written == {
-        "config/README.md",
-        *(f"studies/{name}/INPUTS.md" for name in pages.studies()),
-    }
-
-
 @pytest.mark.parametrize("text", [None, "old"])
 def test_page_that_differs_or_is_missing_is_named_with_the_command(tmp_path, monkeypatch, text):
     monkeypatch.chdir(tmp_path)

@@ -48,8 +48,8 @@ FIGURE = Job(
 COSTS = Job("costs", scripts=("src/peaks.py",), outputs=("results/costs.csv",))
 LAST = Job("crate", inputs=("Snakefile", "uv.lock", rule.MACHINE), outputs=(CRATE,))
 KEYS = {
-    "": [Key("column.height", "its height", "m", "a number > 0", (6.0,), "p. 4")],
-    "wind": [Key("ratios", "mass ratio", "1", "0 or more values", ([0.0, float("inf")],), "")],
+    "": [Key("column.height", "its height", "m", (6.0,))],
+    "wind": [Key("ratios", "mass ratio", "1", ([0.0, float("inf")],))],
 }
 PROJECT = {"description": "On peaks", "version": "0.1.0"}
 CITATION = {
