@@ -147,7 +147,7 @@ def findings(
     table, (median,) = certainty_break_even, certainty_break_even_median.to_dict("records")
     known = table[np.isfinite(table.end)]
     quoted = [median, table.loc[known.end.idxmin()], table.loc[known.end.idxmax()]]
-    moved = moves(pd.DataFrame(quoted))
+    of_median, *of_extremes = moves(pd.DataFrame(quoted))
     return {
         "benefit_ends": truth(
             len(table) > 0 and len(known) == len(table),
@@ -161,9 +161,10 @@ def findings(
             median_high=told(median["end_high"]),
         ),
         "step_is_fine_enough": truth(
-            bool((moved < FINE).all()),
+            bool(of_median < FINE),
             limit=FINE,
-            largest=float(moved.max()),
+            median=float(of_median),
+            extremes=float(max(of_extremes)),
             cells_beyond=int((moves(table) >= FINE).sum()),
         ),
         "remains_at_measured": remains(table, float(certainty_measured.largest[0])),
