@@ -9,11 +9,9 @@ INTENSITIES = settings("intensities", "certainty")
 # The second solver, SciPy, on samples: no row says so, and the run fails without.
 CHECKS |= {
     "certainty_benefit": ["second_route"],
-    "certainty_break_even_pulses": ["minima_by_scipy"],
     "certainty_intensities": ["second_route"],
     "certainty_reach": ["reach_by_scipy"],
     "certainty_rescaled": ["rescaled_by_scipy"],
-    "certainty_restitution": ["scatter_agrees"],
     "certainty_theorem": ["second_route"],
 }
 
@@ -53,16 +51,6 @@ rule certainty_theorem:
         "steps/theorem.py"
 
 
-rule certainty_restarted:
-    output:
-        table="results/tables/certainty_restarted.csv",
-        findings="results/findings/certainty_restarted.json",
-    params:
-        settings=PARTS["certainty"].config["restarted"],
-    script:
-        "steps/restarted.py"
-
-
 rule certainty_lowest:
     output:
         table="results/tables/certainty_lowest.csv",
@@ -100,7 +88,6 @@ rule certainty_restitution:
         findings="results/findings/certainty_restitution.json",
     params:
         settings=settings("restitution", "certainty"),
-        ensemble=ENSEMBLE,
     script:
         "steps/restitution.py"
 
@@ -152,7 +139,6 @@ rule certainty_rates:
     output:
         motions="results/tables/certainty_motions.csv",
         rates="results/tables/certainty_rates.csv",
-        survival="results/tables/certainty_survival.csv",
         scales="results/tables/certainty_scales.csv",
         findings="results/findings/certainty_rates.json",
     params:
@@ -175,18 +161,6 @@ rule certainty_break_even:
         ensemble=ENSEMBLE,
     script:
         "steps/break_even.py"
-
-
-rule certainty_break_even_pulses:
-    output:
-        table="results/tables/certainty_break_even_pulses.csv",
-        findings="results/findings/certainty_break_even_pulses.json",
-    params:
-        settings=settings("break_even_pulses", "certainty"),
-        pulse=config["heavier"]["pulse"],
-        measured=BREAK_EVEN["measured"],
-    script:
-        "steps/break_even_pulses.py"
 
 
 rule certainty_records:

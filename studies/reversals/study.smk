@@ -49,17 +49,5 @@ rule reversals_proven:
         "steps/proven.py"
 
 
-rule reversals_enough:
-    input:
-        spectra="results/tables/reversals_spectra.csv",
-    output:
-        table="results/tables/reversals_enough.csv",
-        findings="results/findings/reversals_enough.json",
-    params:
-        settings=REVERSALS | settings("enough", "reversals"),
-    script:
-        "steps/enough.py"
-
-
 # The half about ground motions.
 include: "motions.smk"

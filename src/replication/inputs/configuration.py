@@ -93,9 +93,9 @@ APPLIED = OF_SCHEMAS | {"items", "additionalProperties"}
 def read_schema(path: str | Path) -> Any:
     """Return the JSON schema of a file in which what is usual is left out.
 
-    A mapping of nothing but names and their schemas stands for `properties`. What has
+    A mapping from names to schemas alone stands for `properties`. What has
     properties, and nothing of `COMBINED`, is an object without other keys, and each of them is
-    `required` unless it says which. Where it has `values: package.module.NAME`, that list becomes
+    `required` unless it names some. Where it has `values: package.module.NAME`, that list becomes
     its `enum`: a list that a library has is not said again.
 
     Raises

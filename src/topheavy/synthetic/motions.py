@@ -54,8 +54,8 @@ FORGOTTEN = 1e-5
 """The response of the filter to one impulse is followed until it has decayed to this."""
 
 DIGITS = 9
-"""Decimals of the normal values that are kept. Between processors, BLAS differs in the last bits, and
-for one draw of six the fit of the envelope would make another motion of that."""
+"""Decimals of the normal values that are kept: BLAS differs between processors in the last bits, of
+which, for one draw of six, the fit of the envelope would make another motion."""
 
 SMALL = math.sqrt(np.finfo(float).eps)
 """Step of the differences by which an envelope is fitted."""

@@ -15,15 +15,13 @@ from replication.workbench import Finding, run, truth
 from steps.shared.sweep import Subject, Swept, read_answers
 from studies.certainty.under import BARE, FIXED, FREE, grid, rated, stated
 from topheavy import Column
-from topheavy.fragility.curve import dispersions, fit, medians
 from topheavy.fragility.ensemble import Ensemble
-from topheavy.fragility.hazard import lognormal_rate, rate_at_levels
+from topheavy.fragility.hazard import rate_at_levels
 from topheavy.fragility.resampling import NEGATIVE, in_words
 from topheavy.fragility.tables import exact_interval
 
 BOTH = "both"
 SHARE = 1.0  # of a sampling interval: what half of the step of the grid may change
-CLOSE = 0.1  # of a rate: its largest distance from that of a lognormal curve
 
 
 def ensembles(
@@ -94,15 +92,12 @@ def rates(labels: dict, ensemble: Ensemble, settings: dict) -> list[dict]:
     under, pgvs, rows = rated(settings).subjects, grid(settings), []
     fell = ensemble.outcomes[..., : pgvs.size]
     means = ensemble.means(fell)
-    terms = fit(pgvs, means[0], skewed=False)
-    curves = medians(pgvs, terms), dispersions(terms)
     for exponent, highest in product(settings["exponents"], settings["ends"]):
         ends = pgvs[0], highest
         at = rate_at_levels(pgvs, exponent, ends)
         found, coarser, coarsest = (
             means[..., ::step] @ rate_at_levels(pgvs[::step], exponent, ends) for step in (1, 2, 4)
         )
-        formula = lognormal_rate(*curves, exponent, ends)
         some = fell[..., at > 0.0].any(axis=-1).sum(axis=0)
         for place, column in pairs(under):
             over, rough, roughest = (
@@ -115,37 +110,12 @@ def rates(labels: dict, ensemble: Ensemble, settings: dict) -> list[dict]:
                 | {"exponent": exponent, "highest": highest}
                 | {"motions": len(fell), "overturning": int(some[place])}
                 | ensemble.bounds("rate", found[:, place])
-                | {"coarser": coarser[0, place], "lognormal": formula[place]}
+                | {"coarser": coarser[0, place]}
                 | ensemble.bounds("over", over)
                 | {"over_coarser": rough[0], "over_coarsest": roughest[0]}
                 | ensemble.bounds("change", over - rough)
             )
     return rows
-
-
-def survival(table: pd.DataFrame, settings: dict) -> pd.DataFrame:
-    """Return the probability of no overturning in some centuries, from the table of rates.
-
-    Overturnings are those of a Poisson process: the structure is restored after each.
-    """
-    event, parts = settings["event"], []
-    some = table[(table.column == 0.0) & table.structure.isin([BARE, FREE])]
-    annual = event["pgv"] ** some.exponent / event["years"]  # times PGV > 1 m/s
-    keys = ["family", "earthquake", "structure", "mass_ratio", "lowered", "exponent", "highest"]
-    for centuries in settings["centuries"]:
-        expected = {key: some[key] * annual * 100.0 * centuries for key in RATE}
-        parts.append(
-            some[keys].assign(
-                centuries=centuries,
-                survival=np.exp(-expected["rate"]),
-                survival_low=np.exp(-expected["rate_high"]),
-                survival_high=np.exp(-expected["rate_low"]),
-            )
-        )
-    return pd.concat(parts)
-
-
-RATE = ("rate", "rate_low", "rate_high")
 
 
 def scales(labels: dict, peaks: np.ndarray, settings: dict) -> list[dict]:
@@ -165,13 +135,7 @@ def main(settings: dict, ensemble: dict, swept: Swept) -> tuple:
         summed += rates(labels, outcomes, settings)
         scaled += scales(labels, motions.peaks, settings)
     table, rate_table = pd.concat(stated_ones), pd.DataFrame(summed)
-    return (
-        table,
-        rate_table,
-        survival(rate_table, settings),
-        pd.DataFrame(scaled),
-        findings(table, rate_table),
-    )
+    return table, rate_table, pd.DataFrame(scaled), findings(table, rate_table)
 
 
 def findings(certainty_motions: pd.DataFrame, certainty_rates: pd.DataFrame) -> dict[str, Finding]:
@@ -185,8 +149,6 @@ def findings(certainty_motions: pd.DataFrame, certainty_rates: pd.DataFrame) -> 
     width = some.over_high - some.over_low
     error = (some.over_coarser - some.over).abs() / width
     before = (some.over_coarsest - some.over_coarser).abs() / width
-    curved = table[np.isfinite(table.lognormal) & (table.column == 0.0)]
-    apart = (curved.lognormal / curved.rate - 1.0).abs()
     return {
         "cap_lowers_the_rate": truth((free.over_high < 1.0).all(), **ranged(free)),
         "fixed_mass_raises_the_rate": truth((fixed.over_low > 1.0).all(), **ranged(fixed)),
@@ -214,12 +176,6 @@ def findings(certainty_motions: pd.DataFrame, certainty_rates: pd.DataFrame) -> 
             median=float(error.median()),
             median_before=float(before.median()),
             scatter=float(((some.change_low <= 0.0) & (some.change_high >= 0.0)).mean()),
-        ),
-        "lognormal_curve_agrees": truth(
-            len(curved) > 0 and (apart < CLOSE).all(),
-            limit=CLOSE,
-            compared=len(curved),
-            largest=float(apart.max()),
         ),
     }
 

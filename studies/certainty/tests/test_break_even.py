@@ -9,11 +9,11 @@ import pytest
 
 from steps.shared import sweep
 from steps.shared.second import by_scipy
-from studies.certainty.steps import break_even, break_even_pulses
+from studies.certainty.steps import break_even
 from studies.certainty.tests.test_rates import COLUMN as TEMPLE
 from studies.certainty.tests.test_rates import ENSEMBLE
 from studies.certainty.under import columns, lowered, stated
-from topheavy import Pulse, RockingFrame, overturned_by
+from topheavy import RockingFrame, overturned_by
 from topheavy.synthetic.ensemble import first_draws
 
 CASE = {
@@ -167,73 +167,3 @@ def test_benefit_remains_up_to_a_deficit():
     assert break_even.remains(cells(0.051, 0.1), 0.05).holds
     found = break_even.remains(cells(0.05, 0.1), 0.05)
     assert (found.holds, found["kept"], found["compared"]) == (False, 1, 2)
-
-
-# Pulses -------------------------------------------------------------------------------------------
-
-
-def under(shape, ratio):
-    pulse = Pulse(shape, TEMPLE.uplift_acceleration, ratio * TEMPLE.frequency_parameter)
-    rows = break_even_pulses.compared(TEMPLE, pulse, PULSES)
-    assert all(row["by_scipy"] for row in rows)
-    return pulse, *rows
-
-
-def test_minima_are_equal_between_the_deficits():
-    pulse, same, row = under("one-cosine", 2.7)
-    assert same["kind"] == break_even_pulses.NOT_ABOVE  # a frame without a cap beam is its column
-    assert same["frame"] == pytest.approx(same["column"], rel=1e-9)
-    assert row["kind"] == break_even_pulses.EQUAL
-    assert row["deficit_high"] - row["deficit_low"] <= 1e-3
-    assert row["column_low"] < row["frame"] <= row["column_high"]
-    block, scales = TEMPLE.block(), np.linspace(1.0, row["frame"], 2000)
-    for end, falls in (("low", True), ("high", False)):
-        lower = block.with_restitution((1.0 - row[f"deficit_{end}"]) * block.restitution)
-        assert overturned_by(lower, pulse, scales).any() == falls
-
-
-def test_scipy_has_to_find_a_minimum_on_both_sides():
-    pulse = Pulse("one-cosine", TEMPLE.uplift_acceleration, 2.0 * TEMPLE.frequency_parameter)
-    minima = break_even_pulses.Minima(TEMPLE, pulse, PULSES)
-    found = minima.of(TEMPLE)
-    sides = [minima.by_scipy(TEMPLE, place * found) for place in (0.999, 1.0, 1.001)]
-    assert sides == [False, True, False]
-
-
-def test_no_restitution_matters_under_a_pulse_of_one_lobe():
-    """Theorem 3: it overturns without an impact, and the frame from a higher amplitude on."""
-    _, _, row = under("half-sine", 3.0)
-    assert row["kind"] == break_even_pulses.ONCE
-    assert row["without_impact"] == row["column_low"] == row["column_high"] < row["frame"]
-
-
-def test_column_that_loses_all_may_still_overturn_first():
-    _, _, row = under("ricker-antisymmetric", 3.0)
-    assert row["kind"] == break_even_pulses.RESTED
-    assert row["rested"] < row["frame"] < row["without_impact"]
-
-
-@pytest.mark.parametrize(
-    ("change", "broken"),
-    [
-        ({}, set()),
-        ({"kind": break_even_pulses.ONCE, "deficit_low": math.nan}, {"deficit_exists"}),
-        ({"kind": break_even_pulses.BEYOND, "deficit_low": math.nan}, set()),
-        ({"deficit_low": 0.04}, {"deficit_exceeds_measured"}),
-        (
-            {"kind": break_even_pulses.NOT_ABOVE, "deficit_low": math.nan},
-            {"deficit_exists", "deficit_exceeds_measured"},
-        ),
-        ({"kind": break_even_pulses.ONCE, "rested": 1.5, "deficit_low": 9.0}, {"deficit_exists"}),
-        ({"by_scipy": False}, {"minima_by_scipy"}),
-    ],
-)
-def test_one_pulse_is_enough_to_refute(change, broken):
-    row = {"mass_ratio": 1.0, "kind": break_even_pulses.EQUAL, "by_scipy": True, "changes": 1}
-    row |= {"deficit_low": 0.1, "deficit_high": 0.101, "frame": 2.0, "column_high": 2.001}
-    row |= {"rested": 3.0}
-    table = pd.DataFrame([row, row | change])
-    found = break_even_pulses.findings(table, pd.DataFrame([{"largest": 0.05}]))
-    assert {name for name, one in found.items() if not one.holds} == broken
-    rests_longer = change.get("rested") == 1.5 or "deficit_exists" not in broken
-    assert found["deficit_exists"].holds_when is rests_longer

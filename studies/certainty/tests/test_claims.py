@@ -36,11 +36,6 @@ ENDS = "certainty_deficit_ends_the_benefit"
         (ENDS, f"of {' or '.join(f'{6 * size:g}' for size in EVEN['sizes'])} m"),
         (ENDS, f"at {len(EVEN['pgv'] + EVEN['scaled'])} intensities"),
         (ENDS, f"{of_a_family('break_even')} synthetic"),
-        ("certainty_probability_any_restitution", f"{of_a_family('restitution')} synthetic"),
-        (
-            "certainty_probability_any_restitution",
-            f"{CONFIG['restitution']['intensities']['points']} intensities",
-        ),
         ("certainty_frame_is_safer", f"a PGV of {CONFIG['benefit']['pgv']} m/s"),
         ("certainty_frame_is_safer", f"γ = {CONFIG['benefit']['mass_ratio']:g} than"),
         ("certainty_frame_is_safer", f"{of_a_family('benefit')} synthetic motions"),

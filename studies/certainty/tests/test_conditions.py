@@ -9,7 +9,7 @@ import pytest
 
 from replication.workbench import truth
 from steps.shared import sweep
-from steps.shared.second import NEAR, beside_a_boundary, by_scipy
+from steps.shared.second import by_scipy
 from studies.certainty.steps import (
     benefit,
     extensions,
@@ -20,7 +20,7 @@ from studies.certainty.steps import (
     theorem,
 )
 from studies.certainty.under import factored, supported
-from topheavy import Column, Record, RockingFrame, judge, reference
+from topheavy import Column, Record, judge
 from topheavy.synthetic.ensemble import first_draws
 
 SIZES = {"half_width": 0.5, "half_height": 3.0}
@@ -177,17 +177,15 @@ def changes(**broken):
     """Tables of two factors for each way; `broken` has a way's values at the lower factor."""
     rows = [
         {"way": way, "factor": factor, "helps": 0.1, "harms": 0.01, "compared": 9}
-        | {"falls": 0, "least": 1.1, "less": 0.2, "less_low": 0.1, "less_high": 0.3}
-        | {"family": "near-fault", "interval": "is positive"}
+        | {"falls": 0, "least": 1.1}
         | (broken.get(way.replace(" ", "_"), {}) if factor < 1.0 else {})
-        for way in (*restitution.WAYS, "scatter")
+        for way in ("both", "frame alone", "column alone")
         for factor in (0.9, 1.0)
     ]
     return pd.DataFrame(rows)
 
 
 TOGETHER, APART = "lowest_rises_together", "lowest_rises_apart"
-FALLS, FALLS_APART = "probability_falls_together", "probability_falls_apart"
 
 
 @pytest.mark.parametrize(
@@ -198,58 +196,16 @@ FALLS, FALLS_APART = "probability_falls_together", "probability_falls_apart"
         ("both", {"compared": 0}, {TOGETHER, APART}, {APART}),
         ("frame_alone", {"falls": 1}, {APART}, {APART}),
         ("column_alone", {"falls": 1}, {APART}, set()),
-        ("both", {"less_low": -0.01}, {FALLS}, set()),
-        ("scatter", {"less_low": -0.01}, {FALLS}, set()),
-        ("frame_alone", {"less_low": -0.01}, {FALLS_APART}, {FALLS_APART}),
-        ("column_alone", {"less_low": -0.01}, {FALLS_APART}, set()),
     ],
 )
 def test_one_change_of_restitution_is_enough_to_refute(
     monkeypatch, way, values, broken, unconditional
 ):
     table = changes(**{way: values})
-    pulses = table[table.way != "scatter"]
-    monkeypatch.setattr(restitution, "under_pulses", lambda case: pulses)
-    monkeypatch.setattr(
-        restitution,
-        "under_motions",
-        lambda case, ensemble: (pd.DataFrame(), table.to_dict("records")),
-    )
-    monkeypatch.setattr(restitution, "scatter_agrees", lambda *given: truth(True))
-    _, found = restitution.main({"levels": 501}, {})
+    monkeypatch.setattr(restitution, "under_pulses", lambda case: table)
+    _, found = restitution.main({"levels": 501})
     assert {name for name, one in found.items() if one.holds is False} == broken
     assert {name for name, one in found.items() if one.holds_when is False} == unconditional
-
-
-SCATTERED = {"column": SIZES, "seed": 1, "scatter_checked": 4, "mass_ratios": [0.0, 1.0]}
-SCATTERED |= {"scatter": [0.9], "scatter_highest": 1.05, "impacts": 40, "motions": 2}
-SCATTERED |= {"intensities": {"lowest": 0.8, "highest": 1.6, "points": 3}}
-
-
-def test_scatter_that_scipy_judges_otherwise_is_noticed(monkeypatch):
-    assert restitution.scatter_agrees(SCATTERED, ENSEMBLE).holds
-
-    def otherwise(frame, motion, restitutions):
-        found = reference.judge(frame, motion, restitutions=restitutions)
-        return SimpleNamespace(overturned=not found.overturned)
-
-    monkeypatch.setattr(restitution, "reference", SimpleNamespace(judge=otherwise))
-    assert not restitution.scatter_agrees(SCATTERED, ENSEMBLE).holds
-
-
-@pytest.mark.parametrize("intensity", [0.5, 2.0])
-def test_half_of_the_scattered_sample_is_beside_a_boundary(intensity):
-    draw = first_draws(ENSEMBLE, 1)[0]
-    frame, motion = RockingFrame(Column(**SIZES), 1.0), draw.record()
-    ratios = restitution.scattered(SCATTERED, draw, frame.restitution, 0.9)[0]
-    factor = intensity / motion.peak_velocity
-    beside = beside_a_boundary(lambda by: restitution.overturns(frame, motion, by, ratios), factor)
-    around = beside * (1.0 + NEAR * np.linspace(-1.0, 1.0, 201))
-    first, second, *others = (
-        restitution.overturns(frame, motion, one, ratios) for one in (factor, beside, *around)
-    )
-    assert first == second
-    assert set(others) == {True, False}
 
 
 # What of the benefit remains ---------------------------------------------------------------------

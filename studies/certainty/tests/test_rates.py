@@ -33,8 +33,6 @@ CASE = {
     "scaled": [0.8],
     "exponents": [2.0],
     "ends": [2.0, 8.0],
-    "event": {"pgv": 0.5, "years": 400.0},
-    "centuries": [1, 20],
     "bootstrap": {"resamples": 100, "confidence": 0.95},
     "seed": 30,
     "sample": {"points": 8},
@@ -174,18 +172,6 @@ def test_ninety_fifth_percentile_of_the_factors_is_not_the_ninetieth():
     assert row["median"] == pytest.approx(factors[20])
 
 
-def test_survival_is_that_of_a_poisson_process():
-    """0.5 m/s once in 400 years is 1 m/s once in 1600; a rate of 16 is once in a century."""
-    rate = {"rate": 16.0, "rate_low": 8.0, "rate_high": 32.0}
-    labels = {"family": "a", "earthquake": "both", "structure": FREE, "mass_ratio": 1.0}
-    labels |= {"lowered": 0.0, "column": 0.0, "exponent": 2.0, "highest": 4.0}
-    one, twenty = rates.survival(pd.DataFrame([labels | rate]), CASE).itertuples()
-    assert (one.centuries, twenty.centuries) == (1, 20)
-    assert one.survival == pytest.approx(math.exp(-1.0))
-    assert (one.survival_low, one.survival_high) == pytest.approx((math.exp(-2), math.exp(-0.5)))
-    assert twenty.survival == pytest.approx(math.exp(-20.0))
-
-
 # What decides -------------------------------------------------------------------------------------
 
 
@@ -200,7 +186,6 @@ def tables(**change):
             row |= dict(zip(("rate_low", "rate", "rate_high"), ends, strict=True))
             row |= {"over_coarser": 1.001 * ends[1], "over_coarsest": 1.002 * ends[1]}
             row |= {"change_low": -0.1, "change_high": 0.1}
-            row |= {"lognormal": 1.05 * ends[1] or math.nan}
             rows.append(row | (change.get(f"{name}_{column:g}", {})))
     stated_one = {"structure": FREE, "column": 0.0, "less_low": 0.1, "interval": "is positive"}
     return pd.DataFrame([stated_one | change.get("stated", {})]), pd.DataFrame(rows)
@@ -218,8 +203,6 @@ def tables(**change):
         ({"stated": {"structure": FIXED}}, {"cap_never_raises_the_probability"}),
         ({"fixed_0": {"over_coarser": 2.31}}, {"sum_is_fine_enough"}),
         ({"fixed_0": {"over_coarser": 1.29}}, {"sum_is_fine_enough"}),
-        ({"free_0": {"lognormal": 0.56}}, {"lognormal_curve_agrees"}),
-        ({"free_0": {"lognormal": 0.44}}, {"lognormal_curve_agrees"}),
     ],
 )
 def test_one_row_is_enough_to_refute(change, broken):

@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from studies.reversals.steps import enough, motions_fragility, pulses
+from studies.reversals.steps import motions_fragility, pulses
 
 PLACE = (14.0, "one-sine", False, 3.0)
 BANDS = pd.DataFrame(
@@ -117,8 +117,3 @@ def findings(monkeypatch, *, reversed_high=0.4, beyond=((0.01, 0.03),), half_hig
 )
 def test_whole_interval_decides(monkeypatch, name, holds, given):
     assert findings(monkeypatch, **given)[name].holds == holds
-
-
-def test_error_of_a_median_is_that_of_the_worse_half():
-    rows = pd.DataFrame({"frequency_ratio": [1.0, 2.0, 3.0], "mass_ratio": [0.4, 0.9, 0.5]})
-    assert enough.median(rows, [1.0, 2.0, 3.0]) == pytest.approx((0.5, 0.4))
