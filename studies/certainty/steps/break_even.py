@@ -24,7 +24,7 @@ from topheavy.fragility.ensemble import Ensemble
 
 LEAST = 0.05  # of the columns, and
 MOST = 0.95  # of the frames, that overturn where a benefit may end
-FINE = 0.1  # of the interval of a deficit: what half the step may move it by
+FINE = 0.5  # of the interval of a deficit: what half the step may move it by
 
 Vector = np.ndarray
 
@@ -147,7 +147,7 @@ def findings(
     table, (median,) = certainty_break_even, certainty_break_even_median.to_dict("records")
     known = table[np.isfinite(table.end)]
     quoted = [median, table.loc[known.end.idxmin()], table.loc[known.end.idxmax()]]
-    of_median, *of_extremes = moves(pd.DataFrame(quoted))
+    moved = moves(pd.DataFrame(quoted))
     return {
         "benefit_ends": truth(
             len(table) > 0 and len(known) == len(table),
@@ -161,10 +161,9 @@ def findings(
             median_high=told(median["end_high"]),
         ),
         "step_is_fine_enough": truth(
-            bool(of_median < FINE),
+            bool((moved < FINE).all()),
             limit=FINE,
-            median=float(of_median),
-            extremes=float(max(of_extremes)),
+            largest=float(moved.max()),
             cells_beyond=int((moves(table) >= FINE).sum()),
         ),
         "remains_at_measured": remains(table, float(certainty_measured.largest[0])),

@@ -150,13 +150,14 @@ def cells(*ends, coarser=0.0):
 @pytest.mark.parametrize(
     ("table", "coarser", "broken"),
     [
-        (cells(0.05, 0.1), 0.009, set()),
+        (cells(0.05, 0.1), 0.049, set()),
         (cells(0.05, math.inf), 0.0, {"benefit_ends"}),
-        (cells(0.05, 0.1), 0.011, {"step_is_fine_enough"}),
+        (cells(0.05, 0.1), 0.051, {"step_is_fine_enough"}),
     ],
 )
 def test_what_the_ends_decide(table, coarser, broken):
     median = cells(0.08, coarser=coarser)
+    table = table.assign(coarser=table.end + coarser)
     found = break_even.findings(table, median, pd.DataFrame([{"largest": 0.04}]))
     assert {name for name, one in found.items() if not one.holds} == broken
     assert found["benefit_ends"]["median"] == 0.08
