@@ -360,6 +360,7 @@ rule proven_below:
     output:
         table="results/tables/proven_below.csv",
         structures="results/tables/proven_below_structures.csv",
+        certificates="results/certificates/proven_below.jsonl",
         findings="results/findings/proven_below.json",
     params:
         settings=settings("vase"),

@@ -85,7 +85,6 @@ def wall(event, by="999/1000"):
         (lambda c, e: smaller(e, 1, "9/10"), "the energy may grow more"),
         (lambda c, e: wall(e), "a wall may be passed"),
         (lambda c, e: e.update(energy="-1"), "not negative"),
-        (lambda c, e: e.update(released=True, steps=e["steps"][:60]), "it may|may still"),
         (lambda c, e: c.update(factor=["1/10", "18/100"]), "may be passed|may grow|barrier"),
         (lambda c, e: c["events"].clear(), "may lift"),
     ],

@@ -9,7 +9,7 @@ import pytest
 from topheavy import Column, Pulse, judge, simulate
 from topheavy.proven.balls import Undecided, arb, hull, precision, within
 from topheavy.proven.blocks import enclosed
-from topheavy.proven.bounds import SIDES, START, Bound, Bounded
+from topheavy.proven.bounds import SIDES, START, Bounded
 from topheavy.proven.flight import Law
 from topheavy.proven.forcing import prepared
 
@@ -73,37 +73,6 @@ def test_energy_behind_the_pulse_has_its_last_jump():
         assert behind > free
         lever = of.law.square * of.law.lever(arb(START * phi))
         assert float(behind) == pytest.approx(float(bound.energy + gain * lever), rel=1e-6)
-
-
-def test_released_state_holds_all_that_began_in_the_bound():
-    of, speed, size = bounded(0.22), 2e-4, 1e-5
-    bound = Bound(arb(0), 0.0, (size, size))
-    start = max(
-        (of.start(arb(0), side, hull(0, size), hull(-speed, speed)) for side in SIDES),
-        key=lambda x: x.energy,
-    )
-    bound = Bound(arb(0), start.energy, (1.001 * size, 1.001 * size))
-    step, released = next((x, y) for x in of.carried(bound) if (y := of.released(x)))
-    side, phi, rate = released
-    time = float(step.sigma) / OMEGA
-    late = 0.0
-    for rotation in (-size, 0.0, size):
-        for velocity in np.linspace(-speed, speed, 9):
-            found = simulate(
-                COLUMN,
-                PULSE.scaled(0.22),
-                rotation=rotation,
-                velocity=velocity * OMEGA,
-                duration=1.5,
-                samples=np.linspace(0.0, 1.5, 20001),
-            )
-            at = np.searchsorted(found.time, time)
-            assert side * found.rotation[at] > 0.0
-            assert side * found.rotation[at] <= float(phi.upper()) * (1.0 + 1e-3)
-            assert 0.0 < side * found.velocity[at] / OMEGA <= float(rate.upper()) * (1.0 + 1e-3)
-            inward = found.time[side * found.velocity < 0.0]
-            late = max(late, inward[inward < time].max(initial=0.0))
-    assert time / 20.0 < late < time
 
 
 def test_amplitude_that_overturns_is_not_bounded():

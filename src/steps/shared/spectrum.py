@@ -21,10 +21,15 @@ class Line(NamedTuple):
     pulse: Pulse
 
 
+def column_of(slenderness: float) -> Column:
+    """Return the column of R = 1 m with a slenderness in degrees, to the rounding of its sides."""
+    alpha = math.radians(slenderness)
+    return Column(math.sin(alpha), math.cos(alpha))
+
+
 def line(slenderness: float, shape: str, gamma: float, linearised: bool, ratio: float) -> Line:
     """Return the line of a frame whose columns have a slenderness in degrees."""
-    alpha = math.radians(slenderness)
-    column = Column(math.sin(alpha), math.cos(alpha))
+    column = column_of(slenderness)
     block = RockingFrame(column, gamma).block()
     labels = {
         "slenderness_deg": slenderness,

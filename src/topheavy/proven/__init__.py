@@ -1,7 +1,6 @@
 """Proven outcomes of rocking blocks: enclosures in place of tolerances, by ball arithmetic.
 
     outcome(structure, excitation)           ─►  survives | overturns | undecided
-    steady_rocking(structure, harmonic, …)   ─►  a periodic motion, and starts that it attracts
 
 Every number is a ball of Arb that contains the true one: the structure's dimensions and the ground
 motion are exact decimals, and each step, impact and comparison is rounded outward. What is assumed

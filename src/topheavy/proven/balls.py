@@ -14,19 +14,8 @@ except ImportError as error:
         'install the extra: pip install "topheavy[proven]"'
     ) from error
 
-__all__ = [
-    "Undecided",
-    "arb",
-    "arb_mat",
-    "arb_poly",
-    "bounds",
-    "exact",
-    "hull",
-    "power",
-    "precision",
-    "root",
-    "within",
-]
+__all__ = ["Undecided", "arb", "arb_mat", "arb_poly", "bounds", "exact", "hull", "power"]
+__all__ += ["precision", "root", "within"]
 
 
 class Undecided(Exception):

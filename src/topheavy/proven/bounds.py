@@ -24,13 +24,6 @@ If a' has one sign, H grows on one side alone; else g_s = h d is the same for d 
 and V(Y_s, m_s) ≤ V ≤ H ≤ F: a wall of the first kind is not reached. One of the second kind is
 passed from X_s to Y_s with φ' ≤ v(φ). As V is concave, v² is at most its chord, and the passage
 lasts at least 2 (Y_s − X_s)/(v(X_s) + v(Y_s)) > h. Each flight begins at a φ ≤ X_s, or at 0.  ∎
-
-Release. From σ_c on let the block be pushed outward at rest on the side s: g = −κ² (pull at φ =
-0) > 0. A block that moves inward on that side has at most W = √(2 (E − min(0, V(X_s)))) at σ_c,
-and φ'' ≥ g: it has turned or landed when ∫ g dσ = W. A flight on the other side, where κ² pull ≥
-G > 0, lasts at most 2 √(2E)/G. It ends on the side s with φ' ≥ 0, and φ' then grows. After both
-times the block is on the side s and moves outward, 0 ≤ φ ≤ X_s and 0 ≤ φ' ≤ W with the E and X_s
-of that time, however it came.
 """
 
 import math
@@ -57,8 +50,6 @@ class Bound:
     sigma: arb
     energy: float
     walls: tuple[float, float]
-    pushed: tuple[int, float, float, float] | None = None
-    """The side on which it is pushed, the rest of W, and for how long that has been zero."""
 
 
 @dataclass(frozen=True)
@@ -110,9 +101,7 @@ class Bounded:
             one.limit(energy)
             other.limit(energy)
             if one.holds() and other.holds():
-                walls = one.wall, other.wall
-                pushed = self._pushed(bound, until, walls, ground)
-                return Bound(until, float(energy), walls, pushed)
+                return Bound(until, float(energy), (one.wall, other.wall))
             slack = min(1.5 * slack, 0.05)
         raise Undecided("bound")
 
@@ -125,46 +114,6 @@ class Bounded:
             return over + hull(-growth, growth), [growth] * 2
         ends = [self.factor * self.forcing.value(self.piece, x) for x in (start, until)]
         return ends[0].union(ends[1]), rises
-
-    def _pushed(
-        self, bound: Bound, until: arb, walls: tuple[float, float], ground: arb
-    ) -> tuple[int, float, float, float] | None:
-        """Return what is left of W, the time since, and the highest wall on the other side so far.
-
-        None unless it is pushed outward all the while.
-        """
-        for side in SIDES:
-            gain = -self.law.square * self.law.pull(arb(0), side * ground)
-            if gain > 0:
-                lasts, other = (until - bound.sigma).lower(), 1 - SIDES.index(side)
-                across = max(bound.walls[other], walls[other])
-                if bound.pushed is not None and bound.pushed[0] == side:
-                    left, waited = bound.pushed[1:3]
-                    across = max(across, bound.pushed[3])
-                else:
-                    left, waited = bounds(self._fastest(bound, side) * MARGIN)[1], 0.0
-                if left > 0.0:
-                    return side, left - bounds(gain * lasts)[0], waited, across
-                return side, left, waited + bounds(lasts)[0], across
-        return None
-
-    def _fastest(self, bound: Bound, side: int) -> arb:
-        """Return W, on the side on which the block is pushed outward."""
-        push = side * self.factor * self.forcing.value(self.piece, bound.sigma)
-        wall = arb(bound.walls[SIDES.index(side)])
-        square = 2 * (bound.energy - self.law.potential(wall, push).min(arb(0)))
-        return square.upper().max(arb(0)).sqrt()
-
-    def released(self, bound: Bound) -> tuple[int, arb, arb] | None:
-        """Return side, φ and φ' if it is sure to move outward on a side that is known."""
-        if bound.pushed is None or bound.pushed[1] > 0.0:
-            return None
-        side, _, waited, across = bound.pushed
-        place, law = SIDES.index(side), self.law
-        back = law.square * law.pull(hull(0, across), law.block.level)
-        if not waited > MARGIN * 2 * (2 * arb(bound.energy)).sqrt() / back:
-            return None
-        return side, hull(0, bound.walls[place]), hull(0, self._fastest(bound, side))
 
     def energy_behind(self, bound: Bound) -> arb:
         """Return a bound on H behind the end of the pulse, where a jumps to zero."""

@@ -1,11 +1,9 @@
-"""Certificates: inputs as decimals, the steps of the proof, and what made them."""
+"""Certificates: inputs as decimals, and the steps of the proof."""
 
 from __future__ import annotations
 
 import math
 from fractions import Fraction
-from functools import cache
-from importlib.metadata import version
 from typing import Any
 
 from topheavy.checks import short
@@ -60,17 +58,10 @@ def certified(
         "factor": [str(decimal(low)), str(decimal(high))],
         "outcome": found.outcome,
         "impacts": found.impacts,
-        "peak": found.peak and [_decimal(x) for x in found.peak],
         "bits": max([bits, *(step.pop("bits") for step in steps)]),
         "order": max([2, *(step.pop("order") for step in steps)]),
         "events": [{key: _plain(value) for key, value in step.items()} for step in steps],
-        "versions": _versions(),
     }
-
-
-@cache
-def _versions() -> dict[str, str]:
-    return {name: version(name) for name in ("topheavy", "python-flint")}
 
 
 def _decimal(number: float) -> str:

@@ -8,8 +8,8 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cache
-from itertools import cycle, pairwise
+from functools import cache, reduce
+from itertools import accumulate, cycle, pairwise
 from operator import truediv
 
 from topheavy.proven.balls import Undecided, arb, bounds, exact, hull, power, root
@@ -61,7 +61,7 @@ class Forcing(ABC):
         None if it stays below. Only where the motion begins can it jump over the level.
         """
         edges = [piece.start, *piece.turns, piece.stop]
-        begin = _later(begin, piece.start)
+        begin = begin.max(piece.start)
         at_begin = factor * self.value(piece, begin)
         if abs(at_begin) > level:
             return begin, _sign(at_begin), True
@@ -80,7 +80,7 @@ class Forcing(ABC):
             crossing = root(
                 lambda x: pushed * self.value(piece, x) - level,  # noqa: B023 - called here
                 lambda x: pushed * self.series(piece, x, 2)[1],  # noqa: B023
-                _later(low, begin).lower(),
+                low.max(begin).lower(),
                 high.upper(),
             )
             return crossing, sign, False
@@ -100,9 +100,7 @@ class PulseForcing(Forcing):
         self.pieces = [Piece(arb(0), int(half_periods) * arb.pi(), 0, turns)]
         piece = self.pieces[0]
         ends = [abs(self.value(piece, x)) for x in (piece.start, *turns, piece.stop)]
-        self._largest = arb(0)
-        for end in ends:
-            self._largest = self._largest.max(end)
+        self._largest = reduce(arb.max, ends)
 
     def scale(self, frequency_parameter: arb) -> arb:
         return frequency_parameter / self.omega
@@ -115,7 +113,7 @@ class PulseForcing(Forcing):
 
     def range(self, number: int, start: arb, stop: arb) -> arb:
         piece = self.pieces[number]
-        found = self.value(piece, hull(start, _earlier(stop, piece.stop)))
+        found = self.value(piece, hull(start, stop.min(piece.stop)))
         return found if stop < piece.stop else found.union(arb(0))  # then it jumps
 
 
@@ -126,9 +124,8 @@ class RecordForcing(Forcing):
         self.samples = [exact(x) for x in record.acceleration.tolist()]
         self.step = exact(record.time_step)
         self.pieces = [Piece(arb(k), arb(k + 1), k) for k in range(len(self.samples) - 1)]
-        self._largest = [abs(x) for x in self.samples]
-        for k in reversed(range(len(self.samples) - 1)):
-            self._largest[k] = self._largest[k].max(self._largest[k + 1])
+        sizes = [abs(x) for x in reversed(self.samples)]
+        self._largest = [*accumulate(sizes, arb.max)][::-1]
 
     def scale(self, frequency_parameter: arb) -> arb:
         return frequency_parameter * self.step
@@ -177,10 +174,6 @@ def _factorials(terms: int) -> tuple[arb, ...]:
     return tuple(arb(math.factorial(k)) for k in range(terms))  # exact in any precision
 
 
-def _constant(sigma: arb, terms: int) -> list[arb]:
-    return [arb(1), *[arb(0)] * (terms - 1)]
-
-
 def _ricker(polynomial: Sequence[arb], slope: arb, sigma: arb, terms: int) -> list[arb]:
     """Return the series of P(z) exp(−z²) with z = slope · (σ − 9π/2), P by its powers of z."""
     z = slope * (sigma - 9 * arb.pi() / 2)
@@ -212,7 +205,7 @@ _WAVES = {
     "one-sine": _sine,
     "one-cosine": _cosine,
     "half-sine": _sine,
-    "constant": _constant,
+    "constant": lambda sigma, terms: [arb(1), *[arb(0)] * (terms - 1)],
     "ricker-symmetric": _ricker_symmetric,
     "ricker-antisymmetric": _ricker_antisymmetric,
 }
@@ -243,11 +236,3 @@ def _turns(shape: str) -> list[arb]:
 
 def _sign(ball: arb) -> int:
     return 1 if ball > 0 else -1
-
-
-def _later(one: arb, other: arb) -> arb:
-    return one.max(other)
-
-
-def _earlier(one: arb, other: arb) -> arb:
-    return one.min(other)

@@ -21,15 +21,12 @@ MOST_STEPS = 2000
 SHORTEST = 2.0**-80
 """Of the clock of a motion (the phase of a pulse, a sample): a shorter step is not tried."""
 
-BOUNDED, BOUNDED_STEPS, BOUNDED_SHORTEST, WIDEST = 6, 100, 0.3, 0.06
-"""How often a motion is bounded, steps tried until then, the shortest over the first that is tried,
-and the widest impact."""
+BOUNDED_STEPS, BOUNDED_SHORTEST, WIDEST = 100, 0.3, 0.06
+"""Where a motion may be bounded instead: steps tried until then, the shortest over the first that
+is tried, and the widest impact."""
 
 OF_A_BOX = 1e-6
 """Of the relative width of a box of factors: what the last terms of a step may amount to."""
-
-FIRST_PUSHED = 0.05
-"""Of the clock: about the first step behind a bound. It lets φ grow beyond its enclosure."""
 
 _PARTS = 8
 """Of a step without an isolated turning point, over each of which the peak is bounded."""
@@ -88,10 +85,8 @@ class March:
     rate: arb = field(default_factory=lambda: arb(0))
     energy: arb = field(default_factory=lambda: arb(0))  # φ'²/2 + κ² (Φ + s a ψ)
     zeros: int = 0
-    bounded: int = 0  # how often it may be, instead of raising Undecided
-    pushed: bool = False  # outward from a φ ≥ 0, which may be zero, with a φ' ≥ 0
+    bounded: bool = False  # whether it may be, instead of raising Undecided
     result: Outcome | None = None
-    about_end: tuple[Step, arb] | None = None  # a step, and when it lands unless the pulse ends
 
     def __post_init__(self) -> None:
         self.sigma, self.impacts = self.rest.sigma, self.rest.impacts
@@ -143,49 +138,20 @@ class March:
         return True
 
     def _is_bounded(self, piece: Piece) -> None:
-        """Bound the motion until its side is known again, or the pulse has ended."""
-        self.bounded, self.tried = self.bounded - 1, 0
-        if self.about_end is not None and len(self.forcing.pieces) == 1:
-            self._lands_about_the_end(*self.about_end)
+        """Bound the motion until the pulse has ended."""
         block = Bounded(self.law, self.forcing, piece, self.factor)
-        bound = block.start(self.sigma, self.side, self.phi, self.rate)
-        begin, steps, released = bound, [], None
+        bound = begin = block.start(self.sigma, self.side, self.phi, self.rate)
+        steps = []
         for bound in block.carried(begin):
             steps.append((bound.sigma, bound.energy, bound.walls))
             self.most = self.most.max(arb(max(bound.walls)))
-            released = block.released(bound)
-            if released:
-                break
-        self._note(
-            "bounded", energy=begin.energy, walls=begin.walls, steps=steps, released=bool(released)
-        )
-        self.sigma = bound.sigma
-        if released:
-            self.side, self.phi, self.rate = released
-            self.zeros, self.h, self.pushed = 0, FIRST_PUSHED, True
-            push = self.side * self.factor * self.forcing.value(piece, self.sigma)
-            least = self.law.potential(self.phi.upper(), push).lower().min(arb(0))
-            self.energy = hull(least, bound.energy)
-            return
+        self._note("bounded", energy=begin.energy, walls=begin.walls, steps=steps)
         energy, alpha = block.energy_behind(bound) / self.law.square, self.block.slenderness
         barrier = Law(self.block, arb(1)).potential(alpha, arb(0))
         if not energy < barrier:
             raise Undecided("bound")
         self.rate = arb(0)  # not known: the turn is a bound on the peak alone
         self.result = self._turns(energy, barrier)
-
-    def _lands_about_the_end(self, made: Step, times: arb) -> None:
-        """Land with the energy that it has with the pulse or, if that has ended, without it."""
-        self.about_end = None
-        phi, rate = made.at(times)
-        if not (rate < 0 and phi < self.block.slenderness):
-            return
-        self._note("step", h=made.h, box=made.box.phi, impact=times, last=True, about_end=True)
-        energy = rate * rate / 2 + hull(0, self.law.potential(phi.upper().max(arb(0)), arb(0)))
-        ends = [end.max(arb(0)).sqrt() for end in ((2 * energy).lower(), (2 * energy).upper())]
-        self.sigma, self.phi = self.sigma + times, arb(0)
-        self.rate = self.block.restitution * hull(*ends)
-        self.side, self.zeros, self.impacts = -self.side, 1, self.impacts + 1
 
     def advance(self, piece: Piece) -> tuple[bool, bool]:
         """Take a step of a block that has left the ground; return if it overturns, if it ends."""
@@ -224,7 +190,7 @@ class March:
         self.sigma = piece.stop if is_last else self.sigma + end
         self.energy += made.gain(end)
         self._sharpen(piece)
-        self.zeros, self.pushed = 0, self.pushed and not self.phi > 0
+        self.zeros = 0
         if self._is_gone(piece):
             self._note("gone")
             return True
@@ -236,7 +202,7 @@ class March:
         A step in which the enclosures decide nothing is tried again, shorter. One that may end in
         an impact or before it goes on beyond the end of the piece, by the same formula.
         """
-        left, self.about_end = piece.stop - self.sigma, None
+        left = piece.stop - self.sigma
         push = self._push(piece, self.sigma)
         start = self.law.series(self.phi, self.rate, push, self.order)
         h, stretch, cause = self._length(start[0]), 1.0, "enclosure"
@@ -251,19 +217,15 @@ class March:
             try:
                 over = self._push(piece, self.sigma + hull(0, length))
                 made = step(self.law, start, (push, over), length, self.zeros)
-                impact = self._impact(made, over)
+                impact = self._impact(made)
                 if impact is not None and is_last and not impact < left:
                     if not impact > left:
-                        early = impact.lower().min(left.lower()).max(arb(0)).lower()
-                        early = early * 15 / 16  # where φ > 0 in wider enclosures too
-                        if not self._may_lie_flat(made):
-                            self.about_end = made, hull(early, left.upper())
                         raise Undecided("end")
                     impact = None
                 end = impact if impact is not None else left if is_last else arb(length)
                 if self._may_lie_flat(made) and not made.at(end)[0] > arb.pi() / 2:
                     raise Undecided("flat")
-                self.h, self.about_end = length, None
+                self.h = length
                 return made, end, impact, is_last
             except Undecided as undecided:
                 cause = str(undecided)
@@ -275,11 +237,7 @@ class March:
                     h = length * (0.9 if cause == "end" else 0.5)
         raise Undecided(cause)
 
-    def _impact(self, made: Step, push: list[arb]) -> arb | None:
-        if self.pushed:
-            if not self.law.pull(arb(0), push[0]) < 0:
-                raise Undecided("start")
-            return None
+    def _impact(self, made: Step) -> arb | None:
         impact = made.impact()
         if self.bounded and impact is not None and impact.rad() > WIDEST:
             self.tried = BOUNDED_STEPS
@@ -415,6 +373,4 @@ class March:
     def _note(self, event: str, **values: object) -> None:
         if self.trace is not None:
             made = {"bits": self.bits, "order": self.order}
-            self.trace.append(
-                {"event": event, "phi": self.phi, "rate": self.rate, **values, **made}
-            )
+            self.trace.append({"event": event, **values, **made})

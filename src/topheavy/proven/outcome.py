@@ -15,7 +15,7 @@ from topheavy.excitation import no_excitation
 from topheavy.proven.balls import Undecided, arb, precision, within
 from topheavy.proven.blocks import Balls, BlockBox, Range, enclosed
 from topheavy.proven.forcing import Forcing, prepared
-from topheavy.proven.march import BOUNDED, March, Outcome, Rest
+from topheavy.proven.march import March, Outcome, Rest
 from topheavy.pulses import Pulse
 from topheavy.records import Record
 from topheavy.structures import Structure
@@ -88,7 +88,7 @@ def outcome(
                 range_ = within((low, high) if low < high else low)
                 settings[height] = enclosed(structure, linearised), prepared(excitation), range_
             march = March(*settings[height], bits, accuracy, rest, trace)
-            march.bounded = BOUNDED if bounded else 0
+            march.bounded = bounded
             try:
                 found = march.run(until_rest=height > 0)
             except Undecided as undecided:

@@ -1,7 +1,8 @@
 """Prove reversals: one of each pair of γ, and both sides of both ends of the widest band.
 
 A reversal is proven where the lighter frame is proven to survive a pulse and the heavier one to be
-overturned by it, by the search and by the checker.
+overturned by it, by the search and by the checker. Frames have the sides of their columns, which
+are decimals, and γ: α, p̂ and √r of Eq. (25) are enclosed.
 """
 
 from collections.abc import Iterator
@@ -13,6 +14,8 @@ import pandas as pd
 from replication.workbench import Finding, run, truth
 from steps.shared.proofs import WIDTHS, as_lines, proven
 from steps.shared.spectra_compared import Place, Spectra
+from steps.shared.spectrum import column_of
+from topheavy import RockingFrame
 
 REVERSED = ("survives", "overturns")
 
@@ -23,12 +26,12 @@ def judged(
     """Return what is proven of the lighter and of the heavier frame, and the certificates."""
     found = []
     for gamma in pair:
-        _, block, pulse = place.line(gamma)
-        found.append(proven(block, pulse.scaled(amplitude)))
+        frame, (*_, pulse) = RockingFrame(column_of(place.slenderness), gamma), place.line(gamma)
+        found.append(proven(frame, pulse.scaled(amplitude)))
     light, heavy = pair
     row = place._asdict() | {"light": light, "heavy": heavy, "amplitude": amplitude}
     row |= {"lighter": found[0][0], "heavier": found[1][0]}
-    claims = [f"reversal of γ = {light:g} and {heavy:g}: the block of γ = {g:g}" for g in pair]
+    claims = [f"reversal of γ = {light:g} and {heavy:g}: the frame of γ = {g:g}" for g in pair]
     of_both = zip(claims, found, strict=True)
     return row, [(claim, certificate) for claim, (_, certificate) in of_both if certificate]
 

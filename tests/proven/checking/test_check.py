@@ -311,7 +311,7 @@ def test_wall_below_zero_is_refused():
         [["0", "1/10000000000"], "1/10000000000", [below, below]],
         [["0", "6.2831853071796"], "2/10000000000", [tiny, tiny]],
     ]
-    bound = {"event": "bounded", "energy": "1/10000000000000000000000000", "released": False}
+    bound = {"event": "bounded", "energy": "1/10000000000000000000000000"}
     bound |= {"walls": ["1/1000000", "1/1000000"], "steps": steps}
     refused(forged(BLOCK, Pulse("one-sine", 10.0, 1.0), [bound]), "below zero")
 
@@ -332,8 +332,23 @@ def test_bound_without_a_step_is_refused():
     events = [event for event in certificate["events"] if event["event"] != "gone"]
     energy = repr(0.25 * (1 - math.cos(0.25)) * 0.9999)
     bound = {"event": "bounded", "energy": energy, "walls": ["1.5", "1.5"], "steps": []}
-    certificate |= {"outcome": "survives", "events": [*events, bound | {"released": False}]}
+    certificate |= {"outcome": "survives", "events": [*events, bound]}
     refused(certificate, r"steps is \[\]; expected a list of 1 to")
+
+
+@pytest.mark.parametrize("extra", [{}, {"axis": "0", "cap_width": "0", "cap_depth": "0"}])
+def test_structure_that_does_not_rock_is_refused(extra):
+    """Its √r is negative: a bounce would have a negative velocity, and rest before it began."""
+    certificate = honest(COLUMN, Pulse("one-sine", 0.3, 3.0))
+    sides = {"half_width": "3", "half_height": "1", **extra}
+    certificate["structure"] |= {"kind": "body" if extra else "frame"} | sides
+    refused(certificate, "√r is outside of 0 to 1")
+
+
+def test_text_that_looks_like_a_number_or_a_statement_is_refused():
+    certificate = honest(COLUMN, Pulse("one-sine", 0.1, 3.0))
+    for key, value in (("half_width", "0.٥"), ("claim", "for every frame")):
+        refused(certificate | {"structure": certificate["structure"] | {key: value}}, "structure")
 
 
 @pytest.mark.parametrize("restitution", ["1.1", "-0.1"])
@@ -343,12 +358,9 @@ def test_block_that_gains_energy_is_refused(restitution):
     refused(certificate, "expected a number from 0 to 1")
 
 
-def test_landing_in_the_middle_of_a_pulse_and_a_short_series_are_refused():
+def test_short_series_is_refused():
     certificate = honest(BLOCK, Pulse("one-cosine", 1.3, 8.0))
-    lands = next(event for event in certificate["events"] if event.get("impact"))
     refused(certificate | {"order": 3}, "below 4")
-    lands |= {"last": False, "about_end": True}
-    refused(certificate, "before the end of a pulse")
 
 
 def test_motion_that_lifts_the_block_before_the_bracket_is_refused():
@@ -381,7 +393,7 @@ def test_bound_under_a_record_is_refused():
     assert last["event"] in ("step", "gone")
     for steps in ([], [[["1", "1"], "1", ["0.05", "0.05"]]]):
         bound = {"event": "bounded", "energy": "0.0002", "steps": steps, "walls": ["0", "4.44"]}
-        events = [*certificate["events"], bound | {"released": False}]
+        events = [*certificate["events"], bound]
         forged_one = certificate | {"events": events, "outcome": "survives", "impacts": 0}
         refused(forged_one, "steps is|a record has no bound")
 
@@ -412,7 +424,6 @@ def without(given, at):
 
 WRONG = (None, True, 0, -1, 1.5, math.nan, "x", "", "nan", "1e10", "1/0", "1_0", " 1", "9" * 3000)
 WRONG += ([], {}, ["0", "0"], ["0", "1", "2"], 10**30)
-FREE = {"peak", "versions", "phi", "rate"}  # hints from which nothing is concluded
 
 
 @pytest.fixture(scope="module")
@@ -451,8 +462,6 @@ def test_entry_of_another_type_is_refused(kinds):
     count = 0
     for certificate in kinds:
         for at in places(certificate):
-            if FREE & set(at):
-                continue
             for value in WRONG:
                 if is_of_the_form(put(certificate, at, value)):
                     types = {type(value), type(entry(certificate, at))}
@@ -475,7 +484,7 @@ def test_no_number_in_the_events_makes_another_outcome(kinds, value):
     """The events are hints: a wrong one proves nothing, or the same."""
     for certificate in kinds:
         for at in places({"events": certificate["events"][:4]}):
-            if not FREE & set(at) and isinstance(entry(certificate, at), str) and at[-1] != "event":
+            if isinstance(entry(certificate, at), str) and at[-1] != "event":
                 with contextlib.suppress(Refused):
                     assert check(put(certificate, at, value)) == certificate["outcome"]
 
@@ -533,11 +542,11 @@ def test_anyone_can_check_a_file_of_certificates(kinds, tmp_path):
     done = run_alone(right)
     assert (done.returncode, done.stderr) == (0, "")
     first, second = done.stdout.splitlines()
-    assert "line 1: proven: frame (half_width 0.5, half_height 3.0, mass_ratio 0.0" in first
-    assert second.endswith("under one-sine, 1.0 g, 3.0 rad/s: overturns, impacts: 0")
+    assert "line 1: proven: kind frame, half_width 0.5, half_height 3.0, mass_ratio 0.0" in first
+    assert "angular_frequency 3.0, factor 1 to 1: overturns, impacts: 0" in second
     for line, reason in (
         (json.dumps(kinds[0] | {"outcome": "overturns"}), "the certificate says overturns"),
-        (json.dumps(kinds[0] | {"peak": math.nan}), "NaN is no JSON"),
+        (json.dumps(kinds[0] | {"order": math.nan}), "NaN is no JSON"),
         (json.dumps(kinds[0])[:-1] + ', "impacts": 1}', "a key stands twice"),
         ("[" * 100_000, "no JSON"),
         ("{", "no JSON"),

@@ -7,6 +7,7 @@ first that proves nothing ends it with status 1.
 import gzip
 import json
 import sys
+import zlib
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +18,7 @@ if not __package__:  # run as a folder, which is a package of its own then
 from .check import check
 from .intervals import Refused
 
+SAME = ("structure", "excitation", "linearised", "outcome")
 USAGE = "usage: python3 -I -S src/topheavy/proven/checking FILE…"
 
 
@@ -40,37 +42,36 @@ def parsed(line: str) -> Any:
 
 
 def told(certificate: dict[str, Any]) -> str:
-    """Return in words what a certificate is about."""
-    structure, ground = certificate["structure"], certificate["excitation"]
-    sizes = ", ".join(f"{key} {value}" for key, value in structure.items() if key != "kind")
-    motion = f"a record of {len(ground.get('acceleration', []))} samples"
-    if "shape" in ground:
-        motion = f"{ground['shape']}, {ground['amplitude']} g, {ground['angular_frequency']} rad/s"
-    low, high = certificate["factor"]
-    scaled = "" if low == high == "1" else f", times {low} to {high}"
-    linearised = ", linearised" if certificate["linearised"] else ""
-    return (
-        f"{structure['kind']} ({sizes}){linearised} under {motion}{scaled}: "
-        f"{certificate['outcome']}, impacts: {certificate['impacts']}"
-    )
+    """Return what a certificate is about, and what it proves."""
+    motion = certificate["excitation"]
+    if "acceleration" in motion:
+        motion = motion | {"acceleration": f"of {len(motion['acceleration'])} samples"}
+    about = certificate["structure"] | motion | {"factor": " to ".join(certificate["factor"])}
+    words = ", ".join(f"{key} {value}" for key, value in about.items())
+    linearised = " (linearised)" if certificate["linearised"] else ""
+    return f"{words}{linearised}: {certificate['outcome']}, impacts: {certificate['impacts']}"
 
 
 def main(paths: list[str]) -> str | None:
-    """Print a line for each certificate; return why one is refused."""
+    """Print a line for each certificate, also of those before that it continues."""
     if not paths:
         return USAGE
     for path in paths:
-        opened = gzip.open if path.endswith(".gz") else open
+        opened, last, begin = gzip.open if path.endswith(".gz") else open, None, ""
         try:
             with opened(path, "rt", encoding="utf-8") as lines:
                 for number, line in enumerate(lines, 1):
                     where = f"{path}, line {number}"
                     certificate = parsed(line)
                     check(certificate)
-                    print(f"{where}: proven: {told(certificate)}")
+                    same, (low, high) = [certificate[key] for key in SAME], certificate["factor"]
+                    begin = begin if last == (same, low) else low
+                    whole = "" if begin == low else f"; so does each factor from {begin}"
+                    print(f"{where}: proven: {told(certificate)}{whole}")
+                    last = same, high
         except Refused as reason:
             return f"{where} is refused: {reason}"
-        except (OSError, EOFError, UnicodeDecodeError) as fault:
+        except (OSError, EOFError, UnicodeDecodeError, zlib.error) as fault:
             return f"{path} cannot be read: {fault}"
     return None
 

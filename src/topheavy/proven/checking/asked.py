@@ -55,26 +55,25 @@ def _dimensions(structure: Any) -> dict[str, Any]:
     if "BlockBox" in kinds:
         raise Refused("a box of structures has no certificate")
     if not kinds & {"Column", "RockingFrame", "FixedMassColumn", "MonolithicPortal"}:
-        block = structure.block()
         names = "slenderness", "frequency_parameter", "restitution"
-        return {"kind": "block"} | {name: _decimal(getattr(block, name)) for name in names}
-    column = getattr(structure, "column", structure)
+        return {"kind": "block"} | _decimals(structure.block(), *names)
     ratio = getattr(structure, "mass_ratio", 0.0)
-    found: dict[str, Any] = {
-        "half_width": _decimal(column.half_width),
-        "half_height": _decimal(column.half_height),
-        "mass_ratio": "infinite" if ratio == float("inf") else _decimal(ratio),
-        "gravity": _decimal(9.81),
-    }
+    found = _decimals(getattr(structure, "column", structure), "half_width", "half_height")
+    found |= {"mass_ratio": "infinite" if ratio == float("inf") else _decimal(ratio)}
+    found |= {"gravity": _decimal(9.81)}
     if kinds & {"Column", "RockingFrame"}:
         return found | {"kind": "frame"}
+    cap = {"axis": Fraction(0)} | _decimals(structure, "cap_depth")
     if "MonolithicPortal" in kinds:
-        axis = _decimal(structure.span) / 2
-        width = 2 * (axis + found["half_width"] + _decimal(structure.overhang))
+        cap["axis"] = _decimal(structure.span) / 2
+        width = 2 * (cap["axis"] + found["half_width"] + _decimal(structure.overhang))
     else:
-        axis, width = Fraction(0), _decimal(structure.cap_width)
-    cap = {"axis": axis, "cap_width": width, "cap_depth": _decimal(structure.cap_depth)}
-    return found | cap | {"kind": "body"}
+        width = _decimal(structure.cap_width)
+    return found | cap | {"cap_width": width, "kind": "body"}
+
+
+def _decimals(of: Any, *names: str) -> dict[str, Any]:
+    return {name: _decimal(getattr(of, name)) for name in names}
 
 
 def _equal(given: Sequence[str], asked: Sequence[float]) -> bool:

@@ -20,7 +20,6 @@ class Bound:
         self.block, self.ground, self.sigma = block, ground, sigma
         self.energy = of(0)
         self.walls = {1: of(0), -1: of(0)}
-        self.outward, self.left, self.waited, self.across = 0, of(0), of(0), of(0)
 
     def potential(self, side: int, phi: Interval, ground: Interval) -> Interval:
         return self.ground.clock * self.block.potential(phi, side * ground)
@@ -56,7 +55,6 @@ class Bound:
         for side in SIDES:
             push = side * ground
             self._wall_holds(h, self.walls[side], walls[side], Interval(push.low, push.low))
-        self._pushed(lasts, ground, walls)
         self.sigma, self.walls = until, walls
 
     def _ground(self, until: Interval, h: Interval) -> tuple[Interval, dict[int, Interval]]:
@@ -79,37 +77,6 @@ class Bound:
             mean = rates[0] if rates[0].high > rates[1].high else rates[1]
         if not wall - before > h * mean:
             raise Refused("a wall may be passed")
-
-    def _pushed(self, lasts: Interval, ground: Interval, walls: dict[int, Interval]) -> None:
-        """Count down the velocity inward of a block that is pushed outward all the while."""
-        sides = [s for s in SIDES if self.block.pull(of(0), s * ground) < 0]
-        side = sides[0] if sides else 0
-        if side and side != self.outward:
-            self.left, self.waited, self.across = self._fastest(side), of(0), of(0)
-        if side:
-            highest = max(self.across.high, self.walls[-side].high, walls[-side].high)
-            self.across = Interval(0, highest)
-        if side and self.left > 0:
-            self.left = (
-                self.left + self.ground.clock * self.block.pull(of(0), side * ground) * lasts
-            )
-        elif side and self.left < 0:
-            self.waited = self.waited + lasts
-        self.outward = side
-
-    def _fastest(self, side: int) -> Interval:
-        least = self.potential(side, self.walls[side], self.ground.at(0, self.sigma))
-        root = _positive(2 * (self.energy - Interval(min(least.low, 0), min(least.low, 0)))).root()
-        return Interval(root.high, root.high)
-
-    def released(self) -> tuple[int, Interval, Interval]:
-        """Return side, φ and φ' of a block that is sure to move outward."""
-        if not self.outward or not self.left < 0:
-            raise Refused("the block may still move inward")
-        pull = self.ground.clock * self.block.pull(self.across.hull(0), self.block.level)
-        if not (pull > 0 and self.waited > 2 * (2 * self.energy).root() / pull):
-            raise Refused("the block may still be on the other side")
-        return self.outward, self.walls[self.outward].hull(0), self._fastest(self.outward).hull(0)
 
     def survives(self) -> bool:
         """Return whether the energy is below the barrier when a has jumped to zero."""

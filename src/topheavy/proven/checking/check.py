@@ -13,15 +13,7 @@ from typing import Any
 from . import intervals
 from .bounds import Bound, named
 from .course import Course, horner
-from .intervals import (
-    Interval,
-    Refused,
-    arctangent,
-    between,
-    cosine,
-    of,
-    sine,
-)
+from .intervals import Interval, Refused, arctangent, between, cosine, of, sine
 from .model import Block, Ground
 from .schema import validated
 
@@ -51,7 +43,6 @@ class Check:
         self.sigma, self.phi, self.rate = of(0), of(0), of(0)
         self.energy = of(0)  # φ'²/2 + κ² (Φ + s a ψ): it knows what state and time share
         self.side = self.piece = self.impacts = self.zeros = 0
-        self.outward = False  # pushed outward from a φ ≥ 0 with a φ' ≥ 0
         self.result = ""
 
     def run(self, events: Sequence[dict[str, Any]]) -> str:
@@ -147,11 +138,6 @@ class Check:
             raise Refused("a step goes back")
         course = Course(self, h, event["box"])
         end = left / course.h if event["last"] else of(1)
-        if event.get("about_end"):
-            if not event["last"]:
-                raise Refused("it lands before the end of a pulse")
-            self._lands_about_the_end(course, between(*event["impact"]) / course.h, end)
-            return
         if event["impact"] is None:
             self._stays_up(course, end)
         else:
@@ -168,7 +154,7 @@ class Check:
         else:
             self.sigma = self.ground.stops[self.piece] if event["last"] else self.sigma + course.h
             self._sharpen()
-            self.zeros, self.outward = 0, self.outward and not self.phi > 0
+            self.zeros = 0
             self.piece += event["last"]
 
     def _lands(self, rate: Interval, after: Interval) -> None:
@@ -189,53 +175,21 @@ class Check:
         if square > 0 and (self.rate > 0 or self.rate < 0):
             self.rate = self.rate.common((1 if self.rate > 0 else -1) * square.root())
 
-    def _lands_about_the_end(self, course: Course, impact: Interval, end: Interval) -> None:
-        """Prove that no impact comes before a bracket up to the end, and take the higher energy."""
-        if len(self.ground.stops) > 1 or not impact.low < end.low:
-            raise Refused("only about the end of a pulse")
-        if impact.low < 0 or not (self.block.linearised or course.box < arctangent(of(1)) * 2):
-            raise Refused("it may lie flat, or the impact comes before the step")
-        self._stays_up(course, Interval(impact.low, impact.low))
-        times = Interval(impact.low, end.high)
-        phi, rate = course.at(times)
-        if not (rate < 0 and phi < self.block.alpha and end.high <= intervals.UNIT):
-            raise Refused("it may not move inward at the end")
-        above = Interval(max(phi.high, 0), max(phi.high, 0))
-        fallen = self.ground.clock * self.block.potential(above, of(0))
-        energy = rate * rate / 2 + fallen.hull(0)
-        after, stop = self.sigma + times * course.h, self.ground.stops[0]
-        self.sigma, self.phi = Interval(after.low, min(after.high, stop.high)), of(0)
-        self.rate = self.block.restitution * (2 * energy).root()
-        self.side, self.zeros, self.impacts = -self.side, 1, self.impacts + 1
-
     def _bounded(self, event: dict[str, Any]) -> None:
-        """Follow a bound on the motion, up to a known side or to the end of the pulse."""
+        """Follow a bound on the motion to the end of the pulse."""
         if self.piece == len(self.ground.stops):
             raise Refused("the forcing has ended")
         bound = Bound(self.block, self.ground, self.sigma)
         bound.begin(event, self.side, self.phi, self.rate)
         for given in event["steps"]:
             bound.step(*named(*given))
-        self.sigma, self.outward = bound.sigma, bool(event["released"])
-        if event["released"]:
-            if not self.sigma < self.ground.stops[0]:
-                raise Refused("the pulse has ended")
-            (self.side, self.phi, self.rate), self.zeros = bound.released(), 0
-            ground = self.ground.at(0, self.sigma)
-            self.energy = bound.potential(self.side, self.phi, ground).hull(0).hull(bound.energy)
-        elif not self.sigma.low >= self.ground.stops[0].high:
+        if not bound.sigma.low >= self.ground.stops[0].high:
             raise Refused("the bound ends before the pulse")
-        elif not bound.survives():
+        if not bound.survives():
             raise Refused("the energy may be beyond the barrier")
-        else:
-            self.result = "survives"
+        self.result = "survives"
 
     def _stays_up(self, course: Course, end: Interval) -> None:
-        if self.outward:
-            ground = self.ground.at(self.piece, self.sigma + (end * course.h).hull(0))
-            if not self.block.pull(of(0), self.side * ground) < 0:
-                raise Refused("the push may end")
-            return
         if self.zeros == 0 and course.box > 0:
             return
         self._is_positive(course, end.high, falls=False)

@@ -8,16 +8,7 @@ from fractions import Fraction
 from typing import Protocol
 
 from . import intervals
-from .intervals import (
-    Interval,
-    Refused,
-    between,
-    cosine,
-    dot,
-    extremes,
-    of,
-    sine,
-)
+from .intervals import Interval, Refused, between, cosine, dot, extremes, of, sine
 from .model import Block, Ground
 
 BOXES = 12  # that are tried around that of a step

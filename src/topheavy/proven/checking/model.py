@@ -4,16 +4,9 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
-from .intervals import (
-    Interval,
-    arctangent,
-    between,
-    cosine,
-    dot,
-    exponential,
-    of,
-    sine,
-)
+from . import intervals
+from .intervals import Interval, Refused, arctangent, between, cosine, dot, exponential, of, sine
+from .schema import HALF_TURNS
 
 LARGEST_WAVE = Fraction(10001, 10000)  # of |f|: the antisymmetric Ricker pulse peaks at 1.00002
 
@@ -36,6 +29,8 @@ class Block:
             self.sine, self.cosine = of(base) / distance, of(height) / distance
             self.square = of(value["gravity"]) * distance / of(inertia)
             self.alpha = arctangent(of(base / height))
+        if not (self.restitution.low >= 0 and self.restitution.high <= intervals.UNIT + 1):
+            raise Refused("√r is outside of 0 to 1: the block does not rock after an impact")
         self.level = self.alpha if linearised else self.sine / self.cosine
 
     def pull(self, phi: Interval, push: Interval) -> Interval:
@@ -92,11 +87,9 @@ class Ground:
         else:
             self.amplitude = Fraction(given["amplitude"])
             self.clock = square / of(Fraction(given["angular_frequency"]) ** 2)
-            turns = {"half-sine": 1, "constant": 1, "one-sine": 2, "one-cosine": 2}
-            turns |= {"ricker-symmetric": 9, "ricker-antisymmetric": 9}
             # π = 16 atan 1/5 − 4 atan 1/239
             pi = 16 * arctangent(of(Fraction(1, 5))) - 4 * arctangent(of(Fraction(1, 239)))
-            self.pi, self.stops = pi, [pi * turns[self.shape]]
+            self.pi, self.stops = pi, [pi * HALF_TURNS[self.shape]]
             peak = abs(self.amplitude) * LARGEST_WAVE
         self.largest = of(peak) * self.factor.size()
 

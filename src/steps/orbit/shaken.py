@@ -8,11 +8,11 @@ described as on the positive side, and is a map (σ, v) ↦ (σ₁ − π, v₁)
 from dataclasses import dataclass
 from typing import Any
 
+from steps.orbit.jets import Jet
 from topheavy.proven.balls import Undecided, arb, arb_mat, arb_poly, hull
 from topheavy.proven.blocks import Balls
 from topheavy.proven.flight import Box, Law, Step, a_priori
 from topheavy.proven.forcing import Piece, PulseForcing
-from topheavy.proven.jets import Jet
 from topheavy.proven.march import March, Rest
 from topheavy.pulses import Pulse
 

@@ -13,11 +13,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from steps.orbit.shaken import Harmonic, Shaken
 from topheavy.proven.balls import Undecided, arb, arb_mat, bounds, exact, hull, precision
 from topheavy.proven.blocks import enclosed
 from topheavy.proven.march import March
 from topheavy.proven.outcome import LADDER
-from topheavy.proven.shaken import Harmonic, Shaken
 from topheavy.pulses import Pulse
 from topheavy.structures import Structure
 

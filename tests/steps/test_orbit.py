@@ -6,11 +6,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from steps.orbit.jets import Jet
+from steps.orbit.shaken import Harmonic
+from steps.orbit.steady import COARSE, FINE, contraction, settles, steady_rocking
 from topheavy import Column, Pulse, RockingFrame, reference, simulate
 from topheavy.proven.balls import Undecided, arb, arb_mat, hull, precision
-from topheavy.proven.jets import Jet
-from topheavy.proven.orbit import COARSE, FINE, contraction, settles, steady_rocking
-from topheavy.proven.shaken import Harmonic
 from topheavy.shaking_table import abrupt_start, table_motion
 
 FRAME, MOTION = RockingFrame(Column(0.11, 0.40), 0.434), table_motion(0.005, 3.3)
