@@ -132,3 +132,32 @@ def test_limits_are_of_claims_of_the_ledgers():
     named = [name for row in limits for name in row["claims"]]
     assert set(named) <= set(known)
     assert all("finding" in known[name] for name in named)
+
+
+TEXTS = ["README.md", "docs/findings.md", "paper/*.typ", "studies/*/*.typ", "paper/claims.yaml"]
+TEXTS += ["studies/*/claims.yaml"]
+BY = re.compile(
+    r"(both|two|one) programs?\b|checker that shares no code|not proven|not to be proven|SymPy"
+)
+CODE = re.compile(
+    r'#?let proven =.*|"[^"\n]*proven[^"\n]*"|\bproven\.[\w.-]+|(rule|id|function): .*'
+)
+
+
+def said_of(text):
+    """Yield what stands around each `proven` of a prose, without the names in its code."""
+    plain = " ".join(CODE.sub("", text).split())
+    for found in re.finditer(r"\bproven\b", plain):
+        yield plain[max(0, found.start() - 400) : found.end() + 700]
+
+
+@pytest.mark.parametrize("path", sorted(p for each in TEXTS for p in ROOT.glob(each)), ids=str)
+def test_what_is_proven_names_the_programs(path):
+    for around in said_of(path.read_text(encoding="utf-8")):
+        assert BY.search(around), around
+
+
+def test_word_without_its_programs_is_found():
+    (around,) = said_of('#let proven = found("proven_below")\nThe minimum is proven.')
+    assert not BY.search(around)
+    assert BY.search(f"{around} Both prove it, by both programs.")

@@ -85,8 +85,8 @@ def of_size(results: Published) -> str:
         f"times as large. Under a pulse of one cosine of {pulse['period']:.1f} s, the weakest "
         f"peak that overturns a {2 * column['half_height']:.0f} m column rises from "
         f"{minima[0.0]:.3f} g alone to {minima[math.inf]:.3f} g under a very heavy beam; both are "
-        f"proven. Under {WORDS[len(rises)]} shapes of pulses of this period, it rises by "
-        f"{span(rises)} %."
+        f"proven by two programs. Under {WORDS[len(rises)]} shapes of pulses of this period, it "
+        f"rises by {span(rises)} %."
     )
 
 
