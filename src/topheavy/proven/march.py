@@ -42,7 +42,8 @@ class Outcome:
     impacts : int
         Those enclosed one by one, up to where the proof ended; trains that die out are not in it.
     peak : (float, float) or None
-        Between these lies max|θ| (rad) over the whole motion of a survivor; None for others.
+        Between these lies max|θ| (rad) over all of a survivor's motion, by this program alone; None
+        for others.
     cause : str
         Why it is undecided: "uplift", "graze", "flat", "end", "start", "enclosure", "impacts",
         "steps", "separatrix" or "bound"; empty for others. Bounces multiply every error: under a
