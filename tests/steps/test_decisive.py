@@ -21,8 +21,9 @@ from steps import (
 )
 from steps.shared import spectra_compared, spectrum
 from steps.shared.spectra_compared import Spectra
-from topheavy import Column, Record, RockingFrame
+from topheavy import Column, Pulse, Record, RockingFrame
 from topheavy.overturning import Interval
+from topheavy.proven import Below
 
 COLUMN = Column(0.11, 0.40)
 LINES = {
@@ -254,6 +255,28 @@ def test_one_history_of_the_model_is_enough_to_refute(change):
     assert found.entries["pulse"] == {"all": 0.7}  # what overturns has no peak
     table = pd.DataFrame([row | change, fallen])
     assert not allen_histories.findings(table)["peaks_over_alpha"].holds
+
+
+def test_boxes_are_those_that_the_checker_accepts_too(monkeypatch):
+    column, asked = Column(0.5, 3.0), []
+    box = {"factor": ["0", "1/8"], "events": []}
+    settings = read_yaml(ROOT / "config/config.yaml")["vase"]
+    known = pd.DataFrame([{"structure": "bare", "mass_ratio": 0.0, "shape": settings["shapes"][0]}])
+    known = known.assign(minimum_overturning=0.25, relative_width=0.5)
+
+    def checked(*given):
+        asked.append(given)
+        return False
+
+    def below(structure, pulse, high, accepts):
+        proven = [box] if accepts(box) else []
+        return Below(high, proven, [] if proven else [(0.0, high)])
+
+    monkeypatch.setattr(proven_below, "is_checked", checked)
+    monkeypatch.setattr(proven_below, "survives_below", below)
+    (row,), certificates = proven_below.boxes(column, settings, known, [0.0])
+    assert (row["kind"], row["high"], certificates) == ("open", 0.125, [])
+    assert asked == [(box, column, Pulse("one-cosine", 1.0, 2.0 * math.pi / 1.5), (0.0, 0.125))]
 
 
 BOXES = pd.DataFrame(
