@@ -24,6 +24,7 @@ the first: the one with the pulse, or the stronger one.
 """
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -362,15 +363,30 @@ def filtered(noise, frequency, damping):  # type: ignore[no-untyped-def]
 def high_passed(motion: Vector, corner: float) -> tuple[Vector, int]:
     """Return a motion between zeros, high-passed, and how many samples the zeros before it are.
 
-    A zero-phase Butterworth filter of order 4, and zeros for 1.5 · 4 / 2 periods of its corner
-    frequency on either side. [4, 5] It leaves no final velocity and next to no displacement.
+    A zero-phase Butterworth filter of order 4. [4, 5] It leaves no final velocity and next to no
+    displacement.
+    """
+
+    def gain(ratio: Vector) -> Vector:
+        power = ratio**8
+        return np.sqrt(power / (1.0 + power))
+
+    return between_zeros(motion, corner, gain)
+
+
+def between_zeros(
+    motion: Vector, corner: float, gain: Callable[[Vector], Vector]
+) -> tuple[Vector, int]:
+    """Return a motion times a gain of f/corner, between zeros, and how many are before it.
+
+    The zeros on either side last 1.5 · 4 / 2 periods of the corner frequency. [4, 5]
     """
     zeros = math.ceil(3.0 / corner / TIME_STEP)
     size = next_fast_len(motion.size + 2 * zeros, real=True)
     padded = np.zeros(size)
     padded[zeros : zeros + motion.size] = motion
-    ratio = (rfftfreq(size, TIME_STEP) / corner) ** 8
-    return irfft(rfft(padded) * np.sqrt(ratio / (1.0 + ratio)), size), zeros
+    gains = gain(rfftfreq(size, TIME_STEP) / corner)
+    return irfft(rfft(padded) * gains, size), zeros
 
 
 def pulse_acceleration(time: Vector, drawn: dict[str, float]) -> Vector:

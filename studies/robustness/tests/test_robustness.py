@@ -1,0 +1,237 @@
+"""Other models of motions, what contacts give and vertical motion: limits, and what decides."""
+
+import math
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from replication.inputs.strict_yaml import read_yaml
+from steps.shared.sweep import Asked
+from studies.robustness.steps import friction, models, vertical
+from topheavy import Column, Record, RockingFrame, judge
+from topheavy.synthetic import filtered_noise as noise
+from topheavy.synthetic.motions import TIME_STEP
+
+CONFIG = read_yaml("studies/robustness/config.yaml")
+ENSEMBLE = read_yaml("studies/reversals/config.yaml")["motions_ensemble"]
+SIZES = {"column": {"half_width": 0.5, "half_height": 3.0}}
+SMALL = CONFIG["models"] | SIZES | {"motions": 4, "soils": [1.0], "corners": [0.2]}
+SMALL |= {"bootstrap": {"resamples": 100, "confidence": 0.95}, "checked": 4}
+SOIL = noise.Soil(2.5, 0.2)
+
+
+# Filtered noise -----------------------------------------------------------------------------------
+
+
+def test_densities_have_their_limits():
+    ends = np.array([0.0, 1.0, 1e6])
+    at_one = (1.0 + 4.0 * noise.DAMPING**2) / (4.0 * noise.DAMPING**2)
+    assert noise.density_of_soil(ends) == pytest.approx([1.0, at_one, 0.0], abs=1e-9)
+    assert noise.density_of_filter(ends) == pytest.approx(
+        [0.0, 1.0 / (4.0 * noise.DAMPING**2), 1.0]
+    )
+
+
+def test_ground_ends_at_rest_and_a_motion_depends_on_its_number_alone():
+    first, again, other = (noise.motion(7, k, SOIL) for k in (3, 3, 4))
+    assert np.array_equal(first.acceleration, again.acceleration)
+    assert not np.array_equal(first.acceleration, other.acceleration)
+    velocity = np.cumsum(first.acceleration)
+    assert abs(velocity[-1]) < 1e-6 * np.abs(velocity).max()
+
+
+def test_spectrum_is_that_of_both_filters():
+    """The mean of |FFT|² over many motions, smoothed by the envelope: by two octaves apart."""
+    power = 0.0
+    for number in range(200):
+        record = noise.motion(1, number, SOIL)
+        of = np.abs(np.fft.rfft(record.acceleration)) ** 2
+        power = power + of / of.sum()
+    frequency = np.fft.rfftfreq(record.acceleration.size, TIME_STEP)
+
+    def band(centre):
+        return power[(frequency > 0.8 * centre) & (frequency < 1.25 * centre)].mean()
+
+    def density(f):
+        return noise.density_of_soil(f / 2.5) * noise.density_of_filter(f / 0.2)
+
+    for low, high in ((2.5, 10.0), (0.5, 2.5), (0.1, 0.5)):
+        expected = density(np.array([high]))[0] / density(np.array([low]))[0]
+        assert band(high) / band(low) == pytest.approx(expected, rel=0.25)
+
+
+def test_envelope_rises_stays_and_decays():
+    times = np.array([0.0, 1.5, 3.0, 13.0, 17.0])
+    assert noise.envelope(times) == pytest.approx([0.0, 0.25, 1.0, 1.0, math.exp(-1.0)])
+
+
+# Models -------------------------------------------------------------------------------------------
+
+
+def test_models_are_those_of_the_config():
+    found = list(models.models(CONFIG["models"] | SIZES, ENSEMBLE))
+    assert [one.labels["model"] for one in found] == [models.NOISE] * 6 + [
+        "near-fault",
+        "broadband",
+    ]
+    assert {len(one.motions) for one in found} == {400}
+    assert [(one.labels["soil"], one.labels["corner"]) for one in found[:2]] == [
+        (1.0, 0.1),
+        (1.0, 0.2),
+    ]
+    assert found[0].motions[5]().name != found[1].motions[5]().name
+
+
+def test_outcomes_are_those_of_single_histories():
+    (model, *_), question = models.models(SMALL, ENSEMBLE), models.asked(SMALL)
+    found = models.swept(model, question)
+    record, factor = model.motions[2](), SMALL["pgv"] / found.velocities[2]
+    column = Column(**SIZES["column"])
+    frame = RockingFrame(column, 1.0)
+    fell = [judge(one, record.scaled(factor)).overturned for one in (column, frame)]
+    assert found.outcomes[2, [models.COLUMN, models.FRAME], -1].tolist() == fell
+    assert found.velocities[2] == record.peak_velocity
+
+
+def test_numbers_of_a_row_are_those_of_its_outcomes():
+    levels = models.asked(SMALL).levels
+    fell = np.zeros((40, 3, levels.size), bool)
+    falls_from = {models.COLUMN: 8, models.VASE: 4, models.FRAME: 10}
+    for place, level in falls_from.items():
+        for motion in range(40):
+            fell[motion, place, level + motion % 5 : -1] = True
+    fell[:20, models.COLUMN, -1] = fell[10:18, models.FRAME, -1] = fell[:30, models.VASE, -1] = True
+    fell[38:, models.FRAME, -1] = True
+    velocities, accelerations = np.linspace(0.1, 0.5, 40), np.full(40, 0.2)
+    swept = models.Swept(fell, velocities, accelerations)
+    row = models.row({}, [0] * 40, swept, SMALL)
+    assert [row[name] for name in models.NAMES] == [0.5, 0.75, 0.25]
+    assert (row["harm"], row["benefit"]) == (0.25, 0.25)
+    assert (row["only_frame"], row["only_column"]) == pytest.approx((2 / 40, 12 / 40))
+    assert row["gain"] == pytest.approx(levels[10] / levels[8] - 1.0, rel=1e-3)
+    assert (row["factor_largest"], row["pga_largest"]) == pytest.approx((6.0, 1.2))
+    few, groups = models.restricted(swept, models.Model({}, [], list(range(40))), SMALL)
+    assert len(groups) == len(few.velocities) == (SMALL["pgv"] / velocities <= 4.0).sum()
+    assert few.outcomes.shape[0] == len(groups)
+
+
+def rows(**change):
+    names = ("harm", "benefit", "gain", "only_frame", "column", "frame")
+    table = pd.DataFrame({name: [0.2, 0.3] for name in names})
+    for name in names:
+        table[f"{name}_low"], table[f"{name}_high"] = table[name] - 0.1, table[name] + 0.1
+    for name, values in change.items():
+        table[name] = values
+    return table
+
+
+@pytest.mark.parametrize(
+    ("change", "broken"),
+    [
+        ({}, set()),
+        ({"benefit_low": [0.1, -0.01]}, {"order"}),
+        ({"harm_low": [0.0, 0.1]}, {"order"}),
+        ({"gain_low": [-0.1, 0.1]}, {"gain"}),
+        ({"only_frame": [0.0, 0.1]}, {"some_only_frame"}),
+        ({"gain_high": [0.15, 0.4]}, {"one_gain"}),
+        ({"column_low": [0.1, 0.35]}, {"one_column"}),
+        ({"frame_low": [0.1, 0.35]}, {"one_frame"}),
+    ],
+)
+def test_one_row_is_enough_to_refute(change, broken):
+    found = models.findings(rows(**change))
+    assert {name for name, one in found.items() if not one.holds} == broken
+
+
+# Friction and vertical motion ---------------------------------------------------------------------
+
+
+def test_shares_are_of_the_motions_that_uplift():
+    histories = pd.DataFrame(
+        {
+            "family": "broadband",
+            "mass_ratio": 1.0,
+            "outcome": ["rests", "rests", "no uplift", "overturned"],
+            "friction": [0.2, 0.6, math.nan, 0.8],
+            "error": [0.0, 1e-3, math.nan, 0.0],
+            "pulls": [False, False, False, True],
+        }
+    )
+    table = friction.summed(histories, [0.3, 0.5, 0.7]).set_index("motions")
+    assert table.uplifted.to_dict() == {"survive": 2, "overturn": 1, "all": 3}
+    assert table.loc["all", ["above_0.3", "above_0.7"]].tolist() == pytest.approx([2 / 3, 1 / 3])
+    assert (table.largest["survive"], table.tension["survive"], table.tension["all"]) == (0.6, 0, 1)
+
+
+@pytest.mark.parametrize(
+    ("above", "gamma", "tension", "broken"),
+    [
+        (0.05, 1.0, 0, set()),
+        (0.06, 0.5, 0, {"enough"}),
+        (0.0, 1.0, 1, {"no_tension"}),
+    ],
+)
+def test_friction_is_judged_by_all_and_tension_by_survivors(above, gamma, tension, broken):
+    row = {"mass_ratio": gamma, "above_0.7": above, "uplifted": 5}
+    table = pd.DataFrame(
+        [row | {"motions": "all", "tension": 9}, row | {"motions": "survive", "tension": tension}]
+    )
+    found = friction.findings(table)
+    assert {name for name, one in found.items() if not one.holds} == broken
+    assert found["enough"]["mass_ratios"] == ([gamma] if "enough" in broken else [])
+
+
+VERTICAL = CONFIG["vertical"] | SIZES | {"motions": 4, "checked": 2}
+
+
+def test_vertical_motion_has_its_share_and_its_time():
+    draw, other = next(vertical.partners(VERTICAL, ENSEMBLE))
+    assert (draw.family, draw.place, draw.number, other.number) == ("near-fault", 0, 0, 2)
+    across, up = vertical.pair(draw, other, VERTICAL, 1.7)
+    assert across.peak_velocity == pytest.approx(0.6)
+    assert up.peak_acceleration == pytest.approx(2.0 / 3.0 * across.peak_acceleration)
+    assert up.duration == pytest.approx(other.record().duration / 1.7)
+
+
+def test_no_vertical_motion_changes_nothing_and_free_fall_is_left_out(monkeypatch):
+    def still(draw, other, settings, faster):
+        across = draw.record().scaled_to(pgv=settings["pgv"])
+        falls = draw.number == 1
+        return across, Record(across.time_step, [0.0, -1.2 if falls else 0.0, 0.0])
+
+    monkeypatch.setattr(vertical, "pair", still)
+    table = vertical.changes(vertical.compared(VERTICAL, ENSEMBLE), VERTICAL)
+    assert (table.free_fall == 2).all()  # of four, one of each scenario
+    assert (table.motions == 2).all()
+    assert (table.change == 0.0).all()
+    assert (table["column"] == table.column_vertical).all()
+
+
+def test_measured_pairs_are_counted():
+    across = Record(0.02, 0.4 * np.sin(np.linspace(0.0, 6.0, 200)), "across")
+    up = Record(0.02, np.zeros(200), "up")
+    row = vertical.measured(VERTICAL, [(across, up)] * 2)
+    assert row["motions"] == 2
+    assert row["column"] == row["column_vertical"]
+
+
+@pytest.mark.parametrize(("low", "holds"), [(0.01, True), (0.0, False)])
+def test_benefit_remains_in_each_family(low, holds):
+    row = {"family": "broadband", "benefit_vertical_low": low, "free_fall": 1, "change_low": -0.1}
+    row |= {"change_high": 0.1, "interval": "includes zero"}
+    measured = row | {"family": vertical.MEASURED, "benefit_vertical_low": math.nan}
+    found = vertical.findings(pd.DataFrame([row, measured]))["benefit_remains"]
+    assert (found.holds, found["compared"]) == (holds, 1)
+
+
+def test_change_of_outcome_is_found_in_a_range():
+    assert vertical.beside(lambda factor: factor > 0.7) == pytest.approx(0.7, abs=2e-3)
+    assert vertical.beside(lambda factor: True) == 1.0
+
+
+def test_asked_levels_end_with_the_stated_one():
+    question = models.asked(CONFIG["models"] | SIZES)
+    assert isinstance(question, Asked)
+    assert question.levels[-1] == 0.6
+    assert question.levels[:-1] == pytest.approx(np.geomspace(0.15, 4.0, 17))
