@@ -140,7 +140,7 @@ BY = re.compile(
     r"(both|two|one) programs?\b|checker that shares no code|not proven|not to be proven|SymPy"
 )
 CODE = re.compile(
-    r'#?let proven =.*|"[^"\n]*proven[^"\n]*"|\bproven\.[\w.-]+|(rule|id|function): .*'
+    r'#?let proven =.*|"[^"\n]*proven[^"\n]*"|`[^`\n]*`|\bproven\.[\w.-]+|(rule|id|function): .*'
 )
 
 
