@@ -17,8 +17,9 @@ from studies.mechanism.steps.setting import cap_of
 from topheavy import Cap, Column, RockingFrame
 from topheavy.synthetic.ensemble import first_draws
 
-RELIED_ON, SAID = 0.7, 0.05
-"""A coefficient of friction, and the share of motions that may need more before a text says so."""
+RELIED_ON, SAID, LIGHT = 0.7, 0.05, 1.0
+"""A coefficient of friction, the share of motions that may need more before a text says so, and the
+γ below which a beam is light."""
 
 
 def histories(settings: dict, ensemble: dict, cap: Cap) -> pd.DataFrame:
@@ -68,9 +69,12 @@ def findings(robustness_friction: pd.DataFrame) -> dict[str, Finding]:
     survivors = robustness_friction[robustness_friction.motions == "survive"]
     above = table[f"above_{RELIED_ON:g}"]
     beyond = table[above > SAID]
+    is_light = (table.mass_ratio > 0.0) & (table.mass_ratio < LIGHT)
     return {
         "enough": truth(
             not len(beyond),
+            holds_when=not (above[~is_light] > SAID).any(),
+            condition=f"no beam, or γ of {LIGHT:g} or more",
             coefficient=RELIED_ON,
             said=SAID,
             compared=len(table),

@@ -165,20 +165,25 @@ def test_shares_are_of_the_motions_that_uplift():
 
 
 @pytest.mark.parametrize(
-    ("above", "gamma", "tension", "broken"),
+    ("above", "gamma", "tension", "broken", "unless_light"),
     [
-        (0.05, 1.0, 0, set()),
-        (0.06, 0.5, 0, {"enough"}),
-        (0.0, 1.0, 1, {"no_tension"}),
+        (0.05, 1.0, 0, set(), True),
+        (0.06, 0.5, 0, {"enough"}, True),
+        (0.06, 1.0, 0, {"enough"}, False),
+        (0.06, 0.0, 0, {"enough"}, False),
+        (0.0, 1.0, 1, {"no_tension"}, True),
     ],
 )
-def test_friction_is_judged_by_all_and_tension_by_survivors(above, gamma, tension, broken):
+def test_friction_is_judged_by_all_and_tension_by_survivors(
+    above, gamma, tension, broken, unless_light
+):
     row = {"mass_ratio": gamma, "above_0.7": above, "uplifted": 5}
     table = pd.DataFrame(
         [row | {"motions": "all", "tension": 9}, row | {"motions": "survive", "tension": tension}]
     )
     found = friction.findings(table)
     assert {name for name, one in found.items() if not one.holds} == broken
+    assert found["enough"].holds_when is unless_light
     assert found["enough"]["mass_ratios"] == ([gamma] if "enough" in broken else [])
 
 
