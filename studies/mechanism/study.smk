@@ -3,7 +3,7 @@
 from importlib.metadata import distributions
 
 MECHANISM = PARTS["mechanism"].config
-EXPERIMENTS = ["first_impacts", "rebounds", "verdicts", "beside", "slides"]
+EXPERIMENTS = ["first_impacts", "rebounds", "verdicts", "beside", "slides", "space"]
 
 # The version of the optional engine, a parameter of its rule; None where it is not installed.
 ENGINE = {found.name: found.version for found in distributions()}.get("mujoco-core")

@@ -6,6 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from replication.inputs.strict_yaml import read_yaml
 from studies.mechanism.steps import (
     admissible,
     beside,
@@ -14,6 +15,7 @@ from studies.mechanism.steps import (
     first_impacts,
     rebounds,
     slides,
+    space,
     three_bodies,
     verdicts,
 )
@@ -227,3 +229,46 @@ def test_three_bodies_agree_within_a_millionth(monkeypatch, apart, holds):
     _, found = three_bodies.main(case | {"record_duration": 1.0}, CAP, [])
     for name in ("one_degree_of_freedom", "velocity_ratio", "same_forces"):
         assert found[name].holds == holds
+
+
+# In space -----------------------------------------------------------------------------------------
+
+
+def in_space(**change):
+    plane = {"eccentricity": 0.0, "direction": 0.0, "friction": 5.0, "finer": 1.0}
+    rows = [plane, plane | {"eccentricity": 0.3}, plane | {"direction": 15.0}]
+    found = pd.DataFrame(rows).assign(pulses=12, overturned=8, in_theory=8, differ=0)
+    for place, value in change.items():
+        found.loc[int(place[1:]), "differ"] = value
+    return space.findings(found)
+
+
+@pytest.mark.parametrize(
+    ("change", "plane", "others", "unless_oblique"),
+    [
+        ({}, True, True, True),
+        ({"_0": 1}, False, False, False),
+        ({"_1": 1}, True, False, False),
+        ({"_2": 1}, True, False, True),
+    ],
+)
+def test_each_setting_in_space_decides(change, plane, others, unless_oblique):
+    found = in_space(**change)
+    assert found["plane_in_space"].holds is plane
+    assert found["same_outcomes_in_space"].holds is others
+    assert found["same_outcomes_in_space"].holds_when is unless_oblique
+
+
+def test_outcomes_in_space_are_counted_by_setting():
+    rows = pd.DataFrame([space.Setting()._asdict(), space.Setting(direction=15.0)._asdict()] * 2)
+    rows = rows.assign(overturns=[True, False, True, True], in_theory=[True, True, False, True])
+    table = space.summed(rows)
+    assert table.overturned.tolist() == [2, 1]
+    assert table.differ.tolist() == [1, 1]
+
+
+def test_settings_in_space_are_those_of_the_config():
+    spec = read_yaml("studies/mechanism/config.yaml")["engine"]["space"]
+    found = list(space.settings_of(spec))
+    assert len(found) == len(set(found)) == 15
+    assert found[-1] == space.Setting(friction=5.0, finer=2.0)

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from studies.mechanism.steps import space
 from studies.mechanism.steps.engine import (
     COLUMN_MASS,
     Contact,
@@ -154,6 +155,24 @@ def test_long_push_overturns_from_uplift_on(factor, expected):
     rig = rig_of(COLUMN, 8e-4, friction=2.0)
     pulse = Pulse("constant", factor * math.tan(TRILITH.slenderness), math.pi / 3.0)
     assert shaken(rig, pulse)[0] is expected
+
+
+@pytest.mark.parametrize("direction", [0.0, 90.0])
+@pytest.mark.parametrize(("factor", "expected"), [(0.6, False), (1.1, True)])
+def test_long_push_overturns_square_columns_along_and_across_the_span(direction, factor, expected):
+    """Across the span the beam lies on one edge of each column, so that 0.9 tan α suffices."""
+    spec = {"contact": {"time_constant": 3.2e-3}, "time_step": 8e-4}
+    pulse = Pulse("constant", factor * math.tan(TRILITH.slenderness), math.pi / 2.0)
+    setting = space.Setting(direction=direction)
+    assert space.overturns(FRAME, pulse, setting, spec) is expected
+
+
+def test_eccentric_beam_rests_on_its_columns():
+    spec = {"contact": {"time_constant": 3.2e-3}, "time_step": 8e-4}
+    still = Pulse("constant", 1e-6, math.pi / 2.0)
+    assert not space.overturns(FRAME, still, space.Setting(0.3), spec)
+    cap = space._xml(FRAME, FRAME.cap, space.Setting(0.3), 1e-4, 1e-3, Contact(1e-3))
+    assert f'name="cap" pos="0.0 {0.3 * TRILITH.half_width} ' in cap
 
 
 def test_mirrored_pulse_gives_the_mirrored_motion():
