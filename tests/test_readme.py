@@ -117,6 +117,7 @@ def test_range_has_both_its_ends(shares, digits, words):
 
 
 def test_interval_stands_behind_its_number():
+    assert span([0.165, 0.2255]) == "17 to 23"
     row = {"end": 0.085, "end_low": 0.082, "end_high": 0.092}
     assert with_interval(row, "end") == "8.5 (8.2 to 9.2)"
 

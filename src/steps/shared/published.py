@@ -4,6 +4,7 @@ import json
 from collections import Counter
 from collections.abc import Callable, Iterable
 from dataclasses import asdict, dataclass
+from decimal import ROUND_HALF_UP, Decimal
 from functools import cached_property
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -67,19 +68,25 @@ def need(condition: bool, otherwise: str) -> None:
         raise ValueError(f"{otherwise}: rewrite the headline that rests on it (headlines.py)")
 
 
+def rounded(value: float, digits: int) -> str:
+    """Return a number with so many decimals, halves away from zero as in the article."""
+    whole = Decimal(repr(round(float(value), 9)))
+    return str(whole.quantize(Decimal(1).scaleb(-digits), ROUND_HALF_UP))
+
+
 def span(values: Iterable[float], digits: int = 0, factor: float = 100.0) -> str:
     """Return the range of shares in per cent, or of numbers with a factor of 1: "17 to 23"."""
-    numbers = [f"{factor * value:.{digits}f}" for value in values]
+    numbers = [rounded(factor * value, digits) for value in values]
     ends = min(numbers, key=float), max(numbers, key=float)
     return " to ".join(ends if ends[0] != ends[1] else ends[:1])
 
 
 def both(values: Iterable[float], digits: int = 0, factor: float = 100.0) -> str:
     """Return the numbers of both families, in per cent or with a factor of 1: "2.4 and 3.5"."""
-    return " and ".join(f"{factor * value:.{digits}f}" for value in values)
+    return " and ".join(rounded(factor * value, digits) for value in values)
 
 
 def with_interval(row: Any, name: str, digits: int = 1, factor: float = 100.0) -> str:
     """Return a number with its interval: "8.5 (8.2 to 9.2)"."""
-    ends = (f"{factor * row[f'{name}_{end}']:.{digits}f}" for end in ("low", "high"))
-    return f"{factor * row[name]:.{digits}f} ({' to '.join(ends)})"
+    ends = (rounded(factor * row[f"{name}_{end}"], digits) for end in ("low", "high"))
+    return f"{rounded(factor * row[name], digits)} ({' to '.join(ends)})"
