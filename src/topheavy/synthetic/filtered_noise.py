@@ -10,7 +10,7 @@ decays. S(0) > 0 would leave a velocity. A second oscillator, w = f/f_corner, ta
     w⁴ / ((1 − w²)² + 4 ζ² w²).
 
 It acts on the motion as a whole, with zero phase, so that the velocity ends at zero. Both forms are
-those of textbooks, which we did not have at hand; the numbers are ours.
+those of textbooks, which we could not look up; the numbers are ours.
 """
 
 import math

@@ -1,7 +1,7 @@
 """The frame in space, in the rigid-body engine: eccentric beams, oblique shaking, real friction.
 
 All six freedoms of each body are free, and columns are as deep as wide. One engine with soft
-contacts: what differs from the plane is told, and not judged. The same boxes as in `engine`, which
+contacts: what differs from the plane is reported. The same boxes as in `engine`, which
 moves them in a plane.
 """
 
