@@ -237,6 +237,7 @@ def test_three_bodies_agree_within_a_millionth(monkeypatch, apart, holds):
 def in_space(**change):
     plane = {"eccentricity": 0.0, "direction": 0.0, "friction": 5.0, "finer": 1.0}
     rows = [plane, plane | {"eccentricity": 0.3}, plane | {"direction": 15.0}]
+    rows.append(plane | {"finer": 2.0})
     found = pd.DataFrame(rows).assign(pulses=12, overturned=8, in_theory=8, differ=0)
     for place, value in change.items():
         found.loc[int(place[1:]), "differ"] = value
