@@ -8,6 +8,7 @@ from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
+import yaml
 
 ROOT = Path(__file__).resolve().parents[3]
 PACKAGES = sorted(path.name for path in (ROOT / "src").iterdir() if any(path.glob("*.py")))
@@ -119,12 +120,14 @@ def test_figure_scripts_compute_no_physics():
     assert importers([p for p in files("studies") if p.parent.name == "figures"], *LIBRARIES) == []
 
 
-def test_nothing_imports_a_study_but_the_study_itself():
+def test_nothing_imports_a_study_but_the_study_itself_and_those_that_name_it_in_needs():
     outside = files("src", "figures", "notebooks", "benchmarks", "tests")
     assert importers(outside, "studies") == []
-    for study in sorted((ROOT / "studies").iterdir()):
-        found = importers(files(f"studies/{study.name}"), "studies")
-        assert [line for line in found if f" studies.{study.name}." not in line] == []
+    for config in sorted(ROOT.glob("studies/*/config.yaml")):
+        study = config.parent.name
+        known = [study, *yaml.safe_load(config.read_text("utf-8")).get("needs", [])]
+        found = importers(files(f"studies/{study}"), "studies")
+        assert [x for x in found if not any(f" studies.{name}." in x for name in known)] == []
 
 
 @pytest.mark.parametrize("package", PACKAGES)
