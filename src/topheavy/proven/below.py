@@ -57,7 +57,7 @@ def survives_below(
     """Return boxes that prove which factors from 0 to `high` on a pulse are survived.
 
     A box that is not proven, or whose certificate `accepts` refuses, is tried again narrower, down
-    to `NARROWEST`. `accepts` may be a second proof: `topheavy.proven.checking.check`.
+    to `NARROWEST`. `accepts` may be a second proof (false where `checking.check` raises).
 
     Raises
     ------

@@ -299,6 +299,13 @@ def test_unknown_shape_of_a_certificate_is_refused():
 BLOCK = RockingBlock(2.0, 0.25, 0.9)
 
 
+def is_accepted(certificate):
+    try:
+        return bool(check(certificate))
+    except Refused:
+        return False
+
+
 def refused(certificate, words):
     with pytest.raises(Refused, match=words):
         check(certificate)
@@ -505,6 +512,46 @@ def test_two_events_exchanged_lost_or_twice_make_no_other_outcome(kinds):
                     assert found == certificate["outcome"]
 
 
+def test_events_of_another_certificate_prove_its_outcome_or_nothing(kinds):
+    """Whole, or behind the first events of this one, with an event of any kind between them."""
+    for mine, other in product(kinds, kinds):
+        first, count = mine["events"], min(4, len(mine["events"]))
+        rows = [other["events"]]
+        rows += [first[:n] + other["events"][m:] for n in range(count) for m in range(count)]
+        rows += [[*first[:n], event, *first[n:]] for n in (1, 2) for event in other["events"][-3:]]
+        for events in rows:
+            with contextlib.suppress(Refused):
+                assert check(mine | {"events": events}) == mine["outcome"]
+
+
+def test_step_of_a_bound_after_the_pulse_is_refused():
+    """The ground is at rest there; the wave would go on."""
+    pulse = Pulse("one-cosine", 1.0, 4.2)
+    found = survives_below(COLUMN, pulse, 0.2, accepts=is_accepted).certificates
+    bounded = next(x for x in found if x["events"] and x["events"][-1]["event"] == "bounded")
+    until, energy, walls = bounded["events"][-1]["steps"][-1]
+    later = [[until[0], str(Fraction(until[1]) + 1)], str(2 * Fraction(energy)), walls]
+    bounded["events"][-1]["steps"].append(later)
+    refused(bounded, "a step comes after the pulse")
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"sigma": ["1000", "1000"]},
+        {"h": "1000", "last": True},
+        {"frequency_parameter": "1e9", "angular_frequency": "1e-9"},
+    ],
+)
+def test_motion_of_any_size_is_refused_without_long_series(changes):
+    """These took minutes, or ended in an OverflowError."""
+    given = honest(COLUMN.block(0.6), Pulse("ricker-symmetric", 0.25, 4.0))
+    parts = given["structure"], given["excitation"], *given["events"][:2]
+    for part in parts:
+        part |= {key: value for key, value in changes.items() if key in part}
+    refused(given, "uplift|step")
+
+
 def test_certificate_of_one_corner_does_not_concern_a_box():
     pulse = Pulse("one-sine", 0.05, 3.0)
     certificate = honest(RockingBlock(2.0, 0.25, 0.9), pulse)
@@ -556,6 +603,8 @@ def test_anyone_can_check_a_file_of_certificates(kinds, tmp_path):
         assert done.returncode == 1
         assert "wrong.jsonl, line 2 is refused: " in done.stderr
         assert reason in done.stderr
+    wrong.write_text("", encoding="utf-8")
+    assert run_alone(wrong).stderr == f"{wrong} holds no certificate\n"
     assert run_alone().returncode == run_alone(tmp_path / "none.jsonl").returncode == 1
 
 

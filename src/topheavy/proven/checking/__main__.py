@@ -58,6 +58,7 @@ def main(paths: list[str]) -> str | None:
         return USAGE
     for path in paths:
         opened, last, begin = gzip.open if path.endswith(".gz") else open, None, ""
+        number = 0
         try:
             with opened(path, "rt", encoding="utf-8") as lines:
                 for number, line in enumerate(lines, 1):
@@ -73,6 +74,8 @@ def main(paths: list[str]) -> str | None:
             return f"{where} is refused: {reason}"
         except (OSError, EOFError, UnicodeDecodeError, zlib.error) as fault:
             return f"{path} cannot be read: {fault}"
+        if not number:
+            return f"{path} holds no certificate"
     return None
 
 

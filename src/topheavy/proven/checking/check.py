@@ -182,6 +182,8 @@ class Check:
         bound = Bound(self.block, self.ground, self.sigma)
         bound.begin(event, self.side, self.phi, self.rate)
         for given in event["steps"]:
+            if bound.sigma.low >= self.ground.stops[0].high:
+                raise Refused("a step comes after the pulse")
             bound.step(*named(*given))
         if not bound.sigma.low >= self.ground.stops[0].high:
             raise Refused("the bound ends before the pulse")

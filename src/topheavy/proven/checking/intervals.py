@@ -144,6 +144,8 @@ def _powers(x: int, signs: tuple[int, ...], places: int) -> Interval:
 def _smooth(x: Interval, signs: tuple[int, ...], slope: tuple[int, ...]) -> Interval:
     """Return sine or cosine of an interval: by its middle m and radius r, |f'| ≤ |f'(m)| + r."""
     middle, radius = (x.low + x.high) // 2, (x.high - x.low) // 2 + 1
+    if max(radius, abs(middle) >> 10) > 4 * UNIT:  # more than a turn, or where no proof goes
+        return Interval(-UNIT, UNIT)
     value, steep = _powers(middle, signs, PLACES), UNIT
     if 16 < radius < UNIT:
         steep = min(UNIT, _powers(middle, slope, PLACES).size().high + radius)
@@ -160,9 +162,10 @@ def cosine(x: Interval) -> Interval:
 
 
 def exponential(x: Interval) -> Interval:
-    """Return exp(−x) for x ≥ 0, up to a rounding below."""
-    ends = [of(1) / _powers(max(end, 0), (1,), PLACES) for end in (x.high, x.low)]
-    return Interval(ends[0].low, ends[1].high)
+    """Return exp(−x) for x ≥ 0, up to a rounding below; beyond x = P it is less than 2^−P."""
+    ends = [max(0, min(end, PLACES * UNIT)) for end in (x.low, x.high)]
+    most, least = (of(1) / _powers(end, (1,), PLACES) for end in ends)
+    return Interval(least.low if ends[1] == x.high else 0, most.high)
 
 
 def arctangent(x: Interval) -> Interval:
