@@ -6,14 +6,16 @@ first that proves nothing ends it with status 1.
 
 import gzip
 import json
+import runpy
 import sys
 import zlib
 from pathlib import Path
 from typing import Any
 
-if not __package__:  # run as a folder, which is a package of its own then
+if not __package__:  # run as a folder, which is a package of its own then; ends there
     folder = Path(sys.path[0]).resolve()
-    sys.path[0], __package__ = str(folder.parent), folder.name
+    sys.path[0] = str(folder.parent)
+    runpy.run_module(folder.name, run_name="__main__")
 
 from .check import check
 from .intervals import Refused
