@@ -91,8 +91,7 @@ def findings(robustness_friction: pd.DataFrame) -> dict[str, Finding]:
 
 
 def work(job: Any) -> tuple:
-    table, found = main(job.params.settings, job.params.ensemble, cap_of(job.params.cap))
-    return table, found
+    return main(job.params.settings, job.params.ensemble, cap_of(job.params.cap))
 
 
 if __name__ == "__main__":

@@ -53,19 +53,19 @@ def overturned(structure: Any, across: Record, up: Record | None) -> bool:
 def compared(settings: dict, ensemble: dict) -> pd.DataFrame:
     """Return the outcomes of each motion with and without its vertical component."""
     rows, both = [], list(partners(settings, ensemble))
+    each = dict(zip(NAMES, structures(settings), strict=True))
     for draw, other in progress(both, len(both), "motions"):
-        for faster in settings["faster"]:
-            across, up = pair(draw, other, settings, faster)
-            labels = {"family": draw.family, "scenario": draw.place, "faster": faster}
-            if falls_freely(up):
-                rows.append(labels | {"free_fall": True})
-                continue
-            for name, one in zip(NAMES, structures(settings), strict=True):
-                labels |= {
-                    name: overturned(one, across, None),
-                    f"{name}_vertical": overturned(one, across, up),
+        pairs = [pair(draw, other, settings, faster) for faster in settings["faster"]]
+        alone = {name: overturned(one, pairs[0][0], None) for name, one in each.items()}
+        for faster, (across, up) in zip(settings["faster"], pairs, strict=True):
+            row = {"family": draw.family, "scenario": draw.place, "faster": faster}
+            row["free_fall"] = falls_freely(up)
+            if not row["free_fall"]:
+                row |= alone
+                row |= {
+                    f"{name}_vertical": overturned(one, across, up) for name, one in each.items()
                 }
-            rows.append(labels | {"free_fall": False})
+            rows.append(row)
     return pd.DataFrame(rows)
 
 
