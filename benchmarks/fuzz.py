@@ -206,6 +206,9 @@ def histories(case: Any, data: st.DataObject) -> None:
     if one.overturned == two.overturned and apart <= CLOSE * alpha:
         return
     near = [th.simulate(structure, motion.scaled(1.0 + nudge), **how) for nudge in FARTHER]
+    for nudge in FARTHER:  # a start may have the energy of the barrier to the last bit
+        begun = {name: value * (1.0 + nudge) for name, value in start.items()}
+        near.append(th.simulate(structure, motion, **(how | begun)))
     near.append(th.simulate(structure, motion, **how, tolerance=TIGHT))
     if {each.outcome for each in near} == {one.outcome}:
         spread = max(np.nanmax(np.abs(each.rotation - one.rotation), initial=0.0) for each in near)
