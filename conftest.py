@@ -1,6 +1,7 @@
 """What all tests share: the order in which several processes take them."""
 
 import gc
+from types import SimpleNamespace
 
 import pytest
 
@@ -20,7 +21,7 @@ LONGEST_FIRST = (
     "test_trace.py",
     "test_vertical.py",
     "test_types.py",
-    "test_endings.py",
+    "test_histories.py",
     "test_theorems.py",
     "test_contact.py",
     "test_verdicts.py",
@@ -54,3 +55,15 @@ def pytest_xdist_setupnodes():
     from steps.kernel import main
 
     main()
+
+
+@pytest.fixture
+def given(monkeypatch):
+    """Let names of a module stand for what is given: a function, or what a function returns."""
+
+    def let(module, **found):
+        for name, one in found.items():
+            is_stub = callable(one) or isinstance(one, SimpleNamespace)
+            monkeypatch.setattr(module, name, one if is_stub else lambda *_, one=one, **__: one)
+
+    return let

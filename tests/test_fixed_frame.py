@@ -6,24 +6,13 @@ import numpy as np
 import pytest
 import sympy as sp
 
-from topheavy import (
-    Cap,
-    Column,
-    FixedFrame,
-    Pulse,
-    Record,
-    RockingFrame,
-    peak_elastic,
-    peak_elastic_by_scipy,
-    peak_rigid,
-    read_record,
-)
+import topheavy as th
 
-COLUMN, CAP = Column(0.5, 3.0), Cap(5.0, 0.5)
+COLUMN, CAP = th.Column(0.5, 3.0), th.Cap(5.0, 0.5)
 HELD = [(0.0, "pinned")]
 HELD += [(ratio, top) for ratio in (1.0, 4.0, math.inf) for top in ("pinned", "guided")]
-RECORD = read_record("data/records/el_centro_1940_NS.AT2")
-PULSE = Pulse("one-cosine", 0.4, 2.0 * math.pi / 1.5)
+RECORD = th.read_record("data/records/el_centro_1940_NS.AT2")
+PULSE = th.Pulse("one-cosine", 0.4, 2.0 * math.pi / 1.5)
 
 
 def shape_of(top, x):
@@ -62,7 +51,7 @@ def of_beam(load_over_weight, ratio, end):
 
 @pytest.mark.parametrize(("ratio", "top"), HELD)
 def test_rigid_frame_is_a_beam_under_its_inertia(ratio, top):
-    fixed = FixedFrame(RockingFrame(COLUMN, ratio), CAP, top)
+    fixed = th.FixedFrame(th.RockingFrame(COLUMN, ratio), CAP, top)
     expected = of_beam(lambda x: sp.Integer(1), ratio, top)
     assert fixed.rigid == pytest.approx(expected, rel=1e-12, abs=1e-12)
 
@@ -74,7 +63,7 @@ def test_mode_is_a_beam_under_the_inertia_of_its_shape(ratio, top):
     linear, square = (float(sp.integrate(shape_of(top, x) ** power, (x, 0, 1))) for power in (1, 2))
     participation = (1 - columns + columns * linear) / (1 - columns + columns * square)
     expected = participation * np.array(of_beam(lambda x: shape_of(top, x), ratio, top))
-    fixed = FixedFrame(RockingFrame(COLUMN, ratio), CAP, top)
+    fixed = th.FixedFrame(th.RockingFrame(COLUMN, ratio), CAP, top)
     assert fixed.mode == pytest.approx(expected, rel=1e-12, abs=1e-12)
 
 
@@ -90,20 +79,20 @@ def test_shape_is_that_of_a_force_at_the_top(top):
 
 def test_column_without_a_cap_beam_is_a_cantilever_of_its_own():
     """By hand: a mass m at h moves with the ground, M = m ü_g h; the weight of both is 2mg."""
-    alone = RockingFrame(COLUMN, 0.0)
-    found = peak_rigid(FixedFrame(alone, CAP, "pinned"), PULSE)
+    alone = th.RockingFrame(COLUMN, 0.0)
+    found = th.peak_rigid(th.FixedFrame(alone, CAP, "pinned"), PULSE)
     assert found.bending_moment == pytest.approx(0.4 * 3.0 / 2.0, rel=1e-12)
     assert found.overturning_moment == pytest.approx(2.0 * found.bending_moment, rel=1e-12)
-    deeper = FixedFrame(alone, Cap(9.0, 2.0), "pinned")
-    assert peak_elastic([deeper], PULSE, 0.5) == peak_elastic(
-        [FixedFrame(alone, CAP, "pinned")], PULSE, 0.5
+    deeper = th.FixedFrame(alone, th.Cap(9.0, 2.0), "pinned")
+    assert th.peak_elastic([deeper], PULSE, 0.5) == th.peak_elastic(
+        [th.FixedFrame(alone, CAP, "pinned")], PULSE, 0.5
     )
 
 
 def test_cantilever_without_mass_carries_half_the_cap_beam_at_its_top():
     """By hand: half the weight over ü_g/g, at 2h; a guided column has half of it at each end."""
-    heavy = RockingFrame(COLUMN, math.inf)
-    pinned, guided = (FixedFrame(heavy, CAP, top) for top in ("pinned", "guided"))
+    heavy = th.RockingFrame(COLUMN, math.inf)
+    pinned, guided = (th.FixedFrame(heavy, CAP, top) for top in ("pinned", "guided"))
     for forces in (pinned.rigid, pinned.mode):
         assert forces[2:] == pytest.approx([0.5 * 6.0, 0.0], rel=1e-12)
     for forces in (guided.rigid, guided.mode):
@@ -113,7 +102,7 @@ def test_cantilever_without_mass_carries_half_the_cap_beam_at_its_top():
 @pytest.mark.parametrize("ratio", [0.0, 1.0, 4.0, math.inf])
 def test_pinned_columns_take_all_of_the_overturning_but_that_of_the_cap_beams_depth(ratio):
     """The pins are below the centre of the cap beam; a couple of axial forces takes the rest."""
-    fixed = FixedFrame(RockingFrame(COLUMN, ratio), CAP, "pinned")
+    fixed = th.FixedFrame(th.RockingFrame(COLUMN, ratio), CAP, "pinned")
     beam = 1.0 if ratio == math.inf else ratio / (1.0 + ratio)
     for forces, mean in ((fixed.rigid, 1.0), (fixed.mode, 3.0 / 8.0)):
         of_the_cap = forces[0] * beam / (beam + (1.0 - beam) * mean)
@@ -132,7 +121,7 @@ def test_mode_of_a_column_alone_is_nearly_the_first_of_a_cantilever():
         mean, square, first = (np.trapezoid(f, x) for f in (shape, shape**2, shape * x))
         shears.append(mean**2 / square)
         moments.append(mean * first / square * 3.0)  # of one column of 6 m, over the weight of two
-    ours = FixedFrame(RockingFrame(COLUMN, 0.0), CAP, "pinned")
+    ours = th.FixedFrame(th.RockingFrame(COLUMN, 0.0), CAP, "pinned")
     assert ours.mode[0] == pytest.approx(shears[0], rel=0.03)
     assert ours.mode[2] == pytest.approx(moments[0], rel=0.03)
     assert sum(moments) == pytest.approx(ours.rigid[2], rel=0.01)
@@ -140,16 +129,16 @@ def test_mode_of_a_column_alone_is_nearly_the_first_of_a_cantilever():
 
 def test_guided_column_needs_a_cap_beam():
     with pytest.raises(ValueError, match=r"no cap beam \(γ = 0\) that guides its columns"):
-        FixedFrame(RockingFrame(COLUMN, 0.0), CAP, "guided")
+        th.FixedFrame(th.RockingFrame(COLUMN, 0.0), CAP, "guided")
 
 
-@pytest.mark.parametrize("motion", [None, 3.0, Pulse("harmonic", 0.3, 5.0)])
+@pytest.mark.parametrize("motion", [None, 3.0, th.Pulse("harmonic", 0.3, 5.0)])
 def test_motion_has_to_be_one_that_ends(motion):
-    held = FixedFrame(RockingFrame(COLUMN, 1.0), CAP, "pinned")
+    held = th.FixedFrame(th.RockingFrame(COLUMN, 1.0), CAP, "pinned")
     for peaks in (
-        lambda: peak_rigid(held, motion),
-        lambda: peak_elastic([held], motion, 0.4),
-        lambda: peak_elastic_by_scipy(held, motion, 0.4),
+        lambda: th.peak_rigid(held, motion),
+        lambda: th.peak_elastic([held], motion, 0.4),
+        lambda: th.peak_elastic_by_scipy(held, motion, 0.4),
     ):
         with pytest.raises(ValueError, match=r"excitation is .* that ends"):
             peaks()
@@ -157,10 +146,13 @@ def test_motion_has_to_be_one_that_ends(motion):
 
 @pytest.mark.parametrize("period", [0.0, -1.0, math.inf, "1", None])
 def test_period_is_positive_by_both_solvers(period):
-    held, pulse = FixedFrame(RockingFrame(COLUMN, 1.0), CAP, "pinned"), Pulse("one-sine", 0.3, 5.0)
+    held, pulse = (
+        th.FixedFrame(th.RockingFrame(COLUMN, 1.0), CAP, "pinned"),
+        th.Pulse("one-sine", 0.3, 5.0),
+    )
     for peaks in (
-        lambda: peak_elastic([held], pulse, period),
-        lambda: peak_elastic_by_scipy(held, pulse, period),
+        lambda: th.peak_elastic([held], pulse, period),
+        lambda: th.peak_elastic_by_scipy(held, pulse, period),
     ):
         with pytest.raises(ValueError, match="period is"):
             peaks()
@@ -168,48 +160,48 @@ def test_period_is_positive_by_both_solvers(period):
 
 def test_top_is_pinned_or_guided():
     with pytest.raises(ValueError, match="top is 'fixed'; expected 'pinned'"):
-        FixedFrame(RockingFrame(COLUMN, 1.0), CAP, "fixed")
+        th.FixedFrame(th.RockingFrame(COLUMN, 1.0), CAP, "fixed")
 
 
 def test_peak_of_a_rigid_frame_is_that_of_the_ground():
-    fixed = FixedFrame(RockingFrame(COLUMN, 1.0), CAP, "pinned")
-    assert peak_rigid(fixed, PULSE).base_shear == pytest.approx(0.4)
-    assert peak_rigid(fixed, RECORD).base_shear == pytest.approx(RECORD.peak_acceleration)
-    ricker = Pulse("ricker-symmetric", -0.3, 4.0)
-    assert peak_rigid(fixed, ricker).base_shear == pytest.approx(0.3)
+    fixed = th.FixedFrame(th.RockingFrame(COLUMN, 1.0), CAP, "pinned")
+    assert th.peak_rigid(fixed, PULSE).base_shear == pytest.approx(0.4)
+    assert th.peak_rigid(fixed, RECORD).base_shear == pytest.approx(RECORD.peak_acceleration)
+    ricker = th.Pulse("ricker-symmetric", -0.3, 4.0)
+    assert th.peak_rigid(fixed, ricker).base_shear == pytest.approx(0.3)
 
 
 @pytest.mark.parametrize(("ratio", "top"), HELD)
 def test_stiff_frame_is_nearly_rigid(ratio, top):
-    fixed = FixedFrame(RockingFrame(COLUMN, ratio), CAP, top)
-    pulse = Pulse("one-sine", 0.4, 2.0 * math.pi / 1.5)  # begins without a jump
-    (found,) = peak_elastic([fixed], pulse, 0.005)
-    assert found == pytest.approx(peak_rigid(fixed, pulse), rel=0.01)
+    fixed = th.FixedFrame(th.RockingFrame(COLUMN, ratio), CAP, top)
+    pulse = th.Pulse("one-sine", 0.4, 2.0 * math.pi / 1.5)  # begins without a jump
+    (found,) = th.peak_elastic([fixed], pulse, 0.005)
+    assert found == pytest.approx(th.peak_rigid(fixed, pulse), rel=0.01)
 
 
 def test_resonance_is_that_of_five_per_cent_damping():
-    fixed = FixedFrame(RockingFrame(COLUMN, math.inf), CAP, "pinned")
+    fixed = th.FixedFrame(th.RockingFrame(COLUMN, math.inf), CAP, "pinned")
     times = np.arange(0.0, 60.0, 0.005)
-    record = Record(0.005, 0.1 * np.sin(2.0 * math.pi * times), "harmonic")
-    (found,) = peak_elastic([fixed], record, 1.0)
+    record = th.Record(0.005, 0.1 * np.sin(2.0 * math.pi * times), "harmonic")
+    (found,) = th.peak_elastic([fixed], record, 1.0)
     transmitted = math.sqrt(1.0 + 0.1**2) / 0.1  # √(1 + 4ζ²)/2ζ of a steady state
     assert found.base_shear == pytest.approx(0.1 * transmitted, rel=1e-3)
 
 
 def test_suddenly_accelerated_frame_overshoots():
-    fixed = FixedFrame(RockingFrame(COLUMN, math.inf), CAP, "pinned")
-    record = Record(5.0, np.array([0.2, 0.2]), "step", unit="g")
-    (found,) = peak_elastic([fixed], record, 0.5, 2000)
+    fixed = th.FixedFrame(th.RockingFrame(COLUMN, math.inf), CAP, "pinned")
+    record = th.Record(5.0, np.array([0.2, 0.2]), "step", unit="g")
+    (found,) = th.peak_elastic([fixed], record, 0.5, 2000)
     overshoot = 1.0 + math.exp(-0.05 * math.pi / math.sqrt(1.0 - 0.05**2))
     # the total acceleration also has the damper's part, at most 2ζ of it
     assert 0.2 * overshoot <= found.base_shear < 0.2 * overshoot * 1.01
 
 
 @pytest.mark.parametrize("period", [0.1, 0.5, 2.0])
-@pytest.mark.parametrize("motion", [PULSE, Record(0.02, RECORD.acceleration[:120], "part")])
+@pytest.mark.parametrize("motion", [PULSE, th.Record(0.02, RECORD.acceleration[:120], "part")])
 @pytest.mark.parametrize("top", ["pinned", "guided"])
 def test_two_solvers_agree(motion, period, top):
-    fixed = FixedFrame(RockingFrame(COLUMN, 1.0), CAP, top)
-    (found,) = peak_elastic([fixed], motion, period, 1000)
-    other = peak_elastic_by_scipy(fixed, motion, period, 1000)
+    fixed = th.FixedFrame(th.RockingFrame(COLUMN, 1.0), CAP, top)
+    (found,) = th.peak_elastic([fixed], motion, period, 1000)
+    other = th.peak_elastic_by_scipy(fixed, motion, period, 1000)
     assert found == pytest.approx(other, rel=5e-5)

@@ -5,20 +5,11 @@ import math
 import numpy as np
 import pytest
 
-from topheavy import (
-    STANDARD_GRAVITY,
-    Column,
-    FixedMassColumn,
-    MonolithicPortal,
-    Pulse,
-    RockingFrame,
-    judge,
-    overturning_intervals,
-    reference,
-)
+import topheavy as th
+from topheavy import reference
 
-COLUMN = Column(0.5, 3.0)
-PULSE = Pulse("one-cosine", 1.0, 2 * math.pi / 1.5)
+COLUMN = th.Column(0.5, 3.0)
+PULSE = th.Pulse("one-cosine", 1.0, 2 * math.pi / 1.5)
 POINTS = 200  # of a lattice, along each side of a rectangle
 
 
@@ -36,8 +27,8 @@ def turning(points):
     (z, −x).
     """
     x, z, mass = points
-    gravity = np.sum(mass * STANDARD_GRAVITY * x)
-    push = np.sum(mass * STANDARD_GRAVITY * z)
+    gravity = np.sum(mass * th.STANDARD_GRAVITY * x)
+    push = np.sum(mass * th.STANDARD_GRAVITY * z)
     return gravity, push, np.sum(mass * (x**2 + z**2))
 
 
@@ -61,7 +52,7 @@ def column_points(axis):
 )
 @pytest.mark.parametrize("gamma", [0.3, 1.0, 4.0])
 def test_fixed_mass_is_what_point_masses_are(gamma, width, depth):
-    body = FixedMassColumn(COLUMN, gamma, width, depth)
+    body = th.FixedMassColumn(COLUMN, gamma, width, depth)
     cap = rectangle(gamma, (0.0, 6.0 + depth / 2), width, depth)
     found = body.frequency_parameter, body.uplift_acceleration, body.restitution
     points = np.concatenate([column_points(0.0), cap], axis=1)
@@ -72,7 +63,7 @@ def test_fixed_mass_is_what_point_masses_are(gamma, width, depth):
 @pytest.mark.parametrize("span", [1.2, 4.2])
 @pytest.mark.parametrize("gamma", [0.3, 4.0])
 def test_portal_is_what_point_masses_are(gamma, span, depth, overhang):
-    body = MonolithicPortal(COLUMN, gamma, span, depth, overhang)
+    body = th.MonolithicPortal(COLUMN, gamma, span, depth, overhang)
     half = span / 2
     cap = rectangle(2 * gamma, (0.0, 6.0 + depth / 2), span + 1.0 + 2 * overhang, depth)
     points = np.concatenate([column_points(-half), column_points(half), cap], axis=1)
@@ -82,49 +73,49 @@ def test_portal_is_what_point_masses_are(gamma, span, depth, overhang):
 
 @pytest.mark.parametrize(("gamma", "p"), [(1.0, 1.35221), (4.0, 1.30027)])
 def test_frequency_parameter_of_the_fixed_mass_is_the_known_one(gamma, p):
-    assert FixedMassColumn(COLUMN, gamma).frequency_parameter == pytest.approx(p, abs=1e-5)
+    assert th.FixedMassColumn(COLUMN, gamma).frequency_parameter == pytest.approx(p, abs=1e-5)
 
 
 @pytest.mark.parametrize(("gamma", "p_hat"), [(1.0, 1.34698), (4.0, 1.29413)])
 def test_frequency_parameter_of_the_frame_is_the_known_one(gamma, p_hat):
-    assert RockingFrame(COLUMN, gamma).frequency_parameter == pytest.approx(p_hat, abs=1e-5)
+    assert th.RockingFrame(COLUMN, gamma).frequency_parameter == pytest.approx(p_hat, abs=1e-5)
 
 
 KNOWN = [
     (COLUMN, 0.27282),
-    (FixedMassColumn(COLUMN, 1.0), 0.20358),
-    (FixedMassColumn(COLUMN, 4.0), 0.17634),
-    (RockingFrame(COLUMN, 1.0), 0.31264),
-    (RockingFrame(COLUMN, 4.0), 0.32830),
+    (th.FixedMassColumn(COLUMN, 1.0), 0.20358),
+    (th.FixedMassColumn(COLUMN, 4.0), 0.17634),
+    (th.RockingFrame(COLUMN, 1.0), 0.31264),
+    (th.RockingFrame(COLUMN, 4.0), 0.32830),
 ]
 
 
 @pytest.mark.parametrize(("structure", "known"), KNOWN, ids=str)
 def test_minimum_overturning_acceleration_is_the_known_one(structure, known):
     start = structure.uplift_acceleration
-    first, *_ = overturning_intervals(structure, PULSE, (start, 0.5), resolution=1e-3)
+    first, *_ = th.overturning_intervals(structure, PULSE, (start, 0.5), resolution=1e-3)
     assert first.lower[0] == pytest.approx(known, abs=1e-4)
-    for route in (judge, reference.judge):
+    for route in (th.judge, reference.judge):
         low, high = (PULSE.scaled(first.lower[i] * f) for i, f in ((0, 1 - 1e-6), (1, 1 + 1e-6)))
         assert not route(structure, low).overturned
         assert route(structure, high).overturned
 
 
 def test_uplift_of_the_concentrated_mass_is_at_a_ninth_of_gravity():
-    assert FixedMassColumn(COLUMN, 1.0).uplift_acceleration == pytest.approx(1 / 9, rel=1e-14)
-    assert RockingFrame(COLUMN, 1.0).uplift_acceleration == pytest.approx(1 / 6, rel=1e-14)
+    assert th.FixedMassColumn(COLUMN, 1.0).uplift_acceleration == pytest.approx(1 / 9, rel=1e-14)
+    assert th.RockingFrame(COLUMN, 1.0).uplift_acceleration == pytest.approx(1 / 6, rel=1e-14)
 
 
 @pytest.mark.parametrize("gamma", [0.5, 2.0, 10.0])
 def test_concentrated_mass_lowers_the_slenderness_by_its_formula(gamma):
-    body = FixedMassColumn(COLUMN, gamma)
+    body = th.FixedMassColumn(COLUMN, gamma)
     expected = COLUMN.half_width * (1 + gamma) / (COLUMN.half_height * (1 + 2 * gamma))
     assert math.tan(body.slenderness) == pytest.approx(expected, rel=1e-14)
     assert body.uplift_acceleration == pytest.approx(expected, rel=1e-14)
 
 
 def test_no_fixed_mass_is_the_column():
-    body = FixedMassColumn(COLUMN, 0.0, 2.6, 0.6)
+    body = th.FixedMassColumn(COLUMN, 0.0, 2.6, 0.6)
     for name in ("slenderness", "frequency_parameter", "restitution", "uplift_acceleration"):
         assert getattr(body, name) == pytest.approx(getattr(COLUMN, name), rel=1e-14)
     assert body.equivalent_size == pytest.approx(COLUMN.size, rel=1e-14)
@@ -132,30 +123,30 @@ def test_no_fixed_mass_is_the_column():
 
 @pytest.mark.parametrize("gamma", [1e9, math.inf])
 def test_boundless_fixed_mass_is_a_point_on_a_stalk(gamma):
-    body = FixedMassColumn(COLUMN, gamma)
+    body = th.FixedMassColumn(COLUMN, gamma)
     assert body.uplift_acceleration == pytest.approx(1 / 12, rel=1e-8)
-    p = math.sqrt(STANDARD_GRAVITY / math.hypot(0.5, 6.0))
+    p = math.sqrt(th.STANDARD_GRAVITY / math.hypot(0.5, 6.0))
     assert body.frequency_parameter == pytest.approx(p, rel=1e-8)
     assert body.restitution == pytest.approx(math.cos(2 * body.slenderness), rel=1e-8)
 
 
 def test_equivalent_size_is_that_of_a_column_with_the_same_frequency_parameter():
-    body = FixedMassColumn(COLUMN, 2.0, 2.6, 0.6)
+    body = th.FixedMassColumn(COLUMN, 2.0, 2.6, 0.6)
     scale = body.equivalent_size / COLUMN.size
-    twin = Column(0.5 * scale, 3.0 * scale)
+    twin = th.Column(0.5 * scale, 3.0 * scale)
     assert twin.frequency_parameter == pytest.approx(body.frequency_parameter, rel=1e-14)
 
 
 def test_narrow_portal_tends_to_the_column_with_fixed_mass():
     # Two columns that almost coincide, on a base that is wider by their second half width.
-    portal = MonolithicPortal(Column(1e-9, 3.0), 1.0, 2.1e-9)
-    column = FixedMassColumn(Column(1e-9, 3.0), 1.0)
+    portal = th.MonolithicPortal(th.Column(1e-9, 3.0), 1.0, 2.1e-9)
+    column = th.FixedMassColumn(th.Column(1e-9, 3.0), 1.0)
     assert portal.frequency_parameter == pytest.approx(column.frequency_parameter, rel=1e-8)
 
 
 @pytest.mark.parametrize(
     "structure",
-    [FixedMassColumn(COLUMN, 1.0, 2.6, 0.6), MonolithicPortal(COLUMN, 1.0, 4.2, 0.6)],
+    [th.FixedMassColumn(COLUMN, 1.0, 2.6, 0.6), th.MonolithicPortal(COLUMN, 1.0, 4.2, 0.6)],
     ids=["fixed", "portal"],
 )
 def test_block_carries_the_three_numbers(structure):
@@ -168,10 +159,10 @@ def test_block_carries_the_three_numbers(structure):
 
 def test_stocky_body_is_refused_with_its_slenderness_and_the_largest():
     # A concentrated mass alone: √r' = cos 2α', zero at 45°
-    assert FixedMassColumn(Column(1.99, 1.0), math.inf).block().restitution > 0
+    assert th.FixedMassColumn(th.Column(1.99, 1.0), math.inf).block().restitution > 0
     with pytest.raises(ValueError, match=r"45\.14°.*no rocking.*45°"):
-        FixedMassColumn(Column(2.01, 1.0), math.inf).block()
-    wide = MonolithicPortal(COLUMN, 4.0, 20.0)
+        th.FixedMassColumn(th.Column(2.01, 1.0), math.inf).block()
+    wide = th.MonolithicPortal(COLUMN, 4.0, 20.0)
     with pytest.raises(ValueError, match=rf"{wide.slenderness:.6g} rad.*no rocking"):
         wide.block()
     assert wide.block(restitution=0.0).restitution == 0.0
@@ -180,8 +171,8 @@ def test_stocky_body_is_refused_with_its_slenderness_and_the_largest():
 @pytest.mark.parametrize("gamma", [-0.1, math.nan])
 def test_impossible_mass_ratio_is_refused(gamma):
     for make in (
-        lambda: FixedMassColumn(COLUMN, gamma),
-        lambda: MonolithicPortal(COLUMN, gamma, 4.2),
+        lambda: th.FixedMassColumn(COLUMN, gamma),
+        lambda: th.MonolithicPortal(COLUMN, gamma, 4.2),
     ):
         with pytest.raises(ValueError, match=f"mass_ratio is {gamma:g}"):
             make()
@@ -190,11 +181,11 @@ def test_impossible_mass_ratio_is_refused(gamma):
 @pytest.mark.parametrize("length", [-0.1, math.inf, math.nan, "1"])
 def test_impossible_length_is_refused_by_its_name(length):
     for name, make in (
-        ("cap_width", lambda: FixedMassColumn(COLUMN, 1.0, cap_width=length)),
-        ("cap_depth", lambda: FixedMassColumn(COLUMN, 1.0, cap_depth=length)),
-        ("span", lambda: MonolithicPortal(COLUMN, 1.0, length)),
-        ("cap_depth", lambda: MonolithicPortal(COLUMN, 1.0, 4.2, cap_depth=length)),
-        ("overhang", lambda: MonolithicPortal(COLUMN, 1.0, 4.2, overhang=length)),
+        ("cap_width", lambda: th.FixedMassColumn(COLUMN, 1.0, cap_width=length)),
+        ("cap_depth", lambda: th.FixedMassColumn(COLUMN, 1.0, cap_depth=length)),
+        ("span", lambda: th.MonolithicPortal(COLUMN, 1.0, length)),
+        ("cap_depth", lambda: th.MonolithicPortal(COLUMN, 1.0, 4.2, cap_depth=length)),
+        ("overhang", lambda: th.MonolithicPortal(COLUMN, 1.0, 4.2, overhang=length)),
     ):
         with pytest.raises(ValueError, match=rf"^{name} is .*; expected"):
             make()
@@ -202,10 +193,10 @@ def test_impossible_length_is_refused_by_its_name(length):
 
 def test_columns_that_overlap_are_refused():
     with pytest.raises(ValueError, match=r"span is 1 m; expected more than the width of a column"):
-        MonolithicPortal(COLUMN, 1.0, 1.0)
+        th.MonolithicPortal(COLUMN, 1.0, 1.0)
 
 
 def test_what_is_no_column_is_refused():
-    for make in (lambda: FixedMassColumn(2.0, 1.0), lambda: MonolithicPortal(2.0, 1.0, 4.2)):
+    for make in (lambda: th.FixedMassColumn(2.0, 1.0), lambda: th.MonolithicPortal(2.0, 1.0, 4.2)):
         with pytest.raises(ValueError, match=r"column is 2\.0; expected a Column"):
             make()

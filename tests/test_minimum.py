@@ -7,35 +7,24 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import topheavy as th
 import topheavy.minimum
-from topheavy import (
-    Column,
-    Pulse,
-    Record,
-    RockingBlock,
-    RockingFrame,
-    judge,
-    lowest_overturning,
-    minimum_overturning,
-    overturning_intervals,
-    read_record,
-    reference,
-)
+from topheavy import reference
 from topheavy.minimum import NOT_EXCLUDED
 from topheavy.overturning import outcomes_of_subjects
 
 RECORDS = Path(__file__).parents[1] / "data" / "records"
-EL_CENTRO = read_record(RECORDS / "el_centro_1940_NS.AT2")
-PIER = Column(0.8, 4.8)
-BENT = RockingFrame.of_masses(PIER, cap_mass=400.0, column_mass=60.0)
-BLOCK = RockingBlock(2.0, 0.25, 0.9)
-LINEAR = RockingBlock(1.0, 0.25, 0.9, linearised=True)
-SINE = Pulse("one-sine", 0.25, 5.0)
-SHAKING = Record(0.05, 0.3 * np.sin(np.linspace(0, 18, 90)) * np.hanning(90))
+EL_CENTRO = th.read_record(RECORDS / "el_centro_1940_NS.AT2")
+PIER = th.Column(0.8, 4.8)
+BENT = th.RockingFrame.of_masses(PIER, cap_mass=400.0, column_mass=60.0)
+BLOCK = th.RockingBlock(2.0, 0.25, 0.9)
+LINEAR = th.RockingBlock(1.0, 0.25, 0.9, linearised=True)
+SINE = th.Pulse("one-sine", 0.25, 5.0)
+SHAKING = th.Record(0.05, 0.3 * np.sin(np.linspace(0, 18, 90)) * np.hanning(90))
 CASES = {
     "one-sine": (LINEAR, SINE, (1.0, 10.0), 0.003),
-    "one-cosine": (BLOCK, Pulse("one-cosine", 0.25, 5.0), (1.0, 9.0), 0.003),
-    "mirrored": (BLOCK, Pulse("one-sine", -0.25, 10.0), (0.0, 14.0), 0.004),
+    "one-cosine": (BLOCK, th.Pulse("one-cosine", 0.25, 5.0), (1.0, 9.0), 0.003),
+    "mirrored": (BLOCK, th.Pulse("one-sine", -0.25, 10.0), (0.0, 14.0), 0.004),
     "record": (BLOCK, SHAKING, (0.5, 6.0), 0.002),
 }
 
@@ -43,7 +32,7 @@ CASES = {
 @pytest.fixture(scope="module")
 def pier():
     """The pier under El Centro, in steps that are those of an engineer's search."""
-    return lowest_overturning(PIER, EL_CENTRO, (0.0, 3.2), floor=4e-4)
+    return th.lowest_overturning(PIER, EL_CENTRO, (0.0, 3.2), floor=4e-4)
 
 
 # ---------------------------------------------------------------------------- El Centro
@@ -59,7 +48,7 @@ def test_narrow_interval_below_a_minimum_that_four_steps_agree_on_is_found(pier)
     assert pier.acceleration == pytest.approx(0.6272, abs=1e-4)
 
 
-@pytest.mark.parametrize("judged", [judge, reference.judge], ids=["Taylor", "SciPy"])
+@pytest.mark.parametrize("judged", [th.judge, reference.judge], ids=["Taylor", "SciPy"])
 def test_both_solvers_have_the_narrow_interval(pier, judged):
     around = 1e-7
     outcomes = [
@@ -76,12 +65,12 @@ def test_both_solvers_have_the_narrow_interval(pier, judged):
 
 def test_minimum_rises_on_grids_that_are_not_nested_and_never_on_nested_ones():
     apart = [
-        minimum_overturning(BENT, EL_CENTRO, (0.0, 5.0), resolution=step)[1]
+        th.minimum_overturning(BENT, EL_CENTRO, (0.0, 5.0), resolution=step)[1]
         for step in (0.1, 0.01, 0.001, 0.0005)
     ]
     assert apart == pytest.approx([4.003, 3.2263, 3.2297, 3.2212], abs=5e-4)
     assert apart[2] > apart[1]
-    nested = lowest_overturning(BENT, EL_CENTRO, (0.0, 5.0), floor=5e-4)
+    nested = th.lowest_overturning(BENT, EL_CENTRO, (0.0, 5.0), floor=5e-4)
     assert nested.factor <= min(apart) + 1e-9
     factors = [factor for _, factor in nested.steps if factor is not None]
     assert factors == sorted(factors, reverse=True)
@@ -108,7 +97,7 @@ def tried(monkeypatch):
 def test_step_is_halved_to_the_floor_and_no_factor_is_passed_over(
     tried, block, excitation, scales, floor
 ):
-    found = lowest_overturning(block, excitation, scales, floor=floor)
+    found = th.lowest_overturning(block, excitation, scales, floor=floor)
     steps = [step for step, _ in found.steps]
     assert steps[0] == scales[1] - scales[0]
     assert all(one == 2.0 * other for one, other in pairwise(steps))
@@ -128,12 +117,12 @@ def test_step_is_halved_to_the_floor_and_no_factor_is_passed_over(
 
 @pytest.mark.parametrize(("block", "excitation", "scales", "floor"), CASES.values(), ids=CASES)
 def test_lowest_factor_is_not_above_that_of_the_intervals(block, excitation, scales, floor):
-    found = lowest_overturning(block, excitation, scales, floor=floor)
-    first, *_ = overturning_intervals(
+    found = th.lowest_overturning(block, excitation, scales, floor=floor)
+    first, *_ = th.overturning_intervals(
         block, excitation, scales, resolution=found.steps[-1][0], most_impacts=0
     )
     assert found.factor <= first.lower[1] + 1e-9
-    ends = [judge(block, excitation.scaled(factor)).overturned for factor in found.bracket]
+    ends = [th.judge(block, excitation.scaled(factor)).overturned for factor in found.bracket]
     assert ends == [False, True]
     assert found.acceleration == pytest.approx(found.factor * excitation.peak_acceleration)
 
@@ -157,7 +146,9 @@ def test_every_interval_wider_than_the_last_step_is_found_and_its_width_measured
         room = np.diff([*begins, last])
         widths = np.minimum(10.0 ** random.uniform(-6.0, 0.0, 4), 0.5 * room)
         planted(monkeypatch, np.column_stack([begins, begins + widths]).ravel())
-        found = lowest_overturning(BLOCK, SHAKING, (first, last), floor=10 ** random.uniform(-4, 0))
+        found = th.lowest_overturning(
+            BLOCK, SHAKING, (first, last), floor=10 ** random.uniform(-4, 0)
+        )
         step, bracket = found.steps[-1][0], 1e-10 * last
         wide = np.flatnonzero(widths > step)
         if found.bracket is None:
@@ -174,7 +165,7 @@ def test_every_interval_wider_than_the_last_step_is_found_and_its_width_measured
 
 def test_width_of_an_interval_narrower_than_a_bracket_is_not_zero(monkeypatch):
     planted(monkeypatch, np.array([1.0, 1.0 + 1e-13]))
-    found = lowest_overturning(BLOCK, SHAKING, (0.0, 2.0), floor=0.1)  # 1 is in the middle
+    found = th.lowest_overturning(BLOCK, SHAKING, (0.0, 2.0), floor=0.1)  # 1 is in the middle
     assert found.bracket[0] < 1.0 <= found.factor < found.upper[1]
     assert 1e-13 <= found.width <= 4e-10
 
@@ -183,14 +174,14 @@ def test_survival_region_wider_than_a_sixteenth_of_the_width_ends_the_interval(m
     for share in np.linspace(0.02, 0.9, 60):
         edge = 1.0 + share
         planted(monkeypatch, np.array([1.0, edge, edge + 1.001 * share / 16, 2.5]))
-        found = lowest_overturning(BLOCK, SHAKING, (0.0, 3.0), floor=0.1)
+        found = th.lowest_overturning(BLOCK, SHAKING, (0.0, 3.0), floor=0.1)
         assert found.width == pytest.approx(share, abs=1e-9)
 
 
 def test_halving_stops_at_a_step_equal_to_the_floor():
-    found = lowest_overturning(BLOCK, SHAKING, (0.5, 4.5), floor=0.5)
+    found = th.lowest_overturning(BLOCK, SHAKING, (0.5, 4.5), floor=0.5)
     assert [step for step, _ in found.steps] == [4.0, 2.0, 1.0, 0.5]
-    (only,) = lowest_overturning(BLOCK, SHAKING, (0.5, 4.5), floor=9.0).steps
+    (only,) = th.lowest_overturning(BLOCK, SHAKING, (0.5, 4.5), floor=9.0).steps
     assert only[0] == 4.0
 
 
@@ -198,7 +189,7 @@ def test_halving_stops_at_a_step_equal_to_the_floor():
 
 
 def test_range_that_begins_in_an_interval_says_so():
-    found = lowest_overturning(LINEAR, SINE, (4.0, 8.0), floor=0.1)
+    found = th.lowest_overturning(LINEAR, SINE, (4.0, 8.0), floor=0.1)
     assert found.bracket == (4.0, 4.0)
     assert {factor for _, factor in found.steps} == {4.0}
     assert found.upper[0] == pytest.approx(6.3181, abs=1e-3)
@@ -206,7 +197,7 @@ def test_range_that_begins_in_an_interval_says_so():
 
 
 def test_interval_that_the_range_cuts_off_has_no_width():
-    found = lowest_overturning(LINEAR, SINE, (6.5, 8.0), floor=0.1)
+    found = th.lowest_overturning(LINEAR, SINE, (6.5, 8.0), floor=0.1)
     assert found.factor == pytest.approx(7.16813, abs=1e-5)
     assert found.upper is None
     assert math.isnan(found.width)
@@ -214,7 +205,7 @@ def test_interval_that_the_range_cuts_off_has_no_width():
 
 
 def test_where_nothing_overturns_there_is_no_number():
-    found = lowest_overturning(LINEAR, SINE, (0.0, 1.0), floor=0.1)
+    found = th.lowest_overturning(LINEAR, SINE, (0.0, 1.0), floor=0.1)
     assert (found.bracket, found.upper) == (None, None)
     assert math.isnan(found.factor)
     assert math.isnan(found.acceleration)
@@ -258,7 +249,7 @@ def test_search_never_speaks_of_convergence():
         ({"structure": 3}, "structure is 3; expected a Column, a RockingFrame"),
         ({"excitation": 3}, "excitation is 3; expected a Pulse or a Record"),
         ({"excitation": None}, "excitation is None; expected a Pulse or a Record"),
-        ({"excitation": Pulse("harmonic", 0.3, 5.0)}, "'harmonic'.*forever"),
+        ({"excitation": th.Pulse("harmonic", 0.3, 5.0)}, "'harmonic'.*forever"),
     ],
 )
 def test_bad_search_is_refused_by_name_and_value(changes, says):
@@ -269,25 +260,25 @@ def test_bad_search_is_refused_by_name_and_value(changes, says):
         "floor": 0.1,
     } | changes
     with pytest.raises(ValueError, match=says):
-        lowest_overturning(**given)
+        th.lowest_overturning(**given)
 
 
 def test_first_wide_interval_is_found_beside_a_narrow_lower_one():
-    column = Column.of_dimensions(width=1.4, height=9.0)
-    found = lowest_overturning(column, EL_CENTRO, (0.0, 8.0), floor=0.01, wider_than=0.05)
-    every = overturning_intervals(column, EL_CENTRO, (0, 8), resolution=0.005, most_impacts=0)
+    column = th.Column.of_dimensions(width=1.4, height=9.0)
+    found = th.lowest_overturning(column, EL_CENTRO, (0.0, 8.0), floor=0.01, wider_than=0.05)
+    every = th.overturning_intervals(column, EL_CENTRO, (0, 8), resolution=0.005, most_impacts=0)
     wide = [one for one in every if not one.upper or one.upper[0] - one.lower[1] > 0.05]
     assert found.wide.lower == pytest.approx(wide[0].lower, abs=0.02)
     assert found.wide.lower[1] >= found.factor
     told = f"wider than 0.05 begins at {found.wide.lower[1]:.6g}"
     assert told in str(found)
     assert f"({found.wide.lower[1] * EL_CENTRO.peak_acceleration:.6g} g)" in str(found)
-    assert "wider than" not in str(lowest_overturning(column, EL_CENTRO, (0.0, 8.0), floor=0.01))
+    assert "wider than" not in str(th.lowest_overturning(column, EL_CENTRO, (0.0, 8.0), floor=0.01))
 
 
 def test_no_wide_interval_in_the_range_is_said():
-    found = lowest_overturning(PIER, SINE, (0.0, 1e-3), floor=1e-3, wider_than=1e-3)
+    found = th.lowest_overturning(PIER, SINE, (0.0, 1e-3), floor=1e-3, wider_than=1e-3)
     assert found.wide is None
     assert "The first interval wider than 0.001 is not in the range" in str(found)
     with pytest.raises(ValueError, match="wider_than is 0; expected more than zero"):
-        lowest_overturning(PIER, SINE, (0.0, 1.0), floor=0.1, wider_than=0.0)
+        th.lowest_overturning(PIER, SINE, (0.0, 1.0), floor=0.1, wider_than=0.0)

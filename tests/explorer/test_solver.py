@@ -6,21 +6,9 @@ import math
 import numpy as np
 import pytest
 
+import topheavy as th
 from steps.explorer import DEFAULTS, blocks, motion, options
 from steps.shared.bearing import bearing
-from topheavy import (
-    Cap,
-    Column,
-    FixedMassColumn,
-    MonolithicPortal,
-    Pulse,
-    RockingFrame,
-    contact_forces,
-    minimum_overturning,
-    overturning_map,
-    overturning_map_of_record,
-    simulate,
-)
 from topheavy.contact_forces import column_forces
 from topheavy.shapes import ENDING
 
@@ -48,7 +36,7 @@ def states(number):
         h = 10.0 ** random.uniform(-0.5, 1.0)
         b = h * math.tan(slenderness)
         strength = math.tan(slenderness) * 10.0 ** random.uniform(-0.02, 1.1)
-        omega = Column(b, h).frequency_parameter * random.uniform(0.5, 8.0)
+        omega = th.Column(b, h).frequency_parameter * random.uniform(0.5, 8.0)
         state = {
             "b": b,
             "h": h,
@@ -81,8 +69,8 @@ def response(block, state, records, scale=1.0):
     scaled = {**state, "a": state["a"] * scale, "x": state["x"] * scale}
     shaken = motion(scaled, records)
     if state["shape"] == "harmonic":
-        return simulate(block, shaken, samples=2, **options(scaled, block))
-    return simulate(block, shaken, samples=2)
+        return th.simulate(block, shaken, samples=2, **options(scaled, block))
+    return th.simulate(block, shaken, samples=2)
 
 
 def is_near_boundary(block, state, records):
@@ -141,17 +129,17 @@ def test_spectrum_is_the_map_of_the_library(browser, shape):
         columns,
         rows,
     )
-    column = Column(0.5, 3.0)
+    column = th.Column(0.5, 3.0)
     ratios = 0.5 + 7.5 * (np.arange(columns) + 0.5) / columns
     amplitudes = 0.93 * (12.0 / 0.93) ** ((np.arange(rows) + 0.5) / rows)
     alone, framed = (
-        overturning_map(
+        th.overturning_map(
             structure,
             shape,
             ratios * column.frequency_parameter,
             amplitudes * column.uplift_acceleration,
         ).overturned
-        for structure in (column, RockingFrame(column, 1.0))
+        for structure in (column, th.RockingFrame(column, 1.0))
     )
     assert set(codes) == {0, 1, 2, 3}
     np.testing.assert_array_equal(codes, (alone + 2 * framed).T.values.ravel())
@@ -175,15 +163,15 @@ def test_spectrum_of_a_record_is_the_map_of_the_library(browser, records):
         columns,
         rows,
     )
-    column = Column(0.5, 3.0)
+    column = th.Column(0.5, 3.0)
     alone, framed = (
-        overturning_map_of_record(
+        th.overturning_map_of_record(
             structure,
             record,
             0.5 * 40.0 ** ((np.arange(columns) + 0.5) / columns),
             0.93 * (12.0 / 0.93) ** ((np.arange(rows) + 0.5) / rows) * column.uplift_acceleration,
         ).overturned
-        for structure in (column, RockingFrame(column, 1.0))
+        for structure in (column, th.RockingFrame(column, 1.0))
     )
     assert set(codes) >= {0, 1, 3}
     np.testing.assert_array_equal(codes, (alone + 2 * framed).T.values.ravel())
@@ -192,7 +180,7 @@ def test_spectrum_of_a_record_is_the_map_of_the_library(browser, records):
 def test_required_friction_is_that_of_the_library(browser):
     browser.open_to_compute()
     random = np.random.default_rng(2014)
-    column, cap = Column(0.5, 3.0), Cap(5.0, 0.3)
+    column, cap = th.Column(0.5, 3.0), th.Cap(5.0, 0.3)
     alpha = column.slenderness
     theta = random.choice([-1, 1], 200) * random.uniform(0.01, 0.99, 200) * alpha
     rate, ground = random.uniform(-0.5, 0.5, 200), random.uniform(-0.5, 0.5, 200)
@@ -201,7 +189,7 @@ def test_required_friction_is_that_of_the_library(browser):
       requiredFriction(block, Math.sign(theta), Math.abs(theta), rate, a)))"""
     found = browser.do(script, np.column_stack([theta, rate, ground]).tolist())
     expected = [column_forces(column, theta, rate, ground).friction_demand] + [
-        contact_forces(RockingFrame(column, g), cap, theta, rate, ground).friction_demand
+        th.contact_forces(th.RockingFrame(column, g), cap, theta, rate, ground).friction_demand
         for g in (0.5, 1.0, 4.0, math.inf)
     ]
     finite = np.isfinite(np.array(expected))
@@ -213,7 +201,7 @@ def test_required_friction_is_that_of_the_library(browser):
 def test_required_friction_of_a_vase_follows_from_the_motion_of_its_centre(browser):
     """By Newton's law: a centre at R' from the edge, differentiated in time."""
     browser.open_to_compute()
-    vase = FixedMassColumn(Column(0.5, 3.0), 1.0)
+    vase = th.FixedMassColumn(th.Column(0.5, 3.0), 1.0)
     lever, alpha = math.hypot(vase.half_base, vase.centre_height), vase.slenderness
     theta, rate, a, step = 0.4 * alpha, -0.3, 0.2, 1e-4
     turn = -(vase.frequency_parameter**2) * (math.sin(alpha - theta) + a * math.cos(alpha - theta))
@@ -233,7 +221,7 @@ def searched(structure, unit, windows):
     uplift = structure.uplift_acceleration
     for first, last, step in windows:
         ends = (first * uplift, last * uplift)
-        found = minimum_overturning(structure, unit, ends, resolution=step * uplift)
+        found = th.minimum_overturning(structure, unit, ends, resolution=step * uplift)
         if found:
             return 0.5 * sum(found)
     return math.inf
@@ -257,12 +245,12 @@ def test_portal_that_leaves_the_ground_has_no_minimum(browser, span, peak, leave
     assert words.endswith("survives") == (not leaves)
     cell = browser.do("[minimum2.textContent, Number(minimum2.dataset.value)]")
     assert cell[0] == shown
-    alone = MonolithicPortal(Column(0.5, 3.0), 1.0, span)
-    motion = Pulse("one-cosine", 1.0, 2.0 * math.pi / 1.5)
+    alone = th.MonolithicPortal(th.Column(0.5, 3.0), 1.0, span)
+    motion = th.Pulse("one-cosine", 1.0, 2.0 * math.pi / 1.5)
     if shown == OFF:
         expected, step = bearing(alone, motion, 1.8).pulled_from, 3e-3  # of the page's pieces
     else:
-        expected, step = minimum_overturning(alone, motion, (0.5, 2.0), resolution=1e-3)[0], 1e-6
+        expected, step = th.minimum_overturning(alone, motion, (0.5, 2.0), resolution=1e-3)[0], 1e-6
     assert cell[1] == pytest.approx(expected, rel=step)
 
 

@@ -8,28 +8,16 @@ import numpy as np
 import pytest
 import xarray
 
+import topheavy as th
 import topheavy.reference
-from topheavy import (
-    Column,
-    FixedMassColumn,
-    Fragility,
-    MonolithicPortal,
-    Pulse,
-    Record,
-    RockingBlock,
-    RockingFrame,
-    fragility,
-    judge,
-    overturned_by,
-)
 
-PIER = Column(0.25, 1.5)
+PIER = th.Column(0.25, 1.5)
 STRUCTURES = {
     "pier": PIER,
-    "bent": RockingFrame(PIER, 2.0),
-    "vase": FixedMassColumn(PIER, 1.0),
-    "portal": MonolithicPortal(PIER, 1.0, 1.2),
-    "block": RockingBlock(2.0, 0.2, 0.9),
+    "bent": th.RockingFrame(PIER, 2.0),
+    "vase": th.FixedMassColumn(PIER, 1.0),
+    "portal": th.MonolithicPortal(PIER, 1.0, 1.2),
+    "block": th.RockingBlock(2.0, 0.2, 0.9),
 }
 LEVELS = np.array([0.3, 0.5, 0.8, 1.2, 2.0])
 
@@ -40,7 +28,7 @@ def wave(number, size=1.0):
     time = np.arange(0.0, 6.0, 0.02)
     slow, fast = random.uniform([2.0, 7.0], [5.0, 15.0])
     sums = np.sin(slow * time) + 0.5 * np.sin(fast * time + random.uniform(0.0, 6.0))
-    return Record(0.02, size * sums * np.sin(np.pi * time / 6.0) ** 2, f"wave {number}")
+    return th.Record(0.02, size * sums * np.sin(np.pi * time / 6.0) ** 2, f"wave {number}")
 
 
 MOTIONS = [wave(number) for number in range(8)]
@@ -48,7 +36,7 @@ MOTIONS = [wave(number) for number in range(8)]
 
 @pytest.fixture(scope="module")
 def found():
-    return fragility(STRUCTURES, MOTIONS, LEVELS, lowered=(0.05, 0.1), resamples=200)
+    return th.fragility(STRUCTURES, MOTIONS, LEVELS, lowered=(0.05, 0.1), resamples=200)
 
 
 def test_outcomes_are_those_of_scipy(found):
@@ -67,32 +55,34 @@ def test_outcomes_are_those_of_scipy(found):
 @pytest.mark.parametrize("measure", ["PGV", "PGA"])
 def test_each_outcome_is_that_of_the_motion_scaled_to_the_level(measure):
     levels = LEVELS if measure == "PGV" else LEVELS / 2.0
-    result = fragility(STRUCTURES, MOTIONS[:3], levels, measure, resamples=100)
+    result = th.fragility(STRUCTURES, MOTIONS[:3], levels, measure, resamples=100)
     units = {"PGV": "m/s", "PGA": "g"}
     assert (result.measure, result.curves.level.units) == (measure, units[measure])
     for number, motion in enumerate(MOTIONS[:3]):
         for place, structure in enumerate(STRUCTURES.values()):
             of = motion.peak_velocity if measure == "PGV" else motion.peak_acceleration
-            each = [judge(structure, motion.scaled(level / of)).overturned for level in levels]
+            each = [th.judge(structure, motion.scaled(level / of)).overturned for level in levels]
             assert result.outcomes[number, place].tolist() == each
     assert 0.1 < result.outcomes.mean() < 0.9
 
 
-UPS = [Record(0.013, 0.4 * wave(number + 20).acceleration) for number in range(8)]
+UPS = [th.Record(0.013, 0.4 * wave(number + 20).acceleration) for number in range(8)]
 
 
 @pytest.mark.parametrize("scale_vertical", [True, False])
 def test_vertical_component_of_each_motion_acts_with_it(found, scale_vertical):
     both = {"vertical": UPS, "scale_vertical": scale_vertical}
     levels = LEVELS[:4]
-    outcomes = fragility(STRUCTURES, MOTIONS, levels, resamples=100, **both).outcomes
+    outcomes = th.fragility(STRUCTURES, MOTIONS, levels, resamples=100, **both).outcomes
     for number, (motion, up) in enumerate(zip(MOTIONS, UPS, strict=True)):
         factors = levels / motion.peak_velocity
         lifts = factors if scale_vertical else np.ones(4)
         for place, structure in enumerate(STRUCTURES.values()):
             for level, (factor, lift) in enumerate(zip(factors, lifts, strict=True)):
                 given = (structure, motion.scaled(factor))
-                judges = [judge, topheavy.reference.judge] if place == number == 1 else [judge]
+                judges = (
+                    [th.judge, topheavy.reference.judge] if place == number == 1 else [th.judge]
+                )
                 for route in judges:
                     truth = route(*given, vertical=up.scaled(lift)).overturned
                     assert outcomes[number, place, level] == truth
@@ -106,32 +96,32 @@ def test_vertical_component_of_each_motion_acts_with_it(found, scale_vertical):
         (UPS[:7], "vertical is .*; expected a list of 8 Records, the vertical component of each"),
         ([*UPS[:7], 0.1], r"vertical\[7\]: excitation is Record and vertical float; expected two"),
         (
-            [*UPS[:7], Record(0.05, [0.0, 0.4, -8.0, 0.0], unit="g")],
+            [*UPS[:7], th.Record(0.05, [0.0, 0.4, -8.0, 0.0], unit="g")],
             r"^vertical\[7\]: at 0\.1 s its acceleration .* factors less than 0\.125 are allowed",
         ),
     ],
 )
 def test_bad_vertical_is_refused_by_its_motion(vertical, says):
     with pytest.raises(ValueError, match=says):
-        fragility([PIER], MOTIONS, LEVELS, resamples=100, vertical=vertical)
+        th.fragility([PIER], MOTIONS, LEVELS, resamples=100, vertical=vertical)
 
 
 def test_measure_may_be_a_function_and_a_motion_a_pulse():
     def peak_of_pulse(pulse):
         return pulse.amplitude
 
-    pulses = [Pulse("one-sine", 1.0, omega) for omega in (2.0, 3.0, 4.0)]
-    result = fragility([PIER], pulses, [0.2, 0.5, 1.0], peak_of_pulse, resamples=100)
+    pulses = [th.Pulse("one-sine", 1.0, omega) for omega in (2.0, 3.0, 4.0)]
+    result = th.fragility([PIER], pulses, [0.2, 0.5, 1.0], peak_of_pulse, resamples=100)
     for number, pulse in enumerate(pulses):
         np.testing.assert_array_equal(
-            result.outcomes[number, 0], overturned_by(PIER, pulse, [0.2, 0.5, 1.0])
+            result.outcomes[number, 0], th.overturned_by(PIER, pulse, [0.2, 0.5, 1.0])
         )
     assert result.measure == "peak_of_pulse"
     assert "units" not in result.curves.level.attrs
 
 
 def test_result_is_labelled(found):
-    assert isinstance(found, Fragility)
+    assert isinstance(found, th.Fragility)
     curves, pairs = found.curves, found.pairs
     names = [*STRUCTURES, "pier, √r 5 % lower", "pier, √r 10 % lower"]
     assert curves.structure.to_numpy().tolist() == names
@@ -163,16 +153,16 @@ def test_restitution_of_the_column_alone_is_lowered(found):
         for number, motion in enumerate(MOTIONS):
             factors = LEVELS / motion.peak_velocity
             np.testing.assert_array_equal(
-                found.outcomes[number, place], overturned_by(lower, motion, factors)
+                found.outcomes[number, place], th.overturned_by(lower, motion, factors)
             )
     assert (found.outcomes[:, 0] != found.outcomes[:, -1]).any()
-    unchanged = fragility(STRUCTURES, MOTIONS, LEVELS, resamples=200)
+    unchanged = th.fragility(STRUCTURES, MOTIONS, LEVELS, resamples=200)
     np.testing.assert_array_equal(unchanged.outcomes, found.outcomes[:, :5])
 
 
 def test_lowered_column_is_compared_with_what_is_no_column():
-    under = {"a": PIER, "b": Column(0.3, 1.5), "bent": RockingFrame(PIER, 1.0)}
-    pairs = fragility(under, MOTIONS[:2], [0.3, 0.6], lowered=[0.1], resamples=100).pairs
+    under = {"a": PIER, "b": th.Column(0.3, 1.5), "bent": th.RockingFrame(PIER, 1.0)}
+    pairs = th.fragility(under, MOTIONS[:2], [0.3, 0.6], lowered=[0.1], resamples=100).pairs
     assert list(zip(pairs["first"].to_numpy(), pairs["second"].to_numpy(), strict=True)) == [
         ("a", "b"),
         ("a", "bent"),
@@ -183,7 +173,7 @@ def test_lowered_column_is_compared_with_what_is_no_column():
 
 
 def test_structures_of_a_list_are_named():
-    found = fragility([PIER, RockingFrame(PIER, 1.0)], MOTIONS[:2], [0.3, 0.6], resamples=100)
+    found = th.fragility([PIER, th.RockingFrame(PIER, 1.0)], MOTIONS[:2], [0.3, 0.6], resamples=100)
     assert found.curves.structure.to_numpy().tolist() == ["Column 1", "RockingFrame 2"]
 
 
@@ -199,7 +189,7 @@ def test_structures_of_a_list_are_named():
 @pytest.mark.filterwarnings("ignore:levels go up")
 @pytest.mark.parametrize("skewed", [False, True])
 def test_levels_that_give_no_curve_give_a_reason(levels, reason, skewed):
-    found = fragility(STRUCTURES, MOTIONS, levels, skewed=skewed, resamples=100)
+    found = th.fragility(STRUCTURES, MOTIONS, levels, skewed=skewed, resamples=100)
     assert np.isnan(found.curves.median_capacity).all()
     assert all(text.startswith(reason) for text in found.curves.median_capacity_reason.to_numpy())
     assert (found.curves.median_capacity_reason != "").all()
@@ -209,13 +199,13 @@ def test_levels_that_give_no_curve_give_a_reason(levels, reason, skewed):
 
 def test_wide_levels_are_fitted():
     """Seven records and levels from 0.1 to 4: what an engineer tried, and got an error."""
-    found = fragility(STRUCTURES, MOTIONS[:7], np.geomspace(0.1, 4.0, 20), resamples=100)
+    found = th.fragility(STRUCTURES, MOTIONS[:7], np.geomspace(0.1, 4.0, 20), resamples=100)
     assert np.isfinite(found.curves.median_capacity[:2]).all()
 
 
 def test_result_says_that_groups_are_kept():
     groups = ["a", "a", "b", "b", "b", "b", "b", "c"]
-    found = fragility(STRUCTURES, MOTIONS, LEVELS, groups=groups, resamples=200)
+    found = th.fragility(STRUCTURES, MOTIONS, LEVELS, groups=groups, resamples=200)
     assert found.sampling == (
         "sampling of 8 motions only within 3 groups, without the scatter between groups; "
         "1 of the groups have one motion, and no scatter"
@@ -226,7 +216,7 @@ def test_scatter_between_groups_is_not_in_the_result():
     """Four times one motion, four times another: within each group, nothing is left to chance."""
     twice = [wave(0)] * 4 + [wave(3)] * 4
     wide, none = (
-        fragility([PIER, STRUCTURES["bent"]], twice, [0.5], groups=members, resamples=200).pairs
+        th.fragility([PIER, STRUCTURES["bent"]], twice, [0.5], groups=members, resamples=200).pairs
         for members in (None, ["a"] * 4 + ["b"] * 4)
     )
     assert (wide.less.item(), none.less.item()) == (0.5, 0.5)  # the pier alone overturns, in one
@@ -235,7 +225,7 @@ def test_scatter_between_groups_is_not_in_the_result():
 
 
 def test_same_seed_same_result(found):
-    again = fragility(STRUCTURES, MOTIONS, LEVELS, lowered=(0.05, 0.1), resamples=200)
+    again = th.fragility(STRUCTURES, MOTIONS, LEVELS, lowered=(0.05, 0.1), resamples=200)
     assert again.curves.identical(found.curves)
     assert again.pairs.identical(found.pairs)
 
@@ -253,8 +243,8 @@ def test_name_is_the_function_whatever_is_imported_first():
 def test_text_has_medians_gains_and_reasons():
     motions = [wave(number) for number in range(20)]
     told = str(
-        fragility(
-            {"pier": PIER, "bent": RockingFrame(PIER, 2.0)}, motions, np.geomspace(0.05, 2.0, 12)
+        th.fragility(
+            {"pier": PIER, "bent": th.RockingFrame(PIER, 2.0)}, motions, np.geomspace(0.05, 2.0, 12)
         )
     )
     first, pier, bent, pair = told.splitlines()
@@ -263,5 +253,5 @@ def test_text_has_medians_gains_and_reasons():
     assert bent.startswith("bent: median ")
     assert pair.startswith(("bent over pier: gain ", "pier over bent: gain "))
     with pytest.warns(UserWarning, match="in cm/s"):
-        in_cm = str(fragility([PIER], motions, [20.0, 60.0, 200.0]))  # taken as m/s
+        in_cm = str(th.fragility([PIER], motions, [20.0, 60.0, 200.0]))  # taken as m/s
     assert re.search(r"Column 1: median nan \(nan to nan\) m/s: \w+", in_cm)

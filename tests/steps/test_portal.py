@@ -6,19 +6,14 @@ import numpy as np
 import pandas as pd
 import pytest
 
+import topheavy as th
 from steps import portal
 from steps.shared.histories import History
-from topheavy import STANDARD_GRAVITY, Cap, Column, MonolithicPortal, Pulse, RockingFrame
+from tests.cases import COLUMN, FRAME, RECORDS
 from topheavy.portal_forces import resting_portal_forces
 
-COLUMN = Column(0.5, 3.0)
-VASE = {
-    "portals": {"mass_ratio": 1.0, "spans": [2.4]},
-    "cap": {"width": 2.6, "depth": 0.6},
-    "shapes": ["one-cosine"],
-    "period": 1.5,
-    "floor": 1e-3,
-}
+VASE = {"portals": {"mass_ratio": 1.0, "spans": [2.4]}, "cap": {"width": 2.6, "depth": 0.6}}
+VASE |= {"shapes": ["one-cosine"], "period": 1.5, "floor": 1e-3}
 SIZES = {"sizes": {"lowest": 1.0, "highest": 4.0, "points": 5}, "highest": 2.0}
 OVER = [f"{name}_over_frame" for name in portal.FORCES]
 
@@ -28,21 +23,24 @@ def labels(peak):
 
 
 def pulse(peak):
-    return Pulse("one-cosine", peak, 2 * math.pi / 1.5)
+    return th.Pulse("one-cosine", peak, 2 * math.pi / 1.5)
 
 
-def compared(peak, samples=8):
-    return pd.DataFrame(portal.compare(COLUMN, pulse(peak), labels(peak), VASE, samples))
+def compared(peak, samples=8, case=VASE):
+    return pd.DataFrame(portal.compare(COLUMN, pulse(peak), labels(peak), case, samples))
+
+
+# Forces ------------------------------------------------------------------------------------------
 
 
 def test_shears_at_the_ends_of_a_frames_column_differ_by_its_own_load():
-    frame, (theta, rate, ground) = RockingFrame(COLUMN, 1.0), (0.05, 0.2, 0.1)
+    theta, rate, ground = 0.05, 0.2, 0.1
     state = (np.array([[value]]) for value in (0.0, theta, rate, ground))
-    found = portal.of_frame(frame, Cap(2.4, 0.3), History(*state, 0, "rests"))
-    lean, p = frame.slenderness - theta, frame.frequency_parameter
-    second = -(p**2) * (math.sin(lean) + ground * math.cos(lean)) / STANDARD_GRAVITY
+    found = portal.of_frame(FRAME, th.Cap(2.4, 0.3), History(*state, 0, "rests"))
+    lean, p = FRAME.slenderness - theta, FRAME.frequency_parameter
+    second = -(p**2) * (math.sin(lean) + ground * math.cos(lean)) / th.STANDARD_GRAVITY
     load = ground * math.cos(theta) - math.sin(theta) + second * 3.0
-    load += 0.5 * rate**2 / STANDARD_GRAVITY  # towards the pivot, beside the axis
+    load += 0.5 * rate**2 / th.STANDARD_GRAVITY  # towards the pivot, beside the axis
     np.testing.assert_allclose(found["base_shear"] - found["joint_shear"], 0.25 * load, atol=1e-14)
 
 
@@ -59,27 +57,20 @@ def test_portal_that_rests_has_the_forces_of_the_ground():
     assert over.tolist() == pytest.approx([0.25] * 2, rel=0.3)
 
 
-def test_portal_that_rocks_has_no_forces_of_rest():
-    (found,) = compared(0.6).itertuples()
-    assert (found.state, found.portal, found.resisted) == ("rocks", "rests", True)
-    assert 0.36 < found.friction < 0.5  # tan α' just after uplift
-
-
-def test_portal_whose_base_is_pulled_has_no_forces():
+def test_there_are_no_forces_of_rest_while_rocking_none_if_pulled_and_none_overturned():
+    (rocks,) = (found := compared(0.6)).itertuples()
+    assert (rocks.state, rocks.portal, rocks.resisted) == ("rocks", "rests", True)
+    assert 0.36 < rocks.friction < 0.5  # tan α' just after uplift
+    assert found[OVER].isna().all(axis=None)  # the frame overturns, the portal does not
+    assert found[[*portal.FORCES]].notna().all(axis=None)
     wide = VASE | {"portals": {"mass_ratio": 1.0, "spans": [5.0]}}
     for peak, pulled in ((1.6, False), (1.8, True)):
-        (found,) = portal.compare(COLUMN, pulse(peak), labels(peak), wide, 8)
-        assert found["portal"] == "rests"  # it does not overturn
-        assert found["resisted"] is not pulled
-        assert np.isnan([found[name] for name in portal.FORCES]).all() == pulled
-
-
-def test_overturning_has_no_forces():
-    found = compared(0.95)
-    assert set(found.portal) == set(found.frame) == {"overturned"}
-    assert found[[*portal.FORCES, *OVER]].isna().all(axis=None)
-    assert compared(0.6)[OVER].isna().all(axis=None)  # the frame overturns, the portal does not
-    assert compared(0.6)[[*portal.FORCES]].notna().all(axis=None)
+        found = compared(peak, case=wide).iloc[0]
+        assert (found.portal, found.resisted) == ("rests", not pulled)  # it does not overturn
+        assert found[[*portal.FORCES]].isna().all() == pulled
+    fallen = compared(0.95)
+    assert set(fallen.portal) == set(fallen.frame) == {"overturned"}
+    assert fallen[[*portal.FORCES, *OVER]].isna().all(axis=None)
 
 
 def test_peaks_are_those_of_many_more_samples_within_their_error():
@@ -94,30 +85,31 @@ def test_peaks_are_those_of_many_more_samples_within_their_error():
     [("fixed", 0.1, True), ("fixed", 0.3, False), ("pinned", 0.2, True), ("pinned", 0.3, False)],
 )
 def test_ground_without_tension_resists_forces_within_the_bases(bases, ground, resists):
-    one = MonolithicPortal(COLUMN, 1.0, 2.4, 0.6)
+    one = th.MonolithicPortal(COLUMN, 1.0, 2.4, 0.6)
     assert portal.resisted(one, resting_portal_forces(one, bases, ground).base) is resists
+
+
+# Larger columns ----------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
     ("goal", "size"),
     [
-        (Column(1.7 * 0.5, 1.7 * 3.0), 1.7),
+        (th.Column(1.7 * 0.5, 1.7 * 3.0), 1.7),
         # Without the impacts' part, the frame is the equivalent column of Eq. (24).
-        (RockingFrame(COLUMN, 1.0).block(COLUMN.restitution), 4.0 / 3.0),
+        (FRAME.block(COLUMN.restitution), 4.0 / 3.0),
     ],
     ids=["column", "frame"],
 )
-def test_larger_column_is_the_one_that_it_is_compared_with(monkeypatch, goal, size):
-    monkeypatch.setattr(portal, "RockingFrame", lambda *given: goal)
+def test_larger_column_is_the_one_that_it_is_compared_with(given, goal, size):
+    given(portal, RockingFrame=lambda *_: goal)
     spans = VASE | {"portals": {"mass_ratio": 1.0, "spans": [2.4, 5.0]}}  # the last one is pulled
-    case = SIZES | {"highest": 12.0}
-    found, other = portal.larger_columns(COLUMN, pulse(1.0), case, spans)
+    found, other = portal.larger_columns(COLUMN, pulse(1.0), SIZES | {"highest": 12.0}, spans)
     assert found["size_low"] < size * (1 + 1e-9)
     assert size * (1 - 1e-9) < found["size_high"] < found["size_low"] * (1 + 1e-4)
     assert found["bracket"] < 1e-4
-    assert found["height"] == pytest.approx(6.0 * size, rel=1e-3)
-    assert found["mass_same_depth"] == pytest.approx(size**2, rel=1e-3)
-    assert found["mass_similar"] == pytest.approx(size**3, rel=1e-3)
+    numbers = [found[name] for name in ("height", "mass_same_depth", "mass_similar")]
+    assert numbers == pytest.approx([6.0 * size, size**2, size**3], rel=1e-3)
     assert found["mass_of_structure"] == other["mass_of_structure"] == 4.0
     assert found["rises"]
     assert found["by_scipy"]
@@ -131,30 +123,27 @@ def test_sizes_have_to_reach_both_sides(ends):
         portal.larger_columns(COLUMN, pulse(1.0), SIZES | {"sizes": sizes}, VASE)
 
 
+# What the step concludes -------------------------------------------------------------------------
+
+
 def test_motions_are_brought_to_the_peaks():
     case = {"amplitudes": [0.2, 0.9], "points": {"pulse": 8, "record": 1}}
-    path = "data/records/el_centro_1940_NS.AT2"
-    tried = portal.motions(case, VASE, [path])
+    tried = portal.motions(case, VASE, [str(RECORDS / "el_centro_1940_NS.AT2")])
     assert [labels["peak_acceleration"] for _, labels, _ in tried] == [0.2, 0.9] * 2
     assert [one.peak_acceleration for one, *_ in tried] == pytest.approx([0.2, 0.9] * 2)
-    assert [(labels["kind"], points) for _, labels, points in tried[1:3]] == [
-        ("pulse", 8),
-        ("record", 1),
-    ]
+    assert [(at["kind"], points) for _, at, points in tried[1:3]] == [("pulse", 8), ("record", 1)]
 
 
 def test_second_route_sees_another_outcome_another_peak_and_few_samples():
     tried = [(pulse(peak), labels(peak), 2) for peak in (0.2, 0.6)]
     table = pd.concat([compared(peak, 2) for peak in (0.2, 0.6)])
-    for change, holds in (
-        ({}, True),
-        ({"frame": "rests"}, False),
-        ({"joint_shear": 1.01 * table.joint_shear}, False),
-        ({"error": 0.01}, False),
-    ):
+    wrong = ({"frame": "rests"}, {"joint_shear": 1.01 * table.joint_shear}, {"error": 0.01})
+    for change in ({}, *wrong):
         found = portal.second_route(table.assign(**change), tried, COLUMN, VASE, 5)
-        assert found.holds is holds
-        assert found["motions"] == 1  # which uplifts the portal
+        assert (found.holds, found["motions"]) == (not change, 1)  # which uplifts the portal
+
+
+PULLED = ("fixed", "pulled", "none")
 
 
 def rows(**over):
@@ -169,23 +158,14 @@ def rows(**over):
     )
 
 
-PULLED = ("fixed", "pulled", "none")
-
-
 def columns(**change):
     """A larger column as good as the frame, and one as good as the portal."""
-    table = pd.DataFrame(
-        {"structure": ["frame", "portal"], "mass_of_structure": 4.0, "rises": True}
+    usual = {"structure": ["frame", "portal"], "mass_of_structure": 4.0, "rises": True}
+    usual |= {"friction": 0.4, "by_scipy": True, "bracket": 0.0, "height": 9.0}
+    usual |= {"size_low": [1.3, 3.0], "size_high": [1.3, 3.0]}
+    return pd.DataFrame(
+        usual | {"mass_same_depth": [1.7, 9.0], "mass_similar": [2.2, 27.0]} | change
     )
-    table = table.assign(
-        friction=0.4,
-        by_scipy=True,
-        size_low=[1.3, 3.0],
-        size_high=[1.3, 3.0],
-        bracket=0.0,
-        height=9.0,
-    )
-    return table.assign(mass_same_depth=[1.7, 9.0], mass_similar=[2.2, 27.0]).assign(**change)
 
 
 @pytest.mark.parametrize(

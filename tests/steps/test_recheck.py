@@ -26,20 +26,20 @@ from steps.redrawn import DIGITS, departures, entries, same, scripts, step, undr
 
 ROOT = Path(__file__).resolve().parents[2]
 REFERENCE = ROOT / "tests" / "reference"
+STUDIES = read_yaml(ROOT / "config" / "config.yaml")["studies"]
 CLAIM = Claim(
     id="size",
     where="p. 4",
     statement="It is so.",
+    function="topheavy.Column",
     printed=0.415,
     tolerance=5e-4,
-    function="topheavy.Column",
+    expected="confirmed",
     rule="trilith",
     finding="size",
-    expected="confirmed",
 )
 FINDINGS = {"trilith": Findings({"size": value(0.4148, 1e-16)}, ("topheavy.structures.Column",))}
-
-
+PUBLISHED = findings_by_rule((REFERENCE / "findings").glob("*.json"))
 AGAIN = {}
 """What each rule draws from its tables, by the times of these."""
 
@@ -50,9 +50,8 @@ def _drawn_once(monkeypatch):
 
     def once(rule, folder):
         names = inspect.signature(redrawn.step(rule).findings).parameters
-        places = [
-            folder / part / f"{name}.csv" for name in names for part in (".", "sources", "studies")
-        ]
+        parts = (".", "sources", "studies")
+        places = [folder / part / f"{name}.csv" for name in names for part in parts]
         key = rule, *((path, path.stat().st_mtime_ns) for path in places if path.is_file())
         if key not in AGAIN:
             AGAIN[key] = [*entries(rule, folder)]
@@ -65,19 +64,16 @@ def _drawn_once(monkeypatch):
 def edition(tmp_path_factory):
     """A copy of what is published, and of what it is checked by."""
     root = tmp_path_factory.mktemp("edition") / "tree"
-    config = read_yaml(ROOT / "config" / "config.yaml")
-    wanted = ["README.md", "config/config.yaml", "docs/verdicts.md", "docs/verify_grid.csv"]
-    wanted += ["paper/claims.yaml", "docs/costs.csv", "docs/findings.md"]
-    for study in config["studies"]:
-        wanted += [f"studies/{study}/{name}.yaml" for name in ("claims", "config")]
+    skipped = shutil.ignore_patterns("__pycache__", "*.yaml", "*.typ", "tests", "figures")
+    for name in ("src/topheavy", "studies"):
+        shutil.copytree(ROOT / name, root / name, ignore=skipped)
+    shutil.copytree(REFERENCE, root / "tests" / "reference")
+    wanted = ["README.md", "config/config.yaml", "paper/claims.yaml", "CITATION.cff"]
+    pages = ("verdicts.md", "verify_grid.csv", "costs.csv", "findings.md", "exhibits.md")
+    wanted += ["codecheck.yml", *(f"docs/{name}" for name in pages)]
+    wanted += [f"studies/{study}/{n}.yaml" for study in STUDIES for n in ("claims", "config")]
     for name in wanted:
         (root / name).parent.mkdir(parents=True, exist_ok=True)
-        shutil.copyfile(ROOT / name, root / name)
-    shutil.copytree(ROOT / "tests" / "reference", root / "tests" / "reference")
-    for name in ("src/topheavy", "studies"):
-        skipped = shutil.ignore_patterns("__pycache__", "*.yaml", "*.typ", "tests", "figures")
-        shutil.copytree(ROOT / name, root / name, ignore=skipped, dirs_exist_ok=True)
-    for name in ("CITATION.cff", "codecheck.yml", "docs/exhibits.md"):
         shutil.copyfile(ROOT / name, root / name)
     seal(root)
     return root
@@ -100,7 +96,7 @@ def tampered(edition, faults_before):
         path = edition / name
         kept[path] = path.read_bytes()
         text = path.read_text(encoding="utf-8")
-        new = edit(text)
+        new = edit(text) if callable(edit) else text.replace(*edit, 1)
         assert new != text
         path.write_text(new, encoding="utf-8")
         seal(edition)
@@ -113,100 +109,118 @@ def tampered(edition, faults_before):
 
 def test_published_edition_agrees_with_itself():
     lines, faults = main(ROOT)
-    assert faults == []
-    config = read_yaml(ROOT / "config" / "config.yaml")
-    lines = [line for line in lines if not line.startswith("the edition is older than")]
-    assert [line.split(":")[0] for line in lines] == [
-        "paper",
-        "ours",
-        "reproduced",
-        *config["studies"],
-    ]
+    said = [line.split(":")[0] for line in lines if not line.startswith("the edition is older")]
+    assert (faults, said) == ([], ["paper", "ours", "reproduced", *STUDIES])
 
 
-MISSING = (
-    "does not exist; expected a file of the published run, or no check of it in "
-    "src/steps/recheck.py"
-)
+MISSING = "does not exist; expected a file of the published run, or no check of it in "
+MISSING += "src/steps/recheck.py"
 
 
-@pytest.mark.parametrize(
-    ("name", "edit"),
-    [
-        ("paper/claims.yaml", lambda text: text.replace("statement:", "statemend:", 1)),
-        ("paper/claims.yaml", lambda text: text + "\n- : ["),
-        ("tests/reference/findings/vase.json", lambda text: text[:-20]),
-        ("tests/reference/findings/vase.json", lambda text: "[]"),
-        ("tests/reference/vase.csv", lambda text: text.replace("mass_ratio", "ratio", 1)),
-        ("tests/reference/config.yaml", lambda text: text.replace("vase:", "vases:", 1)),
-        ("config/config.yaml", lambda text: text.replace("studies:", "study:", 1)),
-    ],
-)
-def test_broken_file_is_told_in_a_line(edition, name, edit):
-    path = edition / name
-    whole = path.read_text("utf-8")
-    path.write_text(edit(whole), "utf-8")
-    try:
-        faults = main(edition)[1]
-    finally:
-        path.write_text(whole, "utf-8")
-    assert faults
-    assert not any("Traceback" in fault for fault in faults)
-
-
-def test_last_line_says_how_many_inputs_and_texts_are_newer_than_the_edition(capsys):
-    for older, told in (
-        (["the edition is older than a, which changed"] * 2, "2 inputs and"),
-        ([], "the published"),
-    ):
-        with pytest.raises(SystemExit) as ended:
-            close(["paper: 3", *older], [])
-        assert ended.value.code == 0
-        assert capsys.readouterr().out.splitlines()[-1].startswith(told)
-
-
-def test_edition_without_its_claims_says_so(edition):
-    path = edition / "tests/reference/claims.json"
-    away = path.rename(path.with_suffix(".away"))
-    try:
-        assert main(edition) == ([], [f"{path} {MISSING}"])
-    finally:
-        away.rename(path)
-
-
-def test_edition_of_an_older_machine_says_which_part_of_a_row_is_missing(edition):
+def test_edition_without_what_a_check_reads_says_so(edition):
     path = edition / "tests/reference/claims.json"
     kept = path.read_text(encoding="utf-8")
-    path.write_text(kept.replace('"condition": ', '"terms": ', 1), encoding="utf-8")
     try:
+        path.unlink()
+        assert main(edition) == ([], [f"{path} {MISSING}"])
+        path.write_text(kept.replace('"condition": ', '"terms": ', 1), encoding="utf-8")
         lines, faults = main(edition)
     finally:
         path.write_text(kept, encoding="utf-8")
     assert lines == []
     assert ["'terms'" in fault for fault in faults] == [True]
+    gone = edition / "tests/reference/gone.csv"
+    _, faults = check_edition(lambda *_: [gone.read_text()], edition)
+    assert faults == [f"{gone} {MISSING}"]
 
 
-def test_check_that_reads_an_unpublished_table_names_the_check(edition):
-    def reads(folder, _):
-        yield (folder / "gone.csv").read_text()
+@pytest.mark.parametrize(
+    ("name", "old", "new"),
+    [
+        ("paper/claims.yaml", "statement:", "statemend:"),
+        ("paper/claims.yaml", "- id: eq1\n", "- : [\n"),
+        ("tests/reference/findings/vase.json", "{", "["),
+        ("tests/reference/findings/vase.json", '"holds"', '"hold'),
+        ("tests/reference/vase.csv", "mass_ratio", "ratio"),
+        ("tests/reference/config.yaml", "vase:", "vases:"),
+        ("config/config.yaml", "studies:", "study:"),
+    ],
+)
+def test_broken_file_is_told_in_a_line(tampered, name, old, new):
+    faults = tampered(name, (old, new))
+    assert faults
+    assert not any("Traceback" in fault for fault in faults)
 
-    _, faults = check_edition(reads, edition)
-    assert faults == [f"{edition / 'tests/reference/gone.csv'} {MISSING}"]
+
+@pytest.mark.parametrize(("older", "told"), [(2, "2 inputs and"), (0, "the published")])
+def test_last_line_says_how_many_inputs_and_texts_are_newer_than_the_edition(capsys, older, told):
+    with pytest.raises(SystemExit) as ended:
+        close(["paper: 3", *["the edition is older than a, which changed"] * older], [])
+    assert ended.value.code == 0
+    assert capsys.readouterr().out.splitlines()[-1].startswith(told)
+
+
+# Claims ------------------------------------------------------------------------------------------
+
+
+def judged_row(**changes):
+    return replace(with_verdict(CLAIM, FINDINGS, ROOT), **changes)
+
+
+NOT_TESTED = {"trilith": Findings({"size": Finding.of({"not_tested": "no engine"})})}
+TRUE = {"trilith": replace(FINDINGS["trilith"], by_name={"size": truth(True)})}
+NO_NUMBER = replace(CLAIM, printed=None, tolerance=None)
+
+
+@pytest.mark.parametrize(
+    ("claim", "findings", "rows", "told"),
+    [
+        (CLAIM, FINDINGS, [judged_row()], []),
+        (CLAIM, FINDINGS, [judged_row(computed=0.42)], ["claim size: computed is 0.42"]),
+        (CLAIM, FINDINGS, [judged_row(computed=True)], ["claim size: computed is True"]),
+        (CLAIM, FINDINGS, [judged_row(verdict="refuted")], ["claim size: verdict is 'refuted'"]),
+        (CLAIM, FINDINGS, [judged_row(id="other")], ["claim other is not", "claim size is not"]),
+        (CLAIM, FINDINGS, [judged_row()] * 2, ["claim size is 2 times in tests/reference/cl"]),
+        (CLAIM, FINDINGS, [judged_row(), judged_row(id="more")], ["claim more is not in both the"]),
+        (
+            *(CLAIM, NOT_TESTED, [with_verdict(CLAIM, NOT_TESTED, ROOT)]),
+            ["claim size is not tested; expected confirmed"],
+        ),
+        (
+            *(NO_NUMBER, TRUE, [replace(with_verdict(NO_NUMBER, TRUE, ROOT), computed=1)]),
+            ["claim size: computed is 1"],
+        ),
+        (
+            *(replace(CLAIM, id="new", rule="new_limit"), {}, []),
+            ["claim new is not", "claim new: the findings of its rule new_limit are not published"],
+        ),
+    ],
+)
+def test_row_that_its_finding_does_not_bear_is_named(claim, findings, rows, told):
+    found = sorted(claims([claim], findings, rows, ROOT))
+    assert len(found) >= len(told)
+    assert all(any(one.startswith(words) for one in found) for words in told)
+    assert told or not found
 
 
 @pytest.mark.parametrize(
     ("name", "field", "new"),
     [
         ("same_equation_of_motion", "computed", False),
-        ("trilith_size", "computed", 0.4147),
-        ("trilith_size", "error", 0.0),
-        ("trilith_size", "printed", 0.416),
-        ("trilith_size", "tolerance", 1.0),
-        ("trilith_size", "verdict", "refuted"),
-        ("trilith_size", "expected", "refuted"),
-        ("trilith_size", "statement", "It is larger."),
-        ("trilith_size", "rule", "heavier"),
-        ("trilith_size", "unit", "km"),
+        *(
+            ("trilith_size", field, new)
+            for field, new in {
+                "computed": 0.4147,
+                "error": 0.0,
+                "printed": 0.416,
+                "tolerance": 1.0,
+                "verdict": "refuted",
+                "expected": "refuted",
+                "statement": "It is larger.",
+                "rule": "heavier",
+                "unit": "km",
+            }.items()
+        ),
     ],
 )
 def test_every_field_of_a_published_row_is_made_anew(name, field, new):
@@ -214,54 +228,141 @@ def test_every_field_of_a_published_row_is_made_anew(name, field, new):
         next(row for row in rows if row.id == name)
         for rows in (read_ledger([ROOT / "paper/claims.yaml"]), read_judged(ROOT / CLAIMS))
     )
-    findings = findings_by_rule((REFERENCE / "findings").glob("*.json"))
-    (fault,) = claims([claim], findings, [replace(row, **{field: new})], ROOT)
+    (fault,) = claims([claim], PUBLISHED, [replace(row, **{field: new})], ROOT)
     assert fault.startswith(f"claim {name}: {field} is {new!r} in tests/reference/")
 
 
-def test_every_truth_that_is_flipped_is_noticed(edition):
-    rows = read_judged(edition / CLAIMS)
-    paths = [edition / "paper" / "claims.yaml", *sorted(edition.glob("studies/*/claims.yaml"))]
-    findings = findings_by_rule((edition / "tests" / "reference" / "findings").glob("*.json"))
+def test_every_truth_that_is_flipped_is_noticed():
+    rows = read_judged(ROOT / CLAIMS)
+    ledgers = ["paper/claims.yaml", *(f"studies/{study}/claims.yaml" for study in STUDIES)]
     flipped = {r.id for r in rows if isinstance(r.computed, bool)}
-    assert len(flipped) > 50
     changed = [replace(r, computed=not r.computed) if r.id in flipped else r for r in rows]
-    told = {
-        found[1]
-        for fault in claims(read_ledger(paths), findings, changed, edition)
-        if (found := re.match(r"claim (\w+): computed is ", fault))
-    }
-    assert told == flipped
+    ledger = read_ledger([ROOT / path for path in ledgers])
+    told = "\n".join(claims(ledger, PUBLISHED, changed, ROOT))
+    assert len(flipped) > 50
+    assert {*re.findall(r"^claim (\w+): computed is ", told, re.MULTILINE)} == flipped
+
+
+# What is tampered with ---------------------------------------------------------------------------
+
+
+def entry(finding, key, new):
+    """Change an entry of the findings of a rule; of all, what a function is called by."""
+
+    def edit(text):
+        found = json.loads(text)
+        if finding == "called":
+            found["called"] = [name for name in found["called"] if key not in name]
+        else:
+            found[finding][key] = new
+        return json.dumps(found)
+
+    return edit
+
+
+def third_and_fourth(text):
+    lines = text.splitlines(keepends=True)
+    return "".join([*lines[:2], lines[3], lines[2], *lines[4:]])
+
+
+FOUND, PAGE = "tests/reference/findings", "docs/verdicts.md"
+RATIO = ("mass_ratio: 0.434", "mass_ratio: 0.5")
+WIDE = "printed: 0.415\n  unit: m\n  tolerance: 0.00"
+TAMPERED = [  # file, edit, how one of what is told begins
+    (f"{FOUND}/trilith.json", entry("size", "value", 0.5), "claim trilith_size: computed is"),
+    (f"{FOUND}/trilith.json", entry("size", "error", 1e-3), "claim trilith_size: the error is 0.0"),
+    (f"{FOUND}/equations.json", entry("eq1", "holds", False), "claim eq1 is refuted; expected co"),
+    (f"{FOUND}/equations.json", entry("eq1", "holds", False), "findings/equations.json: eq1.holds"),
+    (
+        *(f"{FOUND}/mass_ratio.json", entry("called", "size_ratio", None)),
+        "claim equivalent_column_is_larger: its rule mass_ratio never called",
+    ),
+    (
+        *("tests/reference/heavier.csv", third_and_fourth),
+        "findings/heavier.json: heavier_survives_more.holds is True, and False",
+    ),
+    ("README.md", ("0.273 g", "0.373 g"), "README.md: "),
+    ("config/config.yaml", RATIO, "config/config.yaml: "),
+    ("tests/reference/config.yaml", RATIO, "config/config"),
+    (
+        "tests/reference/config.yaml",
+        ("\nsolver:", "\ngone: 1\nsolver:"),
+        "config/config.yaml: gone",
+    ),
+    *(
+        (
+            f"studies/{name}/config.yaml",
+            lambda text: f"{text}\nmore: 1\n",
+            f"studies/{name}/config.y",
+        )
+        for name in sorted(path.stem for path in REFERENCE.glob("studies/*.yaml"))
+    ),
+    ("paper/claims.yaml", (WIDE + "05", WIDE + "5"), "claim trilith_size: tolerance 0.005 would"),
+    ("paper/claims.yaml", ("printed: 0.415", "printed: 0.425"), "claim trilith_size"),
+    *((PAGE, lambda text, more=more: text + more, PAGE) for more in ("\n", "| `more` | | | |\n")),
+]
+
+
+@pytest.mark.parametrize(("name", "edit", "told"), TAMPERED)
+def test_what_is_tampered_with_is_named(tampered, name, edit, told):
+    assert any(fault.startswith(told) for fault in tampered(name, edit))
 
 
 @pytest.mark.parametrize(
-    ("rule", "finding", "key", "new", "told"),
+    ("page", "old", "new", "told"),
     [
-        ("trilith", "size", "value", 0.5, "claim trilith_size: computed is"),
-        ("trilith", "size", "error", 1e-3, "claim trilith_size: the error is 0.001"),
-        ("equations", "eq1", "holds", False, "claim eq1 is refuted; expected confirmed"),
-        ("equations", "eq1", "holds", False, "findings/equations.json: eq1.holds is False, and T"),
+        (PAGE, 'id="eq1"', 'id="eq_1"', f"{PAGE}, line "),
+        (PAGE, "| confirmed |", "| refuted |", f"{PAGE}, line "),
+        ("README.md", "| paper | ", "| paper | 1", "README.md, line "),
+        ("README.md", "| study `mechanism` | ", "| study `mechanism` | 1", "README.md, line "),
+        ("README.md", "| | confirmed |", "| | Confirmed |", "README.md: the page has 0 lines"),
     ],
 )
-def test_finding_that_is_changed_is_named(tampered, rule, finding, key, new, told):
-    def edit(text):
-        found = json.loads(text)
-        found[finding][key] = new
-        return json.dumps(found)
+def test_page_that_says_otherwise_is_named(tampered, page, old, new, told):
+    def wrong(root):
+        return [], list(pages(root, read_judged(root / CLAIMS)))
 
-    faults = tampered(f"tests/reference/findings/{rule}.json", edit)
-    assert any(told in fault for fault in faults)
+    (fault,) = tampered(page, (old, new), wrong)
+    assert fault.startswith(told)
 
 
-DRAWN = sorted(
-    path.stem for path in REFERENCE.glob("findings/*.json") if undrawn(path.stem) is None
+@pytest.mark.parametrize(
+    ("table", "column"),
+    [
+        *(("mass_ratio", name) for name in ("frequency_ratio", "size_ratio")),
+        *((f"restitution_over_{name}", "restitution") for name in ("slenderness", "mass_ratio")),
+        ("moment_rotation", "moment"),
+    ],
 )
+def test_table_that_is_not_the_equations_is_found(edition, tmp_path, table, column):
+    reference = shutil.copytree(edition / "tests" / "reference", tmp_path / "reference")
+    assert list(equations(reference)) == []
+    found = pd.read_csv(reference / f"{table}.csv")
+    found.loc[1, column] *= 0.9
+    found.to_csv(reference / f"{table}.csv", index=False)
+    (fault,) = equations(reference)
+    assert fault.startswith(f"{table}.csv")
 
 
-def test_four_fifths_of_all_entries_are_drawn_again():
-    drawn = sum(len(list(entries(rule, REFERENCE))) for rule in DRAWN)
-    findings = findings_by_rule(REFERENCE.glob("findings/*.json")).values()
-    assert drawn >= 0.8 * sum(len(one.entries) for of in findings for one in of.by_name.values())
+def test_pages_are_those_of_the_rows(tmp_path):
+    rows, table = [judged_row()], tmp_path / "tests/reference/sources/t.csv"
+    for folder in (table.parent, tmp_path / "docs"):
+        folder.mkdir(parents=True)
+    table.write_text("x\n1\n", encoding="utf-8")
+    page = verdict_page(rows, tmp_path / "tests/reference")
+    (tmp_path / "docs" / "verdicts.md").write_text(page, encoding="utf-8")
+    (tmp_path / "README.md").write_text("\n".join(count_table(rows)) + "\n", encoding="utf-8")
+    assert list(pages(tmp_path, rows)) == []
+    told = list(pages(tmp_path, [judged_row(verdict="refuted")]))
+    assert [line.split(",")[0] for line in told] == ["docs/verdicts.md", "README.md"]
+    table.write_text("x\n2\n", encoding="utf-8")
+    (told,) = pages(tmp_path, rows)
+    assert told.startswith("docs/verdicts.md, line 4 is 'Judged from `tests/reference/`")
+
+
+# Findings and their tables -----------------------------------------------------------------------
+
+DRAWN = [rule for rule in sorted(PUBLISHED) if undrawn(rule) is None]
 
 
 def other(entry):
@@ -279,237 +380,46 @@ def other(entry):
 
 @pytest.mark.parametrize("rule", DRAWN)
 def test_finding_follows_from_its_table(rule):
-    findings = findings_by_rule([REFERENCE / "findings" / f"{rule}.json"])
-    assert list(departures(REFERENCE, findings)) == []
-    drawn = {(name, key) for name, key, _ in entries(rule, REFERENCE)}
+    assert list(departures(REFERENCE, {rule: PUBLISHED[rule]})) == []
+    drawn = {(name, key) for name, key, _ in redrawn.entries(rule, REFERENCE)}
     changed = {
         name: replace(
-            finding,
-            entries={
-                key: other(entry) if (name, key) in drawn else entry
-                for key, entry in finding.entries.items()
-            },
+            one, entries={k: other(e) if (name, k) in drawn else e for k, e in one.entries.items()}
         )
-        for name, finding in findings[rule].by_name.items()
+        for name, one in PUBLISHED[rule].by_name.items()
     }
-    faults = list(departures(REFERENCE, {rule: replace(findings[rule], by_name=changed)}))
+    faults = list(departures(REFERENCE, {rule: replace(PUBLISHED[rule], by_name=changed)}))
     assert len(faults) == len(drawn) > 0
 
 
-def test_table_without_what_its_finding_needs_is_named(tmp_path):
-    table = (REFERENCE / "sources" / "statements.csv").read_text(encoding="utf-8")
-    (tmp_path / "statements.csv").write_text(table.replace("largest", "lorgest"), encoding="utf-8")
-    findings = findings_by_rule([REFERENCE / "findings" / "statements.json"])
-    (fault,) = departures(tmp_path, findings)
-    assert fault.startswith("findings/statements.json cannot be drawn from statements (.csv): ")
-
-
-@pytest.mark.parametrize(
-    ("found", "expected", "is_same"),
-    [
-        (1.0000001, 1.0, True),
-        (1.00001, 1.0, False),
-        (True, True, True),
-        (1, True, False),
-        (True, 1, False),
-        ([1.0], [1.0], True),
-        ([1.0, 2.0], [1.0], False),
-        ([1.0], [1.0, 2.0], False),
-        ({"a": 1.0, "b": 2.0}, {"a": 1.0}, True),
-        ({"b": 2.0}, {"a": 1.0}, False),
-        (None, 1.0, False),
-        (math.nan, 1.0, False),
-    ],
-)
-def test_entry_is_the_tables_to_its_digits(found, expected, is_same):
-    assert same(found, expected, DIGITS) is is_same
-
-
-def test_row_that_no_ledger_has_is_found():
-    found = list(claims([CLAIM], FINDINGS, [judged_row(), judged_row(id="more")], ROOT))
-    assert found == ["claim more is not in both the ledger and tests/reference/claims.json"]
-
-
-def test_findings_of_every_rule_are_drawn_or_said_not_to_be(jobs):
+def test_four_fifths_of_all_entries_are_drawn_again_and_the_others_said_not_to_be(jobs):
     made = {Path(path).stem: job for job in jobs for path in job.findings}
+    drawn = sum(len(list(redrawn.entries(rule, REFERENCE))) for rule in DRAWN)
+    every = [one for of in PUBLISHED.values() for one in of.by_name.values()]
+    assert drawn >= 0.8 * sum(len(one.entries) for one in every)
     assert not [rule for rule in made if undrawn(rule) == ""]
     for rule, job in made.items():
         assert [Path(step(rule).__file__)] == [ROOT / script for script in job.scripts]
     assert len(scripts()) <= len(made)
 
 
-def test_findings_of_a_rule_that_says_nothing_are_named(edition):
-    reference = edition / "tests" / "reference"
-    (fault,) = departures(reference, {"speed": Findings({})})
+def test_findings_that_cannot_be_drawn_are_named(tmp_path):
+    table = (REFERENCE / "sources" / "statements.csv").read_text(encoding="utf-8")
+    (tmp_path / "statements.csv").write_text(table.replace("largest", "lorgest"), encoding="utf-8")
+    (fault,) = departures(tmp_path, {"statements": PUBLISHED["statements"]})
+    assert fault.startswith("findings/statements.json cannot be drawn from statements (.csv): ")
+    (fault,) = departures(REFERENCE, {"speed": Findings({})})
     assert fault.startswith("findings/speed.json: nothing draws these findings from a table")
 
 
-def test_function_that_did_not_run_is_named(tampered):
-    def edit(text):
-        found = json.loads(text)
-        found["called"] = [name for name in found["called"] if "size_ratio" not in name]
-        return json.dumps(found)
-
-    faults = tampered("tests/reference/findings/mass_ratio.json", edit)
-    assert any(
-        "equivalent_column_is_larger: its rule mass_ratio never called" in fault for fault in faults
-    )
-
-
 @pytest.mark.parametrize(
-    ("table", "column"),
+    ("found", "expected", "is_same"),
     [
-        ("mass_ratio", "frequency_ratio"),
-        ("mass_ratio", "size_ratio"),
-        ("restitution_over_slenderness", "restitution"),
-        ("restitution_over_mass_ratio", "restitution"),
-        ("moment_rotation", "moment"),
+        *((1.0000001, 1.0, True), (1.00001, 1.0, False), (math.nan, 1.0, False)),
+        *((True, True, True), (1, True, False), (True, 1, False), (None, 1.0, False)),
+        *(([1.0], [1.0], True), ([1.0, 2.0], [1.0], False), ([1.0], [1.0, 2.0], False)),
+        *(({"a": 1.0, "b": 2.0}, {"a": 1.0}, True), ({"b": 2.0}, {"a": 1.0}, False)),
     ],
 )
-def test_table_that_is_not_the_equations_is_found(edition, tmp_path, table, column):
-    reference = shutil.copytree(edition / "tests" / "reference", tmp_path / "reference")
-    assert list(equations(reference)) == []
-    found = pd.read_csv(reference / f"{table}.csv")
-    found.loc[1, column] *= 0.9
-    found.to_csv(reference / f"{table}.csv", index=False)
-    (fault,) = equations(reference)
-    assert fault.startswith(f"{table}.csv")
-
-
-def test_table_that_does_not_bear_its_finding_is_found(tampered):
-    def swap(text):
-        lines = text.splitlines(keepends=True)
-        return "".join([*lines[:2], lines[3], lines[2], *lines[4:]])
-
-    faults = tampered("tests/reference/heavier.csv", swap)
-    assert any("heavier.json: heavier_survives_more.holds is True, and False" in f for f in faults)
-
-
-@pytest.mark.parametrize(
-    ("page", "old", "new", "told"),
-    [
-        ("docs/verdicts.md", 'id="eq1"', 'id="eq_1"', "docs/verdicts.md, line "),
-        ("docs/verdicts.md", "| confirmed |", "| refuted |", "docs/verdicts.md, line "),
-        ("README.md", "| paper | ", "| paper | 1", "README.md, line "),
-        ("README.md", "| study `mechanism` | ", "| study `mechanism` | 1", "README.md, line "),
-        ("README.md", "| | confirmed |", "| | Confirmed |", "README.md: the page has 0 lines"),
-    ],
-)
-def test_page_that_says_otherwise_is_named(tampered, page, old, new, told):
-    def wrong(root):
-        return [], list(pages(root, read_judged(root / CLAIMS)))
-
-    (fault,) = tampered(page, lambda text: text.replace(old, new, 1), wrong)
-    assert fault.startswith(told)
-
-
-def swapped(text):
-    """The README with the shares on which a heavy cap helps and harms the wrong way round."""
-    return text.replace("12.2 %", "?").replace("0.6 %", "12.2 %").replace("?", "0.6 %")
-
-
-def test_number_in_the_readme_that_is_not_published_is_named(tampered):
-    faults = tampered("README.md", lambda text: text.replace("0.273 g", "0.373 g", 1))
-    assert any(fault.startswith("README.md: ") for fault in faults)
-
-
-@pytest.mark.parametrize(
-    ("config", "old", "new", "told"),
-    [
-        ("config/config.yaml", "mass_ratio: 0.434", "mass_ratio: 0.5", "config/config.yaml: "),
-        ("tests/reference/config.yaml", "mass_ratio: 0.434", "mass_ratio: 0.5", "config/config"),
-        (
-            "tests/reference/config.yaml",
-            "\nsolver:",
-            "\ngone: 1\nsolver:",
-            "config/config.yaml: gone",
-        ),
-    ],
-)
-def test_config_that_is_not_that_of_the_published_run_is_named(tampered, config, old, new, told):
-    faults = tampered(config, lambda text: text.replace(old, new, 1))
-    assert any(fault.startswith(told) for fault in faults)
-
-
-@pytest.mark.parametrize("study", sorted(p.stem for p in REFERENCE.glob("studies/*.yaml")))
-def test_config_of_a_study_that_is_not_that_of_the_published_run_is_named(tampered, study):
-    faults = tampered(f"studies/{study}/config.yaml", lambda text: f"{text}\nmore: 1\n")
-    assert any(fault.startswith(f"studies/{study}/config.yaml: more is not") for fault in faults)
-
-
-def test_tolerance_that_is_too_wide_is_named(tampered):
-    wide = "printed: 0.415\n  unit: m\n  tolerance: 0.005"
-    faults = tampered("paper/claims.yaml", lambda text: text.replace(wide[:-1] + "05", wide))
-    assert any(fault.startswith("claim trilith_size: tolerance 0.005 would") for fault in faults)
-
-
-@pytest.mark.parametrize("change", ["\n", "| `more` | | | | | | |\n"])
-def test_line_that_is_added_to_the_page_is_noticed(tampered, change):
-    assert any(
-        "docs/verdicts.md, line" in f for f in tampered("docs/verdicts.md", lambda t: t + change)
-    )
-
-
-def test_row_of_the_ledger_that_is_changed_is_named(tampered):
-    faults = tampered(
-        "paper/claims.yaml", lambda text: text.replace("printed: 0.415", "printed: 0.425")
-    )
-    assert any(
-        f.startswith(("claim trilith_size is refuted", "claim trilith_size: printed"))
-        for f in faults
-    )
-
-
-def judged_row(**changes):
-    return replace(with_verdict(CLAIM, FINDINGS, ROOT), **changes)
-
-
-@pytest.mark.parametrize("change", [{"computed": 0.42}, {"verdict": "refuted"}, {"id": "other"}])
-def test_row_that_its_finding_does_not_bear_is_found(change):
-    assert list(claims([CLAIM], FINDINGS, [judged_row()], ROOT)) == []
-    assert list(claims([CLAIM], FINDINGS, [judged_row(**change)], ROOT))
-
-
-def test_row_that_is_published_twice_is_found():
-    (fault,) = claims([CLAIM], FINDINGS, [judged_row()] * 2, ROOT)
-    assert fault.startswith("claim size is 2 times in tests/reference/claims.json")
-
-
-def test_claim_that_a_run_left_untested_is_not_published():
-    lacking = {"trilith": Findings({"size": Finding.of({"not_tested": "no engine"})})}
-    row = with_verdict(CLAIM, lacking, ROOT)
-    assert list(claims([CLAIM], lacking, [row], ROOT)) == [
-        "claim size is not tested; expected confirmed"
-    ]
-
-
-def test_number_is_not_the_same_as_a_truth():
-    (fault,) = claims([CLAIM], FINDINGS, [judged_row(computed=True)], ROOT)
-    assert "computed is True" in fault
-    findings = {"trilith": replace(FINDINGS["trilith"], by_name={"size": truth(True)})}
-    claim = replace(CLAIM, printed=None, tolerance=None)
-    row = replace(with_verdict(claim, findings, ROOT), computed=1)
-    assert list(claims([claim], findings, [row], ROOT))
-
-
-def test_pages_are_those_of_the_rows(tmp_path):
-    rows = [judged_row()]
-    table = tmp_path / "tests/reference/sources/t.csv"
-    for folder in (table.parent, tmp_path / "docs"):
-        folder.mkdir(parents=True)
-    table.write_text("x\n1\n", encoding="utf-8")
-    page = verdict_page(rows, tmp_path / "tests/reference")
-    (tmp_path / "docs" / "verdicts.md").write_text(page, encoding="utf-8")
-    (tmp_path / "README.md").write_text("\n".join(count_table(rows)) + "\n", encoding="utf-8")
-    assert list(pages(tmp_path, rows)) == []
-    told = list(pages(tmp_path, [judged_row(verdict="refuted")]))
-    assert [line.split(",")[0] for line in told] == ["docs/verdicts.md", "README.md"]
-    table.write_text("x\n2\n", encoding="utf-8")
-    (told,) = pages(tmp_path, rows)
-    assert told.startswith("docs/verdicts.md, line 4 is 'Judged from `tests/reference/`")
-
-
-def test_claim_whose_rule_is_not_published_says_so():
-    new = replace(CLAIM, id="new", rule="new_limit")
-    told = list(claims([new], {}, [], ROOT))
-    assert told[1:] == ["claim new: the findings of its rule new_limit are not published yet"]
+def test_entry_is_the_tables_to_its_digits(found, expected, is_same):
+    assert same(found, expected, DIGITS) is is_same

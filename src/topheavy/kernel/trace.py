@@ -102,7 +102,7 @@ def trace(
         rotation below `rest.LAST_BOUNCE` α.
     """
     time, peak, sample, counted, landed = 0.0, abs(rotation), 0, 0, 0
-    moves = rotation != 0.0 or velocity != 0.0
+    moves = rotation != 0.0 or velocity**2 > 0.0  # a speed without an energy is rest
     has_moved, is_low, is_forced, is_over = moves, rotation == 0.0, True, False
     is_record = forcing.shape == RECORD or forcing.shape == TWO_RECORDS
     straight = is_record or forcing.shape == CONSTANT or forcing.shape == NONE

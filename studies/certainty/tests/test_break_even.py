@@ -10,14 +10,14 @@ import pytest
 from steps.shared import sweep
 from steps.shared.second import by_scipy
 from studies.certainty.steps import break_even
-from studies.certainty.tests.test_rates import COLUMN as TEMPLE
 from studies.certainty.tests.test_rates import ENSEMBLE
 from studies.certainty.under import columns, lowered, stated
+from tests.cases import COLUMN, SIZES
 from topheavy import RockingFrame, overturned_by
 from topheavy.synthetic.ensemble import first_draws
 
 CASE = {
-    "column": {"half_width": 0.5, "half_height": 3.0},
+    "column": SIZES,
     "sizes": [1.0, 2.0],
     "mass_ratios": [1e-12, 4.0],
     "deficits": {"highest": 1.0, "step": 0.25},
@@ -28,12 +28,6 @@ CASE = {
     "seed": 31,
     "checked": 4,
     "measured": [0.03, 0.05],
-}
-PULSES = {
-    "column": CASE["column"],
-    "mass_ratios": [1e-12, 2.0],
-    "amplitudes": {"highest": 16.0, "resolution": 0.01},
-    "deficit": {"step": 0.05, "bracket": 1e-3},
 }
 
 
@@ -55,9 +49,8 @@ def test_columns_are_lowered_and_frames_are_not():
     ratios = [one.block.restitution for one in under if one.labels["mass_ratio"] == 0.0]
     assert ratios == pytest.approx([own, 0.75 * own, 0.5 * own, 0.25 * own, 0.0])
     frames = [one.block for one in under if one.labels["mass_ratio"] > 0.0]
-    assert [under[0].block, *frames] == [
-        RockingFrame(small, gamma).block() for gamma in (0.0, *CASE["mass_ratios"])
-    ]
+    own = [RockingFrame(small, gamma).block() for gamma in (0.0, *CASE["mass_ratios"])]
+    assert [under[0].block, *frames] == own
 
 
 def test_cells_have_the_benefit_of_the_counts(groups):
@@ -73,7 +66,7 @@ def test_cells_have_the_benefit_of_the_counts(groups):
         pgvs = np.array([pgv for *_, pgv in levels])
         return np.mean([overturned_by(structure, r, pgvs / r.peak_velocity) for r in records], 0)
 
-    own, frame = TEMPLE.block(), shares(RockingFrame(TEMPLE, 4.0))
+    own, frame = COLUMN.block(), shares(RockingFrame(COLUMN, 4.0))
     deficits = np.arange(5) / 4.0
     column = [shares(own.with_restitution((1.0 - d) * own.restitution)) for d in deficits]
     found = [(row, end) for row, end in break_even.ends(group, CASE, 1) if row["mass_ratio"] == 4.0]
@@ -99,19 +92,12 @@ def test_motions_are_resampled_within_each_earthquake(groups):
         assert (ends == 0.0).all()
 
 
-def test_sampled_outcomes_are_those_of_the_cells(groups):
-    cells = list(break_even.sampled(groups, CASE))
-    assert len(cells) == CASE["checked"]
-    assert by_scipy(cells) == {"told": CASE["checked"], "differ": 0}
-
-
 @pytest.mark.parametrize(("told", "differ", "holds"), [(3, 0, True), (3, 1, False), (0, 0, False)])
-def test_scipy_has_to_find_the_sampled_outcomes(groups, monkeypatch, told, differ, holds):
-    agreed = {"told": told, "differ": differ}
-    monkeypatch.setattr(break_even, "by_scipy", lambda cells: agreed)
-    monkeypatch.setattr(break_even, "groups", lambda *given: groups)
-    found = break_even.main(CASE, ENSEMBLE, [])[-1]["break_even_by_scipy"]
-    assert found.holds is holds
+def test_scipy_has_to_find_the_sampled_outcomes(groups, given, told, differ, holds):
+    cells = list(break_even.sampled(groups, CASE))
+    assert by_scipy(cells) == {"told": CASE["checked"], "differ": 0}
+    given(break_even, by_scipy={"told": told, "differ": differ}, groups=groups)
+    assert break_even.main(CASE, ENSEMBLE, [])[-1]["break_even_by_scipy"].holds is holds
 
 
 # Where the benefit ends --------------------------------------------------------------------------
@@ -138,8 +124,7 @@ def test_interval_may_end_beyond_the_last_deficit():
     found = np.array([0.1, *np.linspace(0.0, 0.2, 81)])
     expected = {"end": 0.1, "end_low": 0.005, "end_high": 0.195}
     assert break_even.bounds(found, 0.95) == pytest.approx(expected)
-    beyond = np.append(found, [math.inf] * 4)
-    assert break_even.bounds(beyond, 0.95)["end_high"] == math.inf
+    assert break_even.bounds(np.append(found, [math.inf] * 4), 0.95)["end_high"] == math.inf
 
 
 def cells(*ends, coarser=0.0):
@@ -160,11 +145,7 @@ def test_what_the_ends_decide(table, coarser, broken):
     table = table.assign(coarser=table.end + coarser)
     found = break_even.findings(table, median, pd.DataFrame([{"largest": 0.04}]))
     assert {name for name, one in found.items() if not one.holds} == broken
-    assert found["benefit_ends"]["median"] == 0.08
-    assert found["benefit_ends"]["least"] == 0.05
-
-
-def test_benefit_remains_up_to_a_deficit():
+    assert (found["benefit_ends"]["median"], found["benefit_ends"]["least"]) == (0.08, 0.05)
     assert break_even.remains(cells(0.051, 0.1), 0.05).holds
     found = break_even.remains(cells(0.05, 0.1), 0.05)
     assert (found.holds, found["kept"], found["compared"]) == (False, 1, 2)

@@ -1,17 +1,17 @@
 """Reversals under a rescaled and a filtered record, where the answer is known."""
 
 import math
-from types import SimpleNamespace
+from types import SimpleNamespace as Of
 
 import numpy as np
 import pandas as pd
 import pytest
 
 from studies.certainty.steps import rescaled
-from topheavy import Column, Record, RockingFrame, judge, reference
+from tests.cases import COLUMN, SIZES
+from topheavy import Record, RockingFrame, judge, reference
 
 GAMMAS = [0.0, 1.0, 4.0]
-COLUMN = Column(0.5, 3.0)
 TIME = 0.01 * np.arange(3000)
 RECORD = Record(0.01, 0.4 * np.exp(-(((TIME - 8.0) / 2.0) ** 2)) * np.sin(5.0 * TIME), "a")
 SPEC = {"widths": [0.01, 0.3], "points": 41, "checked": 4}
@@ -21,16 +21,12 @@ FILTERS = {"orders": [2, 4], "corners": [0.1]}
 @pytest.mark.parametrize(
     ("falls", "reversed_"),
     [
-        ([False, False, False], False),
-        ([True, True, True], False),
-        ([True, False, False], False),
-        ([False, True, False], True),
-        ([True, False, True], True),
-        ([False, False, True], True),
+        *((falls, False) for falls in ([0, 0, 0], [1, 1, 1], [1, 0, 0])),
+        *((falls, True) for falls in ([0, 1, 0], [1, 0, 1], [0, 0, 1])),
     ],
 )
 def test_order_is_reversed_if_a_heavier_one_overturns_and_a_lighter_one_survives(falls, reversed_):
-    assert rescaled.is_reversed(np.array([falls]).T).tolist() == [reversed_]
+    assert rescaled.is_reversed(np.array([falls], bool).T).tolist() == [reversed_]
 
 
 @pytest.mark.parametrize("order", [2, 4])
@@ -44,11 +40,7 @@ def test_filter_passes_what_is_fast_in_phase_and_stops_what_is_slow(order):
     np.testing.assert_allclose(inside[middle], fast[middle], atol=0.05)
     assert (found.name, found.time_step) == ("b", 0.01)
     assert rescaled.filtered(RECORD, 0, 0.0) is RECORD
-
-
-@pytest.mark.parametrize("order", [2, 4])
-def test_ground_comes_to_rest_within_the_pads(order):
-    """A step of the ground's velocity, which an offset would leave moving."""
+    # the ground comes to rest within the pads, also after a step of its velocity
     push = Record(0.01, np.where((TIME > 5.0) & (TIME < 5.5), 0.2, 0.0))
     found = rescaled.filtered(push, order, 0.1).acceleration
     velocity = np.cumsum(found) * 0.01
@@ -58,46 +50,31 @@ def test_ground_comes_to_rest_within_the_pads(order):
 def test_shares_are_those_of_single_judgements():
     for row in rescaled.rows(RECORD, COLUMN, GAMMAS, SPEC):
         factors = 1.0 + row["width"] * np.linspace(-1.0, 1.0, 41)
-        falls = np.array(
-            [
-                [judge(RockingFrame(COLUMN, g), RECORD.scaled(f)).overturned for f in factors]
-                for g in GAMMAS
-            ]
-        )
+        frames, motions = [RockingFrame(COLUMN, g) for g in GAMMAS], map(RECORD.scaled, factors)
+        falls = np.array([[judge(one, it).overturned for one in frames] for it in motions]).T
         assert row["share"] == rescaled.is_reversed(falls).mean()
         assert row["coarser"] == rescaled.is_reversed(falls[:, ::2]).mean()
-        assert row["overturned"] == " ".join(
-            f"{g:g}" for g, fell in zip(GAMMAS, falls[:, 20], strict=True) if fell
-        )
+        assert row["overturned"].split() == [f"{GAMMAS[k]:g}" for k in np.flatnonzero(falls[:, 20])]
 
 
-def test_only_records_that_overturn_anything_are_rescaled(monkeypatch):
-    structures = {"temple": {"half_width": 0.5, "half_height": 3.0}}
+def test_only_records_that_overturn_anything_are_rescaled(given):
     columns = [{"structure": "temple", "scaled": scale} for scale in (1.0, 2.0)]
     known = pd.DataFrame(
         {"record": "a", "structure": ["6 m temple", "12 m temple"], "overturned": [True, False]}
     )
-    monkeypatch.setattr(rescaled, "second_route", lambda *given: given)
-    settings = {"columns": columns, "mass_ratios": GAMMAS}
-    spec = SPEC | {"filter": FILTERS}
-    table, _ = rescaled.main(settings, spec, structures, [RECORD], known)
+    given(rescaled, second_route=None)
+    settings, spec = {"columns": columns, "mass_ratios": GAMMAS}, SPEC | {"filter": FILTERS}
+    table, _ = rescaled.main(settings, spec, {"temple": SIZES}, [RECORD], known)
     assert set(table.structure) == {"6 m temple"}
-    assert table.groupby(["order", "corner"]).size().to_dict() == {
-        (0, 0.0): 2,
-        (2, 0.1): 2,
-        (4, 0.1): 2,
-    }
+    counts = table.groupby(["order", "corner"]).size().to_dict()
+    assert counts == {(0, 0.0): 2, (2, 0.1): 2, (4, 0.1): 2}
 
 
-def test_scipy_has_to_give_the_same_outcomes(monkeypatch):
-    cases = [(RECORD, COLUMN)]
-    assert rescaled.second_route(cases, GAMMAS, SPEC).holds
-
-    def otherwise(frame, motion):
-        return SimpleNamespace(overturned=not reference.judge(frame, motion).overturned)
-
-    monkeypatch.setattr(rescaled, "reference", SimpleNamespace(judge=otherwise))
-    assert not rescaled.second_route(cases, GAMMAS, SPEC).holds
+def test_scipy_has_to_give_the_same_outcomes(given):
+    assert rescaled.second_route([(RECORD, COLUMN)], GAMMAS, SPEC).holds
+    right = reference.judge
+    given(rescaled, reference=Of(judge=lambda *of: Of(overturned=not right(*of).overturned)))
+    assert not rescaled.second_route([(RECORD, COLUMN)], GAMMAS, SPEC).holds
 
 
 def table(*cells, moved=0.0):

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+import topheavy as th
 from studies.mechanism.steps import space
 from studies.mechanism.steps.engine import (
     COLUMN_MASS,
@@ -20,27 +21,17 @@ from studies.mechanism.steps.engine import (
     slips,
 )
 from studies.mechanism.steps.rigs import Model, rebound, rig_of, shaken
-from topheavy import (
-    STANDARD_GRAVITY,
-    Cap,
-    Column,
-    FixedMassColumn,
-    Pulse,
-    RockingFrame,
-    overturning_intervals,
-    simulate,
-)
 from topheavy.kinematics import cap_displacement
 
 mujoco = pytest.importorskip("mujoco", reason="the optional group `engine` is not installed")
 
-TRILITH, PIER = Column(0.11, 0.40), Column(0.75, 3.50)
-LINTEL, DECK = Cap(span=0.80, half_depth=0.11), Cap(span=20.0, half_depth=1.0)
+TRILITH, PIER = th.Column(0.11, 0.40), th.Column(0.75, 3.50)
+LINTEL, DECK = th.Cap(span=0.80, half_depth=0.11), th.Cap(span=20.0, half_depth=1.0)
 MODELS = (
-    Model("column", RockingFrame(TRILITH, 0.0), None),
-    Model("trilith", RockingFrame(TRILITH, 0.434), LINTEL),
-    Model("bridge", RockingFrame(PIER, 2.0), DECK),
-    Model("heavy bridge", RockingFrame(PIER, 13.23), DECK),
+    Model("column", th.RockingFrame(TRILITH, 0.0), None),
+    Model("trilith", th.RockingFrame(TRILITH, 0.434), LINTEL),
+    Model("bridge", th.RockingFrame(PIER, 2.0), DECK),
+    Model("heavy bridge", th.RockingFrame(PIER, 13.23), DECK),
 )
 STEP = 4e-4
 COLUMN, FRAME, BRIDGE, HEAVY = MODELS
@@ -53,21 +44,23 @@ def test_structure_at_rest_stays_at_rest_and_weighs_on_the_ground(model):
     moved = np.abs(motion.pose - leaning(rig, 0.0)).max()
     assert moved < 1e-5 * rig.frame.column.half_width
     forces = ground_forces(rig, motion)
-    weight = COLUMN_MASS * STANDARD_GRAVITY * (1.0 + rig.frame.mass_ratio)
+    weight = COLUMN_MASS * th.STANDARD_GRAVITY * (1.0 + rig.frame.mass_ratio)
     assert forces == pytest.approx(weight, rel=1e-6)  # each column: itself and half the cap
 
 
 @pytest.mark.parametrize("friction", [0.2, 0.5])
 @pytest.mark.parametrize("ratio", [0.9, 1.1, 2.0])
 def test_squat_block_slides_if_and_only_if_shaken_harder_than_friction(friction, ratio):
-    squat = RockingFrame(Column(0.8, 0.2), 0.0)
+    squat = th.RockingFrame(th.Column(0.8, 0.2), 0.0)
     rig = Rig(squat, None, Contact(2e-3, friction=friction), 2.5e-4)
     acceleration, duration = ratio * friction, 0.5
-    pulse = Pulse("constant", acceleration, math.pi / duration)
+    pulse = th.Pulse("constant", acceleration, math.pi / duration)
     motion = run(rig, pulse, duration=duration)
-    slid = 0.5 * max(0.0, acceleration - friction) * STANDARD_GRAVITY * duration**2
+    slid = 0.5 * max(0.0, acceleration - friction) * th.STANDARD_GRAVITY * duration**2
     # Below the limit friction gives way like a stiff damper, by b v: it creeps, but slowly.
-    creep = 2.0 * ratio * friction * STANDARD_GRAVITY * duration * rig.contact.time_constant / 100
+    creep = (
+        2.0 * ratio * friction * th.STANDARD_GRAVITY * duration * rig.contact.time_constant / 100
+    )
     assert -motion.pose[-1, 0, 0] == pytest.approx(slid, rel=5e-3, abs=creep)
     base, seat = slips(rig, motion, gap=0.01)
     assert base == pytest.approx(slid, rel=5e-3, abs=creep)
@@ -87,7 +80,7 @@ def test_raised_energy_is_that_of_the_columns_and_of_the_cap_lifted_twice_as_far
     rig = rig_of(model, STEP)
     alpha, size = TRILITH.slenderness, TRILITH.size
     lift = size * (math.cos(alpha - 0.1) - math.cos(alpha))
-    expected = masses * COLUMN_MASS * STANDARD_GRAVITY * lift
+    expected = masses * COLUMN_MASS * th.STANDARD_GRAVITY * lift
     assert raised_energy(rig, leaning(rig, -0.1)) == pytest.approx(expected)
 
 
@@ -96,7 +89,7 @@ def test_raised_energy_is_that_of_the_columns_and_of_the_cap_lifted_twice_as_far
 def test_first_impact_comes_when_the_theory_says(model, sign):
     rig = rig_of(model, STEP)
     rotation = sign * 0.5 * rig.frame.slenderness
-    expected = simulate(rig.frame, rotation=rotation, samples=2).impacts[0]
+    expected = th.simulate(rig.frame, rotation=rotation, samples=2).impacts[0]
     motion = run(rig, rotation=rotation, duration=1.1 * expected)
     found = motion.time[np.argmax(sign * motion.rotation <= 0.0)]
     assert found == pytest.approx(expected, rel=1e-3)
@@ -106,7 +99,7 @@ def test_fall_of_the_heavy_frame_is_slower_than_that_of_its_column():
     """The property that makes frames stable, without any number of the theory."""
     rotation = 0.5 * PIER.slenderness
     frame = rig_of(HEAVY, STEP)
-    column = Rig(RockingFrame(PIER, 0.0), None, frame.contact, frame.time_step)
+    column = Rig(th.RockingFrame(PIER, 0.0), None, frame.contact, frame.time_step)
     after = 0.6 / PIER.frequency_parameter
     turned = [run(rig, rotation=rotation, duration=after).rotation[-1] for rig in (frame, column)]
     assert rotation > turned[0] > turned[1] > 0.0
@@ -135,7 +128,7 @@ def test_bouncing_contact_takes_more_from_a_frame_but_not_from_a_column():
 def test_lone_point_bounces_as_spring_and_damper_say(ratio):
     constant = 1e-4
     rig = Rig(
-        RockingFrame(TRILITH, 0.0),
+        th.RockingFrame(TRILITH, 0.0),
         None,
         Contact(constant, damping_ratio=ratio),
         constant * min(1.0, ratio) / 64.0,
@@ -153,7 +146,7 @@ def test_lone_point_bounces_as_spring_and_damper_say(ratio):
 def test_long_push_overturns_from_uplift_on(factor, expected):
     """A push that lasts overturns from tan α on, whatever the impacts."""
     rig = rig_of(COLUMN, 8e-4, friction=2.0)
-    pulse = Pulse("constant", factor * math.tan(TRILITH.slenderness), math.pi / 3.0)
+    pulse = th.Pulse("constant", factor * math.tan(TRILITH.slenderness), math.pi / 3.0)
     assert shaken(rig, pulse)[0] is expected
 
 
@@ -164,14 +157,14 @@ def test_long_push_overturns_from_uplift_on(factor, expected):
 def test_long_push_overturns_square_columns_along_and_across_the_span(direction, factor, expected):
     """Across the span the beam lies on one edge of each column, so that 0.9 tan α suffices."""
     spec = {"contact": {"time_constant": 3.2e-3}, "time_step": 8e-4}
-    pulse = Pulse("constant", factor * math.tan(TRILITH.slenderness), math.pi / 2.0)
+    pulse = th.Pulse("constant", factor * math.tan(TRILITH.slenderness), math.pi / 2.0)
     setting = space.Setting(direction=direction)
     assert space.overturns(FRAME, pulse, setting, spec) is expected
 
 
 def test_eccentric_beam_rests_on_its_columns():
     spec = {"contact": {"time_constant": 3.2e-3}, "time_step": 8e-4}
-    still = Pulse("constant", 1e-6, math.pi / 2.0)
+    still = th.Pulse("constant", 1e-6, math.pi / 2.0)
     assert not space.overturns(FRAME, still, space.Setting(0.3), spec)
     cap = space._xml(FRAME, FRAME.cap, space.Setting(0.3), 1e-4, 1e-3, Contact(1e-3))
     assert f'name="cap" pos="0.0 {0.3 * TRILITH.half_width} ' in cap
@@ -179,7 +172,7 @@ def test_eccentric_beam_rests_on_its_columns():
 
 def test_mirrored_pulse_gives_the_mirrored_motion():
     rig = rig_of(FRAME, 8e-4)
-    pulse = Pulse("one-sine", 0.35, 12.0)
+    pulse = th.Pulse("one-sine", 0.35, 12.0)
     one, other = (run(rig, pulse.scaled(sign), duration=0.8) for sign in (1.0, -1.0))
     peak = np.abs(one.rotation).max()
     assert peak > 0.05 * TRILITH.slenderness
@@ -188,28 +181,28 @@ def test_mirrored_pulse_gives_the_mirrored_motion():
 
 def test_same_run_gives_the_same_bits():
     rig = rig_of(FRAME, 8e-4)
-    one, other = (run(rig, Pulse("one-sine", 0.4, 12.0), duration=0.5) for _ in range(2))
+    one, other = (run(rig, th.Pulse("one-sine", 0.4, 12.0), duration=0.5) for _ in range(2))
     assert np.array_equal(one.pose, other.pose)
 
 
 def test_rig_is_refused_where_it_makes_no_sense():
-    contact, frame = Contact(2e-3), RockingFrame(TRILITH, 0.434)
+    contact, frame = Contact(2e-3), th.RockingFrame(TRILITH, 0.434)
     with pytest.raises(ValueError, match="cap is None"):
         Rig(frame, None, contact, 1e-4)
     with pytest.raises(ValueError, match="mass_ratio is 0"):
-        Rig(replace(frame, mass_ratio=0.0), Cap(1.0, 0.2), contact, 1e-4)
+        Rig(replace(frame, mass_ratio=0.0), th.Cap(1.0, 0.2), contact, 1e-4)
     with pytest.raises(ValueError, match="overlap"):
-        Rig(frame, Cap(0.2, 0.2), contact, 1e-4)
+        Rig(frame, th.Cap(0.2, 0.2), contact, 1e-4)
     with pytest.raises(ValueError, match=r"time_step is 0\.0015 s"):
-        Rig(frame, Cap(1.0, 0.2), contact, 1.5e-3)
+        Rig(frame, th.Cap(1.0, 0.2), contact, 1.5e-3)
 
 
 def fixed_mass_model(column, gamma, cap_width, cap_depth, contact, step):
     """A T of two boxes in one body, on the ground that `build` has: cap and column cannot part."""
-    rig = Rig(RockingFrame(column, 0.0), None, contact, step)
+    rig = Rig(th.RockingFrame(column, 0.0), None, contact, step)
     text = build(rig)  # the engine's own model of the bare column, for its options
     spec = mujoco.MjSpec()
-    spec.option.timestep, spec.option.gravity = step, [0.0, 0.0, -STANDARD_GRAVITY]
+    spec.option.timestep, spec.option.gravity = step, [0.0, 0.0, -th.STANDARD_GRAVITY]
     for name in ("integrator", "solver", "tolerance", "cone", "impratio"):
         setattr(spec.option, name, getattr(text.opt, name))
     half = 2.0 * column.half_height
@@ -236,12 +229,13 @@ def fixed_mass_model(column, gamma, cap_width, cap_depth, contact, step):
 
 @pytest.mark.parametrize(("factor", "overturns"), [(0.97, False), (1.03, True)])
 def test_engine_overturns_the_fixed_mass_where_theory_does(factor, overturns):
-    column, gamma, width, depth = Column(0.5, 3.0), 1.0, 2.6, 0.6
-    unit = Pulse("one-cosine", 1.0, 2.0 * math.pi / 1.5)
-    theory = FixedMassColumn(column, gamma, width, depth)
-    found = overturning_intervals(theory, unit, (0.1, 1.0), resolution=1e-3)[0].lower[0]
+    column, gamma, width, depth = th.Column(0.5, 3.0), 1.0, 2.6, 0.6
+    unit = th.Pulse("one-cosine", 1.0, 2.0 * math.pi / 1.5)
+    theory = th.FixedMassColumn(column, gamma, width, depth)
+    found = th.overturning_intervals(theory, unit, (0.1, 1.0), resolution=1e-3)[0].lower[0]
     assert (
-        found < 0.9 * overturning_intervals(column, unit, (0.1, 1.0), resolution=1e-3)[0].lower[0]
+        found
+        < 0.9 * th.overturning_intervals(column, unit, (0.1, 1.0), resolution=1e-3)[0].lower[0]
     )
     step = STEP / column.frequency_parameter
     contact = Contact(4.0 * step, friction=5.0)
@@ -249,7 +243,7 @@ def test_engine_overturns_the_fixed_mass_where_theory_does(factor, overturns):
     data, pulse = mujoco.MjData(model), unit.scaled(factor * found)
     for number in range(math.ceil(4.0 * pulse.duration / step)):
         push = pulse.excitation((number + 0.5) * step)
-        model.opt.gravity[0] = -STANDARD_GRAVITY * push
+        model.opt.gravity[0] = -th.STANDARD_GRAVITY * push
         mujoco.mj_step(model, data)
         if abs(data.qpos[2]) > math.pi / 4:
             break

@@ -8,19 +8,12 @@ import pandas as pd
 import pytest
 from scipy.special import ndtr
 
+import topheavy as th
 from replication.inputs.strict_yaml import read_yaml
 from steps.shared import sweep
 from steps.shared.outcomes import FALLS, STANDS, read, written
 from studies.reversals.steps import motions_check, motions_fragility, motions_records
 from studies.reversals.under import frames_and_columns, intensities
-from topheavy import (
-    STANDARD_GRAVITY,
-    Column,
-    Record,
-    RockingFrame,
-    judge,
-    overturned_together,
-)
 from topheavy.fragility import resampling
 from topheavy.fragility.ensemble import Ensemble
 from topheavy.synthetic.ensemble import draws, first_draws
@@ -57,7 +50,7 @@ def answered() -> dict[str, sweep.Swept]:
 
 
 def test_levels_are_those_of_the_solitary_column():
-    (asked,), column = ASKED.values(), Column(**STRUCTURES["temple"])
+    (asked,), column = ASKED.values(), th.Column(**STRUCTURES["temple"])
     record = draws(CASE)[0].record()
     for factor, wanted in zip(asked.levels / record.peak_velocity, intensities(CASE), strict=True):
         assert strength(record.scaled(factor), column)[1] == pytest.approx(wanted)
@@ -77,7 +70,7 @@ def test_larger_column_has_the_frequency_parameter_of_its_frame():
     frame, column = found["temple", 1.0, 0.0], found["temple", 0.0, 1.0]
     assert column.frequency_parameter == pytest.approx(frame.frequency_parameter, rel=1e-14)
     assert column.restitution > frame.restitution
-    assert found["temple", 0.0, 0.0] == Column(**STRUCTURES["temple"]).block()
+    assert found["temple", 0.0, 0.0] == th.Column(**STRUCTURES["temple"]).block()
 
 
 def test_pairs_count_what_differs():
@@ -101,9 +94,9 @@ def test_shares_hardly_depend_on_the_number_of_levels():
         read_yaml(ROOT / path) for path in ("studies/reversals/config.yaml", "config/config.yaml")
     )
     case = study["motions_ensemble"]
-    column = Column(**config["structures"]["temple"])
-    under = [RockingFrame(column, gamma) for gamma in (0.0, 1.0)]
-    unit = STANDARD_GRAVITY * column.uplift_acceleration / column.frequency_parameter
+    column = th.Column(**config["structures"]["temple"])
+    under = [th.RockingFrame(column, gamma) for gamma in (0.0, 1.0)]
+    unit = th.STANDARD_GRAVITY * column.uplift_acceleration / column.frequency_parameter
     ends = [case["intensities"][end] for end in ("lowest", "highest")]
     count = case["intensities"]["points"]
     pgvs = np.broadcast_to(unit * np.geomspace(*ends, 2 * count - 1), (2, 2 * count - 1))
@@ -112,7 +105,7 @@ def test_shares_hardly_depend_on_the_number_of_levels():
     for row in table.itertuples():
         fell = np.array(
             [
-                overturned_together(under, record, pgvs / record.peak_velocity)
+                th.overturned_together(under, record, pgvs / record.peak_velocity)
                 for draw in first_draws(case, 100)
                 if draw.family == row.family
                 for record in [draw.record()]
@@ -165,10 +158,10 @@ def test_memory_holds_a_block_of_motions(answered, monkeypatch):
 
 
 def test_boundary_lies_where_the_outcome_changes():
-    column, time = Column(0.5, 3.0), np.arange(0.0, 4.0, 0.01)
-    record = Record(0.01, np.sin(2.0 * math.pi * time / 2.0) * (time <= 2.0))
+    column, time = th.Column(0.5, 3.0), np.arange(0.0, 4.0, 0.01)
+    record = th.Record(0.01, np.sin(2.0 * math.pi * time / 2.0) * (time <= 2.0))
     edge = motions_check.boundary(column, record, 0.1, 2.0)
-    below, above = (judge(column, record.scaled(edge * by)).overturned for by in (0.999, 1.001))
+    below, above = (th.judge(column, record.scaled(edge * by)).overturned for by in (0.999, 1.001))
     assert below != above
 
 
@@ -204,7 +197,7 @@ def test_records_are_compared_where_both_can_be_told():
 
 
 def test_scales_begin_at_uplift():
-    record = Record(0.02, 0.3 * np.sin(np.linspace(0.0, 6.0, 200)), "sine")
+    record = th.Record(0.02, 0.3 * np.sin(np.linspace(0.0, 6.0, 200)), "sine")
     row = motions_records.row(record, 10.0, 2.0, 1.0, np.array([0.99, 4.0, 20.0]), 3e-12)
     assert row["outcomes"][0] == STANDS
     assert row["outcomes"][2] == FALLS

@@ -7,37 +7,36 @@ import pandas as pd
 import pytest
 
 from replication.inputs.strict_yaml import read_yaml
-from steps.shared.sweep import Asked
 from studies.robustness.steps import friction, models, vertical
-from topheavy import Column, Record, RockingFrame, judge
+from tests.cases import COLUMN, FRAME, ROOT, SIZES, broken
+from topheavy import Record, judge
 from topheavy.synthetic import filtered_noise as noise
 from topheavy.synthetic.motions import TIME_STEP
 
-CONFIG = read_yaml("studies/robustness/config.yaml")
-ENSEMBLE = read_yaml("studies/reversals/config.yaml")["motions_ensemble"]
-SIZES = {"column": {"half_width": 0.5, "half_height": 3.0}}
-SMALL = CONFIG["models"] | SIZES | {"motions": 4, "soils": [1.0], "corners": [0.2]}
-SMALL |= {"bootstrap": {"resamples": 100, "confidence": 0.95}, "checked": 4}
+CONFIG = read_yaml(ROOT / "studies/robustness/config.yaml")
+ENSEMBLE = read_yaml(ROOT / "studies/reversals/config.yaml")["motions_ensemble"]
+MODELS = CONFIG["models"] | {"column": SIZES}
+SMALL = MODELS | {"motions": 4, "soils": [1.0], "corners": [0.2], "checked": 4}
+SMALL |= {"bootstrap": {"resamples": 100, "confidence": 0.95}}
 SOIL = noise.Soil(2.5, 0.2)
 
 
-# Filtered noise -----------------------------------------------------------------------------------
+# Filtered noise ----------------------------------------------------------------------------------
 
 
-def test_densities_have_their_limits():
-    ends = np.array([0.0, 1.0, 1e6])
-    at_one = (1.0 + 4.0 * noise.DAMPING**2) / (4.0 * noise.DAMPING**2)
-    assert noise.density_of_soil(ends) == pytest.approx([1.0, at_one, 0.0], abs=1e-9)
-    assert noise.density_of_filter(ends) == pytest.approx(
-        [0.0, 1.0 / (4.0 * noise.DAMPING**2), 1.0]
-    )
+def test_densities_and_envelope_have_their_limits():
+    ends, at_one = np.array([0.0, 1.0, 1e6]), 1.0 / (4.0 * noise.DAMPING**2)
+    assert noise.density_of_soil(ends) == pytest.approx([1.0, 1.0 + at_one, 0.0], abs=1e-9)
+    assert noise.density_of_filter(ends) == pytest.approx([0.0, at_one, 1.0])
+    times, decayed = np.array([0.0, 1.5, 3.0, 13.0, 17.0]), math.exp(-1.0)
+    assert noise.envelope(times) == pytest.approx([0.0, 0.25, 1.0, 1.0, decayed])
 
 
 def test_ground_ends_at_rest_and_a_motion_depends_on_its_number_alone():
-    first, again, other = (noise.motion(7, k, SOIL) for k in (3, 3, 4))
-    assert np.array_equal(first.acceleration, again.acceleration)
-    assert not np.array_equal(first.acceleration, other.acceleration)
-    velocity = np.cumsum(first.acceleration)
+    first, again, other = (noise.motion(7, k, SOIL).acceleration for k in (3, 3, 4))
+    assert np.array_equal(first, again)
+    assert not np.array_equal(first, other)
+    velocity = np.cumsum(first)
     assert abs(velocity[-1]) < 1e-6 * np.abs(velocity).max()
 
 
@@ -45,51 +44,42 @@ def test_spectrum_is_that_of_both_filters():
     """The mean of |FFT|² over many motions, smoothed by the envelope: by two octaves apart."""
     power = 0.0
     for number in range(200):
-        record = noise.motion(1, number, SOIL)
-        of = np.abs(np.fft.rfft(record.acceleration)) ** 2
+        samples = noise.motion(1, number, SOIL).acceleration
+        of = np.abs(np.fft.rfft(samples)) ** 2
         power = power + of / of.sum()
-    frequency = np.fft.rfftfreq(record.acceleration.size, TIME_STEP)
+    frequency = np.fft.rfftfreq(samples.size, TIME_STEP)
 
     def band(centre):
         return power[(frequency > 0.8 * centre) & (frequency < 1.25 * centre)].mean()
 
     def density(f):
-        return noise.density_of_soil(f / 2.5) * noise.density_of_filter(f / 0.2)
+        at = np.array([f])
+        return (noise.density_of_soil(at / 2.5) * noise.density_of_filter(at / 0.2)).item()
 
     for low, high in ((2.5, 10.0), (0.5, 2.5), (0.1, 0.5)):
-        expected = density(np.array([high]))[0] / density(np.array([low]))[0]
-        assert band(high) / band(low) == pytest.approx(expected, rel=0.25)
+        assert band(high) / band(low) == pytest.approx(density(high) / density(low), rel=0.25)
 
 
-def test_envelope_rises_stays_and_decays():
-    times = np.array([0.0, 1.5, 3.0, 13.0, 17.0])
-    assert noise.envelope(times) == pytest.approx([0.0, 0.25, 1.0, 1.0, math.exp(-1.0)])
-
-
-# Models -------------------------------------------------------------------------------------------
+# Models ------------------------------------------------------------------------------------------
 
 
 def test_models_are_those_of_the_config():
-    found = list(models.models(CONFIG["models"] | SIZES, ENSEMBLE))
-    assert [one.labels["model"] for one in found] == [models.NOISE] * 6 + [
-        "near-fault",
-        "broadband",
-    ]
+    found = list(models.models(MODELS, ENSEMBLE))
+    names = [one.labels["model"] for one in found]
+    assert names == [models.NOISE] * 6 + ["near-fault", "broadband"]
     assert {len(one.motions) for one in found} == {400}
-    assert [(one.labels["soil"], one.labels["corner"]) for one in found[:2]] == [
-        (1.0, 0.1),
-        (1.0, 0.2),
-    ]
+    labels = [(one.labels["soil"], one.labels["corner"]) for one in found[:2]]
+    assert labels == [(1.0, 0.1), (1.0, 0.2)]
     assert found[0].motions[5]().name != found[1].motions[5]().name
+    levels = models.asked(MODELS).levels
+    assert levels == pytest.approx([*np.geomspace(0.15, 4.0, 17), 0.6])
 
 
 def test_outcomes_are_those_of_single_histories():
     (model, *_), question = models.models(SMALL, ENSEMBLE), models.asked(SMALL)
-    found = models.swept(model, question)
-    record, factor = model.motions[2](), SMALL["pgv"] / found.velocities[2]
-    column = Column(**SIZES["column"])
-    frame = RockingFrame(column, 1.0)
-    fell = [judge(one, record.scaled(factor)).overturned for one in (column, frame)]
+    found, record = models.swept(model, question), model.motions[2]()
+    scaled = record.scaled(SMALL["pgv"] / record.peak_velocity)
+    fell = [judge(one, scaled).overturned for one in (COLUMN, FRAME)]
     assert found.outcomes[2, [models.COLUMN, models.FRAME], -1].tolist() == fell
     assert found.velocities[2] == record.peak_velocity
 
@@ -103,31 +93,26 @@ def test_numbers_of_a_row_are_those_of_its_outcomes():
             fell[motion, place, level + motion % 5 : -1] = True
     fell[:20, models.COLUMN, -1] = fell[10:18, models.FRAME, -1] = fell[:30, models.VASE, -1] = True
     fell[38:, models.FRAME, -1] = True
-    velocities, accelerations = np.linspace(0.1, 0.5, 40), np.full(40, 0.2)
-    swept = models.Swept(fell, velocities, accelerations)
+    velocities = np.linspace(0.1, 0.5, 40)
+    swept = models.Swept(fell, velocities, np.full(40, 0.2))
     row = models.row({}, [0] * 40, swept, SMALL)
     assert [row[name] for name in models.NAMES] == [0.5, 0.75, 0.25]
-    assert (row["harm"], row["benefit"]) == (0.25, 0.25)
-    assert (row["only_frame"], row["only_column"]) == pytest.approx((2 / 40, 12 / 40))
+    names = ("harm", "benefit", "only_frame", "only_column", "factor_largest", "pga_largest")
+    expected = (0.25, 0.25, 2 / 40, 12 / 40, 6.0, 1.2)
+    assert [row[name] for name in names] == pytest.approx(expected)
     assert row["gain"] == pytest.approx(levels[10] / levels[8] - 1.0, rel=1e-3)
-    assert (row["factor_largest"], row["pga_largest"]) == pytest.approx((6.0, 1.2))
     few, groups = models.restricted(swept, models.Model({}, [], list(range(40))), SMALL)
-    assert len(groups) == len(few.velocities) == (SMALL["pgv"] / velocities <= 4.0).sum()
-    assert few.outcomes.shape[0] == len(groups)
+    kept = (SMALL["pgv"] / velocities <= 4.0).sum()
+    assert len(groups) == len(few.velocities) == few.outcomes.shape[0] == kept
 
 
-def rows(**change):
-    names = ("harm", "benefit", "gain", "only_frame", "column", "frame")
-    table = pd.DataFrame({name: [0.2, 0.3] for name in names})
-    for name in names:
-        table[f"{name}_low"], table[f"{name}_high"] = table[name] - 0.1, table[name] + 0.1
-    for name, values in change.items():
-        table[name] = values
-    return table
+NAMES = ("harm", "benefit", "gain", "only_frame", "column", "frame")
+ENDS = {"": [0.2, 0.3], "_low": [0.1, 0.2], "_high": [0.3, 0.4]}
+NUMBERS = {f"{name}{end}": values for name in NAMES for end, values in ENDS.items()}
 
 
 @pytest.mark.parametrize(
-    ("change", "broken"),
+    ("change", "false"),
     [
         ({}, set()),
         ({"benefit_low": [0.1, -0.01]}, {"order"}),
@@ -139,24 +124,20 @@ def rows(**change):
         ({"frame_low": [0.1, 0.35]}, {"one_frame"}),
     ],
 )
-def test_one_row_is_enough_to_refute(change, broken):
-    found = models.findings(rows(**change))
-    assert {name for name, one in found.items() if not one.holds} == broken
+def test_one_row_is_enough_to_refute(change, false):
+    assert broken(models.findings(pd.DataFrame(NUMBERS | change))) == false
 
 
-# Friction and vertical motion ---------------------------------------------------------------------
+# Friction and vertical motion --------------------------------------------------------------------
 
 
 def test_shares_are_of_the_motions_that_uplift():
-    histories = pd.DataFrame(
-        {
-            "family": "broadband",
-            "mass_ratio": 1.0,
-            "outcome": ["rests", "rests", "no uplift", "overturned"],
-            "friction": [0.2, 0.6, math.nan, 0.8],
-            "error": [0.0, 1e-3, math.nan, 0.0],
-            "pulls": [False, False, False, True],
-        }
+    histories = pd.DataFrame({"outcome": ["rests", "rests", "no uplift", "overturned"]}).assign(
+        family="broadband",
+        mass_ratio=1.0,
+        friction=[0.2, 0.6, math.nan, 0.8],
+        error=[0.0, 1e-3, math.nan, 0.0],
+        pulls=[False, False, False, True],
     )
     table = friction.summed(histories, [0.3, 0.5, 0.7]).set_index("motions")
     assert table.uplifted.to_dict() == {"survive": 2, "overturn": 1, "all": 3}
@@ -165,7 +146,7 @@ def test_shares_are_of_the_motions_that_uplift():
 
 
 @pytest.mark.parametrize(
-    ("above", "gamma", "tension", "broken", "unless_light"),
+    ("above", "gamma", "tension", "false", "unless_light"),
     [
         (0.05, 1.0, 0, set(), True),
         (0.06, 0.5, 0, {"enough"}, True),
@@ -175,19 +156,16 @@ def test_shares_are_of_the_motions_that_uplift():
     ],
 )
 def test_friction_is_judged_by_all_and_tension_by_survivors(
-    above, gamma, tension, broken, unless_light
+    above, gamma, tension, false, unless_light
 ):
-    row = {"mass_ratio": gamma, "above_0.7": above, "uplifted": 5}
-    table = pd.DataFrame(
-        [row | {"motions": "all", "tension": 9}, row | {"motions": "survive", "tension": tension}]
-    )
-    found = friction.findings(table)
-    assert {name for name, one in found.items() if not one.holds} == broken
+    table = pd.DataFrame({"motions": ["all", "survive"], "tension": [9, tension]})
+    found = friction.findings(table.assign(mass_ratio=gamma, uplifted=5, **{"above_0.7": above}))
+    assert broken(found) == false
     assert found["enough"].holds_when is unless_light
-    assert found["enough"]["mass_ratios"] == ([gamma] if "enough" in broken else [])
+    assert found["enough"]["mass_ratios"] == ([gamma] if "enough" in false else [])
 
 
-VERTICAL = CONFIG["vertical"] | SIZES | {"motions": 4, "checked": 2}
+VERTICAL = CONFIG["vertical"] | {"column": SIZES, "motions": 4, "checked": 2}
 
 
 def test_vertical_motion_has_its_share_and_its_time():
@@ -199,26 +177,20 @@ def test_vertical_motion_has_its_share_and_its_time():
     assert up.duration == pytest.approx(other.record().duration / 1.7)
 
 
-def test_no_vertical_motion_changes_nothing_and_free_fall_is_left_out(monkeypatch):
+def test_no_vertical_motion_changes_nothing_and_free_fall_is_left_out(given):
     def still(draw, other, settings, faster):
         across = draw.record().scaled_to(pgv=settings["pgv"])
         falls = draw.number == 1
         return across, Record(across.time_step, [0.0, -1.2 if falls else 0.0, 0.0])
 
-    monkeypatch.setattr(vertical, "pair", still)
+    given(vertical, pair=still)
     table = vertical.changes(vertical.compared(VERTICAL, ENSEMBLE), VERTICAL)
-    assert (table.free_fall == 2).all()  # of four, one of each scenario
-    assert (table.motions == 2).all()
+    assert set(table.free_fall) == set(table.motions) == {2}  # of four, one of each scenario
     assert (table.change == 0.0).all()
     assert (table["column"] == table.column_vertical).all()
-
-
-def test_measured_pairs_are_counted():
     across = Record(0.02, 0.4 * np.sin(np.linspace(0.0, 6.0, 200)), "across")
-    up = Record(0.02, np.zeros(200), "up")
-    row = vertical.measured(VERTICAL, [(across, up)] * 2)
-    assert row["motions"] == 2
-    assert row["column"] == row["column_vertical"]
+    row = vertical.measured(VERTICAL, [(across, Record(0.02, np.zeros(200), "up"))] * 2)
+    assert (row["motions"], row["column"]) == (2, row["column_vertical"])
 
 
 @pytest.mark.parametrize(("low", "holds"), [(0.01, True), (0.0, False)])
@@ -233,10 +205,3 @@ def test_benefit_remains_in_each_family(low, holds):
 def test_change_of_outcome_is_found_in_a_range():
     assert vertical.beside(lambda factor: factor > 0.7) == pytest.approx(0.7, abs=2e-3)
     assert vertical.beside(lambda factor: True) == 1.0
-
-
-def test_asked_levels_end_with_the_stated_one():
-    question = models.asked(CONFIG["models"] | SIZES)
-    assert isinstance(question, Asked)
-    assert question.levels[-1] == 0.6
-    assert question.levels[:-1] == pytest.approx(np.geomspace(0.15, 4.0, 17))

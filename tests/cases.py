@@ -1,0 +1,45 @@
+"""What many tests are about: structures, places, solvers, and which findings break."""
+
+from pathlib import Path
+
+import pytest
+
+import topheavy as th
+from topheavy import reference
+from topheavy.linear import simulate_linear_exact as closed
+
+ROOT = Path(__file__).resolve().parents[1]
+REFERENCE = ROOT / "tests" / "reference"
+RECORDS = ROOT / "data" / "records"
+
+COLUMN = th.Column(0.5, 3.0)
+FRAME = th.RockingFrame(COLUMN, 1.0)
+BLOCK = th.RockingBlock(2.0, 0.25, 0.9)
+SIZES = {"half_width": 0.5, "half_height": 3.0}
+BOTH = pytest.mark.parametrize("block", [BLOCK, BLOCK.linear()], ids=["exact", "linear"])
+SIDES = pytest.mark.parametrize("side", [1.0, -1.0])
+
+NAMES = {th.simulate: "Taylor", reference.simulate: "SciPy", closed: "closed"}
+CLOSE = {th.simulate: 1e-8, reference.simulate: 1e-8, closed: 1e-13}
+"""How near a solver is to a closed form, of α and of amplitudes."""
+
+
+def solvers(*blocks):
+    """Each solver with each block that it can follow."""
+    return [
+        pytest.param(solve, block, id=f"{name}-{'linear' if block.linearised else 'exact'}")
+        for block in blocks
+        for solve, name in NAMES.items()
+        if block.linearised or solve is not closed
+    ]
+
+
+EVERY = pytest.mark.parametrize(("solve", "block"), solvers(BLOCK, BLOCK.linear()))
+ON_LINEAR = pytest.mark.parametrize("solve", NAMES, ids=NAMES.values())
+TWO = [th.simulate, reference.simulate]
+BY_TWO = pytest.mark.parametrize("solve", TWO, ids=["Taylor", "SciPy"])
+
+
+def broken(found, attribute="holds"):
+    """Return the names of the findings that do not hold."""
+    return {name for name, one in found.items() if getattr(one, attribute) is False}

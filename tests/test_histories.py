@@ -1,0 +1,424 @@
+"""A history from launch to its end: samples only look, rest is proven, and every history ends."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import topheavy as th
+from benchmarks.boundaries import survey
+from tests.cases import BLOCK, BOTH, BY_TWO, EVERY, SIDES, TWO
+from topheavy import reference
+from topheavy.free_rocking import barrier, potential, quarter_period
+from topheavy.kernel import trace
+from topheavy.linear import simulate_linear_exact as closed
+from topheavy.motion import MOST_FREE_IMPACTS, Event, force, start
+from topheavy.shapes import ELEMENTARY_ENDING
+
+SHAKEN = th.Pulse("one-sine", 0.5, 9.0)
+LOSSLESS = BLOCK.with_restitution(1.0)
+LEVEL = BLOCK.uplift_acceleration
+
+
+def small_speed(block, peak):
+    """Speed at θ = 0 that reaches a rotation of `peak` α."""
+    return block.frequency_parameter * math.sqrt(2 * potential(block, peak * block.slenderness))
+
+
+@pytest.fixture
+def count_all(monkeypatch):
+    """Count every impact, however small the rotation that it ends."""
+    monkeypatch.setattr("topheavy.motion.COUNTED_PEAK", -1.0)
+
+
+# ---------------------------------------------------------------------------- time and samples
+
+
+@EVERY
+@pytest.mark.parametrize(
+    ("pulse", "rotation"),
+    [
+        (th.Pulse("half-sine", 0.1, 4.0), 0.0),  # no uplift
+        (SHAKEN, 0.0),
+        (th.Pulse("one-sine", 0.4, 6.0), 0.1),  # at rest after the forcing
+        (th.Pulse("one-sine", 0.9, 3.0), 0.0),  # overturned
+        (th.Pulse("one-sine", 3.0, 9.0), 0.0),  # overturned under the forcing
+    ],
+)
+def test_samples_only_look(solve, block, pulse, rotation):
+    """Wherever they are, and however many: the verdict is that of the whole motion."""
+    whole = solve(block, pulse, rotation=rotation)
+    assert (whole.time.shape, whole.time[0]) == ((1000,), 0.0)
+    if rotation == 0.0:
+        end = th.judge(block, pulse)
+        assert (end.overturned, end.impacts) == (whole.overturned, whole.number_of_impacts)
+        close = 1e-8 * block.slenderness
+        assert end.peak == pytest.approx(whole.peak_rotation, abs=close, nan_ok=True)
+    for samples in (2, 3, [0.0, 0.01, 0.05], np.linspace(0.0, 1.2 * whole.time[-1], 77)):
+        found = solve(block, pulse, rotation=rotation, samples=samples)
+        assert (found.overturned, found.number_of_impacts) == (
+            whole.overturned,
+            whole.number_of_impacts,
+        )
+        peak = pytest.approx(whole.peak_rotation, rel=1e-9, nan_ok=True)
+        assert found.peak_rotation == peak
+        at = np.searchsorted(whole.time, found.time)
+        for k in np.flatnonzero(np.isin(found.time, whole.time)):
+            same = pytest.approx(whole.rotation[at[k]], abs=1e-9, nan_ok=True)
+            assert found.rotation[k] == same
+        expected = (
+            np.linspace(0.0, whole.time[-1], samples) if isinstance(samples, int) else samples
+        )
+        np.testing.assert_allclose(found.time, expected, rtol=1e-14)
+
+
+@EVERY
+def test_history_is_consistent_with_itself(solve, block):
+    for shape in ELEMENTARY_ENDING if solve is closed else (*ELEMENTARY_ENDING, "ricker-symmetric"):
+        for amplitude in (0.3, 0.6, 4.0):
+            pulse = th.Pulse(shape, amplitude, 9.0)
+            found = solve(block, pulse, samples=np.linspace(0.0, 2 * pulse.duration, 4001))
+            assert found.overturned == (found.outcome == "overturned")
+            assert math.isnan(found.peak_rotation) == found.overturned
+            assert np.all(np.diff(found.impacts, prepend=0.0) > 0)
+            step = found.time[1]
+            slope = (found.rotation[2:] - found.rotation[:-2]) / (2 * step)
+            apart = np.abs(found.time[1:-1, None] - [*found.impacts, math.inf]).min(axis=1)
+            aloft = (apart > 2 * step) & (np.abs(found.rotation[1:-1]) > 1e-3) & np.isfinite(slope)
+            np.testing.assert_allclose(slope[aloft], found.velocity[1:-1][aloft], atol=2e-3)
+            if not found.overturned:
+                assert np.max(np.abs(found.rotation)) <= found.peak_rotation * (1 + 1e-9)
+                forced = np.count_nonzero(found.impacts <= pulse.duration)
+                assert found.number_of_impacts == forced
+
+
+@EVERY
+def test_cut_motion_is_judged_by_what_is_left_of_it(solve, block):
+    """A one-sine that ends at half its duration is a half-sine, a harmonic after one cycle one."""
+    half, once = th.Pulse("half-sine", 0.5, 9.0), {"duration": SHAKEN.duration, "samples": 50}
+    cut, whole = solve(block, SHAKEN, duration=half.duration), solve(block, half)
+    assert cut.time[-1] == pytest.approx(half.duration, rel=1e-12)
+    assert cut.overturned == whole.overturned
+    assert cut.peak_rotation == pytest.approx(whole.peak_rotation, rel=1e-8)
+    assert cut.peak_rotation > 1.01 * np.max(np.abs(cut.rotation))  # reached after the history
+    one, other = (solve(block, th.Pulse(s, 0.5, 9.0), **once) for s in ("harmonic", "one-sine"))
+    np.testing.assert_allclose(one.rotation, other.rotation, rtol=0, atol=1e-9)
+    assert one.peak_rotation == pytest.approx(other.peak_rotation, rel=1e-8)
+
+
+@BOTH
+def test_last_sample_of_a_history_is_known_and_one_at_rest_stays(block):
+    for k in range(40):
+        slow = replace(block, restitution=1.0 - 0.001 * (k % 2), frequency_parameter=1 + 0.1 * k)
+        found = th.simulate(slow, rotation=0.5 * slow.slenderness, samples=3)
+        assert (found.outcome, found.time[-1]) == ("rocking", found.impacts[-1])
+        assert np.isfinite([found.rotation, found.velocity]).all()
+    lossy = block.with_restitution(0.3)
+    found = th.simulate(lossy, SHAKEN, samples=np.linspace(0.0, 60.0, 601), duration=60.0)
+    assert found.outcome == "rests"
+    assert not np.any([found.rotation[-100:], found.velocity[-100:]])
+
+
+@EVERY
+def test_record_of_a_sine_is_answered_like_the_sine(solve, block):
+    step = SHAKEN.duration / 400
+    record = th.Record(step, SHAKEN.excitation(step * np.arange(401)))
+    close = pytest.approx(solve(block, SHAKEN, samples=2).peak_rotation, rel=2e-3)
+    assert solve(block, record, samples=2).peak_rotation == close
+
+
+# ---------------------------------------------------------------------------- rest
+
+
+@BOTH
+def test_block_rests_at_the_first_impact_whose_bounce_is_negligible(block):
+    """An impact counts if it ends a rotation of 1e-6 α; each bounce is 0.81 times as high."""
+    ends = [reference.simulate(block, velocity=small_speed(block, x), samples=2)
+            for x in (0.9e-6, 1.1e-6, 1.5e-5)]  # fmt: skip
+    assert [len(end.impacts) for end in ends] == [0, 1, 13]
+    assert ends[2].outcome == "rests"
+
+
+@pytest.mark.usefixtures("count_all")
+@BOTH
+def test_bounces_are_followed_while_the_ground_may_lift_the_block_before_they_die(block):
+    # Negligible bounces under way, and the ground about to exceed the threshold: no rest. The
+    # same block on ground that stays below half of what is left rests at its first impact.
+    speed, step = small_speed(block, 0.9e-6), 2e-3
+    first = 2 * quarter_period(block, 0.9e-6 * block.slenderness)[0]
+    assert first < 1.1 * step
+    samples = 1.5 * block.uplift_acceleration * np.array([0.0, 0.0, 0.0, 1.0, 1.0, 0.0])
+    strong = th.Record(step, samples)
+    shaken, still = (
+        reference.simulate(block, strong.scaled(share), velocity=speed, samples=2)
+        for share in (1.0, 0.2)
+    )
+    assert (still.outcome, len(still.impacts)) == ("rests", 1)
+    # on resting ground each bounce lasts 0.9 times as long as the one before it
+    expected = first * np.cumsum([1.0, 0.9, 0.81])
+    np.testing.assert_allclose(shaken.impacts[shaken.impacts < 2 * step], expected, rtol=1e-5)
+
+
+@pytest.mark.usefixtures("count_all")
+def test_threshold_far_ahead_lets_the_block_rest_until_it_is_reached():
+    late = th.Record(0.5, np.array([0.0, 0.0, 2.0, 0.0]) * LEVEL)
+    alone, bounced = (
+        reference.simulate(BLOCK, late, velocity=speed, samples=np.linspace(0.0, 1.5, 31))
+        for speed in (0.0, small_speed(BLOCK, 0.9e-6))
+    )
+    assert bounced.impacts[0] < 0.5
+    assert np.any(alone.rotation != 0.0)
+    # to the last bit the motion of a block that had been at rest
+    np.testing.assert_array_equal(bounced.rotation[1:], alone.rotation[1:])
+
+
+def test_ground_that_is_over_does_not_keep_the_block_from_resting():
+    # Had the rise at the start gone on, it would be beyond the threshold when the bounces die.
+    block, nudge = BLOCK.with_restitution(0.3), th.Record(0.05, [0.0, 0.05, *np.zeros(30)])
+    shaken, free = (reference.simulate(block, it, rotation=0.1, samples=2) for it in (nudge, None))
+    assert shaken.outcome == free.outcome == "rests"
+    assert 0.3 < shaken.impacts[0] < nudge.duration - 0.5
+    assert len(shaken.impacts) == len(free.impacts)
+
+
+@pytest.mark.usefixtures("count_all")
+def test_block_that_lands_on_ground_beyond_the_threshold_is_not_put_to_rest():
+    pulse = th.Pulse("constant", 1.2 * LEVEL, math.pi / 0.3)  # rocks it to θ < 0
+    found = reference.simulate(BLOCK, pulse, rotation=1e-9, samples=np.linspace(0.0, 0.3, 31))
+    assert found.number_of_impacts == 1
+    assert np.all(found.rotation[1:] < 0.0)
+
+
+# ---------------------------------------------------------------------------- without loss
+
+
+@BY_TWO
+def test_lossless_block_is_never_said_to_rest(solve):
+    for peak in (1e-8, 1e-3):
+        found = solve(LOSSLESS, velocity=small_speed(BLOCK, peak), duration=5.0, samples=2)
+        assert found.outcome == "rocking"
+        assert np.abs(found.rotation).max() <= peak * BLOCK.slenderness
+    assert solve(LOSSLESS, th.Pulse("one-sine", 0.2, 5.0)).outcome == "no uplift"
+    low = solve(LOSSLESS, rotation=0.25e-6 * (1 - 1e-9), samples=2)  # too low to count
+    assert (low.outcome, len(low.impacts) <= 1) == ("rocking", True)
+
+
+@pytest.mark.parametrize("shape", ["one-sine", "ricker-symmetric"])
+@pytest.mark.parametrize("strength", [1.1, 6.0])
+@BOTH
+def test_lossless_block_rocks_for_ever_or_overturns_by_both_solvers(block, shape, strength):
+    lossless = block.with_restitution(1.0)
+    pulse = th.Pulse(shape, strength * block.uplift_acceleration, 10.7)
+    ends = [judged(lossless, pulse) for judged in (th.judge, reference.judge)]
+    assert {end.overturned for end in ends} == {strength == 6.0}
+    for end, history in zip(ends, [f(lossless, pulse, samples=50) for f in TWO], strict=True):
+        assert history.outcome == ("overturned" if end.overturned else "rocking")
+        if not end.overturned:
+            assert len(history.impacts) == history.number_of_impacts + trace.LAST_IMPACT
+            assert end.peak == pytest.approx(ends[0].peak, rel=1e-6)
+
+
+def test_lossless_bounces_that_the_ground_cannot_raise_are_not_followed(monkeypatch):
+    # Bounces of 1e-9 α through five minutes of quiet. A sample above the level behind it may lift
+    # the block from any of them, so that all have to be followed.
+    monkeypatch.setattr("topheavy.motion.MOST_IMPACTS", 300)
+    lossless = th.RockingBlock(1.0, 0.2, 1.0)
+    quiet = 1.0001 * math.tan(0.2) * np.array([0.0, 1.0, *np.zeros(300)])
+    history = reference.simulate(lossless, th.Record(1.0, quiet), samples=2)
+    assert history.outcome == "rocking"
+    assert history.peak_rotation < 1e-8 * 0.2
+    assert not reference.judge(lossless, th.Record(1.0, quiet)).overturned
+    beyond = th.Record(1.0, np.append(quiet, 1.5 * math.tan(0.2)))
+    with pytest.raises(ArithmeticError, match=r"300 impacts by .* bounces on; a shorter dur"):
+        reference.judge(lossless, beyond)
+
+
+def test_history_without_loss_ends_after_a_thousand_impacts_behind_the_forcing():
+    linear = LOSSLESS.linear()
+    free = closed(linear, rotation=0.1, samples=2)
+    assert MOST_FREE_IMPACTS == len(free.impacts) == 1000
+    assert (free.outcome, free.number_of_impacts) == ("rocking", 0)
+    assert free.impacts[-1] == pytest.approx(1999 * quarter_period(linear, 0.1)[0], rel=1e-9)
+    assert free.time[-1] == free.impacts[-1]
+    shaken = closed(linear, th.Pulse("one-sine", 0.4, 9.0), rotation=0.02, samples=2)
+    assert len(shaken.impacts) == 1000 + shaken.number_of_impacts > 1000
+
+
+# ---------------------------------------------------------------------------- launch
+
+
+class Hover:
+    """A flight that stays up, and keeps its samples; it lands at the end of a leg, if told."""
+
+    def __init__(self, lands=0):
+        self.legs, self.lands = [], lands
+
+    def __call__(self, block, segment, stop, motion, possible):
+        self.legs.append((motion.time, stop, motion.side, possible))
+        motion.time, motion.rotation = stop, 0.1
+        if len(self.legs) == self.lands:
+            motion.rotation, motion.rate = 0.0, -1.0
+            return Event.IMPACT
+        return None
+
+
+@SIDES
+@pytest.mark.parametrize("ratio", [1.001, 1.3, 4.0])
+def test_no_impact_is_looked_for_while_the_push_that_lifted_the_block_goes_on(side, ratio):
+    hover = Hover()
+    force(BLOCK, th.Pulse("one-sine", side * ratio * LEVEL, 3.0), start(BLOCK, 0.0, 0.0), hover)
+    lifted = math.asin(1 / ratio) / 3.0
+    released = math.pi / 3.0 - lifted
+    assert hover.legs[0][0] == pytest.approx(lifted, rel=1e-12)
+    for begin, stop, stands, possible in hover.legs:
+        assert (stands, stop > begin) == (-side, True)
+        assert possible == (begin > lifted + 0.9 * (released - lifted))
+    assert any(stop == pytest.approx(released, rel=1e-12) for _, stop, _, _ in hover.legs)
+    thrown = Hover()  # may meet the ground from the start
+    force(BLOCK, th.Pulse("one-sine", -0.9, 3.0), start(BLOCK, 0.01, 0.0), thrown)
+    assert all(possible for *_, possible in thrown.legs)
+
+
+@pytest.mark.usefixtures("count_all")
+def test_strong_ground_lifts_again_after_an_impact_that_stops_the_block():
+    lands, motion = Hover(lands=3), start(BLOCK, 0.0, 0.0)
+    force(BLOCK.with_restitution(0.0), th.Pulse("one-sine", 4 * 0.2553, 3.0), motion, lands)
+    sides = [side for _, _, side, _ in lands.legs]
+    assert (sides[0], sides[-1]) == (-1, 1)  # lifted anew, by the second half of the sine
+    assert motion.impacts == [lands.legs[2][1]]
+
+
+# ---------------------------------------------------------------------------- ends
+
+
+@BOTH
+@SIDES
+def test_history_of_a_block_poised_at_its_slenderness_ends(block, side):
+    found = reference.simulate(block, rotation=side * block.slenderness, samples=11)
+    assert (found.outcome, found.peak_rotation) == ("rocking", block.slenderness)
+    assert math.isfinite(found.time[-1])
+    np.testing.assert_array_equal(found.rotation, side * block.slenderness)
+    speed = block.frequency_parameter * math.sqrt(2 * barrier(block))
+    fallen = reference.simulate(block, velocity=side * 1.01 * speed, samples=11)
+    assert fallen.outcome == "overturned"
+    assert fallen.rotation[-1] == pytest.approx(side * math.pi / 2, rel=1e-9)
+
+
+def test_linear_block_has_fallen_only_where_no_ground_of_this_motion_brings_it_back():
+    """Beyond α + max|ü_g|/g nothing does; that may lie beyond π/2."""
+    block = th.RockingBlock(1.0, 0.25, 0.3, linearised=True)
+    # a push of 3 g for so long gives it more than the barrier, and not too much
+    pulse = th.Pulse("constant", 3.0, math.pi / 0.77)
+    found = reference.simulate(block, pulse, rotation=1.8, samples=np.linspace(0.0, 1.7, 18))
+    assert (found.rotation[0], found.peak_rotation, found.overturned) == (1.8, 1.8, False)
+    for push in (0.5, 4.0):
+        pulse, times = th.Pulse("constant", -push, math.pi / 5.0), np.linspace(0.0, 5.0, 5001)
+        found = reference.simulate(BLOCK.linear(), pulse, samples=times)
+        assert found.overturned
+        last = found.rotation[np.isfinite(found.rotation)][-1]
+        assert last == pytest.approx(max(math.pi / 2, 0.25 + push), rel=1e-2)
+
+
+@BY_TWO
+@SIDES
+def test_smallest_speed_that_a_number_can_have_is_rest(solve, side):
+    found = solve(th.RockingBlock(1.0, 0.25, 0.9), velocity=side * 5e-324, duration=0.5, samples=3)
+    assert found.outcome in ("no uplift", "rests")
+    assert not found.rotation.any()
+
+
+# ---------------------------------------------------------------------------- at the last bit
+
+SLOW = th.RockingBlock(2.14, 0.25, 0.9)
+
+
+def test_poised_block_that_was_judged_overturned_does_not_bounce():
+    """Its energy is the barrier's plus 1e-16; integrated, it falls back."""
+    history = th.simulate(SLOW, th.Pulse("one-sine", 2.223221510648727, 15.7))
+    assert history.outcome == "overturned"
+    assert len(history.impacts) == history.number_of_impacts == 1
+    assert history.rotation[-1] == pytest.approx(0.25, rel=1e-3)
+
+
+def boundary(judged, block, low, high):
+    """Two neighbouring amplitudes of a one-sine, the first survived and the second not."""
+    while low < (middle := 0.5 * (low + high)) < high:
+        fell = judged(block, th.Pulse("one-sine", middle, 15.7)).overturned
+        low, high = (low, middle) if fell else (middle, high)
+    return low, high
+
+
+@pytest.mark.parametrize("block", [SLOW, SLOW.linear()], ids=["exact", "linear"])
+@BY_TWO
+def test_history_at_the_last_bit_is_of_one_piece(block, solve):
+    """Poised at α, no survivor goes on outward and no block that overturns comes back."""
+    judged = th.judge if solve is th.simulate else reference.judge
+    for amplitude in boundary(judged, block, 2.0, 4.0):
+        history = solve(block, th.Pulse("one-sine", amplitude, 15.7), samples=400)
+        rotation = np.abs(history.rotation[np.isfinite(history.rotation)])
+        assert history.time[-1] < 0.7 + trace.LONGEST_FLIGHT / 2.14 * 1.1 + 40.0
+        if history.overturned:
+            assert rotation[-1] > 0.99 * 0.25
+        else:
+            assert rotation.max() < 1.01 * max(0.25, history.peak_rotation)
+
+
+def test_survivor_that_is_integrated_outward_ends_where_it_is_poised():
+    """By rounding alone the exact block at rest at α leaves it, on either side."""
+    for alpha in (0.1, 0.25, 0.3, 0.4):
+        for rotation in (alpha, math.nextafter(alpha, 0.0), math.nextafter(alpha, 1.0)):
+            history = th.simulate(th.RockingBlock(1.0, alpha, 0.9), rotation=rotation)
+            last = abs(history.rotation[np.isfinite(history.rotation)][-1])
+            assert history.overturned == (rotation > alpha)
+            assert last > 0.99 * alpha if history.overturned else last < 1.01 * alpha
+
+
+def test_part_of_the_boundaries_agrees():
+    """The whole is benchmarks/boundaries.py: a hundred blocks, every pulse, all records."""
+    found = survey(2)
+    assert (found.pulses >= 20, found.records >= 4, found.wrong) == (True, True, [])
+    assert found.decided > 8 * found.pulses
+
+
+def test_impact_right_after_the_start_is_found():
+    # The first sample exceeds the level by its last digits: uplift and impact within 1e-15 s.
+    block = th.RockingBlock(4.2, 0.25, 0.9, linearised=True)
+    record = th.Record(1.0, 0.25 * np.array([-1 - 1e-15, 1 + 1e-15, -1.0, 1.2, 0.0]))
+    ends = [judged(block, record) for judged in (th.judge, reference.judge)]
+    assert {end.overturned for end in ends} == {False}
+    assert ends[0].peak == pytest.approx(ends[1].peak, rel=1e-6)
+
+
+# ---------------------------------------------------------------------------- bounds
+
+
+@pytest.mark.parametrize(
+    ("bound", "enough", "few", "says"),
+    [
+        ("linear._MOST_MARCHES", 1000, 2, "2 marches.*shorter duration"),
+        ("motion.MOST_IMPACTS", 500, 3, "3 impacts.*shorter duration"),
+        ("reference.MOST_STEPS", 500, 1, "1 steps.*larger tolerance"),
+    ],
+)
+def test_marches_impacts_and_steps_are_bounded(monkeypatch, bound, enough, few, says):
+    block, solve = (SLOW.linear(), closed) if "linear" in bound else (SLOW, reference.simulate)
+    for amplitude in (*boundary(th.judge, block, 2.0, 4.0), 1.0, 9.0):
+        pulse = th.Pulse("one-sine", amplitude, 15.7)
+        monkeypatch.setattr(f"topheavy.{bound}", enough)
+        solve(block, pulse, samples=2)
+    monkeypatch.setattr(f"topheavy.{bound}", few)
+    with pytest.raises(ArithmeticError, match=rf"RockingBlock\(.*{says}"):
+        solve(block, pulse.scaled(1.0 / 9.0), samples=2)
+
+
+def test_history_with_too_many_impacts_is_named():
+    lossless = th.RockingBlock(1.0, 0.2, 1.0)
+    case = r"RockingBlock\(.* under no excitation: more than 100000 impacts .* shorter duration"
+    with pytest.raises(ArithmeticError, match=case):
+        th.simulate(lossless, rotation=1e-5, duration=1e6, samples=2)
+    # A nudge and a long quiet: without loss, bounces of 1e-4 s each go on through all of it.
+    nudge = th.Record(1.0, 1.0001 * math.tan(0.2) * np.array([0.0, 1.0, *np.zeros(300)]), "nudge")
+    case = r"(?s)200000 steps.*record.*0\.2 rad, restitution 1,.*bounces too often"
+    with pytest.raises(ArithmeticError, match=case):
+        th.judge(lossless, nudge)

@@ -1,0 +1,297 @@
+"""Solvers that share no code answer alike, on blocks and motions that nobody chose."""
+
+import math
+from dataclasses import astuple, replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import topheavy as th
+from tests.cases import BLOCK, RECORDS
+from topheavy import reference
+from topheavy.checks import LARGEST_ACCELERATION
+from topheavy.free_rocking import barrier, energy
+from topheavy.linear import simulate_linear_exact as closed
+from topheavy.shapes import ELEMENTARY, ENDING
+
+few = settings(max_examples=15, deadline=None, derandomize=True, database=None)
+many = settings(few, max_examples=120)
+
+
+@st.composite
+def shaken(draw, records=True):
+    """A block; and a pulse that lifts it, or a short record that may lift it."""
+    block = th.RockingBlock(
+        draw(st.floats(0.5, 5.0)),
+        math.radians(draw(st.floats(3.0, 25.0))),
+        draw(st.floats(0.3, 0.97)),
+        linearised=draw(st.booleans()),
+    )
+    p, level = block.frequency_parameter, block.uplift_acceleration
+    if records and draw(st.booleans()):
+        samples = np.array(draw(st.lists(st.floats(-1.0, 1.0), min_size=2, max_size=25)))
+        strength, step = draw(st.floats(0.5, 6.0)), draw(st.floats(0.01, 0.3))
+        return block, th.Record(step / p, strength * level * samples, unit="g")
+    strength = draw(st.floats(1.02, 5.0)) * draw(st.sampled_from([-1.0, 1.0]))
+    ratio = draw(st.floats(2.0, 10.0))
+    return block, th.Pulse(draw(st.sampled_from(ENDING)), strength * level, ratio * p)
+
+
+def faster(factor, block, pulse):
+    fast = replace(block, frequency_parameter=factor * block.frequency_parameter)
+    return fast, replace(pulse, angular_frequency=factor * pulse.angular_frequency)
+
+
+# ---------------------------------------------------------------------------- what always holds
+
+
+@settings(few, max_examples=30)
+@given(shaken())
+def test_mirrored_motion_mirrors_the_response_and_a_call_again_gives_the_same_bits(case):
+    block, motion = case
+    times = np.linspace(0.0, motion.duration, 60)
+    right, left, again = (
+        th.simulate(block, motion.scaled(sign), samples=times) for sign in (1.0, -1.0, 1.0)
+    )
+    for name in ("time", "rotation", "velocity", "impacts", "peak_rotation", "number_of_impacts"):
+        found, side = getattr(right, name), -1.0 if name in ("rotation", "velocity") else 1.0
+        np.testing.assert_array_equal(getattr(again, name), found)
+        np.testing.assert_array_equal(side * getattr(left, name), found)
+    assert left.outcome == right.outcome == again.outcome
+    if not right.overturned:
+        assert np.max(np.abs(right.rotation)) <= right.peak_rotation * (1 + 1e-9)
+
+
+@few
+@given(shaken(records=False), st.sampled_from([0.25, 0.5, 4.0]), st.floats(0.3, 3.0))
+def test_factor_on_both_frequencies_scales_time_alone(case, exact, factor):
+    """A power of two changes no bit: p is in none of the kernel's formulas, time is p t."""
+    plain, same, other = (th.judge(*faster(by, *case)) for by in (1.0, exact, factor))
+    np.testing.assert_equal(astuple(same), astuple(plain))
+    assert other.overturned == plain.overturned
+    np.testing.assert_allclose(other.peak, plain.peak, rtol=0, atol=1e-6 * case[0].slenderness)
+
+
+@few
+@given(
+    *(st.floats(3.0, 25.0), st.floats(0.5, 20.0)),
+    st.one_of(st.floats(0.0, 20.0), st.just(math.inf)),
+    *(st.sampled_from(ENDING), st.floats(1.02, 5.0), st.floats(2.0, 10.0), st.booleans()),
+)
+def test_frame_is_the_column_of_its_equivalent_size(
+    degrees, size, mass_ratio, shape, strength, ratio, linearised
+):
+    """The paper's claim, to 1e-12 α where a change of 1e-9 in the amplitude decides nothing."""
+    alpha = math.radians(degrees)
+    sides = np.array([math.sin(alpha), math.cos(alpha)])
+    frame = th.RockingFrame(th.Column(*size * sides), mass_ratio)
+    twin = th.Column(*frame.equivalent_size * sides).block(restitution=frame.restitution)
+    first, second = (one.linear() if linearised else one for one in (frame.block(), twin))
+    unit = th.Pulse(shape, strength * first.uplift_acceleration, ratio * first.frequency_parameter)
+    ends = [th.judge(first, unit.scaled(x)) for x in (1 - 1e-9, 1.0, 1 + 1e-9)]
+    apart = [(end.overturned, end.impacts) for end in ends]
+    if apart[0] == apart[1] == apart[2]:
+        end = th.judge(second, unit)
+        assert (end.overturned, end.impacts) == apart[1]
+        spread = 0.0 if end.overturned else abs(ends[2].peak - ends[0].peak)
+        # rounding differs by 1e-16 of amplitude, ω/p and α; 1e-4 of what 1e-9 does is 1e-13
+        close = 1e-12 * alpha + 1e-4 * spread
+        np.testing.assert_allclose(end.peak, ends[1].peak, rtol=0, atol=close)
+
+
+@few
+@given(shaken(records=False))
+def test_energy_never_grows_once_the_ground_rests_and_falls_at_impacts_alone(case):
+    block, pulse = case
+    times = pulse.duration + np.linspace(1e-6, 12.0, 400) / block.frequency_parameter
+    found = th.simulate(block, pulse, samples=times)
+    if found.overturned:
+        return
+    pairs = zip(np.abs(found.rotation), found.velocity, strict=True)
+    height = np.array([energy(block, *pair) for pair in pairs])
+    top = max(height.max(), 1e-9 * barrier(block))
+    assert np.all(np.diff(height) <= 1e-8 * top)
+    same = np.diff(np.searchsorted(found.impacts, times)) == 0
+    same &= height[:-1] > 1e-4 * top  # lower bounces end in rest between two samples
+    np.testing.assert_allclose(np.diff(height)[same], 0.0, rtol=0, atol=1e-8 * top)
+
+
+# ---------------------------------------------------------------------------- Taylor and SciPy
+
+
+@many
+@given(shaken())
+def test_motion_is_judged_as_by_the_reference(case):
+    """Where 1e-8 of the excitation decides nothing.
+
+    Only impacts that end a rotation near 1e-6 α may be counted by one and not by the other.
+    """
+    block, motion = case
+    less, end, more = (th.judge(block, motion.scaled(x)) for x in (1 - 1e-8, 1.0, 1 + 1e-8))
+    if not less.overturned == end.overturned == more.overturned:
+        return
+    expected = reference.judge(block, motion)
+    assert end.overturned == expected.overturned
+    if less.impacts == end.impacts == more.impacts:
+        assert abs(end.impacts - expected.impacts) <= 1
+    if not end.overturned:
+        spread = abs(more.peak - less.peak)
+        assert abs(end.peak - expected.peak) <= 2e-8 * block.slenderness + spread
+
+
+@few
+@given(shaken())
+def test_history_is_that_of_the_reference(case):
+    block, motion = case
+    times = np.linspace(0.0, 1.5 * motion.duration, 100)
+    less, kernel, more = (
+        th.simulate(block, motion.scaled(1 + x), samples=times) for x in (-1e-8, 0.0, 1e-8)
+    )
+    found = reference.simulate(block, motion, samples=times)
+    assert kernel.outcome == found.outcome
+    known = np.isfinite(sum(one.rotation for one in (less, kernel, more, found)))
+    assert np.count_nonzero(known) > 5
+    apart, decided = np.abs(kernel.rotation - found.rotation), np.abs(more.rotation - less.rotation)
+    # Either route may take the block for at rest before its last bounce, which is below 1e-6 α.
+    assert np.all(apart[known] <= 1e-6 * block.slenderness + 2 * decided[known])
+
+
+# ---------------------------------------------------------------------------- the closed form
+
+
+def random_cases(number):
+    """Linear blocks, pulses and starts."""
+    random = np.random.default_rng(1963)
+    for index in range(number):
+        p, alpha = random.uniform(0.5, 4.0), random.uniform(0.05, 0.4)
+        block = th.RockingBlock(p, alpha, random.uniform(0.6, 0.98), linearised=True)
+        strength = alpha * random.uniform(1.02, 4.0) * random.choice([-1, 1])
+        pulse = th.Pulse(ELEMENTARY[index % 5], strength, p * random.uniform(2.0, 8.0))
+        start = np.array([0.5, 0.3 * p]) * alpha * random.uniform(-1.0, 1.0, 2) * (index % 3 == 0)
+        duration = random.uniform(1, 3) * 2 * math.pi / pulse.angular_frequency
+        duration = duration if pulse.shape == "harmonic" else pulse.duration
+        yield block, pulse, dict(zip(("rotation", "velocity"), start, strict=True)), duration
+
+
+def train(impacts, p):
+    """How many impacts come before the first train of bounces, whose members count for nothing."""
+    short = np.flatnonzero(np.diff(impacts) < 1e-2 / p)
+    return int(short[0]) + 1 if len(short) else len(impacts)
+
+
+def alike(block, excitation, **options):
+    found, exact = (solve(block, excitation, **options) for solve in (th.simulate, closed))
+    p, alpha = block.frequency_parameter, block.slenderness
+    assert found.overturned == exact.overturned
+    assert (found.outcome == "no uplift") == (exact.outcome == "no uplift")
+    peak = pytest.approx(exact.peak_rotation, rel=0, abs=1e-7 * alpha, nan_ok=True)
+    assert found.peak_rotation == peak
+    number = min(train(found.impacts, p), train(exact.impacts, p))
+    np.testing.assert_allclose(found.impacts[:number], exact.impacts[:number], atol=1e-6 / p)
+    if exact.overturned and number == len(exact.impacts):
+        assert found.number_of_impacts == exact.number_of_impacts
+    return found, exact
+
+
+@pytest.mark.parametrize(
+    ("block", "pulse", "start", "duration"), list(random_cases(40)), ids=[*map(str, range(40))]
+)
+def test_solver_agrees_with_the_closed_form_under_pulses(block, pulse, start, duration):
+    times = np.linspace(0.0, duration, 60)
+    options = {} if pulse.shape != "harmonic" else {"duration": duration}
+    found, exact = alike(block, pulse, **start, **options, samples=times)
+    known = np.isfinite(found.rotation + exact.rotation)
+    p, alpha = block.frequency_parameter, block.slenderness
+    np.testing.assert_allclose(found.rotation[known], exact.rotation[known], atol=1e-6 * alpha)
+    impacts = np.concatenate([exact.impacts, [math.inf]])
+    clear = known & (np.abs(times[:, None] - impacts).min(axis=1) > 1e-3 / p)
+    rates = found.velocity[clear], exact.velocity[clear]
+    np.testing.assert_allclose(*rates, atol=1e-5 * alpha * p)
+
+
+@pytest.mark.parametrize("factor", [1.0, 4.0])
+@pytest.mark.parametrize("gamma", [0.0, 4.0])
+def test_solver_agrees_with_the_closed_form_in_el_centro(gamma, factor):
+    block = th.RockingFrame(th.Column(0.3, 1.5), gamma).block().linear()
+    _, exact = alike(block, th.read_at2(RECORDS / "el_centro_1940_NS.AT2").scaled(factor))
+    assert exact.outcome != "no uplift"
+    assert exact.overturned == (factor > 1)
+
+
+@pytest.mark.parametrize("linearised", [False, True])
+@pytest.mark.parametrize("degrees", [0.1, 14.0, 80.0])
+@pytest.mark.parametrize("ratio", [1e-3, 1e3])
+@pytest.mark.parametrize("strength", [1 + 1e-9, 1.5, 1e3])
+def test_extreme_input_is_answered_alike_by_both_routes(strength, ratio, degrees, linearised):
+    block = th.RockingBlock(2.0, math.radians(degrees), 0.9, linearised)
+    for shape in ("one-sine", "one-cosine", "ricker-symmetric", "ricker-antisymmetric"):
+        pulse = th.Pulse(shape, strength * block.uplift_acceleration, ratio * 2.0)
+        end, whole = th.judge(block, pulse), th.simulate(block, pulse, samples=5)
+        expected = reference.judge(block, pulse)
+        assert (end.overturned, end.impacts) == (whole.overturned, whole.number_of_impacts)
+        assert end.overturned == expected.overturned
+        assert strength < 1.1 or end.overturned == (ratio < 1)
+        for peak in (whole.peak_rotation, expected.peak):
+            assert end.peak == pytest.approx(peak, abs=1e-9 * block.slenderness, nan_ok=True)
+
+
+@pytest.mark.parametrize("shape", th.PULSE_SHAPES)
+def test_amplitude_overflows_beyond_the_largest_alone(shape):
+    for amplitude in (1e160, 1e200, -1e300):
+        with pytest.raises(ValueError, match=r"amplitude is .*e\+.* g; expected at most"):
+            th.Pulse(shape, amplitude, 5.0)
+    pulse, whole = th.Pulse(shape, LARGEST_ACCELERATION, 5.0), shape != "harmonic"
+    for block in (BLOCK, BLOCK.linear()) if whole else ():
+        assert th.judge(block, pulse).overturned
+        assert reference.judge(block, pulse).overturned
+        if block.linearised and shape in ELEMENTARY:
+            assert closed(block, pulse).overturned
+    with pytest.raises(ValueError, match=r"expected at most|forever"):
+        th.overturning_map(BLOCK, shape, [5.0], [0.1, 1e200])
+    if whole:
+        with pytest.raises(ValueError, match="expected at most"):
+            th.overturning_intervals(
+                BLOCK, replace(pulse, amplitude=1.0), (0, 1e200), resolution=1e199
+            )
+
+
+# ---------------------------------------------------------------------------- structures
+
+
+@pytest.mark.parametrize("gamma", [None, 0.0, 0.434, 4.0, math.inf])
+def test_structure_responds_as_its_block_and_as_the_larger_column(gamma):
+    column, pulse, times = (
+        th.Column(0.5, 2.0),
+        th.Pulse("one-sine", 0.4, 7.0),
+        np.linspace(0, 2, 300),
+    )
+    structure = column if gamma is None else th.RockingFrame(column, gamma)
+    larger = getattr(structure, "equivalent_size", column.size) / column.size
+    twin = th.Column(0.5 * larger, 2.0 * larger).block(restitution=structure.restitution)
+    found, same, other = (
+        th.simulate(each, pulse, samples=times) for each in (structure, structure.block(), twin)
+    )
+    assert found.peak_rotation > 0
+    for name in ("time", "rotation", "velocity", "impacts", "peak_rotation"):
+        np.testing.assert_array_equal(getattr(found, name), getattr(same, name))
+    np.testing.assert_allclose(found.rotation, other.rotation, rtol=0, atol=1e-10)
+
+
+def test_heaviest_cap_is_the_limit_of_heavy_caps():
+    column, pulse = th.Column(0.5, 2.0), th.Pulse("one-sine", 0.6, 7.0)
+    less, heavy, limit = (th.judge(th.RockingFrame(column, g), pulse) for g in (1e3, 1e9, math.inf))
+    assert (heavy.overturned, heavy.impacts) == (limit.overturned, limit.impacts)
+    assert heavy.peak == pytest.approx(limit.peak, rel=1e-8)
+    assert heavy.peak != less.peak
+
+
+def test_structure_that_cannot_rock_is_refused_unless_it_has_a_restitution_of_its_own():
+    stocky, pulse = th.Column(2.0, 1.0), th.Pulse("one-sine", 1.0, 9.0)
+    for structure in (stocky, th.RockingFrame(stocky, 1.0)):
+        with pytest.raises(ValueError, match=r"1\.107|63\.4"):
+            th.simulate(structure, pulse)
+        assert th.simulate(structure.block(restitution=0.5), pulse).outcome == "no uplift"
+        end = th.judge(structure.block(restitution=0.3), pulse.scaled(2.4))
+        assert 0 < end.peak < stocky.slenderness

@@ -1,0 +1,315 @@
+"""What every solver of the rocking block has to do: printed numbers, closed forms, uplift, rest."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+
+import topheavy as th
+from tests.cases import BLOCK, BY_TWO, CLOSE, EVERY, NAMES, ON_LINEAR, SIDES
+from topheavy import reference
+from topheavy.free_rocking import barrier, energy, potential, quarter_period, turning_rotation
+from topheavy.shapes import ELEMENTARY_ENDING
+
+LINEAR = th.RockingBlock(1.0, 0.2, 0.9, linearised=True)
+
+
+def speed(block, level, tilt=0.0):
+    """The rate at a tilt of a block that has this energy."""
+    return block.frequency_parameter * math.sqrt(2 * (level - potential(block, tilt)))
+
+
+# ---------------------------------------------------------------------------- printed numbers
+
+ALONG = th.RockingBlock(2.14, 0.25, 0.9, linearised=True)
+PEER = th.RockingBlock(2.0, math.radians(15.0), 0.89952)
+SINE = th.Pulse("one-sine", 0.2, 5.0)  # of amplitude αg
+PRINTED = {  # block, pulse, printed factor on it, tolerance, overturns above it, impacts before
+    "Zhang & Makris 2001, lowest": (LINEAR, SINE, 3.0186, 1e-3, True, None),
+    "Zhang & Makris 2001, one impact": (LINEAR, SINE, 3.06, 2e-2, True, 1),
+    "Zhang & Makris 2001, with impact ends": (LINEAR, SINE, 6.3181, 1e-3, False, 1),
+    "Zhang & Makris 2001, without impact": (LINEAR, SINE, 7.16813, 1e-5, True, 0),
+    "Zhang & Makris 2001, p = 2.14": (ALONG, th.Pulse("one-sine", 1.0, 15.7), 3.230, 1e-3, True, 0),
+    "PEER 2001/07": (PEER, th.Pulse("one-cosine", 1.0, math.pi), 0.315034, 1e-5, True, None),
+    "Makris & Roussos 2000": (
+        *(th.Column(0.2, 0.6).block().linear(), th.Pulse("half-sine", 1.0, 2 * math.pi)),
+        *(0.554586, 1e-4, True, None),
+    ),
+    "Zhou, Du & Han 2019": (
+        *(th.RockingFrame(th.Column(0.75, 3.5), 13.23).block(),),
+        *(th.Pulse("ricker-symmetric", 1.0, 2 * math.pi / 3.14), 0.3134, 2e-4, True, None),
+    ),
+}
+
+
+@pytest.mark.parametrize("row", PRINTED.values(), ids=PRINTED)
+def test_overturning_begins_where_it_was_printed(row):
+    """By every solver; and the kernel's own boundary is SciPy's to 1e-7."""
+    block, unit, value, tolerance, above, impacts = row
+    for solve in NAMES if block.linearised else (th.simulate, reference.simulate):
+        safe, over = (
+            solve(block, unit.scaled(value * (1 + off)), samples=2)
+            for off in ((-tolerance, tolerance) if above else (tolerance, -tolerance))
+        )
+        assert (safe.overturned, over.overturned) == (False, True), solve
+        assert impacts in (None, over.number_of_impacts)
+    wide = (value * (1 - 2 * tolerance), value * (1 + 2 * tolerance))
+    found = th.overturning_intervals(block, unit, wide, resolution=tolerance)
+    edge = found[0].lower if above else found[-1].upper
+    assert edge[0] == pytest.approx(value, rel=max(tolerance, 1e-3 * (impacts == 1)) * 1.01)
+    ends = [
+        reference.judge(block, unit.scaled(factor))
+        for factor in (edge[0] * (1 - 1e-7), edge[1] * (1 + 1e-7))
+    ]
+    assert [end.overturned for end in ends] == [not above, above]
+    assert impacts in (None, ends[int(above)].impacts)
+
+
+@ON_LINEAR
+@pytest.mark.parametrize("ratio", [3.0, 5.0, 15.7 / 2.14])
+def test_overturning_without_impact_begins_at_the_root_of_its_condition(solve, ratio):
+    def condition(psi):  # (ω/p) sin ψ − cos ψ = −exp(−(p/ω)(2π − ψ)), sin ψ = αg/a
+        return ratio * math.sin(psi) - math.cos(psi) + math.exp((psi - 2 * math.pi) / ratio)
+
+    critical = 1 / math.sin(brentq(condition, 1e-6, 1.0, xtol=1e-15))
+    margin = max(1e-9, 10 * CLOSE[solve])
+    for factor, overturned in ((1 - margin, False), (1 + margin, True)):
+        found = solve(LINEAR, th.Pulse("one-sine", 0.2 * critical * factor, ratio), samples=2)
+        assert found.overturned is overturned
+    assert found.number_of_impacts == 0
+
+
+@ON_LINEAR
+@pytest.mark.parametrize("p", [0.5, 2.0])
+@pytest.mark.parametrize("push", [1.2, 1.5, 3.0])  # in units of αg
+def test_constant_push_overturns_after_the_logarithm_of_housner(solve, p, push):
+    block, margin = replace(LINEAR, frequency_parameter=p), max(1e-9, 100 * CLOSE[solve])
+    for factor, overturned in ((1 - margin, False), (1 + margin, True)):
+        lasting = math.log(push / (push - 1)) * factor / p
+        found = solve(block, th.Pulse("constant", 0.2 * push, math.pi / lasting), samples=2)
+        assert found.overturned is overturned
+
+
+# ---------------------------------------------------------------------------- closed forms
+
+
+@EVERY
+@pytest.mark.parametrize(("fraction", "exact", "linear"), [
+    (0.5, 1.319376, 1.316958), (0.9, 2.994637, 2.993223),
+])  # fmt: skip
+def test_free_quarter_period_is_that_of_housner(solve, block, fraction, exact, linear):
+    found = solve(block, rotation=fraction * 0.25, samples=2).impacts[0]
+    assert 2.0 * found == pytest.approx(linear if block.linearised else exact, abs=1e-6)
+    assert found == pytest.approx(quarter_period(block, fraction * 0.25)[0], abs=CLOSE[solve])
+
+
+@ON_LINEAR
+def test_peaks_of_free_rocking_decay_as_housner_found(solve):
+    block = th.RockingBlock(2.0, 0.25, math.sqrt(0.7), linearised=True)
+    impacts = solve(block, rotation=0.125, samples=2).impacts
+    found = solve(block, rotation=0.125, samples=(impacts[:5] + impacts[1:6]) / 2).rotation / 0.25
+    sides = np.array([-1, 1, -1, 1, -1])
+    expected = sides * (1 - np.sqrt(1 - 0.7 ** np.arange(1, 6) * 0.75))
+    np.testing.assert_allclose(found, expected, atol=10 * CLOSE[solve])
+    printed = [0.310798, 0.204701, 0.065148]
+    np.testing.assert_allclose((sides * found)[[0, 1, 4]], printed, atol=1e-5)
+
+
+def lobe(tau):
+    """Under a one-sine of 0.5 g and ω = 5 from uplift on, by hand: p = 1, α = 0.2."""
+    psi, gain = math.asin(0.2 / 0.5), 0.5 / 26
+    forced, begun, slope = gain * np.sin(5 * tau + psi) - 0.2, gain * 0.4 - 0.2, 5 * math.cos(psi)
+    return psi / 5, forced - begun * np.cosh(tau) - gain * slope * np.sinh(tau)
+
+
+@ON_LINEAR
+@pytest.mark.parametrize(
+    ("motion", "until", "expected"),
+    [
+        ({"rotation": 0.1}, 1.3, lambda tau: (0.0, 0.2 - 0.1 * np.cosh(tau))),
+        ({"excitation": th.Pulse("one-sine", 0.5, 5.0)}, 0.6, lobe),
+        # a ramp of 0.5 g/s lifts at 0.4 s
+        ({"excitation": th.Record(1.0, [0, 0.5])}, 0.6, lambda t: (0.4, 0.5 * (t - np.sinh(t)))),
+    ],
+    ids=["free", "sine", "ramp"],
+)
+def test_first_flight_is_that_of_hyperbolic_functions(solve, motion, until, expected):
+    tau = np.linspace(0.0, until, 40)
+    begin, rotation = expected(tau)
+    found = solve(LINEAR, **motion, samples=np.concatenate([[-0.0], begin + tau])[begin == 0 :])
+    np.testing.assert_allclose(found.rotation[-40:], rotation, rtol=0, atol=CLOSE[solve])
+
+
+@EVERY
+def test_bounces_die_in_a_time_that_is_a_sum_of_quarter_periods(solve, block):
+    block, start = block.with_restitution(0.5), 0.6 * block.slenderness
+    levels = potential(block, start) * 0.25 ** np.arange(6)
+    quarters = [quarter_period(block, turning_rotation(block, level))[0] for level in levels]
+    found = solve(block, rotation=start, samples=2)
+    expected = 2 * np.cumsum(quarters) - quarters[0]
+    np.testing.assert_allclose(found.impacts[:6], expected, atol=1e-6)
+    assert (found.outcome, found.peak_rotation) == ("rests", pytest.approx(start, rel=1e-12))
+    assert len(found.impacts) < 40
+
+
+@EVERY
+@pytest.mark.parametrize("restitution", [0.5, 0.9, 1.0])
+def test_energy_is_kept_between_impacts_and_cut_at_each(solve, block, restitution):
+    block, times = block.with_restitution(restitution), np.linspace(0.0, 6.0, 401)
+    found = solve(block, rotation=0.2, velocity=-0.05, duration=6.0, samples=times)
+    level = [energy(block, abs(x), v) for x, v in zip(found.rotation, found.velocity, strict=True)]
+    passed = np.searchsorted(found.impacts, times)
+    live = (passed < 8) & (np.min(np.abs(times[:, None] - found.impacts), axis=1) > 1e-7)
+    expected = energy(block, 0.2, -0.05) * restitution ** (2 * passed)
+    np.testing.assert_allclose(np.array(level)[live], expected[live], rtol=1e-6, atol=1e-12)
+    assert passed[live].max() >= 2
+
+
+@EVERY
+@SIDES
+def test_barrier_decides_from_every_start(solve, block, side):
+    """Also beyond α, on the way back, and through an impact to the other side."""
+    summit, far = barrier(block), 1.2 * block.slenderness
+    left = summit / block.restitution**2  # is the barrier behind one impact
+    for tilt, rate, impacts in (  # before overturning; None if it survives
+        (0.0, speed(block, summit) * (1 - 1e-5), None),
+        (0.0, speed(block, summit) * (1 + 1e-5), 0),
+        (far, -speed(block, summit, far) * 1.0001, None),
+        (far, -speed(block, summit, far) * 0.9999, 0),
+        (far, 0.0, 0),
+        (far, 0.1, 0),
+        (0.1, -speed(block, 0.999 * left, 0.1), None),
+        (0.1, -speed(block, 1.001 * left, 0.1), 1),
+        (0.0, speed(block, 0.5 * summit), None),
+    ):
+        found = solve(block, rotation=side * tilt, velocity=side * rate, samples=5)
+        assert found.outcome == ("rests" if impacts is None else "overturned"), (tilt, rate)
+        assert [found.rotation[0], found.velocity[0]] == pytest.approx([side * tilt, side * rate])
+        if impacts is not None:
+            assert (found.number_of_impacts, math.isnan(found.peak_rotation)) == (impacts, True)
+            last = found.rotation[np.isfinite(found.rotation)][-1]
+            assert side * (-1) ** impacts * last > tilt
+        elif rate >= 0.0:
+            level = energy(block, tilt, rate)
+            turned = pytest.approx(turning_rotation(block, level), rel=1e-7)
+            assert found.peak_rotation == turned
+        else:
+            assert found.peak_rotation == pytest.approx(max(tilt, found.peak_rotation), rel=1e-9)
+
+
+def test_exact_block_lies_flat_at_a_right_angle_and_nothing_is_known_beyond():
+    for solve in (th.simulate, reference.simulate):
+        found = solve(BLOCK, rotation=0.26, velocity=0.2, samples=np.linspace(0.0, 20.0, 2001))
+        known = np.isfinite(found.rotation)
+        last = np.count_nonzero(known)
+        assert known[:last].all()
+        assert 1.4 < found.rotation[last - 1] <= math.pi / 2
+        assert np.all(np.diff(found.rotation[known]) > 0)
+        assert (len(found.time), found.outcome) == (2001, "overturned")
+    assert th.simulate(BLOCK.linear(), rotation=1.6).outcome == "overturned"
+
+
+# ---------------------------------------------------------------------------- uplift
+
+
+@EVERY
+@SIDES
+@pytest.mark.parametrize("shape", ELEMENTARY_ENDING)
+def test_block_lifts_beyond_its_threshold_alone(solve, block, shape, side):
+    """To the side opposite to that of the ground's acceleration, and only then."""
+    level = side * block.uplift_acceleration
+    for strength in (0.5, 0.999, 1.0, 1.01, 1.5):
+        pulse = th.Pulse(shape, strength * level, 10.0)
+        found = solve(block, pulse, samples=np.linspace(0.0, 0.12, 21))
+        assert (found.outcome == "no uplift") == (strength <= 1.0)
+        assert (found.peak_rotation != 0) == (strength > 1.0)
+        assert strength > 1.0 or not (found.rotation.any() or found.impacts.size)
+        assert strength < 1.5 or np.all(side * found.rotation[:-1] <= 0)
+        assert strength < 1.5 or side * found.rotation[-1] < 0
+    still = solve(block, duration=3.0, samples=4)
+    assert (still.outcome, still.peak_rotation, still.time[-1]) == ("no uplift", 0, 3.0)
+
+
+@BY_TWO
+@pytest.mark.parametrize("shape", ["one-sine", "ricker-symmetric", "ricker-antisymmetric"])
+@pytest.mark.parametrize("ratio", [1.05, 1.5, 2.3, 3.0, 4.0, 20.0])
+def test_block_lifts_when_the_ground_first_exceeds_the_threshold(solve, shape, ratio):
+    """From 2.24 and 3.2 times the threshold on, a side lobe of a wavelet lifts it the other way."""
+    for block in (BLOCK, BLOCK.linear()):
+        pulse = th.Pulse(shape, ratio * block.uplift_acceleration, 12.0)
+        times = np.linspace(0.0, pulse.duration, 20001)
+        ground = pulse.excitation(times)
+        first = np.flatnonzero(np.abs(ground) > block.uplift_acceleration)[0]
+        found = solve(block, pulse, samples=times[first - 2 : first + 21])
+        assert np.flatnonzero(found.rotation)[0] == pytest.approx(2, abs=1)
+        assert np.sign(found.rotation[-1]) == -np.sign(ground[first])
+
+
+@pytest.mark.parametrize("degrees", [2.0, 5.0, 8.0, 14.0, 20.0])
+@pytest.mark.parametrize("ratio", [1.0001, 1.01, 1.1, 1.5, 3.0])
+def test_uplift_is_never_taken_for_an_impact(degrees, ratio):
+    """From uplift until |a| falls below the threshold again the block is only pushed outwards."""
+    block = th.RockingBlock(2.0, math.radians(degrees), 0.93)
+    lift = math.asin(1 / ratio) / 8.0
+    times = np.concatenate([[0.0], np.linspace(lift, math.pi / 8.0 - lift, 40)])
+    pulse = th.Pulse("one-sine", ratio * block.uplift_acceleration, 8.0)
+    found = th.simulate(block, pulse, duration=times[-1], samples=times)
+    assert not np.any(found.impacts <= times[-1])
+    assert np.all(np.diff(found.rotation[1:]) < 0)
+
+
+def twin(peak, second=1.0):
+    """Two triangles of 0.4 s, 10 s apart; the second is `second` times the first."""
+    triangle = np.array([0.0, 0.5, 1.0, 0.5, 0.0])
+    return th.Record(0.1, peak * np.concatenate([triangle, np.zeros(99), second * triangle]))
+
+
+@EVERY
+@pytest.mark.parametrize("restitution", [0.0, 0.3])
+def test_block_lifts_again_after_it_has_come_to_rest(solve, block, restitution):
+    block, times = block.with_restitution(restitution), np.linspace(0, 3, 101)
+    peak, close = 2.0 * block.uplift_acceleration, 1e-7 * block.slenderness
+    for second in (1.0, -1.0):
+        both = solve(block, twin(peak, second), samples=np.append(times, times + 10.4))
+        once, again = both.rotation[:101], both.rotation[101:]
+        np.testing.assert_allclose(again, second * once, atol=close)
+        assert np.abs(once).max() > 1e-3
+        assert not np.any(np.abs(once[-5:]) > 10 * close)
+    if restitution == 0.0:
+        free = solve(block, rotation=0.1, samples=np.linspace(0.0, 9.0, 50))
+        assert (len(both.impacts), len(free.impacts), both.outcome) == (2, 1, "rests")
+        assert not free.rotation[free.time > free.impacts[0] + 0.01].any()
+    weak = solve(block, twin(0.6 * peak, 1.4), samples=2).peak_rotation
+    alone = solve(block, twin(0.84 * peak, 0.0), samples=2).peak_rotation
+    assert weak == pytest.approx(alone, rel=1e-6)
+
+
+@EVERY
+def test_block_without_restitution_lifts_at_once_when_it_lands_on_strong_ground(solve, block):
+    block = block.with_restitution(0.0)
+    pulse = th.Pulse("constant", 3.0 * block.uplift_acceleration, math.pi / 0.6)
+    found = solve(block, pulse, rotation=0.02, duration=0.6, samples=301)
+    assert found.number_of_impacts == 1
+    after = found.time > found.impacts[0] + 1e-3
+    fresh = solve(block, pulse, samples=found.time[after] - found.impacts[0])
+    np.testing.assert_allclose(found.rotation[after], fresh.rotation, atol=1e-8)
+    assert np.all(found.rotation[after] < 0)
+
+
+@EVERY
+@SIDES
+@pytest.mark.parametrize("margin", [1e-3, 1e-5])  # 1e-6 dips by less than 1e-6 α: no impact
+def test_grazing_impacts_are_neither_missed_nor_invented(solve, block, margin, side):
+    """Thrown at the ground under an outward push: it turns, or dips and returns."""
+    push, start = 2.0 * block.uplift_acceleration, 0.2 * block.slenderness
+    lean = block.slenderness - start
+    work = push * (start if block.linearised else math.sin(block.slenderness) - math.sin(lean))
+    critical = block.frequency_parameter * math.sqrt(2 * (work - potential(block, start)))
+    pulse = th.Pulse("constant", -side * push, math.pi / 0.35)
+    for factor, impacts in ((1 - margin, 0), (1 + margin, 2)):
+        thrown = {"rotation": side * start, "velocity": -side * critical * factor}
+        found = solve(block, pulse, **thrown, duration=0.35, samples=2)
+        assert np.count_nonzero(found.impacts <= 0.35) == impacts
+        assert side * found.rotation[-1] > 0
