@@ -13,7 +13,14 @@ SHARED  = the compiled kernel, in $${NUMBA_CACHE_DIR:-$${XDG_CACHE_HOME:-$$HOME/
 
 include src/replication/make/machine.mk
 
-.PHONY: notebooks api audit fuzz benchmark verify-grid cluster-test
+.PHONY: notebooks api audit fuzz benchmark stills verify-grid cluster-test paper words
+
+lint: words
+words: | $(UV)
+	$(DEV) python -m steps.words
+
+paper: | $(UV) ##- begin the replication of another paper: make paper TO=../other (studies/FOLLOW-UP.md)
+	@$(RUN) python -m replication.commands.new_paper "$$TO"
 
 notebooks: | $(UV) ## open the notebooks in JupyterLab: the derivation, and a frame to play with
 	@$(UV) run --locked $(GROUPS) --group notebooks jupyter lab notebooks

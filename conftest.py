@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from replication.tests.conftest import claims, jobs, plant  # noqa: F401
+from tests.replication.conftest import claims, jobs, plant  # noqa: F401
 
 LONGEST_FIRST = (
     "test_widths.py",

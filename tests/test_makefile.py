@@ -14,7 +14,8 @@ ROOT = Path(__file__).resolve().parents[1]
 @pytest.fixture
 def make(tmp_path):
     """Run make with a uv that prints what it is asked to run."""
-    for name in ("Makefile", "src/replication/make/machine.mk"):
+    of_machine = (f"src/replication/make/{name}.mk" for name in ("machine", "kill"))
+    for name in ("Makefile", *of_machine, "tests/faults/faults.yaml"):
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(ROOT / name, tmp_path / name)
     uv = tmp_path / "uv"

@@ -186,7 +186,7 @@ def test_citation_counts_the_claims():
 
 
 def test_only_the_citation_has_what_its_owner_fills_in():
-    assert [line.split(": ", 1)[1][:28] for line in blanks(ROOT)] == [
+    assert [line.split(":", 2)[2][:28] for line in blanks(ROOT)] == [
         'BLANK: names of the authors"',
         "BLANK: address, and e-mail o",
         "BLANK: neither exists yet. O",

@@ -1,7 +1,7 @@
 """A clean replication of another paper: `make paper TO=../other`.
 
-The machine is copied whole, as are the files that are the same for every paper; `template/` has the
-rest, an example that runs at once. Nothing of this paper goes along.
+The machine is copied, as are the files that are the same for every paper; `template/` has the rest,
+an example that runs at once. Nothing of this paper goes along, nor what only begins a paper.
 """
 
 import os
@@ -12,7 +12,7 @@ import sys
 import tomllib
 from pathlib import Path
 
-from replication.commands.update import MACHINE, copy_machine
+from replication.commands.update import AT_HOME, MACHINE, record
 from replication.inputs.parts import PAPER, config_of, ledger_of
 from replication.judging.ledger import read_ledger
 from replication.pages.edition import publish_verdicts
@@ -47,7 +47,9 @@ def create(to: Path, root: Path = ROOT) -> Path:
     name = _checked_name(to, root)
     left_out = shutil.ignore_patterns("__pycache__", "*.svg")
     shutil.copytree(TEMPLATE, to, ignore=left_out, dirs_exist_ok=True)
-    version = copy_machine(root / MACHINE, to / MACHINE)
+    home = shutil.ignore_patterns("__pycache__", ".*", *(Path(path).name for path in AT_HOME))
+    shutil.copytree(root / MACHINE, to / MACHINE, ignore=home)
+    version = _read(to / MACHINE / "VERSION").strip()
     project = tomllib.loads(_read(root / "pyproject.toml"))["project"]["name"]
     for path in COPIED:
         (to / path).parent.mkdir(parents=True, exist_ok=True)
@@ -111,6 +113,7 @@ def first_commit(folder: Path) -> str:
     """Begin the history of a folder, on the branch on which its workflow runs; say what is left."""
     git = ("git", "-C", str(folder))
     subprocess.run([*git, "init", "--quiet", "--initial-branch=main"], check=True)
+    record(folder)
     subprocess.run([*git, "add", "--all"], check=True)
     author = [*git, "-c", "user.useConfigOnly=true", "var", "GIT_AUTHOR_IDENT"]
     if subprocess.run(author, capture_output=True).returncode:

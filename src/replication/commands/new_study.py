@@ -6,7 +6,6 @@ import shutil
 import sys
 from pathlib import Path
 
-from replication.commands.words import LIST, findings, phrases_of
 from replication.inputs.strict_yaml import read_word
 from replication.judging.ledger import OURS, REPRODUCED
 from replication.judging.verdicts import by_origin
@@ -79,8 +78,6 @@ def _meaning(name: str, root: Path) -> str | None:
         return "under which the verdicts count claims that belong to no study"
     if f"{name}/" in (root / ".gitignore").read_text(encoding="utf-8").splitlines():
         return "the name of folders that .gitignore keeps out of git"
-    for _, _, better in findings(name, phrases_of(root)):
-        return f"a word that {LIST} asks to avoid ({better}), so that `make lint` would refuse it"
     return None
 
 

@@ -1,62 +1,65 @@
-"""Replace the machine of a paper by a newer one: `make update FROM=../folder`, or FROM=git URL.
+"""Take the machine of another git repository: `make update FROM=../folder`, or FROM=git URL.
 
-Python alone runs this file, that of the newer machine, in the folder of the paper.
+git has the machine as it was taken: `TREE` names its tree, and any other was changed by hand. What
+only begins a new paper stays at home. Python alone runs this file, that of the newer machine.
 """
 
 import hashlib
 import os
 import re
-import shutil
 import subprocess
 import sys
-import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
 MACHINE = "src/replication"
-SUMS = "SHA256SUMS"
-"""In a paper alone: the checksum of each file of the machine, as it was copied."""
+AT_HOME = (f"{MACHINE}/template", f"{MACHINE}/commands/new_paper.py")
+"""What a paper does not take along: it begins another one."""
+TREE = Path(".machine")
+"""In a paper alone: git's name of the tree of the machine as it was taken."""
+SUMS = Path(MACHINE, "SHA256SUMS")
+"""What papers before 1.5.0 have in its place: the checksum of each file."""
 
 
-def copy_machine(source: Path, to: Path) -> str:
-    """Copy a machine, list the checksums of its files, and return its version."""
-    for name, path in _files(source).items():
-        (to / name).parent.mkdir(parents=True, exist_ok=True)
-        shutil.copy2(path, to / name)
-    lines = (f"{value}  {path}\n" for path, value in _checksums(to).items())
-    (to / SUMS).write_text("".join(lines), encoding="utf-8")
-    return version(to)
+def git(*words: str, root: Path = Path()) -> str:
+    """Return what git says; its own error ends the command."""
+    done = subprocess.run(["git", *words], cwd=root, stdout=subprocess.PIPE, text=True)
+    return done.stdout.strip() if done.returncode == 0 else sys.exit("make update: git failed")
 
 
-def version(machine: Path) -> str:
-    """Return the version of a machine."""
-    return (machine / "VERSION").read_text(encoding="utf-8").strip()
+def record(root: Path = Path()) -> None:
+    """Write down the machine as it is: all of it is added to git's index."""
+    git("add", "--all", "--", MACHINE, root=root)
+    tree = git("write-tree", f"--prefix={MACHINE}/", root=root)
+    (root / TREE).write_text(f"{tree}\n", encoding="utf-8")
+    git("add", "--", str(TREE), root=root)
 
 
-def changed(machine: Path, sums: Path | None = None) -> list[str]:
-    """Return the files of a machine that changed, came or went since it was copied."""
-    lines = (sums or machine / SUMS).read_text(encoding="utf-8").splitlines()
-    listed = {path: value for value, path in (line.split("  ", 1) for line in lines)}
-    there = _checksums(machine)
-    return sorted(path for path in {*listed, *there} if listed.get(path) != there.get(path))
+def changed() -> Iterator[str]:
+    """Yield the files of the machine that differ from those that were taken."""
+    yield from git("status", "--porcelain", "--", MACHINE).splitlines()
+    if SUMS.exists():
+        for line in SUMS.read_text(encoding="utf-8").splitlines():
+            value, name = line.split("  ", 1)
+            file = SUMS.parent / name
+            known = file.read_bytes().replace(b"\r\n", b"\n") if file.is_file() else b""
+            if hashlib.sha256(known).hexdigest() != value:
+                yield str(file)
+    elif (now := git("rev-parse", f"HEAD:{MACHINE}")) != TREE.read_text("utf-8").strip():
+        yield f"{MACHINE}, which is the tree {now[:12]} and not that of {TREE}"
 
 
-def refusals(ours: Path, newer: Path) -> Iterator[str]:
+def refusals(theirs: str) -> Iterator[str]:
     """Yield why a machine cannot take the place of ours, and what to do; nothing if it can."""
-    changes = (newer / "CHANGES.md").read_text(encoding="utf-8")
-    if not (ours / "VERSION").exists():
-        yield f"{ours} was made before the machine had a version; expected 1.0.0 or later."
-        yield changes.split("\n## Before 1.0.0\n")[1].strip()
-    elif not (ours / SUMS).exists():
-        yield f"{ours} has no {SUMS}; expected a paper that `make paper` made"
-    elif files := changed(ours):
-        yield from (f"{ours}/{path} was changed by hand" for path in files)
-        yield "expected the files as they were copied: restore these (git restore), and bring what "
-        yield "you need into the machine where it is developed"
-    elif (newer / SUMS).exists() and changed(newer):
-        yield f"FROM has a machine that was changed by hand: {', '.join(changed(newer))}"
-    elif _numbers(version(newer)) < _numbers(version(ours)):
-        yield f"FROM has version {version(newer)}; expected at least {version(ours)}, as here"
+    ours = Path(MACHINE, "VERSION").read_text(encoding="utf-8").strip()
+    if not (TREE.exists() or SUMS.exists()):
+        yield f"there is no {TREE}; expected a paper that `make paper` made, and git on its machine"
+    elif files := [*changed()]:
+        yield from (f"{file} was changed by hand" for file in files)
+        yield "expected the machine as it was taken: restore it (git restore), and bring what you "
+        yield "need into the machine where it is developed"
+    elif _numbers(theirs) < _numbers(ours):
+        yield f"FROM has version {theirs}; expected at least {ours}, as here"
 
 
 def news(changes: str, since: str) -> str:
@@ -66,88 +69,63 @@ def news(changes: str, since: str) -> str:
     return "\n".join(f"{number}{text.rstrip()}\n" for number, text in later)
 
 
-def replace(newer: Path, root: Path = Path()) -> None:
-    """Put another machine in the place of ours, lock the packages, and judge the claims again.
+def _numbers(of_version: str) -> tuple[int, ...]:
+    return tuple(map(int, of_version.strip().split(".")))
+
+
+def take() -> None:
+    """Put the machine that was fetched in the place of ours, and all else of it out of the way."""
+    git("restore", "--source=FETCH_HEAD", "--staged", "--worktree", "--", MACHINE)
+    git("rm", "-r", "--quiet", "--force", "--ignore-unmatch", "--", *AT_HOME)
+
+
+def main(source: str) -> None:
+    """Fetch the newer machine, let it replace ours, lock the packages, and judge the claims again.
 
     Raises
     ------
     SystemExit
-        When it is refused, when uv cannot lock (ours is back then), or when `make pages` or
-        `make check` fails.
+        When it is refused, when uv cannot lock (ours is back then), or when `make check` fails.
     """
-    ours = root / MACHINE
-    if reasons := list(refusals(ours, newer)):
+    sys.stdout.reconfigure(line_buffering=True)  # git, uv and make write to it, too
+    folder = Path(source)
+    is_bare = folder.is_dir() and not (folder / ".git").exists()
+    if not source or folder.resolve() == Path.cwd() or is_bare:
+        sys.exit(
+            f"make update: FROM is {source!r}; expected another git repository with {MACHINE}, of "
+            "which the last commit is taken: a folder (no unpacked archive) or a URL"
+        )
+    if not Path(MACHINE, "VERSION").exists():
+        changes = Path(__file__).parents[1].joinpath("CHANGES.md").read_text(encoding="utf-8")
+        sys.exit(
+            f"make update: nothing is changed\n{MACHINE} was made before the machine had a version;"
+            " expected 1.0.0 or later.\n" + changes.split("\n## Before 1.0.0\n")[1].strip()
+        )
+    if not Path(".git").exists():
+        sys.exit("make update: this paper is in no git repository; commit it: git init, git add")
+    if subprocess.run(["git", "fetch", "--quiet", "--depth=1", source, "HEAD"]).returncode:
+        sys.exit(f"make update: git cannot fetch FROM, {source!r}")
+    theirs = git("show", f"FETCH_HEAD:{MACHINE}/VERSION")
+    if reasons := list(refusals(theirs)):
         sys.exit("\n".join(["make update: nothing is changed", *reasons]))
-    before, now = version(ours), version(newer)
-    if _checksums(ours) == _checksums(newer):
-        print(f"The machine is {now}, as that of FROM: nothing to do")
+    before = Path(MACHINE, "VERSION").read_text(encoding="utf-8").strip()
+    take()
+    if not git("diff", "--cached", "--name-only", "--", MACHINE):
+        print(f"The machine is {theirs}, as that of FROM: nothing to do")
         return
-    print(f"The machine: {before} → {now}\n")
-    print(news((newer / "CHANGES.md").read_text(encoding="utf-8"), before))
-    aside = ours.with_name("replication.before")
-    ours.rename(aside)
-    copy_machine(newer, ours)
-    if subprocess.run([os.environ.get("UV", "uv"), "lock", "--quiet"], cwd=root).returncode:
-        shutil.rmtree(ours)
-        aside.rename(ours)
+    print(f"The machine: {before} → {theirs}\n")
+    print(news(Path(MACHINE, "CHANGES.md").read_text(encoding="utf-8"), before))
+    if subprocess.run([os.environ.get("UV", "uv"), "lock", "--quiet"]).returncode:
+        git("restore", "--source=HEAD", "--staged", "--worktree", "--", MACHINE)
         sys.exit("make update: uv cannot lock the packages; nothing is changed")
-    shutil.rmtree(aside)
-    readme = root / "README.md"
+    record()
+    readme, link = Path("README.md"), f"[{{}}]({MACHINE}/CHANGES.md)"
     text = readme.read_text(encoding="utf-8")
-    link = f"[{{}}]({MACHINE}/CHANGES.md)"
-    readme.write_text(text.replace(link.format(before), link.format(now)), encoding="utf-8")
-    for target in ("pages", "check"):
-        if subprocess.run(["make", "--no-print-directory", target], cwd=root).returncode:
-            sys.exit(f"make update: the machine is {now} now; make {target} fails as it says above")
-    print(f"The machine is {now} now. Left for you: what its changes ask of a paper (above);")
+    readme.write_text(text.replace(link.format(before), link.format(theirs)), encoding="utf-8")
+    if subprocess.run(["make", "--no-print-directory", "check"]).returncode:
+        sys.exit(f"make update: the machine is {theirs} now; make check fails as said above")
+    print(f"The machine is {theirs} now. Left for you: what its changes ask of a paper (above);")
     print("make reproduce lint test; read the diff, and commit it.")
-
-
-def main(source: str) -> None:
-    """Find the newer machine, and let it replace ours."""
-    sys.stdout.reconfigure(line_buffering=True)  # uv and make write to it, too
-    with tempfile.TemporaryDirectory() as clone:
-        folder = Path(source)
-        if source and not folder.is_dir():
-            subprocess.run(["git", "clone", "--quiet", "--depth=1", "--", source, clone])
-            folder = Path(clone)
-        newer = (folder / MACHINE).resolve()
-        script = newer / "commands" / "update.py"
-        if not source or not script.is_file() or newer == Path(MACHINE).resolve():
-            sys.exit(
-                f"make update: FROM is {source!r}; expected another folder, or a repository that "
-                f"git can clone, with {MACHINE}/commands/update.py in it"
-            )
-        if script == Path(__file__).resolve():
-            replace(newer)
-        else:
-            done = subprocess.run([sys.executable, "-I", "-S", script, folder.resolve()])
-            sys.exit(done.returncode)
-
-
-def _files(machine: Path) -> dict[str, Path]:
-    """Return the files of a machine by name, without its list and the caches of tools."""
-    found = {path.relative_to(machine): path for path in sorted(machine.rglob("*"))}
-    return {
-        name.as_posix(): path
-        for name, path in found.items()
-        if path.is_file()
-        and path.name != SUMS
-        and not any(part == "__pycache__" or part.startswith(".") for part in name.parts)
-    }
-
-
-def _checksums(machine: Path) -> dict[str, str]:
-    return {name: _checksum(path) for name, path in _files(machine).items()}
-
-
-def _checksum(path: Path) -> str:
-    """Return the SHA-256 of a file, whatever line ends git gave it."""
-    return hashlib.sha256(path.read_bytes().replace(b"\r\n", b"\n")).hexdigest()
-
-
-def _numbers(of_version: str) -> tuple[int, ...]:
-    return tuple(map(int, of_version.split(".")))
 
 
 if __name__ == "__main__":

@@ -20,6 +20,8 @@ RUN = $(UV) run --locked --no-dev $(GROUPS)
 DEV = $(UV) run --locked $(GROUPS)
 
 .DEFAULT_GOAL := help
+# A paper that has faults has a kill table.
+include $(if $(wildcard tests/faults/*.yaml studies/*/faults.yaml),src/replication/make/kill.mk)
 
 # A run starts a hundred Pythons. Where compiled modules are not kept, each would compile all anew.
 export PYTHONDONTWRITEBYTECODE :=
@@ -33,8 +35,8 @@ WHOLE = case "$$$(1)" in ''|0*|*[!0-9]*) \
   echo "$(1) is '$$$(1)'; expected a whole number from 1 on" >&2; exit 2;; esac
 SNAKEMAKE = $(call WHOLE,CORES); exec $(RUN) python -m replication.commands.run --cores "$$CORES"
 
-.PHONY: help reproduce claim check trace verify archive html test lint pages schema publish \
-  kill-table study paper update unlock clean
+.PHONY: help reproduce claim check trace verify archive html test lint schema publish \
+  study update unlock clean
 
 LISTED = $(wordlist 2,9,$(MAKEFILE_LIST)) $(firstword $(MAKEFILE_LIST))
 LINES  = while IFS='|' read -r target text; do printf '  %-17s %s\n' "$$target" "$$text"; done
@@ -83,7 +85,6 @@ lint: | $(UV) ##- check style, types, spelling, wording and schemas; changes not
 	$(DEV) ruff format --check
 	$(DEV) mypy
 	$(DEV) codespell
-	$(DEV) python -m replication.commands.words
 	$(DEV) python -m replication.commands.readers
 	@$(DEV) python -m replication.pages.blanks
 	$(DEV) snakefmt --check --compact-diff Snakefile $(wildcard src/*/*.smk studies/*/*.smk)
@@ -101,19 +102,11 @@ lint: | $(UV) ##- check style, types, spelling, wording and schemas; changes not
 	  /^    \* / && !/\* Specify a conda environment or container for each rule/ { found = 1 } \
 	  END { if (found || !ran) { printf "%s", text; exit 1 } }'
 
-pages: | $(UV) ##- write the pages that need no run: input numbers; codecheck.yml, docs/exhibits.md if they exist
-	@$(RUN) python -m replication.commands.pages
-
 schema: | $(UV) ##- draft what the schemas of the configs say of sections that they lack
 	@$(RUN) python -m replication.commands.draft_schema
 
 publish: | $(UV) ##- copy results to docs/ and tests/reference/; read the diff, then commit it
 	@$(RUN) python -m steps.publish
-
-kill-table: | $(UV) ##- put faults into a copy, one at a time: what catches each? (FAULTS=a,b or ROTATE=3; ALL=1: how many tests?)
-	@$(if $(value ROTATE),$(call WHOLE,ROTATE))
-	@$(call WHOLE,CORES); $(DEV) python -m replication.commands.kill_table --cores "$$CORES" \
-	  $${FAULTS:+"--faults=$$FAULTS"} $${ROTATE:+"--rotate=$$ROTATE"} $${ALL:+--all}
 
 study: | $(UV) ## begin a follow-up study: make study NAME=my_study (studies/FOLLOW-UP.md)
 	@$(RUN) python -m replication.commands.new_study "$$NAME"
@@ -121,15 +114,12 @@ study: | $(UV) ## begin a follow-up study: make study NAME=my_study (studies/FOL
 update: | $(UV) ##- replace the machine of a paper by a newer one: make update FROM=../folder or a git URL
 	@$(UV) run --no-project --no-config --python '>=3.11' python -I -S src/replication/commands/update.py "$$FROM"
 
-paper: | $(UV) ##- begin the replication of another paper: make paper TO=../other (studies/FOLLOW-UP.md)
-	@$(RUN) python -m replication.commands.new_paper "$$TO"
-
 unlock: | $(UV) ##- after a killed run left the folder locked; refused beside a run
 	@$(RUN) snakemake --unlock
 
 clean: ##- remove all that the workflow and the tools wrote; keep the environment
 	rm -rf results dist .snakemake figures/*.svg studies/*/figures/*.svg paper/*.pdf
-	rm -rf .kill_table.jsonl .pytest_cache .ruff_cache .mypy_cache .hypothesis
+	rm -rf .pytest_cache .ruff_cache .mypy_cache .hypothesis
 	find . \( -name .venv -o -name .uv \) -prune -o -name __pycache__ -type d -prune -exec rm -rf {} +
 	@$(if $(value SHARED),echo "kept: $(SHARED)")
 

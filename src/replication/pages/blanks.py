@@ -4,25 +4,23 @@ With RELEASE=1 these refuse it.
 """
 
 import os
+import subprocess
 import sys
-from collections.abc import Iterator
 from pathlib import Path
 
 MARK = "BLANK:"
-FOLDERS = ("config", "docs", "figures", "notebooks", "paper", "studies")
-TOP = ("CITATION.cff", "CONTRIBUTING.md", "LICENSE", "README.md", "pyproject.toml")
-KINDS = {".bib", ".cff", ".ipynb", ".md", ".toml", ".typ", ".yaml", ""}
+FOLDERS = ("config", "docs", "figures", "notebooks", "paper", "studies", ":(glob)*")
+"""Where a mark is one, in text files."""
 
 
-def blanks(root: Path = Path()) -> Iterator[str]:
-    """Yield file, line and text of each mark."""
-    found = (path for name in FOLDERS for path in sorted((root / name).rglob("*")))
-    for path in [*(root / name for name in TOP), *found]:
-        if path.is_file() and path.suffix in KINDS:
-            for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
-                if MARK in line:
-                    text = line[line.index(MARK) :].strip()
-                    yield f"{path.relative_to(root).as_posix()}:{number}: {text}"
+def blanks(root: Path = Path()) -> list[str]:
+    """Return file, line and text of each mark."""
+    command = ["git", "grep", "--no-index", "--exclude-standard", "-I", "--line-number"]
+    command += ["--only-matching", "-e", f"{MARK}.*", "--", *FOLDERS]
+    found = subprocess.run(command, cwd=root, stdout=subprocess.PIPE, encoding="utf-8")
+    if found.returncode > 1:  # 1 is for none
+        sys.exit("git cannot look for what is to be filled in")
+    return found.stdout.splitlines()
 
 
 def is_release() -> bool:
@@ -32,7 +30,7 @@ def is_release() -> bool:
 
 def main(root: Path = Path()) -> None:
     """Print each mark; with RELEASE=1 end with an error if there is one."""
-    found = list(blanks(root))
+    found = blanks(root)
     if found:
         print(*found, sep="\n", file=sys.stderr)
         print(f"{len(found)} lines are to be filled in before a release", file=sys.stderr)

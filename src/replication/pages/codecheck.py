@@ -18,7 +18,7 @@ SPECIFICATION = "https://codecheck.org.uk/spec/config/2.0/"
 HEAD = """\
 %YAML 1.1
 ---
-# `make pages` writes this file from the outputs of `rule all`, their captions and CITATION.cff.
+# `make publish` writes this file from the outputs of `rule all`, their captions and CITATION.cff.
 # `make reproduce` makes every file of the manifest.
 # No CODECHECK has been done: codechecker, report, summary and certificate are missing for this
 # reason. The person who checks adds them.

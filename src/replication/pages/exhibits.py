@@ -11,7 +11,7 @@ from replication.workflow.provenance import Job, makers
 HEAD = """\
 # From figure to table to cost
 
-`make pages` writes this page from the workflow, the captions, `docs/costs.csv` and
+`make publish` writes this page from the workflow, the captions, `docs/costs.csv` and
 `docs/figures.csv`. Figures with S are in the supplement, the others in the article. Time is that of
 all jobs that the figure needs, one after another, in the published run. Memory is that of the
 largest of these jobs. Times of less than a second are not listed.

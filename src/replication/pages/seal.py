@@ -11,11 +11,11 @@ EDITION = ("docs", "tests/reference")
 SOURCES = ("config", "data", "figures", "notebooks", "paper", "src/explorer", "studies")
 """The folders of the inputs and texts."""
 TOP = ("CITATION.cff", "README.md", "codecheck.yml", "docs/exhibits.md")
-"""Texts beside these; the last two are those of `make pages`, which needs no run."""
+"""Texts beside these; the last two are those of `make publish`."""
 OLDER = "the edition is older than"
 """With this begins the line of an input or text that changed since."""
 VERDICTS = "docs/verdicts.md"
-"""Not sealed: it follows from the published rows line by line, and `make pages` writes it anew."""
+"""Not sealed: it follows from the published rows line by line, by `make publish`."""
 KINDS = {
     *(".bib", ".cff", ".css", ".html", ".ipynb", ".js", ".md", ".mplstyle", ".typ"),
     *(".AT2", ".csv", ".txt", ".yaml"),

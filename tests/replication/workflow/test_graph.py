@@ -11,8 +11,8 @@ from snakemake.settings.types import OutputSettings, ResourceSettings
 
 from replication.commands.new_study import SKELETON
 from replication.kill.tree_copy import copy_tree
-from replication.tests.begun import Run
 from replication.workflow.code import code
+from tests.replication.begun import Run
 
 ROOT = Path(__file__).parents[3]
 

@@ -9,7 +9,7 @@ import pytest
 from replication.inputs.parts import PAPER, captions_of
 from replication.pages.captions import read_captions
 
-ROOT = Path(__file__).parents[4]
+ROOT = Path(__file__).parents[3]
 PARTS = [PAPER, *sorted(path.parent.name for path in ROOT.glob("studies/*/captions.yaml"))]
 PICTURE = re.compile(r"#picture\((\([^)]*\)|\"[^\"]*\")")
 

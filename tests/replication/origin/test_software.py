@@ -7,7 +7,7 @@ from pathlib import Path
 
 from replication.origin.software import installed
 
-ROOT = Path(__file__).parents[4]
+ROOT = Path(__file__).parents[3]
 LOCK = {
     "package": [
         {

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from replication.tests.begun import Run
+from tests.replication.begun import Run
 
-ROOT = Path(__file__).parents[3]
+ROOT = Path(__file__).parents[2]
 
 
 @pytest.fixture(scope="session")

@@ -11,9 +11,9 @@ from pathlib import Path
 import pytest
 import yaml
 
-from replication.tests.begun import Run
+from tests.replication.begun import Run
 
-ROOT = Path(__file__).parents[4]
+ROOT = Path(__file__).parents[3]
 
 SNAKEFILE = f"""
 FIGURES = {{"figures/line": ["counts"]}}

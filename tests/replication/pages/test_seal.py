@@ -19,7 +19,7 @@ from replication.pages.seal import (
     seal,
 )
 
-ROOT = Path(__file__).parents[4]
+ROOT = Path(__file__).parents[3]
 
 
 @pytest.fixture

@@ -12,7 +12,7 @@ import yaml
 
 from replication.commands import new_paper, update
 
-ROOT = Path(__file__).resolve().parents[4]
+ROOT = Path(__file__).resolve().parents[3]
 
 
 @pytest.fixture(scope="module")
@@ -78,8 +78,9 @@ def test_what_is_the_same_for_every_paper_is_kept_once(paper):
     for path in new_paper.COPIED:
         assert not (new_paper.TEMPLATE / path).exists()
         assert (paper / path).stat().st_mode == (ROOT / path).stat().st_mode
-    assert update.changed(paper / update.MACHINE) == []
-    assert update.changed(ROOT / update.MACHINE, paper / update.MACHINE / update.SUMS) == []
+    machine = {p.relative_to(paper / update.MACHINE) for p in (paper / update.MACHINE).rglob("*.*")}
+    home = [Path(path).relative_to(update.MACHINE) for path in update.AT_HOME]
+    assert not {path for path in machine if {path, *path.parents} & {*home}}
 
 
 def test_lock_has_the_versions_of_ours_and_no_package_too_many(paper):
@@ -117,12 +118,15 @@ def test_first_commit_is_on_the_branch_on_which_its_workflow_runs(paper, tmp_pat
     workflow = yaml.safe_load((paper / ".github/workflows/ci.yaml").read_text("utf-8"))
     (branch,) = workflow[True]["push"]["branches"]  # YAML 1.1 reads on as true
     head = tmp_path / ".git/refs/heads" / branch
+    (tmp_path / update.MACHINE).mkdir(parents=True)
+    (tmp_path / update.MACHINE / "VERSION").write_text("1.0.0", encoding="utf-8")
     assert "git knows no author, so type: git config" in new_paper.first_commit(tmp_path)
     assert not head.exists()
     for name in ("AUTHOR_NAME", "AUTHOR_EMAIL", "COMMITTER_NAME", "COMMITTER_EMAIL"):
         monkeypatch.setenv(f"GIT_{name}", "a@b.c")
     assert f"committed on the branch {branch}" in new_paper.first_commit(tmp_path)
     assert head.exists()
+    assert re.fullmatch(r"[0-9a-f]{40}\n", (tmp_path / update.TREE).read_text("utf-8"))
 
 
 JOBS = """

@@ -18,7 +18,7 @@ from replication.origin.recorded import CRATE, read_crate
 from replication.rules import crate as rule
 from replication.workflow.provenance import Job
 
-ROOT = Path(__file__).parents[4]
+ROOT = Path(__file__).parents[3]
 FILES = {
     "Snakefile": "rule peaks:\n",
     "uv.lock": "lock",

@@ -15,7 +15,7 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from select import select
 
-ROOT = Path(__file__).parents[3]
+ROOT = Path(__file__).parents[2]
 SERVER = get_context("forkserver")
 SERVER.set_forkserver_preload(["snakemake.cli"])
 

@@ -4,8 +4,8 @@ import json
 
 import pytest
 
-from replication.tests.begun import Run
 from replication.workflow.origins import published_results
+from tests.replication.begun import Run
 
 SNAKEFILE = """
 import json

@@ -9,7 +9,7 @@ import pytest
 
 from replication.workflow.place import check_place
 
-ROOT = Path(__file__).parents[4]
+ROOT = Path(__file__).parents[3]
 
 
 @pytest.mark.parametrize("character", [" ", "'", '"', "$", "&", ";", "(", "{", "\\", ":"])

@@ -8,7 +8,7 @@ import pytest
 
 from replication.workflow.code import code, results_read, undeclared
 
-ROOT = Path(__file__).parents[4]
+ROOT = Path(__file__).parents[3]
 
 
 @pytest.fixture

@@ -7,7 +7,7 @@ import yaml
 
 from replication.commands import words
 
-ROOT = Path(__file__).resolve().parents[4]
+ROOT = Path(__file__).resolve().parents[3]
 LIST = yaml.safe_load((ROOT / "paper" / "words.yaml").read_text(encoding="utf-8"))
 PHRASES = {"is had|are had": "gives", "seat|seats": "column-top contact"}
 

@@ -17,7 +17,7 @@ from replication.commands import archive
 from replication.origin.recorded import CRATE
 from replication.workflow.provenance import Job
 
-ROOT = Path(__file__).resolve().parents[4]
+ROOT = Path(__file__).resolve().parents[3]
 LEFT_OUT = ["results/costs.csv", "results/logs", CRATE]
 RESULTS = {"results/peaks.csv": "1\n", "figures/peaks.svg": "<svg/>\n"}
 

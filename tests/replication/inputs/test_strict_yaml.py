@@ -10,7 +10,7 @@ from replication.inputs.study_config import read_study_config
 from replication.judging.ledger import read_ledger
 from replication.pages.captions import read_captions
 
-ROOT = Path(__file__).parents[4]
+ROOT = Path(__file__).parents[3]
 
 
 @pytest.fixture

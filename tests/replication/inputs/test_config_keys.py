@@ -7,7 +7,7 @@ import pytest
 from replication.inputs.config_keys import comments, keys
 from replication.inputs.configuration import read_schema
 
-ROOT = Path(__file__).resolve().parents[4]
+ROOT = Path(__file__).resolve().parents[3]
 
 CONFIGS = [
     path.relative_to(ROOT)
