@@ -1,35 +1,30 @@
 """From a number, table, figure or claim back to the paper and the inputs: `make trace ITEM=…`.
 
-The chain is Snakemake's: its jobs, and the records that it keeps of how they were run. Where it has
-no records, as in an unpacked archive, the RO-Crate of the run has the checksums.
+The chain is that of the RO-Crate of the run, which has each job, and the checksum of each file.
 """
 
 import difflib
-import hashlib
 import json
 import re
 import signal
 import sys
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from datetime import datetime
 from pathlib import Path
 
-from replication.judging.calls import LIBRARIES
+from replication.inputs.parts import PAPER, config_of, ledger_of
+from replication.inputs.strict_yaml import read_yaml
 from replication.judging.citations import cite, citing, library_names, printed_list
 from replication.judging.claim import Claim
 from replication.judging.findings import read_findings
-from replication.judging.ledger import finding_of
+from replication.judging.ledger import finding_of, read_ledger
 from replication.judging.verdicts import verdict_on
-from replication.origin.recorded import CRATE, Crate, read_crate
+from replication.origin.recorded import CRATE, RUN
 from replication.rules.one_claim import verdict_line
-from replication.workflow.provenance import Job, checksum, makers, workflow_jobs
+from replication.workflow.provenance import checksum
 
 ROOT = Path(__file__).parents[3]
 """The root of the repository; printed paths are relative to it."""
-
-NO_CRATE = Crate({}, {}, (), "")
-"""Before the end of the first run."""
 
 MOST_MATCHES = 6
 """So many names are suggested for one that is unknown."""
@@ -37,8 +32,16 @@ MOST_MATCHES = 6
 MOST_INPUTS = 4
 """So many inputs from one rule have a line each."""
 
-CODE = (".py", ".pyi", ".smk")
-MACHINE = "replication"
+
+@dataclass(frozen=True)
+class Job:
+    """A job of a run: its rule, where that stands, its script, what it read and made."""
+
+    rule: str
+    place: str
+    script: str
+    inputs: tuple[str, ...]
+    outputs: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -48,6 +51,36 @@ class Item:
     path: str | None
     key: str | None = None
     claims: tuple[Claim, ...] = ()
+
+
+def read_jobs(path: str | Path = CRATE) -> tuple[list[Job], dict[str, str]]:
+    """Return the jobs of a run, and the SHA-256 of each file by its path.
+
+    Raises
+    ------
+    ValueError
+        When there is no finished run.
+    """
+    if not Path(path).is_file():
+        raise ValueError(f"{path} is not made yet; expected a finished run: make reproduce")
+    graph = json.loads(Path(path).read_text(encoding="utf-8"))["@graph"]
+    sums = {each["@id"]: each["sha256"] for each in graph if "sha256" in each}
+
+    def files(of: Iterable[Mapping[str, str]]) -> tuple[str, ...]:
+        return tuple(each["@id"] for each in of)
+
+    jobs = [
+        Job(
+            each["name"],
+            each["description"].partition(", ")[2],
+            each["instrument"]["@id"],
+            files(each["object"]),
+            files(each["result"]),
+        )
+        for each in graph
+        if each["@type"] == "CreateAction" and each["@id"] != RUN
+    ]
+    return jobs, sums
 
 
 def find(name: str, jobs: Sequence[Job], ledger: Sequence[Claim], root: Path = Path()) -> Item:
@@ -61,8 +94,8 @@ def find(name: str, jobs: Sequence[Job], ledger: Sequence[Claim], root: Path = P
     ValueError
         When the name denotes no output, or several; the message lists similar names.
     """
-    made = makers(jobs)
-    findings = {Path(path).stem: path for job in jobs for path in job.findings}
+    made = [path for job in jobs for path in job.outputs]
+    findings = {Path(path).stem: path for path in made if Path(path).match("findings/*.json")}
     for claim in ledger:
         if name in (claim.id, f"claim_{claim.id}"):
             return Item(findings.get(claim.rule), claim.finding or None, (claim,))
@@ -72,21 +105,19 @@ def find(name: str, jobs: Sequence[Job], ledger: Sequence[Claim], root: Path = P
         raise ValueError(f"{name} is the end of several paths: {', '.join(outputs)}")
     for path in outputs:  # one or none
         return Item(path, claims=_judged_by(ledger, [r for r, p in findings.items() if p == path]))
-    if users := sorted({job.rule for job in jobs if name in (*job.inputs, *job.scripts)}):
+    if users := sorted({job.rule for job in jobs if name in (*job.inputs, job.script)}):
         raise ValueError(f"{name} is made by no rule; it goes into {', '.join(users)}")
 
     place, _, key = name.partition(":" if ":" in name else ".")
     known = [*made, *(claim.id for claim in ledger)]
     for rule, path in findings.items():
-        asked = place == rule or (place != "" and Path(path).match(place))
-        if (root / path).exists():
+        if (root / path).is_file():
             keys = read_findings(root / path)
+            asked = place == rule or (place != "" and Path(path).match(place))
             for found in keys if asked else ():
                 if f"{key}.".startswith(f"{found}."):  # the finding, or an entry of it
                     return Item(path, found, _judged_by(ledger, [rule], found))
             known += [f"{rule}.{key}" for key in keys]
-        elif asked:
-            raise ValueError(f"{path} is not made yet; expected a finished run: make reproduce")
     close = _close(name, known)
     hint = f"did you mean {' or '.join(close)}?" if close else "expected a file, claim or finding"
     raise ValueError(f"no output, claim or finding is called {name!r}; {hint}")
@@ -100,11 +131,18 @@ def _close(name: str, known: Iterable[str]) -> list[str]:
     return list(dict.fromkeys([*begins, *alike]))[:MOST_MATCHES]
 
 
+def _judged_by(
+    ledger: Iterable[Claim], rules: Iterable[str], key: str | None = None
+) -> tuple[Claim, ...]:
+    """Return the claims that a finding of these rules judges, or that this finding does."""
+    return tuple(claim for claim in ledger if claim.rule in rules and key in (None, claim.finding))
+
+
 def chain(
-    item: Item, jobs: Sequence[Job], root: Path = Path(), crate: Crate = NO_CRATE
+    item: Item, jobs: Sequence[Job], sums: Mapping[str, str], root: Path = Path()
 ) -> Iterator[str]:
     """Yield the lines from the requested item back to the inputs."""
-    made = makers(jobs)
+    made = {path: job for job in jobs for path in job.outputs}
     for claim in item.claims:
         yield from _claim_lines(claim, item.path, root)
     if item.path is None:
@@ -117,14 +155,12 @@ def chain(
     waiting, printed = [item.path], set()
     while waiting:
         job = made[waiting.pop(0)]
-        alike = (job.rule, job.scripts, job.inputs, job.made is None, job.pending)
-        if alike in printed:  # another shard
-            continue
-        if printed:
-            yield ""
-        printed.add(alike)
-        yield from _job_lines(job, made, root, crate)
-        waiting += [path for path in job.inputs if path in made]
+        if (alike := (job.rule, job.script, job.inputs)) not in printed:  # no other shard
+            if printed:
+                yield ""
+            printed.add(alike)
+            yield from _job_lines(job, made, sums, root)
+            waiting += [path for path in job.inputs if path in made]
 
 
 def _claim_lines(claim: Claim, path: str | None, root: Path) -> Iterator[str]:
@@ -148,89 +184,38 @@ def _row(claim: Claim) -> str:
     return next((f"{claim.ledger}:{n}" for n, line in enumerate(lines, 1) if start.match(line)), "")
 
 
-def _job_lines(job: Job, made: Mapping[str, Job], root: Path, crate: Crate) -> Iterator[str]:
-    """Yield what a job made and how: the code that is its own first, checksums in one line."""
-    for path in job.outputs:
-        yield f"{path}  {_digest(path, root)}"
-    yield f"  rule      {job.rule}, {job.place}; {_state(job, crate)}"
-    for script in job.scripts:
-        yield f"  script    {script}"
-    beside = [path for path in job.inputs if _is_own(path) and path not in job.scripts]
-    for path in beside:
-        yield f"  module    {path}"
-    used = (name for path in (*job.scripts, *beside) for name in library_names(root / path))
-    for name in dict.fromkeys(used):
-        yield f"  function  {_cited(name)}"
-    for name, value in job.params.items():
-        yield f"  config    {name}: {json.dumps(value, ensure_ascii=False, default=str)}"
-    yield from _input_lines(job, made)
-    yield from _checksum_lines(job, made, root, crate)
-
-
-def _is_own(path: str) -> bool:
-    """Return whether an input is code that is neither of a library nor of the machine."""
-    parts = Path(path).parts
-    shared = parts[0] == "src" and parts[1] in (*LIBRARIES, MACHINE)
-    return path.endswith(".py") and not shared and parts[-1] != "__init__.py"
-
-
-def _input_lines(job: Job, made: Mapping[str, Job]) -> Iterator[str]:
-    """Yield a line for each input that is no code; several of one rule share a line."""
-    data = [path for path in dict.fromkeys(job.inputs) if not path.endswith(CODE)]
-    sources = {path: made[path].rule if path in made else "" for path in data}
+def _job_lines(
+    job: Job, made: Mapping[str, Job], sums: Mapping[str, str], root: Path
+) -> Iterator[str]:
+    """Yield what a job made and how; what is missing or has other bytes than in the run is told."""
+    yield from (_file(path, sums, root) for path in job.outputs)
+    yield f"  rule      {job.rule}, {job.place}"
+    yield f"  script    {_file(job.script, sums, root)}"
+    if job.script.endswith(".py"):
+        for name in library_names(root / job.script):
+            yield f"  function  {_cited(name)}"
+    sources = {path: made[path].rule if path in made else "" for path in job.inputs}
     for rule in sorted({*sources.values()}, key=lambda rule: (rule == "", rule)):
-        paths = [path for path in data if sources[path] == rule]
+        paths = [path for path in sources if sources[path] == rule]
         if rule and len(paths) > MOST_INPUTS:
             paths = [f"{paths[0]} and {len(paths) - 1} more"]
         for path in paths:
-            yield f"  input     {path}{f'  from rule {rule}' if rule else ''}"
+            yield f"  input     {f'{path}  from rule {rule}' if rule else _file(path, sums, root)}"
 
 
-def _checksum_lines(job: Job, made: Mapping[str, Job], root: Path, crate: Crate) -> Iterator[str]:
-    """Yield a line for each input that is lost or changed since the run, and one for all.
-
-    What another rule makes has a line of its own, where this rule is shown.
-    """
-    recorded = crate.checksums if job.made is None else job.checksums
-    there = {path: checksum(root / path) for path in job.inputs if (root / path).is_file()}
-    for path in dict.fromkeys(job.inputs):
-        if path not in there and path not in made:
-            yield f"  MISSING   {path}"
-        elif path in there and recorded.get(path, there[path]) != there[path]:
-            before, now = recorded[path][:16], there[path][:16]
-            yield f"  CHANGED   {path}  sha256 {now}; it was {before} in the run"
-    if there:
-        lines = "".join(f"{there[path]}  {path}\n" for path in sorted(there))
-        same = sum(recorded.get(path) == found for path, found in there.items())
-        yield (
-            f"  sha256    {hashlib.sha256(lines.encode()).hexdigest()[:16]} of the sums of all "
-            f"{len(there)} inputs; {same} of them are recorded, and as in the run"
-        )
-
-
-def _state(job: Job, crate: Crate) -> str:
-    if job.made is None:
-        listed = crate.rules.keys() & job.outputs
-        return f"made in the run that {CRATE} lists" if listed else "not made yet"
-    when = datetime.fromtimestamp(job.made).strftime("%Y-%m-%d %H:%M:%S")
-    return f"made {when}, {'OUT OF DATE' if job.pending else 'up to date'}"
+def _file(path: str, sums: Mapping[str, str], root: Path) -> str:
+    """Return a path, and whether the file has the bytes that it had in the run."""
+    if not (root / path).is_file():
+        return f"{path}  MISSING"
+    now, then = checksum(root / path), sums.get(path, "")
+    changed = f"  CHANGED: it was {then[:16]} in the run" if then and then != now else ""
+    return f"{path}  sha256 {now[:16]}{changed}"
 
 
 def _cited(name: str) -> str:
     citation = cite(name, ROOT)
     equations = f"  {printed_list(citation.reached)}" if citation.reached else ""
     return f"{name}  {citation.place}{equations}"
-
-
-def _digest(path: str, root: Path) -> str:
-    return f"sha256 {checksum(root / path)[:16]}" if (root / path).is_file() else "not there"
-
-
-def _judged_by(
-    ledger: Iterable[Claim], rules: Iterable[str], key: str | None = None
-) -> tuple[Claim, ...]:
-    """Return the claims that a finding of these rules judges, or that this finding does."""
-    return tuple(claim for claim in ledger if claim.rule in rules and key in (None, claim.finding))
 
 
 if __name__ == "__main__":
@@ -241,10 +226,10 @@ if __name__ == "__main__":
     sys.stdout.reconfigure(errors="replace")  # a terminal may know no Greek letters
     signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # `| head` may stop reading
     try:
-        jobs = workflow_jobs()
-        ledger = [job.params["claim"] for job in jobs if "claim" in job.params]
-        crate = read_crate() if Path(CRATE).exists() else NO_CRATE
-        lines = list(chain(find(sys.argv[1], jobs, ledger), jobs, crate=crate))
+        ledgers = map(ledger_of, [PAPER, *read_yaml(config_of(PAPER))["studies"]])
+        rows = read_ledger(map(Path, ledgers))
+        jobs, sums = read_jobs()
+        lines = list(chain(find(sys.argv[1], jobs, rows), jobs, sums))
     except (OSError, ValueError) as fault:  # of the config and the folder, too
         sys.exit(str(fault))
     print("\n".join(lines))

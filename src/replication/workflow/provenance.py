@@ -1,4 +1,4 @@
-"""The jobs of the workflow and Snakemake's records of their runs."""
+"""The jobs of the workflow, and the version of its source."""
 
 import hashlib
 import os
@@ -26,8 +26,6 @@ class Job:
     logs: tuple[str, ...] = ()  # with the benchmark
     findings: tuple[str, ...] = ()  # outputs that contain findings
     params: Mapping[str, Any] = field(default_factory=dict)  # numbers from the config
-    made: float | None = None  # time of the last run, s since 1970; None without a record of it
-    checksums: Mapping[str, str] = field(default_factory=dict)  # of inputs then; not of large files
     pending: bool = False  # whether Snakemake would run it now
 
 
@@ -100,9 +98,7 @@ def source_version(folder: str | Path = ".") -> str:
 
 
 def _job(job: Any, workflow: Any) -> Job:
-    rule, record = job.rule, None
-    if job.output:
-        record = workflow.persistence.metadata(job.output[0])
+    rule = job.rule
     snakefile = str(rule.snakefile)
     line = workflow.linemaps[snakefile][rule.lineno]
     scripts = ()
@@ -118,11 +114,6 @@ def _job(job: Any, workflow: Any) -> Job:
         logs=tuple(map(str, [*job.log, *([job.benchmark] if job.benchmark else [])])),
         findings=tuple(str(path) for name, path in job.output.items() if name == "findings"),
         params=dict(job.params.items()),
-        made=record.endtime if record else None,
-        checksums={
-            path: value.removeprefix("sha256:")
-            for path, value in ((record.input_checksums if record else None) or {}).items()
-        },
         pending=bool(workflow.dag.needrun(job)),
     )
 
