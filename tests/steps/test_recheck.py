@@ -268,7 +268,7 @@ def third_and_fourth(text):
 FOUND, PAGE = "tests/reference/findings", "docs/verdicts.md"
 RATIO = ("mass_ratio: 0.434", "mass_ratio: 0.5")
 WIDE = "printed: 0.415\n  unit: m\n  tolerance: 0.00"
-TAMPERED = [  # file, edit, how one of what is told begins
+TAMPERED = [  # file, edit, how one of the faults begins
     (f"{FOUND}/trilith.json", entry("size", "value", 0.5), "claim trilith_size: computed is"),
     (f"{FOUND}/trilith.json", entry("size", "error", 1e-3), "claim trilith_size: the error is 0.0"),
     (f"{FOUND}/equations.json", entry("eq1", "holds", False), "claim eq1 is refuted; expected co"),

@@ -187,7 +187,7 @@ def _row(claim: Claim) -> str:
 def _job_lines(
     job: Job, made: Mapping[str, Job], sums: Mapping[str, str], root: Path
 ) -> Iterator[str]:
-    """Yield what a job made and how; what is missing or has other bytes than in the run is told."""
+    """Yield what a job made and how; what is missing or changed since the run is named."""
     yield from (_file(path, sums, root) for path in job.outputs)
     yield f"  rule      {job.rule}, {job.place}"
     yield f"  script    {_file(job.script, sums, root)}"
