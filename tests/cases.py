@@ -1,5 +1,7 @@
 """What many tests are about: structures, places, solvers, and which findings break."""
 
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -43,3 +45,9 @@ BY_TWO = pytest.mark.parametrize("solve", TWO, ids=["Taylor", "SciPy"])
 def broken(found, attribute="holds"):
     """Return the names of the findings that do not hold."""
     return {name for name, one in found.items() if getattr(one, attribute) is False}
+
+
+def run_alone(*paths):
+    """Run the checker's folder on files, without any package but the standard library."""
+    command = [sys.executable, "-I", "-S", str(ROOT / "src/topheavy/proven/checking")]
+    return subprocess.run([*command, *map(str, paths)], capture_output=True, text=True, timeout=300)

@@ -14,6 +14,7 @@ from replication.pages.blanks import blanks
 from replication.pages.edition import with_counts
 from steps import headlines
 from steps.shared.published import Published, need, span, with_interval
+from tests.cases import run_alone
 
 ROOT = Path(__file__).parents[1]
 REFERENCE = ROOT / "tests" / "reference"
@@ -193,3 +194,10 @@ def test_only_the_citation_has_what_its_owner_fills_in():
     ]
     assert all(line.startswith("CITATION.cff:") for line in blanks(ROOT))
     assert "BLANK" not in (ROOT / "codecheck.yml").read_text(encoding="utf-8")
+
+
+def test_command_of_the_readme_proves_the_published_certificates():
+    (name,) = re.findall(r"python3 -I -S src/topheavy/proven/checking (\S+)`", README)
+    done = run_alone(ROOT / name)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.count(": proven: ") == done.stdout.count("\n") > 200

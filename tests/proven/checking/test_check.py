@@ -5,8 +5,6 @@ import copy
 import importlib
 import json
 import math
-import re
-import subprocess
 import sys
 from fractions import Fraction
 from pathlib import Path
@@ -14,7 +12,7 @@ from pathlib import Path
 import pytest
 
 import topheavy as th
-from tests.cases import COLUMN, ROOT
+from tests.cases import COLUMN
 from topheavy.proven import BlockBox, certified
 from topheavy.proven.checking import Refused, check, concerns, intervals
 from topheavy.proven.checking.intervals import (
@@ -211,19 +209,3 @@ def test_certificate_of_a_neighbour_does_not_concern_a_structure(structure):
     pulse = th.Pulse("one-sine", 0.05, 3.0)
     with pytest.raises(Refused, match="it is about another structure"):
         concerns(honest(COLUMN, pulse), structure, pulse)
-
-
-def run_alone(*paths):
-    """The checker as a folder, without any package but the standard library."""
-    folder = Path(intervals.__file__).parent
-    command = [sys.executable, "-I", "-S", str(folder), *map(str, paths)]
-    return subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
-
-
-def test_command_of_the_readme_proves_the_published_certificates():
-    readme = (ROOT / "README.md").read_text(encoding="utf-8")
-    (name,) = re.findall(r"python3 -I -S src/topheavy/proven/checking (\S+)`", readme)
-    assert Path(intervals.__file__).parent.samefile(ROOT / "src/topheavy/proven/checking")
-    done = run_alone(ROOT / name)
-    assert done.returncode == 0, done.stderr
-    assert done.stdout.count(": proven: ") == done.stdout.count("\n") > 200

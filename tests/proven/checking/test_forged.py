@@ -11,8 +11,8 @@ from itertools import product
 import pytest
 
 import topheavy as th
-from tests.cases import BLOCK, COLUMN
-from tests.proven.checking.test_check import WITH_IMPACT, honest, run_alone
+from tests.cases import BLOCK, COLUMN, run_alone
+from tests.proven.checking.test_check import WITH_IMPACT, honest
 from topheavy.proven import certified, survives_below
 from topheavy.proven.checking import Refused, check, schema
 
