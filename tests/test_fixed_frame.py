@@ -7,11 +7,12 @@ import pytest
 import sympy as sp
 
 import topheavy as th
+from tests.cases import RECORDS
 
 COLUMN, CAP = th.Column(0.5, 3.0), th.Cap(5.0, 0.5)
 HELD = [(0.0, "pinned")]
 HELD += [(ratio, top) for ratio in (1.0, 4.0, math.inf) for top in ("pinned", "guided")]
-RECORD = th.read_record("data/records/el_centro_1940_NS.AT2")
+RECORD = th.read_record(RECORDS / "el_centro_1940_NS.AT2")
 PULSE = th.Pulse("one-cosine", 0.4, 2.0 * math.pi / 1.5)
 
 

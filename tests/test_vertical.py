@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import topheavy as th
+from tests.cases import RECORDS
 from topheavy import reference
 from topheavy.newton_euler import ThreeBodies, uplift_accelerations
 from topheavy.overturning import outcomes_by
@@ -247,8 +248,8 @@ def test_factors_scale_both_or_one(scale_vertical, linearised):
 
 
 def test_measured_vertical_gives_both_solvers_the_same_outcomes():
-    across = th.read_record("data/records/napa_2014_68150_090.AT2")
-    up = th.read_record("data/records/napa_2014_68150_UP.AT2")
+    across = th.read_record(RECORDS / "napa_2014_68150_090.AT2")
+    up = th.read_record(RECORDS / "napa_2014_68150_UP.AT2")
     structures = [
         COLUMN,
         FRAME,
@@ -267,8 +268,8 @@ def test_measured_vertical_gives_both_solvers_the_same_outcomes():
 
 
 def test_measured_vertical_moves_both_solvers_alike():
-    across = th.read_record("data/records/napa_2014_68150_090.AT2")
-    up = th.read_record("data/records/napa_2014_68150_UP.AT2")
+    across = th.read_record(RECORDS / "napa_2014_68150_090.AT2")
+    up = th.read_record(RECORDS / "napa_2014_68150_UP.AT2")
     window = slice(1400, 2200)
     across = th.Record(across.time_step, 1.5 * across.acceleration[window])
     up = th.Record(up.time_step, 1.5 * up.acceleration[window])

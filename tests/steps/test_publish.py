@@ -23,6 +23,7 @@ from replication.pages.edition import (
 )
 from replication.workbench import value
 from steps.publish import main
+from tests.cases import ROOT
 
 CLAIM = Claim(
     id="trilith_size",
@@ -37,7 +38,7 @@ CLAIM = Claim(
     expected="confirmed",
 )
 SIZE = Findings({"size": value(0.41483702538308, 1e-16)}, ("topheavy.structures.Column",))
-ROW = with_verdict(CLAIM, {"trilith": SIZE})
+ROW = with_verdict(CLAIM, {"trilith": SIZE}, ROOT)
 OURS = replace(ROW, id="ours", study="pendulums", verdict="refuted")
 
 

@@ -1,13 +1,11 @@
 """The words to avoid: found in prose, and only there."""
 
-from pathlib import Path
-
 import pytest
 import yaml
 
-from replication.commands import words
+from steps import words
+from tests.cases import ROOT
 
-ROOT = Path(__file__).resolve().parents[3]
 LIST = yaml.safe_load((ROOT / "paper" / "words.yaml").read_text(encoding="utf-8"))
 PHRASES = {"is had|are had": "gives", "seat|seats": "column-top contact"}
 

@@ -96,7 +96,6 @@ def test_name_that_cannot_be_one_or_is_like_another_changes_nothing(project, nam
         ("paper", "count claims that belong to no study"),
         ("ours", "count claims that belong to no study"),
         ("results", "folders that .gitignore keeps out"),
-        ("lintel", r"a word that paper/words.yaml asks to avoid \(cap beam\)"),
     ],
 )
 def test_name_that_means_something_else_is_refused_with_the_reason(project, name, meaning):
