@@ -7,13 +7,18 @@ import pytest
 import sympy as sp
 
 import topheavy as th
-from tests.cases import RECORDS
+from tests.cases import COLUMN, RECORDS
 
-COLUMN, CAP = th.Column(0.5, 3.0), th.Cap(5.0, 0.5)
+CAP = th.Cap(5.0, 0.5)
+ENDS = pytest.mark.parametrize("top", ["pinned", "guided"])
 HELD = [(0.0, "pinned")]
 HELD += [(ratio, top) for ratio in (1.0, 4.0, math.inf) for top in ("pinned", "guided")]
 RECORD = th.read_record(RECORDS / "el_centro_1940_NS.AT2")
 PULSE = th.Pulse("one-cosine", 0.4, 2.0 * math.pi / 1.5)
+
+
+def held(ratio, top="pinned", cap=CAP):
+    return th.FixedFrame(th.RockingFrame(COLUMN, ratio), cap, top)
 
 
 def shape_of(top, x):
@@ -52,7 +57,7 @@ def of_beam(load_over_weight, ratio, end):
 
 @pytest.mark.parametrize(("ratio", "top"), HELD)
 def test_rigid_frame_is_a_beam_under_its_inertia(ratio, top):
-    fixed = th.FixedFrame(th.RockingFrame(COLUMN, ratio), CAP, top)
+    fixed = held(ratio, top)
     expected = of_beam(lambda x: sp.Integer(1), ratio, top)
     assert fixed.rigid == pytest.approx(expected, rel=1e-12, abs=1e-12)
 
@@ -64,11 +69,11 @@ def test_mode_is_a_beam_under_the_inertia_of_its_shape(ratio, top):
     linear, square = (float(sp.integrate(shape_of(top, x) ** power, (x, 0, 1))) for power in (1, 2))
     participation = (1 - columns + columns * linear) / (1 - columns + columns * square)
     expected = participation * np.array(of_beam(lambda x: shape_of(top, x), ratio, top))
-    fixed = th.FixedFrame(th.RockingFrame(COLUMN, ratio), CAP, top)
+    fixed = held(ratio, top)
     assert fixed.mode == pytest.approx(expected, rel=1e-12, abs=1e-12)
 
 
-@pytest.mark.parametrize("top", ["pinned", "guided"])
+@ENDS
 def test_shape_is_that_of_a_force_at_the_top(top):
     x = sp.Symbol("x")
     shape = shape_of(top, x)
@@ -80,30 +85,27 @@ def test_shape_is_that_of_a_force_at_the_top(top):
 
 def test_column_without_a_cap_beam_is_a_cantilever_of_its_own():
     """By hand: a mass m at h moves with the ground, M = m ü_g h; the weight of both is 2mg."""
-    alone = th.RockingFrame(COLUMN, 0.0)
-    found = th.peak_rigid(th.FixedFrame(alone, CAP, "pinned"), PULSE)
+    found = th.peak_rigid(held(0.0), PULSE)
     assert found.bending_moment == pytest.approx(0.4 * 3.0 / 2.0, rel=1e-12)
     assert found.overturning_moment == pytest.approx(2.0 * found.bending_moment, rel=1e-12)
-    deeper = th.FixedFrame(alone, th.Cap(9.0, 2.0), "pinned")
-    assert th.peak_elastic([deeper], PULSE, 0.5) == th.peak_elastic(
-        [th.FixedFrame(alone, CAP, "pinned")], PULSE, 0.5
+    deeper, usual = (
+        th.peak_elastic([one], PULSE, 0.5) for one in (held(0.0, cap=th.Cap(9.0, 2.0)), held(0.0))
     )
+    assert deeper == usual
 
 
 def test_cantilever_without_mass_carries_half_the_cap_beam_at_its_top():
     """By hand: half the weight over ü_g/g, at 2h; a guided column has half of it at each end."""
-    heavy = th.RockingFrame(COLUMN, math.inf)
-    pinned, guided = (th.FixedFrame(heavy, CAP, top) for top in ("pinned", "guided"))
-    for forces in (pinned.rigid, pinned.mode):
-        assert forces[2:] == pytest.approx([0.5 * 6.0, 0.0], rel=1e-12)
-    for forces in (guided.rigid, guided.mode):
-        assert forces[2:] == pytest.approx([0.5 * 3.0, 0.5 * 3.0], rel=1e-12)
+    for top, moments in (("pinned", [0.5 * 6.0, 0.0]), ("guided", [0.5 * 3.0] * 2)):
+        one = held(math.inf, top)
+        for forces in (one.rigid, one.mode):
+            assert forces[2:] == pytest.approx(moments, rel=1e-12)
 
 
 @pytest.mark.parametrize("ratio", [0.0, 1.0, 4.0, math.inf])
 def test_pinned_columns_take_all_of_the_overturning_but_that_of_the_cap_beams_depth(ratio):
     """The pins are below the centre of the cap beam; a couple of axial forces takes the rest."""
-    fixed = th.FixedFrame(th.RockingFrame(COLUMN, ratio), CAP, "pinned")
+    fixed = held(ratio)
     beam = 1.0 if ratio == math.inf else ratio / (1.0 + ratio)
     for forces, mean in ((fixed.rigid, 1.0), (fixed.mode, 3.0 / 8.0)):
         of_the_cap = forces[0] * beam / (beam + (1.0 - beam) * mean)
@@ -122,50 +124,46 @@ def test_mode_of_a_column_alone_is_nearly_the_first_of_a_cantilever():
         mean, square, first = (np.trapezoid(f, x) for f in (shape, shape**2, shape * x))
         shears.append(mean**2 / square)
         moments.append(mean * first / square * 3.0)  # of one column of 6 m, over the weight of two
-    ours = th.FixedFrame(th.RockingFrame(COLUMN, 0.0), CAP, "pinned")
+    ours = held(0.0)
     assert ours.mode[0] == pytest.approx(shears[0], rel=0.03)
     assert ours.mode[2] == pytest.approx(moments[0], rel=0.03)
     assert sum(moments) == pytest.approx(ours.rigid[2], rel=0.01)
 
 
-def test_guided_column_needs_a_cap_beam():
-    with pytest.raises(ValueError, match=r"no cap beam \(γ = 0\) that guides its columns"):
-        th.FixedFrame(th.RockingFrame(COLUMN, 0.0), CAP, "guided")
-
-
-@pytest.mark.parametrize("motion", [None, 3.0, th.Pulse("harmonic", 0.3, 5.0)])
-def test_motion_has_to_be_one_that_ends(motion):
-    held = th.FixedFrame(th.RockingFrame(COLUMN, 1.0), CAP, "pinned")
-    for peaks in (
-        lambda: th.peak_rigid(held, motion),
-        lambda: th.peak_elastic([held], motion, 0.4),
-        lambda: th.peak_elastic_by_scipy(held, motion, 0.4),
-    ):
-        with pytest.raises(ValueError, match=r"excitation is .* that ends"):
-            peaks()
-
-
-@pytest.mark.parametrize("period", [0.0, -1.0, math.inf, "1", None])
-def test_period_is_positive_by_both_solvers(period):
-    held, pulse = (
-        th.FixedFrame(th.RockingFrame(COLUMN, 1.0), CAP, "pinned"),
-        th.Pulse("one-sine", 0.3, 5.0),
-    )
-    for peaks in (
-        lambda: th.peak_elastic([held], pulse, period),
-        lambda: th.peak_elastic_by_scipy(held, pulse, period),
-    ):
-        with pytest.raises(ValueError, match="period is"):
-            peaks()
-
-
-def test_top_is_pinned_or_guided():
-    with pytest.raises(ValueError, match="top is 'fixed'; expected 'pinned'"):
-        th.FixedFrame(th.RockingFrame(COLUMN, 1.0), CAP, "fixed")
+@pytest.mark.parametrize(
+    ("call", "says"),
+    [
+        (lambda: held(0.0, "guided"), r"no cap beam \(γ = 0\) that guides its columns"),
+        (lambda: held(1.0, "fixed"), "top is 'fixed'; expected 'pinned'"),
+        *(
+            (
+                lambda peaks=peaks, motion=motion: peaks(held(1.0), motion),
+                r"excitation is .* that ends",
+            )
+            for motion in (None, 3.0, th.Pulse("harmonic", 0.3, 5.0))
+            for peaks in (
+                th.peak_rigid,
+                lambda one, motion: th.peak_elastic([one], motion, 0.4),
+                lambda one, motion: th.peak_elastic_by_scipy(one, motion, 0.4),
+            )
+        ),
+        *(
+            (lambda of=of, period=period: of(held(1.0), period), "period is")
+            for period in (0.0, -1.0, math.inf, "1", None)
+            for of in (
+                lambda one, period: th.peak_elastic([one], PULSE, period),
+                lambda one, period: th.peak_elastic_by_scipy(one, PULSE, period),
+            )
+        ),
+    ],
+)
+def test_bad_frame_motion_or_period_is_refused_by_both_solvers(call, says):
+    with pytest.raises(ValueError, match=says):
+        call()
 
 
 def test_peak_of_a_rigid_frame_is_that_of_the_ground():
-    fixed = th.FixedFrame(th.RockingFrame(COLUMN, 1.0), CAP, "pinned")
+    fixed = held(1.0)
     assert th.peak_rigid(fixed, PULSE).base_shear == pytest.approx(0.4)
     assert th.peak_rigid(fixed, RECORD).base_shear == pytest.approx(RECORD.peak_acceleration)
     ricker = th.Pulse("ricker-symmetric", -0.3, 4.0)
@@ -174,14 +172,14 @@ def test_peak_of_a_rigid_frame_is_that_of_the_ground():
 
 @pytest.mark.parametrize(("ratio", "top"), HELD)
 def test_stiff_frame_is_nearly_rigid(ratio, top):
-    fixed = th.FixedFrame(th.RockingFrame(COLUMN, ratio), CAP, top)
+    fixed = held(ratio, top)
     pulse = th.Pulse("one-sine", 0.4, 2.0 * math.pi / 1.5)  # begins without a jump
     (found,) = th.peak_elastic([fixed], pulse, 0.005)
     assert found == pytest.approx(th.peak_rigid(fixed, pulse), rel=0.01)
 
 
 def test_resonance_is_that_of_five_per_cent_damping():
-    fixed = th.FixedFrame(th.RockingFrame(COLUMN, math.inf), CAP, "pinned")
+    fixed = held(math.inf)
     times = np.arange(0.0, 60.0, 0.005)
     record = th.Record(0.005, 0.1 * np.sin(2.0 * math.pi * times), "harmonic")
     (found,) = th.peak_elastic([fixed], record, 1.0)
@@ -190,7 +188,7 @@ def test_resonance_is_that_of_five_per_cent_damping():
 
 
 def test_suddenly_accelerated_frame_overshoots():
-    fixed = th.FixedFrame(th.RockingFrame(COLUMN, math.inf), CAP, "pinned")
+    fixed = held(math.inf)
     record = th.Record(5.0, np.array([0.2, 0.2]), "step", unit="g")
     (found,) = th.peak_elastic([fixed], record, 0.5, 2000)
     overshoot = 1.0 + math.exp(-0.05 * math.pi / math.sqrt(1.0 - 0.05**2))
@@ -200,9 +198,9 @@ def test_suddenly_accelerated_frame_overshoots():
 
 @pytest.mark.parametrize("period", [0.1, 0.5, 2.0])
 @pytest.mark.parametrize("motion", [PULSE, th.Record(0.02, RECORD.acceleration[:120], "part")])
-@pytest.mark.parametrize("top", ["pinned", "guided"])
+@ENDS
 def test_two_solvers_agree(motion, period, top):
-    fixed = th.FixedFrame(th.RockingFrame(COLUMN, 1.0), CAP, top)
+    fixed = held(1.0, top)
     (found,) = th.peak_elastic([fixed], motion, period, 1000)
     other = th.peak_elastic_by_scipy(fixed, motion, period, 1000)
     assert found == pytest.approx(other, rel=5e-5)

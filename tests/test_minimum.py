@@ -50,17 +50,9 @@ def test_narrow_interval_below_a_minimum_that_four_steps_agree_on_is_found(pier)
 
 @pytest.mark.parametrize("judged", [th.judge, reference.judge], ids=["Taylor", "SciPy"])
 def test_both_solvers_have_the_narrow_interval(pier, judged):
-    around = 1e-7
-    outcomes = [
-        judged(PIER, EL_CENTRO.scaled(factor)).overturned
-        for factor in (
-            pier.bracket[0] - around,
-            pier.bracket[1] + around,
-            pier.upper[0] - around,
-            pier.upper[1] + around,
-        )
-    ]
-    assert outcomes == [False, True, True, False]
+    ends = zip((*pier.bracket, *pier.upper), (-1e-7, 1e-7, -1e-7, 1e-7), strict=True)
+    fell = [judged(PIER, EL_CENTRO.scaled(at + off)).overturned for at, off in ends]
+    assert fell == [False, True, True, False]
 
 
 def test_minimum_rises_on_grids_that_are_not_nested_and_never_on_nested_ones():
@@ -113,14 +105,9 @@ def test_step_is_halved_to_the_floor_and_no_factor_is_passed_over(
     assert found.upper[0] in factors[overturned]
     assert found.upper[1] in factors[~overturned]
     assert 0.0 < found.upper[1] - found.upper[0] <= 1e-10 * scales[1]
-
-
-@pytest.mark.parametrize(("block", "excitation", "scales", "floor"), CASES.values(), ids=CASES)
-def test_lowest_factor_is_not_above_that_of_the_intervals(block, excitation, scales, floor):
-    found = th.lowest_overturning(block, excitation, scales, floor=floor)
-    first, *_ = th.overturning_intervals(
-        block, excitation, scales, resolution=found.steps[-1][0], most_impacts=0
-    )
+    # not above that of the intervals
+    given = {"resolution": steps[-1], "most_impacts": 0}
+    first, *_ = th.overturning_intervals(block, excitation, scales, **given)
     assert found.factor <= first.lower[1] + 1e-9
     ends = [th.judge(block, excitation.scaled(factor)).overturned for factor in found.bracket]
     assert ends == [False, True]
@@ -188,30 +175,22 @@ def test_halving_stops_at_a_step_equal_to_the_floor():
 # ---------------------------------------------------------------------------- ends and words
 
 
-def test_range_that_begins_in_an_interval_says_so():
-    found = th.lowest_overturning(LINEAR, SINE, (4.0, 8.0), floor=0.1)
-    assert found.bracket == (4.0, 4.0)
-    assert {factor for _, factor in found.steps} == {4.0}
-    assert found.upper[0] == pytest.approx(6.3181, abs=1e-3)
-    assert str(found).startswith("The first factor of the range overturns; it is 4 (1 g), in an ")
-
-
-def test_interval_that_the_range_cuts_off_has_no_width():
-    found = th.lowest_overturning(LINEAR, SINE, (6.5, 8.0), floor=0.1)
-    assert found.factor == pytest.approx(7.16813, abs=1e-5)
-    assert found.upper is None
-    assert math.isnan(found.width)
-    assert "open at the end of the range" in str(found)
-
-
-def test_where_nothing_overturns_there_is_no_number():
-    found = th.lowest_overturning(LINEAR, SINE, (0.0, 1.0), floor=0.1)
-    assert (found.bracket, found.upper) == (None, None)
-    assert math.isnan(found.factor)
-    assert math.isnan(found.acceleration)
-    assert math.isnan(found.width)
-    assert {factor for _, factor in found.steps} == {None}
-    assert str(found).startswith("No factor tried from 0 to 1 overturns. The step was halved")
+def test_range_that_begins_in_an_interval_ends_in_one_or_has_none_says_so():
+    begun, cut, none = (
+        th.lowest_overturning(LINEAR, SINE, ends, floor=0.1)
+        for ends in ((4.0, 8.0), (6.5, 8.0), (0.0, 1.0))
+    )
+    assert begun.bracket == (4.0, 4.0)
+    assert {factor for _, factor in begun.steps} == {4.0}
+    assert begun.upper[0] == pytest.approx(6.3181, abs=1e-3)
+    assert str(begun).startswith("The first factor of the range overturns; it is 4 (1 g), in an ")
+    assert cut.factor == pytest.approx(7.16813, abs=1e-5)
+    assert (cut.upper, math.isnan(cut.width)) == (None, True)
+    assert "open at the end of the range" in str(cut)
+    assert (none.bracket, none.upper) == (None, None)
+    assert np.isnan([none.factor, none.acceleration, none.width]).all()
+    assert {factor for _, factor in none.steps} == {None}
+    assert str(none).startswith("No factor tried from 0 to 1 overturns. The step was halved")
 
 
 def test_words_name_what_was_found_and_what_is_not_excluded(pier):
@@ -221,9 +200,6 @@ def test_words_name_what_was_found_and_what_is_not_excluded(pier):
         "not excluded (floor 0.0004)."
     )
     assert NOT_EXCLUDED == "intervals narrower than the floor are not excluded"
-
-
-def test_search_never_speaks_of_convergence():
     assert "converge" not in Path(topheavy.minimum.__file__).read_text(encoding="utf-8").lower()
 
 
@@ -253,14 +229,9 @@ def test_search_never_speaks_of_convergence():
     ],
 )
 def test_bad_search_is_refused_by_name_and_value(changes, says):
-    given = {
-        "structure": BLOCK,
-        "excitation": SHAKING,
-        "scale_range": (0.0, 3.0),
-        "floor": 0.1,
-    } | changes
+    given = {"structure": BLOCK, "excitation": SHAKING, "scale_range": (0.0, 3.0), "floor": 0.1}
     with pytest.raises(ValueError, match=says):
-        th.lowest_overturning(**given)
+        th.lowest_overturning(**given | changes)
 
 
 def test_first_wide_interval_is_found_beside_a_narrow_lower_one():
