@@ -5,7 +5,7 @@ from dataclasses import astuple, replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import topheavy as th
@@ -92,13 +92,13 @@ def test_frame_is_the_column_of_its_equivalent_size(
     unit = th.Pulse(shape, strength * first.uplift_acceleration, ratio * first.frequency_parameter)
     ends = [th.judge(first, unit.scaled(x)) for x in (1 - 1e-9, 1.0, 1 + 1e-9)]
     apart = [(end.overturned, end.impacts) for end in ends]
-    if apart[0] == apart[1] == apart[2]:
-        end = th.judge(second, unit)
-        assert (end.overturned, end.impacts) == apart[1]
-        spread = 0.0 if end.overturned else abs(ends[2].peak - ends[0].peak)
-        # rounding differs by 1e-16 of amplitude, ω/p and α; 1e-4 of what 1e-9 does is 1e-13
-        close = 1e-12 * alpha + 1e-4 * spread
-        np.testing.assert_allclose(end.peak, ends[1].peak, rtol=0, atol=close)
+    assume(apart[0] == apart[1] == apart[2])
+    end = th.judge(second, unit)
+    assert (end.overturned, end.impacts) == apart[1]
+    spread = 0.0 if end.overturned else abs(ends[2].peak - ends[0].peak)
+    # rounding differs by 1e-16 of amplitude, ω/p and α; 1e-4 of what 1e-9 does is 1e-13
+    close = 1e-12 * alpha + 1e-4 * spread
+    np.testing.assert_allclose(end.peak, ends[1].peak, rtol=0, atol=close)
 
 
 @few
@@ -107,8 +107,7 @@ def test_energy_never_grows_once_the_ground_rests_and_falls_at_impacts_alone(cas
     block, pulse = case
     times = pulse.duration + np.linspace(1e-6, 12.0, 400) / block.frequency_parameter
     found = th.simulate(block, pulse, samples=times)
-    if found.overturned:
-        return
+    assume(not found.overturned)
     pairs = zip(np.abs(found.rotation), found.velocity, strict=True)
     height = np.array([energy(block, *pair) for pair in pairs])
     top = max(height.max(), 1e-9 * barrier(block))
@@ -130,8 +129,7 @@ def test_motion_is_judged_as_by_the_reference(case):
     """
     block, motion = case
     less, end, more = (th.judge(block, motion.scaled(x)) for x in (1 - 1e-8, 1.0, 1 + 1e-8))
-    if not less.overturned == end.overturned == more.overturned:
-        return
+    assume(less.overturned == end.overturned == more.overturned)
     expected = reference.judge(block, motion)
     assert end.overturned == expected.overturned
     if less.impacts == end.impacts == more.impacts:
