@@ -115,13 +115,15 @@ def main(source: str) -> None:
         return
     print(f"The machine: {before} → {theirs}\n")
     print(news(Path(MACHINE, "CHANGES.md").read_text(encoding="utf-8"), before))
-    if subprocess.run([os.environ.get("UV", "uv"), "lock", "--quiet"]).returncode:
+    uv = os.environ.get("UV", "uv")
+    if subprocess.run([uv, "lock", "--quiet"]).returncode:
         git("restore", "--source=HEAD", "--staged", "--worktree", "--", MACHINE)
         sys.exit("make update: uv cannot lock the packages; nothing is changed")
     record()
     readme, link = Path("README.md"), f"[{{}}]({MACHINE}/CHANGES.md)"
     text = readme.read_text(encoding="utf-8")
     readme.write_text(text.replace(link.format(before), link.format(theirs)), encoding="utf-8")
+    subprocess.run([uv, "run", "--locked", "--no-dev", "python", "-m", "replication.pages.edition"])
     if subprocess.run(["make", "--no-print-directory", "check"]).returncode:
         sys.exit(f"make update: the machine is {theirs} now; make check fails as said above")
     print(f"The machine is {theirs} now. Left for you: what its changes ask of a paper (above);")

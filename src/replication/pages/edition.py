@@ -14,7 +14,14 @@ from replication.inputs.strict_yaml import read_yaml
 from replication.judging.claim import Claim, JudgedClaim
 from replication.judging.digits import numbers
 from replication.judging.findings import Findings, findings_by_rule, write_findings
-from replication.judging.ledger import OURS, REPRODUCED, as_text, read_ledger, with_verdicts
+from replication.judging.ledger import (
+    OURS,
+    REPRODUCED,
+    as_text,
+    read_judged,
+    read_ledger,
+    with_verdicts,
+)
 from replication.judging.verdicts import VERDICTS, by_origin
 from replication.origin.recorded import read_crate
 from replication.pages import blanks
@@ -263,3 +270,9 @@ def publish_verdicts(ledger: Sequence[Claim], root: Path) -> None:
     (root / "docs" / "verdicts.md").write_text(verdict_page(rows, reference), encoding="utf-8")
     readme = root / "README.md"
     readme.write_text(with_counts(readme.read_text(encoding="utf-8"), rows), encoding="utf-8")
+
+
+if __name__ == "__main__":  # `make update`: the page of what is published, as this machine has it
+    PUBLISHED = Path("tests/reference")
+    PAGE = verdict_page(read_judged(PUBLISHED / "claims.json"), PUBLISHED)
+    Path("docs/verdicts.md").write_text(PAGE, encoding="utf-8")

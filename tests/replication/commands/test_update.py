@@ -97,7 +97,7 @@ def test_newer_machine_is_taken_locked_and_checked_and_once_more_at_one_version(
     assert (paper / PLACE / "part.py").read_text() == "V = '1.1.0'\n"
     assert not any((paper / path).exists() for path in update.AT_HOME)
     assert "The machine, [1.1.0](src/" in (paper / "README.md").read_text()
-    assert (paper / "locked").read_text() == "lock --quiet\n"
+    assert "lock --quiet\nrun " in (paper / "locked").read_text()
     assert (paper / "checked").read_text().split()[1::2] == ["check"]
     commit(paper)
     assert "nothing to do" in updated(paper, source).stdout
