@@ -25,7 +25,7 @@ LONGEST_FIRST = (
     "test_vertical.py",
     "test_types.py",
     "test_histories.py",
-    "test_theorems.py",
+    "test_theorem.py",
     "test_contact.py",
     "test_verdicts.py",
     "test_check_html.py",

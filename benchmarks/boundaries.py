@@ -29,7 +29,7 @@ from topheavy import (
     read_record,
     simulate,
 )
-from topheavy.shapes import ENDING
+from topheavy.ground.shapes import ENDING
 
 RECORDS = Path(__file__).parent.parent / "data" / "records"
 SHAPES = sorted(ENDING)

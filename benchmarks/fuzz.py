@@ -31,13 +31,14 @@ from hypothesis import HealthCheck, Phase, assume, given, seed, settings
 from hypothesis import strategies as st
 
 import topheavy
-from topheavy import free_rocking, reference
-from topheavy.frame_forces import centre_height
-from topheavy.newton_euler import ThreeBodies, accelerations, impact
-from topheavy.pulses import Pulse
-from topheavy.records import Record
-from topheavy.shapes import ENDING
-from topheavy.structures import RockingBlock, Structure
+from topheavy.bodies import free_rocking
+from topheavy.bodies.structures import RockingBlock, Structure
+from topheavy.forces.frame import centre_height
+from topheavy.ground.pulses import Pulse
+from topheavy.ground.records import Record
+from topheavy.ground.shapes import ENDING
+from topheavy.second import reference
+from topheavy.second.newton_euler import ThreeBodies, accelerations, impact
 
 #: Cases of a property in its turn, s of the processor for one, and the first two of all turns.
 TURN, LONGEST = 25, 20.0
@@ -240,7 +241,7 @@ def lanes(several: list[Any], data: st.DataObject) -> None:
         each = [th.Pulse(motion.shape, float(a), motion.angular_frequency) for a in cells.amplitude]
     else:
         assume(motion.peak_acceleration > 1e-9)
-        sizes = [topheavy.structures.solitary_size(several[0].block().frequency_parameter)]
+        sizes = [topheavy.bodies.structures.solitary_size(several[0].block().frequency_parameter)]
         peaks = motion.peak_acceleration * np.array(factors)
         block = structure.block()
         cells = th.overturning_map_of_record(block, motion, sizes, peaks)

@@ -4,7 +4,7 @@ Every history starts at the first uplift, with φ = 1e-17 instead of 0, so that 
 the start for an impact. It is split at the end of the forcing, where a corner would cost a solver
 many steps. Each impact is an event, and so is each turning point, for the peak. In the usual form,
 the solver integrates the free rocking until the next rotation is less than a thousandth of α. With
-our free-rocking stage, `topheavy.free_rocking.ending` judges the state at the end of the forcing.
+our free-rocking stage, `free_rocking.ending` judges the state at the end of the forcing.
 
 Time is τ = p t: the blocks have p = 1.
 """
@@ -15,7 +15,7 @@ import heyoka as hy
 from oracle import LOW, Found
 from scipy.integrate import solve_ivp
 
-from topheavy.free_rocking import ending
+from topheavy.bodies.free_rocking import ending
 
 START = 1e-17
 FORCED_REST, FREE_REST = 1e-12, 1e-3  # of the next bounce, over α

@@ -15,18 +15,11 @@ import sys
 import time
 from collections import Counter
 
-from topheavy import (
-    Column,
-    FixedMassColumn,
-    MonolithicPortal,
-    Pulse,
-    RockingFrame,
-    judge,
-    reference,
-)
+from topheavy import Column, FixedMassColumn, MonolithicPortal, Pulse, RockingFrame, judge
+from topheavy.ground.shapes import ENDING
 from topheavy.proven import certified
 from topheavy.proven.checking import Refused, check
-from topheavy.shapes import ENDING
+from topheavy.second import reference
 
 SEED = 28
 BY_SCIPY = 40  # one cell of so many

@@ -26,7 +26,7 @@ from kernel import histories
 from oracle import PulseOracle, RecordOracle
 
 from topheavy import RockingBlock, RockingFrame
-from topheavy.structures import Column
+from topheavy.bodies.structures import Column
 
 FULL = 40_000
 SLIGHT = 1e-10

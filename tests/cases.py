@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 import topheavy as th
-from topheavy import reference
-from topheavy.linear import simulate_linear_exact as closed
+from topheavy.second import reference
+from topheavy.second.linear import simulate_linear_exact as closed
 
 ROOT = Path(__file__).resolve().parents[1]
 REFERENCE = ROOT / "tests" / "reference"

@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 
 from benchmarks import fuzz
 from topheavy import Pulse, RockingBlock
-from topheavy.free_rocking import Ending
+from topheavy.bodies.free_rocking import Ending
 
 
 def test_every_public_function_is_called_and_every_property_holds(monkeypatch, capsys):

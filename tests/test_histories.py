@@ -9,13 +9,13 @@ import pytest
 import topheavy as th
 from benchmarks.boundaries import survey
 from tests.cases import BLOCK, BOTH, BY_TWO, EVERY, SIDES, TWO
-from topheavy import reference
-from topheavy.excitation import root
-from topheavy.free_rocking import barrier, potential, quarter_period
+from topheavy.bodies.free_rocking import barrier, potential, quarter_period
+from topheavy.ground.excitation import root
+from topheavy.ground.shapes import ELEMENTARY_ENDING
 from topheavy.kernel import trace
-from topheavy.linear import simulate_linear_exact as closed
-from topheavy.motion import MOST_FREE_IMPACTS, Event, force, start
-from topheavy.shapes import ELEMENTARY_ENDING
+from topheavy.second import reference
+from topheavy.second.linear import simulate_linear_exact as closed
+from topheavy.second.motion import MOST_FREE_IMPACTS, Event, force, start
 
 SHAKEN = th.Pulse("one-sine", 0.5, 9.0)
 LOSSLESS = BLOCK.with_restitution(1.0)
@@ -30,7 +30,7 @@ def small_speed(block, peak):
 @pytest.fixture
 def count_all(monkeypatch):
     """Count every impact, however small the rotation that it ends."""
-    monkeypatch.setattr("topheavy.motion.COUNTED_PEAK", -1.0)
+    monkeypatch.setattr("topheavy.second.motion.COUNTED_PEAK", -1.0)
 
 
 # ---------------------------------------------------------------------------- time and samples
@@ -225,7 +225,7 @@ def test_lossless_block_rocks_for_ever_or_overturns_by_both_solvers(block, shape
 def test_lossless_bounces_that_the_ground_cannot_raise_are_not_followed(monkeypatch):
     # Bounces of 1e-9 α through five minutes of quiet. A sample above the level behind it may lift
     # the block from any of them, so that all have to be followed.
-    monkeypatch.setattr("topheavy.motion.MOST_IMPACTS", 300)
+    monkeypatch.setattr("topheavy.second.motion.MOST_IMPACTS", 300)
     lossless = th.RockingBlock(1.0, 0.2, 1.0)
     quiet = 1.0001 * math.tan(0.2) * np.array([0.0, 1.0, *np.zeros(300)])
     history = reference.simulate(lossless, th.Record(1.0, quiet), samples=2)

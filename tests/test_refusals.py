@@ -9,12 +9,13 @@ import pytest
 
 import topheavy as th
 from tests.cases import COLUMN, FRAME
-from topheavy import Ending, reference
-from topheavy.linear import simulate_linear_exact
-from topheavy.overturning import Search
-from topheavy.response import MOST_SAMPLES
-from topheavy.shapes import ELEMENTARY
-from topheavy.three_bodies import simulate_three_bodies
+from topheavy import Ending
+from topheavy.bodies.response import MOST_SAMPLES
+from topheavy.ground.shapes import ELEMENTARY
+from topheavy.outcomes.overturning import Search
+from topheavy.second import reference
+from topheavy.second.linear import simulate_linear_exact
+from topheavy.second.three_bodies import simulate_three_bodies
 
 PULSE = th.Pulse("one-sine", 0.3, 6.0)
 RECORD = th.Record(0.1, [0.0, 0.3, 0.0])

@@ -10,11 +10,11 @@ from hypothesis import strategies as st
 
 import topheavy as th
 from tests.cases import BLOCK, RECORDS
-from topheavy import reference
+from topheavy.bodies.free_rocking import barrier, energy
 from topheavy.checks import LARGEST_ACCELERATION
-from topheavy.free_rocking import barrier, energy
-from topheavy.linear import simulate_linear_exact as closed
-from topheavy.shapes import ELEMENTARY, ENDING
+from topheavy.ground.shapes import ELEMENTARY, ENDING
+from topheavy.second import reference
+from topheavy.second.linear import simulate_linear_exact as closed
 
 few = settings(max_examples=15, deadline=None, derandomize=True, database=None)
 many = settings(few, max_examples=120)

@@ -9,9 +9,15 @@ from scipy.optimize import brentq
 
 import topheavy as th
 from tests.cases import BLOCK, BY_TWO, CLOSE, EVERY, NAMES, ON_LINEAR, SIDES
-from topheavy import reference
-from topheavy.free_rocking import barrier, energy, potential, quarter_period, turning_rotation
-from topheavy.shapes import ELEMENTARY_ENDING
+from topheavy.bodies.free_rocking import (
+    barrier,
+    energy,
+    potential,
+    quarter_period,
+    turning_rotation,
+)
+from topheavy.ground.shapes import ELEMENTARY_ENDING
+from topheavy.second import reference
 
 LINEAR = th.RockingBlock(1.0, 0.2, 0.9, linearised=True)
 

@@ -2,7 +2,7 @@
 /* Read a ground motion from the bytes of a file, PEER AT2 or CSV. The page sends it nowhere:
    it runs this file in a worker only, since its expressions take long to compile.
 
-   The rules are those of the library's `topheavy.records`, and tests hold both readers to one table of
+   The rules are those of the library's `topheavy.ground.records`, and tests hold both readers to one table of
    odd and bad files: what the library refuses, this page refuses in the same words. */
 
 const LARGEST = 5; // g: no record exceeds it

@@ -7,7 +7,7 @@ import pandas as pd
 
 from replication.workbench import Finding, grid, run, truth
 from topheavy import Column, Pulse, RockingFrame, judge
-from topheavy.massless_columns import SIMPLIFICATIONS, simplified
+from topheavy.bodies.massless_columns import SIMPLIFICATIONS, simplified
 
 
 def main(settings: dict) -> tuple[pd.DataFrame, dict]:

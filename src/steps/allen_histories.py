@@ -6,9 +6,10 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import Finding, run, truth
-from topheavy import Column, Pulse, RockingFrame, read_record, reference, simulate
-from topheavy.linear import simulate_linear_exact
-from topheavy.massless_columns import SIMPLIFICATIONS, simplified
+from topheavy import Column, Pulse, RockingFrame, read_record, simulate
+from topheavy.bodies.massless_columns import SIMPLIFICATIONS, simplified
+from topheavy.second import reference
+from topheavy.second.linear import simulate_linear_exact
 
 CLOSE = 1e-8  # of α: how close the model is to its solution in closed form
 

@@ -10,7 +10,7 @@ import pandas as pd
 
 from replication.workbench import Finding, grid, run, truth
 from topheavy import Column, Pulse, RockingFrame, judge
-from topheavy.massless_columns import simplified
+from topheavy.bodies.massless_columns import simplified
 
 OUTCOMES = {
     (False, False): "both survive",

@@ -21,7 +21,7 @@ from replication.drawing import GREY, INK, PAPER
 from replication.workbench import run
 from steps.vase_poses import bodies, lying
 from topheavy import Column, FixedMassColumn, Pulse, RockingFrame, simulate
-from topheavy.structures import STANDARD_GRAVITY, Structure
+from topheavy.bodies.structures import STANDARD_GRAVITY, Structure
 
 BLENDS = 12  # of two colours
 SIZE, DPI = (8.4, 4.2), 100  # inches

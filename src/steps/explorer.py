@@ -24,8 +24,8 @@ from topheavy import (
     read_record,
     simulate,
 )
-from topheavy.shapes import ENDING, SHAPES
-from topheavy.structures import RockingBlock
+from topheavy.bodies.structures import RockingBlock
+from topheavy.ground.shapes import ENDING, SHAPES
 
 STYLES = ("uplot/uPlot.min.css", "style.css")
 UPLOT = "uplot/uPlot.iife.min.js"
@@ -118,7 +118,7 @@ def titles(motions: str) -> dict[str, str]:
     waves = set(re.findall(r'^  "([\w-]+)": \{', motions, re.MULTILINE))
     if other := waves.symmetric_difference(SHAPES):
         raise ValueError(
-            f"src/explorer/motions.js and topheavy.shapes differ by {', '.join(sorted(other))}; "
+            f"src/explorer/motions.js and ground/shapes.py differ by {', '.join(sorted(other))}; "
             "expected a wave for every shape, and a shape for every wave"
         )
     return {name: SHAPES[name].title for name in dict.fromkeys((*ENDING, *SHAPES))}

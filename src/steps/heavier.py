@@ -6,15 +6,8 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import Finding, run, truth
-from topheavy import (
-    Column,
-    Pulse,
-    RockingFrame,
-    judge,
-    lowest_overturning,
-    reference,
-    simulate,
-)
+from topheavy import Column, Pulse, RockingFrame, judge, lowest_overturning, simulate
+from topheavy.second import reference
 
 FLOOR, HIGHEST = 1e-3, 12.0  # of the minimum overturning amplitude, over the uplift acceleration
 

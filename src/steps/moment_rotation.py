@@ -8,12 +8,12 @@ import sympy as sp
 
 from replication.workbench import Finding, run, truth
 from topheavy import Column, RockingBlock, RockingFrame, simulate
+from topheavy.bodies.free_rocking import energy_drift, quarter_period
+from topheavy.bodies.moment_rotation import restoring_moment
 from topheavy.derivation import POSITIVE, potential_energy
 from topheavy.derivation.equilibrium import RECTANGULAR
 from topheavy.derivation.notation import R, alpha, g, m_c
 from topheavy.derivation.notation import gamma as mass_ratio
-from topheavy.free_rocking import energy_drift, quarter_period
-from topheavy.moment_rotation import restoring_moment
 
 ROUNDING = 1e-12  # of m_c g R
 

@@ -29,12 +29,12 @@ from topheavy import (
     contact_forces,
     frame_forces,
     read_record,
-    reference,
     resting_portal_forces,
     rocking_portal_forces,
     simulate,
 )
-from topheavy.portal_forces import Bases, ColumnEnds, Section
+from topheavy.forces.portal import Bases, ColumnEnds, Section
+from topheavy.second import reference
 
 Forces = dict[str, np.ndarray]
 

@@ -16,7 +16,7 @@ from steps.shared.proofs import WIDTHS, as_lines, proven
 from steps.shared.spectra_compared import Place, Spectra
 from steps.vase import numbers
 from topheavy import Column, Pulse, judge
-from topheavy.structures import Structure
+from topheavy.bodies.structures import Structure
 
 SEED, CELLS = 28, 200  # a sample of the spectra
 NEAREST = 1e-7  # of an amplitude: how close to a boundary half of the sample is

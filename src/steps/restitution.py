@@ -7,7 +7,7 @@ import pandas as pd
 
 from replication.workbench import Finding, run, truth, value
 from topheavy import Column, RockingFrame
-from topheavy.structures import largest_slenderness
+from topheavy.bodies.structures import largest_slenderness
 
 
 def column(degrees: float) -> Column:

@@ -15,7 +15,8 @@ import pandas as pd
 from replication.workbench import Finding, run, truth
 from steps.shared.histories import NUDGE
 from steps.shared.spectrum import progress
-from topheavy import Column, Record, RockingFrame, judge, read_record, reference
+from topheavy import Column, Record, RockingFrame, judge, read_record
+from topheavy.second import reference
 
 CHANGED = 0.01  # of α: a change of the peak that is not small
 

@@ -7,7 +7,8 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import Finding, run, truth
-from topheavy import Column, Pulse, judge, reference, simulate
+from topheavy import Column, Pulse, judge, simulate
+from topheavy.second import reference
 
 
 def main(settings: dict, solver: dict) -> tuple[list[dict], pd.DataFrame, dict]:

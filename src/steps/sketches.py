@@ -9,8 +9,8 @@ import numpy as np
 
 from replication.workbench import run
 from topheavy import Column, RockingFrame
-from topheavy.kinematics import cap_acceleration, cap_displacement, column_outline
-from topheavy.structures import STANDARD_GRAVITY
+from topheavy.bodies.kinematics import cap_acceleration, cap_displacement, column_outline
+from topheavy.bodies.structures import STANDARD_GRAVITY
 
 SEAT, UPPER_LEFT = 2, 3  # corners of `column_outline`; for θ < 0 the cap rests on the upper right
 CLOSENESS = 1e-12  # of the size of a column: how well cap and columns must meet

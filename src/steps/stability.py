@@ -16,8 +16,8 @@ import pandas as pd
 from replication.workbench import Finding, grid, run, truth
 from steps.shared.spectra_compared import finite
 from topheavy import Column, Pulse, RockingFrame, judge
-from topheavy.linear import simulate_linear_exact
-from topheavy.structures import size_ratio
+from topheavy.bodies.structures import size_ratio
+from topheavy.second.linear import simulate_linear_exact
 
 SCANNING = 1e-8  # of α: tolerance of a scan, of which what is quoted is made anew
 RATIO = "frequency_ratio"

@@ -13,12 +13,12 @@ import sympy as sp
 
 from replication.workbench import Finding, run, truth
 from topheavy import STANDARD_GRAVITY, Column, Pulse, RockingFrame, simulate
+from topheavy.bodies.kinematics import cap_acceleration, cap_displacement, column_outline
+from topheavy.bodies.massless_columns import simplified
 from topheavy.derivation import NEGATIVE, POSITIVE, cap_motion, premises
 from topheavy.derivation.notation import acceleration, read, vanishes
 from topheavy.derivation.printed import EQUATIONS
-from topheavy.kinematics import cap_acceleration, cap_displacement, column_outline
-from topheavy.massless_columns import simplified
-from topheavy.three_bodies import simulate_three_bodies
+from topheavy.second.three_bodies import simulate_three_bodies
 
 IDENTICAL = 1e-8  # of α, between histories that differ by rounding alone
 BODIES = 1e-6  # of α, or of the cap's weight: what two integrations may differ by

@@ -9,16 +9,17 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import Finding, run, truth, value
-from topheavy import Column, RockingFrame, reference, simulate
+from topheavy import Column, RockingFrame, simulate
+from topheavy.bodies.structures import STANDARD_GRAVITY
 from topheavy.derivation.mends import mended_quotient
-from topheavy.shaking_table import (
+from topheavy.ground.shaking_table import (
     abrupt_start,
     amplitude_to_uplift,
     frequency_to_uplift,
     table_acceleration,
     table_motion,
 )
-from topheavy.structures import STANDARD_GRAVITY
+from topheavy.second import reference
 
 EPS = float(np.finfo(float).eps)
 EPS_PRINT = 1e-12  # printed decimals, which are exact but for their doubles

@@ -4,7 +4,7 @@ import numpy as np
 
 from replication.workbench import grid, run
 from topheavy import Column, RockingFrame, simulate
-from topheavy.shaking_table import amplitude_to_uplift, table_acceleration, table_motion
+from topheavy.ground.shaking_table import amplitude_to_uplift, table_acceleration, table_motion
 
 CURVE = 361  # points of the curve of uplift, and those of the map
 

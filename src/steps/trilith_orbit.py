@@ -11,7 +11,7 @@ import pandas as pd
 from replication.workbench import Finding, run, truth
 from steps.orbit.steady import SteadyRocking, settles, steady_rocking
 from topheavy import Column, RockingFrame
-from topheavy.shaking_table import abrupt_start, table_motion
+from topheavy.ground.shaking_table import abrupt_start, table_motion
 
 SEED, EACH = 28, 12  # starts of each outcome of the solver
 NAMES = {"rocking": "steady", "rests": "rests", "overturned": "overturns"}

@@ -12,9 +12,10 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import Finding, run, truth
-from topheavy import Column, Pulse, Response, RockingFrame, reference, simulate
-from topheavy.excitation import Segment
-from topheavy.shaking_table import table_motion
+from topheavy import Column, Pulse, Response, RockingFrame, simulate
+from topheavy.ground.excitation import Segment
+from topheavy.ground.shaking_table import table_motion
+from topheavy.second import reference
 
 SEED = 2014  # of the starts that SciPy judges again
 STEP = 0.01  # s, between the samples of the second half of a history

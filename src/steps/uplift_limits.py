@@ -40,10 +40,10 @@ from topheavy import (
     peak_elastic,
     peak_elastic_by_scipy,
     read_record,
-    reference,
 )
-from topheavy.newton_euler import ThreeBodies, accelerations
-from topheavy.three_bodies import simulate_three_bodies
+from topheavy.second import reference
+from topheavy.second.newton_euler import ThreeBodies, accelerations
+from topheavy.second.three_bodies import simulate_three_bodies
 
 SEED = 2014  # of the samples that the second solvers judge
 CLOSE = 1e-3  # relative: what the peaks of two solvers may differ by

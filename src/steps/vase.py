@@ -24,8 +24,8 @@ from topheavy import (
     Pulse,
     Record,
     read_record,
-    reference,
 )
+from topheavy.second import reference
 
 PORTALS_HIGHEST = 40.0  # g, where minima are sought; no other structure comes near
 BESIDE = 1e-3  # over the peak acceleration from which a base is pulled: where SciPy is asked

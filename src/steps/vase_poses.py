@@ -6,8 +6,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from topheavy import Column, FixedMassColumn, MonolithicPortal, Pulse, RockingFrame, simulate
-from topheavy.kinematics import outlines
-from topheavy.structures import Structure
+from topheavy.bodies.kinematics import outlines
+from topheavy.bodies.structures import Structure
 
 FALL = (0.0, 0.15, 0.4, 0.7, 1.0)  # of the last rotation: poses of what overturns
 CLOSENESS = 1e-9  # m: how far a body may be in the ground

@@ -23,10 +23,10 @@ from topheavy import (
     Search,
     judge,
     overturned_by,
-    reference,
 )
-from topheavy.minimum import lowest_together
-from topheavy.structures import Structure
+from topheavy.bodies.structures import Structure
+from topheavy.outcomes.minimum import lowest_together
+from topheavy.second import reference
 
 DISTANCES = (1e-7, 1e-5, 1e-3)
 """From a boundary, over the boundary: where SciPy is asked, from near to far."""

@@ -21,13 +21,13 @@ from topheavy import (
     derivation,
     judge,
     overturning_intervals,
-    reference,
     simulate,
 )
+from topheavy.bodies.free_rocking import Ending, energy_drift
 from topheavy.derivation.notation import alpha, gamma
-from topheavy.free_rocking import Ending, energy_drift
-from topheavy.linear import simulate_linear_exact
-from topheavy.shapes import ELEMENTARY
+from topheavy.ground.shapes import ELEMENTARY
+from topheavy.second import reference
+from topheavy.second.linear import simulate_linear_exact
 
 PUBLISHED = 10  # numbers of the literature, at least
 OF_PRINT = 0.005  # of a number: the prints, which have three digits, are that far off at most

@@ -1,5 +1,10 @@
 from . import plot, proven
-from .contact_forces import (
+from .bodies.fixed_mass import FixedMassColumn, MonolithicPortal
+from .bodies.free_rocking import Ending
+from .bodies.kinematics import cap_displacement
+from .bodies.response import Response
+from .bodies.structures import STANDARD_GRAVITY, Column, RockingBlock, RockingFrame, Structure
+from .forces.contact import (
     Cap,
     ContactForces,
     Reaction,
@@ -8,14 +13,14 @@ from .contact_forces import (
     contact_forces,
     impact_impulses,
 )
-from .fixed_frame import FixedFrame, Forces, peak_elastic, peak_elastic_by_scipy, peak_rigid
-from .fixed_mass import FixedMassColumn, MonolithicPortal
-from .fragility.estimate import Fragility, fragility
-from .frame_forces import FrameForces, base_shear_slope, frame_forces, largest_forces
-from .free_rocking import Ending
-from .kinematics import cap_displacement
-from .minimum import LowestOverturning, lowest_overturning
-from .overturning import (
+from .forces.fixed_frame import FixedFrame, Forces, peak_elastic, peak_elastic_by_scipy, peak_rigid
+from .forces.frame import FrameForces, base_shear_slope, frame_forces, largest_forces
+from .forces.portal import ColumnEnds, resting_portal_forces, rocking_portal_forces
+from .ground.pulses import Pulse
+from .ground.records import Record, read_at2, read_csv, read_record
+from .ground.shapes import PULSE_SHAPES
+from .outcomes.minimum import LowestOverturning, lowest_overturning
+from .outcomes.overturning import (
     Interval,
     Search,
     intervals_together,
@@ -26,14 +31,9 @@ from .overturning import (
     overturning_intervals,
     overturning_map,
 )
-from .portal_forces import ColumnEnds, resting_portal_forces, rocking_portal_forces
-from .pulses import Pulse
-from .record_map import overturning_map_of_record
-from .records import Record, read_at2, read_csv, read_record
-from .response import Response
-from .shapes import PULSE_SHAPES
-from .simulate import judge, simulate
-from .structures import STANDARD_GRAVITY, Column, RockingBlock, RockingFrame, Structure
+from .outcomes.record_map import overturning_map_of_record
+from .outcomes.simulate import judge, simulate
+from .risk.estimate import Fragility, fragility
 
 __version__: str
 

@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from topheavy.fixed_mass import FixedMassColumn, MonolithicPortal
-from topheavy.fragility.estimate import Fragility
+from topheavy.bodies.fixed_mass import FixedMassColumn, MonolithicPortal
+from topheavy.bodies.kinematics import outlines
+from topheavy.bodies.response import Response
+from topheavy.bodies.structures import RockingFrame, Structure, as_block
 from topheavy.keywords import hinted
-from topheavy.kinematics import outlines
-from topheavy.response import Response
-from topheavy.structures import RockingFrame, Structure, as_block
+from topheavy.risk.estimate import Fragility
 
 if TYPE_CHECKING:
     import xarray

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from steps.shared.sweep import Asked, Subject
 from steps.vase_searches import rivals
 from topheavy import STANDARD_GRAVITY, Column, RockingFrame
-from topheavy.structures import size_ratio
+from topheavy.bodies.structures import size_ratio
 
 Settings = Mapping[str, Any]
 VASE = "vase"

@@ -6,7 +6,7 @@ machine lengthens it less than the time of a clock.
 
 import pytest
 
-from tests.records.files import MOST, longest
+from tests.ground.records.files import MOST, longest
 
 SLOWED = 4
 LONGEST = 250.0  # ms: 75 to 92 on a quiet machine, where the bar is 100; more under load

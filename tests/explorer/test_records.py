@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.records.files import (
+from tests.ground.records.files import (
     BODIES,
     CSV,
     FILES,
@@ -20,7 +20,7 @@ from tests.records.files import (
     longest,
     too_long,
 )
-from tests.records.test_units import HEADERS, SPELLINGS
+from tests.ground.records.test_units import HEADERS, SPELLINGS
 from topheavy import read_record
 
 EDITED = 2000  # files

@@ -8,8 +8,8 @@ import pytest
 
 from steps.explorer import blocks, motion
 from topheavy import Cap, Column, RockingFrame, contact_forces, simulate
-from topheavy.contact_forces import column_forces
-from topheavy.kinematics import cap_displacement
+from topheavy.bodies.kinematics import cap_displacement
+from topheavy.forces.contact import column_forces
 
 WEAK = {
     "b": 0.5,

@@ -9,8 +9,8 @@ import pytest
 import topheavy as th
 from steps.explorer import DEFAULTS, blocks, motion, options
 from steps.shared.bearing import bearing
-from topheavy.contact_forces import column_forces
-from topheavy.shapes import ENDING
+from topheavy.forces.contact import column_forces
+from topheavy.ground.shapes import ENDING
 
 STATES = 700  # three structures each
 SHAPES = (*ENDING, "harmonic", "record")

@@ -3,7 +3,7 @@
 import pytest
 
 from tests.explorer.test_page import TYPE, state_of
-from tests.records.files import MOST
+from tests.ground.records.files import MOST
 
 
 def square(peak, period=25, number=150, step=0.02):

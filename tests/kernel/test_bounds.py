@@ -30,7 +30,7 @@ def test_no_history_comes_near_the_most_steps(monkeypatch, shape, block):
         motion = pulse_forcing(forcing.SHAPES[shape], strength * there.level, ratio)
         given = (w, outcome.PULSE_ORDER, outcome.TOLERANCE, there, motion, NO_RECORD)
         assert outcome.outcome.py_func(*given, outcome.NO_RATIOS).resolved
-        rest = (0.0, 0.0, math.inf, np.empty(0), np.empty((2, 0)), np.empty(1000))
+        rest = ((0.0, 0.0, math.inf), (np.empty(0), np.empty((2, 0)), np.empty(1000)))
         assert trace.trace.py_func(*given, *rest)[1] != trace.UNRESOLVED
     monkeypatch.setattr(outcome, "MAX_STEPS", 0)
     assert not outcome.outcome.py_func(*given, outcome.NO_RATIOS).resolved

@@ -73,13 +73,13 @@ def test_copies_share_what_is_compiled_until_a_file_that_it_calls_changes(tmp_pa
     assert ask(one, cache) == (-0.3, 1)
 
 
-@pytest.mark.parametrize("changed", ["kernel/rest.py", "kernel/lanes/steps.py", "shapes.py"])
+@pytest.mark.parametrize("changed", ["kernel/rest.py", "kernel/lanes/steps.py", "ground/shapes.py"])
 def test_change_of_any_source_is_another_state(tmp_path, changed):
     package = copied(tmp_path) / "topheavy"
-    before = state(package / "kernel", package / "shapes.py")
-    assert before == state(PACKAGE / "kernel", PACKAGE / "shapes.py")
+    before = state(package / "kernel", package / "ground/shapes.py")
+    assert before == state(PACKAGE / "kernel", PACKAGE / "ground/shapes.py")
     (package / changed).write_bytes((package / changed).read_bytes() + b"\n")
-    assert state(package / "kernel", package / "shapes.py") != before
+    assert state(package / "kernel", package / "ground/shapes.py") != before
 
 
 @pytest.mark.parametrize(
@@ -87,7 +87,7 @@ def test_change_of_any_source_is_another_state(tmp_path, changed):
     [("NUMBA_BOUNDSCHECK", True), ("NUMBA_OPT", True), ("NUMBA_CACHE_DIR", False)],
 )
 def test_option_that_changes_machine_code_is_another_state(monkeypatch, variable, is_another):
-    sources = PACKAGE / "kernel", PACKAGE / "shapes.py"
+    sources = PACKAGE / "kernel", PACKAGE / "ground/shapes.py"
     monkeypatch.delenv(variable, raising=False)
     before = state(*sources)
     monkeypatch.setenv(variable, "1")
@@ -96,7 +96,7 @@ def test_option_that_changes_machine_code_is_another_state(monkeypatch, variable
 
 @pytest.mark.parametrize("package", [numba, importlib.import_module("llvmlite")])
 def test_another_compiler_is_another_state(monkeypatch, package):
-    sources = PACKAGE / "kernel", PACKAGE / "shapes.py"
+    sources = PACKAGE / "kernel", PACKAGE / "ground/shapes.py"
     before = state(*sources)
     monkeypatch.setattr(package, "__version__", "0.0")
     assert state(*sources) != before

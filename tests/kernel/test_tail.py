@@ -1,11 +1,12 @@
-"""Free rocking in closed form, against `topheavy.free_rocking` and where digits cancel."""
+"""Free rocking in closed form, against `topheavy.bodies.free_rocking` and where digits cancel."""
 
 import math
 
 import numpy as np
 import pytest
 
-from topheavy import RockingBlock, free_rocking
+from topheavy import RockingBlock
+from topheavy.bodies import free_rocking
 from topheavy.kernel import tail
 from topheavy.kernel.taylor import oscillator
 

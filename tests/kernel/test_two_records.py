@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from topheavy import Record, RockingBlock
+from topheavy.ground.vertical import TwoComponents
 from topheavy.kernel.forcing import (
     RECORD,
     gravity,
@@ -23,7 +24,6 @@ from topheavy.kernel.march import march
 from topheavy.kernel.outcome import TOLERANCE, working_array
 from topheavy.kernel.rest import comes_to_rest
 from topheavy.kernel.taylor import ROTATION, State, expand, oscillator
-from topheavy.vertical import TwoComponents
 
 BLOCK = oscillator(RockingBlock(1.0, 0.2, 0.9))
 LINEAR = oscillator(RockingBlock(1.0, 0.2, 0.9, linearised=True))

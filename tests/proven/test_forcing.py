@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from topheavy import Pulse, Record
+from topheavy.ground.shapes import ENDING
 from topheavy.proven.balls import Undecided, arb, exact, hull, power, precision
 from topheavy.proven.forcing import prepared
-from topheavy.shapes import ENDING
 
 SHAPES = pytest.mark.parametrize("shape", ENDING)
 RECORD = Record(0.02, [0.01, 0.05, -0.3, 0.2, 0.0])

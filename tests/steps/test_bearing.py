@@ -7,7 +7,8 @@ import pytest
 
 from steps.shared import bearing
 from steps.shared.histories import history
-from topheavy import Column, MonolithicPortal, Pulse, reference, simulate
+from topheavy import Column, MonolithicPortal, Pulse, simulate
+from topheavy.second import reference
 
 WIDE = MonolithicPortal(Column(0.5, 3.0), 1.0, 5.0, 0.6)
 PULSE = Pulse("one-cosine", 1.0, 2 * math.pi / 1.5)

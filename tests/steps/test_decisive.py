@@ -24,7 +24,7 @@ from steps.shared.spectra_compared import Spectra
 from tests.cases import COLUMN as PIER
 from tests.cases import ROOT, broken
 from topheavy.derivation import PrintedCheck
-from topheavy.overturning import Interval
+from topheavy.outcomes.overturning import Interval
 from topheavy.proven import Below
 
 COLUMN = th.Column(0.11, 0.40)

@@ -9,9 +9,10 @@ import pytest
 from steps.orbit.jets import Jet
 from steps.orbit.shaken import Harmonic
 from steps.orbit.steady import COARSE, FINE, contraction, settles, steady_rocking
-from topheavy import Column, Pulse, RockingFrame, reference, simulate
+from topheavy import Column, Pulse, RockingFrame, simulate
+from topheavy.ground.shaking_table import abrupt_start, table_motion
 from topheavy.proven.balls import Undecided, arb, arb_mat, hull, precision
-from topheavy.shaking_table import abrupt_start, table_motion
+from topheavy.second import reference
 
 FRAME, MOTION = RockingFrame(Column(0.11, 0.40), 0.434), table_motion(0.005, 3.3)
 OMEGA, LAST = MOTION.angular_frequency, 30.0

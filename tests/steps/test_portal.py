@@ -10,7 +10,7 @@ import topheavy as th
 from steps import portal
 from steps.shared.histories import History
 from tests.cases import COLUMN, FRAME, RECORDS
-from topheavy.portal_forces import resting_portal_forces
+from topheavy.forces.portal import resting_portal_forces
 
 VASE = {"portals": {"mass_ratio": 1.0, "spans": [2.4]}, "cap": {"width": 2.6, "depth": 0.6}}
 VASE |= {"shapes": ["one-cosine"], "period": 1.5, "floor": 1e-3}

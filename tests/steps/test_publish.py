@@ -37,7 +37,7 @@ CLAIM = Claim(
     rule="trilith",
     expected="confirmed",
 )
-SIZE = Findings({"size": value(0.41483702538308, 1e-16)}, ("topheavy.structures.Column",))
+SIZE = Findings({"size": value(0.41483702538308, 1e-16)}, ("topheavy.bodies.structures.Column",))
 ROW = with_verdict(CLAIM, {"trilith": SIZE}, ROOT)
 OURS = replace(ROW, id="ours", study="pendulums", verdict="refuted")
 

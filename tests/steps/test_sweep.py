@@ -7,7 +7,7 @@ import pytest
 
 from steps.shared import second, sweep
 from topheavy import Column, FixedMassColumn, judge
-from topheavy.synthetic.ensemble import first_draws
+from topheavy.ground.synthetic.ensemble import first_draws
 
 COLUMN = Column(0.5, 3.0)
 ENSEMBLE = {

@@ -9,7 +9,7 @@ import topheavy as th
 from replication.workbench import truth
 from steps import trilith_states
 from steps.trilith_states import Course, Later, Start, by_scipy, by_taylor
-from topheavy.shaking_table import table_motion
+from topheavy.ground.shaking_table import table_motion
 
 FRAME, MOTION = th.RockingFrame(th.Column(0.11, 0.40), 0.434), table_motion(0.005, 3.3)
 CASE = {"column": {"half_width": 0.11, "half_height": 0.40}, "mass_ratio": 0.434}

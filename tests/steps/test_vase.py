@@ -10,8 +10,8 @@ import pytest
 import topheavy as th
 from steps import vase, vase_poses, vase_searches, vase_shares
 from tests.cases import COLUMN, RECORDS
-from topheavy import reference
-from topheavy.free_rocking import Ending
+from topheavy.bodies.free_rocking import Ending
+from topheavy.second import reference
 
 PULSE = th.Pulse("one-cosine", 1.0, 2 * math.pi / 1.5)
 FIXED = th.FixedMassColumn(COLUMN, 1.0)

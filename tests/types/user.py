@@ -7,7 +7,7 @@ from typing import assert_type
 import numpy as np
 from numpy.typing import NDArray
 
-import topheavy.reference
+import topheavy.second.reference
 from topheavy import (
     PULSE_SHAPES,
     STANDARD_GRAVITY,
@@ -63,8 +63,8 @@ from topheavy import (
     rocking_portal_forces,
     simulate,
 )
-from topheavy.free_rocking import quarter_period
-from topheavy.linear import simulate_linear_exact
+from topheavy.bodies.free_rocking import quarter_period
+from topheavy.second.linear import simulate_linear_exact
 
 pier = Column.of_dimensions(width=1.6, height=9.6)
 bent = RockingFrame.of_masses(pier, cap_mass=400e3, column_mass=60e3)
@@ -94,7 +94,7 @@ for structure in structures:
     assert_type(response.rotation, NDArray[np.float64])
     if not response.overturned:
         print(f"{response.outcome}: {math.degrees(response.peak_rotation):.3g}°")
-    by_scipy = topheavy.reference.simulate(structure, pulse, duration=2, samples=times)
+    by_scipy = topheavy.second.reference.simulate(structure, pulse, duration=2, samples=times)
     assert_type(by_scipy, Response)
 free = simulate(block, rotation=0.1, samples=200)
 assert_type(simulate_linear_exact(block.linear(), pulse), Response)

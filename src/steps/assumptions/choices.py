@@ -14,9 +14,9 @@ from typing import TypeAlias
 import numpy as np
 
 from topheavy import Column, Pulse, Record, RockingBlock, RockingFrame, judge, simulate
-from topheavy.excitation import Excitation
-from topheavy.simulate import TOLERANCE
-from topheavy.structures import STANDARD_GRAVITY
+from topheavy.bodies.structures import STANDARD_GRAVITY
+from topheavy.ground.excitation import Excitation
+from topheavy.outcomes.simulate import TOLERANCE
 
 Structure: TypeAlias = Column | RockingFrame
 Criterion: TypeAlias = Callable[[RockingBlock, Excitation, float], bool]

@@ -9,7 +9,7 @@ from replication.workbench import grid, truth
 from steps.assumptions.choices import Choices
 from steps.assumptions.quantity import Found, Quantity, Sections
 from topheavy import Column, Pulse, RockingFrame, judge
-from topheavy.massless_columns import SIMPLIFICATIONS, simplified
+from topheavy.bodies.massless_columns import SIMPLIFICATIONS, simplified
 
 
 def slender(degrees: float) -> Column:

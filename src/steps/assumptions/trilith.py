@@ -8,9 +8,9 @@ from replication.workbench import truth, value
 from steps.assumptions.choices import Choices
 from steps.assumptions.quantity import Found, Quantity, Sections
 from topheavy import Column, RockingBlock, RockingFrame, simulate
+from topheavy.bodies.structures import STANDARD_GRAVITY
 from topheavy.derivation.mends import mended_quotient
-from topheavy.shaking_table import abrupt_start, table_acceleration, table_motion
-from topheavy.structures import STANDARD_GRAVITY
+from topheavy.ground.shaking_table import abrupt_start, table_acceleration, table_motion
 
 EPS = 1e-14
 

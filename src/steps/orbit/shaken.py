@@ -9,12 +9,12 @@ from dataclasses import dataclass
 from typing import Any
 
 from steps.orbit.jets import Jet
+from topheavy.ground.pulses import Pulse
 from topheavy.proven.balls import Undecided, arb, arb_mat, arb_poly, hull
 from topheavy.proven.blocks import Balls
 from topheavy.proven.flight import Box, Law, Step, a_priori
 from topheavy.proven.forcing import Piece, PulseForcing
 from topheavy.proven.march import March, Rest
-from topheavy.pulses import Pulse
 
 LONGEST = 1.2  # step that is tried, radians of the phase; one of a 64th is the shortest
 LAST = 16  # half cycles in which a flight has to end

@@ -14,12 +14,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from steps.orbit.shaken import Harmonic, Shaken
+from topheavy.bodies.structures import Structure
+from topheavy.ground.pulses import Pulse
 from topheavy.proven.balls import Undecided, arb, arb_mat, bounds, exact, hull, precision
 from topheavy.proven.blocks import enclosed
 from topheavy.proven.march import March
-from topheavy.proven.outcome import LADDER
-from topheavy.pulses import Pulse
-from topheavy.structures import Structure
+from topheavy.proven.search import LADDER
 
 FINE, COARSE = 24, 8  # the order of a flight, and of a box of flights
 IMPACTS = 60  # in which a start has to come into the disk

@@ -21,7 +21,7 @@ from topheavy import (
     peak_rigid,
     simulate,
 )
-from topheavy.fixed_frame import STEPS, Top
+from topheavy.forces.fixed_frame import STEPS, Top
 
 FORCES = ("base_shear", "overturning_moment", "bending_moment")
 RIGID = "rigid"

@@ -4,10 +4,10 @@ import json
 from collections.abc import Iterable
 
 from topheavy import Pulse, Record
+from topheavy.bodies.structures import Structure
 from topheavy.proven import certified
 from topheavy.proven.certificate import BITS
 from topheavy.proven.checking import Refused, check, concerns
-from topheavy.structures import Structure
 
 WIDTHS = (1e-8, 1e-7, 1e-6)  # of a boundary: the tables have nine digits
 DIGITS = (72, BITS)  # bits: the checker takes a quarter of the time where the first suffice

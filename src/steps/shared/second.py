@@ -5,8 +5,9 @@ from collections.abc import Callable, Iterable
 from functools import partial
 
 from steps.shared.histories import NUDGE
-from topheavy import Record, judge, reference
-from topheavy.structures import Structure
+from topheavy import Record, judge
+from topheavy.bodies.structures import Structure
+from topheavy.second import reference
 
 NEAR = 1e-3
 """Of a factor on a motion: how far a change of outcome is at most."""

@@ -15,8 +15,9 @@ import pandas as pd
 
 from replication.workbench import Finding, grid, truth
 from steps.shared.spectrum import line, search
-from topheavy import judge, reference
-from topheavy.overturning import Interval
+from topheavy import judge
+from topheavy.outcomes.overturning import Interval
+from topheavy.second import reference
 
 SPECTRUM = ["slenderness_deg", "shape", "mass_ratio", "linearised"]
 ORDER = [*SPECTRUM, "frequency_ratio", "lower"]

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import pandas as pd
 
 from topheavy import Column, Pulse, RockingBlock, RockingFrame, Search, intervals_together
-from topheavy.overturning import Interval
+from topheavy.outcomes.overturning import Interval
 
 MODES = ("without impact", "with impact")
 

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from steps.shared.spectrum import progress, shard_of
 from topheavy import Record, RockingBlock
-from topheavy.overturning import TOLERANCE, Search, outcomes_of_subjects, subjects_of
-from topheavy.synthetic.ensemble import Draw, first_draws
+from topheavy.ground.synthetic.ensemble import Draw, first_draws
+from topheavy.outcomes.overturning import TOLERANCE, Search, outcomes_of_subjects, subjects_of
 
 PARTS = ("motions", "peaks", "outcomes")  # of an answer: family, scenario, number; and as below
 MEASURES = {"pgv": lambda record: record.peak_velocity, "pga": lambda r: r.peak_acceleration}

@@ -29,7 +29,7 @@ from topheavy.derivation.impact import (
 )
 from topheavy.derivation.lagrange import kinetic_energy, lagrange_equation, potential_energy
 from topheavy.derivation.notation import NEGATIVE, POSITIVE, SIDES, Side
-from topheavy.derivation.theorems import (
+from topheavy.derivation.theorem import (
     Theorem,
     contact_theorems,
     extension_theorems,

@@ -23,7 +23,8 @@ from numba.core.caching import _Cache
 from numba.core.compiler import CompileResult
 from numba.core.serialize import dumps
 
-from topheavy import checks, shapes
+from topheavy import checks
+from topheavy.ground import shapes
 
 _DIGEST = hashlib.sha256().digest_size
 
@@ -40,7 +41,7 @@ def cache_folder() -> Path:
 def state(sources: Path, numbers: Path) -> str:
     """Return a checksum of the sources in a folder, of the file of numbers, and of what compiles.
 
-    `topheavy.shapes` is such a file, as the machine code contains its numbers. Of the variables of
+    `ground/shapes.py` is such a file, as the machine code contains its numbers. Of the variables of
     numba all but the folder of its cache may change the machine code.
     """
     files = [(path.relative_to(sources).as_posix(), path) for path in sources.rglob("*.py")]

@@ -19,10 +19,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from topheavy import shapes
+from topheavy.ground import shapes
 from topheavy.kernel.compiled import compiled
 
-#: The number of each shape of `topheavy.shapes`; a record and no motion have numbers, too.
+#: The number of each shape of `topheavy.ground.shapes`; a record and no motion have numbers, too.
 SHAPES = {name: number for number, name in enumerate(shapes.SHAPES)}
 ONE_SINE, ONE_COSINE, HALF_SINE = SHAPES["one-sine"], SHAPES["one-cosine"], SHAPES["half-sine"]
 CONSTANT, HARMONIC = SHAPES["constant"], SHAPES["harmonic"]

@@ -40,6 +40,9 @@ Outcomes = tuple[Array, NDArray[np.bool_], NDArray[np.int64]]
 BATCHES = 64
 #: How many histories run at once in a core, and whether it multiplies and adds in one operation.
 LANES, FUSED = WIDTH, HAS_FMA
+#: So many histories in a call leave no lane idle for long: where each call decides on the next, and
+#: where only the first that overturns is sought.
+FEW_AT_ONCE, MANY_AT_ONCE = 2 * WIDTH, 16 * WIDTH
 #: The least number of cells in a batch. Fewer would leave lanes idle at its end, or be done before
 #: a second thread has started.
 FEWEST_PULSES, FEWEST_FACTORS = 32 * WIDTH, 4 * WIDTH
@@ -96,7 +99,8 @@ def outcomes_of(
     size = (len(scales), len(amplitudes))
     pairs = np.repeat(scales, size[1]), np.tile(amplitudes, size[0])
     which, lifts = np.zeros(pairs[0].size, np.int64), np.zeros(pairs[0].size)
-    found = _record_outcomes([block], which, *pairs, lifts, record, tolerance, True, threads)
+    given = ([block], which, *pairs, lifts, record)
+    found = _record_outcomes(*given, tolerance=tolerance, in_full=True, threads=threads)
     peak, overturned, impacts = found
     return peak.reshape(size), overturned.reshape(size), impacts.reshape(size)
 
@@ -143,9 +147,8 @@ def mixed_outcomes_of(
         alike = [blocks[number] for number in members.tolist()]
         of, scale, amplitude = np.searchsorted(members, which[at]), scales[at], amplitudes[at]
         if shape == RECORD:
-            found = _record_outcomes(
-                alike, of, scale, amplitude, lifts[at], record, tolerance, in_full, threads
-            )
+            given = (alike, of, scale, amplitude, lifts[at], record)
+            found = _record_outcomes(*given, tolerance=tolerance, in_full=in_full, threads=threads)
         else:
             cells = (of[np.newaxis], scale[np.newaxis], amplitude[np.newaxis])
             found = _pulse_outcomes(alike, shape, *cells, tolerance, threads)
@@ -185,10 +188,9 @@ def _pulse_outcomes(
     impacts = np.empty(size, dtype=np.int64)
     # Copies in C order: for arrays that are strided, transposed or read-only it would compile anew.
     cells = [np.array(np.atleast_2d(each), order="C") for each in (which, scales, amplitudes)]
-    given = (blocks[0], _rows(blocks), shape, *cells, NO_RECORD, PULSE_ORDER, tolerance)
-    results = (peak, overturned, impacts)
-    lost = _shared(pulse_outcomes, (*given, *results), peak.size, FEWEST_PULSES, 1, threads)
-
+    histories, results = (blocks[0], _rows(blocks), *cells), (peak, overturned, impacts)
+    given = (histories, shape, NO_RECORD, PULSE_ORDER, tolerance, results)
+    lost = _shared(pulse_outcomes, given, (peak.size, FEWEST_PULSES, 1), threads)
     if lost >= 0:
         of, scale, amplitude = (np.broadcast_to(each, size).flat[lost] for each in cells)
         raise _unresolved(blocks[int(of)], shape, float(scale), float(amplitude))
@@ -202,6 +204,7 @@ def _record_outcomes(
     factors: Array,
     lifts: Array,
     record: Array,
+    *,
     tolerance: float,
     in_full: bool,
     threads: int | None,
@@ -210,21 +213,10 @@ def _record_outcomes(
     peak, overturned = np.empty(which.size), np.empty(which.size, dtype=bool)
     impacts = np.empty(which.size, dtype=np.int64)
     vertical = record if record.shape[0] > UP else None
-    given = (
-        blocks[0],
-        _rows(blocks),
-        which,
-        steps,
-        factors,
-        lifts,
-        record,
-        vertical,
-        tolerance,
-        in_full,
-    )
-    results = (peak, overturned, impacts)
-    size, samples = (which.size, FEWEST_FACTORS), record.shape[1]
-    lost = _shared(record_outcomes, (*given, *results), *size, samples, threads)
+    histories = (blocks[0], _rows(blocks), which, steps, factors, lifts)
+    given = (histories, record, vertical, tolerance, in_full, (peak, overturned, impacts))
+    size = (which.size, FEWEST_FACTORS, record.shape[1])
+    lost = _shared(record_outcomes, given, size, threads)
     if lost >= 0:
         raise _unresolved(blocks[which[lost]], RECORD, float(steps[lost]), float(factors[lost]))
     return peak, overturned, impacts
@@ -238,21 +230,23 @@ def _rows(blocks: Sequence[Oscillator]) -> Array:
 def _shared(
     work: Callable[..., int],
     given: tuple[Any, ...],
-    cells: int,
-    fewest: int,
-    samples: int,
+    size: tuple[int, int, int],
     threads: int | None,
 ) -> int:
-    """Let the threads do all cells, in batches; return the first cell given up, or −1."""
+    """Let the threads do all cells, in batches; return the first cell given up, or −1.
+
+    The size is that of the cells, of the smallest batch, and of the samples of a record.
+    """
+    cells, fewest, samples = size
     batches = max(1, min(BATCHES, cells // fewest))
     if batches == 1 and cells * samples <= LONG:
-        return int(work(rows(ROWS), working_array(), 0, 1, *given))
+        return int(work((rows(ROWS), working_array()), (0, 1), *given))
     threads = threads or cores()
     if threads == 1:
         batches = 1  # so that no lane idles at the end of any but the last cells
 
     def do(batch: int, workspace: Array) -> int:
-        return int(work(rows(ROWS), workspace, batch, batches, *given))
+        return int(work((rows(ROWS), workspace), (batch, batches), *given))
 
     lost = in_threads([partial(do, batch) for batch in range(batches)], min(threads, batches))
     return min((cell for cell in lost if cell >= 0), default=-1)

@@ -25,8 +25,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from topheavy.bodies.structures import RockingBlock
 from topheavy.kernel.compiled import compiled
-from topheavy.structures import RockingBlock
 
 MAX_ORDER = 20
 #: A division costs as much as ten multiplications.

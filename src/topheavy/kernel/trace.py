@@ -56,26 +56,15 @@ POISED = 1e-3
 
 
 @compiled(nogil=True)
-def trace(
-    w,
-    order,
-    tolerance,
-    block,
-    forcing,
-    record,
-    rotation,
-    velocity,
-    until,
-    times,
-    samples,
-    impacts,
-):
+def trace(w, order, tolerance, block, forcing, record, course, results):
     """Follow a history from θ and θ' at τ = 0 to the first of its ends.
 
     Parameters
     ----------
-    rotation, velocity : float
-        θ and dθ/dτ at τ = 0.
+    course : float, float, float
+        Rotation and velocity, θ and dθ/dτ at τ = 0, and `until`.
+    results : array, array, array
+        `times`, `samples` and `impacts`.
     until : float
         Where the history ends; if infinite, where the block rests or |θ| = π/2, or after
         `LAST_IMPACT` impacts behind the forcing. In either case it ends before a step by which
@@ -101,6 +90,7 @@ def trace(
         The number of all impacts: how many `impacts` holds. Neither counts those that end a
         rotation below `rest.LAST_BOUNCE` α.
     """
+    (rotation, velocity, until), (times, samples, impacts) = course, results
     time, peak, sample, counted, landed = 0.0, abs(rotation), 0, 0, 0
     moves = rotation != 0.0 or velocity**2 > 0.0  # a speed without an energy is rest
     has_moved, is_low, is_forced, is_over = moves, rotation == 0.0, True, False

@@ -2,7 +2,7 @@ from .below import Below, survives_below
 from .blocks import BlockBox
 from .certificate import certified
 from .march import Outcome
-from .outcome import outcome
+from .search import outcome
 
 __all__ = [
     "Below",

@@ -10,10 +10,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from topheavy import checks
+from topheavy.bodies.structures import Structure
+from topheavy.ground.pulses import Pulse
 from topheavy.proven.balls import decimal
 from topheavy.proven.certificate import BITS, certified
-from topheavy.pulses import Pulse
-from topheavy.structures import Structure
 
 NARROWEST = 1e-11
 """Of the highest factor: a box that is not wider counts as open if it is not proven."""
@@ -62,7 +62,7 @@ def survives_below(
     Raises
     ------
     ValueError
-        As `topheavy.proven.outcome`, and for a `high` that is not positive.
+        As `topheavy.proven.search`, and for a `high` that is not positive.
     """
     high = checks.positive("high", high)
     below, low, width, after = Below(high, [], []), 0.0, high, WIDER

@@ -9,9 +9,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from topheavy.fixed_mass import FixedMassColumn, MonolithicPortal
-from topheavy.proven.balls import arb, exact, within
-from topheavy.structures import (
+from topheavy.bodies.fixed_mass import FixedMassColumn, MonolithicPortal
+from topheavy.bodies.structures import (
     STANDARD_GRAVITY,
     Column,
     RockingBlock,
@@ -19,6 +18,7 @@ from topheavy.structures import (
     Structure,
     as_block,
 )
+from topheavy.proven.balls import arb, exact, within
 
 Range = float | tuple[float, float]
 
@@ -114,7 +114,7 @@ def _frame(column: Column, mass_ratio: float, linearised: bool) -> Balls:
 
 
 def _one_body(body: FixedMassColumn | MonolithicPortal, linearised: bool) -> Balls:
-    """tan α' = B/H, p'² = g √(B² + H²)/(I/M), √r' = 1 − 2 B²/(I/M): `topheavy.fixed_mass`."""
+    """tan α' = B/H, p'² = g √(B² + H²)/(I/M), √r' = 1 − 2 B²/(I/M): `bodies.fixed_mass`."""
     b, h = exact(body.column.half_width), exact(body.column.half_height)
     depth = exact(body.cap_depth)
     if isinstance(body, MonolithicPortal):

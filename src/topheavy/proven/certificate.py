@@ -6,15 +6,15 @@ import math
 from fractions import Fraction
 from typing import Any
 
+from topheavy.bodies.fixed_mass import FixedMassColumn, MonolithicPortal
+from topheavy.bodies.structures import STANDARD_GRAVITY, Column, RockingFrame, Structure
 from topheavy.checks import short
-from topheavy.fixed_mass import FixedMassColumn, MonolithicPortal
+from topheavy.ground.pulses import Pulse
+from topheavy.ground.records import Record
 from topheavy.proven.balls import arb, decimal
 from topheavy.proven.blocks import BlockBox, Range
 from topheavy.proven.march import Outcome
-from topheavy.proven.outcome import outcome
-from topheavy.pulses import Pulse
-from topheavy.records import Record
-from topheavy.structures import STANDARD_GRAVITY, Column, RockingFrame, Structure
+from topheavy.proven.search import outcome
 
 BITS = 136
 """The steps are short enough for them: the checker has some digits to lose."""
@@ -29,7 +29,7 @@ def certified(
     bits: int = BITS,
     bounded: bool = False,
 ) -> tuple[Outcome, dict[str, Any] | None]:
-    """Return the outcome of `topheavy.proven.outcome` and its certificate; None if undecided.
+    """Return the outcome of `topheavy.proven.search` and its certificate; None if undecided.
 
     `topheavy.proven.checking.check` verifies it, but for wide boxes of factors that it refuses;
     parameters and errors are those of `outcome`. A BlockBox is refused.

@@ -12,10 +12,10 @@ from functools import cache, reduce
 from itertools import accumulate, cycle, pairwise
 from operator import truediv
 
+from topheavy.ground.pulses import Pulse
+from topheavy.ground.records import Record
+from topheavy.ground.shapes import SHAPES
 from topheavy.proven.balls import Undecided, arb, bounds, exact, hull, power, root
-from topheavy.pulses import Pulse
-from topheavy.records import Record
-from topheavy.shapes import SHAPES
 
 
 @dataclass(frozen=True)
@@ -216,7 +216,7 @@ def _around(offset: arb) -> tuple[arb, arb]:
 
 
 def _turns(shape: str) -> list[arb]:
-    """Return where the slope of a pulse is zero inside it: the turns of `topheavy.pulses`."""
+    """Return where the slope of a pulse is zero inside it: the turns of `ground.pulses`."""
     half = arb.pi() / 2
     if shape == "one-sine":
         return [half, 3 * half]

@@ -336,7 +336,7 @@ class March:
         return bool(beyond > (largest if self.block.linearised else largest.atan()))
 
     def _rocks_freely(self) -> Outcome:
-        """Judge the motion behind the forcing by its energy: `topheavy.free_rocking.ending`."""
+        """Judge the motion behind the forcing by its energy: `bodies.free_rocking.ending`."""
         alpha, kinetic = self.block.slenderness, power(self.rate, 2) / (2 * self.law.square)
         off = alpha - self.phi
         if self.block.linearised:

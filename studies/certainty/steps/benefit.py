@@ -15,8 +15,8 @@ from steps.shared.second import by_scipy
 from steps.shared.spectrum import progress
 from steps.shared.sweep import Swept, read_answers
 from studies.certainty.under import factored, named
-from topheavy.fragility.ensemble import Ensemble
-from topheavy.fragility.resampling import NEGATIVE, POSITIVE, in_words
+from topheavy.risk.ensemble import Ensemble
+from topheavy.risk.resampling import NEGATIVE, POSITIVE, in_words
 
 BOTH, COLUMN_ALONE, FRAME_ALONE = "both", "column alone", "frame alone"
 

@@ -20,7 +20,7 @@ from steps.shared.spectrum import progress
 from steps.shared.sweep import Subject, Swept, read_answers
 from studies.certainty.under import columns, deficits, lowered, stated
 from topheavy import Column
-from topheavy.fragility.ensemble import Ensemble
+from topheavy.risk.ensemble import Ensemble
 
 LEAST = 0.05  # of the columns, and
 MOST = 0.95  # of the frames, that overturn where a benefit may end

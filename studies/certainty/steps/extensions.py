@@ -12,9 +12,10 @@ import pandas as pd
 
 from replication.workbench import Finding, run, truth
 from steps.shared.spectrum import progress
-from topheavy import Column, Pulse, Record, RockingFrame, judge, read_record, reference
+from topheavy import Column, Pulse, Record, RockingFrame, judge, read_record
 from topheavy.derivation import extension_theorems
-from topheavy.three_bodies import simulate_three_bodies
+from topheavy.second import reference
+from topheavy.second.three_bodies import simulate_three_bodies
 
 ONE_LOBE = "one"
 SAME = 1e-9  # of α: by how much the peaks of similar structures may differ

@@ -16,7 +16,7 @@ from steps.shared.second import by_scipy
 from steps.shared.spectrum import progress
 from steps.shared.sweep import Asked, Swept, read_answers
 from studies.certainty.under import FREE, MEASURES, similar, supported
-from topheavy.fragility.tables import exact_interval
+from topheavy.risk.tables import exact_interval
 
 
 def probabilities(

@@ -23,10 +23,10 @@ from topheavy import (
     judge,
     overturned_by,
     overturning_intervals,
-    reference,
     simulate,
 )
-from topheavy.structures import Structure
+from topheavy.bodies.structures import Structure
+from topheavy.second import reference
 
 SAMPLES = 1200  # of a history that is drawn
 KEPT = 20  # shapes that a search varies

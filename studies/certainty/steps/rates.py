@@ -15,10 +15,10 @@ from replication.workbench import Finding, run, truth
 from steps.shared.sweep import Subject, Swept, read_answers
 from studies.certainty.under import BARE, FIXED, FREE, grid, rated, stated
 from topheavy import Column
-from topheavy.fragility.ensemble import Ensemble
-from topheavy.fragility.hazard import rate_at_levels
-from topheavy.fragility.resampling import NEGATIVE, in_words
-from topheavy.fragility.tables import exact_interval
+from topheavy.risk.ensemble import Ensemble
+from topheavy.risk.hazard import rate_at_levels
+from topheavy.risk.resampling import NEGATIVE, in_words
+from topheavy.risk.tables import exact_interval
 
 BOTH = "both"
 SHARE = 1.0  # of a sampling interval: what half of the step of the grid may change

@@ -15,7 +15,8 @@ from steps.shared.second import decided, overturns
 from steps.shared.spectrum import progress
 from steps.shared.sweep import Swept, read_answers
 from studies.certainty.under import grid, rated, velocities
-from topheavy import Record, RockingBlock, judge, overturned_by, reference
+from topheavy import Record, RockingBlock, judge, overturned_by
+from topheavy.second import reference
 
 ROUTES = ("tightened", "second_route")
 HALVINGS = 7  # of a step of the grid, in ln PGV: a boundary is then known to 0.1 %

@@ -11,9 +11,10 @@ import pandas as pd
 
 from replication.workbench import Finding, grid, run, truth
 from steps.shared.spectrum import progress
-from topheavy import Column, Pulse, Record, RockingFrame, read_record, reference
-from topheavy.overturning import outcomes_by
-from topheavy.synthetic.ensemble import first_draws
+from topheavy import Column, Pulse, Record, RockingFrame, read_record
+from topheavy.ground.synthetic.ensemble import first_draws
+from topheavy.outcomes.overturning import outcomes_by
+from topheavy.second import reference
 
 SEED = 2014
 

@@ -13,7 +13,8 @@ import pandas as pd
 from replication.workbench import Finding, run, truth, value
 from steps.shared.histories import NUDGE
 from steps.shared.spectrum import progress
-from topheavy import Column, Record, RockingFrame, judge, read_record, reference
+from topheavy import Column, Record, RockingFrame, judge, read_record
+from topheavy.second import reference
 
 
 def similar(entry: Mapping[str, Any], structures: Mapping[str, Any]) -> tuple[str, Column]:

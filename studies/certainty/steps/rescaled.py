@@ -21,15 +21,8 @@ from replication.workbench import Finding, run, truth
 from steps.shared.second import beside_a_boundary, decided
 from steps.shared.spectrum import progress
 from studies.certainty.steps.records import similar
-from topheavy import (
-    Column,
-    Record,
-    RockingFrame,
-    judge,
-    overturned_together,
-    read_record,
-    reference,
-)
+from topheavy import Column, Record, RockingFrame, judge, overturned_together, read_record
+from topheavy.second import reference
 
 SEED = 2014  # of what SciPy judges
 PADS = 1.5  # of zeros on each side, over the order and the corner frequency

@@ -14,19 +14,11 @@ import pandas as pd
 from replication.workbench import Finding, run, truth
 from steps.shared.spectrum import progress
 from studies.certainty.shapes import motion
-from topheavy import (
-    Column,
-    Pulse,
-    Record,
-    RockingBlock,
-    RockingFrame,
-    judge,
-    reference,
-    simulate,
-)
+from topheavy import Column, Pulse, Record, RockingBlock, RockingFrame, judge, simulate
 from topheavy.derivation import reversal_theorems
-from topheavy.fragility.gain import mass_ratio_of_share
-from topheavy.overturning import halvings, outcomes_by
+from topheavy.outcomes.overturning import halvings, outcomes_by
+from topheavy.risk.gain import mass_ratio_of_share
+from topheavy.second import reference
 
 HALVINGS, AHEAD = 6, 3
 BESIDE = 0.01  # of the factor: what lies between the boundary and the motion that is judged

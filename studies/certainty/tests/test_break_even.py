@@ -14,7 +14,7 @@ from studies.certainty.tests.test_rates import ENSEMBLE
 from studies.certainty.under import columns, lowered, stated
 from tests.cases import COLUMN, SIZES
 from topheavy import RockingFrame, overturned_by
-from topheavy.synthetic.ensemble import first_draws
+from topheavy.ground.synthetic.ensemble import first_draws
 
 CASE = {
     "column": SIZES,

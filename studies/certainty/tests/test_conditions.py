@@ -21,7 +21,7 @@ from studies.certainty.steps import (
 )
 from studies.certainty.under import factored, supported
 from tests.cases import COLUMN, SIZES, broken
-from topheavy.synthetic.ensemble import first_draws
+from topheavy.ground.synthetic.ensemble import first_draws
 
 
 def proof(name, holds=True):

@@ -12,8 +12,8 @@ from studies.certainty.shapes import FAMILIES, record, single_lobe
 from studies.certainty.steps import benefit, extensions, intensities, lowest, restitution, theorem
 from studies.certainty.under import HIGHEST, changed, factored, supported
 from tests.cases import COLUMN, FRAME, SIZES
-from topheavy import reference
-from topheavy.synthetic.ensemble import Draw
+from topheavy.ground.synthetic.ensemble import Draw
+from topheavy.second import reference
 
 JUDGES = (th.judge, reference.judge)
 

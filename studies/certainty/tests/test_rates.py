@@ -11,7 +11,7 @@ from studies.certainty.steps import rates, rates_check
 from studies.certainty.under import BARE, FIXED, FREE, rated, stated, velocities
 from tests.cases import COLUMN, SIZES, broken
 from topheavy import FixedMassColumn, RockingFrame
-from topheavy.synthetic.ensemble import first_draws
+from topheavy.ground.synthetic.ensemble import first_draws
 
 ENSEMBLE = {
     "run": "default",

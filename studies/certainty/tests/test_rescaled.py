@@ -9,7 +9,8 @@ import pytest
 
 from studies.certainty.steps import rescaled
 from tests.cases import COLUMN, SIZES
-from topheavy import Record, RockingFrame, judge, reference
+from topheavy import Record, RockingFrame, judge
+from topheavy.second import reference
 
 GAMMAS = [0.0, 1.0, 4.0]
 TIME = 0.01 * np.arange(3000)

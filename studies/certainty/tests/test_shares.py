@@ -8,7 +8,7 @@ from steps.shared import sweep
 from studies.certainty.steps import shares
 from studies.certainty.tests.test_rates import ENSEMBLE
 from studies.certainty.under import exchanges
-from topheavy.synthetic.ensemble import first_draws
+from topheavy.ground.synthetic.ensemble import first_draws
 
 CASE = {"seed": 1, "resamples": 200, "confidence": 0.95}
 

@@ -10,7 +10,7 @@ from steps.shared.histories import history
 from studies.mechanism.steps.demand import demand
 from studies.mechanism.steps.setting import cap_of, pulse_on
 from topheavy import Cap, Column, RockingFrame
-from topheavy.three_bodies import simulate_three_bodies
+from topheavy.second.three_bodies import simulate_three_bodies
 
 HALVINGS = 14  # of the bracket of an amplitude, a step of the grid at first
 FINER = 8  # times as many samples where a threshold is looked for

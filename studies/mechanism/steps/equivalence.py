@@ -11,15 +11,8 @@ import numpy as np
 import pandas as pd
 
 from replication.workbench import Finding, grid, run, truth, value
-from topheavy import (
-    Column,
-    Pulse,
-    RockingBlock,
-    RockingFrame,
-    minimum_overturning,
-    overturning_map,
-    reference,
-)
+from topheavy import Column, Pulse, RockingBlock, RockingFrame, minimum_overturning, overturning_map
+from topheavy.second import reference
 
 THINNED = 2  # so many times is the grid coarser that gives the error of shares
 BRACKETS = 1e-8  # of an amplitude: a bound on the brackets of the boundaries

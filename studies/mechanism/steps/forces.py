@@ -17,8 +17,8 @@ from topheavy import (
     column_forces,
     contact_forces,
 )
-from topheavy.derivation.theorems import contact_theorems
-from topheavy.kinematics import cap_acceleration
+from topheavy.bodies.kinematics import cap_acceleration
+from topheavy.derivation.theorem import contact_theorems
 
 CONTACTS = ("base_left", "base_right", "seat_left", "seat_right")
 ROUNDING = 1e-12  # of the weight of the frame: what double precision leaves

@@ -25,7 +25,7 @@ from topheavy import (
     read_record,
     simulate,
 )
-from topheavy.three_bodies import simulate_three_bodies
+from topheavy.second.three_bodies import simulate_three_bodies
 
 AGREE = 1e-6  # of α, of √r and of the weight: what the two integrations may differ by
 SAME_IMPACT = 1e-3  # over p̂: impacts nearer than this are the same one

@@ -21,7 +21,7 @@ from studies.mechanism.steps.engine import (
     slips,
 )
 from studies.mechanism.steps.rigs import Model, rebound, rig_of, shaken
-from topheavy.kinematics import cap_displacement
+from topheavy.bodies.kinematics import cap_displacement
 
 mujoco = pytest.importorskip("mujoco", reason="the optional group `engine` is not installed")
 

@@ -14,8 +14,9 @@ from steps.shared.histories import NUDGE
 from steps.shared.spectrum import progress
 from steps.shared.sweep import Swept, read_answers
 from studies.reversals.under import frames_and_columns
-from topheavy import Record, overturned_by, reference
-from topheavy.structures import Structure
+from topheavy import Record, overturned_by
+from topheavy.bodies.structures import Structure
+from topheavy.second import reference
 
 FINEST = 1e-6  # of a factor: how well a boundary is known around which cells are drawn
 

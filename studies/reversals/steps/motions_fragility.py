@@ -17,10 +17,10 @@ from replication.workbench import Finding, run, truth, value
 from steps.shared.sweep import Subject, Swept, read_answers
 from studies.reversals.under import frames_and_columns, intensities, unit
 from topheavy import Column
-from topheavy.fragility.curve import curve, fit, medians, why_no_median
-from topheavy.fragility.ensemble import Ensemble
-from topheavy.fragility.gain import mass_ratios_of_gain
-from topheavy.structures import size_ratio
+from topheavy.bodies.structures import size_ratio
+from topheavy.risk.curve import curve, fit, medians, why_no_median
+from topheavy.risk.ensemble import Ensemble
+from topheavy.risk.gain import mass_ratios_of_gain
 
 TINY = 1e-12  # a share: where no cell differs, none is reversed
 

@@ -14,7 +14,8 @@ from replication.workbench import Finding, run, truth
 from steps.shared.histories import NUDGE
 from steps.shared.outcomes import FALLS, STANDS, UNTOLD, read, written
 from steps.shared.spectrum import progress
-from topheavy import Column, Record, RockingFrame, overturned_by, read_record, reference
+from topheavy import Column, Record, RockingFrame, overturned_by, read_record
+from topheavy.second import reference
 
 
 def geometric(spec: dict) -> np.ndarray:

@@ -25,9 +25,10 @@ from steps.shared.peak_forces import (
 )
 from steps.shared.spectrum import progress
 from studies.reversals.under import unit
-from topheavy import Cap, Column, RockingFrame, reference, simulate
-from topheavy.fragility.resampling import interval, resampled
-from topheavy.synthetic.ensemble import Draw, first_draws
+from topheavy import Cap, Column, RockingFrame, simulate
+from topheavy.ground.synthetic.ensemble import Draw, first_draws
+from topheavy.risk.resampling import interval, resampled
+from topheavy.second import reference
 
 STEPS = 60  # in a period of the held frame; a peak is off by 1.4e-3 at most
 CLOSE = 1e-6  # relative: what the peaks of two solvers may differ by

@@ -15,7 +15,7 @@ from replication.workbench import Finding, run, truth
 from steps.shared.second import by_scipy
 from steps.shared.sweep import Swept, read_answers
 from studies.reversals.under import VASE, intensities, vase_and_frame
-from topheavy.fragility.ensemble import Ensemble
+from topheavy.risk.ensemble import Ensemble
 
 LEAST = 0.5  # of the motions: a structure that comes last under more of them is not the weakest
 

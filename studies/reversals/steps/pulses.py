@@ -15,7 +15,7 @@ from steps.shared.spectra_compared import ORDER, Place, Spectra, finite, without
 from steps.shared.spectrum import solve
 from studies.reversals.steps.pulses_shard import CHANGES, lines
 from topheavy import simulate
-from topheavy.linear import simulate_linear_exact
+from topheavy.second.linear import simulate_linear_exact
 
 COLUMN, MASSLESS = 0.0, math.inf  # γ of the two ends
 SHARES = {"only_lighter_overturns": "helps", "only_heavier_overturns": "harms"}

@@ -13,7 +13,7 @@ from steps.shared.spectra_compared import Spectra
 from studies.reversals.steps import motions_fragility, motions_records, pulses
 from studies.reversals.under import frames_and_columns
 from topheavy import STANDARD_GRAVITY, Column, Record
-from topheavy.fragility.ensemble import Ensemble
+from topheavy.risk.ensemble import Ensemble
 
 STUDY = Path(__file__).resolve().parents[1]
 CASE = {

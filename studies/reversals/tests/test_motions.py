@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from topheavy import Column, Record
-from topheavy.synthetic import motions
+from topheavy.ground.synthetic import motions
 
 ROCK = motions.Scenario(magnitude=7.0, distance=10.0, site_velocity=760.0, directivity=20.0)
 COUNT = 150

@@ -14,10 +14,10 @@ from steps.shared import sweep
 from steps.shared.outcomes import FALLS, STANDS, read, written
 from studies.reversals.steps import motions_check, motions_fragility, motions_records
 from studies.reversals.under import frames_and_columns, intensities
-from topheavy.fragility import resampling
-from topheavy.fragility.ensemble import Ensemble
-from topheavy.synthetic.ensemble import draws, first_draws
-from topheavy.synthetic.motions import strength
+from topheavy.ground.synthetic.ensemble import draws, first_draws
+from topheavy.ground.synthetic.motions import strength
+from topheavy.risk import resampling
+from topheavy.risk.ensemble import Ensemble
 
 ROOT = Path(__file__).resolve().parents[3]
 STRUCTURES = {"temple": {"half_width": 0.5, "half_height": 3.0}}

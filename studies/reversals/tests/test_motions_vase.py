@@ -11,9 +11,9 @@ from steps.shared.peak_forces import ratio_of
 from steps.shared.sweep import Swept
 from studies.reversals.steps import motions_uplift, motions_vase
 from topheavy import simulate
-from topheavy.fragility.ensemble import Ensemble
-from topheavy.synthetic.ensemble import Draw
-from topheavy.synthetic.motions import Scenario
+from topheavy.ground.synthetic.ensemble import Draw
+from topheavy.ground.synthetic.motions import Scenario
+from topheavy.risk.ensemble import Ensemble
 
 LEVELS = np.geomspace(0.25, 4.0, 9)
 BOOT = {"resamples": 200, "confidence": 0.95, "seed": 14}

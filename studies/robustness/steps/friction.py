@@ -15,7 +15,7 @@ from steps.shared.spectrum import progress
 from studies.mechanism.steps.demand import demand
 from studies.mechanism.steps.setting import cap_of
 from topheavy import Cap, Column, RockingFrame
-from topheavy.synthetic.ensemble import first_draws
+from topheavy.ground.synthetic.ensemble import first_draws
 
 RELIED_ON, SAID, LIGHT = 0.7, 0.05, 1.0
 """A coefficient of friction, the share of motions that may need more before a text says so, and the

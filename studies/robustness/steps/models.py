@@ -19,10 +19,10 @@ from steps.shared.second import beside_a_boundary, by_scipy, overturns
 from steps.shared.spectrum import progress
 from steps.shared.sweep import Asked, Subject, under
 from topheavy import Column, FixedMassColumn, Record, RockingFrame
-from topheavy.fragility.curve import fit, medians
-from topheavy.fragility.ensemble import Ensemble
-from topheavy.synthetic.ensemble import first_draws
-from topheavy.synthetic.filtered_noise import Soil, motion
+from topheavy.ground.synthetic.ensemble import first_draws
+from topheavy.ground.synthetic.filtered_noise import Soil, motion
+from topheavy.risk.curve import fit, medians
+from topheavy.risk.ensemble import Ensemble
 
 NAMES = ("column", "vase", "frame")
 COLUMN, VASE, FRAME = range(3)

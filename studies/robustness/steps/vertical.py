@@ -15,10 +15,11 @@ import pandas as pd
 from replication.workbench import Finding, run, truth
 from steps.shared.second import NEAR, decided
 from steps.shared.spectrum import progress
-from topheavy import Column, Record, RockingFrame, judge, read_record, reference
-from topheavy.fragility.ensemble import Ensemble
-from topheavy.fragility.resampling import in_words
-from topheavy.synthetic.ensemble import Draw, first_draws
+from topheavy import Column, Record, RockingFrame, judge, read_record
+from topheavy.ground.synthetic.ensemble import Draw, first_draws
+from topheavy.risk.ensemble import Ensemble
+from topheavy.risk.resampling import in_words
+from topheavy.second import reference
 
 NAMES = ("column", "frame")
 MEASURED = "measured"

@@ -10,8 +10,8 @@ from replication.inputs.strict_yaml import read_yaml
 from studies.robustness.steps import friction, models, vertical
 from tests.cases import COLUMN, FRAME, ROOT, SIZES, broken
 from topheavy import Record, judge
-from topheavy.synthetic import filtered_noise as noise
-from topheavy.synthetic.motions import TIME_STEP
+from topheavy.ground.synthetic import filtered_noise as noise
+from topheavy.ground.synthetic.motions import TIME_STEP
 
 CONFIG = read_yaml(ROOT / "studies/robustness/config.yaml")
 ENSEMBLE = read_yaml(ROOT / "studies/reversals/config.yaml")["motions_ensemble"]

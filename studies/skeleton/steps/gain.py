@@ -6,15 +6,8 @@ from itertools import pairwise
 import pandas as pd
 
 from replication.workbench import Finding, run, truth, value
-from topheavy import (
-    Column,
-    Pulse,
-    RockingBlock,
-    RockingFrame,
-    judge,
-    lowest_overturning,
-    reference,
-)
+from topheavy import Column, Pulse, RockingBlock, RockingFrame, judge, lowest_overturning
+from topheavy.second import reference
 
 
 def lowest(block: RockingBlock, pulse: Pulse, amplitudes: dict) -> tuple[float, float]:

@@ -92,8 +92,9 @@ def filled(workspace):
     out = (np.empty(size), np.empty(size, dtype=bool), np.empty(size, dtype=np.int64))
     amplitudes = block.level * np.linspace(1.1, 4.0, size[1])[np.newaxis]
     cells = (np.zeros((1, 1), np.int64), np.full((1, 1), 3.0), amplitudes)
-    given = (block, np.array([block[:5]]), ONE_SINE, *cells, NO_RECORD, PULSE_ORDER, TOLERANCE)
-    return pulse_outcomes(rows(ROWS), workspace, 0, 1, *given, *out)
+    given = (ONE_SINE, NO_RECORD, PULSE_ORDER, TOLERANCE, out)
+    histories = (block, np.array([block[:5]]), *cells)
+    return pulse_outcomes((rows(ROWS), workspace), (0, 1), histories, *given)
 
 
 def test_halt_ends_the_batch():

@@ -12,7 +12,7 @@ import pytest
 
 import topheavy as th
 from tests.cases import BLOCK, COLUMN, run_alone
-from tests.proven.checking.test_check import WITH_IMPACT, honest
+from tests.proven.checking.test_checker import WITH_IMPACT, honest
 from topheavy.proven import certified, survives_below
 from topheavy.proven.checking import Refused, check, schema
 

@@ -14,7 +14,7 @@ CLAIM = Claim(
     id="peak_is_low",
     where="p. 3, Eq. (24)",
     statement="The peak is low.",
-    function="topheavy.structures.size_ratio",
+    function="topheavy.bodies.structures.size_ratio",
     rule="peaks",
     finding="low",
     expected="confirmed",
@@ -74,7 +74,7 @@ def test_chain_of_a_figure_goes_back_to_the_inputs_in_order(told):
         "input     results/tables/peaks.csv  from rule peaks",
         "rule      peaks, Snakefile:7",
         "script    src/steps/peaks.py",
-        "function  topheavy.RockingFrame  src/topheavy/structures.py:",
+        "function  topheavy.RockingFrame  src/topheavy/bodies/structures.py:",
         "input     data/record.AT2",
     ]
     places = [text.index(step) for step in steps]
@@ -86,7 +86,10 @@ def test_chain_of_a_figure_goes_back_to_the_inputs_in_order(told):
 def test_chain_of_a_claim_begins_in_the_paper(told):
     text = told("peak_is_low")
     assert text.startswith("claim peak_is_low: The peak is low.\n  paper     p. 3, Eq. (24)\n")
-    assert "function  topheavy.structures.size_ratio  src/topheavy/structures.py:" in text
+    assert (
+        "function  topheavy.bodies.structures.size_ratio  src/topheavy/bodies/structures.py:"
+        in text
+    )
     assert "verdict   peak_is_low: confirmed (holds)" in text
     assert "data/record.AT2" in text
     assert told("photograph").endswith("photograph: not tested (Not to be computed.)")
@@ -98,7 +101,7 @@ def test_claim_of_an_equation_names_its_row_and_the_functions_that_cite_it(claim
     places = [
         (line, *line.split()[-1].split(":")) for line in lines if ".yaml:" in line or "cit" in line
     ]
-    assert "src/topheavy/structures.py" in {path for _, path, _ in places}
+    assert "src/topheavy/bodies/structures.py" in {path for _, path, _ in places}
     for line, path, number in places:
         body = (ROOT / path).read_text(encoding="utf-8").splitlines()[int(number) - 1 :]
         if line.startswith("  ledger  "):

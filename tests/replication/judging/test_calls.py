@@ -127,19 +127,19 @@ def test_first_calls_from_many_threads_all_arrive(module):
 
 
 def test_library_yields_what_a_rule_declares_and_no_step():
-    declared = ["src/topheavy/structures.py", "src/steps/heavier.py", "config/config.yaml"]
-    assert {name for name, _ in library(declared)} == {"topheavy.structures"}
+    declared = ["src/topheavy/bodies/structures.py", "src/steps/heavier.py", "config/config.yaml"]
+    assert {name for name, _ in library(declared)} == {"topheavy.bodies.structures"}
 
 
 @pytest.mark.parametrize(
     ("name", "full"),
     [
-        ("topheavy.simulate", "topheavy.simulate.simulate"),
-        ("topheavy.judge", "topheavy.simulate.judge"),
-        ("topheavy.reference.judge", "topheavy.reference.judge"),
-        ("topheavy.Column.size", "topheavy.structures.Column.size"),
-        ("topheavy.derivation.theorems", "topheavy.derivation.theorems.theorems"),
-        ("topheavy.contact_forces", "topheavy.contact_forces.contact_forces"),
+        ("topheavy.simulate", "topheavy.outcomes.simulate.simulate"),
+        ("topheavy.judge", "topheavy.outcomes.simulate.judge"),
+        ("topheavy.second.reference.judge", "topheavy.second.reference.judge"),
+        ("topheavy.Column.size", "topheavy.bodies.structures.Column.size"),
+        ("topheavy.derivation.theorems", "topheavy.derivation.theorem.theorems"),
+        ("topheavy.contact_forces", "topheavy.forces.contact.contact_forces"),
         ("topheavy.derivation.contact_forces", "topheavy.derivation.contact.contact_forces"),
         ("studies.skeleton.steps.gain.lowest", "studies.skeleton.steps.gain.lowest"),
     ],
@@ -159,7 +159,7 @@ def test_name_of_nothing_is_refused(name):
 def job(folder, outputs) -> SimpleNamespace:
     return SimpleNamespace(
         log=[str(folder / "log")],
-        input=["src/topheavy/structures.py"],
+        input=["src/topheavy/bodies/structures.py"],
         output=[str(folder / name) for name in outputs],
         rule="rule",
     )
@@ -172,9 +172,11 @@ def test_step_writes_with_its_findings_what_it_called(tmp_path, monkeypatch):
     run(job(tmp_path, ["f.json"]), lambda job: {"so": truth(Column(0.5, 3.0).size > 3.0)})
     found = json.loads((tmp_path / "f.json").read_text(encoding="utf-8"))
     assert found["so"] == {"holds": True}
-    assert {"topheavy.structures.Column", "topheavy.structures.Column.size"} <= set(found["called"])
+    assert {"topheavy.bodies.structures.Column", "topheavy.bodies.structures.Column.size"} <= set(
+        found["called"]
+    )
     assert found["called"] == sorted(found["called"])
-    assert "topheavy.structures.RockingFrame" not in found["called"]
+    assert "topheavy.bodies.structures.RockingFrame" not in found["called"]
 
 
 def test_finding_with_the_reserved_name_is_refused(tmp_path):

@@ -83,13 +83,17 @@ def found(called, **finding):
 
 
 def test_claim_is_judged_by_what_ran():
-    row = with_verdict(CLAIM, found(["topheavy.simulate.simulate"], holds=True))
+    row = with_verdict(CLAIM, found(["topheavy.outcomes.simulate.simulate"], holds=True))
     assert (row.verdict, row.computed, row.kind) == ("confirmed", True, "")
-    row = with_verdict(CLAIM, found(["topheavy.simulate.simulate"], holds=False, holds_when=True))
+    row = with_verdict(
+        CLAIM, found(["topheavy.outcomes.simulate.simulate"], holds=False, holds_when=True)
+    )
     assert (row.verdict, row.computed) == ("qualified", False)
 
 
-@pytest.mark.parametrize("called", [[], ["topheavy.reference.simulate", "topheavy.simulate"]])
+@pytest.mark.parametrize(
+    "called", [[], ["topheavy.second.reference.simulate", "topheavy.simulate"]]
+)
 def test_function_that_its_rule_never_called_judges_nothing(called):
     with pytest.raises(ValueError, match="claim c: its rule r never called"):
         with_verdict(CLAIM, found(called, holds=True))
@@ -98,7 +102,7 @@ def test_function_that_its_rule_never_called_judges_nothing(called):
 def test_all_claims_that_cannot_be_judged_are_named_together():
     others = [replace(CLAIM, id=name, finding="other") for name in ("d", "e")]
     with pytest.raises(ValueError, match=r"the claim d names[^\n]*\nthe claim e names[^\n]*$"):
-        with_verdicts([CLAIM, *others], found(["topheavy.simulate.simulate"], holds=True))
+        with_verdicts([CLAIM, *others], found(["topheavy.outcomes.simulate.simulate"], holds=True))
 
 
 def test_what_was_not_run_for_lack_of_a_package_needs_no_function():
@@ -109,13 +113,13 @@ def test_what_was_not_run_for_lack_of_a_package_needs_no_function():
 
 def test_number_that_is_zero_is_a_number():
     claim = replace(CLAIM, printed=0.0, tolerance=0.5)
-    row = with_verdict(claim, found(["topheavy.simulate.simulate"], value=0.0, error=0.0))
+    row = with_verdict(claim, found(["topheavy.outcomes.simulate.simulate"], value=0.0, error=0.0))
     assert (row.computed, row.verdict) == (0.0, "confirmed")
     assert isinstance(row.computed, float)
 
 
 def test_judged_rows_are_read_as_they_were_written(tmp_path):
-    rows = [with_verdict(CLAIM, found(["topheavy.simulate.simulate"], holds=True))]
+    rows = [with_verdict(CLAIM, found(["topheavy.outcomes.simulate.simulate"], holds=True))]
     path = tmp_path / "claims.json"
     path.write_text(as_text(rows), encoding="utf-8")
     assert read_judged(path) == rows

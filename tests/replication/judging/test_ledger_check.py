@@ -28,7 +28,7 @@ RULES = ["heavier", "statements"]
 
 @pytest.fixture
 def tree(tmp_path, plant):
-    copied = [SCHEMA, "src/topheavy/__init__.pyi", "src/topheavy/simulate.py"]
+    copied = [SCHEMA, "src/topheavy/__init__.pyi", "src/topheavy/outcomes/simulate.py"]
     files = {name: (ROOT / name).read_bytes() for name in copied}
     findings = {"heavier_survives_more": {"holds": True}, "called": []}
     published = {f"{PUBLISHED}/heavier.json": json.dumps(findings)}

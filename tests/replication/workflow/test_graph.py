@@ -52,7 +52,7 @@ def test_crate_depends_on_what_the_snakefiles_import_and_not_on_what_this_proces
 STUDIES = {path.parent.name for path in ROOT.glob("studies/*/study.smk")} - {SKELETON}
 
 OF_NO_JOB = {
-    "src/topheavy/record_map.py": "for users; the page draws its own map of a record",
+    "src/topheavy/outcomes/record_map.py": "for users; the page draws its own map of a record",
 }
 """Modules of the library that no job needs, and why they are there."""
 
@@ -156,7 +156,7 @@ def of_study(rule):
         *((f"studies/{study}/section.typ", {"report", "supplement"}) for study in SOME),
         *((f"studies/{study}/config.yaml", None) for study in SOME),  # its readers may differ
         (
-            "src/topheavy/three_bodies.py",
+            "src/topheavy/second/three_bodies.py",
             {"compare", "figure", "statements", "uplift_limits", *JUDGED},
         ),
     ],

@@ -134,36 +134,19 @@ def at(values, i, j):
 
 
 @compiled(nogil=True)
-def pulse_outcomes(
-    w,
-    alone,
-    batch,
-    batches,
-    kind,
-    blocks,
-    shape,
-    which,
-    scales,
-    amplitudes,
-    record,
-    order,
-    tolerance,
-    peak,
-    overturned,
-    impacts,
-):
-    """Fill one of as many parts of the cells as there are `batches`; see `grid.pulse_outcomes_of`.
+def pulse_outcomes(workspaces, part, histories, shape, record, order, tolerance, outcomes):
+    """Fill one of as many parts of the cells as there are batches; see `grid.pulse_outcomes_of`.
 
-        Parameters
+    Parameters
     ----------
-    alone : array
-        A working array for steps that a lane takes alone, which may say halt (`outcome.HALT`).
-    kind, blocks : Oscillator, array
-        The blocks, as `numbered` takes them; `which` has the number of the block of each cell.
+    workspaces, part, outcomes
+        As of `records.record_outcomes`.
+    histories
+        The blocks, as `numbered` takes them, and the number of the block, scale and amplitude of
+        each cell.
     record : array
         `NO_RECORD`. As an argument, not as a constant, it has the type that it has in
         `grid.outcome_of`: what both call is then compiled but once.
-
     order : int
         That of the scalar kernel. A constant would have it compiled anew, to other last bits.
 
@@ -172,6 +155,8 @@ def pulse_outcomes(
     int
         The first cell that was given up (see `outcome.MAX_STEPS`), or −1.
     """
+    (w, alone), (batch, batches), (peak, overturned, impacts) = workspaces, part, outcomes
+    kind, blocks, which, scales, amplitudes = histories
     columns = peak.shape[1]
     coming, last = batch * peak.size // batches, (batch + 1) * peak.size // batches
     lost, busy, vacant = -1, 0, (1 << WIDTH) - 1

@@ -224,46 +224,34 @@ def overturns(w, lane, block, forcing, record):
 
 
 @compiled(nogil=True)
-def record_outcomes(
-    w,
-    alone,
-    batch,
-    batches,
-    kind,
-    blocks,
-    which,
-    steps,
-    factors,
-    lifts_of,
-    record,
-    vertical,
-    tolerance,
-    in_full,
-    peak,
-    overturned,
-    impacts,
-):
-    """Fill one of as many parts of the factors as there are `batches`; see `grid.outcomes_of`.
+def record_outcomes(workspaces, part, histories, record, vertical, tolerance, in_full, outcomes):
+    """Fill one of as many parts of the factors as there are batches; see `grid.outcomes_of`.
 
     Parameters
     ----------
-    alone : array
-        A working array for steps that a lane takes alone, which may say halt (`outcome.HALT`).
-    kind, blocks : Oscillator, array
-        The blocks, as `numbered` takes them; `which` has the number of the block of each factor,
-        `steps` its p Δt, and `lifts_of` the factor on the vertical record that goes with it.
-
+    workspaces : array, array
+        The rows of the lanes, and a working array for steps that a lane takes alone, which may say
+        halt (`outcome.HALT`).
+    part : int, int
+        The number of the batch, and of batches.
+    histories
+        The blocks, as `numbered` takes them, and of each history the number of its block, p Δt, the
+        factor on the record, and that on the vertical record that goes with it.
     vertical : array or None
         `record` once more if it is of two records; None if it is of one.
     in_full : bool
         Whether a history is followed once it is sure to survive: only then are the peak and the
         impacts those of all of it.
+    outcomes : array, array, array
+        Take peaks, whether it overturned, and impacts.
 
     Returns
     -------
     int
         The first cell that was given up (see `outcome.MAX_STEPS`), or −1.
     """
+    (w, alone), (batch, batches), (peak, overturned, impacts) = workspaces, part, outcomes
+    kind, blocks, which, steps, factors, lifts_of = histories
     weighs = vertical is not None  # known when this is compiled: one record costs nothing more
     pieces = record[AT, record.shape[1] - 1] if weighs else record.shape[1] - 1.0
     most_steps = MAX_STEPS + 10 * record.shape[1]

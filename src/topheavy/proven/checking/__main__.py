@@ -17,7 +17,7 @@ if not __package__:  # run as a folder, which is a package of its own then; ends
     sys.path[0] = str(folder.parent)
     runpy.run_module(folder.name, run_name="__main__")
 
-from .check import check
+from .checker import check
 from .intervals import Refused
 
 SAME = ("structure", "excitation", "linearised", "outcome")

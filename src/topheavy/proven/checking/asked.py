@@ -23,7 +23,7 @@ def concerns(
     certificate : dict
         As `check` takes it.
     structure, excitation, factor
-        As `topheavy.proven.outcome` takes them, but for a box of structures: a certificate is of
+        As `topheavy.proven.search` takes them, but for a box of structures: a certificate is of
         one.
     """
     validated(certificate)

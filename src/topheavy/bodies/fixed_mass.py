@@ -1,0 +1,214 @@
+"""The cap beam's mass fixed rigidly: to the top of one column (a vase), or to both (a portal).
+
+    FixedMassColumn(column, γ)         ─┐
+                                        ├─►  RockingBlock(p', α', √r')
+    MonolithicPortal(column, γ, span)  ─┘
+
+Either is one rigid body, symmetric about its vertical axis, that rocks about the edges of its base.
+With half its base B, the height H of its centre of gravity and its moment of inertia I about an
+edge, for the mass M,
+
+    tan α' = B/H,    p'² = M g √(B² + H²) / I,    √r' = 1 − 2 M B²/I
+
+`topheavy.derivation.fixed_mass` derives all three from the balances of column and cap. The paper
+has neither structure; they are what its cap beam would do if it could not turn against the columns.
+"""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+
+from topheavy import checks
+from topheavy.bodies.structures import (
+    STANDARD_GRAVITY,
+    Column,
+    RockingBlock,
+    checked_mass_ratio,
+    checked_restitution,
+    solitary_size,
+)
+from topheavy.checks import short
+
+
+class _OneBody(ABC):
+    """One rigid body, symmetric about its vertical axis, on the two edges of its base."""
+
+    @property
+    @abstractmethod
+    def half_base(self) -> float:
+        """B, m: from the vertical axis to the edge that it rocks about."""
+
+    @property
+    @abstractmethod
+    def centre_height(self) -> float:
+        """H, m: of the centre of gravity above the ground."""
+
+    @property
+    @abstractmethod
+    def inertia(self) -> float:
+        """I/M, m²: moment of inertia about the edge over the mass."""
+
+    @property
+    def slenderness(self) -> float:
+        """α' = atan(B/H), rad."""
+        return math.atan2(self.half_base, self.centre_height)
+
+    @property
+    def frequency_parameter(self) -> float:
+        """p' = √(M g √(B² + H²)/I), rad/s."""
+        distance = math.hypot(self.half_base, self.centre_height)
+        return math.sqrt(STANDARD_GRAVITY * distance / self.inertia)
+
+    @property
+    def equivalent_size(self) -> float:
+        """3g/4p'², m: size R of the solitary rectangular column with this p'."""
+        return solitary_size(self.frequency_parameter)
+
+    @property
+    def restitution(self) -> float:
+        """√r' = 1 − 2MB²/I, from the balance of impulses; may be negative when stocky."""
+        return 1.0 - 2.0 * self.half_base**2 / self.inertia
+
+    @property
+    def uplift_acceleration(self) -> float:
+        """tan α': the ground acceleration (g) above which it uplifts."""
+        return self.half_base / self.centre_height
+
+    def block(self, restitution: float | None = None) -> RockingBlock:
+        """Return the rocking block of this body, with √r' unless a restitution is given.
+
+        Raises
+        ------
+        ValueError
+            When √r' is negative: such a body does not keep rocking. The largest α that the message
+            names is that of a body with the same H and the same central moment of inertia.
+        """
+        if restitution is None:
+            central = self.inertia - self.half_base**2  # √r' = 0 where B² reaches this
+            largest = math.atan2(math.sqrt(central), self.centre_height)
+            restitution = checked_restitution(self.restitution, self.slenderness, largest)
+        return RockingBlock(self.frequency_parameter, self.slenderness, restitution)
+
+
+@dataclass(frozen=True)
+class FixedMassColumn(_OneBody):
+    """A column with a cap fixed rigidly to its top: a T, or a vase.
+
+    Parameters
+    ----------
+    column : Column
+    mass_ratio : float
+        γ, the mass of the cap over that of the column: the share of the cap beam that one column
+        of a `RockingFrame` with this γ carries. From 0 to `math.inf`.
+    cap_width, cap_depth : float
+        Of the cap, a homogeneous rectangle centred on the column, m. Both are 0 for a mass that is
+        concentrated at the top.
+
+    Raises
+    ------
+    ValueError
+        For a γ that is negative or not a number, and for negative or infinite lengths.
+    """
+
+    column: Column
+    mass_ratio: float
+    cap_width: float = 0.0
+    cap_depth: float = 0.0
+
+    def __post_init__(self) -> None:
+        _check(self.column, self.mass_ratio)
+        checks.not_negative("cap_width", self.cap_width, "m")
+        checks.not_negative("cap_depth", self.cap_depth, "m")
+
+    @property
+    def half_base(self) -> float:
+        """B = b, m."""
+        return self.column.half_width
+
+    @property
+    def centre_height(self) -> float:
+        """H, m; h (1 + 2γ)/(1 + γ) for a mass that is concentrated at the top."""
+        return _centre_height(self.column, self.mass_ratio, self.cap_depth)
+
+    @property
+    def inertia(self) -> float:
+        """I/M, m²: moment of inertia about the edge over the mass."""
+        return _inertia(self.column, self.mass_ratio, 0.0, self.cap_width, self.cap_depth)
+
+
+@dataclass(frozen=True)
+class MonolithicPortal(_OneBody):
+    """Two columns with the cap beam fixed rigidly to both: it rocks about its outer edges.
+
+    Parameters
+    ----------
+    column : Column
+        Either of the two.
+    mass_ratio : float
+        γ = m_b / 2 m_c, as of `RockingFrame`.
+    span : float
+        L, m, between the axes of the columns.
+    cap_depth, overhang : float
+        Depth of the cap beam, and how far it extends beyond the outer faces of the columns, m.
+
+    Raises
+    ------
+    ValueError
+        For a γ that is negative or not a number, columns that overlap, and lengths that are
+        negative or infinite.
+    """
+
+    column: Column
+    mass_ratio: float
+    span: float
+    cap_depth: float = 0.0
+    overhang: float = 0.0
+
+    def __post_init__(self) -> None:
+        _check(self.column, self.mass_ratio)
+        checks.wider_than_column(self.span, 2.0 * self.column.half_width)
+        checks.not_negative("cap_depth", self.cap_depth, "m")
+        checks.not_negative("overhang", self.overhang, "m")
+
+    @property
+    def half_base(self) -> float:
+        """B = L/2 + b, m."""
+        return self.span / 2.0 + self.column.half_width
+
+    @property
+    def centre_height(self) -> float:
+        """H, m: that of either column with its half of the cap beam."""
+        return _centre_height(self.column, self.mass_ratio, self.cap_depth)
+
+    @property
+    def inertia(self) -> float:
+        """I/M, m²: moment of inertia about the outer edge over the mass."""
+        width = 2.0 * (self.half_base + self.overhang)
+        return _inertia(self.column, self.mass_ratio, self.span / 2.0, width, self.cap_depth)
+
+
+def _check(column: Column, mass_ratio: float) -> None:
+    if not isinstance(column, Column):
+        raise ValueError(f"column is {short(column)}; expected a Column")
+    checked_mass_ratio(mass_ratio)
+
+
+def _share_of_cap(mass_ratio: float) -> float:
+    """Return γ/(1 + γ), the cap's share of the mass."""
+    return 1.0 if mass_ratio == math.inf else mass_ratio / (1.0 + mass_ratio)
+
+
+def _centre_height(column: Column, mass_ratio: float, depth: float) -> float:
+    cap = _share_of_cap(mass_ratio)
+    return (1.0 - cap) * column.half_height + cap * (2.0 * column.half_height + depth / 2.0)
+
+
+def _inertia(column: Column, mass_ratio: float, axis: float, width: float, depth: float) -> float:
+    """Return I/M about the edge, m², of columns whose axes are `axis` (m) off the middle."""
+    b, h = column.half_width, column.half_height
+    cap, base = _share_of_cap(mass_ratio), (axis + b) ** 2
+    of_columns = (b**2 + h**2) / 3.0 + base + axis**2 + h**2
+    of_cap = (width**2 + depth**2) / 12.0 + base + (2.0 * h + depth / 2.0) ** 2
+    return (1.0 - cap) * of_columns + cap * of_cap

@@ -1,0 +1,112 @@
+"""The response of a rocking block: what `simulate` returns."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from topheavy import checks
+from topheavy.bodies.structures import RockingBlock
+
+MOST_SAMPLES = 10_000_000
+"""The largest number of samples that a caller may request: three arrays of 80 MB."""
+
+Outcome = Literal["no uplift", "rests", "rocking", "overturned"]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Response:
+    """A rocking history and its outcome.
+
+    Attributes
+    ----------
+    time : ndarray, shape (n,)
+        s, from 0.
+    rotation, velocity : ndarray, shape (n,)
+        θ in rad and θ̇ in rad/s, signed; NaN after the end of a history that overturned or was cut
+        off while rocking.
+    impacts : ndarray, shape (m,)
+        Times of the impacts in the history, s: of those that end a rotation of more than 1e-6 α,
+        for a block that bounces to rest has infinitely many.
+    outcome : {"no uplift", "rests", "rocking", "overturned"}
+        Of the whole motion: "rocking" is a survivor that has not come to rest when the history
+        ends. Without loss (√r = 1) this is every survivor that has moved; bounces below
+        1e-6 α that cannot grow are not followed, and are zero in rotation and velocity.
+    number_of_impacts : int
+        Impacts until the forcing ends or the block has overturned (those on the way to overturning
+        included). A survivor's bouncing after the forcing is not counted.
+    peak_rotation : float
+        max|θ| in rad over the whole motion, the free rocking after the forcing included; NaN if
+        overturned.
+    """
+
+    time: NDArray[np.float64]
+    rotation: NDArray[np.float64]
+    velocity: NDArray[np.float64]
+    impacts: NDArray[np.float64]
+    outcome: Outcome
+    number_of_impacts: int
+    peak_rotation: float
+
+    @property
+    def overturned(self) -> bool:
+        """Whether it overturned."""
+        return self.outcome == "overturned"
+
+    def __repr__(self) -> str:
+        return (
+            f"Response({self.outcome!r}, peak_rotation={self.peak_rotation:.6g}, "
+            f"number_of_impacts={self.number_of_impacts}, {self.time.size} samples)"
+        )
+
+
+def sample_times(samples: int | ArrayLike) -> int | NDArray[np.float64]:
+    """Return `samples` as a number of times (at least 2) or as an increasing array of times.
+
+    Raises
+    ------
+    ValueError
+        For anything else.
+    """
+    if np.ndim(samples) == 0:
+        number = checks.finite("samples", samples)
+        if number != int(number) or number < 2:
+            raise ValueError(f"samples is {samples!r}; expected a whole number of at least 2")
+        if number > MOST_SAMPLES:
+            raise ValueError(
+                f"samples is {samples!r}; expected at most {MOST_SAMPLES} (240 MB), or an array of "
+                "the times that are wanted"
+            )
+        return int(number)
+    times = np.array(samples, dtype=float)
+    if times.ndim != 1 or times.size == 0:
+        raise ValueError(f"samples has shape {times.shape}; expected a list of times in s")
+    if not np.isfinite(times).all():
+        raise ValueError("samples holds times that are not finite; expected times in s")
+    if times[0] < 0.0 or np.any(np.diff(times) <= 0.0):
+        raise ValueError("samples is not an increasing array of times from 0 on")
+    return times
+
+
+def initial_motion(block: RockingBlock, rotation: float, velocity: float) -> tuple[float, float]:
+    """Return θ (rad) and θ̇ (rad/s) at t = 0, checked.
+
+    Raises
+    ------
+    ValueError
+        Unless both are finite and, in the exact equation, |θ| < π/2.
+    """
+    theta = checks.finite("rotation", rotation)
+    theta_rate = checks.finite("velocity", velocity)
+    if not block.linearised and abs(theta) >= math.pi / 2:
+        raise ValueError(f"rotation is {theta:.6g} rad; expected less than π/2, where it lies flat")
+    if abs(theta) > checks.FARTHEST_START * block.slenderness:
+        checks.warn(
+            f"rotation is {theta:.6g} rad, and α is {block.slenderness:.4g} rad, beyond which a "
+            "block at rest falls: is the rotation in degrees?"
+        )
+    return theta, theta_rate

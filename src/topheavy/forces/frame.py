@@ -1,0 +1,128 @@
+"""Base shear, overturning moment and bending moments of a rocking frame.
+
+They follow from the contact forces of `topheavy.contact_forces`. A column is loaded by the forces
+at its two contacts, half its width beside its axis, and by its own weight and inertia. With t and n
+for the transverse and axial force of the ground on the column, and c = b sgn θ for the place of the
+contact, the bending moment at the height z along the axis is
+
+    M(z) = c n + t z − ∫₀ᶻ q(y) (z − y) dy + (m_c/2h) (b²/3) θ̈ z,   q = (m_c/2h) a_t,
+
+where a_t is the transverse acceleration on the axis, gravity included, and the last term is the
+rotary inertia. Signs are such that all three are positive for a frame at rest under ü_g > 0.
+The impulses of an impact are no forces and are not among these; see `impact_impulses`.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from topheavy.bodies.structures import STANDARD_GRAVITY, RockingFrame
+from topheavy.forces.contact import Cap, check_span, checked_motion, weights
+from topheavy.kernel.forces import Frame, forces_along, largest_along
+
+Array = NDArray[np.float64]
+
+SECTIONS = (0.0, 0.25, 0.5, 0.75, 1.0)
+"""Heights over 2h at which the bending moments are computed."""
+
+HEIGHTS = np.array(SECTIONS)
+
+
+@dataclass(frozen=True, eq=False)
+class FrameForces:
+    """Forces of a rocking frame over its weight, each of the shape of the motion.
+
+    Attributes
+    ----------
+    base_shear : ndarray
+        Horizontal force of the ground on both columns, over the weight.
+    overturning_moment : ndarray
+        Of the ground's reactions about the point of the ground midway between the resting columns,
+        over the weight, m.
+    bending_moment : ndarray, shape (..., 2, sections)
+        In the left and the right column at the heights SECTIONS, over the weight, m.
+    """
+
+    base_shear: Array
+    overturning_moment: Array
+    bending_moment: Array
+
+
+def frame_forces(
+    frame: RockingFrame,
+    cap: Cap,
+    rotation: ArrayLike,
+    velocity: ArrayLike,
+    ground_acceleration: ArrayLike = 0.0,
+) -> FrameForces:
+    """Return the forces of a frame whose motion is that of Eq. (23).
+
+    Parameters are those of `contact_forces`. At rest, base shear and overturning moment are those
+    of the ground's acceleration; the bending moments are NaN, since whole faces are in contact.
+    """
+    motion = checked_motion(rotation, velocity, ground_acceleration)
+    shape, count = motion[0].shape, motion[0].size
+    found = np.empty(count), np.empty(count), np.empty((count, 2, len(SECTIONS)))
+    forces_along(_numbers(frame, cap), *map(np.ravel, motion), HEIGHTS, *found)
+    shear, moment, bending = found
+    return FrameForces(
+        shear.reshape(shape), moment.reshape(shape), bending.reshape(*shape, *bending.shape[1:])
+    )
+
+
+def largest_forces(
+    frame: RockingFrame, cap: Cap, rotation: Array, velocity: Array, ground_acceleration: Array
+) -> NDArray[np.float64]:
+    """Return the largest moduli of the forces of `frame_forces` in all arcs that move.
+
+    The motion has the shape (arcs, samples). At rest there is less shear than at uplift, where the
+    forces go on without a jump; where no arc moves, all count.
+
+    Returns
+    -------
+    ndarray, shape (2, 3)
+        Of all samples, and of every other one: base shear, overturning moment, bending moment.
+    """
+    motion = map(np.ascontiguousarray, checked_motion(rotation, velocity, ground_acceleration))
+    found: Array = largest_along(_numbers(frame, cap), *motion, HEIGHTS)
+    return found
+
+
+def base_shear_slope(frame: RockingFrame) -> float:
+    """Return d(V/W)/d(ü_g/g), the growth of the base shear over the weight just after uplift.
+
+    1 − (3/4) cos²α (1 + 2γ)²/((1 + γ)(1 + 3γ)); sin²α for γ → ∞. It is 1 before uplift.
+    """
+    gamma = frame.mass_ratio
+    ratio = 4.0 / 3.0
+    if gamma != math.inf:
+        ratio = (1.0 + 2.0 * gamma) ** 2 / ((1.0 + gamma) * (1.0 + 3.0 * gamma))
+    return 1.0 - 0.75 * math.cos(frame.slenderness) ** 2 * ratio
+
+
+def centre_height(frame: RockingFrame, cap: Cap) -> float:
+    """Return the height of the centre of gravity of the resting frame, m."""
+    columns = 0.0 if frame.mass_ratio == math.inf else 1.0 / (1.0 + frame.mass_ratio)
+    h = frame.column.half_height
+    return columns * h + (1.0 - columns) * (2.0 * h + cap.half_depth)
+
+
+def _numbers(frame: RockingFrame, cap: Cap) -> Frame:
+    check_span(frame, cap)
+    column = frame.column
+    return Frame(
+        column.size,
+        column.half_width,
+        column.half_height,
+        column.uplift_acceleration,
+        frame.frequency_parameter**2,
+        *weights(frame.mass_ratio),
+        cap.span,
+        cap.half_depth,
+        centre_height(frame, cap),
+        STANDARD_GRAVITY,
+    )

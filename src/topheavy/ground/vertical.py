@@ -1,0 +1,117 @@
+"""A horizontal and a vertical ground motion together: what is refused, and both in segments.
+
+Vertical ground acceleration v (g, upward) makes gravity (1 + v) g (proved in
+`topheavy.derivation.extension_proofs`). Between impacts
+
+    θ̈ = −p² (1 + v) { sin(α sgn θ − θ) + a/(1 + v) cos(α sgn θ − θ) }
+
+so that the block moves as under a/(1 + v) in gravity (1 + v) g, and uplifts beyond (1 + v) tan α.
+Between two samples a/(1 + v) is monotone, as a quotient of two lines.
+"""
+
+from dataclasses import dataclass
+from functools import partial
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from topheavy.ground.excitation import Excitation, Segment
+from topheavy.ground.records import Record
+
+
+@dataclass(frozen=True, eq=False)
+class TwoComponents(Excitation):
+    """A horizontal and a vertical record that start together.
+
+    Raises
+    ------
+    ValueError
+        As `refuse_fall`.
+    """
+
+    horizontal: Record
+    vertical: Record
+
+    def __post_init__(self) -> None:
+        refuse_fall(self.vertical)
+
+    @property
+    def duration(self) -> float:
+        """How long either lasts, s."""
+        return max(self.horizontal.duration, self.vertical.duration)
+
+    def accelerations(self, time: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the horizontal acceleration in g at an array of times in s."""
+        return self.horizontal.accelerations(time)
+
+    def segments(self, until: float) -> list[Segment]:
+        """Return the spans between the samples of either record, up to `until`."""
+        end = min(until, self.duration)
+        both = (self.horizontal, self.vertical)
+        times = np.concatenate([r.time_step * np.arange(r.acceleration.size) for r in both])
+        edges = np.append(np.unique(times[times < end]), end)
+        # samples that rounding alone keeps apart are one
+        edges = edges[np.append(True, np.diff(edges) > 1e-9 * end)]
+        lines = []
+        for record in both:
+            line = np.stack([*pairwise(record.accelerations(edges))])
+            line[edges[1:] + edges[:-1] > 2.0 * record.duration] = 0.0  # it ends by a jump
+            lines.append(line)
+        spans = zip(pairwise(edges), *lines, strict=True)
+        found = []
+        for (start, stop), across, up in spans:
+            gravity = partial(_line, start, stop, 1.0 + up[0], 1.0 + up[1])
+            push = partial(_quotient, partial(_line, start, stop, *across), gravity)
+            found.append(Segment(float(start), float(stop), push, gravity))
+        return found
+
+
+def with_vertical(excitation: Excitation | None, vertical: Record | None) -> Excitation | None:
+    """Return the ground motion of both components, or the horizontal one if there is no other.
+
+    Raises
+    ------
+    ValueError
+        As `both_records` and `refuse_fall`.
+    """
+    if vertical is None:
+        return excitation
+    return TwoComponents(*both_records(excitation, vertical))
+
+
+def both_records(excitation: object, vertical: object) -> tuple[Record, Record]:
+    """Return a horizontal and a vertical ground motion if they are Records, or raise ValueError."""
+    if not isinstance(vertical, Record) or not isinstance(excitation, Record):
+        raise ValueError(
+            f"excitation is {type(excitation).__name__} and vertical {type(vertical).__name__}; "
+            "expected two Records: sample a pulse to combine it with a vertical component"
+        )
+    return excitation, vertical
+
+
+def refuse_fall(vertical: Record, factors: ArrayLike = 1.0) -> None:
+    """Raise ValueError where the ground falls at 1 g or more, so that nothing presses on it.
+
+    The message names the time, and the bound of the factors that are allowed.
+    """
+    samples, scales = vertical.acceleration, np.ravel(factors)
+    for factor in (float(scales.max()), float(scales.min())):
+        lowest = int((factor * samples).argmin())
+        found = factor * samples[lowest]
+        if found <= -1.0:
+            side = "less" if factor > 0.0 else "more"
+            raise ValueError(
+                f"vertical: at {lowest * vertical.time_step:.6g} s its acceleration times "
+                f"{factor:.6g} is {found:.6g} g; expected more than −1 g, as the structure loses "
+                f"contact with ground that falls faster: factors {side} than "
+                f"{-1.0 / samples[lowest]:.6g} are allowed"
+            )
+
+
+def _line(start: float, stop: float, first: float, last: float, time: float) -> float:
+    return first + (last - first) * (time - start) / (stop - start)
+
+
+def _quotient(above: partial[float], below: partial[float], time: float) -> float:
+    return above(time) / below(time)

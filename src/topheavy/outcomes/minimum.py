@@ -1,0 +1,317 @@
+"""The lowest factor found that overturns: nested grids down to a floor, and what they leave open.
+
+Under a record the factors that overturn form many narrow intervals, and the lowest is often the
+narrowest. A search on one grid misses it without a sign. Here every grid holds the points of the
+one before, so that a finer grid never finds a higher minimum.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Generator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, TypeAlias, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from topheavy import checks
+from topheavy.bodies.structures import Structure
+from topheavy.ground.pulses import Pulse
+from topheavy.ground.records import Record
+from topheavy.kernel.outcome import TOLERANCE
+from topheavy.keywords import hinted
+from topheavy.outcomes.overturning import (
+    BRACKET,
+    Asked,
+    Factors,
+    Interval,
+    Search,
+    checked_range,
+    intervals_together,
+    outcomes_of_subjects,
+    steered,
+    subjects_of,
+)
+
+NOT_EXCLUDED = "intervals narrower than the floor are not excluded"
+"""What a search on grids cannot say of the lowest factor that overturns."""
+
+AT_A_TIME = 512
+"""Factors of a grid that are tried in one call, from the lowest up."""
+
+SECTIONS = 32
+"""Parts into which a bracket is cut in one call."""
+
+GROWTH = 17.0 / 16.0
+"""Ratio of successive distances from the lower end of an interval, where its upper is sought."""
+
+
+@dataclass(frozen=True)
+class LowestOverturning:
+    """The lowest factor on an excitation that was found to overturn, and how it was sought.
+
+    Parameters
+    ----------
+    scale_range : (float, float)
+        The first and the last factor of the search.
+    floor : float
+        The narrowest interval of factors that the search cannot miss.
+    steps : tuple of (float, float or None)
+        The step of each grid, each half the one before, and the lowest factor found by then that
+        overturns; None where none was found.
+    bracket : (float, float) or None
+        A factor that is survived and the lowest found that overturns. The first factor of the range
+        twice where that overturns; None where no factor does.
+    upper : (float, float) or None
+        The last factor found in the same interval, and one above it that is survived. None where no
+        factor up to the end of the range is found to be survived, or where none overturns.
+    unit_acceleration : float
+        Peak ground acceleration of the factor 1, g.
+    factors_tried : int
+        How many histories the search took.
+    wider_than : float
+        Of an interval of factors that was sought besides: more than this wide. 0 if none was.
+    wide : Interval or None
+        The lowest such interval, on a grid with steps of an eighth of this width; survival regions
+        narrower than a step may lie inside it. None where there is none.
+    """
+
+    scale_range: tuple[float, float]
+    floor: float
+    steps: tuple[tuple[float, float | None], ...]
+    bracket: tuple[float, float] | None
+    upper: tuple[float, float] | None
+    unit_acceleration: float
+    factors_tried: int
+    wider_than: float = 0.0
+    wide: Interval | None = None
+
+    @property
+    def factor(self) -> float:
+        """The lowest factor found that overturns; NaN where none does."""
+        return self.bracket[1] if self.bracket else math.nan
+
+    @property
+    def acceleration(self) -> float:
+        """Peak ground acceleration of that factor, g; NaN where none overturns."""
+        return self.factor * self.unit_acceleration
+
+    @property
+    def width(self) -> float:
+        """Width of its interval, between survived factors; NaN where the upper is not in the range.
+
+        A survival region narrower than a sixteenth of the width may lie inside it.
+        """
+        return self.upper[1] - self.bracket[0] if self.bracket and self.upper else math.nan
+
+    def __str__(self) -> str:
+        """Say what was found, in which steps, and what is not excluded."""
+        first, last = self.scale_range
+        if self.bracket is None:
+            found = f"No factor tried from {first:.6g} to {last:.6g} overturns"
+        else:
+            begins = self.bracket[0] == self.bracket[1]
+            which = "first factor of the range" if begins else "lowest factor found that overturns"
+            verb = "overturns; it is" if begins else "is"
+            wide = f"{self.width:.2g} wide" if self.upper else "open at the end of the range"
+            found = (
+                f"The {which} {verb} {self.factor:.6g} ({self.acceleration:.6g} g), "
+                f"in an interval {wide}"
+            )
+        if self.wider_than:
+            factor = self.wide.lower[1] if self.wide else math.nan
+            found += f". The first interval wider than {self.wider_than:.6g} " + (
+                f"begins at {factor:.6g} ({factor * self.unit_acceleration:.6g} g)"
+                if self.wide
+                else "is not in the range"
+            )
+        return (
+            f"{found}. The step was halved from {self.steps[0][0]:.6g} to {self.steps[-1][0]:.6g}: "
+            f"{NOT_EXCLUDED} (floor {self.floor:.6g})."
+        )
+
+
+@hinted
+def lowest_overturning(
+    structure: Structure,
+    excitation: Pulse | Record,
+    scale_range: tuple[float, float],
+    *,
+    floor: float,
+    wider_than: float | None = None,
+    vertical: Record | None = None,
+    scale_vertical: bool = True,
+) -> LowestOverturning:
+    """Return the lowest factor on an excitation that is found to overturn, down to a floor.
+
+    The first step is the whole range. It is halved until it is not wider than the floor, whatever
+    is found. Each halving tries the new points below the lowest factor found so far; a factor that
+    overturns is then bracketed to 1e-10 of the last factor. So no factor tried below the result
+    overturns, and an interval wider than the floor cannot lie below it. A narrower one can.
+
+    Under a record an interval may be so narrow that its outcomes hang on digits that no measurement
+    resolves. The `width` shows it; `judge` with another tolerance and `reference.judge` tell.
+
+    The cost is about (result − first factor)/floor histories, in lanes. `minimum_overturning`
+    searches one grid only.
+
+    Parameters
+    ----------
+    structure : RockingBlock, Column, RockingFrame, FixedMassColumn or MonolithicPortal
+    excitation : Pulse or Record
+        One that ends.
+    scale_range : (float, float)
+        The first and the last factor, not negative.
+    floor : float
+        The widest step that may be the last.
+    wider_than : float, optional
+        Also find the lowest interval of factors that is wider than this. Under a record the lowest
+        factor often lies in an interval so narrow that no measured motion would meet it.
+    vertical : Record, optional
+        Vertical ground acceleration that starts with a record: g, positive upward.
+    scale_vertical : bool
+        Whether the factors multiply the vertical acceleration, too.
+
+    Returns
+    -------
+    LowestOverturning
+
+    Raises
+    ------
+    ValueError
+        For a range that does not ascend or begins below zero, a floor that is not positive or below
+        1e-10 of the last factor, a harmonic, and a vertical acceleration of −1 g or less at a
+        factor of the range.
+    """
+    search = Search(structure, excitation, scale_range, vertical, scale_vertical)
+    (found,) = lowest_together([search], [floor])
+    if wider_than is None:
+        return found
+    step = checks.positive("wider_than", wider_than) / 8.0
+    (intervals,) = intervals_together([search], resolution=step, most_impacts=0)
+    wide = (one for one in intervals if not one.upper or one.upper[0] - one.lower[1] > wider_than)
+    return replace(found, wider_than=float(wider_than), wide=next(wide, None))
+
+
+def lowest_together(searches: Sequence[Search], floors: Sequence[float]) -> list[LowestOverturning]:
+    """Return the `lowest_overturning` of several searches in their order, each with its floor."""
+    asking = [_lowest(*given) for given in zip(searches, floors, strict=True)]
+    subjects = subjects_of(searches)
+
+    def label(asked: Mapping[int, Factors]) -> list[NDArray[np.bool_]]:
+        of = [subjects[number] for number in asked]
+        return [fell for fell, _ in outcomes_of_subjects(of, [*asked.values()], TOLERANCE)]
+
+    return steered(asking, label)
+
+
+Asking: TypeAlias = Generator[Asked, Any, tuple[float, float] | None]
+"""It yields factors, is sent which of them overturn, and returns a bracket."""
+
+
+def _lowest(search: Search, floor: float) -> Generator[Asked, Any, LowestOverturning]:
+    """Yield the factors that `lowest_overturning` needs; return what it finds."""
+    excitation = cast("Pulse | Record", search.excitation)
+    first, last = checked_range(excitation, search.scale_range)
+    if first < 0.0:
+        raise ValueError(
+            f"scale_range begins at {first:.6g}; expected factors from zero on: for the mirrored "
+            "motion, give excitation.scaled(-1)"
+        )
+    width = BRACKET * last
+    if checks.positive("floor", floor) < width:
+        raise ValueError(
+            f"floor is {floor:.6g}; expected at least {width:.6g}, {BRACKET:g} of the last factor: "
+            "brackets are as wide"
+        )
+    trials = _Trials()
+    bracket = yield from trials.first_of((first, last), width)
+    step, steps, parts = last - first, [], 1
+    while True:
+        steps.append((step, bracket[1] if bracket else None))
+        if step <= floor:
+            break
+        step, parts = 0.5 * step, 2 * parts
+        below = bracket[0] if bracket else last
+        bracket = (yield from trials.between(first, step, parts, below, width)) or bracket
+    upper = (yield from trials.upper_end(bracket[1], last, width)) if bracket else None
+    return LowestOverturning(
+        scale_range=(first, last),
+        floor=floor,
+        steps=tuple(steps),
+        bracket=bracket,
+        upper=upper,
+        unit_acceleration=excitation.peak_acceleration,
+        factors_tried=trials.number,
+    )
+
+
+@dataclass
+class _Trials:
+    """The parts of a search; it counts the factors that they ask."""
+
+    number: int = 0
+
+    def of(self, factors: Factors) -> Asked:
+        self.number += factors.size
+        return Asked(factors, [])
+
+    def first_of(self, ends: tuple[float, float], width: float) -> Asking:
+        """Return the bracket of the coarsest grid, the two ends of the range alone."""
+        first, last = ends
+        begins, finishes = yield self.of(np.array(ends))
+        if begins:
+            return first, first
+        return (yield from self.section(first, last, width)) if finishes else None
+
+    def between(self, first: float, step: float, parts: int, below: float, width: float) -> Asking:
+        """Return the bracket of the lowest new point that overturns, of a grid just halved.
+
+        Its old points, the even ones, are survived where they are lower than `below`.
+        """
+        for begin in range(1, parts, 2 * AT_A_TIME):
+            places = np.arange(begin, min(begin + 2 * AT_A_TIME, parts), 2, dtype=float)
+            factors = first + step * places
+            factors = factors[factors < below]
+            if factors.size == 0:
+                return None
+            overturned = yield self.of(factors)
+            if overturned.any():
+                at = int(np.argmax(overturned))
+                before = first + step * (int(places[at]) - 1)
+                return (yield from self.section(before, float(factors[at]), width))
+        return None
+
+    def section(
+        self, low: float, high: float, width: float, *, sought: bool = True
+    ) -> Generator[Asked, Any, tuple[float, float]]:
+        """Narrow a bracket to `width`, always to the lowest point tried with the sought outcome.
+
+        Halving would pass over lower factors that it tried in vain: here none that was tried is.
+        """
+        while high - low > width:
+            points = np.linspace(low, high, SECTIONS + 1)
+            met = np.append((yield self.of(points[1:-1])) == sought, True)
+            at = int(np.argmax(met))
+            low, high = float(points[at]), float(points[at + 1])
+        return low, high
+
+    def upper_end(self, lowest: float, last: float, width: float) -> Asking:
+        """Return the upper end of the interval that begins at `lowest`, or None beyond the range.
+
+        The distances tried grow in proportion, so that the interval may have any width.
+        """
+        span = last - lowest
+        if span <= 0.0:
+            return None
+        count = 2 + int(math.log(span / width, GROWTH)) if span > width else 1
+        distances = np.geomspace(min(width, span), span, count)
+        points = np.array([lowest, *np.minimum(lowest + distances, last)])
+        survived = ~(yield self.of(points[1:]))
+        if not survived.any():
+            return None
+        at = int(np.argmax(survived))
+        return (
+            yield from self.section(float(points[at]), float(points[at + 1]), width, sought=False)
+        )

@@ -1,0 +1,267 @@
+"""Rocking histories by the Taylor solver: `simulate`, and `judge` for the outcome alone."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from topheavy import checks
+from topheavy.bodies.free_rocking import Ending
+from topheavy.bodies.response import Outcome, Response, initial_motion, sample_times
+from topheavy.bodies.structures import RockingBlock, Structure, as_block
+from topheavy.ground.excitation import Excitation, checked_excitation, no_excitation
+from topheavy.ground.pulses import Pulse
+from topheavy.ground.records import Record
+from topheavy.ground.vertical import both_records, refuse_fall
+from topheavy.kernel.forcing import (
+    NO_RECORD,
+    NONE,
+    RECORD,
+    SHAPES,
+    prepare_record,
+    prepare_two_records,
+    pulse_forcing,
+    record_forcing,
+)
+from topheavy.kernel.grid import outcome_of, record_order
+from topheavy.kernel.interrupt import LONG, in_threads
+from topheavy.kernel.outcome import PULSE_ORDER, TOLERANCE, working_array
+from topheavy.kernel.taylor import oscillator
+from topheavy.kernel.trace import (
+    MOST_STEPS,
+    NO_UPLIFT,
+    OVERTURNED,
+    RESTS,
+    ROCKING,
+    UNRESOLVED,
+    trace,
+)
+from topheavy.keywords import hinted
+
+Times = NDArray[np.float64]
+
+MOST_IMPACTS = 100_000
+"""The largest number of impacts of one history."""
+
+SMALLEST_TOLERANCE, LARGEST_TOLERANCE = 1e-16, 1e-2
+"""Below the first, rounding dominates the error of a step; above the second, outcomes change."""
+
+_OUTCOMES: dict[int, Outcome] = {
+    NO_UPLIFT: "no uplift",
+    RESTS: "rests",
+    ROCKING: "rocking",
+    OVERTURNED: "overturned",
+}
+
+
+@hinted
+def simulate(
+    structure: Structure,
+    excitation: Excitation | None = None,
+    *,
+    rotation: float = 0.0,
+    velocity: float = 0.0,
+    duration: float | None = None,
+    samples: int | ArrayLike = 1000,
+    tolerance: float = TOLERANCE,
+    vertical: Record | None = None,
+) -> Response:
+    """Return the rocking response to a ground motion, or free rocking without one.
+
+    Parameters
+    ----------
+    structure : RockingBlock, Column or RockingFrame
+    excitation : Pulse or Record, optional
+    rotation, velocity : float
+        θ (rad) and θ̇ (rad/s) at t = 0, signed.
+    duration : float, optional
+        Where the history ends, s, and with it the forcing. Without it the history ends at the
+        first of: overturned (at |θ| = π/2), at rest, 1000 impacts after the forcing.
+    samples : int or array_like
+        A number of uniform times from 0 to the end, or increasing times in s, which may reach
+        beyond the end.
+    tolerance : float
+        Bound on the last two terms of the Taylor series of φ̇/p in a step, relative to α; from
+        1e-16 to 1e-2.
+    vertical : Record, optional
+        Vertical ground acceleration that starts with a record: g, positive upward. Its time step
+        may be another.
+
+    Returns
+    -------
+    Response
+        Its outcome and peak rotation are those of the forcing, up to the duration, and of all the
+        free rocking after it, even of what lies beyond the duration.
+
+    Raises
+    ------
+    ValueError
+        For values that are not finite, |θ| ≥ π/2 in the exact equation, a harmonic without a
+        duration, a tolerance or a number of samples out of range, a structure whose √r is
+        negative, or a vertical acceleration of −1 g or less.
+    ArithmeticError
+        For a history of more than `MOST_IMPACTS` impacts or a million steps.
+
+    Notes
+    -----
+    Taylor steps whose turning points and impacts are proven by the signs of Bernstein coefficients
+    (`topheavy.kernel`). `topheavy.second.reference.simulate` is the second, independent solver.
+    """
+    block = as_block(structure)
+    times = sample_times(samples)
+    tolerance = checked_tolerance(tolerance)
+    theta, theta_rate = initial_motion(block, rotation, velocity)
+    if vertical is not None:
+        refuse_fall(both_records(excitation, vertical)[1])
+    shape, _, amplitude, record = shaking = as_shaking(excitation, vertical)
+    p, scale = block.frequency_parameter, shaking.scale(block)
+    until = math.inf if duration is None else p * checks.positive("duration", duration, "s")
+    if shape == RECORD:
+        forcing = record_forcing(record, scale, amplitude, 1.0)
+    else:
+        forcing = pulse_forcing(shape, amplitude, scale)
+    forcing = forcing._replace(end=min(forcing.end, until))
+    if forcing.end == math.inf:
+        raise ValueError("duration is not given; expected one, as this excitation goes on forever")
+    order = record_order(scale, tolerance) if shape == RECORD else PULSE_ORDER
+
+    def follow(until: float, at: Times) -> tuple[NDArray[np.float64], Times, tuple[float, ...]]:
+        motion, impacts = np.full((2, at.size), math.nan), np.empty(MOST_IMPACTS)
+        given = (oscillator(block), forcing, record, (theta, theta_rate / p, until))
+
+        def traced(w: Times) -> tuple[float, ...]:
+            end: tuple[float, ...] = trace(w, order, tolerance, *given, (at, motion, impacts))
+            return end
+
+        is_long = record.shape[1] + at.size > LONG
+        found = in_threads([traced])[0] if is_long else traced(working_array())
+        if found[1] == UNRESOLVED:
+            raise ArithmeticError(
+                f"{block} under {_named(excitation)}: more than {MOST_IMPACTS} impacts or "
+                f"{MOST_STEPS} steps by {found[0] / p:.6g} s; a shorter duration or a smaller "
+                "restitution has fewer"
+            )
+        return motion, impacts, found
+
+    last, found = math.inf, None
+    if isinstance(times, int):
+        last = until
+        if duration is None:
+            found = follow(until, np.array([0.0, math.inf]))
+            last = found[2][0]
+        times = np.linspace(0.0, last / p if duration is None else duration, times)
+    elif duration is None:
+        until = max(p * float(times[-1]), forcing.end)
+    if found is None or times.size > 2:
+        # The last of uniform times is the end, and no rounding of p (end/p) above it.
+        found = follow(until, np.minimum(p * times, last))
+    motion, impacts, (_, result, peak, counted, landed) = found
+    outcome = _OUTCOMES[int(result)]
+    if outcome == "rests" and block.restitution == 1.0:
+        outcome = "rocking"  # the kernel follows no bounces that are too low to count
+    return Response(
+        time=times,
+        rotation=motion[0],
+        velocity=p * motion[1],
+        impacts=impacts[: int(landed)] / p,
+        outcome=outcome,
+        number_of_impacts=int(counted),
+        peak_rotation=math.nan if outcome == "overturned" else peak,
+    )
+
+
+@hinted
+def judge(
+    structure: Structure,
+    excitation: Excitation,
+    *,
+    tolerance: float = TOLERANCE,
+    vertical: Record | None = None,
+    restitutions: Sequence[float] = (),
+) -> Ending:
+    """Return only how the response to a ground motion of finite duration ends.
+
+    The same as `simulate`, in microseconds: the free rocking is not integrated. The peak is max|θ|
+    over the whole motion (NaN if overturned), the impacts are counted as in `Response`. Free
+    rocking begins when both components have ended.
+
+    `restitutions` are √r of the impacts in turn, after which the block's own is taken. Impacts
+    that end a rotation of 1e-3 α or less then do not count, and take the next of them.
+
+    Raises
+    ------
+    ValueError
+        For an excitation that is none or goes on forever, a tolerance out of range, or a vertical
+        acceleration of −1 g or less, or a restitution outside of 0 to 1.
+    ArithmeticError
+        For a block that bounces too often to be followed.
+    """
+    checked_excitation(excitation, ends=True)
+    if vertical is not None:
+        refuse_fall(both_records(excitation, vertical)[1])
+    block, shaking = as_block(structure), as_shaking(excitation, vertical)
+    found = outcome_of(
+        oscillator(block),
+        shaking.shape,
+        shaking.scale(block),
+        shaking.amplitude,
+        shaking.record,
+        lift=1.0,
+        ratios=np.array([checks.fraction("restitutions", value) for value in restitutions]),
+        tolerance=checked_tolerance(tolerance),
+    )
+    return Ending(bool(found.overturned), float(found.peak), int(found.impacts))
+
+
+class Shaking(NamedTuple):
+    """A ground motion for the kernel: its number, ω (rad/s) or Δt (s), amplitude, record."""
+
+    shape: int
+    rate: float
+    amplitude: float
+    record: NDArray[np.float64]
+
+    def scale(self, block: RockingBlock) -> float:
+        """Return ω/p of a pulse, p Δt of a record."""
+        p = block.frequency_parameter
+        return p * self.rate if self.shape == RECORD else self.rate / p
+
+
+def as_shaking(excitation: Excitation | None, vertical: Record | None = None) -> Shaking:
+    """Return a ground motion as the kernel takes it, or raise ValueError if it is none."""
+    if vertical is not None:
+        across, up = both_records(excitation, vertical)
+        ratio = up.time_step / across.time_step
+        record = prepare_two_records(across.acceleration, up.acceleration, ratio)
+        return Shaking(RECORD, across.time_step, 1.0, record)
+    match excitation:
+        case None:
+            return Shaking(NONE, 1.0, 0.0, NO_RECORD)
+        case Pulse():
+            number, omega = SHAPES[excitation.shape], excitation.angular_frequency
+            return Shaking(number, omega, float(excitation.amplitude), NO_RECORD)
+        case Record():
+            return Shaking(RECORD, excitation.time_step, 1.0, _prepared(excitation))
+    raise no_excitation(excitation)
+
+
+@lru_cache(maxsize=2)
+def _prepared(record: Record) -> NDArray[np.float64]:
+    """Return a record as the kernel reads it; one record often follows itself."""
+    return prepare_record(record.acceleration)
+
+
+def checked_tolerance(value: float) -> float:
+    """Return a tolerance of the kernel, or raise ValueError with the range that is accepted."""
+    return checks.within("tolerance", value, SMALLEST_TOLERANCE, LARGEST_TOLERANCE)
+
+
+def _named(excitation: Excitation | None) -> str:
+    if isinstance(excitation, Record):
+        return f"record {excitation.name!r}"
+    return "no excitation" if excitation is None else repr(excitation)

@@ -1,0 +1,211 @@
+"""Fragility of structures under scaled motions, from outcomes to curves, intervals and pairs."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Iterable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from topheavy import checks
+from topheavy.ground.records import Record
+from topheavy.keywords import hinted
+from topheavy.outcomes.overturning import overturned_together
+from topheavy.risk import inputs
+from topheavy.risk.curve import fit
+from topheavy.risk.resampling import means_within
+from topheavy.risk.tables import curve_table, pair_table
+
+if TYPE_CHECKING:
+    import xarray
+
+Array = NDArray[np.float64]
+Outcomes = NDArray[np.bool_]
+
+
+@dataclass(frozen=True, eq=False)
+class Fragility:
+    """Probability of overturning of structures over the intensity of motions.
+
+    Attributes
+    ----------
+    curves : xarray.Dataset
+        Over (structure, level): overturned, the number of motions; probability, with its exact
+        interval probability_low, probability_high (Clopper & Pearson 1934); fitted, the curve.
+        Over structure: terms (a, b, c) of the curve Φ(a + b ln s + c ln² s); median_capacity, in
+        the unit of the levels, and dispersion, half of ln(s₈₄/s₁₆), with resampled intervals
+        (dispersion_low, dispersion_high); dispersion_reason: in words, why one of these is NaN,
+        else empty. The coordinate lowered is the share by which √r is lowered.
+    pairs : xarray.Dataset
+        Over (pair, level): less, the probability of the first structure less that of the second,
+        with its resampled interval (less_low, less_high) and its words in less_words; only_first
+        and only_second, the motions that overturn one of both alone; sign_test, the two-sided
+        p-value of the exact test that these are equally likely. Over pair: gain, the median of the
+        second over that of the first, less 1, with gain_low, gain_high, gain_words, gain_reason.
+    outcomes : ndarray of bool, shape (motions, structures, levels)
+        Which motions overturn each structure of `curves` at each level.
+    measure : str
+        Of the intensity.
+    sampling : str
+        Which scatter the intervals include, in words.
+    confidence : float
+        Of each interval for itself, not of several together.
+    """
+
+    curves: xarray.Dataset
+    pairs: xarray.Dataset
+    outcomes: Outcomes
+    measure: str
+    sampling: str
+    confidence: float
+
+    def __str__(self) -> str:
+        """Say the median of each structure and the gain of each pair, with intervals or reasons."""
+        unit = self.curves.level.attrs.get("units", "")
+        first, last = (f"{float(self.curves.level[at]):.4g}" for at in (0, -1))
+        levels = f"{self.measure} from {first} to {last} {unit}".rstrip()
+        motions = f"{self.outcomes.shape[0]} motions, {levels}"
+        lines = [f"{motions}; {self.confidence:.0%} intervals, {self.sampling}"]
+        for place in range(self.curves.sizes["structure"]):
+            row = self.curves.isel(structure=place)
+            lines.append(f"{row.structure.item()}: median {_told(row, 'median_capacity', unit)}")
+        for place in range(self.pairs.sizes["pair"]):
+            row = self.pairs.isel(pair=place)
+            both = f"{row['second'].item()} over {row['first'].item()}"
+            lines.append(f"{both}: gain {_told(row, 'gain', '')}")
+        return "\n".join(lines)
+
+
+def _told(row: xarray.Dataset, name: str, unit: str) -> str:
+    """Return a value with its interval and unit, and the reason why one of these is unknown."""
+    value, low, high = (float(row[part]) for part in (name, f"{name}_low", f"{name}_high"))
+    known = f"{value:.3g} ({low:.3g} to {high:.3g}) {unit}".strip()
+    reason = row[f"{name}_reason"].item()
+    return f"{known}: {reason}" if reason else known
+
+
+@hinted
+def fragility(
+    structures: inputs.Structures,
+    motions: Sequence[inputs.Motion],
+    levels: ArrayLike,
+    measure: inputs.Measure = "PGV",
+    *,
+    vertical: Sequence[Record] | None = None,
+    scale_vertical: bool = True,
+    groups: Sequence[Hashable] | None = None,
+    lowered: Iterable[float] = (),
+    skewed: bool = False,
+    confidence: float = 0.95,
+    resamples: int = 2000,
+    seed: int = 0,
+) -> Fragility:
+    """Return the probability of overturning of structures under motions scaled to levels.
+
+    Each motion is scaled to each level of the intensity and judged on each structure. Resamples
+    draw motions, with all their outcomes: structures stay paired, and so do levels. The intervals
+    are percentiles of resamples, which are too narrow for few motions. In a simulation, the 95 %
+    interval of a median misses the true one in 11 % of samples of 7 motions and in 8 % of 40; that
+    of a dispersion in 32 % and in 13 %. `sign_test` is exact for any number of motions.
+
+    A curve is fitted where two levels at least (three if skewed) have a probability between 0 and
+    1. Where none can be fitted, the median is outside the levels, or too many resamples have none,
+    the value is NaN and a reason is beside it.
+
+    Parameters
+    ----------
+    structures : mapping from names to structures, or sequence of structures
+        Column, RockingFrame, FixedMassColumn, MonolithicPortal, RockingBlock.
+    motions : sequence of Record
+        Also of Pulse, if measure is a function.
+    levels : array_like, shape (n,)
+        Of the intensity: positive and increasing. A motion may overturn a structure at one and not
+        at the next: medians and intervals depend on few levels, and fifty are few seconds.
+    measure : {"PGV", "PGA"} or callable
+        PGV in m/s, integrated from rest without baseline correction; PGA in g; or a function that
+        returns the intensity of a motion, in proportion to its scale.
+    vertical : sequence of Record, optional
+        The vertical component of each motion, which starts with it: g, positive upward.
+    scale_vertical : bool
+        Whether a motion is scaled with its vertical component. The measure is that of the motion.
+    groups : sequence, optional
+        The group of each motion, such as its earthquake. Motions are then resampled only within
+        their group; the intervals do not include the scatter between groups, as `sampling` says.
+        Exact intervals remain valid, and are wider than necessary (Hoeffding 1956).
+    lowered : iterable of float
+        Shares, such as (0.05, 0.10), by which √r of each `Column` is lowered, and of no other
+        structure. Such a column is one more structure, compared with all that are no column.
+    skewed : bool
+        Whether the curve has a term c ln² s. Otherwise it is lognormal.
+    confidence : float
+        Of the intervals.
+    resamples, seed : int
+        Of the intervals that are resampled.
+
+    Returns
+    -------
+    Fragility
+
+    Raises
+    ------
+    ValueError
+        For an argument that is not as above, and for a vertical acceleration of −1 g or less at a
+        level; it names the argument, the value, what was expected.
+
+    References
+    ----------
+    C. J. Clopper, E. S. Pearson (1934), Biometrika 26(4), 404–413. W. Hoeffding (1956), Ann. Math.
+    Stat. 27(3), 713–721. J. W. Baker (2015), Earthq. Spectra 31(1), 579–599, on the likelihood.
+    All from memory.
+    """
+    under = inputs.variants(structures, lowered)
+    shaking = inputs.checked_motions(motions)
+    steps = inputs.checked_levels(levels)
+    if measure == "PGV" and steps[-1] > 2.0 * checks.LARGEST_VELOCITY:
+        checks.warn(f"levels go up to {steps[-1]:.6g} m/s, and few motions do: are they in cm/s?")
+    members = inputs.checked_groups(groups, len(shaking))
+    inputs.checked_resampling(confidence, resamples, seed)
+    scales = inputs.factors(shaking, measure, steps)
+    ups = inputs.checked_vertical(vertical, shaking, scales if scale_vertical else np.ones(1))
+    outcomes = _judged(under, zip(shaking, ups, scales, strict=True), scale_vertical)
+    means = means_within(outcomes, members or [None] * len(shaking), resamples, seed)
+    if len(shaking) == 1:
+        means[1:] = np.nan  # a resample of one motion is that motion, and shows no scatter
+    terms, places = fit(steps, means, skewed=skewed), inputs.pairs(under)
+    counts = outcomes.sum(axis=0)
+    curves = curve_table(counts, len(shaking), steps, means, terms, confidence, skewed=skewed)
+    pairs = pair_table(outcomes, steps, means, terms, places, confidence)
+    names = [one.name for one in under]
+    unit = {} if callable(measure) else {"units": inputs.UNITS[measure]}
+    level = ("level", steps, unit)
+    return Fragility(
+        curves=curves.assign_coords(
+            structure=names, lowered=("structure", [one.lowered for one in under]), level=level
+        ),
+        pairs=pairs.assign_coords(
+            first=("pair", [names[i] for i, _ in places]),
+            second=("pair", [names[j] for _, j in places]),
+            level=level,
+        ),
+        outcomes=outcomes,
+        measure=getattr(measure, "__name__", repr(measure)) if callable(measure) else measure,
+        sampling=inputs.sampling(members, len(shaking)),
+        confidence=confidence,
+    )
+
+
+def _judged(
+    under: Sequence[inputs.Variant],
+    motions: Iterable[tuple[inputs.Motion, Record | None, Array]],
+    scale_vertical: bool,
+) -> Outcomes:
+    """Return which factors overturn, shape (motions, structures, levels)."""
+    blocks = [one.block for one in under]
+    return np.array(
+        [
+            overturned_together(blocks, motion, factors, vertical=up, scale_vertical=scale_vertical)
+            for motion, up, factors in motions
+        ]
+    )

@@ -1,0 +1,278 @@
+"""The rocking motion by adaptive integration with SciPy: the readable, independent solver.
+
+Every step's interpolating polynomial is cut at its turning points into monotone arcs, so that no
+impact inside a step, grazing or double, is missed.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from functools import partial
+
+import numpy as np
+from numpy.polynomial import chebyshev
+from numpy.typing import ArrayLike, NDArray
+from scipy.integrate import DOP853, DenseOutput, ode
+from scipy.optimize import brentq
+
+from topheavy import checks
+from topheavy.bodies import free_rocking
+from topheavy.bodies.response import Response
+from topheavy.bodies.structures import RockingBlock, Structure, as_block
+from topheavy.ground.excitation import Excitation, Segment, checked_excitation, root
+from topheavy.ground.records import Record
+from topheavy.ground.vertical import with_vertical
+from topheavy.second import motion
+from topheavy.second.motion import Arc, Event, Motion
+
+TOLERANCE = 1e-11
+"""Of the integration, relative to α and αp."""
+
+SMALLEST_TOLERANCE, LARGEST_TOLERANCE = 1e-13, 1e-2
+"""SciPy raises a smaller one without asking, and a larger one follows no motion."""
+
+MOST_STEPS = 1_000_000
+"""Of a flight in one segment; the solver refuses steps that are below rounding, but not so many."""
+
+SHORT = 0.05
+"""1/p. A step of DOP853 over so short a piece of the forcing needs no search for its length."""
+
+Bend = Callable[[float, float], float]
+"""The equation of motion on one side: φ̈ from the time and φ."""
+
+_DEGREE = 7  # of DOP853's interpolating polynomial
+_NODES = chebyshev.chebpts1(_DEGREE + 1)
+_TO_SERIES = np.linalg.inv(chebyshev.chebvander(_NODES, _DEGREE))
+_TO_SLOPE = chebyshev.chebder(np.eye(_DEGREE + 1))  # from a series to that of its derivative
+
+
+def simulate(
+    structure: Structure,
+    excitation: Excitation | None = None,
+    *,
+    rotation: float = 0.0,
+    velocity: float = 0.0,
+    duration: float | None = None,
+    samples: int | ArrayLike = 1000,
+    tolerance: float = TOLERANCE,
+    vertical: Record | None = None,
+) -> Response:
+    """Return the rocking response by SciPy; the parameters are those of `topheavy.simulate`.
+
+    The tolerance is that of the integration, relative to α and αp. `vertical` is the vertical
+    ground acceleration that starts with a record: g, positive upward.
+
+    Raises
+    ------
+    ValueError
+        As `topheavy.simulate`.
+    ArithmeticError
+        For a history of more than `motion.MOST_IMPACTS` impacts or a million steps in a flight.
+    """
+    block = as_block(structure)
+    return motion.respond(
+        block,
+        with_vertical(excitation, vertical),
+        _flight(tolerance),
+        rotation=rotation,
+        velocity=velocity,
+        duration=duration,
+        samples=samples,
+    )
+
+
+def judge(
+    structure: Structure,
+    excitation: Excitation,
+    *,
+    tolerance: float = TOLERANCE,
+    vertical: Record | None = None,
+    restitutions: Sequence[float] = (),
+) -> free_rocking.Ending:
+    """Return only how the response to a ground motion of finite duration ends.
+
+    `restitutions` are those of `topheavy.judge`.
+    As `simulate` has it, without the history: the free rocking is not integrated. The peak is
+    max|θ| over the whole motion (NaN if overturned), the impacts are counted as in `Response`.
+    Errors are those of `simulate`.
+    """
+    block = as_block(structure)
+    checked_excitation(excitation, ends=True)
+    course = motion.start(block, 0.0, 0.0)
+    course.restitutions = [checks.fraction("restitutions", value) for value in restitutions]
+    if course.restitutions:
+        course.counted = motion.DRAWN_PEAK * block.slenderness
+    ground = with_vertical(excitation, vertical)
+    motion.force(block, ground, course, _flight(tolerance, block))
+    end = motion.free_ending(block, course)
+    return free_rocking.Ending(
+        overturned=end.overturned,
+        peak=math.nan if end.overturned else max(course.peak, end.peak),
+        impacts=len(course.impacts) + end.impacts,
+    )
+
+
+def _flight(tolerance: float, judged: RockingBlock | None = None) -> motion.Flight:
+    """Return the integration at a tolerance, or raise ValueError with the accepted range.
+
+    The history is not kept of a block that is only judged: SciPy's compiled DOP853 takes it over
+    short pieces of the forcing. The state is φ and φ̇/p, as it has one tolerance for both.
+    """
+    low, high = SMALLEST_TOLERANCE, LARGEST_TOLERANCE
+    tolerance, glide = checks.within("tolerance", tolerance, low, high), None
+    if judged:
+        first, absolute = SHORT / judged.frequency_parameter, tolerance * judged.slenderness
+        glide = ode(_slopes).set_integrator(
+            "dop853", rtol=tolerance, atol=absolute, first_step=first
+        )
+    return partial(_fly, tolerance, glide)
+
+
+def _slopes(t: float, y: NDArray[np.float64], bend: Bend, p: float) -> list[float]:
+    rotation, rate = y.tolist()
+    return [p * rate, bend(t, rotation) / p]
+
+
+def _fly(
+    tolerance: float,
+    glide: ode | None,
+    block: RockingBlock,
+    segment: Segment,
+    stop: float,
+    course: Motion,
+    possible: bool,
+) -> Event | None:
+    """Integrate on one side to `stop`, or to the impact or fall that comes first."""
+    alpha, p = block.slenderness, block.frequency_parameter
+    ahead = stop - course.time
+    is_short = 0.0 < p * ahead < SHORT
+    largest = _largest(block, segment) if glide else math.inf
+    bend = _equation(block, segment, course.side)
+    if glide and is_short and _glides(glide.set_f_params(bend, p), p, stop, course, largest):
+        return None
+    solver = DOP853(
+        lambda t, y: (y[1], bend(float(t), float(y[0]))),
+        course.time,
+        [course.rotation, course.rate],
+        stop,
+        rtol=tolerance,
+        atol=[tolerance * alpha, tolerance * alpha * p],
+        first_step=ahead if is_short else None,
+    )
+    for _ in range(MOST_STEPS):
+        if solver.status != "running":
+            break
+        message = solver.step()
+        if solver.status == "failed":
+            raise ArithmeticError(f"{block}: no step is possible at {solver.t:.6g} s: {message}")
+        rotation, rate = solver.y.tolist()
+        if _is_eventless(course, float(solver.t), rotation, rate, largest):
+            course.arrive(float(solver.t), rotation, rate)
+            continue
+        step = solver.dense_output()
+        event, course.time = _first_event(step, course, possible)
+        course.arcs.append(Arc(step.t_old, course.time, course.side, step))
+        course.rotation, course.rate = step(course.time).tolist() if event else (rotation, rate)
+        if event is not None:
+            return event
+    else:
+        raise ArithmeticError(
+            f"{block}: {MOST_STEPS} steps end at {solver.t:.6g} s of {stop:.6g} s; a shorter "
+            "duration or a larger tolerance has fewer"
+        )
+    course.rotation = max(course.rotation, 0.0)
+    return None
+
+
+def _glides(glide: ode, p: float, stop: float, course: Motion, largest: float) -> bool:
+    """Carry the motion to `stop` at once if nothing happens on the way, and return whether so.
+
+    `largest` is that of `_is_eventless`.
+    """
+    expected = course.rotation + course.rate * (stop - course.time)
+    if not _is_eventless(course, stop, expected, course.rate, largest):
+        return False  # most likely
+    glide.set_initial_value([course.rotation, course.rate / p], course.time)
+    rotation, scaled = glide.integrate(stop).tolist()
+    if not (glide.successful() and _is_eventless(course, stop, rotation, p * scaled, largest)):
+        return False
+    course.arrive(stop, rotation, p * scaled)
+    return True
+
+
+def _is_eventless(
+    course: Motion, time: float, rotation: float, rate: float, largest: float
+) -> bool:
+    """Return whether a motion to this φ and φ̇ surely has no impact, fall or inner peak on the way.
+
+    `largest` is a bound on |φ̈|, rad/s². No φ̇ is nearer to 0 than the mean at the ends by more than
+    half of what that changes in the time.
+    """
+    ends, ahead = (course.rotation, rotation), time - course.time
+    if abs(course.rate + rate) > largest * ahead:  # φ̇ has one sign
+        return rotation > 0.0 and max(ends) < course.ceiling
+    aside = largest * ahead**2 / 8.0  # of the chord of φ at most
+    if max(course.height, *ends) <= course.counted < max(ends) + aside:
+        return False  # whether its impact counts is open
+    return min(ends) - aside > 0.0 and max(ends) + aside < min(course.ceiling, course.peak)
+
+
+def _equation(block: RockingBlock, segment: Segment, side: int) -> Bend:
+    """Return the equation of motion on one side: Eq. (23), or linearised."""
+    alpha, square = block.slenderness, block.frequency_parameter**2
+    acceleration, gravity = segment.acceleration, segment.gravity
+
+    def exact(t: float, rotation: float) -> float:
+        lean, push = alpha - rotation, side * acceleration(t)
+        return -square * gravity(t) * (math.sin(lean) + push * math.cos(lean))  # Eq. (23)
+
+    def linearised(t: float, rotation: float) -> float:
+        return square * gravity(t) * (rotation - alpha - side * acceleration(t))
+
+    return linearised if block.linearised else exact
+
+
+def _largest(block: RockingBlock, segment: Segment) -> float:
+    """Return a bound on |φ̈| of the exact equation, rad/s²; none is known of the linearised one."""
+    if block.linearised:
+        return math.inf
+    ends = segment.start, segment.stop
+    gravity = max(map(segment.gravity, ends))
+    return block.frequency_parameter**2 * gravity * (1.0 + segment.largest(*ends))
+
+
+def _first_event(step: DenseOutput, course: Motion, possible: bool) -> tuple[Event | None, float]:
+    """Return what happens first in this step and when, or None and the end of the step.
+
+    The peak of the motion is raised to the largest φ on the way there. In Chebyshev form a
+    polynomial lies within c₀ ± Σ|cₖ|: mostly that alone proves that nothing happens. Otherwise the
+    step is cut at the turning points of φ, between which a sign change is found for certain.
+    """
+    middle, half = (step.t_old + step.t) / 2.0, (step.t - step.t_old) / 2.0
+    heights = step(np.array([step.t_old, *(middle + half * _NODES), step.t]))[0]
+    series = _TO_SERIES @ heights[1:-1]
+    reach = np.abs(series[1:]).sum()
+    if series[0] - reach > 0.0 and series[0] + reach < min(course.ceiling, course.peak):
+        course.height = max(course.height, float(heights.max()))
+        return None, step.t
+    slope = _TO_SLOPE @ series
+    real = np.empty(0)
+    if abs(slope[0]) <= np.abs(slope[1:]).sum():  # otherwise φ has no turning point in the step
+        turns = chebyshev.chebroots(chebyshev.chebder(series))
+        real = np.sort(turns.real[(np.abs(turns.imag) < 1e-9) & (np.abs(turns.real) < 1.0)])
+
+    def height(t: float, above: float = 0.0) -> float:
+        return float(step(t)[0]) - above
+
+    before, value = step.t_old, float(heights[0])
+    inside = [(time, height(time)) for time in middle + half * real]
+    for time, upcoming in (*inside, (step.t, float(heights[-1]))):
+        if possible and value >= 0.0 > upcoming:
+            return Event.IMPACT, root(height, before, time)
+        if value <= course.ceiling < upcoming:
+            return Event.FALL, float(brentq(height, before, time, args=(course.ceiling,)))
+        course.height = max(course.height, upcoming)
+        course.peak = max(course.peak, upcoming)
+        before, value = time, upcoming
+    return None, step.t

@@ -1,0 +1,132 @@
+"""The cap beam's motion against a rectangle that is turned about its corner, point by point."""
+
+import math
+
+import numpy as np
+import pytest
+
+from topheavy import Column
+from topheavy.bodies.kinematics import cap_acceleration, cap_displacement, cap_velocity
+
+COLUMNS = [Column(0.11, 0.40), Column(0.5, 2.0), Column(1.0, 1.0)]
+FRACTIONS = np.array([-1.9, -1.0, -0.5, -0.01, 0.01, 0.3, 1.0, 1.7])  # of α
+
+pytestmark = pytest.mark.parametrize("column", COLUMNS, ids=["trilith", "slender", "square"])
+
+
+def turned_corner(column: Column, rotation: float) -> tuple[float, float]:
+    """Where the corner that carries the cap goes when the rectangle turns about its base contact.
+
+    Positive rotations turn it clockwise about the right base contact; the cap rides on the upper
+    left corner, the only one that keeps touching it from above.
+    """
+    side = math.copysign(1.0, rotation)
+    foot = complex(side * column.half_width, 0.0)
+    corner = complex(-side * column.half_width, 2 * column.half_height)
+    moved = foot + (corner - foot) * np.exp(-1j * rotation)
+    return (moved - corner).real, (moved - corner).imag
+
+
+def test_displacement_is_that_of_the_turned_rectangle(column):
+    for rotation in FRACTIONS * column.slenderness:
+        u, v = cap_displacement(column, rotation)
+        expected = turned_corner(column, rotation)
+        assert (u, v) == pytest.approx(expected, rel=1e-12, abs=1e-13 * column.size)
+
+
+def test_no_other_corner_of_the_turned_rectangle_is_higher(column):
+    for rotation in FRACTIONS[np.abs(FRACTIONS) <= 1] * column.slenderness:
+        side = math.copysign(1.0, rotation)
+        foot = complex(side * column.half_width, 0.0)
+        other = complex(side * column.half_width, 2 * column.half_height)
+        moved = foot + (other - foot) * np.exp(-1j * rotation)
+        _, v = cap_displacement(column, rotation)
+        assert 2 * column.half_height + v > moved.imag
+
+
+def test_cap_at_rest_is_where_it_was(column):
+    assert cap_displacement(column, 0.0) == pytest.approx((0.0, 0.0), abs=1e-15)
+
+
+def test_horizontal_motion_is_odd_and_vertical_motion_even(column):
+    rotation = np.linspace(0.01, 2.0, 50) * column.slenderness
+    rate, second = 0.7, -1.3
+    right = cap_displacement(column, rotation)
+    left = cap_displacement(column, -rotation)
+    np.testing.assert_array_equal(left[0], -right[0])
+    np.testing.assert_array_equal(left[1], right[1])
+    right = cap_velocity(column, rotation, rate)
+    left = cap_velocity(column, -rotation, -rate)
+    np.testing.assert_array_equal(left[0], -right[0])
+    np.testing.assert_array_equal(left[1], right[1])
+    right = cap_acceleration(column, rotation, rate, second)
+    left = cap_acceleration(column, -rotation, -rate, -second)
+    np.testing.assert_array_equal(left[0], -right[0])
+    np.testing.assert_array_equal(left[1], right[1])
+
+
+def test_cap_moves_with_the_rotation_and_never_sinks_before_twice_the_slenderness(column):
+    rotation = np.linspace(-2.0, 2.0, 401) * column.slenderness
+    u, v = cap_displacement(column, rotation)
+    assert np.all(v >= -1e-14 * column.size)
+    inner = np.abs(rotation) <= column.slenderness
+    assert np.all(np.diff(u[inner]) > 0)
+    # highest when the diagonal stands upright
+    top = 2 * (column.size - column.half_height)
+    assert np.max(v) == pytest.approx(top, rel=1e-6)
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_velocity_and_acceleration_are_the_derivatives_of_displacement(column, sign):
+    def rotation(t):
+        return sign * column.slenderness * (0.9 + 0.6 * np.sin(2.0 * t) - 0.2 * t)
+
+    def rate(t):
+        return sign * column.slenderness * (1.2 * np.cos(2.0 * t) - 0.2)
+
+    def second(t):
+        return sign * column.slenderness * (-2.4 * np.sin(2.0 * t))
+
+    step = 1e-4
+    for t in np.linspace(0.0, 2.0, 21):
+        here, ahead, behind = (
+            np.array(cap_displacement(column, rotation(s))) for s in (t, t + step, t - step)
+        )
+        velocity = (ahead - behind) / (2 * step)
+        assert cap_velocity(column, rotation(t), rate(t)) == pytest.approx(
+            velocity, abs=1e-6 * column.size
+        )
+        acceleration = (ahead - 2 * here + behind) / step**2
+        assert cap_acceleration(column, rotation(t), rate(t), second(t)) == pytest.approx(
+            acceleration, abs=1e-5 * column.size
+        )
+
+
+def test_cap_keeps_its_speed_that_of_a_point_at_the_end_of_the_diagonal(column):
+    for rotation in FRACTIONS * column.slenderness:
+        speed = math.hypot(*cap_velocity(column, rotation, 0.8))
+        assert speed == pytest.approx(2 * column.size * 0.8, rel=1e-13)
+
+
+def test_cap_keeps_the_acceleration_of_a_point_on_a_circle(column):
+    for rotation in FRACTIONS * column.slenderness:
+        size = math.hypot(*cap_acceleration(column, rotation, 0.8, -1.7))
+        expected = 2 * column.size * math.hypot(0.8**2, 1.7)
+        assert size == pytest.approx(expected, rel=1e-13)
+
+
+def test_arrays_are_taken_element_by_element(column):
+    rotation = (FRACTIONS * column.slenderness).reshape(2, 4)
+    rate = np.linspace(-1.0, 1.0, 8).reshape(2, 4)
+    second = np.linspace(2.0, -3.0, 8).reshape(2, 4)
+    for function, arguments in (
+        (cap_displacement, (rotation,)),
+        (cap_velocity, (rotation, rate)),
+        (cap_acceleration, (rotation, rate, second)),
+    ):
+        together = function(column, *arguments)
+        for axis in (0, 1):
+            assert together[axis].shape == (2, 4)
+            for index in np.ndindex(2, 4):
+                alone = function(column, *(a[index] for a in arguments))
+                assert together[axis][index] == pytest.approx(alone[axis], rel=1e-14, abs=1e-15)

@@ -1,0 +1,381 @@
+"""Contact forces against Newton and Euler for three turned rectangles, and in their limits."""
+
+import math
+
+import numpy as np
+import pytest
+
+import topheavy as th
+from topheavy.bodies.kinematics import cap_acceleration
+
+SLENDER = th.Column(2.0 * math.sin(0.25), 2.0 * math.cos(0.25))  # α = 0.25
+TRILITH = th.Column(0.11, 0.40)
+SQUARE = th.Column(0.7, 0.7)
+CAP = th.Cap(span=3.1, half_depth=0.35)
+
+TAN = math.tan(0.25)
+FRAMES = [
+    th.RockingFrame(column, mass_ratio)
+    for column in (SLENDER, TRILITH, SQUARE)
+    for mass_ratio in (0.0, 0.434, 4.0, math.inf)
+]
+
+
+def of(mass_ratio, *motion, cap=CAP):
+    return th.contact_forces(th.RockingFrame(SLENDER, mass_ratio), cap, *motion)
+
+
+IDS = [f"α {frame.slenderness:.2f}, γ {frame.mass_ratio:g}" for frame in FRAMES]
+STATES = [  # θ/α, θ̇/p, ü_g (g)
+    (0.3, 0.1, 0.0),
+    (1e-9, 0.2, 0.4),
+    (0.9, -0.15, -0.7),
+    (1.4, 0.05, 1.3),
+]
+NAMES = ("base_left", "base_right", "seat_left", "seat_right")
+
+
+def angular_acceleration(structure, theta, ground):
+    """θ̈ of Eq. (23), which is Eq. (3) for a column."""
+    s, lean = math.copysign(1.0, theta), structure.slenderness - abs(theta)
+    squared = structure.frequency_parameter**2
+    return -squared * (s * math.sin(lean) + ground * math.cos(lean))
+
+
+def masses(mass_ratio):
+    """Of a column and the cap, in a frame of unit mass."""
+    if mass_ratio == math.inf:
+        return 0.0, 1.0
+    return 0.5 / (1 + mass_ratio), mass_ratio / (1 + mass_ratio)
+
+
+def vector(reaction):
+    return np.array([reaction.horizontal, reaction.vertical])
+
+
+def clockwise(arm, force):
+    return arm[1] * force[0] - arm[0] * force[1]
+
+
+def points_of(column, theta):
+    """Centre of the rectangle turned by θ, and its corner under the cap, from the pivot."""
+    s = math.copysign(1.0, theta)
+    turn = np.array([[math.cos(theta), math.sin(theta)], [-math.sin(theta), math.cos(theta)]])
+    b, h = column.half_width, column.half_height
+    return turn @ [-s * b, h], turn @ [-2 * s * b, 2 * h]
+
+
+def accelerations(column, theta, rate, second, ground):
+    """Accelerations of both points (m/s²), by fourth-order differences of positions in time."""
+    step = 2e-3 / column.frequency_parameter
+    weights = dict(zip((-2, -1, 0, 1, 2), np.array([-1, 16, -30, 16, -1]) / 12, strict=True))
+    upright = points_of(column, math.copysign(1e-300, theta))  # the pivot stays that of this side
+
+    def positions(t):
+        angle = theta + rate * t + second * t**2 / 2
+        cos, sin = math.cos(angle), math.sin(angle)
+        turn = np.array([[cos, sin], [-sin, cos]])
+        drift = np.array([ground * th.STANDARD_GRAVITY * t**2 / 2, 0.0])
+        return np.array([turn @ point + drift for point in upright])
+
+    return sum(weight * positions(k * step) for k, weight in weights.items()) / step**2
+
+
+# Newton and euler ---------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("frame", FRAMES, ids=IDS)
+@pytest.mark.parametrize("side", [1.0, -1.0])
+@pytest.mark.parametrize("state", STATES)
+def test_forces_move_and_turn_all_three_bodies_as_the_frame_rocks(frame, side, state):
+    column = frame.column
+    theta, rate = side * state[0] * column.slenderness, state[1] * column.frequency_parameter
+    ground = state[2]
+    second = angular_acceleration(frame, theta, ground)
+    mass, beam = masses(frame.mass_ratio)
+    forces = th.contact_forces(frame, CAP, theta, rate, ground)
+    base = [vector(forces.base_left), vector(forces.base_right)]
+    seat = [vector(forces.seat_left), vector(forces.seat_right)]
+    at_centre, at_cap = accelerations(column, theta, rate, second, ground) / th.STANDARD_GRAVITY
+    weight = np.array([0.0, 1.0])
+    centre, corner = points_of(column, theta)
+    inertia = mass * column.size**2 / 3 / th.STANDARD_GRAVITY
+    close = {"rtol": 1e-7, "atol": 1e-8}
+    for foot, head in zip(base, seat, strict=True):
+        np.testing.assert_allclose(foot - head, mass * (at_centre + weight), **close)
+        moment = clockwise(-centre, foot) - clockwise(corner - centre, head)
+        assert moment == pytest.approx(inertia * second, rel=1e-9, abs=1e-11)
+    np.testing.assert_allclose(seat[0] + seat[1], beam * (at_cap + weight), **close)
+    # The cap does not slide: its contacts are where the corners touched it at θ = 0.
+    shift = -side * column.half_width
+    arms = [(shift + end * CAP.span / 2, -CAP.half_depth) for end in (-1, 1)]
+    moments = [clockwise(arm, force) for arm, force in zip(arms, seat, strict=True)]
+    assert sum(moments) == pytest.approx(0.0, abs=1e-12)
+
+
+@pytest.mark.parametrize("frame", FRAMES, ids=IDS)
+def test_bases_carry_the_weight_and_the_inertia_of_the_whole_frame(frame):
+    theta = np.linspace(0.05, 1.5, 7) * frame.slenderness
+    rate, ground = 0.3, np.linspace(-1.0, 1.5, 7)
+    second = np.array(
+        [angular_acceleration(frame, *pair) for pair in zip(theta, ground, strict=True)]
+    )
+    forces = th.contact_forces(frame, CAP, theta, rate, ground)
+    cap = np.array(cap_acceleration(frame.column, theta, rate, second)) / th.STANDARD_GRAVITY
+    mass, beam = masses(frame.mass_ratio)
+    total = vector(forces.base_left) + vector(forces.base_right)
+    inertia = (2 * mass / 2 + beam) * cap  # the columns' centres go half as far as the cap
+    np.testing.assert_allclose(total, inertia + [ground, np.ones(7)], rtol=1e-12, atol=1e-13)
+
+
+# Limits -------------------------------------------------------------------------------------------
+
+
+def test_light_cap_leaves_two_solitary_columns():
+    motion = ([-0.1, 0.2, 0.05], [0.4, -0.3, 0.0], [0.0, 0.8, -0.5])
+    column = vector(th.column_forces(SLENDER, *motion))
+    bare = of(0.0, *motion)
+    assert np.all(vector(bare.seat_left) == 0.0)
+    assert np.all(np.isnan(bare.seat_left.friction_demand))  # it carries nothing
+    assert np.all(np.isfinite(bare.friction_demand))
+    for mass_ratio, error in ((0.0, 1e-15), (1e-7, 1e-5)):
+        forces = of(mass_ratio, *motion)
+        for foot in (forces.base_left, forces.base_right):
+            np.testing.assert_allclose(2 * vector(foot), column, atol=error)
+
+
+def test_heavy_cap_is_carried_along_the_diagonals():
+    theta = np.array([-0.2, -0.01, 0.01, 0.2, 0.3])
+    expected = np.tan(np.abs(0.25 - np.abs(theta)))
+    for mass_ratio, error in ((math.inf, 1e-14), (1e7, 1e-6)):
+        for contact in of(mass_ratio, theta, 0.2, [0.0, 0.5, -0.9, 1.0, -0.2]).contacts:
+            np.testing.assert_allclose(contact.friction_demand, expected, atol=error)
+
+
+def test_wide_bay_shares_the_cap_by_halves():
+    motion = (0.1, 0.3, 0.6)
+    near, wide = of(2.0, *motion), of(2.0, *motion, cap=th.Cap(1e9, 0.35))
+    np.testing.assert_allclose(vector(wide.seat_left), vector(wide.seat_right), rtol=1e-8)
+    assert abs(near.seat_left.vertical - near.seat_right.vertical) > 0.05
+    both = vector(near.seat_left) + vector(near.seat_right)
+    np.testing.assert_allclose(2 * vector(wide.seat_left), both, rtol=1e-8)
+
+
+def test_resting_at_the_balance_point_needs_no_friction():
+    forces = of(2.0, SLENDER.slenderness, 0.0)
+    np.testing.assert_allclose(forces.friction_demand, 0.0, atol=1e-15)
+    total = forces.base_left.vertical + forces.base_right.vertical
+    np.testing.assert_allclose(total, 1.0, rtol=1e-14)
+
+
+def test_mirrored_motion_swaps_left_and_right():
+    motion, frame = np.array([[0.1, 0, 0.2], [0.5, -0.4, 0], [0.3, 0, -0.6]]), FRAMES[5]
+    here, there = (th.contact_forces(frame, CAP, *side * motion) for side in (1.0, -1.0))
+    images = [there.contacts[i] for i in (1, 0, 3, 2)]
+    for contact, image in zip(here.contacts, images, strict=True):
+        np.testing.assert_array_equal(contact.horizontal, -image.horizontal)
+        np.testing.assert_array_equal(contact.vertical, image.vertical)
+
+
+# Uplift -------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("frame", FRAMES[1:], ids=IDS[1:])
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_every_contact_needs_tan_alpha_when_the_ground_just_uplifts(frame, sign):
+    threshold = frame.uplift_acceleration
+    forces = th.contact_forces(frame, CAP, 0.0, 0.0, sign * threshold)
+    for contact in forces.contacts:
+        if frame.mass_ratio > 0.0 or contact in (forces.base_left, forces.base_right):
+            assert contact.friction_demand == pytest.approx(threshold, rel=1e-12)
+
+
+def test_strong_cosine_pulse_asks_twice_the_slenderness_of_a_column():
+    # Zhang & Makris (2001) print about 2 for α = 0.25 and 6αg, which the pulse has at once.
+    pulse = th.Pulse("one-cosine", 6 * 0.25, 5.0)
+    force = th.column_forces(SLENDER, 0.0, 0.0, pulse.excitation(0.0))
+    assert force.friction_demand / math.tan(0.25) == pytest.approx(1.99579, abs=1e-5)
+
+
+@pytest.mark.parametrize("mass_ratio", [0.0, 0.2, 1.0, 7.0])
+@pytest.mark.parametrize("multiple", [1.0, 2.5, 6.0, 50.0])
+def test_feet_together_need_what_the_formula_says(mass_ratio, multiple):
+    forces = of(mass_ratio, 0.0, 0.0, multiple * TAN)
+    horizontal, vertical = vector(forces.base_left) + vector(forces.base_right)
+    tau = (1 + 4 * mass_ratio) / (4 * (1 + mass_ratio) * (1 + 3 * mass_ratio))
+    along, push = 1 + multiple * TAN**2, tau * (multiple - 1)
+    expected = TAN * (along + push) / (along - push * TAN**2)
+    assert horizontal / vertical == pytest.approx(expected, rel=1e-12)
+
+
+def test_seat_opens_once_the_line_of_thrust_leaves_the_span():
+    limit = (CAP.span / 2 - SLENDER.half_width) / TAN  # b + d tan α = L/2
+    for half_depth, opens in ((0.999 * limit, False), (1.001 * limit, True)):
+        forces = of(1.5, 0.0, 0.0, TAN, cap=th.Cap(CAP.span, half_depth))
+        assert (forces.seat_right.vertical < 0.0) == (forces.least_vertical < 0.0) == opens
+        assert forces.seat_left.vertical > 0.0
+        for demand in (forces.seat_right.friction_demand, forces.friction_demand):
+            assert math.isinf(demand) == opens
+
+
+# States -------------------------------------------------------------------------------------------
+
+
+def test_frame_at_rest_is_indeterminate_and_its_column_is_not():
+    ground = np.array([-0.2, 0.0, 0.2])  # below tan α = 0.255
+    forces = of(1.0, 0.0, 0.0, ground)
+    parts = [*map(vector, forces.contacts), forces.friction_demand, forces.least_vertical]
+    assert all(np.isnan(part).all() for part in parts)
+    column = th.column_forces(SLENDER, 0.0, 0.0, ground)
+    np.testing.assert_array_equal(column.horizontal, ground)
+    np.testing.assert_array_equal(column.vertical, 1.0)
+
+
+def test_upright_frame_goes_to_the_side_that_it_moves_or_uplifts_to():
+    for rate, ground, side in ((0.3, 0.1, 1), (-0.3, 0.1, -1), (0.0, 0.5, -1), (0.0, -0.5, 1)):
+        upright, leaning = (of(1.0, tilt, rate, ground) for tilt in (0.0, side * 1e-13))
+        for here, there in zip(upright.contacts, leaning.contacts, strict=True):
+            np.testing.assert_allclose(vector(here), vector(there), atol=1e-11)
+
+
+def test_history_broadcasts_and_its_missing_end_stays_missing():
+    forces = of(1.0, [[0.1], [math.nan]], [0.1, 0.2, 0.3], 0.0)
+    for contact in forces.contacts:
+        assert contact.horizontal.shape == contact.vertical.shape == (2, 3)
+    assert forces.least_vertical.shape == forces.friction_demand.shape == (2, 3)
+    assert np.isnan(forces.friction_demand).tolist() == [[False] * 3, [True] * 3]
+
+
+@pytest.mark.parametrize("mass_ratio", [0.1, 1.0, 10.0])
+def test_free_rocking_of_a_slender_frame_presses_everywhere(mass_ratio):
+    frame = th.RockingFrame(SLENDER, mass_ratio)
+    response = th.simulate(frame, rotation=0.99 * 0.25)
+    forces = th.contact_forces(frame, CAP, response.rotation, response.velocity)
+    moving = ~np.isnan(forces.least_vertical)
+    assert moving.sum() > 900
+    assert np.min(forces.least_vertical[moving]) > 0.0
+
+
+@pytest.mark.parametrize("mass_ratio", [1e-6, 0.1, 1.0, 10.0])
+def test_free_rocking_asks_more_than_tan_alpha_of_seats_and_less_of_feet(mass_ratio):
+    # Close to an impact; a light cap needs half as much again, as its θ̈ is the column's.
+    forces = of(mass_ratio, 1e-13, 0.0)
+    seats = 1 / (2 * (1 + 3 * mass_ratio))
+    feet = -(1 + 4 * mass_ratio) / (4 * (1 + mass_ratio) * (1 + 3 * mass_ratio))
+    for names, share in ((NAMES[2:], seats), (NAMES[:2], feet)):
+        horizontal, vertical = sum(vector(getattr(forces, name)) for name in names)
+        expected = TAN * (1 + share) / (1 - share * TAN**2)
+        assert -horizontal / vertical == pytest.approx(expected, rel=1e-9)
+
+
+# Impact -------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("frame", FRAMES[:8], ids=IDS[:8])
+@pytest.mark.parametrize("before", [0.8, -0.8])
+def test_impulses_change_the_momentum_of_all_three_bodies(frame, before):
+    column, side = frame.column, math.copysign(1.0, before)
+    after = frame.restitution * before
+    mass, beam = masses(frame.mass_ratio)
+    impulses = th.impact_impulses(frame, CAP, before)
+    base = [vector(impulses.base_left), vector(impulses.base_right)]
+    seat = [vector(impulses.seat_left), vector(impulses.seat_right)]
+    old, new = points_of(column, -side * 1e-300), points_of(column, side * 1e-300)
+
+    def velocity(arm, rate):  # of a body that turns clockwise
+        return rate * np.array([arm[1], -arm[0]])
+
+    centre, cap = (velocity(n, after) - velocity(o, before) for o, n in zip(old, new, strict=True))
+    for foot, head in zip(base, seat, strict=True):
+        np.testing.assert_allclose(foot - head, mass * centre, atol=1e-14)
+        moment = clockwise(-new[0], foot) - clockwise(new[1] - new[0], head)
+        spin = mass * column.size**2 / 3 * (after - before)
+        assert moment == pytest.approx(spin, abs=1e-14)
+    np.testing.assert_allclose(seat[0] + seat[1], beam * cap, atol=1e-14)
+    shift = -side * column.half_width
+    arms = [(shift + end * CAP.span / 2, -CAP.half_depth) for end in (-1, 1)]
+    moments = [clockwise(arm, push) for arm, push in zip(arms, seat, strict=True)]
+    assert sum(moments) == pytest.approx(0.0, abs=1e-14)
+
+
+def test_solitary_column_needs_three_tan_alpha_over_four_plus_its_square_and_a_massless_one_it():
+    impulse = th.column_impulse(SLENDER, -0.6)
+    assert min(impulse.vertical, impulse.horizontal) > 0.0  # it stops what moves to the left
+    assert impulse.friction_demand == pytest.approx(3 * TAN / (4 + TAN**2), rel=1e-13)
+    frame = th.impact_impulses(th.RockingFrame(SLENDER, 0.0), CAP, -0.6)
+    np.testing.assert_allclose(2 * vector(frame.base_left), vector(impulse), rtol=1e-13)
+    for contact in th.impact_impulses(th.RockingFrame(SLENDER, math.inf), CAP, 0.6).contacts:
+        assert contact.friction_demand == pytest.approx(TAN, rel=1e-13)
+
+
+@pytest.mark.parametrize("mass_ratio", [0.1, 1.0, 10.0])
+def test_trailing_seat_opens_when_the_cap_is_too_deep_for_its_bay(mass_ratio):
+    frame, slope = th.RockingFrame(SLENDER, mass_ratio), TAN
+    n = 3 * (1 + 4 * mass_ratio) / (2 * (1 + 3 * mass_ratio))
+    rho = n * slope / (2 + (2 - n) * slope**2)
+    limit = (CAP.span / 2 - SLENDER.half_width) / rho
+    for half_depth, opens in ((0.999 * limit, False), (1.001 * limit, True)):
+        impulses = th.impact_impulses(frame, th.Cap(CAP.span, half_depth), 0.6)
+        assert (impulses.seat_left.vertical < 0.0) == opens
+        assert (impulses.least_vertical < 0.0) == opens
+        assert impulses.seat_right.vertical > 0.0
+
+
+def test_impulses_grow_with_the_velocity_and_mirror_with_its_sign():
+    frame = th.RockingFrame(TRILITH, 0.434)
+    impulses = th.impact_impulses(frame, CAP, [0.0, 0.5, 1.0, -0.5])
+    for contact in impulses.contacts:
+        assert vector(contact)[:, 0] == pytest.approx(0.0, abs=0.0)
+        np.testing.assert_allclose(2 * vector(contact)[:, 1], vector(contact)[:, 2])
+    for here, there in (("base_left", "base_right"), ("seat_right", "seat_left")):
+        contact, image = getattr(impulses, here), getattr(impulses, there)
+        assert contact.horizontal[1] == -image.horizontal[3]
+        assert contact.vertical[1] == image.vertical[3]
+
+
+# Bad input ----------------------------------------------------------------------------------------
+
+
+STOCKY, NARROW = th.Column(0.7, 0.4), th.Cap(1.4, 0.2)
+
+
+@pytest.mark.parametrize(
+    ("call", "says"),
+    [
+        *(
+            (lambda f=f, x=x: th.Cap(**({"span": 3.0, "half_depth": 0.3} | {f: x})), f)
+            for f in ("span", "half_depth")
+            for x in (0.0, -1.0, math.inf, math.nan, "wide")
+        ),
+        (
+            lambda: th.contact_forces(th.RockingFrame(SQUARE, 1.0), NARROW, 0.1, 0.0),
+            r"span is 1\.4 m .* columns 1\.4 m wide",
+        ),
+        (
+            lambda: th.impact_impulses(th.RockingFrame(th.Column(0.7, 2.0), 1.0), NARROW, 0.1),
+            r"span is 1\.4 m",
+        ),
+        *(
+            (
+                lambda k=k, x=x: th.column_forces(SLENDER, *[0.1] * k, x, *[0.1] * (2 - k)),
+                f"{n}: ele",
+            )
+            for k, n in enumerate(("rotation", "velocity", "ground_acceleration"))
+            for x in ("0.1", None, {})
+        ),
+        (lambda: th.column_impulse(SLENDER, "0.1"), "velocity: element 0 is "),
+        *(
+            (lambda f=f, x=x: f(x), "expected less than π/2")
+            for x in (math.pi / 2, [-1.7, math.nan, 0.1])
+            for f in (lambda x: of(1.0, x, 0.0), lambda x: th.column_forces(SLENDER, x, 0.0))
+        ),
+        (
+            lambda: th.impact_impulses(th.RockingFrame(STOCKY, 1.0), CAP, 0.5),
+            "no rocking after an impact",
+        ),
+        (lambda: th.column_impulse(STOCKY, 0.5), "no rocking after an impact"),
+    ],
+)
+def test_bad_input_is_refused_by_name(call, says):
+    with pytest.raises(ValueError, match=says):
+        call()

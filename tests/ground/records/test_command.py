@@ -1,0 +1,93 @@
+"""`python -m topheavy.ground.records FILE`: what it prints, and how it fails."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.cases import RECORDS
+from topheavy.ground.records.__main__ import main
+
+HEADER = "Río, a day\nACCELERATION IN CM/SEC/SEC\n  4 20 MSEC NPTS, DT\n"
+
+
+@pytest.fixture
+def file(tmp_path) -> Path:
+    path = tmp_path / "motion.AT2"
+    path.write_text(f"{HEADER}0.0 98.1 -196.2 0.0\n", encoding="utf-8")
+    return path
+
+
+def test_what_was_understood_is_printed(file, capsys):
+    assert main([str(file)]) == 0
+    printed = capsys.readouterr()
+    assert printed.out.splitlines() == [
+        "units     CM/SEC/SEC, times 0.00101937 for g of 9.81 m/s² (line 2: ACCELERATION IN "
+        "CM/SEC/SEC)",
+        "step      0.02 s (50 Hz)",
+        "samples   4",
+        "duration  0.06 s",
+        "PGA       0.2 g",
+        "PGV       0.01962 m/s (integrated from rest, not corrected)",
+    ]
+    assert printed.err == ""
+
+
+def test_record_in_g_is_not_converted(capsys):
+    assert main([str(RECORDS / "el_centro_1940_NS.AT2")]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0] == "units     g (line 3: The units are (g))"
+    assert lines[4] == "PGA       0.3188 g"
+
+
+@pytest.mark.parametrize("name", ["nowhere.AT2", "motion.txt", ".", "bad.csv"])
+def test_file_that_is_refused_is_told_in_one_line(tmp_path, capsys, name):
+    (tmp_path / "bad.csv").write_bytes(b"\xff\xfe\n")
+    assert main([str(tmp_path / name)]) == 1
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    assert printed.err.startswith("error: ")
+    assert printed.err.count("\n") == 1
+    assert str(tmp_path) in printed.err
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "ascii"])
+def test_command_runs_as_a_module_without_a_warning(file, encoding):
+    run = subprocess.run(
+        [sys.executable, "-W", "error", "-m", "topheavy.ground.records", file],
+        env={"PYTHONIOENCODING": encoding},
+        capture_output=True,
+        text=True,
+        encoding="utf-8",
+        timeout=300,
+        check=False,
+    )
+    assert (run.returncode, run.stderr) == (0, "")
+    assert "PGA       0.2 g" in run.stdout
+
+
+def test_command_fails_without_a_traceback(tmp_path):
+    run = subprocess.run(
+        [sys.executable, "-m", "topheavy.ground.records", tmp_path / "nowhere.AT2"],
+        capture_output=True,
+        text=True,
+        timeout=300,
+        check=False,
+    )
+    assert run.returncode == 1
+    assert run.stderr.startswith("error: ")
+    assert run.stderr.count("\n") == 1
+
+
+def test_several_files_are_a_table(file, tmp_path, capsys):
+    second = tmp_path / "b.csv"
+    second.write_text("t (s);N (g);E (g)\n0;.1;.2\n1;.1;.3\n", encoding="utf-8")
+    assert main([str(file), str(second), "--column", "E"]) == 1  # AT2 has no columns
+    assert "which alone has columns" in capsys.readouterr().err
+    second.write_text("t (s);N (g)\n0;.1\n1;.1\n", encoding="utf-8")
+    assert main([str(file), str(second)]) == 0
+    head, *rows = capsys.readouterr().out.splitlines()
+    assert head.split("  ")[0] == "file"
+    assert [row.split()[0] for row in rows] == ["motion.AT2", "b.csv"]
+    assert rows[1].split()[-2:] == ["0.1", "0.981"]

@@ -1,0 +1,282 @@
+"""Vertical ground acceleration: two solvers, limits that are known, and what is refused."""
+
+import math
+from functools import partial
+
+import numpy as np
+import pytest
+
+import topheavy as th
+from tests.cases import RECORDS
+from topheavy.ground.vertical import TwoComponents
+from topheavy.outcomes.overturning import outcomes_by
+from topheavy.second import reference
+from topheavy.second.newton_euler import ThreeBodies, uplift_accelerations
+from topheavy.second.three_bodies import simulate_three_bodies
+
+COLUMN = th.Column(0.5, 3.0)
+FRAME = th.RockingFrame(COLUMN, 1.0)
+TIME = np.linspace(0.0, 6.0, 601)
+SHAKE = th.Record(0.02, 0.2 * np.sin(2.0 * math.pi * np.arange(0, 101) * 0.02 / 1.6), "shake")
+UP = th.Record(0.01, 0.35 * np.cos(2.0 * math.pi * np.arange(0, 301) * 0.01 / 0.31), "up")
+
+
+def constant(value, time_step=0.02, samples=151):
+    return th.Record(time_step, np.full(samples, value))
+
+
+def test_no_vertical_acceleration_changes_nothing():
+    plain = reference.simulate(FRAME, SHAKE, samples=TIME)
+    with_zero = reference.simulate(FRAME, SHAKE, samples=TIME, vertical=constant(0.0, samples=101))
+    np.testing.assert_allclose(plain.rotation, with_zero.rotation, atol=1e-12)
+
+
+def test_constant_vertical_acceleration_is_another_gravity():
+    """In (1 + v) g the column has p √(1 + v) and feels ü_g/(1 + v)."""
+    share = 0.7
+    found = reference.simulate(COLUMN, SHAKE, samples=TIME[:200], vertical=constant(share - 1.0))
+    heavier = th.Column(COLUMN.half_width / share, COLUMN.half_height / share)
+    other = reference.simulate(heavier, SHAKE.scaled(1.0 / share), samples=TIME[:200])
+    assert np.abs(other.rotation).max() > 0.1 * COLUMN.slenderness
+    np.testing.assert_allclose(found.rotation, other.rotation, atol=1e-9)
+
+
+@pytest.mark.parametrize("gamma", [0.0, 1.0, 4.0])
+def test_three_bodies_move_as_the_block_does(gamma):
+    frame = th.RockingFrame(COLUMN, gamma)
+    block = reference.simulate(frame, SHAKE, samples=TIME, duration=6.0, vertical=UP)
+    still = reference.simulate(frame, SHAKE, samples=TIME, duration=6.0)
+    bodies = simulate_three_bodies(
+        frame, SHAKE, span=5.0, cap_depth=1.0, duration=6.0, samples=TIME, vertical=UP
+    )
+    assert block.impacts.size > 1
+    assert np.abs(block.rotation - still.rotation).max() > 0.01 * COLUMN.slenderness
+    np.testing.assert_allclose(bodies.rotation[:, 0], block.rotation, atol=1e-7)
+
+
+@pytest.mark.parametrize("vertical", [-0.3, 0.0, 0.5])
+@pytest.mark.parametrize("side", [-1.0, 1.0])
+def test_uplift_begins_at_gravity_times_the_tangent(vertical, side):
+    level = (1.0 + vertical) * COLUMN.uplift_acceleration
+    for share, outcome in ((0.999, "no uplift"), (1.001, "rests")):
+        push = constant(side * share * level, samples=3)
+        found = reference.simulate(FRAME, push, vertical=constant(vertical, samples=3))
+        assert found.outcome == outcome
+    lifts = uplift_accelerations(ThreeBodies(FRAME, 5.0, 1.0))
+    assert any(abs(lift) == pytest.approx(COLUMN.uplift_acceleration) for lift in lifts.values())
+
+
+def test_segments_hold_the_samples_of_both_records():
+    ground = TwoComponents(SHAKE, UP)
+    segments = ground.segments(math.inf)
+    assert segments[0].start == 0.0
+    assert segments[-1].stop == pytest.approx(3.0)
+    assert len(segments) == 300
+    for segment in segments:
+        middle = 0.5 * (segment.start + segment.stop)
+        gravity = segment.gravity(middle)
+        assert gravity == pytest.approx(1.0 + UP.excitation(middle))
+        if middle < SHAKE.duration:
+            assert gravity * segment.acceleration(middle) == pytest.approx(SHAKE.excitation(middle))
+
+
+def test_samples_that_more_than_rounding_keeps_apart_begin_segments_of_their_own():
+    ground = TwoComponents(th.Record(0.05, np.ones(61)), th.Record(0.0501, np.ones(61)))
+    assert len(ground.segments(math.inf)) == 120
+
+
+SOLVERS = (
+    th.simulate,
+    th.judge,
+    reference.simulate,
+    reference.judge,
+    lambda *given, **named: th.overturned_by(*given, [1.0], **named),
+)
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_vertical_of_another_kind_is_refused(solver):
+    for shaking, up in ((th.Pulse("one-sine", 0.3, 6.0), UP), (SHAKE, 0.1), (SHAKE, [0.1, 0.2])):
+        told = rf"excitation is {type(shaking).__name__} and vertical {type(up).__name__}; expected"
+        with pytest.raises(ValueError, match=told):
+            solver(FRAME, shaking, vertical=up)
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_ground_that_falls_from_under_the_structure_is_refused(solver):
+    falling = th.Record(0.05, np.array([0.0, 0.4, -0.8, -1.25, 0.0]))
+    told = (
+        r"^vertical: at 0\.15 s its acceleration times 1 is -1\.25 g; expected more than −1 g, .*"
+        r"factors less than 0\.8 are allowed$"
+    )
+    with pytest.raises(ValueError, match=told):
+        solver(FRAME, SHAKE, vertical=falling)
+    with pytest.raises(ValueError, match=r"at 0\.05 s .* is -1 g; expected more than −1 g"):
+        solver(FRAME, SHAKE, vertical=th.Record(0.05, [0.0, -1.0, 0.0]))
+
+
+def test_search_is_refused_for_its_largest_factor_alone():
+    falling = th.Record(0.05, np.array([0.0, 0.4, -0.5, 0.0]))
+    told = r"at 0\.1 s .* times 2\.5 is -1\.25 g.*factors less than 2 are allowed"
+    for call in (
+        partial(th.overturned_by, FRAME, SHAKE, [0.5, 2.5]),
+        partial(th.overturning_intervals, FRAME, SHAKE, (0.5, 2.5), resolution=0.5),
+        partial(th.minimum_overturning, FRAME, SHAKE, (0.5, 2.5), resolution=0.5),
+        partial(th.lowest_overturning, FRAME, SHAKE, (0.5, 2.5), floor=0.5),
+        partial(th.overturned_together, [COLUMN, FRAME], SHAKE, [0.5, 2.5]),
+    ):
+        with pytest.raises(ValueError, match=told):
+            call(vertical=falling)
+        call(vertical=falling, scale_vertical=False)
+    told = r"times -3 is -1\.2 g.*factors more than -2\.5 are allowed"
+    with pytest.raises(ValueError, match=told):
+        th.minimum_overturning(FRAME, SHAKE, (-3.0, 0.5), resolution=1.0, vertical=falling)
+    huge = th.Record(0.05, np.array([0.0, -3.0, 0.0]), unit="g")  # allowed below a third
+    assert not th.overturned_by(FRAME, SHAKE, [0.0, 0.3], vertical=huge).any()
+
+
+# What the Taylor solver makes of it ---------------------------------------------------------------
+
+ODD = th.Record(0.0137, 0.35 * np.cos(20.3 * 0.0137 * np.arange(211)), "a time step of its own")
+LATE = th.Record(0.05, 0.5 * np.sin(9.0 * 0.05 * np.arange(90)), "longer than the horizontal one")
+ENDED = th.Record(0.03, np.full(20, -0.6), "ends by a jump, before the horizontal one")
+VERTICALS = pytest.mark.parametrize("up", [UP, ODD, LATE, ENDED], ids=lambda up: up.name)
+EQUATIONS = pytest.mark.parametrize("linearised", [False, True], ids=["exact", "linearised"])
+
+
+@VERTICALS
+@EQUATIONS
+@pytest.mark.parametrize("factor", [1.0, -1.4, 2.6, 4.5])
+def test_both_solvers_agree(up, linearised, factor):
+    block = FRAME.block().linear() if linearised else FRAME.block()
+    shaking = SHAKE.scaled(factor)
+    ours = th.simulate(block, shaking, samples=TIME, duration=6.0, vertical=up)
+    theirs = reference.simulate(block, shaking, samples=TIME, duration=6.0, vertical=up)
+    assert ours.outcome == theirs.outcome
+    known = np.isfinite(ours.rotation + theirs.rotation)  # not after it has overturned
+    off = ours.rotation[known] - theirs.rotation[known]
+    assert np.abs(off).max() < 1e-7 * block.slenderness
+    assert known.sum() > 100
+    np.testing.assert_allclose(ours.impacts, theirs.impacts, atol=1e-5)
+    plain = th.simulate(block, shaking, samples=TIME, duration=6.0)
+    moved = np.abs(ours.rotation - plain.rotation)
+    assert np.nanmax(moved) > 1e-3 * block.slenderness
+    alone, other = (
+        th.judge(block, shaking, vertical=up),
+        reference.judge(block, shaking, vertical=up),
+    )
+    assert (alone.overturned, alone.impacts) == (other.overturned, other.impacts)
+    np.testing.assert_allclose(alone.peak, other.peak, rtol=0, atol=1e-8 * block.slenderness)
+
+
+@pytest.mark.parametrize("gamma", [0.0, 1.0])
+def test_three_bodies_move_as_the_taylor_solver_says(gamma):
+    frame = th.RockingFrame(COLUMN, gamma)
+    ours = th.simulate(frame, SHAKE, samples=TIME, duration=6.0, vertical=UP)
+    bodies = simulate_three_bodies(
+        frame, SHAKE, span=5.0, cap_depth=1.0, duration=6.0, samples=TIME, vertical=UP
+    )
+    np.testing.assert_allclose(bodies.rotation[:, 0], ours.rotation, atol=1e-7)
+
+
+@EQUATIONS
+def test_no_vertical_acceleration_is_none(linearised):
+    block = FRAME.block().linear() if linearised else FRAME.block()
+    still = th.Record(0.013, np.zeros(150))  # the impacts are counted until both have ended
+    factors = np.linspace(0.8, 8.0, 40)
+    plain = outcomes_by(block, SHAKE, factors)
+    for one, other in zip(plain, outcomes_by(block, SHAKE, factors, vertical=still), strict=True):
+        np.testing.assert_array_equal(one, other)
+    assert 0 < plain[0].sum() < 40
+
+
+@EQUATIONS
+@pytest.mark.parametrize("vertical", [-0.4, 0.0, 0.5])
+@pytest.mark.parametrize("side", [-1.0, 1.0])
+def test_taylor_solver_lifts_at_gravity_times_the_tangent(vertical, side, linearised):
+    block = COLUMN.block().linear() if linearised else COLUMN.block()
+    up, level = constant(vertical, samples=3), (1.0 + vertical) * block.uplift_acceleration
+    for share, moves in ((0.9999, False), (1.0001, True)):
+        push = constant(side * share * level, samples=3)
+        assert (th.simulate(block, push, vertical=up).outcome != "no uplift") == moves
+        assert (th.judge(block, push, vertical=up).peak > 0.0) == moves
+    ramp = th.Record(1.0, np.array([0.0, 4.0 * side * level]))
+    lifted = th.simulate(block, ramp, samples=4001, vertical=th.Record(1.0, np.full(2, vertical)))
+    assert lifted.time[np.flatnonzero(lifted.rotation)[0]] == pytest.approx(0.25, abs=2e-2)
+
+
+def test_free_rocking_begins_when_both_have_ended():
+    """Gravity that is less for long after the shaking lets the block rock farther."""
+    longer, shorter = (th.Record(0.02, np.full(samples, -0.5)) for samples in (200, 31))
+    shock = th.Record(0.02, 0.25 * np.sin(np.linspace(0.0, math.pi, 31)))
+    peaks = [th.judge(FRAME, shock, vertical=up).peak for up in (longer, shorter)]
+    truth = [reference.judge(FRAME, shock, vertical=up).peak for up in (longer, shorter)]
+    np.testing.assert_allclose(peaks, truth, rtol=1e-8)
+    assert peaks[0] > 1.01 * peaks[1]
+
+
+@pytest.mark.parametrize("scale_vertical", [False, True])
+@EQUATIONS
+def test_factors_scale_both_or_one(scale_vertical, linearised):
+    block = FRAME.block().linear() if linearised else FRAME.block()
+    factors = np.linspace(0.0, 2.8, 29) + 0.4
+    weak = th.Record(ODD.time_step, 0.8 * ODD.acceleration)
+    found = outcomes_by(
+        block, SHAKE.scaled(1.8), factors, vertical=weak, scale_vertical=scale_vertical
+    )
+    for factor, overturned, impacts in zip(factors, *found, strict=True):
+        up = weak.scaled(factor) if scale_vertical else weak
+        alone = th.judge(block, SHAKE.scaled(1.8 * factor), vertical=up)
+        assert (overturned, impacts) == (alone.overturned, alone.impacts)
+    assert 0 < found[0].sum() < factors.size
+    search = {"vertical": weak, "scale_vertical": scale_vertical}
+    given = (block, SHAKE.scaled(1.8), (0.4, 3.2))
+    honest = th.lowest_overturning(*given, floor=0.1, **search)
+    low, high = th.minimum_overturning(*given, resolution=0.1, **search)
+    ends = ((low, False), (high, True), *zip(honest.bracket, (False, True), strict=True))
+    for factor, overturned in (*ends, *zip(honest.upper, (True, False), strict=True)):
+        up = weak.scaled(factor) if scale_vertical else weak
+        inward = 1 if factor < honest.upper[0] else -1
+        truth = reference.judge(
+            block,
+            SHAKE.scaled(1.8 * factor * (1 + 1e-8 * inward * (2 * overturned - 1))),
+            vertical=up,
+        )
+        assert truth.overturned == overturned
+    plain = th.lowest_overturning(*given, floor=0.1)
+    assert abs(plain.factor - honest.factor) > 1e-3
+
+
+def test_measured_vertical_gives_both_solvers_the_same_outcomes():
+    across = th.read_record(RECORDS / "napa_2014_68150_090.AT2")
+    up = th.read_record(RECORDS / "napa_2014_68150_UP.AT2")
+    structures = [
+        COLUMN,
+        FRAME,
+        th.FixedMassColumn(COLUMN, 1.0),
+        th.MonolithicPortal(COLUMN, 1.0, 1.2),
+    ]
+    factors = np.array([1.6, 2.3])
+    found = th.overturned_together(structures, across, factors, vertical=up)
+    for structure, row in zip(structures, found, strict=True):
+        for factor, overturned in zip(factors, row, strict=True):
+            given = (structure, across.scaled(factor))
+            ours = th.judge(*given, vertical=up.scaled(factor), tolerance=1e-13)
+            theirs = reference.judge(*given, vertical=up.scaled(factor))
+            assert overturned == ours.overturned == theirs.overturned
+            np.testing.assert_allclose(ours.peak, theirs.peak, rtol=0, atol=1e-6 * 0.165)
+
+
+def test_measured_vertical_moves_both_solvers_alike():
+    across = th.read_record(RECORDS / "napa_2014_68150_090.AT2")
+    up = th.read_record(RECORDS / "napa_2014_68150_UP.AT2")
+    window = slice(1400, 2200)
+    across = th.Record(across.time_step, 1.5 * across.acceleration[window])
+    up = th.Record(up.time_step, 1.5 * up.acceleration[window])
+    time = np.linspace(0.0, across.duration, 201)
+    block = reference.simulate(FRAME, across, samples=time, duration=4.0, vertical=up)
+    bodies = simulate_three_bodies(
+        FRAME, across, span=5.0, cap_depth=1.0, duration=4.0, samples=time, vertical=up
+    )
+    assert np.abs(block.rotation).max() > 0.05 * COLUMN.slenderness
+    np.testing.assert_allclose(bodies.rotation[:, 0], block.rotation, atol=1e-7)

@@ -1,0 +1,388 @@
+"""Maps and intervals: each cell is a history, no interval is missed, and brackets bracket."""
+
+import math
+from itertools import pairwise
+
+import numpy as np
+import pytest
+import xarray
+
+import topheavy as th
+from topheavy.ground.shapes import ENDING
+from topheavy.kernel.grid import mixed_outcomes_of
+from topheavy.kernel.outcome import TOLERANCE
+from topheavy.outcomes.overturning import (
+    MANY_AT_ONCE,
+    SAFE,
+    Interval,
+    Search,
+    _halved,
+    outcomes_of_subjects,
+    steered,
+    subjects_of,
+)
+
+BLOCK, COLUMN = th.RockingBlock(2.0, 0.25, 0.9), th.Column(0.5, 2.0)
+LINEAR = th.RockingBlock(1.0, 0.25, 0.9, linearised=True)  # of Zhang & Makris (2001)
+SINE = th.Pulse("one-sine", 0.25, 5.0)  # of amplitude αg
+HARMONIC = th.Pulse("harmonic", 0.3, 5.0)
+SHAKING = th.Record(0.02, 0.6 * np.sin(np.linspace(0.0, 40.0, 400)) * np.linspace(1.0, 0.2, 400))
+
+# ---------------------------------------------------------------------------- maps
+
+
+def test_map_is_labelled_with_units_written_to_a_file_and_its_own(tmp_path):
+    axes, units = ("angular_frequency", "amplitude"), {"impacts": "1", "overturned": "1"}
+    units |= {"peak_rotation": "rad", "angular_frequency": "rad/s", "amplitude": "g"}
+    frequencies, amplitudes = np.array([3.0, 5.0, 9.0]), np.array([0.0, 0.3, 0.6, 2.0])
+    found = th.overturning_map(BLOCK, "one-cosine", frequencies, amplitudes)
+    back = th.overturning_map(BLOCK, "one-cosine", (9, 5, 3), amplitudes[::-1].tolist())
+    frequencies[:], amplitudes[:] = 7.0, 7.0
+    given = {"angular_frequency": [3.0, 5.0, 9.0], "amplitude": [0.0, 0.3, 0.6, 2.0]}
+    assert {name: value.values.tolist() for name, value in found.coords.items()} == given
+    assert {name: value.attrs["units"] for name, value in found.variables.items()} == units
+    kinds = {"peak_rotation": float, "overturned": bool, "impacts": np.int64}
+    assert {name: value.dtype for name, value in found.items()} == kinds
+    assert {value.dims for value in found.values()} == {axes}
+    assert found.attrs == {
+        "shape": "one-cosine",
+        "linearised": 0,
+        "frequency_parameter": 2.0,
+        "slenderness": 0.25,
+        "restitution": 0.9,
+    }
+    assert th.overturning_map(BLOCK.linear(), "one-sine", 1.0, 0.3).attrs["linearised"] == 1
+    reverse = dict.fromkeys(axes, slice(None, None, -1))
+    xarray.testing.assert_equal(back.isel(reverse), found)
+    found.to_netcdf(tmp_path / "map.nc", engine="scipy")
+    with xarray.open_dataset(tmp_path / "map.nc", engine="scipy") as read:
+        for name in found:
+            np.testing.assert_array_equal(read[name], found[name])
+
+
+@pytest.mark.parametrize("block", [BLOCK, BLOCK.linear()], ids=["exact", "linear"])
+@pytest.mark.parametrize("shape", ENDING)
+def test_each_cell_of_a_map_is_a_history(block, shape):
+    frequencies = [2.5, 6.0, 13.0]
+    amplitudes = block.uplift_acceleration * np.array([0.0, 0.9999, 1.01, 1.4, 2.5, 4.0, 9.0])
+    found = th.overturning_map(block, shape, frequencies, amplitudes)
+    for (i, j), peak in np.ndenumerate(found.peak_rotation.values):
+        pulse = th.Pulse(shape, amplitudes[j], frequencies[i])
+        end, whole = th.judge(block, pulse), th.simulate(block, pulse, samples=2)
+        cell = (bool(found.overturned[i, j]), int(found.impacts[i, j]))
+        assert cell == (end.overturned, end.impacts) == (whole.overturned, whole.number_of_impacts)
+        close = pytest.approx(end.peak, rel=0, abs=1e-9 * block.slenderness, nan_ok=True)
+        assert peak == close
+        assert whole.peak_rotation == close
+        assert math.isnan(peak) == cell[0]
+    assert found.overturned.any()
+    assert not found.peak_rotation[:, :2].any()
+
+
+def test_map_takes_a_structure_for_its_block():
+    for structure in (COLUMN, th.RockingFrame(COLUMN, 1.0), th.RockingFrame(COLUMN, math.inf)):
+        grid = ("one-sine", [2.0, 5.0], [0.3, 0.5, 1.5])
+        first, second = (th.overturning_map(x, *grid) for x in (structure, structure.block()))
+        xarray.testing.assert_identical(first, second)
+
+
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [
+        ({"shape": "harmonic"}, "'harmonic'.*forever.*pulse that ends"),
+        ({"shape": "one-sin"}, r"'one-sin' \(did you mean 'one-sine'\?\)"),
+        ({"shape": "zigzag"}, "'zigzag'; expected one of one-sine"),
+        ({"structure": th.Column(2.0, 1.0)}, r"63\.4"),
+        *(
+            ({name: value}, f"{name}{says}")
+            for name in ("angular_frequencies", "amplitudes")
+            for value, says in (
+                ([], r" has shape \(0,\).*not empty"),
+                ([[1.0]], r" has shape \(1, 1\)"),
+                ([1.0, math.nan], " holds nan.*finite"),
+                ([-math.inf], " holds -inf.*finite"),
+                ([0.3, -0.1], " goes down to -0.1; .*negative"),
+                (["1.0"], ": element 0 is '1.0'; expected a number"),
+                ([0.3, None], ": element 1 is None; expected a number"),
+                (np.ma.array([0.3, 9.0], mask=[0, 1]), " has 1 masked of 2"),
+            )
+        ),
+        ({"angular_frequencies": [1.0, 0.0]}, "goes down to 0; .*zero or negative"),
+    ],
+)
+def test_bad_map_is_refused_by_name_and_value(change, says):
+    given = {"structure": BLOCK, "shape": "one-sine"}
+    given |= {"angular_frequencies": [1.0], "amplitudes": [0.3]}
+    with pytest.raises(ValueError, match=says):
+        th.overturning_map(*(given | change).values())
+
+
+# ---------------------------------------------------------------------------- intervals
+
+CASES = {
+    "Zhang & Makris": (LINEAR, SINE, (1.0, 10.0), 0.05),
+    "exact one-sine": (BLOCK, th.Pulse("one-sine", 0.25, 10.0), (1.0, 14.0), 0.02),
+    "one-cosine": (BLOCK, th.Pulse("one-cosine", 0.25, 5.0), (1.0, 9.0), 0.02),
+    "antisymmetric": (BLOCK, th.Pulse("ricker-antisymmetric", 0.25, 5.0), (1.0, 6.0), 0.01),
+    "mirrored": (BLOCK, th.Pulse("ricker-symmetric", -0.25, 5.0), (-5.0, -1.0), 0.01),
+    "across zero": (BLOCK, SINE, (-6.0, 5.0), 0.02),
+    "record": (
+        *(BLOCK, th.Record(0.05, 0.3 * np.sin(np.linspace(0, 18, 90)) * np.hanning(90))),
+        *((0.5, 6.0), 0.01),
+    ),
+}
+
+
+@pytest.fixture(params=CASES.values(), ids=CASES.keys(), scope="module")
+def case(request):
+    block, excitation, scale_range, resolution = request.param
+    found = th.overturning_intervals(block, excitation, scale_range, resolution=resolution)
+    return block, excitation, scale_range, resolution, found
+
+
+def last_of(interval, last):
+    return (last, last) if interval.upper is None else interval.upper
+
+
+def test_intervals_ascend_and_those_that_meet_share_a_bracket(case):
+    *_, (first, last), _, found = case
+    edges = [first, *(x for i in found for x in (*i.lower, *last_of(i, last)))]
+    assert found
+    assert edges[0] == min(edges)
+    assert max(edges) == last or found[-1].upper is not None
+    assert all(i.lower[0] <= i.lower[1] for i in found)
+    for before, after in pairwise(found):
+        if before.upper == after.lower:
+            assert before.impacts != after.impacts
+        else:
+            assert before.upper[1] < after.lower[0]
+
+
+def test_brackets_have_the_boundary_between_them(case):
+    """Of the search's own outcomes, and of single histories to their tolerance."""
+    block, excitation, (first, last), resolution, found = case
+    subjects = subjects_of([Search(block, excitation, (first, last))])
+    size = max(abs(first), abs(last))
+
+    def label(scale):
+        ((overturned, impacts),) = outcomes_of_subjects(subjects, [np.array([scale])], TOLERANCE)
+        return impacts[0] if overturned[0] else SAFE
+
+    for interval in found:
+        inside, outside = (interval.lower[1], last_of(interval, last)[0]), [interval.lower[0]]
+        outside += [interval.upper[1]] if interval.upper else []
+        assert {label(scale) for scale in inside} == {interval.impacts}
+        assert all(x == first or label(x) != interval.impacts for x in outside)
+        widths = [np.diff(ends)[0] for ends in (interval.lower, interval.upper) if ends]
+        assert max(widths) <= max(1.01e-10 * size, resolution / 1024)
+        for scale in (inside[0] + 1e-8 * size, inside[1] - 1e-8 * size):
+            if inside[0] < scale < inside[1]:
+                end = th.judge(block, excitation.scaled(scale))
+                assert (end.overturned, end.impacts) == (True, interval.impacts)
+    narrow = [i.lower[1] - i.lower[0] <= 1.01e-10 * size for i in found]
+    assert sum(narrow) >= 0.5 * len(found)
+
+
+def test_way_9_no_interval_wider_than_the_resolution_is_missed(case):
+    """A scan five times as fine: runs of like outcome wider than the resolution are all there."""
+    block, excitation, (first, last), resolution, found = case
+    fine = np.linspace(first, last, 5 * math.ceil((last - first) / resolution) + 1)
+    ends = [th.judge(block, excitation.scaled(scale)) for scale in fine]
+    labels = [end.impacts if end.overturned else SAFE for end in ends]
+    changes = np.flatnonzero(np.diff(labels)) + 1
+    runs = zip([0, *changes], [*changes - 1, len(fine) - 1], strict=True)
+    wide = [(a, b) for a, b in runs if fine[b] - fine[a] > resolution]
+    assert len(wide) >= 2
+    for a, b in wide:
+        low, high = fine[a], fine[b]
+        middle = [i for i in found if i.lower[0] < high and last_of(i, math.inf)[1] > low]
+        if labels[a] == SAFE:  # only what is narrower than the resolution is wrongly labelled
+            for i in middle:
+                assert min(last_of(i, last)[0], high) - max(i.lower[1], low) <= 1e-9
+        else:
+            (holding,) = (i for i in middle if i.impacts == labels[a])
+            assert holding.lower[0] <= low
+            assert last_of(holding, math.inf)[1] >= high
+
+
+@pytest.fixture
+def scans(monkeypatch):
+    """The amplitudes of each call of the kernel."""
+    calls = []
+
+    def counted(blocks, shape, which, scales, amplitudes, *more, **named):
+        calls.append(amplitudes)
+        return mixed_outcomes_of(blocks, shape, which, scales, amplitudes, *more, **named)
+
+    monkeypatch.setattr("topheavy.outcomes.overturning.mixed_outcomes_of", counted)
+    return calls
+
+
+@pytest.mark.parametrize("resolution", [0.1, 0.849, 1.7, 20.0])
+@pytest.mark.parametrize("last", [9.0, 9.7, 10.0])
+def test_way_9_first_scan_has_no_step_wider_than_the_resolution(scans, last, resolution):
+    th.overturning_intervals(LINEAR, SINE, (1.0, last), resolution=resolution)
+    factors = scans[0] / SINE.amplitude
+    assert (factors[0], factors[-1]) == (1.0, last)
+    assert np.diff(factors).max() <= resolution * (1 + 1e-12)
+    assert len(factors) == math.ceil((last - 1.0) / resolution) + 1
+
+
+def test_way_9_bay_just_wider_than_the_resolution_is_found_wherever_the_range_begins():
+    """The bay from 6.3181 to 7.1681 of Zhang & Makris."""
+    for shift in np.linspace(0.0, 1.9, 20):
+        ends = (1.0 + shift, 10.0 - shift)
+        first, second = th.overturning_intervals(LINEAR, SINE, ends, resolution=0.849)
+        assert (first.impacts, second.impacts, second.upper) == (1, 0, None)
+        found = (first.upper[0], second.lower[1])
+        assert found == pytest.approx((6.3181, 7.16813), abs=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("ends", "resolution", "expected"),  # the ends and the impacts of each interval
+    [
+        ((1.0, 10.0), 1e-3, [(3.0186, 6.3181, 1), (7.16813, None, 0)]),
+        ((4.0, 5.0), 0.1, [(4.0, None, 1)]),
+        ((5.0, 7.0), 0.1, [(5.0, 6.3181, 1)]),
+        ((6.4, 7.1), 0.01, []),
+        ((-1.0, 1.0), 0.5, []),
+        ((2.0, 4.0), 50.0, [(3.0186, None, 1)]),
+    ],
+)
+def test_range_that_begins_or_ends_inside_an_interval_says_so(ends, resolution, expected):
+    found = th.overturning_intervals(LINEAR, SINE, ends, resolution=resolution)
+    lowest = th.minimum_overturning(LINEAR, SINE, ends, resolution=resolution)
+    assert lowest == (found[0].lower if found else None)
+    for one, (low, high, impacts) in zip(found, expected, strict=True):
+        assert one.lower[1] == pytest.approx(low, abs=1e-3)
+        assert (one.impacts, one.upper is None) == (impacts, high is None)
+        assert high is None or one.upper[0] == pytest.approx(high, abs=1e-3)
+        assert (one.lower[0] == one.lower[1]) == (one.lower[0] == ends[0])
+    assert expected[:1] != [(4.0, None, 1)] or found == [Interval((4.0, 4.0), None, 1)]
+
+
+def test_neighbours_with_different_impacts_are_separate_up_to_the_most_impacts():
+    given = (*CASES["antisymmetric"][:2], (1.0, 6.0))
+    joined, two, found = (
+        th.overturning_intervals(*given, resolution=0.01, **most)
+        for most in ({"most_impacts": 0}, {"most_impacts": 2}, {})
+    )
+    assert any(a.upper == b.lower for a, b in pairwise(found))
+    assert not any(a.upper == b.lower for a, b in pairwise(joined))
+    assert len(joined) < len(found)
+    assert {i.impacts for i in joined} == {0}
+    assert max(i.impacts for i in two) == 2
+
+
+def test_boundary_of_a_frame_is_in_the_units_of_its_pulse():
+    """Zhou, Du & Han (2019); and a sampled pulse has the boundaries of the pulse."""
+    frame, pulse = th.RockingFrame(th.Column(0.75, 3.5), 13.23), CASES["mirrored"][1]
+    pulse = th.Pulse("ricker-symmetric", 0.1, 2 * math.pi / 3.14)
+    found = th.overturning_intervals(frame, pulse, (1.0, 10.0), resolution=0.01)
+    assert 0.1 * found[0].lower[1] == pytest.approx(0.3134, abs=2e-4)
+    assert found == th.overturning_intervals(frame.block(), pulse, (1.0, 10.0), resolution=0.01)
+    record = th.Record(SINE.duration / 500, SINE.excitation(SINE.duration / 500 * np.arange(501)))
+    for one, other in zip(
+        *(
+            th.overturning_intervals(LINEAR, it, (1.0, 10.0), resolution=0.05)
+            for it in (record, SINE)
+        ),
+        strict=True,
+    ):
+        assert one.impacts == other.impacts
+        assert one.lower[0] == pytest.approx(other.lower[0], rel=1e-3)
+
+
+@pytest.mark.parametrize("search", [th.overturning_intervals, th.minimum_overturning])
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [
+        *(
+            ({"scale_range": r}, rf"scale_range is \({r[0]:g}, 1\)")
+            for r in ((2.0, 1.0), (1.0, 1.0))
+        ),
+        ({"scale_range": (math.nan, 1.0)}, "scale_range is nan"),
+        ({"scale_range": (0.0, math.inf)}, "scale_range is inf"),
+        *(({"resolution": x}, f"resolution is {x:g}") for x in (0.0, -0.1, math.nan)),
+        *(({"most_impacts": x}, f"most_impacts is {x!r}") for x in (-1, 1.5, math.nan, "1")),
+        ({"excitation": HARMONIC}, r"'harmonic'.*forever"),
+        ({"excitation": 3}, "excitation is 3; expected a Pulse or a Record"),
+    ],
+)
+def test_bad_search_is_refused_by_name_and_value(search, change, says):
+    if search is th.minimum_overturning and "most_impacts" in change:
+        return
+    given = {"structure": LINEAR, "excitation": SINE, "scale_range": (0.0, 1.0), "resolution": 0.1}
+    with pytest.raises(ValueError, match=says):
+        search(**(given | change))
+
+
+# ---------------------------------------------------------------------------- the search
+
+
+def halved(label, boundary, width, narrowest):
+    """The boundaries of one search, whose factors a function labels."""
+    low, high = boundary
+    ends = label(np.array([low, high]))
+    search = _halved([(low, high, *ends)], width, narrowest)
+    (found,) = steered([search], lambda asked: [label(each) for each in asked.values()])
+    return found
+
+
+@pytest.mark.parametrize(
+    ("edges", "values", "high", "narrowest", "met"),
+    [
+        ([0.3], [SAFE, 2], 1.0, 1e-3, [(SAFE, 2)]),
+        ([0.3, 0.4], [SAFE, 5, 2], 0.7, 1e-3, [(SAFE, 5), (5, 2)]),
+        # a sliver is left inside its bracket, as there may be no end of them
+        ([0.3499, 0.3501], [SAFE, 5, 2], 1.4, 0.8, [(SAFE, 2)]),
+        ([0.3499, 0.3501], [SAFE, 5, 2], 1.4, 0.6, [(SAFE, 5), (5, 2)]),
+    ],
+)
+@pytest.mark.parametrize("width", [1e-9, 0.0])
+def test_search_closes_in_on_every_boundary_that_it_meets(
+    edges, values, high, narrowest, met, width
+):
+    def label(scales):
+        return np.array(values)[np.searchsorted(edges, scales)]
+
+    found = halved(label, (0.0, high), width, narrowest)
+    assert [(below, above) for *_, below, above in found] == met
+    if len(met) < len(edges):
+        assert found == [(0.0, 0.7, SAFE, 2)]
+        return
+    for (low, top, *_), edge in zip(found, edges, strict=True):
+        assert low <= edge <= top
+        assert 0 < top - low <= max(1e-9, width)
+        assert width or top == math.nextafter(low, 1.0)
+
+
+def test_halvings_ahead_find_what_halving_one_by_one_finds(monkeypatch):
+    """Also intervals much narrower than the bracket, planted at random: the same, no others."""
+    rng, calls, met = np.random.default_rng(3), [0, 0], 0
+    for _ in range(100):
+        edges = np.sort(np.concatenate([rng.uniform(0, 1, 3), 0.5 + rng.uniform(0, 1e-3, 2)]))
+        labels, found = rng.permutation([SAFE, 0, 1, 2, 3, 4]), []
+        for way, together in enumerate((1, 32)):
+
+            def label(factors, way=way, edges=edges, labels=labels):
+                calls[way] += 1
+                return labels[np.searchsorted(edges, factors)]
+
+            monkeypatch.setattr("topheavy.outcomes.overturning.FEW_AT_ONCE", together)
+            found.append(halved(label, (0.0, 1.0), 1e-9, 1e-4))
+        assert found[0] == found[1]
+        met += len(found[0]) > 2
+    assert met > 20
+    assert calls[1] < 0.5 * calls[0]
+
+
+@pytest.mark.parametrize(("block", "excitation", "scales", "_"), CASES.values(), ids=CASES)
+def test_minimum_is_the_lower_end_of_the_first_interval(block, excitation, scales, _):
+    """On grids of several pieces: the first factor that overturns is in one or another."""
+    for first in np.linspace(*scales, 4)[:3]:
+        of = {"scale_range": (float(first), scales[1])}
+        of["resolution"] = (scales[1] - first) / (5 * MANY_AT_ONCE)
+        several = th.overturning_intervals(block, excitation, **of, most_impacts=0)
+        lowest = several[0].lower if several else None
+        assert th.minimum_overturning(block, excitation, **of) == lowest

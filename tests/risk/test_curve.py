@@ -1,0 +1,197 @@
+"""Fit, median and dispersion: where the answer is known, and where there is none."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.optimize import minimize
+from scipy.special import log_ndtr, ndtr
+
+from topheavy.risk import curve as module
+from topheavy.risk.curve import (
+    curve,
+    dispersions,
+    fit,
+    medians,
+    rises_past,
+    why_no_fit,
+    why_no_median,
+)
+
+LEVELS = np.geomspace(0.5, 2.0, 9)
+WIDE = np.geomspace(0.1, 4.0, 12)
+BOTH = pytest.mark.parametrize("skewed", [False, True])
+
+
+def log_likelihood(terms, levels, shares):
+    line = np.polynomial.polynomial.polyval(np.log(levels), terms)
+    return float((shares * log_ndtr(line) + (1.0 - shares) * log_ndtr(-line)).sum())
+
+
+def by_direct_maximisation(levels, shares, number):
+    """The second route: the likelihood itself, by the simplex of Nelder and Mead, then BFGS."""
+
+    def less(terms):
+        return -log_likelihood(terms, levels, shares)
+
+    options = {"maxiter": 20000, "maxfev": 20000, "xatol": 1e-10, "fatol": 1e-14}
+    rough = minimize(less, np.eye(number)[1], method="Nelder-Mead", options=options)
+    return minimize(less, rough.x, method="BFGS", options={"gtol": 1e-9}).x
+
+
+@BOTH
+@pytest.mark.parametrize(
+    ("levels", "shares"),
+    [
+        pytest.param(LEVELS, [0, 0.05, 0.2, 0.15, 0.55, 0.7, 0.95, 0.9, 1], id="regular"),
+        pytest.param(WIDE, np.array([0, 0, 0, 0, 0, 0, 1, 1, 6, 7, 7, 7]) / 7, id="wide"),
+        pytest.param(WIDE, np.array([0, 3, 0, 5, 1, 0, 7, 2, 3, 7, 4, 7]) / 7, id="ragged"),
+        pytest.param(WIDE, np.array([0, 0, 0, 0, 1, 0, 0, 4, 6, 7, 7, 7]) / 7, id="outlier"),
+        pytest.param(WIDE, np.array([1, 0, 0, 0, 0, 2, 7, 10, 10, 10, 10, 9]) / 10, id="slow"),
+        pytest.param(WIDE, 1 - np.array([0, 1, 2, 2, 3, 4, 5, 5, 6, 7, 7, 7]) / 7, id="falling"),
+    ],
+)
+def test_fit_is_that_of_direct_maximisation(levels, shares, skewed):
+    shares = np.array(shares, dtype=float)
+    terms = fit(levels, shares, skewed=skewed)
+    other = by_direct_maximisation(levels, shares, 3 if skewed else 2)
+    gain = log_likelihood(other, levels, shares) - log_likelihood(terms, levels, shares)
+    assert gain < 1e-12
+    assert curve(levels, terms) == pytest.approx(
+        ndtr(np.polynomial.polynomial.polyval(np.log(levels), other)), abs=1e-5
+    )
+
+
+@BOTH
+def test_every_curve_with_enough_points_is_fitted_however_wide_the_levels(skewed):
+    """Undamped passes diverge for many of these: their steep curves are flat at most levels."""
+    random, tried = np.random.default_rng(3), 0
+    for spread in (0.02, 0.1, 0.5):
+        for noise in (0.0, 0.1):
+            levels = np.geomspace(0.01, 30.0, 40)
+            middle = np.exp(random.uniform(-4.0, 3.0, (300, 1, 1)))
+            capacities = middle * np.exp(spread * random.normal(size=(300, 20, 1)))
+            fell = (capacities <= levels) ^ (random.random((300, 20, 40)) < noise)
+            shares = fell.mean(axis=1)
+            enough = module.points_between(shares) >= (3 if skewed else 2)
+            terms = fit(levels, shares, skewed=skewed)
+            assert (np.isfinite(terms).all(axis=-1) == enough).all()
+            slopes = score(levels, shares[enough], terms[enough])[:, : 3 if skewed else 2]
+            assert np.abs(slopes).max(initial=0.0) < 1e-6
+            tried += enough.sum()
+    assert tried > 1000
+
+
+def score(levels, shares, terms):
+    """The derivatives of the log-likelihood, which vanish at its maximum."""
+    powers = np.log(levels)[:, None] ** np.arange(3)
+    line = terms @ powers.T
+    density = -0.5 * (line**2 + np.log(2.0 * np.pi))
+    rise, fall = np.exp(density - log_ndtr(line)), np.exp(density - log_ndtr(-line))
+    return (shares * rise - (1.0 - shares) * fall) @ powers
+
+
+def test_lognormal_curve_is_found_again():
+    centre, spread = np.array([0.8, 1.1]), np.array([0.3, 0.6])
+    shares = ndtr(np.log(LEVELS / centre[:, None]) / spread[:, None])
+    for skewed in (False, True):
+        terms = fit(LEVELS, shares, skewed=skewed)
+        assert medians(LEVELS, terms) == pytest.approx(centre, rel=1e-7)
+        assert dispersions(terms) == pytest.approx(spread, rel=1e-6)
+    assert (fit(LEVELS, shares, skewed=False)[:, 2] == 0.0).all()
+
+
+@BOTH
+def test_unit_of_the_levels_does_not_matter(skewed):
+    shares = np.array([0, 0.05, 0.2, 0.15, 0.55, 0.7, 0.95, 0.9, 1])
+    here, there = (fit(unit * LEVELS, shares, skewed=skewed) for unit in (1.0, 981.0))
+    assert medians(981.0 * LEVELS, there) == pytest.approx(981.0 * medians(LEVELS, here), rel=1e-8)
+    assert dispersions(there) == pytest.approx(dispersions(here), rel=1e-7)
+
+
+def test_narrow_levels_far_from_one_are_fitted():
+    levels = np.linspace(500.0, 520.0, 9)
+    shares = ndtr(np.log(levels / 509.0) / 0.01)
+    assert medians(levels, fit(levels, shares, skewed=True)) == pytest.approx(509.0, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    "terms", [(0.3, 2.0, 0.5), (0.3, -1.0, 2.0), (-1.0, -2.0, -0.9), (0.2, 0.3, -1.0)]
+)
+@pytest.mark.parametrize("share", [0.16, 0.5, 0.84])
+def test_rise_past_a_share_is_where_the_curve_crosses_it_upwards(terms, share):
+    x = np.linspace(-12.0, 12.0, 2_400_001)
+    over = ndtr(np.polynomial.polynomial.polyval(x, terms)) > share
+    rises = np.flatnonzero(~over[:-1] & over[1:])
+    found = rises_past(share, np.array(terms))
+    if rises.size:
+        assert np.log(found) == pytest.approx(x[rises[0]], abs=2e-5)
+    else:
+        assert math.isnan(found)
+
+
+@pytest.mark.parametrize(
+    ("shares", "skewed", "reason"),
+    [
+        ([0, 0, 0, 0, 0], False, "no motion overturns it at any level"),
+        ([1, 1, 1, 1, 1], False, "every motion overturns it at every level"),
+        ([0, 0, 1, 1, 1], False, "0 of the levels have a probability between 0 and 1"),
+        ([0, 0, 0.5, 1, 1], False, "1 of the levels have a probability between 0 and 1"),
+        ([0, 0.3, 0.5, 1, 1], True, "2 of the levels have a probability between 0 and 1"),
+        ([0, 0.5, 1 - 1e-16, 1, 1], False, "1 of the levels have a probability between 0 and 1"),
+        ([1, 0, 1, 0, 1], False, "0 of the levels have a probability between 0 and 1"),
+    ],
+)
+def test_too_few_points_have_no_fit_and_a_reason(shares, skewed, reason):
+    levels, shares = np.geomspace(0.5, 2.0, 5), np.array(shares, dtype=float)
+    terms = fit(levels, shares, skewed=skewed)
+    assert np.isnan(terms).all()
+    assert np.isnan(curve(levels, terms)).all()
+    assert np.isnan(dispersions(terms))
+    assert np.isnan(medians(levels, terms))
+    assert why_no_fit(shares, terms, skewed=skewed).startswith(reason)
+    assert why_no_median(levels, shares, terms, skewed=skewed).startswith(reason)
+
+
+@pytest.mark.parametrize("centre", [0.4, 2.5])
+def test_median_outside_the_levels_is_not_given(centre):
+    shares = ndtr(np.log(LEVELS / centre) / 0.5)
+    terms = fit(LEVELS, shares, skewed=False)
+    assert np.isnan(medians(LEVELS, terms))
+    reason = why_no_median(LEVELS, shares, terms, skewed=False)
+    assert f"passes 1/2 at {centre}, which" in reason
+    assert "outside the levels, 0.5 to 2: widen them" in reason
+    assert dispersions(terms) == pytest.approx(0.5, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("shares", "skewed"),
+    [
+        pytest.param(1.0 - ndtr(np.log(LEVELS) / 0.4), False, id="falling"),
+        pytest.param(np.full(9, 0.3), False, id="level"),
+        pytest.param(ndtr(-0.4 - 3.0 * np.log(LEVELS) ** 2), True, id="below"),
+    ],
+)
+def test_curve_that_does_not_rise_has_no_median(shares, skewed):
+    terms = fit(LEVELS, shares, skewed=skewed)
+    assert np.isfinite(terms).all()
+    assert np.isnan(medians(LEVELS, terms))
+    assert np.isnan(dispersions(terms))
+    reason = why_no_median(LEVELS, shares, terms, skewed=skewed)
+    assert reason == "the fitted curve does not rise past 1/2"
+
+
+@BOTH
+def test_what_is_found_has_no_reason(skewed):
+    shares = ndtr(np.log(LEVELS))
+    terms = fit(LEVELS, shares, skewed=skewed)
+    assert why_no_fit(shares, terms, skewed=skewed) == ""
+    assert why_no_median(LEVELS, shares, terms, skewed=skewed) == ""
+
+
+def test_fit_without_convergence_is_nan_with_a_reason(monkeypatch):
+    monkeypatch.setattr(module, "MOST_PASSES", 1)
+    shares = np.array([[0, 0, 0.05, 0, 0, 0, 0.95, 1, 1], ndtr(np.log(LEVELS))])
+    terms = fit(LEVELS, shares, skewed=False)
+    assert np.isnan(terms).all(axis=-1).tolist() == [True, False]
+    assert why_no_fit(shares[0], terms[0], skewed=False) == "no fit of the curve in 1 passes"

@@ -1,0 +1,243 @@
+"""The public function: which histories it judges, and what it returns of them."""
+
+import re
+
+import numpy as np
+import pytest
+import xarray
+
+import topheavy as th
+from topheavy.second import reference
+
+PIER = th.Column(0.25, 1.5)
+STRUCTURES = {
+    "pier": PIER,
+    "bent": th.RockingFrame(PIER, 2.0),
+    "vase": th.FixedMassColumn(PIER, 1.0),
+    "portal": th.MonolithicPortal(PIER, 1.0, 1.2),
+    "block": th.RockingBlock(2.0, 0.2, 0.9),
+}
+LEVELS = np.array([0.3, 0.5, 0.8, 1.2, 2.0])
+
+
+def wave(number, size=1.0):
+    """A motion of two frequencies that differ from motion to motion, with pauses at both ends."""
+    random = np.random.default_rng([5, number])
+    time = np.arange(0.0, 6.0, 0.02)
+    slow, fast = random.uniform([2.0, 7.0], [5.0, 15.0])
+    sums = np.sin(slow * time) + 0.5 * np.sin(fast * time + random.uniform(0.0, 6.0))
+    return th.Record(0.02, size * sums * np.sin(np.pi * time / 6.0) ** 2, f"wave {number}")
+
+
+MOTIONS = [wave(number) for number in range(8)]
+
+
+@pytest.fixture(scope="module")
+def found():
+    return th.fragility(STRUCTURES, MOTIONS, LEVELS, lowered=(0.05, 0.1), resamples=200)
+
+
+def test_outcomes_are_those_of_scipy(found):
+    """The second route: solve_ivp judges the scaled record of some cells."""
+    compared = set()
+    for motion, place, level in [(0, 0, 2), (1, 1, 3), (2, 2, 1), (3, 3, 4), (4, 4, 2), (5, 0, 3)]:
+        record = MOTIONS[motion].scaled(LEVELS[level] / MOTIONS[motion].peak_velocity)
+        assert record.peak_velocity == pytest.approx(LEVELS[level])
+        structure = list(STRUCTURES.values())[place]
+        other = reference.judge(structure, record).overturned
+        assert found.outcomes[motion, place, level] == other
+        compared.add(bool(other))
+    assert compared == {False, True}
+
+
+@pytest.mark.parametrize("measure", ["PGV", "PGA"])
+def test_each_outcome_is_that_of_the_motion_scaled_to_the_level(measure):
+    levels = LEVELS if measure == "PGV" else LEVELS / 2.0
+    result = th.fragility(STRUCTURES, MOTIONS[:3], levels, measure, resamples=100)
+    units = {"PGV": "m/s", "PGA": "g"}
+    assert (result.measure, result.curves.level.units) == (measure, units[measure])
+    for number, motion in enumerate(MOTIONS[:3]):
+        for place, structure in enumerate(STRUCTURES.values()):
+            of = motion.peak_velocity if measure == "PGV" else motion.peak_acceleration
+            each = [th.judge(structure, motion.scaled(level / of)).overturned for level in levels]
+            assert result.outcomes[number, place].tolist() == each
+    assert 0.1 < result.outcomes.mean() < 0.9
+
+
+UPS = [th.Record(0.013, 0.4 * wave(number + 20).acceleration) for number in range(8)]
+
+
+@pytest.mark.parametrize("scale_vertical", [True, False])
+def test_vertical_component_of_each_motion_acts_with_it(found, scale_vertical):
+    both = {"vertical": UPS, "scale_vertical": scale_vertical}
+    levels = LEVELS[:4]
+    outcomes = th.fragility(STRUCTURES, MOTIONS, levels, resamples=100, **both).outcomes
+    for number, (motion, up) in enumerate(zip(MOTIONS, UPS, strict=True)):
+        factors = levels / motion.peak_velocity
+        lifts = factors if scale_vertical else np.ones(4)
+        for place, structure in enumerate(STRUCTURES.values()):
+            for level, (factor, lift) in enumerate(zip(factors, lifts, strict=True)):
+                given = (structure, motion.scaled(factor))
+                judges = [th.judge, reference.judge] if place == number == 1 else [th.judge]
+                for route in judges:
+                    truth = route(*given, vertical=up.scaled(lift)).overturned
+                    assert outcomes[number, place, level] == truth
+    assert (outcomes != found.outcomes[:, :5, :4]).sum() > 5
+
+
+@pytest.mark.parametrize(
+    ("vertical", "says"),
+    [
+        (UPS[0], r"vertical is .*Record.*; expected a list of 8 Records"),
+        (UPS[:7], "vertical is .*; expected a list of 8 Records, the vertical component of each"),
+        ([*UPS[:7], 0.1], r"vertical\[7\]: excitation is Record and vertical float; expected two"),
+        (
+            [*UPS[:7], th.Record(0.05, [0.0, 0.4, -8.0, 0.0], unit="g")],
+            r"^vertical\[7\]: at 0\.1 s its acceleration .* factors less than 0\.125 are allowed",
+        ),
+    ],
+)
+def test_bad_vertical_is_refused_by_its_motion(vertical, says):
+    with pytest.raises(ValueError, match=says):
+        th.fragility([PIER], MOTIONS, LEVELS, resamples=100, vertical=vertical)
+
+
+def test_measure_may_be_a_function_and_a_motion_a_pulse():
+    def peak_of_pulse(pulse):
+        return pulse.amplitude
+
+    pulses = [th.Pulse("one-sine", 1.0, omega) for omega in (2.0, 3.0, 4.0)]
+    result = th.fragility([PIER], pulses, [0.2, 0.5, 1.0], peak_of_pulse, resamples=100)
+    for number, pulse in enumerate(pulses):
+        np.testing.assert_array_equal(
+            result.outcomes[number, 0], th.overturned_by(PIER, pulse, [0.2, 0.5, 1.0])
+        )
+    assert result.measure == "peak_of_pulse"
+    assert "units" not in result.curves.level.attrs
+
+
+def test_result_is_labelled(found):
+    assert isinstance(found, th.Fragility)
+    curves, pairs = found.curves, found.pairs
+    names = [*STRUCTURES, "pier, √r 5 % lower", "pier, √r 10 % lower"]
+    assert curves.structure.to_numpy().tolist() == names
+    assert curves.lowered.to_numpy().tolist() == [0, 0, 0, 0, 0, 0.05, 0.1]
+    assert curves.sizes == {"structure": 7, "level": 5, "term": 3}
+    assert pairs.sizes == {"pair": 10 + 2 * 4, "level": 5}
+    np.testing.assert_array_equal(curves.level, LEVELS)
+    np.testing.assert_array_equal(curves.overturned, found.outcomes.sum(axis=0))
+    for pair in range(18):
+        first, second = (names.index(pairs[key][pair]) for key in ("first", "second"))
+        less = curves.probability[first] - curves.probability[second]
+        assert pairs.less[pair].to_numpy() == pytest.approx(less.to_numpy(), abs=1e-15)
+    assert (found.confidence, found.measure) == (0.95, "PGV")
+    assert found.sampling == "sampling of 8 motions, each drawn independently of the others"
+
+
+def test_result_can_be_written_to_a_file(found, tmp_path):
+    for table in (found.curves, found.pairs):
+        table.to_netcdf(tmp_path / "table.nc", engine="scipy")
+        with xarray.open_dataset(tmp_path / "table.nc", engine="scipy") as read:
+            assert set(read.variables) == set(table.variables)
+
+
+def test_restitution_of_the_column_alone_is_lowered(found):
+    names = found.curves.structure.to_numpy().tolist()
+    for share in (0.05, 0.1):
+        lower = PIER.block().with_restitution((1.0 - share) * PIER.restitution)
+        place = names.index(f"pier, √r {100 * share:g} % lower")
+        for number, motion in enumerate(MOTIONS):
+            factors = LEVELS / motion.peak_velocity
+            np.testing.assert_array_equal(
+                found.outcomes[number, place], th.overturned_by(lower, motion, factors)
+            )
+    assert (found.outcomes[:, 0] != found.outcomes[:, -1]).any()
+    unchanged = th.fragility(STRUCTURES, MOTIONS, LEVELS, resamples=200)
+    np.testing.assert_array_equal(unchanged.outcomes, found.outcomes[:, :5])
+
+
+def test_lowered_column_is_compared_with_what_is_no_column():
+    under = {"a": PIER, "b": th.Column(0.3, 1.5), "bent": th.RockingFrame(PIER, 1.0)}
+    pairs = th.fragility(under, MOTIONS[:2], [0.3, 0.6], lowered=[0.1], resamples=100).pairs
+    assert list(zip(pairs["first"].to_numpy(), pairs["second"].to_numpy(), strict=True)) == [
+        ("a", "b"),
+        ("a", "bent"),
+        ("b", "bent"),
+        ("a, √r 10 % lower", "bent"),
+        ("b, √r 10 % lower", "bent"),
+    ]
+
+
+def test_structures_of_a_list_are_named():
+    found = th.fragility([PIER, th.RockingFrame(PIER, 1.0)], MOTIONS[:2], [0.3, 0.6], resamples=100)
+    assert found.curves.structure.to_numpy().tolist() == ["Column 1", "RockingFrame 2"]
+
+
+@pytest.mark.parametrize(
+    ("levels", "reason"),
+    [
+        ([1e-4, 2e-4], "no motion overturns it at any level"),
+        ([50.0, 60.0], "every motion overturns it at every level"),
+        ([1e-4, 1e3], "0 of the levels"),
+        ([1.0], ""),
+    ],
+)
+@pytest.mark.filterwarnings("ignore:levels go up")
+@pytest.mark.parametrize("skewed", [False, True])
+def test_levels_that_give_no_curve_give_a_reason(levels, reason, skewed):
+    found = th.fragility(STRUCTURES, MOTIONS, levels, skewed=skewed, resamples=100)
+    assert np.isnan(found.curves.median_capacity).all()
+    assert all(text.startswith(reason) for text in found.curves.median_capacity_reason.to_numpy())
+    assert (found.curves.median_capacity_reason != "").all()
+    assert np.isfinite(found.curves.probability_low).all()
+    assert set(found.pairs.gain_words.to_numpy()) == {"is not known"}
+
+
+def test_wide_levels_are_fitted():
+    """Seven records and levels from 0.1 to 4: what an engineer tried, and got an error."""
+    found = th.fragility(STRUCTURES, MOTIONS[:7], np.geomspace(0.1, 4.0, 20), resamples=100)
+    assert np.isfinite(found.curves.median_capacity[:2]).all()
+
+
+def test_result_says_that_groups_are_kept():
+    groups = ["a", "a", "b", "b", "b", "b", "b", "c"]
+    found = th.fragility(STRUCTURES, MOTIONS, LEVELS, groups=groups, resamples=200)
+    assert found.sampling == (
+        "sampling of 8 motions only within 3 groups, without the scatter between groups; "
+        "1 of the groups have one motion, and no scatter"
+    )
+
+
+def test_scatter_between_groups_is_not_in_the_result():
+    """Four times one motion, four times another: within each group, nothing is left to chance."""
+    twice = [wave(0)] * 4 + [wave(3)] * 4
+    wide, none = (
+        th.fragility([PIER, STRUCTURES["bent"]], twice, [0.5], groups=members, resamples=200).pairs
+        for members in (None, ["a"] * 4 + ["b"] * 4)
+    )
+    assert (wide.less.item(), none.less.item()) == (0.5, 0.5)  # the pier alone overturns, in one
+    assert wide.less_low.item() < 0.3
+    assert (none.less_low.item(), none.less_high.item()) == (0.5, 0.5)
+
+
+def test_same_seed_same_result(found):
+    again = th.fragility(STRUCTURES, MOTIONS, LEVELS, lowered=(0.05, 0.1), resamples=200)
+    assert again.curves.identical(found.curves)
+    assert again.pairs.identical(found.pairs)
+
+
+def test_text_has_medians_gains_and_reasons():
+    motions = [wave(number) for number in range(20)]
+    told = str(
+        th.fragility(
+            {"pier": PIER, "bent": th.RockingFrame(PIER, 2.0)}, motions, np.geomspace(0.05, 2.0, 12)
+        )
+    )
+    first, pier, bent, pair = told.splitlines()
+    assert first.startswith("20 motions, PGV from 0.05 to 2 m/s; 95% intervals, sampling of 20")
+    assert re.fullmatch(r"pier: median [\d.]+ \([\d.]+ to [\d.]+\) m/s", pier)
+    assert bent.startswith("bent: median ")
+    assert pair.startswith(("bent over pier: gain ", "pier over bent: gain "))
+    with pytest.warns(UserWarning, match="in cm/s"):
+        in_cm = str(th.fragility([PIER], motions, [20.0, 60.0, 200.0]))  # taken as m/s
+    assert re.search(r"Column 1: median nan \(nan to nan\) m/s: \w+", in_cm)

@@ -1,0 +1,199 @@
+"""Means of resampled motions and their intervals, by groups and with values that are missing."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.stats import bootstrap
+
+from topheavy.risk import resampling
+from topheavy.risk.resampling import (
+    ResampledMeans,
+    in_words,
+    interval,
+    means,
+    means_within,
+    resampled,
+)
+
+
+def test_first_row_is_the_ensemble_and_others_scatter_as_a_binomial():
+    fell = np.arange(400)[:, None] < [40, 200]
+    found = means(resampled(400, 4000, 1), fell)
+    assert found[0] == pytest.approx([0.1, 0.5], rel=1e-12)
+    assert found[1:].mean(axis=0) == pytest.approx([0.1, 0.5], abs=2e-3)
+    assert found[1:].std(axis=0) == pytest.approx(np.sqrt([0.09 / 400, 0.25 / 400]), rel=0.05)
+
+
+def test_structures_that_fall_together_fall_together_in_every_resample():
+    fell = np.random.default_rng(3).random(50) < 0.5
+    found = means(resampled(50, 20, 1), np.stack([fell, ~fell], axis=1))
+    assert np.ptp(found[:, 0]) > 0.05
+    assert found.sum(axis=1) == pytest.approx(np.ones(21))
+
+
+def in_blocks(sizes, *outcomes, resamples=20):
+    found = ResampledMeans(len(outcomes[0]), resamples, 1)
+    for part in np.split(np.arange(len(outcomes[0])), np.cumsum(sizes)):
+        found.add([each[part] for each in outcomes])
+    return found.means()
+
+
+def test_means_of_a_single_block_are_those_of_all_weights():
+    random = np.random.default_rng(5)
+    fell, first = random.random((50, 3, 2)) < 0.3, random.random(50) < 0.5
+    weights = resampled(50, 20, 1)
+    found = in_blocks([], fell, first)
+    assert found[0] == pytest.approx(means(weights, fell), rel=1e-14)
+    assert found[1] == pytest.approx(means(weights, first), rel=1e-14)
+
+
+def test_means_by_blocks_scatter_as_those_of_all_weights():
+    """Motions of the first block fall more often; each resample draws 400, of whichever blocks."""
+    fell = np.arange(400)[:, None] < [40, 200]
+    (means,) = in_blocks([30, 170, 1], fell, resamples=4000)
+    assert means[0] == pytest.approx([0.1, 0.5], rel=1e-12)
+    assert means[1:].mean(axis=0) == pytest.approx([0.1, 0.5], abs=2e-3)
+    assert means[1:].std(axis=0) == pytest.approx(np.sqrt([0.09 / 400, 0.25 / 400]), rel=0.05)
+    (everything,) = in_blocks([30, 170, 1], np.ones(400))
+    assert everything == pytest.approx(np.ones(21), rel=1e-12)
+
+
+def test_missing_motions_are_missed():
+    found = ResampledMeans(50, 20, 1)
+    found.add([np.ones(49)])
+    with pytest.raises(ValueError, match="49 motions were found; expected those of 50"):
+        found.means()
+
+
+def test_interval_holds_the_middle_of_the_resamples():
+    values = np.concatenate([[5.0], np.arange(101.0)])
+    assert interval(values, 0.9) == pytest.approx((5.0, 5.0, 95.0))
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "words"),
+    [
+        (0.01, 0.03, "is positive"),
+        (-0.08, -0.05, "is negative"),
+        (-0.01, 0.03, "includes zero"),
+        (0.0, 0.03, "includes zero"),
+        (-0.03, 0.0, "includes zero"),
+    ],
+)
+def test_words_name_the_sign_of_the_whole_interval(low, high, words):
+    assert in_words(low, high) == words
+
+
+@pytest.mark.parametrize(("low", "high"), [(0.2, 0.1), (math.nan, 0.1), (0.1, math.nan)])
+def test_ends_in_the_wrong_order_have_no_words(low, high):
+    with pytest.raises(ValueError, match="expected ascending ends"):
+        in_words(low, high)
+
+
+def test_one_group_has_the_weights_of_all_motions():
+    fell = np.random.default_rng(4).random((30, 2, 5)) < 0.4
+    found = means_within(fell, ["one"] * 30, 50, 7)
+    assert found == pytest.approx(means(resampled(30, 50, 7), fell), rel=1e-14)
+
+
+def test_equal_counts_are_equal():
+    """Sums of weights depend on their order, and a difference of nothing would have a sign."""
+    fell = np.random.default_rng(2).permuted(np.tile([[1], [0]], (49, 6)), axis=0)
+    assert not np.diff(means_within(fell, [None] * 98, 10, 1)[0]).any()
+    assert (means_within(np.ones(49), [None] * 49, 50, 1) == 1.0).all()
+
+
+def test_scatter_between_groups_is_not_in_the_interval():
+    """All motions of one earthquake overturn and none of the other: within each, no scatter."""
+    fell, groups = np.repeat([1.0, 0.0], [10, 30]), ["near"] * 10 + ["far"] * 30
+    assert np.ptp(means_within(fell, groups, 200, 1)) < 1e-12
+    assert means_within(fell, groups, 200, 1)[0] == pytest.approx(0.25)
+    assert np.ptp(means_within(fell, [None] * 40, 200, 1)) > 0.1
+
+
+def test_motions_of_a_group_need_not_be_neighbours():
+    fell, groups = np.tile([1.0, 0.0], 20), ["a", "b"] * 20
+    assert np.ptp(means_within(fell, groups, 200, 1)) < 1e-12
+
+
+def test_groups_are_resampled_independently_of_each_other():
+    """If both drew the same, their shares would vary together: the variance would be doubled."""
+    fell, groups = np.tile([1.0, 0.0], 200), ["a"] * 200 + ["b"] * 200
+    drawn = means_within(fell, groups, 4000, 1)[1:]
+    assert drawn.std() == pytest.approx(np.sqrt(0.25 / 400), rel=0.05)
+
+
+def test_group_in_blocks_scatters_as_a_whole(monkeypatch):
+    monkeypatch.setattr(resampling, "BLOCK", 30)
+    fell, groups = np.arange(200) % 2, ["a"] * 100 + ["b"] * 100
+    drawn = means_within(fell, groups, 4000, 1)
+    assert drawn[0] == pytest.approx(0.5)
+    assert drawn[1:].std() == pytest.approx(np.sqrt(0.25 / 200), rel=0.05)
+
+
+def test_paired_interval_is_that_of_scipy():
+    """The second route: SciPy draws motions, and leaves the two structures of a motion together."""
+    random = np.random.default_rng(8)
+    first = random.random(60) < 0.5
+    second = np.where(random.random(60) < 0.8, first, random.random(60) < 0.3)
+    both = np.stack([first, second], axis=1).astype(float)
+    drawn = means_within(both, [None] * 60, 20000, 1)
+    value, *ends = interval(drawn[:, 0] - drawn[:, 1], 0.95)
+    assert value == pytest.approx(first.mean() - second.mean())
+    other = bootstrap(
+        both.T,
+        lambda x, y, axis: x.mean(axis=axis) - y.mean(axis=axis),
+        paired=True,
+        vectorized=True,
+        n_resamples=20000,
+        confidence_level=0.95,
+        method="percentile",
+        rng=np.random.default_rng(2),
+    )
+    assert ends == pytest.approx(list(other.confidence_interval), abs=1.01 / 60)  # of one motion
+    assert drawn[1:].std(axis=0) == pytest.approx(both.std(axis=0) / np.sqrt(60), rel=0.03)
+    assert (drawn[1:, 0] - drawn[1:, 1]).std() == pytest.approx(other.standard_error, rel=0.03)
+
+
+def test_interval_within_groups_is_that_of_scipy():
+    random = np.random.default_rng(9)
+    parts = [random.random(25) < 0.1, random.random(40) < 0.7, random.random(35) < 0.95]
+    fell, groups = np.concatenate(parts).astype(float), np.repeat(["a", "b", "c"], [25, 40, 35])
+    drawn = means_within(fell, groups.tolist(), 20000, 1)
+    other = bootstrap(
+        [part.astype(float) for part in parts],
+        lambda *each, axis: sum(one.sum(axis=axis) for one in each) / 100.0,
+        vectorized=True,
+        n_resamples=20000,
+        confidence_level=0.9,
+        method="percentile",
+        rng=np.random.default_rng(2),
+    )
+    assert interval(drawn, 0.9)[1:] == pytest.approx(list(other.confidence_interval), abs=0.0101)
+    assert drawn[1:].std() == pytest.approx(other.standard_error, rel=0.03)
+
+
+def test_resamples_without_a_value_count_at_both_ends():
+    values = np.concatenate([[50.0], np.arange(101.0)])
+    values[[10, 40]] = np.nan
+    _, low, high = interval(values, 0.9)
+    rest = np.delete(np.arange(101.0), [9, 39])
+    assert low == pytest.approx(np.quantile(np.concatenate([[-1e9, -1e9], rest]), 0.05))
+    assert high == pytest.approx(np.quantile(np.concatenate([rest, [1e9, 1e9]]), 0.95))
+    assert low < np.quantile(rest, 0.05)
+    assert high > np.quantile(rest, 0.95)
+
+
+def test_ends_that_resamples_without_a_value_decide_are_nan():
+    values = np.concatenate([[50.0], np.arange(101.0)])
+    values[1:10] = np.nan
+    assert np.isnan(interval(values, 0.9)[1:]).all()
+    assert interval(values, 0.9)[0] == 50.0
+
+
+def test_interval_of_no_value_is_none_and_leaves_others_alone():
+    values = np.stack([np.r_[5.0, np.arange(101.0)], np.r_[np.nan, np.arange(101.0)]], axis=1)
+    value, low, high = interval(values, 0.9)
+    assert (value[0], low[0], high[0]) == pytest.approx((5.0, 5.0, 95.0))
+    assert np.isnan([value[1], low[1], high[1]]).all()

@@ -1,0 +1,171 @@
+"""Intervals, words and reasons of curves and pairs, from outcomes that are known."""
+
+import numpy as np
+import pytest
+from scipy.stats import beta, binom
+
+from topheavy.risk.curve import dispersions, fit, medians
+from topheavy.risk.resampling import interval, means_within
+from topheavy.risk.tables import curve_table, exact_interval, pair_table, sign_test
+
+LEVELS = np.geomspace(0.25, 4.0, 25)
+
+
+def outcomes_of(capacities, levels=LEVELS):
+    """Each motion overturns a structure from its capacity on: (motions, structures, levels)."""
+    return np.asarray(capacities, dtype=float)[..., None] <= levels
+
+
+def tables(capacities, places=((0, 1),), resamples=400, levels=LEVELS):
+    fell = outcomes_of(capacities, levels)
+    drawn = means_within(fell, [None] * len(fell), resamples, 1)
+    if len(fell) == 1:
+        drawn[1:] = np.nan
+    terms = fit(levels, drawn, skewed=False)
+    curves = curve_table(fell.sum(axis=0), len(fell), levels, drawn, terms, 0.95, skewed=False)
+    return curves, pair_table(fell, levels, drawn, terms, places, 0.95)
+
+
+def lognormal(motions, seed, *factors):
+    """Capacities of structures under the same motions, with the dispersion 0.4 about factors."""
+    return np.exp(0.4 * np.random.default_rng(seed).normal(size=(motions, 1))) * factors
+
+
+# ------------------------------------------------------------------ exact intervals
+
+
+@pytest.mark.parametrize("confidence", [0.9, 0.95])
+def test_exact_interval_has_half_of_the_rest_on_each_side(confidence):
+    counts = np.arange(13).reshape(1, 13)
+    low, high = exact_interval(counts, 12, confidence)
+    tail = (1.0 - confidence) / 2.0
+    assert binom.sf(counts - 1, 12, low)[counts > 0] == pytest.approx(tail, rel=1e-6)
+    assert binom.cdf(counts, 12, high)[counts < 12] == pytest.approx(tail, rel=1e-6)
+    assert (low[0, 0], high[0, -1]) == (0.0, 1.0)
+    assert low[0, 1:] == pytest.approx(beta.ppf(tail, counts[0, 1:], 13 - counts[0, 1:]))
+
+
+def test_exact_interval_covers_probabilities_that_differ_between_groups():
+    """Hoeffding (1956): the count of unequal trials scatters less than the binomial of the mean."""
+    each = np.repeat([0.02, 0.3, 0.75], [20, 10, 10])
+    fell = (np.random.default_rng(6).random((4000, 40)) < each).sum(axis=1)
+    low, high = exact_interval(fell, 40, 0.95)
+    assert ((low <= each.mean()) & (each.mean() <= high)).mean() > 0.97
+
+
+def test_sign_test_is_exact():
+    found = sign_test(np.array([[5, 0], [4, 3]]), np.array([[0, 0], [1, 3]]))
+    assert found == pytest.approx(np.array([[2 / 32, 1.0], [12 / 32, 1.0]]))
+
+
+# ------------------------------------------------------------------ curves
+
+
+@pytest.mark.parametrize(("motions", "median", "dispersion"), [(7, 0.11, 0.32), (40, 0.08, 0.13)])
+def test_intervals_miss_the_true_value_as_often_as_the_docstring_says(motions, median, dispersion):
+    missed, samples = np.zeros(2), 400
+    for seed in range(samples):
+        fell = outcomes_of(lognormal(motions, [1, seed], 1.0)[:, 0])
+        terms = fit(LEVELS, means_within(fell, [None] * motions, 300, seed), skewed=False)
+        for place, (values, true) in enumerate(
+            ((medians(LEVELS, terms), 1.0), (dispersions(terms), 0.4))
+        ):
+            _, low, high = interval(values, 0.95)
+            missed[place] += low > true or high < true
+    assert missed / samples == pytest.approx([median, dispersion], abs=0.045)
+
+
+def test_curve_is_that_of_the_outcomes():
+    curves, _ = tables(lognormal(200, 2, 1.0, 1.5), places=())
+    assert curves.overturned.dtype.kind == "i"
+    assert (curves.probability == curves.overturned / 200).all()
+    assert (curves.probability_low <= curves.probability).all()
+    assert (curves.probability <= curves.probability_high).all()
+    assert np.abs(curves.fitted - curves.probability).max() < 0.06
+    assert curves.median_capacity.to_numpy() == pytest.approx([1.0, 1.5], rel=0.06)
+    assert curves.dispersion.to_numpy() == pytest.approx([0.4, 0.4], rel=0.12)
+    for name in ("median_capacity", "dispersion"):
+        assert (curves[f"{name}_low"] < curves[name]).all()
+        assert (curves[name] < curves[f"{name}_high"]).all()
+        assert (curves[f"{name}_reason"] == "").all()
+
+
+def test_interval_that_resamples_do_not_give_has_a_reason():
+    """Two of seven motions are between the levels where none and all overturn."""
+    curves, _ = tables(
+        np.array([0.5, 0.5, 0.8, 0.9, 3.0, 3.0, 3.0])[:, None],
+        places=(),
+        levels=np.array([0.4, 0.6, 2.0, 3.5]),
+    )
+    assert np.isfinite(curves.median_capacity)
+    assert np.isnan([curves.median_capacity_low.item(), curves.median_capacity_high.item()]).any()
+    assert "of 400 resamples have no median capacity" in curves.median_capacity_reason.item()
+    assert "of 400 resamples have no dispersion" in curves.dispersion_reason.item()
+
+
+def test_one_motion_has_no_scatter_and_says_so():
+    levels = np.array([0.5, 1.0, 2.0])
+    curves, pairs = tables([[0.7, 1.5]], levels=levels)
+    assert curves.probability.to_numpy().tolist() == [[0, 1, 1], [0, 0, 1]]
+    assert curves.probability_high.to_numpy()[0, 0] == pytest.approx(0.975)
+    assert np.isnan(curves.median_capacity).all()
+    assert set(pairs.less_words.to_numpy().ravel()) == {"is not known"}
+    assert pairs.less.to_numpy().tolist() == [[0, 1, 0]]
+
+
+def test_reasons_are_beside_what_is_missing():
+    curves, pairs = tables(np.broadcast_to([9.0, 0.1, 1.0, 3.9], (20, 4)), places=[(0, 2), (2, 3)])
+    reasons = curves.median_capacity_reason.to_numpy()
+    assert reasons[0] == "no motion overturns it at any level"
+    assert reasons[1] == "every motion overturns it at every level"
+    assert all(reason.startswith("0 of the levels") for reason in reasons[2:])
+    assert (curves.median_capacity_reason == curves.dispersion_reason).all()
+    for name in ("median_capacity", "dispersion"):
+        assert np.isnan([curves[f"{name}{end}"] for end in ("", "_low", "_high")]).all()
+    assert set(pairs.gain_reason.to_numpy()) == {"one of both has no median"}
+    assert set(pairs.gain_words.to_numpy()) == {"is not known"}
+
+
+# ------------------------------------------------------------------ pairs
+
+
+def test_second_that_is_stronger_has_less_probability_and_a_gain():
+    _, pairs = tables(lognormal(60, 3, 1.0, 1.25), places=[(0, 1), (1, 0), (0, 0)])
+    assert pairs.gain.to_numpy() == pytest.approx([0.25, -0.2, 0.0], abs=0.03)
+    assert pairs.gain_words.to_numpy().tolist() == ["is positive", "is negative", "includes zero"]
+    assert (pairs.gain_reason == "").all()
+    middle = pairs.isel(level=12)
+    assert middle.less_words.to_numpy().tolist() == ["is positive", "is negative", "includes zero"]
+    assert middle.less.to_numpy()[0] == -middle.less.to_numpy()[1] > 0.1
+    np.testing.assert_array_equal(pairs.only_first[0], pairs.only_second[1])
+    assert not pairs.only_second[0].any()
+    assert pairs.only_first[0].to_numpy() == pytest.approx(60 * pairs.less[0].to_numpy())
+    ends = (pairs.less_low, pairs.less_high)
+    assert (ends[0] <= pairs.less).all()
+    assert (pairs.less <= ends[1]).all()
+
+
+def test_paired_structures_are_compared_under_the_same_motions():
+    """Motions differ much more than the structures: unpaired, no difference would be seen."""
+    random = np.random.default_rng(5)
+    capacities = np.exp(random.normal(size=(40, 1))) * [1.0, 1.1]
+    _, pairs = tables(capacities)
+    assert pairs.gain_words.item() == "is positive"
+    assert pairs.gain_high.item() - pairs.gain_low.item() < 0.3
+    assert (pairs.less_high - pairs.less_low).max() < 0.25
+    alone = capacities.copy()
+    random.shuffle(alone[:, 1])
+    assert tables(alone)[1].gain_words.item() == "includes zero"
+
+
+def test_difference_holds_the_true_one_in_most_samples():
+    """Of 40 motions, at the level where each structure alone overturns half of the time."""
+    held, at = 0, np.array([1.0])
+    true = binom.cdf(0, 1, 0.5) - 0.28846  # Φ(0) − Φ(ln(1/1.25)/0.4)
+    for seed in range(400):
+        drawn = means_within(
+            outcomes_of(lognormal(40, [2, seed], 1.0, 1.25), at), [0] * 40, 300, seed
+        )
+        _, low, high = interval(drawn[:, 0, 0] - drawn[:, 1, 0], 0.95)
+        held += low <= true <= high
+    assert held / 400 == pytest.approx(0.94, abs=0.04)

@@ -1,0 +1,212 @@
+"""The motion of three rigid bodies against that of the rocking block that the frame shall be."""
+
+import math
+from functools import partial
+
+import numpy as np
+import pytest
+from scipy.integrate import cumulative_simpson
+
+from tests.cases import RECORDS
+from topheavy import STANDARD_GRAVITY, Column, Pulse, RockingFrame, read_at2, simulate
+from topheavy.bodies.kinematics import cap_displacement
+from topheavy.second.newton_euler import ThreeBodies
+from topheavy.second.three_bodies import simulate_three_bodies
+
+TRILITH = Column(0.11, 0.4)
+FRAME = RockingFrame(TRILITH, 0.434)
+SHAPE = {"span": 1.2, "cap_depth": 0.3}
+MASS_RATIOS = (0.01, 0.434, 1.0, 10.0, 100.0)
+PULSES = (
+    Pulse("one-sine", 0.6, 8.0),
+    Pulse("one-cosine", -0.5, 20.0),
+    Pulse("ricker-symmetric", 0.5, 12.0),
+    Pulse("ricker-symmetric", 0.6, 6.0),
+)
+EL_CENTRO = read_at2(RECORDS / "el_centro_1940_NS.AT2").scaled(2.0)
+rocked = partial(simulate_three_bodies, FRAME, **SHAPE)
+
+
+def off(history, frame, excitation, duration, **start):
+    """Largest |θ − θ of the block| over α, of both columns."""
+    block = simulate(frame, excitation, duration=duration, samples=history.time, **start)
+    assert np.array_equal(np.isnan(history.rotation[:, 0]), np.isnan(block.rotation))
+    return np.nanmax(np.abs(history.rotation - block.rotation[:, None])) / frame.slenderness
+
+
+def energy(history, frame):
+    """Kinetic energy and that of the weight, J, for columns of 1 kg."""
+    mass = ThreeBodies(frame, **SHAPE).mass
+    lift = history.coordinates[:, [1, 4, 7]] @ mass[[1, 4, 7]]
+    return history.velocity**2 @ mass / 2 + STANDARD_GRAVITY * lift
+
+
+@pytest.mark.parametrize("mass_ratio", MASS_RATIOS)
+@pytest.mark.parametrize("pulse", PULSES, ids=lambda pulse: f"{pulse.shape}-{pulse.amplitude}")
+def test_three_bodies_move_as_the_rocking_block(mass_ratio, pulse):
+    frame = RockingFrame(TRILITH, mass_ratio)
+    history = simulate_three_bodies(frame, pulse, **SHAPE, duration=3.0, samples=200)
+    assert off(history, frame, pulse, 3.0) < 1e-7
+    block = simulate(frame, pulse, duration=3.0, samples=200)
+    assert np.nanmax(np.abs(history.rotation)) > 0.01 * frame.slenderness
+    for time in block.impacts:
+        assert np.abs(history.impacts - time).min() < 1e-7
+    assert (history.outcome == "overturned") == np.isnan(block.rotation[-1])
+
+
+def test_pulses_let_some_frames_overturn_and_some_survive_several_impacts():
+    histories = [rocked(pulse, duration=3.0, samples=2) for pulse in PULSES]
+    assert {"overturned", "rocking"} <= {history.outcome for history in histories}
+    assert max(history.impacts.size for history in histories) > 4
+
+
+@pytest.mark.parametrize("mass_ratio", [0.434, 10.0])
+def test_three_bodies_move_as_the_rocking_block_in_a_record(mass_ratio):
+    frame = RockingFrame(Column(0.5, 3.0), mass_ratio)
+    history = simulate_three_bodies(
+        frame, EL_CENTRO, span=4.0, cap_depth=0.5, duration=6.0, samples=300
+    )
+    assert off(history, frame, EL_CENTRO, 6.0) < 1e-8
+    assert history.impacts.size > 10  # uplift, bounces, rest and uplift again
+    assert np.isnan(history.forces).any()
+
+
+@pytest.mark.parametrize("mass_ratio", [0.0, 1.0, 100.0])
+def test_three_bodies_rock_to_rest_as_the_rocking_block(mass_ratio):
+    frame = RockingFrame(TRILITH, mass_ratio)
+    start = {"rotation": -0.6 * frame.slenderness}
+    history = simulate_three_bodies(frame, **SHAPE, duration=8.0, samples=200, **start)
+    assert off(history, frame, None, 8.0, **start) < 1e-7
+    assert history.outcome == "rests"
+    # the last bounces are slower than their error, hence the first alone
+    assert history.velocity_ratios[:10] == pytest.approx(frame.restitution, abs=1e-11)
+    assert not history.velocity[-1].any()
+
+
+def test_thrown_columns_start_with_the_rate_that_was_asked_for():
+    start = {"rotation": 0.1, "velocity": -1.5}
+    history = rocked(duration=0.5, samples=50, **start)
+    assert history.velocity[0, [2, 5]] == pytest.approx([-1.5, -1.5], rel=1e-13)
+    assert off(history, FRAME, None, 0.5, **start) < 1e-9
+
+
+def test_columns_stay_parallel_the_cap_level_and_the_contacts_closed_and_pressed():
+    history = rocked(PULSES[2], duration=3.0, samples=300)
+    left, right = history.rotation.T
+    assert np.abs(left - right).max() < 1e-11
+    assert np.abs(history.cap_angle).max() < 1e-11
+    assert np.abs(history.drift).max() < 1e-11
+    u, v = cap_displacement(TRILITH, left)  # Eqs. (4), (7)
+    np.testing.assert_allclose(history.cap_displacement, np.stack([u, v], axis=1), atol=1e-11)
+    assert history.outcome == "rocking"  # the contacts of a survivor press, and its impulses push
+    moving = np.isfinite(history.forces[:, 0, 0])
+    assert history.forces[moving][:, :, 1].min() > 0.0
+    assert history.impulses[:, :, 1].min() > 0.0
+
+
+def test_span_and_depth_of_the_cap_do_not_change_the_motion():
+    first = rocked(PULSES[2], duration=3.0, samples=200)
+    for span, depth in ((0.23, 0.02), (5.0, 3.0)):
+        other = simulate_three_bodies(
+            FRAME, PULSES[2], span=span, cap_depth=depth, duration=3.0, samples=200
+        )
+        np.testing.assert_allclose(other.rotation, first.rotation, atol=1e-9)
+        assert np.nanmax(np.abs(other.forces - first.forces)) > 0.1
+
+
+def test_energy_is_conserved_between_impacts_and_falls_by_the_square_of_the_ratio():
+    history = rocked(duration=1.5, rotation=0.7 * FRAME.slenderness, samples=400)
+    level = energy(history, FRAME)
+    flight = np.searchsorted(history.impacts, history.time, side="right")
+    assert flight[-1] >= 2
+    means = []
+    for number in range(flight[-1] + 1):
+        inside = level[flight == number]
+        assert np.ptp(inside) < 1e-10 * inside.mean()
+        means.append(inside.mean())
+    # the upright frame has no potential energy
+    np.testing.assert_allclose(np.divide(means[1:], means[:-1]), FRAME.restitution**2, rtol=1e-9)
+
+
+def test_ground_forces_add_up_to_the_momentum_that_the_frame_gains():
+    pulse = Pulse("half-sine", 0.6, 12.0)
+    begin, end = 0.06, 0.25  # aloft, and still pushed
+    times = np.linspace(begin, end, 401)
+    history = rocked(pulse, duration=end, samples=times)
+    mass = ThreeBodies(FRAME, **SHAPE).mass
+    total = mass[0::3].sum()
+    ground = history.forces[:, :2].sum(axis=1)
+    ground[:, 0] -= total * STANDARD_GRAVITY * pulse.excitation(times)  # in the ground's frame
+    ground[:, 1] -= total * STANDARD_GRAVITY
+    momentum = np.stack([(mass * history.velocity)[:, k::3].sum(axis=1) for k in (0, 1)], axis=1)
+    given = cumulative_simpson(ground, x=times, axis=0, initial=0.0)
+    np.testing.assert_allclose(given, momentum - momentum[0], atol=1e-9)
+
+
+def test_history_is_mirrored_when_the_ground_is():
+    right, left = (
+        rocked(pulse, duration=2.0, samples=150) for pulse in (PULSES[2], PULSES[2].scaled(-1.0))
+    )
+    mirror = np.array([-1.0, 1.0, -1.0] * 3)
+    swapped = [3, 4, 5, 0, 1, 2, 6, 7, 8]
+    np.testing.assert_allclose(left.coordinates[:, swapped] * mirror, right.coordinates, atol=1e-9)
+    other_side = left.forces[:, [1, 0, 3, 2]] * [-1.0, 1.0]
+    np.testing.assert_allclose(other_side, right.forces, atol=1e-7)
+    np.testing.assert_allclose(left.impacts, right.impacts, atol=1e-9)
+    np.testing.assert_allclose(
+        left.impulses[:, [1, 0, 3, 2]] * [-1.0, 1.0], right.impulses, atol=1e-9
+    )
+
+
+def test_cap_would_leave_its_seats_under_a_sharp_strong_pulse():
+    # The equation of motion goes on where the columns would have to hold the cap down.
+    pulse = Pulse("one-sine", 5.0, 33.7)
+    history = rocked(pulse, duration=1.0, samples=500)
+    assert history.outcome == "rocking"
+    lift = history.forces[:, 2:, 1].sum(axis=1)
+    assert np.nanmin(lift) < 0.0
+    assert np.abs(history.rotation[lift < 0.0]).max() < FRAME.slenderness
+
+
+@pytest.mark.parametrize(("share", "outcome"), [(0.999999, "no uplift"), (1.01, "rests")])
+def test_frame_uplifts_beyond_tan_alpha(share, outcome):
+    pulse = Pulse("one-sine", share * math.tan(FRAME.slenderness), 10.0)
+    history = rocked(pulse, duration=3.0, samples=50)
+    assert history.outcome == outcome
+    assert history.coordinates.any() == (outcome != "no uplift")
+
+
+def test_stocky_frame_stops_at_its_first_impact():
+    frame = RockingFrame(Column(1.2, 1.0), 1.0)  # Eq. (25) is negative: α = 50°
+    assert frame.restitution < 0.0
+    history = simulate_three_bodies(
+        frame, span=4.0, cap_depth=0.5, duration=5.0, rotation=0.2, samples=20
+    )
+    assert history.velocity_ratios == pytest.approx(np.full((1, 2), frame.restitution), abs=1e-11)
+    assert history.outcome == "rests"
+
+
+def test_flat_columns_end_the_history():
+    history = rocked(duration=5.0, rotation=-1.1 * FRAME.slenderness, samples=500)
+    assert history.outcome == "overturned"
+    last = np.flatnonzero(np.isfinite(history.rotation[:, 0]))[-1]
+    assert -math.pi / 2 < history.rotation[last, 0] < -1.4
+    assert last < 499
+
+
+def test_tighter_tolerance_changes_next_to_nothing():
+    usual, loose = (
+        rocked(PULSES[2], duration=3.0, samples=100, tolerance=tolerance)
+        for tolerance in (1e-12, 1e-10)
+    )
+    assert np.abs(usual.rotation - loose.rotation).max() < 1e-6 * FRAME.slenderness
+
+
+def test_contacts_that_come_apart_are_an_error():
+    with pytest.raises(ArithmeticError, match="a column is upright and another body is"):
+        rocked(duration=3.0, rotation=0.9 * FRAME.slenderness, tolerance=1e-2)
+
+
+def test_span_of_overlapping_columns_is_refused():
+    with pytest.raises(ValueError, match=r"span is 0\.1 m; expected more than the width of a col"):
+        rocked(duration=1.0, span=0.1)
