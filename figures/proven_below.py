@@ -9,14 +9,14 @@ from replication.drawing import DOUBLE, GREY, PAPER, make_figure, note, sheet
 KINDS = {"no uplift": "no uplift", "bounded": "bounded by the lemma", "followed": "followed"}
 WIDE = 0.003  # over the boundary: the edges of narrower boxes would hide them
 NAMES = {"bare": "Column", "fixed": "Fixed mass", "free": "Frame"}
-DRAWN = (0.0, 1.0, math.inf)  # mass ratios
+GAMMAS = (0.0, 1.0, math.inf)
 
 
 def draw(proven_below):
     colours = dict(zip(KINDS, greys(len(KINDS)), strict=True))
     figure, axis = sheet(DOUBLE, 70)
     names = []
-    shown = proven_below[proven_below.structure.isin(NAMES) & proven_below.mass_ratio.isin(DRAWN)]
+    shown = proven_below[proven_below.structure.isin(NAMES) & proven_below.mass_ratio.isin(GAMMAS)]
     for row, ((name, ratio), part) in enumerate(shown.groupby(["structure", "mass_ratio"])):
         label = NAMES[name] if name == "bare" else f"{NAMES[name]}, {gamma(ratio)}"
         names.append(label)

@@ -21,10 +21,10 @@ def panel(axis, cells, ratios):
         ends = np.sqrt(size[1:] * size[:-1])  # half-way on the axis in equal ratios
         ends = [size[0] ** 2 / ends[0], *ends, size[-1] ** 2 / ends[-1]]
         axis.add_patch(Rectangle((ends[0], edge), ends[-1] - ends[0], HIGH, linewidth=0, **HATCHED))
-        peaks = run.peak_over_alpha.where(~run.overturned & run.told).to_numpy()[None]
+        peaks = run.peak_over_alpha.where(~run.overturned & run.decided).to_numpy()[None]
         how = {"cmap": PEAKS, "vmin": 0, "vmax": 1, "rasterized": True}
         axis.pcolormesh(ends, [edge, edge + HIGH], peaks, **how)
-        for left, right, told in zip(ends[:-1], ends[1:], run.told, strict=True):
+        for left, right, told in zip(ends[:-1], ends[1:], run.decided, strict=True):
             if not told:
                 axis.add_patch(Rectangle((left, edge), right - left, HIGH, color=UNDECIDED, lw=0))
         around = {"facecolor": "none", "edgecolor": GREY, "linewidth": 0.5}

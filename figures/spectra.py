@@ -5,7 +5,7 @@ import numpy as np
 from figures.drawing import HIGHEST, PULSES, amplitude_axis, gamma
 from replication.drawing import DOUBLE, GREY, PAPER, letter, make_figure, note, shades, sheet
 
-DRAWN = [0.0, 1.0, np.inf]  # γ
+MASS_RATIOS = [0.0, 1.0, np.inf]  # γ
 
 
 def lowest(lines):
@@ -17,7 +17,7 @@ def lowest(lines):
 def panel(axis, cells):
     """Draw a line for each γ, with an open circle where it ends within the axes."""
     amplitude_axis(axis)
-    for mass_ratio, colour in zip(DRAWN, shades(len(DRAWN)), strict=True):
+    for mass_ratio, colour in zip(MASS_RATIOS, shades(len(MASS_RATIOS)), strict=True):
         frequencies, amplitudes = lowest(cells[cells.mass_ratio == mass_ratio])
         axis.plot(frequencies, amplitudes, color=colour, label=gamma(mass_ratio))
         if amplitudes[-1] < 0.9 * HIGHEST and frequencies[-1] < axis.get_xlim()[1]:

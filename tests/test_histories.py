@@ -410,9 +410,9 @@ def test_marches_impacts_and_steps_are_bounded(monkeypatch, bound, enough, few, 
     block, solve = (SLOW.linear(), closed) if "linear" in bound else (SLOW, reference.simulate)
     for amplitude in (*boundary(th.judge, block, 2.0, 4.0), 1.0, 9.0):
         pulse = th.Pulse("one-sine", amplitude, 15.7)
-        monkeypatch.setattr(f"topheavy.{bound}", enough)
+        monkeypatch.setattr(f"topheavy.second.{bound}", enough)
         solve(block, pulse, samples=2)
-    monkeypatch.setattr(f"topheavy.{bound}", few)
+    monkeypatch.setattr(f"topheavy.second.{bound}", few)
     with pytest.raises(ArithmeticError, match=rf"RockingBlock\(.*{says}"):
         solve(block, pulse.scaled(1.0 / 9.0), samples=2)
 

@@ -94,8 +94,8 @@ def test_study_names_no_other_but_those_that_it_needs(study):
 
 SHARED = re.compile(r"^\s*from steps(?!\.shared\b)\S* import", re.MULTILINE)
 OF_A_STEP = {
-    "studies/reversals/under.py",  # the structures that a step compares
-    "studies/certainty/under.py",  # the exchange of parameters that a step defines
+    "studies/reversals/subjects.py",  # the structures that a step compares
+    "studies/certainty/subjects.py",  # the exchange of parameters that a step defines
     "studies/certainty/steps/shares.py",
 }
 

@@ -69,7 +69,7 @@ const TOLERANCE = 1e-12; // of the last two terms of φ in a step, over α
 const SMALL = 1e-6; // over α: a smaller rotation is not counted, and may be the last
 const MOST_STEPS = 4e6;
 const [ROTATION, SINE, COSINE, TILT, GROUND] = Array.from({ length: 5 }, () => new Float64Array(17));
-const WORK = new Float64Array(17), FOUND = [];
+const WORK = new Float64Array(17), ROOTS = [];
 
 /** Fill ROTATION with the Taylor coefficients of φ about a state, to `order`. */
 function expand(block, motion, state, order) {
@@ -125,24 +125,24 @@ function follow(block, state, order, step) {
   for (let k = zeros + 1; k <= order; k++) others += Math.abs(c[k]) * (power *= step);
   let event = "", end = step;
   if (c[zeros] <= others && c[1] <= bend) { // neither φ / t^zeros nor φ̇ is proven positive
-    FOUND.length = 0;
-    roots(c.subarray(zeros), order - zeros, 0, step, FOUND);
-    if (FOUND.length) [end, event] = [FOUND[0], "landing"];
+    ROOTS.length = 0;
+    roots(c.subarray(zeros), order - zeros, 0, step, ROOTS);
+    if (ROOTS.length) [end, event] = [ROOTS[0], "landing"];
   }
   if (above > state.ceiling) {
-    FOUND.length = 0;
+    ROOTS.length = 0;
     WORK.set(c);
     WORK[0] -= state.ceiling;
-    roots(WORK, order, 0, step, FOUND);
-    if (FOUND.length && FOUND[0] < end) [end, event] = [FOUND[0], "flat"];
+    roots(WORK, order, 0, step, ROOTS);
+    if (ROOTS.length && ROOTS[0] < end) [end, event] = [ROOTS[0], "flat"];
   }
   if (above > state.height) {
-    FOUND.length = 0;
+    ROOTS.length = 0;
     const first = Math.max(0, zeros - 1); // of φ̇: its zero at t = 0 is no turn
     for (let k = first; k < order; k++) WORK[k - first] = (k + 1) * c[k + 1];
-    if (Math.abs(c[1]) <= bend) roots(WORK, order - 1 - first, 0, step, FOUND); // it may turn
-    FOUND.push(end);
-    for (const t of FOUND) if (t <= end) state.height = Math.max(state.height, value(c, order, t));
+    if (Math.abs(c[1]) <= bend) roots(WORK, order - 1 - first, 0, step, ROOTS); // it may turn
+    ROOTS.push(end);
+    for (const t of ROOTS) if (t <= end) state.height = Math.max(state.height, value(c, order, t));
     state.peak = Math.max(state.peak, state.height);
   }
   return [end, event];

@@ -62,7 +62,7 @@ def rotations(structure: Structure, pulse: Pulse, times: np.ndarray, settings: d
     return np.clip(turned, -abs(flat), abs(flat))
 
 
-def told(theta: np.ndarray, times: np.ndarray, alpha: float) -> tuple[str, float]:
+def outcome_in_words(theta: np.ndarray, times: np.ndarray, alpha: float) -> tuple[str, float]:
     """Return the word for what happens to a structure, and the time from which it is shown, s."""
     if abs(theta[-1]) > alpha:
         within = np.flatnonzero(np.abs(theta) <= FALLING * alpha)
@@ -121,7 +121,7 @@ def outcomes(scene, theta: dict[str, np.ndarray], times: np.ndarray, alpha: floa
     """Write what happens to each under it, hidden; return names, words, and from when they show."""
     found = []
     for name, middle in PLACES.items():
-        word, since = told(theta[name], times, alpha)
+        word, since = outcome_in_words(theta[name], times, alpha)
         how = {"ha": "center", "va": "bottom", "fontsize": 12, "color": COLOURS[word][1]}
         found.append((name, scene.text(middle, VIEW[2], word, visible=False, **how), since))
     return found

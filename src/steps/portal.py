@@ -171,7 +171,7 @@ def larger_columns(column: Column, pulse: Pulse, settings: dict, vase: dict) -> 
     of_goals = minima(of_each, pulse, settings["highest"], vase["floor"])
     goals = [("frame", math.nan, math.nan, of_goals[0].acceleration)]
     for span, portal, one in zip(spans, of_each[1:], of_goals[1:], strict=True):
-        borne = bearing(portal, pulse, one.found.bracket[0])
+        borne = bearing(portal, pulse, one.lowest.bracket[0])
         if borne.pulled_from == math.inf:
             goals.append(("portal", span, borne.friction, one.acceleration))
     sizes = np.geomspace(*(settings["sizes"][key] for key in ("lowest", "highest", "points")))

@@ -39,7 +39,7 @@ def spectrum(record: Record, columns: list[Column], gamma: float, tightened: flo
                 "size": column.size,
                 "overturned": ending.overturned,
                 "peak_over_alpha": ending.peak / column.slenderness,
-                "told": same and (ending.overturned or change < CHANGED),
+                "decided": same and (ending.overturned or change < CHANGED),
                 "change": change,
             }
         )
@@ -50,7 +50,7 @@ def second_route(table: pd.DataFrame, records: dict[str, Record], columns, count
     """Judge some of the decidable histories again by SciPy, in even steps."""
     differ, largest = 0, 0.0
     sizes = {round(column.size, 9): column for column in columns}
-    table = table[table.told]
+    table = table[table.decided]
     for row in table.iloc[np.linspace(0, len(table) - 1, count).astype(int)].itertuples():
         column = sizes[round(row.size, 9)]
         ending = reference.judge(RockingFrame(column, row.mass_ratio), records[row.record])
@@ -74,11 +74,11 @@ def main(settings: dict, paths: list[str], tightened: float) -> tuple[pd.DataFra
     runs = [(record, gamma) for record in records.values() for gamma in settings["mass_ratios"]]
     found = (spectrum(record, columns, gamma, tightened) for record, gamma in runs)
     table = pd.DataFrame([row for rows in progress(found, len(runs), "spectra") for row in rows])
-    of_told = table.change[table.told & ~table.overturned].max()
+    largest = table.change[table.decided & ~table.overturned].max()
     drawn = findings(table)
-    told = drawn["every_history_can_be_told"].with_evidence(largest_change_of_told=float(of_told))
+    told = drawn["every_history_is_decided"].with_evidence(largest_change_of_decided=float(largest))
     second = second_route(table, records, columns, settings["checked_by_second_route"])
-    more = {"every_history_can_be_told": told, "second_route": second}
+    more = {"every_history_is_decided": told, "second_route": second}
     return table.drop(columns="change"), drawn | more
 
 
@@ -87,7 +87,7 @@ def findings(rocking_spectra: pd.DataFrame) -> dict[str, Finding]:
     table, mass_ratios = rocking_spectra, sorted(rocking_spectra.mass_ratio.unique().tolist())
     both = {"index": ["record", "size"], "columns": "mass_ratio", "aggfunc": "first"}
     falls = table.pivot_table(values="overturned", **both).astype(bool)
-    falls = falls[table.pivot_table(values="told", **both).astype(bool).all(axis=1)]
+    falls = falls[table.pivot_table(values="decided", **both).astype(bool).all(axis=1)]
 
     def reversals(gamma: float) -> int:
         """Neighbouring sizes of which the smaller survives and the larger overturns."""
@@ -113,9 +113,9 @@ def findings(rocking_spectra: pd.DataFrame) -> dict[str, Finding]:
             compared=len(falls),
             overturned=[int(falls[gamma].sum()) for gamma in mass_ratios],
         ),
-        "every_history_can_be_told": truth(
-            table.told.all(),
-            not_told=int((~table.told).sum()),
+        "every_history_is_decided": truth(
+            table.decided.all(),
+            undecided=int((~table.decided).sum()),
             histories=len(table),
             nudge=NUDGE,
         ),

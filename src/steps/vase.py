@@ -14,7 +14,7 @@ from replication.workbench import Finding, grid, run, truth
 from steps.shared.bearing import bearing
 from steps.shared.spectrum import progress
 from steps.vase_poses import poses
-from steps.vase_searches import Minimum, lowest_told, lowest_wide, minima, minimum, rivals
+from steps.vase_searches import Minimum, lowest_decided, lowest_wide, minima, minimum, rivals
 from steps.vase_shares import PARAMETERS, WORTHS, shares
 from topheavy import (
     STANDARD_GRAVITY,
@@ -85,7 +85,7 @@ def held_down(portal: MonolithicPortal, pulse: Pulse, found: Minimum) -> dict[st
 
     Where it is pulled, the minimum and its error are NaN.
     """
-    last = found.found.bracket[0]
+    last = found.lowest.bracket[0]
     borne = bearing(portal, pulse, last)
     row = {"friction": borne.friction, "pulled_from": math.nan, "pulled_error": math.nan}
     if borne.pulled_from == math.inf:
@@ -106,7 +106,7 @@ def search(
     under = [*rivals(column, ratios)]
     first = minima([structure for *_, structure in under], motion, highest, floor)
     for (name, gamma, _), lowest in zip(under, first, strict=True):
-        found = lowest_told(lowest, highest, floor, tightened)
+        found = lowest_decided(lowest, highest, floor, tightened)
         row = {"structure": name, "mass_ratio": gamma, "found": found}
         row["wide"] = lowest_wide(found, highest, floor, settings["widths"])
         bare = rows[0] if rows else row
@@ -143,7 +143,7 @@ def plain(row: dict) -> dict:
 def searched(row: dict) -> dict:
     """Return a row with the width of its interval and of lower ones, and the wide intervals, g."""
     found = row["found"]
-    width = found.found.width if math.isfinite(found.acceleration) else math.nan
+    width = found.lowest.width if math.isfinite(found.acceleration) else math.nan
     wide = {f"wider_than_{width:g}": _or_nan(first) for width, first in row["wide"].items()}
     return plain(row) | {"width": width, "passed_over": found.passed_over} | wide
 

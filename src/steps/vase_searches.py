@@ -52,21 +52,21 @@ class Minimum:
 
     structure: Structure
     motion: Pulse | Record
-    found: LowestOverturning | None
+    lowest: LowestOverturning | None
     passed_over: int = 0
 
     @property
     def acceleration(self) -> float:
         """In g; infinite where nothing up to the highest acceleration was found to overturn."""
-        return self.found.factor if self.found and self.found.bracket else math.inf
+        return self.lowest.factor if self.lowest and self.lowest.bracket else math.inf
 
     @property
     def inside(self) -> float:
         """The middle of the interval, or of what the range has of it, g."""
-        last = self.found.upper[0] if self.found.upper else self.found.scale_range[1]
+        last = self.lowest.upper[0] if self.lowest.upper else self.lowest.scale_range[1]
         return 0.5 * (self.acceleration + last)
 
-    def told(self, tightened: float) -> bool:
+    def is_decided(self, tightened: float) -> bool:
         """Whether it overturns inside, also if nudged by `NUDGE` and at a tightened tolerance."""
         factors = [self.inside * (1.0 + off) for off in (-NUDGE, 0.0, NUDGE)]
         return bool(
@@ -79,7 +79,7 @@ class Minimum:
     @cached_property
     def error(self) -> float:
         """How far the boundary may be off, g: by SciPy, NaN where it finds none within 1e-3."""
-        low, high = self.found.bracket
+        low, high = self.lowest.bracket
         for distance in DISTANCES:
             above = min(high * (1.0 + distance), self.inside)
             if self._overturns(above) and not self._overturns(low * (1.0 - distance)):
@@ -122,19 +122,19 @@ def minima(
         return found
     lowest = lowest_together(searches, [floor * levels[place] for place in sought])
     for place, one in zip(sought, lowest, strict=True):
-        found[place] = replace(found[place], found=one)
+        found[place] = replace(found[place], lowest=one)
     return found
 
 
-def lowest_told(one: Minimum, highest: float, floor: float, tightened: float) -> Minimum:
+def lowest_decided(one: Minimum, highest: float, floor: float, tightened: float) -> Minimum:
     """Return the lowest minimum that can be decided, from the lowest one on.
 
     The intervals below it are passed over.
     """
     passed = 0
-    while math.isfinite(one.acceleration) and one.found.upper and not one.told(tightened):
+    while math.isfinite(one.acceleration) and one.lowest.upper and not one.is_decided(tightened):
         passed += 1
-        one = minimum(one.structure, one.motion, highest, floor, one.found.upper[1])
+        one = minimum(one.structure, one.motion, highest, floor, one.lowest.upper[1])
     return replace(one, passed_over=passed)
 
 

@@ -18,7 +18,7 @@ from topheavy.kernel.bernstein import (
     sign_changes,
     to_bernstein,
 )
-from topheavy.kernel.outcome import FOUND, HULL, POLYNOMIAL, STACK, working_array
+from topheavy.kernel.outcome import HULL, POLYNOMIAL, ROOTS, STACK, working_array
 
 
 def written(coefficients) -> tuple[np.ndarray, int]:
@@ -31,8 +31,8 @@ def written(coefficients) -> tuple[np.ndarray, int]:
 
 def found(coefficients, zeros: int = 0, limit: int = MAX_DEGREE) -> np.ndarray:
     w, degree = written(coefficients)
-    count = roots(w, POLYNOMIAL, zeros, degree, HULL, STACK, FOUND, limit)
-    return w[FOUND, :count].copy()
+    count = roots(w, POLYNOMIAL, zeros, degree, HULL, STACK, ROOTS, limit)
+    return w[ROOTS, :count].copy()
 
 
 def test_bernstein_form_has_the_same_values():

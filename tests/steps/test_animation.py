@@ -27,7 +27,7 @@ PULSE = Pulse("one-cosine", 0.29, 2 * math.pi / 1.5)
 )
 def test_word_is_what_happens(name, word):
     theta = animation.rotations(animation.structures(CASE)[name], PULSE, TIMES, CASE)
-    found, since = animation.told(theta, TIMES, ALPHA)
+    found, since = animation.outcome_in_words(theta, TIMES, ALPHA)
     assert found == word
     assert 1.5 < since < 6.0
     assert np.isfinite(theta).all()

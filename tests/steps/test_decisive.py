@@ -101,7 +101,7 @@ def test_history_that_a_billionth_of_the_record_changes_cannot_be_told(given, ch
     given(rocking_spectra, judge=judge)
     records = [th.Record(0.1, np.array([0.0, peak, 0.0]), "sharp") for peak in (1.0, 0.5)]
     rows = [rocking_spectra.spectrum(record, [COLUMN], 1.0, 3e-12)[0] for record in records]
-    assert [row["told"] for row in rows] == [False, True]
+    assert [row["decided"] for row in rows] == [False, True]
 
 
 @pytest.mark.parametrize(

@@ -16,7 +16,7 @@ def table(records):
             "size": size,
             "peak_over_alpha": 0.5,
             "overturned": size < 1.0,
-            "told": True,
+            "decided": True,
         }
         for number in range(records)
         for ratio in (0.0, 1.0)

@@ -95,11 +95,11 @@ def test_outcome_that_a_nudge_changes_is_not_decided():
 def test_scipy_is_asked_of_what_is_decided(monkeypatch):
     record = first_draws(ENSEMBLE, 1)[0].record()
     cells = [(COLUMN, record, factor, fell) for factor, fell in ((0.01, False), (20.0, True))]
-    assert second.by_scipy(cells) == {"told": 2, "differ": 0}
+    assert second.by_scipy(cells) == {"decided": 2, "differ": 0}
     wrong = [(*cell[:3], not cell[3]) for cell in cells]
-    assert second.by_scipy(wrong) == {"told": 2, "differ": 2}
+    assert second.by_scipy(wrong) == {"decided": 2, "differ": 2}
     monkeypatch.setattr(second, "decided", lambda *given: None)
-    assert second.by_scipy(wrong) == {"told": 0, "differ": 0}
+    assert second.by_scipy(wrong) == {"decided": 0, "differ": 0}
 
 
 def test_chosen_motions_keep_their_outcomes(shards):

@@ -37,9 +37,9 @@ def test_minimum_is_the_known_one_and_scipy_agrees(given):
     found = minimum(FIXED)
     assert found.acceleration == pytest.approx(0.20358, abs=1e-4)
     assert 0.0 < found.error < 1e-6
-    assert found.told(3e-12)
+    assert found.is_decided(3e-12)
     given(vase_searches, judge=Ending(False, 0.1, 3))  # a tighter tolerance removes the interval
-    assert not found.told(3e-12)
+    assert not found.is_decided(3e-12)
 
 
 def test_error_is_asked_inside_an_interval_and_a_minimum_that_is_wrong_has_none():
@@ -58,7 +58,7 @@ def test_narrow_interval_above_uplift_is_not_missed():
     """It is narrower than 0.001 of the uplift acceleration; twice the floor leads to 0.17655 g."""
     found = minimum(COLUMN, th.Pulse("one-cosine", 1.0, 0.55 * COLUMN.frequency_parameter))
     assert found.acceleration == pytest.approx(0.175426, abs=1e-6)
-    assert found.found.width < FLOOR * COLUMN.uplift_acceleration
+    assert found.lowest.width < FLOOR * COLUMN.uplift_acceleration
     # below uplift, too, and where nothing is left to search
     for highest, above in ((0.25, 0.0), (0.15, 0.0), (2.0, 2.0)):
         assert minimum(COLUMN, PULSE, highest, above).acceleration == math.inf
@@ -69,17 +69,17 @@ def test_interval_that_a_billionth_of_the_record_removes_is_passed_over():
     record = th.read_record(RECORDS / "el_centro_1940_NS.AT2")
     record = record.scaled(1.0 / record.peak_acceleration)
     lowest = minimum(COLUMN, record)
-    assert lowest.found.width < 1e-9
-    assert not lowest.told(3e-12)
-    found = vase_searches.lowest_told(lowest, 2.0, FLOOR, 3e-12)
-    assert (found.passed_over, found.told(3e-12)) == (2, True)
+    assert lowest.lowest.width < 1e-9
+    assert not lowest.is_decided(3e-12)
+    found = vase_searches.lowest_decided(lowest, 2.0, FLOOR, 3e-12)
+    assert (found.passed_over, found.is_decided(3e-12)) == (2, True)
     assert found.acceleration > lowest.acceleration
     assert found.error < 1e-7
     for off in (-1e-9, 1e-9):
         assert reference.judge(COLUMN, record.scaled(found.inside * (1.0 + off))).overturned
     lowest = minimum(COLUMN, PULSE, 0.275)  # in an interval that has no end
-    whole = vase_searches.lowest_told(lowest, 0.275, FLOOR, 3e-12)
-    assert (whole.found.upper, whole.passed_over) == (None, 0)
+    whole = vase_searches.lowest_decided(lowest, 0.275, FLOOR, 3e-12)
+    assert (whole.lowest.upper, whole.passed_over) == (None, 0)
     assert whole.acceleration == pytest.approx(0.27282, abs=1e-4)
     assert whole.inside == pytest.approx(0.5 * (whole.acceleration + 0.275))
 

@@ -37,7 +37,7 @@ class Part:
     def figures(self) -> dict[str, list[str]]:
         """Its figures, named by their scripts without the ending: the tables that each draws."""
         folder = Path("figures") if self.name == PAPER else Path("studies", self.name, "figures")
-        drawn = {path.with_suffix("").as_posix(): drawn_from(path) for path in folder.glob("*.py")}
+        drawn = {path.with_suffix("").as_posix(): tables_of(path) for path in folder.glob("*.py")}
         return {name: drawn[name] for name in sorted(drawn) if drawn[name]}
 
     @property
@@ -79,7 +79,7 @@ def edition_of(study: str, root: Path = Path()) -> Edition:
     return Edition(**entries)
 
 
-def drawn_from(script: Path) -> list[str]:
+def tables_of(script: Path) -> list[str]:
     """Return the tables that a figure is drawn from: the parameters of its function `draw`.
 
     A module without that function is no figure, and draws from none.

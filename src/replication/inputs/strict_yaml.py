@@ -78,7 +78,7 @@ def read_yaml(path: str | Path) -> Any:
             "expected text"
         ) from None
     except yaml.MarkedYAMLError as error:
-        raise ValueError(f"{path}, {_told(error)}") from None
+        raise ValueError(f"{path}, {_in_words(error)}") from None
     if content is None:
         raise ValueError(f"{path} is empty; expected YAML")
     return content
@@ -132,7 +132,7 @@ def _check_extent(path: str | Path, text: str) -> None:
                 raise ValueError(f"{path}, line {event.start_mark.line + 1}: {problem}")
 
 
-def _told(error: yaml.MarkedYAMLError) -> str:
+def _in_words(error: yaml.MarkedYAMLError) -> str:
     """Return where YAML is wrong, what is wrong, and within what."""
     line = f"line {error.problem_mark.line + 1}: {error.problem}"
     if error.context is None:

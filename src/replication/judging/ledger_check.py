@@ -56,7 +56,7 @@ def _faults(
     errors = list(validator.iter_errors(row))
     # Faults that follow from a misspelt verdict are not reported.
     first = [error for error in errors if "allOf" not in error.schema_path] or errors
-    if broken := {message for error in first for message in _told(error, validator.schema)}:
+    if broken := {message for error in first for message in _in_words(error, validator.schema)}:
         yield from sorted(broken)
         return
     claim = Claim.of(row, ledger)
@@ -83,7 +83,7 @@ def _faults(
         )
 
 
-def _told(error: ValidationError, schema: Mapping[str, Any]) -> Iterator[str]:
+def _in_words(error: ValidationError, schema: Mapping[str, Any]) -> Iterator[str]:
     if error.validator is None:  # a key that some other key forbids
         clause = schema["allOf"][error.schema_path[1]]
         yield f"the row breaks a rule of the ledger: {clause['description']}"

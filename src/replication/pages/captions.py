@@ -12,7 +12,7 @@ from replication.judging.claim import JudgedClaim
 from replication.judging.verdicts import VERDICTS
 
 MARKUP = re.compile(r"([\\*`|_])")
-TOLD = ("where", "statement", "verdict", "remark")
+FIELDS = ("where", "statement", "verdict", "remark")
 """What the report tells of a claim."""
 
 NO_CAPTION = (
@@ -83,7 +83,7 @@ def captioned(
         "caption": escaped(entry["caption"]),
         "alt": escaped(alternative(entry)),
         "verdict": verdict(claim.verdict for claim in about),
-        "claims": [{key: escaped(getattr(claim, key)) for key in TOLD} for claim in about],
+        "claims": [{key: escaped(getattr(claim, key)) for key in FIELDS} for claim in about],
     }
 
 

@@ -18,7 +18,7 @@ def opening(root: Path = Path()) -> dict[str, list[str]]:
     rows = read_judged(root / "results" / "claims.json")
     start = "Figures and their claims are in the menu on the left, by subject."
     told = {
-        title: [_told(row) for row in rows if row.verdict == of] for of, title in TITLES.items()
+        title: [_line(row) for row in rows if row.verdict == of] for of, title in TITLES.items()
     }
     return {
         escaped(cited["title"]): [escaped(f"{cited.get('abstract', '')} {start}")],
@@ -29,6 +29,6 @@ def opening(root: Path = Path()) -> dict[str, list[str]]:
     }
 
 
-def _told(row: JudgedClaim) -> str:
+def _line(row: JudgedClaim) -> str:
     condition = f"On condition: {row.condition}." if row.condition else ""
     return escaped(f"{row.statement} ({row.where}) {condition} {row.remark}")

@@ -15,7 +15,7 @@ from replication.pages.captions import alternative
 FILE = re.compile(
     r'\b(?:import|include|json|csv|yaml|toml|xml|read|image|bibliography)\s*\(?\s*"([^"@]+\.\w+)"'
 )
-FOUND = re.compile(r'\bfound\("(\w+)"\)')
+FINDING = re.compile(r'\bfound\("(\w+)"\)')
 TABLE = re.compile(r'\btable-of\("(\w+)"\)')
 PICTURE = re.compile(r'\bpicture\(\s*("\w+"|\([^)]*\))')
 
@@ -38,7 +38,7 @@ def reads(*sources: str | Path, root: str | Path = ".") -> list[str]:
         text = (Path(root) / path).read_text(encoding="utf-8")
         for name in FILE.findall(text):
             waiting.append(name[1:] if name[0] == "/" else str(Path(path).parent / name))
-        waiting += [f"results/findings/{name}.json" for name in FOUND.findall(text)]
+        waiting += [f"results/findings/{name}.json" for name in FINDING.findall(text)]
         waiting += [f"results/tables/{name}.csv" for name in TABLE.findall(text)]
     return sorted(found)
 

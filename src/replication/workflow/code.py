@@ -159,10 +159,10 @@ def _nodes(tree: ast.AST) -> Iterator[ast.AST]:
 @cache
 def _files(root: Path, module: str, name: str) -> tuple[Path, ...]:
     """Return the files that are read when a name is imported from a module."""
-    return tuple(_found(root, module, name))
+    return tuple(_modules(root, module, name))
 
 
-def _found(root: Path, module: str, name: str) -> Iterator[Path]:
+def _modules(root: Path, module: str, name: str) -> Iterator[Path]:
     if not module:
         return
     parts = module.split(".")

@@ -8,12 +8,12 @@ import numpy as np
 
 from replication.workbench import truth
 from steps.assumptions.choices import Choices
-from steps.assumptions.quantity import Found, Quantity, Sections
+from steps.assumptions.quantity import Answer, Quantity, Sections
 from steps.shared.peak_forces import FORCES, PINNED, RIGID, held, held_peaks, rocking_peaks
 from topheavy import Cap, Column, Pulse, RockingFrame, simulate
 
 
-def limits(choices: Choices, sections: Sections) -> Found:
+def limits(choices: Choices, sections: Sections) -> Answer:
     """The largest ratio of the bending moments of survivors, and whether all forces are smaller.
 
     The condition is that of the claim: a rigid held frame and, for bending moments, pinned tops.
@@ -40,7 +40,7 @@ def limits(choices: Choices, sections: Sections) -> Found:
         for (name, top, stiffness), ratio in largest.items()
         if stiffness == RIGID and (top == PINNED or name != "bending_moment")
     ]
-    return Found(
+    return Answer(
         max(ratio for (name, *_), ratio in largest.items() if name == "bending_moment"),
         truth(
             max(largest.values()) < 1.0,

@@ -7,7 +7,7 @@ import numpy as np
 
 from replication.workbench import grid, truth
 from steps.assumptions.choices import Choices
-from steps.assumptions.quantity import Found, Quantity, Sections
+from steps.assumptions.quantity import Answer, Quantity, Sections
 from topheavy import Column, Pulse, RockingFrame, judge
 from topheavy.bodies.massless_columns import SIMPLIFICATIONS, simplified
 
@@ -27,20 +27,20 @@ def restitutions(choices: Choices, sections: Sections) -> Iterator[tuple[float, 
                 yield choices.factors(column)[1], choices.factors(frame)[1]
 
 
-def restitution_is_smaller(choices: Choices, sections: Sections) -> Found:
+def restitution_is_smaller(choices: Choices, sections: Sections) -> Answer:
     """The smallest difference between √r of the column and √r of its frame."""
     least = min(column - frame for column, frame in restitutions(choices, sections))
-    return Found(least, truth(least > 0.0))
+    return Answer(least, truth(least > 0.0))
 
 
-def more_energy_is_dissipated(choices: Choices, sections: Sections) -> Found:
+def more_energy_is_dissipated(choices: Choices, sections: Sections) -> Answer:
     """The number of frames that keep rocking and lose no more energy than their column."""
     rocking = [pair for pair in restitutions(choices, sections) if min(pair) >= 0.0]
     against = [(column, frame) for column, frame in rocking if not frame**2 < column**2]
-    return Found(len(against), truth(not against))
+    return Answer(len(against), truth(not against))
 
 
-def allen_error(choices: Choices, sections: Sections) -> Found:
+def allen_error(choices: Choices, sections: Sections) -> Answer:
     """The median error of their model's peak, and whether p̂ for γ → ∞ causes most of it."""
     settings = sections["allen_errors"]
     errors: dict[str, list[float]] = {name: [] for name in SIMPLIFICATIONS}
@@ -59,7 +59,7 @@ def allen_error(choices: Choices, sections: Sections) -> Found:
                     errors[name].append(other / peak - 1.0)
     median = {name: float(np.nanmedian(np.abs(found))) for name, found in errors.items()}
     lesser = max(median["linearised"], median["massless restitution"])
-    return Found(median["all"], truth(median["massless frequency"] > lesser))
+    return Answer(median["all"], truth(median["massless frequency"] > lesser))
 
 
 QUANTITIES = {

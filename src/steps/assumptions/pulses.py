@@ -9,7 +9,7 @@ import numpy as np
 
 from replication.workbench import truth
 from steps.assumptions.choices import Choices, Structure
-from steps.assumptions.quantity import Found, Quantity, Sections
+from steps.assumptions.quantity import Answer, Quantity, Sections
 from topheavy import Column, Pulse, RockingFrame, judge, simulate
 
 STEP = 0.05  # of the pulse's amplitude: of the factors among which the lowest is sought
@@ -52,44 +52,44 @@ def lowest(choices: Choices, structure: Structure, pulse: Pulse, most: float) ->
     return high
 
 
-def heavier_survives_more(choices: Choices, sections: Sections) -> Found:
+def heavier_survives_more(choices: Choices, sections: Sections) -> Answer:
     settings = sections["heavier"]
     column = Column(**settings["column"])
     pulse = replace(a_pulse(settings), amplitude=column.uplift_acceleration)
     frames = [RockingFrame(column, gamma) for gamma in settings["mass_ratios"]]
     found = [lowest(choices, frame, pulse, MOST) for frame in frames]
     rises = all(low < high for low, high in pairwise(found))
-    return Found(found[-1] / found[0] - 1.0, truth(rises))
+    return Answer(found[-1] / found[0] - 1.0, truth(rises))
 
 
-def column_falls(choices: Choices, sections: Sections) -> Found:
+def column_falls(choices: Choices, sections: Sections) -> Answer:
     """The minimum overturning amplitude of the column, in g, and whether the pulse overturns it."""
     column, pulse = Column(**sections["heavier"]["column"]), a_pulse(sections["heavier"])
     level = column.uplift_acceleration
     found = lowest(choices, column, replace(pulse, amplitude=level), MOST)
-    return Found(found * level, truth(choices.falls(column, pulse)))
+    return Answer(found * level, truth(choices.falls(column, pulse)))
 
 
-def heaviest_stands(choices: Choices, sections: Sections) -> Found:
+def heaviest_stands(choices: Choices, sections: Sections) -> Answer:
     settings = sections["heavier"]
     frame, pulse = (
         RockingFrame(Column(**settings["column"]), settings["mass_ratios"][-1]),
         a_pulse(settings),
     )
-    return Found(peak(choices, frame, pulse), truth(not choices.falls(frame, pulse)))
+    return Answer(peak(choices, frame, pulse), truth(not choices.falls(frame, pulse)))
 
 
-def scale_effect(choices: Choices, sections: Sections, larger: bool) -> Found:
+def scale_effect(choices: Choices, sections: Sections, larger: bool) -> Answer:
     """The peak of a larger column, or under a shorter pulse, if the first column overturns."""
     settings = sections["scale_effects"]
     small, short = Column(**settings["column"]), a_pulse(settings)
     long = replace(short, angular_frequency=short.angular_frequency / settings["longer"])
     survivor, pulse = (similar(small, settings["larger"]), long) if larger else (small, short)
     holds = choices.falls(small, long) and not choices.falls(survivor, pulse)
-    return Found(peak(choices, survivor, pulse), truth(holds))
+    return Answer(peak(choices, survivor, pulse), truth(holds))
 
 
-def lowest_rises(choices: Choices, sections: Sections) -> Found:
+def lowest_rises(choices: Choices, sections: Sections) -> Answer:
     """Count the steps of γ over which the minimum overturning amplitude falls."""
     settings = sections["assumptions"]["spectra"]
     column = Column(**sections["stability"]["column"])
@@ -101,10 +101,10 @@ def lowest_rises(choices: Choices, sections: Sections) -> Found:
             pulse = Pulse(shape, column.uplift_acceleration, ratio * p)
             found = [lowest(choices, frame, pulse, settings["most"]) for frame in frames]
             exceptions += sum(high < low * (1.0 - APART) for low, high in pairwise(found))
-    return Found(exceptions, truth(exceptions == 0))
+    return Answer(exceptions, truth(exceptions == 0))
 
 
-def identical_response(choices: Choices, sections: Sections) -> Found:
+def identical_response(choices: Choices, sections: Sections) -> Answer:
     """How far the frame is from the equivalent column with that column's own √r, over α.
 
     The equivalent column has the size that gives it the frame's p̂: of Eq. (24) for rectangles.
@@ -126,7 +126,7 @@ def identical_response(choices: Choices, sections: Sections) -> Found:
         float(np.nanmax(np.abs(histories[0] - other))) / block.slenderness
         for other in histories[1:]
     )
-    return Found(apart, truth(apart < ALIKE, holds_when=given < ALIKE))
+    return Answer(apart, truth(apart < ALIKE, holds_when=given < ALIKE))
 
 
 QUANTITIES = {

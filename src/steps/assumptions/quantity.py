@@ -10,7 +10,7 @@ Sections: TypeAlias = dict[str, Any]
 """The sections of the config, by name, and the records."""
 
 
-class Found(NamedTuple):
+class Answer(NamedTuple):
     """A quantity's number, and the finding by which its claim is judged."""
 
     number: float
@@ -22,4 +22,4 @@ class Quantity(NamedTuple):
 
     claim: str | None
     unit: str
-    find: Callable[[Choices, Sections], Found]
+    find: Callable[[Choices, Sections], Answer]

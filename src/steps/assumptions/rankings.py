@@ -10,7 +10,7 @@ import numpy as np
 from replication.workbench import grid, truth
 from steps.assumptions.choices import Choices, beyond_slenderness, by_energy
 from steps.assumptions.pulses import similar
-from steps.assumptions.quantity import Found, Quantity, Sections
+from steps.assumptions.quantity import Answer, Quantity, Sections
 from steps.stability import Trial, orders
 from topheavy import Column, Pulse, RockingFrame, judge, overturning_map
 
@@ -29,7 +29,7 @@ def overturned(
     return np.array([choices.falls(structure, pulse.scaled(factor)) for factor in amplitudes])
 
 
-def ranking(choices: Choices, sections: Sections, name: str) -> Found:
+def ranking(choices: Choices, sections: Sections, name: str) -> Answer:
     """Count the amplitudes that overturn only the trial that should be more stable."""
     settings = sections["stability"]
     column, amplitudes = (
@@ -56,10 +56,10 @@ def ranking(choices: Choices, sections: Sections, name: str) -> Found:
         "pulse": truth(against == 0),
         "lowest": truth(rises),
     }[choices.sense]
-    return Found(against, finding)
+    return Answer(against, finding)
 
 
-def heavier_falls_alone_on_the_map(choices: Choices, sections: Sections) -> Found:
+def heavier_falls_alone_on_the_map(choices: Choices, sections: Sections) -> Answer:
     """Count the pulses of a dense map that overturn only the heavier of two neighbouring frames.
 
     The map uses two criteria; each pulse that it finds is judged again.
@@ -92,10 +92,10 @@ def heavier_falls_alone_on_the_map(choices: Choices, sections: Sections) -> Foun
             for i in np.flatnonzero(after < before):  # so it seems: bands near uplift are narrow
                 finer = np.arange(amplitudes[0], amplitudes[after[i]], FINER * level)
                 rises &= any(choices.falls(light, Pulse(shape, a, omegas[i])) for a in finer)
-    return Found(count, truth(count == 0, holds_when=rises))
+    return Answer(count, truth(count == 0, holds_when=rises))
 
 
-def heavier_falls_alone_under_records(choices: Choices, sections: Sections) -> Found:
+def heavier_falls_alone_under_records(choices: Choices, sections: Sections) -> Answer:
     """Count the sizes and records for which only the heavier frame overturns."""
     settings, spec = sections["rocking_spectra"], sections["assumptions"]["record_sizes"]
     column = Column(**settings["column"])
@@ -108,7 +108,7 @@ def heavier_falls_alone_under_records(choices: Choices, sections: Sections) -> F
                 for frame in (RockingFrame(scaled, gamma) for gamma in settings["mass_ratios"])
             ]
             count += sum(heavy and not light for light, heavy in pairwise(falls))
-    return Found(count, truth(count == 0))
+    return Answer(count, truth(count == 0))
 
 
 def _ranked(claim: str, name: str) -> Quantity:

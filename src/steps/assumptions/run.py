@@ -37,7 +37,7 @@ def main(assumptions: list[dict], ledger: dict[str, Claim], sections: Sections, 
     """Return the rows of the table: each quantity, ours and by each alternative that reaches it."""
 
     @cache
-    def found(name: str, choices: Choices) -> tuple[float, float, str]:
+    def answer(name: str, choices: Choices) -> tuple[float, float, str]:
         """Return a quantity's number, an estimate of its error, and its verdict."""
         finer = replace(choices, tolerance=tightened, samples=2 * choices.samples - 1)
         first, again = (QUANTITIES[name].find(option, sections) for option in (choices, finer))
@@ -54,8 +54,8 @@ def main(assumptions: list[dict], ledger: dict[str, Claim], sections: Sections, 
         for alternative in assumption["alternatives"]:
             for name in assumption["reaches"]:
                 quantity = QUANTITIES[name]
-                ours, error, before = found(name, Choices())
-                other, other_error, after = found(name, made[assumption["id"]][alternative["id"]])
+                ours, error, before = answer(name, Choices())
+                other, other_error, after = answer(name, made[assumption["id"]][alternative["id"]])
                 claim = ledger.get(quantity.claim or "", UNCLAIMED)
                 if claim is not UNCLAIMED and before != claim.expected:
                     raise ArithmeticError(f"{name}: {before}, and {claim.expected} in the ledger")

@@ -6,7 +6,7 @@ import numpy as np
 
 from replication.workbench import truth, value
 from steps.assumptions.choices import Choices
-from steps.assumptions.quantity import Found, Quantity, Sections
+from steps.assumptions.quantity import Answer, Quantity, Sections
 from topheavy import Column, RockingBlock, RockingFrame, simulate
 from topheavy.bodies.structures import STANDARD_GRAVITY
 from topheavy.derivation.mends import mended_quotient
@@ -40,19 +40,19 @@ def passage(choices: Choices, sections: Sections) -> dict[str, float]:
     }
 
 
-def number(choices: Choices, sections: Sections, claim: str) -> Found:
+def number(choices: Choices, sections: Sections, claim: str) -> Answer:
     found = passage(choices, sections)[claim]
     if claim == "trilith_stays_below_uplift":
-        return Found(found, truth(found < 1.0))
+        return Answer(found, truth(found < 1.0))
     meant = {}
     if claim == "trilith_mass_ratio":
         cap, columns = choices.masses or sections["trilith"]["printed_masses"]
         if mended := mended_quotient(cap, columns, f"{sections['trilith']['mass_ratio']}"):
             meant = {"meant_value": mended[1], "kind": mended[0].kind}
-    return Found(found, value(found, EPS, **meant))
+    return Answer(found, value(found, EPS, **meant))
 
 
-def no_pure_rocking(choices: Choices, sections: Sections) -> Found:
+def no_pure_rocking(choices: Choices, sections: Sections) -> Answer:
     """The largest steady rotation over α after all starts, and whether it always comes to rest."""
     settings, (_, frame) = sections["trilith"], trilith(choices, sections)
     u, f, duration = settings["table_amplitude"], settings["table_frequency"], settings["duration"]
@@ -72,7 +72,7 @@ def no_pure_rocking(choices: Choices, sections: Sections) -> Found:
         rests[share] = response.outcome in ("no uplift", "rests")
         late = np.abs(response.rotation[response.time > 0.75 * duration]).max()
         steady = max(steady, float(late) / frame.slenderness)
-    return Found(steady, truth(all(rests.values()), holds_when=rests.get(0.0, False)))
+    return Answer(steady, truth(all(rests.values()), holds_when=rests.get(0.0, False)))
 
 
 def _numbered(claim: str, unit: str = "") -> Quantity:

@@ -5,12 +5,12 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-STANDS, FALLS, UNTOLD = "s", "f", "?"
+STANDS, FALLS, UNKNOWN = "s", "f", "?"
 
 
-def written(fell: ArrayLike, told: ArrayLike = True) -> str:
-    """Return a letter for each outcome: STANDS, FALLS, or UNTOLD if it cannot be decided."""
-    return "".join(np.where(told, np.where(fell, FALLS, STANDS), UNTOLD))
+def written(fell: ArrayLike, decided: ArrayLike = True) -> str:
+    """Return a letter for each outcome: STANDS, FALLS, or UNKNOWN if it cannot be decided."""
+    return "".join(np.where(decided, np.where(fell, FALLS, STANDS), UNKNOWN))
 
 
 def read(texts: Iterable[str]) -> NDArray[np.str_]:

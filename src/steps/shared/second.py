@@ -39,7 +39,7 @@ def decided(overturns: Callable[[float], bool], factor: float) -> bool | None:
 
 
 def by_scipy(cells: Iterable[tuple[Structure, Record, float, bool]]) -> dict[str, int]:
-    """Return how many outcomes are decided (`told`), and of these how many SciPy has otherwise.
+    """Return how many outcomes are decided (`decided`), and of these how many SciPy has otherwise.
 
     A cell is a structure, a motion, the factor on it, and whether it is said to overturn.
     """
@@ -48,4 +48,4 @@ def by_scipy(cells: Iterable[tuple[Structure, Record, float, bool]]) -> dict[str
         if decided(partial(overturns, structure, motion), factor) is not None:
             told += 1
             differ += reference.judge(structure, motion.scaled(factor)).overturned != fell
-    return {"told": told, "differ": differ}
+    return {"decided": told, "differ": differ}

@@ -66,7 +66,7 @@ class Swept:
         return np.array([draw.place for draw in self.draws])
 
 
-def under(record: Record, asked: Iterable[Asked]) -> list[NDArray[np.bool_]]:
+def overturned_under(record: Record, asked: Iterable[Asked]) -> list[NDArray[np.bool_]]:
     """Return what overturns under one motion, for each question: shape (structures, levels)."""
     asked = list(asked)
     searches, factors = [], []
@@ -86,7 +86,8 @@ def sweep(questions: Mapping[str, Asked], ensemble: Mapping[str, Any], shard: st
     for draw in progress(mine, len(mine), "motions"):
         here = {name: one for name, one in questions.items() if draw.number < one.motions}
         record = draw.record()
-        for (name, one), fell in zip(here.items(), under(record, here.values()), strict=True):
+        overturned = overturned_under(record, here.values())
+        for (name, one), fell in zip(here.items(), overturned, strict=True):
             place = ensemble["families"].index(draw.family)
             motion = place, draw.place, draw.number
             found[name].append((motion, MEASURES[one.measure](record), fell))

@@ -15,7 +15,7 @@ from topheavy.kernel.compiled import compiled
 class Frame(NamedTuple):
     """What the forces depend on, in m and s: `squared` is p̂², `level` tan α.
 
-    `each` and `beam` are the shares of one column and of the cap beam in the weight.
+    `column_share` and `beam_share` are the shares of one column and of the cap beam in the weight.
     """
 
     size: float
@@ -23,8 +23,8 @@ class Frame(NamedTuple):
     half_height: float
     level: float
     squared: float
-    each: float
-    beam: float
+    column_share: float
+    beam_share: float
     span: float
     half_depth: float
     centre: float
@@ -48,17 +48,17 @@ def forces_at(frame, theta, rate, ground, heights, bending):
     inward, turning = frame.size * rate**2 / frame.gravity, frame.size * angular / frame.gravity
     x = turning * along + inward * side * across  # of a column's centre, in g: Eq. (6)
     z = turning * side * across - inward * along  # Eq. (9), as meant
-    top_x, top_z = frame.beam * (ground + 2.0 * x), frame.beam * (1.0 + 2.0 * z)
+    top_x, top_z = frame.beam_share * (ground + 2.0 * x), frame.beam_share * (1.0 + 2.0 * z)
     shift = (b * top_z - frame.half_depth * top_x) / frame.span
     aside = -side * across / along * shift
-    load = frame.each / (2.0 * frame.half_height)
+    load = frame.column_share / (2.0 * frame.half_height)
     rotary = load * angular * frame.half_width**2 / (3.0 * frame.gravity)
     steady = load * (ground * cos - sin + b * rate**2 / frame.gravity)
     shear, moment = 0.0, 0.0
     for column in range(2):
         end = 2.0 * column - 1.0
-        horizontal = top_x / 2.0 + end * aside + frame.each * (ground + x)
-        vertical = top_z / 2.0 + end * shift + frame.each * (1.0 + z)
+        horizontal = top_x / 2.0 + end * aside + frame.column_share * (ground + x)
+        vertical = top_z / 2.0 + end * shift + frame.column_share * (1.0 + z)
         shear += horizontal
         moment -= (b + end * frame.span / 2.0) * vertical
         base = b * (horizontal * sin + vertical * cos)

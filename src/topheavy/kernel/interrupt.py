@@ -14,21 +14,21 @@ from numpy.typing import NDArray
 
 from topheavy.kernel.outcome import HALT, working_array
 
-Found = TypeVar("Found")
+Result = TypeVar("Result")
 
 #: Histories of fewer samples, all together, are over within a second or two, whatever happens.
 LONG = 100_000
 
 
 def in_threads(
-    calls: Sequence[Callable[[NDArray[np.float64]], Found]], threads: int = 1
-) -> list[Found]:
+    calls: Sequence[Callable[[NDArray[np.float64]], Result]], threads: int = 1
+) -> list[Result]:
     """Return what the calls return; each thread takes the next and gives it its working array.
 
     Whatever ends the wait halts the histories under way at their next step, and all that follow at
     their first.
     """
-    found: dict[int, Found] = {}
+    found: dict[int, Result] = {}
     waiting = enumerate(calls)
     arrays = [working_array() for _ in range(threads)]
 

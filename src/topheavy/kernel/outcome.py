@@ -29,7 +29,7 @@ from topheavy.kernel.forcing import (
     two_lines,
 )
 from topheavy.kernel.march import march
-from topheavy.kernel.rest import DRAWN_BOUNCE, LAST_BOUNCE, comes_to_rest, next_tick
+from topheavy.kernel.rest import LAST_BOUNCE, RATIO_BOUNCE, comes_to_rest, next_tick
 from topheavy.kernel.tail import free_rocking
 from topheavy.kernel.taylor import ROTATION, Oscillator, State, evaluate, expand, longest_step
 
@@ -50,7 +50,7 @@ MAX_STEPS = 200_000
 NOTHING, LANDING, FLAT = range(3)
 #: Rows of the working array after those of `taylor`: the step polynomial and its derivative on
 #: [0, 1], their Bernstein coefficients, the roots found, and the stack of `bernstein.roots`.
-POLYNOMIAL, SLOPE, HULL, SLOPE_HULL, FOUND, STACK = range(7, 13)
+POLYNOMIAL, SLOPE, HULL, SLOPE_HULL, ROOTS, STACK = range(7, 13)
 #: The row that begins with 1 when a history is to be given up: see `bernstein.roots` and
 #: `topheavy.kernel.interrupt`.
 HALT = STACK + MAX_DEPTH
@@ -153,14 +153,14 @@ def proven(w, order, zeros, flat, peak):
         largest = max(largest, w[HULL, k])
 
     end, event = 1.0, NOTHING
-    if least <= 0.0 and roots(w, POLYNOMIAL, zeros, order, HULL, STACK, FOUND, 1) > 0:
-        end, event = w[FOUND, 0], LANDING
+    if least <= 0.0 and roots(w, POLYNOMIAL, zeros, order, HULL, STACK, ROOTS, 1) > 0:
+        end, event = w[ROOTS, 0], LANDING
     if largest > flat:
         for k in range(order + 1):
             w[SLOPE, k], w[SLOPE_HULL, k] = -w[POLYNOMIAL, k], flat - w[HULL, k]
         w[SLOPE, 0] += flat
-        if roots(w, SLOPE, 0, order, SLOPE_HULL, STACK, FOUND, 1) > 0 and w[FOUND, 0] < end:
-            end, event = w[FOUND, 0], FLAT
+        if roots(w, SLOPE, 0, order, SLOPE_HULL, STACK, ROOTS, 1) > 0 and w[ROOTS, 0] < end:
+            end, event = w[ROOTS, 0], FLAT
     if largest > peak:
         peak = _largest_rotation(w, order, zeros, end, peak)
     return end, event, peak
@@ -194,11 +194,11 @@ def _largest_rotation(w, order, zeros, end, peak):
         w[SLOPE, k] = (k + 1) * w[POLYNOMIAL, k + 1]
         w[SLOPE_HULL, k] = w[HULL, k + 1] - w[HULL, k]
     first = max(zeros - 1, 0)
-    turns = roots(w, SLOPE, first, order - 1, SLOPE_HULL, STACK, FOUND, order)
+    turns = roots(w, SLOPE, first, order - 1, SLOPE_HULL, STACK, ROOTS, order)
     peak = max(peak, _value(w, order, end))
     for k in range(turns):
-        if w[FOUND, k] < end:
-            peak = max(peak, _value(w, order, w[FOUND, k]))
+        if w[ROOTS, k] < end:
+            peak = max(peak, _value(w, order, w[ROOTS, k]))
     return peak
 
 
@@ -263,14 +263,14 @@ def outcome(w, order, tolerance, block, forcing, record, ratios):
     """Return the `Outcome` of a block that is at rest when the forcing begins.
 
     The k-th impact that counts has the k-th of the `ratios` as √r, and those after the last one
-    that of the block. Where there are ratios, an impact counts above `DRAWN_BOUNCE` α.
+    that of the block. Where there are ratios, an impact counts above `RATIO_BOUNCE` α.
     """
     is_record = forcing.shape == RECORD or forcing.shape == TWO_RECORDS
     is_straight = is_record or forcing.shape == CONSTANT or forcing.shape == NONE
     time, peak, impacts, piece, piece_end = 0.0, 0.0, 0, 0, forcing.end
     steps_left = MAX_STEPS + 10 * record.shape[1]
     block, own = at_impact(block, ratios, 0), block
-    lowest = (DRAWN_BOUNCE if ratios.size > 0 else LAST_BOUNCE) * block.slenderness
+    lowest = (RATIO_BOUNCE if ratios.size > 0 else LAST_BOUNCE) * block.slenderness
     while True:
         time, push, rate, side = next_uplift(forcing, record, time, block.level)
         if time >= forcing.end:

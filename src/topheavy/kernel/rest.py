@@ -29,7 +29,7 @@ from topheavy.kernel.forcing import (
 #: A rotation below this, over α, is no rocking: the impact that ends it is not counted.
 LAST_BOUNCE = 1e-6
 #: The same where each impact has a √r of its own: no solver knows the order of smaller bounces.
-DRAWN_BOUNCE = 1e-3
+RATIO_BOUNCE = 1e-3
 
 
 @compiled

@@ -70,15 +70,15 @@ class Fragility:
         lines = [f"{motions}; {self.confidence:.0%} intervals, {self.sampling}"]
         for place in range(self.curves.sizes["structure"]):
             row = self.curves.isel(structure=place)
-            lines.append(f"{row.structure.item()}: median {_told(row, 'median_capacity', unit)}")
+            lines.append(f"{row.structure.item()}: median {_line(row, 'median_capacity', unit)}")
         for place in range(self.pairs.sizes["pair"]):
             row = self.pairs.isel(pair=place)
             both = f"{row['second'].item()} over {row['first'].item()}"
-            lines.append(f"{both}: gain {_told(row, 'gain', '')}")
+            lines.append(f"{both}: gain {_line(row, 'gain', '')}")
         return "\n".join(lines)
 
 
-def _told(row: xarray.Dataset, name: str, unit: str) -> str:
+def _line(row: xarray.Dataset, name: str, unit: str) -> str:
     """Return a value with its interval and unit, and the reason why one of these is unknown."""
     value, low, high = (float(row[part]) for part in (name, f"{name}_low", f"{name}_high"))
     known = f"{value:.3g} ({low:.3g} to {high:.3g}) {unit}".strip()

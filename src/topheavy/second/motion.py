@@ -31,7 +31,7 @@ COUNTED_PEAK = 1e-6
 """Of α: an impact that ends a rotation below is not counted, since a block that bounces to rest has
 infinitely many."""
 
-DRAWN_PEAK = 1e-3
+RATIO_PEAK = 1e-3
 """The same where each impact has a √r of its own: no solver knows the order of smaller bounces."""
 
 MOST_FREE_IMPACTS = 1000

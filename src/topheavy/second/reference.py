@@ -102,7 +102,7 @@ def judge(
     course = motion.start(block, 0.0, 0.0)
     course.restitutions = [checks.fraction("restitutions", value) for value in restitutions]
     if course.restitutions:
-        course.counted = motion.DRAWN_PEAK * block.slenderness
+        course.counted = motion.RATIO_PEAK * block.slenderness
     ground = with_vertical(excitation, vertical)
     motion.force(block, ground, course, _flight(tolerance, block))
     end = motion.free_ending(block, course)

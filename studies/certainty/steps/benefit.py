@@ -14,7 +14,7 @@ from replication.workbench import Finding, run, truth
 from steps.shared.second import by_scipy
 from steps.shared.spectrum import progress
 from steps.shared.sweep import Swept, read_answers
-from studies.certainty.under import factored, named
+from studies.certainty.subjects import factored, named
 from topheavy.risk.ensemble import Ensemble
 from topheavy.risk.resampling import NEGATIVE, POSITIVE, in_words
 
@@ -91,7 +91,7 @@ def main(settings: dict, ensemble: dict, swept: Swept) -> tuple[pd.DataFrame, di
         for family in ensemble["families"]
     }
     table, agreed = differences(settings, of_family), by_scipy(sampled(settings, swept))
-    confirmed = truth(agreed["differ"] == 0 and agreed["told"] > 0, **agreed)
+    confirmed = truth(agreed["differ"] == 0 and agreed["decided"] > 0, **agreed)
     return table, findings(table) | {"second_route": confirmed}
 
 

@@ -18,7 +18,7 @@ from replication.workbench import Finding, run, truth
 from steps.shared.second import beside_a_boundary, by_scipy, overturns
 from steps.shared.spectrum import progress
 from steps.shared.sweep import Subject, Swept, read_answers
-from studies.certainty.under import columns, deficits, lowered, stated
+from studies.certainty.subjects import columns, deficits, lowered, stated
 from topheavy import Column
 from topheavy.risk.ensemble import Ensemble
 
@@ -34,7 +34,7 @@ class Group(NamedTuple):
 
     family: str
     column: Column
-    under: Sequence[Subject]
+    subjects: Sequence[Subject]
     swept: Swept
 
 
@@ -74,7 +74,7 @@ def ends(group: Group, settings: dict, seed: int) -> Iterator[tuple[dict, Vector
     shares, swept = deficits(settings["deficits"]), group.swept
     quakes = swept.scenarios.tolist()
     means = Ensemble(swept.outcomes, quakes, seed=seed, **settings["bootstrap"]).means()
-    for place, frame in enumerate(group.under[shares.size :], start=shares.size):
+    for place, frame in enumerate(group.subjects[shares.size :], start=shares.size):
         for number, (measure, level, pgv) in enumerate(stated(group.column, settings)):
             column, other = means[:, : shares.size, number], means[:, place, number]
             if column[0, 0] < LEAST or other[0] > MOST:
@@ -102,7 +102,7 @@ def sampled(some: list[Group], settings: dict) -> Iterator[tuple]:
         outcomes = group.swept.outcomes
         motion, place = (int(random.integers(size)) for size in outcomes.shape[:2])
         level = int(random.integers(outcomes.shape[2]))
-        block, record = group.under[place].block, group.swept.draws[motion].record()
+        block, record = group.subjects[place].block, group.swept.draws[motion].record()
         *_, pgv = stated(group.column, settings)[level]
         factor = pgv / group.swept.peaks[motion]
         if number % 2:
@@ -130,7 +130,7 @@ def main(settings: dict, ensemble: dict, answered: Sequence[Swept]) -> tuple:
     drawn["benefit_ends"] = drawn["benefit_ends"].with_evidence(largest=largest)
     agreed, checked = by_scipy(sampled(found, settings)), settings["checked"]
     confirmed = truth(
-        agreed["differ"] == 0 and agreed["told"] > 0,
+        agreed["differ"] == 0 and agreed["decided"] > 0,
         checked=checked,
         near_a_boundary=checked // 2,
         **agreed,
@@ -156,9 +156,9 @@ def findings(
             least=float(table.end.min()),
             most=float(known.end.max()),
             lowest_end=float(table.end_low.min()),
-            median=told(median["end"]),
-            median_low=told(median["end_low"]),
-            median_high=told(median["end_high"]),
+            median=finite_or_none(median["end"]),
+            median_low=finite_or_none(median["end_low"]),
+            median_high=finite_or_none(median["end_high"]),
         ),
         "step_is_fine_enough": truth(
             bool((moved < FINE).all()),
@@ -175,7 +175,7 @@ def moves(rows: pd.DataFrame) -> pd.Series:
     return (rows.coarser - rows.end).abs() / (rows.end_high - rows.end_low)
 
 
-def told(end: float) -> float | None:
+def finite_or_none(end: float) -> float | None:
     """Return an end, None if it is beyond the last deficit: JSON has no infinity."""
     return float(end) if math.isfinite(end) else None
 

@@ -15,7 +15,7 @@ from replication.workbench import Finding, run, truth
 from steps.shared.second import by_scipy
 from steps.shared.spectrum import progress
 from steps.shared.sweep import Asked, Swept, read_answers
-from studies.certainty.under import FREE, MEASURES, similar, supported
+from studies.certainty.subjects import FREE, MEASURES, similar, supported
 from topheavy.risk.tables import exact_interval
 
 
@@ -81,7 +81,7 @@ def main(
         ),
         **findings(table),
         "second_route": truth(
-            agreed["differ"] == 0 and agreed["told"] > 0, checked=settings["checked"], **agreed
+            agreed["differ"] == 0 and agreed["decided"] > 0, checked=settings["checked"], **agreed
         ),
     }
 

@@ -13,7 +13,7 @@ import pandas as pd
 
 from replication.workbench import Finding, run, truth
 from steps.shared.sweep import Subject, Swept, read_answers
-from studies.certainty.under import BARE, FIXED, FREE, grid, rated, stated
+from studies.certainty.subjects import BARE, FIXED, FREE, grid, rated, stated
 from topheavy import Column
 from topheavy.risk.ensemble import Ensemble
 from topheavy.risk.hazard import rate_at_levels

@@ -14,7 +14,7 @@ from replication.workbench import Finding, run, truth
 from steps.shared.second import decided, overturns
 from steps.shared.spectrum import progress
 from steps.shared.sweep import Swept, read_answers
-from studies.certainty.under import grid, rated, velocities
+from studies.certainty.subjects import grid, rated, velocities
 from topheavy import Record, RockingBlock, judge, overturned_by
 from topheavy.second import reference
 

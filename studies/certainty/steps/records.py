@@ -113,7 +113,7 @@ def findings(certainty_records: pd.DataFrame) -> dict[str, Finding]:
     asked = table[table.by_scipy.notna()]
     differ = int((asked.by_scipy != asked.overturned).sum())
     nudged = table[["smaller_record", "larger_record"]].ne(table.overturned, axis=0)
-    not_told = int(nudged.any(axis=1).sum())
+    undecided = int(nudged.any(axis=1).sum())
     falls = table.groupby("structure", sort=False).overturned.any()
     tried = {"records": table.record.nunique(), "frames": len(frames)}
     return {
@@ -133,11 +133,11 @@ def findings(certainty_records: pd.DataFrame) -> dict[str, Finding]:
             **tried,
         ),
         "second_route": truth(
-            differ == 0 and not_told == 0 and len(asked) > 0,
+            differ == 0 and undecided == 0 and len(asked) > 0,
             histories=len(table),
             asked=len(asked),
             differ=differ,
-            not_told=not_told,
+            undecided=undecided,
             nudge=NUDGE,
         ),
         "napa": value(table.pgv[table.record.str.startswith("napa")].max(), 0.0, "m/s"),

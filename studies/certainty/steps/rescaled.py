@@ -96,7 +96,7 @@ def second_route(
         if fell is not None:
             told += 1
             differ += reference.judge(frame, record.scaled(factor)).overturned != fell
-    return truth(differ == 0 and told > 0, checked=spec["checked"], told=told, differ=differ)
+    return truth(differ == 0 and told > 0, checked=spec["checked"], decided=told, differ=differ)
 
 
 def main(

@@ -13,7 +13,7 @@ import pandas as pd
 from replication.workbench import run, truth, value
 from steps.shared.spectra_compared import ends_of
 from steps.shared.spectrum import progress
-from studies.certainty.under import changed
+from studies.certainty.subjects import changed
 from topheavy import (
     Column,
     Pulse,

@@ -13,7 +13,7 @@ import pandas as pd
 from replication.workbench import Finding, run, truth
 from steps.shared.sweep import Swept, read_answers
 from steps.vase_shares import PARAMETERS, shapley, subsets
-from studies.certainty.under import exchanges
+from studies.certainty.subjects import exchanges
 
 
 def values_of(settings: dict, swept: Swept) -> pd.DataFrame:

@@ -6,7 +6,7 @@ import numpy as np
 
 from replication.workbench import run
 from steps.shared.sweep import sweep
-from studies.certainty.under import questions
+from studies.certainty.subjects import questions
 
 
 def work(job: Any) -> None:

@@ -10,8 +10,8 @@ import pytest
 from steps.shared import sweep
 from steps.shared.second import by_scipy
 from studies.certainty.steps import break_even
+from studies.certainty.subjects import columns, lowered, stated
 from studies.certainty.tests.test_rates import ENSEMBLE
-from studies.certainty.under import columns, lowered, stated
 from tests.cases import COLUMN, SIZES
 from topheavy import RockingFrame, overturned_by
 from topheavy.ground.synthetic.ensemble import first_draws
@@ -55,7 +55,7 @@ def test_columns_are_lowered_and_frames_are_not():
 
 def test_cells_have_the_benefit_of_the_counts(groups):
     """At each deficit, in the cells in which enough columns and not too many frames overturn."""
-    assert [(one.family, one.under[0].labels["height"]) for one in groups] == [
+    assert [(one.family, one.subjects[0].labels["height"]) for one in groups] == [
         (family, height) for height in (6.0, 12.0) for family in ENSEMBLE["families"]
     ]
     group = groups[0]
@@ -85,18 +85,21 @@ def test_motions_are_resampled_within_each_earthquake(groups):
     """All columns overturn in one, and all frames in the other: no resample has a benefit."""
     group = groups[0]
     first = group.swept.scenarios == 0
-    column = np.array([one.labels["mass_ratio"] == 0.0 for one in group.under])
+    column = np.array([one.labels["mass_ratio"] == 0.0 for one in group.subjects])
     fell = np.broadcast_to((first[:, None] == column)[..., None], group.swept.outcomes.shape)
     changed = group._replace(swept=replace(group.swept, outcomes=fell))
     for _, ends in break_even.ends(changed, CASE, 1):
         assert (ends == 0.0).all()
 
 
-@pytest.mark.parametrize(("told", "differ", "holds"), [(3, 0, True), (3, 1, False), (0, 0, False)])
-def test_scipy_has_to_find_the_sampled_outcomes(groups, given, told, differ, holds):
+OF_SCIPY = [(3, 0, True), (3, 1, False), (0, 0, False)]
+
+
+@pytest.mark.parametrize(("decided", "differ", "holds"), OF_SCIPY)
+def test_scipy_has_to_find_the_sampled_outcomes(groups, given, decided, differ, holds):
     cells = list(break_even.sampled(groups, CASE))
-    assert by_scipy(cells) == {"told": CASE["checked"], "differ": 0}
-    given(break_even, by_scipy={"told": told, "differ": differ}, groups=groups)
+    assert by_scipy(cells) == {"decided": CASE["checked"], "differ": 0}
+    given(break_even, by_scipy={"decided": decided, "differ": differ}, groups=groups)
     assert break_even.main(CASE, ENSEMBLE, [])[-1]["break_even_by_scipy"].holds is holds
 
 

@@ -19,7 +19,7 @@ from studies.certainty.steps import (
     restitution,
     theorem,
 )
-from studies.certainty.under import factored, supported
+from studies.certainty.subjects import factored, supported
 from tests.cases import COLUMN, SIZES, broken
 from topheavy.ground.synthetic.ensemble import first_draws
 
@@ -243,13 +243,16 @@ def test_difference_is_that_of_column_and_frame_under_motions_of_the_stated_velo
     assert table.only_frame.any()
     sampled = list(benefit.sampled(STATED, answered))
     assert {fell for *_, fell in sampled} == {True, False}
-    assert by_scipy(sampled) == {"told": len(sampled), "differ": 0}
+    assert by_scipy(sampled) == {"decided": len(sampled), "differ": 0}
 
 
-@pytest.mark.parametrize(("told", "differ", "holds"), [(3, 0, True), (3, 1, False), (0, 0, False)])
-def test_scipy_has_to_find_the_sampled_outcomes(answered, given, told, differ, holds):
+OF_SCIPY = [(3, 0, True), (3, 1, False), (0, 0, False)]
+
+
+@pytest.mark.parametrize(("decided", "differ", "holds"), OF_SCIPY)
+def test_scipy_has_to_find_the_sampled_outcomes(answered, given, decided, differ, holds):
     for module in (benefit, intensities):
-        given(module, by_scipy={"told": told, "differ": differ})
+        given(module, by_scipy={"decided": decided, "differ": differ})
     assert benefit.main(STATED, ENSEMBLE, answered)[-1]["second_route"].holds is holds
     assert intensities.main(CASE, FAMILY, STRUCTURES, cells())[-1]["second_route"].holds is holds
 
@@ -301,7 +304,7 @@ OTHERS = {"bare_12": {0.6: 30, 1.0: 30}, "fixed_12": {0.6: 40, 1.0: 40}}
     ],
 )
 def test_probabilities_decide_what_they_are_about(given, fell, false, at_stated):
-    given(intensities, by_scipy={"told": 1, "differ": 0})
+    given(intensities, by_scipy={"decided": 1, "differ": 0})
     _, found = intensities.main(CASE, FAMILY, STRUCTURES, cells(**fell))
     assert broken(found) == false
     assert found["ample_stability"].holds_when is at_stated

@@ -10,7 +10,7 @@ import topheavy as th
 from steps.shared import sweep
 from studies.certainty.shapes import FAMILIES, record, single_lobe
 from studies.certainty.steps import benefit, extensions, intensities, lowest, restitution, theorem
-from studies.certainty.under import HIGHEST, changed, factored, supported
+from studies.certainty.subjects import HIGHEST, changed, factored, supported
 from tests.cases import COLUMN, FRAME, SIZES
 from topheavy.ground.synthetic.ensemble import Draw
 from topheavy.second import reference

@@ -8,7 +8,7 @@ import pytest
 
 from steps.shared import second, sweep
 from studies.certainty.steps import rates, rates_check
-from studies.certainty.under import BARE, FIXED, FREE, rated, stated, velocities
+from studies.certainty.subjects import BARE, FIXED, FREE, rated, stated, velocities
 from tests.cases import COLUMN, SIZES, broken
 from topheavy import FixedMassColumn, RockingFrame
 from topheavy.ground.synthetic.ensemble import first_draws

@@ -6,8 +6,8 @@ import pytest
 
 from steps.shared import sweep
 from studies.certainty.steps import shares
+from studies.certainty.subjects import exchanges
 from studies.certainty.tests.test_rates import ENSEMBLE
-from studies.certainty.under import exchanges
 from topheavy.ground.synthetic.ensemble import first_draws
 
 CASE = {"seed": 1, "resamples": 200, "confidence": 0.95}

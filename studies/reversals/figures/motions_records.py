@@ -6,7 +6,7 @@ from matplotlib.colors import ListedColormap
 from figures.drawing import RECORDS
 from figures.palette import CAUSED, OVERTURNED, PREVENTED, UNDECIDED
 from replication.drawing import DOUBLE, GREY, PAPER, letter, make_figure, note, sheet
-from steps.shared.outcomes import FALLS, UNTOLD, read
+from steps.shared.outcomes import FALLS, UNKNOWN, read
 
 CASES = {  # the outcomes of the column and of the frame with γ → ∞
     "both survive": PAPER,
@@ -31,7 +31,7 @@ def cells(light, heavy):
     one, other = read(light.outcomes), read(heavy.outcomes)
     falls, capped_falls = one == FALLS, other == FALLS
     places = np.select([falls & capped_falls, falls, capped_falls], [1, 2, 3], 0)
-    return np.where((one == UNTOLD) | (other == UNTOLD), 4, places)
+    return np.where((one == UNKNOWN) | (other == UNKNOWN), 4, places)
 
 
 def panel(axis, run):

@@ -13,7 +13,7 @@ from replication.workbench import Finding, run, truth
 from steps.shared.histories import NUDGE
 from steps.shared.spectrum import progress
 from steps.shared.sweep import Swept, read_answers
-from studies.reversals.under import frames_and_columns
+from studies.reversals.subjects import frames_and_columns
 from topheavy import Record, overturned_by
 from topheavy.bodies.structures import Structure
 from topheavy.second import reference
@@ -61,7 +61,11 @@ def main(
         around = factor * np.array([1.0, 1.0 - NUDGE, 1.0 + NUDGE])
         first, *nudged = overturned_by(block, record, around)
         tight = overturned_by(block, record, [factor], tolerance=tightened)[0]
-        found = {"near": near, "told": all(nudged) == any(nudged) == first, "tight": tight == first}
+        found = {
+            "near": near,
+            "decided": all(nudged) == any(nudged) == first,
+            "tight": tight == first,
+        }
         if number < spec["second_route"]:
             other = reference.judge(block, record.scaled(factor)).overturned
             found["second_route"] = other == first
@@ -75,7 +79,7 @@ def main(
 def findings(reversals_sample: pd.DataFrame) -> dict[str, Finding]:
     """Return whether tolerance and SciPy change no outcome, from the table of the sample."""
     sample = reversals_sample
-    told = sample[sample.told]
+    told = sample[sample.decided]
     routes = {"tightened": told.tight, "second_route": told.second_route.dropna().astype(bool)}
     return {
         f"{name}_agrees": truth(
@@ -83,7 +87,7 @@ def findings(reversals_sample: pd.DataFrame) -> dict[str, Finding]:
             cells=len(agrees),
             differ=int((~agrees).sum()),
             near_a_boundary=int(told.near[agrees.index].sum()),
-            not_told=len(sample) - len(told),
+            undecided=len(sample) - len(told),
         )
         for name, agrees in routes.items()
     }

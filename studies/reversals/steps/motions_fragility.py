@@ -15,7 +15,7 @@ import pandas as pd
 
 from replication.workbench import Finding, run, truth, value
 from steps.shared.sweep import Subject, Swept, read_answers
-from studies.reversals.under import frames_and_columns, intensities, unit
+from studies.reversals.subjects import frames_and_columns, intensities, unit
 from topheavy import Column
 from topheavy.bodies.structures import size_ratio
 from topheavy.risk.curve import curve, fit, medians, why_no_median
@@ -33,7 +33,7 @@ class Case:
     subjects: Sequence[Subject]
     unit: float  # PGV in m/s at a level of 1
     levels: np.ndarray
-    found: Ensemble
+    ensemble: Ensemble
 
     @property
     def labels(self) -> dict:
@@ -41,7 +41,7 @@ class Case:
 
     @property
     def motions(self) -> int:
-        return len(self.found.outcomes)
+        return len(self.ensemble.outcomes)
 
     @property
     def frames(self) -> dict[float, int]:
@@ -75,9 +75,9 @@ def curves(case: Case, means: np.ndarray) -> pd.DataFrame:
             case.labels
             | subject.labels
             | {"intensity": case.levels, "pgv": case.levels * case.unit}
-            | case.found.bounds("probability", means[:, place])
+            | case.ensemble.bounds("probability", means[:, place])
             | {"fitted": fits[place]}
-            | case.found.bounds("less", means[:, 0] - means[:, place])
+            | case.ensemble.bounds("less", means[:, 0] - means[:, place])
         )
     return pd.concat(map(pd.DataFrame, tables))
 
@@ -107,9 +107,9 @@ def capacities(case: Case, middle: np.ndarray) -> pd.DataFrame:
             | subject.labels
             | {"motions": case.motions, "size_gain": size_ratio(gamma) - 1.0}
             | {"expected_gain": math.sqrt(size_ratio(gamma)) - 1.0}
-            | case.found.bounds("median", middle[:, place])
+            | case.ensemble.bounds("median", middle[:, place])
             | {"median_pgv": middle[0, place] * case.unit}
-            | case.found.bounds("gain", gain)
+            | case.ensemble.bounds("gain", gain)
         )
     return pd.DataFrame(rows)
 
@@ -151,9 +151,9 @@ def pairs(case: Case, means: list[np.ndarray]) -> pd.DataFrame:
         rows.append(
             case.labels
             | {"lighter": light, "heavier": heavy, "cells": cells}
-            | case.found.bounds("only_lighter", bought)
-            | case.found.bounds("only_heavier", lost)
-            | case.found.bounds("reversed", lost / (bought + lost + TINY))
+            | case.ensemble.bounds("only_lighter", bought)
+            | case.ensemble.bounds("only_heavier", lost)
+            | case.ensemble.bounds("reversed", lost / (bought + lost + TINY))
         )
     return pd.DataFrame(rows)
 
@@ -166,16 +166,17 @@ def falls(case: Case, means: np.ndarray) -> pd.DataFrame:
     light, heavy = np.transpose([*itertools.combinations(case.frames.values(), 2)])
     less = means[:, light] - means[:, heavy]
     return pd.DataFrame(
-        {key: np.ravel(found) for key, found in case.found.bounds("less", less).items()}
+        {key: np.ravel(found) for key, found in case.ensemble.bounds("less", less).items()}
     )
 
 
 def beyond_size(case: Case, middle: np.ndarray) -> list[dict]:
     """Return by how much medians of frames exceed those of solitary columns as large."""
+    bounds = case.ensemble.bounds
     return [
         case.labels
         | {"mass_ratio": gamma}
-        | plain(case.found.bounds("excess", middle[:, case.frames[gamma]] / middle[:, place] - 1.0))
+        | plain(bounds("excess", middle[:, case.frames[gamma]] / middle[:, place] - 1.0))
         for gamma, place in case.columns.items()
     ]
 
@@ -187,7 +188,7 @@ def shares_of_gain(case: Case, middle: np.ndarray, shares: list[float]) -> list[
         return []
     found = mass_ratios_of_gain(list(frames), middle[:, list(frames.values())], shares)
     return [
-        case.labels | {"share": share} | plain(case.found.bounds("mass_ratio", values))
+        case.labels | {"share": share} | plain(case.ensemble.bounds("mass_ratio", values))
         for share, values in zip(shares, found.T, strict=True)
     ]
 
@@ -219,8 +220,8 @@ def main(
 ) -> tuple[dict[str, pd.DataFrame], dict]:
     tables, order, beyond, shares = {"fragility": [], "medians": [], "pairs": []}, [], [], []
     for case in cases(settings, structures, answered):
-        means = case.found.means()
-        of_pairs = list(map(case.found.means, differing(case, case.found.outcomes)))
+        means = case.ensemble.means()
+        of_pairs = list(map(case.ensemble.means, differing(case, case.ensemble.outcomes)))
         middle = middles(case.levels, means)
         tables["fragility"].append(curves(case, means))
         tables["medians"].append(capacities(case, middle))

@@ -12,7 +12,7 @@ import pandas as pd
 
 from replication.workbench import Finding, run, truth
 from steps.shared.histories import NUDGE
-from steps.shared.outcomes import FALLS, STANDS, UNTOLD, read, written
+from steps.shared.outcomes import FALLS, STANDS, UNKNOWN, read, written
 from steps.shared.spectrum import progress
 from topheavy import Column, Record, RockingFrame, overturned_by, read_record
 from topheavy.second import reference
@@ -46,7 +46,7 @@ def row(record: Record, degrees: float, size: float, gamma: float, ratios, tight
         "mass_ratio": gamma,
         "first": ratios[0],
         "last": ratios[-1],
-        "outcomes": written(found, told=np.all(found == others, axis=0)),
+        "outcomes": written(found, decided=np.all(found == others, axis=0)),
     }
 
 
@@ -57,14 +57,14 @@ def compare(table: pd.DataFrame, ratios: list[float]) -> pd.DataFrame:
         outcomes = {gamma: read(cells[cells.mass_ratio == gamma].outcomes) for gamma in ratios}
         for light, heavy in itertools.combinations(ratios, 2):
             one, other = outcomes[light], outcomes[heavy]
-            told = (one != UNTOLD) & (other != UNTOLD)
+            told = (one != UNKNOWN) & (other != UNKNOWN)
             rows.append(
                 {
                     "record": record,
                     "lighter": light,
                     "heavier": heavy,
                     "cells": told.size,
-                    "told": told.sum(),
+                    "decided": told.sum(),
                     "both": ((one == FALLS) & (other == FALLS)).sum(),
                     "only_lighter": ((one == FALLS) & (other == STANDS)).sum(),
                     "only_heavier": ((one == STANDS) & (other == FALLS)).sum(),
@@ -76,7 +76,7 @@ def compare(table: pd.DataFrame, ratios: list[float]) -> pd.DataFrame:
 def second_route(table: pd.DataFrame, records: dict[str, Record], ratios, count: int) -> Finding:
     """Judge some of the outcomes next to a change again by SciPy, evenly through the table."""
     found = read(table.outcomes)
-    told = found != UNTOLD
+    told = found != UNKNOWN
     edges = np.argwhere(told[:, 1:] & told[:, :-1] & (found[:, 1:] != found[:, :-1]))
     differ = 0
     for place, at in edges[np.linspace(0, len(edges) - 1, count).astype(int)]:
@@ -117,11 +117,11 @@ def main(settings: dict, paths: list[str], tightened: float) -> tuple[pd.DataFra
 def findings(reversals_records: pd.DataFrame) -> dict[str, Any]:
     """Return how often the heavier of two frames falls alone, from the table of outcomes."""
     counts = compare(reversals_records, list(reversals_records.mass_ratio.unique()))
-    told = read(reversals_records.outcomes) != UNTOLD
+    told = read(reversals_records.outcomes) != UNKNOWN
     return {
         "heavier_is_safer": {
             "holds": not counts.only_heavier.any(),
-            "compared": int(counts.told.sum()),
+            "compared": int(counts.decided.sum()),
             "only_lighter": int(counts.only_lighter.sum()),
             "only_heavier": int(counts.only_heavier.sum()),
             "records_with_counterexamples": int(
@@ -129,8 +129,8 @@ def findings(reversals_records: pd.DataFrame) -> dict[str, Any]:
             ),
         },
         "fewer_reversals": truth((counts.only_heavier < counts.only_lighter).all()),
-        "cells_that_can_be_told": truth(
-            told.all(), histories=told.size, not_told=int((~told).sum())
+        "cells_that_are_decided": truth(
+            told.all(), histories=told.size, undecided=int((~told).sum())
         ),
     }
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from replication.workbench import run
 from steps.shared.sweep import sweep
-from studies.reversals.under import questions
+from studies.reversals.subjects import questions
 
 
 def work(job: Any) -> None:

@@ -24,7 +24,7 @@ from steps.shared.peak_forces import (
     shear_after_uplift,
 )
 from steps.shared.spectrum import progress
-from studies.reversals.under import unit
+from studies.reversals.subjects import unit
 from topheavy import Cap, Column, RockingFrame, simulate
 from topheavy.ground.synthetic.ensemble import Draw, first_draws
 from topheavy.risk.resampling import interval, resampled

@@ -14,7 +14,7 @@ import pandas as pd
 from replication.workbench import Finding, run, truth
 from steps.shared.second import by_scipy
 from steps.shared.sweep import Swept, read_answers
-from studies.reversals.under import VASE, intensities, vase_and_frame
+from studies.reversals.subjects import VASE, intensities, vase_and_frame
 from topheavy.risk.ensemble import Ensemble
 
 LEAST = 0.5  # of the motions: a structure that comes last under more of them is not the weakest
@@ -96,7 +96,9 @@ def main(settings: dict, ensemble: dict, swept: Swept) -> tuple:
     drawn[lowers] = drawn[lowers].with_evidence(motions=len(swept.draws))
     agreed = by_scipy(sampled(settings, swept, ensemble["seed"]))
     checked = truth(
-        agreed["differ"] == 0 and agreed["told"] > 0, cells=agreed["told"], differ=agreed["differ"]
+        agreed["differ"] == 0 and agreed["decided"] > 0,
+        cells=agreed["decided"],
+        differ=agreed["differ"],
     )
     return pd.concat(tables), ranking, drawn | {"vase_second_route": checked}
 

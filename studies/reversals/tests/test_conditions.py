@@ -85,7 +85,7 @@ def findings(monkeypatch, *, reversed_high=0.4, beyond=((0.01, 0.03),), half_hig
     less = {"less": 0.1, "less_low": 0.05, "less_high": 0.2}
     nothing = SimpleNamespace(means=lambda *values: None, outcomes=None)
     given = {
-        "cases": [SimpleNamespace(labels={}, levels=None, motions=0, found=nothing)],
+        "cases": [SimpleNamespace(labels={}, levels=None, motions=0, ensemble=nothing)],
         "differing": [],
         "middles": np.ones(1),
         "curves": pd.DataFrame([{"probability": 0.5, "fitted": 0.5}]),

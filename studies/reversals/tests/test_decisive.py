@@ -11,7 +11,7 @@ from replication.inputs.strict_yaml import read_yaml
 from replication.judging.findings import read_findings
 from steps.shared.spectra_compared import Spectra
 from studies.reversals.steps import motions_fragility, motions_records, pulses
-from studies.reversals.under import frames_and_columns
+from studies.reversals.subjects import frames_and_columns
 from topheavy import STANDARD_GRAVITY, Column, Record
 from topheavy.risk.ensemble import Ensemble
 
@@ -129,7 +129,7 @@ def test_all_frames_of_a_structure_are_shaken_alike():
     )
 
 
-def test_outcome_that_a_billionth_of_the_record_changes_is_not_told(monkeypatch):
+def test_outcome_that_a_billionth_of_the_record_changes_is_undecided(monkeypatch):
     def overturned_by(frame, record, factors, tolerance=None):
         return np.asarray(factors) > 2.0 * LEVEL
 

@@ -13,7 +13,7 @@ from replication.inputs.strict_yaml import read_yaml
 from steps.shared import sweep
 from steps.shared.outcomes import FALLS, STANDS, read, written
 from studies.reversals.steps import motions_check, motions_fragility, motions_records
-from studies.reversals.under import frames_and_columns, intensities
+from studies.reversals.subjects import frames_and_columns, intensities
 from topheavy.ground.synthetic.ensemble import draws, first_draws
 from topheavy.ground.synthetic.motions import strength
 from topheavy.risk import resampling
@@ -167,11 +167,11 @@ def test_boundary_lies_where_the_outcome_changes():
 
 def test_sample_is_judged_again(answered):
     _, found = motions_check.main(CASE, STRUCTURES, answered, 3e-12)
-    assert found["tightened_agrees"]["cells"] + found["tightened_agrees"]["not_told"] == 6
+    assert found["tightened_agrees"]["cells"] + found["tightened_agrees"]["undecided"] == 6
     assert found["second_route_agrees"]["cells"] == 1
 
 
-def test_sample_of_which_nothing_can_be_told_agrees_with_nothing(answered, monkeypatch):
+def test_sample_of_which_nothing_is_decided_agrees_with_nothing(answered, monkeypatch):
     def sensitive(frame, record, factors, tolerance=None):
         return np.arange(len(factors)) == 1  # a change by a billionth, and only that, overturns
 
@@ -188,11 +188,11 @@ def test_outcomes_are_read_as_they_were_written():
     assert read([written(fell, told)]).tolist() == [["f", "s", "?", "s"]]
 
 
-def test_records_are_compared_where_both_can_be_told():
+def test_records_are_compared_where_both_are_decided():
     rows = [("a", 0.0, "ffss?"), ("a", 1.0, "fs?ff"), ("b", 0.0, "f"), ("b", 1.0, "f")]
     table = pd.DataFrame(rows, columns=["record", "mass_ratio", "outcomes"])
     counts = motions_records.compare(table, [0.0, 1.0])
-    columns = ["record", "cells", "told", "both", "only_lighter", "only_heavier"]
+    columns = ["record", "cells", "decided", "both", "only_lighter", "only_heavier"]
     assert counts[columns].to_numpy().tolist() == [["a", 5, 3, 1, 1, 1], ["b", 1, 1, 1, 0, 0]]
 
 

@@ -17,7 +17,7 @@ import pandas as pd
 from replication.workbench import Finding, run, truth
 from steps.shared.second import beside_a_boundary, by_scipy, overturns
 from steps.shared.spectrum import progress
-from steps.shared.sweep import Asked, Subject, under
+from steps.shared.sweep import Asked, Subject, overturned_under
 from topheavy import Column, FixedMassColumn, Record, RockingFrame
 from topheavy.ground.synthetic.ensemble import first_draws
 from topheavy.ground.synthetic.filtered_noise import Soil, motion
@@ -80,7 +80,7 @@ def swept(model: Model, question: Asked) -> Swept:
     rows = []
     for draw in progress(model.motions, len(model.motions), str(model.labels)):
         record = draw()
-        (fell,) = under(record, [question])
+        (fell,) = overturned_under(record, [question])
         rows.append((fell, record.peak_velocity, record.peak_acceleration))
     return Swept(*map(np.array, zip(*rows, strict=True)))
 
@@ -151,7 +151,7 @@ def main(settings: dict, ensemble: dict) -> tuple[pd.DataFrame, dict[str, Findin
     table = pd.DataFrame(rows)
     agreed = by_scipy(sampled(judged, settings))
     checked = settings["checked"]
-    confirmed = truth(agreed["differ"] == 0 and agreed["told"] > 0, checked=checked, **agreed)
+    confirmed = truth(agreed["differ"] == 0 and agreed["decided"] > 0, checked=checked, **agreed)
     return table, findings(table) | {"second_route": confirmed}
 
 

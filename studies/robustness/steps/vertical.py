@@ -120,7 +120,7 @@ def second_route(settings: dict, ensemble: dict) -> Finding:
     return truth(
         differ == 0 and told > 0,
         checked=count,
-        told=told,
+        decided=told,
         near_a_boundary=near_a_boundary,
         differ=differ,
     )

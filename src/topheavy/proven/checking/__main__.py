@@ -43,7 +43,7 @@ def parsed(line: str) -> Any:
         raise Refused(f"no JSON: {fault}") from None
 
 
-def told(certificate: dict[str, Any]) -> str:
+def described(certificate: dict[str, Any]) -> str:
     """Return what a certificate is about, and what it proves."""
     motion = certificate["excitation"]
     if "acceleration" in motion:
@@ -70,7 +70,7 @@ def main(paths: list[str]) -> str | None:
                     same, (low, high) = [certificate[key] for key in SAME], certificate["factor"]
                     begin = begin if last == (same, low) else low
                     whole = "" if begin == low else f"; so does each factor from {begin}"
-                    print(f"{where}: proven: {told(certificate)}{whole}")
+                    print(f"{where}: proven: {described(certificate)}{whole}")
                     last = same, high
         except Refused as reason:
             return f"{where} is refused: {reason}"
