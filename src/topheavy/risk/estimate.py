@@ -133,7 +133,7 @@ def fragility(
     groups : sequence, optional
         The group of each motion, such as its earthquake. Motions are then resampled only within
         their group; the intervals do not include the scatter between groups, as `sampling` says.
-        Exact intervals remain valid, and are wider than necessary (Hoeffding 1956).
+        Exact intervals remain valid, and are wider than necessary.
     lowered : iterable of float
         Shares, such as (0.05, 0.10), by which √r of each `Column` is lowered, and of no other
         structure. Such a column is one more structure, compared with all that are no column.
@@ -154,11 +154,6 @@ def fragility(
         For an argument that is not as above, and for a vertical acceleration of −1 g or less at a
         level; it names the argument, the value, what was expected.
 
-    References
-    ----------
-    C. J. Clopper, E. S. Pearson (1934), Biometrika 26(4), 404–413. W. Hoeffding (1956), Ann. Math.
-    Stat. 27(3), 713–721. J. W. Baker (2015), Earthq. Spectra 31(1), 579–599, on the likelihood.
-    All from memory.
     """
     under = inputs.variants(structures, lowered)
     shaking = inputs.checked_motions(motions)

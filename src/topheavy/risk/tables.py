@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import binomtest
+from scipy.stats import beta, binomtest
 
 from topheavy.risk.curve import curve, dispersions, medians, why_no_fit, why_no_median
 from topheavy.risk.resampling import in_words, interval
@@ -133,9 +133,9 @@ def exact_interval(counts: NDArray[np.int64], of: int, confidence: float) -> tup
     -------
     low, high : ndarray, of the shape of the counts
     """
-    kinds, places = np.unique(counts, return_inverse=True)
-    ends = np.array([binomtest(int(k), of).proportion_ci(confidence, "exact") for k in kinds])
-    low, high = np.moveaxis(ends.reshape(-1, 2)[places.reshape(counts.shape)], -1, 0)
+    tail, left = 0.5 * (1.0 - confidence), of - counts
+    low = np.where(counts > 0, beta.ppf(tail, counts, left + 1), 0.0)
+    high = np.where(left > 0, beta.ppf(1.0 - tail, counts + 1, left), 1.0)
     return low, high
 
 

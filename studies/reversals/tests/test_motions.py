@@ -4,11 +4,13 @@ import ast
 import hashlib
 import inspect
 import math
+from operator import attrgetter
 
 import numpy as np
 import pytest
+from scipy.integrate import cumulative_trapezoid
 
-from topheavy import Column, Record
+from topheavy import STANDARD_GRAVITY, Record
 from topheavy.ground.synthetic import motions
 
 ROCK = motions.Scenario(magnitude=7.0, distance=10.0, site_velocity=760.0, directivity=20.0)
@@ -29,8 +31,26 @@ def median(measure, records) -> float:
     return float(np.exp(np.mean([math.log(measure(record)) for record in records])))
 
 
+peak_acceleration = attrgetter("peak_acceleration")
+peak_velocity = attrgetter("peak_velocity")
+
+
+def velocity_of(record: Record) -> np.ndarray:
+    """The ground velocity at the samples, m/s: trapezoids, from rest."""
+    return cumulative_trapezoid(STANDARD_GRAVITY * record.acceleration, dx=record.time_step, initial=0.0)
+
+
 def significant_duration(record: Record) -> float:
-    return motions.arias_time(record, 0.95) - motions.arias_time(record, 0.05)
+    growth = np.cumsum(np.square(record.acceleration))
+    return np.diff(np.searchsorted(growth, [0.05 * growth[-1], 0.95 * growth[-1]]))[0] * 0.01
+
+
+def mean_period(record: Record) -> float:
+    """Σ C²/f over Σ C², C the Fourier amplitudes from 0.25 to 20 Hz."""
+    frequencies = np.fft.rfftfreq(record.acceleration.size, record.time_step)
+    band = (frequencies >= 0.25) & (frequencies <= 20.0)
+    weights = np.abs(np.fft.rfft(record.acceleration)[band]) ** 2
+    return (weights / frequencies[band]).sum() / weights.sum()
 
 
 @pytest.mark.parametrize("family", [motions.broadband, motions.near_fault])
@@ -77,7 +97,7 @@ def test_coefficients_are_those_that_were_compared_with_both_sources():
     constants = [node.value for node in ast.walk(tree) if isinstance(node, ast.Constant)]
     numbers = sorted(float(value) for value in constants if type(value) in (int, float))
     digest = hashlib.sha256(repr(numbers).encode()).hexdigest()
-    assert (len(numbers), digest[:16]) == (366, "ed4d2cc5cd863a98"), (
+    assert (len(numbers), digest[:16]) == (360, "a8dabfa1e9e94976"), (
         "a number of the model changed: compare it with [4] and [5], then state the new digest"
     )
 
@@ -127,7 +147,7 @@ def test_the_pulse_leaves_the_ground_where_it_was(phase):
     drawn = {"Vp": 50.0, "Tp": 2.0, "gamma": 2.4, "nu": phase, "tp": 4.0}
     time = np.arange(0.0, 8.0, 0.001)
     pulse = Record(0.001, motions.pulse_acceleration(time, drawn))
-    velocity = motions.velocity(pulse)
+    velocity = velocity_of(pulse)
     turn = np.pi * (time - 4.0)
     wave, bell = np.cos(turn + np.pi * phase), 1.0 + np.cos(turn / 2.4)
     bell[np.abs(turn) > 2.4 * np.pi] = 0.0
@@ -140,7 +160,7 @@ def test_the_pulse_leaves_the_ground_where_it_was(phase):
 
 def test_the_ground_ends_at_rest(broadband, near_fault):
     for record in broadband + near_fault:
-        velocity = motions.velocity(record)
+        velocity = velocity_of(record)
         place = np.cumsum(velocity) * record.time_step
         assert abs(velocity[-1]) < 2e-4 * np.abs(velocity).max(), record.name
         assert abs(place[-1]) < 0.03 * np.abs(place).max(), record.name
@@ -159,8 +179,8 @@ def test_the_arias_intensity_is_the_one_drawn(broadband):
         # M 7, 10 km, 760 m/s, strike-slip, computed with pygmm 0.8.0: means of BSSA14, CB14 and
         # CY14 (AS16 the duration). They hold for RotD50; the stronger component is about a tenth
         # more. Their standard deviation between records is 0.6 in the logarithm.
-        (motions.peak_acceleration, (0.244 * 0.319 * 0.260) ** (1 / 3), 0.30),
-        (motions.peak_velocity, (0.2242 * 0.2753 * 0.2124) ** (1 / 3), 0.30),
+        (peak_acceleration, (0.244 * 0.319 * 0.260) ** (1 / 3), 0.30),
+        (peak_velocity, (0.2242 * 0.2753 * 0.2124) ** (1 / 3), 0.30),
         (significant_duration, 11.6, 0.20),
     ],
     ids=["PGA", "PGV", "D5-95"],
@@ -170,7 +190,7 @@ def test_broadband_medians_are_those_of_ground_motion_models(broadband, measure,
 
 
 def test_a_pulse_makes_for_velocity_and_period(broadband, near_fault):
-    for measure in (motions.peak_velocity, motions.mean_period):
+    for measure in (peak_velocity, mean_period):
         assert median(measure, near_fault) > 1.5 * median(measure, broadband)
 
 
@@ -187,18 +207,6 @@ def test_drawn_medians_are_those_predicted():
     assert all(2.0 <= one["gamma"] <= 3.2 and 0.0 <= one["nu"] <= 2.0 for one in drawn)
 
 
-def test_measures_of_a_sine():
-    time = np.arange(0.0, 100.0, 0.01)
-    sine = Record(0.01, 0.2 * np.sin(2.0 * np.pi * time))
-    for period in (1.0, 3.5):
-        slow = Record(0.01 * period, sine.acceleration)
-        assert motions.mean_period(slow) == pytest.approx(period, rel=1e-3)
-    for outside in (0.2, 25.0):  # Hz, beyond the stated band of 0.25 to 20
-        both = Record(0.01, sine.acceleration + 0.2 * np.sin(2.0 * np.pi * outside * time))
-        assert motions.mean_period(both) == pytest.approx(1.0, rel=0.02)
-    assert motions.peak_velocity(sine) == pytest.approx(2.0 * 0.2 * 9.81 / (2 * np.pi), rel=1e-3)
+def test_intensity_of_a_sine():
+    sine = Record(0.01, 0.2 * np.sin(2.0 * np.pi * np.arange(0.0, 100.0, 0.01)))
     assert motions.arias_intensity(sine) == pytest.approx(np.pi * 9.81 / 2 * 0.02 * 100, rel=1e-3)
-    column = Column(half_width=0.5, half_height=3.0)
-    force, speed = motions.strength(sine, column)
-    assert force == pytest.approx(0.2 * 6.0, rel=1e-3)
-    assert speed == pytest.approx(6.0 * column.frequency_parameter * 0.4 / (2 * np.pi), rel=1e-3)

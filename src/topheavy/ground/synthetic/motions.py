@@ -31,12 +31,10 @@ import numpy as np
 from numba import njit
 from numpy.typing import ArrayLike, NDArray
 from scipy.fft import irfft, next_fast_len, rfft, rfftfreq
-from scipy.integrate import cumulative_trapezoid
 from scipy.optimize import least_squares
 from scipy.special import betaincinv, expit, logit, ndtr
 
 from topheavy import STANDARD_GRAVITY, Record
-from topheavy.bodies.structures import Structure
 
 TIME_STEP = 0.01
 """s. [4] and [5] take 0.005. The fastest filters drawn are near 20 Hz, well below 50 Hz."""
@@ -410,50 +408,7 @@ def pulse_acceleration(time: Vector, drawn: dict[str, float]) -> Vector:
 # ---------------------------------------------------------------------------- measures
 
 
-def peak_acceleration(record: Record) -> float:
-    """Return the largest |acceleration|, g."""
-    return float(np.abs(record.acceleration).max())
-
-
-def velocity(record: Record) -> Vector:
-    """Return the ground velocity at the samples, m/s: trapezoids, from rest."""
-    acceleration = STANDARD_GRAVITY * record.acceleration
-    return cumulative_trapezoid(acceleration, dx=record.time_step, initial=0.0)
-
-
-def peak_velocity(record: Record) -> float:
-    """Return the largest |velocity|, m/s."""
-    return float(np.abs(velocity(record)).max())
-
-
 def arias_intensity(record: Record) -> float:
     """Return π g/2 ∫ a² dt with a in g: m/s."""
     energy = float(np.square(record.acceleration).sum()) * record.time_step
     return math.pi / 2.0 * STANDARD_GRAVITY * energy
-
-
-def arias_time(record: Record, share: float) -> float:
-    """Return the time by which this share of the Arias intensity has come, s."""
-    growth = np.cumsum(np.square(record.acceleration))
-    return float(np.searchsorted(growth, share * growth[-1])) * record.time_step
-
-
-def mean_period(record: Record) -> float:
-    """Return T_m in s: Σ C²/f over Σ C², C the Fourier amplitudes from 0.25 to 20 Hz.
-
-    E. M. Rathje, N. A. Abrahamson and J. D. Bray (1998), J. Geotech. Geoenviron. Eng. 124(2),
-    150–159 (from memory).
-    """
-    size = max(record.acceleration.size, round(20.0 / record.time_step))  # Δf ≤ 0.05 Hz
-    frequencies = rfftfreq(size, record.time_step)
-    band = (frequencies >= 0.25) & (frequencies <= 20.0)
-    weights = np.abs(rfft(record.acceleration, size)[band]) ** 2
-    return float((weights / frequencies[band]).sum() / weights.sum())
-
-
-def strength(record: Record, structure: Structure) -> tuple[float, float]:
-    """Return a_p/(g tan α) and p·PGV/(g tan α): dimensionless peak acceleration and velocity."""
-    block = structure.block()
-    limit = math.tan(block.slenderness)
-    speed = block.frequency_parameter * peak_velocity(record) / STANDARD_GRAVITY
-    return peak_acceleration(record) / limit, speed / limit
