@@ -26,7 +26,7 @@ notebooks: | $(UV) ## open the notebooks in JupyterLab: the derivation, and a fr
 	@$(UV) run --locked $(GROUPS) --group notebooks jupyter lab notebooks
 
 api: | $(UV) ## write a page of the library's functions: dist/api/topheavy.html
-	@$(DEV) python -W 'ignore:Error parsing type annotation' -c "import topheavy; [getattr(topheavy, name) for name in topheavy.__all__]; \
+	@$(DEV) python -W 'ignore:Error parsing type annotation' -c "import topheavy; [getattr(topheavy, name) for name in dir(topheavy)]; \
 	  from pdoc.__main__ import cli; cli('topheavy -o dist/api --no-show-source --docformat numpy'.split())"
 
 audit: | $(UV) ##- 3 hours: finer grids, tighter tolerances, all peers, all faults (CONFIG, CELLS, ROTATE)

@@ -476,7 +476,7 @@ def refusals(name: str, data: st.DataObject) -> None:
 
 def public() -> set[str]:
     """Return the names of all public functions."""
-    return {name for name in topheavy.__all__ if inspect.isfunction(getattr(topheavy, name))}
+    return {name for name in dir(topheavy) if inspect.isfunction(getattr(topheavy, name))}
 
 
 def tried(held: Callable[..., None], number: int, most: int) -> int:

@@ -4,14 +4,16 @@
                                ├─►  RockingBlock(p, α, √r)  ─►  simulate · overturning · spectra
     RockingFrame(column, γ)   ─┘
 
-Angles are in rad, rotations signed, accelerations in g, everything else in SI units.
+Angles are in rad, rotations signed, accelerations in g, everything else in SI units. To begin with:
 
-It models
+- structures: `Column`, `RockingFrame` (equal columns under a rigid cap beam), and with the mass
+  fixed to one column or to both `FixedMassColumn`, `MonolithicPortal`
+- what shakes them: `Pulse`, `Record`, `read_record`; `vertical=` is the vertical acceleration
+- what becomes of them: `simulate`, `judge`, `lowest_overturning`, `overturning_map`, `fragility`,
+  `plot`
 
-- a solitary column, and equal columns under a rigid cap beam: `Column`, `RockingFrame`
-- the mass fixed to one column (a vase) or to both: `FixedMassColumn`, `MonolithicPortal`
-- pulses, records, vertical ground acceleration: `Pulse`, `Record`, `vertical=`
-- the forces at the contacts, and the friction that rocking requires: `contact_forces`
+`dir(topheavy)` has the other names, such as `contact_forces` with the friction that rocking
+requires; each has an example in its docstring, in which `th` is this package and `np` NumPy.
 
 It does not model
 
@@ -28,4 +30,20 @@ import lazy_loader
 __version__ = "0.1.0"
 
 # A name is loaded from its module when it is first used (SPEC 1); __init__.pyi says from which.
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+__getattr__, __dir__, _ = lazy_loader.attach_stub(__name__, __file__)
+
+__all__ = [
+    "Column",
+    "FixedMassColumn",
+    "MonolithicPortal",
+    "Pulse",
+    "Record",
+    "RockingFrame",
+    "fragility",
+    "judge",
+    "lowest_overturning",
+    "overturning_map",
+    "plot",
+    "read_record",
+    "simulate",
+]

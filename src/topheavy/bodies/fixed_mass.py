@@ -110,6 +110,11 @@ class FixedMassColumn(_OneBody):
     ------
     ValueError
         For a γ that is negative or not a number, and for negative or infinite lengths.
+
+    Examples
+    --------
+    >>> th.FixedMassColumn(th.Column(0.5, 3.0), mass_ratio=1.0).block().slenderness
+    0.11065722117389565
     """
 
     column: Column
@@ -158,6 +163,12 @@ class MonolithicPortal(_OneBody):
     ValueError
         For a γ that is negative or not a number, columns that overlap, and lengths that are
         negative or infinite.
+
+    Examples
+    --------
+    >>> portal = th.MonolithicPortal(th.Column(0.5, 3.0), mass_ratio=1.0, span=5.0)
+    >>> portal.block().slenderness
+    0.5880026035475675
     """
 
     column: Column

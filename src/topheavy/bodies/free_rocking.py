@@ -31,6 +31,11 @@ class Ending:
         Largest φ still to come, rad; NaN if overturned.
     impacts : int
         Impacts on the way to overturning; 0 for a survivor, whose bouncing is not counted.
+
+    Examples
+    --------
+    >>> th.judge(th.Column(0.5, 3.0), th.Pulse("one-sine", 1.0, 2.0).scaled(0.18)).impacts
+    5
     """
 
     overturned: bool

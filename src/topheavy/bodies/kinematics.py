@@ -36,6 +36,12 @@ def cap_displacement(
     ------
     ValueError
         For rotations that are no numbers.
+
+    Examples
+    --------
+    >>> u, v = th.cap_displacement(th.Column(0.5, 3.0), 0.05)
+    >>> round(float(u), 4), round(float(v), 4)
+    (0.3011, 0.0425)
     """
     side, lean = _side_and_lean(column, rotation)
     alpha, diagonal = column.slenderness, 2.0 * column.size

@@ -42,6 +42,12 @@ class Response:
     peak_rotation : float
         max|θ| in rad over the whole motion, the free rocking after the forcing included; NaN if
         overturned.
+
+    Examples
+    --------
+    >>> column, pulse = th.Column(0.5, 3.0), th.Pulse("one-sine", 1.0, 2.0)
+    >>> th.simulate(column, pulse.scaled(0.18)).number_of_impacts
+    5
     """
 
     time: NDArray[np.float64]

@@ -44,6 +44,11 @@ class RockingBlock:
     ------
     ValueError
         For a value outside its range.
+
+    Examples
+    --------
+    >>> th.RockingBlock(2.0, 0.25, 0.9).linear().uplift_acceleration
+    0.25
     """
 
     frequency_parameter: float
@@ -88,6 +93,11 @@ class Column:
     ------
     ValueError
         Unless both are positive and finite.
+
+    Examples
+    --------
+    >>> th.Column.of_dimensions(width=1.0, height=6.0)
+    Column(half_width=0.5, half_height=3.0: 1 m wide, 6 m high)
     """
 
     half_width: float
@@ -182,6 +192,11 @@ class RockingFrame:
     ------
     ValueError
         For a γ that is negative or not a number.
+
+    Examples
+    --------
+    >>> th.RockingFrame(th.Column(0.5, 3.0), mass_ratio=2.0).block().restitution
+    0.9478764478764479
     """
 
     column: Column
@@ -270,7 +285,11 @@ class RockingFrame:
 
 
 class Structure(Protocol):
-    """Whatever becomes a rocking block: `simulate` and its kin accept it."""
+    """Whatever becomes a rocking block: `simulate` and its kin accept it.
+
+    >>> [structure.block().slenderness for structure in (th.Column(0.5, 3.0), th.Column(1.0, 6.0))]
+    [0.16514867741462683, 0.16514867741462683]
+    """
 
     def block(self) -> RockingBlock:
         """Return the block that rocks as the structure does."""

@@ -47,6 +47,11 @@ class Cap:
     ------
     ValueError
         Unless both are positive and finite.
+
+    Examples
+    --------
+    >>> th.Cap(span=5.0, half_depth=0.4)
+    Cap(span=5.0, half_depth=0.4)
     """
 
     span: float
@@ -67,6 +72,11 @@ class Reaction:
         To the right.
     vertical : ndarray
         Upward. If it is negative, the contact would have to pull; it opens instead.
+
+    Examples
+    --------
+    >>> th.column_forces(th.Column(0.5, 3.0), 0.0, 0.0, 0.05).horizontal.item()
+    0.05
     """
 
     horizontal: Array
@@ -95,6 +105,13 @@ class ContactForces:
         Of the ground on the left and the right column.
     seat_left, seat_right : Reaction
         Of the left and the right column on the cap.
+
+    Examples
+    --------
+    >>> frame = th.RockingFrame(th.Column(0.5, 3.0), mass_ratio=2.0)
+    >>> forces = th.contact_forces(frame, th.Cap(span=5.0, half_depth=0.4), 0.05, 0.0)
+    >>> round(forces.seat_right.vertical.item(), 3)
+    0.401
     """
 
     base_left: Reaction
@@ -150,6 +167,13 @@ def contact_forces(
     ------
     ValueError
         For a rotation of π/2 or more, or a span that is not more than the columns' width 2b.
+
+    Examples
+    --------
+    >>> frame = th.RockingFrame(th.Column(0.5, 3.0), mass_ratio=2.0)
+    >>> forces = th.contact_forces(frame, th.Cap(span=5.0, half_depth=0.4), 0.05, 0.0)
+    >>> round(forces.base_left.vertical.item(), 3)
+    0.422
     """
     check_span(frame, cap)
     at = _state(frame.column, rotation, velocity, ground_acceleration)
@@ -175,6 +199,11 @@ def column_forces(
     ------
     ValueError
         For a rotation of π/2 or more.
+
+    Examples
+    --------
+    >>> th.column_forces(th.Column(0.5, 3.0), 0.0, 0.0, 0.05).vertical.item()
+    1.0
     """
     at = _state(column, rotation, velocity, ground_acceleration)
     rocking = _load(at, column.size, column.frequency_parameter)
@@ -201,6 +230,13 @@ def impact_impulses(frame: RockingFrame, cap: Cap, velocity: ArrayLike) -> Conta
     ------
     ValueError
         When √r of Eq. (25) is negative, or the span is not more than the columns' width 2b.
+
+    Examples
+    --------
+    >>> frame = th.RockingFrame(th.Column(0.5, 3.0), mass_ratio=2.0)
+    >>> impulses = th.impact_impulses(frame, th.Cap(span=5.0, half_depth=0.4), 0.5)
+    >>> round(impulses.base_left.vertical.item(), 3)
+    0.333
     """
     check_span(frame, cap)
     column, restitution = frame.column, frame.block().restitution
@@ -221,6 +257,11 @@ def column_impulse(column: Column, velocity: ArrayLike) -> Reaction:
     ------
     ValueError
         When Housner's √r is negative.
+
+    Examples
+    --------
+    >>> round(th.column_impulse(th.Column(0.5, 3.0), 0.5).vertical.item(), 3)
+    0.49
     """
     jump = _jump(column, column.block().restitution, column.size, velocity)
     return Reaction(jump.horizontal, jump.vertical)

@@ -58,7 +58,13 @@ SECOND_TOLERANCE = 1e-10
 
 
 class Forces(NamedTuple):
-    """Over the weight of the frame: a shear, and moments in m. Peaks are absolute."""
+    """Over the weight of the frame: a shear, and moments in m. Peaks are absolute.
+
+    >>> frame = th.RockingFrame(th.Column(0.5, 3.0), mass_ratio=2.0)
+    >>> fixed = th.FixedFrame(frame, th.Cap(span=5.0, half_depth=0.4), "pinned")
+    >>> th.peak_rigid(fixed, th.Pulse("one-sine", 1.0, 2.0).scaled(0.1)).base_shear
+    0.1
+    """
 
     base_shear: float
     overturning_moment: float
@@ -80,6 +86,13 @@ class FixedFrame:
     ------
     ValueError
         For another top, and for guided columns without a cap beam (γ = 0).
+
+    Examples
+    --------
+    >>> frame = th.RockingFrame(th.Column(0.5, 3.0), mass_ratio=2.0)
+    >>> fixed = th.FixedFrame(frame, th.Cap(span=5.0, half_depth=0.4), "pinned")
+    >>> fixed.top
+    'pinned'
     """
 
     frame: RockingFrame
@@ -149,7 +162,14 @@ class FixedFrame:
 
 
 def peak_rigid(fixed: FixedFrame, excitation: Pulse | Record) -> Forces:
-    """Return the largest forces of the rigid frame: those of the peak ground acceleration."""
+    """Return the largest forces of the rigid frame: those of the peak ground acceleration.
+
+    >>> column, pulse = th.Column(0.5, 3.0), th.Pulse("one-sine", 1.0, 2.0)
+    >>> frame = th.RockingFrame(column, mass_ratio=2.0)
+    >>> fixed = th.FixedFrame(frame, th.Cap(span=5.0, half_depth=0.4), "pinned")
+    >>> round(th.peak_rigid(fixed, pulse.scaled(0.1)).overturning_moment, 4)
+    0.5267
+    """
     if isinstance(_ending(excitation), Record):
         largest = excitation.peak_acceleration
     else:
@@ -164,6 +184,12 @@ def peak_elastic(
 
     The oscillator is integrated exactly for a ground acceleration that is linear in each step: a
     record is; a pulse is followed to (2π/steps)²/8 of its amplitude.
+
+    >>> column, pulse = th.Column(0.5, 3.0), th.Pulse("one-sine", 1.0, 2.0)
+    >>> frame = th.RockingFrame(column, mass_ratio=2.0)
+    >>> fixed = th.FixedFrame(frame, th.Cap(span=5.0, half_depth=0.4), "pinned")
+    >>> round(th.peak_elastic([fixed], pulse, period=0.3)[0].base_shear, 3)
+    1.04
     """
     start, end, step = _steps(_ending(excitation), checks.positive("period", period, "s"), steps)
     total = _total_acceleration(start, end, step, period)
@@ -175,7 +201,14 @@ def peak_elastic(
 def peak_elastic_by_scipy(
     fixed: FixedFrame, excitation: Excitation, period: float, steps: int = STEPS
 ) -> Forces:
-    """Return the same by SciPy's integration of the equation of motion: the second solver."""
+    """Return the same by SciPy's integration of the equation of motion: the second solver.
+
+    >>> column, pulse = th.Column(0.5, 3.0), th.Pulse("one-sine", 1.0, 2.0)
+    >>> frame = th.RockingFrame(column, mass_ratio=2.0)
+    >>> fixed = th.FixedFrame(frame, th.Cap(span=5.0, half_depth=0.4), "pinned")
+    >>> round(th.peak_elastic_by_scipy(fixed, pulse, period=0.3).base_shear, 3)
+    1.04
+    """
     omega, found, state = 2.0 * math.pi / checks.positive("period", period, "s"), [], np.zeros(2)
     end = _ending(excitation).duration
     for segment in [*excitation.segments(end), Segment(end, end + period, _no_acceleration)]:

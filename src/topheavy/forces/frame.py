@@ -45,6 +45,13 @@ class FrameForces:
         over the weight, m.
     bending_moment : ndarray, shape (..., 2, sections)
         In the left and the right column at the heights SECTIONS, over the weight, m.
+
+    Examples
+    --------
+    >>> frame = th.RockingFrame(th.Column(0.5, 3.0), mass_ratio=2.0)
+    >>> forces = th.frame_forces(frame, th.Cap(span=5.0, half_depth=0.4), 0.05, 0.0)
+    >>> round(forces.overturning_moment.item(), 4)
+    -0.8553
     """
 
     base_shear: Array
@@ -63,6 +70,11 @@ def frame_forces(
 
     Parameters are those of `contact_forces`. At rest, base shear and overturning moment are those
     of the ground's acceleration; the bending moments are NaN, since whole faces are in contact.
+
+    >>> frame = th.RockingFrame(th.Column(0.5, 3.0), mass_ratio=2.0)
+    >>> forces = th.frame_forces(frame, th.Cap(span=5.0, half_depth=0.4), 0.05, 0.0)
+    >>> round(forces.base_shear.item(), 4)
+    -0.1019
     """
     motion = checked_motion(rotation, velocity, ground_acceleration)
     shape, count = motion[0].shape, motion[0].size
@@ -86,6 +98,14 @@ def largest_forces(
     -------
     ndarray, shape (2, 3)
         Of all samples, and of every other one: base shear, overturning moment, bending moment.
+
+    Examples
+    --------
+    >>> frame = th.RockingFrame(th.Column(0.5, 3.0), mass_ratio=2.0)
+    >>> theta, at_rest = np.array([[0.02, 0.05]]), np.zeros((1, 2))
+    >>> th.largest_forces(frame, th.Cap(span=5.0, half_depth=0.4), theta, at_rest, at_rest).round(4)
+    array([[0.1278, 0.8574, 0.2813],
+           [0.1278, 0.8574, 0.2812]])
     """
     motion = map(np.ascontiguousarray, checked_motion(rotation, velocity, ground_acceleration))
     found: Array = largest_along(_numbers(frame, cap), *motion, HEIGHTS)
@@ -96,6 +116,9 @@ def base_shear_slope(frame: RockingFrame) -> float:
     """Return d(V/W)/d(ü_g/g), the growth of the base shear over the weight just after uplift.
 
     1 − (3/4) cos²α (1 + 2γ)²/((1 + γ)(1 + 3γ)); sin²α for γ → ∞. It is 1 before uplift.
+
+    >>> round(th.base_shear_slope(th.RockingFrame(th.Column(0.5, 3.0), 2.0)), 4)
+    0.1313
     """
     gamma = frame.mass_ratio
     ratio = 4.0 / 3.0

@@ -48,7 +48,12 @@ class Section(NamedTuple):
 
 
 class ColumnEnds(NamedTuple):
-    """Forces at the bases and at the joints of both columns, over the weight of the portal."""
+    """Forces at the bases and at the joints of both columns, over the weight of the portal.
+
+    >>> portal = th.MonolithicPortal(th.Column(0.5, 3.0), mass_ratio=1.0, span=5.0)
+    >>> th.rocking_portal_forces(portal, 0.02, 0.0)._fields
+    ('base', 'joint')
+    """
 
     base: Section
     joint: Section
@@ -64,6 +69,10 @@ def rocking_portal_forces(
 
     Rotation (rad, signed), velocity (rad/s) and ground acceleration (g) broadcast; the angular
     acceleration is that of Eq. (23) with p' and α'. NaN at rest below the uplift acceleration.
+
+    >>> portal = th.MonolithicPortal(th.Column(0.5, 3.0), mass_ratio=1.0, span=5.0)
+    >>> th.rocking_portal_forces(portal, 0.02, 0.0).joint.moment.round(4)
+    array([ 0.1293, -1.6922])
     """
     theta, rate, ground = (
         one[..., None]
@@ -111,6 +120,12 @@ def resting_portal_forces(
     ------
     ValueError
         For other bases.
+
+    Examples
+    --------
+    >>> portal = th.MonolithicPortal(th.Column(0.5, 3.0), mass_ratio=1.0, span=5.0)
+    >>> th.resting_portal_forces(portal, "fixed", 0.05).joint.moment.round(4)
+    array([0.05, 0.05])
     """
     if not isinstance(bases, str) or bases not in get_args(Bases):
         raise ValueError(

@@ -106,6 +106,11 @@ class Pulse(Excitation):
     ValueError
         For an unknown shape, an amplitude that is not finite or beyond
         `checks.LARGEST_ACCELERATION`, or ω that is not positive.
+
+    Examples
+    --------
+    >>> th.Pulse("one-sine", 0.4, 2.0).duration
+    3.141592653589793
     """
 
     shape: str

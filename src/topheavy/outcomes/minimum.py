@@ -75,6 +75,13 @@ class LowestOverturning:
     wide : Interval or None
         The lowest such interval, on a grid with steps of an eighth of this width; survival regions
         narrower than a step may lie inside it. None where there is none.
+
+    Examples
+    --------
+    >>> column, pulse = th.Column(0.5, 3.0), th.Pulse("one-sine", 1.0, 2.0)
+    >>> found = th.lowest_overturning(column, pulse, (0.1, 1.0), floor=1e-3)
+    >>> found.bracket[0] < found.factor <= found.bracket[1]
+    True
     """
 
     scale_range: tuple[float, float]
@@ -183,6 +190,13 @@ def lowest_overturning(
         For a range that does not ascend or begins below zero, a floor that is not positive or below
         1e-10 of the last factor, a harmonic, and a vertical acceleration of −1 g or less at a
         factor of the range.
+
+    Examples
+    --------
+    >>> column, pulse = th.Column(0.5, 3.0), th.Pulse("one-sine", 1.0, 2.0)
+    >>> found = th.lowest_overturning(column, pulse, (0.1, 1.0), floor=1e-3)
+    >>> round(found.acceleration, 6)
+    0.191798
     """
     search = Search(structure, excitation, scale_range, vertical, scale_vertical)
     (found,) = lowest_together([search], [floor])

@@ -78,6 +78,13 @@ def overturning_map(
         peak_rotation (rad, NaN where overturned), overturned and impacts, over
         (angular_frequency, amplitude). As of `judge`, but for what both leave out of the peak: it
         differs by 1e-10 α or so.
+
+    Examples
+    --------
+    >>> found = th.overturning_map(th.Column(0.5, 3.0), "one-sine", [2.0, 4.0], [0.2, 0.4, 0.8])
+    >>> found.overturned.values
+    array([[ True,  True,  True],
+           [False,  True,  True]])
     """
     block = as_block(structure)
     if checked_shape(shape) == "harmonic":
@@ -127,7 +134,11 @@ def outcomes_dataset(
 
 
 class Search(NamedTuple):
-    """A search of factors: `overturning_intervals` and `minimum_overturning` have one each."""
+    """A search of factors: `overturning_intervals` and `minimum_overturning` have one each.
+
+    >>> th.Search(th.Column(0.5, 3.0), th.Pulse("one-sine", 1.0, 2.0), (0.1, 1.0)).scale_range
+    (0.1, 1.0)
+    """
 
     structure: Structure
     excitation: Excitation
@@ -175,6 +186,11 @@ def overturned_by(
     ValueError
         For factors that are negative or not finite, for a harmonic, and for a vertical
         acceleration, with its factor, of −1 g or less.
+
+    Examples
+    --------
+    >>> th.overturned_by(th.Column(0.5, 3.0), th.Pulse("one-sine", 1.0, 2.0), [0.15, 0.4])
+    array([False,  True])
     """
     return outcomes_by(
         structure,
@@ -240,6 +256,13 @@ def overturned_together(
     ValueError
         For no structures, as many rows of factors as there are not structures, and as
         `overturned_by`.
+
+    Examples
+    --------
+    >>> structures = [th.Column(0.5, 3.0), th.Column(1.0, 6.0)]
+    >>> th.overturned_together(structures, th.Pulse("one-sine", 1.0, 2.0), [0.2, 0.4])
+    array([[ True,  True],
+           [ True,  True]])
     """
     structures = _several("structures", structures)
     given = np.atleast_1d(checks.numbers("factors", factors))
@@ -273,6 +296,13 @@ class Interval:
         in the interval, `lower` is the first factor twice; where it ends in it, `upper` is None.
     impacts : int
         Before the fall: 0 is mode 2 of Zhang & Makris (2001).
+
+    Examples
+    --------
+    >>> column, pulse = th.Column(0.5, 3.0), th.Pulse("one-sine", 1.0, 2.0)
+    >>> *_, last = th.overturning_intervals(column, pulse, (0.1, 1.0), resolution=0.01)
+    >>> last.upper is None
+    True
     """
 
     lower: tuple[float, float]
@@ -327,6 +357,13 @@ def overturning_intervals(
     ValueError
         For a range that does not ascend, a resolution that is not positive, a harmonic, or a
         vertical acceleration of −1 g or less at a factor of the range.
+
+    Examples
+    --------
+    >>> column, pulse = th.Column(0.5, 3.0), th.Pulse("one-sine", 1.0, 2.0)
+    >>> found = th.overturning_intervals(column, pulse, (0.1, 1.0), resolution=0.01)
+    >>> [interval.impacts for interval in found]
+    [1, 0]
     """
     search = Search(structure, excitation, scale_range, vertical, scale_vertical)
     most = _most(most_impacts)
@@ -337,7 +374,12 @@ def overturning_intervals(
 def intervals_together(
     searches: Sequence[Search], *, resolution: float, most_impacts: int | None = None
 ) -> list[list[Interval]]:
-    """Return the `overturning_intervals` of several searches, in their order."""
+    """Return the `overturning_intervals` of several searches, in their order.
+
+    >>> search = th.Search(th.Column(0.5, 3.0), th.Pulse("one-sine", 1.0, 2.0), (0.1, 1.0))
+    >>> [len(found) for found in th.intervals_together([search], resolution=0.01)]
+    [2]
+    """
     return _answered(
         _several("searches", searches),
         lambda grid: _intervals(grid, resolution),
@@ -367,6 +409,13 @@ def minimum_overturning(
     -------
     (float, float), or None
         The first factor twice where that overturns; None where no factor does.
+
+    Examples
+    --------
+    >>> column, pulse = th.Column(0.5, 3.0), th.Pulse("one-sine", 1.0, 2.0)
+    >>> low, high = th.minimum_overturning(column, pulse, (0.1, 1.0), resolution=0.01)
+    >>> round(low, 6)
+    0.191798
     """
     search = Search(structure, excitation, scale_range, vertical, scale_vertical)
     (found,) = _answered([search], lambda grid: _minimum(grid, resolution), resolution, 0)
@@ -376,7 +425,12 @@ def minimum_overturning(
 def minima_together(
     searches: Sequence[Search], *, resolution: float
 ) -> list[tuple[float, float] | None]:
-    """Return the `minimum_overturning` of several searches, in their order."""
+    """Return the `minimum_overturning` of several searches, in their order.
+
+    >>> search = th.Search(th.Column(0.5, 3.0), th.Pulse("one-sine", 1.0, 2.0), (0.1, 1.0))
+    >>> [round(low, 6) for low, high in th.minima_together([search], resolution=0.01)]
+    [0.191798]
+    """
     given = _several("searches", searches)
     return _answered(given, lambda grid: _minimum(grid, resolution), resolution, 0)
 

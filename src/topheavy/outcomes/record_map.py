@@ -50,6 +50,14 @@ def overturning_map_of_record(
     ValueError
         For a record that is none or has no acceleration, sizes that are not positive, and
         accelerations that are negative or beyond `checks.LARGEST_ACCELERATION`.
+
+    Examples
+    --------
+    >>> record = th.read_record("data/records/el_centro_1940_NS.AT2")
+    >>> found = th.overturning_map_of_record(th.Column(0.5, 3.0), record, [1.0, 3.0], [0.3, 0.9])
+    >>> found.overturned.values
+    array([[False,  True],
+           [False, False]])
     """
     block = as_block(structure)
     if not isinstance(record, Record):

@@ -111,6 +111,11 @@ def simulate(
     -----
     Taylor steps whose turning points and impacts are proven by the signs of Bernstein coefficients
     (`topheavy.kernel`). `topheavy.second.reference.simulate` is the second, independent solver.
+
+    Examples
+    --------
+    >>> th.simulate(th.Column(0.5, 3.0), th.Pulse("one-sine", 1.0, 2.0).scaled(0.2)).outcome
+    'overturned'
     """
     block = as_block(structure)
     times = sample_times(samples)
@@ -200,6 +205,11 @@ def judge(
         acceleration of −1 g or less, or a restitution outside of 0 to 1.
     ArithmeticError
         For a block that bounces too often to be followed.
+
+    Examples
+    --------
+    >>> th.judge(th.Column(0.5, 3.0), th.Pulse("one-sine", 1.0, 2.0).scaled(0.2)).overturned
+    True
     """
     checked_excitation(excitation, ends=True)
     if vertical is not None:

@@ -52,6 +52,13 @@ class Fragility:
         Which scatter the intervals include, in words.
     confidence : float
         Of each interval for itself, not of several together.
+
+    Examples
+    --------
+    >>> motions = [th.Record(0.02, np.sin(k * np.arange(200))) for k in (0.02, 0.03, 0.05, 0.08)]
+    >>> found = th.fragility({"pier": th.Column(0.5, 3.0)}, motions, [0.5, 1.0, 2.0], resamples=100)
+    >>> found.curves.probability.values
+    array([[0.  , 0.25, 0.5 ]])
     """
 
     curves: xarray.Dataset
@@ -154,6 +161,13 @@ def fragility(
         For an argument that is not as above, and for a vertical acceleration of −1 g or less at a
         level; it names the argument, the value, what was expected.
 
+
+    Examples
+    --------
+    >>> motions = [th.Record(0.02, np.sin(k * np.arange(200))) for k in (0.02, 0.03, 0.05, 0.08)]
+    >>> found = th.fragility({"pier": th.Column(0.5, 3.0)}, motions, [0.5, 1.0, 2.0], resamples=100)
+    >>> found.outcomes.sum(axis=0)
+    array([[0, 1, 2]])
     """
     under = inputs.variants(structures, lowered)
     shaking = inputs.checked_motions(motions)

@@ -37,7 +37,8 @@ peak_velocity = attrgetter("peak_velocity")
 
 def velocity_of(record: Record) -> np.ndarray:
     """The ground velocity at the samples, m/s: trapezoids, from rest."""
-    return cumulative_trapezoid(STANDARD_GRAVITY * record.acceleration, dx=record.time_step, initial=0.0)
+    acceleration = STANDARD_GRAVITY * record.acceleration
+    return cumulative_trapezoid(acceleration, dx=record.time_step, initial=0.0)
 
 
 def significant_duration(record: Record) -> float:

@@ -38,6 +38,11 @@ def read_record(path: str | Path, column: str = "") -> Record:
     ------
     ValueError
         For another ending, or a file that `read_at2` or `read_csv` refuses.
+
+    Examples
+    --------
+    >>> th.read_record("data/records/el_centro_1940_NS.AT2").duration
+    31.16
     """
     return read(path, column).record
 
@@ -59,6 +64,13 @@ def read_csv(path: str | Path, column: str = "") -> Record:
         steps below 1 µs, accelerations that are all zero or beyond 5 g. A file has at most 10⁸
         bytes and two million samples, a line of the header 1000 characters, an exponent four
         digits.
+
+    Examples
+    --------
+    >>> columns, rows = "time (s),acceleration (g)", [[0.0, 0.1], [0.02, -0.2]]
+    >>> np.savetxt("motion.csv", rows, delimiter=",", header=columns, comments="")
+    >>> th.read_csv("motion.csv").peak_acceleration
+    0.2
     """
     return columns.read(Path(path), column).record
 
@@ -77,5 +89,10 @@ def read_at2(path: str | Path) -> Record:
         values than NPTS or fewer than two, a step below 1 µs, accelerations that are all zero or
         beyond 5 g. A file has at most 10⁸ bytes and two million samples, a line of the header 1000
         characters, an exponent four digits.
+
+    Examples
+    --------
+    >>> th.read_at2("data/records/el_centro_1940_NS.AT2").time_step
+    0.02
     """
     return at2.read(Path(path)).record

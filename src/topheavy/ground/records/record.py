@@ -46,6 +46,11 @@ class Record(Excitation):
 
     >>> Record(signal.dt, signal.values, unit="m/s2")  # doctest: +SKIP
     >>> Record(trace.stats.delta, trace.data, unit="m/s2")  # doctest: +SKIP
+
+    Examples
+    --------
+    >>> th.Record(0.02, [0.0, 2.5, 0.0], unit="m/s2").peak_velocity
+    0.05
     """
 
     time_step: float
