@@ -131,7 +131,7 @@ def not_negative(name: str, value: Any, unit: str = "") -> float:
 
 
 def cells(name: str, *sizes: int) -> None:
-    """Raise ValueError that names what has more cells than a machine may have memory for."""
+    """Raise ValueError if so many cells would exhaust the memory of a machine."""
     if (count := math.prod(sizes)) > MOST_CELLS:
         raise ValueError(f"{name}: {count:.3g} cells; expected at most {MOST_CELLS:.0e}")
 

@@ -79,7 +79,7 @@ def _side_and_lean(column: Column, rotation: ArrayLike) -> Pair:
 def turned_with_column(
     column: Column, rotation: float, corners: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Return where points fixed to a column, shape (n, 2), m, have gone when it has rocked by θ.
+    """Return the positions (m), shape (n, 2), of points fixed to a column that rocked by θ.
 
     The origin is the middle of the base at rest. For θ < 0 the column turns about its left corner,
     for θ > 0 about its right one.

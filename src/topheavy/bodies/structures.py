@@ -296,7 +296,7 @@ class Structure(Protocol):
 
 
 def as_block(structure: Structure) -> RockingBlock:
-    """Return the rocking block of a structure, or raise ValueError for what is none."""
+    """Return the rocking block of a structure; anything else is a ValueError."""
     if isinstance(structure, type) or not callable(getattr(structure, "block", None)):
         raise ValueError(
             f"structure is {short(structure)}; expected a Column, a RockingFrame or whatever else "
@@ -306,7 +306,7 @@ def as_block(structure: Structure) -> RockingBlock:
 
 
 def checked_mass_ratio(value: float) -> float:
-    """Return γ as a float from 0 to infinity, or raise ValueError; warn of one that few have."""
+    """Return γ as a float from 0 to infinity, or raise ValueError; warn if it is implausible."""
     mass_ratio = checks.number("mass_ratio", value)
     if not mass_ratio >= 0.0:
         raise ValueError(

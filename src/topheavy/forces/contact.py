@@ -316,7 +316,7 @@ def _state(
 
 
 def _load(at: _State, distance: float, frequency: float) -> _Pair:
-    """Return the force over its weight that a body at this distance (m) from the pivot takes.
+    """Return the force, over its weight, on a body whose centre is this far (m) from the pivot.
 
     The body moves with the diagonal through the pivot, and rides on the accelerating ground: the
     column's centre at R, the cap at 2R. That its force is (ü_g + ẍ, g + z̈)/g is Newton's law.
@@ -347,7 +347,7 @@ def _jump(column: Column, restitution: float, distance: float, velocity: ArrayLi
 def _shared(
     frame: RockingFrame, cap: Cap, side: Array, lean: Array, column: _Pair, beam: _Pair
 ) -> ContactForces:
-    """Return how the contacts share what either column and the cap take.
+    """Distribute the forces on both columns and the cap over the four contacts.
 
     The cap beam's moments determine how much vertical force shifts from the left column top to the
     right one. The corresponding horizontal force follows the diagonals.

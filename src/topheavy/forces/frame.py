@@ -89,7 +89,7 @@ def frame_forces(
 def largest_forces(
     frame: RockingFrame, cap: Cap, rotation: Array, velocity: Array, ground_acceleration: Array
 ) -> NDArray[np.float64]:
-    """Return the largest moduli of the forces of `frame_forces` in all arcs that move.
+    """Return the largest absolute forces of `frame_forces` over all arcs of motion.
 
     The motion has the shape (arcs, samples). At rest there is less shear than at uplift, where the
     forces go on without a jump; where no arc moves, all count.

@@ -36,7 +36,7 @@ Bases: TypeAlias = Literal["fixed", "pinned"]
 
 
 class Section(NamedTuple):
-    """Of the part below on the part above, in the left and the right column: shape (..., 2).
+    """Forces of the part below on that above, left and right column: shape (..., 2).
 
     The shear is transverse, positive to the right, and the axial force along the column, positive
     in compression. The moment (m) is about the axis, positive anticlockwise.

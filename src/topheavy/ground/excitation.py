@@ -20,7 +20,7 @@ def constant_gravity(time: float) -> float:
 
 
 def no_excitation(value: object) -> ValueError:
-    """Return the error that refuses what is no ground motion."""
+    """Return the ValueError for an argument that is no ground motion."""
     return ValueError(
         f"excitation is {short(value)}; expected a Pulse or a Record, for example "
         'Pulse("one-sine", 0.3, 6.0) with 0.3 g and 6 rad/s'
@@ -28,7 +28,7 @@ def no_excitation(value: object) -> ValueError:
 
 
 def checked_excitation(value: Any, *, ends: bool = False) -> Excitation:
-    """Return a ground motion, and one that ends where `ends` is true, or raise ValueError."""
+    """Check that an argument is a ground motion and, if `ends`, of finite duration."""
     if isinstance(value, type) or not callable(getattr(value, "segments", None)):
         raise no_excitation(value)
     if ends and value.duration == math.inf:

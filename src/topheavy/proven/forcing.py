@@ -149,7 +149,7 @@ class RecordForcing(Forcing):
 
 
 def prepared(excitation: Pulse | Record) -> Forcing:
-    """Return a pulse or record in balls; expected is one that `simulate.judge` accepts."""
+    """Return a pulse or record that `judge` accepts as a forcing in balls."""
     if isinstance(excitation, Record):
         return RecordForcing(excitation)
     return PulseForcing(excitation)

@@ -97,7 +97,7 @@ def pairs(under: Sequence[Variant]) -> list[tuple[int, int]]:
 
 
 def checked_motions(motions: Sequence[Motion]) -> list[Motion]:
-    """Return the motions as a list, or raise ValueError for what is no list of motions that end."""
+    """Return the motions as a list; raise ValueError unless all are of finite duration."""
     if not isinstance(motions, Iterable):
         raise ValueError(f"motions is {short(motions)}; expected a list of motions")
     found = list(motions)
@@ -219,7 +219,7 @@ def checked_groups(groups: Sequence[Hashable] | None, motions: int) -> list[Hash
 
 
 def sampling(groups: Sequence[Hashable] | None, motions: int) -> str:
-    """Return in words which scatter the intervals have in them."""
+    """Return in words which sources of scatter the intervals include."""
     if groups is None:
         return f"sampling of {motions} motions, each drawn independently of the others"
     sizes = [groups.count(group) for group in dict.fromkeys(groups)]

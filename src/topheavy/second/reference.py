@@ -186,7 +186,7 @@ def _fly(
 
 
 def _glides(glide: ode, p: float, stop: float, course: Motion, largest: float) -> bool:
-    """Carry the motion to `stop` at once if nothing happens on the way, and return whether so.
+    """Advance to `stop` in one step if no event can occur before; return whether it did.
 
     `largest` is that of `_is_eventless`.
     """

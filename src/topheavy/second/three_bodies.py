@@ -312,7 +312,7 @@ def _first_event(
 def _collide(
     bodies: ThreeBodies, segments: Sequence[Segment], motion: _Motion, level: float
 ) -> None:
-    """Let the upright frame change over to its other corners."""
+    """Apply the impact of the upright frame: it changes to its other corners."""
     largest = np.abs(motion.state[:9] * ([1.0, 1.0, bodies.frame.column.size] * 3)).max()
     if largest > LARGEST_GAP * bodies.frame.column.size:
         raise ArithmeticError(

@@ -120,7 +120,7 @@ def regular_step(path: Path, printed: list[str], places: list[int]) -> float:
 
 
 def _last_digits(printed: list[str]) -> NDArray[np.float64]:
-    """Return one unit of the last digit of each time, zeros that are left out counted.
+    """Return the unit of the last printed digit of each time; trailing zeros count.
 
     Programs print either so many decimals or so many significant digits: the most that any of the
     times has.

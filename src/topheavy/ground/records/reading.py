@@ -51,7 +51,7 @@ class Reading:
 
 
 def text_lines(path: Path) -> list[str]:
-    """Return the lines of a UTF-8 file, with or without a mark of byte order.
+    """Return the lines of a UTF-8 file; a byte-order mark is allowed.
 
     Raises
     ------
@@ -78,7 +78,7 @@ def text_lines(path: Path) -> list[str]:
 
 
 def check_header(path: Path, lines: Sequence[str]) -> None:
-    """Refuse a file with a line of the header that is too long to be one.
+    """Raise ValueError if a line of the header is longer than any header's.
 
     Raises
     ------

@@ -55,7 +55,7 @@ def one_of(*given: Any) -> Test:
 
 
 def either(*tests: Test) -> Test:
-    """Return a test that one of several has to pass; the last gives what was expected."""
+    """Return a test that passes if one of several does; its message is that of the last."""
 
     def test(where: str, value: Any) -> None:
         for one in tests[:-1]:
@@ -105,7 +105,7 @@ def mapping(**entries: Test) -> Test:
 
 
 def anything(where: str, value: Any) -> None:
-    """An entry that nothing is concluded from."""
+    """Accept any value: no conclusion rests on this entry."""
 
 
 SIZE, TIME, ANGLE, HINT = number(FINEST), number(0, 1000), number(-100, 100), number(-1000, 1000)
