@@ -3,7 +3,7 @@
 import math
 import sys
 import warnings
-from pathlib import Path
+from os.path import dirname
 from reprlib import Repr
 from typing import Any
 
@@ -42,7 +42,7 @@ _SHORT.maxother = 80
 short = _SHORT.repr
 """What a message shows of a value: its repr, and only the beginning and end of a long one."""
 
-_HERE = str(Path(__file__).parent)
+_HERE = dirname(__file__)
 
 
 def warn(message: str) -> None:

@@ -30,7 +30,7 @@ from topheavy.kernel.forcing import (
 )
 from topheavy.kernel.grid import outcome_of, record_order
 from topheavy.kernel.interrupt import LONG, in_threads
-from topheavy.kernel.outcome import PULSE_ORDER, TOLERANCE, working_array
+from topheavy.kernel.outcome import NO_RATIOS, PULSE_ORDER, TOLERANCE, working_array
 from topheavy.kernel.taylor import oscillator
 from topheavy.kernel.trace import (
     MOST_STEPS,
@@ -222,10 +222,14 @@ def judge(
         shaking.amplitude,
         shaking.record,
         lift=1.0,
-        ratios=np.array([checks.fraction("restitutions", value) for value in restitutions]),
+        ratios=_ratios(restitutions) if len(restitutions) else NO_RATIOS,
         tolerance=checked_tolerance(tolerance),
     )
     return Ending(bool(found.overturned), float(found.peak), int(found.impacts))
+
+
+def _ratios(restitutions: Sequence[float]) -> NDArray[np.float64]:
+    return np.array([checks.fraction("restitutions", value) for value in restitutions])
 
 
 class Shaking(NamedTuple):
