@@ -91,3 +91,17 @@ def test_module_is_where_its_path_says_and_no_public_function_hides_it(name):
         found = getattr(found, part)
     assert found is module
     assert Path(module.__file__) == MODULES[name]
+
+
+INNERMOST = {("advance", 11), ("short_series", 9), ("only_root", 9)}
+"""Compiled functions of the innermost loop: what is grouped there would be stored and loaded."""
+
+
+def test_functions_take_few_arguments_by_position():
+    taken = {
+        (node.name, len(node.args.posonlyargs + node.args.args))
+        for tree in TREES.values()
+        for node in ast.walk(tree)
+        if isinstance(node, ast.FunctionDef)
+    }
+    assert {pair for pair in taken if pair[1] > 8} == INNERMOST

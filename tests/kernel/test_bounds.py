@@ -47,7 +47,7 @@ def test_parts_of_a_polynomial_are_far_fewer_than_the_most(monkeypatch):
         w = outcome.working_array()
         w[outcome.POLYNOMIAL, :16] = np.polynomial.polynomial.polyfromroots(places)
         bernstein.to_bernstein(w, outcome.POLYNOMIAL, 15, outcome.HULL)
-        given = (w, outcome.POLYNOMIAL, 0, 15, outcome.HULL, outcome.STACK, outcome.FOUND, 15)
+        given = (w, outcome.POLYNOMIAL, 0, 15, outcome.HULL, outcome.STACK, outcome.ROOTS, 15)
         bernstein._roots.py_func(*given)
         assert w[outcome.HALT, 0] == 0.0
     monkeypatch.setattr(bernstein, "MOST_PARTS", 2)
@@ -85,6 +85,7 @@ CHILD = """
 import os, signal, sys, threading, time
 import numpy as np
 from topheavy import *
+from topheavy import RockingBlock
 signal.signal(signal.SIGINT, signal.default_int_handler)  # that a shell's background job ignores
 block = RockingBlock(2.0, 0.25, 0.95)
 def shaking():

@@ -14,9 +14,9 @@ from topheavy.kernel.lanes.vectors import (
     among,
     bits,
     exponential,
+    first_lane,
     fma,
     load,
-    lowest,
     maximum,
     minimum,
     rough_power,
@@ -94,7 +94,7 @@ def test_masks_choose_lane_by_lane():
 
 @njit
 def number_of_lowest(chosen):
-    return lowest(chosen)
+    return first_lane(chosen)
 
 
 @pytest.mark.parametrize(("chosen", "lane"), [(1, 0), (6, 1), (1 << 15, 15), (0b1010000, 4)])

@@ -54,9 +54,9 @@ from topheavy.kernel.lanes.vectors import (
     absolute,
     bits,
     exponential,
+    first_lane,
     fma,
     load,
-    lowest,
     select,
     square_root,
     store,
@@ -163,7 +163,7 @@ def pulse_outcomes(workspaces, part, histories, shape, record, order, tolerance,
     while True:  # each time around a lane takes one of its `MAX_STEPS` steps, or there is none left
         busy &= ~vacant
         while vacant:
-            lane, lifted = lowest(vacant), False
+            lane, lifted = first_lane(vacant), False
             vacant &= vacant - 1
             while coming < last and not lifted:
                 i, j = coming // columns, coming % columns
@@ -196,7 +196,7 @@ def pulse_outcomes(workspaces, part, histories, shape, record, order, tolerance,
         over = bits(time >= end) & busy
         ending = fallen | over | resting | bits(load(w, STEPS) > MAX_STEPS) & busy
         while ending:
-            lane = lowest(ending)
+            lane = first_lane(ending)
             ending &= ending - 1
             cell = int(w[CELL, lane])
             i, j = cell // columns, cell % columns

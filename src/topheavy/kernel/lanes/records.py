@@ -61,9 +61,9 @@ from topheavy.kernel.lanes.vectors import (
     absolute,
     among,
     bits,
+    first_lane,
     fma,
     load,
-    lowest,
     maximum,
     minimum,
     number,
@@ -263,7 +263,7 @@ def record_outcomes(workspaces, part, histories, record, vertical, tolerance, in
         stepping &= ~vacant
         marching &= ~vacant
         while vacant:
-            lane, lifted = lowest(vacant), False
+            lane, lifted = first_lane(vacant), False
             vacant &= vacant - 1
             while coming < last and not lifted:
                 own = numbered(kind, blocks, which[coming])
@@ -312,7 +312,7 @@ def record_outcomes(workspaces, part, histories, record, vertical, tolerance, in
         marching |= ended
         events = fallen | safe | over | resting | outward | tired
         while events:
-            lane = lowest(events)
+            lane = first_lane(events)
             events &= events - 1
             cell = int(w[CELL, lane])
             own = numbered(kind, blocks, which[cell])

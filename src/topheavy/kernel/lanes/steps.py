@@ -18,9 +18,9 @@ from topheavy.kernel.lanes.vectors import (
     absolute,
     among,
     bits,
+    first_lane,
     fma,
     load,
-    lowest,
     maximum,
     minimum,
     rough_power,
@@ -307,7 +307,7 @@ def advance(w, alone, block, order, tolerance, is_straight, weighs, active):
     store(w, ARC, select(hard, arc, highest))
     landed, fallen, unsettled = bits(lands & ~hard) & active, 0, bits(hard) & active
     while unsettled and alone[HALT, 0] == 0.0:  # one bit less each time
-        lane = lowest(unsettled)
+        lane = first_lane(unsettled)
         unsettled &= unsettled - 1
         event = step_alone(w, alone, lane, order, block.flat)
         landed |= (1 << lane) if event == LANDING else 0

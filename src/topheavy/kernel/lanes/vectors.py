@@ -197,7 +197,7 @@ def among(typing, chosen):
 
 
 @intrinsic
-def lowest(typing, chosen):
+def first_lane(typing, chosen):
     """Return the number of the lowest bit that is set in an integer that is not zero."""
 
     def emit(builder, chosen):
