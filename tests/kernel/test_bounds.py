@@ -84,8 +84,9 @@ def test_harmonic_at_the_level_is_searched_for_a_few_turns_only():
 CHILD = """
 import os, signal, sys, threading, time
 import numpy as np
-from topheavy import *
-from topheavy import RockingBlock
+from topheavy import (
+    Pulse, Record, RockingBlock, judge, overturning_intervals, overturning_map, simulate
+)
 signal.signal(signal.SIGINT, signal.default_int_handler)  # that a shell's background job ignores
 block = RockingBlock(2.0, 0.25, 0.95)
 def shaking():
