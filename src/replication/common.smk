@@ -14,6 +14,7 @@ from replication.workflow.closing import close
 from replication.workflow.code import code, results_read
 from replication.workflow.completion import complete, findings_made
 from replication.workflow.costs import longest_jobs
+from replication.workflow.internals import with_files_of_jobs
 from replication.origin.recorded import CRATE
 from replication.judging.ledger import read_judged, read_ledger
 from replication.judging.ledger_check import check_ledger
@@ -85,12 +86,7 @@ def everything(wildcards):
         wanted |= dict.fromkeys(str(path) for path in asked if not callable(path))
     wanted = {path: None for path in wanted if "{" not in path}
     # A rule with wildcards reads and makes what its jobs do, and these are known by one of their files.
-    for each in filter(lambda one: one.has_wildcards(), rules):
-        for path in filter(each.is_producer, list(wanted)):
-            files, *_ = each.expand_input(each.get_wildcards(path))
-            made, *_ = each.expand_output(each.get_wildcards(path))
-            wanted |= dict.fromkeys(map(str, [*files, *made]))
-    return list(wanted)
+    return with_files_of_jobs([each for each in rules if each.has_wildcards()], wanted)
 
 
 def longest_first():

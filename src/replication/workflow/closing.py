@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
-from snakemake_interface_executor_plugins.settings import ExecMode
+from replication.workflow import internals
 
 SUMMARY = Path("results/summary.txt")
 GO_ON = (
@@ -35,11 +35,8 @@ def last_lines(workflow: Any, begun: float) -> str:
 
     The run began at `begun`, s since the epoch: older logs are of other runs.
     """
-    if workflow.scheduler is None or workflow.dryrun or workflow.exec_mode != ExecMode.DEFAULT:
+    if not internals.runs_jobs(workflow):
         return ""
-    dag = workflow.dag
-    waiting = [job for job in dag.needrun_jobs(exclude_finished=False) if not dag.finished(job)]
-    if waiting:
+    if waiting := internals.unfinished(workflow):
         return "".join(faults(waiting, begun)) + GO_ON
-    is_all = "all" in {rule.name for rule in dag.targetrules}
-    return SUMMARY.read_text(encoding="utf-8") if is_all else ""
+    return SUMMARY.read_text(encoding="utf-8") if "all" in internals.targets(workflow) else ""

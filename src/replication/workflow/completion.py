@@ -1,8 +1,4 @@
-"""What a rule has without saying so: inputs from its script, a message, a log, a benchmark.
-
-The modifiers of paths are no part of Snakemake's interface: only this module sets them, and its
-test fails when Snakemake drops them.
-"""
+"""What a rule has without saying so: inputs from its script, a message, a log, a benchmark."""
 
 import os
 from collections.abc import Iterable, Iterator
@@ -13,9 +9,7 @@ from typing import Any
 from snakemake.io import expand, strip_wildcard_constraints
 
 from replication.workflow.code import code, docstring
-
-MODIFIERS = ("input_modifier", "log_modifier", "benchmark_modifier")
-"""What Snakemake applies to the paths of a rule; None where the rule has no such paths."""
+from replication.workflow.internals import can_have_paths, script_of
 
 
 def complete(workflow: Any, *, timed: bool = True) -> None:
@@ -40,10 +34,8 @@ def complete(workflow: Any, *, timed: bool = True) -> None:
                     "`script:`, whose code is compared: move its commands into a script"
                 )
             continue
-        for name in MODIFIERS:
-            if getattr(rule, name) is None:
-                setattr(rule, name, workflow.modifier.path_modifier)
-        script = os.path.relpath(rule.basedir.join(rule.script).get_path_or_uri(secret_free=True))
+        can_have_paths(rule, workflow)
+        script = os.path.relpath(script_of(rule, rule.script))
         needed = [CodeOf(script)] if "{" in script else code(script)
         rule.set_input(*(item for item in needed if item not in list(rule.input)))
         if rule.message is None and "{" not in script:

@@ -10,10 +10,10 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
-from typing import Any
 
 from snakemake.exceptions import CliException
-from snakemake.persistence import PersistenceBase
+
+from replication.workflow.internals import hold_while_locked
 
 HOLDER = Path(".snakemake/run")
 LIVE = "a run is going on here (process {}); expected none: wait for its end, or end it by Ctrl-C"
@@ -38,18 +38,4 @@ def alone() -> Iterator[None]:
 @cache  # once for each process, which may read several Snakefiles
 def one_run_at_a_time() -> None:
     """Let Snakemake refuse a second run, and `make unlock` beside a run."""
-    lock, clean = PersistenceBase.lock, PersistenceBase.cleanup_locks
-
-    @contextmanager
-    def locked(self: Any) -> Iterator[None]:
-        with alone():
-            if self.locked:
-                raise CliException(KILLED)
-            with lock(self):
-                yield
-
-    def unlocked(self: Any) -> None:
-        with alone():
-            clean(self)
-
-    PersistenceBase.lock, PersistenceBase.cleanup_locks = locked, unlocked
+    hold_while_locked(alone, KILLED)

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from replication.inputs.strict_yaml import read_yaml
+from replication.workflow.internals import planned, script_of
 
 ALL_TRIGGERS = ["mtime", "input", "params", "code", "software-env"]
 """What makes a run repeat a job, where the default profile says nothing else."""
@@ -39,32 +40,10 @@ def workflow_jobs(
     The entries of `config` replace those of the config file. Targets are rules or files; by default
     every rule that can be requested by name.
     """
-    # Imported here: it takes a second, and those who only want Job do not need it.
-    from snakemake.api import SnakemakeApi
-    from snakemake.settings.enums import Quietness, RerunTrigger
-    from snakemake.settings.types import (
-        ConfigSettings,
-        DAGSettings,
-        OutputSettings,
-        ResourceSettings,
-    )
-
-    with SnakemakeApi(OutputSettings(quiet={Quietness.ALL})) as api:
-        parsed = api.workflow(
-            resource_settings=ResourceSettings(cores=1),
-            config_settings=ConfigSettings(config=dict(config or {})),
-            snakefile=Path(root, "Snakefile").resolve(),
-            workdir=Path(root).resolve(),
-        )
-        workflow = parsed._workflow
-        if targets is None:
-            targets = [rule.name for rule in workflow.rules if not rule.has_wildcards()]
-        profile = Path(root, "profiles", "default", "config.yaml")
-        known = read_yaml(profile) if profile.is_file() else {}
-        triggers = RerunTrigger.parse_choices_set(known.get("rerun-triggers", ALL_TRIGGERS))
-        parsed.dag(DAGSettings(targets=set(targets), rerun_triggers=triggers))
-        workflow._prepare_dag(forceall=False, ignore_incomplete=True, lock_warn_only=True)
-        workflow._build_dag()
+    profile = Path(root, "profiles", "default", "config.yaml")
+    known = read_yaml(profile) if profile.is_file() else {}
+    triggers = known.get("rerun-triggers", ALL_TRIGGERS)
+    with planned(Path(root), config or {}, targets, triggers) as workflow:
         return [_job(job, workflow) for job in workflow.dag.jobs]
 
 
@@ -104,7 +83,7 @@ def _job(job: Any, workflow: Any) -> Job:
     scripts = ()
     if rule.script or rule.notebook:
         script = job.format_wildcards(rule.script or rule.notebook)
-        scripts = (_relative(rule.basedir.join(script).get_path_or_uri(secret_free=True)),)
+        scripts = (_relative(script_of(rule, script)),)
     return Job(
         rule=rule.name,
         place=f"{_relative(snakefile)}:{line}",

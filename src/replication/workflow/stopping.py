@@ -9,6 +9,8 @@ from typing import Any, NoReturn
 
 import psutil
 
+from replication.workflow.internals import on_signal
+
 SAYS = "Interrupted. The same command goes on: what is finished is kept."
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT)
@@ -40,9 +42,8 @@ def interrupt(*_: Any) -> NoReturn:
 def end_on_sigterm() -> None:
     """Let SIGTERM interrupt Snakemake's scheduler, and `interrupt` precede errors."""
     from snakemake.logging import logger
-    from snakemake.scheduling.job_scheduler import JobScheduler
 
-    JobScheduler.exit_gracefully = interrupt
+    on_signal(interrupt)
     logger.addFilter(after_signals)
 
 

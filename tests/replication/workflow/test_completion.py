@@ -6,7 +6,6 @@ import sys
 import pytest
 from snakemake.exceptions import WorkflowError
 
-from replication.workflow import completion
 from replication.workflow.provenance import makers, workflow_jobs
 
 SNAKEFILE = """\
@@ -100,14 +99,3 @@ def test_rule_without_a_script_is_refused(made):
     shell = '\nrule shell:\n    output:\n        "out.txt"\n    shell:\n        "touch {output}"\n'
     with pytest.raises((ValueError, WorkflowError), match=r"rule shell makes out\.txt without a s"):
         made(f"{shell}\ncomplete(workflow)\n")
-
-
-def test_snakemake_still_has_what_completion_sets(made, monkeypatch):
-    """Without a modifier Snakemake refuses a path: so it is read, and not only set."""
-    for name in completion.MODIFIERS:
-        monkeypatch.setattr(
-            completion, "MODIFIERS", tuple(m for m in completion.MODIFIERS if m != name)
-        )
-        with pytest.raises((AssertionError, WorkflowError)):
-            made()
-        monkeypatch.undo()
