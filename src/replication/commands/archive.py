@@ -5,7 +5,6 @@ where `make verify` holds its files against the RO-Crate of the run and SHA256SU
 crate lies at its root: the whole archive is an RO-Crate.
 """
 
-import hashlib
 import os
 import subprocess
 import sys
@@ -15,6 +14,7 @@ from pathlib import Path
 
 from replication.commands.verify import SUMS
 from replication.commands.verify import main as verify
+from replication.inputs.checksums import sha256
 from replication.origin.recorded import CRATE, read_crate
 from replication.pages import blanks
 from replication.workflow.provenance import source_version, workflow_jobs
@@ -68,7 +68,7 @@ def members(root: Path) -> dict[str, bytes]:
     made = [*read_crate(root / CRATE).rules, CRATE, COSTS]
     found = {path: (root / path).read_bytes() for path in sorted({*filter(None, listed), *made})}
     found[Path(CRATE).name] = found[CRATE]
-    sums = (f"{hashlib.sha256(data).hexdigest()}  {path}\n" for path, data in found.items())
+    sums = (f"{sha256(data)}  {path}\n" for path, data in found.items())
     return found | {SUMS: "".join(sums).encode()}
 
 
@@ -107,8 +107,7 @@ def main(root: Path = Path()) -> str:
     write(root, to)
     data = to.read_bytes()
     count = len(zipfile.ZipFile(to).namelist())
-    checksum = hashlib.sha256(data).hexdigest()
-    sums = hashlib.sha256(zipfile.ZipFile(to).read(SUMS)).hexdigest()
+    checksum, sums = sha256(data), sha256(zipfile.ZipFile(to).read(SUMS))
     return (
         f"{to}: {count} files, {len(data) / 1e6:.1f} MB, SHA-256 {checksum}\n"
         f"publish this beside it, which make verify prints of an unpacked one: {SUMS} {sums}"

@@ -12,6 +12,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from replication.inputs.checksums import checksum
 from replication.inputs.parts import PAPER, config_of, ledger_of
 from replication.inputs.strict_yaml import read_yaml
 from replication.judging.citations import cite, citing, library_names, printed_list
@@ -21,7 +22,6 @@ from replication.judging.ledger import finding_of, read_ledger
 from replication.judging.verdicts import verdict_on
 from replication.origin.recorded import CRATE, RUN
 from replication.rules.one_claim import verdict_line
-from replication.workflow.provenance import checksum
 
 ROOT = Path(__file__).parents[3]
 """The root of the repository; printed paths are relative to it."""

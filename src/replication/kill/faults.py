@@ -1,6 +1,5 @@
 """Deliberate faults: those of the paper and of each study, and how one is put into a tree."""
 
-import hashlib
 import json
 import os
 from collections.abc import Iterator
@@ -9,6 +8,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
+from replication.inputs.checksums import sha256
 from replication.inputs.strict_yaml import read_yaml
 from replication.kill.tree_copy import ROOT
 
@@ -70,7 +70,7 @@ class Fault:
         """Return a checksum of the fault's own entry, wherever it is, and of the faulty files."""
         entry = {key: part for key, part in asdict(self).items() if key != "home"}
         text = json.dumps([entry, self.texts(tree)], sort_keys=True)
-        return hashlib.sha256(text.encode()).hexdigest()
+        return sha256(text.encode())
 
 
 def load(root: Path = ROOT) -> list[Fault]:

@@ -8,11 +8,12 @@ import math
 from collections.abc import Collection, Iterable, Mapping
 from typing import Any
 
+from replication.inputs.checksums import checksum
 from replication.inputs.config_keys import Key
 from replication.inputs.parts import PAPER
 from replication.judging.claim import JudgedClaim
 from replication.origin.recorded import RUN, WORKFLOW
-from replication.workflow.provenance import Job, checksum
+from replication.workflow.provenance import Job
 
 Entity = dict[str, Any]
 

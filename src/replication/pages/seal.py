@@ -1,9 +1,10 @@
 """The seal of the published edition: the checksums of its files, and of what it was made from."""
 
-import hashlib
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from pathlib import Path
+
+from replication.inputs.checksums import sha256
 
 SEAL = "docs/checksums.txt"
 EDITION = ("docs", "tests/reference")
@@ -52,12 +53,12 @@ def checksum(path: Path) -> str:
     content = path.read_bytes()
     with suppress(UnicodeDecodeError):  # a picture or a PDF
         content = content.decode("utf-8").replace("\r\n", "\n").encode()
-    return hashlib.sha256(content).hexdigest()
+    return sha256(content)
 
 
 def digest(folder: Path) -> str:
     """Return one SHA-256 of all files of a folder, of a list as `sha256sum` writes it."""
-    return hashlib.sha256(_lines(_checksums(folder, folder.rglob("*"))).encode()).hexdigest()
+    return sha256(_lines(_checksums(folder, folder.rglob("*"))).encode())
 
 
 def _edition(root: Path) -> dict[str, str]:

@@ -18,7 +18,7 @@ USED = (
     *(f"snakemake.rules:Rule.{name}" for name in ("set_input", "set_log", "is_producer")),
     *(
         f"snakemake.rules:Rule.{name}"
-        for name in ("get_wildcards", "expand_input", "expand_output")
+        for name in ("get_wildcards", "expand_input", "expand_output", "expand_params")
     ),
 )
 MODIFIERS = ("input_modifier", "log_modifier", "benchmark_modifier")
@@ -46,6 +46,18 @@ def with_files_of_jobs(rules: Iterable[Any], wanted: Iterable[str]) -> list[str]
             made, *_ = rule.expand_output(rule.get_wildcards(path))
             found |= dict.fromkeys(map(str, [*files, *made]))
     return list(found)
+
+
+def maker(rules: Iterable[Any], path: str) -> Any | None:
+    """Return the first rule that makes a file, or None."""
+    return next((rule for rule in rules if rule.is_producer(path)), None)
+
+
+def job_of(rule: Any, path: str) -> tuple[dict[str, str], list[Any], list[Any]]:
+    """Return wildcards, inputs and parameters of the job of a rule that makes a file."""
+    words = rule.get_wildcards(path)
+    read = rule.expand_input(words)[0]
+    return words, read, rule.expand_params(words, read, rule.expand_output(words)[0], None)[0]
 
 
 def runs_jobs(workflow: Any) -> bool:

@@ -1,13 +1,11 @@
-"""What the numbers of a result depend on beside code: parameters and inputs of its jobs.
+"""What the numbers of a result depend on beside code: parameters and inputs of its jobs."""
 
-`Rule.is_producer`, `get_wildcards`, `expand_input` and `expand_params` are no part of Snakemake's
-interface: only this module calls them, and its test fails when Snakemake drops them.
-"""
-
-import hashlib
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
+
+from replication.inputs.checksums import checksum, sha256
+from replication.workflow.internals import job_of, maker
 
 CODE = (".ipynb", ".py", ".pyi", ".smk")
 """The endings of inputs that are code: a result is compared whatever made it."""
@@ -27,23 +25,21 @@ class Origins:
         code, its content is in the checksum of the job that reads it.
         """
         if result not in self.found:
-            makers = [rule for rule in self.rules if rule.is_producer(result)]
-            self.found[result] = self._of(makers[0], result) if makers else {}
+            rule = maker(self.rules, result)
+            self.found[result] = self._of(rule, result) if rule else {}
         return self.found[result]
 
     def _of(self, rule: Any, result: str) -> dict[str, str]:
-        words = rule.get_wildcards(result)
-        read = rule.expand_input(words)[0]
-        params, _ = rule.expand_params(words, read, rule.expand_output(words)[0], None)
-        own, jobs = hashlib.sha256(repr([*params]).encode()), {}
+        words, read, params = job_of(rule, result)
+        own, jobs = repr([*params]).encode(), {}
         for path in sorted(map(str, read)):
             above = self.of(path)
             jobs |= above
             if not above and not path.endswith(CODE) and Path(path).is_file():
-                own.update(path.encode() + hashlib.sha256(Path(path).read_bytes()).digest())
+                own += path.encode() + bytes.fromhex(checksum(path))
         words.pop("scatteritem", None)  # the parts of an ensemble are made alike
         name = "_".join([rule.name, *words.values()])
-        return jobs | {name: own.hexdigest()[:16]}
+        return jobs | {name: sha256(own)[:16]}
 
 
 def published_results(folder: Path = Path("tests/reference")) -> dict[str, str]:

@@ -1,6 +1,5 @@
 """The jobs of the workflow, and the version of its source."""
 
-import hashlib
 import os
 import subprocess
 from collections.abc import Iterable, Mapping
@@ -50,12 +49,6 @@ def workflow_jobs(
 def makers(jobs: Iterable[Job]) -> dict[str, Job]:
     """Return, for each output, the job that makes it."""
     return {path: job for job in jobs for path in job.outputs}
-
-
-def checksum(path: str | Path) -> str:
-    """Return the SHA-256 of a file."""
-    with Path(path).open("rb") as file:
-        return hashlib.file_digest(file, "sha256").hexdigest()
 
 
 def source_version(folder: str | Path = ".") -> str:
