@@ -22,6 +22,7 @@ from replication.judging.ledger import finding_of, read_ledger
 from replication.judging.verdicts import verdict_on
 from replication.origin.recorded import CRATE, RUN
 from replication.rules.one_claim import verdict_line
+from replication.workflow.provenance import Job
 
 ROOT = Path(__file__).parents[3]
 """The root of the repository; printed paths are relative to it."""
@@ -31,17 +32,6 @@ MOST_MATCHES = 6
 
 MOST_INPUTS = 4
 """So many inputs from one rule have a line each."""
-
-
-@dataclass(frozen=True)
-class Job:
-    """A job of a run: its rule, where that stands, its script, what it read and made."""
-
-    rule: str
-    place: str
-    script: str
-    inputs: tuple[str, ...]
-    outputs: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -73,7 +63,7 @@ def read_jobs(path: str | Path = CRATE) -> tuple[list[Job], dict[str, str]]:
         Job(
             each["name"],
             each["description"].partition(", ")[2],
-            each["instrument"]["@id"],
+            (each["instrument"]["@id"],),
             files(each["object"]),
             files(each["result"]),
         )
@@ -105,7 +95,7 @@ def find(name: str, jobs: Sequence[Job], ledger: Sequence[Claim], root: Path = P
         raise ValueError(f"{name} is the end of several paths: {', '.join(outputs)}")
     for path in outputs:  # one or none
         return Item(path, claims=_judged_by(ledger, [r for r, p in findings.items() if p == path]))
-    if users := sorted({job.rule for job in jobs if name in (*job.inputs, job.script)}):
+    if users := sorted({job.rule for job in jobs if name in (*job.inputs, *job.scripts)}):
         raise ValueError(f"{name} is made by no rule; it goes into {', '.join(users)}")
 
     place, _, key = name.partition(":" if ":" in name else ".")
@@ -155,7 +145,7 @@ def chain(
     waiting, printed = [item.path], set()
     while waiting:
         job = made[waiting.pop(0)]
-        if (alike := (job.rule, job.script, job.inputs)) not in printed:  # no other shard
+        if (alike := (job.rule, job.scripts, job.inputs)) not in printed:  # no other shard
             if printed:
                 yield ""
             printed.add(alike)
@@ -190,9 +180,9 @@ def _job_lines(
     """Yield what a job made and how; what is missing or changed since the run is named."""
     yield from (_file(path, sums, root) for path in job.outputs)
     yield f"  rule      {job.rule}, {job.place}"
-    yield f"  script    {_file(job.script, sums, root)}"
-    if job.script.endswith(".py"):
-        for name in library_names(root / job.script):
+    for script in job.scripts:
+        yield f"  script    {_file(script, sums, root)}"
+        for name in library_names(root / script) if script.endswith(".py") else ():
             yield f"  function  {_cited(name)}"
     sources = {path: made[path].rule if path in made else "" for path in job.inputs}
     for rule in sorted({*sources.values()}, key=lambda rule: (rule == "", rule)):

@@ -29,8 +29,8 @@ UNTESTED = Claim(
 EQUATIONS = [replace(UNTESTED, id=name) for name in ("eq9_positive", "eq19", "eq9_negative")]
 LEDGER = [CLAIM, UNTESTED, *EQUATIONS]
 TABLE, FOUND = "results/tables/peaks.csv", "results/findings/peaks.json"
-STEP = Job("peaks", "Snakefile:7", "src/steps/peaks.py", ("data/record.AT2",), (TABLE, FOUND))
-FIGURE = Job("figure", "Snakefile:9", "figures/peaks.py", (TABLE,), ("figures/peaks.svg",))
+STEP = Job("peaks", "Snakefile:7", ("src/steps/peaks.py",), ("data/record.AT2",), (TABLE, FOUND))
+FIGURE = Job("figure", "Snakefile:9", ("figures/peaks.py",), (TABLE,), ("figures/peaks.svg",))
 JOBS = [FIGURE, STEP]
 FILES = {
     "src/steps/peaks.py": "from topheavy import RockingFrame\n",
@@ -140,7 +140,7 @@ def test_input_that_changed_since_the_run_or_is_missing_is_marked(told, tree):
 
 
 def test_shards_of_a_rule_share_a_line_and_a_block(told):
-    shards = [Job("shard", "a:1", STEP.script, (), (f"results/{n}.csv",)) for n in range(8)]
+    shards = [Job("shard", "a:1", STEP.scripts, (), (f"results/{n}.csv",)) for n in range(8)]
     paths = tuple(path for job in shards for path in job.outputs)
     text = told("peaks.csv", [FIGURE, replace(STEP, inputs=paths), *shards])
     assert "  input     results/0.csv and 7 more  from rule shard" in text
@@ -164,7 +164,7 @@ def test_unknown_name_gets_one_message_with_what_is_close(told, name, message):
 
 
 def test_end_of_two_paths_names_both(told):
-    other = Job("other", "a:1", STEP.script, (), ("results/other/peaks.csv",))
+    other = Job("other", "a:1", STEP.scripts, (), ("results/other/peaks.csv",))
     with pytest.raises(ValueError, match=r"results/other/peaks\.csv, results/tables/peaks\.csv"):
         told("peaks.csv", [*JOBS, other])
 
@@ -172,7 +172,7 @@ def test_end_of_two_paths_names_both(told):
 def test_jobs_are_those_of_the_crate_and_without_a_run_there_are_none(tmp_path, plant):
     run = {"@id": "#run", "@type": "CreateAction", "name": "The run", "result": []}
     job = {"@id": "#job/a", "@type": "CreateAction", "name": "peaks"}
-    job |= {"description": "Rule peaks, Snakefile:7", "instrument": {"@id": STEP.script}}
+    job |= {"description": "Rule peaks, Snakefile:7", "instrument": {"@id": STEP.scripts[0]}}
     job |= {"object": [{"@id": "data/record.AT2"}], "result": [{"@id": TABLE}, {"@id": FOUND}]}
     graph = [run, job, {"@id": TABLE, "@type": "File", "sha256": "ab"}]
     path = plant(tmp_path, {"crate.json": json.dumps({"@graph": graph})}) / "crate.json"
