@@ -75,7 +75,7 @@ def unfinished(workflow: Any) -> list[Any]:
 
 
 def targets(workflow: Any) -> set[str]:
-    """Return the names of the rules that were asked for."""
+    """Return the names of the rules that a run was to make."""
     return {rule.name for rule in workflow.dag.targetrules}
 
 
