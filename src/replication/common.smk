@@ -13,8 +13,8 @@ from replication.pages.captions import (
 from replication.workflow.closing import close
 from replication.workflow.code import code, results_read
 from replication.workflow.completion import complete, findings_made
-from replication.workflow.costs import longest_jobs
-from replication.workflow.internals import with_files_of_jobs
+from replication.workflow.costs import read_costs
+from replication.workflow.internals import timed_by, with_files_of_jobs
 from replication.origin.recorded import CRATE
 from replication.judging.ledger import read_judged, read_ledger
 from replication.judging.ledger_check import check_ledger
@@ -94,9 +94,10 @@ def longest_first():
 
     A rule's own priority is added.
     """
-    took = longest_jobs(Path("docs/costs.csv"))
+    took = read_costs(Path("docs/costs.csv"))
     for each in workflow.rules:
-        each.priority += round(took.get(each.name, 0.0))
+        of = [took[name][0] for name in timed_by(each, took)]
+        each.priority += round(max(of, default=0.0))
 
 
 def only_shards_leave_this_machine():

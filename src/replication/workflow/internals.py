@@ -4,10 +4,13 @@ pyproject.toml bounds Snakemake's version. `USED` names what classes have to hav
 `MODIFIERS` what rules have: a test fails for each that Snakemake drops.
 """
 
+import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 from typing import Any
+
+from snakemake.io import regex_from_filepattern
 
 USED = (
     *(f"snakemake.persistence:PersistenceBase.{name}" for name in ("lock", "locked")),
@@ -46,6 +49,14 @@ def with_files_of_jobs(rules: Iterable[Any], wanted: Iterable[str]) -> list[str]
             made, *_ = rule.expand_output(rule.get_wildcards(path))
             found |= dict.fromkeys(map(str, [*files, *made]))
     return list(found)
+
+
+def timed_by(rule: Any, names: Iterable[str]) -> list[str]:
+    """Return the names of jobs, as costs have them, whose benchmark is one of a rule."""
+    if not rule.benchmark:
+        return []
+    own = re.compile(regex_from_filepattern(str(rule.benchmark)))
+    return [name for name in names if own.match(f"results/benchmarks/{name}.tsv")]
 
 
 def maker(rules: Iterable[Any], path: str) -> Any | None:
