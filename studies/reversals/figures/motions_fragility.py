@@ -7,7 +7,7 @@ from replication.drawing import DOUBLE, GREY, INK, letter, make_figure, note, sh
 
 STRUCTURE = "temple"
 FAMILIES = ("near-fault", "broadband")
-INTENSITIES, VELOCITIES = (0.5, 0.7, 1, 1.5, 2), (0.5, 0.75, 1, 1.5, 2)
+INTENSITIES, VELOCITIES = (0.5, 0.8, 1, 1.5, 2), (0.5, 0.75, 1, 1.5, 2)
 BAND = {"alpha": 0.25, "linewidth": 0}
 
 
