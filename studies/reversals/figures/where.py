@@ -124,7 +124,7 @@ def shares(axis, areas):
     for name, colour in (("helps", PREVENTED), ("harms", CAUSED)):
         mean = 100 * areas[name].mean()
         axis.axhline(mean, color=colour, linewidth=0.7, linestyle=(0, (4, 2)))
-        note(axis, f"mean {mean:.1f}", (3.48, mean + 0.35), ha="right", color=colour)
+        note(axis, f"mean {mean:.1f}", (3.48, mean + 1.3), ha="right", color=colour)
     note(axis, "prevented", (0.42, 17.5), color=SURVIVES)
     note(axis, "caused", (0.42, 3.0), color=CAUSED)
     axis.set_xticks(range(len(PULSES)), [words.replace(" ", "\n") for words in PULSES.values()])
