@@ -27,7 +27,8 @@ notebooks: | $(UV) ## open the notebooks in JupyterLab: the derivation, and a fr
 
 api: | $(UV) ## write a page of the library's functions: dist/api/topheavy.html
 	@$(DEV) python -W 'ignore:Error parsing type annotation' -c "import topheavy; [getattr(topheavy, name) for name in dir(topheavy)]; \
-	  from pdoc.__main__ import cli; cli('topheavy -o dist/api --no-show-source --docformat numpy'.split())"
+	  from pdoc.__main__ import cli; rooms = 'bodies forces ground outcomes proven risk second'.split(); \
+	  cli(['topheavy', *(f'topheavy.{room}' for room in rooms), *'-o dist/api --no-show-source --docformat numpy'.split()])"
 
 audit: | $(UV) ##- 3 hours: finer grids, tighter tolerances, all peers, all faults (CONFIG, CELLS, ROTATE)
 	@$(SNAKEMAKE) --configfile "$$CONFIG"
