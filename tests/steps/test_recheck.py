@@ -154,7 +154,7 @@ def test_broken_file_is_told_in_a_line(tampered, name, old, new):
     assert not any("Traceback" in fault for fault in faults)
 
 
-@pytest.mark.parametrize(("older", "decided"), [(2, "2 inputs and"), (0, "the published")])
+@pytest.mark.parametrize(("older", "told"), [(2, "2 inputs and"), (0, "the published")])
 def test_last_line_says_how_many_inputs_and_texts_are_newer_than_the_edition(capsys, older, told):
     with pytest.raises(SystemExit) as ended:
         close(["paper: 3", *["the edition is older than a, which changed"] * older], [])
@@ -175,7 +175,7 @@ NO_NUMBER = replace(CLAIM, printed=None, tolerance=None)
 
 
 @pytest.mark.parametrize(
-    ("claim", "findings", "rows", "decided"),
+    ("claim", "findings", "rows", "told"),
     [
         (CLAIM, FINDINGS, [judged_row()], []),
         (CLAIM, FINDINGS, [judged_row(computed=0.42)], ["claim size: computed is 0.42"]),
@@ -305,13 +305,13 @@ TAMPERED = [  # file, edit, how one of the faults begins
 ]
 
 
-@pytest.mark.parametrize(("name", "edit", "decided"), TAMPERED)
+@pytest.mark.parametrize(("name", "edit", "told"), TAMPERED)
 def test_what_is_tampered_with_is_named(tampered, name, edit, told):
     assert any(fault.startswith(told) for fault in tampered(name, edit))
 
 
 @pytest.mark.parametrize(
-    ("page", "old", "new", "decided"),
+    ("page", "old", "new", "told"),
     [
         (PAGE, 'id="eq1"', 'id="eq_1"', f"{PAGE}, line "),
         (PAGE, "| confirmed |", "| refuted |", f"{PAGE}, line "),
