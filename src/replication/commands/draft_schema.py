@@ -1,6 +1,6 @@
 """Draft the sections that the schema of a config lacks, from its values: `make schema`.
 
-Meanings come from the comments. Units are the author's to fill in, marked BLANK, and so are bounds.
+Meanings and units are the author's to fill in, marked BLANK, and so are bounds.
 """
 
 from collections.abc import Mapping
@@ -10,27 +10,25 @@ from typing import Any
 
 import yaml
 
-from replication.inputs.config_keys import comments
 from replication.inputs.parts import PAPER, config_of
 from replication.inputs.strict_yaml import read_yaml
 
-UNIT = 'BLANK: the unit, "1" without one'
+MEANING = {"description": "BLANK: what it is"}
+UNIT = {"unit": 'BLANK: the unit, "1" without one'}
 
 
-def draft(value: Any, place: str, said: Mapping[str, str]) -> dict[str, Any]:
+def draft(value: Any) -> dict[str, Any]:
     """Return the schema of a value, which allows every value of its kind."""
-    about = {"description": said[place]} if place in said else {}
     match value:
         case Mapping():
-            inner = {key: draft(each, f"{place}.{key}", said) for key, each in value.items()}
-            return about | {"properties": inner} if about else inner
+            return {key: draft(each) for key, each in value.items()}
         case [first, *_]:
-            return about | {"type": "array", "items": draft(first, f"{place}[]", said)}
+            return MEANING | {"type": "array", "items": draft(first)}
         case float():
-            return about | {"unit": UNIT, "type": "number"}
+            return MEANING | UNIT | {"type": "number"}
         case bool() | int():
-            return about | {"type": "boolean" if isinstance(value, bool) else "integer"}
-    return about | {"type": "string"}
+            return MEANING | {"type": "boolean" if isinstance(value, bool) else "integer"}
+    return MEANING | {"type": "string"}
 
 
 def add_missing(path: Path) -> list[str]:
@@ -47,8 +45,7 @@ def add_missing(path: Path) -> list[str]:
         return []
     if [*known][-1] != "properties":
         raise ValueError(f"{schema}: expected `properties` last")
-    said = comments(path.read_text(encoding="utf-8"))
-    drafts = {key: draft(config[key], key, said) for key in missing}
+    drafts = {key: draft(config[key]) for key in missing}
     body = yaml.safe_dump(drafts, allow_unicode=True, sort_keys=False, width=100)
     schema.write_text(f"{text.rstrip()}\n\n{indent(body, '  ')}", encoding="utf-8")
     return missing

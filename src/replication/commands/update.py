@@ -51,14 +51,13 @@ def changed() -> Iterator[str]:
 
 def refusals(theirs: str) -> Iterator[str]:
     """Yield why a machine cannot take the place of ours, and what to do; nothing if it can."""
-    ours = Path(MACHINE, "VERSION").read_text(encoding="utf-8").strip()
     if not (TREE.exists() or SUMS.exists()):
         yield f"there is no {TREE}; expected a paper that `make paper` made, and git on its machine"
     elif files := [*changed()]:
         yield from (f"{file} was changed by hand" for file in files)
         yield "expected the machine as it was taken: restore it (git restore), and bring what you "
         yield "need into the machine where it is developed"
-    elif _numbers(theirs) < _numbers(ours):
+    elif _numbers(theirs) < _numbers(ours := Path(MACHINE, "VERSION").read_text("utf-8").strip()):
         yield f"FROM has version {theirs}; expected at least {ours}, as here"
 
 
@@ -94,12 +93,6 @@ def main(source: str) -> None:
         sys.exit(
             f"make update: FROM is {source!r}; expected another git repository with {MACHINE}, of "
             "which the last commit is taken: a folder (no unpacked archive) or a URL"
-        )
-    if not Path(MACHINE, "VERSION").exists():
-        changes = Path(__file__).parents[1].joinpath("CHANGES.md").read_text(encoding="utf-8")
-        sys.exit(
-            f"make update: nothing is changed\n{MACHINE} was made before the machine had a version;"
-            " expected 1.0.0 or later.\n" + changes.split("\n## Before 1.0.0\n")[1].strip()
         )
     if not Path(".git").exists():
         sys.exit("make update: this paper is in no git repository; commit it: git init, git add")

@@ -1,4 +1,4 @@
-"""The keys of a config, each with its meaning, unit and value; the comments of a config.
+"""The keys of a config, each with its meaning, unit and value.
 
 The schema gives meaning and unit. `unit` is an annotation of ours, "1" for a number without
 dimension. A key without a description or a unit takes those of what contains it.
@@ -72,49 +72,6 @@ def _keys(
     meaning = one_line(inherited["description"])
     unit = unit_of(schema, root) or (inherited["unit"] if has_numbers(schema, root) else "")
     yield Key(place, meaning, unit, tuple(values))
-
-
-def comments(text: str) -> dict[str, str]:
-    """Return the comments of a YAML file by the dotted place of the key that they are about.
-
-    A comment at the end of a line is about the first key of this line. Lines of comment are about
-    the key below them.
-    """
-    ends: dict[int, int] = {}  # by line, where the last token that is no comment ends
-    for token in yaml.scan(text):
-        if token.end_mark.line == token.start_mark.line:
-            ends[token.end_mark.line] = token.end_mark.column
-    lines = text.splitlines()
-    found: dict[str, str] = {}
-    for place, line in _lines(yaml.compose(text), ""):
-        above: list[str] = []
-        for other in reversed(lines[:line]):
-            if not other.strip().startswith("#"):
-                break
-            above.insert(0, other.strip().removeprefix("#"))
-        beside = lines[line][ends.get(line, 0) :].strip().removeprefix("#")
-        said = one_line(" ".join([*above, beside]))
-        if said and place not in found:
-            found[place] = said
-    return found
-
-
-def _lines(node: yaml.Node, place: str) -> Iterator[tuple[str, int]]:
-    """Yield each place and its line: a key, and each item of a list of mappings.
-
-    Of the keys on one line only the first is yielded, and of a list the first item that has a line.
-    """
-    entries: list[tuple[str, yaml.Node, yaml.Node]] = []
-    if isinstance(node, yaml.MappingNode):
-        above = f"{place}." if place else ""
-        entries = [(f"{above}{key.value}", key, value) for key, value in node.value]
-    elif isinstance(node, yaml.SequenceNode):
-        items = (item for item in node.value if isinstance(item, yaml.MappingNode))
-        entries = [(f"{place}[]", item, item) for item in items]
-    for below, begin, inner in entries:
-        here = begin.start_mark.line
-        yield below, here
-        yield from ((at, line) for at, line in _lines(inner, below) if line != here)
 
 
 def _yaml(value: Any) -> str:

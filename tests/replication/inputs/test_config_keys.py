@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from replication.inputs.config_keys import comments, keys
+from replication.inputs.config_keys import keys
 from replication.inputs.configuration import read_schema
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -40,19 +40,15 @@ $defs:
       points: { $ref: "#/$defs/count" }
 """
 CONFIG = """\
-# The head of the file.
-
-# Of two | sizes.
 columns:
-  low: { height: 1.0 } # p. 4
+  low: { height: 1.0 }
   high: { height: 8.0 }
 
 shaking:
-  periods: { lowest: 0.1, highest: 2.0, points: 5 } # ours
-  # above
+  periods: { lowest: 0.1, highest: 2.0, points: 5 }
   slopes: { lowest: 1.0, highest: 20.0, points: 3 }
-  motions: # of 1940
-    - { file: "a # b", factor: 2.0 } # as recorded
+  motions:
+    - { file: "a # b", factor: 2.0 }
     - { file: c, factor: 3.0 }
 """
 
@@ -91,12 +87,6 @@ def test_what_a_schema_leaves_out_is_usual(tmp_path):
     assert read_schema(path) == closed | {"required": ["grid"], "properties": {"grid": inner}}
     path.write_text("{ type: object, properties: { a: { allOf: [] } } }", encoding="utf-8")
     assert read_schema(path) == {"type": "object", "properties": {"a": {"allOf": []}}}
-
-
-def test_comment_is_no_part_of_a_text_and_the_head_is_of_no_key():
-    assert comments(CONFIG)["columns"] == "Of two | sizes."
-    assert comments(CONFIG)["shaking.motions[]"] == "as recorded"
-    assert "head" not in " ".join(comments(CONFIG).values())
 
 
 @pytest.mark.parametrize("path", CONFIGS, ids=str)
