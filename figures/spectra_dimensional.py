@@ -33,7 +33,6 @@ def gain(axis, lines):
     axis.axhline(1.0, color=colours[0], label=gamma(lines.columns[0]))
     ticks(axis.yaxis, GAINS)
     axis.set(ylim=(0.95, 2.6))
-    axis.legend(loc="upper right", handlelength=1.4, labelspacing=0.2)
 
 
 def ticks(axis, places):
@@ -63,6 +62,7 @@ def draw(spectra_dimensional, spectra_published):
             pair[1].set_ylabel(f"Ratio to {gamma(lines.columns[0])} (–)")
             pair[0].set_ylabel("Minimum amplitude (g)")
         title = f"{name.replace('_', ' ')}, {heights[name]:.1f} m"
+        row[1].legend(loc="upper right", handlelength=1.4, labelspacing=0.2)
         row[0].set_ylabel(f"{title[0].upper()}{title[1:]}\nMinimum amplitude (g)")
     for point in spectra_published.itertuples():
         axis = axes[names.index(point.structure), 2 * shapes.index(point.shape)]

@@ -30,7 +30,7 @@ def draw(mechanism_dependence, mechanism_records):
             ticks = [tick for tick in table.value if tick not in CROWDED]
             axis.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
             axis.set_xticks([], minor=True)
-    axes["A"].set_ylabel(r"Required friction, $\mu/\tan\alpha$ (–)")
+    axes["A"].set_ylabel(r"Friction, $\mu/\tan\alpha$ (–)")
     note(axes["A"], "rocking", (0.3, 3.0))
     note(axes["A"], "impacts", (0.06, 0.34), color=GREY)
     note(axes["C"], "below: a column\ntop opens", (1.62, 6.5), color=INK)
@@ -53,7 +53,7 @@ def _records(axis, table):
         axis.plot((place - 0.3, place + 0.3), [part.tan.iloc[0]] * 2, color=GREY, linewidth=0.8)
     names = [f"{structure}, {gamma(g)}" for (structure, g), _ in groups]
     axis.set_xticks(range(len(groups)), names)
-    axis.set(ylabel=r"Required friction, $\mu$ (–)", ylim=(0, 0.78), xlim=(-0.6, len(groups) - 0.4))
+    axis.set(ylabel=r"Friction, $\mu$ (–)", ylim=(0, 0.78), xlim=(-0.6, len(groups) - 0.4))
     note(axis, r"$\tan\alpha$", (0.34, groups[0][1].tan.iloc[0]), color=GREY)
     note(axis, "crosses: overturned", (len(groups) - 0.5, 0.72), ha="right", color=OVERTURNS)
 

@@ -12,7 +12,7 @@ LINES = {  # contact: label, colour, dashes
 
 def draw(mechanism_forces):
     table, last = mechanism_forces, mechanism_forces.time.max()
-    figure, axes = sheet(DOUBLE, 74, nrows=2, ncols=2, sharex=True)
+    figure, axes = sheet(DOUBLE, 80, nrows=2, ncols=2, sharex=True)
     motion, vertical, horizontal, demand = axes.ravel()
     motion.plot(table.time, table.rotation, color=INK)
     motion.plot(table.time, table.ground, color=GREY, linewidth=0.8)
@@ -26,10 +26,10 @@ def draw(mechanism_forces):
     for axis in axes.ravel():
         axis.axhline(0.0, color=GREY, linewidth=0.5)
     demand.axhline(1.0, color=GREY, linewidth=0.5, linestyle=":")
-    motion.set(ylabel="Rotation and shaking (–)")
+    motion.set(ylabel="Rotation, shaking (–)")
     vertical.set(ylabel="Force over weight (–)", ylim=(0, None))
     horizontal.set(ylabel="Force over weight (–)")
-    demand.set(ylabel=r"Friction over $\tan\alpha$ (–)", ylim=(0, None), xlim=(0, last))
+    demand.set(ylabel=r"Friction, $\mu/\tan\alpha$ (–)", ylim=(0, None), xlim=(0, last))
     for axis in (horizontal, demand):
         axis.set_xlabel(r"Time, $pt$ (–)")
     figure.legend(*vertical.get_legend_handles_labels(), loc="outside upper right", ncols=4)

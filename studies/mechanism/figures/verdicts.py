@@ -13,6 +13,7 @@ DOTS = {
     "survives": {"facecolor": PAPER, "edgecolor": SURVIVES},
     "overturns": {"facecolor": OVERTURNS, "edgecolor": OVERTURNS},
 }
+LIFTS = (1.3, 2.2, 1.2)  # of the names at the ends of lines
 STYLES = ("o-", "s--", "^-.", "D:")
 TICKS = (-50, -20, -10, -5, -2, -1, 0, 1, 2, 5)  # %; the axis is linear between −1 and 1
 
@@ -26,11 +27,12 @@ def draw(mechanism_verdicts, mechanism_slides, mechanism_rebounds):
     left, right, last = axes
     _pulses(left, mechanism_verdicts)
     models = list(mechanism_slides.groupby(["structure", "mass_ratio"], sort=False))
-    for ((structure, mass_ratio), part), colour in zip(models, shades(len(models)), strict=True):
+    colours = shades(len(models))
+    for ((structure, mass_ratio), part), colour, up in zip(models, colours, LIFTS, strict=True):
         slip = part[["base_slip", "seat_slip"]].max(axis=1)
         tan = part.tan.iloc[0]
         right.loglog(part.friction / tan, slip, "o-", color=colour, markersize=3)
-        end = (1.15 * part.friction.iloc[-1] / tan, slip.iloc[-1])
+        end = (1.15 * part.friction.iloc[-1] / tan, up * slip.iloc[-1])
         note(right, f"{structure}\n{gamma(mass_ratio)}", end, color=colour, fontsize=7)
         right.axvline(part.needed.iloc[0] / tan, color=colour, linestyle="--", linewidth=0.9)
     right.axvline(1.0, color=GREY, linestyle=":", linewidth=0.8)
@@ -91,9 +93,9 @@ def _pulses(axis, table):
     axis.set_xlabel("Amplitude over the theory's minimum (–)")
     for x, (words, look) in zip((-0.3, 1.15), DOTS.items(), strict=True):
         axis.scatter([x], [len(rows) + 0.35], s=34, linewidth=0.9, **look)
-        note(axis, words, (x + 0.17, len(rows) + 0.35))
-    axis.scatter([2.85], [len(rows) + 0.35], s=80, **ring)
-    note(axis, "differs from theory", (3.1, len(rows) + 0.35))
+        note(axis, words, (x + 0.22, len(rows) + 0.35))
+    axis.scatter([2.9], [len(rows) + 0.35], s=80, **ring)
+    note(axis, "differs from theory", (3.2, len(rows) + 0.35))
 
 
 if __name__ == "__main__":

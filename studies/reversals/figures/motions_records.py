@@ -58,9 +58,8 @@ def panel(axis, run):
         words = rf"$\alpha$ = {slenderness:.3g}°"
         note(axis, words, (1.04 * first, (place + 1) * each - 1.1))
     sizes = light["size"].to_numpy()
-    marked = [row for row in range(len(sizes)) if row % each in (0, each // 2, each - 1)]
+    marked = [row for row in range(len(sizes)) if row % each in (1, each // 2, each - 2)]
     axis.set_yticks([row + 0.5 for row in marked], [f"{sizes[row]:.2g}" for row in marked])
-    axis.tick_params(axis="y", labelsize=6)
 
 
 def draw(reversals_records):
