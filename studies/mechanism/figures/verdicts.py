@@ -91,9 +91,9 @@ def _pulses(axis, table):
     axis.plot([predicted] * 2, [-0.7, len(rows) - 0.4], color=GREY, linewidth=0.8)
     axis.set(xlim=(-0.5, len(factors) - 0.3), ylim=(-0.7, len(rows) + 1.1))
     axis.set_xlabel("Amplitude over the theory's minimum (–)")
-    for x, (words, look) in zip((-0.3, 1.15), DOTS.items(), strict=True):
+    for x, (words, look) in zip((-0.4, 1.2), DOTS.items(), strict=True):
         axis.scatter([x], [len(rows) + 0.35], s=34, linewidth=0.9, **look)
-        note(axis, words, (x + 0.22, len(rows) + 0.35))
+        note(axis, words, (x + 0.2, len(rows) + 0.35))
     axis.scatter([2.9], [len(rows) + 0.35], s=80, **ring)
     note(axis, "differs from theory", (3.2, len(rows) + 0.35))
 
