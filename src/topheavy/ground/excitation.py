@@ -40,6 +40,10 @@ _MOST_HALVINGS = 10_000
 """In a bracket from 0 to 1 s, a root at 1e-16 s takes more than the hundred that SciPy allows."""
 
 
+_ROUNDING = 1e-6
+"""More than that between a sample and the end of the line to it."""
+
+
 def root(function: Callable[[float], float], low: float, high: float) -> float:
     """Return where a function changes its sign between `low` and `high`, to 1e-15 of that place."""
     from scipy.optimize import brentq  # here: half a second that the kernel never needs
@@ -95,6 +99,32 @@ class Segment(NamedTuple):
         return root(lambda t: self.acceleration(t) - value, time, self.stop)
 
 
+class Lines(Sequence[Segment]):
+    """The segments between samples, each made when it is asked for.
+
+    `largest` has the larger |a| at the ends of each, g.
+    """
+
+    def __init__(self, largest: NDArray[np.float64], make: Callable[[int], Segment]) -> None:
+        self._largest, self._make = largest, make
+
+    def __len__(self) -> int:
+        return int(self._largest.size)
+
+    @overload
+    def __getitem__(self, at: int) -> Segment: ...
+    @overload
+    def __getitem__(self, at: slice) -> list[Segment]: ...
+    def __getitem__(self, at: int | slice) -> Segment | list[Segment]:
+        found = range(len(self))[at]
+        return self._make(found) if isinstance(found, int) else list(map(self._make, found))
+
+    def next_above(self, level: float, number: int) -> int:
+        """Return the first segment from `number` on in which |a| may exceed a level, or the end."""
+        above = self._largest[number:] > (1.0 - _ROUNDING) * level
+        return number + int(above.argmax()) if above.any() else len(self)
+
+
 class Excitation(ABC):
     """A ground motion: `Pulse` and `Record`."""
 
@@ -123,7 +153,7 @@ class Excitation(ABC):
         ...
 
     @abstractmethod
-    def segments(self, until: float) -> list[Segment]:
+    def segments(self, until: float) -> Sequence[Segment]:
         """Return the segments from 0 to the earlier of `until` and the end, in order."""
         ...
 

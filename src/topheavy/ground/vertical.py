@@ -16,7 +16,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from topheavy.ground.excitation import Excitation, Segment
+from topheavy.ground.excitation import Excitation, Lines, Segment
 from topheavy.ground.records import Record
 
 
@@ -45,7 +45,7 @@ class TwoComponents(Excitation):
         """Return the horizontal acceleration in g at an array of times in s."""
         return self.horizontal.accelerations(time)
 
-    def segments(self, until: float) -> list[Segment]:
+    def segments(self, until: float) -> Lines:
         """Return the spans between the samples of either record, up to `until`."""
         end = min(until, self.duration)
         both = (self.horizontal, self.vertical)
@@ -58,13 +58,15 @@ class TwoComponents(Excitation):
             line = np.stack([*pairwise(record.accelerations(edges))])
             line[edges[1:] + edges[:-1] > 2.0 * record.duration] = 0.0  # it ends by a jump
             lines.append(line)
-        spans = zip(pairwise(edges), *lines, strict=True)
-        found = []
-        for (start, stop), across, up in spans:
-            gravity = partial(_line, start, stop, 1.0 + up[0], 1.0 + up[1])
-            push = partial(_quotient, partial(_line, start, stop, *across), gravity)
-            found.append(Segment(float(start), float(stop), push, gravity))
-        return found
+        across, gravity = lines[0], 1.0 + lines[1]
+
+        def span(k: int) -> Segment:
+            start, stop = edges[k], edges[k + 1]
+            weight = partial(_line, start, stop, *gravity[k])
+            push = partial(_quotient, partial(_line, start, stop, *across[k]), weight)
+            return Segment(float(start), float(stop), push, weight)
+
+        return Lines(np.abs(across / gravity).max(axis=1), span)
 
 
 def with_vertical(excitation: Excitation | None, vertical: Record | None) -> Excitation | None:

@@ -22,7 +22,7 @@ from topheavy import checks
 from topheavy.bodies import free_rocking
 from topheavy.bodies.response import Outcome, Response, initial_motion, sample_times
 from topheavy.bodies.structures import RockingBlock
-from topheavy.ground.excitation import Excitation, Segment, checked_excitation, still
+from topheavy.ground.excitation import Excitation, Lines, Segment, checked_excitation, still
 
 REST_PEAK = 1e-6
 """Of α: a block whose next bounce peaks below may have come to rest."""
@@ -182,7 +182,16 @@ def force(
         # It cannot lie flat, but beyond α + max|ü_g|/g it is pushed outward for good.
         largest = max(segment.largest(segment.start, segment.stop) for segment in segments)
         motion.ceiling = max(math.pi / 2, block.slenderness + largest)
-    for number, segment in enumerate(segments):
+    number = 0
+    while number < len(segments) and not motion.fallen:
+        segment = segments[number]
+        if isinstance(segments, Lines) and not motion.moving:
+            later = segments.next_above(level, number)
+            if later > number:
+                rest_ends = segments[later - 1].stop
+                motion.arcs.append(Arc(motion.time, rest_ends, motion.side, None))
+                motion.time, number = rest_ends, later
+                continue
         while motion.time < segment.stop and not motion.fallen:
             if not motion.moving:
                 uplift = segment.uplift(motion.time, level)
@@ -196,7 +205,8 @@ def force(
                 motion.moving = motion.launching = True
             event = _flight(block, segment, motion, fly)
             if event is Event.IMPACT:
-                _impact(block, segments[number:], motion)
+                _impact(block, segments, number, motion)
+        number += 1
     return forcing_end
 
 
@@ -230,8 +240,8 @@ def _flight(block: RockingBlock, segment: Segment, motion: Motion, fly: Flight) 
     return event
 
 
-def _impact(block: RockingBlock, segments: list[Segment], motion: Motion) -> None:
-    """Let the block pass to its other pivot: the rate × √r, Eq. (25)."""
+def _impact(block: RockingBlock, segments: Sequence[Segment], number: int, motion: Motion) -> None:
+    """Let the block pass to its other pivot, in a segment: the rate × √r, Eq. (25)."""
     motion.landings += 1
     if motion.landings > MOST_IMPACTS:
         raise ArithmeticError(
@@ -244,10 +254,12 @@ def _impact(block: RockingBlock, segments: list[Segment], motion: Motion) -> Non
     motion.height = 0.0
     motion.side = -motion.side
     motion.rotation, motion.rate = 0.0, ratio * max(0.0, -motion.rate)
-    motion.moving = motion.rate > 0.0 and not _comes_to_rest(block, segments, motion)
+    motion.moving = motion.rate > 0.0 and not _comes_to_rest(block, segments, number, motion)
 
 
-def _comes_to_rest(block: RockingBlock, segments: list[Segment], motion: Motion) -> bool:
+def _comes_to_rest(
+    block: RockingBlock, segments: Sequence[Segment], number: int, motion: Motion
+) -> bool:
     """Return whether the bounces that start here are negligible and provably remain so.
 
     Bouncing to rest is a geometric sequence of infinitely many impacts in a finite time. With a
@@ -264,7 +276,7 @@ def _comes_to_rest(block: RockingBlock, segments: list[Segment], motion: Motion)
             return square * (alpha - ground)
         return square * (math.sin(alpha) - ground * math.cos(alpha))
 
-    begins = segments[0]
+    begins = segments[number]
     now = restoring(abs(begins.acceleration(motion.time)), begins.gravity(motion.time))
     if now <= 0.0:
         return False
@@ -272,7 +284,8 @@ def _comes_to_rest(block: RockingBlock, segments: list[Segment], motion: Motion)
         return False
     lost = 1.0 - block.restitution
     train_ends = motion.time + 4.0 * motion.rate / (now * lost) if lost else math.inf
-    during = list(takewhile(lambda segment: segment.start < train_ends, segments))
+    ahead = (segments[k] for k in range(number, len(segments)))
+    during = list(takewhile(lambda segment: segment.start < train_ends, ahead))
     largest = max((segment.largest(motion.time, train_ends) for segment in during), default=0.0)
     gravity = min((segment.least_gravity(motion.time, train_ends) for segment in during), default=1)
     return restoring(largest, gravity) > now / 2.0
@@ -325,7 +338,7 @@ def _rock_freely(
             return
         landings_due -= 1
         if event is Event.IMPACT:
-            _impact(block, [ground], motion)
+            _impact(block, [ground], 0, motion)
         elif until is None:
             return
 

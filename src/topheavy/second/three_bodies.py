@@ -180,7 +180,7 @@ def simulate_three_bodies(
     ground = with_vertical(excitation, vertical)
     if ground is not None:
         checked_excitation(ground)
-    segments = [] if ground is None else ground.segments(until)
+    segments = [] if ground is None else list(ground.segments(until))
     end = segments[-1].stop if segments else 0.0
     if end < until:
         segments.append(Segment(end, until, still))

@@ -221,7 +221,7 @@ def main(
     tables, order, beyond, shares = {"fragility": [], "medians": [], "pairs": []}, [], [], []
     for case in cases(settings, structures, answered):
         means = case.ensemble.means()
-        of_pairs = list(map(case.ensemble.means, differing(case, case.ensemble.outcomes)))
+        of_pairs = case.ensemble.means_of(differing(case, case.ensemble.outcomes))
         middle = middles(case.levels, means)
         tables["fragility"].append(curves(case, means))
         tables["medians"].append(capacities(case, middle))

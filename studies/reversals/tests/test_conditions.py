@@ -83,7 +83,7 @@ def findings(monkeypatch, *, reversed_high=0.4, beyond=((0.01, 0.03),), half_hig
     """The findings on an ensemble of which only these numbers are given."""
     pair = {"only_heavier": 0.1, "cells": 9, "reversed": 0.3, "reversed_high": reversed_high}
     less = {"less": 0.1, "less_low": 0.05, "less_high": 0.2}
-    nothing = SimpleNamespace(means=lambda *values: None, outcomes=None)
+    nothing = SimpleNamespace(means=lambda: None, means_of=lambda several: [], outcomes=None)
     given = {
         "cases": [SimpleNamespace(labels={}, levels=None, motions=0, ensemble=nothing)],
         "differing": [],

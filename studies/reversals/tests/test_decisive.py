@@ -86,7 +86,7 @@ def ensemble(*outcomes):
     fell = np.stack([np.array(one, dtype=bool)[:, None] for one in outcomes], axis=1)
     found = Ensemble(fell, None, 200, 1, 0.95)
     case = motions_fragility.Case("broadband", under, 1.0, np.ones(1), found)
-    return case, [found.means(one) for one in (fell, *motions_fragility.differing(case, fell))]
+    return case, [found.means(), *found.means_of(motions_fragility.differing(case, fell))]
 
 
 @pytest.mark.parametrize("rising", [False, True])

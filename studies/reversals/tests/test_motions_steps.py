@@ -82,7 +82,7 @@ def test_pairs_count_what_differs():
     ]
     found = Ensemble(outcomes, None, 50, 1, 0.9)
     case = motions_fragility.Case("broadband", under, 1.0, np.ones(3), found)
-    means = [found.means(one) for one in motions_fragility.differing(case, outcomes)]
+    means = found.means_of(motions_fragility.differing(case, outcomes))
     (pair,) = motions_fragility.pairs(case, means).itertuples()
     assert (pair.only_lighter, pair.only_heavier) == pytest.approx((3 / 8, 1 / 8))
     assert pair.reversed == pytest.approx(1 / 4)

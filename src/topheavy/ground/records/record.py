@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import partial
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from topheavy import checks
 from topheavy.bodies.structures import STANDARD_GRAVITY
-from topheavy.ground.excitation import Excitation, Segment
+from topheavy.ground.excitation import Excitation, Lines, Segment
 from topheavy.ground.records.units import UNDERSTOOD, acceleration_in_g
 from topheavy.keywords import hinted
 
@@ -151,17 +150,18 @@ class Record(Excitation):
         inside = (time >= 0.0) & (time <= self.duration)
         return np.where(inside, np.interp(place, samples, self.acceleration), 0.0)
 
-    def segments(self, until: float) -> list[Segment]:
+    def segments(self, until: float) -> Lines:
         """Return the lines between samples, from 0 to the earlier of `until` and the end."""
-        found = []
-        samples = self.acceleration.tolist()
-        for k, (first, second) in enumerate(pairwise(samples)):
+        samples, size = self.acceleration.tolist(), np.abs(self.acceleration)
+        begun = int(np.count_nonzero(self.time[:-1] < until))
+
+        def line(k: int) -> Segment:
+            first, second = samples[k : k + 2]
             start, stop = k * self.time_step, (k + 1) * self.time_step
-            if start >= until:
-                break
             slope = (second - first) / self.time_step
-            found.append(Segment(start, min(stop, until), partial(_line, start, first, slope)))
-        return found
+            return Segment(start, min(stop, until), partial(_line, start, first, slope))
+
+        return Lines(np.maximum(size[:-1], size[1:])[:begun], line)
 
 
 def _in_g(called: str, unit: str | None) -> float:
