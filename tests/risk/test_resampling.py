@@ -8,7 +8,6 @@ from scipy.stats import bootstrap
 
 from topheavy.risk import resampling
 from topheavy.risk.resampling import (
-    ResampledMeans,
     in_words,
     interval,
     means,
@@ -32,38 +31,16 @@ def test_structures_that_fall_together_fall_together_in_every_resample():
     assert found.sum(axis=1) == pytest.approx(np.ones(21))
 
 
-def in_blocks(sizes, *outcomes, resamples=20):
-    found = ResampledMeans(len(outcomes[0]), resamples, 1)
-    for part in np.split(np.arange(len(outcomes[0])), np.cumsum(sizes)):
-        found.add([each[part] for each in outcomes])
-    return found.means()
-
-
-def test_means_of_a_single_block_are_those_of_all_weights():
-    random = np.random.default_rng(5)
-    fell, first = random.random((50, 3, 2)) < 0.3, random.random(50) < 0.5
-    weights = resampled(50, 20, 1)
-    found = in_blocks([], fell, first)
-    assert found[0] == pytest.approx(means(weights, fell), rel=1e-14)
-    assert found[1] == pytest.approx(means(weights, first), rel=1e-14)
-
-
-def test_means_by_blocks_scatter_as_those_of_all_weights():
-    """Motions of the first block fall more often; each resample draws 400, of whichever blocks."""
+def test_means_by_blocks_scatter_as_those_of_all_weights(monkeypatch):
+    """Motions of the first blocks fall more often; a resample draws 400, of whichever blocks."""
+    monkeypatch.setattr(resampling, "BLOCK", 70)
     fell = np.arange(400)[:, None] < [40, 200]
-    (means,) = in_blocks([30, 170, 1], fell, resamples=4000)
+    means = means_within(fell, [None] * 400, 4000, 1)
     assert means[0] == pytest.approx([0.1, 0.5], rel=1e-12)
     assert means[1:].mean(axis=0) == pytest.approx([0.1, 0.5], abs=2e-3)
     assert means[1:].std(axis=0) == pytest.approx(np.sqrt([0.09 / 400, 0.25 / 400]), rel=0.05)
-    (everything,) = in_blocks([30, 170, 1], np.ones(400))
+    everything = means_within(np.ones(400), [None] * 400, 20, 1)
     assert everything == pytest.approx(np.ones(21), rel=1e-12)
-
-
-def test_missing_motions_are_missed():
-    found = ResampledMeans(50, 20, 1)
-    found.add([np.ones(49)])
-    with pytest.raises(ValueError, match="49 motions were found; expected those of 50"):
-        found.means()
 
 
 def test_interval_holds_the_middle_of_the_resamples():

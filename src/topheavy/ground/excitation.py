@@ -100,7 +100,7 @@ class Segment(NamedTuple):
 
 
 class Lines(Sequence[Segment]):
-    """The segments between samples, each made when it is asked for.
+    """The segments between samples, each made when it is read.
 
     `largest` has the larger |a| at the ends of each, g.
     """

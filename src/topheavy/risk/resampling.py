@@ -46,51 +46,22 @@ def means(weights: Array, outcomes: ArrayLike) -> Array:
     return np.tensordot(weights, outcomes, axes=1)
 
 
-class ResampledMeans:
-    """The `means` of outcomes that come in blocks of motions, of which one is held at a time.
+def _sums(outcomes: Array, resamples: int, seed: int | Sequence[int]) -> Array:
+    """Return the sums of outcomes over the motions, and over those of each resample.
 
-    Of a resample, a binomial number of motions falls on each block, and there each is as likely. So
-    a single block has the weights of `resampled`, and several have others of the same distribution.
+    Of a resample, a binomial number of motions falls on each block, and there each is as likely.
+    Sums of yes and no are whole numbers, so that equal counts are equal.
     """
-
-    def __init__(self, motions: int, resamples: int, seed: int | Sequence[int]) -> None:
-        self._motions = self._awaited = motions
-        self._left = np.full(resamples, motions)  # motions that each resample has still to draw
-        self._random = np.random.default_rng(seed)
-        self._sums: list[Array] = []
-
-    def add(self, outcomes: Sequence[ArrayLike]) -> None:
-        """Take up a block: several outcomes, each of shape (motions of the block, ...)."""
-        size = len(np.asarray(outcomes[0]))
-        drawn = self._left
-        if size < self._awaited:
-            drawn = self._random.binomial(self._left, size / self._awaited)
-        counts = self._random.multinomial(drawn, np.full(size, 1.0 / size))
-        self._awaited, self._left = self._awaited - size, self._left - drawn
-        times = np.vstack([np.ones(size), counts])
-        found = [means(times, each) for each in outcomes]
-        self._sums = list(map(np.add, self._sums, found)) if self._sums else found
-
-    def means(self) -> list[Array]:
-        """Return the means of each outcome, of shape (1 + resamples, ...); errors as of `sums`."""
-        return [found / self._motions for found in self.sums()]
-
-    def sums(self) -> list[Array]:
-        """Return the sums of each outcome over the motions, of shape (1 + resamples, ...).
-
-        Those of yes and no are whole numbers, so that equal counts are equal.
-
-        Raises
-        ------
-        ValueError
-            When the blocks do not have all motions of the ensemble, or have more.
-        """
-        if self._awaited:
-            raise ValueError(
-                f"outcomes of {self._motions - self._awaited} motions were found; expected those "
-                f"of {self._motions}: a shard is incomplete, delete it and run again"
-            )
-        return self._sums
+    random, left = np.random.default_rng(seed), np.full(resamples, len(outcomes))
+    total = np.zeros((1 + resamples, *outcomes.shape[1:]))
+    for first in range(0, len(outcomes), BLOCK):
+        block = outcomes[first : first + BLOCK]
+        size, awaited = len(block), len(outcomes) - first
+        drawn = left if size == awaited else random.binomial(left, size / awaited)
+        counts = random.multinomial(drawn, np.full(size, 1.0 / size))
+        left = left - drawn
+        total += means(np.vstack([np.ones(size), counts]), block)
+    return total
 
 
 def means_within(
@@ -116,10 +87,7 @@ def means_within(
         members.setdefault(group, []).append(motion)
     total = np.zeros((1 + resamples, *outcomes.shape[1:]))
     for number, motions in enumerate(members.values()):
-        found = ResampledMeans(len(motions), resamples, [seed, number] if number else seed)
-        for first in range(0, len(motions), BLOCK):
-            found.add([outcomes[motions[first : first + BLOCK]]])
-        total += found.sums()[0]
+        total += _sums(outcomes[motions], resamples, [seed, number] if number else seed)
     return total / len(outcomes)
 
 
