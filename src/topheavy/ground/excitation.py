@@ -39,9 +39,8 @@ def checked_excitation(value: Any, *, ends: bool = False) -> Excitation:
 _MOST_HALVINGS = 10_000
 """In a bracket from 0 to 1 s, a root at 1e-16 s takes more than the hundred that SciPy allows."""
 
-
 _ROUNDING = 1e-6
-"""More than that between a sample and the end of the line to it."""
+"""By more than rounding can move the end of a line, relative to its largest |a|."""
 
 
 def root(function: Callable[[float], float], low: float, high: float) -> float:

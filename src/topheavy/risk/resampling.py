@@ -49,7 +49,8 @@ def means(weights: Array, outcomes: ArrayLike) -> Array:
 def _sums(outcomes: Array, resamples: int, seed: int | Sequence[int]) -> Array:
     """Return the sums of outcomes over the motions, and over those of each resample.
 
-    Of a resample, a binomial number of motions falls on each block, and there each is as likely.
+    Of a resample, a binomial number of motions falls on each block, and there each is as likely. So
+    a single block has the weights of `resampled`, and several have others of the same distribution.
     Sums of yes and no are whole numbers, so that equal counts are equal.
     """
     random, left = np.random.default_rng(seed), np.full(resamples, len(outcomes))
