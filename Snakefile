@@ -516,6 +516,7 @@ rule all:
 
 
 onstart:
+    begin()
     # Every record is read before anything is computed: a bad one is told at once.
     from topheavy import read_record
 

@@ -13,8 +13,9 @@ from replication.pages.captions import (
 from replication.workflow.closing import close
 from replication.workflow.code import code, results_read
 from replication.workflow.completion import complete, findings_made
-from replication.workflow.costs import read_costs
-from replication.workflow.internals import timed_by, with_files_of_jobs
+from replication.workflow.costs import paths, read_costs
+from replication.workflow.forks import start_scripts_as_forks
+from replication.workflow.internals import with_files_of_jobs
 from replication.origin.recorded import CRATE
 from replication.judging.ledger import read_judged, read_ledger
 from replication.judging.ledger_check import check_ledger
@@ -23,6 +24,7 @@ from replication.inputs.parts import PAPER, Part
 from replication.workflow.origins import Origins, published_results
 from replication.workflow.lock import one_run_at_a_time
 from replication.workflow.place import check_place
+from replication.workflow.provenance import note_jobs
 from replication.workflow.progress import one_line_a_job
 from replication.workflow.stopping import end_on_sigterm
 from replication.inputs.strict_yaml import read_yaml
@@ -40,6 +42,16 @@ if not workflow.dryrun:
 
 
 report: "pages/opening.rst"
+
+
+def begin():
+    """Begin a run: note its jobs, and start the process that their scripts are forks of."""
+    note_jobs(workflow)
+    start_scripts_as_forks(workflow)
+
+
+onstart:  # of a Snakefile without its own
+    begin()
 
 
 def read_strictly(path):
@@ -90,14 +102,9 @@ def everything(wildcards):
 
 
 def longest_first():
-    """Start jobs that took long in the published run before others, so that no core waits for them.
-
-    A rule's own priority is added.
-    """
-    took = read_costs(Path("docs/costs.csv"))
-    for each in workflow.rules:
-        of = [took[name][0] for name in timed_by(each, took)]
-        each.priority += round(max(of, default=0.0))
+    """Start first what begins the longest path to the end; a rule's own priority is added."""
+    for each, seconds in paths(workflow.rules, read_costs(Path("docs/costs.csv"))):
+        each.priority += round(seconds)
 
 
 def only_shards_leave_this_machine():

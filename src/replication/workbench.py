@@ -5,6 +5,8 @@ A step returns findings, by which claims of the ledger are judged: `value` for a
 error and unit, `truth` for a statement with the numbers that support it.
 """
 
+import re
+import resource
 import signal
 import sys
 from collections.abc import Callable, Iterator, Mapping
@@ -22,6 +24,8 @@ if TYPE_CHECKING:
     import pandas as pd
 
 DIGITS = "%.9g"
+PEAK = "peak memory: "
+"""How the last line of a log begins."""
 
 
 def run(job: Any, main: Callable[[Any], Any]) -> None:
@@ -61,6 +65,20 @@ def run(job: Any, main: Callable[[Any], Any]) -> None:
                 f"rule {job.rule} loaded {', '.join(gap)}, which is not among its inputs: a change "
                 "there would leave its results stale; expected an import statement in its code"
             )
+        print(f"{PEAK}{peak_memory():.1f} MB")
+
+
+def peak_memory() -> float:
+    """Return the most memory that this process has had, and with it the largest child's, MB."""
+    own, child = (
+        resource.getrusage(who).ru_maxrss
+        for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)
+    )
+    status = Path("/proc/self/status")
+    if status.exists():  # on Linux ru_maxrss is in KiB, and begins with that of the program before
+        (own,) = map(int, re.findall(r"VmHWM:\s*(\d+) kB", status.read_text(encoding="utf-8")))
+        return (own + child) / 1024
+    return (own + child) / 1024**2
 
 
 @contextmanager

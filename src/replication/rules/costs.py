@@ -1,23 +1,29 @@
-"""What the run cost: wall time and memory of every rule, from Snakemake's benchmark files."""
+"""What the run cost: wall time and memory of every rule, from Snakemake's benchmarks and the logs.
+
+A benchmark has no memory of a job that is a fork.
+"""
 
 from pathlib import Path
 
 import pandas as pd
 
-from replication.workbench import run
+from replication.workbench import PEAK, run
 
 
-def main(benchmarks: list[Path]) -> pd.DataFrame:
-    rows = [
-        {
-            "rule": path.stem,
-            "seconds": (measured := pd.read_csv(path, sep="\t").iloc[-1])["s"],
-            "memory_mb": measured["max_rss"],
-        }
-        for path in benchmarks
-    ]
+def main(benchmarks: list[Path], logs: Path) -> pd.DataFrame:
+    rows = []
+    for path in benchmarks:
+        log = (logs / f"{path.stem}.log").read_text(encoding="utf-8")
+        memory = float(log.rpartition(PEAK)[2].split()[0])
+        seconds = pd.read_csv(path, sep="\t").iloc[-1]["s"]
+        rows.append({"rule": path.stem, "seconds": seconds, "memory_mb": memory})
     return pd.DataFrame(rows).sort_values("seconds", ascending=False)
 
 
+def work(job) -> pd.DataFrame:
+    results = Path("results")
+    return main(sorted(results.glob("benchmarks/*.tsv")), results / "logs").round(1)
+
+
 if __name__ == "__main__":
-    run(snakemake, lambda job: main(sorted(Path("results/benchmarks").glob("*.tsv"))).round(1))
+    run(snakemake, work)

@@ -18,7 +18,7 @@ from replication.origin.entities import ref, refs
 from replication.origin.recorded import CRATE, LEFT_OUT, WORKFLOW
 from replication.origin.software import installed
 from replication.workbench import run
-from replication.workflow.provenance import Job, source_version, workflow_jobs
+from replication.workflow.provenance import Job, noted_jobs, source_version, workflow_jobs
 
 SPECIFICATION = "https://w3id.org/ro/crate/1.1"
 WORKFLOW_CRATE = "https://w3id.org/workflowhub/workflow-ro-crate/1.0"
@@ -111,7 +111,7 @@ def work(job: Any) -> None:
     project = _toml(job.input.project)
     groups = project.get("tool", {}).get("replication", {}).get("groups", [])
     crate = main(
-        workflow_jobs(config=job.config, targets=["all"]),
+        noted_jobs() or workflow_jobs(config=job.config, targets=["all"]),
         job.params.differs_each_run,
         {part: keys(Path(config_of(part)), used) for part, used in job.params.configs.items()},
         read_judged(job.input.claims),

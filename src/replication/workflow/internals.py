@@ -64,6 +64,18 @@ def maker(rules: Iterable[Any], path: str) -> Any | None:
     return next((rule for rule in rules if rule.is_producer(path)), None)
 
 
+def users_of(rules: Iterable[Any]) -> dict[Any, list[Any]]:
+    """Return, for each rule, those that read what it makes, as far as their inputs are paths."""
+    rules = list(rules)
+    found: dict[Any, list[Any]] = {rule: [] for rule in rules}
+    for rule in rules:
+        paths = {str(path) for path in rule.input if not callable(path)}
+        makers = {maker(rules, path) for path in paths if path.startswith("results/")}
+        for made in makers - {None}:
+            found[made].append(rule)
+    return found
+
+
 def job_of(rule: Any, path: str) -> tuple[dict[str, str], list[Any], list[Any]]:
     """Return wildcards, inputs and parameters of the job of a rule that makes a file."""
     words = rule.get_wildcards(path)

@@ -1,9 +1,10 @@
 """The jobs of the workflow, and the version of its source."""
 
 import os
+import pickle
 import subprocess
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +13,9 @@ from replication.workflow.internals import planned, script_of
 
 ALL_TRIGGERS = ["mtime", "input", "params", "code", "software-env"]
 """What makes a run repeat a job, where the default profile says nothing else."""
+
+NOTES, NOTED = Path(".snakemake/jobs.pickle"), "JOBS_OF_THE_RUN"
+"""Where a run notes its jobs, and the variable by which its jobs know of it."""
 
 
 @dataclass(frozen=True)
@@ -44,6 +48,19 @@ def workflow_jobs(
     triggers = known.get("rerun-triggers", ALL_TRIGGERS)
     with planned(Path(root), config or {}, targets, triggers) as workflow:
         return [_job(job, workflow) for job in workflow.dag.jobs]
+
+
+def note_jobs(workflow: Any) -> None:
+    """Note the jobs of a run that begins, for those of its jobs that ask `noted_jobs`."""
+    jobs = [replace(_job(job, workflow), params={}) for job in workflow.dag.jobs]
+    NOTES.write_bytes(pickle.dumps(jobs))
+    os.environ[NOTED] = str(NOTES.resolve())
+
+
+def noted_jobs() -> list[Job]:
+    """Return the jobs of the run that this process is part of; none if it noted none."""
+    path = os.environ.get(NOTED)
+    return pickle.loads(Path(path).read_bytes()) if path else []
 
 
 def makers(jobs: Iterable[Job]) -> dict[str, Job]:

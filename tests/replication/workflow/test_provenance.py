@@ -2,10 +2,19 @@
 
 import subprocess
 import sys
+from dataclasses import replace
 
 import pytest
 
-from replication.workflow.provenance import makers, source_version, workflow_jobs
+from replication.workflow import provenance
+from replication.workflow.internals import planned
+from replication.workflow.provenance import (
+    makers,
+    note_jobs,
+    noted_jobs,
+    source_version,
+    workflow_jobs,
+)
 
 SNAKEFILE = """\
 configfile: "config.yaml"
@@ -66,6 +75,17 @@ def test_job_has_its_wildcards_its_place_its_params_and_its_findings(tree):
     assert copy.scripts == ("scripts/a.py",)
     assert copy.place == f"Snakefile:{line}"
     assert (total.params, total.findings) == ({"factor": 2}, ("out/sum.txt",))
+
+
+def test_run_notes_its_jobs(tree, monkeypatch):
+    root, before = tree
+    monkeypatch.chdir(root)
+    monkeypatch.setenv(provenance.NOTED, "")
+    assert noted_jobs() == []
+    with planned(root, {}, None, ["input"]) as workflow:
+        note_jobs(workflow)
+    expected = {job.outputs: replace(job, params={}, pending=False) for job in before}
+    assert {job.outputs: replace(job, pending=False) for job in noted_jobs()} == expected
 
 
 def test_config_can_be_replaced_and_job_is_pending_by_the_triggers_of_the_profile(tree, plant):
