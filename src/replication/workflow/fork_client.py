@@ -8,10 +8,7 @@ import os
 import socket
 import sys
 
-ENDED = (
-    "the process that jobs are forked from has ended; expected it to last as long as the run: "
-    "run the same command again"
-)
+ENDED = "the process that waits for this script has ended: run the same command again"
 
 
 def run(address: str, script: str) -> int | None:

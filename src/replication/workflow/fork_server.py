@@ -6,16 +6,14 @@ It imports nothing of the repository, so that each script finds its modules as t
 import gc
 import json
 import os
-import selectors
 import shutil
 import signal
 import socket
 import sys
 from contextlib import suppress
-from functools import partial
 from pathlib import Path
+from select import select
 from types import ModuleType
-from typing import NamedTuple
 
 PACKAGES = (
     "snakemake.script",
@@ -35,88 +33,53 @@ REQUEST = 2**20
 """Bytes: the most that a request may have, with its environment."""
 
 
-class Request(NamedTuple):
-    """A script, the folder and the environment that it runs in, and its three streams."""
-
-    script: str
-    folder: str
-    environment: dict[str, str]
-    streams: list[int]
-
-
-def serve(address: str) -> Request | None:
-    """Fork for each request, and return it in the fork; return None when the run has ended.
-
-    A client learns how its fork ended. A fork whose client was killed is killed.
-    """
-    asks = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
-    asks.bind(address)
-    asks.listen()
-    with selectors.DefaultSelector() as events:
-        events.register(asks, selectors.EVENT_READ, _fork)
-        events.register(0, selectors.EVENT_READ)
-        while True:
-            (event, _), *_ = events.select()  # one at a time: it may make another void
-            if event.data is None:
-                return None
-            if request := event.data(events, event.fileobj):
-                return request
-
-
-def _fork(events: selectors.BaseSelector, asks: socket.socket) -> Request | None:
-    """Fork for a client that asks, and return its request in the fork alone."""
-    client, _ = asks.accept()
-    asked, streams, *_ = socket.recv_fds(client, REQUEST, 3)
-    if not asked:  # a client that was killed
-        client.close()
-    elif pid := os.fork():
-        for stream in streams:
-            os.close(stream)
-        ends = os.pidfd_open(pid)
-        events.register(ends, selectors.EVENT_READ, partial(_tell, client=client, pid=pid))
-        events.register(client, selectors.EVENT_READ, partial(_kill, pid=pid))
-    else:
-        asks.close()
-        client.close()
-        return Request(*json.loads(asked), streams)
+def serve(address: str) -> socket.socket | None:
+    """Fork for each client, and return it in the fork; return None when the run has ended."""
+    with socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET) as asks:
+        asks.bind(address)
+        asks.listen()
+        while 0 not in select([0, asks], [], [])[0]:
+            client, _ = asks.accept()
+            if os.fork() == 0:
+                return client
+            client.close()
+    with suppress(ChildProcessError):
+        while os.wait():
+            pass
     return None
 
 
-def _tell(events: selectors.BaseSelector, ends: int, *, client: socket.socket, pid: int) -> None:
-    """Tell a client how its fork ended."""
-    code = os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1])
-    with suppress(OSError):
-        client.send(bytes([code if code >= 0 else 128 - code]))
-    for each in (ends, client):
-        with suppress(KeyError):
-            events.unregister(each)
-    os.close(ends)
-    client.close()
+def attend(client: socket.socket) -> None:
+    """Fork once more for the script of a client, tell how it ended, and end it with the client."""
+    asked, streams, *_ = socket.recv_fds(client, REQUEST, 3)
+    if asked and (pid := os.fork()):
+        ends = os.pidfd_open(pid)
+        if ends not in select([client, ends], [], [])[0]:
+            os.kill(pid, signal.SIGKILL)
+        code = os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1])
+        with suppress(OSError):
+            client.send(bytes([code if code >= 0 else 128 - code]))
+        os._exit(0)
+    elif asked:
+        client.close()
+        become(streams, *json.loads(asked))
 
 
-def _kill(events: selectors.BaseSelector, client: socket.socket, *, pid: int) -> None:
-    """End the fork of a client that is no more."""
-    events.unregister(client)
-    with suppress(ProcessLookupError):
-        os.kill(pid, signal.SIGKILL)
-
-
-def become(request: Request) -> None:
-    """Do in a fork what Python does for a script."""
-    for number, stream in enumerate(request.streams):
+def become(streams: list[int], script: str, folder: str, environment: dict[str, str]) -> None:
+    """Do what Python does for a script."""
+    for number, stream in enumerate(streams):
         os.dup2(stream, number)
         os.close(stream)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
-    os.chdir(request.folder)
+    os.chdir(folder)
     os.environ.clear()
-    os.environ.update(request.environment)
-    sys.argv = [request.script]
-    sys.path.insert(0, str(Path(request.script).parent))
+    os.environ.update(environment)
+    sys.argv = [script]
+    sys.path.insert(0, str(Path(script).parent))
     main = ModuleType("__main__")
-    main.__file__ = request.script
+    main.__file__ = script
     sys.modules["__main__"] = sys.modules["__mp_main__"] = main  # the second is multiprocessing's
-    text = Path(request.script).read_text(encoding="utf-8")
-    exec(compile(text, request.script, "exec"), vars(main))
+    exec(compile(Path(script).read_text(encoding="utf-8"), script, "exec"), vars(main))
 
 
 if __name__ == "__main__":
@@ -126,7 +89,7 @@ if __name__ == "__main__":
         with suppress(ImportError):
             __import__(name)
     gc.freeze()  # no garbage collector of a fork writes to what all share
-    if request := serve(sys.argv[1]):
-        become(request)
+    if client := serve(sys.argv[1]):
+        attend(client)
     else:
         shutil.rmtree(Path(sys.argv[1]).parent)

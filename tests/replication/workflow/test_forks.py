@@ -87,7 +87,7 @@ def who(tmp_path):
 
 def test_fork_finds_what_a_script_finds_without_forks(server, ask, who, tmp_path):
     said, _ = ask(SCRIPT, server.address).communicate()
-    assert who()[1:] == [server.pid, True]
+    assert who()[2]
     (tmp_path / "who.json").unlink()
     plain = ask(SCRIPT, tmp_path / "nothing")
     assert plain.communicate()[0] == said
@@ -123,10 +123,10 @@ def test_fork_ends_with_its_client_and_others_go_on(server, ask, who):
     assert other.returncode == 4
 
 
-def test_client_tells_of_a_server_that_ended(server, ask, who):
+def test_client_tells_when_nobody_waits_for_its_script(server, ask, who):
     client = ask(f"{SCRIPT}\nimport time; time.sleep(30)", server.address)
-    pid = who()[0]
-    server.kill()
+    pid, parent, _ = who()
+    os.kill(parent, signal.SIGKILL)
     client.wait()
     os.kill(pid, signal.SIGKILL)
     assert fork_client.ENDED in client.communicate()[1]
@@ -165,7 +165,7 @@ if snakemake.wildcards.n == "11":
     sys.path.insert(0, ".")
     import beside
 begun = len([*Path().glob("forks-*")])
-run(snakemake, lambda job: f"{os.getppid()} {'numpy' in sys.modules} {begun}")
+run(snakemake, lambda job: f"{'numpy' in sys.modules} {begun}")
 """
 
 
@@ -179,8 +179,8 @@ def test_run_of_many_jobs_forks_them(ran, plant, tmp_path, number, forked):
     plant(tmp_path, files)
     status, said = ran("--keep-going", env=os.environ | {"TMPDIR": str(tmp_path)})
     made = [path.read_text().split() for path in tmp_path.glob("made/*")]
-    assert {begun for _, _, begun in made} == {str(int(forked))}
-    assert len({parent for parent, prepared, _ in made if prepared == "True"}) == forked
+    assert {begun for _, begun in made} == {str(int(forked))}
+    assert any(prepared == "True" for prepared, _ in made) == forked
     logs = [path.read_text() for path in tmp_path.glob("logs/*")]
     assert len(made) == sum("peak memory: " in log for log in logs) == number - forked
     assert (status, "rule one loaded beside.py" in said) == (int(forked), forked)
