@@ -6,7 +6,7 @@ import signal
 import sys
 from pathlib import Path
 
-from replication.workflow.stopping import SIGNALS, interrupt
+from replication.workflow.stopping import QUIET, SIGNALS, interrupt
 
 ROOM = 200
 """MB on the disk: below this a run does not begin."""
@@ -31,6 +31,5 @@ if __name__ == "__main__":
     from snakemake.cli import main
     from snakemake.shell import shell
 
-    # A job that still imports its modules would print where it was; `interrupt` ends it.
-    shell.prefix("set -euo pipefail; trap '' INT; ")
+    shell.prefix(QUIET)
     sys.exit(main())

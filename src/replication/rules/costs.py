@@ -14,9 +14,11 @@ def main(benchmarks: list[Path], logs: Path) -> pd.DataFrame:
     rows = []
     for path in benchmarks:
         log = (logs / f"{path.stem}.log").read_text(encoding="utf-8")
-        memory = float(log.rpartition(PEAK)[2].split()[0])
-        seconds = pd.read_csv(path, sep="\t").iloc[-1]["s"]
-        rows.append({"rule": path.stem, "seconds": seconds, "memory_mb": memory})
+        _, found, peak = log.rpartition(PEAK)
+        if found:  # else a rule that is no more has left its files
+            seconds = pd.read_csv(path, sep="\t").iloc[-1]["s"]
+            memory = float(peak.split()[0])
+            rows.append({"rule": path.stem, "seconds": seconds, "memory_mb": memory})
     return pd.DataFrame(rows).sort_values("seconds", ascending=False)
 
 

@@ -19,6 +19,7 @@ from snakemake.shell import shell
 
 from replication.workflow import fork_client, fork_server
 from replication.workflow.internals import unfinished
+from replication.workflow.stopping import QUIET
 
 THREADS = ("OMP", "OPENBLAS", "MKL")
 FEW = 8
@@ -46,5 +47,5 @@ def start_scripts_as_forks(workflow: Any) -> None:
     # Snakemake calls Python by its path, which a function of the shell may have for a name.
     passed_on = f'exec {python} -IS {client} {folder}/socket "$@"'
     begin = folder / "begin.sh"
-    begin.write_text(f"trap '' INT\n{python}() {{ {passed_on}; }}\n", encoding="utf-8")
-    shell.prefix(f"set -euo pipefail; . {begin}; ")
+    begin.write_text(f"{python}() {{ {passed_on}; }}\n", encoding="utf-8")
+    shell.prefix(f"{QUIET}. {begin}; ")

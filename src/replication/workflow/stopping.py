@@ -16,6 +16,9 @@ SAYS = "Interrupted. The same command goes on: what is finished is kept."
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT)
 """Those that `interrupt` answers."""
 
+QUIET = "set -euo pipefail; trap '' INT; "
+"""How the shell of a job begins: one that still imports its modules would print where it was."""
+
 PAUSE = 0.2
 """s: an error that is logged waits so long for the handler of a signal."""
 

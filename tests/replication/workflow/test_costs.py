@@ -50,7 +50,10 @@ def test_cost_of_a_job_is_of_its_benchmark_and_its_log(tmp_path):
     for path, seconds in zip(benchmarks, (1.5, 7.0), strict=True):
         path.write_text(f"s\tmax_rss\n{seconds}\t9.9\n")
         path.with_suffix(".log").write_text(f"its words\npeak memory: {2 * seconds} MB\n")
-    costs = main(benchmarks, tmp_path)
+    left = tmp_path / "old.tsv"
+    left.write_text("s\n3.0\n")
+    left.with_suffix(".log").write_text("of an earlier version\n")
+    costs = main([*benchmarks, left], tmp_path)
     assert costs.to_dict("list") == {
         "rule": ["sum", "map"],
         "seconds": [7.0, 1.5],
