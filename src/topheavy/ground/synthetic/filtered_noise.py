@@ -20,7 +20,7 @@ import numpy as np
 from scipy.fft import irfft, rfft, rfftfreq
 
 from topheavy import Record
-from topheavy.ground.synthetic.motions import TIME_STEP, Vector, between_zeros
+from topheavy.ground.synthetic.motions import TIME_STEP, Vector, between_zeros, modulation
 
 DAMPING = 0.6
 """ζ of both oscillators."""
@@ -45,13 +45,13 @@ def density_of_soil(ratio: Vector) -> Vector:
 
 def density_of_filter(ratio: Vector) -> Vector:
     """Return what the second filter leaves of the density at f/f_corner."""
-    return ratio**4 / ((1.0 - ratio**2) ** 2 + (2.0 * DAMPING * ratio) ** 2)
+    return np.square(np.square(ratio)) / ((1.0 - ratio**2) ** 2 + (2.0 * DAMPING * ratio) ** 2)
 
 
 def envelope(time: Vector) -> Vector:
     """Return the envelope at these times, s."""
-    rising = np.minimum(time / RISE, 1.0) ** 2
-    return rising * np.exp(-DECAY * np.maximum(time - RISE - CONSTANT, 0.0))
+    decaying: Vector = modulation(time - CONSTANT, 0.0, DECAY, RISE)
+    return np.minimum(time / RISE, 1.0) ** 2 * decaying
 
 
 def motion(seed: int, number: int, soil: Soil) -> Record:

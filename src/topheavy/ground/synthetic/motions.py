@@ -29,7 +29,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numba import njit
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 from scipy.fft import irfft, next_fast_len, rfft, rfftfreq
 from scipy.optimize import least_squares
 from scipy.special import betaincinv, expit, logit, ndtr
@@ -54,7 +54,8 @@ FORGOTTEN = 1e-5
 
 DIGITS = 9
 """Decimals of the normal values that are kept: BLAS differs between processors in the last bits, of
-which, for one draw of six, the fit of the envelope would make another motion."""
+which, for one draw of six, the fit of the envelope would make another motion. Under AVX-512 so do
+NumPy's exp, log, sin, cos and power: compiled functions take those of the C library instead."""
 
 SMALL = math.sqrt(np.finfo(float).eps)
 """Step of the differences by which an envelope is fitted."""
@@ -279,14 +280,18 @@ def envelope(t5: float, t30: float, t95: float) -> tuple[float, float, float]:
     return shape(least_squares(misfit, start, slopes, method="lm", xtol=1e-10).x)
 
 
-def times_of(shares: ArrayLike, rise: float, decay: float, peak: float) -> Vector:
+@njit(cache=True)
+def times_of(shares, rise, decay, peak):  # type: ignore[no-untyped-def]
     """Return the times in s by which these shares of the intensity of an envelope are reached."""
-    shares = np.asarray(shares, dtype=float)
     before, after = peak / (2.0 * rise + 1.0), 0.5 / decay
     top = before / (before + after)
-    rising = peak * (shares / top) ** (1.0 / (2.0 * rise + 1.0))
-    falling = peak - after * np.log((1.0 - shares) / (after / (before + after)))
-    return np.where(shares < top, rising, falling)
+    times = np.empty(len(shares))
+    for k, share in enumerate(shares):
+        if share < top:
+            times[k] = peak * (share / top) ** (1.0 / (2.0 * rise + 1.0))
+        else:
+            times[k] = peak - after * math.log((1.0 - share) / (after / (before + after)))
+    return times
 
 
 def motion(seed: int, number: int, scenario: Scenario, *, pulse: bool) -> Record:
@@ -296,7 +301,8 @@ def motion(seed: int, number: int, scenario: Scenario, *, pulse: bool) -> Record
     time = np.arange(math.ceil(2.5 * (drawn["D0_5"] + drawn["D5_95"]) / TIME_STEP)) * TIME_STEP
     noise = filtered(rng.standard_normal(time.size), frequency(time, drawn), drawn["damping"])
     corner = 10.0 ** (1.4071 - 0.3452 * scenario.magnitude)  # Hz [4, 5]
-    shaking, before = high_passed(noise * modulation(time, drawn), corner)
+    shape = modulation(time, drawn["rise"], drawn["decay"], drawn["peak"])
+    shaking, before = high_passed(noise * shape, corner)
     shaking *= math.sqrt(
         drawn["Ia"] / 100.0 / arias_intensity(Record(TIME_STEP, shaking, unit="g"))
     )
@@ -307,11 +313,13 @@ def motion(seed: int, number: int, scenario: Scenario, *, pulse: bool) -> Record
     )
 
 
-def modulation(time: Vector, drawn: dict[str, float]) -> Vector:
+@njit(cache=True)
+def modulation(time, rise, decay, peak):  # type: ignore[no-untyped-def]
     """Return the modulating function at these times, 1 at its peak. [1, (4)]"""
-    peak = drawn["peak"]
-    rising = np.minimum(time / peak, 1.0) ** drawn["rise"]
-    return rising * np.exp(-drawn["decay"] * np.maximum(time - peak, 0.0))
+    values = np.empty(time.size)
+    for k, now in enumerate(time):
+        values[k] = min(now / peak, 1.0) ** rise * math.exp(-decay * max(now - peak, 0.0))
+    return values
 
 
 def frequency(time: Vector, drawn: dict[str, float]) -> Vector:
@@ -366,7 +374,7 @@ def high_passed(motion: Vector, corner: float) -> tuple[Vector, int]:
     """
 
     def gain(ratio: Vector) -> Vector:
-        power = ratio**8
+        power = np.square(np.square(np.square(ratio)))
         return np.sqrt(power / (1.0 + power))
 
     return between_zeros(motion, corner, gain)
@@ -393,16 +401,23 @@ def pulse_acceleration(time: Vector, drawn: dict[str, float]) -> Vector:
     Its velocity is {V_p/2 cos(2π(t − t_p)/T_p + ν) − D_r/(γT_p)} {1 + cos(2π(t − t_p)/(γT_p))}
     for |t − t_p| ≤ γT_p/2, and D_r is the displacement that the first term alone would leave.
     """
-    speed, period, cycles = drawn["Vp"] / 100.0, drawn["Tp"], drawn["gamma"]
-    phase = math.pi * drawn["nu"]
-    turns = (time - drawn["tp"]) / period
-    inside = np.abs(turns) <= cycles / 2.0
-    wave, bell = 2.0 * math.pi * turns + phase, 2.0 * math.pi * turns / cycles
+    turns = (time - drawn["tp"]) / drawn["Tp"]
+    slope = _pulse_slope(turns, math.pi * drawn["nu"], drawn["gamma"])
+    return drawn["Vp"] / 100.0 * slope * 2.0 * math.pi / drawn["Tp"] / STANDARD_GRAVITY
+
+
+@njit(cache=True)
+def _pulse_slope(turns, phase, cycles):  # type: ignore[no-untyped-def]
+    """Return the slope of the velocity over V_p, a period being 2π long, at these turns."""
     left = math.sin(phase + cycles * math.pi) - math.sin(phase - cycles * math.pi)
-    offset = speed / (4.0 * math.pi * cycles) * left / (1.0 - cycles**2)  # D_r/(γT_p)
-    slope = -0.5 * speed * np.sin(wave) * (1.0 + np.cos(bell))
-    slope -= (0.5 * speed * np.cos(wave) - offset) * np.sin(bell) / cycles
-    return np.where(inside, slope * 2.0 * math.pi / period / STANDARD_GRAVITY, 0.0)
+    offset = left / (4.0 * math.pi * cycles) / (1.0 - cycles**2)  # D_r/(γT_p V_p)
+    slope = np.zeros(turns.size)
+    for k, turn in enumerate(turns):
+        if abs(turn) <= cycles / 2.0:
+            wave, bell = 2.0 * math.pi * turn + phase, 2.0 * math.pi * turn / cycles
+            slope[k] = -0.5 * math.sin(wave) * (1.0 + math.cos(bell))
+            slope[k] -= (0.5 * math.cos(wave) - offset) * math.sin(bell) / cycles
+    return slope
 
 
 # ---------------------------------------------------------------------------- measures
