@@ -1,9 +1,11 @@
 """Does the engine overturn under the pulses that overturn the theory's frame?"""
 
+import math
+
 import pandas as pd
 
 from replication.workbench import Finding, truth
-from studies.mechanism.steps.engine import Motion, slips
+from studies.mechanism.steps.engine import Motion, Rig, slips
 from studies.mechanism.steps.rigs import (
     FALLEN,
     Model,
@@ -50,12 +52,18 @@ def pulses_around(model: Model, spec: dict, contact: str) -> list[dict]:
                     "rebound_ratio": measured / frame.restitution,
                     "peak": peak / frame.slenderness,
                     "theory_peak": theory.peak / frame.slenderness,
-                    "slip": max(slips(rig, motion, gap=GAP * frame.column.half_width))
-                    / frame.column.half_width,
+                    "slip": _slip(rig, motion, frame.column.half_width, contact),
                     "cap_tilt": _cap_tilt(motion) / frame.slenderness,
                 }
             )
     return rows
+
+
+def _slip(rig: Rig, motion: Motion, half_width: float, contact: str) -> float:
+    """Return the largest slip over b. That of contacts with rebound depends on last bits: NaN."""
+    if contact != "plastic":
+        return math.nan
+    return max(slips(rig, motion, gap=GAP * half_width)) / half_width
 
 
 def _cap_tilt(motion: Motion) -> float:
