@@ -36,6 +36,7 @@ UNDECIDED = INK  # the outcome cannot be decided
 MODEL = "#6a3d9a"  # simplified models: linearised, columns without mass
 CONSERVATIVE = tint(MODEL, 0.55)  # … where they are wrong to the conservative side
 FIXED = "#8c6d00"  # the cap's mass fixed to the column
+ALONE, EQUAL, _ = shades(3)  # the column alone, and under a cap of γ = 1, below γ → ∞
 RECORD = "#7a5230"  # measured records beside pulses
 
 # Bodies that are drawn, and arrows and points on them.

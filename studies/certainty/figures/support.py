@@ -1,13 +1,12 @@
 """What the support of a mass does to the probability of overturning, and how √r decides it."""
 
-from figures.palette import FIXED
-from replication.drawing import GREY, INK, PAPER, SINGLE, letter, make_figure, note, shades, sheet
+from figures.palette import ALONE, EQUAL, FIXED
+from replication.drawing import GREY, INK, PAPER, SINGLE, letter, make_figure, note, sheet
 
-BARE, FREE = shades(2)
 STRUCTURE, PGV = "6 m temple", 0.6  # m/s
 SUPPORTS = {  # from the lowest row upwards
-    "free": ("frame, $\\gamma$ = 1:\nmass carried freely", FREE),
-    "bare": ("solitary column", BARE),
+    "free": ("frame, $\\gamma$ = 1:\nmass carried freely", EQUAL),
+    "bare": ("solitary column", ALONE),
     "fixed": ("vase, $\\gamma$ = 1:\nmass fixed to it", FIXED),
 }
 FAMILIES = {"near-fault": ("o", 0.14), "broadband": ("s", -0.14)}  # marker and place in a row

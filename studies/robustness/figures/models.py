@@ -2,11 +2,10 @@
 
 import pandas as pd
 
-from figures.palette import FIXED
-from replication.drawing import DOUBLE, INK, letter, make_figure, note, shades, sheet
+from figures.palette import ALONE, EQUAL, FIXED
+from replication.drawing import DOUBLE, INK, letter, make_figure, note, sheet
 
-BARE, FREE = shades(2)
-STRUCTURES = {"vase": FIXED, "column": BARE, "frame": FREE}
+STRUCTURES = {"vase": FIXED, "column": ALONE, "frame": EQUAL}
 
 
 def named(row):
