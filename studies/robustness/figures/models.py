@@ -17,7 +17,7 @@ def named(row):
 
 def draw(robustness_models):
     table = robustness_models.iloc[::-1].reset_index(drop=True)
-    figure, axes = sheet(DOUBLE, 72, ncols=2, sharey=True)
+    figure, axes = sheet(DOUBLE, 62, ncols=2, sharey=True)
     for place, row in table.iterrows():
         of = [(axes[0], name, colour) for name, colour in STRUCTURES.items()]
         for axis, name, colour in [*of, (axes[1], "gain", INK)]:
