@@ -40,6 +40,7 @@ class Check:
         self.block = Block(given["structure"], given["linearised"])
         self.ground = Ground(given["excitation"], given["factor"], self.block.square)
         self.order = given["order"]
+        self.quarter_turn = arctangent(of(1)) * 2
         self.sigma, self.phi, self.rate = of(0), of(0), of(0)
         self.energy = of(0)  # φ'²/2 + κ² (Φ + s a ψ): it knows what state and time share
         self.side = self.piece = self.impacts = self.zeros = 0
@@ -223,10 +224,9 @@ class Check:
     def _lies_flat(self, course: Course, end: Interval) -> None:
         if self.block.linearised:
             return
-        half_turn = arctangent(of(1)) * 2
-        if course.box < half_turn:
+        if course.box < self.quarter_turn:
             return
-        if not course.at(end)[0] > half_turn:
+        if not course.at(end)[0] > self.quarter_turn:
             raise Refused("it may lie flat, or not")
         self.result = "overturns"
 

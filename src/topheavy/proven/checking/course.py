@@ -72,8 +72,9 @@ class Course:
             if block.linearised:
                 pull = push[k] - x[k] + (block.alpha if k == 0 else of(0))
             else:
-                pull = s[k] + dot(push, c[::-1])
-                falls, grows = dot(v, c[::-1]), dot(v, s[::-1])
+                cosines = c[::-1]
+                pull = s[k] + dot(push, cosines)
+                falls, grows = dot(v, cosines), dot(v, s[::-1])
                 s.append(back * falls / (k + 1))
                 c.append(h * grows / (k + 1))
             x.append(h * v[k] / (k + 1))

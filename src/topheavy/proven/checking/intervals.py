@@ -39,19 +39,22 @@ class Interval:
         return Interval(-self.high, -self.low)
 
     def __sub__(self, other: "Interval | int") -> "Interval":
-        return self + -of(other)
+        if not isinstance(other, Interval):
+            other = of(other)
+        return Interval(self.low - other.high, self.high - other.low)
 
     def __mul__(self, other: "Interval | int") -> "Interval":
         if isinstance(other, int):
-            ends = self.low * other, self.high * other
-            return Interval(min(ends), max(ends))
+            low, high = self.low * other, self.high * other
+            return Interval(low, high) if other >= 0 else Interval(high, low)
         low, high = extremes(self.low, self.high, other.low, other.high)
         return Interval(low >> PLACES, -(-high >> PLACES))
 
     def __truediv__(self, other: "Interval | int") -> "Interval":
         if isinstance(other, int):
-            ends = (self.low, self.high) if other > 0 else (-self.high, -self.low)
-            return Interval(ends[0] // abs(other), -(-ends[1] // abs(other)))
+            if other < 0:
+                return -self / -other
+            return Interval(self.low // other, -(-self.high // other))
         if other.low <= 0 <= other.high:
             raise Refused("a divisor may be zero")
         pairs = [(n * UNIT, d) for n in (self.low, self.high) for d in (other.low, other.high)]
@@ -63,10 +66,10 @@ class Interval:
         return of(other) - self
 
     def __gt__(self, other: "Interval | int") -> bool:
-        return self.low > of(other).high
+        return self.low > (other.high if isinstance(other, Interval) else other * UNIT)
 
     def __lt__(self, other: "Interval | int") -> bool:
-        return self.high < of(other).low
+        return self.high < (other.low if isinstance(other, Interval) else other * UNIT)
 
     def inside(self, other: "Interval") -> bool:
         return other.low <= self.low and self.high <= other.high
@@ -100,8 +103,8 @@ def of(number: "Interval | int | Fraction") -> Interval:
         return number
     if isinstance(number, int):
         return Interval(number * UNIT, number * UNIT)
-    value = Fraction(number) * UNIT
-    return Interval(math.floor(value), math.ceil(value))
+    over, under = number.numerator * UNIT, number.denominator
+    return Interval(over // under, -(-over // under))
 
 
 def extremes(a: int, b: int, c: int, d: int) -> tuple[int, int]:
@@ -126,45 +129,52 @@ def between(low: str, high: str) -> Interval:
     return of(Fraction(low)).hull(of(Fraction(high)))
 
 
-@lru_cache(64)
-def _powers(x: int, signs: tuple[int, ...], places: int) -> Interval:
-    """Return Σ sₖ xᵏ/k! of a number x/2^places, with the signs in turn; 0 leaves a term out."""
+def _powers(x: int, places: int, turns: bool) -> list[Interval]:
+    """Return Σ xᵏ/k! of a number x/2^places over even k, odd k and all k.
+
+    If it turns, the signs of cosine and sine are in the sums.
+    """
     bits = 64 + 2 * (abs(x) >> places)  # what large terms that cancel cost
     x, places = x << bits, places + bits
     unit = 1 << places
-    total, term, k = 0, unit, 0
+    sums, term, k = [0, 0], unit, 0
     while abs(term) > 1 or k * unit < 2 * abs(x):
-        total += signs[k % len(signs)] * term
+        sums[k & 1] += -term if turns and k & 2 else term
         k += 1
         term = (term * x >> places) // k
     error = 4 * (k + 1) * (1 + (3 ** (abs(x) // unit + 1)))  # each term is short of one unit
-    return Interval((total - error) >> bits, -(-(total + error) >> bits))
+    ends = [((total - error) >> bits, -(-(total + error) >> bits)) for total in (*sums, sum(sums))]
+    return [Interval(*each) for each in ends]
 
 
-def _smooth(x: Interval, signs: tuple[int, ...], slope: tuple[int, ...]) -> Interval:
-    """Return sine or cosine of an interval: by its middle m and radius r, |f'| ≤ |f'(m)| + r."""
-    middle, radius = (x.low + x.high) // 2, (x.high - x.low) // 2 + 1
+@lru_cache(256)
+def _turned(low: int, high: int, places: int) -> tuple[Interval, Interval]:
+    """Return cosine and sine of an interval: by its middle m and radius r, |f'| ≤ |f'(m)| + r."""
+    middle, radius = (low + high) // 2, (high - low) // 2 + 1
     if max(radius, abs(middle) >> 10) > 4 * UNIT:  # more than a turn, or where no proof goes
-        return Interval(-UNIT, UNIT)
-    value, steep = _powers(middle, signs, PLACES), UNIT
-    if 16 < radius < UNIT:
-        steep = min(UNIT, _powers(middle, slope, PLACES).size().high + radius)
+        return Interval(-UNIT, UNIT), Interval(-UNIT, UNIT)
+    cosine, sine, _ = _powers(middle, places, True)
+    return _around(cosine, sine, radius), _around(sine, cosine, radius)
+
+
+def _around(value: Interval, slope: Interval, radius: int) -> Interval:
+    steep = min(UNIT, slope.size().high + radius) if 16 < radius < UNIT else UNIT
     off = radius * steep // UNIT + 1
     return Interval(max(value.low - off, -UNIT - 1), min(value.high + off, UNIT + 1))
 
 
 def sine(x: Interval) -> Interval:
-    return _smooth(x, (0, 1, 0, -1), (1, 0, -1, 0))
+    return _turned(x.low, x.high, PLACES)[1]
 
 
 def cosine(x: Interval) -> Interval:
-    return _smooth(x, (1, 0, -1, 0), (0, 1, 0, -1))
+    return _turned(x.low, x.high, PLACES)[0]
 
 
 def exponential(x: Interval) -> Interval:
     """Return exp(−x) for x ≥ 0, up to a rounding below; beyond x = P it is less than 2^−P."""
     ends = [max(0, min(end, PLACES * UNIT)) for end in (x.low, x.high)]
-    most, least = (of(1) / _powers(end, (1,), PLACES) for end in ends)
+    most, least = (of(1) / _powers(end, PLACES, False)[2] for end in ends)
     return Interval(least.low if ends[1] == x.high else 0, most.high)
 
 
