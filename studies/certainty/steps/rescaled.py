@@ -53,25 +53,22 @@ def is_reversed(falls: np.ndarray) -> np.ndarray:
 
 
 def rows(
-    record: Record, column: Column, gammas: Sequence[float], spec: Mapping[str, Any]
+    record: Record, column: Column, gammas: Sequence[float], widths: Sequence[float], points: int
 ) -> Iterator[dict]:
-    """Yield for each width what overturns at the own scale, and the share that is reversed.
+    """Yield what overturns at the own scale, for each width with the share that is reversed.
 
     By a grid of factors, and by every second of them (`coarser`).
     """
     frames = [RockingFrame(column, gamma) for gamma in gammas]
     own = overturned_together(frames, record, np.ones(1))
     names = [f"{gamma:g}" for gamma, fell in zip(gammas, own[:, 0], strict=True) if fell]
-    for width in spec["widths"]:
-        factors = 1.0 + width * np.linspace(-1.0, 1.0, spec["points"])
+    row = {"overturned": " ".join(names), "reversed": bool(is_reversed(own)[0])}
+    if not widths:
+        yield row
+    for width in widths:
+        factors = 1.0 + width * np.linspace(-1.0, 1.0, points)
         found = is_reversed(overturned_together(frames, record, factors))
-        yield {
-            "overturned": " ".join(names),
-            "reversed": bool(is_reversed(own)[0]),
-            "width": width,
-            "share": float(found.mean()),
-            "coarser": float(found[::2].mean()),
-        }
+        yield row | {"width": width, "share": found.mean(), "coarser": found[::2].mean()}
 
 
 def second_route(
@@ -109,23 +106,24 @@ def main(
     asked = [
         ({"record": name, "structure": structure, "order": order, "corner": corner})
         | {"case": (filtered(named[name], order, corner), columns[structure])}
+        | {"widths": [] if order else spec["widths"]}
         for name, structure in some
         for order, corner in tried
     ]
     table = pd.DataFrame(
-        {key: value for key, value in one.items() if key != "case"} | row
+        {key: one[key] for key in ("record", "structure", "order", "corner")} | row
         for one in progress(asked, len(asked), "records")
-        for row in rows(*one["case"], gammas, spec)
+        for row in rows(*one["case"], gammas, one["widths"], spec["points"])
     )
     checked = second_route([one["case"] for one in asked], gammas, spec)
     return table, findings(table) | {"rescaled_by_scipy": checked}
 
 
 def findings(certainty_rescaled: pd.DataFrame) -> dict[str, Finding]:
-    """Return how often the order is reversed near the own scale, from the table."""
+    """Return how often the order is reversed near the own scale, and what filters change."""
     table = certainty_rescaled.fillna({"overturned": ""})
-    moved = (table.coarser - table.share).abs()
     own, others = table[table.order == 0], table[table.order > 0]
+    moved = (own.coarser - own.share).abs()
     return {
         "shares_hold_at_half_the_step": truth(
             len(table) > 0 and bool((moved < SAME).all()),
