@@ -55,7 +55,8 @@ def _main(
     for number in (1, 2):
         os.dup2(out.fileno(), number)
     out.close()
-    signal.signal(signal.SIGINT, signal.default_int_handler)  # also under nohup
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # also under nohup, as the next
+    signal.signal(signal.SIGHUP, signal.SIG_DFL)
     os.chdir(folder)
     os.environ.clear()
     os.environ.update(env)

@@ -118,6 +118,11 @@ def test_no_qualified_claim_is_said_not_to_hold(changes, shown):
     assert cells(computed=False, **changes)[2] == shown
 
 
+def test_page_jumps_to_what_is_no_plain_yes():
+    assert "\n- *refuted*: [ours](#ours)\n" in page(ROW, OURS)
+    assert "](#trilith_size), " not in page(ROW, OURS)
+
+
 def test_counts_are_of_the_paper_and_of_each_study_and_replace_those_of_a_page():
     head, _, paper, study = count_table([ROW, OURS, OURS])
     assert head == (

@@ -46,6 +46,8 @@ OF_REPRODUCED = (
 DIGITS = 9
 """Of the numbers in the published findings, as in the tables."""
 
+JUMPS = ("qualified", "slip", "misprint", "refuted")
+
 COUNTS_HEAD = "| | " + " | ".join(VERDICTS) + " |"
 """The first line of the table that counts the verdicts, in docs/verdicts.md and in the README."""
 
@@ -66,6 +68,8 @@ def verdict_page(rows: Sequence[JudgedClaim], reference: Path) -> str:
         "A slip or misprint may be a fault of the text that we worked from, and not of the print.",
         "",
         *count_table(rows),
+        "",
+        *jumps(rows),
     ]
     for study, own in parts.items():
         title = TITLES.get(study, f"The study `{study}`")
@@ -74,6 +78,13 @@ def verdict_page(rows: Sequence[JudgedClaim], reference: Path) -> str:
             lines += [OF_REPRODUCED if study == REPRODUCED else OF_STUDIES, ""]
         lines += verdict_table(own)
     return "\n".join(lines) + "\n"
+
+
+def jumps(rows: Sequence[JudgedClaim]) -> list[str]:
+    """Return for each verdict that does not say a plain yes a line of links to its claims."""
+    found = {name: [row.id for row in rows if row.verdict == name] for name in JUMPS}
+    links = {name: ", ".join(f"[{each}](#{each})" for each in ids) for name, ids in found.items()}
+    return [f"- *{name}*: {listed}" for name, listed in links.items() if listed]
 
 
 def verdict_table(rows: Sequence[JudgedClaim]) -> list[str]:

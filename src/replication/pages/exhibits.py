@@ -27,15 +27,15 @@ def exhibits_page(
     costs: Mapping[str, tuple[float, float]],
     numbers: Mapping[str, str],
 ) -> str:
-    """Return the page: a row for each result with a caption that is drawn from tables.
+    """Return the page: a row for each result with a caption, in the order of the figures.
 
     Captions and numbers are by the paths of the results; the jobs are those of `rule all`, and
     their costs those of `replication.workflow.costs.read_costs`.
     """
     made = makers(jobs)
     rows = []
-    for path, caption in captions.items():
-        job = made[path]
+    for path in sorted(captions, key=lambda path: _place(numbers.get(path, ""))):
+        caption, job = captions[path], made[path]
         tables = sorted(each for each in job.inputs if each in made and each.endswith(".csv"))
         scripts = {script: None for table in tables for script in made[table].scripts}
         needed = [costs[name] for name in _measured(path, made) if name in costs]
@@ -44,14 +44,20 @@ def exhibits_page(
         cells = (
             numbers.get(path, ""),
             caption["title"].replace("|", "\\|"),
-            _listed(job.scripts),
-            _listed(PurePath(table).name for table in tables),
-            _listed(scripts),
+            _linked(job.scripts),
+            ", ".join(f"`{PurePath(table).name}`" for table in tables),
+            _linked(scripts),
             f"{seconds:.0f}" if seconds >= 1 else "",
             f"{memory:.0f}" if seconds >= 1 else "",
         )
         rows.append("| " + " | ".join(cells) + " |\n")
     return HEAD + "".join(rows)
+
+
+def _place(number: str) -> tuple[bool, str, int]:
+    """Return what sorts a figure: the article's, the supplement's, and those without a number."""
+    letter = number.rstrip("0123456789")
+    return not number, letter, int(number[len(letter) :] or 0)
 
 
 def _measured(path: str, made: Mapping[str, Job]) -> set[str]:
@@ -73,5 +79,5 @@ def read_numbers(path: Path) -> dict[str, str]:
         return {row["figure"]: row["number"] for row in csv.DictReader(file)}
 
 
-def _listed(names: Iterable[str]) -> str:
-    return ", ".join(f"`{name}`" for name in names)
+def _linked(scripts: Iterable[str]) -> str:
+    return ", ".join(f"[`{path}`](../{path})" for path in scripts)

@@ -33,13 +33,21 @@ def test_cost_is_that_of_each_job_that_the_figure_needs_once():
     captions, numbers = {"figures/peaks.svg": {"title": "Peaks |θ|"}}, {"figures/peaks.svg": "S2"}
     page = exhibits_page(JOBS, captions, COSTS, numbers)
     assert page.splitlines()[-1] == (
-        r"| S2 | Peaks \|θ\| | `figures/peaks.py` | `peaks.csv` | `src/peaks.py` | 31 | 300 |"
+        r"| S2 | Peaks \|θ\| | [`figures/peaks.py`](../figures/peaks.py) | `peaks.csv` "
+        "| [`src/peaks.py`](../src/peaks.py) | 31 | 300 |"
     )
 
 
 def test_cost_that_was_not_measured_is_left_open():
     page = exhibits_page(JOBS, {"figures/peaks.svg": {"title": "Peaks"}}, {}, {})
-    assert page.endswith("| `src/peaks.py` |  |  |\n")
+    assert page.endswith("(../src/peaks.py) |  |  |\n")
+
+
+def test_figures_stand_in_their_order():
+    numbers = {"c": "S2", "a": "10", "b": "S10", "d": "2", "e": ""}
+    jobs = [Job("draw", outputs=(path,)) for path in numbers]
+    page = exhibits_page(jobs, {path: {"title": path} for path in numbers}, {}, numbers)
+    assert [row.split(" | ")[1] for row in page.splitlines()[-5:]] == ["d", "a", "c", "b", "e"]
 
 
 def test_cost_does_not_depend_on_the_order_of_the_jobs(monkeypatch):
@@ -51,4 +59,4 @@ def test_cost_does_not_depend_on_the_order_of_the_jobs(monkeypatch):
         monkeypatch.setattr(exhibits, "_measured", lambda *given, order=order: order)
         pages.add(exhibits_page(JOBS, {"figures/peaks.svg": {"title": "Peaks"}}, costs, {}))
     (page,) = pages
-    assert page.endswith("| `src/peaks.py` | 2 | 1 |\n")
+    assert page.endswith("(../src/peaks.py) | 2 | 1 |\n")
