@@ -44,9 +44,9 @@ def of_answer(results: Published) -> str:
         heavier_is_more_stable="qualified",
     )
     return (
-        "**Yes for the weakest pulse that overturns, and yes for the probability over many "
-        "motions. No for each single motion:** some overturn the heavier frame and spare the "
-        "lighter one. We computed; we compared no measured response."
+        "**Yes, under the paper's assumptions, for the weakest pulse that overturns and for the "
+        "probability over many motions, as far as we computed. No for each single motion:** some "
+        "overturn the heavier frame and spare the lighter one. We compared no measured response."
     )
 
 
@@ -280,7 +280,7 @@ def of_flags(results: Published) -> str:
 
 
 LEADS = {
-    r"\*\*Yes for the weakest.*?(?=\n\n)": of_answer,
+    r"\*\*Yes, under.*?(?=\n\n)": of_answer,
     r"Of their \d+ claims.*?(?=\n\n)": of_verdicts,
     r"# \d+ to \d+ minutes on two cores": of_minutes,
     r"[\d,]+\s+overturning\s+flags": of_flags,
