@@ -147,7 +147,7 @@ def test_links_lead_somewhere(name):
 
 def test_index_has_the_answer_of_the_readme():
     page = " ".join((ROOT / "docs/index.html").read_text(encoding="utf-8").split())
-    answer = re.search(r"\*\*(Yes for.*?)\*\*", " ".join(README.split())).group(1)
+    answer = re.search(r"\*\*(Yes, .*?)\*\*", " ".join(README.split())).group(1)
     assert f"<strong>{answer.rstrip(':')}.</strong>" in page
 
 
