@@ -46,7 +46,7 @@ def of_answer(results: Published) -> str:
     return (
         "**Yes, under the paper's assumptions, for the weakest pulse that overturns and for the "
         "probability over many motions, as far as we computed. No for each single motion:** some "
-        "overturn the heavier frame and spare the lighter one. We compared no measured response."
+        "overturn only the heavier frame. We compared no measured response."
     )
 
 
