@@ -358,8 +358,7 @@ rule proven_below:
     input:
         proven="results/tables/proven.csv",
     output:
-        table="results/tables/proven_below.csv",
-        structures="results/tables/proven_below_structures.csv",
+        table="results/tables/proven_below_structures.csv",
         certificates="results/certificates/proven_below.jsonl",
         findings="results/findings/proven_below.json",
     params:

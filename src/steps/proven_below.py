@@ -47,7 +47,6 @@ def boxes(
 
         found = survives_below(structure, pulse, high, accepts=accepts)
         labels = {"structure": name, "mass_ratio": gamma, "minimum": high}
-        labels |= {"uplift": structure.block().uplift_acceleration}
         proven = [(*ends(each), kind(each)) for each in found.certificates]
         rows += [
             labels | {"low": low, "high": top, "kind": how}
@@ -106,11 +105,10 @@ def findings(proven_below_structures: pd.DataFrame) -> dict[str, Finding]:
 
 def main(
     settings: dict, ratios: list[float], known: pd.DataFrame
-) -> tuple[pd.DataFrame, pd.DataFrame, str, dict]:
+) -> tuple[pd.DataFrame, str, dict]:
     rows, certificates = boxes(Column(**settings["column"]), settings, known, ratios)
-    table = pd.DataFrame(rows)
-    structures = by_structure(table)
-    return table, structures, as_lines(certificates), findings(structures)
+    structures = by_structure(pd.DataFrame(rows))
+    return structures, as_lines(certificates), findings(structures)
 
 
 def work(job: Any) -> tuple:
