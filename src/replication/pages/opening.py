@@ -1,5 +1,8 @@
-"""What the HTML report opens on: the findings, before any figure or rule."""
+"""What the HTML report opens on: the README's picture and the verdicts, before any rule."""
 
+import re
+from base64 import encodebytes
+from mimetypes import guess_type
 from pathlib import Path
 
 from replication.inputs.strict_yaml import read_yaml
@@ -21,12 +24,26 @@ def opening(root: Path = Path()) -> dict[str, list[str]]:
         title: [_line(row) for row in rows if row.verdict == of] for of, title in TITLES.items()
     }
     return {
-        escaped(cited["title"]): [escaped(f"{cited.get('abstract', '')} {start}")],
+        escaped(cited["title"]): [
+            escaped(f"{cited.get('abstract', '')} {start}"),
+            *_pictures(root),
+        ],
         "Verdicts": [
             escaped(f"{name}: {verdict(found)}") for name, found in by_origin(rows).items()
         ],
         **{title: lines for title, lines in told.items() if lines},
     }
+
+
+def _pictures(root: Path) -> list[str]:
+    """Return the pictures of the README, within the page; docutils refuses long lines."""
+    shown = re.findall(r"!\[(.*?)\]\((?!http)(.+?)\)", (root / "README.md").read_text("utf-8"))
+    made = []
+    for alt, path in shown:
+        lines = encodebytes((root / path).read_bytes()).decode().splitlines()
+        start = f".. image:: data:{guess_type(path)[0]};base64,"
+        made.append("\n     ".join([start, *lines, f":alt: {escaped(alt)}"]))
+    return made
 
 
 def _line(row: JudgedClaim) -> str:
