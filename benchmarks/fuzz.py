@@ -41,7 +41,7 @@ from topheavy.second import reference
 from topheavy.second.newton_euler import ThreeBodies, accelerations, impact
 
 #: Cases of a property in its turn, s of the processor for one, and the first two of all turns.
-TURN, LONGEST = 25, 20.0
+TURN, LONGEST = 25, 60.0
 #: Relative changes of a motion that leave a decided outcome, and what a peak may then differ, α.
 NUDGES, CLOSE = (-1e-6, -1e-8, 1e-8, 1e-6), 1e-6
 FARTHER = (*NUDGES, -1e-5, 1e-5)
