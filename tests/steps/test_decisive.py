@@ -240,7 +240,7 @@ def test_boxes_are_those_that_the_checker_accepts_too(given):
 
 
 BOXES = pd.DataFrame(
-    [{"low": 0.2, "high": 0.3, "kind": "bounded"}, {"low": 0.0, "high": 0.2, "kind": "no uplift"}]
+    [{"low": 0.2, "high": 0.3, "kind": "bounded"}, {"low": 0.0, "high": 0.2, "kind": "followed"}]
 ).assign(structure="bare", mass_ratio=0.0, minimum=0.3)
 
 
@@ -251,7 +251,7 @@ BOXES = pd.DataFrame(
         ({"low": [0.21, 0.0]}, False),  # a gap
         ({"low": [0.2, 0.01]}, False),  # not from zero
         ({"minimum": 0.31}, False),  # not to the minimum
-        ({"kind": ["open", "no uplift"]}, False),
+        ({"kind": ["open", "followed"]}, False),
     ],
 )
 def test_boxes_prove_what_they_cover_without_a_gap(change, whole):
