@@ -29,12 +29,12 @@ def exhibits_page(
 ) -> str:
     """Return the page: a row for each result with a caption, in the order of the figures.
 
-    Captions and numbers are by the paths of the results; the jobs are those of `rule all`, and
-    their costs those of `replication.workflow.costs.read_costs`.
+    Captions and numbers are by the paths of the results, the numbers in their order; the jobs are
+    those of `rule all`, and their costs those of `replication.workflow.costs.read_costs`.
     """
     made = makers(jobs)
     rows = []
-    for path in sorted(captions, key=lambda path: _place(numbers.get(path, ""))):
+    for path in [*numbers, *(path for path in captions if path not in numbers)]:
         caption, job = captions[path], made[path]
         tables = sorted(each for each in job.inputs if each in made and each.endswith(".csv"))
         scripts = {script: None for table in tables for script in made[table].scripts}
@@ -52,12 +52,6 @@ def exhibits_page(
         )
         rows.append("| " + " | ".join(cells) + " |\n")
     return HEAD + "".join(rows)
-
-
-def _place(number: str) -> tuple[bool, str, int]:
-    """Return what sorts a figure: the article's, the supplement's, and those without a number."""
-    letter = number.rstrip("0123456789")
-    return not number, letter, int(number[len(letter) :] or 0)
 
 
 def _measured(path: str, made: Mapping[str, Job]) -> set[str]:

@@ -22,6 +22,9 @@ IMPORT = re.compile(r"^(?:from [\w.]+ )?import (?:\([^)]*\)|.*)", re.MULTILINE)
 ROOTS = ("src", ".")
 """Folders in which imported names are looked up, from the root of the repository, in this order."""
 
+LEAVES = (ast.Name, ast.Constant, ast.expr_context)
+"""Two of three nodes of a file, below which nothing is imported."""
+
 SCRIPT = sys.modules["__main__"]
 """The script of the job. Libraries give it a second name, or take its own for themselves."""
 
@@ -150,6 +153,8 @@ def _nodes(tree: ast.AST) -> Iterator[ast.AST]:
     waiting = [tree]
     while waiting:
         for node in ast.iter_child_nodes(waiting.pop()):
+            if isinstance(node, LEAVES):
+                continue
             if isinstance(node, ast.If) and "TYPE_CHECKING" in ast.unparse(node.test):
                 continue
             yield node

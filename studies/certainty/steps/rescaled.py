@@ -126,7 +126,7 @@ def findings(certainty_rescaled: pd.DataFrame) -> dict[str, Finding]:
     moved = (own.coarser - own.share).abs()
     return {
         "shares_hold_at_half_the_step": truth(
-            len(table) > 0 and bool((moved < SAME).all()),
+            len(own) > 0 and bool((moved < SAME).all()),
             limit=SAME,
             largest=float(moved.max()),
             shares={

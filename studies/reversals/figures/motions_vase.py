@@ -1,11 +1,11 @@
 """Fragility of bare column, fixed mass and frame; and the forces that uplift limits."""
 
 from figures.drawing import gamma
-from figures.palette import FIXED
+from figures.palette import ALONE, EQUAL, FIXED
 from replication.drawing import DOUBLE, GREY, PAPER, letter, make_figure, note, shades, sheet
 
-BARE, FREE = shades(2)
-LOOKS = {"bare": ("column", BARE), "fixed": ("mass fixed", FIXED), "free": ("mass carried", FREE)}
+LOOKS = {"bare": ("column", ALONE), "fixed": ("mass fixed", FIXED), "free": ("mass carried", EQUAL)}
+HEAVIEST = shades(2)[1]  # γ = 4 of frames, here
 LABELS = {"bare": (1.28, 0.42), "fixed": (0.42, 0.80), "free": (1.28, 0.28)}
 SHOWN = (0.0, 1.0, 4.0)  # γ of the forces
 FORCES = {
@@ -18,7 +18,8 @@ FORCES = {
 def fragility(axis, cells, labelled):
     ratios = sorted(cells.mass_ratio.unique())
     for (name, ratio), line in cells.groupby(["structure", "mass_ratio"]):
-        colour, heaviest = LOOKS[name][1], ratio == ratios[-1]
+        heaviest = ratio == ratios[-1]
+        colour = HEAVIEST if heaviest and name == "free" else LOOKS[name][1]
         if not heaviest:
             band = (line.intensity, line.probability_low, line.probability_high)
             axis.fill_between(*band, color=colour, alpha=0.18, linewidth=0)
