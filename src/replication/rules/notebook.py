@@ -95,6 +95,7 @@ def main(source: Path, executed: Path, page: Path) -> None:
         notebook,
         timeout=300,
         record_timing=False,
+        coalesce_streams=True,  # or one text is one output or several, by the speed of the machine
         resources={"metadata": {"path": str(source.parent)}},
         extra_arguments=["--log-level=ERROR"],  # not that the kernel listens on this machine
     )
