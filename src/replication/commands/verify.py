@@ -35,7 +35,9 @@ def main(crate: "Crate", root: Path = Path()) -> list[str]:
             faults += _fault(path, expected, f"rule {rule} makes it", f"rule {rule} made it", root)
         else:
             faults += _fault(path, expected, "the run read it", "the run", root)
-    faults += [f"{path} is extra: no rule made it" for path in sorted(extra(crate, root))]
+    faults += [
+        f"{path} is extra: no rule made it; move it away" for path in sorted(extra(crate, root))
+    ]
     return faults
 
 

@@ -31,9 +31,9 @@ CRATE = Crate(
     [
         ("results/tables/peaks.csv", "changed after rule peaks made it: its SHA-256 is "),
         ("figures/peaks.py", "changed after the run: its SHA-256 is "),
-        ("results/new/other.csv", "is extra: no rule made it"),
-        ("results/x.txt", "is extra: no rule made it"),
-        ("figures/other.svg", "is extra: no rule made it"),
+        ("results/new/other.csv", "is extra: no rule made it; move it away"),
+        ("results/x.txt", "is extra: no rule made it; move it away"),
+        ("figures/other.svg", "is extra: no rule made it; move it away"),
         # logs, costs and what the run did not read are not the crate's
         ("results/logs/claim.log", None),
         ("results/costs.csv", None),
@@ -58,4 +58,4 @@ def test_link_in_place_of_a_file_or_beside_one_is_named(plant, tmp_path):
     (tmp_path / "results/more").symlink_to(tmp_path / "figures")
     link, extra = main(CRATE, tmp_path)
     assert link.startswith("figures/peaks.svg is a link; expected the file itself")
-    assert extra == "results/more is extra: no rule made it"
+    assert extra == "results/more is extra: no rule made it; move it away"
