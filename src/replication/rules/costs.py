@@ -13,7 +13,10 @@ from replication.workbench import PEAK, run
 def main(benchmarks: list[Path], logs: Path) -> pd.DataFrame:
     rows = []
     for path in benchmarks:
-        log = (logs / f"{path.stem}.log").read_text(encoding="utf-8")
+        try:
+            log = (logs / f"{path.stem}.log").read_text(encoding="utf-8")
+        except FileNotFoundError:
+            continue  # this job has just begun anew: Snakemake removes its log, not its benchmark
         _, found, peak = log.rpartition(PEAK)
         if found:  # else a rule that is no more has left its files
             seconds = pd.read_csv(path, sep="\t").iloc[-1]["s"]

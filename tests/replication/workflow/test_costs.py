@@ -53,7 +53,9 @@ def test_cost_of_a_job_is_of_its_benchmark_and_its_log(tmp_path):
     left = tmp_path / "old.tsv"
     left.write_text("s\n3.0\n")
     left.with_suffix(".log").write_text("of an earlier version\n")
-    costs = main([*benchmarks, left], tmp_path)
+    begun = tmp_path / "begun.tsv"  # beside this one: its log is not there yet
+    begun.write_text("s\n4.0\n")
+    costs = main([*benchmarks, left, begun], tmp_path)
     assert costs.to_dict("list") == {
         "rule": ["sum", "map"],
         "seconds": [7.0, 1.5],
