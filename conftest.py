@@ -1,11 +1,14 @@
 """What all tests share: the order in which several processes take them."""
 
 import gc
+import os
 from types import SimpleNamespace
 
 import pytest
 
 from tests.replication.conftest import claims, jobs, plant  # noqa: F401
+
+os.environ.pop("RELEASE", None)  # of `RELEASE=1 make test`: each test sets what it is about
 
 LONGEST_FIRST = (
     "test_widths.py",
