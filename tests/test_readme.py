@@ -187,8 +187,16 @@ def test_citation_counts_the_claims():
 
 
 def test_only_the_citation_has_what_its_owner_fills_in():
-    left = {line.partition(":")[0] for line in blanks(ROOT)}
-    assert left <= {"CITATION.cff"}  # none once they are filled in
+    found = blanks(ROOT)
+    assert [line.split(":", 2)[2][:28] for line in found] in (
+        [],  # in a release
+        [
+            'BLANK: names of the authors"',
+            "BLANK: address, and e-mail o",
+            "BLANK: neither exists yet. O",
+        ],
+    )
+    assert all(line.startswith("CITATION.cff:") for line in found)
     assert "BLANK" not in (ROOT / "codecheck.yml").read_text(encoding="utf-8")
 
 

@@ -34,7 +34,7 @@ def exhibits_page(
     """
     made = makers(jobs)
     rows = []
-    for path in [*numbers, *(path for path in captions if path not in numbers)]:
+    for path in filter(captions.__contains__, {**numbers, **captions}):
         caption, job = captions[path], made[path]
         tables = sorted(each for each in job.inputs if each in made and each.endswith(".csv"))
         scripts = {script: None for table in tables for script in made[table].scripts}
