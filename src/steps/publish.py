@@ -82,6 +82,11 @@ def certificates(folder: Path, path: Path) -> None:
 def main() -> None:
     results, docs = Path("results"), Path("docs")
     publish(TABLES, SOURCES)
+    if kill_table.refresh():
+        raise SystemExit(
+            "docs/kill_table.csv has changed, and the supplement counts its rows; expected one "
+            "that was compiled since: make reproduce publish"
+        )
     for name in PICTURES:
         shutil.copyfile(f"figures/{name}.svg", docs / f"{name}.svg")
     for name in DOCUMENTS:
@@ -94,7 +99,6 @@ def main() -> None:
     stills(docs / PAGE)
     pages.write()
     headlines.write()
-    kill_table.refresh()
     (docs / "machine.txt").write_text(machine() + "\n", encoding="utf-8")
     seal()
 

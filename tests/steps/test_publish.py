@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+import steps.publish
 from replication.judging.claim import Claim
 from replication.judging.findings import Findings
 from replication.judging.ledger import REPRODUCED, with_verdict
@@ -22,7 +23,6 @@ from replication.pages.edition import (
     with_counts,
 )
 from replication.workbench import value
-from steps.publish import main
 from tests.cases import ROOT
 
 CLAIM = Claim(
@@ -168,7 +168,16 @@ def test_results_of_another_config_are_not_published(tmp_path, monkeypatch, plan
     plant(tmp_path, {"results/config.yaml": text.format(3), "config/config.yaml": text.format(11)})
     plant(tmp_path, {"results/claims.json": "[]"})
     with pytest.raises(SystemExit, match="another config, which differs in spectra; expected"):
-        main()
+        steps.publish.main()
+    assert not (tmp_path / "docs").exists()
+
+
+def test_supplement_that_counted_other_faults_is_not_published(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(steps.publish, "publish", lambda *tables: None)
+    monkeypatch.setattr(steps.publish.kill_table, "refresh", lambda: True)
+    with pytest.raises(SystemExit, match=r"counts its rows; .*: make reproduce publish"):
+        steps.publish.main()
     assert not (tmp_path / "docs").exists()
 
 

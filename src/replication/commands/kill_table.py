@@ -227,18 +227,20 @@ def chosen(faults: list[Fault], names: str | None, number: int | None) -> list[F
     return faults
 
 
-def refresh() -> None:
+def refresh() -> bool:
     """Write the published table with what was found since, and without what no longer holds.
 
-    Its page names the faults to run.
+    Its page names the faults to run. Returns whether a row changed.
     """
     faults, ledger, found = load(), read_ledger(ledger_files()), kept(KEPT)
-    rows = {row.name: row for row in read(TABLE.with_suffix(".csv"))}
+    before = read(TABLE.with_suffix(".csv"))
+    rows = {row.name: row for row in before}
     rows |= {fault.name: found[fault.name][1] for fault in faults if not left([fault], found)}
     listed = [rows[fault.name] for fault in faults if fault.name in rows]
     rows = current(listed, faults, ledger, ROOT)
     known = {row.name for row in rows}
     write(rows, ledger, TABLE, [fault.name for fault in faults if fault.name not in known])
+    return rows != before
 
 
 def processor_seconds() -> float:

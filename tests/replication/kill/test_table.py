@@ -379,7 +379,8 @@ def test_publishing_takes_what_was_found_since(monkeypatch, tmp_path, published)
         digest = "other" if row == stale else by_name[row.name].digest(ROOT)
         command.keep(command.KEPT, digest, row)
     table.write(published[1:], LEDGER, command.TABLE)
-    command.refresh()
+    assert command.refresh()
+    assert not command.refresh()
     assert table.read(tmp_path / "kill_table.csv") == [again, *published[1:]]
 
 
