@@ -21,6 +21,7 @@ import resource
 import shutil
 import subprocess
 import tempfile
+from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import asdict
@@ -230,7 +231,8 @@ def chosen(faults: list[Fault], names: str | None, number: int | None) -> list[F
 def refresh() -> bool:
     """Write the published table with what was found since, and without what no longer holds.
 
-    Its page names the faults to run. Returns whether a row changed.
+    Its page names the faults to run. Returns whether the faults by route and by what caught them
+    are others, which documents count.
     """
     faults, ledger, found = load(), read_ledger(ledger_files()), kept(KEPT)
     before = read(TABLE.with_suffix(".csv"))
@@ -240,7 +242,8 @@ def refresh() -> bool:
     rows = current(listed, faults, ledger, ROOT)
     known = {row.name for row in rows}
     write(rows, ledger, TABLE, [fault.name for fault in faults if fault.name not in known])
-    return rows != before
+    told, now = (Counter((row.routes, row.caught_by) for row in each) for each in (before, rows))
+    return told != now
 
 
 def processor_seconds() -> float:

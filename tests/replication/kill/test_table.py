@@ -380,8 +380,10 @@ def test_publishing_takes_what_was_found_since(monkeypatch, tmp_path, published)
         command.keep(command.KEPT, digest, row)
     table.write(published[1:], LEDGER, command.TABLE)
     assert command.refresh()
+    later = replace(again, date="2027-01-02")
+    command.keep(command.KEPT, by_name[again.name].digest(ROOT), later)
     assert not command.refresh()
-    assert table.read(tmp_path / "kill_table.csv") == [again, *published[1:]]
+    assert table.read(tmp_path / "kill_table.csv") == [later, *published[1:]]
 
 
 def test_publishing_names_the_faults_to_run(monkeypatch, tmp_path, published):
