@@ -76,19 +76,30 @@ class Fault:
 def load(root: Path = ROOT) -> list[Fault]:
     """Return the faults of the paper, then those of each study that is there, by its name."""
     return [
-        _fault(entry, path.relative_to(root).as_posix())
+        _fault(entry, path.relative_to(root).as_posix(), root)
         for pattern in FAULTS
         for path in sorted(root.glob(pattern))
         for entry in read_yaml(path)
     ]
 
 
-def _fault(entry: dict[str, Any], home: str) -> Fault:
+def _fault(entry: dict[str, Any], home: str, root: Path) -> Fault:
     """Return the fault of an entry, which has the parts of its only change, or several changes."""
     only = {part: entry.pop(part) for part in ("file", "old", "new") if part in entry}
     changes = tuple(Change(**change) for change in entry.pop("changes", [only]))
-    tests = tuple(entry.pop("tests"))
+    files = dict.fromkeys(change.file for change in changes)
+    tests = tuple(entry.pop("tests", [_own_test(file, root) for file in files]))
     return Fault(**{"routes": JUDGING} | entry, tests=tests, changes=changes, home=home)
+
+
+def _own_test(file: str, root: Path) -> str:
+    """Return the tests of a module: in the folder of its study, or of its package or library."""
+    *folders, name = Path(file).parts
+    package = Path("tests", *folders[1:], f"test_{name}")
+    if folders[0] == "studies":
+        return Path(*folders[:2], "tests", package.name).as_posix()
+    library = Path("tests", *folders[2:], package.name)
+    return (package if (root / package).is_file() else library).as_posix()
 
 
 @contextmanager

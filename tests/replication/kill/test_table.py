@@ -84,6 +84,18 @@ def test_faults_of_a_study_go_with_its_folder_and_those_of_the_others_stay(tmp_p
     assert [fault.home for fault in load(tmp_path)] == [*paths[:2], paths[3]]
 
 
+def test_fault_that_names_no_tests_is_asked_of_those_of_its_modules(tmp_path, plant):
+    tests = {
+        "studies/a/steps/one.py": "studies/a/tests/test_one.py",
+        "src/steps/one.py": "tests/steps/test_one.py",
+        "src/library/bodies/one.py": "tests/bodies/test_one.py",
+    }
+    changes = [{"file": file, "old": "", "new": ""} for file in [*tests, "src/steps/one.py"]]
+    entry = {"name": "one", "fault": "Wrong.", "changes": changes}
+    plant(tmp_path, {"faults/one.yaml": yaml.safe_dump([entry]), "tests/steps/test_one.py": ""})
+    assert [fault.tests for fault in load(tmp_path)] == [tuple(tests.values())]
+
+
 @pytest.mark.parametrize("fault", FAULTS, ids=NAMES)
 def test_fault_needs_no_study_but_its_own(fault):
     """It would be lost, or fit no tree, without the other study."""
