@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 import steps.publish
+from replication.inputs.checksums import sha256
 from replication.judging.claim import Claim
 from replication.judging.findings import Findings
 from replication.judging.ledger import REPRODUCED, with_verdict
@@ -172,13 +173,22 @@ def test_results_of_another_config_are_not_published(tmp_path, monkeypatch, plan
     assert not (tmp_path / "docs").exists()
 
 
-def test_supplement_that_counted_other_faults_is_not_published(tmp_path, monkeypatch):
+@pytest.mark.parametrize(
+    ("compiled_with", "others"), [("a row\n", True), ("none\n", False), (None, False)]
+)
+def test_supplement_that_counted_other_faults_is_not_published(
+    tmp_path, monkeypatch, plant, compiled_with, others
+):
     monkeypatch.chdir(tmp_path)
+    table = "docs/kill_table.csv"
+    plant(tmp_path, {table: "a row\n"})
+    sums = {} if compiled_with is None else {table: sha256(compiled_with.encode())}
     monkeypatch.setattr(steps.publish, "publish", lambda *tables: None)
-    monkeypatch.setattr(steps.publish.kill_table, "refresh", lambda: True)
+    monkeypatch.setattr(steps.publish, "read_crate", lambda: Crate(sums, {}, (), ""))
+    monkeypatch.setattr(steps.publish.kill_table, "refresh", lambda: others)
     with pytest.raises(SystemExit, match=r"counts its rows; .*: make reproduce publish"):
         steps.publish.main()
-    assert not (tmp_path / "docs").exists()
+    assert [path.name for path in (tmp_path / "docs").iterdir()] == ["kill_table.csv"]
 
 
 @pytest.fixture

@@ -22,8 +22,8 @@ IMPORT = re.compile(r"^(?:from [\w.]+ )?import (?:\([^)]*\)|.*)", re.MULTILINE)
 ROOTS = ("src", ".")
 """Folders in which imported names are looked up, from the root of the repository, in this order."""
 
-LEAVES = (ast.Name, ast.Constant, ast.expr_context)
-"""Two of three nodes of a file, below which nothing is imported."""
+BELOW = re.compile(r"^[ \t]+(?:from|import)\b|\bimport_module\b", re.MULTILINE)
+"""What a file has that imports below its top level, or by a call."""
 
 SCRIPT = sys.modules["__main__"]
 """The script of the job. Libraries give it a second name, or take its own for themselves."""
@@ -90,13 +90,18 @@ def undeclared(declared: Iterable[str], root: str | Path = ".") -> list[str]:
 @cache
 def _read(root: Path, path: Path) -> tuple[frozenset[Path], str]:
     """Return what one file imports itself, packages above it included, and its docstring."""
-    tree = _tree(root, path)
-    names = _names(tree, path, _package(path))
+    text = _text(root, path)
+    tree = ast.parse(text, str(path))
+    plain = (each for node in tree.body if isinstance(node, ast.Import) for each in node.names)
+    deep = BELOW.search(text) or any(_files(root, each.name, "") for each in plain)
+    nodes = _nodes(tree) if deep else tree.body  # most files import at their top alone
+    names = _names(nodes, path, _package(path))
     files = frozenset(file for name in names for file in _files(root, *name))
     return files, ast.get_docstring(tree) or ""
 
 
-def _tree(root: Path, path: Path) -> ast.Module:
+def _text(root: Path, path: Path) -> str:
+    """Return a file as far as Python can read it."""
     text = (root / path).read_text(encoding="utf-8")
     if path.suffix == ".ipynb":
         cells = (cell for cell in json.loads(text)["cells"] if cell["cell_type"] == "code")
@@ -104,7 +109,7 @@ def _tree(root: Path, path: Path) -> ast.Module:
         text = "\n".join(line for line in lines if not line.startswith(("%", "!")))
     elif path.suffix != ".py":  # a Snakefile, of which Python can read these statements alone
         text = "\n".join(IMPORT.findall(text))
-    return ast.parse(text, str(path))
+    return text
 
 
 def _package(path: Path) -> str:
@@ -115,11 +120,11 @@ def _package(path: Path) -> str:
     return ""
 
 
-def _names(tree: ast.Module, path: Path, package: str) -> Iterator[tuple[str, str]]:
+def _names(nodes: Iterable[ast.AST], path: Path, package: str) -> Iterator[tuple[str, str]]:
     """Yield every import as a module and a name in it; the name is "" for the module itself."""
     whole: dict[str, str] = {}  # what a name of this file stands for: `import lib as l`
     attributes = []
-    for node in _nodes(tree):
+    for node in nodes:
         if isinstance(node, ast.Import):
             for alias in node.names:
                 yield alias.name, ""
@@ -153,8 +158,6 @@ def _nodes(tree: ast.AST) -> Iterator[ast.AST]:
     waiting = [tree]
     while waiting:
         for node in ast.iter_child_nodes(waiting.pop()):
-            if isinstance(node, LEAVES):
-                continue
             if isinstance(node, ast.If) and "TYPE_CHECKING" in ast.unparse(node.test):
                 continue
             yield node
