@@ -67,7 +67,7 @@ def of_size(results: Published) -> str:
     results.need(
         minimum_is_a_proven_boundary="confirmed", nothing_below_the_minimum_overturns="confirmed"
     )
-    pulse, column = results.config()["heavier"]["pulse"], results.config()["structures"]["temple"]
+    pulse, column = results.config["heavier"]["pulse"], results.config["structures"]["temple"]
     minima = results.table("heavier").set_index("mass_ratio").lowest_overturning_low
     size = results.table("mass_ratio").set_index("mass_ratio").size_ratio
     shapes = results.table("vase").set_index("shape")
@@ -98,7 +98,7 @@ def of_central_result(results: Published) -> str:
         abs(ratios.share_of_size_gain[1.0] - 2.0 / 3.0) < 1e-9,
         "γ = 1 does not give two thirds of the gain",
     )
-    shapes = results.config()["spectra"]["shapes"]
+    shapes = results.config["spectra"]["shapes"]
     return (
         "The equation of motion (23) and the equivalent size (24) follow by computer algebra. "
         "The frequency parameter of the frame decreases with γ to √(2/3) = "
@@ -119,7 +119,7 @@ def of_support(results: Published) -> str:
         lowers["exceptions_under_records"] == 1,
         "not one record reverses that a fixed mass lowers the minimum",
     )
-    floor = results.config()["vase"]["floor"]
+    floor = results.config["vase"]["floor"]
     need(floor == 1e-3, "the floor of the minima is not a thousandth")
     pulses = lowers["exceptions"] - lowers["exceptions_under_records"]
     return (
@@ -154,7 +154,7 @@ def of_portals(results: Published) -> str:
     )
     return (
         "With the mass fixed to both columns, the one-cosine pulse of "
-        f"{results.config()['vase']['period']:.1f} s must reach {quoted.minimum_overturning:.2f} "
+        f"{results.config['vase']['period']:.1f} s must reach {quoted.minimum_overturning:.2f} "
         f"g if the columns' axes are {quoted.span:.1f} m apart. With {spans} m, the ground would "
         f"have to pull the base from {pulled.pulled_from.min():.1f} g on, before the portal "
         f"overturns; so it would for {last['pulled']} of {last['compared']} portals under three "
@@ -218,10 +218,10 @@ PASSAGES: dict[str, Passage] = {
 """The paper's; those of a study are in its folder, under the same name."""
 
 
-def passages(folder: Path) -> dict[str, str]:
+def passages(results: Published) -> dict[str, str]:
     """Return every finding as Markdown, by its title, of the paper and of the published studies."""
-    results, found = Published(folder), dict(PASSAGES)
-    for study in results.config()["studies"]:
+    found = dict(PASSAGES)
+    for study in results.config["studies"]:
         if (STUDIES / study / "headlines.py").is_file():
             found |= import_module(f"studies.{study}.headlines").PASSAGES
     return {title: write(results) for title, write in found.items()}
@@ -234,20 +234,16 @@ def bullet(title: str, text: str) -> str:
     )
 
 
-def findings_page(folder: Path) -> str:
-    """Return docs/findings.md."""
-    return HEAD + "\n" + "\n".join(bullet(*each) for each in passages(folder).items()) + "\n"
-
-
-def readme(text: str, folder: Path) -> str:
-    """Return README.md with its passages written anew.
+def pages(root: Path) -> dict[Path, str]:
+    """Return README.md and docs/findings.md with their passages written anew.
 
     Raises
     ------
     ValueError
-        When it has a bold heading of a list that is no title of a passage.
+        When README.md has a bold heading of a list that is no title of a passage.
     """
-    found, results = passages(folder), Published(folder)
+    path, results = root / "README.md", Published(root / "tests" / "reference")
+    found = passages(results)
 
     def written(match: re.Match[str]) -> str:
         title = match[1]
@@ -259,12 +255,13 @@ def readme(text: str, folder: Path) -> str:
             )
         return bullet(title, found[title])
 
-    text = PARAGRAPH.sub(written, text)
+    text = PARAGRAPH.sub(written, path.read_text(encoding="utf-8"))
     for pattern, write in LEADS.items():
         filled = textwrap.fill(write(results), WIDTH, break_on_hyphens=False)
         text, count = re.subn(pattern, lambda _, filled=filled: filled, text, flags=re.DOTALL)
         need(count == 1, f"README.md has {count} passages that match {pattern!r}")
-    return text
+    listed = "".join(f"{bullet(*each)}\n" for each in found.items())
+    return {path: text, root / FINDINGS: f"{HEAD}\n{listed}"}
 
 
 def of_minutes(results: Published) -> str:
@@ -290,10 +287,8 @@ LEADS = {
 
 def headlines(root: Path) -> Iterator[str]:
     """Yield the passages of README and docs/findings.md that the published results do not give."""
-    folder, path = root / "tests" / "reference", root / "README.md"
     try:
-        expected = {path: readme(path.read_text(encoding="utf-8"), folder)}
-        expected[root / FINDINGS] = findings_page(folder)
+        expected = pages(root)
     except (ValueError, KeyError) as error:
         yield f"headlines: {error}"
         return
@@ -310,9 +305,8 @@ def headlines(root: Path) -> Iterator[str]:
 
 def write(root: Path = Path()) -> None:
     """Write the passages of README.md and docs/findings.md."""
-    folder, path = root / "tests" / "reference", root / "README.md"
-    path.write_text(readme(path.read_text(encoding="utf-8"), folder), encoding="utf-8")
-    (root / FINDINGS).write_text(findings_page(folder), encoding="utf-8")
+    for path, text in pages(root).items():
+        path.write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":

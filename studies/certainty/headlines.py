@@ -6,7 +6,7 @@ from steps.shared.published import FAMILIES, Passage, Published, both, need, spa
 def of_conditions(results: Published) -> str:
     results.need(certainty_frame_is_safer="confirmed", certainty_benefit_reverses="confirmed")
     probable = results.table("studies/certainty_intensities")
-    pgv = results.config("certainty")["benefit"]["pgv"]
+    pgv = results.config_of("certainty")["benefit"]["pgv"]
     probable = probable.query(f"structure == '6 m temple' and measure == 'pgv' and level == {pgv}")
     bare, free = (probable[probable.support == name] for name in ("bare", "free"))
     (motions,) = set(bare.motions)
@@ -30,7 +30,7 @@ def of_conditions(results: Published) -> str:
 def of_velocity(results: Published) -> str:
     results.need(certainty_free_cap_helps="confirmed", certainty_fixed_mass_harms="confirmed")
     probable = results.table("studies/certainty_intensities")
-    pgv = results.config("certainty")["benefit"]["pgv"]
+    pgv = results.config_of("certainty")["benefit"]["pgv"]
     probable = probable.query(f"structure == '6 m temple' and measure == 'pgv' and level == {pgv}")
     bare, free, fixed = (probable[probable.support == name] for name in ("bare", "free", "fixed"))
     rows = (

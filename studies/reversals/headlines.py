@@ -5,7 +5,7 @@ from steps.shared.published import FAMILIES, WORDS, Passage, Published, both, ne
 
 def of_pulses(results: Published) -> str:
     results.need(reversals_lowest_rises="confirmed", reversals_are_proven="confirmed")
-    study = results.config("reversals")["pulses"]
+    study = results.config_of("reversals")["pulses"]
     window = study["grids"][study["grid"]]
     helps, harms = (
         results.finding("reversals_pulses", name)["value"] for name in ("helps", "harms")
@@ -39,7 +39,7 @@ def of_many_motions(results: Published) -> str:
     (motions,) = set(gains.motions)
     need((gains.gain_low > 0.0).all(), "an interval of the gain is not positive")
     frame, column = (both(pairs[f"only_{name}"][[*FAMILIES]], 1) for name in ("heavier", "lighter"))
-    height = 2 * results.config()["structures"]["temple"]["half_height"]
+    height = 2 * results.config["structures"]["temple"]["half_height"]
     return (
         f"Under two families of {motions} synthetic motions each, near-fault and broadband, a "
         "beam as heavy as both columns raises the velocity of the ground that overturns half of "

@@ -11,7 +11,7 @@ def of_models(results: Published) -> str:
     friction = results.finding("robustness_friction", "enough")
     need(friction["mass_ratios"] == [0.5], "other than the lightest beam needs much friction")
     return (
-        f"Under each of eight models of motions at {results.config('robustness')['models']['pgv']} "
+        f"Under each of eight models of motions at {results.config_of('robustness')['models']['pgv']} "
         "m/s, the column with its own mass fixed on top overturns most often and the frame with γ "
         "= 1 least: filtered noise of two soils with three corner frequencies, and the two "
         f"families. The gain in the median velocity is {span(rows.gain)} % by the model, so that "

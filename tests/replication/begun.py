@@ -15,9 +15,13 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from select import select
 
+from snakemake.executors import touch
+
 ROOT = Path(__file__).parents[2]
 SERVER = get_context("forkserver")
-SERVER.set_forkserver_preload(["snakemake.cli"])
+LATER = ["snakemake.report.html_reporter", "jsonschema", "pandas", "smart_open", "yte"]
+"""What Snakemake imports when it is asked to do something."""
+SERVER.set_forkserver_preload(["snakemake.cli", *LATER])
 
 
 class Run:
@@ -65,6 +69,8 @@ def _main(
     others = (path for path in sys.path if path not in ("", str(ROOT)))
     sys.path[:] = [folder, *filter(None, env.get("PYTHONPATH", "").split(":")), *others]
     sys.argv = [module, *options]
+    if "--touch" in options:
+        touch.Executor.SLEEPING_TIME = 0.0  # for each job
     try:
         runpy.run_module(module, run_name="__main__", alter_sys=True)
     finally:

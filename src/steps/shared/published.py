@@ -36,9 +36,14 @@ class Published:
         """Return a table, whose name begins with the folder that it is in."""
         return pd.read_csv(self.folder / f"{name}.csv")
 
-    def config(self, study: str = "") -> dict[str, Any]:
-        """Return the config of the published run, or that of a study."""
-        return read_yaml(self.folder / (f"studies/{study}.yaml" if study else "config.yaml"))
+    @cached_property
+    def config(self) -> dict[str, Any]:
+        """The config of the published run."""
+        return read_yaml(self.folder / "config.yaml")
+
+    def config_of(self, study: str) -> dict[str, Any]:
+        """Return the config of a study."""
+        return read_yaml(self.folder / "studies" / f"{study}.yaml")
 
     @cached_property
     def claims(self) -> dict[str, dict[str, Any]]:

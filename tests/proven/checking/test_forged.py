@@ -191,16 +191,18 @@ WRONG = (None, True, 0, -1, 1.5, math.nan, "x", "", "nan", "1e10", "1/0", "1_0",
 WRONG += ([], {}, ["0", "0"], ["0", "1", "2"], 10**30)
 
 
+def bounded_below():
+    """A certificate of the factors just above uplift, which ends in a bound."""
+    pulse = th.Pulse("one-cosine", 1.0, 4.2)
+    *_, last = survives_below(COLUMN, pulse, 0.17, accepts=is_accepted).certificates
+    assert last["events"][-1]["event"] == "bounded"
+    return last
+
+
 @pytest.fixture(scope="module")
 def kinds():
     """Certificates that have every kind of event between them."""
-    bounded = next(
-        certificate
-        for certificate in survives_below(
-            COLUMN, th.Pulse("one-cosine", 1.0, 4.2), 0.2
-        ).certificates
-        if "bounded" in {event["event"] for event in certificate["events"]}
-    )
+    bounded = bounded_below()
     bounded["events"][-1]["steps"][3:] = []  # the form is what counts
     record = th.Record(0.1, [0.1, 0.3, -0.3, 0.05, *[0.0] * 10, 0.4, -0.2, 0.0])
     portal = th.MonolithicPortal(COLUMN, 1.0, 4.0, 0.7, 0.2)
@@ -286,9 +288,7 @@ def test_events_of_another_certificate_prove_its_outcome_or_nothing(kinds):
 
 def test_step_of_a_bound_after_the_pulse_is_refused():
     """The ground is at rest there; the wave would go on."""
-    pulse = th.Pulse("one-cosine", 1.0, 4.2)
-    found = survives_below(COLUMN, pulse, 0.2, accepts=is_accepted).certificates
-    bounded = next(x for x in found if x["events"] and x["events"][-1]["event"] == "bounded")
+    bounded = bounded_below()
     until, energy, walls = bounded["events"][-1]["steps"][-1]
     later = [[until[0], str(Fraction(until[1]) + 1)], str(2 * Fraction(energy)), walls]
     bounded["events"][-1]["steps"].append(later)
