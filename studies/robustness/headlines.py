@@ -10,10 +10,11 @@ def of_models(results: Published) -> str:
     rows = results.table("studies/robustness_models")
     friction = results.finding("robustness_friction", "enough")
     need(friction["mass_ratios"] == [0.5], "other than the lightest beam needs much friction")
+    pgv = results.config_of("robustness")["models"]["pgv"]
     return (
-        f"Under each of eight models of motions at {results.config_of('robustness')['models']['pgv']} "
-        "m/s, the column with its own mass fixed on top overturns most often and the frame with γ "
-        "= 1 least: filtered noise of two soils with three corner frequencies, and the two "
+        f"Under each of eight models of motions at {pgv} m/s, the column with its own mass fixed "
+        "on top overturns most often and the frame with γ = 1 least: filtered noise of two soils "
+        "with three corner frequencies, and the two "
         f"families. The gain in the median velocity is {span(rows.gain)} % by the model, so that "
         "it belongs to one, as each probability does. Of motions that a factor of 4 at most "
         f"brings to this velocity the same is true. Up to {100 * friction['most']:.0f} % of "

@@ -36,8 +36,8 @@ def complete(workflow: Any, *, timed: bool = True) -> None:
             continue
         can_have_paths(rule, workflow)
         script = os.path.relpath(script_of(rule, rule.script))
-        needed = [CodeOf(script)] if "{" in script else code(script)
-        rule.set_input(*(item for item in needed if item not in list(rule.input)))
+        needed, there = [CodeOf(script)] if "{" in script else code(script), list(rule.input)
+        rule.set_input(*(item for item in needed if item not in there))
         if rule.message is None and "{" not in script:
             rule.message = _message(script, rule.wildcard_names)
         if rule.log:

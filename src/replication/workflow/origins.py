@@ -32,10 +32,10 @@ class Origins:
     def _of(self, rule: Any, result: str) -> dict[str, str]:
         words, read, params = job_of(rule, result)
         own, jobs = repr([*params]).encode(), {}
-        for path in sorted(map(str, read)):
+        for path in sorted(path for path in map(str, read) if not path.endswith(CODE)):
             above = self.of(path)
             jobs |= above
-            if not above and not path.endswith(CODE) and Path(path).is_file():
+            if not above and Path(path).is_file():
                 own += path.encode() + bytes.fromhex(checksum(path))
         words.pop("scatteritem", None)  # the parts of an ensemble are made alike
         name = "_".join([rule.name, *words.values()])
