@@ -28,9 +28,9 @@ import mixtures
 import numpy as np
 import pandas as pd
 import picture
-from kernel import KernelRecord, ScalarRecord, histories, scalar_factors, scalar_histories
+from kernel import Found, KernelRecord, ScalarRecord, histories, scalar_factors, scalar_histories
 from kernel import together as kernel_together
-from oracle import Found, PulseOracle, RecordOracle
+from oracle import PulseOracle, RecordOracle
 from peers import Heyoka, HeyokaRecord, SolveIvp, SolveIvpRecord
 from verify_grid import block_of
 

@@ -1,7 +1,8 @@
 """The kernel as the benchmark runs it, on one thread: many histories in lanes, or one at a time."""
 
+from typing import NamedTuple
+
 import numpy as np
-from oracle import Found
 
 from topheavy.kernel.compiled import compiled
 from topheavy.kernel.forcing import (
@@ -18,11 +19,25 @@ from topheavy.kernel.grid import (
     pulse_outcomes_of,
     record_order,
 )
-from topheavy.kernel.outcome import PULSE_ORDER, TOLERANCE, outcome, working_array
+from topheavy.kernel.outcome import (
+    NO_RATIOS,
+    PULSE_ORDER,
+    TOLERANCE,
+    outcome,
+    working_array,
+)
 from topheavy.kernel.taylor import oscillator
 
 #: Factors on a record, the middle one of which is 1; the others shake a block as much.
 FACTORS = np.linspace(0.9, 1.1, 129)
+
+
+class Found(NamedTuple):
+    """The outcome of the block; the peak is NaN if it overturned."""
+
+    overturned: bool
+    peak: float
+    impacts: int
 
 
 def histories(block, shape, amplitudes, frequencies, tolerance=TOLERANCE):
@@ -40,7 +55,7 @@ def _scalar_histories(block, shape, amplitudes, frequencies, order, tolerance, f
     w = working_array()
     for i in range(amplitudes.size):
         forcing = pulse_forcing(shape, amplitudes[i], frequencies[i])
-        one = outcome(w, order, tolerance, block, forcing, NO_RECORD)
+        one = outcome(w, order, tolerance, block, forcing, NO_RECORD, NO_RATIOS)
         found[0, i], found[1, i], found[2, i] = one.overturned, one.peak, one.impacts
 
 
@@ -72,7 +87,7 @@ class KernelRecord:
 def _scalar_factors(w, block, step, factors, record, order, tolerance, found):
     for i in range(factors.size):
         forcing = record_forcing(record, step, factors[i])
-        one = outcome(w, order, tolerance, block, forcing, record)
+        one = outcome(w, order, tolerance, block, forcing, record, NO_RATIOS)
         found[0, i], found[1, i], found[2, i] = one.overturned, one.peak, one.impacts
 
 

@@ -13,7 +13,8 @@ import sys
 from typing import NamedTuple
 
 import numpy as np
-from oracle import Found, RecordOracle
+from kernel import Found
+from oracle import RecordOracle
 
 from topheavy import Column, FixedMassColumn, MonolithicPortal, RockingFrame
 from topheavy.kernel.forcing import (

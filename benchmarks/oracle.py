@@ -15,10 +15,10 @@ Time is τ = p t, accelerations are in g.
 
 import math
 from itertools import pairwise
-from typing import NamedTuple
 
 import heyoka as hy
 import numpy as np
+from kernel import Found
 
 AT_REST = 1e-13  # peak of the next bounce over α, on ground that cannot lift the block
 LOW = 1e-6  # a rotation below this, over α, is not counted as rocking
@@ -38,14 +38,6 @@ SHAPES = {
     "ricker-symmetric": (9, [4.5 * math.pi + y for y in _SYMMETRIC]),
     "ricker-antisymmetric": (9, [4.5 * math.pi + y for y in _ANTISYMMETRIC]),
 }
-
-
-class Found(NamedTuple):
-    """The outcome of the block; the peak is NaN if it overturned."""
-
-    overturned: bool
-    peak: float
-    impacts: int
 
 
 def unit_pulse(shape, phase, sin, cos, exp):

@@ -12,7 +12,8 @@ Time is τ = p t: the blocks have p = 1.
 import math
 
 import heyoka as hy
-from oracle import LOW, Found
+from kernel import Found
+from oracle import LOW
 from scipy.integrate import solve_ivp
 
 from topheavy.bodies.free_rocking import ending
