@@ -34,7 +34,7 @@ from replication.pages.opening import opening
 from replication.pages.typeset import reads, refuse_unshown
 from replication.workflow.unmade import made_by, refuse_unmade
 
-gc.disable()  # until jobs begin: a DAG leaves no garbage, and the search for it takes 0.6 s
+gc.disable()  # until jobs begin: a DAG leaves hardly any garbage; the search for it takes 0.6 s
 check_place()
 close(workflow)
 end_on_sigterm()
