@@ -46,6 +46,13 @@ def test_boundary_is_bracketed_to_twelve_digits():
     assert low - 1e-9 < 0.272822711046 < high + 1e-9
 
 
+def test_peak_that_exceeds_uplift_by_less_than_its_last_digit_is_undecided():
+    """The ground falls below uplift again before the end of a bracket that is rounded outward."""
+    frame = RockingFrame(Column(0.4286801634921725, 3.9465217419172522), 0.0)
+    pulse = Pulse("ricker-symmetric", -0.10862227336518263, 1.3613956096050839)
+    assert outcome(frame, pulse).outcome == "undecided"
+
+
 def test_box_that_contains_a_boundary_is_undecided():
     """The boundary is inside, wherever the middle of the box is."""
     for low, high in ((0.27282271, 0.27282272), (0.2728227, 0.272822712), (0.27282271, 0.2728228)):

@@ -84,13 +84,21 @@ def root(value: Callable[[arb], arb], slope: Callable[[arb], arb], low: arb, hig
     Interval Newton, and a bisection where that does not halve the bracket, as close to a zero of
     the slope. It ends where not even the sign in the middle is known. `value` takes a number and
     `slope` a ball; the function need not be monotone, only change its sign once.
+
+    Raises
+    ------
+    Undecided
+        If the bracket turns out to have no zero: one just beyond an end may have been in it.
     """
     bracket, rises = hull(low, high), value(arb(low)) < 0
     while True:
         middle = bracket.mid()
         here, steep = value(middle), slope(bracket)
         if not steep.contains(0):
-            closer = bracket.intersection(middle - here / steep)
+            newton = middle - here / steep
+            if not bracket.overlaps(newton):  # it has been rounded beyond a second zero
+                raise Undecided("root")
+            closer = bracket.intersection(newton)
             if closer.rad() < bracket.rad() / 2:
                 bracket = closer
                 continue
