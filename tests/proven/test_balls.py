@@ -47,6 +47,19 @@ def test_root_is_enclosed_to_the_last_digits_even_near_a_zero_of_the_slope(sign)
     assert found.rad() < 1e-9
 
 
+@pytest.mark.parametrize("ends", [(0.0, "middle"), ("middle", 7.0)])
+def test_root_is_the_one_between_the_ends_where_a_ball_of_them_has_two(ends):
+    gap = arb(2) ** -40  # of two zeros; a ball's radius has 30 bits
+    low, high = (1 + gap / 2 if end == "middle" else arb(end) for end in ends)
+    found = root(lambda x: (x - 1) * (x - 1 - gap), lambda x: 2 * x - 2 - gap, low, high)
+    assert (found.contains(1), found.contains(1 + gap)) == (high < 2, low > 0)
+
+
+def test_ends_of_one_sign_are_undecided():
+    with pytest.raises(Undecided, match="root"):
+        root(lambda x: x * x - 2, lambda x: 2 * x, arb(-3), arb(3))
+
+
 def test_precision_returns_to_what_it_was():
     from flint import ctx
 

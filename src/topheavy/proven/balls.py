@@ -83,30 +83,32 @@ def root(value: Callable[[arb], arb], slope: Callable[[arb], arb], low: arb, hig
 
     Interval Newton, and a bisection where that does not halve the bracket, as close to a zero of
     the slope. It ends where not even the sign in the middle is known. `value` takes a number and
-    `slope` a ball; the function need not be monotone, only change its sign once.
+    `slope` a ball; the function need not be monotone, only change its sign once. The ends stay
+    numbers of known sign: a ball of them is rounded outward, perhaps beyond a second zero.
 
     Raises
     ------
     Undecided
-        If the bracket turns out to have no zero: one just beyond an end may have been in it.
+        If the signs at the ends are not known to differ.
     """
-    bracket, rises = hull(low, high), value(arb(low)) < 0
+    first, last = value(low), value(high)
+    rises = first < 0 < last
+    if not rises and not first > 0 > last:
+        raise Undecided("root")
     while True:
+        bracket = hull(low, high)
         middle = bracket.mid()
+        if not low < middle < high:
+            return bracket
         here, steep = value(middle), slope(bracket)
         if not steep.contains(0):
-            newton = middle - here / steep
-            if not bracket.overlaps(newton):  # it has been rounded beyond a second zero
-                raise Undecided("root")
-            closer = bracket.intersection(newton)
-            if closer.rad() < bracket.rad() / 2:
-                bracket = closer
+            newton, width = middle - here / steep, high - low
+            low, high = max(low, newton.lower()), min(high, newton.upper())
+            if high - low < width / 2:
                 continue
-            bracket = closer
         if here.contains(0):
-            return bracket
-        above = (here > 0) == rises
-        half = hull(bracket.lower(), middle) if above else hull(middle, bracket.upper())
-        if not half.rad() < bracket.rad():
-            return bracket
-        bracket = half
+            return hull(low, high)
+        if (here > 0) == rises:
+            high = min(high, middle)
+        else:
+            low = max(low, middle)
