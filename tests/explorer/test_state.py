@@ -91,9 +91,7 @@ RECORD = "change({shape: 'record', record: 'el_centro_1940_NS', x: 2}, true)"
 CODES = "[spectrumChart.cells.columns, spectrumChart.cells.rows, ...spectrumChart.cells.codes]"
 
 
-@pytest.mark.parametrize(
-    "edit", [RECORD, "change({shape: 'one-sine'}, true)", "change({b: 0.7}, true)"]
-)
+@pytest.mark.parametrize("edit", ["change({shape: 'one-sine'}, true)", "change({b: 0.7}, true)"])
 def test_spectrum_of_another_plane_is_taken_away_at_once(browser, edit):
     browser.open(until="spectrum")
     assert len(browser.do(CELLS_AFTER.replace("{0}", "null"))) == 3
@@ -190,7 +188,7 @@ def test_histories_are_those_of_the_state_that_was_asked_about(browser):
 
 
 def test_quick_edits_end_without_error_in_the_spectrum_of_the_last(browser):
-    for delay in (150, 250, 300, 350, 450):
+    for delay in (150, 300, 450):
         browser.open(until=None)
         browser.do(TYPE, "b", "0.6")
         browser.do("new Promise(resolve => setTimeout(resolve, {0}))", delay)

@@ -110,8 +110,10 @@ def test_failed_run_says_how_to_go_on_and_which_verdict_failed_it(step, ran):
     assert said.endswith(GO_ON)
 
 
-@pytest.mark.parametrize("number", SIGNALS)
-@pytest.mark.parametrize("during", ["work", "imports", "reading"])
+@pytest.mark.parametrize(
+    ("number", "during"),
+    [*((each, "work") for each in SIGNALS), (SIGNALS[0], "imports"), (SIGNALS[1], "reading")],
+)
 def test_interrupted_run_says_so_in_one_line(step, begin, tmp_path, number, during):
     step(WAITING if during == "work" else "pass", imports=WAITING * (during == "imports"))
     if during == "reading":

@@ -152,7 +152,6 @@ def of_study(rule):
 @pytest.mark.parametrize(
     ("path", "rules"),
     [
-        ("figures/heavier.py", {"figure", "report", "supplement"}),
         *((f"studies/{study}/section.typ", {"report", "supplement"}) for study in SOME),
         *((f"studies/{study}/config.yaml", None) for study in SOME),  # its readers may differ
         (
