@@ -290,10 +290,12 @@ def current(
 
 
 def _is_there(test: str, root: Path) -> bool:
-    """Return whether the file of a test still has its function, if it names one."""
+    """Return whether the file of a test still has its class and function, those that it names."""
     file, *names = test.split("::")
-    path = root / file
-    return path.is_file() and (not names or f"def {names[-1]}(" in path.read_text(encoding="utf-8"))
+    if not (root / file).is_file():
+        return False
+    text = (root / file).read_text(encoding="utf-8")
+    return all(re.search(rf"^\s*(def|class) {name}\b", text, re.MULTILINE) for name in names)
 
 
 def write(

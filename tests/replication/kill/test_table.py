@@ -382,6 +382,7 @@ def test_row_of_which_the_fault_or_what_caught_it_is_gone_is_dropped(tree):
     assert left(tested) == [tested]
     assert left(replace(tested, test="test_two.py::test_two")) == []
     assert left(replace(tested, test="test_one.py::test_renamed")) == []
+    assert left(replace(tested, test="test_one.py::TestOfOld::test_one")) == []
     stopped = replace(ROW, caught_by="rule", verdicts="", rules="one two")
     assert left(stopped) == [replace(stopped, rules="one")]
     assert left(replace(stopped, rules="two")) == []
