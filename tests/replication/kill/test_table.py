@@ -271,15 +271,20 @@ def test_rules_that_are_asked_run_once_without_a_fault_and_no_test_sees_results(
 
 
 @pytest.mark.parametrize(
-    ("name", "found", "told"),
+    ("test", "turned", "told"),
     [
-        ("first_failing", "it", "without a fault: it fails"),
-        ("workflow", (["eq1"], [], "said"), r"without a fault: \['eq1'\] turn"),
+        ("test_one.py::test_one", [], "without a fault: it fails"),  # it is asked first
+        ("", ["eq1"], r"without a fault: \['eq1'\] turn"),
+        ("", [], "without a fault: it fails"),  # as no verdict turns any more
     ],
 )
-def test_what_fails_without_a_fault_stops_the_run(trees, tree, monkeypatch, name, found, told):
-    table.write([replace(ROW, verdicts="eq1")], [], tree / "table.csv")
-    monkeypatch.setattr(command, name, lambda *given: found)
+def test_what_fails_without_a_fault_stops_the_run(trees, tree, monkeypatch, test, turned, told):
+    table.write([replace(ROW, verdicts="eq1", test=test)], [], tree / "table.csv")
+    for name in ("results", ".snakemake"):
+        (tree / name).mkdir()
+    for module in (command, table):
+        monkeypatch.setattr(module, "workflow", lambda *given: (turned, [], "said"))
+        monkeypatch.setattr(module, "first_failing", lambda *given: "it")
     with pytest.raises(RuntimeError, match=told):
         list(command.kill_table([ONE]))
 
