@@ -33,6 +33,7 @@ def test_most_samples_are_read_and_one_more_is_refused(tmp_path, monkeypatch):
     record = read_record(path)
     assert record.acceleration.size == MOST
     assert (record.acceleration.reshape(-1, 2) == [0.3141592, -0.1414214]).all()
+    assert reading.MOST_SAMPLES == MOST
     monkeypatch.setattr(reading, "MOST_SAMPLES", 4)
     other.write_text(CSV)
     says = r"motion\.csv: line 6 holds sample 5; expected at most 4 samples"
