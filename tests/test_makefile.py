@@ -3,7 +3,6 @@
 import shutil
 import subprocess
 import time
-from functools import partial
 from pathlib import Path
 
 import pytest
@@ -71,35 +70,6 @@ def test_what_is_no_whole_number_is_refused(make, tmp_path, target, name, value)
     assert ran.stdout == ""
     assert ran.stderr.startswith(f"{name} is '{value}'; expected a whole number from 1 on\n")
     assert not (tmp_path / "F").exists()
-
-
-def test_cores_and_the_optional_group_are_passed(make):
-    run, of = "<run><--locked><--no-dev>", "<python><-m><replication.commands.run><--cores>"
-    assert make("reproduce", "CORES=7").stdout == f"{run}<--group><engine>{of}<7>"
-    assert make("reproduce", "ENGINE=").stdout == f"{run}{of}<2>"
-    assert "<--rotate=3>" in make("kill-table", "ROTATE=3").stdout
-
-
-def test_report_before_a_run_says_what_to_do(make, tmp_path):
-    ran = make("html")
-    assert ran.returncode == 2
-    assert ran.stderr.startswith("there is no finished run; run 'make reproduce' first\n")
-    (tmp_path / "results").mkdir()
-    (tmp_path / "results" / "ro-crate-metadata.json").touch()
-    assert "<--report>" in make("html").stdout
-
-
-def test_uv_of_an_unpacked_archive_is_not_started(make, tmp_path):
-    planted = tmp_path / ".uv/bin/uv"
-    planted.parent.mkdir(parents=True)
-    (tmp_path / "uv").rename(planted)
-    alone = {"PATH": "/usr/bin:/bin", "HOME": str(tmp_path / "home")}
-    command = ["make", "-n", "reproduce"]
-    ask = partial(subprocess.run, command, cwd=tmp_path, env=alone, capture_output=True, text=True)
-    assert ".uv/bin/uv run" in ask().stdout
-    (tmp_path / "SHA256SUMS").write_text("", encoding="utf-8")
-    assert f"exec {tmp_path}/home/.cache/replication-uv-" in ask().stdout
-    assert " .uv/bin/uv" not in ask().stdout
 
 
 def test_verify_starts_no_python_of_the_folder(make):

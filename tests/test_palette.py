@@ -63,21 +63,6 @@ def test_script_writes_no_colour_of_its_own(path):
     assert not found, f"{path.relative_to(ROOT)} has {found}; take them from figures/palette.py"
 
 
-@pytest.mark.parametrize(
-    "line",
-    [
-        'plot(x, color="k")',
-        'RED = "#c00"',
-        'how = {"facecolor": (0.1, 0.2, 0.3)}',
-        'faces = ["white", "tomato"]',
-        'show(cmap="viridis")',
-        "from replication.drawing import ACCENT",
-    ],
-)
-def test_colour_of_its_own_is_found(line):
-    assert own_colours(line)
-
-
 def test_no_two_meanings_have_one_colour():
     named = (
         "OVERTURNS",

@@ -124,26 +124,6 @@ def test_vertical_motion_is_refused(solver, motion, up, message):
     refused(solver, message, excitation=motion, vertical=up)
 
 
-def test_search_is_refused_for_its_largest_factor_alone():
-    given, falling = (FRAME, RECORD, (0.5, 2.5)), th.Record(0.05, [0.0, 0.4, -0.5, 0.0])
-    told = r"at 0\.1 s .* times 2\.5 is -1\.25 g.*factors less than 2 are allowed"
-    for call in (
-        partial(th.overturned_by, *given),
-        partial(th.overturning_intervals, *given, resolution=0.5),
-        partial(th.minimum_overturning, *given, resolution=0.5),
-        partial(th.lowest_overturning, *given, floor=0.5),
-        partial(th.overturned_together, [COLUMN, FRAME], *given[1:]),
-    ):
-        with pytest.raises(ValueError, match=told):
-            call(vertical=falling)
-        call(vertical=falling, scale_vertical=False)
-    told = r"times -3 is -1\.2 g.*factors more than -2\.5 are allowed"
-    with pytest.raises(ValueError, match=told):
-        th.minimum_overturning(FRAME, RECORD, (-3.0, 0.5), resolution=1.0, vertical=falling)
-    huge = th.Record(0.05, np.array([0.0, -3.0, 0.0]), unit="g")  # allowed below a third
-    assert not th.overturned_by(FRAME, RECORD, [0.0, 0.3], vertical=huge).any()
-
-
 FINE = np.linspace(0.1, 1.0, 20_000)
 
 
@@ -237,18 +217,3 @@ def test_what_is_probably_a_mistake_is_asked_where_it_was_written(make, asked):
     with pytest.warns(UserWarning, match=asked) as caught:
         make()
     assert [one.filename for one in caught] == [__file__]
-
-
-@pytest.mark.filterwarnings("error")
-def test_what_is_meant_is_not_asked():
-    frames = [th.RockingFrame(COLUMN, gamma) for gamma in (math.inf, 100.0)]
-    assert frames[0].restitution < frames[1].restitution
-    meant = th.Record(0.1, [0.0, 3.13], unit="g")
-    assert meant.scaled(2.0).scaled_to(pga=5.0).peak_acceleration == pytest.approx(5.0)
-
-
-def test_words_show_whole_dimensions_units_and_what_may_be_swapped():
-    assert "2.8 m wide, 18 m high" in repr(th.Column(1.4, 9.0))
-    assert repr(th.Pulse("one-sine", 0.3, 2.0 * math.pi)).endswith(": 0.3 g, period 1 s)")
-    with pytest.raises(ValueError, match=r"no rocking after an impact.* width and height swapped"):
-        th.judge(th.Column.of_dimensions(width=9.0, height=1.4), PULSE)

@@ -106,27 +106,3 @@ def test_studies_import_of_the_steps_what_is_shared():
     ]
     texts = {file: (ROOT / file).read_text("utf-8") for file in modules if file.endswith(".py")}
     assert {file for file, text in texts.items() if SHARED.search(text)} <= OF_A_STEP
-
-
-@pytest.mark.parametrize(
-    "text",
-    [
-        "from studies.pendulum.steps import one",
-        'yaml("/studies/pendulum/config.yaml")',
-        "    pendulum_period,",
-        'case("one", "pendulum")',
-        "PENDULUM = 1",
-        "studies: [first, pendulum]",
-        "studies: [pendulum, first]",
-        "pendulum: {}",
-    ],
-)
-def test_study_is_found_however_it_is_named(text):
-    assert named(text, ["pendulum"])
-
-
-@pytest.mark.parametrize(
-    "text", ["The pendulum swings.", "# Study pendulum", "pendulums", "a.pendulum(x)"]
-)
-def test_word_of_prose_names_no_study(text):
-    assert named(text, ["pendulum"]) == []

@@ -119,46 +119,11 @@ def test_no_fixed_mass_is_the_column():
     assert body.equivalent_size == pytest.approx(COLUMN.size, rel=1e-14)
 
 
-@pytest.mark.parametrize("gamma", [1e9, math.inf])
-def test_boundless_fixed_mass_is_a_point_on_a_stalk(gamma):
-    body = th.FixedMassColumn(COLUMN, gamma)
-    assert body.uplift_acceleration == pytest.approx(1 / 12, rel=1e-8)
-    p = math.sqrt(th.STANDARD_GRAVITY / math.hypot(0.5, 6.0))
-    assert body.frequency_parameter == pytest.approx(p, rel=1e-8)
-    assert body.restitution == pytest.approx(math.cos(2 * body.slenderness), rel=1e-8)
-
-
-@pytest.mark.parametrize(
-    "body",
-    [th.FixedMassColumn(COLUMN, 2.0, 2.6, 0.6), th.MonolithicPortal(COLUMN, 1.0, 4.2, 0.6)],
-    ids=["fixed", "portal"],
-)
-def test_block_and_the_column_of_the_equivalent_size_have_the_same_numbers(body):
-    block, p = body.block(), body.frequency_parameter
-    assert block == th.RockingBlock(p, body.slenderness, body.restitution)
-    assert body.block(restitution=0.5).restitution == 0.5
-    if isinstance(body, th.FixedMassColumn):
-        scale = body.equivalent_size / COLUMN.size
-        twin = th.Column(0.5 * scale, 3.0 * scale)
-        assert twin.frequency_parameter == pytest.approx(p, rel=1e-14)
-
-
 def test_narrow_portal_tends_to_the_column_with_fixed_mass():
     # Two columns that almost coincide, on a base that is wider by their second half width.
     portal = th.MonolithicPortal(th.Column(1e-9, 3.0), 1.0, 2.1e-9)
     column = th.FixedMassColumn(th.Column(1e-9, 3.0), 1.0)
     assert portal.frequency_parameter == pytest.approx(column.frequency_parameter, rel=1e-8)
-
-
-def test_stocky_body_is_refused_with_its_slenderness_and_the_largest():
-    # A concentrated mass alone: √r' = cos 2α', zero at 45°
-    assert th.FixedMassColumn(th.Column(1.99, 1.0), math.inf).block().restitution > 0
-    with pytest.raises(ValueError, match=r"45\.14°.*no rocking.*45°"):
-        th.FixedMassColumn(th.Column(2.01, 1.0), math.inf).block()
-    wide = th.MonolithicPortal(COLUMN, 4.0, 20.0)
-    with pytest.raises(ValueError, match=rf"{wide.slenderness:.6g} rad.*no rocking"):
-        wide.block()
-    assert wide.block(restitution=0.0).restitution == 0.0
 
 
 MAKERS = [
@@ -179,8 +144,3 @@ def test_impossible_part_is_refused_by_its_name(name, make):
     for value in (-0.1, math.nan, "1", *((math.inf,) if name != "mass_ratio" else ())):
         with pytest.raises(ValueError, match=rf"^{name} is .*; expected"):
             make(value)
-
-
-def test_columns_that_overlap_are_refused():
-    with pytest.raises(ValueError, match=r"span is 1 m; expected more than the width of a column"):
-        th.MonolithicPortal(COLUMN, 1.0, 1.0)

@@ -7,16 +7,14 @@ import sympy as sp
 
 from topheavy import STANDARD_GRAVITY, Column, FixedMassColumn
 from topheavy.derivation import (
-    POSITIVE,
     fixed_fourth_power,
-    fixed_motion,
     fixed_restitution,
     fixed_tangent,
 )
 from topheavy.derivation import fixed_proofs as proofs
 from topheavy.derivation.bodies import half_depth
 from topheavy.derivation.fixed_mass import I_b
-from topheavy.derivation.notation import R, acceleration, alpha, g, gamma, ground_acceleration, m_c
+from topheavy.derivation.notation import R, alpha, g, gamma, m_c
 
 
 def values(body):
@@ -44,15 +42,6 @@ def test_library_follows_the_derivation(slenderness, ratio, cap):
     fourth = float(fixed_fourth_power().subs(given))
     assert body.frequency_parameter**4 == pytest.approx(fourth, rel=1e-12)
     assert body.restitution == pytest.approx(float(fixed_restitution().subs(given)), rel=1e-12)
-
-
-def test_motion_needs_no_velocity():
-    assert not fixed_motion(POSITIVE).has(acceleration, sp.Symbol(r"\dot{\theta}", real=True))
-    assert fixed_motion(POSITIVE).has(ground_acceleration)
-
-
-def test_proofs_are_stated():
-    assert all(proof.__doc__ and proof.__doc__.strip().endswith(".") for proof in proofs.PROOFS)
 
 
 _CAP = gamma * sp.sin(alpha) ** 2 / 50

@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-import sympy as sp
 
 from topheavy.derivation import (
     SIDES,
@@ -56,13 +55,6 @@ def test_impulses_on_three_bodies_give_the_restitution(side, slenderness, mass_r
     assert solved == pytest.approx(float(derived), rel=1e-7)
 
 
-def test_column_loses_what_housner_found():
-    # The angular momentum about the new corner, of a unit mass of size 1: 1/3 + cos 2α, over 4/3.
-    for slenderness in (0.1, 0.4, 1.0):
-        expected = (1 / 3 + np.cos(2 * slenderness)) / (4 / 3)
-        assert float(column_restitution().subs(alpha, slenderness)) == pytest.approx(expected)
-
-
 @pytest.mark.parametrize("mass_ratio", [0.1, 0.434, 5.0, 300.0])
 class TestSlendernessLimits:
     def test_restitution_changes_sign_at_the_largest_slenderness(self, mass_ratio):
@@ -76,8 +68,3 @@ class TestSlendernessLimits:
             frame = velocity_after(1, slenderness, mass_ratio) ** 2
             column = float(column_restitution().subs(alpha, slenderness)) ** 2
             assert (frame < column) == frame_loses_more
-
-
-def test_limits_are_real_angles_of_stocky_columns():
-    angles = [float(sp.deg(energy_slenderness().subs(gamma, ratio))) for ratio in (0, 1e9)]
-    np.testing.assert_allclose(angles, [54.7356, 49.1066], atol=1e-3)

@@ -2,8 +2,6 @@
 
 import pytest
 
-from topheavy.derivation import NEGATIVE, POSITIVE
-from topheavy.derivation.in_text import IN_TEXT
 from topheavy.derivation.mends import KINDS, mended_quotient, mends
 from topheavy.derivation.printed import EQUATIONS
 from topheavy.derivation.verdicts import find_mend
@@ -35,32 +33,6 @@ def kind(name, right, wrong, sides=None):
 )
 def test_each_kind_is_found(expected, name, right, wrong):
     assert kind(name, right, wrong) == expected
-
-
-def test_extent_of_a_radical_is_found():
-    premises = RIGHT["eq24"].premises
-    mend = find_mend("p̂ = √(1 + 2γ)/(1 + 3γ) p", premises, (NEGATIVE, POSITIVE))
-    assert (mend.kind, mend.text) == ("radical", "p̂ = √((1 + 2γ)/(1 + 3γ)) p")
-
-
-def test_fault_of_a_rectangle_is_found_although_its_slenderness_is_no_free_symbol():
-    premises = next(one.premises for one in IN_TEXT if one.name == "text_size")
-    mend = find_mend("R = √(b² − h²)", premises, (NEGATIVE,))
-    assert (mend.kind, mend.text) == ("sign", "R = √(b² + h²)")
-
-
-@pytest.mark.parametrize(
-    ("name", "right", "wrong"),
-    [
-        ("eq1", "m g R sin(α + θ) − m ü_g", "−m g R sin(α + θ) + 2m ü_g"),
-        ("eq24", "(1 + 3γ)/(1 + 2γ)", "(2 + 3γ)/(1 + 3γ)"),
-        ("eq3", "sin(α sgn(θ) − θ)", "cos(α sgn(θ) − θ)"),
-        ("eq5", "cos(α ± θ)", "cos(α ± 2θ) θ̇"),
-    ],
-)
-def test_form_that_no_single_mend_saves_has_no_kind(name, right, wrong):
-    sides = (NEGATIVE,) if RIGHT[name].split else None
-    assert kind(name, right, wrong, sides) is None
 
 
 def test_the_smallest_mends_are_tried_first():

@@ -6,43 +6,10 @@ machine lengthens it less than the time of a clock.
 
 import pytest
 
-from tests.ground.records.files import MOST, longest
-
 SLOWED = 4
 LONGEST = 250.0  # ms: 75 to 92 on a quiet machine, where the bar is 100; more under load
 ROUNDS = 5
-LONG = MOST // 4  # samples: on the main thread each would be felt
 TRACED = "-*,disabled-by-default-devtools.timeline"
-
-DRAG = """new Promise(resolve => {
-  const slider = document.getElementById({0});
-  let count = 0;
-  const move = () => {
-    slider.value = 300 + (count * 37) % 400;
-    slider.dispatchEvent(new Event("input", {bubbles: true}));
-    if (++count < 20) requestAnimationFrame(move);
-    else setTimeout(resolve, 400);
-  };
-  requestAnimationFrame(move);
-})"""
-PRESS = """(async () => {
-  for (const button of document.querySelectorAll("#cases button")) {
-    button.click();
-    await new Promise(resolve => setTimeout(resolve, 500));
-  }
-})()"""
-SHAKEN = """new Promise((resolve, reject) => {
-  const before = opened, deadline = Date.now() + 170000;
-  pause();
-  open(chosen);
-  const look = () => {
-    const {shown} = document.documentElement.dataset;
-    if (opened > before && shown === encode(state)) setTimeout(resolve, 300);
-    else if (Date.now() > deadline) reject(new Error("not shaken after 170 s"));
-    else setTimeout(look, 50);
-  };
-  look();
-})"""
 
 
 @pytest.fixture(scope="module")
@@ -84,29 +51,6 @@ def slow(browser):
     yield browser
     browser.ask("Emulation.setCPUThrottlingRate", rate=1)
     browser.do("slow?.terminate()")
-
-
-def test_page_opens_in_short_tasks(slow):
-    slow.longest(lambda: (slow.load(), slow.settle("spectrum")))
-
-
-@pytest.mark.parametrize("slider", ["h-slider", "a-slider"])
-def test_slider_is_dragged_in_short_tasks(slow, slider):
-    slow.longest(lambda: slow.do(DRAG, slider))
-
-
-def test_cases_are_shown_in_short_tasks(slow):
-    slow.longest(lambda: slow.do(PRESS))
-
-
-def test_long_record_is_read_and_shaken_in_short_tasks(slow, tmp_path):
-    path = tmp_path / "long.AT2"
-    path.write_bytes(longest(LONG).replace(b"0.3141592", b"0.0141592"))  # at rest: a short history
-    slow.choose(path)
-    slow.longest(lambda: slow.do(SHAKEN))
-    assert slow.do("files.get('long').samples.size") == 8 * LONG
-    slow.longest(lambda: slow.do(DRAG, "x-slider"))
-    assert slow.tab.errors == []
 
 
 def test_each_chart_has_a_task_of_its_own(slow):

@@ -2,16 +2,12 @@
 
 import json
 import re
-from pathlib import Path
-from statistics import median
 
 import pytest
 
-from replication.inputs.strict_yaml import read_yaml
 from steps.explorer import checked_cases, page
 
 WIDTHS = (390, 820, 1440)
-LONGEST = 16.0  # ms, of a handler on the main thread
 
 # Every element with words of its own that is displayed: its words and its two colours.
 WORDS = """[...document.querySelectorAll("body *")].flatMap(element => {
@@ -38,19 +34,6 @@ FOCUSED = """(() => {
     at === document.body, style.outlineStyle !== "none" && parseFloat(style.outlineWidth) >= 2];
 })()"""
 
-DRAG = """new Promise(resolve => {
-  performance.clearMeasures();
-  const slider = document.getElementById({0});
-  let count = 0;
-  const move = () => {
-    slider.value = 300 + (count * 37) % 400;
-    slider.dispatchEvent(new Event("input", {bubbles: true}));
-    if (++count < 90) requestAnimationFrame(move);
-    else setTimeout(() => resolve(performance.getEntriesByType("measure").map(
-      entry => [entry.name, entry.duration])), 500);
-  };
-  requestAnimationFrame(move);
-})"""
 
 TYPE = """(() => {
   const field = document.getElementById({0});
@@ -106,14 +89,6 @@ def test_nothing_is_asked_of_the_network_and_nothing_fails(browser):
         assert browser.tab.errors == []
 
 
-def test_network_is_refused_by_the_page_itself(browser):
-    browser.open()
-    script = "fetch('https://example.org/').then(() => 'sent', error => error.name)"
-    assert browser.do(script) == "TypeError"
-    assert any("Content Security Policy" in told for told in browser.tab.errors)
-    assert browser.tab.requests == []
-
-
 @pytest.mark.parametrize("address", ["g=1", "shape=harmonic&r=0.9"])
 def test_every_control_is_reached_by_the_keyboard_and_shows_it(browser, address):
     browser.open(address)
@@ -133,28 +108,6 @@ def test_every_control_is_reached_by_the_keyboard_and_shows_it(browser, address)
         reached[name] = is_outlined
     assert expected - set(reached) == set()
     assert [name for name, is_outlined in reached.items() if not is_outlined] == []
-
-
-def test_space_pauses_and_arrows_move_a_slider(browser):
-    browser.open()
-    browser.do("pause(), show(1), document.activeElement.blur()")
-
-    def press(key, code):
-        browser.ask("Input.dispatchKeyEvent", type="keyDown", key=key, code=code, text=key)
-        browser.ask("Input.dispatchKeyEvent", type="keyUp", key=key, code=code)
-
-    press(".", "Period")
-    assert browser.do("time") == pytest.approx(1.02)
-    press(" ", "Space")
-    assert browser.do("isPlaying") is True
-    press(" ", "Space")
-    assert browser.do("isPlaying") is False
-    before = browser.do("document.getElementById('a').value")
-    browser.do("document.getElementById('a-slider').focus()")
-    browser.ask(
-        "Input.dispatchKeyEvent", type="rawKeyDown", key="ArrowRight", windowsVirtualKeyCode=39
-    )
-    assert browser.do("document.getElementById('a').value") != before
 
 
 def test_every_control_has_a_name(browser):
@@ -211,17 +164,6 @@ def test_nothing_is_wider_than_the_screen(browser):
     assert browser.do(MINIMA) == numbers
 
 
-def test_phone_shows_the_outcome_beside_every_field(browser):
-    browser.open("shape=harmonic&r=0.9", width=390, height=844, until="minima")
-    box = "document.getElementById({0}).getBoundingClientRect()"
-    playback = [browser.do(f"{box}.top", name) for name in ("start", "speed")]
-    assert playback[0] == pytest.approx(playback[1], abs=2)
-    for name in ("b", "g", "a", "D"):
-        browser.do("document.getElementById({0}).scrollIntoView()", name)
-        assert browser.do(f"{box}.top", "verdict") == pytest.approx(0, abs=1)
-        assert browser.do(f"{box}.top", name) >= browser.do(f"{box}.bottom", "verdict")
-
-
 def test_tablet_keeps_the_mass_ratio_beside_the_map_that_it_moves(browser):
     browser.open(width=1024, height=768, until="minima")
     browser.do("document.getElementById('map').scrollIntoView({block: 'end'})")
@@ -233,25 +175,6 @@ def test_tablet_keeps_the_mass_ratio_beside_the_map_that_it_moves(browser):
 def test_laptop_shows_everything_on_one_screen(browser):
     browser.open(width=1440, height=900, until="minima")
     assert browser.do("document.body.getBoundingClientRect().bottom") <= 900
-
-
-@pytest.mark.parametrize("address", ["g=1", "shape=record&record=el_centro_1940_NS&x=2"])
-def test_handlers_are_short_while_a_slider_is_dragged(browser, address):
-    browser.open(address, moves=True, until="minima")
-    rounds = []
-    for _ in range(5):  # other work of this machine can lengthen a round, and never shortens one
-        found = browser.do(DRAG, "h-slider")
-        of = {
-            kind: sorted(duration for name, duration in found if name == kind)
-            for kind in ("handler", "frame", "drawing")
-        }
-        assert len(of["handler"]) == 90
-        assert min(map(len, of.values())) > 3
-        # The longest twentieth is left out: it is when the machine gave the time to another.
-        rounds.append((of["handler"][85], median(of["frame"]), median(of["drawing"])))
-        if max(rounds[-1]) < LONGEST:
-            return
-    assert min(map(max, rounds)) < LONGEST, rounds
 
 
 BAD_INPUT = [
@@ -283,34 +206,6 @@ def test_bad_input_is_told_at_its_field_and_the_picture_stays(browser):
         browser.settle()
 
 
-@pytest.mark.parametrize(
-    ("first", "second"), [(("h", "0.15"), ("b", "0.05")), (("b", "2"), ("L", "4.5"))]
-)
-def test_first_of_two_fields_that_contradict_waits_for_the_second(browser, first, second):
-    browser.open("L=3.9")
-    before = state_of(browser)
-    browser.do(TYPE, *first)
-    assert state_of(browser) == before
-    assert browser.do(TYPE, *second) == ""
-    assert {f"{key}={number}" for key, number in (first, second)} <= set(
-        state_of(browser).split("&")
-    )
-    browser.do(TYPE, *first)
-    browser.do(TYPE, "a", "0.2")
-    assert "a=0.2" in state_of(browser)
-
-
-def test_shape_that_contradicts_is_told_where_it_is_seen(browser):
-    browser.open("T=0.01&a=0.2")
-    browser.do("controls.apply({shape: 'harmonic'}, true, 'shape')")
-    shown = "document.getElementById('shape-error')"
-    assert "more than 400 periods" in browser.do(
-        f"{shown}.checkVisibility() && {shown}.textContent"
-    )
-    browser.do(TYPE, "T", "0.1")
-    assert "shape=harmonic" in state_of(browser)
-
-
 def test_address_holds_the_state(browser):
     given = "b=0.4&h=2.4&g=inf&L=4&r=0.9&cap=fixed&eq=linearised&shape=one-sine&a=0.55&T=0.9"
     browser.open(given)
@@ -322,72 +217,11 @@ def test_address_holds_the_state(browser):
     assert "a=0.2" in state_of(browser)
 
 
-def test_bad_address_is_told_at_its_fields(browser):
-    browser.open("b=x&shape=square&record=gone&h=2")
-    errors = "['b', 'shape'].map(key => document.getElementById(`${key}-error`).textContent)"
-    b, shape = browser.do(errors)
-    assert b.startswith("The address: “x” is not a number")
-    assert "“square” is not known; expected one-sine" in shape
-    assert "h=2&" in state_of(browser)
-    browser.open("shape=record&record=gone")
-    assert "the record “gone” is not in this page" in browser.do(errors)[1]
-
-
-ON_SCREEN = """(() => {
-  const places = ["g-slider", "spectrum"].map(id => document.getElementById(id));
-  scrollTo(0, scrollY + places[1].getBoundingClientRect().bottom - innerHeight);
-  return places.map(place => place.getBoundingClientRect()).map(({top, bottom}) =>
-    top >= 0 && bottom <= innerHeight + 1);
-})()"""
-
-
-@pytest.mark.parametrize(("width", "height"), [(390, 844), (820, 1180), (1440, 900)])
-def test_mass_ratio_and_the_map_that_it_moves_are_on_one_screen(browser, width, height):
-    browser.open(width=width, height=height)
-    assert browser.do(ON_SCREEN) == [True, True]
-
-
-OUTSIDE = """[...Array(21).keys()].flatMap(part => {
-  show(part / 20 * found.times.at(-1));
-  const at = element => element.getBoundingClientRect(), frame = at(scene.svg);
-  const boxes = scene.groups.map(at);
-  const isApart = (a, b) => a.right <= b.left || b.right <= a.left
-    || a.bottom <= b.top || b.bottom <= a.top;
-  return boxes.flatMap((box, k) => [
-    ...(box.left < frame.left || box.right > frame.right || box.top < frame.top ? [[part, k]] : []),
-    ...boxes.slice(k + 1).flatMap((other, l) => (isApart(box, other) ? [] : [[part, k, l]])),
-  ]);
-})"""
-
-
-@pytest.mark.parametrize("address", ["g=1", "g=2&a=1.11", "cap=fixed&a=4", "g=0.2&a=0.6&L=1.2"])
-def test_no_body_leaves_the_picture_or_meets_another(browser, address):
-    browser.open(address)
-    for width in WIDTHS:
-        browser.resize(width)
-        browser.do("new Promise(next => setTimeout(next, 200))")
-        assert browser.do(OUTSIDE) == [], width
-
-
 def test_data_of_the_page_are_those_of_its_sources(text, records):
     data = json.loads(text.split('id="data">')[1].split("</script>")[0])
     (record,) = data["records"]
     assert record["samples"] == records["el_centro_1940_NS"].acceleration.tolist()
     assert len(data["cases"]) == 6
-
-
-def test_page_names_paper_version_and_licence(browser):
-    cited = read_yaml(Path(__file__).parents[2] / "CITATION.cff")
-    browser.open_to_compute()
-    said, links = browser.do(
-        """[document.querySelector("footer").textContent.replace(/\\s+/g, " "),
-        [...document.querySelectorAll("footer a")].map(each => each.getAttribute("href"))]"""
-    )
-    doi = cited["references"][0]["doi"]
-    assert f"doi:{doi}" in said
-    assert f"topheavy {cited['version']}: article" in said
-    assert said.endswith("MIT licence; text CC BY 4.0.")
-    assert links[0] == f"https://doi.org/{doi}"
 
 
 def test_nothing_runs_that_the_page_was_not_made_with(browser, text):

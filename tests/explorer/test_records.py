@@ -1,24 +1,19 @@
 """The page's reader of records against the library's."""
 
 from base64 import b64encode
-from hashlib import sha256
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from tests.ground.records.files import (
-    BODIES,
     CSV,
     FILES,
     LARGEST,
-    MOST,
     REPEATED,
     STEPS,
     UNCERTAIN_STEPS,
     at2,
-    longest,
-    too_long,
 )
 from tests.ground.records.test_units import HEADERS, SPELLINGS
 from topheavy import read_record
@@ -56,18 +51,6 @@ COSTS = """(() => {
     (part) => [name, part, numbers.map((number) => least(reader, part.repeat(number)))]));
 })()"""
 
-
-# Milliseconds that the reader takes for each file, the least of eight.
-FILE_COSTS = """{0}.map(([name, bytes]) => {
-  const content = Uint8Array.from(atob(bytes), each => each.charCodeAt(0));
-  return Math.min(...Array.from({length: 8}, () => {
-    const begun = performance.now();
-    try { readRecord(name, content); } catch ({message}) {
-      if (!message.startsWith(name)) throw new Error(message);
-    }
-    return performance.now() - begun;
-  }));
-})"""
 
 # What the page's own worker answers of a chosen file: step, number and hash of samples; or why not.
 IN_A_WORKER = """new Promise(resolve => {
@@ -159,18 +142,6 @@ def test_every_record_is_read_as_the_library_reads_it(reading, request, tmp_path
     by_both(reading, tmp_path, [(path.suffix, path.read_bytes()) for path in paths])
 
 
-def test_most_samples_are_read_as_by_the_library_and_one_more_is_refused(reading, tmp_path):
-    path, other = tmp_path / "motion.AT2", tmp_path / "motion.csv"
-    path.write_bytes(longest())
-    reading.choose(path)
-    digest = sha256(np.tile([0.3141592, -0.1414214], MOST // 2)).hexdigest()  # as in the library
-    assert reading.do(IN_A_WORKER) == [0.02, MOST, digest]
-    other.write_bytes(too_long())
-    reading.choose(other)
-    says = "holds sample 2000001; expected at most 2000000 samples: short"
-    assert says in reading.do(IN_A_WORKER)
-
-
 def test_file_that_is_too_large_is_refused_before_it_is_read(reading, tmp_path):
     path = tmp_path / "motion.AT2"
     with path.open("wb") as file:
@@ -187,23 +158,3 @@ def test_cost_of_a_header_grows_in_proportion_to_its_length(reading):
     assert len(costs) == 4 * len(REPEATED)
     for reader, part, (short, long) in costs:
         assert long < 3 * 8 * short + 2.0, (reader, part)  # ms; in proportion it is 8
-
-
-def test_cost_of_a_file_grows_in_proportion_to_its_length(reading):
-    numbers = (2000, 16000)
-    for body, made in BODIES.items():
-        files = [made(number) for number in numbers]
-        encoded = [
-            (ending, content if isinstance(content, bytes) else content.encode())
-            for ending, content in files
-        ]
-        given = [[f"motion{ending}", b64encode(content).decode()] for ending, content in encoded]
-        costs = []
-        for _ in range(
-            5
-        ):  # other work of this machine can lengthen a round, and never shortens one
-            costs.append(reading.do(FILE_COSTS, given))
-            short, long = map(min, zip(*costs, strict=True))
-            if is_proportional := long < 3 * 8 * short + 4.0:  # ms; in proportion it is 8
-                break
-        assert is_proportional, (body, costs)

@@ -8,7 +8,6 @@ import pytest
 
 import topheavy as th
 from steps.explorer import DEFAULTS, blocks, motion, options
-from steps.shared.bearing import bearing
 from topheavy.forces.contact import column_forces
 from topheavy.ground.shapes import ENDING
 
@@ -145,38 +144,6 @@ def test_spectrum_is_the_map_of_the_library(browser, shape):
     np.testing.assert_array_equal(codes, (alone + 2 * framed).T.values.ravel())
 
 
-def test_spectrum_of_a_record_is_the_map_of_the_library(browser, records):
-    """Over the size R of the column, all lengths in proportion, and the record's peak."""
-    browser.open_to_compute()
-    (name, record), *_ = records.items()
-    columns, rows = 24, 18
-    codes = browser.do(
-        """(() => {
-          GRIDS.record = [{1}, {2}];
-          let last;
-          spectrum({...DEFAULTS, shape: "record", record: {0}}, files.get({0}), part => {
-            last = part.codes;
-          });
-          return [...last];
-        })()""",
-        name,
-        columns,
-        rows,
-    )
-    column = th.Column(0.5, 3.0)
-    alone, framed = (
-        th.overturning_map_of_record(
-            structure,
-            record,
-            0.5 * 40.0 ** ((np.arange(columns) + 0.5) / columns),
-            0.93 * (12.0 / 0.93) ** ((np.arange(rows) + 0.5) / rows) * column.uplift_acceleration,
-        ).overturned
-        for structure in (column, th.RockingFrame(column, 1.0))
-    )
-    assert set(codes) >= {0, 1, 3}
-    np.testing.assert_array_equal(codes, (alone + 2 * framed).T.values.ravel())
-
-
 def test_required_friction_is_that_of_the_library(browser):
     browser.open_to_compute()
     random = np.random.default_rng(2014)
@@ -198,24 +165,6 @@ def test_required_friction_is_that_of_the_library(browser):
     np.testing.assert_allclose(ours[finite], np.array(expected)[finite], rtol=1e-10)
 
 
-def test_required_friction_of_a_vase_follows_from_the_motion_of_its_centre(browser):
-    """By Newton's law: a centre at R' from the edge, differentiated in time."""
-    browser.open_to_compute()
-    vase = th.FixedMassColumn(th.Column(0.5, 3.0), 1.0)
-    lever, alpha = math.hypot(vase.half_base, vase.centre_height), vase.slenderness
-    theta, rate, a, step = 0.4 * alpha, -0.3, 0.2, 1e-4
-    turn = -(vase.frequency_parameter**2) * (math.sin(alpha - theta) + a * math.cos(alpha - theta))
-    at = [theta + rate * t + turn * t * t / 2.0 for t in (-step, 0.0, step)]
-    x, z = (
-        [-lever * math.sin(alpha - each) for each in at],
-        [lever * math.cos(alpha - each) for each in at],
-    )
-    across = a + (x[0] - 2 * x[1] + x[2]) / step**2 / 9.81
-    along = 1.0 + (z[0] - 2 * z[1] + z[2]) / step**2 / 9.81
-    found = browser.do("requiredFriction(vase(0.5, 3, 1), 1, {0}, {1}, {2})", theta, rate, a)
-    assert found == pytest.approx(abs(across) / along, rel=1e-5)
-
-
 def searched(structure, unit, windows):
     """Return the minimum (g) that the library finds in the steps of the page, or infinity."""
     uplift = structure.uplift_acceleration
@@ -225,33 +174,6 @@ def searched(structure, unit, windows):
         if found:
             return 0.5 * sum(found)
     return math.inf
-
-
-OFF = "leaves the ground from 1.68"
-
-
-@pytest.mark.parametrize(
-    ("span", "peak", "leaves", "shown"),
-    [(2.6, 0.9, False, "1.11"), (4.2, 1.6, False, OFF), (4.2, 1.8, True, OFF)],
-)
-def test_portal_that_leaves_the_ground_has_no_minimum(browser, span, peak, leaves, shown):
-    browser.open_to_compute()
-    state = {"b": 0.5, "h": 3.0, "g": 1.0, "L": span, "cap": "fixed", "shape": "one-cosine"}
-    browser.begin(state | {"a": peak, "T": 1.5})
-    of = browser.do("found.structures[2]")
-    assert of["leaves"] is leaves
-    words = browser.do("document.getElementById('caption2').textContent")
-    assert ("outside the model" in words) == leaves
-    assert words.endswith("survives") == (not leaves)
-    cell = browser.do("[minimum2.textContent, Number(minimum2.dataset.value)]")
-    assert cell[0] == shown
-    alone = th.MonolithicPortal(th.Column(0.5, 3.0), 1.0, span)
-    motion = th.Pulse("one-cosine", 1.0, 2.0 * math.pi / 1.5)
-    if shown == OFF:
-        expected, step = bearing(alone, motion, 1.8).pulled_from, 3e-3  # of the page's pieces
-    else:
-        expected, step = th.minimum_overturning(alone, motion, (0.5, 2.0), resolution=1e-3)[0], 1e-6
-    assert cell[1] == pytest.approx(expected, rel=step)
 
 
 @pytest.mark.parametrize("number", range(6))
@@ -317,33 +239,3 @@ def test_seeded_states_hold_what_they_should():
     assert {state["shape"] for state in found} == set(SHAPES)
     assert {state["eq"] for state in found} == {"exact", "linearised"}
     assert {state["cap"] for state in found} == {"free", "fixed"}
-
-
-def test_page_names_the_steps_in_which_it_searches_the_minimum(browser):
-    browser.open_to_compute()
-    windows = browser.do("WINDOWS")
-    said = browser.do("document.body.textContent.replace(/\\s+/g, ' ')")
-    (_, first, one), (_, second, two), (_, last, three) = windows
-    percents = (round(100 * step, 6) for step in (one, two, three))
-    steps = "steps of {:g} % of it up to {:g} times, of {:g} % up to {:g} times"
-    steps += " and of {:g} % up to {:g} times"
-    ends = zip(percents, (first, second, last), strict=True)
-    assert steps.format(*(number for pair in ends for number in pair)) in said
-
-
-def test_digits_of_the_minimum_follow_from_the_step_of_its_search(browser):
-    """The last printed digit is no finer than a tenth of the step, whatever the motion."""
-    browser.open_to_compute()
-    for change in ({}, {"shape": "record", "record": "el_centro_1940_NS"}):
-        browser.begin(change)
-        cells = browser.do(
-            """structuresOf(state).map((block, k) => {
-            const cell = document.getElementById(`minimum${k}`), a = Number(cell.dataset.value);
-            return [cell.textContent, a, searchStep(block, a), cell.title];
-            })"""
-        )
-        for text, lowest, step, title in cells:
-            unit = 10.0 ** -len(text.partition(".")[2])
-            assert step / 10.0 < unit < 10.0 * step
-            assert abs(float(text) - lowest) <= 0.5001 * unit
-            assert title == f"search step {step:.2g} g"

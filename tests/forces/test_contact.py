@@ -32,7 +32,6 @@ STATES = [  # θ/α, θ̇/p, ü_g (g)
     (0.9, -0.15, -0.7),
     (1.4, 0.05, 1.3),
 ]
-NAMES = ("base_left", "base_right", "seat_left", "seat_right")
 
 
 def angular_acceleration(structure, theta, ground):
@@ -144,37 +143,11 @@ def test_light_cap_leaves_two_solitary_columns():
             np.testing.assert_allclose(2 * vector(foot), column, atol=error)
 
 
-def test_heavy_cap_is_carried_along_the_diagonals():
-    theta = np.array([-0.2, -0.01, 0.01, 0.2, 0.3])
-    expected = np.tan(np.abs(0.25 - np.abs(theta)))
-    for mass_ratio, error in ((math.inf, 1e-14), (1e7, 1e-6)):
-        for contact in of(mass_ratio, theta, 0.2, [0.0, 0.5, -0.9, 1.0, -0.2]).contacts:
-            np.testing.assert_allclose(contact.friction_demand, expected, atol=error)
-
-
-def test_wide_bay_shares_the_cap_by_halves():
-    motion = (0.1, 0.3, 0.6)
-    near, wide = of(2.0, *motion), of(2.0, *motion, cap=th.Cap(1e9, 0.35))
-    np.testing.assert_allclose(vector(wide.seat_left), vector(wide.seat_right), rtol=1e-8)
-    assert abs(near.seat_left.vertical - near.seat_right.vertical) > 0.05
-    both = vector(near.seat_left) + vector(near.seat_right)
-    np.testing.assert_allclose(2 * vector(wide.seat_left), both, rtol=1e-8)
-
-
 def test_resting_at_the_balance_point_needs_no_friction():
     forces = of(2.0, SLENDER.slenderness, 0.0)
     np.testing.assert_allclose(forces.friction_demand, 0.0, atol=1e-15)
     total = forces.base_left.vertical + forces.base_right.vertical
     np.testing.assert_allclose(total, 1.0, rtol=1e-14)
-
-
-def test_mirrored_motion_swaps_left_and_right():
-    motion, frame = np.array([[0.1, 0, 0.2], [0.5, -0.4, 0], [0.3, 0, -0.6]]), FRAMES[5]
-    here, there = (th.contact_forces(frame, CAP, *side * motion) for side in (1.0, -1.0))
-    images = [there.contacts[i] for i in (1, 0, 3, 2)]
-    for contact, image in zip(here.contacts, images, strict=True):
-        np.testing.assert_array_equal(contact.horizontal, -image.horizontal)
-        np.testing.assert_array_equal(contact.vertical, image.vertical)
 
 
 # Uplift -------------------------------------------------------------------------------------------
@@ -221,53 +194,6 @@ def test_seat_opens_once_the_line_of_thrust_leaves_the_span():
 # States -------------------------------------------------------------------------------------------
 
 
-def test_frame_at_rest_is_indeterminate_and_its_column_is_not():
-    ground = np.array([-0.2, 0.0, 0.2])  # below tan α = 0.255
-    forces = of(1.0, 0.0, 0.0, ground)
-    parts = [*map(vector, forces.contacts), forces.friction_demand, forces.least_vertical]
-    assert all(np.isnan(part).all() for part in parts)
-    column = th.column_forces(SLENDER, 0.0, 0.0, ground)
-    np.testing.assert_array_equal(column.horizontal, ground)
-    np.testing.assert_array_equal(column.vertical, 1.0)
-
-
-def test_upright_frame_goes_to_the_side_that_it_moves_or_uplifts_to():
-    for rate, ground, side in ((0.3, 0.1, 1), (-0.3, 0.1, -1), (0.0, 0.5, -1), (0.0, -0.5, 1)):
-        upright, leaning = (of(1.0, tilt, rate, ground) for tilt in (0.0, side * 1e-13))
-        for here, there in zip(upright.contacts, leaning.contacts, strict=True):
-            np.testing.assert_allclose(vector(here), vector(there), atol=1e-11)
-
-
-def test_history_broadcasts_and_its_missing_end_stays_missing():
-    forces = of(1.0, [[0.1], [math.nan]], [0.1, 0.2, 0.3], 0.0)
-    for contact in forces.contacts:
-        assert contact.horizontal.shape == contact.vertical.shape == (2, 3)
-    assert forces.least_vertical.shape == forces.friction_demand.shape == (2, 3)
-    assert np.isnan(forces.friction_demand).tolist() == [[False] * 3, [True] * 3]
-
-
-@pytest.mark.parametrize("mass_ratio", [0.1, 1.0, 10.0])
-def test_free_rocking_of_a_slender_frame_presses_everywhere(mass_ratio):
-    frame = th.RockingFrame(SLENDER, mass_ratio)
-    response = th.simulate(frame, rotation=0.99 * 0.25)
-    forces = th.contact_forces(frame, CAP, response.rotation, response.velocity)
-    moving = ~np.isnan(forces.least_vertical)
-    assert moving.sum() > 900
-    assert np.min(forces.least_vertical[moving]) > 0.0
-
-
-@pytest.mark.parametrize("mass_ratio", [1e-6, 0.1, 1.0, 10.0])
-def test_free_rocking_asks_more_than_tan_alpha_of_seats_and_less_of_feet(mass_ratio):
-    # Close to an impact; a light cap needs half as much again, as its θ̈ is the column's.
-    forces = of(mass_ratio, 1e-13, 0.0)
-    seats = 1 / (2 * (1 + 3 * mass_ratio))
-    feet = -(1 + 4 * mass_ratio) / (4 * (1 + mass_ratio) * (1 + 3 * mass_ratio))
-    for names, share in ((NAMES[2:], seats), (NAMES[:2], feet)):
-        horizontal, vertical = sum(vector(getattr(forces, name)) for name in names)
-        expected = TAN * (1 + share) / (1 - share * TAN**2)
-        assert -horizontal / vertical == pytest.approx(expected, rel=1e-9)
-
-
 # Impact -------------------------------------------------------------------------------------------
 
 
@@ -306,31 +232,6 @@ def test_solitary_column_needs_three_tan_alpha_over_four_plus_its_square_and_a_m
     np.testing.assert_allclose(2 * vector(frame.base_left), vector(impulse), rtol=1e-13)
     for contact in th.impact_impulses(th.RockingFrame(SLENDER, math.inf), CAP, 0.6).contacts:
         assert contact.friction_demand == pytest.approx(TAN, rel=1e-13)
-
-
-@pytest.mark.parametrize("mass_ratio", [0.1, 1.0, 10.0])
-def test_trailing_seat_opens_when_the_cap_is_too_deep_for_its_bay(mass_ratio):
-    frame, slope = th.RockingFrame(SLENDER, mass_ratio), TAN
-    n = 3 * (1 + 4 * mass_ratio) / (2 * (1 + 3 * mass_ratio))
-    rho = n * slope / (2 + (2 - n) * slope**2)
-    limit = (CAP.span / 2 - SLENDER.half_width) / rho
-    for half_depth, opens in ((0.999 * limit, False), (1.001 * limit, True)):
-        impulses = th.impact_impulses(frame, th.Cap(CAP.span, half_depth), 0.6)
-        assert (impulses.seat_left.vertical < 0.0) == opens
-        assert (impulses.least_vertical < 0.0) == opens
-        assert impulses.seat_right.vertical > 0.0
-
-
-def test_impulses_grow_with_the_velocity_and_mirror_with_its_sign():
-    frame = th.RockingFrame(TRILITH, 0.434)
-    impulses = th.impact_impulses(frame, CAP, [0.0, 0.5, 1.0, -0.5])
-    for contact in impulses.contacts:
-        assert vector(contact)[:, 0] == pytest.approx(0.0, abs=0.0)
-        np.testing.assert_allclose(2 * vector(contact)[:, 1], vector(contact)[:, 2])
-    for here, there in (("base_left", "base_right"), ("seat_right", "seat_left")):
-        contact, image = getattr(impulses, here), getattr(impulses, there)
-        assert contact.horizontal[1] == -image.horizontal[3]
-        assert contact.vertical[1] == image.vertical[3]
 
 
 # Bad input ----------------------------------------------------------------------------------------

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from topheavy import STANDARD_GRAVITY, Cap, Column, FixedFrame, MonolithicPortal, RockingFrame
+from topheavy import STANDARD_GRAVITY, Column, MonolithicPortal
 from topheavy.forces.portal import resting_portal_forces, rocking_portal_forces
 
 COLUMN = Column(0.5, 3.0)
@@ -134,43 +134,6 @@ def test_both_descriptions_have_the_same_resultants_at_uplift(portal, sign, base
         assert base.axial.sum() == pytest.approx(1.0, rel=1e-12)
         assert overturning == pytest.approx(-ground * portal.centre_height, rel=1e-12)
     assert np.isnan(rocking_portal_forces(portal, 0.0, 0.0, 0.999 * ground).joint).all()
-
-
-def test_portal_at_rest_carries_its_weight_alone():
-    for bases in ("fixed", "pinned"):
-        base, joint = resting_portal_forces(PORTALS[1], bases, 0.0)
-        np.testing.assert_array_equal([base.axial, joint.axial], [[0.5, 0.5], [0.25, 0.25]])
-        assert not np.any([base.shear, base.moment, joint.shear, joint.moment])
-
-
-@pytest.mark.parametrize("portal", PORTALS[1:], ids=str)
-def test_portal_with_fixed_feet_is_the_guided_frame_that_is_held(portal):
-    cap = Cap(portal.span, portal.cap_depth / 2)
-    guided = FixedFrame(RockingFrame(COLUMN, portal.mass_ratio), cap, "guided").rigid
-    base, joint = resting_portal_forces(portal, "fixed", 1.0)
-    np.testing.assert_allclose(-base.moment, guided[2])
-    np.testing.assert_allclose(joint.moment, guided[3])
-
-
-@pytest.mark.parametrize("state", STATES)
-def test_mirrored_motion_has_mirrored_forces(state):
-    theirs = rocking_portal_forces(PORTALS[1], *(-np.array(state)))
-    for ours, other in zip(rocking_portal_forces(PORTALS[1], *state), theirs, strict=True):
-        np.testing.assert_allclose(ours.shear, -other.shear[::-1], atol=1e-15)
-        np.testing.assert_allclose(ours.axial, other.axial[::-1], atol=1e-15)
-        np.testing.assert_allclose(ours.moment, -other.moment[::-1], atol=1e-15)
-
-
-def test_motion_broadcasts():
-    found = rocking_portal_forces(PORTALS[1], *np.array(STATES[:3]).T)
-    for place, state in enumerate(STATES[:3]):
-        one = rocking_portal_forces(PORTALS[1], *state)
-        np.testing.assert_array_equal(found.joint.moment[place], one.joint.moment)
-    assert resting_portal_forces(PORTALS[1], "fixed", np.zeros((3, 4))).base.shear.shape == (
-        3,
-        4,
-        2,
-    )
 
 
 def test_other_feet_are_refused():

@@ -11,7 +11,6 @@ from tests.cases import RECORDS
 from topheavy.ground.vertical import TwoComponents
 from topheavy.outcomes.overturning import outcomes_by
 from topheavy.second import reference
-from topheavy.second.newton_euler import ThreeBodies, uplift_accelerations
 from topheavy.second.three_bodies import simulate_three_bodies
 
 COLUMN = th.Column(0.5, 3.0)
@@ -39,45 +38,6 @@ def test_constant_vertical_acceleration_is_another_gravity():
     other = reference.simulate(heavier, SHAKE.scaled(1.0 / share), samples=TIME[:200])
     assert np.abs(other.rotation).max() > 0.1 * COLUMN.slenderness
     np.testing.assert_allclose(found.rotation, other.rotation, atol=1e-9)
-
-
-@pytest.mark.parametrize("gamma", [0.0, 1.0, 4.0])
-def test_three_bodies_move_as_the_block_does(gamma):
-    frame = th.RockingFrame(COLUMN, gamma)
-    block = reference.simulate(frame, SHAKE, samples=TIME, duration=6.0, vertical=UP)
-    still = reference.simulate(frame, SHAKE, samples=TIME, duration=6.0)
-    bodies = simulate_three_bodies(
-        frame, SHAKE, span=5.0, cap_depth=1.0, duration=6.0, samples=TIME, vertical=UP
-    )
-    assert block.impacts.size > 1
-    assert np.abs(block.rotation - still.rotation).max() > 0.01 * COLUMN.slenderness
-    np.testing.assert_allclose(bodies.rotation[:, 0], block.rotation, atol=1e-7)
-
-
-@pytest.mark.parametrize("vertical", [-0.3, 0.0, 0.5])
-@pytest.mark.parametrize("side", [-1.0, 1.0])
-def test_uplift_begins_at_gravity_times_the_tangent(vertical, side):
-    level = (1.0 + vertical) * COLUMN.uplift_acceleration
-    for share, outcome in ((0.999, "no uplift"), (1.001, "rests")):
-        push = constant(side * share * level, samples=3)
-        found = reference.simulate(FRAME, push, vertical=constant(vertical, samples=3))
-        assert found.outcome == outcome
-    lifts = uplift_accelerations(ThreeBodies(FRAME, 5.0, 1.0))
-    assert any(abs(lift) == pytest.approx(COLUMN.uplift_acceleration) for lift in lifts.values())
-
-
-def test_segments_hold_the_samples_of_both_records():
-    ground = TwoComponents(SHAKE, UP)
-    segments = ground.segments(math.inf)
-    assert segments[0].start == 0.0
-    assert segments[-1].stop == pytest.approx(3.0)
-    assert len(segments) == 300
-    for segment in segments:
-        middle = 0.5 * (segment.start + segment.stop)
-        gravity = segment.gravity(middle)
-        assert gravity == pytest.approx(1.0 + UP.excitation(middle))
-        if middle < SHAKE.duration:
-            assert gravity * segment.acceleration(middle) == pytest.approx(SHAKE.excitation(middle))
 
 
 def test_samples_that_more_than_rounding_keeps_apart_begin_segments_of_their_own():
@@ -179,42 +139,6 @@ def test_three_bodies_move_as_the_taylor_solver_says(gamma):
     np.testing.assert_allclose(bodies.rotation[:, 0], ours.rotation, atol=1e-7)
 
 
-@EQUATIONS
-def test_no_vertical_acceleration_is_none(linearised):
-    block = FRAME.block().linear() if linearised else FRAME.block()
-    still = th.Record(0.013, np.zeros(150))  # the impacts are counted until both have ended
-    factors = np.linspace(0.8, 8.0, 40)
-    plain = outcomes_by(block, SHAKE, factors)
-    for one, other in zip(plain, outcomes_by(block, SHAKE, factors, vertical=still), strict=True):
-        np.testing.assert_array_equal(one, other)
-    assert 0 < plain[0].sum() < 40
-
-
-@EQUATIONS
-@pytest.mark.parametrize("vertical", [-0.4, 0.0, 0.5])
-@pytest.mark.parametrize("side", [-1.0, 1.0])
-def test_taylor_solver_lifts_at_gravity_times_the_tangent(vertical, side, linearised):
-    block = COLUMN.block().linear() if linearised else COLUMN.block()
-    up, level = constant(vertical, samples=3), (1.0 + vertical) * block.uplift_acceleration
-    for share, moves in ((0.9999, False), (1.0001, True)):
-        push = constant(side * share * level, samples=3)
-        assert (th.simulate(block, push, vertical=up).outcome != "no uplift") == moves
-        assert (th.judge(block, push, vertical=up).peak > 0.0) == moves
-    ramp = th.Record(1.0, np.array([0.0, 4.0 * side * level]))
-    lifted = th.simulate(block, ramp, samples=4001, vertical=th.Record(1.0, np.full(2, vertical)))
-    assert lifted.time[np.flatnonzero(lifted.rotation)[0]] == pytest.approx(0.25, abs=2e-2)
-
-
-def test_free_rocking_begins_when_both_have_ended():
-    """Gravity that is less for long after the shaking lets the block rock farther."""
-    longer, shorter = (th.Record(0.02, np.full(samples, -0.5)) for samples in (200, 31))
-    shock = th.Record(0.02, 0.25 * np.sin(np.linspace(0.0, math.pi, 31)))
-    peaks = [th.judge(FRAME, shock, vertical=up).peak for up in (longer, shorter)]
-    truth = [reference.judge(FRAME, shock, vertical=up).peak for up in (longer, shorter)]
-    np.testing.assert_allclose(peaks, truth, rtol=1e-8)
-    assert peaks[0] > 1.01 * peaks[1]
-
-
 @pytest.mark.parametrize("scale_vertical", [False, True])
 @EQUATIONS
 def test_factors_scale_both_or_one(scale_vertical, linearised):
@@ -265,18 +189,3 @@ def test_measured_vertical_gives_both_solvers_the_same_outcomes():
             theirs = reference.judge(*given, vertical=up.scaled(factor))
             assert overturned == ours.overturned == theirs.overturned
             np.testing.assert_allclose(ours.peak, theirs.peak, rtol=0, atol=1e-6 * 0.165)
-
-
-def test_measured_vertical_moves_both_solvers_alike():
-    across = th.read_record(RECORDS / "napa_2014_68150_090.AT2")
-    up = th.read_record(RECORDS / "napa_2014_68150_UP.AT2")
-    window = slice(1400, 2200)
-    across = th.Record(across.time_step, 1.5 * across.acceleration[window])
-    up = th.Record(up.time_step, 1.5 * up.acceleration[window])
-    time = np.linspace(0.0, across.duration, 201)
-    block = reference.simulate(FRAME, across, samples=time, duration=4.0, vertical=up)
-    bodies = simulate_three_bodies(
-        FRAME, across, span=5.0, cap_depth=1.0, duration=4.0, samples=time, vertical=up
-    )
-    assert np.abs(block.rotation).max() > 0.05 * COLUMN.slenderness
-    np.testing.assert_allclose(bodies.rotation[:, 0], block.rotation, atol=1e-7)

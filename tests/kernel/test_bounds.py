@@ -70,15 +70,6 @@ def test_newton_finds_what_is_looked_for_in_a_quarter_of_its_steps(monkeypatch):
                 assert few == pytest.approx(many, rel=1e-8 if strength < 1.01 else 1e-15, abs=1e-5)
 
 
-def test_harmonic_at_the_level_is_searched_for_a_few_turns_only():
-    """By rounding |a| stays at or below the level at turn after turn, of 10¹³ turns."""
-    motion = pulse_forcing(forcing.HARMONIC, 0.3 * (1 + 4e-16), 1.0)._replace(end=1e14)
-    found = [forcing.next_uplift(motion, NO_RECORD, 1e12 + k, 0.3)[0] for k in range(50)]
-    assert math.inf in found
-    above = motion._replace(amplitude=0.3 * (1 + 1e-9))
-    assert forcing.next_uplift(above, NO_RECORD, 1e7, 0.3)[0] < 1e7 + 7.0
-
-
 # ---------------------------------------------------------------------------- Ctrl-C
 
 CHILD = """

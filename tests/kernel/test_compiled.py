@@ -1,7 +1,5 @@
 """Compiled code is shared by all copies of the same kernel, and by nothing else."""
 
-import ctypes
-import importlib
 import json
 import os
 import shutil
@@ -13,10 +11,8 @@ from pathlib import Path
 
 import numba
 import pytest
-from numba.extending import is_jitted
 
 import topheavy
-from topheavy.kernel import compiled
 from topheavy.kernel.compiled import _FolderCache, cache_folder, state
 
 PACKAGE = Path(topheavy.__file__).parent
@@ -82,26 +78,6 @@ def test_change_of_any_source_is_another_state(tmp_path, changed):
     assert state(package / "kernel", package / "ground/shapes.py") != before
 
 
-@pytest.mark.parametrize(
-    ("variable", "is_another"),
-    [("NUMBA_BOUNDSCHECK", True), ("NUMBA_OPT", True), ("NUMBA_CACHE_DIR", False)],
-)
-def test_option_that_changes_machine_code_is_another_state(monkeypatch, variable, is_another):
-    sources = PACKAGE / "kernel", PACKAGE / "ground/shapes.py"
-    monkeypatch.delenv(variable, raising=False)
-    before = state(*sources)
-    monkeypatch.setenv(variable, "1")
-    assert (state(*sources) != before) == is_another
-
-
-@pytest.mark.parametrize("package", [numba, importlib.import_module("llvmlite")])
-def test_another_compiler_is_another_state(monkeypatch, package):
-    sources = PACKAGE / "kernel", PACKAGE / "ground/shapes.py"
-    before = state(*sources)
-    monkeypatch.setattr(package, "__version__", "0.0")
-    assert state(*sources) != before
-
-
 def test_folder_is_where_the_user_keeps_caches(monkeypatch, tmp_path):
     monkeypatch.setenv("HOME", str(tmp_path / "home"))
     monkeypatch.delenv("XDG_CACHE_HOME", raising=False)
@@ -115,10 +91,6 @@ def test_folder_is_where_the_user_keeps_caches(monkeypatch, tmp_path):
 
 def one_more(x):
     return x + 1
-
-
-def two_more(x):
-    return x + 2
 
 
 def kept_in(folder, function=one_more):
@@ -136,22 +108,6 @@ def test_damaged_file_is_compiled_anew_and_replaced(tmp_path):
         file.write_bytes(damaged)
         assert kept_in(tmp_path) == (2, False)
         assert kept_in(tmp_path) == (2, True)
-
-
-@pytest.mark.parametrize("foreign", ["function", "state", "cpu"])
-def test_file_of_something_else_is_not_loaded(tmp_path, monkeypatch, foreign):
-    there, here = tmp_path / ("another" if foreign == "state" else "this"), tmp_path / "this"
-    kept_in(there, two_more if foreign == "function" else one_more)
-    (file,) = there.iterdir()
-    if foreign == "cpu":
-        cpu = numba.core.codegen.JITCPUCodegen
-        monkeypatch.setattr(cpu, "magic_tuple", lambda self: ("x86_64", "another", "+avx"))
-    content = file.read_bytes()
-    file.unlink()
-    assert kept_in(here) == (2, False)
-    (own,) = here.iterdir()
-    own.write_bytes(content)
-    assert kept_in(here) == (2, False)
 
 
 def test_processes_that_write_at_once_leave_whole_files(tmp_path):
@@ -193,28 +149,3 @@ def test_folder_that_others_can_write_is_neither_read_nor_written(tmp_path, mode
     with pytest.warns(UserWarning, match=f"others can write to {folder}, .*NUMBA_CACHE_DIR"):
         assert not kept_in(folder)[1]
     assert sorted(folder.iterdir()) == before
-
-
-def test_code_with_an_address_of_this_process_is_not_kept(tmp_path):
-    address = ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_double)(abs)
-
-    def magnitude(x):
-        return address(x)
-
-    assert kept_in(tmp_path, magnitude) == (1.0, False)
-    assert not list(tmp_path.iterdir())
-
-
-def test_what_a_function_is_compiled_with_is_its_own():
-    """numba hands down what a function leaves open, from whichever function calls it first."""
-    names = [
-        ".".join(path.relative_to(PACKAGE.parent).with_suffix("").parts)
-        for path in sorted((PACKAGE / "kernel").rglob("[a-z]*.py"))
-    ]
-    modules = [importlib.import_module(name) for name in names]
-    functions = {f for module in modules for f in vars(module).values() if is_jitted(f)}
-    assert len(functions) > 60
-    handed_down = {"fastmath", "error_model", "forceinline"}  # numba.core.cpu: inherit_if_not_set
-    lacking = {f.__name__ for f in functions if not handed_down <= set(f.targetoptions)}
-    assert lacking == set()
-    assert {f._cache.folder for f in functions} == {compiled.FOLDER}

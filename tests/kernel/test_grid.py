@@ -7,19 +7,16 @@ import pytest
 
 from benchmarks import kernel as timed
 from topheavy import RockingBlock
-from topheavy.kernel import forcing, grid, interrupt
+from topheavy.kernel import forcing
 from topheavy.kernel.forcing import prepare_record
 from topheavy.kernel.grid import (
-    BATCHES,
     FEWEST_FACTORS,
     FEWEST_PULSES,
-    LANES,
     mixed_outcomes_of,
     outcome_of,
     outcomes_of,
-    record_order,
 )
-from topheavy.kernel.outcome import PULSE_ORDER, TOLERANCE
+from topheavy.kernel.outcome import TOLERANCE
 from topheavy.kernel.taylor import oscillator
 
 BLOCK = oscillator(RockingBlock(1.0, math.radians(14.0), 0.87))
@@ -58,55 +55,6 @@ def test_factors_on_a_record_do_not_depend_on_the_number_of_threads(threads):
     same(outcomes_of(BLOCK, forcing.RECORD, steps, factors, record, threads=threads), alone)
 
 
-@pytest.mark.parametrize("size", [(1, 1), (1, LANES - 1), (1, LANES + 1), (BATCHES, FEWEST_PULSES)])
-def test_every_cell_is_filled_whatever_the_size(size):
-    scales, amplitudes = np.linspace(1, 5, size[0]), np.linspace(0.3, 0.4, size[1])
-    peak, overturned, _ = outcomes_of(BLOCK, forcing.ONE_SINE, scales, amplitudes)
-    assert peak.shape == size
-    assert (np.isnan(peak) == overturned).all()
-    assert (peak[~overturned] > 0).all()
-
-
-def test_scales_of_a_record_are_its_time_steps():
-    record = prepare_record(0.4 * np.sin(np.linspace(0, 12, 200)))
-    scales, factors = np.array([0.01, 0.03]), np.array([0.5, 1.0, -2.0])
-    peak, overturned, impacts = outcomes_of(BLOCK, forcing.RECORD, scales, factors, record)
-    for i, scale in enumerate(scales):
-        for j, factor in enumerate(factors):
-            alone = outcome_of(BLOCK, forcing.RECORD, scale, factor, record)
-            assert (overturned[i, j], impacts[i, j]) == (alone.overturned, alone.impacts)
-            np.testing.assert_allclose(peak[i, j], alone.peak, rtol=0, atol=1e-9)
-    assert overturned.any()
-    assert not overturned.all()
-
-
-def test_order_for_a_record_covers_its_pieces():
-    assert record_order(1e-4) == 5
-    assert record_order(0.02) == 8
-    assert record_order(0.7) == PULSE_ORDER == record_order(1e3)
-    orders = [record_order(step) for step in np.geomspace(1e-4, 1.0, 40)]
-    assert orders == sorted(orders)
-    assert record_order(0.02, 1e-14) > record_order(0.02)
-
-
-@pytest.mark.parametrize("step", [1e-3, 0.02, 0.1, 0.7])
-def test_record_is_followed_as_closely_as_a_pulse(step):
-    """Its order of the series leaves no more out than the tolerance does."""
-    times = step * np.arange(round(12 / step) + 2)
-    samples = 0.2 * np.sin(4.0 * times) + 0.15 * np.sin(7.1 * times + 1.0)
-    record, factors = prepare_record(samples), np.linspace(0.9, 1.2, 5)
-    usual, tight = (
-        outcomes_of(
-            BLOCK, forcing.RECORD, np.array([step]), factors, record, tolerance=tolerance
-        )
-        for tolerance in (TOLERANCE, 1e-15)
-    )  # fmt: skip
-    assert not usual[1].all()
-    np.testing.assert_array_equal(usual[1], tight[1])
-    np.testing.assert_array_equal(usual[2], tight[2])
-    np.testing.assert_allclose(usual[0], tight[0], rtol=0, atol=1e-7 * BLOCK.slenderness)
-
-
 def test_history_that_was_given_up_is_named_in_the_message():
     """A nudge and then a long quiet: without loss, the bounces of 1e-4 each never die."""
     lossless = oscillator(RockingBlock(1.0, 0.2, 1.0))
@@ -119,26 +67,6 @@ def test_history_that_was_given_up_is_named_in_the_message():
     damped = lossless._replace(restitution=0.9)
     overturned = outcomes_of(damped, forcing.RECORD, np.ones(1), np.array([1.0001]), record)[1]
     assert not overturned.any()
-
-
-def test_cores_are_those_that_the_process_may_use(monkeypatch):
-    asked = []
-
-    class Pool(interrupt.ThreadPoolExecutor):
-        def __init__(self, threads):
-            asked.append(threads)
-            super().__init__(threads)
-
-    monkeypatch.setattr(interrupt, "ThreadPoolExecutor", Pool)
-    monkeypatch.setattr(grid.os, "sched_getaffinity", lambda _: {0, 3, 5})
-    monkeypatch.delenv("OMP_NUM_THREADS", raising=False)
-    outcomes_of(BLOCK, forcing.ONE_SINE, SCALES, AMPLITUDES)
-    outcomes_of(BLOCK, forcing.ONE_SINE, SCALES, AMPLITUDES, threads=2)
-    outcomes_of(BLOCK, forcing.ONE_SINE, SCALES[:2], AMPLITUDES[:2])
-    assert asked == [3, 2]
-    for named, cores in (("2", 2), ("8", 3), ("0", 3), ("", 3)):
-        monkeypatch.setenv("OMP_NUM_THREADS", named)
-        assert grid.cores() == cores
 
 
 def mixture(shape, seed):

@@ -72,39 +72,3 @@ def test_piece_by_piece_it_is_the_long_series():
     assert state[:4] == pytest.approx(slow[:4], abs=1e-12)
     assert peak == pytest.approx(highest, abs=1e-12)
     assert state.push == pytest.approx(-samples[piece] - BLOCK.level, abs=1e-15)
-
-
-def test_it_stops_before_the_landing():
-    _, state, _ = marched(0.02, -0.05, np.zeros(400))
-    assert state.rotation > 0.0
-    after = 2 * STEP * (abs(state.velocity) + BLOCK.level)
-    assert state.rotation < after  # the landing is in the next piece
-
-
-def test_it_stops_before_a_turn_that_may_be_the_peak():
-    _, state, peak = marched(0.1, 0.1, np.zeros(400), peak=0.0)
-    assert 0.0 < state.velocity < STEP * 0.3
-    assert peak == state.rotation
-
-
-def test_turn_below_the_peak_is_passed_over():
-    _, state, peak = marched(0.1, 0.1, np.zeros(400), peak=0.2)
-    assert state.velocity < 0.0
-    assert peak == 0.2
-
-
-def test_beyond_alpha_it_does_not_go():
-    piece, state, _ = marched(0.2, 0.4, np.zeros(400))
-    assert BLOCK.slenderness < state.rotation < BLOCK.slenderness + STEP
-    assert marched(0.26, -0.1, np.zeros(400))[0] == 0
-    assert piece > 0
-
-
-def test_last_piece_is_left_to_the_long_series():
-    assert marched(0.19, -0.01, np.zeros(5))[0] == 3
-
-
-@pytest.mark.parametrize(("tolerance", "passes"), [(1e-3, True), (1e-12, False)])
-def test_piece_that_is_too_long_for_the_tolerance_is_left(tolerance, passes):
-    piece, *_ = marched(0.19, -0.1, noise(20, 0.05), step=0.05, tolerance=tolerance)
-    assert (piece > 0) == passes

@@ -11,13 +11,10 @@ from topheavy.kernel.forcing import NO_RECORD, SHAPES, equation, ground, next_up
 from topheavy.kernel.outcome import PULSE_ORDER, working_array
 from topheavy.kernel.taylor import (
     MAX_ORDER,
-    PUSH,
     ROTATION,
-    VELOCITY,
     State,
     evaluate,
     expand,
-    longest_step,
     oscillator,
 )
 
@@ -40,16 +37,6 @@ def series(block, motion, time, state, is_straight=False, order=ORDER):
     return w
 
 
-def test_oscillator_holds_the_threshold_of_each_equation():
-    exact, linear = oscillator(BLOCK), oscillator(BLOCK.linear())
-    assert exact.level == BLOCK.uplift_acceleration == math.tan(0.25)
-    assert linear.level == BLOCK.linear().uplift_acceleration == 0.25
-    assert (exact.cosine, exact.sine) == (math.cos(0.25), math.sin(0.25))
-    assert (linear.cosine, linear.sine, linear.flat) == (1.0, 0.0, math.inf)
-    assert exact.flat == math.pi / 2
-    assert exact.restitution == 0.9
-
-
 @BOTH
 @pytest.mark.parametrize("side", [-1.0, 1.0])
 @pytest.mark.parametrize("shape", sorted(SHAPES))
@@ -70,57 +57,6 @@ def test_series_solves_the_equation_of_motion_as_it_is_printed(shape, side, bloc
         else:  # Eq. (23) for φ = |θ|, in units of p²
             expected = -(math.sin(alpha - phi) + side * a * math.cos(alpha - phi))
         assert bend == pytest.approx(expected, abs=1e-11)
-
-
-@BOTH
-@pytest.mark.parametrize("shape", sorted(SHAPES))
-def test_state_at_the_end_of_a_step_is_of_one_piece(shape, block):
-    motion = pulse_forcing(SHAPES[shape], 0.6, 2.5)
-    start, step = 0.4 * min(motion.end, 6.0), 0.08
-    straight = shape == "constant"
-    state = state_of(block, motion, start, 1.0, 0.1, -0.07)
-    there = evaluate(
-        series(block, motion, start, state, straight), ORDER, oscillator(block), step, straight
-    )
-    value, rate = ground(motion, NO_RECORD, start + step)
-    assert there.push == pytest.approx(-value - oscillator(block).level, abs=1e-13)
-    assert there.rate == pytest.approx(-rate, abs=1e-11)
-    expected = (0.0, 1.0)
-    if not block.linearised:
-        expected = (math.sin(there.rotation), math.cos(there.rotation))
-    assert (there.sine, there.cosine) == pytest.approx(expected, abs=1e-14)
-    w = series(block, motion, start, state, straight)
-    slope = np.polynomial.polynomial.polyder(w[ROTATION, : ORDER + 1])
-    assert there.velocity == pytest.approx(np.polynomial.polynomial.polyval(step, slope), abs=1e-13)
-    np.testing.assert_allclose(slope, w[VELOCITY, :ORDER], rtol=1e-14)
-
-
-@BOTH
-@pytest.mark.parametrize("order", [5, 8, 15, 20])
-def test_straight_push_is_the_curved_one_without_curvature(block, order):
-    motion = forcing.Forcing(forcing.RECORD, 1.0, 1.0, 9.0, 1.0)
-    state = State(0.1, -0.07, math.sin(0.1), math.cos(0.1), -0.1, 0.3)
-    if block.linearised:
-        state = state._replace(sine=0.0, cosine=1.0)
-    straight, curved = (
-        series(block, motion, 0.0, state, is_straight, order) for is_straight in (True, False)
-    )
-    used = straight[: VELOCITY + 1, :order]
-    np.testing.assert_allclose(used, curved[: VELOCITY + 1, :order], rtol=1e-13, atol=1e-18)
-    np.testing.assert_array_equal(curved[PUSH, 2:order], 0.0)
-    for is_straight, w in ((True, straight), (False, curved)):
-        there = evaluate(w, order, oscillator(block), 0.2, is_straight)
-        assert there.push == pytest.approx(-0.04, abs=1e-15)
-        assert there.rate == pytest.approx(0.3, rel=1e-15)
-
-
-def test_linearised_series_is_that_of_the_hyperbolic_functions():
-    state = State(0.1, -0.07, 0.0, 1.0, -0.2, 0.0)
-    still = forcing.Forcing(forcing.NONE, 0.0, 1.0, 0.0, 1.0)
-    w = series(BLOCK.linear(), still, 0.0, state, True)
-    there = evaluate(w, ORDER, oscillator(BLOCK.linear()), 0.7, True)
-    expected = 0.2 + (0.1 - 0.2) * math.cosh(0.7) - 0.07 * math.sinh(0.7)
-    assert there.rotation == pytest.approx(expected, rel=1e-14)
 
 
 @pytest.mark.parametrize("order", [6, 9, 12])
@@ -156,29 +92,3 @@ def test_way_1_uplift_starts_outward_however_slight_the_push(degrees, linearised
 
 
 # ---------------------------------------------------------------------------- step length
-
-
-@pytest.mark.parametrize("tolerance", [1e-6, 1e-10, 1e-14])
-@pytest.mark.parametrize("shape", [forcing.ONE_SINE, forcing.RICKER_ANTISYMMETRIC])
-def test_last_two_terms_of_a_step_are_below_the_tolerance_and_no_shorter_than_that(
-    shape, tolerance
-):
-    motion = pulse_forcing(shape, 0.6, 2.5)
-    for time in np.linspace(0.1, 0.9, 9) * motion.end:
-        w = series(BLOCK, motion, time, state_of(BLOCK, motion, time, 1.0, 0.1, 0.2))
-        step = longest_step(w, ORDER, tolerance, 1e9)
-        terms = abs(w[VELOCITY, ORDER - 2 : ORDER]) * step ** np.arange(ORDER - 2, ORDER)
-        assert max(terms) == pytest.approx(tolerance, rel=1e-10)
-        assert longest_step(w, ORDER, tolerance, 0.5 * step) == 0.5 * step
-        assert longest_step(w, ORDER, tolerance, 1.01 * step) == pytest.approx(step)
-
-
-def test_series_of_nothing_allows_any_step():
-    w = working_array()
-    assert longest_step(w, ORDER, 1e-12, 7.0) == 7.0
-    w[VELOCITY, ORDER - 1] = 1e-300  # every other term may vanish
-    assert longest_step(w, ORDER, 1e-12, 1e9) == 1e9
-    w[VELOCITY, ORDER - 1], w[VELOCITY, ORDER - 2] = 0.0, 1.0
-    assert longest_step(w, ORDER, 1e-18, 7.0) == pytest.approx(1e-18 ** (1 / 18))
-    w[VELOCITY, ORDER - 1], w[VELOCITY, ORDER - 2] = 1.0, 0.0
-    assert longest_step(w, ORDER, 1e-19, 7.0) == pytest.approx(0.1)

@@ -10,7 +10,6 @@ from hypothesis import strategies as st
 from topheavy import Pulse, Record, RockingBlock, judge, simulate
 from topheavy.kernel import forcing, tail
 from topheavy.kernel.taylor import oscillator
-from topheavy.kernel.trace import LAST_IMPACT, LONGEST_FLIGHT
 
 few = settings(max_examples=40, deadline=None, derandomize=True, database=None)
 BLOCK = RockingBlock(1.0, 0.25, 0.9)
@@ -26,17 +25,6 @@ def test_history_ends_as_it_is_judged(shape, omega, strength, linearised):
     whole, end = simulate(block, pulse, samples=50), judge(block, pulse)
     assert (whole.overturned, whole.number_of_impacts) == (end.overturned, end.impacts)
     np.testing.assert_allclose(whole.peak_rotation, end.peak, rtol=0, atol=1e-10)
-
-
-def test_certain_overturning_comes():
-    """`judge` ends early where it is sure: the whole history has the same end and impacts."""
-    random = np.random.default_rng(3)
-    for number in range(200):
-        block = RockingBlock(1.0, random.uniform(0.05, 0.5), 0.9, linearised=bool(number % 2))
-        amplitude = random.uniform(1, 8) * math.tan(block.slenderness)
-        pulse = Pulse("one-sine", amplitude, random.uniform(0.5, 6))
-        end, whole = judge(block, pulse), simulate(block, pulse, samples=2)
-        assert (whole.overturned, whole.number_of_impacts) == (end.overturned, end.impacts)
 
 
 @BOTH
@@ -76,72 +64,3 @@ def test_way_6_the_side_survives_a_restart_on_the_ground():
     flight = np.searchsorted(free.impacts, free.time)
     for n in range(6):
         assert (np.sign(free.rotation[flight == n][1:-1]) == (-1.0) ** n).all()
-
-
-@BOTH
-def test_history_of_a_block_poised_at_alpha_ends(block):
-    # By rounding the exact block may leave its unstable equilibrium, but not soon.
-    poised = simulate(block, rotation=-0.25, samples=5)
-    assert poised.time[-1] <= LONGEST_FLIGHT
-    short = simulate(block, rotation=-0.25, duration=3.0, samples=5)
-    assert short.time[-1] == 3.0
-    np.testing.assert_allclose(short.rotation, -0.25, atol=1e-12)
-
-
-def test_lossless_block_is_followed_for_a_thousand_impacts():
-    lossless = BLOCK.with_restitution(1.0)
-    shaken = simulate(lossless, Pulse("one-sine", 0.35, 4.0), rotation=0.02, samples=2)
-    assert shaken.number_of_impacts > 0
-    assert len(shaken.impacts) == LAST_IMPACT + shaken.number_of_impacts
-    assert shaken.outcome == "rocking"
-    longer = simulate(lossless, rotation=0.1, duration=5000.0, samples=2)
-    assert len(longer.impacts) > LAST_IMPACT  # an end of one's own goes beyond
-
-
-def test_linearised_block_that_runs_away_ends():
-    gone = simulate(
-        BLOCK.linear(), Pulse("one-sine", 0.5, 1e-3), duration=2000.0, samples=11
-    )  # fmt: skip
-    assert gone.outcome == "overturned"
-    assert gone.time[-1] == 2000.0
-
-
-@pytest.mark.parametrize("shape", ["one-sine", "ricker-antisymmetric", "constant"])
-@BOTH
-def test_samples_are_the_motion_however_they_are_asked_for(block, shape):
-    pulse = Pulse(shape, -1.3 * block.uplift_acceleration, 4.0)
-    times = np.linspace(0.0, 6.0, 1201)
-    all_of_them = simulate(block, pulse, samples=times)
-    assert np.abs(all_of_them.rotation).max() > 1e-3
-    for some in (times[::7], times[1:2], times[-1:], np.append(times, 9.0)):
-        found = simulate(block, pulse, samples=some)
-        kept = some <= 6.0
-        # a later end changes only where the steps behind the forcing are cut
-        np.testing.assert_allclose(
-            found.rotation[kept], np.interp(some[kept], times, all_of_them.rotation), atol=1e-9
-        )
-    uniform = simulate(block, pulse, duration=6.0, samples=1201)
-    np.testing.assert_allclose(uniform.rotation, all_of_them.rotation, atol=1e-9)
-
-
-def test_record_may_be_cut_anywhere():
-    """Its forcing ends there, in the middle of a piece or at a sample, as if nothing followed."""
-    samples = 0.32 * np.sin(np.linspace(0, 9, 60))
-    for last in (20, 37):
-        cut = simulate(BLOCK, Record(0.04, samples), duration=last * 0.04, samples=31)
-        short = simulate(BLOCK, Record(0.04, samples[: last + 1]), samples=cut.time)
-        assert cut.peak_rotation == pytest.approx(short.peak_rotation, rel=1e-12)
-        assert cut.number_of_impacts == short.number_of_impacts
-        np.testing.assert_allclose(cut.rotation, short.rotation, atol=1e-12)
-    middle = simulate(BLOCK, Record(0.04, samples), duration=0.82, samples=31)
-    half = np.append(samples[:21], 0.5 * (samples[20] + samples[21]))
-    resampled = np.interp(np.arange(42) * 0.02, np.append(np.arange(21) * 0.04, 0.82), half)
-    again = simulate(BLOCK, Record(0.02, resampled), samples=middle.time)
-    assert middle.peak_rotation == pytest.approx(again.peak_rotation, rel=1e-9)
-
-
-def test_record_that_is_cut_before_it_lifts_the_block_does_not_move_it():
-    record = Record(0.1, np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0]))
-    cut = simulate(BLOCK, record, duration=0.3)
-    assert cut.outcome == "no uplift"
-    assert not cut.rotation.any()

@@ -5,14 +5,12 @@ import math
 import numpy as np
 import pytest
 
-from topheavy import Record, RockingBlock
-from topheavy.ground.vertical import TwoComponents
+from topheavy import RockingBlock
 from topheavy.kernel.forcing import (
     RECORD,
     gravity,
     ground,
     next_uplift,
-    piece_of,
     piece_start,
     prepare_record,
     prepare_two_records,
@@ -44,37 +42,6 @@ def shaken(seed, ratio, samples=700, upward=500):
     across, up = waves(seed, samples), waves(seed + 50, round(upward / ratio), ratio * STEP)
     across, up = across / np.abs(across).max(), 0.5 * up / np.abs(up).max()
     return across, up, prepare_two_records(across, up, ratio)
-
-
-@RATIOS
-def test_pieces_are_the_lines_of_both_records(ratio):
-    """Against `Record.excitation` and, for every line, the segments of `TwoComponents`."""
-    across, up, both = shaken(1, ratio)
-    there = record_forcing(both, STEP, -1.5, 0.8)
-    one, other = Record(STEP, -1.5 * across), Record(ratio * STEP, 0.8 * up)
-    segments = TwoComponents(one, other).segments(math.inf)
-    assert both.shape == (10, len(segments) + 1)
-    assert there.end == pytest.approx(max(one.duration, other.duration))
-    for piece, segment in enumerate(segments):
-        assert piece_start(there, both, piece) == pytest.approx(segment.start)
-        for share in (0.1, 0.9):
-            time = segment.start + share * (segment.stop - segment.start)
-            assert piece_of(there, both, time) == piece
-            weight, _ = gravity(there, both, time)
-            assert weight == pytest.approx(1.0 + other.excitation(time), abs=1e-12)
-            assert weight == pytest.approx(segment.gravity(time), abs=1e-12)
-            value, rate = ground(there, both, time)
-            assert value == pytest.approx(one.excitation(time), abs=1e-12)
-            assert value == pytest.approx(weight * segment.acceleration(time), abs=1e-12)
-            later = ground(there, both, time + 1e-6)[0]
-            assert rate == pytest.approx(1e6 * (later - value), abs=1e-6)
-    assert gravity(there, both, there.end) == (1.0, 0.0)
-    assert ground(there, both, there.end) == (0.0, 0.0)
-    starts = [piece_start(there, both, piece) for piece in range(both.shape[1])]
-    assert [piece_of(there, both, time) for time in starts] == list(range(both.shape[1]))
-    assert [piece_of(there, both, math.nextafter(t, 0)) for t in starts[1:]] == list(
-        range(both.shape[1] - 1)
-    )
 
 
 @RATIOS

@@ -1,8 +1,6 @@
 """The lowest factor that overturns: nested grids, no factor passed over, and words that say so."""
 
 import math
-from itertools import pairwise
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,7 +8,6 @@ import pytest
 import topheavy as th
 from tests.cases import RECORDS
 from topheavy.outcomes import minimum
-from topheavy.outcomes.minimum import NOT_EXCLUDED
 from topheavy.outcomes.overturning import outcomes_of_subjects
 from topheavy.second import reference
 
@@ -21,12 +18,6 @@ BLOCK = th.RockingBlock(2.0, 0.25, 0.9)
 LINEAR = th.RockingBlock(1.0, 0.25, 0.9, linearised=True)
 SINE = th.Pulse("one-sine", 0.25, 5.0)
 SHAKING = th.Record(0.05, 0.3 * np.sin(np.linspace(0, 18, 90)) * np.hanning(90))
-CASES = {
-    "one-sine": (LINEAR, SINE, (1.0, 10.0), 0.003),
-    "one-cosine": (BLOCK, th.Pulse("one-cosine", 0.25, 5.0), (1.0, 9.0), 0.003),
-    "mirrored": (BLOCK, th.Pulse("one-sine", -0.25, 10.0), (0.0, 14.0), 0.004),
-    "record": (BLOCK, SHAKING, (0.5, 6.0), 0.002),
-}
 
 
 @pytest.fixture(scope="module")
@@ -85,35 +76,6 @@ def tried(monkeypatch):
     return calls
 
 
-@pytest.mark.parametrize(("block", "excitation", "scales", "floor"), CASES.values(), ids=CASES)
-def test_step_is_halved_to_the_floor_and_no_factor_is_passed_over(
-    tried, block, excitation, scales, floor
-):
-    found = th.lowest_overturning(block, excitation, scales, floor=floor)
-    steps = [step for step, _ in found.steps]
-    assert steps[0] == scales[1] - scales[0]
-    assert all(one == 2.0 * other for one, other in pairwise(steps))
-    assert steps[-1] <= floor < steps[-2]
-    factors, overturned = (np.concatenate(each) for each in zip(*tried, strict=True))
-    assert found.factors_tried == factors.size
-    # to the bit: a point of a coarser grid is one of each finer grid
-    points = scales[0] + steps[-1] * np.arange(2 ** (len(steps) - 1) + 1)
-    assert np.isin(points[points < found.bracket[0]], factors).all()
-    assert found.factor == factors[overturned].min()
-    assert found.bracket[0] in factors[~overturned]
-    assert found.bracket[0] < found.factor <= found.bracket[0] + 1e-10 * scales[1]
-    assert found.upper[0] in factors[overturned]
-    assert found.upper[1] in factors[~overturned]
-    assert 0.0 < found.upper[1] - found.upper[0] <= 1e-10 * scales[1]
-    # not above that of the intervals
-    given = {"resolution": steps[-1], "most_impacts": 0}
-    first, *_ = th.overturning_intervals(block, excitation, scales, **given)
-    assert found.factor <= first.lower[1] + 1e-9
-    ends = [th.judge(block, excitation.scaled(factor)).overturned for factor in found.bracket]
-    assert ends == [False, True]
-    assert found.acceleration == pytest.approx(found.factor * excitation.peak_acceleration)
-
-
 def planted(monkeypatch, edges):
     """Let the factors between each second pair of ascending edges overturn, whatever is shaken."""
 
@@ -150,28 +112,6 @@ def test_every_interval_wider_than_the_last_step_is_found_and_its_width_measured
     assert narrower > 50
 
 
-def test_width_of_an_interval_narrower_than_a_bracket_is_not_zero(monkeypatch):
-    planted(monkeypatch, np.array([1.0, 1.0 + 1e-13]))
-    found = th.lowest_overturning(BLOCK, SHAKING, (0.0, 2.0), floor=0.1)  # 1 is in the middle
-    assert found.bracket[0] < 1.0 <= found.factor < found.upper[1]
-    assert 1e-13 <= found.width <= 4e-10
-
-
-def test_survival_region_wider_than_a_sixteenth_of_the_width_ends_the_interval(monkeypatch):
-    for share in np.linspace(0.02, 0.9, 60):
-        edge = 1.0 + share
-        planted(monkeypatch, np.array([1.0, edge, edge + 1.001 * share / 16, 2.5]))
-        found = th.lowest_overturning(BLOCK, SHAKING, (0.0, 3.0), floor=0.1)
-        assert found.width == pytest.approx(share, abs=1e-9)
-
-
-def test_halving_stops_at_a_step_equal_to_the_floor():
-    found = th.lowest_overturning(BLOCK, SHAKING, (0.5, 4.5), floor=0.5)
-    assert [step for step, _ in found.steps] == [4.0, 2.0, 1.0, 0.5]
-    (only,) = th.lowest_overturning(BLOCK, SHAKING, (0.5, 4.5), floor=9.0).steps
-    assert only[0] == 4.0
-
-
 # ---------------------------------------------------------------------------- ends and words
 
 
@@ -191,16 +131,6 @@ def test_range_that_begins_in_an_interval_ends_in_one_or_has_none_says_so():
     assert np.isnan([none.factor, none.acceleration, none.width]).all()
     assert {factor for _, factor in none.steps} == {None}
     assert str(none).startswith("No factor tried from 0 to 1 overturns. The step was halved")
-
-
-def test_words_name_what_was_found_and_what_is_not_excluded(pier):
-    assert str(pier) == (
-        "The lowest factor found that overturns is 1.9672 (0.627183 g), in an interval 0.00044 "
-        "wide. The step was halved from 3.2 to 0.000390625: intervals narrower than the floor are "
-        "not excluded (floor 0.0004)."
-    )
-    assert NOT_EXCLUDED == "intervals narrower than the floor are not excluded"
-    assert "converge" not in Path(minimum.__file__).read_text(encoding="utf-8").lower()
 
 
 @pytest.mark.parametrize(

@@ -1,11 +1,9 @@
 """Maps and intervals: each cell is a history, no interval is missed, and brackets bracket."""
 
 import math
-from itertools import pairwise
 
 import numpy as np
 import pytest
-import xarray
 
 import topheavy as th
 from topheavy.ground.shapes import ENDING
@@ -14,7 +12,6 @@ from topheavy.kernel.outcome import TOLERANCE
 from topheavy.outcomes.overturning import (
     MANY_AT_ONCE,
     SAFE,
-    Interval,
     Search,
     _halved,
     outcomes_of_subjects,
@@ -29,35 +26,6 @@ HARMONIC = th.Pulse("harmonic", 0.3, 5.0)
 SHAKING = th.Record(0.02, 0.6 * np.sin(np.linspace(0.0, 40.0, 400)) * np.linspace(1.0, 0.2, 400))
 
 # ---------------------------------------------------------------------------- maps
-
-
-def test_map_is_labelled_with_units_written_to_a_file_and_its_own(tmp_path):
-    axes, units = ("angular_frequency", "amplitude"), {"impacts": "1", "overturned": "1"}
-    units |= {"peak_rotation": "rad", "angular_frequency": "rad/s", "amplitude": "g"}
-    frequencies, amplitudes = np.array([3.0, 5.0, 9.0]), np.array([0.0, 0.3, 0.6, 2.0])
-    found = th.overturning_map(BLOCK, "one-cosine", frequencies, amplitudes)
-    back = th.overturning_map(BLOCK, "one-cosine", (9, 5, 3), amplitudes[::-1].tolist())
-    frequencies[:], amplitudes[:] = 7.0, 7.0
-    given = {"angular_frequency": [3.0, 5.0, 9.0], "amplitude": [0.0, 0.3, 0.6, 2.0]}
-    assert {name: value.values.tolist() for name, value in found.coords.items()} == given
-    assert {name: value.attrs["units"] for name, value in found.variables.items()} == units
-    kinds = {"peak_rotation": float, "overturned": bool, "impacts": np.int64}
-    assert {name: value.dtype for name, value in found.items()} == kinds
-    assert {value.dims for value in found.values()} == {axes}
-    assert found.attrs == {
-        "shape": "one-cosine",
-        "linearised": 0,
-        "frequency_parameter": 2.0,
-        "slenderness": 0.25,
-        "restitution": 0.9,
-    }
-    assert th.overturning_map(BLOCK.linear(), "one-sine", 1.0, 0.3).attrs["linearised"] == 1
-    reverse = dict.fromkeys(axes, slice(None, None, -1))
-    xarray.testing.assert_equal(back.isel(reverse), found)
-    found.to_netcdf(tmp_path / "map.nc", engine="scipy")
-    with xarray.open_dataset(tmp_path / "map.nc", engine="scipy") as read:
-        for name in found:
-            np.testing.assert_array_equal(read[name], found[name])
 
 
 @pytest.mark.parametrize("block", [BLOCK, BLOCK.linear()], ids=["exact", "linear"])
@@ -77,13 +45,6 @@ def test_each_cell_of_a_map_is_a_history(block, shape):
         assert math.isnan(peak) == cell[0]
     assert found.overturned.any()
     assert not found.peak_rotation[:, :2].any()
-
-
-def test_map_takes_a_structure_for_its_block():
-    for structure in (COLUMN, th.RockingFrame(COLUMN, 1.0), th.RockingFrame(COLUMN, math.inf)):
-        grid = ("one-sine", [2.0, 5.0], [0.3, 0.5, 1.5])
-        first, second = (th.overturning_map(x, *grid) for x in (structure, structure.block()))
-        xarray.testing.assert_identical(first, second)
 
 
 @pytest.mark.parametrize(
@@ -142,20 +103,6 @@ def case(request):
 
 def last_of(interval, last):
     return (last, last) if interval.upper is None else interval.upper
-
-
-def test_intervals_ascend_and_those_that_meet_share_a_bracket(case):
-    *_, (first, last), _, found = case
-    edges = [first, *(x for i in found for x in (*i.lower, *last_of(i, last)))]
-    assert found
-    assert edges[0] == min(edges)
-    assert max(edges) == last or found[-1].upper is not None
-    assert all(i.lower[0] <= i.lower[1] for i in found)
-    for before, after in pairwise(found):
-        if before.upper == after.lower:
-            assert before.impacts != after.impacts
-        else:
-            assert before.upper[1] < after.lower[0]
 
 
 def test_brackets_have_the_boundary_between_them(case):
@@ -238,61 +185,6 @@ def test_way_9_bay_just_wider_than_the_resolution_is_found_wherever_the_range_be
         assert found == pytest.approx((6.3181, 7.16813), abs=1e-3)
 
 
-@pytest.mark.parametrize(
-    ("ends", "resolution", "expected"),  # the ends and the impacts of each interval
-    [
-        ((1.0, 10.0), 1e-3, [(3.0186, 6.3181, 1), (7.16813, None, 0)]),
-        ((4.0, 5.0), 0.1, [(4.0, None, 1)]),
-        ((5.0, 7.0), 0.1, [(5.0, 6.3181, 1)]),
-        ((6.4, 7.1), 0.01, []),
-        ((-1.0, 1.0), 0.5, []),
-        ((2.0, 4.0), 50.0, [(3.0186, None, 1)]),
-    ],
-)
-def test_range_that_begins_or_ends_inside_an_interval_says_so(ends, resolution, expected):
-    found = th.overturning_intervals(LINEAR, SINE, ends, resolution=resolution)
-    lowest = th.minimum_overturning(LINEAR, SINE, ends, resolution=resolution)
-    assert lowest == (found[0].lower if found else None)
-    for one, (low, high, impacts) in zip(found, expected, strict=True):
-        assert one.lower[1] == pytest.approx(low, abs=1e-3)
-        assert (one.impacts, one.upper is None) == (impacts, high is None)
-        assert high is None or one.upper[0] == pytest.approx(high, abs=1e-3)
-        assert (one.lower[0] == one.lower[1]) == (one.lower[0] == ends[0])
-    assert expected[:1] != [(4.0, None, 1)] or found == [Interval((4.0, 4.0), None, 1)]
-
-
-def test_neighbours_with_different_impacts_are_separate_up_to_the_most_impacts():
-    given = (*CASES["antisymmetric"][:2], (1.0, 6.0))
-    joined, two, found = (
-        th.overturning_intervals(*given, resolution=0.01, **most)
-        for most in ({"most_impacts": 0}, {"most_impacts": 2}, {})
-    )
-    assert any(a.upper == b.lower for a, b in pairwise(found))
-    assert not any(a.upper == b.lower for a, b in pairwise(joined))
-    assert len(joined) < len(found)
-    assert {i.impacts for i in joined} == {0}
-    assert max(i.impacts for i in two) == 2
-
-
-def test_boundary_of_a_frame_is_in_the_units_of_its_pulse():
-    """Zhou, Du & Han (2019); and a sampled pulse has the boundaries of the pulse."""
-    frame, pulse = th.RockingFrame(th.Column(0.75, 3.5), 13.23), CASES["mirrored"][1]
-    pulse = th.Pulse("ricker-symmetric", 0.1, 2 * math.pi / 3.14)
-    found = th.overturning_intervals(frame, pulse, (1.0, 10.0), resolution=0.01)
-    assert 0.1 * found[0].lower[1] == pytest.approx(0.3134, abs=2e-4)
-    assert found == th.overturning_intervals(frame.block(), pulse, (1.0, 10.0), resolution=0.01)
-    record = th.Record(SINE.duration / 500, SINE.excitation(SINE.duration / 500 * np.arange(501)))
-    for one, other in zip(
-        *(
-            th.overturning_intervals(LINEAR, it, (1.0, 10.0), resolution=0.05)
-            for it in (record, SINE)
-        ),
-        strict=True,
-    ):
-        assert one.impacts == other.impacts
-        assert one.lower[0] == pytest.approx(other.lower[0], rel=1e-3)
-
-
 @pytest.mark.parametrize("search", [th.overturning_intervals, th.minimum_overturning])
 @pytest.mark.parametrize(
     ("change", "says"),
@@ -327,34 +219,6 @@ def halved(label, boundary, width, narrowest):
     search = _halved([(low, high, *ends)], width, narrowest)
     (found,) = steered([search], lambda asked: [label(each) for each in asked.values()])
     return found
-
-
-@pytest.mark.parametrize(
-    ("edges", "values", "high", "narrowest", "met"),
-    [
-        ([0.3], [SAFE, 2], 1.0, 1e-3, [(SAFE, 2)]),
-        ([0.3, 0.4], [SAFE, 5, 2], 0.7, 1e-3, [(SAFE, 5), (5, 2)]),
-        # a sliver is left inside its bracket, as there may be no end of them
-        ([0.3499, 0.3501], [SAFE, 5, 2], 1.4, 0.8, [(SAFE, 2)]),
-        ([0.3499, 0.3501], [SAFE, 5, 2], 1.4, 0.6, [(SAFE, 5), (5, 2)]),
-    ],
-)
-@pytest.mark.parametrize("width", [1e-9, 0.0])
-def test_search_closes_in_on_every_boundary_that_it_meets(
-    edges, values, high, narrowest, met, width
-):
-    def label(scales):
-        return np.array(values)[np.searchsorted(edges, scales)]
-
-    found = halved(label, (0.0, high), width, narrowest)
-    assert [(below, above) for *_, below, above in found] == met
-    if len(met) < len(edges):
-        assert found == [(0.0, 0.7, SAFE, 2)]
-        return
-    for (low, top, *_), edge in zip(found, edges, strict=True):
-        assert low <= edge <= top
-        assert 0 < top - low <= max(1e-9, width)
-        assert width or top == math.nextafter(low, 1.0)
 
 
 def test_halvings_ahead_find_what_halving_one_by_one_finds(monkeypatch):

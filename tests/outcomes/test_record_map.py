@@ -4,7 +4,6 @@ import math
 
 import numpy as np
 import pytest
-import xarray
 
 import topheavy as th
 from topheavy.second import reference
@@ -59,30 +58,6 @@ def test_cells_of_a_block_are_those_of_judge_and_of_scipy(block):
                 assert (end.overturned, end.impacts) == here
     assert found.attrs["linearised"] == block.linearised
     assert 3 < found.overturned.sum() < found.overturned.size - 3
-
-
-def test_map_of_a_record_is_labelled_with_units(tmp_path):
-    found = th.overturning_map_of_record(COLUMN, SHAKING, [1.0, 5.0], [0.3, 0.6, 2.0])
-    assert {name: value.attrs["units"] for name, value in found.variables.items()} == {
-        "peak_rotation": "rad",
-        "overturned": "1",
-        "impacts": "1",
-        "size": "m",
-        "peak_acceleration": "g",
-        "frequency_parameter": "rad/s",
-    }
-    assert found.frequency_parameter.dims == ("size",)
-    np.testing.assert_array_equal(found["size"], [1.0, 5.0])
-    np.testing.assert_array_equal(found.peak_acceleration, [0.3, 0.6, 2.0])
-    assert found.attrs == {
-        "record": "mine",
-        "slenderness": COLUMN.slenderness,
-        "restitution": COLUMN.restitution,
-        "linearised": 0,
-    }
-    found.to_netcdf(tmp_path / "map.nc", engine="scipy")
-    with xarray.open_dataset(tmp_path / "map.nc", engine="scipy") as read:
-        np.testing.assert_array_equal(read.overturned, found.overturned)
 
 
 @pytest.mark.parametrize(

@@ -31,14 +31,6 @@ def test_each_factor_is_judged_as_the_scaled_excitation(structure, excitation):
     assert 0 < overturned.sum() < FACTORS.size
 
 
-def test_tolerance_of_the_factors_is_passed_on():
-    noise = th.Record(0.1, np.random.default_rng(1).normal(0.0, 0.3, 300))
-    factors = np.linspace(0.5, 3.0, 1000)
-    rough, fine = (th.overturned_by(BLOCK, noise, factors, tolerance=t) for t in (1e-2, 1e-12))
-    assert (rough != fine).any()
-    assert (th.overturned_by(BLOCK, noise, factors) != fine).mean() < 0.01
-
-
 def searches():
     """Unlike structures under unlike motions, of which some are the same object."""
     pulses = [
@@ -69,17 +61,6 @@ def test_searches_together_find_what_each_finds_alone_in_fewer_calls(scans):  # 
         assert bracket == (intervals[0].lower if intervals else None)
         assert bracket == th.minimum_overturning(*search[:3], resolution=0.07, **named)
     assert len({intervals[0].lower for intervals in together if intervals}) > 12
-
-
-def test_structures_under_one_motion_have_the_outcomes_of_each():
-    factors = np.linspace(0.4, 5.0, 23)
-    up = {"vertical": UP, "scale_vertical": False}
-    for scales, named in ((factors, up), (factors * np.arange(1, 6)[:, None], {})):
-        found = th.overturned_together(MANY, RECORD, scales, **named)
-        rows = np.broadcast_to(scales, (len(MANY), factors.size))
-        for structure, row, own in zip(MANY, found, rows, strict=True):
-            np.testing.assert_array_equal(row, th.overturned_by(structure, RECORD, own, **named))
-        assert 0 < found.sum() < found.size
 
 
 @pytest.mark.parametrize(

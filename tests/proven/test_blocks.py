@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from topheavy import Column, FixedMassColumn, MonolithicPortal, RockingBlock, RockingFrame
+from topheavy import Column, FixedMassColumn, MonolithicPortal, RockingFrame
 from topheavy.proven import BlockBox
 from topheavy.proven.balls import arb, exact, precision
 from topheavy.proven.blocks import enclosed
@@ -37,19 +37,6 @@ def test_slenderness_is_that_of_the_dimensions_and_not_a_float():
             assert not balls.frequency_parameter.contains(exact(COLUMN.frequency_parameter))
 
 
-def test_restitution_of_eq_25_is_the_rational_that_it_is():
-    # sin²α = 1/37: √r = (1 − 3/74 + 3γ (1 − 2/37))/(1 + 3γ)
-    with precision(136):
-        root = enclosed(RockingFrame(COLUMN, 1.0), linearised=False).restitution
-        assert (root - (1 - arb(3) / 74 + 3 * (1 - arb(2) / 37)) / 4).contains(0)
-
-
-def test_linearised_block_uplifts_at_its_angle():
-    assert enclosed(COLUMN, linearised=True).level.overlaps(enclosed(COLUMN, False).slenderness)
-    assert not enclosed(COLUMN, linearised=False).level.overlaps(enclosed(COLUMN, True).level)
-    assert enclosed(COLUMN.block().linear(), linearised=False).linearised
-
-
 def test_box_contains_its_blocks():
     balls = enclosed(BlockBox((1.0, 1.1), 0.2, (0.8, 0.9)), linearised=False)
     assert all(balls.frequency_parameter.contains(exact(x)) for x in (1.0, 1.05, 1.1))
@@ -61,9 +48,3 @@ def test_box_of_no_blocks_is_refused():
         BlockBox(1.0, 0.2, (0.9, 0.8))
     with pytest.raises(ValueError, match=r"restitution is 1\.2"):
         BlockBox(1.0, 0.2, (0.9, 1.2))
-
-
-def test_structure_that_cannot_rock_is_refused():
-    with pytest.raises(ValueError, match="no rocking after an impact"):
-        enclosed(Column(3.0, 1.0), linearised=False)
-    assert enclosed(RockingBlock(1.0, 1.2, 0.5), linearised=False).restitution.contains(0.5)

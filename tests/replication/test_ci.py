@@ -96,41 +96,6 @@ def test_quick_parts_run_each_time_and_all_leaves_out_nothing_but_the_cluster(tr
     assert {"every twelfth step again", "make archive", "a study comes and goes"} < set(listed)
 
 
-def test_paper_without_parts_of_its_own_has_those_that_it_needs(tmp_path):
-    tree = Tree(tmp_path, paper=False)
-    tree.commit()
-    everything, left = tree.plan("all")
-    assert left == []
-    slow = {"every twelfth step again", "make html", "a study comes and goes"}
-    assert set(everything) - set(ALWAYS) == slow | {"make archive"}
-
-
-@pytest.mark.parametrize(
-    ("part", "made"), [("make html", "lint reproduce html"), ("make fuzz", "lint fuzz")]
-)
-def test_slow_part_runs_by_its_name_after_what_it_needs(tree, part, made):
-    tree.commit()
-    done = tree.run("bash", ".ci/run", part)
-    assert done.returncode == 0, done.stderr
-    assert (tree.folder / "made").read_text("utf-8").split() == made.split()
-
-
-def test_without_a_commit_or_when_the_tree_differs_from_it_all_runs_but_the_archive(tree):
-    runs, left = tree.plan("all")
-    assert set(left) - CLUSTER == {"make archive"}
-    assert {"every twelfth step again", "a study comes and goes"} < set(runs)
-    tree.commit()
-    (tree.folder / "note").touch()
-    assert tree.plan("all") == (runs, left)
-
-
-@pytest.mark.parametrize("words", [("most",), ("all", "all"), ("all", "plan")])
-def test_unknown_depth_is_refused(tree, words):
-    done = tree.run("bash", ".ci/run", *words)
-    assert done.returncode == 1
-    assert f".ci/run: unknown part: {' '.join(words)}; expected nothing, all, list" in done.stderr
-
-
 @pytest.mark.parametrize("committed", [True, False])
 def test_steps_are_made_again_without_studies_shards_and_notebooks(tmp_path, committed):
     tree = Tree(tmp_path, paper=False)
@@ -145,25 +110,3 @@ def test_steps_are_made_again_without_studies_shards_and_notebooks(tmp_path, com
     made = (tree.folder / "made").read_text("utf-8").split()
     assert made == ["lint", "reproduce", "reproduce", "check", "verify", "reproduce", "test"]
     assert done.stderr.count("=== Nothing is left out.") == 2  # at the start and at the end
-
-
-def test_other_bytes_of_a_step_that_is_made_again_are_told(tmp_path):
-    tree = Tree(tmp_path, paper=False)
-    tree.commit()
-    make = (tree.folder / "make").read_text("utf-8")
-    (tree.folder / "make").write_text(make.replace("echo bytes", "wc -l made"), "utf-8")
-    done = tree.run("bash", ".ci/run", "every twelfth step again")
-    assert done.returncode == 1
-    assert "results/findings/a.json: FAILED" in done.stdout
-    assert ".ci/run: these files of a second run differ from the first run's" in done.stderr
-
-
-def test_first_part_that_fails_ends_the_run(tmp_path):
-    tree = Tree(tmp_path, paper=False)
-    tree.commit()
-    with (tree.folder / "make").open("a", encoding="utf-8") as make:
-        make.write('test "$1" != check\n')
-    done = tree.run("bash", ".ci/run")
-    assert done.returncode != 0
-    made = (tree.folder / "made").read_text("utf-8").split()
-    assert made == ["lint", "reproduce", "reproduce", "check"]

@@ -1,7 +1,6 @@
 """Each figure says in its SVG what it shows."""
 
 from pathlib import Path
-from xml.etree import ElementTree
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -10,8 +9,6 @@ import pytest
 
 from figures.restitution import draw
 from replication.drawing import described, letter, save, sheet
-from replication.inputs.parts import PAPER, captions_of
-from replication.pages.captions import alternative, read_captions
 
 ROOT = Path(__file__).resolve().parents[2]
 SVG = "{http://www.w3.org/2000/svg}"
@@ -23,17 +20,6 @@ def figure():
     with plt.style.context(ROOT / "figures" / "style.mplstyle"):
         yield draw(pd.read_csv(ROOT / "tests" / "reference" / "restitution_over_slenderness.csv"))
     plt.close("all")
-
-
-def test_figure_has_a_role_a_title_and_a_description(figure, tmp_path):
-    save(figure, tmp_path / "a.svg", **WORDS)
-    root = ElementTree.parse(tmp_path / "a.svg").getroot()
-    assert root.get("role") == "img"
-    assert [child.tag for child in root[:2]] == [f"{SVG}title", f"{SVG}desc"]
-    assert [child.text for child in root[:2]] == [
-        WORDS["title"],
-        "Two curves, one > 1 and one < 1.",
-    ]
 
 
 def test_last_bits_of_the_layout_change_no_byte(figure, tmp_path):
@@ -50,17 +36,6 @@ def test_last_bits_of_the_layout_change_no_byte(figure, tmp_path):
 def test_figure_without_words_is_refused(svg, title, alt):
     with pytest.raises(ValueError, match=r"expected two texts and an SVG: write title and alt"):
         described(svg, title, alt)
-
-
-def test_every_figure_of_a_run_gets_its_title_and_alternative_text(jobs):
-    drawn = {job.outputs[0]: job.params for job in jobs if job.rule == "figure"}
-    assert len(drawn) > 20
-    studies = {path.split("/")[1] for path in drawn if path.startswith("studies/")}
-    captions = read_captions(ROOT / captions_of(part) for part in (PAPER, *sorted(studies)))
-    for path, params in drawn.items():
-        given = {name: params[name] for name in ("title", "alt")}
-        entry = captions[path]
-        assert given == {"title": entry["title"], "alt": alternative(entry)}, path
 
 
 def test_letters_of_a_drawing_run_on_from_the_one_above():

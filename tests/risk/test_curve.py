@@ -101,14 +101,6 @@ def test_lognormal_curve_is_found_again():
     assert (fit(LEVELS, shares, skewed=False)[:, 2] == 0.0).all()
 
 
-@BOTH
-def test_unit_of_the_levels_does_not_matter(skewed):
-    shares = np.array([0, 0.05, 0.2, 0.15, 0.55, 0.7, 0.95, 0.9, 1])
-    here, there = (fit(unit * LEVELS, shares, skewed=skewed) for unit in (1.0, 981.0))
-    assert medians(981.0 * LEVELS, there) == pytest.approx(981.0 * medians(LEVELS, here), rel=1e-8)
-    assert dispersions(there) == pytest.approx(dispersions(here), rel=1e-7)
-
-
 def test_narrow_levels_far_from_one_are_fitted():
     levels = np.linspace(500.0, 520.0, 9)
     shares = ndtr(np.log(levels / 509.0) / 0.01)
@@ -162,31 +154,6 @@ def test_median_outside_the_levels_is_not_given(centre):
     assert f"passes 1/2 at {centre}, which" in reason
     assert "outside the levels, 0.5 to 2: widen them" in reason
     assert dispersions(terms) == pytest.approx(0.5, rel=1e-6)
-
-
-@pytest.mark.parametrize(
-    ("shares", "skewed"),
-    [
-        pytest.param(1.0 - ndtr(np.log(LEVELS) / 0.4), False, id="falling"),
-        pytest.param(np.full(9, 0.3), False, id="level"),
-        pytest.param(ndtr(-0.4 - 3.0 * np.log(LEVELS) ** 2), True, id="below"),
-    ],
-)
-def test_curve_that_does_not_rise_has_no_median(shares, skewed):
-    terms = fit(LEVELS, shares, skewed=skewed)
-    assert np.isfinite(terms).all()
-    assert np.isnan(medians(LEVELS, terms))
-    assert np.isnan(dispersions(terms))
-    reason = why_no_median(LEVELS, shares, terms, skewed=skewed)
-    assert reason == "the fitted curve does not rise past 1/2"
-
-
-@BOTH
-def test_what_is_found_has_no_reason(skewed):
-    shares = ndtr(np.log(LEVELS))
-    terms = fit(LEVELS, shares, skewed=skewed)
-    assert why_no_fit(shares, terms, skewed=skewed) == ""
-    assert why_no_median(LEVELS, shares, terms, skewed=skewed) == ""
 
 
 def test_fit_without_convergence_is_nan_with_a_reason(monkeypatch):

@@ -4,7 +4,6 @@ import re
 
 import numpy as np
 import pytest
-import xarray
 
 import topheavy as th
 from topheavy.second import reference
@@ -134,13 +133,6 @@ def test_result_is_labelled(found):
     assert found.sampling == "sampling of 8 motions, each drawn independently of the others"
 
 
-def test_result_can_be_written_to_a_file(found, tmp_path):
-    for table in (found.curves, found.pairs):
-        table.to_netcdf(tmp_path / "table.nc", engine="scipy")
-        with xarray.open_dataset(tmp_path / "table.nc", engine="scipy") as read:
-            assert set(read.variables) == set(table.variables)
-
-
 def test_restitution_of_the_column_alone_is_lowered(found):
     names = found.curves.structure.to_numpy().tolist()
     for share in (0.05, 0.1):
@@ -166,46 +158,6 @@ def test_lowered_column_is_compared_with_what_is_no_column():
         ("a, √r 10 % lower", "bent"),
         ("b, √r 10 % lower", "bent"),
     ]
-
-
-def test_structures_of_a_list_are_named():
-    found = th.fragility([PIER, th.RockingFrame(PIER, 1.0)], MOTIONS[:2], [0.3, 0.6], resamples=100)
-    assert found.curves.structure.to_numpy().tolist() == ["Column 1", "RockingFrame 2"]
-
-
-@pytest.mark.parametrize(
-    ("levels", "reason"),
-    [
-        ([1e-4, 2e-4], "no motion overturns it at any level"),
-        ([50.0, 60.0], "every motion overturns it at every level"),
-        ([1e-4, 1e3], "0 of the levels"),
-        ([1.0], ""),
-    ],
-)
-@pytest.mark.filterwarnings("ignore:levels go up")
-@pytest.mark.parametrize("skewed", [False, True])
-def test_levels_that_give_no_curve_give_a_reason(levels, reason, skewed):
-    found = th.fragility(STRUCTURES, MOTIONS, levels, skewed=skewed, resamples=100)
-    assert np.isnan(found.curves.median_capacity).all()
-    assert all(text.startswith(reason) for text in found.curves.median_capacity_reason.to_numpy())
-    assert (found.curves.median_capacity_reason != "").all()
-    assert np.isfinite(found.curves.probability_low).all()
-    assert set(found.pairs.gain_words.to_numpy()) == {"is not known"}
-
-
-def test_wide_levels_are_fitted():
-    """Seven records and levels from 0.1 to 4: what an engineer tried, and got an error."""
-    found = th.fragility(STRUCTURES, MOTIONS[:7], np.geomspace(0.1, 4.0, 20), resamples=100)
-    assert np.isfinite(found.curves.median_capacity[:2]).all()
-
-
-def test_result_says_that_groups_are_kept():
-    groups = ["a", "a", "b", "b", "b", "b", "b", "c"]
-    found = th.fragility(STRUCTURES, MOTIONS, LEVELS, groups=groups, resamples=200)
-    assert found.sampling == (
-        "sampling of 8 motions only within 3 groups, without the scatter between groups; "
-        "1 of the groups have one motion, and no scatter"
-    )
 
 
 def test_scatter_between_groups_is_not_in_the_result():

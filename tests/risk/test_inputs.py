@@ -102,15 +102,6 @@ def test_bad_argument_is_named_with_its_value(name, value, message):
     assert error.__suppress_context__ or error.__context__ is None  # one message, and no other
 
 
-def test_still_ground_has_no_acceleration_to_scale():
-    with pytest.raises(ValueError, match=r"motions\[0\]: PGA of record 'still' is 0 g; expected"):
-        fragility(**{**GIVEN, "motions": [STILL], "measure": "PGA"})
-
-
 def test_lowered_needs_a_column():
     with pytest.raises(ValueError, match=re.escape("lowered is [0.1], and structures has no Col")):
         fragility([RockingFrame(PIER, 1.0)], [SHAKE], [0.1], lowered=[0.1])
-
-
-def test_what_was_given_is_accepted():
-    assert fragility(**GIVEN, resamples=100).outcomes.shape == (2, 1, 2)

@@ -10,25 +10,8 @@ from topheavy.risk import resampling
 from topheavy.risk.resampling import (
     in_words,
     interval,
-    means,
     means_within,
-    resampled,
 )
-
-
-def test_first_row_is_the_ensemble_and_others_scatter_as_a_binomial():
-    fell = np.arange(400)[:, None] < [40, 200]
-    found = means(resampled(400, 4000, 1), fell)
-    assert found[0] == pytest.approx([0.1, 0.5], rel=1e-12)
-    assert found[1:].mean(axis=0) == pytest.approx([0.1, 0.5], abs=2e-3)
-    assert found[1:].std(axis=0) == pytest.approx(np.sqrt([0.09 / 400, 0.25 / 400]), rel=0.05)
-
-
-def test_structures_that_fall_together_fall_together_in_every_resample():
-    fell = np.random.default_rng(3).random(50) < 0.5
-    found = means(resampled(50, 20, 1), np.stack([fell, ~fell], axis=1))
-    assert np.ptp(found[:, 0]) > 0.05
-    assert found.sum(axis=1) == pytest.approx(np.ones(21))
 
 
 def test_means_by_blocks_scatter_as_those_of_all_weights(monkeypatch):
@@ -41,11 +24,6 @@ def test_means_by_blocks_scatter_as_those_of_all_weights(monkeypatch):
     assert means[1:].std(axis=0) == pytest.approx(np.sqrt([0.09 / 400, 0.25 / 400]), rel=0.05)
     everything = means_within(np.ones(400), [None] * 400, 20, 1)
     assert everything == pytest.approx(np.ones(21), rel=1e-12)
-
-
-def test_interval_holds_the_middle_of_the_resamples():
-    values = np.concatenate([[5.0], np.arange(101.0)])
-    assert interval(values, 0.9) == pytest.approx((5.0, 5.0, 95.0))
 
 
 @pytest.mark.parametrize(
@@ -68,30 +46,11 @@ def test_ends_in_the_wrong_order_have_no_words(low, high):
         in_words(low, high)
 
 
-def test_one_group_has_the_weights_of_all_motions():
-    fell = np.random.default_rng(4).random((30, 2, 5)) < 0.4
-    found = means_within(fell, ["one"] * 30, 50, 7)
-    assert found == pytest.approx(means(resampled(30, 50, 7), fell), rel=1e-14)
-
-
 def test_equal_counts_are_equal():
     """Sums of weights depend on their order, and a difference of nothing would have a sign."""
     fell = np.random.default_rng(2).permuted(np.tile([[1], [0]], (49, 6)), axis=0)
     assert not np.diff(means_within(fell, [None] * 98, 10, 1)[0]).any()
     assert (means_within(np.ones(49), [None] * 49, 50, 1) == 1.0).all()
-
-
-def test_scatter_between_groups_is_not_in_the_interval():
-    """All motions of one earthquake overturn and none of the other: within each, no scatter."""
-    fell, groups = np.repeat([1.0, 0.0], [10, 30]), ["near"] * 10 + ["far"] * 30
-    assert np.ptp(means_within(fell, groups, 200, 1)) < 1e-12
-    assert means_within(fell, groups, 200, 1)[0] == pytest.approx(0.25)
-    assert np.ptp(means_within(fell, [None] * 40, 200, 1)) > 0.1
-
-
-def test_motions_of_a_group_need_not_be_neighbours():
-    fell, groups = np.tile([1.0, 0.0], 20), ["a", "b"] * 20
-    assert np.ptp(means_within(fell, groups, 200, 1)) < 1e-12
 
 
 def test_groups_are_resampled_independently_of_each_other():
@@ -160,17 +119,3 @@ def test_resamples_without_a_value_count_at_both_ends():
     assert high == pytest.approx(np.quantile(np.concatenate([rest, [1e9, 1e9]]), 0.95))
     assert low < np.quantile(rest, 0.05)
     assert high > np.quantile(rest, 0.95)
-
-
-def test_ends_that_resamples_without_a_value_decide_are_nan():
-    values = np.concatenate([[50.0], np.arange(101.0)])
-    values[1:10] = np.nan
-    assert np.isnan(interval(values, 0.9)[1:]).all()
-    assert interval(values, 0.9)[0] == 50.0
-
-
-def test_interval_of_no_value_is_none_and_leaves_others_alone():
-    values = np.stack([np.r_[5.0, np.arange(101.0)], np.r_[np.nan, np.arange(101.0)]], axis=1)
-    value, low, high = interval(values, 0.9)
-    assert (value[0], low[0], high[0]) == pytest.approx((5.0, 5.0, 95.0))
-    assert np.isnan([value[1], low[1], high[1]]).all()

@@ -75,34 +75,6 @@ def test_intervals_miss_the_true_value_as_often_as_the_docstring_says(motions, m
     assert missed / samples == pytest.approx([median, dispersion], abs=0.045)
 
 
-def test_curve_is_that_of_the_outcomes():
-    curves, _ = tables(lognormal(200, 2, 1.0, 1.5), places=())
-    assert curves.overturned.dtype.kind == "i"
-    assert (curves.probability == curves.overturned / 200).all()
-    assert (curves.probability_low <= curves.probability).all()
-    assert (curves.probability <= curves.probability_high).all()
-    assert np.abs(curves.fitted - curves.probability).max() < 0.06
-    assert curves.median_capacity.to_numpy() == pytest.approx([1.0, 1.5], rel=0.06)
-    assert curves.dispersion.to_numpy() == pytest.approx([0.4, 0.4], rel=0.12)
-    for name in ("median_capacity", "dispersion"):
-        assert (curves[f"{name}_low"] < curves[name]).all()
-        assert (curves[name] < curves[f"{name}_high"]).all()
-        assert (curves[f"{name}_reason"] == "").all()
-
-
-def test_interval_that_resamples_do_not_give_has_a_reason():
-    """Two of seven motions are between the levels where none and all overturn."""
-    curves, _ = tables(
-        np.array([0.5, 0.5, 0.8, 0.9, 3.0, 3.0, 3.0])[:, None],
-        places=(),
-        levels=np.array([0.4, 0.6, 2.0, 3.5]),
-    )
-    assert np.isfinite(curves.median_capacity)
-    assert np.isnan([curves.median_capacity_low.item(), curves.median_capacity_high.item()]).any()
-    assert "of 400 resamples have no median capacity" in curves.median_capacity_reason.item()
-    assert "of 400 resamples have no dispersion" in curves.dispersion_reason.item()
-
-
 def test_one_motion_has_no_scatter_and_says_so():
     levels = np.array([0.5, 1.0, 2.0])
     curves, pairs = tables([[0.7, 1.5]], levels=levels)
@@ -111,19 +83,6 @@ def test_one_motion_has_no_scatter_and_says_so():
     assert np.isnan(curves.median_capacity).all()
     assert set(pairs.less_words.to_numpy().ravel()) == {"is not known"}
     assert pairs.less.to_numpy().tolist() == [[0, 1, 0]]
-
-
-def test_reasons_are_beside_what_is_missing():
-    curves, pairs = tables(np.broadcast_to([9.0, 0.1, 1.0, 3.9], (20, 4)), places=[(0, 2), (2, 3)])
-    reasons = curves.median_capacity_reason.to_numpy()
-    assert reasons[0] == "no motion overturns it at any level"
-    assert reasons[1] == "every motion overturns it at every level"
-    assert all(reason.startswith("0 of the levels") for reason in reasons[2:])
-    assert (curves.median_capacity_reason == curves.dispersion_reason).all()
-    for name in ("median_capacity", "dispersion"):
-        assert np.isnan([curves[f"{name}{end}"] for end in ("", "_low", "_high")]).all()
-    assert set(pairs.gain_reason.to_numpy()) == {"one of both has no median"}
-    assert set(pairs.gain_words.to_numpy()) == {"is not known"}
 
 
 # ------------------------------------------------------------------ pairs
@@ -156,16 +115,3 @@ def test_paired_structures_are_compared_under_the_same_motions():
     alone = capacities.copy()
     random.shuffle(alone[:, 1])
     assert tables(alone)[1].gain_words.item() == "includes zero"
-
-
-def test_difference_holds_the_true_one_in_most_samples():
-    """Of 40 motions, at the level where each structure alone overturns half of the time."""
-    held, at = 0, np.array([1.0])
-    true = binom.cdf(0, 1, 0.5) - 0.28846  # Φ(0) − Φ(ln(1/1.25)/0.4)
-    for seed in range(400):
-        drawn = means_within(
-            outcomes_of(lognormal(40, [2, seed], 1.0, 1.25), at), [0] * 40, 300, seed
-        )
-        _, low, high = interval(drawn[:, 0, 0] - drawn[:, 1, 0], 0.95)
-        held += low <= true <= high
-    assert held / 400 == pytest.approx(0.94, abs=0.04)

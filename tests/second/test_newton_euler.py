@@ -7,7 +7,7 @@ import pytest
 
 from topheavy import STANDARD_GRAVITY, Column, RockingFrame
 from topheavy.bodies.kinematics import cap_acceleration, cap_displacement, cap_velocity
-from topheavy.second.newton_euler import ThreeBodies, accelerations, impact, uplift_accelerations
+from topheavy.second.newton_euler import ThreeBodies, accelerations, impact
 
 TRILITH, SLENDER, STOCKY = Column(0.11, 0.4), Column(0.3, 3.0), Column(0.5, 0.8)
 MASS_RATIOS = (0.0, 0.01, 0.434, 1.0, 10.0, 100.0)
@@ -129,39 +129,6 @@ def test_impulses_are_the_change_of_momentum_of_the_frame(bodies):
     feet = [(end * bodies.span / 2 + column.half_width, 0.0) for end in (-1, 1)]
     given = sum(lever(foot, push) for foot, push in zip(feet, impulses[:2], strict=True))
     assert given == pytest.approx(turned, abs=10 * heavy * bodies.span)
-
-
-@every_frame
-def test_frame_uplifts_on_equal_corners_only_and_beyond_tan_alpha(bodies):
-    found = uplift_accelerations(bodies)
-    assert set(found) == {(-1, -1), (1, 1)}
-    limit = math.tan(bodies.frame.slenderness)
-    # the ground that pushes to the right turns the frame to the left
-    assert found[-1, -1] == pytest.approx(limit, rel=1e-12)
-    assert found[1, 1] == pytest.approx(-limit, rel=1e-12)
-
-
-def test_seat_loads_depend_on_the_shape_of_the_cap_though_the_motion_does_not():
-    frame = RockingFrame(TRILITH, 0.434)
-    slim, deep = (ThreeBodies(frame, 1.2, depth) for depth in (0.1, 1.0))
-    q, q_rate = posture(slim, 0.1, 0.5)
-    one, forces = accelerations(slim, (1, 1), q, q_rate, 0.3)
-    other, others = accelerations(deep, (1, 1), q, q_rate, 0.3)
-    np.testing.assert_allclose(one, other, atol=1e-12)
-    assert np.abs(forces - others).max() > 0.1
-
-
-@pytest.mark.parametrize("mass_ratio", [0.01, 0.434, 100.0])
-def test_seat_pulls_at_impact_where_the_cap_would_tip_over_the_other(mass_ratio):
-    # The horizontal impulse at half its depth against the vertical one between the contacts.
-    frame, depth = RockingFrame(TRILITH, mass_ratio), 0.3
-    lost = (1.0 - frame.restitution) / (1.0 + frame.restitution)
-    least = 2 * TRILITH.half_width + depth * lost / math.tan(frame.slenderness)
-    for span, pulls in ((0.999 * least, True), (1.001 * least, False)):
-        bodies = ThreeBodies(frame, span, depth)
-        _, impulses = impact(bodies, (1, 1), posture(bodies, -1e-300, 1.0)[1])
-        assert (impulses[2, 1] < 0.0) == pulls
-        assert impulses[[0, 1, 3], 1].min() > 0.0
 
 
 @pytest.mark.parametrize(

@@ -25,11 +25,6 @@ from topheavy import Column, Pulse, RockingFrame, simulate
 
 ROOT = Path(__file__).resolve().parents[2]
 CONFIG = read_yaml(ROOT / "config/config.yaml")
-PRINTED = {
-    row["id"]: row["printed"]
-    for row in read_yaml(ROOT / "paper/claims.yaml")
-    if row["id"].startswith("trilith_") and "printed" in row
-}
 TEMPLE = {"half_width": 0.5, "half_height": 3.0}
 SOLVER = {"tightened": 1e-12}
 

@@ -56,40 +56,6 @@ def page(*rows) -> str:
 # Pages -------------------------------------------------------------------------------------------
 
 
-def test_claim_becomes_a_row_under_the_heads_of_its_columns():
-    lines = verdict_table([ROW])
-    heads = [cell.strip() for cell in lines[-3].split("|")[1:-1]]
-    anchor, link = '<a id="trilith_size"></a>', "<br><sub>[trilith_size](#trilith_size)</sub>"
-    assert dict(zip(heads, cells(), strict=True)) == {
-        "claim, in our words": f"{anchor}the size of the column{link}",
-        "verdict": "confirmed<br>printed 0.415 m<br>computed 0.4148 m",
-        "condition, remark": "",
-        "where": "p. 3",
-    }
-    assert set(lines[-2]) == {"|", "-"}
-    assert cells(unit="")[1] == "confirmed<br>printed 0.415<br>computed 0.4148"
-    lines = verdict_table([replace(ROW, id=name) for name in ("b", "a", "c")])
-    assert [line.split('"')[1] for line in lines[-3:]] == ["b", "a", "c"]
-
-
-@pytest.mark.parametrize(
-    ("computed", "unit", "shown"),
-    [
-        *((one, unit, "") for one, unit in ((True, ""), (False, ""), (None, ""), (None, "m"))),
-        *((1.5, "", "1.5000"), (3, "g", "3.0000 g"), (0, "", "0.0000"), ("more", "", "more")),
-    ],
-)
-def test_value_is_shown_as_what_it_is(computed, unit, shown):
-    assert cells(computed=computed, unit=unit)[1].partition("<br>computed ")[2] == shown
-
-
-@pytest.mark.parametrize("column", ["statement", "remark", "where"])
-def test_bar_in_the_text_does_not_end_the_cell(column):
-    shown = cells(**{column: "max|θ| grows"})
-    assert len(shown) == 4
-    assert any(r"max\|θ\| grows" in cell for cell in shown)
-
-
 def test_paper_studies_and_numbers_that_a_run_gives_again_have_a_table_each():
     again = replace(ROW, id="again", study=REPRODUCED)
     whole = page(ROW, OURS, again)
@@ -117,11 +83,6 @@ def test_paper_studies_and_numbers_that_a_run_gives_again_have_a_table_each():
 )
 def test_no_qualified_claim_is_said_not_to_hold(changes, shown):
     assert cells(computed=False, **changes)[2] == shown
-
-
-def test_page_jumps_to_what_is_no_plain_yes():
-    assert "\n- *refuted*: [ours](#ours)\n" in page(ROW, OURS)
-    assert "](#trilith_size), " not in page(ROW, OURS)
 
 
 def test_counts_are_of_the_paper_and_of_each_study_and_replace_those_of_a_page():

@@ -5,7 +5,7 @@ import pandas as pd
 import pytest
 
 from steps import spectra_shard
-from steps.shared.spectra_compared import Place, Spectra, inside, length, overlap
+from steps.shared.spectra_compared import Place, Spectra, inside
 
 CASE = {
     "slendernesses": [14.0],
@@ -58,10 +58,3 @@ def test_areas_are_those_of_known_intervals():
     assert exact["only_lighter_overturns"] == pytest.approx((0.5 + 2.0) / 5.0)
     assert exact["only_heavier_overturns"] == pytest.approx(0.5 / 5.0)
     assert exact["heavier_overturns"] == pytest.approx(1.0 / 5.0)
-
-
-def test_overlap_is_common_length():
-    first, second = np.array([[1.0, 2.0], [3.0, 5.0]]), np.array([[1.5, 4.0]])
-    assert overlap(first, second) == pytest.approx(1.5)
-    assert length(first) == pytest.approx(3.0)
-    assert overlap(first, np.empty((0, 2))) == 0.0

@@ -1,7 +1,5 @@
 """One sweep of the ensemble: what is asked is answered, and what SciPy is asked of it."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -48,15 +46,6 @@ def test_answer_has_what_each_scaled_motion_overturns(shards, name):
     assert 0 < found.outcomes.sum() < found.outcomes.size
 
 
-def test_families_and_scenarios_are_told_apart(shards):
-    found = sweep.answers(shards, "pgv", ENSEMBLE, 3)
-    for number, family in enumerate(ENSEMBLE["families"]):
-        of = found.of_family(family)
-        assert {draw.family for draw in of.draws} == {family}
-        np.testing.assert_array_equal(of.outcomes, found.outcomes[6 * number : 6 * number + 6])
-        assert of.scenarios.tolist() == [0, 0, 0, 1, 1, 1]
-
-
 def test_shard_that_is_missing_or_twice_is_told(shards):
     for some, count in ((shards[:2], 8), ([*shards, shards[0]], 16)):
         with pytest.raises(ValueError, match=f"pgv: outcomes of {count} motions; expected 12, "):
@@ -100,9 +89,3 @@ def test_scipy_is_asked_of_what_is_decided(monkeypatch):
     assert second.by_scipy(wrong) == {"decided": 2, "differ": 2}
     monkeypatch.setattr(second, "decided", lambda *given: None)
     assert second.by_scipy(wrong) == {"decided": 0, "differ": 0}
-
-
-def test_chosen_motions_keep_their_outcomes(shards):
-    found = sweep.answers(shards, "pga", ENSEMBLE, 2)
-    whole = replace(found).chosen(np.ones(len(found.draws), dtype=bool))
-    np.testing.assert_array_equal(whole.outcomes, found.outcomes)

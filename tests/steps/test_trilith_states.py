@@ -54,13 +54,6 @@ def test_later_motion_is_the_motion_of_later():
     assert (later.segments(1.0)[0].start, later.duration) == (0.0, math.inf)
 
 
-def test_grid_of_starts_is_symmetric_at_each_phase():
-    found = list(trilith_states.starts(SPEC))
-    assert len(found) == len(set(found)) == 2 * 6 * 5
-    assert {(q, -r, -v) for q, r, v in found} == set(found)
-    assert [max(values) for values in zip(*found, strict=True)] == [1, 0.6, 0.4]
-
-
 @pytest.fixture
 def judged(given):
     """Return the findings of starts with given courses, in turn."""

@@ -5,7 +5,6 @@ import math
 import numpy as np
 import pandas as pd
 import pytest
-from scipy.integrate import solve_ivp
 
 import topheavy as th
 from replication.workbench import truth
@@ -17,7 +16,6 @@ from steps.shared.peak_forces import (
     GUIDED,
     PINNED,
     held,
-    held_peaks,
     ratio_of,
     rocking_peaks,
 )
@@ -73,45 +71,12 @@ def test_history_under_a_record_begins_at_rest_and_holds_all_that_moves():
     assert not quiet.rotation.any()
 
 
-def test_held_frames_are_pinned_and_guided_rigid_and_of_each_period():
-    """A column alone is compared with a cantilever only."""
-    bodies = [th.RockingFrame(COLUMN, 0.0), FRAME]
-    alone, found = held_peaks(bodies, CAP, pulse(2.0), [0.2, 1.0])
-    assert sorted(found) == sorted(held(1.0, [0.2, 1.0]))
-    assert len(found) == 6
-    for top in (PINNED, GUIDED):
-        one = th.FixedFrame(FRAME, CAP, top)
-        assert found[top, "rigid"] == th.peak_rigid(one, pulse(2.0))._asdict()
-        (elastic,) = th.peak_elastic([one], pulse(2.0), 0.2)
-        assert found[top, "0.2 s"] == elastic._asdict()
-    assert found[PINNED, "rigid"]["bending_moment"] > found[GUIDED, "rigid"]["bending_moment"]
-    assert (
-        list(alone) == held(0.0, [0.2, 1.0]) == [(PINNED, at) for at in ("rigid", "0.2 s", "1 s")]
-    )
-    assert alone[PINNED, "rigid"]["bending_moment"] == pytest.approx(2.0 * TAN * 3.0 / 2.0)
-
-
 @pytest.mark.parametrize("ratio", [0.5, 4.0])
 def test_three_bodies_have_the_same_forces_and_slopes(ratio):
     frame = th.RockingFrame(COLUMN, ratio)
     assert uplift_limits.by_three_bodies(frame, CAP, pulse(2.0), 200) < 1e-9
     found = uplift_limits.slopes({"slope": {"slendernesses": [14.0], "mass_ratios": [ratio]}})
     assert found.slope[0] == pytest.approx(found.three_bodies[0], abs=1e-12)
-
-
-@pytest.mark.parametrize(("amplitude", "friction"), [(0.4, 0.2), (0.15, 0.2)])
-def test_sliding_block_has_at_most_the_shear_of_its_friction(amplitude, friction):
-    """By SciPy, with a friction that is full from a small velocity on."""
-
-    def force(velocity):  # over the weight
-        return -friction * np.tanh(velocity / 1e-4)
-
-    def moves(t, y):
-        return [9.81 * (force(y[0]) - amplitude * np.sin(6.0 * t))]
-
-    found = solve_ivp(moves, (0.0, 3.0), [0.0], method="Radau", max_step=0.005, rtol=1e-8)
-    shear = uplift_limits.sliding_shear(pd.Series([amplitude]), friction)
-    assert np.abs(force(found.y[0])).max() == pytest.approx(shear[0], rel=2e-3)
 
 
 # What the step concludes -------------------------------------------------------------------------
@@ -149,19 +114,6 @@ def test_forces_are_limited_beside_a_rigid_frame_alone(outputs):
     assert 0 < found["overturned"] < found["histories"] == 12
     assert findings["uplift_is_beneficial"]["holds_when"]
     assert findings["forces_by_second_routes"]["holds"]
-
-
-def test_summary_counts_what_overturns_and_does_not_average_it():
-    ratios = [ratio_of(name, *one) for name in FORCES for one in held(1.0, [1.0])]
-    rows = pd.DataFrame(
-        {"kind": "pulse", "mass_ratio": 1.0, "outcome": outcome} | dict.fromkeys(ratios, ratio)
-        for outcome, ratio in (("rests", 0.5), ("rests", 1.5), ("overturned", math.nan))
-    )
-    found = uplift_limits.summary(rows, {"periods": [1.0]})
-    assert found.top.tolist() == [PINNED, PINNED, GUIDED, GUIDED] * 3
-    numbers = found[["histories", "overturned", "median", "least", "largest", "lower"]]
-    (same,) = set(map(tuple, numbers.to_numpy().tolist()))
-    assert same == (3, 1, 1.0, 0.5, 1.5, 0.5)
 
 
 def scaled(name, off):

@@ -105,20 +105,6 @@ def row(structure, ours, bare, ratio=1.0, kind="pulse"):
     return given | {"bare": other, "wide": {0.02: ours}, "bare_wide": {0.02: bare}}
 
 
-@pytest.mark.parametrize(
-    ("structure", "ours", "bare", "is_exception"),
-    [
-        *(("fixed", 0.3, 0.2, True), ("fixed", math.inf, 0.2, True), ("fixed", 0.2, 0.3, False)),
-        *(("free", 0.2, 0.3, True), ("free", math.inf, 0.3, False), ("bare", 0.3, 0.2, False)),
-        ("free", 0.3, math.inf, True),
-    ],
-)
-def test_exceptions_are_a_later_fixed_mass_and_an_earlier_frame(
-    structure, ours, bare, is_exception
-):
-    assert vase.is_exception(row(structure, ours, bare)) is is_exception
-
-
 def test_rows_are_compared_where_one_of_both_overturns():
     assert vase.is_compared(row("free", 0.3, math.inf))
     assert not vase.is_compared(row("free", math.inf, math.inf))
@@ -248,12 +234,6 @@ def test_picture_shows_what_happens_to_each_down_to_the_ground():
             lowest.setdefault((at[0], at[1]), []).append(min(y for _, y, _ in corners))
     assert {len(ends) > 0 for ends in lowest.values()} == {True}
     assert [min(ends) for ends in lowest.values()] == pytest.approx([0.0] * len(lowest), abs=1e-9)
-
-
-def test_fixed_cap_meets_the_ground_before_its_column_lies_flat():
-    bodies = vase_poses.bodies(th.FixedMassColumn(COLUMN, 1.0, 2.6, 0.6), 0.0, CASE)
-    last = vase_poses.lying(COLUMN, np.concatenate(list(bodies.values())))
-    assert last == pytest.approx(math.pi / 2 - math.atan2(0.8, 6.0), rel=1e-12)
 
 
 @pytest.mark.parametrize(

@@ -123,13 +123,6 @@ def test_benefit_ends_where_its_non_increasing_fit_is_zero(benefits, end):
     assert found == pytest.approx(end)
 
 
-def test_interval_may_end_beyond_the_last_deficit():
-    found = np.array([0.1, *np.linspace(0.0, 0.2, 81)])
-    expected = {"end": 0.1, "end_low": 0.005, "end_high": 0.195}
-    assert break_even.bounds(found, 0.95) == pytest.approx(expected)
-    assert break_even.bounds(np.append(found, [math.inf] * 4), 0.95)["end_high"] == math.inf
-
-
 def cells(*ends, coarser=0.0):
     table = pd.DataFrame({"end": ends, "end_low": 0.04, "end_high": 0.14})
     return table.assign(coarser=table.end + coarser)

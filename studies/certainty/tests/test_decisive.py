@@ -8,7 +8,7 @@ import pytest
 
 import topheavy as th
 from steps.shared import sweep
-from studies.certainty.shapes import FAMILIES, record, single_lobe
+from studies.certainty.shapes import record
 from studies.certainty.steps import benefit, extensions, intensities, lowest, restitution, theorem
 from studies.certainty.subjects import HIGHEST, changed, factored, supported
 from tests.cases import COLUMN, FRAME, SIZES
@@ -36,18 +36,6 @@ def test_frames_in_the_wrong_order_contradict_the_theorem():
     assert found > 20
 
 
-def test_tiny_bounce_is_an_impact():
-    """A spike that lifts the column hardly, and later a pulse that overturns it."""
-    level, samples = COLUMN.uplift_acceleration, np.zeros(400)
-    samples[50:] = 3.0 * level
-    for spike, at_once in ((-level * 1.0002, False), (0.0, True)):
-        samples[10] = spike
-        shaken = th.Record(0.01, samples)
-        found = th.judge(COLUMN, shaken)
-        assert (found.overturned, found.impacts) == (True, 0)
-        assert theorem.at_once(COLUMN.block(), shaken) is at_once
-
-
 def test_theorem_covers_what_its_conditions_say():
     light, heavy = COLUMN.block(), FRAME.block()
     for inward, proved in ((0.5, True), (0.9, False)):
@@ -56,18 +44,6 @@ def test_theorem_covers_what_its_conditions_say():
         assert theorem.peaks(one) == pytest.approx((1.5, inward))
         assert theorem.is_proved(one) is (1.5 * inward < 1.0) is proved
     assert theorem.is_proved(theorem.Trial(light.linear(), heavy.linear(), motion))
-
-
-def test_all_shapes_have_the_stated_peak_and_a_single_lobe_rises_once_and_falls_once():
-    random = np.random.default_rng(1)
-    for make in FAMILIES:
-        shape = record(make(random), 5.0, COLUMN, make.__name__)
-        assert shape.peak_acceleration == pytest.approx(COLUMN.uplift_acceleration)
-        assert shape.duration * COLUMN.frequency_parameter == pytest.approx(5.0)
-    for _ in range(50):
-        change = np.sign(np.diff(np.concatenate([[0.0], single_lobe(random), [0.0]])))
-        change = change[change != 0.0]
-        assert (change[0], np.count_nonzero(np.diff(change))) == (1.0, 1)
 
 
 # Minimum overturning acceleration ----------------------------------------------------------------
@@ -155,16 +131,6 @@ def test_each_impact_has_its_own_restitution():
             fell.append(ours.overturned)
         differ += fell[0] != fell[1]
     assert differ > 2
-
-
-def test_bounces_too_low_to_be_told_apart_take_no_restitution():
-    """A train of them comes before the rotation whose impact decides."""
-    parts = [np.tile([0.2, 0.2, -0.2, -0.2], 20), [0.0] * 10, [0.5] * 12, [-0.5] * 8]
-    motion = th.Record(0.05, np.concatenate(parts))
-    for row in ([0.99] * 3 + [0.0] * 200, [0.0] + [0.99] * 200):
-        ours, scipys = (judge(COLUMN, motion, restitutions=row) for judge in JUDGES)
-        assert ours.overturned == scipys.overturned
-        assert ours.impacts == scipys.impacts < th.judge(COLUMN, motion).impacts
 
 
 def test_factors_are_applied_to_column_and_frame_as_named_up_to_the_highest():

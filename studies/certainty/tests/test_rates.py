@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from steps.shared import second, sweep
+from steps.shared import sweep
 from studies.certainty.steps import rates, rates_check
 from studies.certainty.subjects import BARE, FIXED, FREE, rated, stated, velocities
 from tests.cases import COLUMN, SIZES, broken
@@ -89,14 +89,6 @@ def test_sample_is_judged_again_on_all_structures_in_turn(swept):
         assert checks.decided.sum() > 4
         for wrong in ({"overturns": ~checks.overturns}, {"decided": False}):
             assert not rates_check.findings(checks.assign(**wrong))[route].holds
-
-
-def test_sampled_motion_has_the_outcome_of_its_cell(swept):
-    random = np.random.default_rng(3)
-    for number in range(12):
-        near, place = bool(number % 2), number % len(UNDER)
-        _, motion, falls = rates_check.cell(UNDER[place].block, swept, place, CASE, near, random)
-        assert second.overturns(UNDER[place].block, motion, 1.0) == falls
 
 
 # Rates --------------------------------------------------------------------------------------------

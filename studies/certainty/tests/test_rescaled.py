@@ -9,7 +9,7 @@ import pytest
 
 from studies.certainty.steps import rescaled
 from tests.cases import COLUMN, SIZES
-from topheavy import Record, RockingFrame, judge
+from topheavy import Record
 from topheavy.second import reference
 
 GAMMAS = [0.0, 1.0, 4.0]
@@ -46,16 +46,6 @@ def test_filter_passes_what_is_fast_in_phase_and_stops_what_is_slow(order):
     found = rescaled.filtered(push, order, 0.1).acceleration
     velocity = np.cumsum(found) * 0.01
     assert abs(velocity[-1]) < 0.02 * np.abs(velocity).max()
-
-
-def test_shares_are_those_of_single_judgements():
-    for row in rescaled.rows(RECORD, COLUMN, GAMMAS, SPEC["widths"], 41):
-        factors = 1.0 + row["width"] * np.linspace(-1.0, 1.0, 41)
-        frames, motions = [RockingFrame(COLUMN, g) for g in GAMMAS], map(RECORD.scaled, factors)
-        falls = np.array([[judge(one, it).overturned for one in frames] for it in motions]).T
-        assert row["share"] == rescaled.is_reversed(falls).mean()
-        assert row["coarser"] == rescaled.is_reversed(falls[:, ::2]).mean()
-        assert row["overturned"].split() == [f"{GAMMAS[k]:g}" for k in np.flatnonzero(falls[:, 20])]
 
 
 def test_only_records_that_overturn_anything_are_rescaled(given):

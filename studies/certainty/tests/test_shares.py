@@ -19,13 +19,6 @@ def values(alpha, root_r):
     return pd.DataFrame([labels | {"α": a, "p": 0.0, "√r": r} for a, r in pairs])
 
 
-def test_shares_add_up_and_are_those_of_the_sums():
-    found = shares.shares(values([1.0, 0.5, 0.0] * 20, [0.0, 0.5, 0.0] * 20), CASE)
-    assert found.share.tolist() == [0.75, 0.0, 0.25]
-    assert found.gain.tolist() == pytest.approx([2.0 / 3.0] * 3)
-    assert (found.motions == 60).all()
-
-
 @pytest.mark.parametrize(
     ("alpha", "root_r", "holds"),
     [

@@ -8,7 +8,7 @@ import pandas as pd
 import pytest
 
 from studies.mechanism.steps.dependence import opens_below_the_shortest_bay, shortest_bay
-from studies.mechanism.steps.equivalence import equivalent_column, given_its_restitution, maps
+from studies.mechanism.steps.equivalence import equivalent_column, maps
 from studies.mechanism.steps.rigs import NO_ENGINE, experiment
 from studies.mechanism.steps.three_bodies import AGREE, compare
 from topheavy import Cap, Column, Pulse, RockingFrame
@@ -33,13 +33,6 @@ def test_frame_without_a_cap_is_its_equivalent_column():
     alone = RockingFrame(COLUMN, 0.0)
     one, other = maps((alone.block(), equivalent_column(alone)), alone, "one-sine", GRIDS)
     pd.testing.assert_frame_equal(one, other, rtol=1e-7)
-
-
-def test_column_that_is_given_the_restitution_of_the_frame_responds_identically():
-    frame = RockingFrame(COLUMN, 1.0)
-    (peaks,) = maps((frame,), frame, "one-sine", GRIDS)
-    assert peaks.isna().to_numpy().any()
-    assert given_its_restitution(frame, "one-sine", peaks, GRIDS) < 1e-9
 
 
 def test_seat_of_massless_columns_opens_below_a_bay_of_2b_and_2d_tan_alpha():

@@ -11,11 +11,9 @@ from scipy.special import ndtr
 import topheavy as th
 from replication.inputs.strict_yaml import read_yaml
 from steps.shared import sweep
-from steps.shared.outcomes import FALLS, STANDS, read, written
-from studies.reversals.steps import motions_check, motions_fragility, motions_records
-from studies.reversals.subjects import frames_and_columns, intensities
+from studies.reversals.steps import motions_check, motions_fragility
+from studies.reversals.subjects import frames_and_columns
 from topheavy.ground.synthetic.ensemble import draws, first_draws
-from topheavy.risk import resampling
 from topheavy.risk.ensemble import Ensemble
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -48,29 +46,11 @@ def answered() -> dict[str, sweep.Swept]:
     return {name: sweep.answers(shards, name, CASE, one.motions) for name, one in ASKED.items()}
 
 
-def test_levels_are_those_of_the_solitary_column():
-    (asked,), column = ASKED.values(), th.Column(**STRUCTURES["temple"])
-    record = draws(CASE)[0].record()
-    unit = th.STANDARD_GRAVITY * math.tan(column.slenderness) / column.frequency_parameter
-    for factor, wanted in zip(asked.levels / record.peak_velocity, intensities(CASE), strict=True):
-        assert record.scaled(factor).peak_velocity / unit == pytest.approx(wanted)
-    assert asked.motions == 20  # half of forty
-
-
 def test_motions_of_all_scenarios_and_families_differ():
     alike = CASE | {"scenarios": CASE["scenarios"][:1] * 2}
     for case in (CASE, alike):
         first = [draw.record().acceleration[:500] for draw in draws(case) if draw.number == 0]
         assert len({samples.tobytes() for samples in first}) == 4
-
-
-def test_larger_column_has_the_frequency_parameter_of_its_frame():
-    (asked,) = ASKED.values()
-    found = {tuple(one.labels.values()): one.block for one in asked.subjects}
-    frame, column = found["temple", 1.0, 0.0], found["temple", 0.0, 1.0]
-    assert column.frequency_parameter == pytest.approx(frame.frequency_parameter, rel=1e-14)
-    assert column.restitution > frame.restitution
-    assert found["temple", 0.0, 0.0] == th.Column(**STRUCTURES["temple"]).block()
 
 
 def test_pairs_count_what_differs():
@@ -146,25 +126,6 @@ def test_median_that_is_not_known_is_not_published(shares, reason):
         motions_fragility.middles(levels, np.array([[known, shares]]))
 
 
-def test_memory_holds_a_block_of_motions(answered, monkeypatch):
-    """Twenty motions a block in place of forty: the same probabilities, other resamples."""
-    (whole, _) = motions_fragility.main(CASE, STRUCTURES, answered)
-    monkeypatch.setattr(resampling, "BLOCK", 20)
-    (parts, _) = motions_fragility.main(CASE, STRUCTURES, answered)
-    one, other = whole["fragility"], parts["fragility"]
-    assert other.probability.to_numpy() == pytest.approx(one.probability.to_numpy(), rel=1e-12)
-    assert (other.probability_low != one.probability_low).any()
-    assert np.abs(other.probability_low - one.probability_low).max() < 0.1
-
-
-def test_boundary_lies_where_the_outcome_changes():
-    column, time = th.Column(0.5, 3.0), np.arange(0.0, 4.0, 0.01)
-    record = th.Record(0.01, np.sin(2.0 * math.pi * time / 2.0) * (time <= 2.0))
-    edge = motions_check.boundary(column, record, 0.1, 2.0)
-    below, above = (th.judge(column, record.scaled(edge * by)).overturned for by in (0.999, 1.001))
-    assert below != above
-
-
 def test_sample_is_judged_again(answered):
     _, found = motions_check.main(CASE, STRUCTURES, answered, 3e-12)
     assert found["tightened_agrees"]["cells"] + found["tightened_agrees"]["undecided"] == 6
@@ -180,24 +141,3 @@ def test_sample_of_which_nothing_is_decided_agrees_with_nothing(answered, monkey
     _, found = motions_check.main(CASE, STRUCTURES, answered, 3e-12)
     assert [one["cells"] for one in found.values()] == [0, 0]
     assert not any(one.holds for one in found.values())
-
-
-def test_outcomes_are_read_as_they_were_written():
-    fell, told = np.array([True, False, True, False]), np.array([True, True, False, True])
-    assert written(fell) == "fsfs"
-    assert read([written(fell, told)]).tolist() == [["f", "s", "?", "s"]]
-
-
-def test_records_are_compared_where_both_are_decided():
-    rows = [("a", 0.0, "ffss?"), ("a", 1.0, "fs?ff"), ("b", 0.0, "f"), ("b", 1.0, "f")]
-    table = pd.DataFrame(rows, columns=["record", "mass_ratio", "outcomes"])
-    counts = motions_records.compare(table, [0.0, 1.0])
-    columns = ["record", "cells", "decided", "both", "only_lighter", "only_heavier"]
-    assert counts[columns].to_numpy().tolist() == [["a", 5, 3, 1, 1, 1], ["b", 1, 1, 1, 0, 0]]
-
-
-def test_scales_begin_at_uplift():
-    record = th.Record(0.02, 0.3 * np.sin(np.linspace(0.0, 6.0, 200)), "sine")
-    row = motions_records.row(record, 10.0, 2.0, 1.0, np.array([0.99, 4.0, 20.0]), 3e-12)
-    assert row["outcomes"][0] == STANDS
-    assert row["outcomes"][2] == FALLS

@@ -26,18 +26,6 @@ def outcomes(*capacities):
     return np.array(found * 20)
 
 
-def test_first_level_that_overturns_is_found_and_none_is_infinite():
-    fell = np.array([LEVELS >= 1.0, (LEVELS > 0.6) & (LEVELS < 0.8), np.zeros(9, bool)])
-    assert motions_vase.first(fell, LEVELS).tolist() == pytest.approx([1.0, 2**-0.5, math.inf])
-
-
-def test_capacity_ratio_is_that_of_curves_that_are_shifted():
-    one = LEVELS >= 0.99
-    other = LEVELS >= 0.49  # two levels earlier: half
-    found = motions_vase.capacity_ratio(LEVELS, one.astype(float), other.astype(float))
-    assert found == pytest.approx(0.5)
-
-
 def test_ranks_count_motions_that_change_the_order():
     case = {"column": {"half_width": 0.5, "half_height": 3.0}, "mass_ratios": [1.0], "motions": 20}
     case |= {"intensities": {"lowest": 0.25, "highest": 4.0, "points": 9}}
@@ -122,20 +110,6 @@ def uplifted(monkeypatch, peaks):
     """The findings with these peaks of the rocking frame, also by SciPy."""
     monkeypatch.setattr(motions_uplift, "rocking_peaks", peaks)
     return motions_uplift.main(CASE, ENSEMBLE)[1]
-
-
-@pytest.mark.parametrize(("factor", "holds"), [(1.0, True), (5.0, False)])
-def test_larger_forces_are_not_limited(monkeypatch, factor, holds):
-    def larger(*arguments):
-        found = right(*arguments)
-        found.forces.update({name: factor * force for name, force in found.forces.items()})
-        return found
-
-    findings = uplifted(monkeypatch, larger)
-    assert findings["uplift_limits_totals"]["holds"] == holds
-    assert findings["shear_is_at_most_that_of_uplift"]["holds"] == holds
-    assert findings["uplift_limits_totals"]["survivors_that_uplift"] > 0
-    assert findings["uplift_second_route"]["holds"]  # both routes have these forces
 
 
 @pytest.mark.parametrize("name", motions_uplift.FORCES)

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from steps.shared.spectra_compared import Spectra, without
+from steps.shared.spectra_compared import Spectra
 from steps.shared.spectrum import solve
 from studies.reversals.steps import pulses
 from studies.reversals.steps.pulses_shard import CHANGES, changed, changed_line, lines
@@ -45,18 +45,6 @@ def test_frame_neither_helps_nor_harms_beside_itself(whole):
     assert row.lighter_overturns == row.heavier_overturns > 0.0
 
 
-def test_cap_of_a_thousand_million_columns_is_the_limit(whole):
-    row = shares(whole, 1e9, math.inf)
-    assert row.helps + row.harms < 1e-7
-    assert shares(whole, 0.0, 1e9).harms == pytest.approx(shares(whole, 0.0, math.inf).harms)
-    assert shares(whole, 0.0, math.inf).harms > 1e-3
-
-
-def test_light_and_heavy_swapped_swap_help_and_harm(whole):
-    there, back = shares(whole, 0.0, math.inf), shares(whole, math.inf, 0.0)
-    assert (there.helps, there.harms) == pytest.approx((back.harms, back.helps))
-
-
 @pytest.mark.parametrize("change", CHANGES)
 def test_cap_without_mass_changes_nothing(change):
     column = Column(1.0, 4.0)
@@ -88,11 +76,3 @@ def test_restitution_alone_leaves_overturning_without_impact_where_it_is(table):
     column = apart[apart.mass_ratio == 0.0].lower.loc["both"].groupby("frequency_ratio").max()
     alone = apart.lower.loc["restitution"].groupby("frequency_ratio").max()
     np.testing.assert_allclose(alone, column, rtol=1e-8)
-
-
-def test_without_keeps_what_is_in_one_set_alone():
-    first, second = np.array([[1.0, 4.0], [6.0, 7.0]]), np.array([[2.0, 3.0], [5.0, 8.0]])
-    assert without(first, second).tolist() == [[1.0, 2.0], [3.0, 4.0]]
-    assert without(second, first).tolist() == [[5.0, 6.0], [7.0, 8.0]]
-    assert len(without(first, first)) == 0
-    assert len(without(np.empty((0, 2)), first)) == 0

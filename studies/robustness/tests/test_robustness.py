@@ -32,14 +32,6 @@ def test_densities_and_envelope_have_their_limits():
     assert noise.envelope(times) == pytest.approx([0.0, 0.25, 1.0, 1.0, decayed])
 
 
-def test_ground_ends_at_rest_and_a_motion_depends_on_its_number_alone():
-    first, again, other = (noise.motion(7, k, SOIL).acceleration for k in (3, 3, 4))
-    assert np.array_equal(first, again)
-    assert not np.array_equal(first, other)
-    velocity = np.cumsum(first)
-    assert abs(velocity[-1]) < 1e-6 * np.abs(velocity).max()
-
-
 def test_spectrum_is_that_of_both_filters():
     """The mean of |FFT|² over many motions, smoothed by the envelope: by two octaves apart."""
     power = 0.0
@@ -145,26 +137,6 @@ def test_shares_are_of_the_motions_that_uplift():
     assert (table.largest["survive"], table.tension["survive"], table.tension["all"]) == (0.6, 0, 1)
 
 
-@pytest.mark.parametrize(
-    ("above", "gamma", "tension", "false", "unless_light"),
-    [
-        (0.05, 1.0, 0, set(), True),
-        (0.06, 0.5, 0, {"enough"}, True),
-        (0.06, 1.0, 0, {"enough"}, False),
-        (0.06, 0.0, 0, {"enough"}, False),
-        (0.0, 1.0, 1, {"no_tension"}, True),
-    ],
-)
-def test_friction_is_judged_by_all_and_tension_by_survivors(
-    above, gamma, tension, false, unless_light
-):
-    table = pd.DataFrame({"motions": ["all", "survive"], "tension": [9, tension]})
-    found = friction.findings(table.assign(mass_ratio=gamma, uplifted=5, **{"above_0.7": above}))
-    assert broken(found) == false
-    assert found["enough"].holds_when is unless_light
-    assert found["enough"]["mass_ratios"] == ([gamma] if "enough" in false else [])
-
-
 VERTICAL = CONFIG["vertical"] | {"column": SIZES, "motions": 4, "checked": 2}
 
 
@@ -191,15 +163,6 @@ def test_no_vertical_motion_changes_nothing_and_free_fall_is_left_out(given):
     across = Record(0.02, 0.4 * np.sin(np.linspace(0.0, 6.0, 200)), "across")
     row = vertical.measured(VERTICAL, [(across, Record(0.02, np.zeros(200), "up"))] * 2)
     assert (row["motions"], row["column"]) == (2, row["column_vertical"])
-
-
-@pytest.mark.parametrize(("low", "holds"), [(0.01, True), (0.0, False)])
-def test_benefit_remains_in_each_family(low, holds):
-    row = {"family": "broadband", "benefit_vertical_low": low, "free_fall": 1, "change_low": -0.1}
-    row |= {"change_high": 0.1, "interval": "includes zero"}
-    measured = row | {"family": vertical.MEASURED, "benefit_vertical_low": math.nan}
-    found = vertical.findings(pd.DataFrame([row, measured]))["benefit_remains"]
-    assert (found.holds, found["compared"]) == (holds, 1)
 
 
 def test_change_of_outcome_is_found_in_a_range():

@@ -4,15 +4,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from tests.cases import RECORDS
-from tests.ground.records.files import HEADER, SAMPLES, STEPS, VALUES
-from tests.ground.records.test_units import HEADERS, SPELLINGS
+from tests.ground.records.files import HEADER, SAMPLES, VALUES
 from topheavy import read_at2
-
-few = settings(deadline=None, derandomize=True, database=None)
 
 
 @pytest.fixture
@@ -40,27 +35,6 @@ def test_line_ends_and_a_mark_of_byte_order_do_not_matter(write, newline, tail, 
     np.testing.assert_array_equal(record.acceleration, SAMPLES)
     assert record.time_step == 0.02
     assert record.name == "motion"
-
-
-@few
-@given(
-    spelling=st.sampled_from(sorted(SPELLINGS)),
-    header=st.sampled_from(HEADERS[:-1]),
-    step=st.sampled_from([line for line in STEPS if "UNITS" not in line]),
-    samples=st.lists(
-        st.floats(-4.9, 4.9).map(lambda a: round(a, 6)), min_size=5, max_size=5
-    ).filter(any),
-    fortran=st.booleans(),
-)
-def test_record_in_any_spelling_gives_the_same_accelerations(
-    motion, spelling, header, step, samples, fortran
-):
-    values = " ".join(f"{a / SPELLINGS[spelling]:.15E}" for a in samples)
-    values = values.replace("E", "D") if fortran else values
-    motion.write_text(f"A site\n{header.format(spelling)}\n{step}\n{values}\n", encoding="utf-8")
-    record = read_at2(motion)
-    np.testing.assert_allclose(record.acceleration, samples, rtol=1e-13, atol=1e-18)
-    assert record.time_step == pytest.approx(0.02, rel=1e-15)
 
 
 def test_missing_file_is_named(tmp_path):

@@ -1,7 +1,5 @@
 """`python -m topheavy.ground.records FILE`: what it prints, and how it fails."""
 
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -50,34 +48,6 @@ def test_file_that_is_refused_is_told_in_one_line(tmp_path, capsys, name):
     assert printed.err.startswith("error: ")
     assert printed.err.count("\n") == 1
     assert str(tmp_path) in printed.err
-
-
-@pytest.mark.parametrize("encoding", ["utf-8", "ascii"])
-def test_command_runs_as_a_module_without_a_warning(file, encoding):
-    run = subprocess.run(
-        [sys.executable, "-W", "error", "-m", "topheavy.ground.records", file],
-        env={"PYTHONIOENCODING": encoding},
-        capture_output=True,
-        text=True,
-        encoding="utf-8",
-        timeout=300,
-        check=False,
-    )
-    assert (run.returncode, run.stderr) == (0, "")
-    assert "PGA       0.2 g" in run.stdout
-
-
-def test_command_fails_without_a_traceback(tmp_path):
-    run = subprocess.run(
-        [sys.executable, "-m", "topheavy.ground.records", tmp_path / "nowhere.AT2"],
-        capture_output=True,
-        text=True,
-        timeout=300,
-        check=False,
-    )
-    assert run.returncode == 1
-    assert run.stderr.startswith("error: ")
-    assert run.stderr.count("\n") == 1
 
 
 def test_several_files_are_a_table(file, tmp_path, capsys):

@@ -6,12 +6,8 @@ import numpy as np
 import pytest
 
 from topheavy import RockingBlock
-from topheavy.kernel.forcing import NO_RECORD, ONE_SINE, SHAPES
-from topheavy.kernel.grid import LANES, outcome_of, outcomes_of
-from topheavy.kernel.lanes.pulses import pulse_outcomes
-from topheavy.kernel.lanes.steps import ROWS
-from topheavy.kernel.lanes.vectors import rows
-from topheavy.kernel.outcome import HALT, PULSE_ORDER, TOLERANCE, working_array
+from topheavy.kernel.forcing import ONE_SINE, SHAPES
+from topheavy.kernel.grid import outcome_of, outcomes_of
 from topheavy.kernel.taylor import oscillator
 
 ENDING = sorted(set(SHAPES) - {"harmonic"})
@@ -45,22 +41,6 @@ def test_outcomes_and_impacts_are_those_of_the_scalar_kernel(shape, linearised, 
     assert (overturned != overturned[0, 0]).any()
 
 
-def test_exact_grid_lines_and_bounds():
-    """Amplitudes at the uplift level, of zero and of either sign; √r from nothing to nearly 1."""
-    for restitution in (0.0, 0.99):
-        block = oscillator(RockingBlock(1.0, 0.2, restitution))
-        level = block.level
-        amplitudes = np.array([0.0, 0.5 * level, level, level * (1 + 1e-12), -level, -2 * level, 1])
-        scales = np.array([0.5, 3.0, 7.0])
-        for shape in (SHAPES[name] for name in ENDING):
-            peak, overturned, impacts = outcomes_of(block, shape, scales, amplitudes)
-            expected = alone(block, shape, scales, amplitudes)
-            np.testing.assert_array_equal(overturned, expected[1])
-            np.testing.assert_array_equal(impacts, expected[2])
-            np.testing.assert_allclose(peak, expected[0], rtol=0, atol=CLOSE * 0.2)
-            assert not peak[:, :2].any()
-
-
 def test_history_that_was_given_up_is_named_by_both_kernels():
     """Lifted by a trillionth of the uplift level and without loss, a block bounces on and on."""
     block = oscillator(RockingBlock(1.0, 0.2, 1.0))
@@ -84,21 +64,3 @@ def test_no_cell_depends_on_the_others():
         cell = outcomes_of(block, ONE_SINE, scales[i : i + 1], amplitudes[j : j + 1])
         for one, other in zip(whole, cell, strict=True):
             np.testing.assert_array_equal(one[i, j], other[0, 0])
-
-
-def filled(workspace):
-    """What `pulse_outcomes` returns for a few cells."""
-    block, size = oscillator(RockingBlock(1.0, 0.2, 0.9)), (1, 3 * LANES)
-    out = (np.empty(size), np.empty(size, dtype=bool), np.empty(size, dtype=np.int64))
-    amplitudes = block.level * np.linspace(1.1, 4.0, size[1])[np.newaxis]
-    cells = (np.zeros((1, 1), np.int64), np.full((1, 1), 3.0), amplitudes)
-    given = (ONE_SINE, NO_RECORD, PULSE_ORDER, TOLERANCE, out)
-    histories = (block, np.array([block[:5]]), *cells)
-    return pulse_outcomes((rows(ROWS), workspace), (0, 1), histories, *given)
-
-
-def test_halt_ends_the_batch():
-    workspace = working_array()
-    assert filled(workspace) == -1
-    workspace[HALT, 0] = 1.0
-    assert filled(workspace) >= 0

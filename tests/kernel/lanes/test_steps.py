@@ -28,7 +28,6 @@ from topheavy.kernel.outcome import (
     advance,
     working_array,
 )
-from topheavy.kernel.rest import LAST_BOUNCE
 from topheavy.kernel.taylor import (
     COSINE,
     PUSH,
@@ -136,34 +135,6 @@ def test_step_ends_where_that_of_the_scalar_kernel_does(block, shape, on_ground)
     assert {NOTHING, LANDING} <= seen
 
 
-def test_steps_are_as_long_as_those_of_the_scalar_kernel():
-    """Shorter by up to a tenth: their power is rough."""
-    ratios = []
-    for seed in range(20):
-        cases = states(ONE_SINE, seed)
-        w = filled(cases)
-        landed, fallen, length, _ = step(w, working_array(), BLOCK, False)
-        for lane, (pulse, time, _, state) in enumerate(cases):
-            given = (PULSE_ORDER, TOLERANCE, BLOCK, pulse, time, pulse.end - time, state, 0, 0.0)
-            theirs, event, _ = advance(working_array(), *given, False)
-            if event == NOTHING and not (landed | fallen) >> lane & 1:
-                ratios.append(length[lane] / theirs)
-    assert len(ratios) > 5 * WIDTH
-    assert min(ratios) > 0.88
-    assert max(ratios) < 1.02
-
-
-def test_lane_that_is_unsettled_is_stepped_alone():
-    w, cubic = rows(steps.ROWS), np.polynomial.Polynomial([0.01, 0.3, -0.9, 0.2])
-    w[steps.ROTATION : steps.ROTATION + 4] = cubic.coef[:, np.newaxis]
-    w[steps.LENGTH], w[steps.ARC] = 1.0, 0.01
-    assert steps.step_alone(w, working_array(), 1, 3, BLOCK.flat) == LANDING
-    inside = [min(p.roots()[p.roots() > 0]) for p in (cubic.deriv(), cubic)]
-    assert w[steps.ARC, 1] == pytest.approx(cubic(inside[0]), rel=1e-12)
-    assert w[steps.LENGTH, 1] == pytest.approx(inside[1], rel=1e-10)
-    assert (w[steps.LENGTH, 0], w[steps.ARC, 0]) == (1.0, 0.01)
-
-
 @njit
 def root_of_all(w, degree, correction):
     step, start, stop = load(w, steps.LENGTH), load(w, steps.STEP), load(w, steps.TIME)
@@ -192,35 +163,3 @@ def test_root_is_taken_only_where_the_iteration_is_to_be_trusted():
     assert 0.1 < len(kept) / (400 * WIDTH) < 0.95
     # what Halley's iteration leaves is the square of the bend times the correction
     assert max(kept) < 2.0 * steps.TURN_CORRECTION * 0.1**2
-
-
-@njit
-def struck(w, block, landed):
-    return steps.strike(w, steps.seated(w, block), False, landed)
-
-
-def test_impact_changes_the_struck_lanes_only():
-    w = filled(states(ONE_SINE, 3))
-    w[steps.ARC], w[steps.VELOCITY] = 0.1, -0.5
-    w[steps.ARC, 2] = 0.5 * LAST_BOUNCE * BLOCK.slenderness
-    before = w.copy()
-    assert struck(w, BLOCK, 0b101) == 0
-    np.testing.assert_array_equal(w[:, 1], before[:, 1])
-    for lane, counted in ((0, 1.0), (2, 0.0)):
-        assert w[steps.VELOCITY, lane] == 0.5 * BLOCK.restitution
-        assert (w[steps.ROTATION, lane], w[steps.SINE, lane], w[steps.COSINE, lane]) == (0, 0, 1)
-        assert w[steps.PUSH, lane] == -before[steps.PUSH, lane] - 2 * BLOCK.level
-        assert w[steps.PUSH + 1, lane] == -before[steps.PUSH + 1, lane]
-        assert w[steps.SIDE, lane] == -before[steps.SIDE, lane]
-        assert w[steps.FACTOR, lane] == -before[steps.FACTOR, lane]
-        assert (w[steps.ARC, lane], w[steps.IMPACTS, lane]) == (0.0, counted)
-
-
-def test_slow_impact_under_a_weak_push_may_come_to_rest():
-    w = filled(states(ONE_SINE, 3))
-    w[steps.PUSH], w[steps.VELOCITY] = -1.1 * BLOCK.level, -1e-9
-    w[steps.VELOCITY, 1] = -0.1
-    w[steps.PUSH, 2] = 0.1  # the ground still lifts it
-    assert struck(w, BLOCK, 0b111) == 0b001
-    w[steps.VELOCITY, 3] = 0.0
-    assert struck(w, BLOCK, 0b1000) == 0b1000

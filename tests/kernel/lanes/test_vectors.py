@@ -1,12 +1,9 @@
 """Lanes: each one is a float of its own, whatever the width of the registers."""
 
-import math
-
 import numpy as np
 import pytest
 from numba import njit
 
-from topheavy.kernel.lanes import vectors
 from topheavy.kernel.lanes.vectors import (
     HAS_FMA,
     WIDTH,
@@ -117,17 +114,6 @@ def test_rough_power_is_near(exponent):
         np.testing.assert_allclose(out[0], x**exponent, rtol=0.07)
 
 
-def test_exponential_is_that_of_the_library():
-    out = rows(2)
-    for _ in range(200):
-        x = RNG.uniform(-300.0, 1.0, WIDTH)
-        x[0] = 0.0
-        functions(given(x * 0.0 + 1.0, x), 0.1, out)
-        np.testing.assert_allclose(out[1], np.exp(x), rtol=5e-16)
-    functions(given(x * 0.0 + 1.0, x * 0.0 - 1e6), 0.1, out)
-    np.testing.assert_allclose(out[1], math.exp(-700), rtol=1e-15)
-
-
 @njit
 def taken(array, x, out):
     store(out, 0, take(array, load(x, 0)))
@@ -138,17 +124,3 @@ def test_take_reads_an_element_for_each_lane():
     places = RNG.integers(0, 50, WIDTH)
     taken(array, given(places), out)
     np.testing.assert_array_equal(out[0], array[places])
-
-
-def test_rows_begin_where_the_cpu_loads_them_at_once():
-    for count in (1, 3, 100):
-        table = rows(count)
-        assert table.shape == (count, WIDTH)
-        assert table.ctypes.data % (8 * WIDTH) == 0
-        assert not table.any()
-
-
-def test_width_is_two_registers():
-    features = vectors._FEATURES
-    registers = 8 if "+avx512f" in features else 4 if "+avx2" in features else 2
-    assert 2 * registers == WIDTH

@@ -70,17 +70,6 @@ def test_certificate_is_about_the_problem_that_was_asked_alone(structure):
             concerns(certificate, *change)
 
 
-def test_record_with_rests_and_a_box_of_factors_are_proven_again():
-    values = [0.1, 0.3, -0.3, 0.05, *[0.0] * 60, 0.4, -0.2, 0.1, 0.1, -0.5, 0.5, 0.0]
-    found, certificate = certified(COLUMN.block(0.6), th.Record(0.1, values), factor=0.9)
-    assert "rests" in {event["event"] for event in certificate["events"]}
-    assert check(certificate) == found.outcome
-    found, certificate = certified(
-        COLUMN, th.Pulse("one-cosine", 1.0, 4.2), factor=(0.26, 0.2600001)
-    )
-    assert check(certificate) == found.outcome == "survives"
-
-
 WITH_IMPACT = honest(COLUMN, th.Pulse("one-cosine", 0.272822710, 2.0 * math.pi / 1.5))
 """A survivor of one impact, 1e-9 below the boundary."""
 

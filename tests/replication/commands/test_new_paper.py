@@ -40,12 +40,6 @@ def test_nothing_of_this_paper_goes_along(paper):
     assert found == []
 
 
-def test_every_blank_is_filled_and_every_gap_is_marked(paper):
-    assert [p for p in files(paper) if re.search(r"@[A-Z]+@", p.read_text("utf-8"))] == []
-    marked = {str(p.relative_to(paper)) for p in files(paper) if "BLANK" in p.read_text("utf-8")}
-    assert {"README.md", "CITATION.cff", "pyproject.toml", "paper/report.typ", "LICENSE"} <= marked
-
-
 def test_readme_names_every_place_of_the_example(paper):
     readme = (paper / "README.md").read_text("utf-8")
     example = re.compile(r"pendulum|period|theory\.motion|swing(?!ing)")
@@ -58,29 +52,6 @@ def test_readme_names_every_place_of_the_example(paper):
         if not any(f"`{each.as_posix()}`" in readme for each in (place, *place.parents)):
             unnamed.append(str(place))
     assert unnamed == []
-
-
-def test_example_imports_no_more_than_a_paper_may(paper):
-    text = (paper / update.MACHINE / "README.md").read_text("utf-8")
-    listed = tuple(re.findall(r"`(replication\.[\w.]+)`", text))
-    imported = re.compile(r"^ *from (replication[\w.]*) import (\w+)", re.MULTILINE)
-    found = {
-        ".".join(names)
-        for path in files(paper)
-        if path.suffix in {".py", ".smk", ""}
-        for names in imported.findall(path.read_text("utf-8"))
-    }
-    assert found
-    assert [name for name in found if not name.startswith(listed)] == []
-
-
-def test_what_is_the_same_for_every_paper_is_kept_once(paper):
-    for path in new_paper.COPIED:
-        assert not (new_paper.TEMPLATE / path).exists()
-        assert (paper / path).stat().st_mode == (ROOT / path).stat().st_mode
-    machine = {p.relative_to(paper / update.MACHINE) for p in (paper / update.MACHINE).rglob("*.*")}
-    home = [Path(path).relative_to(update.MACHINE) for path in update.AT_HOME]
-    assert not {path for path in machine if {path, *path.parents} & {*home}}
 
 
 def test_lock_has_the_versions_of_ours_and_no_package_too_many(paper):
@@ -127,28 +98,6 @@ def test_first_commit_is_on_the_branch_on_which_its_workflow_runs(paper, tmp_pat
     assert f"committed on the branch {branch}" in new_paper.first_commit(tmp_path)
     assert head.exists()
     assert re.fullmatch(r"[0-9a-f]{40}\n", (tmp_path / update.TREE).read_text("utf-8"))
-
-
-JOBS = """
-import replication, theory
-from replication.workflow.provenance import workflow_jobs
-jobs = {job.rule for job in workflow_jobs()}
-print(replication.__file__, theory.__file__, *sorted(jobs), sep="\\n")
-"""
-
-
-def test_its_workflow_is_read_from_its_own_folder(paper):
-    done = python(paper, "-c", JOBS, PYTHONPATH=str(paper / "src"))
-    machine, theory, *rules = done.stdout.splitlines()
-    assert Path(machine).is_relative_to(paper)
-    assert Path(theory).is_relative_to(paper)
-    assert {"equations", "period", "claim_eq2", "report"} <= set(rules)
-
-
-def test_workflow_refuses_the_machine_of_another_folder(paper):
-    done = python(paper, "-m", "snakemake", "--cores=1", "--dry-run")
-    assert done.returncode == 1
-    assert f"expected {paper}/src/replication: this folder is a copy" in done.stdout
 
 
 @pytest.mark.parametrize(

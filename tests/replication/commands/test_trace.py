@@ -131,14 +131,6 @@ def test_item_is_found_by_its_rule_its_file_or_the_end_of_its_path(told, name, b
     assert "data/record.AT2" in text
 
 
-def test_input_that_changed_since_the_run_or_is_missing_is_marked(told, tree):
-    (tree / "data/record.AT2").write_text("0.2\n")
-    before = SUMS["data/record.AT2"][:16]
-    assert f"CHANGED: it was {before} in the run" in told("peaks.csv")
-    (tree / "data/record.AT2").unlink()
-    assert "  input     data/record.AT2  MISSING" in told("peaks.csv")
-
-
 def test_shards_of_a_rule_share_a_line_and_a_block(told):
     shards = [Job("shard", "a:1", STEP.scripts, (), (f"results/{n}.csv",)) for n in range(8)]
     paths = tuple(path for job in shards for path in job.outputs)

@@ -1,6 +1,5 @@
 """Another machine takes the place of an unchanged one, or none does and the reason is said."""
 
-import hashlib
 import os
 import shutil
 import subprocess
@@ -132,43 +131,6 @@ def test_machine_that_is_not_as_it_was_taken_is_kept(paper, newer, spoil, commit
     assert "nothing is changed" in done.stderr
     assert said in done.stderr
     assert tree(paper) == before
-
-
-@pytest.mark.parametrize("by_hand", [False, True])
-def test_paper_that_has_checksums_of_its_machine_is_carried_over(paper, newer, by_hand):
-    (paper / update.TREE).unlink()
-    lines = (f"{hashlib.sha256(path.read_bytes()).hexdigest()}  {path.relative_to(paper / PLACE)}\n"
-             for path in sorted((paper / PLACE).rglob("*")) if path.is_file())  # fmt: skip
-    (paper / update.SUMS).write_text("".join(lines), encoding="utf-8")
-    if by_hand:
-        (paper / PLACE / "part.py").write_text("V = 'mine'\n")
-    commit(paper)
-    done = updated(paper, newer, by=newer)
-    assert (done.returncode, (paper / update.SUMS).exists()) == (
-        (1, True) if by_hand else (0, False)
-    )
-    assert ("part.py was changed by hand" in done.stderr) is by_hand
-
-
-def test_older_machine_is_not_taken(paper, machine):
-    assert (
-        "FROM has version 0.9.10; expected at least 1.0.0"
-        in updated(paper, machine("0.9.10")).stderr
-    )
-
-
-def test_what_is_no_other_repository_is_refused(paper, newer):
-    shutil.rmtree(newer / ".git")
-    for source in ("", ".", newer):
-        done = updated(paper, source)
-        assert done.returncode == 1
-        assert f"FROM is '{source}'; expected another git repository" in done.stderr
-    assert "git cannot fetch FROM, 'nowhere'" in updated(paper, "nowhere").stderr
-    shutil.rmtree(paper / ".git")
-    assert (
-        "this paper is in no git repository; commit it"
-        in updated(paper, paper.parent / "1.0.0").stderr
-    )
 
 
 def test_without_a_lock_nothing_is_changed_and_a_check_that_fails_is_told(paper, newer):

@@ -78,17 +78,6 @@ def test_key_has_the_nearest_meaning_and_unit_and_its_value(config):
     assert [(key.place, key.meaning, key.unit, key.value) for key in keys(config)] == KEYS
 
 
-def test_what_a_schema_leaves_out_is_usual(tmp_path):
-    path = tmp_path / "a.schema.yaml"
-    path.write_text("grid: { low: { type: number }, high: { minimum: 1 } }", encoding="utf-8")
-    grid = {"low": {"type": "number"}, "high": {"minimum": 1}}
-    closed = {"type": "object", "additionalProperties": False}
-    inner = closed | {"required": ["low", "high"], "properties": grid}
-    assert read_schema(path) == closed | {"required": ["grid"], "properties": {"grid": inner}}
-    path.write_text("{ type: object, properties: { a: { allOf: [] } } }", encoding="utf-8")
-    assert read_schema(path) == {"type": "object", "properties": {"a": {"allOf": []}}}
-
-
 @pytest.mark.parametrize("path", CONFIGS, ids=str)
 def test_our_schemas_require_every_key_that_the_code_reads(path):
     def closed(node):

@@ -131,19 +131,6 @@ def test_made_study_has_the_style_that_lint_demands_for_every_length_of_its_name
         subprocess.run([sys.executable, "-m", *command], cwd=tmp_path, check=True)
 
 
-def test_file_of_the_same_name_as_one_over_the_papers_goes_over_a_study_s(project):
-    over = project / "studies" / "skeleton" / "quick.yaml"
-    read = partial(read_study_config, "skeleton", CHECK, str(project / "studies"))
-    plain = read()
-    over.write_text("gain: { amplitudes: { floor: 0.5 } }\n", encoding="utf-8")
-    found = read(over=["quick.yaml"])
-    assert found["gain"]["amplitudes"] == plain["gain"]["amplitudes"] | {"floor": 0.5}
-    assert read() == read(over=["x.yaml"]) == plain
-    over.write_text("gain: { amplitude: 1.0 }\n", encoding="utf-8")
-    with pytest.raises(ValueError, match=r"quick.yaml over .*config.yaml: .*unknown key 'ampl"):
-        read(over=["quick.yaml"])
-
-
 @pytest.mark.parametrize("name", sorted(p.parent.name for p in ROOT.glob("studies/*/quick.yaml")))
 def test_quick_config_of_a_study_is_sound_and_names_no_new_key(name):
     config = yaml.safe_load((ROOT / "config" / "config.yaml").read_text("utf-8"))
@@ -163,11 +150,6 @@ def test_study_that_is_not_there_is_named_and_so_is_the_file_of_a_fault(project)
     path.write_text(path.read_text("utf-8").replace("temple", "tempel"), "utf-8")
     with pytest.raises(ValueError, match=r"skeleton/config.yaml: gain.structure is 'tempel'"):
         read_study_config("skeleton", CHECK, str(project / "studies"))
-
-
-def test_study_follows_those_that_it_needs():
-    check_needs({"first": {}, "second": {"needs": ["first"]}, "third": {}})
-    check_needs({"first": {}, "third": {}})
 
 
 @pytest.mark.parametrize("listed", [["second"], ["second", "first"], ["third", "second"]])

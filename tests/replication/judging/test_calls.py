@@ -1,12 +1,11 @@
 """Which functions ran: noted once, at no cost afterwards, and found by their public names."""
 
 import json
-import threading
 from types import ModuleType, SimpleNamespace
 
 import pytest
 
-from replication.judging.calls import definition, library, noted
+from replication.judging.calls import library, noted
 from replication.workbench import run, truth
 
 SOURCE = """
@@ -109,51 +108,9 @@ def test_arguments_arrive_and_functions_are_as_before_afterwards(module):
     assert module.plain.__code__ is code
 
 
-def test_first_calls_from_many_threads_all_arrive(module):
-    results, start = [], threading.Barrier(8)
-
-    def work():
-        start.wait()
-        results.append(module.plain(1))
-
-    with noted([("a.things", module)]) as called:
-        threads = [threading.Thread(target=work) for _ in range(8)]
-        for thread in threads:
-            thread.start()
-        for thread in threads:
-            thread.join()
-    assert results == [(1, 2, (), 3, {})] * 8
-    assert called == {"a.things.plain"}
-
-
 def test_library_yields_what_a_rule_declares_and_no_step():
     declared = ["src/topheavy/bodies/structures.py", "src/steps/heavier.py", "config/config.yaml"]
     assert {name for name, _ in library(declared)} == {"topheavy.bodies.structures"}
-
-
-@pytest.mark.parametrize(
-    ("name", "full"),
-    [
-        ("topheavy.simulate", "topheavy.outcomes.simulate.simulate"),
-        ("topheavy.judge", "topheavy.outcomes.simulate.judge"),
-        ("topheavy.second.reference.judge", "topheavy.second.reference.judge"),
-        ("topheavy.Column.size", "topheavy.bodies.structures.Column.size"),
-        ("topheavy.derivation.theorems", "topheavy.derivation.theorem.theorems"),
-        ("topheavy.contact_forces", "topheavy.forces.contact.contact_forces"),
-        ("topheavy.derivation.contact_forces", "topheavy.derivation.contact.contact_forces"),
-        ("studies.skeleton.steps.gain.lowest", "studies.skeleton.steps.gain.lowest"),
-    ],
-)
-def test_public_name_stands_for_one_definition(name, full):
-    assert definition(name) == full
-
-
-@pytest.mark.parametrize(
-    "name", ["topheavy.simulat", "topheavy.RockingBlock.no", "topheavy.derivation", "numpy.sin"]
-)
-def test_name_of_nothing_is_refused(name):
-    with pytest.raises(ValueError, match=f"{name} is no function or class of the repository"):
-        definition(name)
 
 
 def job(folder, outputs) -> SimpleNamespace:

@@ -5,7 +5,6 @@ import json
 import pytest
 
 from replication.judging.findings import (
-    Finding,
     Findings,
     findings_by_rule,
     read_findings,
@@ -13,12 +12,6 @@ from replication.judging.findings import (
 )
 
 ENTRIES = {"holds": False, "widest": 0.5, "meant_holds": None, "kind": None, "error": 1e-3}
-
-
-def test_fields_and_evidence_are_read_by_name():
-    finding = Finding.of(ENTRIES)
-    assert (finding.holds, finding.error, finding["widest"]) == (False, 1e-3, 0.5)
-    assert finding.meant_holds is finding.value is None
 
 
 @pytest.mark.parametrize(
@@ -58,10 +51,3 @@ def test_finding_that_could_judge_no_claim_is_refused_with_its_file(tmp_path, en
 def test_entry_that_is_no_finding_is_refused():
     with pytest.raises(ValueError, match=r"the finding 'so' is True; expected value\(\) or truth"):
         Findings.of({"so": True})
-
-
-def test_evidence_is_added_after_the_entries():
-    finding = Finding.of({"holds": True, "compared": 3}).with_evidence(widest=0.5)
-    assert list(finding.entries.items()) == [("holds", True), ("compared", 3), ("widest", 0.5)]
-    with pytest.raises(ValueError, match="did you mean 'kind'"):
-        finding.with_evidence(kinds="sign")

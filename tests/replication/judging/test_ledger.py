@@ -64,12 +64,6 @@ def test_study_changes_what_judges_a_claim_and_not_the_claim(paths, change, othe
         read_ledger(paths)
 
 
-def test_finding_is_the_one_that_the_claim_names():
-    findings = Findings.of({"left": {"holds": True}, "right": {"holds": False}})
-    assert finding_of(replace(CLAIM, finding="right"), findings) == findings["right"]
-    assert finding_of(replace(CLAIM, finding=""), findings) is None
-
-
 def test_finding_that_the_rule_does_not_make_is_named():
     told = "the claim c names the finding 'rihgt', which rule r does not make; did you mean 'right'"
     with pytest.raises(ValueError, match=told):

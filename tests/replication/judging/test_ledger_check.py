@@ -95,17 +95,6 @@ def test_row_that_is_wrong_is_named_with_its_file(tree, row, told):
     assert line.startswith(f"{tree}/paper/claims.yaml: {row['id']}: ")
 
 
-def test_every_fault_is_told_at_once(tree):
-    with pytest.raises(ValueError, match=r"claims\.yaml") as error:
-        check(tree, ROW | {"rule": "nosuch"}, ROW | {"id": "other", "expected": "qualifed"})
-    assert len(str(error.value).splitlines()) == 2
-
-
-def test_study_that_judges_a_claim_of_the_paper_is_the_file_that_is_named(tree):
-    with pytest.raises(ValueError, match=r"studies/own/claims.yaml: row: rule is 'nosuch'"):
-        check(tree, ROW, own=[{**without("where", "statement"), "rule": "nosuch"}])
-
-
 @pytest.mark.parametrize(
     ("text", "told"),
     [
@@ -121,16 +110,6 @@ def test_file_that_is_no_ledger_is_named(tree, text, told):
     path.write_text(text, encoding="utf-8")
     with pytest.raises(ValueError, match=f"paper/claims.yaml:? {told}"):
         check_ledger([path], RULES, tree)
-
-
-def test_finding_that_is_new_is_no_slip(tree):
-    (tree / "src" / "step.py").write_text('findings = {"heavier_survive_more": 1}\n')
-    for new in (
-        {"finding": "heavier_survive_more"},  # a source spells it
-        {"finding": "columns_stand"},  # like none that is published
-        {"rule": "statements", "finding": "anything"},  # of a rule that has published none
-    ):
-        check(tree, ROW | new)
 
 
 def test_no_row_of_ours_confirms_a_value_twice_as_far_off_as_its_digits_allow():

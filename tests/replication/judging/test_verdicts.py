@@ -11,7 +11,6 @@ from replication.judging.ledger import with_verdict
 from replication.judging.verdicts import (
     KINDS,
     VERDICTS,
-    by_origin,
     print_rounding,
     tallies,
     tolerance_fault,
@@ -179,12 +178,3 @@ def test_tally_names_every_verdict():
         "pendulums: 1 confirmed, 1 qualified, 1 slip, 1 misprint, 1 refuted, 1 by definition, "
         "1 not tested",
     ]
-
-
-def test_paper_and_studies_are_counted_apart_the_paper_first():
-    rows = [
-        replace(UNTESTED, study=study, verdict=verdict)
-        for study, verdict in [("b", "refuted"), ("", "confirmed"), ("a", "slip"), ("b", "slip")]
-    ]
-    found = {"paper": ["confirmed"], "b": ["refuted", "slip"], "a": ["slip"]}
-    assert list(by_origin(rows).items()) == list(found.items())

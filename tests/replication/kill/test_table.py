@@ -71,33 +71,6 @@ def test_faults_still_fit_the_tree():
                 assert f"def {function}" in (ROOT / file).read_text(encoding="utf-8"), fault.name
 
 
-def test_faults_of_a_study_go_with_its_folder_and_those_of_the_others_stay(tmp_path, plant):
-    paths = [
-        "faults/one.yaml",
-        "tests/faults/two.yaml",
-        "studies/a/faults.yaml",
-        "studies/b/faults.yaml",
-    ]
-    for path in paths:
-        entry = {"name": path, "fault": "Wrong.", "routes": "all", "tests": [], "changes": []}
-        plant(tmp_path, {path: yaml.safe_dump([entry])})
-    assert [(fault.home, fault.name) for fault in load(tmp_path)] == [(p, p) for p in paths]
-    shutil.rmtree(tmp_path / "studies" / "a")
-    assert [fault.home for fault in load(tmp_path)] == [*paths[:2], paths[3]]
-
-
-def test_fault_that_names_no_tests_is_asked_of_those_of_its_modules(tmp_path, plant):
-    tests = {
-        "studies/a/steps/one.py": "studies/a/tests/test_one.py",
-        "src/steps/one.py": "tests/steps/test_one.py",
-        "src/library/bodies/one.py": "tests/bodies/test_one.py",
-    }
-    changes = [{"file": file, "old": "", "new": ""} for file in [*tests, "src/steps/one.py"]]
-    entry = {"name": "one", "fault": "Wrong.", "changes": changes}
-    plant(tmp_path, {"faults/one.yaml": yaml.safe_dump([entry]), "tests/steps/test_one.py": ""})
-    assert [fault.tests for fault in load(tmp_path)] == [tuple(tests.values())]
-
-
 def test_fault_needs_no_study_but_its_own_and_has_its_name_alone():
     """It would be lost, or fit no tree, without the other study."""
     for fault in FAULTS:
@@ -188,19 +161,6 @@ def test_new_fault_is_put_to_tests_then_to_the_paper_then_to_studies(monkeypatch
     assert asked == ["test_one.py", *PAPERS, "d"]
     row, _ = judge(monkeypatch, tree, ONE, [], fails=False)
     assert (row.caught_by, row.rules) == ("rule", "c")
-
-
-def test_cheapest_rule_that_caught_a_fault_last_is_asked_first(monkeypatch, tree):
-    last = replace(ROW, verdicts="eq1 eq3 eq4")
-    options = {"last": last, "seconds": {"a": 9.0, "b": 5.0, "c": 7.0}}
-    row, asked = judge(monkeypatch, tree, ONE, ["eq1", "eq2"], **options)
-    assert asked == ["b"]
-    assert row.verdicts == "eq1 eq2 eq4"  # eq3 was asked again, and does not turn
-    assert row.caught_by == "verdict"
-    assert row.date > last.date
-    row, asked = judge(monkeypatch, tree, ONE, [], **options)
-    assert (row.caught_by, row.verdicts) == ("test", "")
-    assert asked == ["b", "test_one.py"]
 
 
 def test_rule_of_a_study_is_asked_first_only_where_none_of_the_paper_turned(monkeypatch, tree):
@@ -314,21 +274,6 @@ def found(monkeypatch, tree):
     return tree / "kept"
 
 
-def test_fault_that_has_its_row_is_run_again_if_it_its_file_or_its_fate_changed(found, tree):
-    assert command.kept(found)["one"][1] == ROW
-    assert command.left([ONE], command.kept(found)) == []
-    assert command.left([ONE], command.kept(found.with_name("none"))) == [ONE]
-    other_change = (Change("one.py", "1", "3"),)
-    for other in ({"fault": "Two."}, {"tests": ("x.py",)}, {"changes": other_change}):
-        changed = replace(ONE, **other)
-        assert command.left([changed], command.kept(found)) == [changed]
-    command.keep(found, ONE.digest(tree), replace(ROW, caught_by="SURVIVED"))
-    assert command.left([ONE], command.kept(found)) == [ONE]
-    command.keep(found, ONE.digest(tree), ROW)
-    (tree / "one.py").write_text("x = 1\ny = 1\n", encoding="utf-8")
-    assert command.left([ONE], command.kept(found)) == [ONE]
-
-
 def test_row_is_kept_for_the_fault_that_was_run(found, tree, monkeypatch):
     """The tree may change while a fault is run in its copy."""
 
@@ -345,17 +290,6 @@ def test_row_is_kept_for_the_fault_that_was_run(found, tree, monkeypatch):
 
 
 # The published table -----------------------------------------------------------------------------
-
-
-def test_page_says_which_faults_turn_each_claim():
-    claims = [
-        replace(LEDGER[0], id=name, study=study, finding="x")
-        for name, study in (("eq1", ""), ("z", "s"))
-    ]
-    page = table.page([ROW, replace(ROW, name="two", verdicts="eq1")], claims)
-    assert "| `eq1` | the paper | `one`, `two` |" in page
-    assert "| `z` | s | no fault of this table |" in page
-    assert "Of 2 claims that are tested, 1 are turned by at least one fault." in page
 
 
 def waiting(rows):

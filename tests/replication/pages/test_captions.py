@@ -12,7 +12,7 @@ from jinja2 import Environment
 from replication.inputs.strict_yaml import read_yaml
 from replication.judging.claim import Claim
 from replication.judging.ledger import with_verdict
-from replication.pages.captions import captioned, read_captions, verdict
+from replication.pages.captions import captioned, read_captions
 
 ROOT = Path(__file__).resolve().parents[3]
 STUDIES = sorted(path.parent for path in ROOT.glob("studies/*/study.smk"))
@@ -71,12 +71,6 @@ def test_caption_comes_out_as_it_is_written():
     assert "1 qualified" in plain
     assert f"qualified: {CLAIM.statement} (p. 1)" in plain
     assert "system-message" not in page
-
-
-def test_verdict_counts_in_the_order_of_the_verdicts():
-    told = ["not tested", "qualified", "confirmed", "confirmed", "misprint"]
-    assert verdict(told) == "2 confirmed, 1 qualified, 1 misprint, 1 not tested"
-    assert verdict([]) == "no claim"
 
 
 def test_result_captioned_twice_is_refused(tmp_path):

@@ -29,30 +29,6 @@ CITATION = {
 }
 
 
-def test_documents_figures_and_tables_are_listed_with_a_comment():
-    assert manifest(JOBS, CAPTIONS) == [
-        {"file": "paper/report.pdf", "comment": "Document, made by rule report"},
-        {"file": "figures/peaks.svg", "comment": "Peaks: all"},
-        {
-            "file": "results/tables/peaks.csv",
-            "comment": "Table, computed by src/peaks.py; drawn in figures/peaks.svg",
-        },
-    ]
-
-
-def test_author_part_is_what_the_specification_demands():
-    text = codecheck_file(JOBS, CAPTIONS, CITATION)
-    assert text.startswith("%YAML 1.1\n---\n")
-    content = yaml.safe_load(text)
-    assert list(content) == ["version", "paper", "manifest"]  # nothing of a check nobody did
-    assert "# No CODECHECK has been done" in text
-    assert content["version"] == "https://codecheck.org.uk/spec/config/2.0/"
-    assert content["paper"]["title"] == "On “peaks”"
-    assert content["paper"]["authors"] == [{"name": "A. Bee", "ORCID": "0000-0002-1825-0097"}]
-    assert content["paper"]["reference"].startswith("paper/report.pdf")
-    assert content["manifest"] == manifest(JOBS, CAPTIONS)
-
-
 def test_missing_orcid_is_told_and_a_doi_is_the_reference():
     citation = {"title": "T", "authors": [{"name": "The Bees"}], "doi": "10.1/x"}
     text = codecheck_file(JOBS, CAPTIONS, citation)

@@ -26,16 +26,6 @@ JOBS = [
     ),
     Job("peaks", outputs=("results/other.csv",), logs=("b/other.tsv",)),
 ]
-COSTS = {"shard_1-of-2": (10, 200), "shard_2-of-2": (20, 300), "peaks": (1.4, 100), "other": (9, 9)}
-
-
-def test_cost_is_that_of_each_job_that_the_figure_needs_once():
-    captions, numbers = {"figures/peaks.svg": {"title": "Peaks |θ|"}}, {"figures/peaks.svg": "S2"}
-    page = exhibits_page(JOBS, captions, COSTS, numbers)
-    assert page.splitlines()[-1] == (
-        r"| S2 | Peaks \|θ\| | [`figures/peaks.py`](../figures/peaks.py) | `peaks.csv` "
-        "| [`src/peaks.py`](../src/peaks.py) | 31 | 300 |"
-    )
 
 
 def test_cost_that_was_not_measured_is_left_open():

@@ -43,15 +43,6 @@ def test_file_that_is_read_and_not_declared_stops_the_compiler(tree, missing):
         compiled("paper/report.typ", declared, {})
 
 
-def test_file_whose_name_is_put_together_has_to_be_declared_by_hand(tree):
-    report = tree / "paper/report.typ"
-    report.write_text('#import "format.typ": *\n#let n = "oth" + "er"\n#table-of(n).len()\n')
-    declared = reads("paper/report.typ")
-    with pytest.raises(ValueError, match=r"other\.csv"):
-        compiled("paper/report.typ", declared, {})
-    assert compiled("paper/report.typ", [*declared, "results/tables/other.csv"], {})
-
-
 def test_figure_that_no_document_shows_is_refused(tree):
     figures = ["figures/vase", "figures/size", "studies/one/figures/size"]
     report, section = tree / "paper/report.typ", tree / "studies/one/section.typ"

@@ -12,10 +12,6 @@ from replication.rules import notebook as step
 NOTEBOOKS = sorted((Path(__file__).parents[3] / "notebooks").glob("*.ipynb"))
 
 
-def test_both_notebooks_are_there():
-    assert {path.stem for path in NOTEBOOKS} == {"derivation", "play"}
-
-
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
 def test_notebook_is_stripped_and_numbered_and_uses_the_library(path):
     nbformat.validate(notebook := nbformat.read(path, as_version=nbformat.NO_CONVERT))
@@ -91,12 +87,6 @@ def test_formulas_in_the_text_are_mathml_and_dollars_in_code_are_kept():
     assert page.count("$") == 1
 
 
-def test_page_asks_no_network():
-    page = page_of(nbformat.v4.new_markdown_cell("Text.", id="small-01"))
-    assert "cdnjs" not in page
-    assert "<script src" not in page
-
-
 def test_notebook_that_fails_stops_the_run(tmp_path, written):
     with pytest.raises(Exception, match="ZeroDivisionError"):
         step.main(written("1 / 0"), tmp_path / "executed.ipynb", tmp_path / "page.html")
@@ -110,11 +100,3 @@ def test_picture_without_an_alternative_text_is_refused(metadata, told):
     refusal = pytest.raises(ValueError, match=r"play\.ipynb: cell play-06 shows a picture without")
     with nullcontext() if told else refusal:
         step.refuse_undescribed(cell, Path("play.ipynb"))
-
-
-def test_page_has_the_alternative_text_of_a_picture():
-    shown = {"image/png": {"alt": "A line & a point."}}
-    output = nbformat.v4.new_output("display_data", {"image/png": "iVBORw=="}, metadata=shown)
-    page = page_of(nbformat.v4.new_code_cell("show()", outputs=[output]))
-    assert 'alt="A line &amp; a point."' in page
-    assert "No description" not in page

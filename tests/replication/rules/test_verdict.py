@@ -35,15 +35,6 @@ AS_EXPECTED = [
 ]
 
 
-def test_run_closes_with_the_count_of_every_verdict_apart_for_a_study():
-    lines, faults = main(AS_EXPECTED, compared(peaks="agrees"), {})
-    paper, study = lines.splitlines()
-    assert paper.startswith("paper: 1 confirmed, 0 qualified, 0 slips, 1 misprint, 0 refuted, ")
-    assert study.startswith("pendulums: 0 confirmed, 0 qualified, 0 slips, 0 misprints, 1 refuted,")
-    assert faults == []
-    assert main(AS_EXPECTED, compared(), {}) == (lines, [])  # without reference tables
-
-
 def test_every_claim_that_came_out_otherwise_is_a_fault_either_way():
     worse, better = claim("a", "refuted", "confirmed"), claim("b", "qualified", "refuted")
     number = replace(worse, id="c", printed=1.25, computed=1.5, unit="s")

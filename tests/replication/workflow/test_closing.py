@@ -4,7 +4,6 @@ import logging
 import os
 import re
 import signal
-from pathlib import Path
 from threading import Thread
 from types import SimpleNamespace
 
@@ -40,33 +39,6 @@ with log_to(snakemake.log[0]):
     Path(snakemake.output[0]).touch()
 """
 WAITING = "Path('ready').touch(); time.sleep(100)"
-SAID = "paper: 3 confirmed\n"
-# Snakemake writes that a job is finished while it holds the lock of its scheduler.
-BUSY = """
-import time
-from pathlib import Path
-from snakemake.logging import logger
-from replication.workflow.stopping import end_on_sigterm
-
-end_on_sigterm()
-
-def hold(record):
-    if workflow.scheduler is not None and workflow.scheduler._lock.locked():
-        Path("held").touch()
-        time.sleep(3)
-    return True
-
-logger.addFilter(hold)
-rule all:
-    input: "second"
-rule first:
-    output: "first"
-    shell: "touch {output}"
-rule second:
-    input: "first"
-    output: "second"
-    shell: "sleep 100; touch {output}"
-"""
 
 
 @pytest.fixture
@@ -78,25 +50,6 @@ def step(tmp_path, plant):
         plant(tmp_path, {"Snakefile": SNAKEFILE, "step.py": text})
 
     return write
-
-
-def test_summary_comes_last_also_when_there_is_nothing_to_do(step, ran):
-    step("pass")
-    for expected in ("3 of 3 steps (100%) done", "Nothing to be done"):
-        status, said = ran()
-        assert status == 0
-        assert expected in said
-        assert said.count(SAID) == 1
-        assert said.endswith(SAID)
-
-
-@pytest.mark.parametrize("option", ["--dry-run", "begun"])
-def test_dry_run_and_a_part_of_the_run_have_no_last_lines(step, ran, option):
-    step("pass")
-    status, said = ran(option)
-    assert status == 0
-    assert "paper:" not in said
-    assert GO_ON not in said
 
 
 def test_failed_run_says_how_to_go_on_and_which_verdict_failed_it(step, ran):
@@ -151,15 +104,3 @@ def test_signal_is_handled_before_the_error_of_the_job_that_it_ended():
     finally:
         signal.signal(signal.SIGTERM, before)
     assert order == ["signal", "error"]
-
-
-def test_run_that_is_asked_to_end_while_its_scheduler_is_busy_ends(tmp_path, begin):
-    (tmp_path / "Snakefile").write_text(BUSY)
-    run = begin(until="held")
-    os.killpg(run.process.pid, signal.SIGTERM)
-    run.process.terminate()  # as uv does, once more
-    status, said = run.communicate(timeout=60)
-    assert status == 1, said
-    assert "Traceback" not in said
-    assert not (tmp_path / "second").exists()
-    assert not [*Path(tmp_path, ".snakemake", "locks").glob("*")]

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from replication.workflow.code import code, results_read, undeclared
+from replication.workflow.code import code, undeclared
 
 ROOT = Path(__file__).parents[3]
 
@@ -70,15 +70,6 @@ def test_modules_of_the_repository_that_a_file_imports_are_found(tree, name, tex
     assert imported_by(tree, text, f"src/steps/{name}") == found
 
 
-def test_script_itself_is_there_too(tree):
-    assert code("src/lib/shapes.py", root=tree) == ["src/lib/shapes.py"]
-
-
-def test_import_of_a_name_that_is_only_known_later_is_refused(tree):
-    with pytest.raises(ValueError, match=r"step\.py:2: .*only known when this runs"):
-        imported_by(tree, "import importlib\nimportlib.import_module(name)\n")
-
-
 def test_script_that_is_not_there_is_named(tree):
     with pytest.raises(FileNotFoundError, match=r"nosuch\.py"):
         code("src/steps/nosuch.py", root=tree)
@@ -108,12 +99,3 @@ def test_nothing_of_this_repository_is_undeclared_where_all_is_declared():
     assert "src/replication/workflow/code.py" in undeclared([], root=ROOT)
     everything = [str(path) for path in ROOT.glob("**/*.py")]
     assert undeclared(everything, root=ROOT) == []
-
-
-def test_results_that_a_notebook_reads_are_found(tmp_path):
-    notebook = tmp_path / "read.ipynb"
-    notebook.write_text(
-        '"pd.read_csv(\\"../results/tables/spectra.csv\\")", "results/tables/spectra.csv", '
-        '"pd.read_json(\\"../results/findings/vase.json\\")", "results/report.html"'
-    )
-    assert results_read(notebook) == ["results/findings/vase.json", "results/tables/spectra.csv"]

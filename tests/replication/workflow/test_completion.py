@@ -1,8 +1,5 @@
 """A rule says only what is special about it: the rest follows from its script."""
 
-import subprocess
-import sys
-
 import pytest
 from snakemake.exceptions import WorkflowError
 
@@ -65,14 +62,6 @@ def test_script_and_its_modules_are_inputs_and_log_and_benchmark_have_the_name_o
     assert job.logs == ("results/logs/plain.log", "results/benchmarks/plain.tsv")
 
 
-def test_message_is_the_first_line_of_the_docstring(made, capfd):
-    made()
-    assert subprocess.run(
-        [sys.executable, "-m", "snakemake", "-n", "--cores", "1", "results/plain.csv"], check=True
-    )
-    assert "Draw {a} line\n" in "".join(capfd.readouterr())
-
-
 def test_script_with_a_wildcard_is_an_input_of_its_own_job(made):
     jobs = made()
     for name in "ab":
@@ -80,19 +69,6 @@ def test_script_with_a_wildcard_is_an_input_of_its_own_job(made):
         assert job.inputs == ("data.txt", f"steps/{name}.py")
         logs = f"results/logs/each_{name}.log", f"results/benchmarks/each_{name}.tsv"
         assert job.logs == logs
-
-
-@pytest.mark.parametrize("times", [1, 2])
-def test_rule_keeps_its_own_log_and_what_it_declares_is_not_said_twice(made, times):
-    job = made("\ncomplete(workflow)\n" * times)["results/logged.csv"]
-    assert job.inputs == ("steps/plain.py", "steps/used.py")
-    assert job.logs == ("own/place.log",)
-
-
-def test_rule_that_is_not_timed_has_no_benchmark_and_findings_are_outputs_of_that_name(made):
-    names = 'assert list(findings_made(workflow.rules)) == ["a_each", "b_each"]\n'
-    job = made(f"\ncomplete(workflow, timed=False)\n{names}")["results/plain.csv"]
-    assert job.logs == ("results/logs/plain.log",)
 
 
 def test_rule_without_a_script_is_refused(made):

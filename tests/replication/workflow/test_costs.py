@@ -1,7 +1,7 @@
 """What the jobs of a run cost, which of them are a rule's, and the longest way to the end."""
 
 from replication.rules.costs import main
-from replication.workflow.costs import paths, read_costs
+from replication.workflow.costs import paths
 from replication.workflow.internals import planned, timed_by
 
 SNAKEFILE = """
@@ -22,13 +22,6 @@ rule last:
     script: "last.py"
 complete(workflow)
 """
-
-
-def test_costs_are_by_job_and_there_are_none_before_the_first_edition(tmp_path):
-    table = tmp_path / "costs.csv"
-    assert read_costs(table) == {}
-    table.write_text("rule,seconds,memory_mb\nmap,1.5,100\nsum,0.2,50.5\n")
-    assert read_costs(table) == {"map": (1.5, 100.0), "sum": (0.2, 50.5)}
 
 
 def test_job_of_a_rule_with_wildcards_is_known_by_its_benchmark(tmp_path, plant, monkeypatch):

@@ -42,33 +42,7 @@ def test_every_module_is_an_input_of_each_job_whose_script_imports_it(jobs):
     assert gaps == set()
 
 
-def test_crate_depends_on_what_the_snakefiles_import_and_not_on_what_this_process_does(jobs):
-    (crate,) = (job for job in jobs if job.rule == "crate")
-    used = {"Snakefile", "src/replication/workflow/closing.py"}
-    assert used | {"src/steps/inputs.py"} <= set(crate.inputs)
-    assert "src/replication/kill/tree_copy.py" not in crate.inputs  # imported above
-
-
 STUDIES = {path.parent.name for path in ROOT.glob("studies/*/study.smk")} - {SKELETON}
-
-OF_NO_JOB = {
-    "src/topheavy/outcomes/record_map.py": "for users; the page draws its own map of a record",
-}
-"""Modules of the library that no job needs, and why they are there."""
-
-
-def test_every_module_of_library_and_studies_is_the_input_of_some_job(jobs):
-    if gone := {path.stem for path in ROOT.glob("tests/reference/studies/*.yaml")} - STUDIES:
-        pytest.skip(f"{', '.join(sorted(gone))} left, and with it what it alone used")
-    used = {path for job in jobs for path in (*job.inputs, *job.scripts)}
-    modules = {
-        str(path.relative_to(ROOT))
-        for pattern in ("src/topheavy/**/*.py", "studies/*/*.py", "studies/*/steps/*.py")
-        for path in ROOT.glob(pattern)
-        if not path.name.startswith("__") and "skeleton" not in path.relative_to(ROOT).parts
-        if path.name != "headlines.py"  # make check reads it
-    }
-    assert modules - used == set(OF_NO_JOB)
 
 
 def test_only_shards_leave_the_machine_that_runs_snakemake():
@@ -167,18 +141,6 @@ def test_change_of_a_module_reruns_its_users_and_nothing_else(finished, jobs, pa
         rules = {rule for rule in users if not of_study(rule)}
     assert {rule for rule in found if not of_study(rule)} == rules
     assert set(filter(of_study, found)) == set(filter(of_study, users))
-
-
-def test_change_of_the_kernel_reruns_in_one_go_what_uses_it(finished):
-    """Snakemake looks no further at a job of which an input is ancient() and made anew."""
-    found = rerun(finished, "src/topheavy/kernel/rest.py")
-    assert {"kernel", "spectra_shard", "heavier", "claims"} <= found
-
-
-def test_new_structure_reruns_only_what_lists_the_config(finished):
-    structure = "structures:\n  obelisk: { half_width: 0.4, half_height: 4.0 }\n"
-    found = rerun(finished, "config/config.yaml", "structures:\n", structure)
-    assert found - LAST == {"compare", "verdict", "report", "supplement"}
 
 
 def test_changed_structure_reruns_what_names_it(finished):

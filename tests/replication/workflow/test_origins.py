@@ -4,7 +4,6 @@ import json
 
 import pytest
 
-from replication.workflow.origins import published_results
 from tests.replication.begun import Run
 
 SNAKEFILE = """
@@ -66,15 +65,3 @@ def test_result_depends_on_parameters_and_inputs_of_its_job_and_of_those_upstrea
     assert changed(numbers={"one": 9}) == [[], ["kind_one"], [], []]
     assert changed(files={"data/two.csv": "3"}) == [[], [], ["kind_two"], []]
     assert changed(files={"data/two.csv": "2", "step.py": "1"}) == [[], [], [], []]
-
-
-def test_published_tables_and_findings_are_found_by_what_a_run_makes(plant, tmp_path):
-    plant(tmp_path, {f"{name}": "" for name in ("a.csv", "studies/b.csv", "findings/c.json")})
-    made = {
-        path: there[len(str(tmp_path)) + 1 :] for path, there in published_results(tmp_path).items()
-    }
-    assert made == {
-        "results/tables/a.csv": "a.csv",
-        "results/tables/b.csv": "studies/b.csv",
-        "results/findings/c.json": "findings/c.json",
-    }

@@ -2,7 +2,6 @@
 
 import re
 from collections.abc import Iterable
-from dataclasses import replace
 from pathlib import Path
 
 from replication.inputs.parts import edition_of
@@ -85,39 +84,8 @@ def test_every_output_is_used_or_reported(jobs):
     assert unused_outputs(jobs) == []
 
 
-def test_output_that_nothing_uses_is_found(jobs):
-    heavier = next(job for job in jobs if job.rule == "heavier")
-    more = replace(heavier, outputs=(*heavier.outputs, "results/tables/lonely.csv"))
-    assert unused_outputs([*jobs, more]) == ["results/tables/lonely.csv"]
-
-
-def test_table_is_unused_without_the_figure_drawn_from_it(jobs):
-    without = [replace(job, inputs=()) if job.rule == "figure" else job for job in jobs]
-    assert "results/tables/peak_maps.csv" in unused_outputs(without)
-
-
 def test_every_script_is_run_or_imported(jobs):
     assert unused_scripts(jobs, scripts_beside(jobs), MAKEFILE, snakefiles(jobs)) == []
-
-
-def test_step_or_figure_that_no_rule_runs_is_found(jobs):
-    lonely = ["figures/lonely.py", "src/steps/lonely.py"]
-    files = [*scripts_beside(jobs), *lonely]
-    assert unused_scripts(jobs, files, MAKEFILE, snakefiles(jobs)) == lonely
-    without = [job for job in jobs if job.rule != "allen_histories"]
-    assert unused_scripts(without, scripts_beside(jobs), MAKEFILE, snakefiles(jobs)) == [
-        "src/steps/allen_histories.py"
-    ]
-
-
-def test_module_is_used_as_long_as_a_used_script_imports_it(jobs):
-    files = scripts_beside(jobs)
-    assert "src/replication/judging/citations.py" in files
-    without = MAKEFILE.replace("python -m replication.commands.trace", "")
-    assert unused_scripts(jobs, files, without, snakefiles(jobs)) == [
-        "src/replication/commands/trace.py",
-        "src/replication/judging/citations.py",
-    ]
 
 
 def test_every_rule_has_a_job(jobs):

@@ -21,11 +21,6 @@ def test_path_that_a_shell_would_not_read_as_one_word_is_refused(character):
     assert python in str(told.value)
 
 
-@pytest.mark.parametrize("folder", ["swinging-1.2", "Müller_x", "a+b=c@d,e~"])
-def test_any_other_path_is_accepted(folder):
-    check_place(f"/home/me/{folder}/.venv/bin/python")
-
-
 def test_folder_that_cannot_be_written_to_is_refused(tmp_path, monkeypatch):
     monkeypatch.setattr(os, "access", lambda path, mode: (str(path), mode) != (tmp, os.W_OK))
     tmp = str(tmp_path)

@@ -32,10 +32,3 @@ def test_each_job_has_one_line_with_its_share_and_time(told):
     assert [number for number, _ in lines] == ["1", "2", "3"]
     assert {name for _, name in lines} == {"Writing a", "Writing b", "all"}
     assert not re.search("Select jobs|Execute 1|Finished jobid", said)
-
-
-def test_log_of_a_failed_job_is_printed(told):
-    status, said = told("b")
-    assert status == 1
-    assert "Error in rule write" in said
-    assert "told" in said

@@ -67,16 +67,6 @@ def test_jobs_are_known_before_they_ran(tree, monkeypatch, tmp_path):
     assert tmp_path.cwd() == tmp_path
 
 
-def test_job_has_its_wildcards_its_place_its_params_and_its_findings(tree):
-    made = makers(workflow_jobs(tree[0]))
-    copy, total = made["out/a.copy"], made["out/sum.txt"]
-    line = SNAKEFILE.splitlines().index("rule copy:") + 1
-    assert (copy.rule, copy.inputs, copy.logs) == ("copy", ("in/a.txt",), ("logs/a.log",))
-    assert copy.scripts == ("scripts/a.py",)
-    assert copy.place == f"Snakefile:{line}"
-    assert (total.params, total.findings) == ({"factor": 2}, ("out/sum.txt",))
-
-
 def test_run_notes_its_jobs(tree, monkeypatch):
     root, before = tree
     monkeypatch.chdir(root)
@@ -96,13 +86,6 @@ def test_config_can_be_replaced_and_job_is_pending_by_the_triggers_of_the_profil
         total = makers(workflow_jobs(root, config={"factor": 3}))["out/sum.txt"]
         assert (total.params, total.pending) == ({"factor": 3}, pending)
     (root / profile).unlink()
-
-
-def test_job_whose_input_changed_is_pending(tree):
-    root, _ = tree
-    for text, pending in (("2\n", True), ("1\n", False)):
-        (root / "in" / "a.txt").write_text(text)
-        assert makers(workflow_jobs(root))["out/a.copy"].pending is pending
 
 
 def test_version_is_the_commit_and_whether_the_tree_differs(tmp_path):
