@@ -11,28 +11,26 @@ from tests.replication.conftest import claims, jobs, plant  # noqa: F401
 os.environ.pop("RELEASE", None)  # of `RELEASE=1 make test`: each test sets what it is about
 
 LONGEST_FIRST = (
-    "test_widths.py",
     "test_page.py",
+    "test_compiled.py",
     "test_state.py",
-    "test_readme.py",
+    "test_documents.py",
     "test_reruns.py",
     "test_graph.py",
-    "test_frames.py",
-    "test_closing.py",
+    "test_run.py",
     "test_solver.py",
     "test_forged.py",
-    "test_records.py",
+    "test_verdicts.py",
     "test_odd_input.py",
     "test_recheck.py",
     "test_trace.py",
-    "test_vertical.py",
+    "test_shaking.py",
     "test_types.py",
     "test_histories.py",
-    "test_theorem.py",
-    "test_contact.py",
-    "test_verdicts.py",
+    "test_forces.py",
+    "test_estimate.py",
+    "test_crate.py",
     "test_check_html.py",
-    "test_compiled.py",
 )
 """Files that take longest: begun first, no process is left with one of them at the end."""
 

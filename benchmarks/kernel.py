@@ -13,19 +13,8 @@ from topheavy.kernel.forcing import (
     pulse_forcing,
     record_forcing,
 )
-from topheavy.kernel.grid import (
-    mixed_outcomes_of,
-    outcomes_of,
-    pulse_outcomes_of,
-    record_order,
-)
-from topheavy.kernel.outcome import (
-    NO_RATIOS,
-    PULSE_ORDER,
-    TOLERANCE,
-    outcome,
-    working_array,
-)
+from topheavy.kernel.grid import mixed_outcomes_of, outcomes_of, pulse_outcomes_of, record_order
+from topheavy.kernel.outcome import NO_RATIOS, PULSE_ORDER, TOLERANCE, outcome, working_array
 from topheavy.kernel.taylor import oscillator
 
 #: Factors on a record, the middle one of which is 1; the others shake a block as much.

@@ -1,7 +1,8 @@
-"""What every solver refuses, in the same words; what would exhaust the machine; what is asked."""
+"""What is refused: by the checks of values, by keywords and by every public function."""
 
 import math
 import re
+from fractions import Fraction
 from functools import partial
 
 import numpy as np
@@ -9,7 +10,7 @@ import pytest
 
 import topheavy as th
 from tests.cases import COLUMN, FRAME
-from topheavy import Ending
+from topheavy import Ending, checks
 from topheavy.bodies.response import MOST_SAMPLES
 from topheavy.ground.shapes import ELEMENTARY
 from topheavy.outcomes.overturning import Search
@@ -17,7 +18,105 @@ from topheavy.second import reference
 from topheavy.second.linear import simulate_linear_exact
 from topheavy.second.three_bodies import simulate_three_bodies
 
+EVERY = [
+    checks.finite,
+    checks.positive,
+    checks.not_negative,
+    checks.acceleration,
+    checks.within_quarter_turn,
+    checks.fraction,
+]
+NO_NUMBERS = [
+    *(None, "tall", "0.25", b"0.25", np.str_("0.25"), np.array("0.25")),
+    *(True, np.True_, np.array(True), 1j, 10**400, [1.0, 2.0]),
+    *(np.array([0.25]), np.array([0.25, 0.5]), np.ma.masked, np.ma.array(0.25, mask=True)),
+]
+
+
+@pytest.mark.parametrize("check", EVERY)
+@pytest.mark.parametrize("value", [0.25, np.float64(0.25), np.float32(0.25), np.array(0.25)])
+def test_good_value_comes_back_as_a_float(check, value):
+    assert check("thing", value) == 0.25
+    assert type(check("thing", value)) is float
+
+
+@pytest.mark.parametrize("check", EVERY)
+@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
+def test_value_that_is_not_finite_is_refused_by_every_check(check, value):
+    with pytest.raises(ValueError, match=rf"thing is {value}; expected a finite number"):
+        check("thing", value)
+
+
+@pytest.mark.parametrize("check", [*EVERY, checks.number])
+@pytest.mark.parametrize("value", NO_NUMBERS)
+def test_what_is_no_number_is_refused_by_every_check(check, value):
+    with pytest.raises(ValueError, match=r"thing is .*; expected a number"):
+        check("thing", value)
+
+
+@pytest.mark.parametrize(
+    "values",
+    [[1, 2.5], (0.25,), 3.0, np.arange(4), [], [Fraction(1, 4), 2], np.ma.array([1.0], mask=[0])],
+)
+def test_numbers_come_back_as_a_new_array_of_floats(values):
+    found = checks.numbers("things", values)
+    assert type(found) is np.ndarray
+    assert found.dtype == np.float64
+    assert found is not values
+    np.testing.assert_array_equal(found, np.array(values, dtype=float))
+
+
+@pytest.mark.parametrize("value", ["0.25", True, None, 1j])
+def test_numbers_name_the_first_element_that_is_none(value):
+    with pytest.raises(ValueError, match=r"^things: element 0 is .*; expected a number"):
+        checks.numbers("things", [value, value])
+    with pytest.raises(ValueError, match=r"^things: element 2 is .*; expected a number"):
+        checks.numbers("things", np.array([0.1, 0.2, value], dtype=object))
+
+
+@pytest.mark.parametrize("value", [5e-324, 1, 1e300])
+def test_positive_takes_all_above_zero(value):
+    assert checks.positive("thing", value) == value
+
+
 PULSE = th.Pulse("one-sine", 0.3, 6.0)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "told"),
+    [
+        (lambda: th.Column(width=1.0, height=6.0), "Column has no argument 'width'; Column.of_dim"),
+        (lambda: th.Column(half_widht=1.0, half_height=3.0), "did you mean 'half_width'"),
+        (
+            lambda: th.RockingFrame(COLUMN, cap_mass=4e5),
+            r"RockingFrame.of_masses\(column, cap_mass",
+        ),
+        (lambda: th.RockingFrame(COLUMN, gamma=1.0), "it is called mass_ratio"),
+        (lambda: th.simulate(COLUMN, PULSE, restitution=0.9), r"structure.block\(restitution=…\)"),
+        (lambda: th.simulate(COLUMN, record=PULSE), "it is called excitation"),
+        (lambda: th.Record(dt=0.01, acceleration=[0, 1]), "it is called time_step"),
+        (lambda: th.Pulse("one-sine", 0.3, omega=6.0), "it is called angular_frequency"),
+        (lambda: th.judge(COLUMN, PULSE, zzz=1), "expected structure, excitation"),
+        (lambda: th.Pulse("one-sine", 0.3, period=1.0), "angular_frequency is 2π over it"),
+        (lambda: th.simulate(COLUMN, PULSE, scale=2.0), r"excitation.scaled\(factor\)"),
+        (lambda: th.lowest_overturning(COLUMN, PULSE, (0, 5), resolution=1), "it is called floor"),
+        (lambda: th.fragility([COLUMN], [PULSE], [1.0], lowerd=[0.1]), "did you mean 'lowered'"),
+        (lambda: th.plot.structure(COLUMN, ax=None), "it is called axes"),
+        (lambda: th.Record(0.1, [0, 1]).scaled_to(PGV=1.0), "did you mean 'pgv'"),
+    ],
+)
+def test_wrong_keyword_names_the_right_one(wrong, told):
+    with pytest.raises(TypeError, match=told):
+        wrong()
+
+
+def test_right_keywords_pass_through():
+    assert th.Column(half_width=0.5, half_height=3.0) == th.Column.of_dimensions(
+        width=1.0, height=6.0
+    )
+    assert th.simulate(structure=COLUMN, excitation=PULSE, samples=5).time.size == 5
+
+
 RECORD = th.Record(0.1, [0.0, 0.3, 0.0])
 QUIET = th.Record(0.1, [0.0, 0.1])
 RICKER = th.Pulse("ricker-symmetric", 0.5, 6.0)

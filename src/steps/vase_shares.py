@@ -15,14 +15,7 @@ import numpy as np
 
 from replication.workbench import grid
 from steps.vase_searches import minimum
-from topheavy import (
-    Column,
-    FixedMassColumn,
-    Pulse,
-    RockingBlock,
-    RockingFrame,
-    overturning_map,
-)
+from topheavy import Column, FixedMassColumn, Pulse, RockingBlock, RockingFrame, overturning_map
 
 PARAMETERS = {"α": "slenderness", "p": "frequency_parameter", "√r": "restitution"}
 

@@ -9,13 +9,7 @@ from numpy.typing import NDArray
 
 from steps.shared.sweep import Asked, Subject
 from steps.vase_shares import exchanged, subsets
-from topheavy import (
-    STANDARD_GRAVITY,
-    Column,
-    FixedMassColumn,
-    RockingBlock,
-    RockingFrame,
-)
+from topheavy import STANDARD_GRAVITY, Column, FixedMassColumn, RockingBlock, RockingFrame
 
 Settings = Mapping[str, Any]
 Vector = NDArray[np.float64]

@@ -1,4 +1,4 @@
-"""Free rocking: energy against its own quadrature, periods against elliptic integrals."""
+"""Bodies that rock freely: moment and rotation, energy, times and samples."""
 
 import dataclasses
 import math
@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.special import ellipk, ellipkinc
 
-from topheavy import RockingBlock, simulate
+from topheavy import Column, RockingBlock, RockingFrame, simulate
 from topheavy.bodies.free_rocking import (
     barrier,
     ending,
@@ -16,6 +16,29 @@ from topheavy.bodies.free_rocking import (
     potential,
     quarter_period,
 )
+from topheavy.bodies.moment_rotation import restoring_moment
+from topheavy.bodies.response import sample_times
+
+COLUMN = Column(0.5, 2.0)
+FRACTIONS = np.array([-0.99, -0.5, -0.02, 0.02, 0.3, 0.99, 1.4])
+
+
+@pytest.mark.parametrize("column", [COLUMN, Column(1.0, 1.0)])
+def test_moment_is_the_slope_of_the_potential(column):
+    tilts, step = FRACTIONS[FRACTIONS > 0] * column.slenderness, 1e-6
+    block = column.block(restitution=0.5)
+    slopes = [(potential(block, x + step) - potential(block, x - step)) / (2 * step) for x in tilts]
+    np.testing.assert_allclose(restoring_moment(column, tilts), slopes, atol=1e-9)
+
+
+def test_moment_at_rest_is_the_limit_from_above():
+    assert restoring_moment(COLUMN, 0.0) == pytest.approx(0.5 / COLUMN.size, rel=1e-15)
+
+
+def test_columns_without_mass_are_refused():
+    with pytest.raises(ValueError, match="expected a finite γ"):
+        restoring_moment(RockingFrame(COLUMN, math.inf), 0.1)
+
 
 P, ALPHA = 2.3, 0.25
 EXACT = RockingBlock(P, ALPHA, 0.9)
@@ -132,3 +155,9 @@ def test_drift_is_the_whole_range_of_the_energy_over_its_mean():
     expected = (max(levels) - min(levels)) / np.mean(levels)
     assert energy_drift(EXACT, wrong, 1) == pytest.approx(expected, rel=1e-12)
     assert expected > 0.01
+
+
+@pytest.mark.parametrize("samples", [1, 0, -3, 2.5, math.nan, math.inf, "many", None])
+def test_what_is_no_whole_number_from_two_on_is_refused(samples):
+    with pytest.raises(ValueError, match="samples is"):
+        sample_times(samples)

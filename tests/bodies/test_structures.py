@@ -1,15 +1,20 @@
-"""Column, frame and block: printed values, energy and momentum, limits, what is refused."""
+"""Structures: columns, frames, fixed masses and massless columns."""
 
 import math
 import sys
+from dataclasses import astuple
 
 import numpy as np
 import pytest
 
+import topheavy as th
+from tests.cases import COLUMN
 from topheavy import STANDARD_GRAVITY as G
 from topheavy import Column, RockingBlock, RockingFrame
+from topheavy.bodies.massless_columns import simplified
+from topheavy.second import reference
 
-COLUMN = Column(0.5, 2.0)  # tan α = 1/4
+WIDE = Column(0.5, 2.0)  # tan α = 1/4
 STOCKY = Column(2.0, 1.0)  # α = 63.4°: Housner's √r is 1 − 1.5 · 0.8 = −0.2
 BLOCK = RockingBlock(2.0, 0.25, 0.9)
 TRILITH = RockingFrame(Column(0.11, 0.40), 0.434)
@@ -84,15 +89,15 @@ def test_frame_under_a_boundless_cap_reaches_the_massless_column_limit(alpha, ga
 
 
 def test_masses_give_the_mass_ratio_of_any_number_of_columns():
-    assert RockingFrame.of_masses(COLUMN, 265.0, 305.3) == RockingFrame(COLUMN, 265.0 / 610.6)
-    assert RockingFrame.of_masses(COLUMN, 6.0, 2.0, columns=6) == RockingFrame(COLUMN, 0.5)
-    assert RockingFrame.of_masses(COLUMN, 0.0, 2.0).mass_ratio == 0.0
+    assert RockingFrame.of_masses(WIDE, 265.0, 305.3) == RockingFrame(WIDE, 265.0 / 610.6)
+    assert RockingFrame.of_masses(WIDE, 6.0, 2.0, columns=6) == RockingFrame(WIDE, 0.5)
+    assert RockingFrame.of_masses(WIDE, 0.0, 2.0).mass_ratio == 0.0
 
 
 # ---------------------------------------------------------------------------- the block
 
 
-@pytest.mark.parametrize("structure", [COLUMN, *(RockingFrame(COLUMN, g) for g in RATIOS), STOCKY])
+@pytest.mark.parametrize("structure", [WIDE, *(RockingFrame(WIDE, g) for g in RATIOS), STOCKY])
 def test_block_has_the_three_numbers_of_its_structure(structure):
     p, alpha = structure.frequency_parameter, structure.slenderness
     if structure is not STOCKY:
@@ -120,12 +125,12 @@ NO_NUMBERS = ("0.5", True, np.array([0.5, 0.6]), np.ma.masked, None)
 MAKERS = {  # what takes a number, the number's name in the message, and what it may not be
     "half_width": (lambda x: Column(x, 3.0), POSITIVE),
     "half_height": (lambda x: Column(0.5, x), POSITIVE),
-    "mass_ratio": (lambda x: RockingFrame(COLUMN, x), (-0.2, -1e-300, *NAN)),
+    "mass_ratio": (lambda x: RockingFrame(WIDE, x), (-0.2, -1e-300, *NAN)),
     "frequency_parameter": (lambda x: RockingBlock(x, 0.25, 0.9), POSITIVE),
     "slenderness": (lambda x: RockingBlock(2.0, x, 0.9), (math.pi / 2, 1.6, *POSITIVE)),
     "restitution": (lambda x: RockingBlock(2.0, 0.25, x), (-0.01, 1.01, *NAN)),
     "restitution of another": (BLOCK.with_restitution, (-0.01, 1.01, *NAN)),
-    "restitution of a column": (lambda x: COLUMN.block(restitution=x), (-0.01, 1.01, *NAN)),
+    "restitution of a column": (lambda x: WIDE.block(restitution=x), (-0.01, 1.01, *NAN)),
     "restitution of a frame": (lambda x: UNIT.block(restitution=x), (-0.01, 1.01, *NAN)),
 }
 
@@ -143,7 +148,7 @@ def test_impossible_number_is_refused_by_name_and_value(name):
 
 
 def of_masses(*masses, columns=2):
-    return RockingFrame.of_masses(COLUMN, *masses, columns=columns)
+    return RockingFrame.of_masses(WIDE, *masses, columns=columns)
 
 
 @pytest.mark.parametrize(
@@ -153,9 +158,197 @@ def of_masses(*masses, columns=2):
         (lambda: of_masses(1.0, 1.0, columns=2.0), "columns is 2.0"),
         (lambda: of_masses(1.0, 0.0), "column_mass is 0; expected more than zero"),
         (lambda: of_masses(-1.0, 1.0), "cap_mass is -1; expected zero or more"),
-        (lambda: RockingFrame(COLUMN, np.ones(2)), r"^mass_ratio is an array of shape \(2,\); exp"),
+        (lambda: RockingFrame(WIDE, np.ones(2)), r"^mass_ratio is an array of shape \(2,\); exp"),
     ],
 )
 def test_impossible_masses_are_refused(make, says):
     with pytest.raises(ValueError, match=says):
         make()
+
+
+PULSE = th.Pulse("one-cosine", 1.0, 2 * math.pi / 1.5)
+POINTS = 200  # of a lattice, along each side of a rectangle
+
+
+def rectangle(mass, middle, width, depth):
+    """Point masses at the centres of the cells of a lattice: x and z (m), and their mass (kg)."""
+    cells = (np.arange(POINTS) + 0.5) / POINTS - 0.5
+    x, z = np.meshgrid(middle[0] + width * cells, middle[1] + depth * cells)
+    return np.stack([x.ravel(), z.ravel(), np.full(x.size, mass / x.size)])
+
+
+def turning(points):
+    """Moments of gravity and of inertia about the origin, and those of a unit ground acceleration.
+
+    Every point of a body that turns clockwise about the origin by the rate 1 has the velocity
+    (z, −x).
+    """
+    x, z, mass = points
+    gravity = np.sum(mass * th.STANDARD_GRAVITY * x)
+    push = np.sum(mass * th.STANDARD_GRAVITY * z)
+    return gravity, push, np.sum(mass * (x**2 + z**2))
+
+
+def three_numbers(points, half_base):
+    """p, α and √r of point masses, placed about the middle of a base of 2 half_base."""
+    x, z, mass = points
+    gravity, push, inertia = turning(np.stack([x + half_base, z, mass]))
+    # Before the impact they turn about the left edge, after it about the right one, at x = B.
+    arm = x - half_base
+    before = np.sum(mass * (z * z + arm * (x + half_base)))
+    after = np.sum(mass * (z * z + arm * arm))
+    return math.sqrt(math.hypot(gravity, push) / inertia), gravity / push, before / after
+
+
+def column_points(axis):
+    return rectangle(1.0, (axis, 3.0), 1.0, 6.0)
+
+
+@pytest.mark.parametrize(
+    ("width", "depth"), [(0.0, 0.0), (2.6, 0.6), (0.0, 3.0), (6.0, 0.0)], ids=str
+)
+@pytest.mark.parametrize("gamma", [0.3, 1.0, 4.0])
+def test_fixed_mass_is_what_point_masses_are(gamma, width, depth):
+    body = th.FixedMassColumn(COLUMN, gamma, width, depth)
+    cap = rectangle(gamma, (0.0, 6.0 + depth / 2), width, depth)
+    found = body.frequency_parameter, body.uplift_acceleration, body.restitution
+    points = np.concatenate([column_points(0.0), cap], axis=1)
+    np.testing.assert_allclose(found, three_numbers(points, 0.5), rtol=2.0 / POINTS**2)
+
+
+@pytest.mark.parametrize(("depth", "overhang"), [(0.0, 0.0), (0.6, 0.4)])
+@pytest.mark.parametrize("span", [1.2, 4.2])
+@pytest.mark.parametrize("gamma", [0.3, 4.0])
+def test_portal_is_what_point_masses_are(gamma, span, depth, overhang):
+    body = th.MonolithicPortal(COLUMN, gamma, span, depth, overhang)
+    half = span / 2
+    cap = rectangle(2 * gamma, (0.0, 6.0 + depth / 2), span + 1.0 + 2 * overhang, depth)
+    points = np.concatenate([column_points(-half), column_points(half), cap], axis=1)
+    found = body.frequency_parameter, body.uplift_acceleration, body.restitution
+    np.testing.assert_allclose(found, three_numbers(points, half + 0.5), rtol=2.0 / POINTS**2)
+
+
+@pytest.mark.parametrize(
+    ("structure", "p"),
+    [
+        *((th.FixedMassColumn(COLUMN, g), p) for g, p in ((1.0, 1.35221), (4.0, 1.30027))),
+        *((th.RockingFrame(COLUMN, g), p) for g, p in ((1.0, 1.34698), (4.0, 1.29413))),
+    ],
+)
+def test_frequency_parameter_is_the_known_one(structure, p):
+    assert structure.frequency_parameter == pytest.approx(p, abs=1e-5)
+
+
+KNOWN = [
+    (COLUMN, 0.27282),
+    (th.FixedMassColumn(COLUMN, 1.0), 0.20358),
+    (th.FixedMassColumn(COLUMN, 4.0), 0.17634),
+    (th.RockingFrame(COLUMN, 1.0), 0.31264),
+    (th.RockingFrame(COLUMN, 4.0), 0.32830),
+]
+
+
+@pytest.mark.parametrize(("structure", "known"), KNOWN, ids=str)
+def test_minimum_overturning_acceleration_is_the_known_one(structure, known):
+    start = structure.uplift_acceleration
+    first, *_ = th.overturning_intervals(structure, PULSE, (start, 0.5), resolution=1e-3)
+    assert first.lower[0] == pytest.approx(known, abs=1e-4)
+    for route in (th.judge, reference.judge):
+        low, high = (PULSE.scaled(first.lower[i] * f) for i, f in ((0, 1 - 1e-6), (1, 1 + 1e-6)))
+        assert not route(structure, low).overturned
+        assert route(structure, high).overturned
+
+
+@pytest.mark.parametrize("gamma", [0.5, 1.0, 2.0, 10.0])
+def test_concentrated_mass_lowers_the_slenderness_by_its_formula(gamma):
+    """At γ = 1 to a ninth; that of the frame stays at a sixth."""
+    body = th.FixedMassColumn(COLUMN, gamma)
+    expected = COLUMN.half_width * (1 + gamma) / (COLUMN.half_height * (1 + 2 * gamma))
+    assert math.tan(body.slenderness) == pytest.approx(expected, rel=1e-14)
+    assert body.uplift_acceleration == pytest.approx(expected, rel=1e-14)
+    assert th.RockingFrame(COLUMN, gamma).uplift_acceleration == pytest.approx(1 / 6, rel=1e-14)
+
+
+def test_no_fixed_mass_is_the_column():
+    body = th.FixedMassColumn(COLUMN, 0.0, 2.6, 0.6)
+    for name in ("slenderness", "frequency_parameter", "restitution", "uplift_acceleration"):
+        assert getattr(body, name) == pytest.approx(getattr(COLUMN, name), rel=1e-14)
+    assert body.equivalent_size == pytest.approx(COLUMN.size, rel=1e-14)
+
+
+def test_narrow_portal_tends_to_the_column_with_fixed_mass():
+    # Two columns that almost coincide, on a base that is wider by their second half width.
+    portal = th.MonolithicPortal(th.Column(1e-9, 3.0), 1.0, 2.1e-9)
+    column = th.FixedMassColumn(th.Column(1e-9, 3.0), 1.0)
+    assert portal.frequency_parameter == pytest.approx(column.frequency_parameter, rel=1e-8)
+
+
+PARTS = [
+    ("mass_ratio", lambda x: th.FixedMassColumn(COLUMN, x)),
+    ("mass_ratio", lambda x: th.MonolithicPortal(COLUMN, x, 4.2)),
+    ("cap_width", lambda x: th.FixedMassColumn(COLUMN, 1.0, cap_width=x)),
+    ("cap_depth", lambda x: th.FixedMassColumn(COLUMN, 1.0, cap_depth=x)),
+    ("span", lambda x: th.MonolithicPortal(COLUMN, 1.0, x)),
+    ("cap_depth", lambda x: th.MonolithicPortal(COLUMN, 1.0, 4.2, cap_depth=x)),
+    ("overhang", lambda x: th.MonolithicPortal(COLUMN, 1.0, 4.2, overhang=x)),
+    ("column", lambda x: th.FixedMassColumn(x, 1.0)),
+    ("column", lambda x: th.MonolithicPortal(x, 1.0, 4.2)),
+]
+
+
+@pytest.mark.parametrize(("name", "make"), PARTS)
+def test_impossible_part_is_refused_by_its_name(name, make):
+    for value in (-0.1, math.nan, "1", *((math.inf,) if name != "mass_ratio" else ())):
+        with pytest.raises(ValueError, match=rf"^{name} is .*; expected"):
+            make(value)
+
+
+FRAME = RockingFrame(WIDE, 1.0)
+
+
+@pytest.mark.parametrize(
+    ("simplification", "changed"),
+    [
+        ("linearised", {"linearised"}),
+        ("massless frequency", {"frequency_parameter"}),
+        ("massless restitution", {"restitution"}),
+        ("all", {"linearised", "frequency_parameter", "restitution"}),
+    ],
+)
+def test_each_simplification_changes_what_it_names_and_nothing_else(simplification, changed):
+    exact, simple = FRAME.block(), simplified(FRAME, simplification)
+    names = RockingBlock.__dataclass_fields__
+    assert {name for name in names if getattr(exact, name) != getattr(simple, name)} == changed
+
+
+def test_massless_columns_have_the_limits_of_the_paper():
+    simple = simplified(FRAME, "all")
+    p, alpha = WIDE.frequency_parameter, WIDE.slenderness
+    assert simple.frequency_parameter == pytest.approx(p * math.sqrt(2 / 3), rel=1e-15)
+    assert simple.restitution == pytest.approx(math.cos(2 * alpha), rel=1e-15)
+    # the pendulum of two columns without mass: p̂² = g/2R
+    assert simple.frequency_parameter**2 == pytest.approx(9.81 / (2 * WIDE.size), rel=1e-15)
+
+
+def test_frames_under_ever_heavier_caps_approach_the_massless_columns():
+    limit = simplified(FRAME, "all")
+
+    def distance(mass_ratio: float) -> float:
+        block = RockingFrame(WIDE, mass_ratio).block().linear()
+        return max(abs(a - b) for a, b in zip(astuple(block), astuple(limit), strict=True))
+
+    for mass_ratio in (10.0, 1e3, 1e5):
+        # Eqs. (23), (25): what is left falls as 1/γ
+        assert distance(10 * mass_ratio) == pytest.approx(distance(mass_ratio) / 10, rel=0.05)
+
+
+def test_unknown_simplification_is_refused_with_the_known():
+    with pytest.raises(ValueError, match=r"'massless'; expected one of linearised, .*, all$"):
+        simplified(FRAME, "massless")
+
+
+def test_columns_too_stocky_to_rock_without_mass_are_refused():
+    stocky = RockingFrame(Column(1.1, 1.0), 0.1)  # α = 47.7°: rocks only with mass
+    assert stocky.block().restitution > 0.0
+    with pytest.raises(ValueError, match="45°"):
+        simplified(stocky, "all")

@@ -6,16 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.ground.records.files import (
-    CSV,
-    FILES,
-    LARGEST,
-    REPEATED,
-    STEPS,
-    UNCERTAIN_STEPS,
-    at2,
-)
-from tests.ground.records.test_units import HEADERS, SPELLINGS
+from tests.ground.records.files import CSV, FILES, LARGEST, REPEATED, STEPS, UNCERTAIN_STEPS, at2
+from tests.ground.records.test_records import HEADERS, SPELLINGS
 from topheavy import read_record
 
 EDITED = 2000  # files

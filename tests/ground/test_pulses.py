@@ -1,11 +1,21 @@
-"""Pulse shapes: values at known times, support, symmetry, scaling, bad input."""
+"""Pulses, their shapes, and excitations as the solvers ask for them."""
 
 import math
+import re
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+import topheavy.ground.shapes
+from replication.inputs.configuration import read_schema
+from replication.inputs.strict_yaml import read_yaml
+from steps.explorer import titles
+from tests.cases import ROOT, SIDES
 from topheavy import PULSE_SHAPES, Pulse
+from topheavy.ground.excitation import Segment, still
+from topheavy.ground.shapes import ELEMENTARY, ENDING, SHAPES
+from topheavy.kernel import forcing
 
 OMEGA = 2.5
 PERIOD = 2 * math.pi / OMEGA
@@ -23,7 +33,6 @@ SYMMETRIC = {"one-sine": -1, "ricker-antisymmetric": -1} | dict.fromkeys(
 CENTRE = 2.25 * PERIOD
 EVERY = pytest.mark.parametrize("shape", PULSE_SHAPES)
 FINITE = pytest.mark.parametrize("shape", CYCLES)
-
 KNOWN_VALUES = [
     # shape, time, value at unit amplitude
     *(("one-sine", PERIOD * x, y) for x, y in ((0.0, 0.0), (1 / 12, 0.5), (1 / 4, 1), (0.75, -1))),
@@ -114,3 +123,145 @@ def test_times_that_are_no_numbers_are_refused():
         pulse("one-sine").excitation("0.3")
     with pytest.raises(ValueError, match=r"^t has 1 masked of 2 elements"):
         pulse("one-sine").excitation(np.ma.array([0.1, 0.2], mask=[0, 1]))
+
+
+SCHEMAS = [*ROOT.glob("config/*.schema.yaml"), *ROOT.glob("studies/*/*.schema.yaml")]
+
+
+@pytest.mark.parametrize("name", PULSE_SHAPES)
+def test_pulse_and_kernel_have_the_same_wave_of_the_same_length(name):
+    pulse = Pulse(name, 1.0, 1.0)
+    shape = forcing.SHAPES[name]
+    assert pulse.duration == pytest.approx(forcing.LAST_PHASE[shape])
+    for phase in np.linspace(0.0, min(pulse.duration, 20.0), 97)[:-1]:
+        value, _ = forcing.unit_pulse(shape, phase)
+        assert pulse.excitation(phase) == pytest.approx(value, abs=1e-12)
+
+
+def test_lists_are_parts_of_the_one_list():
+    assert set(ENDING) == {name for name in SHAPES if Pulse(name, 1.0, 1.0).duration < math.inf}
+    assert set(ELEMENTARY) == {name for name in SHAPES if not name.startswith("ricker")}
+    assert tuple(forcing.SHAPES) == PULSE_SHAPES
+
+
+def test_no_schema_lists_the_shapes_itself():
+    assert len(SCHEMAS) > 4
+    for path in SCHEMAS:
+        text = path.read_text(encoding="utf-8")
+        assert not re.search(r"enum:.*(?:sine|ricker)", text), path
+    (config,) = (path for path in SCHEMAS if path.parent.name == "config")
+    assert read_schema(config)["$defs"]["shape"]["enum"] == list(ENDING)
+
+
+@pytest.mark.parametrize(
+    ("name", "told"),
+    [
+        ("topheavy.ground.shapes.ENDINGS", "no attribute 'ENDINGS'; expected a list"),
+        ("topheavy.nothing.ENDING", "expected a list"),
+        ("topheavy.ground.shapes.math.pi", r"is 3\.14\d+; expected a list"),
+    ],
+)
+def test_schema_that_names_no_list_is_refused(tmp_path, name, told):
+    path = tmp_path / "some.schema.yaml"
+    path.write_text(f"properties: {{ values: {{ values: {name} }} }}\n", encoding="utf-8")
+    assert read_yaml(path)
+    with pytest.raises(ValueError, match=rf"some\.schema\.yaml: values is '{name}'.*{told}"):
+        read_schema(path)
+
+
+def test_page_has_every_shape_and_no_other():
+    motions = (ROOT / "src/explorer" / "motions.js").read_text(encoding="utf-8")
+    assert set(titles(motions)) == set(SHAPES)
+    for wrong in (
+        motions.replace('"half-sine": {', '"halfsine": {'),
+        motions.replace('"con', "//"),
+    ):
+        assert wrong != motions
+        with pytest.raises(ValueError, match=r"differ by .*expected a wave for every shape"):
+            titles(wrong)
+
+
+def test_list_of_shapes_needs_no_numerics():
+    source = Path(topheavy.ground.shapes.__file__).read_text(encoding="utf-8")
+    assert re.findall(r"^(?:from|import) (\w+)", source, re.MULTILINE) == ["math", "typing"]
+
+
+def line(start, stop, first, last):
+    return Segment(start, stop, lambda t: first + (last - first) * (t - start) / (stop - start))
+
+
+# ---------------------------------------------------------------------------- uplift
+
+
+# ---------------------------------------------------------------------------- falls_below
+
+
+@SIDES
+@pytest.mark.parametrize(
+    ("first", "last", "since", "at"),
+    [
+        # against the side on which the block stands
+        *((0.6, 0.2, 0.0, 1.5), (0.2, 0.6, 0.0, 2.0)),
+        # a push that stays up does so to the stop
+        *((*ends, 0.0, 2.0) for ends in ((0.3, 0.6), (0.6, 0.3), (0.3, 0.3), (0.4, 0.4))),
+        # one that retreats from the level ends where it starts, or is below it already
+        *((0.3, 0.1, 0.0, 0.0), (0.3, 0.1, 0.5, 0.5), (0.6, 0.2, 1.8, 1.8)),
+        # a rounding below the level, as after an uplift whose instant was found by a root
+        (math.nextafter(0.3, 0.0), 0.6, 0.0, 2.0),
+        (0.5, -1.5, 0.0, 0.2),  # at the level, not at zero
+    ],
+)
+def test_push_ends_where_it_falls_below_the_level(side, first, last, since, at):
+    ground = line(0.0, 2.0, -side * first, -side * last)
+    assert ground.falls_below(since, int(side), 0.3) == pytest.approx(at, rel=1e-13)
+
+
+# ---------------------------------------------------------------------------- largest
+
+
+@pytest.mark.parametrize(
+    ("start", "stop", "largest"),
+    [
+        *((1.0, 3.0, 0.5), (0.0, 9.0, 0.5), (1.5, 2.0, 0.25)),  # all of it, more, a part
+        *((2.5, 9.0, 0.5), (0.0, 1.5, 0.5)),  # over an end
+        *((2.0, 2.0, 0.0), (3.0, 4.0, 0.5)),  # an instant, its last one
+        *((3.5, 4.0, 0.0), (0.0, 0.5, 0.0)),  # behind it and before
+    ],
+)
+def test_largest_is_over_the_overlap_alone(start, stop, largest):
+    through = line(1.0, 3.0, -0.5, 0.5)
+    assert through.largest(start, stop) == pytest.approx(largest, abs=1e-15)
+    assert still(0.0) == still(-3.0) == still(1e9) == 0.0
+
+
+def test_least_gravity_of_a_segment_is_that_of_its_lower_end():
+    for low, high in ((0.5, 1.5), (1.5, 0.5)):
+        segment = Segment(0.0, 1.0, lambda t: 0.0, lambda t, a=low, b=high: a + (b - a) * t)
+        found = [segment.least_gravity(*over) for over in ((-1.0, 2.0), (0.0, 0.5), (2.0, 3.0))]
+        assert found == [0.5, min(low, 1.0), 1.0]
+
+
+# ---------------------------------------------------------------------------- whole motions
+
+
+def without_gap(segments, end):
+    edges = [segments[0].start, *(segment.stop for segment in segments)]
+    assert (edges[0], edges[-1]) == (0.0, pytest.approx(end, rel=1e-14))
+    assert [segment.start for segment in segments] == edges[:-1]
+    return segments
+
+
+@pytest.mark.parametrize("shape", PULSE_SHAPES)
+@pytest.mark.parametrize("amplitude", [0.4, -0.4])
+@pytest.mark.parametrize("share", [1.0, 0.61, 0.05])
+def test_segments_of_a_pulse_have_no_gap_follow_it_and_are_monotone(shape, amplitude, share):
+    pulse = Pulse(shape, amplitude, 2.7)
+    end = share * (pulse.duration if math.isfinite(pulse.duration) else 7.3 * math.pi)
+    for segment in without_gap(pulse.segments(end), end):
+        times = np.linspace(segment.start, segment.stop, 1001)
+        found = np.array([segment.acceleration(t) for t in times])
+        np.testing.assert_allclose(found, pulse.excitation(times), rtol=1e-14, atol=1e-15)
+        steps, rounding = np.diff(found), 4e-16
+        assert np.all(steps >= -rounding) or np.all(steps <= rounding)
+    if math.isfinite(pulse.duration):  # they reach no further
+        assert pulse.segments(99.0) == pulse.segments(pulse.duration)

@@ -1,24 +1,34 @@
-"""The ground motion as the kernel sees it: each pulse by its equation, its turns, its uplifts."""
+"""The ground as the kernel has it: pulses, records, and two records at once."""
 
 import math
 
 import numpy as np
 import pytest
 
-from topheavy import Pulse, Record
+from topheavy import Pulse, Record, RockingBlock
 from topheavy.kernel import forcing
 from topheavy.kernel.forcing import (
     NO_RECORD,
+    RECORD,
     SHAPES,
     equation,
+    gravity,
     ground,
     next_uplift,
     piece_at,
+    piece_start,
     prepare_record,
+    prepare_two_records,
     pulse_forcing,
     record_forcing,
+    strongest_after,
     unit_pulse,
 )
+from topheavy.kernel.grid import mixed_outcomes_of, outcome_of
+from topheavy.kernel.march import march
+from topheavy.kernel.outcome import TOLERANCE, working_array
+from topheavy.kernel.rest import comes_to_rest
+from topheavy.kernel.taylor import ROTATION, State, expand, oscillator
 
 RATIO = 2.5  # ω/p; with p = 1 the kernel's time is that of a `Pulse`
 EVERY = pytest.mark.parametrize("shape", sorted(SHAPES))
@@ -117,3 +127,172 @@ def test_record_is_that_of_the_library():
     slopes = (np.diff(library.acceleration) / 0.07)[[piece_at(there, time) for time in times]]
     np.testing.assert_allclose(found[:, 1], slopes, rtol=1e-12)
     assert ground(there, record, there.end) == (0.0, 0.0)
+
+
+BLOCK = oscillator(RockingBlock(1.0, 0.2, 0.9))
+LINEAR = oscillator(RockingBlock(1.0, 0.2, 0.9, linearised=True))
+BOTH = pytest.mark.parametrize("block", [BLOCK, LINEAR], ids=["exact", "linearised"])
+STEP = 0.02
+RATIOS = pytest.mark.parametrize("ratio", [1.0, 0.5, 3.0, 0.731])
+
+
+def waves(seed, samples, step=STEP):
+    """A few sines under an envelope that does not end at zero."""
+    rng, time = np.random.default_rng(seed), step * np.arange(samples)
+    found = sum(rng.normal() * np.sin(f * time + rng.uniform(0, 6)) for f in (2.0, 3.7, 6.1, 11.0))
+    return found * (0.1 + np.sin(math.pi * time / time[-1]) ** 2)
+
+
+def shaken(seed, ratio, samples=700, upward=500):
+    """A horizontal record of largest 1, a vertical one of largest 0.5, and the two prepared."""
+    across, up = waves(seed, samples), waves(seed + 50, round(upward / ratio), ratio * STEP)
+    across, up = across / np.abs(across).max(), 0.5 * up / np.abs(up).max()
+    return across, up, prepare_two_records(across, up, ratio)
+
+
+@RATIOS
+@pytest.mark.parametrize("factor", [0.25, -0.5, 1.0])
+def test_next_uplift_is_the_first_time_that_the_push_is_positive(ratio, factor):
+    """Against a fine scan of |a| − G level, from many times on."""
+    _, _, both = shaken(2, ratio)
+    there = record_forcing(both, STEP, factor, 0.9)
+    times = np.linspace(0.0, there.end, 80_001)[:-1]
+    push = np.array(
+        [abs(ground(there, both, t)[0]) - gravity(there, both, t)[0] * 0.2 for t in times]
+    )
+    seen = set()
+    for first in range(0, times.size, 1337):
+        over = np.flatnonzero(push[first:] > 1e-9)
+        time, found, rate, side = next_uplift(there, both, times[first], 0.2)
+        seen.add(over.size > 0)
+        if not over.size:
+            assert time == math.inf or abs(ground(there, both, time)[0]) < 0.2 + 1e-6
+            continue
+        at = times[first + over[0]]
+        assert at - times[1] - 1e-12 <= time <= at
+        assert side == -math.copysign(1.0, ground(there, both, at)[0])
+        assert found == 0.0 or time == times[first] or found > 0.0
+        later = time + 1e-7
+        ahead = abs(ground(there, both, later)[0]) - gravity(there, both, later)[0] * 0.2
+        assert ahead - found == pytest.approx(1e-7 * rate, abs=1e-8)
+    assert True in seen
+
+
+@pytest.mark.parametrize("samples", [[-0.5, 0.5], [0.5, -0.5], [-0.1, 0.5], [0.1, -0.5, 0.5]])
+def test_piece_from_one_side_to_the_other_lifts_as_without_a_vertical_motion(samples):
+    alone, both = prepare_record(samples), prepare_two_records(np.array(samples), np.zeros(3), 1.0)
+    for start in (0.0, 0.001, 0.015):
+        expected = next_uplift(record_forcing(alone, STEP, 1.0), alone, start, 0.2)
+        found = next_uplift(record_forcing(both, STEP, 1.0, 1.0), both, start, 0.2)
+        assert found == pytest.approx(expected, abs=1e-15)
+
+
+def test_bounds_hold_for_the_rest_of_both_records():
+    _, _, both = shaken(3, 0.731)
+    there = record_forcing(both, STEP, 2.0, -1.1)
+    times = np.linspace(0.0, there.end, 4001)[:-1]
+    weights = np.array([gravity(there, both, time)[0] for time in times])
+    pushes = np.array([abs(ground(there, both, time)[0]) for time in times]) / weights
+    for k in range(0, times.size, 37):
+        strength, heaviest = strongest_after(there, both, times[k])
+        assert strength >= pushes[k:].max()
+        assert heaviest >= weights[k:].max()
+    assert strongest_after(there, both, there.end) == (0.0, 1.0)
+    falling = record_forcing(both, STEP, 2.0, 2.0)
+    assert strongest_after(falling, both, 0.0)[0] == math.inf
+
+
+@BOTH
+def test_series_solves_the_equation_under_a_changing_gravity(block):
+    """φ'' of the series against the equation, at several times of a step."""
+    state = State(0.05, -0.4, math.sin(0.05), math.cos(0.05), -0.3, 1.2, 1.4, -2.0)
+    if block.linearised:
+        state = state._replace(sine=0.0, cosine=1.0)
+    w, order = working_array(), 14
+    expand(w, order, block, state, 0.0, 0.0, 0.0, True)
+    phi = np.polynomial.Polynomial(w[ROTATION, : order + 1])
+    for time in (0.0, 0.02, 0.05, 0.1):
+        weight, push = 1.4 - 2.0 * time, -0.3 + 1.2 * time
+        if block.linearised:
+            expected = weight * phi(time) + push
+        else:
+            tilt = math.cos(0.2 - phi(time))
+            expected = weight * math.sin(phi(time)) / math.cos(0.2) + push * tilt
+        assert phi.deriv(2)(time) == pytest.approx(expected, rel=1e-10)
+
+
+def test_march_passes_over_pieces_as_the_long_series_does():
+    """The same state where it stops, by steps of the long series from piece to piece."""
+    across, up = np.full(60, -0.1), 0.3 * np.cos(0.3 * np.arange(80))
+    both = prepare_two_records(across, up, 0.731)
+    there = record_forcing(both, STEP, 1.0, 1.0)
+    weight, change = gravity(there, both, 0.0)
+    value, rate = ground(there, both, 0.0)
+    push = [-value - BLOCK.level * weight, -rate - BLOCK.level * change]
+    start = State(0.1, 0.1, math.sin(0.1), math.cos(0.1), *push, weight, change)
+    piece, state, _ = march(BLOCK, there, both, 0, 1.0, start, TOLERANCE, 0.2)
+    assert piece > 20
+    w, other = working_array(), start
+    for k in range(piece):
+        length = piece_start(there, both, k + 1) - piece_start(there, both, k)
+        expand(w, 12, BLOCK, other, 0.0, 0.0, 0.0, True)
+        phi = np.polynomial.Polynomial(w[ROTATION, :13])
+        rotation, velocity = phi(length), phi.deriv()(length)
+        time = piece_start(there, both, k + 1)
+        (value, rate), (weight, change) = ground(there, both, time), gravity(there, both, time)
+        push = [-value - BLOCK.level * weight, -rate - BLOCK.level * change]
+        sines = (math.sin(rotation), math.cos(rotation))
+        other = State(rotation, velocity, *sines, *push, weight, change)
+    assert tuple(state) == pytest.approx(tuple(other), abs=1e-10)
+
+
+def test_rest_is_not_called_when_gravity_is_about_to_fall():
+    """The ground pushes at 0.9 of the level all the time; gravity falls below that at sample 20."""
+    across, up = np.full(200, 0.9 * BLOCK.level), np.zeros(200)
+    up[20:] = -0.2
+    for lift, expected in ((1.0, False), (0.0, True), (0.04, True)):
+        both = prepare_two_records(across, up, 1.0)
+        there = record_forcing(both, 1e-3, 1.0, lift)
+        for side in (-1.0, 1.0):
+            push = -side * 0.9 * BLOCK.level - BLOCK.level
+            given = (there, both, 0.0185, 2e-6, push, side, 1.0)
+            assert comes_to_rest(BLOCK, *given) is expected
+
+
+@RATIOS
+@pytest.mark.parametrize("tolerance", [TOLERANCE, 1e-14])
+def test_lanes_follow_what_the_scalar_kernel_follows(ratio, tolerance):
+    """Mixed blocks of both equations, each with factors of its own on both records."""
+    rng = np.random.default_rng(8)
+    blocks = [
+        oscillator(RockingBlock(1.0, alpha, restitution, linearised))
+        for alpha, restitution in ((0.09, 0.95), (0.2, 0.9), (0.5, 0.5))
+        for linearised in (False, True)
+    ]
+    which = rng.integers(0, len(blocks), 60)
+    steps = rng.choice([0.011, 0.02, 0.05], which.size)
+    factors = np.array([block.level for block in blocks])[which] * rng.uniform(0.8, 6.0, 60)
+    lifts = rng.uniform(-1.8, 1.8, which.size)
+    _, _, both = shaken(4, ratio)
+    found = mixed_outcomes_of(
+        blocks, RECORD, which, steps, factors, both, lifts=lifts, tolerance=tolerance
+    )
+    for k in range(which.size):
+        one = (blocks[which[k]], RECORD, steps[k], factors[k], both)
+        alone = outcome_of(*one, lift=lifts[k], tolerance=tolerance)
+        assert found[1][k] == alone.overturned
+        close = 1e-9 if tolerance < TOLERANCE else 1e-5
+        np.testing.assert_allclose(found[0][k], alone.peak, rtol=0, atol=close)
+        if tolerance < TOLERANCE:
+            assert found[2][k] == alone.impacts
+        plain = outcome_of(*one[:4], prepare_record(shaken(4, ratio)[0]), tolerance=tolerance)
+        if not (alone.overturned or plain.overturned) and plain.peak > 0.05:
+            assert abs(alone.peak - plain.peak) > 1e-6
+    assert 0.1 < found[1].mean() < 0.9
+    back = slice(None, None, -1)
+    given = (which[back], steps[back], factors[back])
+    again = mixed_outcomes_of(
+        blocks, RECORD, *given, both, lifts=lifts[back], tolerance=tolerance, threads=2
+    )
+    for one, other in zip(found, again, strict=True):
+        np.testing.assert_array_equal(one, other[back])

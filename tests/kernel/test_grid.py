@@ -1,14 +1,20 @@
-"""Many histories at once: each in its place, whoever computed it."""
+"""Grids of histories, and the bounds on their work."""
 
 import math
+import signal
+import subprocess
+import sys
+import time
 
 import numpy as np
 import pytest
 
 from benchmarks import kernel as timed
+from benchmarks.boundaries import SHAPES
+from tests.cases import BOTH
 from topheavy import RockingBlock
-from topheavy.kernel import forcing
-from topheavy.kernel.forcing import prepare_record
+from topheavy.kernel import bernstein, forcing, interrupt, outcome, trace
+from topheavy.kernel.forcing import NO_RECORD, prepare_record, pulse_forcing
 from topheavy.kernel.grid import (
     FEWEST_FACTORS,
     FEWEST_PULSES,
@@ -127,3 +133,127 @@ def test_both_kernels_that_the_benchmark_times_find_the_same():
     one, other = (run(*shaken)() for run in (timed.KernelRecord, timed.ScalarRecord))
     assert one == pytest.approx(other, rel=1e-6)
     assert other.impacts > 0
+
+
+#: Strengths over the level and ω/p, from slow to fast and from faint to enormous.
+EXTREMES = [(1.0 + 1e-9, 3.0), (1.5, 1e-4), (1e5, 1e-3), (3.0, 5.0), (7.1, 5.0), (9.0, 300.0)]
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+@BOTH
+def test_no_history_comes_near_the_most_steps(monkeypatch, shape, block):
+    """A hundredth of the bound is enough, also for a trace."""
+    there, w = oscillator(block), outcome.working_array()
+    monkeypatch.setattr(outcome, "MAX_STEPS", outcome.MAX_STEPS // 100)
+    monkeypatch.setattr(trace, "MOST_STEPS", trace.MOST_STEPS // 100)
+    for strength, ratio in EXTREMES:
+        motion = pulse_forcing(forcing.SHAPES[shape], strength * there.level, ratio)
+        given = (w, outcome.PULSE_ORDER, outcome.TOLERANCE, there, motion, NO_RECORD)
+        assert outcome.outcome.py_func(*given, outcome.NO_RATIOS).resolved
+        rest = ((0.0, 0.0, math.inf), (np.empty(0), np.empty((2, 0)), np.empty(1000)))
+        assert trace.trace.py_func(*given, *rest)[1] != trace.UNRESOLVED
+    monkeypatch.setattr(outcome, "MAX_STEPS", 0)
+    assert not outcome.outcome.py_func(*given, outcome.NO_RATIOS).resolved
+    monkeypatch.setattr(trace, "MOST_STEPS", 0)
+    assert trace.trace.py_func(*given, *rest)[1] == trace.UNRESOLVED
+
+
+def test_parts_of_a_polynomial_are_far_fewer_than_the_most(monkeypatch):
+    random = np.random.default_rng(7)
+    monkeypatch.setattr(bernstein, "MOST_PARTS", bernstein.MOST_PARTS // 4)
+    for number in range(300):
+        clustered = 0.1 ** random.uniform(0, 9) * random.uniform(size=15)
+        places = random.uniform(0.05, 0.9) + (clustered if number % 2 else 0.0 * clustered)
+        w = outcome.working_array()
+        w[outcome.POLYNOMIAL, :16] = np.polynomial.polynomial.polyfromroots(places)
+        bernstein.to_bernstein(w, outcome.POLYNOMIAL, 15, outcome.HULL)
+        given = (w, outcome.POLYNOMIAL, 0, 15, outcome.HULL, outcome.STACK, outcome.ROOTS, 15)
+        bernstein._roots.py_func(*given)
+        assert w[outcome.HALT, 0] == 0.0
+    monkeypatch.setattr(bernstein, "MOST_PARTS", 2)
+    bernstein._roots.py_func(*given)
+    assert w[outcome.HALT, 0] == 1.0  # the history is given up
+
+
+def test_newton_finds_what_is_looked_for_in_a_quarter_of_its_steps(monkeypatch):
+    monkeypatch.setattr(forcing, "MOST_NEWTON_STEPS", forcing.MOST_NEWTON_STEPS // 4)
+    for shape in (forcing.RICKER_SYMMETRIC, forcing.RICKER_ANTISYMMETRIC):
+        for strength in (1 + 1e-12, 1 + 1e-6, 1.01, 2.0, 30.0, 1e5):
+            motion, time = pulse_forcing(shape, strength, 2.0), 0.0
+            found = forcing.next_uplift(motion, NO_RECORD, time, 1.0)
+            turns = [*forcing.RICKER_TURNS[shape - forcing.RICKER_SYMMETRIC] / 2.0]
+            high = next((turn for turn in turns if turn > found[0]), motion.end)
+            low = max((turn for turn in turns if turn < found[0]), default=0.0)
+            if math.isfinite(found[0]) and found[0] > 0.0:
+                given = (motion, low, high, -found[3], 1.0)
+                few, many = forcing._crossing.py_func(*given), forcing._crossing(*given)
+                assert few == pytest.approx(many, rel=1e-8 if strength < 1.01 else 1e-15, abs=1e-5)
+
+
+# ---------------------------------------------------------------------------- Ctrl-C
+
+CHILD = """
+import os, signal, sys, threading, time
+import numpy as np
+from topheavy import (
+    Pulse, Record, RockingBlock, judge, overturning_intervals, overturning_map, simulate
+)
+signal.signal(signal.SIGINT, signal.default_int_handler)  # that a shell's background job ignores
+block = RockingBlock(2.0, 0.25, 0.95)
+def shaking():
+    return Record(0.01, np.tile(0.27 * np.sin(np.arange(5_000_000) * 0.06), 3))
+def nudge():  # a lossless block bounces a hundred times a sample
+    samples = np.zeros(3_000_000)
+    samples[1] = 1.0001 * np.tan(0.25)
+    return Record(0.5, samples)
+calls = {
+    "simulate": lambda motion: simulate(block, motion, samples=2),
+    "judge": lambda motion: judge(block.with_restitution(1.0), motion),
+    "overturning_map": lambda _: overturning_map(
+        block, "one-sine", np.linspace(1, 20, 4000), np.linspace(0.26, 1, 4000)
+    ),
+    "overturning_intervals": lambda _: overturning_intervals(
+        block, Pulse("one-sine", 1.0, 6.0), (0.26, 3.0), resolution=2e-7
+    ),
+}
+overturning_map(block, "one-sine", [3.0], [0.3])
+def interrupt():
+    sent.append(time.process_time())
+    os.kill(os.getpid(), signal.SIGINT)
+for name, call in calls.items():
+    motion, sent = {"simulate": shaking, "judge": nudge}.get(name, str)(), []
+    threading.Timer(0.5, interrupt).start()
+    try:
+        call(motion)
+        sys.exit(f"{name} finished")
+    except KeyboardInterrupt:
+        print(name, time.process_time() - sent[0], flush=True)
+raise KeyboardInterrupt
+"""
+
+
+def test_ctrl_c_ends_a_long_call():
+    child = subprocess.run(
+        [sys.executable, "-c", CHILD], capture_output=True, text=True, timeout=240
+    )
+    assert child.stderr.rstrip().endswith("KeyboardInterrupt"), child.stderr
+    assert child.returncode == -signal.SIGINT
+    ended = dict(line.split() for line in child.stdout.splitlines())
+    assert set(ended) == {"simulate", "judge", "overturning_map", "overturning_intervals"}
+    # of the processor: a busy machine takes longer, but does no more
+    assert max(map(float, ended.values())) < 2.0
+
+
+def test_halted_threads_leave_the_rest_and_pass_on_the_error():
+    def stuck(w):
+        while w[outcome.HALT, 0] == 0.0:
+            time.sleep(0.001)
+
+    def failing(_):
+        raise KeyboardInterrupt
+
+    begin = time.perf_counter()
+    with pytest.raises(KeyboardInterrupt):
+        interrupt.in_threads([failing, stuck, stuck], 2)
+    assert time.perf_counter() - begin < 2.0
+    assert interrupt.in_threads([lambda _, k=k: k for k in range(9)], 3) == [*range(9)]

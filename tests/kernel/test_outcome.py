@@ -1,4 +1,4 @@
-"""One history: the steps and their events, and what becomes of the block."""
+"""Histories of the kernel from uplift to their end: events, rest, the tail, the trace."""
 
 import math
 
@@ -7,9 +7,10 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from topheavy import RockingBlock
-from topheavy.kernel import forcing
-from topheavy.kernel.forcing import NO_RECORD, Forcing, pulse_forcing
+from topheavy import Pulse, Record, RockingBlock, judge, overturned_by, simulate
+from topheavy.bodies import free_rocking
+from topheavy.kernel import forcing, tail
+from topheavy.kernel.forcing import NO_RECORD, Forcing, ground, next_uplift, pulse_forcing
 from topheavy.kernel.outcome import (
     LANDING,
     NO_RATIOS,
@@ -21,9 +22,11 @@ from topheavy.kernel.outcome import (
     after_impact,
     is_certain_to_overturn,
     outcome,
+    renewed,
     working_array,
 )
-from topheavy.kernel.taylor import State, oscillator
+from topheavy.kernel.rest import LAST_BOUNCE, comes_to_rest
+from topheavy.kernel.taylor import State, evaluate, oscillator
 
 few = settings(max_examples=40, deadline=None, derandomize=True, database=None)
 STILL = Forcing(forcing.NONE, 0.0, 1.0, 0.0, 1.0)
@@ -175,3 +178,184 @@ def test_way_7_overturning_is_never_certain_where_the_ground_could_bring_it_back
     pulse = pulse_forcing(forcing.CONSTANT, 50.0, 0.1)
     state = aloft(BLOCK, 0.3, 1.0)
     assert not is_certain_to_overturn(oscillator(BLOCK), pulse, NO_RECORD, 1.0, state)
+
+
+RESTING = oscillator(RockingBlock(2.0, 0.2, 0.9))
+
+
+def rests(block, motion, time, velocity, side=1.0, peak=1.0, record=NO_RECORD) -> bool:
+    push = -side * ground(motion, record, time)[0] - block.level
+    return comes_to_rest(block, motion, record, time, velocity, push, side, peak)
+
+
+@pytest.mark.parametrize(
+    ("before", "velocity", "expected"),
+    [
+        (1e-1, 3e-6, True),
+        (1e-1, 1e-5, False),
+        (3e-2, 3e-7, True),
+        (3e-2, 1e-6, False),
+        (1e-2, 1e-7, False),
+        (1e-6, 1e-9, False),
+    ],
+)
+@pytest.mark.parametrize("sign", [-1.0, 1.0])
+def test_way_5_rest_is_not_called_when_the_level_is_about_to_be_passed(
+    before, velocity, expected, sign
+):
+    """The velocity alone does not tell: it depends on what is left of the time to the uplift."""
+    pulse = pulse_forcing(forcing.ONE_SINE, sign * 2 * RESTING.level, 1.0)
+    time = next_uplift(pulse, NO_RECORD, 0.0, RESTING.level)[0] - before
+    for side in (-1.0, 1.0):
+        assert rests(RESTING, pulse, time, velocity, side) == expected
+
+
+@pytest.mark.parametrize("linearised", [False, True])
+def test_way_5_what_is_called_rest_does_bounce_to_rest_before_the_next_uplift(linearised):
+    """Each bounce is followed, down to nothing, while the ground moves below the level."""
+    random, seen, w = np.random.default_rng(11), 0, working_array()
+    while seen < 40:
+        block = oscillator(
+            RockingBlock(
+                1.0, float(random.uniform(0.05, 0.4)), float(random.uniform(0, 0.9)), linearised
+            )
+        )
+        pulse = pulse_forcing(forcing.ONE_SINE, float(random.uniform(1.0, 3.0)) * block.level, 2.0)
+        first = next_uplift(pulse, NO_RECORD, 0.0, block.level)[0]
+        time = first * (1 - 10.0 ** float(random.uniform(-4, 0)))
+        velocity = block.slenderness * 10.0 ** float(random.uniform(-9, -3))
+        side = float(random.choice([-1.0, 1.0]))
+        if not rests(block, pulse, time, velocity, side):
+            continue
+        seen += 1
+        begun = velocity
+        state = State(0.0, velocity, 0.0, 1.0, 0.0, 0.0)
+        while state.velocity > 1e-6 * begun:
+            state = renewed(block, pulse, NO_RECORD, time, side, state)
+            step, event, top = advance(
+                w, 15, 1e-12, block, pulse, time, 1.0, state, 1, 0.0, False
+            )  # fmt: skip
+            assert event == LANDING
+            assert top <= LAST_BOUNCE * block.slenderness
+            state = after_impact(block, evaluate(w, 15, block, step, False))
+            time, side = time + step, -side
+            assert time < first
+
+
+def lifted_by_a_digit(random):
+    """A block, and a record whose largest acceleration is the next number above its level."""
+    alpha, restitution = random.uniform(0.1, 0.76), float(random.uniform(0.5, 0.999))
+    block = RockingBlock(1.0, float(alpha), restitution)
+    values = random.uniform(-1.0, 1.0, random.integers(3, 8)) * block.uplift_acceleration
+    at = random.integers(1, values.size - 1)
+    values[at] = random.choice([-1.0, 1.0]) * np.nextafter(block.uplift_acceleration, 2.0)
+    return block, Record(10.0 ** random.uniform(-2.0, 0.5), np.concatenate([[0.0], values, [0.0]]))
+
+
+@pytest.mark.parametrize("restitution", [None, 0.67])
+def test_block_that_is_lifted_by_the_last_digit_of_a_record_comes_to_rest(restitution):
+    """Its bounces are over before the clock ticks, and the acceleration may turn in that tick."""
+    random = np.random.default_rng(5)
+    for _ in range(400):
+        block, record = lifted_by_a_digit(random)
+        if restitution:
+            block = block.with_restitution(restitution)
+        found = judge(block, record)
+        assert not found.overturned
+        assert found.peak < 1e-12 * block.slenderness
+        assert overturned_by(block, record, [1.0]).tolist() == [False]
+        assert simulate(block, record, samples=2).outcome == "rests"
+
+
+BOTH = pytest.mark.parametrize("block", [BLOCK, BLOCK.linear()], ids=["exact", "linear"])
+
+
+@BOTH
+def test_ending_is_that_of_the_readable_route(block):
+    random, kinds = np.random.default_rng(7), set()
+    for _ in range(2000):
+        restitution = float(random.uniform(0.0, 1.0))
+        block = RockingBlock(
+            1.0, float(random.uniform(0.01, 0.6)), restitution, linearised=block.linearised
+        )
+        rotation = block.slenderness * float(random.uniform(0.0, 1.6))
+        velocity = block.slenderness * float(random.uniform(-2.0, 1.2))
+        expected = free_rocking.ending(block, rotation, velocity)
+        found = tail.free_rocking(oscillator(block), rotation, velocity)
+        assert (found.overturned, found.impacts) == (expected.overturned, expected.impacts)
+        if not found.overturned:
+            peak = max(rotation, expected.peak)
+            assert found.peak == pytest.approx(peak, rel=1e-7)
+        kinds.add((found.overturned, found.impacts, rotation > block.slenderness, velocity > 0))
+    # not the three that cannot be: impacts of survivors, survivors that move outward beyond α
+    assert kinds == {
+        (True, 0, True, True),
+        (True, 0, True, False),
+        (True, 0, False, True),
+        (True, 1, True, False),
+        (True, 1, False, False),
+        (False, 0, True, False),
+        (False, 0, False, True),
+        (False, 0, False, False),
+    }
+
+
+@BOTH
+def test_way_7_beyond_alpha_is_not_overturned(block):
+    there = oscillator(block)
+    barrier = math.sqrt(-2 * tail.surplus(there, 0.32, 0.0))
+    back = tail.free_rocking(there, 0.32, -1.001 * barrier)
+    assert not back.overturned
+    assert back.peak == 0.32
+    assert tail.free_rocking(there, 0.32, -0.999 * barrier).overturned
+    assert tail.free_rocking(there, 0.32, 0.0).overturned
+    assert tail.free_rocking(there, 0.32, 1e-3).overturned
+
+
+@few
+@given(shapes, st.floats(0.5, 8.0), st.floats(1.05, 6.0), st.booleans())
+def test_history_ends_as_it_is_judged(shape, omega, strength, linearised):
+    block = RockingBlock(1.0, 0.25, 0.9, linearised)
+    pulse = Pulse(shape, strength * block.uplift_acceleration, omega)
+    whole, end = simulate(block, pulse, samples=50), judge(block, pulse)
+    assert (whole.overturned, whole.number_of_impacts) == (end.overturned, end.impacts)
+    np.testing.assert_allclose(whole.peak_rotation, end.peak, rtol=0, atol=1e-10)
+
+
+@BOTH
+def test_energy_is_conserved_between_impacts_to_1e_8(block):
+    free = simulate(block, rotation=0.2, samples=4000)
+    energy = np.array(
+        [
+            tail.landing_energy(oscillator(block), abs(rotation), velocity)
+            for rotation, velocity in zip(free.rotation, free.velocity, strict=True)
+        ]
+    )
+    flight = np.searchsorted(free.impacts, free.time)
+    levels = [energy[flight == n] for n in range(8)]
+    for n, level in enumerate(levels):
+        assert np.ptp(level) < 1e-8 * level.max()
+        assert level.mean() == pytest.approx(levels[0].mean() * 0.81**n, rel=1e-8)
+
+
+def test_way_5_a_block_that_came_to_rest_lifts_again():
+    """Two lobes of a record: the block bounces to rest between them, and rocks again."""
+    block = RockingBlock(2.0, 0.2, 0.8)
+    lobe = 0.4 * np.sin(np.linspace(0, math.pi, 21))
+    both = simulate(block, Record(0.01, np.concatenate([lobe, np.zeros(3000), lobe, np.zeros(10)])))
+    alone = simulate(block, Record(0.01, np.concatenate([lobe, np.zeros(10)])))
+    assert both.number_of_impacts > 10
+    assert both.peak_rotation == pytest.approx(alone.peak_rotation, rel=1e-12)
+    between = (both.time > 5.0) & (both.time < 30.0)
+    assert np.count_nonzero(between) > 100
+    assert not both.rotation[between].any()
+    np.testing.assert_allclose(
+        both.impacts[both.impacts > 30.0] - 30.21, alone.impacts, atol=1e-9
+    )  # fmt: skip
+
+
+def test_way_6_the_side_survives_a_restart_on_the_ground():
+    free = simulate(BLOCK, rotation=0.1, samples=20_001)
+    flight = np.searchsorted(free.impacts, free.time)
+    for n in range(6):
+        assert (np.sign(free.rotation[flight == n][1:-1]) == (-1.0) ** n).all()

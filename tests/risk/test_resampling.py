@@ -1,17 +1,15 @@
-"""Means of resampled motions and their intervals, by groups and with values that are missing."""
+"""Intervals of what was sampled, and tables of them."""
 
 import math
 
 import numpy as np
 import pytest
-from scipy.stats import bootstrap
+from scipy.stats import beta, binom, bootstrap
 
 from topheavy.risk import resampling
-from topheavy.risk.resampling import (
-    in_words,
-    interval,
-    means_within,
-)
+from topheavy.risk.curve import dispersions, fit, medians
+from topheavy.risk.resampling import in_words, interval, means_within
+from topheavy.risk.tables import curve_table, exact_interval, pair_table, sign_test
 
 
 def test_means_by_blocks_scatter_as_those_of_all_weights(monkeypatch):
@@ -119,3 +117,112 @@ def test_resamples_without_a_value_count_at_both_ends():
     assert high == pytest.approx(np.quantile(np.concatenate([rest, [1e9, 1e9]]), 0.95))
     assert low < np.quantile(rest, 0.05)
     assert high > np.quantile(rest, 0.95)
+
+
+LEVELS = np.geomspace(0.25, 4.0, 25)
+
+
+def outcomes_of(capacities, levels=LEVELS):
+    """Each motion overturns a structure from its capacity on: (motions, structures, levels)."""
+    return np.asarray(capacities, dtype=float)[..., None] <= levels
+
+
+def tables(capacities, places=((0, 1),), resamples=400, levels=LEVELS):
+    fell = outcomes_of(capacities, levels)
+    drawn = means_within(fell, [None] * len(fell), resamples, 1)
+    if len(fell) == 1:
+        drawn[1:] = np.nan
+    terms = fit(levels, drawn, skewed=False)
+    curves = curve_table(fell.sum(axis=0), len(fell), levels, drawn, terms, 0.95, skewed=False)
+    return curves, pair_table(fell, levels, drawn, terms, places, 0.95)
+
+
+def lognormal(motions, seed, *factors):
+    """Capacities of structures under the same motions, with the dispersion 0.4 about factors."""
+    return np.exp(0.4 * np.random.default_rng(seed).normal(size=(motions, 1))) * factors
+
+
+# ------------------------------------------------------------------ exact intervals
+
+
+@pytest.mark.parametrize("confidence", [0.9, 0.95])
+def test_exact_interval_has_half_of_the_rest_on_each_side(confidence):
+    counts = np.arange(13).reshape(1, 13)
+    low, high = exact_interval(counts, 12, confidence)
+    tail = (1.0 - confidence) / 2.0
+    assert binom.sf(counts - 1, 12, low)[counts > 0] == pytest.approx(tail, rel=1e-6)
+    assert binom.cdf(counts, 12, high)[counts < 12] == pytest.approx(tail, rel=1e-6)
+    assert (low[0, 0], high[0, -1]) == (0.0, 1.0)
+    assert low[0, 1:] == pytest.approx(beta.ppf(tail, counts[0, 1:], 13 - counts[0, 1:]))
+
+
+def test_exact_interval_covers_probabilities_that_differ_between_groups():
+    """Hoeffding (1956): the count of unequal trials scatters less than the binomial of the mean."""
+    each = np.repeat([0.02, 0.3, 0.75], [20, 10, 10])
+    fell = (np.random.default_rng(6).random((4000, 40)) < each).sum(axis=1)
+    low, high = exact_interval(fell, 40, 0.95)
+    assert ((low <= each.mean()) & (each.mean() <= high)).mean() > 0.97
+
+
+def test_sign_test_is_exact():
+    found = sign_test(np.array([[5, 0], [4, 3]]), np.array([[0, 0], [1, 3]]))
+    assert found == pytest.approx(np.array([[2 / 32, 1.0], [12 / 32, 1.0]]))
+
+
+# ------------------------------------------------------------------ curves
+
+
+@pytest.mark.parametrize(("motions", "median", "dispersion"), [(7, 0.11, 0.32), (40, 0.08, 0.13)])
+def test_intervals_miss_the_true_value_as_often_as_the_docstring_says(motions, median, dispersion):
+    missed, samples = np.zeros(2), 400
+    for seed in range(samples):
+        fell = outcomes_of(lognormal(motions, [1, seed], 1.0)[:, 0])
+        terms = fit(LEVELS, means_within(fell, [None] * motions, 300, seed), skewed=False)
+        for place, (values, true) in enumerate(
+            ((medians(LEVELS, terms), 1.0), (dispersions(terms), 0.4))
+        ):
+            _, low, high = interval(values, 0.95)
+            missed[place] += low > true or high < true
+    assert missed / samples == pytest.approx([median, dispersion], abs=0.045)
+
+
+def test_one_motion_has_no_scatter_and_says_so():
+    levels = np.array([0.5, 1.0, 2.0])
+    curves, pairs = tables([[0.7, 1.5]], levels=levels)
+    assert curves.probability.to_numpy().tolist() == [[0, 1, 1], [0, 0, 1]]
+    assert curves.probability_high.to_numpy()[0, 0] == pytest.approx(0.975)
+    assert np.isnan(curves.median_capacity).all()
+    assert set(pairs.less_words.to_numpy().ravel()) == {"is not known"}
+    assert pairs.less.to_numpy().tolist() == [[0, 1, 0]]
+
+
+# ------------------------------------------------------------------ pairs
+
+
+def test_second_that_is_stronger_has_less_probability_and_a_gain():
+    _, pairs = tables(lognormal(60, 3, 1.0, 1.25), places=[(0, 1), (1, 0), (0, 0)])
+    assert pairs.gain.to_numpy() == pytest.approx([0.25, -0.2, 0.0], abs=0.03)
+    assert pairs.gain_words.to_numpy().tolist() == ["is positive", "is negative", "includes zero"]
+    assert (pairs.gain_reason == "").all()
+    middle = pairs.isel(level=12)
+    assert middle.less_words.to_numpy().tolist() == ["is positive", "is negative", "includes zero"]
+    assert middle.less.to_numpy()[0] == -middle.less.to_numpy()[1] > 0.1
+    np.testing.assert_array_equal(pairs.only_first[0], pairs.only_second[1])
+    assert not pairs.only_second[0].any()
+    assert pairs.only_first[0].to_numpy() == pytest.approx(60 * pairs.less[0].to_numpy())
+    ends = (pairs.less_low, pairs.less_high)
+    assert (ends[0] <= pairs.less).all()
+    assert (pairs.less <= ends[1]).all()
+
+
+def test_paired_structures_are_compared_under_the_same_motions():
+    """Motions differ much more than the structures: unpaired, no difference would be seen."""
+    random = np.random.default_rng(5)
+    capacities = np.exp(random.normal(size=(40, 1))) * [1.0, 1.1]
+    _, pairs = tables(capacities)
+    assert pairs.gain_words.item() == "is positive"
+    assert pairs.gain_high.item() - pairs.gain_low.item() < 0.3
+    assert (pairs.less_high - pairs.less_low).max() < 0.25
+    alone = capacities.copy()
+    random.shuffle(alone[:, 1])
+    assert tables(alone)[1].gain_words.item() == "includes zero"

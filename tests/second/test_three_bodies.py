@@ -1,4 +1,4 @@
-"""The motion of three rigid bodies against that of the rocking block that the frame shall be."""
+"""Three bodies: their motion, and their forces by Newton and Euler."""
 
 import math
 from functools import partial
@@ -9,11 +9,163 @@ from scipy.integrate import cumulative_simpson
 
 from tests.cases import RECORDS
 from topheavy import STANDARD_GRAVITY, Column, Pulse, RockingFrame, read_at2, simulate
-from topheavy.bodies.kinematics import cap_displacement
-from topheavy.second.newton_euler import ThreeBodies
+from topheavy.bodies.kinematics import cap_acceleration, cap_displacement, cap_velocity
+from topheavy.second.newton_euler import ThreeBodies, accelerations, impact
 from topheavy.second.three_bodies import simulate_three_bodies
 
-TRILITH = Column(0.11, 0.4)
+TRILITH, SLENDER, STOCKY = Column(0.11, 0.4), Column(0.3, 3.0), Column(0.5, 0.8)
+WITH_NO_CAP = (0.0, 0.01, 0.434, 1.0, 10.0, 100.0)
+BODIES = [
+    ThreeBodies(RockingFrame(column, mass_ratio), span, depth)
+    for column, span, depth in ((TRILITH, 1.2, 0.3), (SLENDER, 9.0, 0.5), (STOCKY, 1.1, 2.0))
+    for mass_ratio in WITH_NO_CAP
+]
+
+
+every_frame = pytest.mark.parametrize(
+    "bodies", BODIES, ids=lambda it: f"{it.frame.slenderness:.2f}-{it.frame.mass_ratio:g}"
+)
+
+
+def posture(bodies: ThreeBodies, theta: float, rate: float):
+    """q and q̇ of a frame whose columns have rocked by θ, by the kinematics of the paper."""
+    column = bodies.frame.column
+    u, v = (float(x) for x in cap_displacement(column, theta))
+    u_rate, v_rate = (float(x) for x in cap_velocity(column, theta, rate))
+    # a column's centre goes half as far as its top
+    q = [u / 2, v / 2, theta, u / 2, v / 2, theta, u, v, 0.0]
+    q_rate = [u_rate / 2, v_rate / 2, rate, u_rate / 2, v_rate / 2, rate, u_rate, v_rate, 0.0]
+    return np.array(q), np.array(q_rate)
+
+
+def states(bodies: ThreeBodies, number: int = 10):
+    random = np.random.default_rng(2014)
+    for _ in range(number):
+        theta = random.uniform(-1.5, 1.5) * bodies.frame.slenderness
+        yield theta, random.normal(0.0, 2.0), random.normal(0.0, 1.0)
+
+
+def expected_acceleration(frame: RockingFrame, theta: float, ground: float) -> float:
+    lean = math.copysign(frame.slenderness, theta) - theta
+    # Eq. (23)
+    return -(frame.frequency_parameter**2) * (math.sin(lean) + ground * math.cos(lean))
+
+
+def side(theta: float) -> tuple[int, int]:
+    return (1, 1) if theta > 0.0 else (-1, -1)
+
+
+def lever(arm, force):
+    """Clockwise moment."""
+    return arm[1] * force[0] - arm[0] * force[1]
+
+
+@every_frame
+def test_columns_accelerate_by_the_equation_of_motion_and_the_cap_by_its_kinematics(bodies):
+    close = 1e-14 * (bodies.span + bodies.frame.column.size)  # the contacts, in this posture
+    for theta, rate, ground in states(bodies):
+        q, q_rate = posture(bodies, theta, rate)
+        assert np.abs(bodies.gaps(side(theta), q)).max() < close
+        found, _ = accelerations(bodies, side(theta), q, q_rate, ground)
+        scale = bodies.frame.frequency_parameter**2 + rate**2
+        expected = expected_acceleration(bodies.frame, theta, ground)
+        assert found[[2, 5]] == pytest.approx([expected] * 2, abs=1e-12 * scale)
+        assert found[8] == pytest.approx(0.0, abs=1e-12 * scale)
+        cap = cap_acceleration(bodies.frame.column, theta, rate, expected)  # Eqs. (6), (9)
+        scale = STANDARD_GRAVITY + bodies.frame.column.size * rate**2
+        assert found[6:8] == pytest.approx([float(x) for x in cap], abs=1e-11 * scale)
+
+
+@every_frame
+def test_forces_carry_the_weight_the_push_and_the_moment_of_every_body(bodies):
+    frame, column = bodies.frame, bodies.frame.column
+    for theta, rate, ground in states(bodies, 4):
+        q, q_rate = posture(bodies, theta, rate)
+        second, forces = accelerations(bodies, side(theta), q, q_rate, ground)
+        load = STANDARD_GRAVITY * np.array([ground, 1.0])
+        scale = 1e-12 * (1.0 + frame.mass_ratio) * (STANDARD_GRAVITY + column.size * rate**2)
+        # the pivot from the column's centre; the cap's contact is opposite; all turn clockwise
+        corner = np.array([side(theta)[0] * column.half_width, -column.half_height])
+        cos, sin = math.cos(theta), math.sin(theta)
+        foot = np.array([[cos, sin], [-sin, cos]]) @ corner
+        for at_ground, at_seat, first in ((0, 2, 0), (1, 3, 3)):
+            net = forces[at_ground] - forces[at_seat]
+            assert net == pytest.approx(second[first : first + 2] + load, abs=10 * scale)
+            moment = lever(foot, forces[at_ground]) + lever(foot, forces[at_seat])
+            inertia = column.size**2 / 3
+            assert moment == pytest.approx(
+                inertia * second[first + 2], abs=100 * scale * column.size
+            )
+        weight = 2 * frame.mass_ratio
+        assert forces[2] + forces[3] == pytest.approx(weight * (second[6:8] + load), abs=10 * scale)
+        shift = -side(theta)[0] * column.half_width
+        seats = [
+            np.array([shift + end * bodies.span / 2, -bodies.cap_depth / 2]) for end in (-1, 1)
+        ]
+        moment = sum(lever(seat, force) for seat, force in zip(seats, forces[2:], strict=True))
+        assert moment == pytest.approx(0.0, abs=100 * scale * bodies.span)
+
+
+@every_frame
+@pytest.mark.parametrize("rate", [0.7, -1.9])
+def test_velocity_ratio_at_impact_is_that_of_the_paper(bodies, rate):
+    before = posture(bodies, -rate * 1e-300, rate)[1]  # at θ = 0, from the side it comes from
+    after, _ = impact(bodies, side(rate), before)
+    assert after[[2, 5]] / rate == pytest.approx([bodies.frame.restitution] * 2, abs=1e-12)
+    u, v = cap_velocity(bodies.frame.column, rate * 1e-300, after[2])
+    assert after[6:] == pytest.approx([float(u), float(v), 0.0], abs=1e-12 * bodies.span)
+
+
+@every_frame
+def test_impulses_are_the_change_of_momentum_of_the_frame(bodies):
+    column, mass = bodies.frame.column, bodies.mass
+    before = posture(bodies, -1e-300, 1.0)[1]
+    after, impulses = impact(bodies, (1, 1), before)
+    jump = mass * (after - before)
+    heavy = 1e-12 * mass.max() * bodies.span
+    assert impulses[:2].sum(axis=0) == pytest.approx(
+        [jump[0] + jump[3] + jump[6], jump[1] + jump[4] + jump[7]], abs=heavy
+    )
+    # angular momentum about the middle of the ground, where no internal impulse counts
+    level = 2 * column.half_height + bodies.cap_depth / 2
+    centres = [(-bodies.span / 2, column.half_height), (bodies.span / 2, column.half_height)]
+    centres.append((0.0, level))
+    turned = sum(lever(arm, jump[3 * k : 3 * k + 2]) for k, arm in enumerate(centres))
+    turned += jump[2] + jump[5] + jump[8]
+    feet = [(end * bodies.span / 2 + column.half_width, 0.0) for end in (-1, 1)]
+    given = sum(lever(foot, push) for foot, push in zip(feet, impulses[:2], strict=True))
+    assert given == pytest.approx(turned, abs=10 * heavy * bodies.span)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"span": 0.22}, "span is 0.22 m; expected more than the width of a column, 0.22 m"),
+        ({"span": -1.0}, "span is -1 m; expected more than zero"),
+        ({"span": "wide"}, "span is 'wide'; expected a number"),
+        ({"cap_depth": 0.0}, "cap_depth is 0 m; expected more than zero"),
+        ({"cap_depth": math.nan}, "cap_depth is nan; expected a finite number"),
+        ({"frame": RockingFrame(TRILITH, math.inf)}, "mass_ratio is ∞; expected a finite one"),
+        ({"frame": TRILITH}, "frame is Column.*; expected a RockingFrame"),
+    ],
+)
+def test_bad_lengths_are_refused_by_name(change, message):
+    good = {"frame": RockingFrame(TRILITH, 0.434), "span": 1.2, "cap_depth": 0.3}
+    with pytest.raises(ValueError, match=message):
+        ThreeBodies(**(good | change))
+
+
+@pytest.mark.parametrize("vertical", [-0.4, 0.7])
+def test_vertical_acceleration_is_another_gravity(vertical):
+    """At rest, all accelerations and forces are those of (1 + v) g and ü_g/(1 + v)."""
+    bodies = ThreeBodies(RockingFrame(Column(0.5, 3.0), 1.5), 5.0, 1.0)
+    still = np.zeros(9), np.zeros(9)
+    found = accelerations(bodies, (1, 1), *still, 0.3, vertical)
+    other = accelerations(bodies, (1, 1), *still, 0.3 / (1.0 + vertical))
+    for one, scaled in zip(found, other, strict=True):
+        np.testing.assert_allclose(one, (1.0 + vertical) * scaled, rtol=1e-9, atol=1e-9)
+
+
 FRAME = RockingFrame(TRILITH, 0.434)
 SHAPE = {"span": 1.2, "cap_depth": 0.3}
 MASS_RATIOS = (0.01, 0.434, 1.0, 10.0, 100.0)

@@ -1,4 +1,4 @@
-"""Each condition in a result of the paper's steps, in a case in which it alone fails."""
+"""Steps on conditions and on overturning by Allen et al."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -11,6 +11,7 @@ import pytest
 from replication.inputs.strict_yaml import read_yaml
 from replication.workbench import truth, value
 from steps import (
+    allen_overturning,
     heavier,
     moment_rotation,
     scale_effects,
@@ -204,3 +205,24 @@ def test_number_of_the_literature_is_held_against_ours_and_the_print(
     monkeypatch.setattr(verification, "distance_from_derivation", lambda: 0.0)
     _, found = verification.main({}, 1e-12)
     assert found["published_numbers"].holds == holds
+
+
+def test_neighbours_of_one_verdict_are_a_run():
+    cells = [(1.0, "a"), (2.0, "a"), (3.0, "b"), (4.0, "a")]
+    found = pd.DataFrame(allen_overturning.runs(cells))
+    assert found.lowest.tolist() == [1.0, 3.0, 4.0]
+    assert found.highest.tolist() == [2.0, 3.0, 4.0]
+    assert found.cells.tolist() == [2, 1, 1]
+    assert found.verdict.tolist() == ["a", "b", "a"]
+
+
+def test_share_is_that_of_the_cells():
+    rows = [
+        ("all", 3, "falsely safe"),
+        ("all", 1, "both survive"),
+        ("linearised", 2, "falsely safe"),
+    ]
+    table = pd.DataFrame(rows, columns=["model", "cells", "verdict"])
+    found = allen_overturning.findings(table)
+    assert found["all"]["falsely_safe"] == pytest.approx(0.75)
+    assert found["linearised"]["falsely_safe"] == pytest.approx(1.0)

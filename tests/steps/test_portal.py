@@ -1,4 +1,4 @@
-"""The step on the price of the portal, on cases that are known."""
+"""Steps on portals: their forces and how their bases bear."""
 
 import math
 
@@ -8,12 +8,19 @@ import pytest
 
 import topheavy as th
 from steps import portal
-from steps.shared.histories import History
+from steps.shared import bearing
+from steps.shared.histories import History, history
 from tests.cases import COLUMN, FRAME, RECORDS
+from topheavy import Column, MonolithicPortal, Pulse, simulate
 from topheavy.forces.portal import resting_portal_forces
+from topheavy.second import reference
 
 VASE = {"portals": {"mass_ratio": 1.0, "spans": [2.4]}, "cap": {"width": 2.6, "depth": 0.6}}
+
+
 VASE |= {"shapes": ["one-cosine"], "period": 1.5, "floor": 1e-3}
+
+
 SIZES = {"sizes": {"lowest": 1.0, "highest": 4.0, "points": 5}, "highest": 2.0}
 OVER = [f"{name}_over_frame" for name in portal.FORCES]
 
@@ -183,3 +190,48 @@ def test_larger_columns_are_weighed(change, lighter, heavier):
     found = portal.findings(rows(), columns(**change))
     assert found["larger_column_is_lighter_than_the_frame"].holds is lighter
     assert found["larger_column_is_heavier_than_the_portal"].holds is heavier
+
+
+WIDE = MonolithicPortal(Column(0.5, 3.0), 1.0, 5.0, 0.6)
+PULSE = Pulse("one-cosine", 1.0, 2 * math.pi / 1.5)
+G = 9.81
+
+
+def test_normal_force_and_friction_are_those_of_the_moving_centre_of_mass():
+    pulse, time = PULSE.scaled(1.6), np.linspace(0.2, 0.5, 4001)
+    course = simulate(WIDE, pulse, samples=time)
+    lean = WIDE.slenderness - np.abs(course.rotation)
+    size = math.hypot(WIDE.half_base, WIDE.centre_height)
+    up, across = size * np.cos(lean), -np.sign(course.rotation) * size * np.sin(lean)
+    step = time[1] - time[0]
+    lift = np.gradient(np.gradient(up, step), step) / G
+    push = np.gradient(np.gradient(across, step), step) / G + pulse.excitation(time)
+    inner = slice(5, -5)
+    normal, required = (1.0 + lift)[inner], np.abs(push / (1.0 + lift))[inner]
+    whole = history(WIDE, pulse, 8)
+    part = bearing.on_the_ground(
+        WIDE,
+        type(whole)(
+            *(x[None, inner] for x in (time, course.rotation, course.velocity)),
+            pulse.excitation(time)[None, inner],
+            0,
+            "rests",
+        ),
+    )
+    assert part == pytest.approx((normal.min(), required.max()), rel=1e-4)
+
+
+def test_base_is_pulled_from_where_it_begins_to_be():
+    found = bearing.bearing(WIDE, PULSE, 3.0)
+    assert 1.6 < found.pulled_from < 1.75
+    for side, pulled in ((-1, False), (1, True)):
+        motion = PULSE.scaled(found.pulled_from * (1.0 + side * 1e-6))
+        for route in (simulate, reference.simulate):
+            course = history(WIDE, motion, bearing.SAMPLES, route)
+            assert (bearing.on_the_ground(WIDE, course)[0] <= 0.0) is pulled
+
+
+def test_base_that_bears_has_no_such_peak_and_a_friction():
+    found = bearing.bearing(WIDE, PULSE, 1.0)
+    assert found.pulled_from == math.inf
+    assert math.tan(WIDE.slenderness) < found.friction < 1.0

@@ -11,14 +11,7 @@ from replication.workbench import truth
 from steps import uplift_limits
 from steps.shared import peak_forces
 from steps.shared.histories import history
-from steps.shared.peak_forces import (
-    FORCES,
-    GUIDED,
-    PINNED,
-    held,
-    ratio_of,
-    rocking_peaks,
-)
+from steps.shared.peak_forces import FORCES, GUIDED, PINNED, held, ratio_of, rocking_peaks
 from tests.cases import COLUMN, FRAME, SIZES
 
 CAP = th.Cap(5.0, 0.5)

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass
@@ -88,18 +89,28 @@ def _fault(entry: dict[str, Any], home: str, root: Path) -> Fault:
     only = {part: entry.pop(part) for part in ("file", "old", "new") if part in entry}
     changes = tuple(Change(**change) for change in entry.pop("changes", [only]))
     files = dict.fromkeys(change.file for change in changes)
-    tests = tuple(entry.pop("tests", [_own_test(file, root) for file in files]))
+    own = dict.fromkeys(test for file in files for test in _own_tests(file, root))
+    tests = tuple(entry.pop("tests", own))
     return Fault(**{"routes": JUDGING} | entry, tests=tests, changes=changes, home=home)
 
 
-def _own_test(file: str, root: Path) -> str:
-    """Return the tests of a module: in the folder of its study, or of its package or library."""
+def _own_tests(file: str, root: Path) -> list[str]:
+    """Return the tests of a module: those of its name, or those of its room that import it."""
     *folders, name = Path(file).parts
-    package = Path("tests", *folders[1:], f"test_{name}")
+    packages = [("tests", *folders[1:]), ("tests", *folders[2:])]
     if folders[0] == "studies":
-        return Path(*folders[:2], "tests", package.name).as_posix()
-    library = Path("tests", *folders[2:], package.name)
-    return (package if (root / package).is_file() else library).as_posix()
+        packages = [(*folders[:2], "tests")]
+    rooms = [root.joinpath(*package) for package in packages]
+    named = [room / f"test_{name}" for room in rooms if (room / f"test_{name}").is_file()]
+    word = re.compile(rf"\b{Path(name).stem}\b")
+    near = (path for room in rooms for path in sorted(room.glob("test_*.py")))
+    found = named[:1] or [path for path in near if word.search(_head(path))]
+    return [path.relative_to(root).as_posix() for path in found]
+
+
+def _head(path: Path) -> str:
+    """Return what stands before the first function: the imports."""
+    return re.split(r"^(?:def|class|@)", path.read_text("utf-8"), maxsplit=1, flags=re.MULTILINE)[0]
 
 
 @contextmanager

@@ -7,11 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import sympy as sp
-from sympy.parsing.sympy_parser import (
-    implicit_multiplication,
-    parse_expr,
-    standard_transformations,
-)
+from sympy.parsing.sympy_parser import implicit_multiplication, parse_expr, standard_transformations
 
 R, g, b, h = sp.symbols("R g b h", positive=True)
 m, m_c, m_b, I_o = sp.symbols("m m_c m_b I_o", positive=True)

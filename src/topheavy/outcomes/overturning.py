@@ -22,13 +22,7 @@ from topheavy.ground.pulses import Pulse, checked_shape
 from topheavy.ground.records import Record
 from topheavy.ground.vertical import both_records, refuse_fall
 from topheavy.kernel.forcing import RECORD, SHAPES
-from topheavy.kernel.grid import (
-    FEW_AT_ONCE,
-    MANY_AT_ONCE,
-    Outcomes,
-    mixed_outcomes_of,
-    outcomes_of,
-)
+from topheavy.kernel.grid import FEW_AT_ONCE, MANY_AT_ONCE, Outcomes, mixed_outcomes_of, outcomes_of
 from topheavy.kernel.outcome import TOLERANCE
 from topheavy.kernel.taylor import Oscillator, oscillator
 from topheavy.keywords import hinted

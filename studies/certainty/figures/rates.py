@@ -4,17 +4,7 @@ import numpy as np
 
 from figures.drawing import by_size
 from figures.palette import FIXED
-from replication.drawing import (
-    DARKEST,
-    DOUBLE,
-    GREY,
-    INK,
-    PAPER,
-    letter,
-    make_figure,
-    note,
-    sheet,
-)
+from replication.drawing import DARKEST, DOUBLE, GREY, INK, PAPER, letter, make_figure, note, sheet
 
 FAMILIES = ("near-fault", "broadband")
 MARKS = ("o", "s", "^")  # by exponent, ascending

@@ -8,15 +8,7 @@ import numpy as np
 import pandas as pd
 
 from replication import workbench
-from studies.mechanism.steps.engine import (
-    Array,
-    Contact,
-    Motion,
-    Rig,
-    leaning,
-    raised_energy,
-    run,
-)
+from studies.mechanism.steps.engine import Array, Contact, Motion, Rig, leaning, raised_energy, run
 from studies.mechanism.steps.setting import cap_of
 from topheavy import Cap, Column, Pulse, RockingFrame, minimum_overturning, simulate
 

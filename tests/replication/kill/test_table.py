@@ -71,6 +71,20 @@ def test_faults_still_fit_the_tree():
                 assert f"def {function}" in (ROOT / file).read_text(encoding="utf-8"), fault.name
 
 
+def test_fault_that_names_no_tests_is_asked_of_those_of_its_modules(tmp_path, plant):
+    tests = {
+        "studies/a/steps/one.py": "studies/a/tests/test_one.py",
+        "src/steps/one.py": "tests/steps/test_one.py",
+        "src/library/bodies/one.py": "tests/bodies/test_all.py",
+    }
+    changes = [{"file": file, "old": "", "new": ""} for file in [*tests, "src/steps/one.py"]]
+    entry = {"name": "one", "fault": "Wrong.", "changes": changes}
+    heads = dict.fromkeys(tests.values(), "from library.bodies import one\n")
+    later = {"tests/bodies/test_two.py": "def test_two():\n    assert one\n"}
+    plant(tmp_path, {"faults/one.yaml": yaml.safe_dump([entry])} | heads | later)
+    assert [fault.tests for fault in load(tmp_path)] == [tuple(tests.values())]
+
+
 def test_fault_needs_no_study_but_its_own_and_has_its_name_alone():
     """It would be lost, or fit no tree, without the other study."""
     for fault in FAULTS:

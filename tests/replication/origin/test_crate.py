@@ -1,11 +1,14 @@
-"""The RO-Crate of a run: what it lists, that it can be read back, and that it is a valid one."""
+"""The crate of a run, and the software that it names."""
 
 import json
 import os
+import platform
 import re
 import shutil
 import subprocess
+import tomllib
 from dataclasses import replace
+from importlib import metadata
 from pathlib import Path
 
 import pytest
@@ -14,6 +17,7 @@ from replication.inputs.config_keys import Key
 from replication.judging.claim import Claim
 from replication.judging.ledger import with_verdict
 from replication.origin.recorded import CRATE, read_crate
+from replication.origin.software import installed
 from replication.rules import crate as rule
 from replication.workflow.provenance import Job
 
@@ -158,3 +162,46 @@ def test_crate_is_valid_and_not_without_required_properties(tmp_path, made, enti
     assert code == 1
     for name in REQUIRED.values():
         assert re.search(f"MUST have an? `?{name}`? ?", said), said
+
+
+LOCK = {
+    "package": [
+        {
+            "name": "peaks",
+            "source": {"editable": "."},
+            "dependencies": [{"name": "numpy"}, {"name": "jsonschema", "extra": ["format"]}],
+            "dev-dependencies": {"dev": [{"name": "pytest"}], "engine": [{"name": "sympy"}]},
+        },
+        {"name": "numpy", "source": {}, "dependencies": [{"name": "nowhere-installed"}]},
+        {"name": "nowhere-installed", "source": {}},
+        {
+            "name": "jsonschema",
+            "source": {},
+            "dependencies": [{"name": "attrs"}],
+            "optional-dependencies": {"format": [{"name": "idna"}], "other": [{"name": "ruff"}]},
+        },
+        *({"name": name, "source": {}} for name in ("attrs", "idna", "pytest", "ruff", "sympy")),
+    ]
+}
+
+
+def test_installed_dependencies_are_told_and_none_of_tests():
+    names = ["python", "attrs", "idna", "jsonschema", "numpy"]
+    assert list(installed(LOCK)) == names
+    assert list(installed(LOCK, ["engine"])) == [*names, "sympy"]
+
+
+def test_versions_are_those_that_are_installed():
+    found = installed(LOCK)
+    assert found["python"] == platform.python_version()
+    assert found["numpy"] == metadata.version("numpy")
+
+
+def test_packages_that_compute_are_among_ours():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    lock = tomllib.loads((ROOT / "uv.lock").read_text(encoding="utf-8"))
+    groups = project["tool"]["replication"]["groups"]
+    found = installed(lock, groups)
+    assert {"numpy", "scipy", "snakemake", "rocrate"} <= set(found)
+    assert not {"pytest", "ruff", "roc-validator"} & set(found)
+    assert set(groups) <= set(project["dependency-groups"])

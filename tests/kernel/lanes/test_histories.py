@@ -1,0 +1,226 @@
+"""Histories in lanes are those of the scalar kernel; only the grid opens their door."""
+
+import math
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numba import njit
+
+import topheavy.kernel
+from topheavy import RockingBlock
+from topheavy.kernel.forcing import (
+    ONE_SINE,
+    RECORD,
+    SHAPES,
+    piece_start,
+    prepare_record,
+    prepare_two_records,
+    record_forcing,
+    two_lines,
+)
+from topheavy.kernel.grid import mixed_outcomes_of, outcome_of, outcomes_of
+from topheavy.kernel.lanes import records, steps
+from topheavy.kernel.lanes.vectors import WIDTH, rows
+from topheavy.kernel.march import powers, short_series
+from topheavy.kernel.outcome import TOLERANCE
+from topheavy.kernel.tail import safe_speed
+from topheavy.kernel.taylor import oscillator
+
+ENDING = sorted(set(SHAPES) - {"harmonic"})
+
+
+#: Peaks differ by so much of α, as both kernels leave out terms below the tolerance.
+CLOSE = 1e-8
+
+
+def alone(block, shape, scales, amplitudes):
+    """Peak, overturned and impacts of all cells, by the scalar kernel."""
+    found = [[outcome_of(block, shape, s, a) for a in amplitudes] for s in scales]
+    peak = [[one.peak for one in row] for row in found]
+    overturned = [[one.overturned for one in row] for row in found]
+    return np.array(peak), np.array(overturned), [[one.impacts for one in row] for row in found]
+
+
+@pytest.mark.parametrize("degrees", [3.0, 9.5, 20.0, 40.0])
+@pytest.mark.parametrize("linearised", [False, True], ids=["exact", "linearised"])
+@pytest.mark.parametrize("shape", ENDING)
+def test_outcomes_and_impacts_are_those_of_the_scalar_kernel(shape, linearised, degrees):
+    alpha, rng = math.radians(degrees), np.random.default_rng(round(degrees))
+    for restitution in (1.0 - 1.5 * math.sin(alpha) ** 2, 0.5):
+        block = oscillator(RockingBlock(1.0, alpha, restitution, linearised))
+        scales = rng.uniform(0.4, 10.0, 9)
+        near = rng.uniform(0.99, 1.2, 8)
+        amplitudes = block.level * np.concatenate([near, rng.uniform(1.0, 10.0, 12)])
+        peak, overturned, impacts = outcomes_of(block, SHAPES[shape], scales, amplitudes)
+        expected = alone(block, SHAPES[shape], scales, amplitudes)
+        np.testing.assert_array_equal(overturned, expected[1])
+        np.testing.assert_array_equal(impacts, expected[2])
+        np.testing.assert_allclose(peak, expected[0], rtol=0, atol=CLOSE * alpha)
+    assert (overturned != overturned[0, 0]).any()
+
+
+def test_history_that_was_given_up_is_named_by_both_kernels():
+    """Lifted by a trillionth of the uplift level and without loss, a block bounces on and on."""
+    block = oscillator(RockingBlock(1.0, 0.2, 1.0))
+    shape, scales, amplitude = SHAPES["half-sine"], np.array([0.5]), block.level * (1 + 1e-12)
+    named = r"half-sine pulse of 0\.20271 g with ω/p = 0\.5"
+    with pytest.raises(ArithmeticError, match=named):
+        outcome_of(block, shape, 0.5, amplitude)
+    with pytest.raises(ArithmeticError, match=named):
+        outcomes_of(block, shape, scales, np.array([1.0, amplitude, 0.9]))
+
+
+def test_no_cell_depends_on_the_others():
+    """Whichever cells share the lanes, in whatever order: the same bits."""
+    block = oscillator(RockingBlock(1.0, 0.2, 0.9))
+    scales, amplitudes = np.linspace(0.5, 9.0, 13), block.level * np.linspace(1.001, 8.0, 17)
+    whole = outcomes_of(block, ONE_SINE, scales, amplitudes)
+    back = outcomes_of(block, ONE_SINE, scales[::-1].copy(), amplitudes[::-1].copy())
+    for one, other in zip(whole, back, strict=True):
+        np.testing.assert_array_equal(one, other[::-1, ::-1])
+    for i, j in ((0, 0), (5, 11), (12, 16)):
+        cell = outcomes_of(block, ONE_SINE, scales[i : i + 1], amplitudes[j : j + 1])
+        for one, other in zip(whole, cell, strict=True):
+            np.testing.assert_array_equal(one[i, j], other[0, 0])
+
+
+STEP = 0.02
+
+
+def shaking(seed, samples=1500, step=STEP):
+    """A few sines under an envelope: as a record, and it swings a block for a while."""
+    rng, time = np.random.default_rng(seed), step * np.arange(samples)
+    waves = sum(rng.normal() * np.sin(f * time + rng.uniform(0, 6)) for f in (2.0, 3.7, 6.1, 11.0))
+    return prepare_record(0.3 * waves * np.sin(math.pi * time / time[-1]) ** 2)
+
+
+def factors_alone(block, step, factors, record, tolerance):
+    found = [outcome_of(block, RECORD, step, f, record, tolerance=tolerance) for f in factors]
+    return tuple(np.array(column) for column in list(zip(*found, strict=True))[:3])
+
+
+@pytest.mark.parametrize("degrees", [3.0, 9.5, 20.0, 40.0])
+@pytest.mark.parametrize("linearised", [False, True], ids=["exact", "linearised"])
+def test_factors_on_a_record_have_the_outcomes_and_impacts_of_the_scalar_kernel(
+    degrees, linearised
+):
+    """At a tight tolerance, since bounces after bounces make impacts sensitive to the usual one."""
+    alpha = math.radians(degrees)
+    block = oscillator(RockingBlock(1.0, alpha, 0.8, linearised))
+    fell = []
+    for seed in range(3):
+        record = shaking(seed)
+        factors = block.level / 0.3 * np.geomspace(0.2, 6.0, 21)
+        for tolerance in (TOLERANCE, 1e-14):
+            given = (np.array([STEP]), factors, record)
+            found = outcomes_of(block, RECORD, *given, tolerance=tolerance)
+            overturned, peak, impacts = factors_alone(block, STEP, factors, record, tolerance)
+            np.testing.assert_array_equal(found[1][0], overturned)
+            tight = tolerance < TOLERANCE
+            if tight:
+                np.testing.assert_array_equal(found[2][0], impacts)
+            close = (1e-9 if tight else 1e-5) * alpha
+            np.testing.assert_allclose(found[0][0], peak, rtol=0, atol=close)
+        fell += overturned.tolist()
+    assert 0 < sum(fell) < len(fell)
+
+
+def test_no_factor_depends_on_the_others():
+    block, record = oscillator(RockingBlock(1.0, 0.2, 0.9)), shaking(5)
+    factors = block.level / 0.3 * np.geomspace(0.3, 6.0, 70)
+    whole = outcomes_of(block, RECORD, np.array([STEP]), factors, record)
+    back = outcomes_of(block, RECORD, np.array([STEP]), factors[::-1].copy(), record)
+    for one, other in zip(whole, back, strict=True):
+        np.testing.assert_array_equal(one, other[:, ::-1])
+    for j in (0, 33, 69):
+        cell = outcomes_of(block, RECORD, np.array([STEP]), factors[j : j + 1], record)
+        for one, other in zip(whole, cell, strict=True):
+            np.testing.assert_array_equal(one[0, j], other[0, 0])
+
+
+def both_ways(block, step, factors, record):
+    """Overturned and impacts of histories that end once they are safe, and of those in full."""
+    which, steps_of = np.zeros(factors.size, int), np.full(factors.size, step)
+    given = ([block], RECORD, which, steps_of, factors, record)
+    return [mixed_outcomes_of(*given, in_full=in_full)[1:] for in_full in (False, True)]
+
+
+def test_impulse_that_overturns_a_block_is_no_more_than_the_safe_one():
+    """Sharp where gravity has no time to act, of a linearised block: φ' grows by the impulse."""
+    block, step = oscillator(RockingBlock(1.0, 0.2, 0.9, linearised=True)), 1e-5
+    impulse = prepare_record(np.array([0.0, 1.0, *np.zeros(50)]))
+    factors = np.array([0.998, 1.001, 1.003]) * safe_speed(block) / step
+    (fell, _), (overturned, _) = both_ways(block, step, factors, impulse)
+    assert fell.tolist() == overturned.tolist() == [False, False, True]
+
+
+@njit
+def march_all(w, block, record, weighs, tolerance):
+    all_lanes = (1 << WIDTH) - 1
+    return records.march_lanes(w, steps.seated(w, block), record, weighs, tolerance, all_lanes)
+
+
+@pytest.mark.parametrize("weighs", [False, True])
+def test_short_series_and_its_bounds_are_those_of_the_scalar_kernel(weighs):
+    """At steps so long, and tolerances so wide, that every term and every bound counts."""
+    block, rng, passed = oscillator(RockingBlock(1.0, 0.25, 0.9)), np.random.default_rng(4), []
+    across, up = rng.uniform(-0.4, 0.4, 60), rng.uniform(-0.5, 0.5, 60)
+    both = prepare_two_records(across, up, 0.731)
+    for case in range(300):
+        step, tolerance = 10.0 ** rng.uniform(-1.5, -0.3), 10.0 ** rng.uniform(-7.0, -1.0)
+        record = both if weighs else prepare_record(across)
+        w, forcing = rows(steps.ROWS), record_forcing(record, step, 1.0, 0.9)
+        pieces, peak = rng.integers(0, 40, WIDTH), 0.24
+        rotation, velocity = rng.uniform(0.01, 0.26, WIDTH), rng.uniform(-0.05, 0.05, WIDTH) / step
+        for lane in range(WIDTH):
+            records.begin(w, lane, block, forcing, True)
+        w[steps.ROTATION], w[steps.VELOCITY] = rotation, velocity
+        w[steps.SINE], w[steps.COSINE] = np.sin(rotation), np.cos(rotation)
+        w[steps.FACTOR], w[steps.PIECE], w[steps.PEAK], w[steps.ARC] = -1.0, pieces, peak, peak
+        found = march_all(w, block, record, weighs, tolerance)
+        for lane, (k, turn, rate) in enumerate(zip(pieces, rotation, velocity, strict=True)):
+            value, slope, weight, change = (across[k], (across[k + 1] - across[k]) / step, 1.0, 0.0)
+            length = step
+            if weighs:
+                value, slope, weight, change = two_lines(forcing, record, k)
+                length = piece_start(forcing, record, k + 1) - piece_start(forcing, record, k)
+            push, push_rate = -value - block.level * weight, -slope - block.level * change
+            tilt, lean = math.cos(0.25 - turn), math.sin(0.25 - turn)
+            heavy, heavier = weight / math.cos(0.25), change / math.cos(0.25)
+            fine, by, gain = short_series(
+                powers(length),
+                math.sin(turn) * heavy + push * tilt,
+                math.cos(turn) * heavy + push * lean,
+                math.sin(turn) * heavier + push_rate * tilt,
+                math.cos(turn) * heavier + push_rate * lean,
+                rate,
+                turn,
+                peak,
+                tolerance * 0.25,
+            )
+            fine = fine and turn <= 0.25
+            assert found >> lane & 1 == fine, (case, lane)
+            passed.append(fine)
+            if fine:
+                assert w[steps.ROTATION, lane] == pytest.approx(turn + by, abs=1e-14)
+                close = 1e-13 * (1.0 + abs(rate))
+                assert w[steps.VELOCITY, lane] == pytest.approx(rate + gain / length, abs=close)
+                assert w[steps.SINE, lane] == pytest.approx(math.sin(turn + by), abs=1e-14)
+    assert 0.1 < np.mean(passed) < 0.9
+
+
+ROOT = Path(__file__).parents[3]
+KERNEL = Path(topheavy.kernel.__file__).parent
+INSIDE = re.compile(r"topheavy\.kernel\.lanes|topheavy\.kernel import .*\blanes\b")
+
+
+def test_only_the_grid_imports_the_lanes():
+    folders = ("src", "studies", "benchmarks", "figures", "notebooks", "tests")
+    files = [path for folder in folders for path in (ROOT / folder).rglob("*.py")]
+    files += ROOT.rglob("notebooks/*.ipynb")
+    users = {path for path in files if INSIDE.search(path.read_text(encoding="utf-8"))}
+    rooms = (KERNEL / "lanes", Path(__file__).parent)
+    outside = {path for path in users if not any(path.is_relative_to(room) for room in rooms)}
+    assert outside == {KERNEL / "grid.py"}

@@ -1,0 +1,222 @@
+"""Steps of the kernel: series, pieces of a record, and roots of polynomials."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.polynomial import polynomial
+
+from topheavy import RockingBlock
+from topheavy.kernel import forcing
+from topheavy.kernel.bernstein import MAX_DEGREE, roots, to_bernstein
+from topheavy.kernel.forcing import (
+    NO_RECORD,
+    SHAPES,
+    equation,
+    ground,
+    next_uplift,
+    prepare_record,
+    pulse_forcing,
+    record_forcing,
+)
+from topheavy.kernel.march import derivatives, march
+from topheavy.kernel.outcome import (
+    HULL,
+    POLYNOMIAL,
+    PULSE_ORDER,
+    ROOTS,
+    STACK,
+    TOLERANCE,
+    at_sample,
+    working_array,
+)
+from topheavy.kernel.taylor import MAX_ORDER, ROTATION, State, evaluate, expand, oscillator
+
+BLOCK = RockingBlock(2.0, 0.25, 0.9)
+BOTH = pytest.mark.parametrize("block", [BLOCK, BLOCK.linear()], ids=["exact", "linear"])
+ORDER = MAX_ORDER
+
+
+def state_of(block, motion, time, side, rotation, velocity):
+    """A rocking state under a pulse, in the kernel's terms."""
+    value, rate = ground(motion, NO_RECORD, time)
+    sine, cosine = (0.0, 1.0) if block.linearised else (math.sin(rotation), math.cos(rotation))
+    push = -side * value - oscillator(block).level
+    return State(rotation, velocity, sine, cosine, push, -side * rate)
+
+
+def series(block, motion, time, state, is_straight=False, order=ORDER):
+    w = working_array()
+    expand(w, order, oscillator(block), state, *equation(motion, time), is_straight)
+    return w
+
+
+@BOTH
+@pytest.mark.parametrize("side", [-1.0, 1.0])
+@pytest.mark.parametrize("shape", sorted(SHAPES))
+def test_series_solves_the_equation_of_motion_as_it_is_printed(shape, side, block):
+    motion, alpha = pulse_forcing(SHAPES[shape], 0.6, 2.5), block.slenderness
+    start = 0.4 * min(motion.end, 6.0)
+    straight = shape == "constant"
+    state = state_of(block, motion, start, side, 0.1, -0.07)
+    w = series(block, motion, start, state, straight)
+    for step in (0.0, 0.01, 0.05, 0.1):
+        phi = np.polynomial.polynomial.polyval(step, w[ROTATION, : ORDER + 1])
+        bend = np.polynomial.polynomial.polyval(
+            step, np.polynomial.polynomial.polyder(w[ROTATION, : ORDER + 1], 2)
+        )
+        a = ground(motion, NO_RECORD, start + step)[0]
+        if block.linearised:
+            expected = phi - alpha - side * a
+        else:  # Eq. (23) for φ = |θ|, in units of p²
+            expected = -(math.sin(alpha - phi) + side * a * math.cos(alpha - phi))
+        assert bend == pytest.approx(expected, abs=1e-11)
+
+
+@pytest.mark.parametrize("order", [6, 9, 12])
+def test_error_of_a_step_falls_with_the_order_of_the_series(order):
+    motion = pulse_forcing(forcing.ONE_SINE, 0.6, 2.5)
+    state = state_of(BLOCK, motion, 0.3, -1.0, 0.1, -0.07)
+    errors = []
+    for step in (0.4, 0.2):
+        short, full = (
+            evaluate(series(BLOCK, motion, 0.3, state, order=n), n, oscillator(BLOCK), step, False)
+            for n in (order, ORDER)
+        )
+        errors.append(abs(short.rotation - full.rotation))
+    assert math.log2(errors[0] / errors[1]) == pytest.approx(order + 1, abs=0.7)
+
+
+@pytest.mark.parametrize("degrees", [0.1, 3, 5, 8, 14, 20, 35, 80])
+@pytest.mark.parametrize("linearised", [False, True])
+def test_way_1_uplift_starts_outward_however_slight_the_push(degrees, linearised):
+    """At |a| = tan α the first coefficients cancel: grouped otherwise, their sign is chance."""
+    block = RockingBlock(2.0, math.radians(degrees), 0.9, linearised)
+    level, cosine = block.uplift_acceleration, oscillator(block).cosine
+    for excess in (1e-9, 1e-6, 1e-3, 0.5, 5.0, 1e3):
+        for shape in (forcing.ONE_SINE, forcing.RICKER_SYMMETRIC, forcing.RICKER_ANTISYMMETRIC):
+            pulse = pulse_forcing(shape, level * (1 + excess), 1.7)
+            time, push, rate, _ = next_uplift(pulse, NO_RECORD, 0.0, level)
+            if time == math.inf:
+                continue
+            w = series(block, pulse, time, State(0.0, 0.0, 0.0, 1.0, push, rate), order=PULSE_ORDER)
+            assert not w[ROTATION, :3].any()
+            assert w[ROTATION, 3] == pytest.approx(rate * cosine / 6)
+            assert w[ROTATION, 3] > 0.0
+
+
+few = settings(max_examples=60, deadline=None, derandomize=True, database=None)
+ONE_METRE = oscillator(RockingBlock(1.0, 0.25, 0.9))
+STEP = 0.01
+
+
+def rocking(rotation, velocity, forcing, record, piece=0, side=1.0):
+    """The block at the first sample of a piece."""
+    state = State(rotation, velocity, math.sin(rotation), math.cos(rotation), 0.0, 0.0)
+    return at_sample(ONE_METRE, forcing, record, piece, side, state)
+
+
+def noise(samples, strength=0.2):
+    return strength * np.random.default_rng(7).standard_normal(samples)
+
+
+def marched(rotation, velocity, samples, *, peak=0.2, step=STEP, tolerance=TOLERANCE):
+    record = prepare_record(samples)
+    forcing = record_forcing(record, step, 1.0)
+    start = rocking(rotation, velocity, forcing, record)
+    return march(ONE_METRE, forcing, record, 0, 1.0, start, tolerance, peak)
+
+
+@few
+@given(
+    rotation=st.floats(0.01, 0.25),
+    velocity=st.floats(-1.0, 1.0),
+    push=st.floats(-2.0, 2.0),
+    rate=st.floats(-50.0, 50.0),
+)
+def test_derivatives_are_those_of_the_recurrences(rotation, velocity, push, rate):
+    alpha = ONE_METRE.slenderness
+    state = State(rotation, velocity, math.sin(rotation), math.cos(rotation), push, rate)
+    w = working_array()
+    expand(w, 8, ONE_METRE, state, 0.0, 0.0, 0.0, True)
+    tilt, lean = math.cos(alpha - rotation), math.sin(alpha - rotation)
+    force = math.sin(rotation) / math.cos(alpha) + push * tilt
+    slope = math.cos(rotation) / math.cos(alpha) + push * lean
+    ours = derivatives(force, slope, rate * tilt, rate * lean, velocity)
+    theirs = [w[ROTATION, n] * math.factorial(n) for n in range(3, 8)]
+    size = (1 + abs(push) + abs(rate) + abs(velocity)) ** 5
+    assert ours == pytest.approx(theirs, rel=1e-12, abs=1e-13 * size)
+
+
+def test_piece_by_piece_it_is_the_long_series():
+    samples = noise(400, 0.05)
+    record = prepare_record(samples)
+    forcing = record_forcing(record, STEP, 1.0)
+    piece, state, peak = marched(0.19, -0.02, samples, peak=0.195)
+    assert piece > 20
+    slow, w = rocking(0.19, -0.02, forcing, record), working_array()
+    highest = 0.195
+    for k in range(piece):
+        slow = at_sample(ONE_METRE, forcing, record, k, 1.0, slow)
+        expand(w, 14, ONE_METRE, slow, 0.0, 0.0, 0.0, True)
+        slow = evaluate(w, 14, ONE_METRE, STEP, True)
+        highest = max(highest, slow.rotation)
+    assert state[:4] == pytest.approx(slow[:4], abs=1e-12)
+    assert peak == pytest.approx(highest, abs=1e-12)
+    assert state.push == pytest.approx(-samples[piece] - ONE_METRE.level, abs=1e-15)
+
+
+def written(coefficients) -> tuple[np.ndarray, int]:
+    """A working array that holds a polynomial, and its degree."""
+    w, degree = working_array(), len(coefficients) - 1
+    w[POLYNOMIAL, : degree + 1] = coefficients
+    to_bernstein(w, POLYNOMIAL, degree, HULL)
+    return w, degree
+
+
+def found(coefficients, zeros: int = 0, limit: int = MAX_DEGREE) -> np.ndarray:
+    w, degree = written(coefficients)
+    count = roots(w, POLYNOMIAL, zeros, degree, HULL, STACK, ROOTS, limit)
+    return w[ROOTS, :count].copy()
+
+
+def test_way_2_every_crossing_of_a_long_step_is_found():
+    """Three crossings between samples of which hardly any would show them."""
+    places = [0.31, 0.33, 0.62]
+    coefficients = -polynomial.polyfromroots(places)
+    np.testing.assert_allclose(found(coefficients), places, atol=1e-13)
+    np.testing.assert_allclose(found(coefficients, limit=1), places[:1], atol=1e-13)
+    np.testing.assert_allclose(found(coefficients, limit=2), places[:2], atol=1e-13)
+
+
+@settings(max_examples=60, deadline=None, derandomize=True, database=None)
+@given(
+    st.lists(st.floats(0.01, 0.99), min_size=1, max_size=6, unique_by=lambda x: round(x, 2)),
+    st.integers(0, 3),
+)
+def test_way_2_all_simple_roots_are_isolated(places, zeros):
+    places = sorted(places)
+    factors = polynomial.polymul(polynomial.polyfromroots(places), [1.0, 0.3, 0.7])
+    result = found(np.concatenate([np.zeros(zeros), factors]), zeros)
+    if min(np.diff([-1.0, *places])) > 2e-3:
+        np.testing.assert_allclose(result, places, atol=1e-6)
+    else:
+        assert (len(places) - len(result)) % 2 == 0
+
+
+@pytest.mark.parametrize("depth", [1e-6, 1e-10, 1e-14])
+@pytest.mark.parametrize("place", [0.3721, 0.5, 0.01])
+def test_way_3_a_grazing_impact_between_steps_is_not_missed(place, depth):
+    """φ dips below zero within a sliver of the step; at both ends of it φ is positive."""
+    result = found([place**2 - depth, -2 * place, 1.0])
+    half = math.sqrt(depth)
+    np.testing.assert_allclose(result, [place - half, place + half], atol=2e-9)
+
+
+def test_way_4_root_however_close_to_the_start_is_found_to_its_last_digits():
+    """As after an impact, when the next bounce is a millionth of the step."""
+    for place in 10.0 ** -np.arange(1, 15):
+        (root,) = found([0.0, place, -1.0, 0.1, 0.02], 1)
+        assert root == pytest.approx(place + 0.1 * root**2 + 0.02 * root**3, rel=1e-14)
