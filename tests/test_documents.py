@@ -107,21 +107,6 @@ def test_heading_without_a_passage_is_named(copy):
 
 
 @pytest.mark.parametrize(
-    "study", sorted(path.parent.name for path in ROOT.glob("studies/*/headlines.py"))
-)
-def test_study_that_is_not_published_has_no_passages(copy, study):
-    folder = copy / "tests" / "reference"
-    config = (folder / "config.yaml").read_text(encoding="utf-8")
-    listed = config.replace(f"{study}, ", "", 1).replace(f", {study}]", "]", 1)
-    assert listed != config
-    (folder / "config.yaml").write_text(listed, encoding="utf-8")
-    for path in [*folder.glob(f"studies/{study}*"), *folder.glob(f"findings/{study}*")]:
-        path.unlink()
-    whole, left = (headlines.passages(Published(each)) for each in (REFERENCE, folder))
-    assert left.items() < whole.items()
-
-
-@pytest.mark.parametrize(
     ("shares", "digits", "words"),
     [([0.05, 0.09], 0, "5 to 9"), ([0.26, 0.163], 1, "16.3 to 26.0"), ([0.1], 0, "10")],
 )

@@ -1,7 +1,6 @@
 """The search for failing inputs: it calls every public function, and tells what it finds."""
 
 import pytest
-from hypothesis import strategies as st
 
 from benchmarks import fuzz
 from topheavy import Pulse, RockingBlock
@@ -16,26 +15,6 @@ def test_every_public_function_is_called_and_every_property_holds(monkeypatch, c
     assert all(f"{name} {fuzz.th.calls[name]}" in told for name in fuzz.public())
     spoilt = {*fuzz.CALLS} & fuzz.public()  # a few of which a turn so short does not reach
     assert {name for name in fuzz.public() if not fuzz.th.calls[name]} <= spoilt
-
-
-@pytest.mark.parametrize(
-    ("wrong", "told", "smallest"),
-    [
-        (lambda drawn: 1.0 / (drawn != 17), "ZeroDivisionError", 17),
-        (lambda drawn: [0][drawn > 20], "IndexError", 21),
-    ],
-)
-def test_smallest_failing_case_is_told_with_its_seed(monkeypatch, capsys, wrong, told, smallest):
-    def held(drawn):
-        wrong(drawn)
-
-    monkeypatch.setattr(fuzz, "PROPERTIES", {held: (st.integers(0, 50),)})
-    monkeypatch.setattr(fuzz, "TURN", 500)
-    assert fuzz.main(0.0, 11) == 1
-    out = capsys.readouterr().out
-    assert out.startswith("held fails; to repeat it: make fuzz SEED=11\n")
-    assert told in out
-    assert f"drawn={smallest}," in out
 
 
 @pytest.mark.parametrize("other", [Ending(True, 0.1, 0), Ending(False, 0.100003, 0)])

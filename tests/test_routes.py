@@ -258,25 +258,6 @@ def test_amplitude_overflows_beyond_the_largest_alone(shape):
 # ---------------------------------------------------------------------------- structures
 
 
-@pytest.mark.parametrize("gamma", [None, 0.0, 0.434, 4.0, math.inf])
-def test_structure_responds_as_its_block_and_as_the_larger_column(gamma):
-    column, pulse, times = (
-        th.Column(0.5, 2.0),
-        th.Pulse("one-sine", 0.4, 7.0),
-        np.linspace(0, 2, 300),
-    )
-    structure = column if gamma is None else th.RockingFrame(column, gamma)
-    larger = getattr(structure, "equivalent_size", column.size) / column.size
-    twin = th.Column(0.5 * larger, 2.0 * larger).block(restitution=structure.restitution)
-    found, same, other = (
-        th.simulate(each, pulse, samples=times) for each in (structure, structure.block(), twin)
-    )
-    assert found.peak_rotation > 0
-    for name in ("time", "rotation", "velocity", "impacts", "peak_rotation"):
-        np.testing.assert_array_equal(getattr(found, name), getattr(same, name))
-    np.testing.assert_allclose(found.rotation, other.rotation, rtol=0, atol=1e-10)
-
-
 def test_heaviest_cap_is_the_limit_of_heavy_caps():
     column, pulse = th.Column(0.5, 2.0), th.Pulse("one-sine", 0.6, 7.0)
     less, heavy, limit = (th.judge(th.RockingFrame(column, g), pulse) for g in (1e3, 1e9, math.inf))

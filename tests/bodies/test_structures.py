@@ -1,4 +1,4 @@
-"""Structures: columns, frames, fixed masses and massless columns."""
+"""Structures: columns, frames, frames with γ → ∞, and columns that carry a fixed mass."""
 
 import math
 import sys

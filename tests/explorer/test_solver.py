@@ -8,7 +8,6 @@ import pytest
 
 import topheavy as th
 from steps.explorer import DEFAULTS, blocks, motion, options
-from topheavy.forces.contact import column_forces
 from topheavy.ground.shapes import ENDING
 
 STATES = 700  # three structures each
@@ -142,27 +141,6 @@ def test_spectrum_is_the_map_of_the_library(browser, shape):
     )
     assert set(codes) == {0, 1, 2, 3}
     np.testing.assert_array_equal(codes, (alone + 2 * framed).T.values.ravel())
-
-
-def test_required_friction_is_that_of_the_library(browser):
-    browser.open_to_compute()
-    random = np.random.default_rng(2014)
-    column, cap = th.Column(0.5, 3.0), th.Cap(5.0, 0.3)
-    alpha = column.slenderness
-    theta = random.choice([-1, 1], 200) * random.uniform(0.01, 0.99, 200) * alpha
-    rate, ground = random.uniform(-0.5, 0.5, 200), random.uniform(-0.5, 0.5, 200)
-    script = """{0}.map(([theta, rate, a]) => [column(0.5, 3), ...[0.5, 1, 4, Infinity].map(
-      g => frame(0.5, 3, g, 5, 0.6))].map(block =>
-      requiredFriction(block, Math.sign(theta), Math.abs(theta), rate, a)))"""
-    found = browser.do(script, np.column_stack([theta, rate, ground]).tolist())
-    expected = [column_forces(column, theta, rate, ground).friction_demand] + [
-        th.contact_forces(th.RockingFrame(column, g), cap, theta, rate, ground).friction_demand
-        for g in (0.5, 1.0, 4.0, math.inf)
-    ]
-    finite = np.isfinite(np.array(expected))
-    assert finite.mean() > 0.9
-    ours = np.array([[math.nan if x is None else x for x in row] for row in found]).T
-    np.testing.assert_allclose(ours[finite], np.array(expected)[finite], rtol=1e-10)
 
 
 def searched(structure, unit, windows):

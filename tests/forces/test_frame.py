@@ -1,4 +1,4 @@
-"""Forces in frames: while they rock, and while their feet are held."""
+"""Forces in frames: while they rock, and while their bases are held."""
 
 import math
 

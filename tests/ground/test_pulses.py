@@ -1,4 +1,4 @@
-"""Pulses, their shapes, and excitations as the solvers ask for them."""
+"""Pulses, their shapes, and excitations as the solvers read them."""
 
 import math
 import re
@@ -242,26 +242,3 @@ def test_least_gravity_of_a_segment_is_that_of_its_lower_end():
 
 
 # ---------------------------------------------------------------------------- whole motions
-
-
-def without_gap(segments, end):
-    edges = [segments[0].start, *(segment.stop for segment in segments)]
-    assert (edges[0], edges[-1]) == (0.0, pytest.approx(end, rel=1e-14))
-    assert [segment.start for segment in segments] == edges[:-1]
-    return segments
-
-
-@pytest.mark.parametrize("shape", PULSE_SHAPES)
-@pytest.mark.parametrize("amplitude", [0.4, -0.4])
-@pytest.mark.parametrize("share", [1.0, 0.61, 0.05])
-def test_segments_of_a_pulse_have_no_gap_follow_it_and_are_monotone(shape, amplitude, share):
-    pulse = Pulse(shape, amplitude, 2.7)
-    end = share * (pulse.duration if math.isfinite(pulse.duration) else 7.3 * math.pi)
-    for segment in without_gap(pulse.segments(end), end):
-        times = np.linspace(segment.start, segment.stop, 1001)
-        found = np.array([segment.acceleration(t) for t in times])
-        np.testing.assert_allclose(found, pulse.excitation(times), rtol=1e-14, atol=1e-15)
-        steps, rounding = np.diff(found), 4e-16
-        assert np.all(steps >= -rounding) or np.all(steps <= rounding)
-    if math.isfinite(pulse.duration):  # they reach no further
-        assert pulse.segments(99.0) == pulse.segments(pulse.duration)

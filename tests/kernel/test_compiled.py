@@ -1,4 +1,7 @@
-"""What is compiled: kept between processes, and the same for every register width."""
+"""What is compiled is kept between processes, and no result depends on the width of registers.
+
+numba compiles for a CPU, which sets the width; each width has a process of its own.
+"""
 
 import json
 import os

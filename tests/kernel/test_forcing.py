@@ -16,7 +16,6 @@ from topheavy.kernel.forcing import (
     ground,
     next_uplift,
     piece_at,
-    piece_start,
     prepare_record,
     prepare_two_records,
     pulse_forcing,
@@ -25,7 +24,6 @@ from topheavy.kernel.forcing import (
     unit_pulse,
 )
 from topheavy.kernel.grid import mixed_outcomes_of, outcome_of
-from topheavy.kernel.march import march
 from topheavy.kernel.outcome import TOLERANCE, working_array
 from topheavy.kernel.rest import comes_to_rest
 from topheavy.kernel.taylor import ROTATION, State, expand, oscillator
@@ -219,31 +217,6 @@ def test_series_solves_the_equation_under_a_changing_gravity(block):
             tilt = math.cos(0.2 - phi(time))
             expected = weight * math.sin(phi(time)) / math.cos(0.2) + push * tilt
         assert phi.deriv(2)(time) == pytest.approx(expected, rel=1e-10)
-
-
-def test_march_passes_over_pieces_as_the_long_series_does():
-    """The same state where it stops, by steps of the long series from piece to piece."""
-    across, up = np.full(60, -0.1), 0.3 * np.cos(0.3 * np.arange(80))
-    both = prepare_two_records(across, up, 0.731)
-    there = record_forcing(both, STEP, 1.0, 1.0)
-    weight, change = gravity(there, both, 0.0)
-    value, rate = ground(there, both, 0.0)
-    push = [-value - BLOCK.level * weight, -rate - BLOCK.level * change]
-    start = State(0.1, 0.1, math.sin(0.1), math.cos(0.1), *push, weight, change)
-    piece, state, _ = march(BLOCK, there, both, 0, 1.0, start, TOLERANCE, 0.2)
-    assert piece > 20
-    w, other = working_array(), start
-    for k in range(piece):
-        length = piece_start(there, both, k + 1) - piece_start(there, both, k)
-        expand(w, 12, BLOCK, other, 0.0, 0.0, 0.0, True)
-        phi = np.polynomial.Polynomial(w[ROTATION, :13])
-        rotation, velocity = phi(length), phi.deriv()(length)
-        time = piece_start(there, both, k + 1)
-        (value, rate), (weight, change) = ground(there, both, time), gravity(there, both, time)
-        push = [-value - BLOCK.level * weight, -rate - BLOCK.level * change]
-        sines = (math.sin(rotation), math.cos(rotation))
-        other = State(rotation, velocity, *sines, *push, weight, change)
-    assert tuple(state) == pytest.approx(tuple(other), abs=1e-10)
 
 
 def test_rest_is_not_called_when_gravity_is_about_to_fall():

@@ -9,7 +9,6 @@ import time
 import numpy as np
 import pytest
 
-from benchmarks import kernel as timed
 from benchmarks.boundaries import SHAPES
 from tests.cases import BOTH
 from topheavy import RockingBlock
@@ -22,7 +21,6 @@ from topheavy.kernel.grid import (
     outcome_of,
     outcomes_of,
 )
-from topheavy.kernel.outcome import TOLERANCE
 from topheavy.kernel.taylor import oscillator
 
 BLOCK = oscillator(RockingBlock(1.0, math.radians(14.0), 0.87))
@@ -119,20 +117,6 @@ def test_history_of_a_mixture_that_was_given_up_is_named_with_its_block():
             np.array([1.2, 1.0001, 1.3]),
             record,
         )
-
-
-def test_both_kernels_that_the_benchmark_times_find_the_same():
-    block = RockingBlock(1.0, math.radians(14.0), 0.87)
-    motions = np.linspace(0.25, 2.5, 40), np.linspace(0.5, 10.0, 40)
-    together, alone = (
-        run(block, "one-sine", *motions) for run in (timed.histories, timed.scalar_histories)
-    )
-    assert 0 < together[0].sum() < 40
-    np.testing.assert_allclose(alone, together, rtol=1e-6)
-    shaken = block, 0.4 * np.sin(np.arange(80) / 8.0), 0.05, TOLERANCE
-    one, other = (run(*shaken)() for run in (timed.KernelRecord, timed.ScalarRecord))
-    assert one == pytest.approx(other, rel=1e-6)
-    assert other.impacts > 0
 
 
 #: Strengths over the level and ω/p, from slow to fast and from faint to enormous.

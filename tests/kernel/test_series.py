@@ -11,24 +11,14 @@ from numpy.polynomial import polynomial
 from topheavy import RockingBlock
 from topheavy.kernel import forcing
 from topheavy.kernel.bernstein import MAX_DEGREE, roots, to_bernstein
-from topheavy.kernel.forcing import (
-    NO_RECORD,
-    SHAPES,
-    equation,
-    ground,
-    next_uplift,
-    prepare_record,
-    pulse_forcing,
-    record_forcing,
-)
-from topheavy.kernel.march import derivatives, march
+from topheavy.kernel.forcing import NO_RECORD, SHAPES, equation, ground, next_uplift, pulse_forcing
+from topheavy.kernel.march import derivatives
 from topheavy.kernel.outcome import (
     HULL,
     POLYNOMIAL,
     PULSE_ORDER,
     ROOTS,
     STACK,
-    TOLERANCE,
     at_sample,
     working_array,
 )
@@ -109,24 +99,12 @@ def test_way_1_uplift_starts_outward_however_slight_the_push(degrees, linearised
 
 few = settings(max_examples=60, deadline=None, derandomize=True, database=None)
 ONE_METRE = oscillator(RockingBlock(1.0, 0.25, 0.9))
-STEP = 0.01
 
 
 def rocking(rotation, velocity, forcing, record, piece=0, side=1.0):
     """The block at the first sample of a piece."""
     state = State(rotation, velocity, math.sin(rotation), math.cos(rotation), 0.0, 0.0)
     return at_sample(ONE_METRE, forcing, record, piece, side, state)
-
-
-def noise(samples, strength=0.2):
-    return strength * np.random.default_rng(7).standard_normal(samples)
-
-
-def marched(rotation, velocity, samples, *, peak=0.2, step=STEP, tolerance=TOLERANCE):
-    record = prepare_record(samples)
-    forcing = record_forcing(record, step, 1.0)
-    start = rocking(rotation, velocity, forcing, record)
-    return march(ONE_METRE, forcing, record, 0, 1.0, start, tolerance, peak)
 
 
 @few
@@ -148,24 +126,6 @@ def test_derivatives_are_those_of_the_recurrences(rotation, velocity, push, rate
     theirs = [w[ROTATION, n] * math.factorial(n) for n in range(3, 8)]
     size = (1 + abs(push) + abs(rate) + abs(velocity)) ** 5
     assert ours == pytest.approx(theirs, rel=1e-12, abs=1e-13 * size)
-
-
-def test_piece_by_piece_it_is_the_long_series():
-    samples = noise(400, 0.05)
-    record = prepare_record(samples)
-    forcing = record_forcing(record, STEP, 1.0)
-    piece, state, peak = marched(0.19, -0.02, samples, peak=0.195)
-    assert piece > 20
-    slow, w = rocking(0.19, -0.02, forcing, record), working_array()
-    highest = 0.195
-    for k in range(piece):
-        slow = at_sample(ONE_METRE, forcing, record, k, 1.0, slow)
-        expand(w, 14, ONE_METRE, slow, 0.0, 0.0, 0.0, True)
-        slow = evaluate(w, 14, ONE_METRE, STEP, True)
-        highest = max(highest, slow.rotation)
-    assert state[:4] == pytest.approx(slow[:4], abs=1e-12)
-    assert peak == pytest.approx(highest, abs=1e-12)
-    assert state.push == pytest.approx(-samples[piece] - ONE_METRE.level, abs=1e-15)
 
 
 def written(coefficients) -> tuple[np.ndarray, int]:

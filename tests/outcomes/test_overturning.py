@@ -13,9 +13,7 @@ from topheavy.outcomes.overturning import (
     MANY_AT_ONCE,
     SAFE,
     Search,
-    _halved,
     outcomes_of_subjects,
-    steered,
     subjects_of,
 )
 from topheavy.second import reference
@@ -212,35 +210,6 @@ def test_bad_search_is_refused_by_name_and_value(search, change, says):
 
 
 # ---------------------------------------------------------------------------- the search
-
-
-def halved(label, boundary, width, narrowest):
-    """The boundaries of one search, whose factors a function labels."""
-    low, high = boundary
-    ends = label(np.array([low, high]))
-    search = _halved([(low, high, *ends)], width, narrowest)
-    (found,) = steered([search], lambda asked: [label(each) for each in asked.values()])
-    return found
-
-
-def test_halvings_ahead_find_what_halving_one_by_one_finds(monkeypatch):
-    """Also intervals much narrower than the bracket, planted at random: the same, no others."""
-    rng, calls, met = np.random.default_rng(3), [0, 0], 0
-    for _ in range(100):
-        edges = np.sort(np.concatenate([rng.uniform(0, 1, 3), 0.5 + rng.uniform(0, 1e-3, 2)]))
-        labels, found = rng.permutation([SAFE, 0, 1, 2, 3, 4]), []
-        for way, together in enumerate((1, 32)):
-
-            def label(factors, way=way, edges=edges, labels=labels):
-                calls[way] += 1
-                return labels[np.searchsorted(edges, factors)]
-
-            monkeypatch.setattr("topheavy.outcomes.overturning.FEW_AT_ONCE", together)
-            found.append(halved(label, (0.0, 1.0), 1e-9, 1e-4))
-        assert found[0] == found[1]
-        met += len(found[0]) > 2
-    assert met > 20
-    assert calls[1] < 0.5 * calls[0]
 
 
 @pytest.mark.parametrize(("block", "excitation", "scales", "_"), CASES.values(), ids=CASES)

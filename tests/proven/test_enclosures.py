@@ -4,7 +4,6 @@ import math
 import subprocess
 import sys
 from fractions import Fraction
-from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -133,21 +132,6 @@ def test_series_has_all_its_terms(shape):
             step = arb("0.6")
             total = sum((x * power(step, k) for k, x in enumerate(terms)), arb(0))
             assert abs(total - forcing.value(piece, sigma + step)) < 1e-25
-
-
-@SHAPES
-def test_slope_is_zero_at_the_turns_and_nowhere_else(shape):
-    forcing = prepared(Pulse(shape, 1.0, 1.0))
-    (piece,) = forcing.pieces
-    edges = [float(x) for x in (piece.start, *piece.turns, piece.stop)]
-    for turn in piece.turns:
-        assert forcing.series(piece, turn, 2)[1].contains(0)
-    if shape == "constant":
-        return
-    for low, high in pairwise(edges):
-        inside = np.linspace(low, high, 41)[1:-1]
-        signs = {float(forcing.series(piece, arb(x), 2)[1]) > 0 for x in inside}
-        assert len(signs) == 1
 
 
 def test_range_contains_all_samples_on_the_way_and_the_rest_behind_the_end():

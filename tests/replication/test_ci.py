@@ -94,19 +94,3 @@ def test_quick_parts_run_each_time_and_all_leaves_out_nothing_but_the_cluster(tr
     listed = tree.run("bash", ".ci/run", "list").stdout.splitlines()
     assert set(listed) == set(everything) - set(ALWAYS)
     assert {"every twelfth step again", "make archive", "a study comes and goes"} < set(listed)
-
-
-@pytest.mark.parametrize("committed", [True, False])
-def test_steps_are_made_again_without_studies_shards_and_notebooks(tmp_path, committed):
-    tree = Tree(tmp_path, paper=False)
-    script = tree.folder / CI / "run"
-    others = r'^slow "(make|a study) .*\n'  # which a make that makes nothing cannot pass
-    text = re.sub(others, "", script.read_text("utf-8"), flags=re.MULTILINE)
-    script.write_text(text, "utf-8")
-    if committed:
-        tree.commit()
-    done = tree.run("bash", ".ci/run", "all")
-    assert done.returncode == 0, done.stdout + done.stderr
-    made = (tree.folder / "made").read_text("utf-8").split()
-    assert made == ["lint", "reproduce", "reproduce", "check", "verify", "reproduce", "test"]
-    assert done.stderr.count("=== Nothing is left out.") == 2  # at the start and at the end

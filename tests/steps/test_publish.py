@@ -21,7 +21,6 @@ from replication.pages.edition import (
     rounded,
     verdict_page,
     verdict_table,
-    with_counts,
 )
 from replication.workbench import value
 from tests.cases import ROOT
@@ -83,22 +82,6 @@ def test_paper_studies_and_numbers_that_a_run_gives_again_have_a_table_each():
 )
 def test_no_qualified_claim_is_said_not_to_hold(changes, shown):
     assert cells(computed=False, **changes)[2] == shown
-
-
-def test_counts_are_of_the_paper_and_of_each_study_and_replace_those_of_a_page():
-    head, _, paper, study = count_table([ROW, OURS, OURS])
-    assert head == (
-        "| | confirmed | qualified | slip | misprint | refuted | by definition | not tested |"
-    )
-    assert paper == "| paper | 1 | 0 | 0 | 0 | 0 | 0 | 0 |"
-    assert study == "| study `pendulums` | 0 | 0 | 0 | 0 | 2 | 0 | 0 |"
-    old, new = (
-        "\n".join(["Before.", "", *count_table(rows), "", "| other | table |", ""])
-        for rows in ([ROW], [ROW, OURS])
-    )
-    assert with_counts(old, [ROW, OURS]) == with_counts(new, [ROW, OURS]) == new
-    with pytest.raises(ValueError, match=r"has 0 lines .* expected one"):
-        with_counts("nothing", [ROW])
 
 
 def test_findings_are_rounded_an_error_the_most():

@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any
 
 from replication.inputs.checksums import sha256
 from replication.inputs.strict_yaml import read_yaml
@@ -77,21 +76,26 @@ class Fault:
 def load(root: Path = ROOT) -> list[Fault]:
     """Return the faults of the paper, then those of each study that is there, by its name."""
     return [
-        _fault(entry, path.relative_to(root).as_posix(), root)
+        fault
         for pattern in FAULTS
         for path in sorted(root.glob(pattern))
-        for entry in read_yaml(path)
+        for fault in _faults(path, root)
     ]
 
 
-def _fault(entry: dict[str, Any], home: str, root: Path) -> Fault:
-    """Return the fault of an entry, which has the parts of its only change, or several changes."""
-    only = {part: entry.pop(part) for part in ("file", "old", "new") if part in entry}
-    changes = tuple(Change(**change) for change in entry.pop("changes", [only]))
-    files = dict.fromkeys(change.file for change in changes)
-    own = dict.fromkeys(test for file in files for test in _own_tests(file, root))
-    tests = tuple(entry.pop("tests", own))
-    return Fault(**{"routes": JUDGING} | entry, tests=tests, changes=changes, home=home)
+def _faults(path: Path, root: Path) -> Iterator[Fault]:
+    """Yield the faults of a file; a change that names no file is in that of the change before."""
+    file: dict[str, str] = {}
+    for entry in read_yaml(path):
+        only = {part: entry.pop(part) for part in ("file", "old", "new") if part in entry}
+        changes = []
+        for change in entry.pop("changes", [only]):
+            changes.append(Change(**file | change))
+            file = {"file": changes[-1].file}
+        own = (test for name in {c.file: None for c in changes} for test in _own_tests(name, root))
+        rest = {"routes": JUDGING, "tests": dict.fromkeys(own)} | entry
+        rest["tests"] = tuple(rest["tests"])
+        yield Fault(**rest, changes=tuple(changes), home=path.relative_to(root).as_posix())
 
 
 def _own_tests(file: str, root: Path) -> list[str]:

@@ -76,18 +76,6 @@ def test_first_impact_comes_when_the_theory_says(model, sign):
     assert found == pytest.approx(expected, rel=1e-3)
 
 
-def test_fall_of_the_heavy_frame_is_slower_than_that_of_its_column():
-    """The property that makes frames stable, without any number of the theory."""
-    rotation = 0.5 * PIER.slenderness
-    frame = rig_of(HEAVY, STEP)
-    column = Rig(th.RockingFrame(PIER, 0.0), None, frame.contact, frame.time_step)
-    after = 0.6 / PIER.frequency_parameter
-    turned = [run(rig, rotation=rotation, duration=after).rotation[-1] for rig in (frame, column)]
-    assert rotation > turned[0] > turned[1] > 0.0
-    lost = (rotation - turned[0]) / (rotation - turned[1])
-    assert lost == pytest.approx((1 + 2 * 13.23) / (1 + 3 * 13.23), rel=0.05)  # p̂²/p²
-
-
 @pytest.mark.parametrize("model", MODELS, ids=lambda model: model[0])
 def test_plastic_contact_rebounds_as_housner_and_equation_25_say(model):
     rig = rig_of(model, STEP)
@@ -158,56 +146,3 @@ def test_rig_is_refused_where_it_makes_no_sense():
         Rig(frame, th.Cap(0.2, 0.2), contact, 1e-4)
     with pytest.raises(ValueError, match=r"time_step is 0\.0015 s"):
         Rig(frame, th.Cap(1.0, 0.2), contact, 1.5e-3)
-
-
-def fixed_mass_model(column, gamma, cap_width, cap_depth, contact, step):
-    """A T of two boxes in one body, on the ground that `build` has: cap and column cannot part."""
-    rig = Rig(th.RockingFrame(column, 0.0), None, contact, step)
-    text = build(rig)  # the engine's own model of the bare column, for its options
-    spec = mujoco.MjSpec()
-    spec.option.timestep, spec.option.gravity = step, [0.0, 0.0, -th.STANDARD_GRAVITY]
-    for name in ("integrator", "solver", "tolerance", "cone", "impratio"):
-        setattr(spec.option, name, getattr(text.opt, name))
-    half = 2.0 * column.half_height
-    ground = spec.worldbody.add_geom(name="ground", type=mujoco.mjtGeom.mjGEOM_PLANE)
-    ground.size, ground.contype, ground.conaffinity = [1.0, 1.0, 1.0], 0, 0
-    body = spec.worldbody.add_body(name="vase", pos=[0.0, 0.0, column.half_height])
-    for axis in ([1, 0, 0], [0, 0, 1]):
-        body.add_joint(type=mujoco.mjtJoint.mjJNT_SLIDE, axis=axis)
-    body.add_joint(type=mujoco.mjtJoint.mjJNT_HINGE, axis=[0, 1, 0])
-    boxes = [
-        ("column", column.half_width, column.half_height, 0.0, COLUMN_MASS),
-        ("cap", cap_width / 2, cap_depth / 2, half / 2 + cap_depth / 2, gamma * COLUMN_MASS),
-    ]
-    for name, b, h, height, mass in boxes:
-        geom = body.add_geom(name=name, type=mujoco.mjtGeom.mjGEOM_BOX, mass=mass)
-        geom.size, geom.pos = [b, column.half_width, h], [0.0, 0.0, height]
-        geom.contype, geom.conaffinity = 0, 0
-    pair = spec.add_pair(geomname1="ground", geomname2="column")
-    pair.condim, pair.friction = 3, [contact.friction, contact.friction, 0.0, 0.0, 0.0]
-    pair.solref = [contact.time_constant, contact.damping_ratio]
-    pair.solimp = [contact.impedance, contact.impedance, 0.001, 0.5, 1.0]
-    return spec.compile()
-
-
-@pytest.mark.parametrize(("factor", "overturns"), [(0.97, False), (1.03, True)])
-def test_engine_overturns_the_fixed_mass_where_theory_does(factor, overturns):
-    column, gamma, width, depth = th.Column(0.5, 3.0), 1.0, 2.6, 0.6
-    unit = th.Pulse("one-cosine", 1.0, 2.0 * math.pi / 1.5)
-    theory = th.FixedMassColumn(column, gamma, width, depth)
-    found = th.overturning_intervals(theory, unit, (0.1, 1.0), resolution=1e-3)[0].lower[0]
-    assert (
-        found
-        < 0.9 * th.overturning_intervals(column, unit, (0.1, 1.0), resolution=1e-3)[0].lower[0]
-    )
-    step = STEP / column.frequency_parameter
-    contact = Contact(4.0 * step, friction=5.0)
-    model = fixed_mass_model(column, gamma, width, depth, contact, step)
-    data, pulse = mujoco.MjData(model), unit.scaled(factor * found)
-    for number in range(math.ceil(4.0 * pulse.duration / step)):
-        push = pulse.excitation((number + 0.5) * step)
-        model.opt.gravity[0] = -th.STANDARD_GRAVITY * push
-        mujoco.mj_step(model, data)
-        if abs(data.qpos[2]) > math.pi / 4:
-            break
-    assert (abs(data.qpos[2]) > math.pi / 4) == overturns

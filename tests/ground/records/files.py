@@ -73,12 +73,6 @@ def longest(samples: int = MOST) -> bytes:
     return HEADER.format(n=samples).encode() + b"0.3141592 -.1414214\n" * (samples // 2)
 
 
-def too_long() -> bytes:
-    """Return columns with one sample more than these."""
-    rows = (b"%.2f,0.3141592\n" % (k / 100) for k in range(MOST + 1))
-    return CSV[:26].encode() + b"".join(rows)
-
-
 OTHER_DIGITS = ["०.१", "０.１", "0.٢", "²"]
 
 REPEATED = [

@@ -17,21 +17,6 @@ def file(tmp_path) -> Path:
     return path
 
 
-def test_what_was_understood_is_printed(file, capsys):
-    assert main([str(file)]) == 0
-    printed = capsys.readouterr()
-    assert printed.out.splitlines() == [
-        "units     CM/SEC/SEC, times 0.00101937 for g of 9.81 m/s² (line 2: ACCELERATION IN "
-        "CM/SEC/SEC)",
-        "step      0.02 s (50 Hz)",
-        "samples   4",
-        "duration  0.06 s",
-        "PGA       0.2 g",
-        "PGV       0.01962 m/s (integrated from rest, not corrected)",
-    ]
-    assert printed.err == ""
-
-
 def test_record_in_g_is_not_converted(capsys):
     assert main([str(RECORDS / "el_centro_1940_NS.AT2")]) == 0
     lines = capsys.readouterr().out.splitlines()

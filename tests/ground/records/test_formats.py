@@ -1,8 +1,6 @@
 """Files of records: AT2, columns, limits of size and cost."""
 
 import re
-import time
-from contextlib import suppress
 from pathlib import Path
 
 import numpy as np
@@ -11,19 +9,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.cases import RECORDS
-from tests.ground.records.files import (
-    BODIES,
-    CSV,
-    FILES,
-    HEADER,
-    LARGEST,
-    MOST,
-    SAMPLES,
-    VALUES,
-    longest,
-)
+from tests.ground.records.files import CSV, FILES, HEADER, LARGEST, MOST, SAMPLES, VALUES, longest
 from topheavy import read_at2, read_csv, read_record
-from topheavy.ground.records import read, reading
+from topheavy.ground.records import reading
 
 
 @pytest.mark.parametrize("row", FILES, ids=lambda row: f"{row.ending[1:]}: {row.what}")
@@ -176,18 +164,3 @@ def test_another_unit_than_the_header_states_is_asked(tmp_path, text, asked):
     (tmp_path / "a.csv").write_text(text, encoding="utf-8")
     with pytest.warns(UserWarning, match=asked):
         read_csv(tmp_path / "a.csv")
-
-
-@pytest.mark.parametrize("body", BODIES)
-def test_cost_of_a_file_grows_in_proportion_to_its_length(tmp_path, body):
-    def taken(number: int) -> float:
-        ending, content = BODIES[body](number)
-        path = tmp_path / f"motion{ending}"
-        path.write_bytes(content if isinstance(content, bytes) else content.encode())
-        begun = time.process_time()
-        with suppress(ValueError):
-            read(path)
-        return time.process_time() - begun
-
-    short, long = (min(taken(number) for _ in range(3)) for number in (1000, 8000))
-    assert long < 3 * 8 * short + 2e-3  # in proportion it is 8, as the square 64

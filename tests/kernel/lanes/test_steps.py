@@ -11,7 +11,6 @@ from topheavy.kernel.forcing import (
     CONSTANT,
     ONE_COSINE,
     ONE_SINE,
-    RICKER_ANTISYMMETRIC,
     RICKER_SYMMETRIC,
     equation,
     ground,
@@ -19,26 +18,8 @@ from topheavy.kernel.forcing import (
 )
 from topheavy.kernel.lanes import steps
 from topheavy.kernel.lanes.vectors import WIDTH, among, bits, load, rows, store
-from topheavy.kernel.outcome import (
-    FLAT,
-    LANDING,
-    NOTHING,
-    PULSE_ORDER,
-    TOLERANCE,
-    advance,
-    working_array,
-)
-from topheavy.kernel.taylor import (
-    COSINE,
-    PUSH,
-    ROTATION,
-    SINE,
-    VELOCITY,
-    State,
-    evaluate,
-    expand,
-    oscillator,
-)
+from topheavy.kernel.outcome import PULSE_ORDER, TOLERANCE, working_array
+from topheavy.kernel.taylor import COSINE, PUSH, ROTATION, SINE, VELOCITY, State, expand, oscillator
 
 BLOCK = oscillator(RockingBlock(1.0, 0.25, 0.9))
 LINEAR = oscillator(RockingBlock(1.0, 0.25, 0.9, linearised=True))
@@ -106,33 +87,6 @@ def test_series_is_that_of_the_scalar_kernel(block, shape):
             np.testing.assert_allclose(
                 blocks[ours, :count, lane], alone[theirs, :count], rtol=1e-9, atol=1e-12 * size
             )
-
-
-@BOTH
-@pytest.mark.parametrize("on_ground", [False, True])
-@pytest.mark.parametrize("shape", [ONE_SINE, ONE_COSINE, RICKER_ANTISYMMETRIC])
-def test_step_ends_where_that_of_the_scalar_kernel_does(block, shape, on_ground):
-    """From the same state, with the same length, to the same event, at the same time."""
-    seen = set()
-    for seed in range(40):
-        cases = states(shape, seed, on_ground=on_ground, block=block)
-        w = filled(cases, block)
-        landed, fallen, length, _ = step(w, working_array(), block, False)
-        for lane, (pulse, time, _, state) in enumerate(cases):
-            alone, zeros = working_array(), 1 if on_ground else 0
-            event_here = (landed >> lane & 1) * LANDING + (fallen >> lane & 1) * FLAT
-            longest = length[lane] * 1.001 if event_here else length[lane]
-            given = (PULSE_ORDER, 1e3, block, pulse, time, longest, state, zeros, state.rotation)
-            end, event, peak = advance(alone, *given, False)
-            seen.add(event)
-            assert event_here == event
-            assert end == pytest.approx(length[lane], rel=1e-10 if event else 0, abs=1e-13)
-            assert w[steps.ARC, lane] == pytest.approx(peak, rel=0, abs=1e-11)
-            there = evaluate(alone, PULSE_ORDER, block, length[lane], False)
-            assert w[steps.ROTATION, lane] == pytest.approx(there.rotation, abs=1e-12)
-            assert w[steps.VELOCITY, lane] == pytest.approx(there.velocity, abs=1e-11)
-            assert w[steps.PUSH, lane] == pytest.approx(there.push, abs=1e-11)
-    assert {NOTHING, LANDING} <= seen
 
 
 @njit

@@ -41,20 +41,6 @@ def test_nothing_of_this_paper_goes_along(paper):
     assert found == []
 
 
-def test_readme_names_every_place_of_the_example(paper):
-    readme = (paper / "README.md").read_text("utf-8")
-    example = re.compile(r"pendulum|period|theory\.motion|swing(?!ing)")
-    unnamed = []
-    for path in files(paper):
-        place = path.relative_to(paper)
-        of_example = example.search(f"{place}\n" + path.read_text("utf-8"))
-        if not of_example or place.name == "README.md":
-            continue
-        if not any(f"`{each.as_posix()}`" in readme for each in (place, *place.parents)):
-            unnamed.append(str(place))
-    assert unnamed == []
-
-
 def test_lock_has_the_versions_of_ours_and_no_package_too_many(paper):
     lock = tomllib.loads((paper / "uv.lock").read_text("utf-8"))["package"]
     ours = tomllib.loads((ROOT / "uv.lock").read_text("utf-8"))["package"]

@@ -1,16 +1,12 @@
 """Follow-up studies: how one is begun, read, and judged with the paper's claims."""
 
 import shutil
-import subprocess
-import sys
 from functools import partial
 from pathlib import Path
-from string import ascii_lowercase
 
 import pytest
 import yaml
 
-from replication.commands.new_paper import TEMPLATE
 from replication.commands.new_study import LONGEST, create
 from replication.inputs.study_config import check_needs, read_study_config
 from replication.judging.ledger_check import check_ledger
@@ -106,29 +102,6 @@ def test_name_that_means_something_else_is_refused_with_the_reason(project, name
     assert registered(project) == before
     assert not (project / "studies" / name).exists()
     create(f"my_{name}", project)
-
-
-@pytest.mark.parametrize("origin", [ROOT, TEMPLATE], ids=["here", "another_paper"])
-def test_made_study_has_the_style_that_lint_demands_for_every_length_of_its_name(tmp_path, origin):
-    for name in ("config", "studies/skeleton"):
-        shutil.copytree(origin / name, tmp_path / name)
-    shutil.copy(ROOT / ".gitignore", tmp_path)
-    folders = [
-        create(letter + "o" * length, tmp_path)
-        for length, letter in enumerate(ascii_lowercase[:LONGEST])
-    ]
-    shutil.copy(ROOT / "pyproject.toml", tmp_path)
-    (tmp_path / "src").mkdir()  # by which ruff knows what is imported from here
-    for path in [*ROOT.glob("src/[a-z]*"), TEMPLATE / "src" / "theory"]:
-        (tmp_path / "src" / path.name).symlink_to(path)
-    (tmp_path / "figures").symlink_to(ROOT / "figures")
-    rules = [str(folder / "study.smk") for folder in folders]
-    for command in (
-        ["ruff", "check", "--no-cache", "studies"],
-        ["ruff", "format", "--no-cache", "--check", "studies"],
-        ["snakefmt", "--check", "--compact-diff", *rules],
-    ):
-        subprocess.run([sys.executable, "-m", *command], cwd=tmp_path, check=True)
 
 
 @pytest.mark.parametrize("name", sorted(p.parent.name for p in ROOT.glob("studies/*/quick.yaml")))

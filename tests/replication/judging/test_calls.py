@@ -1,6 +1,5 @@
 """What a step calls of the library, and the equations that it cites."""
 
-import json
 import re
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
@@ -123,20 +122,6 @@ def job(folder, outputs) -> SimpleNamespace:
         output=[str(folder / name) for name in outputs],
         rule="rule",
     )
-
-
-def test_step_writes_with_its_findings_what_it_called(tmp_path, monkeypatch):
-    from topheavy import Column
-
-    monkeypatch.setattr("replication.workbench.undeclared", lambda declared: [])
-    run(job(tmp_path, ["f.json"]), lambda job: {"so": truth(Column(0.5, 3.0).size > 3.0)})
-    found = json.loads((tmp_path / "f.json").read_text(encoding="utf-8"))
-    assert found["so"] == {"holds": True}
-    assert {"topheavy.bodies.structures.Column", "topheavy.bodies.structures.Column.size"} <= set(
-        found["called"]
-    )
-    assert found["called"] == sorted(found["called"])
-    assert "topheavy.bodies.structures.RockingFrame" not in found["called"]
 
 
 def test_finding_with_the_reserved_name_is_refused(tmp_path):

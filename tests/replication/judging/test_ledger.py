@@ -8,13 +8,7 @@ import pytest
 import yaml
 
 from replication.judging.claim import Claim
-from replication.judging.findings import (
-    Finding,
-    Findings,
-    findings_by_rule,
-    read_findings,
-    write_findings,
-)
+from replication.judging.findings import Finding, Findings, read_findings
 from replication.judging.ledger import (
     as_text,
     finding_of,
@@ -192,22 +186,6 @@ def without(*keys):
     return {key: ROW[key] for key in ROW if key not in keys}
 
 
-def test_rows_that_are_right_pass(tree):
-    check(
-        tree,
-        ROW,
-        ROW | NUMBER | {"id": "number"},
-        {"id": "lost", "where": "p. 1", "statement": "It was.", "expected": "not tested"}
-        | {"remark": "A matter of history."},
-        {"id": "name", "where": "p. 1", "statement": "It is called so.", "by_definition": True}
-        | {"expected": "by definition", "remark": "It defines γ."},
-        own=[
-            {"id": "row", "rule": "statements", "finding": "more", "expected": "refuted"}
-            | {"function": "topheavy.judge", "remark": "It fails."}
-        ],
-    )
-
-
 @pytest.mark.parametrize(
     ("row", "told"),
     [
@@ -314,25 +292,6 @@ def test_other_verdict_than_expected_is_said():
     assert verdict_line(STATEMENT, lacking, "not tested") == (
         "s: not tested (needs an engine); a full run tests it and expects confirmed"
     )
-
-
-ENTRIES = {"holds": False, "widest": 0.5, "meant_holds": None, "kind": None, "error": 1e-3}
-
-
-@pytest.mark.parametrize(
-    "content",
-    [
-        {"b": ENTRIES, "a": {"value": 1.0, "error": 0.1, "unit": "m"}, "called": ["lib.f"]},
-        {"not_tested": "no engine", "called": []},
-    ],
-)
-def test_file_is_written_as_it_was_read(tmp_path, content):
-    path = tmp_path / "rule.json"
-    text = json.dumps(content, indent=2) + "\n"
-    path.write_text(text, encoding="utf-8")
-    write_findings(path, read_findings(path))
-    assert path.read_text(encoding="utf-8") == text
-    assert findings_by_rule([path]) == {"rule": Findings.of(content)}
 
 
 @pytest.mark.parametrize(

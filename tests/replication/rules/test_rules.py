@@ -1,6 +1,5 @@
 """What the machine's rules run: comparison, verdicts and notebooks."""
 
-import ast
 import json
 import math
 from contextlib import nullcontext
@@ -202,28 +201,6 @@ def test_check_of_ours_that_fails_is_a_fault_with_its_evidence():
     checks = {"routes.agree": truth(True), "routes.same": truth(False, worst=0.25)}
     _, faults = main(AS_EXPECTED, compared(), checks)
     assert faults == ["our own check routes.same does not hold: worst = 0.25"]
-
-
-NOTEBOOKS = sorted((Path(__file__).parents[3] / "notebooks").glob("*.ipynb"))
-
-
-@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
-def test_notebook_is_stripped_and_numbered_and_uses_the_library(path):
-    nbformat.validate(notebook := nbformat.read(path, as_version=nbformat.NO_CONVERT))
-    cells = notebook.cells
-    assert cells[0].cell_type == "markdown"
-    assert [cell.id for cell in cells] == [f"{path.stem}-{n:02}" for n in range(1, len(cells) + 1)]
-    for cell in cells:
-        assert (cell.metadata, cell.get("outputs", [])) == ({}, [])
-        assert cell.get("execution_count") is None
-    # a version of Python would change with whoever opened it last
-    assert "version" not in notebook.metadata.get("language_info", {})
-    code = [ast.parse(cell.source) for cell in cells if "outputs" in cell]  # no magics, no shell
-    nodes = [node for tree in code for node in ast.walk(tree)]
-    definitions = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef, ast.Lambda)
-    assert not [ast.unparse(node) for node in nodes if isinstance(node, definitions)]
-    imported = {node.module for node in nodes if isinstance(node, ast.ImportFrom)}
-    assert any(module.split(".")[0] == "topheavy" for module in imported)
 
 
 @pytest.fixture

@@ -11,13 +11,7 @@ from replication.rules.costs import main
 from replication.workflow import provenance
 from replication.workflow.costs import paths
 from replication.workflow.internals import planned, timed_by
-from replication.workflow.provenance import (
-    makers,
-    note_jobs,
-    noted_jobs,
-    source_version,
-    workflow_jobs,
-)
+from replication.workflow.provenance import note_jobs, noted_jobs, source_version, workflow_jobs
 from tests.replication.begun import Run
 
 SNAKEFILE = """\
@@ -80,16 +74,6 @@ def test_run_notes_its_jobs(tree, monkeypatch):
         note_jobs(workflow)
     expected = {job.outputs: replace(job, params={}, pending=False) for job in before}
     assert {job.outputs: replace(job, pending=False) for job in noted_jobs()} == expected
-
-
-def test_config_can_be_replaced_and_job_is_pending_by_the_triggers_of_the_profile(tree, plant):
-    root, _ = tree
-    profile = "profiles/default/config.yaml"
-    for triggers, pending in ((["mtime", "input"], False), (["mtime", "params"], True), ([], True)):
-        plant(root, {profile: f"rerun-triggers: {triggers}\n" if triggers else "cores: 1"})
-        total = makers(workflow_jobs(root, config={"factor": 3}))["out/sum.txt"]
-        assert (total.params, total.pending) == ({"factor": 3}, pending)
-    (root / profile).unlink()
 
 
 def test_version_is_the_commit_and_whether_the_tree_differs(tmp_path):

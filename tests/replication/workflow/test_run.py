@@ -4,9 +4,6 @@ import logging
 import os
 import re
 import signal
-import subprocess
-import sys
-from pathlib import Path
 from threading import Thread
 from types import SimpleNamespace
 
@@ -172,9 +169,6 @@ def test_folder_is_one_run_s_until_that_ends(tmp_path, begin, ran):
     assert not [*(tmp_path / ".snakemake" / "locks").glob("*")]
 
 
-ROOT = Path(__file__).parents[3]
-
-
 @pytest.mark.parametrize("character", [" ", "'", '"', "$", "&", ";", "(", "{", "\\", ":"])
 def test_path_that_a_shell_would_not_read_as_one_word_is_refused(character):
     python = f"/home/me/a{character}b/.venv/bin/python"
@@ -189,19 +183,3 @@ def test_folder_that_cannot_be_written_to_is_refused(tmp_path, monkeypatch):
     tmp = str(tmp_path)
     with pytest.raises(ValueError, match=f"{tmp} cannot be written to; expected"):
         check_place("/usr/bin/python", tmp)
-
-
-def test_make_and_snakemake_refuse_such_a_folder_at_once(tmp_path):
-    place = tmp_path / "it's mine"
-    place.mkdir()
-    for name in ("Makefile", "Snakefile", "src"):
-        (place / name).symlink_to(ROOT / name)
-    (place / "python").symlink_to(sys.executable)
-    made = subprocess.run(["make", "reproduce"], cwd=place, capture_output=True, text=True)
-    assert made.returncode == 2
-    assert f"the path {place} has a space or one of" in made.stderr
-    environment = os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)}
-    command = [str(place / "python"), "-m", "snakemake", "--cores", "1"]
-    ran = subprocess.run(command, cwd=place, capture_output=True, text=True, env=environment)
-    assert ran.returncode == 1
-    assert f"the path of Python, {place}/python, has the character" in ran.stderr
