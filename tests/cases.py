@@ -11,7 +11,6 @@ from topheavy.second import reference
 from topheavy.second.linear import simulate_linear_exact as closed
 
 ROOT = Path(__file__).resolve().parents[1]
-REFERENCE = ROOT / "tests" / "reference"
 RECORDS = ROOT / "data" / "records"
 
 COLUMN = th.Column(0.5, 3.0)

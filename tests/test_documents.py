@@ -29,11 +29,7 @@ REFERENCE = ROOT / "tests" / "reference"
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 PROSE = re.sub(r"```.*?```|\]\((?:[^()]|\([^()]*\))*\)|doi:\S+", " ", README, flags=re.DOTALL)
 OPPOSITE = {"raises": "lowers", "rises": "falls", "prevents": "causes", "weakest": "strongest"}
-
-
 OPPOSITE |= {"less": "more", "Yes": "No", "only the frame": "only the column"}
-
-
 HELD = {"2014", "25", "3.11", "3.13", "4.0"}  # by tests below: the year, Eq. (25), Pythons, licence
 
 

@@ -101,9 +101,6 @@ def test_ground_has_its_velocity_when_the_pulse_ends(shape, velocity, tolerance)
     assert found == pytest.approx(velocity, abs=tolerance)
 
 
-# ---------------------------------------------------------------------------- bad input
-
-
 @pytest.mark.parametrize(
     ("typed", "says"),
     [
@@ -190,12 +187,6 @@ def line(start, stop, first, last):
     return Segment(start, stop, lambda t: first + (last - first) * (t - start) / (stop - start))
 
 
-# ---------------------------------------------------------------------------- uplift
-
-
-# ---------------------------------------------------------------------------- falls_below
-
-
 @SIDES
 @pytest.mark.parametrize(
     ("first", "last", "since", "at"),
@@ -214,9 +205,6 @@ def line(start, stop, first, last):
 def test_push_ends_where_it_falls_below_the_level(side, first, last, since, at):
     ground = line(0.0, 2.0, -side * first, -side * last)
     assert ground.falls_below(since, int(side), 0.3) == pytest.approx(at, rel=1e-13)
-
-
-# ---------------------------------------------------------------------------- largest
 
 
 @pytest.mark.parametrize(
@@ -239,6 +227,3 @@ def test_least_gravity_of_a_segment_is_that_of_its_lower_end():
         segment = Segment(0.0, 1.0, lambda t: 0.0, lambda t, a=low, b=high: a + (b - a) * t)
         found = [segment.least_gravity(*over) for over in ((-1.0, 2.0), (0.0, 0.5), (2.0, 3.0))]
         assert found == [0.5, min(low, 1.0), 1.0]
-
-
-# ---------------------------------------------------------------------------- whole motions

@@ -102,8 +102,6 @@ def test_search_is_refused_for_its_largest_factor_alone():
     assert not th.overturned_by(FRAME, SHAKE, [0.0, 0.3], vertical=huge).any()
 
 
-# What the Taylor solver makes of it ---------------------------------------------------------------
-
 ODD = th.Record(0.0137, 0.35 * np.cos(20.3 * 0.0137 * np.arange(211)), "a time step of its own")
 LATE = th.Record(0.05, 0.5 * np.sin(9.0 * 0.05 * np.arange(90)), "longer than the horizontal one")
 ENDED = th.Record(0.03, np.full(20, -0.6), "ends by a jump, before the horizontal one")

@@ -111,9 +111,6 @@ def test_way_8_a_ricker_wavelet_lifts_the_block_in_its_side_lobe():
     assert 3 * unit_pulse(forcing.RICKER_SYMMETRIC, phase)[0] == pytest.approx(-1, rel=1e-13)
 
 
-# ---------------------------------------------------------------------------- records
-
-
 def test_record_is_that_of_the_library():
     samples = np.random.default_rng(1).normal(size=40)
     record, there = prepare_record(samples), record_forcing(prepare_record(samples), 0.07, -1.5)

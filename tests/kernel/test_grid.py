@@ -174,8 +174,6 @@ def test_newton_finds_what_is_looked_for_in_a_quarter_of_its_steps(monkeypatch):
                 assert few == pytest.approx(many, rel=1e-8 if strength < 1.01 else 1e-15, abs=1e-5)
 
 
-# ---------------------------------------------------------------------------- Ctrl-C
-
 CHILD = """
 import os, signal, sys, threading, time
 import numpy as np

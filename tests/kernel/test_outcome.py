@@ -56,9 +56,6 @@ def step_from(block, state, longest, zeros=0, peak=0.0):
     return *step, w
 
 
-# ---------------------------------------------------------------------------- one step
-
-
 def test_way_3_dip_inside_a_step_is_a_landing():
     """Thrown at the ground under an outward push: just too fast, it dips for an instant."""
     block, push, begin = BLOCK.linear(), 0.25, 0.05
@@ -106,9 +103,6 @@ def test_way_1_uplift_makes_no_impact_of_its_own(degrees, linearised):
             assert peak > 0.0
 
 
-# ---------------------------------------------------------------------------- impact
-
-
 def test_way_6_the_side_is_a_state_of_its_own():
     """After an impact φ = 0, and the other side pulls back with its own level."""
     there = oscillator(BLOCK)
@@ -119,9 +113,6 @@ def test_way_6_the_side_is_a_state_of_its_own():
     assert after.push == pytest.approx(-0.02 - there.level)
     assert after.rate == -0.5
     assert after_impact(there, before._replace(velocity=1e-18)).velocity == 0.0
-
-
-# ---------------------------------------------------------------------------- the whole history
 
 
 def test_way_7_beyond_alpha_is_survived():
@@ -153,9 +144,6 @@ def test_peaks_are_good_to_1e_9_alpha_at_the_default_tolerance():
             errors.append(abs(usual.peak - tight.peak) / block.slenderness)
     assert len(errors) > 200
     assert np.quantile(errors, 0.99) < 3e-9
-
-
-# ---------------------------------------------------------------------------- certain overturning
 
 
 def test_way_7_overturning_is_never_certain_where_the_ground_could_bring_it_back():

@@ -19,7 +19,6 @@ from topheavy.kernel.outcome import (
     PULSE_ORDER,
     ROOTS,
     STACK,
-    at_sample,
     working_array,
 )
 from topheavy.kernel.taylor import MAX_ORDER, ROTATION, State, evaluate, expand, oscillator
@@ -99,12 +98,6 @@ def test_way_1_uplift_starts_outward_however_slight_the_push(degrees, linearised
 
 few = settings(max_examples=60, deadline=None, derandomize=True, database=None)
 ONE_METRE = oscillator(RockingBlock(1.0, 0.25, 0.9))
-
-
-def rocking(rotation, velocity, forcing, record, piece=0, side=1.0):
-    """The block at the first sample of a piece."""
-    state = State(rotation, velocity, math.sin(rotation), math.cos(rotation), 0.0, 0.0)
-    return at_sample(ONE_METRE, forcing, record, piece, side, state)
 
 
 @few

@@ -8,7 +8,6 @@ import pytest
 import topheavy as th
 from tests.cases import RECORDS
 from topheavy.outcomes import minimum
-from topheavy.outcomes.overturning import outcomes_of_subjects
 from topheavy.second import reference
 
 EL_CENTRO = th.read_record(RECORDS / "el_centro_1940_NS.AT2")
@@ -60,20 +59,6 @@ def test_minimum_rises_on_grids_that_are_not_nested_and_never_on_nested_ones():
 
 
 # ---------------------------------------------------------------------------- the search
-
-
-@pytest.fixture
-def tried(monkeypatch):
-    """All factors that a search tries, and their outcomes, in calls."""
-    calls = []
-
-    def recorded(subjects, factors, tolerance):
-        found = outcomes_of_subjects(subjects, factors, tolerance)
-        calls.extend(zip(factors, (fell for fell, _ in found), strict=True))
-        return found
-
-    monkeypatch.setattr(minimum, "outcomes_of_subjects", recorded)
-    return calls
 
 
 def planted(monkeypatch, edges):

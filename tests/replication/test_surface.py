@@ -14,11 +14,6 @@ from replication.drawing import described, letter, save, sheet
 from replication.judging.findings import Findings, read_findings, write_findings
 from replication.workbench import truth, value
 
-# ---------------------------------------------------------------------------- log
-
-
-# ---------------------------------------------------------------------------- findings
-
 
 def test_findings_are_plain_and_survive_being_written(tmp_path):
     findings = {
@@ -46,7 +41,6 @@ def test_finding_that_is_no_number_is_not_written(tmp_path, number):
 
 
 ROOT = Path(__file__).resolve().parents[2]
-SVG = "{http://www.w3.org/2000/svg}"
 WORDS = {"title": "Size & frequency", "alt": "Two curves, one > 1 and\n one < 1."}
 
 

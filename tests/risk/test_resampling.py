@@ -142,9 +142,6 @@ def lognormal(motions, seed, *factors):
     return np.exp(0.4 * np.random.default_rng(seed).normal(size=(motions, 1))) * factors
 
 
-# ------------------------------------------------------------------ exact intervals
-
-
 @pytest.mark.parametrize("confidence", [0.9, 0.95])
 def test_exact_interval_has_half_of_the_rest_on_each_side(confidence):
     counts = np.arange(13).reshape(1, 13)
@@ -169,9 +166,6 @@ def test_sign_test_is_exact():
     assert found == pytest.approx(np.array([[2 / 32, 1.0], [12 / 32, 1.0]]))
 
 
-# ------------------------------------------------------------------ curves
-
-
 @pytest.mark.parametrize(("motions", "median", "dispersion"), [(7, 0.11, 0.32), (40, 0.08, 0.13)])
 def test_intervals_miss_the_true_value_as_often_as_the_docstring_says(motions, median, dispersion):
     missed, samples = np.zeros(2), 400
@@ -194,9 +188,6 @@ def test_one_motion_has_no_scatter_and_says_so():
     assert np.isnan(curves.median_capacity).all()
     assert set(pairs.less_words.to_numpy().ravel()) == {"is not known"}
     assert pairs.less.to_numpy().tolist() == [[0, 1, 0]]
-
-
-# ------------------------------------------------------------------ pairs
 
 
 def test_second_that_is_stronger_has_less_probability_and_a_gain():

@@ -57,9 +57,6 @@ def test_tighter_tolerance_changes_next_to_nothing(case):
     assert tight.peak == pytest.approx(usual.peak, abs=1e-8 * case[0].slenderness, nan_ok=True)
 
 
-# ---------------------------------------------------------------------------- inside a step
-
-
 @pytest.mark.parametrize(("share", "expected"), [(0.9, True), (0.9999, False), (1.1, True)])
 def test_peak_between_two_samples_that_may_count_is_looked_for(share, expected):
     """An impact is counted by the peak before it, which may lie above both ends of a step."""

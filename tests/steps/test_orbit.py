@@ -173,20 +173,10 @@ def test_sample_has_so_many_starts_of_each_outcome(monkeypatch):
 
 
 CASE = {"column": {"half_width": 0.11, "half_height": 0.40}, "mass_ratio": 0.434}
-
-
 CASE |= {"table_amplitude": 0.005, "table_frequency": 3.3}
-
-
 SPEC = {"quarters": [0, 1], "rotations": {"largest": 0.6, "points": 6}, "duration": 12.0}
-
-
 SPEC |= {"velocities": {"largest": 0.4, "points": 5}, "sample": {"points": 3}}
-
-
 SPEC |= {"checked_by_second_route": 2}
-
-
 KEPT = Course("rocking", 0.064, 0.064)
 RESTS, FELL = (Course(outcome, math.nan, math.nan) for outcome in ("rests", "overturned"))
 

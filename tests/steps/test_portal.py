@@ -16,11 +16,7 @@ from topheavy.forces.portal import resting_portal_forces
 from topheavy.second import reference
 
 VASE = {"portals": {"mass_ratio": 1.0, "spans": [2.4]}, "cap": {"width": 2.6, "depth": 0.6}}
-
-
 VASE |= {"shapes": ["one-cosine"], "period": 1.5, "floor": 1e-3}
-
-
 SIZES = {"sizes": {"lowest": 1.0, "highest": 4.0, "points": 5}, "highest": 2.0}
 OVER = [f"{name}_over_frame" for name in portal.FORCES]
 

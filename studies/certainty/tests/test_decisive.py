@@ -52,11 +52,7 @@ def test_theorem_covers_what_its_conditions_say():
 # Minimum overturning acceleration ----------------------------------------------------------------
 
 LOBES = {"seed": 7, "pulses": 4, "slendernesses": [5.0, 20.0]}
-
-
 LOBES |= {"lowest": 1.0, "highest": 8.0, "resolution": 0.05}
-
-
 LOBES = {"mass_ratios": [0.0, 1.0, math.inf], "lobes": LOBES}
 
 
@@ -151,11 +147,7 @@ def test_factors_are_applied_to_column_and_frame_as_named_up_to_the_highest():
 
 
 PULSES = {"slendernesses": [14.0], "shapes": ["one-sine"], "levels": 501, "factors": [0.7, 1.0]}
-
-
 PULSES |= {"frequency_ratios": {"lowest": 2.0, "highest": 6.0, "points": 5}}
-
-
 PULSES |= {"amplitudes": {"lowest": 1.0, "highest": 10.0, "resolution": 0.05, "finer": 0.0005}}
 
 

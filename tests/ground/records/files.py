@@ -52,22 +52,6 @@ UNCERTAIN_STEPS = [
 ]
 
 
-BODIES = {
-    # what grows with a number n in a file that is read or refused: its ending and its content
-    "samples of AT2": lambda n: (".AT2", HEADER.format(n=n) + "-0.1234567E-02\n" * n),
-    "samples in one line": lambda n: (".AT2", HEADER.format(n=n) + "0.1 " * n),
-    "empty lines": lambda n: (".AT2", AT2 + "\n" * 20 * n),
-    "blanks in a line": lambda n: (".AT2", AT2 + " " * 20 * n),
-    "one long word": lambda n: (".AT2", AT2 + "x" * 20 * n),
-    "one long number": lambda n: (".AT2", AT2.replace("0.4", "0.4" + "1" * 20 * n)),
-    "samples of CSV": lambda n: (".csv", CSV[:26] + "".join(f"{k}e-2,.1\n" for k in range(n))),
-    "digits of a time": lambda n: (".csv", CSV.replace("0.04", "0.04" + "0" * 20 * n)),
-    "blanks between times": lambda n: (".csv", CSV + "0.1" + " " * 20 * n + "1,0\n"),
-    "commas": lambda n: (".csv", CSV + "," * 20 * n),
-    "bytes that are not UTF-8": lambda n: (".csv", CSV.encode() + b"\xff" * 20 * n),
-}
-
-
 def longest(samples: int = MOST) -> bytes:
     """Return a file of PEER's kind with the most samples, or with so many."""
     return HEADER.format(n=samples).encode() + b"0.3141592 -.1414214\n" * (samples // 2)

@@ -15,9 +15,6 @@ SAMPLES = (0.1, -0.2, 0.4, 0.0, -0.3)
 FIVE = Record(0.02, np.array(SAMPLES), name="five samples")
 
 
-# ---------------------------------------------------------------------------- Record
-
-
 def test_record_passes_through_its_samples_by_straight_lines_and_is_zero_outside():
     times = [0.0, 0.02, 0.04, 0.06, 0.08, 0.01, 0.045]
     assert FIVE.excitation(times) == pytest.approx([*SAMPLES, -0.05, 0.3], abs=1e-14)
@@ -47,8 +44,6 @@ def test_record_in_memory_is_converted_to_g(unit, factor):
     with pytest.raises(ValueError, match=r"record 'a': unit is 'm/s'; expected g, % g"):
         Record(0.02, SAMPLES, "a", unit="m/s")
 
-
-# ---------------------------------------------------------------------------- what is refused
 
 ACCELERATION = [
     *(([0.0, bad], rf"\b1\b.*{bad}") for bad in (math.nan, math.inf, -math.inf)),
@@ -88,9 +83,6 @@ def test_bad_number_is_refused_by_name(make, value, says):
         make(value)
 
 
-# ---------------------------------------------------------------------------- peaks
-
-
 def test_peaks_are_the_largest_acceleration_and_the_integral_of_the_straight_lines():
     assert Record(0.02, [0.1, -0.4, 0.3]).peak_acceleration == 0.4
     expected = 0.2 * 0.02 * STANDARD_GRAVITY
@@ -112,9 +104,6 @@ def test_record_is_scaled_to_a_peak():
             record.scaled_to(**wrong)
     with pytest.raises(ValueError, match="has no acceleration"):
         Record(0.1, [0.0, 0.0]).scaled_to(pga=1.0)
-
-
-# ---------------------------------------------------------------------------- data/records
 
 
 def certified():
@@ -160,14 +149,8 @@ SPELLINGS = {
 
 
 SPELLINGS |= dict.fromkeys(["g", "G", "g's", "G'S", "g’s"], 1.0)
-
-
 SPELLINGS |= dict.fromkeys(["gal", "Gal", "GAL", "gals"], 0.01 / STANDARD_GRAVITY)
-
-
 SPELLINGS |= {"g/10": 0.1, "G/100": 0.01, "g / 1000": 0.001, "%g": 0.01, "% G": 0.01}
-
-
 SPELLINGS |= {"percent of g": 0.01, "mg": 0.001, "milli-g": 0.001}
 """What is written, and one of it in g."""
 

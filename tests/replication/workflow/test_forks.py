@@ -119,8 +119,6 @@ def test_client_tells_when_nobody_waits_for_its_script(server, ask, who):
     assert client.returncode == 1
 
 
-# ---------------------------------------------------------------------------- a run
-
 SNAKEFILE = """
 from replication.workflow.forks import start_scripts_as_forks
 onstart: start_scripts_as_forks(workflow)

@@ -56,9 +56,6 @@ def test_only_shards_leave_the_machine_that_runs_snakemake():
     assert sent == {rule for rule in rules if rule.endswith("_shard")}
 
 
-# ---------------------------------------------------------------------------- dry runs
-
-
 def snakemake(root, *options):
     env = os.environ | {"PYTHONPATH": str(root / "src")}
     status, said = Run(root, "--cores=1", "--scheduler=greedy", *options, env=env).communicate()
