@@ -2,7 +2,7 @@
 
 import gc
 import os
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 
 from replication.pages.captions import (
@@ -88,7 +88,13 @@ def parts(check):
 
 
 def everything(wildcards):
-    """Return all inputs and outputs of a run, except the crate that lists them, which is made last.
+    """Return all inputs and outputs of a run, except the crate that lists them, which is made last."""
+    return made_or_read()
+
+
+@cache
+def made_or_read():
+    """Return all inputs and outputs of a run but the crate; the rules are complete when it is asked.
 
     What only another job needs is named as well: when it is missing, Snakemake makes it again only
     if somebody requests it. A failed or interrupted job leaves its outputs missing.

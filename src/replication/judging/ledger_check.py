@@ -74,9 +74,11 @@ def _faults(
     except ValueError as error:
         yield f"function: {error}"
     known = published[claim.rule].by_name if claim.rule in published else {}
+    if claim.finding in known:
+        return
     close = difflib.get_close_matches(claim.finding, sorted(known), n=1)
     # What resembles a published finding is misspelt, unless a source has it; then it is new.
-    if close and claim.finding not in known and not _is_written(claim.finding, root):
+    if close and not _is_written(claim.finding, root):
         yield (
             f"finding is {claim.finding!r}, which rule {claim.rule} has not published and no "
             f"source spells; did you mean {close[0]!r}?"

@@ -44,9 +44,12 @@ def code(*scripts: str | Path, root: str | Path = ".") -> list[str]:
     ValueError
         When a module imports one whose name is only known when it runs.
     """
-    root = Path(root)
-    found = {Path(script) for script in scripts}
-    waiting = list(found)
+    return list(_code(frozenset(map(Path, scripts)), Path(root)))
+
+
+@cache
+def _code(scripts: frozenset[Path], root: Path) -> list[str]:
+    found, waiting = set(scripts), list(scripts)
     while waiting:
         for path in _read(root, waiting.pop())[0] - found:
             found.add(path)

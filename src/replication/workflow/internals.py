@@ -59,18 +59,25 @@ def timed_by(rule: Any, names: Iterable[str]) -> list[str]:
     return [name for name in names if own.match(f"results/benchmarks/{name}.tsv")]
 
 
-def maker(rules: Iterable[Any], path: str) -> Any | None:
-    """Return the first rule that makes a file, or None."""
-    return next((rule for rule in rules if rule.is_producer(path)), None)
+def maker_among(rules: Iterable[Any]) -> Callable[[str], Any | None]:
+    """Return a function of a path: the first of the rules that makes this file, or None."""
+    patterns, plain = [], {}
+    for rule in rules:
+        if rule.has_wildcards():
+            patterns.append(rule)
+        else:
+            plain |= {str(path): rule for path in rule.output}
+    return lambda path: plain.get(path) or next((r for r in patterns if r.is_producer(path)), None)
 
 
 def users_of(rules: Iterable[Any]) -> dict[Any, list[Any]]:
     """Return, for each rule, those that read what it makes, as far as their inputs are paths."""
     rules = list(rules)
     found: dict[Any, list[Any]] = {rule: [] for rule in rules}
+    maker = maker_among(rules)
     for rule in rules:
         paths = {str(path) for path in rule.input if not callable(path)}
-        makers = {maker(rules, path) for path in paths if path.startswith("results/")}
+        makers = {maker(path) for path in paths if path.startswith("results/")}
         for made in makers - {None}:
             found[made].append(rule)
     return found

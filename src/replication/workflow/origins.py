@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from replication.inputs.checksums import checksum, sha256
-from replication.workflow.internals import job_of, maker
+from replication.workflow.internals import job_of, maker_among
 
 CODE = (".ipynb", ".py", ".pyi", ".smk")
 """The endings of inputs that are code: a result is compared whatever made it."""
@@ -15,7 +15,7 @@ class Origins:
     """The jobs that each result depends on, by the rules of a workflow."""
 
     def __init__(self, rules: Iterable[Any]) -> None:
-        self.rules = [rule for rule in rules if rule.output]
+        self.maker = maker_among(rules)
         self.found: dict[str, dict[str, str]] = {}
 
     def of(self, result: str) -> dict[str, str]:
@@ -25,7 +25,7 @@ class Origins:
         code, its content is in the checksum of the job that reads it.
         """
         if result not in self.found:
-            rule = maker(self.rules, result)
+            rule = self.maker(result)
             self.found[result] = self._of(rule, result) if rule else {}
         return self.found[result]
 
