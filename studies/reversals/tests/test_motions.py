@@ -302,3 +302,8 @@ def test_sample_of_which_nothing_is_decided_agrees_with_nothing(answered, monkey
     _, found = motions_check.main(CASE, STRUCTURES, answered, 3e-12)
     assert [one["cells"] for one in found.values()] == [0, 0]
     assert not any(one.holds for one in found.values())
+
+
+def test_misfit_of_the_fragility_curves_is_printed_as_a_bound():
+    text = (Path(__file__).parents[1] / "section_motions.typ").read_text("utf-8")
+    assert "They pass within\n#at-most(motions.misfit.value, 3) of every computed point" in text

@@ -1,5 +1,8 @@
 """The edition that is published: its seal, its blanks and codecheck.yml."""
 
+import random
+import shutil
+import subprocess
 from pathlib import Path
 
 import pytest
@@ -7,7 +10,17 @@ import yaml
 
 from replication.pages.blanks import main
 from replication.pages.codecheck import codecheck_file, manifest
-from replication.pages.seal import SEAL, TOP, broken, outdated, seal
+from replication.pages.seal import (
+    EDITION,
+    KINDS,
+    SEAL,
+    SOURCES,
+    TOP,
+    VERDICTS,
+    broken,
+    outdated,
+    seal,
+)
 from replication.workflow.provenance import Job
 
 
@@ -113,3 +126,33 @@ def test_every_figure_table_and_document_of_the_run_is_listed(jobs):
     kinds = (".pdf", ".svg")
     assert {out for out in made if out.endswith(kinds)} <= set(listed) <= made
     assert {Path(path).suffix for path in listed} >= {*kinds, ".csv"}
+
+
+ROOT = Path(__file__).parents[3]
+
+
+def test_each_tracked_file_of_the_edition_and_of_its_sources_is_sealed(tmp_path):
+    """One bit of a file that chance picks is reported, of each kind of file in each folder."""
+    command = ["git", "ls-files", *EDITION, *SOURCES, *TOP]
+    listed = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    names = [name for name in listed.stdout.splitlines() if (ROOT / name).is_file()]
+    names = [name for name in names if Path(name).suffix in KINDS or name.startswith(EDITION)]
+    if not names:
+        pytest.skip("no git here, which lists the files")
+    kinds = {(name.split("/")[0], Path(name).suffix): [] for name in names}
+    for name in names:
+        kinds[name.split("/")[0], Path(name).suffix].append(name)
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(ROOT / name, tmp_path / name)
+    seal(tmp_path)
+    for picked in (random.choice(of_kind) for of_kind in kinds.values()):
+        content = bytearray((tmp_path / picked).read_bytes())
+        if picked in (SEAL, VERDICTS) or not content:  # `make check` holds each line of the pages
+            continue
+        place = random.randrange(len(content))
+        content[place] ^= 1
+        (tmp_path / picked).write_bytes(content)
+        told = [*broken(tmp_path), *outdated(tmp_path)]
+        assert any(picked in line for line in told), f"byte {place} of {picked}"
+        content[place] ^= 1
+        (tmp_path / picked).write_bytes(content)

@@ -1,5 +1,6 @@
 """What the machine's rules run: comparison, verdicts and notebooks."""
 
+import ast
 import json
 import math
 from contextlib import nullcontext
@@ -272,3 +273,25 @@ def test_picture_without_an_alternative_text_is_refused(metadata, told):
     refusal = pytest.raises(ValueError, match=r"play\.ipynb: cell play-06 shows a picture without")
     with nullcontext() if told else refusal:
         step.refuse_undescribed(cell, Path("play.ipynb"))
+
+
+NOTEBOOKS = sorted((Path(__file__).parents[3] / "notebooks").glob("*.ipynb"))
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+def test_notebook_is_stripped_and_numbered_and_uses_the_library(path):
+    nbformat.validate(notebook := nbformat.read(path, as_version=nbformat.NO_CONVERT))
+    cells = notebook.cells
+    assert cells[0].cell_type == "markdown"
+    assert [cell.id for cell in cells] == [f"{path.stem}-{n:02}" for n in range(1, len(cells) + 1)]
+    for cell in cells:
+        assert (cell.metadata, cell.get("outputs", [])) == ({}, [])
+        assert cell.get("execution_count") is None
+    # a version of Python would change with whoever opened it last
+    assert "version" not in notebook.metadata.get("language_info", {})
+    code = [ast.parse(cell.source) for cell in cells if "outputs" in cell]  # no magics, no shell
+    nodes = [node for tree in code for node in ast.walk(tree)]
+    definitions = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef, ast.Lambda)
+    assert not [ast.unparse(node) for node in nodes if isinstance(node, definitions)]
+    imported = {node.module for node in nodes if isinstance(node, ast.ImportFrom)}
+    assert any(module.split(".")[0] == "topheavy" for module in imported)

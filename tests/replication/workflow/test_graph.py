@@ -147,3 +147,22 @@ def test_changed_structure_reruns_what_names_it(finished):
     found = rerun(finished, path, line, line.replace("0.75", "0.85"))
     assert "spectra_dimensional" in found
     assert not {"mass_ratio", "trilith", "heavier", "spectra_shard"} & found
+
+
+OF_NO_JOB = {
+    "src/topheavy/outcomes/record_map.py": "for users; the page draws its own map of a record",
+}
+
+
+def test_every_module_of_library_and_studies_is_the_input_of_some_job(jobs):
+    if gone := {path.stem for path in ROOT.glob("tests/reference/studies/*.yaml")} - STUDIES:
+        pytest.skip(f"{', '.join(sorted(gone))} left, and with it what it alone used")
+    used = {path for job in jobs for path in (*job.inputs, *job.scripts)}
+    modules = {
+        str(path.relative_to(ROOT))
+        for pattern in ("src/topheavy/**/*.py", "studies/*/*.py", "studies/*/steps/*.py")
+        for path in ROOT.glob(pattern)
+        if not path.name.startswith("__") and "skeleton" not in path.relative_to(ROOT).parts
+        if path.name != "headlines.py"  # make check reads it
+    }
+    assert modules - used == set(OF_NO_JOB)
