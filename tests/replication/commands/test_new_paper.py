@@ -22,9 +22,38 @@ def paper(tmp_path_factory):
 
 
 def files(folder):
-    """The files of a paper, without its machine."""
+    """The files of a paper, without its machine and what Python compiled of them."""
     machine = folder / update.MACHINE
-    return [p for p in folder.rglob("*") if p.is_file() and machine not in p.parents]
+    found = (path for path in folder.rglob("*") if path.is_file() and path.suffix != ".pyc")
+    return [path for path in found if machine not in path.parents]
+
+
+def test_readme_names_every_place_of_the_example(paper):
+    readme = (paper / "README.md").read_text("utf-8")
+    example = re.compile(r"pendulum|period|theory\.motion|swing(?!ing)")
+    unnamed = []
+    for path in files(paper):
+        place = path.relative_to(paper)
+        of_example = example.search(f"{place}\n" + path.read_text("utf-8"))
+        if not of_example or place.name == "README.md":
+            continue
+        if not any(f"`{each.as_posix()}`" in readme for each in (place, *place.parents)):
+            unnamed.append(str(place))
+    assert unnamed == []
+
+
+def test_example_imports_no_more_than_a_paper_may(paper):
+    text = (paper / update.MACHINE / "README.md").read_text("utf-8")
+    listed = tuple(re.findall(r"`(replication\.[\w.]+)`", text))
+    imported = re.compile(r"^ *from (replication[\w.]*) import (\w+)", re.MULTILINE)
+    found = {
+        ".".join(names)
+        for path in files(paper)
+        if path.suffix in {".py", ".smk", ""}
+        for names in imported.findall(path.read_text("utf-8"))
+    }
+    assert found
+    assert [name for name in found if not name.startswith(listed)] == []
 
 
 def test_nothing_of_this_paper_goes_along(paper):
@@ -255,31 +284,3 @@ def test_changes_begin_with_the_version_of_the_machine():
     place = UPDATE.parents[1]
     changes = (place / "CHANGES.md").read_text("utf-8")
     assert update.news(changes, "0").startswith((place / "VERSION").read_text("utf-8").strip())
-
-
-def test_readme_names_every_place_of_the_example(paper):
-    readme = (paper / "README.md").read_text("utf-8")
-    example = re.compile(r"pendulum|period|theory\.motion|swing(?!ing)")
-    unnamed = []
-    for path in files(paper):
-        place = path.relative_to(paper)
-        of_example = example.search(f"{place}\n" + path.read_text("utf-8"))
-        if not of_example or place.name == "README.md":
-            continue
-        if not any(f"`{each.as_posix()}`" in readme for each in (place, *place.parents)):
-            unnamed.append(str(place))
-    assert unnamed == []
-
-
-def test_example_imports_no_more_than_a_paper_may(paper):
-    text = (paper / update.MACHINE / "README.md").read_text("utf-8")
-    listed = tuple(re.findall(r"`(replication\.[\w.]+)`", text))
-    imported = re.compile(r"^ *from (replication[\w.]*) import (\w+)", re.MULTILINE)
-    found = {
-        ".".join(names)
-        for path in files(paper)
-        if path.suffix in {".py", ".smk", ""}
-        for names in imported.findall(path.read_text("utf-8"))
-    }
-    assert found
-    assert [name for name in found if not name.startswith(listed)] == []
