@@ -19,7 +19,7 @@ from topheavy.risk.curve import (
     why_no_fit,
     why_no_median,
 )
-from topheavy.risk.gain import mass_ratios_of_gain, share_of_size
+from topheavy.risk.gain import mass_ratio_of_share, mass_ratios_of_gain, share_of_size
 from topheavy.risk.hazard import rate_at_levels
 
 LEVELS = np.geomspace(0.5, 2.0, 9)
@@ -218,6 +218,11 @@ RATIOS = [0.0, 0.25, 0.5, 1.0, 2.0, 4.0, math.inf]
 def test_share_of_size_is_that_of_equation_24():
     ratios = [(1 + 3 * gamma) / (1 + 2 * gamma) for gamma in RATIOS[:-1]] + [1.5]
     assert 1.0 + share_of_size(RATIOS) / 2.0 == pytest.approx(ratios)
+
+
+@pytest.mark.parametrize("share", [0.0, 0.25, 2.0 / 3.0, 1.0])
+def test_mass_ratio_of_a_share_has_that_share(share):
+    assert share_of_size([mass_ratio_of_share(share)]) == pytest.approx([share], abs=1e-15)
 
 
 def test_share_of_the_gain_of_size_alone():
