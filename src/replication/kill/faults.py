@@ -92,10 +92,12 @@ def _faults(path: Path, root: Path) -> Iterator[Fault]:
         for change in entry.pop("changes", [only]):
             changes.append(Change(**file | change))
             file = {"file": changes[-1].file}
-        own = (test for name in {c.file: None for c in changes} for test in _own_tests(name, root))
-        rest = {"routes": JUDGING, "tests": dict.fromkeys(own)} | entry
-        rest["tests"] = tuple(rest["tests"])
-        yield Fault(**rest, changes=tuple(changes), home=path.relative_to(root).as_posix())
+        if "tests" not in entry:
+            files = dict.fromkeys(change.file for change in changes)
+            entry["tests"] = [test for each in files for test in _own_tests(each, root)]
+        tests = tuple(dict.fromkeys(entry.pop("tests")))
+        home = path.relative_to(root).as_posix()
+        yield Fault(**{"routes": JUDGING} | entry, tests=tests, changes=tuple(changes), home=home)
 
 
 def _own_tests(file: str, root: Path) -> list[str]:

@@ -55,18 +55,12 @@ def test_file_that_is_too_large_is_refused_before_it_is_read(tmp_path):
 
 @pytest.fixture
 def write(tmp_path):
-    def write(text: str | bytes) -> Path:
-        path = tmp_path / "motion.AT2"
-        path.write_bytes(text.encode() if isinstance(text, str) else text)
+    def write(text: str, name: str = "motion.AT2") -> Path:
+        path = tmp_path / name
+        path.write_bytes(text.encode())
         return path
 
     return write
-
-
-@pytest.fixture(scope="module")
-def motion(tmp_path_factory) -> Path:
-    """A file to be written again and again."""
-    return tmp_path_factory.mktemp("records") / "motion.AT2"
 
 
 @pytest.mark.parametrize("newline", ["\n", "\r\n", "\r"])
@@ -103,16 +97,6 @@ def test_el_centro_in_metres_never_passes_as_g(write, statement):
 few = settings(deadline=None, derandomize=True, database=None)
 
 
-@pytest.fixture
-def write_columns(tmp_path):
-    def write_columns(text: str | bytes) -> Path:
-        path = tmp_path / "table.csv"
-        path.write_bytes(text.encode() if isinstance(text, str) else text)
-        return path
-
-    return write_columns
-
-
 @pytest.fixture(scope="module")
 def table(tmp_path_factory) -> Path:
     """A file to be written again and again."""
@@ -123,13 +107,13 @@ def of_times(times: list[str]) -> str:
     return "time (s),acceleration (g)\n" + "".join(f"{time},0.1\n" for time in times)
 
 
-def test_samples_and_step_are_read(write_columns):
-    record = read_csv(write_columns(CSV))
+def test_samples_and_step_are_read(write):
+    record = read_csv(write(CSV, "table.csv"))
     np.testing.assert_array_equal(record.acceleration, SAMPLES)
     assert record.time_step == pytest.approx(0.02, rel=1e-15)
     assert record.name == "table"
     assert (
-        read_record(write_columns("\ufeff" + CSV.replace("\n", "\r\n"))).time_step
+        read_record(write("\ufeff" + CSV.replace("\n", "\r\n"), "table.csv")).time_step
         == record.time_step
     )
 
