@@ -1,1 +1,1 @@
-"""The parts of a replication that serve any paper; they contain no physics of this one."""
+"""What the steps, figures and documents of the paper and of every study share."""

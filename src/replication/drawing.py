@@ -1,8 +1,7 @@
 """Common parts of all figures: read the tables, apply the style, save the same bytes each time."""
 
 import io
-from collections.abc import Callable, Sequence
-from pathlib import Path
+from collections.abc import Sequence
 from typing import Any
 from xml.sax.saxutils import escape
 
@@ -12,11 +11,8 @@ mpl.use("svg")
 
 import matplotlib.pyplot as plt
 import numpy as np
-import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-
-from replication.workbench import run
 
 SINGLE, DOUBLE = 88.0, 180.0  # widths of one and of two columns, mm
 
@@ -28,27 +24,13 @@ LIGHTEST, DARKEST = (0.36, 0.58, 0.80), (0.02, 0.12, 0.32)  # 3 to 1 on white, a
 PLACES = 6  # decimals of the places of axes, over the size of the figure
 
 
-def make_figure(job, draw: Callable[..., Figure]) -> None:
-    """Draw the tables of a Snakemake job, each passed under its own name, and save the figure.
-
-    The parameters `title` and `alt` of the job become the title and the description of the SVG.
-    """
-
-    def picture(job) -> None:
-        plt.style.use(job.input.style)
-        tables = {Path(path).stem: pd.read_csv(path) for path in job.input.tables}
-        save(draw(**tables), job.output[0], job.params.title, job.params.alt)
-
-    run(job, picture)
-
-
-def save(figure: Figure, path: str | Path, title: str, alt: str) -> None:
-    """Save a figure as an SVG with a title and a description, and no date."""
+def picture(figure: Figure, title: str, alt: str) -> str:
+    """Return a figure as an SVG with a title and a description, and no date."""
     settle(figure)
     drawn = io.StringIO()
     figure.savefig(drawn, format="svg", metadata={"Date": None})
-    svg = described(drawn.getvalue(), title, alt)
-    Path(path).write_text(svg, encoding="utf-8", newline="\n")
+    plt.close(figure)
+    return described(drawn.getvalue(), title, alt)
 
 
 def settle(figure: Figure) -> None:

@@ -1,109 +1,46 @@
-"""Copy the published results from results/ to docs/ and tests/reference/: `make publish`.
+"""Copy the results of a finished run to docs/ and tests/reference/, with checksums: make publish"""
 
-docs/ contains the article and its supplement, and the pictures, verdicts and costs that the README
-shows. tests/reference/ contains the findings from which `make check` judges the claims, the tables
-with which later runs are compared, and their config. The pages that need no run are written, too,
-and the table of deliberate faults loses what no longer holds.
-"""
-
-import gzip
+import hashlib
+import json
 import shutil
 from pathlib import Path
 
-from replication.commands import kill_table, pages
-from replication.inputs.checksums import checksum
-from replication.origin.recorded import read_crate
-from replication.pages.edition import machine, publish
-from replication.pages.seal import seal
-from steps import headlines
-from steps.explorer_still import stills
+REFERENCE, DOCS = Path("tests/reference"), Path("docs")
 
-DOCUMENTS = ("report", "supplement")
-PICTURES = ("vase", "heavier", "peak_maps", "spectra", "structures")
-MOVING = "animation.gif"
-PAGE = "explorer.html"
-NOTEBOOKS = ("derivation", "play")
-TABLES = (
-    "allen_errors",
-    "allen_overturning",
-    "equations",
-    "heavier",
-    "mass_ratio",
-    "moment_rotation",
-    "quarter_period",
-    "restitution_over_mass_ratio",
-    "restitution_over_slenderness",
-    "portal_columns",
-    "proven",
-    "proven_below_structures",
-    "spectra_areas",
-    "trilith_map",
-    "trilith_nearness",
-    "trilith_starts",
-    "trilith_states",
-    "uplift_ratios",
-    "uplift_slopes",
-    "vase",
-    "vase_exceptions",
-    "vase_shares",
-)
-"""Those with which later runs are compared most strictly."""
-
-SOURCES = (
-    "allen_peaks",
-    "portal_forces",
-    "rocking_spectra",
-    "scale_outcomes",
-    "spectra_published",
-    "spectra_sample",
-    "stability_minima",
-    "stability_runs",
-    "statements",
-    "theorems",
-    "trilith_limits",
-    "trilith_numbers",
-    "trilith_orbit",
-    "trilith_sample",
-    "uplift_limits",
-    "uplift_routes",
-    "verification_published",
-    "verification_routes",
-)
-"""Other tables from which findings follow."""
-
-CERTIFICATES = "certificates.jsonl.gz"
-FAULTS = "docs/kill_table.csv"
+PAGES = {
+    "paper/report.pdf": "report.pdf",
+    "paper/supplement.pdf": "supplement.pdf",
+    "results/verdicts.md": "verdicts.md",
+    "results/explorer.html": "explorer.html",
+    "results/animation.gif": "animation.gif",
+    "results/certificates/proven.jsonl.gz": "certificates.jsonl.gz",
+}
 
 
-def certificates(folder: Path, path: Path) -> None:
-    """Write all certificates into one file, the same bytes for the same certificates."""
-    lines = b"".join(each.read_bytes() for each in sorted(folder.glob("*.jsonl")))
-    path.write_bytes(gzip.compress(lines, mtime=0))
+def copies() -> dict[Path, Path]:
+    """Return what is published, and where: pages, notebooks, and the tables that findings need."""
+    rules = json.loads(Path("results/rules.json").read_text("utf-8"))
+    tables = {path for rule in rules.values() if rule["findings"] for path in [*rule["tables"], *rule["reads"]]}
+    found = {Path(source): DOCS / name for source, name in PAGES.items()}
+    found |= {page: DOCS / f"notebook_{page.name}" for page in Path("results/notebooks").glob("*.html")}
+    found |= {Path(path): REFERENCE / Path(path).name for path in sorted(tables)}
+    return found | {Path("results") / name: REFERENCE / name for name in ("rules.json", "settings.json")}
 
 
 def main() -> None:
-    results, docs = Path("results"), Path("docs")
-    publish(TABLES, SOURCES)
-    counted = read_crate().checksums.get(FAULTS) == checksum(FAULTS)
-    if kill_table.refresh() or not counted:
-        raise SystemExit(
-            f"{FAULTS} has changed, and the supplement counts its rows; expected one that was "
-            "compiled since: make reproduce publish"
-        )
-    for name in PICTURES:
-        shutil.copyfile(f"figures/{name}.svg", docs / f"{name}.svg")
-    for name in DOCUMENTS:
-        shutil.copyfile(f"paper/{name}.pdf", docs / f"{name}.pdf")
-    for name in (MOVING, PAGE):
-        shutil.copyfile(results / name, docs / name)
-    for name in NOTEBOOKS:
-        shutil.copyfile(results / "notebooks" / f"{name}.html", docs / f"notebook_{name}.html")
-    certificates(results / "certificates", docs / CERTIFICATES)
-    stills(docs / PAGE)
-    pages.write()
-    headlines.write()
-    (docs / "machine.txt").write_text(machine() + "\n", encoding="utf-8")
-    seal()
+    if not Path("results/summary.txt").is_file():
+        raise SystemExit("there is no results/summary.txt; expected a finished run: make reproduce")
+    made = copies()
+    for path in REFERENCE.rglob("*"):
+        if path.is_file() and path not in made.values():
+            path.unlink()
+    for source, target in made.items():
+        target.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(source, target)
+    sums = [path for folder in (DOCS, REFERENCE) for path in sorted(folder.rglob("*")) if path.is_file()]
+    lines = [f"{hashlib.sha256(p.read_bytes()).hexdigest()}  {p}\n" for p in sums if p.name != "SHA256SUMS"]
+    (DOCS / "SHA256SUMS").write_text("".join(lines), "utf-8")
+    print(f"{len(made)} files are published; read the diff, mend README's numbers, then commit")
 
 
 if __name__ == "__main__":

@@ -1,0 +1,128 @@
+"""Read claims, and judge each by its finding."""
+
+import json
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from replication.config import Section, read_yaml
+
+PAPER, OURS = "paper", "ours"
+
+
+class Claim(Section):
+    """A claim; the head of paper/claims.yaml explains its keys. `part`: paper, ours or a study."""
+
+    id: str
+    where: str
+    statement: str
+    printed: float | int | str | None = None
+    unit: str = ""
+    tolerance: float | None = None
+    because: str = ""
+    rule: str = ""
+    finding: str = ""
+    expected: str
+    differs: str = ""
+    remark: str = ""
+    part: str = ""
+    file: str = ""
+
+
+def read_claims(path: str, settings: Mapping[str, Any]) -> list[Claim]:
+    """Return the claims of a file; {keys} in a statement are filled from its config.
+
+    The paper's file has two lists, `paper` and `ours`; a study's file is a list.
+
+    Raises
+    ------
+    SystemExit
+        When a claim has an unknown key, lacks one, or has an id that another has; when its statement
+        names a key that the config lacks; when its tolerance is too wide, or its verdict unknown.
+    """
+    from replication.verdicts import VERDICTS, tolerance_fault
+
+    content = read_yaml(path)
+    study = Path(path).parent.name
+    parts = content if isinstance(content, dict) else {study: content}
+    claims: list[Claim] = []
+    for part, rows in parts.items():
+        for row in rows or []:
+            try:
+                claim = Claim(**row, part=part, file=path)
+                claim.statement = claim.statement.format(**settings)
+            except ValidationError as errors:
+                told = "; ".join(f"'{e['loc'][-1]}': {e['msg']}" for e in errors.errors())
+                raise SystemExit(f"{path}: claim {row.get('id')}: {told}") from None
+            except (KeyError, IndexError, AttributeError) as key:
+                raise SystemExit(
+                    f"{path}: claim {claim.id} has {{{key.args[0]}}}, which is no key of the config; "
+                    f"expected one of {', '.join(settings)}"
+                ) from None
+            fault = tolerance_fault(claim)
+            if claim.id in [each.id for each in claims]:
+                fault = "the id is there twice"
+            if claim.expected not in VERDICTS:
+                fault = f"expected is {claim.expected!r}; expected one of {', '.join(VERDICTS)}"
+            is_judged = claim.expected not in ("by definition", "not tested")
+            if bool(claim.rule and claim.finding) != is_judged:
+                fault = "a claim names a rule and a finding, unless it is by definition or not tested"
+            if fault:
+                raise SystemExit(f"{path}: claim {claim.id}: {fault}")
+            claims.append(claim)
+    return claims
+
+
+def judged(claim: Claim, findings: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
+    """Return a claim with what was computed for it, its verdict, and whether our copy differs.
+
+    Raises
+    ------
+    SystemExit
+        When the rule makes no such finding, or the finding cannot judge the claim.
+    """
+    from replication.verdicts import decimals, verdict_on
+
+    finding = None
+    if claim.finding:
+        if claim.finding not in findings.get(claim.rule, {}):
+            known = ", ".join(findings.get(claim.rule, {})) or "none: no such rule"
+            raise SystemExit(
+                f"{claim.file}: claim {claim.id} names the finding '{claim.finding}' of rule "
+                f"{claim.rule}, which has {known}. Name one of these, or return it from findings() "
+                "of the script of the rule"
+            )
+        finding = findings[claim.rule][claim.finding]
+    try:
+        verdict, differs = verdict_on(claim, finding)
+    except ValueError as fault:
+        raise SystemExit(f"{claim.file}: {fault}") from None
+    row = claim.model_dump() | {"verdict": verdict, "differs": differs, "computed": None, "shown": ""}
+    if finding is not None:
+        row |= {"expected_differs": claim.differs, "condition": finding.get("condition", "")}
+        row["computed"] = finding.get("value", finding.get("holds"))
+        if "value" in finding:
+            number = decimals(finding["value"], finding["error"], claim.printed, claim.tolerance)
+            row["shown"] = f"{number} {claim.unit or finding['unit']}".strip()
+    return row
+
+
+def read_findings(paths: Iterable[str | Path]) -> dict[str, dict[str, Any]]:
+    """Return the findings of several rules; a file has the name of its rule."""
+    return {Path(path).stem: json.loads(Path(path).read_text("utf-8")) for path in paths}
+
+
+def unexpected(rows: Iterable[Mapping[str, Any]]) -> list[str]:
+    """Return a line for each claim whose verdict, or flag, is not the expected one."""
+    return [
+        f"{row['file']}: claim {row['id']} is {_verdict(row, 'verdict', 'differs')}; expected "
+        f"{_verdict(row, 'expected', 'expected_differs')} (computed: {row['shown'] or row['computed']})"
+        for row in rows
+        if row["verdict"] != row["expected"] or row["differs"] != row.get("expected_differs", "")
+    ]
+
+
+def _verdict(row: Mapping[str, Any], verdict: str, differs: str) -> str:
+    return row[verdict] + (f" (our copy differs: {row[differs]})" if row.get(differs) else "")

@@ -1,0 +1,155 @@
+"""Read YAML and configs: types of their keys, and what is said of a mistake."""
+
+import hashlib
+from collections.abc import Callable
+from difflib import get_close_matches
+from pathlib import Path
+from typing import Annotated, Any
+
+import yaml
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError, model_validator
+
+
+def _between(low: float, high: float) -> Callable:
+    def inside(number: float) -> float:
+        if not low <= number <= high:
+            raise ValueError(f"expected a number from {low:g} to {high:g}")
+        return number
+
+    return inside
+
+
+Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
+Positive = Annotated[float, Field(gt=0, strict=True, allow_inf_nan=False)]
+NotNegative = Annotated[float, Field(ge=0, strict=True, allow_inf_nan=False)]
+MassRatio = Annotated[float, Field(ge=0, strict=True)]  # γ; .inf is a frame with γ → ∞
+Fraction = Annotated[float, Field(gt=0, le=1, strict=True)]
+Count = Annotated[int, Field(ge=1, strict=True)]
+Degrees = Annotated[float, AfterValidator(_between(0.1, 60.0))]
+Shape = Annotated[str, Field(pattern="^(one-sine|one-cosine|half-sine|constant|ricker-symmetric|ricker-antisymmetric)$")]
+
+
+class Section(BaseModel):
+    """A part of a config: a key that is not named in its model is an error."""
+
+    model_config = ConfigDict(extra="forbid")
+
+
+class Grid(Section):
+    """A uniform grid of so many points."""
+
+    lowest: NotNegative
+    highest: Positive
+    points: Annotated[int, Field(ge=2, strict=True)]
+
+    @model_validator(mode="after")
+    def ordered(self) -> "Grid":
+        if self.highest <= self.lowest:
+            raise ValueError(f"highest is {self.highest:g}; expected more than lowest, {self.lowest:g}")
+        return self
+
+
+class PulseOf(Section):
+    """A pulse: acceleration amplitude in g, period 2π/ω in s."""
+
+    shape: Shape
+    amplitude: Positive
+    period: Positive
+
+
+class Structure(Section):
+    """Columns of width × height (m), one or more of them, and a cap beam by its mass (t)."""
+
+    width: Positive
+    height: Positive
+    columns: Count = 1
+    column_mass: Positive | None = None
+    cap_mass: NotNegative = 0.0
+
+    @model_validator(mode="after")
+    def complete(self) -> "Structure":
+        if self.columns > 1 and self.column_mass is None:
+            raise ValueError(f"{self.columns} columns under a cap beam need column_mass and cap_mass, t")
+        return self
+
+
+class Motion(Section):
+    """A record: a file that `read_record` reads, or text with time (s) and acceleration in columns."""
+
+    file: str
+    name: str  # as texts and captions name it
+    unit: str = "g"
+    skip: Annotated[int, Field(ge=0, strict=True)] = 0  # lines above the numbers of a text
+    sha256: str = ""  # of its content, which is a parameter of the rule: a change repeats it
+
+    @model_validator(mode="after")
+    def there(self) -> "Motion":
+        if not Path(self.file).is_file():
+            raise ValueError(f"there is no file {self.file}; expected its path from the root of the repository")
+        self.sha256 = hashlib.sha256(Path(self.file).read_bytes()).hexdigest()[:12]
+        return self
+
+
+class Study(Section):
+    """What the config of every study may have; a study adds its own keys."""
+
+    structures: dict[str, Structure] = {}
+    records: dict[str, Motion] = {}
+
+
+class _Once(yaml.SafeLoader):
+    """A loader that refuses a doubled key."""
+
+    def construct_mapping(self, node: Any, deep: bool = False) -> Any:
+        keys = [key.value for key, _ in node.value]
+        for key in keys:
+            if keys.count(key) > 1:
+                line = max(k.start_mark.line for k, _ in node.value if k.value == key) + 1
+                raise SystemExit(f"{node.start_mark.name}:{line}: the key '{key}' is there twice")
+        return super().construct_mapping(node, deep)
+
+
+def read_yaml(path: str | Path) -> Any:
+    """Return the content of a YAML file; a doubled key or a mistake in its form ends the program."""
+    try:
+        with Path(path).open(encoding="utf-8") as file:
+            return yaml.load(file, _Once)
+    except FileNotFoundError:
+        raise SystemExit(f"there is no file {path}") from None
+    except (yaml.YAMLError, UnicodeDecodeError) as error:
+        raise SystemExit(f"{path}: {' '.join(str(error).split())}") from None
+
+
+def read_config(path: str, model: type[Section], given: Any = None) -> dict[str, Any]:
+    """Return a checked config; a mistake ends the program with file, key, value and expectation."""
+    given = read_yaml(path) if given is None else given
+    try:
+        return model.model_validate(given).model_dump()
+    except ValidationError as errors:
+        raise SystemExit("\n".join(f"{path}: {_message(e, model)}" for e in errors.errors())) from None
+
+
+def _message(error: Any, model: type[Section]) -> str:
+    key = ".".join(str(part) for part in error["loc"])
+    if error["type"] == "extra_forbidden":
+        near = get_close_matches(str(error["loc"][-1]), names_of(model), n=1)
+        return f"unknown key '{key}'" + (f"; did you mean '{near[0]}'?" if near else "; remove it")
+    if error["type"] == "missing":
+        return f"the key '{key}' is missing"
+    given, expected = error["input"], error["msg"].removeprefix("Value error, ")
+    comma = ""
+    if isinstance(given, str) and given.replace(",", "", 1).replace(".", "", 1).strip("+-").isdigit():
+        comma = ": a decimal point, and no quotes" if "," in given else ": without quotes"
+    return f"{key} is {given!r}; {expected[0].lower()}{expected[1:]}{comma}"
+
+
+def names_of(model: type[BaseModel]) -> list[str]:
+    """Return the keys of a model and of the models inside it."""
+    names = []
+    for name, field in model.model_fields.items():
+        names.append(name)
+        inner = [field.annotation, *getattr(field.annotation, "__args__", ())]
+        for each in inner:
+            if isinstance(each, type) and issubclass(each, BaseModel):
+                names += names_of(each)
+    return names

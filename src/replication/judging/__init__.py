@@ -1,1 +1,0 @@
-"""Claims, findings, and the verdict on each claim."""

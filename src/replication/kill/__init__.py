@@ -1,1 +1,0 @@
-"""Deliberate faults, and the table of what catches each."""

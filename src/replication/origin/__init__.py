@@ -1,1 +1,0 @@
-"""The RO-Crate of a run, from which its origin is read."""

@@ -1,1 +1,0 @@
-"""What is read: captions, the documents, and the published edition."""

@@ -1,0 +1,146 @@
+"""Compute the verdict on a claim from its finding. Nobody confirms a claim by hand."""
+
+import math
+from collections.abc import Mapping
+from decimal import Decimal
+from typing import Any, Literal, get_args
+
+from replication.claims import Claim
+
+Verdict = Literal["confirmed", "qualified", "refuted", "supported", "by definition", "not tested"]
+VERDICTS: tuple[Verdict, ...] = get_args(Verdict)
+
+COPY_DIFFERS = ("sign", "number", "letter", "bracket", "radical")
+"""Kinds of discrepancy by which our copy can contradict the paper's own premises."""
+
+LARGEST_SHARE_OF_TOLERANCE = 0.1
+"""The error of a computed value may take this share of the claim's tolerance."""
+
+LARGEST_RELATIVE_TOLERANCE = 0.1
+"""A tolerance is at most this share of the printed value, or the rounding of its last digit."""
+
+
+def verdict_on(claim: Claim, finding: Mapping[str, Any] | None) -> tuple[str, str]:
+    """Return the verdict on a claim, and by what our copy of the paper differs, or "".
+
+    A printed number is confirmed when the computed value agrees within the claim's tolerance, and a
+    statement when it holds. A statement that holds on a stated condition alone is qualified. If the
+    form in our copy fails, and what the premises of the paper mean holds, the meaning is judged and
+    the discrepancy named; a different convention of signs qualifies. A statement that only a
+    measurement could confirm is at most supported.
+
+    Raises
+    ------
+    ValueError
+        When the error of the value is more than a tenth of the tolerance, or the finding is of the
+        wrong kind.
+    """
+    if claim.expected in ("by definition", "not tested"):
+        if finding is not None:
+            raise ValueError(f"claim {claim.id} is {claim.expected}; expected no finding for it")
+        return claim.expected, ""
+    if finding is None:
+        raise ValueError(f"claim {claim.id} has no finding; expected one, or 'not tested'")
+    if claim.tolerance is not None:
+        holds, meant = _numbers_agree(claim, finding, claim.tolerance)
+    elif "holds" not in finding:
+        raise ValueError(f"claim {claim.id}: the finding has no truth; expected truth(…)")
+    else:
+        holds, meant = finding["holds"], finding.get("meant_holds", False)
+    if holds:
+        return ("supported" if claim.expected == "supported" else "confirmed"), ""
+    if meant:
+        kind = finding.get("kind")
+        if kind == "convention":
+            return "qualified", ""
+        if kind not in COPY_DIFFERS:
+            raise ValueError(
+                f"claim {claim.id}: what is meant holds, and the kind of the discrepancy is {kind!r}; "
+                f"expected one of {', '.join(COPY_DIFFERS)}, convention"
+            )
+        return "confirmed", kind
+    return ("qualified" if finding.get("holds_when") else "refuted"), ""
+
+
+def _numbers_agree(claim: Claim, finding: Mapping, tolerance: float) -> tuple[bool, bool]:
+    if "value" not in finding:
+        raise ValueError(f"claim {claim.id}: the finding has no value; expected value(…)")
+    if not finding["error"] <= LARGEST_SHARE_OF_TOLERANCE * tolerance:  # nor is NaN small enough
+        raise ValueError(
+            f"claim {claim.id}: the error is {finding['error']:.2g}; expected at most a tenth "
+            f"of the tolerance of {tolerance:.2g}"
+        )
+
+    def agrees(value: float | None) -> bool:
+        return value is not None and bool(abs(value - claim.printed) <= tolerance)
+
+    return agrees(finding["value"]), agrees(finding.get("meant_value"))
+
+
+def print_rounding(printed: float) -> float:
+    """Return half a unit of the last digit of a printed number: 0.0005 of 0.275, 0.5 of 5.
+
+    A trailing zero is not kept by YAML: 0.50 counts as 0.5.
+    """
+    exponent = Decimal(repr(printed)).normalize().as_tuple().exponent
+    return 0.5 * 10.0 ** min(int(exponent), 0)
+
+
+def tolerance_fault(claim: Claim) -> str:
+    """Return why the tolerance of a claim is too wide for its verdict to mean anything, or "".
+
+    A value that is off by a whole unit of the last printed digit, twice what rounding allows, has
+    to fail.
+    """
+    if claim.tolerance is None:
+        return ""
+    printed, tolerance = claim.printed, claim.tolerance
+    rounding = print_rounding(printed)
+    widest = max(LARGEST_RELATIVE_TOLERANCE * abs(printed), rounding)
+    if tolerance > widest:
+        return f"tolerance is {tolerance:g}; expected at most {widest:g}, a tenth of {printed:g}"
+    if tolerance >= 2.0 * rounding:
+        return f"tolerance is {tolerance:g}; expected less than {2.0 * rounding:g}, by the printed digits"
+    return ""
+
+
+# The digits of a number in print -------------------------------------------------------------------
+
+MOST_FIGURES = 6
+"""A number that is compared with no printed one has at most so many significant figures."""
+
+MOST_DECIMALS = 17
+
+
+def decimals(value: float, error: float, printed: Any = None, tolerance: float | None = None) -> str:
+    """Return a computed number in decimals: to a tenth of a tolerance, or as its error justifies.
+
+    Beside a printed number it has more digits where fewer would round an agreement away, or feign
+    one. A whole number beside a whole one stays one.
+    """
+    if tolerance is None or not isinstance(printed, int | float):
+        return _by_error(value, error)
+    if isinstance(printed, int) and float(value).is_integer():
+        return f"{value:.0f}"
+    agrees = abs(value - printed) <= tolerance
+    allowed = Decimal(repr(tolerance))
+    for digits in range(_decimals(0.1 * tolerance), MOST_DECIMALS):
+        text = f"{value:.{digits}f}"
+        off = abs(Decimal(text) - Decimal(repr(printed)))
+        if off < allowed if agrees else off > allowed:
+            break
+    return text
+
+
+def _by_error(value: float, error: float) -> str:
+    magnitude = math.floor(math.log10(abs(value))) if value else 0
+    most = max(0, MOST_FIGURES - 1 - magnitude)
+    if error and (justified := _decimals(error)) < most:
+        return f"{value:.{justified}f}"
+    text = f"{value:.{most}f}"
+    return text.rstrip("0").rstrip(".") if "." in text else text
+
+
+def _decimals(error: float) -> int:
+    """Return the decimals that round a number by an error at most."""
+    return max(0, math.ceil(-math.log10(2.0 * error) - 1e-9))

@@ -1,0 +1,41 @@
+"""Judge every claim again from the published tables, without a run: make check
+
+What is published in docs/ and tests/reference/ has the checksums of docs/SHA256SUMS (make checks
+that first); the findings are drawn again from the tables by the steps that drew them.
+"""
+
+import json
+import runpy
+from pathlib import Path
+from typing import Any
+
+from replication.claims import judged, read_claims, unexpected
+from replication.step import call
+
+REFERENCE = Path("tests/reference")
+
+
+def findings(rules: dict[str, Any]) -> dict[str, dict[str, Any]]:
+    """Return the findings of each rule, by its script, from the published tables."""
+    found = {}
+    for name, rule in rules.items():
+        if rule["findings"]:
+            paths = [REFERENCE / Path(path).name for path in [*rule["reads"], *rule["tables"]]]
+            tables = {path.stem: str(path) for path in paths}
+            found[name] = call(runpy.run_path(rule["script"])["findings"], name, tables, rule["params"])
+    return found
+
+
+def published() -> list[dict[str, Any]]:
+    """Return every claim with its verdict, from the published tables."""
+    rules = json.loads((REFERENCE / "rules.json").read_text("utf-8"))
+    settings = json.loads((REFERENCE / "settings.json").read_text("utf-8"))
+    found = findings(rules)
+    return [judged(c, found) for path, known in settings.items() for c in read_claims(path, known)]
+
+
+if __name__ == "__main__":
+    rows = published()
+    if wrong := unexpected(rows):
+        raise SystemExit("\n".join(wrong))
+    print(f"{len(rows)} claims have their expected verdicts, from the published tables")

@@ -1,0 +1,47 @@
+"""Judge every claim by the findings of a run, or one by the published: python -m steps.judge eq25"""
+
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+from replication.claims import judged, read_claims, read_findings
+from replication.step import log_to, publish
+
+
+def work(job: Any) -> None:
+    findings = read_findings(path for path in job.input if path.endswith(".json"))
+    claims = [c for path, known in job.params.settings.items() for c in read_claims(path, known)]
+    rows = [judged(claim, findings) for claim in claims]
+    publish(job, {job.output[0]: json.dumps(rows, indent=1, ensure_ascii=False) + "\n"})
+
+
+def one(name: str) -> str:
+    """Return the line of one claim, from results/claims.json or else from the published tables."""
+    path = Path("results/claims.json")
+    if path.is_file():
+        rows = json.loads(path.read_text("utf-8"))
+    else:
+        from steps.check import published
+
+        rows = published()
+    found = [row for row in rows if row["id"] == name]
+    if not found:
+        raise SystemExit(f"no claim has the id {name!r}; expected one of paper/claims.yaml or of a study")
+    row = found[0]
+    lines = [f"{name}: {row['verdict']}", f"  {row['where']}: {row['statement']}"]
+    if row["shown"]:
+        lines.append(f"  printed {row['printed']}, computed {row['shown']}")
+    if row["differs"]:
+        lines.append(f"  our copy differs: {row['differs']}")
+    if row["rule"]:
+        lines.append(f"  by rule {row['rule']}, finding {row['finding']}")
+    return "\n".join([*lines, *([f"  {row['remark']}"] if row["remark"] else [])])
+
+
+if __name__ == "__main__":
+    if "snakemake" in globals():
+        with log_to(snakemake.log[0]):
+            work(snakemake)
+    else:
+        print(one(*sys.argv[1:]))

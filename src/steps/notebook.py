@@ -1,0 +1,96 @@
+"""Execute a notebook, the same bytes each time, and render it as a page without scripts."""
+
+import json
+import os
+import tempfile
+from pathlib import Path
+from typing import Any
+
+from latex2mathml.converter import convert
+
+from replication.step import log_to, publish
+
+PAGE = """
+{%- extends "lab/index.html.j2" -%}
+{%- block html_head_js -%}{%- endblock -%}
+{%- block html_head_js_mathjax -%}{%- endblock -%}
+{%- block html_head_js_mermaidjs -%}{%- endblock -%}
+{%- block html_head_css -%}
+{{ super() }}
+<style>
+.jp-OutputArea-output:has(> math) { overflow: visible; padding: 0.4em 0; }
+.jp-RenderedHTMLCommon :is(th, td) { text-align: left !important; }
+</style>
+{%- endblock -%}
+{%- block data_latex -%}
+<div class="jp-OutputArea-output">{{ output.data["text/latex"] | mathml }}</div>
+{%- endblock -%}
+{%- block data_png scoped -%}
+<div class="jp-RenderedImage jp-OutputArea-output">
+<img src="data:image/png;base64,{{ output.data["image/png"] | escape_html }}"
+alt="{{ output | get_metadata("alt", "image/png") | escape_html }}">
+</div>
+{%- endblock -%}
+"""
+"""nbconvert's page without its scripts, which come from the network; formulas are MathML and
+pictures have the alternative text that their cells give."""
+
+
+def render(notebook: Any, title: str) -> str:
+    """Return an executed notebook as a page."""
+    from jinja2 import DictLoader
+    from nbconvert import HTMLExporter
+    from nbconvert.filters.markdown_mistune import IPythonRenderer, MarkdownWithMath
+
+    class Renderer(IPythonRenderer):
+        """Markdown with its formulas as MathML."""
+
+        def inline_math(self, body: str) -> str:
+            return convert(body)
+
+        def block_math(self, body: str) -> str:
+            return convert(body, display="block")
+
+    exporter = HTMLExporter(
+        exclude_input_prompt=True,
+        exclude_output_prompt=True,
+        extra_loaders=[DictLoader({"page.html.j2": PAGE})],
+        template_file="page.html.j2",
+        filters={
+            "mathml": lambda latex: convert(latex.strip("$"), display="block"),
+            "markdown2html": lambda text: MarkdownWithMath(Renderer(escape=False)).render(text),
+        },
+    )
+    body, _ = exporter.from_notebook_node(notebook, resources={"metadata": {"name": title}})
+    return body
+
+
+def execute(source: Path) -> Any:
+    """Return a notebook with the outputs of its cells."""
+    private = tempfile.mkdtemp()  # nothing of a user's own set-up may leak in
+    os.environ |= {"IPYTHONDIR": private, "JUPYTER_CONFIG_DIR": private, "JUPYTER_PLATFORM_DIRS": "1"}
+    import nbformat
+    from nbclient import NotebookClient
+
+    notebook = nbformat.read(source, as_version=4)
+    client = NotebookClient(
+        notebook,
+        timeout=300,
+        record_timing=False,
+        coalesce_streams=True,  # or one text is one output or several, by the speed of the machine
+        resources={"metadata": {"path": str(source.parent)}},
+        extra_arguments=["--log-level=ERROR"],  # not that the kernel listens on this machine
+    )
+    client.execute()
+    return notebook
+
+
+if __name__ == "__main__":
+    with log_to(snakemake.log[0]):
+        source = Path(snakemake.input.notebook)
+        notebook = execute(source)
+        made = {
+            snakemake.output.executed: json.dumps(notebook, indent=1, ensure_ascii=False) + "\n",
+            snakemake.output.page: render(notebook, source.stem),
+        }
+        publish(snakemake, made)
