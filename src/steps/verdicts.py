@@ -70,5 +70,5 @@ def page(rows: list[dict[str, Any]], captions: dict[str, dict], rules: dict[str,
 if __name__ == "__main__":
     with log_to(snakemake.log[0]):
         claims = json.loads(Path(snakemake.input.claims).read_text("utf-8"))
-        tables = [path for path in snakemake.input.tables if path.endswith(".csv")]
-        publish(snakemake, {snakemake.output[0]: page(claims, read_yaml(snakemake.input.captions), tables)})
+        text = page(claims, read_yaml(snakemake.input.captions), snakemake.params.rules)
+        publish(snakemake, {snakemake.output[0]: text})
