@@ -1,53 +1,71 @@
-# `make` lists the commands. Those of every replication are the machine's; below are this paper's.
+# `make` lists the commands. All use uv and its lock; where uv is missing, the first command installs it
+# into .uv/. A word in capitals is a variable: make reproduce CORES=4.
 
-OWN    := CELLS CONFIG ENGINE MINUTES SEED
-CELLS  ?= 40000
-CONFIG ?= config/thorough.yaml
-MINUTES ?= 1
-# The optional rigid-body engine of the study `mechanism`; `ENGINE=` does not install it.
-ENGINE ?= engine
-GROUPS  = $(if $(value ENGINE),--group "$$ENGINE")
-BENCH   = $(UV) run --locked --no-dev --group bench
-# What `make clean` keeps, as all copies share it (topheavy.kernel.compiled).
-SHARED  = the compiled kernel, in $${NUMBA_CACHE_DIR:-$${XDG_CACHE_HOME:-$$HOME/.cache}}/topheavy
+CORES  ?= 2
+PYTHON ?= python3
+UV     := $(shell command -v uv 2>/dev/null || echo .uv/bin/uv)
+RUN     = $(UV) run --locked --no-dev
+DEV     = $(UV) run --locked
+# Each job is a Python, which would compile modules anew if they were not kept.
+export PYTHONDONTWRITEBYTECODE :=
 
-include src/replication/make/machine.mk
+.DEFAULT_GOAL := help
+.PHONY: help reproduce check test lint study publish notebooks faults fuzz archive cluster-test clean
 
-.PHONY: notebooks api audit fuzz benchmark stills verify-grid cluster-test paper words
+help: ## list the commands
+	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/make \1|\2/p' Makefile | \
+	  while IFS='|' read -r name text; do printf '  %-18s %s\n' "$$name" "$$text"; done
 
-lint: words
-words: | $(UV)
-	$(DEV) python -m steps.words
+reproduce: | $(UV) ## compute every result, check every claim, compile article and supplement (CORES=2)
+	@$(RUN) snakemake --cores "$(CORES)" && cat results/summary.txt
 
-paper: | $(UV) ##- begin the replication of another paper: make paper TO=../other (studies/FOLLOW-UP.md)
-	@$(RUN) python -m replication.commands.new_paper "$$TO"
+check: | $(UV) ## without a run: checksums, and every claim judged again from the published tables
+	@sha256sum --quiet --check docs/SHA256SUMS
+	@$(RUN) python -m steps.check
 
-notebooks: | $(UV) ## open the notebooks in JupyterLab: the derivation, and a frame to play with
-	@$(UV) run --locked $(GROUPS) --group notebooks jupyter lab notebooks
+test: | $(UV) ## run the tests
+	@OMP_NUM_THREADS=1 $(DEV) pytest --numprocesses "$(CORES)" --dist loadfile
 
-api: | $(UV) ## write a page of the library's functions: dist/api/topheavy.html
-	@$(DEV) python -W 'ignore:Error parsing type annotation' -c "import topheavy; [getattr(topheavy, name) for name in dir(topheavy)]; \
-	  from pdoc.__main__ import cli; rooms = 'bodies forces ground outcomes proven risk second'.split(); \
-	  cli(['topheavy', *(f'topheavy.{room}' for room in rooms), *'-o dist/api --no-show-source --docformat numpy'.split()])"
+lint: | $(UV) ## check style, types, spelling and the rules; changes nothing
+	$(DEV) ruff check
+	$(DEV) ruff format --check
+	$(DEV) mypy
+	$(DEV) codespell
+	$(DEV) snakefmt --check --compact-diff Snakefile rules studies
+	$(DEV) check-jsonschema --builtin-schema vendor.citation-file-format CITATION.cff
+	$(DEV) check-jsonschema --builtin-schema vendor.github-workflows .github/workflows/*.yaml
+	$(UV) export --locked --no-dev $(EXPORT) | cmp - requirements.txt
+EXPORT = --no-hashes --no-header --no-annotate --no-emit-project
 
-audit: | $(UV) ##- 3 hours: finer grids, tighter tolerances, all peers, all faults (CONFIG, CELLS, ROTATE)
-	@$(SNAKEMAKE) --configfile "$$CONFIG"
-	@$(MAKE) --no-print-directory verify-grid benchmark kill-table
-	@echo "results/ is that of $$CONFIG now: 'make reproduce' brings ours back"
+study: | $(UV) ## begin a study: make study NAME=bridge (studies/FOLLOW-UP.md)
+	@expr "$(NAME)" : '[a-z][a-z0-9_]*$$' >/dev/null || { echo "NAME is '$(NAME)'; expected lower case, digits, _"; exit 1; }
+	@test ! -e studies/$(NAME) || { echo "studies/$(NAME) is there already"; exit 1; }
+	@mkdir studies/$(NAME) && cd studies/example && for file in *.*; do \
+	  sed 's/example/$(NAME)/g' "$$file" > ../$(NAME)/"$$file"; done
+	@sed -i 's/^studies: \[\(.*\)\]/studies: [\1, $(NAME)]/' config/config.yaml
 
-fuzz: | $(UV) ##- search for inputs on which solvers disagree or a function fails (MINUTES=1, SEED)
-	@$(call WHOLE,MINUTES); $(if $(value SEED),$(call WHOLE,SEED);) $(DEV) \
-	  python benchmarks/fuzz.py "$$MINUTES" $${SEED:+"$$SEED"}
+publish: | $(UV) ## copy the results of a run to docs/ and tests/reference/; read the diff, then commit it
+	@$(RUN) python -m steps.publish
 
-benchmark: | $(UV) ##- time the kernel beside its peers; writes docs/benchmark.csv and .svg (15 minutes)
-	@$(BENCH) python benchmarks/benchmark.py
+notebooks: | $(UV) ## open the notebooks in JupyterLab
+	@$(UV) run --locked --group notebooks jupyter lab notebooks/paper.ipynb
 
-stills: | $(UV) ##- take the pictures of docs/explorer.html anew, at three sizes of screen
-	@$(RUN) python -m steps.explorer_still
+faults: | $(UV) ## put deliberate errors into a copy, one at a time: does a test catch each?
+	@$(DEV) python tests/faults/run.py -j "$(CORES)"
 
-verify-grid: | $(UV) ##- compare overturning flags with an independent route (CELLS=40000 a set)
-	@$(call WHOLE,CELLS)
-	@$(BENCH) python benchmarks/verify_grid.py "$$CELLS"
+fuzz: | $(UV) ## search for inputs on which solvers disagree (MINUTES=1)
+	@$(DEV) python benchmarks/fuzz.py "$(or $(MINUTES),1)"
 
-cluster-test: | $(UV) ##- as root on Debian: start SLURM here, compare its bytes with ours (5 minutes)
-	@$(RUN) --group cluster profiles/slurm/test/run
+archive: ## pack the commit into dist/, with the checksums of its files
+	@mkdir -p dist && git archive --prefix=topheavy/ --output=dist/topheavy.zip HEAD
+	@git ls-files -z | xargs -0 sha256sum > dist/SHA256SUMS
+
+cluster-test: | $(UV) ## as root on Debian: the shards on a SLURM of one node give the same bytes
+	@$(RUN) --group cluster profiles/slurm/test
+
+clean: ## remove what the workflow and the tools wrote; keep the environment
+	rm -rf results dist .snakemake figures/*.svg studies/*/*.svg paper/*.pdf .*_cache .hypothesis
+
+.uv/bin/uv:
+	@$(PYTHON) -m venv --clear .uv || { echo "On Debian: apt install python3-venv"; rm -rf .uv; exit 1; }
+	@.uv/bin/python -m pip install --quiet --disable-pip-version-check uv==0.13.8
