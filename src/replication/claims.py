@@ -39,7 +39,7 @@ def read_claims(path: str, settings: Mapping[str, Any]) -> list[Claim]:
     Raises
     ------
     SystemExit
-        When a claim has an unknown key, lacks one, or has an id that another has; when its statement
+        When a claim has an unknown key, lacks one, or has the id of another; when its statement
         names a key that the config lacks; when its tolerance is too wide, or its verdict unknown.
     """
     from replication.verdicts import VERDICTS, tolerance_fault
@@ -58,8 +58,8 @@ def read_claims(path: str, settings: Mapping[str, Any]) -> list[Claim]:
                 raise SystemExit(f"{path}: claim {row.get('id')}: {told}") from None
             except (KeyError, IndexError, AttributeError) as key:
                 raise SystemExit(
-                    f"{path}: claim {claim.id} has {{{key.args[0]}}}, which is no key of the config; "
-                    f"expected one of {', '.join(settings)}"
+                    f"{path}: claim {claim.id} has {{{key.args[0]}}}, which is no key of the "
+                    f"config; expected one of {', '.join(settings)}"
                 ) from None
             fault = tolerance_fault(claim)
             if claim.id in [each.id for each in claims]:
@@ -68,7 +68,9 @@ def read_claims(path: str, settings: Mapping[str, Any]) -> list[Claim]:
                 fault = f"expected is {claim.expected!r}; expected one of {', '.join(VERDICTS)}"
             is_judged = claim.expected not in ("by definition", "not tested")
             if bool(claim.rule and claim.finding) != is_judged:
-                fault = "a claim names a rule and a finding, unless it is by definition or not tested"
+                fault = (
+                    "a claim names a rule and a finding, unless it is by definition or not tested"
+                )
             if fault:
                 raise SystemExit(f"{path}: claim {claim.id}: {fault}")
             claims.append(claim)
@@ -99,7 +101,12 @@ def judged(claim: Claim, findings: Mapping[str, Mapping[str, Any]]) -> dict[str,
         verdict, differs = verdict_on(claim, finding)
     except ValueError as fault:
         raise SystemExit(f"{claim.file}: {fault}") from None
-    row = claim.model_dump() | {"verdict": verdict, "differs": differs, "computed": None, "shown": ""}
+    row = claim.model_dump() | {
+        "verdict": verdict,
+        "differs": differs,
+        "computed": None,
+        "shown": "",
+    }
     if finding is not None:
         row |= {"expected_differs": claim.differs, "condition": finding.get("condition", "")}
         row["computed"] = finding.get("value", finding.get("holds"))
@@ -118,7 +125,8 @@ def unexpected(rows: Iterable[Mapping[str, Any]]) -> list[str]:
     """Return a line for each claim whose verdict, or flag, is not the expected one."""
     return [
         f"{row['file']}: claim {row['id']} is {_verdict(row, 'verdict', 'differs')}; expected "
-        f"{_verdict(row, 'expected', 'expected_differs')} (computed: {row['shown'] or row['computed']})"
+        f"{_verdict(row, 'expected', 'expected_differs')} "
+        f"(computed: {row['shown'] or row['computed']})"
         for row in rows
         if row["verdict"] != row["expected"] or row["differs"] != row.get("expected_differs", "")
     ]

@@ -26,7 +26,12 @@ MassRatio = Annotated[float, Field(ge=0, strict=True)]  # γ; .inf is a frame wi
 Fraction = Annotated[float, Field(gt=0, le=1, strict=True)]
 Count = Annotated[int, Field(ge=1, strict=True)]
 Degrees = Annotated[float, AfterValidator(_between(0.1, 60.0))]
-Shape = Annotated[str, Field(pattern="^(one-sine|one-cosine|half-sine|constant|ricker-symmetric|ricker-antisymmetric)$")]
+Shape = Annotated[
+    str,
+    Field(
+        pattern="^(one-sine|one-cosine|half-sine|constant|ricker-symmetric|ricker-antisymmetric)$"
+    ),
+]
 
 
 class Section(BaseModel):
@@ -45,7 +50,9 @@ class Grid(Section):
     @model_validator(mode="after")
     def ordered(self) -> "Grid":
         if self.highest <= self.lowest:
-            raise ValueError(f"highest is {self.highest:g}; expected more than lowest, {self.lowest:g}")
+            raise ValueError(
+                f"highest is {self.highest:g}; expected more than lowest, {self.lowest:g}"
+            )
         return self
 
 
@@ -69,12 +76,14 @@ class Structure(Section):
     @model_validator(mode="after")
     def complete(self) -> "Structure":
         if self.columns > 1 and self.column_mass is None:
-            raise ValueError(f"{self.columns} columns under a cap beam need column_mass and cap_mass, t")
+            raise ValueError(
+                f"{self.columns} columns under a cap beam need column_mass and cap_mass, t"
+            )
         return self
 
 
 class Motion(Section):
-    """A record: a file that `read_record` reads, or text with time (s) and acceleration in columns."""
+    """A record: what `read_record` reads, or text with time (s) and acceleration in columns."""
 
     file: str
     name: str  # as texts and captions name it
@@ -85,7 +94,9 @@ class Motion(Section):
     @model_validator(mode="after")
     def there(self) -> "Motion":
         if not Path(self.file).is_file():
-            raise ValueError(f"there is no file {self.file}; expected its path from the root of the repository")
+            raise ValueError(
+                f"there is no file {self.file}; expected its path from the root of the repository"
+            )
         self.sha256 = hashlib.sha256(Path(self.file).read_bytes()).hexdigest()[:12]
         return self
 
@@ -110,7 +121,7 @@ class _Once(yaml.SafeLoader):
 
 
 def read_yaml(path: str | Path) -> Any:
-    """Return the content of a YAML file; a doubled key or a mistake in its form ends the program."""
+    """Return the content of a YAML file; a doubled key or another mistake ends the program."""
     try:
         with Path(path).open(encoding="utf-8") as file:
             return yaml.load(file, _Once)
@@ -126,7 +137,9 @@ def read_config(path: str, model: type[Section], given: Any = None) -> dict[str,
     try:
         return model.model_validate(given).model_dump()
     except ValidationError as errors:
-        raise SystemExit("\n".join(f"{path}: {_message(e, model)}" for e in errors.errors())) from None
+        raise SystemExit(
+            "\n".join(f"{path}: {_message(e, model)}" for e in errors.errors())
+        ) from None
 
 
 def _message(error: Any, model: type[Section]) -> str:
@@ -138,7 +151,10 @@ def _message(error: Any, model: type[Section]) -> str:
         return f"the key '{key}' is missing"
     given, expected = error["input"], error["msg"].removeprefix("Value error, ")
     comma = ""
-    if isinstance(given, str) and given.replace(",", "", 1).replace(".", "", 1).strip("+-").isdigit():
+    if (
+        isinstance(given, str)
+        and given.replace(",", "", 1).replace(".", "", 1).strip("+-").isdigit()
+    ):
         comma = ": a decimal point, and no quotes" if "," in given else ": without quotes"
     return f"{key} is {given!r}; {expected[0].lower()}{expected[1:]}{comma}"
 

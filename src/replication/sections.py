@@ -1,17 +1,9 @@
-"""What config/config.yaml may say: a model for each section, which belongs to the rule of its name."""
+"""What config/config.yaml may say: a model for each section, named as its rule."""
 
 from replication.config import (
     Count,
-    Degrees,
-    Fraction,
-    Grid,
-    MassRatio,
-    NotNegative,
-    Number,
     Positive,
-    PulseOf,
     Section,
-    Shape,
 )
 
 
@@ -30,14 +22,16 @@ class Solver(Section):
 # The paper, second part: spectra, vase, proven, uplift, animation ---------------------------------
 
 
-# Beyond the paper: motions, break_even, records -----------------------------------------------------
+# Beyond the paper: motions, break_even, records --------------------------------------------------
 
 
-# Beyond the paper: friction, engine ------------------------------------------------------------------
+# Beyond the paper: friction, engine -------------------------------------------------------------
 
 
 class Reproducibility(Section):
-    relative: Positive  # largest difference of a table from the published one, of its largest number
+    relative: (
+        Positive  # largest difference of a table from the published one, of its largest number
+    )
     absolute: Positive
     counts: Count  # how many outcomes of a count may differ
 

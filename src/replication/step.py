@@ -46,12 +46,18 @@ def run(job: Any, compute: Callable, findings: Callable | None = None) -> None:
     with log_to(job.log[0]):
         params = {name: given for name, given in job.params.items() if name != "code"}
         made = call(compute, job.rule, tables_of(job.input), params)
-        names = [name for name in job.output.keys() if name != "findings"]
+        names = [name for name, _ in job.output.items() if name != "findings"]
         if not isinstance(made, Mapping) or not set(names) <= set(made):
             made = dict.fromkeys(names, made) if len(names) == 1 else {}
-        texts = {path: _text(made.get(name), path, compute, job.rule) for name, path in job.output.items() if name != "findings"}
-        if "findings" in job.output.keys():
-            written = {path: StringIO(text) for path, text in texts.items() if path.endswith(".csv")}
+        texts = {
+            path: _text(made.get(name), path, compute, job.rule)
+            for name, path in job.output.items()
+            if name != "findings"
+        }
+        if hasattr(job.output, "findings"):
+            written = {
+                path: StringIO(text) for path, text in texts.items() if path.endswith(".csv")
+            }
             drawn = call(findings, job.rule, tables_of(job.input, written), params)
             texts[job.output.findings] = findings_text(drawn, compute)
         publish(job, texts)
@@ -93,7 +99,9 @@ def stop(message: str) -> NoReturn:
     raise SystemExit(message)
 
 
-def call(function: Callable, rule: str, tables: Mapping[str, Any], params: Mapping[str, Any]) -> Any:
+def call(
+    function: Callable, rule: str, tables: Mapping[str, Any], params: Mapping[str, Any]
+) -> Any:
     """Call a function with the tables, inputs and parameters that it takes by name."""
     import pandas as pd
 
@@ -108,8 +116,8 @@ def call(function: Callable, rule: str, tables: Mapping[str, Any], params: Mappi
     wanted = list(signature(function).parameters)
     if missing := [name for name in wanted if name not in tables and name not in params]:
         stop(
-            f"{where(function)}: {function.__name__} takes '{missing[0]}'; rule {rule} has the inputs "
-            f"{', '.join(tables) or '(none)'} and the parameters {', '.join(params) or '(none)'}"
+            f"{where(function)}: {function.__name__} takes '{missing[0]}'; rule {rule} has the "
+            f"inputs {', '.join(tables) or '(none)'} and the parameters {', '.join(params) or '(none)'}"
         )
     return function(**{n: content(tables[n]) if n in tables else params[n] for n in wanted})
 
@@ -119,7 +127,9 @@ def tables_of(inputs: Any, written: Mapping[str, Any] | None = None) -> dict[str
     named = dict(inputs.items()) if hasattr(inputs, "items") else {}
     paths = [str(path) for path in inputs]
     tables = {Path(path).stem: path for path in paths if path.endswith(".csv")}
-    tables |= {name: list(given) if not isinstance(given, str) else given for name, given in named.items()}
+    tables |= {
+        name: list(given) if not isinstance(given, str) else given for name, given in named.items()
+    }
     return tables | {Path(path).stem: source for path, source in (written or {}).items()}
 
 
@@ -127,11 +137,16 @@ def findings_text(findings: Mapping[str, Any], source: Callable) -> str:
     """Return the content of a findings file."""
     for name, finding in findings.items():
         if not isinstance(finding, dict) or not {"value", "holds"} & set(finding):
-            stop(f"{where(source)}: the finding '{name}' is {finding!r}; expected value(…) or truth(…)")
+            stop(
+                f"{where(source)}: the finding '{name}' is {finding!r}; "
+                "expected value(…) or truth(…)"
+            )
     try:
         return json.dumps(findings, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
     except ValueError:
-        bad = next(n for n, f in findings.items() if "NaN" in json.dumps(f) or "Infinity" in json.dumps(f))
+        bad = next(
+            n for n, f in findings.items() if "NaN" in json.dumps(f) or "Infinity" in json.dumps(f)
+        )
         stop(f"{where(source)}: the finding '{bad}' is {findings[bad]}; expected finite numbers")
 
 
@@ -149,13 +164,20 @@ def publish(job: Any, made: Mapping[str, str | bytes]) -> None:
     files = {getattr(module, "__file__", None) for module in list(sys.modules.values())}
     loaded = {Path(path).resolve() for path in files if path}
     inside = {path.relative_to(ROOT) for path in loaded - declared if path.is_relative_to(ROOT)}
-    other = sorted(str(p) for p in loaded if p.parts[-2:] == ("topheavy", "__init__.py") and not p.is_relative_to(ROOT))
+    other = sorted(
+        str(p)
+        for p in loaded
+        if p.parts[-2:] == ("topheavy", "__init__.py") and not p.is_relative_to(ROOT)
+    )
     if other:
-        stop(f"rule {job.rule} loaded {other[0]}, which is not in this folder: uv sync, or pip install -e .")
+        stop(
+            f"rule {job.rule} loaded {other[0]}, which is not in this folder: "
+            "uv sync, or pip install -e ."
+        )
     if gap := sorted(str(path) for path in inside if path.parts[0] in OURS):
         stop(
-            f"rule {job.rule} loaded {', '.join(gap)}, which its `code` does not name: a change there "
-            "would leave its results stale. Add to `code` the file, or the folder by library(…)"
+            f"rule {job.rule} loaded {', '.join(gap)}, which its `code` does not name: a change "
+            "there would leave its results stale. Add to `code` the file, or the folder by library(…)"
         )
     for path, content in made.items():
         Path(f"{path}.new").write_bytes(content.encode() if isinstance(content, str) else content)
@@ -196,17 +218,12 @@ def _text(made: Any, path: str, compute: Callable, rule: str) -> str | bytes:
 
     if isinstance(made, str | bytes) and not path.endswith(".csv"):
         return made
-    if made is None or isinstance(made, str | bytes):
-        stop(
-            f"{where(compute)}: compute returned {made!r:.60} where rule {rule} declares the table {path}. "
-            "Return a pandas.DataFrame; findings(table) draws the findings from it"
-        )
     try:
-        table = pd.DataFrame(made)
+        table = pd.DataFrame(made if not isinstance(made, str | None) else 0)
     except ValueError:
         stop(
-            f"{where(compute)}: compute returned {made!r:.60} where rule {rule} declares the table {path}. "
-            "Return a pandas.DataFrame; findings(table) draws the findings from it"
+            f"{where(compute)}: compute returned {made!r:.60} where rule {rule} declares the table "
+            f"{path}. Return a pandas.DataFrame; findings(table) draws the findings from it"
         )
     return table.to_csv(index=False, float_format=DIGITS, lineterminator="\n")
 

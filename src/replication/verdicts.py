@@ -55,8 +55,8 @@ def verdict_on(claim: Claim, finding: Mapping[str, Any] | None) -> tuple[str, st
             return "qualified", ""
         if kind not in COPY_DIFFERS:
             raise ValueError(
-                f"claim {claim.id}: what is meant holds, and the kind of the discrepancy is {kind!r}; "
-                f"expected one of {', '.join(COPY_DIFFERS)}, convention"
+                f"claim {claim.id}: what is meant holds, and the kind of the discrepancy is "
+                f"{kind!r}; expected one of {', '.join(COPY_DIFFERS)}, convention"
             )
         return "confirmed", kind
     return ("qualified" if finding.get("holds_when") else "refuted"), ""
@@ -100,11 +100,11 @@ def tolerance_fault(claim: Claim) -> str:
     if tolerance > widest:
         return f"tolerance is {tolerance:g}; expected at most {widest:g}, a tenth of {printed:g}"
     if tolerance >= 2.0 * rounding:
-        return f"tolerance is {tolerance:g}; expected less than {2.0 * rounding:g}, by the printed digits"
+        return f"tolerance is {tolerance:g}; expected less than {2.0 * rounding:g}"
     return ""
 
 
-# The digits of a number in print -------------------------------------------------------------------
+# The digits of a number in print ------------------------------------------------------------------
 
 MOST_FIGURES = 6
 """A number that is compared with no printed one has at most so many significant figures."""
@@ -112,7 +112,9 @@ MOST_FIGURES = 6
 MOST_DECIMALS = 17
 
 
-def decimals(value: float, error: float, printed: Any = None, tolerance: float | None = None) -> str:
+def decimals(
+    value: float, error: float, printed: Any = None, tolerance: float | None = None
+) -> str:
     """Return a computed number in decimals: to a tenth of a tolerance, or as its error justifies.
 
     Beside a printed number it has more digits where fewer would round an agreement away, or feign

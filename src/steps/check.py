@@ -22,7 +22,9 @@ def findings(rules: dict[str, Any]) -> dict[str, dict[str, Any]]:
         if rule["findings"]:
             paths = [REFERENCE / Path(path).name for path in [*rule["reads"], *rule["tables"]]]
             tables = {path.stem: str(path) for path in paths}
-            found[name] = call(runpy.run_path(rule["script"])["findings"], name, tables, rule["params"])
+            found[name] = call(
+                runpy.run_path(rule["script"])["findings"], name, tables, rule["params"]
+            )
     return found
 
 

@@ -31,7 +31,9 @@ def departures(ours: pd.DataFrame, theirs: pd.DataFrame, bounds: Mapping) -> Ite
             yield name
 
 
-def compare(rules: Mapping[str, Any], published: Mapping[str, Any], bounds: Mapping) -> pd.DataFrame:
+def compare(
+    rules: Mapping[str, Any], published: Mapping[str, Any], bounds: Mapping
+) -> pd.DataFrame:
     """Return a row for each published table that a rule of the run makes.
 
     `rules` are those of this run with their parameters and tables, `published` those of the
@@ -44,12 +46,23 @@ def compare(rules: Mapping[str, Any], published: Mapping[str, Any], bounds: Mapp
             theirs = REFERENCE / Path(path).name
             if not theirs.is_file():
                 continue
-            same = json.dumps(known.get("params"), sort_keys=True) == json.dumps(rule["params"], sort_keys=True)
+            same = json.dumps(known.get("params"), sort_keys=True) == json.dumps(
+                rule["params"], sort_keys=True
+            )
             columns: list[str] = []
             if same:
                 columns = list(departures(pd.read_csv(path), pd.read_csv(theirs), bounds))
-            verdict = ("differs" if columns else "agrees") if same else f"other parameters of {name}"
-            rows.append({"table": path, "published": str(theirs), "verdict": verdict, "departs": "; ".join(columns)})
+            verdict = (
+                ("differs" if columns else "agrees") if same else f"other parameters of {name}"
+            )
+            rows.append(
+                {
+                    "table": path,
+                    "published": str(theirs),
+                    "verdict": verdict,
+                    "departs": "; ".join(columns),
+                }
+            )
     return pd.DataFrame(rows, columns=["table", "published", "verdict", "departs"])
 
 

@@ -14,13 +14,21 @@ from replication.step import call, log_to, publish, stop, tables_of
 if __name__ == "__main__":
     with log_to(snakemake.log[0]):
         sys.path.insert(0, "figures")
-        captions = read_yaml(snakemake.input.captions) if "captions" in snakemake.input.keys() else {}
+        captions = (
+            read_yaml(snakemake.input.captions) if hasattr(snakemake.input, "captions") else {}
+        )
         params = {name: given for name, given in snakemake.params.items() if name != "code"}
         made = {}
         for script in snakemake.input.scripts:
-            svg = next(each for each in snakemake.output if Path(each).stem == Path(script).stem.removesuffix("_figure"))
+            svg = next(
+                each
+                for each in snakemake.output
+                if Path(each).stem == Path(script).stem.removesuffix("_figure")
+            )
             drawn = runpy.run_path(script)
-            about = captions.get(Path(script).stem, {"title": drawn["__doc__"], "alt": drawn.get("ALT", "")})
+            about = captions.get(
+                Path(script).stem, {"title": drawn["__doc__"], "alt": drawn.get("ALT", "")}
+            )
             try:
                 with mpl.rc_context(fname=snakemake.input.style):
                     figure = call(drawn["draw"], snakemake.rule, tables_of(snakemake.input), params)

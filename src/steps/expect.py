@@ -1,4 +1,4 @@
-"""Fail when a verdict is not the expected one, and name each such claim; else count the verdicts."""
+"""Fail when a verdict is not the expected one, and name the claim; else count the verdicts."""
 
 import json
 from collections import Counter
@@ -20,7 +20,9 @@ def summary(rows: list[dict], comparison: pd.DataFrame) -> str:
         differ = sum(bool(row["differs"]) for row in rows if row["part"] == part)
         lines.append(f"{part}: {told}" + (f" (our copy differs in {differ})" if differ else ""))
     agree = (comparison.verdict == "agrees").sum()
-    lines.append(f"tables: {agree} of {len(comparison)} agree with the published ones, others not compared")
+    lines.append(
+        f"tables: {agree} of {len(comparison)} agree with the published ones, others not compared"
+    )
     return "\n".join(lines) + "\n"
 
 

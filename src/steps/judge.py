@@ -1,4 +1,4 @@
-"""Judge every claim by the findings of a run, or one by the published: python -m steps.judge eq25"""
+"""Judge every claim of a run; one claim: python -m steps.judge eq25"""
 
 import json
 import sys
@@ -27,7 +27,9 @@ def one(name: str) -> str:
         rows = published()
     found = [row for row in rows if row["id"] == name]
     if not found:
-        raise SystemExit(f"no claim has the id {name!r}; expected one of paper/claims.yaml or of a study")
+        raise SystemExit(
+            f"no claim has the id {name!r}; expected one of paper/claims.yaml or of a study"
+        )
     row = found[0]
     lines = [f"{name}: {row['verdict']}", f"  {row['where']}: {row['statement']}"]
     if row["shown"]:

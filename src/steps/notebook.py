@@ -68,7 +68,11 @@ def render(notebook: Any, title: str) -> str:
 def execute(source: Path) -> Any:
     """Return a notebook with the outputs of its cells."""
     private = tempfile.mkdtemp()  # nothing of a user's own set-up may leak in
-    os.environ |= {"IPYTHONDIR": private, "JUPYTER_CONFIG_DIR": private, "JUPYTER_PLATFORM_DIRS": "1"}
+    os.environ |= {
+        "IPYTHONDIR": private,
+        "JUPYTER_CONFIG_DIR": private,
+        "JUPYTER_PLATFORM_DIRS": "1",
+    }
     import nbformat
     from nbclient import NotebookClient
 

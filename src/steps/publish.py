@@ -20,11 +20,20 @@ PAGES = {
 def copies() -> dict[Path, Path]:
     """Return what is published, and where: pages, notebooks, and the tables that findings need."""
     rules = json.loads(Path("results/rules.json").read_text("utf-8"))
-    tables = {path for rule in rules.values() if rule["findings"] for path in [*rule["tables"], *rule["reads"]]}
+    tables = {
+        path
+        for rule in rules.values()
+        if rule["findings"]
+        for path in [*rule["tables"], *rule["reads"]]
+    }
     found = {Path(source): DOCS / name for source, name in PAGES.items()}
-    found |= {page: DOCS / f"notebook_{page.name}" for page in Path("results/notebooks").glob("*.html")}
+    found |= {
+        page: DOCS / f"notebook_{page.name}" for page in Path("results/notebooks").glob("*.html")
+    }
     found |= {Path(path): REFERENCE / Path(path).name for path in sorted(tables)}
-    return found | {Path("results") / name: REFERENCE / name for name in ("rules.json", "settings.json")}
+    return found | {
+        Path("results") / name: REFERENCE / name for name in ("rules.json", "settings.json")
+    }
 
 
 def main() -> None:
@@ -37,8 +46,14 @@ def main() -> None:
     for source, target in made.items():
         target.parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(source, target)
-    sums = [path for folder in (DOCS, REFERENCE) for path in sorted(folder.rglob("*")) if path.is_file()]
-    lines = [f"{hashlib.sha256(p.read_bytes()).hexdigest()}  {p}\n" for p in sums if p.name != "SHA256SUMS"]
+    sums = [
+        path for folder in (DOCS, REFERENCE) for path in sorted(folder.rglob("*")) if path.is_file()
+    ]
+    lines = [
+        f"{hashlib.sha256(p.read_bytes()).hexdigest()}  {p}\n"
+        for p in sums
+        if p.name != "SHA256SUMS"
+    ]
     (DOCS / "SHA256SUMS").write_text("".join(lines), "utf-8")
     print(f"{len(made)} files are published; read the diff, mend README's numbers, then commit")
 

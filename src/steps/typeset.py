@@ -13,7 +13,11 @@ def captions(path: str, config: dict) -> dict[str, dict]:
     """Return title, alternative text and text of each figure; {keys} are those of the config."""
     try:
         return {
-            name: {"title": about["title"], "alt": about["alt"], "text": about["text"].format(config=config)}
+            name: {
+                "title": about["title"],
+                "alt": about["alt"],
+                "text": about["text"].format(config=config),
+            }
             for name, about in read_yaml(path).items()
         }
     except (KeyError, IndexError) as key:

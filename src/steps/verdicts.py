@@ -35,7 +35,11 @@ def links(row: dict[str, Any], captions: dict[str, dict], rules: dict[str, dict]
     rule = rules[row["rule"]]
     found = [(Path(rule["script"]).name, rule["script"])]
     found += [(Path(path).name, f"tests/reference/{Path(path).name}") for path in rule["tables"]]
-    found += [(f"{name}.py", f"figures/{name}.py") for name, about in captions.items() if row["id"] in about["claims"]]
+    found += [
+        (f"{name}.py", f"figures/{name}.py")
+        for name, about in captions.items()
+        if row["id"] in about["claims"]
+    ]
     return " ".join(f"[{name}](../{path})" for name, path in found)
 
 
@@ -44,9 +48,13 @@ def line(row: dict[str, Any], captions: dict[str, dict], rules: dict[str, dict])
     printed = "" if row["printed"] is None else f"{row['printed']} {row['unit']}".strip()
     verdict = row["verdict"] + (" (our copy differs)" if row["differs"] else "")
     notes = [] if row["verdict"] == "confirmed" else [row.get("condition"), row["remark"]]
-    about = f"`{row['id']}`, {row['where']}. {row['statement']}" + "".join(f" *{n}*" for n in notes if n)
+    about = f"`{row['id']}`, {row['where']}. {row['statement']}" + "".join(
+        f" *{n}*" for n in notes if n
+    )
     cells = about, printed, row["shown"], verdict, links(row, captions, rules)
-    return "| " + " | ".join(cell.replace("|", "&#124;").replace("\n", " ") for cell in cells) + " |"
+    return (
+        "| " + " | ".join(cell.replace("|", "&#124;").replace("\n", " ") for cell in cells) + " |"
+    )
 
 
 def page(rows: list[dict[str, Any]], captions: dict[str, dict], rules: dict[str, dict]) -> str:
@@ -57,13 +65,16 @@ def page(rows: list[dict[str, Any]], captions: dict[str, dict], rules: dict[str,
         count = Counter(row["verdict"] for row in own)
         text += [
             f"## {TITLES.get(part, 'Study ' + part)}\n",
-            ", ".join(f"{count[verdict]} {verdict}" for verdict in VERDICTS if count[verdict]) + ".\n",
+            ", ".join(f"{count[verdict]} {verdict}" for verdict in VERDICTS if count[verdict])
+            + ".\n",
             "| claim | printed | computed | verdict | script, tables, figure |\n|---|---|---|---|---|",
             *(line(row, captions, rules) for row in own),
             "",
         ]
     text += ["## Places where our copy differs\n"]
-    text += [f"- {row['where']} (`{row['id']}`): {row['differs']}" for row in rows if row["differs"]]
+    text += [
+        f"- {row['where']} (`{row['id']}`): {row['differs']}" for row in rows if row["differs"]
+    ]
     return "\n".join(text) + "\n"
 
 

@@ -1,0 +1,215 @@
+"""Verdicts, the digits of numbers, claims, and what is said of a mistake in a config."""
+
+import math
+
+import pytest
+from pydantic import ValidationError
+
+from replication.claims import Claim, judged, read_claims, unexpected
+from replication.config import Grid, MassRatio, Positive, Section, Shape, read_config, read_yaml
+from replication.step import truth, value
+from replication.verdicts import decimals, tolerance_fault, verdict_on
+
+STATEMENT = {"id": "s", "where": "p. 1", "statement": "It is so.", "expected": "confirmed"}
+NUMBER = STATEMENT | {"id": "n", "printed": 0.275, "tolerance": 0.0005}
+
+
+@pytest.mark.parametrize(
+    ("finding", "expected"),
+    [
+        (value(0.2751, 0.0), ("confirmed", "")),
+        (value(0.2754, 0.00005), ("confirmed", "")),
+        (value(0.2756, 0.0), ("refuted", "")),
+        (value(math.nan, 0.0), ("refuted", "")),
+        (value(0.3, 0.0, meant_value=0.275, kind="number"), ("confirmed", "number")),
+        (value(0.3, 0.0, meant_value=0.275, kind="convention"), ("qualified", "")),
+        (value(0.3, 0.0, meant_value=0.29, kind="letter"), ("refuted", "")),
+        (value(0.275, 0.0, meant_value=0.29, kind="letter"), ("confirmed", "")),
+    ],
+)
+def test_printed_number_is_compared_with_the_computed_one(finding, expected):
+    assert verdict_on(Claim(**NUMBER), finding) == expected
+
+
+@pytest.mark.parametrize(
+    ("finding", "expected"),
+    [
+        (truth(True), ("confirmed", "")),
+        (truth(False), ("refuted", "")),
+        (truth(False, meant_holds=True, kind="sign"), ("confirmed", "sign")),
+        (truth(False, meant_holds=True, kind="convention"), ("qualified", "")),
+        (truth(False, meant_holds=False, kind="sign"), ("refuted", "")),
+        (truth(False, holds_when=True, condition="θ is small"), ("qualified", "")),
+        (truth(False, holds_when=False), ("refuted", "")),
+    ],
+)
+def test_statement_is_judged_by_what_holds(finding, expected):
+    assert verdict_on(Claim(**STATEMENT), finding) == expected
+
+
+def test_simulation_supports_what_only_a_measurement_confirms():
+    claim = Claim(**STATEMENT | {"expected": "supported"})
+    assert verdict_on(claim, truth(True)) == ("supported", "")
+    assert verdict_on(claim, truth(False)) == ("refuted", "")
+
+
+@pytest.mark.parametrize("finding", [value(0.275, 5.1e-5), value(0.275, math.nan), truth(True)])
+def test_number_without_a_small_error_gives_no_verdict(finding):
+    with pytest.raises(ValueError, match=r"claim n: the (error is|finding has no value)"):
+        verdict_on(Claim(**NUMBER), finding)
+
+
+@pytest.mark.parametrize("kind", [None, "brackets", "Sign"])
+def test_discrepancy_of_no_known_kind_gives_no_verdict(kind):
+    with pytest.raises(ValueError, match="expected one of sign, number, letter, bracket, radical"):
+        verdict_on(Claim(**STATEMENT), truth(False, meant_holds=True, kind=kind))
+
+
+@pytest.mark.parametrize(
+    ("printed", "tolerance", "is_fault"),
+    [(0.275, 0.0005, False), (0.275, 0.001, True), (5.0, 0.5, False), (5.0, 0.6, True)],
+)
+def test_tolerance_refuses_a_number_that_is_off_by_a_printed_digit(printed, tolerance, is_fault):
+    claim = Claim(**NUMBER | {"printed": printed, "tolerance": tolerance})
+    assert bool(tolerance_fault(claim)) == is_fault
+
+
+@pytest.mark.parametrize(
+    ("number", "error", "printed", "tolerance", "expected"),
+    [
+        (3.786642, 1e-9, 3.79, 0.005, "3.787"),
+        (0.2754999, 0.0, 0.275, 0.0005, "0.2754999"),
+        (0.2755001, 0.0, 0.275, 0.0005, "0.2755001"),
+        (4.0, 0.0, 4, 0.4, "4"),
+        (1.23456789, 0.01, None, None, "1.23"),
+        (0.5, 0.0, None, None, "0.5"),
+    ],
+)
+def test_number_has_the_digits_that_its_tolerance_or_error_justifies(
+    number, error, printed, tolerance, expected
+):
+    assert decimals(number, error, printed, tolerance) == expected
+
+
+# Claims -------------------------------------------------------------------------------------------
+
+
+def ledger(tmp_path, text):
+    path = tmp_path / "bridge" / "claims.yaml"
+    path.parent.mkdir(exist_ok=True)
+    path.write_text(text, encoding="utf-8")
+    return str(path)
+
+
+GOOD = """\
+- id: stands
+  where: here
+  statement: It survives {scale} times.
+  rule: run
+  finding: good
+  expected: confirmed
+"""
+OTHER = "- {id: stands, where: a, statement: b, expected: not tested}\n"
+
+
+def test_statement_has_the_numbers_of_its_config(tmp_path):
+    (claim,) = read_claims(ledger(tmp_path, GOOD), {"scale": 1.3})
+    assert (claim.statement, claim.part) == ("It survives 1.3 times.", "bridge")
+    row = judged(claim, {"run": {"good": truth(True)}})
+    assert (row["verdict"], unexpected([row])) == ("confirmed", [])
+
+
+def test_false_claim_is_named_with_its_file(tmp_path):
+    (claim,) = read_claims(ledger(tmp_path, GOOD), {"scale": 1.3})
+    (line,) = unexpected([judged(claim, {"run": {"good": truth(False)}})])
+    assert line.endswith(
+        "claims.yaml: claim stands is refuted; expected confirmed (computed: False)"
+    )
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("{scale}", "{scal}", "stands has {scal}, which is no key of the config; expected one of"),
+        ("where", "were", "claim stands: 'where': Field required"),
+        ("confirmed", "true", "claim stands: 'expected'"),
+        ("confirmed", "proven", "claim stands: expected is 'proven'; expected one of confirmed"),
+        ("  finding: good\n", "", "claim stands: a claim names a rule and a finding, unless"),
+        ("- id", OTHER + "- id", "claim stands: the id is there twice"),
+    ],
+)
+def test_mistake_in_a_claim_is_named(tmp_path, old, new, message):
+    with pytest.raises(SystemExit) as error:
+        read_claims(ledger(tmp_path, GOOD.replace(old, new)), {"scale": 1.3})
+    assert message in str(error.value)
+
+
+def test_claim_without_its_finding_is_named_with_those_that_there_are(tmp_path):
+    (claim,) = read_claims(ledger(tmp_path, GOOD), {"scale": 1.3})
+    with pytest.raises(SystemExit, match="names the finding 'good' of rule run, which has bad"):
+        judged(claim, {"run": {"bad": truth(True)}})
+
+
+# Configs ------------------------------------------------------------------------------------------
+
+
+class Inner(Section):
+    shape: Shape
+    ratios: list[MassRatio]
+
+
+class Inputs(Section):
+    scale: Positive
+    grid: Grid
+    inner: Inner
+
+
+CONFIG = """\
+scale: 1.3
+grid: {lowest: 0.0, highest: 2.0, points: 3}
+inner: {shape: one-sine, ratios: [0.0, .inf]}
+"""
+
+
+def test_config_with_its_keys_is_read(tmp_path):
+    path = tmp_path / "config.yaml"
+    path.write_text(CONFIG, encoding="utf-8")
+    assert read_config(str(path), Inputs)["inner"]["ratios"] == [0.0, math.inf]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("scale", "sacle", "unknown key 'sacle'; did you mean 'scale'?"),
+        ("shape: ", "sahpe: ", "unknown key 'inner.sahpe'; did you mean 'shape'?"),
+        ("scale: 1.3\n", "", "the key 'scale' is missing"),
+        ("1.3", "'1.3'", "scale is '1.3'; input should be a valid number: without quotes"),
+        ("1.3", "1,3", "scale is '1,3'; input should be a valid number: a decimal point"),
+        ("1.3", "-1.3", "scale is -1.3; input should be greater than 0"),
+        ("points: 3", "points: -3", "grid.points is -3; input should be greater than or equal"),
+        ("highest: 2.0", "highest: 0.0", "grid.highest is 0.0; input should be greater than 0"),
+        ("lowest: 0.0", "lowest: 3.0", "expected more than lowest, 3"),
+        ("one-sine", "one-sin", "inner.shape is 'one-sin'; string should match pattern"),
+        ("scale: 1.3", "scale: 1.3\nscale: 1.4", "config.yaml:2: the key 'scale' is there twice"),
+        ("scale: 1.3", "scale:\t1.3:", "config.yaml: "),
+    ],
+)
+def test_mistake_in_a_config_is_told_with_file_key_value_and_expectation(
+    tmp_path, old, new, message
+):
+    path = tmp_path / "config.yaml"
+    path.write_text(CONFIG.replace(old, new), encoding="utf-8")
+    with pytest.raises(SystemExit) as error:
+        read_config(str(path), Inputs)
+    assert str(error.value).startswith(str(tmp_path))
+    assert message in str(error.value)
+
+
+def test_missing_file_is_named(tmp_path):
+    with pytest.raises(SystemExit, match=r"there is no file .*nowhere\.yaml"):
+        read_yaml(tmp_path / "nowhere.yaml")
+
+
+def test_sections_take_no_unknown_key():
+    with pytest.raises(ValidationError):
+        Grid(lowest=0.0, highest=1.0, points=2, ponts=3)
