@@ -117,7 +117,8 @@ def call(
     if missing := [name for name in wanted if name not in tables and name not in params]:
         stop(
             f"{where(function)}: {function.__name__} takes '{missing[0]}'; rule {rule} has the "
-            f"inputs {', '.join(tables) or '(none)'} and the parameters {', '.join(params) or '(none)'}"
+            f"inputs {', '.join(tables) or '(none)'} and the parameters "
+            f"{', '.join(params) or '(none)'}"
         )
     return function(**{n: content(tables[n]) if n in tables else params[n] for n in wanted})
 
@@ -177,7 +178,7 @@ def publish(job: Any, made: Mapping[str, str | bytes]) -> None:
     if gap := sorted(str(path) for path in inside if path.parts[0] in OURS):
         stop(
             f"rule {job.rule} loaded {', '.join(gap)}, which its `code` does not name: a change "
-            "there would leave its results stale. Add to `code` the file, or the folder by library(…)"
+            "there would leave its results stale. Add the file to `code`, or the folder by library(…)"
         )
     for path, content in made.items():
         Path(f"{path}.new").write_bytes(content.encode() if isinstance(content, str) else content)
