@@ -3,4 +3,124 @@
 # First part: kernel, equations, parameters, trilith, allen, statements, verification ---------------
 
 
+rule kernel:
+    output:
+        touch("results/kernel.compiled"),
+    params:
+        code=code("src/steps/kernel.py") | CORE,
+    log:
+        "results/logs/kernel.log",
+    script:
+        "../src/steps/kernel.py"
+
+
+rule equations:
+    output:
+        equations="results/tables/equations.csv",
+        theorems="results/tables/theorems.csv",
+        findings="results/findings/equations.json",
+    params:
+        code=code("src/steps/equations.py", *SMALL) | STEP | library("bodies", "derivation"),
+    log:
+        "results/logs/equations.log",
+    script:
+        "../src/steps/equations.py"
+
+
+rule parameters:
+    input:
+        kernel="results/kernel.compiled",
+    output:
+        mass_ratio="results/tables/mass_ratio.csv",
+        restitution="results/tables/restitution.csv",
+        moment_rotation="results/tables/moment_rotation.csv",
+        four_structures="results/tables/four_structures.csv",
+        findings="results/findings/parameters.json",
+    params:
+        code=code("src/steps/parameters.py") | CORE | library("derivation", "second"),
+        settings=PAPER["parameters"],
+        structures=PAPER["structures"],
+    log:
+        "results/logs/parameters.log",
+    script:
+        "../src/steps/parameters.py"
+
+
+rule trilith:
+    input:
+        kernel="results/kernel.compiled",
+    output:
+        trilith_numbers="results/tables/trilith_numbers.csv",
+        trilith_thresholds="results/tables/trilith_thresholds.csv",
+        trilith_starts="results/tables/trilith_starts.csv",
+        trilith_histories="results/tables/trilith_histories.csv",
+        trilith_map="results/tables/trilith_map.csv",
+        findings="results/findings/trilith.json",
+    params:
+        code=code("src/steps/trilith.py") | CORE | library("derivation", "second"),
+        settings=PAPER["trilith"],
+        structures=PAPER["structures"],
+        solver=PAPER["solver"],
+    log:
+        "results/logs/trilith.log",
+    script:
+        "../src/steps/trilith.py"
+
+
+rule allen:
+    input:
+        record="data/records/el_centro_1940_NS.AT2",
+        kernel="results/kernel.compiled",
+    output:
+        allen_histories="results/tables/allen_histories.csv",
+        allen_peaks="results/tables/allen_peaks.csv",
+        allen_errors="results/tables/allen_errors.csv",
+        allen_maps="results/tables/allen_maps.csv",
+        findings="results/findings/allen.json",
+    params:
+        code=code("src/steps/allen.py") | CORE | library("second"),
+        settings=PAPER["allen"],
+        structures=PAPER["structures"],
+        solver=PAPER["solver"],
+        records=checksums("data/records/el_centro_1940_NS.AT2"),
+    log:
+        "results/logs/allen.log",
+    script:
+        "../src/steps/allen.py"
+
+
+rule statements:
+    input:
+        kernel="results/kernel.compiled",
+    output:
+        three_bodies="results/tables/three_bodies.csv",
+        statements="results/tables/statements.csv",
+        findings="results/findings/statements.json",
+    params:
+        code=code("src/steps/statements.py") | CORE | library("derivation", "forces", "second"),
+        settings=PAPER["statements"],
+        structures=PAPER["structures"],
+    log:
+        "results/logs/statements.log",
+    script:
+        "../src/steps/statements.py"
+
+
+rule verification:
+    input:
+        kernel="results/kernel.compiled",
+    output:
+        verification_routes="results/tables/verification_routes.csv",
+        verification_published="results/tables/verification_published.csv",
+        findings="results/findings/verification.json",
+    params:
+        code=code("src/steps/verification.py") | CORE | library("derivation", "second"),
+        settings=PAPER["verification"],
+        solver=PAPER["solver"],
+    log:
+        "results/logs/verification.log",
+    script:
+        "../src/steps/verification.py"
+
+
 # Second part: spectra, vase, proven, uplift; the animation and the page ----------------------------

@@ -19,6 +19,108 @@ class Solver(Section):
 # The paper, first part: parameters, trilith, allen, statements, verification ----------------------
 
 
+class Period(Section):
+    shape: Shape
+    period: Positive  # s
+
+
+class Parameters(Section):
+    structure: str
+    largest: Positive  # γ
+    points: Count
+    largest_slenderness: Degrees
+    slendernesses: Count
+    mass_ratios: list[MassRatio]  # of the curves of √r
+    frames: list[Positive]  # γ
+    rotations: Count
+    pulse: Period
+
+
+class PrintedTrilith(Section):
+    width: Positive  # m
+    height: Positive  # m
+    half_measures: list[Positive]  # m
+    masses: list[Positive]  # kg
+    frequency_parameter: Positive  # rad/s
+    frame_frequency_parameter: Positive  # rad/s
+
+
+class Trilith(Section):
+    structure: str
+    mass_ratio: MassRatio
+    printed: PrintedTrilith
+    table_amplitude: Positive  # m
+    table_frequency: Positive  # Hz
+    duration: Positive  # s
+    cycles: Count
+    frequencies: Grid  # Hz
+    amplitudes: Grid  # m
+
+
+class AllenErrors(Section):
+    shape: Shape
+    frequency_ratio: Positive  # ω/p
+    mass_ratios: list[Positive]
+    slendernesses: Grid  # degrees
+    amplitudes: Grid  # over g tan α
+
+
+class AllenMaps(Section):
+    shape: Shape
+    slenderness: Degrees
+    mass_ratio: MassRatio
+    frequency_ratios: Grid  # ω/p
+    amplitudes: Grid  # over g tan α
+
+
+class Allen(Section):
+    structure: str
+    mass_ratio: MassRatio
+    pulse: PulseOf
+    factor: Positive  # on the record
+    errors: AllenErrors
+    maps: AllenMaps
+
+
+class CapBeam(Section):
+    span: Positive  # m
+    depth: Positive  # m
+
+
+class RelativePulse(Section):
+    shape: Shape
+    frequency_ratio: Positive  # ω/p of the column
+    amplitude: Positive  # over g tan α
+
+
+class Statements(Section):
+    structure: str
+    cap: CapBeam
+    mass_ratios: list[Positive]
+    pulses: list[RelativePulse]
+    duration: Positive  # s
+    samples: Count
+
+
+class PublishedNumber(Section):
+    quantity: str
+    source: str
+    printed: Number
+    expected: Number  # by two independent codes beforehand
+    tolerance: Positive
+
+
+class Verification(Section):
+    seed: Count
+    cells: Count
+    shapes: list[Shape]
+    slendernesses: list[Degrees]  # lowest, highest
+    mass_ratios: list[MassRatio]
+    frequency_ratios: list[Positive]  # lowest, highest
+    amplitudes: list[Positive]  # lowest, highest
+    published: list[PublishedNumber]
+
+
 # The paper, second part: spectra, vase, proven, uplift, animation ---------------------------------
 
 
@@ -40,4 +142,9 @@ class Paper(Section):
     studies: list[str]
     structures: dict[str, Column]
     solver: Solver
+    parameters: Parameters
+    trilith: Trilith
+    allen: Allen
+    statements: Statements
+    verification: Verification
     reproducibility: Reproducibility

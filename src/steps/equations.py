@@ -1,58 +1,46 @@
-"""Test whether each printed equation of the paper follows from its premises."""
+"""Test whether each printed equation of the paper follows from its premises, and prove theorems."""
 
-from dataclasses import asdict
+import re
 
 import pandas as pd
 
-from replication.workbench import Finding, run, truth
-from topheavy.derivation import check_printed, theorems
+from replication.step import run, truth
+from topheavy.derivation import check_printed, extension_theorems, reversal_theorems, theorems
 
-JUDGED = (
-    "m_c_is_the_mass_of_each_column",
-    "cap_moment_is_not_needed",
-    "quadratic_terms_cancel",
-    "lagrange_agrees",
-    "frame_rocks_as_a_column",
-    "ground_to_the_right_rocks_to_the_left",
-    "frame_uplifts_with_its_column",
-    "energy_is_conserved_between_impacts",
-    "restoring_moment_falls",
-    "kinetic_energy_ratio_is_velocity_ratio_squared",
-    "restitution_is_below_the_columns",
-    "impact_never_adds_energy",
-    "fixed_mass_lowers_the_uplift_acceleration",
-    "base_shear_grows_after_uplift",
-    "heavy_cap_beam_nearly_caps_the_base_shear",
-)
+PROOFS = {"paper": theorems, "extensions": extension_theorems, "reversals": reversal_theorems}
+VARIANT = re.compile(r"_(negative|positive|\d+)$")  # the sign of θ, or the equation of a step
 
 
-def main() -> tuple[pd.DataFrame, pd.DataFrame, dict]:
-    checks = pd.DataFrame([asdict(check) for check in check_printed()])
-    proved = {theorem.id: theorem.holds for theorem in theorems()}
-    table = pd.DataFrame(proved.items(), columns=["theorem", "holds"])
-    return checks, table, findings(checks, table)
+def compute():
+    proved = [
+        {"about": about, "theorem": t.id, "statement": " ".join(t.statement.split()), "holds": t.holds}
+        for about, prove in PROOFS.items()
+        for t in prove()
+    ]
+    return {"equations": pd.DataFrame(check_printed()), "theorems": proved}
 
 
-def findings(equations: pd.DataFrame, theorems: pd.DataFrame) -> dict[str, Finding]:
-    """Return what holds as printed or as meant, from the tables of equations and theorems.
+def findings(equations, theorems):
+    """Return whether each equation holds as printed or as meant, and each theorem.
 
-    Theorems that rows judge have a finding each; of the others, all have to hold.
+    The forms of one equation for both signs of θ, and the steps between equations, are one finding.
     """
-    proved = theorems.set_index("theorem").holds
-    printed = equations.astype(object).where(equations.notna(), None)
-    of_equations = {
-        check.id: truth(
-            check.follows,
-            meant_holds=None if check.follows else bool(check.meant_follows and check.fault),
-            kind=check.fault or None,
-            mended=check.mended or None,
-        )
-        for check in printed.itertuples()
-    }
-    of_theorems = {name: truth(proved[name]) for name in JUDGED}
-    fails = proved.index[~proved.astype(bool)]
-    return of_equations | of_theorems | {"theorems_hold": truth(fails.empty, fails=list(fails))}
+    found = {t.theorem: truth(t.holds) for t in theorems.itertuples()}
+    fails = theorems.theorem[~theorems.holds]
+    found["theorems_hold"] = truth(fails.empty, fails=list(fails), theorems=len(theorems))
+    for name, forms in equations.groupby(equations.id.str.replace(VARIANT, "", regex=True), sort=False):
+        found[name] = as_printed_or_meant(forms)
+    return found
+
+
+def as_printed_or_meant(forms):
+    wrong = forms[~forms.follows]
+    if wrong.empty:
+        return truth(True)
+    meant = (wrong.meant_follows == True) & wrong.fault.notna()  # noqa: E712
+    first = wrong[["fault", "mended"]].fillna("").iloc[0]
+    return truth(False, meant_holds=meant.all(), kind=first.fault, mended=first.mended)
 
 
 if __name__ == "__main__":
-    run(snakemake, lambda job: main())
+    run(snakemake, compute, findings)

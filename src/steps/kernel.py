@@ -1,19 +1,16 @@
-"""Compile the kernel once: jobs that need it at the same time would each compile it.
-
-All copies of the same kernel share what was compiled (`topheavy.kernel.compiled`).
-"""
+"""Compile the solver once: jobs that need it at the same time would each compile it."""
 
 import numpy as np
 
-from replication.workbench import run
+from replication.step import run
 from topheavy import Column, Pulse, Record, judge, overturned_by, overturning_map, simulate
 
 COLUMN, PULSE = Column(0.5, 3.0), Pulse("one-sine", 0.3, 6.0)
 RECORD = Record(0.01, 0.3 * np.sin(0.06 * np.arange(100)))
 
 
-def main(job=None) -> None:
-    """Call what uses each part of the kernel: histories, outcomes, maps and scaled records."""
+def compute():
+    """Call what uses each part of the solver: histories, outcomes, maps and scaled records."""
     simulate(COLUMN, PULSE)
     judge(COLUMN, RECORD)
     overturning_map(COLUMN, "one-sine", np.array([6.0]), np.array([0.3]))
@@ -22,4 +19,4 @@ def main(job=None) -> None:
 
 
 if __name__ == "__main__":
-    run(snakemake, main)
+    run(snakemake, compute)

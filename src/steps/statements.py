@@ -1,18 +1,23 @@
-"""Test statements of the paper that no other rule tests; each gives one finding.
-
-What is measured for each goes into a table, from which `findings` judges it.
-"""
+"""Test statements of the paper that no other rule tests; each gives one finding."""
 
 import math
-from collections.abc import Callable, Mapping
-from typing import TypeAlias
 
 import numpy as np
 import pandas as pd
 import sympy as sp
 
-from replication.workbench import Finding, run, truth
-from topheavy import STANDARD_GRAVITY, Column, Pulse, RockingFrame, simulate
+from replication.step import check, run, truth
+from topheavy import (
+    STANDARD_GRAVITY,
+    Cap,
+    Column,
+    Pulse,
+    RockingBlock,
+    RockingFrame,
+    contact_forces,
+    simulate,
+)
+from topheavy.bodies.free_rocking import quarter_period
 from topheavy.bodies.kinematics import cap_acceleration, cap_displacement, column_outline
 from topheavy.bodies.massless_columns import simplified
 from topheavy.derivation import NEGATIVE, POSITIVE, cap_motion, premises
@@ -20,266 +25,195 @@ from topheavy.derivation.notation import acceleration, read, vanishes
 from topheavy.derivation.printed import EQUATIONS
 from topheavy.second.three_bodies import simulate_three_bodies
 
-IDENTICAL = 1e-8  # of α, between histories that differ by rounding alone
-BODIES = 1e-6  # of α, or of the cap's weight: what two integrations may differ by
-SMALLEST = 1e-3  # of α: forces are looked at beyond this rotation, away from impacts
-SOLVED = 1e-6  # over α: the change of a history when the tolerance is tightened
-TIMES = np.linspace(0.0, 6.0, 601)  # s
+AGREE = 1e-6  # of α, of √r and of the weight: what two integrations may differ by
+CLOSE = 1e-8  # of a number that two formulas give
+SMALLEST = 1e-3  # of α: forces are compared beyond this rotation, away from impacts
+SMALLEST_BOUNCE = 1e-5  # of p̂ α: the last bounces before rest, which both cut off, are left out
 STEP_ASIDE = 1e-6  # of a threshold, to either side
-ERROR, PRINTED = "error at γ = ", "printed: "
-
-Measured: TypeAlias = dict[str, Mapping[str, float | bool]]
-"""What was measured, by the statement and its own name."""
 
 
-def similar(column: Column, scale: float) -> Column:
-    """Return the column of the same shape and `scale` times the size."""
-    return Column(column.half_width * scale, column.half_height * scale)
+def pulse_on(column, shape, frequency_ratio, amplitude):
+    """Return a pulse from ω/p and its amplitude over g tan α of the column."""
+    return Pulse(
+        shape, amplitude * column.uplift_acceleration, frequency_ratio * column.frequency_parameter
+    )
 
 
-# The oscillator ----------------------------------------------------------------------------------
+# The frame as three bodies ------------------------------------------------------------------------
 
 
-def from_below(frame: RockingFrame, cap: dict, pulse: Pulse) -> Measured:
-    """Compare three rigid bodies with the equivalent column, and the forces on their cap.
+def three_bodies(frame, cap, pulse, duration, samples):
+    """Compare three rigid bodies by Newton and Euler with the one degree of freedom of Eq. (23).
 
-    The bodies use neither Eq. (23) nor Eq. (25). The column has the size R̂ and the frame's √r.
+    The bodies have nine coordinates, and use neither Eq. (23) nor Eq. (25). Their equivalent column
+    has the size R̂; it is given the frame's √r, or has its own.
     """
-    column = frame.column
-    equivalent = similar(column, frame.equivalent_size / column.size)
-    bodies = simulate_three_bodies(
-        frame, pulse, span=cap["span"], cap_depth=cap["depth"], duration=TIMES[-1], samples=TIMES
+    shape = {"span": cap["span"], "cap_depth": cap["depth"], "duration": duration}
+    bodies = simulate_three_bodies(frame, pulse, **shape, samples=samples)
+    times, alpha, p = bodies.time, frame.slenderness, frame.frequency_parameter
+    block = simulate(frame, pulse, duration=duration, samples=times)
+    both = np.isfinite(block.rotation) & np.isfinite(bodies.rotation[:, 0])
+
+    def apart(other):
+        return np.nanmax(np.abs(bodies.rotation - other.rotation[:, None])[both]) / alpha
+
+    scale = frame.equivalent_size / frame.column.size
+    equivalent = Column(scale * frame.column.half_width, scale * frame.column.half_height)
+    given, own = (
+        simulate(each, pulse, duration=duration, samples=times)
+        for each in (equivalent.block(frame.restitution), equivalent.block())
     )
-    histories = [
-        simulate(block, pulse, samples=TIMES).rotation
-        for block in (equivalent.block(frame.restitution), equivalent.block())
-    ]
-    same, own = (
-        float(np.abs(bodies.rotation - other[:, None]).max()) / frame.slenderness
-        for other in histories
-    )
-    theta, rate = bodies.rotation[:, 0], bodies.velocity[:, 2]
-    ground = pulse.excitation(TIMES)
-    left = (theta < -SMALLEST * frame.slenderness) & np.isfinite(bodies.forces).all(axis=(1, 2))
-    lean = frame.slenderness + theta
-    turning = frame.frequency_parameter**2 * (np.sin(lean) - ground * np.cos(lean))
-    across, up = cap_acceleration(column, theta, rate, turning)
-    mass = 2.0 * frame.mass_ratio  # columns of 1 kg
-    g = STANDARD_GRAVITY
-    needed = mass * np.stack([across + ground * g, up + g], axis=1)
-    off = np.abs(bodies.forces[:, 2:].sum(axis=1) - needed)[left]
+
+    before = simulate(frame, pulse, samples=block.impacts - 1e-9 / p).velocity
+    impacts = block.impacts[np.abs(before) > SMALLEST_BOUNCE * p * alpha]
+    nearest = np.abs(bodies.impacts[None, :] - impacts[:, None]).argmin(axis=1)
+    ratios = bodies.velocity_ratios[nearest]
+
+    ground, weight = pulse.excitation(times), 2.0 * (1.0 + frame.mass_ratio) * STANDARD_GRAVITY
+    closed = contact_forces(frame, Cap(cap["span"], cap["depth"] / 2.0), block.rotation, block.velocity, ground)
+    closed = np.stack([np.stack([c.horizontal, c.vertical], -1) for c in closed.contacts], -2)
+    gap = np.abs(times[:, None] - block.impacts).min(axis=1, initial=np.inf)
+    flying = both & (gap > 1e-3 / p) & (np.abs(block.rotation) > SMALLEST * alpha)
+
+    # Fig. 2: at θ < 0 the forces on the cap beam balance its weight and inertia by Eqs. (6), (9).
+    left = flying & (block.rotation < 0.0)
+    lean = alpha + block.rotation
+    turning = p**2 * (np.sin(lean) - ground * np.cos(lean))  # Eq. (19), as meant
+    across, up = cap_acceleration(frame.column, block.rotation, block.velocity, turning)
+    needed = np.stack([across + ground * STANDARD_GRAVITY, up + STANDARD_GRAVITY], axis=1)
+    on_cap = bodies.forces[:, 2:].sum(axis=1) - 2.0 * frame.mass_ratio * needed  # columns of 1 kg
     return {
-        "identical_response": {"given the frame's √r": same, "with its own √r": own},
-        "forces_on_the_cap_balance": {
-            "instants": len(off),
-            "apart": off.max(initial=0.0),
-            "weight": mass * g,
-        },
+        "mass_ratio": frame.mass_ratio,
+        "pulse": pulse.shape,
+        "impacts": len(impacts),
+        "instants": int(left.sum()),
+        "rotation_apart": apart(block),
+        "equivalent_apart": apart(given),
+        "own_restitution_apart": apart(own),
+        "restitution_apart": np.abs(ratios - frame.restitution).max(initial=0.0),
+        "force_apart": np.abs(bodies.forces / weight - closed)[flying].max(),
+        "cap_balance_apart": np.abs(on_cap)[left].max(initial=0.0) / weight,
+        "cap_tilt": np.nanmax(np.abs(bodies.cap_angle)) / alpha,
+        "same_outcome": (bodies.outcome == "overturned") == bool(np.isnan(block.rotation[-1])),
     }
 
 
-def oscillator(
-    frame: RockingFrame, pulse: Pulse, mass_ratios: list[float], solver: dict
-) -> Measured:
-    column, level = frame.column, frame.uplift_acceleration
+# Geometry, algebra and single histories -----------------------------------------------------------
 
-    large, start = similar(column, 4.0), {"rotation": 0.6 * column.slenderness}
-    times = np.linspace(0.0, 5.0, 501)
-    in_its_time = [
-        simulate(
-            c.block(),
-            **start,
-            samples=times / c.frequency_parameter,
-            tolerance=solver["tightened"],
-        )
-        for c in (column, large)
-    ]
-    scaled = np.abs(in_its_time[0].rotation - in_its_time[1].rotation).max() / column.slenderness
 
-    def lifts(share: float) -> bool:
-        motion = Pulse(pulse.shape, share * level, pulse.angular_frequency)
-        return simulate(column, motion, samples=2).outcome != "no uplift"
+def oscillator(frame, pulse):
+    """Yield what single histories and formulas give: statement, quantity and number."""
+    column = frame.column
+    for name, share in (("above", 1.0 + STEP_ASIDE), ("below", 1.0 - STEP_ASIDE)):
+        weak = pulse.scaled(share * column.uplift_acceleration / pulse.amplitude)
+        response = simulate(column, weak, samples=2)
+        yield "rigid_until_uplift", f"uplifts {name}", response.outcome != "no uplift"
 
     response = simulate(frame, pulse, samples=4001)
     first, second, *_ = response.impacts
     before = response.rotation[response.time < first]
     after = response.rotation[(response.time > first) & (response.time < second)]
+    yield "rocks_left_then_right", "ground", pulse.excitation(pulse.duration / 8)
+    yield "rocks_left_then_right", "overturned", response.overturned
+    for name, part in (("before", before), ("after", after)):
+        yield "rocks_left_then_right", f"least {name}", part.min()
+        yield "rocks_left_then_right", f"largest {name}", part.max()
 
-    errors = {}
-    for gamma in mass_ratios:
-        usual, tight = (
-            simulate(RockingFrame(column, gamma), pulse, samples=TIMES, **options)
-            for options in ({}, {"tolerance": solver["tightened"]})
+    for start in (0.1, 0.5, 0.9, 0.99):
+        block = RockingBlock(1.0, column.slenderness, 1.0)
+        by_energy, _ = quarter_period(block, start * block.slenderness)
+        motion = simulate(block, rotation=start * block.slenderness, duration=10.0, samples=2)
+        check(
+            abs(motion.impacts[0] - by_energy) < 1e-7, f"quarter periods {motion.impacts[0]}, {by_energy}"
         )
-        if usual.outcome != tight.outcome:
-            raise ArithmeticError(f"γ = {gamma:g}: the outcome depends on the tolerance")
-        off = np.nanmax(np.abs(usual.rotation - tight.rotation)) / frame.slenderness
-        errors[f"{ERROR}{gamma:g}"] = float(off)
+        yield "period_depends_on_amplitude", f"quarter period from {start} α, 1/p", by_energy
 
-    offered = [one.name for one in EQUATIONS if "γ" in one.printed and len(one.sides) == 2]
     nearly, limit = RockingFrame(column, 1e9).block().linear(), simplified(frame, "all")
-    return {
-        "time_scales_with_p": {"apart": scaled},
-        "rigid_until_uplift": {
-            "lifts above": lifts(1 + STEP_ASIDE),
-            "lifts below": lifts(1 - STEP_ASIDE),
-        },
-        "rocks_left_then_right": {
-            "overturned": response.overturned,
-            "ground": pulse.excitation(pulse.duration / 8),
-            "first impact": first,
-            "least before": before.min(),
-            "largest before": before.max(),
-            "least after": after.min(),
-            "largest after": after.max(),
-        },
-        "solved_for_any_mass_ratio": errors | {f"{PRINTED}{name}": 1.0 for name in offered},
-        "massless_columns_are_a_limit": {
-            "p̂": abs(nearly.frequency_parameter / limit.frequency_parameter - 1.0),
-            "√r": abs(nearly.restitution / limit.restitution - 1.0),
-        },
-    }
+    for name in ("frequency_parameter", "restitution"):
+        apart = abs(getattr(nearly, name) / getattr(limit, name) - 1.0)
+        yield "massless_columns_are_a_limit", name, apart
 
 
-# Geometry and algebra ----------------------------------------------------------------------------
-
-
-def structure(frame: RockingFrame, mass_ratios: list[float]) -> Measured:
-    column = frame.column
+def structure(column, mass_ratios):
+    """Yield what geometry and algebra give: statement, quantity and number."""
     rotations = np.linspace(-column.slenderness, column.slenderness, 101)
     moved = np.transpose(cap_displacement(column, rotations))
-    seats = [2 if theta < 0.0 else 3 for theta in rotations]  # the corner that carries the cap
-    corners = np.array(
-        [
-            column_outline(column, theta)[seat] - column_outline(column, 0.0)[seat]
-            for theta, seat in zip(rotations, seats, strict=True)
-        ]
-    )
-    gap = np.abs(corners - moved).max() / column.size
+    seats = [2 if theta < 0.0 else 3 for theta in rotations]  # the corner that carries the cap beam
+    at_rest = column_outline(column, 0.0)
+    corners = [column_outline(column, theta)[seat] - at_rest[seat] for theta, seat in zip(rotations, seats, strict=True)]
+    yield "cap_stays_on_its_seats", "gap over R", np.abs(corners - moved).max() / column.size
 
-    # The cap's weight acts where its underside lies, on the upper corners of the columns.
-    corners_at_rest = column_outline(column, 0.0)[:4, 1]
-    levels = [corners_at_rest.mean(), corners_at_rest.max()]
-    heights = [float(np.average(levels, weights=[1.0, gamma])) for gamma in mass_ratios]
-    sizes = [RockingFrame(column, gamma).equivalent_size for gamma in mass_ratios]
+    for gamma in mass_ratios:  # the weight of the cap beam acts at the height of the column tops
+        height = (1.0 + 2.0 * gamma) / (1.0 + gamma) * column.half_height
+        yield "centre_of_gravity_rises", f"height at γ = {gamma:g}", height
+        yield "centre_of_gravity_rises", f"size at γ = {gamma:g}", RockingFrame(column, gamma).equivalent_size
+
+    has_it = cap_motion(NEGATIVE).v_ddot.has(acceleration)
+    yield "reactions_need_the_acceleration", "v̈ has θ̈", has_it
 
     names = {equation.name: equation for equation in EQUATIONS}
-    p = premises.rectangular_column(NEGATIVE)[sp.Symbol("p")]
-    sides = {"eq19": NEGATIVE, "eq22": POSITIVE}
-    compact = {
-        version: all(
-            vanishes(
-                (
-                    read(getattr(names[name], version), side)[1]
-                    - read(names["eq23"].printed, side)[1]
-                ).subs({"p": p}),
-                side,
-            )
-            for name, side in sides.items()
-        )
-        for version in ("printed", "meant")
-    }
+    p = {"p": premises.rectangular_column(NEGATIVE)[sp.Symbol("p")]}
+    for version in ("printed", "meant"):
+        for name, side in {"eq19": NEGATIVE, "eq22": POSITIVE}.items():
+            sides = read(getattr(names[name], version), side), read(names["eq23"].printed, side)
+            same = vanishes((sides[0][1] - sides[1][1]).subs(p), side)
+            yield "compact_form", f"{version} {name}", same
+
+
+def compute(settings, structures):
+    column = Column(**structures[settings["structure"]])
+    duration, samples = settings["duration"], settings["samples"]
+    pulses = [pulse_on(column, **pulse) for pulse in settings["pulses"]]
+    frames = [RockingFrame(column, gamma) for gamma in settings["mass_ratios"]]
+    rows = [*oscillator(RockingFrame(column, 1.0), pulses[0]), *structure(column, [0.0, *settings["mass_ratios"]])]
     return {
-        "cap_stays_on_its_seats": {"gap": gap},
-        "centre_of_gravity_rises": {
-            f"{name} {number}": found
-            for name, values in (("height", heights), ("size", sizes))
-            for number, found in enumerate(values)
-        },
-        "reactions_need_the_acceleration": {
-            "has it": cap_motion(NEGATIVE).v_ddot.has(acceleration)
-        },
-        "compact_form": compact,
+        "three_bodies": [
+            three_bodies(frame, settings["cap"], pulse, duration, samples) for pulse in pulses for frame in frames
+        ],
+        "statements": [dict(zip(("statement", "quantity", "value"), (s, q, float(x)), strict=True)) for s, q, x in rows],
     }
 
 
-# What holds --------------------------------------------------------------------------------------
-
-
-def table_of(measured: Measured) -> pd.DataFrame:
-    """Return a row for each number that was measured; a truth is 1 or 0."""
-    rows = [
-        (statement, quantity, float(number))
-        for statement, numbers in measured.items()
-        for quantity, number in numbers.items()
-    ]
-    return pd.DataFrame(rows, columns=["statement", "quantity", "value"])
-
-
-def findings(statements: pd.DataFrame) -> dict[str, Finding]:
-    """Return which statements hold, from the table of what was measured for each."""
-    rows = {
-        name: of.set_index("quantity").value
-        for name, of in statements.groupby("statement", sort=False)
+def findings(three_bodies, statements):
+    of = {name: rows.set_index("quantity").value for name, rows in statements.groupby("statement")}
+    worst = three_bodies.filter(regex="apart$|tilt$").max()
+    same = worst.equivalent_apart < AGREE
+    left, right = (
+        of["rocks_left_then_right"][[f"least {one}", f"largest {one}"]] for one in ("before", "after")
+    )
+    ground, overturned = of["rocks_left_then_right"][["ground", "overturned"]]
+    heights, sizes = (of["centre_of_gravity_rises"].filter(like=name) for name in ("height", "size"))
+    compact = of["compact_form"] == 1.0
+    return {
+        "one_degree_of_freedom": truth(
+            worst.drop("own_restitution_apart").max() < AGREE and three_bodies.same_outcome.all(),
+            histories=len(three_bodies),
+            impacts=int(three_bodies.impacts.sum()),
+            rotation_apart=worst.rotation_apart,
+            restitution_apart=worst.restitution_apart,
+            force_apart=worst.force_apart,
+        ),
+        "identical_response": truth(
+            same and worst.own_restitution_apart < AGREE,
+            holds_when=same,
+            condition="the equivalent column is given the frame's √r in place of its own",
+            apart=worst.equivalent_apart,
+        ),
+        "forces_on_the_cap_balance": truth(
+            worst.cap_balance_apart < AGREE and three_bodies.instants.sum() > 0
+        ),
+        "rigid_until_uplift": truth(list(of["rigid_until_uplift"]) == [1.0, 0.0]),
+        "rocks_left_then_right": truth(
+            ground > 0.0 == overturned and left.iloc[0] < 0.0 >= left.iloc[1] and right.iloc[0] >= 0.0 < right.iloc[1]
+        ),
+        "period_depends_on_amplitude": truth((np.diff(of["period_depends_on_amplitude"]) > 0.0).all()),
+        "massless_columns_are_a_limit": truth((of["massless_columns_are_a_limit"] < CLOSE).all()),
+        "cap_stays_on_its_seats": truth(of["cap_stays_on_its_seats"].max() < 1e-12),
+        "centre_of_gravity_rises": truth((np.diff(heights) > 0.0).all() and (np.diff(sizes) > 0.0).all()),
+        "reactions_need_the_acceleration": truth(of["reactions_need_the_acceleration"].all()),
+        "compact_form": truth(compact.filter(like="meant").all()),
     }
-    return {name: JUDGED[name](of) for name, of in rows.items()}
-
-
-def _identical(of: pd.Series) -> Finding:
-    same, own = of["given the frame's √r"], of["with its own √r"]
-    return truth(
-        same < BODIES and own < BODIES,
-        holds_when=bool(same < BODIES),
-        condition="the equivalent column is given the frame's √r in place of its own",
-        apart_over_alpha=same,
-        apart_with_its_own_restitution=own,
-    )
-
-
-def _solved(of: pd.Series) -> Finding:
-    errors = of[of.index.str.startswith(ERROR)]
-    offered = {one.removeprefix(PRINTED) for one in of.index.drop(errors.index)}
-    return truth(
-        bool(errors.max() < SOLVED) and offered == {"eq23", "eq24", "eq25"},
-        error_over_alpha={name.removeprefix(ERROR): error for name, error in errors.items()},
-    )
-
-
-def _rises(of: pd.Series) -> Finding:
-    heights, sizes = (of[of.index.str.startswith(name)] for name in ("height", "size"))
-    rise = np.all(np.diff(heights) > 0.0) and np.all(np.diff(sizes) > 0.0)
-    return truth(rise, heights=heights.to_list())
-
-
-JUDGED: dict[str, Callable[[pd.Series], Finding]] = {
-    "identical_response": _identical,
-    "forces_on_the_cap_balance": lambda of: truth(
-        of.instants > 0 and of.apart < BODIES * of.weight,
-        instants=int(of.instants),
-        apart=of.apart,
-    ),
-    "time_scales_with_p": lambda of: truth(of.apart < IDENTICAL, apart_over_alpha=of.apart),
-    "rigid_until_uplift": lambda of: truth(of["lifts above"] and not of["lifts below"]),
-    "rocks_left_then_right": lambda of: truth(
-        of.ground > 0.0
-        and not of.overturned
-        and of["least before"] < 0.0 >= of["largest before"]
-        and of["least after"] >= 0.0 < of["largest after"],
-        first_impact=of["first impact"],
-    ),
-    "solved_for_any_mass_ratio": _solved,
-    "massless_columns_are_a_limit": lambda of: truth((of < 1e-8).all()),
-    "cap_stays_on_its_seats": lambda of: truth(of.gap < 1e-12, gap_over_size=of.gap),
-    "centre_of_gravity_rises": _rises,
-    "reactions_need_the_acceleration": lambda of: truth(of["has it"]),
-    "compact_form": lambda of: truth(of.meant, holds_as_printed=bool(of.printed)),
-}
-
-
-def main(settings: dict, solver: dict) -> tuple[pd.DataFrame, dict]:
-    frame = RockingFrame(Column(**settings["column"]), settings["mass_ratio"])
-    pulse = Pulse(
-        settings["pulse"]["shape"],
-        settings["pulse"]["amplitude"],
-        2 * math.pi / settings["pulse"]["period"],
-    )
-    table = table_of(
-        from_below(frame, settings["cap"], pulse)
-        | oscillator(frame, pulse, settings["mass_ratios"], solver)
-        | structure(frame, settings["mass_ratios"])
-    )
-    return table, findings(table)
 
 
 if __name__ == "__main__":
-    run(snakemake, lambda job: main(job.params.settings, job.params.solver))
+    run(snakemake, compute, findings)

@@ -1,18 +1,15 @@
 """Compare the solvers with each other, and our numbers with the literature.
 
-For the ensembles, a seeded sample represents all cells. Half of it comes from the grid, and half
-lies within 1 % of an overturning boundary (in amplitude), where errors of the outcome are likely.
+A seeded sample represents all cells of the ensembles. Half of it comes from the grid, and half lies
+within 1 % of a boundary of overturning (in amplitude), where errors of the outcome are likely.
 """
 
 import math
-from collections.abc import Callable, Iterator
-from typing import Any
 
 import numpy as np
-import pandas as pd
 import sympy as sp
 
-from replication.workbench import Finding, run, truth, value
+from replication.step import check, run, value
 from topheavy import (
     Column,
     Pulse,
@@ -29,17 +26,16 @@ from topheavy.ground.shapes import ELEMENTARY
 from topheavy.second import reference
 from topheavy.second.linear import simulate_linear_exact
 
-PUBLISHED = 10  # numbers of the literature, at least
 OF_PRINT = 0.005  # of a number: the prints, which have three digits, are that far off at most
-Cell = tuple[RockingBlock, Pulse]
+AGREE = 1e-6  # of α: 99 % of the peaks of two solvers
 
 
-def cells(settings: dict, shape: str, *, linearised: bool) -> Iterator[Cell]:
-    """Draw the seeded sample of one ensemble."""
+def cells(settings, shape, linearised):
+    """Yield the seeded sample of one ensemble: blocks and pulses."""
     draw = np.random.default_rng(settings["seed"])
     for number in range(settings["cells"]):
-        alpha = math.radians(draw.uniform(*settings["slendernesses"]))
-        column = Column(math.sin(alpha), math.cos(alpha))
+        slenderness = math.radians(draw.uniform(*settings["slendernesses"]))
+        column = Column(math.sin(slenderness), math.cos(slenderness))
         block = RockingFrame(column, draw.choice(settings["mass_ratios"])).block()
         block = block.linear() if linearised else block
         omega = draw.uniform(*settings["frequency_ratios"]) * column.frequency_parameter
@@ -54,155 +50,113 @@ def cells(settings: dict, shape: str, *, linearised: bool) -> Iterator[Cell]:
         yield block, Pulse(shape, ratio * level, omega)
 
 
-def compare(sample: list[Cell], route: Callable, other: Callable) -> dict:
-    """Return the agreement of two solvers on a sample: outcomes, and peaks over α."""
-    wrong, errors = 0, []
-    for block, pulse in sample:
-        first, second = route(block, pulse), other(block, pulse)
-        wrong += first.overturned != second.overturned
-        if not (first.overturned or second.overturned):
-            errors.append(abs(first.peak - second.peak) / block.slenderness)
-    return {
-        "cells": len(sample),
-        "verdicts_that_differ": wrong,
-        "median_error": np.median(errors),
-        "error_99": np.quantile(errors, 0.99),
-        "largest_error": max(errors),
-    }
+def solvers(tightened, is_solvable):
+    """Return what the Taylor solver is compared with."""
 
-
-def agreement(settings: dict, tightened: float) -> pd.DataFrame:
-    """Compare the Taylor solver with SciPy, the exact solution, and a tighter tolerance."""
-
-    def tight(block: RockingBlock, pulse: Pulse):
-        return judge(block, pulse, tolerance=tightened)
-
-    def exact(block: RockingBlock, pulse: Pulse):
+    def exact(block, pulse):
         response = simulate_linear_exact(block, pulse, duration=pulse.duration, samples=2)
         return Ending(response.overturned, response.peak_rotation, 0)
 
-    rows = []
+    found = {
+        "SciPy integration": reference.judge,
+        "tightened tolerance": lambda block, pulse: judge(block, pulse, tolerance=tightened),
+    }
+    return found | ({"exact solution": exact} if is_solvable else {})
+
+
+def agreement(settings, tightened):
+    """Yield the agreement of the Taylor solver with each other: outcomes, and peaks over α."""
     for linearised in (False, True):
         for shape in settings["shapes"]:
-            sample = list(cells(settings, shape, linearised=linearised))
-            routes = {"SciPy integration": reference.judge, "tightened tolerance": tight}
-            if linearised and shape in ELEMENTARY:
-                routes["exact solution"] = exact
-            for name, other in routes.items():
-                equation = "linearised" if linearised else "exact"
-                found = compare(sample, judge, other)
-                rows.append({"equation": equation, "shape": shape, "against": name, **found})
-                print(rows[-1])
-    return pd.DataFrame(rows)
+            sample = list(cells(settings, shape, linearised))
+            ours = [judge(*cell) for cell in sample]
+            for name, other in solvers(tightened, linearised and shape in ELEMENTARY).items():
+                theirs = [other(*cell) for cell in sample]
+                apart = [
+                    abs(first.peak - second.peak) / block.slenderness
+                    for (block, _), first, second in zip(sample, ours, theirs, strict=True)
+                    if not (first.overturned or second.overturned)
+                ]
+                yield {
+                    "equation": "linearised" if linearised else "exact",
+                    "shape": shape,
+                    "against": name,
+                    "cells": len(sample),
+                    "outcomes_that_differ": sum(
+                        first.overturned != second.overturned
+                        for first, second in zip(ours, theirs, strict=True)
+                    ),
+                    "median_error": np.median(apart),
+                    "error_99": np.quantile(apart, 0.99),
+                }
 
 
-def convergence(settings: dict) -> pd.DataFrame:
-    """Error of the peak against the tolerance of the kernel, on the sample of the first shape."""
-    sample = list(cells(settings, settings["shapes"][0], linearised=False))
-    best = [judge(*cell, tolerance=1e-14) for cell in sample]
-    rows = []
-    for tolerance in 10.0 ** np.arange(-4, -13, -1.0):
-        errors = [
-            abs(judge(*cell, tolerance=tolerance).peak - exact.peak) / cell[0].slenderness
-            for cell, exact in zip(sample, best, strict=True)
-            if not exact.overturned
-        ]
-        rows.append(
-            {
-                "tolerance": tolerance,
-                "median_error": np.nanmedian(errors),
-                "error_90": np.nanquantile(errors, 0.9),
-            }
-        )
-    return pd.DataFrame(rows)
+def boundary(block, pulse, near, which="lower"):
+    """Return the boundary of overturning of a pulse of 1 g nearest to one known to 2 %, in g."""
+    found = overturning_intervals(block, pulse, (0.98 * near, 1.02 * near), resolution=1e-4 * near)
+    ends = [getattr(interval, which) for interval in found if getattr(interval, which)]
+    middles = [(low + high) / 2.0 for low, high in ends if which == "upper" or low != high]
+    return min(middles, key=lambda middle: abs(middle - near))
 
 
-def drift(settings: dict) -> float:
-    """Largest relative change of energy between two impacts of free rocking."""
-    worst = 0.0
+def published(rows):
+    """Return the numbers of the literature, as printed and as computed here."""
+    near = {row["quantity"]: row["expected"] for row in rows}
+    slender = RockingBlock(1.0, 0.25, 0.9, linearised=True)
+    one_sine = Pulse("one-sine", 1.0, 5.0)
+    decay = slender.with_restitution(math.sqrt(0.7))
+    impacts = simulate(decay, rotation=0.5 * 0.25, samples=2).impacts
+    fifth = np.linspace(impacts[4], impacts[5], 20001)[1:-1]
+
+    def in_alpha(name, which="lower"):
+        return boundary(slender, one_sine, near[name] * 0.25, which) / 0.25
+
+    def in_g(name, block, *pulse):
+        return boundary(block, Pulse(pulse[0], 1.0, pulse[1]), near[name])
+
+    computed = {
+        "housner_quarter_period": simulate(slender, rotation=0.5 * 0.25, samples=2).impacts[0],
+        "exact_quarter_period": simulate(
+            RockingBlock(1.0, 0.25, 1.0), rotation=0.9 * 0.25, duration=9.0, samples=2
+        ).impacts[0],
+        "housner_decay": np.abs(simulate(decay, rotation=0.5 * 0.25, samples=fifth).rotation).max() / 0.25,
+        "one_sine_with_impact": in_alpha("one_sine_with_impact"),
+        "one_sine_end_of_impact_mode": in_alpha("one_sine_end_of_impact_mode", "upper"),
+        "one_sine_without_impact": in_alpha("one_sine_without_impact"),
+        "one_sine_dimensional": in_g(
+            "one_sine_dimensional", RockingBlock(2.14, 0.25, 0.9, linearised=True), "one-sine", 15.7
+        ),
+        "one_cosine_exact": in_g(
+            "one_cosine_exact", RockingBlock(2.0, math.radians(15.0), 0.89952), "one-cosine", math.pi
+        ),
+        "half_sine_linear": in_g(
+            "half_sine_linear", Column(0.2, 0.6).block().linear(), "half-sine", 2 * math.pi
+        ),
+        "heavy_frame_ricker": in_g(
+            "heavy_frame_ricker",
+            RockingFrame(Column(0.75, 3.5), 13.23).block(),
+            "ricker-symmetric",
+            2 * math.pi / 3.14,
+        ),
+    }
+    return [row | {"computed": computed[row["quantity"]]} for row in rows]
+
+
+def check_drift(settings):
+    """Check that free rocking conserves its energy between impacts."""
     for degrees in settings["slendernesses"]:
         block = RockingBlock(2.0, math.radians(degrees), 0.9)
         for each in (block, block.linear()):
             response = simulate(each, rotation=0.8 * block.slenderness, samples=4000)
-            worst = max(worst, energy_drift(each, response, flights=6))
-    return worst
+            lost = energy_drift(each, response, flights=6)
+            check(lost < 1e-8, f"the energy changes by {lost:.1g} of itself between impacts")
 
 
-def boundary(block: RockingBlock, pulse: Pulse, near: float, which: str = "lower") -> float:
-    """Return the boundary of overturning of a pulse of 1 g nearest to one known to 2 %, in g."""
-    around = (0.98 * near, 1.02 * near)
-    found = overturning_intervals(block, pulse, around, resolution=1e-4 * near)
-    ends = [getattr(interval, which) for interval in found if getattr(interval, which)]
-    if which == "lower":
-        ends = [end for end in ends if end[0] != end[1]]
-    middles = [sum(end) / 2.0 for end in ends]
-    return min(middles, key=lambda middle: abs(middle - near))
-
-
-def published(settings: dict) -> pd.DataFrame:
-    """The numbers of the literature, as printed and as computed here."""
-    slender = RockingBlock(1.0, 0.25, 0.9, linearised=True)
-    zhang = RockingBlock(2.14, 0.25, 0.9, linearised=True)
-    peer = RockingBlock(2.0, math.radians(15.0), 0.89952)
-    roussos = Column(0.2, 0.6).block().linear()
-    heavy = RockingFrame(Column(0.75, 3.5), 13.23).block()
-    free = simulate(slender, rotation=0.5 * 0.25, samples=2).impacts[0]
-    bent = simulate(RockingBlock(1.0, 0.25, 1.0), rotation=0.9 * 0.25, duration=9.0, samples=2)
-    decay = slender.with_restitution(math.sqrt(0.7))
-    impacts = simulate(decay, rotation=0.5 * 0.25, samples=2).impacts
-    fifth = simulate(
-        decay, rotation=0.5 * 0.25, samples=np.linspace(impacts[4], impacts[5], 20001)[1:-1]
-    )
-    one_sine = Pulse("one-sine", 1.0, 5.0)
-    near = {row["quantity"]: row["expected"] for row in settings["published"]}
-    computed = {
-        "housner_quarter_period": free,
-        "exact_quarter_period": bent.impacts[0],
-        "housner_decay": np.abs(fifth.rotation).max() / 0.25,
-        "one_sine_with_impact": boundary(slender, one_sine, near["one_sine_with_impact"] * 0.25)
-        / 0.25,
-        "one_sine_end_of_impact_mode": boundary(
-            slender, one_sine, near["one_sine_end_of_impact_mode"] * 0.25, "upper"
-        )
-        / 0.25,
-        "one_sine_without_impact": boundary(
-            slender, one_sine, near["one_sine_without_impact"] * 0.25
-        )
-        / 0.25,
-        "one_sine_dimensional": boundary(
-            zhang, Pulse("one-sine", 1.0, 15.7), near["one_sine_dimensional"]
-        ),
-        "one_cosine_exact": boundary(
-            peer, Pulse("one-cosine", 1.0, math.pi), near["one_cosine_exact"]
-        ),
-        "half_sine_linear": boundary(
-            roussos, Pulse("half-sine", 1.0, 2 * math.pi), near["half_sine_linear"]
-        ),
-        "heavy_frame_ricker": boundary(
-            heavy, Pulse("ricker-symmetric", 1.0, 2 * math.pi / 3.14), near["heavy_frame_ricker"]
-        ),
-    }
-    return pd.DataFrame(
-        {
-            "quantity": [row["quantity"] for row in settings["published"]],
-            "source": [row["source"] for row in settings["published"]],
-            "printed": [row["printed"] for row in settings["published"]],
-            "expected": [row["expected"] for row in settings["published"]],
-            "tolerance": [row["tolerance"] for row in settings["published"]],
-            "computed": [computed[row["quantity"]] for row in settings["published"]],
-        }
-    )
-
-
-def distance_from_derivation() -> float:
-    """Return how far the library's formulas are from those that computer algebra derived.
-
-    The largest difference of p̂/p, R̂/R, √r of column and frame, and g tan α over slenderness and γ.
-    """
+def check_formulas():
+    """Check the library's p̂/p, R̂/R, √r of column and frame and g tan α against the derivation."""
     frame = [sp.lambdify(gamma, f()) for f in (derivation.frequency_ratio, derivation.size_ratio)]
     frame_root = sp.lambdify((alpha, gamma), derivation.restitution())
     column_root = sp.lambdify(alpha, derivation.column_restitution())
-    worst = 0.0
     for angle in np.radians(np.linspace(1.0, 60.0, 60)):
         column = Column(math.sin(angle), math.cos(angle))
         for ratio in (0.0, 0.1, 0.434, 1.0, 7.0, 100.0):
@@ -214,52 +168,33 @@ def distance_from_derivation() -> float:
                 (column.restitution, column_root(angle)),
                 (ours.uplift_acceleration, math.tan(angle)),
             ]
-            worst = max(worst, *(abs(found - derived) for found, derived in pairs))
-    return worst
+            apart = max(abs(found - derived) for found, derived in pairs)
+            check(apart < 1e-13, f"α = {angle:.3g}, γ = {ratio:g}: {apart:.1g} from the derivation")
 
 
-def main(settings: dict, tightened: float) -> tuple[dict[str, pd.DataFrame], dict]:
-    routes, order, literature = (
-        agreement(settings, tightened),
-        convergence(settings),
-        published(settings),
-    )
-    lost, apart = drift(settings), distance_from_derivation()
-    found = findings(routes, literature) | {
-        "energy_drift": value(lost, 0.0),
-        "library_follows_the_derivation": truth(apart < 1e-13, largest_difference=apart),
+def compute(settings, solver):
+    check_drift(settings)
+    check_formulas()
+    return {
+        "verification_routes": list(agreement(settings, solver["tightened"])),
+        "verification_published": published(settings["published"]),
     }
-    return {"routes": routes, "convergence": order, "published": literature}, found
 
 
-def findings(
-    verification_routes: pd.DataFrame, verification_published: pd.DataFrame
-) -> dict[str, Finding]:
-    """Return whether the solvers agree, and our numbers with the literature, from both tables."""
+def findings(verification_routes, verification_published):
     routes, literature = verification_routes, verification_published
+    differ, apart = routes.outcomes_that_differ.sum(), routes.error_99.max()
+    check(differ == 0 and apart < AGREE, f"{differ} outcomes differ; 99 % of peaks within {apart:.1g} α")
     off = (literature.computed - literature.expected).abs()
     off_print = (literature.computed / literature.printed - 1.0).abs()
+    wrong = literature.quantity[(off > literature.tolerance) | (off_print >= OF_PRINT)]
+    check(wrong.empty, f"of the numbers of the literature, {', '.join(wrong)} differ")
     return {
-        "routes_agree": truth(
-            routes.verdicts_that_differ.sum() == 0 and routes.error_99.max() < 1e-6,
-            comparisons=int(routes.cells.sum()),
-            verdicts_that_differ=int(routes.verdicts_that_differ.sum()),
-            error_99=routes.error_99.max(),
-        ),
-        "published_numbers": truth(
-            len(literature) >= PUBLISHED
-            and (off <= literature.tolerance).all()
-            and (off_print < OF_PRINT).all(),
-            numbers=len(literature),
-            farthest_from_print=off_print.max(),
-        ),
+        "comparisons": value(routes.cells.sum(), 0.0),
+        "error_99": value(apart, 0.0),
+        "farthest_from_print": value(off_print.max(), 0.0),
     }
-
-
-def work(job: Any) -> tuple:
-    tables, findings = main(job.params.settings, job.params.solver["tightened"])
-    return tables["routes"], tables["convergence"], tables["published"], findings
 
 
 if __name__ == "__main__":
-    run(snakemake, work)
+    run(snakemake, compute, findings)

@@ -1,0 +1,146 @@
+"""The model of Allen et al. (1986), linearised and with massless columns, beside the exact frame."""
+
+import math
+
+import numpy as np
+import pandas as pd
+
+from replication.step import check, grid, run, value
+from topheavy import Column, Pulse, RockingFrame, judge, read_record, simulate
+from topheavy.bodies.massless_columns import SIMPLIFICATIONS, simplified
+from topheavy.second import reference
+from topheavy.second.linear import simulate_linear_exact
+
+AGREE = 1e-8  # of α, between solvers
+SLENDER = 10.0  # degrees
+
+
+def column_of(degrees):
+    alpha = math.radians(degrees)
+    return Column(math.sin(alpha), math.cos(alpha))
+
+
+def models_of(frame):
+    return {"exact": frame.block()} | {name: simplified(frame, name) for name in SIMPLIFICATIONS}
+
+
+def histories(frame, settings, record, tightened):
+    """Return rotation and peak of the exact frame and of each model, under a pulse and a record."""
+    shape, amplitude, period = settings["pulse"].values()
+    motions = {
+        "pulse": (Pulse(shape, amplitude, 2 * math.pi / period), 6.0 * period),
+        "record": (read_record(record).scaled(settings["factor"]), 30.0),
+    }
+    courses, peaks = [], []
+    for motion, (excitation, duration) in motions.items():
+        times = np.linspace(0.0, duration, 1501)
+        course = {"motion": motion, "time": times, "acceleration": excitation.excitation(times)}
+        for model, block in models_of(frame).items():
+            response = simulate(block, excitation, samples=times)
+            others = [
+                simulate(block, excitation, samples=times, tolerance=tightened),
+                reference.simulate(block, excitation, samples=times),
+            ]
+            if model == "all":
+                others.append(simulate_linear_exact(block, excitation, samples=times))
+            for other in others:
+                apart = abs(other.peak_rotation - response.peak_rotation) / frame.slenderness
+                same = other.outcome == response.outcome != "overturned"
+                check(same and apart < AGREE, f"{motion}, {model}: two solvers are {apart:.1g} α apart")
+            peaks.append(
+                {
+                    "motion": motion,
+                    "model": model,
+                    "peak_over_alpha": response.peak_rotation / frame.slenderness,
+                }
+            )
+            if model in ("exact", "all"):
+                course[model] = response.rotation / frame.slenderness
+        courses.append(pd.DataFrame(course))
+    return pd.concat(courses), peaks
+
+
+def errors(settings):
+    """Return the relative error of the peak by γ and model, over slendernesses and amplitudes."""
+    cells = []
+    for degrees in grid(settings["slendernesses"]):
+        column = column_of(degrees)
+        omega = settings["frequency_ratio"] * column.frequency_parameter
+        for gamma in settings["mass_ratios"]:
+            models = models_of(RockingFrame(column, gamma))
+            for ratio in grid(settings["amplitudes"]):
+                pulse = Pulse(settings["shape"], ratio * column.uplift_acceleration, omega)
+                found = {name: judge(block, pulse) for name, block in models.items()}
+                exact = found.pop("exact")
+                cells += [
+                    {
+                        "slender": degrees <= SLENDER,
+                        "mass_ratio": gamma,
+                        "model": name,
+                        "error": other.peak / exact.peak - 1.0,  # NaN where one overturns
+                        "wrong": exact.overturned != other.overturned,
+                    }
+                    for name, other in found.items()
+                ]
+    table = pd.DataFrame(cells)
+    kinds = {"all": table, "slender": table[table.slender]}
+    return [
+        {
+            "columns": kind,
+            "mass_ratio": gamma,
+            "model": model,
+            "median_error": some.error.abs().median(),
+            "largest_overestimate": some.error.max(),
+            "largest_underestimate": some.error.min(),
+            "wrong_outcomes": int(some.wrong.sum()),
+            "cells": len(some),
+        }
+        for kind, part in kinds.items()
+        for (gamma, model), some in part.groupby(["mass_ratio", "model"])
+    ]
+
+
+def outcomes(settings):
+    """Return which pulses overturn the exact frame, the linearised one and the whole model."""
+    frame = RockingFrame(column_of(settings["slenderness"]), settings["mass_ratio"])
+    models = {name: block for name, block in models_of(frame).items() if not name.startswith("massless")}
+    level, p = frame.uplift_acceleration, frame.column.frequency_parameter
+    rows = []
+    for omega in grid(settings["frequency_ratios"]):
+        for amplitude in grid(settings["amplitudes"]):
+            pulse = Pulse(settings["shape"], amplitude * level, omega * p)
+            fell = {name: int(judge(block, pulse).overturned) for name, block in models.items()}
+            rows.append({"frequency_ratio": omega, "amplitude_over_uplift": amplitude} | fell)
+    return rows
+
+
+def compute(settings, structures, record, solver):
+    frame = RockingFrame(Column(**structures[settings["structure"]]), settings["mass_ratio"])
+    courses, peaks = histories(frame, settings, record, solver["tightened"])
+    return {
+        "allen_histories": courses,
+        "allen_peaks": peaks,
+        "allen_errors": errors(settings["errors"]),
+        "allen_maps": outcomes(settings["maps"]),
+    }
+
+
+def findings(allen_peaks, allen_errors, allen_maps):
+    """Return peaks over α, the median error of each model for slender columns, and wrong outcomes."""
+    found = {
+        f"{row.motion}_{row.model.replace(' ', '_')}": value(row.peak_over_alpha, AGREE)
+        for row in allen_peaks.itertuples()
+    }
+    for row in allen_errors[allen_errors["columns"] == "slender"].itertuples():
+        name = f"error_{row.model.replace(' ', '_')}_{row.mass_ratio:g}"
+        found[name] = value(row.median_error, AGREE, cells=row.cells, wrong_outcomes=row.wrong_outcomes)
+    exact = allen_maps.exact
+    for model in ("linearised", "all"):
+        falls = allen_maps[model]
+        found[f"falsely_safe_{model}"] = value(((exact == 1) & (falls == 0)).mean(), 0.0)
+        found[f"falsely_overturned_{model}"] = value(((exact == 0) & (falls == 1)).mean(), 0.0)
+    return found
+
+
+if __name__ == "__main__":
+    run(snakemake, compute, findings)

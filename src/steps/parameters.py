@@ -1,0 +1,130 @@
+"""p̂, R̂ and √r of the frame over γ and α, its moment–rotation curve, and the paper's Fig. 1."""
+
+import math
+
+import numpy as np
+import sympy as sp
+
+from replication.step import check, run, truth, value
+from topheavy import Column, Pulse, RockingFrame, lowest_overturning
+from topheavy.bodies.moment_rotation import restoring_moment
+from topheavy.derivation import POSITIVE, potential_energy
+from topheavy.derivation.equilibrium import RECTANGULAR
+from topheavy.derivation.notation import R, alpha, g, gamma, m_c
+from topheavy.second import reference
+
+ROUNDING = 1e-12  # of m_c g R
+DIGITS = 1e-8  # of a number in a table
+FLOOR, HIGHEST = 1e-3, 12.0  # of the minimum overturning acceleration, over the uplift acceleration
+ASIDE = 1e-6  # of a minimum, to either side
+
+
+def column_of(degrees):
+    slope = math.radians(degrees)
+    return Column(math.sin(slope), math.cos(slope))
+
+
+def moment_by_energy(mass_ratio, slenderness, rotations):
+    """Return −dV/dθ of one column over m_c g R at positive rotations, V that of the three bodies."""
+    height = potential_energy(POSITIVE).subs(RECTANGULAR) / (2 * m_c * g * R)
+    moment = -sp.simplify(height.diff(POSITIVE.rotation))
+    return sp.lambdify((alpha, gamma, POSITIVE.rotation), moment)(slenderness, mass_ratio, rotations)
+
+
+def minimum(frame, shape, period):
+    """Return the minimum overturning acceleration of a pulse, g; a second solver has to confirm it."""
+    level = frame.uplift_acceleration
+    pulse = Pulse(shape, 1.0, 2 * math.pi / period)
+    low, high = lowest_overturning(
+        frame, pulse, (level, HIGHEST * level), floor=FLOOR * level
+    ).bracket
+    sides = [low * (1 - ASIDE), high * (1 + ASIDE)]
+    outcomes = [reference.judge(frame, pulse.scaled(side)).overturned for side in sides]
+    check(outcomes == [False, True], f"SciPy says {outcomes} beside the minimum of {high:.6g} g")
+    return high
+
+
+def compute(settings, structures):
+    column = Column(**structures[settings["structure"]])
+    small = Column(column.half_width / 2, column.half_height / 2)
+
+    gammas = [*np.linspace(0.0, settings["largest"], settings["points"]), math.inf]
+    frames = [RockingFrame(column, each) for each in gammas]  # any column: the ratios are the same
+    size_ratio = np.array([frame.equivalent_size for frame in frames]) / column.size
+    p_hat = np.array([frame.frequency_parameter for frame in frames])
+
+    angles = np.linspace(0.0, settings["largest_slenderness"], settings["slendernesses"])[1:]
+
+    rotations = np.linspace(0.0, column.slenderness, settings["rotations"])
+    moments = {each: -moment_by_energy(each, column.slenderness, rotations) for each in (0.0, *settings["frames"])}
+    for each, moment in moments.items():
+        apart = np.abs(restoring_moment(RockingFrame(column, each), rotations) - moment).max()
+        check(apart < ROUNDING, f"γ = {each:g}: the moment is {apart:.1g} m_c g R from −dV/dθ")
+
+    shown = {"small column": (small, 0.0), "column": (column, 0.0)}
+    shown |= {f"frame {each:g}": (column, each) for each in settings["frames"]}
+    return {
+        "mass_ratio": {
+            "mass_ratio": gammas,
+            "frequency_ratio": p_hat / column.frequency_parameter,
+            "size_ratio": size_ratio,
+            "share_of_size_gain": (size_ratio - 1.0) / (size_ratio[-1] - 1.0),
+        },
+        "restitution": [
+            {
+                "slenderness_deg": angle,
+                "mass_ratio": each,
+                "restitution": RockingFrame(column_of(angle), each).restitution,
+                "restitution_of_column": column_of(angle).restitution,
+            }
+            for each in settings["mass_ratios"]
+            for angle in angles
+        ],
+        "moment_rotation": [
+            {"mass_ratio": each, "rotation_over_alpha": rotation / column.slenderness, "moment": one}
+            for each, moment in moments.items()
+            for rotation, one in zip(rotations, moment, strict=True)
+        ],
+        "four_structures": [
+            {
+                "structure": name,
+                "mass_ratio": each,
+                "half_width": base.half_width,
+                "half_height": base.half_height,
+                "equivalent_size": RockingFrame(base, each).equivalent_size,
+                "uplift_acceleration": base.uplift_acceleration,
+                "minimum_overturning": minimum(RockingFrame(base, each), **settings["pulse"]),
+            }
+            for name, (base, each) in shown.items()
+        ],
+    }
+
+
+def findings(mass_ratio, restitution, moment_rotation, four_structures):
+    last = mass_ratio.iloc[-1]
+    gain = np.interp(1.0, mass_ratio.mass_ratio[:-1], mass_ratio.share_of_size_gain[:-1])
+    loss = restitution.restitution_of_column - restitution.restitution
+    heavy = restitution.mass_ratio > 0.0
+    rocks = restitution[heavy & (restitution.restitution >= 0.0)]
+    moments = moment_rotation.pivot(index="rotation_over_alpha", columns="mass_ratio", values="moment")
+    shapes = moments.iloc[:-1].div(moments[0.0].iloc[:-1], axis=0)  # all vanish at α
+    minima = four_structures.minimum_overturning
+    return {
+        "limit_of_frequency_ratio": value(last.frequency_ratio, DIGITS),
+        "limit_of_size_ratio": value(last.size_ratio, DIGITS),
+        "gain_at_mass_ratio_one": value(gain, DIGITS),
+        "heavier_is_larger": truth(
+            (np.diff(mass_ratio.frequency_ratio) < 0.0).all() and (np.diff(mass_ratio.size_ratio) > 0.0).all()
+        ),
+        "smaller_than_solitary": truth((loss[heavy] > 0.0).all(), frames=int(heavy.sum())),
+        "solitary_column_recovered": truth((loss[~heavy] == 0.0).all()),
+        "energy_loss": truth((rocks.restitution**2 < rocks.restitution_of_column**2).all(), frames=len(rocks)),
+        "frame_follows_the_columns_curve": truth(
+            all(abs(shapes[each] - (1.0 + 2.0 * each)).max() < DIGITS * shapes[each].max() for each in shapes)
+        ),
+        "order_of_the_four_structures": truth((np.diff(minima) > 0.0).all(), minima=minima),
+    }
+
+
+if __name__ == "__main__":
+    run(snakemake, compute, findings)
