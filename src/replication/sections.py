@@ -2,8 +2,14 @@
 
 from replication.config import (
     Count,
+    Degrees,
+    Grid,
+    MassRatio,
+    Number,
     Positive,
+    PulseOf,
     Section,
+    Shape,
 )
 
 
