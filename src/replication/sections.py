@@ -136,6 +136,57 @@ class Verification(Section):
 # Beyond the paper: friction, engine -------------------------------------------------------------
 
 
+class Friction(Section):
+    structure: str
+    mass_ratios: list[Positive]
+    bays: list[Positive]  # m
+    depth: Positive  # m
+    frictions: list[Positive]
+    shape: Shape
+    frequency_ratios: Grid
+    amplitudes: Grid  # g tan α
+    samples: Count
+    check_samples: Count
+
+
+class CapOf(Section):
+    span: Positive  # m
+    depth: Positive  # m
+
+
+class PulseRatio(Section):
+    shape: Shape
+    frequency_ratio: Positive
+
+
+class EngineContact(Section):
+    time_constant: Positive  # 1/p
+    damping_ratio: Positive
+
+
+class EngineRestitution(Section):
+    frames: dict[str, list[MassRatio]]
+    lean: Fraction  # α
+    damping_ratios: list[Positive]
+    time_constants: list[Positive]  # 1/p
+
+
+class EngineOutcomes(Section):
+    frames: dict[str, list[MassRatio]]
+    pulses: list[PulseRatio]
+    factors: list[Positive]
+    contacts: dict[str, EngineContact]
+    friction: Positive
+    time_step: Positive  # 1/p
+    lean: Fraction  # α
+
+
+class Engine(Section):
+    caps: dict[str, CapOf]
+    restitution: EngineRestitution
+    outcomes: EngineOutcomes
+
+
 class Reproducibility(Section):
     relative: (
         Positive  # largest difference of a table from the published one, of its largest number
@@ -154,3 +205,5 @@ class Paper(Section):
     statements: Statements
     verification: Verification
     reproducibility: Reproducibility
+    friction: Friction
+    engine: Engine

@@ -1,0 +1,70 @@
+"""Outcomes and coefficients of restitution in a rigid-body engine, compared with theory."""
+
+import numpy as np
+from palette import OVERTURNS, SURVIVES, greys
+
+from replication.drawing import DOUBLE, GREY, INK, PAPER, letter, note, sheet
+
+SHAPES = {"one-sine": "sine", "ricker-symmetric": "Ricker"}
+DOTS = {
+    "survives": {"facecolor": PAPER, "edgecolor": SURVIVES},
+    "overturns": {"facecolor": OVERTURNS, "edgecolor": OVERTURNS},
+}
+RING = {"facecolor": "none", "edgecolor": INK, "linewidth": 1.3}
+STYLES = ("o-", "s--", "^-.", "D:")
+TICKS = (-50, -20, -10, -5, -2, -1, 0, 1, 2, 5)  # %; the axis is linear between −1 and 1
+
+
+def draw(engine_outcomes, engine_restitution):
+    figure, axes = sheet(DOUBLE, 70, ncols=2, width_ratios=(1.5, 1))
+    letter(axes, ["Outcomes near the minimum", "Coefficient of restitution"])
+    _outcomes(axes[0], engine_outcomes)
+    _restitution(axes[1], engine_restitution)
+    return figure
+
+
+def _outcomes(axis, table):
+    rows = list(table.groupby(["contact", "structure", "shape", "frequency_ratio"], sort=False))
+    factors = sorted(table.factor.unique())
+    places = {factor: place for place, factor in enumerate(factors)}
+    for height, (_, part) in enumerate(reversed(rows)):
+        x = part.factor.map(places)
+        for word, look in DOTS.items():
+            chosen = part.engine == (word == "overturns")
+            axis.scatter(x[chosen], np.full(chosen.sum(), height), s=34, linewidth=0.9, **look)
+        apart = part.engine != part.theory
+        axis.scatter(x[apart], np.full(apart.sum(), height), s=80, **RING)
+    names = [
+        f"{contact}, {structure}, {SHAPES[shape]} {ratio:g}"
+        for (contact, structure, shape, ratio), _ in reversed(rows)
+    ]
+    axis.set_yticks(range(len(rows)), names, fontsize=6.5)
+    axis.set_xticks(range(len(factors)), [f"{factor:g}" for factor in factors])
+    predicted = sum(factor < 1 for factor in factors) - 0.5
+    axis.plot([predicted] * 2, [-0.7, len(rows) - 0.4], color=GREY, linewidth=0.8)
+    axis.set(xlim=(-0.5, len(factors) - 0.3), ylim=(-0.7, len(rows) + 1.1))
+    axis.set_xlabel("Amplitude over the minimum in theory (–)")
+    for x, (word, look) in zip((-0.3, 1.0), DOTS.items(), strict=True):
+        axis.scatter([x], [len(rows) + 0.35], s=34, linewidth=0.9, **look)
+        note(axis, word, (x + 0.15, len(rows) + 0.35))
+    axis.scatter([2.4], [len(rows) + 0.35], s=80, **RING)
+    note(axis, "differs from theory", (2.6, len(rows) + 0.35))
+
+
+def _restitution(axis, table):
+    frames = table[table.mass_ratio > 0]
+    frames = frames.assign(difference=100 * (frames.engine / frames.theory - 1))
+    dampings = list(frames.groupby("damping_ratio"))
+    for (_, part), colour, style in zip(dampings, greys(len(dampings)), STYLES, strict=True):
+        low, high = (part.groupby("time_constant").difference.agg(end) for end in ("min", "max"))
+        label = f"{part.point_restitution.iloc[0]:.2f}"
+        axis.fill_between(low.index, low, high, color=colour, alpha=0.2, linewidth=0)
+        axis.semilogx(low.index, (low + high) / 2, style, color=colour, markersize=3, label=label)
+    axis.axhline(0.0, color=GREY, linewidth=0.5)
+    axis.set(xlabel=r"Time constant of the contact, $p\,\tau$ (–)", ylim=(-100, 100))
+    axis.set_yscale("symlog", linthresh=1, linscale=0.6)
+    axis.set_yticks(TICKS, [f"{tick:g}".replace("-", "−") for tick in TICKS])
+    axis.set_yticks([], minor=True)
+    axis.set_ylabel(r"Difference from $\sqrt{r}$ of Eq. (25) (%)")
+    note(axis, "Eq. (25)", (0.0031, 0.45), color=GREY)
+    axis.legend(loc="upper left", ncols=2, title="Rebound of a single point (–)")

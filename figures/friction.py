@@ -1,0 +1,39 @@
+"""Share of pulses under which a coefficient of friction prevents sliding."""
+
+import numpy as np
+from drawing import gamma
+
+from replication.drawing import DOUBLE, GREY, INK, letter, note, shades, sheet
+
+ENDS = (0.14, 5.0)  # of the axis of friction
+
+
+def draw(friction_pulses):
+    table = friction_pulses
+    alone = table[table.mass_ratio == 0.0]
+    bays = [bay for bay in table.bay.unique() if bay > 0.0]
+    figure, axes = sheet(DOUBLE, 62, ncols=len(bays), sharey=True)
+    for axis, bay in zip(axes, bays, strict=True):
+        frames = list(table[table.bay == bay].groupby("mass_ratio"))
+        for (mass_ratio, part), colour in zip(frames, shades(len(frames)), strict=True):
+            _steps(axis, part.required, color=colour, label=gamma(mass_ratio))
+        _steps(axis, alone.required, color=INK, linestyle="--", label="column alone")
+        axis.axvline(alone.required.min(), color=GREY, linestyle=":", linewidth=0.8)
+        axis.set(xscale="log", xlim=ENDS, ylim=(0, 100), xlabel="Coefficient of friction, μ (–)")
+        axis.set_xticks(ticks := (0.2, 0.3, 0.5, 0.7, 1, 2), [f"{tick:g}" for tick in ticks])
+        axis.set_xticks([], minor=True)
+    note(axes[0], r"$\tan\alpha$", (0.162, 93), ha="right", color=GREY)
+    axes[0].set_ylabel("Pulses without sliding (%)")
+    axes[-1].legend(loc="lower right")
+    letter(axes, [f"Bay of {bay:g} m" for bay in bays])
+    return figure
+
+
+def _steps(axis, required, **look):
+    """Draw the share of pulses that require at most so much friction, in % of those survived."""
+    axis.step(
+        np.sort(required),
+        100.0 * np.arange(1, len(required) + 1) / len(required),
+        where="post",
+        **look,
+    )
