@@ -11,6 +11,8 @@ rule friction:
         pulses="results/tables/friction_pulses.csv",
         by_mass="results/tables/friction_by_mass.csv",
         findings="results/findings/friction.json",
+    log:
+        "results/logs/friction.log",
     params:
         code=code(
             "src/steps/beyond/friction.py",
@@ -21,8 +23,6 @@ rule friction:
         | library("forces", "second"),
         settings=PAPER["friction"],
         structures=PAPER["structures"],
-    log:
-        "results/logs/friction.log",
     script:
         "../src/steps/beyond/friction.py"
 
@@ -32,13 +32,13 @@ rule engine:
         restitution="results/tables/engine_restitution.csv",
         outcomes="results/tables/engine_outcomes.csv",
         findings="results/findings/engine.json",
+    log:
+        "results/logs/engine.log",
     params:
         code=code("src/steps/beyond/engine.py", "src/steps/beyond/boxes.py")
         | CORE
         | library("forces"),
         settings=PAPER["engine"],
         structures=PAPER["structures"],
-    log:
-        "results/logs/engine.log",
     script:
         "../src/steps/beyond/engine.py"
