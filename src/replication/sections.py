@@ -3,6 +3,7 @@
 from replication.config import (
     Count,
     Degrees,
+    Fraction,
     Grid,
     MassRatio,
     Number,
@@ -141,7 +142,8 @@ class Friction(Section):
     mass_ratios: list[Positive]
     bays: list[Positive]  # m
     depth: Positive  # m
-    frictions: list[Positive]
+    coefficients: list[Positive]  # of friction
+    sufficient: Positive
     shape: Shape
     frequency_ratios: Grid
     amplitudes: Grid  # g tan α

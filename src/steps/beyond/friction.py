@@ -31,7 +31,7 @@ def compute(settings, structures):
             compare(frame, cap, max(survived, key=lambda row: row["required"]), settings)
         rows += [{"bay": bay, "mass_ratio": gamma} | row for row in survived]
     table = pd.DataFrame(rows)
-    return {"pulses": table, "by_mass": by_mass(table, settings["frictions"])}
+    return {"pulses": table, "by_mass": by_mass(table, settings["coefficients"])}
 
 
 def amplitudes(settings):
@@ -101,7 +101,7 @@ def compare(frame, cap, row, settings):
     )
 
 
-def by_mass(pulses, frictions):
+def by_mass(pulses, coefficients):
     """Return for each bay and γ the largest required friction, and the share that each μ covers."""
     return pd.DataFrame(
         {
@@ -112,13 +112,13 @@ def by_mass(pulses, frictions):
             "error": part.error.max(),
             "least_vertical": part.least_vertical.min(),
         }
-        | {f"enough_{mu:g}": (part.required <= mu).mean() for mu in frictions}
+        | {f"enough_{mu:g}": (part.required <= mu).mean() for mu in coefficients}
         for (bay, gamma), part in pulses.groupby(["bay", "mass_ratio"], sort=False)
     )
 
 
 def findings(friction_by_mass, settings):
-    table, mu = friction_by_mass, max(settings["frictions"])
+    table, mu = friction_by_mass, settings["sufficient"]
     frames = table[table.mass_ratio > 0.0]
     lightest = {bay: _lightest(part, mu) for bay, part in frames.groupby("bay", sort=False)}
     return {
