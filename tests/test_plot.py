@@ -104,9 +104,8 @@ SHARED = ROOT / "figures" / "palette.py"
 SCRIPTS = sorted(
     [
         *(path for path in ROOT.glob("figures/*.py") if path != SHARED),
-        *ROOT.glob("studies/*/figures/*.py"),
+        *ROOT.glob("studies/*/*.py"),
         ROOT / "src" / "steps" / "animation.py",
-        ROOT / "benchmarks" / "picture.py",
     ]
 )
 HEX = re.compile(r"#[0-9a-fA-F]{3,8}")

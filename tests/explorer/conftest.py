@@ -1,13 +1,12 @@
 """The page to play with, put together anew and opened in a headless browser."""
 
-import asyncio
-from contextlib import contextmanager
+import shutil
 from pathlib import Path
 
 import pytest
 
-from replication.commands.check_html import BROWSERS, find_browser, opened
 from steps.explorer import page
+from tests.explorer.browser import Browser
 from topheavy import read_record
 
 ROOT = Path(__file__).parents[2]
@@ -44,18 +43,10 @@ DROP = """(() => {
 })()"""
 
 
-class Browser:
-    """A tab that is driven line by line."""
+class Page(Browser):
+    """The page in a tab that is driven line by line."""
 
-    def __init__(self, runner, tab, folder):
-        self.runner, self.tab, self.folder = runner, tab, folder
-        self.has_only_computed = False
-
-    def ask(self, method, **params):
-        return self.runner.run(self.tab.ask(method, **params))
-
-    def do(self, script, *values):
-        return self.runner.run(self.tab.do(script, *values))
+    has_only_computed = False
 
     def open(
         self,
@@ -72,9 +63,8 @@ class Browser:
         Unless it `moves`, it is shown to somebody who prefers that it does not. It is loaded anew
         in the same tab: its workers stop, and its code is not compiled again.
         """
-        self.tab.errors.clear()
-        self.tab.requests.clear()
         self.visit("about:blank")
+        self.events.clear()
         self.resize(width, height)
         preferred = {
             "prefers-color-scheme": "dark" if dark else "light",
@@ -103,13 +93,11 @@ class Browser:
 
     def load(self, address=""):
         """Load the page at an address in the tab as it is."""
-        self.visit((self.folder / "explorer.html").as_uri() + (f"#{address}" if address else ""))
+        self.visit(self.address + (f"#{address}" if address else ""))
 
     def visit(self, url):
-        self.tab.loaded = self.has_only_computed = False
-        self.ask("Page.navigate", url=url)
-        while not self.tab.loaded:
-            self.runner.run(self.tab.next_message())
+        self.has_only_computed = False
+        self.after(lambda: self.ask("Page.navigate", url=url), "Page.loadEventFired")
 
     def choose(self, path):
         """Put a file from the disk into the page, as `chosen`, without opening it there."""
@@ -129,25 +117,10 @@ class Browser:
 
     def answer(self, path, does):
         """Do what opens the browser's dialog of files, and choose one in it."""
-        with self.noted("Page.fileChooserOpened") as chosen:
-            self.ask("Page.setInterceptFileChooserDialog", enabled=True)
-            does()
-            while not chosen:
-                self.runner.run(self.tab.next_message())
-        node = chosen[0]["backendNodeId"]
+        self.ask("Page.setInterceptFileChooserDialog", enabled=True)
+        node = self.after(does, "Page.fileChooserOpened")["backendNodeId"]
         self.ask("DOM.setFileInputFiles", backendNodeId=node, files=[str(path)])
         self.ask("Page.setInterceptFileChooserDialog", enabled=False)
-
-    @contextmanager
-    def noted(self, *kinds):
-        """Yield a list that the events of these kinds are appended to."""
-        note, found = self.tab.note, []
-        self.tab.note = lambda kind, event: (
-            found.append(event) if kind in kinds else None,
-            note(kind, event),
-        )
-        yield found
-        self.tab.note = note
 
     def settle(self, until="histories"):
         """Wait until histories are those of the state, or minima, too, or the whole spectrum, too.
@@ -170,14 +143,13 @@ def text(records):
 
 @pytest.fixture(scope="session")
 def browser(text, tmp_path_factory):
-    found = find_browser()
+    names = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
+    found = next(filter(None, map(shutil.which, names)), None)
     if found is None:
-        pytest.skip(f"none of {', '.join(BROWSERS)} is on the PATH")
-    folder = tmp_path_factory.mktemp("explorer")
-    (folder / "explorer.html").write_text(text, encoding="utf-8", newline="\n")
-    with asyncio.Runner() as runner:
-        context = opened(found)
-        tab = runner.run(context.__aenter__())
-        runner.run(tab.open("about:blank"))
-        yield Browser(runner, tab, folder)
-        runner.run(context.__aexit__(None, None, None))
+        pytest.skip(f"none of {', '.join(names)} is on the PATH")
+    file = tmp_path_factory.mktemp("explorer") / "explorer.html"
+    file.write_text(text, encoding="utf-8", newline="\n")
+    one = Page(found, file.parent / "profile")
+    one.address = file.as_uri()
+    yield one
+    one.close()

@@ -56,7 +56,7 @@ def test_name_of_a_record_is_only_ever_a_text(browser, name):
     browser.open(browser.do("location.hash.slice(1)"))
     assert f"the record “{name}” is not in this page" in browser.do(TEXT, "shape-error")
     assert browser.do("document.querySelectorAll('main img').length") == 0
-    assert browser.tab.errors == []
+    assert browser.errors == []
 
 
 def test_what_is_no_finite_number_is_refused_in_every_field(browser):
@@ -68,7 +68,7 @@ def test_what_is_no_finite_number_is_refused_in_every_field(browser):
 def test_address_that_names_what_every_object_has_is_as_if_it_did_not(browser):
     browser.open("toString=1&__proto__=2&constructor=3&h=2")
     assert "h=2&" in browser.do("encode(state)")
-    assert browser.tab.errors == []
+    assert browser.errors == []
 
 
 def test_histories_are_finite_at_both_ends_of_every_field(browser):
@@ -128,4 +128,4 @@ def test_everything_is_done_with_the_keyboard_only(browser, tmp_path):
     reach(browser, "at.tagName === 'SUMMARY'")
     press(browser, "Enter", 13, "\r")
     assert browser.do("document.activeElement.parentElement.open") is True
-    assert browser.tab.errors == []
+    assert browser.errors == []

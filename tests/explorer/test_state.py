@@ -21,7 +21,7 @@ def test_record_is_dropped_in_and_a_bad_one_is_refused(browser):
     assert browser.do("found.peak") == pytest.approx(0.4)
     assert "line 1 is" in browser.drop("bad.csv", "t,a\n1,2\n")
     assert state_of(browser) == after
-    assert browser.tab.requests == []
+    assert browser.requests == []
 
 
 def test_record_of_the_address_is_opened_with_its_factor(browser):
@@ -46,7 +46,7 @@ def test_long_record_is_shown(browser):
     assert browser.do("files.get('long').samples.size") == 8 * 300_000
     assert browser.do("MOST_STEPS") >= 2 * MOST  # of records: a step each, and as many for impacts
     assert browser.do("found.peak") == pytest.approx(0.4)
-    assert browser.tab.errors == []
+    assert browser.errors == []
     browser.do("slow?.terminate()")  # its spectrum would take minutes
 
 

@@ -6,12 +6,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from pydantic import TypeAdapter
 
 import topheavy.ground.shapes
-from replication.inputs.configuration import read_schema
-from replication.inputs.strict_yaml import read_yaml
-from steps.explorer import titles
-from tests.cases import ROOT, SIDES
+from replication.config import Shape
+from tests.cases import SIDES
 from topheavy import PULSE_SHAPES, Pulse
 from topheavy.ground.excitation import Segment, still
 from topheavy.ground.shapes import ELEMENTARY, ENDING, SHAPES
@@ -122,9 +121,6 @@ def test_times_that_are_no_numbers_are_refused():
         pulse("one-sine").excitation(np.ma.array([0.1, 0.2], mask=[0, 1]))
 
 
-SCHEMAS = [*ROOT.glob("config/*.schema.yaml"), *ROOT.glob("studies/*/*.schema.yaml")]
-
-
 @pytest.mark.parametrize("name", PULSE_SHAPES)
 def test_pulse_and_kernel_have_the_same_wave_of_the_same_length(name):
     pulse = Pulse(name, 1.0, 1.0)
@@ -141,41 +137,8 @@ def test_lists_are_parts_of_the_one_list():
     assert tuple(forcing.SHAPES) == PULSE_SHAPES
 
 
-def test_no_schema_lists_the_shapes_itself():
-    assert len(SCHEMAS) > 4
-    for path in SCHEMAS:
-        text = path.read_text(encoding="utf-8")
-        assert not re.search(r"enum:.*(?:sine|ricker)", text), path
-    (config,) = (path for path in SCHEMAS if path.parent.name == "config")
-    assert read_schema(config)["$defs"]["shape"]["enum"] == list(ENDING)
-
-
-@pytest.mark.parametrize(
-    ("name", "told"),
-    [
-        ("topheavy.ground.shapes.ENDINGS", "no attribute 'ENDINGS'; expected a list"),
-        ("topheavy.nothing.ENDING", "expected a list"),
-        ("topheavy.ground.shapes.math.pi", r"is 3\.14\d+; expected a list"),
-    ],
-)
-def test_schema_that_names_no_list_is_refused(tmp_path, name, told):
-    path = tmp_path / "some.schema.yaml"
-    path.write_text(f"properties: {{ values: {{ values: {name} }} }}\n", encoding="utf-8")
-    assert read_yaml(path)
-    with pytest.raises(ValueError, match=rf"some\.schema\.yaml: values is '{name}'.*{told}"):
-        read_schema(path)
-
-
-def test_page_has_every_shape_and_no_other():
-    motions = (ROOT / "src/explorer" / "motions.js").read_text(encoding="utf-8")
-    assert set(titles(motions)) == set(SHAPES)
-    for wrong in (
-        motions.replace('"half-sine": {', '"halfsine": {'),
-        motions.replace('"con', "//"),
-    ):
-        assert wrong != motions
-        with pytest.raises(ValueError, match=r"differ by .*expected a wave for every shape"):
-            titles(wrong)
+def test_config_takes_the_shapes_that_end_and_no_other():
+    assert TypeAdapter(Shape).json_schema()["pattern"] == f"^({'|'.join(ENDING)})$"
 
 
 def test_list_of_shapes_needs_no_numerics():
