@@ -14,14 +14,22 @@ Time is τ = p t, accelerations are in g.
 """
 
 import math
-from itertools import pairwise
+from typing import NamedTuple
 
 import heyoka as hy
 import numpy as np
-from kernel import Found
 
 AT_REST = 1e-13  # peak of the next bounce over α, on ground that cannot lift the block
 LOW = 1e-6  # a rotation below this, over α, is not counted as rocking
+
+
+class Found(NamedTuple):
+    """The outcome of a block; the peak is NaN if it overturned."""
+
+    overturned: bool
+    peak: float
+    impacts: int
+
 
 #: The end of each pulse over π/ω, and the phases at which it turns.
 _SYMMETRIC = [0.0, math.sqrt(6.0), -math.sqrt(6.0)]
@@ -202,11 +210,6 @@ class RecordOracle:
         self.linearised = linearised
         weight = hy.par[3] + hy.par[4] * hy.time if vertical else 1.0
         self.flights = Flights(hy.par[1] + hy.par[2] * hy.time, linearised, float, weight)
-
-    def __call__(self, slenderness, restitution, samples, step) -> Found:
-        """Return the outcome for samples in g, p Δt = `step` apart."""
-        pieces = ((step, pair, (1.0, 1.0)) for pair in pairwise(samples))
-        return self.follow(slenderness, restitution, pieces)
 
     def follow(self, slenderness, restitution, pieces) -> Found:
         """Return the outcome for pieces: how long, and a and gravity (g) at both ends of each."""
