@@ -1,130 +1,166 @@
-"""One sweep of the ensemble: motions × structures × intensities, judged once and read by all.
+"""Models of ground motion, the structures that are put under their motions, and what overturns.
 
-A step asks the ensemble a question (`Asked`). A job draws every n-th motion once, and judges
-all that the steps of a study ask under it side by side. A step reads the outcomes of its question.
+`sweep` computes the outcomes of a shard, every n-th motion of each model, and `outcomes` reads those
+of all shards. The two sets of synthetic motions also answer the question of rule break_even.
 """
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
-from typing import Any
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
+from itertools import product
+from pathlib import Path
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from steps.shared.spectrum import progress, shard_of
-from topheavy import Record, RockingBlock
-from topheavy.ground.synthetic.ensemble import Draw, first_draws
-from topheavy.outcomes.overturning import TOLERANCE, Search, outcomes_of_subjects, subjects_of
+from topheavy import (
+    STANDARD_GRAVITY,
+    Column,
+    FixedMassColumn,
+    Record,
+    RockingBlock,
+    RockingFrame,
+    overturned_together,
+)
+from topheavy.ground.synthetic.ensemble import first_draws
+from topheavy.ground.synthetic.filtered_noise import Soil, motion
 
-PARTS = ("motions", "peaks", "outcomes")  # of an answer: family, scenario, number; and as below
-MEASURES = {"pgv": lambda record: record.peak_velocity, "pga": lambda r: r.peak_acceleration}
-"""Of a motion: PGV in m/s, and PGA in g."""
+SETS = ("near-fault", "broadband")
+VERTICAL = ", with vertical acceleration"  # appended to the name of a set
+FREE_FALL = -1  # outcome of a motion whose vertical acceleration goes beyond −1 g
+
+Settings = Mapping[str, Any]
+Outcomes = NDArray[np.int8]
 
 
-@dataclass(frozen=True)
-class Subject:
-    """A structure that is put under the ensemble, and its names in the tables of a step."""
+class Motion(NamedTuple):
+    """A motion of a model, drawn on request, with a second one that becomes its vertical component."""
 
-    labels: Mapping[str, Any]
-    block: RockingBlock
+    earthquake: int
+    record: Callable[[], Record]
+    vertical: Callable[[], Record] | None = None
 
 
-@dataclass(frozen=True, eq=False)
-class Asked:
-    """Structures under the first `motions` of each family and scenario.
+class Question(NamedTuple):
+    """Structures, and the peak ground velocities (m/s) to which each motion is scaled."""
 
-    `levels`, of the `measure`, has the shape (levels,), or (structures, levels).
+    blocks: list[RockingBlock]
+    velocities: NDArray[np.float64]
+
+
+def models(settings: Settings) -> dict[str, list[Motion]]:
+    """Return the motions of each model: the sets, filtered noise, the sets with vertical motion.
+
+    The vertical component of a motion is a later one of the same set and earthquake.
     """
+    found: dict[str, list[Motion]] = {}
+    count, noise, vertical = settings["motions"], settings["noise"], settings["vertical"]["motions"]
+    draws = first_draws(settings | {"families": SETS}, count)
+    of = {(draw.family, draw.place, draw.number): draw for draw in draws}
+    for name in SETS:
+        found[name] = [Motion(draw.place, draw.record) for draw in draws if draw.family == name]
+    for place, (soil, corner) in enumerate(product(noise["soils"], noise["corners"])):
+        drawn = partial(motion, noise["seed"] + place, soil=Soil(soil, corner))
+        found[f"noise, soil {soil:g} Hz, filter {corner:g} Hz"] = [
+            Motion(0, partial(drawn, number=number)) for number in range(noise["motions"])
+        ]
+    for name in SETS:
+        found[name + VERTICAL] = [
+            Motion(place, draw.record, of[family, place, number + vertical].record)
+            for (family, place, number), draw in of.items()
+            if family == name and number < vertical
+        ]
+    return found
 
-    subjects: Sequence[Subject]
-    levels: NDArray[np.float64]
-    motions: int
-    measure: str = "pgv"
+
+def compared(settings: Settings, column: Column) -> list[tuple[str, float, RockingBlock]]:
+    """Return name, γ and block: the column, the mass fixed to it, the frame; then frames of other γ."""
+    gamma = settings["mass_ratio"]
+    return [
+        ("column", 0.0, column.block()),
+        ("fixed mass", gamma, FixedMassColumn(column, gamma).block()),
+        *(
+            ("frame", ratio, RockingFrame(column, ratio).block())
+            for ratio in [gamma, *settings["other_mass_ratios"]]
+        ),
+    ]
 
 
-@dataclass(frozen=True, eq=False)
-class Swept:
-    """The answer: `outcomes` has the shape (motions, structures, levels), true if it overturns.
+def asked(model: str, settings: Settings, column: Column) -> Question:
+    """Return the structures under a model; the last velocity is that at which probabilities are stated.
 
-    `draws` are the motions, in the order of the ensemble; `peaks` the measure before scaling.
+    Frames of other γ are under the two sets only.
     """
-
-    draws: list[Draw]
-    peaks: NDArray[np.float64]
-    outcomes: NDArray[np.bool_]
-
-    def chosen(self, some: NDArray[np.bool_]) -> "Swept":
-        """Return the answer for some of the motions."""
-        draws = [draw for draw, wanted in zip(self.draws, some, strict=True) if wanted]
-        return replace(self, draws=draws, peaks=self.peaks[some], outcomes=self.outcomes[some])
-
-    def of_family(self, family: str) -> "Swept":
-        return self.chosen(np.array([draw.family == family for draw in self.draws]))
-
-    @property
-    def scenarios(self) -> NDArray[np.int64]:
-        return np.array([draw.place for draw in self.draws])
+    blocks = [block for *_, block in compared(settings, column)]
+    spec, unit = settings["intensities"], unit_velocity(column)
+    if model not in SETS:
+        blocks, spec, unit = blocks[:3], settings["noise"]["velocities"], 1.0
+    grid = unit * np.geomspace(spec["lowest"], spec["highest"], spec["points"])
+    return Question(blocks, np.append([] if VERTICAL in model else grid, settings["velocity"]))
 
 
-def overturned_under(record: Record, asked: Iterable[Asked]) -> list[NDArray[np.bool_]]:
-    """Return what overturns under one motion, for each question: shape (structures, levels)."""
-    asked = list(asked)
-    searches, factors = [], []
-    for one in asked:
-        shape = len(one.subjects), one.levels.shape[-1]
-        factors += [*np.broadcast_to(one.levels / MEASURES[one.measure](record), shape)]
-        searches += [Search(subject.block, record, (0.0, 1.0)) for subject in one.subjects]
-    fell = iter(outcomes_of_subjects(subjects_of(searches), factors, TOLERANCE))
-    return [np.array([next(fell)[0] for _ in one.subjects]) for one in asked]
+def unit_velocity(column: Column) -> float:
+    """Return the velocity g tan α/p, m/s."""
+    return STANDARD_GRAVITY * column.uplift_acceleration / column.frequency_parameter
 
 
-def sweep(questions: Mapping[str, Asked], ensemble: Mapping[str, Any], shard: str) -> dict:
-    """Return the arrays of one shard, by question: its motions and what they overturn."""
-    most = max(one.motions for one in questions.values())
-    mine = shard_of(first_draws(ensemble, most), shard)
-    found: dict[str, list[tuple]] = {name: [] for name in questions}
-    for draw in progress(mine, len(mine), "motions"):
-        here = {name: one for name, one in questions.items() if draw.number < one.motions}
-        record = draw.record()
-        overturned = overturned_under(record, here.values())
-        for (name, one), fell in zip(here.items(), overturned, strict=True):
-            place = ensemble["families"].index(draw.family)
-            motion = place, draw.place, draw.number
-            found[name].append((motion, MEASURES[one.measure](record), fell))
-    return {
-        f"{name} {part}": np.array([row[number] for row in rows])
-        for name, rows in found.items()
-        for number, part in enumerate(PARTS)
-    }
+def reductions(break_even: Settings) -> NDArray[np.float64]:
+    """Return the shares by which √r of the column is lowered, from 0 on."""
+    spec = break_even["reductions"]
+    return np.round(np.arange(round(spec["highest"] / spec["step"]) + 1) * spec["step"], 9)
 
 
-def answers(
-    shards: Iterable[Mapping[str, NDArray]], name: str, ensemble: Mapping[str, Any], motions: int
-) -> Swept:
-    """Return the outcomes of a question from all shards, in whatever order they are.
-
-    Raises
-    ------
-    ValueError
-        When the shards do not have these motions, each once.
-    """
-    parts = [[shard[f"{name} {part}"] for part in PARTS] for shard in shards]
-    places, peaks, outcomes = (
-        np.concatenate([part for part in of if len(part)]) for of in zip(*parts, strict=True)
-    )
-    draws = first_draws(ensemble, motions)
-    order = np.lexsort(places.T[::-1])
-    wanted = [(ensemble["families"].index(one.family), one.place, one.number) for one in draws]
-    if not np.array_equal(places[order], wanted):
-        raise ValueError(
-            f"{name}: outcomes of {len(places)} motions; expected {len(draws)}, each once: a shard "
-            "is incomplete, delete it and run again"
-        )
-    return Swept(draws, peaks[order], outcomes[order])
+def lowered(settings: Settings, break_even: Settings, column: Column) -> Question:
+    """Return the column with each reduction of √r, then the frame with √r as it is and lowered."""
+    frame = RockingFrame(column, settings["mass_ratio"])
+    shares = [(column.block(), share) for share in reductions(break_even)]
+    shares += [(frame.block(), share) for share in [0.0, *break_even["lowered"]]]
+    blocks = [one.with_restitution((1.0 - share) * one.restitution) for one, share in shares]
+    return Question(blocks, np.array(break_even["velocities"]))
 
 
-def read_answers(
-    paths: Iterable[str], name: str, ensemble: Mapping[str, Any], motions: int
-) -> Swept:
-    """Return the outcomes of a question from the files of all shards; errors as of `answers`."""
-    return answers([np.load(path) for path in paths], name, ensemble, motions)
+def scaled(motion: Motion, settings: Settings) -> tuple[Record, Record | None]:
+    """Return a motion; one with a vertical component at the stated velocity, with its share of PGA."""
+    record = motion.record()
+    if motion.vertical is None:
+        return record, None
+    record = record.scaled_to(pgv=settings["velocity"])
+    share = settings["vertical"]["share"]
+    return record, motion.vertical().scaled_to(pga=share * record.peak_acceleration)
+
+
+def overturned(question: Question, record: Record, up: Record | None) -> Outcomes:
+    """Return which velocities overturn each structure, shape (structures, velocities)."""
+    if up is not None and up.acceleration.min() <= -1.0:
+        return np.full((len(question.blocks), question.velocities.size), FREE_FALL, np.int8)
+    factors = question.velocities / record.peak_velocity
+    return overturned_together(question.blocks, record, factors, vertical=up).astype(np.int8)
+
+
+def sweep(settings: Settings, break_even: Settings, column: Column, shard: str) -> dict[str, Any]:
+    """Return the outcomes of a shard, "2-of-8", and the peak velocities (m/s) of its motions."""
+    number, of = map(int, shard.split("-of-"))
+    found: dict[str, Any] = {}
+    for model, motions in models(settings).items():
+        questions = {model: asked(model, settings, column)}
+        if model in SETS:
+            questions[f"{model}: lowered"] = lowered(settings, break_even, column)
+        rows, peaks = {name: [] for name in questions}, []
+        for each in motions[number - 1 :: of]:
+            record, up = scaled(each, settings)
+            peaks.append(record.peak_velocity)
+            for name, question in questions.items():
+                rows[name].append(overturned(question, record, up))
+        found |= {name: np.array(each) for name, each in rows.items()}
+        found[f"{model}: peaks"] = np.array(peaks)
+        print(f"{len(peaks)} motions, {model}", flush=True)
+    return found
+
+
+def outcomes(shards: Sequence[str], name: str) -> NDArray[Any]:
+    """Return the array of a name from the files of all shards, in the order of the motions."""
+    parts = {int(Path(path).stem.split("_")[-1].split("-")[0]): np.load(path)[name] for path in shards}
+    whole = np.empty((sum(map(len, parts.values())), *parts[1].shape[1:]), parts[1].dtype)
+    for number, part in parts.items():
+        whole[number - 1 :: len(parts)] = part
+    return whole

@@ -1,0 +1,1 @@
+"""What we add to the results of the paper, one script each."""

@@ -1,0 +1,129 @@
+"""How far √r of the column may be lowered until the benefit of the cap beam ends.
+
+The benefit is the probability that the column overturns less that of the frame, under the same
+motions. A lower √r of the column alone reduces it, but for the scatter of a finite number of motions:
+it ends where its non-increasing (isotonic) fit is zero.
+"""
+
+import math
+from functools import partial
+
+import numpy as np
+import pandas as pd
+from scipy.optimize import isotonic_regression
+
+from replication.step import check, run, truth
+from steps.shared.second import beside_a_boundary, check_by_scipy, overturns
+from steps.shared.sweep import SETS, lowered, models, outcomes, reductions
+from topheavy import Column
+from topheavy.risk.ensemble import Ensemble
+
+FINE = 0.5  # of the interval of an end: what half the step of the reductions may move it by
+
+
+def compute(settings, motions, structures, shards):
+    column = Column(**structures[motions["structure"]])
+    shares, ends, benefits, samples = reductions(settings), [], [], {}
+    level = settings["velocities"].index(motions["velocity"])
+    for number, name in enumerate(SETS):
+        found = outcomes(shards, f"{name}: lowered") == 1
+        samples[name] = found
+        quakes = [motion.earthquake for motion in models(motions)[name]]
+        spec = settings["bootstrap"] | {"seed": settings["bootstrap"]["seed"] + number}
+        ensemble = Ensemble(found, quakes, **spec)
+        means = ensemble.means()
+        for place, velocity in enumerate(settings["velocities"]):
+            less = means[:, : shares.size, place] - means[:, [shares.size], place]
+            every = np.array([end_of(shares, one) for one in less])
+            low, high = bounds(every, spec["confidence"])
+            moved = abs(end_of(shares[::2], less[0, ::2]) - every[0]) if every[0] < math.inf else 0.0
+            check(
+                moved <= FINE * (high - low),
+                f"half the step moves the end at {velocity:g} m/s under {name} motions by {moved:g}",
+            )
+            ends.append(
+                {"set": name, "velocity": velocity, "motions": len(found)}
+                | {"column": means[0, 0, place], "frame": means[0, shares.size, place]}
+                | {"end": every[0], "end_low": low, "end_high": high}
+            )
+        benefits += compare(name, settings, found[..., level], ensemble, means[..., level])
+    check_by_scipy(sampled(samples, settings, motions, column))
+    return {"ends": pd.DataFrame(ends), "benefits": pd.DataFrame(benefits)}
+
+
+def end_of(shares, benefits):
+    """Return the reduction at which the non-increasing fit of the benefits reaches zero.
+
+    Lines join the centres of its blocks, over which it is constant. Infinite where it is positive in
+    the last block.
+    """
+    fit = isotonic_regression(benefits, increasing=False)
+    first, last = fit.blocks[:-1], fit.blocks[1:] - 1
+    centres, values = 0.5 * (shares[first] + shares[last]), fit.x[first]
+    ended = np.flatnonzero(values <= 0.0)
+    if not ended.size:
+        return math.inf
+    if ended[0] == 0:
+        return 0.0
+    before, after = ended[0] - 1, ended[0]
+    step = (centres[after] - centres[before]) / (values[before] - values[after])
+    return float(centres[before] + step * values[before])
+
+
+def bounds(ends, confidence):
+    """Return the interval of an end, of which the first is that of all motions; either may be infinite."""
+    tail = (1.0 - confidence) / 2.0
+    return np.quantile(ends[1:], (tail, 1.0 - tail), method="nearest")
+
+
+def compare(name, settings, fell, ensemble, means):
+    """Return the benefit at the stated velocity, if √r of both or that of the column alone is lower."""
+    shares, rows = list(reductions(settings)), []
+    first = len(shares)
+    for number, share in enumerate([0.0, *settings["lowered"]]):
+        column = shares.index(share)
+        for way, frame in {"both": first + number, "column alone": first}.items():
+            if share or way == "both":
+                rows.append(
+                    {"set": name, "lowered": way, "reduction": share}
+                    | {"column": means[0, column], "frame": means[0, frame]}
+                    | {"only_column": int((fell[:, column] & ~fell[:, frame]).sum())}
+                    | {"only_frame": int((fell[:, frame] & ~fell[:, column]).sum())}
+                    | ensemble.bounds("benefit", means[:, column] - means[:, frame])
+                )
+    return rows
+
+
+def sampled(samples, settings, motions, column):
+    """Yield a seeded sample of the outcomes, half of them beside a boundary."""
+    random, question = (
+        np.random.default_rng(settings["bootstrap"]["seed"]),
+        lowered(motions, settings, column),
+    )
+    for number in range(settings["checked"]):
+        name = SETS[number % len(SETS)]
+        at, place, level = (int(random.integers(size)) for size in samples[name].shape)
+        record, block = models(motions)[name][at].record(), question.blocks[place]
+        factor = question.velocities[level] / record.peak_velocity
+        if random.integers(2):
+            factor = beside_a_boundary(partial(overturns, block, record, None), factor)
+        yield block, record, None, factor, samples[name][at, place, level]
+
+
+def findings(break_even, break_even_benefit):
+    ends, both = break_even, break_even_benefit[break_even_benefit.lowered == "both"]
+    known = ends[np.isfinite(ends.end)]
+    return {
+        "benefit_ends": truth(
+            len(known) == len(ends),
+            compared=len(ends),
+            least=known.end.min(),
+            most=known.end.max(),
+            lowest_end=ends.end_low.min(),
+        ),
+        "frame_is_safer": truth((both.benefit_low > 0.0).all(), compared=len(both)),
+    }
+
+
+if __name__ == "__main__":
+    run(snakemake, compute, findings)
