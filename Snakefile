@@ -75,7 +75,8 @@ include: "rules/documents.smk"
 # Snakemake keeps a result without a word where its rule reads a file that no rule makes.
 for each in workflow.rules:
     for path in map(str, each.input):
-        if path not in made() and "{" not in path and (path.startswith("results/") or not os.path.isfile(path)):
+        is_made = "{" in path or any(other.is_producer(path) for other in workflow.rules)
+        if not is_made and (path.startswith("results/") or not os.path.isfile(path)):
             beside = [other for other in made() if os.path.dirname(other) == os.path.dirname(path)]
             sys.exit(
                 f"rule {each.name} ({os.path.relpath(each.snakefile)}) reads {path}, which no rule "

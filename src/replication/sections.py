@@ -134,6 +134,71 @@ class Verification(Section):
 # Beyond the paper: motions, break_even, records --------------------------------------------------
 
 
+class Scenario(Section):
+    magnitude: Positive
+    distance: Positive  # km, from the site to the rupture
+    site_velocity: Positive  # m/s, V_S30
+    directivity: Positive  # km of rupture
+
+
+class Noise(Section):
+    soils: list[Positive]  # Hz
+    corners: list[Positive]  # Hz
+    motions: Count
+    seed: Count
+    velocities: Grid  # m/s
+
+
+class Vertical(Section):
+    motions: Count
+    share: Positive  # of the horizontal PGA
+
+
+class Bootstrap(Section):
+    resamples: Count
+    confidence: Fraction
+    seed: Count
+
+
+class Motions(Section):
+    shards: Count
+    structure: str
+    mass_ratio: MassRatio
+    other_mass_ratios: list[MassRatio]
+    seed: Count
+    motions: Count
+    scenarios: list[Scenario]
+    velocity: Positive  # m/s
+    intensities: Grid  # p PGV/(g tan α)
+    largest_factor: Positive
+    noise: Noise
+    vertical: Vertical
+    bootstrap: Bootstrap
+    checked: Count
+
+
+class Reductions(Section):
+    highest: Fraction
+    step: Fraction
+
+
+class BreakEven(Section):
+    velocities: list[Positive]  # m/s
+    reductions: Reductions  # of √r
+    lowered: list[Fraction]  # of √r
+    measured: tuple[Fraction, Fraction]  # of √r
+    bootstrap: Bootstrap
+    checked: Count
+
+
+class Records(Section):
+    mass_ratios: list[MassRatio]
+    slendernesses: list[Degrees]
+    sizes: Grid  # m
+    factors: Grid
+    checked: Count
+
+
 # Beyond the paper: friction, engine -------------------------------------------------------------
 
 
@@ -207,5 +272,8 @@ class Paper(Section):
     statements: Statements
     verification: Verification
     reproducibility: Reproducibility
+    motions: Motions
+    break_even: BreakEven
+    records: Records
     friction: Friction
     engine: Engine

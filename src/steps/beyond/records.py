@@ -14,11 +14,10 @@ from steps.shared.second import NUDGE, check_by_scipy
 from topheavy import Column, RockingFrame, overturned_by, read_record
 
 
-def compute(settings, solver, records):
-    ratios = np.geomspace(*settings["factors"].values())
-    sizes = np.geomspace(*settings["sizes"].values())
+def compute(settings, solver, components):
+    ratios, sizes = geometric(settings["factors"]), geometric(settings["sizes"])
     gammas, rows, edges = settings["mass_ratios"], [], []
-    for path in records:
+    for path in components:
         record, outcomes = read_record(path), {gamma: [] for gamma in gammas}
         for degrees, size, gamma in product(settings["slendernesses"], sizes, gammas):
             alpha = math.radians(degrees)
@@ -39,6 +38,11 @@ def compute(settings, solver, records):
     at = np.linspace(0, len(edges) - 1, settings["checked"]).astype(int)
     check_by_scipy(edges[place] for place in at)
     return rows
+
+
+def geometric(spec):
+    """Return the grid of a config entry, in equal ratios."""
+    return np.geomspace(spec["lowest"], spec["highest"], spec["points"])
 
 
 def overturned(frame, record, factors, tightened):
