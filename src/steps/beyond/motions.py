@@ -12,7 +12,7 @@ import pandas as pd
 
 from replication.step import run, truth
 from steps.shared.second import beside_a_boundary, check_by_scipy, overturns
-from steps.shared.sweep import FREE_FALL, SETS, asked, compared, models, outcomes, scaled
+from steps.shared.sweep import FREE_FALL, SETS, asked, compared, drawn, models, outcomes
 from topheavy import Column
 from topheavy.risk.curve import fit, medians
 from topheavy.risk.ensemble import Ensemble
@@ -120,7 +120,7 @@ def sampled(samples, settings, column):
         at, place, level = (int(random.integers(size)) for size in found.shape)
         if found[at, place, level] == FREE_FALL:
             continue
-        record, up = scaled(motions[model][at], settings)
+        record, up = drawn(motions[model][at], settings)
         block, factor = question.blocks[place], question.velocities[level] / record.peak_velocity
         if up is None and random.integers(2):
             factor = beside_a_boundary(partial(overturns, block, record, up), factor)

@@ -60,9 +60,9 @@ def models(settings: Settings) -> dict[str, list[Motion]]:
     for name in SETS:
         found[name] = [Motion(draw.place, draw.record) for draw in draws if draw.family == name]
     for place, (soil, corner) in enumerate(product(noise["soils"], noise["corners"])):
-        drawn = partial(motion, noise["seed"] + place, soil=Soil(soil, corner))
+        one = partial(motion, noise["seed"] + place, soil=Soil(soil, corner))
         found[f"noise, soil {soil:g} Hz, filter {corner:g} Hz"] = [
-            Motion(0, partial(drawn, number=number)) for number in range(noise["motions"])
+            Motion(0, partial(one, number=number)) for number in range(noise["motions"])
         ]
     for name in SETS:
         found[name + VERTICAL] = [
@@ -119,21 +119,20 @@ def lowered(settings: Settings, break_even: Settings, column: Column) -> Questio
     return Question(blocks, np.array(break_even["velocities"]))
 
 
-def scaled(motion: Motion, settings: Settings) -> tuple[Record, Record | None]:
-    """Return a motion; one with a vertical component at the stated velocity, with its share of PGA."""
+def drawn(motion: Motion, settings: Settings) -> tuple[Record, Record | None]:
+    """Return a motion and its vertical component, which has a share of its peak acceleration."""
     record = motion.record()
     if motion.vertical is None:
         return record, None
-    record = record.scaled_to(pgv=settings["velocity"])
-    share = settings["vertical"]["share"]
-    return record, motion.vertical().scaled_to(pga=share * record.peak_acceleration)
+    peak = settings["vertical"]["share"] * record.peak_acceleration
+    return record, motion.vertical().scaled_to(pga=peak)
 
 
 def overturned(question: Question, record: Record, up: Record | None) -> Outcomes:
     """Return which velocities overturn each structure, shape (structures, velocities)."""
-    if up is not None and up.acceleration.min() <= -1.0:
-        return np.full((len(question.blocks), question.velocities.size), FREE_FALL, np.int8)
     factors = question.velocities / record.peak_velocity
+    if up is not None and factors.max() * up.acceleration.min() <= -1.0:
+        return np.full((len(question.blocks), factors.size), FREE_FALL, np.int8)
     return overturned_together(question.blocks, record, factors, vertical=up).astype(np.int8)
 
 
@@ -147,7 +146,7 @@ def sweep(settings: Settings, break_even: Settings, column: Column, shard: str) 
             questions[f"{model}: lowered"] = lowered(settings, break_even, column)
         rows, peaks = {name: [] for name in questions}, []
         for each in motions[number - 1 :: of]:
-            record, up = scaled(each, settings)
+            record, up = drawn(each, settings)
             peaks.append(record.peak_velocity)
             for name, question in questions.items():
                 rows[name].append(overturned(question, record, up))
