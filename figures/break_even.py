@@ -1,0 +1,49 @@
+"""Probability of overturning and the coefficient of restitution that ends the benefit"""
+
+from palette import ALONE, EQUAL, tint
+from replication.drawing import DOUBLE, GREY, INK, PAPER, letter, note, sheet
+
+SETS = {"near-fault": ("o", 0.14), "broadband": ("s", -0.14)}  # marker, and place in a row
+ROWS = {  # from the lowest row upwards: as in the table
+    ("column alone", 0.1): "column alone 10 % lower",
+    ("column alone", 0.05): "column alone 5 % lower",
+    ("both", 0.1): "both 10 % lower",
+    ("both", 0.05): "both 5 % lower",
+    ("both", 0.0): "both of Eq. (25)",
+}
+
+
+def draw(break_even, break_even_benefit, config):
+    figure, axes = sheet(DOUBLE, 62, ncols=2)
+    rows = break_even_benefit.set_index(["set", "lowered", "reduction"])
+    for name, (marker, off) in SETS.items():
+        for at, key in enumerate(ROWS):
+            row = 100 * rows.loc[(name, *key), ["benefit", "benefit_low", "benefit_high"]]
+            axes[0].hlines(at + off, row.benefit_low, row.benefit_high, color=INK, linewidth=1.1)
+            face = INK if marker == "o" else PAPER
+            axes[0].plot(row.benefit, at + off, marker, color=INK, markerfacecolor=face, markersize=4)
+            if key == ("both", 0.0):
+                note(axes[0], name, (row.benefit_high + 0.8, at + off), color=INK)
+        of = break_even[break_even.set == name]
+        places = [at - off for at in range(len(of))]
+        errors = 100 * (of.end - of.end_low), 100 * (of.end_high - of.end)
+        how = {"color": INK, "markerfacecolor": face, "markersize": 4, "elinewidth": 1.1}
+        axes[1].errorbar(places, 100 * of.end, yerr=errors, fmt=marker, **how)
+    low, high = (100 * share for share in config["break_even"]["measured"])
+    axes[1].axhspan(low, high, color=tint(GREY, 0.25), lw=0)
+    note(axes[1], "measured on single blocks", (1.5, 0.5 * (low + high)), ha="center", fontsize=7)
+    note(axes[1], "above a point: column safer", (1.5, 13.2), color=ALONE, ha="center")
+    note(axes[1], "below a point: frame safer", (1.5, 1.2), color=EQUAL, ha="center")
+    axes[0].axvline(0.0, color=GREY, linewidth=0.7)
+    note(axes[0], "frame safer", (0.5, len(ROWS) - 0.3), color=EQUAL)
+    note(axes[0], "column safer", (-0.5, len(ROWS) - 0.3), color=ALONE, ha="right")
+    axes[0].set(xlim=(-11, 24), ylim=(-0.5, len(ROWS)))
+    axes[0].set_xlabel("Probability of column less that of frame (points)")
+    axes[0].set_yticks(range(len(ROWS)), ROWS.values())
+    axes[0].tick_params(axis="y", length=0)
+    velocities = sorted(break_even.velocity.unique())
+    axes[1].set_xticks(range(len(velocities)), [f"{each:g}" for each in velocities])
+    axes[1].set(xlim=(-0.5, len(velocities) - 0.5), ylim=(0, 14.5))
+    axes[1].set(xlabel="Peak ground velocity (m/s)", ylabel="Reduction of the column's √r (%)")
+    letter(axes, [f"Benefit at {config['motions']['velocity']:g} m/s, by √r", "Reduction that ends the benefit"])
+    return figure
