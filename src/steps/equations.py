@@ -11,9 +11,13 @@ PROOFS = {"paper": theorems, "extensions": extension_theorems, "reversals": reve
 VARIANT = re.compile(r"_(negative|positive|\d+)$")  # the sign of θ, or the equation of a step
 
 
+def first_paragraph(text):
+    return " ".join(text.partition("\n\n")[0].split())
+
+
 def compute():
     proved = [
-        {"about": about, "theorem": t.id, "statement": " ".join(t.statement.split()), "holds": t.holds}
+        {"about": about, "theorem": t.id, "statement": first_paragraph(t.statement), "holds": t.holds}
         for about, prove in PROOFS.items()
         for t in prove()
     ]

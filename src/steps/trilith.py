@@ -96,7 +96,7 @@ def starts(frame, settings, tightened):
     while high - low > 1e-4:
         middle = (low + high) / 2.0
         responses[middle] = shaken(middle)
-        low, high = (low, middle) if responses[middle].outcome == "rests" else (middle, high)
+        low, high = (middle, high) if responses[middle].outcome == "rests" else (low, middle)
     smooth, abrupt = responses[0.0], responses[1.0]
     for other in (shaken(1.0, tolerance=tightened), shaken(1.0, reference.simulate)):
         apart = np.abs(other.rotation - abrupt.rotation).max() / alpha

@@ -1,0 +1,49 @@
+"""The model of Allen et al. beside the exact frame: two histories, and the error of the peak by γ."""
+
+from drawing import MODELS
+from palette import MODEL
+from replication.drawing import DOUBLE, GREY, INK, letter, note, sheet
+
+MOTIONS = {"pulse": "One-sine pulse", "record": "El Centro 1940, scaled"}
+LINES = dict(zip(MODELS, ((0, (4, 2)), ":", (0, (5, 1, 1, 1)), "-"), strict=True))
+
+
+def history(above, below, run):
+    above.plot(run.time, run.acceleration, color=GREY, linewidth=0.7)
+    above.set_ylabel(r"$\ddot{u}_g$ (g)")
+    below.plot(run.time, run.exact, color=INK, linewidth=0.8)
+    below.plot(run.time, run["all"], color=MODEL, linewidth=0.8)
+    change = run["all"].abs().max() / run.exact.abs().max() - 1
+    words = f"peak {100 * change:+.0f} %".replace("-", "−")
+    note(below, words, (0.985, 0.93), xycoords="axes fraction", ha="right", color=MODEL)
+    below.set(ylim=(-1, 1.1), ylabel=r"$\theta/\alpha$ (–)", xlabel="Time, $t$ (s)", xlim=(0, run.time.max()))
+
+
+def errors(axis, table):
+    """Draw the median error of slender columns over γ, of each simplification and of all three."""
+    for model, line in table[table["columns"] == "slender"].groupby("model"):
+        whole = model == "all"
+        look = {"linestyle": LINES[model], "color": MODEL if whole else INK, "zorder": 2 + whole}
+        axis.plot(line.mass_ratio, 100 * line.median_error, marker="o", markersize=3, label=MODELS[model], **look)
+        if whole:
+            for row in line[line.mass_ratio.isin([0.5, 2.0, 10.0])].itertuples():
+                at = (row.mass_ratio, 100 * row.median_error)
+                note(axis, f"{at[1]:.1f} %", at, xytext=(5, 5), textcoords="offset points", color=MODEL)
+    axis.set_xscale("log")
+    axis.set_xticks(ticks := sorted(table.mass_ratio.unique()), [f"{tick:g}" for tick in ticks])
+    axis.set_xticks([], minor=True)
+    axis.set(xlabel=r"Mass ratio, $\gamma$ (–)", ylabel="Error of the peak (%)", ylim=(0, 30))
+    axis.legend(loc="upper right", labelspacing=0.2)
+
+
+def draw(allen_histories, allen_errors):
+    figure, axes = sheet(DOUBLE, 62, "ace;bde", width_ratios=(1, 1, 1.15), height_ratios=(0.45, 1))
+    for (above, below), motion in zip((("a", "b"), ("c", "d")), MOTIONS, strict=True):
+        history(axes[above], axes[below], allen_histories[allen_histories.motion == motion])
+        axes[above].sharex(axes[below])
+        axes[above].tick_params(labelbottom=False)
+    note(axes["b"], "exact", (0.5, 0.13), xycoords="axes fraction")
+    note(axes["b"], "Allen et al.", (0.5, 0.05), xycoords="axes fraction", color=MODEL)
+    errors(axes["e"], allen_errors)
+    letter([axes[name] for name in "ace"], [*MOTIONS.values(), "Median error, slender columns"])
+    return figure

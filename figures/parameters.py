@@ -1,0 +1,63 @@
+"""Size, frequency parameter and coefficient of restitution of the frame."""
+
+import numpy as np
+
+from drawing import gamma
+from replication.drawing import DOUBLE, GREY, INK, PAPER, letter, note, shades, sheet
+
+ASIDE = {"textcoords": "offset points"}
+LEADER = {"arrowstyle": "-", "color": INK, "linewidth": 0.6, "shrinkA": 1, "shrinkB": 0}
+FORMULAS = (  # γ and slenderness of a curve, its formula, and where that is written
+    (0.0, 30.0, "Housner, solitary column:\n$1-\\frac{3}{2}\\sin^2\\alpha$", (30, 0.86)),
+    (np.inf, 33.0, "$\\gamma\\to\\infty$: $\\cos 2\\alpha$", (13, 0.4)),
+)
+RATIOS = {  # column; name, limit, and where both are written
+    "size_ratio": (r"$\hat{R}/R$", r"$\hat{R}/R\to 3/2$", 7),
+    "frequency_ratio": (r"$\hat{p}/p$", r"$\hat{p}/p\to\sqrt{2/3}$", 12),
+}
+
+
+def over_mass_ratio(axis, table):
+    finite, last = table[np.isfinite(table.mass_ratio)], table.iloc[-1]
+    end = finite.mass_ratio.max()
+    for column, (name, limit, above) in RATIOS.items():
+        axis.axhline(last[column], color=GREY, linestyle=":", linewidth=0.9)
+        note(axis, limit, (end, last[column]), xytext=(0, above), ha="right", color=GREY, **ASIDE)
+        axis.plot(finite.mass_ratio, finite[column], color=INK)
+        reached = np.interp(1.0, finite.mass_ratio, finite[column])
+        axis.plot(1.0, reached, "o", color=INK, markerfacecolor=PAPER, markersize=4, zorder=3)
+        below = {"xytext": (6, -8 if column == "size_ratio" else 8), **ASIDE}
+        note(axis, f"{name} = {reached:.2f} at $\\gamma$ = 1", (1.0, reached), **below)
+    axis.plot(0, 1, "o", color=INK, markersize=3.5, clip_on=False, zorder=3)
+    note(axis, "solitary column", (0, 1), xytext=(9, 0), **ASIDE)
+    axis.set(xlim=(0, end), ylim=(0.75, 1.58), xlabel=r"Mass ratio, $\gamma$ (–)")
+    axis.set_ylabel(r"Size $\hat{R}/R$ and frequency parameter $\hat{p}/p$ (–)")
+
+
+def over_slenderness(axis, table):
+    curves = table.groupby("mass_ratio")
+    for (mass_ratio, curve), colour in zip(curves, shades(len(curves)), strict=True):
+        rocks = curve[curve.restitution >= 0.0]
+        axis.plot(curve.slenderness_deg, curve.restitution, ":", color=colour, linewidth=0.9)
+        axis.plot(rocks.slenderness_deg, rocks.restitution, color=colour, label=gamma(mass_ratio))
+        if mass_ratio in (0.0, np.inf):
+            end = np.interp(0.0, -curve.restitution, curve.slenderness_deg)
+            axis.plot(end, 0, "o", color=colour, markersize=3.5, zorder=3)
+            aside = (2, 8) if mass_ratio == 0.0 else (-18, -8)
+            note(axis, f"{end:.1f}°", (end, 0), xytext=aside, **ASIDE)
+    axis.axhline(0, color=GREY, linewidth=0.6)
+    for mass_ratio, slenderness, words, at in FORMULAS:
+        curve = curves.get_group(mass_ratio)
+        tip = (slenderness, np.interp(slenderness, curve.slenderness_deg, curve.restitution))
+        axis.annotate(words, tip, at, fontsize=7.5, va="center", arrowprops=LEADER)
+    axis.legend(loc="lower left", ncols=2, labelspacing=0.2)
+    axis.set(xlabel=r"Slenderness, $\alpha$ (°)", xlim=(0, 60), ylim=(-0.52, 1.03))
+    axis.set_ylabel(r"Coefficient of restitution, $\sqrt{r}$ (–)")
+
+
+def draw(mass_ratio, restitution):
+    figure, (left, right) = sheet(DOUBLE, 66, ncols=2)
+    over_mass_ratio(left, mass_ratio)
+    over_slenderness(right, restitution)
+    letter([left, right], ["Size and frequency parameter", "Coefficient of restitution"])
+    return figure

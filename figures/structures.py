@@ -1,0 +1,81 @@
+"""The paper's Fig. 1: four structures with their minima, and their restoring moment."""
+
+from matplotlib.patches import Rectangle
+
+from drawing import gamma
+from palette import CAP, FORCE, STONE
+from replication.drawing import DOUBLE, GREY, INK, PAPER, letter, note, shades, sheet
+
+GAP, SPAN, OVERHANG = 3.6, 5.0, 0.5  # m: between structures, between axes of columns, of the cap beam
+
+
+def bodies(row):
+    """Return the rectangles of a structure about its middle: left, bottom, width, height, colour.
+
+    The cap beam has the density and breadth of its columns, so that its depth shows its mass.
+    """
+    b, h = row.half_width, row.half_height
+    if row.mass_ratio == 0.0:
+        return [(-b, 0.0, 2 * b, 2 * h, STONE)]
+    half = SPAN / 2 + b + OVERHANG
+    depth = row.mass_ratio * 2 * (4 * b * h) / (2 * half)  # m_b = 2 γ m_c
+    columns = [(axis - b, 0.0, 2 * b, 2 * h, STONE) for axis in (-SPAN / 2, SPAN / 2)]
+    return [*columns, (-half, 2 * h, 2 * half, depth, CAP)]
+
+
+def words(row, whole):
+    """Return what is written below a structure."""
+    height, width = 2 * row.half_height, 2 * row.half_width
+    name = f"column\n{height:g} m × {width:g} m" if row.mass_ratio == 0.0 else f"frame\n{gamma(row.mass_ratio)}"
+    ratio = row.equivalent_size / whole
+    size = r"$\hat{R}$" if row.mass_ratio else "size"
+    return f"{name}\n{size} = {ratio:.3g}$\\,R$"
+
+
+def structures(axis, table):
+    edge, whole = 0.0, table.equivalent_size[table.structure == "column"].iloc[0]
+    for row in table.itertuples():
+        parts = bodies(row)
+        middle = edge - min(left for left, *_ in parts)
+        for left, bottom, width, height, face in parts:
+            where = (middle + left, bottom)
+            axis.add_patch(Rectangle(where, width, height, facecolor=face, edgecolor=INK, linewidth=0.8))
+        areas = [width * height for *_, width, height, _ in parts]
+        levels = [bottom + height / 2 for _, bottom, _, height, _ in parts]
+        centre = sum(a * y for a, y in zip(areas, levels, strict=True)) / sum(areas)
+        axis.plot(middle, centre, "o", color=PAPER, markeredgecolor=FORCE, markersize=4.5)
+        axis.plot(middle, centre, ".", color=FORCE, markersize=2)
+        note(axis, words(row, whole), (middle, -0.4), ha="center", va="top")
+        minimum = f"{row.minimum_overturning:.3f}$\\,g$"
+        note(axis, minimum, (middle, -3.9), ha="center", va="top", fontsize=8.5, fontweight="bold")
+        edge = middle - min(left for left, *_ in parts) + GAP
+    axis.plot([-GAP, edge], [0, 0], color=INK, linewidth=1.2)
+    level = table.uplift_acceleration.iloc[0]
+    text = "minimum overturning acceleration; all uplift at $g\\,\\tan\\alpha$"
+    text = f"{text} = {level:.3f}$\\,g$"
+    note(axis, text, ((edge - GAP) / 2, -5.6), ha="center", color=GREY)
+    axis.plot(0, 11.5, "o", color=PAPER, markeredgecolor=FORCE, markersize=4.5)
+    axis.plot(0, 11.5, ".", color=FORCE, markersize=2)
+    note(axis, "centre of gravity", (0.45, 11.5), color=FORCE)
+    axis.set(xlim=(-GAP, edge), ylim=(-6.2, 13.2), aspect="equal", anchor="N")
+    axis.axis("off")
+
+
+def moments(axis, table):
+    axis.axhline(0, color=GREY, linewidth=0.6)
+    curves = table.groupby("mass_ratio")
+    for (mass_ratio, curve), colour in zip(curves, shades(len(curves)), strict=True):
+        rotation, moment = list(curve.rotation_over_alpha), list(curve.moment)
+        whole = [-x for x in reversed(rotation)] + rotation, [-y for y in reversed(moment)] + moment
+        axis.plot(*whole, color=colour)
+        text = r"column, $\sin\alpha$" if mass_ratio == 0.0 else gamma(mass_ratio)
+        note(axis, text, (-0.06, curve.moment.max()), ha="right")
+    axis.set(xlabel=r"Rotation, $\theta/\alpha$ (–)", ylabel=r"Moment, $M/m_\mathrm{c}gR$ (–)")
+
+
+def draw(four_structures, moment_rotation):
+    figure, (left, right) = sheet(DOUBLE, 66, ncols=2, width_ratios=(2.1, 1))
+    structures(left, four_structures)
+    moments(right, moment_rotation)
+    letter([left, right], ["Order of stability in the paper, and minima", "Restoring moment of one column"])
+    return figure
