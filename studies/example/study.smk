@@ -1,0 +1,43 @@
+"""Does a bent survive a record, and how much does its deck help?"""
+
+
+class Inputs(Study):  # the keys of config.yaml beside structures and records
+    scale: Positive
+    lowest: Positive
+    highest: Positive
+    step: Positive
+    windows: list[Positive]
+    share: Fraction
+
+
+INPUTS = SETTINGS["example"] = read_config("studies/example/config.yaml", Inputs)
+
+FIGURES = sorted(glob("studies/example/*_figure.py"))
+
+
+rule example_capacity:
+    output:
+        table="results/tables/example_capacity.csv",
+        findings="results/findings/example_capacity.json",
+    log:
+        "results/logs/example_capacity.log",
+    params:
+        code=code("studies/example/capacity.py", "src/replication/study.py") | CORE,
+        **INPUTS,
+    script:
+        "capacity.py"
+
+
+rule example_figures:
+    input:
+        "results/tables/example_capacity.csv",
+        scripts=FIGURES,
+        style="figures/style.mplstyle",
+    output:
+        [path.replace("_figure.py", ".svg") for path in FIGURES],
+    log:
+        "results/logs/example_figures.log",
+    params:
+        code=code("src/steps/draw.py") | DOCUMENTS,
+    script:
+        "../../src/steps/draw.py"
