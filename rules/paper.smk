@@ -124,3 +124,121 @@ rule verification:
 
 
 # Second part: spectra, vase, proven, uplift; the animation and the page ----------------------------
+
+
+scattergather:
+    spectra=PAPER["spectra"]["shards"],
+
+
+rule spectra_shard:
+    output:
+        table="results/shards/spectra_{scatteritem}.csv",
+    params:
+        code=code("src/steps/spectra_shard.py", "src/steps/shared/spectrum.py") | CORE,
+        settings=PAPER["spectra"],
+        shard="{scatteritem}",
+    log:
+        "results/logs/spectra_{scatteritem}.log",
+    script:
+        "../src/steps/spectra_shard.py"
+
+
+rule spectra:
+    input:
+        shards=gather.spectra("results/shards/spectra_{scatteritem}.csv"),
+    output:
+        spectra="results/tables/spectra.csv",
+        areas="results/tables/spectra_areas.csv",
+        histories="results/tables/spectra_histories.csv",
+        findings="results/findings/spectra.json",
+    params:
+        code=code("src/steps/spectra.py", "src/steps/shared/spectrum.py") | CORE | library("second"),
+        settings=PAPER["spectra"],
+        tightened=PAPER["solver"]["tightened"],
+    log:
+        "results/logs/spectra.log",
+    script:
+        "../src/steps/spectra.py"
+
+
+rule vase:
+    input:
+        records=PAPER["vase"]["records"],
+    output:
+        vase="results/tables/vase.csv",
+        motions="results/tables/vase_motions.csv",
+        poses="results/tables/vase_poses.csv",
+        findings="results/findings/vase.json",
+    params:
+        code=code("src/steps/vase.py", "src/steps/shared/poses.py") | CORE | library("second"),
+        settings=PAPER["vase"],
+        column=PAPER["structures"]["temple"],
+        tightened=PAPER["solver"]["tightened"],
+        records=checksums(*PAPER["vase"]["records"]),
+    log:
+        "results/logs/vase.log",
+    script:
+        "../src/steps/vase.py"
+
+
+rule proven:
+    input:
+        "results/tables/vase.csv",
+        "results/tables/spectra_histories.csv",
+    output:
+        table="results/tables/proven.csv",
+        certificates="results/certificates/proven.jsonl",
+        findings="results/findings/proven.json",
+    params:
+        code=code("src/steps/proven.py", "src/steps/shared/spectrum.py") | CORE | library("proven"),
+        column=PAPER["structures"]["temple"],
+        period=PAPER["vase"]["period"],
+    priority: 1
+    log:
+        "results/logs/proven.log",
+    script:
+        "../src/steps/proven.py"
+
+
+rule uplift:
+    output:
+        table="results/tables/uplift.csv",
+        findings="results/findings/uplift.json",
+    params:
+        code=code("src/steps/uplift.py", "src/steps/shared/histories.py") | CORE | library("forces", "second"),
+        settings=PAPER["uplift"],
+        column=PAPER["structures"]["temple"],
+    log:
+        "results/logs/uplift.log",
+    script:
+        "../src/steps/uplift.py"
+
+
+rule animation:
+    input:
+        style="figures/style.mplstyle",
+    output:
+        gif="results/animation.gif",
+    params:
+        code=code("src/steps/animation.py", "src/steps/shared/poses.py", "src/replication/drawing.py", "figures/palette.py") | CORE,
+        settings=PAPER["animation"],
+        column=PAPER["structures"]["temple"],
+    log:
+        "results/logs/animation.log",
+    script:
+        "../src/steps/animation.py"
+
+
+rule explorer:
+    input:
+        record="data/records/el_centro_1940_NS.AT2",
+    output:
+        page="results/explorer.html",
+    params:
+        code=code("src/steps/explorer.py", "src/replication/config.py") | CORE,
+        page=checksums(*(path for path in glob("src/explorer/**", recursive=True) if os.path.isfile(path))),
+        records=checksums("data/records/el_centro_1940_NS.AT2"),
+    log:
+        "results/logs/explorer.log",
+    script:
+        "../src/steps/explorer.py"

@@ -131,6 +131,83 @@ class Verification(Section):
 # The paper, second part: spectra, vase, proven, uplift, animation ---------------------------------
 
 
+class Cap(Section):
+    width: Positive  # m
+    depth: Positive
+
+
+class Resolved(Section):
+    lowest: Positive  # over g tan α
+    highest: Positive
+    resolution: Positive
+
+
+class Finer(Section):
+    below: Positive  # over g tan α
+    resolution: Positive
+
+
+class Sample(Section):
+    points: Count
+    seed: Count
+
+
+class Spectra(Section):
+    shards: Count
+    slendernesses: list[Degrees]
+    shapes: list[Shape]
+    mass_ratios: list[MassRatio]
+    frequency_ratios: Grid  # ω/p
+    amplitudes: Resolved
+    finer: Finer
+    sample: Sample
+
+
+class PulseGrid(Section):
+    shapes: list[Shape]
+    mass_ratios: list[MassRatio]
+    frequency_ratios: Grid  # ω/p
+
+
+class Picture(Section):
+    mass_ratio: MassRatio
+    amplitudes: list[Positive]  # g
+    cap: Cap
+
+
+class Vase(Section):
+    mass_ratios: list[MassRatio]
+    shapes: list[Shape]
+    period: Positive  # s
+    grids: list[PulseGrid]
+    longest: Positive  # ω/p
+    records: list[str]
+    record_mass_ratios: list[MassRatio]
+    highest: Positive  # g tan α
+    floor: Fraction  # tan α
+    wide: Fraction  # tan α
+    sample: Count
+    picture: Picture
+
+
+class Uplift(Section):
+    cap: CapBeam
+    mass_ratios: list[MassRatio]
+    shapes: list[Shape]
+    frequency_ratios: Grid  # ω/p
+    amplitudes: list[Positive]  # g tan α
+    points: Count
+    sample: Count
+
+
+class Animation(Section):
+    mass_ratio: MassRatio
+    cap: Cap
+    pulse: PulseOf
+    duration: Positive  # s
+    frames_per_second: Count
+
+
 # Beyond the paper: motions, break_even, records --------------------------------------------------
 
 
@@ -271,6 +348,10 @@ class Paper(Section):
     allen: Allen
     statements: Statements
     verification: Verification
+    spectra: Spectra
+    vase: Vase
+    uplift: Uplift
+    animation: Animation
     reproducibility: Reproducibility
     motions: Motions
     break_even: BreakEven

@@ -1,77 +1,336 @@
-"""Gather the overturning spectra from their shards, and compare frames of different γ.
+"""Compare overturning spectra: what a heavier cap beam, or a larger column, prevents and causes.
 
-The rule tests whether the minimum overturning amplitude rises with γ at every frequency. It also
-computes the share of the frequency–amplitude plane on which only the heavier frame overturns.
+Survival is not monotone in the amplitude. Between the amplitudes that overturn after an impact and
+those that overturn without one there can be a survival region. A set of amplitudes is an array of
+disjoint intervals, shape (n, 2).
 """
 
-from itertools import pairwise
-from typing import Any
+import math
+from collections.abc import Iterable, Iterator
+from itertools import combinations, pairwise, product
+from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
 
-from replication.workbench import run, truth
-from steps.shared.spectra_compared import ORDER, Spectra, finite, of_sample
+from replication.step import check, run, truth, value
+from steps.shared.spectrum import (
+    CHANGES,
+    FRAME,
+    KEYS,
+    MODES,
+    RESTITUTION,
+    SIZE,
+    line,
+    rows_of,
+    search,
+)
+from topheavy import judge, simulate
+from topheavy.second import reference
+
+COLUMN = 0.0  # γ
+LEAST_RISES = 20  # of the minimum from one γ to the next, looked at again: there a miss would show
+FINER = 20.0  # times: the resolution of the second look
+NEAR = 1e-4, 1e-3  # of a minimum: how close to it half of the sample is; brackets are narrower
+SHOWN, SAMPLES = 3.0, 751  # of the histories that are drawn: lengths of the pulse, and points
+LARGER = 2.0  # ratio of the frequencies that are compared: a column four times as large
+MANY = 10.0  # times the area of the other cause: chosen after we had seen both
+MINIMUM = "what counts is the minimum overturning acceleration of a pulse"
+AREAS = ["slenderness_deg", "shape", "change", "mass_ratio", "beside"]
 
 
-def main(settings: dict, solver: dict, lines: pd.DataFrame) -> tuple:
-    spectra = Spectra(settings, lines)
-    rises = spectra.lowest_rises()
-    areas = [row for light, heavy in settings["pairs"] for row in spectra.areas(light, heavy)]
-    width, place, light, heavy, amplitude = spectra.counterexample(
-        pairwise(settings["mass_ratios"])
-    )
-    verdicts = [spectra.judged(place, g, amplitude, solver["tightened"]) for g in (light, heavy)]
-    if verdicts != [[False] * 2, [True] * 2]:
-        raise ArithmeticError(f"γ = {light}, {heavy} at {amplitude:.6g}: not a counterexample")
-    table, spec = pd.DataFrame(areas), settings["sample"]
-    sample = spectra.sample(spec["points"], spec["seed"], solver["tightened"])
-    drawn = findings(table, sample)
-    return (
-        table,
-        sample,
-        {
-            "lowest_amplitude_rises_with_mass": rises,
-            "heavier_is_more_stable": truth(
-                drawn["heavier_is_more_stable"]["holds"],
-                holds_when=rises.holds,
-                condition="what counts is the lowest amplitude of a pulse that overturns",
-                width_of_band=width,
-                amplitude_over_uplift=amplitude,
-                survives=finite(light),
-                overturns=finite(heavy),
-                **place.described(),
-            ),
-            "areas": drawn["areas"],
-            "sample_agrees": drawn["sample_agrees"],
-        },
-    )
+class Band(NamedTuple):
+    """Amplitudes that the first of two structures survives and that overturn the second."""
+
+    place: tuple[float, str, float]
+    survives: tuple[str, float, float]
+    overturns: tuple[str, float, float]
+    low: float
+    high: float
+
+    @property
+    def width(self) -> float:
+        return (self.high - self.low) / self.middle
+
+    @property
+    def middle(self) -> float:
+        return 0.5 * (self.low + self.high)
 
 
-def findings(spectra_areas: pd.DataFrame, spectra_sample: pd.DataFrame) -> dict[str, Any]:
-    """Return the shares of the maps that overturn one frame alone, and whether a sample agrees."""
-    exact = spectra_areas[~spectra_areas.linearised]
-    pairs = [
-        {
-            "lighter": lighter,
-            "heavier": heavier,
-            "only_lighter_overturns": float(np.mean(maps.only_lighter_overturns)),
-            "only_heavier_overturns": float(np.mean(maps.only_heavier_overturns)),
-            "largest_only_heavier": maps.only_heavier_overturns.max(),
-        }
-        for (lighter, heavier), maps in exact.groupby(["lighter", "heavier"], sort=False)
-    ]
+class Spectra:
+    """The table of intervals by line.
+
+    A structure is the change that a cap beam makes, its γ, and a factor on the frequency; a place
+    is slenderness, pulse shape and ω/p.
+    """
+
+    def __init__(self, table: pd.DataFrame, last: float):
+        self.last = last
+        ends = table[["lower", "upper"]].fillna(last).to_numpy()
+        self.intervals = {key: ends[rows] for key, rows in table.groupby(KEYS).indices.items()}
+        self.slendernesses, self.shapes, self.ratios, self.gammas = (
+            sorted(map(type_of, table[name].unique()))
+            for name, type_of in zip(
+                ("slenderness_deg", "shape", "frequency_ratio", "mass_ratio"),
+                (float, str, float, float),
+                strict=True,
+            )
+        )
+        self.maps = [*product(self.slendernesses, self.shapes)]
+
+    def at(self, structure: tuple, place: tuple) -> np.ndarray:
+        (change, gamma, factor), (slenderness, shape, ratio) = structure, place
+        key = (change, gamma, slenderness, shape, factor * ratio)
+        return self.intervals.get(key, np.empty((0, 2)))
+
+    def lowest(self, structure: tuple, place: tuple) -> float:
+        found = self.at(structure, place)
+        return float(found[0, 0]) if len(found) else math.inf
+
+    def rises(self, pairs: Iterable[tuple]) -> list[tuple[float, tuple, tuple, tuple]]:
+        """Return the ratio of the minima of each pair where one overturns, from the lowest on."""
+        found = []
+        for (weaker, stronger), place in product(pairs, self.places(pairs)):
+            low, high = self.lowest(weaker, place), self.lowest(stronger, place)
+            if low < math.inf or high < math.inf:
+                found.append((high / low if low < math.inf else 0.0, place, weaker, stronger))
+        return sorted(found, key=lambda one: one[0])
+
+    def places(self, pairs: Iterable[tuple]) -> Iterator[tuple]:
+        """Yield the places at which all structures of the pairs are in the table."""
+        factor = max(one[2] for pair in pairs for one in pair)
+        ratios = [ratio for ratio in self.ratios if factor * ratio in self.ratios]
+        return ((*of, ratio) for of, ratio in product(self.maps, ratios))
+
+    def bands(self, pairs: list[tuple]) -> list[Band]:
+        """Return all amplitudes that overturn the second structure of a pair alone."""
+        return [
+            Band(place, weaker, stronger, *ends)
+            for place in self.places(pairs)
+            for weaker, stronger in pairs
+            for ends in without(self.at(stronger, place), self.at(weaker, place)).tolist()
+        ]
+
+    def shares(self, weaker: tuple, stronger: tuple, of: tuple, every: int) -> tuple[float, float]:
+        """Return the shares of a map that overturn one of two structures alone, by every n-th ω."""
+        ratios = self.ratios[::every]
+        lengths = []
+        for ratio in ratios:
+            first, second = (self.at(one, (*of, ratio)) for one in (weaker, stronger))
+            both = overlap(first, second)
+            lengths.append((length(first) - both, length(second) - both))
+        whole = (ratios[-1] - ratios[0]) * (self.last - 1.0)
+        areas = np.trapezoid(np.maximum(lengths, 0.0), ratios, axis=0) / whole
+        return float(areas[0]), float(areas[1])
+
+
+def length(intervals: np.ndarray) -> float:
+    return float(np.sum(intervals[:, 1] - intervals[:, 0]))
+
+
+def overlap(first: np.ndarray, second: np.ndarray) -> float:
+    """Return the length that two sets have in common."""
+    low = np.maximum(first[:, None, 0], second[None, :, 0])
+    high = np.minimum(first[:, None, 1], second[None, :, 1])
+    return float(np.maximum(high - low, 0.0).sum())
+
+
+def without(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    """Return the part of a set that is not in another; adjacent pieces are not merged."""
+    if not len(first):
+        return first
+    ends = np.unique(np.concatenate([first.ravel(), second.ravel()]))
+    pieces = np.column_stack([ends[:-1], ends[1:]])
+    middles = pieces.mean(axis=1)
+    return pieces[inside(first, middles) & ~inside(second, middles)]
+
+
+def inside(intervals: np.ndarray, amplitudes: np.ndarray) -> np.ndarray:
+    low, high = intervals[:, 0, None], intervals[:, 1, None]
+    return np.any((low <= amplitudes) & (amplitudes <= high), axis=0)
+
+
+def frames(gammas: Iterable[float]) -> list[tuple[str, float, float]]:
+    return [(FRAME, gamma, 1.0) for gamma in gammas]
+
+
+def looked_again(table: pd.DataFrame, spectra: Spectra, settings: dict) -> pd.DataFrame:
+    """Return the intervals below a minimum that a finer search finds where it rises least."""
+    first, resolution = settings["amplitudes"]["lowest"], settings["finer"]["resolution"] / FINER
+    closest = spectra.rises([*pairwise(frames(spectra.gammas))])[:LEAST_RISES]
+    rows = []
+    for place, structure in {(place, one) for _, place, *both in closest for one in both}:
+        lowest = min(spectra.lowest(structure, place), spectra.last)
+        if lowest > first:
+            of = line(*structure[:2], *place)
+            found = search([of], [(first, lowest)], min(resolution, lowest - first))[0]
+            rows += rows_of(of, [one for one in found if one.upper and one.upper[1] < lowest])
+    return pd.concat([table, pd.DataFrame(rows)]) if rows else table
+
+
+def areas_of(spectra: Spectra) -> pd.DataFrame:
+    """Return the shares of each map on which a structure prevents and causes overturning.
+
+    It is compared with the solitary column; the heaviest frame also with its equivalent column. The
+    columns `…_by_two` and `…_by_four` have the shares by a frequency step so many times as wide.
+    """
+    alone, *others = frames(spectra.gammas)
+    heaviest = [(change, spectra.gammas[-1], 1.0) for change in CHANGES]
+    asked = [(alone, one) for one in (*others, *heaviest[1:])]
+    asked.append((heaviest[CHANGES.index(SIZE)], heaviest[0]))
+    rows = []
+    for of, (weaker, stronger) in product(spectra.maps, asked):
+        beside = "column" if weaker == alone else "equivalent column"
+        row = dict(zip(AREAS, (*of, *stronger[:2], beside), strict=True))
+        for ending, every in (("", 1), ("_by_two", 2), ("_by_four", 4)):
+            found = spectra.shares(weaker, stronger, of, every)
+            row |= dict(zip((f"prevented{ending}", f"caused{ending}"), found, strict=True))
+        rows.append(row)
+    return pd.DataFrame(rows)
+
+
+def overturns(structure: tuple, place: tuple, amplitude: float, tightened: float) -> bool:
+    """Return whether an amplitude overturns a structure, at a tightened tolerance and by SciPy."""
+    _, block, pulse = line(*structure[:2], *place)
+    pulse = pulse.scaled(amplitude)
+    by_both = {
+        judge(block, pulse, tolerance=tightened).overturned,
+        reference.judge(block, pulse).overturned,
+    }
+    check(len(by_both) == 1, f"the solvers disagree on {structure}, {place} at {amplitude:.9g}")
+    return by_both.pop()
+
+
+def check_sample(spectra: Spectra, bands: list[Band], spec: dict, tightened: float) -> None:
+    """Check outcomes by the second solver: in bands, and within 0.1 % of minima."""
+    random = np.random.default_rng(spec["seed"])
+    widths = np.array([band.high - band.low for band in bands])
+    keys = [*spectra.intervals]
+    for at in random.choice(len(bands), spec["points"] // 2, p=widths / widths.sum()):
+        band = bands[at]
+        amplitude = random.uniform(band.low, band.high)
+        found = [
+            overturns(one, band.place, amplitude, tightened)
+            for one in (band.survives, band.overturns)
+        ]
+        check(found == [False, True], f"{band} at {amplitude:.9g}: {found}")
+    for at in random.integers(len(keys), size=spec["points"] // 2):
+        change, gamma, *place = keys[at]
+        intervals = spectra.intervals[keys[at]]
+        away = random.choice([-1.0, 1.0]) * 10.0 ** random.uniform(*np.log10(NEAR))
+        amplitude = intervals[0, 0] * (1.0 + away)
+        expected = bool(inside(intervals, np.array([amplitude]))[0])
+        found = overturns((change, gamma), tuple(place), amplitude, tightened)
+        check(found == expected, f"{keys[at]} at {amplitude:.9g}: {expected} expected")
+
+
+def histories(band: Band) -> pd.DataFrame:
+    """Return the rotations of both structures in the middle of a band."""
+    made = []
+    for structure in (band.survives, band.overturns):
+        _, block, pulse = line(*structure[:2], *band.place)
+        time = np.linspace(0.0, SHOWN * pulse.duration, SAMPLES)
+        response = simulate(block, pulse.scaled(band.middle), samples=time)
+        place = dict(zip(KEYS[2:], band.place, strict=True))
+        rotation = response.rotation / block.slenderness
+        made.append(
+            {**place, "amplitude_over_uplift": band.middle, "mass_ratio": structure[1]}
+            | {"time_over_period": time / pulse.duration, "rotation_over_alpha": rotation}
+        )
+    return pd.concat(map(pd.DataFrame, made))
+
+
+def compute(shards: list[pd.DataFrame], settings: dict, tightened: float) -> dict[str, Any]:
+    """Return the spectra of the frames, the shares of their maps, and one pair of histories."""
+    table, last = pd.concat(shards), settings["amplitudes"]["highest"]
+    table = looked_again(table, Spectra(table, last), settings)
+    table = table.sort_values([*KEYS, "lower"], ignore_index=True)
+    spectra = Spectra(table, last)
+    bands = spectra.bands([*combinations(frames(spectra.gammas), 2)])
+    check_sample(spectra, bands, settings["sample"], tightened)
     return {
-        "heavier_is_more_stable": {"holds": not spectra_areas.only_heavier_overturns.any()},
-        "areas": truth(True, pairs=pairs),
-        "sample_agrees": of_sample(spectra_sample),
+        "spectra": table[table.change == FRAME].drop(columns="change"),
+        "areas": areas_of(spectra),
+        "histories": histories(max(bands, key=lambda band: band.width)),
     }
 
 
-def work(job: Any) -> tuple:
-    table = pd.concat(map(pd.read_csv, job.input.shards)).sort_values(ORDER, ignore_index=True)
-    return table, *main(job.params.settings, job.params.solver, table)
+def mean(areas: pd.DataFrame, name: str) -> tuple[float, float]:
+    """Return the mean of a share over maps, and its error by two coarser grids.
+
+    The trapezoidal rule is of second order: a step n times as wide is off by n² times the error,
+    so that a coarser grid shows n² − 1 times the error. Twice that is taken.
+    """
+    fine, two, four = (float(areas[name + end].mean()) for end in ("", "_by_two", "_by_four"))
+    return fine, 2.0 * max(abs(fine - two) / 3.0, abs(fine - four) / 15.0)
+
+
+def ranking(spectra: Spectra, pairs: list[tuple]) -> dict[str, Any]:
+    """Return whether the second structure of each pair survives what the first one survives.
+
+    The condition is that the minimum counts; the evidence is the widest exception.
+    """
+    rises, bands = spectra.rises(pairs), spectra.bands(pairs)
+    widest = max(bands, key=lambda band: band.width, default=None)
+    evidence = {
+        "comparisons": len(rises),
+        "lower_minima": sum(ratio <= 1.0 for ratio, *_ in rises),
+        "pairs": len(pairs),
+        "pairs_with_exceptions": len({band[1:3] for band in bands}),
+    }
+    if widest:
+        slenderness, shape, ratio = widest.place
+        evidence |= {"width": widest.width, "amplitude_over_uplift": widest.middle}
+        evidence |= {"slenderness_deg": slenderness, "shape": shape, "frequency_ratio": ratio}
+    higher = all(ratio > 1.0 for ratio, *_ in rises)
+    return truth(not bands, holds_when=higher, condition=MINIMUM, **evidence)
+
+
+def findings(spectra: pd.DataFrame, spectra_areas: pd.DataFrame, settings: dict) -> dict[str, Any]:
+    """Return the rankings with their exceptions, and the shares of the maps."""
+    table, last = spectra.assign(change=FRAME), settings["amplitudes"]["highest"]
+    whole = Spectra(table, last)
+    at_once = Spectra(table[table["mode"] == MODES[0]], last)
+    pairs = [*combinations(frames(whole.gammas), 2)]
+    larger = [((FRAME, COLUMN, 1.0), (FRAME, COLUMN, LARGER))]
+    neighbours = whole.rises([*pairwise(frames(whole.gammas))])
+    caused_at_once = [
+        high - low
+        for place in whole.places(pairs)
+        for light, heavy in pairs
+        for low, high in without(at_once.at(heavy, place), whole.at(light, place))
+    ]
+    alone = spectra_areas[spectra_areas.beside == "column"]
+    heaviest = alone[alone.mass_ratio == whole.gammas[-1]]
+    frame = heaviest[heaviest.change == FRAME]
+    prevented, caused = (mean(frame, name) for name in ("prevented", "caused"))
+    found = {
+        "minimum_rises_with_mass": truth(
+            all(ratio > 1.0 for ratio, *_ in neighbours),
+            comparisons=len(neighbours),
+            least_ratio=neighbours[0][0],
+        ),
+        "heavier_is_more_stable": ranking(whole, pairs),
+        "frame_is_more_stable_than_its_column": ranking(
+            whole, [pair for pair in pairs if pair[0][1] == COLUMN]
+        ),
+        "larger_is_more_stable": ranking(whole, larger),
+        "larger_column_survives": truth(whole.bands([pair[::-1] for pair in larger])),
+        "never_caused_without_impact": truth(sum(caused_at_once) < 1e-6),  # of g tan α: rounding
+        "prevents_more_than_it_causes": truth((frame.prevented > frame.caused).all()),
+        "prevented": value(*prevented),
+        "caused": value(*caused),
+    }
+    for change in (SIZE, RESTITUTION):
+        for name in ("prevented", "caused"):
+            found[f"{name}_by_{change}"] = value(*mean(heaviest[heaviest.change == change], name))
+    by_size, by_restitution = (found[f"caused_by_{one}"]["value"] for one in (SIZE, RESTITUTION))
+    found["caused_by_the_size"] = truth(by_size > MANY * by_restitution)
+    twin = spectra_areas[spectra_areas.beside == "equivalent column"]
+    apart = zip(*(mean(twin, name) for name in ("prevented", "caused")), strict=True)
+    largest = (twin.prevented + twin.caused).max()
+    return found | {"equivalent_column_differs": value(*map(sum, apart), largest=largest)}
 
 
 if __name__ == "__main__":
-    run(snakemake, work)
+    run(snakemake, compute, findings)

@@ -1,388 +1,319 @@
-"""The cap beam's mass fixed to one column, against the same mass carried freely by two.
+"""A mass fixed to the top of one column, against the same mass carried freely by two.
 
-Does a fixed mass always lower the minimum overturning acceleration of the bare column, and a freely
-carried one always raise it? Pulses over their frequency and records are searched for exceptions.
+The minimum overturning acceleration of both is compared with that of the bare column: under pulses
+of one period, under pulses over their frequency, and under records.
 """
 
 import math
+from collections.abc import Iterator, Sequence
+from itertools import product
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
-from replication.workbench import Finding, grid, run, truth
-from steps.shared.bearing import bearing
-from steps.shared.spectrum import progress
-from steps.vase_poses import poses
-from steps.vase_searches import Minimum, lowest_decided, lowest_wide, minima, minimum, rivals
-from steps.vase_shares import PARAMETERS, WORTHS, shares
+from replication.step import check, grid, run, truth, value
+from steps.shared.poses import bodies, lying, structures
 from topheavy import (
     STANDARD_GRAVITY,
     Column,
     FixedMassColumn,
-    MonolithicPortal,
+    LowestOverturning,
     Pulse,
     Record,
+    RockingFrame,
+    Search,
+    judge,
+    overturned_by,
     read_record,
+    simulate,
 )
+from topheavy.bodies.structures import Structure
+from topheavy.outcomes.minimum import lowest_together
 from topheavy.second import reference
 
-PORTALS_HIGHEST = 40.0  # g, where minima are sought; no other structure comes near
-BESIDE = 1e-3  # over the peak acceleration from which a base is pulled: where SciPy is asked
-SEED = 2014  # of the sample of boundaries that SciPy judges
-OBJECTS = ("found", "bare", "wide", "bare_wide")  # of a row, which no table holds
+NUDGE = 1e-9  # of a record: what no measurement resolves
+DISTANCES = (1e-7, 1e-5, 1e-3)  # from a minimum, over it: where SciPy judges, from near to far
+AT_A_TIME = 512  # factors that are tried in one call where a wide interval is sought
+SEED = 2014  # of the minima that SciPy judges
+FALL = (0.0, 0.15, 0.4, 0.7, 1.0)  # of the last rotation: poses of a structure that overturns
+BARE, FIXED, FREE = "bare", "fixed", "free"
+Motion = Pulse | Record
 
 
-def numbers(column: Column, settings: dict) -> list[tuple[str, float, float, Any]]:
-    """Return structure, γ, span (NaN but for a portal) and the thing itself."""
-    found = [(*rival[:2], math.nan, rival[2]) for rival in rivals(column, settings["mass_ratios"])]
-    width, depth = settings["cap"]["width"], settings["cap"]["depth"]
-    found += [
-        ("fixed, of the drawn size", gamma, math.nan, FixedMassColumn(column, gamma, width, depth))
-        for gamma in settings["mass_ratios"]
-        if gamma > 0.0
-    ]
-    gamma = settings["portals"]["mass_ratio"]
-    return found + [
-        ("portal", gamma, span, MonolithicPortal(column, gamma, span, depth))
-        for span in settings["portals"]["spans"]
-    ]
+def rivals(column: Column, gammas: Sequence[float]) -> Iterator[tuple[str, float, Structure]]:
+    """Yield the bare column, then for each γ > 0 the same mass fixed to it, and carried freely."""
+    yield BARE, 0.0, column
+    for gamma in gammas:
+        if gamma > 0.0:
+            yield FIXED, gamma, FixedMassColumn(column, gamma)
+            yield FREE, gamma, RockingFrame(column, gamma)
 
 
-def under_pulses(column: Column, settings: dict) -> list[dict]:
-    """Return every structure's three numbers, and its minimum under each pulse of the period.
+def minima(
+    under: Sequence[Structure], motion: Motion, highest: float, floor: float, above: float = 0.0
+) -> list[LowestOverturning | None]:
+    """Return the lowest interval of each structure, g; None if it does not uplift up to `highest`.
 
-    A portal whose base is pulled below its minimum has none: there the model does not hold.
+    The motion has a unit peak. The floor is over the uplift acceleration of each structure.
     """
-    rows, below = [], settings["spectra"]["highest"] * column.uplift_acceleration
-    for name, gamma, span, structure in numbers(column, settings):
-        block, highest = structure.block(), PORTALS_HIGHEST if name == "portal" else below
-        size = 3.0 * STANDARD_GRAVITY / (4.0 * block.frequency_parameter**2)
-        for shape in settings["shapes"]:
-            pulse = Pulse(shape, 1.0, 2.0 * math.pi / settings["period"])
-            found = minimum(structure, pulse, highest, settings["floor"])
-            rows.append(
-                {
-                    "structure": name,
-                    "mass_ratio": gamma,
-                    "span": span,
-                    "slenderness_deg": math.degrees(block.slenderness),
-                    "frequency_parameter": block.frequency_parameter,
-                    "restitution": block.restitution,
-                    "equivalent_size": size,
-                    "uplift_acceleration": block.uplift_acceleration,
-                    "shape": shape,
-                    "minimum_overturning": found.acceleration,
-                    "error": found.error,
-                    **(held_down(structure, pulse, found) if name == "portal" else {}),
-                }
-            )
+    levels = [structure.block().uplift_acceleration for structure in under]
+    sought = [place for place, level in enumerate(levels) if max(level, above) < highest]
+    found: list[LowestOverturning | None] = [None] * len(levels)
+    if sought:
+        ranges = [(max(levels[place], above), highest) for place in sought]
+        searches = [Search(under[at], motion, ends) for at, ends in zip(sought, ranges, strict=True)]
+        lowest = lowest_together(searches, [floor * levels[place] for place in sought])
+        for place, one in zip(sought, lowest, strict=True):
+            found[place] = one if one.bracket else None
+    return found
+
+
+def decided(
+    structure: Structure, motion: Motion, one: LowestOverturning | None, highest: float, floor: float, tightened: float
+) -> LowestOverturning | None:
+    """Return the lowest interval whose middle overturns also if it is nudged, or more precisely."""
+    while one and one.upper:
+        middle = 0.5 * (one.factor + one.upper[0])
+        nudged = [middle * (1.0 + off) for off in (-NUDGE, 0.0, NUDGE)]
+        again = judge(structure, motion.scaled(middle), tolerance=tightened)
+        if overturned_by(structure, motion, nudged).all() and again.overturned:
+            break
+        (one,) = minima([structure], motion, highest, floor, one.upper[1])
+    return one
+
+
+def lowest_wide(
+    structure: Structure, motion: Motion, begin: float, highest: float, step: float, width: float
+) -> float:
+    """Return the lowest acceleration from which all steps of a width overturn, g; infinite if none.
+
+    They are tried from the minimum on.
+    """
+    run_of = 0
+    while begin <= highest:
+        factors = begin + step * np.arange(AT_A_TIME)
+        factors = factors[factors <= highest]
+        for factor, overturned in zip(
+            factors, overturned_by(structure, motion, factors), strict=True
+        ):
+            run_of = run_of + 1 if overturned else 0
+            if run_of > round(width / step):
+                return float(factor - (run_of - 1) * step)
+        begin += step * AT_A_TIME
+    return math.inf
+
+
+def error_of(structure: Structure, motion: Motion, one: LowestOverturning) -> float:
+    """Return how far a minimum may be off by SciPy, g; stop where it finds none within 1e-3."""
+    low, high = one.bracket
+    last = one.upper[0] if one.upper else one.scale_range[1]
+
+    def overturns(factor: float) -> bool:
+        return reference.judge(structure, motion.scaled(factor)).overturned
+
+    for distance in DISTANCES:
+        above = min(high * (1.0 + distance), 0.5 * (high + last))
+        if overturns(above) and not overturns(low * (1.0 - distance)):
+            return distance * high + high - low
+    check(False, f"SciPy finds no minimum of {structure} near {high:.9g} g under {motion}")
+    return math.nan
+
+
+def of_one_period(column: Column, settings: dict) -> list[dict]:
+    """Return each structure's three parameters, and its minimum under each pulse of the period."""
+    rows, highest = [], settings["highest"] * column.uplift_acceleration
+    of_each = product(rivals(column, settings["mass_ratios"]), settings["shapes"])
+    for (name, gamma, structure), shape in of_each:
+        block = structure.block()
+        pulse = Pulse(shape, 1.0, 2.0 * math.pi / settings["period"])
+        (found,) = minima([structure], pulse, highest, settings["floor"])
+        rows.append(
+            {
+                "structure": name,
+                "mass_ratio": gamma,
+                "slenderness_deg": math.degrees(block.slenderness),
+                "frequency_parameter": block.frequency_parameter,
+                "restitution": block.restitution,
+                "equivalent_size": 3.0 * STANDARD_GRAVITY / (4.0 * block.frequency_parameter**2),
+                "uplift_acceleration": block.uplift_acceleration,
+                "shape": shape,
+                "minimum_overturning": found.factor,
+                "error": error_of(structure, pulse, found),
+            }
+        )
     return rows
-
-
-def held_down(portal: MonolithicPortal, pulse: Pulse, found: Minimum) -> dict[str, float]:
-    """Return the peak from which the base is pulled, with SciPy's error, or the friction up to it.
-
-    Where it is pulled, the minimum and its error are NaN.
-    """
-    last = found.lowest.bracket[0]
-    borne = bearing(portal, pulse, last)
-    row = {"friction": borne.friction, "pulled_from": math.nan, "pulled_error": math.nan}
-    if borne.pulled_from == math.inf:
-        return row
-    ends = borne.pulled_from * (1.0 - BESIDE), borne.pulled_from * (1.0 + BESIDE)
-    scipys = (bearing(portal, pulse, end, reference.simulate, 1).pulled_from for end in ends)
-    agrees = [end < math.inf for end in scipys] == [False, True]
-    row |= {"pulled_from": borne.pulled_from, "minimum_overturning": math.nan, "error": math.nan}
-    return row | {"pulled_error": BESIDE * borne.pulled_from if agrees else math.inf}
-
-
-def search(
-    column: Column, motion: Pulse | Record, ratios: list[float], settings: dict, tightened: float
-) -> list[dict]:
-    """Return the minima of all structures under one motion, each beside that of the bare column."""
-    rows: list[dict] = []
-    highest, floor = settings["spectra"]["highest"] * column.uplift_acceleration, settings["floor"]
-    under = [*rivals(column, ratios)]
-    first = minima([structure for *_, structure in under], motion, highest, floor)
-    for (name, gamma, _), lowest in zip(under, first, strict=True):
-        found = lowest_decided(lowest, highest, floor, tightened)
-        row = {"structure": name, "mass_ratio": gamma, "found": found}
-        row["wide"] = lowest_wide(found, highest, floor, settings["widths"])
-        bare = rows[0] if rows else row
-        rows.append(row | {"bare": bare["found"], "bare_wide": bare["wide"]})
-    return rows
-
-
-def is_exception(row: dict) -> bool:
-    """Whether a fixed mass overturns later than the bare column, or a frame earlier."""
-    return is_reversed(row["structure"], row["found"].acceleration, row["bare"].acceleration)
-
-
-def is_reversed(structure: str, ours: float, bare: float) -> bool:
-    """Whether the accelerations that overturn are not in the order fixed, bare, free."""
-    return {"bare": False, "fixed": ours > bare, "free": ours < bare}[structure]
-
-
-def both(row: dict) -> list[Minimum]:
-    """Return those of a structure and of the bare column that there are."""
-    return [one for one in (row["found"], row["bare"]) if math.isfinite(one.acceleration)]
-
-
-def is_compared(row: dict) -> bool:
-    """Whether one of the two overturns at all."""
-    return row["structure"] != "bare" and bool(both(row))
-
-
-def plain(row: dict) -> dict:
-    """Return a row of the table; NaN where nothing up to the highest acceleration overturns."""
-    labels = {key: value for key, value in row.items() if key not in OBJECTS}
-    return labels | {"minimum_overturning": _finite(row["found"])}
-
-
-def searched(row: dict) -> dict:
-    """Return a row with the width of its interval and of lower ones, and the wide intervals, g."""
-    found = row["found"]
-    width = found.lowest.width if math.isfinite(found.acceleration) else math.nan
-    wide = {f"wider_than_{width:g}": _or_nan(first) for width, first in row["wide"].items()}
-    return plain(row) | {"width": width, "passed_over": found.passed_over} | wide
-
-
-def exception(row: dict) -> dict:
-    """Return an exception with the error of both of its minima, by SciPy."""
-    ours, bare = row["found"], row["bare"]
-    errors = (one.error if math.isfinite(one.acceleration) else math.nan for one in (ours, bare))
-    pair = dict(zip(("error", "bare_error"), errors, strict=True))
-    later = ours if ours.acceleration > bare.acceleration else bare
-    earlier = min(ours.acceleration, bare.acceleration)
-    survives = not reference.judge(later.structure, later.motion.scaled(earlier)).overturned
-    return plain(row) | {"bare_column": _finite(bare), **pair, "later_one_survives": survives}
-
-
-def _finite(found: Minimum) -> float:
-    return _or_nan(found.acceleration)
-
-
-def _or_nan(value: float) -> float:
-    return value if math.isfinite(value) else math.nan
-
-
-def question(compared: list[dict], structures: list[str], settings: dict) -> Finding:
-    """Return whether the structures keep their rank under every motion, as a finding.
-
-    The evidence has how often the lowest intervals of each width do not.
-    """
-    longest = settings["longest"]
-    asked = [row for row in compared if row["structure"] in structures]
-    broken = pd.DataFrame(filter(is_exception, asked), columns=["structure", "kind"])
-    found = counted(broken, structures)
-    long_ones = [row for row in asked if row["frequency_ratio"] <= longest]
-    return truth(
-        found.pop("holds"),
-        holds_when=bool(long_ones) and not any(map(is_exception, long_ones)),
-        condition=f"the ground motion is a pulse of ω at most {longest:g} p",
-        comparisons=len(asked),
-        comparisons_when=len(long_ones),
-        **found,
-        records=sum(row["kind"] == "record" for row in asked),
-        exceptions_of_width={
-            f"{width:g}": reversed_at(asked, width) for width in settings["widths"]
-        },
-    )
-
-
-def counted(exceptions: pd.DataFrame, structures: list[str]) -> dict[str, Any]:
-    """Return how many exceptions these structures have, and whether there is none."""
-    ours = exceptions[exceptions.structure.isin(structures)]
-    of_records = int((ours.kind == "record").sum())
-    return {"holds": ours.empty, "exceptions": len(ours), "exceptions_under_records": of_records}
-
-
-def reversed_at(rows: list[dict], width: float) -> dict[str, int]:
-    """Return how many ranks the lowest intervals of a width reverse, by the kind of motion."""
-    found = [
-        row["kind"]
-        for row in rows
-        if is_reversed(row["structure"], row["wide"][width], row["bare_wide"][width])
-    ]
-    return {"pulse": len(found) - found.count("record"), "record": found.count("record")}
-
-
-def on_a_fresh_grid(compared: list[dict], longest: float) -> Finding:
-    """Return whether the condition, stated before, holds where it was not found, as a finding."""
-    fresh = [row for row in compared if row["kind"] == "fresh"]
-    inside = [row for row in fresh if row["frequency_ratio"] <= longest]
-    broken = sorted(row["frequency_ratio"] for row in fresh if is_exception(row))
-    return truth(
-        bool(inside) and not any(map(is_exception, inside)),
-        comparisons=len(inside),
-        beyond=len(fresh) - len(inside),
-        exceptions_beyond=broken,
-    )
-
-
-def sampled(compared: list[dict], kind: str, count: int) -> list[Minimum]:
-    """Return minima of a seeded sample of the motions of a kind, of records the smallest."""
-    found = [row["found"] for row in compared if row["kind"] == kind]
-    found = [one for one in found if math.isfinite(one.acceleration)]
-    if kind == "record":
-        return sorted(found, key=lambda one: one.motion.acceleration.size)[:count]
-    return [found[place] for place in np.random.default_rng(SEED).permutation(len(found))[:count]]
-
-
-def second_route(errors: list[float], exceptions: list[dict], rows: list[dict]) -> Finding:
-    """Return whether SciPy finds every boundary of the sample, as a finding.
-
-    Of every exception, the structure that overturns later has to survive where the other falls.
-    """
-    found = bool(np.all(np.isfinite(errors)))
-    asked = [row for row in rows if row["structure"] != "bare"]
-    return truth(
-        found and all(row["later_one_survives"] for row in exceptions),
-        boundaries=len(errors),
-        largest_relative_error=float(np.max(errors)) if found else None,
-        exceptions=len(exceptions),
-        neither_overturns=sum(not both(row) for row in asked),
-        passed_over=sum(row["found"].passed_over for row in rows),
-    )
-
-
-def whole_gain(table: pd.DataFrame) -> Finding:
-    """Return whether α, p and √r carry the whole gain, and how much each: mean and range."""
-    single = table[table.shapley_value.notna()]
-    whole = single.groupby(["worth", "shape", "mass_ratio"]).share_of_gain.sum()
-    found = single.groupby(["worth", "taken_from_the_frame"]).share_of_gain
-    shares = {
-        worth: {
-            name: [float(found.agg(how)[worth, name]) for how in ("mean", "min", "max")]
-            for name in PARAMETERS
-        }
-        for worth in WORTHS
-    }
-    return truth(bool(np.allclose(whole, 1.0)), **shares)
 
 
 def motions(
     column: Column, settings: dict, paths: list[str]
-) -> list[tuple[Pulse | Record, list[float], dict]]:
-    """Return every motion, of unit peak, with the γ that it is tried with and its labels.
+) -> Iterator[tuple[Motion, list[float], dict]]:
+    """Yield every motion, of unit peak, with the γ that it is applied to and its labels."""
+    for spec in settings["grids"]:
+        for shape, ratio in product(spec["shapes"], map(float, grid(spec["frequency_ratios"]))):
+            pulse = Pulse(shape, 1.0, ratio * column.frequency_parameter)
+            yield pulse, spec["mass_ratios"], {"motion": shape, "frequency_ratio": ratio}
+    for record in map(read_record, paths):
+        labels = {"motion": record.name, "frequency_ratio": math.nan}
+        scaled = record.scaled(1.0 / record.peak_acceleration)
+        yield scaled, settings["record_mass_ratios"], labels
 
-    Those of the kind "fresh" test the condition that the others led to.
+
+def under_motions(column: Column, settings: dict, paths: list[str], tightened: float) -> list[dict]:
+    """Return the minima of all structures under each motion, infinite where nothing overturns.
+
+    SciPy judges a sample of the minima under pulses, and every exception: there the structure with
+    the higher minimum has to survive the lower one.
     """
-    p = column.frequency_parameter
-    pulses = [
-        (
-            Pulse(shape, 1.0, ratio * p),
-            spec["mass_ratios"],
-            {"kind": kind, "motion": shape, "frequency_ratio": ratio},
-        )
-        for kind, spec in (("pulse", settings["spectra"]), ("fresh", settings["fresh"]))
-        for shape in spec["shapes"]
-        for ratio in grid(spec["frequency_ratios"])
-    ]
-    return pulses + [
-        (
-            record.scaled(1.0 / np.abs(record.acceleration).max()),
-            settings["record_mass_ratios"],
-            {"kind": "record", "motion": record.name, "frequency_ratio": math.nan},
-        )
-        for record in map(read_record, paths)
-    ]
+    highest, floor = settings["highest"] * column.uplift_acceleration, settings["floor"]
+    rows, of_pulses = [], []
+    for motion, gammas, labels in motions(column, settings, paths):
+        names, ratios, under = zip(*rivals(column, gammas), strict=True)
+        found = [
+            decided(structure, motion, one, highest, floor, tightened)
+            for structure, one in zip(under, minima(under, motion, highest, floor), strict=True)
+        ]
+        for name, gamma, structure, one in zip(names, ratios, under, found, strict=True):
+            step = floor * structure.block().uplift_acceleration
+            width = settings["wide"] / floor * step
+            minimum, wide = math.inf, math.inf
+            if one:
+                minimum = one.factor
+                wide = lowest_wide(structure, motion, minimum, highest, step, width)
+            rows.append(
+                labels
+                | {"structure": name, "mass_ratio": gamma, "minimum": minimum, "wide_minimum": wide}
+            )
+            if one and isinstance(motion, Pulse):
+                of_pulses.append((structure, motion, one))
+            bare = found[0].factor if found[0] else math.inf
+            if is_exception(name, minimum, bare):
+                later, earlier = (column, minimum) if name == FREE else (structure, bare)
+                falls = reference.judge(later, motion.scaled(earlier)).overturned
+                check(not falls, f"{later} overturns at {earlier:.9g} g under {motion}, by SciPy")
+                for of, interval in ((structure, one), (column, found[0])):
+                    if interval:
+                        error_of(of, motion, interval)
+    picked = np.random.default_rng(SEED).permutation(len(of_pulses))[: settings["sample"]]
+    for place in picked:
+        error_of(*of_pulses[place])
+    return rows
 
 
-def ranks(summary: pd.DataFrame) -> bool:
-    """Whether fixed < bare < free under each pulse of the period, for every γ > 0."""
-    of = summary.set_index(["structure", "shape"]).sort_index().minimum_overturning
-    return all(
-        of["fixed", shape].max() < of["bare", shape].min()
-        and of["free", shape].min() > of["bare", shape].max()
-        for shape in summary["shape"].unique()
-    )
+def is_exception(structure: str, minimum: float, bare: float) -> bool:
+    """Whether a fixed mass overturns later than the bare column, or a frame earlier."""
+    return {BARE: False, FIXED: minimum > bare, FREE: minimum < bare}[structure]
 
 
-def beside_frames(summary: pd.DataFrame) -> Finding:
-    """Return whether each portal overturns later than the frame of its γ under each pulse.
+def rotations(structure: Structure, pulse: Pulse, cap: dict[str, float]) -> tuple[str, list[float]]:
+    """Return the outcome, and the rotations that are drawn, the last one last.
 
-    A portal whose base is pulled counts up to there, as nothing lower overturns it.
+    A structure that survives is drawn at its largest rotations to both sides, if any, and at 0.
     """
-    at = ["mass_ratio", "shape"]
-    frames = summary[summary.structure == "free"].set_index(at).minimum_overturning
-    portals = summary[summary.structure == "portal"].set_index(at)
-    reached = portals.minimum_overturning.fillna(portals.pulled_from)
-    over = reached.to_numpy() / frames.loc[portals.index].to_numpy()
-    quoted = portals.minimum_overturning.notna()
-    return truth(
-        over.min() > 1.0,
-        compared=len(over),
-        quoted=int(quoted.sum()),
-        pulled=int((~quoted).sum()),
-        pulled_by_scipy=int(np.isfinite(portals.pulled_error[~quoted]).sum()),
-        least_pulled_from=float(portals.pulled_from.min()),
-        largest_friction=float(portals.friction[quoted].max()),
-        least=over.min(),
+    response = simulate(structure, pulse, samples=np.linspace(0.0, 6.0 * pulse.duration, 4001))
+    theta = response.rotation
+    if not response.overturned:
+        return response.outcome, [*sorted({float(theta.min()), float(theta.max())} - {0.0}), 0.0]
+    check(
+        not isinstance(structure, RockingFrame),
+        f"the frame of vase.picture overturns at {pulse.amplitude:.6g} g; expected an amplitude "
+        "that it survives, since its bodies part when it falls",
     )
+    last = math.copysign(lying(structure, cap), theta[~np.isnan(theta)][-1])
+    return response.outcome, [last * share for share in FALL]
 
 
-ASKED = {
-    "fixed_mass_always_lowers": ["fixed"],
-    "frame_always_raises": ["free"],
-    "support_decides": ["fixed", "free"],
-}
-"""Which structures each question about all motions is asked of."""
+def poses(column: Column, settings: dict) -> Iterator[dict]:
+    """Yield a row for each corner of each body of each pose."""
+    picture = settings["picture"]
+    shown = structures(column, picture["mass_ratio"], picture["cap"])
+    for amplitude, (name, structure) in product(picture["amplitudes"], shown.items()):
+        pulse = Pulse("one-cosine", amplitude, 2.0 * math.pi / settings["period"])
+        outcome, angles = rotations(structure, pulse, picture["cap"])
+        for pose, rotation in enumerate(angles):
+            labels = {"amplitude": amplitude, "mass_ratio": picture["mass_ratio"], "structure": name}
+            labels |= {"outcome": outcome, "pose": pose, "last": pose == len(angles) - 1}
+            for body, outline in bodies(structure, rotation, picture["cap"]).items():
+                for x, y in outline:
+                    yield labels | {"body": body, "x": x, "y": y}
 
 
-def findings(
-    vase: pd.DataFrame, vase_exceptions: pd.DataFrame, vase_shares: pd.DataFrame
-) -> dict[str, Any]:
-    """Return what follows from the tables of minima, exceptions and shares of the gain."""
-    fresh = vase_exceptions[vase_exceptions.kind == "fresh"].frequency_ratio
-    asked = {name: counted(vase_exceptions, structures) for name, structures in ASKED.items()}
-    return asked | {
-        "condition_on_a_fresh_grid": {"exceptions_beyond": sorted(fresh)},
-        "portal_overturns_last": beside_frames(vase),
-        "shares_of_the_gain": whole_gain(vase_shares),
-        "second_route": {"exceptions": len(vase_exceptions)},
+def compute(settings: dict, column: dict, records: list[str], tightened: float) -> dict[str, Any]:
+    """Return minima under the pulses of one period and under all motions, and the poses."""
+    of = Column(**column)
+    return {
+        "vase": of_one_period(of, settings),
+        "motions": under_motions(of, settings, list(records), tightened),
+        "poses": [*poses(of, settings)],
     }
 
 
-def main(settings: dict, paths: list[str], tightened: float) -> tuple:
-    column = Column(**settings["column"])
-    summary = pd.DataFrame(under_pulses(column, settings))
-    tried = motions(column, settings, paths)
-    found = (
-        [labels | row for row in search(column, motion, ratios, settings, tightened)]
-        for motion, ratios, labels in tried
-    )
-    rows = [row for part in progress(found, len(tried), "motions") for row in part]
-    compared = [row for row in rows if is_compared(row)]
-    broken = [row for row in compared if is_exception(row)]
-    exceptions = list(map(exception, broken))
-    sample = sampled(compared, "pulse", settings["sample"]["points"])
-    sample += sampled(compared, "record", settings["checked_by_second_route"])
-    sample += [one for row in broken for one in both(row)]
-    errors = [*(one.error / one.acceleration for one in sample)]
-    quoted = summary[summary.minimum_overturning.notna()]
-    errors += [*(quoted.error / quoted.minimum_overturning)]
-    errors += [*(summary.pulled_error / summary.pulled_from).dropna()]
-    of_shares = pd.DataFrame(shares(column, settings))
-    none = ["structure", "kind", "frequency_ratio"]
-    found = {name: question(compared, of, settings) for name, of in ASKED.items()}
-    found["support_decides"] = found["support_decides"].with_evidence(
-        under_the_pulses_of_the_period=ranks(summary)
-    )
-    found["condition_on_a_fresh_grid"] = on_a_fresh_grid(compared, settings["longest"])
-    drawn = findings(
-        summary, pd.DataFrame(exceptions, columns=None if exceptions else none), of_shares
-    )
-    found |= {name: one for name, one in drawn.items() if isinstance(one, Finding)}
-    found["second_route"] = second_route(errors, exceptions, rows)
-    tables = summary, pd.DataFrame(map(searched, rows)), pd.DataFrame(exceptions), of_shares
-    return *tables, pd.DataFrame(poses(column, settings)), found
+def compared(vase_motions: pd.DataFrame) -> pd.DataFrame:
+    """Return each fixed mass and frame beside the bare column, where one of the two overturns."""
+    at = ["motion", "frequency_ratio"]
+    table = vase_motions.fillna({"frequency_ratio": -1.0})
+    bare = table[table.structure == BARE].drop_duplicates(at).set_index(at)
+    table = table[table.structure != BARE].join(bare[["minimum", "wide_minimum"]], at, rsuffix="_bare")
+    table = table[np.isfinite(table[["minimum", "minimum_bare"]].min(axis=1))]
+    for name in ("minimum", "wide_minimum"):
+        ranks = zip(table.structure, table[name], table[f"{name}_bare"], strict=True)
+        table[f"{name}_reversed"] = [is_exception(*rank) for rank in ranks]
+    return table
 
 
-def work(job: Any) -> tuple:
-    return main(job.params.settings, job.input.records, job.params.solver["tightened"])
+def ranked(table: pd.DataFrame, longest: float) -> dict[str, Any]:
+    """Return whether all structures keep their ranks, on the condition of long pulses."""
+    record = table.frequency_ratio < 0.0
+    long = table[~record & (table.frequency_ratio <= longest)]
+    exceptions = table[table.minimum_reversed]
+    return truth(
+        exceptions.empty,
+        holds_when=len(long) > 0 and not long.minimum_reversed.any(),
+        condition=f"the ground motion is a pulse of ω at most {longest:g} p",
+        comparisons=len(table),
+        exceptions=len(exceptions),
+        records=record.sum(),
+        exceptions_under_records=(record & table.minimum_reversed).sum(),
+        shortest_of_exceptions=exceptions[~record].frequency_ratio.min() if len(exceptions) else 0.0,
+    )
+
+
+def findings(vase: pd.DataFrame, vase_motions: pd.DataFrame, settings: dict) -> dict[str, Any]:
+    """Return the quoted minima, and whether the ranks of the structures hold everywhere."""
+    table = compared(vase_motions)
+    free, longest = table[table.structure == FREE], settings["longest"]
+    wide = int(free.wide_minimum_reversed.sum())
+    under = vase.set_index(["structure", "mass_ratio", "shape"]).minimum_overturning
+    raised = [under[FREE, math.inf, s] / under[BARE, 0.0, s] - 1.0 for s in settings["shapes"]]
+    ranks = [
+        under.loc[FIXED, :, s].max() < under[BARE, 0.0, s] < under.loc[FREE, :, s].min()
+        for s in settings["shapes"]
+    ]
+    found = {
+        "fixed_mass_always_lowers": ranked(table[table.structure == FIXED], longest),
+        "frame_always_raises": truth(
+            not free.minimum_reversed.any() and wide == 0,
+            holds_when=not free.minimum_reversed.any(),
+            condition="the lowest interval of overturning accelerations counts, however narrow",
+            comparisons=len(free),
+            records=(free.frequency_ratio < 0.0).sum(),
+            exceptions=free.minimum_reversed.sum(),
+            exceptions_of_wide_intervals=wide,
+        ),
+        "support_decides": ranked(table, longest)
+        | {"under_the_pulses_of_one_period": all(ranks)},
+        "least_raise": value(min(raised), 1e-6),
+        "largest_raise": value(max(raised), 1e-6),
+    }
+    quoted = vase[vase["shape"] == "one-cosine"].set_index(["structure", "mass_ratio"])
+    for name, at in {
+        "minimum_of_the_column": (BARE, 0.0),
+        "minimum_at_mass_ratio_one": (FREE, 1.0),
+        "minimum_of_the_heaviest": (FREE, math.inf),
+    }.items():
+        found[name] = value(*quoted.loc[at, ["minimum_overturning", "error"]], "g")
+    return found
 
 
 if __name__ == "__main__":
-    run(snakemake, work)
+    run(snakemake, compute, findings)

@@ -1,8 +1,7 @@
-"""Lines of overturning spectra: all overturning amplitudes at a frequency, as table rows."""
+"""Lines of overturning spectra: all amplitudes at a frequency that overturn a block."""
 
 import math
-import time
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import pandas as pd
@@ -10,11 +9,15 @@ import pandas as pd
 from topheavy import Column, Pulse, RockingBlock, RockingFrame, Search, intervals_together
 from topheavy.outcomes.overturning import Interval
 
-MODES = ("without impact", "with impact")
+FRAME, SIZE, RESTITUTION = CHANGES = "frame", "size", "restitution"
+"""What a cap beam changes of the column: p and √r, p alone (the equivalent column), √r alone."""
+MODES = "without impact", "with impact"
+KEYS = ["change", "mass_ratio", "slenderness_deg", "shape", "frequency_ratio"]
+TOGETHER = 400  # lines that are searched in the same calls of the kernel
 
 
 class Line(NamedTuple):
-    """A block under pulses of one frequency; `pulse` has the amplitude that a scale of 1 means."""
+    """A block under pulses of one frequency; `pulse` has the amplitude g tan α of the column."""
 
     labels: dict[str, Any]
     block: RockingBlock
@@ -27,101 +30,62 @@ def column_of(slenderness: float) -> Column:
     return Column(math.sin(alpha), math.cos(alpha))
 
 
-def line(slenderness: float, shape: str, gamma: float, linearised: bool, ratio: float) -> Line:
-    """Return the line of a frame whose columns have a slenderness in degrees."""
-    column = column_of(slenderness)
-    block = RockingFrame(column, gamma).block()
-    labels = {
-        "slenderness_deg": slenderness,
-        "shape": shape,
-        "mass_ratio": gamma,
-        "linearised": linearised,
-        "frequency_ratio": ratio,
-    }
-    return Line(
-        labels,
-        block.linear() if linearised else block,
-        Pulse(shape, column.uplift_acceleration, ratio * column.frequency_parameter),
-    )
+def line(change: str, gamma: float, slenderness: float, shape: str, ratio: float) -> Line:
+    """Return the line of a frame, by the `KEYS`.
 
-
-TOGETHER = 400
-"""Lines that are searched together, so that blocks and frequencies share the kernel's calls."""
-
-
-def intervals(lines: Sequence[Line], settings: Mapping[str, Any]) -> Iterator[list[Interval]]:
-    """Yield the intervals of every line over the amplitudes of a config entry.
-
-    Close to uplift, under long pulses, the lowest intervals are narrow. The search is therefore
-    repeated at the finer resolution below the first interval.
+    A slenderness is in degrees; a frequency is over p of the column.
     """
-    amplitudes, finer = settings["amplitudes"], settings["finer"]
-    first = amplitudes["lowest"]
-    for begin in range(0, len(lines), TOGETHER):
-        some = lines[begin : begin + TOGETHER]
-        ranges = [(first, amplitudes["highest"])] * len(some)
-        found = searched(some, ranges, amplitudes["resolution"])
-        ends = {k: of[0].lower[0] for k, of in enumerate(found) if of}
-        again = {k: (first, end) for k, end in ends.items() if first < end < finer["below"]}
-        if again:
-            below = searched([some[k] for k in again], [*again.values()], finer["resolution"])
-            for k, lower in zip(again, below, strict=True):
-                found[k] = lower + found[k]
-        yield from found
-
-
-def search(line: Line, scales: tuple[float, float], resolution: float) -> list[Interval]:
-    """Return the intervals in a range, labelled only by whether an impact precedes overturning."""
-    (found,) = searched([line], [scales], resolution)
-    return found
-
-
-def searched(
-    lines: Sequence[Line], ranges: Sequence[tuple[float, float]], resolution: float
-) -> list[list[Interval]]:
-    """Return the intervals of every line in its range, labelled as by `search`."""
-    searches = [
-        Search(line.block, line.pulse, scales) for line, scales in zip(lines, ranges, strict=True)
-    ]
-    return intervals_together(searches, resolution=resolution, most_impacts=len(MODES) - 1)
+    column = column_of(slenderness)
+    frame, alone = RockingFrame(column, gamma).block(), column.block()
+    block = {
+        FRAME: frame,
+        SIZE: frame.with_restitution(alone.restitution),
+        RESTITUTION: alone.with_restitution(frame.restitution),
+    }[change]
+    pulse = Pulse(shape, column.uplift_acceleration, ratio * column.frequency_parameter)
+    labels = dict(zip(KEYS, (change, gamma, slenderness, shape, ratio), strict=True))
+    return Line(labels, block, pulse)
 
 
 def solve(lines: Sequence[Line], settings: Mapping[str, Any]) -> pd.DataFrame:
-    """Return the overturning intervals of every line, over the scale of its pulse.
+    """Return the intervals of amplitudes, over g tan α, that overturn the block of each line.
 
-    A row has the middles of the brackets of both ends (no upper one where the range ends first),
-    the width of the wider bracket, and whether the block overturns before any impact.
+    Close to uplift, under long pulses, the lowest intervals are narrow. Below the first interval
+    the search is therefore repeated at the finer resolution.
     """
+    amplitudes, finer = settings["amplitudes"], settings["finer"]
+    first, rows = amplitudes["lowest"], []
+    for begin in range(0, len(lines), TOGETHER):
+        some = lines[begin : begin + TOGETHER]
+        whole = [(first, amplitudes["highest"])] * len(some)
+        found = search(some, whole, amplitudes["resolution"])
+        ends = {place: of[0].lower[0] for place, of in enumerate(found) if of}
+        low = {place: (first, end) for place, end in ends.items() if first < end < finer["below"]}
+        again = search([some[place] for place in low], [*low.values()], finer["resolution"])
+        for place, lower in zip(low, again, strict=True):
+            found[place] = lower + found[place]
+        for each, intervals in zip(some, found, strict=True):
+            rows += rows_of(each, intervals)
+        print(f"{begin + len(some)} of {len(lines)} lines", flush=True)
+    return pd.DataFrame(rows, columns=[*KEYS, "lower", "upper", "mode"])
 
-    found = progress(intervals(lines, settings), len(lines), "lines")
-    table = [
-        line.labels | _row(interval)
-        for line, several in zip(lines, found, strict=True)
-        for interval in several
+
+def search(
+    lines: Sequence[Line], ranges: Sequence[tuple[float, float]], resolution: float
+) -> list[list[Interval]]:
+    """Return the intervals of each line in its range, none wider than the resolution missed."""
+    searches = [
+        Search(each.block, each.pulse, scales) for each, scales in zip(lines, ranges, strict=True)
     ]
-    return pd.DataFrame(table, columns=[*lines[0].labels, "lower", "upper", "mode", "bracket"])
+    return intervals_together(searches, resolution=resolution, most_impacts=1) if lines else []
 
 
-def shard_of(lines: Sequence[Any], shard: str) -> Sequence[Any]:
-    """Return every n-th line, as the name of a shard has it: "2-of-8"."""
-    number, of = map(int, shard.split("-of-"))
-    return lines[number - 1 :: of]
-
-
-def progress(results: Iterable[Any], count: int, what: str) -> Iterator[Any]:
-    """Yield the results, and write every tenth of them to the log."""
-    start = time.monotonic()
-    for number, result in enumerate(results, start=1):
-        yield result
-        if number * 10 // count > (number - 1) * 10 // count:
-            print(f"{number} of {count} {what}, {time.monotonic() - start:.0f} s", flush=True)
-
-
-def _row(interval: Interval) -> dict[str, Any]:
-    ends = [interval.lower, *([interval.upper] if interval.upper else [])]
-    return {
-        "lower": sum(interval.lower) / 2.0,
-        "upper": sum(interval.upper) / 2.0 if interval.upper else None,
-        "mode": MODES[interval.impacts],
-        "bracket": max(high - low for low, high in ends),
-    }
+def rows_of(each: Line, intervals: Sequence[Interval]) -> Iterator[dict[str, Any]]:
+    """Yield a row for each interval; it has no upper end where the range ends first."""
+    for one in intervals:
+        upper = sum(one.upper) / 2.0 if one.upper else None
+        yield each.labels | {
+            "lower": sum(one.lower) / 2.0,
+            "upper": upper,
+            "mode": MODES[one.impacts],
+        }

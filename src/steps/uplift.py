@@ -1,0 +1,114 @@
+"""Forces of columns and frames that rock, beside rigid ones that are clamped against uplift.
+
+Clamped columns are fixed at their bases and pinned to the cap beam: they are cantilevers.
+"""
+
+import math
+from collections.abc import Callable
+from itertools import product
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from replication.step import check, grid, run, truth
+from steps.shared.histories import history
+from topheavy import (
+    Cap,
+    Column,
+    FixedFrame,
+    Pulse,
+    RockingFrame,
+    base_shear_slope,
+    largest_forces,
+    peak_rigid,
+    simulate,
+)
+from topheavy.second import reference
+
+FORCES = ("base_shear", "overturning_moment", "bending_moment")
+SEED = 2014  # of the histories that SciPy computes again
+CLOSE = 1e-3  # relative: what the peaks of two solvers may differ by
+HALVED = 5e-3  # relative: what half as many samples may change a peak by
+
+
+def peaks(
+    frame: RockingFrame, cap: Cap, pulse: Pulse, points: int, solver: Callable = simulate
+) -> tuple[str, np.ndarray]:
+    """Return the outcome of a history and its largest forces over the weight, a shear and moments.
+
+    NaN where it overturns.
+    """
+    whole = solver(frame, pulse, samples=2)
+    if whole.overturned:
+        return whole.outcome, np.full(len(FORCES), math.nan)
+    course = history(frame, pulse, points, solver, whole)
+    fine, coarse = largest_forces(frame, cap, course.rotation, course.velocity, course.ground)
+    check(
+        bool(np.allclose(coarse, fine, rtol=HALVED)),
+        f"half as many points change {fine} to {coarse}: {frame} under {pulse}",
+    )
+    return whole.outcome, fine
+
+
+def compute(settings: dict, column: dict) -> list[dict]:
+    """Return the largest forces of each history, and over those of the clamped rigid frame."""
+    of = Column(**column)
+    cap = Cap(settings["cap"]["span"], settings["cap"]["depth"] / 2.0)
+    pulses = product(settings["shapes"], map(float, grid(settings["frequency_ratios"])))
+    cells = [*product(pulses, settings["mass_ratios"], settings["amplitudes"])]
+    rows, survivors = [], []
+    for (shape, ratio), gamma, amplitude in cells:
+        frame = RockingFrame(of, gamma)
+        level, slope = frame.uplift_acceleration, base_shear_slope(frame)
+        pulse = Pulse(shape, amplitude * level, ratio * of.frequency_parameter)
+        outcome, forces = peaks(frame, cap, pulse, settings["points"])
+        clamped = peak_rigid(FixedFrame(frame, cap, "pinned"), pulse)
+        rows.append(
+            {"shape": shape, "frequency_ratio": ratio, "mass_ratio": gamma, "outcome": outcome}
+            | {"peak_acceleration": pulse.amplitude, "uplift_acceleration": level}
+            | {"shear_after_uplift": level + slope * (pulse.amplitude - level)}
+            | dict(zip(FORCES, forces, strict=True))
+            | {f"{n}_over_clamped": forces[i] / clamped[i] for i, n in enumerate(FORCES)}
+        )
+        if outcome != "overturned":
+            survivors.append((frame, pulse, forces))
+    picked = np.random.default_rng(SEED).permutation(len(survivors))[: settings["sample"]]
+    for frame, pulse, forces in (survivors[place] for place in picked):
+        _, again = peaks(frame, cap, pulse, settings["points"], reference.simulate)
+        check(
+            bool(np.allclose(again, forces, rtol=CLOSE)),
+            f"SciPy has {again} in place of {forces}: {frame} under {pulse}",
+        )
+    return rows
+
+
+def findings(uplift: pd.DataFrame) -> dict[str, Any]:
+    """Return whether all forces, and the base shear, are lower than those of the clamped frame."""
+    survivors = uplift[uplift.outcome != "overturned"]
+    largest = {name: float(survivors[f"{name}_over_clamped"].max()) for name in FORCES}
+    overturned = len(uplift) - len(survivors)
+    evidence = {"histories": len(uplift), "overturned": overturned}
+    over_uplift = (survivors.base_shear / survivors.uplift_acceleration).max()
+    return {
+        "uplift_limits_forces": truth(
+            overturned == 0 and max(largest.values()) < 1.0,
+            holds_when=max(largest.values()) < 1.0,
+            condition="the frame survives, and is compared with a rigid one that is clamped against "
+            "uplift, whose columns are cantilevers",
+            **evidence,
+            **{f"{name}_largest": number for name, number in largest.items()},
+        ),
+        "uplift_is_beneficial": truth(
+            overturned == 0 and largest["base_shear"] < 1.0,
+            holds_when=largest["base_shear"] < 1.0,
+            condition="the frame survives; the benefit is a lower base shear than that of a rigid "
+            "frame clamped against uplift",
+            **evidence,
+            largest_shear_over_uplift=over_uplift,
+        ),
+    }
+
+
+if __name__ == "__main__":
+    run(snakemake, compute, findings)
