@@ -126,6 +126,11 @@ rule verification:
 # Second part: spectra, vase, proven, uplift; the animation and the page ----------------------------
 
 
+SPECTRUM = code("src/steps/shared/__init__.py", "src/steps/shared/spectrum.py")
+POSES = code("src/steps/shared/__init__.py", "src/steps/shared/poses.py")
+HISTORIES = code("src/steps/shared/__init__.py", "src/steps/shared/histories.py")
+
+
 scattergather:
     spectra=PAPER["spectra"]["shards"],
 
@@ -134,7 +139,7 @@ rule spectra_shard:
     output:
         table="results/shards/spectra_{scatteritem}.csv",
     params:
-        code=code("src/steps/spectra_shard.py", "src/steps/shared/spectrum.py") | CORE,
+        code=code("src/steps/spectra_shard.py") | SPECTRUM | CORE,
         settings=PAPER["spectra"],
         shard="{scatteritem}",
     log:
@@ -152,7 +157,7 @@ rule spectra:
         histories="results/tables/spectra_histories.csv",
         findings="results/findings/spectra.json",
     params:
-        code=code("src/steps/spectra.py", "src/steps/shared/spectrum.py") | CORE | library("second"),
+        code=code("src/steps/spectra.py") | SPECTRUM | CORE | library("second"),
         settings=PAPER["spectra"],
         tightened=PAPER["solver"]["tightened"],
     log:
@@ -170,7 +175,7 @@ rule vase:
         poses="results/tables/vase_poses.csv",
         findings="results/findings/vase.json",
     params:
-        code=code("src/steps/vase.py", "src/steps/shared/poses.py") | CORE | library("second"),
+        code=code("src/steps/vase.py") | POSES | CORE | library("second"),
         settings=PAPER["vase"],
         column=PAPER["structures"]["temple"],
         tightened=PAPER["solver"]["tightened"],
@@ -190,7 +195,7 @@ rule proven:
         certificates="results/certificates/proven.jsonl",
         findings="results/findings/proven.json",
     params:
-        code=code("src/steps/proven.py", "src/steps/shared/spectrum.py") | CORE | library("proven"),
+        code=code("src/steps/proven.py") | SPECTRUM | CORE | library("proven"),
         column=PAPER["structures"]["temple"],
         period=PAPER["vase"]["period"],
     priority: 1
@@ -205,7 +210,7 @@ rule uplift:
         table="results/tables/uplift.csv",
         findings="results/findings/uplift.json",
     params:
-        code=code("src/steps/uplift.py", "src/steps/shared/histories.py") | CORE | library("forces", "second"),
+        code=code("src/steps/uplift.py") | HISTORIES | CORE | library("forces", "second"),
         settings=PAPER["uplift"],
         column=PAPER["structures"]["temple"],
     log:
@@ -220,7 +225,7 @@ rule animation:
     output:
         gif="results/animation.gif",
     params:
-        code=code("src/steps/animation.py", "src/steps/shared/poses.py", "src/replication/drawing.py", "figures/palette.py") | CORE,
+        code=code("src/steps/animation.py", "src/replication/drawing.py", "figures/palette.py") | POSES | CORE,
         settings=PAPER["animation"],
         column=PAPER["structures"]["temple"],
     log:
