@@ -6,7 +6,7 @@ from drawing import gamma
 from palette import CAP, FORCE, STONE
 from replication.drawing import DOUBLE, GREY, INK, PAPER, letter, note, shades, sheet
 
-GAP, SPAN, OVERHANG = 3.6, 5.0, 0.5  # m: between structures, between axes of columns, of the cap beam
+GAP, SPAN, OVERHANG = 5.2, 5.0, 0.5  # m: between structures, between axes of columns, of the cap beam
 
 
 def bodies(row):
@@ -29,7 +29,8 @@ def words(row, whole):
     name = f"column\n{height:g} m × {width:g} m" if row.mass_ratio == 0.0 else f"frame\n{gamma(row.mass_ratio)}"
     ratio = row.equivalent_size / whole
     size = r"$\hat{R}$" if row.mass_ratio else "size"
-    return f"{name}\n{size} = {ratio:.3g}$\\,R$"
+    minimum = f"$\\mathbf{{{row.minimum_overturning:.3f}}}\\,g$"
+    return f"{name}\n{size} = {ratio:.3g}$\\,R$\n{minimum}"
 
 
 def structures(axis, table):
@@ -45,19 +46,17 @@ def structures(axis, table):
         centre = sum(a * y for a, y in zip(areas, levels, strict=True)) / sum(areas)
         axis.plot(middle, centre, "o", color=PAPER, markeredgecolor=FORCE, markersize=4.5)
         axis.plot(middle, centre, ".", color=FORCE, markersize=2)
-        note(axis, words(row, whole), (middle, -0.4), ha="center", va="top")
-        minimum = f"{row.minimum_overturning:.3f}$\\,g$"
-        note(axis, minimum, (middle, -3.9), ha="center", va="top", fontsize=8.5, fontweight="bold")
+        note(axis, words(row, whole), (middle, -0.6), ha="center", va="top")
         edge = middle - min(left for left, *_ in parts) + GAP
     axis.plot([-GAP, edge], [0, 0], color=INK, linewidth=1.2)
     level = table.uplift_acceleration.iloc[0]
     text = "minimum overturning acceleration; all uplift at $g\\,\\tan\\alpha$"
     text = f"{text} = {level:.3f}$\\,g$"
-    note(axis, text, ((edge - GAP) / 2, -5.6), ha="center", color=GREY)
+    note(axis, text, ((edge - GAP) / 2, -9.0), ha="center", color=GREY)
     axis.plot(0, 11.5, "o", color=PAPER, markeredgecolor=FORCE, markersize=4.5)
     axis.plot(0, 11.5, ".", color=FORCE, markersize=2)
-    note(axis, "centre of gravity", (0.45, 11.5), color=FORCE)
-    axis.set(xlim=(-GAP, edge), ylim=(-6.2, 13.2), aspect="equal", anchor="N")
+    note(axis, "centre of gravity", (0.6, 11.5), color=FORCE)
+    axis.set(xlim=(-GAP, edge), ylim=(-10, 13.2), aspect="equal", anchor="N")
     axis.axis("off")
 
 
@@ -74,7 +73,7 @@ def moments(axis, table):
 
 
 def draw(four_structures, moment_rotation):
-    figure, (left, right) = sheet(DOUBLE, 66, ncols=2, width_ratios=(2.1, 1))
+    figure, (left, right) = sheet(DOUBLE, 70, ncols=2, width_ratios=(2.1, 1))
     structures(left, four_structures)
     moments(right, moment_rotation)
     letter([left, right], ["Order of stability in the paper, and minima", "Restoring moment of one column"])
