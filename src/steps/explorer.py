@@ -12,8 +12,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from replication.inputs.strict_yaml import read_yaml
-from replication.workbench import run
+from replication.config import read_yaml
+from replication.step import run
 from topheavy import (
     Column,
     FixedMassColumn,
@@ -178,13 +178,10 @@ def policy(text: str) -> str:
     )
 
 
-def work(job: Any) -> None:
-    path = Path(job.input.record)
-    records = {path.stem: read_record(path)}
-    text = page(Path("src/explorer"), records)
-    Path(job.output[0]).write_text(text, encoding="utf-8", newline="\n")
-    print(f"{len(text.encode()) / 1e3:.0f} kB")
+def compute(record: str) -> dict[str, str]:
+    """Return the page with the record that it offers."""
+    return {"page": page(Path("src/explorer"), {Path(record).stem: read_record(record)})}
 
 
 if __name__ == "__main__":
-    run(snakemake, work)
+    run(snakemake, compute)
