@@ -1,6 +1,7 @@
 """Probability of overturning and the coefficient of restitution that ends the benefit"""
 
 from palette import ALONE, EQUAL, tint
+
 from replication.drawing import DOUBLE, GREY, INK, PAPER, letter, note, sheet
 
 SETS = {"near-fault": ("o", 0.14), "broadband": ("s", -0.14)}  # marker, and place in a row
@@ -21,7 +22,9 @@ def draw(break_even, break_even_benefit, config):
             row = 100 * rows.loc[(name, *key), ["benefit", "benefit_low", "benefit_high"]]
             axes[0].hlines(at + off, row.benefit_low, row.benefit_high, color=INK, linewidth=1.1)
             face = INK if marker == "o" else PAPER
-            axes[0].plot(row.benefit, at + off, marker, color=INK, markerfacecolor=face, markersize=4)
+            axes[0].plot(
+                row.benefit, at + off, marker, color=INK, markerfacecolor=face, markersize=4
+            )
             if key == ("both", 0.0):
                 note(axes[0], name, (row.benefit_high + 0.8, at + off), color=INK)
         of = break_even[break_even.set == name]
@@ -45,5 +48,11 @@ def draw(break_even, break_even_benefit, config):
     axes[1].set_xticks(range(len(velocities)), [f"{each:g}" for each in velocities])
     axes[1].set(xlim=(-0.5, len(velocities) - 0.5), ylim=(0, 14.5))
     axes[1].set(xlabel="Peak ground velocity (m/s)", ylabel="Reduction of the column's √r (%)")
-    letter(axes, [f"Benefit at {config['motions']['velocity']:g} m/s, by √r", "Reduction that ends the benefit"])
+    letter(
+        axes,
+        [
+            f"Benefit at {config['motions']['velocity']:g} m/s, by √r",
+            "Reduction that ends the benefit",
+        ],
+    )
     return figure

@@ -4,6 +4,7 @@ import math
 
 from drawing import gamma
 from palette import ALONE, EQUAL, FIXED
+
 from replication.drawing import DARKEST, DOUBLE, GREY, INK, letter, note, sheet
 
 SETS = ("near-fault", "broadband")

@@ -1,8 +1,8 @@
 """How far √r of the column may be lowered until the benefit of the cap beam ends.
 
 The benefit is the probability that the column overturns less that of the frame, under the same
-motions. A lower √r of the column alone reduces it, but for the scatter of a finite number of motions:
-it ends where its non-increasing (isotonic) fit is zero.
+motions. A lower √r of the column alone reduces it, but for the scatter of a finite number of
+motions: it ends where its non-increasing (isotonic) fit is zero.
 """
 
 import math
@@ -14,11 +14,11 @@ from scipy.optimize import isotonic_regression
 
 from replication.step import check, run, truth
 from steps.shared.second import beside_a_boundary, check_by_scipy, overturns
-from steps.shared.sweep import SETS, lowered, models, outcomes, reductions
+from steps.shared.sweep import SETS, models, outcomes, reductions, restitution_question
 from topheavy import Column
 from topheavy.risk.ensemble import Ensemble
 
-FINE = 0.5  # of the interval of an end: what half the step of the reductions may move it by
+FINE = 0.5  # of the interval of an end: how far twice the step of the reductions may move it
 
 
 def compute(settings, motions, structures, shards):
@@ -36,10 +36,10 @@ def compute(settings, motions, structures, shards):
             less = means[:, : shares.size, place] - means[:, [shares.size], place]
             every = np.array([end_of(shares, one) for one in less])
             low, high = bounds(every, spec["confidence"])
-            moved = abs(end_of(shares[::2], less[0, ::2]) - every[0]) if every[0] < math.inf else 0.0
+            coarse = end_of(shares[::2], less[0, ::2])
             check(
-                moved <= FINE * (high - low),
-                f"half the step moves the end at {velocity:g} m/s under {name} motions by {moved:g}",
+                coarse == every[0] or abs(coarse - every[0]) <= FINE * (high - low),
+                f"twice the step moves the end from {every[0]:g} to {coarse:g} at {velocity:g} m/s",
             )
             ends.append(
                 {"set": name, "velocity": velocity, "motions": len(found)}
@@ -54,8 +54,8 @@ def compute(settings, motions, structures, shards):
 def end_of(shares, benefits):
     """Return the reduction at which the non-increasing fit of the benefits reaches zero.
 
-    Lines join the centres of its blocks, over which it is constant. Infinite where it is positive in
-    the last block.
+    Lines join the centres of its blocks, over which it is constant. Infinite where it is positive
+    in the last block.
     """
     fit = isotonic_regression(benefits, increasing=False)
     first, last = fit.blocks[:-1], fit.blocks[1:] - 1
@@ -71,13 +71,13 @@ def end_of(shares, benefits):
 
 
 def bounds(ends, confidence):
-    """Return the interval of an end, of which the first is that of all motions; either may be infinite."""
+    """Return the interval of an end, of that of all motions and those of its resamples."""
     tail = (1.0 - confidence) / 2.0
     return np.quantile(ends[1:], (tail, 1.0 - tail), method="nearest")
 
 
 def compare(name, settings, fell, ensemble, means):
-    """Return the benefit at the stated velocity, if √r of both or that of the column alone is lower."""
+    """Return the benefit at the stated velocity, if √r of both or of the column alone is lower."""
     shares, rows = list(reductions(settings)), []
     first = len(shares)
     for number, share in enumerate([0.0, *settings["lowered"]]):
@@ -96,14 +96,12 @@ def compare(name, settings, fell, ensemble, means):
 
 def sampled(samples, settings, motions, column):
     """Yield a seeded sample of the outcomes, half of them beside a boundary."""
-    random, question = (
-        np.random.default_rng(settings["bootstrap"]["seed"]),
-        lowered(motions, settings, column),
-    )
+    random = np.random.default_rng(settings["bootstrap"]["seed"])
+    question, motions_of = restitution_question(motions, settings, column), models(motions)
     for number in range(settings["checked"]):
         name = SETS[number % len(SETS)]
         at, place, level = (int(random.integers(size)) for size in samples[name].shape)
-        record, block = models(motions)[name][at].record(), question.blocks[place]
+        record, block = motions_of[name][at].record(), question.blocks[place]
         factor = question.velocities[level] / record.peak_velocity
         if random.integers(2):
             factor = beside_a_boundary(partial(overturns, block, record, None), factor)

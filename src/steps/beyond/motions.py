@@ -1,7 +1,7 @@
-"""Probability of overturning of a column, of one with a fixed mass, and of frames, by model of motion.
+"""Probability of overturning of a column, of one with a fixed mass, and of frames, by model.
 
-Motions are scaled to stated peak ground velocities. Intervals are of motions drawn anew; structures
-stay paired under each motion.
+Motions are scaled to stated peak ground velocities. Intervals are of motions drawn anew;
+structures stay paired under each motion.
 """
 
 from functools import partial
@@ -10,9 +10,17 @@ from itertools import combinations
 import numpy as np
 import pandas as pd
 
-from replication.step import run, truth
+from replication.step import check, run, truth
 from steps.shared.second import beside_a_boundary, check_by_scipy, overturns
-from steps.shared.sweep import FREE_FALL, SETS, asked, compared, drawn, models, outcomes
+from steps.shared.sweep import (
+    FREE_FALL,
+    SETS,
+    components,
+    models,
+    outcomes,
+    question_of,
+    structures_of,
+)
 from topheavy import Column
 from topheavy.risk.curve import fit, medians
 from topheavy.risk.ensemble import Ensemble
@@ -36,7 +44,7 @@ def compute(settings, structures, shards):
                 rows[f"{model}{FACTOR}{settings['largest_factor']:g}"] = kept[few]
         for name, one in rows.items():
             ensemble = Ensemble(one, None, **settings["bootstrap"])
-            means, velocities = ensemble.means(), asked(model, settings, column).velocities
+            means, velocities = ensemble.means(), question_of(model, settings, column).velocities
             tables["probabilities"].append(row(name, ensemble, means, velocities[:-1]))
             if name in SETS:
                 tables["fragility"] += curves(name, ensemble, means, velocities, settings, column)
@@ -45,7 +53,7 @@ def compute(settings, structures, shards):
 
 
 def row(model, ensemble, means, velocities):
-    """Return the probabilities at the stated velocity, their differences, and the gain of the median.
+    """Return probabilities at the stated velocity, their differences, and the gain of the median.
 
     `only_frame` are the motions that overturn the frame and not the column. The gain is that of the
     velocity that overturns the frame under half of the motions, over that of the column.
@@ -59,6 +67,7 @@ def row(model, ensemble, means, velocities):
     found["only_column"] = int((fell[:, COLUMN] & ~fell[:, FRAME]).sum())
     if velocities.size:
         middle = middles(velocities, means[:, [COLUMN, FRAME], :-1])
+        check(np.isfinite(middle[0]).all(), f"{model}: the velocities reach no median; widen them")
         found["median_velocity"] = middle[0, 0]
         numbers["gain"] = middle[:, 1] / middle[:, 0] - 1.0
     for name, values in numbers.items():
@@ -76,20 +85,20 @@ def curves(model, ensemble, means, velocities, settings, column):
     return [
         {"model": model, "structure": name, "mass_ratio": gamma, "velocity": velocity}
         | ensemble.bounds("probability", means[:, place, level])
-        for place, (name, gamma, _) in enumerate(compared(settings, column))
+        for place, (name, gamma, _) in enumerate(structures_of(settings, column))
         for level, velocity in enumerate(velocities[:-1])
     ]
 
 
 def pairs(model, ensemble, means, velocities, settings, column):
-    """Return for each pair of frames the gain of the median, and how often one of them overturns alone.
+    """Return for each pair of frames the gain of the median, and how often one overturns alone.
 
-    `only_lighter` and `only_heavier` are shares of the motions, in the mean over the logarithm of the
-    velocity; `reversed` is the share of `only_heavier` in both. The column is the frame with γ = 0.
+    `only_lighter` and `only_heavier` are shares of the motions, in the mean over the logarithm of
+    the velocity; `reversed` is the share of `only_heavier` in both. The column has γ = 0.
     """
     frames = {
         gamma: place
-        for place, (name, gamma, _) in enumerate(compared(settings, column))
+        for place, (name, gamma, _) in enumerate(structures_of(settings, column))
         if name != "fixed mass"
     }
     middle, fell = middles(velocities[:-1], means[..., :-1]), ensemble.outcomes[..., :-1]
@@ -111,28 +120,30 @@ def pairs(model, ensemble, means, velocities, settings, column):
 
 
 def sampled(samples, settings, column):
-    """Yield a seeded sample of the outcomes; half of those without a vertical motion at a boundary."""
+    """Yield a seeded sample of outcomes; half of those without vertical motion at a boundary."""
     random = np.random.default_rng(settings["bootstrap"]["seed"])
     motions, names = models(settings), list(samples)
     for number in range(settings["checked"]):
         model = names[number % len(names)]
-        found, question = samples[model], asked(model, settings, column)
+        found, question = samples[model], question_of(model, settings, column)
         at, place, level = (int(random.integers(size)) for size in found.shape)
         if found[at, place, level] == FREE_FALL:
             continue
-        record, up = drawn(motions[model][at], settings)
+        record, up = components(motions[model][at], settings)
         block, factor = question.blocks[place], question.velocities[level] / record.peak_velocity
         if up is None and random.integers(2):
             factor = beside_a_boundary(partial(overturns, block, record, up), factor)
         yield block, record, up, factor, found[at, place, level] == 1
 
 
-def findings(motions, motions_pairs, settings):
+def findings(motions, motions_pairs):
     curves = motions.dropna(subset=["gain"])
     ends = {name: [motions[name].min(), motions[name].max()] for name in NAMES}
     return {
         "order": truth(
-            ((motions.harm_low > 0.0) & (motions.benefit_low > 0.0)).all(), samples=len(motions), **ends
+            ((motions.harm_low > 0.0) & (motions.benefit_low > 0.0)).all(),
+            samples=len(motions),
+            **ends,
         ),
         "gain": truth(
             (curves.gain_low > 0.0).all(),

@@ -1,4 +1,4 @@
-"""Measured records, scaled from uplift to overturning: how often a heavier cap beam reverses the order.
+"""Measured records, scaled from uplift to overturning: how often only the heavier frame overturns.
 
 The components of a few earthquakes are no sample of all ground motions: there are counts, and no
 intervals.
@@ -46,7 +46,7 @@ def geometric(spec):
 
 
 def overturned(frame, record, factors, tightened):
-    """Return 1 for each factor that overturns, −1 for one that does not, and 0 where this is not known.
+    """Return 1 for factors that overturn, −1 for those that do not, and 0 where this is not known.
 
     It is not known if a relative change of NUDGE in the record, or a tighter tolerance, changes it.
     """

@@ -42,7 +42,9 @@ def check_by_scipy(cells: Iterable[Cell]) -> None:
     for block, record, up, factor, fell in cells:
         near = [overturns(block, record, up, factor * (1.0 + by)) for by in (-NUDGE, 0.0, NUDGE)]
         if all(near) or not any(near):
-            ending = reference.judge(block, record.scaled(factor), vertical=up and up.scaled(factor))
+            ending = reference.judge(
+                block, record.scaled(factor), vertical=up and up.scaled(factor)
+            )
             compared, differ = compared + 1, differ + (ending.overturned != fell)
     print(f"SciPy has {differ} of {compared} outcomes otherwise", flush=True)
     check(compared > 0 and differ == 0, f"SciPy has {differ} of {compared} outcomes otherwise")

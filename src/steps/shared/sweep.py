@@ -1,7 +1,7 @@
 """Models of ground motion, the structures that are put under their motions, and what overturns.
 
-`sweep` computes the outcomes of a shard, every n-th motion of each model, and `outcomes` reads those
-of all shards. The two sets of synthetic motions also answer the question of rule break_even.
+`sweep` computes the outcomes of a shard, every n-th motion of each model, and `outcomes` reads
+those of all shards. The two sets of synthetic motions also answer the question of rule break_even.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -34,7 +34,7 @@ Outcomes = NDArray[np.int8]
 
 
 class Motion(NamedTuple):
-    """A motion of a model, drawn on request, with a second one that becomes its vertical component."""
+    """A motion of a model, drawn on request, and one that becomes its vertical component."""
 
     earthquake: int
     record: Callable[[], Record]
@@ -73,8 +73,8 @@ def models(settings: Settings) -> dict[str, list[Motion]]:
     return found
 
 
-def compared(settings: Settings, column: Column) -> list[tuple[str, float, RockingBlock]]:
-    """Return name, γ and block: the column, the mass fixed to it, the frame; then frames of other γ."""
+def structures_of(settings: Settings, column: Column) -> list[tuple[str, float, RockingBlock]]:
+    """Return name, γ and block of column, column with fixed mass, frame, and frames of other γ."""
     gamma = settings["mass_ratio"]
     return [
         ("column", 0.0, column.block()),
@@ -86,22 +86,18 @@ def compared(settings: Settings, column: Column) -> list[tuple[str, float, Rocki
     ]
 
 
-def asked(model: str, settings: Settings, column: Column) -> Question:
-    """Return the structures under a model; the last velocity is that at which probabilities are stated.
+def question_of(model: str, settings: Settings, column: Column) -> Question:
+    """Return the structures and velocities for a model; the last is the stated velocity.
 
     Frames of other γ are under the two sets only.
     """
-    blocks = [block for *_, block in compared(settings, column)]
-    spec, unit = settings["intensities"], unit_velocity(column)
+    blocks = [block for *_, block in structures_of(settings, column)]
+    spec = settings["intensities"]
+    unit = STANDARD_GRAVITY * column.uplift_acceleration / column.frequency_parameter  # m/s
     if model not in SETS:
         blocks, spec, unit = blocks[:3], settings["noise"]["velocities"], 1.0
     grid = unit * np.geomspace(spec["lowest"], spec["highest"], spec["points"])
     return Question(blocks, np.append([] if VERTICAL in model else grid, settings["velocity"]))
-
-
-def unit_velocity(column: Column) -> float:
-    """Return the velocity g tan α/p, m/s."""
-    return STANDARD_GRAVITY * column.uplift_acceleration / column.frequency_parameter
 
 
 def reductions(break_even: Settings) -> NDArray[np.float64]:
@@ -110,7 +106,7 @@ def reductions(break_even: Settings) -> NDArray[np.float64]:
     return np.round(np.arange(round(spec["highest"] / spec["step"]) + 1) * spec["step"], 9)
 
 
-def lowered(settings: Settings, break_even: Settings, column: Column) -> Question:
+def restitution_question(settings: Settings, break_even: Settings, column: Column) -> Question:
     """Return the column with each reduction of √r, then the frame with √r as it is and lowered."""
     frame = RockingFrame(column, settings["mass_ratio"])
     shares = [(column.block(), share) for share in reductions(break_even)]
@@ -119,7 +115,7 @@ def lowered(settings: Settings, break_even: Settings, column: Column) -> Questio
     return Question(blocks, np.array(break_even["velocities"]))
 
 
-def drawn(motion: Motion, settings: Settings) -> tuple[Record, Record | None]:
+def components(motion: Motion, settings: Settings) -> tuple[Record, Record | None]:
     """Return a motion and its vertical component, which has a share of its peak acceleration."""
     record = motion.record()
     if motion.vertical is None:
@@ -141,12 +137,12 @@ def sweep(settings: Settings, break_even: Settings, column: Column, shard: str) 
     number, of = map(int, shard.split("-of-"))
     found: dict[str, Any] = {}
     for model, motions in models(settings).items():
-        questions = {model: asked(model, settings, column)}
+        questions = {model: question_of(model, settings, column)}
         if model in SETS:
-            questions[f"{model}: lowered"] = lowered(settings, break_even, column)
+            questions[f"{model}: lowered"] = restitution_question(settings, break_even, column)
         rows, peaks = {name: [] for name in questions}, []
         for each in motions[number - 1 :: of]:
-            record, up = drawn(each, settings)
+            record, up = components(each, settings)
             peaks.append(record.peak_velocity)
             for name, question in questions.items():
                 rows[name].append(overturned(question, record, up))
@@ -158,7 +154,9 @@ def sweep(settings: Settings, break_even: Settings, column: Column, shard: str) 
 
 def outcomes(shards: Sequence[str], name: str) -> NDArray[Any]:
     """Return the array of a name from the files of all shards, in the order of the motions."""
-    parts = {int(Path(path).stem.split("_")[-1].split("-")[0]): np.load(path)[name] for path in shards}
+    parts = {
+        int(Path(path).stem.split("_")[-1].split("-")[0]): np.load(path)[name] for path in shards
+    }
     whole = np.empty((sum(map(len, parts.values())), *parts[1].shape[1:]), parts[1].dtype)
     for number, part in parts.items():
         whole[number - 1 :: len(parts)] = part
