@@ -37,12 +37,12 @@ lint: | $(UV) ## check style, types, spelling and the rules; changes nothing
 	$(UV) export --locked --no-dev $(EXPORT) | cmp - requirements.txt
 EXPORT = --no-hashes --no-header --no-annotate --no-emit-project
 
-study: | $(UV) ## begin a study: make study NAME=bridge (studies/FOLLOW-UP.md)
+study: ## begin a study: make study NAME=bridge (studies/FOLLOW-UP.md)
 	@expr "$(NAME)" : '[a-z][a-z0-9_]*$$' >/dev/null || { echo "NAME is '$(NAME)'; expected lower case, digits, _"; exit 1; }
 	@test ! -e studies/$(NAME) || { echo "studies/$(NAME) is there already"; exit 1; }
-	@mkdir studies/$(NAME) && cd studies/example && for file in *.*; do \
+	@mkdir studies/$(NAME) && cd studies/example && for file in *.py *.smk *.typ *.yaml; do \
 	  sed 's/example/$(NAME)/g' "$$file" > ../$(NAME)/"$$file"; done
-	@sed -i 's/^studies: \[\(.*\)\]/studies: [\1, $(NAME)]/' config/config.yaml
+	@sed -i.old 's/^studies: \[\(.*\)\]/studies: [\1, $(NAME)]/' config/config.yaml && rm config/config.yaml.old
 
 publish: | $(UV) ## copy the results of a run to docs/ and tests/reference/; read the diff, then commit it
 	@$(RUN) python -m steps.publish

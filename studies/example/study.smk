@@ -22,8 +22,8 @@ rule example_capacity:
     log:
         "results/logs/example_capacity.log",
     params:
-        code=code("studies/example/capacity.py", "src/replication/study.py") | CORE,
         **INPUTS,
+        code=code("studies/example/capacity.py", "src/replication/study.py") | CORE,
     script:
         "capacity.py"
 
