@@ -51,7 +51,8 @@ def line(row: dict[str, Any], captions: dict[str, dict], rules: dict[str, dict])
     about = f"`{row['id']}`, {row['where']}. {row['statement']}" + "".join(
         f" *{n}*" for n in notes if n
     )
-    cells = about, printed, row["shown"], verdict, links(row, captions, rules)
+    computed = row["shown"] or {"confirmed": "holds", "qualified": "on a condition"}.get(row["verdict"], "")
+    cells = about, printed, computed, verdict, links(row, captions, rules)
     return (
         "| " + " | ".join(cell.replace("|", "&#124;").replace("\n", " ") for cell in cells) + " |"
     )
