@@ -6,6 +6,8 @@ second that a GIF can store. It is played three times and then stands still.
 
 import io
 import math
+import runpy
+from types import SimpleNamespace
 
 import matplotlib as mpl
 import matplotlib.pyplot as plt
@@ -14,20 +16,20 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.patches import Polygon
 from PIL import Image
 
-from figures.palette import CAP, EARTH, OVERTURNED, OVERTURNS, ROCKS, STONE, SURVIVES
 from replication.drawing import GREY, INK, PAPER
 from replication.step import check, run
 from steps.shared.poses import bodies, lying, structures
 from topheavy import STANDARD_GRAVITY, Column, Pulse, RockingFrame, simulate
 from topheavy.bodies.structures import Structure
 
+P = SimpleNamespace(**runpy.run_path("figures/palette.py"))
 BLENDS = 12  # of two colours
 SIZE, DPI = (8.4, 4.2), 100  # inches
 HELD = (600, 1800)  # ms: duration of the first and the last picture
 PLAYS = 3
 PLACES = {"bare": 0.0, "fixed": 10.2, "free": 22.6}  # m: the middle of each
 NAMES = {"bare": "Column", "fixed": "Vase: mass fixed to it", "free": "Frame: mass carried freely"}
-COLOURS = {"overturns": (OVERTURNED, OVERTURNS), "survives": (ROCKS, SURVIVES)}
+COLOURS = {"overturns": (P.OVERTURNED, P.OVERTURNS), "survives": (P.ROCKS, P.SURVIVES)}
 """Of a column, and of a mass and all edges."""
 VIEW = (-4.5, 28.0, -1.6, 8.4)  # m
 FALLING = 2.0  # of α: "overturns" is shown once the rotation stays above this
@@ -99,11 +101,11 @@ def pictures(settings: dict, column: dict) -> list[Image.Image]:
     theta = {name: rotations(one, pulse, times, cap) for name, one in shown.items()}
     figure, scene, marker = stage(pulse, times, settings, column)
     patches = {
-        (name, body): patch(scene, CAP if body == "cap" else STONE, 2)
+        (name, body): patch(scene, P.CAP if body == "cap" else P.STONE, 2)
         for name, structure in shown.items()
         for body in bodies(structure, 0.0, cap)
     }
-    ground, words = patch(scene, EARTH, 1), {}
+    ground, words = patch(scene, P.EARTH, 1), {}
     for name, middle in PLACES.items():
         word, since = outcome_in_words(theta[name], times, alpha)
         how = {"ha": "center", "va": "bottom", "fontsize": 12, "color": COLOURS[word][1]}
@@ -130,7 +132,7 @@ def pictures(settings: dict, column: dict) -> list[Image.Image]:
 
 def palette() -> Image.Image:
     """Return the colours of every picture: those drawn with, blended with ink and with white."""
-    colours = (STONE, CAP, EARTH, OVERTURNED, OVERTURNS, ROCKS, SURVIVES, GREY, PAPER)
+    colours = (P.STONE, P.CAP, P.EARTH, P.OVERTURNED, P.OVERTURNS, P.ROCKS, P.SURVIVES, GREY, PAPER)
     drawn, others = (np.array([*map(mpl.colors.to_rgb, of)]) for of in (colours, (INK, PAPER)))
     shares = np.linspace(0.0, 1.0, BLENDS)
     blends = (1.0 - shares)[:, None] * drawn[:, None, None] + shares[:, None] * others[:, None]

@@ -1,0 +1,43 @@
+"""Minimum overturning acceleration against frequency, over p of the column and over p̂ of each."""
+
+import numpy as np
+from drawing import HIGHEST, PULSES, amplitude_axis, gamma
+
+from replication.drawing import DOUBLE, GREY, PAPER, letter, note, shades, sheet
+
+MASS_RATIOS = [0.0, 1.0, np.inf]
+SLENDERNESS = 9.462322  # degrees
+
+
+def slower(mass_ratio):
+    """Return p/p̂ of a frame, Eq. (23)."""
+    share = 0.5 if np.isinf(mass_ratio) else mass_ratio / (1.0 + 2.0 * mass_ratio)
+    return np.sqrt(1.0 + share)
+
+
+def panel(axis, cells, scaled):
+    """Draw a line for each γ, with an open circle where it ends within the axes."""
+    amplitude_axis(axis)
+    for mass_ratio, colour in zip(MASS_RATIOS, shades(len(MASS_RATIOS)), strict=True):
+        found = cells[cells.mass_ratio == mass_ratio].groupby("frequency_ratio").lower.min()
+        frequencies = found.index.to_numpy() * (slower(mass_ratio) if scaled else 1.0)
+        axis.plot(frequencies, found, color=colour, label=gamma(mass_ratio))
+        if found.iloc[-1] < 0.9 * HIGHEST and frequencies[-1] < axis.get_xlim()[1]:
+            how = {"color": colour, "markerfacecolor": PAPER, "markersize": 3.5}
+            axis.plot(frequencies[-1], found.iloc[-1], "o", **how)
+    axis.axhline(1.0, color=GREY, linewidth=0.6)
+
+
+def draw(spectra):
+    cells = spectra[np.isclose(spectra.slenderness_deg, SLENDERNESS)]
+    figure, axes = sheet(DOUBLE, 112, nrows=2, ncols=4, sharey=True)
+    for row, scaled in zip(axes, (False, True), strict=True):
+        for axis, shape in zip(row, PULSES, strict=True):
+            panel(axis, cells[cells["shape"] == shape], scaled)
+            axis.set_xlabel(r"Frequency, $\omega/\hat{p}$ (–)" if scaled else r"Frequency, $\omega/p$ (–)")
+        row[0].set_ylabel("Minimum overturning\n" + r"acceleration, $a/(g\,\tan\alpha)$ (–)")
+    letter(axes.flat, [*PULSES.values()] * 2)
+    above = {"loc": "lower right", "bbox_to_anchor": (1.0, 0.06)}  # the line of uplift
+    axes[0, 3].legend(handlelength=1.4, labelspacing=0.2, borderaxespad=0.1, **above)
+    note(axes[0, 0], "uplift", (7.9, 1.1), color=GREY, ha="right")
+    return figure

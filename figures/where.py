@@ -1,0 +1,138 @@
+"""Where only the frame or only its solitary column overturns, one example, and how often."""
+
+import math
+
+import numpy as np
+from drawing import PULSES
+from matplotlib.patches import PathPatch
+from matplotlib.path import Path
+from palette import CAUSED, OVERTURNED, OVERTURNS, PREVENTED, SURVIVES
+
+from replication.drawing import DOUBLE, GREY, INK, PALE, PAPER, letter, note, shades, sheet
+
+WINDOW = (0.5, 10.0, 1.0, 16.0)  # ω/p and a/(g tan α): the plane whose shares are given
+STRUCTURES = dict(zip((0.0, math.inf), shades(2), strict=True))  # colours, by γ
+LEADER = {"arrowstyle": "-", "color": CAUSED, "linewidth": 0.7, "shrinkA": 1, "shrinkB": 0}
+
+
+def outlines(cells):
+    """Return the outlines of the regions that overturn a structure: vertices, shape (n, 2).
+
+    The first two are the regions without an impact and, of those after one, the widest interval at
+    each frequency. They join the computed frequencies. The others are narrower intervals.
+    """
+    step = np.diff(np.unique(cells.frequency_ratio)).min()
+    at_once = cells[cells["mode"] == "without impact"]
+    after = cells[cells["mode"] == "with impact"]
+    after = after.assign(width=after.upper - after.lower).sort_values(["frequency_ratio", "width"])
+    widest = after.groupby("frequency_ratio").tail(1)
+    found = []
+    for region in (at_once, widest):
+        up = region.upper.fillna(WINDOW[3]).clip(upper=WINDOW[3])
+        there, back = (
+            np.column_stack([region.frequency_ratio, edge]) for edge in (region.lower, up)
+        )
+        found.append(np.vstack([there, back[::-1], there[:1]]))
+    for x, low, high in after.drop(widest.index)[["frequency_ratio", "lower", "upper"]].to_numpy():
+        left, right = x - step / 2, x + step / 2
+        found.append(
+            np.array([[left, low], [right, low], [right, high], [left, high], [left, low]])
+        )
+    return found
+
+
+def beside(table, example):
+    """Return the rows of the shape and the slenderness of an example."""
+    same = (table["shape"] == example["shape"]) & (table.slenderness_deg == example.slenderness_deg)
+    return table[same]
+
+
+def plane(axis, spectra, areas, example):
+    """Draw what only the column, only the frame and both overturn, and the boundaries of each."""
+    of = beside(spectra, example)
+    of = of[of.mass_ratio.isin(STRUCTURES)]
+    found = {ratio: outlines(cells) for ratio, cells in of.groupby("mass_ratio")}
+    paths = {
+        ratio: Path.make_compound_path(*[Path(one, closed=True) for one in each])
+        for ratio, each in found.items()
+    }
+    column, frame = (paths[ratio] for ratio in STRUCTURES)
+    for path, colour in ((frame, CAUSED), (column, PREVENTED), (column, OVERTURNED)):
+        patch = axis.add_patch(PathPatch(path, facecolor=colour, linewidth=0))
+    patch.set_clip_path(frame, axis.transData)
+    for ratio, colour in STRUCTURES.items():
+        for one in found[ratio][:2]:
+            axis.plot(*one.T, color=colour, linewidth=1.1)
+    axis.set(xlim=WINDOW[:2], ylim=WINDOW[2:], xticks=(1, 2, 4, 6, 8, 10), yticks=(1, 4, 8, 12, 16))
+    axis.set(xlabel=r"Frequency, $\omega/p$ (–)", ylabel=r"Amplitude, $a/(g\,\tan\alpha)$ (–)")
+    place = (example.frequency_ratio, example.amplitude_over_uplift)
+    axis.plot(*place, "o", color=INK, markerfacecolor=PAPER, markersize=7.5, zorder=4)
+    note(axis, "1", place, ha="center", va="center_baseline", fontsize=7, zorder=5)
+    (here,) = beside(areas, example).itertuples()
+    note(axis, "both overturn", (0.7, 13.0), color=OVERTURNS)
+    note(axis, "both survive", (7.0, 13.0), color=SURVIVES)
+    words = f"overturning caused\non {100 * here.caused:.1f} % of the map"
+    at = {"xytext": (4.7, 10.9), "color": CAUSED, "arrowprops": LEADER}
+    note(axis, words, (3.2, 8.1), **at)
+    words = f"overturning prevented\non {100 * here.prevented:.1f} % of the map"
+    note(axis, words, (5.2, 6.4), color=SURVIVES)
+    note(axis, "column", (4.55, 3.2), color=STRUCTURES[0.0])
+    words = "frame,\n$\\gamma\\to\\infty$"
+    note(axis, words, (3.75, 4.9), ha="right", color=STRUCTURES[math.inf])
+
+
+def histories(axis, example):
+    """Draw the rotations of both structures under the pulse that is marked on the map."""
+    axis.axhspan(-1, 1, color=PALE, linewidth=0)
+    axis.axvspan(0, 1, ymax=0.03, color=GREY, linewidth=0)
+    note(axis, "pulse", (1.05, -1.75), color=GREY)
+    for ratio, words, colour, at in (
+        (0.0, "column survives", SURVIVES, (1.75, -0.75)),
+        (math.inf, "frame overturns", OVERTURNS, (1.6, 1.4)),
+    ):
+        run = example[example.mass_ratio == ratio]
+        axis.plot(run.time_over_period, run.rotation_over_alpha, color=colour)
+        theta = run.rotation_over_alpha.to_numpy()
+        first = np.flatnonzero(theta[:-1] * theta[1:] < 0.0)[0]
+        how = {"color": colour, "markerfacecolor": PAPER, "markersize": 3.5}
+        axis.plot(run.time_over_period.iloc[first], 0.0, "o", **how, zorder=3)
+        note(axis, words, at, color=colour)
+    axis.set(xlim=(0, 3), ylim=(-2, 2), yticks=(-2, -1, 0, 1, 2))
+    axis.set(xlabel=r"Time, $t\,\omega/2\pi$ (–)", ylabel=r"Rotation, $\theta/\alpha$ (–)")
+
+
+def shares(axis, areas):
+    """Draw the shares of overturning prevented and caused, by shape and slenderness."""
+    slendernesses = np.sort(areas.slenderness_deg.unique())
+    places = 0.17 * (np.arange(len(slendernesses)) - (len(slendernesses) - 1) / 2)
+    for group, shape in enumerate(PULSES):
+        of = areas[areas["shape"] == shape].set_index("slenderness_deg").loc[slendernesses]
+        for name, colour, mark in (("prevented", PREVENTED, "o"), ("caused", CAUSED, "v")):
+            axis.plot(group + places, 100 * of[name], mark, color=colour, markersize=4)
+    for name, colour in (("prevented", PREVENTED), ("caused", CAUSED)):
+        mean = 100 * areas[name].mean()
+        axis.axhline(mean, color=colour, linewidth=0.7, linestyle=(0, (4, 2)))
+        note(axis, f"mean {mean:.1f}", (3.48, mean + 1.3), ha="right", color=colour)
+    note(axis, "prevented", (0.42, 17.5), color=SURVIVES)
+    note(axis, "caused", (0.42, 3.0), color=CAUSED)
+    axis.set_xticks(range(len(PULSES)), [words.replace(" ", "\n") for words in PULSES.values()])
+    axis.tick_params(axis="x", length=0)
+    axis.set(xlim=(-0.5, len(PULSES) - 0.5), ylim=(-0.6, 20), ylabel="Share of the map (%)")
+
+
+def draw(spectra, spectra_areas, spectra_histories):
+    of = spectra_areas
+    of = of[(of.change == "frame") & (of.beside == "column") & (of.mass_ratio == math.inf)]
+    example = spectra_histories.iloc[0]
+    figure, axes = sheet(DOUBLE, 100, "AB;AC", width_ratios=(1.2, 1))
+    plane(axes["A"], spectra, of, example)
+    histories(axes["B"], spectra_histories)
+    shares(axes["C"], of)
+    slendernesses = ", ".join(f"{one:.2g}" for one in np.sort(of.slenderness_deg.unique()))
+    titles = [
+        f"{PULSES[example['shape']]}, $\\alpha$ = {example.slenderness_deg:g}°",
+        "Rotation under pulse 1",
+        f"Four pulses, each with $\\alpha$ = {slendernesses}°",
+    ]
+    letter([axes[key] for key in "ABC"], titles)
+    return figure
