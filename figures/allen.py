@@ -1,7 +1,8 @@
-"""The model of Allen et al. beside the exact frame: two histories, and the error of the peak by γ."""
+"""The model of Allen et al. beside the exact frame: histories and error of the peak."""
 
 from drawing import MODELS
 from palette import MODEL
+
 from replication.drawing import DOUBLE, GREY, INK, letter, note, sheet
 
 MOTIONS = {"pulse": "One-sine pulse", "record": "El Centro 1940, scaled"}
@@ -16,7 +17,12 @@ def history(above, below, run):
     change = run["all"].abs().max() / run.exact.abs().max() - 1
     words = f"peak {100 * change:+.0f} %".replace("-", "−")
     note(below, words, (0.985, 0.93), xycoords="axes fraction", ha="right", color=MODEL)
-    below.set(ylim=(-1, 1.1), ylabel=r"$\theta/\alpha$ (–)", xlabel="Time, $t$ (s)", xlim=(0, run.time.max()))
+    below.set(
+        ylim=(-1, 1.1),
+        ylabel=r"$\theta/\alpha$ (–)",
+        xlabel="Time, $t$ (s)",
+        xlim=(0, run.time.max()),
+    )
 
 
 def errors(axis, table):
@@ -24,11 +30,25 @@ def errors(axis, table):
     for model, line in table[table["columns"] == "slender"].groupby("model"):
         whole = model == "all"
         look = {"linestyle": LINES[model], "color": MODEL if whole else INK, "zorder": 2 + whole}
-        axis.plot(line.mass_ratio, 100 * line.median_error, marker="o", markersize=3, label=MODELS[model], **look)
+        axis.plot(
+            line.mass_ratio,
+            100 * line.median_error,
+            marker="o",
+            markersize=3,
+            label=MODELS[model],
+            **look,
+        )
         if whole:
             for row in line[line.mass_ratio.isin([0.5, 2.0, 10.0])].itertuples():
                 at = (row.mass_ratio, 100 * row.median_error)
-                note(axis, f"{at[1]:.1f} %", at, xytext=(5, 5), textcoords="offset points", color=MODEL)
+                note(
+                    axis,
+                    f"{at[1]:.1f} %",
+                    at,
+                    xytext=(5, 5),
+                    textcoords="offset points",
+                    color=MODEL,
+                )
     axis.set_xscale("log")
     axis.set_xticks(ticks := sorted(table.mass_ratio.unique()), [f"{tick:g}" for tick in ticks])
     axis.set_xticks([], minor=True)

@@ -2,8 +2,8 @@
 
 from matplotlib.colors import ListedColormap
 from matplotlib.patches import Patch
-
 from palette import CONSERVATIVE, MODEL, OVERTURNED
+
 from replication.drawing import DOUBLE, PAPER, letter, note, sheet
 
 OUTCOMES = {  # by twice the outcome of the exact frame and once that of the model

@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 from matplotlib.patches import Arc, Polygon
-
 from palette import CAP, FORCE, STONE
+
 from replication.drawing import DOUBLE, GREY, INK, letter, note, sheet
 from topheavy import STANDARD_GRAVITY, Column, RockingFrame
 from topheavy.bodies.kinematics import cap_acceleration, cap_displacement, column_outline

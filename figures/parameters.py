@@ -1,8 +1,8 @@
 """Size, frequency parameter and coefficient of restitution of the frame."""
 
 import numpy as np
-
 from drawing import gamma
+
 from replication.drawing import DOUBLE, GREY, INK, PAPER, letter, note, shades, sheet
 
 ASIDE = {"textcoords": "offset points"}

@@ -1,12 +1,16 @@
 """The paper's Fig. 1: four structures with their minima, and their restoring moment."""
 
-from matplotlib.patches import Rectangle
-
 from drawing import gamma
+from matplotlib.patches import Rectangle
 from palette import CAP, FORCE, STONE
+
 from replication.drawing import DOUBLE, GREY, INK, PAPER, letter, note, shades, sheet
 
-GAP, SPAN, OVERHANG = 5.2, 5.0, 0.5  # m: between structures, between axes of columns, of the cap beam
+GAP, SPAN, OVERHANG = (
+    5.2,
+    5.0,
+    0.5,
+)  # m: between structures, between axes of columns, of the cap beam
 
 
 def bodies(row):
@@ -26,7 +30,11 @@ def bodies(row):
 def words(row, whole):
     """Return what is written below a structure."""
     height, width = 2 * row.half_height, 2 * row.half_width
-    name = f"column\n{height:g} m × {width:g} m" if row.mass_ratio == 0.0 else f"frame\n{gamma(row.mass_ratio)}"
+    name = (
+        f"column\n{height:g} m × {width:g} m"
+        if row.mass_ratio == 0.0
+        else f"frame\n{gamma(row.mass_ratio)}"
+    )
     ratio = row.equivalent_size / whole
     size = r"$\hat{R}$" if row.mass_ratio else "size"
     minimum = f"$\\mathbf{{{row.minimum_overturning:.3f}}}\\,g$"
@@ -40,7 +48,9 @@ def structures(axis, table):
         middle = edge - min(left for left, *_ in parts)
         for left, bottom, width, height, face in parts:
             where = (middle + left, bottom)
-            axis.add_patch(Rectangle(where, width, height, facecolor=face, edgecolor=INK, linewidth=0.8))
+            axis.add_patch(
+                Rectangle(where, width, height, facecolor=face, edgecolor=INK, linewidth=0.8)
+            )
         areas = [width * height for *_, width, height, _ in parts]
         levels = [bottom + height / 2 for _, bottom, _, height, _ in parts]
         centre = sum(a * y for a, y in zip(areas, levels, strict=True)) / sum(areas)
@@ -76,5 +86,8 @@ def draw(four_structures, moment_rotation):
     figure, (left, right) = sheet(DOUBLE, 70, ncols=2, width_ratios=(2.1, 1))
     structures(left, four_structures)
     moments(right, moment_rotation)
-    letter([left, right], ["Order of stability in the paper, and minima", "Restoring moment of one column"])
+    letter(
+        [left, right],
+        ["Order of stability in the paper, and minima", "Restoring moment of one column"],
+    )
     return figure

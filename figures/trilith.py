@@ -2,8 +2,8 @@
 
 import numpy as np
 from matplotlib.colors import ListedColormap
-
 from palette import AT_ONCE, ROCKS, SURVIVES
+
 from replication.drawing import DOUBLE, GREY, INK, letter, note, sheet
 
 LEADER = {"arrowstyle": "-", "color": INK, "linewidth": 0.6, "shrinkA": 1, "shrinkB": 2}
@@ -21,7 +21,9 @@ def plane(axis, cells, thresholds):
     if (astray := cells[uplifts != (cells.amplitude_mm > uplift(cells.frequency_hz))]).size:
         raise ValueError(f"cells on the wrong side of the line of uplift:\n{astray}")
     fell = cells.assign(fell=np.where(cells.outcome == "overturned", 1.0, np.nan))
-    grid = fell.pivot_table(index="amplitude_mm", columns="frequency_hz", values="fell", dropna=False)
+    grid = fell.pivot_table(
+        index="amplitude_mm", columns="frequency_hz", values="fell", dropna=False
+    )
     look = {"cmap": ListedColormap([AT_ONCE]), "rasterized": True, "zorder": 1.5}
     axis.pcolormesh(grid.columns, grid.index, grid, **look)
     axis.fill_between(along, uplift(along), 21, color=ROCKS, linewidth=0)
@@ -56,5 +58,7 @@ def draw(trilith_map, trilith_thresholds, trilith_starts, trilith_histories):
     figure, (left, right) = sheet(DOUBLE, 60, ncols=2, width_ratios=(1, 1.15))
     plane(left, trilith_map, trilith_thresholds.set_index("quantity"))
     histories(right, trilith_histories, trilith_starts.late_peak_over_alpha.iloc[-1])
-    letter([left, right], ["Outcome after a smooth start", "The test, after two starts of the table"])
+    letter(
+        [left, right], ["Outcome after a smooth start", "The test, after two starts of the table"]
+    )
     return figure

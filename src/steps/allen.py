@@ -1,4 +1,4 @@
-"""The model of Allen et al. (1986), linearised and with massless columns, beside the exact frame."""
+"""The model of Allen et al. (1986), linearised and with massless columns."""
 
 import math
 
@@ -46,7 +46,10 @@ def histories(frame, settings, record, tightened):
             for other in others:
                 apart = abs(other.peak_rotation - response.peak_rotation) / frame.slenderness
                 same = other.outcome == response.outcome != "overturned"
-                check(same and apart < AGREE, f"{motion}, {model}: two solvers are {apart:.1g} α apart")
+                check(
+                    same and apart < AGREE,
+                    f"{motion}, {model}: two solvers are {apart:.1g} α apart",
+                )
             peaks.append(
                 {
                     "motion": motion,
@@ -103,7 +106,9 @@ def errors(settings):
 def outcomes(settings):
     """Return which pulses overturn the exact frame, the linearised one and the whole model."""
     frame = RockingFrame(column_of(settings["slenderness"]), settings["mass_ratio"])
-    models = {name: block for name, block in models_of(frame).items() if not name.startswith("massless")}
+    models = {
+        name: block for name, block in models_of(frame).items() if not name.startswith("massless")
+    }
     level, p = frame.uplift_acceleration, frame.column.frequency_parameter
     rows = []
     for omega in grid(settings["frequency_ratios"]):
@@ -126,14 +131,16 @@ def compute(settings, structures, record, solver):
 
 
 def findings(allen_peaks, allen_errors, allen_maps):
-    """Return peaks over α, the median error of each model for slender columns, and wrong outcomes."""
+    """Return peaks, median errors of the peak for slender columns, and shares of wrong outcomes."""
     found = {
         f"{row.motion}_{row.model.replace(' ', '_')}": value(row.peak_over_alpha, AGREE)
         for row in allen_peaks.itertuples()
     }
     for row in allen_errors[allen_errors["columns"] == "slender"].itertuples():
         name = f"error_{row.model.replace(' ', '_')}_{row.mass_ratio:g}"
-        found[name] = value(row.median_error, AGREE, cells=row.cells, wrong_outcomes=row.wrong_outcomes)
+        found[name] = value(
+            row.median_error, AGREE, cells=row.cells, wrong_outcomes=row.wrong_outcomes
+        )
     exact = allen_maps.exact
     for model in ("linearised", "all"):
         falls = allen_maps[model]

@@ -17,7 +17,12 @@ def first_paragraph(text):
 
 def compute():
     proved = [
-        {"about": about, "theorem": t.id, "statement": first_paragraph(t.statement), "holds": t.holds}
+        {
+            "about": about,
+            "theorem": t.id,
+            "statement": first_paragraph(t.statement),
+            "holds": t.holds,
+        }
         for about, prove in PROOFS.items()
         for t in prove()
     ]
@@ -32,7 +37,9 @@ def findings(equations, theorems):
     found = {t.theorem: truth(t.holds) for t in theorems.itertuples()}
     fails = theorems.theorem[~theorems.holds]
     found["theorems_hold"] = truth(fails.empty, fails=list(fails), theorems=len(theorems))
-    for name, forms in equations.groupby(equations.id.str.replace(VARIANT, "", regex=True), sort=False):
+    for name, forms in equations.groupby(
+        equations.id.str.replace(VARIANT, "", regex=True), sort=False
+    ):
         found[name] = as_printed_or_meant(forms)
     return found
 

@@ -25,14 +25,16 @@ def column_of(degrees):
 
 
 def moment_by_energy(mass_ratio, slenderness, rotations):
-    """Return −dV/dθ of one column over m_c g R at positive rotations, V that of the three bodies."""
+    """Return −dV/dθ per column over m_c g R at positive rotations, V that of the three bodies."""
     height = potential_energy(POSITIVE).subs(RECTANGULAR) / (2 * m_c * g * R)
     moment = -sp.simplify(height.diff(POSITIVE.rotation))
-    return sp.lambdify((alpha, gamma, POSITIVE.rotation), moment)(slenderness, mass_ratio, rotations)
+    return sp.lambdify((alpha, gamma, POSITIVE.rotation), moment)(
+        slenderness, mass_ratio, rotations
+    )
 
 
 def minimum(frame, shape, period):
-    """Return the minimum overturning acceleration of a pulse, g; a second solver has to confirm it."""
+    """Return the minimum overturning acceleration of a pulse, g, which SciPy has to confirm."""
     level = frame.uplift_acceleration
     pulse = Pulse(shape, 1.0, 2 * math.pi / period)
     low, high = lowest_overturning(
@@ -56,7 +58,10 @@ def compute(settings, structures):
     angles = np.linspace(0.0, settings["largest_slenderness"], settings["slendernesses"])[1:]
 
     rotations = np.linspace(0.0, column.slenderness, settings["rotations"])
-    moments = {each: -moment_by_energy(each, column.slenderness, rotations) for each in (0.0, *settings["frames"])}
+    moments = {
+        each: -moment_by_energy(each, column.slenderness, rotations)
+        for each in (0.0, *settings["frames"])
+    }
     for each, moment in moments.items():
         apart = np.abs(restoring_moment(RockingFrame(column, each), rotations) - moment).max()
         check(apart < ROUNDING, f"γ = {each:g}: the moment is {apart:.1g} m_c g R from −dV/dθ")
@@ -81,7 +86,11 @@ def compute(settings, structures):
             for angle in angles
         ],
         "moment_rotation": [
-            {"mass_ratio": each, "rotation_over_alpha": rotation / column.slenderness, "moment": one}
+            {
+                "mass_ratio": each,
+                "rotation_over_alpha": rotation / column.slenderness,
+                "moment": one,
+            }
             for each, moment in moments.items()
             for rotation, one in zip(rotations, moment, strict=True)
         ],
@@ -106,7 +115,9 @@ def findings(mass_ratio, restitution, moment_rotation, four_structures):
     loss = restitution.restitution_of_column - restitution.restitution
     heavy = restitution.mass_ratio > 0.0
     rocks = restitution[heavy & (restitution.restitution >= 0.0)]
-    moments = moment_rotation.pivot(index="rotation_over_alpha", columns="mass_ratio", values="moment")
+    moments = moment_rotation.pivot(
+        index="rotation_over_alpha", columns="mass_ratio", values="moment"
+    )
     shapes = moments.iloc[:-1].div(moments[0.0].iloc[:-1], axis=0)  # all vanish at α
     minima = four_structures.minimum_overturning
     return {
@@ -114,13 +125,19 @@ def findings(mass_ratio, restitution, moment_rotation, four_structures):
         "limit_of_size_ratio": value(last.size_ratio, DIGITS),
         "gain_at_mass_ratio_one": value(gain, DIGITS),
         "heavier_is_larger": truth(
-            (np.diff(mass_ratio.frequency_ratio) < 0.0).all() and (np.diff(mass_ratio.size_ratio) > 0.0).all()
+            (np.diff(mass_ratio.frequency_ratio) < 0.0).all()
+            and (np.diff(mass_ratio.size_ratio) > 0.0).all()
         ),
         "smaller_than_solitary": truth((loss[heavy] > 0.0).all(), frames=int(heavy.sum())),
         "solitary_column_recovered": truth((loss[~heavy] == 0.0).all()),
-        "energy_loss": truth((rocks.restitution**2 < rocks.restitution_of_column**2).all(), frames=len(rocks)),
+        "energy_loss": truth(
+            (rocks.restitution**2 < rocks.restitution_of_column**2).all(), frames=len(rocks)
+        ),
         "frame_follows_the_columns_curve": truth(
-            all(abs(shapes[each] - (1.0 + 2.0 * each)).max() < DIGITS * shapes[each].max() for each in shapes)
+            all(
+                abs(shapes[each] - (1.0 + 2.0 * each)).max() < DIGITS * shapes[each].max()
+                for each in shapes
+            )
         ),
         "order_of_the_four_structures": truth((np.diff(minima) > 0.0).all(), minima=minima),
     }

@@ -1,9 +1,7 @@
 """Test statements of the paper that no other rule tests; each gives one finding."""
 
-import math
 
 import numpy as np
-import pandas as pd
 import sympy as sp
 
 from replication.step import check, run, truth
@@ -70,7 +68,9 @@ def three_bodies(frame, cap, pulse, duration, samples):
     ratios = bodies.velocity_ratios[nearest]
 
     ground, weight = pulse.excitation(times), 2.0 * (1.0 + frame.mass_ratio) * STANDARD_GRAVITY
-    closed = contact_forces(frame, Cap(cap["span"], cap["depth"] / 2.0), block.rotation, block.velocity, ground)
+    closed = contact_forces(
+        frame, Cap(cap["span"], cap["depth"] / 2.0), block.rotation, block.velocity, ground
+    )
     closed = np.stack([np.stack([c.horizontal, c.vertical], -1) for c in closed.contacts], -2)
     gap = np.abs(times[:, None] - block.impacts).min(axis=1, initial=np.inf)
     flying = both & (gap > 1e-3 / p) & (np.abs(block.rotation) > SMALLEST * alpha)
@@ -124,7 +124,8 @@ def oscillator(frame, pulse):
         by_energy, _ = quarter_period(block, start * block.slenderness)
         motion = simulate(block, rotation=start * block.slenderness, duration=10.0, samples=2)
         check(
-            abs(motion.impacts[0] - by_energy) < 1e-7, f"quarter periods {motion.impacts[0]}, {by_energy}"
+            abs(motion.impacts[0] - by_energy) < 1e-7,
+            f"quarter periods {motion.impacts[0]}, {by_energy}",
         )
         yield "period_depends_on_amplitude", f"quarter period from {start} α, 1/p", by_energy
 
@@ -140,13 +141,20 @@ def structure(column, mass_ratios):
     moved = np.transpose(cap_displacement(column, rotations))
     seats = [2 if theta < 0.0 else 3 for theta in rotations]  # the corner that carries the cap beam
     at_rest = column_outline(column, 0.0)
-    corners = [column_outline(column, theta)[seat] - at_rest[seat] for theta, seat in zip(rotations, seats, strict=True)]
+    corners = [
+        column_outline(column, theta)[seat] - at_rest[seat]
+        for theta, seat in zip(rotations, seats, strict=True)
+    ]
     yield "cap_stays_on_its_seats", "gap over R", np.abs(corners - moved).max() / column.size
 
     for gamma in mass_ratios:  # the weight of the cap beam acts at the height of the column tops
         height = (1.0 + 2.0 * gamma) / (1.0 + gamma) * column.half_height
         yield "centre_of_gravity_rises", f"height at γ = {gamma:g}", height
-        yield "centre_of_gravity_rises", f"size at γ = {gamma:g}", RockingFrame(column, gamma).equivalent_size
+        yield (
+            "centre_of_gravity_rises",
+            f"size at γ = {gamma:g}",
+            RockingFrame(column, gamma).equivalent_size,
+        )
 
     has_it = cap_motion(NEGATIVE).v_ddot.has(acceleration)
     yield "reactions_need_the_acceleration", "v̈ has θ̈", has_it
@@ -165,12 +173,20 @@ def compute(settings, structures):
     duration, samples = settings["duration"], settings["samples"]
     pulses = [pulse_on(column, **pulse) for pulse in settings["pulses"]]
     frames = [RockingFrame(column, gamma) for gamma in settings["mass_ratios"]]
-    rows = [*oscillator(RockingFrame(column, 1.0), pulses[0]), *structure(column, [0.0, *settings["mass_ratios"]])]
+    rows = [
+        *oscillator(RockingFrame(column, 1.0), pulses[0]),
+        *structure(column, [0.0, *settings["mass_ratios"]]),
+    ]
     return {
         "three_bodies": [
-            three_bodies(frame, settings["cap"], pulse, duration, samples) for pulse in pulses for frame in frames
+            three_bodies(frame, settings["cap"], pulse, duration, samples)
+            for pulse in pulses
+            for frame in frames
         ],
-        "statements": [dict(zip(("statement", "quantity", "value"), (s, q, float(x)), strict=True)) for s, q, x in rows],
+        "statements": [
+            dict(zip(("statement", "quantity", "value"), (s, q, float(x)), strict=True))
+            for s, q, x in rows
+        ],
     }
 
 
@@ -179,10 +195,13 @@ def findings(three_bodies, statements):
     worst = three_bodies.filter(regex="apart$|tilt$").max()
     same = worst.equivalent_apart < AGREE
     left, right = (
-        of["rocks_left_then_right"][[f"least {one}", f"largest {one}"]] for one in ("before", "after")
+        of["rocks_left_then_right"][[f"least {one}", f"largest {one}"]]
+        for one in ("before", "after")
     )
     ground, overturned = of["rocks_left_then_right"][["ground", "overturned"]]
-    heights, sizes = (of["centre_of_gravity_rises"].filter(like=name) for name in ("height", "size"))
+    heights, sizes = (
+        of["centre_of_gravity_rises"].filter(like=name) for name in ("height", "size")
+    )
     compact = of["compact_form"] == 1.0
     return {
         "one_degree_of_freedom": truth(
@@ -204,12 +223,18 @@ def findings(three_bodies, statements):
         ),
         "rigid_until_uplift": truth(list(of["rigid_until_uplift"]) == [1.0, 0.0]),
         "rocks_left_then_right": truth(
-            ground > 0.0 == overturned and left.iloc[0] < 0.0 >= left.iloc[1] and right.iloc[0] >= 0.0 < right.iloc[1]
+            ground > 0.0 == overturned
+            and left.iloc[0] < 0.0 >= left.iloc[1]
+            and right.iloc[0] >= 0.0 < right.iloc[1]
         ),
-        "period_depends_on_amplitude": truth((np.diff(of["period_depends_on_amplitude"]) > 0.0).all()),
+        "period_depends_on_amplitude": truth(
+            (np.diff(of["period_depends_on_amplitude"]) > 0.0).all()
+        ),
         "massless_columns_are_a_limit": truth((of["massless_columns_are_a_limit"] < CLOSE).all()),
         "cap_stays_on_its_seats": truth(of["cap_stays_on_its_seats"].max() < 1e-12),
-        "centre_of_gravity_rises": truth((np.diff(heights) > 0.0).all() and (np.diff(sizes) > 0.0).all()),
+        "centre_of_gravity_rises": truth(
+            (np.diff(heights) > 0.0).all() and (np.diff(sizes) > 0.0).all()
+        ),
         "reactions_need_the_acceleration": truth(of["reactions_need_the_acceleration"].all()),
         "compact_form": truth(compact.filter(like="meant").all()),
     }

@@ -1,4 +1,4 @@
-"""The trilith of Peña et al. (2008): its numbers on p. 4, its distance from uplift, its outcomes."""
+"""The trilith of Peña et al. (2008): its numbers on p. 4, distance from uplift, outcomes."""
 
 import math
 from dataclasses import replace
@@ -73,7 +73,9 @@ def thresholds(frame, settings):
     for name, *_, at in rows:
         sides = [at(1.0 - ASIDE), at(1.0 + ASIDE)]
         check(sides == [False, True], f"beside the threshold of {name} it uplifts: {sides}")
-    return pd.DataFrame([row[:-1] for row in rows], columns=["quantity", "unit", "tested", "to_lift"])
+    return pd.DataFrame(
+        [row[:-1] for row in rows], columns=["quantity", "unit", "tested", "to_lift"]
+    )
 
 
 def starts(frame, settings, tightened):
@@ -88,7 +90,9 @@ def starts(frame, settings, tightened):
     times = np.linspace(0.0, duration, 2401)
 
     def shaken(share, simulate=simulate, **options):
-        return simulate(frame, motion, velocity=share * full, duration=duration, samples=times, **options)
+        return simulate(
+            frame, motion, velocity=share * full, duration=duration, samples=times, **options
+        )
 
     responses = {share: shaken(share) for share in np.round(np.linspace(0.0, 1.0, 21), 2)}
     high = min(share for share, response in responses.items() if response.outcome == "rocking")
@@ -100,7 +104,10 @@ def starts(frame, settings, tightened):
     smooth, abrupt = responses[0.0], responses[1.0]
     for other in (shaken(1.0, tolerance=tightened), shaken(1.0, reference.simulate)):
         apart = np.abs(other.rotation - abrupt.rotation).max() / alpha
-        check(apart < AGREE and other.outcome == abrupt.outcome, f"two solvers are {apart:.1g} α apart")
+        check(
+            apart < AGREE and other.outcome == abrupt.outcome,
+            f"two solvers are {apart:.1g} α apart",
+        )
     late = times > 0.75 * duration
     rows = [
         {
@@ -111,7 +118,11 @@ def starts(frame, settings, tightened):
         }
         for share, response in sorted(responses.items())
     ]
-    histories = {"time": times, "smooth": smooth.rotation / alpha, "abrupt": abrupt.rotation / alpha}
+    histories = {
+        "time": times,
+        "smooth": smooth.rotation / alpha,
+        "abrupt": abrupt.rotation / alpha,
+    }
     return rows, histories
 
 
@@ -154,7 +165,9 @@ def findings(trilith_numbers, trilith_thresholds, trilith_starts, settings, stru
     for row in trilith_thresholds.itertuples():
         found[f"{row.quantity}_to_lift"] = value(row.to_lift, ASIDE * row.to_lift, row.unit)
     width = trilith_thresholds.set_index("quantity").loc["width"]
-    found["width_lost_at_each_edge"] = value((width.tested - width.to_lift) / 2.0, ASIDE * width.to_lift, "mm")
+    found["width_lost_at_each_edge"] = value(
+        (width.tested - width.to_lift) / 2.0, ASIDE * width.to_lift, "mm"
+    )
     acceleration = found["base_acceleration_in_g"]["value"]
     found["stays_below_uplift"] = truth(acceleration < found["uplift_acceleration"]["value"])
 

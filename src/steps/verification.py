@@ -119,7 +119,8 @@ def published(rows):
         "exact_quarter_period": simulate(
             RockingBlock(1.0, 0.25, 1.0), rotation=0.9 * 0.25, duration=9.0, samples=2
         ).impacts[0],
-        "housner_decay": np.abs(simulate(decay, rotation=0.5 * 0.25, samples=fifth).rotation).max() / 0.25,
+        "housner_decay": np.abs(simulate(decay, rotation=0.5 * 0.25, samples=fifth).rotation).max()
+        / 0.25,
         "one_sine_with_impact": in_alpha("one_sine_with_impact"),
         "one_sine_end_of_impact_mode": in_alpha("one_sine_end_of_impact_mode", "upper"),
         "one_sine_without_impact": in_alpha("one_sine_without_impact"),
@@ -127,7 +128,10 @@ def published(rows):
             "one_sine_dimensional", RockingBlock(2.14, 0.25, 0.9, linearised=True), "one-sine", 15.7
         ),
         "one_cosine_exact": in_g(
-            "one_cosine_exact", RockingBlock(2.0, math.radians(15.0), 0.89952), "one-cosine", math.pi
+            "one_cosine_exact",
+            RockingBlock(2.0, math.radians(15.0), 0.89952),
+            "one-cosine",
+            math.pi,
         ),
         "half_sine_linear": in_g(
             "half_sine_linear", Column(0.2, 0.6).block().linear(), "half-sine", 2 * math.pi
@@ -184,7 +188,10 @@ def compute(settings, solver):
 def findings(verification_routes, verification_published):
     routes, literature = verification_routes, verification_published
     differ, apart = routes.outcomes_that_differ.sum(), routes.error_99.max()
-    check(differ == 0 and apart < AGREE, f"{differ} outcomes differ; 99 % of peaks within {apart:.1g} α")
+    check(
+        differ == 0 and apart < AGREE,
+        f"{differ} outcomes differ; 99 % of peaks within {apart:.1g} α",
+    )
     off = (literature.computed - literature.expected).abs()
     off_print = (literature.computed / literature.printed - 1.0).abs()
     wrong = literature.quantity[(off > literature.tolerance) | (off_print >= OF_PRINT)]

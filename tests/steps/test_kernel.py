@@ -1,32 +1,16 @@
-"""The kernel is compiled by one job, before any other needs it."""
+"""The solver is compiled by one job, before any other needs it."""
 
 import subprocess
 import sys
-from pathlib import Path
 
-ROOT = Path(__file__).parents[2]
-COMPILED = "src/topheavy/kernel/compiled.py"
-ON_DEMAND = {"kernel", "figure", "notebook"}
-
-
-def test_every_job_that_uses_the_kernel_waits_for_it(jobs):
-    scripts = {job.rule: {one.scripts for one in jobs if one.rule == job.rule} for job in jobs}
-    on_demand = ON_DEMAND | {rule for rule, some in scripts.items() if len(some) > 1}
-    users = [job for job in jobs if COMPILED in job.inputs and job.rule not in on_demand]
-    assert len(users) > 30
-    assert {job.rule for job in users if "results/kernel.compiled" not in job.inputs} == set()
-
-
-def test_job_that_needs_no_kernel_does_not_wait(jobs):
-    (equations,) = (job for job in jobs if job.rule == "equations")
-    assert "results/kernel.compiled" not in equations.inputs
-
+from tests.cases import ROOT
 
 REST = """
 import sys
+sys.path.insert(0, "src")
 import numpy as np
 from numba.extending import is_jitted
-from steps.kernel import COLUMN, PULSE, RECORD, main
+from steps.kernel import COLUMN, PULSE, RECORD, compute
 from topheavy import overturned_by, overturning_intervals, overturning_map, simulate
 
 def compiled():
@@ -34,7 +18,7 @@ def compiled():
     functions = {f for module in kernel for f in vars(module).values() if is_jitted(f)}
     return {(f.__name__, str(types)) for f in functions for types in f.signatures}
 
-main()
+compute()
 before = compiled()
 frequencies, amplitudes = np.linspace(4.0, 8.0, 3), np.array([0.2, 0.3])
 overturning_map(COLUMN.block().linear(), "one-cosine", frequencies, amplitudes)

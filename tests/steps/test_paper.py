@@ -1,0 +1,174 @@
+"""The first rules of the paper in a small case: which findings a changed table breaks."""
+
+import math
+from ast import literal_eval
+from io import StringIO
+
+import pandas as pd
+import pytest
+
+from replication.config import read_config
+from replication.sections import Paper
+from replication.step import call
+from steps import allen, equations, parameters, statements, trilith, verification
+from tests.cases import COLUMN, RECORDS, ROOT, broken
+from topheavy import Column, RockingFrame
+
+CONFIG = read_config(str(ROOT / "config/config.yaml"), Paper)
+STEPS = {
+    step.__name__.removeprefix("steps."): step
+    for step in (allen, equations, parameters, statements, trilith)
+}
+SMALL = {
+    "parameters": {"points": 11, "slendernesses": 13, "rotations": 5},
+    "trilith": {"frequencies": {"lowest": 1.0, "highest": 10.0, "points": 2}},
+    "allen": {"errors": CONFIG["allen"]["errors"] | {"mass_ratios": [2.0]}},
+    "statements": {"mass_ratios": [1.0, 10.0], "pulses": CONFIG["statements"]["pulses"][:1]},
+    "equations": {},
+}
+SMALL["allen"]["maps"] = CONFIG["allen"]["maps"] | {
+    "frequency_ratios": {"lowest": 2.0, "highest": 6.0, "points": 3}
+}
+
+
+def given(rule):
+    """Return the parameters of a rule, its grids small."""
+    return {
+        "settings": CONFIG.get(rule, {}) | SMALL[rule],
+        "structures": CONFIG["structures"],
+        "solver": CONFIG["solver"],
+        "record": str(RECORDS / "el_centro_1940_NS.AT2"),
+    }
+
+
+@pytest.fixture(scope="module")
+def tables():
+    """The tables of each rule as text, made once."""
+    made = {}
+
+    def of(rule):
+        if rule not in made:
+            found = call(STEPS[rule].compute, rule, {}, given(rule))
+            made[rule] = {
+                n: pd.DataFrame(t).to_csv(index=False, float_format="%.9g")
+                for n, t in found.items()
+            }
+        return {name: pd.read_csv(StringIO(text)) for name, text in made[rule].items()}
+
+    return of
+
+
+def findings(rule, tables, **changes):
+    return call(STEPS[rule].findings, rule, {}, given(rule) | tables | changes)
+
+
+KNOWN = {
+    "equations": {"eq9", "eq19", "eq20", "eq21", "eq22", "text_p_hat", "text_p_hat_trilith"},
+    "statements": {"identical_response"},
+    "trilith": {"no_pure_rocking"},
+}
+
+
+@pytest.mark.parametrize("rule", STEPS)
+def test_findings_hold_but_for_the_known_ones(tables, rule):
+    found = findings(rule, tables(rule))
+    assert broken(found) == KNOWN.get(rule, set())
+    meant = {name for name, one in found.items() if one.get("meant_holds") or one.get("holds_when")}
+    assert meant == KNOWN.get(rule, set())
+
+
+CHANGES = """
+equations: equations: id == 'eq4_negative': follows: False: eq4
+equations: equations: id == 'text_step_14': follows: False: text_step
+equations: theorems: theorem == 'lagrange_agrees': holds: False: lagrange_agrees, theorems_hold
+parameters: mass_ratio: mass_ratio == 5: size_ratio: 1.6: heavier_is_larger
+parameters: mass_ratio: mass_ratio == 5: frequency_ratio: 0.8: heavier_is_larger
+parameters: restitution: slenderness_deg == 5 and mass_ratio == 1: restitution: 0.9999: \
+smaller_than_solitary, energy_loss
+parameters: restitution: slenderness_deg == 5 and mass_ratio == 0: restitution: 0.9: \
+solitary_column_recovered
+parameters: moment_rotation: rotation_over_alpha == 0.5 and mass_ratio == 4: moment: 0.7: \
+frame_follows_the_columns_curve
+parameters: four_structures: structure == 'frame 4': minimum_overturning: 0.3: \
+order_of_the_four_structures
+trilith: trilith_numbers: quantity == 'base_acceleration_in_g': value: 0.28: stays_below_uplift
+statements: three_bodies: mass_ratio == 10: rotation_apart: 1e-4: one_degree_of_freedom
+statements: three_bodies: mass_ratio == 10: same_outcome: False: one_degree_of_freedom
+statements: three_bodies: mass_ratio == 10: cap_balance_apart: 1e-3: \
+one_degree_of_freedom, forces_on_the_cap_balance
+statements: statements: quantity == 'uplifts below': value: 1.0: rigid_until_uplift
+statements: statements: quantity == 'largest before': value: 0.1: rocks_left_then_right
+statements: statements: quantity == 'meant eq22': value: 0.0: compact_form
+statements: statements: quantity == 'gap over R': value: 1e-3: cap_stays_on_its_seats
+statements: statements: quantity == 'height at γ = 10': value: 3.0: centre_of_gravity_rises
+"""  # rule, table, which row, column, what it becomes, which findings it breaks
+
+
+@pytest.mark.parametrize("change", CHANGES.strip().splitlines())
+def test_changed_number_breaks_its_findings(tables, change):
+    rule, table, row, column, number, breaks = change.split(": ")
+    changed = tables(rule)
+    (chosen,) = changed[table].query(row).index
+    changed[table].loc[chosen, column] = literal_eval(number)
+    assert broken(findings(rule, changed)) == KNOWN.get(rule, set()) | set(breaks.split(", "))
+
+
+def test_equation_that_no_mend_saves_is_not_meant(tables):
+    changed = tables("equations")
+    lost = changed["equations"].id == "eq19"
+    changed["equations"].loc[lost, "fault"] = math.nan
+    assert not findings("equations", changed)["eq19"]["meant_holds"]
+
+
+def test_frame_that_keeps_rocking_is_a_condition_only_if_it_rests_from_rest(tables):
+    changed = tables("trilith")
+    changed["trilith_starts"].loc[0, "outcome"] = "rests"
+    assert not findings("trilith", changed)["no_pure_rocking"]["holds_when"]
+
+
+@pytest.mark.parametrize(
+    "change", [{"half_measures": [0.4, 0.12]}, {"width": 0.23}, {"height": 0.9}]
+)
+def test_halves_that_are_no_halves_are_noticed(tables, change):
+    settings = CONFIG["trilith"] | {"printed": CONFIG["trilith"]["printed"] | change}
+    found = findings("trilith", tables("trilith"), settings=settings)
+    assert not found["half_measures_agree"]["holds"]
+
+
+def test_mass_ratio_that_no_changed_number_explains_is_not_meant(tables):
+    settings = CONFIG["trilith"] | {"mass_ratio": 0.0434}
+    found = findings("trilith", tables("trilith"), settings=settings)
+    assert "meant_value" not in found["mass_ratio"]
+
+
+def test_small_column_is_the_large_one_in_slower_time():
+    small = RockingFrame(Column(COLUMN.half_width / 2, COLUMN.half_height / 2), 1.0)
+    slower = parameters.minimum(RockingFrame(COLUMN, 1.0), "one-cosine", 1.5 * math.sqrt(2.0))
+    assert parameters.minimum(small, "one-cosine", 1.5) == pytest.approx(slower, rel=1e-8)
+
+
+def test_models_of_a_very_heavy_cap_beam_are_the_exact_frame():
+    exact, *_, massless, restitution, whole = allen.models_of(RockingFrame(COLUMN, 1e9)).values()
+    for block in (massless, restitution, whole):
+        assert block.frequency_parameter == pytest.approx(exact.frequency_parameter)
+        assert block.restitution == pytest.approx(exact.restitution)
+    assert (exact.linearised, whole.linearised) == (False, True)
+
+
+@pytest.mark.parametrize(
+    ("row", "change"), [("routes", "outcomes_that_differ"), ("published", "computed")]
+)
+def test_solver_that_differs_stops_verification(row, change):
+    routes = pd.DataFrame([{"outcomes_that_differ": 0, "error_99": 1e-9, "cells": 9}])
+    number = {
+        "quantity": "one",
+        "printed": 1.0,
+        "expected": 1.0,
+        "tolerance": 1e-3,
+        "computed": 1.0,
+    }
+    given = {"routes": routes, "published": pd.DataFrame([number])}
+    verification.findings(*given.values())
+    given[row].loc[0, change] += 1
+    with pytest.raises(SystemExit, match="differ"):
+        verification.findings(*given.values())
