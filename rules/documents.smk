@@ -38,7 +38,7 @@ for part in ["paper", "beyond"]:
         output:
             [path.replace(".py", ".svg") for path in scripts],
         params:
-            code=code("src/steps/draw.py", *SHARED) | DOCUMENTS,
+            code=code("src/steps/draw.py", *SHARED) | DOCUMENTS | CORE,
             config=PAPER,
         log:
             f"results/logs/{part}_figures.log",
