@@ -171,7 +171,7 @@ def test_module_that_the_rule_does_not_name_stops_the_step(tree, edited):
             "studies/tiny/study.smk",
             '"studies/tiny/numbers.csv"',
             '"results/tables/tinny.csv"',
-            "rule tiny (studies/tiny/study.smk) reads results/tables/tinny.csv, which no rule makes",
+            "rule tiny (studies/tiny/study.smk) reads results/tables/tinny.csv, which no rule",
         ),
         (
             "studies/tiny/study.smk",

@@ -219,14 +219,13 @@ def _text(made: Any, path: str, compute: Callable, rule: str) -> str | bytes:
 
     if isinstance(made, str | bytes) and not path.endswith(".csv"):
         return made
-    try:
-        table = pd.DataFrame(made if not isinstance(made, str | None) else 0)
-    except ValueError:
+    columns = made.values() if isinstance(made, Mapping) else []
+    if made is None or isinstance(made, str) or any(isinstance(one, Mapping) for one in columns):
         stop(
             f"{where(compute)}: compute returned {made!r:.60} where rule {rule} declares the table "
             f"{path}. Return a pandas.DataFrame; findings(table) draws the findings from it"
         )
-    return table.to_csv(index=False, float_format=DIGITS, lineterminator="\n")
+    return pd.DataFrame(made).to_csv(index=False, float_format=DIGITS, lineterminator="\n")
 
 
 def _alive(process: int) -> bool:
