@@ -101,7 +101,7 @@ def test_the_page_is_followed_literally(copy):
 @pytest.mark.parametrize(
     ("file", "old", "new", "told"),
     [
-        ("config.yaml", "scale: 1.3", "sacle: 1.3", "unknown key 'sacle'; did you mean 'scale'?"),
+        ("config.yaml", "scale: 1.3", "scal: 1.3", "unknown key 'scal'; did you mean 'scale'?"),
         ("config.yaml", "scale: 1.3", "scale: 1,3", "scale is '1,3'"),
         ("config.yaml", "el_centro", "el_cento", "there is no file data/records/el_cento"),
         ("config.yaml", ", column_mass: 60", "", "3 columns under a cap beam need column_mass"),
