@@ -143,7 +143,7 @@ def test_module_that_the_rule_does_not_name_stops_the_step(tree, edited):
     run = snakemake(tree, TABLE)
     assert run.returncode != 0
     assert "rule tiny loaded src/topheavy/risk/" in run.stdout + run.stderr
-    assert "Add the file to `code`, or the folder by library(…)" in run.stdout + run.stderr
+    assert "Name it in `code`, or its folder by library(…)" in run.stdout + run.stderr
 
 
 @pytest.mark.parametrize(

@@ -178,7 +178,7 @@ def publish(job: Any, made: Mapping[str, str | bytes]) -> None:
     if gap := sorted(str(path) for path in inside if path.parts[0] in OURS):
         stop(
             f"rule {job.rule} loaded {', '.join(gap)}, which its `code` does not name: a change "
-            "there would leave its results stale. Add the file to `code`, or the folder by library(…)"
+            "there would leave its results stale. Name it in `code`, or its folder by library(…)"
         )
     for path, content in made.items():
         Path(f"{path}.new").write_bytes(content.encode() if isinstance(content, str) else content)
