@@ -27,7 +27,7 @@ def history(above, below, run):
 
 def errors(axis, table):
     """Draw the median error of slender columns over γ, of each simplification and of all three."""
-    for model, line in table[table["columns"] == "slender"].groupby("model"):
+    for model, line in table.groupby("model"):
         whole = model == "all"
         look = {"linestyle": LINES[model], "color": MODEL if whole else INK, "zorder": 2 + whole}
         axis.plot(
@@ -65,5 +65,7 @@ def draw(allen_histories, allen_errors):
     note(axes["b"], "exact", (0.5, 0.13), xycoords="axes fraction")
     note(axes["b"], "Allen et al.", (0.5, 0.05), xycoords="axes fraction", color=MODEL)
     errors(axes["e"], allen_errors)
-    letter([axes[name] for name in "ace"], [*MOTIONS.values(), "Median error, slender columns"])
+    titles = [MOTIONS["pulse"], "Median error, slender columns"]
+    letter([axes["a"], axes["e"]], titles)
+    axes["c"].set_title(MOTIONS["record"])
     return figure

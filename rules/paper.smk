@@ -73,7 +73,6 @@ rule allen:
         kernel="results/kernel.compiled",
     output:
         allen_histories="results/tables/allen_histories.csv",
-        allen_peaks="results/tables/allen_peaks.csv",
         allen_errors="results/tables/allen_errors.csv",
         allen_maps="results/tables/allen_maps.csv",
         findings="results/findings/allen.json",

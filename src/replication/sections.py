@@ -68,7 +68,7 @@ class AllenErrors(Section):
     shape: Shape
     frequency_ratio: Positive  # ω/p
     mass_ratios: list[Positive]
-    slendernesses: Grid  # degrees
+    slendernesses: list[Degrees]
     amplitudes: Grid  # over g tan α
 
 

@@ -53,22 +53,22 @@ def uplifts(frame, amplitude, frequency):
 def thresholds(frame, settings):
     """Return the changes that would uplift it, each simulated on both sides of its threshold."""
     u, f, column = settings["table_amplitude"], settings["table_frequency"], frame.column
-    b, h = column.half_width, column.half_height
-    level = table_acceleration(u, f)
-
-    def narrowed(half_width):
-        return replace(frame, column=Column(half_width, h))
-
-    def tilted(angle):  # gravity, turned by a tilt of the base, leaves this much of α
-        return narrowed(h * math.tan(column.slenderness - angle))
-
     amplitude, frequency = amplitude_to_uplift(frame, f), frequency_to_uplift(frame, u)
-    width, tilt = level * h, column.slenderness - math.atan(level)
+    half_width = table_acceleration(u, f) * column.half_height
+
+    def narrowed(share):
+        return replace(frame, column=Column(half_width / share, column.half_height))
+
     rows = [
         ("amplitude", "mm", 1e3 * u, 1e3 * amplitude, lambda x: uplifts(frame, amplitude * x, f)),
         ("frequency", "Hz", f, frequency, lambda x: uplifts(frame, u, frequency * x)),
-        ("width", "mm", 2e3 * b, 2e3 * width, lambda x: uplifts(narrowed(width / x), u, f)),
-        ("tilt", "°", 0.0, math.degrees(tilt), lambda x: uplifts(tilted(tilt * x), u, f)),
+        (
+            "width",
+            "mm",
+            2e3 * column.half_width,
+            2e3 * half_width,
+            lambda x: uplifts(narrowed(x), u, f),
+        ),
     ]
     for name, *_, at in rows:
         sides = [at(1.0 - ASIDE), at(1.0 + ASIDE)]
@@ -164,10 +164,6 @@ def findings(trilith_numbers, trilith_thresholds, trilith_starts, settings, stru
     }
     for row in trilith_thresholds.itertuples():
         found[f"{row.quantity}_to_lift"] = value(row.to_lift, ASIDE * row.to_lift, row.unit)
-    width = trilith_thresholds.set_index("quantity").loc["width"]
-    found["width_lost_at_each_edge"] = value(
-        (width.tested - width.to_lift) / 2.0, ASIDE * width.to_lift, "mm"
-    )
     acceleration = found["base_acceleration_in_g"]["value"]
     found["stays_below_uplift"] = truth(acceleration < found["uplift_acceleration"]["value"])
 
