@@ -113,7 +113,11 @@ rule engine:
     log:
         "results/logs/engine.log",
     params:
-        code=code("src/steps/beyond/engine.py", "src/steps/beyond/boxes.py")
+        code=code(
+            "src/steps/beyond/__init__.py",
+            "src/steps/beyond/boxes.py",
+            "src/steps/beyond/engine.py",
+        )
         | CORE
         | library("forces"),
         settings=PAPER["engine"],
