@@ -1,10 +1,15 @@
 """The model of Allen et al. beside the exact frame: histories and error of the peak."""
 
-from drawing import MODELS
 from palette import MODEL
 
 from replication.drawing import DOUBLE, GREY, INK, letter, note, sheet
 
+MODELS = {  # the simplifications of Allen et al. (1986), one at a time and together
+    "linearised": "linearised",
+    "massless frequency": r"$\hat{p}$ for $\gamma\to\infty$",
+    "massless restitution": r"$\sqrt{r}$ for $\gamma\to\infty$",
+    "all": "all three: Allen et al.",
+}
 MOTIONS = {"pulse": "One-sine pulse", "record": "El Centro 1940, scaled"}
 LINES = dict(zip(MODELS, ((0, (4, 2)), ":", (0, (5, 1, 1, 1)), "-"), strict=True))
 

@@ -1,26 +1,8 @@
-"""What the figures of this paper share: names, γ, and the axes of overturning spectra."""
+"""What figures share: names of pulses, γ, and the axes of overturning spectra."""
 
 import math
 
-import numpy as np
 from matplotlib.axes import Axes
-
-MODELS = {  # the simplifications of Allen et al. (1986), one at a time and together
-    "linearised": "linearised",
-    "massless frequency": r"$\hat{p}$ for $\gamma\to\infty$",
-    "massless restitution": r"$\sqrt{r}$ for $\gamma\to\infty$",
-    "all": "all three: Allen et al.",
-}
-
-RECORDS = {
-    "el_centro_1940_NS": "El Centro 1940, NS",
-    "napa_2014_68150_090": "South Napa 2014, 090",
-    "napa_2014_68150_360": "South Napa 2014, 360",
-    "ridgecrest_2019_CCC_090": "Ridgecrest 2019, CCC 090",
-    "ridgecrest_2019_CCC_360": "Ridgecrest 2019, CCC 360",
-    "ridgecrest_2019_CLC_090": "Ridgecrest 2019, CLC 090",
-    "ridgecrest_2019_CLC_360": "Ridgecrest 2019, CLC 360",
-}
 
 HIGHEST = 12.0  # a/(g tan α) of overturning spectra
 PULSES = {
@@ -34,11 +16,6 @@ PULSES = {
 def gamma(value: float) -> str:
     """Return "γ = …" for a mass ratio."""
     return r"$\gamma=\infty$" if math.isinf(value) else f"$\\gamma$ = {value:g}"
-
-
-def by_size(mass_ratio, ratios):
-    """Return places of mass ratios on an axis by equal steps of R̂, from the table of Eq. (24)."""
-    return np.interp(ratios, mass_ratio.mass_ratio, mass_ratio.share_of_size_gain)
 
 
 def amplitude_axis(axis: Axes) -> None:

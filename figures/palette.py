@@ -4,9 +4,9 @@ What has no meaning of its own is drawn in ink and grey, and told apart by marke
 γ is shown by lightness (`replication.drawing.shades`).
 """
 
-from matplotlib.colors import LinearSegmentedColormap, to_hex, to_rgb
+from matplotlib.colors import to_hex, to_rgb
 
-from replication.drawing import INK, PAPER, shades
+from replication.drawing import INK, shades
 
 RGB = tuple[float, float, float]
 
@@ -26,25 +26,16 @@ OVERTURNS, SURVIVES = "#c8501a", "#12715f"
 OVERTURNED = tint(OVERTURNS, 0.25)  # areas in which it overturns
 AT_ONCE = tint(OVERTURNS, 0.65)  # … without an impact, where the two modes differ
 ROCKS = tint(SURVIVES, 0.2)  # areas in which it rocks and survives
-HATCHED = {"facecolor": OVERTURNED, "edgecolor": tint(OVERTURNS, 0.55), "hatch": "////////"}
 
 # What a cap beam, or a heavier one, does to the outcome.
 PREVENTED, CAUSED = "#5fb3a1", "#a3195b"
-UNDECIDED = INK  # the outcome cannot be decided
 
 # What is compared with what.
 MODEL = "#6a3d9a"  # simplified models: linearised, columns without mass
 CONSERVATIVE = tint(MODEL, 0.55)  # … where they are wrong to the conservative side
 FIXED = "#8c6d00"  # the cap's mass fixed to the column
 ALONE, EQUAL, _ = shades(3)  # the column alone, and under a cap of γ = 1, below γ → ∞
-RECORD = "#7a5230"  # measured records beside pulses
 
 # Bodies that are drawn, and arrows and points on them.
 STONE, CAP, EARTH = "#e8e5df", "#b9b1a2", "#d5d1c8"
 FORCE = "#0b6e99"
-OPENS = FORCE  # contacts that would have to pull
-
-# Scales of a quantity.
-PEAKS = LinearSegmentedColormap.from_list("peaks", [PAPER, tint(SURVIVES, 0.4), "#083a31"])
-ERRORS = LinearSegmentedColormap.from_list("errors", [PAPER, tint(MODEL, 0.5), "#2a1145"])
-DEMAND = LinearSegmentedColormap.from_list("demand", ["#efefef", INK])

@@ -73,7 +73,6 @@ def compute(settings, structures):
             "mass_ratio": gammas,
             "frequency_ratio": p_hat / column.frequency_parameter,
             "size_ratio": size_ratio,
-            "share_of_size_gain": (size_ratio - 1.0) / (size_ratio[-1] - 1.0),
         },
         "restitution": [
             {
@@ -111,7 +110,8 @@ def compute(settings, structures):
 
 def findings(mass_ratio, restitution, moment_rotation, four_structures):
     last = mass_ratio.iloc[-1]
-    gain = np.interp(1.0, mass_ratio.mass_ratio[:-1], mass_ratio.share_of_size_gain[:-1])
+    equal = np.interp(1.0, mass_ratio.mass_ratio[:-1], mass_ratio.size_ratio[:-1])
+    gain = (equal - 1.0) / (last.size_ratio - 1.0)
     loss = restitution.restitution_of_column - restitution.restitution
     heavy = restitution.mass_ratio > 0.0
     rocks = restitution[heavy & (restitution.restitution >= 0.0)]
