@@ -130,8 +130,8 @@ def test_a_mistake_is_named_before_any_job(copy, file, old, new, told):
         (
             "capacity.py",
             'return {"factor": factors} |',
-            'return 1 or {"factor": factors} |',
-            "compute returned 1 where rule example_capacity declares the table",
+            'return {"survives": truth(True)} or {"factor": factors} |',
+            "where rule example_capacity declares the table",
         ),
         (
             "capacity.py",
