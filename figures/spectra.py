@@ -31,10 +31,10 @@ def panel(axis, cells, scaled):
 def draw(spectra):
     cells = spectra[np.isclose(spectra.slenderness_deg, SLENDERNESS)]
     figure, axes = sheet(DOUBLE, 112, nrows=2, ncols=4, sharey=True)
-    for row, scaled in zip(axes, (False, True), strict=True):
+    for row, parameter in zip(axes, ("p", r"\hat{p}"), strict=True):
         for axis, shape in zip(row, PULSES, strict=True):
-            panel(axis, cells[cells["shape"] == shape], scaled)
-            axis.set_xlabel(r"Frequency, $\omega/\hat{p}$ (–)" if scaled else r"Frequency, $\omega/p$ (–)")
+            panel(axis, cells[cells["shape"] == shape], parameter != "p")
+            axis.set_xlabel(f"Frequency, $\\omega/{parameter}$ (–)")
         row[0].set_ylabel("Minimum overturning\n" + r"acceleration, $a/(g\,\tan\alpha)$ (–)")
     letter(axes.flat, [*PULSES.values()] * 2)
     above = {"loc": "lower right", "bbox_to_anchor": (1.0, 0.06)}  # the line of uplift

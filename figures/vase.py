@@ -10,7 +10,11 @@ from palette import FIXED, OVERTURNED, OVERTURNS, ROCKS, SURVIVES
 from replication.drawing import DARKEST, DOUBLE, GREY, INK, LIGHTEST, PAPER, letter, note, sheet
 
 PLACES = {"bare": 0.0, "fixed": 8.4, "free": 19.3}  # m: the middle of each
-NAMES = {"bare": "Column", "fixed": "Mass fixed\nto the column", "free": "Frame: mass\ncarried freely"}
+NAMES = {
+    "bare": "Column",
+    "fixed": "Mass fixed\nto the column",
+    "free": "Frame: mass\ncarried freely",
+}
 COLOURS = {"bare": LIGHTEST, "fixed": FIXED, "free": DARKEST}
 ROW = 10.2  # m between the rows
 EDGES = (-5.4, 25.0)  # m: of the ground

@@ -94,8 +94,8 @@ def findings(uplift: pd.DataFrame) -> dict[str, Any]:
         "uplift_limits_forces": truth(
             overturned == 0 and max(largest.values()) < 1.0,
             holds_when=max(largest.values()) < 1.0,
-            condition="the frame survives, and is compared with a rigid one that is clamped against "
-            "uplift, whose columns are cantilevers",
+            condition="the frame survives, and is compared with a rigid one that is clamped "
+            "against uplift, whose columns are cantilevers",
             **evidence,
             **{f"{name}_largest": number for name, number in largest.items()},
         ),

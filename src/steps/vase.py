@@ -62,7 +62,9 @@ def minima(
     found: list[LowestOverturning | None] = [None] * len(levels)
     if sought:
         ranges = [(max(levels[place], above), highest) for place in sought]
-        searches = [Search(under[at], motion, ends) for at, ends in zip(sought, ranges, strict=True)]
+        searches = [
+            Search(under[at], motion, ends) for at, ends in zip(sought, ranges, strict=True)
+        ]
         lowest = lowest_together(searches, [floor * levels[place] for place in sought])
         for place, one in zip(sought, lowest, strict=True):
             found[place] = one if one.bracket else None
@@ -70,7 +72,12 @@ def minima(
 
 
 def decided(
-    structure: Structure, motion: Motion, one: LowestOverturning | None, highest: float, floor: float, tightened: float
+    structure: Structure,
+    motion: Motion,
+    one: LowestOverturning | None,
+    highest: float,
+    floor: float,
+    tightened: float,
 ) -> LowestOverturning | None:
     """Return the lowest interval whose middle overturns also if it is nudged, or more precisely."""
     while one and one.upper:
@@ -231,7 +238,11 @@ def poses(column: Column, settings: dict) -> Iterator[dict]:
         pulse = Pulse("one-cosine", amplitude, 2.0 * math.pi / settings["period"])
         outcome, angles = rotations(structure, pulse, picture["cap"])
         for pose, rotation in enumerate(angles):
-            labels = {"amplitude": amplitude, "mass_ratio": picture["mass_ratio"], "structure": name}
+            labels = {
+                "amplitude": amplitude,
+                "mass_ratio": picture["mass_ratio"],
+                "structure": name,
+            }
             labels |= {"outcome": outcome, "pose": pose, "last": pose == len(angles) - 1}
             for body, outline in bodies(structure, rotation, picture["cap"]).items():
                 for x, y in outline:
@@ -253,7 +264,9 @@ def compared(vase_motions: pd.DataFrame) -> pd.DataFrame:
     at = ["motion", "frequency_ratio"]
     table = vase_motions.fillna({"frequency_ratio": -1.0})
     bare = table[table.structure == BARE].drop_duplicates(at).set_index(at)
-    table = table[table.structure != BARE].join(bare[["minimum", "wide_minimum"]], at, rsuffix="_bare")
+    table = table[table.structure != BARE].join(
+        bare[["minimum", "wide_minimum"]].add_suffix("_bare"), at
+    )
     table = table[np.isfinite(table[["minimum", "minimum_bare"]].min(axis=1))]
     for name in ("minimum", "wide_minimum"):
         ranks = zip(table.structure, table[name], table[f"{name}_bare"], strict=True)
@@ -274,7 +287,6 @@ def ranked(table: pd.DataFrame, longest: float) -> dict[str, Any]:
         exceptions=len(exceptions),
         records=record.sum(),
         exceptions_under_records=(record & table.minimum_reversed).sum(),
-        shortest_of_exceptions=exceptions[~record].frequency_ratio.min() if len(exceptions) else 0.0,
     )
 
 
@@ -300,8 +312,7 @@ def findings(vase: pd.DataFrame, vase_motions: pd.DataFrame, settings: dict) -> 
             exceptions=free.minimum_reversed.sum(),
             exceptions_of_wide_intervals=wide,
         ),
-        "support_decides": ranked(table, longest)
-        | {"under_the_pulses_of_one_period": all(ranks)},
+        "support_decides": ranked(table, longest) | {"under_the_pulses_of_one_period": all(ranks)},
         "least_raise": value(min(raised), 1e-6),
         "largest_raise": value(max(raised), 1e-6),
     }

@@ -26,7 +26,9 @@ def bodies(structure: Structure, rotation: float, cap: dict[str, float]) -> dict
     found = outlines(structure, rotation, width, cap["depth"])
     for name, outline in found.items():
         if outline[:, 1].min() < -IN_THE_GROUND:
-            raise ArithmeticError(f"the {name} of {structure} is in the ground at θ = {rotation:.6g}")
+            raise ArithmeticError(
+                f"the {name} of {structure} is in the ground at θ = {rotation:.6g}"
+            )
     return found
 
 

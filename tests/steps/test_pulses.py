@@ -1,0 +1,305 @@
+"""Spectra, the fixed mass, verified outcomes and forces after uplift, in small cases."""
+
+import math
+from io import StringIO
+
+import numpy as np
+import pandas as pd
+import pytest
+from PIL import Image
+
+import topheavy as th
+from replication.config import read_config
+from replication.sections import Paper
+from steps import animation, proven, spectra, spectra_shard, uplift, vase
+from steps.shared.histories import history
+from steps.shared.spectrum import FRAME, KEYS, line
+from tests.cases import COLUMN, RECORDS, ROOT, SIZES, broken
+from tests.cases import FRAME as BENT
+
+CONFIG = read_config(str(ROOT / "config/config.yaml"), Paper)
+PULSE = th.Pulse("one-cosine", 1.0, 2 * math.pi / 1.5)
+TIGHT = 3e-12
+SPECTRA = CONFIG["spectra"] | {
+    "slendernesses": [5.0],
+    "shapes": ["one-cosine"],
+    "mass_ratios": [0.0, 1.0, math.inf],
+    "frequency_ratios": {"lowest": 1.25, "highest": 4.25, "points": 13},
+    "sample": {"points": 6, "seed": 1},
+}
+VASE = CONFIG["vase"] | {
+    "mass_ratios": [0.0, 1.0, math.inf],
+    "shapes": ["one-cosine"],
+    "grids": [
+        {
+            "shapes": ["ricker-symmetric"],
+            "mass_ratios": [1.0],
+            "frequency_ratios": {"lowest": 2.0, "highest": 6.0, "points": 2},
+        }
+    ],
+    "sample": 1,
+}
+UPLIFT = CONFIG["uplift"] | {
+    "mass_ratios": [0.0, 1.0],
+    "shapes": ["one-sine"],
+    "frequency_ratios": {"lowest": 4.0, "highest": 8.0, "points": 2},
+    "amplitudes": [1.1, 3.0, 9.0],
+    "sample": 1,
+}
+
+
+def as_written(tables):
+    """Return tables as they are read from their files."""
+    texts = {n: pd.DataFrame(t).to_csv(index=False, float_format="%.9g") for n, t in tables.items()}
+    return {name: pd.read_csv(StringIO(text)) for name, text in texts.items()}
+
+
+def unmet(found):
+    """Return the names of the findings that do not hold on their condition either."""
+    return {name for name, one in found.items() if one.get("holds_when") is False}
+
+
+# Spectra -----------------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def shards():
+    return [spectra_shard.compute(SPECTRA, f"{number}-of-2") for number in (1, 2)]
+
+
+@pytest.fixture(scope="module")
+def tables(shards):
+    return as_written(spectra.compute(shards, SPECTRA, TIGHT))
+
+
+def test_shards_together_are_the_whole(shards):
+    whole = spectra_shard.compute(SPECTRA, "1-of-1")
+    together = pd.concat(shards).sort_values([*KEYS, "lower"], ignore_index=True)
+    pd.testing.assert_frame_equal(together, whole.sort_values([*KEYS, "lower"], ignore_index=True))
+
+
+def test_line_changes_what_its_label_says():
+    column, whole, size, restitution = (
+        line(change, gamma, 9.0, "one-sine", 2.0).block
+        for change, gamma in ((FRAME, 0.0), (FRAME, 1.0), ("size", 1.0), ("restitution", 1.0))
+    )
+    assert size == whole.with_restitution(column.restitution)
+    assert restitution == column.with_restitution(whole.restitution)
+
+
+def test_sets_of_amplitudes():
+    first, second = np.array([[1.0, 3.0], [4.0, 5.0]]), np.array([[2.0, 4.5]])
+    assert spectra.length(first) == 3.0
+    assert spectra.overlap(first, second) == 1.5
+    assert spectra.without(first, second).tolist() == [[1.0, 2.0], [4.5, 5.0]]
+    assert spectra.inside(second, np.array([1.9, 2.1])).tolist() == [False, True]
+
+
+def test_shares_are_those_of_known_intervals():
+    rows = [
+        {"mass_ratio": gamma, "frequency_ratio": ratio, "lower": low, "upper": high}
+        for ratio in (2.0, 3.0, 4.0)
+        for gamma, low, high in ((0.0, 2.0, 3.0), (0.0, 4.0, np.nan), (1.0, 2.5, 3.5))
+    ]
+    labels = {"change": FRAME, "slenderness_deg": 14.0, "shape": "one-sine"}
+    found = spectra.Spectra(pd.DataFrame(rows).assign(**labels), 6.0)
+    light, heavy = spectra.frames([0.0, 1.0])
+    shares = found.shares(light, heavy, (14.0, "one-sine"), 1)
+    assert shares == pytest.approx((2.5 / 5.0, 0.5 / 5.0))
+    assert [ratio for ratio, *_ in found.rises([(light, heavy)])] == [1.25] * 3
+
+
+KNOWN = {"heavier_is_more_stable", "frame_is_more_stable_than_its_column", "larger_is_more_stable"}
+
+
+def test_findings_of_spectra(tables):
+    found = spectra.findings(tables["spectra"], tables["areas"], SPECTRA)
+    assert broken(found) == KNOWN
+    assert not unmet(found)
+    assert found["heavier_is_more_stable"]["width"] > 0.2
+    swapped = tables["spectra"].replace({"mass_ratio": {1.0: math.inf, math.inf: 1.0}})
+    found = spectra.findings(swapped, tables["areas"], SPECTRA)
+    assert broken(found) - KNOWN == {"minimum_rises_with_mass", "never_caused_without_impact"}
+    assert found["heavier_is_more_stable"]["holds_when"] is False
+    harmful = tables["areas"].rename(columns={"prevented": "caused", "caused": "prevented"})
+    found = spectra.findings(tables["spectra"], harmful, SPECTRA)
+    assert "prevents_more_than_it_causes" in broken(found)
+    alike = tables["areas"].assign(caused=0.01)
+    assert "caused_by_the_size" in broken(spectra.findings(tables["spectra"], alike, SPECTRA))
+
+
+def test_sample_notices_wrong_intervals(shards):
+    table = pd.concat(shards)
+    wrong = spectra.Spectra(table.assign(lower=1.02 * table.lower), 16.0)
+    bands = wrong.bands([(spectra.frames([0.0])[0], spectra.frames([math.inf])[0])])
+    with pytest.raises(SystemExit, match=r"expected|disagree|Band"):
+        spectra.check_sample(wrong, bands, {"points": 20, "seed": 1}, TIGHT)
+
+
+# The fixed mass ----------------------------------------------------------------------------------
+
+
+def minimum(structure, motion=PULSE, highest=2.0):
+    return vase.minima([structure], motion, highest, 0.001)[0]
+
+
+def test_minimum_is_the_known_one_and_scipy_agrees():
+    fixed = th.FixedMassColumn(COLUMN, 1.0)
+    found = minimum(fixed)
+    assert found.factor == pytest.approx(0.20358, abs=1e-4)
+    assert 0.0 < vase.error_of(fixed, PULSE, found) < 1e-6
+    with pytest.raises(SystemExit, match="SciPy finds no minimum"):
+        vase.error_of(COLUMN, PULSE, found)
+    assert minimum(COLUMN, highest=0.15) is None  # below uplift
+    assert minimum(COLUMN, highest=0.25) is None  # nothing overturns
+
+
+def test_interval_that_a_billionth_of_the_record_removes_is_passed_over():
+    """Two lowest intervals of the column under El Centro are narrower than its last digits."""
+    record = th.read_record(RECORDS / "el_centro_1940_NS.AT2")
+    record = record.scaled(1.0 / record.peak_acceleration)
+    lowest = minimum(COLUMN, record)
+    assert lowest.width < 1e-9
+    found = vase.decided(COLUMN, record, lowest, 2.0, 0.001, TIGHT)
+    assert found.factor > lowest.upper[1]
+
+
+def test_wide_interval_is_the_lowest_in_which_all_steps_overturn(monkeypatch):
+    step = 0.001
+    ends = 0.2 + step * np.array([0.0, 1.5, 10.0, 13.5, 700.0, 720.5])  # across a call's end
+    stub = lambda structure, motion, factors: np.searchsorted(ends, factors + 1e-9) % 2 == 1  # noqa: E731
+    monkeypatch.setattr(vase, "overturned_by", stub)
+    found = [vase.lowest_wide(COLUMN, PULSE, 0.2, 2.0, step, n * step) for n in (1, 3, 20, 21)]
+    assert found == pytest.approx([0.2, 0.21, 0.9, math.inf])
+
+
+@pytest.fixture(scope="module")
+def minima():
+    return as_written(vase.compute(VASE, SIZES, [], TIGHT))
+
+
+def test_findings_of_the_fixed_mass(minima):
+    found = vase.findings(minima["vase"], minima["motions"], VASE)
+    assert broken(found) == {"fixed_mass_always_lowers", "support_decides"}
+    assert not unmet(found)
+    assert found["least_raise"]["value"] == pytest.approx(0.2340, abs=1e-4)
+    assert found["minimum_of_the_column"]["value"] == pytest.approx(0.272823, abs=1e-6)
+    for column, holds_when in (("wide_minimum", True), ("minimum", False)):
+        changed = minima["motions"].copy()
+        changed.loc[(changed.structure == "free") & (changed.frequency_ratio == 2.0), column] = 0.1
+        found = vase.findings(minima["vase"], changed, VASE)["frame_always_raises"]
+        assert (found["holds"], found["holds_when"]) == (False, holds_when)
+
+
+def test_picture_shows_the_outcomes(minima):
+    poses = minima["poses"]
+    fell = poses[poses.outcome == "overturned"]
+    assert {*zip(fell.amplitude, fell.structure, strict=True)} == {
+        (0.24, "fixed"),
+        (0.29, "bare"),
+        (0.29, "fixed"),
+    }
+    lowest = poses[poses["last"]].groupby(["amplitude", "structure"]).y.min()
+    assert lowest.to_numpy() == pytest.approx(0.0, abs=1e-8)
+
+
+# Verified outcomes -------------------------------------------------------------------------------
+
+VERIFIED = pd.DataFrame(
+    [
+        ("minimum", "bare", 0.0, 0.2, 0.2, "survives"),
+        ("minimum", "bare", 0.0, 0.2 * (1 + 2e-8), 0.2 * (1 + 2e-8), "overturns"),
+        ("below", "bare", 0.0, 0.0, 0.1, "survives"),
+        ("below", "bare", 0.0, 0.1, 0.2, "survives"),
+        ("exception", "free", 0.0, 0.9, 0.9, "survives"),
+        ("exception", "free", math.inf, 0.9, 0.9, "overturns"),
+    ],
+    columns=["part", "structure", "mass_ratio", "low", "high", "outcome"],
+)
+
+
+@pytest.mark.parametrize(
+    ("row", "column", "number", "breaks"),
+    [
+        (0, "outcome", "undecided", "boundaries"),
+        (3, "low", 0.11, "nothing_below"),
+        (3, "high", 0.19, "nothing_below"),
+        (2, "outcome", "undecided", "nothing_below"),
+        (5, "outcome", "survives", "exception"),
+    ],
+)
+def test_each_outcome_counts(row, column, number, breaks):
+    assert broken(proven.findings(VERIFIED)) == set()
+    changed = VERIFIED.copy()
+    changed.loc[row, column] = number
+    assert broken(proven.findings(changed)) == {breaks}
+
+
+def test_both_sides_of_a_minimum_are_verified():
+    low = minimum(COLUMN).factor
+    width, both = proven.sides(COLUMN, PULSE.scaled(float(f"{low:.9g}")))
+    assert (width, [one["outcome"] for one in both]) == (1e-8, ["survives", "overturns"])
+    _, both = proven.sides(COLUMN, PULSE.scaled(1.01 * low))
+    assert [one["outcome"] for one in both] == ["overturns", "overturns"]
+
+
+# Forces after uplift -----------------------------------------------------------------------------
+
+CAP = th.Cap(5.0, 0.5)
+
+
+def pulse(amplitude, shape="one-sine", ratio=4.0):
+    return th.Pulse(
+        shape, amplitude * COLUMN.uplift_acceleration, ratio * COLUMN.frequency_parameter
+    )
+
+
+def test_peaks_in_the_limits():
+    """No uplift, a sudden pulse, and one that overturns."""
+    still, sudden, fallen = (
+        uplift.peaks(BENT, CAP, pulse(*case), 8)
+        for case in ((0.9,), (3.0, "one-cosine", 8.0), (20.0,))
+    )
+    level = COLUMN.uplift_acceleration
+    assert (still[0], fallen[0]) == ("no uplift", "overturned")
+    assert still[1][0] == pytest.approx(0.9 * level, rel=1e-3)
+    assert sudden[1][0] == pytest.approx(level * (1.0 + 2.0 * th.base_shear_slope(BENT)), rel=1e-6)
+    assert np.isnan(fallen[1]).all()
+
+
+def test_arcs_hold_both_sides_of_each_impact():
+    course = history(BENT, pulse(2.0), 8)
+    peak = th.simulate(BENT, pulse(2.0)).peak_rotation
+    assert course.impacts > 2
+    assert np.abs(course.rotation).max() == pytest.approx(peak, rel=1e-2)
+    upright = np.abs(course.rotation[:-1, -1]) < 1e-8
+    ratios = course.velocity[1:, 0][upright] / course.velocity[:-1, -1][upright]
+    assert ratios == pytest.approx(BENT.restitution, rel=1e-6)
+
+
+def test_findings_of_uplift():
+    table = as_written({"table": uplift.compute(UPLIFT, SIZES)})["table"]
+    both = {"uplift_limits_forces", "uplift_is_beneficial"}
+    found = uplift.findings(table)
+    assert broken(found) == both
+    assert not unmet(found)
+    assert not broken(uplift.findings(table[table.outcome != "overturned"]))
+    for name, breaks in (("bending_moment", {"uplift_limits_forces"}), ("base_shear", both)):
+        larger = table.assign(**{f"{name}_over_clamped": 1.1})
+        assert unmet(uplift.findings(larger)) == breaks
+
+
+# The animation -----------------------------------------------------------------------------------
+
+
+def test_animation_is_played_three_times(tmp_path, monkeypatch):
+    monkeypatch.chdir(ROOT)
+    settings = CONFIG["animation"] | {"frames_per_second": 1}
+    (tmp_path / "a.gif").write_bytes(
+        animation.compute(settings, SIZES, "figures/style.mplstyle")["gif"]
+    )
+    with Image.open(tmp_path / "a.gif") as found:
+        assert (found.info["loop"], found.n_frames) == (2, 7)  # played again twice
+    strong = settings | {"pulse": settings["pulse"] | {"amplitude": 0.5}}
+    with pytest.raises(SystemExit, match="frame of the animation overturns"):
+        animation.compute(strong, SIZES, "figures/style.mplstyle")
