@@ -12,7 +12,7 @@ NOTEBOOKS = [os.path.basename(path)[:-6] for path in sorted(glob("notebooks/*.ip
 # The scripts, tables and parameters of all rules: by these `make check` draws findings again.
 RULES = {
     each.name: {
-        "script": os.path.normpath(os.path.join(os.path.dirname(each.snakefile), each.script)),
+        "script": os.path.relpath(os.path.join(os.path.dirname(each.snakefile), each.script)),
         "params": {name: given for name, given in each.params.items() if name != "code"},
         "tables": [str(path) for path in each.output if str(path).endswith(".csv") and "{" not in str(path)],
         "reads": [str(path) for path in each.input if str(path).startswith("results/tables/")],
