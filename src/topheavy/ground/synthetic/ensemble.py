@@ -21,18 +21,9 @@ class Draw:
     seed: int
     scenario: Scenario
 
-    @property
-    def labels(self) -> dict[str, Any]:
-        return {"family": self.family, "scenario": self.place, "motion": self.number}
-
     def record(self) -> Record:
         pulse = self.family == "near-fault"
         return motion(self.seed + self.place, self.number, self.scenario, pulse=pulse)
-
-
-def draws(case: Mapping[str, Any]) -> list[Draw]:
-    """Return all motions of the ensemble, in the order of its tables."""
-    return first_draws(case, case["runs"][case["run"]]["motions"])
 
 
 def first_draws(case: Mapping[str, Any], motions: int) -> list[Draw]:
