@@ -26,13 +26,7 @@ class Solver(Section):
 # The paper, first part: parameters, trilith, allen, statements, verification ----------------------
 
 
-class Period(Section):
-    shape: Shape
-    period: Positive  # s
-
-
 class Parameters(Section):
-    structure: str
     largest: Positive  # γ
     points: Count
     largest_slenderness: Degrees
@@ -40,7 +34,8 @@ class Parameters(Section):
     mass_ratios: list[MassRatio]  # of the curves of √r
     frames: list[Positive]  # γ
     rotations: Count
-    pulse: Period
+    shape: Shape
+    period: Positive  # s
 
 
 class PrintedTrilith(Section):
@@ -53,7 +48,6 @@ class PrintedTrilith(Section):
 
 
 class Trilith(Section):
-    structure: str
     mass_ratio: MassRatio
     printed: PrintedTrilith
     table_amplitude: Positive  # m
@@ -81,7 +75,6 @@ class AllenMaps(Section):
 
 
 class Allen(Section):
-    structure: str
     mass_ratio: MassRatio
     pulse: PulseOf
     factor: Positive  # on the record
@@ -101,7 +94,6 @@ class RelativePulse(Section):
 
 
 class Statements(Section):
-    structure: str
     cap: CapBeam
     mass_ratios: list[Positive]
     pulses: list[RelativePulse]

@@ -102,7 +102,7 @@ def outcomes(settings):
 
 
 def compute(settings, structures, record, solver):
-    frame = RockingFrame(Column(**structures[settings["structure"]]), settings["mass_ratio"])
+    frame = RockingFrame(Column(**structures["temple"]), settings["mass_ratio"])
     return {
         "allen_histories": histories(frame, settings, record, solver["tightened"]),
         "allen_errors": errors(settings["errors"]),

@@ -47,7 +47,7 @@ def minimum(frame, shape, period):
 
 
 def compute(settings, structures):
-    column = Column(**structures[settings["structure"]])
+    column = Column(**structures["temple"])
     small = Column(column.half_width / 2, column.half_height / 2)
 
     gammas = [*np.linspace(0.0, settings["largest"], settings["points"]), math.inf]
@@ -101,7 +101,9 @@ def compute(settings, structures):
                 "half_height": base.half_height,
                 "equivalent_size": RockingFrame(base, each).equivalent_size,
                 "uplift_acceleration": base.uplift_acceleration,
-                "minimum_overturning": minimum(RockingFrame(base, each), **settings["pulse"]),
+                "minimum_overturning": minimum(
+                    RockingFrame(base, each), settings["shape"], settings["period"]
+                ),
             }
             for name, (base, each) in shown.items()
         ],

@@ -169,7 +169,7 @@ def structure(column, mass_ratios):
 
 
 def compute(settings, structures):
-    column = Column(**structures[settings["structure"]])
+    column = Column(**structures["temple"])
     duration, samples = settings["duration"], settings["samples"]
     pulses = [pulse_on(column, **pulse) for pulse in settings["pulses"]]
     frames = [RockingFrame(column, gamma) for gamma in settings["mass_ratios"]]

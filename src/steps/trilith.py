@@ -145,7 +145,7 @@ def outcomes(frame, settings):
 
 
 def compute(settings, structures, solver):
-    frame = RockingFrame(Column(**structures[settings["structure"]]), settings["mass_ratio"])
+    frame = RockingFrame(Column(**structures["trilith"]), settings["mass_ratio"])
     rows, histories = starts(frame, settings, solver["tightened"])
     return {
         "trilith_numbers": numbers(frame, settings),
@@ -157,7 +157,7 @@ def compute(settings, structures, solver):
 
 
 def findings(trilith_numbers, trilith_thresholds, trilith_starts, settings, structures):
-    column, printed = structures[settings["structure"]], settings["printed"]
+    column, printed = structures["trilith"], settings["printed"]
     found = {
         row.quantity: value(row.value, DIGITS * row.value, row.unit)
         for row in trilith_numbers.fillna({"unit": ""}).itertuples()
