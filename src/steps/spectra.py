@@ -65,7 +65,7 @@ class Spectra:
     """
 
     def __init__(self, table: pd.DataFrame, last: float):
-        self.last = last
+        self.last, table = last, table.sort_values("lower")
         ends = table[["lower", "upper"]].fillna(last).to_numpy()
         self.intervals = {key: ends[rows] for key, rows in table.groupby(KEYS).indices.items()}
         self.slendernesses, self.shapes, self.ratios, self.gammas = (
@@ -154,18 +154,27 @@ def frames(gammas: Iterable[float]) -> list[tuple[str, float, float]]:
     return [(FRAME, gamma, 1.0) for gamma in gammas]
 
 
-def looked_again(table: pd.DataFrame, spectra: Spectra, settings: dict) -> pd.DataFrame:
-    """Return the intervals below a minimum that a finer search finds where it rises least."""
-    first, resolution = settings["amplitudes"]["lowest"], settings["finer"]["resolution"] / FINER
-    closest = spectra.rises([*pairwise(frames(spectra.gammas))])[:LEAST_RISES]
-    rows = []
-    for place, structure in {(place, one) for _, place, *both in closest for one in both}:
-        lowest = min(spectra.lowest(structure, place), spectra.last)
-        if lowest > first:
-            of = line(*structure[:2], *place)
-            found = search([of], [(first, lowest)], min(resolution, lowest - first))[0]
-            rows += rows_of(of, [one for one in found if one.upper and one.upper[1] < lowest])
-    return pd.concat([table, pd.DataFrame(rows)]) if rows else table
+def looked_again(table: pd.DataFrame, settings: dict) -> pd.DataFrame:
+    """Add the intervals below a minimum that a finer search finds where it rises least.
+
+    Where it adds some, other minima rise least, and the search is repeated for these.
+    """
+    first, last = settings["amplitudes"]["lowest"], settings["amplitudes"]["highest"]
+    finest, done = settings["finer"]["resolution"] / FINER, set()
+    while True:
+        spectra, rows = Spectra(table, last), []
+        closest = spectra.rises([*pairwise(frames(spectra.gammas))])[:LEAST_RISES]
+        for at in {(place, one) for _, place, *both in closest for one in both} - done:
+            place, structure = at
+            done.add(at)
+            lowest = min(spectra.lowest(structure, place), last)
+            if lowest > first:
+                of = line(*structure[:2], *place)
+                (found,) = search([of], [(first, lowest)], min(finest, lowest - first))
+                rows += rows_of(of, [one for one in found if one.upper and one.upper[1] < lowest])
+        if not rows:
+            return table
+        table = pd.concat([table, pd.DataFrame(rows)])
 
 
 def areas_of(spectra: Spectra) -> pd.DataFrame:
@@ -243,7 +252,7 @@ def histories(band: Band) -> pd.DataFrame:
 def compute(shards: list[pd.DataFrame], settings: dict, tightened: float) -> dict[str, Any]:
     """Return the spectra of the frames, the shares of their maps, and one pair of histories."""
     table, last = pd.concat(shards), settings["amplitudes"]["highest"]
-    table = looked_again(table, Spectra(table, last), settings)
+    table = looked_again(table, settings)
     table = table.sort_values([*KEYS, "lower"], ignore_index=True)
     spectra = Spectra(table, last)
     bands = spectra.bands([*combinations(frames(spectra.gammas), 2)])
