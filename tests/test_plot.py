@@ -104,7 +104,6 @@ SHARED = ROOT / "figures" / "palette.py"
 SCRIPTS = sorted(
     [
         *(path for path in ROOT.glob("figures/*.py") if path != SHARED),
-        *ROOT.glob("studies/*/*.py"),
         ROOT / "src" / "steps" / "animation.py",
     ]
 )
