@@ -27,7 +27,9 @@ def checksums(*paths):
     """Return files with their checksums: as a parameter of a rule, a change repeats it."""
     if missing := [path for path in paths if not os.path.isfile(path)]:
         sys.exit(f"a rule names the file {missing[0]}, which is not there")
-    return {path: sha256(open(path, "rb").read()).hexdigest()[:12] for path in sorted(paths)}
+    return {
+        path: sha256(open(path, "rb").read()).hexdigest()[:12] for path in sorted(paths)
+    }
 
 
 code = checksums
@@ -35,7 +37,9 @@ code = checksums
 
 def library(*folders):
     """Return the modules of folders of the library with their checksums."""
-    inside = [glob(f"src/topheavy/{folder}/**/*.py", recursive=True) for folder in folders]
+    inside = [
+        glob(f"src/topheavy/{folder}/**/*.py", recursive=True) for folder in folders
+    ]
     return code(*(path for paths in inside for path in paths))
 
 
@@ -47,15 +51,25 @@ def made(ending=""):
 
 for path in ["config/config.yaml", *workflow.configfiles]:
     read_yaml(path)  # refuses a doubled key
-PAPER = read_config(" over ".join(map(os.path.relpath, workflow.configfiles)), Paper, config)
-SMALL = [path for path in glob("src/topheavy/*.py*") if os.path.basename(path) != "plot.py"]
-STEP = code("src/replication/__init__.py", "src/replication/step.py", "src/steps/__init__.py")
+PAPER = read_config(
+    " over ".join(map(os.path.relpath, workflow.configfiles)), Paper, config
+)
+SMALL = [
+    path for path in glob("src/topheavy/*.py*") if os.path.basename(path) != "plot.py"
+]
+STEP = code(
+    "src/replication/__init__.py", "src/replication/step.py", "src/steps/__init__.py"
+)
 CORE = STEP | code(*SMALL) | library("bodies", "ground", "kernel", "outcomes")
-DOCUMENTS = STEP | code(*glob("src/replication/*.py"))  # what claims, figures and documents load
+DOCUMENTS = STEP | code(
+    *glob("src/replication/*.py")
+)  # what claims, figures and documents load
 SETTINGS = {"paper": PAPER}  # each study adds its own
 
 if os.path.isdir("results") and not os.path.isdir(".snakemake/metadata"):
-    sys.exit("results/ was made elsewhere, so that Snakemake cannot tell what is stale: make clean")
+    sys.exit(
+        "results/ was made elsewhere, so that Snakemake cannot tell what is stale: make clean"
+    )
 
 
 include: "rules/paper.smk"
@@ -64,7 +78,9 @@ include: "rules/beyond.smk"
 
 for study in PAPER["studies"]:
     if not os.path.isfile(f"studies/{study}/study.smk"):
-        sys.exit(f"config/config.yaml: studies has {study!r}; expected the name of a folder in studies/")
+        sys.exit(
+            f"config/config.yaml: studies has {study!r}; expected the name of a folder in studies/"
+        )
 
     include: f"studies/{study}/study.smk"
 
@@ -75,9 +91,15 @@ include: "rules/documents.smk"
 # Snakemake keeps a result without a word where its rule reads a file that no rule makes.
 for each in workflow.rules:
     for path in map(str, each.input):
-        is_made = "{" in path or any(other.is_producer(path) for other in workflow.rules)
+        is_made = "{" in path or any(
+            other.is_producer(path) for other in workflow.rules
+        )
         if not is_made and (path.startswith("results/") or not os.path.isfile(path)):
-            beside = [other for other in made() if os.path.dirname(other) == os.path.dirname(path)]
+            beside = [
+                other
+                for other in made()
+                if os.path.dirname(other) == os.path.dirname(path)
+            ]
             sys.exit(
                 f"rule {each.name} ({os.path.relpath(each.snakefile)}) reads {path}, which no rule "
                 f"makes; expected one of {', '.join(beside)}"

@@ -2,9 +2,15 @@
 
 # First half: motions, break_even, records ------------------------------------------------------------
 
-MODELS = code("src/steps/shared/__init__.py", "src/steps/shared/sweep.py", "src/steps/beyond/__init__.py")
+MODELS = code(
+    "src/steps/shared/__init__.py",
+    "src/steps/shared/sweep.py",
+    "src/steps/beyond/__init__.py",
+)
 SECOND = code("src/steps/shared/second.py") | library("second", "risk")
-HORIZONTAL = sorted(path for path in glob("data/records/*.AT2") if not path.endswith("_UP.AT2"))
+HORIZONTAL = sorted(
+    path for path in glob("data/records/*.AT2") if not path.endswith("_UP.AT2")
+)
 
 
 scattergather:
@@ -14,15 +20,15 @@ scattergather:
 rule motions_shard:
     output:
         outcomes="results/shards/motions_{scatteritem}.npz",
+    log:
+        "results/logs/motions_{scatteritem}.log",
+    priority: 10
     params:
         code=code("src/steps/beyond/motions_shard.py") | MODELS | CORE,
         shard="{scatteritem}",
         settings=PAPER["motions"],
         break_even=PAPER["break_even"],
         structures=PAPER["structures"],
-    log:
-        "results/logs/motions_{scatteritem}.log",
-    priority: 10
     script:
         "../src/steps/beyond/motions_shard.py"
 
@@ -35,12 +41,12 @@ rule motions:
         fragility="results/tables/motions_fragility.csv",
         pairs="results/tables/motions_pairs.csv",
         findings="results/findings/motions.json",
+    log:
+        "results/logs/motions.log",
     params:
         code=code("src/steps/beyond/motions.py") | MODELS | SECOND | CORE,
         settings=PAPER["motions"],
         structures=PAPER["structures"],
-    log:
-        "results/logs/motions.log",
     script:
         "../src/steps/beyond/motions.py"
 
@@ -52,13 +58,13 @@ rule break_even:
         ends="results/tables/break_even.csv",
         benefits="results/tables/break_even_benefit.csv",
         findings="results/findings/break_even.json",
+    log:
+        "results/logs/break_even.log",
     params:
         code=code("src/steps/beyond/break_even.py") | MODELS | SECOND | CORE,
         settings=PAPER["break_even"],
         motions=PAPER["motions"],
         structures=PAPER["structures"],
-    log:
-        "results/logs/break_even.log",
     script:
         "../src/steps/beyond/break_even.py"
 
@@ -69,16 +75,15 @@ rule records:
     output:
         table="results/tables/records.csv",
         findings="results/findings/records.json",
+    log:
+        "results/logs/records.log",
     params:
         code=code("src/steps/beyond/records.py") | MODELS | SECOND | CORE,
         settings=PAPER["records"],
         solver=PAPER["solver"],
         records=checksums(*HORIZONTAL),
-    log:
-        "results/logs/records.log",
     script:
         "../src/steps/beyond/records.py"
-
 
 
 # Second half: friction, engine -----------------------------------------------------------------------

@@ -5,22 +5,40 @@ CLAIMS = {"paper/claims.yaml": PAPER} | {
 }
 for path, known in CLAIMS.items():
     read_claims(path, known)  # before any job: a misspelt key, a number that is no key
-BEYOND = ["motions", "break_even", "friction", "engine"]  # figures; the others are the paper's
-SCRIPTS = [path for path in sorted(glob("figures/*.py")) if "\ndef draw(" in open(path).read()]
+BEYOND = [
+    "motions",
+    "break_even",
+    "friction",
+    "engine",
+]  # figures; the others are the paper's
+SCRIPTS = [
+    path for path in sorted(glob("figures/*.py")) if "\ndef draw(" in open(path).read()
+]
 SHARED = [path for path in glob("figures/*.py") if path not in SCRIPTS]
 NOTEBOOKS = [os.path.basename(path)[:-6] for path in sorted(glob("notebooks/*.ipynb"))]
 # The scripts, tables and parameters of all rules: by these `make check` draws findings again.
 RULES = {
     each.name: {
-        "script": os.path.relpath(os.path.join(os.path.dirname(each.snakefile), each.script)),
-        "params": {name: given for name, given in each.params.items() if name != "code"},
-        "tables": [str(path) for path in each.output if str(path).endswith(".csv") and "{" not in str(path)],
-        "reads": [str(path) for path in each.input if str(path).startswith("results/tables/")],
+        "script": os.path.relpath(
+            os.path.join(os.path.dirname(each.snakefile), each.script)
+        ),
+        "params": {
+            name: given for name, given in each.params.items() if name != "code"
+        },
+        "tables": [
+            str(path)
+            for path in each.output
+            if str(path).endswith(".csv") and "{" not in str(path)
+        ],
+        "reads": [
+            str(path) for path in each.input if str(path).startswith("results/tables/")
+        ],
         "findings": "findings" in each.output.keys(),
         "part": os.path.basename(each.snakefile).removesuffix(".smk"),
     }
     for each in workflow.rules
-    if each.script and any(str(path).startswith("results/tables/") for path in each.output)
+    if each.script
+    and any(str(path).startswith("results/tables/") for path in each.output)
 }
 
 
@@ -31,34 +49,45 @@ for part in ["paper", "beyond"]:
         name:
             f"{part}_figures"
         input:
-            [path for rule in RULES.values() if rule["part"] == part for path in rule["tables"]],
+            [
+                path
+                for rule in RULES.values()
+                if rule["part"] == part
+                for path in rule["tables"]
+            ],
             scripts=scripts,
             captions="figures/captions.yaml",
             style="figures/style.mplstyle",
         output:
             [path.replace(".py", ".svg") for path in scripts],
+        log:
+            f"results/logs/{part}_figures.log",
         params:
             code=code("src/steps/draw.py", *SHARED) | DOCUMENTS | CORE,
             config=PAPER,
-        log:
-            f"results/logs/{part}_figures.log",
         script:
             "../src/steps/draw.py"
 
 
-rule notebook:
-    input:
-        notebook="notebooks/{name}.ipynb",
-    output:
-        executed="results/notebooks/{name}.ipynb",
-        page="results/notebooks/{name}.html",
-    params:
-        code=code("src/steps/notebook.py", *glob("src/topheavy/**/*.py", recursive=True)) | STEP,
-        records=checksums(*glob("data/records/*.AT2")),
-    log:
-        "results/logs/notebook_{name}.log",
-    script:
-        "../src/steps/notebook.py"
+for name in NOTEBOOKS:
+
+    rule:
+        name:
+            f"notebook_{name}"
+        input:
+            notebook=f"notebooks/{name}.ipynb",
+        output:
+            executed=f"results/notebooks/{name}.ipynb",
+            page=f"results/notebooks/{name}.html",
+        log:
+            f"results/logs/notebook_{name}.log",
+        params:
+            code=code("src/steps/notebook.py", *SMALL, "src/topheavy/plot.py")
+            | STEP
+            | library("bodies", "derivation", "ground", "kernel", "outcomes", "risk"),
+            records=checksums(*glob("data/records/*.AT2")),
+        script:
+            "../src/steps/notebook.py"
 
 
 rule claims:
@@ -67,11 +96,11 @@ rule claims:
         ledgers=list(CLAIMS),
     output:
         "results/claims.json",
+    log:
+        "results/logs/claims.log",
     params:
         code=code("src/steps/judge.py") | DOCUMENTS,
         settings=CLAIMS,
-    log:
-        "results/logs/claims.log",
     script:
         "../src/steps/judge.py"
 
@@ -84,13 +113,13 @@ rule comparison:
         table="results/comparison.csv",
         rules="results/rules.json",
         settings="results/settings.json",
+    log:
+        "results/logs/comparison.log",
     params:
         code=code("src/steps/compare.py") | STEP,
         rules=RULES,
         settings=CLAIMS,
         bounds=PAPER["reproducibility"],
-    log:
-        "results/logs/comparison.log",
     script:
         "../src/steps/compare.py"
 
@@ -101,11 +130,14 @@ rule verdicts:
         captions="figures/captions.yaml",
     output:
         "results/verdicts.md",
-    params:
-        code=code("src/steps/verdicts.py") | DOCUMENTS,
-        rules={name: {"script": rule["script"], "tables": rule["tables"]} for name, rule in RULES.items()},
     log:
         "results/logs/verdicts.log",
+    params:
+        code=code("src/steps/verdicts.py") | DOCUMENTS,
+        rules={
+            name: {"script": rule["script"], "tables": rule["tables"]}
+            for name, rule in RULES.items()
+        },
     script:
         "../src/steps/verdicts.py"
 
@@ -125,12 +157,12 @@ for document in ["report", "supplement"]:
             source=f"paper/{document}.typ",
         output:
             f"paper/{document}.pdf",
+        log:
+            f"results/logs/{document}.log",
         params:
             code=code("src/steps/typeset.py") | DOCUMENTS,
             studies=PAPER["studies"],
             config=PAPER,
-        log:
-            f"results/logs/{document}.log",
         script:
             "../src/steps/typeset.py"
 
@@ -144,10 +176,10 @@ rule expected:
         comparison="results/comparison.csv",
     output:
         "results/summary.txt",
-    params:
-        code=code("src/steps/expect.py") | DOCUMENTS,
     log:
         "results/logs/expected.log",
+    params:
+        code=code("src/steps/expect.py") | DOCUMENTS,
     script:
         "../src/steps/expect.py"
 

@@ -6,10 +6,10 @@
 rule kernel:
     output:
         touch("results/kernel.compiled"),
-    params:
-        code=code("src/steps/kernel.py") | CORE,
     log:
         "results/logs/kernel.log",
+    params:
+        code=code("src/steps/kernel.py") | CORE,
     script:
         "../src/steps/kernel.py"
 
@@ -19,10 +19,12 @@ rule equations:
         equations="results/tables/equations.csv",
         theorems="results/tables/theorems.csv",
         findings="results/findings/equations.json",
-    params:
-        code=code("src/steps/equations.py", *SMALL) | STEP | library("bodies", "derivation"),
     log:
         "results/logs/equations.log",
+    params:
+        code=code("src/steps/equations.py", *SMALL)
+        | STEP
+        | library("bodies", "derivation"),
     script:
         "../src/steps/equations.py"
 
@@ -36,12 +38,12 @@ rule parameters:
         moment_rotation="results/tables/moment_rotation.csv",
         four_structures="results/tables/four_structures.csv",
         findings="results/findings/parameters.json",
+    log:
+        "results/logs/parameters.log",
     params:
         code=code("src/steps/parameters.py") | CORE | library("derivation", "second"),
         settings=PAPER["parameters"],
         structures=PAPER["structures"],
-    log:
-        "results/logs/parameters.log",
     script:
         "../src/steps/parameters.py"
 
@@ -56,13 +58,13 @@ rule trilith:
         trilith_histories="results/tables/trilith_histories.csv",
         trilith_map="results/tables/trilith_map.csv",
         findings="results/findings/trilith.json",
+    log:
+        "results/logs/trilith.log",
     params:
         code=code("src/steps/trilith.py") | CORE | library("derivation", "second"),
         settings=PAPER["trilith"],
         structures=PAPER["structures"],
         solver=PAPER["solver"],
-    log:
-        "results/logs/trilith.log",
     script:
         "../src/steps/trilith.py"
 
@@ -76,14 +78,14 @@ rule allen:
         allen_errors="results/tables/allen_errors.csv",
         allen_maps="results/tables/allen_maps.csv",
         findings="results/findings/allen.json",
+    log:
+        "results/logs/allen.log",
     params:
         code=code("src/steps/allen.py") | CORE | library("second"),
         settings=PAPER["allen"],
         structures=PAPER["structures"],
         solver=PAPER["solver"],
         records=checksums("data/records/el_centro_1940_NS.AT2"),
-    log:
-        "results/logs/allen.log",
     script:
         "../src/steps/allen.py"
 
@@ -95,12 +97,14 @@ rule statements:
         three_bodies="results/tables/three_bodies.csv",
         statements="results/tables/statements.csv",
         findings="results/findings/statements.json",
-    params:
-        code=code("src/steps/statements.py") | CORE | library("derivation", "forces", "second"),
-        settings=PAPER["statements"],
-        structures=PAPER["structures"],
     log:
         "results/logs/statements.log",
+    params:
+        code=code("src/steps/statements.py")
+        | CORE
+        | library("derivation", "forces", "second"),
+        settings=PAPER["statements"],
+        structures=PAPER["structures"],
     script:
         "../src/steps/statements.py"
 
@@ -112,12 +116,12 @@ rule verification:
         verification_routes="results/tables/verification_routes.csv",
         verification_published="results/tables/verification_published.csv",
         findings="results/findings/verification.json",
+    log:
+        "results/logs/verification.log",
     params:
         code=code("src/steps/verification.py") | CORE | library("derivation", "second"),
         settings=PAPER["verification"],
         solver=PAPER["solver"],
-    log:
-        "results/logs/verification.log",
     script:
         "../src/steps/verification.py"
 
@@ -137,12 +141,12 @@ scattergather:
 rule spectra_shard:
     output:
         table="results/shards/spectra_{scatteritem}.csv",
+    log:
+        "results/logs/spectra_{scatteritem}.log",
     params:
         code=code("src/steps/spectra_shard.py") | SPECTRUM | CORE,
         settings=PAPER["spectra"],
         shard="{scatteritem}",
-    log:
-        "results/logs/spectra_{scatteritem}.log",
     script:
         "../src/steps/spectra_shard.py"
 
@@ -155,12 +159,12 @@ rule spectra:
         areas="results/tables/spectra_areas.csv",
         histories="results/tables/spectra_histories.csv",
         findings="results/findings/spectra.json",
+    log:
+        "results/logs/spectra.log",
     params:
         code=code("src/steps/spectra.py") | SPECTRUM | CORE | library("second"),
         settings=PAPER["spectra"],
         tightened=PAPER["solver"]["tightened"],
-    log:
-        "results/logs/spectra.log",
     script:
         "../src/steps/spectra.py"
 
@@ -173,14 +177,14 @@ rule vase:
         motions="results/tables/vase_motions.csv",
         poses="results/tables/vase_poses.csv",
         findings="results/findings/vase.json",
+    log:
+        "results/logs/vase.log",
     params:
         code=code("src/steps/vase.py") | POSES | CORE | library("second"),
         settings=PAPER["vase"],
         column=PAPER["structures"]["temple"],
         tightened=PAPER["solver"]["tightened"],
         records=checksums(*PAPER["vase"]["records"]),
-    log:
-        "results/logs/vase.log",
     script:
         "../src/steps/vase.py"
 
@@ -193,13 +197,13 @@ rule proven:
         table="results/tables/proven.csv",
         certificates="results/certificates/proven.jsonl",
         findings="results/findings/proven.json",
+    log:
+        "results/logs/proven.log",
+    priority: 1
     params:
         code=code("src/steps/proven.py") | SPECTRUM | CORE | library("proven"),
         column=PAPER["structures"]["temple"],
         period=PAPER["vase"]["period"],
-    priority: 1
-    log:
-        "results/logs/proven.log",
     script:
         "../src/steps/proven.py"
 
@@ -208,12 +212,15 @@ rule uplift:
     output:
         table="results/tables/uplift.csv",
         findings="results/findings/uplift.json",
-    params:
-        code=code("src/steps/uplift.py") | HISTORIES | CORE | library("forces", "second"),
-        settings=PAPER["uplift"],
-        column=PAPER["structures"]["temple"],
     log:
         "results/logs/uplift.log",
+    params:
+        code=code("src/steps/uplift.py")
+        | HISTORIES
+        | CORE
+        | library("forces", "second"),
+        settings=PAPER["uplift"],
+        column=PAPER["structures"]["temple"],
     script:
         "../src/steps/uplift.py"
 
@@ -223,12 +230,18 @@ rule animation:
         style="figures/style.mplstyle",
     output:
         gif="results/animation.gif",
-    params:
-        code=code("src/steps/animation.py", "src/replication/drawing.py", "figures/palette.py") | POSES | CORE,
-        settings=PAPER["animation"],
-        column=PAPER["structures"]["temple"],
     log:
         "results/logs/animation.log",
+    params:
+        code=code(
+            "src/steps/animation.py",
+            "src/replication/drawing.py",
+            "figures/palette.py",
+        )
+        | POSES
+        | CORE,
+        settings=PAPER["animation"],
+        column=PAPER["structures"]["temple"],
     script:
         "../src/steps/animation.py"
 
@@ -238,11 +251,17 @@ rule explorer:
         record="data/records/el_centro_1940_NS.AT2",
     output:
         page="results/explorer.html",
-    params:
-        code=code("src/steps/explorer.py", "src/replication/config.py") | CORE,
-        page=checksums(*(path for path in glob("src/explorer/**", recursive=True) if os.path.isfile(path))),
-        records=checksums("data/records/el_centro_1940_NS.AT2"),
     log:
         "results/logs/explorer.log",
+    params:
+        code=code("src/steps/explorer.py", "src/replication/config.py") | CORE,
+        page=checksums(
+            *(
+                path
+                for path in glob("src/explorer/**", recursive=True)
+                if os.path.isfile(path)
+            )
+        ),
+        records=checksums("data/records/el_centro_1940_NS.AT2"),
     script:
         "../src/steps/explorer.py"
