@@ -18,6 +18,8 @@ scattergather:
 
 
 rule motions_shard:
+    input:
+        kernel="results/kernel.compiled",
     output:
         outcomes="results/shards/motions_{scatteritem}.npz",
     log:
@@ -72,6 +74,7 @@ rule break_even:
 rule records:
     input:
         components=HORIZONTAL,
+        kernel="results/kernel.compiled",
     output:
         table="results/tables/records.csv",
         findings="results/findings/records.json",
@@ -90,6 +93,8 @@ rule records:
 
 
 rule friction:
+    input:
+        kernel="results/kernel.compiled",
     output:
         pulses="results/tables/friction_pulses.csv",
         by_mass="results/tables/friction_by_mass.csv",
@@ -111,6 +116,8 @@ rule friction:
 
 
 rule engine:
+    input:
+        kernel="results/kernel.compiled",
     output:
         restitution="results/tables/engine_restitution.csv",
         outcomes="results/tables/engine_outcomes.csv",

@@ -139,6 +139,8 @@ scattergather:
 
 
 rule spectra_shard:
+    input:
+        kernel="results/kernel.compiled",
     output:
         table="results/shards/spectra_{scatteritem}.csv",
     log:
@@ -172,6 +174,7 @@ rule spectra:
 rule vase:
     input:
         records=PAPER["vase"]["records"],
+        kernel="results/kernel.compiled",
     output:
         vase="results/tables/vase.csv",
         motions="results/tables/vase_motions.csv",
@@ -209,6 +212,8 @@ rule proven:
 
 
 rule uplift:
+    input:
+        kernel="results/kernel.compiled",
     output:
         table="results/tables/uplift.csv",
         findings="results/findings/uplift.json",
@@ -228,6 +233,7 @@ rule uplift:
 rule animation:
     input:
         style="figures/style.mplstyle",
+        kernel="results/kernel.compiled",
     output:
         gif="results/animation.gif",
     log:

@@ -1,5 +1,6 @@
 """Copy the results of a finished run to docs/ and tests/reference/, with checksums: make publish"""
 
+import gzip
 import hashlib
 import json
 import shutil
@@ -13,8 +14,9 @@ PAGES = {
     "results/verdicts.md": "verdicts.md",
     "results/explorer.html": "explorer.html",
     "results/animation.gif": "animation.gif",
-    "results/certificates/proven.jsonl.gz": "certificates.jsonl.gz",
+    "results/certificates/proven.jsonl": "certificates.jsonl.gz",
 }
+PICTURES = ["structures", "parameters", "trilith", "allen", "vase", "where", "motions"]  # of README
 
 
 def copies() -> dict[Path, Path]:
@@ -30,6 +32,7 @@ def copies() -> dict[Path, Path]:
     found |= {
         page: DOCS / f"notebook_{page.name}" for page in Path("results/notebooks").glob("*.html")
     }
+    found |= {Path(f"figures/{name}.svg"): DOCS / f"{name}.svg" for name in PICTURES}
     found |= {Path(path): REFERENCE / Path(path).name for path in sorted(tables)}
     return found | {
         Path("results") / name: REFERENCE / name for name in ("rules.json", "settings.json")
@@ -45,7 +48,10 @@ def main() -> None:
             path.unlink()
     for source, target in made.items():
         target.parent.mkdir(parents=True, exist_ok=True)
-        shutil.copyfile(source, target)
+        if target.suffix == ".gz":
+            target.write_bytes(gzip.compress(source.read_bytes(), mtime=0))
+        else:
+            shutil.copyfile(source, target)
     sums = [
         path for folder in (DOCS, REFERENCE) for path in sorted(folder.rglob("*")) if path.is_file()
     ]

@@ -16,6 +16,8 @@ FIGURES = sorted(glob("studies/example/*_figure.py"))
 
 
 rule example_capacity:
+    input:
+        kernel="results/kernel.compiled",
     output:
         table="results/tables/example_capacity.csv",
         findings="results/findings/example_capacity.json",
