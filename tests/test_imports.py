@@ -10,9 +10,9 @@ from tests.cases import ROOT
 
 LIBRARY = ROOT / "src" / "topheavy"
 PATHS = {
-    ".".join(p.relative_to(ROOT / "src").with_suffix("").parts): p for p in LIBRARY.rglob("*.py")
+    ".".join(path.relative_to(LIBRARY.parent).with_suffix("").parts).removesuffix(".__init__"): path
+    for path in LIBRARY.rglob("*.py")
 }
-PATHS = {name.removesuffix(".__init__"): path for name, path in PATHS.items()}
 
 
 def imported(path):
