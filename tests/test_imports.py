@@ -31,9 +31,7 @@ def reached(room):
         if (name := left.pop()) in PATHS and name not in found:
             found.add(name)
             left += [*imported(PATHS[name]), name.rpartition(".")[0]]
-        elif (
-            name.startswith("topheavy.") and name not in found
-        ):  # a name in a module, or at the door
+        elif name.startswith("topheavy.") and name not in found:  # in a module, or at the door
             of = getattr(topheavy, name.removeprefix("topheavy."), None)
             left.append(getattr(of, "__module__", name.rpartition(".")[0]))
     return found
