@@ -45,7 +45,9 @@ def test_numbers_of_readme_are_those_of_the_published_tables(found):
 
 
 @pytest.mark.parametrize("document", ["README.md", "paper/report.typ"])
-@pytest.mark.parametrize("word", ["Allen", "trilith", "Peña", "p̂|hat\\(p\\)", "R̂|hat\\(R\\)", "plan(e|ar)"])
+@pytest.mark.parametrize(
+    "word", ["Allen", "trilith", "Peña", "p̂|hat\\(p\\)", "R̂|hat\\(R\\)", "plan(e|ar)"]
+)
 def test_results_that_were_asked_for_are_in_readme_and_article(document, word):
     assert re.search(word, (ROOT / document).read_text(encoding="utf-8"))
 

@@ -1,6 +1,5 @@
 """Test statements of the paper that no other rule tests; each gives one finding."""
 
-
 import numpy as np
 import sympy as sp
 

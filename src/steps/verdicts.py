@@ -11,8 +11,8 @@ from replication.verdicts import VERDICTS
 
 HEAD = """# Claims and verdicts
 
-Written by the workflow from its results. One row is one claim, with its place in the paper, the printed and
-the computed value, and the verdict:
+Written by the workflow from its results. One row is one claim, with its place in the paper, the
+printed and the computed value, and the verdict:
 
 - **confirmed**: true; a number agrees within the rounding of its print.
 - **qualified**: true on a condition that is stated and tested.
@@ -21,9 +21,9 @@ the computed value, and the verdict:
 - **by definition**: it cannot be false.
 - **not tested**: with the reason.
 
-We worked from a transcription of the paper. *Our copy differs* where a sign, letter, bracket, radical or number in
-it contradicts the paper's own premises. There we judge the evident meaning; the places are listed once, below, to be
-compared with the print, and no verdict counts them.
+We worked from a transcription of the paper. *Our copy differs* where a sign, letter, bracket,
+radical or number in it contradicts the paper's own premises. There we judge the evident meaning;
+the places are listed once, below, to be compared with the print, and no verdict counts them.
 """
 TITLES = {"paper": "The paper's claims", "ours": "Claims of our own"}
 
@@ -51,7 +51,9 @@ def line(row: dict[str, Any], captions: dict[str, dict], rules: dict[str, dict])
     about = f"`{row['id']}`, {row['where']}. {row['statement']}" + "".join(
         f" *{n}*" for n in notes if n
     )
-    computed = row["shown"] or {"confirmed": "holds", "qualified": "on a condition"}.get(row["verdict"], "")
+    computed = row["shown"] or {"confirmed": "holds", "qualified": "on a condition"}.get(
+        row["verdict"], ""
+    )
     cells = about, printed, computed, verdict, links(row, captions, rules)
     return (
         "| " + " | ".join(cell.replace("|", "&#124;").replace("\n", " ") for cell in cells) + " |"
@@ -68,7 +70,8 @@ def page(rows: list[dict[str, Any]], captions: dict[str, dict], rules: dict[str,
             f"## {TITLES.get(part, 'Study ' + part)}\n",
             ", ".join(f"{count[verdict]} {verdict}" for verdict in VERDICTS if count[verdict])
             + ".\n",
-            "| claim | printed | computed | verdict | script, tables, figure |\n|---|---|---|---|---|",
+            "| claim | printed | computed | verdict | script, tables, figure |",
+            "|---|---|---|---|---|",
             *(line(row, captions, rules) for row in own),
             "",
         ]
