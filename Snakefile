@@ -5,6 +5,7 @@ A change of one of them repeats the rule. A study is a folder in studies/, named
 """
 
 import os
+import re
 import sys
 from glob import glob
 from hashlib import sha256

@@ -75,6 +75,10 @@ for name in NOTEBOOKS:
         name:
             f"notebook_{name}"
         input:
+            re.findall(
+                r"results/tables/\w+\.csv", open(f"notebooks/{name}.ipynb").read()
+            ),
+            kernel="results/kernel.compiled",
             notebook=f"notebooks/{name}.ipynb",
         output:
             executed=f"results/notebooks/{name}.ipynb",
