@@ -102,6 +102,8 @@ def test_a_contact_that_gives_back_more_than_theory_breaks_the_maximum(row, hold
     table = RESTITUTION.assign(engine=np.where(RESTITUTION.index == row, 0.95, 0.9))
     found = engine.findings(table, OUTCOMES)["maximum_restitution"]
     assert (found["holds"], found["holds_when"]) == (holds, holds_when)
+    assert found["lowest_with_rebound"] == 0.0
+    assert (found["apart_without_rebound"] > 0.0) == (row == 0)
 
 
 @pytest.mark.parametrize(

@@ -90,6 +90,21 @@ def test_numbers_of_a_row_are_those_of_its_outcomes():
     assert row["gain"] == pytest.approx(velocities[10] / velocities[8] - 1.0, rel=1e-3)
 
 
+def test_motions_that_overturn_one_alone_are_integrated_over_the_velocity():
+    blocks, velocities = sweep.structures_of(SETTINGS, COLUMN), np.geomspace(0.15, 4.0, 18)
+    fell = np.zeros((40, len(blocks), 18), bool)
+    for place in range(len(blocks)):
+        for motion in range(40):
+            fell[motion, place, 6 + 2 * place + motion % 5 : 17] = True
+    fell[:10, 2, 16] = False  # a motion of high velocity that the frame of γ = 1 survives
+    ensemble = Ensemble(fell, None, **SETTINGS["bootstrap"])
+    found = motions.pairs("model", ensemble, ensemble.means(), velocities, SETTINGS, COLUMN)
+    (row,) = [one for one in found if (one["lighter"], one["heavier"]) == (0.0, 1.0)]
+    alone, scale = (fell[:, 0] & ~fell[:, 2])[:, :17].mean(axis=0), np.log(velocities[:17])
+    expected = np.trapezoid(alone, scale) / (scale[-1] - scale[0])
+    assert (row["only_lighter"], row["only_heavier"]) == (pytest.approx(expected), 0.0)
+
+
 ROWS = {"column": 0.2, "fixed": 0.5, "frame": 0.1, "gain": 0.2, "only_frame": 3}
 ROWS = {name: [number, number] for name, number in ROWS.items()}
 ROWS |= {"harm_low": [0.1, 0.1], "benefit_low": [0.05, 0.05], "gain_low": [0.1, 0.1]}
@@ -119,6 +134,21 @@ def test_the_benefit_ends_where_its_isotonic_fit_is_zero():
     assert break_even.end_of(shares, np.array([3.0, 1.0, 2.0, -1.5, -2.0])) == pytest.approx(0.1125)
     assert break_even.end_of(shares, np.array([4.0, 3.0, 2.0, 1.0, 0.5])) == math.inf
     assert break_even.end_of(shares, np.array([-1.0, -2.0, -3.0, -4.0, -5.0])) == 0.0
+
+
+def test_end_is_that_of_the_outcomes(monkeypatch):
+    """The column overturns under 6, 4 and 2 motions of 8, by reduction of √r; the frame under 3."""
+    counts = np.array([6, 4, 2, 3, 3, 3])
+    fell = np.arange(8)[:, None, None] < counts[:, None]
+    fell = np.repeat(fell, len(EVEN["velocities"]), axis=2)
+    monkeypatch.setattr(break_even, "outcomes", lambda shards, name: fell.astype(np.int8))
+    monkeypatch.setattr(break_even, "check_by_scipy", list)
+    settings = EVEN | {"lowered": [0.1, 0.2]}
+    found = break_even.compute(settings, SETTINGS, CONFIG["structures"], [])
+    assert found["ends"].end.to_numpy() == pytest.approx(0.15)
+    benefits = found["benefits"].query("lowered == 'both'")
+    assert benefits.column.tolist() == [0.75, 0.5, 0.25] * 2
+    assert (benefits.frame == 0.375).all()
 
 
 @pytest.mark.parametrize(

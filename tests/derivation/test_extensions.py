@@ -6,8 +6,8 @@ import pytest
 import sympy as sp
 
 from topheavy import STANDARD_GRAVITY, Column, FixedMassColumn
-from topheavy.derivation import extension_proofs as extension
 from topheavy.derivation import (
+    contact_theorems,
     extension_theorems,
     extensions,
     fixed_fourth_power,
@@ -15,6 +15,7 @@ from topheavy.derivation import (
     fixed_tangent,
     reversal_theorems,
 )
+from topheavy.derivation import extension_proofs as extension
 from topheavy.derivation import fixed_proofs as proofs
 from topheavy.derivation import reversal_proofs as reversal
 from topheavy.derivation.bodies import half_depth
@@ -22,7 +23,7 @@ from topheavy.derivation.fixed_mass import I_b
 from topheavy.derivation.notation import SIDES, R, alpha, g, gamma, m_c
 
 
-@pytest.mark.parametrize("proofs", [reversal_theorems, extension_theorems])
+@pytest.mark.parametrize("proofs", [contact_theorems, reversal_theorems, extension_theorems])
 def test_every_theorem_holds_and_is_stated(proofs):
     found = proofs()
     assert [proof.id for proof in found if not proof.holds] == []

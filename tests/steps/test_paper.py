@@ -155,6 +155,18 @@ def test_models_of_a_very_heavy_cap_beam_are_the_exact_frame():
     assert (exact.linearised, whole.linearised) == (False, True)
 
 
+def test_wrong_outcomes_are_shares_of_all_pulses():
+    maps = {"exact": [1, 1, 1, 0, 0], "linearised": [1, 1, 1, 0, 0], "all": [0, 0, 1, 1, 0]}
+    found = allen.findings(pd.DataFrame(columns=["model"]), pd.DataFrame(maps))
+    wrong = {name: one["value"] for name, one in found.items()}
+    assert wrong == {
+        "falsely_safe_linearised": 0.0,
+        "falsely_overturned_linearised": 0.0,
+        "falsely_safe_all": 0.4,
+        "falsely_overturned_all": 0.2,
+    }
+
+
 @pytest.mark.parametrize(
     ("row", "change"), [("routes", "outcomes_that_differ"), ("published", "computed")]
 )

@@ -154,6 +154,14 @@ def test_minimum_is_the_known_one_and_scipy_agrees():
     assert minimum(COLUMN, highest=0.25) is None  # nothing overturns
 
 
+def test_narrow_interval_above_uplift_is_not_missed():
+    """Its width is less than the floor of the search."""
+    slow = th.Pulse("one-cosine", 1.0, 0.55 * COLUMN.frequency_parameter)
+    found = minimum(COLUMN, slow)
+    assert found.width < 0.001 * COLUMN.uplift_acceleration
+    assert vase.error_of(COLUMN, slow, found) < 1e-6
+
+
 def test_interval_that_a_billionth_of_the_record_removes_is_passed_over():
     """Two lowest intervals of the column under El Centro are narrower than its last digits."""
     record = th.read_record(RECORDS / "el_centro_1940_NS.AT2")
