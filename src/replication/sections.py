@@ -227,6 +227,11 @@ class Bootstrap(Section):
     seed: Count
 
 
+class Rotations(Section):
+    motions: Count
+    velocities: list[Positive]  # m/s
+
+
 class Motions(Section):
     shards: Count
     structures: list[str]
@@ -235,10 +240,11 @@ class Motions(Section):
     mass_ratio: MassRatio
     seed: Count
     motions: Count
+    fewer: Count
     scenarios: list[Scenario]
     velocity: Positive  # m/s
     changes: list[Positive]  # relative, of the velocity
-    rotation_velocities: list[Positive]  # m/s
+    rotations: Rotations
     intensities: Grid  # p PGV/(g tan α)
     largest_factor: Positive
     noise: Noise

@@ -153,7 +153,7 @@ def rotations(model, peaks, settings):
     return [
         {"model": model, "mass_ratio": gamma, "velocity": velocity, "median_peak": median}
         for gamma, of in zip([0.0, *settings["mass_ratios"]], np.median(peaks, axis=0), strict=True)
-        for velocity, median in zip(settings["rotation_velocities"], of, strict=True)
+        for velocity, median in zip(settings["rotations"]["velocities"], of, strict=True)
     ]
 
 

@@ -121,7 +121,7 @@ def components(motion: Motion, settings: Settings) -> tuple[Record, Record | Non
     return record, motion.vertical().scaled_to(pga=peak)
 
 
-def overturned(question: Question, record: Record, up: Record | None = None) -> Outcomes:
+def overturned(question: Question, record: Record, up: Record | None) -> Outcomes:
     """Return which velocities overturn each structure, shape (structures, velocities)."""
     factors = question.velocities / record.peak_velocity
     if up is not None and factors.max() * up.acceleration.min() <= -1.0:
@@ -129,7 +129,7 @@ def overturned(question: Question, record: Record, up: Record | None = None) -> 
     return overturned_together(question.blocks, record, factors, vertical=up).astype(np.int8)
 
 
-def rotations(question: Question, record: Record) -> NDArray[np.float64]:
+def rotations(question: Question, record: Record, _: Record | None) -> NDArray[np.float64]:
     """Return the peak of |θ|/α, infinite where a structure overturns, of the same shape."""
     motions = [record.scaled(to / record.peak_velocity) for to in question.velocities]
     peaks = np.array([[judge(one, each).peak for each in motions] for one in question.blocks])
@@ -142,29 +142,31 @@ def sweep(
     """Return the outcomes of a shard, "2-of-8", and the peak velocities (m/s) of its motions."""
     number, of = map(int, shard.split("-of-"))
     columns = {name: Column(**structures[name]) for name in settings["structures"]}
-    column = columns[settings["structure"]]
-    at = np.array(settings["rotation_velocities"])
-    tilted = Question(frames(settings, column).blocks[:-1], at)
+    column, spec = columns[settings["structure"]], settings["rotations"]
+    tilted = Question(frames(settings, column).blocks[:-1], np.array(spec["velocities"]))
     found: dict[str, Any] = {}
     for model, motions in models(settings).items():
-        questions, in_set = {model: stated(settings, column)}, model in sets(settings)
+        count = len(motions)
+        questions = [(model, stated(settings, column), overturned, count)]
         if not model.endswith(VERTICAL):
-            questions |= {f"{model}: {name}": frames(settings, c) for name, c in columns.items()}
-        if in_set:
-            questions[f"{model}: lowered"] = restitution_question(settings, break_even, column)
-        rows: dict[str, list] = {name: [] for name in [*questions, f"{model}: peaks"]}
-        turned = []
-        for each in motions[number - 1 :: of]:
-            record, up = components(each, settings)
-            rows[f"{model}: peaks"].append(record.peak_velocity)
-            for name, question in questions.items():
-                rows[name].append(overturned(question, record, up))
-            if in_set:
-                turned.append(rotations(tilted, record))
+            questions += [
+                (f"{model}: {name}", frames(settings, one), overturned, settings["fewer"])
+                for name, one in columns.items()
+            ]
+        if model in sets(settings):
+            lowered = restitution_question(settings, break_even, column)
+            questions.append((f"{model}: lowered", lowered, overturned, count))
+            questions.append((f"{model}: rotations", tilted, rotations, spec["motions"]))
+        rows: dict[str, list] = {name: [] for name, *_ in questions}
+        peaks = rows[f"{model}: peaks"] = []
+        for place in range(number - 1, count, of):
+            record, up = components(motions[place], settings)
+            peaks.append(record.peak_velocity)
+            for name, question, answer, most in questions:
+                if place < most:
+                    rows[name].append(answer(question, record, up))
         found |= {name: np.array(each) for name, each in rows.items()}
-        if turned:
-            found[f"{model}: rotations"] = np.array(turned)
-        print(f"{len(motions[number - 1 :: of])} motions, {model}", flush=True)
+        print(f"{len(peaks)} motions, {model}", flush=True)
     return found
 
 
