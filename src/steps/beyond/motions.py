@@ -159,8 +159,8 @@ def rotations(model, peaks, settings):
 
 def sampled(shards, settings, column):
     """Yield a seeded sample of outcomes; half of those without vertical motion at a boundary."""
-    random, question = np.random.default_rng(settings["bootstrap"]["seed"]), stated(settings, column)
-    motions = models(settings)
+    random = np.random.default_rng(settings["bootstrap"]["seed"])
+    question, motions = stated(settings, column), models(settings)
     for number in range(settings["checked"]):
         model = [*motions][number % len(motions)]
         found = outcomes(shards, model)[..., 0]
@@ -174,7 +174,7 @@ def sampled(shards, settings, column):
         yield block, record, up, factor, found[at, place] == 1
 
 
-def findings(motions, motions_gains, motions_pairs, motions_sensitivity, settings):
+def findings(motions, motions_gains, motions_pairs, motions_sensitivity):
     gains, changed = motions_gains, motions_sensitivity
     least = changed[changed.change == changed.change.min()]
     return {

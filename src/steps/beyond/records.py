@@ -64,7 +64,8 @@ def capacities(spec, column, records):
 def lowest(peaks, fell, window, spec):
     """Return the lowest peak from which enough of those in a window overturn."""
     width = round(math.log1p(window) / math.log1p(spec["step"])) + 1
-    starts = peaks[: 1 - width][np.convolve(fell, np.ones(width) / width, "valid") >= spec["share"]]
+    enough = np.convolve(fell, np.ones(width), "valid") >= spec["share"] * width
+    starts = peaks[: enough.size][enough]
     check(starts.size > 0, f"no capacity up to {peaks[-1]:.3g} g: raise highest")
     return starts[0]
 

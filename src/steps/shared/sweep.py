@@ -146,14 +146,15 @@ def sweep(
     tilted = Question(frames(settings, column).blocks[:-1], np.array(spec["velocities"]))
     found: dict[str, Any] = {}
     for model, motions in models(settings).items():
-        count = len(motions)
+        count, in_set = len(motions), model in sets(settings)
+        fewer = settings["fewer"] if in_set else count
         questions = [(model, stated(settings, column), overturned, count)]
         if not model.endswith(VERTICAL):
             questions += [
-                (f"{model}: {name}", frames(settings, one), overturned, settings["fewer"])
+                (f"{model}: {name}", frames(settings, one), overturned, fewer)
                 for name, one in columns.items()
             ]
-        if model in sets(settings):
+        if in_set:
             lowered = restitution_question(settings, break_even, column)
             questions.append((f"{model}: lowered", lowered, overturned, count))
             questions.append((f"{model}: rotations", tilted, rotations, spec["motions"]))
