@@ -10,9 +10,9 @@ from replication.drawing import DARKEST, DOUBLE, GREY, INK, PAPER, letter, note,
 FAMILIES = ("near-fault", "broadband")
 DASHES = ("-", "--")  # of the earthquakes of a family
 STRUCTURES = {  # name and γ, as in the table: words, colour, place of the words
-    ("fixed mass", 1.0): ("column, mass\nfixed on top", FIXED, (0.41, 0.88)),
-    ("column", 0.0): ("column", ALONE, (0.5, 0.55)),
-    ("frame", 1.0): ("frame, " + gamma(1.0), EQUAL, (1.2, 0.3)),
+    ("fixed mass", 1.0): ("fixed mass", FIXED, (1.15, 0.28)),
+    ("column", 0.0): ("column", ALONE, (1.15, 0.17)),
+    ("frame", 1.0): ("frame, " + gamma(1.0), EQUAL, (1.15, 0.06)),
 }
 SHADES = {0.0: ALONE, 1.0: EQUAL, math.inf: DARKEST}
 COLOURS = {"fixed": FIXED, "column": ALONE, "frame": EQUAL}
@@ -35,7 +35,9 @@ def fragility(axis, curves):
 
 def rotation(axis, rows):
     for (_, ratio), line in rows[rows.mass_ratio.isin(SHADES)].groupby(["model", "mass_ratio"]):
-        axis.plot(line.velocity, line.median_peak, color=SHADES[ratio], linewidth=0.8)
+        axis.plot(
+            line.velocity, line.median_peak.clip(upper=2.0), color=SHADES[ratio], linewidth=0.8
+        )
     for place, (ratio, colour) in enumerate(SHADES.items()):
         note(axis, gamma(ratio), (0.22, 0.93 - 0.1 * place), color=colour)
     axis.set(xlim=(0.2, 1.0), ylim=(0, 1), yticks=(0, 0.5, 1), xlabel="Peak ground velocity (m/s)")
@@ -66,7 +68,7 @@ def draw(motions, motions_fragility, motions_rotations, motions_gains, config):
     axes["e"].plot([], [], "o", color=INK, markerfacecolor=PAPER, markersize=4, label=gamma(4.0))
     axes["e"].legend(loc="lower right")
     axes["d"].set(xlim=(0, 100), xlabel="Probability of overturning (%)")
-    axes["e"].set(xlim=(0, 70), xlabel="Gain in the median overturning velocity (%)")
+    axes["e"].set(xlim=(0, 85), xlabel="Gain in the median overturning velocity (%)")
     axes["d"].set_yticks(range(len(table)), table.model)
     axes["e"].set_yticks(range(len(table)), [""] * len(table))
     for axis in (axes["d"], axes["e"]):
