@@ -144,7 +144,7 @@ def test_an_overturned_structure_counts_as_above_the_median():
 TABLES = {
     "motions": {"column": 0.2, "fixed": 0.5, "frame": 0.1, "only_frame": 3}
     | {"harm_low": 0.1, "benefit_low": 0.05},
-    "gains": {"gain_low": 0.1},
+    "gains": {"gain_low": 0.1, "gain": 0.2, "mass_ratio": 1.0},
     "pairs": {"ratio": 0.4, "ratio_high": 0.9},
     "sensitivity": {"change": 1e-6, "changed": 0.05},
 }
@@ -164,9 +164,10 @@ TABLES = {
 def test_one_row_is_enough_to_refute(table, column, number, false):
     tables = {name: pd.DataFrame([row] * 2) for name, row in TABLES.items()}
     tables[table].loc[1, column] = number
-    found = motions.findings(*tables.values())
+    found = motions.findings(*tables.values(), SETTINGS)
     assert {name for name, one in found.items() if one.get("holds") is False} == false
     assert found["outcomes_that_change"]["value"] == 0.05
+    assert found["gain"]["least"] == found["gain"]["most"] == 0.2
 
 
 def test_the_benefit_ends_where_its_isotonic_fit_is_zero():

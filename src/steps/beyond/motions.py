@@ -174,8 +174,9 @@ def sampled(shards, settings, column):
         yield block, record, up, factor, found[at, place] == 1
 
 
-def findings(motions, motions_gains, motions_pairs, motions_sensitivity):
+def findings(motions, motions_gains, motions_pairs, motions_sensitivity, settings):
     gains, changed = motions_gains, motions_sensitivity
+    equal = gains.gain[gains.mass_ratio == settings["mass_ratio"]]
     least = changed[changed.change == changed.change.min()]
     return {
         "order": truth(
@@ -183,7 +184,7 @@ def findings(motions, motions_gains, motions_pairs, motions_sensitivity):
             samples=len(motions),
             **{name: [motions[name].min(), motions[name].max()] for name in NAMES},
         ),
-        "gain": truth((gains.gain_low > 0.0).all(), samples=len(gains)),
+        "gain": truth((gains.gain_low > 0.0).all(), least=equal.min(), most=equal.max()),
         "some_only_frame": truth((motions.only_frame > 0).all(), samples=len(motions)),
         "probability_is_lower": truth(
             (motions_pairs.ratio_high < 1.0).all(),
