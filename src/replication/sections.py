@@ -295,7 +295,7 @@ class Friction(Section):
     depth: Positive  # m
     coefficients: list[Positive]  # of friction
     sufficient: Positive
-    shape: Shape
+    shapes: list[Shape]
     frequency_ratios: Grid
     amplitudes: Grid  # g tan α
     samples: Count
