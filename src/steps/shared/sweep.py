@@ -23,8 +23,8 @@ from topheavy import (
     judge,
     overturned_together,
 )
-from topheavy.ground.synthetic.ensemble import first_draws
-from topheavy.ground.synthetic.filtered_noise import Soil, motion
+from topheavy.ground.synthetic import filtered_noise
+from topheavy.ground.synthetic import motions as synthetic
 
 FAMILIES = ("near-fault", "broadband")
 VERTICAL = ", with vertical acceleration"  # appended to the name of the last set
@@ -59,19 +59,27 @@ def models(settings: Settings) -> dict[str, list[Motion]]:
 
     The vertical component of a motion is another one of the same set.
     """
-    count, noise = settings["motions"], settings["noise"]
-    draws = [each.record for each in first_draws(settings | {"families": FAMILIES}, 2 * count)]
-    found = {
-        name: [Motion(record) for record in draws[2 * count * place :][:count]]
-        for place, name in enumerate(sets(settings))
-    }
+    found, (count, seed) = {}, (settings["motions"], settings["seed"])
+    scenarios = [synthetic.Scenario(**scenario) for scenario in settings["scenarios"]]
+
+    def drawn(family: str, place: int, number: int) -> Callable[[], Record]:
+        quake = (seed + place, number, scenarios[place])
+        return partial(synthetic.motion, *quake, pulse=family == FAMILIES[0])
+
+    parts = [*product(FAMILIES, range(len(scenarios)))]
+    for name, part in zip(sets(settings), parts, strict=True):
+        found[name] = [Motion(drawn(*part, number)) for number in range(count)]
+    noise = settings["noise"]
     for place, (soil, corner) in enumerate(product(noise["soils"], noise["corners"])):
-        one = partial(motion, noise["seed"] + place, soil=Soil(soil, corner))
+        of = filtered_noise.Soil(soil, corner)
         found[f"noise, soil {soil:g} Hz, filter {corner:g} Hz"] = [
-            Motion(partial(one, number=number)) for number in range(noise["motions"])
+            Motion(partial(filtered_noise.motion, noise["seed"] + place, number, of))
+            for number in range(noise["motions"])
         ]
-    pairs = zip(draws[-2 * count : -count], draws[-count:], strict=True)
-    found[sets(settings)[-1] + VERTICAL] = [Motion(*pair) for pair in pairs]
+    found[sets(settings)[-1] + VERTICAL] = [
+        Motion(drawn(*parts[-1], number), drawn(*parts[-1], number + count))
+        for number in range(count)
+    ]
     return found
 
 
