@@ -103,21 +103,23 @@ def gains(model, structure, fell, settings, column):
         np.isfinite(middle[0]).all(),
         f"{model}, {structure}: the velocities reach no median; widen them",
     )
+    ratios = alone(ensemble, [(0, place) for place in range(1, fell.shape[1])])
     return [
         {"model": model, "structure": structure, "mass_ratio": gamma, "motions": len(fell)}
         | {"median_of_column": middle[0, 0]}
         | ensemble.bounds("gain", middle[:, place] / middle[:, 0] - 1.0)
-        | ensemble.bounds("ratio", alone(ensemble, 0, place))
+        | ensemble.bounds("ratio", ratios[:, place - 1])
         for place, gamma in enumerate(settings["mass_ratios"], 1)
     ]
 
 
-def alone(ensemble, light, heavy):
-    """Return how often only the heavier frame overturns, over how often only the lighter does."""
+def alone(ensemble, pairs):
+    """Return how often only the heavier frame of a pair overturns, over how often the lighter."""
     fell = ensemble.outcomes
-    cases = [fell[:, light] & ~fell[:, heavy], fell[:, heavy] & ~fell[:, light]]
-    lighter, heavier = ensemble.means(np.stack(cases, axis=1).sum(axis=-1)).T
-    return heavier / lighter
+    orders = [order for light, heavy in pairs for order in ((light, heavy), (heavy, light))]
+    cases = np.stack([fell[:, one] & ~fell[:, other] for one, other in orders], axis=1)
+    means = ensemble.means(cases.sum(axis=-1))
+    return means[:, 1::2] / means[:, ::2]
 
 
 def pairs(structure, parts, settings):
@@ -128,11 +130,13 @@ def pairs(structure, parts, settings):
     groups = np.repeat(range(len(parts)), [len(part) for part in parts]).tolist()
     ensemble = Ensemble(np.concatenate(parts), groups, **settings["bootstrap"])
     gammas = [0.0, *settings["mass_ratios"]]
+    both = [*combinations(range(len(gammas)), 2)]
+    ratios = alone(ensemble, both)
     return [
         {"structure": structure, "lighter": gammas[light], "heavier": gammas[heavy]}
         | {"motions": len(groups)}
-        | ensemble.bounds("ratio", alone(ensemble, light, heavy))
-        for light, heavy in combinations(range(len(gammas)), 2)
+        | ensemble.bounds("ratio", ratios[:, place])
+        for place, (light, heavy) in enumerate(both)
     ]
 
 
