@@ -40,8 +40,11 @@ rule motions:
         shards=gather.motions("results/shards/motions_{scatteritem}.npz"),
     output:
         probabilities="results/tables/motions.csv",
-        fragility="results/tables/motions_fragility.csv",
+        sensitivity="results/tables/motions_sensitivity.csv",
+        gains="results/tables/motions_gains.csv",
         pairs="results/tables/motions_pairs.csv",
+        fragility="results/tables/motions_fragility.csv",
+        rotations="results/tables/motions_rotations.csv",
         findings="results/findings/motions.json",
     log:
         "results/logs/motions.log",
@@ -77,6 +80,7 @@ rule records:
         kernel="results/kernel.compiled",
     output:
         table="results/tables/records.csv",
+        capacity="results/tables/records_capacity.csv",
         findings="results/findings/records.json",
     log:
         "results/logs/records.log",
@@ -84,12 +88,13 @@ rule records:
         code=code("src/steps/beyond/records.py") | MODELS | SECOND | CORE,
         settings=PAPER["records"],
         solver=PAPER["solver"],
+        structures=PAPER["structures"],
         records=checksums(*HORIZONTAL),
     script:
         "../src/steps/beyond/records.py"
 
 
-# Second half: friction, engine -----------------------------------------------------------------------
+# Second half: friction, designers, engine -----------------------------------------------------------------------
 
 
 rule friction:
@@ -113,6 +118,27 @@ rule friction:
         structures=PAPER["structures"],
     script:
         "../src/steps/beyond/friction.py"
+
+
+rule designers:
+    input:
+        "results/tables/motions_gains.csv",
+        "results/tables/motions_rotations.csv",
+        "results/tables/friction_by_mass.csv",
+    output:
+        table="results/tables/designers.csv",
+        findings="results/findings/designers.json",
+    log:
+        "results/logs/designers.log",
+    params:
+        code=code("src/steps/beyond/__init__.py", "src/steps/beyond/designers.py")
+        | CORE
+        | library("forces"),
+        settings=PAPER["designers"],
+        friction=PAPER["friction"],
+        structures=PAPER["structures"],
+    script:
+        "../src/steps/beyond/designers.py"
 
 
 rule engine:

@@ -215,11 +215,9 @@ class Noise(Section):
     corners: list[Positive]  # Hz
     motions: Count
     seed: Count
-    velocities: Grid  # m/s
 
 
 class Vertical(Section):
-    motions: Count
     share: Positive  # of the horizontal PGA
 
 
@@ -229,15 +227,24 @@ class Bootstrap(Section):
     seed: Count
 
 
+class Rotations(Section):
+    motions: Count
+    velocities: list[Positive]  # m/s
+
+
 class Motions(Section):
     shards: Count
+    structures: list[str]
+    mass_ratios: list[MassRatio]
     structure: str
     mass_ratio: MassRatio
-    other_mass_ratios: list[MassRatio]
     seed: Count
     motions: Count
+    fewer: Count
     scenarios: list[Scenario]
     velocity: Positive  # m/s
+    changes: list[Positive]  # relative, of the velocity
+    rotations: Rotations
     intensities: Grid  # p PGV/(g tan α)
     largest_factor: Positive
     noise: Noise
@@ -260,12 +267,22 @@ class BreakEven(Section):
     checked: Count
 
 
+class Capacity(Section):
+    structure: str
+    mass_ratios: list[MassRatio]
+    highest: Positive  # g tan α
+    step: Fraction
+    windows: list[Positive]
+    share: Fraction
+
+
 class Records(Section):
     mass_ratios: list[MassRatio]
     slendernesses: list[Degrees]
     sizes: Grid  # m
     factors: Grid
     checked: Count
+    capacity: Capacity
 
 
 # Beyond the paper: friction, engine -------------------------------------------------------------
@@ -278,11 +295,17 @@ class Friction(Section):
     depth: Positive  # m
     coefficients: list[Positive]  # of friction
     sufficient: Positive
-    shape: Shape
+    shapes: list[Shape]
     frequency_ratios: Grid
     amplitudes: Grid  # g tan α
     samples: Count
     check_samples: Count
+
+
+class Designers(Section):
+    structure: str
+    mass_ratios: list[MassRatio]
+    velocities: list[Positive]  # m/s
 
 
 class CapOf(Section):
@@ -349,4 +372,5 @@ class Paper(Section):
     break_even: BreakEven
     records: Records
     friction: Friction
+    designers: Designers
     engine: Engine
