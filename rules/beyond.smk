@@ -147,6 +147,7 @@ rule engine:
     output:
         restitution="results/tables/engine_restitution.csv",
         outcomes="results/tables/engine_outcomes.csv",
+        across="results/tables/engine_across.csv",
         findings="results/findings/engine.json",
     log:
         "results/logs/engine.log",
@@ -155,6 +156,7 @@ rule engine:
             "src/steps/beyond/__init__.py",
             "src/steps/beyond/boxes.py",
             "src/steps/beyond/engine.py",
+            "src/steps/beyond/space.py",
         )
         | CORE
         | library("forces"),
@@ -162,3 +164,38 @@ rule engine:
         structures=PAPER["structures"],
     script:
         "../src/steps/beyond/engine.py"
+
+
+rule gaps:
+    output:
+        table="results/tables/gaps.csv",
+        findings="results/findings/gaps.json",
+    log:
+        "results/logs/gaps.log",
+    params:
+        code=code(
+            "src/steps/beyond/__init__.py",
+            "src/steps/beyond/gaps.py",
+            "src/steps/beyond/space.py",
+        )
+        | CORE
+        | library("forces"),
+        settings=PAPER["gaps"],
+        trilith=PAPER["trilith"],
+        structures=PAPER["structures"],
+    script:
+        "../src/steps/beyond/gaps.py"
+
+
+rule test_plan:
+    output:
+        table="results/tables/test_plan.csv",
+    log:
+        "results/logs/test_plan.log",
+    params:
+        code=code("src/steps/beyond/__init__.py", "src/steps/beyond/test_plan.py")
+        | CORE
+        | library("second"),
+        settings=PAPER["test_plan"],
+    script:
+        "../src/steps/beyond/test_plan.py"

@@ -1,11 +1,14 @@
 """What config/config.yaml may say: a model for each section, named as its rule."""
 
+from typing import Literal
+
 from replication.config import (
     Count,
     Degrees,
     Fraction,
     Grid,
     MassRatio,
+    NotNegative,
     Number,
     Positive,
     PulseOf,
@@ -340,10 +343,47 @@ class EngineOutcomes(Section):
     lean: Fraction  # α
 
 
+class EngineAcross(Section):
+    structure: str
+    mass_ratios: list[Positive]
+    shape: Shape
+    frequency_ratios: list[Positive]
+    depths: list[Positive]
+    step: Positive
+    time_step: Positive  # 1/p
+    friction: Positive
+    checks: list[dict[Literal["time_step", "friction"], Positive]]
+
+
 class Engine(Section):
     caps: dict[str, CapOf]
     restitution: EngineRestitution
     outcomes: EngineOutcomes
+    across: EngineAcross
+
+
+class Gaps(Section):
+    cap: CapOf
+    depths: list[Positive]  # m
+    gaps: list[NotNegative]  # mm
+    draws: Count
+    seed: Count
+    ramp: Positive  # s
+    duration: Positive  # s
+    rocking: Positive  # degrees
+    time_step: Positive  # 1/p
+    friction: Positive
+    checks: list[dict[Literal["time_step", "friction"], Positive]]
+
+
+class TestPlan(Section):
+    column: Column
+    mass_ratio: Positive
+    shape: Shape
+    frequency_ratio: Positive
+    reductions: list[Fraction]  # of √r
+    scatters: list[Positive]
+    risk: Fraction
 
 
 class Reproducibility(Section):
@@ -374,3 +414,5 @@ class Paper(Section):
     friction: Friction
     designers: Designers
     engine: Engine
+    gaps: Gaps
+    test_plan: TestPlan
