@@ -91,10 +91,12 @@ def test_changed_certificate_is_refused(change, reason):
     refused(certificate, reason)
 
 
-@pytest.mark.parametrize("sigma", ["2.2", "3", "6"])
+@pytest.mark.parametrize("sigma", ["2.2", "4.1", "6"])
 def test_uplift_after_the_ground_has_lifted_the_block_is_refused(sigma):
     pulse = th.Pulse("one-sine", 0.2, 3.0)
-    refused(forged(COLUMN, pulse, [{"event": "uplift", "sigma": sigma}]), "earlier|sign|ended")
+    refused(
+        forged(COLUMN, pulse, [{"event": "uplift", "sigma": sigma}]), "lift the block earlier|sign"
+    )
 
 
 def walls(event, by):
@@ -122,25 +124,12 @@ def test_changed_bound_is_refused(change, reason):
     refused(certificate, reason)
 
 
-def test_walls_below_zero_are_refused():
-    """The potential is periodic: a wall a turn below would be high at both of its ends."""
-    below = {"event": "walls", "sigma": "1e-10", "walls": ["-6.283184307", "-6.283184307"]}
-    refused(forged(BLOCK, th.Pulse("one-sine", 10.0, 1.0), [below], impacts=None), "below zero")
-
-
 @pytest.mark.parametrize("extra", [{}, {"axis": "0", "cap_width": "0", "cap_depth": "0"}])
 def test_structure_that_does_not_rock_is_refused(extra):
     """Its √r is negative: a bounce would have a negative velocity."""
     sides = {"half_width": "3", "half_height": "1", "mass_ratio": "0", "gravity": "9.81", **extra}
     structure = {"kind": "body" if extra else "frame", **sides}
     refused(WITH_IMPACT | {"structure": structure}, "√r is outside of 0 to 1")
-
-
-@pytest.mark.parametrize("restitution", ["1.1", "-0.1"])
-def test_block_that_gains_energy_is_refused(restitution):
-    certificate = forged(BLOCK, th.Pulse("one-sine", 0.1, 1.0), [])
-    certificate["structure"]["restitution"] = restitution
-    refused(certificate, "expected a number from 0 to 1")
 
 
 # The form ----------------------------------------------------------------------------------------
@@ -174,6 +163,7 @@ def without(entries, at):
     return put(entries, at[:-1], parent)
 
 
+GAINS = question(BLOCK, PULSE, 1.0)["structure"] | {"restitution": "1.1"}
 WRONG = (None, True, 0, -1, 1.5, math.nan, "x", "", "nan", "1e10", "1/0", "1_0", " 1", "9" * 3000)
 WRONG += ([], {}, ["0", "0"], ["0", "1", "2"], 10**30, "0.٥")
 
@@ -208,6 +198,7 @@ def test_entry_of_another_type_is_refused():
         ("claim", "for every frame", r"certificate has 'claim'; expected structure, linearised"),
         ("factor", ["1", "0.5"], "two in ascending order"),
         ("factor", ["1/3", "1/3"], "expected a decimal as text"),
+        ("structure", GAINS, "restitution is '1.1'; expected a number from 0 to 1"),
         ("order", 3, "order is 3; expected a whole number from 4"),
         ("events", [{"event": "__init__"}], "expected one of uplift, step, walls, gone"),
     ],
@@ -297,10 +288,3 @@ def test_file_with_a_wrong_line_is_refused(tmp_path, line, reason):
     assert (done.returncode, done.stdout) == (1, "")
     assert f"{path}, line 2 is refused: " in done.stderr
     assert reason in done.stderr
-
-
-def test_file_without_certificates_is_named(tmp_path):
-    empty = tmp_path / "empty.jsonl"
-    empty.write_text("", encoding="utf-8")
-    assert run_alone(empty).stderr == f"{empty} holds no certificate\n"
-    assert run_alone().returncode == run_alone(tmp_path / "none.jsonl").returncode == 1
