@@ -20,7 +20,6 @@ from topheavy.bodies.structures import Structure
 from topheavy.ground.pulses import Pulse
 from topheavy.ground.records import Record
 from topheavy.kernel.outcome import TOLERANCE
-from topheavy.keywords import hinted
 from topheavy.outcomes.overturning import (
     BRACKET,
     Asked,
@@ -139,7 +138,6 @@ class LowestOverturning:
         )
 
 
-@hinted
 def lowest_overturning(
     structure: Structure,
     excitation: Pulse | Record,

@@ -25,7 +25,6 @@ from topheavy.kernel.forcing import RECORD, SHAPES
 from topheavy.kernel.grid import FEW_AT_ONCE, MANY_AT_ONCE, Outcomes, mixed_outcomes_of, outcomes_of
 from topheavy.kernel.outcome import TOLERANCE
 from topheavy.kernel.taylor import Oscillator, oscillator
-from topheavy.keywords import hinted
 from topheavy.outcomes.simulate import Shaking, as_shaking, checked_tolerance
 
 if TYPE_CHECKING:
@@ -49,7 +48,6 @@ Boundary = tuple[float, float, int, int]  # low, high, label below, label above
 Answer = TypeVar("Answer")
 
 
-@hinted
 def overturning_map(
     structure: Structure, shape: str, angular_frequencies: ArrayLike, amplitudes: ArrayLike
 ) -> xarray.Dataset:
@@ -141,7 +139,6 @@ class Search(NamedTuple):
     scale_vertical: bool = True
 
 
-@hinted
 def overturned_by(
     structure: Structure,
     excitation: Excitation,
@@ -304,7 +301,6 @@ class Interval:
     impacts: int
 
 
-@hinted
 def overturning_intervals(
     structure: Structure,
     excitation: Excitation,
@@ -382,7 +378,6 @@ def intervals_together(
     )
 
 
-@hinted
 def minimum_overturning(
     structure: Structure,
     excitation: Excitation,

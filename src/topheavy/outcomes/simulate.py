@@ -41,7 +41,6 @@ from topheavy.kernel.trace import (
     UNRESOLVED,
     trace,
 )
-from topheavy.keywords import hinted
 
 Times = NDArray[np.float64]
 
@@ -59,7 +58,6 @@ _OUTCOMES: dict[int, Outcome] = {
 }
 
 
-@hinted
 def simulate(
     structure: Structure,
     excitation: Excitation | None = None,
@@ -180,7 +178,6 @@ def simulate(
     )
 
 
-@hinted
 def judge(
     structure: Structure,
     excitation: Excitation,

@@ -11,7 +11,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from topheavy import checks
 from topheavy.ground.records import Record
-from topheavy.keywords import hinted
 from topheavy.outcomes.overturning import overturned_together
 from topheavy.risk import inputs
 from topheavy.risk.curve import fit
@@ -93,7 +92,6 @@ def _line(row: xarray.Dataset, name: str, unit: str) -> str:
     return f"{known}: {reason}" if reason else known
 
 
-@hinted
 def fragility(
     structures: inputs.Structures,
     motions: Sequence[inputs.Motion],
