@@ -59,7 +59,7 @@ def spectrum(outcomes: xarray.Dataset, *, axes: Axes | None = None) -> Axes:
     Parameters
     ----------
     outcomes : xarray.Dataset
-        Of `overturning_map` (frequency, amplitude) or `overturning_map_of_record` (size, PGA).
+        Of `overturning_map`.
     """
     axes = _axes(axes)
     across, up = (outcomes[name] for name in outcomes.peak_rotation.dims)

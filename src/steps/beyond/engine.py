@@ -6,7 +6,7 @@ import pandas as pd
 
 from replication.step import run, truth
 from steps.beyond.boxes import Boxes, overturns, rebound
-from topheavy import Cap, Column, Pulse, RockingFrame, judge, minimum_overturning, simulate
+from topheavy import Cap, Column, Pulse, RockingFrame, judge, lowest_overturning, simulate
 
 CLOSE = 0.005  # of √r: agreement with Eq. (25)
 NO_REBOUND = 0.2  # coefficient of restitution of a point, below which a contact has no rebound
@@ -119,7 +119,7 @@ def minimum(frame, kind):
     )
     unit = Pulse(kind["shape"], 1.0, omega)
     return unit.scaled(
-        minimum_overturning(frame, unit, (tan, HIGHEST * tan), resolution=0.01 * tan)[1]
+        lowest_overturning(frame, unit, (tan, HIGHEST * tan), floor=0.01 * tan).factor
     )
 
 

@@ -20,7 +20,7 @@ from topheavy import (
     Record,
     RockingBlock,
     RockingFrame,
-    overturned_together,
+    overturned_by,
 )
 from topheavy.ground.synthetic.ensemble import first_draws
 from topheavy.ground.synthetic.filtered_noise import Soil, motion
@@ -129,7 +129,7 @@ def overturned(question: Question, record: Record, up: Record | None) -> Outcome
     factors = question.velocities / record.peak_velocity
     if up is not None and factors.max() * up.acceleration.min() <= -1.0:
         return np.full((len(question.blocks), factors.size), FREE_FALL, np.int8)
-    return overturned_together(question.blocks, record, factors, vertical=up).astype(np.int8)
+    return overturned_by(question.blocks, record, factors, vertical=up).astype(np.int8)
 
 
 def sweep(settings: Settings, break_even: Settings, column: Column, shard: str) -> dict[str, Any]:

@@ -18,15 +18,14 @@ from topheavy.kernel.forcing import (
     RECORD,
     RICKER_ANTISYMMETRIC,
     RICKER_SYMMETRIC,
-    TWO_RECORDS,
     equation,
     gravity,
     ground,
+    lines,
     next_uplift,
     piece_of,
     piece_start,
     strongest_after,
-    two_lines,
 )
 from topheavy.kernel.march import march
 from topheavy.kernel.rest import LAST_BOUNCE, RATIO_BOUNCE, comes_to_rest, next_tick
@@ -223,14 +222,9 @@ def after_impact(block, state):
 def at_sample(block, forcing, record, piece, side, state):
     """Return the state with the push and the gravity of the piece of a record that begins."""
     rotation, velocity, sine, cosine = state.rotation, state.velocity, state.sine, state.cosine
-    if forcing.shape == TWO_RECORDS:
-        value, rate, weight, change = two_lines(forcing, record, piece)
-        push, rate = -side * value - block.level * weight, -side * rate - block.level * change
-        return State(rotation, velocity, sine, cosine, push, rate, weight, change)
-    value = forcing.amplitude * record[0, piece]
-    rate = forcing.amplitude * (record[0, piece + 1] - record[0, piece]) / forcing.step
-    push = -side * value - block.level
-    return State(rotation, velocity, sine, cosine, push, -side * rate, 1.0, 0.0)
+    value, rate, weight, change = lines(forcing, record, piece)
+    push, rate = -side * value - block.level * weight, -side * rate - block.level * change
+    return State(rotation, velocity, sine, cosine, push, rate, weight, change)
 
 
 @compiled
@@ -265,7 +259,7 @@ def outcome(w, order, tolerance, block, forcing, record, ratios):
     The k-th impact that counts has the k-th of the `ratios` as √r, and those after the last one
     that of the block. Where there are ratios, an impact counts above `RATIO_BOUNCE` α.
     """
-    is_record = forcing.shape == RECORD or forcing.shape == TWO_RECORDS
+    is_record = forcing.shape == RECORD
     is_straight = is_record or forcing.shape == CONSTANT or forcing.shape == NONE
     time, peak, impacts, piece, piece_end = 0.0, 0.0, 0, 0, forcing.end
     steps_left = MAX_STEPS + 10 * record.shape[1]

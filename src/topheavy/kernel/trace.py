@@ -17,7 +17,6 @@ from topheavy.kernel.forcing import (
     RECORD,
     RICKER_ANTISYMMETRIC,
     RICKER_SYMMETRIC,
-    TWO_RECORDS,
     Forcing,
     gravity,
     ground,
@@ -94,7 +93,7 @@ def trace(w, order, tolerance, block, forcing, record, course, results):
     time, peak, sample, counted, landed = 0.0, abs(rotation), 0, 0, 0
     moves = rotation != 0.0 or velocity**2 > 0.0  # a speed without an energy is rest
     has_moved, is_low, is_forced, is_over = moves, rotation == 0.0, True, False
-    is_record = forcing.shape == RECORD or forcing.shape == TWO_RECORDS
+    is_record = forcing.shape == RECORD
     straight = is_record or forcing.shape == CONSTANT or forcing.shape == NONE
     side = math.copysign(1.0, rotation if rotation != 0.0 else velocity)
     state, zeros = _initial_state(block, forcing, record, rotation, velocity, side), 0

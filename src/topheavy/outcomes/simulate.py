@@ -24,7 +24,6 @@ from topheavy.kernel.forcing import (
     RECORD,
     SHAPES,
     prepare_record,
-    prepare_two_records,
     pulse_forcing,
     record_forcing,
 )
@@ -248,7 +247,7 @@ def as_shaking(excitation: Excitation | None, vertical: Record | None = None) ->
     if vertical is not None:
         across, up = both_records(excitation, vertical)
         ratio = up.time_step / across.time_step
-        record = prepare_two_records(across.acceleration, up.acceleration, ratio)
+        record = prepare_record(across.acceleration, up.acceleration, ratio)
         return Shaking(RECORD, across.time_step, 1.0, record)
     match excitation:
         case None:

@@ -127,15 +127,9 @@ def lifts_again(w, lane, block, forcing, record):
     return True
 
 
-@compiled(forceinline=True)
-def at(values, i, j):
-    """Return the value of a cell; an axis of length 1 stands for all its cells."""
-    return values[i if values.shape[0] > 1 else 0, j if values.shape[1] > 1 else 0]
-
-
 @compiled(nogil=True)
 def pulse_outcomes(workspaces, part, histories, shape, record, order, tolerance, outcomes):
-    """Fill one of as many parts of the cells as there are batches; see `grid.pulse_outcomes_of`.
+    """Fill one of as many parts of the cells as there are batches; see `grid.outcomes_of`.
 
     Parameters
     ----------
@@ -157,7 +151,6 @@ def pulse_outcomes(workspaces, part, histories, shape, record, order, tolerance,
     """
     (w, alone), (batch, batches), (peak, overturned, impacts) = workspaces, part, outcomes
     kind, blocks, which, scales, amplitudes = histories
-    columns = peak.shape[1]
     coming, last = batch * peak.size // batches, (batch + 1) * peak.size // batches
     lost, busy, vacant = -1, 0, (1 << WIDTH) - 1
     while True:  # each time around a lane takes one of its `MAX_STEPS` steps, or there is none left
@@ -166,11 +159,10 @@ def pulse_outcomes(workspaces, part, histories, shape, record, order, tolerance,
             lane, lifted = first_lane(vacant), False
             vacant &= vacant - 1
             while coming < last and not lifted:
-                i, j = coming // columns, coming % columns
-                forcing = pulse_forcing(shape, at(amplitudes, i, j), at(scales, i, j))
-                lifted = begin(w, lane, numbered(kind, blocks, at(which, i, j)), forcing, record)
+                forcing = pulse_forcing(shape, amplitudes[coming], scales[coming])
+                lifted = begin(w, lane, numbered(kind, blocks, which[coming]), forcing, record)
                 if not lifted:
-                    peak[i, j], overturned[i, j], impacts[i, j] = 0.0, False, 0
+                    peak[coming], overturned[coming], impacts[coming] = 0.0, False, 0
                 w[CELL, lane] = coming
                 coming += 1
             if lifted:
@@ -182,7 +174,7 @@ def pulse_outcomes(workspaces, part, histories, shape, record, order, tolerance,
         if alone[HALT, 0] != 0.0:
             return int(w[CELL, int(alone[HALT, 1])])
         block = seated(w, kind)
-        landed, fallen = advance(w, alone, block, PULSE_ORDER, tolerance, False, False, busy)
+        landed, fallen = advance(w, alone, block, PULSE_ORDER, tolerance, False, busy)
         time, end, step = load(w, TIME), load(w, END), load(w, LENGTH)
         time = select(step >= load(w, LONGEST), end, time + step)
         store(w, TIME, time)
@@ -199,8 +191,7 @@ def pulse_outcomes(workspaces, part, histories, shape, record, order, tolerance,
             lane = first_lane(ending)
             ending &= ending - 1
             cell = int(w[CELL, lane])
-            i, j = cell // columns, cell % columns
-            own = numbered(kind, blocks, at(which, i, j))
+            own = numbered(kind, blocks, which[cell])
             fell, highest, count = False, w[PEAK, lane], w[IMPACTS, lane]
             if fallen >> lane & 1:
                 fell = True
@@ -209,7 +200,7 @@ def pulse_outcomes(workspaces, part, histories, shape, record, order, tolerance,
                 fell, highest = tail.overturned, max(highest, tail.peak)
                 count += tail.impacts
                 if is_poised(own, w[ROTATION, lane], w[VELOCITY, lane]):
-                    forcing = pulse_forcing(shape, at(amplitudes, i, j), at(scales, i, j))
+                    forcing = pulse_forcing(shape, amplitudes[cell], scales[cell])
                     again = outcome(alone, order, tolerance, own, forcing, record, NO_RATIOS)
                     fell, highest, count = again.overturned, again.peak, again.impacts
                     if not again.resolved:
@@ -217,11 +208,11 @@ def pulse_outcomes(workspaces, part, histories, shape, record, order, tolerance,
             elif w[STEPS, lane] > MAX_STEPS:
                 lost = cell if lost < 0 else min(lost, cell)
             else:
-                forcing = pulse_forcing(shape, at(amplitudes, i, j), at(scales, i, j))
+                forcing = pulse_forcing(shape, amplitudes[cell], scales[cell])
                 if not rests(w, lane, own, forcing, record):
                     continue
                 if lifts_again(w, lane, own, forcing, record):
                     continue
-            peak[i, j] = math.nan if fell else highest
-            overturned[i, j], impacts[i, j] = fell, count
+            peak[cell] = math.nan if fell else highest
+            overturned[cell], impacts[cell] = fell, count
             vacant |= 1 << lane
