@@ -9,9 +9,9 @@ import pytest
 from replication.config import read_yaml
 from steps.beyond import break_even, motions, records
 from steps.shared import second, sweep
+from steps.shared.ensemble import Ensemble
 from tests.cases import COLUMN, ROOT
 from topheavy import Record, RockingFrame, judge
-from topheavy.risk.ensemble import Ensemble
 
 CONFIG = read_yaml(ROOT / "config" / "config.yaml")
 EVEN = CONFIG["break_even"] | {"reductions": {"highest": 0.2, "step": 0.1}}

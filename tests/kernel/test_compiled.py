@@ -63,26 +63,26 @@ ASK_WIDTH = """
 import json, math
 import numpy as np
 from topheavy import RockingBlock
-from topheavy.kernel.forcing import RECORD, SHAPES, prepare_record, prepare_two_records
-from topheavy.kernel.grid import FUSED, LANES, mixed_outcomes_of, outcomes_of
+from topheavy.kernel.forcing import RECORD, SHAPES, prepare_record
+from topheavy.kernel.grid import FUSED, LANES, outcomes_of
 from topheavy.kernel.taylor import oscillator
 found = []
 for linearised in (False, True):
     block = oscillator(RockingBlock(1.0, math.radians(9.5), 0.9, linearised))
     scales, amplitudes = np.linspace(0.5, 9.0, 11), block.level * np.linspace(1.001, 9.0, 40)
+    cells = np.zeros(440, int), np.repeat(scales, 40), np.tile(amplitudes, 11)
     for name in sorted(set(SHAPES) - {"harmonic"}):
-        found.append(outcomes_of(block, SHAPES[name], scales, amplitudes))
+        found.append(outcomes_of([block], SHAPES[name], *cells))
     time = 0.02 * np.arange(1000)
     waves = np.sin(2 * time) + np.sin(3.7 * time + 1) - np.sin(6.1 * time)
     record = prepare_record(block.level * waves)
     factors = np.geomspace(0.3, 5.0, 40)
-    found.append(outcomes_of(block, RECORD, np.array([0.02]), factors, record))
     other = oscillator(RockingBlock(1.0, math.radians(17.0), 0.8, linearised))
-    both = prepare_two_records(block.level * waves, 0.2 * np.cos(0.1 * np.arange(900)), 0.731)
+    both = prepare_record(block.level * waves, 0.2 * np.cos(0.1 * np.arange(900)), 0.731)
     mixture = (np.arange(40) % 2, np.where(np.arange(40) % 3, 0.02, 0.031), factors)
     lifts = np.linspace(-1.0, 2.0, 40)
     for record, more in ((record, {}), (both, {"lifts": lifts})):
-        found.append(mixed_outcomes_of([block, other], RECORD, *mixture, record, **more))
+        found.append(outcomes_of([block, other], RECORD, *mixture, record, **more))
 peaks, overturned, impacts = ([row.tobytes().hex() for row in rows] for rows in zip(*found))
 print(json.dumps([LANES, FUSED, peaks, overturned, impacts]))
 """

@@ -10,14 +10,13 @@ import numpy as np
 import pytest
 
 from benchmarks.boundaries import SHAPES
-from tests.cases import BOTH
+from tests.cases import BOTH, grid_of
 from topheavy import RockingBlock
 from topheavy.kernel import bernstein, forcing, interrupt, outcome, trace
 from topheavy.kernel.forcing import NO_RECORD, prepare_record, pulse_forcing
 from topheavy.kernel.grid import (
     FEWEST_FACTORS,
     FEWEST_PULSES,
-    mixed_outcomes_of,
     outcome_of,
     outcomes_of,
 )
@@ -36,13 +35,13 @@ def same(first, second) -> None:
 @pytest.mark.parametrize("shape", [forcing.ONE_SINE, forcing.RICKER_SYMMETRIC])
 def test_results_do_not_depend_on_the_number_of_threads(shape, threads):
     assert SCALES.size * AMPLITUDES.size > 3 * FEWEST_PULSES
-    alone = outcomes_of(BLOCK, shape, SCALES, AMPLITUDES, threads=1)
-    same(outcomes_of(BLOCK, shape, SCALES, AMPLITUDES, threads=threads), alone)
-    same(outcomes_of(BLOCK, shape, SCALES, AMPLITUDES), alone)
+    alone = grid_of(BLOCK, shape, SCALES, AMPLITUDES, threads=1)
+    same(grid_of(BLOCK, shape, SCALES, AMPLITUDES, threads=threads), alone)
+    same(grid_of(BLOCK, shape, SCALES, AMPLITUDES), alone)
 
 
 def test_each_cell_is_the_history_of_its_scale_and_amplitude():
-    peak, overturned, impacts = outcomes_of(BLOCK, forcing.ONE_SINE, SCALES, AMPLITUDES)
+    peak, overturned, impacts = grid_of(BLOCK, forcing.ONE_SINE, SCALES, AMPLITUDES)
     assert peak.shape == overturned.shape == impacts.shape == (SCALES.size, AMPLITUDES.size)
     for i in range(0, SCALES.size, 8):
         for j in range(0, AMPLITUDES.size, 3):
@@ -55,8 +54,8 @@ def test_each_cell_is_the_history_of_its_scale_and_amplitude():
 def test_factors_on_a_record_do_not_depend_on_the_number_of_threads(threads):
     record = prepare_record(0.4 * np.sin(np.linspace(0, 30, 700)))
     steps, factors = np.array([0.02, 0.03]), np.linspace(-2.0, 3.0, 3 * FEWEST_FACTORS + 1)
-    alone = outcomes_of(BLOCK, forcing.RECORD, steps, factors, record, threads=1)
-    same(outcomes_of(BLOCK, forcing.RECORD, steps, factors, record, threads=threads), alone)
+    alone = grid_of(BLOCK, forcing.RECORD, steps, factors, record, threads=1)
+    same(grid_of(BLOCK, forcing.RECORD, steps, factors, record, threads=threads), alone)
 
 
 def test_history_that_was_given_up_is_named_in_the_message():
@@ -67,9 +66,9 @@ def test_history_that_was_given_up_is_named_in_the_message():
     with pytest.raises(
         ArithmeticError, match=rf"^200000 steps.*{case}.*bounces too often.*smaller"
     ):
-        outcomes_of(lossless, forcing.RECORD, np.ones(1), np.array([0.5, 1.0001]), record)
+        grid_of(lossless, forcing.RECORD, np.ones(1), np.array([0.5, 1.0001]), record)
     damped = lossless._replace(restitution=0.9)
-    overturned = outcomes_of(damped, forcing.RECORD, np.ones(1), np.array([1.0001]), record)[1]
+    overturned = grid_of(damped, forcing.RECORD, np.ones(1), np.array([1.0001]), record)[1]
     assert not overturned.any()
 
 
@@ -95,12 +94,10 @@ def test_histories_of_mixed_blocks_have_the_bits_of_each_alone(shape, threads):
         time = np.linspace(0, 20, 500)
         record = prepare_record(np.sin(3 * time) + 0.7 * np.sin(1 + 7.7 * time))
     blocks, which, scales, amplitudes = mixture(shape, 3)
-    found = mixed_outcomes_of(blocks, shape, which, scales, amplitudes, record, threads=threads)
+    found = outcomes_of(blocks, shape, which, scales, amplitudes, record, threads=threads)
     assert 0.1 < found[1].mean() < 0.9
     for k in range(which.size):
-        alone = outcomes_of(
-            blocks[which[k]], shape, scales[k : k + 1], amplitudes[k : k + 1], record
-        )
+        alone = grid_of(blocks[which[k]], shape, scales[k : k + 1], amplitudes[k : k + 1], record)
         for one, other in zip(found, alone, strict=True):
             np.testing.assert_array_equal(one[k], other[0, 0])
 
@@ -109,7 +106,7 @@ def test_history_of_a_mixture_that_was_given_up_is_named_with_its_block():
     lossless = oscillator(RockingBlock(1.0, 0.2, 1.0))
     record = prepare_record(lossless.level * np.array([0.0, 1.0, *np.zeros(300)]))
     with pytest.raises(ArithmeticError, match=r"1\.0001 times .*p Δt = 1: .*0\.2 rad, restit.* 1,"):
-        mixed_outcomes_of(
+        outcomes_of(
             [BLOCK, lossless],
             forcing.RECORD,
             np.array([0, 1, 0]),

@@ -16,7 +16,7 @@ from topheavy import (
     RockingBlock,
     RockingFrame,
     judge,
-    minimum_overturning,
+    overturning_intervals,
     simulate,
 )
 from topheavy.ground.shapes import ENDING
@@ -58,7 +58,7 @@ def test_outcomes_and_peaks_are_those_of_the_solver(shape, linearised):
 def test_boundary_is_bracketed_to_twelve_digits():
     below, above = (outcome(COLUMN, PULSE, factor=0.272822711046 + x) for x in (0.0, 1e-12))
     assert (below.outcome, above.outcome) == ("survives", "overturns")
-    low, high = minimum_overturning(COLUMN, PULSE, (0.2, 0.4), resolution=0.01)
+    low, high = overturning_intervals(COLUMN, PULSE, (0.2, 0.4), resolution=0.01)[0].lower
     assert low - 1e-9 < 0.272822711046 < high + 1e-9
 
 

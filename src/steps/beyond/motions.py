@@ -11,6 +11,7 @@ import numpy as np
 import pandas as pd
 
 from replication.step import check, run, truth
+from steps.shared.ensemble import Ensemble
 from steps.shared.second import beside_a_boundary, check_by_scipy, overturns
 from steps.shared.sweep import (
     FREE_FALL,
@@ -23,7 +24,6 @@ from steps.shared.sweep import (
 )
 from topheavy import Column
 from topheavy.risk.curve import fit, medians
-from topheavy.risk.ensemble import Ensemble
 
 NAMES = ("column", "fixed", "frame")
 COLUMN, FIXED, FRAME = range(3)

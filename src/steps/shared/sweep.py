@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from steps.shared import filtered_noise, synthetic
 from topheavy import (
     STANDARD_GRAVITY,
     Column,
@@ -22,8 +23,6 @@ from topheavy import (
     RockingFrame,
     overturned_by,
 )
-from topheavy.ground.synthetic.ensemble import first_draws
-from topheavy.ground.synthetic.filtered_noise import Soil, motion
 
 SETS = ("near-fault", "broadband")
 VERTICAL = ", with vertical acceleration"  # appended to the name of a set
@@ -54,21 +53,28 @@ def models(settings: Settings) -> dict[str, list[Motion]]:
     The vertical component of a motion is a later one of the same set and earthquake.
     """
     found: dict[str, list[Motion]] = {}
-    count, noise, vertical = settings["motions"], settings["noise"], settings["vertical"]["motions"]
-    draws = first_draws(settings | {"families": SETS}, count)
-    of = {(draw.family, draw.place, draw.number): draw for draw in draws}
+    noise, seed = settings["noise"], settings["seed"]
+    scenarios = [synthetic.Scenario(**scenario) for scenario in settings["scenarios"]]
+
+    def drawn(name: str, place: int, number: int) -> Callable[[], Record]:
+        pulse = name == "near-fault"
+        return partial(synthetic.motion, seed + place, number, scenarios[place], pulse=pulse)
+
+    numbers = [*product(range(len(scenarios)), range(settings["motions"]))]
     for name in SETS:
-        found[name] = [Motion(draw.place, draw.record) for draw in draws if draw.family == name]
+        found[name] = [Motion(place, drawn(name, place, number)) for place, number in numbers]
     for place, (soil, corner) in enumerate(product(noise["soils"], noise["corners"])):
-        one = partial(motion, noise["seed"] + place, soil=Soil(soil, corner))
+        of = filtered_noise.Soil(soil, corner)
         found[f"noise, soil {soil:g} Hz, filter {corner:g} Hz"] = [
-            Motion(0, partial(one, number=number)) for number in range(noise["motions"])
+            Motion(0, partial(filtered_noise.motion, noise["seed"] + place, number, of))
+            for number in range(noise["motions"])
         ]
+    later = settings["vertical"]["motions"]
     for name in SETS:
         found[name + VERTICAL] = [
-            Motion(place, draw.record, of[family, place, number + vertical].record)
-            for (family, place, number), draw in of.items()
-            if family == name and number < vertical
+            Motion(place, drawn(name, place, number), drawn(name, place, number + later))
+            for place, number in numbers
+            if number < later
         ]
     return found
 

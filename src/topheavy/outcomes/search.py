@@ -229,9 +229,11 @@ def _intervals(
     most_impacts: int | None,
 ) -> list[list[Interval]]:
     """Return the intervals of each subject from its grid; all halve their brackets at once."""
-    most = np.iinfo(np.int64).max if most_impacts is None else int(most_impacts)
-    if most_impacts is not None and not 0 <= checks.finite("most_impacts", most_impacts) == most:
-        raise ValueError(f"most_impacts is {most_impacts}; expected a whole number from 0 on")
+    most = np.iinfo(np.int64).max
+    if most_impacts is not None:
+        if not 0.0 <= checks.finite("most_impacts", most_impacts) == int(most_impacts):
+            raise ValueError(f"most_impacts is {most_impacts}; expected a whole number from 0 on")
+        most = int(most_impacts)
 
     def label(which: Indices, factors: Factors) -> Indices:
         fell, impacts = outcomes_by(subjects, which, factors)
