@@ -38,7 +38,7 @@ from topheavy.ground.pulses import Pulse
 from topheavy.ground.records import Record
 from topheavy.ground.shapes import ENDING
 from topheavy.second import reference
-from topheavy.second.newton_euler import ThreeBodies, accelerations, impact
+from steps.shared.newton_euler import ThreeBodies, accelerations, impact
 
 #: Cases of a property in its turn, s of the processor for one, and the first two of all turns.
 TURN, LONGEST = 25, 60.0

@@ -116,6 +116,7 @@ rule friction:
             "src/steps/shared/__init__.py",
             "src/steps/shared/histories.py",
         )
+        | BODIES
         | CORE
         | library("forces", "second"),
         settings=PAPER["friction"],

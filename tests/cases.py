@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 import topheavy as th
+from steps.shared.linear import simulate_linear_exact as closed
 from topheavy.kernel.forcing import NO_RECORD
 from topheavy.kernel.grid import outcomes_of
 from topheavy.second import reference
-from topheavy.second.linear import simulate_linear_exact as closed
 
 ROOT = Path(__file__).resolve().parents[1]
 RECORDS = ROOT / "data" / "records"

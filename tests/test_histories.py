@@ -1,6 +1,7 @@
 """A history from launch to its end: samples only look, rest is proven, and every history ends."""
 
 import math
+import time
 from dataclasses import replace
 
 import numpy as np
@@ -8,13 +9,13 @@ import pytest
 
 import topheavy as th
 from benchmarks.boundaries import survey
-from tests.cases import BLOCK, BOTH, BY_TWO, EVERY, SIDES, TWO
+from steps.shared.linear import simulate_linear_exact as closed
+from tests.cases import BLOCK, BOTH, BY_TWO, COLUMN, EVERY, SIDES, TWO
 from topheavy.bodies.free_rocking import barrier, potential, quarter_period
 from topheavy.ground.excitation import root
 from topheavy.ground.shapes import ELEMENTARY_ENDING
 from topheavy.kernel import trace
 from topheavy.second import reference
-from topheavy.second.linear import simulate_linear_exact as closed
 from topheavy.second.motion import MOST_FREE_IMPACTS, Event, force, start
 
 SHAKEN = th.Pulse("one-sine", 0.5, 9.0)
@@ -427,3 +428,24 @@ def test_history_with_too_many_impacts_is_named():
     case = r"(?s)200000 steps.*record.*0\.2 rad, restitution 1,.*bounces too often"
     with pytest.raises(ArithmeticError, match=case):
         th.judge(lossless, nudge)
+
+
+@pytest.mark.parametrize("lost", [2.0**-53, 1e-14, 1e-9])
+def test_block_that_loses_next_to_nothing_is_followed_as_fast_as_one_without_loss(lost):
+    samples = np.random.default_rng(1).normal(0.0, 0.2, 200_000)
+    record, times = th.Record(0.003, samples, unit="g"), []
+    for restitution in (1.0, 1.0 - lost):
+        begin = time.process_time()
+        th.judge(th.RockingBlock(1.0, 0.2342, restitution), record)
+        times.append(time.process_time() - begin)
+    assert times[1] < 10.0 * max(times[0], 0.05)
+
+
+@pytest.mark.parametrize("judged", [th.judge, reference.judge], ids=["Taylor", "SciPy"])
+def test_zeros_behind_a_record_change_nothing(judged):
+    samples = 0.6 * np.sin(np.linspace(0.0, 30.0, 100))
+    longer = th.Record(0.02, np.append(samples, np.zeros(500)))
+    for zeros in (np.zeros(1), np.zeros(2)):
+        shorter = th.Record(0.02, np.append(samples, zeros))
+        assert judged(COLUMN, shorter) == judged(COLUMN, longer)
+    assert judged(COLUMN, longer).impacts > 3

@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 
 import topheavy as th
+from steps.shared.linear import simulate_linear_exact
+from steps.shared.three_bodies import simulate_three_bodies
 from tests.cases import COLUMN, FRAME
 from topheavy import Ending, checks
 from topheavy.bodies.response import MOST_SAMPLES
 from topheavy.ground.shapes import ELEMENTARY
 from topheavy.second import reference
-from topheavy.second.linear import simulate_linear_exact
-from topheavy.second.three_bodies import simulate_three_bodies
 
 EVERY = [
     checks.finite,

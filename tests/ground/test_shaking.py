@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 import topheavy as th
+from steps.shared.three_bodies import simulate_three_bodies
 from tests.cases import RECORDS
 from topheavy.ground.vertical import TwoComponents
 from topheavy.second import reference
-from topheavy.second.three_bodies import simulate_three_bodies
 
 COLUMN = th.Column(0.5, 3.0)
 FRAME = th.RockingFrame(COLUMN, 1.0)

@@ -182,7 +182,7 @@ block = RockingBlock(2.0, 0.25, 0.95)
 def shaking():
     return Record(0.01, np.tile(0.27 * np.sin(np.arange(5_000_000) * 0.06), 3))
 def nudge():  # a lossless block bounces a hundred times a sample
-    samples = np.zeros(3_000_000)
+    samples = np.full(3_000_000, 1e-9)
     samples[1] = 1.0001 * np.tan(0.25)
     return Record(0.5, samples)
 calls = {

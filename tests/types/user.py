@@ -58,7 +58,6 @@ from topheavy import (
     simulate,
 )
 from topheavy.bodies.free_rocking import quarter_period
-from topheavy.second.linear import simulate_linear_exact
 
 pier = Column.of_dimensions(width=1.6, height=9.6)
 bent = RockingFrame.of_masses(pier, cap_mass=400e3, column_mass=60e3)
@@ -89,7 +88,6 @@ for structure in structures:
     by_scipy = topheavy.second.reference.simulate(structure, pulse, duration=2, samples=times)
     assert_type(by_scipy, Response)
 free = simulate(block, rotation=0.1, samples=200)
-assert_type(simulate_linear_exact(block.linear(), pulse), Response)
 assert_type(quarter_period(pier, 0.01), tuple[float, float])
 
 spectrum = overturning_map(bent, "one-cosine", np.linspace(1.0, 4.0, 3), [0.5, 1.0])

@@ -17,7 +17,9 @@ import numpy as np
 from topheavy.kernel.compiled import compiled
 from topheavy.kernel.forcing import (
     MOST_PIECES,
+    MOST_UP,
     RECORD,
+    STRONGEST,
     gravity,
     ground,
     lines,
@@ -28,7 +30,10 @@ from topheavy.kernel.forcing import (
 
 #: A rotation below this, over α, is no rocking: the impact that ends it is not counted.
 LAST_BOUNCE = 1e-6
-#: The same where each impact has a √r of its own: no solver knows the order of smaller bounces.
+#: Pieces of a record over which the push is bounded piece by piece. A block with √r → 1 would rest
+#: after so many that each bounce took the time of the whole record.
+MOST_SCANNED = 256
+#: `LAST_BOUNCE` where each impact has a √r of its own: the order of smaller ones is not known.
 RATIO_BOUNCE = 1e-3
 
 
@@ -122,10 +127,20 @@ def _range(forcing, record, start, stop, side):
 
 @compiled
 def _range_of_record(forcing, record, start, stop, side, level):
-    """Return the least and largest Γ level − f and Γ level + f on [start, stop], and largest Γ."""
+    """Return the least and largest Γ level − f and Γ level + f on [start, stop], and largest Γ.
+
+    Over more than `MOST_SCANNED` pieces these are bounds by the largest |a| and |v| to come.
+    """
+    first = piece_of(forcing, record, start)
+    beyond = first + MOST_SCANNED
+    if beyond < record.shape[1] and piece_start(forcing, record, beyond) < stop:
+        push = abs(forcing.amplitude) * record[STRONGEST, first]
+        heavier = abs(forcing.lift) * record[MOST_UP, first]
+        least, most = level * (1.0 - heavier) - push, level * (1.0 + heavier) + push
+        return least, most, least, most, 1.0 + heavier
     near, most_near, far, most_far, heaviest = np.inf, -np.inf, np.inf, -np.inf, 0.0
     last = record.shape[1] - 1
-    for piece in range(piece_of(forcing, record, start), last + 1):
+    for piece in range(first, last + 1):
         begin, end = piece_start(forcing, record, piece), stop
         if begin > stop:
             break

@@ -17,7 +17,7 @@ from topheavy.bodies.structures import RockingBlock, Structure, as_block
 from topheavy.ground.excitation import Excitation, checked_excitation, no_excitation
 from topheavy.ground.pulses import Pulse
 from topheavy.ground.records import Record
-from topheavy.ground.vertical import both_records, refuse_fall
+from topheavy.ground.vertical import both_records, refuse_fall, without_rest
 from topheavy.kernel.forcing import (
     NO_RECORD,
     NONE,
@@ -245,7 +245,7 @@ class Shaking(NamedTuple):
 def as_shaking(excitation: Excitation | None, vertical: Record | None = None) -> Shaking:
     """Return a ground motion as the kernel takes it, or raise ValueError if it is none."""
     if vertical is not None:
-        across, up = both_records(excitation, vertical)
+        across, up = map(without_rest, both_records(excitation, vertical))
         ratio = up.time_step / across.time_step
         record = prepare_record(across.acceleration, up.acceleration, ratio)
         return Shaking(RECORD, across.time_step, 1.0, record)
@@ -263,7 +263,7 @@ def as_shaking(excitation: Excitation | None, vertical: Record | None = None) ->
 @lru_cache(maxsize=2)
 def _prepared(record: Record) -> NDArray[np.float64]:
     """Return a record as the kernel reads it; one record often follows itself."""
-    return prepare_record(record.acceleration)
+    return prepare_record(without_rest(record).acceleration)
 
 
 def checked_tolerance(value: float) -> float:
