@@ -12,7 +12,7 @@ from functools import partial
 
 import numpy as np
 from numpy.polynomial import chebyshev
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.integrate import DOP853, DenseOutput
 from scipy.optimize import brentq
 
