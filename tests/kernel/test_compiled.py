@@ -18,7 +18,7 @@ import topheavy
 from topheavy.kernel.compiled import cache_folder, state
 from topheavy.kernel.grid import FUSED, LANES
 
-PACKAGE = Path(topheavy.__file__).parent
+PACKAGE, OTHER = Path(topheavy.__file__).parent, "bodies/free_rocking.py"
 
 
 ASK = """
@@ -38,14 +38,20 @@ def test_next_process_finds_what_one_has_compiled(tmp_path):
     assert [*map(int, hits)] == [0, 1]
 
 
-@pytest.mark.parametrize("changed", ["kernel/rest.py", "kernel/lanes/steps.py", "ground/shapes.py"])
+@pytest.mark.parametrize(
+    "changed", ["kernel/rest.py", "kernel/lanes/steps.py", "ground/shapes.py", OTHER]
+)
 def test_change_of_any_source_is_another_state(tmp_path, changed):
     package = tmp_path / "topheavy"
     shutil.copytree(PACKAGE, package)
-    before = state(package / "kernel", package / "ground/shapes.py")
-    assert before == state(PACKAGE / "kernel", PACKAGE / "ground/shapes.py")
+
+    def now(folder):
+        return state(folder / "kernel", folder / "ground/shapes.py", folder / OTHER)
+
+    before = now(package)
+    assert before == now(PACKAGE)
     (package / changed).write_bytes((package / changed).read_bytes() + b"\n")
-    assert state(package / "kernel", package / "ground/shapes.py") != before
+    assert now(package) != before
 
 
 def test_folder_is_where_the_user_keeps_caches(monkeypatch, tmp_path):

@@ -23,8 +23,8 @@ from topheavy.kernel.forcing import (
     unit_pulse,
 )
 from topheavy.kernel.grid import outcome_of, outcomes_of
-from topheavy.kernel.outcome import TOLERANCE, working_array
 from topheavy.kernel.rest import comes_to_rest
+from topheavy.kernel.step import TOLERANCE, working_array
 from topheavy.kernel.taylor import ROTATION, State, expand, oscillator
 
 RATIO = 2.5  # ω/p; with p = 1 the kernel's time is that of a `Pulse`

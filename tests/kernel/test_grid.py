@@ -12,7 +12,7 @@ import pytest
 from benchmarks.boundaries import SHAPES
 from tests.cases import BOTH, grid_of
 from topheavy import RockingBlock
-from topheavy.kernel import bernstein, forcing, interrupt, outcome, trace
+from topheavy.kernel import bernstein, forcing, interrupt, outcome, step
 from topheavy.kernel.forcing import NO_RECORD, prepare_record, pulse_forcing
 from topheavy.kernel.grid import (
     FEWEST_FACTORS,
@@ -123,20 +123,23 @@ EXTREMES = [(1.0 + 1e-9, 3.0), (1.5, 1e-4), (1e5, 1e-3), (3.0, 5.0), (7.1, 5.0),
 @pytest.mark.parametrize("shape", SHAPES)
 @BOTH
 def test_no_history_comes_near_the_most_steps(monkeypatch, shape, block):
-    """A hundredth of the bound is enough, also for a trace."""
-    there, w = oscillator(block), outcome.working_array()
-    monkeypatch.setattr(outcome, "MAX_STEPS", outcome.MAX_STEPS // 100)
-    monkeypatch.setattr(trace, "MOST_STEPS", trace.MOST_STEPS // 100)
+    """A hundredth of the bound is enough, also for a history with samples."""
+    there, w = oscillator(block), step.working_array()
+    arrays = (np.empty(0), np.empty((2, 0)), np.empty(1000))
+
+    def ends(motion):
+        given = (w, step.PULSE_ORDER, step.TOLERANCE, there, motion, NO_RECORD, outcome.NO_RATIOS)
+        how = ((0.0, 0.0, math.inf), arrays)
+        return [outcome.trace.py_func(*given, *how, judged)[1] for judged in (True, False)]
+
+    for bound in ("MAX_STEPS", "MOST_STEPS"):
+        monkeypatch.setattr(outcome, bound, getattr(outcome, bound) // 100)
     for strength, ratio in EXTREMES:
         motion = pulse_forcing(forcing.SHAPES[shape], strength * there.level, ratio)
-        given = (w, outcome.PULSE_ORDER, outcome.TOLERANCE, there, motion, NO_RECORD)
-        assert outcome.outcome.py_func(*given, outcome.NO_RATIOS).resolved
-        rest = ((0.0, 0.0, math.inf), (np.empty(0), np.empty((2, 0)), np.empty(1000)))
-        assert trace.trace.py_func(*given, *rest)[1] != trace.UNRESOLVED
-    monkeypatch.setattr(outcome, "MAX_STEPS", 0)
-    assert not outcome.outcome.py_func(*given, outcome.NO_RATIOS).resolved
-    monkeypatch.setattr(trace, "MOST_STEPS", 0)
-    assert trace.trace.py_func(*given, *rest)[1] == trace.UNRESOLVED
+        assert outcome.UNRESOLVED not in ends(motion)
+    for bound in ("MAX_STEPS", "MOST_STEPS"):
+        monkeypatch.setattr(outcome, bound, 0)
+    assert ends(motion) == [outcome.UNRESOLVED] * 2
 
 
 def test_parts_of_a_polynomial_are_far_fewer_than_the_most(monkeypatch):
@@ -145,15 +148,15 @@ def test_parts_of_a_polynomial_are_far_fewer_than_the_most(monkeypatch):
     for number in range(300):
         clustered = 0.1 ** random.uniform(0, 9) * random.uniform(size=15)
         places = random.uniform(0.05, 0.9) + (clustered if number % 2 else 0.0 * clustered)
-        w = outcome.working_array()
-        w[outcome.POLYNOMIAL, :16] = np.polynomial.polynomial.polyfromroots(places)
-        bernstein.to_bernstein(w, outcome.POLYNOMIAL, 15, outcome.HULL)
-        given = (w, outcome.POLYNOMIAL, 0, 15, outcome.HULL, outcome.STACK, outcome.ROOTS, 15)
+        w = step.working_array()
+        w[step.POLYNOMIAL, :16] = np.polynomial.polynomial.polyfromroots(places)
+        bernstein.to_bernstein(w, step.POLYNOMIAL, 15, step.HULL)
+        given = (w, step.POLYNOMIAL, 0, 15, step.HULL, step.STACK, step.ROOTS, 15)
         bernstein._roots.py_func(*given)
-        assert w[outcome.HALT, 0] == 0.0
+        assert w[step.HALT, 0] == 0.0
     monkeypatch.setattr(bernstein, "MOST_PARTS", 2)
     bernstein._roots.py_func(*given)
-    assert w[outcome.HALT, 0] == 1.0  # the history is given up
+    assert w[step.HALT, 0] == 1.0  # the history is given up
 
 
 def test_newton_finds_what_is_looked_for_in_a_quarter_of_its_steps(monkeypatch):
@@ -225,7 +228,7 @@ def test_ctrl_c_ends_a_long_call():
 
 def test_halted_threads_leave_the_rest_and_pass_on_the_error():
     def stuck(w):
-        while w[outcome.HALT, 0] == 0.0:
+        while w[step.HALT, 0] == 0.0:
             time.sleep(0.001)
 
     def failing(_):

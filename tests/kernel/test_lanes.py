@@ -38,7 +38,7 @@ from topheavy.kernel.lanes.vectors import (
     store,
 )
 from topheavy.kernel.march import powers, short_series
-from topheavy.kernel.outcome import TOLERANCE
+from topheavy.kernel.step import TOLERANCE
 from topheavy.kernel.tail import safe_speed
 from topheavy.kernel.taylor import oscillator
 

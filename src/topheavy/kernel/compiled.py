@@ -11,6 +11,7 @@ from typing import Any
 
 import numba
 
+from topheavy.bodies import free_rocking
 from topheavy.ground import shapes
 
 
@@ -20,13 +21,14 @@ def cache_folder() -> Path:
     return Path(named or Path.home() / ".cache", "topheavy").absolute()
 
 
-def state(sources: Path, numbers: Path) -> str:
-    """Return a checksum of the sources in a folder and of a file, whose numbers they contain."""
-    files = [*sorted(sources.rglob("*.py")), numbers]
+def state(sources: Path, *others: Path) -> str:
+    """Return a checksum of the sources in a folder and of other files that they compile."""
+    files = [*sorted(sources.rglob("*.py")), *others]
     return hashlib.sha256(b"".join(path.read_bytes() for path in files)).hexdigest()
 
 
-FOLDER = cache_folder() / state(Path(__file__).parent, Path(shapes.__file__))[:16]
+OTHERS = Path(shapes.__file__), Path(free_rocking.__file__)
+FOLDER = cache_folder() / state(Path(__file__).parent, *OTHERS)[:16]
 
 
 def compiled(function: Any = None, **options: Any) -> Any:

@@ -1,7 +1,7 @@
 """Many rocking histories at once: outcomes of blocks under pulses of one shape, or one record.
 
 A scale is ω/p of a pulse, p Δt of a record. The histories run in the lanes of the CPU
-(`kernel.lanes`, to which this module is the only door), on all cores; no result depends on how many
+(`kernel.lanes`), on all cores; no result depends on how many
 lanes or cores there are, or on which histories run beside each other.
 """
 
@@ -20,15 +20,8 @@ from topheavy.kernel.lanes.pulses import pulse_outcomes
 from topheavy.kernel.lanes.records import record_outcomes
 from topheavy.kernel.lanes.steps import ROWS
 from topheavy.kernel.lanes.vectors import HAS_FMA, WIDTH, rows
-from topheavy.kernel.outcome import (
-    MAX_STEPS,
-    NO_RATIOS,
-    PULSE_ORDER,
-    TOLERANCE,
-    Outcome,
-    outcome,
-    working_array,
-)
+from topheavy.kernel.outcome import NO_RATIOS, NO_SAMPLES, Outcome, outcome
+from topheavy.kernel.step import MAX_STEPS, PULSE_ORDER, TOLERANCE, working_array
 from topheavy.kernel.taylor import Oscillator
 
 Array = NDArray[np.float64]
@@ -94,7 +87,7 @@ def outcomes_of(
     Raises
     ------
     ArithmeticError
-        For a history that takes more than `outcome.MAX_STEPS` steps.
+        For a history that takes more than `step.MAX_STEPS` steps.
     """
     results = np.empty(which.size), np.empty(which.size, bool), np.empty(which.size, np.int64)
     lifts = np.zeros(which.size) if lifts is None else lifts
@@ -113,7 +106,8 @@ def outcomes_of(
             size = (at.size, FEWEST_FACTORS, record.shape[1])
             lost = _shared(record_outcomes, given, size, threads)
         else:
-            given = ((*histories, *cells[:3]), shape, NO_RECORD, PULSE_ORDER, tolerance, some)
+            none = (NO_RECORD, NO_RATIOS, NO_SAMPLES)
+            given = ((*histories, *cells[:3]), shape, none, PULSE_ORDER, tolerance, some)
             lost = _shared(pulse_outcomes, given, (at.size, FEWEST_PULSES, 1), threads)
         if lost >= 0:
             number, scale, amplitude = (values[lost] for values in cells[:3])
@@ -176,7 +170,8 @@ def outcome_of(
         forcing, order = pulse_forcing(shape, amplitude, scale), PULSE_ORDER
 
     def call(workspace: Array) -> Outcome:
-        found: Outcome = outcome(workspace, order, tolerance, block, forcing, record, ratios)
+        given = (order, tolerance, block, forcing, record, ratios, NO_SAMPLES)
+        found: Outcome = outcome(workspace, *given)
         return found
 
     found = in_threads([call])[0] if record.shape[1] > LONG else call(working_array())

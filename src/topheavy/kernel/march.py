@@ -8,7 +8,7 @@ and how both change as the push does,
     E = q₁ cos(α − φ),                   H = q₁ sin(α − φ),
 
 F' = E + G φ', G' = H − F φ', E' = H φ', H' = −E φ'. So nothing is stored and nothing waits for a
-sum: a piece costs a third of what `taylor` and `outcome.advance` take, which follow wherever a
+sum: a piece costs a third of what `taylor` and `step.advance` take, which follow wherever a
 piece is not settled here.
 
 Gravity multiplies sin φ / cos α and cos φ / cos α. It is a straight line, too, and these times its
@@ -92,7 +92,7 @@ def march(block, forcing, record, piece, side, state, tolerance, peak):
     """Pass over pieces of a record until one holds an event, a turn, or too strong a bend.
 
     The block rocks at φ ≤ α under the exact equation, `state` is that at the first sample of
-    `piece`. A piece is passed over if the terms prove (as in `outcome.advance`) that it holds no
+    `piece`. A piece is passed over if the terms prove (as in `step.advance`) that it holds no
     impact and that the rotation grows throughout, or stays below `peak`.
 
     Parameters

@@ -17,7 +17,7 @@ from topheavy.ground.pulses import Pulse
 from topheavy.ground.records import Record
 from topheavy.ground.vertical import both_records, refuse_fall
 from topheavy.kernel.grid import outcomes_of
-from topheavy.kernel.outcome import TOLERANCE
+from topheavy.kernel.step import TOLERANCE
 from topheavy.kernel.taylor import Oscillator, oscillator
 from topheavy.outcomes.simulate import Shaking, as_shaking, checked_tolerance
 

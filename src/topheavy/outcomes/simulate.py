@@ -29,10 +29,9 @@ from topheavy.kernel.forcing import (
 )
 from topheavy.kernel.grid import outcome_of, record_order
 from topheavy.kernel.interrupt import LONG, in_threads
-from topheavy.kernel.outcome import NO_RATIOS, PULSE_ORDER, TOLERANCE, working_array
-from topheavy.kernel.taylor import oscillator
-from topheavy.kernel.trace import (
+from topheavy.kernel.outcome import (
     MOST_STEPS,
+    NO_RATIOS,
     NO_UPLIFT,
     OVERTURNED,
     RESTS,
@@ -40,6 +39,8 @@ from topheavy.kernel.trace import (
     UNRESOLVED,
     trace,
 )
+from topheavy.kernel.step import PULSE_ORDER, TOLERANCE, working_array
+from topheavy.kernel.taylor import oscillator
 
 Times = NDArray[np.float64]
 
@@ -134,10 +135,12 @@ def simulate(
 
     def follow(until: float, at: Times) -> tuple[NDArray[np.float64], Times, tuple[float, ...]]:
         motion, impacts = np.full((2, at.size), math.nan), np.empty(MOST_IMPACTS)
-        given = (oscillator(block), forcing, record, (theta, theta_rate / p, until))
+        given = (oscillator(block), forcing, record, NO_RATIOS, (theta, theta_rate / p, until))
 
         def traced(w: Times) -> tuple[float, ...]:
-            end: tuple[float, ...] = trace(w, order, tolerance, *given, (at, motion, impacts))
+            end: tuple[float, ...] = trace(
+                w, order, tolerance, *given, (at, motion, impacts), False
+            )
             return end
 
         is_long = record.shape[1] + at.size > LONG
@@ -221,7 +224,8 @@ def judge(
         ratios=_ratios(restitutions) if len(restitutions) else NO_RATIOS,
         tolerance=checked_tolerance(tolerance),
     )
-    return Ending(bool(found.overturned), float(found.peak), int(found.impacts))
+    peak = math.nan if found.overturned else float(found.peak)
+    return Ending(bool(found.overturned), peak, int(found.impacts))
 
 
 def _ratios(restitutions: Sequence[float]) -> NDArray[np.float64]:

@@ -211,7 +211,8 @@ def free_ending(block: RockingBlock, motion: Motion) -> free_rocking.Ending:
     if not motion.moving:
         return free_rocking.Ending(overturned=False, peak=0.0, impacts=0)
     next_impact = block.with_restitution(_next_restitution(block, motion))
-    return free_rocking.ending(next_impact, motion.rotation, motion.rate)
+    velocity = motion.rate / block.frequency_parameter
+    return free_rocking.ending(next_impact, motion.rotation, velocity)
 
 
 def _next_restitution(block: RockingBlock, motion: Motion) -> float:

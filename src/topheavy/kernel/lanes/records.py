@@ -72,8 +72,8 @@ from topheavy.kernel.lanes.vectors import (
     take,
 )
 from topheavy.kernel.march import LARGEST_TURN, derivatives
-from topheavy.kernel.outcome import HALT, MAX_STEPS, is_certain_to_overturn
 from topheavy.kernel.rest import LAST_BOUNCE, next_tick
+from topheavy.kernel.step import HALT, MAX_STEPS, is_certain_to_overturn
 from topheavy.kernel.tail import free_rocking, safe_speed
 from topheavy.kernel.taylor import State
 
@@ -214,7 +214,7 @@ def record_outcomes(workspaces, part, histories, record, tolerance, in_full, out
     ----------
     workspaces : array, array
         The rows of the lanes, and a working array for steps that a lane takes alone, which may say
-        halt (`outcome.HALT`).
+        halt (`step.HALT`).
     part : int, int
         The number of the batch, and of batches.
     histories
@@ -229,7 +229,7 @@ def record_outcomes(workspaces, part, histories, record, tolerance, in_full, out
     Returns
     -------
     int
-        The first cell that was given up (see `outcome.MAX_STEPS`), or −1.
+        The first cell that was given up (see `step.MAX_STEPS`), or −1.
     """
     (w, alone), (batch, batches), (peak, overturned, impacts) = workspaces, part, outcomes
     kind, blocks, which, steps, factors, lifts_of = histories

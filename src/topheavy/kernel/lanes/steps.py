@@ -1,13 +1,13 @@
 """Taylor steps with proven events, one history in each lane (see `vectors`).
 
-The series is that of `kernel.taylor`, the proof that of `outcome.advance`: the signs of Bernstein
+The series is that of `kernel.taylor`, the proof that of `step.advance`: the signs of Bernstein
 coefficients. Here they are not counted. Where the coefficients rise first and fall then (or the
 other way round, or do one of the two), so does φ: it has at most one turn, and at most one landing
 that follows from its ends. Halley's iteration finds both. A lane in which that is not so, or in
 which the iteration does not surely converge, takes its step by `proven`, as the scalar kernel does.
 
 The array `w` of a batch has a row for every coefficient and every variable, a float a lane. `alone`
-is the working array of the scalar kernel (`outcome.working_array`), for a lane that is taken alone.
+is the working array of the scalar kernel (`step.working_array`), for a lane that is taken alone.
 `order` and `is_straight` are constants where these functions are called, so that their loops become
 straight code.
 """
@@ -28,8 +28,8 @@ from topheavy.kernel.lanes.vectors import (
     square_root,
     store,
 )
-from topheavy.kernel.outcome import FLAT, HALT, LANDING, POLYNOMIAL, proven
 from topheavy.kernel.rest import LAST_BOUNCE, comes_to_rest
+from topheavy.kernel.step import FLAT, HALT, LANDING, POLYNOMIAL, proven
 from topheavy.kernel.taylor import INVERSE, Oscillator
 
 #: The largest order.
@@ -269,7 +269,7 @@ def advance(w, alone, block, order, tolerance, is_straight, active):
     Parameters
     ----------
     w, alone : array
-        The working array, and one for a history alone (`outcome.working_array`).
+        The working array, and one for a history alone (`step.working_array`).
     active : int
         Bits of the lanes that matter.
 
@@ -347,7 +347,7 @@ def finish(w, block, order, active):
 
 @compiled(forceinline=True)
 def strike(w, block, is_straight, landed):
-    """Let the blocks of these lanes go over to their other side (see `outcome.after_impact`).
+    """Let the blocks of these lanes go over to their other side (see `step.after_impact`).
 
     Returns
     -------
