@@ -1,9 +1,10 @@
-"""Outcomes and coefficients of restitution in a rigid-body engine, compared with theory."""
+"""Outcomes, coefficients of restitution, and frames across their plane in a rigid-body engine."""
 
 import numpy as np
+from drawing import gamma
 from palette import OVERTURNS, SURVIVES, greys
 
-from replication.drawing import DOUBLE, GREY, INK, PAPER, letter, note, sheet
+from replication.drawing import DOUBLE, GREY, INK, PAPER, letter, note, shades, sheet
 
 SHAPES = {"one-sine": "sine", "ricker-symmetric": "Ricker"}
 DOTS = {
@@ -12,15 +13,38 @@ DOTS = {
 }
 RING = {"facecolor": "none", "edgecolor": INK, "linewidth": 1.3}
 STYLES = ("o-", "s--", "^-.", "D:")
+FREQUENCY = 3.0  # ω/p, across the plane
 TICKS = (-50, -20, -10, -5, -2, -1, 0, 1, 2, 5)  # %; the axis is linear between −1 and 1
 
 
-def draw(engine_outcomes, engine_restitution):
-    figure, axes = sheet(DOUBLE, 70, ncols=2, width_ratios=(1.5, 1))
-    letter(axes, ["Outcomes near the minimum", "Coefficient of restitution"])
-    _outcomes(axes[0], engine_outcomes)
-    _restitution(axes[1], engine_restitution)
+def draw(engine_outcomes, engine_restitution, engine_across):
+    figure, axes = sheet(DOUBLE, 102, "ab;ac", width_ratios=(1.5, 1), height_ratios=(1.3, 1))
+    titles = ["Outcomes near the minimum", "Coefficient of restitution", "Across the plane"]
+    letter(axes.values(), titles)
+    _outcomes(axes["a"], engine_outcomes)
+    _restitution(axes["b"], engine_restitution)
+    _across(axes["c"], engine_across)
     return figure
+
+
+def _across(axis, table):
+    """Draw the first amplitude that overturns two columns in line over their depth, and others."""
+    chosen = table[(table.frequency_ratio == FREQUENCY) & (table.section == "square")]
+    chosen = chosen.drop_duplicates(["structure", "depth_over_width", "mass_ratio", "direction"])
+    line = chosen[chosen.structure == "two in line"]
+    gammas = sorted(line.mass_ratio.unique())
+    for mass_ratio, colour in zip(gammas, shades(len(gammas) + 1)[1:], strict=True):
+        part = line[line.mass_ratio == mass_ratio]
+        across = part[part.direction > 0].sort_values("depth_over_width")
+        axis.plot(across.depth_over_width, across.theory, color=colour, label=gamma(mass_ratio))
+        axis.plot(across.depth_over_width, across.engine, "o", color=colour, markersize=3.5)
+        level = part[part.direction == 0].theory.iloc[0]
+        axis.axhline(level, color=colour, linewidth=0.8, linestyle=":")
+    axis.axhline(1.0, color=GREY, linewidth=0.6)
+    note(axis, "column alone", (2.0, 0.96), color=GREY, ha="right")
+    axis.set(xlabel="Depth over width of the columns (–)", ylim=(0.5, 1.5))
+    axis.set_ylabel("Amplitude over the\ncolumn's minimum (–)")
+    axis.legend(loc="upper left")
 
 
 def _outcomes(axis, table):

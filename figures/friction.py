@@ -5,7 +5,7 @@ from drawing import gamma
 
 from replication.drawing import DOUBLE, GREY, INK, letter, note, shades, sheet
 
-ENDS = (0.11, 5.0)  # of the axis of friction
+ENDS = (0.14, 1.2)  # of the axis of friction
 
 
 def draw(friction_pulses):
@@ -20,7 +20,7 @@ def draw(friction_pulses):
         _steps(axis, alone.required, color=INK, linestyle="--", label="column alone")
         axis.axvline(alone.required.min(), color=GREY, linestyle=":", linewidth=0.8)
         axis.set(xscale="log", xlim=ENDS, ylim=(0, 100), xlabel="Coefficient of friction, μ (–)")
-        axis.set_xticks(ticks := (0.2, 0.3, 0.5, 0.7, 1, 2), [f"{tick:g}" for tick in ticks])
+        axis.set_xticks(ticks := (0.2, 0.3, 0.5, 0.7, 1), [f"{tick:g}" for tick in ticks])
         axis.set_xticks([], minor=True)
     note(axes[0], r"$\tan\alpha$", (0.16, 93), ha="right", color=GREY)
     axes[0].set_ylabel("Pulses without sliding (%)")

@@ -1,57 +1,80 @@
-"""Probability of overturning and gain under models of ground motion"""
+"""Probability of overturning, peak rotation and gain under models of ground motion"""
 
 import math
 
 from drawing import gamma
 from palette import ALONE, EQUAL, FIXED
 
-from replication.drawing import DARKEST, DOUBLE, GREY, INK, letter, note, sheet
+from replication.drawing import DARKEST, DOUBLE, GREY, INK, PAPER, letter, note, sheet
 
-SETS = ("near-fault", "broadband")
+FAMILIES = ("near-fault", "broadband")
+DASHES = ("-", "--")  # of the earthquakes of a family
 STRUCTURES = {  # name and γ, as in the table: words, colour, place of the words
-    ("fixed mass", 1.0): ("column, mass\nfixed on top", FIXED, (0.49, 0.86)),
-    ("column", 0.0): ("column", ALONE, (0.64, 0.56)),
-    ("frame", 1.0): ("frame, " + gamma(1.0), EQUAL, (1.1, 0.44)),
-    ("frame", math.inf): ("frame, " + gamma(math.inf), DARKEST, (1.22, 0.29)),
+    ("fixed mass", 1.0): ("fixed mass", FIXED, (1.15, 0.28)),
+    ("column", 0.0): ("column", ALONE, (1.15, 0.17)),
+    ("frame", 1.0): ("frame, " + gamma(1.0), EQUAL, (1.15, 0.06)),
 }
+SHADES = {0.0: ALONE, 1.0: EQUAL, math.inf: DARKEST}
 COLOURS = {"fixed": FIXED, "column": ALONE, "frame": EQUAL}
-VELOCITIES = (0.5, 0.75, 1.0, 1.5, 2.0)
+MARKERS = {"trilith": "^", "temple": "o", "tall": "s"}
+WORDS = {"trilith": "0.8 m", "temple": "6 m", "tall": "12 m"}
+VELOCITIES = (0.5, 1.0, 2.0)
 
 
 def fragility(axis, curves):
-    for (structure, ratio), (_, colour, _) in STRUCTURES.items():
-        curve = curves[(curves.structure == structure) & (curves.mass_ratio == ratio)]
-        axis.plot(curve.velocity, curve.probability, color=colour, linewidth=1.0)
-        band = (curve.velocity, curve.probability_low, curve.probability_high)
-        axis.fill_between(*band, color=colour, alpha=0.25, linewidth=0)
+    for dash, (_, quake) in zip(DASHES, curves.groupby("model"), strict=True):
+        for (structure, ratio), (_, colour, _) in STRUCTURES.items():
+            curve = quake[(quake.structure == structure) & (quake.mass_ratio == ratio)]
+            axis.plot(curve.velocity, curve.probability, dash, color=colour, linewidth=1.0)
     axis.axhline(0.5, color=GREY, linewidth=0.5)
-    axis.set(xscale="log", xlim=(curves.velocity.min(), curves.velocity.max()), ylim=(0, 1))
+    axis.set(xscale="log", xlim=(0.37, 2.6), ylim=(0, 1))
     axis.set_xticks(VELOCITIES, [f"{tick:g}" for tick in VELOCITIES])
     axis.set_xticks([], minor=True)
     axis.set(yticks=(0, 0.5, 1), xlabel="Peak ground velocity (m/s)")
 
 
-def draw(motions, motions_fragility, config):
-    figure, axes = sheet(DOUBLE, 112, "ab;cd", height_ratios=(1, 1.15))
-    for axis, name in zip((axes["a"], axes["b"]), SETS, strict=True):
-        fragility(axis, motions_fragility[motions_fragility.model == name])
+def rotation(axis, rows):
+    for (_, ratio), line in rows[rows.mass_ratio.isin(SHADES)].groupby(["model", "mass_ratio"]):
+        axis.plot(
+            line.velocity, line.median_peak.clip(upper=2.0), color=SHADES[ratio], linewidth=0.8
+        )
+    for place, (ratio, colour) in enumerate(SHADES.items()):
+        note(axis, gamma(ratio), (0.22, 0.93 - 0.1 * place), color=colour)
+    axis.set(xlim=(0.2, 1.0), ylim=(0, 1), yticks=(0, 0.5, 1), xlabel="Peak ground velocity (m/s)")
+    axis.set_ylabel(r"Median peak $|\theta|/\alpha$ (–)")
+
+
+def draw(motions, motions_fragility, motions_rotations, motions_gains, config):
+    figure, axes = sheet(DOUBLE, 125, "aabbcc;dddeee", height_ratios=(1, 1.4))
+    for axis, name in zip((axes["a"], axes["b"]), FAMILIES, strict=True):
+        fragility(axis, motions_fragility[motions_fragility.model.str.startswith(name)])
     axes["a"].set_ylabel("Probability of overturning (–)")
     for words, colour, at in STRUCTURES.values():
-        note(axes["b"], words, at, color=colour)
+        note(axes["a"], words, at, color=colour)
+    rotation(axes["c"], motions_rotations)
     table = motions.iloc[::-1].reset_index(drop=True)
     for place, row in table.iterrows():
-        shares = [(axes["c"], name, colour) for name, colour in COLOURS.items()]
-        for axis, name, colour in [*shares, (axes["d"], "gain", INK)]:
-            axis.hlines(place, 100 * row[f"{name}_low"], 100 * row[f"{name}_high"], color=colour)
-            axis.plot(100 * row[name], place, "o", color=colour, markersize=3.5)
-    axes["c"].set(xlim=(0, 100), xlabel="Probability of overturning (%)")
-    axes["d"].set(xlim=(0, 50), xlabel="Gain in the median overturning velocity (%)")
-    axes["c"].set_yticks(range(len(table)), table.model)
-    axes["d"].set_yticks(range(len(table)), [""] * len(table))
-    for axis in (axes["c"], axes["d"]):
+        for name, colour in COLOURS.items():
+            ends = 100 * row[f"{name}_low"], 100 * row[f"{name}_high"]
+            axes["d"].hlines(place, *ends, color=colour)
+            axes["d"].plot(100 * row[name], place, "o", color=colour, markersize=3.5)
+        for gain in motions_gains[motions_gains.model == row.model].itertuples():
+            if gain.mass_ratio in (1.0, 4.0):
+                face = INK if gain.mass_ratio == 1.0 else PAPER
+                mark = {"marker": MARKERS[gain.structure], "color": INK, "markerfacecolor": face}
+                axes["e"].plot(100 * gain.gain, place, markersize=4, linestyle="", **mark)
+    for name, marker in MARKERS.items():
+        axes["e"].plot([], [], marker, color=INK, markersize=4, label=WORDS[name])
+    axes["e"].plot([], [], "o", color=INK, markerfacecolor=PAPER, markersize=4, label=gamma(4.0))
+    axes["e"].legend(loc="lower right")
+    axes["d"].set(xlim=(0, 100), xlabel="Probability of overturning (%)")
+    axes["e"].set(xlim=(0, 85), xlabel="Gain in the median overturning velocity (%)")
+    axes["d"].set_yticks(range(len(table)), table.model)
+    axes["e"].set_yticks(range(len(table)), [""] * len(table))
+    for axis in (axes["d"], axes["e"]):
         axis.set_ylim(-0.6, len(table) - 0.4)
         axis.tick_params(axis="y", length=0)
-    titles = [f"{name.capitalize()} motions" for name in SETS]
-    titles += [f"Models, at {config['motions']['velocity']:g} m/s", "Frame over column"]
-    letter(list(axes.values()), titles)
+    titles = [f"{name.capitalize()} motions" for name in FAMILIES]
+    titles += ["Peak rotation", f"Models, at {config['motions']['velocity']:g} m/s"]
+    letter(list(axes.values()), [*titles, "Frame over column"])
     return figure

@@ -7,6 +7,7 @@ from replication.drawing import DOUBLE, GREY, PAPER, letter, note, shades, sheet
 
 MASS_RATIOS = [0.0, 1.0, np.inf]
 SLENDERNESS = 9.462322  # degrees
+SHORT = {"one-sine": 2, "one-cosine": 3}  # order n: minima without an impact tend to (ω/p̂)ⁿ/2π
 
 
 def slower(mass_ratio):
@@ -28,12 +29,25 @@ def panel(axis, cells, scaled):
     axis.axhline(1.0, color=GREY, linewidth=0.6)
 
 
+def without_impact(axis, cells, shape):
+    """Draw the minima without an impact over ω/p̂, which coincide, and what they tend to."""
+    at_once = cells[(cells["mode"] == "without impact") & (cells["shape"] == shape)]
+    for mass_ratio in MASS_RATIOS:
+        found = at_once[at_once.mass_ratio == mass_ratio].groupby("frequency_ratio").lower.min()
+        axis.plot(found.index * slower(mass_ratio), found, color=GREY, linewidth=0.7)
+    if shape in SHORT:
+        frequencies = np.linspace(0.5, 8.0, 61)
+        axis.plot(frequencies, frequencies ** SHORT[shape] / (2 * np.pi), ":", color=GREY)
+
+
 def draw(spectra):
     cells = spectra[np.isclose(spectra.slenderness_deg, SLENDERNESS)]
     figure, axes = sheet(DOUBLE, 112, nrows=2, ncols=4, sharey=True)
     for row, parameter in zip(axes, ("p", r"\hat{p}"), strict=True):
         for axis, shape in zip(row, PULSES, strict=True):
             panel(axis, cells[cells["shape"] == shape], parameter != "p")
+            if parameter != "p":
+                without_impact(axis, cells, shape)
             axis.set_xlabel(f"Frequency, $\\omega/{parameter}$ (–)")
         row[0].set_ylabel("Minimum overturning\n" + r"acceleration, $a/(g\,\tan\alpha)$ (–)")
     letter(axes.flat, [*PULSES.values()] * 2)

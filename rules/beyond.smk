@@ -43,8 +43,11 @@ rule motions:
         shards=gather.motions("results/shards/motions_{scatteritem}.npz"),
     output:
         probabilities="results/tables/motions.csv",
-        fragility="results/tables/motions_fragility.csv",
+        sensitivity="results/tables/motions_sensitivity.csv",
+        gains="results/tables/motions_gains.csv",
         pairs="results/tables/motions_pairs.csv",
+        fragility="results/tables/motions_fragility.csv",
+        rotations="results/tables/motions_rotations.csv",
         findings="results/findings/motions.json",
     log:
         "results/logs/motions.log",
@@ -80,6 +83,7 @@ rule records:
         kernel="results/kernel.compiled",
     output:
         table="results/tables/records.csv",
+        capacity="results/tables/records_capacity.csv",
         findings="results/findings/records.json",
     log:
         "results/logs/records.log",
@@ -93,12 +97,13 @@ rule records:
         | CORE,
         settings=PAPER["records"],
         solver=PAPER["solver"],
+        structures=PAPER["structures"],
         records=checksums(*HORIZONTAL),
     script:
         "../src/steps/beyond/records.py"
 
 
-# Second half: friction, engine -----------------------------------------------------------------------
+# Second half: friction, designers, engine -----------------------------------------------------------------------
 
 
 rule friction:
@@ -125,12 +130,34 @@ rule friction:
         "../src/steps/beyond/friction.py"
 
 
+rule designers:
+    input:
+        "results/tables/motions_gains.csv",
+        "results/tables/motions_rotations.csv",
+        "results/tables/friction_by_mass.csv",
+    output:
+        table="results/tables/designers.csv",
+        findings="results/findings/designers.json",
+    log:
+        "results/logs/designers.log",
+    params:
+        code=code("src/steps/beyond/__init__.py", "src/steps/beyond/designers.py")
+        | CORE
+        | library("forces"),
+        settings=PAPER["designers"],
+        friction=PAPER["friction"],
+        structures=PAPER["structures"],
+    script:
+        "../src/steps/beyond/designers.py"
+
+
 rule engine:
     input:
         kernel="results/kernel.compiled",
     output:
         restitution="results/tables/engine_restitution.csv",
         outcomes="results/tables/engine_outcomes.csv",
+        across="results/tables/engine_across.csv",
         findings="results/findings/engine.json",
     log:
         "results/logs/engine.log",
@@ -139,6 +166,7 @@ rule engine:
             "src/steps/beyond/__init__.py",
             "src/steps/beyond/boxes.py",
             "src/steps/beyond/engine.py",
+            "src/steps/beyond/space.py",
         )
         | CORE
         | library("forces"),
@@ -146,3 +174,38 @@ rule engine:
         structures=PAPER["structures"],
     script:
         "../src/steps/beyond/engine.py"
+
+
+rule gaps:
+    output:
+        table="results/tables/gaps.csv",
+        findings="results/findings/gaps.json",
+    log:
+        "results/logs/gaps.log",
+    params:
+        code=code(
+            "src/steps/beyond/__init__.py",
+            "src/steps/beyond/gaps.py",
+            "src/steps/beyond/space.py",
+        )
+        | CORE
+        | library("forces"),
+        settings=PAPER["gaps"],
+        trilith=PAPER["trilith"],
+        structures=PAPER["structures"],
+    script:
+        "../src/steps/beyond/gaps.py"
+
+
+rule test_plan:
+    output:
+        table="results/tables/test_plan.csv",
+    log:
+        "results/logs/test_plan.log",
+    params:
+        code=code("src/steps/beyond/__init__.py", "src/steps/beyond/test_plan.py")
+        | CORE
+        | library("second"),
+        settings=PAPER["test_plan"],
+    script:
+        "../src/steps/beyond/test_plan.py"

@@ -64,7 +64,7 @@ for part in ["paper", "beyond"]:
             f"results/logs/{part}_figures.log",
         params:
             code=code("src/steps/draw.py", *SHARED) | DOCUMENTS | CORE,
-            config=PAPER,
+            config={name: PAPER[name] for name in BEYOND if part == "beyond"},
         script:
             "../src/steps/draw.py"
 

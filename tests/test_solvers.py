@@ -253,6 +253,17 @@ def test_block_lifts_when_the_ground_first_exceeds_the_threshold(solve, shape, r
         assert np.sign(found.rotation[-1]) == -np.sign(ground[first])
 
 
+@BY_TWO
+@pytest.mark.parametrize("at", [5, 40, 63, 64, 150])
+def test_one_sample_above_the_threshold_lifts_the_block(solve, at):
+    """It is among two hundred that are weaker, and the gravity changes a little."""
+    up = th.Record(0.02, 1e-4 * np.sin(np.arange(200.0)))
+    for excess, outcome in ((-0.002, True), (0.002, False)):
+        push = np.where(np.arange(200) == at, (1.0 + excess) * BLOCK.uplift_acceleration, 0.0)
+        response = solve(BLOCK, th.Record(0.02, push), vertical=up, samples=2)
+        assert (response.outcome == "no uplift") is outcome
+
+
 @pytest.mark.parametrize("degrees", [2.0, 5.0, 8.0, 14.0, 20.0])
 @pytest.mark.parametrize("ratio", [1.0001, 1.01, 1.1, 1.5, 3.0])
 def test_uplift_is_never_taken_for_an_impact(degrees, ratio):

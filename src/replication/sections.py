@@ -1,11 +1,14 @@
 """What config/config.yaml may say: a model for each section, named as its rule."""
 
+from typing import Literal
+
 from replication.config import (
     Count,
     Degrees,
     Fraction,
     Grid,
     MassRatio,
+    NotNegative,
     Number,
     Positive,
     PulseOf,
@@ -215,11 +218,9 @@ class Noise(Section):
     corners: list[Positive]  # Hz
     motions: Count
     seed: Count
-    velocities: Grid  # m/s
 
 
 class Vertical(Section):
-    motions: Count
     share: Positive  # of the horizontal PGA
 
 
@@ -229,15 +230,24 @@ class Bootstrap(Section):
     seed: Count
 
 
+class Rotations(Section):
+    motions: Count
+    velocities: list[Positive]  # m/s
+
+
 class Motions(Section):
     shards: Count
+    structures: list[str]
+    mass_ratios: list[MassRatio]
     structure: str
     mass_ratio: MassRatio
-    other_mass_ratios: list[MassRatio]
     seed: Count
     motions: Count
+    fewer: Count
     scenarios: list[Scenario]
     velocity: Positive  # m/s
+    changes: list[Positive]  # relative, of the velocity
+    rotations: Rotations
     intensities: Grid  # p PGV/(g tan α)
     largest_factor: Positive
     noise: Noise
@@ -260,12 +270,22 @@ class BreakEven(Section):
     checked: Count
 
 
+class Capacity(Section):
+    structure: str
+    mass_ratios: list[MassRatio]
+    highest: Positive  # g tan α
+    step: Fraction
+    windows: list[Positive]
+    share: Fraction
+
+
 class Records(Section):
     mass_ratios: list[MassRatio]
     slendernesses: list[Degrees]
     sizes: Grid  # m
     factors: Grid
     checked: Count
+    capacity: Capacity
 
 
 # Beyond the paper: friction, engine -------------------------------------------------------------
@@ -278,11 +298,17 @@ class Friction(Section):
     depth: Positive  # m
     coefficients: list[Positive]  # of friction
     sufficient: Positive
-    shape: Shape
+    shapes: list[Shape]
     frequency_ratios: Grid
     amplitudes: Grid  # g tan α
     samples: Count
     check_samples: Count
+
+
+class Designers(Section):
+    structure: str
+    mass_ratios: list[MassRatio]
+    velocities: list[Positive]  # m/s
 
 
 class CapOf(Section):
@@ -317,10 +343,47 @@ class EngineOutcomes(Section):
     lean: Fraction  # α
 
 
+class EngineAcross(Section):
+    structure: str
+    mass_ratios: list[Positive]
+    shape: Shape
+    frequency_ratios: list[Positive]
+    depths: list[Positive]
+    step: Positive
+    time_step: Positive  # 1/p
+    friction: Positive
+    checks: list[dict[Literal["time_step", "friction"], Positive]]
+
+
 class Engine(Section):
     caps: dict[str, CapOf]
     restitution: EngineRestitution
     outcomes: EngineOutcomes
+    across: EngineAcross
+
+
+class Gaps(Section):
+    cap: CapOf
+    depths: list[Positive]  # m
+    gaps: list[NotNegative]  # mm
+    draws: Count
+    seed: Count
+    ramp: Positive  # s
+    duration: Positive  # s
+    rocking: Positive  # degrees
+    time_step: Positive  # 1/p
+    friction: Positive
+    checks: list[dict[Literal["time_step", "friction"], Positive]]
+
+
+class TestPlan(Section):
+    column: Column
+    mass_ratio: Positive
+    shape: Shape
+    frequency_ratio: Positive
+    reductions: list[Fraction]  # of √r
+    scatters: list[Positive]
+    risk: Fraction
 
 
 class Reproducibility(Section):
@@ -349,4 +412,7 @@ class Paper(Section):
     break_even: BreakEven
     records: Records
     friction: Friction
+    designers: Designers
     engine: Engine
+    gaps: Gaps
+    test_plan: TestPlan

@@ -26,8 +26,7 @@ def verdict_on(claim: Claim, finding: Mapping[str, Any] | None) -> tuple[str, st
     A printed number is confirmed when the computed value agrees within the claim's tolerance, and a
     statement when it holds. A statement that holds on a stated condition alone is qualified. If the
     form in our copy fails, and what the premises of the paper mean holds, the meaning is judged and
-    the discrepancy named; a different convention of signs qualifies. A statement that only a
-    measurement could confirm is at most supported.
+    the discrepancy named. A statement that only a measurement could confirm is at most supported.
 
     Raises
     ------
@@ -51,12 +50,10 @@ def verdict_on(claim: Claim, finding: Mapping[str, Any] | None) -> tuple[str, st
         return ("supported" if claim.expected == "supported" else "confirmed"), ""
     if meant:
         kind = finding.get("kind")
-        if kind == "convention":
-            return "qualified", ""
         if kind not in COPY_DIFFERS:
             raise ValueError(
                 f"claim {claim.id}: what is meant holds, and the kind of the discrepancy is "
-                f"{kind!r}; expected one of {', '.join(COPY_DIFFERS)}, convention"
+                f"{kind!r}; expected one of {', '.join(COPY_DIFFERS)}"
             )
         return "confirmed", kind
     return ("qualified" if finding.get("holds_when") else "refuted"), ""

@@ -50,7 +50,8 @@ def as_printed_or_meant(forms):
         return truth(True)
     meant = (wrong.meant_follows == True) & wrong.fault.notna()  # noqa: E712
     first = wrong[["fault", "mended"]].fillna("").iloc[0]
-    return truth(False, meant_holds=meant.all(), kind=first.fault, mended=first.mended)
+    kind = "sign" if first.fault == "convention" else first.fault  # of a shear, against Eq. (13)
+    return truth(False, meant_holds=meant.all(), kind=kind, mended=first.mended)
 
 
 if __name__ == "__main__":

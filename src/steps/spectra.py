@@ -320,6 +320,7 @@ def findings(spectra: pd.DataFrame, spectra_areas: pd.DataFrame, settings: dict)
             least_ratio=neighbours[0][0],
         ),
         "heavier_is_more_stable": ranking(whole, pairs),
+        "heavier_survives_every_pulse": truth(not whole.bands(pairs)),
         "frame_is_more_stable_than_its_column": ranking(
             whole, [pair for pair in pairs if pair[0][1] == COLUMN]
         ),

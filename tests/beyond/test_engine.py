@@ -9,7 +9,7 @@ import pandas as pd
 import pytest
 
 import topheavy as th
-from steps.beyond import engine
+from steps.beyond import engine, gaps, space, test_plan
 from steps.beyond.boxes import Boxes, overturns, shake
 
 TRILITH, PIER = th.Column(0.11, 0.40), th.Column(0.75, 3.50)
@@ -26,10 +26,9 @@ def boxes(name, step=4e-4, contact=1.6e-3, **properties):
     return engine.boxes_of(th.RockingFrame(column, gamma), cap, step, contact, **properties)
 
 
-@pytest.mark.parametrize("space", [False, True])
 @pytest.mark.parametrize("name", CASES)
-def test_structure_at_rest_stays_at_rest(name, space):
-    rig = boxes(name, space=space)
+def test_structure_at_rest_stays_at_rest(name):
+    rig = boxes(name)
     assert np.abs(shake(rig, duration=1000 * rig.time_step)).max() < 1e-4 * rig.frame.slenderness
 
 
@@ -62,22 +61,36 @@ def test_a_point_bounces_as_spring_and_damper_say(ratio):
     assert data.qvel[1] == pytest.approx(engine.point_restitution(ratio), rel=0.03)
 
 
-@pytest.mark.parametrize(
-    ("name", "space", "direction", "factor", "expected"),
-    [
-        ("column", False, 0.0, 0.9, False),
-        ("column", False, 0.0, 1.1, True),
-        ("trilith", True, 0.0, 0.9, False),
-        ("trilith", True, 0.0, 1.1, True),
-        ("trilith", True, 90.0, 0.6, False),
-        ("trilith", True, 90.0, 0.9, True),
-    ],
-)
-def test_long_push_overturns_from_uplift_on(name, space, direction, factor, expected):
-    """Across the span columns and beam are a stack, so that 0.9 tan α suffices."""
-    rig = boxes(name, 8e-4, 3.2e-3, friction=5.0, space=space)
+@pytest.mark.parametrize("factor", [0.9, 1.1])
+def test_long_push_overturns_from_uplift_on(factor):
     pulse = th.Pulse("constant", factor * TRILITH.uplift_acceleration, math.pi / 2.0)
-    assert overturns(rig, pulse, math.radians(direction)) is expected
+    assert overturns(boxes("column", 8e-4, 3.2e-3, friction=5.0), pulse) is (factor > 1.0)
+
+
+STACK = th.FixedMassColumn(TRILITH, 0.434, cap_depth=0.22)
+FRAME = th.RockingFrame(TRILITH, 0.434)
+IN_SPACE = {
+    "frame in its plane": (FRAME, 0.0, {}),
+    "frame across its plane": (STACK, 90.0, {}),
+    "column with a fixed mass": (STACK, 90.0, {"in_row": 1, "is_fixed": True}),
+    "four under a slab": (FRAME, 90.0, {"rows": 2}),
+    "round frame across its plane": (STACK, 90.0, {"is_round": True}),
+}
+
+
+@pytest.mark.parametrize("name", IN_SPACE)
+@pytest.mark.parametrize("factor", [0.9, 1.1])
+def test_in_space_a_long_push_overturns_from_the_uplift_by_hand_on(name, factor):
+    by_hand, direction, changed = IN_SPACE[name]
+    bodies = space.Bodies(TRILITH, 0.11, 0.434, LINTEL, 1.6e-3, **changed)
+    pulse = th.Pulse("constant", factor * by_hand.uplift_acceleration, math.pi / 2.0)
+    assert space.overturns(bodies, pulse, direction) is (factor > 1.0)
+
+
+def test_motion_keeps_the_rotations_of_each_look():
+    bodies = space.Bodies(TRILITH, 0.11, 0.434, LINTEL, 1.6e-3)
+    turned = [r for _, r in space.motion(bodies, lambda time: np.full_like(time, 0.5), 0.5)]
+    assert turned[0][0, 2, 2] > 0.999 > turned[-1][0, 2, 2]
 
 
 def test_a_time_step_that_softens_the_contact_is_refused():
@@ -93,6 +106,16 @@ OUTCOMES = pd.DataFrame(
     [("no rebound", True, True, True), ("rebound", True, True, True)],
     columns=["contact", "engine", "theory", "theory_with_rebound"],
 )
+ACROSS = pd.DataFrame(
+    [
+        ("column", 0.0, 1.0),
+        ("fixed mass", 0.0, 0.7),
+        ("two in line", 0.0, 1.1),
+        ("two in line", 90.0, 0.7),
+        ("2 × 2", 0.0, 1.1),
+    ],
+    columns=["structure", "direction", "engine"],
+).assign(section="square", mass_ratio=1.0, frequency_ratio=3.0, depth_over_width=1.0, theory=1.0)
 
 
 @pytest.mark.parametrize(
@@ -100,8 +123,10 @@ OUTCOMES = pd.DataFrame(
 )
 def test_a_contact_that_gives_back_more_than_theory_breaks_the_maximum(row, holds, holds_when):
     table = RESTITUTION.assign(engine=np.where(RESTITUTION.index == row, 0.95, 0.9))
-    found = engine.findings(table, OUTCOMES)["maximum_restitution"]
+    found = engine.findings(table, OUTCOMES, ACROSS)["maximum_restitution"]
     assert (found["holds"], found["holds_when"]) == (holds, holds_when)
+    assert found["lowest_with_rebound"] == 0.0
+    assert (found["apart_without_rebound"] > 0.0) == (row == 0)
 
 
 @pytest.mark.parametrize(
@@ -109,6 +134,42 @@ def test_a_contact_that_gives_back_more_than_theory_breaks_the_maximum(row, hold
 )
 def test_one_other_outcome_breaks_the_same_outcomes(row, holds, holds_when):
     table = OUTCOMES.assign(engine=OUTCOMES.index != row)
-    found = engine.findings(RESTITUTION, table)["same_verdicts"]
+    found = engine.findings(RESTITUTION, table, ACROSS)["same_verdicts"]
     assert (found["holds"], found["holds_when"]) == (holds, holds_when)
     assert found["apart"] == found["apart_that_survive"] == (row is not None)
+
+
+@pytest.mark.parametrize(
+    ("row", "changed", "holds"), [(2, 1.0, False), (3, 1.0, False), (4, 0.9, False), (1, 1.2, True)]
+)
+def test_a_frame_as_strong_across_as_its_column_breaks_the_plane(row, changed, holds):
+    table = ACROSS.assign(engine=ACROSS.engine.where(ACROSS.index != row, changed))
+    found = engine.findings(RESTITUTION, OUTCOMES, table)["across_the_plane"]
+    assert found["holds"] is holds
+
+
+SETTINGS = {"time_step": 1.6e-3, "friction": 0.6, "rocking": 1.0, "draws": 2}
+GAPS = pd.DataFrame(
+    [(0.0, 0.1, 0.0), (0.5, 2.0, 9.0), (0.5, 2.0, 9.0)], columns=["gap_mm", "in_plane", "yaw"]
+).assign(depth=0.22, time_step=1.6e-3, friction=0.6)
+
+
+@pytest.mark.parametrize(
+    ("row", "name", "changed", "holds"),
+    [
+        (0, "yaw", 0.0, True),
+        (0, "in_plane", 2.0, False),
+        (1, "in_plane", 0.5, False),
+        ([1, 2], "yaw", 0.5, False),
+    ],
+)
+def test_whole_contacts_that_rock_or_gaps_that_do_not_break_the_anomalies(
+    row, name, changed, holds
+):
+    table = GAPS.copy()
+    table.loc[row, name] = changed
+    assert gaps.findings(table, SETTINGS)["gaps_make_it_rock"]["holds"] is holds
+
+
+def test_repeats_are_the_fewest_whose_majority_is_right():
+    assert [test_plan.repeats(right, 0.05) for right in (0.96, 0.9, 0.8)] == [1, 3, 7]

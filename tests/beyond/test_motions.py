@@ -9,18 +9,19 @@ import pytest
 from replication.config import read_yaml
 from steps.beyond import break_even, motions, records
 from steps.shared import second, sweep
-from steps.shared.ensemble import Ensemble
 from tests.cases import COLUMN, ROOT
-from topheavy import Record, RockingFrame, judge
+from topheavy import Column, Record, RockingFrame, judge
 
 CONFIG = read_yaml(ROOT / "config" / "config.yaml")
 EVEN = CONFIG["break_even"] | {"reductions": {"highest": 0.2, "step": 0.1}}
 SETTINGS = CONFIG["motions"] | {
     "motions": 4,
+    "fewer": 3,
+    "rotations": {"motions": 2, "velocities": [0.3, 0.6]},
     "noise": CONFIG["motions"]["noise"] | {"motions": 3, "soils": [1.0], "corners": [0.2]},
-    "vertical": CONFIG["motions"]["vertical"] | {"motions": 2},
     "bootstrap": {"resamples": 100, "confidence": 0.95, "seed": 1},
 }
+LAST = "broadband, M 7.3"
 
 
 @pytest.fixture(scope="module")
@@ -28,35 +29,61 @@ def shards(tmp_path_factory):
     folder = tmp_path_factory.mktemp("shards")
     paths = [folder / f"motions_{number}-of-2.npz" for number in (2, 1)]
     for path in paths:
-        found = sweep.sweep(SETTINGS, EVEN, COLUMN, path.stem.removeprefix("motions_"))
-        np.savez_compressed(path, **found)
+        shard = path.stem.removeprefix("motions_")
+        np.savez_compressed(path, **sweep.sweep(SETTINGS, EVEN, CONFIG["structures"], shard))
     return [str(path) for path in paths]
 
 
-def test_models_are_two_sets_noise_and_vertical_motion():
+def test_models_are_four_sets_noise_and_vertical_motion():
     names = list(sweep.models(CONFIG["motions"]))
-    assert (names[:2], len(names)) == ([*sweep.SETS], 10)
+    assert (names[:4], len(names)) == (sweep.sets(CONFIG["motions"]), 11)
+    assert (names[3], names[-1]) == (LAST, LAST + sweep.VERTICAL)
     counts = {name: len(each) for name, each in sweep.models(SETTINGS).items()}
-    assert list(counts.values()) == [8, 8, 3, 4, 4]
-    assert [one.earthquake for one in sweep.models(SETTINGS)["broadband"]] == [0] * 4 + [1] * 4
+    assert list(counts.values()) == [4, 4, 4, 4, 3, 4]
+    with_vertical = sweep.models(SETTINGS)[LAST + sweep.VERTICAL][1]
+    assert with_vertical.record().name == sweep.models(SETTINGS)[LAST][1].record().name
+    assert with_vertical.vertical().name != with_vertical.record().name
 
 
 def test_outcomes_of_all_shards_are_those_of_single_motions(shards):
+    question = sweep.stated(SETTINGS, COLUMN)
     for model, each in sweep.models(SETTINGS).items():
-        found, question = sweep.outcomes(shards, model), sweep.question_of(model, SETTINGS, COLUMN)
-        assert found.shape == (len(each), len(question.blocks), question.velocities.size)
+        found = sweep.outcomes(shards, model)
+        assert found.shape == (len(each), 3, 1 + len(SETTINGS["changes"]))
         record, up = sweep.components(each[2], SETTINGS)
         factor = SETTINGS["velocity"] / record.peak_velocity
         if up is not None:
             assert up.peak_acceleration == pytest.approx(2.0 / 3.0 * record.peak_acceleration)
             up = up.scaled(factor)
-        for block, fell in zip(question.blocks, found[2, :, -1], strict=True):
+        for block, fell in zip(question.blocks, found[2, :, 0], strict=True):
             assert judge(block, record.scaled(factor), vertical=up).overturned == fell
-    lowered = sweep.outcomes(shards, "broadband: lowered")
-    column, frame = (sweep.outcomes(shards, "broadband")[:, place, -1] for place in (0, 2))
+    lowered = sweep.outcomes(shards, f"{LAST}: lowered")
+    column, frame = (sweep.outcomes(shards, LAST)[:, place, 0] for place in (0, 2))
     at = EVEN["velocities"].index(SETTINGS["velocity"])
     assert (lowered[:, 0, at] == column).all()
     assert (lowered[:, 3, at] == frame).all()
+
+
+def test_every_structure_has_its_own_velocities_and_fewer_motions(shards):
+    trilith = Column(**CONFIG["structures"]["trilith"])
+    question = sweep.frames(SETTINGS, trilith)
+    assert question.velocities[0] == pytest.approx(0.35 * 9.81 * 0.275 / 4.2117, rel=1e-3)
+    found = sweep.outcomes(shards, f"{LAST}: trilith")
+    assert found.shape == (3, 7, 17)
+    record = sweep.models(SETTINGS)[LAST][1].record()
+    scaled = record.scaled(question.velocities[8] / record.peak_velocity)
+    alone = judge(RockingFrame(trilith, 4.0), scaled).overturned
+    assert found[1, 1 + SETTINGS["mass_ratios"].index(4.0), 8] == alone
+
+
+def test_rotations_are_peaks_over_the_slenderness(shards):
+    found = sweep.outcomes(shards, f"{LAST}: rotations")
+    assert found.shape == (2, 6, 2)
+    record = sweep.models(SETTINGS)[LAST][1].record()
+    ending = judge(RockingFrame(COLUMN, 1.0), record.scaled(0.3 / record.peak_velocity))
+    assert found[1, 2, 0] == pytest.approx(ending.peak / COLUMN.slenderness)
+    still = sweep.Question([COLUMN.block()], np.array([9.0]))
+    assert sweep.rotations(still, record, None) == math.inf
 
 
 def test_a_motion_that_leaves_the_ground_in_free_fall_is_left_out():
@@ -74,43 +101,73 @@ def test_a_block_with_lower_restitution_has_the_stated_share():
 
 
 def test_numbers_of_a_row_are_those_of_its_outcomes():
-    velocities = np.geomspace(0.15, 4.0, 17)
-    fell = np.zeros((40, 3, 18), bool)
-    for place, level in ((motions.COLUMN, 8), (motions.FIXED, 4), (motions.FRAME, 10)):
-        for motion in range(40):
-            fell[motion, place, level + motion % 5 : -1] = True
-    fell[:20, motions.COLUMN, -1] = fell[10:18, motions.FRAME, -1] = fell[
-        :30, motions.FIXED, -1
-    ] = True
-    fell[38:, motions.FRAME, -1] = True
-    ensemble = Ensemble(fell, None, **SETTINGS["bootstrap"])
-    row = motions.row("model", ensemble, ensemble.means(), velocities)
+    fell = np.zeros((40, 3, 2), bool)
+    fell[:20, motions.COLUMN] = fell[10:18, motions.FRAME] = fell[:30, motions.FIXED] = True
+    fell[38:, motions.FRAME, 0] = True
+    row = motions.row("model", fell, SETTINGS)
     names = ("column", "fixed", "frame", "harm", "benefit", "only_frame", "only_column")
     assert [row[name] for name in names] == [0.5, 0.75, 0.25, 0.25, 0.25, 2, 12]
-    assert row["gain"] == pytest.approx(velocities[10] / velocities[8] - 1.0, rel=1e-3)
+    settings = SETTINGS | {"changes": [1e-6]}
+    changed = {one["structure"]: one for one in motions.sensitivity("model", fell, settings)}
+    assert changed["frame"] == {
+        "model": "model",
+        "structure": "frame",
+        "change": 1e-6,
+        "changed": 0.05,
+    }
+    assert changed["column"]["changed"] == 0.0
 
 
-ROWS = {"column": 0.2, "fixed": 0.5, "frame": 0.1, "gain": 0.2, "only_frame": 3}
-ROWS = {name: [number, number] for name, number in ROWS.items()}
-ROWS |= {"harm_low": [0.1, 0.1], "benefit_low": [0.05, 0.05], "gain_low": [0.1, 0.1]}
-PAIRS = {"reversed": [0.2, 0.4], "reversed_high": [0.3, 0.45]}
+def test_gain_and_ratio_are_those_of_the_outcomes():
+    settings = SETTINGS | {"mass_ratios": [1.0]}
+    velocities = sweep.frames(settings, COLUMN).velocities
+    fell = np.zeros((40, 2, 17), bool)
+    for motion in range(40):
+        fell[motion, 0, 6 + motion % 5 :] = fell[motion, 1, 8 + motion % 5 :] = True
+    fell[0, 1, 5] = True  # once only the frame
+    (row,) = motions.gains("model", "temple", fell, settings, COLUMN)
+    assert row["gain"] == pytest.approx(velocities[8] / velocities[6] - 1.0, rel=0.05)
+    assert row["ratio"] == pytest.approx(1.0 / 80.0)
+    (pair,) = motions.pairs("temple", [fell[:20], fell[20:]], settings)
+    assert (pair["lighter"], pair["heavier"], pair["motions"]) == (0.0, 1.0, 40)
+    assert pair["ratio"] == row["ratio"]
+
+
+def test_an_overturned_structure_counts_as_above_the_median():
+    peaks = np.full((3, 6, 1), 0.2)
+    peaks[:2, 0] = math.inf
+    settings = SETTINGS | {"rotations": {"velocities": [0.6]}}
+    found = motions.rotations("model", peaks, settings)
+    assert [row["median_peak"] for row in found] == [math.inf] + [0.2] * 5
+
+
+TABLES = {
+    "motions": {"column": 0.2, "fixed": 0.5, "frame": 0.1, "only_frame": 3}
+    | {"harm_low": 0.1, "benefit_low": 0.05},
+    "gains": {"gain_low": 0.1, "gain": 0.2, "mass_ratio": 1.0},
+    "pairs": {"ratio": 0.4, "ratio_high": 0.9},
+    "sensitivity": {"change": 1e-6, "changed": 0.05},
+}
 
 
 @pytest.mark.parametrize(
-    ("change", "false"),
+    ("table", "column", "number", "false"),
     [
-        ({}, set()),
-        ({"benefit_low": [0.1, -0.01]}, {"order"}),
-        ({"harm_low": [0.0, 0.1]}, {"order"}),
-        ({"gain_low": [-0.1, 0.1]}, {"gain"}),
-        ({"only_frame": [0, 3]}, {"some_only_frame"}),
-        ({"reversed_high": [0.3, 0.5]}, {"probability_is_lower"}),
+        ("motions", "only_frame", 1, set()),
+        ("motions", "benefit_low", -0.01, {"order"}),
+        ("motions", "harm_low", 0.0, {"order"}),
+        ("gains", "gain_low", -0.1, {"gain"}),
+        ("motions", "only_frame", 0, {"some_only_frame"}),
+        ("pairs", "ratio_high", 1.0, {"probability_is_lower"}),
     ],
 )
-def test_one_row_is_enough_to_refute(change, false):
-    rows = {name: change.get(name, given) for name, given in ROWS.items()}
-    found = motions.findings(pd.DataFrame(rows), pd.DataFrame(PAIRS | change))
-    assert {name for name, one in found.items() if not one["holds"]} == false
+def test_one_row_is_enough_to_refute(table, column, number, false):
+    tables = {name: pd.DataFrame([row] * 2) for name, row in TABLES.items()}
+    tables[table].loc[1, column] = number
+    found = motions.findings(*tables.values(), SETTINGS)
+    assert {name for name, one in found.items() if one.get("holds") is False} == false
+    assert found["outcomes_that_change"]["value"] == 0.05
+    assert found["gain"]["least"] == found["gain"]["most"] == 0.2
 
 
 def test_the_benefit_ends_where_its_isotonic_fit_is_zero():
@@ -119,6 +176,21 @@ def test_the_benefit_ends_where_its_isotonic_fit_is_zero():
     assert break_even.end_of(shares, np.array([3.0, 1.0, 2.0, -1.5, -2.0])) == pytest.approx(0.1125)
     assert break_even.end_of(shares, np.array([4.0, 3.0, 2.0, 1.0, 0.5])) == math.inf
     assert break_even.end_of(shares, np.array([-1.0, -2.0, -3.0, -4.0, -5.0])) == 0.0
+
+
+def test_end_is_that_of_the_outcomes(monkeypatch):
+    """The column overturns under 6, 4 and 2 motions of 8, by reduction of √r; the frame under 3."""
+    counts = np.array([6, 4, 2, 3, 3, 3])
+    fell = np.arange(8)[:, None, None] < counts[:, None]
+    fell = np.repeat(fell, len(EVEN["velocities"]), axis=2)
+    monkeypatch.setattr(break_even, "outcomes", lambda shards, name: fell.astype(np.int8))
+    monkeypatch.setattr(break_even, "check_by_scipy", list)
+    settings = EVEN | {"lowered": [0.1, 0.2]}
+    found = break_even.compute(settings, SETTINGS, CONFIG["structures"], [])
+    assert found["ends"].end.to_numpy() == pytest.approx(0.15)
+    benefits = found["benefits"].query("lowered == 'both'")
+    assert benefits.column.tolist() == [0.75, 0.5, 0.25] * 2
+    assert (benefits.frame == 0.375).all()
 
 
 @pytest.mark.parametrize(
@@ -145,18 +217,43 @@ def test_counts_are_of_outcomes_that_are_known(monkeypatch):
         records, "overturned", lambda frame, *_: np.array(outcomes[frame.mass_ratio])
     )
     monkeypatch.setattr(records, "check_by_scipy", list)
+    monkeypatch.setattr(records, "capacities", lambda *_: [])
     settings = {
         "mass_ratios": [0.0, 1.0],
         "slendernesses": [10.0],
         "sizes": {"lowest": 1.0, "highest": 2.0, "points": 1},
         "factors": {"lowest": 1.0, "highest": 4.0, "points": 4},
+        "capacity": {"structure": "temple"},
         "checked": 1,
     }
-    (row,) = records.compute(settings, {"tightened": 1e-12}, ["one"])
+    made = records.compute(settings, {"tightened": 1e-12}, CONFIG["structures"], ["one"])
+    (row,) = made["table"]
     names = ("compared", "decided", "both", "only_lighter", "only_heavier")
     assert [row[name] for name in names] == [4, 3, 1, 1, 1]
-    found = records.findings(pd.DataFrame([row]))
+    capacity = pd.DataFrame(
+        [("one", 0.0, 0.4), ("one", 1.0, 0.5), ("two", 0.0, 0.5), ("two", 1.0, 0.4)],
+        columns=["record", "mass_ratio", "capacity"],
+    )
+    found = records.findings(pd.DataFrame([row]), capacity)
     assert (found["heavier_is_safer"]["holds"], found["fewer_reversals"]["holds"]) == (False, False)
+    gain = found["gain_1"]
+    assert (gain["holds"], gain["least"], gain["most"]) == (
+        False,
+        pytest.approx(-0.2),
+        pytest.approx(0.25),
+    )
+
+
+def test_capacity_is_the_lowest_peak_from_which_most_of_a_window_overturns():
+    peaks = 1.01 ** np.arange(60)
+    fell = np.zeros(60, bool)
+    fell[10:12] = fell[20:] = True
+    fell[22] = False
+    spec = {"step": 0.01, "share": 0.9}
+    assert records.lowest(peaks, fell, 0.02, spec) == peaks[23]  # a window of three
+    assert records.lowest(peaks, fell, 0.1, spec) == peaks[20]  # of eleven
+    with pytest.raises(SystemExit, match="raise highest"):
+        records.lowest(peaks, fell & False, 0.02, spec)
 
 
 def test_outcomes_that_a_nudge_changes_are_not_known():

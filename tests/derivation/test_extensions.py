@@ -5,9 +5,9 @@ import math
 import pytest
 import sympy as sp
 
-from topheavy import STANDARD_GRAVITY, Column, FixedMassColumn
-from topheavy.derivation import extension_proofs as extension
+from topheavy import STANDARD_GRAVITY, Column, FixedMassColumn, Pulse, RockingBlock, judge
 from topheavy.derivation import (
+    contact_theorems,
     extension_theorems,
     extensions,
     fixed_fourth_power,
@@ -15,14 +15,17 @@ from topheavy.derivation import (
     fixed_tangent,
     reversal_theorems,
 )
+from topheavy.derivation import extension_proofs as extension
 from topheavy.derivation import fixed_proofs as proofs
+from topheavy.derivation import plane_proofs as plane
+from topheavy.derivation import pulse_proofs as pulse
 from topheavy.derivation import reversal_proofs as reversal
 from topheavy.derivation.bodies import half_depth
 from topheavy.derivation.fixed_mass import I_b
 from topheavy.derivation.notation import SIDES, R, alpha, g, gamma, m_c
 
 
-@pytest.mark.parametrize("proofs", [reversal_theorems, extension_theorems])
+@pytest.mark.parametrize("proofs", [contact_theorems, reversal_theorems, extension_theorems])
 def test_every_theorem_holds_and_is_stated(proofs):
     found = proofs()
     assert [proof.id for proof in found if not proof.holds] == []
@@ -96,6 +99,15 @@ WRONG = [
         "equation_of_motion",
         lambda side: sp.Eq(0, extensions.printed_motion(side) * R),
         extension.size_only_slows_time,
+    ),
+    (pulse, "PULSES", pulse.PULSES[::-1], pulse.short_pulses_gain_by_the_order_of_their_moment),
+    (plane, "fixed_tangent", lambda: sp.tan(alpha), plane.frame_across_its_plane_is_a_fixed_mass),
+    (plane, "_HEIGHT", 2 * plane._HEIGHT, plane.deep_columns_uplift_in_the_plane_first),
+    (
+        plane,
+        "cap_contact",
+        lambda side: sp.Matrix([-side.sign * R * sp.sin(alpha), 2 * R * sp.cos(alpha)]),
+        plane.level_cap_has_no_balance_across,
     ),
 ]
 
@@ -182,3 +194,12 @@ def test_a_proof_fails_on_a_wrong_result(monkeypatch, prove, name, spoil):
     right = getattr(proofs, name)
     monkeypatch.setattr(proofs, name, lambda *arguments: spoil(right(*arguments)))
     assert not prove()
+
+
+@pytest.mark.parametrize("factor", [0.9999, 1.0001])
+def test_kernel_has_the_minimum_of_the_growing_term(factor):
+    """One cosine uplifts at once, and its integral is (1 − e^(−2πp/ω))/(1 + ω²/p²)."""
+    block = RockingBlock(1.0, 0.1, 0.9, linearised=True)
+    minimum = (1.0 + 12.0**2) / (1.0 - math.exp(-2.0 * math.pi / 12.0)) * 0.1
+    found = judge(block, Pulse("one-cosine", factor * minimum, 12.0))
+    assert found.overturned is (factor > 1.0)

@@ -110,16 +110,20 @@ def test_shares_are_those_of_known_intervals():
 
 
 KNOWN = {"heavier_is_more_stable", "frame_is_more_stable_than_its_column", "larger_is_more_stable"}
+EVERY = "heavier_survives_every_pulse"
 
 
 def test_findings_of_spectra(tables):
     found = spectra.findings(tables["spectra"], tables["areas"], SPECTRA)
-    assert broken(found) == KNOWN
+    assert broken(found) == KNOWN | {EVERY}
     assert not unmet(found)
     assert found["heavier_is_more_stable"]["width"] > 0.2
     swapped = tables["spectra"].replace({"mass_ratio": {1.0: math.inf, math.inf: 1.0}})
     found = spectra.findings(swapped, tables["areas"], SPECTRA)
-    assert broken(found) - KNOWN == {"minimum_rises_with_mass", "never_caused_without_impact"}
+    assert broken(found) - KNOWN - {EVERY} == {
+        "minimum_rises_with_mass",
+        "never_caused_without_impact",
+    }
     assert found["heavier_is_more_stable"]["holds_when"] is False
     harmful = tables["areas"].rename(columns={"prevented": "caused", "caused": "prevented"})
     found = spectra.findings(tables["spectra"], harmful, SPECTRA)
@@ -152,6 +156,14 @@ def test_minimum_is_the_known_one_and_scipy_agrees():
         vase.error_of(COLUMN, PULSE, found)
     assert minimum(COLUMN, highest=0.15) is None  # below uplift
     assert minimum(COLUMN, highest=0.25) is None  # nothing overturns
+
+
+def test_narrow_interval_above_uplift_is_not_missed():
+    """Its width is less than the floor of the search."""
+    slow = th.Pulse("one-cosine", 1.0, 0.55 * COLUMN.frequency_parameter)
+    found = minimum(COLUMN, slow)
+    assert found.width < 0.001 * COLUMN.uplift_acceleration
+    assert vase.error_of(COLUMN, slow, found) < 1e-6
 
 
 def test_interval_that_a_billionth_of_the_record_removes_is_passed_over():

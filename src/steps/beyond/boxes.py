@@ -1,4 +1,4 @@
-"""Columns and a cap beam as boxes in MuJoCo, a general rigid-body engine, in a plane or in space.
+"""Columns and a cap beam as boxes in MuJoCo, a general rigid-body engine, in a plane.
 
 The engine knows boxes, a plane, contact and friction. It has no rocking-specific equations: no
 common rotation, no pivots, no level cap beam, no √r. The ground is fixed, and an inertial force
@@ -39,8 +39,6 @@ class Boxes:
         Of the spring and damper of a contact (MuJoCo's `solref`), in s and of critical damping.
     friction : float
         Coefficient μ of all contacts.
-    space : bool
-        Whether each body has six degrees of freedom, in place of the three of the plane.
 
     Raises
     ------
@@ -54,7 +52,6 @@ class Boxes:
     time_constant: float
     damping_ratio: float = 1.0
     friction: float = 1.0
-    space: bool = False
 
     def __post_init__(self) -> None:
         if not 0.0 < self.time_step <= 0.5 * self.time_constant:
@@ -97,7 +94,7 @@ class Boxes:
     def _box(self, name: str, length: float, height: float, mass: float) -> str:
         """Return a body by its half sides; it touches only the bodies that a pair names."""
         slides = "".join(f'<joint type="slide" axis="{axis}"/>' for axis in ("1 0 0", "0 0 1"))
-        joint = "<freejoint/>" if self.space else f'{slides}<joint type="hinge" axis="0 1 0"/>'
+        joint = f'{slides}<joint type="hinge" axis="0 1 0"/>'
         size = f"{length} {self.frame.column.half_width} {height}"
         return (
             f'<body name="{name}">{joint}<geom name="{name}" type="box" size="{size}"'
@@ -112,40 +109,31 @@ class Boxes:
         places = [(axis + across, up, rotation) for axis in self.axes]
         if self.frame.mass_ratio:
             places.append((2.0 * across, 2.0 * up + self.cap.half_depth, 0.0))
-        if not self.space:
-            return np.ravel(places)
-        half = [0.5 * angle for *_, angle in places]
-        turned = zip(places, half, strict=True)
-        return np.ravel(
-            [(x, 0.0, z, math.cos(a), 0.0, math.sin(a), 0.0) for (x, z, _), a in turned]
-        )
+        return np.ravel(places)
 
 
-def shake(boxes, pulse=None, *, rotation=0.0, duration, direction=0.0, ends=None) -> np.ndarray:
-    """Release boxes from rest, rotated by θ, shake them, and return the rotation after each step.
+def shake(boxes, pulse=None, *, rotation=0.0, duration, ends=None) -> np.ndarray:
+    """Release boxes from rest, rotated by θ, shake them, and return θ (rad) after each step.
 
-    In the plane this is θ of the left column, in space the largest inclination of a column (rad).
-    The direction of the shaking is measured from the plane of the frame, in rad. `ends` takes the
-    rotation up to now and says whether the run may end before its duration.
+    θ is that of the left column. `ends` takes the rotation up to now and says whether the run may
+    end before its duration.
 
     Raises
     ------
     ArithmeticError
         When the engine warns of an unreliable solution.
     """
-    model, columns = boxes.model(), 1 + len(boxes.axes)
+    model = boxes.model()
     data = mujoco.MjData(model)
     data.qpos[:] = boxes.pose(rotation)
     steps = math.ceil(duration / boxes.time_step)
     middles = (np.arange(steps) + 0.5) * boxes.time_step
     push = np.zeros(steps) if pulse is None else -STANDARD_GRAVITY * pulse.excitation(middles)
     gravity, angles = model.opt.gravity, np.empty(steps)
-    along, across = (math.cos(direction), math.sin(direction)) if direction else (1.0, 0.0)
     for step in range(steps):
-        gravity[:2] = along * push[step], across * push[step]
+        gravity[0] = push[step]
         mujoco.mj_step(model, data)
-        upright = data.xmat[1:columns, 8].min() if boxes.space else 1.0
-        angles[step] = math.acos(min(upright, 1.0)) if boxes.space else data.qpos[2]
+        angles[step] = data.qpos[2]
         if ends and step % INTERVAL == INTERVAL - 1 and ends(angles[: step + 1]):
             angles = angles[: step + 1]
             break
@@ -154,11 +142,11 @@ def shake(boxes, pulse=None, *, rotation=0.0, duration, direction=0.0, ends=None
     return angles
 
 
-def overturns(boxes: Boxes, pulse: Pulse, direction: float = 0.0) -> bool:
+def overturns(boxes: Boxes, pulse: Pulse) -> bool:
     """Return whether a pulse overturns boxes: a column inclined by π/3.
 
-    They survive if they come to rest after the pulse. In the plane they also survive after two
-    impacts without the pulse, as each takes energy.
+    They survive if they come to rest after the pulse, and after two impacts without the pulse, as
+    each takes energy.
 
     Raises
     ------
@@ -167,25 +155,21 @@ def overturns(boxes: Boxes, pulse: Pulse, direction: float = 0.0) -> bool:
     """
     alpha, scale = boxes.frame.slenderness, 1.0 / boxes.frame.frequency_parameter
     forced = math.ceil(pulse.duration / boxes.time_step)
-    # In space a column may wobble on a corner: rest takes a longer look and has a wider margin.
-    span, margin = (WAIT / 3.0, 0.05) if boxes.space else (0.1, 0.005)
-    steps = round(span * scale / boxes.time_step)
+    steps = round(0.1 * scale / boxes.time_step)
 
     def survives(angles: np.ndarray) -> bool:
         free = angles[forced:]
-        if free.size < 2 or (boxes.space and free.size < steps):
+        if free.size < 2:
             return False
         last = free[-min(free.size, steps) :]
-        still = np.abs(last).max() < margin * alpha and (boxes.space or np.ptp(last) < 1e-4 * alpha)
+        still = np.abs(last).max() < 0.005 * alpha and np.ptp(last) < 1e-4 * alpha
         swings = free[np.abs(free) > 0.01 * alpha]
         return bool(still or (np.diff(np.sign(swings)) != 0).sum() >= 2)
 
     def ends(angles: np.ndarray) -> bool:
         return abs(angles[-1]) > OVERTURNED or survives(angles)
 
-    angles = shake(
-        boxes, pulse, duration=pulse.duration + WAIT * scale, direction=direction, ends=ends
-    )
+    angles = shake(boxes, pulse, duration=pulse.duration + WAIT * scale, ends=ends)
     if abs(angles[-1]) > OVERTURNED:
         return True
     if not survives(angles):

@@ -15,7 +15,14 @@ from scipy.optimize import isotonic_regression
 from replication.step import check, run, truth
 from steps.shared.ensemble import Ensemble
 from steps.shared.second import beside_a_boundary, check_by_scipy, overturns
-from steps.shared.sweep import SETS, models, outcomes, reductions, restitution_question
+from steps.shared.sweep import (
+    FAMILIES,
+    models,
+    outcomes,
+    reductions,
+    restitution_question,
+    sets,
+)
 from topheavy import Column
 
 FINE = 0.5  # of the interval of an end: how far twice the step of the reductions may move it
@@ -25,12 +32,13 @@ def compute(settings, motions, structures, shards):
     column = Column(**structures[motions["structure"]])
     shares, ends, benefits, samples = reductions(settings), [], [], {}
     level = settings["velocities"].index(motions["velocity"])
-    for number, name in enumerate(SETS):
-        found = outcomes(shards, f"{name}: lowered") == 1
-        samples[name] = found
-        quakes = [motion.earthquake for motion in models(motions)[name]]
+    for number, name in enumerate(FAMILIES):
+        quakes = [each for each in sets(motions) if each.startswith(name)]
+        parts = [outcomes(shards, f"{each}: lowered") == 1 for each in quakes]
+        samples |= dict(zip(quakes, parts, strict=True))
+        found, groups = np.concatenate(parts), np.repeat(quakes, [len(part) for part in parts])
         spec = settings["bootstrap"] | {"seed": settings["bootstrap"]["seed"] + number}
-        ensemble = Ensemble(found, quakes, **spec)
+        ensemble = Ensemble(found, groups.tolist(), **spec)
         means = ensemble.means()
         for place, velocity in enumerate(settings["velocities"]):
             less = means[:, : shares.size, place] - means[:, [shares.size], place]
@@ -99,7 +107,7 @@ def sampled(samples, settings, motions, column):
     random = np.random.default_rng(settings["bootstrap"]["seed"])
     question, motions_of = restitution_question(motions, settings, column), models(motions)
     for number in range(settings["checked"]):
-        name = SETS[number % len(SETS)]
+        name = [*samples][number % len(samples)]
         at, place, level = (int(random.integers(size)) for size in samples[name].shape)
         record, block = motions_of[name][at].record(), question.blocks[place]
         factor = question.velocities[level] / record.peak_velocity

@@ -1,24 +1,40 @@
-"""Frames in a rigid-body engine: coefficient of restitution, and outcomes near the minimum."""
+"""Frames in a rigid-body engine: restitution, outcomes near the minimum, and across the plane."""
 
 import math
+from itertools import product
 
+import numpy as np
 import pandas as pd
 
-from replication.step import run, truth
+from replication.step import check, run, truth
+from steps.beyond import space
 from steps.beyond.boxes import Boxes, overturns, rebound
-from topheavy import Cap, Column, Pulse, RockingFrame, judge, lowest_overturning, simulate
+from topheavy import (
+    Cap,
+    Column,
+    FixedMassColumn,
+    Pulse,
+    RockingFrame,
+    judge,
+    overturning_intervals,
+    simulate,
+)
 
 CLOSE = 0.005  # of √r: agreement with Eq. (25)
 NO_REBOUND = 0.2  # coefficient of restitution of a point, below which a contact has no rebound
 HARD = 0.01  # over 1/p: time constant up to which a contact is hard
 STEPS_IN_CONTACT = 4  # time steps in the time constant, or in the period of a stiffer contact
 HIGHEST = 40.0  # over g tan α: end of the search for the minimum overturning acceleration
+IN_PLANE, ACROSS = 0.0, 90.0  # degrees
+COLUMN, FIXED, IN_LINE, SLAB = "column", "fixed mass", "two in line", "2 × 2"
+LABELS = "structure", "direction", "section", "depth_over_width", "mass_ratio", "frequency_ratio"
 
 
 def compute(settings, structures):
     return {
         "restitution": restitution(settings, structures),
         "outcomes": outcomes(settings, structures),
+        "across": across(settings, structures),
     }
 
 
@@ -111,19 +127,73 @@ def outcomes(settings, structures):
     return pd.DataFrame(rows)
 
 
-def minimum(frame, kind):
-    """Return the pulse of the minimum overturning acceleration in theory."""
-    omega, tan = (
-        kind["frequency_ratio"] * frame.column.frequency_parameter,
-        frame.uplift_acceleration,
-    )
-    unit = Pulse(kind["shape"], 1.0, omega)
-    return unit.scaled(
-        lowest_overturning(frame, unit, (tan, HIGHEST * tan), floor=0.01 * tan).factor
-    )
+def minimum(frame, kind, column=None):
+    """Return the pulse of the minimum in theory; ω is over p of its own or of a given column."""
+    omega = kind["frequency_ratio"] * (column or frame.column).frequency_parameter
+    unit, tan = Pulse(kind["shape"], 1.0, omega), frame.uplift_acceleration
+    ends = (tan, HIGHEST * tan)
+    first, *_ = overturning_intervals(frame, unit, ends, resolution=0.01 * tan, most_impacts=0)
+    return unit.scaled(first.lower[1])
 
 
-def findings(engine_restitution, engine_outcomes):
+def across(settings, structures):
+    """Return the first amplitudes that overturn in the plane and across it.
+
+    They are over the minimum of the square column in theory, as are the uplift acceleration by hand
+    and the minimum in theory, which is not known for round columns.
+    """
+    spec, free = settings["across"], [(IN_LINE, IN_PLANE), (IN_LINE, ACROSS), (SLAB, IN_PLANE)]
+    frequency, (light, *_, heavy) = spec["frequency_ratios"][0], spec["mass_ratios"]
+    square = [(COLUMN, IN_PLANE, "square", 1.0, 0.0, ratio) for ratio in spec["frequency_ratios"]]
+    square += [
+        (*one, "square", 1.0, gamma, ratio)
+        for ratio, gamma in product(spec["frequency_ratios"], spec["mass_ratios"])
+        for one in ((FIXED, IN_PLANE), *free)
+    ]
+    deep = [
+        (IN_LINE, ACROSS, "square", depth, gamma, frequency)
+        for gamma, depth in product(spec["mass_ratios"], spec["depths"])
+    ]
+    cases = [(row, {}) for row in square + deep]
+    cases += [((*one, "round", 1.0, light, frequency), {}) for one in free]
+    again = [row for row in square if row[4:] == (heavy, frequency)]
+    cases += product(again, spec["checks"])
+    return pd.DataFrame(first(*case, settings, structures) for case in cases)
+
+
+def first(row, changed, settings, structures):
+    spec, (name, direction, section, depth, gamma, ratio) = settings["across"], row
+    column = Column(**structures[spec["structure"]])
+    span, cap_depth = settings["caps"][spec["structure"]].values()
+    side = Column(depth * column.half_width, column.half_height)
+    kind = {"shape": spec["shape"], "frequency_ratio": ratio}
+    alone, theory = minimum(column, kind, column), RockingFrame(column, gamma)
+    if name == FIXED or direction == ACROSS:
+        theory = FixedMassColumn(side, gamma, 2.0 * side.half_width, cap_depth)
+    solver = {"time_step": spec["time_step"], "friction": spec["friction"]} | changed
+    bodies = space.Bodies(
+        column,
+        side.half_width,
+        gamma,
+        Cap(span, 0.5 * cap_depth),
+        in_row=1 if name in (COLUMN, FIXED) else 2,
+        rows=2 if name == SLAB else 1,
+        is_round=section == "round",
+        is_fixed=name == FIXED,
+        **solver,
+    )
+    uplift, step = theory.uplift_acceleration / alone.amplitude, spec["step"]
+    factors = step * np.arange(math.floor(uplift / step), math.ceil(HIGHEST / step))
+    lowest = next(f for f in factors if space.overturns(bodies, alone.scaled(f), direction))
+    expected = minimum(theory, kind, column).amplitude / alone.amplitude
+    expected = math.nan if section == "round" else expected
+    message = f"{row}, {changed}: from {lowest:.2f} on; expected {expected:.3f} within a step"
+    check(not abs(lowest - expected) > 1.5 * step, message)
+    found = {"uplift": uplift, "theory": expected, "engine": lowest}
+    return dict(zip(LABELS, row, strict=True)) | solver | found
+
+
+def findings(engine_restitution, engine_outcomes, engine_across):
     difference = engine_restitution.engine / engine_restitution.theory - 1.0
     frames = engine_restitution.mass_ratio > 0.0
     hard = engine_restitution.time_constant <= HARD
@@ -131,6 +201,13 @@ def findings(engine_restitution, engine_outcomes):
     agrees = engine_outcomes.engine == engine_outcomes.theory
     refitted = engine_outcomes.engine == engine_outcomes.theory_with_rebound
     plain = engine_outcomes.contact == "no rebound"
+    table = engine_across[engine_across.depth_over_width == 1.0]
+    alone = table[table.structure == COLUMN].set_index("frequency_ratio").engine
+    gain = table.engine - table.frequency_ratio.map(alone)
+    deep = engine_across[(engine_across.section == "square") & (engine_across.direction == ACROSS)]
+    enough = deep[deep.engine >= deep.frequency_ratio.map(alone)].groupby("mass_ratio")
+    weaker = table.direction == ACROSS
+    stronger = table.structure.isin([IN_LINE, SLAB]) & ~weaker
     return {
         "maximum_restitution": truth(
             difference.max() < CLOSE,
@@ -151,6 +228,15 @@ def findings(engine_restitution, engine_outcomes):
             share_with_rebound_in_theory=refitted[~plain].mean(),
             apart=(~agrees).sum(),
             apart_that_survive=(~engine_outcomes.engine[~agrees]).sum(),
+        ),
+        "across_the_plane": truth(
+            gain[weaker].max() < 0.0 < gain[stronger].min(),
+            lowest=table.engine[weaker].min(),
+            highest=table.engine[weaker].max(),
+            lowest_of_slab=table.engine[table.structure == SLAB].min(),
+            highest_of_slab=table.engine[table.structure == SLAB].max(),
+            enough_depths=enough.depth_over_width.min().to_list(),
+            apart_from_theory=(engine_across.engine - engine_across.theory).abs().max(),
         ),
     }
 

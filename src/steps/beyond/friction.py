@@ -1,5 +1,7 @@
 """Coefficient of friction with which columns and frames rock without sliding, under pulses."""
 
+from itertools import product
+
 import numpy as np
 import pandas as pd
 
@@ -23,9 +25,10 @@ def compute(settings, structures):
         )
         survived = [
             row
-            for ratio in grid(settings["frequency_ratios"])
-            for amplitude in amplitudes(settings)
-            if (row := required(frame, cap, pulse(column, ratio, amplitude, settings), settings))
+            for place in product(
+                settings["shapes"], grid(settings["frequency_ratios"]), amplitudes(settings)
+            )
+            if (row := required(frame, cap, pulse(column, *place), settings))
         ]
         if gamma > 0.0:
             compare(frame, cap, max(survived, key=lambda row: row["required"]), settings)
@@ -40,10 +43,10 @@ def amplitudes(settings):
     return np.geomspace(spec["lowest"], spec["highest"], spec["points"])
 
 
-def pulse(column, frequency_ratio, amplitude, settings):
-    """Return a pulse from ω/p and its amplitude over g tan α."""
+def pulse(column, shape, frequency_ratio, amplitude):
+    """Return a pulse from its shape, ω/p and its amplitude over g tan α."""
     return Pulse(
-        settings["shape"],
+        shape,
         amplitude * column.uplift_acceleration,
         frequency_ratio * column.frequency_parameter,
     )
@@ -69,6 +72,7 @@ def required(frame, cap, shaking, settings):
         largest, coarse = (max(part, impact.friction_demand) for part in (largest, coarse))
     column = frame.column
     return {
+        "shape": shaking.shape,
         "frequency_ratio": shaking.angular_frequency / column.frequency_parameter,
         "amplitude": shaking.amplitude / column.uplift_acceleration,
         "required": float(largest),
@@ -79,7 +83,8 @@ def required(frame, cap, shaking, settings):
 
 def compare(frame, cap, row, settings):
     """Check the required friction of a pulse against that of three bodies until the pulse ends."""
-    shaking = pulse(frame.column, row["frequency_ratio"], row["amplitude"], settings)
+    place = (row[name] for name in ("shape", "frequency_ratio", "amplitude"))
+    shaking = pulse(frame.column, *place)
     times = np.linspace(0.0, shaking.duration, settings["check_samples"])
     motion = simulate(frame, shaking, samples=times)
     ground = shaking.excitation(times)

@@ -8,156 +8,195 @@ from functools import partial
 from itertools import combinations
 
 import numpy as np
-import pandas as pd
 
-from replication.step import check, run, truth
+from replication.step import check, run, truth, value
 from steps.shared.ensemble import Ensemble
 from steps.shared.second import beside_a_boundary, check_by_scipy, overturns
 from steps.shared.sweep import (
     FREE_FALL,
-    SETS,
+    VERTICAL,
     components,
+    frames,
     models,
     outcomes,
-    question_of,
-    structures_of,
+    sets,
+    stated,
 )
 from topheavy import Column
 from topheavy.risk.curve import fit, medians
 
 NAMES = ("column", "fixed", "frame")
 COLUMN, FIXED, FRAME = range(3)
-FACTOR = ", factor at most "  # appended to the name of a set of which some motions are left out
 
 
 def compute(settings, structures, shards):
-    column = Column(**structures[settings["structure"]])
-    samples = {model: outcomes(shards, model) for model in models(settings)}
-    check_by_scipy(sampled(samples, settings, column))
-    tables = {"probabilities": [], "fragility": [], "pairs": []}
-    for model, found in samples.items():
-        kept = found[(found != FREE_FALL).all(axis=(1, 2))] == 1
-        rows = {model: kept}
-        if model in SETS:
+    columns = {name: Column(**structures[name]) for name in settings["structures"]}
+    column, names = columns[settings["structure"]], sets(settings)
+    check_by_scipy(sampled(shards, settings, column))
+    tables = {name: [] for name in ("probabilities", "sensitivity", "gains", "pairs")}
+    tables |= {"fragility": [], "rotations": []}
+    for model in models(settings):
+        found = outcomes(shards, model)
+        kept = (found != FREE_FALL).all(axis=(1, 2))
+        tables["probabilities"].append(row(model, found[kept] == 1, settings))
+        if not model.endswith(VERTICAL):
+            for name, one in columns.items():
+                fell = outcomes(shards, f"{model}: {name}") == 1
+                tables["gains"] += gains(model, name, fell[:, :-1], settings, one)
+        if model in names:
             factors = settings["velocity"] / outcomes(shards, f"{model}: peaks")
-            if (few := factors <= settings["largest_factor"]).sum() < len(kept):
-                rows[f"{model}{FACTOR}{settings['largest_factor']:g}"] = kept[few]
-        for name, one in rows.items():
-            ensemble = Ensemble(one, None, **settings["bootstrap"])
-            means, velocities = ensemble.means(), question_of(model, settings, column).velocities
-            tables["probabilities"].append(row(name, ensemble, means, velocities[:-1]))
-            if name in SETS:
-                tables["fragility"] += curves(name, ensemble, means, velocities, settings, column)
-                tables["pairs"] += pairs(name, ensemble, means, velocities, settings, column)
-    return {name: pd.DataFrame(rows) for name, rows in tables.items()}
+            few = factors <= settings["largest_factor"]
+            if not few.all():
+                name = f"{model}, factor at most {settings['largest_factor']:g}"
+                tables["probabilities"].append(row(name, found[few] == 1, settings))
+            tables["sensitivity"] += sensitivity(model, found, settings)
+            fell = outcomes(shards, f"{model}: {settings['structure']}")
+            tables["fragility"] += curves(model, fell.mean(axis=0), settings, column)
+            turned = outcomes(shards, f"{model}: rotations")
+            tables["rotations"] += rotations(model, turned, settings)
+    for name in columns:
+        fell = [outcomes(shards, f"{each}: {name}")[:, :-1] == 1 for each in names]
+        tables["pairs"] += pairs(name, fell, settings)
+    return tables
 
 
-def row(model, ensemble, means, velocities):
-    """Return probabilities at the stated velocity, their differences, and the gain of the median.
+def row(model, fell, settings):
+    """Return probabilities at the stated velocity, and their paired differences.
 
-    `only_frame` are the motions that overturn the frame and not the column. The gain is that of the
-    velocity that overturns the frame under half of the motions, over that of the column.
+    `only_frame` are the motions that overturn the frame and not the column.
     """
-    fell, shares = ensemble.outcomes[..., -1], means[..., -1].T
+    ensemble = Ensemble(fell[..., :1], None, **settings["bootstrap"])
+    shares = ensemble.means()[..., 0].T
     numbers = {name: shares[place] for place, name in enumerate(NAMES)}
     numbers["harm"] = shares[FIXED] - shares[COLUMN]
     numbers["benefit"] = shares[COLUMN] - shares[FRAME]
+    of_column, of_frame = fell[:, COLUMN, 0], fell[:, FRAME, 0]
     found = {"model": model, "motions": len(fell)}
-    found["only_frame"] = int((fell[:, FRAME] & ~fell[:, COLUMN]).sum())
-    found["only_column"] = int((fell[:, COLUMN] & ~fell[:, FRAME]).sum())
-    if velocities.size:
-        middle = middles(velocities, means[:, [COLUMN, FRAME], :-1])
-        check(np.isfinite(middle[0]).all(), f"{model}: the velocities reach no median; widen them")
-        found["median_velocity"] = middle[0, 0]
-        numbers["gain"] = middle[:, 1] / middle[:, 0] - 1.0
+    found["only_frame"] = int((of_frame & ~of_column).sum())
+    found["only_column"] = int((of_column & ~of_frame).sum())
     for name, values in numbers.items():
         found |= ensemble.bounds(name, values)
     return found
 
 
-def middles(velocities, shares):
-    """Return the velocities that overturn under half of the motions, by fitted curves."""
-    return medians(velocities, fit(velocities, shares, skewed=True))
-
-
-def curves(model, ensemble, means, velocities, settings, column):
-    """Return the probability of each structure over the velocity."""
+def sensitivity(model, found, settings):
+    """Return the share of the motions whose outcome a small change of their scale changes."""
     return [
-        {"model": model, "structure": name, "mass_ratio": gamma, "velocity": velocity}
-        | ensemble.bounds("probability", means[:, place, level])
-        for place, (name, gamma, _) in enumerate(structures_of(settings, column))
-        for level, velocity in enumerate(velocities[:-1])
+        {"model": model, "structure": name, "change": change}
+        | {"changed": float((found[:, place, number] != found[:, place, 0]).mean())}
+        for name, place in {"column": COLUMN, "frame": FRAME}.items()
+        for number, change in enumerate(settings["changes"], 1)
     ]
 
 
-def pairs(model, ensemble, means, velocities, settings, column):
-    """Return for each pair of frames the gain of the median, and how often one overturns alone.
+def gains(model, structure, fell, settings, column):
+    """Return for each frame its gain, and how often only it overturns and not the column.
 
-    `only_lighter` and `only_heavier` are shares of the motions, in the mean over the logarithm of
-    the velocity; `reversed` is the share of `only_heavier` in both. The column has γ = 0.
+    The gain is that of the velocity that overturns half of the motions, by a fitted curve. `ratio`
+    is the number of cases, motions at one velocity, in which only the frame overturns, over the
+    number in which only the column does.
     """
-    frames = {
-        gamma: place
-        for place, (name, gamma, _) in enumerate(structures_of(settings, column))
-        if name != "fixed mass"
-    }
-    middle, fell = middles(velocities[:-1], means[..., :-1]), ensemble.outcomes[..., :-1]
-    weights = np.ones(fell.shape[-1])
-    weights[[0, -1]] = 0.5  # the trapezoidal rule
-    rows = []
-    for light, heavy in combinations(sorted(frames), 2):
-        one, other = frames[light], frames[heavy]
-        alone = np.stack([fell[:, one] & ~fell[:, other], fell[:, other] & ~fell[:, one]], axis=1)
-        lighter, heavier = (ensemble.means(alone) @ (weights / weights.sum())).T
-        rows.append(
-            {"model": model, "lighter": light, "heavier": heavy}
-            | ensemble.bounds("only_lighter", lighter)
-            | ensemble.bounds("only_heavier", heavier)
-            | ensemble.bounds("reversed", heavier / (lighter + heavier))
-            | ensemble.bounds("gain", middle[:, other] / middle[:, one] - 1.0)
-        )
-    return rows
+    ensemble = Ensemble(fell, None, **settings["bootstrap"])
+    velocities = frames(settings, column).velocities
+    middle = medians(velocities, fit(velocities, ensemble.means(), skewed=True))
+    check(
+        np.isfinite(middle[0]).all(),
+        f"{model}, {structure}: the velocities reach no median; widen them",
+    )
+    ratios = alone(ensemble, [(0, place) for place in range(1, fell.shape[1])])
+    return [
+        {"model": model, "structure": structure, "mass_ratio": gamma, "motions": len(fell)}
+        | {"median_of_column": middle[0, 0]}
+        | ensemble.bounds("gain", middle[:, place] / middle[:, 0] - 1.0)
+        | ensemble.bounds("ratio", ratios[:, place - 1])
+        for place, gamma in enumerate(settings["mass_ratios"], 1)
+    ]
 
 
-def sampled(samples, settings, column):
+def alone(ensemble, pairs):
+    """Return how often only the heavier frame of a pair overturns, over how often the lighter."""
+    fell = ensemble.outcomes
+    orders = [order for light, heavy in pairs for order in ((light, heavy), (heavy, light))]
+    cases = np.stack([fell[:, one] & ~fell[:, other] for one, other in orders], axis=1)
+    means = ensemble.means(cases.sum(axis=-1))
+    return means[:, 1::2] / means[:, ::2]
+
+
+def pairs(structure, parts, settings):
+    """Return the ratio of `gains` for each pair of frames, under the motions of all sets.
+
+    The column has γ = 0.
+    """
+    groups = np.repeat(range(len(parts)), [len(part) for part in parts]).tolist()
+    ensemble = Ensemble(np.concatenate(parts), groups, **settings["bootstrap"])
+    gammas = [0.0, *settings["mass_ratios"]]
+    both = [*combinations(range(len(gammas)), 2)]
+    ratios = alone(ensemble, both)
+    return [
+        {"structure": structure, "lighter": gammas[light], "heavier": gammas[heavy]}
+        | {"motions": len(groups)}
+        | ensemble.bounds("ratio", ratios[:, place])
+        for place, (light, heavy) in enumerate(both)
+    ]
+
+
+def curves(model, shares, settings, column):
+    """Return the probability of each structure over the velocity."""
+    names = [("column", 0.0), *(("frame", gamma) for gamma in settings["mass_ratios"])]
+    names.append(("fixed mass", settings["mass_ratio"]))
+    return [
+        {"model": model, "structure": name, "mass_ratio": gamma}
+        | {"velocity": velocity, "probability": share}
+        for (name, gamma), of in zip(names, shares, strict=True)
+        for velocity, share in zip(frames(settings, column).velocities, of, strict=True)
+    ]
+
+
+def rotations(model, peaks, settings):
+    """Return the median of the peaks of |θ|/α; an overturned structure counts as above it."""
+    return [
+        {"model": model, "mass_ratio": gamma, "velocity": velocity, "median_peak": median}
+        for gamma, of in zip([0.0, *settings["mass_ratios"]], np.median(peaks, axis=0), strict=True)
+        for velocity, median in zip(settings["rotations"]["velocities"], of, strict=True)
+    ]
+
+
+def sampled(shards, settings, column):
     """Yield a seeded sample of outcomes; half of those without vertical motion at a boundary."""
     random = np.random.default_rng(settings["bootstrap"]["seed"])
-    motions, names = models(settings), list(samples)
+    question, motions = stated(settings, column), models(settings)
     for number in range(settings["checked"]):
-        model = names[number % len(names)]
-        found, question = samples[model], question_of(model, settings, column)
-        at, place, level = (int(random.integers(size)) for size in found.shape)
-        if found[at, place, level] == FREE_FALL:
+        model = [*motions][number % len(motions)]
+        found = outcomes(shards, model)[..., 0]
+        at, place = (int(random.integers(size)) for size in found.shape)
+        if found[at, place] == FREE_FALL:
             continue
         record, up = components(motions[model][at], settings)
-        block, factor = question.blocks[place], question.velocities[level] / record.peak_velocity
+        block, factor = question.blocks[place], settings["velocity"] / record.peak_velocity
         if up is None and random.integers(2):
             factor = beside_a_boundary(partial(overturns, block, record, up), factor)
-        yield block, record, up, factor, found[at, place, level] == 1
+        yield block, record, up, factor, found[at, place] == 1
 
 
-def findings(motions, motions_pairs):
-    curves = motions.dropna(subset=["gain"])
-    ends = {name: [motions[name].min(), motions[name].max()] for name in NAMES}
+def findings(motions, motions_gains, motions_pairs, motions_sensitivity, settings):
+    gains, changed = motions_gains, motions_sensitivity
+    equal = gains.gain[gains.mass_ratio == settings["mass_ratio"]]
+    least = changed[changed.change == changed.change.min()]
     return {
         "order": truth(
             ((motions.harm_low > 0.0) & (motions.benefit_low > 0.0)).all(),
             samples=len(motions),
-            **ends,
+            **{name: [motions[name].min(), motions[name].max()] for name in NAMES},
         ),
-        "gain": truth(
-            (curves.gain_low > 0.0).all(),
-            samples=len(curves),
-            least=curves.gain.min(),
-            most=curves.gain.max(),
-        ),
+        "gain": truth((gains.gain_low > 0.0).all(), least=equal.min(), most=equal.max()),
         "some_only_frame": truth((motions.only_frame > 0).all(), samples=len(motions)),
         "probability_is_lower": truth(
-            (motions_pairs.reversed_high < 0.5).all(),
+            (motions_pairs.ratio_high < 1.0).all(),
             pairs=len(motions_pairs),
-            least=motions_pairs.reversed.min(),
-            most=motions_pairs.reversed.max(),
+            least=motions_pairs.ratio.min(),
+            most=motions_pairs.ratio.max(),
         ),
+        "outcomes_that_change": value(least.changed.max(), 0.0, change=least.change.max()),
     }
 
 

@@ -6,13 +6,11 @@ import numpy as np
 
 from replication.step import run
 from steps.shared.sweep import sweep
-from topheavy import Column
 
 
 def compute(settings, break_even, structures, shard):
-    column = Column(**structures[settings["structure"]])
     content = BytesIO()
-    np.savez_compressed(content, **sweep(settings, break_even, column, shard))
+    np.savez_compressed(content, **sweep(settings, break_even, structures, shard))
     return {"outcomes": content.getvalue()}
 
 

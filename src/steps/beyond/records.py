@@ -1,4 +1,4 @@
-"""Measured records, scaled from uplift to overturning: how often only the heavier frame overturns.
+"""Measured records, scaled from uplift to overturning: outcomes of frames, and their capacity.
 
 The components of a few earthquakes are no sample of all ground motions: there are counts, and no
 intervals.
@@ -9,12 +9,12 @@ from itertools import combinations, product
 
 import numpy as np
 
-from replication.step import run, truth
+from replication.step import check, run, truth
 from steps.shared.second import NUDGE, check_by_scipy
 from topheavy import Column, RockingFrame, overturned_by, read_record
 
 
-def compute(settings, solver, components):
+def compute(settings, solver, structures, components):
     ratios, sizes = geometric(settings["factors"]), geometric(settings["sizes"])
     gammas, rows, edges = settings["mass_ratios"], [], []
     for path in components:
@@ -37,7 +37,37 @@ def compute(settings, solver, components):
             )
     at = np.linspace(0, len(edges) - 1, settings["checked"]).astype(int)
     check_by_scipy(edges[place] for place in at)
-    return rows
+    spec, column = settings["capacity"], Column(**structures[settings["capacity"]["structure"]])
+    return {"table": rows, "capacity": [*capacities(spec, column, map(read_record, components))]}
+
+
+def capacities(spec, column, records):
+    """Yield the capacities of the column (γ = 0) and its frames under each record, in g.
+
+    The capacity is the lowest peak acceleration from which a share of those in a relative window
+    overturns. It is stated for the first window, with the range over all.
+    """
+    highest, step = spec["highest"], spec["step"]
+    ratios = (1.0 + step) ** np.arange(math.log(highest) / math.log1p(step))
+    for record in records:
+        peaks = ratios * column.uplift_acceleration
+        for gamma in spec["mass_ratios"]:
+            frame = RockingFrame(column, gamma)
+            fell = overturned_by(frame, record, peaks / record.peak_acceleration)
+            found = [lowest(peaks, fell, window, spec) for window in spec["windows"]]
+            yield (
+                {"record": record.name, "mass_ratio": gamma, "capacity": found[0]}
+                | {"least": min(found), "most": max(found)}
+            )
+
+
+def lowest(peaks, fell, window, spec):
+    """Return the lowest peak from which enough of those in a window overturn."""
+    width = round(math.log1p(window) / math.log1p(spec["step"])) + 1
+    enough = np.convolve(fell, np.ones(width), "valid") >= spec["share"] * width
+    starts = peaks[: enough.size][enough]
+    check(starts.size > 0, f"no capacity up to {peaks[-1]:.3g} g: raise highest")
+    return starts[0]
 
 
 def geometric(spec):
@@ -56,7 +86,9 @@ def overturned(frame, record, factors, tightened):
     return np.where(np.all(found == others, axis=0), np.where(found, 1, -1), 0)
 
 
-def findings(records):
+def findings(records, records_capacity):
+    capacity = records_capacity.pivot(index="record", columns="mass_ratio", values="capacity")
+    gains = capacity.div(capacity[0.0], axis=0) - 1.0
     return {
         "heavier_is_safer": truth(
             not records.only_heavier.any(),
@@ -67,6 +99,11 @@ def findings(records):
             records=records.record.nunique(),
         ),
         "fewer_reversals": truth((records.only_heavier < records.only_lighter).all()),
+    } | {
+        f"gain_{gamma:g}": truth(
+            (gains[gamma] > 0.0).all(), least=gains[gamma].min(), most=gains[gamma].max()
+        )
+        for gamma in gains.columns[1:]
     }
 
 

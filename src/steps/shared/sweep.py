@@ -21,11 +21,12 @@ from topheavy import (
     Record,
     RockingBlock,
     RockingFrame,
+    judge,
     overturned_by,
 )
 
-SETS = ("near-fault", "broadband")
-VERTICAL = ", with vertical acceleration"  # appended to the name of a set
+FAMILIES = ("near-fault", "broadband")
+VERTICAL = ", with vertical acceleration"  # appended to the name of the last set
 FREE_FALL = -1  # outcome of a motion whose vertical acceleration goes beyond −1 g
 
 Settings = Mapping[str, Any]
@@ -35,7 +36,6 @@ Outcomes = NDArray[np.int8]
 class Motion(NamedTuple):
     """A motion of a model, drawn on request, and one that becomes its vertical component."""
 
-    earthquake: int
     record: Callable[[], Record]
     vertical: Callable[[], Record] | None = None
 
@@ -47,63 +47,61 @@ class Question(NamedTuple):
     velocities: NDArray[np.float64]
 
 
-def models(settings: Settings) -> dict[str, list[Motion]]:
-    """Return the motions of each model: the sets, filtered noise, the sets with vertical motion.
+def sets(settings: Settings) -> list[str]:
+    """Return the names of the sets of synthetic motions, one for each family and earthquake."""
+    quakes = [f"M {scenario['magnitude']:g}" for scenario in settings["scenarios"]]
+    return [f"{family}, {quake}" for family, quake in product(FAMILIES, quakes)]
 
-    The vertical component of a motion is a later one of the same set and earthquake.
+
+def models(settings: Settings) -> dict[str, list[Motion]]:
+    """Return the motions of each model: the sets, filtered noise, a set with vertical motion.
+
+    The vertical component of a motion is another one of the same set.
     """
-    found: dict[str, list[Motion]] = {}
-    noise, seed = settings["noise"], settings["seed"]
+    found, (count, seed) = {}, (settings["motions"], settings["seed"])
     scenarios = [synthetic.Scenario(**scenario) for scenario in settings["scenarios"]]
 
-    def drawn(name: str, place: int, number: int) -> Callable[[], Record]:
-        pulse = name == "near-fault"
-        return partial(synthetic.motion, seed + place, number, scenarios[place], pulse=pulse)
+    def drawn(family: str, place: int, number: int) -> Callable[[], Record]:
+        quake = (seed + place, number, scenarios[place])
+        return partial(synthetic.motion, *quake, pulse=family == FAMILIES[0])
 
-    numbers = [*product(range(len(scenarios)), range(settings["motions"]))]
-    for name in SETS:
-        found[name] = [Motion(place, drawn(name, place, number)) for place, number in numbers]
+    parts = [*product(FAMILIES, range(len(scenarios)))]
+    for name, part in zip(sets(settings), parts, strict=True):
+        found[name] = [Motion(drawn(*part, number)) for number in range(count)]
+    noise = settings["noise"]
     for place, (soil, corner) in enumerate(product(noise["soils"], noise["corners"])):
         of = filtered_noise.Soil(soil, corner)
         found[f"noise, soil {soil:g} Hz, filter {corner:g} Hz"] = [
-            Motion(0, partial(filtered_noise.motion, noise["seed"] + place, number, of))
+            Motion(partial(filtered_noise.motion, noise["seed"] + place, number, of))
             for number in range(noise["motions"])
         ]
-    later = settings["vertical"]["motions"]
-    for name in SETS:
-        found[name + VERTICAL] = [
-            Motion(place, drawn(name, place, number), drawn(name, place, number + later))
-            for place, number in numbers
-            if number < later
-        ]
+    found[sets(settings)[-1] + VERTICAL] = [
+        Motion(drawn(*parts[-1], number), drawn(*parts[-1], number + count))
+        for number in range(count)
+    ]
     return found
 
 
-def structures_of(settings: Settings, column: Column) -> list[tuple[str, float, RockingBlock]]:
-    """Return name, γ and block of column, column with fixed mass, frame, and frames of other γ."""
+def compared(settings: Settings, column: Column) -> list[RockingBlock]:
+    """Return the column, the column with a mass fixed on top, and the frame with the same γ."""
     gamma = settings["mass_ratio"]
-    return [
-        ("column", 0.0, column.block()),
-        ("fixed mass", gamma, FixedMassColumn(column, gamma).block()),
-        *(
-            ("frame", ratio, RockingFrame(column, ratio).block())
-            for ratio in [gamma, *settings["other_mass_ratios"]]
-        ),
-    ]
+    frame, fixed = RockingFrame(column, gamma), FixedMassColumn(column, gamma)
+    return [column.block(), fixed.block(), frame.block()]
 
 
-def question_of(model: str, settings: Settings, column: Column) -> Question:
-    """Return the structures and velocities for a model; the last is the stated velocity.
+def stated(settings: Settings, column: Column) -> Question:
+    """Return the compared structures, and the stated velocity with small changes of it."""
+    changes = np.array([0.0, *settings["changes"]])
+    return Question(compared(settings, column), settings["velocity"] * (1.0 + changes))
 
-    Frames of other γ are under the two sets only.
-    """
-    blocks = [block for *_, block in structures_of(settings, column)]
-    spec = settings["intensities"]
+
+def frames(settings: Settings, column: Column) -> Question:
+    """Return the column (γ = 0), its frames and the column with a fixed mass, and velocities."""
+    spec, gammas = settings["intensities"], [0.0, *settings["mass_ratios"]]
     unit = STANDARD_GRAVITY * column.uplift_acceleration / column.frequency_parameter  # m/s
-    if model not in SETS:
-        blocks, spec, unit = blocks[:3], settings["noise"]["velocities"], 1.0
     grid = unit * np.geomspace(spec["lowest"], spec["highest"], spec["points"])
-    return Question(blocks, np.append([] if VERTICAL in model else grid, settings["velocity"]))
+    blocks = [RockingFrame(column, gamma).block() for gamma in gammas]
+    return Question([*blocks, compared(settings, column)[1]], grid)
 
 
 def reductions(break_even: Settings) -> NDArray[np.float64]:
@@ -138,22 +136,44 @@ def overturned(question: Question, record: Record, up: Record | None) -> Outcome
     return overturned_by(question.blocks, record, factors, vertical=up).astype(np.int8)
 
 
-def sweep(settings: Settings, break_even: Settings, column: Column, shard: str) -> dict[str, Any]:
+def rotations(question: Question, record: Record, _: Record | None) -> NDArray[np.float64]:
+    """Return the peak of |θ|/α, infinite where a structure overturns, of the same shape."""
+    motions = [record.scaled(to / record.peak_velocity) for to in question.velocities]
+    peaks = np.array([[judge(one, each).peak for each in motions] for one in question.blocks])
+    return np.nan_to_num(peaks / question.blocks[0].slenderness, nan=np.inf)
+
+
+def sweep(
+    settings: Settings, break_even: Settings, structures: Mapping[str, Settings], shard: str
+) -> dict[str, Any]:
     """Return the outcomes of a shard, "2-of-8", and the peak velocities (m/s) of its motions."""
     number, of = map(int, shard.split("-of-"))
+    columns = {name: Column(**structures[name]) for name in settings["structures"]}
+    column, spec = columns[settings["structure"]], settings["rotations"]
+    tilted = Question(frames(settings, column).blocks[:-1], np.array(spec["velocities"]))
     found: dict[str, Any] = {}
     for model, motions in models(settings).items():
-        questions = {model: question_of(model, settings, column)}
-        if model in SETS:
-            questions[f"{model}: lowered"] = restitution_question(settings, break_even, column)
-        rows, peaks = {name: [] for name in questions}, []
-        for each in motions[number - 1 :: of]:
-            record, up = components(each, settings)
+        count, in_set = len(motions), model in sets(settings)
+        fewer = settings["fewer"] if in_set else count
+        questions = [(model, stated(settings, column), overturned, count)]
+        if not model.endswith(VERTICAL):
+            questions += [
+                (f"{model}: {name}", frames(settings, one), overturned, fewer)
+                for name, one in columns.items()
+            ]
+        if in_set:
+            lowered = restitution_question(settings, break_even, column)
+            questions.append((f"{model}: lowered", lowered, overturned, count))
+            questions.append((f"{model}: rotations", tilted, rotations, spec["motions"]))
+        rows: dict[str, list] = {name: [] for name, *_ in questions}
+        peaks = rows[f"{model}: peaks"] = []
+        for place in range(number - 1, count, of):
+            record, up = components(motions[place], settings)
             peaks.append(record.peak_velocity)
-            for name, question in questions.items():
-                rows[name].append(overturned(question, record, up))
+            for name, question, answer, most in questions:
+                if place < most:
+                    rows[name].append(answer(question, record, up))
         found |= {name: np.array(each) for name, each in rows.items()}
-        found[f"{model}: peaks"] = np.array(peaks)
         print(f"{len(peaks)} motions, {model}", flush=True)
     return found
 

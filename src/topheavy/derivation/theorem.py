@@ -14,6 +14,8 @@ from topheavy.derivation import (
     fixed_proofs,
     impact_proofs,
     motion_proofs,
+    plane_proofs,
+    pulse_proofs,
     reversal_proofs,
 )
 
@@ -59,8 +61,8 @@ def reversal_theorems() -> tuple[Theorem, ...]:
 
 @cache
 def extension_theorems() -> tuple[Theorem, ...]:
-    """Prove what a larger R̂ implies, and the extensions to N columns and vertical motion."""
-    return _prove(*extension_proofs.PROOFS)
+    """Prove what a larger R̂ implies, N columns, vertical motion, and motion across the plane."""
+    return _prove(*extension_proofs.PROOFS, *pulse_proofs.PROOFS, *plane_proofs.PROOFS)
 
 
 def _prove(*proofs: Callable[[], bool]) -> tuple[Theorem, ...]:

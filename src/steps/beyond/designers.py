@@ -1,0 +1,62 @@
+"""Table for designers: what a cap beam of each γ does to a column.
+
+Geometry, and ranges over the tables of the rules motions and friction. Under γ = ∞ the force of a
+column acts along its diagonal: the required friction is tan α, that of uplift.
+"""
+
+import math
+
+from replication.step import run, truth
+from topheavy import Cap, Column, RockingFrame, base_shear_slope, cap_displacement
+from topheavy.forces.frame import centre_height
+
+
+def compute(settings, friction, structures, motions_gains, motions_rotations, friction_by_mass):
+    column = Column(**structures[settings["structure"]])
+    cap = Cap(friction["bays"][0], friction["depth"] / 2.0)
+    friction_of = friction_by_mass.set_index(["bay", "mass_ratio"]).required
+    rows = []
+    for gamma in settings["mass_ratios"]:
+        frame = RockingFrame(column, gamma)
+        size = frame.equivalent_size / column.size
+        gains = motions_gains.gain[motions_gains.mass_ratio == gamma]
+        row = {"mass_ratio": gamma, "uplift_acceleration": frame.uplift_acceleration}
+        row |= {"travel": travel(column, column.slenderness), "size_ratio": size}
+        row |= {"velocity_scale": math.sqrt(size) - 1.0}
+        row |= {"gain_least": gains.min(), "gain_most": gains.max()}
+        turned = motions_rotations[motions_rotations.mass_ratio == gamma]
+        for velocity in settings["velocities"]:
+            peaks = turned.median_peak[turned.velocity == velocity] * column.slenderness
+            ends = (travel(column, end) / (2.0 * column.half_width) for end in ends_of(peaks))
+            row |= dict(zip((f"least_{velocity:g}", f"most_{velocity:g}"), ends, strict=True))
+        row["base_shear_slope"] = base_shear_slope(frame)
+        row["depth_over_width"] = centre_height(frame, cap) / column.half_height
+        for bay in friction["bays"]:
+            limit = frame.uplift_acceleration if math.isinf(gamma) else None
+            at = (bay if gamma else 0.0, gamma)
+            row[f"friction_{bay:g}"] = limit or friction_of[at]
+        rows.append(row)
+    return rows
+
+
+def ends_of(peaks):
+    return peaks.min(), peaks.max()
+
+
+def travel(column, rotation):
+    """Return how far the cap beam moves to the side, m; infinite where the column overturns."""
+    return float(cap_displacement(column, rotation)[0]) if math.isfinite(rotation) else math.inf
+
+
+def findings(designers):
+    gains = designers[designers.mass_ratio > 0.0]
+    return {
+        "scale_is_no_bound": truth(
+            (gains.gain_most > gains.velocity_scale).any()
+            and (gains.gain_least < gains.velocity_scale).any()
+        )
+    }
+
+
+if __name__ == "__main__":
+    run(snakemake, compute, findings)

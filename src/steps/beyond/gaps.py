@@ -1,0 +1,65 @@
+"""The trilith on contacts with gaps at the corners, shaken below its uplift acceleration."""
+
+import math
+
+import numpy as np
+import pandas as pd
+
+from replication.step import check, run, truth
+from steps.beyond.space import Bodies, motion
+from topheavy import STANDARD_GRAVITY, Cap, Column
+
+ROTATIONS = {"in_plane": (0, 2), "out_of_plane": (1, 2), "yaw": (1, 0)}  # sines, in the matrix
+
+
+def compute(settings, structures, trilith):
+    """Return the largest rotations of a column (degrees) in the last two thirds of each draw."""
+    column, rows = Column(**structures["trilith"]), []
+    cap = Cap(settings["cap"]["span"], 0.5 * settings["cap"]["depth"])
+    omega = 2.0 * math.pi * trilith["table_frequency"]
+    peak = trilith["table_amplitude"] * omega**2 / STANDARD_GRAVITY
+
+    def ground(time):
+        return peak * np.minimum(time / settings["ramp"], 1.0) * np.sin(omega * time)
+
+    cases = [(depth, gap, {}) for depth in settings["depths"] for gap in settings["gaps"]]
+    cases += [(*cases[-1][:2], changed) for changed in settings["checks"]]
+    for depth, gap, changed in cases:
+        solver = {name: settings[name] for name in ("time_step", "friction")} | changed
+        for draw in range(settings["draws"] if gap else 1):
+            back = np.random.default_rng([settings["seed"], draw]).uniform(0, 1e-3 * gap, (2, 4, 2))
+            bodies = Bodies(column, 0.5 * depth, trilith["mass_ratio"], cap, gaps=back, **solver)
+            turned = np.array(
+                [turned for _, turned in motion(bodies, ground, settings["duration"])]
+            )
+            late = np.abs(turned[len(turned) // 3 :]).max(axis=(0, 1))
+            largest = {name: math.degrees(math.asin(late[at])) for name, at in ROTATIONS.items()}
+            rows.append({"depth": depth, "gap_mm": gap, **solver, "draw": draw} | largest)
+    return pd.DataFrame(rows)
+
+
+def findings(gaps, settings):
+    """Return whether gaps make most draws rock and turn, and contacts without gaps none."""
+    rocks = gaps.assign(rocks=gaps.in_plane > settings["rocking"])
+    usual = (gaps.time_step == settings["time_step"]) & (gaps.friction == settings["friction"])
+    again = rocks[~usual].groupby(["time_step", "friction"]).rocks.mean()
+    check((again > 0.5).all(), f"another time step or friction: shares that rock are {[*again]}")
+    by_gap = rocks[usual].pivot_table("rocks", "gap_mm", "depth")
+    still, most = by_gap[(by_gap == 0.0).all(axis=1)], by_gap[(by_gap > 0.5).all(axis=1)]
+    rocking = rocks[usual & rocks.rocks]
+    return {
+        "gaps_make_it_rock": truth(
+            0.0 in still.index and len(most) > 0 and rocking.yaw.median() > settings["rocking"],
+            still_up_to=still.index.max(),
+            most_rock_from=most.index.min() if len(most) else 0.0,
+            least_share=most.min(axis=None) if len(most) else 0.0,
+            least_rotation=rocking.in_plane.min(),
+            largest_rotation=rocking.in_plane.max(),
+            median_yaw=rocking.yaw.median(),
+            draws=settings["draws"],
+        )
+    }
+
+
+if __name__ == "__main__":
+    run(snakemake, compute, findings)

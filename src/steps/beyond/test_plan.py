@@ -1,0 +1,67 @@
+"""A test that could refute us: a pulse that overturns the column and not the frame, and repeats."""
+
+import math
+from itertools import count
+
+import pandas as pd
+from scipy.stats import binom, norm
+
+from replication.step import check, run
+from topheavy import Column, Pulse, RockingFrame, judge, overturning_intervals
+from topheavy.second import reference
+
+HIGHEST, RESOLUTION = 40.0, 0.01  # over g tan α, of the search for minima
+SOLVERS = judge, reference.judge
+
+
+def compute(settings):
+    """Return for each pair of minima the pulse between them, and the repeats that tell them apart.
+
+    The second of a pair has the higher minimum: the frame, or the column with a lower √r. The
+    minimum scatters from test to test, by one standard deviation of its logarithm.
+    """
+    column = Column(**settings["column"])
+    omega = settings["frequency_ratio"] * column.frequency_parameter
+    unit, alone = Pulse(settings["shape"], 1.0, omega), column.block()
+    others = {"frame": RockingFrame(column, settings["mass_ratio"]).block()}
+    for reduction in settings["reductions"]:
+        lower = alone.with_restitution(alone.restitution * (1.0 - reduction))
+        others[f"column, √r {reduction:.0%} lower"] = lower
+    rows = []
+    for name, other in others.items():
+        low, high = (minimum(block, unit) for block in (alone, other))
+        pulse = unit.scaled(math.sqrt(low * high))
+        found = [solve(block, pulse).overturned for block in (alone, other) for solve in SOLVERS]
+        check(found == [True, True, False, False], f"{name}, {pulse}: overturned {found}")
+        for scatter in settings["scatters"]:
+            right = float(norm.cdf(0.5 * math.log(high / low) / scatter))
+            rows.append(
+                {
+                    "other": name,
+                    "minimum_of_column": low,
+                    "minimum_of_other": high,
+                    "pulse": pulse.amplitude,
+                    "period": 2.0 * math.pi / omega,
+                    "scatter": scatter,
+                    "one_is_right": right,
+                    "repeats": repeats(right, settings["risk"]),
+                }
+            )
+    return pd.DataFrame(rows)
+
+
+def minimum(block, unit):
+    """Return the minimum overturning acceleration, g."""
+    tan = block.uplift_acceleration
+    ends, step = (tan, HIGHEST * tan), RESOLUTION * tan
+    first, *_ = overturning_intervals(block, unit, ends, resolution=step, most_impacts=0)
+    return first.lower[1]
+
+
+def repeats(right, risk):
+    """Return the least odd number of repeats whose majority is wrong with at most a risk."""
+    return next(n for n in count(1, 2) if binom.cdf(n // 2, n, right) <= risk)
+
+
+if __name__ == "__main__":
+    run(snakemake, compute)

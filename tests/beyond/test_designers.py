@@ -1,0 +1,41 @@
+"""The table for designers: numbers by hand, and a scale that would be a bound."""
+
+import math
+
+import pandas as pd
+import pytest
+
+from steps.beyond import designers
+from tests.cases import COLUMN
+
+SETTINGS = {"structure": "one", "mass_ratios": [0.0, 1.0, math.inf], "velocities": [0.4]}
+FRICTION = {"bays": [5.0], "depth": 1.0}
+STRUCTURES = {"one": {"half_width": 0.5, "half_height": 3.0}}
+GAINS = pd.DataFrame({"mass_ratio": [1.0, 1.0, math.inf], "gain": [0.1, 0.3, 0.2]})
+ROTATIONS = pd.DataFrame(
+    {"mass_ratio": [0.0, 1.0, 1.0, math.inf], "velocity": 0.4, "median_peak": [math.inf, 1, 0, 0.5]}
+)
+REQUIRED = pd.DataFrame({"bay": [0.0, 5.0], "mass_ratio": [0.0, 1.0], "required": [0.6, 0.5]})
+
+
+def test_numbers_are_those_by_hand():
+    rows = designers.compute(SETTINGS, FRICTION, STRUCTURES, GAINS, ROTATIONS, REQUIRED)
+    column, equal, heaviest = rows
+    assert column["travel"] == equal["travel"] == pytest.approx(1.0)  # 2b
+    assert (equal["size_ratio"], heaviest["size_ratio"]) == pytest.approx((4 / 3, 1.5))
+    assert equal["velocity_scale"] == pytest.approx(0.1547, abs=1e-4)
+    assert (equal["gain_least"], equal["gain_most"]) == (0.1, 0.3)
+    assert column["most_0.4"] == math.inf
+    assert (equal["least_0.4"], equal["most_0.4"]) == pytest.approx((0.0, 1.0))
+    assert equal["depth_over_width"] == pytest.approx((3.0 + 6.5) / 2 / 3.0)
+    slope = 0.75 * math.cos(COLUMN.slenderness) ** 2
+    assert column["base_shear_slope"] == pytest.approx(1.0 - slope)
+    assert [row["friction_5"] for row in rows] == pytest.approx([0.6, 0.5, 1 / 6])
+
+
+@pytest.mark.parametrize(("most", "holds"), [(0.3, True), (0.15, False)])
+def test_a_larger_gain_shows_that_the_scale_is_no_bound(most, holds):
+    table = pd.DataFrame(
+        {"mass_ratio": [0.0, 1.0], "gain_least": 0.1, "gain_most": most, "velocity_scale": 0.1547}
+    )
+    assert designers.findings(table)["scale_is_no_bound"]["holds"] == holds
