@@ -1,44 +1,38 @@
-"""Search for inputs on which the solvers disagree, or a public function fails to keep its word.
+"""Search for inputs on which the solvers disagree.
 
 Hypothesis draws structures, motions and arguments with their edges: √r of 0 and 1, γ of 0 and ∞, no
 amplitude, the level of uplift to the last bit, plateaus, single samples. The lanes of the kernel,
-the scalar `simulate` and `judge`, and SciPy (`reference`) have to agree on each outcome that slight
-changes of the motion leave as it is, and each other function with a second way to its result. An
-error may be a ValueError, or the ArithmeticError of a history that bounces for too long.
+the scalar `simulate` and `judge`, SciPy (`reference`) and interval arithmetic have to agree on each
+outcome that slight changes of the motion leave as it is. An error may be the ArithmeticError of a
+history that bounces for too long.
 
     python benchmarks/fuzz.py [minutes, 1 unless given] [seed, of the clock unless given]
 
-prints the calls of each function. The first failure ends it with its smallest case and its seed.
+prints the cases of each property. The first failure ends it with its smallest case and its seed.
 """
 
-import inspect
 import math
 import sys
-import tempfile
 import time
 import traceback
 import warnings
 from collections import Counter
 from collections.abc import Callable
-from contextlib import suppress
 from functools import partial, wraps
 from itertools import count
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from hypothesis import HealthCheck, Phase, assume, given, seed, settings
 from hypothesis import strategies as st
 
-import topheavy
+import topheavy as th
 from topheavy.bodies import free_rocking
-from topheavy.bodies.structures import RockingBlock, Structure
-from topheavy.forces.frame import centre_height
+from topheavy.bodies.structures import RockingBlock, Structure, solitary_size
 from topheavy.ground.pulses import Pulse
 from topheavy.ground.records import Record
 from topheavy.ground.shapes import ENDING
 from topheavy.second import reference
-from topheavy.second.newton_euler import ThreeBodies, accelerations, impact
 
 #: Cases of a property in its turn, s of the processor for one, and the first two of all turns.
 TURN, LONGEST = 25, 60.0
@@ -47,20 +41,6 @@ NUDGES, CLOSE = (-1e-6, -1e-8, 1e-8, 1e-6), 1e-6
 FARTHER = (*NUDGES, -1e-5, 1e-5)
 #: A tolerance whose change of a decided outcome is as slight.
 TIGHT = 1e-13
-
-
-class Counted:
-    """The public interface; it counts what is taken from it."""
-
-    def __init__(self) -> None:
-        self.calls: Counter[str] = Counter()
-
-    def __getattr__(self, name: str) -> Any:
-        self.calls[name] += 1
-        return getattr(topheavy, name)
-
-
-th = Counted()
 
 
 def edged(low: float, high: float, *edges: float) -> st.SearchStrategy[float]:
@@ -222,7 +202,7 @@ def lanes(several: list[Any], data: st.DataObject) -> None:
     structure, motion, vertical = data.draw(shaken(st.just(several[0])))
     factors = data.draw(st.lists(edged(0.0, 1.0), min_size=1, max_size=12))
     above = {"vertical": vertical}
-    table = th.overturned_together(several, motion, factors, **above, scale_vertical=False)
+    table = th.overturned_by(several, motion, factors, **above, scale_vertical=False)
     for one, row in zip(several, table, strict=True):
         ends = partial(th.judge, one, **above)
         alone = th.overturned_by(one, motion, factors, **above, scale_vertical=False)
@@ -241,10 +221,10 @@ def lanes(several: list[Any], data: st.DataObject) -> None:
         each = [th.Pulse(motion.shape, float(a), motion.angular_frequency) for a in cells.amplitude]
     else:
         assume(motion.peak_acceleration > 1e-9)
-        sizes = [topheavy.bodies.structures.solitary_size(several[0].block().frequency_parameter)]
+        sizes = [solitary_size(several[0].block().frequency_parameter)]
         peaks = motion.peak_acceleration * np.array(factors)
         block = structure.block()
-        cells = th.overturning_map_of_record(block, motion, sizes, peaks)
+        cells = th.overturning_map(block, motion, sizes, peaks)
         structure, each = block, [motion.scaled(factor) for factor in factors]
     ends = partial(th.judge, structure)
     for k, pulse in enumerate(each):
@@ -258,14 +238,8 @@ def lanes(several: list[Any], data: st.DataObject) -> None:
 @over(shaken())
 def searches(case: Any) -> None:
     structure, motion, vertical = case
-    search = th.Search(structure, motion, (0.0, 1.5), vertical, False)
     above = {"vertical": vertical, "scale_vertical": False}
     found = th.overturning_intervals(structure, motion, (0.0, 1.5), resolution=0.05, **above)
-    lowest = th.minimum_overturning(structure, motion, (0.0, 1.5), resolution=0.05, **above)
-    assert (lowest is None) == (not found)
-    assert not found or found[0].lower[0] <= lowest[0] <= lowest[1] <= found[0].lower[1]
-    assert th.intervals_together([search, search], resolution=0.05) == [found, found]
-    assert th.minima_together([search], resolution=0.05) == [lowest]
     for one in found:
         outcomes = th.overturned_by(structure, motion, [*one.lower, *(one.upper or ())], **above)
         assert outcomes[1:3].all(), f"{one} has safe ends"
@@ -283,197 +257,6 @@ def proofs(case: Any) -> None:
     if certificate:
         outcome = certificate["outcome"]
         assert end.overturned == (outcome == "overturns"), f"{outcome} is proven, judged {end}"
-
-
-@over(st.lists(structures, min_size=1, max_size=3), st.data())
-def curves(several: list[Any], data: st.DataObject) -> None:
-    draw = motions(several[0]).filter(
-        lambda m: isinstance(m, Record) and m.peak_acceleration > 1e-9
-    )
-    shaking = data.draw(st.lists(draw, min_size=1, max_size=4))
-    levels = sorted(data.draw(st.sets(st.floats(0.05, 5.0), min_size=1, max_size=4)))
-    found = th.fragility(several, shaking, levels, "PGA", resamples=100)
-    for i, motion in enumerate(shaking):
-        factors = np.array(levels) / motion.peak_acceleration
-        for j, one in enumerate(several):
-            assert (found.outcomes[i, j] == th.overturned_by(one, motion, factors)).all()
-    share = found.curves.probability.values
-    assert (share == found.outcomes.mean(axis=0)).all()
-    low, high = found.curves.probability_low.values, found.curves.probability_high.values
-    assert ((low <= share) & (share <= high)).all()
-
-
-@over(frames(1e-3, 50.0), st.data())
-def forces(frame: Any, data: st.DataObject) -> None:
-    """The forces in closed form against Newton and Euler for three bodies."""
-    column, gamma = frame.column, frame.mass_ratio
-    cap = th.Cap(
-        column.half_width * data.draw(st.floats(2.1, 30.0)), data.draw(st.floats(0.05, 2.0))
-    )
-    theta = (
-        data.draw(st.floats(1e-6, 1.2)) * frame.slenderness * data.draw(st.sampled_from([-1, 1]))
-    )
-    rate = data.draw(st.floats(-2.0, 2.0)) * column.frequency_parameter
-    ground = data.draw(st.floats(-2.0, 2.0))
-    three = ThreeBodies(frame, cap.span, 2.0 * cap.half_depth)
-    side, weight = int(math.copysign(1, theta)), 2.0 * (1.0 + gamma) * th.STANDARD_GRAVITY
-    q, q_rate = np.zeros(9), np.zeros(9)
-    q[[2, 5]], q_rate[[2, 5]] = theta, rate
-    _, expected = accelerations(three, (side, side), q, q_rate, ground)
-    found = th.contact_forces(frame, cap, theta, rate, ground)
-    got = np.array([[one.horizontal, one.vertical] for one in found.contacts], dtype=float)
-    scale = 1.0 + np.abs(expected).max() / weight
-    assert np.abs(got - expected / weight).max() <= 1e-9 * scale * cap.span / column.half_width
-    whole = th.frame_forces(frame, cap, theta, rate, ground)
-    assert abs(whole.base_shear - expected[:2, 0].sum() / weight) <= 1e-9 * scale
-    course = (np.array([[0.0, each]]) for each in (theta, rate, ground))
-    largest = th.largest_forces(frame, cap, *course)[0]
-    assert largest[0] == abs(whole.base_shear)
-    assert largest[1] == abs(whole.overturning_moment)
-    alone = th.column_forces(column, theta, rate, ground)
-    still = th.contact_forces(th.RockingFrame(column, 0.0), cap, theta, rate, ground)
-    assert abs(2.0 * still.base_left.vertical - alone.vertical) <= 1e-9 * scale
-    tan, small = math.tan(frame.slenderness), 1e-6
-    beyond = th.frame_forces(frame, cap, -1e-14, 0.0, tan + small).base_shear
-    assert abs(beyond - tan - small * th.base_shear_slope(frame)) <= 1e-10
-    assert abs(th.frame_forces(frame, cap, 0.0, 0.0, tan / 2).overturning_moment) <= (
-        (1.0 + 1e-12) * centre_height(frame, cap) * tan / 2
-    )
-    assume(column.restitution >= 0.0 and frame.restitution >= 0.0)
-    behind, impulses = impact(three, (side, side), _before(three, -side, abs(rate)))
-    struck = th.impact_impulses(frame, cap, side * abs(rate))
-    got = np.array([[one.horizontal, one.vertical] for one in struck.contacts], dtype=float)
-    mass = 2.0 * (1.0 + gamma)
-    assert abs(behind[2] - side * frame.restitution * abs(rate)) <= 1e-9 * (1.0 + abs(rate))
-    bound = 1e-9 * (1.0 + np.abs(impulses).max() / mass) * cap.span / column.half_width
-    assert np.abs(got - impulses / mass).max() <= bound
-    still = th.impact_impulses(th.RockingFrame(column, 0.0), cap, abs(rate))
-    alone = th.column_impulse(column, abs(rate))
-    assert abs(2.0 * still.base_left.vertical - alone.vertical) <= 1e-9 * (1.0 + abs(rate))
-
-
-def _before(three: ThreeBodies, side: int, rate: float) -> np.ndarray:
-    """Return q̇ of the upright frame that turns about the corners of a side, towards the other."""
-    found, column = np.zeros(9), three.frame.column
-    turn = -side * rate
-    found[[2, 5]] = turn
-    found[[0, 3]], found[[1, 4]] = turn * column.half_height, turn * side * column.half_width
-    found[6], found[7] = 2.0 * turn * column.half_height, 2.0 * turn * side * column.half_width
-    return found
-
-
-@over(frames(1e-3, 50.0), st.data())
-def fixed(frame: Any, data: st.DataObject) -> None:
-    cap = th.Cap(3.0 * frame.column.half_width, data.draw(st.floats(0.05, 1.0)))
-    held = th.FixedFrame(frame, cap, data.draw(st.sampled_from(["pinned", "guided"])))
-    motion = data.draw(motions(frame, most=10))
-    period = data.draw(st.floats(0.1, 3.0)) * min(1.0, motion.duration)
-    (one,), two = (
-        th.peak_elastic([held], motion, period),
-        th.peak_elastic_by_scipy(held, motion, period),
-    )
-    rigid = th.peak_rigid(held, motion)
-    scale = np.abs([*rigid]) + np.abs([*two]) + 1e-12
-    assert (np.abs(np.subtract(one, two)) <= 2e-3 * scale).all(), f"{one}, {two}"
-
-
-WORDS = st.sampled_from(
-    ["g", "cm/s2", "m/s/s", "units of", "NPTS=", "DT=", "5", "1e-2", ",", "\n", "%"]
-)
-
-
-@over(shaken(), st.lists(st.one_of(WORDS, st.text(max_size=8))), st.integers(0, 400))
-def files(case: Any, words: list[str], place: int) -> None:
-    """What is written is read; what is spoilt is read, or refused by a ValueError."""
-    motion = case[1]
-    assume(isinstance(motion, Record) and 1e-6 < motion.peak_acceleration < 5.0)
-    step, values = round(motion.time_step, 6), [float(value) for value in motion.acceleration]
-    assume(step > 2e-6)
-    lines = "\n".join(map(repr, values))
-    rows = "\n".join(f"{k * step!r},{value!r}" for k, value in enumerate(values))
-    texts = {
-        "a.AT2": f"A site\nUNITS OF G\nNPTS= {len(values)}, DT= {step:.6f} SEC\n{lines}\n",
-        "a.csv": f"time (s),acceleration (g)\n{rows}\n",
-    }
-    with tempfile.TemporaryDirectory() as folder:
-        for name, read in {"a.AT2": th.read_at2, "a.csv": th.read_csv}.items():
-            path = Path(folder, name)
-            path.write_text(texts[name], encoding="utf-8")
-            for one in (read(path), th.read_record(path)):
-                assert (one.acceleration == values).all()
-                assert math.isclose(one.time_step, step, rel_tol=1e-9)
-            spoilt = texts[name][:place] + " ".join(words) + texts[name][place:]
-            path.write_text(spoilt, encoding="utf-8", errors="replace")
-            with suppress(ValueError):
-                read(path)
-
-
-ODD = st.sampled_from(
-    [math.nan, math.inf, -math.inf, -1.0, 0.0, 1e4, -1e4, 1e-2, "1", None, True, [], [1.0], {}]
-)
-COLUMN, PULSE = topheavy.Column(0.5, 3.0), topheavy.Pulse("one-sine", 0.3, 6.0)
-FRAME, CAP = topheavy.RockingFrame(COLUMN, 1.0), topheavy.Cap(3.0, 0.3)
-RECORD = topheavy.Record(0.05, 0.4 * np.sin(np.arange(60.0)))
-PORTAL = topheavy.MonolithicPortal(COLUMN, 1.0, 5.0)
-FIXED = topheavy.FixedFrame(FRAME, CAP, "pinned")
-MOVED = {"rotation": 0.1, "velocity": 0.0, "ground_acceleration": 0.2}
-SOUGHT = {"structure": COLUMN, "excitation": PULSE, "scale_range": (0.5, 2.0)}
-SCALED = {"excitation": RECORD, "factors": [0.5, 1.0]}
-HELD = {"excitation": RECORD, "period": 0.4}
-# fmt: off
-CALLS: dict[str, dict[str, Any]] = {  # what may be spoilt is not what a type has checked
-    "Cap": {"span": 3.0, "half_depth": 0.3},
-    "Column": {"half_width": 0.5, "half_height": 3.0},
-    "FixedMassColumn": {"column": COLUMN, "mass_ratio": 1.0, "cap_width": 1.0, "cap_depth": 0.1},
-    "MonolithicPortal": {"column": COLUMN, "mass_ratio": 1.0, "span": 4.0, "overhang": 0.1},
-    "Pulse": {"shape": "one-sine", "amplitude": 0.3, "angular_frequency": 6.0},
-    "Record": {"time_step": 0.1, "acceleration": [0.0, 0.5, 0.0]},
-    "RockingBlock": {"frequency_parameter": 2.0, "slenderness": 0.2, "restitution": 0.9},
-    "RockingFrame": {"column": COLUMN, "mass_ratio": 1.0},
-    "cap_displacement": {"column": COLUMN, "rotation": 0.1},
-    "column_forces": {"column": COLUMN, **MOVED},
-    "column_impulse": {"column": COLUMN, "velocity": 0.3},
-    "contact_forces": {"frame": FRAME, "cap": CAP, **MOVED},
-    "fragility": {"structures": [COLUMN], "motions": [RECORD], "levels": [0.1, 0.4]},
-    "frame_forces": {"frame": FRAME, "cap": CAP, **MOVED},
-    "impact_impulses": {"frame": FRAME, "cap": CAP, "velocity": 0.3},
-    "judge": {"structure": FRAME, "excitation": PULSE, "tolerance": 1e-9, "vertical": None},
-    "largest_forces": {"frame": FRAME, "cap": CAP} | {k: [[0.0, v]] for k, v in MOVED.items()},
-    "lowest_overturning": {**SOUGHT, "floor": 0.1},
-    "minimum_overturning": {**SOUGHT, "resolution": 0.1},
-    "overturned_by": {"structure": COLUMN, **SCALED},
-    "overturned_together": {"structures": [COLUMN], **SCALED},
-    "overturning_intervals": {**SOUGHT, "resolution": 0.1, "most_impacts": 3},
-    "overturning_map": {"structure": COLUMN, "shape": "one-sine", "angular_frequencies": [6.0],
-                        "amplitudes": [0.4]},
-    "overturning_map_of_record": {"structure": FRAME, "record": RECORD, "sizes": [1.0, 3.0],
-                                  "peak_accelerations": [0.4]},
-    "peak_elastic": {"fixed": [FIXED], **HELD},
-    "peak_elastic_by_scipy": {"fixed": FIXED, **HELD},
-    "peak_rigid": {"fixed": FIXED, "excitation": PULSE},
-    "resting_portal_forces": {"portal": PORTAL, "bases": "fixed", "ground_acceleration": 0.1},
-    "rocking_portal_forces": {"portal": PORTAL, **MOVED},
-    "simulate": {"structure": COLUMN, "excitation": PULSE, "rotation": 0.01, "velocity": 0.1,
-                 "duration": 2.0, "samples": 5, "tolerance": 1e-9},
-}
-# fmt: on
-
-
-@over(st.sampled_from(sorted(CALLS)), st.data())
-def refusals(name: str, data: st.DataObject) -> None:
-    """An odd argument is taken, or refused by a ValueError: there is no other error."""
-    key = data.draw(
-        st.sampled_from(sorted({*CALLS[name]} - {"frame", "cap", "column", "fixed", "portal"}))
-    )
-    arguments = CALLS[name] | {key: data.draw(ODD)}
-    with suppress(ValueError), np.errstate(all="ignore"), warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # it asks whether a number is meant
-        getattr(th, name)(**arguments)
-
-
-def public() -> set[str]:
-    """Return the names of all public functions."""
-    return {name for name in dir(topheavy) if inspect.isfunction(getattr(topheavy, name))}
 
 
 def tried(held: Callable[..., None], number: int, most: int) -> int:
@@ -526,7 +309,6 @@ def main(minutes: float, first: int) -> int:
             print(*traceback.format_exception(error, limit=-2), sep="")
             return 1
     print(f"seed {first}:", ", ".join(f"{name} {n}" for name, n in cases.items()), "cases")
-    print("calls:", ", ".join(f"{name} {th.calls[name]}" for name in sorted(public())))
     return 0
 
 

@@ -21,7 +21,7 @@ from oracle import PulseOracle, RecordOracle
 
 from topheavy import Column, Record, RockingBlock, RockingFrame, overturned_by
 from topheavy.kernel.forcing import SHAPES
-from topheavy.kernel.grid import pulse_outcomes_of
+from topheavy.kernel.grid import outcomes_of
 from topheavy.kernel.taylor import oscillator
 
 SLIGHT = 1e-10
@@ -84,8 +84,9 @@ def pulses(job: tuple[int, int, int]) -> list[dict]:
     alpha, restitution = block.slenderness, block.restitution
     amplitudes, frequencies = cells_of(number, count, alpha if linearised else math.tan(alpha))
     cells = np.array([amplitudes, frequencies])[:, start : start + PIECE]
-    given = cells[1][:, np.newaxis], cells[0][:, np.newaxis]
-    peaks, flags, counts = pulse_outcomes_of(oscillator(block), SHAPES[shape], *given, threads=1)
+    which = np.zeros(cells.shape[1], np.int64)
+    ours = outcomes_of([oscillator(block)], SHAPES[shape], which, cells[1], cells[0], threads=1)
+    peaks, flags, counts = ours
     name = f"{shape}{', linearised' if linearised else ''}, α = {pair[0]}°, γ = {pair[1]:g}"
     oracle = PulseOracle(shape, linearised)
 
@@ -94,7 +95,7 @@ def pulses(job: tuple[int, int, int]) -> list[dict]:
 
     return [
         row(name, truth(a, w), ours, lambda a=a, w=w: around(truth, a, w), alpha)
-        for a, w, ours in zip(*cells, zip(flags[:, 0], peaks[:, 0], counts[:, 0]), strict=True)  # noqa: B905
+        for a, w, ours in zip(*cells, zip(flags, peaks, counts), strict=True)  # noqa: B905
     ]
 
 

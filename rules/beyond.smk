@@ -5,9 +5,12 @@
 MODELS = code(
     "src/steps/shared/__init__.py",
     "src/steps/shared/sweep.py",
+    "src/steps/shared/synthetic.py",
+    "src/steps/shared/filtered_noise.py",
     "src/steps/beyond/__init__.py",
 )
-SECOND = code("src/steps/shared/second.py") | library("second", "risk")
+ENSEMBLE = code("src/steps/shared/ensemble.py") | library("risk")
+SECOND = code("src/steps/shared/second.py") | library("second")
 HORIZONTAL = sorted(
     path for path in glob("data/records/*.AT2") if not path.endswith("_UP.AT2")
 )
@@ -49,7 +52,7 @@ rule motions:
     log:
         "results/logs/motions.log",
     params:
-        code=code("src/steps/beyond/motions.py") | MODELS | SECOND | CORE,
+        code=code("src/steps/beyond/motions.py") | MODELS | ENSEMBLE | SECOND | CORE,
         settings=PAPER["motions"],
         structures=PAPER["structures"],
     script:
@@ -66,7 +69,7 @@ rule break_even:
     log:
         "results/logs/break_even.log",
     params:
-        code=code("src/steps/beyond/break_even.py") | MODELS | SECOND | CORE,
+        code=code("src/steps/beyond/break_even.py") | MODELS | ENSEMBLE | SECOND | CORE,
         settings=PAPER["break_even"],
         motions=PAPER["motions"],
         structures=PAPER["structures"],
@@ -85,7 +88,13 @@ rule records:
     log:
         "results/logs/records.log",
     params:
-        code=code("src/steps/beyond/records.py") | MODELS | SECOND | CORE,
+        code=code(
+            "src/steps/beyond/records.py",
+            "src/steps/shared/__init__.py",
+            "src/steps/beyond/__init__.py",
+        )
+        | SECOND
+        | CORE,
         settings=PAPER["records"],
         solver=PAPER["solver"],
         structures=PAPER["structures"],
@@ -112,6 +121,7 @@ rule friction:
             "src/steps/shared/__init__.py",
             "src/steps/shared/histories.py",
         )
+        | BODIES
         | CORE
         | library("forces", "second"),
         settings=PAPER["friction"],

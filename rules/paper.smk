@@ -2,6 +2,13 @@
 
 # First part: kernel, equations, parameters, trilith, allen, statements, verification ---------------
 
+LINEAR = code("src/steps/shared/__init__.py", "src/steps/shared/linear.py")
+BODIES = code(
+    "src/steps/shared/__init__.py",
+    "src/steps/shared/newton_euler.py",
+    "src/steps/shared/three_bodies.py",
+)
+
 
 rule kernel:
     output:
@@ -81,7 +88,7 @@ rule allen:
     log:
         "results/logs/allen.log",
     params:
-        code=code("src/steps/allen.py") | CORE | library("second"),
+        code=code("src/steps/allen.py") | LINEAR | CORE | library("second"),
         settings=PAPER["allen"],
         structures=PAPER["structures"],
         solver=PAPER["solver"],
@@ -101,6 +108,7 @@ rule statements:
         "results/logs/statements.log",
     params:
         code=code("src/steps/statements.py")
+        | BODIES
         | CORE
         | library("derivation", "forces", "second"),
         settings=PAPER["statements"],
@@ -119,7 +127,10 @@ rule verification:
     log:
         "results/logs/verification.log",
     params:
-        code=code("src/steps/verification.py") | CORE | library("derivation", "second"),
+        code=code("src/steps/verification.py")
+        | LINEAR
+        | CORE
+        | library("derivation", "second"),
         settings=PAPER["verification"],
         solver=PAPER["solver"],
     script:

@@ -4,11 +4,14 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import topheavy as th
+from steps.shared.linear import simulate_linear_exact as closed
+from topheavy.kernel.forcing import NO_RECORD
+from topheavy.kernel.grid import outcomes_of
 from topheavy.second import reference
-from topheavy.second.linear import simulate_linear_exact as closed
 
 ROOT = Path(__file__).resolve().parents[1]
 RECORDS = ROOT / "data" / "records"
@@ -50,3 +53,11 @@ def run_alone(*paths):
     """Run the checker's folder on files, without any package but the standard library."""
     command = [sys.executable, "-I", "-S", str(ROOT / "src/topheavy/proven/checking")]
     return subprocess.run([*command, *map(str, paths)], capture_output=True, text=True, timeout=300)
+
+
+def grid_of(block, shape, scales, amplitudes, record=NO_RECORD, **named):
+    """Return peak, overturned and impacts of all pairs of a scale and an amplitude."""
+    cells = np.repeat(scales, len(amplitudes)), np.tile(amplitudes, len(scales))
+    which = np.zeros(cells[0].size, np.int64)
+    found = outcomes_of([block], shape, which, *cells, record, **named)
+    return [values.reshape(len(scales), len(amplitudes)) for values in found]

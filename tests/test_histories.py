@@ -1,6 +1,7 @@
 """A history from launch to its end: samples only look, rest is proven, and every history ends."""
 
 import math
+import time
 from dataclasses import replace
 
 import numpy as np
@@ -8,13 +9,13 @@ import pytest
 
 import topheavy as th
 from benchmarks.boundaries import survey
-from tests.cases import BLOCK, BOTH, BY_TWO, EVERY, SIDES, TWO
+from steps.shared.linear import simulate_linear_exact as closed
+from tests.cases import BLOCK, BOTH, BY_TWO, COLUMN, EVERY, SIDES, TWO
 from topheavy.bodies.free_rocking import barrier, potential, quarter_period
 from topheavy.ground.excitation import root
 from topheavy.ground.shapes import ELEMENTARY_ENDING
-from topheavy.kernel import trace
+from topheavy.kernel.outcome import LAST_IMPACT, LONGEST_FLIGHT
 from topheavy.second import reference
-from topheavy.second.linear import simulate_linear_exact as closed
 from topheavy.second.motion import MOST_FREE_IMPACTS, Event, force, start
 
 SHAKEN = th.Pulse("one-sine", 0.5, 9.0)
@@ -218,7 +219,7 @@ def test_lossless_block_rocks_for_ever_or_overturns_by_both_solvers(block, shape
     for end, history in zip(ends, [f(lossless, pulse, samples=50) for f in TWO], strict=True):
         assert history.outcome == ("overturned" if end.overturned else "rocking")
         if not end.overturned:
-            assert len(history.impacts) == history.number_of_impacts + trace.LAST_IMPACT
+            assert len(history.impacts) == history.number_of_impacts + LAST_IMPACT
             assert end.peak == pytest.approx(ends[0].peak, rel=1e-6)
 
 
@@ -360,7 +361,7 @@ def test_history_at_the_last_bit_is_of_one_piece(block, solve):
     for amplitude in boundary(judged, block, 2.0, 4.0):
         history = solve(block, th.Pulse("one-sine", amplitude, 15.7), samples=400)
         rotation = np.abs(history.rotation[np.isfinite(history.rotation)])
-        assert history.time[-1] < 0.7 + trace.LONGEST_FLIGHT / 2.14 * 1.1 + 40.0
+        assert history.time[-1] < 0.7 + LONGEST_FLIGHT / 2.14 * 1.1 + 40.0
         if history.overturned:
             assert rotation[-1] > 0.99 * 0.25
         else:
@@ -401,18 +402,18 @@ def test_impact_right_after_the_start_is_found():
 @pytest.mark.parametrize(
     ("bound", "enough", "few", "says"),
     [
-        ("linear._MOST_MARCHES", 1000, 2, "2 marches.*shorter duration"),
-        ("motion.MOST_IMPACTS", 500, 3, "3 impacts.*shorter duration"),
-        ("reference.MOST_STEPS", 500, 1, "1 steps.*larger tolerance"),
+        ("steps.shared.linear._MOST_MARCHES", 1000, 2, "2 marches.*shorter duration"),
+        ("topheavy.second.motion.MOST_IMPACTS", 500, 3, "3 impacts.*shorter duration"),
+        ("topheavy.second.reference.MOST_STEPS", 500, 1, "1 steps.*larger tolerance"),
     ],
 )
 def test_marches_impacts_and_steps_are_bounded(monkeypatch, bound, enough, few, says):
     block, solve = (SLOW.linear(), closed) if "linear" in bound else (SLOW, reference.simulate)
     for amplitude in (*boundary(th.judge, block, 2.0, 4.0), 1.0, 9.0):
         pulse = th.Pulse("one-sine", amplitude, 15.7)
-        monkeypatch.setattr(f"topheavy.second.{bound}", enough)
+        monkeypatch.setattr(bound, enough)
         solve(block, pulse, samples=2)
-    monkeypatch.setattr(f"topheavy.second.{bound}", few)
+    monkeypatch.setattr(bound, few)
     with pytest.raises(ArithmeticError, match=rf"RockingBlock\(.*{says}"):
         solve(block, pulse.scaled(1.0 / 9.0), samples=2)
 
@@ -427,3 +428,24 @@ def test_history_with_too_many_impacts_is_named():
     case = r"(?s)200000 steps.*record.*0\.2 rad, restitution 1,.*bounces too often"
     with pytest.raises(ArithmeticError, match=case):
         th.judge(lossless, nudge)
+
+
+@pytest.mark.parametrize("lost", [2.0**-53, 1e-14, 1e-9])
+def test_block_that_loses_next_to_nothing_is_followed_as_fast_as_one_without_loss(lost):
+    samples = np.random.default_rng(1).normal(0.0, 0.2, 200_000)
+    record, times = th.Record(0.003, samples, unit="g"), []
+    for restitution in (1.0, 1.0 - lost):
+        begin = time.process_time()
+        th.judge(th.RockingBlock(1.0, 0.2342, restitution), record)
+        times.append(time.process_time() - begin)
+    assert times[1] < 10.0 * max(times[0], 0.05)
+
+
+@pytest.mark.parametrize("judged", [th.judge, reference.judge], ids=["Taylor", "SciPy"])
+def test_zeros_behind_a_record_change_nothing(judged):
+    samples = 0.6 * np.sin(np.linspace(0.0, 30.0, 100))
+    longer = th.Record(0.02, np.append(samples, np.zeros(500)))
+    for zeros in (np.zeros(1), np.zeros(2)):
+        shorter = th.Record(0.02, np.append(samples, zeros))
+        assert judged(COLUMN, shorter) == judged(COLUMN, longer)
+    assert judged(COLUMN, longer).impacts > 3

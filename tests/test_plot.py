@@ -47,7 +47,7 @@ def test_map_has_the_peak_at_its_frequency_and_amplitude():
 
 def test_map_of_a_record_has_its_own_axes():
     shaking = Record(0.1, [0.0, 0.3, -0.2, 0.1])
-    axes = plot.spectrum(topheavy.overturning_map_of_record(COLUMN, shaking, [1, 2], [0.1, 0.2]))
+    axes = plot.spectrum(topheavy.overturning_map(COLUMN, shaking, [1, 2], [0.1, 0.2]))
     assert axes.get_xlabel() == "Size R of the column (m)"
     assert axes.get_ylabel() == "Peak ground acceleration (g)"
 

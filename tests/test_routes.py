@@ -9,12 +9,12 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import topheavy as th
+from steps.shared.linear import simulate_linear_exact as closed
 from tests.cases import BLOCK, RECORDS
 from topheavy.bodies.free_rocking import barrier, energy
 from topheavy.checks import LARGEST_ACCELERATION
 from topheavy.ground.shapes import ELEMENTARY, ENDING
 from topheavy.second import reference
-from topheavy.second.linear import simulate_linear_exact as closed
 
 few = settings(max_examples=15, deadline=None, derandomize=True, database=None)
 many = settings(few, max_examples=120)

@@ -6,10 +6,10 @@ import numpy as np
 import pandas as pd
 
 from replication.step import check, grid, run, value
+from steps.shared.linear import simulate_linear_exact
 from topheavy import Column, Pulse, RockingFrame, judge, read_record, simulate
 from topheavy.bodies.massless_columns import SIMPLIFICATIONS, simplified
 from topheavy.second import reference
-from topheavy.second.linear import simulate_linear_exact
 
 AGREE = 1e-6  # of α, between solvers
 

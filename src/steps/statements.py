@@ -4,6 +4,7 @@ import numpy as np
 import sympy as sp
 
 from replication.step import check, run, truth
+from steps.shared.three_bodies import simulate_three_bodies
 from topheavy import (
     STANDARD_GRAVITY,
     Cap,
@@ -20,7 +21,6 @@ from topheavy.bodies.massless_columns import simplified
 from topheavy.derivation.motion import cap_motion
 from topheavy.derivation.notation import NEGATIVE, POSITIVE, acceleration, read, vanishes
 from topheavy.derivation.printed import EQUATIONS, rectangular_column
-from topheavy.second.three_bodies import simulate_three_bodies
 
 AGREE = 1e-6  # of α, of √r and of the weight: what two integrations may differ by
 CLOSE = 1e-8  # of a number that two formulas give

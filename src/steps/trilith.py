@@ -6,20 +6,44 @@ import numpy as np
 import pandas as pd
 
 from replication.step import check, grid, run, truth, value
-from topheavy import Column, RockingFrame, simulate
+from topheavy import Column, Pulse, RockingFrame, simulate
 from topheavy.bodies.structures import STANDARD_GRAVITY
-from topheavy.ground.shaking_table import (
-    abrupt_start,
-    amplitude_to_uplift,
-    frequency_to_uplift,
-    table_acceleration,
-    table_motion,
-)
 from topheavy.second import reference
 
 DIGITS = 5e-9  # of a number in a table
 ASIDE = 1e-6  # of a threshold, to either side
 AGREE = 1e-8  # of α, between solvers
+
+
+def table_acceleration(amplitude, frequency):
+    """Return the peak acceleration u₀ (2πf)², in g, of u₀ in m and f in Hz (p. 4)."""
+    return amplitude * (2.0 * math.pi * frequency) ** 2 / STANDARD_GRAVITY
+
+
+def table_motion(amplitude, frequency):
+    """Return the steady acceleration of the shake table, −u₀ (2πf)² sin 2πft, from t = 0 on."""
+    return Pulse("harmonic", -table_acceleration(amplitude, frequency), 2.0 * math.pi * frequency)
+
+
+def abrupt_start(frame, amplitude, frequency):
+    """Return θ̇ (rad/s) at t = 0⁺ of a frame whose shake table starts at full velocity.
+
+    A displacement u₀ sin 2πft starts with the velocity 2πf u₀. This jump is an infinite
+    acceleration, which uplifts the frame for every u₀. Integration of Eq. (23) over the jump at
+    θ = 0 gives θ̇ = −p̂² cos α (2πf u₀)/g.
+    """
+    jump = 2.0 * math.pi * frequency * amplitude
+    return -(frame.frequency_parameter**2) * math.cos(frame.slenderness) * jump / STANDARD_GRAVITY
+
+
+def amplitude_to_uplift(frame, frequency):
+    """Return the u₀ (m) whose peak acceleration at f (Hz) is the uplift acceleration."""
+    return frame.uplift_acceleration / table_acceleration(1.0, frequency)
+
+
+def frequency_to_uplift(frame, amplitude):
+    """Return the f (Hz) at which the peak acceleration of u₀ (m) is the uplift acceleration."""
+    return math.sqrt(frame.uplift_acceleration / table_acceleration(amplitude, 1.0))
 
 
 def numbers(frame, settings):

@@ -22,14 +22,13 @@ from topheavy import (
     Pulse,
     Record,
     RockingFrame,
-    Search,
     judge,
+    lowest_overturning,
     overturned_by,
     read_record,
     simulate,
 )
 from topheavy.bodies.structures import Structure
-from topheavy.outcomes.minimum import lowest_together
 from topheavy.second import reference
 
 NUDGE = 1e-9  # of a record: what no measurement resolves
@@ -58,16 +57,13 @@ def minima(
     The motion has a unit peak. The floor is over the uplift acceleration of each structure.
     """
     levels = [structure.block().uplift_acceleration for structure in under]
-    sought = [place for place, level in enumerate(levels) if max(level, above) < highest]
-    found: list[LowestOverturning | None] = [None] * len(levels)
-    if sought:
-        ranges = [(max(levels[place], above), highest) for place in sought]
-        searches = [
-            Search(under[at], motion, ends) for at, ends in zip(sought, ranges, strict=True)
-        ]
-        lowest = lowest_together(searches, [floor * levels[place] for place in sought])
-        for place, one in zip(sought, lowest, strict=True):
-            found[place] = one if one.bracket else None
+    found: list[LowestOverturning | None] = []
+    for structure, level in zip(under, levels, strict=True):
+        begin, one = max(level, above), None
+        if begin < highest:
+            ends = (begin, highest)
+            one = lowest_overturning(structure, motion, ends, floor=floor * level)
+        found.append(one if one and one.bracket else None)
     return found
 
 

@@ -10,6 +10,7 @@ import numpy as np
 import sympy as sp
 
 from replication.step import check, run, value
+from steps.shared.linear import simulate_linear_exact
 from topheavy import (
     Column,
     Pulse,
@@ -24,7 +25,6 @@ from topheavy.derivation import motion
 from topheavy.derivation.notation import alpha, gamma
 from topheavy.ground.shapes import ELEMENTARY
 from topheavy.second import reference
-from topheavy.second.linear import simulate_linear_exact
 
 OF_PRINT = 0.005  # of a number: the prints, which have three digits, are that far off at most
 AGREE = 1e-6  # of α: 99 % of the peaks of two solvers

@@ -20,18 +20,8 @@ from .ground.pulses import Pulse
 from .ground.records import Record, read_at2, read_csv, read_record
 from .ground.shapes import PULSE_SHAPES
 from .outcomes.minimum import LowestOverturning, lowest_overturning
-from .outcomes.overturning import (
-    Interval,
-    Search,
-    intervals_together,
-    minima_together,
-    minimum_overturning,
-    overturned_by,
-    overturned_together,
-    overturning_intervals,
-    overturning_map,
-)
-from .outcomes.record_map import overturning_map_of_record
+from .outcomes.overturning import overturning_map
+from .outcomes.search import Interval, overturned_by, overturning_intervals
 from .outcomes.simulate import judge, simulate
 from .risk.estimate import Fragility, fragility
 
@@ -59,7 +49,6 @@ __all__ = [
     "Response",
     "RockingBlock",
     "RockingFrame",
-    "Search",
     "Structure",
     "base_shear_slope",
     "cap_displacement",
@@ -69,17 +58,12 @@ __all__ = [
     "fragility",
     "frame_forces",
     "impact_impulses",
-    "intervals_together",
     "judge",
     "largest_forces",
     "lowest_overturning",
-    "minima_together",
-    "minimum_overturning",
     "overturned_by",
-    "overturned_together",
     "overturning_intervals",
     "overturning_map",
-    "overturning_map_of_record",
     "peak_elastic",
     "peak_elastic_by_scipy",
     "peak_rigid",

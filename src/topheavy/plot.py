@@ -14,7 +14,6 @@ from topheavy.bodies.fixed_mass import FixedMassColumn, MonolithicPortal
 from topheavy.bodies.kinematics import outlines
 from topheavy.bodies.response import Response
 from topheavy.bodies.structures import RockingFrame, Structure, as_block
-from topheavy.keywords import hinted
 from topheavy.risk.estimate import Fragility
 
 if TYPE_CHECKING:
@@ -27,7 +26,6 @@ FALLEN = 1.5
 """|θ|/α up to which a history is shown: one that goes on overturns."""
 
 
-@hinted
 def history(
     response: Response, structure: Structure, *, label: str = "", axes: Axes | None = None
 ) -> Axes:
@@ -55,14 +53,13 @@ def history(
     return axes
 
 
-@hinted
 def spectrum(outcomes: xarray.Dataset, *, axes: Axes | None = None) -> Axes:
     """Draw the peak rotation over α of a map; what overturns is grey.
 
     Parameters
     ----------
     outcomes : xarray.Dataset
-        Of `overturning_map` (frequency, amplitude) or `overturning_map_of_record` (size, PGA).
+        Of `overturning_map`.
     """
     axes = _axes(axes)
     across, up = (outcomes[name] for name in outcomes.peak_rotation.dims)
@@ -81,7 +78,6 @@ def spectrum(outcomes: xarray.Dataset, *, axes: Axes | None = None) -> Axes:
     return axes
 
 
-@hinted
 def fragility(found: Fragility, *, axes: Axes | None = None) -> Axes:
     """Draw the probability of overturning: points, their intervals as bands, the fitted curves.
 
@@ -109,7 +105,6 @@ def fragility(found: Fragility, *, axes: Axes | None = None) -> Axes:
     return axes
 
 
-@hinted
 def structure(
     shown: Structure,
     rotation: float = 0.0,

@@ -51,7 +51,7 @@ LITTLE = 1e-9
 
 
 def rate_for(block, level, rotation):
-    return P * math.sqrt(2 * (level - potential(block, rotation)))
+    return math.sqrt(2 * (level - potential(block, rotation)))
 
 
 def beside(block, start, level, side):
@@ -92,9 +92,9 @@ def test_block_beyond_its_slenderness_is_lost_unless_it_comes_in_over_the_barrie
 @BOTH
 @pytest.mark.parametrize("case", [(0.3, 0.5), (0.3, -0.7), (1.1, -0.4), (0.8, -0.05)])
 def test_ending_is_what_integration_finds(block, case):
-    tilt, rate = case[0] * ALPHA, case[1] * ALPHA * P
+    tilt, rate = case[0] * ALPHA, case[1] * ALPHA
     end = ending(block, tilt, rate)
-    history = simulate(block, rotation=tilt, velocity=rate, samples=np.linspace(0, 6, 3001))
+    history = simulate(block, rotation=tilt, velocity=P * rate, samples=np.linspace(0, 6, 3001))
     assert not end.overturned
     assert np.max(np.abs(history.rotation)) == pytest.approx(end.peak, rel=1e-5)
 

@@ -148,9 +148,9 @@ def searched(structure, unit, windows):
     uplift = structure.uplift_acceleration
     for first, last, step in windows:
         ends = (first * uplift, last * uplift)
-        found = th.minimum_overturning(structure, unit, ends, resolution=step * uplift)
+        found = th.overturning_intervals(structure, unit, ends, resolution=step * uplift)
         if found:
-            return 0.5 * sum(found)
+            return 0.5 * sum(found[0].lower)
     return math.inf
 
 

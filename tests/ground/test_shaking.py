@@ -7,18 +7,10 @@ import numpy as np
 import pytest
 
 import topheavy as th
+from steps.shared.three_bodies import simulate_three_bodies
 from tests.cases import RECORDS
-from topheavy import Column, RockingFrame, simulate
-from topheavy.ground.shaking_table import (
-    amplitude_to_uplift,
-    frequency_to_uplift,
-    table_acceleration,
-    table_motion,
-)
 from topheavy.ground.vertical import TwoComponents
-from topheavy.outcomes.overturning import outcomes_by
 from topheavy.second import reference
-from topheavy.second.three_bodies import simulate_three_bodies
 
 COLUMN = th.Column(0.5, 3.0)
 FRAME = th.RockingFrame(COLUMN, 1.0)
@@ -88,16 +80,15 @@ def test_search_is_refused_for_its_largest_factor_alone():
     for call in (
         partial(th.overturned_by, FRAME, SHAKE, [0.5, 2.5]),
         partial(th.overturning_intervals, FRAME, SHAKE, (0.5, 2.5), resolution=0.5),
-        partial(th.minimum_overturning, FRAME, SHAKE, (0.5, 2.5), resolution=0.5),
         partial(th.lowest_overturning, FRAME, SHAKE, (0.5, 2.5), floor=0.5),
-        partial(th.overturned_together, [COLUMN, FRAME], SHAKE, [0.5, 2.5]),
+        partial(th.overturned_by, [COLUMN, FRAME], SHAKE, [0.5, 2.5]),
     ):
         with pytest.raises(ValueError, match=told):
             call(vertical=falling)
         call(vertical=falling, scale_vertical=False)
     told = r"times -3 is -1\.2 g.*factors more than -2\.5 are allowed"
     with pytest.raises(ValueError, match=told):
-        th.minimum_overturning(FRAME, SHAKE, (-3.0, 0.5), resolution=1.0, vertical=falling)
+        th.overturning_intervals(FRAME, SHAKE, (-3.0, 0.5), resolution=1.0, vertical=falling)
     huge = th.Record(0.05, np.array([0.0, -3.0, 0.0]), unit="g")  # allowed below a third
     assert not th.overturned_by(FRAME, SHAKE, [0.0, 0.3], vertical=huge).any()
 
@@ -150,18 +141,15 @@ def test_factors_scale_both_or_one(scale_vertical, linearised):
     block = FRAME.block().linear() if linearised else FRAME.block()
     factors = np.linspace(0.0, 2.8, 29) + 0.4
     weak = th.Record(ODD.time_step, 0.8 * ODD.acceleration)
-    found = outcomes_by(
-        block, SHAKE.scaled(1.8), factors, vertical=weak, scale_vertical=scale_vertical
-    )
-    for factor, overturned, impacts in zip(factors, *found, strict=True):
-        up = weak.scaled(factor) if scale_vertical else weak
-        alone = th.judge(block, SHAKE.scaled(1.8 * factor), vertical=up)
-        assert (overturned, impacts) == (alone.overturned, alone.impacts)
-    assert 0 < found[0].sum() < factors.size
     search = {"vertical": weak, "scale_vertical": scale_vertical}
+    found = th.overturned_by(block, SHAKE.scaled(1.8), factors, **search)
+    for factor, overturned in zip(factors, found, strict=True):
+        up = weak.scaled(factor) if scale_vertical else weak
+        assert overturned == th.judge(block, SHAKE.scaled(1.8 * factor), vertical=up).overturned
+    assert 0 < found.sum() < factors.size
     given = (block, SHAKE.scaled(1.8), (0.4, 3.2))
     honest = th.lowest_overturning(*given, floor=0.1, **search)
-    low, high = th.minimum_overturning(*given, resolution=0.1, **search)
+    low, high = th.overturning_intervals(*given, resolution=0.1, **search)[0].lower
     ends = ((low, False), (high, True), *zip(honest.bracket, (False, True), strict=True))
     for factor, overturned in (*ends, *zip(honest.upper, (True, False), strict=True)):
         up = weak.scaled(factor) if scale_vertical else weak
@@ -186,7 +174,7 @@ def test_measured_vertical_gives_both_solvers_the_same_outcomes():
         th.MonolithicPortal(COLUMN, 1.0, 1.2),
     ]
     factors = np.array([1.6, 2.3])
-    found = th.overturned_together(structures, across, factors, vertical=up)
+    found = th.overturned_by(structures, across, factors, vertical=up)
     for structure, row in zip(structures, found, strict=True):
         for factor, overturned in zip(factors, row, strict=True):
             given = (structure, across.scaled(factor))
@@ -194,58 +182,3 @@ def test_measured_vertical_gives_both_solvers_the_same_outcomes():
             theirs = reference.judge(*given, vertical=up.scaled(factor))
             assert overturned == ours.overturned == theirs.overturned
             np.testing.assert_allclose(ours.peak, theirs.peak, rtol=0, atol=1e-6 * 0.165)
-
-
-TRILITH = RockingFrame(Column(0.11, 0.40), 0.434)
-AMPLITUDE, FREQUENCY = 0.005, 3.3  # m, Hz; p. 3
-PASSAGE = [  # what, ours, printed on p. 3, half a unit of its last digit
-    ("tan α", math.tan(TRILITH.slenderness), 0.275, 5e-4),
-    ("α, degrees", math.degrees(TRILITH.slenderness), 15.38, 5e-3),
-    ("R, m", TRILITH.column.size, 0.415, 5e-4),
-    ("p, rad/s", TRILITH.column.frequency_parameter, 4.21, 5e-3),
-    ("p̂, rad/s", TRILITH.frequency_parameter, 3.79, 5e-3),
-    ("p̂/p", TRILITH.frequency_parameter / TRILITH.column.frequency_parameter, 0.9, 5e-2),
-    ("ü_g, m/s²", table_acceleration(AMPLITUDE, FREQUENCY) * 9.81, 2.15, 5e-3),
-    ("ü_g, g", table_acceleration(AMPLITUDE, FREQUENCY), 0.219, 5e-4),
-]
-
-
-@pytest.mark.parametrize(("what", "ours", "printed", "half"), PASSAGE, ids=lambda row: str(row))
-def test_number_of_the_passage_is_that_printed(what, ours, printed, half):
-    assert ours == pytest.approx(printed, abs=half)
-
-
-def test_table_motion_is_the_second_derivative_of_its_displacement():
-    motion, omega, step = table_motion(AMPLITUDE, FREQUENCY), 2 * math.pi * FREQUENCY, 1e-4
-    times = np.linspace(0.01, 1.0, 57)
-    before, now, after = (AMPLITUDE * np.sin(omega * (times + k * step)) for k in (-1, 0, 1))
-    expected = (before - 2 * now + after) / step**2 / 9.81
-    np.testing.assert_allclose(motion.excitation(times), expected, atol=1e-6)
-    assert motion.duration == math.inf
-
-
-def lifts(amplitude: float, frequency: float) -> bool:
-    motion = table_motion(amplitude, frequency)
-    return simulate(TRILITH, motion, duration=2 / frequency, samples=2).outcome != "no uplift"
-
-
-@pytest.mark.parametrize("frequency", [1.0, FREQUENCY, 8.0])
-def test_amplitude_to_uplift_is_bracketed_by_simulation(frequency):
-    amplitude = amplitude_to_uplift(TRILITH, frequency)
-    assert not lifts(amplitude * (1 - 1e-9), frequency)
-    assert lifts(amplitude * (1 + 1e-9), frequency)
-
-
-def test_the_two_thresholds_are_one():
-    amplitude = amplitude_to_uplift(TRILITH, FREQUENCY)
-    assert frequency_to_uplift(TRILITH, amplitude) == pytest.approx(FREQUENCY, rel=1e-14)
-    linear = TRILITH.block().linear()
-    assert amplitude_to_uplift(linear, FREQUENCY) < amplitude
-
-
-@pytest.mark.parametrize("value", [0.0, -3.3, math.nan])
-def test_table_needs_a_frequency_and_an_amplitude(value):
-    with pytest.raises(ValueError, match="frequency is"):
-        table_motion(AMPLITUDE, value)
-    with pytest.raises(ValueError, match="amplitude is"):
-        table_motion(value, FREQUENCY)

@@ -15,17 +15,16 @@ from topheavy.kernel.forcing import (
     gravity,
     ground,
     next_uplift,
-    piece_at,
+    piece_of,
     prepare_record,
-    prepare_two_records,
     pulse_forcing,
     record_forcing,
     strongest_after,
     unit_pulse,
 )
-from topheavy.kernel.grid import mixed_outcomes_of, outcome_of
-from topheavy.kernel.outcome import TOLERANCE, working_array
+from topheavy.kernel.grid import outcome_of, outcomes_of
 from topheavy.kernel.rest import comes_to_rest
+from topheavy.kernel.step import TOLERANCE, working_array
 from topheavy.kernel.taylor import ROTATION, State, expand, oscillator
 
 RATIO = 2.5  # ω/p; with p = 1 the kernel's time is that of a `Pulse`
@@ -113,13 +112,15 @@ def test_way_8_a_ricker_wavelet_lifts_the_block_in_its_side_lobe():
 
 def test_record_is_that_of_the_library():
     samples = np.random.default_rng(1).normal(size=40)
-    record, there = prepare_record(samples), record_forcing(prepare_record(samples), 0.07, -1.5)
+    record = prepare_record(samples)
+    there = record_forcing(record, 0.07, -1.5, 0.0)
     library = Record(0.07, -1.5 * samples, unit="g")
     assert there.end == pytest.approx(library.duration)
     times = np.linspace(0.0, there.end, 333)[:-1]
     found = np.array([ground(there, record, time) for time in times])
     np.testing.assert_allclose(found[:, 0], library.excitation(times), atol=1e-13)
-    slopes = (np.diff(library.acceleration) / 0.07)[[piece_at(there, time) for time in times]]
+    pieces = [piece_of(there, record, time) for time in times]
+    slopes = (np.diff(library.acceleration) / 0.07)[pieces]
     np.testing.assert_allclose(found[:, 1], slopes, rtol=1e-12)
     assert ground(there, record, there.end) == (0.0, 0.0)
 
@@ -142,7 +143,7 @@ def shaken(seed, ratio, samples=700, upward=500):
     """A horizontal record of largest 1, a vertical one of largest 0.5, and the two prepared."""
     across, up = waves(seed, samples), waves(seed + 50, round(upward / ratio), ratio * STEP)
     across, up = across / np.abs(across).max(), 0.5 * up / np.abs(up).max()
-    return across, up, prepare_two_records(across, up, ratio)
+    return across, up, prepare_record(across, up, ratio)
 
 
 @RATIOS
@@ -171,15 +172,6 @@ def test_next_uplift_is_the_first_time_that_the_push_is_positive(ratio, factor):
         ahead = abs(ground(there, both, later)[0]) - gravity(there, both, later)[0] * 0.2
         assert ahead - found == pytest.approx(1e-7 * rate, abs=1e-8)
     assert True in seen
-
-
-@pytest.mark.parametrize("samples", [[-0.5, 0.5], [0.5, -0.5], [-0.1, 0.5], [0.1, -0.5, 0.5]])
-def test_piece_from_one_side_to_the_other_lifts_as_without_a_vertical_motion(samples):
-    alone, both = prepare_record(samples), prepare_two_records(np.array(samples), np.zeros(3), 1.0)
-    for start in (0.0, 0.001, 0.015):
-        expected = next_uplift(record_forcing(alone, STEP, 1.0), alone, start, 0.2)
-        found = next_uplift(record_forcing(both, STEP, 1.0, 1.0), both, start, 0.2)
-        assert found == pytest.approx(expected, abs=1e-15)
 
 
 def test_bounds_hold_for_the_rest_of_both_records():
@@ -221,7 +213,7 @@ def test_rest_is_not_called_when_gravity_is_about_to_fall():
     across, up = np.full(200, 0.9 * BLOCK.level), np.zeros(200)
     up[20:] = -0.2
     for lift, expected in ((1.0, False), (0.0, True), (0.04, True)):
-        both = prepare_two_records(across, up, 1.0)
+        both = prepare_record(across, up, 1.0)
         there = record_forcing(both, 1e-3, 1.0, lift)
         for side in (-1.0, 1.0):
             push = -side * 0.9 * BLOCK.level - BLOCK.level
@@ -244,7 +236,7 @@ def test_lanes_follow_what_the_scalar_kernel_follows(ratio, tolerance):
     factors = np.array([block.level for block in blocks])[which] * rng.uniform(0.8, 6.0, 60)
     lifts = rng.uniform(-1.8, 1.8, which.size)
     _, _, both = shaken(4, ratio)
-    found = mixed_outcomes_of(
+    found = outcomes_of(
         blocks, RECORD, which, steps, factors, both, lifts=lifts, tolerance=tolerance
     )
     for k in range(which.size):
@@ -261,7 +253,7 @@ def test_lanes_follow_what_the_scalar_kernel_follows(ratio, tolerance):
     assert 0.1 < found[1].mean() < 0.9
     back = slice(None, None, -1)
     given = (which[back], steps[back], factors[back])
-    again = mixed_outcomes_of(
+    again = outcomes_of(
         blocks, RECORD, *given, both, lifts=lifts[back], tolerance=tolerance, threads=2
     )
     for one, other in zip(found, again, strict=True):

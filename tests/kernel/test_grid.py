@@ -10,14 +10,13 @@ import numpy as np
 import pytest
 
 from benchmarks.boundaries import SHAPES
-from tests.cases import BOTH
+from tests.cases import BOTH, grid_of
 from topheavy import RockingBlock
-from topheavy.kernel import bernstein, forcing, interrupt, outcome, trace
+from topheavy.kernel import bernstein, forcing, interrupt, outcome, step
 from topheavy.kernel.forcing import NO_RECORD, prepare_record, pulse_forcing
 from topheavy.kernel.grid import (
     FEWEST_FACTORS,
     FEWEST_PULSES,
-    mixed_outcomes_of,
     outcome_of,
     outcomes_of,
 )
@@ -36,13 +35,13 @@ def same(first, second) -> None:
 @pytest.mark.parametrize("shape", [forcing.ONE_SINE, forcing.RICKER_SYMMETRIC])
 def test_results_do_not_depend_on_the_number_of_threads(shape, threads):
     assert SCALES.size * AMPLITUDES.size > 3 * FEWEST_PULSES
-    alone = outcomes_of(BLOCK, shape, SCALES, AMPLITUDES, threads=1)
-    same(outcomes_of(BLOCK, shape, SCALES, AMPLITUDES, threads=threads), alone)
-    same(outcomes_of(BLOCK, shape, SCALES, AMPLITUDES), alone)
+    alone = grid_of(BLOCK, shape, SCALES, AMPLITUDES, threads=1)
+    same(grid_of(BLOCK, shape, SCALES, AMPLITUDES, threads=threads), alone)
+    same(grid_of(BLOCK, shape, SCALES, AMPLITUDES), alone)
 
 
 def test_each_cell_is_the_history_of_its_scale_and_amplitude():
-    peak, overturned, impacts = outcomes_of(BLOCK, forcing.ONE_SINE, SCALES, AMPLITUDES)
+    peak, overturned, impacts = grid_of(BLOCK, forcing.ONE_SINE, SCALES, AMPLITUDES)
     assert peak.shape == overturned.shape == impacts.shape == (SCALES.size, AMPLITUDES.size)
     for i in range(0, SCALES.size, 8):
         for j in range(0, AMPLITUDES.size, 3):
@@ -55,8 +54,8 @@ def test_each_cell_is_the_history_of_its_scale_and_amplitude():
 def test_factors_on_a_record_do_not_depend_on_the_number_of_threads(threads):
     record = prepare_record(0.4 * np.sin(np.linspace(0, 30, 700)))
     steps, factors = np.array([0.02, 0.03]), np.linspace(-2.0, 3.0, 3 * FEWEST_FACTORS + 1)
-    alone = outcomes_of(BLOCK, forcing.RECORD, steps, factors, record, threads=1)
-    same(outcomes_of(BLOCK, forcing.RECORD, steps, factors, record, threads=threads), alone)
+    alone = grid_of(BLOCK, forcing.RECORD, steps, factors, record, threads=1)
+    same(grid_of(BLOCK, forcing.RECORD, steps, factors, record, threads=threads), alone)
 
 
 def test_history_that_was_given_up_is_named_in_the_message():
@@ -67,9 +66,9 @@ def test_history_that_was_given_up_is_named_in_the_message():
     with pytest.raises(
         ArithmeticError, match=rf"^200000 steps.*{case}.*bounces too often.*smaller"
     ):
-        outcomes_of(lossless, forcing.RECORD, np.ones(1), np.array([0.5, 1.0001]), record)
+        grid_of(lossless, forcing.RECORD, np.ones(1), np.array([0.5, 1.0001]), record)
     damped = lossless._replace(restitution=0.9)
-    overturned = outcomes_of(damped, forcing.RECORD, np.ones(1), np.array([1.0001]), record)[1]
+    overturned = grid_of(damped, forcing.RECORD, np.ones(1), np.array([1.0001]), record)[1]
     assert not overturned.any()
 
 
@@ -95,12 +94,10 @@ def test_histories_of_mixed_blocks_have_the_bits_of_each_alone(shape, threads):
         time = np.linspace(0, 20, 500)
         record = prepare_record(np.sin(3 * time) + 0.7 * np.sin(1 + 7.7 * time))
     blocks, which, scales, amplitudes = mixture(shape, 3)
-    found = mixed_outcomes_of(blocks, shape, which, scales, amplitudes, record, threads=threads)
+    found = outcomes_of(blocks, shape, which, scales, amplitudes, record, threads=threads)
     assert 0.1 < found[1].mean() < 0.9
     for k in range(which.size):
-        alone = outcomes_of(
-            blocks[which[k]], shape, scales[k : k + 1], amplitudes[k : k + 1], record
-        )
+        alone = grid_of(blocks[which[k]], shape, scales[k : k + 1], amplitudes[k : k + 1], record)
         for one, other in zip(found, alone, strict=True):
             np.testing.assert_array_equal(one[k], other[0, 0])
 
@@ -109,7 +106,7 @@ def test_history_of_a_mixture_that_was_given_up_is_named_with_its_block():
     lossless = oscillator(RockingBlock(1.0, 0.2, 1.0))
     record = prepare_record(lossless.level * np.array([0.0, 1.0, *np.zeros(300)]))
     with pytest.raises(ArithmeticError, match=r"1\.0001 times .*p Δt = 1: .*0\.2 rad, restit.* 1,"):
-        mixed_outcomes_of(
+        outcomes_of(
             [BLOCK, lossless],
             forcing.RECORD,
             np.array([0, 1, 0]),
@@ -126,20 +123,23 @@ EXTREMES = [(1.0 + 1e-9, 3.0), (1.5, 1e-4), (1e5, 1e-3), (3.0, 5.0), (7.1, 5.0),
 @pytest.mark.parametrize("shape", SHAPES)
 @BOTH
 def test_no_history_comes_near_the_most_steps(monkeypatch, shape, block):
-    """A hundredth of the bound is enough, also for a trace."""
-    there, w = oscillator(block), outcome.working_array()
-    monkeypatch.setattr(outcome, "MAX_STEPS", outcome.MAX_STEPS // 100)
-    monkeypatch.setattr(trace, "MOST_STEPS", trace.MOST_STEPS // 100)
+    """A hundredth of the bound is enough, also for a history with samples."""
+    there, w = oscillator(block), step.working_array()
+    arrays = (np.empty(0), np.empty((2, 0)), np.empty(1000))
+
+    def ends(motion):
+        given = (w, step.PULSE_ORDER, step.TOLERANCE, there, motion, NO_RECORD, outcome.NO_RATIOS)
+        how = ((0.0, 0.0, math.inf), arrays)
+        return [outcome.trace.py_func(*given, *how, judged)[1] for judged in (True, False)]
+
+    for bound in ("MAX_STEPS", "MOST_STEPS"):
+        monkeypatch.setattr(outcome, bound, getattr(outcome, bound) // 100)
     for strength, ratio in EXTREMES:
         motion = pulse_forcing(forcing.SHAPES[shape], strength * there.level, ratio)
-        given = (w, outcome.PULSE_ORDER, outcome.TOLERANCE, there, motion, NO_RECORD)
-        assert outcome.outcome.py_func(*given, outcome.NO_RATIOS).resolved
-        rest = ((0.0, 0.0, math.inf), (np.empty(0), np.empty((2, 0)), np.empty(1000)))
-        assert trace.trace.py_func(*given, *rest)[1] != trace.UNRESOLVED
-    monkeypatch.setattr(outcome, "MAX_STEPS", 0)
-    assert not outcome.outcome.py_func(*given, outcome.NO_RATIOS).resolved
-    monkeypatch.setattr(trace, "MOST_STEPS", 0)
-    assert trace.trace.py_func(*given, *rest)[1] == trace.UNRESOLVED
+        assert outcome.UNRESOLVED not in ends(motion)
+    for bound in ("MAX_STEPS", "MOST_STEPS"):
+        monkeypatch.setattr(outcome, bound, 0)
+    assert ends(motion) == [outcome.UNRESOLVED] * 2
 
 
 def test_parts_of_a_polynomial_are_far_fewer_than_the_most(monkeypatch):
@@ -148,15 +148,15 @@ def test_parts_of_a_polynomial_are_far_fewer_than_the_most(monkeypatch):
     for number in range(300):
         clustered = 0.1 ** random.uniform(0, 9) * random.uniform(size=15)
         places = random.uniform(0.05, 0.9) + (clustered if number % 2 else 0.0 * clustered)
-        w = outcome.working_array()
-        w[outcome.POLYNOMIAL, :16] = np.polynomial.polynomial.polyfromroots(places)
-        bernstein.to_bernstein(w, outcome.POLYNOMIAL, 15, outcome.HULL)
-        given = (w, outcome.POLYNOMIAL, 0, 15, outcome.HULL, outcome.STACK, outcome.ROOTS, 15)
+        w = step.working_array()
+        w[step.POLYNOMIAL, :16] = np.polynomial.polynomial.polyfromroots(places)
+        bernstein.to_bernstein(w, step.POLYNOMIAL, 15, step.HULL)
+        given = (w, step.POLYNOMIAL, 0, 15, step.HULL, step.STACK, step.ROOTS, 15)
         bernstein._roots.py_func(*given)
-        assert w[outcome.HALT, 0] == 0.0
+        assert w[step.HALT, 0] == 0.0
     monkeypatch.setattr(bernstein, "MOST_PARTS", 2)
     bernstein._roots.py_func(*given)
-    assert w[outcome.HALT, 0] == 1.0  # the history is given up
+    assert w[step.HALT, 0] == 1.0  # the history is given up
 
 
 def test_newton_finds_what_is_looked_for_in_a_quarter_of_its_steps(monkeypatch):
@@ -185,7 +185,7 @@ block = RockingBlock(2.0, 0.25, 0.95)
 def shaking():
     return Record(0.01, np.tile(0.27 * np.sin(np.arange(5_000_000) * 0.06), 3))
 def nudge():  # a lossless block bounces a hundred times a sample
-    samples = np.zeros(3_000_000)
+    samples = np.full(3_000_000, 1e-9)
     samples[1] = 1.0001 * np.tan(0.25)
     return Record(0.5, samples)
 calls = {
@@ -228,7 +228,7 @@ def test_ctrl_c_ends_a_long_call():
 
 def test_halted_threads_leave_the_rest_and_pass_on_the_error():
     def stuck(w):
-        while w[outcome.HALT, 0] == 0.0:
+        while w[step.HALT, 0] == 0.0:
             time.sleep(0.001)
 
     def failing(_):

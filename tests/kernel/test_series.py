@@ -13,14 +13,7 @@ from topheavy.kernel import forcing
 from topheavy.kernel.bernstein import MAX_DEGREE, roots, to_bernstein
 from topheavy.kernel.forcing import NO_RECORD, SHAPES, equation, ground, next_uplift, pulse_forcing
 from topheavy.kernel.march import derivatives
-from topheavy.kernel.outcome import (
-    HULL,
-    POLYNOMIAL,
-    PULSE_ORDER,
-    ROOTS,
-    STACK,
-    working_array,
-)
+from topheavy.kernel.step import HULL, POLYNOMIAL, PULSE_ORDER, ROOTS, STACK, working_array
 from topheavy.kernel.taylor import MAX_ORDER, ROTATION, State, evaluate, expand, oscillator
 
 BLOCK = RockingBlock(2.0, 0.25, 0.9)

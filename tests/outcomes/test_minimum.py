@@ -47,7 +47,7 @@ def test_both_solvers_have_the_narrow_interval(pier, judged):
 
 def test_minimum_rises_on_grids_that_are_not_nested_and_never_on_nested_ones():
     apart = [
-        th.minimum_overturning(BENT, EL_CENTRO, (0.0, 5.0), resolution=step)[1]
+        th.overturning_intervals(BENT, EL_CENTRO, (0.0, 5.0), resolution=step)[0].lower[1]
         for step in (0.1, 0.01, 0.001, 0.0005)
     ]
     assert apart == pytest.approx([4.003, 3.2263, 3.2297, 3.2212], abs=5e-4)
@@ -64,10 +64,10 @@ def test_minimum_rises_on_grids_that_are_not_nested_and_never_on_nested_ones():
 def planted(monkeypatch, edges):
     """Let the factors between each second pair of ascending edges overturn, whatever is shaken."""
 
-    def outcomes(subjects, factors, tolerance):
-        return [(np.searchsorted(edges, each, side="right") % 2 == 1, None) for each in factors]
+    def outcomes(subjects, which, factors):
+        return np.searchsorted(edges, factors, side="right") % 2 == 1, None
 
-    monkeypatch.setattr(minimum, "outcomes_of_subjects", outcomes)
+    monkeypatch.setattr(minimum, "outcomes_by", outcomes)
 
 
 def test_every_interval_wider_than_the_last_step_is_found_and_its_width_measured(monkeypatch):

@@ -7,15 +7,7 @@ import pytest
 
 import topheavy as th
 from topheavy.ground.shapes import ENDING
-from topheavy.kernel.grid import mixed_outcomes_of
-from topheavy.kernel.outcome import TOLERANCE
-from topheavy.outcomes.overturning import (
-    MANY_AT_ONCE,
-    SAFE,
-    Search,
-    outcomes_of_subjects,
-    subjects_of,
-)
+from topheavy.outcomes.search import SURVIVES, intervals_of_many, outcomes_by, subjects_of
 from topheavy.second import reference
 
 BLOCK, COLUMN = th.RockingBlock(2.0, 0.25, 0.9), th.Column(0.5, 2.0)
@@ -50,13 +42,13 @@ def test_each_cell_of_a_map_is_a_history(block, shape):
 @pytest.mark.parametrize(
     ("change", "says"),
     [
-        ({"shape": "harmonic"}, "'harmonic'.*forever.*pulse that ends"),
-        ({"shape": "one-sin"}, r"'one-sin' \(did you mean 'one-sine'\?\)"),
-        ({"shape": "zigzag"}, "'zigzag'; expected one of one-sine"),
+        ({"motion": "harmonic"}, "'harmonic'.*forever.*pulse that ends"),
+        ({"motion": "one-sin"}, r"'one-sin' \(did you mean 'one-sine'\?\)"),
+        ({"motion": "zigzag"}, "'zigzag'; expected one of one-sine"),
         ({"structure": th.Column(2.0, 1.0)}, r"63\.4"),
         *(
             ({name: value}, f"{name}{says}")
-            for name in ("angular_frequencies", "amplitudes")
+            for name in ("scales", "amplitudes")
             for value, says in (
                 ([], r" has shape \(0,\).*not empty"),
                 ([[1.0]], r" has shape \(1, 1\)"),
@@ -68,12 +60,11 @@ def test_each_cell_of_a_map_is_a_history(block, shape):
                 (np.ma.array([0.3, 9.0], mask=[0, 1]), " has 1 masked of 2"),
             )
         ),
-        ({"angular_frequencies": [1.0, 0.0]}, "goes down to 0; .*zero or negative"),
+        ({"scales": [1.0, 0.0]}, "goes down to 0; .*zero or negative"),
     ],
 )
 def test_bad_map_is_refused_by_name_and_value(change, says):
-    given = {"structure": BLOCK, "shape": "one-sine"}
-    given |= {"angular_frequencies": [1.0], "amplitudes": [0.3]}
+    given = {"structure": BLOCK, "motion": "one-sine", "scales": [1.0], "amplitudes": [0.3]}
     with pytest.raises(ValueError, match=says):
         th.overturning_map(*(given | change).values())
 
@@ -108,12 +99,12 @@ def last_of(interval, last):
 def test_brackets_have_the_boundary_between_them(case):
     """Of the search's own outcomes, and of single histories to their tolerance."""
     block, excitation, (first, last), resolution, found = case
-    subjects = subjects_of([Search(block, excitation, (first, last))])
+    subjects = subjects_of([block], excitation, (first, last))
     size = max(abs(first), abs(last))
 
     def label(scale):
-        ((overturned, impacts),) = outcomes_of_subjects(subjects, [np.array([scale])], TOLERANCE)
-        return impacts[0] if overturned[0] else SAFE
+        overturned, impacts = outcomes_by(subjects, np.zeros(1, int), np.array([scale]))
+        return impacts[0] if overturned[0] else SURVIVES
 
     for interval in found:
         inside, outside = (interval.lower[1], last_of(interval, last)[0]), [interval.lower[0]]
@@ -135,7 +126,7 @@ def test_way_9_no_interval_wider_than_the_resolution_is_missed(case):
     block, excitation, (first, last), resolution, found = case
     fine = np.linspace(first, last, 5 * math.ceil((last - first) / resolution) + 1)
     ends = [th.judge(block, excitation.scaled(scale)) for scale in fine]
-    labels = [end.impacts if end.overturned else SAFE for end in ends]
+    labels = [end.impacts if end.overturned else SURVIVES for end in ends]
     changes = np.flatnonzero(np.diff(labels)) + 1
     runs = zip([0, *changes], [*changes - 1, len(fine) - 1], strict=True)
     wide = [(a, b) for a, b in runs if fine[b] - fine[a] > resolution]
@@ -143,36 +134,13 @@ def test_way_9_no_interval_wider_than_the_resolution_is_missed(case):
     for a, b in wide:
         low, high = fine[a], fine[b]
         middle = [i for i in found if i.lower[0] < high and last_of(i, math.inf)[1] > low]
-        if labels[a] == SAFE:  # only what is narrower than the resolution is wrongly labelled
+        if labels[a] == SURVIVES:  # only what is narrower than the resolution is wrongly labelled
             for i in middle:
                 assert min(last_of(i, last)[0], high) - max(i.lower[1], low) <= 1e-9
         else:
             (holding,) = (i for i in middle if i.impacts == labels[a])
             assert holding.lower[0] <= low
             assert last_of(holding, math.inf)[1] >= high
-
-
-@pytest.fixture
-def scans(monkeypatch):
-    """The amplitudes of each call of the kernel."""
-    calls = []
-
-    def counted(blocks, shape, which, scales, amplitudes, *more, **named):
-        calls.append(amplitudes)
-        return mixed_outcomes_of(blocks, shape, which, scales, amplitudes, *more, **named)
-
-    monkeypatch.setattr("topheavy.outcomes.overturning.mixed_outcomes_of", counted)
-    return calls
-
-
-@pytest.mark.parametrize("resolution", [0.1, 0.849, 1.7, 20.0])
-@pytest.mark.parametrize("last", [9.0, 9.7, 10.0])
-def test_way_9_first_scan_has_no_step_wider_than_the_resolution(scans, last, resolution):
-    th.overturning_intervals(LINEAR, SINE, (1.0, last), resolution=resolution)
-    factors = scans[0] / SINE.amplitude
-    assert (factors[0], factors[-1]) == (1.0, last)
-    assert np.diff(factors).max() <= resolution * (1 + 1e-12)
-    assert len(factors) == math.ceil((last - 1.0) / resolution) + 1
 
 
 def test_way_9_bay_just_wider_than_the_resolution_is_found_wherever_the_range_begins():
@@ -185,7 +153,6 @@ def test_way_9_bay_just_wider_than_the_resolution_is_found_wherever_the_range_be
         assert found == pytest.approx((6.3181, 7.16813), abs=1e-3)
 
 
-@pytest.mark.parametrize("search", [th.overturning_intervals, th.minimum_overturning])
 @pytest.mark.parametrize(
     ("change", "says"),
     [
@@ -201,26 +168,43 @@ def test_way_9_bay_just_wider_than_the_resolution_is_found_wherever_the_range_be
         ({"excitation": 3}, "excitation is 3; expected a Pulse or a Record"),
     ],
 )
-def test_bad_search_is_refused_by_name_and_value(search, change, says):
-    if search is th.minimum_overturning and "most_impacts" in change:
-        return
+def test_bad_search_is_refused_by_name_and_value(change, says):
     given = {"structure": LINEAR, "excitation": SINE, "scale_range": (0.0, 1.0), "resolution": 0.1}
     with pytest.raises(ValueError, match=says):
-        search(**(given | change))
+        th.overturning_intervals(**(given | change))
 
 
-# ---------------------------------------------------------------------------- the search
+def test_intervals_of_many_are_those_of_each_alone():
+    """To the last bit, in their order."""
+    cases = list(CASES.values())
+    blocks, motions, ranges = ([case[k] for case in cases] for k in range(3))
+    found = intervals_of_many(blocks, motions, ranges, resolution=0.05, most_impacts=1)
+    for (*case, _), intervals in zip(cases, found, strict=True):
+        assert intervals == th.overturning_intervals(*case, resolution=0.05, most_impacts=1)
+    assert len({intervals[0].lower for intervals in found}) == len(cases)
 
 
-@pytest.mark.parametrize(("block", "excitation", "scales", "_"), CASES.values(), ids=CASES)
-def test_minimum_is_the_lower_end_of_the_first_interval(block, excitation, scales, _):
-    """On grids of several pieces: the first factor that overturns is in one or another."""
-    for first in np.linspace(*scales, 4)[:3]:
-        of = {"scale_range": (float(first), scales[1])}
-        of["resolution"] = (scales[1] - first) / (5 * MANY_AT_ONCE)
-        several = th.overturning_intervals(block, excitation, **of, most_impacts=0)
-        lowest = several[0].lower if several else None
-        assert th.minimum_overturning(block, excitation, **of) == lowest
+def test_factors_on_several_structures_have_the_outcomes_of_judge():
+    several, factors = [COLUMN, BLOCK, LINEAR], np.linspace(0.2, 3.0, 23)
+    found = th.overturned_by(several, SHAKING, factors)
+    for structure, row in zip(several, found, strict=True):
+        alone = [th.judge(structure, SHAKING.scaled(factor)).overturned for factor in factors]
+        assert row.tolist() == alone == th.overturned_by(structure, SHAKING, factors).tolist()
+    assert 0.2 < found.mean() < 0.8
+
+
+@pytest.mark.parametrize(
+    ("given", "says"),
+    [
+        ((BLOCK, SHAKING, [1.0, -1.0]), "factors goes down to -1"),
+        ((BLOCK, SHAKING, []), "factors has shape"),
+        ((BLOCK, HARMONIC, [1.0]), "goes on forever"),
+        (([], SHAKING, [1.0]), "structure is an empty list; expected one or more"),
+    ],
+)
+def test_bad_factors_are_refused_with_what_was_expected(given, says):
+    with pytest.raises(ValueError, match=says):
+        th.overturned_by(*given)
 
 
 MINE = th.Record(0.05, 0.3 * np.sin(np.linspace(0, 18, 90)) * np.hanning(90), "mine")
@@ -240,7 +224,7 @@ SIMILAR = {
 @pytest.mark.parametrize("similar", SIMILAR.values(), ids=SIMILAR)
 def test_each_cell_is_the_history_of_a_similar_structure(similar):
     factors = np.array([0.3, 1.0, 2.0, 7.0])
-    found = th.overturning_map_of_record(similar(1.0), MINE, factors * COLUMN.size, PEAKS)
+    found = th.overturning_map(similar(1.0), MINE, factors * COLUMN.size, PEAKS)
     assert found.sizes == {"size": 4, "peak_acceleration": PEAKS.size}
     for i, k in enumerate(factors):
         structure = similar(k)
@@ -260,7 +244,7 @@ def test_each_cell_is_the_history_of_a_similar_structure(similar):
 @pytest.mark.parametrize("block", [BLOCK, BLOCK.linear()], ids=["exact", "linear"])
 def test_cells_of_a_block_are_those_of_judge_and_of_scipy(block):
     sizes = [0.4, 1.0, 3.0, 9.0]
-    found = th.overturning_map_of_record(block, MINE, sizes, PEAKS[2:])
+    found = th.overturning_map(block, MINE, sizes, PEAKS[2:])
     for i, p in enumerate(found.frequency_parameter.values):
         assert p == pytest.approx(math.sqrt(3 * th.STANDARD_GRAVITY / (4 * sizes[i])), rel=1e-14)
         other = th.RockingBlock(float(p), block.slenderness, block.restitution, block.linearised)
@@ -278,23 +262,12 @@ def test_cells_of_a_block_are_those_of_judge_and_of_scipy(block):
     ("changes", "says"),
     [
         ({"structure": "column"}, "structure is 'column'; expected a Column"),
-        ({"record": th.Pulse("one-sine", 0.3, 6.0)}, "record is Pulse.*; expected a Record"),
-        ({"record": None}, "record is None; expected a Record"),
-        ({"record": th.Record(0.1, [0.0, 0.0], "still")}, "record 'still' has a peak .* of 0 g"),
-        ({"sizes": [1.0, 0.0]}, "sizes goes down to 0; it cannot be zero or negative"),
-        ({"sizes": []}, r"sizes has shape \(0,\); expected a list of numbers, not empty"),
-        ({"sizes": [1.0, math.inf]}, "sizes holds inf; expected finite"),
-        ({"peak_accelerations": [0.3, -0.1]}, "peak_accelerations goes down to -0.1; .* negative"),
-        ({"peak_accelerations": [1e7]}, "the largest of peak_accelerations is 1e.07 g; expected"),
-        ({"peak_accelerations": [["0.3"]]}, "peak_accelerations: element 0 is '0.3'"),
+        ({"motion": th.Record(0.1, [0.0, 0.0], "still")}, "record 'still' has a peak .* of 0 g"),
+        ({"scales": [1.0, 0.0]}, "scales goes down to 0; it cannot be zero or negative"),
+        ({"amplitudes": [1e7]}, "the largest of amplitudes is 1e.07 g; expected"),
     ],
 )
 def test_bad_map_of_a_record_is_refused_by_name_and_value(changes, says):
-    given = {
-        "structure": COLUMN,
-        "record": MINE,
-        "sizes": [1.0],
-        "peak_accelerations": [0.3],
-    } | changes
+    given = {"structure": COLUMN, "motion": MINE, "scales": [1.0], "amplitudes": [0.3]} | changes
     with pytest.raises(ValueError, match=says):
-        th.overturning_map_of_record(**given)
+        th.overturning_map(**given)

@@ -37,7 +37,9 @@ def test_both_sides_of_each_minimum_are_proven(structure):
     """The outcomes and impacts of the kernel, 1e-8 below and above the boundary it finds."""
     for shape in ENDING:
         pulse = th.Pulse(shape, structure.block().uplift_acceleration, OMEGA)
-        low, high = th.minimum_overturning(structure, pulse, (1.0, 60.0), resolution=0.02)
+        low, high = th.overturning_intervals(structure, pulse, (1.0, 60.0), resolution=0.02)[
+            0
+        ].lower
         middle = 0.5 * (low + high)
         for side, outcome in ((-1.0, "survives"), (1.0, "overturns")):
             factor = middle * (1.0 + 1e-8 * side)

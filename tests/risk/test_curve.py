@@ -1,11 +1,9 @@
-"""Fragility curves, and rates by a hazard."""
+"""Fragility curves."""
 
 import math
-import re
 
 import numpy as np
 import pytest
-from scipy.integrate import quad
 from scipy.optimize import minimize
 from scipy.special import log_ndtr, ndtr
 
@@ -19,8 +17,6 @@ from topheavy.risk.curve import (
     why_no_fit,
     why_no_median,
 )
-from topheavy.risk.gain import mass_ratio_of_share, mass_ratios_of_gain, share_of_size
-from topheavy.risk.hazard import rate_at_levels
 
 LEVELS = np.geomspace(0.5, 2.0, 9)
 WIDE = np.geomspace(0.1, 4.0, 12)
@@ -166,75 +162,3 @@ def test_fit_without_convergence_is_nan_with_a_reason(monkeypatch):
     terms = fit(LEVELS, shares, skewed=False)
     assert np.isnan(terms).all(axis=-1).tolist() == [True, False]
     assert why_no_fit(shares[0], terms[0], skewed=False) == "no fit of the curve in 1 passes"
-
-
-WIDE_LEVELS = np.geomspace(0.1, 10.0, 201)
-EXPONENTS = pytest.mark.parametrize("exponent", [1.5, 2.0, 3.0])
-
-
-@EXPONENTS
-def test_rate_of_a_motion_is_the_hazard_between_its_boundaries(exponent):
-    """It overturns from 0.5 to 0.8 and from 2 on, each to half a level."""
-    fell = ((WIDE_LEVELS > 0.5) & (WIDE_LEVELS < 0.8)) | (WIDE_LEVELS > 2.0)
-    exact = 0.5**-exponent - 0.8**-exponent + 2.0**-exponent
-    error = exponent * math.log(WIDE_LEVELS[1] / WIDE_LEVELS[0]) / 2.0 * 2.0 * 0.5**-exponent
-    assert fell @ rate_at_levels(WIDE_LEVELS, exponent) == pytest.approx(exact, abs=error)
-    cut = fell @ rate_at_levels(WIDE_LEVELS, exponent, (0.6, 3.0))
-    exact = 0.6**-exponent - 0.8**-exponent + 2.0**-exponent - 3.0**-exponent
-    assert cut == pytest.approx(exact, abs=error)
-
-
-@EXPONENTS
-def test_structure_that_always_overturns_does_so_as_often_as_there_are_motions(exponent):
-    assert rate_at_levels(WIDE_LEVELS, exponent).sum() == pytest.approx(0.1**-exponent)
-    within = rate_at_levels(WIDE_LEVELS, exponent, (0.2, 5.0)).sum()
-    assert within == pytest.approx(0.2**-exponent - 5.0**-exponent)
-
-
-@EXPONENTS
-@pytest.mark.parametrize("ends", [(0.0, math.inf), (0.5, 3.0), (0.0, 2.0)])
-def test_rate_of_a_lognormal_curve_is_the_integral_over_it(exponent, ends):
-    exact, _ = quad(
-        lambda x: ndtr((x - math.log(0.9)) / 0.4) * exponent * math.exp(-exponent * x),
-        math.log(max(ends[0], 1e-3)),
-        math.log(min(ends[1], 1e8)),
-        limit=400,
-        points=[math.log(0.3), math.log(0.9)] if ends[1] == math.inf else None,
-    )
-    shares = ndtr(np.log(WIDE_LEVELS / 0.9) / 0.4)
-    assert shares @ rate_at_levels(WIDE_LEVELS, exponent, ends) == pytest.approx(exact, rel=2e-3)
-
-
-def test_bad_hazard_is_refused():
-    with pytest.raises(ValueError, match="exponent is 0; expected more than zero"):
-        rate_at_levels(WIDE_LEVELS, 0.0)
-    with pytest.raises(ValueError, match=re.escape("ends are 2 and 1; expected ascending")):
-        rate_at_levels(WIDE_LEVELS, 2.0, (2.0, 1.0))
-
-
-RATIOS = [0.0, 0.25, 0.5, 1.0, 2.0, 4.0, math.inf]
-
-
-def test_share_of_size_is_that_of_equation_24():
-    ratios = [(1 + 3 * gamma) / (1 + 2 * gamma) for gamma in RATIOS[:-1]] + [1.5]
-    assert 1.0 + share_of_size(RATIOS) / 2.0 == pytest.approx(ratios)
-
-
-@pytest.mark.parametrize("share", [0.0, 0.25, 2.0 / 3.0, 1.0])
-def test_mass_ratio_of_a_share_has_that_share(share):
-    assert share_of_size([mass_ratio_of_share(share)]) == pytest.approx([share], abs=1e-15)
-
-
-def test_share_of_the_gain_of_size_alone():
-    medians = 1.0 + share_of_size(RATIOS) / 2.0  # as R̂ itself: γ/(1 + 2γ) is the gain
-    found = mass_ratios_of_gain(RATIOS, medians, [0.5, 0.9])
-    assert found == pytest.approx([0.5, 4.5])
-
-
-def test_share_of_a_bent_gain_solves_its_parabola():
-    x = share_of_size(RATIOS)
-    medians = np.stack([1.0 + 0.3 * x - 0.1 * x**2, 2.0 + 0.2 * x])
-    found = mass_ratios_of_gain(RATIOS, medians, [0.5])[:, 0]
-    at = share_of_size(found)
-    assert 0.3 * at[0] - 0.1 * at[0] ** 2 == pytest.approx(0.1)
-    assert found[1] == pytest.approx(0.5)

@@ -6,10 +6,7 @@ import numpy as np
 import pytest
 
 from topheavy import Pulse, RockingBlock
-from topheavy.second.motion import COUNTED_PEAK, start
-from topheavy.second.reference import _is_eventless, judge, simulate
-
-BLOCK = RockingBlock(2.0, 0.25, 0.9)
+from topheavy.second.reference import judge, simulate
 
 
 def seeded_cases(number: int) -> list[tuple[RockingBlock, Pulse]]:
@@ -55,21 +52,3 @@ def test_tighter_tolerance_changes_next_to_nothing(case):
     assert tight.overturned == usual.overturned
     assert tight.impacts == usual.impacts
     assert tight.peak == pytest.approx(usual.peak, abs=1e-8 * case[0].slenderness, nan_ok=True)
-
-
-@pytest.mark.parametrize(("share", "expected"), [(0.9, True), (0.9999, False), (1.1, True)])
-def test_peak_between_two_samples_that_may_count_is_looked_for(share, expected):
-    """An impact is counted by the peak before it, which may lie above both ends of a step."""
-    course, end = start(BLOCK, 0.0, 0.0), share * COUNTED_PEAK * BLOCK.slenderness
-    course.rotation, course.rate, course.peak = end, 1e-7, 0.1
-    aside = 1e-3 * COUNTED_PEAK * BLOCK.slenderness  # how far a turn may be above the ends
-    largest = 8.0 * aside / 0.01**2
-    assert _is_eventless(course, 0.01, end, -1e-7, largest) is expected
-
-
-@pytest.mark.parametrize(("share", "expected"), [(0.9, True), (1.1, False)])
-def test_dip_between_two_samples_that_may_reach_the_ground_is_looked_for(share, expected):
-    course, end = start(BLOCK, 0.0, 0.0), 0.01 * BLOCK.slenderness
-    course.rotation, course.rate, course.peak = end, -1e-7, 0.1
-    largest = share * 8.0 * end / 0.01**2  # the chord is above the dip by this share of its height
-    assert _is_eventless(course, 0.01, end, 1e-7, largest) is expected

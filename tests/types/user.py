@@ -30,7 +30,6 @@ from topheavy import (
     Response,
     RockingBlock,
     RockingFrame,
-    Search,
     Structure,
     base_shear_slope,
     cap_displacement,
@@ -40,17 +39,12 @@ from topheavy import (
     fragility,
     frame_forces,
     impact_impulses,
-    intervals_together,
     judge,
     largest_forces,
     lowest_overturning,
-    minima_together,
-    minimum_overturning,
     overturned_by,
-    overturned_together,
     overturning_intervals,
     overturning_map,
-    overturning_map_of_record,
     peak_elastic,
     peak_elastic_by_scipy,
     peak_rigid,
@@ -64,7 +58,6 @@ from topheavy import (
     simulate,
 )
 from topheavy.bodies.free_rocking import quarter_period
-from topheavy.second.linear import simulate_linear_exact
 
 pier = Column.of_dimensions(width=1.6, height=9.6)
 bent = RockingFrame.of_masses(pier, cap_mass=400e3, column_mass=60e3)
@@ -82,8 +75,6 @@ for motion in (pulse, shaking, measured.scaled(1.5)):
     assert_type(motion.excitation(times), NDArray[np.float64])
     assert_type(motion.excitation([0.0, 1]), NDArray[np.float64])
     assert_type(overturned_by(pier, motion, [1.0, 2.0]).any(), np.bool_)
-    lowest = minimum_overturning(pier, motion, (0, 5), resolution=0.5)
-    assert_type(lowest, tuple[float, float] | None)
     honest = lowest_overturning(bent, motion, (0, 5), floor=0.5)
     assert_type(honest.acceleration, float)
     print(honest)
@@ -97,12 +88,11 @@ for structure in structures:
     by_scipy = topheavy.second.reference.simulate(structure, pulse, duration=2, samples=times)
     assert_type(by_scipy, Response)
 free = simulate(block, rotation=0.1, samples=200)
-assert_type(simulate_linear_exact(block.linear(), pulse), Response)
 assert_type(quarter_period(pier, 0.01), tuple[float, float])
 
 spectrum = overturning_map(bent, "one-cosine", np.linspace(1.0, 4.0, 3), [0.5, 1.0])
 print(spectrum.sizes["amplitude"], spectrum["overturned"].to_numpy().sum())
-by_size = overturning_map_of_record(bent, measured, [2.0, 5.0], np.linspace(0.2, 1.0, 3))
+by_size = overturning_map(bent, measured, [2.0, 5.0], np.linspace(0.2, 1.0, 3))
 print(by_size["overturned"].to_numpy().sum())
 for interval in overturning_intervals(bent, pulse, (0.0, 2.0), resolution=0.5):
     assert_type(interval, Interval)
@@ -126,12 +116,9 @@ for sentence in curves.pairs["gain_words"].to_numpy():
 vase = FixedMassColumn(pier, 0.5, cap_width=3.0, cap_depth=1.0)
 portal = MonolithicPortal(pier, 1.0, span=12.0)
 assert_type(lowest_overturning(vase, pulse, (0, 5), floor=0.5), LowestOverturning)
-assert_type(overturned_together([vase, portal, bent], pulse, [1.0, 2.0]), NDArray[np.bool_])
+assert_type(overturned_by([vase, portal, bent], pulse, [1.0, 2.0]), NDArray[np.bool_])
 assert_type(rocking_portal_forces(portal, 0.01, 0.02, 0.1), ColumnEnds)
 print(resting_portal_forces(portal, "fixed", 0.1))
-searches = [Search(vase, pulse, (0.0, 2.0)), Search(bent, measured, (0.0, 2.0), vertical=shaking)]
-assert_type(minima_together(searches, resolution=0.5), list[tuple[float, float] | None])
-print(sum(map(len, intervals_together(searches, resolution=0.5))))
 
 assert_type(contact_forces(bent, cap, 0.01, 0.02, 0.1), ContactForces)
 assert_type(impact_impulses(bent, cap, 0.1), ContactForces)

@@ -13,6 +13,7 @@ import pandas as pd
 from scipy.optimize import isotonic_regression
 
 from replication.step import check, run, truth
+from steps.shared.ensemble import Ensemble
 from steps.shared.second import beside_a_boundary, check_by_scipy, overturns
 from steps.shared.sweep import (
     FAMILIES,
@@ -23,7 +24,6 @@ from steps.shared.sweep import (
     sets,
 )
 from topheavy import Column
-from topheavy.risk.ensemble import Ensemble
 
 FINE = 0.5  # of the interval of an end: how far twice the step of the reductions may move it
 

@@ -16,7 +16,7 @@ from topheavy import (
     Pulse,
     RockingFrame,
     judge,
-    minimum_overturning,
+    overturning_intervals,
     simulate,
 )
 
@@ -131,9 +131,9 @@ def minimum(frame, kind, column=None):
     """Return the pulse of the minimum in theory; ω is over p of its own or of a given column."""
     omega = kind["frequency_ratio"] * (column or frame.column).frequency_parameter
     unit, tan = Pulse(kind["shape"], 1.0, omega), frame.uplift_acceleration
-    return unit.scaled(
-        minimum_overturning(frame, unit, (tan, HIGHEST * tan), resolution=0.01 * tan)[1]
-    )
+    ends = (tan, HIGHEST * tan)
+    first, *_ = overturning_intervals(frame, unit, ends, resolution=0.01 * tan, most_impacts=0)
+    return unit.scaled(first.lower[1])
 
 
 def across(settings, structures):

@@ -7,8 +7,8 @@ import pandas as pd
 
 from replication.step import check, grid, run, truth
 from steps.shared.histories import history
+from steps.shared.three_bodies import simulate_three_bodies
 from topheavy import Cap, Column, Pulse, RockingFrame, contact_forces, impact_impulses, simulate
-from topheavy.second.three_bodies import simulate_three_bodies
 
 AGREE = 1e-3  # of tan α: required friction by the closed form and by Newton's and Euler's equations
 

@@ -10,6 +10,7 @@ from itertools import combinations
 import numpy as np
 
 from replication.step import check, run, truth, value
+from steps.shared.ensemble import Ensemble
 from steps.shared.second import beside_a_boundary, check_by_scipy, overturns
 from steps.shared.sweep import (
     FREE_FALL,
@@ -23,7 +24,6 @@ from steps.shared.sweep import (
 )
 from topheavy import Column
 from topheavy.risk.curve import fit, medians
-from topheavy.risk.ensemble import Ensemble
 
 NAMES = ("column", "fixed", "frame")
 COLUMN, FIXED, FRAME = range(3)

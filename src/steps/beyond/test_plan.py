@@ -7,7 +7,7 @@ import pandas as pd
 from scipy.stats import binom, norm
 
 from replication.step import check, run, value
-from topheavy import Column, Pulse, RockingFrame, judge, minimum_overturning
+from topheavy import Column, Pulse, RockingFrame, judge, overturning_intervals
 from topheavy.second import reference
 
 HIGHEST, RESOLUTION = 40.0, 0.01  # over g tan α, of the search for minima
@@ -53,7 +53,9 @@ def compute(settings):
 def minimum(block, unit):
     """Return the minimum overturning acceleration, g."""
     tan = block.uplift_acceleration
-    return minimum_overturning(block, unit, (tan, HIGHEST * tan), resolution=RESOLUTION * tan)[1]
+    ends, step = (tan, HIGHEST * tan), RESOLUTION * tan
+    first, *_ = overturning_intervals(block, unit, ends, resolution=step, most_impacts=0)
+    return first.lower[1]
 
 
 def repeats(right, risk):

@@ -6,8 +6,8 @@ from typing import Any, NamedTuple
 
 import pandas as pd
 
-from topheavy import Column, Pulse, RockingBlock, RockingFrame, Search, intervals_together
-from topheavy.outcomes.overturning import Interval
+from topheavy import Column, Interval, Pulse, RockingBlock, RockingFrame
+from topheavy.outcomes.search import intervals_of_many
 
 FRAME, SIZE, RESTITUTION = CHANGES = "frame", "size", "restitution"
 """What a cap beam changes of the column: p and √r, p alone (the equivalent column), √r alone."""
@@ -74,10 +74,9 @@ def search(
     lines: Sequence[Line], ranges: Sequence[tuple[float, float]], resolution: float
 ) -> list[list[Interval]]:
     """Return the intervals of each line in its range, none wider than the resolution missed."""
-    searches = [
-        Search(each.block, each.pulse, scales) for each, scales in zip(lines, ranges, strict=True)
-    ]
-    return intervals_together(searches, resolution=resolution, most_impacts=1) if lines else []
+    blocks, pulses = [each.block for each in lines], [each.pulse for each in lines]
+    limits = {"resolution": resolution, "most_impacts": 1}
+    return intervals_of_many(blocks, pulses, ranges, **limits) if lines else []
 
 
 def rows_of(each: Line, intervals: Sequence[Interval]) -> Iterator[dict[str, Any]]:

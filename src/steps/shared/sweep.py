@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from steps.shared import filtered_noise, synthetic
 from topheavy import (
     STANDARD_GRAVITY,
     Column,
@@ -21,10 +22,8 @@ from topheavy import (
     RockingBlock,
     RockingFrame,
     judge,
-    overturned_together,
+    overturned_by,
 )
-from topheavy.ground.synthetic import filtered_noise
-from topheavy.ground.synthetic import motions as synthetic
 
 FAMILIES = ("near-fault", "broadband")
 VERTICAL = ", with vertical acceleration"  # appended to the name of the last set
@@ -134,7 +133,7 @@ def overturned(question: Question, record: Record, up: Record | None) -> Outcome
     factors = question.velocities / record.peak_velocity
     if up is not None and factors.max() * up.acceleration.min() <= -1.0:
         return np.full((len(question.blocks), factors.size), FREE_FALL, np.int8)
-    return overturned_together(question.blocks, record, factors, vertical=up).astype(np.int8)
+    return overturned_by(question.blocks, record, factors, vertical=up).astype(np.int8)
 
 
 def rotations(question: Question, record: Record, _: Record | None) -> NDArray[np.float64]:

@@ -1,27 +1,28 @@
 """Free rocking in closed form: energy, turning rotation, quarter period, the end of a motion.
 
 Without ground motion the energy per unit inertia is conserved between impacts, so that no
-integration is necessary. With φ = |θ| and φ̇ its rate,
+integration is necessary. With φ = |θ| and φ' = φ̇/p,
 
-    e = φ̇²/2p² + w(φ),    w = cos(α − φ) − cos α  (exact),    w = φ (α − φ/2)  (linearised)
+    e = φ'²/2 + w(φ),    w = cos(α − φ) − cos α  (exact),    w = φ (α − φ/2)  (linearised)
 
-where w is the area under the moment–rotation curve of Fig. 1(b). Its summit is at φ = α.
+where w is the area under the moment–rotation curve of Fig. 1(b). Its summit is at φ = α. An impact
+multiplies e by r. The kernel compiles these functions, and the SciPy solver calls them as they are.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from typing import Any, NamedTuple
 
 import numpy as np
+from numba.extending import register_jitable
 
 from topheavy import checks
 from topheavy.bodies.response import Response
 from topheavy.bodies.structures import RockingBlock, Structure
 
 
-@dataclass(frozen=True)
-class Ending:
+class Ending(NamedTuple):
     """How a motion ends when the ground has come to rest.
 
     Attributes
@@ -42,64 +43,66 @@ class Ending:
     peak: float
     impacts: int
 
-    def __eq__(self, other: object) -> bool:
-        """Return whether both are the same; peaks that are NaN are (Python 3.13 denies it)."""
-        if not isinstance(other, Ending):
-            return NotImplemented
-        peaks = self.peak == other.peak or (math.isnan(self.peak) and math.isnan(other.peak))
-        return peaks and (self.overturned, self.impacts) == (other.overturned, other.impacts)
 
-    def __hash__(self) -> int:
-        return hash((self.overturned, self.impacts))
-
-
-def potential(block: RockingBlock, rotation: float) -> float:
+@register_jitable
+def potential(block: Any, rotation: float) -> float:
     """Return w(φ), the potential energy over I·p², of φ in rad."""
-    alpha = block.slenderness
+    half, alpha = 0.5 * rotation, block.slenderness
     if block.linearised:
-        return rotation * (alpha - rotation / 2.0)
-    return 2.0 * math.sin(alpha - rotation / 2.0) * math.sin(rotation / 2.0)
+        return float(rotation * (alpha - half))
+    return 2.0 * math.sin(alpha - half) * math.sin(half)
 
 
-def energy(block: RockingBlock, rotation: float, rate: float) -> float:
-    """Return e = φ̇²/2p² + w(φ), of φ in rad and φ̇ in rad/s."""
-    return 0.5 * (rate / block.frequency_parameter) ** 2 + potential(block, rotation)
-
-
-def barrier(block: RockingBlock) -> float:
+@register_jitable
+def barrier(block: Any) -> float:
     """Return w(α), the energy at the point of unstable equilibrium."""
     return potential(block, block.slenderness)
 
 
-def turning_rotation(block: RockingBlock, level: float) -> float:
-    """Return the φ in [0, α] (rad) at which a block of energy `level` ≤ w(α) turns back."""
-    short = barrier(block) - level
+@register_jitable
+def surplus(block: Any, rotation: float, velocity: float) -> float:
+    """Return e − w(α), without cancellation near φ = α."""
+    kinetic, off = 0.5 * velocity * velocity, block.slenderness - rotation
     if block.linearised:
-        return block.slenderness - math.sqrt(2.0 * short)
-    return block.slenderness - 2.0 * math.asin(math.sqrt(short / 2.0))
+        return float(kinetic - 0.5 * off**2)
+    return float(kinetic - 2.0 * math.sin(0.5 * off) ** 2)
 
 
-def ending(block: RockingBlock, rotation: float, rate: float) -> Ending:
-    """Return how the motion ends from the state (φ in rad, φ̇ in rad/s) at the end of the forcing.
+@register_jitable
+def turning_rotation(block: Any, level: float) -> float:
+    """Return the φ in [0, α] (rad) at which a block of energy `level` ≤ w(α) turns back."""
+    alpha, below = block.slenderness, barrier(block) - level
+    if block.linearised:
+        return float(level / (0.5 * (alpha + math.sqrt(2.0 * below))))
+    # φ = α − 2 asin √(below/2), with sin²x − sin²y = sin(x − y) sin(x + y), x = α/2:
+    half_angle = math.asin(math.sqrt(0.5 * below))
+    return 2.0 * math.asin(0.5 * level / math.sin(0.5 * alpha + half_angle))
+
+
+@register_jitable
+def ending(block: Any, rotation: float, velocity: float) -> Ending:
+    """Return how the motion ends from the state (φ in rad, φ̇/p) at the end of the forcing.
 
     Overturned is: φ > α and moving outward, or inward with less energy than the barrier; or φ ≤ α,
     moving outward with at least that energy. Otherwise the block goes through its next impact and
     is judged again. φ > α alone is not overturning.
     """
-    level, summit = energy(block, rotation, rate), barrier(block)
-    outward = rate > 0.0
-    if rate == 0.0 and rotation <= block.slenderness:
-        return Ending(False, rotation, 0)  # about to turn back, or poised at α
-    if rotation > block.slenderness and (outward or level < summit):
+    excess = surplus(block, rotation, velocity)
+    if rotation > block.slenderness and (velocity >= 0.0 or excess < 0.0):
         return Ending(True, math.nan, 0)
-    if outward:
-        if level >= summit:
-            return Ending(True, math.nan, 0)
-        return Ending(False, turning_rotation(block, level), 0)
-    rebound = block.restitution**2 * level
-    if rebound >= summit:
-        return Ending(True, math.nan, 1)
-    return Ending(False, max(rotation, turning_rotation(block, rebound)), 0)
+    if velocity > 0.0 and excess >= 0.0:
+        return Ending(True, math.nan, 0)
+    level = 0.5 * velocity * velocity + potential(block, rotation)
+    if velocity < 0.0:
+        level *= block.restitution * block.restitution
+        if level >= barrier(block):  # it passes through upright and overturns to the other side
+            return Ending(True, math.nan, 1)
+    return Ending(False, max(rotation, turning_rotation(block, level)), 0)
+
+
+def energy(block: RockingBlock, rotation: float, rate: float) -> float:
+    """Return e of φ in rad and φ̇ in rad/s."""
+    return 0.5 * (rate / block.frequency_parameter) ** 2 + potential(block, rotation)
 
 
 def quarter_period(structure: Structure, rotation: float) -> tuple[float, float]:

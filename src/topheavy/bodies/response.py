@@ -38,7 +38,8 @@ class Response:
         1e-6 α that cannot grow are not followed, and are zero in rotation and velocity.
     number_of_impacts : int
         Impacts until the forcing ends or the block has overturned (those on the way to overturning
-        included). A survivor's bouncing after the forcing is not counted.
+        included). A survivor's bouncing after the forcing is not counted. A record ends with the
+        last sample that is not zero.
     peak_rotation : float
         max|θ| in rad over the whole motion, the free rocking after the forcing included; NaN if
         overturned.

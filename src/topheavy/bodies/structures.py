@@ -13,7 +13,6 @@ from typing import Protocol
 
 from topheavy import checks
 from topheavy.checks import short
-from topheavy.keywords import hinted
 
 STANDARD_GRAVITY = 9.81
 """Acceleration of gravity g, m/s², as the paper's numbers imply it (2.15 m/s² = 0.219 g, p. 4)."""
@@ -79,7 +78,6 @@ class RockingBlock:
         return self
 
 
-@hinted
 @dataclass(frozen=True)
 class Column:
     """A free-standing rigid rectangular column.
@@ -121,7 +119,6 @@ class Column:
         )
 
     @classmethod
-    @hinted
     def of_dimensions(cls, *, width: float, height: float) -> Column:
         """Return the column of a width 2b and a height 2h, m.
 
@@ -174,7 +171,6 @@ class Column:
         return RockingBlock(self.frequency_parameter, self.slenderness, restitution)
 
 
-@hinted
 @dataclass(frozen=True)
 class RockingFrame:
     """Two equal free-standing columns under a freely supported rigid cap beam.
@@ -208,7 +204,6 @@ class RockingFrame:
         checked_mass_ratio(self.mass_ratio)
 
     @classmethod
-    @hinted
     def of_masses(
         cls, column: Column, cap_mass: float, column_mass: float, columns: int = 2
     ) -> RockingFrame:

@@ -176,7 +176,7 @@ def contact_forces(
     0.422
     """
     check_span(frame, cap)
-    at = _state(frame.column, rotation, velocity, ground_acceleration)
+    at = motion_state(frame.column, rotation, velocity, ground_acceleration)
     size, p_hat = frame.column.size, frame.frequency_parameter
     each, beam = weights(frame.mass_ratio)
     on_column = _load(at, size, p_hat)  # Eqs. (10), (11)
@@ -205,7 +205,7 @@ def column_forces(
     >>> th.column_forces(th.Column(0.5, 3.0), 0.0, 0.0, 0.05).vertical.item()
     1.0
     """
-    at = _state(column, rotation, velocity, ground_acceleration)
+    at = motion_state(column, rotation, velocity, ground_acceleration)
     rocking = _load(at, column.size, column.frequency_parameter)
     rests = (at.rotation == 0.0) & (at.velocity == 0.0) & np.isnan(at.side)
     return Reaction(
@@ -304,7 +304,7 @@ def checked_motion(
     return theta, rate, ground
 
 
-def _state(
+def motion_state(
     column: Column, rotation: ArrayLike, velocity: ArrayLike, ground_acceleration: ArrayLike
 ) -> _State:
     theta, rate, ground = checked_motion(rotation, velocity, ground_acceleration)

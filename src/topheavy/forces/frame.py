@@ -21,8 +21,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from topheavy.bodies.structures import STANDARD_GRAVITY, RockingFrame
-from topheavy.forces.contact import Cap, check_span, checked_motion, weights
-from topheavy.kernel.forces import Frame, forces_along, largest_along
+from topheavy.forces.contact import Cap, contact_forces, motion_state, weights
 
 Array = NDArray[np.float64]
 
@@ -76,14 +75,31 @@ def frame_forces(
     >>> round(forces.base_shear.item(), 4)
     -0.1019
     """
-    motion = checked_motion(rotation, velocity, ground_acceleration)
-    shape, count = motion[0].shape, motion[0].size
-    found = np.empty(count), np.empty(count), np.empty((count, 2, len(SECTIONS)))
-    forces_along(_numbers(frame, cap), *map(np.ravel, motion), HEIGHTS, *found)
-    shear, moment, bending = found
-    return FrameForces(
-        shear.reshape(shape), moment.reshape(shape), bending.reshape(*shape, *bending.shape[1:])
-    )
+    contacts = contact_forces(frame, cap, rotation, velocity, ground_acceleration)
+    at = motion_state(frame.column, rotation, velocity, ground_acceleration)
+    rests, half_height = np.isnan(at.side), frame.column.half_height
+    corner = at.side * frame.column.half_width
+    bases = contacts.base_left, contacts.base_right
+    horizontal = np.stack([base.horizontal for base in bases], axis=-1)
+    vertical = np.stack([base.vertical for base in bases], axis=-1)
+    axes = np.array([-0.5, 0.5]) * cap.span
+    shear = np.where(rests, at.ground, horizontal.sum(axis=-1))
+    moment = -((corner[..., None] + axes) * vertical).sum(axis=-1)
+    moment = np.where(rests, at.ground * centre_height(frame, cap), moment)
+
+    sin, cos = np.sin(at.rotation), np.cos(at.rotation)
+    push = at.side * at.sine + at.ground * at.cosine
+    turn = -(frame.frequency_parameter**2) * push / STANDARD_GRAVITY  # Eq. (23)
+    load = weights(frame.mass_ratio)[0] / (2.0 * half_height)
+    steady = at.ground * cos - sin + corner * at.velocity**2 / STANDARD_GRAVITY
+    y = 2.0 * half_height * HEIGHTS
+    own = turn * frame.column.half_width**2 / 3.0  # rotary inertia
+    span_loads = y * (own[..., None] - y * (steady[..., None] / 2.0 + y * turn[..., None] / 6.0))
+    sin, cos = sin[..., None], cos[..., None]
+    base = corner[..., None] * (horizontal * sin + vertical * cos)
+    slope = horizontal * cos - vertical * sin
+    bending = base[..., None] + slope[..., None] * y + load * span_loads[..., None, :]
+    return FrameForces(shear, moment, bending)
 
 
 def largest_forces(
@@ -107,9 +123,13 @@ def largest_forces(
     array([[0.1278, 0.8574, 0.2813],
            [0.1278, 0.8574, 0.2812]])
     """
-    motion = map(np.ascontiguousarray, checked_motion(rotation, velocity, ground_acceleration))
-    found: Array = largest_along(_numbers(frame, cap), *motion, HEIGHTS)
-    return found
+    moves = rotation.any(axis=1)
+    moves = moves if moves.any() else ~moves
+    found = frame_forces(frame, cap, *(x[moves] for x in (rotation, velocity, ground_acceleration)))
+    bending = np.abs(found.bending_moment).max(axis=(-2, -1))
+    sizes = np.stack([np.abs(found.base_shear), np.abs(found.overturning_moment), bending])
+    sizes = np.nan_to_num(sizes)
+    return np.stack([sizes.max(axis=(1, 2)), sizes[:, :, ::2].max(axis=(1, 2))])
 
 
 def base_shear_slope(frame: RockingFrame) -> float:
@@ -132,20 +152,3 @@ def centre_height(frame: RockingFrame, cap: Cap) -> float:
     columns = 0.0 if frame.mass_ratio == math.inf else 1.0 / (1.0 + frame.mass_ratio)
     h = frame.column.half_height
     return columns * h + (1.0 - columns) * (2.0 * h + cap.half_depth)
-
-
-def _numbers(frame: RockingFrame, cap: Cap) -> Frame:
-    check_span(frame, cap)
-    column = frame.column
-    return Frame(
-        column.size,
-        column.half_width,
-        column.half_height,
-        column.uplift_acceleration,
-        frame.frequency_parameter**2,
-        *weights(frame.mass_ratio),
-        cap.span,
-        cap.half_depth,
-        centre_height(frame, cap),
-        STANDARD_GRAVITY,
-    )

@@ -1,1 +1,1 @@
-"""What shakes them: pulses, records and their reading, synthetic motions, a shaking table."""
+"""What shakes them: pulses, records and their reading."""

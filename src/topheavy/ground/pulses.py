@@ -20,7 +20,6 @@ from numpy.typing import NDArray
 from topheavy import checks
 from topheavy.ground.excitation import Excitation, Segment
 from topheavy.ground.shapes import PULSE_SHAPES, SHAPES
-from topheavy.keywords import hinted
 
 Phase = NDArray[np.float64]
 
@@ -86,7 +85,6 @@ def checked_shape(shape: str) -> str:
     return shape
 
 
-@hinted
 @dataclass(frozen=True)
 class Pulse(Excitation):
     """A ground acceleration pulse that starts at t = 0.

@@ -78,8 +78,17 @@ def with_vertical(excitation: Excitation | None, vertical: Record | None) -> Exc
         As `both_records` and `refuse_fall`.
     """
     if vertical is None:
-        return excitation
-    return TwoComponents(*both_records(excitation, vertical))
+        return without_rest(excitation) if isinstance(excitation, Record) else excitation
+    return TwoComponents(*map(without_rest, both_records(excitation, vertical)))
+
+
+def without_rest(record: Record) -> Record:
+    """Return a record without the zeros behind it: with them, its shaking ends no later."""
+    (moving,) = np.nonzero(record.acceleration)
+    size = max(2, int(moving[-1]) + 2) if moving.size else 2
+    if size >= record.acceleration.size:
+        return record
+    return Record(record.time_step, record.acceleration[:size], record.name, unit="g")
 
 
 def both_records(excitation: object, vertical: object) -> tuple[Record, Record]:

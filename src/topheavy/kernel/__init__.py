@@ -1,6 +1,6 @@
-"""The compiled kernel: Taylor steps with proven events. It knows arrays and floats, no structures.
+"""The compiled kernel: Taylor steps with proven events. Its functions take arrays and numbers.
 
-Time is τ = p t throughout, so that p is in none of its formulas. The layers above are
-`topheavy.simulate`, which follows one history (`outcome`, `trace`), and `outcomes.overturning`,
-which follows many at once in the vector registers of the CPU (`grid`, the door to `lanes`).
+Time is τ = p t throughout, so that p is in none of its formulas. `outcome` follows one history for
+`topheavy.simulate` and `topheavy.judge`; `grid` follows many at once for maps and searches, in the
+vector registers of the CPU. Only `grid` calls `lanes`.
 """

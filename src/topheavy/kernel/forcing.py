@@ -9,8 +9,9 @@ cosine, c = d = 0 the constant and the straight line between two samples of a re
 derivatives of the Gaussian bell that Ricker's wavelets are (the second and the third: Hermite's
 equation).
 
-Under a vertical record v (g, upward) gravity is G = 1 + v, a straight line over a piece, too. The
-pieces lie between the samples of either record; a block at rest is lifted by |a| > G tan α.
+Beside a record there may be a vertical one, v (g, upward): gravity is G = 1 + v, a straight line
+over a piece, too. The pieces lie between the samples of either record; without a vertical record
+v = 0. A block at rest is lifted by |a| > G tan α.
 """
 
 import math
@@ -27,7 +28,7 @@ SHAPES = {name: number for number, name in enumerate(shapes.SHAPES)}
 ONE_SINE, ONE_COSINE, HALF_SINE = SHAPES["one-sine"], SHAPES["one-cosine"], SHAPES["half-sine"]
 CONSTANT, HARMONIC = SHAPES["constant"], SHAPES["harmonic"]
 RICKER_SYMMETRIC, RICKER_ANTISYMMETRIC = SHAPES["ricker-symmetric"], SHAPES["ricker-antisymmetric"]
-RECORD, NONE, TWO_RECORDS = range(len(SHAPES), len(SHAPES) + 3)
+RECORD, NONE = range(len(SHAPES), len(SHAPES) + 2)
 #: Phase ωt at which each shape ends (a record ends by its own time, no motion at once).
 LAST_PHASE = np.array([*(each.half_periods for each in shapes.SHAPES.values()), 0, 0]) * math.pi
 RICKER_CENTRE = 4.5 * math.pi
@@ -71,13 +72,13 @@ class Forcing(NamedTuple):
 
 
 #: What stands for the record where there is none.
-NO_RECORD = np.empty((3, 0))
+NO_RECORD = np.empty((10, 0))
 #: Samples whose largest is kept, so that a wait for the next uplift passes over them at once.
 RUN = 32
-#: Rows of a record: samples, or a where a piece begins; the largest |a| from there on; that of each
-#: run; the sum of |a| over the pieces from there on (∞ if two records). Of two records also: v and
-#: the time (over that between two samples) where a piece begins, a and v where it ends, the largest
-#: |v| from there on, and that of each run.
+#: Rows of a record: a where a piece begins; the largest |a| from there on; that of each run; the
+#: sum of |a| over the pieces from there on (∞ with a vertical record); v and the time (over that
+#: between two samples) where a piece begins; a and v where it ends; the largest |v| from there on,
+#: and that of each run.
 START, STRONGEST, RUNS, IMPULSE, UP, AT, STOP, UP_STOP, MOST_UP, UP_RUNS = range(10)
 
 
@@ -87,23 +88,8 @@ def pulse_forcing(shape, amplitude, frequency):
     return Forcing(shape, amplitude, frequency, LAST_PHASE[shape] / frequency, 1.0, 0.0)
 
 
-def prepare_record(samples: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the samples (g), and what shortens a wait for uplift.
-
-    Returns
-    -------
-    ndarray, shape (4, n)
-        The samples, the largest |sample| from each on, the largest of each `RUN` samples (the first
-        n/RUN values of the row), and the sum of |a| from each on: no less than ∫|a| over Δt.
-    """
-    samples = np.asarray(samples, dtype=float)
-    sizes = np.abs(samples)
-    pieces = np.append(0.5 * (sizes[1:] + sizes[:-1]), 0.0)
-    return np.stack([samples, *_bounds(sizes), np.cumsum(pieces[::-1])[::-1]])
-
-
-def prepare_two_records(
-    samples: NDArray[np.float64], vertical: NDArray[np.float64], ratio: float
+def prepare_record(
+    samples: NDArray[np.float64], vertical: NDArray[np.float64] | None = None, ratio: float = 1.0
 ) -> NDArray[np.float64]:
     """Return a horizontal and a vertical record (g) in pieces over which both are straight lines.
 
@@ -117,20 +103,22 @@ def prepare_two_records(
     ndarray, shape (10, n)
         A column for each piece, and one for the end of both. A record is zero after its end.
     """
-    lasts = [samples.size - 1.0, ratio * (vertical.size - 1)]
-    at = np.unique(np.concatenate([np.arange(samples.size), ratio * np.arange(vertical.size)]))
+    up = np.zeros(2) if vertical is None else vertical
+    ratio = samples.size - 1.0 if vertical is None else ratio
+    lasts = [samples.size - 1.0, ratio * (up.size - 1)]
+    at = np.unique(np.concatenate([np.arange(samples.size), ratio * np.arange(up.size)]))
     # Samples that rounding alone keeps apart are one.
     at = at[np.append(True, np.diff(at) > SAME * at[-1])]
     pairs = []
-    for record, step, last in zip((samples, vertical), (1.0, ratio), lasts, strict=True):
+    for record, step, last in zip((samples, up), (1.0, ratio), lasts, strict=True):
         value = np.interp(at / step, np.arange(record.size), record)
         over = 0.5 * (at[1:] + at[:-1]) >= last
         pairs += [np.append(np.where(over, 0.0, value[k : k - 1 or None]), 0.0) for k in (0, 1)]
-    start, stop, up, up_stop = pairs
-    bounds = _bounds(np.maximum(np.abs(start), np.abs(stop)))
-    up_bounds = _bounds(np.maximum(np.abs(up), np.abs(up_stop)))
-    unknown = np.full(at.size, np.inf)
-    return np.stack([start, *bounds, unknown, up, at, stop, up_stop, *up_bounds])
+    start, stop, begin, end = pairs
+    sizes = [np.maximum(np.abs(one), np.abs(two)) for one, two in ((start, stop), (begin, end))]
+    impulse = np.cumsum(0.5 * (np.abs(start) + np.abs(stop))[::-1])[::-1]
+    impulse = impulse if vertical is None else np.full(at.size, np.inf)
+    return np.stack([start, *_bounds(sizes[0]), impulse, begin, at, stop, end, *_bounds(sizes[1])])
 
 
 def _bounds(sizes: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -142,12 +130,9 @@ def _bounds(sizes: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np
 
 
 @compiled
-def record_forcing(record, step, factor, lift=0.0):
+def record_forcing(record, step, factor, lift):
     """Return the `record` that was prepared, `step` apart in τ, times `factor`; see `Forcing`."""
-    last = record.shape[1] - 1
-    if record.shape[0] > UP:
-        return Forcing(TWO_RECORDS, factor, 1.0, record[AT, last] * step, step, lift)
-    return Forcing(RECORD, factor, 1.0, last * step, step, 0.0)
+    return Forcing(RECORD, factor, 1.0, record[AT, record.shape[1] - 1] * step, step, lift)
 
 
 @compiled
@@ -172,9 +157,7 @@ def unit_pulse(shape, phase):
 
 @compiled
 def piece_of(forcing, record, time):
-    """Return the number of the piece that begins at or before `time`, of one record or of two."""
-    if forcing.shape != TWO_RECORDS:
-        return piece_at(forcing, time)
+    """Return the number of the piece of a record that begins at or before `time`."""
     low, high = 0, record.shape[1]
     while high - low > 1:  # halved each time
         middle = (low + high) // 2
@@ -186,29 +169,14 @@ def piece_of(forcing, record, time):
 
 
 @compiled
-def piece_at(forcing, time):
-    """Return the number of the piece of a record that begins at or before `time`.
-
-    The quotient alone is not enough: (k Δ)/Δ may round to less than k, which is the piece before.
-    It is never two before, as the rounding of quotient and product is below 1 for k < 2⁵¹.
-    """
-    piece = int(time / forcing.step)
-    if (piece + 1) * forcing.step <= time:
-        piece += 1
-    return piece
-
-
-@compiled
 def piece_start(forcing, record, piece):
     """Return when a piece of a record begins."""
-    if forcing.shape == TWO_RECORDS:
-        return record[AT, piece] * forcing.step
-    return piece * forcing.step
+    return record[AT, piece] * forcing.step
 
 
 @compiled
-def two_lines(forcing, record, piece):
-    """Return a, a', G and G' where a piece of two records begins."""
+def lines(forcing, record, piece):
+    """Return a, a', G and G' where a piece of a record begins."""
     length = (record[AT, piece + 1] - record[AT, piece]) * forcing.step
     push, lift = forcing.amplitude, forcing.lift
     rate = push * (record[STOP, piece] - record[START, piece]) / length
@@ -219,10 +187,10 @@ def two_lines(forcing, record, piece):
 @compiled
 def gravity(forcing, record, time):
     """Return G = 1 + v and G' at `time`; at a sample of a record, G' is that of the next piece."""
-    if forcing.shape != TWO_RECORDS or time >= forcing.end:
+    if forcing.shape != RECORD or time >= forcing.end:
         return 1.0, 0.0
     piece = min(piece_of(forcing, record, time), record.shape[1] - 2)
-    _, _, value, rate = two_lines(forcing, record, piece)
+    _, _, value, rate = lines(forcing, record, piece)
     return value + rate * (time - piece_start(forcing, record, piece)), rate
 
 
@@ -231,15 +199,10 @@ def ground(forcing, record, time):
     """Return a and a' at `time`; at a sample of a record, a' is that of the piece that begins."""
     if forcing.shape == NONE or time >= forcing.end:
         return 0.0, 0.0
-    if forcing.shape == TWO_RECORDS:
-        piece = min(piece_of(forcing, record, time), record.shape[1] - 2)
-        value, rate, _, _ = two_lines(forcing, record, piece)
-        return value + rate * (time - piece_start(forcing, record, piece)), rate
     if forcing.shape == RECORD:
-        k = min(piece_at(forcing, time), record.shape[1] - 2)
-        slope = (record[0, k + 1] - record[0, k]) / forcing.step
-        value = record[0, k] + slope * (time - k * forcing.step)
-        return forcing.amplitude * value, forcing.amplitude * slope
+        piece = min(piece_of(forcing, record, time), record.shape[1] - 2)
+        value, rate, _, _ = lines(forcing, record, piece)
+        return value + rate * (time - piece_start(forcing, record, piece)), rate
     value, rate = unit_pulse(forcing.shape, forcing.frequency * time)
     return forcing.amplitude * value, forcing.amplitude * forcing.frequency * rate
 
@@ -248,7 +211,7 @@ def ground(forcing, record, time):
 def equation(forcing, time):
     """Return c, d₀, d₁ of the equation that the ground acceleration solves, about `time`."""
     shape = forcing.shape
-    if shape in (CONSTANT, RECORD, NONE, TWO_RECORDS):
+    if shape in (CONSTANT, RECORD, NONE):
         return 0.0, 0.0, 0.0
     square = forcing.frequency * forcing.frequency
     if shape in (RICKER_SYMMETRIC, RICKER_ANTISYMMETRIC):
@@ -268,9 +231,6 @@ def strongest_after(forcing, record, time):
     if forcing.shape == NONE or time >= forcing.end:
         return 0.0, 1.0
     if forcing.shape == RECORD:
-        k = min(piece_at(forcing, time), record.shape[1] - 1)
-        return abs(forcing.amplitude) * record[1, k], 1.0
-    if forcing.shape == TWO_RECORDS:
         k = piece_of(forcing, record, time)
         most = abs(forcing.lift) * record[MOST_UP, k]
         if most >= 1.0:
@@ -281,10 +241,8 @@ def strongest_after(forcing, record, time):
 
 @compiled
 def next_turn(forcing, time):
-    """Return the end of the monotone piece of a(τ) that begins at `time` (or holds it)."""
+    """Return the end of the monotone piece of a pulse that begins at `time` (or holds it)."""
     shape, frequency = forcing.shape, forcing.frequency
-    if shape == RECORD:
-        return min((piece_at(forcing, time) + 1) * forcing.step, forcing.end)
     if shape in (CONSTANT, NONE):
         return forcing.end
     if shape in (RICKER_SYMMETRIC, RICKER_ANTISYMMETRIC):
@@ -327,8 +285,6 @@ def next_uplift(forcing, record, time, level):
     """
     if forcing.shape == RECORD:
         return _next_uplift_of_record(forcing, record, time, level)
-    if forcing.shape == TWO_RECORDS:
-        return _next_uplift_of_two(forcing, record, time, level)
     if forcing.shape == HARMONIC and abs(forcing.amplitude) <= level:
         return np.inf, 0.0, 0.0, 1.0
     value, rate = ground(forcing, record, time)
@@ -351,35 +307,7 @@ def next_uplift(forcing, record, time, level):
 
 @compiled
 def _next_uplift_of_record(forcing, record, time, level):
-    """The same for a record: straight lines, and an early end once the rest of it is weak."""
-    if time >= forcing.end:
-        return np.inf, 0.0, 0.0, 1.0
-    value, rate = ground(forcing, record, time)
-    if abs(value) > level:
-        sign = math.copysign(1.0, value)
-        return time, abs(value) - level, sign * rate, -sign
-    size = abs(forcing.amplitude)
-    k = piece_at(forcing, time)
-    while k < record.shape[1] - 1 and size * record[1, k] > level:  # k grows each time
-        if (k + 1) % RUN == 0 and size * record[2, (k + 1) // RUN] <= level:
-            k += RUN
-        elif size * abs(record[0, k + 1]) > level:
-            last = forcing.amplitude * record[0, k + 1]
-            sign = math.copysign(1.0, last)
-            rate = sign * forcing.amplitude * (record[0, k + 1] - record[0, k]) / forcing.step
-            time = max((k + 1) * forcing.step - (abs(last) - level) / rate, k * forcing.step)
-            if piece_at(forcing, time) == k:
-                return time, 0.0, rate, -sign
-            time = (k + 1) * forcing.step  # the crossing rounds to the sample, where |a| may turn
-            return time, abs(last) - level, sign * ground(forcing, record, time)[1], -sign
-        else:
-            k += 1
-    return np.inf, 0.0, 0.0, 1.0
-
-
-@compiled
-def _next_uplift_of_two(forcing, record, time, level):
-    """The same for two records: on either side the push ±a − G level is a straight line."""
+    """The same for a record: on either side the push ±a − G level is a straight line."""
     size, lift, last = abs(forcing.amplitude), abs(forcing.lift), record.shape[1] - 1
     k = piece_of(forcing, record, time)
     while k < last:  # k grows each time
@@ -397,7 +325,7 @@ def _next_uplift_of_two(forcing, record, time, level):
             continue
         begin, end = piece_start(forcing, record, k), piece_start(forcing, record, k + 1)
         time = max(time, begin)
-        value, rate, weight, weight_rate = two_lines(forcing, record, k)
+        value, rate, weight, weight_rate = lines(forcing, record, k)
         here = math.copysign(1.0, value + rate * (time - begin))  # only that push may lift now
         for sign in (here, -here):
             slope = sign * rate - level * weight_rate

@@ -12,7 +12,7 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from topheavy.kernel.outcome import HALT, working_array
+from topheavy.kernel.step import HALT, working_array
 
 Result = TypeVar("Result")
 

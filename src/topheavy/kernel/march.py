@@ -8,7 +8,7 @@ and how both change as the push does,
     E = q₁ cos(α − φ),                   H = q₁ sin(α − φ),
 
 F' = E + G φ', G' = H − F φ', E' = H φ', H' = −E φ'. So nothing is stored and nothing waits for a
-sum: a piece costs a third of what `taylor` and `outcome.advance` take, which follow wherever a
+sum: a piece costs a third of what `taylor` and `step.advance` take, which follow wherever a
 piece is not settled here.
 
 Gravity multiplies sin φ / cos α and cos φ / cos α. It is a straight line, too, and these times its
@@ -16,7 +16,7 @@ slope are added to E and H.
 """
 
 from topheavy.kernel.compiled import compiled
-from topheavy.kernel.forcing import AT, TWO_RECORDS, piece_start, two_lines
+from topheavy.kernel.forcing import AT, lines, piece_start
 from topheavy.kernel.taylor import State
 
 #: Between two samples the block turns by less than this, so that seven terms give sin and cos.
@@ -92,7 +92,7 @@ def march(block, forcing, record, piece, side, state, tolerance, peak):
     """Pass over pieces of a record until one holds an event, a turn, or too strong a bend.
 
     The block rocks at φ ≤ α under the exact equation, `state` is that at the first sample of
-    `piece`. A piece is passed over if the terms prove (as in `outcome.advance`) that it holds no
+    `piece`. A piece is passed over if the terms prove (as in `step.advance`) that it holds no
     impact and that the rotation grows throughout, or stays below `peak`.
 
     Parameters
@@ -111,36 +111,6 @@ def march(block, forcing, record, piece, side, state, tolerance, peak):
     peak : float
         The largest φ so far.
     """
-    if forcing.shape == TWO_RECORDS:
-        return march_under_two(block, forcing, record, piece, side, state, tolerance, peak)
-    h, factor, frequency = forcing.step, -side * forcing.amplitude, 1.0 / forcing.step
-    terms = powers(h)
-    bound, inverse_cosine = tolerance * block.slenderness, 1.0 / block.cosine
-    rotation, velocity, sine, cosine, push, rate = state[:6]
-    # Each round is a piece, and `forcing.end` is not beyond the last sample.
-    while rotation <= block.slenderness and (piece + 1) * h < forcing.end:
-        tilt = block.cosine * cosine + block.sine * sine  # cos(α − φ)
-        lean = block.sine * cosine - block.cosine * sine  # sin(α − φ)
-        force = sine * inverse_cosine + push * tilt  # Eq. (23)
-        slope = cosine * inverse_cosine + push * lean
-        is_passed, turn, gain = short_series(
-            terms, force, slope, rate * tilt, rate * lean, velocity, rotation, peak, bound
-        )
-        if not is_passed:
-            break
-        velocity += frequency * gain
-        rotation += turn
-        peak = max(peak, rotation)
-        sine, cosine = turned(sine, cosine, turn)
-        piece += 1
-        push = factor * record[0, piece] - block.level
-        rate = factor * (record[0, piece + 1] - record[0, piece]) * frequency
-    return piece, State(rotation, velocity, sine, cosine, push, rate, 1.0, 0.0), peak
-
-
-@compiled(fastmath={"contract"})
-def march_under_two(block, forcing, record, piece, side, state, tolerance, peak):
-    """The same under two records, whose pieces differ in length."""
     bound, inverse_cosine = tolerance * block.slenderness, 1.0 / block.cosine
     rotation, velocity, sine, cosine, push, rate, gravity, change = state
     while rotation <= block.slenderness and piece_start(forcing, record, piece + 1) < forcing.end:
@@ -166,6 +136,6 @@ def march_under_two(block, forcing, record, piece, side, state, tolerance, peak)
         peak = max(peak, rotation)
         sine, cosine = turned(sine, cosine, turn)
         piece += 1
-        value, slope, gravity, change = two_lines(forcing, record, piece)
+        value, slope, gravity, change = lines(forcing, record, piece)
         push, rate = -side * value - block.level * gravity, -side * slope - block.level * change
     return piece, State(rotation, velocity, sine, cosine, push, rate, gravity, change), peak

@@ -1,8 +1,9 @@
-"""One rocking history: from uplift to the end of the forcing, by Taylor steps with proven events.
+"""One rocking history by Taylor steps: its outcome, and samples of it where they are wanted.
 
-A step is as long as the truncation allows. Within it the solution is a polynomial, and the signs
-of its Bernstein coefficients prove that the block neither lands nor turns, or isolate where it
-does (`bernstein`). The free rocking after the forcing is not integrated (`tail`).
+A history that is judged ends with the forcing, or where the block is sure to overturn: the energy
+then decides what follows (`tail`). One with samples goes on, so that it can be drawn. Its free
+rocking has the same outcome, unless this energy equals that of the barrier within its error. Then
+the block is poised at φ = α and could leave it to the wrong side; the history ends there.
 """
 
 import math
@@ -10,7 +11,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from topheavy.kernel.bernstein import MAX_DEGREE, MAX_DEPTH, isolated_root, roots, to_bernstein
 from topheavy.kernel.compiled import compiled
 from topheavy.kernel.forcing import (
     CONSTANT,
@@ -18,42 +18,42 @@ from topheavy.kernel.forcing import (
     RECORD,
     RICKER_ANTISYMMETRIC,
     RICKER_SYMMETRIC,
-    TWO_RECORDS,
-    equation,
+    Forcing,
     gravity,
     ground,
     next_uplift,
     piece_of,
     piece_start,
-    strongest_after,
-    two_lines,
 )
 from topheavy.kernel.march import march
 from topheavy.kernel.rest import LAST_BOUNCE, RATIO_BOUNCE, comes_to_rest, next_tick
+from topheavy.kernel.step import (
+    FLAT,
+    HALT,
+    LANDING,
+    MAX_STEPS,
+    PULSE_ORDER,
+    advance,
+    after_impact,
+    at_sample,
+    is_certain_to_overturn,
+    renewed,
+)
 from topheavy.kernel.tail import free_rocking
-from topheavy.kernel.taylor import ROTATION, Oscillator, State, evaluate, expand, longest_step
+from topheavy.kernel.taylor import Oscillator, State, evaluate
 
-#: Terms of φ in a step of a pulse.
-PULSE_ORDER = 15
-#: Bound on the last two terms of φ' in a step, over α.
-TOLERANCE = 3e-10
-#: A history with more steps than this (and ten a sample) is given up as not resolved.
-#:
-#: A step ends at a landing or the end of a piece, or it is as long as the series allows: a tenth or
-#: more of the time scale of the motion, 1/(1 + ω/p + √|a|). A pulse lasts 9π p/ω
-#: at most, and one that is slow or strong has overturned the block, or lets it come to rest, within
-#: a thousand such times. Hence only landings can be so many: of a block that loses next to nothing
-#: at an impact (√r → 1). If √r < 1, a train of bounces dies out: above the level it ends by a
-#: rotation, below by rest (`rest`), even if it is over before the clock ticks.
-MAX_STEPS = 200_000
-#: What ends a step.
-NOTHING, LANDING, FLAT = range(3)
-#: Rows of the working array after those of `taylor`: the step polynomial and its derivative on
-#: [0, 1], their Bernstein coefficients, the roots found, and the stack of `bernstein.roots`.
-POLYNOMIAL, SLOPE, HULL, SLOPE_HULL, ROOTS, STACK = range(7, 13)
-#: The row that begins with 1 when a history is to be given up: see `bernstein.roots` and
-#: `topheavy.kernel.interrupt`.
-HALT = STACK + MAX_DEPTH
+NO_UPLIFT, RESTS, ROCKING, OVERTURNED, UNRESOLVED = range(5)
+#: A history with more steps than this (and ten a sample) is given up as `UNRESOLVED`: those of the
+#: forcing (`step.MAX_STEPS`) and of the free rocking. A free flight takes fewer than ten, as the
+#: motion is a pendulum's, whose series converge over π/2 or more. There are at most twice
+#: `LAST_IMPACT` of them or, in a history with an end of its own, as many as `impacts` has room for.
+MOST_STEPS = 5 * MAX_STEPS
+#: A free history without an end of its own ends after so many impacts.
+LAST_IMPACT = 1000
+#: Without an end of its own, a flight longer than this (in τ) is that of a block poised at α.
+LONGEST_FLIGHT = 100.0
+#: Over α: a block this far from φ = α, and going on, has left.
+POISED = 1e-3
 
 
 class Outcome(NamedTuple):
@@ -67,182 +67,24 @@ class Outcome(NamedTuple):
     resolved: bool
 
 
-@compiled(_nrt=True)
-def working_array():
-    """Return the array that a history works in; a thread needs one for all its histories."""
-    return np.zeros((HALT + 1, MAX_DEGREE + 3))
+#: What stands for the ratios where every impact has the √r of the block, and for the times, samples
+#: and impacts of a history that is judged. Arguments, as constants would have it compiled anew.
+NO_RATIOS = np.empty(0)
+NO_SAMPLES = np.empty(0), np.empty((2, 0)), np.empty(0)
 
 
-@compiled
-def is_certain_to_overturn(block, forcing, record, time, state):
-    """Say whether no forcing of the strength that is left can bring the block back.
+@compiled(nogil=True)
+def outcome(w, order, tolerance, block, forcing, record, ratios, no_samples):
+    """Return the `Outcome` of a block that is at rest when the forcing begins.
 
-    With |a| ≤ A G from now on, φ'' ≥ −G √(1 + A²) sin(φ* − φ) with φ* = α + atan A < π/2;
-    linearised, φ'' ≥ −G (φ* − φ) with φ* = α + A. A block moving outward with φ' above the square
-    root of the largest such factor times φ* − φ reaches φ*, from where nothing holds it.
+    The k-th impact that counts has the k-th of the `ratios` as √r, and those after the last one
+    that of the block. Where there are ratios, an impact counts above `RATIO_BOUNCE` α.
     """
-    if state.rotation <= block.slenderness or state.velocity <= 0.0:
-        return False
-    strength, heaviest = strongest_after(forcing, record, time)
-    if block.linearised:
-        way = block.slenderness + strength - state.rotation
-        return state.velocity > math.sqrt(heaviest) * way
-    balance = block.slenderness + math.atan(strength)
-    hold = math.sqrt(math.sqrt(1.0 + strength * strength) * heaviest)
-    return balance < block.flat and state.velocity > hold * (balance - state.rotation)
-
-
-@compiled(fastmath={"contract"})
-def advance(w, order, tolerance, block, forcing, time, longest, state, zeros, peak, is_straight):
-    """Take one step of at most `longest`.
-
-    Parameters
-    ----------
-    tolerance : float
-        Bound on the last two terms of φ', over α (over φ where that is larger).
-    zeros : int
-        How many of φ, φ', φ'' are zero at the start: 1 after an impact, 2 after an uplift by a
-        jump of the forcing, 3 after an uplift where |a| passes the level, 0 else.
-    peak : float
-        The largest φ so far.
-
-    Returns
-    -------
-    step : float
-        The length of the step, up to the event if there is one.
-    event : int
-        `NOTHING`, `LANDING` or `FLAT`.
-    peak : float
-        The largest φ so far, this step included.
-    """
-    c, d0, d1 = equation(forcing, time)
-    expand(w, order, block, state, c, d0, d1, is_straight)
-    scale = max(block.slenderness, state.rotation)
-    step = longest_step(w, order, tolerance * scale, longest)
-
-    power = 1.0
-    for k in range(order + 1):
-        w[POLYNOMIAL, k] = w[ROTATION, k] * power
-        power *= step
-    if zeros < 2:
-        low, high, final, rises, falls = _plain_range(w, order)
-        if rises and final <= block.flat:
-            return step, NOTHING, max(peak, final)
-        if low > 0.0 and high <= min(peak, block.flat):
-            return step, NOTHING, peak
-        if falls:
-            highest = max(peak, w[POLYNOMIAL, 0])
-            if final > 0.0:
-                return step, NOTHING, highest
-            landing = isolated_root(w, POLYNOMIAL, 0, order, 0.0, 1.0, 1.0)
-            return step * landing, LANDING, highest
-    end, event, peak = proven(w, order, zeros, block.flat, peak)
-    return step * end, event, peak
-
-
-@compiled
-def proven(w, order, zeros, flat, peak):
-    """Return the end of the step polynomial on [0, 1], its event, and the largest φ so far.
-
-    `flat` is the φ at which the block lies flat; the others are those of `advance`.
-    """
-    to_bernstein(w, POLYNOMIAL, order, HULL)
-    least, largest = w[HULL, zeros], 0.0
-    for k in range(zeros, order + 1):
-        least = min(least, w[HULL, k])
-        largest = max(largest, w[HULL, k])
-
-    end, event = 1.0, NOTHING
-    if least <= 0.0 and roots(w, POLYNOMIAL, zeros, order, HULL, STACK, ROOTS, 1) > 0:
-        end, event = w[ROOTS, 0], LANDING
-    if largest > flat:
-        for k in range(order + 1):
-            w[SLOPE, k], w[SLOPE_HULL, k] = -w[POLYNOMIAL, k], flat - w[HULL, k]
-        w[SLOPE, 0] += flat
-        if roots(w, SLOPE, 0, order, SLOPE_HULL, STACK, ROOTS, 1) > 0 and w[ROOTS, 0] < end:
-            end, event = w[ROOTS, 0], FLAT
-    if largest > peak:
-        peak = _largest_rotation(w, order, zeros, end, peak)
-    return end, event, peak
-
-
-@compiled(fastmath={"contract"})
-def _plain_range(w, order):
-    """Return bounds of the step polynomial on [0, 1], its last value, and whether it surely rises.
-
-    The first three terms have three Bernstein coefficients (their derivative two), and the others
-    are no larger than the sum of their moduli. This settles most steps at a tenth of the price.
-    """
-    first, second, third = w[POLYNOMIAL, 0], w[POLYNOMIAL, 1], w[POLYNOMIAL, 2]
-    others, final, bend = 0.0, 0.0, 0.0
-    for k in range(3, order + 1):
-        size = abs(w[POLYNOMIAL, k])
-        final += w[POLYNOMIAL, k]
-        others += size
-        bend += k * size
-    middle, last = first + 0.5 * second, first + second + third
-    rises = min(second, second + 2 * third) > bend
-    falls = max(second, second + 2 * third) < -bend
-    low, high = min(first, middle, last) - others, max(first, middle, last) + others
-    return low, high, last + final, rises, falls
-
-
-@compiled
-def _largest_rotation(w, order, zeros, end, peak):
-    """Return the larger of `peak` and the largest value of the step polynomial on [0, end]."""
-    for k in range(order):
-        w[SLOPE, k] = (k + 1) * w[POLYNOMIAL, k + 1]
-        w[SLOPE_HULL, k] = w[HULL, k + 1] - w[HULL, k]
-    first = max(zeros - 1, 0)
-    turns = roots(w, SLOPE, first, order - 1, SLOPE_HULL, STACK, ROOTS, order)
-    peak = max(peak, _value(w, order, end))
-    for k in range(turns):
-        if w[ROOTS, k] < end:
-            peak = max(peak, _value(w, order, w[ROOTS, k]))
-    return peak
-
-
-@compiled
-def _value(w, order, x):
-    value = w[POLYNOMIAL, order]
-    for k in range(order - 1, -1, -1):
-        value = value * x + w[POLYNOMIAL, k]
-    return value
-
-
-@compiled
-def after_impact(block, state):
-    """Return the state on the other side: φ' times √r, the push as that side feels it."""
-    velocity = max(-state.velocity, 0.0) * block.restitution
-    push = -state.push - 2 * block.level * state.gravity
-    rate = -state.rate - 2 * block.level * state.gravity_rate
-    return State(0.0, velocity, 0.0, 1.0, push, rate, state.gravity, state.gravity_rate)
-
-
-@compiled
-def at_sample(block, forcing, record, piece, side, state):
-    """Return the state with the push and the gravity of the piece of a record that begins."""
-    rotation, velocity, sine, cosine = state.rotation, state.velocity, state.sine, state.cosine
-    if forcing.shape == TWO_RECORDS:
-        value, rate, weight, change = two_lines(forcing, record, piece)
-        push, rate = -side * value - block.level * weight, -side * rate - block.level * change
-        return State(rotation, velocity, sine, cosine, push, rate, weight, change)
-    value = forcing.amplitude * record[0, piece]
-    rate = forcing.amplitude * (record[0, piece + 1] - record[0, piece]) / forcing.step
-    push = -side * value - block.level
-    return State(rotation, velocity, sine, cosine, push, -side * rate, 1.0, 0.0)
-
-
-@compiled
-def renewed(block, forcing, record, time, side, state):
-    """Return the state with the push of the forcing itself, not of its series.
-
-    A Ricker wavelet takes tens of steps, over which what its series leave out would add up.
-    """
-    value, rate = ground(forcing, record, time)
-    push = -side * value - block.level
-    rotation, velocity, sine, cosine = state.rotation, state.velocity, state.sine, state.cosine
-    return State(rotation, velocity, sine, cosine, push, -side * rate, 1.0, 0.0)
+    given = (w, order, tolerance, block, forcing, record, ratios)
+    _, result, peak, counted, _ = trace(*given, (0.0, 0.0, math.inf), no_samples, True)
+    overturned = result == OVERTURNED
+    peak = math.nan if overturned or result == UNRESOLVED else peak
+    return Outcome(overturned, peak, counted, result != UNRESOLVED)
 
 
 @compiled
@@ -254,84 +96,199 @@ def at_impact(block, ratios, impacts):
     return Oscillator(alpha, ratio, level, cosine, sine, flat, linearised)
 
 
-#: What stands for the ratios where every impact has the √r of the block.
-NO_RATIOS = np.empty(0)
-
-
 @compiled(nogil=True)
-def outcome(w, order, tolerance, block, forcing, record, ratios):
-    """Return the `Outcome` of a block that is at rest when the forcing begins.
+def trace(w, order, tolerance, block, forcing, record, ratios, course, results, is_judged):
+    """Follow a history from θ and θ' at τ = 0 to the first of its ends.
 
-    The k-th impact that counts has the k-th of the `ratios` as √r, and those after the last one
-    that of the block. Where there are ratios, an impact counts above `RATIO_BOUNCE` α.
+    Parameters
+    ----------
+    ratios : array
+        As of `outcome`.
+    course : float, float, float
+        Rotation and velocity, θ and dθ/dτ at τ = 0, and `until`.
+    results : array, array, array
+        `times`, `samples` and `impacts`.
+    until : float
+        Where the history ends; if infinite, where the block rests or |θ| = π/2, or after
+        `LAST_IMPACT` impacts behind the forcing. In either case it ends before a step by which
+        the block leaves φ = α to the other side than its energy says.
+    times : array
+        Ascending τ; `samples`, of shape (2, times.size), takes θ and dθ/dτ there, and keeps what it
+        had beyond the end of a block that does not rest. The last may be infinite: the end.
+    impacts : array
+        Takes the times of impacts.
+    is_judged : bool
+        Whether the history ends as soon as its outcome is known; it then has no samples.
+
+    Returns
+    -------
+    end : float
+        The time at which the history ends.
+    result : int
+        `NO_UPLIFT`, `RESTS`, `ROCKING` or `OVERTURNED`, as the whole motion ends; `UNRESOLVED`
+        if it takes more than `MOST_STEPS`, or more impacts than `impacts` has room for.
+    peak : float
+        The largest |θ| of the whole motion.
+    counted : int
+        The number of impacts until the forcing ended or the block was judged overturned.
+    landed : int
+        The number of all impacts: how many `impacts` holds. Neither counts those that end a
+        rotation below `rest.LAST_BOUNCE` α.
     """
-    is_record = forcing.shape == RECORD or forcing.shape == TWO_RECORDS
-    is_straight = is_record or forcing.shape == CONSTANT or forcing.shape == NONE
-    time, peak, impacts, piece, piece_end = 0.0, 0.0, 0, 0, forcing.end
-    steps_left = MAX_STEPS + 10 * record.shape[1]
+    (rotation, velocity, until), (times, samples, impacts) = course, results
+    time, peak, sample, counted, landed = 0.0, abs(rotation), 0, 0, 0
+    moves = rotation != 0.0 or velocity**2 > 0.0  # a speed without an energy is rest
+    has_moved, is_low, is_forced, is_over = moves, rotation == 0.0, True, False
+    is_record = forcing.shape == RECORD
+    straight = is_record or forcing.shape == CONSTANT or forcing.shape == NONE
+    side = math.copysign(1.0, rotation if rotation != 0.0 else velocity)
+    state, zeros = _initial_state(block, forcing, record, rotation, velocity, side), 0
+    if rotation == 0.0:
+        zeros = 1
+    piece, forcing_end, flight_start, landed_forced = 0, forcing.end, 0.0, 0
+    landings_due, flights = 0, 0  # free ones, before it overturns; so far
     block, own = at_impact(block, ratios, 0), block
     lowest = (RATIO_BOUNCE if ratios.size > 0 else LAST_BOUNCE) * block.slenderness
-    while True:
-        time, push, rate, side = next_uplift(forcing, record, time, block.level)
-        if time >= forcing.end:
-            return Outcome(False, peak, impacts, True)
-        is_low = True
-        weight = gravity(forcing, record, time)
-        state = State(0.0, 0.0, 0.0, 1.0, push, rate, weight[0], weight[1])
-        zeros = 2 if push > 0.0 else 3
-        if is_record:
-            piece = piece_of(forcing, record, time)
-            piece_end = piece_start(forcing, record, piece + 1)
-        while True:
-            steps_left -= 1
-            if steps_left < 0 or w[HALT, 0] != 0.0:
-                return Outcome(False, math.nan, impacts, False)
-            longest = piece_end - time
-            so_far = 0.0 if is_low else peak
-            step, event, highest = advance(
-                w,
-                order,
-                tolerance,
-                block,
-                forcing,
-                time,
-                longest,
-                state,
-                zeros,
-                so_far,
-                is_straight,
+    for _ in range((MAX_STEPS if is_judged else MOST_STEPS) + 10 * record.shape[1]):
+        if w[HALT, 0] != 0.0 or (landed > impacts.size and not is_judged):
+            break
+        if is_forced and time >= forcing_end:  # the ground comes to rest: judge what follows
+            is_forced, straight, order, forcing = False, True, PULSE_ORDER, still(forcing_end)
+            is_record = False
+            flight_start, landed_forced = time, landed
+            state = State(
+                state.rotation,
+                state.velocity,
+                state.sine,
+                state.cosine,
+                -block.level,
+                0.0,
+                1.0,
+                0.0,
             )
-            peak = max(peak, highest)
-            is_low = is_low and highest <= lowest
-            time = piece_end if step >= longest else time + step
-            state, zeros = evaluate(w, order, block, step, is_straight), 0
-            if forcing.shape == RICKER_SYMMETRIC or forcing.shape == RICKER_ANTISYMMETRIC:
-                state = renewed(block, forcing, record, time, side, state)
-            if event == FLAT:
-                return Outcome(True, math.nan, impacts, True)
-            if event == LANDING or state.rotation <= 0.0:
-                state, zeros = after_impact(block, state), 1
-                impacts += 0 if is_low else 1
-                block = at_impact(own, ratios, impacts)
-                side = -side
-                is_low = True
-                if time < forcing.end and comes_to_rest(
-                    block, forcing, record, time, state.velocity, state.push, side, peak
-                ):
-                    time = next_tick(time)
-                    break
-            if time >= forcing.end:
+            if moves:
                 tail = free_rocking(block, state.rotation, state.velocity)
-                peak = math.nan if tail.overturned else max(peak, tail.peak)
-                return Outcome(tail.overturned, peak, impacts + tail.impacts, True)
-            if is_certain_to_overturn(block, forcing, record, time, state):
-                return Outcome(True, math.nan, impacts, True)
-            if is_record and time >= piece_end:
-                piece += 1
+                is_over, counted = tail.overturned, counted + tail.impacts
+                landings_due = tail.impacts
+                peak = peak if is_over else max(peak, tail.peak)
+                if is_judged:
+                    return time, (OVERTURNED if is_over else ROCKING), peak, counted, landed
+        if not moves:
+            uplift, push, rate, side = next_uplift(forcing, record, time, block.level)
+            if uplift >= forcing_end:  # beyond the cut of a record
+                uplift = math.inf
+            # A motion that ends by rest has its end at the last landing or, later, at rest.
+            stays = time < forcing_end or not has_moved
+            while (
+                sample < times.size
+                and times[sample] <= uplift
+                and (stays or times[sample] < math.inf)
+            ):
+                samples[0, sample], samples[1, sample] = 0.0, 0.0
+                sample += 1
+            if uplift == math.inf:
+                result = RESTS if has_moved else NO_UPLIFT
+                return max(time, forcing_end), result, peak, counted, landed
+            time, moves, has_moved, is_low, flight_start = uplift, True, True, True, uplift
+            weight = gravity(forcing, record, time)
+            state = State(0.0, 0.0, 0.0, 1.0, push, rate, weight[0], weight[1])
+            zeros = 2 if push > 0.0 else 3
+            piece = piece_of(forcing, record, time) if is_record else 0
+        is_far = block.linearised and is_over and state.rotation >= math.pi / 2
+        is_endless = until == math.inf and not is_forced
+        is_poised = is_endless and time - flight_start >= LONGEST_FLIGHT
+        is_restless = is_endless and (
+            landed - landed_forced >= LAST_IMPACT or flights >= 2 * LAST_IMPACT
+        )
+        if time >= until or is_far or is_poised or is_restless:
+            return time, (OVERTURNED if is_over else ROCKING), peak, counted, landed
+
+        piece_end = min(until, flight_start + LONGEST_FLIGHT) if is_endless else until
+        if is_forced:
+            piece_end = forcing_end
+            if is_record:
+                piece_end = min(piece_end, piece_start(forcing, record, piece + 1))
+        start, longest, so_far = time, piece_end - time, (0.0 if is_low else peak)
+        step, event, highest = advance(
+            w, order, tolerance, block, forcing, time, longest, state, zeros, so_far, straight
+        )
+        ahead = evaluate(w, order, block, step, straight)
+        if not is_forced and _leaves_wrongly(block, ahead, event, is_over, landings_due - flights):
+            return time, (OVERTURNED if is_over else ROCKING), peak, counted, landed
+        peak = max(peak, highest)
+        is_low = is_low and highest <= lowest
+        time = piece_end if step >= longest else time + step
+        while sample < times.size and times[sample] <= time:
+            there = evaluate(w, order, block, times[sample] - start, straight)
+            samples[0, sample] = side * there.rotation
+            samples[1, sample] = side * there.velocity
+            sample += 1
+        if sample < times.size and times[sample] == math.inf:
+            samples[0, sample], samples[1, sample] = side * ahead.rotation, side * ahead.velocity
+        state, zeros = ahead, 0
+        if forcing.shape == RICKER_SYMMETRIC or forcing.shape == RICKER_ANTISYMMETRIC:
+            state = renewed(block, forcing, record, time, side, state)
+        if event == FLAT:
+            return time, OVERTURNED, peak, counted, landed
+        if event == LANDING or state.rotation <= 0.0:
+            if not is_low:
+                if landed < impacts.size:
+                    impacts[landed] = time
+                landed += 1
+                counted += 1 if is_forced else 0
+                block = at_impact(own, ratios, landed)
+            is_low, flight_start, side = True, time, -side
+            state, zeros = after_impact(block, state), 1
+            if not is_forced:
+                flights += 1
+                bounce = free_rocking(block, 0.0, state.velocity)
+                moves = is_over or bounce.peak > LAST_BOUNCE * block.slenderness
+            elif time < forcing_end:
+                moves = not comes_to_rest(
+                    block, forcing, record, time, state.velocity, state.push, side, peak
+                )
+                time = time if moves else next_tick(time)
+        elif is_forced and (block.linearised or is_judged) and not is_over:
+            is_over = is_certain_to_overturn(block, forcing, record, time, state)
+            if is_over and is_judged:
+                return time, OVERTURNED, peak, counted, landed
+        if is_record and time >= piece_end:
+            piece += 1
+            if moves and time < forcing_end:
                 state = at_sample(block, forcing, record, piece, side, state)
-                if not (is_low or block.linearised):
+                if is_judged and not (is_low or block.linearised):
                     piece, state, peak = march(
                         block, forcing, record, piece, side, state, tolerance, peak
                     )
                     time = piece_start(forcing, record, piece)
-                piece_end = piece_start(forcing, record, piece + 1)
+    return time, UNRESOLVED, peak, counted, landed
+
+
+@compiled
+def _leaves_wrongly(block, state, event, is_over, landings_left):
+    """Say whether a free step leads away from φ = α to the other side than was judged.
+
+    A block that overturns moves outward for good once it has landed as often as it was to. Any
+    other free motion passes α only inward.
+    """
+    if is_over and landings_left <= 0:
+        falls_back = state.velocity < 0.0 and state.rotation < (1 - POISED) * block.slenderness
+        return falls_back or event == LANDING
+    escapes = state.velocity > 0.0 and state.rotation > (1 + POISED) * block.slenderness
+    return escapes or event == FLAT
+
+
+@compiled
+def _initial_state(block, forcing, record, rotation, velocity, side):
+    value, rate = ground(forcing, record, 0.0)
+    phi = abs(rotation)
+    sine, cosine = (0.0, 1.0) if block.linearised else (math.sin(phi), math.cos(phi))
+    weight, change = gravity(forcing, record, 0.0)
+    push, rate = -side * value - block.level * weight, -side * rate - block.level * change
+    return State(phi, side * velocity, sine, cosine, push, rate, weight, change)
+
+
+@compiled
+def still(time):
+    """Return the forcing of ground that has been at rest since `time`."""
+    return Forcing(NONE, 0.0, 1.0, time, 1.0, 0.0)

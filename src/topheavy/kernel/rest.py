@@ -17,18 +17,23 @@ import numpy as np
 from topheavy.kernel.compiled import compiled
 from topheavy.kernel.forcing import (
     MOST_PIECES,
-    TWO_RECORDS,
+    MOST_UP,
+    RECORD,
+    STRONGEST,
     gravity,
     ground,
+    lines,
     next_turn,
     piece_of,
     piece_start,
-    two_lines,
 )
 
 #: A rotation below this, over α, is no rocking: the impact that ends it is not counted.
 LAST_BOUNCE = 1e-6
-#: The same where each impact has a √r of its own: no solver knows the order of smaller bounces.
+#: Pieces of a record over which the push is bounded piece by piece. A block with √r → 1 would rest
+#: after so many that each bounce took the time of the whole record.
+MOST_SCANNED = 256
+#: `LAST_BOUNCE` where each impact has a √r of its own: the order of smaller ones is not known.
 RATIO_BOUNCE = 1e-3
 
 
@@ -75,8 +80,8 @@ def comes_to_rest(block, forcing, record, time, velocity, push, side, peak):
     near, far = -push, push + 2 * level * weight
     most_near, most_far, heaviest = near, far, weight
     if time + allowed > time:
-        if forcing.shape == TWO_RECORDS:
-            near, most_near, far, most_far, heaviest = _range_of_two(
+        if forcing.shape == RECORD:
+            near, most_near, far, most_far, heaviest = _range_of_record(
                 forcing, record, time, time + allowed, side, level
             )
         else:
@@ -104,12 +109,12 @@ def next_tick(time):
 def _range(forcing, record, start, stop, side):
     """Return the least and the largest f = −s a on [start, stop].
 
-    A record has fewer pieces than samples; for a pulse see `MOST_PIECES`.
+    See `MOST_PIECES`; of a record `_range_of_record`.
     """
     value = -side * ground(forcing, record, start)[0]
     low, high = value, value
     time = start
-    for _ in range(MOST_PIECES + record.shape[1]):
+    for _ in range(MOST_PIECES):
         if time >= stop:
             break
         time = min(next_turn(forcing, time), stop) if time < forcing.end else stop
@@ -121,17 +126,27 @@ def _range(forcing, record, start, stop, side):
 
 
 @compiled
-def _range_of_two(forcing, record, start, stop, side, level):
-    """Return the least and largest Γ level − f and Γ level + f on [start, stop], and largest Γ."""
+def _range_of_record(forcing, record, start, stop, side, level):
+    """Return the least and largest Γ level − f and Γ level + f on [start, stop], and largest Γ.
+
+    Over more than `MOST_SCANNED` pieces these are bounds by the largest |a| and |v| to come.
+    """
+    first = piece_of(forcing, record, start)
+    beyond = first + MOST_SCANNED
+    if beyond < record.shape[1] and piece_start(forcing, record, beyond) < stop:
+        push = abs(forcing.amplitude) * record[STRONGEST, first]
+        heavier = abs(forcing.lift) * record[MOST_UP, first]
+        least, most = level * (1.0 - heavier) - push, level * (1.0 + heavier) + push
+        return least, most, least, most, 1.0 + heavier
     near, most_near, far, most_far, heaviest = np.inf, -np.inf, np.inf, -np.inf, 0.0
     last = record.shape[1] - 1
-    for piece in range(piece_of(forcing, record, start), last + 1):
+    for piece in range(first, last + 1):
         begin, end = piece_start(forcing, record, piece), stop
         if begin > stop:
             break
         value, rate, weight, change = 0.0, 0.0, 1.0, 0.0  # the ground at rest after the last piece
         if piece < last:
-            value, rate, weight, change = two_lines(forcing, record, piece)
+            value, rate, weight, change = lines(forcing, record, piece)
             end = min(piece_start(forcing, record, piece + 1), stop)
         for time in (max(begin, start), end):
             push, heavy = side * (value + rate * (time - begin)), weight + change * (time - begin)

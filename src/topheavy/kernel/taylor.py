@@ -93,21 +93,19 @@ def expand(w, order, block, state, c, d0, d1, is_straight):
         w[PUSH, n + 2] = -curvature * (INVERSE[n + 1] * INVERSE[n + 2])
     w[PUSH, 0] = state.push
     w[GRAVITY, 0], w[GRAVITY, 1] = state.gravity, state.gravity_rate
-    if state.gravity != 1.0 or state.gravity_rate != 0.0:
-        _expand_under_gravity(w, order, block)
-    elif block.linearised:
-        _expand_linearised(w, order, last_push)
-    elif is_straight:
+    if is_straight:
         _expand_straight(w, order, block)
+    elif block.linearised:
+        _expand_linearised(w, order)
     else:
         _expand_curved(w, order, block)
 
 
 @compiled(fastmath={"contract"})
-def _expand_linearised(w, order, last_push):
+def _expand_linearised(w, order):
     for n in range(order):
         w[ROTATION, n + 1] = w[VELOCITY, n] * INVERSE[n + 1]
-        force = w[ROTATION, n] + (w[PUSH, n] if n <= last_push else 0.0)  # φ'' = φ + q
+        force = w[ROTATION, n] + w[PUSH, n]  # φ'' = φ + q
         w[VELOCITY, n + 1] = force * INVERSE[n + 1]
 
 
@@ -142,25 +140,6 @@ def _expand_curved(w, order, block):
 
 @compiled(fastmath={"contract"})
 def _expand_straight(w, order, block):
-    """The same where q has two terms."""
-    inverse_cosine = 1.0 / block.cosine
-    for n in range(order):
-        w[TILT, n] = block.cosine * w[COSINE, n] + block.sine * w[SINE, n]
-        force = w[SINE, n] * inverse_cosine + w[PUSH, 0] * w[TILT, n]
-        if n > 0:
-            force += w[PUSH, 1] * w[TILT, n - 1]
-        cosine, sine = 0.0, 0.0
-        for i in range(n + 1):
-            cosine += w[COSINE, n - i] * w[VELOCITY, i]
-            sine += w[SINE, n - i] * w[VELOCITY, i]
-        w[ROTATION, n + 1] = w[VELOCITY, n] * INVERSE[n + 1]
-        w[SINE, n + 1] = cosine * INVERSE[n + 1]
-        w[COSINE, n + 1] = -sine * INVERSE[n + 1]
-        w[VELOCITY, n + 1] = force * INVERSE[n + 1]
-
-
-@compiled(fastmath={"contract"})
-def _expand_under_gravity(w, order, block):
     """Both equations where q and G have two terms each."""
     inverse_cosine, weight, change = 1.0 / block.cosine, w[GRAVITY, 0], w[GRAVITY, 1]
     turned = ROTATION if block.linearised else SINE

@@ -8,9 +8,8 @@ one before, so that a finer grid never finds a higher minimum.
 from __future__ import annotations
 
 import math
-from collections.abc import Generator, Mapping, Sequence
-from dataclasses import dataclass, replace
-from typing import Any, TypeAlias, cast
+from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,18 +18,13 @@ from topheavy import checks
 from topheavy.bodies.structures import Structure
 from topheavy.ground.pulses import Pulse
 from topheavy.ground.records import Record
-from topheavy.kernel.outcome import TOLERANCE
-from topheavy.keywords import hinted
-from topheavy.outcomes.overturning import (
+from topheavy.outcomes.search import (
     BRACKET,
-    Asked,
     Factors,
     Interval,
-    Search,
     checked_range,
-    intervals_together,
-    outcomes_of_subjects,
-    steered,
+    outcomes_by,
+    overturning_intervals,
     subjects_of,
 )
 
@@ -68,8 +62,6 @@ class LowestOverturning:
         factor up to the end of the range is found to be survived, or where none overturns.
     unit_acceleration : float
         Peak ground acceleration of the factor 1, g.
-    factors_tried : int
-        How many histories the search took.
     wider_than : float
         Of an interval of factors that was sought besides: more than this wide. 0 if none was.
     wide : Interval or None
@@ -90,7 +82,6 @@ class LowestOverturning:
     bracket: tuple[float, float] | None
     upper: tuple[float, float] | None
     unit_acceleration: float
-    factors_tried: int
     wider_than: float = 0.0
     wide: Interval | None = None
 
@@ -139,7 +130,6 @@ class LowestOverturning:
         )
 
 
-@hinted
 def lowest_overturning(
     structure: Structure,
     excitation: Pulse | Record,
@@ -160,8 +150,7 @@ def lowest_overturning(
     Under a record an interval may be so narrow that its outcomes hang on digits that no measurement
     resolves. The `width` shows it; `judge` with another tolerance and `reference.judge` tell.
 
-    The cost is about (result − first factor)/floor histories, in lanes. `minimum_overturning`
-    searches one grid only.
+    The cost is about (result − first factor)/floor histories.
 
     Parameters
     ----------
@@ -198,36 +187,7 @@ def lowest_overturning(
     >>> round(found.acceleration, 6)
     0.191798
     """
-    search = Search(structure, excitation, scale_range, vertical, scale_vertical)
-    (found,) = lowest_together([search], [floor])
-    if wider_than is None:
-        return found
-    step = checks.positive("wider_than", wider_than) / 8.0
-    (intervals,) = intervals_together([search], resolution=step, most_impacts=0)
-    wide = (one for one in intervals if not one.upper or one.upper[0] - one.lower[1] > wider_than)
-    return replace(found, wider_than=float(wider_than), wide=next(wide, None))
-
-
-def lowest_together(searches: Sequence[Search], floors: Sequence[float]) -> list[LowestOverturning]:
-    """Return the `lowest_overturning` of several searches in their order, each with its floor."""
-    asking = [_lowest(*given) for given in zip(searches, floors, strict=True)]
-    subjects = subjects_of(searches)
-
-    def label(asked: Mapping[int, Factors]) -> list[NDArray[np.bool_]]:
-        of = [subjects[number] for number in asked]
-        return [fell for fell, _ in outcomes_of_subjects(of, [*asked.values()], TOLERANCE)]
-
-    return steered(asking, label)
-
-
-Asking: TypeAlias = Generator[Asked, Any, tuple[float, float] | None]
-"""It yields factors, is sent which of them overturn, and returns a bracket."""
-
-
-def _lowest(search: Search, floor: float) -> Generator[Asked, Any, LowestOverturning]:
-    """Yield the factors that `lowest_overturning` needs; return what it finds."""
-    excitation = cast("Pulse | Record", search.excitation)
-    first, last = checked_range(excitation, search.scale_range)
+    first, last = checked_range(excitation, scale_range)
     if first < 0.0:
         raise ValueError(
             f"scale_range begins at {first:.6g}; expected factors from zero on: for the mirrored "
@@ -239,8 +199,33 @@ def _lowest(search: Search, floor: float) -> Generator[Asked, Any, LowestOvertur
             f"floor is {floor:.6g}; expected at least {width:.6g}, {BRACKET:g} of the last factor: "
             "brackets are as wide"
         )
-    trials = _Trials()
-    bracket = yield from trials.first_of((first, last), width)
+    wide = None
+    if wider_than is not None:
+        step = checks.positive("wider_than", wider_than) / 8.0
+        intervals = overturning_intervals(
+            structure,
+            excitation,
+            scale_range,
+            resolution=step,
+            most_impacts=0,
+            vertical=vertical,
+            scale_vertical=scale_vertical,
+        )
+        wide = next(
+            (one for one in intervals if not one.upper or one.upper[0] - one.lower[1] > wider_than),
+            None,
+        )
+    subjects = subjects_of([structure], excitation, scale_range, vertical, scale_vertical)
+
+    def overturns(factors: Factors) -> NDArray[np.bool_]:
+        return outcomes_by(subjects, np.zeros(factors.size, np.int64), factors)[0]
+
+    begins, finishes = overturns(np.array([first, last]))
+    bracket = None
+    if begins:
+        bracket = first, first
+    elif finishes:
+        bracket = _narrowed(overturns, first, last, width)
     step, steps, parts = last - first, [], 1
     while True:
         steps.append((step, bracket[1] if bracket else None))
@@ -248,84 +233,72 @@ def _lowest(search: Search, floor: float) -> Generator[Asked, Any, LowestOvertur
             break
         step, parts = 0.5 * step, 2 * parts
         below = bracket[0] if bracket else last
-        bracket = (yield from trials.between(first, step, parts, below, width)) or bracket
-    upper = (yield from trials.upper_end(bracket[1], last, width)) if bracket else None
+        bracket = _lowest(overturns, first, step, parts, below, width) or bracket
     return LowestOverturning(
         scale_range=(first, last),
         floor=floor,
         steps=tuple(steps),
         bracket=bracket,
-        upper=upper,
+        upper=_upper_end(overturns, bracket[1], last, width) if bracket else None,
         unit_acceleration=excitation.peak_acceleration,
-        factors_tried=trials.number,
+        wider_than=float(wider_than or 0.0),
+        wide=wide,
     )
 
 
-@dataclass
-class _Trials:
-    """The parts of a search; it counts the factors that they ask."""
+Overturns = Callable[[Factors], NDArray[np.bool_]]
 
-    number: int = 0
 
-    def of(self, factors: Factors) -> Asked:
-        self.number += factors.size
-        return Asked(factors, [])
+def _lowest(
+    overturns: Overturns, first: float, step: float, parts: int, below: float, width: float
+) -> tuple[float, float] | None:
+    """Return the bracket of the lowest new point that overturns, of a grid just halved.
 
-    def first_of(self, ends: tuple[float, float], width: float) -> Asking:
-        """Return the bracket of the coarsest grid, the two ends of the range alone."""
-        first, last = ends
-        begins, finishes = yield self.of(np.array(ends))
-        if begins:
-            return first, first
-        return (yield from self.section(first, last, width)) if finishes else None
+    Its old points, the even ones, are survived where they are lower than `below`.
+    """
+    for begin in range(1, parts, 2 * AT_A_TIME):
+        places = np.arange(begin, min(begin + 2 * AT_A_TIME, parts), 2, dtype=float)
+        factors = first + step * places
+        factors = factors[factors < below]
+        if factors.size == 0:
+            return None
+        overturned = overturns(factors)
+        if overturned.any():
+            at = int(np.argmax(overturned))
+            before = first + step * (int(places[at]) - 1)
+            return _narrowed(overturns, before, float(factors[at]), width)
+    return None
 
-    def between(self, first: float, step: float, parts: int, below: float, width: float) -> Asking:
-        """Return the bracket of the lowest new point that overturns, of a grid just halved.
 
-        Its old points, the even ones, are survived where they are lower than `below`.
-        """
-        for begin in range(1, parts, 2 * AT_A_TIME):
-            places = np.arange(begin, min(begin + 2 * AT_A_TIME, parts), 2, dtype=float)
-            factors = first + step * places
-            factors = factors[factors < below]
-            if factors.size == 0:
-                return None
-            overturned = yield self.of(factors)
-            if overturned.any():
-                at = int(np.argmax(overturned))
-                before = first + step * (int(places[at]) - 1)
-                return (yield from self.section(before, float(factors[at]), width))
+def _narrowed(holds: Overturns, low: float, high: float, width: float) -> tuple[float, float]:
+    """Narrow a bracket to `width`, always to the lowest point tried for which `holds` is true.
+
+    Halving would pass over lower factors that it tried in vain: here none that was tried is.
+    """
+    while high - low > width:
+        points = np.linspace(low, high, SECTIONS + 1)
+        at = int(np.argmax(np.append(holds(points[1:-1]), True)))
+        low, high = float(points[at]), float(points[at + 1])
+    return low, high
+
+
+def _upper_end(
+    overturns: Overturns, lowest: float, last: float, width: float
+) -> tuple[float, float] | None:
+    """Return the upper end of the interval that begins at `lowest`, or None beyond the range.
+
+    The distances tried grow in proportion, so that the interval may have any width.
+    """
+    span = last - lowest
+    if span <= 0.0:
         return None
-
-    def section(
-        self, low: float, high: float, width: float, *, sought: bool = True
-    ) -> Generator[Asked, Any, tuple[float, float]]:
-        """Narrow a bracket to `width`, always to the lowest point tried with the sought outcome.
-
-        Halving would pass over lower factors that it tried in vain: here none that was tried is.
-        """
-        while high - low > width:
-            points = np.linspace(low, high, SECTIONS + 1)
-            met = np.append((yield self.of(points[1:-1])) == sought, True)
-            at = int(np.argmax(met))
-            low, high = float(points[at]), float(points[at + 1])
-        return low, high
-
-    def upper_end(self, lowest: float, last: float, width: float) -> Asking:
-        """Return the upper end of the interval that begins at `lowest`, or None beyond the range.
-
-        The distances tried grow in proportion, so that the interval may have any width.
-        """
-        span = last - lowest
-        if span <= 0.0:
-            return None
-        count = 2 + int(math.log(span / width, GROWTH)) if span > width else 1
-        distances = np.geomspace(min(width, span), span, count)
-        points = np.array([lowest, *np.minimum(lowest + distances, last)])
-        survived = ~(yield self.of(points[1:]))
-        if not survived.any():
-            return None
-        at = int(np.argmax(survived))
-        return (
-            yield from self.section(float(points[at]), float(points[at + 1]), width, sought=False)
-        )
+    count = 2 + int(math.log(span / width, GROWTH)) if span > width else 1
+    distances = np.geomspace(min(width, span), span, count)
+    points = np.array([lowest, *np.minimum(lowest + distances, last)])
+    survived = ~overturns(points[1:])
+    if not survived.any():
+        return None
+    at = int(np.argmax(survived))
+    return _narrowed(
+        lambda factors: ~overturns(factors), float(points[at]), float(points[at + 1]), width
+    )

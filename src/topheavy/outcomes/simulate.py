@@ -17,23 +17,21 @@ from topheavy.bodies.structures import RockingBlock, Structure, as_block
 from topheavy.ground.excitation import Excitation, checked_excitation, no_excitation
 from topheavy.ground.pulses import Pulse
 from topheavy.ground.records import Record
-from topheavy.ground.vertical import both_records, refuse_fall
+from topheavy.ground.vertical import both_records, refuse_fall, without_rest
 from topheavy.kernel.forcing import (
     NO_RECORD,
     NONE,
     RECORD,
     SHAPES,
     prepare_record,
-    prepare_two_records,
     pulse_forcing,
     record_forcing,
 )
 from topheavy.kernel.grid import outcome_of, record_order
 from topheavy.kernel.interrupt import LONG, in_threads
-from topheavy.kernel.outcome import NO_RATIOS, PULSE_ORDER, TOLERANCE, working_array
-from topheavy.kernel.taylor import oscillator
-from topheavy.kernel.trace import (
+from topheavy.kernel.outcome import (
     MOST_STEPS,
+    NO_RATIOS,
     NO_UPLIFT,
     OVERTURNED,
     RESTS,
@@ -41,7 +39,8 @@ from topheavy.kernel.trace import (
     UNRESOLVED,
     trace,
 )
-from topheavy.keywords import hinted
+from topheavy.kernel.step import PULSE_ORDER, TOLERANCE, working_array
+from topheavy.kernel.taylor import oscillator
 
 Times = NDArray[np.float64]
 
@@ -59,7 +58,6 @@ _OUTCOMES: dict[int, Outcome] = {
 }
 
 
-@hinted
 def simulate(
     structure: Structure,
     excitation: Excitation | None = None,
@@ -137,10 +135,12 @@ def simulate(
 
     def follow(until: float, at: Times) -> tuple[NDArray[np.float64], Times, tuple[float, ...]]:
         motion, impacts = np.full((2, at.size), math.nan), np.empty(MOST_IMPACTS)
-        given = (oscillator(block), forcing, record, (theta, theta_rate / p, until))
+        given = (oscillator(block), forcing, record, NO_RATIOS, (theta, theta_rate / p, until))
 
         def traced(w: Times) -> tuple[float, ...]:
-            end: tuple[float, ...] = trace(w, order, tolerance, *given, (at, motion, impacts))
+            end: tuple[float, ...] = trace(
+                w, order, tolerance, *given, (at, motion, impacts), False
+            )
             return end
 
         is_long = record.shape[1] + at.size > LONG
@@ -180,7 +180,6 @@ def simulate(
     )
 
 
-@hinted
 def judge(
     structure: Structure,
     excitation: Excitation,
@@ -225,7 +224,8 @@ def judge(
         ratios=_ratios(restitutions) if len(restitutions) else NO_RATIOS,
         tolerance=checked_tolerance(tolerance),
     )
-    return Ending(bool(found.overturned), float(found.peak), int(found.impacts))
+    peak = math.nan if found.overturned else float(found.peak)
+    return Ending(bool(found.overturned), peak, int(found.impacts))
 
 
 def _ratios(restitutions: Sequence[float]) -> NDArray[np.float64]:
@@ -249,9 +249,9 @@ class Shaking(NamedTuple):
 def as_shaking(excitation: Excitation | None, vertical: Record | None = None) -> Shaking:
     """Return a ground motion as the kernel takes it, or raise ValueError if it is none."""
     if vertical is not None:
-        across, up = both_records(excitation, vertical)
+        across, up = map(without_rest, both_records(excitation, vertical))
         ratio = up.time_step / across.time_step
-        record = prepare_two_records(across.acceleration, up.acceleration, ratio)
+        record = prepare_record(across.acceleration, up.acceleration, ratio)
         return Shaking(RECORD, across.time_step, 1.0, record)
     match excitation:
         case None:
@@ -267,7 +267,7 @@ def as_shaking(excitation: Excitation | None, vertical: Record | None = None) ->
 @lru_cache(maxsize=2)
 def _prepared(record: Record) -> NDArray[np.float64]:
     """Return a record as the kernel reads it; one record often follows itself."""
-    return prepare_record(record.acceleration)
+    return prepare_record(without_rest(record).acceleration)
 
 
 def checked_tolerance(value: float) -> float:

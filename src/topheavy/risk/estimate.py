@@ -11,8 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from topheavy import checks
 from topheavy.ground.records import Record
-from topheavy.keywords import hinted
-from topheavy.outcomes.overturning import overturned_together
+from topheavy.outcomes.search import overturned_by
 from topheavy.risk import inputs
 from topheavy.risk.curve import fit
 from topheavy.risk.resampling import means_within
@@ -93,7 +92,6 @@ def _line(row: xarray.Dataset, name: str, unit: str) -> str:
     return f"{known}: {reason}" if reason else known
 
 
-@hinted
 def fragility(
     structures: inputs.Structures,
     motions: Sequence[inputs.Motion],
@@ -214,7 +212,7 @@ def _judged(
     blocks = [one.block for one in under]
     return np.array(
         [
-            overturned_together(blocks, motion, factors, vertical=up, scale_vertical=scale_vertical)
+            overturned_by(blocks, motion, factors, vertical=up, scale_vertical=scale_vertical)
             for motion, up, factors in motions
         ]
     )

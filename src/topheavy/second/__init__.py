@@ -1,1 +1,1 @@
-"""The other solvers: SciPy, closed forms, three bodies. None reaches the kernel, nor it them."""
+"""The solver by SciPy. It does not import the kernel, and the kernel does not import it."""

@@ -93,12 +93,6 @@ class Motion:
     impacts: list[float] = field(default_factory=list)
     arcs: list[Arc] = field(default_factory=list)
 
-    def arrive(self, time: float, rotation: float, rate: float) -> None:
-        """Go on to a state of the same flight; between both φ is no higher, or below the peak."""
-        self.height = max(self.height, self.rotation, rotation)
-        self.peak = max(self.peak, rotation)
-        self.time, self.rotation, self.rate = time, rotation, rate
-
 
 Flight = Callable[[RockingBlock, Segment, float, Motion, bool], Event | None]
 """Carry a motion over a segment to a time, or to the event that comes first; the last argument says
@@ -217,7 +211,8 @@ def free_ending(block: RockingBlock, motion: Motion) -> free_rocking.Ending:
     if not motion.moving:
         return free_rocking.Ending(overturned=False, peak=0.0, impacts=0)
     next_impact = block.with_restitution(_next_restitution(block, motion))
-    return free_rocking.ending(next_impact, motion.rotation, motion.rate)
+    velocity = motion.rate / block.frequency_parameter
+    return free_rocking.ending(next_impact, motion.rotation, velocity)
 
 
 def _next_restitution(block: RockingBlock, motion: Motion) -> float:

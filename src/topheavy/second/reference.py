@@ -12,8 +12,8 @@ from functools import partial
 
 import numpy as np
 from numpy.polynomial import chebyshev
-from numpy.typing import ArrayLike, NDArray
-from scipy.integrate import DOP853, DenseOutput, ode
+from numpy.typing import ArrayLike
+from scipy.integrate import DOP853, DenseOutput
 from scipy.optimize import brentq
 
 from topheavy import checks
@@ -104,7 +104,7 @@ def judge(
     if course.restitutions:
         course.counted = motion.RATIO_PEAK * block.slenderness
     ground = with_vertical(excitation, vertical)
-    motion.force(block, ground, course, _flight(tolerance, block))
+    motion.force(block, ground, course, _flight(tolerance))
     end = motion.free_ending(block, course)
     return free_rocking.Ending(
         overturned=end.overturned,
@@ -113,30 +113,14 @@ def judge(
     )
 
 
-def _flight(tolerance: float, judged: RockingBlock | None = None) -> motion.Flight:
-    """Return the integration at a tolerance, or raise ValueError with the accepted range.
-
-    The history is not kept of a block that is only judged: SciPy's compiled DOP853 takes it over
-    short pieces of the forcing. The state is φ and φ̇/p, as it has one tolerance for both.
-    """
+def _flight(tolerance: float) -> motion.Flight:
+    """Return the integration at a tolerance, or raise ValueError with the accepted range."""
     low, high = SMALLEST_TOLERANCE, LARGEST_TOLERANCE
-    tolerance, glide = checks.within("tolerance", tolerance, low, high), None
-    if judged:
-        first, absolute = SHORT / judged.frequency_parameter, tolerance * judged.slenderness
-        glide = ode(_slopes).set_integrator(
-            "dop853", rtol=tolerance, atol=absolute, first_step=first
-        )
-    return partial(_fly, tolerance, glide)
-
-
-def _slopes(t: float, y: NDArray[np.float64], bend: Bend, p: float) -> list[float]:
-    rotation, rate = y.tolist()
-    return [p * rate, bend(t, rotation) / p]
+    return partial(_fly, checks.within("tolerance", tolerance, low, high))
 
 
 def _fly(
     tolerance: float,
-    glide: ode | None,
     block: RockingBlock,
     segment: Segment,
     stop: float,
@@ -147,10 +131,7 @@ def _fly(
     alpha, p = block.slenderness, block.frequency_parameter
     ahead = stop - course.time
     is_short = 0.0 < p * ahead < SHORT
-    largest = _largest(block, segment) if glide else math.inf
     bend = _equation(block, segment, course.side)
-    if glide and is_short and _glides(glide.set_f_params(bend, p), p, stop, course, largest):
-        return None
     solver = DOP853(
         lambda t, y: (y[1], bend(float(t), float(y[0]))),
         course.time,
@@ -167,9 +148,6 @@ def _fly(
         if solver.status == "failed":
             raise ArithmeticError(f"{block}: no step is possible at {solver.t:.6g} s: {message}")
         rotation, rate = solver.y.tolist()
-        if _is_eventless(course, float(solver.t), rotation, rate, largest):
-            course.arrive(float(solver.t), rotation, rate)
-            continue
         step = solver.dense_output()
         event, course.time = _first_event(step, course, possible)
         course.arcs.append(Arc(step.t_old, course.time, course.side, step))
@@ -185,39 +163,6 @@ def _fly(
     return None
 
 
-def _glides(glide: ode, p: float, stop: float, course: Motion, largest: float) -> bool:
-    """Advance to `stop` in one step if no event can occur before; return whether it did.
-
-    `largest` is that of `_is_eventless`.
-    """
-    expected = course.rotation + course.rate * (stop - course.time)
-    if not _is_eventless(course, stop, expected, course.rate, largest):
-        return False  # most likely
-    glide.set_initial_value([course.rotation, course.rate / p], course.time)
-    rotation, scaled = glide.integrate(stop).tolist()
-    if not (glide.successful() and _is_eventless(course, stop, rotation, p * scaled, largest)):
-        return False
-    course.arrive(stop, rotation, p * scaled)
-    return True
-
-
-def _is_eventless(
-    course: Motion, time: float, rotation: float, rate: float, largest: float
-) -> bool:
-    """Return whether a motion to this φ and φ̇ surely has no impact, fall or inner peak on the way.
-
-    `largest` is a bound on |φ̈|, rad/s². No φ̇ is nearer to 0 than the mean at the ends by more than
-    half of what that changes in the time.
-    """
-    ends, ahead = (course.rotation, rotation), time - course.time
-    if abs(course.rate + rate) > largest * ahead:  # φ̇ has one sign
-        return rotation > 0.0 and max(ends) < course.ceiling
-    aside = largest * ahead**2 / 8.0  # of the chord of φ at most
-    if max(course.height, *ends) <= course.counted < max(ends) + aside:
-        return False  # whether its impact counts is open
-    return min(ends) - aside > 0.0 and max(ends) + aside < min(course.ceiling, course.peak)
-
-
 def _equation(block: RockingBlock, segment: Segment, side: int) -> Bend:
     """Return the equation of motion on one side: Eq. (23), or linearised."""
     alpha, square = block.slenderness, block.frequency_parameter**2
@@ -231,15 +176,6 @@ def _equation(block: RockingBlock, segment: Segment, side: int) -> Bend:
         return square * gravity(t) * (rotation - alpha - side * acceleration(t))
 
     return linearised if block.linearised else exact
-
-
-def _largest(block: RockingBlock, segment: Segment) -> float:
-    """Return a bound on |φ̈| of the exact equation, rad/s²; none is known of the linearised one."""
-    if block.linearised:
-        return math.inf
-    ends = segment.start, segment.stop
-    gravity = max(map(segment.gravity, ends))
-    return block.frequency_parameter**2 * gravity * (1.0 + segment.largest(*ends))
 
 
 def _first_event(step: DenseOutput, course: Motion, possible: bool) -> tuple[Event | None, float]:

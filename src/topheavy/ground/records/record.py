@@ -12,10 +12,8 @@ from topheavy import checks
 from topheavy.bodies.structures import STANDARD_GRAVITY
 from topheavy.ground.excitation import Excitation, Lines, Segment
 from topheavy.ground.records.units import UNDERSTOOD, acceleration_in_g
-from topheavy.keywords import hinted
 
 
-@hinted
 @dataclass(frozen=True, eq=False)
 class Record(Excitation):
     """A recorded ground acceleration: sample k at k·time_step, linear between, zero outside.
@@ -120,7 +118,6 @@ class Record(Excitation):
         acceleration = checks.finite("factor", factor) * self.acceleration
         return Record(self.time_step, acceleration, self.name, unit="g")
 
-    @hinted
     def scaled_to(self, *, pga: float | None = None, pgv: float | None = None) -> Record:
         """Return the record scaled to a peak ground acceleration (g) or velocity (m/s).
 

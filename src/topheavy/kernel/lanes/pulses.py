@@ -61,8 +61,9 @@ from topheavy.kernel.lanes.vectors import (
     square_root,
     store,
 )
-from topheavy.kernel.outcome import HALT, MAX_STEPS, NO_RATIOS, PULSE_ORDER, outcome
+from topheavy.kernel.outcome import outcome
 from topheavy.kernel.rest import next_tick
+from topheavy.kernel.step import HALT, MAX_STEPS, PULSE_ORDER
 from topheavy.kernel.tail import free_rocking, is_poised
 
 assert PULSE_ORDER <= MAX_ORDER
@@ -86,7 +87,7 @@ def begin(w, lane, block, forcing, record):
 
 @compiled(forceinline=True)
 def certain(w, block, rotation, velocity):
-    """Return the lanes whose blocks are certain to overturn (see `outcome.is_certain_to_overturn`).
+    """Return the lanes whose blocks are certain to overturn (see `step.is_certain_to_overturn`).
 
     The arc tangent is replaced by a bound, atan x ≤ πx/(1 + 2√(1 + x²)) (Fink 1995).
     """
@@ -102,7 +103,7 @@ def certain(w, block, rotation, velocity):
 
 @compiled(forceinline=True)
 def renew(w, level, shape):
-    """Take the push of a Ricker wavelet from the wavelet (see `outcome.renewed`)."""
+    """Take the push of a Ricker wavelet from the wavelet (see `step.renewed`)."""
     kappa, factor = load(w, FREQUENCY) * KAPPA[shape], load(w, FACTOR)
     y = kappa * (load(w, TIME) - load(w, CENTRE))
     square = y * y
@@ -127,15 +128,9 @@ def lifts_again(w, lane, block, forcing, record):
     return True
 
 
-@compiled(forceinline=True)
-def at(values, i, j):
-    """Return the value of a cell; an axis of length 1 stands for all its cells."""
-    return values[i if values.shape[0] > 1 else 0, j if values.shape[1] > 1 else 0]
-
-
 @compiled(nogil=True)
-def pulse_outcomes(workspaces, part, histories, shape, record, order, tolerance, outcomes):
-    """Fill one of as many parts of the cells as there are batches; see `grid.pulse_outcomes_of`.
+def pulse_outcomes(workspaces, part, histories, shape, none, order, tolerance, outcomes):
+    """Fill one of as many parts of the cells as there are batches; see `grid.outcomes_of`.
 
     Parameters
     ----------
@@ -144,20 +139,20 @@ def pulse_outcomes(workspaces, part, histories, shape, record, order, tolerance,
     histories
         The blocks, as `numbered` takes them, and the number of the block, scale and amplitude of
         each cell.
-    record : array
-        `NO_RECORD`. As an argument, not as a constant, it has the type that it has in
-        `grid.outcome_of`: what both call is then compiled but once.
+    none : array, array, tuple
+        `NO_RECORD`, `NO_RATIOS`, `NO_SAMPLES`. As arguments, not as constants, they have the types
+        that they have in `grid.outcome_of`: what both call is then compiled but once.
     order : int
         That of the scalar kernel. A constant would have it compiled anew, to other last bits.
 
     Returns
     -------
     int
-        The first cell that was given up (see `outcome.MAX_STEPS`), or −1.
+        The first cell that was given up (see `step.MAX_STEPS`), or −1.
     """
     (w, alone), (batch, batches), (peak, overturned, impacts) = workspaces, part, outcomes
     kind, blocks, which, scales, amplitudes = histories
-    columns = peak.shape[1]
+    record, no_ratios, no_samples = none
     coming, last = batch * peak.size // batches, (batch + 1) * peak.size // batches
     lost, busy, vacant = -1, 0, (1 << WIDTH) - 1
     while True:  # each time around a lane takes one of its `MAX_STEPS` steps, or there is none left
@@ -166,11 +161,10 @@ def pulse_outcomes(workspaces, part, histories, shape, record, order, tolerance,
             lane, lifted = first_lane(vacant), False
             vacant &= vacant - 1
             while coming < last and not lifted:
-                i, j = coming // columns, coming % columns
-                forcing = pulse_forcing(shape, at(amplitudes, i, j), at(scales, i, j))
-                lifted = begin(w, lane, numbered(kind, blocks, at(which, i, j)), forcing, record)
+                forcing = pulse_forcing(shape, amplitudes[coming], scales[coming])
+                lifted = begin(w, lane, numbered(kind, blocks, which[coming]), forcing, record)
                 if not lifted:
-                    peak[i, j], overturned[i, j], impacts[i, j] = 0.0, False, 0
+                    peak[coming], overturned[coming], impacts[coming] = 0.0, False, 0
                 w[CELL, lane] = coming
                 coming += 1
             if lifted:
@@ -182,7 +176,7 @@ def pulse_outcomes(workspaces, part, histories, shape, record, order, tolerance,
         if alone[HALT, 0] != 0.0:
             return int(w[CELL, int(alone[HALT, 1])])
         block = seated(w, kind)
-        landed, fallen = advance(w, alone, block, PULSE_ORDER, tolerance, False, False, busy)
+        landed, fallen = advance(w, alone, block, PULSE_ORDER, tolerance, False, busy)
         time, end, step = load(w, TIME), load(w, END), load(w, LENGTH)
         time = select(step >= load(w, LONGEST), end, time + step)
         store(w, TIME, time)
@@ -199,8 +193,7 @@ def pulse_outcomes(workspaces, part, histories, shape, record, order, tolerance,
             lane = first_lane(ending)
             ending &= ending - 1
             cell = int(w[CELL, lane])
-            i, j = cell // columns, cell % columns
-            own = numbered(kind, blocks, at(which, i, j))
+            own = numbered(kind, blocks, which[cell])
             fell, highest, count = False, w[PEAK, lane], w[IMPACTS, lane]
             if fallen >> lane & 1:
                 fell = True
@@ -209,19 +202,21 @@ def pulse_outcomes(workspaces, part, histories, shape, record, order, tolerance,
                 fell, highest = tail.overturned, max(highest, tail.peak)
                 count += tail.impacts
                 if is_poised(own, w[ROTATION, lane], w[VELOCITY, lane]):
-                    forcing = pulse_forcing(shape, at(amplitudes, i, j), at(scales, i, j))
-                    again = outcome(alone, order, tolerance, own, forcing, record, NO_RATIOS)
+                    forcing = pulse_forcing(shape, amplitudes[cell], scales[cell])
+                    again = outcome(
+                        alone, order, tolerance, own, forcing, record, no_ratios, no_samples
+                    )
                     fell, highest, count = again.overturned, again.peak, again.impacts
                     if not again.resolved:
                         lost = cell if lost < 0 else min(lost, cell)
             elif w[STEPS, lane] > MAX_STEPS:
                 lost = cell if lost < 0 else min(lost, cell)
             else:
-                forcing = pulse_forcing(shape, at(amplitudes, i, j), at(scales, i, j))
+                forcing = pulse_forcing(shape, amplitudes[cell], scales[cell])
                 if not rests(w, lane, own, forcing, record):
                     continue
                 if lifts_again(w, lane, own, forcing, record):
                     continue
-            peak[i, j] = math.nan if fell else highest
-            overturned[i, j], impacts[i, j] = fell, count
+            peak[cell] = math.nan if fell else highest
+            overturned[cell], impacts[cell] = fell, count
             vacant |= 1 << lane

@@ -1,4 +1,4 @@
-"""Outcomes of many histories under one record, or a horizontal and a vertical one.
+"""Outcomes of many histories under one record.
 
 Each lane has a history (see `steps`), and is at a piece of the record of its own. Most pieces are
 passed over by the short series of `march`, which proves that they hold no event; a lane for which
@@ -72,8 +72,8 @@ from topheavy.kernel.lanes.vectors import (
     take,
 )
 from topheavy.kernel.march import LARGEST_TURN, derivatives
-from topheavy.kernel.outcome import HALT, MAX_STEPS, is_certain_to_overturn
 from topheavy.kernel.rest import LAST_BOUNCE, next_tick
+from topheavy.kernel.step import HALT, MAX_STEPS, is_certain_to_overturn
 from topheavy.kernel.tail import free_rocking, safe_speed
 from topheavy.kernel.taylor import State
 
@@ -84,15 +84,7 @@ FEW = WIDTH // 3
 
 
 @compiled(forceinline=True)
-def edge(record, weighs, piece, h):
-    """Return when the pieces begin that lanes name, where samples are `h` apart in τ."""
-    if weighs:
-        return take(record[AT], piece) * h
-    return piece * h
-
-
-@compiled(forceinline=True)
-def march_lanes(w, block, record, weighs, tolerance, marching):
+def march_lanes(w, block, record, tolerance, marching):
     """Pass over the pieces that `marching` lanes are at, as far as they are proven to hold nothing.
 
     The terms and the proof are those of `march.march`. Lanes for which it fails are made ready for
@@ -100,8 +92,6 @@ def march_lanes(w, block, record, weighs, tolerance, marching):
 
     Parameters
     ----------
-    weighs : bool
-        Whether the record is of two.
     tolerance : float
         Bound on the last term of φ', over α.
 
@@ -125,25 +115,19 @@ def march_lanes(w, block, record, weighs, tolerance, marching):
         load(w, SINE),
         load(w, COSINE),
     )
-    begin = edge(record, weighs, piece, h)
-    longest = edge(record, weighs, piece + 1.0, h) - begin
-    before, heavy, heavier = take(record[START], piece), inverse_cosine, h * 0.0
-    if weighs:
-        share = take(record[AT], piece + 1.0) - take(record[AT], piece)  # of h, this piece takes
-        h, per_piece, power = h * share, per_piece / share, share * share
-        h2, h3, power = h2 * power, h3 * (power * share), power * power
-        h4, h5, power = h4 * power, h5 * (power * share), power * share * share
-        h6, h7 = h6 * power, h7 * (power * share)
-        after, lift, up = take(record[STOP], piece), load(w, LIFT), take(record[UP], piece)
-        gravity = fma(lift, up, h * 0.0 + 1.0)
-        change = lift * (take(record[UP_STOP], piece) - up) * per_piece
-        heavy, heavier = inverse_cosine * gravity, inverse_cosine * change
-        push = factor * before - block.level * gravity
-        rate = factor * (after - before) * per_piece - block.level * change
-    else:
-        after = take(record[START], piece + 1.0)
-        push, rate = factor * before - block.level, factor * (after - before) * per_piece
-        gravity, change = heavier, heavier
+    begin = take(record[AT], piece) * h
+    share = take(record[AT], piece + 1.0) - take(record[AT], piece)  # of h, this piece takes
+    h, per_piece, power = h * share, per_piece / share, share * share
+    h2, h3, power = h2 * power, h3 * (power * share), power * power
+    h4, h5, power = h4 * power, h5 * (power * share), power * share * share
+    h6, h7, longest = h6 * power, h7 * (power * share), h
+    before, after = take(record[START], piece), take(record[STOP], piece)
+    lift, up = load(w, LIFT), take(record[UP], piece)
+    gravity = fma(lift, up, h * 0.0 + 1.0)
+    change = lift * (take(record[UP_STOP], piece) - up) * per_piece
+    heavy, heavier = inverse_cosine * gravity, inverse_cosine * change
+    push = factor * before - block.level * gravity
+    rate = factor * (after - before) * per_piece - block.level * change
     passed = 0
     if not block.linearised:
         tilt = fma(cosine, block.cosine, sine * block.sine)  # cos(α − φ)
@@ -181,9 +165,8 @@ def march_lanes(w, block, record, weighs, tolerance, marching):
         store(w, ARC, select(whole, peak, arc))
         store(w, PUSH, select(halted, push, load(w, PUSH)))
         store(w, PUSH + 1, select(halted, rate, load(w, PUSH + 1)))
-        if weighs:
-            store(w, GRAVITY, select(halted, gravity, load(w, GRAVITY)))
-            store(w, CHANGE, select(halted, change, load(w, CHANGE)))
+        store(w, GRAVITY, select(halted, gravity, load(w, GRAVITY)))
+        store(w, CHANGE, select(halted, change, load(w, CHANGE)))
         store(w, TIME, select(halted, begin, load(w, TIME)))
         store(w, LONGEST, select(halted, longest, load(w, LONGEST)))
     return passed
@@ -224,21 +207,19 @@ def overturns(w, lane, block, forcing, record):
 
 
 @compiled(nogil=True)
-def record_outcomes(workspaces, part, histories, record, vertical, tolerance, in_full, outcomes):
+def record_outcomes(workspaces, part, histories, record, tolerance, in_full, outcomes):
     """Fill one of as many parts of the factors as there are batches; see `grid.outcomes_of`.
 
     Parameters
     ----------
     workspaces : array, array
         The rows of the lanes, and a working array for steps that a lane takes alone, which may say
-        halt (`outcome.HALT`).
+        halt (`step.HALT`).
     part : int, int
         The number of the batch, and of batches.
     histories
         The blocks, as `numbered` takes them, and of each history the number of its block, p Δt, the
         factor on the record, and that on the vertical record that goes with it.
-    vertical : array or None
-        `record` once more if it is of two records; None if it is of one.
     in_full : bool
         Whether a history is followed once it is sure to survive: only then are the peak and the
         impacts those of all of it.
@@ -248,12 +229,11 @@ def record_outcomes(workspaces, part, histories, record, vertical, tolerance, in
     Returns
     -------
     int
-        The first cell that was given up (see `outcome.MAX_STEPS`), or −1.
+        The first cell that was given up (see `step.MAX_STEPS`), or −1.
     """
     (w, alone), (batch, batches), (peak, overturned, impacts) = workspaces, part, outcomes
     kind, blocks, which, steps, factors, lifts_of = histories
-    weighs = vertical is not None  # known when this is compiled: one record costs nothing more
-    pieces = record[AT, record.shape[1] - 1] if weighs else record.shape[1] - 1.0
+    last_time = record[AT, record.shape[1] - 1]
     most_steps = MAX_STEPS + 10 * record.shape[1]
     coming, last = batch * factors.size // batches, (batch + 1) * factors.size // batches
     lost, vacant = -1, (1 << WIDTH) - 1
@@ -285,23 +265,22 @@ def record_outcomes(workspaces, part, histories, record, vertical, tolerance, in
             return int(w[CELL, int(alone[HALT, 1])])
         block = seated(w, kind)
         if stepping == 0 or number(marching) > FEW:
-            passed = march_lanes(w, block, record, weighs, tolerance, marching)
+            passed = march_lanes(w, block, record, tolerance, marching)
             stepping |= marching & ~passed
             marching = passed
             continue
-        landed, fallen = advance(w, alone, block, RECORD_ORDER, tolerance, True, weighs, stepping)
+        landed, fallen = advance(w, alone, block, RECORD_ORDER, tolerance, True, stepping)
         h, time, taken = load(w, TERM + 1), load(w, TIME), load(w, LENGTH)
-        piece_end = edge(record, weighs, load(w, PIECE) + 1.0, h)
+        piece_end = take(record[AT], load(w, PIECE) + 1.0) * h
         time = select(taken >= load(w, LONGEST), piece_end, time + taken)
         store(w, TIME, time)
         rotation, velocity = finish(w, block, RECORD_ORDER, stepping)
-        if weighs:
-            store(w, GRAVITY, fma(taken, load(w, CHANGE), load(w, GRAVITY)))
+        store(w, GRAVITY, fma(taken, load(w, CHANGE), load(w, GRAVITY)))
         landed = (landed | bits(rotation <= 0.0) & stepping) & ~fallen
-        resting = strike(w, block, weighs, landed) if landed else 0
+        resting = strike(w, block, True, landed) if landed else 0
         coming_speed = absolute(load(w, FACTOR)) * h * take(record[IMPULSE], load(w, PIECE))
         safe = bits(load(w, VELOCITY) + coming_speed < load(w, SAFE_SPEED)) & landed
-        over = bits(time >= pieces * h) & stepping
+        over = bits(time >= last_time * h) & stepping
         outward = bits((rotation > block.slenderness) & (velocity > 0.0)) & stepping
         tired = bits(load(w, STEPS) > most_steps) & stepping
         ended = bits(time >= piece_end) & stepping & ~over

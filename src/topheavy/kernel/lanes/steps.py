@@ -1,15 +1,15 @@
 """Taylor steps with proven events, one history in each lane (see `vectors`).
 
-The series is that of `kernel.taylor`, the proof that of `outcome.advance`: the signs of Bernstein
+The series is that of `kernel.taylor`, the proof that of `step.advance`: the signs of Bernstein
 coefficients. Here they are not counted. Where the coefficients rise first and fall then (or the
 other way round, or do one of the two), so does φ: it has at most one turn, and at most one landing
 that follows from its ends. Halley's iteration finds both. A lane in which that is not so, or in
 which the iteration does not surely converge, takes its step by `proven`, as the scalar kernel does.
 
 The array `w` of a batch has a row for every coefficient and every variable, a float a lane. `alone`
-is the working array of the scalar kernel (`outcome.working_array`), for a lane that is taken alone.
-`order`, `is_straight` and `weighs` are constants where these functions are called, so that their
-loops become straight code.
+is the working array of the scalar kernel (`step.working_array`), for a lane that is taken alone.
+`order` and `is_straight` are constants where these functions are called, so that their loops become
+straight code.
 """
 
 from topheavy.kernel.bernstein import CONVERT
@@ -28,8 +28,8 @@ from topheavy.kernel.lanes.vectors import (
     square_root,
     store,
 )
-from topheavy.kernel.outcome import FLAT, HALT, LANDING, POLYNOMIAL, proven
 from topheavy.kernel.rest import LAST_BOUNCE, comes_to_rest
+from topheavy.kernel.step import FLAT, HALT, LANDING, POLYNOMIAL, proven
 from topheavy.kernel.taylor import INVERSE, Oscillator
 
 #: The largest order.
@@ -91,10 +91,10 @@ def seated(w, kind):
 
 
 @compiled(forceinline=True)
-def expand(w, block, order, is_straight, weighs):
+def expand(w, block, order, is_straight):
     """Fill `w` with the solution through its first coefficients; see `taylor.expand`.
 
-    `weighs` says that gravity changes, under two records; the push of records is straight.
+    `is_straight` says that the push and gravity are straight lines: a piece of a record.
     """
     if not is_straight:
         c, d1 = load(w, C), load(w, D1)
@@ -107,9 +107,9 @@ def expand(w, block, order, is_straight, weighs):
     if block.linearised:
         for n in range(order):  # φ'' = φ + q
             force = load(w, ROTATION + n)
-            if weighs:
+            if is_straight:
                 force = force * load(w, GRAVITY)
-            if weighs and n > 0:
+            if is_straight and n > 0:
                 force = fma(load(w, CHANGE), load(w, ROTATION + n - 1), force)
             if n < 2 or not is_straight:
                 force = force + load(w, PUSH + n)
@@ -120,7 +120,7 @@ def expand(w, block, order, is_straight, weighs):
     first_sine, first_cosine, first_push = load(w, SINE), load(w, COSINE), load(w, PUSH)
     first_velocity, zero = load(w, VELOCITY), load(w, PUSH) * 0.0
     heavy, heavier = inverse_cosine, zero
-    if weighs:
+    if is_straight:
         heavy, heavier = inverse_cosine * load(w, GRAVITY), inverse_cosine * load(w, CHANGE)
     for n in range(order):  # the sums wait for their newest terms, which come last
         cosine, sine, force = zero, zero, zero
@@ -141,7 +141,7 @@ def expand(w, block, order, is_straight, weighs):
         cosine = fma(first_cosine, velocity_n, cosine)
         sine = fma(first_sine, velocity_n, sine)
         force = fma(first_push, tilt, fma(sine_n, heavy, force))  # Eq. (23)
-        if weighs and n > 0:
+        if is_straight and n > 0:
             force = fma(load(w, SINE + n - 1), heavier, force)
         store(w, ROTATION + n + 1, velocity_n * INVERSE[n + 1])
         store(w, SINE + n + 1, cosine * INVERSE[n + 1])
@@ -263,13 +263,13 @@ def step_alone(w, alone, lane, order, flat):
 
 
 @compiled(forceinline=True)
-def advance(w, alone, block, order, tolerance, is_straight, weighs, active):
+def advance(w, alone, block, order, tolerance, is_straight, active):
     """Find the step of each lane, and what ends it; `LENGTH` and `ARC` take it up.
 
     Parameters
     ----------
     w, alone : array
-        The working array, and one for a history alone (`outcome.working_array`).
+        The working array, and one for a history alone (`step.working_array`).
     active : int
         Bits of the lanes that matter.
 
@@ -278,7 +278,7 @@ def advance(w, alone, block, order, tolerance, is_straight, weighs, active):
     landed, fallen : int
         Bits of the lanes whose blocks land, and of those whose blocks lie flat, at the end.
     """
-    expand(w, block, order, is_straight, weighs)
+    expand(w, block, order, is_straight)
     step = longest_steps(w, block, order, tolerance)
     low, high, before, final, dips, tops = hull(w, order, step)
     first, arc = load(w, ROTATION), load(w, ARC)
@@ -346,8 +346,8 @@ def finish(w, block, order, active):
 
 
 @compiled(forceinline=True)
-def strike(w, block, weighs, landed):
-    """Let the blocks of these lanes go over to their other side (see `outcome.after_impact`).
+def strike(w, block, is_straight, landed):
+    """Let the blocks of these lanes go over to their other side (see `step.after_impact`).
 
     Returns
     -------
@@ -357,7 +357,7 @@ def strike(w, block, weighs, landed):
     struck = among(landed)
     velocity = maximum(-load(w, VELOCITY), 0.0) * block.restitution
     both, side, rate = 2.0 * block.level, load(w, SIDE), -load(w, PUSH + 1)
-    if weighs:
+    if is_straight:
         rate = rate - both * load(w, CHANGE)
         both = both * load(w, GRAVITY)
     push = -load(w, PUSH) - both

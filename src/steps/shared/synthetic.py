@@ -199,20 +199,6 @@ WITH_PULSE = Model(
 # fmt: on
 
 
-def broadband(seed: int, count: int, scenario: Scenario) -> list[Record]:
-    """Return motions without a pulse: the stronger of the two horizontal components.
-
-    Motion k depends on the seed, on k and on the scenario, and on nothing else: not on how many
-    are requested. The same seed under another scenario gives the same noise, filtered otherwise.
-    """
-    return [motion(seed, number, scenario, pulse=False) for number in range(count)]
-
-
-def near_fault(seed: int, count: int, scenario: Scenario) -> list[Record]:
-    """Return motions with a velocity pulse: the component that holds it. Seeded as `broadband`."""
-    return [motion(seed, number, scenario, pulse=True) for number in range(count)]
-
-
 def parameters(seed: int, number: int, scenario: Scenario, *, pulse: bool) -> dict[str, float]:
     """Return what was drawn for one motion, by the names in PULSE and NOISE, and its envelope."""
     return _draw(_generator(seed, number), scenario, WITH_PULSE if pulse else WITHOUT_PULSE)
@@ -281,7 +267,7 @@ def envelope(t5: float, t30: float, t95: float) -> tuple[float, float, float]:
 
 
 @njit(cache=True)
-def times_of(shares, rise, decay, peak):  # type: ignore[no-untyped-def]
+def times_of(shares, rise, decay, peak):
     """Return the times in s by which these shares of the intensity of an envelope are reached."""
     before, after = peak / (2.0 * rise + 1.0), 0.5 / decay
     top = before / (before + after)
@@ -295,7 +281,12 @@ def times_of(shares, rise, decay, peak):  # type: ignore[no-untyped-def]
 
 
 def motion(seed: int, number: int, scenario: Scenario, *, pulse: bool) -> Record:
-    """Return motion `number`: noise filtered, modulated, high-passed and scaled, and its pulse."""
+    """Return motion `number`: noise filtered, modulated, high-passed and scaled, and its pulse.
+
+    It depends on the seed, the number and the scenario, and on nothing else. The same seed under
+    another scenario gives the same noise, filtered otherwise. Without a pulse it is the stronger
+    of the two horizontal components, with a pulse the one that holds it.
+    """
     rng = _generator(seed, number)
     drawn = _draw(rng, scenario, WITH_PULSE if pulse else WITHOUT_PULSE)
     time = np.arange(math.ceil(2.5 * (drawn["D0_5"] + drawn["D5_95"]) / TIME_STEP)) * TIME_STEP
@@ -314,7 +305,7 @@ def motion(seed: int, number: int, scenario: Scenario, *, pulse: bool) -> Record
 
 
 @njit(cache=True)
-def modulation(time, rise, decay, peak):  # type: ignore[no-untyped-def]
+def modulation(time, rise, decay, peak):
     """Return the modulating function at these times, 1 at its peak. [1, (4)]"""
     values = np.empty(time.size)
     for k, now in enumerate(time):
@@ -330,7 +321,7 @@ def frequency(time: Vector, drawn: dict[str, float]) -> Vector:
 
 
 @njit(cache=True)
-def filtered(noise, frequency, damping):  # type: ignore[no-untyped-def]
+def filtered(noise, frequency, damping):
     """Return white noise through the filter, of unit variance at every time but the first.
 
     Each sample of the noise sets off the response of a damped oscillator with the frequency of
@@ -407,7 +398,7 @@ def pulse_acceleration(time: Vector, drawn: dict[str, float]) -> Vector:
 
 
 @njit(cache=True)
-def _pulse_slope(turns, phase, cycles):  # type: ignore[no-untyped-def]
+def _pulse_slope(turns, phase, cycles):
     """Return the slope of the velocity over V_p, a period being 2π long, at these turns."""
     left = math.sin(phase + cycles * math.pi) - math.sin(phase - cycles * math.pi)
     offset = left / (4.0 * math.pi * cycles) / (1.0 - cycles**2)  # D_r/(γT_p V_p)

@@ -24,6 +24,7 @@ from topheavy.bodies.structures import RockingBlock, Structure, as_block
 from topheavy.ground.excitation import Excitation, Segment, still
 from topheavy.ground.pulses import Pulse
 from topheavy.ground.shapes import ELEMENTARY
+from topheavy.ground.vertical import with_vertical
 from topheavy.second import motion
 from topheavy.second.motion import Arc, Event, Motion
 
@@ -61,7 +62,7 @@ def simulate_linear_exact(
         )
     return motion.respond(
         block,
-        excitation,
+        with_vertical(excitation, None),
         partial(_fly, pulse),
         rotation=rotation,
         velocity=velocity,

@@ -19,8 +19,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.fft import irfft, rfft, rfftfreq
 
+from steps.shared.synthetic import TIME_STEP, Vector, between_zeros, modulation
 from topheavy import Record
-from topheavy.ground.synthetic.motions import TIME_STEP, Vector, between_zeros, modulation
 
 DAMPING = 0.6
 """ζ of both oscillators."""

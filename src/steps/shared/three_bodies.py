@@ -1,6 +1,6 @@
 """The motion of the rocking frame as three rigid bodies: flights by Newton–Euler, impacts, rest.
 
-The nine coordinates of `second.newton_euler` are integrated and collide without the equation of
+The nine coordinates of `newton_euler` are integrated and collide without the equation of
 motion of the frame or its coefficient of restitution, which are results here.
 """
 
@@ -15,14 +15,7 @@ from numpy.typing import ArrayLike
 from scipy.integrate import DOP853, DenseOutput
 from scipy.optimize import brentq
 
-from topheavy import checks
-from topheavy.bodies.response import Outcome, sample_times
-from topheavy.bodies.structures import STANDARD_GRAVITY, RockingFrame
-from topheavy.ground.excitation import Excitation, Segment, checked_excitation, still
-from topheavy.ground.records import Record
-from topheavy.ground.vertical import with_vertical
-from topheavy.second.motion import REST_PEAK
-from topheavy.second.newton_euler import (
+from steps.shared.newton_euler import (
     COLUMNS,
     Sides,
     ThreeBodies,
@@ -32,6 +25,13 @@ from topheavy.second.newton_euler import (
     opening,
     uplift_accelerations,
 )
+from topheavy import checks
+from topheavy.bodies.response import Outcome, sample_times
+from topheavy.bodies.structures import STANDARD_GRAVITY, RockingFrame
+from topheavy.ground.excitation import Excitation, Segment, checked_excitation, still
+from topheavy.ground.records import Record
+from topheavy.ground.vertical import with_vertical
+from topheavy.second.motion import REST_PEAK
 
 TOLERANCE = 1e-12
 """Of the integration, relative to the size of a motion as large as α."""

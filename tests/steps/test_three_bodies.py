@@ -6,11 +6,11 @@ from functools import partial
 import numpy as np
 import pytest
 
+from steps.shared.newton_euler import ThreeBodies, accelerations, impact
+from steps.shared.three_bodies import simulate_three_bodies
 from tests.cases import RECORDS
 from topheavy import STANDARD_GRAVITY, Column, Pulse, RockingFrame, read_at2, simulate
 from topheavy.bodies.kinematics import cap_acceleration, cap_displacement, cap_velocity
-from topheavy.second.newton_euler import ThreeBodies, accelerations, impact
-from topheavy.second.three_bodies import simulate_three_bodies
 
 TRILITH, SLENDER, STOCKY = Column(0.11, 0.4), Column(0.3, 3.0), Column(0.5, 0.8)
 WITH_NO_CAP = (0.0, 0.01, 0.434, 1.0, 10.0, 100.0)

@@ -40,12 +40,6 @@ class Ensemble:
         groups = self.groups or [None] * len(self.outcomes)
         return means_within(of, groups, self.resamples, self.seed)
 
-    def means_of(self, several: Sequence[ArrayLike]) -> list[Array]:
-        """Return the means of several values of one shape, with the same resamples drawn once."""
-        if not several:
-            return []
-        return [*np.moveaxis(self.means(np.stack(several, axis=1)), 1, 0)]
-
     def bounds(self, name: str, values: Array) -> dict[str, Array]:
         """Return a value of the ensemble and the ends of its interval, named for a table."""
         found = interval(values, self.confidence)

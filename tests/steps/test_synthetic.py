@@ -10,24 +10,28 @@ import numpy as np
 import pytest
 from scipy.integrate import cumulative_trapezoid
 
+from steps.shared import filtered_noise as noise
+from steps.shared import synthetic as motions
+from steps.shared.synthetic import TIME_STEP
 from topheavy import STANDARD_GRAVITY, Record
-from topheavy.ground.synthetic import filtered_noise as noise
-from topheavy.ground.synthetic import motions
-from topheavy.ground.synthetic.motions import TIME_STEP
 
 SOIL = noise.Soil(2.5, 0.2)
 ROCK = motions.Scenario(magnitude=7.0, distance=10.0, site_velocity=760.0, directivity=20.0)
 COUNT = 150
 
 
+def several(count: int, *, pulse: bool) -> list[Record]:
+    return [motions.motion(1, number, ROCK, pulse=pulse) for number in range(count)]
+
+
 @pytest.fixture(scope="module")
 def broadband() -> list[Record]:
-    return motions.broadband(1, COUNT, ROCK)
+    return several(COUNT, pulse=False)
 
 
 @pytest.fixture(scope="module")
 def near_fault() -> list[Record]:
-    return motions.near_fault(1, COUNT, ROCK)
+    return several(COUNT, pulse=True)
 
 
 def median(measure, records) -> float:
@@ -50,20 +54,20 @@ def significant_duration(record: Record) -> float:
 
 
 @pytest.mark.parametrize(
-    ("family", "size", "pga", "pgv", "samples"),
+    ("pulse", "size", "pga", "pgv", "samples"),
     [
         (
-            *(motions.broadband, 12960, 0.144393716, 0.0864095966),
+            *(False, 12960, 0.144393716, 0.0864095966),
             {3240: -0.0146368123, 6480: 0.0179176433, 4992: 0.144393716},
         ),
         (
-            *(motions.near_fault, 10125, 0.443136717, 0.60860568),
+            *(True, 10125, 0.443136717, 0.60860568),
             {2531: -7.17876416e-05, 5062: 0.0308828742, 3714: -0.443136717},
         ),
     ],
 )
-def test_a_motion_is_that_of_the_first_edition(family, size, pga, pgv, samples):
-    (record,) = family(7, 1, ROCK)
+def test_a_motion_is_that_of_the_first_edition(pulse, size, pga, pgv, samples):
+    record = motions.motion(7, 0, ROCK, pulse=pulse)
     assert record.acceleration.size == size
     peaks = (record.peak_acceleration, record.peak_velocity)
     assert peaks == pytest.approx((pga, pgv), rel=1e-6)
@@ -82,7 +86,7 @@ def test_a_motion_is_the_same_whatever_the_last_bits_of_linear_algebra(monkeypat
 def test_a_motion_is_the_same_whatever_the_last_bits_of_numpy(monkeypatch):
     def some() -> list[Record]:
         soft = [noise.motion(1, 0, noise.Soil(1.0, 0.1))]
-        return [*motions.broadband(1, 10, ROCK), *motions.near_fault(1, 10, ROCK), *soft]
+        return [*several(10, pulse=False), *several(10, pulse=True), *soft]
 
     drawn = some()
     for name in ("exp", "log", "sin", "cos", "power"):

@@ -1,1 +1,0 @@
-"""Synthetic ground motions, ensembles of them, and the probability of overturning under these."""

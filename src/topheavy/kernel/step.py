@@ -1,0 +1,215 @@
+"""One Taylor step of a rocking block, with proven events.
+
+A step is as long as the truncation allows. Within it the solution is a polynomial, and the signs
+of its Bernstein coefficients prove that the block neither lands nor turns, or isolate where it
+does (`bernstein`).
+"""
+
+import math
+
+import numpy as np
+
+from topheavy.kernel.bernstein import MAX_DEGREE, MAX_DEPTH, isolated_root, roots, to_bernstein
+from topheavy.kernel.compiled import compiled
+from topheavy.kernel.forcing import (
+    equation,
+    ground,
+    lines,
+    strongest_after,
+)
+from topheavy.kernel.taylor import ROTATION, State, expand, longest_step
+
+#: Terms of φ in a step of a pulse.
+PULSE_ORDER = 15
+#: Bound on the last two terms of φ' in a step, over α.
+TOLERANCE = 3e-10
+#: A history with more steps than this (and ten a sample) is given up as not resolved.
+#:
+#: A step ends at a landing or the end of a piece, or it is as long as the series allows: a tenth or
+#: more of the time scale of the motion, 1/(1 + ω/p + √|a|). A pulse lasts 9π p/ω
+#: at most, and one that is slow or strong has overturned the block, or lets it come to rest, within
+#: a thousand such times. Hence only landings can be so many: of a block that loses next to nothing
+#: at an impact (√r → 1). If √r < 1, a train of bounces dies out: above the level it ends by a
+#: rotation, below by rest (`rest`), even if it is over before the clock ticks.
+MAX_STEPS = 200_000
+#: What ends a step.
+NOTHING, LANDING, FLAT = range(3)
+#: Rows of the working array after those of `taylor`: the step polynomial and its derivative on
+#: [0, 1], their Bernstein coefficients, the roots found, and the stack of `bernstein.roots`.
+POLYNOMIAL, SLOPE, HULL, SLOPE_HULL, ROOTS, STACK = range(7, 13)
+#: The row that begins with 1 when a history is to be given up: see `bernstein.roots` and
+#: `topheavy.kernel.interrupt`.
+HALT = STACK + MAX_DEPTH
+
+
+@compiled(_nrt=True)
+def working_array():
+    """Return the array that a history works in; a thread needs one for all its histories."""
+    return np.zeros((HALT + 1, MAX_DEGREE + 3))
+
+
+@compiled
+def is_certain_to_overturn(block, forcing, record, time, state):
+    """Say whether no forcing of the strength that is left can bring the block back.
+
+    With |a| ≤ A G from now on, φ'' ≥ −G √(1 + A²) sin(φ* − φ) with φ* = α + atan A < π/2;
+    linearised, φ'' ≥ −G (φ* − φ) with φ* = α + A. A block moving outward with φ' above the square
+    root of the largest such factor times φ* − φ reaches φ*, from where nothing holds it.
+    """
+    if state.rotation <= block.slenderness or state.velocity <= 0.0:
+        return False
+    strength, heaviest = strongest_after(forcing, record, time)
+    if block.linearised:
+        way = block.slenderness + strength - state.rotation
+        return state.velocity > math.sqrt(heaviest) * way
+    balance = block.slenderness + math.atan(strength)
+    hold = math.sqrt(math.sqrt(1.0 + strength * strength) * heaviest)
+    return balance < block.flat and state.velocity > hold * (balance - state.rotation)
+
+
+@compiled(fastmath={"contract"})
+def advance(w, order, tolerance, block, forcing, time, longest, state, zeros, peak, is_straight):
+    """Take one step of at most `longest`.
+
+    Parameters
+    ----------
+    tolerance : float
+        Bound on the last two terms of φ', over α (over φ where that is larger).
+    zeros : int
+        How many of φ, φ', φ'' are zero at the start: 1 after an impact, 2 after an uplift by a
+        jump of the forcing, 3 after an uplift where |a| passes the level, 0 else.
+    peak : float
+        The largest φ so far.
+
+    Returns
+    -------
+    step : float
+        The length of the step, up to the event if there is one.
+    event : int
+        `NOTHING`, `LANDING` or `FLAT`.
+    peak : float
+        The largest φ so far, this step included.
+    """
+    c, d0, d1 = equation(forcing, time)
+    expand(w, order, block, state, c, d0, d1, is_straight)
+    scale = max(block.slenderness, state.rotation)
+    step = longest_step(w, order, tolerance * scale, longest)
+
+    power = 1.0
+    for k in range(order + 1):
+        w[POLYNOMIAL, k] = w[ROTATION, k] * power
+        power *= step
+    if zeros < 2:
+        low, high, final, rises, falls = _plain_range(w, order)
+        if rises and final <= block.flat:
+            return step, NOTHING, max(peak, final)
+        if low > 0.0 and high <= min(peak, block.flat):
+            return step, NOTHING, peak
+        if falls:
+            highest = max(peak, w[POLYNOMIAL, 0])
+            if final > 0.0:
+                return step, NOTHING, highest
+            landing = isolated_root(w, POLYNOMIAL, 0, order, 0.0, 1.0, 1.0)
+            return step * landing, LANDING, highest
+    end, event, peak = proven(w, order, zeros, block.flat, peak)
+    return step * end, event, peak
+
+
+@compiled
+def proven(w, order, zeros, flat, peak):
+    """Return the end of the step polynomial on [0, 1], its event, and the largest φ so far.
+
+    `flat` is the φ at which the block lies flat; the others are those of `advance`.
+    """
+    to_bernstein(w, POLYNOMIAL, order, HULL)
+    least, largest = w[HULL, zeros], 0.0
+    for k in range(zeros, order + 1):
+        least = min(least, w[HULL, k])
+        largest = max(largest, w[HULL, k])
+
+    end, event = 1.0, NOTHING
+    if least <= 0.0 and roots(w, POLYNOMIAL, zeros, order, HULL, STACK, ROOTS, 1) > 0:
+        end, event = w[ROOTS, 0], LANDING
+    if largest > flat:
+        for k in range(order + 1):
+            w[SLOPE, k], w[SLOPE_HULL, k] = -w[POLYNOMIAL, k], flat - w[HULL, k]
+        w[SLOPE, 0] += flat
+        if roots(w, SLOPE, 0, order, SLOPE_HULL, STACK, ROOTS, 1) > 0 and w[ROOTS, 0] < end:
+            end, event = w[ROOTS, 0], FLAT
+    if largest > peak:
+        peak = _largest_rotation(w, order, zeros, end, peak)
+    return end, event, peak
+
+
+@compiled(fastmath={"contract"})
+def _plain_range(w, order):
+    """Return bounds of the step polynomial on [0, 1], its last value, and whether it surely rises.
+
+    The first three terms have three Bernstein coefficients (their derivative two), and the others
+    are no larger than the sum of their moduli. This settles most steps at a tenth of the price.
+    """
+    first, second, third = w[POLYNOMIAL, 0], w[POLYNOMIAL, 1], w[POLYNOMIAL, 2]
+    others, final, bend = 0.0, 0.0, 0.0
+    for k in range(3, order + 1):
+        size = abs(w[POLYNOMIAL, k])
+        final += w[POLYNOMIAL, k]
+        others += size
+        bend += k * size
+    middle, last = first + 0.5 * second, first + second + third
+    rises = min(second, second + 2 * third) > bend
+    falls = max(second, second + 2 * third) < -bend
+    low, high = min(first, middle, last) - others, max(first, middle, last) + others
+    return low, high, last + final, rises, falls
+
+
+@compiled
+def _largest_rotation(w, order, zeros, end, peak):
+    """Return the larger of `peak` and the largest value of the step polynomial on [0, end]."""
+    for k in range(order):
+        w[SLOPE, k] = (k + 1) * w[POLYNOMIAL, k + 1]
+        w[SLOPE_HULL, k] = w[HULL, k + 1] - w[HULL, k]
+    first = max(zeros - 1, 0)
+    turns = roots(w, SLOPE, first, order - 1, SLOPE_HULL, STACK, ROOTS, order)
+    peak = max(peak, _value(w, order, end))
+    for k in range(turns):
+        if w[ROOTS, k] < end:
+            peak = max(peak, _value(w, order, w[ROOTS, k]))
+    return peak
+
+
+@compiled
+def _value(w, order, x):
+    value = w[POLYNOMIAL, order]
+    for k in range(order - 1, -1, -1):
+        value = value * x + w[POLYNOMIAL, k]
+    return value
+
+
+@compiled
+def after_impact(block, state):
+    """Return the state on the other side: φ' times √r, the push as that side feels it."""
+    velocity = max(-state.velocity, 0.0) * block.restitution
+    push = -state.push - 2 * block.level * state.gravity
+    rate = -state.rate - 2 * block.level * state.gravity_rate
+    return State(0.0, velocity, 0.0, 1.0, push, rate, state.gravity, state.gravity_rate)
+
+
+@compiled
+def at_sample(block, forcing, record, piece, side, state):
+    """Return the state with the push and the gravity of the piece of a record that begins."""
+    rotation, velocity, sine, cosine = state.rotation, state.velocity, state.sine, state.cosine
+    value, rate, weight, change = lines(forcing, record, piece)
+    push, rate = -side * value - block.level * weight, -side * rate - block.level * change
+    return State(rotation, velocity, sine, cosine, push, rate, weight, change)
+
+
+@compiled
+def renewed(block, forcing, record, time, side, state):
+    """Return the state with the push of the forcing itself, not of its series.
+
+    A Ricker wavelet takes tens of steps, over which what its series leave out would add up.
+    """
+    value, rate = ground(forcing, record, time)
+    push = -side * value - block.level
+    rotation, velocity, sine, cosine = state.rotation, state.velocity, state.sine, state.cosine
+    return State(rotation, velocity, sine, cosine, push, -side * rate, 1.0, 0.0)
