@@ -172,6 +172,15 @@ def test_wall_that_the_energy_reaches_in_the_step_is_refused():
         bound.stepped(of(beyond[1]), (far, of(Fraction(15, 100))))
 
 
+@pytest.mark.parametrize(("amplitude", "survives"), [("0.1", False), ("0.0001", True)])
+def test_bound_counts_the_jump_at_the_end_of_the_pulse(amplitude, survives):
+    """A one-cosine ends at its peak: the energy 0.0195 becomes 0.0284, beyond a barrier of 0.02."""
+    wall, energy = of(Fraction(2, 10)), of(Fraction(195, 10**4))
+    block, shaking = Block(NUMBERS, linearised=True), ground("one-cosine", amplitude)
+    bound = Bound(block, shaking, of(7), energy, (wall, wall))
+    assert bound.survives() is survives
+
+
 @pytest.mark.parametrize("linearised", [False, True])
 def test_free_motion_is_judged_by_its_energy(linearised):
     """On either side of the barrier, at rest near it or inward, and not where both are possible."""
