@@ -90,11 +90,11 @@ def _checks(statement: Statement) -> Iterator[PrintedCheck]:
         holds = follows(statement.printed, statement.premises, sides)
         check = PrintedCheck(name, statement.number, part, statement.printed, holds)
         if not holds:
-            meant_follows = follows(statement.meant, statement.premises, sides)
             check = replace(
                 check,
                 meant=statement.meant,
-                meant_follows=meant_follows,
+                meant_follows=bool(statement.meant)
+                and follows(statement.meant, statement.premises, sides),
                 kind=statement.kind,
                 remark=statement.remark,
             )
