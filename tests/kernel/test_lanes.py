@@ -38,7 +38,6 @@ from topheavy.kernel.lanes.vectors import (
     store,
 )
 from topheavy.kernel.march import powers, short_series
-from topheavy.kernel.step import TOLERANCE
 from topheavy.kernel.tail import safe_speed
 from topheavy.kernel.taylor import oscillator
 
@@ -73,47 +72,6 @@ def test_outcomes_and_impacts_are_those_of_the_scalar_kernel(shape, linearised, 
         np.testing.assert_array_equal(impacts, expected[2])
         np.testing.assert_allclose(peak, expected[0], rtol=0, atol=CLOSE * alpha)
     assert (overturned != overturned[0, 0]).any()
-
-
-STEP = 0.02
-
-
-def shaking(seed, samples=1500, step=STEP):
-    """A few sines under an envelope: as a record, and it swings a block for a while."""
-    rng, time = np.random.default_rng(seed), step * np.arange(samples)
-    waves = sum(rng.normal() * np.sin(f * time + rng.uniform(0, 6)) for f in (2.0, 3.7, 6.1, 11.0))
-    return prepare_record(0.3 * waves * np.sin(math.pi * time / time[-1]) ** 2)
-
-
-def factors_alone(block, step, factors, record, tolerance):
-    found = [outcome_of(block, RECORD, step, f, record, tolerance=tolerance) for f in factors]
-    return tuple(np.array(column) for column in list(zip(*found, strict=True))[:3])
-
-
-@pytest.mark.parametrize("degrees", [3.0, 9.5, 20.0, 40.0])
-@pytest.mark.parametrize("linearised", [False, True], ids=["exact", "linearised"])
-def test_factors_on_a_record_have_the_outcomes_and_impacts_of_the_scalar_kernel(
-    degrees, linearised
-):
-    """At a tight tolerance, since bounces after bounces make impacts sensitive to the usual one."""
-    alpha = math.radians(degrees)
-    block = oscillator(RockingBlock(1.0, alpha, 0.8, linearised))
-    fell = []
-    for seed in range(3):
-        record = shaking(seed)
-        factors = block.level / 0.3 * np.geomspace(0.2, 6.0, 21)
-        for tolerance in (TOLERANCE, 1e-14):
-            given = (np.array([STEP]), factors, record)
-            found = grid_of(block, RECORD, *given, tolerance=tolerance)
-            overturned, peak, impacts = factors_alone(block, STEP, factors, record, tolerance)
-            np.testing.assert_array_equal(found[1][0], overturned)
-            tight = tolerance < TOLERANCE
-            if tight:
-                np.testing.assert_array_equal(found[2][0], impacts)
-            close = (1e-9 if tight else 1e-5) * alpha
-            np.testing.assert_allclose(found[0][0], peak, rtol=0, atol=close)
-        fell += overturned.tolist()
-    assert 0 < sum(fell) < len(fell)
 
 
 def both_ways(block, step, factors, record):

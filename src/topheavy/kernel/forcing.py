@@ -149,10 +149,7 @@ def unit_pulse(shape, phase):
     if shape == RICKER_SYMMETRIC:
         return (1 - 2 * y * y) * bell, KAPPA[shape] * y * (4 * y * y - 6) * bell
     scale = math.sqrt(2) / ANTISYMMETRIC_PEAK * bell
-    return (
-        scale * y * (2 * y * y - 3),
-        scale * KAPPA[shape] * (-3 + y * y * (12 - 4 * y * y)),
-    )
+    return (scale * y * (2 * y * y - 3), scale * KAPPA[shape] * (-3 + y * y * (12 - 4 * y * y)))
 
 
 @compiled
