@@ -46,17 +46,10 @@ TIME, LONGEST, LENGTH, PEAK, ARC, IMPACTS, STEPS = range(CENTRE + 1, CENTRE + 8)
 END, FREQUENCY, PIECE = range(STEPS + 1, STEPS + 4)
 #: The block of a lane: α, √r, the level, cos α, sin α, 1/cos α.
 ALPHA, RESTITUTION, LEVEL, COS_ALPHA, SIN_ALPHA, INVERSE_COS = range(PIECE + 1, PIECE + 7)
-#: Gravity G, G', and the factor on the vertical record.
-GRAVITY, CHANGE, LIFT = range(INVERSE_COS + 1, INVERSE_COS + 4)
-#: Of a record with samples h = p Δt apart: hᵏ/k! in the row TERM + k, k from 1 to 7, and 1/h.
-TERM = LIFT
-PER_PIECE = TERM + 8
-#: The number of the history in a lane.
-CELL = PER_PIECE + 1
-#: See `tail.safe_speed`.
-SAFE_SPEED = CELL + 1
-#: The number of all rows.
-ROWS = SAFE_SPEED + 1
+#: Gravity G, G', the factor on the vertical record, and the time h = p Δt between two samples.
+GRAVITY, CHANGE, LIFT, SAMPLING = range(INVERSE_COS + 1, INVERSE_COS + 5)
+#: The number of the history in a lane, `tail.safe_speed`, and the number of all rows.
+CELL, SAFE_SPEED, ROWS = range(SAMPLING + 1, SAMPLING + 4)
 
 #: The steps are this much shorter than the rough power says.
 CAUTION = 0.95
