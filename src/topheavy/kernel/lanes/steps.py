@@ -1,10 +1,9 @@
 """Taylor steps with proven events, one history in each lane (see `vectors`).
 
-The series is that of `kernel.taylor`, the proof that of `step.advance`: the signs of Bernstein
-coefficients. Here they are not counted. Where the coefficients rise first and fall then (or the
-other way round, or do one of the two), so does φ: it has at most one turn, and at most one landing
-that follows from its ends. Halley's iteration finds both. A lane in which that is not so, or in
-which the iteration does not surely converge, takes its step by `proven`, as the scalar kernel does.
+The series is that of `kernel.taylor`, the proof that of `step.advance`. Where the Bernstein
+coefficients rise first and fall then (or the other way round, or do one of the two), so does φ: it
+has at most one turn, and at most one landing that follows from its ends. Halley's iteration finds
+both. A lane for which this fails takes its step by `proven`, as the scalar kernel does.
 
 The array `w` of a batch has a row for every coefficient and every variable, a float a lane. `alone`
 is the working array of the scalar kernel (`step.working_array`), for a lane that is taken alone.
@@ -391,13 +390,6 @@ def lift(w, lane, time, push, rate, side, amplitude):
 @compiled
 def rests(w, lane, block, forcing, record):
     """Say whether the block of a lane comes to rest after its impact."""
-    return comes_to_rest(
-        block,
-        forcing,
-        record,
-        w[TIME, lane],
-        w[VELOCITY, lane],
-        w[PUSH, lane],
-        w[SIDE, lane],
-        w[PEAK, lane],
-    )
+    time, velocity, push = w[TIME, lane], w[VELOCITY, lane], w[PUSH, lane]
+    side, peak = w[SIDE, lane], w[PEAK, lane]
+    return comes_to_rest(block, forcing, record, time, velocity, push, side, peak)
