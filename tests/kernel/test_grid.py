@@ -14,12 +14,7 @@ from tests.cases import BOTH, grid_of
 from topheavy import RockingBlock
 from topheavy.kernel import bernstein, forcing, interrupt, outcome, step
 from topheavy.kernel.forcing import NO_RECORD, prepare_record, pulse_forcing
-from topheavy.kernel.grid import (
-    FEWEST_FACTORS,
-    FEWEST_PULSES,
-    outcome_of,
-    outcomes_of,
-)
+from topheavy.kernel.grid import FEWEST_PULSES, outcomes_of
 from topheavy.kernel.taylor import oscillator
 
 BLOCK = oscillator(RockingBlock(1.0, math.radians(14.0), 0.87))
@@ -38,24 +33,6 @@ def test_results_do_not_depend_on_the_number_of_threads(shape, threads):
     alone = grid_of(BLOCK, shape, SCALES, AMPLITUDES, threads=1)
     same(grid_of(BLOCK, shape, SCALES, AMPLITUDES, threads=threads), alone)
     same(grid_of(BLOCK, shape, SCALES, AMPLITUDES), alone)
-
-
-def test_each_cell_is_the_history_of_its_scale_and_amplitude():
-    peak, overturned, impacts = grid_of(BLOCK, forcing.ONE_SINE, SCALES, AMPLITUDES)
-    assert peak.shape == overturned.shape == impacts.shape == (SCALES.size, AMPLITUDES.size)
-    for i in range(0, SCALES.size, 8):
-        for j in range(0, AMPLITUDES.size, 3):
-            alone = outcome_of(BLOCK, forcing.ONE_SINE, SCALES[i], AMPLITUDES[j])
-            assert (overturned[i, j], impacts[i, j]) == (alone.overturned, alone.impacts)
-            np.testing.assert_allclose(peak[i, j], alone.peak, rtol=0, atol=1e-9)
-
-
-@pytest.mark.parametrize("threads", [2, 5])
-def test_factors_on_a_record_do_not_depend_on_the_number_of_threads(threads):
-    record = prepare_record(0.4 * np.sin(np.linspace(0, 30, 700)))
-    steps, factors = np.array([0.02, 0.03]), np.linspace(-2.0, 3.0, 3 * FEWEST_FACTORS + 1)
-    alone = grid_of(BLOCK, forcing.RECORD, steps, factors, record, threads=1)
-    same(grid_of(BLOCK, forcing.RECORD, steps, factors, record, threads=threads), alone)
 
 
 def test_history_that_was_given_up_is_named_in_the_message():

@@ -185,10 +185,7 @@ def contact_forces(
 
 
 def column_forces(
-    column: Column,
-    rotation: ArrayLike,
-    velocity: ArrayLike,
-    ground_acceleration: ArrayLike = 0.0,
+    column: Column, rotation: ArrayLike, velocity: ArrayLike, ground_acceleration: ArrayLike = 0.0
 ) -> Reaction:
     """Return the force of the ground on a solitary rocking column, over its weight m g.
 

@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 from topheavy.ground import shapes
 from topheavy.kernel.compiled import compiled
 
+Array = NDArray[np.float64]
 #: The number of each shape of `topheavy.ground.shapes`; a record and no motion have numbers, too.
 SHAPES = {name: number for number, name in enumerate(shapes.SHAPES)}
 ONE_SINE, ONE_COSINE, HALF_SINE = SHAPES["one-sine"], SHAPES["one-cosine"], SHAPES["half-sine"]
@@ -88,9 +89,7 @@ def pulse_forcing(shape, amplitude, frequency):
     return Forcing(shape, amplitude, frequency, LAST_PHASE[shape] / frequency, 1.0, 0.0)
 
 
-def prepare_record(
-    samples: NDArray[np.float64], vertical: NDArray[np.float64] | None = None, ratio: float = 1.0
-) -> NDArray[np.float64]:
+def prepare_record(samples: Array, vertical: Array | None = None, ratio: float = 1.0) -> Array:
     """Return a horizontal and a vertical record (g) in pieces over which both are straight lines.
 
     Parameters
@@ -103,25 +102,30 @@ def prepare_record(
     ndarray, shape (10, n)
         A column for each piece, and one for the end of both. A record is zero after its end.
     """
-    up = np.zeros(2) if vertical is None else vertical
-    ratio = samples.size - 1.0 if vertical is None else ratio
-    lasts = [samples.size - 1.0, ratio * (up.size - 1)]
-    at = np.unique(np.concatenate([np.arange(samples.size), ratio * np.arange(up.size)]))
-    # Samples that rounding alone keeps apart are one.
-    at = at[np.append(True, np.diff(at) > SAME * at[-1])]
-    pairs = []
-    for record, step, last in zip((samples, up), (1.0, ratio), lasts, strict=True):
-        value = np.interp(at / step, np.arange(record.size), record)
-        over = 0.5 * (at[1:] + at[:-1]) >= last
-        pairs += [np.append(np.where(over, 0.0, value[k : k - 1 or None]), 0.0) for k in (0, 1)]
-    start, stop, begin, end = pairs
+    at = np.arange(samples.size, dtype=float)
+    start, stop = np.append(samples[:-1], 0.0), np.append(samples[1:], 0.0)
+    begin = end = np.zeros(at.size)
+    if vertical is not None:
+        at = np.unique(np.concatenate([at, ratio * np.arange(vertical.size)]))
+        # Samples that rounding alone keeps apart are one.
+        at = at[np.append(True, np.diff(at) > SAME * at[-1])]
+        start, stop = _ends(at, samples, 1.0)
+        begin, end = _ends(at, vertical, ratio)
     sizes = [np.maximum(np.abs(one), np.abs(two)) for one, two in ((start, stop), (begin, end))]
     impulse = np.cumsum(0.5 * (np.abs(start) + np.abs(stop))[::-1])[::-1]
     impulse = impulse if vertical is None else np.full(at.size, np.inf)
     return np.stack([start, *_bounds(sizes[0]), impulse, begin, at, stop, end, *_bounds(sizes[1])])
 
 
-def _bounds(sizes: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _ends(at: Array, record: Array, step: float) -> tuple[Array, Array]:
+    """Return a record where each piece begins and where it ends; it is zero after its end."""
+    value = np.interp(at / step, np.arange(record.size), record)
+    over = 0.5 * (at[1:] + at[:-1]) >= step * (record.size - 1.0)
+    first, last = np.where(over, 0.0, value[:-1]), np.where(over, 0.0, value[1:])
+    return np.append(first, 0.0), np.append(last, 0.0)
+
+
+def _bounds(sizes: Array) -> tuple[Array, Array]:
     """Return the largest size from each on, and the largest of each run (the first n/RUN)."""
     runs = np.zeros_like(sizes)
     largest = np.maximum.reduceat(sizes, np.arange(0, sizes.size, RUN))
@@ -149,10 +153,7 @@ def unit_pulse(shape, phase):
     if shape == RICKER_SYMMETRIC:
         return (1 - 2 * y * y) * bell, KAPPA[shape] * y * (4 * y * y - 6) * bell
     scale = math.sqrt(2) / ANTISYMMETRIC_PEAK * bell
-    return (
-        scale * y * (2 * y * y - 3),
-        scale * KAPPA[shape] * (-3 + y * y * (12 - 4 * y * y)),
-    )
+    return (scale * y * (2 * y * y - 3), scale * KAPPA[shape] * (-3 + y * y * (12 - 4 * y * y)))
 
 
 @compiled

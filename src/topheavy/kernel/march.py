@@ -17,7 +17,7 @@ slope are added to E and H.
 
 from topheavy.kernel.compiled import compiled
 from topheavy.kernel.forcing import AT, lines, piece_start
-from topheavy.kernel.taylor import State
+from topheavy.kernel.taylor import INVERSE, State
 
 #: Between two samples the block turns by less than this, so that seven terms give sin and cos.
 LARGEST_TURN = 0.05
@@ -44,14 +44,13 @@ def derivatives(force, slope, force_rate, slope_rate, velocity):
 
 @compiled
 def powers(h):
-    """Return hᵏ/k!, k from 1 to 7."""
-    h2 = h * h / 2
-    h3 = h2 * h / 3
-    h4 = h3 * h / 4
-    h5 = h4 * h / 5
-    h6 = h5 * h / 6
-    h7 = h6 * h / 7
-    return h, h2, h3, h4, h5, h6, h7
+    """Return hᵏ/k!, k from 1 to 7, of a float or of lanes."""
+    h2 = h * h * INVERSE[2]
+    h3 = h2 * h * INVERSE[3]
+    h4 = h3 * h * INVERSE[4]
+    h5 = h4 * h * INVERSE[5]
+    h6 = h5 * h * INVERSE[6]
+    return h, h2, h3, h4, h5, h6, h6 * h * INVERSE[7]
 
 
 @compiled(fastmath={"contract"}, forceinline=True)

@@ -11,12 +11,7 @@ import numpy as np
 
 from topheavy.kernel.bernstein import MAX_DEGREE, MAX_DEPTH, isolated_root, roots, to_bernstein
 from topheavy.kernel.compiled import compiled
-from topheavy.kernel.forcing import (
-    equation,
-    ground,
-    lines,
-    strongest_after,
-)
+from topheavy.kernel.forcing import equation, ground, lines, strongest_after
 from topheavy.kernel.taylor import ROTATION, State, expand, longest_step
 
 #: Terms of φ in a step of a pulse.

@@ -267,13 +267,7 @@ def _intervals(
         left, right = is_open & (found != below), is_open & (found != above)
         of, low, high, below, above = (
             np.concatenate([a[left], b[right]])
-            for a, b in (
-                (of, of),
-                (low, middle),
-                (middle, high),
-                (below, found),
-                (found, above),
-            )
+            for a, b in ((of, of), (low, middle), (middle, high), (below, found), (found, above))
         )
     boundaries: list[list[Any]] = [[] for _ in grids]
     for number, *boundary in sorted(settled):

@@ -297,11 +297,7 @@ def _outcome(
 
 
 def _rock_freely(
-    block: RockingBlock,
-    motion: Motion,
-    fly: Flight,
-    until: float | None,
-    end: free_rocking.Ending,
+    block: RockingBlock, motion: Motion, fly: Flight, until: float | None, end: free_rocking.Ending
 ) -> None:
     """Carry the motion on without forcing, to where the history ends.
 

@@ -36,14 +36,13 @@ from topheavy.kernel.lanes.steps import (
     LIFT,
     LONGEST,
     PEAK,
-    PER_PIECE,
     PIECE,
     PUSH,
     ROTATION,
     SAFE_SPEED,
+    SAMPLING,
     SINE,
     STEPS,
-    TERM,
     TIME,
     VELOCITY,
     advance,
@@ -71,7 +70,7 @@ from topheavy.kernel.lanes.vectors import (
     store,
     take,
 )
-from topheavy.kernel.march import LARGEST_TURN, derivatives
+from topheavy.kernel.march import LARGEST_TURN, derivatives, powers
 from topheavy.kernel.rest import LAST_BOUNCE, next_tick
 from topheavy.kernel.step import HALT, MAX_STEPS, is_certain_to_overturn
 from topheavy.kernel.tail import free_rocking, safe_speed
@@ -100,27 +99,14 @@ def march_lanes(w, block, record, tolerance, marching):
     int
         Bits of the lanes that passed.
     """
-    h, h2, h3, h4 = load(w, TERM + 1), load(w, TERM + 2), load(w, TERM + 3), load(w, TERM + 4)
-    h5, h6, h7, per_piece = (
-        load(w, TERM + 5),
-        load(w, TERM + 6),
-        load(w, TERM + 7),
-        load(w, PER_PIECE),
-    )
     bound, inverse_cosine = tolerance * block.slenderness, load(w, INVERSE_COS)
     piece, factor, peak = load(w, PIECE), load(w, FACTOR), load(w, PEAK)
-    rotation, velocity, sine, cosine = (
-        load(w, ROTATION),
-        load(w, VELOCITY),
-        load(w, SINE),
-        load(w, COSINE),
-    )
-    begin = take(record[AT], piece) * h
-    share = take(record[AT], piece + 1.0) - take(record[AT], piece)  # of h, this piece takes
-    h, per_piece, power = h * share, per_piece / share, share * share
-    h2, h3, power = h2 * power, h3 * (power * share), power * power
-    h4, h5, power = h4 * power, h5 * (power * share), power * share * share
-    h6, h7, longest = h6 * power, h7 * (power * share), h
+    rotation, velocity = load(w, ROTATION), load(w, VELOCITY)
+    sine, cosine, start = load(w, SINE), load(w, COSINE), take(record[AT], piece)
+    begin = start * load(w, SAMPLING)
+    longest = (take(record[AT], piece + 1.0) - start) * load(w, SAMPLING)
+    h, h2, h3, h4, h5, h6, h7 = powers(longest)
+    per_piece = 1.0 / h
     before, after = take(record[START], piece), take(record[STOP], piece)
     lift, up = load(w, LIFT), take(record[UP], piece)
     gravity = fma(lift, up, h * 0.0 + 1.0)
@@ -175,13 +161,10 @@ def march_lanes(w, block, record, tolerance, marching):
 @compiled
 def begin(w, lane, block, forcing, in_full):
     """Let a block stand in a lane, under a record; `in_full` is that of `record_outcomes`."""
-    h = forcing.step
     still(w, lane)
     seat(w, lane, block)
     w[SAFE_SPEED, lane] = 0.0 if in_full else safe_speed(block)
-    w[TERM + 1, lane], w[PER_PIECE, lane], w[LIFT, lane] = h, 1.0 / h, forcing.lift
-    for k in range(2, 8):
-        w[TERM + k, lane] = w[TERM + k - 1, lane] * h / k
+    w[SAMPLING, lane], w[LIFT, lane] = forcing.step, forcing.lift
 
 
 @compiled
@@ -270,7 +253,7 @@ def record_outcomes(workspaces, part, histories, record, tolerance, in_full, out
             marching = passed
             continue
         landed, fallen = advance(w, alone, block, RECORD_ORDER, tolerance, True, stepping)
-        h, time, taken = load(w, TERM + 1), load(w, TIME), load(w, LENGTH)
+        h, time, taken = load(w, SAMPLING), load(w, TIME), load(w, LENGTH)
         piece_end = take(record[AT], load(w, PIECE) + 1.0) * h
         time = select(taken >= load(w, LONGEST), piece_end, time + taken)
         store(w, TIME, time)

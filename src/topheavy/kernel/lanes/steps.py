@@ -1,10 +1,9 @@
 """Taylor steps with proven events, one history in each lane (see `vectors`).
 
-The series is that of `kernel.taylor`, the proof that of `step.advance`: the signs of Bernstein
-coefficients. Here they are not counted. Where the coefficients rise first and fall then (or the
-other way round, or do one of the two), so does φ: it has at most one turn, and at most one landing
-that follows from its ends. Halley's iteration finds both. A lane in which that is not so, or in
-which the iteration does not surely converge, takes its step by `proven`, as the scalar kernel does.
+The series is that of `kernel.taylor`, the proof that of `step.advance`. Where the Bernstein
+coefficients rise first and fall then (or the other way round, or do one of the two), so does φ: it
+has at most one turn, and at most one landing that follows from its ends. Halley's iteration finds
+both. A lane for which this fails takes its step by `proven`, as the scalar kernel does.
 
 The array `w` of a batch has a row for every coefficient and every variable, a float a lane. `alone`
 is the working array of the scalar kernel (`step.working_array`), for a lane that is taken alone.
@@ -46,17 +45,10 @@ TIME, LONGEST, LENGTH, PEAK, ARC, IMPACTS, STEPS = range(CENTRE + 1, CENTRE + 8)
 END, FREQUENCY, PIECE = range(STEPS + 1, STEPS + 4)
 #: The block of a lane: α, √r, the level, cos α, sin α, 1/cos α.
 ALPHA, RESTITUTION, LEVEL, COS_ALPHA, SIN_ALPHA, INVERSE_COS = range(PIECE + 1, PIECE + 7)
-#: Gravity G, G', and the factor on the vertical record.
-GRAVITY, CHANGE, LIFT = range(INVERSE_COS + 1, INVERSE_COS + 4)
-#: Of a record with samples h = p Δt apart: hᵏ/k! in the row TERM + k, k from 1 to 7, and 1/h.
-TERM = LIFT
-PER_PIECE = TERM + 8
-#: The number of the history in a lane.
-CELL = PER_PIECE + 1
-#: See `tail.safe_speed`.
-SAFE_SPEED = CELL + 1
-#: The number of all rows.
-ROWS = SAFE_SPEED + 1
+#: Gravity G, G', the factor on the vertical record, and the time h = p Δt between two samples.
+GRAVITY, CHANGE, LIFT, SAMPLING = range(INVERSE_COS + 1, INVERSE_COS + 5)
+#: The number of the history in a lane, `tail.safe_speed`, and the number of all rows.
+CELL, SAFE_SPEED, ROWS = range(SAMPLING + 1, SAMPLING + 4)
 
 #: The steps are this much shorter than the rough power says.
 CAUTION = 0.95
@@ -398,13 +390,6 @@ def lift(w, lane, time, push, rate, side, amplitude):
 @compiled
 def rests(w, lane, block, forcing, record):
     """Say whether the block of a lane comes to rest after its impact."""
-    return comes_to_rest(
-        block,
-        forcing,
-        record,
-        w[TIME, lane],
-        w[VELOCITY, lane],
-        w[PUSH, lane],
-        w[SIDE, lane],
-        w[PEAK, lane],
-    )
+    time, velocity, push = w[TIME, lane], w[VELOCITY, lane], w[PUSH, lane]
+    side, peak = w[SIDE, lane], w[PEAK, lane]
+    return comes_to_rest(block, forcing, record, time, velocity, push, side, peak)
