@@ -185,6 +185,7 @@ rule gaps:
     params:
         code=code(
             "src/steps/beyond/__init__.py",
+            "src/steps/beyond/boxes.py",
             "src/steps/beyond/gaps.py",
             "src/steps/beyond/space.py",
         )
@@ -200,6 +201,7 @@ rule gaps:
 rule test_plan:
     output:
         table="results/tables/test_plan.csv",
+        findings="results/findings/test_plan.json",
     log:
         "results/logs/test_plan.log",
     params:

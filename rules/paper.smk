@@ -68,7 +68,7 @@ rule trilith:
     log:
         "results/logs/trilith.log",
     params:
-        code=code("src/steps/trilith.py") | CORE | library("derivation", "second"),
+        code=code("src/steps/trilith.py") | CORE | library("second"),
         settings=PAPER["trilith"],
         structures=PAPER["structures"],
         solver=PAPER["solver"],

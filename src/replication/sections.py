@@ -46,6 +46,7 @@ class PrintedTrilith(Section):
     height: Positive  # m
     half_measures: list[Positive]  # m
     masses: list[Positive]  # kg
+    masses_meant: list[Positive]  # kg
     frequency_parameter: Positive  # rad/s
     frame_frequency_parameter: Positive  # rad/s
 

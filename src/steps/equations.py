@@ -5,28 +5,13 @@ import re
 import pandas as pd
 
 from replication.step import run, truth
-from topheavy.derivation import check_printed, extension_theorems, reversal_theorems, theorems
+from topheavy.derivation import check_printed, theorems
 
-PROOFS = {"paper": theorems, "extensions": extension_theorems, "reversals": reversal_theorems}
 VARIANT = re.compile(r"_(negative|positive|\d+)$")  # the sign of θ, or the equation of a step
 
 
-def first_paragraph(text):
-    return " ".join(text.partition("\n\n")[0].split())
-
-
 def compute():
-    proved = [
-        {
-            "about": about,
-            "theorem": t.id,
-            "statement": first_paragraph(t.statement),
-            "holds": t.holds,
-        }
-        for about, prove in PROOFS.items()
-        for t in prove()
-    ]
-    return {"equations": pd.DataFrame(check_printed()), "theorems": proved}
+    return {"equations": pd.DataFrame(check_printed()), "theorems": pd.DataFrame(theorems())}
 
 
 def findings(equations, theorems):
@@ -48,10 +33,8 @@ def as_printed_or_meant(forms):
     wrong = forms[~forms.follows]
     if wrong.empty:
         return truth(True)
-    meant = (wrong.meant_follows == True) & wrong.fault.notna()  # noqa: E712
-    first = wrong[["fault", "mended"]].fillna("").iloc[0]
-    kind = "sign" if first.fault == "convention" else first.fault  # of a shear, against Eq. (13)
-    return truth(False, meant_holds=meant.all(), kind=kind, mended=first.mended)
+    meant = (wrong.meant_follows == True) & wrong.kind.notna()  # noqa: E712
+    return truth(False, meant_holds=meant.all(), kind=wrong.kind.iloc[0])
 
 
 if __name__ == "__main__":

@@ -8,9 +8,8 @@ import sympy as sp
 from replication.step import check, run, truth, value
 from topheavy import Column, Pulse, RockingFrame, lowest_overturning
 from topheavy.bodies.moment_rotation import restoring_moment
-from topheavy.derivation import POSITIVE, potential_energy
-from topheavy.derivation.equilibrium import RECTANGULAR
-from topheavy.derivation.notation import R, alpha, g, gamma, m_c
+from topheavy.derivation.motion import RECTANGULAR_OF_TWO, potential_energy
+from topheavy.derivation.notation import POSITIVE, R, alpha, g, gamma, m_c
 from topheavy.second import reference
 
 ROUNDING = 1e-12  # of m_c g R
@@ -26,7 +25,7 @@ def column_of(degrees):
 
 def moment_by_energy(mass_ratio, slenderness, rotations):
     """Return −dV/dθ per column over m_c g R at positive rotations, V that of the three bodies."""
-    height = potential_energy(POSITIVE).subs(RECTANGULAR) / (2 * m_c * g * R)
+    height = potential_energy(POSITIVE).subs(RECTANGULAR_OF_TWO) / (2 * m_c * g * R)
     moment = -sp.simplify(height.diff(POSITIVE.rotation))
     return sp.lambdify((alpha, gamma, POSITIVE.rotation), moment)(
         slenderness, mass_ratio, rotations

@@ -18,9 +18,9 @@ from topheavy import (
 from topheavy.bodies.free_rocking import quarter_period
 from topheavy.bodies.kinematics import cap_acceleration, cap_displacement, column_outline
 from topheavy.bodies.massless_columns import simplified
-from topheavy.derivation import NEGATIVE, POSITIVE, cap_motion, premises
-from topheavy.derivation.notation import acceleration, read, vanishes
-from topheavy.derivation.printed import EQUATIONS
+from topheavy.derivation.motion import cap_motion
+from topheavy.derivation.notation import NEGATIVE, POSITIVE, acceleration, read, vanishes
+from topheavy.derivation.printed import EQUATIONS, rectangular_column
 
 AGREE = 1e-6  # of α, of √r and of the weight: what two integrations may differ by
 CLOSE = 1e-8  # of a number that two formulas give
@@ -156,7 +156,7 @@ def structure(column, mass_ratios):
     yield "reactions_need_the_acceleration", "v̈ has θ̈", has_it
 
     names = {equation.name: equation for equation in EQUATIONS}
-    p = {"p": premises.rectangular_column(NEGATIVE)[sp.Symbol("p")]}
+    p = {"p": rectangular_column(NEGATIVE)[sp.Symbol("p")]}
     for version in ("printed", "meant"):
         for name, side in {"eq19": NEGATIVE, "eq22": POSITIVE}.items():
             sides = read(getattr(names[name], version), side), read(names["eq23"].printed, side)

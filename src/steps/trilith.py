@@ -8,7 +8,6 @@ import pandas as pd
 from replication.step import check, grid, run, truth, value
 from topheavy import Column, Pulse, RockingFrame, simulate
 from topheavy.bodies.structures import STANDARD_GRAVITY
-from topheavy.derivation.mends import mended_quotient
 from topheavy.second import reference
 
 DIGITS = 5e-9  # of a number in a table
@@ -184,9 +183,10 @@ def findings(trilith_numbers, trilith_thresholds, trilith_starts, settings, stru
         np.allclose(2.0 * np.array(halves), measures, rtol=1e-12)
         and np.allclose([column["half_height"], column["half_width"]], halves, rtol=1e-12)
     )
-    if mended := mended_quotient(*printed["masses"], str(settings["mass_ratio"])):
-        mend, meant = mended
-        found["mass_ratio"] |= {"meant_value": meant, "kind": mend.kind, "mended": mend.text}
+    cap, columns = printed["masses_meant"]
+    if round(cap / columns, 3) == settings["mass_ratio"]:
+        found["mass_ratio"] |= {"meant_value": cap / columns, "kind": "number"}
+        found["mass_ratio"] |= {"mended": f"{cap:g}/{columns:g}"}
     ratio = printed["frame_frequency_parameter"] / printed["frequency_parameter"]
     found["mass_ratio"]["implied_by_frequencies"] = (1 - ratio**2) / (3 * ratio**2 - 2)  # Eq. (23)
 

@@ -16,12 +16,12 @@ from topheavy import (
     Pulse,
     RockingBlock,
     RockingFrame,
-    derivation,
     judge,
     overturning_intervals,
     simulate,
 )
 from topheavy.bodies.free_rocking import Ending, energy_drift
+from topheavy.derivation import motion
 from topheavy.derivation.notation import alpha, gamma
 from topheavy.ground.shapes import ELEMENTARY
 from topheavy.second import reference
@@ -158,9 +158,9 @@ def check_drift(settings):
 
 def check_formulas():
     """Check the library's p̂/p, R̂/R, √r of column and frame and g tan α against the derivation."""
-    frame = [sp.lambdify(gamma, f()) for f in (derivation.frequency_ratio, derivation.size_ratio)]
-    frame_root = sp.lambdify((alpha, gamma), derivation.restitution())
-    column_root = sp.lambdify(alpha, derivation.column_restitution())
+    frame = [sp.lambdify(gamma, f()) for f in (motion.frequency_ratio, motion.size_ratio)]
+    frame_root = sp.lambdify((alpha, gamma), motion.restitution())
+    column_root = sp.lambdify(alpha, motion.column_restitution())
     for angle in np.radians(np.linspace(1.0, 60.0, 60)):
         column = Column(math.sin(angle), math.cos(angle))
         for ratio in (0.0, 0.1, 0.434, 1.0, 7.0, 100.0):

@@ -186,7 +186,8 @@ def test_end_is_that_of_the_outcomes(monkeypatch):
     monkeypatch.setattr(break_even, "outcomes", lambda shards, name: fell.astype(np.int8))
     monkeypatch.setattr(break_even, "check_by_scipy", list)
     settings = EVEN | {"lowered": [0.1, 0.2]}
-    found = break_even.compute(settings, SETTINGS, CONFIG["structures"], [])
+    eight = SETTINGS | {"motions": 8}
+    found = break_even.compute(settings, eight, CONFIG["structures"], [])
     assert found["ends"].end.to_numpy() == pytest.approx(0.15)
     benefits = found["benefits"].query("lowered == 'both'")
     assert benefits.column.tolist() == [0.75, 0.5, 0.25] * 2

@@ -1,5 +1,7 @@
 """The state of the page: records, the spectrum of a plane, and answers that come late."""
 
+import time
+
 import pytest
 
 from tests.explorer.test_page import TYPE, state_of
@@ -55,11 +57,17 @@ def test_back_returns_to_what_a_case_replaced(browser):
     before = state_of(browser)
     browser.do("document.querySelector('#cases button').click()")
     browser.settle()
-    browser.do("new Promise(resolve => setTimeout(resolve, 400))")
-    assert state_of(browser) != before
+    wait_until(lambda: state_of(browser) != before)
     browser.do("history.back()")
-    browser.do("new Promise(resolve => setTimeout(resolve, 400))")
-    assert state_of(browser) == before
+    wait_until(lambda: state_of(browser) == before)
+
+
+def wait_until(holds, seconds=60):
+    """Wait for what the page does by itself, however slow the machine is."""
+    end = time.monotonic() + seconds
+    while not holds():
+        assert time.monotonic() < end
+        time.sleep(0.1)
 
 
 CODES = "[spectrumChart.cells.columns, spectrumChart.cells.rows, ...spectrumChart.cells.codes]"
@@ -69,8 +77,8 @@ def test_map_follows_the_mass_while_it_is_dragged(browser):
     browser.open(until="spectrum")
     before = browser.do(CODES)
     browser.do("change({g: 4}, false), clearTimeout(rested)")  # no survey
-    browser.do("new Promise(next => setTimeout(next, 1000))")
-    assert before != (sketched := browser.do(CODES))
+    wait_until(lambda: browser.do(CODES) != before)
+    sketched = browser.do(CODES)
     browser.do("settle()")
     browser.settle("spectrum")
     whole = browser.do(CODES)

@@ -114,10 +114,10 @@ def test_changed_number_breaks_its_findings(tables, change):
     assert broken(findings(rule, changed)) == KNOWN.get(rule, set()) | set(breaks.split(", "))
 
 
-def test_equation_that_no_mend_saves_is_not_meant(tables):
+def test_discrepancy_of_no_kind_is_not_meant(tables):
     changed = tables("equations")
     lost = changed["equations"].id == "eq19"
-    changed["equations"].loc[lost, "fault"] = math.nan
+    changed["equations"].loc[lost, "kind"] = math.nan
     assert not findings("equations", changed)["eq19"]["meant_holds"]
 
 

@@ -231,10 +231,17 @@ VERIFIED = pd.DataFrame(
 )
 
 
+QUOTED = pd.DataFrame(
+    [("bare", 0.0, "one-cosine", 0.2 * (1 + 1e-8)), ("bare", 0.0, "one-sine", 0.3)],
+    columns=["structure", "mass_ratio", "shape", "minimum_overturning"],
+)
+
+
 @pytest.mark.parametrize(
     ("row", "column", "number", "breaks"),
     [
         (0, "outcome", "undecided", "boundaries"),
+        (0, "low", 0.21, "boundaries"),
         (3, "low", 0.11, "nothing_below"),
         (3, "high", 0.19, "nothing_below"),
         (2, "outcome", "undecided", "nothing_below"),
@@ -242,18 +249,25 @@ VERIFIED = pd.DataFrame(
     ],
 )
 def test_each_outcome_counts(row, column, number, breaks):
-    assert broken(proven.findings(VERIFIED)) == set()
+    assert broken(proven.findings(VERIFIED, QUOTED)) == set()
     changed = VERIFIED.copy()
     changed.loc[row, column] = number
-    assert broken(proven.findings(changed)) == {breaks}
+    assert breaks in broken(proven.findings(changed, QUOTED))
+    assert broken(proven.findings(VERIFIED, QUOTED.assign(minimum_overturning=0.21))) == {
+        "boundaries"
+    }
 
 
 def test_both_sides_of_a_minimum_are_verified():
-    low = minimum(COLUMN).factor
-    width, both = proven.sides(COLUMN, PULSE.scaled(float(f"{low:.9g}")))
-    assert (width, [one["outcome"] for one in both]) == (1e-8, ["survives", "overturns"])
-    _, both = proven.sides(COLUMN, PULSE.scaled(1.01 * low))
-    assert [one["outcome"] for one in both] == ["overturns", "overturns"]
+    low = float(f"{minimum(COLUMN).factor:.9g}")
+    pairs = proven.sides(COLUMN, PULSE, low)
+    assert [amplitude for amplitude, _ in pairs] == pytest.approx(
+        [low * (1 - 1e-8), low * (1 + 1e-8)], rel=1e-14
+    )
+    assert [proven.outcome(one) for _, one in pairs] == ["survives", "overturns"]
+    others = proven.sides(COLUMN, PULSE, 1.01 * low)
+    assert [proven.outcome(one) for _, one in others] == ["overturns", "overturns"]
+    assert proven.outcome(None) == "undecided"
 
 
 # Forces after uplift -----------------------------------------------------------------------------

@@ -2,7 +2,7 @@
 
 import math
 import sys
-from typing import assert_type
+from typing import Any, assert_type
 
 import numpy as np
 from numpy.typing import NDArray
@@ -134,7 +134,7 @@ print(peak_elastic_by_scipy(held, shaking, 0.5), len(PULSE_SHAPES), STANDARD_GRA
 
 assert_type(read_at2(sys.argv[1]).scaled_to(pgv=0.5), Record)
 assert_type(measured.time, NDArray[np.float64])
-assert_type(proven.outcome(pier, pulse), proven.Outcome)
+assert_type(proven.certified(pier, pulse), dict[str, Any] | None)
 for axes in (
     plot.history(frame_motion, bent),
     plot.spectrum(spectrum),

@@ -77,19 +77,8 @@ class Boxes:
                 self._box("cap", 0.5 * self.cap.span + 2.0 * b, self.cap.half_depth, mass)
             )
             pairs += [(name, "cap") for name in columns]
-        contact = (
-            f'condim="3" friction="{self.friction} {self.friction} 0 0 0"'
-            f' solref="{self.time_constant} {self.damping_ratio}"'
-            f' solimp="{IMPEDANCE} {IMPEDANCE} 0.001 0.5 1"'
-        )
-        contacts = "".join(f'<pair geom1="{one}" geom2="{two}" {contact}/>' for one, two in pairs)
-        return mujoco.MjModel.from_xml_string(
-            f'<mujoco><option timestep="{self.time_step}" gravity="0 0 {-STANDARD_GRAVITY}"'
-            f' integrator="Euler" solver="Newton" tolerance="1e-12" cone="elliptic"'
-            f' impratio="{FRICTION_IMPEDANCE}"/><worldbody>'
-            '<geom name="ground" type="plane" size="1 1 1" contype="0" conaffinity="0"/>'
-            f"{''.join(bodies)}</worldbody><contact>{contacts}</contact></mujoco>"
-        )
+        contact = (self.friction, self.time_constant, self.damping_ratio)
+        return compiled(bodies, pairs, self.time_step, *contact)
 
     def _box(self, name: str, length: float, height: float, mass: float) -> str:
         """Return a body by its half sides; it touches only the bodies that a pair names."""
@@ -110,6 +99,22 @@ class Boxes:
         if self.frame.mass_ratio:
             places.append((2.0 * across, 2.0 * up + self.cap.half_depth, 0.0))
         return np.ravel(places)
+
+
+def compiled(bodies, pairs, time_step, friction, time_constant, damping_ratio) -> mujoco.MjModel:
+    """Return a model of bodies above the ground, of which the pairs named touch each other."""
+    contact = (
+        f'condim="3" friction="{friction} {friction} 0 0 0" solimp="{IMPEDANCE} {IMPEDANCE} 0.001'
+        f' 0.5 1" solref="{time_constant} {damping_ratio}"'
+    )
+    contacts = "".join(f'<pair geom1="{one}" geom2="{two}" {contact}/>' for one, two in pairs)
+    return mujoco.MjModel.from_xml_string(
+        f'<mujoco><option timestep="{time_step}" gravity="0 0 {-STANDARD_GRAVITY}"'
+        f' integrator="Euler" solver="Newton" tolerance="1e-12" cone="elliptic"'
+        f' impratio="{FRICTION_IMPEDANCE}"/><worldbody>'
+        '<geom name="ground" type="plane" size="1 1 1" contype="0" conaffinity="0"/>'
+        f"{''.join(bodies)}</worldbody><contact>{contacts}</contact></mujoco>"
+    )
 
 
 def shake(boxes, pulse=None, *, rotation=0.0, duration, ends=None) -> np.ndarray:

@@ -12,13 +12,13 @@ from itertools import product
 import mujoco
 import numpy as np
 
+from steps.beyond.boxes import OVERTURNED, compiled
 from topheavy import STANDARD_GRAVITY, Cap, Column, Pulse
 
 SPHERE = 0.02  # radius over the column's half width
 ON_A_RIM = 16  # spheres around a round column; edges between them lie along and across the plane
 CONTACT = 4.0  # time steps in the time constant of a contact, which has critical damping
 LOOK = 20  # time steps between looks
-OVERTURNED = math.pi / 3  # rad
 WAIT, REST = 14.0, 3.0  # over p: the longest wait for an outcome, and how long rest has to last
 AT_REST = 0.05  # inclination over α
 
@@ -84,11 +84,7 @@ class Bodies:
         section = f'"cylinder" size="{b} {h}"'
         if not self.is_round:
             section = f'"box" size="{b} {self.half_depth} {h}"'
-        bodies = pairs = ""
-        solver = (
-            f'condim="3" friction="{self.friction} {self.friction} 0 0 0"'
-            f' solref="{CONTACT * self.seconds} 1" solimp="0.95 0.95 0.001 0.5 1"'
-        )
+        bodies, pairs = [], []
         for i, (x, y) in enumerate(self.axes):
             parts = f'<geom type={section} mass="1" {quiet}/>'
             if self.is_fixed:
@@ -100,23 +96,18 @@ class Bodies:
                     z = end * (h - radius - gaps[i, j, (end + 1) // 2])
                     place = f'size="{radius}" pos="{along} {across} {z}" mass="0"'
                     parts += f'<geom name="{name}" type="sphere" {place} {quiet}/>'
-                    pairs += f'<pair geom1="{other}" geom2="{name}" {solver}/>'
-            bodies += f'<body pos="{x} {y} {h}"><freejoint/>{parts}</body>'
+                    pairs.append((other, name))
+            bodies.append(f'<body pos="{x} {y} {h}"><freejoint/>{parts}</body>')
         if free_cap:
             length, width = (
                 0.5 * self.cap.span * (n - 1) + 2.0 * b if n > 1 else self.half_depth + radius
                 for n in (self.in_row, self.rows)
             )
-            mass = self.mass_ratio * len(self.axes)
-            cap = f'type="box" size="{length} {width} {d}" mass="{mass}"'
-            bodies += f'<body pos="0 0 {2.0 * h + d}"><freejoint/>'
-            bodies += f'<geom name="cap" {cap} {quiet}/></body>'
-        return mujoco.MjModel.from_xml_string(
-            f'<mujoco><option timestep="{self.seconds}" gravity="0 0 {-STANDARD_GRAVITY}"'
-            f' integrator="Euler" solver="Newton" tolerance="1e-12" cone="elliptic" impratio="10"/>'
-            f'<worldbody><geom name="ground" type="plane" size="1 1 1" {quiet}/>{bodies}'
-            f"</worldbody><contact>{pairs}</contact></mujoco>"
-        )
+            size = f'size="{length} {width} {d}" mass="{self.mass_ratio * len(self.axes)}"'
+            cap = f'<geom name="cap" type="box" {size} {quiet}/>'
+            bodies.append(f'<body pos="0 0 {2.0 * h + d}"><freejoint/>{cap}</body>')
+        contact = (self.friction, CONTACT * self.seconds, 1)
+        return compiled(bodies, pairs, self.seconds, *contact)
 
 
 def motion(

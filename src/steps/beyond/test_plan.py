@@ -6,7 +6,7 @@ from itertools import count
 import pandas as pd
 from scipy.stats import binom, norm
 
-from replication.step import check, run
+from replication.step import check, run, value
 from topheavy import Column, Pulse, RockingFrame, judge, overturning_intervals
 from topheavy.second import reference
 
@@ -63,5 +63,14 @@ def repeats(right, risk):
     return next(n for n in count(1, 2) if binom.cdf(n // 2, n, right) <= risk)
 
 
+def findings(test_plan):
+    """Return the pulse between column and frame, and the repeats of all pairs, widest scatter."""
+    rows = test_plan[test_plan.scatter == test_plan.scatter.max()]
+    first, repeats = rows.iloc[0], rows.repeats.to_list()
+    error = 1e-6 * first.pulse  # far above the width of the brackets of minima
+    more = {"period": first.period, "scatter": first.scatter, "repeats": repeats}
+    return {"pulse": value(first.pulse, error, "g", **more)}
+
+
 if __name__ == "__main__":
-    run(snakemake, compute)
+    run(snakemake, compute, findings)

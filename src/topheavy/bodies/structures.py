@@ -210,7 +210,7 @@ class RockingFrame:
         """Return the frame of a cap beam on two or more equal columns, by its masses.
 
         The number N of columns enters by γ = m_b/(N m_c) alone; two give the paper's m_b/2m_c.
-        `topheavy.derivation.extensions` derives the equation of motion and √r for every N.
+        `topheavy.derivation.motion` derives the equation of motion and √r for every N.
 
         Parameters
         ----------

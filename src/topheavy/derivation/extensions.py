@@ -1,104 +1,41 @@
-"""The frame of N columns, and vertical ground acceleration: what the paper's derivation extends to.
+"""A larger R̂, N columns, vertical ground motion. Each function proves what its docstring states.
 
-The columns are equal and carry the cap beam at equal corners, so that they turn alike; N is a
-symbol, γ = m_b/(N m_c). Makris & Vassiliou (2013) give the equation of N columns by Lagrange.
+Makris & Vassiliou (2013) give the equation of N columns by Lagrange.
 """
 
 from __future__ import annotations
 
-from functools import cache
-
 import sympy as sp
 
-from topheavy.derivation.bodies import turning
-from topheavy.derivation.geometry import cap_contact, cap_motion, centre
+from topheavy.derivation.motion import (
+    RECTANGULAR,
+    column_motion,
+    equation_of_motion,
+    lagrange_motion,
+    motion_of_columns,
+    restitution,
+    restitution_of_columns,
+)
 from topheavy.derivation.notation import (
-    I_o,
+    POSITIVE,
+    SIDES,
     R,
     Side,
-    acceleration,
     alpha,
     g,
     gamma,
     ground_acceleration,
-    m_b,
-    m_c,
+    vanishes,
     velocity,
-    velocity_after,
-    velocity_before,
+    vertical_acceleration,
 )
 
-N = sp.Symbol("N", positive=True)
-vertical_acceleration = sp.Symbol(r"\ddot{v}_g", real=True)
-_ON_CAP = sp.Matrix(sp.symbols("S_x S_z", real=True))  # of all columns together
-_LOADS = sp.Matrix([ground_acceleration, g + vertical_acceleration])
-RECTANGULAR = {I_o: sp.Rational(4, 3) * m_c * R**2, m_b: N * gamma * m_c}
-"""The inertia of a rectangular column, and γ = m_b/(N m_c)."""
+_k = sp.Symbol("k", positive=True)
 
 
-def _twice(point: sp.ImmutableMatrix, side: Side) -> sp.Matrix:
-    return point.applyfunc(side.time_derivative).applyfunc(side.time_derivative)
-
-
-@cache
 def frame_of_columns(side: Side) -> sp.Expr:
-    """θ̈ of a cap beam on N columns over ground that accelerates horizontally and vertically.
-
-    Each column's moments about its own base corner leave out the ground's force; their sum has the
-    sum of the forces on the cap beam, which its own balance gives. The cap's moment is not needed.
-    """
-    column = m_c * (_twice(centre(side), side) + _LOADS)
-    spin = (I_o - m_c * R**2) * acceleration
-    cap = m_b * (_twice(cap_contact(side), side) + _LOADS)
-    moments = N * (turning(centre(side), column) + spin) + turning(cap_contact(side), _ON_CAP)
-    balance = moments.subs(dict(zip(_ON_CAP, cap, strict=True)))
-    (motion,) = sp.solve(balance.subs(RECTANGULAR), acceleration, simplify=False)
-    return motion
-
-
-@cache
-def lagrange_of_columns(side: Side) -> sp.Expr:
-    """The same by energies: the ground enters by its velocities."""
-    v_x, v_z = sp.symbols("v_x v_z", real=True)
-    ground = sp.Matrix([v_x, v_z])
-    cap = sp.Matrix([cap_motion(side).u, cap_motion(side).v])
-    kinetic = 0
-    for number, mass, point in ((N, m_c, centre(side)), (1, m_b, cap)):
-        rate = sp.Matrix(point.applyfunc(side.time_derivative)) + ground
-        kinetic += number * mass * (rate.T * rate)[0] / 2
-    kinetic += N * (I_o - m_c * R**2) * velocity**2 / 2
-    rise = (centre(side) - side.upright(centre(side)))[1]
-    potential = N * m_c * g * rise + m_b * g * cap_motion(side).v
-    momentum = sp.diff(kinetic, velocity)
-    of_ground = {v_x: ground_acceleration, v_z: vertical_acceleration}
-    change = side.time_derivative(momentum) + sum(
-        sp.diff(momentum, rate) * second for rate, second in of_ground.items()
-    )
-    balance = change - sp.diff(kinetic - potential, side.rotation)
-    (motion,) = sp.solve(sp.expand(balance).subs(RECTANGULAR), acceleration, simplify=False)
-    return motion
-
-
-@cache
-def restitution_of_columns(side: Side) -> sp.Expr:
-    """√r of a cap beam on N columns that changes over to the side, as Eq. (25) has it for two.
-
-    Each column's angular momentum about its new base corner changes by the impulse on the cap.
-    """
-
-    def rates(of: Side, point: sp.ImmutableMatrix, value: sp.Symbol) -> sp.Matrix:
-        rate = point.applyfunc(of.time_derivative)
-        return of.upright(sp.Matrix(rate)).subs(velocity, value)
-
-    old, new = side.other, side
-    jump = rates(new, centre(new), velocity_after) - rates(old, centre(old), velocity_before)
-    beam = rates(new, cap_contact(new), velocity_after)
-    beam -= rates(old, cap_contact(old), velocity_before)
-    spin = (I_o - m_c * R**2) * (velocity_after - velocity_before)
-    arm, top = new.upright(sp.Matrix(centre(new))), new.upright(sp.Matrix(cap_contact(new)))
-    balance = N * (turning(arm, m_c * jump) + spin) + turning(top, m_b * beam)
-    (after,) = sp.solve(balance.subs(RECTANGULAR), velocity_after)
-    return sp.simplify(after / velocity_before)
+    """θ̈ of a cap beam on N rectangular columns, in γ = m_b/(N m_c)."""
+    return motion_of_columns(side).subs(RECTANGULAR)
 
 
 def printed_motion(side: Side) -> sp.Expr:
@@ -108,7 +45,88 @@ def printed_motion(side: Side) -> sp.Expr:
     return -p_squared * (restoring + ground_acceleration / g * sp.cos(side.lean))
 
 
-def printed_restitution() -> sp.Expr:
-    """Eq. (25)."""
-    column = 1 - sp.Rational(3, 2) * sp.sin(alpha) ** 2
-    return (column + 3 * gamma * sp.cos(2 * alpha)) / (1 + 3 * gamma)
+def size_only_slows_time() -> bool:
+    """A similar column k times as large moves as the small one does in time stretched by √k.
+
+    θ(t) of the one under ü_g(t) is θ(t/√k) of the other under ü_g(t√k), at the same √r; so is
+    that of a frame with k = R̂/R. A larger R̂ implies this similarity and nothing else.
+    """
+    slowed = {R: _k * R}
+    return all(
+        vanishes(_k * motion.subs(slowed) - motion, side) and not motion.has(velocity)
+        for side in SIDES
+        for motion in (column_motion(side).subs(RECTANGULAR), equation_of_motion(side).rhs)
+    )
+
+
+def columns_count_only_in_the_mass_ratio() -> bool:
+    """A cap beam on N columns obeys Eqs. (23) and (24), in which N does not occur."""
+    return all(vanishes(frame_of_columns(side) - printed_motion(side), side) for side in SIDES)
+
+
+def lagrange_agrees_for_columns() -> bool:
+    """Energies give the same equation of motion for N columns, vertical acceleration included."""
+    return all(vanishes(frame_of_columns(side) - lagrange_motion(side), side) for side in SIDES)
+
+
+def impacts_do_not_count_the_columns() -> bool:
+    """√r of a cap beam on N columns is that of Eq. (25), with γ = m_b/(N m_c)."""
+    return all(
+        vanishes(restitution_of_columns(side).subs(RECTANGULAR) - restitution(), POSITIVE)
+        for side in SIDES
+    )
+
+
+def vertical_acceleration_adds_to_gravity() -> bool:
+    """Vertical ground acceleration replaces g by g + v̈_g, in the frame as in its column.
+
+    So the frame remains equivalent to the column of size R̂.
+    """
+    found = []
+    for side in SIDES:
+        heavier = {g: g + vertical_acceleration}
+        frame = frame_of_columns(side)
+        column = frame.subs(gamma, 0)
+        still = equation_of_motion(side).rhs
+        ratio = (1 + 2 * gamma) / (1 + 3 * gamma)
+        found += [
+            vanishes(frame - still.subs(heavier), side),
+            vanishes(column - column_motion(side).subs(RECTANGULAR).subs(heavier), side),
+            vanishes(frame - ratio * column, side),
+        ]
+    return all(found)
+
+
+def vertical_acceleration_changes_the_uplift() -> bool:
+    """Uplift begins at (g + v̈_g) tan α, for every γ."""
+    found = []
+    for side in SIDES:
+        (level,) = sp.solve(side.upright(frame_of_columns(side)), ground_acceleration)
+        stated = -side.sign * (g + vertical_acceleration) * sp.tan(alpha)
+        found.append(vanishes(level - stated, side))
+    return all(found)
+
+
+def vertical_acceleration_is_a_change_of_gravity_and_push() -> bool:
+    """θ̈ = (1 + v̈_g/g) times that over ground with ü_g/(1 + v̈_g/g) and no vertical motion."""
+    share = 1 + vertical_acceleration / g
+    return all(
+        vanishes(
+            frame_of_columns(side)
+            - share
+            * equation_of_motion(side).rhs.subs(ground_acceleration, ground_acceleration / share),
+            side,
+        )
+        for side in SIDES
+    )
+
+
+PROOFS = (
+    size_only_slows_time,
+    columns_count_only_in_the_mass_ratio,
+    lagrange_agrees_for_columns,
+    impacts_do_not_count_the_columns,
+    vertical_acceleration_adds_to_gravity,
+    vertical_acceleration_changes_the_uplift,
+    vertical_acceleration_is_a_change_of_gravity_and_push,
+)

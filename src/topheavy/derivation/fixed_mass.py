@@ -1,92 +1,93 @@
 """The cap's mass fixed rigidly to the top of one column, from the same balances as the frame.
 
-Column and cap are two bodies that turn by the same θ about the column's corner. Between them act a
-force (F_x1, F_z1), at the corner where the frame's cap beam would rest, and a couple C. Six
-balances give θ̈ (or θ̇_2 at an impact), the force, the couple and the reaction of the ground. Neither
-the common centre of gravity nor a common moment of inertia is put in; α', p' and √r' are found.
+Column and cap turn by the same θ about the column's corner. Neither the common centre of gravity
+nor the formulas for α', p' and √r' are put in; they are found.
 
-The cap weighs m_b/2 = γ m_c. Its centre is d above the top of the column, and its central moment of
-inertia is I_b; both are zero for a mass that is concentrated at the top.
+The cap weighs γ m_c, that of the frame whose cap beam has the same mass for each column. Its centre
+is d above the top of the column, and its central moment of inertia is I_b; both are zero for a mass
+that is concentrated at the top. With x = tan² α > 0 every comparison is one of rational functions.
 """
 
 from __future__ import annotations
 
 from functools import cache
-from typing import Any
 
 import sympy as sp
 
-from topheavy.derivation.bodies import CAP_1, GROUND_1, column_balance, half_depth, solve, turning
-from topheavy.derivation.equilibrium import RECTANGULAR, uplift_acceleration
-from topheavy.derivation.geometry import above_top, cap_contact, centre
+from topheavy.derivation.motion import (
+    LOADS,
+    RECTANGULAR,
+    above_top,
+    centre,
+    column_motion,
+    column_restitution,
+    frequency_ratio,
+    jump,
+    rate,
+    restitution,
+    solved,
+    squared_frequency,
+    tangent_form,
+    turning,
+    uplift_acceleration,
+)
 from topheavy.derivation.notation import (
     NEGATIVE,
     POSITIVE,
+    SIDES,
     CircleField,
-    F_z1,
     I_o,
     R,
     Side,
     acceleration,
+    alpha,
     g,
+    gamma,
     ground_acceleration,
     ground_velocity,
-    m_b,
+    half_depth,
     m_c,
+    vanishes,
     velocity,
     velocity_after,
     velocity_before,
+    vertical_acceleration,
 )
 
 I_b = sp.Symbol("I_b", positive=True)
-COUPLE = sp.Symbol("C", real=True)
 CONCENTRATED = {half_depth: 0, I_b: 0}
 """The mass at a point, the top of the column's axis."""
 
-_LOADS = sp.Matrix([ground_acceleration, g])
+_x = sp.Symbol("x", positive=True)
+_CAP = gamma * m_c
 
 
-def _balance(side: Side, column: sp.Matrix, cap: sp.Matrix, angular: Any) -> list[sp.Expr]:
-    """Newton and Euler for column and cap, as six expressions that vanish."""
-    *forces, moments = column_balance(side, column, angular, GROUND_1, CAP_1)
-    arm = cap_contact(side) - above_top(side, half_depth)
-    on_cap = turning(arm, CAP_1) + COUPLE - I_b * angular
-    return [*forces, moments - COUPLE, *(CAP_1 - m_b / 2 * cap), on_cap]
-
-
-def _rates(side: Side, point: sp.Matrix, order: int) -> sp.Matrix:
-    for _ in range(order):
-        point = point.applyfunc(side.time_derivative)
-    return point
+def _masses(side: Side) -> tuple[tuple[sp.Expr, sp.ImmutableMatrix], ...]:
+    """Each mass, and its centre from the pivot."""
+    return (m_c, centre(side)), (_CAP, above_top(side, half_depth))
 
 
 @cache
 def fixed_motion(side: Side) -> sp.Expr:
-    """θ̈ of the rectangular column with the fixed mass, in θ and the ground's acceleration."""
-    column, cap = (
-        _rates(side, point, 2) + _LOADS for point in (centre(side), above_top(side, half_depth))
-    )
-    balance = _balance(side, column, cap, acceleration)
-    motion = solve(balance, acceleration, COUPLE, F_z1, only=acceleration)[acceleration]
-    return sp.factor(motion.subs(RECTANGULAR))
+    """θ̈ of the rectangular column with the fixed mass, in θ and the ground's acceleration.
+
+    By Steiner's theorem the inertia about the corner is I_o + I_b + γ m_c times the cap's distance
+    squared.
+    """
+    top = above_top(side, half_depth)
+    inertia = I_o + I_b + _CAP * top.dot(top)
+    loads = sum(turning(point, mass * LOADS) for mass, point in _masses(side))
+    balance = (inertia * acceleration + loads).subs(vertical_acceleration, 0)
+    return solved(balance.subs(RECTANGULAR), acceleration)
 
 
 @cache
 def fixed_restitution(side: Side = POSITIVE) -> sp.Expr:
-    """√r' = θ̇_2/θ̇_1 of the column with the fixed mass that changes over to the side."""
-
-    def jump(before: sp.Matrix, after: sp.Matrix) -> sp.Matrix:
-        new = side.upright(_rates(side, after, 1)).subs(velocity, velocity_after)
-        old = side.other.upright(_rates(side.other, before, 1))
-        return new - old.subs(velocity, velocity_before)
-
-    column = jump(centre(side.other), centre(side))
-    cap = jump(above_top(side.other, half_depth), above_top(side, half_depth))
-    balance = _balance(side, column, cap, velocity_after - velocity_before)
-    upright = [side.upright(equation) for equation in balance]
-    after = solve(upright, velocity_after, COUPLE, F_z1, only=velocity_after)[velocity_after]
-    ratio = sp.expand_trig(after.subs(RECTANGULAR) / velocity_before)
-    return sp.factor(CircleField([ratio]).reduced(ratio))
+    """√r' = θ̇_2/θ̇_1 of the column with the fixed mass: angular momentum about the new corner."""
+    balance = (I_o - m_c * R**2 + I_b) * (velocity_after - velocity_before)
+    for (mass, after), (_, before) in zip(_masses(side), _masses(side.other), strict=True):
+        balance += mass * turning(side.upright(after), jump(side, before, after))
+    return solved(balance.subs(RECTANGULAR), velocity_after) / velocity_before
 
 
 @cache
@@ -104,22 +105,137 @@ def fixed_fourth_power(side: Side = NEGATIVE) -> sp.Expr:
     return sp.factor(CircleField([power]).reduced(power))
 
 
-@cache
-def fixed_energies(side: Side) -> tuple[sp.Expr, sp.Expr]:
-    """T above moving ground, and V from the upright position, of column and cap."""
-    kinetic = (I_o - m_c * R**2 + I_b) * velocity**2 / 2
-    potential = sp.Integer(0)
-    for mass, point in ((m_c, centre(side)), (m_b / 2, above_top(side, half_depth))):
-        x_dot, z_dot = _rates(side, point, 1)
-        kinetic += mass * ((ground_velocity + x_dot) ** 2 + z_dot**2) / 2
-        potential += mass * g * (point - side.upright(point))[1]
-    return kinetic, potential
-
-
 def fixed_lagrange(side: Side) -> sp.Expr:
     """θ̈ of the same by energies alone."""
-    kinetic, potential = fixed_energies(side)
+    ground = sp.Matrix([ground_velocity, 0])
+    kinetic, potential = (I_o - m_c * R**2 + I_b) * velocity**2 / 2, sp.Integer(0)
+    for mass, point in _masses(side):
+        moves = rate(side, point) + ground
+        kinetic += mass * moves.dot(moves) / 2
+        potential += mass * g * (point - side.upright(point))[1]
     momentum = sp.diff(kinetic, velocity)
     balance = side.time_derivative(momentum) - sp.diff(kinetic - potential, side.rotation)
-    balance = balance.subs(RECTANGULAR)  # linear in θ̈
-    return -balance.subs(acceleration, 0) / sp.diff(balance, acceleration)
+    return solved(sp.expand(balance).subs(RECTANGULAR), acceleration)
+
+
+def _inertia() -> sp.Expr:
+    """I about the corner: the column's, and by Steiner the cap's."""
+    height = 2 * R * sp.cos(alpha) + half_depth
+    arm = (R * sp.sin(alpha)) ** 2 + height**2
+    return sp.Rational(4, 3) * m_c * R**2 + I_b + _CAP * arm
+
+
+def _fourth_powers() -> tuple[sp.Expr, sp.Expr, sp.Expr]:
+    """p'⁴ for a concentrated mass, p⁴ of the column and p̂⁴ of the frame, in x and γ."""
+    squared = squared_frequency(column_motion(NEGATIVE), NEGATIVE).subs(RECTANGULAR)
+    fixed = tangent_form(fixed_fourth_power().subs(CONCENTRATED))
+    return fixed, squared**2, squared**2 * frequency_ratio() ** 4
+
+
+def fixed_mass_rocks_as_one_column() -> bool:
+    """Column and fixed cap obey θ̈ = −p'² {sin(α' sgn θ − θ) + ü_g/g cos(α' sgn θ − θ)}, Eq. (3).
+
+    p'² = M g R'/I and tan α' = B/H follow, with the centre of gravity at R' sin α' = B beside the
+    corner and R' cos α' = H above it, and I about the corner.
+    """
+    mass = m_c + _CAP
+    beside = R * sp.sin(alpha)
+    above = (m_c * R * sp.cos(alpha) + _CAP * (2 * R * sp.cos(alpha) + half_depth)) / mass
+    found = [vanishes(fixed_tangent() - beside / above, NEGATIVE)]
+    distance = beside**2 + above**2
+    found.append(vanishes(fixed_fourth_power() - (mass * g / _inertia()) ** 2 * distance, NEGATIVE))
+    for side in SIDES:
+        cos, sin = sp.cos(side.rotation), side.sign * sp.sin(side.rotation)
+        # R' sin(α' − |θ|) and R' cos(α' − |θ|)
+        across, along = beside * cos - above * sin, above * cos + beside * sin
+        eq3 = -mass / _inertia() * (g * side.sign * across + ground_acceleration * along)
+        found.append(vanishes(fixed_motion(side) - eq3, side))
+    return all(found)
+
+
+def energies_give_the_same_motion_of_the_fixed_mass() -> bool:
+    """Energies alone give the same equation of motion as the balances of column and cap."""
+    return all(vanishes(fixed_motion(side) - fixed_lagrange(side), side) for side in SIDES)
+
+
+def impulses_give_the_restitution_of_the_fixed_mass() -> bool:
+    """√r' = 1 − 2 M b²/I on both sides, with M = (1 + γ) m_c."""
+    stated = 1 - 2 * (m_c + _CAP) * (R * sp.sin(alpha)) ** 2 / _inertia()
+    return all(vanishes(fixed_restitution(side) - stated, side) for side in SIDES)
+
+
+def fixed_mass_lowers_the_uplift_acceleration() -> bool:
+    """tan α' = tan α (1 + γ)/(1 + 2γ) at most: it falls with γ and d, from tan α to (tan α)/2.
+
+    The bound is reached by a mass concentrated at the top; as γ → ∞ it tends to (tan α)/2.
+    """
+    concentrated = fixed_tangent().subs(CONCENTRATED)
+    stated = sp.tan(alpha) * (1 + gamma) / (1 + 2 * gamma)
+    sine, cosine = sp.symbols("s c", positive=True)
+    plain = fixed_tangent().subs({sp.sin(alpha): sine, sp.cos(alpha): cosine})
+    plain = plain.subs(sp.tan(alpha), sine / cosine)
+    falls = [sp.factor(sp.diff(plain, by)).is_negative for by in (gamma, half_depth)]
+    ends = (stated.subs(gamma, 0), sp.limit(stated, gamma, sp.oo))
+    reached = ends == (sp.tan(alpha), sp.tan(alpha) / 2)
+    return reached and all(falls) and vanishes(concentrated - stated, NEGATIVE)
+
+
+def fixed_mass_tends_to_the_column() -> bool:
+    """For γ → 0 the column with the fixed mass, like the frame, is the column: α, p and √r."""
+    fixed, column, frame = (power.subs(gamma, 0) for power in _fourth_powers())
+    light = {gamma: 0} | CONCENTRATED
+    return (
+        vanishes(fixed_tangent().subs(light) - sp.tan(alpha), NEGATIVE)
+        and sp.simplify(fixed - column) == sp.simplify(frame - column) == 0
+        and vanishes(fixed_restitution().subs(light) - column_restitution(), POSITIVE)
+        and vanishes(restitution().subs(gamma, 0) - column_restitution(), POSITIVE)
+    )
+
+
+def fixed_mass_tends_to_a_point_on_a_stalk() -> bool:
+    """For γ → ∞ the concentrated mass has p'² = g/√(b² + 4h²), and √r' = cos 2α'."""
+    fixed = sp.limit(_fourth_powers()[0], gamma, sp.oo)
+    b, h = R * sp.sin(alpha), R * sp.cos(alpha)
+    p_as_stated = tangent_form(g**2 / (b**2 + 4 * h**2))
+    root = tangent_form(sp.limit(fixed_restitution().subs(CONCENTRATED), gamma, sp.oo))
+    square = _x / 4  # tan²α'
+    return bool(
+        sp.factor(fixed - p_as_stated) == 0 and sp.factor(root - (1 - square) / (1 + square)) == 0
+    )
+
+
+def fixed_mass_slows_the_column() -> bool:
+    """p' < p for every γ > 0 and every α up to 45°: the mass at the top enlarges, though fixed."""
+    fixed, column, _ = _fourth_powers()
+    slender = sp.factor((column - fixed).subs(_x, 1 / (1 + sp.Symbol("y", positive=True))))
+    return bool(slender.is_positive)
+
+
+def freed_mass_slows_the_column_more() -> bool:
+    """p̂ < p' for every γ > 0 and every α."""
+    fixed, _, frame = _fourth_powers()
+    return bool(sp.factor(fixed - frame).is_positive)
+
+
+def fixed_mass_keeps_more_velocity() -> bool:
+    """√r' of the concentrated mass exceeds √r of the column exactly for tan²α < 8, for γ > 0.
+
+    √r of the column exceeds that of the frame for every α.
+    """
+    fixed = tangent_form(fixed_restitution().subs(CONCENTRATED))
+    column, frame = tangent_form(column_restitution()), tangent_form(restitution())
+    gain = sp.factor((fixed - column) / (8 - _x))
+    return bool(gain.is_positive) and bool(sp.factor(column - frame).is_positive)
+
+
+PROOFS = (
+    fixed_mass_rocks_as_one_column,
+    energies_give_the_same_motion_of_the_fixed_mass,
+    impulses_give_the_restitution_of_the_fixed_mass,
+    fixed_mass_lowers_the_uplift_acceleration,
+    fixed_mass_tends_to_the_column,
+    fixed_mass_tends_to_a_point_on_a_stalk,
+    fixed_mass_slows_the_column,
+    freed_mass_slows_the_column_more,
+    fixed_mass_keeps_more_velocity,
+)

@@ -16,6 +16,9 @@ velocity, acceleration = sp.symbols(r"\dot{\theta} \ddot{\theta}", real=True)
 ground_velocity, ground_acceleration = sp.symbols(r"\dot{u}_g \ddot{u}_g", real=True)
 velocity_before, velocity_after = sp.symbols(r"\dot{\theta}_1 \dot{\theta}_2", real=True)
 F_x1, F_x2, F_z1, F_z2 = sp.symbols("F_{x1} F_{x2} F_{z1} F_{z2}", real=True)
+N = sp.Symbol("N", positive=True)
+vertical_acceleration = sp.Symbol(r"\ddot{v}_g", real=True)
+half_depth = sp.Symbol("d", positive=True)
 
 
 @dataclass(frozen=True)
@@ -98,7 +101,6 @@ _SYMBOLS = {
     "F_x1": F_x1, "F_x2": F_x2, "F_z1": F_z1, "F_z2": F_z2,
     "sgn": sp.sign, "π": sp.pi,
 }  # fmt: skip
-SYMBOLS = tuple(symbol for symbol in _SYMBOLS.values() if isinstance(symbol, sp.Symbol))
 
 
 def read(equation: str, side: Side) -> list[sp.Expr]:

@@ -12,8 +12,8 @@ leaves one unknown. The moment balance of the cap beam, which the paper omits, d
   centre of gravity meets the level of the contacts at e, to the right of the middle between them.
   A contact opens if that line leaves the span.
 
-`topheavy.derivation.contact` derives both by computer algebra. The impulses at an impact obey the
-same equations. Rotations are in rad, signed; the ground acceleration is in g. Arrays broadcast.
+The impulses at an impact obey the same equations. Rotations are in rad, signed; the ground
+acceleration is in g. Arrays broadcast.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """A horizontal and a vertical ground motion together: what is refused, and both in segments.
 
 Vertical ground acceleration v (g, upward) makes gravity (1 + v) g (proved in
-`topheavy.derivation.extension_proofs`). Between impacts
+`topheavy.derivation.extensions`). Between impacts
 
     θ̈ = −p² (1 + v) { sin(α sgn θ − θ) + a/(1 + v) cos(α sgn θ − θ) }
 

@@ -1,12 +1,12 @@
-"""Proven outcomes of rocking blocks: enclosures in place of tolerances, by ball arithmetic.
+"""Outcomes of rocking blocks under a pulse, verified with interval arithmetic.
 
-    outcome(structure, excitation)           ─►  survives | overturns | undecided
+    certified(structure, pulse, factor)        ─►  certificate, or None
+    survives_below(structure, pulse, high)     ─►  certificates of boxes of factors from 0 to `high`
+    checking.check(certificate)                ─►  survives | overturns, or Refused
 
-Every number is a ball of Arb that contains the true one: the structure's dimensions and the ground
-motion are exact decimals, and each step, impact and comparison is rounded outward. What is assumed
-is the model, Arb, and this code; `checking` proves the same again without both.
-
-Needs python-flint: `pip install "topheavy[proven]"`.
+Floats propose the steps of a proof; `checking`, which needs the standard library alone, proves or
+refuses each. Dimensions and pulse are exact decimals. Assumed are the model, Python's integers and
+the code in `checking`.
 """
 
 import lazy_loader

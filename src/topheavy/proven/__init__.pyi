@@ -1,14 +1,9 @@
-from .below import Below, survives_below
-from .blocks import BlockBox
-from .certificate import certified
-from .march import Outcome
-from .search import outcome
+from . import checking
+from .below import survives_below
+from .search import certified
 
 __all__ = [
-    "Below",
-    "BlockBox",
-    "Outcome",
     "certified",
-    "outcome",
+    "checking",
     "survives_below",
 ]

@@ -1,101 +1,219 @@
-"""The outcome of a motion from rest, proven.
+"""Search for the steps of a proof: floats propose them, the checker proves or refuses each.
 
-    survives | overturns | undecided
-
-A narrow problem that stays undecided is tried again with more digits and terms. A box of factors or
-structures is not: its own width decides. Infinitely many impacts in a finite time end in rest.
+The state of a motion is the checker's. From the middles of its intervals a Taylor series in floats
+says how far the next step goes and about where the impact is; a refused step is tried shorter. A
+motion that can no longer be followed is bounded by walls, which only proves that it survives.
 """
 
 from __future__ import annotations
 
+import math
+from copy import copy
 from typing import Any
 
-from topheavy import checks
 from topheavy.bodies.structures import Structure
-from topheavy.ground.excitation import no_excitation
 from topheavy.ground.pulses import Pulse
-from topheavy.ground.records import Record
-from topheavy.proven.balls import Undecided, arb, precision, within
-from topheavy.proven.blocks import Balls, BlockBox, Range, enclosed
-from topheavy.proven.forcing import Forcing, prepared
-from topheavy.proven.march import March, Outcome, Rest
+from topheavy.proven.checking.checker import Check
+from topheavy.proven.checking.intervals import Refused
+from topheavy.proven.floats import Floats, crossing, ends, first_zero, middle
+from topheavy.proven.question import question
+from topheavy.proven.walls import proposed
 
-LADDER = ((72, 1e-13), (104, 1e-20), (136, 1e-28), (264, 1e-60), (392, 1e-95), (520, 1e-130))
-"""Bits of the balls, and what the last terms of a step may amount to, relative to 1 rad."""
+PRECISIONS = ((112, 1e-13), (144, 1e-20), (176, 1e-28))
+"""Bits of the checker, and what the last terms of a step may amount to, in rad."""
+
+OF_A_BOX = 1e-6
+"""Times the relative width of a box of factors: likewise, if that is more."""
+
+NARROW = 1e-9
+"""Relative width of a box of factors below which it takes the second precision."""
+
+MOST_TRIES, SHORTEST = 100, 0.3
+"""Of a box of factors: how many steps are tried, and how much shorter than the first try."""
+
+SHORTEST_STEP = 1e-18
+"""Of one factor, in the phase of the pulse."""
+
+WIDEST_IMPACT = 0.12
+"""Phase over which the impacts of a box may spread; a wider box is bounded from before them."""
+
+N_GRID = 64
+"""Parts of a pulse in which the first uplift is looked for."""
+
+FIRST, GROWTH, LONGEST = 2.0**-6, 1.3, math.pi / 48.0
+"""Steps of a bound, in the phase of the pulse."""
 
 
-def outcome(
-    structure: Structure | BlockBox,
-    excitation: Pulse | Record,
-    *,
-    factor: Range = 1.0,
-    linearised: bool = False,
-    bits: int = 72,
-    bounded: bool = False,
-    trace: list[dict[str, Any]] | None = None,
-) -> Outcome:
-    """Return whether a structure at rest survives a ground motion, proven, or that it is undecided.
+def certified(
+    structure: Structure, pulse: Pulse, factor: float | tuple[float, float] = 1.0
+) -> dict[str, Any] | None:
+    """Return a certificate of whether a structure at rest survives a pulse, or None if undecided.
+
+    `topheavy.proven.checking.check` has accepted each of its steps, and proves it again.
 
     Parameters
     ----------
-    structure : Structure or BlockBox
-        Column, RockingFrame, FixedMassColumn and MonolithicPortal are enclosed from their
-        dimensions; the numbers of a RockingBlock are exact; a BlockBox is a box of blocks.
-    excitation : Pulse or Record
-        One that ends. Each float stands for the decimal that it is printed as.
+    structure : Structure
+        Column, RockingFrame, FixedMassColumn and MonolithicPortal stand for their dimensions, any
+        other for the three numbers of its block. Each float stands for its shortest decimal.
+    pulse : Pulse
+        One that ends.
     factor : float or (float, float)
         On the acceleration; a pair stands for all factors between, if they share an outcome.
-    linearised : bool
-        Whether the structure obeys the linearised equation.
-    bits : int
-        The least precision of the balls: up to 520.
-    bounded : bool
-        Whether a motion under a pulse that cannot be followed is bounded instead, by the lemma of
-        `topheavy.proven.bounds`: for boxes of factors that survive.
-    trace : list, optional
-        Filled with the steps of the proof, for a certificate (`topheavy.proven.certificate`).
 
     Returns
     -------
-    Outcome
-        "survives" and "overturns" are as defined in `topheavy.judge`; all impacts count.
+    dict or None
+        "outcome" is "survives" or "overturns", as `topheavy.judge` defines them; "impacts" counts
+        those until it is decided, and is None where they are bounded.
 
     Raises
     ------
     ValueError
-        For no or an endless excitation, a factor that is not finite or does not ascend, more bits
-        than 520, and a structure whose √r is negative.
+        As `question` does, and for dimensions outside of the form of a certificate.
     """
-    if not isinstance(excitation, (Pulse, Record)):
-        raise no_excitation(excitation)
-    ends = factor if isinstance(factor, tuple) else (factor, factor)
-    low, high = (checks.finite("factor", end) for end in ends)
-    if low > high:
-        raise ValueError(f"factor is ({low:.6g}, {high:.6g}); expected the lower end first")
-    rungs = [rung for rung in LADDER if rung[0] >= bits]
-    if not rungs:
-        raise ValueError(f"bits is {bits}; expected at most {LADDER[-1][0]}")
-    if low < high or bounded or isinstance(structure, BlockBox):
-        del rungs[1:]
-    if bounded and not isinstance(excitation, Pulse):
-        raise ValueError("bounded is for a Pulse; a Record has none")
-    settings: dict[int, tuple[Balls, Forcing, arb]] = {}
-    rest, height = Rest(arb(0)), 0
-    while True:
-        bits, accuracy = rungs[height]
-        with precision(bits):
-            if height not in settings:
-                range_ = within((low, high) if low < high else low)
-                settings[height] = enclosed(structure, linearised), prepared(excitation), range_
-            march = March(*settings[height], bits, accuracy, rest, trace)
-            march.bounded = bounded
-            try:
-                found = march.run(until_rest=height > 0)
-            except Undecided as undecided:
-                if height + 1 == len(rungs) or str(undecided) == "impacts":
-                    return Outcome("undecided", march.impacts, None, str(undecided), bits)
-                rest, height = march.rest, height + 1
-                continue
-        if found is not None:
-            return found
-        rest, height = march.rest, 0
+    asked = question(structure, pulse, factor)
+    low, high = map(float, asked["factor"])
+    width = (high - low) / max(abs(low), abs(high)) if high > low else 0.0
+    precisions = list(PRECISIONS)
+    if width:
+        precisions = [PRECISIONS[1 if width < NARROW else 0]]
+    for bits, accuracy in precisions:
+        search = Search(asked, bits, max(accuracy, OF_A_BOX * width), is_box=width > 0.0)
+        if search.run():
+            return search.certificate
+    return None
+
+
+class Search:
+    """A motion on its way through the checker."""
+
+    def __init__(self, asked: dict[str, Any], bits: int, accuracy: float, *, is_box: bool) -> None:
+        self.accuracy, self.is_box = accuracy, is_box
+        self.order = int(-math.log2(accuracy) / 3.0) + 2
+        proof = {"bits": bits, "order": self.order, "events": []}
+        self.certificate = asked | {"outcome": "survives", "impacts": None} | proof
+        self.check = Check(self.certificate)
+        self.floats = Floats(self.check)
+        self.length, self.tries, self.reason = 1.0, 0, ""
+
+    def run(self) -> bool:
+        """Search for a proof, and return whether there is one."""
+        try:
+            self._follow()
+            outcome = self.check.end()
+        except Refused:
+            if not self._bound():
+                return False
+            outcome = self.check.end()
+        self.certificate |= {"outcome": outcome, "impacts": self.check.proven_impacts}
+        return True
+
+    def _take(self, name: str, **event: Any) -> bool:
+        """Return whether the checker accepts an event, which then is part of the certificate."""
+        trial = copy(self.check)
+        event = {"event": name} | event
+        try:
+            trial.take(event)
+        except Refused as reason:
+            self.reason = str(reason)
+            return False
+        self.check = trial
+        self.certificate["events"].append(event)
+        return True
+
+    def _follow(self) -> None:
+        """Follow the motion until it is decided, or raise `Refused`."""
+        if not self._uplift():
+            return
+        largest = ends(self.check.ground.largest)[1]
+        while not (self.check.is_over or self.check.result):
+            self._step()
+            beyond = middle(self.check.phi) - self.floats.alpha
+            if self.check.rate > 0 and beyond > 0.0 and math.tan(beyond) > largest:
+                self._take("gone")
+
+    def _uplift(self) -> bool:
+        """Return whether the block lifts, about, and take it if it does."""
+
+        def is_beyond(sigma: float) -> bool:
+            return abs(self.floats.wave(sigma, 1)[0]) > self.floats.level
+
+        stop = ends(self.check.ground.stop)[0]
+        grid = [stop * k / N_GRID for k in range(N_GRID + 1)]
+        for k, sigma in enumerate(grid):
+            if is_beyond(sigma):
+                place = crossing(grid[k - 1], sigma, is_beyond) if k else 0.0
+                if not self._take("uplift", sigma=repr(place)):
+                    raise Refused(self.reason)
+                return True
+        return False
+
+    def _step(self) -> None:
+        """Take a step, or raise `Refused` where none is accepted."""
+        check, zeros = self.check, self.check.zeros
+        c = self._series()
+        h = 2.0 * self.length if zeros == 0 else 8.0
+        for k in (self.order, self.order - 1):
+            if c[k]:
+                h = min(h, (self.accuracy / abs(c[k])) ** (1.0 / k))
+        if zeros == 1 and c[2] < 0.0:  # a bounce that ends soon
+            h = min(h, -1.25 * ends(check.rate)[1] / c[2])
+        low, left = ends(check.ground.stop - check.sigma)
+        shortest = SHORTEST * h if self.is_box else SHORTEST_STEP
+        while h > shortest and not (self.is_box and self.tries == MOST_TRIES):
+            self.tries += 1
+            is_last = low <= h
+            length = left * (1.0 + 1e-12) if is_last else h
+            time = first_zero(c[zeros:], 1.02 * length)
+            if time and is_last and time > left:
+                time = None
+            if self._take("step", h=repr(length), last=is_last, impact=time and repr(time)):
+                self._undo_wide_impact(check, is_impact=time is not None)
+                self.length = length
+                return
+            if "outside of the step" in self.reason and time and not is_last:
+                h = 0.85 * time if time > 0.9 * length else 1.15 * h
+                shortest *= 1.02
+            elif "after the end of the pulse" in self.reason:
+                break
+            else:
+                h = 0.5 * min(length, left)
+        raise Refused(self.reason or "too many steps")
+
+    def _series(self) -> list[float]:
+        """Return the coefficients of φ in floats."""
+        check = self.check
+        push = [check.side * x for x in self.floats.wave(middle(check.sigma), self.order)]
+        c = self.floats.series(middle(check.phi), middle(check.rate), push, self.order)
+        c[: check.zeros] = [0.0] * check.zeros
+        if not c[check.zeros] > 0.0:
+            raise Refused("it may not leave the ground")
+        return c
+
+    def _undo_wide_impact(self, before: Check, *, is_impact: bool) -> None:
+        low, high = ends(self.check.sigma)
+        low_before, high_before = ends(before.sigma)
+        if self.is_box and is_impact and high - low > WIDEST_IMPACT + high_before - low_before:
+            self.check = before
+            self.certificate["events"].pop()
+            raise Refused("the impacts of the box are far apart")
+
+    def _bound(self) -> bool:
+        """Take walls up to the end of the pulse, and return whether they prove survival."""
+        if self.check.is_over or self.check.result:
+            return False
+        stop = math.nextafter(ends(self.check.ground.stop)[1], math.inf)
+        sigma, h = ends(self.check.sigma)[1], FIRST
+        while sigma < stop:
+            sigma = min(sigma + h, stop)
+            for pair in proposed(self.floats, self.check.bounded(), sigma):
+                if self._take("walls", sigma=repr(sigma), walls=[repr(x) for x in pair]):
+                    break
+            else:
+                return False
+            h = min(GROWTH * h, LONGEST)
+        try:
+            return bool(self.check.end())
+        except Refused:
+            return False

@@ -1,7 +1,7 @@
 """Verify certificates with the standard library alone: python3 -I -S src/topheavy/proven/checking.
 
-A line tells what each certificate of the files (JSON Lines, also compressed by gzip) proves. The
-first that proves nothing ends it with status 1.
+It prints what all certificates of the files (JSON Lines, also compressed by gzip) prove together,
+structure by structure. The first that proves nothing ends it with status 1.
 """
 
 import gzip
@@ -9,6 +9,9 @@ import json
 import runpy
 import sys
 import zlib
+from collections.abc import Iterator
+from decimal import Decimal, localcontext
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -20,15 +23,18 @@ if not __package__:  # run as a folder, which is a package of its own then; ends
 from .checker import check
 from .intervals import Refused
 
-SAME = ("structure", "excitation", "linearised", "outcome")
+LONGEST = 100_000  # characters of a line
 USAGE = "usage: python3 -I -S src/topheavy/proven/checking FILE…"
+
+Range = tuple[Fraction, Fraction, str]
+"""From and to which amplitude, g, and the outcome."""
 
 
 def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    found = dict(pairs)
-    if len(found) < len(pairs):
+    entries = dict(pairs)
+    if len(entries) < len(pairs):
         raise Refused("a key stands twice")
-    return found
+    return entries
 
 
 def _no_number(text: str) -> Any:
@@ -37,47 +43,78 @@ def _no_number(text: str) -> Any:
 
 def parsed(line: str) -> Any:
     """Return a certificate from its JSON; one with a key twice, or with NaN, is refused."""
+    if len(line) > LONGEST:
+        raise Refused(f"it is longer than {LONGEST} characters")
     try:
         return json.loads(line, object_pairs_hook=_once, parse_constant=_no_number)
     except (ValueError, RecursionError) as fault:
         raise Refused(f"no JSON: {fault}") from None
 
 
-def described(certificate: dict[str, Any]) -> str:
-    """Return what a certificate is about, and what it proves."""
-    motion = certificate["excitation"]
-    if "acceleration" in motion:
-        motion = motion | {"acceleration": f"of {len(motion['acceleration'])} samples"}
-    about = certificate["structure"] | motion | {"factor": " to ".join(certificate["factor"])}
-    words = ", ".join(f"{key} {value}" for key, value in about.items())
-    linearised = " (linearised)" if certificate["linearised"] else ""
-    return f"{words}{linearised}: {certificate['outcome']}, impacts: {certificate['impacts']}"
+def problem(certificate: dict[str, Any]) -> str:
+    """Return the structure and the pulse of a certificate in words, without its amplitude."""
+    structure, pulse = dict(certificate["structure"]), dict(certificate["pulse"])
+    kind, _ = structure.pop("kind"), pulse.pop("amplitude")
+    parts = (", ".join(f"{key} {x}" for key, x in part.items()) for part in (structure, pulse))
+    words = " (linearised)" if certificate["linearised"] else ""
+    return f"{kind}{words}: {'; '.join(parts)}"
+
+
+def joined(ranges: list[Range]) -> list[Range]:
+    """Return ranges of amplitudes in ascending order, without the ends at which two meet."""
+    result: list[Range] = []
+    for low, high, outcome in sorted(ranges):
+        if result and result[-1][2] == outcome and low <= result[-1][1]:
+            low, before, _ = result.pop()
+            high = max(high, before)
+        result.append((low, high, outcome))
+    return result
+
+
+def decimal(number: Fraction) -> str:
+    """Return a product of decimals as a decimal with all its digits."""
+    with localcontext(prec=5000):
+        return format(Decimal(number.numerator) / Decimal(number.denominator), "f")
+
+
+def lines_of(path: str) -> Iterator[str]:
+    with (gzip.open if path.endswith(".gz") else open)(path, "rt", encoding="utf-8") as file:
+        while line := file.readline(LONGEST + 1):
+            yield line
 
 
 def main(paths: list[str]) -> str | None:
-    """Print a line for each certificate, also of those before that it continues."""
+    """Check all files, then print a line for each range of amplitudes with one outcome."""
     if not paths:
         return USAGE
+    proven: dict[str, list[Range]] = {}
+    count = 0
     for path in paths:
-        opened, last, begin = gzip.open if path.endswith(".gz") else open, None, ""
         number = 0
         try:
-            with opened(path, "rt", encoding="utf-8") as lines:
-                for number, line in enumerate(lines, 1):
-                    where = f"{path}, line {number}"
-                    certificate = parsed(line)
-                    check(certificate)
-                    same, (low, high) = [certificate[key] for key in SAME], certificate["factor"]
-                    begin = begin if last == (same, low) else low
-                    whole = "" if begin == low else f"; so does each factor from {begin}"
-                    print(f"{where}: proven: {described(certificate)}{whole}")
-                    last = same, high
+            for line in lines_of(path):
+                number += 1
+                certificate = parsed(line)
+                outcome = check(certificate)
+                ends = [Fraction(x) for x in certificate["factor"]]
+                peak = Fraction(certificate["pulse"]["amplitude"])
+                low, high = sorted(peak * end for end in ends)
+                proven.setdefault(problem(certificate), []).append((low, high, outcome))
         except Refused as reason:
-            return f"{where} is refused: {reason}"
+            return f"{path}, line {number} is refused: {reason}"
         except (OSError, EOFError, UnicodeDecodeError, zlib.error) as fault:
             return f"{path} cannot be read: {fault}"
         if not number:
             return f"{path} holds no certificate"
+        count += number
+    for about, ranges in proven.items():
+        print(about)
+        for low, high, outcome in joined(ranges):
+            span = f"at {decimal(low)} g"
+            if low < high:
+                span = f"at each amplitude from {decimal(low)} to {decimal(high)} g"
+            print(f"    {outcome} {span}")
+    print(f"{count} certificates are proven")
     return None
 
 

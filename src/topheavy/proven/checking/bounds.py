@@ -1,77 +1,101 @@
-"""A bound on a motion proven again: walls that the certificate names, by the lemma near uplift.
+"""Bounds on a motion whose side, impacts and rests are not followed: the lemma near uplift.
 
-The energy on the side s is H = φ'²/2 + V, V = κ² (Φ + s a ψ). Impacts lower it, and between them it
-grows by κ² s a' ψ. Each statement of the lemma is tested in intervals; no wall is computed here.
+With κ, Φ and ψ of `Block` and `Ground`, the energy on the side s = ±1 at φ = |θ|,
+
+    H = φ'²/2 + V,   V(φ, s a) = κ² (Φ(φ) + s a ψ(φ)),   H' = κ² s a' ψ(φ) between impacts,
+
+is φ'²/2 at an impact (φ = 0), which multiplies it by r ≤ 1 as √r ≤ 1, and zero at rest, where
+infinitely many impacts in a finite time end too. A bound on H that holds between impacts therefore
+needs no impact.
+
+Lemma. At σ let H ≤ E and φ ≤ X_s, 0 ≤ X_s ≤ α, on either side. Over [σ, σ + h] let s a ≥ m_s,
+and g_s at least the integral of max(0, s a'). Let 0 ≤ Y_s ≤ α and F ≥ E + κ² max g_s ψ(Y_s), and
+on either side
+
+    V(Y_s, m_s) > F, and Y_s ≥ X_s or V(X_s, m_s) > F                  (the wall stops it), or
+    Y_s − X_s > h (v(X_s) + v(Y_s))/2,   v(φ)² = 2 max(0, F − V(φ, m_s))   (it does not reach it).
+
+Then H ≤ F and φ ≤ Y_s until σ + h. If V is not concave, the larger v takes the place of the mean.
+
+Proof. Over [0, α], V is concave in φ for s a ≤ 0 and rises for s a ≥ 0: between two φ it is
+nowhere less than at both. It rises with s a, as ψ ≥ 0. Hence φ ≤ Y_s at σ: a φ with Y_s < φ ≤ X_s
+would have V > F. Let σ₁ be the first time with φ = Y_s. Until then H' ≤ κ² max(0, s a') ψ(Y_s).
+If a' has one sign, H grows on one side alone; else g_s = h d is the same for d ≥ |a'|. So H ≤ F,
+and V(Y_s, m_s) ≤ V ≤ H ≤ F: a wall of the first kind is not reached. One of the second kind is
+passed from X_s to Y_s with φ' ≤ v(φ). As V is concave, v² is at most its chord, and the passage
+lasts at least 2 (Y_s − X_s)/(v(X_s) + v(Y_s)) > h. Each flight begins at a φ ≤ X_s, or at 0.  ∎
 """
 
+from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
 
-from .intervals import Interval, Refused, of
+from .intervals import Interval, Refused, of, point
 from .model import Block, Ground
 
 SIDES = (1, -1)
 
 
+@dataclass(frozen=True)
 class Bound:
-    """H ≤ energy, φ ≤ walls by side, from σ on; a wall is less than α."""
+    """At σ, H ≤ energy and φ ≤ walls[0] on the side +1, φ ≤ walls[1] on the side −1."""
 
-    def __init__(self, block: Block, ground: Ground, sigma: Interval) -> None:
-        self.block, self.ground, self.sigma = block, ground, sigma
-        self.energy = of(0)
-        self.walls = {1: of(0), -1: of(0)}
+    block: Block
+    ground: Ground
+    sigma: Interval
+    energy: Interval
+    walls: tuple[Interval, Interval]
 
-    def potential(self, side: int, phi: Interval, ground: Interval) -> Interval:
-        return self.ground.clock * self.block.potential(phi, side * ground)
+    @classmethod
+    def of_state(
+        cls, block: Block, ground: Ground, sigma: Interval, side: int, state: tuple[Interval, ...]
+    ) -> "Bound":
+        """Return the bound of a state (φ, φ') on a side, or at rest for side 0."""
+        if not side:
+            return cls(block, ground, sigma, of(0), (of(0), of(0)))
+        phi, rate = state
+        push, middle = side * ground.at(sigma), point(phi.middle)
+        energy = ground.clock * block.potential(middle, push) + rate * rate / 2
+        energy = energy + ground.clock * block.pull(phi, push) * (phi - middle)
+        wall, none = point(max(phi.high, 0)), of(0)
+        walls = (wall, none) if side == 1 else (none, wall)
+        return cls(block, ground, sigma, point(max(energy.high, 0)), walls)
 
-    def begin(self, event: dict[str, Any], side: int, phi: Interval, rate: Interval) -> None:
-        """Take the energy and walls of the certificate if they hold the state."""
-        energy, walls = of(Fraction(event["energy"])), event["walls"]
-        self.walls = {s: of(Fraction(wall)) for s, wall in zip(SIDES, walls, strict=True)}
-        if any(wall < 0 for wall in self.walls.values()) or energy < 0:
-            raise Refused("energy and walls are not negative")
-        if side:
-            ground = self.ground.at(0, self.sigma)
-            middle = Interval((phi.low + phi.high) // 2, (phi.low + phi.high) // 2)
-            slope = self.ground.clock * self.block.pull(phi, side * ground)
-            mine = self.potential(side, middle, ground) + slope * (phi - middle) + rate * rate / 2
-            if not (mine < energy and phi < self.walls[side]):
-                raise Refused("the state is outside the energy or the wall")
-        self.energy = energy
+    def pushes(self, until: Interval) -> tuple[Interval, list[Interval], list[Interval]]:
+        """Return h and, by side, least and largest s a and the most that it gains until then."""
+        lasts = until - self.sigma
+        h = point(lasts.high)
+        over, rate = self.ground.series(self.sigma.hull(until), of(1), 2)
+        if rate.low <= 0 <= rate.high:
+            return h, [side * over for side in SIDES], [h * rate.size()] * 2
+        ends = self.ground.at(self.sigma).hull(self.ground.at(until))
+        return h, [side * ends for side in SIDES], [side * (h * rate) for side in SIDES]
 
-    def step(self, until: Interval, claimed: Interval, walls: dict[int, Interval]) -> None:
-        """Prove the lemma for a step, and take its energy and walls."""
+    def stepped(self, until: Interval, walls: tuple[Interval, Interval]) -> "Bound":
+        """Return the bound at a later σ, or raise `Refused` unless the lemma proves its walls."""
         if not until > self.sigma:
             raise Refused("a step goes back")
-        if any(wall.low < 0 for wall in walls.values()):
+        h, grounds, rises = self.pushes(until)
+        if any(wall.low < 0 for wall in walls):
             raise Refused("a wall is below zero")
-        lasts = until - self.sigma
-        h = Interval(lasts.high, lasts.high)
-        ground, rises = self._ground(until, h)
-        gains = [(rises[side] * self.block.lever(walls[side])).high for side in SIDES]
-        if not self.energy + self.ground.clock * Interval(0, max(*gains, 0)) < claimed:
-            raise Refused("the energy may grow more")
-        self.energy = Interval(claimed.high, claimed.high)
-        for side in SIDES:
-            push = side * ground
-            self._wall_holds(h, self.walls[side], walls[side], Interval(push.low, push.low))
-        self.sigma, self.walls = until, walls
+        energy = self._raised(rises, walls)
+        for before, wall, ground in zip(self.walls, walls, grounds, strict=True):
+            self._holds(h, energy, before, wall, point(ground.low))
+        return Bound(self.block, self.ground, until, energy, walls)
 
-    def _ground(self, until: Interval, h: Interval) -> tuple[Interval, dict[int, Interval]]:
-        """Return a over a step, and the most that s a gains in it."""
-        over, rate = self.ground.series(0, self.sigma.hull(until), of(1), 2)
-        if rate.low <= 0 <= rate.high:
-            return over, dict.fromkeys(SIDES, h * rate.size())
-        first, last = self.ground.at(0, self.sigma), self.ground.at(0, until)
-        return first.hull(last), {side: side * (h * rate) for side in SIDES}
+    def _raised(self, rises: list[Interval], walls: tuple[Interval, Interval]) -> Interval:
+        """Return the energy after s a has risen so much on one side."""
+        gains = [(x * self.block.lever(y)).high for x, y in zip(rises, walls, strict=True)]
+        return point((self.energy + self.ground.clock * point(max(*gains, 0))).high)
 
-    def _wall_holds(self, h: Interval, before: Interval, wall: Interval, push: Interval) -> None:
+    def _holds(
+        self, h: Interval, energy: Interval, before: Interval, wall: Interval, push: Interval
+    ) -> None:
         if not (wall < self.block.alpha and before < self.block.alpha):
             raise Refused("a wall is not below α")
-        at, old = (self.ground.clock * self.block.potential(x, push) for x in (wall, before))
-        if at > self.energy and (wall.low >= before.high or old > self.energy):
+        old, new = (self.ground.clock * self.block.potential(x, push) for x in (before, wall))
+        if new > energy and (wall.low >= before.high or old > energy):
             return
-        rates = [_positive(2 * (self.energy - x)).root() for x in (old, at)]
+        rates = [_positive(2 * (energy - x)).root() for x in (old, new)]
         mean = (rates[0] + rates[1]) / 2
         if not push * self.block.level < 1:
             mean = rates[0] if rates[0].high > rates[1].high else rates[1]
@@ -79,21 +103,18 @@ class Bound:
             raise Refused("a wall may be passed")
 
     def survives(self) -> bool:
-        """Return whether the energy is below the barrier when a has jumped to zero."""
-        jump = -self.ground.at(0, self.ground.stops[0])
-        gains = [(s * jump * self.block.lever(self.walls[s])).high for s in SIDES]
-        energy = self.energy + self.ground.clock * Interval(0, max(*gains, 0))
-        return energy < self.ground.clock * self.block.potential(self.block.alpha, of(0))
+        """Return whether the pulse is over, and the energy below the barrier when a has jumped."""
+        if not self.sigma.low >= self.ground.stop.high:
+            raise Refused("the bound ends before the pulse")
+        jump = -self.ground.at(self.ground.stop)
+        barrier = self.ground.clock * self.block.potential(self.block.alpha, of(0))
+        return self._raised([side * jump for side in SIDES], self.walls) < barrier
 
 
 def _positive(x: Interval) -> Interval:
     return Interval(max(x.low, 0), max(x.high, 0))
 
 
-def named(
-    until: list[str], energy: str, walls: list[str]
-) -> tuple[Interval, Interval, dict[int, Interval]]:
-    """Return σ, energy and walls of a step of a certificate."""
-    sigma = of(Fraction(until[1]))
-    sides = {side: of(Fraction(wall)) for side, wall in zip(SIDES, walls, strict=True)}
-    return Interval(sigma.high, sigma.high), of(Fraction(energy)), sides
+def rounded_up(text: str) -> Interval:
+    """Return a wall or a phase of a certificate as a number that is not less."""
+    return point(of(Fraction(text)).high)

@@ -1,4 +1,4 @@
-"""One step of a certificate proven again: its box, its Taylor polynomials and their remainders.
+"""One step of a motion: an a priori box, Taylor polynomials and their remainders.
 
 φ, φ', sine and cosine of α − φ are developed together, in units of the step.
 """
@@ -8,19 +8,20 @@ from fractions import Fraction
 from typing import Protocol
 
 from . import intervals
-from .intervals import Interval, Refused, between, cosine, dot, extremes, of, sine
+from .intervals import Interval, Refused, cosine, dot, extremes, of, sine
 from .model import Block, Ground
 
-BOXES = 12  # that are tried around that of a step
+MOST_BOXES = 12  # that are tried for a step
+
+Series = tuple[list[Interval], list[Interval], list[Interval], list[Interval]]
 
 
 class State(Protocol):
-    """Where a step starts: the problem, the state at σ, and what of φ's series vanishes."""
+    """Where a step starts: the problem, the state at σ, and how many terms of φ vanish."""
 
     block: Block
     ground: Ground
     order: int
-    piece: int
     side: int
     sigma: Interval
     phi: Interval
@@ -31,41 +32,36 @@ class State(Protocol):
 class Course:
     """φ and φ' over a step as polynomials in τ = t/h, the last coefficients being remainders."""
 
-    def __init__(self, start: "State", h: Fraction, hint: Sequence[str]) -> None:
-        block, ground, piece, side = start.block, start.ground, start.piece, start.side
-        self.h, self.kappa = of(h), ground.clock
-        span = start.sigma + self.h.hull(0)
-        phi, rate = start.phi, start.rate
-        image = between(*hint)
-        for _ in range(BOXES):
+    def __init__(self, start: State, h: Fraction) -> None:
+        self.h, self.kappa = of(h), start.ground.clock
+        span, time = start.sigma + self.h.hull(0), self.h.hull(0)
+        push = start.side * start.ground.at(span)
+        phi, rate, n = start.phi, start.rate, start.order
+        image = phi.hull(phi + self.h * rate)
+        for _ in range(MOST_BOXES):  # Picard: a box that holds its own image holds the motion
             slack = (image.high - image.low) // 16 + (intervals.UNIT >> 30)
             box = Interval(image.low - slack, image.high + slack)
-            force = -self.kappa * block.pull(box, side * ground.at(piece, span))
-            image = phi + self.h.hull(0) * rate + (self.h * self.h / 2).hull(0) * force
+            force = -self.kappa * start.block.pull(box, push)
+            image = phi + time * rate + (self.h * self.h / 2).hull(0) * force
             if image.inside(box):
                 break
         else:
-            raise Refused("no box around that of the step holds the motion")
+            raise Refused("no box is found that holds the motion of the step")
         self.box = image
-        rates = rate + self.h.hull(0) * force
-        n = start.order
         self.phi, self.rate, slopes, lever = self._develop(start, start.sigma, phi, rate)
-        ends = self._develop(start, span, image, rates)
+        ends = self._develop(start, span, image, rate + time * force)
         self.phi[n], self.rate[n] = ends[0][n], ends[1][n]
         gains = [self._gain(slopes, lever, k) for k in range(1, n - 1)]
         self.gain = [of(0), *gains, self._gain(*ends[2:], n - 1)]
-        for k in range(start.zeros):
-            self.phi[k] = of(0)
+        self.phi[: start.zeros] = [of(0)] * start.zeros
 
-    def _develop(
-        self, start: "State", sigma: Interval, phi: Interval, rate: Interval
-    ) -> tuple[list[Interval], list[Interval], list[Interval], list[Interval]]:
+    def _develop(self, start: State, sigma: Interval, phi: Interval, rate: Interval) -> Series:
         """Return the coefficients 0 to n of φ and φ', and those of s a' and ψ.
 
         φ' = V,  V' = −κ² (S + s a C);  S, C = sin, cos (α − φ):  S' = −C V,  C' = S V.
         """
         block, n, h = start.block, start.order, self.h
-        push = [start.side * x for x in start.ground.series(start.piece, sigma, h, n)]
+        push = [start.side * x for x in start.ground.series(sigma, h, n)]
         x, v, s, c = [phi], [rate], [sine(block.alpha - phi)], [cosine(block.alpha - phi)]
         back, force = -h, -h * self.kappa
         for k in range(n):
@@ -96,17 +92,19 @@ class Course:
         return x[zeros:], slope
 
     def landing(self, tau: Interval, zeros: int) -> Interval:
-        """Return φ' where φ vanishes: after a bounce q' knows it more closely."""
-        found = horner(self.quotient(zeros)[1], tau) / self.h
+        """Return φ' where φ vanishes: after a bounce q' encloses it more closely."""
+        rate = horner(self.quotient(zeros)[1], tau) / self.h
         for _ in range(zeros):
-            found = found * tau
-        return found.common(horner(self.rate, tau))
+            rate = rate * tau
+        return rate.common(horner(self.rate, tau))
 
     def at(self, tau: Interval) -> tuple[Interval, Interval]:
+        """Return φ and φ'."""
         return horner(self.phi, tau), horner(self.rate, tau)
 
 
 def horner(coefficients: Sequence[Interval], tau: Interval) -> Interval:
+    """Return the value of a polynomial."""
     low = high = 0
     a, b, places = tau.low, tau.high, intervals.PLACES
     for coefficient in reversed(coefficients):

@@ -1,7 +1,4 @@
-"""Intervals of a checker: integers in fixed point, rounded outward, and nothing else.
-
-Only the standard library is used, and no code of the search.
-"""
+"""Interval arithmetic with integers in fixed point, rounded outward."""
 
 import math
 from collections.abc import Iterable
@@ -12,8 +9,8 @@ PLACES = 0  # P of all intervals, set by `precision`
 UNIT = 1  # 2^P
 
 
-class Refused(Exception):
-    """A step of the certificate does not follow; the argument names it."""
+class Refused(ValueError):
+    """A step of a certificate is not proven; the argument names the step and the reason."""
 
 
 def precision(bits: int) -> None:
@@ -71,6 +68,11 @@ class Interval:
     def __lt__(self, other: "Interval | int") -> bool:
         return self.high < (other.low if isinstance(other, Interval) else other * UNIT)
 
+    @property
+    def middle(self) -> int:
+        """In units of 2^−P, rounded down."""
+        return (self.low + self.high) // 2
+
     def inside(self, other: "Interval") -> bool:
         return other.low <= self.low and self.high <= other.high
 
@@ -125,8 +127,9 @@ def dot(one: Iterable[Interval], other: Iterable[Interval]) -> Interval:
     return Interval(low >> PLACES, -(-high >> PLACES))
 
 
-def between(low: str, high: str) -> Interval:
-    return of(Fraction(low)).hull(of(Fraction(high)))
+def point(number: int) -> Interval:
+    """Return the interval that holds number/2^P alone."""
+    return Interval(number, number)
 
 
 def _powers(x: int, places: int, turns: bool) -> list[Interval]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from topheavy.derivation.equilibrium import size_ratio
+from topheavy.derivation.motion import size_ratio
 from topheavy.derivation.notation import alpha, gamma
 
 _x, _p, _omega, _s = sp.symbols("x p omega s", positive=True)  # x = p/ω, s = ω t

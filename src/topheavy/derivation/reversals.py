@@ -16,7 +16,7 @@ from functools import cache
 
 import sympy as sp
 
-from topheavy.derivation.equilibrium import equation_of_motion, frequency_ratio, squared_frequency
+from topheavy.derivation.motion import equation_of_motion, frequency_ratio, squared_frequency
 from topheavy.derivation.notation import SIDES, Side, alpha, g, gamma, ground_acceleration
 
 p_1, p_2 = sp.symbols("p_1 p_2", positive=True)
@@ -145,7 +145,7 @@ def far_enough_out_nothing_brings_it_back() -> bool:
 def difference_grows_under_vertical_acceleration() -> bool:
     """Linearised, z̈ = (1 + v)(p₁² z + (p₁² − p₂²) y₂): not negative while z and y₂ are not.
 
-    F_v is 1 + v times F under a/(1 + v) (`extension_proofs`), for every γ. So with 1 + v > 0 it
+    F_v is 1 + v times F under a/(1 + v) (`extensions`), for every γ. So with 1 + v > 0 it
     does not fall with φ where F under a/(1 + v) does not.
     """
     found = []

@@ -7,10 +7,21 @@ from __future__ import annotations
 
 import sympy as sp
 
-from topheavy.derivation.bodies import half_depth, turning
 from topheavy.derivation.fixed_mass import fixed_tangent
-from topheavy.derivation.geometry import cap_contact
-from topheavy.derivation.notation import SIDES, R, alpha, b, g, gamma, h, m_b, m_c, vanishes
+from topheavy.derivation.motion import cap_contact, turning
+from topheavy.derivation.notation import (
+    SIDES,
+    R,
+    alpha,
+    b,
+    g,
+    gamma,
+    h,
+    half_depth,
+    m_b,
+    m_c,
+    vanishes,
+)
 
 _FROM_ANGLE = {sp.tan(alpha): b / h, sp.sin(alpha): b / R, sp.cos(alpha): h / R}
 _HEIGHT = h * (1 + gamma * (2 + half_depth / h)) / (1 + gamma)

@@ -1,0 +1,356 @@
+"""What the derivation implies. Each function of `PROOFS` proves what its docstring states.
+
+With x = tan² α > 0, what the impact gives is a rational function of x and γ, whose sign shows when
+it is factored.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import sympy as sp
+
+from topheavy.derivation.motion import (
+    LOADS,
+    OF_TWO,
+    RECTANGULAR_OF_TWO,
+    cap_force,
+    centre,
+    column_motion,
+    column_restitution,
+    energy_slenderness,
+    equation_of_motion,
+    frame_motion,
+    frequency_ratio,
+    kinetic_energy,
+    lagrange_equation,
+    largest_slenderness,
+    potential_energy,
+    quadratic_terms,
+    rate,
+    restitution,
+    size_ratio,
+    tangent_form,
+    turning,
+    uplift_acceleration,
+)
+from topheavy.derivation.notation import (
+    NEGATIVE,
+    POSITIVE,
+    SIDES,
+    F_x1,
+    F_x2,
+    F_z1,
+    F_z2,
+    I_o,
+    R,
+    Side,
+    acceleration,
+    alpha,
+    g,
+    gamma,
+    ground_acceleration,
+    ground_velocity,
+    half_depth,
+    m_b,
+    m_c,
+    read,
+    vanishes,
+    velocity,
+)
+from topheavy.derivation.printed import EQUATIONS, frame
+
+_AT_REST = {ground_velocity: 0, ground_acceleration: 0}
+_x = sp.Symbol("x", positive=True)
+
+
+# Motion -------------------------------------------------------------------------------------------
+
+
+def cap_moment(side: Side) -> sp.Expr:
+    """The clockwise moment of two columns on the cap beam about its centre, which vanishes.
+
+    L is the distance between the columns' axes, d half the depth of the beam.
+    """
+    span, shift = sp.Symbol("L", positive=True), -side.sign * R * sp.sin(alpha)
+    left, right = (sp.Matrix([shift + end * span / 2, -half_depth]) for end in (-1, 1))
+    return turning(left, sp.Matrix([F_x1, F_z1])) + turning(right, sp.Matrix([F_x2, F_z2]))
+
+
+def cap_moment_is_not_needed() -> bool:
+    """The motion follows without the cap beam's moments, which only share out the forces."""
+    found = []
+    for side in SIDES:
+        motion = frame_motion(side)
+        shares = sp.diff(cap_moment(side).subs(motion), F_z1)
+        found.append(F_z1 not in motion[acceleration].free_symbols and not vanishes(shares, side))
+    return all(found)
+
+
+def follows_if_a_column_weighs(share: sp.Expr) -> bool:
+    """Whether γ = m_b/2m_c gives the factor of Eq. (19) if one column has this share of m_c."""
+    masses = {m_c: share * m_c, I_o: sp.Rational(4, 3) * share * m_c * R**2, m_b: 2 * gamma * m_c}
+    factor = (1 + 2 * gamma) / (1 + 3 * gamma)
+    return all(
+        vanishes(
+            (frame_motion(side)[acceleration] - factor * column_motion(side)).subs(
+                masses, simultaneous=True
+            ),
+            side,
+        )
+        for side in SIDES
+    )
+
+
+def m_c_is_the_mass_of_each_column() -> bool:
+    """With γ = m_b/2m_c, Eqs. (19), (22) follow if m_c is the mass of one column, not of both."""
+    return follows_if_a_column_weighs(sp.Integer(1)) and not follows_if_a_column_weighs(
+        sp.Rational(1, 2)
+    )
+
+
+def quadratic_terms_cancel() -> bool:
+    """The terms in θ̇² of ü and v̈ are not zero each, and cancel in the equation of motion."""
+    terms = [(side, *quadratic_terms(side)) for side in SIDES]
+    return all(first != 0 and vanishes(first + second, side) for side, first, second in terms)
+
+
+def lagrange_agrees() -> bool:
+    """Energies alone give the same equation of motion as the equilibrium of the three bodies."""
+    return all(
+        vanishes(equation_of_motion(side).rhs - lagrange_equation(side).rhs, side) for side in SIDES
+    )
+
+
+def frame_rocks_as_a_column() -> bool:
+    """The frame's θ̈ is its column's times (1 + 2γ)/(1 + 3γ), for every θ and ground motion."""
+    factor = (1 + 2 * gamma) / (1 + 3 * gamma)
+    return all(
+        vanishes(
+            (frame_motion(side)[acceleration] - factor * column_motion(side)).subs(
+                RECTANGULAR_OF_TWO
+            ),
+            side,
+        )
+        for side in SIDES
+    )
+
+
+def frame_uplifts_with_its_column() -> bool:
+    """Column and frame start to rock at the same ground acceleration, ±g tan α, for every γ."""
+    return all(
+        vanishes(uplift_acceleration(motion, side) + side.sign * g * sp.tan(alpha), side)
+        for side in SIDES
+        for motion in (column_motion(side), frame_motion(side)[acceleration])
+    )
+
+
+def ground_to_the_right_rocks_to_the_left() -> bool:
+    """Ground that accelerates to the right turns column and frame towards θ < 0."""
+    return all(
+        (sp.diff(motion, ground_acceleration) / sp.cos(side.lean)).cancel().is_negative
+        for side in SIDES
+        for motion in (column_motion(side), frame_motion(side)[acceleration])
+    )
+
+
+def energy_is_conserved_between_impacts() -> bool:
+    """Over resting ground the kinetic and potential energies of the frame add up to a constant."""
+    return all(
+        vanishes(
+            side.time_derivative(kinetic_energy(side) + potential_energy(side))
+            .subs(frame_motion(side))
+            .subs(_AT_REST),
+            side,
+        )
+        for side in SIDES
+    )
+
+
+def restoring_moment_falls() -> bool:
+    """The column's restoring moment is mgR sin(α − |θ|): mgR sin α at θ = 0, zero at |θ| = α."""
+    return all(
+        vanishes(
+            I_o * column_motion(side).subs(_AT_REST) + side.sign * m_c * g * R * sp.sin(side.lean),
+            side,
+        )
+        for side in SIDES
+    )
+
+
+def frequency_falls_to_a_limit() -> bool:
+    """p̂/p falls steadily from 1 at γ = 0 towards √(2/3) for γ → ∞."""
+    ratio = frequency_ratio()
+    limits = (sp.limit(ratio**2, gamma, 0), sp.limit(ratio**2, gamma, sp.oo))
+    falls = sp.factor(sp.diff(ratio**2, gamma)).is_negative
+    return bool(falls) and limits == (1, sp.Rational(2, 3))
+
+
+def size_grows_to_a_limit() -> bool:
+    """R̂/R grows with the weight of the cap beam, from 1 at γ = 0 towards 3/2."""
+    limits = (sp.limit(size_ratio(), gamma, 0), sp.limit(size_ratio(), gamma, sp.oo))
+    grows = sp.factor(sp.diff(size_ratio(), gamma)).is_positive
+    return bool(grows) and limits == (1, sp.Rational(3, 2))
+
+
+def shear_was_reversed() -> bool:
+    """Eqs. (20), (21) hold as printed for F_x positive to the left, with which (13) does not."""
+    mirrored = dict(frame(POSITIVE))
+    mirrored |= {F_x1: -mirrored[F_x1], F_x2: -mirrored[F_x2]}
+    printed = {statement.number: statement.printed for statement in EQUATIONS}
+    holds = {}
+    for number in (13, 20, 21):
+        left, right = read(printed[number], POSITIVE)
+        holds[number] = vanishes((left - right).subs(mirrored), POSITIVE)
+    return holds == {13: False, 20: True, 21: True}
+
+
+# Impact -------------------------------------------------------------------------------------------
+
+
+def _positive(expression: sp.Expr) -> bool:
+    """Whether a function of α and γ is positive for all α in (0, π/2) and all γ > 0."""
+    return bool(tangent_form(expression).is_positive)
+
+
+def _changes_sign_at(expression: sp.Expr, slenderness: sp.Expr) -> bool:
+    """Whether a function of α and γ is positive below a slenderness, and negative above it."""
+    threshold = sp.tan(slenderness) ** 2
+    return bool(sp.factor(tangent_form(expression) / (threshold - _x)).is_positive)
+
+
+def kinetic_energy_ratio_is_velocity_ratio_squared() -> bool:
+    """Kinetic energy is θ̇² times the same constant at every θ of either side: r = (θ̇_2/θ̇_1)²."""
+    left, right = (kinetic_energy(side).subs(ground_velocity, 0) for side in SIDES)
+    same = vanishes(left - right, NEGATIVE)
+    return same and not any(left.has(side.rotation) or right.has(side.rotation) for side in SIDES)
+
+
+def both_impacts_are_alike() -> bool:
+    """√r is the same whether the frame changes over to the right or to the left."""
+    return vanishes(restitution(POSITIVE) - restitution(NEGATIVE), POSITIVE)
+
+
+def restitution_is_below_the_columns() -> bool:
+    """√r of the frame is smaller than its column's by 3γ sin²α / (2(1 + 3γ)), for every γ > 0."""
+    deficit = 3 * gamma * sp.sin(alpha) ** 2 / (2 * (1 + 3 * gamma))
+    difference = column_restitution() - restitution()
+    return vanishes(difference - deficit, POSITIVE) and _positive(difference)
+
+
+def restitution_tends_to_its_limits() -> bool:
+    """√r of the frame is the column's 1 − (3/2) sin²α at γ = 0, and tends to cos 2α as γ → ∞."""
+    light = restitution().subs(gamma, 0) - (1 - sp.Rational(3, 2) * sp.sin(alpha) ** 2)
+    heavy = sp.limit(restitution(), gamma, sp.oo) - sp.cos(2 * alpha)
+    return vanishes(light, POSITIVE) and vanishes(heavy, POSITIVE)
+
+
+def impact_never_adds_energy() -> bool:
+    """−1 < √r < 1 for every slenderness and every γ."""
+    return _positive(1 - restitution()) and _positive(1 + restitution())
+
+
+def frame_rocks_on_below_its_largest_slenderness() -> bool:
+    """√r of the frame is positive exactly for tan²α < 2(1 + 3γ)/(1 + 6γ)."""
+    stated = sp.atan(sp.sqrt(2 * (1 + 3 * gamma) / (1 + 6 * gamma)))
+    same = vanishes(sp.tan(stated) ** 2 - sp.tan(largest_slenderness()) ** 2, POSITIVE)
+    return same and _changes_sign_at(restitution(), stated)
+
+
+def frame_loses_the_larger_share_when_slender() -> bool:
+    """r of the frame is smaller than its column's exactly for tan²α < 4(1 + 3γ)/(2 + 9γ)."""
+    stated = sp.atan(sp.sqrt(4 * (1 + 3 * gamma) / (2 + 9 * gamma)))
+    same = vanishes(sp.tan(stated) ** 2 - sp.tan(energy_slenderness()) ** 2, POSITIVE)
+    return same and _changes_sign_at(column_restitution() ** 2 - restitution() ** 2, stated)
+
+
+def every_frame_that_rocks_on_loses_the_larger_share() -> bool:
+    """Where √r of the frame is not negative, it loses a larger share of energy than its column."""
+    gap = sp.tan(energy_slenderness()) ** 2 - sp.tan(largest_slenderness()) ** 2
+    return bool(sp.factor(gap).is_positive)
+
+
+def heavier_caps_need_slenderer_columns() -> bool:
+    """The largest α that keeps rocking falls with γ, from atan √2 (54.7°) towards π/4."""
+    squared = sp.tan(largest_slenderness()) ** 2
+    ends = (squared.subs(gamma, 0), sp.limit(squared, gamma, sp.oo))
+    return bool(sp.factor(sp.diff(squared, gamma)).is_negative) and ends == (2, 1)
+
+
+# Base shear ---------------------------------------------------------------------------------------
+
+
+@cache
+def base_shear(side: Side) -> sp.Expr:
+    """The horizontal force of the ground on both columns over the weight, in θ, θ̇ and ü_g.
+
+    It is the sum of all masses times their accelerations.
+    """
+    columns = 2 * m_c * (rate(side, rate(side, centre(side))) + LOADS)[0]
+    total = (columns + cap_force(side)[0]).subs(OF_TWO).subs(frame_motion(side))
+    return sp.factor(total.subs(RECTANGULAR_OF_TWO) / (2 * m_c * (1 + gamma) * g))
+
+
+def after_uplift(side: Side) -> sp.Expr:
+    """The base shear over the weight as the resting frame starts to turn to this side."""
+    return side.upright(base_shear(side)).subs(velocity, 0)
+
+
+def slope() -> sp.Expr:
+    """d(V/W)/d(ü_g/g) just after uplift, as it is stated."""
+    ratio = (1 + 2 * gamma) ** 2 / ((1 + gamma) * (1 + 3 * gamma))
+    return 1 - sp.Rational(3, 4) * sp.cos(alpha) ** 2 * ratio
+
+
+def base_shear_grows_after_uplift() -> bool:
+    """Just after uplift V/W = tan α + n (ü_g/g − tan α), n = 1 − ¾ cos²α (1+2γ)²/((1+γ)(1+3γ)).
+
+    V is the base shear of both columns, W the weight; for ü_g < 0 both terms change their signs. A
+    rigid frame that is held against uplift has n = 1. So the shear continues at uplift.
+    """
+    return all(
+        vanishes(
+            after_uplift(side)
+            + side.sign * sp.tan(alpha)
+            - slope() * (ground_acceleration / g + side.sign * sp.tan(alpha)),
+            side,
+        )
+        for side in SIDES
+    )
+
+
+def heavy_cap_beam_nearly_caps_the_base_shear() -> bool:
+    """n falls as γ grows, from 1 − ¾ cos²α of the column towards sin²α, and is never zero."""
+    falls = sp.factor(sp.diff(slope(), gamma) / sp.cos(alpha) ** 2).is_negative
+    ends = slope().subs(gamma, 0), sp.limit(slope(), gamma, sp.oo)
+    stated = 1 - sp.Rational(3, 4) * sp.cos(alpha) ** 2, sp.sin(alpha) ** 2
+    return bool(falls) and all(
+        sp.simplify(found - claim) == 0 for found, claim in zip(ends, stated, strict=True)
+    )
+
+
+PROOFS = (
+    m_c_is_the_mass_of_each_column,
+    cap_moment_is_not_needed,
+    quadratic_terms_cancel,
+    lagrange_agrees,
+    frame_rocks_as_a_column,
+    ground_to_the_right_rocks_to_the_left,
+    frame_uplifts_with_its_column,
+    energy_is_conserved_between_impacts,
+    restoring_moment_falls,
+    frequency_falls_to_a_limit,
+    size_grows_to_a_limit,
+    shear_was_reversed,
+    kinetic_energy_ratio_is_velocity_ratio_squared,
+    both_impacts_are_alike,
+    restitution_is_below_the_columns,
+    restitution_tends_to_its_limits,
+    impact_never_adds_energy,
+    frame_rocks_on_below_its_largest_slenderness,
+    frame_loses_the_larger_share_when_slender,
+    every_frame_that_rocks_on_loses_the_larger_share,
+    heavier_caps_need_slenderer_columns,
+    base_shear_grows_after_uplift,
+    heavy_cap_beam_nearly_caps_the_base_shear,
+)
