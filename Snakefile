@@ -93,7 +93,7 @@ include: "rules/documents.smk"
 
 # Snakemake keeps a result without a word where its rule reads a file that no rule makes.
 for each in workflow.rules:
-    for path in map(str, each.input):
+    for path in (str(path) for path in each.input if not callable(path)):
         is_made = "{" in path or any(
             other.is_producer(path) for other in workflow.rules
         )
@@ -113,6 +113,7 @@ rule all:
     default_target: True
     input:
         made(),
+        expand("results/notebooks/{name}.html", name=NOTEBOOKS),
 
 
 def summary():

@@ -69,29 +69,26 @@ for part in ["paper", "beyond"]:
             "../src/steps/draw.py"
 
 
-for name in NOTEBOOKS:
-
-    rule:
-        name:
-            f"notebook_{name}"
-        input:
-            re.findall(
-                r"results/tables/\w+\.csv", open(f"notebooks/{name}.ipynb").read()
-            ),
-            kernel="results/kernel.compiled",
-            notebook=f"notebooks/{name}.ipynb",
-        output:
-            executed=f"results/notebooks/{name}.ipynb",
-            page=f"results/notebooks/{name}.html",
-        log:
-            f"results/logs/notebook_{name}.log",
-        params:
-            code=code("src/steps/notebook.py", *SMALL, "src/topheavy/plot.py")
-            | STEP
-            | library("bodies", "derivation", "ground", "kernel", "outcomes", "risk"),
-            records=checksums(*glob("data/records/*.AT2")),
-        script:
-            "../src/steps/notebook.py"
+rule notebook:
+    input:
+        lambda wildcards: re.findall(
+            r"results/tables/\w+\.csv",
+            open(f"notebooks/{wildcards.name}.ipynb").read(),
+        ),
+        kernel="results/kernel.compiled",
+        notebook="notebooks/{name}.ipynb",
+    output:
+        executed="results/notebooks/{name}.ipynb",
+        page="results/notebooks/{name}.html",
+    log:
+        "results/logs/notebook_{name}.log",
+    params:
+        code=code("src/steps/notebook.py", *SMALL, "src/topheavy/plot.py")
+        | STEP
+        | library("bodies", "derivation", "ground", "kernel", "outcomes", "risk"),
+        records=checksums(*glob("data/records/*.AT2")),
+    script:
+        "../src/steps/notebook.py"
 
 
 rule claims:

@@ -59,7 +59,7 @@ def refuse() -> None:
     if wrong := unexpected(json.loads(Path("results/claims.json").read_text("utf-8"))):
         raise SystemExit("\n".join(wrong))
     used = json.loads(Path("results/settings.json").read_text("utf-8"))["paper/claims.yaml"]
-    if used != read_config("config/config.yaml", Paper):
+    if used != json.loads(json.dumps(read_config("config/config.yaml", Paper))):
         raise SystemExit("results/ is not of config/config.yaml as it is now: make reproduce")
 
 
