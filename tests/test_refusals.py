@@ -12,7 +12,7 @@ import topheavy as th
 from steps.shared.linear import simulate_linear_exact
 from steps.shared.three_bodies import simulate_three_bodies
 from tests.cases import COLUMN, FRAME
-from topheavy import Ending, checks
+from topheavy import checks
 from topheavy.bodies.response import MOST_SAMPLES
 from topheavy.ground.shapes import ELEMENTARY
 from topheavy.second import reference
@@ -231,13 +231,6 @@ def test_what_is_beyond_reason_is_refused_by_its_name(ask, message):
 def test_record_of_fewer_than_two_samples_is_refused(samples):
     with pytest.raises(ValueError, match=r"(?s)'Kos'.*two sam"):
         th.Record(0.01, samples, "Kos")
-
-
-def test_endings_that_overturn_are_the_same_whatever_made_their_nan():
-    one, other = (Ending(True, float("nan"), 2) for _ in range(2))
-    assert (one, hash(one)) == (other, hash(other))
-    assert one != Ending(True, math.nan, 1)
-    assert Ending(False, 0.1, 0) == Ending(False, 0.1, 0) != Ending(False, 0.2, 0)
 
 
 # ---------------------------------------------------------------------------- what is asked

@@ -57,7 +57,7 @@ def test_back_returns_to_what_a_case_replaced(browser):
     before = state_of(browser)
     browser.do("document.querySelector('#cases button').click()")
     browser.settle()
-    wait_until(lambda: state_of(browser) != before)
+    wait_until(lambda: browser.do("location.hash.slice(1)") == state_of(browser) != before)
     browser.do("history.back()")
     wait_until(lambda: state_of(browser) == before)
 
