@@ -297,7 +297,6 @@ class Friction(Section):
     mass_ratios: list[Positive]
     bays: list[Positive]  # m
     depth: Positive  # m
-    coefficients: list[Positive]  # of friction
     sufficient: Positive
     shapes: list[Shape]
     frequency_ratios: Grid

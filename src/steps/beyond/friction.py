@@ -34,7 +34,7 @@ def compute(settings, structures):
             compare(frame, cap, max(survived, key=lambda row: row["required"]), settings)
         rows += [{"bay": bay, "mass_ratio": gamma} | row for row in survived]
     table = pd.DataFrame(rows)
-    return {"pulses": table, "by_mass": by_mass(table, settings["coefficients"])}
+    return {"pulses": table, "by_mass": by_mass(table)}
 
 
 def amplitudes(settings):
@@ -106,8 +106,8 @@ def compare(frame, cap, row, settings):
     )
 
 
-def by_mass(pulses, coefficients):
-    """Return for each bay and γ the largest required friction, and the share that each μ covers."""
+def by_mass(pulses):
+    """Return for each bay and γ the largest required coefficient of friction."""
     return pd.DataFrame(
         {
             "bay": bay,
@@ -117,7 +117,6 @@ def by_mass(pulses, coefficients):
             "error": part.error.max(),
             "least_vertical": part.least_vertical.min(),
         }
-        | {f"enough_{mu:g}": (part.required <= mu).mean() for mu in coefficients}
         for (bay, gamma), part in pulses.groupby(["bay", "mass_ratio"], sort=False)
     )
 
