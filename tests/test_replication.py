@@ -183,6 +183,11 @@ def test_config_with_its_keys_is_read(tmp_path):
         ("scale: 1.3\n", "", "the key 'scale' is missing"),
         ("1.3", "'1.3'", "scale is '1.3'; input should be a valid number: without quotes"),
         ("1.3", "1,3", "scale is '1,3'; input should be a valid number: a decimal point"),
+        (
+            "highest: 2.0",
+            "highest: 2,50",
+            "grid has the key 50; expected a name. A number has a",
+        ),
         ("1.3", "-1.3", "scale is -1.3; input should be greater than 0"),
         ("points: 3", "points: -3", "grid.points is -3; input should be greater than or equal"),
         ("highest: 2.0", "highest: 0.0", "grid.highest is 0.0; input should be greater than 0"),

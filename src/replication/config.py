@@ -147,6 +147,9 @@ def _message(error: Any, model: type[Section]) -> str:
     if error["type"] == "extra_forbidden":
         near = get_close_matches(str(error["loc"][-1]), names_of(model), n=1)
         return f"unknown key '{key}'" + (f"; did you mean '{near[0]}'?" if near else "; remove it")
+    if error["type"] == "invalid_key":
+        where, _, name = key.rpartition(".")
+        return f"{where} has the key {name}; expected a name. A number has a point: 3.00, not 3,00"
     if error["type"] == "missing":
         return f"the key '{key}' is missing"
     given, expected = error["input"], error["msg"].removeprefix("Value error, ")
