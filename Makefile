@@ -10,7 +10,7 @@ DEV     = $(UV) run --locked
 export PYTHONDONTWRITEBYTECODE :=
 
 .DEFAULT_GOAL := help
-.PHONY: help reproduce check test lint study publish notebooks faults fuzz archive cluster-test clean
+.PHONY: help reproduce check test lint study publish notebooks faults archive cluster-test clean
 
 help: ## list the commands
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/make \1|\2/p' Makefile | \
@@ -54,9 +54,6 @@ notebooks: | $(UV) ## open the notebooks in JupyterLab
 
 faults: | $(UV) ## put deliberate errors into a copy, one at a time: does a test catch each?
 	@$(DEV) python tests/faults/run.py -j "$(CORES)"
-
-fuzz: | $(UV) ## search for inputs on which solvers disagree (MINUTES=1)
-	@$(DEV) python benchmarks/fuzz.py "$(or $(MINUTES),1)"
 
 archive: ## pack the commit into dist/, with the checksums of its files
 	@mkdir -p dist && git archive --prefix=topheavy/ --output=dist/topheavy.zip HEAD

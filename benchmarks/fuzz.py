@@ -305,7 +305,7 @@ def main(minutes: float, first: int) -> int:
         try:
             cases[held.__name__] += tried(held, number, TURN)
         except Exception as error:
-            print(f"{held.__name__} fails; to repeat it: make fuzz SEED={number}")
+            print(f"{held.__name__} fails; to repeat it: python benchmarks/fuzz.py 1 {number}")
             print(*traceback.format_exception(error, limit=-2), sep="")
             return 1
     print(f"seed {first}:", ", ".join(f"{name} {n}" for name, n in cases.items()), "cases")
