@@ -114,6 +114,8 @@ rule all:
     input:
         made(),
         expand("results/notebooks/{name}.html", name=NOTEBOOKS),
+    message:
+        "All results are there"
 
 
 def summary():

@@ -65,6 +65,8 @@ for part in ["paper", "beyond"]:
         params:
             code=code("src/steps/draw.py", *SHARED) | DOCUMENTS | CORE,
             config={name: PAPER[name] for name in BEYOND if part == "beyond"},
+        message:
+            f"Drawing the figures ({part})"
         script:
             "../src/steps/draw.py"
 
@@ -102,6 +104,8 @@ rule claims:
     params:
         code=code("src/steps/judge.py") | DOCUMENTS,
         settings=CLAIMS,
+    message:
+        "Judging every claim"
     script:
         "../src/steps/judge.py"
 
@@ -121,6 +125,8 @@ rule comparison:
         rules=RULES,
         settings=CLAIMS,
         bounds=PAPER["reproducibility"],
+    message:
+        "Comparing tables with the published ones"
     script:
         "../src/steps/compare.py"
 
@@ -164,6 +170,8 @@ for document in ["report", "supplement"]:
             code=code("src/steps/typeset.py") | DOCUMENTS,
             studies=PAPER["studies"],
             config=PAPER,
+        message:
+            f"Compiling the {document}"
         script:
             "../src/steps/typeset.py"
 
