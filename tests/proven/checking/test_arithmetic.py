@@ -218,3 +218,11 @@ def test_remainder_of_the_quotient_by_time_is_not_differentiated_as_one_interval
     step.phi = [of(0), of(1), of(0), of(-1).hull(1)]
     slope = step.quotient(1)[1]
     assert slope[-1].high >= 4 * intervals.UNIT  # 3 R' − R for R' = 1, R = −1
+
+
+def test_quotient_by_time_has_its_derivative():
+    step = Course.__new__(Course)
+    step.phi = [of(0), of(2), of(3), of(5), of(7)]
+    quotient, slope = step.quotient(1)  # 2 + 3 τ + 5 τ² + 7 τ³
+    assert [each.middle for each in quotient] == [of(k).middle for k in (2, 3, 5, 7)]
+    assert [each.middle for each in slope] == [of(k).middle for k in (3, 10, 21)]
