@@ -92,17 +92,15 @@ include: "rules/documents.smk"
 
 
 # Snakemake keeps a result without a word where its rule reads a file that no rule makes.
+MADE = made()
 for each in workflow.rules:
     for path in (str(path) for path in each.input if not callable(path)):
-        is_made = "{" in path or any(
-            other.is_producer(path) for other in workflow.rules
-        )
-        if not is_made and (path.startswith("results/") or not os.path.isfile(path)):
-            beside = [
-                other
-                for other in made()
-                if os.path.dirname(other) == os.path.dirname(path)
-            ]
+        is_source = os.path.isfile(path) and not path.startswith("results/")
+        if is_source or "{" in path or path in MADE:
+            continue
+        if not any(other.is_producer(path) for other in workflow.rules):
+            folder = os.path.dirname(path)
+            beside = [other for other in MADE if os.path.dirname(other) == folder]
             sys.exit(
                 f"rule {each.name} ({os.path.relpath(each.snakefile)}) reads {path}, which no rule "
                 f"makes; expected one of {', '.join(beside)}"
@@ -112,7 +110,7 @@ for each in workflow.rules:
 rule all:
     default_target: True
     input:
-        made(),
+        MADE,
         expand("results/notebooks/{name}.html", name=NOTEBOOKS),
     message:
         "All results are there"
