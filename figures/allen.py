@@ -70,7 +70,6 @@ def draw(allen_histories, allen_errors):
     note(axes["b"], "exact", (0.5, 0.13), xycoords="axes fraction")
     note(axes["b"], "Allen et al.", (0.5, 0.05), xycoords="axes fraction", color=MODEL)
     errors(axes["e"], allen_errors)
-    titles = [MOTIONS["pulse"], "Median error, slender columns"]
-    letter([axes["a"], axes["e"]], titles)
-    axes["c"].set_title(MOTIONS["record"])
+    titles = [*MOTIONS.values(), "Median error, slender columns"]
+    letter([axes["a"], axes["c"], axes["e"]], titles)
     return figure

@@ -35,23 +35,24 @@ def draw(break_even, break_even_benefit, config):
     low, high = (100 * share for share in config["break_even"]["measured"])
     axes[1].axhspan(low, high, color=tint(GREY, 0.25), lw=0)
     note(axes[1], "measured on single blocks", (1.5, 0.5 * (low + high)), ha="center", fontsize=7)
-    note(axes[1], "above a point: column safer", (1.5, 13.2), color=ALONE, ha="center")
+    note(axes[1], "above a point: column safer", (1.5, 13.5), color=ALONE, ha="center")
     note(axes[1], "below a point: frame safer", (1.5, 1.2), color=EQUAL, ha="center")
     axes[0].axvline(0.0, color=GREY, linewidth=0.7)
     note(axes[0], "frame safer", (0.5, len(ROWS) - 0.3), color=EQUAL)
     note(axes[0], "column safer", (-0.5, len(ROWS) - 0.3), color=ALONE, ha="right")
     axes[0].set(xlim=(-11, 24), ylim=(-0.5, len(ROWS)))
-    axes[0].set_xlabel("Probability of column less that of frame (points)")
+    axes[0].set_xlabel("Probability, column minus frame (percentage points)")
     axes[0].set_yticks(range(len(ROWS)), ROWS.values())
     axes[0].tick_params(axis="y", length=0)
     velocities = sorted(break_even.velocity.unique())
     axes[1].set_xticks(range(len(velocities)), [f"{each:g}" for each in velocities])
     axes[1].set(xlim=(-0.5, len(velocities) - 0.5), ylim=(0, 14.5))
-    axes[1].set(xlabel="Peak ground velocity (m/s)", ylabel="Reduction of the column's √r (%)")
+    axes[1].set_xlabel("Peak ground velocity (m/s)")
+    axes[1].set_ylabel(r"Reduction of the column's $\sqrt{r}$ (%)")
     letter(
         axes,
         [
-            f"Benefit at {config['motions']['velocity']:g} m/s, by √r",
+            f"Benefit at {config['motions']['velocity']:g} m/s, by $\\sqrt{{r}}$",
             "Reduction that ends the benefit",
         ],
     )

@@ -14,7 +14,6 @@ DOTS = {
 RING = {"facecolor": "none", "edgecolor": INK, "linewidth": 1.3}
 STYLES = ("o-", "s--", "^-.", "D:")
 FREQUENCY = 3.0  # ω/p, across the plane
-TICKS = (-50, -20, -10, -5, -2, -1, 0, 1, 2, 5)  # %; the axis is linear between −1 and 1
 
 
 def draw(engine_outcomes, engine_restitution, engine_across):
@@ -42,9 +41,10 @@ def _across(axis, table):
         axis.axhline(level, color=colour, linewidth=0.8, linestyle=":")
     axis.axhline(1.0, color=GREY, linewidth=0.6)
     note(axis, "column alone", (2.0, 0.96), color=GREY, ha="right")
+    note(axis, "frame, in the plane", (1.02, 1.18), color=GREY)
     axis.set(xlabel="Depth over width of the columns (–)", ylim=(0.5, 1.5))
     axis.set_ylabel("Amplitude over the\ncolumn's minimum (–)")
-    axis.legend(loc="upper left")
+    axis.legend(loc="lower right")
 
 
 def _outcomes(axis, table):
@@ -62,7 +62,7 @@ def _outcomes(axis, table):
         f"{contact}, {structure}, {SHAPES[shape]} {ratio:g}"
         for (contact, structure, shape, ratio), _ in reversed(rows)
     ]
-    axis.set_yticks(range(len(rows)), names, fontsize=6.5)
+    axis.set_yticks(range(len(rows)), names, fontsize=7)
     axis.set_xticks(range(len(factors)), [f"{factor:g}" for factor in factors])
     predicted = sum(factor < 1 for factor in factors) - 0.5
     axis.plot([predicted] * 2, [-0.7, len(rows) - 0.4], color=GREY, linewidth=0.8)
@@ -77,18 +77,21 @@ def _outcomes(axis, table):
 
 def _restitution(axis, table):
     frames = table[table.mass_ratio > 0]
-    frames = frames.assign(difference=100 * (frames.engine / frames.theory - 1))
+    frames = frames.assign(ratio=frames.engine / frames.theory)
     dampings = list(frames.groupby("damping_ratio"))
-    for (_, part), colour, style in zip(dampings, greys(len(dampings)), STYLES, strict=True):
-        low, high = (part.groupby("time_constant").difference.agg(end) for end in ("min", "max"))
-        label = f"{part.point_restitution.iloc[0]:.2f}"
-        axis.fill_between(low.index, low, high, color=colour, alpha=0.2, linewidth=0)
-        axis.semilogx(low.index, (low + high) / 2, style, color=colour, markersize=3, label=label)
-    axis.axhline(0.0, color=GREY, linewidth=0.5)
-    axis.set(xlabel=r"Time constant of the contact, $p\,\tau$ (–)", ylim=(-100, 100))
-    axis.set_yscale("symlog", linthresh=1, linscale=0.6)
-    axis.set_yticks(TICKS, [f"{tick:g}".replace("-", "−") for tick in TICKS])
-    axis.set_yticks([], minor=True)
-    axis.set_ylabel(r"Difference from $\sqrt{r}$ of Eq. (25) (%)")
-    note(axis, "Eq. (25)", (0.0031, 0.45), color=GREY)
-    axis.legend(loc="upper left", ncols=2, title="Rebound of a single point (–)")
+    for place, ((_, part), colour) in enumerate(zip(dampings, greys(len(dampings)), strict=True)):
+        low, high = (part.groupby("time_constant").ratio.agg(end) for end in ("min", "max"))
+        times = low.index * 1.07 ** (place - 1.5)  # side by side
+        bars = {"linewidth": 0.9, "elinewidth": 1.3, "color": colour, "markersize": 3.5}
+        axis.errorbar(
+            times,
+            (low + high) / 2,
+            (high - low) / 2,
+            fmt=STYLES[place],
+            label=f"{part.point_restitution.iloc[0]:.2f}",
+            **bars,
+        )
+    axis.axhline(1.0, color=GREY, linewidth=0.6)
+    axis.set(xscale="log", xlabel=r"Time constant of the contact, $p\,\tau$ (–)")
+    axis.set_ylabel(r"$\sqrt{r}$ over that of Eq. (25) (–)")
+    axis.legend(loc="lower left", ncols=2, title="Rebound of a single point (–)")

@@ -8,7 +8,7 @@ from palette import ALONE, EQUAL, FIXED
 from replication.drawing import DARKEST, DOUBLE, GREY, INK, PAPER, letter, note, sheet
 
 FAMILIES = ("near-fault", "broadband")
-DASHES = ("-", "--")  # of the earthquakes of a family
+DASHES, QUAKES = ("-", "--"), ("M 6.5", "M 7.3")  # of the sets of a family
 STRUCTURES = {  # name and γ, as in the table: words, colour, place of the words
     ("fixed mass", 1.0): ("fixed mass", FIXED, (1.15, 0.28)),
     ("column", 0.0): ("column", ALONE, (1.15, 0.17)),
@@ -34,11 +34,12 @@ def fragility(axis, curves):
 
 
 def rotation(axis, rows):
-    for (_, ratio), line in rows[rows.mass_ratio.isin(SHADES)].groupby(["model", "mass_ratio"]):
-        axis.plot(
-            line.velocity, line.median_peak.clip(upper=2.0), color=SHADES[ratio], linewidth=0.8
-        )
     for place, (ratio, colour) in enumerate(SHADES.items()):
+        peaks = rows[rows.mass_ratio == ratio].groupby("velocity").median_peak
+        low, high = peaks.min().clip(upper=2.0), peaks.max().clip(upper=2.0)
+        axis.fill_between(low.index, low, high, color=colour, alpha=0.35, linewidth=0)
+        for end in (low, high):
+            axis.plot(end.index, end, color=colour, linewidth=0.8)
         note(axis, gamma(ratio), (0.22, 0.93 - 0.1 * place), color=colour)
     axis.set(xlim=(0.2, 1.0), ylim=(0, 1), yticks=(0, 0.5, 1), xlabel="Peak ground velocity (m/s)")
     axis.set_ylabel(r"Median peak $|\theta|/\alpha$ (–)")
@@ -51,6 +52,9 @@ def draw(motions, motions_fragility, motions_rotations, motions_gains, config):
     axes["a"].set_ylabel("Probability of overturning (–)")
     for words, colour, at in STRUCTURES.values():
         note(axes["a"], words, at, color=colour)
+    for dash, quake in zip(DASHES, QUAKES, strict=True):
+        axes["b"].plot([], [], dash, color=INK, linewidth=1.0, label=quake)
+    axes["b"].legend(loc="lower right", handlelength=1.8, borderaxespad=0.1)
     rotation(axes["c"], motions_rotations)
     table = motions.iloc[::-1].reset_index(drop=True)
     for place, row in table.iterrows():

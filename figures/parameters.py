@@ -50,7 +50,7 @@ def over_slenderness(axis, table):
         curve = curves.get_group(mass_ratio)
         tip = (slenderness, np.interp(slenderness, curve.slenderness_deg, curve.restitution))
         axis.annotate(words, tip, at, fontsize=7.5, va="center", arrowprops=LEADER)
-    axis.legend(loc="lower left", ncols=2, labelspacing=0.2)
+    axis.legend(loc="lower left", labelspacing=0.2)
     axis.set(xlabel=r"Slenderness, $\alpha$ (°)", xlim=(0, 60), ylim=(-0.52, 1.03))
     axis.set_ylabel(r"Coefficient of restitution, $\sqrt{r}$ (–)")
 

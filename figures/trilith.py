@@ -48,8 +48,8 @@ def histories(axis, runs, steady):
         axis.axhline(level, color=GREY, linewidth=0.7, linestyle=(0, (4, 2)))
     note(axis, "table at full speed at once: keeps rocking", (1.6, 0.108), color=SURVIVES)
     words = f"steady amplitude {steady:.3f}$\\,\\alpha$"
-    note(axis, words, (11.9, -0.085), ha="right", color=GREY)
-    note(axis, "table from\nrest: stays\nat rest", (12.2, 0.0), annotation_clip=False)
+    note(axis, words, (11.9, 0.08), ha="right", color=GREY)
+    note(axis, "table from rest: stays at rest (black)", (1.6, -0.108))
     axis.set(xlim=(0, runs.time.max()), ylim=(-0.125, 0.125))
     axis.set(xlabel="Time, $t$ (s)", ylabel=r"Rotation, $\theta/\alpha$ (–)")
 

@@ -1,7 +1,8 @@
 """Animate a column, a column with a mass fixed to its top, and a frame that carries this mass.
 
 All three are to scale and under the same ground motion, in real time, within the hundredth of a
-second that a GIF can store. It is played three times and then stands still.
+second that a GIF can store. The first picture shows the outcome, for viewers that show one only.
+It is played three times and then stands still.
 """
 
 import io
@@ -25,7 +26,7 @@ from topheavy.bodies.structures import Structure
 P = SimpleNamespace(**runpy.run_path("figures/palette.py"))
 BLENDS = 12  # of two colours
 SIZE, DPI = (8.4, 4.2), 100  # inches
-HELD = (600, 1800)  # ms: duration of the first and the last picture
+HELD = (1200, 1800)  # ms: how long the outcome is shown, at the beginning and at the end
 PLAYS = 3
 PLACES = {"bare": 0.0, "fixed": 10.2, "free": 22.6}  # m: the middle of each
 NAMES = {"bare": "Column", "fixed": "Vase: mass fixed to it", "free": "Frame: mass carried freely"}
@@ -149,7 +150,8 @@ def hundredths(settings: dict) -> int:
 def compute(settings: dict, column: dict, style: str) -> dict[str, bytes]:
     """Return the animation as a GIF, which counts how often it is played again."""
     with mpl.rc_context(fname=style):
-        first, *others = pictures(settings, column)
+        others = pictures(settings, column)
+    first = others[-1]
     durations = [HELD[0], *[10 * hundredths(settings)] * (len(others) - 1), HELD[1]]
     gif = io.BytesIO()
     first.save(
