@@ -16,12 +16,11 @@ from steps.shared.histories import history
 from topheavy import (
     Cap,
     Column,
-    FixedFrame,
     Pulse,
     RockingFrame,
     base_shear_slope,
+    clamped_forces,
     largest_forces,
-    peak_rigid,
     simulate,
 )
 from topheavy.second import reference
@@ -63,7 +62,7 @@ def compute(settings: dict, column: dict) -> list[dict]:
         level, slope = frame.uplift_acceleration, base_shear_slope(frame)
         pulse = Pulse(shape, amplitude * level, ratio * of.frequency_parameter)
         outcome, forces = peaks(frame, cap, pulse, settings["points"])
-        clamped = peak_rigid(FixedFrame(frame, cap, "pinned"), pulse)
+        clamped = clamped_forces(frame, cap, pulse)
         rows.append(
             {"shape": shape, "frequency_ratio": ratio, "mass_ratio": gamma, "outcome": outcome}
             | {"peak_acceleration": pulse.amplitude, "uplift_acceleration": level}

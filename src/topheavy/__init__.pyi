@@ -9,13 +9,16 @@ from .forces.contact import (
     ContactForces,
     Reaction,
     column_forces,
-    column_impulse,
     contact_forces,
     impact_impulses,
 )
-from .forces.fixed_frame import FixedFrame, Forces, peak_elastic, peak_elastic_by_scipy, peak_rigid
-from .forces.frame import FrameForces, base_shear_slope, frame_forces, largest_forces
-from .forces.portal import ColumnEnds, resting_portal_forces, rocking_portal_forces
+from .forces.frame import (
+    FrameForces,
+    base_shear_slope,
+    clamped_forces,
+    frame_forces,
+    largest_forces,
+)
 from .ground.pulses import Pulse
 from .ground.records import Record, read_at2, read_csv, read_record
 from .ground.shapes import PULSE_SHAPES
@@ -32,12 +35,9 @@ __all__ = [
     "STANDARD_GRAVITY",
     "Cap",
     "Column",
-    "ColumnEnds",
     "ContactForces",
     "Ending",
-    "FixedFrame",
     "FixedMassColumn",
-    "Forces",
     "Fragility",
     "FrameForces",
     "Interval",
@@ -52,8 +52,8 @@ __all__ = [
     "Structure",
     "base_shear_slope",
     "cap_displacement",
+    "clamped_forces",
     "column_forces",
-    "column_impulse",
     "contact_forces",
     "fragility",
     "frame_forces",
@@ -64,15 +64,10 @@ __all__ = [
     "overturned_by",
     "overturning_intervals",
     "overturning_map",
-    "peak_elastic",
-    "peak_elastic_by_scipy",
-    "peak_rigid",
     "plot",
     "proven",
     "read_at2",
     "read_csv",
     "read_record",
-    "resting_portal_forces",
-    "rocking_portal_forces",
     "simulate",
 ]

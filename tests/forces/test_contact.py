@@ -93,22 +93,22 @@ def test_forces_move_and_turn_all_three_bodies_as_the_frame_rocks(frame, side, s
     second = angular_acceleration(frame, theta, ground)
     mass, beam = masses(frame.mass_ratio)
     forces = th.contact_forces(frame, CAP, theta, rate, ground)
-    base = [vector(forces.base_left), vector(forces.base_right)]
-    seat = [vector(forces.seat_left), vector(forces.seat_right)]
+    bases = [vector(forces.base_left), vector(forces.base_right)]
+    tops = [vector(forces.top_left), vector(forces.top_right)]
     at_centre, at_cap = accelerations(column, theta, rate, second, ground) / th.STANDARD_GRAVITY
     weight = np.array([0.0, 1.0])
     centre, corner = points_of(column, theta)
     inertia = mass * column.size**2 / 3 / th.STANDARD_GRAVITY
     close = {"rtol": 1e-7, "atol": 1e-8}
-    for foot, head in zip(base, seat, strict=True):
-        np.testing.assert_allclose(foot - head, mass * (at_centre + weight), **close)
-        moment = clockwise(-centre, foot) - clockwise(corner - centre, head)
+    for base_force, top_force in zip(bases, tops, strict=True):
+        np.testing.assert_allclose(base_force - top_force, mass * (at_centre + weight), **close)
+        moment = clockwise(-centre, base_force) - clockwise(corner - centre, top_force)
         assert moment == pytest.approx(inertia * second, rel=1e-9, abs=1e-11)
-    np.testing.assert_allclose(seat[0] + seat[1], beam * (at_cap + weight), **close)
+    np.testing.assert_allclose(tops[0] + tops[1], beam * (at_cap + weight), **close)
     # The cap does not slide: its contacts are where the corners touched it at θ = 0.
     shift = -side * column.half_width
     arms = [(shift + end * CAP.span / 2, -CAP.half_depth) for end in (-1, 1)]
-    moments = [clockwise(arm, force) for arm, force in zip(arms, seat, strict=True)]
+    moments = [clockwise(arm, force) for arm, force in zip(arms, tops, strict=True)]
     assert sum(moments) == pytest.approx(0.0, abs=1e-12)
 
 
@@ -134,13 +134,13 @@ def test_light_cap_leaves_two_solitary_columns():
     motion = ([-0.1, 0.2, 0.05], [0.4, -0.3, 0.0], [0.0, 0.8, -0.5])
     column = vector(th.column_forces(SLENDER, *motion))
     bare = of(0.0, *motion)
-    assert np.all(vector(bare.seat_left) == 0.0)
-    assert np.all(np.isnan(bare.seat_left.friction_demand))  # it carries nothing
+    assert np.all(vector(bare.top_left) == 0.0)
+    assert np.all(np.isnan(bare.top_left.friction_demand))  # it carries nothing
     assert np.all(np.isfinite(bare.friction_demand))
     for mass_ratio, error in ((0.0, 1e-15), (1e-7, 1e-5)):
         forces = of(mass_ratio, *motion)
-        for foot in (forces.base_left, forces.base_right):
-            np.testing.assert_allclose(2 * vector(foot), column, atol=error)
+        for base_force in (forces.base_left, forces.base_right):
+            np.testing.assert_allclose(2 * vector(base_force), column, atol=error)
 
 
 def test_resting_at_the_balance_point_needs_no_friction():
@@ -172,7 +172,7 @@ def test_strong_cosine_pulse_asks_twice_the_slenderness_of_a_column():
 
 @pytest.mark.parametrize("mass_ratio", [0.0, 0.2, 1.0, 7.0])
 @pytest.mark.parametrize("multiple", [1.0, 2.5, 6.0, 50.0])
-def test_feet_together_need_what_the_formula_says(mass_ratio, multiple):
+def test_base_contacts_together_need_what_the_formula_says(mass_ratio, multiple):
     forces = of(mass_ratio, 0.0, 0.0, multiple * TAN)
     horizontal, vertical = vector(forces.base_left) + vector(forces.base_right)
     tau = (1 + 4 * mass_ratio) / (4 * (1 + mass_ratio) * (1 + 3 * mass_ratio))
@@ -181,13 +181,13 @@ def test_feet_together_need_what_the_formula_says(mass_ratio, multiple):
     assert horizontal / vertical == pytest.approx(expected, rel=1e-12)
 
 
-def test_seat_opens_once_the_line_of_thrust_leaves_the_span():
+def test_column_top_contact_opens_once_the_line_of_thrust_leaves_the_span():
     limit = (CAP.span / 2 - SLENDER.half_width) / TAN  # b + d tan α = L/2
     for half_depth, opens in ((0.999 * limit, False), (1.001 * limit, True)):
         forces = of(1.5, 0.0, 0.0, TAN, cap=th.Cap(CAP.span, half_depth))
-        assert (forces.seat_right.vertical < 0.0) == (forces.least_vertical < 0.0) == opens
-        assert forces.seat_left.vertical > 0.0
-        for demand in (forces.seat_right.friction_demand, forces.friction_demand):
+        assert (forces.top_right.vertical < 0.0) == (forces.least_vertical < 0.0) == opens
+        assert forces.top_left.vertical > 0.0
+        for demand in (forces.top_right.friction_demand, forces.friction_demand):
             assert math.isinf(demand) == opens
 
 
@@ -201,32 +201,30 @@ def test_impulses_change_the_momentum_of_all_three_bodies(frame, before):
     after = frame.restitution * before
     mass, beam = masses(frame.mass_ratio)
     impulses = th.impact_impulses(frame, CAP, before)
-    base = [vector(impulses.base_left), vector(impulses.base_right)]
-    seat = [vector(impulses.seat_left), vector(impulses.seat_right)]
+    bases = [vector(impulses.base_left), vector(impulses.base_right)]
+    tops = [vector(impulses.top_left), vector(impulses.top_right)]
     old, new = points_of(column, -side * 1e-300), points_of(column, side * 1e-300)
 
     def velocity(arm, rate):  # of a body that turns clockwise
         return rate * np.array([arm[1], -arm[0]])
 
     centre, cap = (velocity(n, after) - velocity(o, before) for o, n in zip(old, new, strict=True))
-    for foot, head in zip(base, seat, strict=True):
-        np.testing.assert_allclose(foot - head, mass * centre, atol=1e-14)
-        moment = clockwise(-new[0], foot) - clockwise(new[1] - new[0], head)
+    for base_force, top_force in zip(bases, tops, strict=True):
+        np.testing.assert_allclose(base_force - top_force, mass * centre, atol=1e-14)
+        moment = clockwise(-new[0], base_force) - clockwise(new[1] - new[0], top_force)
         spin = mass * column.size**2 / 3 * (after - before)
         assert moment == pytest.approx(spin, abs=1e-14)
-    np.testing.assert_allclose(seat[0] + seat[1], beam * cap, atol=1e-14)
+    np.testing.assert_allclose(tops[0] + tops[1], beam * cap, atol=1e-14)
     shift = -side * column.half_width
     arms = [(shift + end * CAP.span / 2, -CAP.half_depth) for end in (-1, 1)]
-    moments = [clockwise(arm, push) for arm, push in zip(arms, seat, strict=True)]
+    moments = [clockwise(arm, push) for arm, push in zip(arms, tops, strict=True)]
     assert sum(moments) == pytest.approx(0.0, abs=1e-14)
 
 
 def test_solitary_column_needs_three_tan_alpha_over_four_plus_its_square_and_a_massless_one_it():
-    impulse = th.column_impulse(SLENDER, -0.6)
+    impulse = th.impact_impulses(th.RockingFrame(SLENDER, 0.0), CAP, -0.6).base_left
     assert min(impulse.vertical, impulse.horizontal) > 0.0  # it stops what moves to the left
     assert impulse.friction_demand == pytest.approx(3 * TAN / (4 + TAN**2), rel=1e-13)
-    frame = th.impact_impulses(th.RockingFrame(SLENDER, 0.0), CAP, -0.6)
-    np.testing.assert_allclose(2 * vector(frame.base_left), vector(impulse), rtol=1e-13)
     for contact in th.impact_impulses(th.RockingFrame(SLENDER, math.inf), CAP, 0.6).contacts:
         assert contact.friction_demand == pytest.approx(TAN, rel=1e-13)
 
@@ -240,11 +238,8 @@ STOCKY, NARROW = th.Column(0.7, 0.4), th.Cap(1.4, 0.2)
 @pytest.mark.parametrize(
     ("call", "says"),
     [
-        *(
-            (lambda f=f, x=x: th.Cap(**({"span": 3.0, "half_depth": 0.3} | {f: x})), f)
-            for f in ("span", "half_depth")
-            for x in (0.0, -1.0, math.inf, math.nan, "wide")
-        ),
+        (lambda: th.Cap(span=0.0, half_depth=0.3), "span is 0 m; expected more than zero"),
+        (lambda: th.Cap(span=3.0, half_depth=math.inf), "half_depth is inf; expected a finite"),
         (
             lambda: th.contact_forces(th.RockingFrame(SQUARE, 1.0), NARROW, 0.1, 0.0),
             r"span is 1\.4 m .* columns 1\.4 m wide",
@@ -253,25 +248,14 @@ STOCKY, NARROW = th.Column(0.7, 0.4), th.Cap(1.4, 0.2)
             lambda: th.impact_impulses(th.RockingFrame(th.Column(0.7, 2.0), 1.0), NARROW, 0.1),
             r"span is 1\.4 m",
         ),
-        *(
-            (
-                lambda k=k, x=x: th.column_forces(SLENDER, *[0.1] * k, x, *[0.1] * (2 - k)),
-                f"{n}: ele",
-            )
-            for k, n in enumerate(("rotation", "velocity", "ground_acceleration"))
-            for x in ("0.1", None, {})
-        ),
-        (lambda: th.column_impulse(SLENDER, "0.1"), "velocity: element 0 is "),
-        *(
-            (lambda f=f, x=x: f(x), "expected less than π/2")
-            for x in (math.pi / 2, [-1.7, math.nan, 0.1])
-            for f in (lambda x: of(1.0, x, 0.0), lambda x: th.column_forces(SLENDER, x, 0.0))
-        ),
+        (lambda: th.column_forces(SLENDER, "0.1", 0.1), "rotation: element 0 is '0.1'"),
+        (lambda: th.column_forces(SLENDER, 0.1, None), "velocity: element 0 is None"),
+        (lambda: th.column_forces(SLENDER, 0.1, 0.1, {}), "ground_acceleration: element 0 is {}"),
+        (lambda: of(1.0, [-1.7, math.nan, 0.1], 0.0), "up to 1.7 rad; expected less than π/2"),
         (
             lambda: th.impact_impulses(th.RockingFrame(STOCKY, 1.0), CAP, 0.5),
             "no rocking after an impact",
         ),
-        (lambda: th.column_impulse(STOCKY, 0.5), "no rocking after an impact"),
     ],
 )
 def test_bad_input_is_refused_by_name(call, says):

@@ -91,8 +91,8 @@ class Reaction:
         tangential = np.abs(self.horizontal)
         demand: Array = np.full(tangential.shape, np.inf)
         np.divide(tangential, self.vertical, out=demand, where=self.vertical > 0.0)
-        idle = (tangential == 0.0) & (self.vertical == 0.0)
-        return np.where(idle | np.isnan(self.vertical), np.nan, demand)
+        unloaded = (tangential == 0.0) & (self.vertical == 0.0)
+        return np.where(unloaded | np.isnan(self.vertical), np.nan, demand)
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,26 +103,26 @@ class ContactForces:
     ----------
     base_left, base_right : Reaction
         Of the ground on the left and the right column.
-    seat_left, seat_right : Reaction
-        Of the left and the right column on the cap.
+    top_left, top_right : Reaction
+        Of the top of the left and the right column on the cap beam.
 
     Examples
     --------
     >>> frame = th.RockingFrame(th.Column(0.5, 3.0), mass_ratio=2.0)
     >>> forces = th.contact_forces(frame, th.Cap(span=5.0, half_depth=0.4), 0.05, 0.0)
-    >>> round(forces.seat_right.vertical.item(), 3)
+    >>> round(forces.top_right.vertical.item(), 3)
     0.401
     """
 
     base_left: Reaction
     base_right: Reaction
-    seat_left: Reaction
-    seat_right: Reaction
+    top_left: Reaction
+    top_right: Reaction
 
     @property
     def contacts(self) -> tuple[Reaction, Reaction, Reaction, Reaction]:
         """The four, in the order above."""
-        return self.base_left, self.base_right, self.seat_left, self.seat_right
+        return self.base_left, self.base_right, self.top_left, self.top_right
 
     @property
     def friction_demand(self) -> Array:
@@ -175,13 +175,13 @@ def contact_forces(
     >>> round(forces.base_left.vertical.item(), 3)
     0.422
     """
-    check_span(frame, cap)
-    at = motion_state(frame.column, rotation, velocity, ground_acceleration)
+    _check_span(frame, cap)
+    motion = motion_state(frame.column, rotation, velocity, ground_acceleration)
     size, p_hat = frame.column.size, frame.frequency_parameter
-    each, beam = weights(frame.mass_ratio)
-    on_column = _load(at, size, p_hat)  # Eqs. (10), (11)
-    on_cap = _load(at, 2.0 * size, p_hat)  # Eqs. (12), (13)
-    return _shared(frame, cap, at.side, at.lean, on_column.times(each), on_cap.times(beam))
+    column_weight, beam_weight = weights(frame.mass_ratio)
+    column = _inertia_force(motion, size, p_hat, column_weight)  # Eqs. (10), (11)
+    beam = _inertia_force(motion, 2.0 * size, p_hat, beam_weight)  # Eqs. (12), (13)
+    return _distributed(frame, cap, motion.side, motion.lean, column, beam)
 
 
 def column_forces(
@@ -202,11 +202,11 @@ def column_forces(
     >>> th.column_forces(th.Column(0.5, 3.0), 0.0, 0.0, 0.05).vertical.item()
     1.0
     """
-    at = motion_state(column, rotation, velocity, ground_acceleration)
-    rocking = _load(at, column.size, column.frequency_parameter)
-    rests = (at.rotation == 0.0) & (at.velocity == 0.0) & np.isnan(at.side)
+    motion = motion_state(column, rotation, velocity, ground_acceleration)
+    rocking = _inertia_force(motion, column.size, column.frequency_parameter, 1.0)
+    rests = (motion.rotation == 0.0) & (motion.velocity == 0.0) & np.isnan(motion.side)
     return Reaction(
-        np.where(rests, at.ground, rocking.horizontal), np.where(rests, 1.0, rocking.vertical)
+        np.where(rests, motion.ground, rocking.horizontal), np.where(rests, 1.0, rocking.vertical)
     )
 
 
@@ -235,43 +235,14 @@ def impact_impulses(frame: RockingFrame, cap: Cap, velocity: ArrayLike) -> Conta
     >>> round(impulses.base_left.vertical.item(), 3)
     0.333
     """
-    check_span(frame, cap)
-    column, restitution = frame.column, frame.block().restitution
-    each, beam = weights(frame.mass_ratio)
-    centre = _jump(column, restitution, column.size, velocity)
-    ends = _jump(column, restitution, 2.0 * column.size, velocity)
+    _check_span(frame, cap)
+    column_weight, beam_weight = weights(frame.mass_ratio)
+    size = frame.column.size
+    column = _impulse(frame, size, velocity, column_weight)
+    beam = _impulse(frame, 2.0 * size, velocity, beam_weight)
     side = np.sign(np.asarray(velocity, dtype=float))
-    lean = np.full(side.shape, column.slenderness)
-    return _shared(frame, cap, side, lean, centre.times(each), ends.times(beam))
-
-
-def column_impulse(column: Column, velocity: ArrayLike) -> Reaction:
-    """Return the impulse of the ground on a solitary column at an impact, over its mass, in m/s.
-
-    velocity is θ̇ before the impact, rad/s; √r is Housner's.
-
-    Raises
-    ------
-    ValueError
-        When Housner's √r is negative.
-
-    Examples
-    --------
-    >>> round(th.column_impulse(th.Column(0.5, 3.0), 0.5).vertical.item(), 3)
-    0.49
-    """
-    jump = _jump(column, column.block().restitution, column.size, velocity)
-    return Reaction(jump.horizontal, jump.vertical)
-
-
-class _Pair(NamedTuple):
-    """A horizontal and a vertical component, to the right and upward."""
-
-    horizontal: Array
-    vertical: Array
-
-    def times(self, factor: float) -> _Pair:
-        return _Pair(factor * self.horizontal, factor * self.vertical)
+    lean = np.full(side.shape, frame.slenderness)
+    return _distributed(frame, cap, side, lean, column, beam)
 
 
 class _State(NamedTuple):
@@ -286,25 +257,21 @@ class _State(NamedTuple):
     cosine: Array
 
 
-def checked_motion(
-    rotation: ArrayLike, velocity: ArrayLike, ground_acceleration: ArrayLike
-) -> tuple[Array, Array, Array]:
-    """Return θ, θ̇ and ü_g as arrays of one shape, or raise ValueError for θ of π/2 or more."""
+def motion_state(
+    column: Column, rotation: ArrayLike, velocity: ArrayLike, ground_acceleration: ArrayLike
+) -> _State:
+    """Return a motion as arrays of one shape, or raise ValueError for θ of π/2 or more."""
     theta, rate, ground = np.broadcast_arrays(
         checks.numbers("rotation", rotation),
         checks.numbers("velocity", velocity),
         checks.numbers("ground_acceleration", ground_acceleration),
     )
     if np.any(np.abs(theta) >= math.pi / 2):
-        worst = float(np.nanmax(np.abs(theta)))
-        raise ValueError(f"rotation is up to {worst:.6g} rad; expected less than π/2, lying flat")
-    return theta, rate, ground
-
-
-def motion_state(
-    column: Column, rotation: ArrayLike, velocity: ArrayLike, ground_acceleration: ArrayLike
-) -> _State:
-    theta, rate, ground = checked_motion(rotation, velocity, ground_acceleration)
+        largest = float(np.nanmax(np.abs(theta)))
+        raise ValueError(
+            f"rotation is up to {largest:.6g} rad; expected less than π/2, where the column lies "
+            "flat"
+        )
     uplifted = np.where(np.abs(ground) >= column.uplift_acceleration, -np.sign(ground), np.nan)
     moving = np.where(rate != 0.0, np.sign(rate), uplifted)
     side = np.where(theta != 0.0, np.sign(theta), moving)
@@ -312,39 +279,41 @@ def motion_state(
     return _State(theta, rate, ground, side, lean, np.sin(lean), np.cos(lean))
 
 
-def _load(at: _State, distance: float, frequency: float) -> _Pair:
-    """Return the force, over its weight, on a body whose centre is this far (m) from the pivot.
+def _inertia_force(motion: _State, distance: float, frequency: float, weight: float) -> Reaction:
+    """Return the force on a body, for its share of the weight.
 
-    The body moves with the diagonal through the pivot, and rides on the accelerating ground: the
-    column's centre at R, the cap at 2R. That its force is (ü_g + ẍ, g + z̈)/g is Newton's law.
+    Its centre is this distance (m) from the pivot: the column's at R, the cap beam's at 2R. It
+    moves with the diagonal through the pivot and with the ground. By Newton's law the force over
+    the body's own weight is (ü_g + ẍ, g + z̈)/g.
     """
-    s, sin, cos = at.side, at.sine, at.cosine
-    acceleration = -(frequency**2) * (s * sin + at.ground * cos)  # Eq. (23)
+    s, sin, cos = motion.side, motion.sine, motion.cosine
+    acceleration = -(frequency**2) * (s * sin + motion.ground * cos)  # Eq. (23)
     across = distance * acceleration / STANDARD_GRAVITY
-    inward = distance * at.velocity**2 / STANDARD_GRAVITY
-    return _Pair(
-        at.ground + across * cos + inward * s * sin,  # Eq. (6)
-        1.0 + across * s * sin - inward * cos,  # Eq. (9), as meant
+    inward = distance * motion.velocity**2 / STANDARD_GRAVITY
+    return Reaction(
+        weight * (motion.ground + across * cos + inward * s * sin),  # Eq. (6)
+        weight * (1.0 + across * s * sin - inward * cos),  # Eq. (9), as meant
     )
 
 
-def _jump(column: Column, restitution: float, distance: float, velocity: ArrayLike) -> _Pair:
-    """Return the jump of velocity (m/s) at this distance (m) along the diagonal, at an impact.
+def _impulse(frame: RockingFrame, distance: float, velocity: ArrayLike, mass: float) -> Reaction:
+    """Return the impulse (m/s) on a body at an impact, for its share of the mass.
 
-    The horizontal velocity drops from θ̇ to √r θ̇ times the height; the vertical one turns from
-    falling to rising, as the pivot changes over.
+    Its centre is this distance (m) along the diagonal. Its horizontal velocity drops by the factor
+    √r. Its vertical velocity turns from downward to upward, since the pivot changes.
     """
-    rate, alpha = checks.numbers("velocity", velocity), column.slenderness
-    return _Pair(
-        -distance * math.cos(alpha) * (1.0 - restitution) * rate,
-        distance * math.sin(alpha) * (1.0 + restitution) * np.abs(rate),
+    rate, alpha = checks.numbers("velocity", velocity), frame.slenderness
+    restitution = frame.block().restitution
+    return Reaction(
+        mass * (-distance * math.cos(alpha) * (1.0 - restitution) * rate),
+        mass * (distance * math.sin(alpha) * (1.0 + restitution) * np.abs(rate)),
     )
 
 
-def _shared(
-    frame: RockingFrame, cap: Cap, side: Array, lean: Array, column: _Pair, beam: _Pair
+def _distributed(
+    frame: RockingFrame, cap: Cap, side: Array, lean: Array, column: Reaction, beam: Reaction
 ) -> ContactForces:
-    """Distribute the forces on both columns and the cap over the four contacts.
+    """Distribute the forces on one column and on the cap beam over the four contacts.
 
     The cap beam's moments determine how much vertical force shifts from the left column top to the
     right one. The corresponding horizontal force follows the diagonals.
@@ -352,25 +321,25 @@ def _shared(
     b, d = frame.column.half_width, cap.half_depth
     shift = (side * b * beam.vertical - d * beam.horizontal) / cap.span
     aside = -side * np.tan(lean) * shift
-    left, right = (
+    top_left, top_right = (
         Reaction(beam.horizontal / 2.0 + end * aside, beam.vertical / 2.0 + end * shift)
         for end in (-1.0, 1.0)
     )
     base_left, base_right = (
-        Reaction(seat.horizontal + column.horizontal, seat.vertical + column.vertical)
-        for seat in (left, right)
+        Reaction(top.horizontal + column.horizontal, top.vertical + column.vertical)
+        for top in (top_left, top_right)
     )
-    return ContactForces(base_left, base_right, left, right)
+    return ContactForces(base_left, base_right, top_left, top_right)
 
 
 def weights(mass_ratio: float) -> tuple[float, float]:
-    """Return the shares of one column and of the cap in the weight of the frame."""
+    """Return the shares of one column and of the cap beam in the weight of the frame."""
     if mass_ratio == math.inf:
         return 0.0, 1.0
     return 0.5 / (1.0 + mass_ratio), mass_ratio / (1.0 + mass_ratio)
 
 
-def check_span(frame: RockingFrame, cap: Cap) -> None:
+def _check_span(frame: RockingFrame, cap: Cap) -> None:
     """Raise ValueError unless the columns are further apart than they are wide."""
     width = 2.0 * frame.column.half_width
     if not cap.span > width:

@@ -1,4 +1,4 @@
-"""Base shear, overturning moment and bending moments of a rocking frame.
+"""Base shear, overturning moment and bending moments of a rocking frame, and of a clamped one.
 
 They follow from the contact forces of `topheavy.contact_forces`. A column is loaded by the forces
 at its two contacts, half its width beside its axis, and by its own weight and inertia. With t and n
@@ -22,6 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from topheavy.bodies.structures import STANDARD_GRAVITY, RockingFrame
 from topheavy.forces.contact import Cap, contact_forces, motion_state, weights
+from topheavy.ground.excitation import Excitation, checked_excitation
 
 Array = NDArray[np.float64]
 
@@ -76,22 +77,22 @@ def frame_forces(
     -0.1019
     """
     contacts = contact_forces(frame, cap, rotation, velocity, ground_acceleration)
-    at = motion_state(frame.column, rotation, velocity, ground_acceleration)
-    rests, half_height = np.isnan(at.side), frame.column.half_height
-    corner = at.side * frame.column.half_width
+    motion = motion_state(frame.column, rotation, velocity, ground_acceleration)
+    rests, half_height = np.isnan(motion.side), frame.column.half_height
+    corner = motion.side * frame.column.half_width
     bases = contacts.base_left, contacts.base_right
     horizontal = np.stack([base.horizontal for base in bases], axis=-1)
     vertical = np.stack([base.vertical for base in bases], axis=-1)
     axes = np.array([-0.5, 0.5]) * cap.span
-    shear = np.where(rests, at.ground, horizontal.sum(axis=-1))
+    shear = np.where(rests, motion.ground, horizontal.sum(axis=-1))
     moment = -((corner[..., None] + axes) * vertical).sum(axis=-1)
-    moment = np.where(rests, at.ground * centre_height(frame, cap), moment)
+    moment = np.where(rests, motion.ground * centre_height(frame, cap), moment)
 
-    sin, cos = np.sin(at.rotation), np.cos(at.rotation)
-    push = at.side * at.sine + at.ground * at.cosine
+    sin, cos = np.sin(motion.rotation), np.cos(motion.rotation)
+    push = motion.side * motion.sine + motion.ground * motion.cosine
     turn = -(frame.frequency_parameter**2) * push / STANDARD_GRAVITY  # Eq. (23)
     load = weights(frame.mass_ratio)[0] / (2.0 * half_height)
-    steady = at.ground * cos - sin + corner * at.velocity**2 / STANDARD_GRAVITY
+    steady = motion.ground * cos - sin + corner * motion.velocity**2 / STANDARD_GRAVITY
     y = 2.0 * half_height * HEIGHTS
     own = turn * frame.column.half_width**2 / 3.0  # rotary inertia
     span_loads = y * (own[..., None] - y * (steady[..., None] / 2.0 + y * turn[..., None] / 6.0))
@@ -125,11 +126,36 @@ def largest_forces(
     """
     moves = rotation.any(axis=1)
     moves = moves if moves.any() else ~moves
-    found = frame_forces(frame, cap, *(x[moves] for x in (rotation, velocity, ground_acceleration)))
-    bending = np.abs(found.bending_moment).max(axis=(-2, -1))
-    sizes = np.stack([np.abs(found.base_shear), np.abs(found.overturning_moment), bending])
+    arcs = (x[moves] for x in (rotation, velocity, ground_acceleration))
+    forces = frame_forces(frame, cap, *arcs)
+    bending = np.abs(forces.bending_moment).max(axis=(-2, -1))
+    sizes = np.stack([np.abs(forces.base_shear), np.abs(forces.overturning_moment), bending])
     sizes = np.nan_to_num(sizes)
     return np.stack([sizes.max(axis=(1, 2)), sizes[:, :, ::2].max(axis=(1, 2))])
+
+
+def clamped_forces(frame: RockingFrame, cap: Cap, excitation: Excitation) -> Array:
+    """Return the largest forces of the same rigid frame if it is clamped against uplift.
+
+    Its columns are fixed to the ground and pinned to the cap beam: each is a cantilever under its
+    own inertia and half that of the cap beam at its top. Everything moves with the ground.
+
+    Returns
+    -------
+    ndarray, shape (3,)
+        Base shear, overturning moment and bending moment, over the weight as in `FrameForces`.
+
+    Examples
+    --------
+    >>> frame, pulse = th.RockingFrame(th.Column(0.5, 3.0), 2.0), th.Pulse("one-sine", 0.1, 2.0)
+    >>> th.clamped_forces(frame, th.Cap(span=5.0, half_depth=0.4), pulse).round(4)
+    array([0.1   , 0.5267, 0.25  ])
+    """
+    segments = checked_excitation(excitation, ends=True).segments(excitation.duration)
+    peak = max(segment.largest(segment.start, segment.stop) for segment in segments)
+    column, beam = weights(frame.mass_ratio)
+    bending = (beam + column) * frame.column.half_height
+    return np.array([1.0, centre_height(frame, cap), bending]) * peak
 
 
 def base_shear_slope(frame: RockingFrame) -> float:
@@ -149,6 +175,6 @@ def base_shear_slope(frame: RockingFrame) -> float:
 
 def centre_height(frame: RockingFrame, cap: Cap) -> float:
     """Return the height of the centre of gravity of the resting frame, m."""
-    columns = 0.0 if frame.mass_ratio == math.inf else 1.0 / (1.0 + frame.mass_ratio)
+    column, beam = weights(frame.mass_ratio)
     h = frame.column.half_height
-    return columns * h + (1.0 - columns) * (2.0 * h + cap.half_depth)
+    return 2.0 * column * h + beam * (2.0 * h + cap.half_depth)
