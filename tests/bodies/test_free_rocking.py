@@ -109,12 +109,11 @@ def test_quarter_period_is_that_of_the_pendulum_on_its_head(slenderness, fractio
 
     Released at π − u₀ from its lowest point, it is timed down to π − α.
     """
-    found, error = quarter_period(RockingBlock(P, slenderness, 0.9), fraction * slenderness)
+    found = quarter_period(RockingBlock(P, slenderness, 0.9), fraction * slenderness)
     modulus = math.cos(slenderness * (1 - fraction) / 2)
     reached = math.asin(math.cos(slenderness / 2) / modulus)
     expected = float(ellipk(modulus**2) - ellipkinc(reached, modulus**2)) / P
     assert found == pytest.approx(expected, rel=1e-8)
-    assert 0.0 <= error < 1e-9 * found
 
 
 @pytest.mark.parametrize("slenderness", [0.05, 0.25, 1.0])
@@ -126,13 +125,13 @@ def test_small_rotations_fall_as_under_a_constant_moment(slenderness):
         close = fraction + (1e-4 if fraction == 1e-12 else 1e-9)
         for each, moment in ((block, math.sin(slenderness)), (block.linear(), slenderness)):
             expected = math.sqrt(2 * start / moment) / P
-            assert quarter_period(each, start)[0] == pytest.approx(expected, rel=close)
+            assert quarter_period(each, start) == pytest.approx(expected, rel=close)
 
 
 @BOTH
 def test_longer_falls_take_longer_without_bound_and_those_without_an_end_are_refused(block):
     fractions = [0.01, 0.1, 0.5, 0.9, 0.99, 1 - 1e-6, 1 - 1e-9]
-    times = [quarter_period(block, fraction * ALPHA)[0] for fraction in fractions]
+    times = [quarter_period(block, fraction * ALPHA) for fraction in fractions]
     assert np.all(np.diff(times) > 0.0)
     assert P * times[-1] > 20.0
     for fraction in (0.0, -0.5, 1.0, 1.2):

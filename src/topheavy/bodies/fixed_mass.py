@@ -17,7 +17,6 @@ has neither structure; they are what its cap beam would do if it could not turn 
 from __future__ import annotations
 
 import math
-from abc import ABC, abstractmethod
 from dataclasses import dataclass
 
 from topheavy import checks
@@ -25,30 +24,45 @@ from topheavy.bodies.structures import (
     STANDARD_GRAVITY,
     Column,
     RockingBlock,
+    checked_column,
     checked_mass_ratio,
     checked_restitution,
     solitary_size,
 )
-from topheavy.checks import short
 
 
-class _OneBody(ABC):
+class _OneBody:
     """One rigid body, symmetric about its vertical axis, on the two edges of its base."""
 
+    column: Column
+    mass_ratio: float
+    cap_depth: float
+
+    def _axis_and_cap_width(self) -> tuple[float, float]:
+        """Return the distance of the columns' axes from the middle, and the cap's width, m."""
+        raise NotImplementedError
+
     @property
-    @abstractmethod
     def half_base(self) -> float:
         """B, m: from the vertical axis to the edge that it rocks about."""
+        axis, _ = self._axis_and_cap_width()
+        return axis + self.column.half_width
 
     @property
-    @abstractmethod
     def centre_height(self) -> float:
         """H, m: of the centre of gravity above the ground."""
+        h, cap = self.column.half_height, _cap_mass_share(self.mass_ratio)
+        return (1.0 - cap) * h + cap * (2.0 * h + self.cap_depth / 2.0)
 
     @property
-    @abstractmethod
     def inertia(self) -> float:
         """I/M, m²: moment of inertia about the edge over the mass."""
+        b, h, depth = self.column.half_width, self.column.half_height, self.cap_depth
+        axis, width = self._axis_and_cap_width()
+        cap, base = _cap_mass_share(self.mass_ratio), self.half_base**2
+        of_columns = (b**2 + h**2) / 3.0 + base + axis**2 + h**2
+        of_cap = (width**2 + depth**2) / 12.0 + base + (2.0 * h + depth / 2.0) ** 2
+        return (1.0 - cap) * of_columns + cap * of_cap
 
     @property
     def slenderness(self) -> float:
@@ -82,8 +96,8 @@ class _OneBody(ABC):
         Raises
         ------
         ValueError
-            When √r' is negative: such a body does not keep rocking. The largest α that the message
-            names is that of a body with the same H and the same central moment of inertia.
+            When √r' is negative: such a body does not keep rocking. The message names the largest α
+            of a body with the same H and the same central moment of inertia.
         """
         if restitution is None:
             central = self.inertia - self.half_base**2  # √r' = 0 where B² reaches this
@@ -109,7 +123,7 @@ class FixedMassColumn(_OneBody):
     Raises
     ------
     ValueError
-        For a γ that is negative or not a number, and for negative or infinite lengths.
+        For a γ or a length outside its range.
 
     Examples
     --------
@@ -123,24 +137,13 @@ class FixedMassColumn(_OneBody):
     cap_depth: float = 0.0
 
     def __post_init__(self) -> None:
-        _check(self.column, self.mass_ratio)
+        checked_column(self.column)
+        checked_mass_ratio(self.mass_ratio)
         checks.not_negative("cap_width", self.cap_width, "m")
         checks.not_negative("cap_depth", self.cap_depth, "m")
 
-    @property
-    def half_base(self) -> float:
-        """B = b, m."""
-        return self.column.half_width
-
-    @property
-    def centre_height(self) -> float:
-        """H, m; h (1 + 2γ)/(1 + γ) for a mass that is concentrated at the top."""
-        return _centre_height(self.column, self.mass_ratio, self.cap_depth)
-
-    @property
-    def inertia(self) -> float:
-        """I/M, m²: moment of inertia about the edge over the mass."""
-        return _inertia(self.column, self.mass_ratio, 0.0, self.cap_width, self.cap_depth)
+    def _axis_and_cap_width(self) -> tuple[float, float]:
+        return 0.0, self.cap_width
 
 
 @dataclass(frozen=True)
@@ -154,15 +157,14 @@ class MonolithicPortal(_OneBody):
     mass_ratio : float
         γ = m_b / 2 m_c, as of `RockingFrame`.
     span : float
-        L, m, between the axes of the columns.
+        L, m, between the axes of the columns, which must not overlap.
     cap_depth, overhang : float
         Depth of the cap beam, and how far it extends beyond the outer faces of the columns, m.
 
     Raises
     ------
     ValueError
-        For a γ that is negative or not a number, columns that overlap, and lengths that are
-        negative or infinite.
+        For a γ or a length outside its range.
 
     Examples
     --------
@@ -178,48 +180,16 @@ class MonolithicPortal(_OneBody):
     overhang: float = 0.0
 
     def __post_init__(self) -> None:
-        _check(self.column, self.mass_ratio)
+        checked_column(self.column)
+        checked_mass_ratio(self.mass_ratio)
         checks.wider_than_column(self.span, 2.0 * self.column.half_width)
         checks.not_negative("cap_depth", self.cap_depth, "m")
         checks.not_negative("overhang", self.overhang, "m")
 
-    @property
-    def half_base(self) -> float:
-        """B = L/2 + b, m."""
-        return self.span / 2.0 + self.column.half_width
-
-    @property
-    def centre_height(self) -> float:
-        """H, m: that of either column with its half of the cap beam."""
-        return _centre_height(self.column, self.mass_ratio, self.cap_depth)
-
-    @property
-    def inertia(self) -> float:
-        """I/M, m²: moment of inertia about the outer edge over the mass."""
-        width = 2.0 * (self.half_base + self.overhang)
-        return _inertia(self.column, self.mass_ratio, self.span / 2.0, width, self.cap_depth)
+    def _axis_and_cap_width(self) -> tuple[float, float]:
+        return self.span / 2.0, self.span + 2.0 * (self.column.half_width + self.overhang)
 
 
-def _check(column: Column, mass_ratio: float) -> None:
-    if not isinstance(column, Column):
-        raise ValueError(f"column is {short(column)}; expected a Column")
-    checked_mass_ratio(mass_ratio)
-
-
-def _share_of_cap(mass_ratio: float) -> float:
+def _cap_mass_share(mass_ratio: float) -> float:
     """Return γ/(1 + γ), the cap's share of the mass."""
     return 1.0 if mass_ratio == math.inf else mass_ratio / (1.0 + mass_ratio)
-
-
-def _centre_height(column: Column, mass_ratio: float, depth: float) -> float:
-    cap = _share_of_cap(mass_ratio)
-    return (1.0 - cap) * column.half_height + cap * (2.0 * column.half_height + depth / 2.0)
-
-
-def _inertia(column: Column, mass_ratio: float, axis: float, width: float, depth: float) -> float:
-    """Return I/M about the edge, m², of columns whose axes are `axis` (m) off the middle."""
-    b, h = column.half_width, column.half_height
-    cap, base = _share_of_cap(mass_ratio), (axis + b) ** 2
-    of_columns = (b**2 + h**2) / 3.0 + base + axis**2 + h**2
-    of_cap = (width**2 + depth**2) / 12.0 + base + (2.0 * h + depth / 2.0) ** 2
-    return (1.0 - cap) * of_columns + cap * of_cap

@@ -17,25 +17,11 @@ from topheavy.bodies.fixed_mass import FixedMassColumn, MonolithicPortal
 from topheavy.bodies.structures import Column, RockingFrame, Structure
 from topheavy.checks import short
 
-Pair = tuple[NDArray[np.float64], NDArray[np.float64]]
+Array = NDArray[np.float64]
 
 
-def cap_displacement(
-    column: Column, rotation: ArrayLike
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the horizontal and vertical displacements u, v of the cap beam, m: Eqs. (4), (7).
-
-    Parameters
-    ----------
-    column : Column
-        Each of those under the cap beam.
-    rotation : array_like
-        θ, rad; u and v have its shape.
-
-    Raises
-    ------
-    ValueError
-        For rotations that are no numbers.
+def cap_displacement(column: Column, rotation: ArrayLike) -> tuple[Array, Array]:
+    """Return the displacements u (to the right) and v (upward) of the cap beam, m: Eqs. (4), (7).
 
     Examples
     --------
@@ -50,16 +36,9 @@ def cap_displacement(
     return u, v
 
 
-def cap_velocity(column: Column, rotation: ArrayLike, velocity: ArrayLike) -> Pair:
-    """Return u̇ and v̇ of the cap beam, m/s, from θ and θ̇ (rad/s): Eqs. (5), (8)."""
-    side, lean = _side_and_lean(column, rotation)
-    rate = 2.0 * column.size * np.asarray(velocity, dtype=float)
-    return np.cos(lean) * rate, side * np.sin(lean) * rate  # Eq. (5), Eq. (8)
-
-
 def cap_acceleration(
     column: Column, rotation: ArrayLike, velocity: ArrayLike, acceleration: ArrayLike
-) -> Pair:
+) -> tuple[Array, Array]:
     """Return ü and v̈ of the cap beam, m/s², from θ, θ̇ (rad/s) and θ̈ (rad/s²): Eqs. (6), (9)."""
     side, lean = _side_and_lean(column, rotation)
     diagonal = 2.0 * column.size
@@ -70,50 +49,32 @@ def cap_acceleration(
     return u, v
 
 
-def _side_and_lean(column: Column, rotation: ArrayLike) -> Pair:
+def _side_and_lean(column: Column, rotation: ArrayLike) -> tuple[Array, Array]:
     """Return s (+1 at θ = 0, where the formulas of both sides agree in u and v) and α − |θ|."""
     theta = checks.numbers("rotation", rotation)
     return np.where(theta < 0.0, -1.0, 1.0), column.slenderness - np.abs(theta)
 
 
-def turned_with_column(
-    column: Column, rotation: float, corners: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Return the positions (m), shape (n, 2), of points fixed to a column that rocked by θ.
-
-    The origin is the middle of the base at rest. For θ < 0 the column turns about its left corner,
-    for θ > 0 about its right one.
-    """
-    pivot = np.array([np.copysign(column.half_width, rotation), 0.0])
-    cos, sin = np.cos(rotation), np.sin(rotation)
-    turn = np.array([[cos, -sin], [sin, cos]])  # clockwise for θ > 0, on row vectors
-    turned: NDArray[np.float64] = (corners - pivot) @ turn + pivot
-    return turned
-
-
-def column_outline(column: Column, rotation: float) -> NDArray[np.float64]:
+def column_outline(column: Column, rotation: float) -> Array:
     """Return the corners of a column that has rocked by θ (rad), shape (5, 2), m, closed.
 
     The origin is the middle of the base at rest; the first corner is the lower left one.
     """
-    b, h = column.half_width, column.half_height
-    corners = np.array([[-b, 0.0], [b, 0.0], [b, 2 * h], [-b, 2 * h], [-b, 0.0]])
-    return turned_with_column(column, rotation, corners)
+    corners = _rectangle(2.0 * column.half_width, 0.0, 2.0 * column.half_height)
+    return _turned(column.half_width, rotation, corners)
 
 
 def outlines(
     structure: Structure, rotation: float, cap_width: float, cap_depth: float
-) -> dict[str, NDArray[np.float64]]:
-    """Return the corners of the bodies of a structure that has rocked by θ, by their names.
+) -> dict[str, Array]:
+    """Return the corners of the bodies of a structure that has rocked by θ (rad), by their names.
 
     Parameters
     ----------
     structure : Column, FixedMassColumn, RockingFrame or MonolithicPortal
-    rotation : float
-        θ, rad.
     cap_width, cap_depth : float
-        As the cap is drawn, m: its mass does not follow from them. The outer faces of a frame's
-        columns are under its ends; a portal has its own span.
+        Of the cap as it is drawn, m: its mass does not follow from them. The outer faces of a
+        frame's columns are under its ends; a portal has its own span.
 
     Returns
     -------
@@ -123,27 +84,26 @@ def outlines(
     Raises
     ------
     ValueError
-        For another structure, which has no bodies.
+        For another structure: it has no dimensions.
     """
     if isinstance(structure, Column):
         return {"column": column_outline(structure, rotation)}
     if not isinstance(structure, FixedMassColumn | MonolithicPortal | RockingFrame):
         raise ValueError(
             f"structure is {short(structure)}; expected a Column, FixedMassColumn, RockingFrame or "
-            "MonolithicPortal, which have bodies"
+            "MonolithicPortal, which have dimensions"
         )
     column, top = structure.column, 2.0 * structure.column.half_height
     beam = _rectangle(cap_width, top, cap_depth)
     if isinstance(structure, FixedMassColumn):
         return {
             "column": column_outline(column, rotation),
-            "cap": turned_with_column(column, rotation, beam),
+            "cap": _turned(column.half_width, rotation, beam),
         }
     if isinstance(structure, MonolithicPortal):
-        whole = Column(structure.half_base, 1.0)  # whose base is that of the portal
         upright, axis = column_outline(column, 0.0), np.array([structure.span / 2.0, 0.0])
         parts = {"left column": upright - axis, "right column": upright + axis, "cap": beam}
-        return {name: turned_with_column(whole, rotation, part) for name, part in parts.items()}
+        return {name: _turned(structure.half_base, rotation, part) for name, part in parts.items()}
     axis = np.array([cap_width / 2.0 - column.half_width, 0.0])
     outline = column_outline(column, rotation)
     return {
@@ -153,7 +113,16 @@ def outlines(
     }
 
 
-def _rectangle(width: float, low: float, depth: float) -> NDArray[np.float64]:
-    """Return the corners of a rectangle over the origin, shape (5, 2), m, closed."""
+def _turned(half_base: float, rotation: float, corners: Array) -> Array:
+    """Return the positions (m) of points fixed to a body that rocked by θ about its base's edge."""
+    pivot = np.array([np.copysign(half_base, rotation), 0.0])
+    cos, sin = np.cos(rotation), np.sin(rotation)
+    turn = np.array([[cos, -sin], [sin, cos]])  # clockwise for θ > 0, on row vectors
+    turned: Array = (corners - pivot) @ turn + pivot
+    return turned
+
+
+def _rectangle(width: float, low: float, depth: float) -> Array:
+    """Return the corners of a rectangle centred above the origin, shape (5, 2), m, closed."""
     side, high = width / 2.0, low + depth
     return np.array([[-side, low], [side, low], [side, high], [-side, high], [-side, low]])

@@ -2,7 +2,7 @@
 
 Makris & Vassiliou (2014): between impacts the frame obeys the equation of motion of a solitary
 column, Eq. (23) against Eq. (3), with the same slenderness and a lower frequency parameter. Hence
-three numbers are all that the dynamics sees of either: p, α and √r.
+the dynamics of either needs three numbers only: p, α and √r.
 """
 
 from __future__ import annotations
@@ -16,11 +16,6 @@ from topheavy.checks import short
 
 STANDARD_GRAVITY = 9.81
 """Acceleration of gravity g, m/s², as the paper's numbers imply it (2.15 m/s² = 0.219 g, p. 4)."""
-
-LARGEST_MASS_RATIO = 100.0
-"""γ: above it, unless it is infinite, a warning asks whether a mass was given for a ratio."""
-SMALLEST_MASS_RATIO = 0.01
-"""γ of a frame by its masses: below it, a warning asks whether both are in one unit."""
 
 
 @dataclass(frozen=True)
@@ -85,12 +80,7 @@ class Column:
     Parameters
     ----------
     half_width, half_height : float
-        b and h, m. A warning says if that is a column of more than `checks.LONGEST`.
-
-    Raises
-    ------
-    ValueError
-        Unless both are positive and finite.
+        b and h, m; otherwise than positive and finite, they raise ValueError.
 
     Examples
     --------
@@ -104,12 +94,6 @@ class Column:
     def __post_init__(self) -> None:
         checks.positive("half_width", self.half_width, "m")
         checks.positive("half_height", self.half_height, "m")
-        if (height := 2.0 * max(self.half_width, self.half_height)) > checks.LONGEST:
-            checks.warn(
-                f"a side of the column is {height:.6g} m long, and few exceed "
-                f"{checks.LONGEST:g} m: are the lengths in cm or mm? Then it is "
-                f"{height / 100.0:.6g} or {height / 1000.0:.6g} m"
-            )
 
     def __repr__(self) -> str:
         """Return both fields and, as these are easily mistaken for the whole, the dimensions."""
@@ -120,13 +104,7 @@ class Column:
 
     @classmethod
     def of_dimensions(cls, *, width: float, height: float) -> Column:
-        """Return the column of a width 2b and a height 2h, m.
-
-        Raises
-        ------
-        ValueError
-            Unless both are positive and finite.
-        """
+        """Return the column of a width 2b and a height 2h, m."""
         return cls(
             checks.positive("width", width, "m") / 2.0, checks.positive("height", height, "m") / 2.0
         )
@@ -181,13 +159,8 @@ class RockingFrame:
         Either of the two.
     mass_ratio : float
         γ = m_b / 2 m_c, the mass of the cap beam over that of both columns; from 0 (the solitary
-        column) to `math.inf` (the limit of Allen et al. 1986: columns without mass). A warning says
-        if a finite one exceeds `LARGEST_MASS_RATIO`.
-
-    Raises
-    ------
-    ValueError
-        For a γ that is negative or not a number.
+        column) to `math.inf` (the limit of Allen et al. 1986: columns without mass). A negative one
+        raises ValueError.
 
     Examples
     --------
@@ -199,8 +172,7 @@ class RockingFrame:
     mass_ratio: float
 
     def __post_init__(self) -> None:
-        if not isinstance(self.column, Column):
-            raise ValueError(f"column is {short(self.column)}; expected a Column")
+        checked_column(self.column)
         checked_mass_ratio(self.mass_ratio)
 
     @classmethod
@@ -217,27 +189,19 @@ class RockingFrame:
         column : Column
             Each of them.
         cap_mass, column_mass : float
-            m_b of the cap beam and m_c of one column, in the same unit. A warning asks whether they
-            are if γ is below `SMALLEST_MASS_RATIO` or above `LARGEST_MASS_RATIO`.
+            m_b of the cap beam and m_c of one column, in the same unit.
         columns : int
             N, 2 or more: a cap beam on one column would tilt.
 
         Raises
         ------
         ValueError
-            For a mass of a column that is not positive, a negative mass of the cap beam, or fewer
-            than two columns.
+            For a mass or a number of columns outside its range.
         """
         if not isinstance(columns, int) or isinstance(columns, bool) or columns < 2:
             raise ValueError(f"columns is {columns!r}; expected a whole number from 2 on")
         cap = checks.not_negative("cap_mass", cap_mass)
-        ratio = cap / (columns * checks.positive("column_mass", column_mass))
-        if 0.0 < ratio < SMALLEST_MASS_RATIO:
-            checks.warn(
-                f"mass_ratio is {ratio:.3g}; few are below {SMALLEST_MASS_RATIO:g}: are cap_mass, "
-                f"{cap:.6g}, and column_mass, {column_mass:.6g}, in the same unit?"
-            )
-        return cls(column, ratio)
+        return cls(column, cap / (columns * checks.positive("column_mass", column_mass)))
 
     @property
     def slenderness(self) -> float:
@@ -257,7 +221,7 @@ class RockingFrame:
     @property
     def restitution(self) -> float:
         """√r = (1 − (3/2) sin²α + 3γ cos 2α)/(1 + 3γ), Eq. (25); may be negative when stocky."""
-        cap = _share_of_cap(self.mass_ratio)
+        cap = _cap_inertia_share(self.mass_ratio)
         return (1.0 - cap) * self.column.restitution + cap * math.cos(2.0 * self.slenderness)
 
     @property
@@ -280,7 +244,7 @@ class RockingFrame:
 
 
 class Structure(Protocol):
-    """Whatever becomes a rocking block: `simulate` and its kin accept it.
+    """A structure that has a rocking block: every function of the dynamics accepts it.
 
     >>> [structure.block().slenderness for structure in (th.Column(0.5, 3.0), th.Column(1.0, 6.0))]
     [0.16514867741462683, 0.16514867741462683]
@@ -291,29 +255,25 @@ class Structure(Protocol):
 
 
 def as_block(structure: Structure) -> RockingBlock:
-    """Return the rocking block of a structure; anything else is a ValueError."""
+    """Return the rocking block of a structure, or raise ValueError for anything else."""
     if isinstance(structure, type) or not callable(getattr(structure, "block", None)):
         raise ValueError(
-            f"structure is {short(structure)}; expected a Column, a RockingFrame or whatever else "
-            "becomes a RockingBlock by a method block()"
+            f"structure is {short(structure)}; expected a Column, a RockingFrame or another "
+            "structure with a method block()"
         )
     return structure.block()
 
 
-def checked_mass_ratio(value: float) -> float:
-    """Return γ as a float from 0 to infinity, or raise ValueError; warn if it is implausible."""
-    mass_ratio = checks.number("mass_ratio", value)
-    if not mass_ratio >= 0.0:
-        raise ValueError(
-            f"mass_ratio is {mass_ratio:.6g}; expected γ = m_b / 2 m_c from 0 to infinity"
-        )
-    if LARGEST_MASS_RATIO < mass_ratio < math.inf:
-        checks.warn(
-            f"mass_ratio is {mass_ratio:.6g}; few exceed {LARGEST_MASS_RATIO:g}: is it a mass, or "
-            "are two masses in different units? RockingFrame.of_masses takes masses in the same "
-            "unit, and math.inf is the limit of columns without mass"
-        )
-    return mass_ratio
+def checked_column(value: object) -> None:
+    """Raise ValueError unless an argument is a Column."""
+    if not isinstance(value, Column):
+        raise ValueError(f"column is {short(value)}; expected a Column")
+
+
+def checked_mass_ratio(value: float) -> None:
+    """Raise ValueError unless γ is a number from 0 to infinity."""
+    if not checks.number("mass_ratio", value) >= 0.0:
+        raise ValueError(f"mass_ratio is {value:.6g}; expected γ = m_b / 2 m_c from 0 to infinity")
 
 
 def size_ratio(mass_ratio: float) -> float:
@@ -331,12 +291,12 @@ def largest_slenderness(mass_ratio: float) -> float:
 
     54.7° for the solitary column, 45° for γ → ∞.
     """
-    cap = _share_of_cap(mass_ratio)
+    cap = _cap_inertia_share(mass_ratio)
     return math.asin(math.sqrt(1.0 / (1.5 * (1.0 - cap) + 2.0 * cap)))
 
 
-def _share_of_cap(mass_ratio: float) -> float:
-    """Return 3γ/(1 + 3γ), the weight of the limit γ → ∞ against the solitary column in Eq. (25)."""
+def _cap_inertia_share(mass_ratio: float) -> float:
+    """Return 3γ/(1 + 3γ), the cap beam's share of the frame's inertia: the weight in Eq. (25)."""
     return 1.0 if mass_ratio == math.inf else mass_ratio / (1.0 / 3.0 + mass_ratio)
 
 
