@@ -25,11 +25,7 @@ EVERY = [
     checks.within_quarter_turn,
     checks.fraction,
 ]
-NO_NUMBERS = [
-    *(None, "tall", "0.25", b"0.25", np.str_("0.25"), np.array("0.25")),
-    *(True, np.True_, np.array(True), 1j, 10**400, [1.0, 2.0]),
-    *(np.array([0.25]), np.array([0.25, 0.5]), np.ma.masked, np.ma.array(0.25, mask=True)),
-]
+NO_NUMBERS = [None, "0.25", b"0.25", True, np.True_, 1j, 10**400, [1.0, 2.0], np.array([0.25])]
 
 
 @pytest.mark.parametrize("check", EVERY)
@@ -55,7 +51,7 @@ def test_what_is_no_number_is_refused_by_every_check(check, value):
 
 @pytest.mark.parametrize(
     "values",
-    [[1, 2.5], (0.25,), 3.0, np.arange(4), [], [Fraction(1, 4), 2], np.ma.array([1.0], mask=[0])],
+    [[1, 2.5], (0.25,), 3.0, np.arange(4), [], [Fraction(1, 4), 2]],
 )
 def test_numbers_come_back_as_a_new_array_of_floats(values):
     found = checks.numbers("things", values)
@@ -131,7 +127,7 @@ def test_what_is_no_ground_motion_is_refused_with_an_example(solver, motion):
         ({"velocity": "fast"}, "velocity is 'fast'; expected a number"),
         ({"velocity": -math.inf}, "velocity is -inf; expected a finite number"),
         *(({"duration": x}, "duration is .*; expected (a|more)")
-          for x in (0.0, -1.0, math.nan, "2.0", True, ARRAY, np.ma.masked)),
+          for x in (0.0, -1.0, math.nan, "2.0", True, ARRAY)),
         ({"duration": 1e300}, r"duration is 1e\+300 s; expected at most 1e\+09 s"),
         *(({"samples": n}, f"samples is {n}; expected a whole number of at least 2")
           for n in (1, 0, -3)),
@@ -240,18 +236,7 @@ def test_record_of_fewer_than_two_samples_is_refused(samples):
 @pytest.mark.parametrize(
     ("make", "asked"),
     [
-        (lambda: th.Column(800.0, 4800.0), r"9600 m long, .* in cm or mm\? Then it is 96 or 9.6 m"),
-        (lambda: th.Column.of_dimensions(width=140.0, height=900.0), "900 m long.*is 9 or 0.9 m"),
-        (lambda: th.Column(0.8, 4800.0), "9600 m long"),
-        (lambda: th.RockingFrame.of_masses(COLUMN, 400.0, 60e3), r"_ratio is 0.0033.*same unit"),
-        (lambda: th.RockingFrame.of_masses(COLUMN, 400e3, 60.0), r"is 3333.33.*different units"),
-        (lambda: th.RockingFrame(COLUMN, 365), "mass_ratio is 365; few exceed 100: is it a mass"),
-        (lambda: th.FixedMassColumn(COLUMN, 365), "mass_ratio is 365; few exceed 100"),
-        (lambda: th.MonolithicPortal(COLUMN, 365, 5.0), "mass_ratio is 365; few exceed 100"),
-        (lambda: th.MonolithicPortal(COLUMN, 1.0, 6000.0), "span is 6000 m.*is it in cm or mm"),
         (lambda: th.Record(10.0, [0.0, 0.1]), "time_step is 10 s.*is it in ms"),
-        (lambda: th.Pulse("one-sine", 392.0, 6.28), "amplitude is 392 g.*is it in m/s² or cm/s²"),
-        (lambda: th.simulate(COLUMN, rotation=1.0), "rotation is 1 rad.*the rotation in degrees"),
         (lambda: QUIET.scaled_to(pgv=60), "pgv is 60 m/s.*is it in cm/s"),
         (lambda: th.fragility([COLUMN], [QUIET], [20.0, 60.0]), "levels go up to 60 m/s.*in cm/s"),
         (lambda: th.Record(0.1, [0.0, 3.13]), "record: the largest acceleration is 3.13 g.*m/s²"),

@@ -242,7 +242,7 @@ STOCKY, NARROW = th.Column(0.7, 0.4), th.Cap(1.4, 0.2)
         (lambda: th.Cap(span=3.0, half_depth=math.inf), "half_depth is inf; expected a finite"),
         (
             lambda: th.contact_forces(th.RockingFrame(SQUARE, 1.0), NARROW, 0.1, 0.0),
-            r"span is 1\.4 m .* columns 1\.4 m wide",
+            r"span is 1\.4 m; expected more than the width of a column, 1\.4 m",
         ),
         (
             lambda: th.impact_impulses(th.RockingFrame(th.Column(0.7, 2.0), 1.0), NARROW, 0.1),

@@ -111,9 +111,4 @@ def initial_motion(block: RockingBlock, rotation: float, velocity: float) -> tup
     theta_rate = checks.finite("velocity", velocity)
     if not block.linearised and abs(theta) >= math.pi / 2:
         raise ValueError(f"rotation is {theta:.6g} rad; expected less than π/2, where it lies flat")
-    if abs(theta) > checks.FARTHEST_START * block.slenderness:
-        checks.warn(
-            f"rotation is {theta:.6g} rad, and α is {block.slenderness:.4g} rad, beyond which a "
-            "block at rest falls: is the rotation in degrees?"
-        )
     return theta, theta_rate

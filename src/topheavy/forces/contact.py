@@ -175,7 +175,7 @@ def contact_forces(
     >>> round(forces.base_left.vertical.item(), 3)
     0.422
     """
-    _check_span(frame, cap)
+    checks.wider_than_column(cap.span, 2.0 * frame.column.half_width)
     motion = motion_state(frame.column, rotation, velocity, ground_acceleration)
     size, p_hat = frame.column.size, frame.frequency_parameter
     column_weight, beam_weight = weights(frame.mass_ratio)
@@ -235,7 +235,7 @@ def impact_impulses(frame: RockingFrame, cap: Cap, velocity: ArrayLike) -> Conta
     >>> round(impulses.base_left.vertical.item(), 3)
     0.333
     """
-    _check_span(frame, cap)
+    checks.wider_than_column(cap.span, 2.0 * frame.column.half_width)
     column_weight, beam_weight = weights(frame.mass_ratio)
     size = frame.column.size
     column = _impulse(frame, size, velocity, column_weight)
@@ -337,13 +337,3 @@ def weights(mass_ratio: float) -> tuple[float, float]:
     if mass_ratio == math.inf:
         return 0.0, 1.0
     return 0.5 / (1.0 + mass_ratio), mass_ratio / (1.0 + mass_ratio)
-
-
-def _check_span(frame: RockingFrame, cap: Cap) -> None:
-    """Raise ValueError unless the columns are further apart than they are wide."""
-    width = 2.0 * frame.column.half_width
-    if not cap.span > width:
-        raise ValueError(
-            f"span is {cap.span:.6g} m between the axes of columns {width:.6g} m wide; "
-            "expected more than their width, so that the columns do not touch"
-        )

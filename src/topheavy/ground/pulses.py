@@ -117,11 +117,7 @@ class Pulse(Excitation):
 
     def __post_init__(self) -> None:
         checked_shape(self.shape)
-        if abs(checks.acceleration("amplitude", self.amplitude)) > checks.LARGEST_PULSE:
-            checks.warn(
-                f"amplitude is {self.amplitude:.6g} g, and few pulses exceed "
-                f"{checks.LARGEST_PULSE:g} g: is it in m/s² or cm/s²?"
-            )
+        checks.acceleration("amplitude", self.amplitude)
         checks.positive("angular_frequency", self.angular_frequency, "rad/s")
 
     def __repr__(self) -> str:
