@@ -203,10 +203,6 @@ FINE = np.linspace(0.1, 1.0, 20_000)
             lambda: th.overturning_map(COLUMN, "one-sine", FINE, FINE),
             "scales by amplitudes: 4e+08 cells; expected at most 1e+08",
         ),
-        (
-            lambda: th.fragility([COLUMN], [RECORD], [0.1, 0.2], resamples=10**9),
-            "resamples is 1000000000; expected at most 100000",
-        ),
         (lambda: simulate_linear_exact(COLUMN.block(), PULSE), "the block is not linearised"),
         (
             lambda: simulate_linear_exact(
@@ -238,7 +234,6 @@ def test_record_of_fewer_than_two_samples_is_refused(samples):
     [
         (lambda: th.Record(10.0, [0.0, 0.1]), "time_step is 10 s.*is it in ms"),
         (lambda: QUIET.scaled_to(pgv=60), "pgv is 60 m/s.*is it in cm/s"),
-        (lambda: th.fragility([COLUMN], [QUIET], [20.0, 60.0]), "levels go up to 60 m/s.*in cm/s"),
         (lambda: th.Record(0.1, [0.0, 3.13]), "record: the largest acceleration is 3.13 g.*m/s²"),
     ],
 )

@@ -8,15 +8,7 @@ from scipy.optimize import minimize
 from scipy.special import log_ndtr, ndtr
 
 from topheavy.risk import curve as module
-from topheavy.risk.curve import (
-    curve,
-    dispersions,
-    fit,
-    medians,
-    rises_past,
-    why_no_fit,
-    why_no_median,
-)
+from topheavy.risk.curve import curve, dispersions, fit, medians, rises_past
 
 LEVELS = np.geomspace(0.5, 2.0, 9)
 WIDE = np.geomspace(0.1, 4.0, 12)
@@ -123,26 +115,23 @@ def test_rise_past_a_share_is_where_the_curve_crosses_it_upwards(terms, share):
 
 
 @pytest.mark.parametrize(
-    ("shares", "skewed", "reason"),
+    ("shares", "skewed"),
     [
-        ([0, 0, 0, 0, 0], False, "no motion overturns it at any level"),
-        ([1, 1, 1, 1, 1], False, "every motion overturns it at every level"),
-        ([0, 0, 1, 1, 1], False, "0 of the levels have a probability between 0 and 1"),
-        ([0, 0, 0.5, 1, 1], False, "1 of the levels have a probability between 0 and 1"),
-        ([0, 0.3, 0.5, 1, 1], True, "2 of the levels have a probability between 0 and 1"),
-        ([0, 0.5, 1 - 1e-16, 1, 1], False, "1 of the levels have a probability between 0 and 1"),
-        ([1, 0, 1, 0, 1], False, "0 of the levels have a probability between 0 and 1"),
+        ([0, 0, 0, 0, 0], False),
+        ([1, 1, 1, 1, 1], False),
+        ([0, 0, 0.5, 1, 1], False),
+        ([0, 0.3, 0.5, 1, 1], True),
+        ([0, 0.5, 1 - 1e-16, 1, 1], False),
+        ([1, 0, 1, 0, 1], False),
     ],
 )
-def test_too_few_points_have_no_fit_and_a_reason(shares, skewed, reason):
+def test_too_few_points_have_no_fit(shares, skewed):
     levels, shares = np.geomspace(0.5, 2.0, 5), np.array(shares, dtype=float)
     terms = fit(levels, shares, skewed=skewed)
     assert np.isnan(terms).all()
     assert np.isnan(curve(levels, terms)).all()
     assert np.isnan(dispersions(terms))
     assert np.isnan(medians(levels, terms))
-    assert why_no_fit(shares, terms, skewed=skewed).startswith(reason)
-    assert why_no_median(levels, shares, terms, skewed=skewed).startswith(reason)
 
 
 @pytest.mark.parametrize("centre", [0.4, 2.5])
@@ -150,15 +139,11 @@ def test_median_outside_the_levels_is_not_given(centre):
     shares = ndtr(np.log(LEVELS / centre) / 0.5)
     terms = fit(LEVELS, shares, skewed=False)
     assert np.isnan(medians(LEVELS, terms))
-    reason = why_no_median(LEVELS, shares, terms, skewed=False)
-    assert f"passes 1/2 at {centre}, which" in reason
-    assert "outside the levels, 0.5 to 2: widen them" in reason
     assert dispersions(terms) == pytest.approx(0.5, rel=1e-6)
 
 
-def test_fit_without_convergence_is_nan_with_a_reason(monkeypatch):
-    monkeypatch.setattr(module, "MOST_PASSES", 1)
+def test_fit_without_convergence_is_nan(monkeypatch):
+    monkeypatch.setattr(module, "MAX_PASSES", 1)
     shares = np.array([[0, 0, 0.05, 0, 0, 0, 0.95, 1, 1], ndtr(np.log(LEVELS))])
     terms = fit(LEVELS, shares, skewed=False)
     assert np.isnan(terms).all(axis=-1).tolist() == [True, False]
-    assert why_no_fit(shares[0], terms[0], skewed=False) == "no fit of the curve in 1 passes"

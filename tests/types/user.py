@@ -98,12 +98,11 @@ arc = frame_motion.rotation[np.newaxis], frame_motion.velocity[np.newaxis]
 assert_type(largest_forces(bent, cap, *arc, 0.0 * arc[0]), NDArray[np.float64])
 
 motions = [shaking, measured, measured.scaled(2.0)]
-curves = fragility({"pier": pier, "bent": bent}, motions, [0.2, 0.5, 1.0], lowered=(0.05,))
+curves = fragility({"pier": pier, "bent": bent}, motions, [0.2, 0.5, 1.0])
 assert_type(curves, Fragility)
 assert_type(fragility([pier, block], motions, times[1:], "PGA", groups=[1, 2, 2]), Fragility)
 by_duration = fragility([bent], [pulse], [1.0], lambda motion: motion.duration)
-for sentence in curves.pairs["gain_words"].to_numpy():
-    print(f"the interval of the gain {sentence}; intervals are those of {curves.sampling}")
+print(f"{curves.pairs['gain'].to_numpy()}: intervals are those of {curves.sampling}")
 
 vase = FixedMassColumn(pier, 0.5, cap_width=3.0, cap_depth=1.0)
 portal = MonolithicPortal(pier, 1.0, span=12.0)

@@ -1,5 +1,5 @@
 """Probability of overturning over the intensity of motions, which `topheavy.fragility` estimates.
 
-`estimate` judges the motions, `resampling` gives means and intervals, `curve` the fit and its
-median, `tables` the result; `gain` compares medians over γ, and `inputs` refuses bad arguments.
+`estimate` computes the outcomes, `resampling` means and intervals, `curve` the fit and its median,
+`tables` the result; `inputs` refuses bad arguments.
 """

@@ -1,8 +1,8 @@
 """The fragility curve Φ(a + b ln s + c ln² s) over the intensity s: fit, median, dispersion.
 
 With c = 0 the curve is lognormal; c is for the skewness that fragility under scaled motions has.
-Shares may come in any number, those of resamples also. Where nothing can be fitted or found, the
-value is NaN; `why_no_fit` and `why_no_median` give the reason in words.
+The functions take the shares of an ensemble and of its resamples together. Where nothing can be
+fitted, or where a curve has no median, the value is NaN.
 """
 
 import math
@@ -11,12 +11,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.special import log_ndtr, ndtr, ndtri
 
-MOST_PASSES = 50
-MOST_HALVINGS = 40  # of a pass
-EXPECTED = 25  # passes with the expected curvature of the likelihood; then with the observed one
-CLOSE = 1e-9  # of the score, for a single motion at each level
+MAX_PASSES = 50
+MAX_HALVINGS = 40  # of a pass
+EXPECTED_PASSES = 25  # with the expected curvature of the likelihood; then with the observed one
+SCORE_TOLERANCE = 1e-9  # for a single motion at each level
 ROUNDING = 1e-12  # of the log-likelihood, for a single motion at each level
-FARTHEST = 1e-12  # from 0 and 1, of a fitted share
+MIN_SHARE = 1e-12  # of a fitted share, and of its difference to 1
 
 Array = NDArray[np.float64]
 
@@ -69,11 +69,11 @@ def _likeliest(powers: Array, centred: Array, shares: Array) -> Array:
     terms = np.zeros((len(shares), powers.shape[-1]))
     likely = np.full(len(shares), -math.inf)
     score = np.zeros_like(terms)
-    for passed in range(MOST_PASSES):
+    for passed in range(MAX_PASSES):
         normal = centred.T @ (weights[..., None] * centred)
         right = (weights * probit + slopes) @ centred
         found = np.linalg.solve(normal, right[..., None])[..., 0]
-        for _ in range(MOST_HALVINGS):
+        for _ in range(MAX_HALVINGS):
             probit = found @ centred.T
             over, under = log_ndtr(probit), log_ndtr(-probit)
             likelihood = (shares * over + (1.0 - shares) * under).sum(axis=-1)
@@ -86,17 +86,17 @@ def _likeliest(powers: Array, centred: Array, shares: Array) -> Array:
         up, down = np.exp(density - over), np.exp(density - under)
         slopes = shares * up - (1.0 - shares) * down
         weights = up * down  # the expected curvature
-        if passed >= EXPECTED:
+        if passed >= EXPECTED_PASSES:
             weights = shares * up * (up + probit) + (1.0 - shares) * down * (down - probit)
         # At the maximum the residuals are orthogonal to every power.
         score = np.abs(slopes @ powers)
-        if not (score >= CLOSE).any():
+        if not (score >= SCORE_TOLERANCE).any():
             return terms
-    return np.where(np.all(score < CLOSE, axis=-1, keepdims=True), terms, math.nan)
+    return np.where(np.all(score < SCORE_TOLERANCE, axis=-1, keepdims=True), terms, math.nan)
 
 
 def _share(line: Array) -> Array:
-    return np.asarray(np.clip(ndtr(line), FARTHEST, 1.0 - FARTHEST))
+    return np.asarray(np.clip(ndtr(line), MIN_SHARE, 1.0 - MIN_SHARE))
 
 
 def curve(levels: ArrayLike, terms: Array) -> Array:
@@ -109,7 +109,7 @@ def points_between(shares: Array) -> NDArray[np.int64]:
 
     The mean of weights may miss either by rounding.
     """
-    return np.asarray(((shares > FARTHEST) & (shares < 1.0 - FARTHEST)).sum(axis=-1))
+    return np.asarray(((shares > MIN_SHARE) & (shares < 1.0 - MIN_SHARE)).sum(axis=-1))
 
 
 def rises_past(share: float, terms: Array) -> Array:
@@ -163,35 +163,3 @@ def dispersions(terms: Array) -> Array:
     """
     low, high = (np.log(rises_past(float(ndtr(probit)), terms)) for probit in (-1.0, 1.0))
     return np.asarray(0.5 * (high - low))
-
-
-def why_no_fit(shares: Array, terms: Array, *, skewed: bool) -> str:
-    """Return why a curve of these shares, shape (n,), has the terms NaN; empty where it has none.
-
-    The terms are those of `fit`, with or without the third.
-    """
-    if np.isfinite(terms).all():
-        return ""
-    if (shares < FARTHEST).all():
-        return "no motion overturns it at any level"
-    if (shares > 1.0 - FARTHEST).all():
-        return "every motion overturns it at every level"
-    if points_between(shares) < (3 if skewed else 2):
-        return (
-            f"{points_between(shares)} of the levels have a probability between 0 and 1, which is "
-            "too few to fit a curve: add levels between those where none and where all overturn"
-        )
-    return f"no fit of the curve in {MOST_PASSES} passes"
-
-
-def why_no_median(levels: Array, shares: Array, terms: Array, *, skewed: bool) -> str:
-    """Return why a curve of these shares, shape (n,), has no median; empty where it has one."""
-    if np.isfinite(medians(levels, terms)):
-        return ""
-    at = float(rises_past(0.5, terms))
-    if not np.isfinite(terms).all() or not math.isfinite(at):
-        return why_no_fit(shares, terms, skewed=skewed) or "the fitted curve does not rise past 1/2"
-    return (
-        f"the fitted curve passes 1/2 at {at:.4g}, which is outside the levels, "
-        f"{levels[0]:.4g} to {levels[-1]:.4g}: widen them"
-    )

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable, Sequence
+from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
+from itertools import combinations
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from topheavy import checks
 from topheavy.ground.records import Record
 from topheavy.outcomes.search import overturned_by
 from topheavy.risk import inputs
@@ -35,14 +35,13 @@ class Fragility:
         interval probability_low, probability_high (Clopper & Pearson 1934); fitted, the curve.
         Over structure: terms (a, b, c) of the curve Φ(a + b ln s + c ln² s); median_capacity, in
         the unit of the levels, and dispersion, half of ln(s₈₄/s₁₆), with resampled intervals
-        (dispersion_low, dispersion_high); dispersion_reason: in words, why one of these is NaN,
-        else empty. The coordinate lowered is the share by which √r is lowered.
+        (dispersion_low, dispersion_high).
     pairs : xarray.Dataset
         Over (pair, level): less, the probability of the first structure less that of the second,
-        with its resampled interval (less_low, less_high) and its words in less_words; only_first
-        and only_second, the motions that overturn one of both alone; sign_test, the two-sided
-        p-value of the exact test that these are equally likely. Over pair: gain, the median of the
-        second over that of the first, less 1, with gain_low, gain_high, gain_words, gain_reason.
+        with its resampled interval (less_low, less_high); only_first and only_second, the motions
+        that overturn one of both alone; sign_test, the two-sided p-value of the exact test that
+        these are equally likely. Over pair: gain, the median of the second over that of the first,
+        less 1, with its resampled interval (gain_low, gain_high).
     outcomes : ndarray of bool, shape (motions, structures, levels)
         Which motions overturn each structure of `curves` at each level.
     measure : str
@@ -68,7 +67,7 @@ class Fragility:
     confidence: float
 
     def __str__(self) -> str:
-        """Say the median of each structure and the gain of each pair, with intervals or reasons."""
+        """Return the median of each structure and the gain of each pair, with intervals."""
         unit = self.curves.level.attrs.get("units", "")
         first, last = (f"{float(self.curves.level[at]):.4g}" for at in (0, -1))
         levels = f"{self.measure} from {first} to {last} {unit}".rstrip()
@@ -85,11 +84,9 @@ class Fragility:
 
 
 def _line(row: xarray.Dataset, name: str, unit: str) -> str:
-    """Return a value with its interval and unit, and the reason why one of these is unknown."""
+    """Return a value with its interval and unit."""
     value, low, high = (float(row[part]) for part in (name, f"{name}_low", f"{name}_high"))
-    known = f"{value:.3g} ({low:.3g} to {high:.3g}) {unit}".strip()
-    reason = row[f"{name}_reason"].item()
-    return f"{known}: {reason}" if reason else known
+    return f"{value:.3g} ({low:.3g} to {high:.3g}) {unit}".strip()
 
 
 def fragility(
@@ -101,7 +98,6 @@ def fragility(
     vertical: Sequence[Record] | None = None,
     scale_vertical: bool = True,
     groups: Sequence[Hashable] | None = None,
-    lowered: Iterable[float] = (),
     skewed: bool = False,
     confidence: float = 0.95,
     resamples: int = 2000,
@@ -109,15 +105,16 @@ def fragility(
 ) -> Fragility:
     """Return the probability of overturning of structures under motions scaled to levels.
 
-    Each motion is scaled to each level of the intensity and judged on each structure. Resamples
-    draw motions, with all their outcomes: structures stay paired, and so do levels. The intervals
-    are percentiles of resamples, which are too narrow for few motions. In a simulation, the 95 %
+    Each motion is scaled to each level of the intensity and acts on each structure. Resamples draw
+    motions with all their outcomes: structures stay paired, and so do levels. The intervals are
+    percentiles of resamples, which are too narrow for few motions. In a simulation, the 95 %
     interval of a median misses the true one in 11 % of samples of 7 motions and in 8 % of 40; that
     of a dispersion in 32 % and in 13 %. `sign_test` is exact for any number of motions.
 
     A curve is fitted where two levels at least (three if skewed) have a probability between 0 and
-    1. Where none can be fitted, the median is outside the levels, or too many resamples have none,
-    the value is NaN and a reason is beside it.
+    1: choose levels from where no motion overturns up to where all do. A median is NaN if no curve
+    is fitted or if it is outside the levels; an end of an interval is NaN if too many resamples
+    have no value.
 
     Parameters
     ----------
@@ -126,8 +123,8 @@ def fragility(
     motions : sequence of Record
         Also of Pulse, if measure is a function.
     levels : array_like, shape (n,)
-        Of the intensity: positive and increasing. A motion may overturn a structure at one and not
-        at the next: medians and intervals depend on few levels, and fifty are few seconds.
+        Of the intensity: positive and increasing. A motion may overturn a structure at one level
+        and not at the next, so that medians depend on the levels; take fifty.
     measure : {"PGV", "PGA"} or callable
         PGV in m/s, integrated from rest without baseline correction; PGA in g; or a function that
         returns the intensity of a motion, in proportion to its scale.
@@ -139,9 +136,6 @@ def fragility(
         The group of each motion, such as its earthquake. Motions are then resampled only within
         their group; the intervals do not include the scatter between groups, as `sampling` says.
         Exact intervals remain valid, and are wider than necessary.
-    lowered : iterable of float
-        Shares, such as (0.05, 0.10), by which √r of each `Column` is lowered, and of no other
-        structure. Such a column is one more structure, compared with all that are no column.
     skewed : bool
         Whether the curve has a term c ln² s. Otherwise it is lognormal.
     confidence : float
@@ -157,8 +151,7 @@ def fragility(
     ------
     ValueError
         For an argument that is not as above, and for a vertical acceleration of −1 g or less at a
-        level; it names the argument, the value, what was expected.
-
+        level.
 
     Examples
     --------
@@ -167,30 +160,38 @@ def fragility(
     >>> found.outcomes.sum(axis=0)
     array([[0, 1, 2]])
     """
-    under = inputs.variants(structures, lowered)
+    blocks = inputs.named_blocks(structures)
     shaking = inputs.checked_motions(motions)
     steps = inputs.checked_levels(levels)
-    if measure == "PGV" and steps[-1] > 2.0 * checks.LARGEST_VELOCITY:
-        checks.warn(f"levels go up to {steps[-1]:.6g} m/s, and few motions do: are they in cm/s?")
     members = inputs.checked_groups(groups, len(shaking))
-    inputs.checked_resampling(confidence, resamples, seed)
-    scales = inputs.factors(shaking, measure, steps)
-    ups = inputs.checked_vertical(vertical, shaking, scales if scale_vertical else np.ones(1))
-    outcomes = _judged(under, zip(shaking, ups, scales, strict=True), scale_vertical)
+    inputs.checked_resampling(confidence, resamples)
+    scales = steps / inputs.intensities(shaking, measure)[:, None]
+    ups = [None] * len(shaking) if vertical is None else vertical
+    if len(ups) != len(shaking):
+        raise ValueError(f"vertical has {len(ups)} Records; expected {len(shaking)}, one a motion")
+    outcomes = np.array(
+        [
+            overturned_by(
+                list(blocks.values()), motion, factors, vertical=up, scale_vertical=scale_vertical
+            )
+            for motion, up, factors in zip(shaking, ups, scales, strict=True)
+        ]
+    )
     means = means_within(outcomes, members or [None] * len(shaking), resamples, seed)
     if len(shaking) == 1:
         means[1:] = np.nan  # a resample of one motion is that motion, and shows no scatter
-    terms, places = fit(steps, means, skewed=skewed), inputs.pairs(under)
+    terms, places = fit(steps, means, skewed=skewed), [*combinations(range(len(blocks)), 2)]
     counts = outcomes.sum(axis=0)
-    curves = curve_table(counts, len(shaking), steps, means, terms, confidence, skewed=skewed)
+    curves = curve_table(counts, len(shaking), steps, means, terms, confidence)
     pairs = pair_table(outcomes, steps, means, terms, places, confidence)
-    names = [one.name for one in under]
+    names = list(blocks)
     unit = {} if callable(measure) else {"units": inputs.UNITS[measure]}
     level = ("level", steps, unit)
+    sampling = f"sampling of {len(shaking)} motions"
+    if members:
+        sampling += f" within {len(set(members))} groups, without the scatter between groups"
     return Fragility(
-        curves=curves.assign_coords(
-            structure=names, lowered=("structure", [one.lowered for one in under]), level=level
-        ),
+        curves=curves.assign_coords(structure=names, level=level),
         pairs=pairs.assign_coords(
             first=("pair", [names[i] for i, _ in places]),
             second=("pair", [names[j] for _, j in places]),
@@ -198,21 +199,6 @@ def fragility(
         ),
         outcomes=outcomes,
         measure=getattr(measure, "__name__", repr(measure)) if callable(measure) else measure,
-        sampling=inputs.sampling(members, len(shaking)),
+        sampling=sampling,
         confidence=confidence,
-    )
-
-
-def _judged(
-    under: Sequence[inputs.Variant],
-    motions: Iterable[tuple[inputs.Motion, Record | None, Array]],
-    scale_vertical: bool,
-) -> Outcomes:
-    """Return which factors overturn, shape (motions, structures, levels)."""
-    blocks = [one.block for one in under]
-    return np.array(
-        [
-            overturned_by(blocks, motion, factors, vertical=up, scale_vertical=scale_vertical)
-            for motion, up, factors in motions
-        ]
     )
