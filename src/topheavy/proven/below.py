@@ -9,25 +9,25 @@ from topheavy.bodies.structures import Structure
 from topheavy.ground.pulses import Pulse
 from topheavy.proven.search import certified
 
-NARROWEST = 1e-11
-"""Of the highest factor: a box that is not wider counts as open if it is not proven."""
+MIN_BOX_WIDTH = 1e-11
+"""Relative to the highest factor: a narrower box that is not proven stays undecided."""
 
-NARROWER, AGAIN, WIDER = 0.7, 0.95, 1.1
-"""The width of the next box over that of one that is not proven, of one that had to become narrower
-before it was, and of one that is proven at once."""
+AFTER_FAILURE, AFTER_RETRY, AFTER_SUCCESS = 0.7, 0.95, 1.1
+"""Width of the next box over the last one, which was not proven, proven after a failure, or proven
+at the first try."""
 
 
 def survives_below(
     structure: Structure, pulse: Pulse, high: float
 ) -> tuple[list[dict[str, Any]], list[tuple[float, float]]]:
-    """Return what proves that a structure survives all factors from 0 to `high` on a pulse.
+    """Prove, box by box, that a structure survives all factors from 0 to `high` on a pulse.
 
     Returns
     -------
     list of dict
         Certificates of boxes of factors that survive, in ascending order.
     list of (float, float)
-        The boxes that stay undecided, or that overturn: none if nothing overturns below.
+        Boxes that are undecided or overturn; none if every factor is proven to survive.
 
     Raises
     ------
@@ -35,18 +35,18 @@ def survives_below(
         As `certified`, and for a `high` that is not positive.
     """
     high = checks.positive("high", high)
-    certificates, left = [], []
-    low, width, after = 0.0, high, WIDER
+    certificates, undecided = [], []
+    low, width, growth = 0.0, high, AFTER_SUCCESS
     while low < high:
         top = min(low + width, high)
         width = top - low
         certificate = certified(structure, pulse, (low, top))
         if certificate and certificate["outcome"] == "survives":
             certificates.append(certificate)
-        elif certificate or width < NARROWEST * high:
-            left.append((low, top))
+        elif certificate or width < MIN_BOX_WIDTH * high:
+            undecided.append((low, top))
         else:
-            width, after = NARROWER * width, AGAIN
+            width, growth = AFTER_FAILURE * width, AFTER_RETRY
             continue
-        low, width, after = top, after * width, WIDER
-    return certificates, left
+        low, width, growth = top, growth * width, AFTER_SUCCESS
+    return certificates, undecided

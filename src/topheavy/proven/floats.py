@@ -1,4 +1,7 @@
-"""The equation of motion in floats, for a block and a pulse of the checker. Nothing rests on it."""
+"""The equation of motion in floats, for a block and a pulse of the checker.
+
+The search guesses its steps with it; no proof depends on it.
+"""
 
 from __future__ import annotations
 
@@ -8,10 +11,10 @@ from fractions import Fraction
 
 from topheavy.proven.checking import intervals
 from topheavy.proven.checking.checker import Check
-from topheavy.proven.checking.intervals import Interval, of
+from topheavy.proven.checking.intervals import Interval, enclose
 
 N_PARTS = 24
-"""Of a step, in which a sign of its polynomial is looked for."""
+"""Parts of a step, at whose ends the sign of its polynomial is computed."""
 
 
 def ends(x: Interval) -> tuple[float, float]:
@@ -24,8 +27,8 @@ def middle(x: Interval) -> float:
     return (x.low + x.high) / 2 / intervals.UNIT
 
 
-def value(coefficients: Sequence[float], time: float) -> float:
-    """Return the value of a polynomial."""
+def evaluate(coefficients: Sequence[float], time: float) -> float:
+    """Return the evaluate of a polynomial."""
     total = 0.0
     for x in reversed(coefficients):
         total = total * time + x
@@ -37,14 +40,14 @@ def first_zero(coefficients: Sequence[float], h: float) -> float | None:
     low = 0.0
     for k in range(1, N_PARTS + 1):
         high = h * k / N_PARTS
-        if value(coefficients, high) <= 0.0:
-            return crossing(low, high, lambda time: value(coefficients, time) <= 0.0)
+        if evaluate(coefficients, high) <= 0.0:
+            return crossing(low, high, lambda time: evaluate(coefficients, time) <= 0.0)
         low = high
     return None
 
 
 def crossing(low: float, high: float, is_beyond: Callable[[float], bool]) -> float:
-    """Return where a statement becomes true, to the last digit."""
+    """Return by bisection where a statement becomes true, to the last digit."""
     while low < (half := 0.5 * (low + high)) < high:
         low, high = (low, half) if is_beyond(half) else (half, high)
     return high
@@ -62,7 +65,7 @@ class Floats:
 
     def wave(self, sigma: float, n: int) -> list[float]:
         """Return n coefficients of a at a phase."""
-        return [middle(x) for x in self.ground.series(of(Fraction(sigma)), of(1), n)]
+        return [middle(x) for x in self.ground.series(enclose(Fraction(sigma)), enclose(1), n)]
 
     def potential(self, phi: float, push: float) -> float:
         """Return V(φ, s a)."""

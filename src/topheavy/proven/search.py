@@ -20,27 +20,27 @@ from topheavy.proven.question import question
 from topheavy.proven.walls import proposed
 
 PRECISIONS = ((112, 1e-13), (144, 1e-20), (176, 1e-28))
-"""Bits of the checker, and what the last terms of a step may amount to, in rad."""
+"""Bits of the checker, and the largest size of the last terms of a step, rad."""
 
-OF_A_BOX = 1e-6
-"""Times the relative width of a box of factors: likewise, if that is more."""
+BOX_ACCURACY = 1e-6
+"""Times the relative width of a box of factors: size of the last terms of its steps, if larger."""
 
-NARROW = 1e-9
-"""Relative width of a box of factors below which it takes the second precision."""
+NARROW_BOX = 1e-9
+"""Relative width of a box of factors below which the search uses the second precision."""
 
-MOST_TRIES, SHORTEST = 100, 0.3
-"""Of a box of factors: how many steps are tried, and how much shorter than the first try."""
+MAX_BOX_TRIES, MIN_BOX_STEP = 100, 0.3
+"""For a box of factors: number of steps to try, and the shortest one relative to the first try."""
 
-SHORTEST_STEP = 1e-18
-"""Of one factor, in the phase of the pulse."""
+MIN_STEP = 1e-18
+"""Shortest step for one factor, in the phase of the pulse."""
 
-WIDEST_IMPACT = 0.12
+MAX_IMPACT_SPREAD = 0.12
 """Phase over which the impacts of a box may spread; a wider box is bounded from before them."""
 
 N_GRID = 64
-"""Parts of a pulse in which the first uplift is looked for."""
+"""Parts of a pulse, at whose ends the search compares |a| with the uplift acceleration."""
 
-FIRST, GROWTH, LONGEST = 2.0**-6, 1.3, math.pi / 48.0
+FIRST_WALL_STEP, WALL_STEP_GROWTH, MAX_WALL_STEP = 2.0**-6, 1.3, math.pi / 48.0
 """Steps of a bound, in the phase of the pulse."""
 
 
@@ -49,7 +49,7 @@ def certified(
 ) -> dict[str, Any] | None:
     """Return a certificate of whether a structure at rest survives a pulse, or None if undecided.
 
-    `topheavy.proven.checking.check` has accepted each of its steps, and proves it again.
+    `topheavy.proven.checking.check` verifies the certificate.
 
     Parameters
     ----------
@@ -64,35 +64,37 @@ def certified(
     Returns
     -------
     dict or None
-        "outcome" is "survives" or "overturns", as `topheavy.judge` defines them; "impacts" counts
-        those until it is decided, and is None where they are bounded.
+        "outcome" is "survives" or "overturns", as `topheavy.judge` defines them. "impacts" is their
+        number until the outcome is decided, or None if the motion is only bounded.
 
     Raises
     ------
     ValueError
-        As `question` does, and for dimensions outside of the form of a certificate.
+        As `question` does, and for dimensions outside the range of a certificate.
     """
-    asked = question(structure, pulse, factor)
-    low, high = map(float, asked["factor"])
+    problem = question(structure, pulse, factor)
+    low, high = map(float, problem["factor"])
     width = (high - low) / max(abs(low), abs(high)) if high > low else 0.0
     precisions = list(PRECISIONS)
     if width:
-        precisions = [PRECISIONS[1 if width < NARROW else 0]]
+        precisions = [PRECISIONS[1 if width < NARROW_BOX else 0]]
     for bits, accuracy in precisions:
-        search = Search(asked, bits, max(accuracy, OF_A_BOX * width), is_box=width > 0.0)
+        search = Search(problem, bits, max(accuracy, BOX_ACCURACY * width), is_box=width > 0.0)
         if search.run():
             return search.certificate
     return None
 
 
 class Search:
-    """A motion on its way through the checker."""
+    """The state of a motion in the checker, and the certificate of its steps so far."""
 
-    def __init__(self, asked: dict[str, Any], bits: int, accuracy: float, *, is_box: bool) -> None:
+    def __init__(
+        self, problem: dict[str, Any], bits: int, accuracy: float, *, is_box: bool
+    ) -> None:
         self.accuracy, self.is_box = accuracy, is_box
         self.order = int(-math.log2(accuracy) / 3.0) + 2
         proof = {"bits": bits, "order": self.order, "events": []}
-        self.certificate = asked | {"outcome": "survives", "impacts": None} | proof
+        self.certificate = problem | {"outcome": "survives", "impacts": None} | proof
         self.check = Check(self.certificate)
         self.floats = Floats(self.check)
         self.length, self.tries, self.reason = 1.0, 0, ""
@@ -110,7 +112,7 @@ class Search:
         return True
 
     def _take(self, name: str, **event: Any) -> bool:
-        """Return whether the checker accepts an event, which then is part of the certificate."""
+        """Return whether the checker accepts an event; if it does, add it to the certificate."""
         trial = copy(self.check)
         event = {"event": name} | event
         try:
@@ -134,7 +136,7 @@ class Search:
                 self._take("gone")
 
     def _uplift(self) -> bool:
-        """Return whether the block lifts, about, and take it if it does."""
+        """Return whether the block uplifts, and take the event if it does."""
 
         def is_beyond(sigma: float) -> bool:
             return abs(self.floats.wave(sigma, 1)[0]) > self.floats.level
@@ -160,8 +162,8 @@ class Search:
         if zeros == 1 and c[2] < 0.0:  # a bounce that ends soon
             h = min(h, -1.25 * ends(check.rate)[1] / c[2])
         low, left = ends(check.ground.stop - check.sigma)
-        shortest = SHORTEST * h if self.is_box else SHORTEST_STEP
-        while h > shortest and not (self.is_box and self.tries == MOST_TRIES):
+        shortest = MIN_BOX_STEP * h if self.is_box else MIN_STEP
+        while h > shortest and not (self.is_box and self.tries == MAX_BOX_TRIES):
             self.tries += 1
             is_last = low <= h
             length = left * (1.0 + 1e-12) if is_last else h
@@ -194,7 +196,7 @@ class Search:
     def _undo_wide_impact(self, before: Check, *, is_impact: bool) -> None:
         low, high = ends(self.check.sigma)
         low_before, high_before = ends(before.sigma)
-        if self.is_box and is_impact and high - low > WIDEST_IMPACT + high_before - low_before:
+        if self.is_box and is_impact and high - low > MAX_IMPACT_SPREAD + high_before - low_before:
             self.check = before
             self.certificate["events"].pop()
             raise Refused("the impacts of the box are far apart")
@@ -204,7 +206,7 @@ class Search:
         if self.check.is_over or self.check.result:
             return False
         stop = math.nextafter(ends(self.check.ground.stop)[1], math.inf)
-        sigma, h = ends(self.check.sigma)[1], FIRST
+        sigma, h = ends(self.check.sigma)[1], FIRST_WALL_STEP
         while sigma < stop:
             sigma = min(sigma + h, stop)
             for pair in proposed(self.floats, self.check.bounded(), sigma):
@@ -212,7 +214,7 @@ class Search:
                     break
             else:
                 return False
-            h = min(GROWTH * h, LONGEST)
+            h = min(WALL_STEP_GROWTH * h, MAX_WALL_STEP)
         try:
             return bool(self.check.end())
         except Refused:

@@ -8,23 +8,23 @@ from collections.abc import Iterator
 from topheavy.proven.checking.bounds import Bound, rounded_up
 from topheavy.proven.floats import Floats, ends
 
-MARGIN = 1.02
-"""On what the energy gains: the enclosures of the checker are wider."""
+ENERGY_MARGIN = 1.02
+"""Factor on the gain of energy: the enclosures of the checker are wider."""
 
-SPARE = 1.0 + 1e-9
-"""On the inequalities of the lemma, likewise."""
+LEMMA_MARGIN = 1.0 + 1e-9
+"""Factor on the inequalities of the lemma, for the same reason."""
 
-SLACK, MOST_SLACK = 2.0**-16, 0.05
-"""Of a wall, beyond an equality: its share in the first try, and at most."""
+FIRST_SLACK, MAX_SLACK = 2.0**-16, 0.05
+"""Relative distance of a wall from the rotation that the block reaches: first and largest one."""
 
-LEAST = 2.0**-40
-"""Likewise, at least."""
+MIN_SLACK = 2.0**-40
+"""Least distance, rad."""
 
-MOST_TRIES = 40
+MAX_TRIES = 40
 
 
 def proposed(floats: Floats, bound: Bound, sigma: float) -> Iterator[tuple[float, float]]:
-    """Yield pairs of walls up to a phase, looser and looser; none from where α is not excluded."""
+    """Yield pairs of walls up to a phase, each looser than the last, while they are below α."""
     h, grounds, rises = bound.pushes(rounded_up(repr(sigma)))
     sides = [
         _Side(floats, ends(h)[1], ends(before)[1], ends(ground)[0])
@@ -32,17 +32,17 @@ def proposed(floats: Floats, bound: Bound, sigma: float) -> Iterator[tuple[float
     ]
     gains = [max(0.0, ends(rise)[1]) for rise in rises]
     first = energy = ends(bound.energy)[1]
-    slack = SLACK
-    for _ in range(MOST_TRIES):
+    slack = FIRST_SLACK
+    for _ in range(MAX_TRIES):
         for side in sides:
             side.move(energy, slack)
         if any(side.wall >= floats.alpha for side in sides):
             return
         gain = max(rise * floats.lever(side.wall) for rise, side in zip(gains, sides, strict=True))
-        energy = first + floats.square * MARGIN * gain
+        energy = first + floats.square * ENERGY_MARGIN * gain
         if all(side.holds(energy) for side in sides):
             yield sides[0].wall, sides[1].wall
-        slack = min(1.5 * slack, MOST_SLACK)
+        slack = min(1.5 * slack, MAX_SLACK)
 
 
 class _Side:
@@ -53,16 +53,17 @@ class _Side:
         self.wall = before
 
     def move(self, energy: float, slack: float) -> None:
-        """Move the wall about to where an energy takes the block, and a share beyond."""
+        """Move the wall a share beyond the rotation that the block reaches with an energy."""
         reached = min(self.before + self._way(energy), self.floats.turn(energy, self.least))
-        self.wall = reached * (1.0 + slack) + LEAST
+        self.wall = reached * (1.0 + slack) + MIN_SLACK
 
     def holds(self, energy: float) -> bool:
-        """Return whether the lemma holds, with some spare."""
+        """Return whether the lemma holds with a margin."""
         old, new = (self.floats.potential(x, self.least) for x in (self.before, self.wall))
-        if new > SPARE * energy and (self.wall >= self.before or old > SPARE * energy):
+        bound = LEMMA_MARGIN * energy
+        if new > bound and (self.wall >= self.before or old > bound):
             return True
-        return self.wall - self.before > SPARE * self._way(energy)
+        return self.wall - self.before > LEMMA_MARGIN * self._way(energy)
 
     def _way(self, energy: float) -> float:
         potentials = (self.floats.potential(x, self.least) for x in (self.before, self.wall))

@@ -23,12 +23,6 @@ def honest(structure, pulse, factor=1.0):
     return json.loads(json.dumps(certified(structure, pulse, factor)))
 
 
-def forged(structure, pulse, events, outcome="survives", impacts=0, **changes):
-    """A certificate with events that somebody wrote."""
-    proof = {"outcome": outcome, "impacts": impacts, "bits": 112, "order": 16, "events": events}
-    return question(structure, pulse, 1.0) | proof | changes
-
-
 def refused(certificate, words):
     with pytest.raises(Refused, match=words):
         check(certificate)
@@ -93,10 +87,10 @@ def test_changed_certificate_is_refused(change, reason):
 
 @pytest.mark.parametrize("sigma", ["2.2", "4.1", "6"])
 def test_uplift_after_the_ground_has_lifted_the_block_is_refused(sigma):
-    pulse = th.Pulse("one-sine", 0.2, 3.0)
-    refused(
-        forged(COLUMN, pulse, [{"event": "uplift", "sigma": sigma}]), "lift the block earlier|sign"
-    )
+    problem = question(COLUMN, th.Pulse("one-sine", 0.2, 3.0), 1.0)
+    proof = {"outcome": "survives", "impacts": 0, "bits": 112, "order": 16}
+    events = [{"event": "uplift", "sigma": sigma}]
+    refused(problem | proof | {"events": events}, "lift the block earlier|sign")
 
 
 def walls(event, by):
@@ -132,9 +126,6 @@ def test_structure_that_does_not_rock_is_refused(extra):
     refused(WITH_IMPACT | {"structure": structure}, "√r is outside of 0 to 1")
 
 
-# The form ----------------------------------------------------------------------------------------
-
-
 def places(entries, at=()):
     """Yield the place of each entry of a certificate, from the whole to its numbers."""
     yield at
@@ -155,12 +146,6 @@ def put(entries, at, value):
     result, key = copy.copy(entries), at[0]
     result[key] = put(entries[key], at[1:], value) if at[1:] else value
     return result
-
-
-def without(entries, at):
-    parent = copy.copy(entry(entries, at[:-1]))
-    del parent[at[-1]]
-    return put(entries, at[:-1], parent)
 
 
 GAINS = question(BLOCK, PULSE, 1.0)["structure"] | {"restitution": "1.1"}
@@ -187,7 +172,9 @@ def test_entry_of_another_type_is_refused():
                     assert len(types) == 1 or type(None) in types  # an impact, or their number
                 count += 1
             if at and isinstance(at[-1], str):
-                assert not is_of_the_form(without(certificate, at))
+                parent = entry(certificate, at[:-1])
+                rest = {key: value for key, value in parent.items() if key != at[-1]}
+                assert not is_of_the_form(put(certificate, at[:-1], rest))
                 assert not is_of_the_form(put(certificate, (*at[:-1], "more"), "1"))
     assert count > 2000
 
@@ -230,25 +217,17 @@ def test_events_of_another_certificate_prove_its_outcome_or_nothing():
                 assert check(mine | {"events": events}) == mine["outcome"]
 
 
-@pytest.mark.parametrize(
-    "changes",
-    [
-        {"sigma": "1000"},
-        {"h": "1000", "last": True},
-        {"frequency_parameter": "1e9", "angular_frequency": "1e-9"},
-        {"amplitude": "1e9"},
-        {"impact": "1000"},
-    ],
-)
-def test_motion_of_any_size_is_refused_without_long_series(changes):
+LARGE = {"sigma": "1000", "impact": "1000", "amplitude": "1e9", "frequency_parameter": "1e9"}
+
+
+@pytest.mark.parametrize("key", LARGE)
+def test_motion_of_any_size_is_refused_without_long_series(key):
     """These took minutes, or ended in an OverflowError."""
     certificate = honest(COLUMN.block(0.6), th.Pulse("ricker-symmetric", 0.25, 4.0))
     for part in (certificate["structure"], certificate["pulse"], *certificate["events"][:2]):
-        part |= {key: value for key, value in changes.items() if key in part}
+        if key in part:
+            part[key] = LARGE[key]
     refused(certificate, "uplift|step")
-
-
-# The command -------------------------------------------------------------------------------------
 
 
 def test_anyone_can_check_a_file_of_certificates(tmp_path):
@@ -275,9 +254,8 @@ def test_anyone_can_check_a_file_of_certificates(tmp_path):
     [
         (json.dumps(WITH_IMPACT | {"outcome": "overturns"}), "the outcome in the certificate"),
         (json.dumps(WITH_IMPACT | {"order": math.nan}), "NaN is no JSON"),
-        (json.dumps(WITH_IMPACT)[:-1] + ', "impacts": 1}', "a key stands twice"),
+        (json.dumps(WITH_IMPACT)[:-1] + ', "impacts": 1}', "a key occurs twice"),
         ("[" * 90_000, "no JSON"),
-        ("{", "no JSON"),
         (" " * 200_000, "it is longer than 100000 characters"),
     ],
 )

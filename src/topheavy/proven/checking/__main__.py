@@ -1,7 +1,8 @@
 """Verify certificates with the standard library alone: python3 -I -S src/topheavy/proven/checking.
 
-It prints what all certificates of the files (JSON Lines, also compressed by gzip) prove together,
-structure by structure. The first that proves nothing ends it with status 1.
+It reads files of certificates (JSON Lines, also compressed by gzip) and prints for each structure
+and pulse the amplitudes that they prove to survive or to overturn. A refused certificate ends it
+with status 1.
 """
 
 import gzip
@@ -23,7 +24,7 @@ if not __package__:  # run as a folder, which is a package of its own then; ends
 from .checker import check
 from .intervals import Refused
 
-LONGEST = 100_000  # characters of a line
+MAX_LINE = 100_000  # characters
 USAGE = "usage: python3 -I -S src/topheavy/proven/checking FILE…"
 
 Range = tuple[Fraction, Fraction, str]
@@ -33,7 +34,7 @@ Range = tuple[Fraction, Fraction, str]
 def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     entries = dict(pairs)
     if len(entries) < len(pairs):
-        raise Refused("a key stands twice")
+        raise Refused("a key occurs twice")
     return entries
 
 
@@ -43,8 +44,8 @@ def _no_number(text: str) -> Any:
 
 def parsed(line: str) -> Any:
     """Return a certificate from its JSON; one with a key twice, or with NaN, is refused."""
-    if len(line) > LONGEST:
-        raise Refused(f"it is longer than {LONGEST} characters")
+    if len(line) > MAX_LINE:
+        raise Refused(f"it is longer than {MAX_LINE} characters")
     try:
         return json.loads(line, object_pairs_hook=_once, parse_constant=_no_number)
     except (ValueError, RecursionError) as fault:
@@ -79,7 +80,7 @@ def decimal(number: Fraction) -> str:
 
 def lines_of(path: str) -> Iterator[str]:
     with (gzip.open if path.endswith(".gz") else open)(path, "rt", encoding="utf-8") as file:
-        while line := file.readline(LONGEST + 1):
+        while line := file.readline(MAX_LINE + 1):
             yield line
 
 

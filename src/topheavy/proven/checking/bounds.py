@@ -29,7 +29,7 @@ lasts at least 2 (Y_s − X_s)/(v(X_s) + v(Y_s)) > h. Each flight begins at a φ
 from dataclasses import dataclass
 from fractions import Fraction
 
-from .intervals import Interval, Refused, of, point
+from .intervals import Interval, Refused, enclose, point
 from .model import Block, Ground
 
 SIDES = (1, -1)
@@ -51,12 +51,12 @@ class Bound:
     ) -> "Bound":
         """Return the bound of a state (φ, φ') on a side, or at rest for side 0."""
         if not side:
-            return cls(block, ground, sigma, of(0), (of(0), of(0)))
+            return cls(block, ground, sigma, enclose(0), (enclose(0), enclose(0)))
         phi, rate = state
         push, middle = side * ground.at(sigma), point(phi.middle)
         energy = ground.clock * block.potential(middle, push) + rate * rate / 2
         energy = energy + ground.clock * block.pull(phi, push) * (phi - middle)
-        wall, none = point(max(phi.high, 0)), of(0)
+        wall, none = point(max(phi.high, 0)), enclose(0)
         walls = (wall, none) if side == 1 else (none, wall)
         return cls(block, ground, sigma, point(max(energy.high, 0)), walls)
 
@@ -64,7 +64,7 @@ class Bound:
         """Return h and, by side, least and largest s a and the most that it gains until then."""
         lasts = until - self.sigma
         h = point(lasts.high)
-        over, rate = self.ground.series(self.sigma.hull(until), of(1), 2)
+        over, rate = self.ground.series(self.sigma.hull(until), enclose(1), 2)
         if rate.low <= 0 <= rate.high:
             return h, [side * over for side in SIDES], [h * rate.size()] * 2
         ends = self.ground.at(self.sigma).hull(self.ground.at(until))
@@ -107,7 +107,7 @@ class Bound:
         if not self.sigma.low >= self.ground.stop.high:
             raise Refused("the bound ends before the pulse")
         jump = -self.ground.at(self.ground.stop)
-        barrier = self.ground.clock * self.block.potential(self.block.alpha, of(0))
+        barrier = self.ground.clock * self.block.potential(self.block.alpha, enclose(0))
         return self._raised([side * jump for side in SIDES], self.walls) < barrier
 
 
@@ -117,4 +117,4 @@ def _positive(x: Interval) -> Interval:
 
 def rounded_up(text: str) -> Interval:
     """Return a wall or a phase of a certificate as a number that is not less."""
-    return point(of(Fraction(text)).high)
+    return point(enclose(Fraction(text)).high)

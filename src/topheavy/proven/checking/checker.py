@@ -11,12 +11,12 @@ from typing import Any
 from . import intervals
 from .bounds import Bound, rounded_up
 from .course import Course, horner
-from .intervals import Interval, Refused, arctangent, cosine, of, point, sine
+from .intervals import Interval, Refused, arctangent, cosine, enclose, point, sine
 from .model import Block, Ground
 from .schema import validated
 
-FINEST = 2**30  # a share of a span so small is not cut before a sign counts as unproven
-HALVINGS = 6  # of each side of a bracket around the place that is not decided
+FINEST = 2**30  # parts of a span: a sign that is unproven on such a small part stays unproven
+HALVINGS = 6  # of either side of a bracket, towards the part where neither sign is proven
 
 Test = Callable[[Interval], bool]
 
@@ -74,9 +74,9 @@ class Check:
         self.block = Block(certificate["structure"], certificate["linearised"])
         self.ground = Ground(certificate["pulse"], certificate["factor"], self.block.square)
         self.order = certificate["order"]
-        self.quarter_turn = arctangent(of(1)) * 2
-        self.sigma, self.phi, self.rate = of(0), of(0), of(0)
-        self.energy = of(0)  # φ'²/2 + κ² (Φ + s a ψ): it encloses what state and time share
+        self.quarter_turn = arctangent(enclose(1)) * 2
+        self.sigma, self.phi, self.rate = enclose(0), enclose(0), enclose(0)
+        self.energy = enclose(0)  # φ'²/2 + κ² (Φ + s a ψ): it encloses what state and time share
         self.side = self.impacts = self.zeros = 0
         self.is_over = False  # the pulse
         self.bound: Bound | None = None  # in place of the state
@@ -113,10 +113,10 @@ class Check:
         The next step proves that |a| rises in all of the bracket: else φ''' may be zero.
         """
         self._followed(rests=True)
-        if self._is_above(of(0)):
-            self.sigma, self.zeros = of(0), 2
+        if self._is_above(enclose(0)):
+            self.sigma, self.zeros = enclose(0), 2
         else:
-            low, high = _bracket(of(hint).middle, self._is_below, self._is_above)
+            low, high = _bracket(enclose(hint).middle, self._is_below, self._is_above)
             if low < 0:
                 raise Refused("it begins earlier than the motion")
             if high >= self.ground.stop.low:
@@ -131,7 +131,7 @@ class Check:
         def below(x: Interval) -> bool:
             if self._is_below(x):
                 return True
-            value, slope = self.ground.series(x, of(1), 2)
+            value, slope = self.ground.series(x, enclose(1), 2)
             return x.high == until and ((value > 0 and slope > 0) or (value < 0 and slope < 0))
 
         _holds(below, 0, until, "the ground may lift the block earlier")
@@ -149,17 +149,17 @@ class Check:
         left = self.ground.stop - self.sigma
         if is_last:
             h = max(h, Fraction(left.high, intervals.UNIT))
-        elif not of(h) < left:
+        elif not enclose(h) < left:
             raise Refused("a step goes on beyond the pulse")
         if not h > 0:
             raise Refused("a step goes back")
         course = Course(self, h)
-        end = left / course.h if is_last else of(1)
+        end = left / course.h if is_last else enclose(1)
         if impact is None:
             if self.zeros or not course.box > 0:
                 self._is_positive(course, end.high, falls=False)
         else:
-            end = self._impact_in(course, of(Fraction(impact) / h).middle)
+            end = self._impact_in(course, enclose(Fraction(impact) / h).middle)
             if is_last and not end < left / course.h:
                 raise Refused("the impact may come after the end of the pulse")
         if not self._lies_flat(course, end):
@@ -174,7 +174,7 @@ class Check:
 
     def _lands(self, rate: Interval, after: Interval) -> None:
         self.energy = self.energy.common(rate * rate / 2)
-        self.impacts, self.sigma, self.phi = self.impacts + 1, self.sigma + after, of(0)
+        self.impacts, self.sigma, self.phi = self.impacts + 1, self.sigma + after, enclose(0)
         self.zeros, self.side = 1, -self.side
         self.rate = -self.block.restitution * rate
         self.energy = self.block.restitution * self.block.restitution * self.energy

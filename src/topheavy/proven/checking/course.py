@@ -8,16 +8,16 @@ from fractions import Fraction
 from typing import Protocol
 
 from . import intervals
-from .intervals import Interval, Refused, cosine, dot, extremes, of, sine
+from .intervals import Interval, Refused, cosine, dot, enclose, extremes, sine
 from .model import Block, Ground
 
-MOST_BOXES = 12  # that are tried for a step
+MAX_BOXES = 12  # tried for one step
 
 Series = tuple[list[Interval], list[Interval], list[Interval], list[Interval]]
 
 
 class State(Protocol):
-    """Where a step starts: the problem, the state at σ, and how many terms of φ vanish."""
+    """The start of a step: block, ground, the state at σ, and the order of the zero of φ there."""
 
     block: Block
     ground: Ground
@@ -33,12 +33,12 @@ class Course:
     """φ and φ' over a step as polynomials in τ = t/h, the last coefficients being remainders."""
 
     def __init__(self, start: State, h: Fraction) -> None:
-        self.h, self.kappa = of(h), start.ground.clock
+        self.h, self.kappa = enclose(h), start.ground.clock
         span, time = start.sigma + self.h.hull(0), self.h.hull(0)
         push = start.side * start.ground.at(span)
         phi, rate, n = start.phi, start.rate, start.order
         image = phi.hull(phi + self.h * rate)
-        for _ in range(MOST_BOXES):  # Picard: a box that holds its own image holds the motion
+        for _ in range(MAX_BOXES):  # Picard: a box that holds its own image holds the motion
             slack = (image.high - image.low) // 16 + (intervals.UNIT >> 30)
             box = Interval(image.low - slack, image.high + slack)
             force = -self.kappa * start.block.pull(box, push)
@@ -46,14 +46,14 @@ class Course:
             if image.inside(box):
                 break
         else:
-            raise Refused("no box is found that holds the motion of the step")
+            raise Refused("no box holds the motion of the step")
         self.box = image
         self.phi, self.rate, slopes, lever = self._develop(start, start.sigma, phi, rate)
         ends = self._develop(start, span, image, rate + time * force)
         self.phi[n], self.rate[n] = ends[0][n], ends[1][n]
         gains = [self._gain(slopes, lever, k) for k in range(1, n - 1)]
-        self.gain = [of(0), *gains, self._gain(*ends[2:], n - 1)]
-        self.phi[: start.zeros] = [of(0)] * start.zeros
+        self.gain = [enclose(0), *gains, self._gain(*ends[2:], n - 1)]
+        self.phi[: start.zeros] = [enclose(0)] * start.zeros
 
     def _develop(self, start: State, sigma: Interval, phi: Interval, rate: Interval) -> Series:
         """Return the coefficients 0 to n of φ and φ', and those of s a' and ψ.
@@ -66,7 +66,7 @@ class Course:
         back, force = -h, -h * self.kappa
         for k in range(n):
             if block.linearised:
-                pull = push[k] - x[k] + (block.alpha if k == 0 else of(0))
+                pull = push[k] - x[k] + (block.alpha if k == 0 else enclose(0))
             else:
                 cosines = c[::-1]
                 pull = s[k] + dot(push, cosines)

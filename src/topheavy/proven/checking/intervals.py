@@ -29,7 +29,7 @@ class Interval:
 
     def __add__(self, other: "Interval | int") -> "Interval":
         if not isinstance(other, Interval):
-            other = of(other)
+            other = enclose(other)
         return Interval(self.low + other.low, self.high + other.high)
 
     def __neg__(self) -> "Interval":
@@ -37,7 +37,7 @@ class Interval:
 
     def __sub__(self, other: "Interval | int") -> "Interval":
         if not isinstance(other, Interval):
-            other = of(other)
+            other = enclose(other)
         return Interval(self.low - other.high, self.high - other.low)
 
     def __mul__(self, other: "Interval | int") -> "Interval":
@@ -60,7 +60,7 @@ class Interval:
     __radd__, __rmul__ = __add__, __mul__
 
     def __rsub__(self, other: int) -> "Interval":
-        return of(other) - self
+        return enclose(other) - self
 
     def __gt__(self, other: "Interval | int") -> bool:
         return self.low > (other.high if isinstance(other, Interval) else other * UNIT)
@@ -77,19 +77,19 @@ class Interval:
         return other.low <= self.low and self.high <= other.high
 
     def hull(self, other: "Interval | int") -> "Interval":
-        other = of(other)
+        other = enclose(other)
         return Interval(min(self.low, other.low), max(self.high, other.high))
 
     def common(self, other: "Interval") -> "Interval":
-        """Return the numbers in both, which hold the one that is meant."""
+        """Return the intersection of two enclosures of the same number."""
         low, high = max(self.low, other.low), min(self.high, other.high)
         if low > high:
-            raise Refused("two enclosures of a number have nothing in common")
+            raise Refused("two enclosures of a number do not meet")
         return Interval(low, high)
 
     def root(self) -> "Interval":
         if self.low < 0:
-            raise Refused("a root of what may be negative")
+            raise Refused("the argument of a root may be negative")
         return Interval(math.isqrt(self.low * UNIT), math.isqrt(self.high * UNIT) + 1)
 
     def size(self) -> "Interval":
@@ -99,8 +99,8 @@ class Interval:
         return self if self.low >= 0 else -self
 
 
-def of(number: "Interval | int | Fraction") -> Interval:
-    """Return the interval of a number."""
+def enclose(number: "Interval | int | Fraction") -> Interval:
+    """Return the narrowest interval that holds a number."""
     if isinstance(number, Interval):
         return number
     if isinstance(number, int):
@@ -137,7 +137,7 @@ def _powers(x: int, places: int, turns: bool) -> list[Interval]:
 
     If it turns, the signs of cosine and sine are in the sums.
     """
-    bits = 64 + 2 * (abs(x) >> places)  # what large terms that cancel cost
+    bits = 64 + 2 * (abs(x) >> places)  # lost where large terms cancel
     x, places = x << bits, places + bits
     unit = 1 << places
     sums, term, k = [0, 0], unit, 0
@@ -154,7 +154,7 @@ def _powers(x: int, places: int, turns: bool) -> list[Interval]:
 def _turned(low: int, high: int, places: int) -> tuple[Interval, Interval]:
     """Return cosine and sine of an interval: by its middle m and radius r, |f'| ≤ |f'(m)| + r."""
     middle, radius = (low + high) // 2, (high - low) // 2 + 1
-    if max(radius, abs(middle) >> 10) > 4 * UNIT:  # more than a turn, or where no proof goes
+    if max(radius, abs(middle) >> 10) > 4 * UNIT:  # more than a turn, or far beyond any proof
         return Interval(-UNIT, UNIT), Interval(-UNIT, UNIT)
     cosine, sine, _ = _powers(middle, places, True)
     return _around(cosine, sine, radius), _around(sine, cosine, radius)
@@ -177,7 +177,7 @@ def cosine(x: Interval) -> Interval:
 def exponential(x: Interval) -> Interval:
     """Return exp(−x) for x ≥ 0, up to a rounding below; beyond x = P it is less than 2^−P."""
     ends = [max(0, min(end, PLACES * UNIT)) for end in (x.low, x.high)]
-    most, least = (of(1) / _powers(end, PLACES, False)[2] for end in ends)
+    most, least = (enclose(1) / _powers(end, PLACES, False)[2] for end in ends)
     return Interval(least.low if ends[1] == x.high else 0, most.high)
 
 
@@ -186,7 +186,7 @@ def arctangent(x: Interval) -> Interval:
     halvings = 8
     for _ in range(halvings):
         x = x / ((x * x + 1).root() + 1)
-    square, term, total, k = x * x, x, of(0), 0
+    square, term, total, k = x * x, x, enclose(0), 0
     while term.high > 1:
         total = total + (term if k % 2 == 0 else -term) / (2 * k + 1)
         term, k = term * square, k + 1

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 
 from . import intervals
-from .intervals import Interval, Refused, arctangent, cosine, dot, exponential, of, sine
+from .intervals import Interval, Refused, arctangent, cosine, dot, enclose, exponential, sine
 from .schema import HALF_TURNS
 
 LARGEST_WAVE = Fraction(10001, 10000)  # of |f|: the antisymmetric Ricker pulse peaks at 1.00002
@@ -18,16 +18,16 @@ class Block:
         words = "kind", "mass_ratio"
         value = {key: Fraction(text) for key, text in structure.items() if key not in words}
         if kind == "block":
-            self.alpha = of(value["slenderness"])
+            self.alpha = enclose(value["slenderness"])
             self.sine, self.cosine = sine(self.alpha), cosine(self.alpha)
-            self.square = of(value["frequency_parameter"]) * of(value["frequency_parameter"])
-            self.restitution = of(value["restitution"])
+            self.square = enclose(value["frequency_parameter"] ** 2)
+            self.restitution = enclose(value["restitution"])
         else:
             base, height, inertia, root = _rigid(kind, value, structure["mass_ratio"])
-            distance = of(base * base + height * height).root()
-            self.sine, self.cosine = of(base) / distance, of(height) / distance
-            self.square = of(value["gravity"]) * distance / of(inertia)
-            self.alpha, self.restitution = arctangent(of(base / height)), of(root)
+            distance = enclose(base * base + height * height).root()
+            self.sine, self.cosine = enclose(base) / distance, enclose(height) / distance
+            self.square = enclose(value["gravity"]) * distance / enclose(inertia)
+            self.alpha, self.restitution = arctangent(enclose(base / height)), enclose(root)
         if not (self.restitution.low >= 0 and self.restitution.high <= intervals.UNIT + 1):
             raise Refused("√r is outside of 0 to 1: the block does not rock after an impact")
         self.level = self.alpha if linearised else self.sine / self.cosine
@@ -75,17 +75,17 @@ class Ground:
 
     def __init__(self, pulse: dict[str, str], factor: Sequence[str], square: Interval) -> None:
         low, high = (Fraction(pulse["amplitude"]) * Fraction(end) for end in factor)
-        self.shape, self.amplitude = pulse["shape"], of(low).hull(of(high))
-        self.clock = square / of(Fraction(pulse["angular_frequency"]) ** 2)  # κ² = (p/ω)²
-        # π = 16 atan 1/5 − 4 atan 1/239
-        self.pi = 16 * arctangent(of(Fraction(1, 5))) - 4 * arctangent(of(Fraction(1, 239)))
+        self.shape, self.amplitude = pulse["shape"], enclose(low).hull(enclose(high))
+        self.clock = square / enclose(Fraction(pulse["angular_frequency"]) ** 2)  # κ² = (p/ω)²
+        first, second = (arctangent(enclose(Fraction(1, n))) for n in (5, 239))
+        self.pi = 16 * first - 4 * second
         self.stop = self.pi * HALF_TURNS[self.shape]
-        self.largest = of(LARGEST_WAVE) * self.amplitude.size()
+        self.largest = enclose(LARGEST_WAVE) * self.amplitude.size()
 
     def series(self, sigma: Interval, h: Interval, terms: int) -> list[Interval]:
         """Return the coefficients of a(σ + hτ) by powers of τ."""
         if self.shape == "constant":
-            return [self.amplitude, *[of(0)] * (terms - 1)]
+            return [self.amplitude, *[enclose(0)] * (terms - 1)]
         if self.shape.startswith("ricker"):
             return [self.amplitude * x for x in self._ricker(sigma, h, terms)]
         pair = [(sine(sigma), cosine(sigma))]
@@ -97,22 +97,22 @@ class Ground:
 
     def _ricker(self, sigma: Interval, h: Interval, terms: int) -> list[Interval]:
         is_even = self.shape == "ricker-symmetric"
-        step = h / 2 if is_even else h / of(3).root()  # y = y₀ + step τ; (1 − 2y²) e^(−y²) or …
-        start = sigma - self.pi * 9 / 2
-        y = start / 2 if is_even else start / of(3).root()  # (y² − 3) y e^(−y²/2)
+        # (1 − 2y²) e^(−y²), or (y² − 3) y e^(−y²/2) over its peak, with y + step τ for y
+        width = enclose(2) if is_even else enclose(3).root()
+        y, step = (sigma - self.pi * 9 / 2) / width, h / width
         bell = [exponential(y * y / (1 if is_even else 2))]
         for k in range(terms - 1):
-            before = bell[k - 1] if k else of(0)
+            before = bell[k - 1] if k else enclose(0)
             rate = step * (y * bell[k] + step * before) / (k + 1)
             bell.append(-rate * (2 if is_even else 1))
         if is_even:
             factors = [1 - 2 * (y * y), -4 * (y * step), -2 * (step * step)]
         else:
             cube = [(y * y - 3) * y, (3 * (y * y) - 3) * step, 3 * y * step * step]
-            peak = of(Fraction(13801, 10000))
+            peak = enclose(Fraction(13801, 10000))
             factors = [x / peak for x in (*cube, step * step * step)]
         return [dot(factors, bell[k::-1]) for k in range(terms)]
 
     def at(self, sigma: Interval) -> Interval:
         """Return a(σ)."""
-        return self.series(sigma, of(1), 1)[0]
+        return self.series(sigma, enclose(1), 1)[0]

@@ -16,8 +16,8 @@ DECIMAL = r"(?a)-?\d{1,400}(\.\d{1,400})?([eE][+-]?\d{1,3})?"
 NUMBER = DECIMAL + r"|-?\d{1,400}/[1-9]\d{0,400}"
 HALF_TURNS = {"half-sine": 1, "constant": 1, "one-sine": 2, "one-cosine": 2}
 HALF_TURNS |= {"ricker-symmetric": 9, "ricker-antisymmetric": 9}
-FINEST, LARGEST = Fraction(1, 10**9), 10**9
-MOST_EVENTS = 20_000
+SMALLEST, LARGEST = Fraction(1, 10**9), 10**9
+MAX_EVENTS = 20_000
 
 
 def _refuse(where: str, value: Any, expected: str) -> None:
@@ -60,95 +60,88 @@ def one_of(*values: Any) -> Test:
 def either(value: Any, test: Test) -> Test:
     """Return a test that passes for one value, or as the other test says."""
 
-    def tested(where: str, found: Any) -> None:
-        if type(found) is not type(value) or found != value:
-            test(where, found)
+    def tested(where: str, entry: Any) -> None:
+        if type(entry) is not type(value) or entry != value:
+            test(where, entry)
 
     return tested
 
 
-def row(*tests: Test) -> Test:
-    def of_row(where: str, value: Any) -> None:
-        if not isinstance(value, list) or len(value) != len(tests):
-            _refuse(where, value, f"a list of {len(tests)}")
-        for place, (test, one) in enumerate(zip(tests, value, strict=True)):
-            test(f"{where}[{place}]", one)
-
-    return of_row
-
-
-def mapping(**entries: Test) -> Test:
-    """Return a test of a mapping that has these keys and no other."""
-
-    def of_mapping(where: str, value: Any) -> None:
-        if not isinstance(value, dict):
-            _refuse(where, value, "a mapping")
-        for key in entries.keys() - value.keys():
-            raise Refused(f"{where} lacks {key}")
-        for key in value.keys() - entries.keys():
-            raise Refused(f"{where} has {key!r}; expected {', '.join(entries)}")
-        for key, test in entries.items():
-            test(f"{where}.{key}", value[key])
-
-    return of_mapping
-
-
-def named(name: str, forms: dict[str, dict[str, Test]]) -> Test:
+def one_form(name: str, forms: dict[str, dict[str, Any]]) -> Test:
     """Return a test of a mapping whose entry `name` says which form it has."""
 
     def test(where: str, value: Any) -> None:
         word: Any = value.get(name) if isinstance(value, dict) else None
         one_of(*forms)(f"{where}.{name}", word)
-        mapping(**{name: one_of(word)}, **forms[word])(where, value)
+        _fits(where, value, {name: one_of(word), **forms[word]})
 
     return test
 
 
 def events(where: str, value: Any) -> None:
-    if not isinstance(value, list) or len(value) > MOST_EVENTS:
-        _refuse(where, value, f"a list of at most {MOST_EVENTS}")
-    for place, one in enumerate(value):
-        EVENT(f"{where}[{place}]", one)
+    if not isinstance(value, list) or len(value) > MAX_EVENTS:
+        _refuse(where, value, f"a list of at most {MAX_EVENTS}")
+    for place, event in enumerate(value):
+        EVENT(f"{where}[{place}]", event)
 
 
-SIZE, PHASE, ANGLE = number(FINEST), number(0, 1000), number(-100, 100)
+def _fits(where: str, value: Any, form: Any) -> None:
+    """Raise `Refused` unless a value has a form: these keys, this many entries, or a test."""
+    if isinstance(form, dict):
+        if not isinstance(value, dict):
+            _refuse(where, value, "a mapping")
+        for key in value.keys() ^ form.keys():
+            verb = "has" if key in value else "lacks"
+            raise Refused(f"{where} {verb} {key!r}; expected {', '.join(form)}")
+        for key, inner in form.items():
+            _fits(f"{where}.{key}", value[key], inner)
+    elif isinstance(form, tuple):
+        if not isinstance(value, list) or len(value) != len(form):
+            _refuse(where, value, f"a list of {len(form)}")
+        for place, (entry, inner) in enumerate(zip(value, form, strict=True)):
+            _fits(f"{where}[{place}]", entry, inner)
+    else:
+        form(where, value)
+
+
+SIZE, PHASE, ANGLE = number(SMALLEST), number(0, 1000), number(-100, 100)
 AMPLITUDE = number(form=DECIMAL)
 SIDES = {"half_width": SIZE, "half_height": SIZE, "gravity": SIZE}
 SIDES |= {"mass_ratio": either("infinite", number(0))}
 STRUCTURES = {
     "block": {
-        "slenderness": number(FINEST, Fraction(157, 100)),
+        "slenderness": number(SMALLEST, Fraction(157, 100)),
         "frequency_parameter": SIZE,
         "restitution": number(0, 1),
     },
     "frame": SIDES,
     "body": SIDES | {"axis": number(0), "cap_width": number(0), "cap_depth": number(0)},
 }
-EVENT = named(
+EVENT = one_form(
     "event",
     {
         "uplift": {"sigma": PHASE},
         "step": {"h": PHASE, "last": truth, "impact": either(None, number(-1000, 1000))},
-        "walls": {"sigma": PHASE, "walls": row(ANGLE, ANGLE)},
+        "walls": {"sigma": PHASE, "walls": (ANGLE, ANGLE)},
         "gone": {},
     },
 )
-CERTIFICATE = mapping(
-    structure=named("kind", STRUCTURES),
-    linearised=truth,
-    pulse=mapping(shape=one_of(*HALF_TURNS), amplitude=AMPLITUDE, angular_frequency=SIZE),
-    factor=row(AMPLITUDE, AMPLITUDE),
-    outcome=one_of("survives", "overturns"),
-    impacts=either(None, whole(0, MOST_EVENTS)),
-    bits=whole(32, 1024),
-    order=whole(4, 128),
-    events=events,
-)
+CERTIFICATE = {
+    "structure": one_form("kind", STRUCTURES),
+    "linearised": truth,
+    "pulse": {"shape": one_of(*HALF_TURNS), "amplitude": AMPLITUDE, "angular_frequency": SIZE},
+    "factor": (AMPLITUDE, AMPLITUDE),
+    "outcome": one_of("survives", "overturns"),
+    "impacts": either(None, whole(0, MAX_EVENTS)),
+    "bits": whole(32, 1024),
+    "order": whole(4, 128),
+    "events": events,
+}
 
 
 def validated(certificate: Any) -> None:
     """Raise `Refused`, with the entry and what was expected, unless a certificate has the form."""
-    CERTIFICATE("certificate", certificate)
+    _fits("certificate", certificate, CERTIFICATE)
     low, high = map(Fraction, certificate["factor"])
     if not low <= high:
         _refuse("certificate.factor", certificate["factor"], "two in ascending order")
