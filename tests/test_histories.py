@@ -12,7 +12,7 @@ from benchmarks.boundaries import survey
 from steps.shared.linear import simulate_linear_exact as closed
 from tests.cases import BLOCK, BOTH, BY_TWO, COLUMN, EVERY, SIDES, TWO
 from topheavy.bodies.free_rocking import barrier, potential, quarter_period
-from topheavy.ground.excitation import root
+from topheavy.ground.excitation import sign_change
 from topheavy.ground.shapes import ELEMENTARY_ENDING
 from topheavy.kernel.outcome import LAST_IMPACT, LONGEST_FLIGHT
 from topheavy.second import reference
@@ -393,7 +393,7 @@ def test_impact_right_after_the_start_is_found():
     assert {end.overturned for end in ends} == {False}
     assert ends[0].peak == pytest.approx(ends[1].peak, rel=1e-6)
     # however rounding goes: a root that no interpolation helps to find
-    assert root(lambda t: math.copysign(1.0, t - 1e-60), 0.0, 1.0) == pytest.approx(1e-60)
+    assert sign_change(lambda t: math.copysign(1.0, t - 1e-60), 0.0, 1.0) == pytest.approx(1e-60)
 
 
 # ---------------------------------------------------------------------------- bounds

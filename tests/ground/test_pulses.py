@@ -12,7 +12,7 @@ import topheavy.ground.shapes
 from replication.config import Shape
 from tests.cases import SIDES
 from topheavy import PULSE_SHAPES, Pulse
-from topheavy.ground.excitation import Segment, still
+from topheavy.ground.excitation import Segment, zero_acceleration
 from topheavy.ground.shapes import ELEMENTARY, ENDING, SHAPES
 from topheavy.kernel import forcing
 
@@ -182,7 +182,7 @@ def test_push_ends_where_it_falls_below_the_level(side, first, last, since, at):
 def test_largest_is_over_the_overlap_alone(start, stop, largest):
     through = line(1.0, 3.0, -0.5, 0.5)
     assert through.largest(start, stop) == pytest.approx(largest, abs=1e-15)
-    assert still(0.0) == still(-3.0) == still(1e9) == 0.0
+    assert zero_acceleration(0.0) == zero_acceleration(-3.0) == zero_acceleration(1e9) == 0.0
 
 
 def test_least_gravity_of_a_segment_is_that_of_its_lower_end():

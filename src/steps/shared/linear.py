@@ -21,7 +21,7 @@ from scipy.optimize import brentq
 
 from topheavy.bodies.response import Response
 from topheavy.bodies.structures import RockingBlock, Structure, as_block
-from topheavy.ground.excitation import Excitation, Segment, still
+from topheavy.ground.excitation import Excitation, Segment, zero_acceleration
 from topheavy.ground.pulses import Pulse
 from topheavy.ground.shapes import ELEMENTARY
 from topheavy.ground.vertical import with_vertical
@@ -99,7 +99,7 @@ class _Course:
 
 def _ground(pulse: Pulse | None, block: RockingBlock, segment: Segment) -> Ground:
     """Return what the ground adds to the solution on a segment: t ↦ κ (a, ȧ)."""
-    if pulse is None or pulse.shape == "constant" or segment.acceleration is still:
+    if pulse is None or pulse.shape == "constant" or segment.acceleration is zero_acceleration:
         first = segment.acceleration(segment.start)
         rise = segment.acceleration(segment.stop) - first
         incline = rise / (segment.stop - segment.start)

@@ -28,7 +28,7 @@ from steps.shared.newton_euler import (
 from topheavy import checks
 from topheavy.bodies.response import Outcome, sample_times
 from topheavy.bodies.structures import STANDARD_GRAVITY, RockingFrame
-from topheavy.ground.excitation import Excitation, Segment, checked_excitation, still
+from topheavy.ground.excitation import Excitation, Segment, checked_excitation, zero_acceleration
 from topheavy.ground.records import Record
 from topheavy.ground.vertical import with_vertical
 from topheavy.second.motion import REST_PEAK
@@ -183,7 +183,7 @@ def simulate_three_bodies(
     segments = [] if ground is None else list(ground.segments(until))
     end = segments[-1].stop if segments else 0.0
     if end < until:
-        segments.append(Segment(end, until, still))
+        segments.append(Segment(end, until, zero_acceleration))
 
     motion = _start(bodies, rotation, velocity)
     lifts = uplift_accelerations(bodies)

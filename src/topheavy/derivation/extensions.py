@@ -82,29 +82,29 @@ def vertical_acceleration_adds_to_gravity() -> bool:
 
     So the frame remains equivalent to the column of size R̂.
     """
-    found = []
+    identities = []
     for side in SIDES:
         heavier = {g: g + vertical_acceleration}
         frame = frame_of_columns(side)
         column = frame.subs(gamma, 0)
-        still = equation_of_motion(side).rhs
+        level = equation_of_motion(side).rhs
         ratio = (1 + 2 * gamma) / (1 + 3 * gamma)
-        found += [
-            vanishes(frame - still.subs(heavier), side),
+        identities += [
+            vanishes(frame - level.subs(heavier), side),
             vanishes(column - column_motion(side).subs(RECTANGULAR).subs(heavier), side),
             vanishes(frame - ratio * column, side),
         ]
-    return all(found)
+    return all(identities)
 
 
 def vertical_acceleration_changes_the_uplift() -> bool:
     """Uplift begins at (g + v̈_g) tan α, for every γ."""
-    found = []
+    identities = []
     for side in SIDES:
         (level,) = sp.solve(side.upright(frame_of_columns(side)), ground_acceleration)
         stated = -side.sign * (g + vertical_acceleration) * sp.tan(alpha)
-        found.append(vanishes(level - stated, side))
-    return all(found)
+        identities.append(vanishes(level - stated, side))
+    return all(identities)
 
 
 def vertical_acceleration_is_a_change_of_gravity_and_push() -> bool:

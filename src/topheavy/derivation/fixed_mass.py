@@ -1,7 +1,7 @@
 """The cap's mass fixed rigidly to the top of one column, from the same balances as the frame.
 
-Column and cap turn by the same θ about the column's corner. Neither the common centre of gravity
-nor the formulas for α', p' and √r' are put in; they are found.
+Column and cap turn by the same θ about the column's corner. The common centre of gravity and the
+formulas for α', p' and √r' are results, not assumptions.
 
 The cap weighs γ m_c, that of the frame whose cap beam has the same mass for each column. Its centre
 is d above the top of the column, and its central moment of inertia is I_b; both are zero for a mass
@@ -141,16 +141,17 @@ def fixed_mass_rocks_as_one_column() -> bool:
     mass = m_c + _CAP
     beside = R * sp.sin(alpha)
     above = (m_c * R * sp.cos(alpha) + _CAP * (2 * R * sp.cos(alpha) + half_depth)) / mass
-    found = [vanishes(fixed_tangent() - beside / above, NEGATIVE)]
+    identities = [vanishes(fixed_tangent() - beside / above, NEGATIVE)]
     distance = beside**2 + above**2
-    found.append(vanishes(fixed_fourth_power() - (mass * g / _inertia()) ** 2 * distance, NEGATIVE))
+    fourth_power = (mass * g / _inertia()) ** 2 * distance
+    identities.append(vanishes(fixed_fourth_power() - fourth_power, NEGATIVE))
     for side in SIDES:
         cos, sin = sp.cos(side.rotation), side.sign * sp.sin(side.rotation)
         # R' sin(α' − |θ|) and R' cos(α' − |θ|)
         across, along = beside * cos - above * sin, above * cos + beside * sin
         eq3 = -mass / _inertia() * (g * side.sign * across + ground_acceleration * along)
-        found.append(vanishes(fixed_motion(side) - eq3, side))
-    return all(found)
+        identities.append(vanishes(fixed_motion(side) - eq3, side))
+    return all(identities)
 
 
 def energies_give_the_same_motion_of_the_fixed_mass() -> bool:

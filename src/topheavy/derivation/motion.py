@@ -51,7 +51,7 @@ RECTANGULAR = {I_o: sp.Rational(4, 3) * m_c * R**2, m_b: N * gamma * m_c}
 RECTANGULAR_OF_TWO = {symbol: value.subs(OF_TWO) for symbol, value in RECTANGULAR.items()}
 
 LOADS = sp.ImmutableMatrix([ground_acceleration, g + vertical_acceleration])
-"""What a mass feels beside its acceleration above the ground: per mass, to the left and down."""
+"""Inertia of the ground's motion and weight, per mass: to the left and down."""
 
 
 # Geometry -----------------------------------------------------------------------------------------
@@ -184,11 +184,11 @@ def frame_motion(side: Side) -> dict[sp.Symbol, sp.Expr]:
     """
     motion = motion_of_columns(side).subs(OF_TWO)
     vertical = cap_force(side)[1].subs(OF_TWO).subs(acceleration, motion) - F_z1
-    found = {acceleration: motion, F_z2: vertical}
+    solution = {acceleration: motion, F_z2: vertical}
     for across, up in ((F_x1, F_z1), (F_x2, F_z2)):
         balance = column_moment(side, sp.Matrix([across, up])).subs(OF_TWO)
-        found[across] = solved(balance.subs(found), across)
-    return found
+        solution[across] = solved(balance.subs(solution), across)
+    return solution
 
 
 @cache

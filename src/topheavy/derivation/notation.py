@@ -143,9 +143,8 @@ class CircleField:
 
     def __init__(self, expressions: Iterable[sp.Expr]) -> None:
         expressions = list(expressions)
-        found = {f.args[0] for each in expressions for f in each.atoms(sp.sin, sp.cos)}
-        angles = sorted(found, key=str)
-        powers = {f for each in expressions for f in each.atoms(sp.Pow) if not f.exp.is_integer}
+        angles = sorted({f.args[0] for e in expressions for f in e.atoms(sp.sin, sp.cos)}, key=str)
+        powers = {f for e in expressions for f in e.atoms(sp.Pow) if not f.exp.is_integer}
         roots = {power.base ** sp.Rational(1, power.exp.q) for power in powers}
         functions = [f(angle) for f in (sp.cos, sp.sin) for angle in angles]
         functions += sorted(roots, key=str)
@@ -153,7 +152,7 @@ class CircleField:
         self.plain = {function: sp.Dummy() for function in functions}
         self._roots = {root: self.plain[root] for root in roots}
         self._others = {f: symbol for f, symbol in self.plain.items() if f not in self._roots}
-        present = {symbol for each in expressions for symbol in self.named(each).free_symbols}
+        present = {symbol for e in expressions for symbol in self.named(e).free_symbols}
         named = list(self.plain.values())  # the cosines lead, hence powers of these are reduced
         self._field = sp.QQ.frac_field(*named, *sorted(present - set(named), key=str))
         self._circles = [
@@ -176,8 +175,8 @@ class CircleField:
         ZeroDivisionError
             If the denominator is zero on the circles.
         """
-        found = self._field.from_sympy(self.named(expression))
-        parts = found.numer.rem(self._circles), found.denom.rem(self._circles)
+        element = self._field.from_sympy(self.named(expression))
+        parts = element.numer.rem(self._circles), element.denom.rem(self._circles)
         if not parts[1]:
             raise ZeroDivisionError(f"{expression} has the denominator 0")
         return parts

@@ -33,15 +33,15 @@ def level_cap_has_no_balance_across() -> bool:
     The columns would rock at b_y/h, and carry it at one edge each, b_y beside its centre of gravity
     and d below it. Weight and inertia turn it to the same side, and nothing resists.
     """
-    found = []
+    identities = []
     for side in SIDES:
         contact = side.upright(sp.Matrix(cap_contact(side)))
         axis = sp.Matrix([side.sign * -R * sp.sin(alpha), contact[1]])
         arm = axis + sp.Matrix([0, half_depth]) - contact  # from the contact to the centre
         load = -m_b * g * sp.Matrix([-side.sign * sp.tan(alpha), 1])
         stated = m_b * g * (R * sp.sin(alpha) + half_depth * sp.tan(alpha))
-        found.append(vanishes(turning(arm, load) - side.sign * stated, side))
-    return all(found)
+        identities.append(vanishes(turning(arm, load) - side.sign * stated, side))
+    return all(identities)
 
 
 def frame_across_its_plane_is_a_fixed_mass() -> bool:

@@ -40,14 +40,14 @@ def short_pulses_gain_by_the_order_of_their_moment() -> bool:
     ω/p → ∞ their minima over g tan α tend to (ω/p)/2, (ω/p)²/2π and (ω/p)³/2π. At one ω the frame
     has p̂² = p² R/R̂. For γ → ∞ the gains are 22.5, 50 and 83.7 %.
     """
-    limit, found = sp.limit(size_ratio(), gamma, sp.oo), []
+    limit, identities = sp.limit(size_ratio(), gamma, sp.oo), []
     for order, (shape, end, stated) in enumerate(PULSES, 1):
         mean = sp.integrate(_x * sp.exp(-_x * _s) * shape, (_s, 0, end))  # t₀ → 0
         least = (1 / mean).subs(_x, _p / _omega)
         tends = sp.limit(sp.simplify((least / stated).subs(_omega, _p / _x)), _x, 0, "+")
         gain = sp.simplify(stated.subs(_p, _p / sp.sqrt(limit)) / stated)
-        found += [tends == 1, sp.simplify(gain - limit ** sp.Rational(order, 2)) == 0]
-    return all(found)
+        identities += [tends == 1, sp.simplify(gain - limit ** sp.Rational(order, 2)) == 0]
+    return all(identities)
 
 
 def long_pulses_leave_no_gain() -> bool:

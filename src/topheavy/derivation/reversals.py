@@ -112,19 +112,19 @@ def larger_rotation_feels_the_larger_push() -> bool:
     """
     within, beyond, x, slope = sp.symbols("lambda mu x slope", positive=True)
     push = sp.Symbol("push", real=True)
-    found = []
+    identities = []
     for side in SIDES:
         rise = sp.diff(exact(side), _phi).subs(_a, side.sign * push)
         # in tangents: x = tan(α − φ) up to α, x = tan(φ − α) beyond
         up_to = sp.expand_trig(rise.subs(_phi, alpha - within)) / sp.cos(within)
         after = sp.expand_trig(rise.subs(_phi, alpha + beyond)) / sp.cos(beyond)
-        found += [
+        identities += [
             sp.simplify(up_to - (1 - push * sp.tan(within))) == 0,
             sp.simplify(after - (1 + push * sp.tan(beyond))) == 0,
         ]
     # tan α = x + slope > x: s a = cot α gives 1 − x/(x + slope) > 0
     least = sp.factor(1 - x / (x + slope))
-    return all(found) and bool(least.is_positive)
+    return all(identities) and bool(least.is_positive)
 
 
 def far_enough_out_nothing_brings_it_back() -> bool:
@@ -134,12 +134,12 @@ def far_enough_out_nothing_brings_it_back() -> bool:
     max(s a) max(−s a) < 1, F rises with φ up to a rotation from which nothing returns.
     """
     beyond, inward = sp.symbols("mu inward", positive=True)
-    found = []
+    identities = []
     for side in SIDES:
         force = exact(side).subs({_phi: alpha + beyond, _a: side.sign * _tau})
         form = sp.cos(beyond) * (sp.tan(beyond) - _tau)
-        found.append(sp.simplify(sp.expand_trig(force) - form) == 0)
-    return all(found) and sp.simplify(sp.cot(sp.atan(inward)) * inward) == 1
+        identities.append(sp.simplify(sp.expand_trig(force) - form) == 0)
+    return all(identities) and sp.simplify(sp.cot(sp.atan(inward)) * inward) == 1
 
 
 def difference_grows_under_vertical_acceleration() -> bool:
@@ -148,13 +148,13 @@ def difference_grows_under_vertical_acceleration() -> bool:
     F_v is 1 + v times F under a/(1 + v) (`extensions`), for every γ. So with 1 + v > 0 it
     does not fall with φ where F under a/(1 + v) does not.
     """
-    found = []
+    identities = []
     for side in SIDES:
         force = _gravity * linearised(side).subs(_a, _a / _gravity)
         change = force.subs(_phi, p_1**2 * (_y + _z)) - force.subs(_phi, p_2**2 * _y)
         stated = _gravity * (p_1**2 * _z + (p_1**2 - p_2**2) * _y)
-        found.append(sp.expand(change - stated) == 0)
-    return all(found)
+        identities.append(sp.expand(change - stated) == 0)
+    return all(identities)
 
 
 def push_in_one_direction_only_helps_that_side() -> bool:
@@ -163,23 +163,23 @@ def push_in_one_direction_only_helps_that_side() -> bool:
     Over its free energy, the block gains ∫ a cos(α − φ) dφ on that side, and loses it on the other.
     """
     within, push = sp.symbols("lambda push", positive=True)
-    found = []
+    identities = []
     for side in SIDES:
         toward = exact(side).subs(_a, -side.sign * push)
         in_push = sp.diff(toward, push).subs(_phi, alpha - within)
         in_angle = sp.expand_trig(sp.diff(toward, _phi).subs(_phi, alpha - within))
-        found += [
+        identities += [
             sp.simplify(in_push - sp.cos(within)) == 0,
             sp.simplify(in_angle - (sp.cos(within) + push * sp.sin(within))) == 0,
         ]
         for sign, there in ((1, side), (-1, side.other)):
             force = exact(there).subs(_a, -side.sign * push)
             free = force.subs(push, 0)  # dw/dφ is −F of the free block
-            found.append(
+            identities.append(
                 sp.simplify(_rate * (force - free) - sign * push * sp.cos(_phi - alpha) * _rate)
                 == 0
             )
-    return all(found)
+    return all(identities)
 
 
 PROOFS = (

@@ -36,25 +36,25 @@ def checked_excitation(value: Any, *, ends: bool = False) -> Excitation:
     return cast("Excitation", value)
 
 
-_MOST_HALVINGS = 10_000
-"""In a bracket from 0 to 1 s, a root at 1e-16 s takes more than the hundred that SciPy allows."""
+_MAX_ITERATIONS = 10_000
+"""A root at 1e-16 s in a bracket from 0 to 1 s takes more than SciPy's default of 100."""
 
 _ROUNDING = 1e-6
-"""By more than rounding can move the end of a line, relative to its largest |a|."""
+"""Relative; more than rounding can change the |a| at the end of a segment."""
 
 
-def root(function: Callable[[float], float], low: float, high: float) -> float:
-    """Return where a function changes its sign between `low` and `high`, to 1e-15 of that place."""
+def sign_change(function: Callable[[float], float], low: float, high: float) -> float:
+    """Return where a function changes its sign between `low` and `high`, to 1e-15 relative."""
     from scipy.optimize import brentq  # here: half a second that the kernel never needs
 
-    return float(brentq(function, low, high, xtol=1e-300, rtol=1e-15, maxiter=_MOST_HALVINGS))
+    return float(brentq(function, low, high, xtol=1e-300, rtol=1e-15, maxiter=_MAX_ITERATIONS))
 
 
 class Segment(NamedTuple):
     """A span of time over which the ground acceleration is smooth and monotone.
 
-    Monotone, so that |a| is largest at an end and crosses any level at most once on the way up:
-    uplift is found for certain, not by sampling.
+    So |a| is largest at an end and crosses any level at most once on the way up: uplift is found
+    with certainty, not by sampling.
     """
 
     start: float
@@ -95,13 +95,13 @@ class Segment(NamedTuple):
 
     def _crossing(self, value: float, time: float) -> float:
         """Return when the acceleration, monotone, takes `value` between `time` and the stop."""
-        return root(lambda t: self.acceleration(t) - value, time, self.stop)
+        return sign_change(lambda t: self.acceleration(t) - value, time, self.stop)
 
 
 class Lines(Sequence[Segment]):
-    """The segments between samples, each made when it is read.
+    """The segments between samples, each computed when it is read.
 
-    `largest` has the larger |a| at the ends of each, g.
+    `largest` holds for each segment the larger |a| of its two ends, g.
     """
 
     def __init__(self, largest: NDArray[np.float64], make: Callable[[int], Segment]) -> None:
@@ -115,8 +115,8 @@ class Lines(Sequence[Segment]):
     @overload
     def __getitem__(self, at: slice) -> list[Segment]: ...
     def __getitem__(self, at: int | slice) -> Segment | list[Segment]:
-        found = range(len(self))[at]
-        return self._make(found) if isinstance(found, int) else list(map(self._make, found))
+        places = range(len(self))[at]
+        return self._make(places) if isinstance(places, int) else list(map(self._make, places))
 
     def next_above(self, level: float, number: int) -> int:
         """Return the first segment from `number` on in which |a| may exceed a level, or the end."""
@@ -157,6 +157,6 @@ class Excitation(ABC):
         ...
 
 
-def still(time: float) -> float:
-    """The acceleration of ground at rest: 0."""
+def zero_acceleration(time: float) -> float:
+    """The acceleration of ground at rest."""
     return 0.0

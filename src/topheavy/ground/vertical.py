@@ -1,4 +1,4 @@
-"""A horizontal and a vertical ground motion together: what is refused, and both in segments.
+"""A horizontal and a vertical ground motion together: checks, and both in common segments.
 
 Vertical ground acceleration v (g, upward) makes gravity (1 + v) g (proved in
 `topheavy.derivation.extensions`). Between impacts
@@ -22,13 +22,7 @@ from topheavy.ground.records import Record
 
 @dataclass(frozen=True, eq=False)
 class TwoComponents(Excitation):
-    """A horizontal and a vertical record that start together.
-
-    Raises
-    ------
-    ValueError
-        As `refuse_fall`.
-    """
+    """A horizontal and a vertical record that start together; see `refuse_fall`."""
 
     horizontal: Record
     vertical: Record
@@ -70,20 +64,14 @@ class TwoComponents(Excitation):
 
 
 def with_vertical(excitation: Excitation | None, vertical: Record | None) -> Excitation | None:
-    """Return the ground motion of both components, or the horizontal one if there is no other.
-
-    Raises
-    ------
-    ValueError
-        As `both_records` and `refuse_fall`.
-    """
+    """Return the ground motion of both components, or the horizontal one if it is the only one."""
     if vertical is None:
         return without_rest(excitation) if isinstance(excitation, Record) else excitation
     return TwoComponents(*map(without_rest, both_records(excitation, vertical)))
 
 
 def without_rest(record: Record) -> Record:
-    """Return a record without the zeros behind it: with them, its shaking ends no later."""
+    """Return a record without the zeros at its end."""
     (moving,) = np.nonzero(record.acceleration)
     size = max(2, int(moving[-1]) + 2) if moving.size else 2
     if size >= record.acceleration.size:
@@ -92,7 +80,7 @@ def without_rest(record: Record) -> Record:
 
 
 def both_records(excitation: object, vertical: object) -> tuple[Record, Record]:
-    """Return a horizontal and a vertical ground motion if they are Records, or raise ValueError."""
+    """Return two ground motions if both are Records, or raise ValueError."""
     if not isinstance(vertical, Record) or not isinstance(excitation, Record):
         raise ValueError(
             f"excitation is {type(excitation).__name__} and vertical {type(vertical).__name__}; "
@@ -102,19 +90,16 @@ def both_records(excitation: object, vertical: object) -> tuple[Record, Record]:
 
 
 def refuse_fall(vertical: Record, factors: ArrayLike = 1.0) -> None:
-    """Raise ValueError where the ground falls at 1 g or more, so that nothing presses on it.
-
-    The message names the time, and the bound of the factors that are allowed.
-    """
+    """Raise ValueError if the ground falls at 1 g or more: the structure would lose contact."""
     samples, scales = vertical.acceleration, np.ravel(factors)
     for factor in (float(scales.max()), float(scales.min())):
         lowest = int((factor * samples).argmin())
-        found = factor * samples[lowest]
-        if found <= -1.0:
+        least = factor * samples[lowest]
+        if least <= -1.0:
             side = "less" if factor > 0.0 else "more"
             raise ValueError(
                 f"vertical: at {lowest * vertical.time_step:.6g} s its acceleration times "
-                f"{factor:.6g} is {found:.6g} g; expected more than −1 g, as the structure loses "
+                f"{factor:.6g} is {least:.6g} g; expected more than −1 g, as the structure loses "
                 f"contact with ground that falls faster: factors {side} than "
                 f"{-1.0 / samples[lowest]:.6g} are allowed"
             )

@@ -22,7 +22,13 @@ from topheavy import checks
 from topheavy.bodies import free_rocking
 from topheavy.bodies.response import Outcome, Response, initial_motion, sample_times
 from topheavy.bodies.structures import RockingBlock
-from topheavy.ground.excitation import Excitation, Lines, Segment, checked_excitation, still
+from topheavy.ground.excitation import (
+    Excitation,
+    Lines,
+    Segment,
+    checked_excitation,
+    zero_acceleration,
+)
 
 REST_PEAK = 1e-6
 """Of α: a block whose next bounce peaks below may have come to rest."""
@@ -315,7 +321,8 @@ def _rock_freely(
             return
         if until is None and (len(motion.impacts) >= most or motion.landings >= most_landings):
             return
-        ground, begin, peak = Segment(motion.time, stop, still), motion.time, motion.peak
+        ground = Segment(motion.time, stop, zero_acceleration)
+        begin, peak = motion.time, motion.peak
         first, outward = len(motion.arcs), end.overturned and landings_due <= 0
         event = _flight(block, ground, motion, fly)
         if _leaves_wrongly(block, motion.rotation, motion.rate, outward=outward):

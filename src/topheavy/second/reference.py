@@ -20,7 +20,7 @@ from topheavy import checks
 from topheavy.bodies import free_rocking
 from topheavy.bodies.response import Response
 from topheavy.bodies.structures import RockingBlock, Structure, as_block
-from topheavy.ground.excitation import Excitation, Segment, checked_excitation, root
+from topheavy.ground.excitation import Excitation, Segment, checked_excitation, sign_change
 from topheavy.ground.records import Record
 from topheavy.ground.vertical import with_vertical
 from topheavy.second import motion
@@ -205,7 +205,7 @@ def _first_event(step: DenseOutput, course: Motion, possible: bool) -> tuple[Eve
     inside = [(time, height(time)) for time in middle + half * real]
     for time, upcoming in (*inside, (step.t, float(heights[-1]))):
         if possible and value >= 0.0 > upcoming:
-            return Event.IMPACT, root(height, before, time)
+            return Event.IMPACT, sign_change(height, before, time)
         if value <= course.ceiling < upcoming:
             return Event.FALL, float(brentq(height, before, time, args=(course.ceiling,)))
         course.height = max(course.height, upcoming)
