@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 import topheavy
-from topheavy.kernel.compiled import cache_folder, state
+from topheavy.kernel.compiled import cache_folder, state, writable_folder
 from topheavy.kernel.grid import FUSED, LANES
 
 PACKAGE, OTHER = Path(topheavy.__file__).parent, "bodies/free_rocking.py"
@@ -63,6 +63,23 @@ def test_folder_is_where_the_user_keeps_caches(monkeypatch, tmp_path):
     assert cache_folder() == tmp_path / "xdg" / "topheavy"
     monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "numba"))
     assert cache_folder() == tmp_path / "numba" / "topheavy"
+
+
+def test_without_a_folder_to_write_to_nothing_is_kept(monkeypatch, tmp_path):
+    (tmp_path / "file").touch()
+    command = [sys.executable, "-c", ASK]
+    environment = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path / "file")}
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
+    assert (done.stdout, done.stderr.count("cannot be kept")) == ("0\n", 1)
+
+    def no_home():
+        raise RuntimeError("Could not determine home directory.")
+
+    monkeypatch.delenv("XDG_CACHE_HOME", raising=False)
+    monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
+    monkeypatch.setattr(Path, "home", no_home)
+    with pytest.warns(UserWarning, match="Could not determine home .* set NUMBA_CACHE_DIR"):
+        assert writable_folder() is None
 
 
 ASK_WIDTH = """

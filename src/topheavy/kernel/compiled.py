@@ -6,6 +6,8 @@ state of the kernel has a folder of its own for numba's cache.
 
 import hashlib
 import os
+import tempfile
+import warnings
 from pathlib import Path
 from typing import Any
 
@@ -28,7 +30,28 @@ def state(sources: Path, *others: Path) -> str:
 
 
 OTHERS = Path(shapes.__file__), Path(free_rocking.__file__)
-FOLDER = cache_folder() / state(Path(__file__).parent, *OTHERS)[:16]
+
+
+def writable_folder() -> Path | None:
+    """Return the folder of this state of the kernel, or None with a warning if there can be none.
+
+    numba would look for another one, such as `__pycache__`, which no other state of the kernel has.
+    """
+    try:
+        folder = cache_folder() / state(Path(__file__).parent, *OTHERS)[:16]
+        folder.mkdir(parents=True, exist_ok=True)
+        tempfile.TemporaryFile(dir=folder).close()
+    except (OSError, RuntimeError) as error:  # RuntimeError: the user has no home
+        warnings.warn(
+            f"the compiled solver cannot be kept ({error}), so that each process compiles it "
+            "again: set NUMBA_CACHE_DIR to a folder that can be written",
+            stacklevel=2,
+        )
+        return None
+    return folder
+
+
+FOLDER = writable_folder()
 
 
 def compiled(function: Any = None, **options: Any) -> Any:
@@ -44,6 +67,8 @@ def compiled(function: Any = None, **options: Any) -> Any:
     given: Any = {"error_model": "numpy", "fastmath": False, "forceinline": False, "_nrt": False}
     config: Any = numba.config
     dispatcher, before = numba.njit(**given | options)(function), config.CACHE_DIR
+    if FOLDER is None:
+        return dispatcher
     config.CACHE_DIR = str(FOLDER)  # numba reads it as it enables the cache of a function
     try:
         dispatcher.enable_caching()
