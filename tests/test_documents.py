@@ -32,20 +32,30 @@ def test_the_abstract_has_the_results_of_the_paper_and_the_plane():
         assert words in abstract
 
 
-def test_a_claim_is_one_row_with_links():
-    claim = {
-        "id": "uplift", "where": "p. 3", "statement": "At |θ| = 0.", "printed": 0.275,
-        "unit": "g", "rule": "trilith", "differs": "sign", "remark": "", "part": "paper",
-        "verdict": "confirmed", "shown": "0.2750 g",
-    }  # fmt: skip
-    rules = {
-        "trilith": {"script": "src/steps/trilith.py", "tables": ["results/tables/trilith.csv"]}
-    }
-    text = page([claim], {"map": {"claims": ["uplift"]}}, rules)
+CLAIM = {
+    "id": "uplift", "where": "p. 3", "statement": "At |θ| = 0.", "printed": 0.275, "unit": "g",
+    "rule": "trilith", "differs": "", "remark": "For one pulse.", "part": "paper",
+    "verdict": "confirmed", "shown": "0.2750 g", "condition": None,
+}  # fmt: skip
+RULES = {"trilith": {"script": "src/steps/trilith.py", "tables": ["results/tables/trilith.csv"]}}
+
+
+def test_a_confirmed_claim_is_one_line_with_links():
+    text = page([CLAIM], {"map": {"claims": ["uplift"]}}, RULES)
     assert (
-        "| `uplift`, p. 3. At &#124;θ&#124; = 0. | 0.275 g | 0.2750 g "
-        "| confirmed (our copy differs) | "
-        "[trilith.py](../src/steps/trilith.py) [trilith.csv](../tests/reference/trilith.csv) "
-        "[map.py](../figures/map.py) |"
+        "| `uplift`, p. 3. At &#124;θ&#124; = 0. (printed 0.275 g, computed 0.2750 g) | confirmed "
+        "| [trilith.py](../src/steps/trilith.py) [figures/map.py](../figures/map.py) |"
     ) in text
-    assert text.endswith("- p. 3 (`uplift`): sign\n")
+    assert "- [trilith.py](../src/steps/trilith.py): [trilith.csv](../tests/reference/" in text
+    assert "For one pulse." not in text
+
+
+def test_another_claim_has_a_paragraph_and_a_discrepancy_its_place():
+    rows = [
+        CLAIM | {"verdict": "qualified", "condition": "ω is at most 2 p"},
+        CLAIM | {"differs": "sign"},
+    ]
+    text = page(rows, {}, RULES)
+    assert "**`uplift`** (qualified). True if ω is at most 2 p. For one pulse." in text
+    assert "| confirmed (our copy differs) |" in text
+    assert text.endswith("- p. 3 (`uplift`), sign. For one pulse.\n")

@@ -1,4 +1,4 @@
-"""List every claim with its verdict, and links to its script, table and figure."""
+"""List every claim with its verdict, and links to its script, tables and figures."""
 
 import json
 from collections import Counter
@@ -11,8 +11,9 @@ from replication.verdicts import VERDICTS
 
 HEAD = """# Claims and verdicts
 
-Written by the workflow from its results. One row is one claim, with its place in the paper, the
-printed and the computed value, and the verdict:
+The workflow writes this page from its results. Each line is one claim, with its place in the paper,
+its verdict, and links to the script and the figures. Claims that are not plainly confirmed have a
+paragraph below the table. The verdicts:
 
 - **confirmed**: true; a number agrees within the rounding of its print.
 - **qualified**: true on a condition that is stated and tested.
@@ -22,46 +23,41 @@ printed and the computed value, and the verdict:
 - **not tested**: with the reason.
 
 We worked from a transcription of the paper. *Our copy differs* where a sign, letter, bracket,
-radical or number in it contradicts the paper's own premises. There we judge the evident meaning;
-the places are listed once, below, to be compared with the print, and no verdict counts them.
+radical or number in it contradicts the paper's own premises. There we judge the evident meaning.
+The last list has these places, to be compared with the print; no verdict counts them.
 """
 TITLES = {"paper": "The paper's claims", "ours": "Claims of our own"}
 
 
-def links(row: dict[str, Any], captions: dict[str, dict], rules: dict[str, dict]) -> str:
-    """Return links to the script, the tables and the figures of a claim, from the folder docs."""
-    if not row["rule"]:
-        return ""
-    rule = rules[row["rule"]]
-    found = [(Path(rule["script"]).name, rule["script"])]
-    found += [(Path(path).name, f"tests/reference/{Path(path).name}") for path in rule["tables"]]
-    found += [
-        (f"{name}.py", f"figures/{name}.py")
-        for name, about in captions.items()
-        if row["id"] in about["claims"]
-    ]
-    return " ".join(f"[{name}](../{path})" for name, path in found)
+def link(path: str) -> str:
+    """Return a link from the folder docs, whose text is the path within steps or tables."""
+    return f"[{path.removeprefix('src/steps/').removeprefix('tests/reference/')}](../{path})"
 
 
 def line(row: dict[str, Any], captions: dict[str, dict], rules: dict[str, dict]) -> str:
-    """Return a row of a table of Markdown."""
-    printed = "" if row["printed"] is None else f"{row['printed']} {row['unit']}".strip()
-    verdict = row["verdict"] + (" (our copy differs)" if row["differs"] else "")
-    notes = [] if row["verdict"] == "confirmed" else [row.get("condition"), row["remark"]]
-    about = f"`{row['id']}`, {row['where']}. {row['statement']}" + "".join(
-        f" *{n}*" for n in notes if n
+    """Return the line of a claim: a row of a table of Markdown."""
+    values = f" (printed {row['printed']} {row['unit']}" if row["shown"] else ""
+    values = f"{values.rstrip()}, computed {row['shown']})" if values else ""
+    figures = [f"figures/{name}.py" for name, one in captions.items() if row["id"] in one["claims"]]
+    scripts = [rules[row["rule"]]["script"], *figures] if row["rule"] else []
+    cells = (
+        f"`{row['id']}`, {row['where']}. {row['statement']}{values}",
+        row["verdict"] + (" (our copy differs)" if row["differs"] else ""),
+        " ".join(link(path) for path in scripts),
     )
-    computed = row["shown"] or {"confirmed": "holds", "qualified": "on a condition"}.get(
-        row["verdict"], ""
-    )
-    cells = about, printed, computed, verdict, links(row, captions, rules)
     return (
         "| " + " | ".join(cell.replace("|", "&#124;").replace("\n", " ") for cell in cells) + " |"
     )
 
 
+def reason(row: dict[str, Any]) -> str:
+    """Return the paragraph of a claim that is not plainly confirmed: condition and remark."""
+    condition = f" True if {row['condition']}." if row.get("condition") else ""
+    return f"**`{row['id']}`** ({row['verdict']}).{condition} {row['remark']}".rstrip() + "\n"
+
+
 def page(rows: list[dict[str, Any]], captions: dict[str, dict], rules: dict[str, dict]) -> str:
-    """Return the page: the paper's claims, ours, those of each study, and the discrepancies."""
+    """Return the page: the paper's claims, ours, those of each study, tables, discrepancies."""
     text = [HEAD]
     for part in dict.fromkeys(row["part"] for row in rows):
         own = [row for row in rows if row["part"] == part]
@@ -70,14 +66,23 @@ def page(rows: list[dict[str, Any]], captions: dict[str, dict], rules: dict[str,
             f"## {TITLES.get(part, 'Study ' + part)}\n",
             ", ".join(f"{count[verdict]} {verdict}" for verdict in VERDICTS if count[verdict])
             + ".\n",
-            "| claim | printed | computed | verdict | script, tables, figure |",
-            "|---|---|---|---|---|",
+            "| claim | verdict | script and figures |",
+            "|---|---|---|",
             *(line(row, captions, rules) for row in own),
             "",
+            *(reason(row) for row in own if row["verdict"] != "confirmed"),
         ]
-    text += ["## Places where our copy differs\n"]
+    text += ["## Published tables of each script\n"]
     text += [
-        f"- {row['where']} (`{row['id']}`): {row['differs']}" for row in rows if row["differs"]
+        f"- {link(rules[name]['script'])}: "
+        + ", ".join(link(f"tests/reference/{Path(path).name}") for path in rules[name]["tables"])
+        for name in dict.fromkeys(row["rule"] for row in rows if row["rule"])
+    ]
+    text += ["\n## Places where our copy differs\n"]
+    text += [
+        f"- {row['where']} (`{row['id']}`), {row['differs']}. {row['remark']}"
+        for row in rows
+        if row["differs"]
     ]
     return "\n".join(text) + "\n"
 
