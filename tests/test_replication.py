@@ -1,10 +1,13 @@
-"""Verdicts, the digits of numbers, claims, and what is said of a mistake in a config."""
+"""Verdicts, the digits of numbers, claims, and what is said of a mistake in a step or config."""
 
 import math
+from types import SimpleNamespace
 
+import pandas as pd
 import pytest
 from pydantic import ValidationError
 
+from replication import step
 from replication.claims import Claim, judged, read_claims, unexpected
 from replication.config import Grid, MassRatio, Positive, Section, Shape, read_config, read_yaml
 from replication.step import truth, value
@@ -146,6 +149,51 @@ def test_claim_without_its_finding_is_named_with_those_that_there_are(tmp_path):
     (claim,) = read_claims(ledger(tmp_path, GOOD), {"scale": 1.3})
     with pytest.raises(SystemExit, match="names the finding 'good' of rule run, which has bad"):
         judged(claim, {"run": {"bad": truth(True)}})
+
+
+# Steps --------------------------------------------------------------------------------------------
+
+TABLE = pd.DataFrame({"x": [1.0, 2.0]})
+
+
+class Outputs(SimpleNamespace):
+    def items(self):
+        return vars(self).items()
+
+
+@pytest.mark.parametrize(
+    ("compute", "findings", "message"),
+    [
+        (lambda: {"good": truth(True)}, None, "returned {'good': {'holds': True}} where"),
+        (
+            lambda facter: TABLE,
+            None,
+            "takes 'facter'; rule tiny has the inputs (none) and",
+        ),
+        (lambda: TABLE, lambda tinny: {}, "takes 'tinny'; rule tiny has the inputs tiny and the"),
+        (
+            lambda: TABLE,
+            lambda tiny: {"one": 3.0},
+            "finding 'one' is 3.0; expected value",
+        ),
+        (
+            lambda: TABLE,
+            lambda: {"one": value(math.nan, 0)},
+            "'one' is {'value': nan, 'err",
+        ),
+    ],
+)
+def test_mistake_in_a_step_is_named_in_its_log(tmp_path, compute, findings, message):
+    output = Outputs(table="results/tiny.csv")
+    if findings:
+        output.findings = "results/tiny.json"
+    params, log = {"factor": 2.0}, [tmp_path / "tiny.log"]
+    job = SimpleNamespace(rule="tiny", input={}, output=output, params=params, log=log)
+    with pytest.raises(SystemExit):
+        step.run(job, compute, findings)
+    told = log[0].read_text("utf-8")
+    assert message in told
+    assert told.startswith("tests/test_replication.py: ")
 
 
 # Configs ------------------------------------------------------------------------------------------
