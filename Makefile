@@ -26,7 +26,7 @@ check: | $(UV) ## without a run: checksums, and every claim judged again from th
 	@$(RUN) python -m steps.check
 
 test: | $(UV) ## run the tests
-	@OMP_NUM_THREADS=1 $(DEV) pytest --numprocesses "$(CORES)" --dist loadfile
+	@OMP_NUM_THREADS=1 $(DEV) pytest --numprocesses "$(CORES)" --dist worksteal
 
 lint: | $(UV) ## check style, types, spelling and the rules; changes nothing
 	$(DEV) ruff check

@@ -29,22 +29,24 @@ NO_NUMBERS = [None, "0.25", b"0.25", True, np.True_, 1j, 10**400, [1.0, 2.0], np
 
 
 @pytest.mark.parametrize("check", EVERY)
-@pytest.mark.parametrize("value", [0.25, np.float64(0.25), np.float32(0.25), np.array(0.25)])
+@pytest.mark.parametrize("value", [np.float32(0.25), np.array(0.25)])
 def test_good_value_comes_back_as_a_float(check, value):
     assert check("thing", value) == 0.25
     assert type(check("thing", value)) is float
 
 
 @pytest.mark.parametrize("check", EVERY)
-@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
+@pytest.mark.parametrize("value", [math.nan, math.inf])
 def test_value_that_is_not_finite_is_refused_by_every_check(check, value):
     with pytest.raises(ValueError, match=rf"thing is {value}; expected a finite number"):
         check("thing", value)
 
 
-@pytest.mark.parametrize("check", [*EVERY, checks.number])
-@pytest.mark.parametrize("value", NO_NUMBERS)
-def test_what_is_no_number_is_refused_by_every_check(check, value):
+@pytest.mark.parametrize(
+    ("check", "value"),
+    [*((check, "0.25") for check in EVERY), *((checks.number, value) for value in NO_NUMBERS)],
+)
+def test_what_is_no_number_is_refused(check, value):
     with pytest.raises(ValueError, match=r"thing is .*; expected a number"):
         check("thing", value)
 
@@ -61,7 +63,7 @@ def test_numbers_come_back_as_a_new_array_of_floats(values):
     np.testing.assert_array_equal(found, np.array(values, dtype=float))
 
 
-@pytest.mark.parametrize("value", ["0.25", True, None, 1j])
+@pytest.mark.parametrize("value", ["0.25", True])
 def test_numbers_name_the_first_element_that_is_none(value):
     with pytest.raises(ValueError, match=r"^things: element 0 is .*; expected a number"):
         checks.numbers("things", [value, value])
@@ -86,7 +88,6 @@ FACTORS = partial(th.overturned_by, factors=[1.0])
 JUDGES = [th.judge, reference.judge, FACTORS]
 HISTORIES = [th.simulate, reference.simulate, simulate_linear_exact, BODIES]
 TOLERANT = [th.simulate, reference.simulate, BODIES, *JUDGES]
-ARRAY = np.array([1.0, 2.0])
 
 
 def refused(solver, message, *, structure=FRAME, excitation=PULSE, **options):
@@ -104,9 +105,7 @@ def test_what_is_no_structure_is_refused(solver, structure):
 
 
 @pytest.mark.parametrize("solver", [*HISTORIES, *JUDGES])
-@pytest.mark.parametrize(
-    "motion", [0.3, np.arange(1e4), "one-sine", [0.1, 0.2], th.Pulse], ids=type
-)
+@pytest.mark.parametrize("motion", [np.arange(1e4), "one-sine", th.Pulse], ids=type)
 def test_what_is_no_ground_motion_is_refused_with_an_example(solver, motion):
     says = r"excitation is .*; expected a Pulse or a Record, for example Pulse\(\"one-sine\", 0\.3"
     refused(solver, says, excitation=motion)
@@ -121,23 +120,17 @@ def test_what_is_no_ground_motion_is_refused_with_an_example(solver, motion):
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"rotation": math.nan}, "rotation is nan; expected a finite number"),
-        *(({"rotation": x}, f"rotation is {x:.6g} rad; expected less than π/2")
-          for x in (2.0, -1.6, math.pi / 2)),
+        ({"rotation": math.pi / 2}, "rotation is 1.5708 rad; expected less than π/2"),
         ({"velocity": "fast"}, "velocity is 'fast'; expected a number"),
-        ({"velocity": -math.inf}, "velocity is -inf; expected a finite number"),
-        *(({"duration": x}, "duration is .*; expected (a|more)")
-          for x in (0.0, -1.0, math.nan, "2.0", True, ARRAY)),
+        ({"duration": 0.0}, "duration is 0 s; expected more than zero"),
         ({"duration": 1e300}, r"duration is 1e\+300 s; expected at most 1e\+09 s"),
-        *(({"samples": n}, f"samples is {n}; expected a whole number of at least 2")
-          for n in (1, 0, -3)),
+        ({"samples": 1}, "samples is 1; expected a whole number of at least 2"),
         ({"samples": 10**9}, rf"samples is 1000000000; .* {MOST_SAMPLES} .*array"),
         ({"samples": [[0.0, 1.0]]}, r"samples has shape \(1, 2\); expected a list of times in s"),
-        *(({"samples": [0.0, t]}, "samples holds times that are not finite")
-          for t in (math.inf, math.nan)),
-        *(({"samples": [0.0, t, 0.1]}, "samples is not an increasing array") for t in (0.2, 0.1)),
+        ({"samples": [0.0, math.nan]}, "samples holds times that are not finite"),
+        ({"samples": [0.0, 0.1, 0.1]}, "samples is not an increasing array"),
     ],
-)  # fmt: skip
+)
 def test_history_is_refused(solver, options, message):
     if "π/2" in message and solver is simulate_linear_exact:
         message = "rotation is"  # a linearised block may rotate further than an exact one
@@ -146,7 +139,7 @@ def test_history_is_refused(solver, options, message):
 
 
 @pytest.mark.parametrize("solver", TOLERANT)
-@pytest.mark.parametrize("value", [0, 0.0, 1.0, math.nan, -1, 1e10, 1e-300, "1e-9", None])
+@pytest.mark.parametrize("value", [0.02, 1e-300, math.nan, "1e-9"])
 def test_tolerance_out_of_range_is_refused(solver, value):
     given = re.escape(repr(value) if isinstance(value, (int, float, str)) else str(value))
     says = rf"tolerance is {given}; expected a float from 1e-1[36] to 0\.01$"
