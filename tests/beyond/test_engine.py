@@ -9,9 +9,12 @@ import pandas as pd
 import pytest
 
 import topheavy as th
+from replication.config import read_yaml
 from steps.beyond import engine, gaps, space, test_plan
 from steps.beyond.boxes import Boxes, overturns, shake
+from tests.cases import ROOT
 
+CONFIG = read_yaml(ROOT / "config" / "config.yaml")
 TRILITH, PIER = th.Column(0.11, 0.40), th.Column(0.75, 3.50)
 LINTEL, DECK = th.Cap(span=0.80, half_depth=0.11), th.Cap(span=20.0, half_depth=1.0)
 CASES = {
@@ -169,6 +172,15 @@ def test_whole_contacts_that_rock_or_gaps_that_do_not_break_the_anomalies(
     table = GAPS.copy()
     table.loc[row, name] = changed
     assert gaps.findings(table, SETTINGS)["gaps_make_it_rock"]["holds"] is holds
+
+
+def test_a_gap_lets_the_trilith_rock_where_whole_contacts_do_not():
+    small = {"depths": [0.22], "gaps": [0.0, 1.0], "draws": 1, "checks": [{"friction": 5.0}]}
+    settings = CONFIG["gaps"] | small | {"duration": 3.0}
+    found = gaps.compute(settings, CONFIG["structures"], CONFIG["trilith"])
+    assert found.friction.tolist() == [0.6, 0.6, 5.0]
+    whole, open_one, other = found.in_plane
+    assert whole < 0.01 < 1.0 < min(open_one, other) < max(open_one, other) < 5.0
 
 
 def test_repeats_are_the_fewest_whose_majority_is_right():

@@ -1,6 +1,7 @@
 """Motions, break-even and records: the sweep, numbers by hand, and findings that break."""
 
 import math
+from itertools import combinations
 
 import numpy as np
 import pandas as pd
@@ -131,6 +132,26 @@ def test_gain_and_ratio_are_those_of_the_outcomes():
     (pair,) = motions.pairs("temple", [fell[:20], fell[20:]], settings)
     assert (pair["lighter"], pair["heavier"], pair["motions"]) == (0.0, 1.0, 40)
     assert pair["ratio"] == row["ratio"]
+
+
+def test_tables_are_of_every_model_and_pair_of_frames(shards, monkeypatch):
+    monkeypatch.setattr(motions, "check_by_scipy", list)
+    monkeypatch.setattr(motions, "gains", lambda *_: [])  # four motions reach no median
+    with np.errstate(divide="ignore", invalid="ignore"):
+        found = motions.compute(SETTINGS, CONFIG["structures"], shards)
+    named = [row["model"] for row in found["probabilities"] if "factor" not in row["model"]]
+    assert named == [*sweep.models(SETTINGS)]
+    parts = [sweep.outcomes(shards, f"{one}: trilith") for one in sweep.sets(SETTINGS)]
+    column, *_, heaviest, _ = np.moveaxis(np.concatenate(parts), 1, 0)  # the last: fixed mass
+    (row,) = (
+        row
+        for row in found["pairs"]
+        if row["structure"] == "trilith" and [row["lighter"], row["heavier"]] == [0.0, math.inf]
+    )
+    assert row["ratio"] == pytest.approx((heaviest > column).sum() / (column > heaviest).sum())
+    frames = [0.0, *SETTINGS["mass_ratios"]]
+    pairs = [(row["lighter"], row["heavier"]) for row in found["pairs"]]
+    assert pairs == [*combinations(frames, 2)] * len(SETTINGS["structures"])
 
 
 def test_an_overturned_structure_counts_as_above_the_median():

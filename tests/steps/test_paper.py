@@ -3,6 +3,7 @@
 import math
 from ast import literal_eval
 from io import StringIO
+from types import SimpleNamespace
 
 import pandas as pd
 import pytest
@@ -12,7 +13,7 @@ from replication.sections import Paper
 from replication.step import call
 from steps import allen, equations, parameters, statements, trilith, verification
 from tests.cases import COLUMN, RECORDS, ROOT, broken
-from topheavy import Column, RockingFrame
+from topheavy import Column, RockingFrame, judge
 
 CONFIG = read_config(str(ROOT / "config/config.yaml"), Paper)
 STEPS = {
@@ -179,3 +180,20 @@ def test_solver_that_differs_stops_verification(row, change):
     given[row].loc[0, change] += 1
     with pytest.raises(SystemExit, match="differ"):
         verification.findings(*given.values())
+
+
+def test_sample_of_verification_is_half_at_boundaries():
+    settings = CONFIG["verification"] | {"cells": 8}
+    sample = list(verification.cells(settings, "one-sine", True))
+    near = [judge(block, pulse.scaled(0.98)).overturned for block, pulse in sample[1::2]]
+    beyond = [judge(block, pulse.scaled(1.02)).overturned for block, pulse in sample[1::2]]
+    assert len(sample) == 8
+    assert sum(one != other for one, other in zip(near, beyond, strict=True)) >= 2
+    assert all(block.linearised for block, _ in sample)
+
+
+def test_boundary_is_the_nearest(monkeypatch):
+    ends = [SimpleNamespace(lower=(0.29, 0.2901)), SimpleNamespace(lower=(0.302, 0.3021))]
+    monkeypatch.setattr(verification, "overturning_intervals", lambda *_, **__: ends)
+    assert verification.boundary(COLUMN, None, 0.3) == pytest.approx(0.30205)
+    assert verification.boundary(COLUMN, None, 0.291) == pytest.approx(0.29005)

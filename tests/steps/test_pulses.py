@@ -2,6 +2,7 @@
 
 import math
 from io import StringIO
+from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
@@ -158,6 +159,13 @@ def test_minimum_is_the_known_one_and_scipy_agrees():
     assert minimum(COLUMN, highest=0.25) is None  # nothing overturns
 
 
+def test_error_of_a_minimum_is_as_large_as_scipy_is_off(monkeypatch):
+    found = minimum(COLUMN)
+    stub = lambda _, motion: SimpleNamespace(overturned=motion.amplitude > 1.00002 * found.factor)  # noqa: E731
+    monkeypatch.setattr(vase.reference, "judge", stub)
+    assert 2e-5 < vase.error_of(COLUMN, PULSE, found) / found.factor < 1.1e-3
+
+
 def test_narrow_interval_above_uplift_is_not_missed():
     """Its width is less than the floor of the search."""
     slow = th.Pulse("one-cosine", 1.0, 0.55 * COLUMN.frequency_parameter)
@@ -196,6 +204,8 @@ def test_findings_of_the_fixed_mass(minima):
     found = vase.findings(minima["vase"], minima["motions"], VASE)
     assert broken(found) == {"fixed_mass_always_lowers", "support_decides"}
     assert not unmet(found)
+    sizes = minima["vase"].set_index(["structure", "mass_ratio"]).equivalent_size
+    assert sizes["free", 1.0] == pytest.approx(BENT.equivalent_size, rel=1e-8)
     assert found["least_raise"]["value"] == pytest.approx(0.2340, abs=1e-4)
     assert found["minimum_of_the_column"]["value"] == pytest.approx(0.272823, abs=1e-6)
     for column, holds_when in (("wide_minimum", True), ("minimum", False)):

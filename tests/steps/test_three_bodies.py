@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from steps.shared.newton_euler import ThreeBodies, accelerations, impact
-from steps.shared.three_bodies import simulate_three_bodies
+from steps.shared.three_bodies import _first_event, simulate_three_bodies
 from tests.cases import RECORDS
 from topheavy import STANDARD_GRAVITY, Column, Pulse, RockingFrame, read_at2, simulate
 from topheavy.bodies.kinematics import cap_acceleration, cap_displacement
@@ -256,6 +256,20 @@ def test_tighter_tolerance_changes_next_to_nothing():
         for tolerance in (1e-12, 1e-10)
     )
     assert np.abs(usual.rotation - loose.rotation).max() < 1e-6 * FRAME.slenderness
+
+
+@pytest.mark.parametrize("side", [1, -1])
+def test_dip_within_a_step_is_an_impact_and_a_rise_a_fall(side):
+    def step(angle):
+        of = lambda t: np.array([side * angle(np.asarray(t))] * 18)  # noqa: E731
+        of.t_old, of.t = 0.0, 1.0
+        return of
+
+    dip, rise = step(lambda t: (t - 0.4) * (t - 0.6)), step(lambda t: 1.6 - (t - 0.5) ** 2)
+    flat = 0.5 - math.sqrt(1.6 - math.pi / 2)
+    assert _first_event(dip, (side, side), True) == ("impact", pytest.approx(0.4))
+    assert _first_event(dip, (side, side), False) == (None, 1.0)
+    assert _first_event(rise, (side, side), True) == ("fall", pytest.approx(flat))
 
 
 def test_contacts_that_come_apart_are_an_error():

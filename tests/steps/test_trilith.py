@@ -10,6 +10,7 @@ from steps.trilith import (
     frequency_to_uplift,
     table_acceleration,
     table_motion,
+    thresholds,
 )
 from topheavy import Column, RockingFrame, simulate
 
@@ -56,3 +57,10 @@ def test_amplitude_to_uplift_is_bracketed_by_simulation(frequency):
 def test_the_two_thresholds_are_one():
     amplitude = amplitude_to_uplift(TRILITH, FREQUENCY)
     assert frequency_to_uplift(TRILITH, amplitude) == pytest.approx(FREQUENCY, rel=1e-14)
+
+
+def test_thresholds_are_beside_what_was_tested():
+    table = thresholds(TRILITH, {"table_amplitude": AMPLITUDE, "table_frequency": FREQUENCY})
+    rise = 0.275 / 0.219  # of the acceleration; that of a frequency is its root
+    assert table.tested.tolist() == [5.0, FREQUENCY]
+    assert table.to_lift.to_numpy() == pytest.approx([5.0 * rise, FREQUENCY * rise**0.5], rel=2e-3)
