@@ -117,8 +117,6 @@ def test_unknown_shape_is_refused_with_a_suggestion_or_the_list_of_shapes(typed,
 def test_times_that_are_no_numbers_are_refused():
     with pytest.raises(ValueError, match=r"^t: element 0 is '0\.3'; expected a number$"):
         pulse("one-sine").excitation("0.3")
-    with pytest.raises(ValueError, match=r"^t has 1 masked of 2 elements"):
-        pulse("one-sine").excitation(np.ma.array([0.1, 0.2], mask=[0, 1]))
 
 
 @pytest.mark.parametrize("name", PULSE_SHAPES)

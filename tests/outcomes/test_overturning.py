@@ -57,7 +57,6 @@ def test_each_cell_of_a_map_is_a_history(block, shape):
                 ([0.3, -0.1], " goes down to -0.1; .*negative"),
                 (["1.0"], ": element 0 is '1.0'; expected a number"),
                 ([0.3, None], ": element 1 is None; expected a number"),
-                (np.ma.array([0.3, 9.0], mask=[0, 1]), " has 1 masked of 2"),
             )
         ),
         ({"scales": [1.0, 0.0]}, "goes down to 0; .*zero or negative"),

@@ -124,7 +124,7 @@ def quarter_period(structure: Structure, rotation: float) -> float:
     if block.linearised:
         return math.acosh(1.0 / (1.0 - start / alpha)) / p
 
-    from scipy.integrate import quad  # here: half a second that the kernel never needs
+    from scipy.integrate import quad  # half a second that the kernel never needs
 
     def integrand(x: float) -> float:
         if x == 0.0:

@@ -1,9 +1,8 @@
-"""The model of Allen et al. (1986): linearised, with columns of no mass, as the paper tells it.
+"""The model of Allen et al. (1986) as the paper describes it: linearised, with massless columns.
 
-Their equation is the linearised one in the limit γ → ∞ (p. 1). What impact law they used the paper
-does not say: Eq. (25) in the same limit, √r = cos 2α, is an assumption.
-
-The three simplifications can be made one at a time, so that the error of each is seen apart.
+Their equation is the linearised one in the limit γ → ∞ (p. 1). The paper does not say which impact
+law they used; we assume Eq. (25) in the same limit, √r = cos 2α. Each of the three simplifications
+can be applied alone, which shows the error of each.
 """
 
 import math

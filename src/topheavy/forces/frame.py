@@ -1,15 +1,15 @@
 """Base shear, overturning moment and bending moments of a rocking frame, and of a clamped one.
 
-They follow from the contact forces of `topheavy.contact_forces`. A column is loaded by the forces
-at its two contacts, half its width beside its axis, and by its own weight and inertia. With t and n
-for the transverse and axial force of the ground on the column, and c = b sgn θ for the place of the
+They follow from the contact forces of `topheavy.contact_forces`. The loads of a column are the
+forces at its two contacts, half its width beside its axis, and its own weight and inertia. With the
+transverse and axial force t and n of the ground on the column, and the position c = b sgn θ of the
 contact, the bending moment at the height z along the axis is
 
     M(z) = c n + t z − ∫₀ᶻ q(y) (z − y) dy + (m_c/2h) (b²/3) θ̈ z,   q = (m_c/2h) a_t,
 
 where a_t is the transverse acceleration on the axis, gravity included, and the last term is the
 rotary inertia. Signs are such that all three are positive for a frame at rest under ü_g > 0.
-The impulses of an impact are no forces and are not among these; see `impact_impulses`.
+Impulses at impacts are not included; see `impact_impulses`.
 """
 
 from __future__ import annotations
@@ -68,8 +68,8 @@ def frame_forces(
 ) -> FrameForces:
     """Return the forces of a frame whose motion is that of Eq. (23).
 
-    Parameters are those of `contact_forces`. At rest, base shear and overturning moment are those
-    of the ground's acceleration; the bending moments are NaN, since whole faces are in contact.
+    The parameters are those of `contact_forces`. At rest, base shear and overturning moment follow
+    from the ground's acceleration; the bending moments are NaN, since whole faces are in contact.
 
     >>> frame = th.RockingFrame(th.Column(0.5, 3.0), mass_ratio=2.0)
     >>> forces = th.frame_forces(frame, th.Cap(span=5.0, half_depth=0.4), 0.05, 0.0)
@@ -94,8 +94,8 @@ def frame_forces(
     load = weights(frame.mass_ratio)[0] / (2.0 * half_height)
     steady = motion.ground * cos - sin + corner * motion.velocity**2 / STANDARD_GRAVITY
     y = 2.0 * half_height * HEIGHTS
-    own = turn * frame.column.half_width**2 / 3.0  # rotary inertia
-    span_loads = y * (own[..., None] - y * (steady[..., None] / 2.0 + y * turn[..., None] / 6.0))
+    rotary = turn * frame.column.half_width**2 / 3.0
+    span_loads = y * (rotary[..., None] - y * (steady[..., None] / 2.0 + y * turn[..., None] / 6.0))
     sin, cos = sin[..., None], cos[..., None]
     base = corner[..., None] * (horizontal * sin + vertical * cos)
     slope = horizontal * cos - vertical * sin
@@ -108,8 +108,8 @@ def largest_forces(
 ) -> NDArray[np.float64]:
     """Return the largest absolute forces of `frame_forces` over all arcs of motion.
 
-    The motion has the shape (arcs, samples). At rest there is less shear than at uplift, where the
-    forces go on without a jump; where no arc moves, all count.
+    The motion has the shape (arcs, samples). Arcs at rest are left out, since the forces of a
+    resting frame are largest at uplift, where the next arc begins; if no arc moves, all count.
 
     Returns
     -------

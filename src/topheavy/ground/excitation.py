@@ -45,7 +45,7 @@ _ROUNDING = 1e-6
 
 def sign_change(function: Callable[[float], float], low: float, high: float) -> float:
     """Return where a function changes its sign between `low` and `high`, to 1e-15 relative."""
-    from scipy.optimize import brentq  # here: half a second that the kernel never needs
+    from scipy.optimize import brentq  # half a second that the kernel never needs
 
     return float(brentq(function, low, high, xtol=1e-300, rtol=1e-15, maxiter=_MAX_ITERATIONS))
 

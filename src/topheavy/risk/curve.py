@@ -49,12 +49,12 @@ def fit(levels: ArrayLike, shares: ArrayLike, *, skewed: bool) -> Array:
     powers, centred = (
         np.power.outer(x, np.arange(number)) for x in (logs, (logs - middle) / width)
     )
-    found = np.full((*shares.shape[:-1], 3), math.nan)
+    terms = np.full((*shares.shape[:-1], 3), math.nan)
     fitted = np.asarray(points_between(shares) >= number)
-    found[fitted, :number] = _likeliest(powers, centred, shares[fitted])
-    found[~np.isnan(found[..., 0]), number:] = 0.0
+    terms[fitted, :number] = _likeliest(powers, centred, shares[fitted])
+    terms[~np.isnan(terms[..., 0]), number:] = 0.0
     # The terms in (ln s - middle)/width, expanded to those in ln s.
-    a, b, c = np.moveaxis(found, -1, 0)
+    a, b, c = np.moveaxis(terms, -1, 0)
     b, c = b / width, c / width**2
     return np.stack([a - b * middle + c * middle**2, b - 2.0 * c * middle, c], axis=-1)
 
@@ -72,16 +72,16 @@ def _likeliest(powers: Array, centred: Array, shares: Array) -> Array:
     for passed in range(MAX_PASSES):
         normal = centred.T @ (weights[..., None] * centred)
         right = (weights * probit + slopes) @ centred
-        found = np.linalg.solve(normal, right[..., None])[..., 0]
+        next_terms = np.linalg.solve(normal, right[..., None])[..., 0]
         for _ in range(MAX_HALVINGS):
-            probit = found @ centred.T
+            probit = next_terms @ centred.T
             over, under = log_ndtr(probit), log_ndtr(-probit)
             likelihood = (shares * over + (1.0 - shares) * under).sum(axis=-1)
             worse = likelihood < likely - ROUNDING
             if not worse.any():
                 break
-            found[worse] = 0.5 * (found[worse] + terms[worse])
-        terms, likely = found, likelihood
+            next_terms[worse] = 0.5 * (next_terms[worse] + terms[worse])
+        terms, likely = next_terms, likelihood
         density = -0.5 * (probit**2 + math.log(2.0 * math.pi))  # its logarithm, as of the shares
         up, down = np.exp(density - over), np.exp(density - under)
         slopes = shares * up - (1.0 - shares) * down
@@ -131,14 +131,14 @@ def rises_past(share: float, terms: Array) -> Array:
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
         root = np.sqrt(b**2 - 4.0 * a * c)  # the slope at the crossing
         # One of both forms of the same root: neither subtracts what is nearly equal.
-        found = np.exp(np.where(b >= 0.0, -2.0 * a / (b + root), (root - b) / (2.0 * c)))
-    return np.where((root > 0.0) & np.isfinite(found) & (found > 0.0), found, math.nan)
+        crossing = np.exp(np.where(b >= 0.0, -2.0 * a / (b + root), (root - b) / (2.0 * c)))
+    return np.where((root > 0.0) & np.isfinite(crossing) & (crossing > 0.0), crossing, math.nan)
 
 
 def medians(levels: ArrayLike, terms: Array) -> Array:
     """Return the median capacities: the intensities at which the curves rise past 1/2.
 
-    A curve says nothing beyond its levels: a median there is NaN.
+    A median outside the levels is NaN.
 
     Parameters
     ----------
@@ -151,8 +151,8 @@ def medians(levels: ArrayLike, terms: Array) -> Array:
     -------
     ndarray, shape (...)
     """
-    levels, found = np.asarray(levels), rises_past(0.5, terms)
-    return np.where((levels[0] < found) & (found < levels[-1]), found, math.nan)
+    levels, middle = np.asarray(levels), rises_past(0.5, terms)
+    return np.where((levels[0] < middle) & (middle < levels[-1]), middle, math.nan)
 
 
 def dispersions(terms: Array) -> Array:

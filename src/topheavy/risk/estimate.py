@@ -54,8 +54,8 @@ class Fragility:
     Examples
     --------
     >>> motions = [th.Record(0.02, np.sin(k * np.arange(200))) for k in (0.02, 0.03, 0.05, 0.08)]
-    >>> found = th.fragility({"pier": th.Column(0.5, 3.0)}, motions, [0.5, 1.0, 2.0], resamples=100)
-    >>> found.curves.probability.values
+    >>> result = th.fragility([th.Column(0.5, 3.0)], motions, [0.5, 1.0, 2.0], resamples=100)
+    >>> result.curves.probability.values
     array([[0.  , 0.25, 0.5 ]])
     """
 
@@ -156,8 +156,8 @@ def fragility(
     Examples
     --------
     >>> motions = [th.Record(0.02, np.sin(k * np.arange(200))) for k in (0.02, 0.03, 0.05, 0.08)]
-    >>> found = th.fragility({"pier": th.Column(0.5, 3.0)}, motions, [0.5, 1.0, 2.0], resamples=100)
-    >>> found.outcomes.sum(axis=0)
+    >>> result = th.fragility([th.Column(0.5, 3.0)], motions, [0.5, 1.0, 2.0], resamples=100)
+    >>> result.outcomes.sum(axis=0)
     array([[0, 1, 2]])
     """
     blocks = inputs.named_blocks(structures)

@@ -43,7 +43,7 @@ def curve_table(
         Of the curves of these shares.
     confidence : float
     """
-    import xarray  # here: with pandas it takes a second that only tables need
+    import xarray  # it imports pandas, a second that only tables need
 
     low, high = exact_interval(overturned, motions, confidence)
     at, one = ("structure", "level"), ("structure",)

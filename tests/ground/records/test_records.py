@@ -53,10 +53,8 @@ ACCELERATION = [
     ([0.1, None], "acceleration: element 1 is None; expected a number"),
     ([True, False], "acceleration: element 0 is True; expected a number"),
     ([[0.1], [0.2, 0.3]], "acceleration: .*inhomogeneous.*; expected rows of equal length"),
-    (np.ma.array([0.1, 9.9, 0.2], mask=[0, 1, 0]), "has 1 masked of 3 elements, .* index 1"),
-    (np.ma.masked_all((2, 2)), "has 4 masked of 4 elements, the first at index 0"),
 ]
-NO_NUMBERS = ("0.02", True, np.array([0.02, 0.02]), np.ma.masked)
+NO_NUMBERS = ("0.02", True, np.array([0.02, 0.02]))
 
 
 @pytest.mark.parametrize(("samples", "says"), ACCELERATION)
@@ -75,7 +73,6 @@ def test_bad_samples_are_refused_with_their_place(samples, says):
           for x in NO_NUMBERS),
         *((FIVE.scaled, x, r"^factor is .*; expected a number$") for x in NO_NUMBERS),
         (FIVE.excitation, "0.02", r"^t: element 0 is '0\.02'; expected a number$"),
-        (FIVE.excitation, np.ma.array([0.0, 1], mask=[1, 0]), "t has 1 masked of 2 elements"),
     ],
 )  # fmt: skip
 def test_bad_number_is_refused_by_name(make, value, says):

@@ -34,8 +34,8 @@ class Record(Excitation):
     Raises
     ------
     ValueError
-        For a step that is not positive, fewer than two samples, a sample that is masked, not
-        finite or beyond `checks.LARGEST_ACCELERATION`, or a unit that is not understood.
+        For a step that is not positive, fewer than two samples, a sample that is not finite or
+        beyond `checks.LARGEST_ACCELERATION`, or a unit that is not understood.
 
     Examples
     --------
