@@ -134,7 +134,7 @@ def largest_forces(
     return np.stack([sizes.max(axis=(1, 2)), sizes[:, :, ::2].max(axis=(1, 2))])
 
 
-def clamped_forces(frame: RockingFrame, cap: Cap, excitation: Excitation) -> Array:
+def clamped_forces(frame: RockingFrame, cap: Cap, excitation: Excitation) -> NDArray[np.float64]:
     """Return the largest forces of the same rigid frame if it is clamped against uplift.
 
     Its columns are fixed to the ground and pinned to the cap beam: each is a cantilever under its
