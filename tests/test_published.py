@@ -26,6 +26,7 @@ def test_numbers_of_readme_are_those_of_the_published_tables(found):
     trilith, vase, motions, spectra = (found[n] for n in ("trilith", "vase", "motions", "spectra"))
     errors = [100 * found["allen"][f"error_all_{ratio}"]["value"] for ratio in ("0.5", "2", "10")]
     gain = [100 * motions["gain"][end] for end in ("least", "most")]
+    reduction = [100 * found["break_even"]["benefit_ends"][end] for end in ("least", "most")]
     sentences = [
         f"R̂ is at most {found['parameters']['limit_of_size_ratio']['value']:.1f} times R",
         f"p̂ = {trilith['frame_frequency_parameter']['value']:.2f} rad/s",
@@ -35,6 +36,7 @@ def test_numbers_of_readme_are_those_of_the_published_tables(found):
         f"from {vase['minimum_of_the_column']['value']:.3f} g alone",
         f"from {vase['minimum_of_the_heaviest']['value']:.3f} g under a very heavy beam",
         "by {:.0f} to {:.0f} %".format(*gain),
+        "{:.0f} to {:.0f} % less velocity after impacts".format(*reduction),
         f"prevents overturning on {100 * spectra['prevented']['value']:.0f} % of the area",
         f"causes it on {100 * spectra['caused']['value']:.1f} %",
     ]
