@@ -9,7 +9,8 @@ import pytest
 
 from replication.config import read_yaml
 from steps.beyond import break_even, motions, records
-from steps.shared import second, sweep
+from steps.shared import filtered_noise, second, sweep
+from steps.shared.filtered_noise import Soil
 from tests.cases import COLUMN, ROOT
 from topheavy import Column, Record, RockingFrame, judge
 
@@ -44,6 +45,14 @@ def test_models_are_four_sets_noise_and_vertical_motion():
     with_vertical = sweep.models(SETTINGS)[LAST + sweep.VERTICAL][1]
     assert with_vertical.record().name == sweep.models(SETTINGS)[LAST][1].record().name
     assert with_vertical.vertical().name != with_vertical.record().name
+
+
+def test_each_model_of_noise_has_a_seed_of_its_own():
+    noise = SETTINGS["noise"] | {"soils": [1.0, 2.5]}
+    soft, stiff = [*sweep.models(SETTINGS | {"noise": noise}).values()][4:6]
+    for motions_of, place, soil in ((soft, 0, Soil(1.0, 0.2)), (stiff, 1, Soil(2.5, 0.2))):
+        expected = filtered_noise.motion(noise["seed"] + place, 2, soil)
+        np.testing.assert_array_equal(motions_of[2].record().acceleration, expected.acceleration)
 
 
 def test_outcomes_of_all_shards_are_those_of_single_motions(shards):

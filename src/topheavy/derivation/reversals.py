@@ -112,6 +112,7 @@ def larger_rotation_feels_the_larger_push() -> bool:
     """
     within, beyond, x, slope = sp.symbols("lambda mu x slope", positive=True)
     push = sp.Symbol("push", real=True)
+    rise_within, rise_beyond = 1 - push * sp.tan(within), 1 + push * sp.tan(beyond)
     identities = []
     for side in SIDES:
         rise = sp.diff(exact(side), _phi).subs(_a, side.sign * push)
@@ -119,11 +120,11 @@ def larger_rotation_feels_the_larger_push() -> bool:
         up_to = sp.expand_trig(rise.subs(_phi, alpha - within)) / sp.cos(within)
         after = sp.expand_trig(rise.subs(_phi, alpha + beyond)) / sp.cos(beyond)
         identities += [
-            sp.simplify(up_to - (1 - push * sp.tan(within))) == 0,
-            sp.simplify(after - (1 + push * sp.tan(beyond))) == 0,
+            sp.simplify(up_to - rise_within) == 0,
+            sp.simplify(after - rise_beyond) == 0,
         ]
-    # tan α = x + slope > x: s a = cot α gives 1 − x/(x + slope) > 0
-    least = sp.factor(1 - x / (x + slope))
+    # least at s a = cot α, where tan α = x + slope > x
+    least = sp.factor(rise_within.subs({push: 1 / (x + slope), sp.tan(within): x}))
     return all(identities) and bool(least.is_positive)
 
 
