@@ -1,21 +1,21 @@
 """Captions, article, supplement and the list of verdicts name what there is."""
 
 import re
-from pathlib import Path
 
 import pytest
 import yaml
 
 from steps.verdicts import page
+from tests.cases import ROOT
 
-TEXTS = {name: Path(f"paper/{name}.typ").read_text("utf-8") for name in ("report", "supplement")}
-CAPTIONS = yaml.safe_load(Path("figures/captions.yaml").read_text("utf-8"))
-CLAIMS = yaml.safe_load(Path("paper/claims.yaml").read_text("utf-8"))
+TEXTS = {name: (ROOT / f"paper/{name}.typ").read_text("utf-8") for name in ("report", "supplement")}
+CAPTIONS = yaml.safe_load((ROOT / "figures/captions.yaml").read_text("utf-8"))
+CLAIMS = yaml.safe_load((ROOT / "paper/claims.yaml").read_text("utf-8"))
 
 
 def test_each_figure_has_a_caption_and_is_in_one_document():
     shown = [name for text in TEXTS.values() for name in re.findall(r'#picture\("(\w+)"', text)]
-    scripts = {path.stem: path.read_text("utf-8") for path in Path("figures").glob("*.py")}
+    scripts = {path.stem: path.read_text("utf-8") for path in (ROOT / "figures").glob("*.py")}
     drawn = [name for name, text in scripts.items() if "\ndef draw(" in text]
     assert sorted(shown) == sorted(CAPTIONS) == sorted(drawn)
 
