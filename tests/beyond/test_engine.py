@@ -92,7 +92,9 @@ def test_in_space_a_long_push_overturns_from_the_uplift_by_hand_on(name, factor)
 
 def test_motion_keeps_the_rotations_of_each_look():
     bodies = space.Bodies(TRILITH, 0.11, 0.434, LINTEL, 1.6e-3)
-    turned = [r for _, r in space.motion(bodies, lambda time: np.full_like(time, 0.5), 0.5)]
+    looks = space.motion(bodies, lambda time: np.full_like(time, 0.5), 0.5)
+    times, turned = zip(*looks, strict=True)
+    assert np.diff(times) == pytest.approx(space.LOOK * bodies.seconds)
     assert turned[0][0, 2, 2] > 0.999 > turned[-1][0, 2, 2]
 
 

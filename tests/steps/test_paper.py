@@ -32,7 +32,7 @@ SMALL["allen"]["maps"] = CONFIG["allen"]["maps"] | {
 }
 
 
-def given(rule):
+def params_of(rule):
     """Return the parameters of a rule, its grids small."""
     return {
         "settings": CONFIG.get(rule, {}) | SMALL[rule],
@@ -49,7 +49,7 @@ def tables():
 
     def of(rule):
         if rule not in made:
-            found = call(STEPS[rule].compute, rule, {}, given(rule))
+            found = call(STEPS[rule].compute, rule, {}, params_of(rule))
             made[rule] = {
                 n: pd.DataFrame(t).to_csv(index=False, float_format="%.9g")
                 for n, t in found.items()
@@ -60,7 +60,7 @@ def tables():
 
 
 def findings(rule, tables, **changes):
-    return call(STEPS[rule].findings, rule, {}, given(rule) | tables | changes)
+    return call(STEPS[rule].findings, rule, {}, params_of(rule) | tables | changes)
 
 
 KNOWN = {
