@@ -82,7 +82,7 @@ equations: equations: id == 'text_step_14': follows: False: text_step
 equations: theorems: theorem == 'lagrange_agrees': holds: False: lagrange_agrees
 parameters: mass_ratio: mass_ratio == 5: size_ratio: 1.6: heavier_is_larger
 parameters: mass_ratio: mass_ratio == 5: frequency_ratio: 0.8: heavier_is_larger
-parameters: restitution: slenderness_deg == 5 and mass_ratio == 1: restitution: 0.9999: \
+parameters: restitution: slenderness_deg == 5 and mass_ratio == 2: restitution: 0.9999: \
 smaller_than_solitary, energy_loss
 parameters: restitution: slenderness_deg == 5 and mass_ratio == 0: restitution: 0.9: \
 solitary_column_recovered
