@@ -9,26 +9,16 @@ const axis = (more) => ({
   grid: { stroke: () => colour("line"), width: 1 }, ticks: { stroke: () => colour("line"), width: 1, size: 4 }, ...more,
 });
 
-/** Do something in a task of its own, so that many such things never hold the page up together. */
-const soon = (work) => setTimeout(work);
-
 /** The size of a chart that fills its place. */
 const sizeOf = (place) => ({ width: Math.max(120, place.clientWidth), height: Math.max(40, place.clientHeight) });
 
 /** Keep a chart as large as its place. `chart` returns it, or nothing as long as there is none. */
-function fit(chart, place) {
-  new ResizeObserver(() => soon(() => {
-    const { width, height } = sizeOf(place);
-    if (chart() && (width !== chart().width || height !== chart().height)) chart().setSize({ width, height });
-  })).observe(place);
-}
+const fit = (chart, place) => new ResizeObserver(() => setTimeout(() => chart()?.setSize(sizeOf(place)))).observe(place);
 
 /** One history over time, with a line at the time that is shown; a press moves that time. */
 class Strip {
   constructor(place, { label, last, seek, band }) {
-    this.range = [-1, 1];
-    this.stroke = "ink";
-    this.levels = [];
+    Object.assign(this, { range: [-1, 1], levels: [] });
     this.chart = new uPlot({
       ...sizeOf(place), legend: { show: false }, padding: [6, 8, last ? 0 : 6, 0],
       cursor: { y: false, points: { show: false }, drag: { x: false, y: false }, sync: { key: "time" } },
@@ -37,12 +27,12 @@ class Strip {
         axis({ show: last, size: 22, label: "Time (s)" }),
         axis({ size: 36, label, space: 18, ...(band ? { splits: () => [-1, 0, 1] } : {}) }),
       ],
-      series: [{}, { stroke: () => colour(this.stroke), width: 1.5, spanGaps: false }],
+      series: [{}, { stroke: () => colour("ink"), width: 1.5, spanGaps: false }],
       hooks: { drawClear: [(u) => this.shade(u, band)] },
     }, [[0, 1], [0, 0]], place);
-    this.head = document.createElement("div");
-    this.head.className = "playhead";
-    this.chart.over.append(this.head);
+    this.curtain = made("div", { class: "curtain" });
+    this.head = made("div", { class: "playhead" });
+    this.chart.over.append(this.curtain, this.head);
     const move = (event) => {
       if (event.buttons === 1) seek(this.chart.posToVal(event.clientX - this.chart.over.getBoundingClientRect().left, "x"));
     };
@@ -70,43 +60,37 @@ class Strip {
     ctx.restore();
   }
 
-  show(times, values, range, stroke, levels = []) {
-    soon(() => {
-      Object.assign(this, { range, stroke, levels });
-      this.chart.setData([times, values]);
-      this.at(this.time);
-    });
+  show(times, values, range, levels = []) {
+    Object.assign(this, { range, levels });
+    this.chart.setData([times, values]);
   }
 
-  at(time) {
-    this.time = time;
-    this.head.style.transform = `translateX(${this.chart.valToPos(time, "x")}px)`;
+  /** Mark a time, and hide what comes after the time that was seen. */
+  at(time, seen) {
+    const move = (element, to) => (element.style.transform = `translateX(${this.chart.valToPos(to, "x")}px)`);
+    move(this.head, time);
+    move(this.curtain, Math.min(seen, 2 * this.chart.scales.x.max));
   }
 }
 
-/** The boundary of the cells whose code has a bit: segments from and to the middle between neighbours. */
-function boundary(codes, columns, rows, bit) {
-  const segments = [], has = (i, j) => (codes[i + columns * j] & bit) !== 0;
-  for (let i = 0; i + 1 < columns; i++) {
-    for (let j = 0; j + 1 < rows; j++) {
-      const a = has(i, j), b = has(i + 1, j), c = has(i + 1, j + 1), d = has(i, j + 1), crossed = [];
-      if (a !== b) crossed.push([i + 1, j + 0.5]);
-      if (b !== c) crossed.push([i + 1.5, j + 1]);
-      if (c !== d) crossed.push([i + 1, j + 1.5]);
-      if (d !== a) crossed.push([i + 0.5, j + 1]);
-      for (let k = 0; k < crossed.length; k += 2) segments.push([crossed[k], crossed[k + 1]]);
+/** The border of the cells whose code has a bit: an edge for each two neighbours that differ. */
+function border(codes, columns, rows, bit) {
+  const path = new Path2D(), has = (i, j) => codes[i + columns * j] & bit;
+  const edge = (...ends) => (path.moveTo(...ends.slice(0, 2)), path.lineTo(...ends.slice(2)));
+  for (let i = 0; i < columns; i++) {
+    for (let j = 0; j < rows; j++) {
+      if (i + 1 < columns && has(i, j) !== has(i + 1, j)) edge(i + 1, j, i + 1, j + 1);
+      if (j + 1 < rows && has(i, j) !== has(i, j + 1)) edge(i, j + 1, i + 1, j + 1);
     }
   }
-  return segments;
+  return path;
 }
 
 /** The map of overturning: which of two structures overturn, their boundaries, and where the state is. */
 class Spectrum {
   constructor(place, pick) {
-    this.place = place;
-    this.pick = pick;
-    this.image = document.createElement("canvas");
-    this.plane = null;
+    const here = made("div", { class: "here" }, made("span", {}, "you are here"));
+    Object.assign(this, { place, pick, here, image: made("canvas") });
     fit(() => this.chart, place);
     place.addEventListener("keydown", (event) => {
       const [right, up] = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] }[event.key] ?? [];
@@ -117,13 +101,12 @@ class Spectrum {
     });
   }
 
-  /** Set the plane: its axes anew when they change, and no cells until its own come. `keys` are two
-      texts on which its cells depend; if only the second changes and `keeps`, the old ones wait for new. */
-  frame(plane, keys, keeps) {
-    const axes = JSON.stringify([plane.x, plane.y, plane.isRecord]), [column, frame] = keys;
+  /** Set the plane: its axes anew when they change. `keys` are two texts on which its cells depend; if
+      only the second changes, the old cells wait for new. */
+  frame(plane, keys) {
+    const axes = JSON.stringify([plane.x, plane.y, plane.isRecord]);
     this.plane = plane;
-    if (this.cells && column === this.keys[0] && frame !== this.keys[1] && keeps) this.cells.isWhole = false;
-    else if (column !== this.keys?.[0] || frame !== this.keys[1]) this.cells = null;
+    if (keys[0] !== this.keys?.[0]) this.cells = null;
     this.keys = keys;
     if (axes !== this.axes) {
       this.axes = axes;
@@ -150,6 +133,7 @@ class Spectrum {
         hooks: { drawClear: [(u) => this.paint(u)], draw: [(u) => this.mark(u)] },
       }, [[1], [1]], this.place);
       const { over } = this.chart;
+      over.append(this.here);
       over.addEventListener("click", (event) => {
         const box = over.getBoundingClientRect();
         this.pick(this.chart.posToVal(event.clientX - box.left, "x"), this.chart.posToVal(event.clientY - box.top, "y"));
@@ -157,34 +141,21 @@ class Spectrum {
     } else this.chart.redraw(false, false);
   }
 
-  /** Take the outcomes of the plane's cells, row by row from the lowest amplitude up; `share` of them are known. */
-  outcomes({ id, codes, columns, rows, share }) {
-    const [solid, dotted] = [new Path2D(), new Path2D()]; // in cells
-    for (const [from, to] of boundary(codes, columns, rows, FRAME_FALLS)) {
-      solid.moveTo(...from);
-      solid.lineTo(...to);
-    }
-    for (const [from] of boundary(codes, columns, rows, COLUMN_FALLS)) {
-      dotted.moveTo(...from);
-      dotted.lineTo(...from);
-    }
-    this.cells = { id, codes, columns, rows, lines: [[solid, 1.5], [dotted, 2.8]], isWhole: share === 1 };
+  /** Take the outcomes of the plane's cells, row by row from the lowest amplitude up, unless they are of another plane. */
+  outcomes({ keys, codes, columns, rows }) {
+    if (keys[0] !== this.keys?.[0]) return;
+    const solid = border(codes, columns, rows, FRAME_FALLS), dotted = border(codes, columns, rows, COLUMN_FALLS);
+    this.cells = { codes, columns, rows, lines: [[solid, 1.5, []], [dotted, 2.8, [0, 99]]] }; // a dot for each edge
     this.recolour();
   }
 
   recolour() {
     if (!this.cells) return;
     const { codes, columns, rows } = this.cells;
-    const names = ["paper", "prevented", "caused", "both"]; // by their codes
-    const probe = document.createElement("canvas").getContext("2d", { willReadFrequently: true });
-    const palette = names.map((name) => {
-      probe.fillStyle = colour(name);
-      probe.fillRect(0, 0, 1, 1);
-      return [...probe.getImageData(0, 0, 1, 1).data];
-    });
+    const palette = ["paper", "prevented", "caused", "both"].map(colour).map((hex) => [1, 3, 5].map((k) => parseInt(hex.slice(k, k + 2), 16))); // by codes
     Object.assign(this.image, { width: columns, height: rows });
     const context = this.image.getContext("2d"), pixels = context.createImageData(columns, rows);
-    codes.forEach((code, k) => pixels.data.set(palette[code], 4 * ((k % columns) + columns * (rows - 1 - Math.floor(k / columns)))));
+    codes.forEach((code, k) => pixels.data.set([...palette[code], 255], 4 * ((k % columns) + columns * (rows - 1 - Math.floor(k / columns)))));
     context.putImageData(pixels, 0, 0);
     this.chart?.redraw(false, false);
   }
@@ -198,39 +169,21 @@ class Spectrum {
     ctx.strokeStyle = colour("ink");
     ctx.lineCap = "round";
     const scaled = new DOMMatrix([bbox.width / columns, 0, 0, -bbox.height / rows, bbox.left, bbox.top + bbox.height]);
-    for (const [line, width] of lines) {
+    for (const [line, width, dash] of lines) {
       const path = new Path2D();
       path.addPath(line, scaled);
       ctx.lineWidth = width * devicePixelRatio;
+      ctx.setLineDash(dash);
       ctx.stroke(path);
     }
     ctx.restore();
   }
 
-  /** Draw "you are here". */
+  /** Put "you are here" to its place. */
   mark(u) {
-    const { ctx, bbox } = u, { here } = this.plane, ratio = devicePixelRatio;
-    if (!(here.y > 0)) return;
-    const x = u.valToPos(here.x, "x", true), y = Math.min(u.valToPos(here.y, "y", true), bbox.top + bbox.height);
-    ctx.save();
-    for (const [width, ink] of [[5, "paper"], [2, "ink"]]) {
-      ctx.lineWidth = width * ratio;
-      ctx.strokeStyle = colour(ink);
-      ctx.beginPath();
-      ctx.arc(x, y, 6 * ratio, 0, 2 * Math.PI);
-      ctx.stroke();
-    }
-    ctx.font = `600 ${12 * ratio}px system-ui, sans-serif`;
-    const words = "you are here", toLeft = x > bbox.left + bbox.width * 0.7;
-    ctx.textAlign = toLeft ? "right" : "left";
-    ctx.textBaseline = "middle";
-    ctx.lineWidth = 4 * ratio;
-    ctx.lineJoin = "round";
-    ctx.strokeStyle = colour("paper");
-    ctx.fillStyle = colour("ink");
-    const at = x + (toLeft ? -12 : 12) * ratio, height = Math.min(y, bbox.top + bbox.height - 8 * ratio);
-    ctx.strokeText(words, at, height);
-    ctx.fillText(words, at, height);
-    ctx.restore();
+    const { here } = this.plane, x = u.valToPos(here.x, "x"), y = Math.min(u.valToPos(here.y, "y"), u.over.clientHeight);
+    this.here.hidden = !(here.y > 0);
+    this.here.style.transform = `translate(${x}px, ${y}px)`;
+    this.here.classList.toggle("left", x > 0.7 * u.over.clientWidth);
   }
 }

@@ -3,7 +3,7 @@
 
 const byId = (id) => document.getElementById(id);
 const SLIDER = 1000; // steps
-const TOGETHER = ["b", "h", "g", "L", "own", "r", "cap", "T", "D"]; // one of them may contradict another
+const TOGETHER = ["width", "height", "g", "L", "r", "cap"]; // one of them may contradict another
 
 /** A number as a place on its slider, and back; γ runs from 0 to ∞ with 2 in the middle. */
 const toSlider = (key, number) => {
@@ -34,70 +34,49 @@ class Controls {
     Object.assign(this, { change, open, state: { ...DEFAULTS }, refused: {} });
     const structure = byId("structure"), motion = byId("motion");
     structure.append(
-      ...["b", "h", "g"].map((key) => this.number(key)), this.masses(), this.number("L"),
-      this.choice("cap", "Cap beam on two columns", { free: "free: frame", fixed: "fixed: portal" }),
-      this.choice("own", "Coefficient of restitution √r", { formula: "by its formula", own: "own" }, "rotational velocity after an impact over that before"),
-      this.number("r"),
-      this.choice("eq", "Equation of motion", { exact: "exact", linearised: "linearised" }, "linearised: for small rotations of slender columns"),
+      ...["width", "height", "g", "L"].map((key) => this.number(key)),
+      this.choice("cap", "Cap beam", { free: "free: frame", fixed: "fixed: portal" }),
+      this.choice("vase", "Vase", { shown: "shown", hidden: "hidden" }),
+      this.choice("eq", "Equation", { exact: "exact", linearised: "linearised" }), this.number("r"),
     );
     motion.append(this.shapes());
     for (const key of ["a", "T", "D"]) motion.append(this.number(key));
-    motion.append(this.choice("start", "Start of the shake table", { smooth: "smooth", abrupt: "abrupt" }, "abrupt: at its full velocity"), this.number("x"), this.drop());
+    motion.append(this.choice("start", "Table starts", { smooth: "smoothly", abrupt: "abruptly" }), this.number("x"), this.drop());
   }
 
   number(key) {
     const { label, unit, hint } = FIELDS[key];
-    const text = made("input", { id: key, type: "text", inputmode: "decimal", "aria-describedby": `${key}-error` });
+    const text = made("input", { id: key, type: "text", inputmode: "decimal", placeholder: key === "r" ? "formula" : "", "aria-describedby": `${key}-error` });
     const slider = made("input", { id: `${key}-slider`, type: "range", min: 0, max: SLIDER, step: 1, "aria-label": `${label}, slider` });
     const field = made("div", { class: "field", id: `${key}-field` },
       made("label", { for: key }, label, ...(hint ? [made("small", {}, hint)] : [])), text, made("span", { class: "unit" }, unit), slider,
       made("p", { class: "error", id: `${key}-error`, role: "alert" }));
-    let held = null; // the number when the field was entered: what is typed towards an invalid entry does not stay
-    text.addEventListener("focus", () => (held = this.state[key]));
     const type = (isFinal) => {
-      const number = typed(text.value), message = fault(key, number, text.value);
-      if (!message) return void this.apply({ [key]: number }, isFinal, key);
-      if (held !== null && this.state[key] !== held) this.apply({ [key]: held }, isFinal, key);
-      this.tell(key, this.state[key] === null ? message : `${message}; ${shown(this.state[key])} is kept`);
+      const isByFormula = key === "r" && !text.value.trim(), number = isByFormula ? null : typed(text.value);
+      const message = isByFormula ? "" : fault(key, number, text.value);
+      if (message) this.tell(key, `${message}; ${this.state[key] === null ? "the formula" : shown(this.state[key])} is kept`);
+      else this.apply({ [key]: number }, isFinal, key);
     };
     text.addEventListener("input", () => type(false));
     text.addEventListener("change", () => type(true));
     const slide = (isFinal) => {
-      const began = performance.now(), number = fromSlider(key, Number(slider.value));
+      const number = fromSlider(key, Number(slider.value));
       text.value = shown(number);
       slider.setAttribute("aria-valuetext", `${shown(number)} ${unit}`);
       this.tell(key, "");
       this.apply({ [key]: number }, isFinal, key);
-      performance.measure("handler", { start: began });
     };
     slider.addEventListener("input", () => slide(false));
     slider.addEventListener("change", () => slide(true));
     return field;
   }
 
-  /** The masses that give γ; what is typed stays as long as γ is theirs. */
-  masses() {
-    const input = (id, label, value) => made("input", { id, type: "text", inputmode: "decimal", value, "aria-label": label, "aria-describedby": "g-error" });
-    const pair = this.pair = [input("beam", "Mass of the cap beam", "2"), input("each", "Mass of one column", "1")];
-    const type = (isFinal) => {
-      const [beam, each] = pair.map((one) => typed(one.value)), ratio = each > 0 ? beam / (2 * each) : NaN;
-      const isNone = fault("g", ratio, "γ") !== "";
-      this.tell("g", isNone ? "the masses give no γ; expected a cap beam from 0, over a column above 0" : "");
-      if (!isNone) this.apply({ g: ratio }, isFinal, "g");
-    };
-    for (const one of pair) for (const kind of ["input", "change"]) one.addEventListener(kind, () => type(kind === "change"));
-    return made("p", { id: "masses" }, "or masses: beam", pair[0], "column", pair[1]);
-  }
-
-  choice(key, label, options, hint) {
+  choice(key, label, options) {
     const group = made("div", { class: "choice", id: `${key}-field`, role: "radiogroup", "aria-labelledby": `${key}-label` },
-      made("span", { id: `${key}-label` }, label), ...(hint ? [made("small", {}, hint)] : []));
+      made("span", { id: `${key}-label` }, label));
     for (const [option, words] of Object.entries(options)) {
       const radio = made("input", { type: "radio", name: key, value: option, id: `${key}-${option}` });
-      radio.addEventListener("change", () => {
-        const own = { own: { r: option === "own" ? this.state.r ?? 0.9 : null } };
-        this.apply(own[key] ?? { [key]: option }, true, key);
-      });
+      radio.addEventListener("change", () => this.apply({ [key]: option }, true, key));
       group.append(made("label", {}, radio, words));
     }
     group.append(made("p", { class: "error", id: `${key}-error`, role: "alert" }));
@@ -119,11 +98,11 @@ class Controls {
   }
 
   drop() {
-    const file = made("input", { type: "file", accept: ".at2,.AT2,.csv", hidden: "", id: "file", "aria-label": "Record file" });
+    const file = made("input", { type: "file", multiple: "", accept: ".at2,.AT2,.csv", hidden: "", id: "file", "aria-label": "Record file" });
     const button = made("button", { type: "button" }, "Open a record…");
     button.addEventListener("click", () => file.click());
     file.addEventListener("change", () => {
-      if (file.files[0]) this.open(file.files[0]);
+      [...file.files].forEach(this.open);
       file.value = "";
     });
     addEventListener("dragover", (event) => {
@@ -134,9 +113,9 @@ class Controls {
     addEventListener("drop", (event) => {
       event.preventDefault();
       document.body.classList.remove("over");
-      if (event.dataTransfer.files[0]) this.open(...event.dataTransfer.files);
+      [...event.dataTransfer.files].forEach(this.open);
     });
-    return made("div", { id: "drop" }, button, " or drop a file here, AT2 or CSV. It stays on this computer. ", made("span", { id: "reading", role: "status" }), file,
+    return made("div", { id: "drop" }, button, " or drop a file, AT2 or CSV. It stays on this computer. ", made("span", { id: "reading", role: "status" }), file,
       made("p", { class: "error", id: "record-error", role: "alert" }));
   }
 
@@ -155,40 +134,32 @@ class Controls {
   /** Apply a change, and with it what was refused before: of two fields that contradict each other,
       the first waits for the second. A change of any other field drops it. */
   apply(patch, isFinal, key) {
-    for (const each of ["b", "h", "g", "L", "r", "T", "D", "own", "cap", "shape", "record"]) if (each !== key) this.clear(each);
+    for (const each of [...Object.keys(FIELDS), "cap", "shape", "record"]) this.tell(each, "");
     const whole = { ...this.refused, ...patch };
     let wrong = this.change(whole, isFinal);
     if (wrong && !TOGETHER.includes(key)) wrong = this.change(patch, isFinal);
     this.refused = wrong ? whole : {};
     if (wrong) this.tell(byId(`${wrong.field}-field`).hidden ? key : wrong.field, wrong.message);
-    else this.tell(key, "");
-  }
-
-  /** Take a message away, and with it the bad text that it was about. */
-  clear(key) {
-    if (!byId(`${key}-error`).textContent) return;
-    this.tell(key, "");
-    if (key in FIELDS && !(key in this.refused) && this.state[key] !== null) byId(key).value = shown(this.state[key]);
   }
 
   /** Show a state; a field in which somebody types keeps its text. */
   show(state) {
     Object.assign(this, { state, refused: {} });
     for (const key of Object.keys(FIELDS)) {
-      if (state[key] === null) continue;
       const text = byId(key), slider = byId(`${key}-slider`);
+      if (state[key] === null) { // √r by its formula
+        if (document.activeElement !== text) text.value = "";
+        slider.value = toSlider(key, structuresOf(state)[0].restitution);
+        continue;
+      }
       if (typed(text.value) !== state[key] && !(document.activeElement === text && fault(key, typed(text.value), text.value))) text.value = shown(state[key]);
       if (document.activeElement !== slider || fromSlider(key, Number(slider.value)) !== state[key]) slider.value = toSlider(key, state[key]);
       slider.setAttribute("aria-valuetext", `${shown(state[key])} ${FIELDS[key].unit}`);
     }
-    const [beam, each] = this.pair, mass = typed(each.value);
-    if (mass > 0 && typed(beam.value) / (2 * mass) !== state.g) beam.value = shown(Number((2 * state.g * mass).toPrecision(4)));
-    byId("size").textContent = `column ${shown(2 * state.b)} m wide, ${shown(2 * state.h)} m high`;
-    for (const key of ["cap", "eq", "start"]) byId(`${key}-${state[key]}`).checked = true;
-    byId(state.r === null ? "own-formula" : "own-own").checked = true;
+    for (const key of ["cap", "vase", "eq", "start"]) byId(`${key}-${state[key]}`).checked = true;
     byId("shape").value = state.shape === "record" ? `record:${state.record}` : state.shape;
     const isRecord = state.shape === "record", isSteady = state.shape === "harmonic";
-    const visible = { r: state.r !== null, a: !isRecord, T: !isRecord, D: isSteady, start: isSteady, x: isRecord };
+    const visible = { a: !isRecord, T: !isRecord, D: isSteady, start: isSteady, x: isRecord };
     for (const [key, is] of Object.entries(visible)) byId(`${key}-field`).hidden = !is;
   }
 }

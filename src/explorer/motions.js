@@ -4,15 +4,14 @@
    Pulses are those of Zhang & Makris (2001), Housner (1963) and Makris & Vassiliou (2013). */
 
 const RICKER_CENTRE = 4.5 * Math.PI; // of the phase ωt: τ = t − 2.25 T
-const around = (...offsets) =>
-  [...offsets.map((x) => -x), ...offsets].sort((x, y) => x - y).map((x) => x + RICKER_CENTRE);
+const around = (...offsets) => [...offsets.map((x) => -x), ...offsets].sort((x, y) => x - y).map((x) => x + RICKER_CENTRE);
 
 /* Of each pulse in the phase x = ωt: its wave, its slope, its length, where its slope is zero, and
    the c, d of the equation a″ = −c a − d (x − centre) a′ that gives its Taylor series. */
 const SHAPES = {
-  "one-sine": { wave: Math.sin, slope: Math.cos, length: 2 * Math.PI, turns: [0.5, 1.5], c: 1, d: 0 },
-  "one-cosine": { wave: Math.cos, slope: (x) => -Math.sin(x), length: 2 * Math.PI, turns: [1], c: 1, d: 0 },
-  "half-sine": { wave: Math.sin, slope: Math.cos, length: Math.PI, turns: [0.5], c: 1, d: 0 },
+  "one-sine": { wave: Math.sin, slope: Math.cos, length: 2 * Math.PI, turns: [0.5 * Math.PI, 1.5 * Math.PI], c: 1, d: 0 },
+  "one-cosine": { wave: Math.cos, slope: (x) => -Math.sin(x), length: 2 * Math.PI, turns: [Math.PI], c: 1, d: 0 },
+  "half-sine": { wave: Math.sin, slope: Math.cos, length: Math.PI, turns: [0.5 * Math.PI], c: 1, d: 0 },
   "constant": { wave: () => 1, slope: () => 0, length: Math.PI, turns: [], c: 0, d: 0 },
   "harmonic": { wave: Math.sin, slope: Math.cos, length: Infinity, turns: null, c: 1, d: 0 },
   "ricker-symmetric": { ...ricker(2, 1 / 4, 1), length: 9 * Math.PI, turns: around(0, Math.sqrt(6)) },
@@ -21,10 +20,6 @@ const SHAPES = {
     turns: around(Math.sqrt(9 - 3 * Math.sqrt(6)), Math.sqrt(9 + 3 * Math.sqrt(6))),
   },
 };
-for (const name of ["one-sine", "one-cosine", "half-sine"]) {
-  SHAPES[name].turns = SHAPES[name].turns.map((half) => half * Math.PI);
-}
-
 /** A Ricker wavelet: the second or third derivative of exp(−y²), y² = k (x − centre)². */
 function ricker(derivative, k, scale) {
   const root = Math.sqrt(k), y = (x) => root * (x - RICKER_CENTRE);
@@ -63,32 +58,28 @@ function pulse(shape, amplitude, omega, end = Infinity) {
   };
 }
 
-/** A record: sample k (g, times `factor`) at k·step, linear between, zero outside. */
-function record(samples, step, factor = 1) {
-  const last = samples.length - 1, end = last * step;
-  let largest = 0, steepest = 0;
-  for (let k = 0; k <= last; k++) {
-    largest = Math.max(largest, Math.abs(factor * samples[k]));
-    if (k) steepest = Math.max(steepest, Math.abs(factor * (samples[k] - samples[k - 1])) / step);
+/** A record of a file: sample k (g, times `factor`) at k·step, linear between, zero outside. */
+function record(file, factor = 1) {
+  const { samples, step } = file, last = samples.length - 1, end = last * step;
+  if (!file.edges) { // once, since a map has thousands of motions of one file
+    const steepest = samples.reduce((most, a, k) => Math.max(most, k ? Math.abs(a - samples[k - 1]) / step : 0), 0);
+    Object.assign(file, { edges: samples.map((_, k) => k * step), steepest });
   }
   const piece = (t) => {
     const k = Math.floor(t / step);
     return Math.min((k + 1) * step <= t ? k + 1 : k, last - 1);
   };
   const slope = (k) => (factor * (samples[k + 1] - samples[k])) / step;
-  const within = (t) => {
-    const k = piece(t);
-    return factor * samples[k] + slope(k) * (t - k * step);
-  };
+  const within = (t, k = piece(t)) => factor * samples[k] + slope(k) * (t - k * step);
   return {
-    end, order: 9, largest, steepest, within,
-    edges: Float64Array.from(samples, (_, k) => k * step),
+    end, order: 9, largest: Math.abs(factor) * file.peak, steepest: Math.abs(factor) * file.steepest, within, edges: file.edges,
     at: (t) => (t < end ? within(t) : 0),
     kink: (t) => (piece(t) + 1) * step,
     series(t, a, order) {
-      a.fill(0, 0, order + 1);
-      a[0] = within(t);
-      a[1] = slope(piece(t));
+      const k = piece(t);
+      a.fill(0, 2, order + 1);
+      a[0] = within(t, k);
+      a[1] = slope(k);
     },
   };
 }

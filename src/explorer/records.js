@@ -1,340 +1,130 @@
 "use strict";
-/* Read a ground motion from the bytes of a file, PEER AT2 or CSV. The page sends it nowhere:
-   it runs this file in a worker only, since its expressions take long to compile.
+/* Read a ground motion from the bytes of a file, PEER AT2 or CSV; the page sends it nowhere.
 
-   The rules are those of the library's `topheavy.ground.records`, and tests hold both readers to one table of
-   odd and bad files: what the library refuses, this page refuses in the same words. */
+   It takes and refuses what the library's `read_record` does, with messages of its own. */
 
-const LARGEST = 5; // g: no record exceeds it
-const LONGEST_STEP = 0.2; // s: a longer DT without unit is in ms
-const SHORTEST_STEP = 1e-6; // s: a shorter step is in another unit
-const HEADER_LINES = 4, LONGEST_HEADER_LINE = 1000; // characters
-const MOST_SAMPLES = 2_000_000, LARGEST_FILE = 100_000_000; // bytes: fifty for each of so many samples
-const SHOWN = 80; // characters of a faulty text that a message repeats
-const COMPUTED = 0.01; // of a step: additional tolerance for times that were computed in single precision
-const UNDERSTOOD = "g, % g, mg, g/10, gal, cm/s², m/s² or mm/s²";
+const LARGEST_FILE = 100e6; // bytes
+const LONGEST_STEP = 0.2; // s: a longer one is in ms
+const LARGEST = { acceleration: 5, stated: 2, velocity: 5 }; // g, g that the file calls g, and m/s
+const DECIMAL = "[-+]?(?:\\d+\\.?\\d*|\\.\\d+)(?:[ED][-+]?\\d+)?", IS_DECIMAL = new RegExp(`^${DECIMAL}$`, "i");
+const decimal = (text = "") => (IS_DECIMAL.test(text) ? Number(text.replace(/d/i, "e")) : NaN); // 1.0D-02 of Fortran, too
+const brief = (number) => String(Number(number.toPrecision(4)));
+const quoted = (text) => `“${text.length > 80 ? `${text.slice(0, 80)}…` : text}”`;
 
-/* Words, digits and blanks in regular expressions are those of Python: \w, \b and \d of JavaScript know
-   English alone, and its blanks are others. Numbers have the digits of ASCII in both. */
-const LETTER = "[\\p{L}\\p{Nl}\\p{No}]", WORD = "[\\p{L}\\p{N}_]", STARTS = `(?<!${WORD})`, ENDS = `(?!${WORD})`;
-const BLANK = "\\t-\\r\\x1c-\\x20\\x85\\p{Z}", DIGIT = "\\p{Decimal_Number}";
-const NUMBER = "[-+]?(?:[0-9]+\\.?[0-9]*|\\.[0-9]+)(?:[eEdD][-+]?[0-9]{1,4})?";
-const expression = (pattern, flags = "iu") =>
-  new RegExp(pattern.replaceAll("[\\s", `[${BLANK}`).replaceAll("\\s", `[${BLANK}]`).replaceAll("\\d", DIGIT), flags);
+const SI = { "gal": 0.01, "m/s2": 1, "cm/s2": 0.01, "mm/s2": 1e-3 }, UNITS = { "g": 1, "%g": 0.01, "mg": 1e-3, "g/10": 0.1, "g/100": 0.01, "g/1000": 1e-3 }; // in g
+for (const [unit, size] of Object.entries(SI)) UNITS[unit] = size / GRAVITY;
+const EXPECTED = Object.keys(UNITS).join(", ");
 
-const TOKENS = new RegExp(`[^${BLANK}]+`, "gu"), AROUND = expression("^\\s+|(?<!\\s)\\s+$", "gu");
-const trimmed = (text) => text.replace(AROUND, "");
-
-/** The match of a sticky expression at a place in a line; null where none is. */
-function matchAt(sticky, line, place) {
-  sticky.lastIndex = place;
-  return sticky.exec(line);
+/** One unit of acceleration in g, and one of time in s; undefined for another text. */
+function inG(unit) {
+  const plain = unit.normalize("NFKC").replace("−", "-").toLowerCase().replace(/[\s()^*'’]/g, "").replaceAll("sec", "s").replaceAll("/s/s", "/s2");
+  const name = plain.replace(/(?<=m)[.·⋅]?s-2$/, "/s2").replace("gals", "gal");
+  return Object.hasOwn(UNITS, name) ? UNITS[name] : undefined;
 }
+const inSeconds = (unit) => (/^(s|secs?|seconds?)$/i.test(unit) ? 1 : /^(ms|msecs?|milliseconds?)$/i.test(unit) ? 1e-3 : undefined);
 
-// Texts and numbers of messages ---------------------------------------------------------------------
-
-const NAMED = { "\\": "\\\\", "\t": "\\t", "\n": "\\n", "\r": "\\r" };
-const INVISIBLE = /[\\\p{C}]|(?! )\p{Z}/gu;
-
-/** A text in quotes, with the codes of invisible characters, as Python's repr writes it. */
-function repr(text) {
-  const coded = text.replace(INVISIBLE, (sign) => {
-    const code = sign.codePointAt(0).toString(16);
-    const [letter, digits] = code.length < 3 ? ["x", 2] : code.length < 5 ? ["u", 4] : ["U", 8];
-    return NAMED[sign] ?? `\\${letter}${code.padStart(digits, "0")}`;
-  });
-  if (!text.includes("'")) return `'${coded}'`;
-  return text.includes('"') ? `'${coded.replaceAll("'", "\\'")}'` : `"${coded}"`;
-}
-
-/** A text in quotes, and only its beginning if it is long. */
-function quoted(text) {
-  const signs = [...text];
-  return signs.length <= SHOWN ? repr(text) : `${repr(signs.slice(0, SHOWN).join(""))}…`;
-}
-
-/** A number of at most six digits, as Python's format g writes it. */
-function short(number) {
-  if (!Number.isFinite(number)) return number < 0 ? "-inf" : "inf";
-  const sign = Object.is(number, -0) ? "-" : "", [digits, power] = number.toExponential(5).split("e");
-  if (power >= -4 && power < 6) return `${sign}${Number(number.toPrecision(6))}`;
-  return `${Number(digits)}e${power[0]}${power.slice(1).padStart(2, "0")}`;
-}
-
-// Numbers and units ---------------------------------------------------------------------------------
-
-const DECIMAL = expression(`^${NUMBER}$`);
-
-/** A decimal number as C and Fortran print it, with the exponent of Fortran (1.0D-02) also. */
-function decimal(text) {
-  const bare = trimmed(text), number = DECIMAL.test(bare) ? Number(bare.replace(/d/i, "e")) : NaN;
-  if (!Number.isFinite(number)) throw new Error(`${quoted(bare)} is not a number`);
-  return number;
-}
-
-const SECONDS = new Map([
-  ...["s", "sec", "secs", "second", "seconds"].map((word) => [word, 1]),
-  ...["ms", "msec", "msecs", "millisecond", "milliseconds"].map((word) => [word, 1e-3]),
-]);
-
-/** One unit of time in s, or undefined for a text that is no such unit. */
-const inSeconds = (text) => SECONDS.get(trimmed(text).toLowerCase());
-
-const S = "(?:seconds?|secs?|s)", PER = "(?:\\s*/\\s*|\\s+per\\s+)";
-const SQUARED = "(?:(?:\\^|\\*\\*)?(?:2|\\(2\\))|\\s*squared)";
-const METRES = "(?<metres>(?<prefix>milli-?|m|centi-?|c)?(?:met(?:er|re)s?|m))";
-const ACCELERATION = "(?:(?<hundredth>%\\s*g|percent\\s+(?:of\\s+)?g)|g\\s*/\\s*(?<part>10{1,3})"
-  + "|(?<thousandth>milli-?g|mg)|(?<gal>gals?)|g(?:'s)?"
-  + `|${METRES}(?:${PER}${S}(?:${SQUARED}|${PER}${S})|${PER}\\(\\s*${S}${SQUARED}\\s*\\)`
-  + `|${PER}(?:sq\\.?|square)\\s+${S}|[\\s·⋅*.]+${S}(?:\\^|\\*\\*)?(?:-2|\\(-2\\))))`
-  + `(?!${WORD}|['^\\-]|\\s*[/*×·⋅^%=]|\\s*x\\s*\\d|\\s+per${ENDS}|\\.\\d)`;
-const UNIT = expression(ACCELERATION, "iuy"), WHOLE_UNIT = expression(`^${ACCELERATION}$`);
-
-/** A text with raised digits, wide letters and the true minus in ASCII. */
-const inAscii = (text) => text.normalize("NFKC").replaceAll("−", "-").replaceAll("’", "'");
-
-/** One of a unit of acceleration, as its match says, in g. */
-function inG({ metres, prefix = "", gal, part, hundredth, thousandth }) {
-  if (metres) return { "": 1, c: 0.01, m: 0.001 }[prefix.toLowerCase().slice(0, 1)] / GRAVITY;
-  if (gal) return 0.01 / GRAVITY;
-  if (part) return 1 / Number(part);
-  return hundredth ? 0.01 : thousandth ? 0.001 : 1;
-}
-
-const STATED = expression(`${STARTS}units?(?:\\s+of\\s+(?:the\\s+)?acc${WORD}*\\.?)?\\s*(?:${STARTS}(?:of|are|is|in)${ENDS}\\s*[:=]?|[:=])\\s*[(\\[]?\\s*`, "giu");
-const INTRODUCED = expression(`[(\\[{]\\s*|${STARTS}units?\\s+|${STARTS}acc(?:el${WORD}*)?${ENDS}\\.?\\s*[:=]\\s*`, "giu");
-const SAMPLES_NAMED = expression(`${STARTS}(?:acc(?:el${WORD}*)?|data|values?|samples?|points?)${ENDS}`);
-const IN = expression(`${STARTS}in\\s+`, "giu");
-const PEAK = expression(`${STARTS}(?:peak|pga|a?max${WORD}*)${ENDS}`), FRACTION = expression("(?:(?<=\\d)\\.\\d*|\\.\\d+)\\s*", "gu");
-const NAMES_A_UNIT = expression(`${STARTS}(?:units?|acc${WORD}*)${ENDS}`);
-const NAMES_A_TIME = expression(`[A-Za-z]+${ENDS}(?!\\s*[/^*\\-])`, "uy");
-
-const isTime = (line, place) => inSeconds(matchAt(NAMES_A_TIME, line, place)?.[0] ?? "") !== undefined;
-const ends = (matches) => matches.map((match) => match.index + match[0].length);
-
-/** Where the unit of all samples may stand in a line. The unit of a peak, or behind a decimal number,
-    is that of one value. */
-function whereUnitsAre(line) {
-  const samples = line.match(SAMPLES_NAMED), after = samples ? samples.index + samples[0].length : Infinity;
-  const introductions = [...line.matchAll(INTRODUCED), ...[...line.matchAll(IN)].filter(({ index }) => index >= after)];
-  const peaksBegin = line.match(PEAK)?.index ?? line.length, numbersEnd = new Set(ends([...line.matchAll(FRACTION)]));
-  const ofAll = introductions.filter(({ index }) => index < peaksBegin && !numbersEnd.has(index));
-  return [...new Set([...ends([...line.matchAll(STATED)]), ...ends(ofAll)])].sort((one, other) => one - other);
-}
-
-/** The unit of acceleration that the lines of a header state: the unit, one of it in g, and the line.
-
-    A statement is a unit after the word "units", after "acceleration in" or "values in", or in brackets. */
-function statedAcceleration(lines) {
-  const found = lines.map((line) => trimmed(inAscii(line))).flatMap((line, k) => {
-    for (const end of ends([...line.matchAll(STATED)])) {
-      if (!matchAt(UNIT, line, end) && !isTime(line, end)) throw new Error(`line ${k + 1} states a unit that is not understood: ${repr(line)}; expected ${UNDERSTOOD}`);
-    }
-    const units = whereUnitsAre(line).map((place) => matchAt(UNIT, line, place)).filter(Boolean);
-    return units.map((match) => ({ unit: match[0], inG: inG(match.groups), place: k + 1, line }));
-  });
-  if (!found.length) {
-    const hint = lines.findIndex((line) => NAMES_A_UNIT.test(line));
-    const seen = hint < 0 ? "no line names one" : `line ${hint + 1} is ${repr(trimmed(lines[hint]))}`;
-    throw new Error(`lines 1 to ${lines.length} state no unit of acceleration that is understood (${seen}); expected ${UNDERSTOOD}: write, for example, 'UNITS: G' into the header`);
-  }
-  const [first] = found, other = found.find((each) => each.inG !== first.inG);
-  if (other) throw new Error(`line ${first.place} states ${repr(first.unit)} (${repr(first.line)}) and line ${other.place} states ${repr(other.unit)} (${repr(other.line)}); expected one unit of acceleration: take the wrong one out`);
-  return first;
-}
-
-// PEER's AT2: a header with NPTS and DT, then the samples -------------------------------------------
-
-const HAS_COUNT = expression(`${STARTS}NPTS${ENDS}`);
-const NO_UNIT = `(?!(?:NPTS|UNITS?)${ENDS})`;
-/* A number that is not given up again, then either a whole unit with its bracket, or nothing that could be one. */
-const TIME_STEP = `(?=(?<step>${NUMBER}))\\k<step>(?![\\d.])`
-  + `(?:\\s*[(\\[]?${NO_UNIT}(?<unit>${LETTER}+)(?!${LETTER})(?:[)\\]]|(?![)\\]]))|(?!\\s*[(\\[]?${NO_UNIT}${LETTER}))`
-  + `(?!${WORD}|\\s*[/*^]|-|[.,]\\d)`;
-const UNIT_BEFORE = `(?:\\s*[(\\[]\\s*(?<before>${LETTER}+)\\s*[)\\]])?`;
-const COUNT = expression(`${STARTS}NPTS\\s*[=:]\\s*(?<count>[0-9]+)(?![\\d.]|,\\d)`);
-const NAMED_STEP = expression(`${STARTS}DT${UNIT_BEFORE}\\s*[=:]\\s*${TIME_STEP}`);
-const OLD_HEADER = expression(`^\\s*(?<count>[0-9]+)[\\s,]+${TIME_STEP}[\\s,]*NPTS\\s*(?:,\\s*)?DT${ENDS}${UNIT_BEFORE}`);
-
-/** Refuse a record of too many samples; `says` is what gives the count. */
-function checkCount(says, count) {
-  if (count > MOST_SAMPLES) throw new Error(`${says} ${count}; expected at most ${MOST_SAMPLES} samples: shorten the record, or take fewer samples a second`);
-}
-
-/** Refuse a line of a header that is too long to be one. */
-function checkHeader(lines) {
-  lines.forEach((line, k) => {
-    const { length } = [...line];
-    if (length > LONGEST_HEADER_LINE) throw new Error(`line ${k + 1} has ${length} characters, ${quoted(line)}; expected at most ${LONGEST_HEADER_LINE} in a line of the header`);
-  });
-}
-
-/** The number of samples and the time step, s, of the header's last line. */
-function countAndStep(line, place) {
-  let count = line.match(COUNT), step = line.match(NAMED_STEP);
-  if (!count || !step) count = step = line.match(OLD_HEADER);
-  if (!count) throw new Error(`line ${place} is ${repr(trimmed(line))}; expected 'NPTS= n, DT= s SEC' or 'n s NPTS, DT', n a whole number and s a time step`);
-  const stated = [step.groups.before, step.groups.unit].filter(Boolean), factors = new Set(stated.map(inSeconds));
-  if (factors.size > 1 || factors.has(undefined)) {
-    throw new Error(`line ${place} gives DT the unit ${stated.map(repr).join(" and ")}, ${repr(trimmed(line))}; expected SEC, S, MSEC or MS`);
-  }
-  const number = decimal(step.groups.step), [factor = 1] = factors;
-  if (!stated.length && number > LONGEST_STEP) {
-    throw new Error(`line ${place} gives a DT of ${short(number)} without a unit, ${repr(trimmed(line))}; expected at most ${LONGEST_STEP} s: write SEC or MSEC after it`);
-  }
-  return [BigInt(count.groups.count), number * factor]; // a count may have a thousand digits
-}
-
+/** An AT2 file: NPTS, DT and a unit in its first ten lines, then as many numbers. */
 function readAt2(lines) {
-  const header = 1 + lines.slice(0, HEADER_LINES).findIndex((line) => HAS_COUNT.test(line));
-  if (!header) throw new Error(`no NPTS in lines 1 to ${HEADER_LINES}; expected a PEER AT2 file, with a line 'NPTS= n, DT= s SEC' after its title`);
-  checkHeader(lines.slice(0, header));
-  const [count, step] = countAndStep(lines[header - 1], header);
-  const unit = statedAcceleration(lines.slice(0, header)), values = [], places = [];
-  checkCount(`line ${header} gives NPTS as`, count);
-  lines.slice(header).forEach((text, k) => {
-    for (const [token] of text.matchAll(TOKENS)) {
-      try {
-        values.push(decimal(token));
-      } catch (error) {
-        throw new Error(`line ${header + k + 1}: ${error.message}; expected accelerations in ${unit.unit}`);
-      }
-      places.push(header + k + 1);
-      checkCount(`line ${header + k + 1} holds sample`, values.length);
-    }
-  });
-  if (BigInt(values.length) !== count) {
-    throw new Error(`line ${header} says ${count} samples, ${repr(trimmed(lines[header - 1]))}, and the lines after it hold ${values.length}; ${values.length < count ? "the file is cut short" : "there are too many"}`);
+  const find = (pattern) => lines.slice(0, 10).map((line, k) => ({ end: k + 1, ...line.match(new RegExp(pattern, "i"))?.groups })).find((found) => "at" in found);
+  const old = find(`^\\s*(?<at>\\d+)[\\s,]+(?<step>${DECIMAL})\\s*(?<behind>[A-Z]*)[\\s,]*NPTS`);
+  const points = find("\\bNPTS\\s*[=:]\\s*(?<at>\\d+)") ?? old, time = find(`\\bDT\\s*(?:\\((?<before>\\w+)\\)\\s*)?(?<at>[=:])\\s*(?<step>${DECIMAL})\\s*\\(?(?<behind>[A-Z]*)`) ?? old;
+  if (!points || !time) throw new Error("expected “NPTS= n, DT= s SEC” in the first ten lines, as in PEER's AT2");
+  const count = Number(points.at), end = Math.max(points.end, time.end);
+  const [word] = [time.before, time.behind].filter((unit) => unit && !/^(npts|units)$/i.test(unit)), second = word ? inSeconds(word) : 1;
+  if (second === undefined) throw new Error(`line ${time.end} gives DT in ${quoted(word)}; expected SEC or MSEC`);
+  if (!word && decimal(time.step) > LONGEST_STEP) throw new Error(`line ${time.end} gives a DT of ${time.step} without a unit; expected SEC or MSEC behind it`);
+  const texts = lines.slice(end).join(" ").match(/\S+/g) ?? [], values = texts.slice(0, count).map(decimal), wrong = values.findIndex(Number.isNaN);
+  if (wrong >= 0) throw new Error(`sample ${wrong + 1} is ${quoted(texts[wrong])}; expected a number`);
+  if (values.length < count || /^[-+.\d]/.test(texts[count] ?? "")) throw new Error(`NPTS is ${count}, and ${values.length < count ? `only ${values.length}` : "more"} values follow; expected as many`);
+  return { step: decimal(time.step) * second, values, ...unitOf(lines.slice(0, end)) };
+}
+
+/** The one unit of acceleration that the lines of a header state. */
+function unitOf(header) {
+  const found = new Map(), add = (unit) => found.set(inG(unit), unit), bare = (match) => (match[1] ?? match[2]).replace(/[.:]+$/, "");
+  for (const line of header) {
+    const stated = [...line.matchAll(/\bunits?\s*(?:of\s+acc\w*\s*)?(?:\b(?:of|are|is|in)\b\s*[:=]?|[:=])\s*[([]?(%\s*g\b|[^\s,;)\]]+)/gi)].map(bare);
+    const mentioned = [...line.matchAll(/[([]([^()[\]]+)[)\]]|(?:\bacc\w*\.?\s*[:=]|\bin)\s+(%\s*g\b|[^\s,;]+)/gi)].map(bare);
+    stated.filter((unit) => inSeconds(unit) === undefined).forEach(add);
+    if (!/\b(peak|pga|a?max\w*)\b/i.test(line)) mentioned.filter((unit) => inG(unit)).forEach(add);
   }
-  if (count < 2) throw new Error(`line ${header} says ${count} samples; expected at least two`);
-  return { step, values, places, unit };
+  const [[factor, unit] = []] = found;
+  if (found.size !== 1 || !factor) throw new Error(`the header states ${[...found.values()].map(quoted).join(" and ") || "no unit"} of acceleration; expected one of ${EXPECTED}, as in “UNITS: G”`);
+  return { factor, unit };
 }
 
-// CSV: times and accelerations, with a line that names their units ----------------------------------
-
-/** One unit of the last digit of each printed time, zeros that are left out counted: programs print
-    either so many decimals or so many significant digits. */
-function lastDigits(printed) {
-  const numbers = printed.map((text) => {
-    const [mantissa, power = "0"] = text.split(/[de]/i), digits = mantissa.replace(/^[-+]?[0.]*|\./g, "");
-    const last = Number(power) - (mantissa.split(".")[1]?.length ?? 0);
-    return { last, first: digits ? last + digits.length - 1 : null };
-  });
-  const least = numbers.reduce((low, { last }) => Math.min(low, last), Infinity);
-  const digits = numbers.reduce((most, { first, last }) => Math.max(most, (first ?? least) - last), -Infinity);
-  return numbers.map(({ first }) => 10 ** Math.max(least, (first ?? least) - digits));
+/** The cells of a line of CSV, without quotes. */
+function cellsOf(line, mark) {
+  if (!line.includes('"')) return line.split(mark).map((cell) => cell.trim());
+  return line.split('"').map((part, k) => (k % 2 ? part : part.replaceAll(mark, "\n"))).join("").split("\n").map((cell) => cell.trim()); // every other part is quoted
 }
 
-/** The step of the times, which are regular if equal steps give them when rounded to their digits. */
-function regularStep(printed, places) {
-  const times = printed.map(decimal), step = (times.at(-1) - times[0]) / (times.length - 1), units = lastDigits(printed);
-  const steps = times.slice(1).map((t, k) => t - times[k]), sorted = steps.toSorted((one, other) => one - other);
-  const half = steps.length >> 1, usual = steps.length % 2 ? sorted[half] : (sorted[half - 1] + sorted[half]) / 2;
-  const isUneven = (t, k) => Math.abs(t - times[0] - step * k) > units[k] / 2 + Math.max(units[0], units.at(-1)) / 2 + COMPUTED * Math.abs(step);
-  const gap = 1 + steps.findIndex((each) => !(Math.abs(each - usual) < usual / 2)), wrong = gap || times.findIndex(isUneven);
-  if (wrong > 0) {
-    throw new Error(`line ${places[wrong]}: the time ${printed[wrong]} follows ${printed[wrong - 1]} of line ${places[wrong - 1]}; expected equal steps of ${short(usual)}, but for the rounding of the printed digits: is a sample missing, or the file not sampled evenly?`);
+/** A CSV file: a line that names columns with units in its first thirty, then a line for each sample. */
+function readCsv(lines) {
+  const separator = lines[0].match(/^sep=(.)/)?.[1];
+  let k = -1, mark, columns, times, found;
+  do {
+    if (++k === Math.min(30, lines.length)) throw new Error(`no line names columns of times and of accelerations with units, ${EXPECTED}; expected, for example, “time (s),acceleration (g)”`);
+    mark = separator ?? [";", "\t"].find((each) => lines[k].includes(each)) ?? ",";
+    columns = cellsOf(lines[k].replace(/^[#%]+/, ""), mark).map((cell) => cell.match(/^(.*?)\s*(?:[([]([^()[\]]*)[)\]]|\bin\s+(\S+(?:\s+g)?))$/i) ?? []);
+    columns = columns.map(([, name = "", one, other]) => ({ name, unit: (one ?? other ?? "").trim() }));
+    times = [...columns.keys()].filter((j) => inSeconds(columns[j].unit));
+    found = [...columns.keys()].filter((j) => inG(columns[j].unit));
+  } while (!times.length || !found.length);
+  const said = `line ${k + 1} is ${quoted(lines[k])}`, [time, value] = [times[0], found[0]], { unit } = columns[value];
+  if (/period|freq/i.test(columns[time].name) || found.every((j) => /^(p?sa\b|spectr)/i.test(columns[j].name))) throw new Error(`${said}, of a response spectrum; expected a ground motion`);
+  if (found.length > 1) throw new Error(`${said}; expected one column of acceleration: leave out the others`);
+  const rows = lines.slice(k + 1).map((line, j) => ({ line, place: k + j + 2, cells: cellsOf(line, mark) })).filter(({ cells }) => cells.some(Boolean));
+  const [printed, values] = [time, value].map((j) => rows.map(({ line, place, cells }) => {
+    const number = decimal(mark === "," ? cells[j] : cells[j]?.replace(",", "."));
+    if (Number.isNaN(number)) throw new Error(`line ${place} is ${quoted(line)}; expected numbers in its columns ${time + 1} and ${value + 1} of ${columns.length}`);
+    return number;
+  }));
+  return { step: regularStep(printed) * inSeconds(columns[time].unit), values, factor: inG(unit), unit };
+}
+
+/** The step of times, which differ from equal steps by the rounding of their printed digits only. */
+function regularStep(times) {
+  if (times.length < 2) throw new Error(`${times.length} samples; expected at least two`);
+  const digitOf = (time) => 10 ** ((String(time).match(/e(.*)$/)?.[1] ?? 0) - (String(time).match(/\.(\d+)/)?.[1].length ?? 0));
+  const digit = times.reduce((least, time) => Math.min(least, digitOf(time)), 1), steps = times.slice(1).map((time, k) => time - times[k]);
+  const step = (times.at(-1) - times[0]) / steps.length, usual = steps.toSorted((one, other) => one - other)[steps.length >> 1];
+  const wrong = steps.findIndex((each, k) => Math.abs(times[k + 1] - times[0] - step * (k + 1)) > digit + 0.01 * Math.abs(step) || !(Math.abs(each - usual) < 0.5 * usual));
+  if (wrong < 0) return step;
+  const why = digit > 0.5 * step ? `the times are printed to ${brief(digit)} only` : "is a sample missing, or the file not sampled evenly?";
+  throw new Error(`the time ${times[wrong + 1]} follows ${times[wrong]}; expected equal steps of about ${brief(step)}: ${why}`);
+}
+
+/** What is implausible in a ground motion, or "". */
+function doubts({ step, samples, peak, unit }) {
+  let velocity = 0, fastest = 0;
+  for (let k = 1; k < samples.length; k++) {
+    velocity += (GRAVITY * step * (samples[k - 1] + samples[k])) / 2;
+    fastest = Math.max(fastest, Math.abs(velocity));
   }
-  return step;
+  return [
+    [Math.abs(velocity) > 0.3 * fastest, `its velocity at the end is ${brief(velocity)} m/s, with a peak of ${brief(fastest)} m/s: is its baseline not corrected?`],
+    [fastest > LARGEST.velocity, `its velocity reaches ${brief(fastest)} m/s, and few exceed ${LARGEST.velocity} m/s: is its unit another?`],
+    [samples.every((a) => a >= 0) || samples.every((a) => a <= 0), "no sample changes sign: is it a ground acceleration?"],
+    [/^g$/i.test(unit) && peak > LARGEST.stated, `its peak is ${brief(peak)} g, and few exceed ${LARGEST.stated} g: is its unit another?`],
+  ].filter(([is]) => is).map(([, text]) => text).join(" ");
 }
 
-const COLUMN = expression("^[^()[\\]]*[([](?<unit>[^()[\\]]*)[)\\]]\\s*$");
-
-const SEPARATORS = { ";": "a semicolon", "\t": "a tab", ",": "a comma" }; // beside the first two, a comma is a decimal point
-
-/** How the columns lie: what separates them, which two are read, and their units. */
-function layoutOf(header, place) {
-  const separator = Object.keys(SEPARATORS).find((mark) => header.includes(mark)) ?? ",", parts = header.split(separator);
-  const units = parts.map((part) => trimmed(part.match(COLUMN)?.groups.unit ?? "")), said = `line ${place} is ${repr(header)}`;
-  if (parts.length < 2 || (parts.length === 2 && !units.every(Boolean))) throw new Error(`${said}; expected, for example, 'time (s),acceleration (g)'`);
-  const matches = units.map((unit) => trimmed(inAscii(unit)).match(WHOLE_UNIT)), places = [...units.keys()];
-  let times = places.filter((k) => inSeconds(units[k]) !== undefined), found = places.filter((k) => matches[k]);
-  if (parts.length === 2) [times, found] = [times.filter((k) => k === 0), found.filter((k) => k === 1)];
-  if (!times.length || !found.length) {
-    const listed = parts.length > 2 ? units.filter(Boolean).join(", ") : units.join(" and ");
-    throw new Error(`${said}, with the units ${listed}; expected s or ms for the times, and ${UNDERSTOOD} for the accelerations`);
-  }
-  const names = found.map((k) => repr(trimmed(parts[k].split(/[([]/)[0])));
-  if (found.length > 1) throw new Error(`${said}; expected one column of acceleration; those are ${names.join(", ")}: name one as \`column\`, or take the others out`);
-  const [time] = times, [value] = found;
-  return { separator, count: parts.length, time, value, second: inSeconds(units[time]), unit: { unit: units[value], inG: inG(matches[value].groups), place, line: header } };
-}
-
-function readCsv(all) {
-  const above = all.findIndex((line) => !/^[#%]/.test(line)), begin = above < 0 ? all.length : above;
-  const header = all[begin] ?? "", lines = all.slice(begin + 1);
-  checkHeader([...all.slice(0, begin), header]);
-  const { separator, count, time, value, second, unit } = layoutOf(header, begin + 1), times = [], values = [], places = [];
-  lines.forEach((text, k) => {
-    if (!trimmed(text)) return;
-    const place = begin + k + 2;
-    try {
-      const parts = text.split(separator).map((part) => (separator === "," ? part : part.replaceAll(",", ".")));
-      if (parts.length !== count) throw new Error("not as many");
-      decimal(parts[time]);
-      values.push(decimal(parts[value]));
-      times.push(trimmed(parts[time]));
-    } catch {
-      throw new Error(`line ${place} is ${quoted(text)}; expected a time and an acceleration, ${count === 2 ? "two numbers" : `${count} columns`} with ${SEPARATORS[separator]} between them`);
-    }
-    places.push(place);
-    checkCount(`line ${place} holds sample`, values.length);
-  });
-  if (values.length < 2) throw new Error(`holds ${values.length} samples; expected at least two`);
-  return { step: second * regularStep(times, places), values, places, unit };
-}
-
-// Both ----------------------------------------------------------------------------------------------
-
-/** The lines of a UTF-8 file, with or without a mark of byte order. */
-function textLines(bytes) {
-  const lines = (some) => new TextDecoder().decode(some).split(/\r\n|\r|\n/);
-  // Written again, what is not UTF-8 is the sign for it, three bytes of which the first may agree.
-  const again = new TextEncoder().encode(new TextDecoder("utf-8", { ignoreBOM: true }).decode(bytes));
-  let wrong = again.findIndex((byte, k) => byte !== bytes[k]);
-  if (wrong < 0) return lines(bytes);
-  while ((again[wrong] & 0xc0) === 0x80) wrong -= 1;
-  const before = lines(bytes.subarray(0, wrong)), place = new TextEncoder().encode(before.at(-1)).length + 1;
-  throw new Error(`line ${before.length} is not UTF-8 at byte ${place} (0x${bytes[wrong].toString(16).padStart(2, "0")}); expected a UTF-8 file: save it as such`);
-}
-
-/** Refuse a file that is too large, before it is read. */
-function checkSize(file, size) {
-  if (size > LARGEST_FILE) throw new Error(`${file}: the file has ${size} bytes; expected at most ${LARGEST_FILE}, fifty for each of ${MOST_SAMPLES} samples: shorten the record`);
-}
-
-/** The record in a file, from its bytes: its name without the ending, its step in s, its samples in g,
-    and the largest of them.
-
-    Throws an Error with the fault, what was expected, and the line. */
+/** The record in a file: its name, time step (s), samples (g), their peak, and what is doubtful. */
 function readRecord(file, bytes) {
-  const [, ending = ""] = file.match(/.\.(at2|csv)$/i) ?? [];
-  const reader = { at2: readAt2, csv: readCsv }[ending.toLowerCase()];
-  if (!reader) throw new Error(`${file}: expected a file whose name ends in .AT2 or .csv`);
+  const [, name, ending = ""] = file.match(/^(.+)\.(at2|csv)$/is) ?? [], reader = { at2: readAt2, csv: readCsv }[ending.toLowerCase()];
+  const decoded = (encoding) => new TextDecoder(encoding).decode(bytes);
   try {
-    const { step, values, places, unit } = reader(textLines(bytes)), samples = Float64Array.from(values, (value) => value * unit.inG);
-    if (step > 0 && step < SHORTEST_STEP) throw new Error(`the time step is ${short(step)} s; expected at least ${short(SHORTEST_STEP)} s: is its unit another?`);
-    const largest = samples.reduce((found, a, k) => (Math.abs(a) > Math.abs(samples[found]) ? k : found), 0);
-    if (samples[largest] === 0) throw new Error(`all ${samples.length} accelerations are zero; expected a ground motion: is it another file or column?`);
-    if (Math.abs(samples[largest]) > LARGEST) {
-      throw new Error(`line ${places[largest]}: the largest acceleration is ${short(values[largest])} ${unit.unit}, ${short(samples[largest])} g; expected at most ${LARGEST} g, which no record exceeds: line ${unit.place} states the unit, ${repr(unit.line)}; is it another?`);
-    }
-    if (!Number.isFinite(step)) throw new Error(`time_step is ${short(step)}; expected a finite number`);
-    if (!(step > 0)) throw new Error(`time_step is ${short(step)} s; expected more than zero`);
-    return { name: file.replace(/\.[^.]*$/, ""), file, step, samples, peak: Math.abs(samples[largest]) };
+    if (!reader) throw new Error("expected a file whose name ends in .AT2 or .csv");
+    if (bytes.length > LARGEST_FILE) throw new Error(`${bytes.length} bytes; expected at most ${LARGEST_FILE}: shorten the record`);
+    const inUnicode = decoded("utf-8"), text = inUnicode.includes("\ufffd") ? decoded("windows-1252") : inUnicode;
+    const { step, values, factor, unit } = reader(text.split(/\r\n|\r|\n/)), samples = Float64Array.from(values, (a) => a * factor);
+    const peak = samples.reduce((most, a) => Math.max(most, Math.abs(a)), 0);
+    if (samples.length < 2) throw new Error(`${samples.length} samples; expected at least two`);
+    if (!(step > 0 && step <= LONGEST_STEP)) throw new Error(`the time step is ${brief(step)} s; expected more than 0 and at most ${LONGEST_STEP} s: is it in ms?`);
+    if (!(peak > 0 && peak <= LARGEST.acceleration)) throw new Error(`the largest acceleration is ${brief(peak)} g; expected more than 0 and at most ${LARGEST.acceleration} g: is it in ${quoted(unit)}?`);
+    return { name, file, step, samples, peak, doubt: doubts({ step, samples, peak, unit }) };
   } catch (error) {
     throw new Error(`${file}: ${error.message}`);
   }
-}
-
-if (typeof window === "undefined" && typeof postMessage === "function") {
-  onmessage = async ({ data: file }) => {
-    try {
-      checkSize(file.name, file.size);
-      const read = readRecord(file.name, new Uint8Array(await file.arrayBuffer()));
-      postMessage({ read: { ...read, samples: new Blob([read.samples]) } }); // which the page hands on without a copy
-    } catch (error) {
-      postMessage({ error: error.message });
-    }
-  };
 }

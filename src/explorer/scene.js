@@ -26,7 +26,7 @@ class Scene {
   /** Build the bodies of a state at rest, so far apart that none leaves the picture or meets another.
       `found` are the histories; without them all stand. A narrow screen has two rows. */
   build(state, found, isNarrow) {
-    const { b, h, L } = state, depth = CAP_DEPTH * h, beam = L / 2 + b, cap = Math.max(2 * b, beam), fixed = state.cap === "fixed";
+    const [b, h] = [state.width / 2, state.height / 2], { L } = state, depth = CAP_DEPTH * h, beam = L / 2 + b, cap = Math.max(2 * b, beam), fixed = state.cap === "fixed";
     const alpha = Math.atan2(b, h), across = (lean) => 2 * Math.hypot(b, h) * (Math.sin(alpha) + Math.sin(lean - alpha)); // Eq. (4)
     // Where what overturns comes to lie: on the ground, or the columns of a frame on each other.
     const corner = Math.PI / 2 - Math.atan2(cap / 2 - b, 2 * h);
@@ -47,14 +47,14 @@ class Scene {
     const moved = Math.min(2 * h, found?.displacement.reduce((most, u) => Math.max(most, Math.abs(u)), 0) ?? 0);
     const step = 0.25 * h, coarse = (length) => step * Math.ceil(length / step); // so that it keeps its scale for a while
     const reach = shapes.map((shape, k) => leans[k].map((lean) => coarse(shape.wide(lean)) + step));
-    const top = coarse(Math.max(...shapes.flatMap((shape, k) => leans[k].map(shape.high))));
-    const rows = isNarrow ? [[0, 1], [2]] : [[0, 1, 2]], total = (row) => row.reduce((sum, k) => sum + reach[k][0] + reach[k][1], 0);
+    const hasVase = state.vase === "shown", rows = isNarrow && hasVase ? [[0, 1], [2]] : [hasVase ? [0, 1, 2] : [0, 2]];
+    const top = coarse(Math.max(...rows.flat().flatMap((k) => leans[k].map(shapes[k].high)))), total = (row) => row.reduce((sum, k) => sum + reach[k][0] + reach[k][1], 0);
     const width = Math.max(...rows.map(total)) + 2 * coarse(moved);
 
     // The names keep their size on the screen: a pixel is so many metres.
-    const pixel = Math.max(width / this.available, (rows.length * (top + 0.2 * h)) / ((isNarrow ? 0.4 : 0.26) * innerHeight));
+    const pixel = Math.max(width / this.available, (rows.length * (top + 0.2 * h)) / ((isNarrow ? 0.4 : 0.29) * innerHeight));
     const pitch = top + 0.2 * h + 24 * pixel, height = rows.length * pitch + 16 * pixel;
-    const shown = String([b, h, L, state.g, fixed, reach, top, width, pixel]);
+    const shown = String([b, h, L, state.g, fixed, hasVase, reach, top, width, pixel]);
     if (shown === this.shown) return;
     this.shown = shown;
     this.svg.replaceChildren();
@@ -64,6 +64,7 @@ class Scene {
     this.moving = drawn("g", {}, this.svg);
     this.arrow = drawn("path", { class: "arrow" }, this.svg);
     Object.assign(this, { h, middle: width / 2, bottom: height - top - 10 * pixel, pixel, fixed, span: L, b, groups: [] });
+    this.groups[1] = drawn("g", { visibility: "hidden" }, this.moving); // of a vase that is not shown
     rows.forEach((row, number) => {
       const ground = number * pitch;
       let left = (width - total(row)) / 2;
@@ -104,9 +105,9 @@ class Scene {
     drawn("path", { class: "surface", d: `M${-reach} 0H${3 * reach}` }, soil);
   }
 
-  /** Colour each structure by its outcome. */
-  outcomes(structures) {
-    this.groups.forEach((group, k) => group.setAttribute("class", structures[k].leaves ? "outside" : structures[k].overturned ? "overturns" : "survives"));
+  /** Colour each structure by its outcome: overturns, survives, outside or open. */
+  outcomes(words) {
+    this.groups.forEach((group, k) => group.setAttribute("class", words[k]));
   }
 
   /** Show the rotations (rad), the ground displacement (m) and its acceleration over the largest. */

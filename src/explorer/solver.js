@@ -238,22 +238,16 @@ function rock(block, motion, { velocity = 0, until = 0 } = {}) {
   return { ...found, steps, times: state.impacts, flatAt: state.flat ? state.time : Infinity };
 }
 
-/** θ and θ̇ at a time of a kept history; zero at rest, NaN after it lies flat. */
+/** θ at times of a kept history; zero at rest, NaN after it lies flat. */
 function sample(history, times) {
-  const { steps } = history, theta = new Float64Array(times.length), rate = new Float64Array(times.length);
+  const { steps } = history;
   let k = 0;
-  times.forEach((t, i) => {
+  return times.map((t) => {
     while (k + 1 < steps.length && steps[k + 1].time <= t) k++;
     const step = steps[k], since = step ? t - step.time : -1;
-    if (t > history.flatAt) theta[i] = rate[i] = NaN;
-    else if (since >= 0 && since <= step.length * (1 + 1e-12)) {
-      const { c, side } = step;
-      theta[i] = side * value(c, c.length - 1, since);
-      for (let n = c.length - 1; n >= 1; n--) rate[i] = rate[i] * since + n * c[n];
-      rate[i] *= side;
-    }
+    if (t > history.flatAt) return NaN;
+    return since >= 0 && since <= step.length * (1 + 1e-12) ? step.side * value(step.c, step.c.length - 1, since) : 0;
   });
-  return { theta, rate };
 }
 
 // What is asked of a structure ---------------------------------------------------------------------
@@ -273,19 +267,19 @@ function searchStep(block, a) {
 }
 
 /** The minimum overturning acceleration (g) by bisection, Infinity when none is found up to 30
-    times the uplift acceleration. `overturns(a)` says whether a motion of peak a (g) does. */
-function minimumOverturning(block, overturns) {
+    times the uplift acceleration. `overturns(a)` promises whether a motion of peak a (g) does. */
+async function minimumOverturning(block, overturns) {
   const level = upliftAcceleration(block);
   for (const [first, last, step] of WINDOWS) {
     const count = Math.max(1, Math.ceil((last - first) / step - 1e-9));
     let low = first * level;
-    if (overturns(low)) return low;
+    if (await overturns(low)) return low;
     for (let k = 1; k <= count; k++) {
       let high = (first + ((last - first) * k) / count) * level;
-      if (overturns(high)) {
+      if (await overturns(high)) {
         for (let i = 0; i < 60 && high - low > 1e-10 * high; i++) {
           const middle = 0.5 * (low + high);
-          if (overturns(middle)) high = middle;
+          if (await overturns(middle)) high = middle;
           else low = middle;
         }
         return 0.5 * (low + high);

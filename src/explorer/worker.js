@@ -1,8 +1,8 @@
 "use strict";
 /* From the state of the controls to histories, numbers and the map of overturning.
 
-   The page's workers run this file: one answers "histories" and one "sketch" while a slider is
-   dragged, the third one "survey", which takes longer and reports its progress. */
+   The page's worker runs this file. It answers the question that came last: first with histories,
+   then with parts of the map, then with minima. In between it looks whether another question came. */
 
 const CAP_DEPTH = 0.2; // of h: as drawn; the friction of a frame depends on it, its motion does not
 const SAMPLES = 1500;
@@ -15,7 +15,7 @@ const [COLUMN_FALLS, FRAME_FALLS] = [1, 2];
 
     Throws a RangeError that names the field when a structure cannot rock. */
 function structuresOf(state, scale = 1) {
-  const [b, h, span] = [state.b * scale, state.h * scale, state.L * scale];
+  const [b, h, span] = [state.width, state.height, 2 * state.L].map((length) => (length * scale) / 2);
   const found = [
     column(b, h),
     vase(b, h, state.g),
@@ -27,10 +27,9 @@ function structuresOf(state, scale = 1) {
     if (block.restitution < 0) {
       const error = new RangeError(
         `√r of the ${block.name} is ${block.restitution.toFixed(3)}: it would not keep rocking after an `
-        + "impact; expected a smaller half width, a larger half height, or a √r of your own",
+        + "impact; expected a smaller width, a larger height, or a √r of your own",
       );
-      error.field = "b";
-      throw error;
+      throw Object.assign(error, { field: "width" });
     }
   }
   return found;
@@ -43,7 +42,7 @@ const accelerationOf = (state, file) => (state.shape === "record" ? state.x * fi
 
 /** The ground motion of a state, with another peak acceleration (g) or ω (rad/s) if given. */
 function motionOf(state, file, a = accelerationOf(state, file), omega = omegaOf(state)) {
-  if (state.shape === "record") return record(file.samples, file.step, a / file.peak);
+  if (state.shape === "record") return record(file, a / file.peak);
   // A displacement of the ground that begins with + sin ωt has this acceleration.
   if (state.shape === "harmonic") return pulse("harmonic", -a, omega, state.D);
   return pulse(state.shape, a, omega);
@@ -72,16 +71,18 @@ function histories(state, file) {
   const until = windowOf(state, motion, blocks), times = Float64Array.from({ length: SAMPLES }, (_, k) => (until * k) / (SAMPLES - 1));
   const structures = blocks.map((block) => {
     const found = rock(block, motion, { ...startOf(state, block, a), until });
-    const { theta } = sample(found, times);
+    const theta = sample(found, times);
+    // From when on the outcome is known: it is beyond α for good, or the ground is at rest again.
+    const known = found.overturned ? times[Math.min(SAMPLES - 1, 1 + theta.findLastIndex((angle) => Math.abs(angle) <= block.alpha))] : Math.min(until, motion.end);
     return {
-      name: block.name, alpha: block.alpha, p: block.p, size: equivalentSize(block), restitution: block.restitution,
+      name: block.name, known, alpha: block.alpha, p: block.p, size: equivalentSize(block), restitution: block.restitution,
       uplift: upliftAcceleration(block), theta, overturned: found.overturned, moved: found.moved,
-      peak: found.peak / block.alpha, impacts: found.impacts, flatAt: found.flatAt, leaves: leavesGround(block, motion, found),
+      peak: found.peak / block.alpha, flatAt: found.flatAt, leaves: leavesGround(block, motion, found),
       friction: block.linearised ? NaN : largestFriction(block, motion, found),
     };
   });
   const ground = times.map((t) => motion.at(t));
-  return { times, ground, displacement: displacementOf(times, ground), structures, end: motion.end, peak: a };
+  return { times, ground, displacement: displacementOf(times, ground), structures, peak: a };
 }
 
 /** How long a history is shown, s: the motion, and some swings after it. */
@@ -104,8 +105,8 @@ function displacementOf(times, ground) {
 
 /** The minimum overturning acceleration of a structure under the motion of a state, g; of a portal
     that leaves the ground below, the least acceleration at which it does. */
-function minimumOf(state, file, block) {
-  const minimum = minimumOverturning(block, (a) => failsAt(state, file, block, a)), a = minimum * (1 + 1e-9);
+async function minimumOf(state, file, block, turn) {
+  const minimum = await minimumOverturning(block, async (a) => (await turn(), failsAt(state, file, block, a))), a = minimum * (1 + 1e-9);
   const leaves = block.name === "portal" && minimum < Infinity && !rock(block, motionOf(state, file, a), startOf(state, block, a)).overturned;
   return { minimum, leaves };
 }
@@ -117,17 +118,14 @@ function isSensitive(state, file, block) {
   return others.some((other) => other.overturned !== one.overturned || Math.abs(other.peak - one.peak) > 1e-3 * block.alpha);
 }
 
-/** The plane of the spectrum: what its axes are, their ranges, and where the state is in it.
+/** The plane of the map: what its axes are, their ranges, and where the state is in it.
 
     Pulses: ω over p of the column. Records: the size R of the column, all lengths in proportion. The
     amplitude is over g tan α of the column. The ranges grow by doubling until they hold the state. */
 function planeOf(state, file) {
-  const alone = column(state.b, state.h), isRecord = state.shape === "record";
-  const here = {
-    x: isRecord ? Math.hypot(state.b, state.h) : omegaOf(state) / alone.p,
-    y: accelerationOf(state, file) / Math.tan(alone.alpha),
-  };
-  const x = isRecord ? [0.5, 20] : [0.5, 8], y = [0.93, 12];
+  const [alone] = structuresOf(state), isRecord = state.shape === "record";
+  const here = { x: isRecord ? alone.lever : omegaOf(state) / alone.p, y: accelerationOf(state, file) / Math.tan(alone.alpha) };
+  const x = isRecord ? [0.5, 20] : [0.5, 6], y = [0.93, 12];
   for (let k = 0; k < 12; k++) {
     if (here.x > x[1]) x[1] *= 2;
     if (here.x < x[0]) x[0] /= 2;
@@ -158,56 +156,93 @@ function cellOf(state, file, plane, blocks, x, y) {
   return (fails(alone) ? COLUMN_FALLS : 0) + (fails(other) ? FRAME_FALLS : 0);
 }
 
-/** Fill the map in four rounds, each twice as fine, and report each tenth of a second. A sketch ends
-    with cells of a finest stride above 1. */
-function spectrum(state, file, report, finest = 1) {
-  const plane = planeOf(state, file), { columns, rows, x, y } = plane, blocks = structuresOf(state);
-  const codes = new Uint8Array(columns * rows), isKnown = new Uint8Array(columns * rows);
+let map = { key: "" }; // the last one, which goes on where it was left
+
+/** Fill the map in four rounds, each twice as fine, and report each tenth of a second once all cells
+    have a code. `turn` is awaited before each cell, with the stride of the round. */
+async function spectrum(state, file, report, turn = () => {}) {
+  const plane = planeOf(state, file), { columns, rows, x, y } = plane, blocks = structuresOf(state), keys = planeKeys(state, file);
+  if (map.key !== String(keys)) map = { key: String(keys), codes: new Uint8Array(columns * rows), isKnown: new Uint8Array(columns * rows), done: 0 };
+  const { codes, isKnown } = map, tell = () => report({ keys, codes: codes.slice(), columns, rows, share: map.done / codes.length });
   const place = ([low, high], share, isLog) => (isLog ? low * (high / low) ** share : low + (high - low) * share);
-  let done = 0, reported = performance.now();
-  for (let stride = 8; stride >= finest; stride /= 2) {
+  let reported = performance.now();
+  for (let stride = 8; stride >= 1; stride /= 2) {
     for (let i = 0; i < columns; i += stride) {
       for (let j = 0; j < rows; j += stride) {
         if (isKnown[i + columns * j]) continue;
+        await turn(stride);
         const code = cellOf(state, file, plane, blocks, place(x, (i + 0.5) / columns, plane.isRecord), place(y, (j + 0.5) / rows, true));
-        isKnown[i + columns * j] = 1;
-        done += 1;
         for (let k = i; k < Math.min(i + stride, columns); k++) {
           for (let l = j; l < Math.min(j + stride, rows); l++) if (!isKnown[k + columns * l]) codes[k + columns * l] = code;
         }
-        codes[i + columns * j] = code;
-        if (performance.now() - reported > 100) {
+        isKnown[i + columns * j] = 1;
+        map.done += 1;
+        if (stride < 8 && performance.now() - reported > 100) {
           reported = performance.now();
-          report({ codes: codes.slice(), columns, rows, share: done / codes.length });
+          tell();
         }
       }
     }
+    if (stride <= 2) tell();
   }
-  report({ codes, columns, rows, share: done / codes.length });
 }
 
-if (typeof window === "undefined" && typeof postMessage === "function") {
-  let held; // the record that was sent last; a question without one is about it
-  onmessage = ({ data: { id, task, state, file = held, needsSpectrum } }) => {
-    try {
-      if (file?.samples instanceof Blob) file = { ...file, samples: new Float64Array(new FileReaderSync().readAsArrayBuffer(file.samples)) };
-      held = file;
-      if (task === "histories") {
-        postMessage({ id, ...histories(state, file) });
-        return;
+/** Answer questions, `{id, state}`, one after the other, and read files. */
+function serve() {
+  const records = new Map(), channel = new MessageChannel();
+  let latest = null, told = null, isBusy = false, paused = 0;
+  const messages = () => new Promise((next) => (channel.port1.onmessage = next, channel.port2.postMessage(0)));
+  const tell = () => {
+    if (told !== latest) postMessage({ id: latest.id, ...histories(latest.state, records.get(latest.state.record)) });
+    told = latest;
+  };
+
+  async function answer(question) {
+    const { id, state } = question, file = records.get(state.record), blocks = structuresOf(state), { shape } = state;
+    const post = (data) => postMessage({ id, ...data });
+    /* Let messages in, and leave what is out of date; but a coarse map of a pulse, which takes a moment
+       only, is finished, so that the map follows while a slider is dragged. */
+    const turn = async (stride = 1) => {
+      if (performance.now() - paused > 10) {
+        await messages();
+        tell();
+        paused = performance.now();
       }
-      if (task === "sketch") {
-        let coarse;
-        spectrum(state, file, (part) => (coarse = part), 2);
-        postMessage({ id, of: planeKeys(state, file)[0], ...coarse });
-        return;
+      if (latest !== question && (stride < 2 || shape === "record" || shape === "harmonic")) throw new Error("out of date");
+    };
+    tell();
+    for (const [index, block] of blocks.entries()) {
+      post({ index, isSensitive: isSensitive(state, file, block) });
+      await turn(2);
+    }
+    await spectrum(state, file, post, turn);
+    for (const [index, block] of blocks.entries()) post({ index, ...(await minimumOf(state, file, block, turn)) });
+  }
+
+  async function work() {
+    isBusy = true;
+    for (let question = null; question !== latest;) {
+      question = latest;
+      await answer(question).catch((error) => question === latest && postMessage({ id: question.id, error: error.message }));
+    }
+    isBusy = false;
+  }
+
+  onmessage = async ({ data: { record, file, opened, ...question } }) => {
+    if (record) records.set(record.name, record);
+    else if (file) {
+      try {
+        const { samples, ...read } = { ...readRecord(file.name, new Uint8Array(await file.arrayBuffer())), opened };
+        records.set(read.name, { ...read, samples });
+        postMessage({ read });
+      } catch (error) {
+        postMessage({ unread: error.message });
       }
-      const blocks = structuresOf(state);
-      blocks.forEach((block, index) => postMessage({ id, index, isSensitive: isSensitive(state, file, block) }));
-      blocks.forEach((block, index) => postMessage({ id, index, ...minimumOf(state, file, block) }));
-      if (needsSpectrum) spectrum(state, file, (part) => postMessage({ id, ...part }));
-    } catch (error) {
-      postMessage({ id, error: error.message });
+    } else {
+      latest = question;
+      if (!isBusy) work();
     }
   };
 }
+
+if (typeof window === "undefined" && typeof postMessage === "function") serve();

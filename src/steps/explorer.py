@@ -29,10 +29,8 @@ from topheavy.ground.shapes import ENDING, SHAPES
 
 STYLES = ("uplot/uPlot.min.css", "style.css")
 UPLOT = "uplot/uPlot.iife.min.js"
-ENGINE = ("structures.js", "motions.js", "solver.js", "worker.js")
-"""The scripts that the page's workers run, too."""
-READER = "records.js"
-"""What only the worker runs that reads a file, after the scripts of the others."""
+ENGINE = ("structures.js", "motions.js", "records.js", "solver.js", "worker.js")
+"""The scripts that the page's worker runs, too."""
 SCRIPTS = ("state.js", "scene.js", "charts.js", "controls.js", "page.js")
 
 DEFAULTS = {"r": None, "cap": "free", "eq": "exact", "x": 1.0, "start": "smooth"}
@@ -44,7 +42,7 @@ TITLES = {"el_centro_1940_NS": "El Centro 1940, north–south"}
 def blocks(state: Mapping[str, Any]) -> dict[str, RockingBlock]:
     """Return column, vase and frame of a state as the page's controls hold it."""
     state = DEFAULTS | state
-    column = Column(state["b"], state["h"])
+    column = Column.of_dimensions(width=state["width"], height=state["height"])
     frame = (
         MonolithicPortal(column, state["g"], state["L"])
         if state["cap"] == "fixed"
@@ -142,6 +140,7 @@ def page(folder: Path, records: Mapping[str, Record]) -> str:
                 "title": TITLES.get(name, name),
                 "step": record.time_step,
                 "samples": record.acceleration.tolist(),
+                "peak": record.peak_acceleration,
             }
             for name, record in records.items()
         ],
@@ -150,7 +149,6 @@ def page(folder: Path, records: Mapping[str, Record]) -> str:
         "styles": "\n".join(map(read, STYLES)),
         "uplot": f"/*\n{read('uplot/LICENSE')}*/\n{read(UPLOT)}",
         "engine": "\n".join(f'<script class="engine">{read(name)}</script>' for name in ENGINE),
-        "reader": f'<script class="reader" type="text/plain">{read(READER)}</script>',
         "scripts": "\n".join(f"<script>{read(name)}</script>" for name in SCRIPTS),
         "data": json.dumps(data, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c"),
     }

@@ -10,32 +10,22 @@ from tests.explorer.browser import Browser
 from topheavy import read_record
 
 ROOT = Path(__file__).parents[2]
-SETTLED = """new Promise((resolve, reject) => {
+WAIT = """new Promise((resolve, reject) => {
   const deadline = Date.now() + 120000;
   const look = () => {
-    const { shown, spectrum } = document.documentElement.dataset, isShown = shown === encode(state);
-    if (isShown && rested && {0} !== "histories") settle();
-    const hasMinima = isShown && !document.querySelector(".pending");
-    if ({histories: isShown, minima: hasMinima, spectrum: hasMinima && spectrum === "done"}[{0}]) {
-      resolve(true);
-    } else if (Date.now() > deadline) reject(new Error("not settled after two minutes"));
+    const value = {0};
+    if (value) resolve(value);
+    else if (Date.now() > deadline) reject(new Error("not so after two minutes: {0}"));
     else setTimeout(look, 10);
   };
-  setTimeout(look, 20);
-})"""
-
-# Opens a file by {0}, and waits for what the page tells of it: "" if it is read.
-READ = """new Promise((resolve, reject) => {
-  const deadline = Date.now() + 60000, known = opened;
-  const look = () => {
-    const told = document.getElementById("record-error").textContent;
-    if (told || opened > known) resolve(told);
-    else if (Date.now() > deadline) reject(new Error("not read after a minute"));
-    else setTimeout(look, 20);
-  };
-  {0};
   look();
 })"""
+SHOWN = "document.documentElement.dataset.shown === encode(state)"
+SETTLED = {
+    "histories": SHOWN,
+    "map": f"{SHOWN} && document.documentElement.dataset.spectrum === 'done'",
+    "minima": f"{SHOWN} && !document.querySelector('.pending')",  # they come after the map
+}
 DROP = """(() => {
   const data = new DataTransfer();
   data.items.add(new File([{0}], {1}));
@@ -49,19 +39,11 @@ class Page(Browser):
     has_only_computed = False
 
     def open(
-        self,
-        address="g=1",
-        *,
-        width=1440,
-        height=900,
-        dark=False,
-        moves=False,
-        until="histories",
+        self, address="g=1", *, width=1440, height=900, dark=False, moves=False, until="histories"
     ):
-        """Open the page at an address, at a size and in a colour scheme. At "" it asks first.
+        """Open the page at an address, at a size and in a colour scheme.
 
-        Unless it `moves`, it is shown to somebody who prefers that it does not. It is loaded anew
-        in the same tab: its workers stop, and its code is not compiled again.
+        Unless it `moves`, it is shown to somebody who prefers that it does not.
         """
         self.visit("about:blank")
         self.events.clear()
@@ -72,9 +54,8 @@ class Page(Browser):
         }
         features = [{"name": name, "value": value} for name, value in preferred.items()]
         self.ask("Emulation.setEmulatedMedia", features=features)
-        self.load(address)
-        if until:
-            self.settle(until)
+        self.visit(self.address + (f"#{address}" if address else ""))
+        self.settle(until)
 
     def open_to_compute(self):
         """Have the page's functions: one page serves all tests in a row that only call these."""
@@ -83,7 +64,7 @@ class Page(Browser):
         self.has_only_computed = True
 
     def begin(self, change):
-        """Show the state that differs from the usual one by a change, from its beginning."""
+        """Show the state that differs from the usual one by a change, with all its numbers."""
         self.do("start({...DEFAULTS, ...{0}})", change)
         self.settle("minima")
 
@@ -91,43 +72,42 @@ class Page(Browser):
         size = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False}
         self.ask("Emulation.setDeviceMetricsOverride", **size)
 
-    def load(self, address=""):
-        """Load the page at an address in the tab as it is."""
-        self.visit(self.address + (f"#{address}" if address else ""))
-
     def visit(self, url):
         self.has_only_computed = False
         self.after(lambda: self.ask("Page.navigate", url=url), "Page.loadEventFired")
 
-    def choose(self, path):
-        """Put a file from the disk into the page, as `chosen`, without opening it there."""
-        made = "Object.assign(document.createElement('input'), {type: 'file'})"
-        held = self.ask("Runtime.evaluate", expression=made)["result"]["objectId"]
-        self.ask("DOM.setFileInputFiles", objectId=held, files=[str(path)])
-        code = "function() { window.chosen = this.files[0]; }"
-        self.ask("Runtime.callFunctionOn", objectId=held, functionDeclaration=code)
+    def wait(self, condition):
+        """Wait until an expression of the page is true, and return it."""
+        return self.do(
+            WAIT.replace("{0}", condition, 1).replace("{0}", condition.replace('"', "'"))
+        )
 
-    def read(self, script="", *values):
-        """Open a file by a script, and return what the page tells of it: "" if it is read."""
-        return self.do(READ.replace("{0}", script), *values)
+    def settle(self, until="histories"):
+        """Wait until histories, the map or minima are those of the state."""
+        self.wait(SETTLED[until])
 
     def drop(self, name, text):
-        """Drop a file on the page, and return what it tells of it."""
-        return self.read(DROP, text, name)
+        """Drop a file on the page, and return what it says of it: "" if it is read."""
+        self.do(DROP, text, name)
+        return self.said()
 
-    def answer(self, path, does):
+    def said(self):
+        self.wait("!document.getElementById('reading').textContent")
+        return self.do("document.getElementById('record-error').textContent")
+
+    def choose(self, path, does):
         """Do what opens the browser's dialog of files, and choose one in it."""
         self.ask("Page.setInterceptFileChooserDialog", enabled=True)
         node = self.after(does, "Page.fileChooserOpened")["backendNodeId"]
         self.ask("DOM.setFileInputFiles", backendNodeId=node, files=[str(path)])
         self.ask("Page.setInterceptFileChooserDialog", enabled=False)
 
-    def settle(self, until="histories"):
-        """Wait until histories are those of the state, or minima, too, or the whole spectrum, too.
-
-        The page's pause before it computes minima is left out.
-        """
-        self.do(SETTLED, until)
+    def press(self, key, code, text=""):
+        """Press a key of the keyboard, and let it go."""
+        of = {"key": key, "code": key, "windowsVirtualKeyCode": code}
+        kind = {"type": "keyDown", "text": text} if text else {"type": "rawKeyDown"}
+        self.ask("Input.dispatchKeyEvent", **kind, **of)
+        self.ask("Input.dispatchKeyEvent", type="keyUp", **of)
 
 
 @pytest.fixture(scope="session")
@@ -153,3 +133,15 @@ def browser(text, tmp_path_factory):
     one.address = file.as_uri()
     yield one
     one.close()
+
+
+@pytest.fixture(scope="session")
+def square():
+    """Return files of records that change sign after each half second."""
+
+    def text(peak, step=0.02, number=200):
+        period = round(0.5 / step)
+        rows = (f"{k * step:.3f},{peak * (-1) ** (k // period)}\n" for k in range(number))
+        return "time (s),acceleration (g)\n" + "".join(rows)
+
+    return text

@@ -1,40 +1,11 @@
-"""The page as its users meet it: network, keyboard, contrast, sizes, bad input, speed."""
+"""The page as its users meet it: how it is built, its sizes, keyboard, address and odd input."""
 
-import json
 import re
 
 import pytest
 
 from steps.explorer import checked_cases, page, titles
 from topheavy.ground.shapes import SHAPES
-
-WIDTHS = (390, 820, 1440)
-
-# Every element with words of its own that is displayed: its words and its two colours.
-WORDS = """[...document.querySelectorAll("body *")].flatMap(element => {
-  const own = [...element.childNodes].some(node => node.nodeType === 3 && node.textContent.trim());
-  const field = element.matches("input[type=text], select");
-  if (!(own || field) || element.closest("svg, script, style, .hidden, optgroup")) return [];
-  if (!element.checkVisibility() || !element.getClientRects().length) return [];
-  const style = getComputedStyle(element);
-  let behind = element;
-  while (behind && /rgba\\(.*, 0\\)|transparent/.test(getComputedStyle(behind).backgroundColor))
-    behind = behind.parentElement;
-  const paper = getComputedStyle(behind ?? document.documentElement).backgroundColor;
-  return [[element.textContent.trim().slice(0, 40), style.color, paper]];
-})"""
-
-PRESSABLE = """[...document.querySelectorAll(
-  "button, input:not([type=radio]), input[type=radio]:checked, select, summary, pre, .scroll")]
-  .filter(element => element.checkVisibility() && !element.hidden)
-  .map(element => element.id || element.textContent.trim().slice(0, 20) || element.className)"""
-
-FOCUSED = """(() => {
-  const at = document.activeElement, style = getComputedStyle(at);
-  return [at.id || at.textContent.trim().slice(0, 20) || at.className,
-    at === document.body, style.outlineStyle !== "none" && parseFloat(style.outlineWidth) >= 2];
-})()"""
-
 
 TYPE = """(() => {
   const field = document.getElementById({0});
@@ -44,35 +15,13 @@ TYPE = """(() => {
 })()"""
 
 
-MINIMA = "[0, 1, 2].map(k => document.getElementById(`minimum${k}`).textContent)"
-
-
-def brightness(colour):
-    """Relative luminance of a CSS colour (WCAG 2.2)."""
-    parts = [float(part) / 255.0 for part in re.findall(r"[\d.]+", colour)[:3]]
-    linear = [
-        part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts
-    ]
-    return sum(w * part for w, part in zip((0.2126, 0.7152, 0.0722), linear, strict=True))
-
-
-def contrast(one, other):
-    low, high = sorted((brightness(one), brightness(other)))
-    return (high + 0.05) / (low + 0.05)
-
-
-def state_of(browser):
-    return browser.do("encode(state)")
-
-
 def test_same_bytes_twice(text, records, request):
     assert page(request.config.rootpath / "src/explorer", records) == text
-    assert text.encode() == text.encode("utf-8")
     assert "{{" not in re.sub(r"\$\{\{", "", text.split("<script>")[0])
 
 
 def test_promise_that_the_library_does_not_keep_stops_the_build():
-    state = {"b": 0.5, "h": 3.0, "g": 1.0, "L": 5.0, "shape": "one-cosine", "a": 0.31, "T": 1.5}
+    state = {"width": 1.0, "height": 6.0, "g": 1.0, "shape": "one-cosine", "a": 0.31, "T": 1.5}
     case = {"title": "A", "note": "", "state": state, "outcomes": ["survives"] * 3}
     with pytest.raises(ValueError, match=r"'A' promises \['survives'.* computes \['overturns'"):
         checked_cases([case], {})
@@ -87,124 +36,6 @@ def test_page_has_every_shape_and_no_other(request):
             titles(motions.replace(old, new))
 
 
-def test_nothing_is_asked_of_the_network_and_nothing_fails(browser):
-    for address in (
-        "shape=record&record=el_centro_1940_NS&x=2",
-        "shape=harmonic&start=abrupt",
-        "g=1",
-    ):
-        browser.open(address, moves=True, until="spectrum" if address == "g=1" else "minima")
-        browser.do("new Promise(resolve => setTimeout(resolve, 300))")
-        assert browser.requests == []
-        assert browser.errors == []
-
-
-@pytest.mark.parametrize("address", ["g=1", "shape=harmonic&r=0.9"])
-def test_every_control_is_reached_by_the_keyboard_and_shows_it(browser, address):
-    browser.open(address)
-    browser.do("document.querySelectorAll('details').forEach(each => each.open = true)")
-    expected = set(browser.do(PRESSABLE))
-    assert len(expected) > 20
-    browser.do("document.activeElement.blur(), window.focus()")
-    reached = {}
-    for _ in range(80):
-        for kind in ("rawKeyDown", "keyUp"):
-            browser.ask(
-                "Input.dispatchKeyEvent", type=kind, key="Tab", code="Tab", windowsVirtualKeyCode=9
-            )
-        name, at_end, is_outlined = browser.do(FOCUSED)
-        if at_end:
-            break
-        reached[name] = is_outlined
-    assert expected - set(reached) == set()
-    assert [name for name, is_outlined in reached.items() if not is_outlined] == []
-
-
-def test_every_control_has_a_name(browser):
-    browser.open("shape=harmonic&r=0.9")
-    browser.ask("Accessibility.enable")
-    nodes = browser.ask("Accessibility.getFullAXTree")["nodes"]
-    browser.ask("Accessibility.disable")
-    roles = {"button", "slider", "textbox", "combobox", "radio", "DisclosureTriangle", "image"}
-    controls = [node for node in nodes if node["role"]["value"] in roles and not node["ignored"]]
-    assert len(controls) > 25
-    unnamed = [node["role"] for node in controls if not node["name"].get("value", "").strip()]
-    assert unnamed == []
-
-
-@pytest.mark.parametrize("dark", [False, True], ids=["light", "dark"])
-def test_words_have_the_contrast_of_wcag_aa(browser, dark):
-    browser.open(dark=dark, until="minima")
-    browser.do("document.querySelectorAll('details').forEach(each => each.open = true)")
-    browser.do(TYPE, "b", "wide")
-    found = browser.do(WORDS)
-    assert len(found) > 60
-    poor = [
-        (words, colour, paper, round(contrast(colour, paper), 2))
-        for words, colour, paper in found
-        if contrast(colour, paper) < 4.5
-    ]
-    assert poor == []
-    tokens = browser.do(
-        "['quiet', 'ink', 'overturns', 'survives', 'paper', 'band', 'line'].map(colour)"
-    )
-    rgb = [
-        "rgb({}, {}, {})".format(*(int(token[k : k + 2], 16) for k in (1, 3, 5)))
-        for token in tokens
-    ]
-    quiet, ink, overturns, survives, paper, band, _ = rgb
-    assert min(contrast(one, paper) for one in (quiet, ink)) >= 4.5  # words of the charts
-    assert (
-        min(contrast(one, other) for one in (overturns, survives) for other in (paper, band)) >= 3
-    )
-
-
-def test_nothing_is_wider_than_the_screen(browser):
-    beyond = """[...document.querySelectorAll("button, input, select, svg, .chart, p")].filter(
-      element => element.checkVisibility() && !element.closest("nav") && !element.closest(".hidden")
-      && element.getBoundingClientRect().right > innerWidth + 1).map(element => element.id)"""
-    browser.open("shape=harmonic&r=0.9", width=WIDTHS[0], height=844, until="minima")
-    numbers = browser.do(MINIMA)
-    assert "…" not in numbers
-    for width in WIDTHS:
-        browser.resize(width)
-        browser.do("new Promise(next => setTimeout(next, 200))")
-        assert browser.do("document.documentElement.scrollWidth") <= width
-        assert browser.do(beyond) == []
-    assert browser.do(MINIMA) == numbers
-
-
-def test_tablet_keeps_the_mass_ratio_beside_the_map_that_it_moves(browser):
-    browser.open(width=1024, height=768, until="minima")
-    browser.do("document.getElementById('map').scrollIntoView({block: 'end'})")
-    box = "document.getElementById({0}).getBoundingClientRect()"
-    assert browser.do(f"{box}.top", "g-field") >= 0
-    assert max(browser.do(f"{box}.bottom", name) for name in ("g-field", "map")) <= 769
-
-
-def test_laptop_shows_everything_on_one_screen(browser):
-    browser.open(width=1440, height=900, until="minima")
-    assert browser.do("document.body.getBoundingClientRect().bottom") <= 900
-
-
-def test_address_holds_the_state(browser):
-    given = "b=0.4&h=2.4&g=inf&L=4&r=0.9&cap=fixed&eq=linearised&shape=one-sine&a=0.55&T=0.9"
-    browser.open(given)
-    assert state_of(browser) == given
-    assert browser.do("location.hash") == f"#{given}"
-    assert browser.do("document.getElementById('g').value") == "∞"
-    browser.do("location.hash = 'shape=one-sine&a=0.2'")
-    browser.settle()
-    assert "a=0.2" in state_of(browser)
-
-
-def test_data_of_the_page_are_those_of_its_sources(text, records):
-    data = json.loads(text.split('id="data">')[1].split("</script>")[0])
-    (record,) = data["records"]
-    assert record["samples"] == records["el_centro_1940_NS"].acceleration.tolist()
-    assert len(data["cases"]) == 6
-
-
 def test_nothing_runs_that_the_page_was_not_made_with(browser, text):
     (stated,) = re.findall(r'Content-Security-Policy" content="([^"]*)"', text)
     assert "unsafe" not in stated
@@ -212,26 +43,185 @@ def test_nothing_runs_that_the_page_was_not_made_with(browser, text):
     browser.open()
     added = "Object.assign(document.createElement('script'), {textContent: 'window.planted = 1'})"
     browser.do(f"document.body.append({added})")
-    browser.do("new Promise(next => setTimeout(next, 100))")
     assert browser.do("window.planted ?? null") is None
 
 
-def test_first_visit_asks_for_a_guess_and_then_shows(browser):
-    browser.open(until=None)
-    browser.do("localStorage.clear()")
-    browser.load("")
-    browser.settle("minima")
-    ids = ["verdict", "history0", "spectrum", "cases", "controls"]
-    is_seen = f"{ids}.map(id => byId(id).checkVisibility({{visibilityProperty: true}}))"
-    assert browser.do(is_seen) == [False] * 5
-    browser.do("document.querySelector('#guess button').click()")
-    browser.do("new Promise(next => setTimeout(next, 300))")
-    minima = [browser.do(f"minima[{k}].toFixed(3)") for k in range(3)]
-    told = browser.do("document.getElementById('answer').textContent")
-    first, second, third = sorted(zip(minima, ("column", "vase", "frame"), strict=True))
-    order = ", ".join(f"the {name} from {a} g" for a, name in (second, third))
-    assert told.startswith(f"No: the {first[1]} overturns from {first[0]} g, {order}.")
-    assert browser.do(is_seen) == [True] * 5
-    browser.do("history.replaceState(null, '', location.pathname)")
-    browser.load("")
-    assert browser.do("document.getElementById('guess').hidden") is True
+# Sizes -------------------------------------------------------------------------------------------
+
+BEYOND = """[...document.querySelectorAll("button, label, input, select, svg, .chart, p")].filter(
+  element => element.checkVisibility() && !element.closest("nav, .hidden")
+  && element.getBoundingClientRect().right > innerWidth + 1).map(element => element.outerHTML)"""
+SMALL = """[...document.querySelectorAll("button, select, summary, a, input, .choice label")]
+  .filter(element => element.checkVisibility() && !element.closest(".choice label > *")
+  && element.getBoundingClientRect().height < 24).map(element => element.outerHTML)"""
+BOTTOM = "document.querySelector({0}).getBoundingClientRect().bottom"
+
+
+@pytest.mark.parametrize(
+    ("width", "height", "whole"), [(1440, 900, "body"), (1024, 768, "#drop"), (390, 844, "#scene")]
+)
+def test_nothing_is_cut_and_everything_can_be_touched(browser, width, height, whole):
+    browser.open(width=width, height=height, until="minima")
+    assert browser.do("document.documentElement.scrollWidth") <= width
+    assert browser.do(BEYOND) == browser.do(SMALL) == []
+    assert browser.do(BOTTOM, whole) <= height
+    numbers = browser.do("document.getElementById('rows').textContent")
+    browser.resize(390 if width > 390 else 1440, 900)
+    browser.wait("scene.available === scene.svg.clientWidth")
+    assert browser.do(BEYOND) == []
+    assert browser.do("document.getElementById('rows').textContent") == numbers
+
+
+# Keyboard ----------------------------------------------------------------------------------------
+
+PRESSABLE = """[...document.querySelectorAll(
+  "button, input:not([type=radio]), input[type=radio]:checked, select, summary, pre, .scroll, a")]
+  .filter(element => element.checkVisibility() && !element.hidden).length"""
+FOCUSED = """(at => {
+  const {outlineStyle, outlineWidth} = getComputedStyle(at.closest(".choice label") ?? at);
+  return [at === document.body, outlineStyle !== "none" && parseFloat(outlineWidth) >= 2];
+})(document.activeElement)"""
+
+
+@pytest.mark.parametrize("address", ["g=1", "shape=harmonic&r=0.9"])
+def test_every_control_has_a_name_and_is_reached_by_the_keyboard(browser, address):
+    browser.open(address)
+    browser.ask("Accessibility.enable")
+    nodes = browser.ask("Accessibility.getFullAXTree")["nodes"]
+    browser.ask("Accessibility.disable")
+    roles = {"button", "slider", "textbox", "combobox", "radio", "DisclosureTriangle", "image"}
+    controls = [node for node in nodes if node["role"]["value"] in roles and not node["ignored"]]
+    assert len(controls) > 25
+    assert [node for node in controls if not node["name"].get("value", "").strip()] == []
+    browser.do("document.querySelectorAll('details').forEach(each => each.open = true)")
+    browser.do("document.activeElement.blur(), window.focus()")
+    reached = []
+    while len(reached) < 90:
+        browser.press("Tab", 9)
+        is_at_end, is_outlined = browser.do(FOCUSED)
+        if is_at_end:
+            break
+        reached.append(is_outlined)
+    assert len(reached) == browser.do(PRESSABLE) + 1  # and the map
+    assert all(reached)
+
+
+def reach(browser, is_there):
+    """Press the tabulator until the focus is where a condition on `at` holds."""
+    for _ in range(80):
+        browser.press("Tab", 9)
+        if browser.do(f"(at => !!({is_there}))(document.activeElement)"):
+            return
+    raise AssertionError(f"no Tab reaches {is_there}")
+
+
+def test_everything_is_done_with_the_keyboard_only(browser, tmp_path, square):
+    browser.open()
+    browser.do("document.activeElement.blur()")
+    reach(browser, "at.closest('#cases') && at.previousElementSibling")
+    browser.press("Enter", 13, "\r")
+    assert browser.do("CASES.indexOf(encode(state))") == 1
+    browser.settle()
+    reach(browser, "at.id === 'height'")
+    browser.ask("Input.insertText", text="5")  # in place of what is selected
+    assert browser.do("state.height") == 5
+    reach(browser, "at.name === 'cap'")
+    browser.press("ArrowDown", 40)
+    assert browser.do("state.cap") == "fixed"
+    reach(browser, "at.id === 'shape'")
+    browser.press("End", 35)
+    assert browser.do("state.shape") == "record"
+    path = tmp_path / "mine.csv"
+    path.write_text(square(0.3), encoding="utf-8")
+    reach(browser, "at.textContent.startsWith('Open a record')")
+    browser.choose(path, lambda: browser.press("Enter", 13, "\r"))
+    browser.wait("state.record === 'mine'")
+    browser.settle()
+    reach(browser, "at.id === 'spectrum'")
+    before = browser.do("planeOf(state, fileOf(state)).here")
+    for key, code in (("ArrowUp", 38), ("ArrowRight", 39), ("ArrowRight", 39), ("ArrowLeft", 37)):
+        browser.press(key, code)
+    after = browser.do("planeOf(state, fileOf(state)).here")
+    assert after["y"] / before["y"] == pytest.approx((12 / 0.93) ** (1 / 36), rel=1e-3)
+    assert after["x"] / before["x"] == pytest.approx(40 ** (1 / 48), rel=1e-3)
+    reach(browser, "at.tagName === 'SUMMARY'")
+    browser.press("Enter", 13, "\r")
+    assert browser.do("document.activeElement.parentElement.open") is True
+    assert browser.errors == []
+
+
+# Address and input -------------------------------------------------------------------------------
+
+
+def test_address_holds_the_state(browser):
+    given = (
+        "width=0.8&height=4.8&g=inf&L=4&r=0.9&cap=fixed&vase=shown&eq=linearised"
+        "&shape=one-sine&a=0.55&T=0.9"
+    )
+    browser.open(given)
+    assert browser.do("encode(state)") == given
+    browser.wait(f"location.hash === '#{given}'")
+    assert browser.do("document.getElementById('g').value") == "∞"
+    browser.do("location.hash = 'toString=1&__proto__=2&shape=one-sine&a=0.2'")
+    browser.wait("state.a === 0.2")
+    assert browser.errors == []
+
+
+def test_back_returns_to_what_a_case_replaced(browser):
+    browser.open("width=0.8&a=0.25")
+    before = browser.do("encode(state)")
+    browser.do("document.querySelector('#cases button').click()")
+    browser.wait("rested === 0 && location.hash === '#' + encode(state)")
+    assert browser.do("encode(state)") != before
+    browser.do("history.back()")
+    browser.wait(f"encode(state) === '{before}'")
+
+
+NUMBERS = ["NaN", "-inf", "1e999", "-1e999", "0x10", "1e", "1_0", "１", "٣", "1,000.5", "--1", ""]
+IN_ADDRESS = """Object.keys(FIELDS).filter(key => {
+  const {state: next, faults} = decode(new URLSearchParams({[key]: {0}}).toString());
+  return next[key] !== DEFAULTS[key] || !faults[key];
+})"""
+
+
+def test_what_is_no_finite_number_is_refused_in_every_field(browser):
+    browser.open_to_compute()
+    taken = {text: browser.do(IN_ADDRESS, text) for text in NUMBERS}
+    assert {text: keys for text, keys in taken.items() if keys} == {"1e999": ["g"]}  # γ → ∞
+
+
+def test_bad_entry_is_refused_and_fields_that_contradict_wait_for_each_other(browser):
+    browser.open()
+    assert "“wide” is not a number; expected 0.002 to 2000 m; 1 is kept" in browser.do(
+        TYPE, "width", "wide"
+    )
+    assert browser.do(TYPE, "g", "1/4") == ""
+    assert browser.do("[state.width, state.g]") == [1, 0.25]
+    assert "would touch" in browser.do(TYPE, "L", "0.8")
+    assert browser.do("state.L") == 5
+    assert browser.do(TYPE, "width", "0.5") == ""
+    assert browser.do("[state.width, state.L]") == [0.5, 0.8]
+    assert browser.do("document.getElementById('L-error').textContent") == ""
+
+
+# The histories at both ends of each field: whether all of their numbers are what they have to be.
+EXTREMES = """Object.keys(SHAPES).concat("record").flatMap(shape => CHOICES.eq.flatMap(eq =>
+  CHOICES.cap.flatMap(cap => Object.keys(FIELDS).flatMap(key => ["least", "most"].flatMap(end => {
+    const each = {...DEFAULTS, shape, eq, cap, record: "el_centro_1940_NS"};
+    each[key] = FIELDS[key][end];
+    if (contradiction(each)) return [];
+    const {times, ground, displacement, structures} = histories(each, fileOf(each));
+    const isSound = [times, ground, displacement].every(all => all.every(Number.isFinite))
+      && structures.every(of => Number.isNaN(of.peak) === of.overturned
+        && of.known >= 0 && of.known <= times.at(-1)
+        && of.theta.every((theta, k) => Number.isFinite(theta) || times[k] > of.flatAt)
+        && !(of.moved && eq === "exact" && Number.isNaN(of.friction)));
+    return [[shape, eq, cap, key, end, isSound]];
+  })))))"""
+
+
+def test_histories_are_finite_at_both_ends_of_every_field(browser):
+    browser.open_to_compute()
+    found = browser.do(EXTREMES)
+    assert len(found) > 400
+    assert [row for row in found if not row[-1]] == []

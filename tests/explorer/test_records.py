@@ -1,152 +1,158 @@
-"""The page's reader of records against the library's."""
+"""Records that are opened or dropped: what is read, refused and doubted, and what is shown then."""
 
-from base64 import b64encode
-from pathlib import Path
+import ast
 
-import numpy as np
 import pytest
 
-from tests.ground.records.files import CSV, FILES, LARGEST, REPEATED, STEPS, UNCERTAIN_STEPS, at2
-from tests.ground.records.test_records import HEADERS, SPELLINGS
-from topheavy import read_record
-
-EDITED = 2000  # files
-ODD = "é²−%;\t\x1f\u2028\ufeff٢１🏛'\"\\"  # letters that they get, too
-READER = Path(__file__).parents[2] / "src/explorer/records.js"
-
-# Of files, each its name and its bytes: step and samples, or the message that refuses it.
-READ = """{0}.map(([name, bytes]) => {
-  try {
-    const content = Uint8Array.from(atob(bytes), each => each.charCodeAt(0));
-    const {step, samples} = readRecord(name, content);
-    return [step, [...samples]];
-  } catch (error) {
-    return error.message;
-  }
-})"""
-
-# Milliseconds that a reader of headers takes for a line that it refuses, the least of five.
-COSTS = """(() => {
-  const [readers, parts, numbers] = [{
-    unit: (line) => statedAcceleration([`data ${line}x`]),
-    step: (line) => countAndStep(`NPTS= 5, ${line}x`, 4),
-    oldStep: (line) => countAndStep(`5 .01 NPTS${line}x`, 4),
-    column: (line) => COLUMN.test(`${line}x`),
-  }, {0}, {1}];
-  const taken = (reader, line) => {
-    const begun = performance.now();
-    try { reader(line); } catch (error) { if (!/^line/.test(error.message)) throw error; }
-    return performance.now() - begun;
-  };
-  const least = (reader, line) => Math.min(...Array.from({length: 5}, () => taken(reader, line)));
-  return Object.entries(readers).flatMap(([name, reader]) => parts.map(
-    (part) => [name, part, numbers.map((number) => least(reader, part.repeat(number)))]));
-})()"""
-
-
-# What the page's own worker answers of a chosen file: step, number and hash of samples; or why not.
-IN_A_WORKER = """new Promise(resolve => {
-  const worker = new Worker(READER);
-  worker.onmessage = async ({data: {read, error}}) => {
-    worker.terminate();
-    if (error) return resolve(error);
-    const bytes = await read.samples.arrayBuffer();
-    const hash = new Uint8Array(await crypto.subtle.digest("SHA-256", bytes));
-    const digits = [...hash].map(byte => byte.toString(16).padStart(2, "0")).join("");
-    resolve([read.step, bytes.byteLength / 8, digits]);
-  };
-  worker.postMessage(window.chosen);
-})"""
+TIMES = [0.0, 0.02, 0.04, 0.06, 0.08]
+SAMPLES = [0.1, -0.2, 0.4, 0.0, -0.3]
+AT2 = "A site\nACCELERATION IN UNITS OF G\n{}\n 0.1 -0.2 4.0D-01\n 0.0 -3.0E-01\n"
+ROWS = "".join(f"{t:.2f},{a}\n" for t, a in zip(TIMES, SAMPLES, strict=True))
+CSV = "time (s),acceleration (g)\n" + ROWS
+GALS = [f"{98.1 * 10 * a:.2f}" for a in SAMPLES]
+READ_AT2 = [
+    AT2.format("NPTS=  5, DT= .0200 SEC"),
+    AT2.format("  5   .0200   NPTS, DT"),
+    AT2.format("NPTS= 5\nDT= 20 MSEC"),
+    "\n" * 7 + AT2.format("NPTS: 5, DT(MSEC)= 20"),
+    AT2.format("NPTS= 5, DT= .02 UNITS: G") + "written by hand\n",
+    AT2.format("PEAK 4.0 (CM/S2)\nNPTS= 5 DT= .02").replace("\n", "\r\n"),
+]
+REFUSED_AT2 = [
+    (AT2.format("NPTS= 5, DT= .02 MIN"), "line 3 gives DT in “MIN”"),
+    (AT2.format("NPTS= 5, DT= 20"), "a DT of 20 without a unit"),
+    (AT2.format("NPTS= 6, DT= .02"), "NPTS is 6, and only 5 values follow"),
+    (AT2.format("NPTS= 4, DT= .02"), "NPTS is 4, and more values follow"),
+    (AT2.format("NPTS= 5, DT= .02").replace("0.0", "O.0"), "sample 4 is “O.0”"),
+    (AT2.format("NPTS= 5"), "expected “NPTS= n, DT= s SEC”"),
+    (AT2.format("UNITS: CM/S2\nNPTS= 5, DT= .02"), "states “G” and “CM/S2”"),
+    (AT2.format("NPTS= 5, DT= .02").replace("UNITS OF G", "VOLTS"), "states no unit"),
+    (AT2.format("NPTS= 5, DT= .02").replace("UNITS OF G", "UNITS OF V"), "states “V”"),
+]
+READ_CSV = [
+    CSV,
+    '"Time [s]","NS (g)","free, text"\n' + ROWS.replace("\n", ',"a, b"\n'),
+    "sep=;\n" + CSV.replace(",", ";"),
+    CSV.replace(",", ";").replace(".", ","),
+    "station: é\n\n# time in s\tacceleration in g\n" + ROWS.replace(",", "\t") + "\t\n",
+    "t (ms),a (cm/s²)\n" + "".join(f"{1000 * t:g},{a}\n" for t, a in zip(TIMES, GALS, strict=True)),
+]
+REFUSED_CSV = [
+    ("t,a\n" + ROWS, "no line names columns of times and of accelerations with units"),
+    (CSV.replace("0.04", "later"), "line 4 is “later,0.4”"),
+    (CSV.replace("0.04,0.4\n", ""), "is a sample missing"),
+    ("time (s),a (g)\n0.00,.1\n0.00,.2\n0.01,.1\n0.01,-.1\n", "printed to 0.01 only"),
+    ("time (s),a (g)\n0,.1\n20,-.2\n40,.1\n", "the time step is 20 s"),
+    ("time (s),a (g)\n0,0\n0.1,0\n", "the largest acceleration is 0 g"),
+    ("time (s),a (g)\n0,981\n0.1,-981\n", "the largest acceleration is 981 g"),
+    ("time (s),a (g)\n0,1\n", "1 samples; expected at least two"),
+    ("time (s),a (g),b (g)\n0,1,1\n0.1,1,1\n", "expected one column of acceleration"),
+    ("Period (s),Sa (g)\n0.1,1\n0.2,1\n", "of a response spectrum"),
+]
 
 
-@pytest.fixture
-def reading(browser):
-    """The page, and in it what otherwise only its worker runs: the reader of records."""
+def read(browser, name, content):
+    """What the page reads of a file: step, samples and doubts, or the message that refuses it."""
+    return browser.do(
+        """(() => {
+          try {
+            const {step, samples, doubt} = readRecord({0}, Uint8Array.from({1}));
+            return [step, [...samples], doubt];
+          } catch (error) {
+            return error.message;
+          }
+        })()""",
+        name,
+        list(content if isinstance(content, bytes) else content.encode()),
+    )
+
+
+@pytest.mark.parametrize(("ending", "files"), [("AT2", READ_AT2), ("csv", READ_CSV)])
+def test_file_is_read(browser, ending, files):
     browser.open_to_compute()
-    browser.do("typeof readRecord") == "function" or browser.do(READER.read_text(encoding="utf-8"))
-    return browser
+    for text in files:
+        for content in (text.encode("cp1252"), ("\ufeff" + text).encode()):
+            step, samples, _ = read(browser, f"motion.{ending}", content)
+            assert step == pytest.approx(0.02, rel=1e-12), text
+            assert samples == pytest.approx(SAMPLES, abs=1e-12), text
 
 
-def by_the_page(browser, files):
-    """What the page reads of files, each the ending of its name and its bytes."""
-    given = [[f"motion{ending}", b64encode(content).decode()] for ending, content in files]
-    return browser.do(READ, given)
+@pytest.mark.parametrize(("ending", "files"), [("AT2", REFUSED_AT2), ("csv", REFUSED_CSV)])
+def test_file_is_refused_with_the_reason(browser, ending, files):
+    browser.open_to_compute()
+    for text, reason in [*files, ("", "expected")]:
+        message = read(browser, f"motion.{ending}", text)
+        assert message.startswith(f"motion.{ending}: "), text
+        assert reason in message, text
+    assert "whose name ends in .AT2 or .csv" in read(browser, "motion.txt", CSV)
 
 
-def by_the_library(path, ending, content):
-    """What the library reads of a file, or its message with the name of the file alone."""
-    path = path / f"motion{ending}"
-    path.write_bytes(content)
-    try:
-        record = read_record(path)
-    except ValueError as error:
-        return str(error).replace(str(path), path.name)
-    return [record.time_step, record.acceleration.tolist()]
+def test_record_of_the_page_is_read_as_by_the_library(browser, records, request):
+    browser.open_to_compute()
+    path = request.config.rootpath / "data/records/el_centro_1940_NS.AT2"
+    step, samples, doubt = read(browser, path.name, path.read_bytes())
+    assert (step, samples) == (0.02, records[path.stem].acceleration.tolist())
+    assert doubt == ""
 
 
-def by_both(browser, path, files):
-    """What the page reads of files, which has to be what the library reads of each."""
-    answers = by_the_page(browser, files)
-    for file, found in zip(files, answers, strict=True):
-        assert found == by_the_library(path, *file), file
-    return answers
+def test_implausible_motion_is_doubted(browser, square):
+    browser.open_to_compute()
+    for content, doubt in (
+        (square(0.3), ""),
+        (square(0.3).replace(",-", ","), "no sample changes sign"),
+        (square(0.3).replace(",-0.3", ",-0.1"), "is its baseline not corrected"),
+        (square(2.5), "its velocity reaches"),
+        (square(2.5), "its peak is 2.5 g"),
+    ):
+        found = read(browser, "motion.csv", content)
+        assert isinstance(found, list), found
+        assert (doubt in found[2]) if doubt else found[2] == ""
 
 
-def test_file_of_the_table_is_read_or_refused_as_by_the_library(reading, tmp_path):
-    by_both(reading, tmp_path, [(row.ending, row.encoded) for row in FILES])
+# In the page -------------------------------------------------------------------------------------
 
 
-def edited(number):
-    """Seeded files: headers that are read or refused, with up to two letters of them changed."""
-    random = np.random.default_rng(2014)
-    units = sorted(SPELLINGS)
-    letters = sorted(set("".join(HEADERS + STEPS + UNCERTAIN_STEPS + units)) | set(ODD))
-
-    def pick(of):
-        return of[random.integers(len(of))]
-
-    def edit(line):
-        for _ in range(random.choice([0, 0, 1, 2])):
-            place = random.integers(len(line) + 1)
-            line = line[:place] + pick(["", pick(letters)]) + line[place + random.integers(2) :]
-        return line
-
-    for _ in range(number):
-        statement = pick(HEADERS[:-1]).format(pick(units))
-        if random.random() < 0.3:
-            lines = CSV.split("\n", 2)
-            lines[0] = edit(f"time ({pick(['s', 'ms', 'sec'])}),acceleration ({pick(units)})")
-            lines[1] = edit(lines[1])
-            yield ".csv", "\n".join(lines).encode()
-        else:
-            text = at2(edit(pick(STEPS if random.random() < 0.8 else UNCERTAIN_STEPS)))
-            yield ".AT2", text.replace("ACCELERATION IN UNITS OF G", edit(statement)).encode()
+def test_dropped_record_is_shown_and_a_bad_one_is_refused(browser, square):
+    browser.open("shape=record&record=mine&x=3")
+    message = "document.getElementById('shape-error').textContent"
+    assert "the record “mine” is not in this page" in browser.do(message)
+    assert browser.drop("mine.csv", square(0.1)) == ""
+    browser.settle("map")
+    assert browser.do("[state.record, found.peak]") == ["mine", pytest.approx(0.3)]
+    assert browser.do("spectrumChart.cells.codes.some(Boolean)")
+    after = browser.do("encode(state)")
+    assert "no line names columns" in browser.drop("bad.csv", "t,a\n1,2\n")
+    assert browser.do("encode(state)") == after
+    shifted = browser.drop("mine.csv", square(0.3).replace(",-0.3", ",-0.1"))
+    assert "mine.csv was read, but its velocity at the end is" in shifted
+    browser.wait("found.peak > 0.8")  # another file of the same name, at the same factor
+    assert browser.do("Math.min(...found.ground)") == pytest.approx(-0.3)
+    assert browser.requests == browser.errors == []
 
 
-def test_edited_file_is_read_or_refused_as_by_the_library(reading, tmp_path):
-    answers = by_both(reading, tmp_path, list(edited(EDITED)))
-    assert 0.2 < sum(isinstance(found, list) for found in answers) / EDITED < 0.8
+def test_long_record_is_shown(browser, square):
+    browser.open()
+    assert browser.drop("long.csv", square(0.4, 0.001, 200_000)) == ""
+    browser.settle()
+    assert browser.do("found.peak") == pytest.approx(0.4)
+    browser.do("start(DEFAULTS)")  # its map would take minutes
+    browser.settle("map")
+    assert browser.errors == []
 
 
-def test_every_record_is_read_as_the_library_reads_it(reading, request, tmp_path):
-    paths = sorted((request.config.rootpath / "data" / "records").glob("*.AT2"))
-    assert len(paths) > 5
-    by_both(reading, tmp_path, [(path.suffix, path.read_bytes()) for path in paths])
-
-
-def test_file_that_is_too_large_is_refused_before_it_is_read(reading, tmp_path):
-    path = tmp_path / "motion.AT2"
-    with path.open("wb") as file:
-        file.truncate(LARGEST + 1)  # without a block on the disk
-    reading.choose(path)
-    found = reading.do(IN_A_WORKER)
-    with pytest.raises(ValueError, match="100000001 bytes; expected at most") as error:
-        read_record(path)
-    assert found == str(error.value).replace(str(path), path.name)
-
-
-def test_cost_of_a_header_grows_in_proportion_to_its_length(reading):
-    costs = reading.do(COSTS, REPEATED, [500, 4000])
-    assert len(costs) == 4 * len(REPEATED)
-    for reader, part, (short, long) in costs:
-        assert long < 3 * 8 * short + 2.0, (reader, part)  # ms; in proportion it is 8
+def test_name_of_a_record_is_only_ever_a_text(browser, square):
+    name = "<img src=x onerror=alert(1)>\"quoted\" 'twice' \\ %41+#=&:\u2028__proto__"
+    browser.open()
+    assert browser.drop(f"{name}.csv", square(0.3)) == ""
+    browser.settle()
+    assert browser.do("state.record") == name
+    browser.wait("rested === 0")
+    nodes = ast.walk(ast.parse(browser.do("document.getElementById('python').textContent")))
+    texts = [node.value for node in nodes if isinstance(node, ast.Constant)]
+    assert f"data/records/{name}.csv" in texts
+    assert browser.drop(f"{name}.csv", f"{name},a\n").startswith(f"{name}.csv: no line names")
+    browser.open(browser.do("location.hash.slice(1)"))
+    found = browser.do("document.getElementById('shape-error').textContent")
+    assert f"the record “{name}” is not in this page" in found
+    assert browser.do("document.querySelectorAll('main img').length") == 0
+    assert browser.errors == []

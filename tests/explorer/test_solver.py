@@ -36,8 +36,8 @@ def states(number):
         strength = math.tan(slenderness) * 10.0 ** random.uniform(-0.02, 1.1)
         omega = th.Column(b, h).frequency_parameter * random.uniform(0.5, 8.0)
         state = {
-            "b": b,
-            "h": h,
+            "width": 2.0 * b,
+            "height": 2.0 * h,
             "g": float(random.choice([0.0, 0.25, 0.5, 1.0, 2.0, 4.0, math.inf])),
             "L": 2.0 * b + h * random.uniform(0.2, 2.0),
             "r": random.choice([None, random.uniform(0.4, 0.98)], p=[0.8, 0.2]),
@@ -120,15 +120,15 @@ def test_spectrum_is_the_map_of_the_library(browser, shape):
         """(() => {
           GRIDS.pulse = [{1}, {2}];
           let last;
-          spectrum({...DEFAULTS, shape: {0}}, null, part => { last = part.codes; });
-          return [...last];
+          return spectrum({...DEFAULTS, shape: {0}}, null, part => { last = part.codes; })
+            .then(() => [...last]);
         })()""",
         shape,
         columns,
         rows,
     )
     column = th.Column(0.5, 3.0)
-    ratios = 0.5 + 7.5 * (np.arange(columns) + 0.5) / columns
+    ratios = 0.5 + 5.5 * (np.arange(columns) + 0.5) / columns
     amplitudes = 0.93 * (12.0 / 0.93) ** ((np.arange(rows) + 0.5) / rows)
     alone, framed = (
         th.overturning_map(
@@ -196,7 +196,7 @@ def test_python_of_a_case_prints_what_the_page_shows(browser, number, capsys, mo
     case = browser.do("DATA.cases[{0}].state", number)
     exec(compile(code, "case", "exec"), {})
     lines = [line.split() for line in capsys.readouterr().out.splitlines()]
-    answer = browser.do(
+    (answer,) = browser.do(
         ANSWERS, [json.loads(browser.do("JSON.stringify({...DEFAULTS, ...{0}})", case))]
     )
     sensitive = browser.do(
@@ -205,7 +205,9 @@ def test_python_of_a_case_prints_what_the_page_shows(browser, number, capsys, mo
         case,
     )
     assert sum(sensitive) <= 1
-    for line, found, is_sensitive in zip(lines, answer[0], sensitive, strict=True):
+    if case.get("vase") == "hidden":
+        del answer[1], sensitive[1]
+    for line, found, is_sensitive in zip(lines, answer, sensitive, strict=True):
         assert ("overturned" in line) == found[3]
         assert ("uplift" in line) == (not found[4])
         if not (found[3] or is_sensitive):
