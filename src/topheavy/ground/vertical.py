@@ -10,7 +10,6 @@ Between two samples a/(1 + v) is monotone, as a quotient of two lines.
 """
 
 from dataclasses import dataclass
-from functools import partial
 from itertools import pairwise
 
 import numpy as np
@@ -55,10 +54,15 @@ class TwoComponents(Excitation):
         across, gravity = lines[0], 1.0 + lines[1]
 
         def span(k: int) -> Segment:
-            start, stop = edges[k], edges[k + 1]
-            weight = partial(_line, start, stop, *gravity[k])
-            push = partial(_quotient, partial(_line, start, stop, *across[k]), weight)
-            return Segment(float(start), float(stop), push, weight)
+            start, stop = float(edges[k]), float(edges[k + 1])
+
+            def weight(time: float) -> float:
+                return _line(start, stop, gravity[k], time)
+
+            def push(time: float) -> float:
+                return _line(start, stop, across[k], time) / weight(time)
+
+            return Segment(start, stop, push, weight)
 
         return Lines(np.abs(across / gravity).max(axis=1), span)
 
@@ -105,9 +109,5 @@ def refuse_fall(vertical: Record, factors: ArrayLike = 1.0) -> None:
             )
 
 
-def _line(start: float, stop: float, first: float, last: float, time: float) -> float:
-    return first + (last - first) * (time - start) / (stop - start)
-
-
-def _quotient(above: partial[float], below: partial[float], time: float) -> float:
-    return above(time) / below(time)
+def _line(start: float, stop: float, ends: NDArray[np.float64], time: float) -> float:
+    return float(ends[0] + (ends[1] - ends[0]) * (time - start) / (stop - start))
