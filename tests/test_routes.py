@@ -13,7 +13,7 @@ from steps.shared.linear import simulate_linear_exact as closed
 from tests.cases import BLOCK, RECORDS
 from topheavy.bodies.free_rocking import barrier, energy
 from topheavy.checks import LARGEST_ACCELERATION
-from topheavy.ground.shapes import ELEMENTARY, ENDING
+from topheavy.ground.shapes import ELEMENTARY, ENDING, PULSE_SHAPES
 from topheavy.second import reference
 
 few = settings(max_examples=15, deadline=None, derandomize=True, database=None)
@@ -213,7 +213,7 @@ def test_solver_agrees_with_the_closed_form_under_pulses(block, pulse, start, du
 @pytest.mark.parametrize("gamma", [0.0, 4.0])
 def test_solver_agrees_with_the_closed_form_in_el_centro(gamma, factor):
     block = th.RockingFrame(th.Column(0.3, 1.5), gamma).block().linear()
-    _, exact = alike(block, th.read_at2(RECORDS / "el_centro_1940_NS.AT2").scaled(factor))
+    _, exact = alike(block, th.read_record(RECORDS / "el_centro_1940_NS.AT2").scaled(factor))
     assert exact.outcome != "no uplift"
     assert exact.overturned == (factor > 1)
 
@@ -235,7 +235,7 @@ def test_extreme_input_is_answered_alike_by_both_routes(strength, ratio, degrees
             assert end.peak == pytest.approx(peak, abs=1e-9 * block.slenderness, nan_ok=True)
 
 
-@pytest.mark.parametrize("shape", th.PULSE_SHAPES)
+@pytest.mark.parametrize("shape", PULSE_SHAPES)
 def test_amplitude_overflows_beyond_the_largest_alone(shape):
     for amplitude in (1e160, 1e200, -1e300):
         with pytest.raises(ValueError, match=r"amplitude is .*e\+.* g; expected at most"):

@@ -13,16 +13,8 @@ import pandas as pd
 
 from replication.step import check, grid, run, truth
 from steps.shared.histories import history
-from topheavy import (
-    Cap,
-    Column,
-    Pulse,
-    RockingFrame,
-    base_shear_slope,
-    clamped_forces,
-    largest_forces,
-    simulate,
-)
+from topheavy import Cap, Column, Pulse, RockingFrame, simulate
+from topheavy.forces.frame import base_shear_slope, clamped_forces, largest_forces
 from topheavy.second import reference
 
 FORCES = ("base_shear", "overturning_moment", "bending_moment")

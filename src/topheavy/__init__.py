@@ -4,16 +4,19 @@
                                ├─►  RockingBlock(p, α, √r)  ─►  simulate · overturning · spectra
     RockingFrame(column, γ)   ─┘
 
-Angles are in rad, rotations signed, accelerations in g, everything else in SI units. To begin with:
+Angles are in rad, rotations signed, accelerations in g, everything else in SI units.
 
-- structures: `Column`, `RockingFrame` (equal columns under a rigid cap beam), and with the mass
-  fixed to one column or to both `FixedMassColumn`, `MonolithicPortal`
-- what shakes them: `Pulse`, `Record`, `read_record`; `vertical=` is the vertical acceleration
-- what becomes of them: `simulate`, `judge`, `lowest_overturning`, `overturning_map`, `fragility`,
-  `plot`
+- structures: `Column`, `RockingFrame` (equal columns under a rigid cap beam), `RockingBlock` (three
+  parameters), and with the mass fixed to one column or to both `FixedMassColumn`,
+  `MonolithicPortal`
+- ground motions: `Pulse`, `Record`, `read_record`; `vertical=` is the vertical acceleration
+- one motion: `simulate`, `judge`, `contact_forces`
+- a pulse: `lowest_overturning`, `overturning_spectrum`, `overturning_intervals`, `overturning_map`
+- a record: `capacity`, `overturned_by`, `peak_rotations`
+- many motions: `fragility`
+- pictures: `plot`; outcomes verified with interval arithmetic: `proven`
 
-`dir(topheavy)` has the other names, such as `contact_forces` with the friction that rocking
-requires; each has an example in its docstring, in which `th` is this package and `np` NumPy.
+In the examples `th` is this package and `np` is NumPy.
 
 It does not model
 
@@ -30,20 +33,4 @@ import lazy_loader
 __version__ = "0.1.0"
 
 # A name is loaded from its module when it is first used (SPEC 1); __init__.pyi says from which.
-__getattr__, __dir__, _ = lazy_loader.attach_stub(__name__, __file__)
-
-__all__ = [
-    "Column",
-    "FixedMassColumn",
-    "MonolithicPortal",
-    "Pulse",
-    "Record",
-    "RockingFrame",
-    "fragility",
-    "judge",
-    "lowest_overturning",
-    "overturning_map",
-    "plot",
-    "read_record",
-    "simulate",
-]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -4,7 +4,7 @@ import numpy as np
 
 from replication.step import check, run, truth, value
 from replication.study import motion, structure
-from topheavy import overturned_by
+from topheavy import Capacity, overturned_by
 
 
 def compute(structures, records, lowest, highest, step):
@@ -17,17 +17,12 @@ def compute(structures, records, lowest, highest, step):
 
 
 def capacities(factors, overturned, windows, share):
-    """Return, for each window, the lowest factor from which a share of those in it overturns."""
-    found = []
-    for window in windows:
-        width = round(np.log1p(window) / np.log(factors[1] / factors[0])) + 1
-        shares = overturned.rolling(width).mean().shift(1 - width)
-        check(
-            (shares >= share).any(),
-            f"no capacity up to a factor of {factors.max():g}: raise highest",
-        )
-        found.append(factors[shares >= share].min())
-    return np.array(found)
+    """Return the capacity over each window."""
+    capacity = Capacity(factors, overturned, share=share)
+    over_windows = np.array([capacity.over(window) for window in windows])
+    reached = np.isfinite(over_windows).all()
+    check(reached, f"no capacity up to a factor of {factors.max():g}: raise highest")
+    return over_windows
 
 
 def findings(example_capacity, scale, windows, share):

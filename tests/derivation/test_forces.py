@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import sympy as sp
 
-from topheavy import STANDARD_GRAVITY, Cap, Column, RockingFrame, base_shear_slope
+from topheavy import STANDARD_GRAVITY, Cap, Column, RockingFrame
 from topheavy import contact_forces as forces_of
 from topheavy import impact_impulses as impulses_of
 from topheavy.derivation import consequences
@@ -41,6 +41,7 @@ from topheavy.derivation.notation import (
     velocity,
     vertical_acceleration,
 )
+from topheavy.forces.frame import base_shear_slope
 
 
 def clockwise(arm, force):

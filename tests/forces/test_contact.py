@@ -7,6 +7,7 @@ import pytest
 
 import topheavy as th
 from topheavy.bodies.kinematics import cap_acceleration
+from topheavy.forces.contact import column_forces
 
 SLENDER = th.Column(2.0 * math.sin(0.25), 2.0 * math.cos(0.25))  # α = 0.25
 TRILITH = th.Column(0.11, 0.40)
@@ -132,7 +133,7 @@ def test_bases_carry_the_weight_and_the_inertia_of_the_whole_frame(frame):
 
 def test_light_cap_leaves_two_solitary_columns():
     motion = ([-0.1, 0.2, 0.05], [0.4, -0.3, 0.0], [0.0, 0.8, -0.5])
-    column = vector(th.column_forces(SLENDER, *motion))
+    column = vector(column_forces(SLENDER, *motion))
     bare = of(0.0, *motion)
     assert np.all(vector(bare.top_left) == 0.0)
     assert np.all(np.isnan(bare.top_left.friction_demand))  # it carries nothing
@@ -166,7 +167,7 @@ def test_every_contact_needs_tan_alpha_when_the_ground_just_uplifts(frame, sign)
 def test_strong_cosine_pulse_asks_twice_the_slenderness_of_a_column():
     # Zhang & Makris (2001) print about 2 for α = 0.25 and 6αg, which the pulse has at once.
     pulse = th.Pulse("one-cosine", 6 * 0.25, 5.0)
-    force = th.column_forces(SLENDER, 0.0, 0.0, pulse.excitation(0.0))
+    force = column_forces(SLENDER, 0.0, 0.0, pulse.excitation(0.0))
     assert force.friction_demand / math.tan(0.25) == pytest.approx(1.99579, abs=1e-5)
 
 
@@ -248,9 +249,9 @@ STOCKY, NARROW = th.Column(0.7, 0.4), th.Cap(1.4, 0.2)
             lambda: th.impact_impulses(th.RockingFrame(th.Column(0.7, 2.0), 1.0), NARROW, 0.1),
             r"span is 1\.4 m",
         ),
-        (lambda: th.column_forces(SLENDER, "0.1", 0.1), "rotation: element 0 is '0.1'"),
-        (lambda: th.column_forces(SLENDER, 0.1, None), "velocity: element 0 is None"),
-        (lambda: th.column_forces(SLENDER, 0.1, 0.1, {}), "ground_acceleration: element 0 is {}"),
+        (lambda: column_forces(SLENDER, "0.1", 0.1), "rotation: element 0 is '0.1'"),
+        (lambda: column_forces(SLENDER, 0.1, None), "velocity: element 0 is None"),
+        (lambda: column_forces(SLENDER, 0.1, 0.1, {}), "ground_acceleration: element 0 is {}"),
         (lambda: of(1.0, [-1.7, math.nan, 0.1], 0.0), "up to 1.7 rad; expected less than π/2"),
         (
             lambda: th.impact_impulses(th.RockingFrame(STOCKY, 1.0), CAP, 0.5),

@@ -7,9 +7,16 @@ import pytest
 
 import topheavy as th
 from tests.cases import COLUMN, RECORDS
-from topheavy import STANDARD_GRAVITY, Cap, RockingFrame, base_shear_slope, contact_forces
+from topheavy import STANDARD_GRAVITY, Cap, RockingFrame, contact_forces
 from topheavy.bodies.kinematics import cap_acceleration
-from topheavy.forces.frame import SECTIONS, centre_height, frame_forces, largest_forces
+from topheavy.forces.frame import (
+    SECTIONS,
+    base_shear_slope,
+    centre_height,
+    clamped_forces,
+    frame_forces,
+    largest_forces,
+)
 
 CAP = Cap(5.0, 0.5)
 STATES = [(0.05, 0.2, 0.1), (-0.03, 0.1, -0.4), (0.12, -0.3, 0.5), (-1e-9, 0.0, 0.3)]
@@ -136,7 +143,7 @@ def test_clamped_frame_is_two_cantilevers_under_their_inertia(ratio):
     """By hand: each column bears its own inertia at h and half that of the cap beam at 2h."""
     record = th.read_record(RECORDS / "el_centro_1940_NS.AT2")
     column, beam = (0.0, 1.0) if ratio == math.inf else (0.5 / (1 + ratio), ratio / (1 + ratio))
-    shear, overturning, bending = th.clamped_forces(RockingFrame(COLUMN, ratio), CAP, record)
+    shear, overturning, bending = clamped_forces(RockingFrame(COLUMN, ratio), CAP, record)
     peak = np.abs(record.acceleration).max()
     assert shear == pytest.approx(peak, rel=1e-12)
     assert overturning == pytest.approx(peak * (2 * column * 3.0 + beam * 6.5), rel=1e-12)
@@ -145,4 +152,4 @@ def test_clamped_frame_is_two_cantilevers_under_their_inertia(ratio):
 
 def test_clamped_frame_refuses_a_motion_that_never_ends():
     with pytest.raises(ValueError, match="goes on forever"):
-        th.clamped_forces(RockingFrame(COLUMN, 1.0), CAP, th.Pulse("harmonic", 0.3, 5.0))
+        clamped_forces(RockingFrame(COLUMN, 1.0), CAP, th.Pulse("harmonic", 0.3, 5.0))

@@ -11,9 +11,9 @@ from pydantic import TypeAdapter
 import topheavy.ground.shapes
 from replication.config import Shape
 from tests.cases import SIDES
-from topheavy import PULSE_SHAPES, Pulse
+from topheavy import Pulse
 from topheavy.ground.excitation import Segment, zero_acceleration
-from topheavy.ground.shapes import ELEMENTARY, ENDING, SHAPES
+from topheavy.ground.shapes import ELEMENTARY, ENDING, PULSE_SHAPES, SHAPES
 from topheavy.kernel import forcing
 
 OMEGA = 2.5

@@ -7,7 +7,7 @@ import pytest
 
 import topheavy as th
 from tests.cases import RECORDS
-from topheavy.outcomes import minimum
+from topheavy.outcomes import minimum, search
 from topheavy.second import reference
 
 EL_CENTRO = th.read_record(RECORDS / "el_centro_1940_NS.AT2")
@@ -28,10 +28,10 @@ def pier():
 # ---------------------------------------------------------------------------- El Centro
 
 
-def test_narrow_interval_below_a_minimum_that_four_steps_agree_on_is_found(pier):
-    found = dict(pier.steps)
-    for step in (0.025, 0.0125, 0.00625, 0.003125):
-        assert found[step] == pytest.approx(2.31890, abs=1e-5)
+def test_an_interval_narrower_than_four_steps_is_the_minimum(pier):
+    for floor in (0.025, 0.0125, 0.00625, 0.003125):
+        coarse = th.lowest_overturning(PIER, EL_CENTRO, (0.0, 3.2), floor=floor)
+        assert coarse.factor == pytest.approx(2.31890, abs=1e-5)
     assert pier.factor == pytest.approx(1.96720, abs=1e-5)
     assert pier.width == pytest.approx(4.4e-4, abs=1e-5)
     assert pier.acceleration == pier.factor * EL_CENTRO.peak_acceleration
@@ -52,25 +52,29 @@ def test_minimum_rises_on_grids_that_are_not_nested_and_never_on_nested_ones():
     ]
     assert apart == pytest.approx([4.003, 3.2263, 3.2297, 3.2212], abs=5e-4)
     assert apart[2] > apart[1]
-    nested = th.lowest_overturning(BENT, EL_CENTRO, (0.0, 5.0), floor=5e-4)
-    assert nested.factor <= min(apart) + 1e-9
-    factors = [factor for _, factor in nested.steps if factor is not None]
-    assert factors == sorted(factors, reverse=True)
+    nested = [
+        th.lowest_overturning(BENT, EL_CENTRO, (0.0, 5.0), floor=floor).factor
+        for floor in (0.1, 0.01, 0.001, 0.0005)
+    ]
+    assert nested == sorted(nested, reverse=True)
+    assert nested[-1] == pytest.approx(min(apart), abs=1e-6)
 
 
 # ---------------------------------------------------------------------------- the search
 
 
 def planted(monkeypatch, edges):
-    """Let the factors between each second pair of ascending edges overturn, whatever is shaken."""
+    """Let the factors between each second pair of ascending edges overturn, under any motion."""
 
     def outcomes(subjects, which, factors):
-        return np.searchsorted(edges, factors, side="right") % 2 == 1, None
+        overturned = np.searchsorted(edges, factors, side="right") % 2 == 1
+        return None, overturned, np.zeros(factors.size, np.int64)
 
     monkeypatch.setattr(minimum, "outcomes_by", outcomes)
+    monkeypatch.setattr(search, "outcomes_by", outcomes)
 
 
-def test_every_interval_wider_than_the_last_step_is_found_and_its_width_measured(monkeypatch):
+def test_no_interval_wider_than_the_floor_is_missed_and_its_width_is_measured(monkeypatch):
     """Planted at random: intervals of all widths, in ranges of all kinds."""
     random, narrower = np.random.default_rng(2014), 0
     for _ in range(300):
@@ -80,21 +84,24 @@ def test_every_interval_wider_than_the_last_step_is_found_and_its_width_measured
         room = np.diff([*begins, last])
         widths = np.minimum(10.0 ** random.uniform(-6.0, 0.0, 4), 0.5 * room)
         planted(monkeypatch, np.column_stack([begins, begins + widths]).ravel())
-        found = th.lowest_overturning(
-            BLOCK, SHAKING, (first, last), floor=10 ** random.uniform(-4, 0)
-        )
-        step, bracket = found.steps[-1][0], 1e-10 * last
-        wide = np.flatnonzero(widths > step)
-        if found.bracket is None:
+        floor = 10 ** random.uniform(-4, 0)
+        minimum = th.lowest_overturning(BLOCK, SHAKING, (first, last), floor=floor)
+        bracket = 1e-10 * last
+        wide = np.flatnonzero(widths > floor)
+        if minimum.bracket is None:
             assert wide.size == 0
             continue
-        (at,) = np.flatnonzero((begins <= found.factor) & (found.factor < begins + widths))
+        (at,) = np.flatnonzero((begins <= minimum.factor) & (minimum.factor < begins + widths))
         assert wide.size == 0 or at <= wide[0]
-        narrower += widths[at] < step
-        assert found.bracket[0] < begins[at] <= found.factor <= begins[at] + bracket
-        assert found.upper[0] < begins[at] + widths[at] <= found.upper[1]
-        assert found.width == pytest.approx(widths[at], abs=2 * bracket)
-    assert narrower > 50
+        narrower += widths[at] < floor
+        assert minimum.bracket[0] < begins[at] <= minimum.factor <= begins[at] + bracket
+        ends = begins + widths
+        last_in = np.flatnonzero((minimum.upper[0] < ends) & (begins <= minimum.upper[0]))
+        assert last_in.size == 1
+        assert minimum.upper[0] < ends[last_in[0]] <= minimum.upper[1]
+        gaps = begins[at + 1 : last_in[0] + 1] - ends[at : last_in[0]]
+        assert (gaps < floor).all()
+    assert narrower > 10
 
 
 # ---------------------------------------------------------------------------- ends and words
@@ -106,16 +113,16 @@ def test_range_that_begins_in_an_interval_ends_in_one_or_has_none_says_so():
         for ends in ((4.0, 8.0), (6.5, 8.0), (0.0, 1.0))
     )
     assert begun.bracket == (4.0, 4.0)
-    assert {factor for _, factor in begun.steps} == {4.0}
     assert begun.upper[0] == pytest.approx(6.3181, abs=1e-3)
-    assert str(begun).startswith("The first factor of the range overturns; it is 4 (1 g), in an ")
+    assert str(begun).startswith("The lowest factor that overturns is 4 (1 g), in an interval ")
     assert cut.factor == pytest.approx(7.16813, abs=1e-5)
     assert (cut.upper, math.isnan(cut.width)) == (None, True)
     assert "open at the end of the range" in str(cut)
     assert (none.bracket, none.upper) == (None, None)
     assert np.isnan([none.factor, none.acceleration, none.width]).all()
-    assert {factor for _, factor in none.steps} == {None}
-    assert str(none).startswith("No factor tried from 0 to 1 overturns. The step was halved")
+    assert str(none) == (
+        "No factor from 0 to 1 overturns. Intervals narrower than 0.1 are not excluded."
+    )
 
 
 @pytest.mark.parametrize(
@@ -133,9 +140,8 @@ def test_range_that_begins_in_an_interval_ends_in_one_or_has_none_says_so():
         ({"floor": math.nan}, "floor is nan"),
         ({"floor": "fine"}, "floor is 'fine'; expected a number"),
         (
-            # from a factor that overturns, so that no search without end would follow
             {"floor": 1e-11, "scale_range": (4.5, 8.0)},
-            "floor is 1e-11; expected at least 8e-10, 1e-10 of the last factor",
+            r"floor is 1e-11 of 4.5 to 8: 3.5e\+11 cells; expected at most",
         ),
         ({"structure": 3}, "structure is 3; expected a Column, a RockingFrame"),
         ({"excitation": 3}, "excitation is 3; expected a Pulse or a Record"),
@@ -149,22 +155,83 @@ def test_bad_search_is_refused_by_name_and_value(changes, says):
         th.lowest_overturning(**given | changes)
 
 
-def test_first_wide_interval_is_found_beside_a_narrow_lower_one():
-    column = th.Column.of_dimensions(width=1.4, height=9.0)
-    found = th.lowest_overturning(column, EL_CENTRO, (0.0, 8.0), floor=0.01, wider_than=0.05)
-    every = th.overturning_intervals(column, EL_CENTRO, (0, 8), resolution=0.005, most_impacts=0)
-    wide = [one for one in every if not one.upper or one.upper[0] - one.lower[1] > 0.05]
-    assert found.wide.lower == pytest.approx(wide[0].lower, abs=0.02)
-    assert found.wide.lower[1] >= found.factor
-    told = f"wider than 0.05 begins at {found.wide.lower[1]:.6g}"
-    assert told in str(found)
-    assert f"({found.wide.lower[1] * EL_CENTRO.peak_acceleration:.6g} g)" in str(found)
-    assert "wider than" not in str(th.lowest_overturning(column, EL_CENTRO, (0.0, 8.0), floor=0.01))
+# ---------------------------------------------------------------------------- spectrum, capacity
 
 
-def test_no_wide_interval_in_the_range_is_said():
-    found = th.lowest_overturning(PIER, SINE, (0.0, 1e-3), floor=1e-3, wider_than=1e-3)
-    assert found.wide is None
-    assert "The first interval wider than 0.001 is not in the range" in str(found)
-    with pytest.raises(ValueError, match="wider_than is 0; expected more than zero"):
-        th.lowest_overturning(PIER, SINE, (0.0, 1.0), floor=0.1, wider_than=0.0)
+@pytest.mark.parametrize("shape", ["one-sine", "ricker-symmetric"])
+def test_spectrum_has_the_minimum_of_each_period(shape):
+    periods = [0.4, 0.6, 1.0, 2.0, 4.0]
+    spectrum = th.overturning_spectrum(BLOCK, shape, periods, highest=12.0)
+    uplift = BLOCK.uplift_acceleration
+    for period, one in zip(periods, spectrum.acceleration.to_numpy(), strict=True):
+        pulse = th.Pulse(shape, 1.0, period=period)
+        ends = (uplift, 12.0 * uplift)
+        minimum = th.lowest_overturning(BLOCK, pulse, ends, floor=1e-3 * uplift)
+        assert one == pytest.approx(minimum.acceleration, rel=1e-9, nan_ok=True)
+        if not math.isnan(one):
+            after_impact = th.judge(BLOCK, pulse.scaled(one)).impacts > 0
+            assert after_impact == spectrum.after_impact.sel(period=period)
+    assert np.isfinite(spectrum.acceleration).sum() >= 1
+
+
+def test_spectrum_refuses_a_harmonic_and_a_period_of_zero():
+    with pytest.raises(ValueError, match=r"'harmonic'.*forever"):
+        th.overturning_spectrum(BLOCK, "harmonic", [1.0])
+    with pytest.raises(ValueError, match="periods goes down to 0"):
+        th.overturning_spectrum(BLOCK, "one-sine", [0.0, 1.0])
+
+
+def by_counting(factors, overturned, window, share):
+    """The capacity on a grid of equal ratios, window by window."""
+    size = round(math.log1p(window) / math.log(factors[1] / factors[0])) + 1
+    for begin in range(len(factors) - size + 1):
+        if sum(overturned[begin : begin + size]) >= share * size:
+            return factors[begin]
+    return math.nan
+
+
+def test_capacity_is_the_first_window_with_enough_that_overturn():
+    random = np.random.default_rng(5)
+    factors = 1.002 ** np.arange(800)
+    for share in (0.5, 0.8, 0.9, 1.0):
+        overturned = random.random(factors.size) < np.linspace(0.0, 1.2, factors.size)
+        capacity = th.Capacity(factors, overturned, share=share)
+        expected = [by_counting(factors, overturned, width, share) for width in (0.025, 0.1, 0.2)]
+        assert [capacity.over(width) for width in (0.025, 0.1, 0.2)] == expected
+        assert capacity.factor == by_counting(factors, overturned, 0.05, share)
+
+
+def test_capacity_under_a_record_is_that_of_its_outcomes():
+    factors = np.linspace(0.5, 5.0, 2000)
+    capacity = th.capacity(PIER, EL_CENTRO, factors)
+    np.testing.assert_array_equal(capacity.overturned, th.overturned_by(PIER, EL_CENTRO, factors))
+    inside = (factors >= capacity.factor) & (factors <= 1.05 * capacity.factor)
+    assert capacity.overturned[inside].mean() >= 0.88
+    low, high = capacity.range
+    assert low <= capacity.factor <= high
+    assert capacity.acceleration == capacity.factor * EL_CENTRO.peak_acceleration
+    assert str(capacity).startswith(f"From a factor of {capacity.factor:.3g}")
+
+
+def test_capacity_is_nan_where_no_window_of_the_grid_has_enough():
+    factors = np.linspace(1.0, 2.0, 101)
+    capacity = th.Capacity(factors, factors > 1.8)
+    assert capacity.factor == pytest.approx(1.8, abs=0.011)
+    assert math.isnan(capacity.over(0.2))
+    assert math.isnan(capacity.range[1])
+    assert math.isnan(th.Capacity(factors, factors > 3.0).range[0])
+
+
+@pytest.mark.parametrize(
+    ("changes", "says"),
+    [
+        ({"factors": [1.0, 1.0]}, "factors do not increase"),
+        ({"factors": [0.0, 1.0]}, "factors goes down to 0"),
+        ({"overturned": [True]}, r"overturned has shape \(1,\); expected \(2,\)"),
+        ({"window": 0.0}, "window is 0; expected more than zero"),
+        ({"share": 1.1}, "share is 1.1; expected a value from 0 to 1"),
+    ],
+)
+def test_bad_capacity_is_refused_by_name_and_value(changes, says):
+    with pytest.raises(ValueError, match=says):
+        th.Capacity(**({"factors": [1.0, 2.0], "overturned": [False, True]} | changes))

@@ -102,7 +102,7 @@ def test_brackets_have_the_boundary_between_them(case):
     size = max(abs(first), abs(last))
 
     def label(scale):
-        overturned, impacts = outcomes_by(subjects, np.zeros(1, int), np.array([scale]))
+        _, overturned, impacts = outcomes_by(subjects, np.zeros(1, int), np.array([scale]))
         return impacts[0] if overturned[0] else SURVIVES
 
     for interval in found:
@@ -190,6 +190,12 @@ def test_factors_on_several_structures_have_the_outcomes_of_judge():
         alone = [th.judge(structure, SHAKING.scaled(factor)).overturned for factor in factors]
         assert row.tolist() == alone == th.overturned_by(structure, SHAKING, factors).tolist()
     assert 0.2 < found.mean() < 0.8
+    peaks = th.peak_rotations(several, SHAKING, factors)
+    for structure, row, overturned in zip(several, peaks, found, strict=True):
+        np.testing.assert_array_equal(np.isnan(row), overturned)
+        np.testing.assert_array_equal(row, th.peak_rotations(structure, SHAKING, factors))
+        expected = [th.judge(structure, SHAKING.scaled(factor)).peak for factor in factors]
+        np.testing.assert_allclose(row, expected, rtol=0, atol=1e-8)
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ import pytest
 from steps.shared.newton_euler import ThreeBodies, accelerations, impact
 from steps.shared.three_bodies import _first_event, simulate_three_bodies
 from tests.cases import RECORDS
-from topheavy import STANDARD_GRAVITY, Column, Pulse, RockingFrame, read_at2, simulate
+from topheavy import STANDARD_GRAVITY, Column, Pulse, RockingFrame, read_record, simulate
 from topheavy.bodies.kinematics import cap_acceleration, cap_displacement
 
 TRILITH, SLENDER, STOCKY = Column(0.11, 0.4), Column(0.3, 3.0), Column(0.5, 0.8)
@@ -160,7 +160,7 @@ PULSES = (
     Pulse("ricker-symmetric", 0.5, 12.0),
     Pulse("ricker-symmetric", 0.6, 6.0),
 )
-EL_CENTRO = read_at2(RECORDS / "el_centro_1940_NS.AT2").scaled(2.0)
+EL_CENTRO = read_record(RECORDS / "el_centro_1940_NS.AT2").scaled(2.0)
 rocked = partial(simulate_three_bodies, FRAME, **SHAPE)
 
 

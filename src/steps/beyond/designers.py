@@ -7,8 +7,9 @@ column acts along its diagonal: the required friction is tan α, that of uplift.
 import math
 
 from replication.step import run, truth
-from topheavy import Cap, Column, RockingFrame, base_shear_slope, cap_displacement
-from topheavy.forces.frame import centre_height
+from topheavy import Cap, Column, RockingFrame
+from topheavy.bodies.kinematics import cap_displacement
+from topheavy.forces.frame import base_shear_slope, centre_height
 
 
 def compute(settings, friction, structures, motions_gains, motions_rotations, friction_by_mass):

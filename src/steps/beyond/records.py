@@ -11,7 +11,7 @@ import numpy as np
 
 from replication.step import check, run, truth
 from steps.shared.second import NUDGE, check_by_scipy
-from topheavy import Column, RockingFrame, overturned_by, read_record
+from topheavy import Column, RockingFrame, capacity, overturned_by, read_record
 
 
 def compute(settings, solver, structures, components):
@@ -44,30 +44,18 @@ def compute(settings, solver, structures, components):
 def capacities(spec, column, records):
     """Yield the capacities of the column (γ = 0) and its frames under each record, in g.
 
-    The capacity is the lowest peak acceleration from which a share of those in a relative window
-    overturns. It is stated for the first window, with the range over all.
+    It is stated for the first window, with the range over all.
     """
-    highest, step = spec["highest"], spec["step"]
-    ratios = (1.0 + step) ** np.arange(math.log(highest) / math.log1p(step))
-    for record in records:
-        peaks = ratios * column.uplift_acceleration
-        for gamma in spec["mass_ratios"]:
-            frame = RockingFrame(column, gamma)
-            fell = overturned_by(frame, record, peaks / record.peak_acceleration)
-            found = [lowest(peaks, fell, window, spec) for window in spec["windows"]]
-            yield (
-                {"record": record.name, "mass_ratio": gamma, "capacity": found[0]}
-                | {"least": min(found), "most": max(found)}
-            )
-
-
-def lowest(peaks, fell, window, spec):
-    """Return the lowest peak from which enough of those in a window overturn."""
-    width = round(math.log1p(window) / math.log1p(spec["step"])) + 1
-    enough = np.convolve(fell, np.ones(width), "valid") >= spec["share"] * width
-    starts = peaks[: enough.size][enough]
-    check(starts.size > 0, f"no capacity up to {peaks[-1]:.3g} g: raise highest")
-    return starts[0]
+    ratios = (1.0 + spec["step"]) ** np.arange(math.log(spec["highest"]) / math.log1p(spec["step"]))
+    for record, gamma in product(records, spec["mass_ratios"]):
+        factors = ratios * column.uplift_acceleration / record.peak_acceleration
+        one = capacity(RockingFrame(column, gamma), record, factors, share=spec["share"])
+        peaks = [record.peak_acceleration * one.over(window) for window in spec["windows"]]
+        check(np.isfinite(peaks).all(), f"{record.name}: no capacity: raise capacity.highest")
+        yield (
+            {"record": record.name, "mass_ratio": gamma, "capacity": peaks[0]}
+            | {"least": min(peaks), "most": max(peaks)}
+        )
 
 
 def geometric(spec):
@@ -87,8 +75,8 @@ def overturned(frame, record, factors, tightened):
 
 
 def findings(records, records_capacity):
-    capacity = records_capacity.pivot(index="record", columns="mass_ratio", values="capacity")
-    gains = capacity.div(capacity[0.0], axis=0) - 1.0
+    by_mass = records_capacity.pivot(index="record", columns="mass_ratio", values="capacity")
+    gains = by_mass.div(by_mass[0.0], axis=0) - 1.0
     return {
         "heavier_is_safer": truth(
             not records.only_heavier.any(),

@@ -48,42 +48,38 @@ def line(change: str, gamma: float, slenderness: float, shape: str, ratio: float
 
 
 def solve(lines: Sequence[Line], settings: Mapping[str, Any]) -> pd.DataFrame:
-    """Return the intervals of amplitudes, over g tan α, that overturn the block of each line.
-
-    Close to uplift, under long pulses, the lowest intervals are narrow. Below the first interval
-    the search is therefore repeated at the finer resolution.
-    """
-    amplitudes, finer = settings["amplitudes"], settings["finer"]
-    first, rows = amplitudes["lowest"], []
+    """Return the intervals of amplitudes, over g tan α, that overturn the block of each line."""
+    amplitudes = settings["amplitudes"]
+    ends = (amplitudes["lowest"], amplitudes["highest"])
+    finer = (settings["finer"]["below"], settings["finer"]["resolution"])
+    rows: list[dict[str, Any]] = []
     for begin in range(0, len(lines), TOGETHER):
         some = lines[begin : begin + TOGETHER]
-        whole = [(first, amplitudes["highest"])] * len(some)
-        found = search(some, whole, amplitudes["resolution"])
-        ends = {place: of[0].lower[0] for place, of in enumerate(found) if of}
-        low = {place: (first, end) for place, end in ends.items() if first < end < finer["below"]}
-        again = search([some[place] for place in low], [*low.values()], finer["resolution"])
-        for place, lower in zip(low, again, strict=True):
-            found[place] = lower + found[place]
-        for each, intervals in zip(some, found, strict=True):
-            rows += rows_of(each, intervals)
+        intervals = search(some, [ends] * len(some), amplitudes["resolution"], finer)
+        for one, of_line in zip(some, intervals, strict=True):
+            rows += rows_of(one, of_line)
         print(f"{begin + len(some)} of {len(lines)} lines", flush=True)
     return pd.DataFrame(rows, columns=[*KEYS, "lower", "upper", "mode"])
 
 
 def search(
-    lines: Sequence[Line], ranges: Sequence[tuple[float, float]], resolution: float
+    lines: Sequence[Line],
+    ranges: Sequence[tuple[float, float]],
+    resolution: float,
+    finer: tuple[float, float] | None = None,
 ) -> list[list[Interval]]:
     """Return the intervals of each line in its range, none wider than the resolution missed."""
-    blocks, pulses = [each.block for each in lines], [each.pulse for each in lines]
-    limits = {"resolution": resolution, "most_impacts": 1}
-    return intervals_of_many(blocks, pulses, ranges, **limits) if lines else []
+    blocks, pulses = [one.block for one in lines], [one.pulse for one in lines]
+    return intervals_of_many(
+        blocks, pulses, ranges, resolution=resolution, most_impacts=1, finer=finer
+    )
 
 
-def rows_of(each: Line, intervals: Sequence[Interval]) -> Iterator[dict[str, Any]]:
+def rows_of(of: Line, intervals: Sequence[Interval]) -> Iterator[dict[str, Any]]:
     """Yield a row for each interval; it has no upper end where the range ends first."""
     for one in intervals:
         upper = sum(one.upper) / 2.0 if one.upper else None
-        yield each.labels | {
+        yield of.labels | {
             "lower": sum(one.lower) / 2.0,
             "upper": upper,
             "mode": MODES[one.impacts],

@@ -27,7 +27,7 @@ def cap_displacement(
 
     Examples
     --------
-    >>> u, v = th.cap_displacement(th.Column(0.5, 3.0), 0.05)
+    >>> u, v = cap_displacement(th.Column(0.5, 3.0), 0.05)
     >>> round(float(u), 4), round(float(v), 4)
     (0.3011, 0.0425)
     """

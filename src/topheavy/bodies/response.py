@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from topheavy import checks
 from topheavy.bodies.structures import RockingBlock
+
+if TYPE_CHECKING:
+    import pandas
 
 MOST_SAMPLES = 10_000_000
 """The largest number of samples that a caller may request: three arrays of 80 MB."""
@@ -63,6 +66,15 @@ class Response:
     def overturned(self) -> bool:
         """Whether it overturned."""
         return self.outcome == "overturned"
+
+    def to_frame(self) -> pandas.DataFrame:
+        """Return rotation (rad) and velocity (rad/s) as a table over the time (s)."""
+        import pandas  # here: it takes half a second that only tables need
+
+        return pandas.DataFrame(
+            {"rotation": self.rotation, "velocity": self.velocity},
+            pandas.Index(self.time, name="time"),
+        )
 
     def __repr__(self) -> str:
         return (

@@ -75,7 +75,7 @@ class Reaction:
 
     Examples
     --------
-    >>> th.column_forces(th.Column(0.5, 3.0), 0.0, 0.0, 0.05).horizontal.item()
+    >>> column_forces(th.Column(0.5, 3.0), 0.0, 0.0, 0.05).horizontal.item()
     0.05
     """
 
@@ -199,7 +199,7 @@ def column_forces(
 
     Examples
     --------
-    >>> th.column_forces(th.Column(0.5, 3.0), 0.0, 0.0, 0.05).vertical.item()
+    >>> column_forces(th.Column(0.5, 3.0), 0.0, 0.0, 0.05).vertical.item()
     1.0
     """
     motion = motion_state(column, rotation, velocity, ground_acceleration)

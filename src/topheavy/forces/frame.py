@@ -49,7 +49,7 @@ class FrameForces:
     Examples
     --------
     >>> frame = th.RockingFrame(th.Column(0.5, 3.0), mass_ratio=2.0)
-    >>> forces = th.frame_forces(frame, th.Cap(span=5.0, half_depth=0.4), 0.05, 0.0)
+    >>> forces = frame_forces(frame, th.Cap(span=5.0, half_depth=0.4), 0.05, 0.0)
     >>> round(forces.overturning_moment.item(), 4)
     -0.8553
     """
@@ -72,7 +72,7 @@ def frame_forces(
     from the ground's acceleration; the bending moments are NaN, since whole faces are in contact.
 
     >>> frame = th.RockingFrame(th.Column(0.5, 3.0), mass_ratio=2.0)
-    >>> forces = th.frame_forces(frame, th.Cap(span=5.0, half_depth=0.4), 0.05, 0.0)
+    >>> forces = frame_forces(frame, th.Cap(span=5.0, half_depth=0.4), 0.05, 0.0)
     >>> round(forces.base_shear.item(), 4)
     -0.1019
     """
@@ -120,7 +120,7 @@ def largest_forces(
     --------
     >>> frame = th.RockingFrame(th.Column(0.5, 3.0), mass_ratio=2.0)
     >>> theta, at_rest = np.array([[0.02, 0.05]]), np.zeros((1, 2))
-    >>> th.largest_forces(frame, th.Cap(span=5.0, half_depth=0.4), theta, at_rest, at_rest).round(4)
+    >>> largest_forces(frame, th.Cap(span=5.0, half_depth=0.4), theta, at_rest, at_rest).round(4)
     array([[0.1278, 0.8574, 0.2813],
            [0.1278, 0.8574, 0.2812]])
     """
@@ -148,7 +148,7 @@ def clamped_forces(frame: RockingFrame, cap: Cap, excitation: Excitation) -> NDA
     Examples
     --------
     >>> frame, pulse = th.RockingFrame(th.Column(0.5, 3.0), 2.0), th.Pulse("one-sine", 0.1, 2.0)
-    >>> th.clamped_forces(frame, th.Cap(span=5.0, half_depth=0.4), pulse).round(4)
+    >>> clamped_forces(frame, th.Cap(span=5.0, half_depth=0.4), pulse).round(4)
     array([0.1   , 0.5267, 0.25  ])
     """
     segments = checked_excitation(excitation, ends=True).segments(excitation.duration)
@@ -163,7 +163,7 @@ def base_shear_slope(frame: RockingFrame) -> float:
 
     1 − (3/4) cos²α (1 + 2γ)²/((1 + γ)(1 + 3γ)); sin²α for γ → ∞. It is 1 before uplift.
 
-    >>> round(th.base_shear_slope(th.RockingFrame(th.Column(0.5, 3.0), 2.0)), 4)
+    >>> round(base_shear_slope(th.RockingFrame(th.Column(0.5, 3.0), 2.0)), 4)
     0.1313
     """
     gamma = frame.mass_ratio

@@ -85,7 +85,7 @@ def checked_shape(shape: str) -> str:
     return shape
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class Pulse(Excitation):
     """A ground acceleration pulse that starts at t = 0.
 
@@ -98,36 +98,58 @@ class Pulse(Excitation):
         Peak acceleration in g; a negative one mirrors the pulse.
     angular_frequency : float
         ω, rad/s.
+    period : float
+        2π/ω, s, in place of ω.
 
     Raises
     ------
     ValueError
-        For an unknown shape, an amplitude that is not finite or beyond
-        `checks.LARGEST_ACCELERATION`, or ω that is not positive.
+        For an unknown shape, an amplitude that is not finite or above 10⁶ g, a frequency or period
+        that is not positive, and unless there is one of the two.
 
     Examples
     --------
-    >>> th.Pulse("one-sine", 0.4, 2.0).duration
-    3.141592653589793
+    >>> th.Pulse("one-sine", 0.4, period=3.0).duration
+    3.0
     """
 
     shape: str
     amplitude: float
     angular_frequency: float
 
-    def __post_init__(self) -> None:
-        checked_shape(self.shape)
-        checks.acceleration("amplitude", self.amplitude)
-        checks.positive("angular_frequency", self.angular_frequency, "rad/s")
+    def __init__(
+        self,
+        shape: str,
+        amplitude: float,
+        angular_frequency: float | None = None,
+        *,
+        period: float | None = None,
+    ) -> None:
+        if (angular_frequency is None) == (period is None):
+            raise ValueError(
+                f"angular_frequency is {angular_frequency} and period is {period}; expected one "
+                "of both, in rad/s or s"
+            )
+        checks.acceleration("amplitude", amplitude)
+        if period is not None:
+            angular_frequency = 2.0 * math.pi / checks.positive("period", period, "s")
+        checks.positive("angular_frequency", angular_frequency, "rad/s")
+        object.__setattr__(self, "shape", checked_shape(shape))
+        object.__setattr__(self, "amplitude", amplitude)
+        object.__setattr__(self, "angular_frequency", angular_frequency)
 
     def __repr__(self) -> str:
-        """Return the fields and, as a frequency in Hz is easily given, their units."""
-        period = 2.0 * math.pi / self.angular_frequency
+        """Return the fields, and the period to show a frequency in Hz that should be in rad/s."""
         return (
             f"Pulse({self.shape!r}, amplitude={self.amplitude!r}, "
             f"angular_frequency={self.angular_frequency!r}: "
-            f"{self.amplitude:.4g} g, period {period:.4g} s)"
+            f"{self.amplitude:.4g} g, period {self.period:.4g} s)"
         )
+
+    @property
+    def period(self) -> float:
+        """2π/ω, s."""
+        return 2.0 * math.pi / self.angular_frequency
 
     @property
     def duration(self) -> float:

@@ -1,133 +1,100 @@
-"""The lowest factor found that overturns: nested grids down to a floor, and what they leave open.
-
-Under a record the factors that overturn form many narrow intervals, and the lowest is often the
-narrowest. A search on one grid misses it without a sign. Here every grid holds the points of the
-one before, so that a finer grid never finds a higher minimum.
-"""
+"""The minimum overturning acceleration: of one ground motion, and of pulses over their period."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from topheavy import checks
-from topheavy.bodies.structures import Structure
+from topheavy.bodies.structures import Structure, as_block
 from topheavy.ground.pulses import Pulse
 from topheavy.ground.records import Record
 from topheavy.outcomes.search import (
-    BRACKET,
-    Factors,
-    Interval,
     checked_range,
+    intervals_of_many,
+    intervals_on,
     outcomes_by,
-    overturning_intervals,
     subjects_of,
 )
 
-NOT_EXCLUDED = "intervals narrower than the floor are not excluded"
-"""What a search on grids cannot say of the lowest factor that overturns."""
+if TYPE_CHECKING:
+    import xarray
 
 AT_A_TIME = 512
-"""Factors of a grid that are tried in one call, from the lowest up."""
+"""Factors of a grid in one call of the kernel, from the lowest up."""
 
-SECTIONS = 32
-"""Parts into which a bracket is cut in one call."""
+RESOLUTION = 0.02
+"""Over the uplift acceleration: a spectrum misses no wider interval of amplitudes that overturn."""
 
-GROWTH = 17.0 / 16.0
-"""Ratio of successive distances from the lower end of an interval, where its upper is sought."""
+FINER = (1.3, 0.001)
+"""Both over the uplift acceleration: below the first, no interval wider than the second."""
 
 
 @dataclass(frozen=True)
 class LowestOverturning:
-    """The lowest factor on an excitation that was found to overturn, and how it was sought.
+    """The lowest factor on a ground motion that overturns a structure, and its interval.
 
-    Parameters
+    Attributes
     ----------
     scale_range : (float, float)
         The first and the last factor of the search.
     floor : float
-        The narrowest interval of factors that the search cannot miss.
-    steps : tuple of (float, float or None)
-        The step of each grid, each half the one before, and the lowest factor found by then that
-        overturns; None where none was found.
+        No interval wider than this begins below the lowest factor. A narrower one can.
     bracket : (float, float) or None
-        A factor that is survived and the lowest found that overturns. The first factor of the range
-        twice where that overturns; None where no factor does.
+        A factor that the structure survives and the lowest that overturns it. If the first factor
+        of the range overturns, it is there twice; None if no factor does.
     upper : (float, float) or None
-        The last factor found in the same interval, and one above it that is survived. None where no
-        factor up to the end of the range is found to be survived, or where none overturns.
+        The last factor in the same interval, and one above it that the structure survives. None if
+        the interval does not end in the range. Survival regions narrower than the floor may lie in
+        it.
     unit_acceleration : float
         Peak ground acceleration of the factor 1, g.
-    wider_than : float
-        Of an interval of factors that was sought besides: more than this wide. 0 if none was.
-    wide : Interval or None
-        The lowest such interval, on a grid with steps of an eighth of this width; survival regions
-        narrower than a step may lie inside it. None where there is none.
 
     Examples
     --------
     >>> column, pulse = th.Column(0.5, 3.0), th.Pulse("one-sine", 1.0, 2.0)
-    >>> found = th.lowest_overturning(column, pulse, (0.1, 1.0), floor=1e-3)
-    >>> found.bracket[0] < found.factor <= found.bracket[1]
+    >>> minimum = th.lowest_overturning(column, pulse, (0.1, 1.0), floor=1e-3)
+    >>> minimum.bracket[0] < minimum.factor <= minimum.bracket[1]
     True
     """
 
     scale_range: tuple[float, float]
     floor: float
-    steps: tuple[tuple[float, float | None], ...]
     bracket: tuple[float, float] | None
     upper: tuple[float, float] | None
     unit_acceleration: float
-    wider_than: float = 0.0
-    wide: Interval | None = None
 
     @property
     def factor(self) -> float:
-        """The lowest factor found that overturns; NaN where none does."""
+        """The lowest factor that overturns; NaN if none does."""
         return self.bracket[1] if self.bracket else math.nan
 
     @property
     def acceleration(self) -> float:
-        """Peak ground acceleration of that factor, g; NaN where none overturns."""
+        """The minimum overturning acceleration, g; NaN if no factor overturns."""
         return self.factor * self.unit_acceleration
 
     @property
     def width(self) -> float:
-        """Width of its interval, between survived factors; NaN where the upper is not in the range.
-
-        A survival region narrower than a sixteenth of the width may lie inside it.
-        """
+        """Width of the interval of factors; NaN if it does not end in the range."""
         return self.upper[1] - self.bracket[0] if self.bracket and self.upper else math.nan
 
     def __str__(self) -> str:
-        """Say what was found, in which steps, and what is not excluded."""
-        first, last = self.scale_range
+        """Return a sentence with the lowest factor, its interval, and the floor."""
         if self.bracket is None:
-            found = f"No factor tried from {first:.6g} to {last:.6g} overturns"
+            first, last = self.scale_range
+            lowest = f"No factor from {first:.6g} to {last:.6g} overturns"
         else:
-            begins = self.bracket[0] == self.bracket[1]
-            which = "first factor of the range" if begins else "lowest factor found that overturns"
-            verb = "overturns; it is" if begins else "is"
-            wide = f"{self.width:.2g} wide" if self.upper else "open at the end of the range"
-            found = (
-                f"The {which} {verb} {self.factor:.6g} ({self.acceleration:.6g} g), "
-                f"in an interval {wide}"
+            width = f"{self.width:.2g} wide" if self.upper else "open at the end of the range"
+            lowest = (
+                f"The lowest factor that overturns is {self.factor:.6g} "
+                f"({self.acceleration:.6g} g), in an interval {width}"
             )
-        if self.wider_than:
-            factor = self.wide.lower[1] if self.wide else math.nan
-            found += f". The first interval wider than {self.wider_than:.6g} " + (
-                f"begins at {factor:.6g} ({factor * self.unit_acceleration:.6g} g)"
-                if self.wide
-                else "is not in the range"
-            )
-        return (
-            f"{found}. The step was halved from {self.steps[0][0]:.6g} to {self.steps[-1][0]:.6g}: "
-            f"{NOT_EXCLUDED} (floor {self.floor:.6g})."
-        )
+        return f"{lowest}. Intervals narrower than {self.floor:.6g} are not excluded."
 
 
 def lowest_overturning(
@@ -136,55 +103,37 @@ def lowest_overturning(
     scale_range: tuple[float, float],
     *,
     floor: float,
-    wider_than: float | None = None,
     vertical: Record | None = None,
     scale_vertical: bool = True,
 ) -> LowestOverturning:
-    """Return the lowest factor on an excitation that is found to overturn, down to a floor.
+    """Return the lowest factor on a ground motion that overturns a structure.
 
-    The first step is the whole range. It is halved until it is not wider than the floor, whatever
-    is found. Each halving tries the new points below the lowest factor found so far; a factor that
-    overturns is then bracketed to 1e-10 of the last factor. So no factor tried below the result
-    overturns, and an interval wider than the floor cannot lie below it. A narrower one can.
+    The range is halved until its parts are not wider than the floor. The outcome is computed at
+    the ends of the parts, from the lowest up, and the first change is halved to 1e-10 of the
+    factor. A smaller floor therefore never gives a higher minimum.
 
-    Under a record an interval may be so narrow that its outcomes hang on digits that no measurement
-    resolves. The `width` shows it; `judge` with another tolerance and `reference.judge` tell.
-
-    The cost is about (result − first factor)/floor histories.
+    Use `capacity` under a record. There the lowest factor often lies in an interval that is
+    narrower than any measurement can resolve.
 
     Parameters
     ----------
-    structure : RockingBlock, Column, RockingFrame, FixedMassColumn or MonolithicPortal
-    excitation : Pulse or Record
-        One that ends.
+    structure, excitation, vertical, scale_vertical
+        See `overturned_by`.
     scale_range : (float, float)
         The first and the last factor, not negative.
     floor : float
-        The widest step that may be the last.
-    wider_than : float, optional
-        Also find the lowest interval of factors that is wider than this. Under a record the lowest
-        factor often lies in an interval so narrow that no measured motion would meet it.
-    vertical : Record, optional
-        Vertical ground acceleration that starts with a record: g, positive upward.
-    scale_vertical : bool
-        Whether the factors multiply the vertical acceleration, too.
-
-    Returns
-    -------
-    LowestOverturning
+        No wider interval below the result is missed.
 
     Raises
     ------
     ValueError
-        For a range that does not ascend or begins below zero, a floor that is not positive or below
-        1e-10 of the last factor, a harmonic, and a vertical acceleration of −1 g or less at a
-        factor of the range.
+        For a range that does not ascend or begins below zero, a floor that is not positive or too
+        small, a harmonic, and a vertical acceleration of −1 g or less at a factor of the range.
 
     Examples
     --------
     >>> column, pulse = th.Column(0.5, 3.0), th.Pulse("one-sine", 1.0, 2.0)
-    >>> found = th.lowest_overturning(column, pulse, (0.1, 1.0), floor=1e-3)
-    >>> round(found.acceleration, 6)
+    >>> round(th.lowest_overturning(column, pulse, (0.1, 1.0), floor=1e-3).acceleration, 6)
     0.191798
     """
     first, last = checked_range(excitation, scale_range)
@@ -193,112 +142,90 @@ def lowest_overturning(
             f"scale_range begins at {first:.6g}; expected factors from zero on: for the mirrored "
             "motion, give excitation.scaled(-1)"
         )
-    width = BRACKET * last
-    if checks.positive("floor", floor) < width:
-        raise ValueError(
-            f"floor is {floor:.6g}; expected at least {width:.6g}, {BRACKET:g} of the last factor: "
-            "brackets are as wide"
-        )
-    wide = None
-    if wider_than is not None:
-        step = checks.positive("wider_than", wider_than) / 8.0
-        intervals = overturning_intervals(
-            structure,
-            excitation,
-            scale_range,
-            resolution=step,
-            most_impacts=0,
-            vertical=vertical,
-            scale_vertical=scale_vertical,
-        )
-        wide = next(
-            (one for one in intervals if not one.upper or one.upper[0] - one.lower[1] > wider_than),
-            None,
-        )
+    parts = (last - first) / checks.positive("floor", floor)
+    checks.cells(f"floor is {floor:.6g} of {first:g} to {last:g}", math.ceil(min(parts, 1e18)))
+    parts = 2 ** max(0, math.ceil(math.log2(parts)))
     subjects = subjects_of([structure], excitation, scale_range, vertical, scale_vertical)
 
-    def overturns(factors: Factors) -> NDArray[np.bool_]:
-        return outcomes_by(subjects, np.zeros(factors.size, np.int64), factors)[0]
+    def factors(begin: int, end: int) -> NDArray[np.float64]:
+        return first + (last - first) * (np.arange(begin, end) / parts)
 
-    begins, finishes = overturns(np.array([first, last]))
-    bracket = None
-    if begins:
-        bracket = first, first
-    elif finishes:
-        bracket = _narrowed(overturns, first, last, width)
-    step, steps, parts = last - first, [], 1
-    while True:
-        steps.append((step, bracket[1] if bracket else None))
-        if step <= floor:
+    overturned: list[bool] = []
+    for begin in range(0, parts + 1, AT_A_TIME):
+        some = factors(begin, min(begin + AT_A_TIME, parts + 1))
+        overturned += outcomes_by(subjects, np.zeros(some.size, np.int64), some)[1].tolist()
+        start = overturned.index(True) if True in overturned else len(overturned)
+        if False in overturned[start:]:
             break
-        step, parts = 0.5 * step, 2 * parts
-        below = bracket[0] if bracket else last
-        bracket = _lowest(overturns, first, step, parts, below, width) or bracket
+    interval = None
+    if start < len(overturned):
+        end = start + (overturned[start:] + [False]).index(False)
+        grid = factors(max(start - 1, 0), min(end + 1, parts + 1))
+        interval = intervals_on(subjects, [grid], floor, 0)[0][0]
     return LowestOverturning(
         scale_range=(first, last),
         floor=floor,
-        steps=tuple(steps),
-        bracket=bracket,
-        upper=_upper_end(overturns, bracket[1], last, width) if bracket else None,
+        bracket=interval and interval.lower,
+        upper=interval and interval.upper,
         unit_acceleration=excitation.peak_acceleration,
-        wider_than=float(wider_than or 0.0),
-        wide=wide,
     )
 
 
-Overturns = Callable[[Factors], NDArray[np.bool_]]
+def overturning_spectrum(
+    structure: Structure, shape: str, periods: ArrayLike, *, highest: float = 16.0
+) -> xarray.Dataset:
+    """Return the minimum overturning acceleration of a structure over the period of a pulse.
 
+    No interval of amplitudes wider than 0.02 of the uplift acceleration is missed. Below 1.3 times
+    the uplift acceleration, no interval wider than 0.001 of it is missed.
 
-def _lowest(
-    overturns: Overturns, first: float, step: float, parts: int, below: float, width: float
-) -> tuple[float, float] | None:
-    """Return the bracket of the lowest new point that overturns, of a grid just halved.
+    Parameters
+    ----------
+    structure : Structure
+        RockingBlock, Column, RockingFrame, FixedMassColumn or MonolithicPortal.
+    shape : str
+        A shape of `Pulse` that ends.
+    periods : array_like, shape (n,)
+        2π/ω, s; positive.
+    highest : float
+        The largest amplitude, over the uplift acceleration.
 
-    Its old points, the even ones, are survived where they are lower than `below`.
+    Returns
+    -------
+    xarray.Dataset
+        Over the period: acceleration (g; NaN if no amplitude up to the highest overturns) and
+        after_impact, whether the structure overturns after an impact (mode 1 of Zhang & Makris
+        2001) or without one (mode 2).
+
+    Examples
+    --------
+    >>> spectrum = th.overturning_spectrum(th.Column(0.5, 3.0), "one-sine", [0.5, 1.0, 4.0])
+    >>> spectrum.acceleration.values.round(3)
+    array([1.354, 0.286, 0.183])
     """
-    for begin in range(1, parts, 2 * AT_A_TIME):
-        places = np.arange(begin, min(begin + 2 * AT_A_TIME, parts), 2, dtype=float)
-        factors = first + step * places
-        factors = factors[factors < below]
-        if factors.size == 0:
-            return None
-        overturned = overturns(factors)
-        if overturned.any():
-            at = int(np.argmax(overturned))
-            before = first + step * (int(places[at]) - 1)
-            return _narrowed(overturns, before, float(factors[at]), width)
-    return None
+    import xarray  # here: with pandas it takes a second that only tables need
 
-
-def _narrowed(holds: Overturns, low: float, high: float, width: float) -> tuple[float, float]:
-    """Narrow a bracket to `width`, always to the lowest point tried for which `holds` is true.
-
-    Halving would pass over lower factors that it tried in vain: here none that was tried is.
-    """
-    while high - low > width:
-        points = np.linspace(low, high, SECTIONS + 1)
-        at = int(np.argmax(np.append(holds(points[1:-1]), True)))
-        low, high = float(points[at]), float(points[at + 1])
-    return low, high
-
-
-def _upper_end(
-    overturns: Overturns, lowest: float, last: float, width: float
-) -> tuple[float, float] | None:
-    """Return the upper end of the interval that begins at `lowest`, or None beyond the range.
-
-    The distances tried grow in proportion, so that the interval may have any width.
-    """
-    span = last - lowest
-    if span <= 0.0:
-        return None
-    count = 2 + int(math.log(span / width, GROWTH)) if span > width else 1
-    distances = np.geomspace(min(width, span), span, count)
-    points = np.array([lowest, *np.minimum(lowest + distances, last)])
-    survived = ~overturns(points[1:])
-    if not survived.any():
-        return None
-    at = int(np.argmax(survived))
-    return _narrowed(
-        lambda factors: ~overturns(factors), float(points[at]), float(points[at + 1]), width
+    block = as_block(structure)
+    axis = checks.axis("periods", periods, zero_allowed=False)
+    uplift = block.uplift_acceleration
+    minima = [
+        intervals[0] if intervals else None
+        for intervals in intervals_of_many(
+            [block] * axis.size,
+            [Pulse(shape, uplift, period=period) for period in axis.tolist()],
+            [(1.0, highest)] * axis.size,
+            resolution=RESOLUTION,
+            most_impacts=1,
+            finer=FINER,
+        )
+    ]
+    accelerations = [uplift * one.lower[1] if one else math.nan for one in minima]
+    name = "minimum overturning acceleration"
+    return xarray.Dataset(
+        {
+            "acceleration": ("period", accelerations, {"units": "g", "long_name": name}),
+            "after_impact": ("period", [bool(one and one.impacts) for one in minima]),
+        },
+        coords={"period": ("period", axis, {"units": "s"})},
+        attrs={"shape": shape, "slenderness": block.slenderness, "restitution": block.restitution},
     )

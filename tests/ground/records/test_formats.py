@@ -10,8 +10,7 @@ from hypothesis import strategies as st
 
 from tests.cases import RECORDS
 from tests.ground.records.files import CSV, FILES, HEADER, LARGEST, MOST, SAMPLES, VALUES, longest
-from topheavy import read_at2, read_csv, read_record
-from topheavy.ground.records import reading
+from topheavy.ground.records import read_at2, read_csv, read_record, reading
 
 
 @pytest.mark.parametrize("row", FILES, ids=lambda row: f"{row.ending[1:]}: {row.what}")

@@ -69,7 +69,7 @@ def read_csv(path: str | Path, column: str = "") -> Record:
     --------
     >>> columns, rows = "time (s),acceleration (g)", [[0.0, 0.1], [0.02, -0.2]]
     >>> np.savetxt("motion.csv", rows, delimiter=",", header=columns, comments="")
-    >>> th.read_csv("motion.csv").peak_acceleration
+    >>> read_csv("motion.csv").peak_acceleration
     0.2
     """
     return columns.read(Path(path), column).record
@@ -92,7 +92,7 @@ def read_at2(path: str | Path) -> Record:
 
     Examples
     --------
-    >>> th.read_at2("data/records/el_centro_1940_NS.AT2").time_step
+    >>> read_at2("data/records/el_centro_1940_NS.AT2").time_step
     0.02
     """
     return at2.read(Path(path)).record

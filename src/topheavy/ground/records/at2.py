@@ -37,7 +37,7 @@ _OLD_HEADER = re.compile(
 
 
 def read(path: Path) -> Reading:
-    """Read a file in the AT2 layout; see `topheavy.read_at2`."""
+    """Read a file in the AT2 layout; see `topheavy.ground.records.read_at2`."""
     lines = text_lines(path)
     header = _header_line(path, lines)
     check_header(path, lines[:header])

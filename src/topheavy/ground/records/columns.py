@@ -57,7 +57,7 @@ class _Layout:
 
 
 def read(path: Path, column: str = "") -> Reading:
-    """Read a file of columns; see `topheavy.read_csv`."""
+    """Read a file of columns; see `topheavy.ground.records.read_csv`."""
     lines = text_lines(path)
     above = sum(1 for _ in takewhile(lambda line: line.startswith(_COMMENT), lines))
     header, *rows = lines[above:] or [""]
