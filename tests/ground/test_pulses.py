@@ -119,6 +119,26 @@ def test_times_that_are_no_numbers_are_refused():
         pulse("one-sine").excitation("0.3")
 
 
+def test_period_stands_for_the_angular_frequency():
+    by_period = Pulse("one-cosine", 0.3, period=1.5)
+    assert by_period == Pulse("one-cosine", 0.3, 2.0 * math.pi / 1.5)
+    assert by_period.period == pytest.approx(1.5, rel=1e-15)
+    assert by_period.scaled(2.0) == Pulse("one-cosine", 0.6, by_period.angular_frequency)
+
+
+@pytest.mark.parametrize(
+    ("frequency", "says"),
+    [
+        ({}, "angular_frequency is None and period is None; expected one of both"),
+        ({"angular_frequency": 2.0, "period": 3.0}, "is 2.0 and period is 3.0; expected one"),
+        ({"period": 0.0}, "period is 0 s; expected more than zero"),
+    ],
+)
+def test_pulse_has_one_frequency(frequency, says):
+    with pytest.raises(ValueError, match=says):
+        Pulse("one-sine", 0.3, **frequency)
+
+
 @pytest.mark.parametrize("name", PULSE_SHAPES)
 def test_pulse_and_kernel_have_the_same_wave_of_the_same_length(name):
     pulse = Pulse(name, 1.0, 1.0)

@@ -175,3 +175,19 @@ VALID = {"structures": {"pier": PIER}, "motions": [SHAKE, SHAKE], "levels": [0.1
 def test_bad_argument_is_named_with_its_value(name, value, message):
     with pytest.raises(ValueError, match=re.escape(message)):
         fragility(**{**VALID, name: value})
+
+
+def test_limit_of_rotation_is_exceeded_where_the_peak_is_larger_or_overturns(found):
+    limit = 0.4 * PIER.slenderness
+    result = th.fragility(STRUCTURES, MOTIONS, LEVELS, rotation_limit=limit, resamples=100)
+    for number, motion in enumerate(MOTIONS[:3]):
+        for place, structure in enumerate(STRUCTURES.values()):
+            scaled = [motion.scaled(level / motion.peak_velocity) for level in LEVELS]
+            ends = [th.judge(structure, one) for one in scaled]
+            exceeded = [end.overturned or end.peak > limit for end in ends]
+            assert result.outcomes[number, place].tolist() == exceeded
+    assert (result.outcomes >= found.outcomes).all()
+    assert result.outcomes.sum() > found.outcomes.sum() + 10
+    assert (result.rotation_limit, found.rotation_limit) == (limit, None)
+    with pytest.raises(ValueError, match="rotation_limit is 0; expected more than zero"):
+        th.fragility(STRUCTURES, MOTIONS, LEVELS, rotation_limit=0.0)

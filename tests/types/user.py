@@ -9,15 +9,14 @@ from numpy.typing import NDArray
 
 import topheavy.second.reference
 from topheavy import (
-    PULSE_SHAPES,
     STANDARD_GRAVITY,
     Cap,
+    Capacity,
     Column,
     ContactForces,
     Ending,
     FixedMassColumn,
     Fragility,
-    FrameForces,
     Interval,
     LowestOverturning,
     MonolithicPortal,
@@ -28,33 +27,39 @@ from topheavy import (
     RockingBlock,
     RockingFrame,
     Structure,
-    base_shear_slope,
-    cap_displacement,
-    clamped_forces,
-    column_forces,
+    capacity,
     contact_forces,
     fragility,
-    frame_forces,
     impact_impulses,
     judge,
-    largest_forces,
     lowest_overturning,
     overturned_by,
     overturning_intervals,
     overturning_map,
+    overturning_spectrum,
+    peak_rotations,
     plot,
     proven,
-    read_at2,
-    read_csv,
     read_record,
     simulate,
 )
 from topheavy.bodies.free_rocking import quarter_period
+from topheavy.bodies.kinematics import cap_displacement
+from topheavy.forces.contact import column_forces
+from topheavy.forces.frame import (
+    FrameForces,
+    base_shear_slope,
+    clamped_forces,
+    frame_forces,
+    largest_forces,
+)
 
 pier = Column.of_dimensions(width=1.6, height=9.6)
 bent = RockingFrame.of_masses(pier, cap_mass=400e3, column_mass=60e3)
 block = RockingBlock(2.0, 0.25, 0.9)
 pulse = Pulse("one-sine", 1.0, 3.0)
+long = Pulse("one-sine", 1.0, period=6.0)
+assert_type(long.period, float)
 times = np.linspace(0.0, 1.0, 5)
 shaking = Record(0.02, [0.0, 0.1, -0.2, 0.0], "mine")
 measured = read_record(sys.argv[1])
@@ -67,9 +72,10 @@ for motion in (pulse, shaking, measured.scaled(1.5)):
     assert_type(motion.excitation(times), NDArray[np.float64])
     assert_type(motion.excitation([0.0, 1]), NDArray[np.float64])
     assert_type(overturned_by(pier, motion, [1.0, 2.0]).any(), np.bool_)
-    honest = lowest_overturning(bent, motion, (0, 5), floor=0.5)
-    assert_type(honest.acceleration, float)
-    print(honest)
+    assert_type(peak_rotations(pier, motion, [1.0, 2.0]), NDArray[np.float64])
+    minimum = lowest_overturning(bent, motion, (0, 5), floor=0.5)
+    assert_type(minimum.acceleration, float)
+    print(minimum)
 
 structures: list[Structure] = [pier, bent, block, block.linear()]
 for structure in structures:
@@ -82,6 +88,13 @@ for structure in structures:
 free = simulate(block, rotation=0.1, samples=200)
 assert_type(quarter_period(pier, 0.01), float)
 
+print(free.to_frame().shape)
+
+strength = capacity(pier, measured, np.linspace(0.5, 5.0, 400))
+assert_type(strength, Capacity)
+print(strength, strength.range, strength.over(0.1))
+minima = overturning_spectrum(bent, "one-sine", [1.0, 2.0])
+print(minima["acceleration"].to_numpy())
 spectrum = overturning_map(bent, "one-cosine", np.linspace(1.0, 4.0, 3), [0.5, 1.0])
 print(spectrum.sizes["amplitude"], spectrum["overturned"].to_numpy().sum())
 by_size = overturning_map(bent, measured, [2.0, 5.0], np.linspace(0.2, 1.0, 3))
@@ -101,7 +114,7 @@ motions = [shaking, measured, measured.scaled(2.0)]
 curves = fragility({"pier": pier, "bent": bent}, motions, [0.2, 0.5, 1.0])
 assert_type(curves, Fragility)
 assert_type(fragility([pier, block], motions, times[1:], "PGA", groups=[1, 2, 2]), Fragility)
-by_duration = fragility([bent], [pulse], [1.0], lambda motion: motion.duration)
+by_duration = fragility([bent], [long], [1.0], lambda motion: motion.duration)
 print(f"{curves.pairs['gain'].to_numpy()}: intervals are those of {curves.sampling}")
 
 vase = FixedMassColumn(pier, 0.5, cap_width=3.0, cap_depth=1.0)
@@ -116,9 +129,9 @@ assert_type(base_shear_slope(bent), float)
 assert_type(cap_displacement(pier, 0.1)[0], NDArray[np.float64])
 print(topheavy.__version__)
 assert_type(clamped_forces(bent, cap, pulse), NDArray[np.float64])
-print(len(PULSE_SHAPES), STANDARD_GRAVITY)
+print(STANDARD_GRAVITY)
 
-assert_type(read_at2(sys.argv[1]).scaled_to(pgv=0.5), Record)
+assert_type(measured.scaled_to(pgv=0.5), Record)
 assert_type(measured.time, NDArray[np.float64])
 assert_type(proven.certified(pier, pulse), dict[str, Any] | None)
 for axes in (
@@ -128,5 +141,3 @@ for axes in (
     plot.structure(portal, 0.05),
 ):
     print(axes.get_xlabel())
-if len(sys.argv) > 2:
-    print(read_csv(sys.argv[2]).duration)

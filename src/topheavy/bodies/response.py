@@ -68,7 +68,14 @@ class Response:
         return self.outcome == "overturned"
 
     def to_frame(self) -> pandas.DataFrame:
-        """Return rotation (rad) and velocity (rad/s) as a table over the time (s)."""
+        """Return rotation (rad) and velocity (rad/s) as a table over the time (s).
+
+        Examples
+        --------
+        >>> free = th.simulate(th.Column(0.5, 3.0), rotation=0.1, duration=0.5, samples=3)
+        >>> free.to_frame().rotation.round(4).tolist()
+        [0.1, 0.095, 0.0793]
+        """
         import pandas  # here: it takes half a second that only tables need
 
         return pandas.DataFrame(

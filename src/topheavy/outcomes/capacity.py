@@ -10,7 +10,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from topheavy import checks
 from topheavy.bodies.structures import Structure
-from topheavy.ground.excitation import Excitation
 from topheavy.ground.records import Record
 from topheavy.outcomes.search import overturned_by
 
@@ -108,7 +107,7 @@ class Capacity:
 
 def capacity(
     structure: Structure,
-    record: Excitation,
+    record: Record,
     factors: ArrayLike,
     window: float = 0.05,
     share: float = 0.9,

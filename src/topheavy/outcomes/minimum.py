@@ -148,11 +148,12 @@ def lowest_overturning(
     subjects = subjects_of([structure], excitation, scale_range, vertical, scale_vertical)
 
     def factors(begin: int, end: int) -> NDArray[np.float64]:
-        return first + (last - first) * (np.arange(begin, end) / parts)
+        step = (last - first) / parts
+        return np.asarray(first + step * np.arange(begin, min(end, parts + 1)))
 
     overturned: list[bool] = []
     for begin in range(0, parts + 1, AT_A_TIME):
-        some = factors(begin, min(begin + AT_A_TIME, parts + 1))
+        some = factors(begin, begin + AT_A_TIME)
         overturned += outcomes_by(subjects, np.zeros(some.size, np.int64), some)[1].tolist()
         start = overturned.index(True) if True in overturned else len(overturned)
         if False in overturned[start:]:
@@ -160,13 +161,13 @@ def lowest_overturning(
     interval = None
     if start < len(overturned):
         end = start + (overturned[start:] + [False]).index(False)
-        grid = factors(max(start - 1, 0), min(end + 1, parts + 1))
+        grid = factors(max(start - 1, 0), end + 1)
         interval = intervals_on(subjects, [grid], floor, 0)[0][0]
     return LowestOverturning(
         scale_range=(first, last),
         floor=floor,
-        bracket=interval and interval.lower,
-        upper=interval and interval.upper,
+        bracket=interval.lower if interval else None,
+        upper=interval.upper if interval else None,
         unit_acceleration=excitation.peak_acceleration,
     )
 

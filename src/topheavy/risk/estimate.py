@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from topheavy import checks
 from topheavy.ground.records import Record
-from topheavy.outcomes.search import overturned_by
+from topheavy.outcomes.search import overturned_by, peak_rotations
 from topheavy.risk import inputs
 from topheavy.risk.curve import fit
 from topheavy.risk.resampling import means_within
@@ -27,6 +28,8 @@ Outcomes = NDArray[np.bool_]
 @dataclass(frozen=True, eq=False)
 class Fragility:
     """Probability of overturning of structures over the intensity of motions.
+
+    If there is a rotation limit, every "overturn" below means a larger rotation than this limit.
 
     Attributes
     ----------
@@ -50,6 +53,8 @@ class Fragility:
         Which scatter the intervals include, in words.
     confidence : float
         Of each interval for itself, not of several together.
+    rotation_limit : float or None
+        rad.
 
     Examples
     --------
@@ -65,6 +70,7 @@ class Fragility:
     measure: str
     sampling: str
     confidence: float
+    rotation_limit: float | None = None
 
     def __str__(self) -> str:
         """Return the median of each structure and the gain of each pair, with intervals."""
@@ -98,12 +104,13 @@ def fragility(
     vertical: Sequence[Record] | None = None,
     scale_vertical: bool = True,
     groups: Sequence[Hashable] | None = None,
+    rotation_limit: float | None = None,
     skewed: bool = False,
     confidence: float = 0.95,
     resamples: int = 2000,
     seed: int = 0,
 ) -> Fragility:
-    """Return the probability of overturning of structures under motions scaled to levels.
+    """Return the probability of overturning, or of a rotation, under motions scaled to levels.
 
     Each motion is scaled to each level of the intensity and acts on each structure. Resamples draw
     motions with all their outcomes: structures stay paired, and so do levels. The intervals are
@@ -136,6 +143,8 @@ def fragility(
         The group of each motion, such as its earthquake. Motions are then resampled only within
         their group; the intervals do not include the scatter between groups, as `sampling` says.
         Exact intervals remain valid, and are wider than necessary.
+    rotation_limit : float, optional
+        rad. The probability is then that of a larger |θ|; overturning counts as larger.
     skewed : bool
         Whether the curve has a term c ln² s. Otherwise it is lognormal.
     confidence : float
@@ -169,14 +178,16 @@ def fragility(
     ups = [None] * len(shaking) if vertical is None else vertical
     if len(ups) != len(shaking):
         raise ValueError(f"vertical has {len(ups)} Records; expected {len(shaking)}, one a motion")
-    outcomes = np.array(
-        [
-            overturned_by(
-                list(blocks.values()), motion, factors, vertical=up, scale_vertical=scale_vertical
-            )
-            for motion, up, factors in zip(shaking, ups, scales, strict=True)
-        ]
-    )
+    limit = None if rotation_limit is None else checks.positive("rotation_limit", rotation_limit)
+
+    def outcomes_of(motion: inputs.Motion, up: Record | None, factors: Array) -> Outcomes:
+        under = list(blocks.values()), motion, factors
+        if limit is None:
+            return overturned_by(*under, vertical=up, scale_vertical=scale_vertical)
+        peaks = peak_rotations(*under, vertical=up, scale_vertical=scale_vertical)
+        return ~(peaks <= limit)  # also where it is NaN
+
+    outcomes = np.array([*map(outcomes_of, shaking, ups, scales)])
     means = means_within(outcomes, members or [None] * len(shaking), resamples, seed)
     if len(shaking) == 1:
         means[1:] = np.nan  # a resample of one motion is that motion, and shows no scatter
@@ -201,4 +212,5 @@ def fragility(
         measure=getattr(measure, "__name__", repr(measure)) if callable(measure) else measure,
         sampling=sampling,
         confidence=confidence,
+        rotation_limit=limit,
     )
