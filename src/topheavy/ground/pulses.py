@@ -26,9 +26,9 @@ Phase = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class _Wave:
-    """A pulse of unit amplitude in the phase ωt: its values, and where its slope is zero.
+    """A pulse of unit amplitude over the phase ωt, and the phases at which its slope is zero.
 
-    `at_one` has the same at a single phase, which numpy takes ten times as long for.
+    `at_one` computes the value at a single phase, ten times as fast as numpy.
     """
 
     at: Callable[[Phase], Phase]
@@ -62,7 +62,7 @@ _WAVES = {
     "one-cosine": _Wave(np.cos, math.cos, (math.pi,)),
     "half-sine": _Wave(np.sin, math.sin, (_HALF_PI,)),
     "constant": _Wave(np.ones_like, lambda phase: 1.0),
-    "harmonic": _Wave(np.sin, math.sin),  # its turns are without end: see Pulse.segments
+    "harmonic": _Wave(np.sin, math.sin),  # for its turns see Pulse.segments
     "ricker-symmetric": _Wave(
         _ricker_symmetric,
         partial(_ricker_symmetric, exp=math.exp),
@@ -153,7 +153,7 @@ class Pulse(Excitation):
 
     @property
     def duration(self) -> float:
-        """How long the pulse lasts, s; infinite for the harmonic."""
+        """Duration, s; infinite for the harmonic."""
         return SHAPES[self.shape].half_periods * math.pi / self.angular_frequency
 
     @property
@@ -162,7 +162,7 @@ class Pulse(Excitation):
         return abs(float(self.amplitude))
 
     def scaled(self, factor: float) -> Pulse:
-        """Return the same pulse with its amplitude multiplied by `factor`."""
+        """Return the pulse with its amplitude multiplied by `factor`."""
         return replace(self, amplitude=self.amplitude * checks.finite("factor", factor))
 
     def accelerations(self, time: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -183,6 +183,6 @@ class Pulse(Excitation):
         return [Segment(start, stop, self._at) for start, stop in pairwise(edges) if start < stop]
 
     def _at(self, time: float) -> float:
-        """The formula of the pulse, which holds inside its duration."""
+        """Return the acceleration at a time within the duration."""
         phase = float(self.angular_frequency * time)
         return float(self.amplitude * _WAVES[self.shape].at_one(phase))

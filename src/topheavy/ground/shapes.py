@@ -1,4 +1,4 @@
-"""Which pulse shapes exist. Library, kernel, config schemas and explorer take them from this list.
+"""The list of pulse shapes, which library, kernel, configs and the page read.
 
 A new shape also needs its wave and turning points in `pulses`, its wave and equation in
 `kernel.forcing`, and both in src/explorer/motions.js: three independent forms of one formula.
@@ -9,14 +9,14 @@ from typing import NamedTuple
 
 
 class Shape(NamedTuple):
-    """What all users of a shape need to know of it."""
+    """Name and duration of a pulse shape, and whether its motion has a closed form."""
 
     title: str
-    """What to call the pulse where a reader chooses one."""
+    """Its name where a reader chooses a pulse."""
     half_periods: float
-    """How long it lasts, over π/ω."""
+    """Duration over π/ω."""
     is_elementary: bool
-    """Whether the linearised motion under it has an elementary solution (`linear`)."""
+    """Whether the linearised motion under it has a solution in elementary functions."""
 
 
 SHAPES = {
@@ -33,10 +33,10 @@ PULSE_SHAPES = tuple(SHAPES)
 """The names that `Pulse` accepts."""
 
 ENDING = tuple(name for name, shape in SHAPES.items() if shape.half_periods < math.inf)
-"""Those of pulses that end, which maps, intervals and configs accept."""
+"""Shapes of pulses that end, which maps, searches and configs accept."""
 
 ELEMENTARY = tuple(name for name, shape in SHAPES.items() if shape.is_elementary)
-"""Those with an elementary solution of the linearised equation."""
+"""Shapes with a solution of the linearised equation in elementary functions."""
 
 ELEMENTARY_ENDING = tuple(name for name in ENDING if name in ELEMENTARY)
-"""Those with both."""
+"""Shapes of both kinds."""

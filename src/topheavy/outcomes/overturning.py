@@ -23,10 +23,10 @@ if TYPE_CHECKING:
 def overturning_map(
     structure: Structure, motion: str | Record, scales: ArrayLike, amplitudes: ArrayLike
 ) -> xarray.Dataset:
-    """Return which pulses or records overturn a structure, and how far it rocks under the others.
+    """Return which pulses or records overturn a structure, and its peak rotation under the others.
 
-    A record is scaled to peak accelerations, and the structure in size: all its lengths change in
-    proportion, so that its slenderness and restitution stay, and p goes with R to the power −1/2.
+    Pulses have frequencies and amplitudes. A record is scaled to peak accelerations, and the
+    structure in size: slenderness and restitution remain, p is proportional to R to the power −1/2.
 
     Parameters
     ----------
@@ -44,18 +44,18 @@ def overturning_map(
     -------
     xarray.Dataset
         peak_rotation (rad, NaN where overturned), overturned and impacts, over (angular_frequency,
-        amplitude) or (size, peak_acceleration). As of `judge`, but for what both leave out of the
-        peak: it differs by 1e-10 α or so.
+        amplitude) or (size, peak_acceleration). The peaks equal those of `judge` to about
+        1e-10 α.
 
     Examples
     --------
-    >>> found = th.overturning_map(th.Column(0.5, 3.0), "one-sine", [2.0, 4.0], [0.2, 0.4, 0.8])
-    >>> found.overturned.values
+    >>> outcomes = th.overturning_map(th.Column(0.5, 3.0), "one-sine", [2.0, 4.0], [0.2, 0.4, 0.8])
+    >>> outcomes.overturned.values
     array([[ True,  True,  True],
            [False,  True,  True]])
     >>> record = th.read_record("data/records/el_centro_1940_NS.AT2")
-    >>> found = th.overturning_map(th.Column(0.5, 3.0), record, [1.0, 3.0], [0.3, 0.9])
-    >>> found.overturned.values
+    >>> outcomes = th.overturning_map(th.Column(0.5, 3.0), record, [1.0, 3.0], [0.3, 0.9])
+    >>> outcomes.overturned.values
     array([[False,  True],
            [False, False]])
     """
@@ -88,7 +88,7 @@ def overturning_map(
             ),
             "frequency_parameter": ("size", frequencies, {"units": "rad/s"}),
         }
-        about: dict[str, str | float] = {"record": motion.name}
+        attributes: dict[str, str | float] = {"record": motion.name}
     else:
         if checked_shape(motion) == "harmonic":
             raise ValueError(
@@ -100,7 +100,7 @@ def overturning_map(
             "angular_frequency": ("angular_frequency", axis, {"units": "rad/s"}),
             "amplitude": ("amplitude", accelerations, {"units": "g"}),
         }
-        about = {"shape": motion, "frequency_parameter": p}
+        attributes = {"shape": motion, "frequency_parameter": p}
     cells = np.repeat(rows, factors.size), np.tile(factors, rows.size)
     which = np.zeros(cells[0].size, np.int64)
     peak_rotation, overturned, impacts = (
@@ -114,7 +114,7 @@ def overturning_map(
             "impacts": (dims, impacts, {"units": "1", "long_name": "number of impacts"}),
         },
         coords=axes,
-        attrs=about
+        attrs=attributes
         | {
             "slenderness": block.slenderness,
             "restitution": block.restitution,

@@ -1,4 +1,4 @@
-"""Rocking histories by the Taylor solver: `simulate`, and `judge` for the outcome alone."""
+"""Rocking histories by the Taylor solver: `simulate`, and `judge` for the outcome only."""
 
 from __future__ import annotations
 
@@ -73,28 +73,27 @@ def simulate(
 
     Parameters
     ----------
-    structure : RockingBlock, Column or RockingFrame
+    structure : Structure
+        RockingBlock, Column, RockingFrame, FixedMassColumn or MonolithicPortal.
     excitation : Pulse or Record, optional
     rotation, velocity : float
         θ (rad) and θ̇ (rad/s) at t = 0, signed.
     duration : float, optional
-        Where the history ends, s, and with it the forcing. Without it the history ends at the
-        first of: overturned (at |θ| = π/2), at rest, 1000 impacts after the forcing.
+        End of the history and of the forcing, s. Without it the history ends at the first of:
+        overturned (at |θ| = π/2), at rest, 1000 impacts after the forcing.
     samples : int or array_like
-        A number of uniform times from 0 to the end, or increasing times in s, which may reach
-        beyond the end.
+        Number of uniform times from 0 to the end, or increasing times in s.
     tolerance : float
         Bound on the last two terms of the Taylor series of φ̇/p in a step, relative to α; from
         1e-16 to 1e-2.
     vertical : Record, optional
-        Vertical ground acceleration that starts with a record: g, positive upward. Its time step
-        may be another.
+        Vertical ground acceleration that starts with the record: g, positive upward. The time
+        steps of both may differ.
 
     Returns
     -------
     Response
-        Its outcome and peak rotation are those of the forcing, up to the duration, and of all the
-        free rocking after it, even of what lies beyond the duration.
+        Its outcome and peak rotation include the free rocking after the duration.
 
     Raises
     ------
@@ -135,47 +134,47 @@ def simulate(
 
     def follow(until: float, at: Times) -> tuple[NDArray[np.float64], Times, tuple[float, ...]]:
         motion, impacts = np.full((2, at.size), math.nan), np.empty(MOST_IMPACTS)
-        given = (oscillator(block), forcing, record, NO_RATIOS, (theta, theta_rate / p, until))
+        problem = (oscillator(block), forcing, record, NO_RATIOS, (theta, theta_rate / p, until))
 
-        def traced(w: Times) -> tuple[float, ...]:
+        def run(scratch: Times) -> tuple[float, ...]:
             end: tuple[float, ...] = trace(
-                w, order, tolerance, *given, (at, motion, impacts), False
+                scratch, order, tolerance, *problem, (at, motion, impacts), False
             )
             return end
 
         is_long = record.shape[1] + at.size > LONG
-        found = in_threads([traced])[0] if is_long else traced(working_array())
-        if found[1] == UNRESOLVED:
+        end = in_threads([run])[0] if is_long else run(working_array())
+        if end[1] == UNRESOLVED:
             raise ArithmeticError(
                 f"{block} under {_named(excitation)}: more than {MOST_IMPACTS} impacts or "
-                f"{MOST_STEPS} steps by {found[0] / p:.6g} s; a shorter duration or a smaller "
+                f"{MOST_STEPS} steps by {end[0] / p:.6g} s; a shorter duration or a smaller "
                 "restitution has fewer"
             )
-        return motion, impacts, found
+        return motion, impacts, end
 
-    last, found = math.inf, None
+    last, history = math.inf, None
     if isinstance(times, int):
         last = until
         if duration is None:
-            found = follow(until, np.array([0.0, math.inf]))
-            last = found[2][0]
+            history = follow(until, np.array([0.0, math.inf]))
+            last = history[2][0]
         times = np.linspace(0.0, last / p if duration is None else duration, times)
     elif duration is None:
         until = max(p * float(times[-1]), forcing.end)
-    if found is None or times.size > 2:
+    if history is None or times.size > 2:
         # The last of uniform times is the end, and no rounding of p (end/p) above it.
-        found = follow(until, np.minimum(p * times, last))
-    motion, impacts, (_, result, peak, counted, landed) = found
-    outcome = _OUTCOMES[int(result)]
+        history = follow(until, np.minimum(p * times, last))
+    motion, impacts, (_, ending, peak, number_of_impacts, recorded) = history
+    outcome = _OUTCOMES[int(ending)]
     if outcome == "rests" and block.restitution == 1.0:
-        outcome = "rocking"  # the kernel follows no bounces that are too low to count
+        outcome = "rocking"  # the kernel does not follow bounces that are too low to count
     return Response(
         time=times,
         rotation=motion[0],
         velocity=p * motion[1],
-        impacts=impacts[: int(landed)] / p,
+        impacts=impacts[: int(recorded)] / p,
         outcome=outcome,
-        number_of_impacts=int(counted),
+        number_of_impacts=int(number_of_impacts),
         peak_rotation=math.nan if outcome == "overturned" else peak,
     )
 
@@ -188,20 +187,26 @@ def judge(
     vertical: Record | None = None,
     restitutions: Sequence[float] = (),
 ) -> Ending:
-    """Return only how the response to a ground motion of finite duration ends.
+    """Return whether a structure overturns, its peak rotation, and the number of impacts.
 
-    The same as `simulate`, in microseconds: the free rocking is not integrated. The peak is max|θ|
-    over the whole motion (NaN if overturned), the impacts are counted as in `Response`. Free
-    rocking begins when both components have ended.
+    The outcome is that of `simulate`, in microseconds: the free rocking is not integrated. The
+    peak is max|θ| over the whole motion (NaN if overturned); impacts are counted as in `Response`.
 
-    `restitutions` are √r of the impacts in turn, after which the block's own is taken. Impacts
-    that end a rotation of 1e-3 α or less then do not count, and take the next of them.
+    Parameters
+    ----------
+    structure, tolerance, vertical
+        See `simulate`.
+    excitation : Pulse or Record
+        One that ends.
+    restitutions : sequence of float
+        √r of the first impacts, in turn; for later impacts that of the structure. With this
+        argument, impacts that end a rotation of 1e-3 α or less are not counted.
 
     Raises
     ------
     ValueError
-        For an excitation that is none or goes on forever, a tolerance out of range, or a vertical
-        acceleration of −1 g or less, or a restitution outside of 0 to 1.
+        For an excitation that is not a ground motion or goes on forever, a tolerance out of range,
+        a vertical acceleration of −1 g or less, or a restitution outside of 0 to 1.
     ArithmeticError
         For a block that bounces too often to be followed.
 
@@ -214,7 +219,7 @@ def judge(
     if vertical is not None:
         refuse_fall(both_records(excitation, vertical)[1])
     block, shaking = as_block(structure), as_shaking(excitation, vertical)
-    found = outcome_of(
+    outcome = outcome_of(
         oscillator(block),
         shaking.shape,
         shaking.scale(block),
@@ -224,8 +229,8 @@ def judge(
         ratios=_ratios(restitutions) if len(restitutions) else NO_RATIOS,
         tolerance=checked_tolerance(tolerance),
     )
-    peak = math.nan if found.overturned else float(found.peak)
-    return Ending(bool(found.overturned), peak, int(found.impacts))
+    peak = math.nan if outcome.overturned else float(outcome.peak)
+    return Ending(bool(outcome.overturned), peak, int(outcome.impacts))
 
 
 def _ratios(restitutions: Sequence[float]) -> NDArray[np.float64]:
@@ -233,7 +238,7 @@ def _ratios(restitutions: Sequence[float]) -> NDArray[np.float64]:
 
 
 class Shaking(NamedTuple):
-    """A ground motion for the kernel: its number, ω (rad/s) or Δt (s), amplitude, record."""
+    """A ground motion as the kernel reads it: number of the shape, ω or Δt, amplitude, record."""
 
     shape: int
     rate: float
@@ -247,7 +252,7 @@ class Shaking(NamedTuple):
 
 
 def as_shaking(excitation: Excitation | None, vertical: Record | None = None) -> Shaking:
-    """Return a ground motion as the kernel takes it, or raise ValueError if it is none."""
+    """Return a ground motion as the kernel reads it, or raise ValueError for anything else."""
     if vertical is not None:
         across, up = map(without_rest, both_records(excitation, vertical))
         ratio = up.time_step / across.time_step
@@ -266,12 +271,12 @@ def as_shaking(excitation: Excitation | None, vertical: Record | None = None) ->
 
 @lru_cache(maxsize=2)
 def _prepared(record: Record) -> NDArray[np.float64]:
-    """Return a record as the kernel reads it; one record often follows itself."""
+    """Return a record as the kernel reads it, prepared once for several calls."""
     return prepare_record(without_rest(record).acceleration)
 
 
 def checked_tolerance(value: float) -> float:
-    """Return a tolerance of the kernel, or raise ValueError with the range that is accepted."""
+    """Return a tolerance of the kernel, or raise ValueError with the accepted range."""
     return checks.within("tolerance", value, SMALLEST_TOLERANCE, LARGEST_TOLERANCE)
 
 
