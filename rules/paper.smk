@@ -197,7 +197,6 @@ rule vase:
         code=code("src/steps/vase.py") | POSES | CORE | library("second"),
         settings=PAPER["vase"],
         column=PAPER["structures"]["temple"],
-        tightened=PAPER["solver"]["tightened"],
         records=checksums(*PAPER["vase"]["records"]),
     script:
         "../src/steps/vase.py"

@@ -1,7 +1,7 @@
 """A mass fixed to the top of one column, against the same mass carried freely by two.
 
 The minimum overturning acceleration of both is compared with that of the bare column: under pulses
-of one period, under pulses over their frequency, and under records.
+of one period, and under pulses over their frequency. Under records it is the capacity.
 """
 
 import math
@@ -22,7 +22,7 @@ from topheavy import (
     Pulse,
     Record,
     RockingFrame,
-    judge,
+    capacity,
     lowest_overturning,
     overturned_by,
     read_record,
@@ -31,7 +31,7 @@ from topheavy import (
 from topheavy.bodies.structures import Structure
 from topheavy.second import reference
 
-NUDGE = 1e-9  # of a record: what no measurement resolves
+STEP = 0.001  # between the factors on a record, relative
 DISTANCES = (1e-7, 1e-5, 1e-3)  # from a minimum, over it: where SciPy judges, from near to far
 AT_A_TIME = 512  # factors that are tried in one call where a wide interval is sought
 SEED = 2014  # of the minima that SciPy judges
@@ -50,7 +50,7 @@ def rivals(column: Column, gammas: Sequence[float]) -> Iterator[tuple[str, float
 
 
 def minima(
-    under: Sequence[Structure], motion: Motion, highest: float, floor: float, above: float = 0.0
+    under: Sequence[Structure], motion: Motion, highest: float, floor: float
 ) -> list[LowestOverturning | None]:
     """Return the lowest interval of each structure, g; None if it does not uplift up to `highest`.
 
@@ -59,31 +59,20 @@ def minima(
     levels = [structure.block().uplift_acceleration for structure in under]
     found: list[LowestOverturning | None] = []
     for structure, level in zip(under, levels, strict=True):
-        begin, one = max(level, above), None
-        if begin < highest:
-            ends = (begin, highest)
+        one = None
+        if level < highest:
+            ends = (level, highest)
             one = lowest_overturning(structure, motion, ends, floor=floor * level)
         found.append(one if one and one.bracket else None)
     return found
 
 
-def decided(
-    structure: Structure,
-    motion: Motion,
-    one: LowestOverturning | None,
-    highest: float,
-    floor: float,
-    tightened: float,
-) -> LowestOverturning | None:
-    """Return the lowest interval whose middle overturns also if it is nudged, or more precisely."""
-    while one and one.upper:
-        middle = 0.5 * (one.factor + one.upper[0])
-        nudged = [middle * (1.0 + off) for off in (-NUDGE, 0.0, NUDGE)]
-        again = judge(structure, motion.scaled(middle), tolerance=tightened)
-        if overturned_by(structure, motion, nudged).all() and again.overturned:
-            break
-        (one,) = minima([structure], motion, highest, floor, one.upper[1])
-    return one
+def capacities(under: Sequence[Structure], record: Record, highest: float) -> list[float]:
+    """Return the capacity of each structure under a record of unit peak, g; infinite if none."""
+    lowest = min(structure.block().uplift_acceleration for structure in under)
+    factors = lowest * (1.0 + STEP) ** np.arange(math.log(highest / lowest) / math.log1p(STEP))
+    found = [capacity(structure, record, factors).factor for structure in under]
+    return np.nan_to_num(found, nan=math.inf).tolist()
 
 
 def lowest_wide(
@@ -162,20 +151,25 @@ def motions(
         yield scaled, settings["record_mass_ratios"], labels
 
 
-def under_motions(column: Column, settings: dict, paths: list[str], tightened: float) -> list[dict]:
+def under_motions(column: Column, settings: dict, paths: list[str]) -> list[dict]:
     """Return the minima of all structures under each motion, infinite where nothing overturns.
 
-    SciPy judges a sample of the minima under pulses, and every exception: there the structure with
-    the higher minimum has to survive the lower one.
+    Under a record both minima are the capacity. SciPy judges a sample of the minima under pulses,
+    and every exception there: the structure with the higher minimum has to survive the lower one.
     """
     highest, floor = settings["highest"] * column.uplift_acceleration, settings["floor"]
     rows, of_pulses = [], []
     for motion, gammas, labels in motions(column, settings, paths):
         names, ratios, under = zip(*rivals(column, gammas), strict=True)
-        found = [
-            decided(structure, motion, one, highest, floor, tightened)
-            for structure, one in zip(under, minima(under, motion, highest, floor), strict=True)
-        ]
+        if isinstance(motion, Record):
+            of_all = zip(names, ratios, capacities(under, motion, highest), strict=True)
+            rows += [
+                labels
+                | {"structure": name, "mass_ratio": gamma, "minimum": one, "wide_minimum": one}
+                for name, gamma, one in of_all
+            ]
+            continue
+        found = minima(under, motion, highest, floor)
         for name, gamma, structure, one in zip(names, ratios, under, found, strict=True):
             step = floor * structure.block().uplift_acceleration
             width = settings["wide"] / floor * step
@@ -187,7 +181,7 @@ def under_motions(column: Column, settings: dict, paths: list[str], tightened: f
                 labels
                 | {"structure": name, "mass_ratio": gamma, "minimum": minimum, "wide_minimum": wide}
             )
-            if one and isinstance(motion, Pulse):
+            if one:
                 of_pulses.append((structure, motion, one))
             bare = found[0].factor if found[0] else math.inf
             if is_exception(name, minimum, bare):
@@ -245,12 +239,12 @@ def poses(column: Column, settings: dict) -> Iterator[dict]:
                     yield labels | {"body": body, "x": x, "y": y}
 
 
-def compute(settings: dict, column: dict, records: list[str], tightened: float) -> dict[str, Any]:
+def compute(settings: dict, column: dict, records: list[str]) -> dict[str, Any]:
     """Return minima under the pulses of one period and under all motions, and the poses."""
     of = Column(**column)
     return {
         "vase": of_one_period(of, settings),
-        "motions": under_motions(of, settings, list(records), tightened),
+        "motions": under_motions(of, settings, list(records)),
         "poses": [*poses(of, settings)],
     }
 

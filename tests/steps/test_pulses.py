@@ -177,14 +177,15 @@ def test_narrow_interval_above_uplift_is_not_missed():
     assert vase.error_of(COLUMN, slow, found) < 1e-6
 
 
-def test_interval_that_a_billionth_of_the_record_removes_is_passed_over():
-    """Two lowest intervals of the column under El Centro are narrower than its last digits."""
+def test_under_a_record_the_capacity_counts():
     record = th.read_record(RECORDS / "el_centro_1940_NS.AT2")
     record = record.scaled(1.0 / record.peak_acceleration)
-    lowest = minimum(COLUMN, record)
-    assert lowest.width < 1e-9
-    found = vase.decided(COLUMN, record, lowest, 2.0, 0.001, TIGHT)
-    assert found.factor > lowest.upper[1]
+    frame = th.RockingFrame(COLUMN, 1.0)
+    of_column, of_frame = vase.capacities([COLUMN, frame], record, 2.0)
+    inside = of_frame * np.geomspace(1.0, 1.05, 200)
+    assert 0.85 < th.overturned_by(frame, record, inside).mean() < 0.95
+    assert of_column < of_frame
+    assert vase.capacities([COLUMN], record, 0.2) == [math.inf]
 
 
 def test_wide_interval_is_the_lowest_in_which_all_steps_overturn(monkeypatch):
@@ -198,7 +199,7 @@ def test_wide_interval_is_the_lowest_in_which_all_steps_overturn(monkeypatch):
 
 @pytest.fixture(scope="module")
 def minima():
-    return as_written(vase.compute(VASE, SIZES, [], TIGHT))
+    return as_written(vase.compute(VASE, SIZES, []))
 
 
 def test_findings_of_the_fixed_mass(minima):
