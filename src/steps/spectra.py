@@ -170,7 +170,7 @@ def looked_again(table: pd.DataFrame, settings: dict) -> pd.DataFrame:
             lowest = min(spectra.lowest(structure, place), last)
             if lowest > first:
                 of = line(*structure[:2], *place)
-                (found,) = search([of], [(first, lowest)], min(finest, lowest - first))
+                (found,) = search([of], (first, lowest), min(finest, lowest - first))
                 rows += rows_of(of, [one for one in found if one.upper and one.upper[1] < lowest])
         if not rows:
             return table

@@ -174,13 +174,21 @@ def test_bad_search_is_refused_by_name_and_value(change, says):
 
 
 def test_intervals_of_many_are_those_of_each_alone():
-    """To the last bit, in their order."""
-    cases = list(CASES.values())
-    blocks, motions, ranges = ([case[k] for case in cases] for k in range(3))
-    found = intervals_of_many(blocks, motions, ranges, resolution=0.05, most_impacts=1)
-    for (*case, _), intervals in zip(cases, found, strict=True):
-        assert intervals == th.overturning_intervals(*case, resolution=0.05, most_impacts=1)
-    assert len({intervals[0].lower for intervals in found}) == len(cases)
+    """To the last bit, in their order; a finer search adds what lies below the first."""
+    blocks = [BLOCK, LINEAR, COLUMN, BLOCK]
+    motions = [SINE, SINE.scaled(0.9), SHAKING, th.Pulse("ricker-symmetric", 0.3, 6.0)]
+    settings, ends = {"resolution": 0.05, "most_impacts": 1}, (0.5, 6.0)
+    several = intervals_of_many(blocks, motions, ends, **settings)
+    for block, motion, intervals in zip(blocks, motions, several, strict=True):
+        assert intervals == th.overturning_intervals(block, motion, ends, **settings)
+    assert len({intervals[0].lower for intervals in several}) == 4
+    below = 1.01 * min(intervals[0].lower[0] for intervals in several)
+    finer = intervals_of_many(blocks, motions, ends, **settings, finer=(below, 0.001))
+    for block, motion, coarse, both in zip(blocks, motions, several, finer, strict=True):
+        first = coarse[0].lower[0]
+        settings = {"resolution": 0.001, "most_impacts": 1}
+        lower = th.overturning_intervals(block, motion, (0.5, first), **settings)
+        assert both == (lower if first < below else []) + coarse
 
 
 def test_factors_on_several_structures_have_the_outcomes_of_judge():

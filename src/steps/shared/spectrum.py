@@ -55,7 +55,7 @@ def solve(lines: Sequence[Line], settings: Mapping[str, Any]) -> pd.DataFrame:
     rows: list[dict[str, Any]] = []
     for begin in range(0, len(lines), TOGETHER):
         some = lines[begin : begin + TOGETHER]
-        intervals = search(some, [ends] * len(some), amplitudes["resolution"], finer)
+        intervals = search(some, ends, amplitudes["resolution"], finer)
         for one, of_line in zip(some, intervals, strict=True):
             rows += rows_of(one, of_line)
         print(f"{begin + len(some)} of {len(lines)} lines", flush=True)
@@ -64,14 +64,14 @@ def solve(lines: Sequence[Line], settings: Mapping[str, Any]) -> pd.DataFrame:
 
 def search(
     lines: Sequence[Line],
-    ranges: Sequence[tuple[float, float]],
+    ends: tuple[float, float],
     resolution: float,
     finer: tuple[float, float] | None = None,
 ) -> list[list[Interval]]:
-    """Return the intervals of each line in its range, none wider than the resolution missed."""
+    """Return the intervals of each line in a range, none wider than the resolution missed."""
     blocks, pulses = [one.block for one in lines], [one.pulse for one in lines]
     return intervals_of_many(
-        blocks, pulses, ranges, resolution=resolution, most_impacts=1, finer=finer
+        blocks, pulses, ends, resolution=resolution, most_impacts=1, finer=finer
     )
 
 

@@ -124,12 +124,6 @@ def lowest_overturning(
     floor : float
         No wider interval below the result is missed.
 
-    Raises
-    ------
-    ValueError
-        For a range that does not ascend or begins below zero, a floor that is not positive or too
-        small, a harmonic, and a vertical acceleration of −1 g or less at a factor of the range.
-
     Examples
     --------
     >>> column, pulse = th.Column(0.5, 3.0), th.Pulse("one-sine", 1.0, 2.0)
@@ -214,7 +208,7 @@ def overturning_spectrum(
         for intervals in intervals_of_many(
             [block] * axis.size,
             [Pulse(shape, uplift, period=period) for period in axis.tolist()],
-            [(1.0, highest)] * axis.size,
+            (1.0, highest),
             resolution=RESOLUTION,
             most_impacts=1,
             finer=FINER,

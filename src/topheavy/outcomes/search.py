@@ -202,12 +202,6 @@ def overturning_intervals(
         In ascending order. Neighbours with different numbers of impacts are separate; two with
         the same number that are less than the resolution apart may be returned as one.
 
-    Raises
-    ------
-    ValueError
-        For a range that does not ascend, a resolution that is not positive, a harmonic, or a
-        vertical acceleration of −1 g or less at a factor of the range.
-
     Examples
     --------
     >>> column, pulse = th.Column(0.5, 3.0), th.Pulse("one-sine", 1.0, 2.0)
@@ -223,42 +217,31 @@ def overturning_intervals(
 def intervals_of_many(
     structures: Sequence[Structure],
     excitations: Sequence[Excitation],
-    scale_ranges: Sequence[tuple[float, float]],
+    scale_range: tuple[float, float],
     *,
     resolution: float,
     most_impacts: int | None = None,
     finer: tuple[float, float] | None = None,
 ) -> list[list[Interval]]:
-    """Return the `overturning_intervals` of several structures, each with its motion and range.
+    """Return the `overturning_intervals` of several structures, each with its motion.
 
-    Parameters
-    ----------
-    finer : (float, float), optional
-        A factor and a resolution. Where the first interval begins below the factor, the range
-        below this interval is searched again at the resolution: close to uplift, under long
-        pulses, the lowest intervals are narrow.
+    `finer` is a factor and a resolution. Where the first interval begins below the factor, the
+    range below this interval is searched again at the resolution: close to uplift, under long
+    pulses, the lowest intervals are narrow.
     """
-    motions = list(zip(excitations, scale_ranges, strict=True))
-    subjects = [
-        subjects_of([structure], *motion)[0]
-        for structure, motion in zip(structures, motions, strict=True)
-    ]
-    grids = [_grid(*motion, resolution) for motion in motions]
+    pairs = list(zip(structures, excitations, strict=True))
+    subjects = [subjects_of([structure], motion, scale_range)[0] for structure, motion in pairs]
+    grids = [_grid(motion, scale_range, resolution) for motion in excitations]
     intervals = intervals_on(subjects, grids, resolution, most_impacts)
     if finer:
-        below, resolution = finer
-        minima = {place: some[0].lower[0] for place, some in enumerate(intervals) if some}
-        ranges = {
-            place: (scale_ranges[place][0], minimum)
-            for place, minimum in minima.items()
-            if scale_ranges[place][0] < minimum < below
-        }
-        again = [subjects[place] for place in ranges]
-        grids = [_grid(excitations[place], ends, resolution) for place, ends in ranges.items()]
-        for place, lower in zip(
-            ranges, intervals_on(again, grids, resolution, most_impacts), strict=True
-        ):
-            intervals[place] = lower + intervals[place]
+        (below, resolution), first = finer, scale_range[0]
+        ends = [some[0].lower[0] if some else math.inf for some in intervals]
+        places = [place for place, end in enumerate(ends) if first < end < below]
+        subjects = [subjects[place] for place in places]
+        grids = [_grid(excitations[place], (first, ends[place]), resolution) for place in places]
+        lower = intervals_on(subjects, grids, resolution, most_impacts)
+        for place, some in zip(places, lower, strict=True):
+            intervals[place] = some + intervals[place]
     return intervals
 
 
@@ -313,7 +296,6 @@ def intervals_on(
     (at,) = np.nonzero((which[1:] == which[:-1]) & (labels[1:] != labels[:-1]))
     subject, low, high = which[at], factors[at], factors[at + 1]
     below, above = labels[at], labels[at + 1]
-    firsts = labels[np.searchsorted(which, np.arange(len(grids)))].tolist()
     width = BRACKET * np.array([np.abs(grid[[0, -1]]).max() for grid in grids])
     brackets: list[tuple[Any, ...]] = []
     while True:
@@ -339,24 +321,16 @@ def intervals_on(
                 (inside, above),
             )
         )
-    boundaries: list[list[Any]] = [[] for _ in grids]
-    for number, *boundary in sorted(brackets):
-        boundaries[number].append(boundary)
-    return [
-        _between(float(grid[0]), first, some)
-        for grid, first, some in zip(grids, firsts, boundaries, strict=True)
-    ]
-
-
-def _between(start: float, label: int, boundaries: Sequence[Sequence[Any]]) -> list[Interval]:
-    """Return the intervals between boundaries, in a range whose first factor has a label."""
-    intervals, begin = [], (start, start)
-    for low, high, _, after in boundaries:
-        if label != SURVIVES:
-            intervals.append(Interval(begin, (low, high), label))
-        begin, label = (low, high), after
-    if label != SURVIVES:
-        intervals.append(Interval(begin, None, label))
+    intervals: list[list[Interval]] = [[] for _ in grids]
+    begins = [(float(grid[0]), float(grid[0])) for grid in grids]
+    last = labels[np.searchsorted(which, np.arange(len(grids)))].tolist()
+    for number, *boundary, before, after in sorted(brackets):
+        if before != SURVIVES:
+            intervals[number].append(Interval(begins[number], tuple(boundary), before))
+        begins[number], last[number] = tuple(boundary), after
+    for number, label_at_end in enumerate(last):
+        if label_at_end != SURVIVES:
+            intervals[number].append(Interval(begins[number], None, label_at_end))
     return intervals
 
 

@@ -226,15 +226,11 @@ def judge(
         shaking.amplitude,
         shaking.record,
         lift=1.0,
-        ratios=_ratios(restitutions) if len(restitutions) else NO_RATIOS,
+        ratios=np.array([checks.fraction("restitutions", value) for value in restitutions]),
         tolerance=checked_tolerance(tolerance),
     )
     peak = math.nan if outcome.overturned else float(outcome.peak)
     return Ending(bool(outcome.overturned), peak, int(outcome.impacts))
-
-
-def _ratios(restitutions: Sequence[float]) -> NDArray[np.float64]:
-    return np.array([checks.fraction("restitutions", value) for value in restitutions])
 
 
 class Shaking(NamedTuple):
