@@ -1,6 +1,6 @@
-"""Pictures of results, as Axes of Matplotlib: `pip install "topheavy[plot]"`.
+"""Pictures of results with Matplotlib: `pip install "topheavy[plot]"`.
 
-Each function draws into `axes`, or into a new figure, and returns the Axes, to be changed further.
+Each function draws into `axes`, or into a new figure, and returns the Axes.
 """
 
 from __future__ import annotations
@@ -21,9 +21,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 OVERTURNED = "0.75"
-"""The grey of what overturns."""
-FALLEN = 1.5
-"""|θ|/α up to which a history is shown: one that goes on overturns."""
+"""Grey of the cells that overturn."""
+LARGEST_SHOWN = 1.5
+"""|θ|/α at which the picture of a history ends."""
 
 
 def history(
@@ -34,11 +34,10 @@ def history(
     Parameters
     ----------
     response : Response
-        Of `simulate`.
     structure : Structure
-        That it is of, for its α.
+        Its slenderness is α.
     label : str
-        In a legend; by default the outcome.
+        For a legend; by default the outcome.
     """
     axes = _axes(axes)
     alpha = as_block(structure).slenderness
@@ -48,19 +47,13 @@ def history(
     for limit in (-1.0, 1.0):
         axes.axhline(limit, color="0.5", linestyle=":", linewidth=0.8)
     axes.set(xlabel="Time, $t$ (s)", ylabel=r"Rotation, $\theta/\alpha$ (–)")
-    if max(map(abs, axes.get_ylim())) > FALLEN:
-        axes.set_ylim(-FALLEN, FALLEN)
+    if max(map(abs, axes.get_ylim())) > LARGEST_SHOWN:
+        axes.set_ylim(-LARGEST_SHOWN, LARGEST_SHOWN)
     return axes
 
 
 def spectrum(outcomes: xarray.Dataset, *, axes: Axes | None = None) -> Axes:
-    """Draw the peak rotation over α of a map; what overturns is grey.
-
-    Parameters
-    ----------
-    outcomes : xarray.Dataset
-        Of `overturning_map`.
-    """
+    """Draw the peak rotation over α of an `overturning_map`; cells that overturn are grey."""
     axes = _axes(axes)
     across, up = (outcomes[name] for name in outcomes.peak_rotation.dims)
     peaks = outcomes.peak_rotation.T / outcomes.attrs["slenderness"]
@@ -78,27 +71,22 @@ def spectrum(outcomes: xarray.Dataset, *, axes: Axes | None = None) -> Axes:
     return axes
 
 
-def fragility(found: Fragility, *, axes: Axes | None = None) -> Axes:
-    """Draw the probability of overturning: points, their intervals as bands, the fitted curves.
-
-    Parameters
-    ----------
-    found : Fragility
-        Of `topheavy.fragility`.
-    """
+def fragility(result: Fragility, *, axes: Axes | None = None) -> Axes:
+    """Draw the probability of overturning: points, their intervals as bands, the fitted curves."""
     axes = _axes(axes)
-    names = found.curves.structure.to_numpy()
-    for name in names:
-        curve = found.curves.sel(structure=name)
+    for name in result.curves.structure.to_numpy():
+        curve = result.curves.sel(structure=name)
         (points,) = axes.plot(curve.level, curve.probability, ".", label=str(name))
         colour = points.get_color()
         ends = curve.probability_low, curve.probability_high
         axes.fill_between(curve.level, *ends, color=colour, alpha=0.15, linewidth=0.0)
         axes.plot(curve.level, curve.fitted, color=colour)
-    unit = found.curves.level.attrs.get("units", "its unit")
+    unit = result.curves.level.attrs.get("units", "its unit")
+    limit = result.rotation_limit
+    event = "overturning" if limit is None else rf"$\max|\theta|$ > {limit:.3g} rad"
     axes.set(
-        xlabel=f"{found.measure} ({unit})",
-        ylabel="Probability of overturning (–)",
+        xlabel=f"{result.measure} ({unit})",
+        ylabel=f"Probability of {event} (–)",
         ylim=(-0.02, 1.02),
     )
     axes.legend()
@@ -121,9 +109,9 @@ def structure(
     rotation : float
         θ, rad.
     cap_width, cap_depth : float, optional
-        Of the cap as it is drawn, m; by default the structure's own. Of a cap without dimensions,
-        as of each frame: twice the height of a column that it shares, or three times the width of
-        its only one; 0.3 of its half height deep.
+        Dimensions of the cap beam, m. By default those of the structure, and if it has none: twice
+        the height of a column wide, or three times the width of a single column; 0.15 of the
+        height of a column deep.
 
     Raises
     ------

@@ -210,7 +210,7 @@ def test_capacity_under_a_record_is_that_of_its_outcomes():
     low, high = capacity.range
     assert low <= capacity.factor <= high
     assert capacity.acceleration == capacity.factor * EL_CENTRO.peak_acceleration
-    assert str(capacity).startswith(f"From a factor of {capacity.factor:.3g}")
+    assert str(capacity).startswith(f"A factor of {capacity.factor:.3g} (")
 
 
 def test_capacity_is_nan_where_no_window_of_the_grid_has_enough():

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     import pandas
 
 MOST_SAMPLES = 10_000_000
-"""The largest number of samples that a caller may request: three arrays of 80 MB."""
+"""Largest number of samples: three arrays of 80 MB."""
 
 Outcome = Literal["no uplift", "rests", "rocking", "overturned"]
 
@@ -33,19 +33,17 @@ class Response:
         θ in rad and θ̇ in rad/s, signed; NaN after the end of a history that overturned or was cut
         off while rocking.
     impacts : ndarray, shape (m,)
-        Times of the impacts in the history, s: of those that end a rotation of more than 1e-6 α,
-        for a block that bounces to rest has infinitely many.
+        Times of the impacts, s. Impacts that end a rotation of 1e-6 α or less are left out, since
+        a block that comes to rest has infinitely many.
     outcome : {"no uplift", "rests", "rocking", "overturned"}
-        Of the whole motion: "rocking" is a survivor that has not come to rest when the history
-        ends. Without loss (√r = 1) this is every survivor that has moved; bounces below
-        1e-6 α that cannot grow are not followed, and are zero in rotation and velocity.
+        "rocking": the structure survives and has not come to rest when the history ends. Without
+        loss (√r = 1) this is every structure that uplifts and survives; its bounces below 1e-6 α
+        that cannot grow are zero in rotation and velocity.
     number_of_impacts : int
-        Impacts until the forcing ends or the block has overturned (those on the way to overturning
-        included). A survivor's bouncing after the forcing is not counted. A record ends with the
-        last sample that is not zero.
+        Impacts until the forcing ends or the structure has overturned. The forcing of a record ends
+        with the last sample that is not zero.
     peak_rotation : float
-        max|θ| in rad over the whole motion, the free rocking after the forcing included; NaN if
-        overturned.
+        max|θ| in rad, including the free rocking after the forcing; NaN if overturned.
 
     Examples
     --------
@@ -64,7 +62,7 @@ class Response:
 
     @property
     def overturned(self) -> bool:
-        """Whether it overturned."""
+        """Whether the structure overturned."""
         return self.outcome == "overturned"
 
     def to_frame(self) -> pandas.DataFrame:

@@ -14,7 +14,7 @@ from topheavy.ground.records import Record
 from topheavy.outcomes.search import overturned_by
 
 WINDOWS = (0.025, 0.05, 0.1, 0.2)
-"""Widths of the windows over which the range of a capacity is taken."""
+"""Widths of the windows that `Capacity.range` compares."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,9 +99,9 @@ class Capacity:
         """Return a sentence with the capacity and its range over windows."""
         low, high = self.range
         return (
-            f"From a factor of {self.factor:.3g} ({self.acceleration:.3g} g) on, {self.share:.0%} "
-            f"of the factors within {self.window:.1%} overturn; {low:.3g} to {high:.3g} over "
-            f"windows of {min(WINDOWS):.1%} to {max(WINDOWS):.0%}."
+            f"A factor of {self.factor:.3g} ({self.acceleration:.3g} g), from which "
+            f"{100 * self.share:g} % of the factors within {100 * self.window:g} % overturn; "
+            f"{low:.3g} to {high:.3g} over windows of 2.5 to 20 %."
         )
 
 
