@@ -28,7 +28,7 @@ AT_ONCE = tint(OVERTURNS, 0.65)  # … without an impact, where the two modes di
 ROCKS = tint(SURVIVES, 0.2)  # areas in which it rocks and survives
 
 # What a cap beam, or a heavier one, does to the outcome.
-PREVENTED, CAUSED = "#5fb3a1", "#a3195b"
+PREVENTED, CAUSED = "#c79a0a", "#a3195b"
 
 # What is compared with what.
 MODEL = "#6a3d9a"  # simplified models: linearised, columns without mass

@@ -75,7 +75,7 @@ def plane(axis, spectra, areas, example):
     at = {"xytext": (4.7, 10.9), "color": CAUSED, "arrowprops": LEADER}
     note(axis, words, (3.2, 8.1), **at)
     words = f"overturning prevented\non {100 * here.prevented:.1f} % of the map"
-    note(axis, words, (5.2, 6.4), color=SURVIVES)
+    note(axis, words, (5.2, 6.4), color=INK)
     note(axis, "column", (4.55, 3.2), color=STRUCTURES[0.0])
     words = "frame,\n$\\gamma\\to\\infty$"
     note(axis, words, (3.75, 4.9), ha="right", color=STRUCTURES[math.inf])
@@ -113,7 +113,7 @@ def shares(axis, areas):
         mean = 100 * areas[name].mean()
         axis.axhline(mean, color=colour, linewidth=0.7, linestyle=(0, (4, 2)))
         note(axis, f"mean {mean:.1f}", (3.48, mean + 1.3), ha="right", color=colour)
-    note(axis, "prevented", (0.42, 17.5), color=SURVIVES)
+    note(axis, "prevented", (0.42, 17.5), color=INK)
     note(axis, "caused", (0.42, 3.0), color=CAUSED)
     axis.set_xticks(range(len(PULSES)), [words.replace(" ", "\n") for words in PULSES.values()])
     axis.tick_params(axis="x", length=0)

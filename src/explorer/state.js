@@ -5,7 +5,7 @@
 const FIELDS = {
   width: { label: "Column width", unit: "m", slider: [0.1, 4], least: 0.002, most: 2000 },
   height: { label: "Column height", unit: "m", slider: [0.4, 20], least: 0.002, most: 2000 },
-  g: { label: "Mass ratio γ", unit: "", slider: null, least: 0, most: Infinity, hint: "cap beam / columns, 0 to ∞" },
+  g: { label: "Mass ratio γ", unit: "", slider: null, least: 0, most: Infinity, hint: "cap beam / both columns" },
   L: { label: "Span of the frame", unit: "m", slider: [0.3, 20], least: 0.001, most: 1000, hint: "between column axes" },
   r: { label: "Restitution √r", unit: "", slider: [0, 1], least: 0, most: 1, linear: true, hint: "empty: by its formula" },
   a: { label: "Amplitude", unit: "g", slider: [0.02, 5], least: 0, most: 20 },

@@ -67,7 +67,7 @@ def test_nothing_is_cut_and_everything_can_be_touched(browser, width, height, wh
     assert browser.do(BOTTOM, whole) <= height
     numbers = browser.do("document.getElementById('rows').textContent")
     browser.resize(390 if width > 390 else 1440, 900)
-    browser.wait("scene.available === scene.svg.clientWidth")
+    browser.wait("spectrumChart.chart.width === sizeOf(spectrumChart.place).width")
     assert browser.do(BEYOND) == []
     assert browser.do("document.getElementById('rows').textContent") == numbers
 
