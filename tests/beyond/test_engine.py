@@ -46,6 +46,14 @@ def test_first_impact_is_that_of_theory(name, sign):
     assert found == pytest.approx(impact, rel=1e-3)
 
 
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_ground_that_accelerates_forward_tilts_it_back(sign):
+    pulse = th.Pulse("constant", sign * 1.5 * TRILITH.uplift_acceleration, math.pi / 0.1)
+    angles = shake(boxes("column", friction=5.0), pulse, duration=0.1)
+    expected = th.simulate(TRILITH, pulse, duration=0.1, samples=2).rotation[-1]
+    assert angles[-1] == pytest.approx(expected, rel=0.05)
+
+
 @pytest.mark.parametrize("name", CASES)
 def test_contact_without_rebound_has_the_restitution_of_theory(name):
     rig = boxes(name)
