@@ -12,8 +12,17 @@ from topheavy import RockingBlock
 from topheavy.kernel import forcing
 from topheavy.kernel.bernstein import MAX_DEGREE, roots, to_bernstein
 from topheavy.kernel.forcing import NO_RECORD, SHAPES, equation, ground, next_uplift, pulse_forcing
+from topheavy.kernel.grid import record_order
 from topheavy.kernel.march import derivatives
-from topheavy.kernel.step import HULL, POLYNOMIAL, PULSE_ORDER, ROOTS, STACK, working_array
+from topheavy.kernel.step import (
+    HULL,
+    POLYNOMIAL,
+    PULSE_ORDER,
+    ROOTS,
+    STACK,
+    TOLERANCE,
+    working_array,
+)
 from topheavy.kernel.taylor import MAX_ORDER, ROTATION, State, evaluate, expand, oscillator
 
 BLOCK = RockingBlock(2.0, 0.25, 0.9)
@@ -69,6 +78,18 @@ def test_error_of_a_step_falls_with_the_order_of_the_series(order):
         )
         errors.append(abs(short.rotation - full.rotation))
     assert math.log2(errors[0] / errors[1]) == pytest.approx(order + 1, abs=0.7)
+
+
+@pytest.mark.parametrize("step", [0.01, 0.05, 0.2])
+def test_order_for_a_record_keeps_the_tolerance_of_the_second_derivative(step):
+    motion, order = pulse_forcing(forcing.CONSTANT, 0.6, 2.5), record_order(step)
+    w = series(BLOCK, motion, 0.3, state_of(BLOCK, motion, 0.3, -1.0, 0.1, -0.07), True)
+    short, full = (
+        polynomial.polyval(step, polynomial.polyder(w[ROTATION, : n + 1], 2))
+        for n in (order, ORDER)
+    )
+    assert order < PULSE_ORDER
+    assert abs(short - full) < TOLERANCE
 
 
 @pytest.mark.parametrize("degrees", [0.1, 3, 5, 8, 14, 20, 35, 80])
