@@ -339,7 +339,7 @@ def test_animation_is_played_three_times(tmp_path, monkeypatch):
         animation.compute(settings, SIZES, "figures/style.mplstyle")["gif"]
     )
     with Image.open(tmp_path / "a.gif") as found:
-        assert (found.info["loop"], found.n_frames) == (2, 7)  # played again twice
+        assert (found.info["loop"], found.n_frames) == (2, 8)  # played again twice
     strong = settings | {"pulse": settings["pulse"] | {"amplitude": 0.5}}
     with pytest.raises(SystemExit, match="frame of the animation overturns"):
         animation.compute(strong, SIZES, "figures/style.mplstyle")
