@@ -5,7 +5,7 @@ import pytest
 from scipy.stats import beta, binom, bootstrap
 
 from topheavy.risk import resampling
-from topheavy.risk.curve import dispersions, fit, medians
+from topheavy.risk.curve import curve, dispersions, fit, medians
 from topheavy.risk.resampling import interval, means_within
 from topheavy.risk.tables import curve_table, exact_interval, pair_table, sign_test
 
@@ -97,6 +97,13 @@ def test_resamples_without_a_value_count_at_both_ends():
     assert high > np.quantile(rest, 0.95)
 
 
+def test_ends_are_unknown_where_the_value_of_the_ensemble_is():
+    values = np.tile(np.arange(101.0)[:, None], 2)
+    values[1, 0] = values[0, 1] = np.nan
+    _, low, high = interval(values, 0.5)
+    assert np.isfinite([low, high]).tolist() == [[True, False]] * 2
+
+
 LEVELS = np.geomspace(0.25, 4.0, 25)
 
 
@@ -118,6 +125,14 @@ def tables(capacities, places=((0, 1),), resamples=400, levels=LEVELS):
 def lognormal(motions, seed, *factors):
     """Capacities of structures under the same motions, with the dispersion 0.4 about factors."""
     return np.exp(0.4 * np.random.default_rng(seed).normal(size=(motions, 1))) * factors
+
+
+def test_curve_of_a_table_is_that_of_the_ensemble():
+    capacities = lognormal(40, 3, 1.0, 1.5)
+    curves, _ = tables(capacities)
+    expected = fit(LEVELS, outcomes_of(capacities).mean(axis=0), skewed=False)
+    np.testing.assert_allclose(curves.terms, expected, atol=1e-9)
+    np.testing.assert_allclose(curves.fitted, curve(LEVELS, expected), atol=1e-9)
 
 
 @pytest.mark.parametrize("confidence", [0.9, 0.95])
