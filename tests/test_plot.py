@@ -1,24 +1,20 @@
 """Pictures: the library's own, and colours that have one meaning each."""
 
-import ast
 import re
 import subprocess
 import sys
 from itertools import pairwise
-from pathlib import Path
 
 import matplotlib as mpl
 import numpy as np
 import pytest
-from matplotlib.colors import CSS4_COLORS, XKCD_COLORS, to_rgb
+from matplotlib.colors import to_rgb
 
 import topheavy
 from figures import palette
 from replication.drawing import PAPER, shades
-from topheavy import Column, FixedMassColumn, MonolithicPortal, Pulse, Record, RockingFrame, plot
-
-COLUMN = Column.of_dimensions(width=1.0, height=6.0)
-FRAME = RockingFrame(COLUMN, 1.0)
+from tests.cases import COLUMN, FRAME, ROOT
+from topheavy import FixedMassColumn, MonolithicPortal, Pulse, Record, plot
 
 
 @pytest.fixture(autouse=True)
@@ -97,58 +93,6 @@ def test_without_matplotlib_the_extra_is_named():
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert 'pip install "topheavy[plot]"' in done.stderr
-
-
-ROOT = Path(__file__).parents[1]
-SHARED = ROOT / "figures" / "palette.py"
-SCRIPTS = sorted(
-    [
-        *(path for path in ROOT.glob("figures/*.py") if path != SHARED),
-        ROOT / "src" / "steps" / "animation.py",
-    ]
-)
-HEX = re.compile(r"#[0-9a-fA-F]{3,8}")
-NAMED = {name.removeprefix("xkcd:") for name in (*CSS4_COLORS, *XKCD_COLORS)}
-SETS = re.compile(r"(\w*colors?|cmap)")
-"""The keywords of Matplotlib that set a colour; `color` and `cmap` among them."""
-
-
-MIXED = ("none", "face")
-"""What may stand for a colour and is none."""
-
-
-def own_colours(text: str) -> list[str]:
-    """The colours that a script writes itself, each with its line."""
-    found = []
-    for node in ast.walk(ast.parse(text)):
-        if isinstance(node, ast.Constant) and isinstance(node.value, str):
-            if HEX.fullmatch(node.value) or node.value in NAMED:
-                found.append((node.lineno, node.value))
-        elif isinstance(node, ast.ImportFrom):
-            found += [(node.lineno, "ACCENT") for name in node.names if name.name == "ACCENT"]
-        pairs = []
-        if isinstance(node, ast.keyword) and node.arg:
-            pairs = [(node.arg, node.value)]
-        elif isinstance(node, ast.Dict):
-            pairs = [(getattr(k, "value", ""), v) for k, v in zip(node.keys, node.values)]  # noqa: B905
-        for name, value in pairs:
-            if SETS.fullmatch(str(name)) and _written(value):
-                found.append((value.lineno, ast.unparse(value)))
-    return [f"line {line}: {colour}" for line, colour in sorted(set(found))]
-
-
-def _written(value: ast.expr) -> bool:
-    """Whether a colour is written out: a text, a number, or several of them."""
-    try:
-        return ast.literal_eval(value) not in MIXED
-    except ValueError:
-        return False
-
-
-@pytest.mark.parametrize("path", SCRIPTS, ids=lambda path: path.stem)
-def test_script_writes_no_colour_of_its_own(path):
-    found = own_colours(path.read_text(encoding="utf-8"))
-    assert not found, f"{path.relative_to(ROOT)} has {found}; take them from figures/palette.py"
 
 
 def test_no_two_meanings_have_one_colour():
