@@ -142,7 +142,7 @@ def shake(boxes, pulse=None, *, rotation=0.0, duration, ends=None) -> np.ndarray
         if ends and step % INTERVAL == INTERVAL - 1 and ends(angles[: step + 1]):
             angles = angles[: step + 1]
             break
-    if any(warning.number for warning in data.warning):
+    if data.warning.number.any():
         raise ArithmeticError(f"{boxes}: MuJoCo warns after {len(angles)} steps")
     return angles
 

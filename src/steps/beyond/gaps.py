@@ -9,7 +9,7 @@ from replication.step import check, run, truth
 from steps.beyond.space import Bodies, motion
 from topheavy import STANDARD_GRAVITY, Cap, Column
 
-ROTATIONS = {"in_plane": (0, 2), "out_of_plane": (1, 2), "yaw": (1, 0)}  # sines, in the matrix
+ROTATIONS = {"in_plane": (0, 2), "yaw": (1, 0)}  # sines, in the matrix
 
 
 def compute(settings, structures, trilith):

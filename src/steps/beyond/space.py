@@ -19,8 +19,8 @@ SPHERE = 0.02  # radius over the column's half width
 ON_A_RIM = 16  # spheres around a round column; edges between them lie along and across the plane
 CONTACT = 4.0  # time steps in the time constant of a contact, which has critical damping
 LOOK = 20  # time steps between looks
-WAIT, REST = 14.0, 3.0  # over p: the longest wait for an outcome, and how long rest has to last
-AT_REST = 0.05  # inclination over α
+WAIT, REST = 14.0, 0.5  # over p: the longest wait for an outcome, and how long rest has to last
+UPRIGHT = 0.05  # inclination over α
 
 
 @dataclass(frozen=True)
@@ -127,7 +127,7 @@ def motion(
         model.opt.gravity[:2] = push
         mujoco.mj_step(model, data)
         if step % LOOK == LOOK - 1:
-            if any(warning.number for warning in data.warning):
+            if data.warning.number.any():
                 raise ArithmeticError(f"{bodies}: MuJoCo warns after {step} steps")
             yield times[step], data.xmat[1:columns].reshape(-1, 3, 3).copy()
 
@@ -135,16 +135,20 @@ def motion(
 def overturns(bodies: Bodies, pulse: Pulse, direction: float = 0.0) -> bool:
     """Return whether a pulse inclines a column by π/3.
 
-    Bodies that rest after the pulse survive, and so do those that still rock 14/p after it.
+    Bodies survive that rest after the pulse, that return to upright twice without it, as each
+    impact takes energy, and that still rock 14/p after it.
     """
-    alpha, p, rest = bodies.column.slenderness, bodies.column.frequency_parameter, 0
-    duration = pulse.duration + WAIT / p
-    for time, turned in motion(bodies, pulse.excitation, duration, direction):
-        upright = turned[:, 2, 2].min()
-        if upright < math.cos(OVERTURNED):
+    alpha, p = bodies.column.slenderness, bodies.column.frequency_parameter
+    duration, looks = pulse.duration + WAIT / p, REST / (LOOK * bodies.time_step)
+    returns, rest = 0, 0
+    for time, rotation in motion(bodies, pulse.excitation, duration, direction):
+        cosine = rotation[:, 2, 2].min()
+        if cosine < math.cos(OVERTURNED):
             return True
-        is_still = time > pulse.duration and upright > math.cos(AT_REST * alpha)
-        rest = rest + 1 if is_still else 0
-        if rest * LOOK * bodies.time_step > REST:
-            break
+        if time > pulse.duration:
+            upright = cosine > math.cos(UPRIGHT * alpha)
+            returns += upright and rest == 0
+            rest = rest + 1 if upright else 0
+            if returns > 2 or rest > looks:
+                break
     return False
