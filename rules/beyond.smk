@@ -27,7 +27,9 @@ rule motions_shard:
         outcomes="results/shards/motions_{scatteritem}.npz",
     log:
         "results/logs/motions_{scatteritem}.log",
-    priority: 10
+    benchmark:
+        "results/benchmarks/motions_{scatteritem}.tsv"
+    priority: 1
     params:
         code=code("src/steps/beyond/motions_shard.py") | MODELS | CORE,
         shard="{scatteritem}",
@@ -51,6 +53,9 @@ rule motions:
         findings="results/findings/motions.json",
     log:
         "results/logs/motions.log",
+    benchmark:
+        "results/benchmarks/motions.tsv"
+    priority: 1
     params:
         code=code("src/steps/beyond/motions.py") | MODELS | ENSEMBLE | SECOND | CORE,
         settings=PAPER["motions"],
@@ -68,6 +73,8 @@ rule break_even:
         findings="results/findings/break_even.json",
     log:
         "results/logs/break_even.log",
+    benchmark:
+        "results/benchmarks/break_even.tsv"
     params:
         code=code("src/steps/beyond/break_even.py") | MODELS | ENSEMBLE | SECOND | CORE,
         settings=PAPER["break_even"],
@@ -87,6 +94,8 @@ rule records:
         findings="results/findings/records.json",
     log:
         "results/logs/records.log",
+    benchmark:
+        "results/benchmarks/records.tsv"
     params:
         code=code(
             "src/steps/beyond/records.py",
@@ -115,6 +124,8 @@ rule friction:
         findings="results/findings/friction.json",
     log:
         "results/logs/friction.log",
+    benchmark:
+        "results/benchmarks/friction.tsv"
     params:
         code=code(
             "src/steps/beyond/friction.py",
@@ -140,6 +151,8 @@ rule designers:
         findings="results/findings/designers.json",
     log:
         "results/logs/designers.log",
+    benchmark:
+        "results/benchmarks/designers.tsv"
     params:
         code=code("src/steps/beyond/__init__.py", "src/steps/beyond/designers.py")
         | CORE
@@ -161,6 +174,9 @@ rule engine:
         findings="results/findings/engine.json",
     log:
         "results/logs/engine.log",
+    benchmark:
+        "results/benchmarks/engine.tsv"
+    priority: 1
     params:
         code=code(
             "src/steps/beyond/__init__.py",
@@ -182,6 +198,9 @@ rule gaps:
         findings="results/findings/gaps.json",
     log:
         "results/logs/gaps.log",
+    benchmark:
+        "results/benchmarks/gaps.tsv"
+    priority: 1
     params:
         code=code(
             "src/steps/beyond/__init__.py",
@@ -204,6 +223,8 @@ rule test_plan:
         findings="results/findings/test_plan.json",
     log:
         "results/logs/test_plan.log",
+    benchmark:
+        "results/benchmarks/test_plan.tsv"
     params:
         code=code("src/steps/beyond/__init__.py", "src/steps/beyond/test_plan.py")
         | CORE

@@ -44,17 +44,13 @@ RULES = {
 
 for part in ["paper", "beyond"]:
     scripts = [path for path in SCRIPTS if (path[8:-3] in BEYOND) == (part == "beyond")]
+    words = {word for path in scripts for word in re.findall(r"\w+", open(path).read())}
 
     rule:
         name:
             f"{part}_figures"
         input:
-            [
-                path
-                for rule in RULES.values()
-                if rule["part"] == part
-                for path in rule["tables"]
-            ],
+            [path for path in made(".csv") if os.path.basename(path)[:-4] in words],
             scripts=scripts,
             captions="figures/captions.yaml",
             style="figures/style.mplstyle",
@@ -62,6 +58,8 @@ for part in ["paper", "beyond"]:
             [path.replace(".py", ".svg") for path in scripts],
         log:
             f"results/logs/{part}_figures.log",
+        benchmark:
+            f"results/benchmarks/{part}_figures.tsv"
         params:
             code=code("src/steps/draw.py", *SHARED) | DOCUMENTS | CORE,
             config={name: PAPER[name] for name in BEYOND if part == "beyond"},
@@ -84,6 +82,8 @@ rule notebook:
         page="results/notebooks/{name}.html",
     log:
         "results/logs/notebook_{name}.log",
+    benchmark:
+        "results/benchmarks/notebook_{name}.tsv"
     params:
         code=code("src/steps/notebook.py", *SMALL, "src/topheavy/plot.py")
         | STEP
@@ -101,6 +101,8 @@ rule claims:
         "results/claims.json",
     log:
         "results/logs/claims.log",
+    benchmark:
+        "results/benchmarks/claims.tsv"
     params:
         code=code("src/steps/judge.py") | DOCUMENTS,
         settings=CLAIMS,
@@ -120,6 +122,8 @@ rule comparison:
         settings="results/settings.json",
     log:
         "results/logs/comparison.log",
+    benchmark:
+        "results/benchmarks/comparison.tsv"
     params:
         code=code("src/steps/compare.py") | STEP,
         rules=RULES,
@@ -139,6 +143,8 @@ rule verdicts:
         "results/verdicts.md",
     log:
         "results/logs/verdicts.log",
+    benchmark:
+        "results/benchmarks/verdicts.tsv"
     params:
         code=code("src/steps/verdicts.py") | DOCUMENTS,
         rules={
@@ -166,6 +172,8 @@ for document in ["report", "supplement"]:
             f"paper/{document}.pdf",
         log:
             f"results/logs/{document}.log",
+        benchmark:
+            f"results/benchmarks/{document}.tsv"
         params:
             code=code("src/steps/typeset.py") | DOCUMENTS,
             studies=PAPER["studies"],
@@ -187,6 +195,8 @@ rule expected:
         "results/summary.txt",
     log:
         "results/logs/expected.log",
+    benchmark:
+        "results/benchmarks/expected.tsv"
     params:
         code=code("src/steps/expect.py") | DOCUMENTS,
     script:

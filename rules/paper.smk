@@ -15,6 +15,9 @@ rule kernel:
         touch("results/kernel.compiled"),
     log:
         "results/logs/kernel.log",
+    benchmark:
+        "results/benchmarks/kernel.tsv"
+    priority: 3
     params:
         code=code("src/steps/kernel.py") | CORE,
     script:
@@ -28,6 +31,8 @@ rule equations:
         findings="results/findings/equations.json",
     log:
         "results/logs/equations.log",
+    benchmark:
+        "results/benchmarks/equations.tsv"
     params:
         code=code("src/steps/equations.py", *SMALL)
         | STEP
@@ -47,6 +52,8 @@ rule parameters:
         findings="results/findings/parameters.json",
     log:
         "results/logs/parameters.log",
+    benchmark:
+        "results/benchmarks/parameters.tsv"
     params:
         code=code("src/steps/parameters.py") | CORE | library("derivation", "second"),
         settings=PAPER["parameters"],
@@ -67,6 +74,8 @@ rule trilith:
         findings="results/findings/trilith.json",
     log:
         "results/logs/trilith.log",
+    benchmark:
+        "results/benchmarks/trilith.tsv"
     params:
         code=code("src/steps/trilith.py") | CORE | library("second"),
         settings=PAPER["trilith"],
@@ -87,6 +96,8 @@ rule allen:
         findings="results/findings/allen.json",
     log:
         "results/logs/allen.log",
+    benchmark:
+        "results/benchmarks/allen.tsv"
     params:
         code=code("src/steps/allen.py") | LINEAR | CORE | library("second"),
         settings=PAPER["allen"],
@@ -106,6 +117,8 @@ rule statements:
         findings="results/findings/statements.json",
     log:
         "results/logs/statements.log",
+    benchmark:
+        "results/benchmarks/statements.tsv"
     params:
         code=code("src/steps/statements.py")
         | BODIES
@@ -126,6 +139,8 @@ rule verification:
         findings="results/findings/verification.json",
     log:
         "results/logs/verification.log",
+    benchmark:
+        "results/benchmarks/verification.tsv"
     params:
         code=code("src/steps/verification.py")
         | LINEAR
@@ -156,6 +171,9 @@ rule spectra_shard:
         table="results/shards/spectra_{scatteritem}.csv",
     log:
         "results/logs/spectra_{scatteritem}.log",
+    benchmark:
+        "results/benchmarks/spectra_{scatteritem}.tsv"
+    priority: 2
     params:
         code=code("src/steps/spectra_shard.py") | SPECTRUM | CORE,
         settings=PAPER["spectra"],
@@ -174,6 +192,9 @@ rule spectra:
         findings="results/findings/spectra.json",
     log:
         "results/logs/spectra.log",
+    benchmark:
+        "results/benchmarks/spectra.tsv"
+    priority: 2
     params:
         code=code("src/steps/spectra.py") | SPECTRUM | CORE | library("second"),
         settings=PAPER["spectra"],
@@ -184,7 +205,6 @@ rule spectra:
 
 rule vase:
     input:
-        records=PAPER["vase"]["records"],
         kernel="results/kernel.compiled",
     output:
         vase="results/tables/vase.csv",
@@ -193,11 +213,13 @@ rule vase:
         findings="results/findings/vase.json",
     log:
         "results/logs/vase.log",
+    benchmark:
+        "results/benchmarks/vase.tsv"
+    priority: 2
     params:
         code=code("src/steps/vase.py") | POSES | CORE | library("second"),
         settings=PAPER["vase"],
         column=PAPER["structures"]["temple"],
-        records=checksums(*PAPER["vase"]["records"]),
     script:
         "../src/steps/vase.py"
 
@@ -212,7 +234,9 @@ rule proven:
         findings="results/findings/proven.json",
     log:
         "results/logs/proven.log",
-    priority: 1
+    benchmark:
+        "results/benchmarks/proven.tsv"
+    priority: 2
     params:
         code=code("src/steps/proven.py") | SPECTRUM | CORE | library("proven"),
         column=PAPER["structures"]["temple"],
@@ -229,6 +253,8 @@ rule uplift:
         findings="results/findings/uplift.json",
     log:
         "results/logs/uplift.log",
+    benchmark:
+        "results/benchmarks/uplift.tsv"
     params:
         code=code("src/steps/uplift.py")
         | HISTORIES
@@ -248,6 +274,8 @@ rule animation:
         gif="results/animation.gif",
     log:
         "results/logs/animation.log",
+    benchmark:
+        "results/benchmarks/animation.tsv"
     params:
         code=code(
             "src/steps/animation.py",
@@ -265,10 +293,13 @@ rule animation:
 rule explorer:
     input:
         record="data/records/el_centro_1940_NS.AT2",
+        kernel="results/kernel.compiled",
     output:
         page="results/explorer.html",
     log:
         "results/logs/explorer.log",
+    benchmark:
+        "results/benchmarks/explorer.tsv"
     params:
         code=code("src/steps/explorer.py", "src/replication/config.py") | CORE,
         page=checksums(

@@ -177,8 +177,6 @@ class Vase(Section):
     period: Positive  # s
     grids: list[PulseGrid]
     longest: Positive  # ω/p
-    records: list[str]
-    record_mass_ratios: list[MassRatio]
     highest: Positive  # g tan α
     floor: Fraction  # tan α
     wide: Fraction  # tan α

@@ -1,7 +1,7 @@
 """A mass fixed to the top of one column, against the same mass carried freely by two.
 
 The minimum overturning acceleration of both is compared with that of the bare column: under pulses
-of one period, and under pulses over their frequency. Under records it is the capacity.
+of one period, and under pulses over their frequency.
 """
 
 import math
@@ -20,24 +20,19 @@ from topheavy import (
     FixedMassColumn,
     LowestOverturning,
     Pulse,
-    Record,
     RockingFrame,
-    capacity,
     lowest_overturning,
     overturned_by,
-    read_record,
     simulate,
 )
 from topheavy.bodies.structures import Structure
 from topheavy.second import reference
 
-STEP = 0.001  # between the factors on a record, relative
 DISTANCES = (1e-7, 1e-5, 1e-3)  # from a minimum, over it: where SciPy judges, from near to far
-AT_A_TIME = 512  # factors that are tried in one call where a wide interval is sought
+CHUNK = 512  # factors that are tried in one call where a wide interval is sought
 SEED = 2014  # of the minima that SciPy judges
 FALL = (0.0, 0.15, 0.4, 0.7, 1.0)  # of the last rotation: poses of a structure that overturns
 BARE, FIXED, FREE = "bare", "fixed", "free"
-Motion = Pulse | Record
 
 
 def rivals(column: Column, gammas: Sequence[float]) -> Iterator[tuple[str, float, Structure]]:
@@ -49,77 +44,65 @@ def rivals(column: Column, gammas: Sequence[float]) -> Iterator[tuple[str, float
             yield FREE, gamma, RockingFrame(column, gamma)
 
 
-def minima(
-    under: Sequence[Structure], motion: Motion, highest: float, floor: float
-) -> list[LowestOverturning | None]:
-    """Return the lowest interval of each structure, g; None if it does not uplift up to `highest`.
+def lowest(
+    structure: Structure, pulse: Pulse, highest: float, floor: float
+) -> LowestOverturning | None:
+    """Return the lowest interval that overturns a structure, g; None if none does up to `highest`.
 
-    The motion has a unit peak. The floor is over the uplift acceleration of each structure.
+    The pulse has a unit peak. The floor is over the uplift acceleration.
     """
-    levels = [structure.block().uplift_acceleration for structure in under]
-    found: list[LowestOverturning | None] = []
-    for structure, level in zip(under, levels, strict=True):
-        one = None
-        if level < highest:
-            ends = (level, highest)
-            one = lowest_overturning(structure, motion, ends, floor=floor * level)
-        found.append(one if one and one.bracket else None)
-    return found
-
-
-def capacities(under: Sequence[Structure], record: Record, highest: float) -> list[float]:
-    """Return the capacity of each structure under a record of unit peak, g; infinite if none."""
-    lowest = min(structure.block().uplift_acceleration for structure in under)
-    factors = lowest * (1.0 + STEP) ** np.arange(math.log(highest / lowest) / math.log1p(STEP))
-    found = [capacity(structure, record, factors).factor for structure in under]
-    return np.nan_to_num(found, nan=math.inf).tolist()
+    level = structure.block().uplift_acceleration
+    if level >= highest:
+        return None
+    interval = lowest_overturning(structure, pulse, (level, highest), floor=floor * level)
+    return interval if interval.bracket else None
 
 
 def lowest_wide(
-    structure: Structure, motion: Motion, begin: float, highest: float, step: float, width: float
+    structure: Structure, pulse: Pulse, begin: float, highest: float, step: float, width: float
 ) -> float:
     """Return the lowest acceleration from which all steps of a width overturn, g; infinite if none.
 
     They are tried from the minimum on.
     """
-    run_of = 0
+    length = 0
     while begin <= highest:
-        factors = begin + step * np.arange(AT_A_TIME)
+        factors = begin + step * np.arange(CHUNK)
         factors = factors[factors <= highest]
         for factor, overturned in zip(
-            factors, overturned_by(structure, motion, factors), strict=True
+            factors, overturned_by(structure, pulse, factors), strict=True
         ):
-            run_of = run_of + 1 if overturned else 0
-            if run_of > round(width / step):
-                return float(factor - (run_of - 1) * step)
-        begin += step * AT_A_TIME
+            length = length + 1 if overturned else 0
+            if length > round(width / step):
+                return float(factor - (length - 1) * step)
+        begin += step * CHUNK
     return math.inf
 
 
-def error_of(structure: Structure, motion: Motion, one: LowestOverturning) -> float:
+def error_of(structure: Structure, pulse: Pulse, interval: LowestOverturning) -> float:
     """Return how far a minimum may be off by SciPy, g; stop where it finds none within 1e-3."""
-    low, high = one.bracket
-    last = one.upper[0] if one.upper else one.scale_range[1]
+    low, high = interval.bracket
+    last = interval.upper[0] if interval.upper else interval.scale_range[1]
 
     def overturns(factor: float) -> bool:
-        return reference.judge(structure, motion.scaled(factor)).overturned
+        return reference.judge(structure, pulse.scaled(factor)).overturned
 
     for distance in DISTANCES:
         above = min(high * (1.0 + distance), 0.5 * (high + last))
         if overturns(above) and not overturns(low * (1.0 - distance)):
             return distance * high + high - low
-    check(False, f"SciPy finds no minimum of {structure} near {high:.9g} g under {motion}")
+    check(False, f"SciPy finds no minimum of {structure} near {high:.9g} g under {pulse}")
     return math.nan
 
 
 def of_one_period(column: Column, settings: dict) -> list[dict]:
     """Return each structure's three parameters, and its minimum under each pulse of the period."""
     rows, highest = [], settings["highest"] * column.uplift_acceleration
-    of_each = product(rivals(column, settings["mass_ratios"]), settings["shapes"])
-    for (name, gamma, structure), shape in of_each:
+    cases = product(rivals(column, settings["mass_ratios"]), settings["shapes"])
+    for (name, gamma, structure), shape in cases:
         block = structure.block()
         pulse = Pulse(shape, 1.0, 2.0 * math.pi / settings["period"])
-        (found,) = minima([structure], pulse, highest, settings["floor"])
+        interval = lowest(structure, pulse, highest, settings["floor"])
         rows.append(
             {
                 "structure": name,
@@ -130,70 +113,48 @@ def of_one_period(column: Column, settings: dict) -> list[dict]:
                 "equivalent_size": 3.0 * STANDARD_GRAVITY / (4.0 * block.frequency_parameter**2),
                 "uplift_acceleration": block.uplift_acceleration,
                 "shape": shape,
-                "minimum_overturning": found.factor,
-                "error": error_of(structure, pulse, found),
+                "minimum_overturning": interval.factor,
+                "error": error_of(structure, pulse, interval),
             }
         )
     return rows
 
 
-def motions(
-    column: Column, settings: dict, paths: list[str]
-) -> Iterator[tuple[Motion, list[float], dict]]:
-    """Yield every motion, of unit peak, with the γ that it is applied to and its labels."""
-    for spec in settings["grids"]:
-        for shape, ratio in product(spec["shapes"], map(float, grid(spec["frequency_ratios"]))):
-            pulse = Pulse(shape, 1.0, ratio * column.frequency_parameter)
-            yield pulse, spec["mass_ratios"], {"motion": shape, "frequency_ratio": ratio}
-    for record in map(read_record, paths):
-        labels = {"motion": record.name, "frequency_ratio": math.nan}
-        scaled = record.scaled(1.0 / record.peak_acceleration)
-        yield scaled, settings["record_mass_ratios"], labels
+def over_frequency(column: Column, settings: dict) -> list[dict]:
+    """Return the minima of all structures under each pulse, infinite where nothing overturns.
 
-
-def under_motions(column: Column, settings: dict, paths: list[str]) -> list[dict]:
-    """Return the minima of all structures under each motion, infinite where nothing overturns.
-
-    Under a record both minima are the capacity. SciPy judges a sample of the minima under pulses,
-    and every exception there: the structure with the higher minimum has to survive the lower one.
+    SciPy judges a sample of the minima, and every exception: there the structure with the higher
+    minimum has to survive the lower one.
     """
     highest, floor = settings["highest"] * column.uplift_acceleration, settings["floor"]
-    rows, of_pulses = [], []
-    for motion, gammas, labels in motions(column, settings, paths):
-        names, ratios, under = zip(*rivals(column, gammas), strict=True)
-        if isinstance(motion, Record):
-            of_all = zip(names, ratios, capacities(under, motion, highest), strict=True)
-            rows += [
-                labels
-                | {"structure": name, "mass_ratio": gamma, "minimum": one, "wide_minimum": one}
-                for name, gamma, one in of_all
-            ]
-            continue
-        found = minima(under, motion, highest, floor)
-        for name, gamma, structure, one in zip(names, ratios, under, found, strict=True):
-            step = floor * structure.block().uplift_acceleration
-            width = settings["wide"] / floor * step
-            minimum, wide = math.inf, math.inf
-            if one:
-                minimum = one.factor
-                wide = lowest_wide(structure, motion, minimum, highest, step, width)
+    rows, sample = [], []
+    cases = (
+        (spec, shape, float(ratio))
+        for spec in settings["grids"]
+        for shape, ratio in product(spec["shapes"], grid(spec["frequency_ratios"]))
+    )
+    for spec, shape, ratio in cases:
+        pulse, bare = Pulse(shape, 1.0, ratio * column.frequency_parameter), math.inf
+        for name, gamma, structure in rivals(column, spec["mass_ratios"]):
+            interval = lowest(structure, pulse, highest, floor)
+            minimum = wide = math.inf
+            if interval:
+                step = floor * structure.block().uplift_acceleration
+                width, minimum = settings["wide"] / floor * step, interval.factor
+                wide = lowest_wide(structure, pulse, minimum, highest, step, width)
+                sample.append((structure, pulse, interval))
+            bare = minimum if name == BARE else bare
             rows.append(
-                labels
-                | {"structure": name, "mass_ratio": gamma, "minimum": minimum, "wide_minimum": wide}
+                {"motion": shape, "frequency_ratio": ratio, "structure": name}
+                | {"mass_ratio": gamma, "minimum": minimum, "wide_minimum": wide}
             )
-            if one:
-                of_pulses.append((structure, motion, one))
-            bare = found[0].factor if found[0] else math.inf
             if is_exception(name, minimum, bare):
                 later, earlier = (column, minimum) if name == FREE else (structure, bare)
-                falls = reference.judge(later, motion.scaled(earlier)).overturned
-                check(not falls, f"{later} overturns at {earlier:.9g} g under {motion}, by SciPy")
-                for of, interval in ((structure, one), (column, found[0])):
-                    if interval:
-                        error_of(of, motion, interval)
-    picked = np.random.default_rng(SEED).permutation(len(of_pulses))[: settings["sample"]]
-    for place in picked:
-        error_of(*of_pulses[place])
+                falls = reference.judge(later, pulse.scaled(earlier)).overturned
+                check(not falls, f"{later} overturns at {earlier:.9g} g under {pulse}, by SciPy")
+    chosen = np.random.default_rng(SEED).permutation(len(sample))[: settings["sample"]]
+    for place in chosen:
+        error_of(*sample[place])
     return rows
 
 
@@ -239,24 +200,22 @@ def poses(column: Column, settings: dict) -> Iterator[dict]:
                     yield labels | {"body": body, "x": x, "y": y}
 
 
-def compute(settings: dict, column: dict, records: list[str]) -> dict[str, Any]:
-    """Return minima under the pulses of one period and under all motions, and the poses."""
-    of = Column(**column)
+def compute(settings: dict, column: dict) -> dict[str, Any]:
+    """Return minima under the pulses of one period and over their frequency, and the poses."""
+    bare = Column(**column)
     return {
-        "vase": of_one_period(of, settings),
-        "motions": under_motions(of, settings, list(records)),
-        "poses": [*poses(of, settings)],
+        "vase": of_one_period(bare, settings),
+        "motions": over_frequency(bare, settings),
+        "poses": [*poses(bare, settings)],
     }
 
 
 def compared(vase_motions: pd.DataFrame) -> pd.DataFrame:
     """Return each fixed mass and frame beside the bare column, where one of the two overturns."""
     at = ["motion", "frequency_ratio"]
-    table = vase_motions.fillna({"frequency_ratio": -1.0})
-    bare = table[table.structure == BARE].drop_duplicates(at).set_index(at)
-    table = table[table.structure != BARE].join(
-        bare[["minimum", "wide_minimum"]].add_suffix("_bare"), at
-    )
+    is_bare = vase_motions.structure == BARE
+    bare = vase_motions[is_bare].drop_duplicates(at).set_index(at)
+    table = vase_motions[~is_bare].join(bare[["minimum", "wide_minimum"]].add_suffix("_bare"), at)
     table = table[np.isfinite(table[["minimum", "minimum_bare"]].min(axis=1))]
     for name in ("minimum", "wide_minimum"):
         ranks = zip(table.structure, table[name], table[f"{name}_bare"], strict=True)
@@ -266,17 +225,14 @@ def compared(vase_motions: pd.DataFrame) -> pd.DataFrame:
 
 def ranked(table: pd.DataFrame, longest: float) -> dict[str, Any]:
     """Return whether all structures keep their ranks, on the condition of long pulses."""
-    record = table.frequency_ratio < 0.0
-    long = table[~record & (table.frequency_ratio <= longest)]
-    exceptions = table[table.minimum_reversed]
+    long = table[table.frequency_ratio <= longest]
+    exceptions = table.minimum_reversed.sum()
     return truth(
-        exceptions.empty,
+        exceptions == 0,
         holds_when=len(long) > 0 and not long.minimum_reversed.any(),
         condition=f"the ground motion is a pulse of ω at most {longest:g} p",
         comparisons=len(table),
-        exceptions=len(exceptions),
-        records=record.sum(),
-        exceptions_under_records=(record & table.minimum_reversed).sum(),
+        exceptions=exceptions,
     )
 
 
@@ -291,29 +247,29 @@ def findings(vase: pd.DataFrame, vase_motions: pd.DataFrame, settings: dict) -> 
         under.loc[FIXED, :, s].max() < under[BARE, 0.0, s] < under.loc[FREE, :, s].min()
         for s in settings["shapes"]
     ]
-    found = {
+    quoted = vase[vase["shape"] == "one-cosine"].set_index(["structure", "mass_ratio"])
+    at = {
+        "minimum_of_the_column": (BARE, 0.0),
+        "minimum_at_mass_ratio_one": (FREE, 1.0),
+        "minimum_of_the_heaviest": (FREE, math.inf),
+    }
+    return {
         "fixed_mass_always_lowers": ranked(table[table.structure == FIXED], longest),
         "frame_always_raises": truth(
             not free.minimum_reversed.any() and wide == 0,
             holds_when=not free.minimum_reversed.any(),
             condition="the lowest interval of overturning accelerations counts, however narrow",
             comparisons=len(free),
-            records=(free.frequency_ratio < 0.0).sum(),
             exceptions=free.minimum_reversed.sum(),
             exceptions_of_wide_intervals=wide,
         ),
         "support_decides": ranked(table, longest) | {"under_the_pulses_of_one_period": all(ranks)},
         "least_raise": value(min(raised), 1e-6),
         "largest_raise": value(max(raised), 1e-6),
+    } | {
+        name: value(*quoted.loc[one, ["minimum_overturning", "error"]], "g")
+        for name, one in at.items()
     }
-    quoted = vase[vase["shape"] == "one-cosine"].set_index(["structure", "mass_ratio"])
-    for name, at in {
-        "minimum_of_the_column": (BARE, 0.0),
-        "minimum_at_mass_ratio_one": (FREE, 1.0),
-        "minimum_of_the_heaviest": (FREE, math.inf),
-    }.items():
-        found[name] = value(*quoted.loc[at, ["minimum_overturning", "error"]], "g")
-    return found
 
 
 if __name__ == "__main__":

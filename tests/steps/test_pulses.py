@@ -15,7 +15,7 @@ from replication.sections import Paper
 from steps import animation, proven, spectra, spectra_shard, uplift, vase
 from steps.shared.histories import history
 from steps.shared.spectrum import FRAME, KEYS, line
-from tests.cases import COLUMN, RECORDS, ROOT, SIZES, broken
+from tests.cases import COLUMN, ROOT, SIZES, broken
 from tests.cases import FRAME as BENT
 from topheavy.forces.frame import base_shear_slope
 
@@ -145,8 +145,8 @@ def test_sample_notices_wrong_intervals(shards):
 # The fixed mass ----------------------------------------------------------------------------------
 
 
-def minimum(structure, motion=PULSE, highest=2.0):
-    return vase.minima([structure], motion, highest, 0.001)[0]
+def minimum(structure, pulse=PULSE, highest=2.0, floor=0.001):
+    return vase.lowest(structure, pulse, highest, floor)
 
 
 def test_minimum_is_the_known_one_and_scipy_agrees():
@@ -171,21 +171,10 @@ def test_narrow_interval_above_uplift_is_not_missed():
     """Its width is less than the floor of the search."""
     slow = th.Pulse("one-cosine", 1.0, 0.55 * COLUMN.frequency_parameter)
     found = minimum(COLUMN, slow)
-    finer = vase.minima([COLUMN], slow, 2.0, 0.0001)[0]
+    finer = minimum(COLUMN, slow, floor=0.0001)
     assert found.factor == pytest.approx(finer.factor, abs=1e-8)
     assert found.width < 0.001 * COLUMN.uplift_acceleration
     assert vase.error_of(COLUMN, slow, found) < 1e-6
-
-
-def test_under_a_record_the_capacity_counts():
-    record = th.read_record(RECORDS / "el_centro_1940_NS.AT2")
-    record = record.scaled(1.0 / record.peak_acceleration)
-    frame = th.RockingFrame(COLUMN, 1.0)
-    of_column, of_frame = vase.capacities([COLUMN, frame], record, 2.0)
-    inside = of_frame * np.geomspace(1.0, 1.05, 200)
-    assert 0.85 < th.overturned_by(frame, record, inside).mean() < 0.95
-    assert of_column < of_frame
-    assert vase.capacities([COLUMN], record, 0.2) == [math.inf]
 
 
 def test_wide_interval_is_the_lowest_in_which_all_steps_overturn(monkeypatch):
@@ -199,7 +188,7 @@ def test_wide_interval_is_the_lowest_in_which_all_steps_overturn(monkeypatch):
 
 @pytest.fixture(scope="module")
 def minima():
-    return as_written(vase.compute(VASE, SIZES, []))
+    return as_written(vase.compute(VASE, SIZES))
 
 
 def test_findings_of_the_fixed_mass(minima):

@@ -69,7 +69,6 @@ def required(frame, cap, shaking, settings):
         impact = impact_impulses(frame, cap, 1.0)
         bases = impact.base_left.vertical + impact.base_right.vertical
         vertical.append(impact.least_vertical / bases)
-        largest, coarse = (max(part, impact.friction_demand) for part in (largest, coarse))
     column = frame.column
     return {
         "shape": shaking.shape,

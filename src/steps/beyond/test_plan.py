@@ -4,7 +4,7 @@ import math
 from itertools import count
 
 import pandas as pd
-from scipy.stats import binom, norm
+from scipy.special import bdtr, ndtr
 
 from replication.step import check, run, value
 from topheavy import Column, Pulse, RockingFrame, judge, overturning_intervals
@@ -31,10 +31,10 @@ def compute(settings):
     for name, other in others.items():
         low, high = (minimum(block, unit) for block in (alone, other))
         pulse = unit.scaled(math.sqrt(low * high))
-        found = [solve(block, pulse).overturned for block in (alone, other) for solve in SOLVERS]
-        check(found == [True, True, False, False], f"{name}, {pulse}: overturned {found}")
+        fell = [solve(block, pulse).overturned for block in (alone, other) for solve in SOLVERS]
+        check(fell == [True, True, False, False], f"{name}, {pulse}: overturned {fell}")
         for scatter in settings["scatters"]:
-            right = float(norm.cdf(0.5 * math.log(high / low) / scatter))
+            right = float(ndtr(0.5 * math.log(high / low) / scatter))
             rows.append(
                 {
                     "other": name,
@@ -43,7 +43,6 @@ def compute(settings):
                     "pulse": pulse.amplitude,
                     "period": 2.0 * math.pi / omega,
                     "scatter": scatter,
-                    "one_is_right": right,
                     "repeats": repeats(right, settings["risk"]),
                 }
             )
@@ -60,7 +59,7 @@ def minimum(block, unit):
 
 def repeats(right, risk):
     """Return the least odd number of repeats whose majority is wrong with at most a risk."""
-    return next(n for n in count(1, 2) if binom.cdf(n // 2, n, right) <= risk)
+    return next(n for n in count(1, 2) if bdtr(n // 2, n, right) <= risk)
 
 
 def findings(test_plan):
