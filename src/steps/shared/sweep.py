@@ -21,8 +21,8 @@ from topheavy import (
     Record,
     RockingBlock,
     RockingFrame,
-    judge,
     overturned_by,
+    peak_rotations,
 )
 
 FAMILIES = ("near-fault", "broadband")
@@ -138,8 +138,7 @@ def overturned(question: Question, record: Record, up: Record | None) -> Outcome
 
 def rotations(question: Question, record: Record, _: Record | None) -> NDArray[np.float64]:
     """Return the peak of |θ|/α, infinite where a structure overturns, of the same shape."""
-    motions = [record.scaled(to / record.peak_velocity) for to in question.velocities]
-    peaks = np.array([[judge(one, each).peak for each in motions] for one in question.blocks])
+    peaks = peak_rotations(question.blocks, record, question.velocities / record.peak_velocity)
     return np.nan_to_num(peaks / question.blocks[0].slenderness, nan=np.inf)
 
 
