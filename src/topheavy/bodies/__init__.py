@@ -1,1 +1,1 @@
-"""What rocks: columns, frames, a mass fixed to them; how they move and what a history of it is."""
+"""Columns, frames and fixed masses: their dimensions, rocking blocks, kinematics and energy."""

@@ -72,7 +72,7 @@ def residuals(equation: str, side: Side) -> list[sp.Expr]:
 
 
 def follows(equation: str, premises: Premises, sides: Iterable[Side]) -> bool:
-    """Whether an equation is an identity on these sides, with the derived values put in."""
+    """Whether an equation is an identity on these sides, after the derived values are substituted."""
     return all(
         vanishes(residual.subs(premises(side)), side)
         for side in sides
@@ -104,7 +104,7 @@ def _checks(statement: Statement) -> Iterator[PrintedCheck]:
 def _check_step(
     name: str, sources: tuple[str, ...], eliminated: tuple[sp.Symbol, ...], target: str
 ) -> PrintedCheck:
-    """Whether printed equations, solved for what they share, yield the next one as printed."""
+    """Whether eliminating common unknowns from printed equations yields the next printed one."""
     printed = {statement.name: statement.printed for statement in EQUATIONS}
     system = [r for source in sources for r in residuals(printed[source], NEGATIVE)]
     (solution,) = sp.linsolve(system, eliminated)

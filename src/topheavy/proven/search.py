@@ -23,7 +23,7 @@ PRECISIONS = ((112, 1e-13), (144, 1e-20), (176, 1e-28))
 """Bits of the checker, and the largest size of the last terms of a step, rad."""
 
 BOX_ACCURACY = 1e-6
-"""Times the relative width of a box of factors: size of the last terms of its steps, if larger."""
+"""Accuracy for a box of factors over its relative width, if that is coarser."""
 
 NARROW_BOX = 1e-9
 """Relative width of a box of factors below which the search uses the second precision."""

@@ -1,4 +1,4 @@
-"""What `fragility` accepts: structures with names, motions with intensities, levels, groups."""
+"""Checks of the arguments of `fragility`: structures, motions, intensities, levels and groups."""
 
 import math
 from collections.abc import Callable, Hashable, Mapping, Sequence

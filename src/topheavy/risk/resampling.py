@@ -1,8 +1,8 @@
 """Means over motions and over resamples of the motions, and the intervals that these give.
 
-A motion is drawn with all its outcomes, under every structure and at every intensity, so that
-structures stay paired. What is counted is a mean over motions; in every array below the first axis
-holds the mean of the ensemble itself and then those of its resamples.
+A motion is drawn with all its outcomes, for every structure and at every intensity, so that
+structures stay paired. The first axis of every result holds the mean of the ensemble, followed by
+the means of its resamples.
 """
 
 from collections.abc import Hashable, Sequence
