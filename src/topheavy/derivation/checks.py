@@ -72,7 +72,7 @@ def residuals(equation: str, side: Side) -> list[sp.Expr]:
 
 
 def follows(equation: str, premises: Premises, sides: Iterable[Side]) -> bool:
-    """Whether an equation is an identity on these sides, after the derived values are substituted."""
+    """Whether an equation is an identity on these sides, with the derived values substituted."""
     return all(
         vanishes(residual.subs(premises(side)), side)
         for side in sides
