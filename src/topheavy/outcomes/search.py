@@ -124,7 +124,8 @@ def _under_factors(
     scale_vertical: bool,
     *,
     in_full: bool,
-) -> Outcomes:
+) -> tuple[Factors, NDArray[np.bool_]]:
+    """Return peak rotation and overturning; the peak is complete if `in_full`."""
     scales = checks.axis("factors", factors, zero_allowed=True)
     several = isinstance(structure, Sequence)
     structures = list(structure) if isinstance(structure, Sequence) else [structure]
@@ -132,7 +133,7 @@ def _under_factors(
         raise ValueError("structure is an empty list; expected one or more structures")
     ends = (float(scales.min()), float(scales.max()))
     subjects = subjects_of(structures, excitation, ends, vertical, scale_vertical)
-    peak, overturned, impacts = outcomes_by(
+    peak, overturned, _ = outcomes_by(
         subjects,
         np.repeat(np.arange(len(subjects)), scales.size),
         np.tile(scales, len(subjects)),
@@ -140,7 +141,7 @@ def _under_factors(
         in_full=in_full,
     )
     shape = (len(subjects), scales.size) if several else (scales.size,)
-    return peak.reshape(shape), overturned.reshape(shape), impacts.reshape(shape)
+    return peak.reshape(shape), overturned.reshape(shape)
 
 
 @dataclass(frozen=True)

@@ -129,7 +129,7 @@ def simulate(
         forcing = pulse_forcing(shape, amplitude, scale)
     forcing = forcing._replace(end=min(forcing.end, until))
     if forcing.end == math.inf:
-        raise ValueError("duration is not given; expected one, as this excitation goes on forever")
+        raise ValueError("duration is None; expected one, as this excitation goes on forever")
     order = record_order(scale, tolerance) if shape == RECORD else PULSE_ORDER
 
     def follow(until: float, at: Times) -> tuple[NDArray[np.float64], Times, tuple[float, ...]]:

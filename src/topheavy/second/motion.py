@@ -175,7 +175,7 @@ def force(
     checked_excitation(excitation)
     forcing_end = min(excitation.duration, math.inf if duration is None else duration)
     if forcing_end == math.inf:
-        raise ValueError("duration is not given; expected one, as this excitation goes on forever")
+        raise ValueError("duration is None; expected one, as this excitation goes on forever")
     segments = excitation.segments(forcing_end)
     level = block.uplift_acceleration
     if block.linearised:
