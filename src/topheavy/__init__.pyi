@@ -5,7 +5,8 @@ from .bodies.response import Response
 from .bodies.structures import STANDARD_GRAVITY, Column, RockingBlock, RockingFrame, Structure
 from .forces.contact import Cap, ContactForces, Reaction, contact_forces, impact_impulses
 from .ground.pulses import Pulse
-from .ground.records import Record, read_record
+from .ground.reading import read_record
+from .ground.records import Record
 from .outcomes.capacity import Capacity, capacity
 from .outcomes.minimum import LowestOverturning, lowest_overturning, overturning_spectrum
 from .outcomes.overturning import overturning_map

@@ -23,7 +23,7 @@ MAX_CELLS = 100_000_000
 LARGEST_RECORDED = 2.0
 """g. Few ground accelerations exceed it: of one that does a warning asks the unit."""
 
-LONGEST_STEP = 4.0
+LONGEST_STEP = 0.2
 """s. Few records have a longer time step: a warning asks whether it is in ms."""
 
 LARGEST_VELOCITY = 5.0

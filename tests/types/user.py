@@ -61,7 +61,7 @@ pulse = Pulse("one-sine", 1.0, 3.0)
 long = Pulse("one-sine", 1.0, period=6.0)
 assert_type(long.period, float)
 times = np.linspace(0.0, 1.0, 5)
-shaking = Record(0.02, [0.0, 0.1, -0.2, 0.0], "mine")
+shaking = Record(0.02, [0.0, 0.1, -0.1, 0.0], "mine")
 measured = read_record(sys.argv[1])
 
 for motion in (pulse, shaking, measured.scaled(1.5)):

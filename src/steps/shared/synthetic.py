@@ -294,9 +294,7 @@ def motion(seed: int, number: int, scenario: Scenario, *, pulse: bool) -> Record
     corner = 10.0 ** (1.4071 - 0.3452 * scenario.magnitude)  # Hz [4, 5]
     shape = modulation(time, drawn["rise"], drawn["decay"], drawn["peak"])
     shaking, before = high_passed(noise * shape, corner)
-    shaking *= math.sqrt(
-        drawn["Ia"] / 100.0 / arias_intensity(Record(TIME_STEP, shaking, unit="g"))
-    )
+    shaking *= math.sqrt(drawn["Ia"] / 100.0 / arias_intensity(shaking))
     if pulse:
         shaking[before : before + time.size] += pulse_acceleration(time, drawn)
     return Record(
@@ -414,7 +412,7 @@ def _pulse_slope(turns, phase, cycles):
 # ---------------------------------------------------------------------------- measures
 
 
-def arias_intensity(record: Record) -> float:
-    """Return π g/2 ∫ a² dt with a in g: m/s."""
-    energy = float(np.square(record.acceleration).sum()) * record.time_step
+def arias_intensity(acceleration: NDArray) -> float:
+    """Return π g/2 ∫ a² dt with samples of a in g: m/s."""
+    energy = float(np.square(acceleration).sum()) * TIME_STEP
     return math.pi / 2.0 * STANDARD_GRAVITY * energy

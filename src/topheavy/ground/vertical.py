@@ -80,15 +80,20 @@ def without_rest(record: Record) -> Record:
     size = max(2, int(moving[-1]) + 2) if moving.size else 2
     if size >= record.acceleration.size:
         return record
-    return Record(record.time_step, record.acceleration[:size], record.name, unit="g")
+    return record.with_samples(record.acceleration[:size])
 
 
 def both_records(excitation: object, vertical: object) -> tuple[Record, Record]:
-    """Return two ground motions if both are Records, or raise ValueError."""
+    """Return two Records that start together, or raise ValueError for other ground motions."""
     if not isinstance(vertical, Record) or not isinstance(excitation, Record):
         raise ValueError(
             f"excitation is {type(excitation).__name__} and vertical {type(vertical).__name__}; "
             "expected two Records: sample a pulse to combine it with a vertical component"
+        )
+    if abs(excitation.start - vertical.start) > 0.5 * excitation.time_step:
+        raise ValueError(
+            f"excitation starts at {excitation.start:.6g} s, vertical at {vertical.start:.6g} s; "
+            "expected the same: cut both Records to it, and give it as `start`"
         )
     return excitation, vertical
 

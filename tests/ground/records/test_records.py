@@ -1,15 +1,14 @@
-"""Records, those of the repository, and units."""
+"""Records in memory: samples, units, peaks, and what is asked of a doubtful one."""
 
-import itertools
 import math
-import re
+import warnings
 
 import numpy as np
 import pytest
 
-from tests.cases import RECORDS
-from topheavy import STANDARD_GRAVITY, Record, read_record
-from topheavy.ground.records.units import acceleration_in_g, stated_acceleration, time_in_seconds
+from topheavy import STANDARD_GRAVITY, Column, Record, fragility, judge, overturned_by, simulate
+from topheavy.ground.records import acceleration_in_g
+from topheavy.second import reference
 
 SAMPLES = (0.1, -0.2, 0.4, 0.0, -0.3)
 FIVE = Record(0.02, np.array(SAMPLES), name="five samples")
@@ -35,14 +34,23 @@ def test_last_sample_is_that_of_the_end_and_of_no_later_time():
             assert record.excitation(math.nextafter(record.duration, math.inf)) == 0.0
 
 
-@pytest.mark.parametrize(
-    ("unit", "factor"), [("g", 1.0), ("m/s2", 9.81), ("cm/s²", 981.0), ("gal", 981.0), ("mg", 1e3)]
-)
-def test_record_in_memory_is_converted_to_g(unit, factor):
-    found = Record(0.02, factor * np.array(SAMPLES), unit=unit)
+def test_samples_are_converted_to_g():
+    found = Record(0.02, 981.0 * np.array(SAMPLES), unit="gal")
     np.testing.assert_allclose(found.acceleration, SAMPLES, rtol=1e-15)
-    with pytest.raises(ValueError, match=r"record 'a': unit is 'm/s'; expected g, % g"):
+    with pytest.raises(ValueError, match=r"record 'a': unit is 'm/s'; expected one of g, %g"):
         Record(0.02, SAMPLES, "a", unit="m/s")
+
+
+def test_units_are_understood_in_their_usual_spellings_and_no_others():
+    for length, metres in {"m": 1.0, "cm": 0.01, "mm": 0.001}.items():
+        for form in ("/s/s", "/s2", "/s^2", "/s**2", "/s²", "/sec/sec", "/(sec^2)", " s-2", "·s⁻²"):
+            assert acceleration_in_g(length + form) == metres / STANDARD_GRAVITY
+            assert acceleration_in_g((length + form).upper()) == metres / STANDARD_GRAVITY
+    for text, factor in {"g": 1.0, "G's": 1.0, "% g": 0.01, "mg": 0.001}.items():
+        assert acceleration_in_g(text) == factor
+    assert acceleration_in_g("Gals") == 0.01 / STANDARD_GRAVITY
+    for text in ("cm/s", "m/s^3", "g/s", "g*10", "2 g", "0.1g", "s", "kg", "counts", "g^2", ""):
+        assert acceleration_in_g(text) is None
 
 
 ACCELERATION = [
@@ -103,150 +111,59 @@ def test_record_is_scaled_to_a_peak():
         Record(0.1, [0.0, 0.0]).scaled_to(pga=1.0)
 
 
-def certified():
-    """Name, samples, time step (s) and peak (g) of each record, by the README of their folder."""
-    text = (RECORDS / "README.md").read_text(encoding="utf-8")
-    rows = re.findall(r"^\| (\w+\.AT2) \|.*?\| (\d+) \| ([\d.]+) \| ([\d.]+) \|", text, re.M)
-    return [(name, int(n), float(step), float(peak)) for name, n, step, peak in rows]
+TIME = 0.01 * np.arange(400)
+MOTION = 0.3 * np.sin(2.5 * np.pi * TIME) * np.exp(-(((TIME - 2.0) / 0.8) ** 2))
 
 
-def test_every_record_in_the_repository_is_certified():
-    assert sorted(path.name for path in RECORDS.glob("*.AT2")) == sorted(r[0] for r in certified())
-    assert len(certified()) == 10
+@pytest.mark.filterwarnings("error")
+def test_motion_and_what_is_computed_from_it_pass_without_a_word():
+    record = Record(0.01, MOTION, "a motion")
+    assert str(record) == "a motion: 400 samples, time step 0.01 s, PGA 0.2827 g, PGV 0.3981 m/s"
+    record.scaled(100.0).detrended()
+    Record(0.01, np.zeros(10), "at rest")
 
 
-@pytest.mark.parametrize(("file", "samples", "time_step", "peak"), certified())
-def test_record_has_the_certified_count_step_and_peak(file, samples, time_step, peak):
-    record = read_record(RECORDS / file)
-    assert (record.acceleration.shape, record.time_step) == ((samples,), time_step)
-    assert record.duration == pytest.approx((samples - 1) * time_step, rel=1e-14)
-    assert record.peak_acceleration == pytest.approx(peak, abs=5e-4)
-
-
-SECONDS = ["s", "sec", "SEC", "second", "seconds"]
-LENGTHS = {
-    1.0: ["m", "M", "meter", "metres"],
-    0.01: ["cm", "CM", "centimeters", "centimetre"],
-    0.001: ["mm", "MM", "millimetres", "millimeter"],
-}
-FORMS = ["{l}/{s}/{s}", "{l}/{s}2", "{l}/{s}^2", "{l}/{s}**2", "{l}/{s}²", "{l} / {s}^(2)"]
-
-
-FORMS += ["{l}/({s}^2)", "{l} {s}-2", "{l} {s}^-2", "{l}·{s}⁻²", "{l}.{s}**-2", "{l} {s}^(-2)"]
-
-
-FORMS += ["{l} per {s} per {s}", "{l} per {s} squared", "{l}/{s} squared", "{l} per square {s}"]
-
-
-SPELLINGS = {
-    form.format(l=length, s=second): metres / STANDARD_GRAVITY
-    for metres, lengths in LENGTHS.items()
-    for length, second, form in itertools.product(lengths, SECONDS, FORMS)
-}
-
-
-SPELLINGS |= dict.fromkeys(["g", "G", "g's", "G'S", "g’s"], 1.0)
-SPELLINGS |= dict.fromkeys(["gal", "Gal", "GAL", "gals"], 0.01 / STANDARD_GRAVITY)
-SPELLINGS |= {"g/10": 0.1, "G/100": 0.01, "g / 1000": 0.001, "%g": 0.01, "% G": 0.01}
-SPELLINGS |= {"percent of g": 0.01, "mg": 0.001, "milli-g": 0.001}
-"""What is written, and one of it in g."""
-
-
-HEADERS = [
-    "UNITS: {}",
-    "Units = {}",
-    "units={}, corrected",
-    "ACCELERATION TIME SERIES IN UNITS OF {}",
-    "ACCELERATION TIME HISTORY IN UNITS OF {}.  FILTER POINTS: HP=0.1 Hz   LP=46.0 Hz",
-    "The units are ({})",
-    "UNITS {}",
-    "units of acceleration: {}",
-    "ACCELERATION IN {}",
-    "Accelerations recorded in building 5, in {}",
-    "Acceleration: {}",
-    "8 values to a line, in {}",
-    "ACCELERATION ({})",
-    "Accel. [{}]",
-    "({})",
-    "OUTPUT ACCELERATION TIME HISTORY ({}): NIT = 2",
-    "NPTS=  4000, DT= .005 SEC, UNITS: {}",
-]
-
-
-def test_every_spelling_is_understood():
-    understood = {spelling: acceleration_in_g(spelling) for spelling in SPELLINGS}
-    assert understood == pytest.approx(SPELLINGS, rel=1e-14)
-
-
-@pytest.mark.parametrize("spelling", ["G", "GAL", "cm/s²", "CM/S/S", "m s^-2", "mm/sec^2", "g/10"])
-@pytest.mark.parametrize("header", HEADERS)
-def test_statement_is_found_wherever_it_stands(header, spelling):
-    found = stated_acceleration(["El Centro, 0.02 sec", header.format(spelling)])
-    assert found.in_g == pytest.approx(SPELLINGS.get(spelling, acceleration_in_g(spelling)))
-    assert found.place == 2
-
-
+@pytest.mark.filterwarnings("always")
 @pytest.mark.parametrize(
-    "text",
+    ("step", "samples", "unit", "asked"),
     [
-        *("cm/s", "m/s^3", "m/s2/Hz", "g/s", "g*10", "g x 10", "g/20", "2 g", "0.1g", "cm s", "s"),
-        *("ft/s2", "G-force", "gall", "kg", "gram", "ms-2", "", "counts", "g^2", "g·s", "gg"),
+        (0.01, MOTION - 0.0078, "g", "velocity at the end is -0.305 m/s, with a PGV of 0.4"),
+        (0.01, 20.0 * MOTION, None, r"the PGV is 7.96 m/s.*; the largest acceleration is 5.65 g"),
+        (0.01, np.abs(MOTION), None, "no sample changes sign"),
+        (0.25, MOTION[::25], None, r"^record: time_step is 0.25 s: is it in ms\?$"),
+        (0.01, 8.0 * MOTION, None, r"^record: .* 2.26 g, and few exceed 2 g: is it in m/s²"),
+        (0.01, 1000.0 * np.sin(0.5 * np.arange(1000)), "m/s2", "102 g, and few exceed 5 g"),
+        (0.01, -12085 + 6000 * np.sin(0.06 * np.arange(1000)), "m/s2", "or counts"),
     ],
 )
-def test_what_is_no_certain_unit_of_acceleration_is_not_understood(text):
-    assert acceleration_in_g(text) is None
-    with pytest.raises(ValueError, match=r"line 2 states a unit that is not understood: 'UNITS:"):
-        stated_acceleration(["title", f"UNITS: {text}" if text != "s" else "UNITS: s/s"])
-    with pytest.raises(ValueError, match=r"lines 1 to 2 state no unit .*line 2 is 'ACCELERATION"):
-        stated_acceleration(["title", f"ACCELERATION ({text})"])
+def test_record_that_is_hardly_a_ground_motion_is_asked_with_its_number(step, samples, unit, asked):
+    with pytest.warns(UserWarning, match=asked) as caught:
+        Record(step, samples, unit=unit)
+    assert [one.filename for one in caught] == [__file__]
 
 
-@pytest.mark.parametrize(
-    "line",
-    [
-        "Processed in 2014, cm/s/s over 980.665",  # mentions, not statements
-        "PEAK ACCELERATION = -341.7 CM/SEC/SEC AT 2.12 SEC",
-        "Unit 4 of a power house, Gilroy (Gavilan College), station G",
-        "TIME UNITS: SEC",
-        "PGA (g) = 0.319, peak velocity (cm/s)",
-        "Peak acceleration in g: 0.319",
-        "the largest is 0.319 (g)",
-        "Amax (g) = 0.319",
-        "Maximum acceleration in g: 0.319",
-        "Acceleration data, source: G. Smith",
-        "g = 9.81 m/s2",
-        "",
-    ],
-)
-def test_mention_of_a_unit_is_no_statement(line):
-    with pytest.raises(ValueError, match="lines 1 to 1 state no unit of acceleration"):
-        stated_acceleration([line])
-    assert stated_acceleration([line, "UNITS OF G"]).in_g == 1.0
+@pytest.mark.parametrize("line", [-0.0078, 0.001 + 0.002 * TIME])
+def test_offset_and_drift_are_removed(line):
+    shifted = Record(0.01, MOTION + line, "shifted", start=1.0)
+    found = shifted.detrended()
+    assert (found.name, found.start, found.time_step) == ("shifted", 1.0, 0.01)
+    np.testing.assert_allclose(found.acceleration, Record(0.01, MOTION).detrended().acceleration)
+    assert found.peak_velocity == pytest.approx(Record(0.01, MOTION).peak_velocity, rel=0.01)
+    with warnings.catch_warnings(action="error"):
+        Record(0.01, found.acceleration)
 
 
-def test_two_units_that_contradict_are_refused_with_both_lines():
-    says = r"line 1 states 'cm/s2' \('A \(cm/s2\)'\) and line 3 states 'G' \('UNITS OF G'\)"
+def test_components_that_start_at_different_times_are_refused_together():
+    column = Column.of_dimensions(width=1.6, height=8.0)
+    across, same, late = (Record(0.01, MOTION, start=start) for start in (10.0, 10.004, 12.0))
+    says = "excitation starts at 10 s, vertical at 12 s; expected the same"
+    for solve in (simulate, judge, reference.simulate):
+        with pytest.raises(ValueError, match=says):
+            solve(column, across, vertical=late)
     with pytest.raises(ValueError, match=says):
-        stated_acceleration(["A (cm/s²)", "", "UNITS OF G"])
-    with pytest.raises(ValueError, match=r"line 1 states 'g' .* and line 3 states 'cm/s2'"):
-        stated_acceleration(["A (g)", "UNITS OF G", "A (cm/s²)"])
-
-
-def test_two_units_that_agree_are_one():
-    assert stated_acceleration(["UNITS OF CM/SEC/SEC (GAL)"]).unit == "CM/SEC/SEC"
-
-
-def test_definition_of_g_in_brackets_is_no_second_unit():
-    found = stated_acceleration(["UNITS OF CM/S2 (g = 980.665 cm/s2)"])
-    assert found.unit == "CM/S2"
-
-
-@pytest.mark.parametrize("text", ["s", "S", "sec", "SEC", "seconds"])
-def test_seconds_are_understood(text):
-    assert time_in_seconds(text) == 1.0
-    assert time_in_seconds(f"milli{text}" if text == "seconds" else f"m{text}") == 1e-3
-
-
-@pytest.mark.parametrize("text", ["", "min", "hz", "e", "us", "samples"])
-def test_other_units_of_time_are_not(text):
-    assert time_in_seconds(text) is None
+        overturned_by(column, across, [1.0], vertical=late.scaled(0.5))
+    with pytest.raises(ValueError, match=says):
+        fragility([column], [across], [0.3], vertical=[late])
+    assert judge(column, across, vertical=same) == judge(
+        column, Record(0.01, MOTION), vertical=Record(0.01, MOTION)
+    )

@@ -1,0 +1,222 @@
+"""Recorded ground motions: samples in equal steps, joined by straight lines."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from topheavy import checks
+from topheavy.bodies.structures import STANDARD_GRAVITY
+from topheavy.ground.excitation import Excitation, Lines, Segment
+
+_METRES = {"gal": 0.01, "m/s2": 1.0, "cm/s2": 0.01, "mm/s2": 0.001}
+UNITS = {"g": 1.0, "%g": 0.01, "mg": 0.001}
+UNITS |= {unit: metres / STANDARD_GRAVITY for unit, metres in _METRES.items()}
+"""One of each unit of acceleration, in g."""
+
+LARGEST = 5.0
+"""g. No recorded ground acceleration exceeds it: samples that do are in another unit."""
+
+
+def acceleration_in_g(unit: str) -> float | None:
+    """Return one unit of acceleration in g, or None for a text that is no such unit."""
+    plain = unicodedata.normalize("NFKC", unit).replace("−", "-").lower()
+    plain = re.sub(r"[\s()^*]|['’]s", "", plain).replace("sec", "s").replace("/s/s", "/s2")
+    return UNITS.get(re.sub(r"(?<=m)[.·⋅]?s-2$", "/s2", plain).replace("gals", "gal"))
+
+
+@dataclass(frozen=True, eq=False)
+class Record(Excitation):
+    """A recorded ground acceleration: sample k at k·time_step, linear between, zero outside.
+
+    Parameters
+    ----------
+    time_step : float
+        s.
+    acceleration : array_like, shape (n,)
+        In g, n ≥ 2.
+    name : str
+        What to call it in figures and messages.
+    unit : str, optional
+        Of the samples given, such as "m/s2", "gal" or "%g". They are converted to g.
+    start : float
+        Time of the first sample, s, which two components must share. A history begins with it.
+
+    Warns
+    -----
+    UserWarning
+        If the samples are probably no ground motion, with the number that shows it.
+
+    Raises
+    ------
+    ValueError
+        For a step that is not positive, fewer than two samples, a sample that is not finite or
+        beyond 1e6 g, or a unit that is not understood.
+
+    Examples
+    --------
+    >>> th.Record(0.02, [0.0, 5.0, -5.0, 0.0], unit="m/s2").peak_velocity
+    0.05
+    """
+
+    time_step: float
+    acceleration: NDArray[np.float64]
+    name: str = ""
+    start: float = 0.0
+
+    def __init__(
+        self,
+        time_step: float,
+        acceleration: ArrayLike,
+        name: str = "",
+        *,
+        unit: str | None = None,
+        start: float = 0.0,
+    ) -> None:
+        checks.positive("time_step", time_step, "s")
+        called = _called(name)
+        samples = checks.numbers(f"{called}: acceleration", acceleration)
+        if samples.ndim != 1 or samples.size < 2:
+            raise ValueError(f"{called} has shape {samples.shape}; expected at least two samples")
+        factor = 1.0 if unit is None else acceleration_in_g(str(unit))
+        if factor is None:
+            raise ValueError(f"{called}: unit is {unit!r}; expected one of {', '.join(UNITS)}")
+        samples *= factor
+        self._set(time_step, samples, name, checks.finite("start", start))
+        _ask_if_plausible(self, checks.LARGEST_RECORDED if unit is None else LARGEST)
+
+    def _set(self, step: float, samples: NDArray[np.float64], name: str, start: float) -> None:
+        k = np.abs(samples).argmax()  # of the largest, or the first NaN
+        checks.acceleration(f"{_called(name)}: sample {k} of {samples.size}", samples[k])
+        samples.setflags(write=False)
+        # A dataclass would take only an array: a field has one type, given and kept.
+        fields = {"time_step": step, "acceleration": samples, "name": name, "start": start}
+        for field, value in fields.items():
+            object.__setattr__(self, field, value)
+
+    def with_samples(self, acceleration: NDArray[np.float64]) -> Record:
+        """Return the record with other samples, in g, computed from its own."""
+        made = object.__new__(Record)
+        made._set(self.time_step, acceleration, self.name, self.start)
+        return made
+
+    def __str__(self) -> str:
+        sizes = f"{self.acceleration.size} samples, time step {self.time_step:.6g} s"
+        peaks = f"PGA {self.peak_acceleration:.4g} g, PGV {self.peak_velocity:.4g} m/s"
+        return f"{self.name or 'record'}: {sizes}, {peaks}"
+
+    @property
+    def time(self) -> NDArray[np.float64]:
+        """Times of the samples, s."""
+        return self.time_step * np.arange(self.acceleration.size, dtype=np.float64)
+
+    @property
+    def duration(self) -> float:
+        """Time of the last sample, s."""
+        return (self.acceleration.size - 1) * self.time_step
+
+    @property
+    def peak_acceleration(self) -> float:
+        """PGA: max |a| of the samples, g."""
+        return float(np.abs(self.acceleration).max())
+
+    @property
+    def peak_velocity(self) -> float:
+        """PGV, m/s: max |v| at the samples, integrated from rest without baseline correction."""
+        return float(np.abs(self._velocities()).max()) * STANDARD_GRAVITY
+
+    def _velocities(self) -> NDArray[np.float64]:
+        """Return the velocities at the samples after the first, in g s."""
+        steps = (self.acceleration[1:] + self.acceleration[:-1]) / 2.0 * self.time_step
+        return np.cumsum(steps)
+
+    def detrended(self) -> Record:
+        """Return the record without the straight line that fits its accelerations best.
+
+        Offset and drift of an instrument leave with it, and the velocity ends near zero.
+
+        Examples
+        --------
+        >>> shifted = th.Record(0.01, 0.02 + np.sin(0.1 * np.arange(1000)))
+        >>> abs(shifted.detrended().acceleration.mean()) < 1e-12
+        True
+        """
+        places = np.arange(self.acceleration.size)
+        line = np.polynomial.Polynomial.fit(places, self.acceleration, 1)
+        return self.with_samples(self.acceleration - line(places))
+
+    def scaled(self, factor: float) -> Record:
+        """Return the same record with all accelerations multiplied by `factor`."""
+        return self.with_samples(checks.finite("factor", factor) * self.acceleration)
+
+    def scaled_to(self, *, pga: float | None = None, pgv: float | None = None) -> Record:
+        """Return the record scaled to a peak ground acceleration (g) or velocity (m/s).
+
+        Raises
+        ------
+        ValueError
+            Unless one of both is given, is positive, and the record has acceleration.
+        """
+        if (pga is None) == (pgv is None):
+            raise ValueError(f"pga is {pga}, pgv is {pgv}; expected one of both")
+        if pga is not None:
+            wanted, peak = checks.positive("pga", pga, "g"), self.peak_acceleration
+        else:
+            wanted, peak = checks.positive("pgv", pgv, "m/s"), self.peak_velocity
+            if wanted > checks.LARGEST_VELOCITY:
+                checks.warn(f"pgv is {wanted:.6g} m/s, and few exceed 5 m/s: is it in cm/s?")
+        if peak == 0.0:
+            raise ValueError(f"record {self.name!r} has no acceleration; expected one to scale")
+        return self.scaled(wanted / peak)
+
+    def accelerations(self, time: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the ground acceleration in g at times in s, an array; zero outside the record."""
+        samples = np.arange(self.acceleration.size)
+        place = np.minimum(time / self.time_step, samples[-1])  # not beyond the end by a rounding
+        inside = (time >= 0.0) & (time <= self.duration)
+        return np.where(inside, np.interp(place, samples, self.acceleration), 0.0)
+
+    def segments(self, until: float) -> Lines:
+        """Return the lines between samples, from 0 to the earlier of `until` and the end."""
+        samples, size = self.acceleration.tolist(), np.abs(self.acceleration)
+        begun = int(np.count_nonzero(self.time[:-1] < until))
+
+        def line(k: int) -> Segment:
+            first, second = samples[k : k + 2]
+            start, stop = k * self.time_step, (k + 1) * self.time_step
+            slope = (second - first) / self.time_step
+            return Segment(start, min(stop, until), partial(_line, start, first, slope))
+
+        return Lines(np.maximum(size[:-1], size[1:])[:begun], line)
+
+
+def _called(name: str) -> str:
+    return f"record {name!r}" if name else "record"
+
+
+def _ask_if_plausible(record: Record, most: float) -> None:
+    """Warn of a record that is probably no ground motion in g, with the number that shows it."""
+    samples, velocities = record.acceleration, STANDARD_GRAVITY * record._velocities()
+    largest, fastest, last = np.abs(samples).max(), np.abs(velocities).max(), velocities[-1]
+    step, one_sign = record.time_step, samples.min() * samples.max() >= 0.0 != largest
+    found = {
+        f"the velocity at the end is {last:.3g} m/s, with a PGV of {fastest:.3g} m/s: if its "
+        "baseline is not corrected, take record.detrended()": abs(last) > 0.3 * fastest,
+        f"the PGV is {fastest:.3g} m/s: is a unit wrong?": fastest > checks.LARGEST_VELOCITY,
+        "no sample changes sign: is it a ground acceleration?": one_sign,
+        f"time_step is {step:.6g} s: is it in ms?": step > checks.LONGEST_STEP,
+        f"the largest acceleration is {largest:.3g} g, and few exceed {most:g} g: is it in m/s² "
+        "or counts?": largest > most,
+    }
+    if any(found.values()):
+        said = "; ".join(text for text, is_so in found.items() if is_so)
+        checks.warn(f"{_called(record.name)}: {said}")
+
+
+def _line(start: float, value: float, slope: float, time: float) -> float:
+    return value + slope * (time - start)

@@ -1,0 +1,277 @@
+"""Files of records: AT2, CSV, plain columns, those of the repository, and what is refused."""
+
+import re
+import subprocess
+import sys
+from importlib.util import find_spec
+
+import numpy as np
+import pytest
+
+from replication.config import components
+from tests.cases import RECORDS
+from topheavy import Column, judge, read_record
+from topheavy.ground.reading import OTHERS
+
+TIME = 0.01 * np.arange(400)
+MOTION = 0.3 * np.sin(2.5 * np.pi * TIME) * np.exp(-(((TIME - 2.0) / 0.8) ** 2))
+VALUES = "\n".join(f"{a:.7E}" for a in MOTION)
+AT2 = f"A title\nACCELERATION TIME SERIES IN UNITS OF G\nNPTS= 400, DT= .0100 SEC\n{VALUES}\n"
+HEADER = "time (s),acceleration (g)"
+CSV = f"{HEADER}\n" + "".join(f"{t:.2f},{a:.6f}\n" for t, a in zip(TIME, MOTION, strict=True))
+
+
+def timed(text):
+    """The CSV with other times: `text` makes one of each."""
+    return re.sub(r"(?m)^(\d\.\d\d),", lambda time: f"{text(float(time[1]))},", CSV)
+
+
+COARSE = timed(lambda t: f"{t / 2:.2f}")
+
+
+def changed(*pairs, text=AT2):
+    for old, new in pairs:
+        assert old in text
+        text = text.replace(old, new)
+    return text
+
+
+@pytest.fixture
+def write(tmp_path):
+    def write(text, name="motion.AT2"):
+        path = tmp_path / name
+        path.write_bytes(text if isinstance(text, bytes) else text.encode())
+        return path
+
+    return write
+
+
+def certified():
+    """Name, samples, time step (s) and peak (g) of each record, by the README of their folder."""
+    text = (RECORDS / "README.md").read_text(encoding="utf-8")
+    rows = re.findall(r"^\| (\w+\.AT2) \|.*?\| (\d+) \| ([\d.]+) \| ([\d.]+) \|", text, re.M)
+    return [(name, int(n), float(step), float(peak)) for name, n, step, peak in rows]
+
+
+def test_every_record_in_the_repository_is_certified():
+    assert sorted(path.name for path in RECORDS.glob("*.AT2")) == sorted(r[0] for r in certified())
+    assert len(certified()) == 8
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize(("file", "samples", "time_step", "peak"), certified())
+def test_record_is_plausible_and_has_the_certified_numbers(file, samples, time_step, peak):
+    record = read_record(RECORDS / file)
+    assert (record.acceleration.shape, record.time_step) == ((samples,), time_step)
+    assert record.duration == pytest.approx((samples - 1) * time_step, rel=1e-14)
+    assert record.peak_acceleration == pytest.approx(peak, abs=5e-4)
+
+
+NPTS = "NPTS= 400, DT= .0100 SEC"
+IN_G = "ACCELERATION TIME SERIES IN UNITS OF G"
+RSPMATCH = f"Matched\n#Misfit: 0.1\nFile Type: Accelerations (g)\n#Id: x\n{NPTS}\n{VALUES}\n"
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("an-UP.AT2", AT2),
+        ("rspmatch.at2", RSPMATCH),
+        ("two-lines.AT2", changed((NPTS, "NPTS= 400\nDT= .01 SEC"))),
+        ("old.AT2", changed((NPTS, " 400  .0100  NPTS, DT"))),
+        ("ms.AT2", changed((NPTS, "NPTS=400 DT= 10 MSEC, 5E15.7"))),
+        ("reversed.AT2", changed((NPTS, "DT= 1.0D-02 NPTS= 400"), ("E-", "D-"))),
+        ("peak.AT2", changed(("A title", "Peak (cm/s2) 277 at Unit 4\nTIME UNITS: SEC"))),
+        ("text-behind.AT2", AT2 + "END OF FILE 12\n"),
+        ("lines.AT2", AT2.replace("\n", "\r\n")),
+        ("mark.AT2", "\ufeff" + AT2),
+        ("windows.AT2", changed(("A title", "Kütahya")).encode("cp1254")),
+        ("plain.csv", CSV),
+        ("quoted.csv", CSV.replace(HEADER, '"time (s)","acceleration (g)"')),
+        ("empty-rows.csv", CSV + "\n,\n,\n"),
+        ("sep.csv", "sep=;\n" + CSV.replace(",", ";")),
+        ("decimal-commas.csv", CSV.replace(",", ";").replace(".", ",")),
+        ("tabs.csv", CSV.replace(",", "\t")),
+        ("in.csv", CSV.replace(HEADER, "Time in sec,acceleration in g")),
+        ("comments.csv", "% a site\n# " + CSV),
+        ("above.csv", "Station,ABC\nPeak,0.28\n\n" + CSV),
+        ("windows.csv", ("Kütahya\n" + CSV).encode("cp1252")),
+        ("computed.csv", timed(lambda t: repr(t * 1000.0)).replace("time (s)", "t [ms]")),
+    ],
+)  # fmt: skip
+def test_file_of_the_motion_is_read(write, name, text):
+    record = read_record(write(text, name))
+    assert record.time_step == pytest.approx(0.01, rel=1e-12)
+    np.testing.assert_allclose(record.acceleration, MOTION, atol=6e-7)
+    assert (record.name, record.start) == (name.rpartition(".")[0], 0.0)
+
+
+UNITS = {
+    "UNITS: {}": "CM/S/S",
+    "The units are ({})": "cm/s²",
+    "ACCELERATION IN {}": "gal",
+    "ACCELERATION HISTORY IN UNITS OF {}.  FILTER POINTS: HP=0.1 Hz": "CM/SEC2",
+    "points of accel data equally spaced at .010 sec, in {}. (8f10.4)": "cm/sec2",
+    "Accel. [{}]": "cm/s^2",
+    "UNITS OF {} (GAL)": "CM/SEC/SEC",
+    "UNITS {} (g = 980.665 cm/s2)": "gal",
+}
+
+
+@pytest.mark.parametrize(("header", "unit"), UNITS.items())
+def test_unit_is_found_where_the_header_states_it(write, header, unit):
+    found = read_record(write(changed((IN_G, header.format(unit)))))
+    np.testing.assert_allclose(found.acceleration, MOTION / 981.0, atol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("pairs", "says"),
+    [
+        ([(IN_G, "ACCELERATION")], "the header states no unit; expected one of g, %g"),
+        ([(IN_G, "UNITS: METRIC")], "the header states 'METRIC'"),
+        ([(IN_G, "ACCELERATION, SI [m/s/s/s]")], "the header states no unit"),
+        ([(IN_G, "UNITS: COUNTS (g)")], "the header states 'COUNTS' and 'g'"),
+        ([("A title", "A (cm/s²)")], "the header states 'cm/s²' and 'G'"),
+        ([(IN_G, "PGA (g) = 0.319")], "the header states no unit"),
+        ([("NPTS= 400", "NPTS= 401")], "NPTS is 401, and 400 values follow"),
+        ([("NPTS= 400", "NPTS= 399")], "NPTS is 399, and 400 values follow"),
+        ([("NPTS= 400", "N= 400")], "expected 'NPTS= n, DT= s SEC' in the first ten lines"),
+        ([("A title", "\n" * 9)], "expected 'NPTS= n, DT= s SEC' in the first ten lines"),
+        ([(".0100 SEC", "10")], "DT is 10 ; expected SEC or MSEC"),
+        ([(".0100 SEC", "10 MIN")], "DT is 10 MIN; expected SEC or MSEC"),
+        ([(".0100 SEC", ".01.1 SEC")], "could not convert .*'.01.1'"),
+        ([(".0100", "0")], "time_step is 0 s; expected more than zero"),
+        ([(VALUES[:13], "x")], "could not convert string to float: .*'x'"),
+        ([(VALUES[:13], "nan")], "the largest acceleration is nan g"),
+        ([("E-01", "E+01")], r"largest acceleration is 28\.\d+ g; expected .* at most 5 g"),
+        ([("UNITS OF G", "UNITS OF GAL"), (VALUES, "0\n" * 400)], "largest acceleration is 0 g"),
+    ],
+)
+def test_bad_at2_is_refused_with_its_name_and_the_reason(write, pairs, says):
+    with pytest.raises(ValueError, match=rf"motion\.AT2: .*{says}"):
+        read_record(write(changed(*pairs)))
+
+
+def spectrum(names):
+    return f"{names}\n" + "".join(f"{0.02 * k:.2f},{0.9 / (1 + k):.6f}\n" for k in range(1, 200))
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        (spectrum("Period (s),Sa (g)"), "is of a response spectrum"),
+        (spectrum("T (s),PSA (g)"), "is of a response spectrum"),
+        (CSV.replace("0.03,", "0.034,"), "0.034 follows 0.02; .* is a sample missing"),
+        (re.sub("2.00,.*\n", "", CSV), "2.01 follows 1.99; .* is a sample missing"),
+        (timed(lambda t: f"{t + 0.003 * (t == 2.0):.3f}"), "2.003 follows 1.99; .* a sample miss"),
+        (COARSE, "0.01 follows 0.01; .* printed to 0.01 only, so give `time_step`"),
+        (timed(lambda t: f"{t * 1000:.0f}"), "the time step is 10 s; .* 0.2 s: is it in ms"),
+        (CSV.replace("(s)", ""), r"expected a header such as 'time \(s\),acceleration \(g\)'"),
+        (CSV.replace("(g)", "(counts)"), "expected a header such as"),
+        (CSV.replace("(g)", "(g),b (g)"), "expected as `column` one of 'acceleration', 'b'"),
+        (CSV.replace("0.05,", "0.05;"), r"line 7 is '0\.05;.*; expected numbers"),
+        (HEADER, "0 samples; expected at least two"),
+        ("", "expected a header such as"),
+        (b"\xff\xfet\0", "expected a header such as"),
+    ],
+)
+def test_bad_csv_is_refused_with_its_name_and_the_reason(write, text, says):
+    with pytest.raises(ValueError, match=rf"(?s)motion\.csv: .*{says}"):
+        read_record(write(text, "motion.csv"))
+
+
+def test_step_is_given_where_the_times_have_too_few_digits(write):
+    record = read_record(write(COARSE, "motion.csv"), time_step=0.005)
+    assert (record.time_step, record.peak_acceleration) == (0.005, pytest.approx(0.2827, abs=5e-5))
+
+
+def test_column_is_named(write):
+    both = write("Zeit;Time [s];N (gal);E (gal)\n0:0;2;0;0\n0:0;2,1;9;1\n0:0;2,2;-9;2\n", "a.csv")
+    record = read_record(both, "n")
+    assert record.peak_acceleration == pytest.approx(9 / 981.0)
+    assert (record.start, record.time_step) == (2.0, pytest.approx(0.1))
+    with pytest.raises(ValueError, match="expected as `column` one of 'N', 'E'"):
+        read_record(both, "Z")
+
+
+def test_plain_numbers_are_read_with_a_given_unit(write):
+    gal = 981.0 * MOTION
+    path = write("# a site\n" + "\n".join(map(repr, gal.tolist())), "motion.txt")
+    record = read_record(path, time_step=0.01, unit="gal")
+    np.testing.assert_allclose(record.acceleration, MOTION, rtol=1e-14)
+    with pytest.raises(ValueError, match=r"motion\.txt: 1 columns; expected one and `time_step`"):
+        read_record(path, unit="gal")
+    for mark in (" ", ","):
+        rows = (f"{t + 5.0:.2f}{mark}{a!r}" for t, a in zip(TIME, gal.tolist(), strict=True))
+        record = read_record(write("\n".join(rows), "motion.dat"), unit="cm/s2")
+        assert (record.start, record.time_step) == (5.0, pytest.approx(0.01))
+        np.testing.assert_allclose(record.acceleration, MOTION, rtol=1e-14)
+    with pytest.raises(ValueError, match="unit is 'feet'; expected one of g"):
+        read_record(path, time_step=0.01, unit="feet")
+
+
+def test_vertical_component_with_a_trigger_of_its_own_is_refused(write):
+    across = read_record(write(CSV, "h.csv"))
+    up = read_record(write(timed(lambda t: f"{t + 2.0:.2f}"), "v.csv"))
+    with pytest.raises(ValueError, match="starts at 0 s, vertical at 2 s; expected the same"):
+        judge(Column.of_dimensions(width=1.0, height=8.0), across, vertical=up)
+
+
+def test_usual_names_of_vertical_components_are_known(tmp_path):
+    up = ["CLC_UP", "a_up", "RSN6_I-ELC-UP", "X-DWN", "TCU052-V", "AMT.HNZ", "AOM001.UD", "b-Z"]
+    across = ["CLC_090", "ELC180", "GILROY-V1", "STA_HNE", "GROUP", "CUP", "AOM001.EW"]
+    for name in (*up, *across):
+        (tmp_path / f"{name}.{'AT2' if len(name) % 2 else 'csv'}").touch()
+    (tmp_path / "README.md").touch()
+    horizontal, vertical = components(str(tmp_path))
+    stems = [
+        {re.sub(r".*/|\.\w+$", "", path) for path in found} for found in (horizontal, vertical)
+    ]
+    assert stems == [set(across), set(up)]
+
+
+KNET = (
+    "Origin Time       2001/01/01 00:00:00\nLat.              35.0\nLong.             135.0\n"
+    "Depth. (km)       10\nMag.              6.0\nStation Code      XXX001\n"
+    "Station Lat.      35.1000\nStation Long.     135.1000\nStation Height(m) 10\n"
+    "Record Time       2001/01/01 00:00:15\nSampling Freq(Hz) 100Hz\nDuration Time(s)  4\n"
+    "Dir.              E-W\nScale Factor      3920(gal)/6182761\nMax. Acc. (gal)   277.207\n"
+    "Last Correction   2001/01/01 00:00:15\nMemo.             \n"
+)
+COUNTS = np.rint((981.0 * MOTION - 7.66) * 6182761 / 3920).astype(int)
+KNET += "".join("".join(f"{n:9d}" for n in row) + "\n" for row in COUNTS.reshape(-1, 8))
+
+
+@pytest.mark.parametrize(
+    ("network", "head"),
+    [
+        ("K-NET", KNET),
+        ("ESM", "EVENT_NAME: X\nEVENT_ID: X\n"),
+        ("GeoNet", "Corrected accelerogram X\nSite X\n"),
+        ("AFAD", "STRONG GROUND MOTION RECORDS OF TURKIYE\nPLACE : KÜTAHYA\n".encode("cp1254")),
+        ("CSMIP", "Corrected accelerogram   X\ntext\n"),
+        ("COSMOS", "Corrected acceleration    (Format v01.20 with 13 text lines) Src: x\n"),
+        ("SMC", "2 CORRECTED ACCELEROGRAM\n*\n"),
+        ("a national network", " 0.000E+00 6.599E-16-4.444E-01-9.310E-01\n"),
+    ],
+)
+def test_national_format_is_refused_by_its_name_with_a_way_to_read_it(write, network, head):
+    for name in ("x.EW", "x.AT2", "x.csv")[: 1 if network.startswith("a ") else 3]:
+        with pytest.raises(ValueError, match=f"read a file of {network}:") as error:
+            read_record(write(head, name))
+        assert str(error.value).endswith(OTHERS)
+    with pytest.raises(ValueError, match="could not convert"):
+        read_record(write(head, "x.txt"), time_step=0.01, unit="gal")
+
+
+@pytest.mark.parametrize("package", ["gmprocess", "obspy"])
+def test_lines_that_read_a_national_format_run(write, package):
+    assert OTHERS in (RECORDS / "README.md").read_text(encoding="utf-8")
+    if find_spec(package) is None:
+        pytest.skip(f"{package} is not installed here: pip install {package}, and run this again")
+    lines = OTHERS.splitlines()[:3] if package == "gmprocess" else OTHERS.splitlines()[3:]
+    code = "\n".join(["from topheavy import Record", *lines, "print(record)"])
+    code = code.replace("FILE", str(write(KNET, "XXX0010101010000.EW")))
+    found = subprocess.check_output([sys.executable, "-c", code], text=True)
+    assert found.endswith(": 400 samples, time step 0.01 s, PGA 0.2826 g, PGV 0.398 m/s\n")
