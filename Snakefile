@@ -123,6 +123,12 @@ def summary():
         print(open(path).read(), end="")
 
 
+onstart:
+    for called, paths in (("horizontal", HORIZONTAL), ("vertical", UPWARD)):
+        names = ", ".join(map(os.path.basename, paths))
+        print(f"Records taken as {called} components: {names or 'none'}")
+
+
 onsuccess:
     summary()
 

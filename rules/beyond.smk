@@ -11,9 +11,7 @@ MODELS = code(
 )
 ENSEMBLE = code("src/steps/shared/ensemble.py") | library("risk")
 SECOND = code("src/steps/shared/second.py") | library("second")
-HORIZONTAL = sorted(
-    path for path in glob("data/records/*.AT2") if not path.endswith("_UP.AT2")
-)
+HORIZONTAL, UPWARD = components("data/records")
 
 
 scattergather:

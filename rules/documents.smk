@@ -88,7 +88,7 @@ rule notebook:
         code=code("src/steps/notebook.py", *SMALL, "src/topheavy/plot.py")
         | STEP
         | library("bodies", "derivation", "ground", "kernel", "outcomes", "risk"),
-        records=checksums(*glob("data/records/*.AT2")),
+        records=checksums(*HORIZONTAL, *UPWARD),
     script:
         "../src/steps/notebook.py"
 

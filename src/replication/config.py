@@ -1,6 +1,7 @@
 """Read YAML and configs: types of their keys, and what is said of a mistake."""
 
 import hashlib
+import re
 from collections.abc import Callable
 from difflib import get_close_matches
 from pathlib import Path
@@ -106,6 +107,20 @@ class Study(Section):
 
     structures: dict[str, Structure] = {}
     records: dict[str, Motion] = {}
+
+
+VERTICAL = re.compile(
+    r"([-_. ](UP|DN|DOWN|DWN|UD|V|VRT|VER|VERT|Z)|[BEHS][HLN]Z)\.(AT2|CSV)$", re.IGNORECASE
+)
+"""How the name of a vertical component ends, by the habits of PEER, ESM, K-NET and others."""
+
+
+def components(folder: str) -> tuple[list[str], list[str]]:
+    """Return the records in a folder that count as horizontal, and those that are vertical."""
+    names = sorted(map(str, Path(folder).iterdir()))
+    records = [name for name in names if name.lower().endswith((".at2", ".csv"))]
+    vertical = [name for name in records if VERTICAL.search(name)]
+    return [name for name in records if name not in vertical], vertical
 
 
 class _Once(yaml.SafeLoader):
