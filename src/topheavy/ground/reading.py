@@ -28,7 +28,7 @@ NETWORKS = {
     "COSMOS": r".*\(Format v",
     "SMC": r"\d (UN)?CORRECTED ACCELEROGRAM",
     "GeoNet": r"(Un)?corrected accelerogram.*\nSite ",
-    "CSMIP": r"(Un)?corrected accelerogram",
+    "CSMIP, RENADIC or USC": r"(Un)?corrected accelerogram",
 }
 """How the first lines of their files begin; the first that fits counts."""
 
