@@ -94,7 +94,7 @@ def read_record(
 
 _DT = r"(?P<step>[\d.]+(?:[ED][-+]?\d+)?)[ \t]*\(?(?P<unit>(?!NPTS|UNIT)[A-Z]*)"
 _COUNT = re.compile(r"\bNPTS\s*[=:]\s*(?P<size>\d+)", re.IGNORECASE)
-_STEP = re.compile(rf"\bDT\s*[=:]\s*{_DT}", re.IGNORECASE)
+_STEP = re.compile(rf"\bDT\s*(?:\((?P<before>\w+)\)\s*)?[=:]\s*{_DT}", re.IGNORECASE)
 _OLD = re.compile(rf"^\s*(?P<size>\d+)[ \t,]+{_DT}[ \t,)]*NPTS", re.IGNORECASE | re.MULTILINE)
 _UNIT = re.compile(
     r"(\bunits?\s*(?:of\s+acc\w*\s*)?(?:\b(?:of|are|is|in)\b\s*[:=]?|[:=])\s*[(\[]?)?(?(1)|"
@@ -111,11 +111,15 @@ def _at2(path: Path, lines: list[str]) -> Record:
         count = step = _OLD.search(head)
     if not count or not step:
         raise ValueError("expected 'NPTS= n, DT= s SEC' in the first ten lines")
-    size, number, word = int(count["size"]), step["step"], step["unit"]
+    size, number, word = (
+        int(count["size"]),
+        step["step"],
+        step["unit"] or step.groupdict().get("before"),
+    )
     seconds, end = _in_seconds(word or "s"), head.count("\n", 0, max(count.end(), step.end())) + 1
     time_step = float(_in_c(number)) * (seconds or 1.0)
     if not seconds or (not word and time_step > checks.LONGEST_STEP):
-        raise ValueError(f"DT is {number} {word}; expected SEC or MSEC behind it")
+        raise ValueError(f"DT is {number} {word or ''}; expected SEC or MSEC behind it")
     values = _in_c(" ".join(lines[end:])).split()
     if len(values) < size or re.match(r"[-+.\d]", "".join(values[size : size + 1])):
         raise ValueError(f"NPTS is {size}, and {len(values)} values follow; expected as many")

@@ -70,6 +70,7 @@ RSPMATCH = f"Matched\n#Misfit: 0.1\nFile Type: Accelerations (g)\n#Id: x\n{NPTS}
         ("two-lines.AT2", AT2.replace(NPTS, "NPTS= 400\nDT= .01 SEC")),
         ("old.AT2", AT2.replace(NPTS, " 400  .0100  NPTS, DT")),
         ("ms.AT2", AT2.replace(NPTS, "NPTS=400 DT= 10 MSEC, 5E15.7")),
+        ("before.AT2", AT2.replace(NPTS, "NPTS: 400, DT(MSEC)= 10")),
         ("reversed.AT2", AT2.replace(NPTS, "DT= 1.0D-02 NPTS= 400").replace("E-", "D-")),
         ("peak.AT2", AT2.replace("A title", "Peak (cm/s2) 277 at Unit 4\nTIME UNITS: SEC")),
         ("text-behind.AT2", AT2 + "END OF FILE 12\n"),
