@@ -111,17 +111,15 @@ def _at2(path: Path, lines: list[str]) -> Record:
         count = step = _OLD.search(head)
     if not count or not step:
         raise ValueError("expected 'NPTS= n, DT= s SEC' in the first ten lines")
-    size, number, word = (
-        int(count["size"]),
-        step["step"],
-        step["unit"] or step.groupdict().get("before"),
-    )
+    number, word = step["step"], step["unit"] or step.groupdict().get("before")
     seconds, end = _in_seconds(word or "s"), head.count("\n", 0, max(count.end(), step.end())) + 1
     time_step = float(_in_c(number)) * (seconds or 1.0)
     if not seconds or (not word and time_step > checks.LONGEST_STEP):
         raise ValueError(f"DT is {number} {word or ''}; expected SEC or MSEC behind it")
     values = _in_c(" ".join(lines[end:])).split()
-    if len(values) < size or re.match(r"[-+.\d]", "".join(values[size : size + 1])):
+    if len(values) < (size := int(count["size"])) or re.match(
+        r"[-+.\d]", "".join(values[size : size + 1])
+    ):
         raise ValueError(f"NPTS is {size}, and {len(values)} values follow; expected as many")
     return _record(path, time_step, values[:size], _unit_of(lines[:end]))
 
