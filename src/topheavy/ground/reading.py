@@ -116,10 +116,8 @@ def _at2(path: Path, lines: list[str]) -> Record:
     time_step = float(_in_c(number)) * (seconds or 1.0)
     if not seconds or (not word and time_step > checks.LONGEST_STEP):
         raise ValueError(f"DT is {number} {word or ''}; expected SEC or MSEC behind it")
-    values = _in_c(" ".join(lines[end:])).split()
-    if len(values) < (size := int(count["size"])) or re.match(
-        r"[-+.\d]", "".join(values[size : size + 1])
-    ):
+    size, values = int(count["size"]), _in_c(" ".join(lines[end:])).split()
+    if len(values) < size or re.match(r"[-+.\d]", "".join(values[size : size + 1])):
         raise ValueError(f"NPTS is {size}, and {len(values)} values follow; expected as many")
     return _record(path, time_step, values[:size], _unit_of(lines[:end]))
 

@@ -20,7 +20,7 @@ UNITS |= {unit: metres / STANDARD_GRAVITY for unit, metres in _METRES.items()}
 """One of each unit of acceleration, in g."""
 
 LARGEST = 5.0
-"""g. No recorded ground acceleration exceeds it: samples that do are in another unit."""
+"""g. No recorded ground acceleration exceeds it."""
 
 
 def acceleration_in_g(unit: str) -> float | None:
