@@ -69,7 +69,7 @@ class Flights:
     and 2; parameter 0 is α. `gravity` is that over g, an expression in the parameters 3 and 4.
     """
 
-    def __init__(self, ground, linearised, precision, gravity=1.0):
+    def __init__(self, ground, linearised, precision, gravity=1.0, tolerance=0.0):
         phi, rate = hy.make_vars("phi", "rate")
         alpha = hy.par[0]
         if linearised:
@@ -103,7 +103,7 @@ class Flights:
                 hy.t_event(flat, callback=fall, direction=up, cooldown=precision(0), **how)
             )
         turns = [hy.nt_event(rate, callback=turn, direction=down, **how)]
-        blank = {"state": [precision(0)] * 2, **how}
+        blank = {"state": [precision(0)] * 2, "tol": precision(tolerance), **how}
         equations = [(phi, rate), (rate, curvature)]
         self.watched = hy.taylor_adaptive(equations, t_events=stops, nt_events=turns, **blank)
         self.unwatched = hy.taylor_adaptive(equations, **blank)
