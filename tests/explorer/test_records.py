@@ -130,11 +130,12 @@ def test_dropped_record_is_shown_and_a_bad_one_is_refused(browser, square):
     assert browser.requests == browser.errors == []
 
 
-def test_long_record_is_shown(browser, square):
+def test_long_record_is_shown_and_its_map_can_be_left(browser, square):
     browser.open()
-    assert browser.drop("long.csv", square(0.4, 0.001, 200_000)) == ""
+    assert browser.drop("long.csv", square(0.4, 0.001, 100_000)) == ""
     browser.settle()
     assert browser.do("found.peak") == pytest.approx(0.4)
+    browser.wait("document.getElementById('progress').value > 0")
     browser.do("start(DEFAULTS)")  # its map would take minutes
     browser.settle("map")
     assert browser.errors == []

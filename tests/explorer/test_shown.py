@@ -69,6 +69,7 @@ def test_case_is_played_without_a_fault(browser, number):
     browser.wait("isPlaying && time > 0")
     has_vase = browser.do("DATA.cases[{0}].state.vase !== 'hidden'", number)
     assert browser.do("document.getElementById('strip1').checkVisibility()") is has_vase
+    assert (browser.do("scene.groups[1].getAttribute('visibility')") != "hidden") is has_vase
     assert ("vase" in browser.do("document.getElementById('verdict').textContent")) is has_vase
     assert browser.requests == browser.errors == []
 
@@ -258,8 +259,3 @@ def test_numbers_are_those_of_the_library(page, responses, records):
         if k != 1:
             ground = np.array([shaking.excitation(time) for time in response.time])
             assert numbers[6] == pytest.approx(required(k, response, ground), rel=0.02)
-
-
-def test_python_has_the_restitution_of_the_state(page):
-    assert "block(0.9)" in page.do("inPython({...DEFAULTS, r: 0.9})")
-    assert "block()" in page.do("inPython(DEFAULTS)")
