@@ -4,6 +4,8 @@ import ast
 
 import pytest
 
+from topheavy import read_record
+
 TIMES = [0.0, 0.02, 0.04, 0.06, 0.08]
 SAMPLES = [0.1, -0.2, 0.4, 0.0, -0.3]
 AT2 = "A site\nACCELERATION IN UNITS OF G\n{}\n 0.1 -0.2 4.0D-01\n 0.0 -3.0E-01\n"
@@ -107,6 +109,23 @@ def test_implausible_motion_is_doubted(browser, square):
         found = read(browser, "motion.csv", content)
         assert isinstance(found, list), found
         assert (doubt in found[2]) if doubt else found[2] == ""
+
+
+@pytest.mark.filterwarnings("ignore::UserWarning")
+@pytest.mark.parametrize(
+    ("ending", "taken", "refused"), [("AT2", READ_AT2, REFUSED_AT2), ("csv", READ_CSV, REFUSED_CSV)]
+)
+def test_library_takes_and_refuses_the_same_files(tmp_path, ending, taken, refused):
+    path = tmp_path / f"motion.{ending}"
+    for text in taken:
+        path.write_bytes(text.encode("cp1252"))
+        record = read_record(path)
+        assert record.time_step == pytest.approx(0.02, rel=1e-12), text
+        assert record.acceleration == pytest.approx(SAMPLES, abs=1e-12), text
+    for text, _ in refused:
+        path.write_text(text, encoding="utf-8")
+        with pytest.raises(ValueError, match="motion"):
+            read_record(path)
 
 
 # In the page -------------------------------------------------------------------------------------
