@@ -49,8 +49,9 @@ def test_map_of_a_record_has_its_own_axes():
 
 
 def test_fragility_has_points_in_bands_of_exact_intervals():
-    motions = [Record(0.1, [0.0, a, -a, 0.0]) for a in (0.3, 0.6, 1.0, 1.5)]
-    found = topheavy.fragility({"one": COLUMN}, motions, [0.5, 2.0, 8.0], measure="PGA")
+    motions = [Record(0.3, [0.0, a, -a, b]) for a, b in ((0.3, 0), (0.6, 0.3), (1, 0.6), (1.5, 1))]
+    found = topheavy.fragility({"one": COLUMN}, motions, [0.5, 1.0, 2.0], measure="PGA")
+    assert found.curves.probability[0].values.tolist() == [0.25, 0.25, 1.0]
     axes = plot.fragility(found)
     points, _ = axes.lines
     assert np.array_equal(points.get_ydata(), found.curves.probability[0])
