@@ -106,11 +106,6 @@ def test_no_member_and_no_side_is_left_out(name, right, wrong):
     assert not follows(other, statement.premises, statement.sides)
 
 
-def test_rotation_of_each_side_has_its_sign():
-    assert NEGATIVE.rotation.is_negative
-    assert POSITIVE.rotation.is_positive
-
-
 class TestReading:
     def test_top_sign_is_for_negative_rotation(self):
         assert read("α ± 1 = ∓1", NEGATIVE) == [alpha + 1, -1]
