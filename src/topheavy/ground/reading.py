@@ -14,9 +14,11 @@ from topheavy.ground.records import LARGEST, UNITS, Record, acceleration_in_g
 
 OTHERS = """\
 from gmprocess.io.read import read_data  # pip install gmprocess
+
 trace = read_data("FILE")[0][0].detrend("demean")
 record = Record(trace.stats.delta, trace.data, trace.id, unit=trace.stats.standard.units)
 import obspy  # or, of K-NET and KiK-net: pip install obspy
+
 trace = obspy.read("FILE")[0].detrend("demean")
 record = Record(trace.stats.delta, trace.data * trace.stats.calib, trace.id, unit="m/s2")
 """

@@ -242,7 +242,7 @@ def test_lines_that_read_a_national_format_run(write, package):
     assert OTHERS in (RECORDS / "README.md").read_text(encoding="utf-8")
     if find_spec(package) is None:
         pytest.skip(f"{package} is not installed here: pip install {package}, and run this again")
-    lines = OTHERS.splitlines()[:3] if package == "gmprocess" else OTHERS.splitlines()[3:]
+    lines = OTHERS.splitlines()[:4] if package == "gmprocess" else OTHERS.splitlines()[4:]
     code = "\n".join(["from topheavy import Record", *lines, "print(record)"])
     code = code.replace("FILE", str(write(KNET, "XXX0010101010000.EW")))
     found = subprocess.check_output([sys.executable, "-c", code], text=True)
