@@ -2,8 +2,8 @@
 
 mutations.yaml has comparisons, signs, constants and indices, sixty drawn by each of two seeds:
 twenty of the library, of the steps with their judging, and of the kernel with the second solver.
-Who moves or renames a line moves its entry, which leaves with the line. `baseline` is what is found. An entry
-that is caught no longer ends this with an error.
+Who moves or renames a line moves its entry, which leaves with the line. `baseline` is what is
+found. An entry that is caught no longer ends this with an error.
 """
 
 import sys
