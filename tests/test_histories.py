@@ -14,9 +14,10 @@ from tests.cases import BLOCK, BOTH, BY_TWO, COLUMN, EVERY, SIDES, TWO
 from topheavy.bodies.free_rocking import barrier, potential, quarter_period
 from topheavy.ground.excitation import sign_change
 from topheavy.ground.shapes import ELEMENTARY_ENDING
-from topheavy.kernel.outcome import LAST_IMPACT, LONGEST_FLIGHT
+from topheavy.kernel.history import MAX_FREE_FLIGHT, MAX_FREE_IMPACTS
 from topheavy.second import reference
-from topheavy.second.motion import MOST_FREE_IMPACTS, Event, _leaves_wrongly, force, start
+from topheavy.second.motion import MAX_FREE_IMPACTS as MAX_BY_SCIPY
+from topheavy.second.motion import Event, _leaves_wrongly, force, start
 
 SHAKEN = th.Pulse("one-sine", 0.5, 9.0)
 LOSSLESS = BLOCK.with_restitution(1.0)
@@ -31,7 +32,7 @@ def small_speed(block, peak):
 @pytest.fixture
 def count_all(monkeypatch):
     """Count every impact, however small the rotation that it ends."""
-    monkeypatch.setattr("topheavy.second.motion.COUNTED_PEAK", -1.0)
+    monkeypatch.setattr("topheavy.second.motion.MIN_COUNTED_PEAK", -1.0)
 
 
 # ---------------------------------------------------------------------------- time and samples
@@ -219,14 +220,14 @@ def test_lossless_block_rocks_for_ever_or_overturns_by_both_solvers(block, shape
     for end, history in zip(ends, [f(lossless, pulse, samples=50) for f in TWO], strict=True):
         assert history.outcome == ("overturned" if end.overturned else "rocking")
         if not end.overturned:
-            assert len(history.impacts) == history.number_of_impacts + LAST_IMPACT
+            assert len(history.impacts) == history.number_of_impacts + MAX_FREE_IMPACTS
             assert end.peak == pytest.approx(ends[0].peak, rel=1e-6)
 
 
 def test_lossless_bounces_that_the_ground_cannot_raise_are_not_followed(monkeypatch):
     # Bounces of 1e-9 α through five minutes of quiet. A sample above the level behind it may lift
     # the block from any of them, so that all have to be followed.
-    monkeypatch.setattr("topheavy.second.motion.MOST_IMPACTS", 300)
+    monkeypatch.setattr("topheavy.second.motion.MAX_IMPACTS", 300)
     lossless = th.RockingBlock(1.0, 0.2, 1.0)
     quiet = 1.0001 * math.tan(0.2) * np.array([0.0, 1.0, *np.zeros(300)])
     history = reference.simulate(lossless, th.Record(1.0, quiet), samples=2)
@@ -241,7 +242,7 @@ def test_lossless_bounces_that_the_ground_cannot_raise_are_not_followed(monkeypa
 def test_history_without_loss_ends_after_a_thousand_impacts_behind_the_forcing():
     linear = LOSSLESS.linear()
     free = closed(linear, rotation=0.1, samples=2)
-    assert MOST_FREE_IMPACTS == len(free.impacts) == 1000
+    assert MAX_BY_SCIPY == len(free.impacts) == 1000
     assert (free.outcome, free.number_of_impacts) == ("rocking", 0)
     assert free.impacts[-1] == pytest.approx(1999 * quarter_period(linear, 0.1), rel=1e-9)
     assert free.time[-1] == free.impacts[-1]
@@ -378,7 +379,7 @@ def test_history_at_the_last_bit_is_of_one_piece(block, solve):
     for amplitude in boundary(judged, block, 2.0, 4.0):
         history = solve(block, th.Pulse("one-sine", amplitude, 15.7), samples=400)
         rotation = np.abs(history.rotation[np.isfinite(history.rotation)])
-        assert history.time[-1] < 0.7 + LONGEST_FLIGHT / 2.14 * 1.1 + 40.0
+        assert history.time[-1] < 0.7 + MAX_FREE_FLIGHT / 2.14 * 1.1 + 40.0
         if history.overturned:
             assert rotation[-1] > 0.99 * 0.25
         else:
@@ -420,8 +421,8 @@ def test_impact_right_after_the_start_is_found():
     ("bound", "enough", "few", "says"),
     [
         ("steps.shared.linear._MOST_MARCHES", 1000, 2, "2 marches.*shorter duration"),
-        ("topheavy.second.motion.MOST_IMPACTS", 500, 3, "3 impacts.*shorter duration"),
-        ("topheavy.second.reference.MOST_STEPS", 500, 1, "1 steps.*larger tolerance"),
+        ("topheavy.second.motion.MAX_IMPACTS", 500, 3, "3 impacts.*shorter duration"),
+        ("topheavy.second.reference.MAX_STEPS", 500, 1, "1 steps.*larger tolerance"),
     ],
 )
 def test_marches_impacts_and_steps_are_bounded(monkeypatch, bound, enough, few, says):

@@ -11,21 +11,25 @@ from topheavy.kernel.forcing import (
     NO_RECORD,
     RECORD,
     SHAPES,
+    bounds_after,
     equation,
-    gravity,
+    forcing_of,
     ground,
     next_uplift,
     piece_of,
     prepare_record,
-    pulse_forcing,
-    record_forcing,
-    strongest_after,
     unit_pulse,
 )
 from topheavy.kernel.grid import outcome_of, outcomes_of
 from topheavy.kernel.rest import comes_to_rest
 from topheavy.kernel.step import TOLERANCE, working_array
-from topheavy.kernel.taylor import ROTATION, State, expand, oscillator
+from topheavy.kernel.taylor import ROTATION, Method, State, expand, oscillator
+
+
+def pulse_forcing(shape, amplitude, ratio):
+    """A pulse with ω/p = `ratio`."""
+    return forcing_of(shape, NO_RECORD, ratio, amplitude, 0.0)
+
 
 RATIO = 2.5  # ω/p; with p = 1 the kernel's time is that of a `Pulse`
 EVERY = pytest.mark.parametrize("shape", sorted(SHAPES))
@@ -41,7 +45,7 @@ def inside(shape: str, number: int = 97) -> np.ndarray:
 def test_pulse_is_that_of_the_library(shape):
     pulse, there = Pulse(shape, -0.7, RATIO), pulse_forcing(SHAPES[shape], -0.7, RATIO)
     assert there.end == pytest.approx(pulse.duration, rel=1e-15)
-    values = [ground(there, NO_RECORD, time)[0] for time in inside(shape)]
+    values = [ground(there, time)[0] for time in inside(shape)]
     np.testing.assert_allclose(values, pulse.excitation(inside(shape)), rtol=0, atol=1e-14)
 
 
@@ -50,8 +54,8 @@ def test_every_pulse_solves_its_linear_equation(shape):
     """a'' = −c a − (d₀ + d₁ (τ − τ₀)) a' about any τ₀: at τ₀ itself, and away from it."""
     there, h = pulse_forcing(SHAPES[shape], 1.3, RATIO), 1e-5
     for time in inside(shape):
-        value, rate = ground(there, NO_RECORD, time)
-        bend = ground(there, NO_RECORD, time + h)[1] - ground(there, NO_RECORD, time - h)[1]
+        value, rate, _, _ = ground(there, time)
+        bend = ground(there, time + h)[1] - ground(there, time - h)[1]
         for start in (time, time - 0.3):
             c, d0, d1 = equation(there, start)
             drag = d0 + d1 * (time - start)
@@ -71,7 +75,7 @@ def test_uplifts_are_those_that_the_segments_have(shape, strength):
             if segment.stop > start and found is not None:
                 expected = found
                 break
-        time, push, rate, side = next_uplift(there, NO_RECORD, start, level)
+        time, push, rate, side = next_uplift(there, start, level)
         if expected == math.inf and (shape != "harmonic" or abs(strength) <= 1.0):
             assert time == math.inf
         elif expected < math.inf:
@@ -89,9 +93,9 @@ def test_uplifts_are_those_that_the_segments_have(shape, strength):
 def test_a_motion_that_is_cut_off_lifts_when_the_whole_does_or_not_at_all(shape, strength):
     whole = pulse_forcing(SHAPES[shape], strength * 0.25, RATIO)
     for start in (0.0, *inside(shape, 7)):
-        time, *rest = next_uplift(whole, NO_RECORD, start, 0.25)
+        time, *rest = next_uplift(whole, start, 0.25)
         for cut in inside(shape, 31):
-            found = next_uplift(whole._replace(end=cut), NO_RECORD, start, 0.25)
+            found = next_uplift(whole._replace(end=cut), start, 0.25)
             if start < cut and time < cut:
                 assert found == pytest.approx((time, *rest), rel=1e-12, abs=1e-14)
             else:
@@ -101,7 +105,7 @@ def test_a_motion_that_is_cut_off_lifts_when_the_whole_does_or_not_at_all(shape,
 def test_way_8_a_ricker_wavelet_lifts_the_block_in_its_side_lobe():
     level = math.tan(math.radians(14.0))
     pulse = pulse_forcing(forcing.RICKER_SYMMETRIC, 3 * level, 2.0)
-    time, push, rate, side = next_uplift(pulse, NO_RECORD, 0.0, level)
+    time, push, rate, side = next_uplift(pulse, 0.0, level)
     phase = 2.0 * time
     assert phase < forcing.RICKER_TURNS[0, 0]
     assert push == 0.0
@@ -113,16 +117,16 @@ def test_way_8_a_ricker_wavelet_lifts_the_block_in_its_side_lobe():
 def test_record_is_that_of_the_library():
     samples = np.random.default_rng(1).normal(size=40)
     record = prepare_record(samples)
-    there = record_forcing(record, 0.07, -1.5, 0.0)
+    there = forcing_of(RECORD, record, 0.07, -1.5, 0.0)
     library = Record(0.07, -1.5 * samples, unit="g")
     assert there.end == pytest.approx(library.duration)
     times = np.linspace(0.0, there.end, 333)[:-1]
-    found = np.array([ground(there, record, time) for time in times])
+    found = np.array([ground(there, time) for time in times])
     np.testing.assert_allclose(found[:, 0], library.excitation(times), atol=1e-13)
-    pieces = [piece_of(there, record, time) for time in times]
+    pieces = [piece_of(there, time) for time in times]
     slopes = (np.diff(library.acceleration) / 0.07)[pieces]
     np.testing.assert_allclose(found[:, 1], slopes, rtol=1e-12)
-    assert ground(there, record, there.end) == (0.0, 0.0)
+    assert ground(there, there.end) == (0.0, 0.0, 1.0, 0.0)
 
 
 BLOCK = oscillator(RockingBlock(1.0, 0.2, 0.9))
@@ -146,57 +150,59 @@ def shaken(seed, ratio, samples=700, upward=500):
     return across, up, prepare_record(across, up, ratio)
 
 
+def push_at(motion, time, level):
+    """|a| − G level."""
+    value, _, weight, _ = ground(motion, time)
+    return abs(value) - weight * level
+
+
 @RATIOS
 @pytest.mark.parametrize("factor", [0.25, -0.5, 1.0])
 def test_next_uplift_is_the_first_time_that_the_push_is_positive(ratio, factor):
     """Against a fine scan of |a| − G level, from many times on."""
     _, _, both = shaken(2, ratio)
-    there = record_forcing(both, STEP, factor, 0.9)
+    there = forcing_of(RECORD, both, STEP, factor, 0.9)
     times = np.linspace(0.0, there.end, 80_001)[:-1]
-    push = np.array(
-        [abs(ground(there, both, t)[0]) - gravity(there, both, t)[0] * 0.2 for t in times]
-    )
+    push = np.array([push_at(there, time, 0.2) for time in times])
     seen = set()
     for first in range(0, times.size, 1337):
         over = np.flatnonzero(push[first:] > 1e-9)
-        time, found, rate, side = next_uplift(there, both, times[first], 0.2)
+        time, found, rate, side = next_uplift(there, times[first], 0.2)
         seen.add(over.size > 0)
         if not over.size:
-            assert time == math.inf or abs(ground(there, both, time)[0]) < 0.2 + 1e-6
+            assert time == math.inf or abs(ground(there, time)[0]) < 0.2 + 1e-6
             continue
         at = times[first + over[0]]
         assert at - times[1] - 1e-12 <= time <= at
-        assert side == -math.copysign(1.0, ground(there, both, at)[0])
+        assert side == -math.copysign(1.0, ground(there, at)[0])
         assert found == 0.0 or time == times[first] or found > 0.0
-        later = time + 1e-7
-        ahead = abs(ground(there, both, later)[0]) - gravity(there, both, later)[0] * 0.2
-        assert ahead - found == pytest.approx(1e-7 * rate, abs=1e-8)
+        assert push_at(there, time + 1e-7, 0.2) - found == pytest.approx(1e-7 * rate, abs=1e-8)
     assert True in seen
 
 
 def test_bounds_hold_for_the_rest_of_both_records():
     _, _, both = shaken(3, 0.731)
-    there = record_forcing(both, STEP, 2.0, -1.1)
+    there = forcing_of(RECORD, both, STEP, 2.0, -1.1)
     times = np.linspace(0.0, there.end, 4001)[:-1]
-    weights = np.array([gravity(there, both, time)[0] for time in times])
-    pushes = np.array([abs(ground(there, both, time)[0]) for time in times]) / weights
+    weights = np.array([ground(there, time)[2] for time in times])
+    pushes = np.array([abs(ground(there, time)[0]) for time in times]) / weights
     for k in range(0, times.size, 37):
-        strength, heaviest = strongest_after(there, both, times[k])
+        strength, heaviest = bounds_after(there, times[k])
         assert strength >= pushes[k:].max()
         assert heaviest >= weights[k:].max()
-    assert strongest_after(there, both, there.end) == (0.0, 1.0)
-    falling = record_forcing(both, STEP, 2.0, 2.0)
-    assert strongest_after(falling, both, 0.0)[0] == math.inf
+    assert bounds_after(there, there.end) == (0.0, 1.0)
+    falling = forcing_of(RECORD, both, STEP, 2.0, 2.0)
+    assert bounds_after(falling, 0.0)[0] == math.inf
 
 
 @BOTH
 def test_series_solves_the_equation_under_a_changing_gravity(block):
     """φ'' of the series against the equation, at several times of a step."""
-    state = State(0.05, -0.4, math.sin(0.05), math.cos(0.05), -0.3, 1.2, 1.4, -2.0)
+    state = State(0.0, 1.0, 0.05, -0.4, math.sin(0.05), math.cos(0.05), -0.3, 1.2, 1.4, -2.0)
     if block.linearised:
         state = state._replace(sine=0.0, cosine=1.0)
     w, order = working_array(), 14
-    expand(w, order, block, state, 0.0, 0.0, 0.0, True)
+    expand(w, Method(order, TOLERANCE, True), block, state, (0.0, 0.0, 0.0))
     phi = np.polynomial.Polynomial(w[ROTATION, : order + 1])
     for time in (0.0, 0.02, 0.05, 0.1):
         weight, push = 1.4 - 2.0 * time, -0.3 + 1.2 * time
@@ -214,11 +220,11 @@ def test_rest_is_not_called_when_gravity_is_about_to_fall():
     up[20:] = -0.2
     for lift, expected in ((1.0, False), (0.0, True), (0.04, True)):
         both = prepare_record(across, up, 1.0)
-        there = record_forcing(both, 1e-3, 1.0, lift)
+        there = forcing_of(RECORD, both, 1e-3, 1.0, lift)
         for side in (-1.0, 1.0):
             push = -side * 0.9 * BLOCK.level - BLOCK.level
-            given = (there, both, 0.0185, 2e-6, push, side, 1.0)
-            assert comes_to_rest(BLOCK, *given) is expected
+            state = State(0.0185, side, 0.0, 2e-6, 0.0, 1.0, push, 0.0, 1.0, 0.0)
+            assert comes_to_rest(BLOCK, there, state, 1.0) is expected
 
 
 @RATIOS

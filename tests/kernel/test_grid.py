@@ -12,10 +12,10 @@ import pytest
 from benchmarks.boundaries import SHAPES
 from tests.cases import BOTH, grid_of
 from topheavy import RockingBlock
-from topheavy.kernel import bernstein, forcing, interrupt, outcome, step
-from topheavy.kernel.forcing import NO_RECORD, prepare_record, pulse_forcing
-from topheavy.kernel.grid import FEWEST_PULSES, outcomes_of
-from topheavy.kernel.taylor import oscillator
+from topheavy.kernel import bernstein, forcing, history, interrupt, step
+from topheavy.kernel.forcing import NO_RECORD, forcing_of, prepare_record
+from topheavy.kernel.grid import MIN_PULSES, outcomes_of
+from topheavy.kernel.taylor import Method, oscillator
 
 BLOCK = oscillator(RockingBlock(1.0, math.radians(14.0), 0.87))
 SCALES, AMPLITUDES = np.linspace(0.5, 10, 61), np.linspace(0.25, 2.5, 31)
@@ -29,7 +29,7 @@ def same(first, second) -> None:
 @pytest.mark.parametrize("threads", [2, 3, 7])
 @pytest.mark.parametrize("shape", [forcing.ONE_SINE, forcing.RICKER_SYMMETRIC])
 def test_results_do_not_depend_on_the_number_of_threads(shape, threads):
-    assert SCALES.size * AMPLITUDES.size > 3 * FEWEST_PULSES
+    assert SCALES.size * AMPLITUDES.size > 3 * MIN_PULSES
     alone = grid_of(BLOCK, shape, SCALES, AMPLITUDES, threads=1)
     same(grid_of(BLOCK, shape, SCALES, AMPLITUDES, threads=threads), alone)
     same(grid_of(BLOCK, shape, SCALES, AMPLITUDES), alone)
@@ -102,26 +102,28 @@ EXTREMES = [(1.0 + 1e-9, 3.0), (1.5, 1e-4), (1e5, 1e-3), (3.0, 5.0), (7.1, 5.0),
 def test_no_history_comes_near_the_most_steps(monkeypatch, shape, block):
     """A hundredth of the bound is enough, also for a history with samples."""
     there, w = oscillator(block), step.working_array()
-    arrays = (np.empty(0), np.empty((2, 0)), np.empty(1000))
+    samples = history.Samples(np.empty(0), np.empty((2, 0)), np.empty(1000))
 
     def ends(motion):
-        given = (w, step.PULSE_ORDER, step.TOLERANCE, there, motion, NO_RECORD, outcome.NO_RATIOS)
-        how = ((0.0, 0.0, math.inf), arrays)
-        return [outcome.trace.py_func(*given, *how, judged)[1] for judged in (True, False)]
+        method = Method(step.PULSE_ORDER, step.TOLERANCE, history.is_straight(motion.shape))
+        how = (w, method, there, motion, history.NO_RATIOS, history.FROM_REST, samples)
+        return [history.follow.py_func(*how, judged).result for judged in (True, False)]
 
-    for bound in ("MAX_STEPS", "MOST_STEPS"):
-        monkeypatch.setattr(outcome, bound, getattr(outcome, bound) // 100)
+    bounds = ("MAX_STEPS", "MAX_STEPS_WITH_SAMPLES")
+    for bound in bounds:
+        monkeypatch.setattr(history, bound, getattr(history, bound) // 100)
     for strength, ratio in EXTREMES:
-        motion = pulse_forcing(forcing.SHAPES[shape], strength * there.level, ratio)
-        assert outcome.UNRESOLVED not in ends(motion)
-    for bound in ("MAX_STEPS", "MOST_STEPS"):
-        monkeypatch.setattr(outcome, bound, 0)
-    assert ends(motion) == [outcome.UNRESOLVED] * 2
+        number, amplitude = forcing.SHAPES[shape], strength * there.level
+        motion = forcing_of(number, NO_RECORD, ratio, amplitude, 0.0)
+        assert history.UNRESOLVED not in ends(motion)
+    for bound in bounds:
+        monkeypatch.setattr(history, bound, 0)
+    assert ends(motion) == [history.UNRESOLVED] * 2
 
 
 def test_parts_of_a_polynomial_are_far_fewer_than_the_most(monkeypatch):
     random = np.random.default_rng(7)
-    monkeypatch.setattr(bernstein, "MOST_PARTS", bernstein.MOST_PARTS // 4)
+    monkeypatch.setattr(bernstein, "MAX_PARTS", bernstein.MAX_PARTS // 4)
     for number in range(300):
         clustered = 0.1 ** random.uniform(0, 9) * random.uniform(size=15)
         places = random.uniform(0.05, 0.9) + (clustered if number % 2 else 0.0 * clustered)
@@ -129,19 +131,19 @@ def test_parts_of_a_polynomial_are_far_fewer_than_the_most(monkeypatch):
         w[step.POLYNOMIAL, :16] = np.polynomial.polynomial.polyfromroots(places)
         bernstein.to_bernstein(w, step.POLYNOMIAL, 15, step.HULL)
         given = (w, step.POLYNOMIAL, 0, 15, step.HULL, step.STACK, step.ROOTS, 15)
-        bernstein._roots.py_func(*given)
+        bernstein.roots.py_func(*given)
         assert w[step.HALT, 0] == 0.0
-    monkeypatch.setattr(bernstein, "MOST_PARTS", 2)
-    bernstein._roots.py_func(*given)
+    monkeypatch.setattr(bernstein, "MAX_PARTS", 2)
+    bernstein.roots.py_func(*given)
     assert w[step.HALT, 0] == 1.0  # the history is given up
 
 
 def test_newton_finds_what_is_looked_for_in_a_quarter_of_its_steps(monkeypatch):
-    monkeypatch.setattr(forcing, "MOST_NEWTON_STEPS", forcing.MOST_NEWTON_STEPS // 4)
+    monkeypatch.setattr(forcing, "MAX_NEWTON_STEPS", forcing.MAX_NEWTON_STEPS // 4)
     for shape in (forcing.RICKER_SYMMETRIC, forcing.RICKER_ANTISYMMETRIC):
         for strength in (1 + 1e-12, 1 + 1e-6, 1.01, 2.0, 30.0, 1e5):
-            motion, time = pulse_forcing(shape, strength, 2.0), 0.0
-            found = forcing.next_uplift(motion, NO_RECORD, time, 1.0)
+            motion = forcing_of(shape, NO_RECORD, 2.0, strength, 0.0)
+            found = forcing.next_uplift(motion, 0.0, 1.0)
             turns = [*forcing.RICKER_TURNS[shape - forcing.RICKER_SYMMETRIC] / 2.0]
             high = next((turn for turn in turns if turn > found[0]), motion.end)
             low = max((turn for turn in turns if turn < found[0]), default=0.0)

@@ -14,27 +14,27 @@ from topheavy import RockingBlock
 from topheavy.kernel.forcing import (
     RECORD,
     SHAPES,
-    lines,
+    forcing_of,
+    ground_of_piece,
     piece_start,
     prepare_record,
-    record_forcing,
 )
 from topheavy.kernel.grid import outcome_of, outcomes_of
 from topheavy.kernel.lanes import records, steps
+from topheavy.kernel.lanes.histories import begin
 from topheavy.kernel.lanes.vectors import (
     WIDTH,
     absolute,
-    among,
+    batch,
     bits,
     exponential,
+    fields,
     fma,
-    load,
+    mask_of,
     maximum,
     minimum,
-    rows,
     select,
     square_root,
-    store,
 )
 from topheavy.kernel.march import powers, short_series
 from topheavy.kernel.tail import safe_speed
@@ -84,8 +84,10 @@ def test_impulse_that_overturns_a_block_is_no_more_than_the_safe_one():
 
 
 @njit
-def march_all(w, block, record, tolerance):
-    return records.march_lanes(w, steps.seated(w, block), record, tolerance, (1 << WIDTH) - 1)
+def march_all(batch, record, tolerance):
+    v = fields(batch[0])
+    block = steps.block_of_lanes(v, math.pi / 2, False)
+    return records.march_lanes(v, block, record, tolerance, (1 << WIDTH) - 1)
 
 
 def test_short_series_and_its_bounds_are_those_of_the_scalar_kernel():
@@ -94,18 +96,18 @@ def test_short_series_and_its_bounds_are_those_of_the_scalar_kernel():
     record = prepare_record(rng.uniform(-0.4, 0.4, 60), rng.uniform(-0.5, 0.5, 60), 0.731)
     for case in range(300):
         step, tolerance = 10.0 ** rng.uniform(-1.5, -0.3), 10.0 ** rng.uniform(-7.0, -1.0)
-        w, forcing = rows(steps.ROWS), record_forcing(record, step, 1.0, 0.9)
+        w, forcing = steps.new_batch(), forcing_of(RECORD, record, step, 1.0, 0.9)
         pieces, peak = rng.integers(0, 40, WIDTH), 0.24
         rotation, velocity = rng.uniform(0.01, 0.26, WIDTH), rng.uniform(-0.05, 0.05, WIDTH) / step
         for lane in range(WIDTH):
-            records.begin(w, lane, block, forcing, True)
-        w[steps.ROTATION], w[steps.VELOCITY] = rotation, velocity
-        w[steps.SINE], w[steps.COSINE] = np.sin(rotation), np.cos(rotation)
-        w[steps.FACTOR], w[steps.PIECE], w[steps.PEAK], w[steps.ARC] = -1.0, pieces, peak, peak
-        found = march_all(w, block, record, tolerance)
+            begin(w[0], lane, block, forcing, True)
+        w["rotation"][0, 0], w["velocity"][0, 0] = rotation, velocity
+        w["sine"][0, 0], w["cosine"][0, 0] = np.sin(rotation), np.cos(rotation)
+        w["factor"], w["piece"], w["peak"], w["flight_peak"] = -1.0, pieces, peak, peak
+        found = march_all(w, record, tolerance)
         for lane, (k, turn, rate) in enumerate(zip(pieces, rotation, velocity, strict=True)):
-            value, slope, weight, change = lines(forcing, record, k)
-            length = piece_start(forcing, record, k + 1) - piece_start(forcing, record, k)
+            value, slope, weight, change = ground_of_piece(forcing, k)
+            length = piece_start(forcing, k + 1) - piece_start(forcing, k)
             push, push_rate = -value - block.level * weight, -slope - block.level * change
             tilt, lean = math.cos(0.25 - turn), math.sin(0.25 - turn)
             heavy, heavier = weight / math.cos(0.25), change / math.cos(0.25)
@@ -124,29 +126,29 @@ def test_short_series_and_its_bounds_are_those_of_the_scalar_kernel():
             assert found >> lane & 1 == fine, (case, lane)
             passed.append(fine)
             if fine:
-                assert w[steps.ROTATION, lane] == pytest.approx(turn + by, abs=1e-14)
+                assert w["rotation"][0, 0, lane] == pytest.approx(turn + by, abs=1e-14)
                 close = 1e-13 * (1.0 + abs(rate))
-                assert w[steps.VELOCITY, lane] == pytest.approx(rate + gain / length, abs=close)
-                assert w[steps.SINE, lane] == pytest.approx(math.sin(turn + by), abs=1e-14)
+                assert w["velocity"][0, 0, lane] == pytest.approx(rate + gain / length, abs=close)
+                assert w["sine"][0, 0, lane] == pytest.approx(math.sin(turn + by), abs=1e-14)
     assert 0.1 < np.mean(passed) < 0.9
 
 
 @njit
-def arithmetic(x, out):
-    a, b, c = load(x, 0), load(x, 1), load(x, 2)
-    store(out, 0, fma(a, b, c))
-    store(out, 1, select((a < b) & ~(a <= -1.0), a, b))
-    store(out, 2, select(among(5), 1.0 / b, -a))
-    store(out, 3, minimum(square_root(absolute(a)), maximum(b, 3 * c)))
-    store(out, 4, exponential(a))
+def arithmetic(batch):
+    v = fields(batch[0])
+    a, b, c = v.a, v.b, v.c
+    v.out[0] = fma(a, b, c)
+    v.out[1] = select((a < b) & ~(a <= -1.0), a, b)
+    v.out[2] = select(mask_of(5), 1.0 / b, -a)
+    v.out[3] = minimum(square_root(absolute(a)), maximum(b, 3 * c))
+    v.out[4] = exponential(a)
     return bits(a < b)
 
 
 def test_each_lane_is_a_float():
-    rng, out = np.random.default_rng(7), rows(5)
-    x = rows(3)
-    x[:] = a, b, c = rng.normal(size=(3, WIDTH))
-    less = arithmetic(x, out)
+    w = batch(["a", "b", "c"], ["out"], 5)
+    a, b, c = w["a"][0], w["b"][0], w["c"][0] = np.random.default_rng(7).normal(size=(3, WIDTH))
+    less, out = arithmetic(w), w["out"][0]
     assert [less >> lane & 1 for lane in range(WIDTH)] == (a < b).astype(int).tolist()
     assert less >> WIDTH == 0
     some = np.isin(np.arange(WIDTH), (0, 2))
@@ -159,29 +161,40 @@ def test_each_lane_is_a_float():
 
 
 @njit
-def root_of_all(w, degree, correction):
-    step, start, stop = load(w, steps.LENGTH), load(w, steps.STEP), load(w, steps.TIME)
-    slope, sought = load(w, steps.STEP + 1) * step, among((1 << WIDTH) - 1)
-    given = (w, steps.STEP, degree, step, start, slope, stop, sought, correction)
-    x, is_found = steps.only_root(*given)
-    store(w, steps.ARC, x)
-    return bits(is_found)
+def root_of_all(batch, degree, correction):
+    v, wanted = fields(batch[0]), mask_of((1 << WIDTH) - 1)
+    ends = (v.polynomial[0], v.polynomial[1] * v.step, v.time)
+    v.flight_peak, is_accurate = steps.only_root(
+        v.polynomial, degree, v.step, ends, wanted, correction
+    )
+    return bits(is_accurate)
+
+
+def test_iteration_begins_at_the_root_of_the_parabola():
+    """Where a landing is close to the turn after it, no other start would do."""
+    w, roots = steps.new_batch(), np.linspace(0.1, 0.9, WIDTH)
+    for lane, root in enumerate(roots):
+        curve = np.polynomial.Polynomial.fromroots([root, root + 1e-3])
+        w["polynomial"][0, :3, lane] = curve.coef
+        w["step"][0, lane], w["time"][0, lane] = root + 5e-4, curve(root + 5e-4)
+    assert root_of_all(w, 2, steps.LANDING_CORRECTION) == (1 << WIDTH) - 1
+    np.testing.assert_allclose(w["flight_peak"][0], roots, rtol=1e-9)
 
 
 def test_root_is_taken_only_where_the_iteration_is_to_be_trusted():
     """Roots beside a turn, where a correction says little of what is left."""
     rng, kept = np.random.default_rng(6), []
     for _ in range(400):
-        w, roots = rows(steps.ROWS), np.empty(WIDTH)
+        w, roots = steps.new_batch(), np.empty(WIDTH)
         for lane in range(WIDTH):
             root, gap = rng.uniform(0.3, 1.0), 10.0 ** rng.uniform(-4.0, 0.0)
             others = np.polynomial.Polynomial([3.0, *rng.uniform(-0.6, 0.6, 3)])
             whole = np.polynomial.Polynomial.fromroots([root, root + gap]) * others
-            w[steps.STEP : steps.STEP + 6, lane] = whole.coef
-            w[steps.LENGTH, lane] = root + 0.5 * gap
-            w[steps.TIME, lane], roots[lane] = whole(root + 0.5 * gap), root
+            w["polynomial"][0, :6, lane] = whole.coef
+            w["step"][0, lane] = root + 0.5 * gap
+            w["time"][0, lane], roots[lane] = whole(root + 0.5 * gap), root
         found = root_of_all(w, 5, steps.TURN_CORRECTION)
-        off = np.abs(w[steps.ARC] / roots - 1.0)
+        off = np.abs(w["flight_peak"][0] / roots - 1.0)
         kept += [off[lane] for lane in range(WIDTH) if found >> lane & 1]
     assert 0.1 < len(kept) / (400 * WIDTH) < 0.95
     # what Halley's iteration leaves is the square of the bend times the correction

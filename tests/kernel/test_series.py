@@ -11,7 +11,7 @@ from numpy.polynomial import polynomial
 from topheavy import RockingBlock
 from topheavy.kernel import forcing
 from topheavy.kernel.bernstein import MAX_DEGREE, roots, to_bernstein
-from topheavy.kernel.forcing import NO_RECORD, SHAPES, equation, ground, next_uplift, pulse_forcing
+from topheavy.kernel.forcing import NO_RECORD, SHAPES, equation, forcing_of, ground, next_uplift
 from topheavy.kernel.grid import record_order
 from topheavy.kernel.march import derivatives
 from topheavy.kernel.step import (
@@ -23,24 +23,38 @@ from topheavy.kernel.step import (
     TOLERANCE,
     working_array,
 )
-from topheavy.kernel.taylor import MAX_ORDER, ROTATION, State, evaluate, expand, oscillator
+from topheavy.kernel.taylor import (
+    MAX_ORDER,
+    ROTATION,
+    Method,
+    State,
+    evaluate,
+    expand,
+    oscillator,
+)
 
 BLOCK = RockingBlock(2.0, 0.25, 0.9)
 BOTH = pytest.mark.parametrize("block", [BLOCK, BLOCK.linear()], ids=["exact", "linear"])
 ORDER = MAX_ORDER
 
 
+def pulse_forcing(shape, amplitude, ratio):
+    """A pulse with ω/p = `ratio`."""
+    return forcing_of(shape, NO_RECORD, ratio, amplitude, 0.0)
+
+
 def state_of(block, motion, time, side, rotation, velocity):
     """A rocking state under a pulse, in the kernel's terms."""
-    value, rate = ground(motion, NO_RECORD, time)
+    value, rate, _, _ = ground(motion, time)
     sine, cosine = (0.0, 1.0) if block.linearised else (math.sin(rotation), math.cos(rotation))
     push = -side * value - oscillator(block).level
-    return State(rotation, velocity, sine, cosine, push, -side * rate)
+    return State(time, side, rotation, velocity, sine, cosine, push, -side * rate, 1.0, 0.0)
 
 
 def series(block, motion, time, state, is_straight=False, order=ORDER):
     w = working_array()
-    expand(w, order, oscillator(block), state, *equation(motion, time), is_straight)
+    method = Method(order, 1e-16, is_straight)
+    expand(w, method, oscillator(block), state, equation(motion, time))
     return w
 
 
@@ -58,7 +72,7 @@ def test_series_solves_the_equation_of_motion_as_it_is_printed(shape, side, bloc
         bend = np.polynomial.polynomial.polyval(
             step, np.polynomial.polynomial.polyder(w[ROTATION, : ORDER + 1], 2)
         )
-        a = ground(motion, NO_RECORD, start + step)[0]
+        a = ground(motion, start + step)[0]
         if block.linearised:
             expected = phi - alpha - side * a
         else:  # Eq. (23) for φ = |θ|, in units of p²
@@ -73,7 +87,13 @@ def test_error_of_a_step_falls_with_the_order_of_the_series(order):
     errors = []
     for step in (0.4, 0.2):
         short, full = (
-            evaluate(series(BLOCK, motion, 0.3, state, order=n), n, oscillator(BLOCK), step, False)
+            evaluate(
+                series(BLOCK, motion, 0.3, state, order=n),
+                Method(n, 1e-16, False),
+                oscillator(BLOCK),
+                state,
+                step,
+            )
             for n in (order, ORDER)
         )
         errors.append(abs(short.rotation - full.rotation))
@@ -101,10 +121,11 @@ def test_way_1_uplift_starts_outward_however_slight_the_push(degrees, linearised
     for excess in (1e-9, 1e-6, 1e-3, 0.5, 5.0, 1e3):
         for shape in (forcing.ONE_SINE, forcing.RICKER_SYMMETRIC, forcing.RICKER_ANTISYMMETRIC):
             pulse = pulse_forcing(shape, level * (1 + excess), 1.7)
-            time, push, rate, _ = next_uplift(pulse, NO_RECORD, 0.0, level)
+            time, push, rate, _ = next_uplift(pulse, 0.0, level)
             if time == math.inf:
                 continue
-            w = series(block, pulse, time, State(0.0, 0.0, 0.0, 1.0, push, rate), order=PULSE_ORDER)
+            state = State(time, 1.0, 0.0, 0.0, 0.0, 1.0, push, rate, 1.0, 0.0)
+            w = series(block, pulse, time, state, order=PULSE_ORDER)
             assert not w[ROTATION, :3].any()
             assert w[ROTATION, 3] == pytest.approx(rate * cosine / 6)
             assert w[ROTATION, 3] > 0.0
@@ -123,9 +144,10 @@ ONE_METRE = oscillator(RockingBlock(1.0, 0.25, 0.9))
 )
 def test_derivatives_are_those_of_the_recurrences(rotation, velocity, push, rate):
     alpha = ONE_METRE.slenderness
-    state = State(rotation, velocity, math.sin(rotation), math.cos(rotation), push, rate)
+    sine, cosine = math.sin(rotation), math.cos(rotation)
+    state = State(0.0, 1.0, rotation, velocity, sine, cosine, push, rate, 1.0, 0.0)
     w = working_array()
-    expand(w, 8, ONE_METRE, state, 0.0, 0.0, 0.0, True)
+    expand(w, Method(8, 1e-16, True), ONE_METRE, state, (0.0, 0.0, 0.0))
     tilt, lean = math.cos(alpha - rotation), math.sin(alpha - rotation)
     force = math.sin(rotation) / math.cos(alpha) + push * tilt
     slope = math.cos(rotation) / math.cos(alpha) + push * lean

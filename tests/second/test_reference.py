@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from topheavy import Pulse, RockingBlock
+from topheavy.second.motion import _leaves_wrongly
 from topheavy.second.reference import judge, simulate
 
 
@@ -52,3 +53,12 @@ def test_tighter_tolerance_changes_next_to_nothing(case):
     assert tight.overturned == usual.overturned
     assert tight.impacts == usual.impacts
     assert tight.peak == pytest.approx(usual.peak, abs=1e-8 * case[0].slenderness, nan_ok=True)
+
+
+def test_block_that_survives_may_pass_alpha_inward_only():
+    """Beyond φ = α a free block comes back, or the history ends before it escapes."""
+    block = RockingBlock(2.0, 0.25, 0.9)
+    assert _leaves_wrongly(block, 0.26, 0.1, outward=False)
+    assert not _leaves_wrongly(block, 0.26, -0.1, outward=False)
+    assert _leaves_wrongly(block, 0.24, -0.1, outward=True)
+    assert not _leaves_wrongly(block, 0.24, 0.1, outward=True)

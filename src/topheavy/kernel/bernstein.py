@@ -18,14 +18,14 @@ from topheavy.kernel.compiled import compiled
 
 MAX_DEGREE = 20
 #: Parts narrower than this which still show two roots hold a touching one, which is no crossing.
-NARROWEST = 2.0**-44
+MIN_WIDTH = 2.0**-44
 MAX_DEPTH = 48
 #: At each of the 44 depths at most degree/2 parts change sign twice or more, since halving makes no
 #: new change of sign: a mean, rounded or not, never has a sign that neither of its terms has. Each
 #: of these parts is visited, and so are its halves.
-MOST_PARTS = 1 + 2 * 44 * (MAX_DEGREE // 2)
+MAX_PARTS = 1 + 2 * 44 * (MAX_DEGREE // 2)
 #: Newton's steps for a root, of which five are usual. As many halvings then leave 2⁻⁶⁴ of a step.
-MOST_NEWTON_STEPS = 64
+MAX_NEWTON_STEPS = 64
 #: CONVERT[n, i, k] = C(i, k) / C(n, k) makes Bernstein coefficients of degree n.
 CONVERT = np.array(
     [
@@ -79,7 +79,7 @@ def isolated_root(w, p, first, degree, low, high, sign):
     x = 0.5 * (low + high)
     if low == 0.0 and w[p, first] * w[p, first + 1] < 0.0:  # a short bounce is a parabola
         x = min(x, -w[p, first] / w[p, first + 1])
-    for number in range(2 * MOST_NEWTON_STEPS):
+    for number in range(2 * MAX_NEWTON_STEPS):
         value, slope = w[p, degree], 0.0
         for k in range(degree - 1, first - 1, -1):
             slope = slope * x + value
@@ -91,7 +91,7 @@ def isolated_root(w, p, first, degree, low, high, sign):
         trial = x - value / slope if slope != 0.0 else low
         if abs(trial - x) <= 1e-11 * x:  # the next step of Newton's would be below rounding
             return trial if low < trial < high else x
-        if number >= MOST_NEWTON_STEPS or not low < trial < high:
+        if number >= MAX_NEWTON_STEPS or not low < trial < high:
             trial = 0.5 * (low + high)
             if trial in (low, high):
                 return x
@@ -100,7 +100,7 @@ def isolated_root(w, p, first, degree, low, high, sign):
 
 
 @compiled
-def roots(w, p, first, degree, b, stack, found, limit):
+def roots(w, p, first, degree, b, stack, out, limit):
     """Find the roots in (0, 1) at which a polynomial changes sign, in ascending order.
 
     Parameters
@@ -113,8 +113,8 @@ def roots(w, p, first, degree, b, stack, found, limit):
         Its row of Bernstein coefficients, as `to_bernstein` gives them.
     stack : int
         The first of `MAX_DEPTH` rows for the parts that wait. The row after them begins with 1
-        if `MOST_PARTS` were visited and some still wait.
-    found : int
+        if `MAX_PARTS` were visited and some still wait.
+    out : int
         The row that takes the roots.
     limit : int
         How many are looked for.
@@ -124,34 +124,28 @@ def roots(w, p, first, degree, b, stack, found, limit):
     int
         The number of roots found.
     """
-    # numba would compile the search anew for all constants that it is called with: + 0 hides them.
-    return _roots(w, p + 0, first + 0, degree + 0, b + 0, stack + 0, found + 0, limit + 0)
-
-
-@compiled
-def _roots(w, p, first, degree, b, stack, found, limit):
     changes = sign_changes(w, b, first, degree)
     if changes == 0:
         return 0
     if changes == 1:
         sign = first_sign(w, b, first, degree)
-        w[found, 0] = isolated_root(w, p, first, degree, 0.0, 1.0, sign)
+        w[out, 0] = isolated_root(w, p, first, degree, 0.0, 1.0, sign)
         return 1
     low_at, high_at = degree + 1, degree + 2
     for i in range(degree + 1):
         w[stack, i] = w[b, i] if i >= first else 0.0
     w[stack, low_at], w[stack, high_at] = 0.0, 1.0
     count, part = 0, stack
-    for _ in range(MOST_PARTS):
+    for _ in range(MAX_PARTS):
         if part < stack or count == limit:
             return count
         low, high = w[part, low_at], w[part, high_at]
         changes = sign_changes(w, part, 0, degree)
         if changes == 1:
             sign = first_sign(w, part, 0, degree)
-            w[found, count] = isolated_root(w, p, first, degree, low, high, sign)
+            w[out, count] = isolated_root(w, p, first, degree, low, high, sign)
             count += 1
-        elif changes > 1 and high - low > NARROWEST:
+        elif changes > 1 and high - low > MIN_WIDTH:
             halve(w, part, part + 1, degree)
             middle = 0.5 * (low + high)
             w[part, low_at], w[part, high_at] = middle, high

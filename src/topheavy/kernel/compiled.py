@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import numba
+from numba import types
 
 from topheavy.bodies import free_rocking
 from topheavy.ground import shapes
@@ -57,16 +58,24 @@ FOLDER = writable_folder()
 def compiled(function: Any = None, **options: Any) -> Any:
     """Return the function compiled at its first call, or the decorator with these options.
 
-    An option that a function leaves open it takes from whichever function is first to call it: the
-    last bits would then depend on what was compiled before. Hence all have a value here. Without
-    `_nrt` numba does not count the references to arrays, by atomic operations that take a tenth of
-    the time of a history. A function that makes an array needs it, and is called by Python alone.
+    numba takes an option that is not given from the function that calls first: the last bits would
+    depend on what was compiled before. Hence all options have a value here. Without `_nrt` numba
+    does not count references to arrays, which would take a tenth of the time of a history. A
+    function that is always inlined has no wrapper for Python, unless one is asked for.
     """
     if function is None:
         return lambda function: compiled(function, **options)
-    given: Any = {"error_model": "numpy", "fastmath": False, "forceinline": False, "_nrt": False}
+    defaults: Any = {"error_model": "numpy", "fastmath": False, "forceinline": False, "_nrt": False}
+    wrappers = {"no_cfunc_wrapper": True, "no_cpython_wrapper": "forceinline" in options}
     config: Any = numba.config
-    dispatcher, before = numba.njit(**given | options)(function), config.CACHE_DIR
+    dispatcher, before = numba.njit(**defaults | wrappers | options)(function), config.CACHE_DIR
+    template = dispatcher.get_call_template
+
+    def call_template(arguments: Any, keywords: Any) -> Any:
+        # Otherwise numba compiles a function once for each constant that it is called with.
+        return template(tuple(map(types.unliteral, arguments)), keywords)
+
+    dispatcher.get_call_template = call_template
     if FOLDER is None:
         return dispatcher
     config.CACHE_DIR = str(FOLDER)  # numba reads it as it enables the cache of a function

@@ -31,7 +31,7 @@ CONSTANT, HARMONIC = SHAPES["constant"], SHAPES["harmonic"]
 RICKER_SYMMETRIC, RICKER_ANTISYMMETRIC = SHAPES["ricker-symmetric"], SHAPES["ricker-antisymmetric"]
 RECORD, NONE = range(len(SHAPES), len(SHAPES) + 2)
 #: Phase ωt at which each shape ends (a record ends by its own time, no motion at once).
-LAST_PHASE = np.array([*(each.half_periods for each in shapes.SHAPES.values()), 0, 0]) * math.pi
+LAST_PHASE = np.array([*(shape.half_periods for shape in shapes.SHAPES.values()), 0, 0]) * math.pi
 RICKER_CENTRE = 4.5 * math.pi
 #: y = κ (ωt − centre) is the variable in which a Ricker wavelet is a derivative of exp(−y²).
 KAPPA = np.zeros(len(SHAPES))
@@ -43,13 +43,13 @@ DERIVATIVE[RICKER_SYMMETRIC], DERIVATIVE[RICKER_ANTISYMMETRIC] = 2, 3
 ANTISYMMETRIC_PEAK = 1.3801
 #: A pulse that ends has at most five monotone pieces, each of which rounding may cut in two. In as
 #: many of a harmonic's, |a| reaches its largest value more than once.
-MOST_PIECES = 10
+MAX_PIECES = 10
 #: Newton's steps for a crossing, of which six are usual. As many halvings leave 2⁻⁶⁴ of a piece.
-MOST_NEWTON_STEPS = 64
+MAX_NEWTON_STEPS = 64
 #: No shape of unit amplitude exceeds this (the antisymmetric wavelet does exceed 1, by 1.4e-5).
 UNIT_BOUND = 1.0001
 #: Samples of two records that are as near, over the duration, are at the same time.
-SAME = 1e-9
+SAME_TIME = 1e-9
 
 #: Phases at which a Ricker wavelet turns: roots of the next Hermite polynomial.
 _SYMMETRIC = 2 * math.sqrt(1.5)
@@ -60,33 +60,51 @@ RICKER_TURNS = RICKER_CENTRE + np.array(
 
 
 class Forcing(NamedTuple):
-    """A ground motion in the time τ = p t: its shape, amplitude (g, or the factor on a record),
-    ω/p (1 for a record), the time at which it is over, the time between two samples, and the factor
-    on the vertical record."""
+    """A ground motion in the time τ = p t.
+
+    Attributes
+    ----------
+    shape : int
+        A value of `SHAPES`, `RECORD` or `NONE`.
+    amplitude : float
+        Of a pulse, g; of a record, the factor on it.
+    frequency : float
+        ω/p of a pulse; 1 for a record.
+    end : float
+        The τ at which the motion is over.
+    step : float
+        p Δt of a record.
+    vertical : float
+        The factor on the vertical record.
+    record : ndarray
+        As `prepare_record` returns it; `NO_RECORD` of a pulse.
+    """
 
     shape: int
     amplitude: float
     frequency: float
     end: float
     step: float
-    lift: float = 0.0
+    vertical: float
+    record: Array
 
 
-#: What stands for the record where there is none.
 NO_RECORD = np.empty((10, 0))
-#: Samples whose largest is kept, so that a wait for the next uplift passes over them at once.
-RUN = 32
-#: Rows of a record: a where a piece begins; the largest |a| from there on; that of each run; the
-#: sum of |a| over the pieces from there on (∞ with a vertical record); v and the time (over that
-#: between two samples) where a piece begins; a and v where it ends; the largest |v| from there on,
-#: and that of each run.
-START, STRONGEST, RUNS, IMPULSE, UP, AT, STOP, UP_STOP, MOST_UP, UP_RUNS = range(10)
+#: Pieces whose largest values are kept, so that a search for the next uplift can skip them.
+RUN_LENGTH = 32
+#: Rows of a record: a where a piece begins and where it ends; v there; the time at which it begins,
+#: over that between two samples; the largest |a| and the largest |v| from there on; those of each
+#: run; the sum of |a| over the pieces from there on (∞ with a vertical record).
+A_START, A_END, V_START, V_END, TIME, A_MAX, V_MAX, A_MAX_OF_RUN, V_MAX_OF_RUN, IMPULSE = range(10)
 
 
 @compiled
-def pulse_forcing(shape, amplitude, frequency):
-    """Return the pulse of a shape (a value of `SHAPES`) at ω/p = `frequency`."""
-    return Forcing(shape, amplitude, frequency, LAST_PHASE[shape] / frequency, 1.0, 0.0)
+def forcing_of(shape, record, scale, amplitude, vertical):
+    """Return the `Forcing` of a pulse with ω/p = `scale`, or of a record with p Δt = `scale`."""
+    if shape == RECORD:
+        end = record[TIME, record.shape[1] - 1] * scale
+        return Forcing(shape, amplitude, 1.0, end, scale, vertical, record)
+    return Forcing(shape, amplitude, scale, LAST_PHASE[shape] / scale, 1.0, 0.0, record)
 
 
 def prepare_record(samples: Array, vertical: Array | None = None, ratio: float = 1.0) -> Array:
@@ -102,41 +120,37 @@ def prepare_record(samples: Array, vertical: Array | None = None, ratio: float =
     ndarray, shape (10, n)
         A column for each piece, and one for the end of both. A record is zero after its end.
     """
-    at = np.arange(samples.size, dtype=float)
-    start, stop = np.append(samples[:-1], 0.0), np.append(samples[1:], 0.0)
-    begin = end = np.zeros(at.size)
+    time = np.arange(samples.size, dtype=float)
+    a_start, a_end = np.append(samples[:-1], 0.0), np.append(samples[1:], 0.0)
+    v_start = v_end = np.zeros(time.size)
+    impulse = np.cumsum(0.5 * (np.abs(a_start) + np.abs(a_end))[::-1])[::-1]
     if vertical is not None:
-        at = np.unique(np.concatenate([at, ratio * np.arange(vertical.size)]))
+        time = np.unique(np.concatenate([time, ratio * np.arange(vertical.size)]))
         # Samples that rounding alone keeps apart are one.
-        at = at[np.append(True, np.diff(at) > SAME * at[-1])]
-        start, stop = _ends(at, samples, 1.0)
-        begin, end = _ends(at, vertical, ratio)
-    sizes = [np.maximum(np.abs(one), np.abs(two)) for one, two in ((start, stop), (begin, end))]
-    impulse = np.cumsum(0.5 * (np.abs(start) + np.abs(stop))[::-1])[::-1]
-    impulse = impulse if vertical is None else np.full(at.size, np.inf)
-    return np.stack([start, *_bounds(sizes[0]), impulse, begin, at, stop, end, *_bounds(sizes[1])])
+        time = time[np.append(True, np.diff(time) > SAME_TIME * time[-1])]
+        a_start, a_end = _ends(time, samples, 1.0)
+        v_start, v_end = _ends(time, vertical, ratio)
+        impulse = np.full(time.size, np.inf)
+    a_max, a_max_of_run = _bounds(a_start, a_end)
+    v_max, v_max_of_run = _bounds(v_start, v_end)
+    ends = (a_start, a_end, v_start, v_end)
+    return np.stack([*ends, time, a_max, v_max, a_max_of_run, v_max_of_run, impulse])
 
 
-def _ends(at: Array, record: Array, step: float) -> tuple[Array, Array]:
+def _ends(time: Array, record: Array, step: float) -> tuple[Array, Array]:
     """Return a record where each piece begins and where it ends; it is zero after its end."""
-    value = np.interp(at / step, np.arange(record.size), record)
-    over = 0.5 * (at[1:] + at[:-1]) >= step * (record.size - 1.0)
-    first, last = np.where(over, 0.0, value[:-1]), np.where(over, 0.0, value[1:])
+    value = np.interp(time / step, np.arange(record.size), record)
+    is_over = 0.5 * (time[1:] + time[:-1]) >= step * (record.size - 1.0)
+    first, last = np.where(is_over, 0.0, value[:-1]), np.where(is_over, 0.0, value[1:])
     return np.append(first, 0.0), np.append(last, 0.0)
 
 
-def _bounds(sizes: Array) -> tuple[Array, Array]:
-    """Return the largest size from each on, and the largest of each run (the first n/RUN)."""
-    runs = np.zeros_like(sizes)
-    largest = np.maximum.reduceat(sizes, np.arange(0, sizes.size, RUN))
-    runs[: largest.size] = largest
+def _bounds(start: Array, end: Array) -> tuple[Array, Array]:
+    """Return the largest modulus from each piece on, and that of each run of `RUN_LENGTH`."""
+    sizes = np.maximum(np.abs(start), np.abs(end))
+    largest = np.maximum.reduceat(sizes, np.arange(0, sizes.size, RUN_LENGTH))
+    runs = np.pad(largest, (0, sizes.size - largest.size))
     return np.maximum.accumulate(sizes[::-1])[::-1], runs
-
-
-@compiled
-def record_forcing(record, step, factor, lift):
-    """Return the `record` that was prepared, `step` apart in τ, times `factor`; see `Forcing`."""
-    return Forcing(RECORD, factor, 1.0, record[AT, record.shape[1] - 1] * step, step, lift)
 
 
 @compiled
@@ -157,55 +171,46 @@ def unit_pulse(shape, phase):
 
 
 @compiled
-def piece_of(forcing, record, time):
+def piece_of(forcing, time):
     """Return the number of the piece of a record that begins at or before `time`."""
-    low, high = 0, record.shape[1]
+    low, high = 0, forcing.record.shape[1]
     while high - low > 1:  # halved each time
         middle = (low + high) // 2
-        if record[AT, middle] * forcing.step <= time:
+        if forcing.record[TIME, middle] * forcing.step <= time:
             low = middle
         else:
             high = middle
     return low
 
 
-@compiled
-def piece_start(forcing, record, piece):
+@compiled(forceinline=True, no_cpython_wrapper=False)
+def piece_start(forcing, piece):
     """Return when a piece of a record begins."""
-    return record[AT, piece] * forcing.step
+    return forcing.record[TIME, piece] * forcing.step
 
 
-@compiled
-def lines(forcing, record, piece):
+@compiled(forceinline=True, no_cpython_wrapper=False)
+def ground_of_piece(forcing, piece):
     """Return a, a', G and G' where a piece of a record begins."""
-    length = (record[AT, piece + 1] - record[AT, piece]) * forcing.step
-    push, lift = forcing.amplitude, forcing.lift
-    rate = push * (record[STOP, piece] - record[START, piece]) / length
-    gravity_rate = lift * (record[UP_STOP, piece] - record[UP, piece]) / length
-    return push * record[START, piece], rate, 1.0 + lift * record[UP, piece], gravity_rate
+    record, amplitude, vertical = forcing.record, forcing.amplitude, forcing.vertical
+    length = (record[TIME, piece + 1] - record[TIME, piece]) * forcing.step
+    rate = amplitude * (record[A_END, piece] - record[A_START, piece]) / length
+    change = vertical * (record[V_END, piece] - record[V_START, piece]) / length
+    return amplitude * record[A_START, piece], rate, 1.0 + vertical * record[V_START, piece], change
 
 
 @compiled
-def gravity(forcing, record, time):
-    """Return G = 1 + v and G' at `time`; at a sample of a record, G' is that of the next piece."""
-    if forcing.shape != RECORD or time >= forcing.end:
-        return 1.0, 0.0
-    piece = min(piece_of(forcing, record, time), record.shape[1] - 2)
-    _, _, value, rate = lines(forcing, record, piece)
-    return value + rate * (time - piece_start(forcing, record, piece)), rate
-
-
-@compiled
-def ground(forcing, record, time):
-    """Return a and a' at `time`; at a sample of a record, a' is that of the piece that begins."""
+def ground(forcing, time):
+    """Return a, a', G and G' at `time`; at a sample of a record, those of the next piece."""
     if forcing.shape == NONE or time >= forcing.end:
-        return 0.0, 0.0
+        return 0.0, 0.0, 1.0, 0.0
     if forcing.shape == RECORD:
-        piece = min(piece_of(forcing, record, time), record.shape[1] - 2)
-        value, rate, _, _ = lines(forcing, record, piece)
-        return value + rate * (time - piece_start(forcing, record, piece)), rate
+        piece = min(piece_of(forcing, time), forcing.record.shape[1] - 2)
+        value, rate, gravity, change = ground_of_piece(forcing, piece)
+        after = time - piece_start(forcing, piece)
+        return value + rate * after, rate, gravity + change * after, change
     value, rate = unit_pulse(forcing.shape, forcing.frequency * time)
-    return forcing.amplitude * value, forcing.amplitude * forcing.frequency * rate
+    return forcing.amplitude * value, forcing.amplitude * forcing.frequency * rate, 1.0, 0.0
 
 
 @compiled
@@ -227,16 +232,16 @@ def equation(forcing, time):
 
 
 @compiled
-def strongest_after(forcing, record, time):
+def bounds_after(forcing, time):
     """Return bounds on |a|/G and on G from `time` on."""
     if forcing.shape == NONE or time >= forcing.end:
         return 0.0, 1.0
     if forcing.shape == RECORD:
-        k = piece_of(forcing, record, time)
-        most = abs(forcing.lift) * record[MOST_UP, k]
-        if most >= 1.0:
-            return np.inf, 1.0 + most
-        return abs(forcing.amplitude) * record[STRONGEST, k] / (1.0 - most), 1.0 + most
+        k = piece_of(forcing, time)
+        change = abs(forcing.vertical) * forcing.record[V_MAX, k]
+        if change >= 1.0:
+            return np.inf, 1.0 + change
+        return abs(forcing.amplitude) * forcing.record[A_MAX, k] / (1.0 - change), 1.0 + change
     return UNIT_BOUND * abs(forcing.amplitude), 1.0
 
 
@@ -266,7 +271,7 @@ def _crest(shape, frequency, time):
 
 
 @compiled
-def next_uplift(forcing, record, time, level):
+def next_uplift(forcing, time, level):
     """Return when |a| first exceeds `level`, from `time` on, for a block at rest.
 
     Between two turns a(τ) is monotone, hence |a| > level either at the start of a piece (the
@@ -285,11 +290,11 @@ def next_uplift(forcing, record, time, level):
         The side s = −sgn a to which the block rocks.
     """
     if forcing.shape == RECORD:
-        return _next_uplift_of_record(forcing, record, time, level)
+        return _next_uplift_of_record(forcing, time, level)
     if forcing.shape == HARMONIC and abs(forcing.amplitude) <= level:
         return np.inf, 0.0, 0.0, 1.0
-    value, rate = ground(forcing, record, time)
-    for _ in range(MOST_PIECES):
+    value, rate, _, _ = ground(forcing, time)
+    for _ in range(MAX_PIECES):
         if time >= forcing.end:
             break
         if abs(value) > level:
@@ -307,34 +312,35 @@ def next_uplift(forcing, record, time, level):
 
 
 @compiled
-def _next_uplift_of_record(forcing, record, time, level):
-    """The same for a record: on either side the push ±a − G level is a straight line."""
-    size, lift, last = abs(forcing.amplitude), abs(forcing.lift), record.shape[1] - 1
-    k = piece_of(forcing, record, time)
+def _next_uplift_of_record(forcing, time, level):
+    """Do the same for a record: on either side the push ±a − G level is a straight line."""
+    record, last = forcing.record, forcing.record.shape[1] - 1
+    size, most = abs(forcing.amplitude), abs(forcing.vertical)
+    k = piece_of(forcing, time)
     while k < last:  # k grows each time
-        if k % RUN == 0:
-            if size * record[STRONGEST, k] <= level * (1.0 - lift * record[MOST_UP, k]):
+        if k % RUN_LENGTH == 0:
+            if size * record[A_MAX, k] <= level * (1.0 - most * record[V_MAX, k]):
                 break
-            if size * record[RUNS, k // RUN] <= level * (1.0 - lift * record[UP_RUNS, k // RUN]):
-                k += RUN
+            run = k // RUN_LENGTH
+            if size * record[A_MAX_OF_RUN, run] <= level * (1.0 - most * record[V_MAX_OF_RUN, run]):
+                k += RUN_LENGTH
                 continue
-        is_low = size * abs(record[START, k]) <= level * (1.0 + forcing.lift * record[UP, k])
-        if is_low and size * abs(record[STOP, k]) <= level * (
-            1.0 + forcing.lift * record[UP_STOP, k]
-        ):
+        level_at_start = level * (1.0 + forcing.vertical * record[V_START, k])
+        level_at_end = level * (1.0 + forcing.vertical * record[V_END, k])
+        is_low = size * abs(record[A_START, k]) <= level_at_start
+        if is_low and size * abs(record[A_END, k]) <= level_at_end:
             k += 1
             continue
-        begin, end = piece_start(forcing, record, k), piece_start(forcing, record, k + 1)
+        begin, end = piece_start(forcing, k), piece_start(forcing, k + 1)
         time = max(time, begin)
-        value, rate, weight, weight_rate = lines(forcing, record, k)
-        here = math.copysign(1.0, value + rate * (time - begin))  # only that push may lift now
-        for sign in (here, -here):
-            slope = sign * rate - level * weight_rate
+        value, rate, weight, change = ground_of_piece(forcing, k)
+        first = math.copysign(1.0, value + rate * (time - begin))  # only that push may lift now
+        for sign in (first, -first):
+            slope = sign * rate - level * change
             push = sign * value - level * weight + slope * (time - begin)
             if push > 0.0:
                 return time, push, slope, -sign
-            above = sign * forcing.amplitude * record[STOP, k]
-            above -= level * (1.0 + forcing.lift * record[UP_STOP, k])
+            above = sign * forcing.amplitude * record[A_END, k] - level_at_end
             if above > 0.0:
                 crossing = max(end - above / slope, time)
                 if crossing < end:
@@ -353,7 +359,7 @@ def _crossing(forcing, low, high, sign, level):
         time = crest - math.atan2(root, level) / forcing.frequency
         return max(time, low), forcing.frequency * root
     time = high
-    for number in range(2 * MOST_NEWTON_STEPS):  # Newton's step where it stays inside, else halving
+    for number in range(2 * MAX_NEWTON_STEPS):  # Newton's step where it stays inside, else halving
         value, rate = unit_pulse(shape, forcing.frequency * time)
         excess = sign * forcing.amplitude * value - level
         rate *= sign * forcing.amplitude * forcing.frequency
@@ -362,7 +368,7 @@ def _crossing(forcing, low, high, sign, level):
         else:
             low = time
         trial = time - excess / rate if rate > 0.0 else low
-        if number >= MOST_NEWTON_STEPS or not low < trial < high:
+        if number >= MAX_NEWTON_STEPS or not low < trial < high:
             trial = 0.5 * (low + high)
         if abs(trial - time) <= 4e-16 * time or high - low <= 4e-16 * time:
             return trial, rate

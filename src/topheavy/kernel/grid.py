@@ -7,35 +7,45 @@ lanes or cores there are, or on which histories run beside each other.
 
 import math
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import partial
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from topheavy.kernel.forcing import NO_RECORD, RECORD, SHAPES, pulse_forcing, record_forcing
-from topheavy.kernel.interrupt import LONG, in_threads
-from topheavy.kernel.lanes.pulses import pulse_outcomes
+from topheavy.bodies.free_rocking import Ending
+from topheavy.kernel.forcing import NO_RECORD, RECORD, SHAPES, Array, Forcing, forcing_of
+from topheavy.kernel.history import (
+    FROM_REST,
+    NO_RATIOS,
+    NO_SAMPLES,
+    OVERTURNED,
+    UNRESOLVED,
+    Course,
+    History,
+    Samples,
+    follow,
+    is_straight,
+)
+from topheavy.kernel.interrupt import MIN_THREADED_SAMPLES, in_threads
+from topheavy.kernel.lanes.histories import Cells, Results
+from topheavy.kernel.lanes.pulses import POISED, pulse_outcomes
 from topheavy.kernel.lanes.records import record_outcomes
-from topheavy.kernel.lanes.steps import ROWS
-from topheavy.kernel.lanes.vectors import HAS_FMA, WIDTH, rows
-from topheavy.kernel.outcome import NO_RATIOS, NO_SAMPLES, Outcome, outcome
+from topheavy.kernel.lanes.steps import new_batch
+from topheavy.kernel.lanes.vectors import HAS_FMA, WIDTH
 from topheavy.kernel.step import MAX_STEPS, PULSE_ORDER, TOLERANCE, working_array
-from topheavy.kernel.taylor import Oscillator
-
-Array = NDArray[np.float64]
-Indices = NDArray[np.int64]
-Outcomes = tuple[Array, NDArray[np.bool_], NDArray[np.int64]]
+from topheavy.kernel.taylor import Method, Oscillator
 
 #: Cells are split into at most so many batches of neighbours, which do much the same in all lanes.
 #: Threads take up the batches as they come free.
-BATCHES = 64
-#: How many histories run at once in a core, and whether it multiplies and adds in one operation.
-LANES, FUSED = WIDTH, HAS_FMA
+MAX_BATCHES = 64
 #: The least number of cells in a batch. Fewer would leave lanes idle at its end, or be done before
 #: a second thread has started.
-FEWEST_PULSES, FEWEST_FACTORS = 32 * WIDTH, 4 * WIDTH
+MIN_PULSES, MIN_FACTORS = 32 * WIDTH, 4 * WIDTH
+#: How many histories run at once in a core, and whether it multiplies and adds in one operation.
+LANES, FUSED = WIDTH, HAS_FMA
 
 
 def record_order(step: float, tolerance: float = TOLERANCE) -> int:
@@ -49,7 +59,7 @@ def record_order(step: float, tolerance: float = TOLERANCE) -> int:
 def outcomes_of(
     blocks: Sequence[Oscillator],
     shape: int,
-    which: Indices,
+    which: NDArray[np.int64],
     scales: Array,
     amplitudes: Array,
     record: Array = NO_RECORD,
@@ -58,7 +68,7 @@ def outcomes_of(
     tolerance: float = TOLERANCE,
     in_full: bool = True,
     threads: int | None = None,
-) -> Outcomes:
+) -> Results:
     """Return the outcomes of histories of several blocks, each with its scale and amplitude.
 
     Parameters
@@ -79,67 +89,72 @@ def outcomes_of(
     threads : int, optional
         As `cores`, unless given.
 
-    Returns
-    -------
-    peak, overturned, impacts : array, shape (n,)
-        As in `outcome.Outcome`.
-
     Raises
     ------
     ArithmeticError
         For a history that takes more than `step.MAX_STEPS` steps.
     """
-    results = np.empty(which.size), np.empty(which.size, bool), np.empty(which.size, np.int64)
+    results = _empty_results(which.size)
     lifts = np.zeros(which.size) if lifts is None else lifts
     linearised = np.array([block.linearised for block in blocks])[which]
-    # A row of floats for each block; cells in C order, as for other arrays it would compile anew.
     rows = np.array([block[:5] for block in blocks])
     for equation in (False, True):  # the lanes follow one equation at a time
         (at,) = np.nonzero(linearised == equation)
         if not at.size:
             continue
-        cells = [np.ascontiguousarray(values[at]) for values in (which, scales, amplitudes, lifts)]
-        some = tuple(np.empty(at.size, values.dtype) for values in results)
-        histories = (blocks[which[at[0]]], rows)
-        if shape == RECORD:
-            given: Any = ((*histories, *cells), record, tolerance, in_full, some)
-            size = (at.size, FEWEST_FACTORS, record.shape[1])
-            lost = _shared(record_outcomes, given, size, threads)
-        else:
-            none = (NO_RECORD, NO_RATIOS, NO_SAMPLES)
-            given = ((*histories, *cells[:3]), shape, none, PULSE_ORDER, tolerance, some)
-            lost = _shared(pulse_outcomes, given, (at.size, FEWEST_PULSES, 1), threads)
-        if lost >= 0:
-            number, scale, amplitude = (values[lost] for values in cells[:3])
-            raise _unresolved(blocks[number], shape, float(scale), float(amplitude))
-        for values, found in zip(results, some, strict=True):
-            values[at] = found
+        # In C order, as numba would compile all anew for arrays that are not.
+        values: Any = [
+            np.ascontiguousarray(array[at]) for array in (which, scales, amplitudes, lifts)
+        ]
+        flat = blocks[which[at[0]]].flat
+        cells = Cells(shape, record, flat, equation, rows, *values)
+        own = _empty_results(at.size)
+        unresolved = _follow_cells(cells, own, tolerance, in_full, threads)
+        if unresolved >= 0:
+            raise _unresolved(*_arguments(blocks, cells, unresolved)[:4])
+        for cell in np.flatnonzero(own.impacts == POISED):
+            end = outcome_of(*_arguments(blocks, cells, int(cell)), tolerance=tolerance)
+            own.overturned[cell], own.peaks[cell], own.impacts[cell] = end
+        for array, part in zip(results, own, strict=True):
+            array[at] = part
     return results
 
 
-def _shared(
-    work: Callable[..., int],
-    given: tuple[Any, ...],
-    size: tuple[int, int, int],
-    threads: int | None,
-) -> int:
-    """Let the threads do all cells, in batches; return the first cell given up, or −1.
+def _empty_results(size: int) -> Results:
+    return Results(np.empty(size), np.empty(size, bool), np.empty(size, np.int64))
 
-    The size is that of the cells, of the smallest batch, and of the samples of a record.
-    """
-    cells, fewest, samples = size
-    batches = max(1, min(BATCHES, cells // fewest))
-    if batches == 1 and cells * samples <= LONG:
-        return int(work((rows(ROWS), working_array()), (0, 1), *given))
+
+def _arguments(
+    blocks: Sequence[Oscillator], cells: Cells, cell: int
+) -> tuple[Oscillator, int, float, float, Array]:
+    """Return the arguments of `outcome_of` for a cell."""
+    scale, amplitude = float(cells.scales[cell]), float(cells.amplitudes[cell])
+    return blocks[cells.which[cell]], cells.shape, scale, amplitude, cells.record
+
+
+def _follow_cells(
+    cells: Cells, results: Results, tolerance: float, in_full: bool, threads: int | None
+) -> int:
+    """Let the threads do all cells, in batches; return the first cell given up, or −1."""
+    size, samples = cells.which.size, cells.record.shape[1]
+    is_record = cells.shape == RECORD
+
+    def do(first: int, last: int, alone: Array) -> int:
+        if is_record:
+            how = (tolerance, in_full, results)
+            return int(record_outcomes(new_batch(), alone, cells, (first, last), *how))
+        return int(pulse_outcomes(new_batch(), alone, cells, (first, last), tolerance, results))
+
+    batches = max(1, min(MAX_BATCHES, size // (MIN_FACTORS if is_record else MIN_PULSES)))
+    if batches == 1 and size * max(samples, 1) <= MIN_THREADED_SAMPLES:
+        return do(0, size, working_array())
     threads = threads or cores()
     if threads == 1:
         batches = 1  # so that no lane idles at the end of any but the last cells
-
-    def do(batch: int, workspace: Array) -> int:
-        return int(work((rows(ROWS), workspace), (batch, batches), *given))
-
-    lost = in_threads([partial(do, batch) for batch in range(batches)], min(threads, batches))
-    return min((cell for cell in lost if cell >= 0), default=-1)
+    ends = [number * size // batches for number in range(batches + 1)]
+    calls = [partial(do, first, last) for first, last in pairwise(ends)]
+    unresolved = in_threads(calls, min(threads, batches))
+    return min((cell for cell in unresolved if cell >= 0), default=-1)
 
 
 def cores() -> int:
@@ -147,8 +162,8 @@ def cores() -> int:
 
     Snakemake sets it for each job: with jobs on all cores, a second thread only costs time.
     """
-    own, asked = len(os.sched_getaffinity(0)), os.environ.get("OMP_NUM_THREADS", "")
-    return min(own, int(asked)) if asked.isdigit() and int(asked) > 0 else own
+    available, limit = len(os.sched_getaffinity(0)), os.environ.get("OMP_NUM_THREADS", "")
+    return min(available, int(limit)) if limit.isdigit() and int(limit) > 0 else available
 
 
 def outcome_of(
@@ -161,23 +176,36 @@ def outcome_of(
     lift: float = 0.0,
     ratios: Array = NO_RATIOS,
     tolerance: float = TOLERANCE,
-) -> Outcome:
-    """Return the outcome of one history, by the scalar kernel; see `outcomes_of` and `outcome`."""
-    if shape == RECORD:
-        forcing = record_forcing(record, scale, amplitude, lift)
-        order = record_order(scale, tolerance)
-    else:
-        forcing, order = pulse_forcing(shape, amplitude, scale), PULSE_ORDER
-
-    def call(workspace: Array) -> Outcome:
-        given = (order, tolerance, block, forcing, record, ratios, NO_SAMPLES)
-        found: Outcome = outcome(workspace, *given)
-        return found
-
-    found = in_threads([call])[0] if record.shape[1] > LONG else call(working_array())
-    if not found.resolved:
+) -> Ending:
+    """Return the outcome of one history, by the scalar kernel; see `outcomes_of` and `follow`."""
+    forcing = forcing_of(shape, record, scale, amplitude, lift)
+    history = followed(block, forcing, tolerance, ratios)
+    if history.result == UNRESOLVED:
         raise _unresolved(block, shape, scale, amplitude)
-    return found
+    overturned = history.result == OVERTURNED
+    return Ending(overturned, math.nan if overturned else history.peak, history.impacts)
+
+
+def followed(
+    block: Oscillator,
+    forcing: Forcing,
+    tolerance: float,
+    ratios: Array = NO_RATIOS,
+    course: Course = FROM_REST,
+    samples: Samples | None = None,
+) -> History:
+    """Return the history of a block; it is only judged unless there are `samples` to fill."""
+    is_record = forcing.shape == RECORD
+    order = record_order(forcing.step, tolerance) if is_record else PULSE_ORDER
+    method = Method(order, tolerance, is_straight(forcing.shape))
+    is_judged, samples = samples is None, samples or NO_SAMPLES
+
+    def call(w: Array) -> History:
+        history: History = follow(w, method, block, forcing, ratios, course, samples, is_judged)
+        return history
+
+    is_long = forcing.record.shape[1] + samples.times.size > MIN_THREADED_SAMPLES
+    return in_threads([call])[0] if is_long else call(working_array())
 
 
 def _unresolved(block: Oscillator, shape: int, scale: float, amplitude: float) -> ArithmeticError:

@@ -17,7 +17,7 @@ from topheavy.kernel.step import HALT, working_array
 Result = TypeVar("Result")
 
 #: Histories of fewer samples, all together, are over within a second or two, whatever happens.
-LONG = 100_000
+MIN_THREADED_SAMPLES = 100_000
 
 
 def in_threads(
@@ -28,13 +28,13 @@ def in_threads(
     Whatever ends the wait halts the histories under way at their next step, and all that follow at
     their first.
     """
-    found: dict[int, Result] = {}
+    results: dict[int, Result] = {}
     waiting = enumerate(calls)
     arrays = [working_array() for _ in range(threads)]
 
     def work(w: NDArray[np.float64]) -> None:
         for number, call in waiting:
-            found[number] = call(w)
+            results[number] = call(w)
 
     with ThreadPoolExecutor(threads) as pool:
         try:
@@ -44,4 +44,4 @@ def in_threads(
             for w in arrays:
                 w[HALT, 0] = 1.0
             raise
-    return [found[number] for number in range(len(calls))]
+    return [results[number] for number in range(len(calls))]

@@ -16,11 +16,11 @@ slope are added to E and H.
 """
 
 from topheavy.kernel.compiled import compiled
-from topheavy.kernel.forcing import AT, lines, piece_start
+from topheavy.kernel.forcing import TIME, ground_of_piece, piece_start
 from topheavy.kernel.taylor import INVERSE, State
 
 #: Between two samples the block turns by less than this, so that seven terms give sin and cos.
-LARGEST_TURN = 0.05
+MAX_TURN = 0.05
 
 
 @compiled(fastmath={"contract"})
@@ -53,7 +53,7 @@ def powers(h):
     return h, h2, h3, h4, h5, h6, h6 * h * INVERSE[7]
 
 
-@compiled(fastmath={"contract"}, forceinline=True)
+@compiled(fastmath={"contract"}, forceinline=True, no_cpython_wrapper=False)
 def short_series(terms, force, slope, force_rate, slope_rate, velocity, rotation, peak, bound):
     """Return whether a piece is proven to hold nothing, by how much φ changes in it, and h φ'.
 
@@ -74,7 +74,7 @@ def short_series(terms, force, slope, force_rate, slope_rate, velocity, rotation
         if rotation + low <= 0.0 or rotation + high > peak:
             return False, 0.0, 0.0
     gain = 2 * c2 + 3 * c3 + 4 * c4 + 5 * c5 + 6 * c6 + 7 * c7
-    return abs(turn) <= LARGEST_TURN, turn, gain
+    return abs(turn) <= MAX_TURN, turn, gain
 
 
 @compiled(fastmath={"contract"}, forceinline=True)
@@ -87,19 +87,13 @@ def turned(sine, cosine, turn):
 
 
 @compiled(fastmath={"contract"})
-def march(block, forcing, record, piece, side, state, tolerance, peak):
+def march(block, forcing, state, piece, tolerance, peak):
     """Pass over pieces of a record until one holds an event, a turn, or too strong a bend.
 
-    The block rocks at φ ≤ α under the exact equation, `state` is that at the first sample of
+    The block rocks at φ ≤ α under the exact equation; `state` is that at the first sample of
     `piece`. A piece is passed over if the terms prove (as in `step.advance`) that it holds no
-    impact and that the rotation grows throughout, or stays below `peak`.
-
-    Parameters
-    ----------
-    tolerance : float
-        Bound, over α, on the last term of φ', as it is and as the one before lets expect it.
-    peak : float
-        The largest φ so far.
+    impact and that the rotation grows throughout, or stays below `peak`, the largest φ so far. The
+    last term of φ', as it is and as the one before lets expect it, is at most `tolerance` α.
 
     Returns
     -------
@@ -111,18 +105,19 @@ def march(block, forcing, record, piece, side, state, tolerance, peak):
         The largest φ so far.
     """
     bound, inverse_cosine = tolerance * block.slenderness, 1.0 / block.cosine
-    rotation, velocity, sine, cosine, push, rate, gravity, change = state
-    while rotation <= block.slenderness and piece_start(forcing, record, piece + 1) < forcing.end:
-        h = (record[AT, piece + 1] - record[AT, piece]) * forcing.step
+    record = forcing.record
+    time, side, rotation, velocity, sine, cosine, push, rate, gravity, change = state
+    while rotation <= block.slenderness and piece_start(forcing, piece + 1) < forcing.end:
+        h = (record[TIME, piece + 1] - record[TIME, piece]) * forcing.step
         tilt = block.cosine * cosine + block.sine * sine  # cos(α − φ)
         lean = block.sine * cosine - block.cosine * sine  # sin(α − φ)
-        heavy, heavier = inverse_cosine * gravity, inverse_cosine * change
+        weight, weight_rate = inverse_cosine * gravity, inverse_cosine * change
         is_passed, turn, gain = short_series(
             powers(h),
-            sine * heavy + push * tilt,
-            cosine * heavy + push * lean,
-            sine * heavier + rate * tilt,
-            cosine * heavier + rate * lean,
+            sine * weight + push * tilt,
+            cosine * weight + push * lean,
+            sine * weight_rate + rate * tilt,
+            cosine * weight_rate + rate * lean,
             velocity,
             rotation,
             peak,
@@ -135,6 +130,8 @@ def march(block, forcing, record, piece, side, state, tolerance, peak):
         peak = max(peak, rotation)
         sine, cosine = turned(sine, cosine, turn)
         piece += 1
-        value, slope, gravity, change = lines(forcing, record, piece)
+        value, slope, gravity, change = ground_of_piece(forcing, piece)
         push, rate = -side * value - block.level * gravity, -side * slope - block.level * change
-    return piece, State(rotation, velocity, sine, cosine, push, rate, gravity, change), peak
+    time = piece_start(forcing, piece)
+    state = State(time, side, rotation, velocity, sine, cosine, push, rate, gravity, change)
+    return piece, state, peak

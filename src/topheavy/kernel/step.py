@@ -11,7 +11,7 @@ import numpy as np
 
 from topheavy.kernel.bernstein import MAX_DEGREE, MAX_DEPTH, isolated_root, roots, to_bernstein
 from topheavy.kernel.compiled import compiled
-from topheavy.kernel.forcing import equation, ground, lines, strongest_after
+from topheavy.kernel.forcing import bounds_after, equation
 from topheavy.kernel.taylor import ROTATION, State, expand, longest_step
 
 #: Terms of φ in a step of a pulse.
@@ -37,14 +37,13 @@ POLYNOMIAL, SLOPE, HULL, SLOPE_HULL, ROOTS, STACK = range(7, 13)
 HALT = STACK + MAX_DEPTH
 
 
-@compiled(_nrt=True)
 def working_array():
     """Return the array that a history works in; a thread needs one for all its histories."""
     return np.zeros((HALT + 1, MAX_DEGREE + 3))
 
 
 @compiled
-def is_certain_to_overturn(block, forcing, record, time, state):
+def is_certain_to_overturn(block, forcing, state):
     """Say whether no forcing of the strength that is left can bring the block back.
 
     With |a| ≤ A G from now on, φ'' ≥ −G √(1 + A²) sin(φ* − φ) with φ* = α + atan A < π/2;
@@ -53,23 +52,21 @@ def is_certain_to_overturn(block, forcing, record, time, state):
     """
     if state.rotation <= block.slenderness or state.velocity <= 0.0:
         return False
-    strength, heaviest = strongest_after(forcing, record, time)
+    strength, heaviest = bounds_after(forcing, state.time)
     if block.linearised:
-        way = block.slenderness + strength - state.rotation
-        return state.velocity > math.sqrt(heaviest) * way
+        distance = block.slenderness + strength - state.rotation
+        return state.velocity > math.sqrt(heaviest) * distance
     balance = block.slenderness + math.atan(strength)
-    hold = math.sqrt(math.sqrt(1.0 + strength * strength) * heaviest)
-    return balance < block.flat and state.velocity > hold * (balance - state.rotation)
+    factor = math.sqrt(math.sqrt(1.0 + strength * strength) * heaviest)
+    return balance < block.flat and state.velocity > factor * (balance - state.rotation)
 
 
 @compiled(fastmath={"contract"})
-def advance(w, order, tolerance, block, forcing, time, longest, state, zeros, peak, is_straight):
-    """Take one step of at most `longest`.
+def advance(w, method, block, forcing, state, zeros, longest, peak):
+    """Find a step of at most `longest`.
 
     Parameters
     ----------
-    tolerance : float
-        Bound on the last two terms of φ', over α (over φ where that is larger).
     zeros : int
         How many of φ, φ', φ'' are zero at the start: 1 after an impact, 2 after an uplift by a
         jump of the forcing, 3 after an uplift where |a| passes the level, 0 else.
@@ -85,10 +82,10 @@ def advance(w, order, tolerance, block, forcing, time, longest, state, zeros, pe
     peak : float
         The largest φ so far, this step included.
     """
-    c, d0, d1 = equation(forcing, time)
-    expand(w, order, block, state, c, d0, d1, is_straight)
-    scale = max(block.slenderness, state.rotation)
-    step = longest_step(w, order, tolerance * scale, longest)
+    order = method.order
+    expand(w, method, block, state, equation(forcing, state.time))
+    bound = method.tolerance * max(block.slenderness, state.rotation)
+    step = longest_step(w, order, bound, longest)
 
     power = 1.0
     for k in range(order + 1):
@@ -112,10 +109,7 @@ def advance(w, order, tolerance, block, forcing, time, longest, state, zeros, pe
 
 @compiled
 def proven(w, order, zeros, flat, peak):
-    """Return the end of the step polynomial on [0, 1], its event, and the largest φ so far.
-
-    `flat` is the φ at which the block lies flat; the others are those of `advance`.
-    """
+    """Return where the step polynomial ends on [0, 1], its event, and the largest φ so far."""
     to_bernstein(w, POLYNOMIAL, order, HULL)
     least, largest = w[HULL, zeros], 0.0
     for k in range(zeros, order + 1):
@@ -186,25 +180,14 @@ def after_impact(block, state):
     velocity = max(-state.velocity, 0.0) * block.restitution
     push = -state.push - 2 * block.level * state.gravity
     rate = -state.rate - 2 * block.level * state.gravity_rate
-    return State(0.0, velocity, 0.0, 1.0, push, rate, state.gravity, state.gravity_rate)
+    gravity, change = state.gravity, state.gravity_rate
+    return State(state.time, -state.side, 0.0, velocity, 0.0, 1.0, push, rate, gravity, change)
 
 
 @compiled
-def at_sample(block, forcing, record, piece, side, state):
-    """Return the state with the push and the gravity of the piece of a record that begins."""
+def with_ground(block, state, time, ground_motion):
+    """Return the state at `time`, its push and gravity from a, a', G and G'."""
+    (value, rate, gravity, change), side = ground_motion, state.side
     rotation, velocity, sine, cosine = state.rotation, state.velocity, state.sine, state.cosine
-    value, rate, weight, change = lines(forcing, record, piece)
-    push, rate = -side * value - block.level * weight, -side * rate - block.level * change
-    return State(rotation, velocity, sine, cosine, push, rate, weight, change)
-
-
-@compiled
-def renewed(block, forcing, record, time, side, state):
-    """Return the state with the push of the forcing itself, not of its series.
-
-    A Ricker wavelet takes tens of steps, over which what its series leave out would add up.
-    """
-    value, rate = ground(forcing, record, time)
-    push = -side * value - block.level
-    rotation, velocity, sine, cosine = state.rotation, state.velocity, state.sine, state.cosine
-    return State(rotation, velocity, sine, cosine, push, -side * rate, 1.0, 0.0)
+    push, push_rate = -side * value - block.level * gravity, -side * rate - block.level * change
+    return State(time, side, rotation, velocity, sine, cosine, push, push_rate, gravity, change)

@@ -5,8 +5,8 @@ import math
 from topheavy.bodies import free_rocking as closed
 from topheavy.kernel.compiled import compiled
 
-#: Histories whose energy is nearer the barrier, relative to it, are decided by the scalar kernel.
-POISED = 1e-6
+#: If the energy is within this relative distance of the barrier, the scalar kernel decides.
+POISED_ENERGY = 1e-6
 
 free_rocking = compiled(closed.ending)
 barrier = compiled(closed.barrier)
@@ -29,4 +29,4 @@ def is_poised(block, rotation, velocity):
     energy = 0.5 * velocity * velocity + closed.potential(block, rotation)
     after_impact = energy * block.restitution * block.restitution - closed.barrier(block)
     nearest = min(abs(closed.surplus(block, rotation, velocity)), abs(after_impact))
-    return nearest < POISED * closed.barrier(block)
+    return nearest < POISED_ENERGY * closed.barrier(block)

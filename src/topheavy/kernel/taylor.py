@@ -34,7 +34,7 @@ INVERSE = 1.0 / np.maximum(np.arange(MAX_ORDER + 2), 1.0)
 
 
 class Oscillator(NamedTuple):
-    """What the kernel needs to know of a block: everything but p, which scales time.
+    """A rocking block without p, which only scales the time.
 
     `level` is tan α, linearised α; linearised, `cosine` and `sine` are 1 and 0 (as of α → 0), and
     the block has no end at φ = π/2 (`flat` is infinite).
@@ -50,7 +50,7 @@ class Oscillator(NamedTuple):
 
 
 def oscillator(block: RockingBlock) -> Oscillator:
-    """Return what the kernel needs to know of a block."""
+    """Return a block as the kernel takes it."""
     alpha, restitution = float(block.slenderness), float(block.restitution)
     if block.linearised:
         return Oscillator(alpha, restitution, alpha, 1.0, 0.0, math.inf, True)
@@ -60,16 +60,36 @@ def oscillator(block: RockingBlock) -> Oscillator:
 
 
 class State(NamedTuple):
-    """A rocking block: φ, φ', sin φ, cos φ, the push q and q', gravity G and G'."""
+    """A rocking block: τ, its side s, φ, φ', sin φ, cos φ, the push q and q', gravity G and G'."""
 
+    time: float
+    side: float
     rotation: float
     velocity: float
     sine: float
     cosine: float
     push: float
     rate: float
-    gravity: float = 1.0
-    gravity_rate: float = 0.0
+    gravity: float
+    gravity_rate: float
+
+
+class Method(NamedTuple):
+    """How a step is taken.
+
+    Attributes
+    ----------
+    order : int
+        The order of the series of φ.
+    tolerance : float
+        Bound on the last two terms of φ' in a step, over α (over φ where that is larger).
+    is_straight : bool
+        Whether a and G are straight lines over a step: a record's piece, a constant, no motion.
+    """
+
+    order: int
+    tolerance: float
+    is_straight: bool
 
 
 #: Rows of the working array `w`: the coefficients of φ, φ', sin φ, cos φ, cos(α − φ), q and G by
@@ -78,12 +98,12 @@ ROTATION, VELOCITY, SINE, COSINE, TILT, PUSH, GRAVITY = range(7)
 
 
 @compiled(fastmath={"contract"})
-def expand(w, order, block, state, c, d0, d1, is_straight):
-    """Fill `w` with the solution through `state`: φ to `order`, the others to one less.
+def expand(w, method, block, state, ground_equation):
+    """Fill `w` with the solution through `state`: φ to the order, the others to one less.
 
-    c, d₀ and d₁ are those of `forcing.equation`; `is_straight` says that the push is a straight
-    line (a record's piece, a constant pulse), which leaves all but two of its terms out.
+    `ground_equation` has the c, d₀ and d₁ of `forcing.equation`.
     """
+    (order, _, is_straight), (c, d0, d1) = method, ground_equation
     w[ROTATION, 0], w[VELOCITY, 0] = state.rotation, state.velocity
     w[SINE, 0], w[COSINE, 0] = state.sine, state.cosine
     w[PUSH, 0], w[PUSH, 1] = state.push + block.level, state.rate  # −s a solves the equation of a
@@ -165,8 +185,8 @@ def _expand_straight(w, order, block):
 
 
 @compiled
-def longest_step(w, order, tolerance, limit):
-    """Return the step, at most `limit`, over which the last two terms of φ' are below `tolerance`.
+def longest_step(w, order, bound, limit):
+    """Return the step, at most `limit`, over which the last two terms of φ' are below `bound`.
 
     The terms left out are smaller again by the ratio of two terms. Two are looked at because
     every other one may vanish.
@@ -175,19 +195,20 @@ def longest_step(w, order, tolerance, limit):
     power = 1.0
     for _ in range(order - 2):
         power *= limit
-    if second * power <= tolerance and last * power * limit <= tolerance:
+    if second * power <= bound and last * power * limit <= bound:
         return limit
     exponent = math.inf
     if last > 0.0:
-        exponent = math.log(tolerance / last) * INVERSE[order - 1]
+        exponent = math.log(bound / last) * INVERSE[order - 1]
     if second > 0.0:
-        exponent = min(exponent, math.log(tolerance / second) * INVERSE[order - 2])
+        exponent = min(exponent, math.log(bound / second) * INVERSE[order - 2])
     return min(math.exp(exponent), limit) if exponent < 50.0 else limit
 
 
 @compiled(fastmath={"contract"})
-def evaluate(w, order, block, step, is_straight):
-    """Return the `State` at `step` after the start of the series."""
+def evaluate(w, method, block, start, step):
+    """Return the `State` at `step` after the `start` of the series."""
+    order = method.order
     rotation, velocity, sine, cosine = w[ROTATION, order], 0.0, 0.0, 0.0
     push, rate = 0.0, 0.0
     for n in range(order - 1, -1, -1):
@@ -197,9 +218,10 @@ def evaluate(w, order, block, step, is_straight):
         cosine = cosine * step + w[COSINE, n]
         rate = rate * step + push
         push = push * step + w[PUSH, n]
-    if is_straight:
+    if method.is_straight:
         push, rate = w[PUSH, 0] + step * w[PUSH, 1], w[PUSH, 1]
     if block.linearised:
         sine, cosine = 0.0, 1.0
     weight, change = w[GRAVITY, 0] + step * w[GRAVITY, 1], w[GRAVITY, 1]
-    return State(rotation, velocity, sine, cosine, push, rate, weight, change)
+    time, side = start.time + step, start.side
+    return State(time, side, rotation, velocity, sine, cosine, push, rate, weight, change)

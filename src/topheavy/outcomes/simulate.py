@@ -18,28 +18,21 @@ from topheavy.ground.excitation import Excitation, checked_excitation, no_excita
 from topheavy.ground.pulses import Pulse
 from topheavy.ground.records import Record
 from topheavy.ground.vertical import both_records, refuse_fall, without_rest
-from topheavy.kernel.forcing import (
-    NO_RECORD,
-    NONE,
-    RECORD,
-    SHAPES,
-    prepare_record,
-    pulse_forcing,
-    record_forcing,
-)
-from topheavy.kernel.grid import outcome_of, record_order
-from topheavy.kernel.interrupt import LONG, in_threads
-from topheavy.kernel.outcome import (
-    MOST_STEPS,
+from topheavy.kernel.forcing import NO_RECORD, NONE, RECORD, SHAPES, forcing_of, prepare_record
+from topheavy.kernel.grid import followed, outcome_of
+from topheavy.kernel.history import (
+    MAX_STEPS_WITH_SAMPLES,
     NO_RATIOS,
     NO_UPLIFT,
     OVERTURNED,
     RESTS,
     ROCKING,
     UNRESOLVED,
-    trace,
+    Course,
+    History,
+    Samples,
 )
-from topheavy.kernel.step import PULSE_ORDER, TOLERANCE, working_array
+from topheavy.kernel.step import TOLERANCE
 from topheavy.kernel.taylor import oscillator
 
 Times = NDArray[np.float64]
@@ -123,59 +116,47 @@ def simulate(
     shape, _, amplitude, record = shaking = as_shaking(excitation, vertical)
     p, scale = block.frequency_parameter, shaking.scale(block)
     until = math.inf if duration is None else p * checks.positive("duration", duration, "s")
-    if shape == RECORD:
-        forcing = record_forcing(record, scale, amplitude, 1.0)
-    else:
-        forcing = pulse_forcing(shape, amplitude, scale)
+    forcing = forcing_of(shape, record, scale, amplitude, 1.0)
     forcing = forcing._replace(end=min(forcing.end, until))
     if forcing.end == math.inf:
         raise ValueError("duration is None; expected one, as this excitation goes on forever")
-    order = record_order(scale, tolerance) if shape == RECORD else PULSE_ORDER
 
-    def follow(until: float, at: Times) -> tuple[NDArray[np.float64], Times, tuple[float, ...]]:
-        motion, impacts = np.full((2, at.size), math.nan), np.empty(MOST_IMPACTS)
-        problem = (oscillator(block), forcing, record, NO_RATIOS, (theta, theta_rate / p, until))
-
-        def run(scratch: Times) -> tuple[float, ...]:
-            end: tuple[float, ...] = trace(
-                scratch, order, tolerance, *problem, (at, motion, impacts), False
-            )
-            return end
-
-        is_long = record.shape[1] + at.size > LONG
-        end = in_threads([run])[0] if is_long else run(working_array())
-        if end[1] == UNRESOLVED:
+    def followed_until(until: float, at: Times) -> tuple[Samples, History]:
+        samples = Samples(at, np.full((2, at.size), math.nan), np.empty(MOST_IMPACTS))
+        course = Course(theta, theta_rate / p, until)
+        history = followed(oscillator(block), forcing, tolerance, NO_RATIOS, course, samples)
+        if history.result == UNRESOLVED:
             raise ArithmeticError(
                 f"{block} under {_named(excitation)}: more than {MOST_IMPACTS} impacts or "
-                f"{MOST_STEPS} steps by {end[0] / p:.6g} s; a shorter duration or a smaller "
-                "restitution has fewer"
+                f"{MAX_STEPS_WITH_SAMPLES} steps by {history.end / p:.6g} s; a shorter duration or "
+                "a smaller restitution has fewer"
             )
-        return motion, impacts, end
+        return samples, history
 
-    last, history = math.inf, None
+    last, result = math.inf, None
     if isinstance(times, int):
         last = until
         if duration is None:
-            history = follow(until, np.array([0.0, math.inf]))
-            last = history[2][0]
+            result = followed_until(until, np.array([0.0, math.inf]))
+            last = result[1].end
         times = np.linspace(0.0, last / p if duration is None else duration, times)
     elif duration is None:
         until = max(p * float(times[-1]), forcing.end)
-    if history is None or times.size > 2:
+    if result is None or times.size > 2:
         # The last of uniform times is the end, and no rounding of p (end/p) above it.
-        history = follow(until, np.minimum(p * times, last))
-    motion, impacts, (_, ending, peak, number_of_impacts, recorded) = history
-    outcome = _OUTCOMES[int(ending)]
+        result = followed_until(until, np.minimum(p * times, last))
+    (_, motion, impacts), history = result
+    outcome = _OUTCOMES[history.result]
     if outcome == "rests" and block.restitution == 1.0:
         outcome = "rocking"  # the kernel does not follow bounces that are too low to count
     return Response(
         time=times,
         rotation=motion[0],
         velocity=p * motion[1],
-        impacts=impacts[: int(recorded)] / p,
+        impacts=impacts[: history.all_impacts] / p,
         outcome=outcome,
-        number_of_impacts=int(number_of_impacts),
-        peak_rotation=math.nan if outcome == "overturned" else peak,
+        number_of_impacts=history.impacts,
+        peak_rotation=math.nan if outcome == "overturned" else history.peak,
     )
 
 
@@ -219,7 +200,7 @@ def judge(
     if vertical is not None:
         refuse_fall(both_records(excitation, vertical)[1])
     block, shaking = as_block(structure), as_shaking(excitation, vertical)
-    outcome = outcome_of(
+    return outcome_of(
         oscillator(block),
         shaking.shape,
         shaking.scale(block),
@@ -229,8 +210,6 @@ def judge(
         ratios=np.array([checks.fraction("restitutions", value) for value in restitutions]),
         tolerance=checked_tolerance(tolerance),
     )
-    peak = math.nan if outcome.overturned else float(outcome.peak)
-    return Ending(bool(outcome.overturned), peak, int(outcome.impacts))
 
 
 class Shaking(NamedTuple):

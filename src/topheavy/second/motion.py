@@ -6,7 +6,7 @@ is a state of its own, since at θ = 0 the sign of θ says nothing; with it and 
 
     φ̈ = −p² { sin(α − φ) + s (ü_g/g) cos(α − φ) },    φ̈ = p² { φ − α − s ü_g/g }  (linearised)
 
-How a flight is computed is the business of `reference` and `linear`; everything else is here.
+A `Flight` (as in `reference`) integrates one flight; everything else is here.
 """
 
 import math
@@ -30,29 +30,21 @@ from topheavy.ground.excitation import (
     zero_acceleration,
 )
 
+#: Over α: a block whose next bounce peaks below this may have come to rest.
 REST_PEAK = 1e-6
-"""Of α: a block whose next bounce peaks below may have come to rest."""
-
-COUNTED_PEAK = 1e-6
-"""Of α: an impact that ends a rotation below is not counted, since a block that bounces to rest has
-infinitely many."""
-
-RATIO_PEAK = 1e-3
-"""The same where each impact has a √r of its own: no solver knows the order of smaller bounces."""
-
-MOST_FREE_IMPACTS = 1000
-"""A history without a duration ends after this many impacts behind the forcing."""
-
-LONGEST_FREE_FLIGHT = 100.0
-"""1/p. From α (1 − 1e-16) a block comes back within 75: only one poised at α stays out longer."""
-
-
-MOST_IMPACTS = 10_000
-"""Of a history, counted or not: only a block that loses next to nothing (√r → 1) has so many.
-By SciPy they take some seconds."""
-
-POISED = 1e-3
-"""Over α: a block this far from φ = α, and going on, has left."""
+#: Over α: an impact that ends a lower rotation is not counted, as a block that bounces to rest has
+#: infinitely many.
+MIN_COUNTED_PEAK = 1e-6
+#: The same where each impact has a √r of its own: no solver knows the order of smaller bounces.
+MIN_COUNTED_PEAK_WITH_RATIOS = 1e-3
+#: A history without a duration ends after this many impacts behind the forcing.
+MAX_FREE_IMPACTS = 1000
+#: Over 1/p. From α (1 − 1e-16) a block comes back within 75: one poised at α stays out longer.
+MAX_FREE_FLIGHT = 100.0
+#: All impacts of a history: only a block that loses next to nothing (√r → 1) has so many.
+MAX_IMPACTS = 10_000
+#: Over α: a block this far from φ = α, and going on, has left.
+POISED_ROTATION = 1e-3
 
 
 class Event(Enum):
@@ -92,9 +84,9 @@ class Motion:
     counted: float  # φ: an impact that ends a lower rotation is not counted, rad
     peak: float
     height: float = 0.0  # largest φ of this flight, rad
-    launching: bool = False  # uplifted, and pushed on since without a break
+    is_lifting: bool = False  # uplifted, and pushed outward ever since
     fallen: bool = False
-    landings: int = 0  # all impacts
+    all_impacts: int = 0
     restitutions: Sequence[float] = ()  # √r of the counted impacts in turn, then the block's own
     impacts: list[float] = field(default_factory=list)
     arcs: list[Arc] = field(default_factory=list)
@@ -154,7 +146,7 @@ def start(block: RockingBlock, rotation: float, velocity: float) -> Motion:
         rate=side * theta_rate,
         moving=theta != 0.0 or theta_rate != 0.0,
         ceiling=math.pi / 2,
-        counted=COUNTED_PEAK * block.slenderness,
+        counted=MIN_COUNTED_PEAK * block.slenderness,
         peak=abs(theta),
         height=abs(theta),
     )
@@ -202,7 +194,7 @@ def force(
                     break
                 motion.side = -1 if segment.acceleration(uplift) > 0.0 else 1
                 motion.rotation = motion.rate = 0.0
-                motion.moving = motion.launching = True
+                motion.moving = motion.is_lifting = True
             event = _flight(block, segment, motion, fly)
             if event is Event.IMPACT:
                 _impact(block, segments, number, motion)
@@ -222,31 +214,30 @@ def free_ending(block: RockingBlock, motion: Motion) -> free_rocking.Ending:
 
 
 def _next_restitution(block: RockingBlock, motion: Motion) -> float:
-    number = len(motion.impacts)
-    return motion.restitutions[number] if number < len(motion.restitutions) else block.restitution
+    later = motion.restitutions[len(motion.impacts) :]
+    return later[0] if later else block.restitution
 
 
 def _flight(block: RockingBlock, segment: Segment, motion: Motion, fly: Flight) -> Event | None:
     """Fly to the end of the segment, or of the push that lifted the block."""
-    stop = segment.stop
-    possible = not motion.launching
-    if motion.launching:
-        # Pushed by more than the uplift acceleration, φ̈ > 0: no impact can happen yet, and none
-        # is looked for where rounding could feign one.
+    stop, may_land = segment.stop, not motion.is_lifting
+    if motion.is_lifting:
+        # Pushed by more than the uplift acceleration, φ̈ > 0: no impact is possible yet. To look for
+        # one would find those of rounding.
         push_ends = segment.falls_below(motion.time, motion.side, block.uplift_acceleration)
-        motion.launching = push_ends >= stop
+        motion.is_lifting = push_ends >= stop
         stop = min(stop, max(push_ends, math.nextafter(motion.time, math.inf)))
-    event = fly(block, segment, stop, motion, possible)
+    event = fly(block, segment, stop, motion, may_land)
     motion.fallen = event is Event.FALL
     return event
 
 
 def _impact(block: RockingBlock, segments: Sequence[Segment], number: int, motion: Motion) -> None:
     """Let the block pass to its other pivot, in a segment: the rate × √r, Eq. (25)."""
-    motion.landings += 1
-    if motion.landings > MOST_IMPACTS:
+    motion.all_impacts += 1
+    if motion.all_impacts > MAX_IMPACTS:
         raise ArithmeticError(
-            f"{block}: more than {MOST_IMPACTS} impacts by {motion.time:.6g} s, and it bounces on; "
+            f"{block}: more than {MAX_IMPACTS} impacts by {motion.time:.6g} s, and it bounces on; "
             "a shorter duration or a smaller restitution has fewer"
         )
     ratio = _next_restitution(block, motion)
@@ -277,8 +268,8 @@ def _comes_to_rest(
             return square * (alpha - ground)
         return square * (math.sin(alpha) - ground * math.cos(alpha))
 
-    begins = segments[number]
-    now = restoring(abs(begins.acceleration(motion.time)), begins.gravity(motion.time))
+    segment = segments[number]
+    now = restoring(abs(segment.acceleration(motion.time)), segment.gravity(motion.time))
     if now <= 0.0:
         return False
     if motion.rate**2 > 2.0 * now * REST_PEAK * block.slenderness:
@@ -310,20 +301,20 @@ def _rock_freely(
     The energy decides how (`end`). Within rounding of the barrier the block is poised at α, and the
     integration may lead to the other side than judged: the history ends with the flight before.
     """
-    most = len(motion.impacts) + MOST_FREE_IMPACTS
-    most_landings = motion.landings + 2 * MOST_FREE_IMPACTS
-    landings_due = end.impacts
-    longest = LONGEST_FREE_FLIGHT / block.frequency_parameter
-    motion.launching = False
+    counted, all_impacts = len(motion.impacts), motion.all_impacts
+    impacts_due = end.impacts
+    longest = MAX_FREE_FLIGHT / block.frequency_parameter
+    motion.is_lifting = False
     while motion.moving and not motion.fallen and motion.rotation < motion.ceiling:
         stop = motion.time + longest if until is None else until
         if motion.time >= stop:
             return
-        if until is None and (len(motion.impacts) >= most or motion.landings >= most_landings):
+        free_impacts = max(len(motion.impacts) - counted, (motion.all_impacts - all_impacts) // 2)
+        if until is None and free_impacts >= MAX_FREE_IMPACTS:
             return
         ground = Segment(motion.time, stop, zero_acceleration)
         begin, peak = motion.time, motion.peak
-        first, outward = len(motion.arcs), end.overturned and landings_due <= 0
+        first, outward = len(motion.arcs), end.overturned and impacts_due <= 0
         event = _flight(block, ground, motion, fly)
         if _leaves_wrongly(block, motion.rotation, motion.rate, outward=outward):
             kept = first
@@ -334,7 +325,7 @@ def _rock_freely(
             motion.time = motion.arcs[kept - 1].stop if kept > first else begin
             motion.peak, motion.arcs[kept:] = peak, []
             return
-        landings_due -= 1
+        impacts_due -= 1
         if event is Event.IMPACT:
             _impact(block, [ground], 0, motion)
         elif until is None:
@@ -347,8 +338,8 @@ def _leaves_wrongly(block: RockingBlock, phi: float, rate: float, *, outward: bo
     `outward`: it overturns on this side. Any other free motion passes α only inward.
     """
     if outward:
-        return rate < 0.0 and phi < (1.0 - POISED) * block.slenderness
-    return rate > 0.0 and phi > (1.0 + POISED) * block.slenderness
+        return rate < 0.0 and phi < (1.0 - POISED_ROTATION) * block.slenderness
+    return rate > 0.0 and phi > (1.0 + POISED_ROTATION) * block.slenderness
 
 
 def _sample(

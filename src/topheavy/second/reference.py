@@ -26,20 +26,14 @@ from topheavy.ground.vertical import with_vertical
 from topheavy.second import motion
 from topheavy.second.motion import Arc, Event, Motion
 
+#: Of the integration, relative to α and αp.
 TOLERANCE = 1e-11
-"""Of the integration, relative to α and αp."""
-
-SMALLEST_TOLERANCE, LARGEST_TOLERANCE = 1e-13, 1e-2
-"""SciPy raises a smaller one without asking, and a larger one follows no motion."""
-
-MOST_STEPS = 1_000_000
-"""Of a flight in one segment; the solver refuses steps that are below rounding, but not so many."""
-
-SHORT = 0.05
-"""1/p. A step of DOP853 over so short a piece of the forcing needs no search for its length."""
-
-Bend = Callable[[float, float], float]
-"""The equation of motion on one side: φ̈ from the time and φ."""
+#: SciPy raises a smaller tolerance without notice; a larger one is too coarse to follow a motion.
+MIN_TOLERANCE, MAX_TOLERANCE = 1e-13, 1e-2
+#: Maximum number of steps per flight and segment.
+MAX_STEPS = 1_000_000
+#: Over 1/p: DOP853 takes a shorter segment in one step, without a search for its first step.
+MAX_ONE_STEP = 0.05
 
 _DEGREE = 7  # of DOP853's interpolating polynomial
 _NODES = chebyshev.chebpts1(_DEGREE + 1)
@@ -68,7 +62,7 @@ def simulate(
     ValueError
         As `topheavy.simulate`.
     ArithmeticError
-        For a history of more than `motion.MOST_IMPACTS` impacts or a million steps in a flight.
+        For a history of more than `motion.MAX_IMPACTS` impacts or a million steps in a flight.
     """
     block = as_block(structure)
     return motion.respond(
@@ -92,17 +86,15 @@ def judge(
 ) -> free_rocking.Ending:
     """Return only how the response to a ground motion of finite duration ends.
 
-    `restitutions` are those of `topheavy.judge`.
-    As `simulate` has it, without the history: the free rocking is not integrated. The peak is
-    max|θ| over the whole motion (NaN if overturned), the impacts are counted as in `Response`.
-    Errors are those of `simulate`.
+    The parameters are those of `topheavy.judge`, the errors those of `simulate`. The free rocking
+    is not integrated.
     """
     block = as_block(structure)
     checked_excitation(excitation, ends=True)
     course = motion.start(block, 0.0, 0.0)
     course.restitutions = [checks.fraction("restitutions", value) for value in restitutions]
     if course.restitutions:
-        course.counted = motion.RATIO_PEAK * block.slenderness
+        course.counted = motion.MIN_COUNTED_PEAK_WITH_RATIOS * block.slenderness
     ground = with_vertical(excitation, vertical)
     motion.force(block, ground, course, _flight(tolerance))
     end = motion.free_ending(block, course)
@@ -115,7 +107,7 @@ def judge(
 
 def _flight(tolerance: float) -> motion.Flight:
     """Return the integration at a tolerance, or raise ValueError with the accepted range."""
-    low, high = SMALLEST_TOLERANCE, LARGEST_TOLERANCE
+    low, high = MIN_TOLERANCE, MAX_TOLERANCE
     return partial(_fly, checks.within("tolerance", tolerance, low, high))
 
 
@@ -125,15 +117,18 @@ def _fly(
     segment: Segment,
     stop: float,
     course: Motion,
-    possible: bool,
+    may_land: bool,
 ) -> Event | None:
-    """Integrate on one side to `stop`, or to the impact or fall that comes first."""
+    """Integrate on one side to `stop`, or to the impact or fall that comes first.
+
+    `may_land` is False while no impact is possible.
+    """
     alpha, p = block.slenderness, block.frequency_parameter
     ahead = stop - course.time
-    is_short = 0.0 < p * ahead < SHORT
-    bend = _equation(block, segment, course.side)
+    is_short = 0.0 < p * ahead < MAX_ONE_STEP
+    acceleration = _equation(block, segment, course.side)
     solver = DOP853(
-        lambda t, y: (y[1], bend(float(t), float(y[0]))),
+        lambda t, y: (y[1], acceleration(float(t), float(y[0]))),
         course.time,
         [course.rotation, course.rate],
         stop,
@@ -141,7 +136,7 @@ def _fly(
         atol=[tolerance * alpha, tolerance * alpha * p],
         first_step=ahead if is_short else None,
     )
-    for _ in range(MOST_STEPS):
+    for _ in range(MAX_STEPS):
         if solver.status != "running":
             break
         message = solver.step()
@@ -149,22 +144,22 @@ def _fly(
             raise ArithmeticError(f"{block}: no step is possible at {solver.t:.6g} s: {message}")
         rotation, rate = solver.y.tolist()
         step = solver.dense_output()
-        event, course.time = _first_event(step, course, possible)
+        event, course.time = _first_event(step, course, may_land)
         course.arcs.append(Arc(step.t_old, course.time, course.side, step))
         course.rotation, course.rate = step(course.time).tolist() if event else (rotation, rate)
         if event is not None:
             return event
     else:
         raise ArithmeticError(
-            f"{block}: {MOST_STEPS} steps end at {solver.t:.6g} s of {stop:.6g} s; a shorter "
+            f"{block}: {MAX_STEPS} steps end at {solver.t:.6g} s of {stop:.6g} s; a shorter "
             "duration or a larger tolerance has fewer"
         )
     course.rotation = max(course.rotation, 0.0)
     return None
 
 
-def _equation(block: RockingBlock, segment: Segment, side: int) -> Bend:
-    """Return the equation of motion on one side: Eq. (23), or linearised."""
+def _equation(block: RockingBlock, segment: Segment, side: int) -> Callable[[float, float], float]:
+    """Return φ̈ as a function of the time and φ on one side: Eq. (23), or linearised."""
     alpha, square = block.slenderness, block.frequency_parameter**2
     acceleration, gravity = segment.acceleration, segment.gravity
 
@@ -178,7 +173,7 @@ def _equation(block: RockingBlock, segment: Segment, side: int) -> Bend:
     return linearised if block.linearised else exact
 
 
-def _first_event(step: DenseOutput, course: Motion, possible: bool) -> tuple[Event | None, float]:
+def _first_event(step: DenseOutput, course: Motion, may_land: bool) -> tuple[Event | None, float]:
     """Return what happens first in this step and when, or None and the end of the step.
 
     The peak of the motion is raised to the largest φ on the way there. In Chebyshev form a
@@ -204,7 +199,7 @@ def _first_event(step: DenseOutput, course: Motion, possible: bool) -> tuple[Eve
     before, value = step.t_old, float(heights[0])
     inside = [(time, height(time)) for time in middle + half * real]
     for time, upcoming in (*inside, (step.t, float(heights[-1]))):
-        if possible and value >= 0.0 > upcoming:
+        if may_land and value >= 0.0 > upcoming:
             return Event.IMPACT, sign_change(height, before, time)
         if value <= course.ceiling < upcoming:
             return Event.FALL, float(brentq(height, before, time, args=(course.ceiling,)))

@@ -16,10 +16,14 @@ import numpy as np
 from numba import types
 from numba.core import cgutils
 from numba.core.registry import cpu_target
+from numba.core.typing.templates import AttributeTemplate
 from numba.extending import (
+    infer_getattr,
     intrinsic,
     lower_builtin,
     lower_cast,
+    lower_getattr_generic,
+    lower_setattr_generic,
     models,
     register_model,
     type_callable,
@@ -53,8 +57,20 @@ class _Mask(types.Type):
         super().__init__(name=f"mask({WIDTH})")
 
 
-lanes, mask = _Lanes(), _Mask()
-for _type, _form in ((_Lanes, _FLOATS), (_Mask, _FLAGS)):
+class _Rows(types.Type):
+    def __init__(self):
+        super().__init__(name=f"rows({WIDTH})")
+
+
+class _Fields(types.Type):
+    def __init__(self, record):
+        self.record = record
+        super().__init__(name=f"fields({record.name})")
+
+
+lanes, mask, rows = _Lanes(), _Mask(), _Rows()
+_POINTER = _FLOATS.as_pointer()
+for _type, _form in ((_Lanes, _FLOATS), (_Mask, _FLAGS), (_Rows, _POINTER), (_Fields, _POINTER)):
 
     @register_model(_type)
     class _Model(models.PrimitiveModel):
@@ -73,8 +89,8 @@ def _cast(context, builder, kind, _, value):
     return _splat(builder, context.cast(builder, value, kind, types.float64))
 
 
-def _fits(given, kind):
-    return given is kind or (kind is lanes and isinstance(given, types.Number))
+def _fits(argument, kind):
+    return argument is kind or (kind is lanes and isinstance(argument, types.Number))
 
 
 def _operator(symbol, kinds, result, emit):
@@ -82,17 +98,17 @@ def _operator(symbol, kinds, result, emit):
 
     @type_callable(symbol)
     def _type(context):
-        def typer(*given):
-            if len(given) != len(kinds) or kinds[0] not in given:
+        def typer(*arguments):
+            if len(arguments) != len(kinds) or kinds[0] not in arguments:
                 return None
-            return result if all(map(_fits, given, kinds)) else None
+            return result if all(map(_fits, arguments, kinds)) else None
 
         return typer
 
     def lower(context, builder, signature, arguments):
         cast = [
-            context.cast(builder, value, given, kind)
-            for value, given, kind in zip(arguments, signature.args, kinds, strict=True)
+            context.cast(builder, value, argument, kind)
+            for value, argument, kind in zip(arguments, signature.args, kinds, strict=True)
         ]
         return emit(builder, *cast)
 
@@ -187,7 +203,7 @@ def bits(typing, where):
 
 
 @intrinsic
-def among(typing, chosen):
+def mask_of(typing, chosen):
     """Return the mask of the lanes whose bits are set in an integer."""
 
     def emit(builder, chosen):
@@ -207,7 +223,7 @@ def first_lane(typing, chosen):
 
 
 @intrinsic
-def number(typing, chosen):
+def count_bits(typing, chosen):
     """Return how many bits of an integer are set."""
     return _function(types.int64, (types.int64,), lambda builder, chosen: builder.ctpop(chosen))
 
@@ -260,31 +276,64 @@ def exponential(x):
     return total * _power_of_two(turns + 1023.0)
 
 
-def _pointer(context, builder, kind, array, row):
-    data = context.make_array(kind)(context, builder, array).data
-    return builder.gep(builder.bitcast(data, _FLOATS.as_pointer()), [row])
-
-
 @intrinsic
-def load(typing, array, row):
-    """Return a row of an array of `rows`."""
+def fields(typing, record):
+    """Return a record whose attributes are `lanes`, or rows of `lanes`, of a `batch`."""
 
     def write(context, builder, signature, arguments):
-        return builder.load(_pointer(context, builder, signature.args[0], *arguments), align=8)
+        return builder.bitcast(arguments[0], _POINTER)
 
-    return lanes(array, types.intp), write
+    return _Fields(record)(record), write
 
 
-@intrinsic
-def store(typing, array, row, value):
-    """Write a row of an array of `rows`."""
+@infer_getattr
+class _FieldTypes(AttributeTemplate):
+    key = _Fields
 
-    def write(context, builder, signature, arguments):
-        pointer = _pointer(context, builder, signature.args[0], *arguments[:2])
-        builder.store(arguments[2], pointer, align=8)
-        return context.get_dummy_value()
+    def generic_resolve(self, kind, name):  # type: ignore[override]
+        return rows if kind.record.typeof(name).ndim == 2 else lanes
 
-    return types.void(array, types.intp, lanes), write
+
+def _place(builder, kind, pointer, name):
+    return builder.gep(pointer, [ir.IntType(64)(kind.record.offset(name) // (8 * WIDTH))])
+
+
+@lower_getattr_generic(_Fields)
+def _get_field(context, builder, kind, pointer, name):
+    place = _place(builder, kind, pointer, name)
+    has_rows = kind.record.typeof(name).ndim == 2
+    return place if has_rows else builder.load(place, align=8)
+
+
+@lower_setattr_generic(_Fields)
+def _set_field(context, builder, signature, arguments, name):
+    place = _place(builder, signature.args[0], arguments[0], name)
+    builder.store(arguments[1], place, align=8)
+
+
+@type_callable(operator.getitem)
+def _type_row(context):
+    return lambda array, row: lanes if array is rows and isinstance(row, types.Integer) else None
+
+
+@type_callable(operator.setitem)
+def _type_set_row(context):
+    def typer(array, row, value):
+        is_row = array is rows and isinstance(row, types.Integer) and value is lanes
+        return types.void if is_row else None
+
+    return typer
+
+
+@lower_builtin(operator.getitem, _Rows, types.Integer)
+def _get_row(context, builder, signature, arguments):
+    return builder.load(builder.gep(arguments[0], [arguments[1]]), align=8)
+
+
+@lower_builtin(operator.setitem, _Rows, types.Integer, _Lanes)
+def _set_row(context, builder, signature, arguments):
+    builder.store(arguments[2], builder.gep(arguments[0], [arguments[1]]), align=8)
+    return context.get_dummy_value()
 
 
 @intrinsic
@@ -303,9 +352,10 @@ def take(typing, array, places):
     return lanes(array, lanes), write
 
 
-@compiled(_nrt=True)
-def rows(count):
-    """Return `count` rows of zeros, a float a lane, each where the CPU loads it at once."""
-    raw = np.zeros((count + 1) * WIDTH)
-    first = (-(raw.ctypes.data // 8)) % WIDTH
-    return raw[first : first + count * WIDTH].reshape((count, WIDTH))
+def batch(names, row_names, count):
+    """Return one record of zeros: a float a lane by each name, `count` of them by each row name."""
+    kinds = [*((name, (count, WIDTH)) for name in row_names), *((name, (WIDTH,)) for name in names)]
+    layout, size = np.dtype([(name, "f8", shape) for name, shape in kinds]), 8 * WIDTH
+    memory = np.zeros(layout.itemsize + size, np.uint8)
+    first = -memory.ctypes.data % size  # where the CPU loads a value at once
+    return memory[first : first + layout.itemsize].view(layout)
