@@ -54,8 +54,8 @@ def read_claims(path: str, settings: Mapping[str, Any]) -> list[Claim]:
                 claim = Claim(**row, part=part, file=path)
                 claim.statement = claim.statement.format(**settings)
             except ValidationError as errors:
-                told = "; ".join(f"'{e['loc'][-1]}': {e['msg']}" for e in errors.errors())
-                raise SystemExit(f"{path}: claim {row.get('id')}: {told}") from None
+                faults = "; ".join(f"'{e['loc'][-1]}': {e['msg']}" for e in errors.errors())
+                raise SystemExit(f"{path}: claim {row.get('id')}: {faults}") from None
             except (KeyError, IndexError, AttributeError) as key:
                 raise SystemExit(
                     f"{path}: claim {claim.id} has {{{key.args[0]}}}, which is no key of the "

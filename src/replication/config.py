@@ -146,11 +146,11 @@ def read_yaml(path: str | Path) -> Any:
         raise SystemExit(f"{path}: {' '.join(str(error).split())}") from None
 
 
-def read_config(path: str, model: type[Section], given: Any = None) -> dict[str, Any]:
+def read_config(path: str, model: type[Section], content: Any = None) -> dict[str, Any]:
     """Return a checked config; a mistake ends the program with file, key, value and expectation."""
-    given = read_yaml(path) if given is None else given
+    content = read_yaml(path) if content is None else content
     try:
-        return model.model_validate(given).model_dump()
+        return model.model_validate(content).model_dump()
     except ValidationError as errors:
         raise SystemExit(
             "\n".join(f"{path}: {_message(e, model)}" for e in errors.errors())
@@ -167,14 +167,14 @@ def _message(error: Any, model: type[Section]) -> str:
         return f"{where} has the key {name}; expected a name. A number has a point: 3.00, not 3,00"
     if error["type"] == "missing":
         return f"the key '{key}' is missing"
-    given, expected = error["input"], error["msg"].removeprefix("Value error, ")
+    entry, expected = error["input"], error["msg"].removeprefix("Value error, ")
     comma = ""
     if (
-        isinstance(given, str)
-        and given.replace(",", "", 1).replace(".", "", 1).strip("+-").isdigit()
+        isinstance(entry, str)
+        and entry.replace(",", "", 1).replace(".", "", 1).strip("+-").isdigit()
     ):
-        comma = ": a decimal point, and no quotes" if "," in given else ": without quotes"
-    return f"{key} is {given!r}; {expected[0].lower()}{expected[1:]}{comma}"
+        comma = ": a decimal point, and no quotes" if "," in entry else ": without quotes"
+    return f"{key} is {entry!r}; {expected[0].lower()}{expected[1:]}{comma}"
 
 
 def names_of(model: type[BaseModel]) -> list[str]:

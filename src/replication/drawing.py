@@ -27,10 +27,10 @@ PLACES = 6  # decimals of the places of axes, over the size of the figure
 def picture(figure: Figure, title: str, alt: str) -> str:
     """Return a figure as an SVG with a title and a description, and no date."""
     settle(figure)
-    drawn = io.StringIO()
-    figure.savefig(drawn, format="svg", metadata={"Date": None})
+    file = io.StringIO()
+    figure.savefig(file, format="svg", metadata={"Date": None})
     plt.close(figure)
-    return described(drawn.getvalue(), title, alt)
+    return described(file.getvalue(), title, alt)
 
 
 def settle(figure: Figure) -> None:

@@ -44,7 +44,7 @@ def run(job: Any, compute: Callable, findings: Callable | None = None) -> None:
         When a result is not what the rule declares, or `publish` refuses it.
     """
     with log_to(job.log[0]):
-        params = {name: given for name, given in job.params.items() if name != "code"}
+        params = {name: content for name, content in job.params.items() if name != "code"}
         made = call(compute, job.rule, tables_of(job.input), params)
         names = [name for name, _ in job.output.items() if name != "findings"]
         if not isinstance(made, Mapping) or not set(names) <= set(made):
@@ -58,8 +58,8 @@ def run(job: Any, compute: Callable, findings: Callable | None = None) -> None:
             written = {
                 path: StringIO(text) for path, text in texts.items() if path.endswith(".csv")
             }
-            drawn = call(findings, job.rule, tables_of(job.input, written), params)
-            texts[job.output.findings] = findings_text(drawn, compute)
+            results = call(findings, job.rule, tables_of(job.input, written), params)
+            texts[job.output.findings] = findings_text(results, compute)
         publish(job, texts)
 
 
@@ -129,7 +129,8 @@ def tables_of(inputs: Any, written: Mapping[str, Any] | None = None) -> dict[str
     paths = [str(path) for path in inputs]
     tables = {Path(path).stem: path for path in paths if path.endswith(".csv")}
     tables |= {
-        name: list(given) if not isinstance(given, str) else given for name, given in named.items()
+        name: list(paths_of) if not isinstance(paths_of, str) else paths_of
+        for name, paths_of in named.items()
     }
     return tables | {Path(path).stem: source for path, source in (written or {}).items()}
 

@@ -10,28 +10,28 @@ from replication.step import stop
 from topheavy import Column, Record, RockingFrame, read_record
 
 
-def structure(given: dict[str, Any]) -> Column | RockingFrame:
+def structure(entry: dict[str, Any]) -> Column | RockingFrame:
     """Return the column, or the frame, of an entry of `structures`."""
-    column = Column.of_dimensions(width=given["width"], height=given["height"])
-    if given["columns"] == 1:
+    column = Column.of_dimensions(width=entry["width"], height=entry["height"])
+    if entry["columns"] == 1:
         return column
-    return RockingFrame.of_masses(column, given["cap_mass"], given["column_mass"], given["columns"])
+    return RockingFrame.of_masses(column, entry["cap_mass"], entry["column_mass"], entry["columns"])
 
 
-def motion(given: dict[str, Any]) -> Record:
+def motion(entry: dict[str, Any]) -> Record:
     """Return the record of an entry of `records`; what its reader warns of stops the step."""
-    path = given["file"]
+    path = entry["file"]
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             if Path(path).suffix.lower() in (".at2", ".csv"):
                 return read_record(path)
             time, acceleration = np.loadtxt(
-                path, skiprows=given["skip"], usecols=(0, 1), unpack=True
+                path, skiprows=entry["skip"], usecols=(0, 1), unpack=True
             )
             step = (time[-1] - time[0]) / (len(time) - 1)
             if abs(np.diff(time) - step).max() > 0.01 * step:
                 stop(f"{path}: expected times in equal steps of {step:.6g} s")
-            return Record(step, acceleration, name=given["name"], unit=given["unit"])
+            return Record(step, acceleration, name=entry["name"], unit=entry["unit"])
     except (ValueError, UserWarning) as fault:
-        stop(f"{path}, unit {given['unit']}, below `skip: {given['skip']}` lines: {fault}")
+        stop(f"{path}, unit {entry['unit']}, below `skip: {entry['skip']}` lines: {fault}")

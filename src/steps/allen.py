@@ -61,8 +61,8 @@ def errors(settings):
             models = models_of(RockingFrame(column, gamma))
             for ratio in grid(settings["amplitudes"]):
                 pulse = Pulse(settings["shape"], ratio * column.uplift_acceleration, omega)
-                found = {name: judge(block, pulse) for name, block in models.items()}
-                exact = found.pop("exact")
+                endings = {name: judge(block, pulse) for name, block in models.items()}
+                exact = endings.pop("exact")
                 cells += [
                     (
                         gamma,
@@ -70,7 +70,7 @@ def errors(settings):
                         other.peak / exact.peak - 1.0,
                         exact.overturned != other.overturned,
                     )
-                    for name, other in found.items()
+                    for name, other in endings.items()
                 ]
     table = pd.DataFrame(cells, columns=["mass_ratio", "model", "error", "wrong"])
     return [
@@ -112,7 +112,7 @@ def compute(settings, structures, record, solver):
 
 def findings(allen_errors, allen_maps):
     """Return the median error of the peak by γ, and the shares of wrong outcomes."""
-    found = {
+    results = {
         f"error_{row.model}_{row.mass_ratio:g}": value(row.median_error, AGREE)
         for row in allen_errors.itertuples()
         if not row.model.startswith("massless")
@@ -120,9 +120,9 @@ def findings(allen_errors, allen_maps):
     exact = allen_maps.exact
     for model in ("linearised", "all"):
         falls = allen_maps[model]
-        found[f"falsely_safe_{model}"] = value(((exact == 1) & (falls == 0)).mean(), 0.0)
-        found[f"falsely_overturned_{model}"] = value(((exact == 0) & (falls == 1)).mean(), 0.0)
-    return found
+        results[f"falsely_safe_{model}"] = value(((exact == 1) & (falls == 0)).mean(), 0.0)
+        results[f"falsely_overturned_{model}"] = value(((exact == 0) & (falls == 1)).mean(), 0.0)
+    return results
 
 
 if __name__ == "__main__":

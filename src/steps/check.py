@@ -17,23 +17,25 @@ REFERENCE = Path("tests/reference")
 
 def findings(rules: dict[str, Any]) -> dict[str, dict[str, Any]]:
     """Return the findings of each rule, by its script, from the published tables."""
-    found = {}
+    by_rule = {}
     for name, rule in rules.items():
         if rule["findings"]:
             paths = [REFERENCE / Path(path).name for path in [*rule["reads"], *rule["tables"]]]
             tables = {path.stem: str(path) for path in paths}
-            found[name] = call(
+            by_rule[name] = call(
                 runpy.run_path(rule["script"])["findings"], name, tables, rule["params"]
             )
-    return found
+    return by_rule
 
 
 def published() -> list[dict[str, Any]]:
     """Return every claim with its verdict, from the published tables."""
     rules = json.loads((REFERENCE / "rules.json").read_text("utf-8"))
     settings = json.loads((REFERENCE / "settings.json").read_text("utf-8"))
-    found = findings(rules)
-    return [judged(c, found) for path, known in settings.items() for c in read_claims(path, known)]
+    by_rule = findings(rules)
+    return [
+        judged(c, by_rule) for path, known in settings.items() for c in read_claims(path, known)
+    ]
 
 
 if __name__ == "__main__":

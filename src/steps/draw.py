@@ -17,7 +17,7 @@ if __name__ == "__main__":
         captions = (
             read_yaml(snakemake.input.captions) if hasattr(snakemake.input, "captions") else {}
         )
-        params = {name: given for name, given in snakemake.params.items() if name != "code"}
+        params = {name: content for name, content in snakemake.params.items() if name != "code"}
         made = {}
         for script in snakemake.input.scripts:
             svg = next(
@@ -25,13 +25,15 @@ if __name__ == "__main__":
                 for each in snakemake.output
                 if Path(each).stem == Path(script).stem.removesuffix("_figure")
             )
-            drawn = runpy.run_path(script)
+            module = runpy.run_path(script)
             about = captions.get(
-                Path(script).stem, {"title": drawn["__doc__"], "alt": drawn.get("ALT", "")}
+                Path(script).stem, {"title": module["__doc__"], "alt": module.get("ALT", "")}
             )
             try:
                 with mpl.rc_context(fname=snakemake.input.style):
-                    figure = call(drawn["draw"], snakemake.rule, tables_of(snakemake.input), params)
+                    figure = call(
+                        module["draw"], snakemake.rule, tables_of(snakemake.input), params
+                    )
                     made[svg] = picture(figure, about["title"], about["alt"])
             except Exception as error:
                 traceback.print_exc()

@@ -22,12 +22,12 @@ def findings(equations, theorems):
 
     The forms of one equation for both signs of θ, and the steps between equations, are one finding.
     """
-    found = {t.theorem: truth(t.holds) for t in theorems.itertuples()}
+    results = {t.theorem: truth(t.holds) for t in theorems.itertuples()}
     for name, forms in equations.groupby(
         equations.id.str.replace(VARIANT, "", regex=True), sort=False
     ):
-        found[name] = as_printed_or_meant(forms)
-    return found
+        results[name] = as_printed_or_meant(forms)
+    return results
 
 
 def as_printed_or_meant(forms):

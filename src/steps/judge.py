@@ -25,12 +25,12 @@ def one(name: str) -> str:
         from steps.check import published
 
         rows = published()
-    found = [row for row in rows if row["id"] == name]
-    if not found:
+    matches = [row for row in rows if row["id"] == name]
+    if not matches:
         raise SystemExit(
             f"no claim has the id {name!r}; expected one of paper/claims.yaml or of a study"
         )
-    row = found[0]
+    row = matches[0]
     lines = [f"{name}: {row['verdict']}", f"  {row['where']}: {row['statement']}"]
     if row["shown"]:
         lines.append(f"  printed {row['printed']}, computed {row['shown']}")

@@ -32,13 +32,13 @@ def copies() -> dict[Path, Path]:
         if rule["findings"]
         for path in [*rule["tables"], *rule["reads"]]
     }
-    found = {Path(source): DOCS / name for source, name in PAGES.items()}
-    found |= {
+    targets = {Path(source): DOCS / name for source, name in PAGES.items()}
+    targets |= {
         page: DOCS / f"notebook_{page.name}" for page in Path("results/notebooks").glob("*.html")
     }
-    found |= {Path(f"figures/{name}.svg"): DOCS / f"{name}.svg" for name in PICTURES}
-    found |= {Path(path): REFERENCE / Path(path).name for path in sorted(tables)}
-    return found | {
+    targets |= {Path(f"figures/{name}.svg"): DOCS / f"{name}.svg" for name in PICTURES}
+    targets |= {Path(path): REFERENCE / Path(path).name for path in sorted(tables)}
+    return targets | {
         Path("results") / name: REFERENCE / name for name in ("rules.json", "settings.json")
     }
 

@@ -56,8 +56,8 @@ def three_bodies(frame, cap, pulse, duration, samples):
 
     scale = frame.equivalent_size / frame.column.size
     equivalent = Column(scale * frame.column.half_width, scale * frame.column.half_height)
-    given = equivalent.block(frame.restitution)
-    given = simulate(given, pulse, duration=duration, samples=times)
+    twin = equivalent.block(frame.restitution)
+    twin = simulate(twin, pulse, duration=duration, samples=times)
 
     before = simulate(frame, pulse, samples=block.impacts - 1e-9 / p).velocity
     impacts = block.impacts[np.abs(before) > SMALLEST_BOUNCE * p * alpha]
@@ -85,7 +85,7 @@ def three_bodies(frame, cap, pulse, duration, samples):
         "impacts": len(impacts),
         "instants": int(left.sum()),
         "rotation_apart": apart(block),
-        "equivalent_apart": apart(given),
+        "equivalent_apart": apart(twin),
         "restitution_apart": np.abs(ratios - frame.restitution).max(initial=0.0),
         "force_apart": np.abs(bodies.forces / weight - closed)[flying].max(),
         "cap_balance_apart": np.abs(on_cap)[left].max(initial=0.0) / weight,

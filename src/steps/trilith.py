@@ -168,33 +168,35 @@ def compute(settings, structures, solver):
 
 def findings(trilith_numbers, trilith_thresholds, trilith_starts, settings, structures):
     column, printed = structures["trilith"], settings["printed"]
-    found = {
+    results = {
         row.quantity: value(row.value, DIGITS * row.value, row.unit)
         for row in trilith_numbers.fillna({"unit": ""}).itertuples()
     }
     for row in trilith_thresholds.itertuples():
-        found[f"{row.quantity}_to_lift"] = value(row.to_lift, ASIDE * row.to_lift, row.unit)
-    acceleration = found["base_acceleration_in_g"]["value"]
-    found["stays_below_uplift"] = truth(acceleration < found["uplift_acceleration"]["value"])
+        results[f"{row.quantity}_to_lift"] = value(row.to_lift, ASIDE * row.to_lift, row.unit)
+    acceleration = results["base_acceleration_in_g"]["value"]
+    results["stays_below_uplift"] = truth(acceleration < results["uplift_acceleration"]["value"])
 
     # p. 4 as printed: the halves of width and height, and γ as a quotient of two masses
     halves, measures = printed["half_measures"], [printed["height"], printed["width"]]
-    found["half_measures_agree"] = truth(
+    results["half_measures_agree"] = truth(
         np.allclose(2.0 * np.array(halves), measures, rtol=1e-12)
         and np.allclose([column["half_height"], column["half_width"]], halves, rtol=1e-12)
     )
     cap, columns = printed["masses_meant"]
     if round(cap / columns, 3) == settings["mass_ratio"]:
-        found["mass_ratio"] |= {"meant_value": cap / columns, "kind": "number"}
-        found["mass_ratio"] |= {"mended": f"{cap:g}/{columns:g}"}
+        results["mass_ratio"] |= {"meant_value": cap / columns, "kind": "number"}
+        results["mass_ratio"] |= {"mended": f"{cap:g}/{columns:g}"}
     ratio = printed["frame_frequency_parameter"] / printed["frequency_parameter"]
-    found["mass_ratio"]["implied_by_frequencies"] = (1 - ratio**2) / (3 * ratio**2 - 2)  # Eq. (23)
+    results["mass_ratio"]["implied_by_frequencies"] = (1 - ratio**2) / (
+        3 * ratio**2 - 2
+    )  # Eq. (23)
 
     rest, abrupt = trilith_starts.iloc[0], trilith_starts.iloc[-1]
     low = trilith_starts.share_of_speed[trilith_starts.outcome == "rests"].max()
     high = trilith_starts.share_of_speed[trilith_starts.outcome == "rocking"].min()
     rests = rest.outcome == "no uplift" and rest.peak_over_alpha == 0.0
-    return found | {
+    return results | {
         "steady_rotation_over_alpha": value(abrupt.late_peak_over_alpha, AGREE),
         "least_share_that_keeps_rocking": value((low + high) / 2.0, (high - low) / 2.0),
         "no_pure_rocking": truth(rests, after_an_abrupt_start=abrupt.outcome),

@@ -42,11 +42,11 @@ def cells(settings, shape, linearised):
         ratio = draw.uniform(*settings["amplitudes"])
         level = block.uplift_acceleration
         if number % 2:
-            found = overturning_intervals(
+            intervals = overturning_intervals(
                 block, Pulse(shape, level, omega), (1.0, settings["amplitudes"][1]), resolution=0.05
             )
-            if found:
-                ratio = found[0].lower[0] * (1.0 + draw.uniform(-0.01, 0.01))
+            if intervals:
+                ratio = intervals[0].lower[0] * (1.0 + draw.uniform(-0.01, 0.01))
         yield block, Pulse(shape, ratio * level, omega)
 
 
@@ -57,11 +57,11 @@ def solvers(tightened, is_solvable):
         response = simulate_linear_exact(block, pulse, duration=pulse.duration, samples=2)
         return Ending(response.overturned, response.peak_rotation, 0)
 
-    found = {
+    others = {
         "SciPy integration": reference.judge,
         "tightened tolerance": lambda block, pulse: judge(block, pulse, tolerance=tightened),
     }
-    return found | ({"exact solution": exact} if is_solvable else {})
+    return others | ({"exact solution": exact} if is_solvable else {})
 
 
 def agreement(settings, tightened):
@@ -93,8 +93,10 @@ def agreement(settings, tightened):
 
 def boundary(block, pulse, near, which="lower"):
     """Return the boundary of overturning of a pulse of 1 g nearest to one known to 2 %, in g."""
-    found = overturning_intervals(block, pulse, (0.98 * near, 1.02 * near), resolution=1e-4 * near)
-    ends = [getattr(interval, which) for interval in found if getattr(interval, which)]
+    intervals = overturning_intervals(
+        block, pulse, (0.98 * near, 1.02 * near), resolution=1e-4 * near
+    )
+    ends = [getattr(interval, which) for interval in intervals if getattr(interval, which)]
     middles = [(low + high) / 2.0 for low, high in ends if which == "upper" or low != high]
     return min(middles, key=lambda middle: abs(middle - near))
 
@@ -172,7 +174,7 @@ def check_formulas():
                 (column.restitution, column_root(angle)),
                 (ours.uplift_acceleration, math.tan(angle)),
             ]
-            apart = max(abs(found - derived) for found, derived in pairs)
+            apart = max(abs(formula - derived) for formula, derived in pairs)
             check(apart < 1e-13, f"α = {angle:.3g}, γ = {ratio:g}: {apart:.1g} from the derivation")
 
 

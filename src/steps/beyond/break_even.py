@@ -36,9 +36,9 @@ def compute(settings, motions, structures, shards):
         quakes = [each for each in sets(motions) if each.startswith(name)]
         parts = [outcomes(shards, f"{each}: lowered") == 1 for each in quakes]
         samples |= dict(zip(quakes, parts, strict=True))
-        found, groups = np.concatenate(parts), np.repeat(quakes, [len(part) for part in parts])
+        fell, groups = np.concatenate(parts), np.repeat(quakes, [len(part) for part in parts])
         spec = settings["bootstrap"] | {"seed": settings["bootstrap"]["seed"] + number}
-        ensemble = Ensemble(found, groups.tolist(), **spec)
+        ensemble = Ensemble(fell, groups.tolist(), **spec)
         means = ensemble.means()
         for place, velocity in enumerate(settings["velocities"]):
             less = means[:, : shares.size, place] - means[:, [shares.size], place]
@@ -50,11 +50,11 @@ def compute(settings, motions, structures, shards):
                 f"twice the step moves the end from {every[0]:g} to {coarse:g} at {velocity:g} m/s",
             )
             ends.append(
-                {"set": name, "velocity": velocity, "motions": len(found)}
+                {"set": name, "velocity": velocity, "motions": len(fell)}
                 | {"column": means[0, 0, place], "frame": means[0, shares.size, place]}
                 | {"end": every[0], "end_low": low, "end_high": high}
             )
-        benefits += compare(name, settings, found[..., level], ensemble, means[..., level])
+        benefits += compare(name, settings, fell[..., level], ensemble, means[..., level])
     check_by_scipy(sampled(samples, settings, motions, column))
     return {"ends": pd.DataFrame(ends), "benefits": pd.DataFrame(benefits)}
 

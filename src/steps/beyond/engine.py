@@ -109,8 +109,8 @@ def outcomes(settings, structures):
         pulses = [(kind, minimum(frame, kind)) for kind in spec["pulses"]]
         for contact, properties in spec["contacts"].items():
             boxes = boxes_of(frame, cap, spec["time_step"], friction=spec["friction"], **properties)
-            found = released(boxes, spec["lean"])
-            refitted = frame.block().with_restitution(found)
+            measured = released(boxes, spec["lean"])
+            refitted = frame.block().with_restitution(measured)
             rows += [
                 {
                     "structure": name,
@@ -192,8 +192,8 @@ def first(row, changed, settings, structures):
     lowest = next(f for f in factors if space.overturns(bodies, alone.scaled(f), direction))
     message = f"{row}, {changed}: from {lowest:.2f} on; expected {expected:.3f} within a step"
     check(not abs(lowest - expected) > 1.5 * step, message)
-    found = {"uplift": uplift, "theory": expected, "engine": lowest}
-    return dict(zip(LABELS, row, strict=True)) | solver | found
+    numbers = {"uplift": uplift, "theory": expected, "engine": lowest}
+    return dict(zip(LABELS, row, strict=True)) | solver | numbers
 
 
 def findings(engine_restitution, engine_outcomes, engine_across):

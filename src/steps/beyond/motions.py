@@ -36,9 +36,9 @@ def compute(settings, structures, shards):
     tables = {name: [] for name in ("probabilities", "sensitivity", "gains", "pairs")}
     tables |= {"fragility": [], "rotations": []}
     for model in models(settings):
-        found = outcomes(shards, model)
-        kept = (found != FREE_FALL).all(axis=(1, 2))
-        tables["probabilities"].append(row(model, found[kept] == 1, settings))
+        results = outcomes(shards, model)
+        kept = (results != FREE_FALL).all(axis=(1, 2))
+        tables["probabilities"].append(row(model, results[kept] == 1, settings))
         if not model.endswith(VERTICAL):
             for name, one in columns.items():
                 fell = outcomes(shards, f"{model}: {name}") == 1
@@ -48,8 +48,8 @@ def compute(settings, structures, shards):
             few = factors <= settings["largest_factor"]
             if not few.all():
                 name = f"{model}, factor at most {settings['largest_factor']:g}"
-                tables["probabilities"].append(row(name, found[few] == 1, settings))
-            tables["sensitivity"] += sensitivity(model, found, settings)
+                tables["probabilities"].append(row(name, results[few] == 1, settings))
+            tables["sensitivity"] += sensitivity(model, results, settings)
             fell = outcomes(shards, f"{model}: {settings['structure']}")
             tables["fragility"] += curves(model, fell.mean(axis=0), settings, column)
             turned = outcomes(shards, f"{model}: rotations")
@@ -71,19 +71,19 @@ def row(model, fell, settings):
     numbers["harm"] = shares[FIXED] - shares[COLUMN]
     numbers["benefit"] = shares[COLUMN] - shares[FRAME]
     of_column, of_frame = fell[:, COLUMN, 0], fell[:, FRAME, 0]
-    found = {"model": model, "motions": len(fell)}
-    found["only_frame"] = int((of_frame & ~of_column).sum())
-    found["only_column"] = int((of_column & ~of_frame).sum())
+    columns = {"model": model, "motions": len(fell)}
+    columns["only_frame"] = int((of_frame & ~of_column).sum())
+    columns["only_column"] = int((of_column & ~of_frame).sum())
     for name, values in numbers.items():
-        found |= ensemble.bounds(name, values)
-    return found
+        columns |= ensemble.bounds(name, values)
+    return columns
 
 
-def sensitivity(model, found, settings):
+def sensitivity(model, results, settings):
     """Return the share of the motions whose outcome a small change of their scale changes."""
     return [
         {"model": model, "structure": name, "change": change}
-        | {"changed": float((found[:, place, number] != found[:, place, 0]).mean())}
+        | {"changed": float((results[:, place, number] != results[:, place, 0]).mean())}
         for name, place in {"column": COLUMN, "frame": FRAME}.items()
         for number, change in enumerate(settings["changes"], 1)
     ]
@@ -167,15 +167,15 @@ def sampled(shards, settings, column):
     question, motions = stated(settings, column), models(settings)
     for number in range(settings["checked"]):
         model = [*motions][number % len(motions)]
-        found = outcomes(shards, model)[..., 0]
-        at, place = (int(random.integers(size)) for size in found.shape)
-        if found[at, place] == FREE_FALL:
+        results = outcomes(shards, model)[..., 0]
+        at, place = (int(random.integers(size)) for size in results.shape)
+        if results[at, place] == FREE_FALL:
             continue
         record, up = components(motions[model][at], settings)
         block, factor = question.blocks[place], settings["velocity"] / record.peak_velocity
         if up is None and random.integers(2):
             factor = beside_a_boundary(partial(overturns, block, record, up), factor)
-        yield block, record, up, factor, found[at, place] == 1
+        yield block, record, up, factor, results[at, place] == 1
 
 
 def findings(motions, motions_gains, motions_pairs, motions_sensitivity, settings):

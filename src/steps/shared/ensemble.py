@@ -42,5 +42,5 @@ class Ensemble:
 
     def bounds(self, name: str, values: Array) -> dict[str, Array]:
         """Return a value of the ensemble and the ends of its interval, named for a table."""
-        found = interval(values, self.confidence)
-        return dict(zip((name, f"{name}_low", f"{name}_high"), found, strict=True))
+        ends = interval(values, self.confidence)
+        return dict(zip((name, f"{name}_low", f"{name}_high"), ends, strict=True))

@@ -37,11 +37,11 @@ def history(
     Each arc holds both its ends and 2·samples − 1 times between them, evenly. `whole` is the
     response from 0 to its end, where the caller has it.
     """
-    found = whole or solver(frame, pulse, samples=2)
+    response = whole or solver(frame, pulse, samples=2)
     step = 2.0 * math.pi / pulse.angular_frequency / CHUNKS
-    end = pulse.duration if found.outcome == "no uplift" else found.time[-1]
+    end = pulse.duration if response.outcome == "no uplift" else response.time[-1]
     kinks = np.arange(round(pulse.duration / step) + 1) * step
-    knots = np.concatenate([kinks, found.impacts])
+    knots = np.concatenate([kinks, response.impacts])
     knots = np.unique(np.append(knots[knots < end], end))
     aside = ASIDE / frame.frequency_parameter
     knots = knots[np.append(True, np.diff(knots) > 4.0 * aside)]
@@ -51,5 +51,5 @@ def history(
         motion.rotation.reshape(time.shape),
         motion.velocity.reshape(time.shape),
         pulse.excitation(time.ravel()).reshape(time.shape),
-        int((found.impacts < end).sum()),
+        int((response.impacts < end).sum()),
     )

@@ -117,12 +117,12 @@ class ThreeBodies:
 
     def gaps(self, sides: Sides, coordinates: Vector) -> Vector:
         """Return how far the points of each contact are apart, m, shape (4, 2)."""
-        found = np.zeros((4, 2))
+        gaps = np.zeros((4, 2))
         points = zip(self.turned_arms(sides, coordinates), self.arms(sides), strict=True)
         for axis, (turned, upright) in enumerate(points):
             apart = _SIGN * (coordinates[3 * _BODY + axis] + turned - upright)
-            np.add.at(found[:, axis], _CONTACT, apart)
-        return found
+            np.add.at(gaps[:, axis], _CONTACT, apart)
+        return gaps
 
     def matrix(self, turned: tuple[Vector, Vector]) -> Vector:
         """Return the matrix of the system for the arms of the six points, shape (17, 17)."""
@@ -199,14 +199,14 @@ def uplift_accelerations(bodies: ThreeBodies) -> dict[Sides, float]:
     Choices that no ground acceleration opens, as columns that lean against each other, are left
     out. The accelerations of the frame at rest are linear in ü_g, so that two solutions tell.
     """
-    found: dict[Sides, float] = {}
+    levels: dict[Sides, float] = {}
     for sides in product((-1, 1), (-1, 1)):
         quiet, pushed = (opening(bodies, sides, ground) for ground in (0.0, 1.0))
         slope = pushed - quiet
         if np.all(slope > 0.0) or np.all(slope < 0.0):
             needed = -quiet / slope
-            found[sides] = float(needed[np.argmax(np.abs(needed))])
-    return found
+            levels[sides] = float(needed[np.argmax(np.abs(needed))])
+    return levels
 
 
 def opening(bodies: ThreeBodies, sides: Sides, ground: float) -> Vector:

@@ -23,13 +23,13 @@ def bodies(structure: Structure, rotation: float, cap: dict[str, float]) -> dict
     The cap beam of a frame is twice as wide as a mass that is fixed to one column.
     """
     width = cap["width"] * (2.0 if isinstance(structure, RockingFrame) else 1.0)
-    found = outlines(structure, rotation, width, cap["depth"])
-    for name, outline in found.items():
+    shapes = outlines(structure, rotation, width, cap["depth"])
+    for name, outline in shapes.items():
         if outline[:, 1].min() < -IN_THE_GROUND:
             raise ArithmeticError(
                 f"the {name} of {structure} is in the ground at θ = {rotation:.6g}"
             )
-    return found
+    return shapes
 
 
 def lying(structure: Column | FixedMassColumn, cap: dict[str, float]) -> float:

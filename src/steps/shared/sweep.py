@@ -58,28 +58,28 @@ def models(settings: Settings) -> dict[str, list[Motion]]:
 
     The vertical component of a motion is another one of the same set.
     """
-    found, (count, seed) = {}, (settings["motions"], settings["seed"])
+    by_model, (count, seed) = {}, (settings["motions"], settings["seed"])
     scenarios = [synthetic.Scenario(**scenario) for scenario in settings["scenarios"]]
 
-    def drawn(family: str, place: int, number: int) -> Callable[[], Record]:
+    def random_motion(family: str, place: int, number: int) -> Callable[[], Record]:
         quake = (seed + place, number, scenarios[place])
         return partial(synthetic.motion, *quake, pulse=family == FAMILIES[0])
 
     parts = [*product(FAMILIES, range(len(scenarios)))]
     for name, part in zip(sets(settings), parts, strict=True):
-        found[name] = [Motion(drawn(*part, number)) for number in range(count)]
+        by_model[name] = [Motion(random_motion(*part, number)) for number in range(count)]
     noise = settings["noise"]
     for place, (soil, corner) in enumerate(product(noise["soils"], noise["corners"])):
         of = filtered_noise.Soil(soil, corner)
-        found[f"noise, soil {soil:g} Hz, filter {corner:g} Hz"] = [
+        by_model[f"noise, soil {soil:g} Hz, filter {corner:g} Hz"] = [
             Motion(partial(filtered_noise.motion, noise["seed"] + place, number, of))
             for number in range(noise["motions"])
         ]
-    found[sets(settings)[-1] + VERTICAL] = [
-        Motion(drawn(*parts[-1], number), drawn(*parts[-1], number + count))
+    by_model[sets(settings)[-1] + VERTICAL] = [
+        Motion(random_motion(*parts[-1], number), random_motion(*parts[-1], number + count))
         for number in range(count)
     ]
-    return found
+    return by_model
 
 
 def compared(settings: Settings, column: Column) -> list[RockingBlock]:
@@ -150,7 +150,7 @@ def sweep(
     columns = {name: Column(**structures[name]) for name in settings["structures"]}
     column, spec = columns[settings["structure"]], settings["rotations"]
     tilted = Question(frames(settings, column).blocks[:-1], np.array(spec["velocities"]))
-    found: dict[str, Any] = {}
+    arrays: dict[str, Any] = {}
     for model, motions in models(settings).items():
         count, in_set = len(motions), model in sets(settings)
         fewer = settings["fewer"] if in_set else count
@@ -172,9 +172,9 @@ def sweep(
             for name, question, answer, most in questions:
                 if place < most:
                     rows[name].append(answer(question, record, up))
-        found |= {name: np.array(each) for name, each in rows.items()}
+        arrays |= {name: np.array(each) for name, each in rows.items()}
         print(f"{len(peaks)} motions, {model}", flush=True)
-    return found
+    return arrays
 
 
 def outcomes(shards: Sequence[str], name: str) -> NDArray[Any]:

@@ -280,7 +280,7 @@ def _first_event(
     step is cut at the turning points of the rotation, between which a sign change is certain.
     """
     middle, half = (step.t_old + step.t) / 2.0, (step.t - step.t_old) / 2.0
-    found: list[tuple[float, Literal["impact", "fall"]]] = []
+    events: list[tuple[float, Literal["impact", "fall"]]] = []
     at_nodes = step(middle + half * _NODES)
     for angle, side in zip(COLUMNS, sides, strict=True):
         series = _TO_SERIES @ (side * at_nodes[angle])
@@ -297,15 +297,15 @@ def _first_event(
         for time in (*(middle + half * real), step.t):
             if possible and above(before, 0.0) >= 0.0 > above(time, 0.0):
                 root = brentq(above, before, time, args=(0.0,), xtol=1e-300, rtol=1e-15)
-                found.append((float(root), "impact"))
+                events.append((float(root), "impact"))
                 break
             if above(before, math.pi / 2) <= 0.0 < above(time, math.pi / 2):
-                found.append((float(brentq(above, before, time, args=(math.pi / 2,))), "fall"))
+                events.append((float(brentq(above, before, time, args=(math.pi / 2,))), "fall"))
                 break
             before = time
-    if not found:
+    if not events:
         return None, step.t
-    time, event = min(found)
+    time, event = min(events)
     return event, time
 
 
