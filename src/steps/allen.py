@@ -64,22 +64,14 @@ def errors(settings):
                 endings = {name: judge(block, pulse) for name, block in models.items()}
                 exact = endings.pop("exact")
                 cells += [
-                    (
-                        gamma,
-                        name,
-                        other.peak / exact.peak - 1.0,
-                        exact.overturned != other.overturned,
-                    )
-                    for name, other in endings.items()
+                    (gamma, name, other.peak / exact.peak - 1.0) for name, other in endings.items()
                 ]
-    table = pd.DataFrame(cells, columns=["mass_ratio", "model", "error", "wrong"])
+    table = pd.DataFrame(cells, columns=["mass_ratio", "model", "error"])
     return [
         {
             "mass_ratio": gamma,
             "model": model,
             "median_error": some.error.abs().median(),  # NaN where one overturns
-            "wrong_outcomes": int(some.wrong.sum()),
-            "cells": len(some),
         }
         for (gamma, model), some in table.groupby(["mass_ratio", "model"])
     ]

@@ -115,8 +115,8 @@ def test_numbers_of_a_row_are_those_of_its_outcomes():
     fell[:20, motions.COLUMN] = fell[10:18, motions.FRAME] = fell[:30, motions.FIXED] = True
     fell[38:, motions.FRAME, 0] = True
     row = motions.row("model", fell, SETTINGS)
-    names = ("column", "fixed", "frame", "harm", "benefit", "only_frame", "only_column")
-    assert [row[name] for name in names] == [0.5, 0.75, 0.25, 0.25, 0.25, 2, 12]
+    names = ("column", "fixed", "frame", "harm", "benefit", "only_frame")
+    assert [row[name] for name in names] == [0.5, 0.75, 0.25, 0.25, 0.25, 2]
     settings = SETTINGS | {"changes": [1e-6]}
     changed = {one["structure"]: one for one in motions.sensitivity("model", fell, settings)}
     assert changed["frame"] == {

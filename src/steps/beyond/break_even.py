@@ -54,7 +54,7 @@ def compute(settings, motions, structures, shards):
                 | {"column": means[0, 0, place], "frame": means[0, shares.size, place]}
                 | {"end": every[0], "end_low": low, "end_high": high}
             )
-        benefits += compare(name, settings, fell[..., level], ensemble, means[..., level])
+        benefits += compare(name, settings, ensemble, means[..., level])
     check_by_scipy(sampled(samples, settings, motions, column))
     return {"ends": pd.DataFrame(ends), "benefits": pd.DataFrame(benefits)}
 
@@ -84,7 +84,7 @@ def bounds(ends, confidence):
     return np.quantile(ends[1:], (tail, 1.0 - tail), method="nearest")
 
 
-def compare(name, settings, fell, ensemble, means):
+def compare(name, settings, ensemble, means):
     """Return the benefit at the stated velocity, if √r of both or of the column alone is lower."""
     shares, rows = list(reductions(settings)), []
     first = len(shares)
@@ -95,8 +95,6 @@ def compare(name, settings, fell, ensemble, means):
                 rows.append(
                     {"set": name, "lowered": way, "reduction": share}
                     | {"column": means[0, column], "frame": means[0, frame]}
-                    | {"only_column": int((fell[:, column] & ~fell[:, frame]).sum())}
-                    | {"only_frame": int((fell[:, frame] & ~fell[:, column]).sum())}
                     | ensemble.bounds("benefit", means[:, column] - means[:, frame])
                 )
     return rows

@@ -73,7 +73,6 @@ def row(model, fell, settings):
     of_column, of_frame = fell[:, COLUMN, 0], fell[:, FRAME, 0]
     columns = {"model": model, "motions": len(fell)}
     columns["only_frame"] = int((of_frame & ~of_column).sum())
-    columns["only_column"] = int((of_column & ~of_frame).sum())
     for name, values in numbers.items():
         columns |= ensemble.bounds(name, values)
     return columns
@@ -106,7 +105,6 @@ def gains(model, structure, fell, settings, column):
     ratios = alone(ensemble, [(0, place) for place in range(1, fell.shape[1])])
     return [
         {"model": model, "structure": structure, "mass_ratio": gamma, "motions": len(fell)}
-        | {"median_of_column": middle[0, 0]}
         | ensemble.bounds("gain", middle[:, place] / middle[:, 0] - 1.0)
         | ensemble.bounds("ratio", ratios[:, place - 1])
         for place, gamma in enumerate(settings["mass_ratios"], 1)
