@@ -275,18 +275,6 @@ def test_counts_are_of_outcomes_that_are_known(monkeypatch):
     )
 
 
-def test_capacity_is_the_lowest_peak_from_which_most_of_a_window_overturns():
-    peaks = 1.01 ** np.arange(60)
-    fell = np.zeros(60, bool)
-    fell[10:12] = fell[20:] = True
-    fell[22] = False
-    spec = {"step": 0.01, "share": 0.9}
-    assert records.lowest(peaks, fell, 0.02, spec) == peaks[23]  # a window of three
-    assert records.lowest(peaks, fell, 0.1, spec) == peaks[20]  # of eleven
-    with pytest.raises(SystemExit, match="raise highest"):
-        records.lowest(peaks, fell & False, 0.02, spec)
-
-
 def test_outcomes_that_a_nudge_changes_are_not_known():
     record = Record(0.01, np.sin(np.arange(200) / 20.0))
     edge = second.beside_a_boundary(lambda f: judge(COLUMN, record.scaled(f)).overturned, 0.3)
