@@ -76,6 +76,20 @@ def test_positive_takes_all_above_zero(value):
     assert checks.positive("thing", value) == value
 
 
+@pytest.mark.parametrize(
+    ("check", "value", "expected"),
+    [
+        (checks.positive, 0.0, "more than zero"),
+        (checks.not_negative, -5e-324, "zero or more"),
+        (checks.within_quarter_turn, math.pi / 2, "an angle between 0 and π/2, both excluded"),
+        (checks.fraction, 1.0 + 2**-52, "a value from 0 to 1"),
+    ],
+)
+def test_first_value_outside_of_a_range_is_refused(check, value, expected):
+    with pytest.raises(ValueError, match=f"thing is .*; expected {expected}"):
+        check("thing", value)
+
+
 PULSE = th.Pulse("one-sine", 0.3, 6.0)
 
 
