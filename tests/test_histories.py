@@ -17,7 +17,7 @@ from topheavy.ground.shapes import ELEMENTARY_ENDING
 from topheavy.kernel.history import MAX_FREE_FLIGHT, MAX_FREE_IMPACTS
 from topheavy.second import reference
 from topheavy.second.motion import MAX_FREE_IMPACTS as MAX_BY_SCIPY
-from topheavy.second.motion import Event, _leaves_wrongly, force, start
+from topheavy.second.motion import Event, force, start
 
 SHAKEN = th.Pulse("one-sine", 0.5, 9.0)
 LOSSLESS = BLOCK.with_restitution(1.0)
@@ -308,23 +308,6 @@ def test_history_of_a_block_poised_at_its_slenderness_ends(block, side):
     fallen = reference.simulate(block, velocity=side * 1.01 * speed, samples=11)
     assert fallen.outcome == "overturned"
     assert fallen.rotation[-1] == pytest.approx(side * math.pi / 2, rel=1e-9)
-
-
-@pytest.mark.parametrize(
-    ("share", "rate", "outward", "is_wrong"),
-    [
-        (1.01, 0.1, False, True),
-        (1.01, -0.1, False, False),
-        (0.99, 0.1, False, False),
-        (0.99, -0.1, True, True),
-        (0.99, 0.1, True, False),
-        (1.01, -0.1, True, False),
-    ],
-)
-def test_flight_by_the_slenderness_to_the_other_side_than_judged_is_noticed(
-    share, rate, outward, is_wrong
-):
-    assert _leaves_wrongly(BLOCK, share * BLOCK.slenderness, rate, outward=outward) is is_wrong
 
 
 def test_linear_block_has_fallen_only_where_no_ground_of_this_motion_brings_it_back():
