@@ -13,7 +13,7 @@ from topheavy.kernel import forcing
 from topheavy.kernel.bernstein import MAX_DEGREE, roots, to_bernstein
 from topheavy.kernel.forcing import NO_RECORD, SHAPES, equation, forcing_of, ground, next_uplift
 from topheavy.kernel.grid import record_order
-from topheavy.kernel.march import derivatives
+from topheavy.kernel.march import derivatives, powers
 from topheavy.kernel.step import (
     HULL,
     POLYNOMIAL,
@@ -133,6 +133,12 @@ def test_way_1_uplift_starts_outward_however_slight_the_push(degrees, linearised
 
 few = settings(max_examples=60, deadline=None, derandomize=True, database=None)
 ONE_METRE = oscillator(RockingBlock(1.0, 0.25, 0.9))
+
+
+def test_powers_of_a_short_step_are_over_their_factorials():
+    assert powers(0.3) == pytest.approx(
+        [0.3**k / math.factorial(k) for k in range(1, 8)], rel=1e-14
+    )
 
 
 @few
