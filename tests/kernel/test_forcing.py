@@ -102,7 +102,7 @@ def test_a_motion_that_is_cut_off_lifts_when_the_whole_does_or_not_at_all(shape,
                 assert found[0] == math.inf
 
 
-def test_way_8_a_ricker_wavelet_lifts_the_block_in_its_side_lobe():
+def test_a_ricker_wavelet_lifts_the_block_in_its_side_lobe():
     level = math.tan(math.radians(14.0))
     pulse = pulse_forcing(forcing.RICKER_SYMMETRIC, 3 * level, 2.0)
     time, push, rate, side = next_uplift(pulse, 0.0, level)

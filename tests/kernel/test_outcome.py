@@ -56,7 +56,7 @@ def step_from(block, state, longest, zeros=0, peak=0.0):
     return *advance(w, method, oscillator(block), STILL, state, zeros, longest, peak), w
 
 
-def test_way_3_dip_inside_a_step_is_a_landing():
+def test_dip_inside_a_step_is_a_landing():
     """Thrown at the ground under an outward push: just too fast, it dips for an instant."""
     block, push, begin = BLOCK.linear(), 0.25, 0.05
     critical = math.sqrt(2 * push * begin + begin**2)
@@ -71,7 +71,7 @@ def test_way_3_dip_inside_a_step_is_a_landing():
 
 @few
 @given(st.floats(1e-12, 1.0))
-def test_way_4_fast_bounces_are_not_skipped(fraction):
+def test_fast_bounces_are_not_skipped(fraction):
     """A take-off from φ = 0 lands after 2v/g, however much shorter than a step that is."""
     block = BLOCK.linear()
     velocity = 0.2 * fraction * block.slenderness
@@ -86,7 +86,7 @@ def test_way_4_fast_bounces_are_not_skipped(fraction):
 
 @pytest.mark.parametrize("degrees", [0.1, 3, 5, 8, 14, 20, 35, 80])
 @pytest.mark.parametrize("linearised", [False, True])
-def test_way_1_uplift_makes_no_impact_of_its_own(degrees, linearised):
+def test_uplift_makes_no_impact_of_its_own(degrees, linearised):
     """While |a| is above the level the push is outward: no step up to then may land."""
     block = oscillator(RockingBlock(1.0, math.radians(degrees), 0.9, linearised))
     w = working_array()
@@ -103,7 +103,7 @@ def test_way_1_uplift_makes_no_impact_of_its_own(degrees, linearised):
             assert peak > 0.0
 
 
-def test_way_6_the_side_is_a_state_of_its_own():
+def test_the_side_is_a_state_of_its_own():
     """After an impact φ = 0, and the other side pulls back with its own level."""
     there = oscillator(BLOCK)
     push = 0.02 - there.level  # −s a = 0.02
@@ -116,7 +116,7 @@ def test_way_6_the_side_is_a_state_of_its_own():
     assert after_impact(there, before._replace(velocity=1e-18)).velocity == 0.0
 
 
-def test_way_7_beyond_alpha_is_survived():
+def test_beyond_alpha_is_survived():
     """Zhang & Makris (2001): it swings past α at an amplitude that it survives."""
     survived = shaken(BLOCK.linear(), "one-sine", 7.1681, 5.0)
     assert not survived.overturned
@@ -124,7 +124,7 @@ def test_way_7_beyond_alpha_is_survived():
     assert shaken(BLOCK.linear(), "one-sine", 7.1682, 5.0).overturned
 
 
-def test_way_8_small_bounces_before_the_main_lobe_are_followed():
+def test_small_bounces_before_the_main_lobe_are_followed():
     block = RockingBlock(1.0, math.radians(14.0), 0.9)
     result = shaken(block, "ricker-symmetric", 2.4, 1.0)
     assert result.impacts == shaken(block, "ricker-symmetric", 2.4, 1.0, 1e-14).impacts > 1
@@ -147,7 +147,7 @@ def test_peaks_are_good_to_1e_9_alpha_at_the_default_tolerance():
     assert np.quantile(errors, 0.99) < 3e-9
 
 
-def test_way_7_overturning_is_never_certain_where_the_ground_could_bring_it_back():
+def test_overturning_is_never_certain_where_the_ground_could_bring_it_back():
     """Flat before the balance: an exact block that is pulled back by 5 g has none."""
     pulse = pulse_forcing(forcing.CONSTANT, 50.0, 0.1)
     state = aloft(BLOCK, 0.3, 1.0)._replace(time=1.0)
@@ -179,9 +179,7 @@ def rests(block, motion, *state) -> bool:
     ],
 )
 @pytest.mark.parametrize("sign", [-1.0, 1.0])
-def test_way_5_rest_is_not_called_when_the_level_is_about_to_be_passed(
-    before, velocity, expected, sign
-):
+def test_rest_is_not_called_when_the_level_is_about_to_be_passed(before, velocity, expected, sign):
     """The velocity alone does not tell: it depends on what is left of the time to the uplift."""
     pulse = pulse_forcing(forcing.ONE_SINE, sign * 2 * RESTING.level, 1.0)
     time = next_uplift(pulse, 0.0, RESTING.level)[0] - before
@@ -190,7 +188,7 @@ def test_way_5_rest_is_not_called_when_the_level_is_about_to_be_passed(
 
 
 @pytest.mark.parametrize("linearised", [False, True])
-def test_way_5_what_is_called_rest_does_bounce_to_rest_before_the_next_uplift(linearised):
+def test_what_is_called_rest_does_bounce_to_rest_before_the_next_uplift(linearised):
     """Each bounce is followed, down to nothing, while the ground moves below the level."""
     random, seen, w = np.random.default_rng(11), 0, working_array()
     while seen < 40:
@@ -247,7 +245,7 @@ BOTH = pytest.mark.parametrize("block", [BLOCK, BLOCK.linear()], ids=["exact", "
 
 
 @BOTH
-def test_way_7_beyond_alpha_is_not_overturned(block):
+def test_beyond_alpha_is_not_overturned(block):
     there = oscillator(block)
     barrier = math.sqrt(-2 * free_rocking.surplus(there, 0.32, 0.0))
     back = tail.free_rocking(there, 0.32, -1.001 * barrier)
@@ -268,7 +266,7 @@ def test_history_ends_as_it_is_judged(shape, omega, strength, linearised):
     np.testing.assert_allclose(whole.peak_rotation, end.peak, rtol=0, atol=1e-10)
 
 
-def test_way_5_a_block_that_came_to_rest_lifts_again():
+def test_a_block_that_came_to_rest_lifts_again():
     """Two lobes of a record: the block bounces to rest between them, and rocks again."""
     block = RockingBlock(2.0, 0.2, 0.8)
     lobe = 0.4 * np.sin(np.linspace(0, math.pi, 21))
@@ -284,7 +282,7 @@ def test_way_5_a_block_that_came_to_rest_lifts_again():
     )  # fmt: skip
 
 
-def test_way_6_the_side_survives_a_restart_on_the_ground():
+def test_the_side_survives_a_restart_on_the_ground():
     free = simulate(BLOCK, rotation=0.1, samples=20_001)
     flight = np.searchsorted(free.impacts, free.time)
     for n in range(6):

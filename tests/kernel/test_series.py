@@ -114,7 +114,7 @@ def test_order_for_a_record_keeps_the_tolerance_of_the_second_derivative(step):
 
 @pytest.mark.parametrize("degrees", [0.1, 3, 5, 8, 14, 20, 35, 80])
 @pytest.mark.parametrize("linearised", [False, True])
-def test_way_1_uplift_starts_outward_however_slight_the_push(degrees, linearised):
+def test_uplift_starts_outward_however_slight_the_push(degrees, linearised):
     """At |a| = tan α the first coefficients cancel: grouped otherwise, their sign is chance."""
     block = RockingBlock(2.0, math.radians(degrees), 0.9, linearised)
     level, cosine = block.uplift_acceleration, oscillator(block).cosine
@@ -177,7 +177,7 @@ def found(coefficients, zeros: int = 0, limit: int = MAX_DEGREE) -> np.ndarray:
     return w[ROOTS, :count].copy()
 
 
-def test_way_2_every_crossing_of_a_long_step_is_found():
+def test_every_crossing_of_a_long_step_is_found():
     """Three crossings between samples of which hardly any would show them."""
     places = [0.31, 0.33, 0.62]
     coefficients = -polynomial.polyfromroots(places)
@@ -191,7 +191,7 @@ def test_way_2_every_crossing_of_a_long_step_is_found():
     st.lists(st.floats(0.01, 0.99), min_size=1, max_size=6, unique_by=lambda x: round(x, 2)),
     st.integers(0, 3),
 )
-def test_way_2_all_simple_roots_are_isolated(places, zeros):
+def test_all_simple_roots_are_isolated(places, zeros):
     places = sorted(places)
     factors = polynomial.polymul(polynomial.polyfromroots(places), [1.0, 0.3, 0.7])
     result = found(np.concatenate([np.zeros(zeros), factors]), zeros)
@@ -203,14 +203,14 @@ def test_way_2_all_simple_roots_are_isolated(places, zeros):
 
 @pytest.mark.parametrize("depth", [1e-6, 1e-10, 1e-14])
 @pytest.mark.parametrize("place", [0.3721, 0.5, 0.01])
-def test_way_3_a_grazing_impact_between_steps_is_not_missed(place, depth):
+def test_a_grazing_impact_between_steps_is_not_missed(place, depth):
     """φ dips below zero within a sliver of the step; at both ends of it φ is positive."""
     result = found([place**2 - depth, -2 * place, 1.0])
     half = math.sqrt(depth)
     np.testing.assert_allclose(result, [place - half, place + half], atol=2e-9)
 
 
-def test_way_4_root_however_close_to_the_start_is_found_to_its_last_digits():
+def test_root_however_close_to_the_start_is_found_to_its_last_digits():
     """As after an impact, when the next bounce is a millionth of the step."""
     for place in 10.0 ** -np.arange(1, 15):
         (root,) = found([0.0, place, -1.0, 0.1, 0.02], 1)

@@ -120,7 +120,7 @@ def test_brackets_have_the_boundary_between_them(case):
     assert sum(narrow) >= 0.5 * len(found)
 
 
-def test_way_9_no_interval_wider_than_the_resolution_is_missed(case):
+def test_no_interval_wider_than_the_resolution_is_missed(case):
     """A scan five times as fine: runs of like outcome wider than the resolution are all there."""
     block, excitation, (first, last), resolution, found = case
     fine = np.linspace(first, last, 5 * math.ceil((last - first) / resolution) + 1)
@@ -142,7 +142,7 @@ def test_way_9_no_interval_wider_than_the_resolution_is_missed(case):
             assert last_of(holding, math.inf)[1] >= high
 
 
-def test_way_9_bay_just_wider_than_the_resolution_is_found_wherever_the_range_begins():
+def test_bay_just_wider_than_the_resolution_is_found_wherever_the_range_begins():
     """The bay from 6.3181 to 7.1681 of Zhang & Makris."""
     for shift in np.linspace(0.0, 1.9, 20):
         ends = (1.0 + shift, 10.0 - shift)
