@@ -143,7 +143,7 @@ class Record(Excitation):
         Examples
         --------
         >>> shifted = th.Record(0.01, 0.02 + np.sin(0.1 * np.arange(1000)))
-        >>> abs(shifted.detrended().acceleration.mean()) < 1e-12
+        >>> bool(abs(shifted.detrended().acceleration.mean()) < 1e-12)
         True
         """
         places = np.arange(self.acceleration.size)
