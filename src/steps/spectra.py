@@ -35,7 +35,7 @@ NEAR = 1e-4, 1e-3  # of a minimum: how close to it half of the sample is; bracke
 SHOWN, SAMPLES = 3.0, 751  # of the histories that are drawn: lengths of the pulse, and points
 LARGER = 2.0  # ratio of the frequencies that are compared: a column four times as large
 MANY = 10.0  # times the area of the other cause: chosen after we had seen both
-MINIMUM = "what counts is the minimum overturning acceleration of a pulse"
+MINIMUM = "judged by the minimum overturning acceleration of a pulse"
 AREAS = ["slenderness_deg", "shape", "change", "mass_ratio", "beside"]
 
 
