@@ -19,6 +19,8 @@ from replication.config import *
 from replication.sections import Paper
 
 min_version("9.27")
+if re.search(r"[^\w@%+=:,./-]", sys.executable):
+    sys.exit(f"Snakemake cannot start {sys.executable}; expected a path without spaces")
 BEGUN = time.time()
 os.environ["RUN"] = str(os.getpid())  # a step whose run has ended writes nothing
 
