@@ -1,1 +1,1 @@
-"""The forces at the contacts of frames and portals, and those in a frame that is held."""
+"""The forces at the contacts of rocking frames, and those in a frame clamped against uplift."""
