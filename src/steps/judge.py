@@ -28,7 +28,8 @@ def one(name: str) -> str:
     matches = [row for row in rows if row["id"] == name]
     if not matches:
         raise SystemExit(
-            f"no claim has the id {name!r}; expected one of paper/claims.yaml or of a study"
+            f"no claim of the last run has the id {name!r}; expected one of paper/claims.yaml or "
+            "of a study; for a new one: make reproduce"
         )
     row = matches[0]
     lines = [f"{name}: {row['verdict']}", f"  {row['where']}: {row['statement']}"]
@@ -46,4 +47,4 @@ if __name__ == "__main__":
         with log_to(snakemake.log[0]):
             work(snakemake)
     else:
-        print(one(*sys.argv[1:]))
+        print(*map(one, sys.argv[1:]), sep="\n")

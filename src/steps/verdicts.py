@@ -18,7 +18,7 @@ paragraph below the table. The verdicts:
 - **confirmed**: true; a number agrees within the rounding of its print.
 - **qualified**: true on a condition that is stated and tested.
 - **supported**: true in simulations, where only a measurement could confirm it.
-- **refuted**: none of these.
+- **refuted**: none of the three above.
 - **by definition**: it cannot be false.
 - **not tested**: with the reason.
 
