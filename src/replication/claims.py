@@ -21,7 +21,6 @@ class Claim(Section):
     printed: float | int | str | None = None
     unit: str = ""
     tolerance: float | None = None
-    because: str = ""
     rule: str = ""
     finding: str = ""
     expected: str
