@@ -13,7 +13,7 @@ REFERENCE = Path("tests/reference")
 
 
 def departures(ours: pd.DataFrame, theirs: pd.DataFrame, bounds: Mapping) -> Iterator[str]:
-    """Yield each column in which a table departs from the published one."""
+    """Yield each column that departs from the published one, with the first such value."""
     for name in dict.fromkeys([*theirs, *ours]):
         if name not in ours or name not in theirs:
             yield f"{name} (only {'here' if name in ours else 'published'})"
@@ -27,8 +27,8 @@ def departures(ours: pd.DataFrame, theirs: pd.DataFrame, bounds: Mapping) -> Ite
                 rtol=bounds["relative"],
                 atol=bounds["counts"] if whole else bounds["absolute"],
             )
-        except AssertionError:
-            yield name
+        except AssertionError as fault:
+            yield f"{name} ({str(fault).splitlines()[-1]})"
 
 
 def compare(
