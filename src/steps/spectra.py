@@ -283,7 +283,6 @@ def ranking(spectra: Spectra, pairs: list[tuple]) -> dict[str, Any]:
     widest = max(bands, key=lambda band: band.width, default=None)
     evidence = {
         "comparisons": len(rises),
-        "lower_minima": sum(ratio <= 1.0 for ratio, *_ in rises),
         "pairs": len(pairs),
         "pairs_with_exceptions": len({band[1:3] for band in bands}),
     }
@@ -315,9 +314,7 @@ def findings(spectra: pd.DataFrame, spectra_areas: pd.DataFrame, settings: dict)
     prevented, caused = (mean(frame, name) for name in ("prevented", "caused"))
     found = {
         "minimum_rises_with_mass": truth(
-            all(ratio > 1.0 for ratio, *_ in neighbours),
-            comparisons=len(neighbours),
-            least_ratio=neighbours[0][0],
+            all(ratio > 1.0 for ratio, *_ in neighbours), comparisons=len(neighbours)
         ),
         "heavier_is_more_stable": ranking(whole, pairs),
         "heavier_survives_every_pulse": truth(not whole.bands(pairs)),

@@ -202,10 +202,7 @@ def findings(three_bodies, statements):
         "one_degree_of_freedom": truth(
             worst.max() < AGREE and three_bodies.same_outcome.all(),
             histories=len(three_bodies),
-            impacts=int(three_bodies.impacts.sum()),
             rotation_apart=worst.rotation_apart,
-            restitution_apart=worst.restitution_apart,
-            force_apart=worst.force_apart,
         ),
         "identical_response": truth(worst.equivalent_apart < AGREE, apart=worst.equivalent_apart),
         "forces_on_the_cap_balance": truth(

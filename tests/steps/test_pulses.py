@@ -193,7 +193,7 @@ def minima():
 
 def test_findings_of_the_fixed_mass(minima):
     found = vase.findings(minima["vase"], minima["motions"], VASE)
-    assert broken(found) == {"fixed_mass_always_lowers", "support_decides"}
+    assert broken(found) == {"support_decides"}
     assert not unmet(found)
     sizes = minima["vase"].set_index(["structure", "mass_ratio"]).equivalent_size
     assert sizes["free", 1.0] == pytest.approx(BENT.equivalent_size, rel=1e-8)

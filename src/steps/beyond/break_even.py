@@ -120,12 +120,10 @@ def findings(break_even, break_even_benefit):
     return {
         "benefit_ends": truth(
             len(known) == len(ends),
-            compared=len(ends),
             least=known.end.min(),
             most=known.end.max(),
-            lowest_end=ends.end_low.min(),
         ),
-        "frame_is_safer": truth((both.benefit_low > 0.0).all(), compared=len(both)),
+        "frame_is_safer": truth((both.benefit_low > 0.0).all()),
     }
 
 

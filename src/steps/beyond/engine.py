@@ -216,8 +216,6 @@ def findings(engine_restitution, engine_outcomes, engine_across):
             difference.max() < CLOSE,
             holds_when=difference[hard].max() < CLOSE,
             condition="the contacts are hard",
-            largest_of_hard=difference[hard].max(),
-            largest_of_soft=difference.max(),
             apart_without_rebound=difference[frames & hard & ~rebounds].abs().max(),
             lowest_with_rebound=difference[frames & rebounds].min(),
         ),

@@ -52,10 +52,6 @@ def findings(gaps, settings):
             0.0 in still.index and len(most) > 0 and rocking.yaw.median() > settings["rocking"],
             still_up_to=still.index.max(),
             most_rock_from=most.index.min() if len(most) else 0.0,
-            least_share=most.min(axis=None) if len(most) else 0.0,
-            least_rotation=rocking.in_plane.min(),
-            largest_rotation=rocking.in_plane.max(),
-            median_yaw=rocking.yaw.median(),
             draws=settings["draws"],
         )
     }

@@ -183,11 +183,10 @@ def findings(motions, motions_gains, motions_pairs, motions_sensitivity, setting
     return {
         "order": truth(
             ((motions.harm_low > 0.0) & (motions.benefit_low > 0.0)).all(),
-            samples=len(motions),
             **{name: [motions[name].min(), motions[name].max()] for name in NAMES},
         ),
         "gain": truth((gains.gain_low > 0.0).all(), least=equal.min(), most=equal.max()),
-        "some_only_frame": truth((motions.only_frame > 0).all(), samples=len(motions)),
+        "some_only_frame": truth((motions.only_frame > 0).all()),
         "probability_is_lower": truth(
             (motions_pairs.ratio_high < 1.0).all(),
             pairs=len(motions_pairs),

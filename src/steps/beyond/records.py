@@ -80,8 +80,6 @@ def findings(records, records_capacity):
     return {
         "heavier_is_safer": truth(
             not records.only_heavier.any(),
-            compared=records.compared.sum(),
-            decided=records.decided.sum(),
             only_lighter=records.only_lighter.sum(),
             only_heavier=records.only_heavier.sum(),
             records=records.record.nunique(),
