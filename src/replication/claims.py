@@ -9,8 +9,6 @@ from pydantic import ValidationError
 
 from replication.config import Section, read_yaml
 
-PAPER, OURS = "paper", "ours"
-
 
 class Claim(Section):
     """A claim; the head of paper/claims.yaml explains its keys. `part`: paper, ours or a study."""
