@@ -2,14 +2,15 @@
 
 import json
 import re
-from pathlib import Path
 
+import pandas as pd
 import pytest
 
 from replication.claims import unexpected
 from steps.check import REFERENCE, findings, published
+from steps.compare import departures
+from tests.cases import ROOT
 
-ROOT = Path(__file__).resolve().parents[1]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 
 
@@ -20,6 +21,13 @@ def found():
 
 def test_every_claim_has_its_expected_verdict_by_the_published_tables():
     assert unexpected(published()) == []
+
+
+def test_first_value_that_departs_from_the_published_one_is_named():
+    ours, theirs = (pd.DataFrame({"x": [1, 2.0], "y": [0.1, y]}) for y in (0.2, 0.3))
+    bounds = {"relative": 1e-6, "absolute": 1e-9, "counts": 3}
+    (told,) = departures(ours, theirs, bounds)
+    assert told == "y (At positional index 1, first diff: 0.2 != 0.3)"
 
 
 def test_numbers_of_readme_are_those_of_the_published_tables(found):
