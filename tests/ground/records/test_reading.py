@@ -13,7 +13,7 @@ from replication.config import components
 from tests.cases import RECORDS
 from tests.ground.records.test_records import MOTION, TIME
 from topheavy import read_record
-from topheavy.ground.reading import OTHERS
+from topheavy.ground.reading import OTHER_READERS
 
 VALUES = "\n".join(f"{a:.7E}" for a in MOTION)
 AT2 = f"A title\nACCELERATION TIME SERIES IN UNITS OF G\nNPTS= 400, DT= .0100 SEC\n{VALUES}\n"
@@ -39,21 +39,15 @@ def write(tmp_path):
     return write
 
 
-def certified():
-    """Name, samples, time step (s) and peak (g) of each record, by the README of their folder."""
+@pytest.mark.filterwarnings("error")
+def test_records_of_the_repository_have_the_numbers_that_their_readme_states():
     text = (RECORDS / "README.md").read_text(encoding="utf-8")
     rows = re.findall(r"^\| (\w+\.AT2) \|.*?\| (\d+) \| ([\d.]+) \| ([\d.]+) \|", text, re.M)
     assert sorted(path.name for path in RECORDS.glob("*.AT2")) == sorted(row[0] for row in rows)
-    return [(name, int(n), float(step), float(peak)) for name, n, step, peak in rows]
-
-
-@pytest.mark.filterwarnings("error")
-@pytest.mark.parametrize(("file", "samples", "time_step", "peak"), certified())
-def test_record_is_plausible_and_has_the_certified_numbers(file, samples, time_step, peak):
-    record = read_record(RECORDS / file)
-    assert (record.acceleration.shape, record.time_step) == ((samples,), time_step)
-    assert record.duration == pytest.approx((samples - 1) * time_step, rel=1e-14)
-    assert record.peak_acceleration == pytest.approx(peak, abs=5e-4)
+    for file, *numbers in rows:
+        record, (samples, step, peak) = read_record(RECORDS / file), map(float, numbers)
+        assert (record.acceleration.size, record.time_step) == (samples, step)
+        assert record.peak_acceleration == pytest.approx(peak, abs=5e-4)
 
 
 NPTS = "NPTS= 400, DT= .0100 SEC"
@@ -86,7 +80,6 @@ RSPMATCH = f"Matched\n#Misfit: 0.1\nFile Type: Accelerations (g)\n#Id: x\n{NPTS}
         ("in.csv", CSV.replace(HEADER, "Time in sec,acceleration in g")),
         ("comments.csv", "% a site\n# " + CSV),
         ("above.csv", "Station,ABC\nPeak,0.28\n\n" + CSV),
-        ("windows.csv", ("Kütahya\n" + CSV).encode("cp1252")),
         ("computed.csv", timed(lambda t: repr(t * 1000.0)).replace("time (s)", "t [ms]")),
     ],
 )  # fmt: skip
@@ -97,26 +90,22 @@ def test_file_of_the_motion_is_read(write, name, text):
     assert (record.name, record.start) == (name.rpartition(".")[0], 0.0)
 
 
-UNITS = {
-    "UNITS: {}": "CM/S/S",
-    "The units are ({})": "cm/s²",
-    "ACCELERATION IN {}": "gal",
-    "ACCELERATION HISTORY IN UNITS OF {}.  FILTER POINTS: HP=0.1 Hz": "CM/SEC2",
-    "points of accel data equally spaced at .010 sec, in {}. (8f10.4)": "cm/sec2",
-    "Accel. [{}]": "cm/s^2",
-    "UNITS OF {} (GAL)": "CM/SEC/SEC",
-    "UNITS {} (g = 980.665 cm/s2)": "gal",
-}
-
-
-@pytest.mark.parametrize(("header", "unit"), UNITS.items())
-def test_unit_is_found_where_the_header_states_it(write, header, unit):
-    found = read_record(write(AT2.replace(IN_G, header.format(unit))))
-    np.testing.assert_allclose(found.acceleration, MOTION / 981.0, atol=1e-9)
-
-
-def spectrum(names):
-    return f"{names}\n" + "".join(f"{0.02 * k:.2f},{0.9 / (1 + k):.6f}\n" for k in range(1, 200))
+@pytest.mark.parametrize(
+    "header",
+    [
+        "UNITS: CM/S/S",
+        "The units are (cm/s²)",
+        "ACCELERATION IN gal",
+        "ACCELERATION HISTORY IN UNITS OF CM/SEC2.  FILTER POINTS: HP=0.1 Hz",
+        "points of accel data equally spaced at .010 sec, in cm/sec2. (8f10.4)",
+        "Accel. [cm/s^2]",
+        "UNITS OF CM/SEC/SEC (GAL)",
+        "UNITS gal (g = 980.665 cm/s2)",
+    ],
+)
+def test_unit_is_read_where_the_header_states_it(write, header):
+    record = read_record(write(AT2.replace(IN_G, header)))
+    np.testing.assert_allclose(record.acceleration, MOTION / 981.0, atol=1e-9)
 
 
 @pytest.mark.parametrize(
@@ -130,24 +119,16 @@ def spectrum(names):
         (AT2.replace(IN_G, "PGA (g) = 0.319"), "the header states no unit"),
         (AT2.replace("NPTS= 400", "NPTS= 401"), "NPTS is 401, and 400 values follow"),
         (AT2.replace("NPTS= 400", "NPTS= 399"), "NPTS is 399, and 400 values follow"),
-        (
-            AT2.replace("NPTS= 400", "N= 400"),
-            "expected 'NPTS= n, DT= s SEC' in the first ten lines",
-        ),
-        (AT2.replace("A title", "\n" * 9), "expected 'NPTS= n, DT= s SEC' in the first ten lines"),
+        (AT2.replace("NPTS= 400", "N= 400"), "expected 'NPTS= n, DT= s SEC' in the first ten"),
+        (AT2.replace("A title", "\n" * 9), "expected 'NPTS= n, DT= s SEC' in the first ten"),
         (AT2.replace(".0100 SEC", "10"), "DT is 10 ; expected SEC or MSEC"),
         (AT2.replace(".0100 SEC", "10 MIN"), "DT is 10 MIN; expected SEC or MSEC"),
-        (AT2.replace(".0100 SEC", ".01.1 SEC"), "could not convert .*'.01.1'"),
-        (AT2.replace(".0100", "0"), "time_step is 0 s; expected more than zero"),
         (AT2.replace(VALUES[:13], "x"), "could not convert string to float: .*'x'"),
         (AT2.replace(VALUES[:13], "nan"), "the largest acceleration is nan g"),
-        (
-            AT2.replace("E-01", "E+01"),
-            r"largest acceleration is 28\.\d+ g; expected .* at most 5 g",
-        ),
+        (AT2.replace("E-01", "E+01"), r"largest acceleration is 28\.\d+ g; .* at most 5 g"),
         (AT2.replace(VALUES, "0\n" * 400), "largest acceleration is 0 g"),
-        (spectrum("Period (s),Sa (g)"), "is of a response spectrum"),
-        (spectrum("T (s),PSA (g)"), "is of a response spectrum"),
+        (CSV.replace(HEADER, "Period (s),Sa (g)"), "is of a response spectrum"),
+        (CSV.replace(HEADER, "T (s),PSA (g)"), "is of a response spectrum"),
         (CSV.replace("0.03,", "0.034,"), "0.034 follows 0.02; .* is a sample missing"),
         (re.sub("2.00,.*\n", "", CSV), "2.01 follows 1.99; .* is a sample missing"),
         (timed(lambda t: f"{t + 0.003 * (t == 2.0):.3f}"), "2.003 follows 1.99; .* a sample miss"),
@@ -190,8 +171,6 @@ def test_plain_numbers_are_read_with_a_given_unit(write):
         assert (record.start, record.time_step) == (5.0, pytest.approx(0.01))
         np.testing.assert_allclose(record.acceleration, MOTION, rtol=1e-14)
     assert read_record(write(COARSE, "motion.csv"), time_step=0.005).time_step == 0.005
-    with pytest.raises(ValueError, match="unit is 'feet'; expected one of g"):
-        read_record(path, time_step=0.01, unit="feet")
 
 
 def test_usual_names_of_vertical_components_are_known(tmp_path):
@@ -199,8 +178,8 @@ def test_usual_names_of_vertical_components_are_known(tmp_path):
     across = ["CLC_090", "ELC180", "GILROY-V1", "STA_HNE", "GROUP", "CUP", "AOM001.EW"]
     for name in (*up, *across, "README"):
         (tmp_path / f"{name}.{'md' if name == 'README' else 'csv'}").touch()
-    found = [{Path(path).stem for path in paths} for paths in components(str(tmp_path))]
-    assert found == [set(across), set(up)]
+    stems = [{Path(path).stem for path in paths} for paths in components(str(tmp_path))]
+    assert stems == [set(across), set(up)]
 
 
 KNET = (
@@ -232,18 +211,20 @@ def test_national_format_is_refused_by_its_name_with_a_way_to_read_it(write, net
     for name in ("x.EW", "x.AT2", "x.csv")[: 1 if network.startswith("a ") else 3]:
         with pytest.raises(ValueError, match=f"read a file of {network}:") as error:
             read_record(write(head, name))
-        assert str(error.value).endswith(OTHERS)
+        assert str(error.value).endswith(OTHER_READERS)
     with pytest.raises(ValueError, match="could not convert"):
         read_record(write(head, "x.txt"), time_step=0.01, unit="gal")
 
 
 @pytest.mark.parametrize("package", ["gmprocess", "obspy"])
 def test_lines_that_read_a_national_format_run(write, package):
-    assert OTHERS in (RECORDS / "README.md").read_text(encoding="utf-8")
+    assert OTHER_READERS in (RECORDS / "README.md").read_text(encoding="utf-8")
     if find_spec(package) is None:
         pytest.skip(f"{package} is not installed here: pip install {package}, and run this again")
-    lines = OTHERS.splitlines()[:4] if package == "gmprocess" else OTHERS.splitlines()[4:]
+    lines = (
+        OTHER_READERS.splitlines()[:4] if package == "gmprocess" else OTHER_READERS.splitlines()[4:]
+    )
     code = "\n".join(["from topheavy import Record", *lines, "print(record)"])
     code = code.replace("FILE", str(write(KNET, "XXX0010101010000.EW")))
-    found = subprocess.check_output([sys.executable, "-c", code], text=True)
-    assert found.endswith(": 400 samples, time step 0.01 s, PGA 0.2827 g, PGV 0.3981 m/s\n")
+    shown = subprocess.check_output([sys.executable, "-c", code], text=True)
+    assert shown.endswith(": 400 samples, time step 0.01 s, PGA 0.2827 g, PGV 0.3981 m/s\n")
