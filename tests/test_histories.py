@@ -10,10 +10,9 @@ import pytest
 import topheavy as th
 from benchmarks.boundaries import survey
 from steps.shared.linear import simulate_linear_exact as closed
-from tests.cases import BLOCK, BOTH, BY_TWO, COLUMN, EVERY, SIDES, TWO
+from tests.cases import BLOCK, BOTH, BY_TWO, CLOSED_PULSES, COLUMN, EVERY, SIDES, TWO
 from topheavy.bodies.free_rocking import barrier, potential, quarter_period
 from topheavy.ground.excitation import sign_change
-from topheavy.ground.shapes import ELEMENTARY_ENDING
 from topheavy.kernel.history import MAX_FREE_FLIGHT, MAX_FREE_IMPACTS
 from topheavy.second import reference
 from topheavy.second.motion import MAX_FREE_IMPACTS as MAX_BY_SCIPY
@@ -80,7 +79,7 @@ def test_samples_only_look(solve, block, pulse, rotation):
 
 @EVERY
 def test_history_is_consistent_with_itself(solve, block):
-    for shape in ELEMENTARY_ENDING if solve is closed else (*ELEMENTARY_ENDING, "ricker-symmetric"):
+    for shape in CLOSED_PULSES if solve is closed else (*CLOSED_PULSES, "ricker-symmetric"):
         for amplitude in (0.3, 0.6, 4.0):
             pulse = th.Pulse(shape, amplitude, 9.0)
             found = solve(block, pulse, samples=np.linspace(0.0, 2 * pulse.duration, 4001))

@@ -12,7 +12,7 @@ import topheavy as th
 from steps.shared.linear import simulate_linear_exact as closed
 from tests.cases import BLOCK, RECORDS
 from topheavy.bodies.free_rocking import barrier, energy
-from topheavy.checks import LARGEST_ACCELERATION
+from topheavy.checks import MAX_ACCELERATION
 from topheavy.ground.shapes import ELEMENTARY, ENDING, PULSE_SHAPES
 from topheavy.second import reference
 
@@ -240,7 +240,7 @@ def test_amplitude_overflows_beyond_the_largest_alone(shape):
     for amplitude in (1e160, 1e200, -1e300):
         with pytest.raises(ValueError, match=r"amplitude is .*e\+.* g; expected at most"):
             th.Pulse(shape, amplitude, 5.0)
-    pulse, whole = th.Pulse(shape, LARGEST_ACCELERATION, 5.0), shape != "harmonic"
+    pulse, whole = th.Pulse(shape, MAX_ACCELERATION, 5.0), shape != "harmonic"
     for block in (BLOCK, BLOCK.linear()) if whole else ():
         assert th.judge(block, pulse).overturned
         assert reference.judge(block, pulse).overturned

@@ -8,7 +8,7 @@ import pytest
 from scipy.optimize import brentq
 
 import topheavy as th
-from tests.cases import BLOCK, BY_TWO, CLOSE, EVERY, NAMES, ON_LINEAR, SIDES
+from tests.cases import BLOCK, BY_TWO, CLOSE, CLOSED_PULSES, EVERY, NAMES, ON_LINEAR, SIDES
 from topheavy.bodies.free_rocking import (
     barrier,
     energy,
@@ -16,7 +16,6 @@ from topheavy.bodies.free_rocking import (
     quarter_period,
     turning_rotation,
 )
-from topheavy.ground.shapes import ELEMENTARY_ENDING
 from topheavy.second import reference
 
 LINEAR = th.RockingBlock(1.0, 0.2, 0.9, linearised=True)
@@ -222,7 +221,7 @@ def test_exact_block_lies_flat_at_a_right_angle_and_nothing_is_known_beyond():
 
 @EVERY
 @SIDES
-@pytest.mark.parametrize("shape", ELEMENTARY_ENDING)
+@pytest.mark.parametrize("shape", CLOSED_PULSES)
 def test_block_lifts_beyond_its_threshold_alone(solve, block, shape, side):
     """To the side opposite to that of the ground's acceleration, and only then."""
     level = side * block.uplift_acceleration

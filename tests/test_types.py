@@ -79,8 +79,7 @@ def test_users_script_runs():
     run = subprocess.run(
         script, capture_output=True, text=True, check=False, env=os.environ | {"MPLBACKEND": "agg"}
     )
-    said = [line for line in run.stderr.splitlines() if "compiles its kernel" not in line]
-    assert (run.returncode, said) == (0, [])
+    assert (run.returncode, run.stderr) == (0, "")
 
 
 @pytest.mark.parametrize("name", PUBLIC)

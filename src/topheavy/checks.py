@@ -11,22 +11,22 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-LARGEST_ACCELERATION = 1e6
+MAX_ACCELERATION = 1e6
 """Upper limit of a ground acceleration, g: the square of a larger one might overflow."""
 
-LARGEST = {"m": 1e9, "s": 1e9, "rad/s": 1e9}
+MAX_BY_UNIT = {"m": 1e9, "s": 1e9, "rad/s": 1e9}
 """Upper limits by unit: powers of a larger number might overflow."""
 
 MAX_CELLS = 100_000_000
 """Maximum size of a map or a search, which are held in memory."""
 
-LARGEST_RECORDED = 2.0
+MAX_USUAL_ACCELERATION = 2.0
 """g. Few ground accelerations exceed it: of one that does a warning asks the unit."""
 
-LONGEST_STEP = 0.2
+MAX_USUAL_STEP = 0.2
 """s. Few records have a longer time step: a warning asks whether it is in ms."""
 
-LARGEST_VELOCITY = 5.0
+MAX_USUAL_VELOCITY = 5.0
 """m/s. Few ground motions exceed it: a warning asks whether a velocity is in cm/s."""
 
 _SHORT = Repr()
@@ -126,11 +126,11 @@ def wider_than_column(span: Any, width: float) -> float:
 
 
 def acceleration(name: str, value: Any) -> float:
-    """Return `value` (g) as a float within ±`LARGEST_ACCELERATION`, or raise ValueError."""
+    """Return `value` (g) as a float within ±`MAX_ACCELERATION`, or raise ValueError."""
     number = finite(name, value)
-    if abs(number) > LARGEST_ACCELERATION:
+    if abs(number) > MAX_ACCELERATION:
         raise ValueError(
-            f"{name} is {number:.6g} g; expected at most {LARGEST_ACCELERATION:.0e} g in magnitude"
+            f"{name} is {number:.6g} g; expected at most {MAX_ACCELERATION:.0e} g in magnitude"
         )
     return number
 
@@ -162,7 +162,7 @@ def fraction(name: str, value: Any) -> float:
 
 
 def _within_reason(name: str, number: float, unit: str) -> float:
-    if number > (most := LARGEST.get(unit, math.inf)):
+    if number > (most := MAX_BY_UNIT.get(unit, math.inf)):
         raise ValueError(f"{name} is {number:.6g} {unit}; expected at most {most:.0e} {unit}")
     return number
 

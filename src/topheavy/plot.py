@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 OVERTURNED = "0.75"
 """Grey of the cells that overturn."""
-LARGEST_SHOWN = 1.5
+MAX_SHOWN = 1.5
 """|θ|/α at which the picture of a history ends."""
 
 
@@ -47,8 +47,8 @@ def history(
     for limit in (-1.0, 1.0):
         axes.axhline(limit, color="0.5", linestyle=":", linewidth=0.8)
     axes.set(xlabel="Time, $t$ (s)", ylabel=r"Rotation, $\theta/\alpha$ (–)")
-    if max(map(abs, axes.get_ylim())) > LARGEST_SHOWN:
-        axes.set_ylim(-LARGEST_SHOWN, LARGEST_SHOWN)
+    if max(map(abs, axes.get_ylim())) > MAX_SHOWN:
+        axes.set_ylim(-MAX_SHOWN, MAX_SHOWN)
     return axes
 
 

@@ -16,18 +16,15 @@ import pytest
 
 import topheavy
 from topheavy.kernel.compiled import cache_folder, state, writable_folder
-from topheavy.kernel.grid import FUSED, LANES
+from topheavy.kernel.lanes.vectors import HAS_FMA, WIDTH
 
 PACKAGE, OTHER = Path(topheavy.__file__).parent, "bodies/free_rocking.py"
 
 
 ASK = """
-from topheavy.kernel.compiled import compiled
-from topheavy.kernel.tail import barrier
-from topheavy.kernel.taylor import oscillator
-from topheavy import RockingBlock
-barrier(oscillator(RockingBlock(2.0, 0.2, 0.9)))
-print(sum(barrier.stats.cache_hits.values()))
+from topheavy.kernel.rest import next_tick
+next_tick(1.0)
+print(sum(next_tick.stats.cache_hits.values()))
 """
 
 
@@ -87,7 +84,8 @@ import json, math
 import numpy as np
 from topheavy import RockingBlock
 from topheavy.kernel.forcing import RECORD, SHAPES, prepare_record
-from topheavy.kernel.grid import FUSED, LANES, outcomes_of
+from topheavy.kernel.grid import outcomes_of
+from topheavy.kernel.lanes.vectors import HAS_FMA, WIDTH
 from topheavy.kernel.taylor import oscillator
 found = []
 for linearised in (False, True):
@@ -107,7 +105,7 @@ for linearised in (False, True):
     for record, more in ((record, {}), (both, {"lifts": lifts})):
         found.append(outcomes_of([block, other], RECORD, *mixture, record, **more))
 peaks, overturned, impacts = ([row.tobytes().hex() for row in rows] for rows in zip(*found))
-print(json.dumps([LANES, FUSED, peaks, overturned, impacts]))
+print(json.dumps([WIDTH, HAS_FMA, peaks, overturned, impacts]))
 """
 
 
@@ -129,18 +127,19 @@ def ask_width(**cpu):
 def here():
     """The results for the CPU of this machine."""
     found = ask_width()
-    assert found[:2] == (LANES, FUSED)
+    assert found[:2] == (WIDTH, HAS_FMA)
     assert any(0 < np.isnan(peaks).mean() < 1 for peaks in found[2])
     return found
 
 
 @pytest.mark.skipif(
-    platform.machine() not in ("x86_64", "AMD64") or not FUSED, reason="this CPU has one width only"
+    platform.machine() not in ("x86_64", "AMD64") or not HAS_FMA,
+    reason="this CPU has one width only",
 )
 def test_narrow_registers_give_the_same_bits(here):
     width, has_fma, *found = ask_width(NUMBA_CPU_NAME="generic", NUMBA_CPU_FEATURES="+avx,+fma")
     assert width == 4
-    assert width < LANES
+    assert width < WIDTH
     assert has_fma
     for one, other in zip(found[0], here[2], strict=True):
         np.testing.assert_array_equal(one, other)

@@ -12,7 +12,7 @@ from topheavy.risk.tables import curve_table, exact_interval, pair_table, sign_t
 
 def test_means_by_blocks_scatter_as_those_of_all_weights(monkeypatch):
     """Motions of the first blocks fall more often; a resample draws 400, of whichever blocks."""
-    monkeypatch.setattr(resampling, "BLOCK", 70)
+    monkeypatch.setattr(resampling, "MOTIONS_PER_BLOCK", 70)
     fell = np.arange(400)[:, None] < [40, 200]
     means = means_within(fell, [None] * 400, 4000, 1)
     assert means[0] == pytest.approx([0.1, 0.5], rel=1e-12)
@@ -37,7 +37,7 @@ def test_groups_are_resampled_independently_of_each_other():
 
 
 def test_group_in_blocks_scatters_as_a_whole(monkeypatch):
-    monkeypatch.setattr(resampling, "BLOCK", 30)
+    monkeypatch.setattr(resampling, "MOTIONS_PER_BLOCK", 30)
     fell, groups = np.arange(200) % 2, ["a"] * 100 + ["b"] * 100
     drawn = means_within(fell, groups, 4000, 1)
     assert drawn[0] == pytest.approx(0.5)

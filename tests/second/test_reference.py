@@ -1,4 +1,4 @@
-"""The adaptive integration: its verdicts, its accuracy, and that no impact hides inside a step."""
+"""The adaptive integration: its outcomes, its accuracy, and that no impact hides inside a step."""
 
 import math
 
@@ -31,7 +31,7 @@ def seeded_cases(number: int) -> list[tuple[RockingBlock, Pulse]]:
 CASES = seeded_cases(30)
 
 
-def test_cases_hold_both_verdicts_and_several_impacts():
+def test_cases_hold_both_outcomes_and_several_impacts():
     ends = [judge(*case) for case in CASES]
     assert 5 <= sum(end.overturned for end in ends) <= 25
     assert {0, 1, 2} < {end.impacts for end in ends}

@@ -20,9 +20,7 @@ from topheavy.checks import short
 Array = NDArray[np.float64]
 
 
-def cap_displacement(
-    column: Column, rotation: ArrayLike
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def cap_displacement(column: Column, rotation: ArrayLike) -> tuple[Array, Array]:
     """Return the displacements u (to the right) and v (upward) of the cap beam, m: Eqs. (4), (7).
 
     Examples

@@ -15,7 +15,7 @@ from topheavy.bodies.structures import RockingBlock
 if TYPE_CHECKING:
     import pandas
 
-MOST_SAMPLES = 10_000_000
+MAX_SAMPLES = 10_000_000
 """Largest number of samples: three arrays of 80 MB."""
 
 Outcome = Literal["no uplift", "rests", "rocking", "overturned"]
@@ -100,9 +100,9 @@ def sample_times(samples: int | ArrayLike) -> int | NDArray[np.float64]:
         number = checks.finite("samples", samples)
         if number != int(number) or number < 2:
             raise ValueError(f"samples is {samples!r}; expected a whole number of at least 2")
-        if number > MOST_SAMPLES:
+        if number > MAX_SAMPLES:
             raise ValueError(
-                f"samples is {samples!r}; expected at most {MOST_SAMPLES} (240 MB), or an array of "
+                f"samples is {samples!r}; expected at most {MAX_SAMPLES} (240 MB), or an array of "
                 "the times that are wanted"
             )
         return int(number)

@@ -29,8 +29,6 @@ Array = NDArray[np.float64]
 SECTIONS = (0.0, 0.25, 0.5, 0.75, 1.0)
 """Heights over 2h at which the bending moments are computed."""
 
-HEIGHTS = np.array(SECTIONS)
-
 
 @dataclass(frozen=True, eq=False)
 class FrameForces:
@@ -93,7 +91,7 @@ def frame_forces(
     turn = -(frame.frequency_parameter**2) * push / STANDARD_GRAVITY  # Eq. (23)
     load = weights(frame.mass_ratio)[0] / (2.0 * half_height)
     steady = motion.ground * cos - sin + corner * motion.velocity**2 / STANDARD_GRAVITY
-    y = 2.0 * half_height * HEIGHTS
+    y = 2.0 * half_height * np.array(SECTIONS)
     rotary = turn * frame.column.half_width**2 / 3.0
     span_loads = y * (rotary[..., None] - y * (steady[..., None] / 2.0 + y * turn[..., None] / 6.0))
     sin, cos = sin[..., None], cos[..., None]

@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from topheavy import checks
-from topheavy.ground.records import LARGEST, UNITS, Record, acceleration_in_g
+from topheavy.ground.records import MAX_RECORDED, UNITS, Record, acceleration_in_g
 
-OTHERS = """\
+OTHER_READERS = """\
 from gmprocess.io.read import read_data  # pip install gmprocess
 
 trace = read_data("FILE")[0][0].detrend("demean")
@@ -86,12 +86,12 @@ def read_record(
             "read_record(path, time_step=…, unit=…) for plain columns of numbers"
         )
     except (ValueError, csv.Error) as error:
-        said, head = f"{path}: {error}", "\n".join(lines[:3])
-        known = [name for name, begin in NETWORKS.items() if re.match(begin, head, re.IGNORECASE)]
-        if known or ending not in (".at2", ".csv"):
-            known.append("a national network")
-            said += f".\nThese lines read a file of {known[0]}:\n\n{OTHERS}"
-        raise ValueError(said) from None
+        message, head = f"{path}: {error}", "\n".join(lines[:3])
+        networks = [name for name, begin in NETWORKS.items() if re.match(begin, head, re.I)]
+        if networks or ending not in (".at2", ".csv"):
+            networks.append("a national network")
+            message += f".\nThese lines read a file of {networks[0]}:\n\n{OTHER_READERS}"
+        raise ValueError(message) from None
 
 
 _DT = r"(?P<step>[\d.]+(?:[ED][-+]?\d+)?)[ \t]*\(?(?P<unit>(?!NPTS|UNIT)[A-Z]*)"
@@ -116,7 +116,7 @@ def _at2(path: Path, lines: list[str]) -> Record:
     number, word = step["step"], step["unit"] or step.groupdict().get("before")
     seconds, end = _in_seconds(word or "s"), head.count("\n", 0, max(count.end(), step.end())) + 1
     time_step = float(_in_c(number)) * (seconds or 1.0)
-    if not seconds or (not word and time_step > checks.LONGEST_STEP):
+    if not seconds or (not word and time_step > checks.MAX_USUAL_STEP):
         raise ValueError(f"DT is {number} {word or ''}; expected SEC or MSEC behind it")
     size, values = int(count["size"]), _in_c(" ".join(lines[end:])).split()
     if len(values) < size or re.match(r"[-+.\d]", "".join(values[size : size + 1])):
@@ -126,17 +126,17 @@ def _at2(path: Path, lines: list[str]) -> Record:
 
 def _unit_of(header: list[str]) -> str:
     """Return the one unit of acceleration that the lines of a header state."""
-    found: dict[float | None, str] = {}
+    units: dict[float | None, str] = {}
     for line in header:
         for match in _UNIT.finditer(line):
             unit = match[2].rstrip(".:")
             factor = acceleration_in_g(unit)
             if not _in_seconds(unit) if match[1] else factor and not _PEAK.search(line):
-                found.setdefault(factor, unit)
-    if len(found) != 1 or None in found:
-        states = " and ".join(map(repr, found.values())) or "no unit"
+                units.setdefault(factor, unit)
+    if len(units) != 1 or None in units:
+        states = " and ".join(map(repr, units.values())) or "no unit"
         raise ValueError(f"the header states {states}; expected one of {', '.join(UNITS)}")
-    return next(iter(found.values()))
+    return next(iter(units.values()))
 
 
 _CELL = re.compile(r"^\s*(.*?)\s*(?:[(\[]([^()\[\]]*)[)\]]|\bin\s+(\S+(?:\s+g)?))?\s*$")
@@ -152,18 +152,18 @@ def _csv(path: Path, lines: list[str], column: str, time_step: float | None) -> 
         )
         units = [*map(str.__add__, brackets, behind)]  # one of both is empty
         times = [k for k, unit in enumerate(units) if _in_seconds(unit)]
-        found = [k for k, unit in enumerate(units) if acceleration_in_g(unit)]
-        if times and found:
+        samples = [k for k, unit in enumerate(units) if acceleration_in_g(unit)]
+        if times and samples:
             break
     else:
         raise ValueError("expected a header such as 'time (s),acceleration (g)', with units")
-    listed = [names[k] for k in found]
+    listed = [names[k] for k in samples]
     if re.search(r"period|freq|\bp?sa\b|spectr", " ".join([names[times[0]], *listed]), re.I):
         raise ValueError(f"{line!r} is of a response spectrum; expected a ground motion")
-    found = [k for k in found if column.casefold() in ("", names[k].casefold())]
-    if len(found) != 1:
+    samples = [k for k in samples if column.casefold() in ("", names[k].casefold())]
+    if len(samples) != 1:
         raise ValueError(f"expected as `column` one of {', '.join(map(repr, listed))}")
-    table, both, above = [], (times[0], found[0]), lines.index(line)
+    table, both, above = [], (times[0], samples[0]), lines.index(line)
     for row in (rows := csv.reader(lines[above + 1 :], delimiter=mark)):
         try:
             if any(map(str.strip, row)):
@@ -173,7 +173,7 @@ def _csv(path: Path, lines: list[str], column: str, time_step: float | None) -> 
             place = above + 1 + rows.line_num
             raise ValueError(f"line {place} is {mark.join(row)!r}; expected numbers") from None
     seconds = _in_seconds(units[times[0]]) or 1.0
-    return _record(path, time_step, np.array(table).reshape(-1, 2), units[found[0]], seconds)
+    return _record(path, time_step, np.array(table).reshape(-1, 2), units[samples[0]], seconds)
 
 
 def _plain(path: Path, lines: list[str], time_step: float | None, unit: str) -> Record:
@@ -206,10 +206,10 @@ def _regular_step(times: NDArray[np.float64]) -> float:
     uneven = ~(np.abs(steps - (usual := np.median(steps))) < 0.5 * usual)
     if (wrong := off | uneven).any():
         after, time = times[int(wrong.argmax()) :][:2]
-        said = f"the time {time:.12g} follows {after:.12g}; expected steps of {step:.3g}: "
+        text = f"the time {time:.12g} follows {after:.12g}; expected steps of {step:.3g}: "
         if digit > 0.5 * step and uneven.mean() > 0.1:
-            raise ValueError(f"{said}they are printed to {digit:g} only, so give `time_step` in s")
-        raise ValueError(f"{said}is a sample missing?")
+            raise ValueError(f"{text}they are printed to {digit:g} only, so give `time_step` in s")
+        raise ValueError(f"{text}is a sample missing?")
     return step
 
 
@@ -220,11 +220,13 @@ def _record(
     table = np.array(columns, dtype=float)
     times, samples = table.T if table.ndim == 2 else (np.zeros(1), table)
     step = seconds * _regular_step(times) if time_step is None else time_step
-    if step > checks.LONGEST_STEP:
+    if step > checks.MAX_USUAL_STEP:
         raise ValueError(f"the time step is {step:.6g} s; expected at most 0.2 s: is it in ms?")
     factor, largest = acceleration_in_g(unit), float(np.abs(samples).max(initial=0.0))
-    if factor and not 0.0 < factor * largest <= LARGEST:
-        said = f"the largest acceleration is {factor * largest:.6g} g; expected more than 0 and at"
-        raise ValueError(f"{said} most {LARGEST:g} g: is the unit another than {unit!r}?")
-    given, start = None if factor == 1.0 else unit, seconds * float(times[0])
-    return Record(step, samples, path.stem, unit=given, start=start)
+    if factor and not 0.0 < factor * largest <= MAX_RECORDED:
+        raise ValueError(
+            f"the largest acceleration is {factor * largest:.6g} g; expected more than 0 and at "
+            f"most {MAX_RECORDED:g} g: is the unit another than {unit!r}?"
+        )
+    stated, start = None if factor == 1.0 else unit, seconds * float(times[0])
+    return Record(step, samples, path.stem, unit=stated, start=start)

@@ -19,7 +19,7 @@ UNITS = {"g": 1.0, "%g": 0.01, "mg": 0.001}
 UNITS |= {unit: metres / STANDARD_GRAVITY for unit, metres in _METRES.items()}
 """One of each unit of acceleration, in g."""
 
-LARGEST = 5.0
+MAX_RECORDED = 5.0
 """g. No recorded ground acceleration exceeds it."""
 
 
@@ -79,20 +79,20 @@ class Record(Excitation):
         start: float = 0.0,
     ) -> None:
         checks.positive("time_step", time_step, "s")
-        called = _called(name)
-        samples = checks.numbers(f"{called}: acceleration", acceleration)
+        label = _label(name)
+        samples = checks.numbers(f"{label}: acceleration", acceleration)
         if samples.ndim != 1 or samples.size < 2:
-            raise ValueError(f"{called} has shape {samples.shape}; expected at least two samples")
+            raise ValueError(f"{label} has shape {samples.shape}; expected at least two samples")
         factor = 1.0 if unit is None else acceleration_in_g(str(unit))
         if factor is None:
-            raise ValueError(f"{called}: unit is {unit!r}; expected one of {', '.join(UNITS)}")
+            raise ValueError(f"{label}: unit is {unit!r}; expected one of {', '.join(UNITS)}")
         samples *= factor
         self._set(time_step, samples, name, checks.finite("start", start))
-        _ask_if_plausible(self, checks.LARGEST_RECORDED if unit is None else LARGEST)
+        _ask_if_plausible(self, checks.MAX_USUAL_ACCELERATION if unit is None else MAX_RECORDED)
 
     def _set(self, step: float, samples: NDArray[np.float64], name: str, start: float) -> None:
         k = np.abs(samples).argmax()  # of the largest, or the first NaN
-        checks.acceleration(f"{_called(name)}: sample {k} of {samples.size}", samples[k])
+        checks.acceleration(f"{_label(name)}: sample {k} of {samples.size}", samples[k])
         samples.setflags(write=False)
         # A dataclass would take only an array: a field has one type, given and kept.
         fields = {"time_step": step, "acceleration": samples, "name": name, "start": start}
@@ -101,9 +101,9 @@ class Record(Excitation):
 
     def with_samples(self, acceleration: NDArray[np.float64]) -> Record:
         """Return the record with other samples, in g, computed from its own."""
-        made = object.__new__(Record)
-        made._set(self.time_step, acceleration, self.name, self.start)
-        return made
+        record = object.__new__(Record)
+        record._set(self.time_step, acceleration, self.name, self.start)
+        return record
 
     def __str__(self) -> str:
         sizes = f"{self.acceleration.size} samples, time step {self.time_step:.6g} s"
@@ -168,7 +168,7 @@ class Record(Excitation):
             wanted, peak = checks.positive("pga", pga, "g"), self.peak_acceleration
         else:
             wanted, peak = checks.positive("pgv", pgv, "m/s"), self.peak_velocity
-            if wanted > checks.LARGEST_VELOCITY:
+            if wanted > checks.MAX_USUAL_VELOCITY:
                 checks.warn(f"pgv is {wanted:.6g} m/s, and few exceed 5 m/s: is it in cm/s?")
         if peak == 0.0:
             raise ValueError(f"record {self.name!r} has no acceleration; expected one to scale")
@@ -195,7 +195,7 @@ class Record(Excitation):
         return Lines(np.maximum(size[:-1], size[1:])[:begun], line)
 
 
-def _called(name: str) -> str:
+def _label(name: str) -> str:
     return f"record {name!r}" if name else "record"
 
 
@@ -204,18 +204,18 @@ def _ask_if_plausible(record: Record, most: float) -> None:
     samples, velocities = record.acceleration, STANDARD_GRAVITY * record._velocities()
     largest, fastest, last = np.abs(samples).max(), np.abs(velocities).max(), velocities[-1]
     step, one_sign = record.time_step, samples.min() * samples.max() >= 0.0 != largest
-    found = {
+    doubts = {
         f"the velocity at the end is {last:.3g} m/s, with a PGV of {fastest:.3g} m/s: if its "
         "baseline is not corrected, take record.detrended()": abs(last) > 0.3 * fastest,
-        f"the PGV is {fastest:.3g} m/s: is a unit wrong?": fastest > checks.LARGEST_VELOCITY,
+        f"the PGV is {fastest:.3g} m/s: is a unit wrong?": fastest > checks.MAX_USUAL_VELOCITY,
         "no sample changes sign: is it a ground acceleration?": one_sign,
-        f"time_step is {step:.6g} s: is it in ms?": step > checks.LONGEST_STEP,
+        f"time_step is {step:.6g} s: is it in ms?": step > checks.MAX_USUAL_STEP,
         f"the largest acceleration is {largest:.3g} g, and few exceed {most:g} g: is it in m/s² "
         "or counts?": largest > most,
     }
-    if any(found.values()):
-        said = "; ".join(text for text, is_so in found.items() if is_so)
-        checks.warn(f"{_called(record.name)}: {said}")
+    if any(doubts.values()):
+        text = "; ".join(doubt for doubt, is_so in doubts.items() if is_so)
+        checks.warn(f"{_label(record.name)}: {text}")
 
 
 def _line(start: float, value: float, slope: float, time: float) -> float:

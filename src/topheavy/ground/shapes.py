@@ -37,6 +37,3 @@ ENDING = tuple(name for name, shape in SHAPES.items() if shape.half_periods < ma
 
 ELEMENTARY = tuple(name for name, shape in SHAPES.items() if shape.is_elementary)
 """Shapes with a solution of the linearised equation in elementary functions."""
-
-ELEMENTARY_ENDING = tuple(name for name in ENDING if name in ELEMENTARY)
-"""Shapes of both kinds."""

@@ -36,8 +36,6 @@ CONVERT = np.array(
         for n in range(MAX_DEGREE + 1)
     ]
 )
-
-
 #: Stands for a coefficient that is zero and yet has a sign.
 TINY = 1e-300
 

@@ -30,7 +30,7 @@ def state(sources: Path, *others: Path) -> str:
     return hashlib.sha256(b"".join(path.read_bytes() for path in files)).hexdigest()
 
 
-OTHERS = Path(shapes.__file__), Path(free_rocking.__file__)
+SHARED_SOURCES = Path(shapes.__file__), Path(free_rocking.__file__)
 
 
 def writable_folder() -> Path | None:
@@ -39,7 +39,7 @@ def writable_folder() -> Path | None:
     numba would look for another one, such as `__pycache__`, which no other state of the kernel has.
     """
     try:
-        folder = cache_folder() / state(Path(__file__).parent, *OTHERS)[:16]
+        folder = cache_folder() / state(Path(__file__).parent, *SHARED_SOURCES)[:16]
         folder.mkdir(parents=True, exist_ok=True)
         tempfile.TemporaryFile(dir=folder).close()
     except (OSError, RuntimeError) as error:  # RuntimeError: the user has no home

@@ -1,8 +1,8 @@
 """Many rocking histories at once: outcomes of blocks under pulses of one shape, or one record.
 
 A scale is ω/p of a pulse, p Δt of a record. The histories run in the lanes of the CPU
-(`kernel.lanes`), on all cores; no result depends on how many
-lanes or cores there are, or on which histories run beside each other.
+(`kernel.lanes`), on all cores; no result depends on how many lanes or cores there are, or on which
+histories run beside each other.
 """
 
 import math
@@ -34,7 +34,7 @@ from topheavy.kernel.lanes.histories import Cells, Results
 from topheavy.kernel.lanes.pulses import POISED, pulse_outcomes
 from topheavy.kernel.lanes.records import record_outcomes
 from topheavy.kernel.lanes.steps import new_batch
-from topheavy.kernel.lanes.vectors import HAS_FMA, WIDTH
+from topheavy.kernel.lanes.vectors import WIDTH
 from topheavy.kernel.step import MAX_STEPS, PULSE_ORDER, TOLERANCE, working_array
 from topheavy.kernel.taylor import Method, Oscillator
 
@@ -44,8 +44,6 @@ MAX_BATCHES = 64
 #: The least number of cells in a batch. Fewer would leave lanes idle at its end, or be done before
 #: a second thread has started.
 MIN_PULSES, MIN_FACTORS = 32 * WIDTH, 4 * WIDTH
-#: How many histories run at once in a core, and whether it multiplies and adds in one operation.
-LANES, FUSED = WIDTH, HAS_FMA
 
 
 def record_order(step: float, tolerance: float = TOLERANCE) -> int:
@@ -108,14 +106,14 @@ def outcomes_of(
         ]
         flat = blocks[which[at[0]]].flat
         cells = Cells(shape, record, flat, equation, rows, *values)
-        own = _empty_results(at.size)
-        unresolved = _follow_cells(cells, own, tolerance, in_full, threads)
+        subset = _empty_results(at.size)
+        unresolved = _follow_cells(cells, subset, tolerance, in_full, threads)
         if unresolved >= 0:
             raise _unresolved(*_arguments(blocks, cells, unresolved)[:4])
-        for cell in np.flatnonzero(own.impacts == POISED):
+        for cell in np.flatnonzero(subset.impacts == POISED):
             end = outcome_of(*_arguments(blocks, cells, int(cell)), tolerance=tolerance)
-            own.overturned[cell], own.peaks[cell], own.impacts[cell] = end
-        for array, part in zip(results, own, strict=True):
+            subset.overturned[cell], subset.peaks[cell], subset.impacts[cell] = end
+        for array, part in zip(results, subset, strict=True):
             array[at] = part
     return results
 

@@ -9,7 +9,6 @@ from topheavy.kernel.compiled import compiled
 POISED_ENERGY = 1e-6
 
 free_rocking = compiled(closed.ending)
-barrier = compiled(closed.barrier)
 
 
 @compiled

@@ -24,7 +24,7 @@ from topheavy.outcomes.search import (
 if TYPE_CHECKING:
     import xarray
 
-AT_A_TIME = 512
+FACTORS_PER_CALL = 512
 """Factors of a grid in one call of the kernel, from the lowest up."""
 
 RESOLUTION = 0.02
@@ -146,9 +146,9 @@ def lowest_overturning(
         return np.asarray(first + step * np.arange(begin, min(end, parts + 1)))
 
     overturned: list[bool] = []
-    for begin in range(0, parts + 1, AT_A_TIME):
-        some = factors(begin, begin + AT_A_TIME)
-        overturned += outcomes_by(subjects, np.zeros(some.size, np.int64), some)[1].tolist()
+    for begin in range(0, parts + 1, FACTORS_PER_CALL):
+        grid = factors(begin, begin + FACTORS_PER_CALL)
+        overturned += outcomes_by(subjects, np.zeros(grid.size, np.int64), grid)[1].tolist()
         start = overturned.index(True) if True in overturned else len(overturned)
         if False in overturned[start:]:
             break

@@ -127,7 +127,6 @@ def _under_factors(
 ) -> tuple[Factors, NDArray[np.bool_]]:
     """Return peak rotation and overturning; the peak is complete if `in_full`."""
     scales = checks.axis("factors", factors, zero_allowed=True)
-    several = isinstance(structure, Sequence)
     structures = list(structure) if isinstance(structure, Sequence) else [structure]
     if not structures:
         raise ValueError("structure is an empty list; expected one or more structures")
@@ -140,7 +139,7 @@ def _under_factors(
         tolerance=checked_tolerance(tolerance),
         in_full=in_full,
     )
-    shape = (len(subjects), scales.size) if several else (scales.size,)
+    shape = (len(subjects), scales.size) if isinstance(structure, Sequence) else (scales.size,)
     return peak.reshape(shape), overturned.reshape(shape)
 
 

@@ -37,10 +37,10 @@ from topheavy.kernel.taylor import oscillator
 
 Times = NDArray[np.float64]
 
-MOST_IMPACTS = 100_000
+MAX_IMPACTS = 100_000
 """The largest number of impacts of one history."""
 
-SMALLEST_TOLERANCE, LARGEST_TOLERANCE = 1e-16, 1e-2
+MIN_TOLERANCE, MAX_TOLERANCE = 1e-16, 1e-2
 """Below the first, rounding dominates the error of a step; above the second, outcomes change."""
 
 _OUTCOMES: dict[int, Outcome] = {
@@ -95,7 +95,7 @@ def simulate(
         duration, a tolerance or a number of samples out of range, a structure whose √r is
         negative, or a vertical acceleration of −1 g or less.
     ArithmeticError
-        For a history of more than `MOST_IMPACTS` impacts or a million steps.
+        For a history of more than `MAX_IMPACTS` impacts or a million steps.
 
     Notes
     -----
@@ -122,12 +122,12 @@ def simulate(
         raise ValueError("duration is None; expected one, as this excitation goes on forever")
 
     def followed_until(until: float, at: Times) -> tuple[Samples, History]:
-        samples = Samples(at, np.full((2, at.size), math.nan), np.empty(MOST_IMPACTS))
+        samples = Samples(at, np.full((2, at.size), math.nan), np.empty(MAX_IMPACTS))
         course = Course(theta, theta_rate / p, until)
         history = followed(oscillator(block), forcing, tolerance, NO_RATIOS, course, samples)
         if history.result == UNRESOLVED:
             raise ArithmeticError(
-                f"{block} under {_named(excitation)}: more than {MOST_IMPACTS} impacts or "
+                f"{block} under {_described(excitation)}: more than {MAX_IMPACTS} impacts or "
                 f"{MAX_STEPS_WITH_SAMPLES} steps by {history.end / p:.6g} s; a shorter duration or "
                 "a smaller restitution has fewer"
             )
@@ -252,10 +252,10 @@ def _prepared(record: Record) -> NDArray[np.float64]:
 
 def checked_tolerance(value: float) -> float:
     """Return a tolerance of the kernel, or raise ValueError with the accepted range."""
-    return checks.within("tolerance", value, SMALLEST_TOLERANCE, LARGEST_TOLERANCE)
+    return checks.within("tolerance", value, MIN_TOLERANCE, MAX_TOLERANCE)
 
 
-def _named(excitation: Excitation | None) -> str:
+def _described(excitation: Excitation | None) -> str:
     if isinstance(excitation, Record):
         return f"record {excitation.name!r}"
     return "no excitation" if excitation is None else repr(excitation)

@@ -28,7 +28,7 @@ def middle(x: Interval) -> float:
 
 
 def evaluate(coefficients: Sequence[float], time: float) -> float:
-    """Return the evaluate of a polynomial."""
+    """Return the value of a polynomial."""
     total = 0.0
     for x in reversed(coefficients):
         total = total * time + x

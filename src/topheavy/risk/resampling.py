@@ -10,7 +10,7 @@ from collections.abc import Hashable, Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-BLOCK = 1000  # motions whose weights are in memory at a time
+MOTIONS_PER_BLOCK = 1000  # motions whose weights are in memory at a time
 
 Array = NDArray[np.float64]
 
@@ -21,14 +21,16 @@ def _sums(outcomes: Array, resamples: int, seed: int | Sequence[int]) -> Array:
     Of a resample, a binomial number of motions falls on each block; in a block, all motions are
     equally likely. Sums of yes and no are whole numbers, so that equal counts are equal.
     """
-    random, left = np.random.default_rng(seed), np.full(resamples, len(outcomes))
+    random, unplaced = np.random.default_rng(seed), np.full(resamples, len(outcomes))
     total = np.zeros((1 + resamples, *outcomes.shape[1:]))
-    for first in range(0, len(outcomes), BLOCK):
-        block = outcomes[first : first + BLOCK]
+    for first in range(0, len(outcomes), MOTIONS_PER_BLOCK):
+        block = outcomes[first : first + MOTIONS_PER_BLOCK]
         size, remaining = len(block), len(outcomes) - first
-        drawn = left if size == remaining else random.binomial(left, size / remaining)
-        counts = random.multinomial(drawn, np.full(size, 1.0 / size))
-        left = left - drawn
+        placed = unplaced
+        if size < remaining:
+            placed = random.binomial(unplaced, size / remaining)
+        counts = random.multinomial(placed, np.full(size, 1.0 / size))
+        unplaced = unplaced - placed
         total += np.tensordot(np.vstack([np.ones(size), counts]), block.astype(float), axes=1)
     return total
 

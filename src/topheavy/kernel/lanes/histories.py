@@ -67,13 +67,10 @@ class Results(NamedTuple):
 @compiled
 def history_of(cells, cell):
     """Return the block and the forcing of a cell."""
-    row, scale, amplitude = (
-        cells.blocks[cells.which[cell]],
-        cells.scales[cell],
-        cells.amplitudes[cell],
-    )
+    row, scale = cells.blocks[cells.which[cell]], cells.scales[cell]
+    amplitude, vertical = cells.amplitudes[cell], cells.verticals[cell]
     block = Oscillator(row[0], row[1], row[2], row[3], row[4], cells.flat, cells.linearised)
-    return block, forcing_of(cells.shape, cells.record, scale, amplitude, cells.verticals[cell])
+    return block, forcing_of(cells.shape, cells.record, scale, amplitude, vertical)
 
 
 @compiled
@@ -92,12 +89,8 @@ def lift_off(w, lane, block, forcing, time):
         _, _, w.gravity[lane], w.gravity_rate[lane] = ground(forcing, time)
     w.time[lane], w.longest[lane], w.flight_peak[lane] = time, longest, 0.0
     w.side[lane], w.factor[lane] = side, -side * forcing.amplitude
-    w.rotation[0, lane], w.velocity[0, lane], w.sine[0, lane], w.cosine[0, lane] = (
-        0.0,
-        0.0,
-        0.0,
-        1.0,
-    )
+    w.rotation[0, lane] = w.velocity[0, lane] = w.sine[0, lane] = 0.0
+    w.cosine[0, lane] = 1.0
     w.push[0, lane], w.push[1, lane] = push, rate
     return True
 
@@ -115,12 +108,8 @@ def clear(w, lane):
     """Let a lane take steps of no length."""
     w.time[lane], w.longest[lane], w.peak[lane], w.flight_peak[lane] = 0.0, 0.0, 0.0, 0.0
     w.impacts[lane], w.steps[lane], w.factor[lane], w.piece[lane] = 0.0, 0.0, 0.0, 0.0
-    w.rotation[0, lane], w.velocity[0, lane], w.sine[0, lane], w.cosine[0, lane] = (
-        0.0,
-        0.0,
-        0.0,
-        1.0,
-    )
+    w.rotation[0, lane] = w.velocity[0, lane] = w.sine[0, lane] = 0.0
+    w.cosine[0, lane] = 1.0
     w.push[0, lane], w.push[1, lane] = 0.0, 0.0
 
 

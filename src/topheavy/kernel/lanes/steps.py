@@ -336,7 +336,7 @@ def impact(v, block, is_straight, landed):
     int
         Bits of those that may come to rest now (the first conditions of `rest.comes_to_rest`).
     """
-    struck = mask_of(landed)
+    has_landed = mask_of(landed)
     velocity = maximum(-v.velocity[0], 0.0) * block.restitution
     both, side, rate = 2.0 * block.level, v.side, -v.push[1]
     if is_straight:
@@ -344,16 +344,16 @@ def impact(v, block, is_straight, landed):
         both = both * v.gravity
     push = -v.push[0] - both
     low = v.flight_peak <= MIN_COUNTED_PEAK * block.slenderness
-    v.impacts = v.impacts + select(struck & ~low, 1.0, 0.0)
-    v.flight_peak = select(struck, 0.0, v.flight_peak)
-    v.side = select(struck, -side, side)
-    v.factor = select(struck, -v.factor, v.factor)
-    v.rotation[0] = select(struck, 0.0, v.rotation[0])
-    v.sine[0] = select(struck, 0.0, v.sine[0])
-    v.cosine[0] = select(struck, 1.0, v.cosine[0])
-    v.velocity[0] = select(struck, velocity, v.velocity[0])
-    v.push[0] = select(struck, push, v.push[0])
-    v.push[1] = select(struck, rate, v.push[1])
+    v.impacts = v.impacts + select(has_landed & ~low, 1.0, 0.0)
+    v.flight_peak = select(has_landed, 0.0, v.flight_peak)
+    v.side = select(has_landed, -side, side)
+    v.factor = select(has_landed, -v.factor, v.factor)
+    v.rotation[0] = select(has_landed, 0.0, v.rotation[0])
+    v.sine[0] = select(has_landed, 0.0, v.sine[0])
+    v.cosine[0] = select(has_landed, 1.0, v.cosine[0])
+    v.velocity[0] = select(has_landed, velocity, v.velocity[0])
+    v.push[0] = select(has_landed, push, v.push[0])
+    v.push[1] = select(has_landed, rate, v.push[1])
     weakest = minimum(-push, push + both)
     energy = weakest * (block.cosine * MIN_COUNTED_PEAK * block.slenderness)
     return bits(((weakest > 0.0) & (velocity * velocity <= energy)) | (velocity <= 0.0)) & landed
