@@ -109,11 +109,11 @@ def test_quarter_period_is_that_of_the_pendulum_on_its_head(slenderness, fractio
 
     Released at π − u₀ from its lowest point, it is timed down to π − α.
     """
-    found = quarter_period(RockingBlock(P, slenderness, 0.9), fraction * slenderness)
+    time = quarter_period(RockingBlock(P, slenderness, 0.9), fraction * slenderness)
     modulus = math.cos(slenderness * (1 - fraction) / 2)
     reached = math.asin(math.cos(slenderness / 2) / modulus)
     expected = float(ellipk(modulus**2) - ellipkinc(reached, modulus**2)) / P
-    assert found == pytest.approx(expected, rel=1e-8)
+    assert time == pytest.approx(expected, rel=1e-8)
 
 
 @pytest.mark.parametrize("slenderness", [0.05, 0.25, 1.0])

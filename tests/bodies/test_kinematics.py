@@ -21,9 +21,9 @@ def turned_corner(column: Column, rotation: float) -> tuple[float, float]:
     left corner, the only one that keeps touching it from above.
     """
     side = math.copysign(1.0, rotation)
-    foot = complex(side * column.half_width, 0.0)
+    pivot = complex(side * column.half_width, 0.0)
     corner = complex(-side * column.half_width, 2 * column.half_height)
-    moved = foot + (corner - foot) * np.exp(-1j * rotation)
+    moved = pivot + (corner - pivot) * np.exp(-1j * rotation)
     return (moved - corner).real, (moved - corner).imag
 
 

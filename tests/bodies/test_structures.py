@@ -83,9 +83,9 @@ def test_frame_follows_from_energy_and_momentum(alpha, gamma):
 @EVERY_COLUMN
 def test_frame_under_a_boundless_cap_reaches_the_massless_column_limit(alpha, gamma):
     column, frame = column_of(alpha), RockingFrame(column_of(alpha), gamma)
-    found = (frame.frequency_parameter, frame.equivalent_size, frame.restitution)
+    numbers = (frame.frequency_parameter, frame.equivalent_size, frame.restitution)
     expected = (math.sqrt(2 / 3) * column.frequency_parameter, 3.0, math.cos(2 * alpha))
-    assert found == pytest.approx(expected, rel=1e-10)
+    assert numbers == pytest.approx(expected, rel=1e-10)
 
 
 def test_masses_give_the_mass_ratio_of_any_number_of_columns():
@@ -206,9 +206,9 @@ def column_points(axis):
 def test_fixed_mass_is_what_point_masses_are(gamma, width, depth):
     body = th.FixedMassColumn(COLUMN, gamma, width, depth)
     cap = rectangle(gamma, (0.0, 6.0 + depth / 2), width, depth)
-    found = body.frequency_parameter, body.uplift_acceleration, body.restitution
+    numbers = body.frequency_parameter, body.uplift_acceleration, body.restitution
     points = np.concatenate([column_points(0.0), cap], axis=1)
-    np.testing.assert_allclose(found, three_numbers(points, 0.5), rtol=2.0 / POINTS**2)
+    np.testing.assert_allclose(numbers, three_numbers(points, 0.5), rtol=2.0 / POINTS**2)
 
 
 @pytest.mark.parametrize(("depth", "overhang"), [(0.0, 0.0), (0.6, 0.4)])
@@ -219,8 +219,8 @@ def test_portal_is_what_point_masses_are(gamma, span, depth, overhang):
     half = span / 2
     cap = rectangle(2 * gamma, (0.0, 6.0 + depth / 2), span + 1.0 + 2 * overhang, depth)
     points = np.concatenate([column_points(-half), column_points(half), cap], axis=1)
-    found = body.frequency_parameter, body.uplift_acceleration, body.restitution
-    np.testing.assert_allclose(found, three_numbers(points, half + 0.5), rtol=2.0 / POINTS**2)
+    numbers = body.frequency_parameter, body.uplift_acceleration, body.restitution
+    np.testing.assert_allclose(numbers, three_numbers(points, half + 0.5), rtol=2.0 / POINTS**2)
 
 
 @pytest.mark.parametrize(
@@ -248,10 +248,10 @@ def test_minimum_overturning_acceleration_is_the_known_one(structure, known):
     start = structure.uplift_acceleration
     first, *_ = th.overturning_intervals(structure, PULSE, (start, 0.5), resolution=1e-3)
     assert first.lower[0] == pytest.approx(known, abs=1e-4)
-    for route in (th.judge, reference.judge):
+    for solver in (th.judge, reference.judge):
         low, high = (PULSE.scaled(first.lower[i] * f) for i, f in ((0, 1 - 1e-6), (1, 1 + 1e-6)))
-        assert not route(structure, low).overturned
-        assert route(structure, high).overturned
+        assert not solver(structure, low).overturned
+        assert solver(structure, high).overturned
 
 
 @pytest.mark.parametrize("gamma", [0.5, 1.0, 2.0, 10.0])

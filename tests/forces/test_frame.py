@@ -71,8 +71,8 @@ def test_overturning_moment_is_that_of_weight_and_inertia(ratio, state):
     height = double * math.cos(lean) + CAP.half_depth
     cap = height * (ground + u / STANDARD_GRAVITY) - along * (1.0 + v / STANDARD_GRAVITY)
     moment += (1.0 - columns) * cap
-    found = frame_forces(frame, CAP, *state).overturning_moment
-    assert found == pytest.approx(moment, abs=1e-11)
+    forces = frame_forces(frame, CAP, *state)
+    assert forces.overturning_moment == pytest.approx(moment, abs=1e-11)
 
 
 @pytest.mark.parametrize("ratio", RATIOS)
@@ -83,7 +83,7 @@ def test_bending_moment_is_that_of_all_below_the_section(ratio, state):
     weight = 0.0 if ratio == math.inf else 0.5 / (1.0 + ratio)
     second, side = angular(frame, theta, ground), math.copysign(1.0, theta)
     along, x, z, px, pz = particles(theta, rate, second, ground)
-    forces, found = contact_forces(frame, CAP, *state), frame_forces(frame, CAP, *state)
+    forces, inner = contact_forces(frame, CAP, *state), frame_forces(frame, CAP, *state)
     b, height = COLUMN.half_width, 2.0 * COLUMN.half_height
     for place, base_force in enumerate((forces.base_left, forces.base_right)):
         for section in (0.0, 1.0):  # Gauss points lie on either side of no other section
@@ -95,7 +95,7 @@ def test_bending_moment_is_that_of_all_below_the_section(ratio, state):
             load = (z - at_z) * px - (x - at_x) * pz
             moment = -at_z * base_force.horizontal + at_x * base_force.vertical
             moment -= weight * load[below].sum() / STANDARD_GRAVITY
-            ours = found.bending_moment[place, SECTIONS.index(section)]
+            ours = inner.bending_moment[place, SECTIONS.index(section)]
             assert ours == pytest.approx(-moment, abs=1e-11)
 
 
@@ -128,13 +128,13 @@ def test_largest_forces_are_those_of_arcs_that_move_or_of_all_if_none_does(ratio
     theta[:25], rate[:25], ground[:25] = 0.0, 0.0, 0.99 * COLUMN.uplift_acceleration
     theta[25, 0] = 0.0  # one instant without rotation is not rest
     for arcs, counted in ((slice(None), slice(25, None)), (slice(25), slice(25))):
-        found = frame_forces(frame, CAP, *(each[counted] for each in (theta, rate, ground)))
+        whole = frame_forces(frame, CAP, *(each[counted] for each in (theta, rate, ground)))
         for row, step in zip(
             largest_forces(frame, CAP, theta[arcs], rate[arcs], ground[arcs]), (1, 2), strict=True
         ):
             assert row.tolist() == [
                 np.nanmax(np.abs(force[:, ::step]), initial=0.0)
-                for force in (found.base_shear, found.overturning_moment, found.bending_moment)
+                for force in (whole.base_shear, whole.overturning_moment, whole.bending_moment)
             ]
 
 

@@ -96,8 +96,8 @@ def test_pulse_is_even_or_odd_about_its_middle(shape):
 )
 def test_ground_has_its_velocity_when_the_pulse_ends(shape, velocity, tolerance):
     time = times_of(shape, 20001)
-    found = np.trapezoid(pulse(shape, 1.0).excitation(time), time) / PERIOD
-    assert found == pytest.approx(velocity, abs=tolerance)
+    integral = np.trapezoid(pulse(shape, 1.0).excitation(time), time) / PERIOD
+    assert integral == pytest.approx(velocity, abs=tolerance)
 
 
 @pytest.mark.parametrize(
@@ -206,5 +206,5 @@ def test_largest_is_over_the_overlap_alone(start, stop, largest):
 def test_least_gravity_of_a_segment_is_that_of_its_lower_end():
     for low, high in ((0.5, 1.5), (1.5, 0.5)):
         segment = Segment(0.0, 1.0, lambda t: 0.0, lambda t, a=low, b=high: a + (b - a) * t)
-        found = [segment.least_gravity(*over) for over in ((-1.0, 2.0), (0.0, 0.5), (2.0, 3.0))]
-        assert found == [0.5, min(low, 1.0), 1.0]
+        least = [segment.least_gravity(*over) for over in ((-1.0, 2.0), (0.0, 0.5), (2.0, 3.0))]
+        assert least == [0.5, min(low, 1.0), 1.0]

@@ -32,11 +32,11 @@ def test_no_vertical_acceleration_changes_nothing():
 def test_constant_vertical_acceleration_is_another_gravity():
     """In (1 + v) g the column has p √(1 + v) and feels ü_g/(1 + v)."""
     share = 0.7
-    found = reference.simulate(COLUMN, SHAKE, samples=TIME[:200], vertical=constant(share - 1.0))
+    lighter = reference.simulate(COLUMN, SHAKE, samples=TIME[:200], vertical=constant(share - 1.0))
     heavier = th.Column(COLUMN.half_width / share, COLUMN.half_height / share)
     other = reference.simulate(heavier, SHAKE.scaled(1.0 / share), samples=TIME[:200])
     assert np.abs(other.rotation).max() > 0.1 * COLUMN.slenderness
-    np.testing.assert_allclose(found.rotation, other.rotation, atol=1e-9)
+    np.testing.assert_allclose(lighter.rotation, other.rotation, atol=1e-9)
 
 
 def test_samples_that_more_than_rounding_keeps_apart_begin_segments_of_their_own():
@@ -49,26 +49,26 @@ SOLVERS = (
     th.judge,
     reference.simulate,
     reference.judge,
-    lambda *given, **named: th.overturned_by(*given, [1.0], **named),
+    lambda *arguments, **options: th.overturned_by(*arguments, [1.0], **options),
 )
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_vertical_of_another_kind_is_refused(solver):
     for shaking, up in ((th.Pulse("one-sine", 0.3, 6.0), UP), (SHAKE, 0.1), (SHAKE, [0.1, 0.2])):
-        told = rf"excitation is {type(shaking).__name__} and vertical {type(up).__name__}; expected"
-        with pytest.raises(ValueError, match=told):
+        says = rf"excitation is {type(shaking).__name__} and vertical {type(up).__name__}; expected"
+        with pytest.raises(ValueError, match=says):
             solver(FRAME, shaking, vertical=up)
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_ground_that_falls_from_under_the_structure_is_refused(solver):
     falling = th.Record(0.05, np.array([0.0, 0.4, -0.8, -1.25, 0.0]))
-    told = (
+    says = (
         r"^vertical: at 0\.15 s its acceleration times 1 is -1\.25 g; expected more than −1 g, .*"
         r"factors less than 0\.8 are allowed$"
     )
-    with pytest.raises(ValueError, match=told):
+    with pytest.raises(ValueError, match=says):
         solver(FRAME, SHAKE, vertical=falling)
     with pytest.raises(ValueError, match=r"at 0\.05 s .* is -1 g; expected more than −1 g"):
         solver(FRAME, SHAKE, vertical=th.Record(0.05, [0.0, -1.0, 0.0]))
@@ -76,18 +76,18 @@ def test_ground_that_falls_from_under_the_structure_is_refused(solver):
 
 def test_search_is_refused_for_its_largest_factor_alone():
     falling = th.Record(0.05, np.array([0.0, 0.4, -0.5, 0.0]))
-    told = r"at 0\.1 s .* times 2\.5 is -1\.25 g.*factors less than 2 are allowed"
+    says = r"at 0\.1 s .* times 2\.5 is -1\.25 g.*factors less than 2 are allowed"
     for call in (
         partial(th.overturned_by, FRAME, SHAKE, [0.5, 2.5]),
         partial(th.overturning_intervals, FRAME, SHAKE, (0.5, 2.5), resolution=0.5),
         partial(th.lowest_overturning, FRAME, SHAKE, (0.5, 2.5), floor=0.5),
         partial(th.overturned_by, [COLUMN, FRAME], SHAKE, [0.5, 2.5]),
     ):
-        with pytest.raises(ValueError, match=told):
+        with pytest.raises(ValueError, match=says):
             call(vertical=falling)
         call(vertical=falling, scale_vertical=False)
-    told = r"times -3 is -1\.2 g.*factors more than -2\.5 are allowed"
-    with pytest.raises(ValueError, match=told):
+    says = r"times -3 is -1\.2 g.*factors more than -2\.5 are allowed"
+    with pytest.raises(ValueError, match=says):
         th.overturning_intervals(FRAME, SHAKE, (-3.0, 0.5), resolution=1.0, vertical=falling)
     huge = th.Record(0.05, np.array([0.0, -3.0, 0.0]), unit="g")  # allowed below a third
     assert not th.overturned_by(FRAME, SHAKE, [0.0, 0.3], vertical=huge).any()
@@ -142,26 +142,26 @@ def test_factors_scale_both_or_one(scale_vertical, linearised):
     factors = np.linspace(0.0, 2.8, 29) + 0.4
     weak = th.Record(ODD.time_step, 0.8 * ODD.acceleration)
     search = {"vertical": weak, "scale_vertical": scale_vertical}
-    found = th.overturned_by(block, SHAKE.scaled(1.8), factors, **search)
-    for factor, overturned in zip(factors, found, strict=True):
+    outcomes = th.overturned_by(block, SHAKE.scaled(1.8), factors, **search)
+    for factor, overturned in zip(factors, outcomes, strict=True):
         up = weak.scaled(factor) if scale_vertical else weak
         assert overturned == th.judge(block, SHAKE.scaled(1.8 * factor), vertical=up).overturned
-    assert 0 < found.sum() < factors.size
-    given = (block, SHAKE.scaled(1.8), (0.4, 3.2))
-    honest = th.lowest_overturning(*given, floor=0.1, **search)
-    low, high = th.overturning_intervals(*given, resolution=0.1, **search)[0].lower
-    ends = ((low, False), (high, True), *zip(honest.bracket, (False, True), strict=True))
-    for factor, overturned in (*ends, *zip(honest.upper, (True, False), strict=True)):
+    assert 0 < outcomes.sum() < factors.size
+    arguments = (block, SHAKE.scaled(1.8), (0.4, 3.2))
+    minimum = th.lowest_overturning(*arguments, floor=0.1, **search)
+    low, high = th.overturning_intervals(*arguments, resolution=0.1, **search)[0].lower
+    ends = ((low, False), (high, True), *zip(minimum.bracket, (False, True), strict=True))
+    for factor, overturned in (*ends, *zip(minimum.upper, (True, False), strict=True)):
         up = weak.scaled(factor) if scale_vertical else weak
-        inward = 1 if factor < honest.upper[0] else -1
+        inward = 1 if factor < minimum.upper[0] else -1
         truth = reference.judge(
             block,
             SHAKE.scaled(1.8 * factor * (1 + 1e-8 * inward * (2 * overturned - 1))),
             vertical=up,
         )
         assert truth.overturned == overturned
-    plain = th.lowest_overturning(*given, floor=0.1)
-    assert abs(plain.factor - honest.factor) > 1e-3
+    plain = th.lowest_overturning(*arguments, floor=0.1)
+    assert abs(plain.factor - minimum.factor) > 1e-3
 
 
 def test_measured_vertical_gives_both_solvers_the_same_outcomes():
@@ -174,11 +174,11 @@ def test_measured_vertical_gives_both_solvers_the_same_outcomes():
         th.MonolithicPortal(COLUMN, 1.0, 1.2),
     ]
     factors = np.array([1.6, 2.3])
-    found = th.overturned_by(structures, across, factors, vertical=up)
-    for structure, row in zip(structures, found, strict=True):
+    outcomes = th.overturned_by(structures, across, factors, vertical=up)
+    for structure, row in zip(structures, outcomes, strict=True):
         for factor, overturned in zip(factors, row, strict=True):
-            given = (structure, across.scaled(factor))
-            ours = th.judge(*given, vertical=up.scaled(factor), tolerance=1e-13)
-            theirs = reference.judge(*given, vertical=up.scaled(factor))
+            arguments = (structure, across.scaled(factor))
+            ours = th.judge(*arguments, vertical=up.scaled(factor), tolerance=1e-13)
+            theirs = reference.judge(*arguments, vertical=up.scaled(factor))
             assert overturned == ours.overturned == theirs.overturned
             np.testing.assert_allclose(ours.peak, theirs.peak, rtol=0, atol=1e-6 * 0.165)

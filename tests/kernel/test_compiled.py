@@ -126,10 +126,10 @@ def ask_width(**cpu):
 @pytest.fixture(scope="module")
 def here():
     """The results for the CPU of this machine."""
-    found = ask_width()
-    assert found[:2] == (WIDTH, HAS_FMA)
-    assert any(0 < np.isnan(peaks).mean() < 1 for peaks in found[2])
-    return found
+    results = ask_width()
+    assert results[:2] == (WIDTH, HAS_FMA)
+    assert any(0 < np.isnan(peaks).mean() < 1 for peaks in results[2])
+    return results
 
 
 @pytest.mark.skipif(
@@ -137,13 +137,13 @@ def here():
     reason="this CPU has one width only",
 )
 def test_narrow_registers_give_the_same_bits(here):
-    width, has_fma, *found = ask_width(NUMBA_CPU_NAME="generic", NUMBA_CPU_FEATURES="+avx,+fma")
+    width, has_fma, *results = ask_width(NUMBA_CPU_NAME="generic", NUMBA_CPU_FEATURES="+avx,+fma")
     assert width == 4
     assert width < WIDTH
     assert has_fma
-    for one, other in zip(found[0], here[2], strict=True):
+    for one, other in zip(results[0], here[2], strict=True):
         np.testing.assert_array_equal(one, other)
-    assert found[1:] == list(here[3:])
+    assert results[1:] == list(here[3:])
 
 
 def test_cpu_of_any_kind_gives_the_same_outcomes(here):

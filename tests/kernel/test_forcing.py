@@ -71,9 +71,9 @@ def test_uplifts_are_those_that_the_segments_have(shape, strength):
     for start in (0.0, *inside(shape, 23)):
         expected = math.inf
         for segment in pulse.segments(8.0):
-            found = segment.uplift(max(start, segment.start), level)
-            if segment.stop > start and found is not None:
-                expected = found
+            instant = segment.uplift(max(start, segment.start), level)
+            if segment.stop > start and instant is not None:
+                expected = instant
                 break
         time, push, rate, side = next_uplift(there, start, level)
         if expected == math.inf and (shape != "harmonic" or abs(strength) <= 1.0):
@@ -95,11 +95,11 @@ def test_a_motion_that_is_cut_off_lifts_when_the_whole_does_or_not_at_all(shape,
     for start in (0.0, *inside(shape, 7)):
         time, *rest = next_uplift(whole, start, 0.25)
         for cut in inside(shape, 31):
-            found = next_uplift(whole._replace(end=cut), start, 0.25)
+            uplift = next_uplift(whole._replace(end=cut), start, 0.25)
             if start < cut and time < cut:
-                assert found == pytest.approx((time, *rest), rel=1e-12, abs=1e-14)
+                assert uplift == pytest.approx((time, *rest), rel=1e-12, abs=1e-14)
             else:
-                assert found[0] == math.inf
+                assert uplift[0] == math.inf
 
 
 def test_a_ricker_wavelet_lifts_the_block_in_its_side_lobe():
@@ -121,11 +121,11 @@ def test_record_is_that_of_the_library():
     library = Record(0.07, -1.5 * samples, unit="g")
     assert there.end == pytest.approx(library.duration)
     times = np.linspace(0.0, there.end, 333)[:-1]
-    found = np.array([ground(there, time) for time in times])
-    np.testing.assert_allclose(found[:, 0], library.excitation(times), atol=1e-13)
+    motion = np.array([ground(there, time) for time in times])
+    np.testing.assert_allclose(motion[:, 0], library.excitation(times), atol=1e-13)
     pieces = [piece_of(there, time) for time in times]
     slopes = (np.diff(library.acceleration) / 0.07)[pieces]
-    np.testing.assert_allclose(found[:, 1], slopes, rtol=1e-12)
+    np.testing.assert_allclose(motion[:, 1], slopes, rtol=1e-12)
     assert ground(there, there.end) == (0.0, 0.0, 1.0, 0.0)
 
 
@@ -139,8 +139,8 @@ RATIOS = pytest.mark.parametrize("ratio", [1.0, 0.5, 3.0, 0.731])
 def waves(seed, samples, step=STEP):
     """A few sines under an envelope that does not end at zero."""
     rng, time = np.random.default_rng(seed), step * np.arange(samples)
-    found = sum(rng.normal() * np.sin(f * time + rng.uniform(0, 6)) for f in (2.0, 3.7, 6.1, 11.0))
-    return found * (0.1 + np.sin(math.pi * time / time[-1]) ** 2)
+    total = sum(rng.normal() * np.sin(f * time + rng.uniform(0, 6)) for f in (2.0, 3.7, 6.1, 11.0))
+    return total * (0.1 + np.sin(math.pi * time / time[-1]) ** 2)
 
 
 def shaken(seed, ratio, samples=700, upward=500):
@@ -167,7 +167,7 @@ def test_next_uplift_is_the_first_time_that_the_push_is_positive(ratio, factor):
     seen = set()
     for first in range(0, times.size, 1337):
         over = np.flatnonzero(push[first:] > 1e-9)
-        time, found, rate, side = next_uplift(there, times[first], 0.2)
+        time, excess, rate, side = next_uplift(there, times[first], 0.2)
         seen.add(over.size > 0)
         if not over.size:
             assert time == math.inf or abs(ground(there, time)[0]) < 0.2 + 1e-6
@@ -175,8 +175,8 @@ def test_next_uplift_is_the_first_time_that_the_push_is_positive(ratio, factor):
         at = times[first + over[0]]
         assert at - times[1] - 1e-12 <= time <= at
         assert side == -math.copysign(1.0, ground(there, at)[0])
-        assert found == 0.0 or time == times[first] or found > 0.0
-        assert push_at(there, time + 1e-7, 0.2) - found == pytest.approx(1e-7 * rate, abs=1e-8)
+        assert excess == 0.0 or time == times[first] or excess > 0.0
+        assert push_at(there, time + 1e-7, 0.2) - excess == pytest.approx(1e-7 * rate, abs=1e-8)
     assert True in seen
 
 
@@ -242,25 +242,25 @@ def test_lanes_follow_what_the_scalar_kernel_follows(ratio, tolerance):
     factors = np.array([block.level for block in blocks])[which] * rng.uniform(0.8, 6.0, 60)
     lifts = rng.uniform(-1.8, 1.8, which.size)
     _, _, both = shaken(4, ratio)
-    found = outcomes_of(
+    outcomes = outcomes_of(
         blocks, RECORD, which, steps, factors, both, lifts=lifts, tolerance=tolerance
     )
     for k in range(which.size):
         one = (blocks[which[k]], RECORD, steps[k], factors[k], both)
         alone = outcome_of(*one, lift=lifts[k], tolerance=tolerance)
-        assert found[1][k] == alone.overturned
+        assert outcomes[1][k] == alone.overturned
         close = 1e-9 if tolerance < TOLERANCE else 1e-5
-        np.testing.assert_allclose(found[0][k], alone.peak, rtol=0, atol=close)
+        np.testing.assert_allclose(outcomes[0][k], alone.peak, rtol=0, atol=close)
         if tolerance < TOLERANCE:
-            assert found[2][k] == alone.impacts
+            assert outcomes[2][k] == alone.impacts
         plain = outcome_of(*one[:4], prepare_record(shaken(4, ratio)[0]), tolerance=tolerance)
         if not (alone.overturned or plain.overturned) and plain.peak > 0.05:
             assert abs(alone.peak - plain.peak) > 1e-6
-    assert 0.1 < found[1].mean() < 0.9
+    assert 0.1 < outcomes[1].mean() < 0.9
     back = slice(None, None, -1)
-    given = (which[back], steps[back], factors[back])
+    cells = (which[back], steps[back], factors[back])
     again = outcomes_of(
-        blocks, RECORD, *given, both, lifts=lifts[back], tolerance=tolerance, threads=2
+        blocks, RECORD, *cells, both, lifts=lifts[back], tolerance=tolerance, threads=2
     )
-    for one, other in zip(found, again, strict=True):
+    for one, other in zip(outcomes, again, strict=True):
         np.testing.assert_array_equal(one, other[back])

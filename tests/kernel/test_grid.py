@@ -71,11 +71,11 @@ def test_histories_of_mixed_blocks_have_the_bits_of_each_alone(shape, threads):
         time = np.linspace(0, 20, 500)
         record = prepare_record(np.sin(3 * time) + 0.7 * np.sin(1 + 7.7 * time))
     blocks, which, scales, amplitudes = mixture(shape, 3)
-    found = outcomes_of(blocks, shape, which, scales, amplitudes, record, threads=threads)
-    assert 0.1 < found[1].mean() < 0.9
+    results = outcomes_of(blocks, shape, which, scales, amplitudes, record, threads=threads)
+    assert 0.1 < results[1].mean() < 0.9
     for k in range(which.size):
         alone = grid_of(blocks[which[k]], shape, scales[k : k + 1], amplitudes[k : k + 1], record)
-        for one, other in zip(found, alone, strict=True):
+        for one, other in zip(results, alone, strict=True):
             np.testing.assert_array_equal(one[k], other[0, 0])
 
 
@@ -130,11 +130,11 @@ def test_parts_of_a_polynomial_are_far_fewer_than_the_most(monkeypatch):
         w = step.working_array()
         w[step.POLYNOMIAL, :16] = np.polynomial.polynomial.polyfromroots(places)
         bernstein.to_bernstein(w, step.POLYNOMIAL, 15, step.HULL)
-        given = (w, step.POLYNOMIAL, 0, 15, step.HULL, step.STACK, step.ROOTS, 15)
-        bernstein.roots.py_func(*given)
+        arguments = (w, step.POLYNOMIAL, 0, 15, step.HULL, step.STACK, step.ROOTS, 15)
+        bernstein.roots.py_func(*arguments)
         assert w[step.HALT, 0] == 0.0
     monkeypatch.setattr(bernstein, "MAX_PARTS", 2)
-    bernstein.roots.py_func(*given)
+    bernstein.roots.py_func(*arguments)
     assert w[step.HALT, 0] == 1.0  # the history is given up
 
 
@@ -143,13 +143,13 @@ def test_newton_finds_what_is_looked_for_in_a_quarter_of_its_steps(monkeypatch):
     for shape in (forcing.RICKER_SYMMETRIC, forcing.RICKER_ANTISYMMETRIC):
         for strength in (1 + 1e-12, 1 + 1e-6, 1.01, 2.0, 30.0, 1e5):
             motion = forcing_of(shape, NO_RECORD, 2.0, strength, 0.0)
-            found = forcing.next_uplift(motion, 0.0, 1.0)
+            uplift, _, _, side = forcing.next_uplift(motion, 0.0, 1.0)
             turns = [*forcing.RICKER_TURNS[shape - forcing.RICKER_SYMMETRIC] / 2.0]
-            high = next((turn for turn in turns if turn > found[0]), motion.end)
-            low = max((turn for turn in turns if turn < found[0]), default=0.0)
-            if math.isfinite(found[0]) and found[0] > 0.0:
-                given = (motion, low, high, -found[3], 1.0)
-                few, many = forcing._crossing.py_func(*given), forcing._crossing(*given)
+            high = next((turn for turn in turns if turn > uplift), motion.end)
+            low = max((turn for turn in turns if turn < uplift), default=0.0)
+            if 0.0 < uplift < math.inf:
+                arguments = (motion, low, high, -side, 1.0)
+                few, many = forcing._crossing.py_func(*arguments), forcing._crossing(*arguments)
                 assert few == pytest.approx(many, rel=1e-8 if strength < 1.01 else 1e-15, abs=1e-5)
 
 

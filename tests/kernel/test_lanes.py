@@ -49,10 +49,10 @@ CLOSE = 1e-8
 
 def alone(block, shape, scales, amplitudes):
     """Peak, overturned and impacts of all cells, by the scalar kernel."""
-    found = [[outcome_of(block, shape, s, a) for a in amplitudes] for s in scales]
-    peak = [[one.peak for one in row] for row in found]
-    overturned = [[one.overturned for one in row] for row in found]
-    return np.array(peak), np.array(overturned), [[one.impacts for one in row] for row in found]
+    outcomes = [[outcome_of(block, shape, s, a) for a in amplitudes] for s in scales]
+    peak = [[one.peak for one in row] for row in outcomes]
+    overturned = [[one.overturned for one in row] for row in outcomes]
+    return np.array(peak), np.array(overturned), [[one.impacts for one in row] for row in outcomes]
 
 
 @pytest.mark.parametrize("degrees", [3.0, 9.5, 20.0, 40.0])
@@ -78,9 +78,9 @@ def test_impulse_that_overturns_a_block_is_no_more_than_the_safe_one():
     block, step = oscillator(RockingBlock(1.0, 0.2, 0.9, linearised=True)), 1e-5
     impulse = prepare_record(np.array([0.0, 1.0, *np.zeros(50)]))
     factors = np.array([0.998, 1.001, 1.003]) * safe_speed(block) / step
-    given = ([block], RECORD, np.zeros(3, int), np.full(3, step), factors, impulse)
+    cells = ([block], RECORD, np.zeros(3, int), np.full(3, step), factors, impulse)
     for in_full in (False, True):
-        assert outcomes_of(*given, in_full=in_full)[1].tolist() == [False, False, True]
+        assert outcomes_of(*cells, in_full=in_full)[1].tolist() == [False, False, True]
 
 
 @njit
@@ -104,7 +104,7 @@ def test_short_series_and_its_bounds_are_those_of_the_scalar_kernel():
         w["rotation"][0, 0], w["velocity"][0, 0] = rotation, velocity
         w["sine"][0, 0], w["cosine"][0, 0] = np.sin(rotation), np.cos(rotation)
         w["factor"], w["piece"], w["peak"], w["flight_peak"] = -1.0, pieces, peak, peak
-        found = march_all(w, record, tolerance)
+        passed_lanes = march_all(w, record, tolerance)
         for lane, (k, turn, rate) in enumerate(zip(pieces, rotation, velocity, strict=True)):
             value, slope, weight, change = ground_of_piece(forcing, k)
             length = piece_start(forcing, k + 1) - piece_start(forcing, k)
@@ -123,7 +123,7 @@ def test_short_series_and_its_bounds_are_those_of_the_scalar_kernel():
                 tolerance * 0.25,
             )
             fine = fine and turn <= 0.25
-            assert found >> lane & 1 == fine, (case, lane)
+            assert passed_lanes >> lane & 1 == fine, (case, lane)
             passed.append(fine)
             if fine:
                 assert w["rotation"][0, 0, lane] == pytest.approx(turn + by, abs=1e-14)
@@ -193,9 +193,9 @@ def test_root_is_taken_only_where_the_iteration_is_to_be_trusted():
             w["polynomial"][0, :6, lane] = whole.coef
             w["step"][0, lane] = root + 0.5 * gap
             w["time"][0, lane], roots[lane] = whole(root + 0.5 * gap), root
-        found = root_of_all(w, 5, steps.TURN_CORRECTION)
+        trusted = root_of_all(w, 5, steps.TURN_CORRECTION)
         off = np.abs(w["flight_peak"][0] / roots - 1.0)
-        kept += [off[lane] for lane in range(WIDTH) if found >> lane & 1]
+        kept += [off[lane] for lane in range(WIDTH) if trusted >> lane & 1]
     assert 0.1 < len(kept) / (400 * WIDTH) < 0.95
     # what Halley's iteration leaves is the square of the bend times the correction
     assert max(kept) < 2.0 * steps.TURN_CORRECTION * 0.1**2

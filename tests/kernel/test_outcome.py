@@ -62,8 +62,8 @@ def test_dip_inside_a_step_is_a_landing():
     critical = math.sqrt(2 * push * begin + begin**2)
     for factor, event in ((1 - 1e-9, NOTHING), (1 + 1e-9, LANDING)):
         state = aloft(block, begin, -factor * critical, push=push)
-        step, found, _, w = step_from(block, state, 0.9)
-        assert found == event
+        step, ended_by, _, w = step_from(block, state, 0.9)
+        assert ended_by == event
         # one step, at both ends of which the polynomial is aloft
         assert np.polynomial.polynomial.polyval(0.9, w[ROTATION, :21]) > 1e-3
         assert (step == 0.9) == (event == NOTHING)
@@ -234,9 +234,9 @@ def test_block_that_is_lifted_by_the_last_digit_of_a_record_comes_to_rest(restit
         block, record = lifted_by_a_digit(random)
         if restitution:
             block = block.with_restitution(restitution)
-        found = judge(block, record)
-        assert not found.overturned
-        assert found.peak < 1e-12 * block.slenderness
+        end = judge(block, record)
+        assert not end.overturned
+        assert end.peak < 1e-12 * block.slenderness
         assert overturned_by(block, record, [1.0]).tolist() == [False]
         assert simulate(block, record, samples=2).outcome == "rests"
 

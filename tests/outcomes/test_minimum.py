@@ -150,9 +150,9 @@ def test_range_that_begins_in_an_interval_ends_in_one_or_has_none_says_so():
     ],
 )
 def test_bad_search_is_refused_by_name_and_value(changes, says):
-    given = {"structure": BLOCK, "excitation": SHAKING, "scale_range": (0.0, 3.0), "floor": 0.1}
+    valid = {"structure": BLOCK, "excitation": SHAKING, "scale_range": (0.0, 3.0), "floor": 0.1}
     with pytest.raises(ValueError, match=says):
-        th.lowest_overturning(**given | changes)
+        th.lowest_overturning(**valid | changes)
 
 
 # ---------------------------------------------------------------------------- spectrum, capacity

@@ -25,18 +25,18 @@ SHAKING = th.Record(0.02, 0.6 * np.sin(np.linspace(0.0, 40.0, 400)) * np.linspac
 def test_each_cell_of_a_map_is_a_history(block, shape):
     frequencies = [2.5, 6.0, 13.0]
     amplitudes = block.uplift_acceleration * np.array([0.0, 0.9999, 1.01, 1.4, 2.5, 4.0, 9.0])
-    found = th.overturning_map(block, shape, frequencies, amplitudes)
-    for (i, j), peak in np.ndenumerate(found.peak_rotation.values):
+    outcomes = th.overturning_map(block, shape, frequencies, amplitudes)
+    for (i, j), peak in np.ndenumerate(outcomes.peak_rotation.values):
         pulse = th.Pulse(shape, amplitudes[j], frequencies[i])
         end, whole = th.judge(block, pulse), th.simulate(block, pulse, samples=2)
-        cell = (bool(found.overturned[i, j]), int(found.impacts[i, j]))
+        cell = (bool(outcomes.overturned[i, j]), int(outcomes.impacts[i, j]))
         assert cell == (end.overturned, end.impacts) == (whole.overturned, whole.number_of_impacts)
         close = pytest.approx(end.peak, rel=0, abs=1e-9 * block.slenderness, nan_ok=True)
         assert peak == close
         assert whole.peak_rotation == close
         assert math.isnan(peak) == cell[0]
-    assert found.overturned.any()
-    assert not found.peak_rotation[:, :2].any()
+    assert outcomes.overturned.any()
+    assert not outcomes.peak_rotation[:, :2].any()
 
 
 @pytest.mark.parametrize(
@@ -63,9 +63,9 @@ def test_each_cell_of_a_map_is_a_history(block, shape):
     ],
 )
 def test_bad_map_is_refused_by_name_and_value(change, says):
-    given = {"structure": BLOCK, "motion": "one-sine", "scales": [1.0], "amplitudes": [0.3]}
+    valid = {"structure": BLOCK, "motion": "one-sine", "scales": [1.0], "amplitudes": [0.3]}
     with pytest.raises(ValueError, match=says):
-        th.overturning_map(*(given | change).values())
+        th.overturning_map(*(valid | change).values())
 
 
 # ---------------------------------------------------------------------------- intervals
@@ -87,8 +87,8 @@ CASES = {
 @pytest.fixture(params=CASES.values(), ids=CASES.keys(), scope="module")
 def case(request):
     block, excitation, scale_range, resolution = request.param
-    found = th.overturning_intervals(block, excitation, scale_range, resolution=resolution)
-    return block, excitation, scale_range, resolution, found
+    intervals = th.overturning_intervals(block, excitation, scale_range, resolution=resolution)
+    return block, excitation, scale_range, resolution, intervals
 
 
 def last_of(interval, last):
@@ -97,7 +97,7 @@ def last_of(interval, last):
 
 def test_brackets_have_the_boundary_between_them(case):
     """Of the search's own outcomes, and of single histories to their tolerance."""
-    block, excitation, (first, last), resolution, found = case
+    block, excitation, (first, last), resolution, intervals = case
     subjects = subjects_of([block], excitation, (first, last))
     size = max(abs(first), abs(last))
 
@@ -105,7 +105,7 @@ def test_brackets_have_the_boundary_between_them(case):
         _, overturned, impacts = outcomes_by(subjects, np.zeros(1, int), np.array([scale]))
         return impacts[0] if overturned[0] else SURVIVES
 
-    for interval in found:
+    for interval in intervals:
         inside, outside = (interval.lower[1], last_of(interval, last)[0]), [interval.lower[0]]
         outside += [interval.upper[1]] if interval.upper else []
         assert {label(scale) for scale in inside} == {interval.impacts}
@@ -116,13 +116,13 @@ def test_brackets_have_the_boundary_between_them(case):
             if inside[0] < scale < inside[1]:
                 end = th.judge(block, excitation.scaled(scale))
                 assert (end.overturned, end.impacts) == (True, interval.impacts)
-    narrow = [i.lower[1] - i.lower[0] <= 1.01e-10 * size for i in found]
-    assert sum(narrow) >= 0.5 * len(found)
+    narrow = [i.lower[1] - i.lower[0] <= 1.01e-10 * size for i in intervals]
+    assert sum(narrow) >= 0.5 * len(intervals)
 
 
 def test_no_interval_wider_than_the_resolution_is_missed(case):
     """A scan five times as fine: runs of like outcome wider than the resolution are all there."""
-    block, excitation, (first, last), resolution, found = case
+    block, excitation, (first, last), resolution, intervals = case
     fine = np.linspace(first, last, 5 * math.ceil((last - first) / resolution) + 1)
     ends = [th.judge(block, excitation.scaled(scale)) for scale in fine]
     labels = [end.impacts if end.overturned else SURVIVES for end in ends]
@@ -132,7 +132,7 @@ def test_no_interval_wider_than_the_resolution_is_missed(case):
     assert len(wide) >= 2
     for a, b in wide:
         low, high = fine[a], fine[b]
-        middle = [i for i in found if i.lower[0] < high and last_of(i, math.inf)[1] > low]
+        middle = [i for i in intervals if i.lower[0] < high and last_of(i, math.inf)[1] > low]
         if labels[a] == SURVIVES:  # only what is narrower than the resolution is wrongly labelled
             for i in middle:
                 assert min(last_of(i, last)[0], high) - max(i.lower[1], low) <= 1e-9
@@ -148,8 +148,7 @@ def test_bay_just_wider_than_the_resolution_is_found_wherever_the_range_begins()
         ends = (1.0 + shift, 10.0 - shift)
         first, second = th.overturning_intervals(LINEAR, SINE, ends, resolution=0.849)
         assert (first.impacts, second.impacts, second.upper) == (1, 0, None)
-        found = (first.upper[0], second.lower[1])
-        assert found == pytest.approx((6.3181, 7.16813), abs=1e-3)
+        assert (first.upper[0], second.lower[1]) == pytest.approx((6.3181, 7.16813), abs=1e-3)
 
 
 @pytest.mark.parametrize(
@@ -168,9 +167,9 @@ def test_bay_just_wider_than_the_resolution_is_found_wherever_the_range_begins()
     ],
 )
 def test_bad_search_is_refused_by_name_and_value(change, says):
-    given = {"structure": LINEAR, "excitation": SINE, "scale_range": (0.0, 1.0), "resolution": 0.1}
+    valid = {"structure": LINEAR, "excitation": SINE, "scale_range": (0.0, 1.0), "resolution": 0.1}
     with pytest.raises(ValueError, match=says):
-        th.overturning_intervals(**(given | change))
+        th.overturning_intervals(**(valid | change))
 
 
 def test_intervals_of_many_are_those_of_each_alone():
@@ -193,13 +192,13 @@ def test_intervals_of_many_are_those_of_each_alone():
 
 def test_factors_on_several_structures_have_the_outcomes_of_judge():
     several, factors = [COLUMN, BLOCK, LINEAR], np.linspace(0.2, 3.0, 23)
-    found = th.overturned_by(several, SHAKING, factors)
-    for structure, row in zip(several, found, strict=True):
+    outcomes = th.overturned_by(several, SHAKING, factors)
+    for structure, row in zip(several, outcomes, strict=True):
         alone = [th.judge(structure, SHAKING.scaled(factor)).overturned for factor in factors]
         assert row.tolist() == alone == th.overturned_by(structure, SHAKING, factors).tolist()
-    assert 0.2 < found.mean() < 0.8
+    assert 0.2 < outcomes.mean() < 0.8
     peaks = th.peak_rotations(several, SHAKING, factors)
-    for structure, row, overturned in zip(several, peaks, found, strict=True):
+    for structure, row, overturned in zip(several, peaks, outcomes, strict=True):
         np.testing.assert_array_equal(np.isnan(row), overturned)
         np.testing.assert_array_equal(row, th.peak_rotations(structure, SHAKING, factors))
         expected = [th.judge(structure, SHAKING.scaled(factor)).peak for factor in factors]
@@ -207,7 +206,7 @@ def test_factors_on_several_structures_have_the_outcomes_of_judge():
 
 
 @pytest.mark.parametrize(
-    ("given", "says"),
+    ("arguments", "says"),
     [
         ((BLOCK, SHAKING, [1.0, -1.0]), "factors goes down to -1"),
         ((BLOCK, SHAKING, []), "factors has shape"),
@@ -215,9 +214,9 @@ def test_factors_on_several_structures_have_the_outcomes_of_judge():
         (([], SHAKING, [1.0]), "structure is an empty list; expected one or more"),
     ],
 )
-def test_bad_factors_are_refused_with_what_was_expected(given, says):
+def test_bad_factors_are_refused_with_what_was_expected(arguments, says):
     with pytest.raises(ValueError, match=says):
-        th.overturned_by(*given)
+        th.overturned_by(*arguments)
 
 
 MINE = th.Record(0.05, 0.3 * np.sin(np.linspace(0, 18, 90)) * np.hanning(90), "mine")
@@ -237,38 +236,38 @@ SIMILAR = {
 @pytest.mark.parametrize("similar", SIMILAR.values(), ids=SIMILAR)
 def test_each_cell_is_the_history_of_a_similar_structure(similar):
     factors = np.array([0.3, 1.0, 2.0, 7.0])
-    found = th.overturning_map(similar(1.0), MINE, factors * COLUMN.size, PEAKS)
-    assert found.sizes == {"size": 4, "peak_acceleration": PEAKS.size}
+    outcomes = th.overturning_map(similar(1.0), MINE, factors * COLUMN.size, PEAKS)
+    assert outcomes.sizes == {"size": 4, "peak_acceleration": PEAKS.size}
     for i, k in enumerate(factors):
         structure = similar(k)
         p = structure.block().frequency_parameter
-        assert float(found.frequency_parameter[i]) == pytest.approx(p, rel=1e-14)
+        assert float(outcomes.frequency_parameter[i]) == pytest.approx(p, rel=1e-14)
         for j, peak in enumerate(PEAKS):
-            cell = found.isel(size=i, peak_acceleration=j)
+            cell = outcomes.isel(size=i, peak_acceleration=j)
             end = th.judge(structure, MINE.scaled(peak / MINE.peak_acceleration))
             assert (bool(cell.overturned), int(cell.impacts)) == (end.overturned, end.impacts)
             close = 1e-8 * structure.block().slenderness
             np.testing.assert_allclose(float(cell.peak_rotation), end.peak, rtol=0, atol=close)
-    assert found.overturned.any()
-    assert (found.overturned == np.isnan(found.peak_rotation)).all()
-    assert not found.peak_rotation[:, 0].any()
+    assert outcomes.overturned.any()
+    assert (outcomes.overturned == np.isnan(outcomes.peak_rotation)).all()
+    assert not outcomes.peak_rotation[:, 0].any()
 
 
 @pytest.mark.parametrize("block", [BLOCK, BLOCK.linear()], ids=["exact", "linear"])
 def test_cells_of_a_block_are_those_of_judge_and_of_scipy(block):
     sizes = [0.4, 1.0, 3.0, 9.0]
-    found = th.overturning_map(block, MINE, sizes, PEAKS[2:])
-    for i, p in enumerate(found.frequency_parameter.values):
+    outcomes = th.overturning_map(block, MINE, sizes, PEAKS[2:])
+    for i, p in enumerate(outcomes.frequency_parameter.values):
         assert p == pytest.approx(math.sqrt(3 * th.STANDARD_GRAVITY / (4 * sizes[i])), rel=1e-14)
         other = th.RockingBlock(float(p), block.slenderness, block.restitution, block.linearised)
         for j, peak in enumerate(PEAKS[2:]):
             motion = MINE.scaled(peak / MINE.peak_acceleration)
-            here = (bool(found.overturned[i, j]), int(found.impacts[i, j]))
+            here = (bool(outcomes.overturned[i, j]), int(outcomes.impacts[i, j]))
             for judged in (th.judge, reference.judge):
                 end = judged(other, motion)
                 assert (end.overturned, end.impacts) == here
-    assert found.attrs["linearised"] == block.linearised
-    assert 3 < found.overturned.sum() < found.overturned.size - 3
+    assert outcomes.attrs["linearised"] == block.linearised
+    assert 3 < outcomes.overturned.sum() < outcomes.overturned.size - 3
 
 
 @pytest.mark.parametrize(
@@ -281,6 +280,6 @@ def test_cells_of_a_block_are_those_of_judge_and_of_scipy(block):
     ],
 )
 def test_bad_map_of_a_record_is_refused_by_name_and_value(changes, says):
-    given = {"structure": COLUMN, "motion": MINE, "scales": [1.0], "amplitudes": [0.3]} | changes
+    valid = {"structure": COLUMN, "motion": MINE, "scales": [1.0], "amplitudes": [0.3]}
     with pytest.raises(ValueError, match=says):
-        th.overturning_map(**given)
+        th.overturning_map(**valid | changes)

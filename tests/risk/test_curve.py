@@ -21,7 +21,7 @@ def log_likelihood(terms, levels, shares):
 
 
 def by_direct_maximisation(levels, shares, number):
-    """The second route: the likelihood itself, by the simplex of Nelder and Mead, then BFGS."""
+    """The likelihood itself is maximised by the simplex of Nelder and Mead, then BFGS."""
 
     def less(terms):
         return -log_likelihood(terms, levels, shares)
@@ -107,11 +107,11 @@ def test_rise_past_a_share_is_where_the_curve_crosses_it_upwards(terms, share):
     x = np.linspace(-12.0, 12.0, 2_400_001)
     over = ndtr(np.polynomial.polynomial.polyval(x, terms)) > share
     rises = np.flatnonzero(~over[:-1] & over[1:])
-    found = rises_past(share, np.array(terms))
+    intensity = rises_past(share, np.array(terms))
     if rises.size:
-        assert np.log(found) == pytest.approx(x[rises[0]], abs=2e-5)
+        assert np.log(intensity) == pytest.approx(x[rises[0]], abs=2e-5)
     else:
-        assert math.isnan(found)
+        assert math.isnan(intensity)
 
 
 @pytest.mark.parametrize(

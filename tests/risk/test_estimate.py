@@ -33,19 +33,19 @@ MOTIONS = [wave(number) for number in range(8)]
 
 
 @pytest.fixture(scope="module")
-def found():
+def ensemble():
     return th.fragility(STRUCTURES, MOTIONS, LEVELS, resamples=200)
 
 
-def test_outcomes_are_those_of_scipy(found):
-    """The second route: solve_ivp judges the scaled record of some cells."""
+def test_outcomes_are_those_of_scipy(ensemble):
+    """The second solver judges the scaled record of some cells."""
     compared = set()
     for motion, place, level in [(0, 0, 2), (1, 1, 3), (2, 2, 1), (3, 3, 4), (4, 4, 2), (5, 0, 3)]:
         record = MOTIONS[motion].scaled(LEVELS[level] / MOTIONS[motion].peak_velocity)
         assert record.peak_velocity == pytest.approx(LEVELS[level])
         structure = list(STRUCTURES.values())[place]
         other = reference.judge(structure, record).overturned
-        assert found.outcomes[motion, place, level] == other
+        assert ensemble.outcomes[motion, place, level] == other
         compared.add(bool(other))
     assert compared == {False, True}
 
@@ -68,7 +68,7 @@ UPS = [th.Record(0.013, 0.4 * wave(number + 20).acceleration) for number in rang
 
 
 @pytest.mark.parametrize("scale_vertical", [True, False])
-def test_vertical_component_of_each_motion_acts_with_it(found, scale_vertical):
+def test_vertical_component_of_each_motion_acts_with_it(ensemble, scale_vertical):
     both = {"vertical": UPS, "scale_vertical": scale_vertical}
     levels = LEVELS[:4]
     outcomes = th.fragility(STRUCTURES, MOTIONS, levels, resamples=100, **both).outcomes
@@ -77,12 +77,12 @@ def test_vertical_component_of_each_motion_acts_with_it(found, scale_vertical):
         lifts = factors if scale_vertical else np.ones(4)
         for place, structure in enumerate(STRUCTURES.values()):
             for level, (factor, lift) in enumerate(zip(factors, lifts, strict=True)):
-                given = (structure, motion.scaled(factor))
+                arguments = (structure, motion.scaled(factor))
                 judges = [th.judge, reference.judge] if place == number == 1 else [th.judge]
-                for route in judges:
-                    truth = route(*given, vertical=up.scaled(lift)).overturned
+                for judge in judges:
+                    truth = judge(*arguments, vertical=up.scaled(lift)).overturned
                     assert outcomes[number, place, level] == truth
-    assert (outcomes != found.outcomes[:, :, :4]).sum() > 5
+    assert (outcomes != ensemble.outcomes[:, :, :4]).sum() > 5
 
 
 def test_measure_may_be_a_function_and_a_motion_a_pulse():
@@ -99,21 +99,21 @@ def test_measure_may_be_a_function_and_a_motion_a_pulse():
     assert "units" not in result.curves.level.attrs
 
 
-def test_result_is_labelled(found):
-    assert isinstance(found, th.Fragility)
-    curves, pairs = found.curves, found.pairs
+def test_result_is_labelled(ensemble):
+    assert isinstance(ensemble, th.Fragility)
+    curves, pairs = ensemble.curves, ensemble.pairs
     names = list(STRUCTURES)
     assert curves.structure.to_numpy().tolist() == names
     assert curves.sizes == {"structure": 5, "level": 5, "term": 3}
     assert pairs.sizes == {"pair": 10, "level": 5}
     np.testing.assert_array_equal(curves.level, LEVELS)
-    np.testing.assert_array_equal(curves.overturned, found.outcomes.sum(axis=0))
+    np.testing.assert_array_equal(curves.overturned, ensemble.outcomes.sum(axis=0))
     for pair in range(10):
         first, second = (names.index(pairs[key][pair]) for key in ("first", "second"))
         less = curves.probability[first] - curves.probability[second]
         assert pairs.less[pair].to_numpy() == pytest.approx(less.to_numpy(), abs=1e-15)
-    assert (found.confidence, found.measure) == (0.95, "PGV")
-    assert found.sampling == "sampling of 8 motions"
+    assert (ensemble.confidence, ensemble.measure) == (0.95, "PGV")
+    assert ensemble.sampling == "sampling of 8 motions"
 
 
 def test_scatter_between_groups_is_not_in_the_result():
@@ -128,10 +128,10 @@ def test_scatter_between_groups_is_not_in_the_result():
     assert (none.less_low.item(), none.less_high.item()) == (0.5, 0.5)
 
 
-def test_same_seed_same_result(found):
+def test_same_seed_same_result(ensemble):
     again = th.fragility(STRUCTURES, MOTIONS, LEVELS, resamples=200)
-    assert again.curves.identical(found.curves)
-    assert again.pairs.identical(found.pairs)
+    assert again.curves.identical(ensemble.curves)
+    assert again.pairs.identical(ensemble.pairs)
 
 
 def test_text_has_medians_and_gains():
@@ -177,7 +177,7 @@ def test_bad_argument_is_named_with_its_value(name, value, message):
         fragility(**{**VALID, name: value})
 
 
-def test_limit_of_rotation_is_exceeded_where_the_peak_is_larger_or_overturns(found):
+def test_limit_of_rotation_is_exceeded_where_the_peak_is_larger_or_overturns(ensemble):
     limit = 0.4 * PIER.slenderness
     result = th.fragility(STRUCTURES, MOTIONS, LEVELS, rotation_limit=limit, resamples=100)
     for number, motion in enumerate(MOTIONS[:3]):
@@ -186,8 +186,8 @@ def test_limit_of_rotation_is_exceeded_where_the_peak_is_larger_or_overturns(fou
             ends = [th.judge(structure, one) for one in scaled]
             exceeded = [end.overturned or end.peak > limit for end in ends]
             assert result.outcomes[number, place].tolist() == exceeded
-    assert (result.outcomes >= found.outcomes).all()
-    assert result.outcomes.sum() > found.outcomes.sum() + 10
-    assert (result.rotation_limit, found.rotation_limit) == (limit, None)
+    assert (result.outcomes >= ensemble.outcomes).all()
+    assert result.outcomes.sum() > ensemble.outcomes.sum() + 10
+    assert (result.rotation_limit, ensemble.rotation_limit) == (limit, None)
     with pytest.raises(ValueError, match="rotation_limit is 0; expected more than zero"):
         th.fragility(STRUCTURES, MOTIONS, LEVELS, rotation_limit=0.0)

@@ -32,26 +32,26 @@ def test_equal_counts_are_equal():
 def test_groups_are_resampled_independently_of_each_other():
     """If both drew the same, their shares would vary together: the variance would be doubled."""
     fell, groups = np.tile([1.0, 0.0], 200), ["a"] * 200 + ["b"] * 200
-    drawn = means_within(fell, groups, 4000, 1)[1:]
-    assert drawn.std() == pytest.approx(np.sqrt(0.25 / 400), rel=0.05)
+    means = means_within(fell, groups, 4000, 1)[1:]
+    assert means.std() == pytest.approx(np.sqrt(0.25 / 400), rel=0.05)
 
 
 def test_group_in_blocks_scatters_as_a_whole(monkeypatch):
     monkeypatch.setattr(resampling, "MOTIONS_PER_BLOCK", 30)
     fell, groups = np.arange(200) % 2, ["a"] * 100 + ["b"] * 100
-    drawn = means_within(fell, groups, 4000, 1)
-    assert drawn[0] == pytest.approx(0.5)
-    assert drawn[1:].std() == pytest.approx(np.sqrt(0.25 / 200), rel=0.05)
+    means = means_within(fell, groups, 4000, 1)
+    assert means[0] == pytest.approx(0.5)
+    assert means[1:].std() == pytest.approx(np.sqrt(0.25 / 200), rel=0.05)
 
 
 def test_paired_interval_is_that_of_scipy():
-    """The second route: SciPy draws motions, and leaves the two structures of a motion together."""
+    """SciPy draws motions, and leaves the two structures of a motion together."""
     random = np.random.default_rng(8)
     first = random.random(60) < 0.5
     second = np.where(random.random(60) < 0.8, first, random.random(60) < 0.3)
     both = np.stack([first, second], axis=1).astype(float)
-    drawn = means_within(both, [None] * 60, 20000, 1)
-    value, *ends = interval(drawn[:, 0] - drawn[:, 1], 0.95)
+    means = means_within(both, [None] * 60, 20000, 1)
+    value, *ends = interval(means[:, 0] - means[:, 1], 0.95)
     assert value == pytest.approx(first.mean() - second.mean())
     other = bootstrap(
         both.T,
@@ -64,15 +64,15 @@ def test_paired_interval_is_that_of_scipy():
         rng=np.random.default_rng(2),
     )
     assert ends == pytest.approx(list(other.confidence_interval), abs=1.01 / 60)  # of one motion
-    assert drawn[1:].std(axis=0) == pytest.approx(both.std(axis=0) / np.sqrt(60), rel=0.03)
-    assert (drawn[1:, 0] - drawn[1:, 1]).std() == pytest.approx(other.standard_error, rel=0.03)
+    assert means[1:].std(axis=0) == pytest.approx(both.std(axis=0) / np.sqrt(60), rel=0.03)
+    assert (means[1:, 0] - means[1:, 1]).std() == pytest.approx(other.standard_error, rel=0.03)
 
 
 def test_interval_within_groups_is_that_of_scipy():
     random = np.random.default_rng(9)
     parts = [random.random(25) < 0.1, random.random(40) < 0.7, random.random(35) < 0.95]
     fell, groups = np.concatenate(parts).astype(float), np.repeat(["a", "b", "c"], [25, 40, 35])
-    drawn = means_within(fell, groups.tolist(), 20000, 1)
+    means = means_within(fell, groups.tolist(), 20000, 1)
     other = bootstrap(
         [part.astype(float) for part in parts],
         lambda *each, axis: sum(one.sum(axis=axis) for one in each) / 100.0,
@@ -82,8 +82,8 @@ def test_interval_within_groups_is_that_of_scipy():
         method="percentile",
         rng=np.random.default_rng(2),
     )
-    assert interval(drawn, 0.9)[1:] == pytest.approx(list(other.confidence_interval), abs=0.0101)
-    assert drawn[1:].std() == pytest.approx(other.standard_error, rel=0.03)
+    assert interval(means, 0.9)[1:] == pytest.approx(list(other.confidence_interval), abs=0.0101)
+    assert means[1:].std() == pytest.approx(other.standard_error, rel=0.03)
 
 
 def test_resamples_without_a_value_count_at_both_ends():
@@ -114,12 +114,12 @@ def outcomes_of(capacities, levels=LEVELS):
 
 def tables(capacities, places=((0, 1),), resamples=400, levels=LEVELS):
     fell = outcomes_of(capacities, levels)
-    drawn = means_within(fell, [None] * len(fell), resamples, 1)
+    means = means_within(fell, [None] * len(fell), resamples, 1)
     if len(fell) == 1:
-        drawn[1:] = np.nan
-    terms = fit(levels, drawn, skewed=False)
-    curves = curve_table(fell.sum(axis=0), len(fell), levels, drawn, terms, 0.95)
-    return curves, pair_table(fell, levels, drawn, terms, places, 0.95)
+        means[1:] = np.nan
+    terms = fit(levels, means, skewed=False)
+    curves = curve_table(fell.sum(axis=0), len(fell), levels, means, terms, 0.95)
+    return curves, pair_table(fell, levels, means, terms, places, 0.95)
 
 
 def lognormal(motions, seed, *factors):
@@ -155,8 +155,8 @@ def test_exact_interval_covers_probabilities_that_differ_between_groups():
 
 
 def test_sign_test_is_exact():
-    found = sign_test(np.array([[5, 0], [4, 3]]), np.array([[0, 0], [1, 3]]))
-    assert found == pytest.approx(np.array([[2 / 32, 1.0], [12 / 32, 1.0]]))
+    p_values = sign_test(np.array([[5, 0], [4, 3]]), np.array([[0, 0], [1, 3]]))
+    assert p_values == pytest.approx(np.array([[2 / 32, 1.0], [12 / 32, 1.0]]))
 
 
 @pytest.mark.parametrize(("motions", "median", "dispersion"), [(7, 0.11, 0.32), (40, 0.08, 0.13)])
