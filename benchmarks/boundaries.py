@@ -29,10 +29,10 @@ from topheavy import (
     read_record,
     simulate,
 )
-from topheavy.ground.shapes import ENDING
+from topheavy.ground.shapes import FINITE_SHAPES
 
 RECORDS = Path(__file__).parent.parent / "data" / "records"
-SHAPES = sorted(ENDING)
+SHAPES = sorted(FINITE_SHAPES)
 #: Relative distance from a pulse's boundary beyond which all calls have to agree.
 PULSE_MARGIN = 1e-12
 #: Such calls are made beside a boundary, at these relative distances.

@@ -31,7 +31,7 @@ from topheavy.bodies import free_rocking
 from topheavy.bodies.structures import RockingBlock, Structure, solitary_size
 from topheavy.ground.pulses import Pulse
 from topheavy.ground.records import Record
-from topheavy.ground.shapes import ENDING
+from topheavy.ground.shapes import FINITE_SHAPES
 from topheavy.second import reference
 
 #: Cases of a property in its turn, s of the processor for one, and the first two of all turns.
@@ -96,7 +96,7 @@ def motions(draw: st.DrawFn, structure: Structure, most: int = 40) -> Pulse | Re
     beside = [math.nextafter(1.0, 2.0), math.nextafter(1.0, 0.0), 1.0 + 1e-9, 1.0]
     size = level * draw(edged(0.0, 12.0, *beside)) * draw(st.sampled_from([-1.0, 1.0]))
     if draw(st.booleans()):
-        shape = draw(st.sampled_from(sorted(ENDING)))
+        shape = draw(st.sampled_from(sorted(FINITE_SHAPES)))
         return th.Pulse(shape, size, p * draw(edged(0.2, 30.0, 1.0)))
     samples = st.one_of(st.floats(-1.0, 1.0), st.sampled_from([0.0, 1.0, 1.0, -1.0, 0.5]))
     values = draw(st.lists(samples, min_size=2, max_size=most))

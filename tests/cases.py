@@ -9,7 +9,7 @@ import pytest
 
 import topheavy as th
 from steps.shared.linear import simulate_linear_exact as closed
-from topheavy.ground.shapes import ELEMENTARY, ENDING
+from topheavy.ground.shapes import ELEMENTARY, FINITE_SHAPES
 from topheavy.kernel.forcing import NO_RECORD
 from topheavy.kernel.grid import outcomes_of
 from topheavy.second import reference
@@ -23,7 +23,7 @@ BLOCK = th.RockingBlock(2.0, 0.25, 0.9)
 SIZES = {"half_width": 0.5, "half_height": 3.0}
 BOTH = pytest.mark.parametrize("block", [BLOCK, BLOCK.linear()], ids=["exact", "linear"])
 SIDES = pytest.mark.parametrize("side", [1.0, -1.0])
-CLOSED_PULSES = [shape for shape in ELEMENTARY if shape in ENDING]
+CLOSED_PULSES = [shape for shape in ELEMENTARY if shape in FINITE_SHAPES]
 
 NAMES = {th.simulate: "Taylor", reference.simulate: "SciPy", closed: "closed"}
 CLOSE = {th.simulate: 1e-8, reference.simulate: 1e-8, closed: 1e-13}

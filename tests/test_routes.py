@@ -13,7 +13,7 @@ from steps.shared.linear import simulate_linear_exact as closed
 from tests.cases import BLOCK, RECORDS
 from topheavy.bodies.free_rocking import barrier, energy
 from topheavy.checks import MAX_ACCELERATION
-from topheavy.ground.shapes import ELEMENTARY, ENDING, PULSE_SHAPES
+from topheavy.ground.shapes import ELEMENTARY, FINITE_SHAPES, PULSE_SHAPES
 from topheavy.second import reference
 
 few = settings(max_examples=15, deadline=None, derandomize=True, database=None)
@@ -36,7 +36,7 @@ def shaken(draw, records=True):
         return block, th.Record(step / p, strength * level * samples, unit="g")
     strength = draw(st.floats(1.02, 5.0)) * draw(st.sampled_from([-1.0, 1.0]))
     ratio = draw(st.floats(2.0, 10.0))
-    return block, th.Pulse(draw(st.sampled_from(ENDING)), strength * level, ratio * p)
+    return block, th.Pulse(draw(st.sampled_from(FINITE_SHAPES)), strength * level, ratio * p)
 
 
 def faster(factor, block, pulse):
@@ -78,7 +78,7 @@ def test_factor_on_both_frequencies_scales_time_alone(case, exact, factor):
 @given(
     *(st.floats(3.0, 25.0), st.floats(0.5, 20.0)),
     st.one_of(st.floats(0.0, 20.0), st.just(math.inf)),
-    *(st.sampled_from(ENDING), st.floats(1.02, 5.0), st.floats(2.0, 10.0), st.booleans()),
+    *(st.sampled_from(FINITE_SHAPES), st.floats(1.02, 5.0), st.floats(2.0, 10.0), st.booleans()),
 )
 def test_frame_is_the_column_of_its_equivalent_size(
     degrees, size, mass_ratio, shape, strength, ratio, linearised

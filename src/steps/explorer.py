@@ -25,7 +25,7 @@ from topheavy import (
     simulate,
 )
 from topheavy.bodies.structures import RockingBlock
-from topheavy.ground.shapes import ENDING, SHAPES
+from topheavy.ground.shapes import FINITE_SHAPES, SHAPES
 
 STYLES = ("uplot/uPlot.min.css", "style.css")
 UPLOT = "uplot/uPlot.iife.min.js"
@@ -119,7 +119,7 @@ def titles(motions: str) -> dict[str, str]:
             f"src/explorer/motions.js and ground/shapes.py differ by {', '.join(sorted(other))}; "
             "expected a wave for every shape, and a shape for every wave"
         )
-    return {name: SHAPES[name].title for name in dict.fromkeys((*ENDING, *SHAPES))}
+    return {name: SHAPES[name].title for name in dict.fromkeys((*FINITE_SHAPES, *SHAPES))}
 
 
 def page(folder: Path, records: Mapping[str, Record]) -> str:

@@ -8,10 +8,10 @@ import pytest
 
 import topheavy as th
 from steps.explorer import DEFAULTS, blocks, motion, options
-from topheavy.ground.shapes import ENDING
+from topheavy.ground.shapes import FINITE_SHAPES
 
 STATES = 700  # three structures each
-SHAPES = (*ENDING, "harmonic", "record")
+SHAPES = (*FINITE_SHAPES, "harmonic", "record")
 NEAR = 1e-6  # relative distance from a boundary, within which outcomes may differ
 CLOSE = 1e-5  # of α: how far peaks may differ
 SLIGHT = 1e-9  # a relative change of the motion that leaves a well-conditioned peak as it is

@@ -11,6 +11,7 @@ from numba import njit
 import topheavy.kernel
 from tests.cases import grid_of
 from topheavy import RockingBlock
+from topheavy.ground.shapes import FINITE_SHAPES
 from topheavy.kernel.forcing import (
     RECORD,
     SHAPES,
@@ -40,9 +41,6 @@ from topheavy.kernel.march import powers, short_series
 from topheavy.kernel.tail import safe_speed
 from topheavy.kernel.taylor import oscillator
 
-ENDING = sorted(set(SHAPES) - {"harmonic"})
-
-
 #: Peaks differ by so much of α, as both kernels leave out terms below the tolerance.
 CLOSE = 1e-8
 
@@ -57,7 +55,7 @@ def alone(block, shape, scales, amplitudes):
 
 @pytest.mark.parametrize("degrees", [3.0, 9.5, 20.0, 40.0])
 @pytest.mark.parametrize("linearised", [False, True], ids=["exact", "linearised"])
-@pytest.mark.parametrize("shape", ENDING)
+@pytest.mark.parametrize("shape", FINITE_SHAPES)
 def test_outcomes_and_impacts_are_those_of_the_scalar_kernel(shape, linearised, degrees):
     alpha, rng = math.radians(degrees), np.random.default_rng(round(degrees))
     for restitution in (1.0 - 1.5 * math.sin(alpha) ** 2, 0.5):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import topheavy as th
-from topheavy.ground.shapes import ENDING
+from topheavy.ground.shapes import FINITE_SHAPES
 from topheavy.outcomes.search import SURVIVES, intervals_of_many, outcomes_by, subjects_of
 from topheavy.second import reference
 
@@ -21,7 +21,7 @@ SHAKING = th.Record(0.02, 0.6 * np.sin(np.linspace(0.0, 40.0, 400)) * np.linspac
 
 
 @pytest.mark.parametrize("block", [BLOCK, BLOCK.linear()], ids=["exact", "linear"])
-@pytest.mark.parametrize("shape", ENDING)
+@pytest.mark.parametrize("shape", FINITE_SHAPES)
 def test_each_cell_of_a_map_is_a_history(block, shape):
     frequencies = [2.5, 6.0, 13.0]
     amplitudes = block.uplift_acceleration * np.array([0.0, 0.9999, 1.01, 1.4, 2.5, 4.0, 9.0])

@@ -10,7 +10,7 @@ import pytest
 
 import topheavy as th
 from tests.cases import BLOCK, COLUMN
-from topheavy.ground.shapes import ENDING
+from topheavy.ground.shapes import FINITE_SHAPES
 from topheavy.proven import certified, survives_below
 from topheavy.proven.checking import Check, check
 from topheavy.proven.question import question
@@ -35,7 +35,7 @@ def again(certificate):
 @pytest.mark.parametrize("structure", STRUCTURES, ids=repr)
 def test_both_sides_of_each_minimum_are_proven(structure):
     """The outcomes and impacts of the kernel, 1e-8 below and above the boundary it finds."""
-    for shape in ENDING:
+    for shape in FINITE_SHAPES:
         pulse = th.Pulse(shape, structure.block().uplift_acceleration, OMEGA)
         low, high = th.overturning_intervals(structure, pulse, (1.0, 60.0), resolution=0.02)[
             0
@@ -52,7 +52,7 @@ def test_both_sides_of_each_minimum_are_proven(structure):
 
 
 @pytest.mark.parametrize("block", [BLOCK, BLOCK.linear()], ids=["exact", "linear"])
-@pytest.mark.parametrize("shape", ENDING)
+@pytest.mark.parametrize("shape", FINITE_SHAPES)
 def test_outcomes_are_those_of_the_kernel(shape, block):
     seen = set()
     for scale, ratio in ((0.5, 1.0), (1.02, 3.3), (1.3, 6.1), (2.1, 1.0), (5.2, 3.3), (9.1, 6.1)):

@@ -1,4 +1,4 @@
-"""The response of a rocking block: what `simulate` returns."""
+"""The response of a rocking block, which `simulate` returns."""
 
 from __future__ import annotations
 

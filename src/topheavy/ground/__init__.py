@@ -1,1 +1,1 @@
-"""What shakes them: pulses, records and their reading."""
+"""Ground motions: pulses, records, and files of records."""

@@ -94,7 +94,7 @@ class Record(Excitation):
         k = np.abs(samples).argmax()  # of the largest, or the first NaN
         checks.acceleration(f"{_label(name)}: sample {k} of {samples.size}", samples[k])
         samples.setflags(write=False)
-        # A dataclass would take only an array: a field has one type, given and kept.
+        # Not the __init__ of a dataclass: it would accept arrays only, as the field is one.
         fields = {"time_step": step, "acceleration": samples, "name": name, "start": start}
         for field, value in fields.items():
             object.__setattr__(self, field, value)

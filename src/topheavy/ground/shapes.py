@@ -32,7 +32,7 @@ SHAPES = {
 PULSE_SHAPES = tuple(SHAPES)
 """The names that `Pulse` accepts."""
 
-ENDING = tuple(name for name, shape in SHAPES.items() if shape.half_periods < math.inf)
+FINITE_SHAPES = tuple(name for name, shape in SHAPES.items() if shape.half_periods < math.inf)
 """Shapes of pulses that end, which maps, searches and configs accept."""
 
 ELEMENTARY = tuple(name for name, shape in SHAPES.items() if shape.is_elementary)

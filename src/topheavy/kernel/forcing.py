@@ -313,7 +313,7 @@ def next_uplift(forcing, time, level):
 
 @compiled
 def _next_uplift_of_record(forcing, time, level):
-    """Do the same for a record: on either side the push ±a − G level is a straight line."""
+    """Return the same for a record: on either side the push ±a − G level is a straight line."""
     record, last = forcing.record, forcing.record.shape[1] - 1
     size, most = abs(forcing.amplitude), abs(forcing.vertical)
     k = piece_of(forcing, time)

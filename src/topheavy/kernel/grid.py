@@ -133,7 +133,7 @@ def _arguments(
 def _follow_cells(
     cells: Cells, results: Results, tolerance: float, in_full: bool, threads: int | None
 ) -> int:
-    """Let the threads do all cells, in batches; return the first cell given up, or −1."""
+    """Follow all cells in batches, in threads; return the first that was given up, or −1."""
     size, samples = cells.which.size, cells.record.shape[1]
     is_record = cells.shape == RECORD
 

@@ -81,7 +81,7 @@ class Course(NamedTuple):
 
 
 class Samples(NamedTuple):
-    """What a history fills.
+    """Arrays that a history fills.
 
     Attributes
     ----------
@@ -228,12 +228,12 @@ def follow(w, method, block, forcing, ratios, course, samples, is_judged):
         is_low = is_low and flight_peak <= lowest
         time = piece_end if step >= longest else state.time
         while sample < times.size and times[sample] <= time:
-            there = evaluate(w, method, block, start, times[sample] - start.time)
-            motion[0, sample], motion[1, sample] = side * there.rotation, side * there.velocity
+            sampled = evaluate(w, method, block, start, times[sample] - start.time)
+            motion[0, sample], motion[1, sample] = side * sampled.rotation, side * sampled.velocity
             sample += 1
         if sample < times.size and times[sample] == math.inf:
             motion[0, sample], motion[1, sample] = side * state.rotation, side * state.velocity
-        if is_ricker:  # over its many steps, what the series leave out of the push would add up
+        if is_ricker:  # over its many steps, the terms that its series leaves out would add up
             state = with_ground(block, state, time, ground(forcing, time))
         else:
             state = at_time(state, time)
@@ -270,7 +270,7 @@ def follow(w, method, block, forcing, ratios, course, samples, is_judged):
 
 @compiled
 def _leaves_wrongly(block, state, event, is_over, landings_left):
-    """Say whether a free step leads away from φ = α to the other side than was judged.
+    """Return whether a free step leads away from φ = α to the other side than was judged.
 
     A block that overturns moves outward for good once it has landed as often as it was to. Any
     other free motion passes α only inward.

@@ -38,7 +38,7 @@ MAX_SCANNED_PIECES = 256
 
 @compiled
 def comes_to_rest(block, forcing, state, peak):
-    """Say whether a block that has just landed is sure to come to rest.
+    """Return whether a block that has just landed is sure to come to rest.
 
     True if all bounces stay below `MIN_COUNTED_PEAK` α and below `peak`, the largest φ so far, and
     die out while |a| is below the uplift level. Let f = −s a range over [f₁, f₂] while they last.

@@ -27,7 +27,7 @@ TOLERANCE = 3e-10
 #: at an impact (√r → 1). If √r < 1, a train of bounces dies out: above the level it ends by a
 #: rotation, below by rest (`rest`), even if it is over before the clock ticks.
 MAX_STEPS = 200_000
-#: What ends a step.
+#: The events that end a step.
 NOTHING, LANDING, FLAT = range(3)
 #: Rows of the working array after those of `taylor`: the step polynomial and its derivative on
 #: [0, 1], their Bernstein coefficients, the roots found, and the stack of `bernstein.roots`.
@@ -44,7 +44,7 @@ def working_array():
 
 @compiled
 def is_certain_to_overturn(block, forcing, state):
-    """Say whether no forcing of the strength that is left can bring the block back.
+    """Return whether no forcing of the strength that is left can bring the block back.
 
     With |a| ≤ A G from now on, φ'' ≥ −G √(1 + A²) sin(φ* − φ) with φ* = α + atan A < π/2;
     linearised, φ'' ≥ −G (φ* − φ) with φ* = α + A. A block moving outward with φ' above the square

@@ -1,1 +1,1 @@
-"""What becomes of a structure by the kernel: histories, overturning maps, intervals, minima."""
+"""Outcomes of structures by the kernel: histories, overturning maps, intervals, minima."""

@@ -130,7 +130,7 @@ def rises_past(share: float, terms: Array) -> Array:
     a = a - ndtri(share)
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
         root = np.sqrt(b**2 - 4.0 * a * c)  # the slope at the crossing
-        # One of both forms of the same root: neither subtracts what is nearly equal.
+        # One of both forms of the same root: neither subtracts nearly equal numbers.
         crossing = np.exp(np.where(b >= 0.0, -2.0 * a / (b + root), (root - b) / (2.0 * c)))
     return np.where((root > 0.0) & np.isfinite(crossing) & (crossing > 0.0), crossing, math.nan)
 

@@ -1,4 +1,4 @@
-"""The life of a rocking motion: uplift, flights, impacts, rest, renewed uplift, and how it ends.
+"""A rocking motion from its start to its end: uplift, flights, impacts, rest, renewed uplift.
 
 A flight is the motion on one side, between uplift or impact and the next impact. The side s = sgn θ
 is a state of its own, since at θ = 0 the sign of θ says nothing; with it and φ = |θ| Eqs. (3) and
@@ -48,7 +48,7 @@ POISED_ROTATION = 1e-3
 
 
 class Event(Enum):
-    """What ended a flight."""
+    """The event that ended a flight."""
 
     IMPACT = auto()
     FALL = auto()  # it lies flat, or (linearised) is beyond return

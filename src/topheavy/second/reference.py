@@ -174,7 +174,7 @@ def _equation(block: RockingBlock, segment: Segment, side: int) -> Callable[[flo
 
 
 def _first_event(step: DenseOutput, course: Motion, may_land: bool) -> tuple[Event | None, float]:
-    """Return what happens first in this step and when, or None and the end of the step.
+    """Return the first event in this step and its time, or None and the end of the step.
 
     The peak of the motion is raised to the largest φ on the way there. In Chebyshev form a
     polynomial lies within c₀ ± Σ|cₖ|: mostly that alone proves that nothing happens. Otherwise the

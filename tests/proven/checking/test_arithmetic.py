@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from topheavy import Pulse
-from topheavy.ground.shapes import ENDING
+from topheavy.ground.shapes import FINITE_SHAPES
 from topheavy.proven.checking import Check, Refused, intervals
 from topheavy.proven.checking.bounds import SIDES, Bound
 from topheavy.proven.checking.course import Course
@@ -78,7 +78,7 @@ def ground(shape, amplitude="0.7", factor=("1", "1")):
     return Ground(pulse, factor, enclose(4))
 
 
-@pytest.mark.parametrize("shape", ENDING)
+@pytest.mark.parametrize("shape", FINITE_SHAPES)
 def test_ground_is_that_of_the_pulse_and_its_series_has_all_terms(shape):
     """A sum at a distance is the value there: a series cut short is off by a finite amount."""
     pulse, mine = Pulse(shape, 0.7, 3.0), ground(shape)
@@ -95,7 +95,7 @@ def test_ground_is_that_of_the_pulse_and_its_series_has_all_terms(shape):
         assert total.size().high < 2**20
 
 
-@pytest.mark.parametrize("shape", ENDING)
+@pytest.mark.parametrize("shape", FINITE_SHAPES)
 def test_ground_over_a_span_holds_all_its_values(shape):
     mine = ground(shape, "-0.7", ("0.5", "1.5"))
     span = enclose(1).hull(enclose(Fraction(14, 10)))

@@ -1,4 +1,4 @@
-"""Histories that the lanes take up, one after the other, and what follows from their physics.
+"""Histories that the lanes take up, one after the other, and their uplift and rest.
 
 When a block is lifted and whether it comes to rest is decided for each lane alone, by the functions
 of the scalar kernel.
@@ -57,7 +57,7 @@ class Cells(NamedTuple):
 
 
 class Results(NamedTuple):
-    """What becomes of each cell: peak rotation, whether it overturns, and impacts."""
+    """The results of the cells: peak rotation, whether it overturns, and impacts."""
 
     peaks: Array
     overturned: NDArray[np.bool_]
@@ -97,7 +97,7 @@ def lift_off(w, lane, block, forcing, time):
 
 @compiled
 def rests(w, lane, block, forcing):
-    """Say whether the block of a lane comes to rest after its impact."""
+    """Return whether the block of a lane comes to rest after its impact."""
     velocity, push, rate = w.velocity[0, lane], w.push[0, lane], w.push[1, lane]
     state = State(w.time[lane], w.side[lane], 0.0, velocity, 0.0, 1.0, push, rate, 1.0, 0.0)
     return comes_to_rest(block, forcing, state, w.peak[lane])

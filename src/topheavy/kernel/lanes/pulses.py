@@ -56,7 +56,7 @@ def is_certain(v, block, rotation, velocity):
 
 @compiled(forceinline=True)
 def renew_push(v, level, shape):
-    """Set the push to that of a Ricker wavelet: its series leave out what would add up."""
+    """Set the push to that of a Ricker wavelet: its series leave out terms that would add up."""
     kappa = v.frequency * KAPPA[shape]
     y = kappa * (v.time - v.centre)
     square = y * y

@@ -107,7 +107,7 @@ def march_lanes(v, block, record, tolerance, marching):
 
 @compiled
 def overturns(w, lane, block, forcing):
-    """Say whether the block of a lane is certain to overturn."""
+    """Return whether the block of a lane is certain to overturn."""
     rotation, velocity = w.rotation[0, lane], w.velocity[0, lane]
     state = State(w.time[lane], 1.0, rotation, velocity, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0)
     return is_certain_to_overturn(block, forcing, state)
@@ -115,7 +115,7 @@ def overturns(w, lane, block, forcing):
 
 @compiled(nogil=True)
 def record_outcomes(batch, alone, cells, span, tolerance, in_full, results):
-    """Do the same as `pulses.pulse_outcomes` under a record; `in_full` is that of `fill`."""
+    """Fill the results of cells under a record, as `pulse_outcomes`; `in_full` is as in `fill`."""
     w, record = batch[0], cells.record
     v, (cell, last) = fields(w), span
     last_time = record[TIME, record.shape[1] - 1]

@@ -31,7 +31,7 @@ from numba.extending import (
 
 from topheavy.kernel.compiled import compiled
 
-# What numba compiles for, and by which it keeps its cache: target, CPU, features.
+# Target, CPU and features that numba compiles for, and by which it keeps its cache.
 _TARGET, _, _LISTED = cpu_target.target_context.codegen().magic_tuple()
 _FEATURES = set(_LISTED.split(","))
 #: Whether the CPU multiplies and adds in one operation.
@@ -169,7 +169,7 @@ def square_root(typing, x):
 
 
 def _choice(comparison):
-    """Return what writes min or max, the second where one is NaN."""
+    """Return the writer of min or max, of the second where one is NaN."""
     return lambda builder, x, y: builder.select(builder.fcmp_ordered(comparison, x, y), x, y)
 
 

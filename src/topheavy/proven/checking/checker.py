@@ -15,15 +15,15 @@ from .intervals import Interval, Refused, arctangent, cosine, enclose, point, si
 from .model import Block, Ground
 from .schema import validated
 
-FINEST = 2**30  # parts of a span: a sign that is unproven on such a small part stays unproven
-HALVINGS = 6  # of either side of a bracket, towards the part where neither sign is proven
+MAX_PARTS = 2**30  # parts of a span: a sign that is unproven on such a small part stays unproven
+N_HALVINGS = 6  # of either side of a bracket, towards the part where neither sign is proven
 
 Test = Callable[[Interval], bool]
 
 
 def _holds(test: Test, low: int, high: int, reason: str) -> None:
     """Prove a statement on a span of numbers (in units of 2^−P) by cutting it."""
-    parts, finest = [(low, high)], max(1, (high - low) // FINEST)
+    parts, finest = [(low, high)], max(1, (high - low) // MAX_PARTS)
     while parts:
         low, high = parts.pop()
         if not test(Interval(low, high)):
@@ -59,7 +59,7 @@ def _reached(start: int, test: Test, sign: int) -> int:
 
 def _tightened(good: int, bad: int, test: Test) -> int:
     """Return a number closer to `bad` at which a statement is proven, as it is at `good`."""
-    for _ in range(HALVINGS):
+    for _ in range(N_HALVINGS):
         middle = (good + bad) // 2
         good, bad = (middle, bad) if test(point(middle)) else (good, middle)
     return good

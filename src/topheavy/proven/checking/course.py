@@ -79,7 +79,7 @@ class Course:
         return x, v, [(j + 1) * each for j, each in enumerate(push[1:])], lever
 
     def _gain(self, slopes: list[Interval], lever: list[Interval], k: int) -> Interval:
-        """Return coefficient k > 0 of what φ'²/2 + κ² (Φ + s a ψ) gains, at a rate of κ² s a' ψ."""
+        """Return coefficient k > 0 of the gain in φ'²/2 + κ² (Φ + s a ψ); its rate is κ² s a' ψ."""
         return self.kappa * dot(slopes, lever[k - 1 :: -1]) / k
 
     def quotient(self, zeros: int) -> tuple[list[Interval], list[Interval]]:

@@ -7,7 +7,7 @@ from . import intervals
 from .intervals import Interval, Refused, arctangent, cosine, dot, enclose, exponential, sine
 from .schema import HALF_TURNS
 
-LARGEST_WAVE = Fraction(10001, 10000)  # of |f|: the antisymmetric Ricker pulse peaks at 1.00002
+MAX_WAVE = Fraction(10001, 10000)  # of |f|: the antisymmetric Ricker pulse peaks at 1.00002
 
 
 class Block:
@@ -80,7 +80,7 @@ class Ground:
         first, second = (arctangent(enclose(Fraction(1, n))) for n in (5, 239))
         self.pi = 16 * first - 4 * second
         self.stop = self.pi * HALF_TURNS[self.shape]
-        self.largest = enclose(LARGEST_WAVE) * self.amplitude.size()
+        self.largest = enclose(MAX_WAVE) * self.amplitude.size()
 
     def series(self, sigma: Interval, h: Interval, terms: int) -> list[Interval]:
         """Return the coefficients of a(σ + hτ) by powers of τ."""

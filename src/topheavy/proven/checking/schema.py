@@ -16,7 +16,7 @@ DECIMAL = r"(?a)-?\d{1,400}(\.\d{1,400})?([eE][+-]?\d{1,3})?"
 NUMBER = DECIMAL + r"|-?\d{1,400}/[1-9]\d{0,400}"
 HALF_TURNS = {"half-sine": 1, "constant": 1, "one-sine": 2, "one-cosine": 2}
 HALF_TURNS |= {"ricker-symmetric": 9, "ricker-antisymmetric": 9}
-SMALLEST, LARGEST = Fraction(1, 10**9), 10**9
+MIN_SIZE, MAX_NUMBER = Fraction(1, 10**9), 10**9
 MAX_EVENTS = 20_000
 
 
@@ -24,7 +24,7 @@ def _refuse(where: str, value: Any, expected: str) -> None:
     raise Refused(f"{where} is {repr(value)[:60]}; expected {expected}")
 
 
-def number(low: Any = -LARGEST, high: Any = LARGEST, form: str = NUMBER) -> Test:
+def number(low: Any = -MAX_NUMBER, high: Any = MAX_NUMBER, form: str = NUMBER) -> Test:
     pattern = re.compile(form)
 
     def test(where: str, value: Any) -> None:
@@ -104,13 +104,13 @@ def _fits(where: str, value: Any, form: Any) -> None:
         form(where, value)
 
 
-SIZE, PHASE, ANGLE = number(SMALLEST), number(0, 1000), number(-100, 100)
+SIZE, PHASE, ANGLE = number(MIN_SIZE), number(0, 1000), number(-100, 100)
 AMPLITUDE = number(form=DECIMAL)
 SIDES = {"half_width": SIZE, "half_height": SIZE, "gravity": SIZE}
 SIDES |= {"mass_ratio": either("infinite", number(0))}
 STRUCTURES = {
     "block": {
-        "slenderness": number(SMALLEST, Fraction(157, 100)),
+        "slenderness": number(MIN_SIZE, Fraction(157, 100)),
         "frequency_parameter": SIZE,
         "restitution": number(0, 1),
     },
