@@ -6,7 +6,6 @@ A change of one of them repeats the rule. A study is a folder in studies/, named
 
 import os
 import re
-import shlex
 import sys
 import time
 from glob import glob
@@ -20,9 +19,10 @@ from replication.config import *
 from replication.sections import Paper
 
 min_version("9.27")
+if re.search(r"[^\w@%+=:,./-]", sys.executable):
+    sys.exit(f"Snakemake cannot start {sys.executable}; expected a path without spaces")
 BEGUN = time.time()
 os.environ["RUN"] = str(os.getpid())  # a step whose run has ended writes nothing
-sys.executable = shlex.quote(sys.executable)  # Snakemake does not
 
 
 configfile: "config/config.yaml"

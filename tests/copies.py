@@ -27,12 +27,7 @@ def run(tree: Path, *command: str) -> tuple[int, str]:
 
 
 def snakemake(tree: Path, *words: str) -> tuple[int, str]:
-    """Run Snakemake in the copy, by a Python whose path has a space, too."""
-    venv = tree.parent / "a venv"
-    if not venv.exists():
-        venv.symlink_to(sys.prefix)
-    python = str(venv / Path(sys.executable).relative_to(sys.prefix))
-    return run(tree, python, "-m", "snakemake", "--cores", "1", *words)
+    return run(tree, sys.executable, "-m", "snakemake", "--cores", "1", *words)
 
 
 class Edits:
