@@ -20,7 +20,10 @@ from replication.sections import Paper
 
 min_version("9.27")
 if re.search(r"[^\w@%+=:,./-]", sys.executable):
-    sys.exit(f"Snakemake cannot start {sys.executable}; expected a path without spaces")
+    sys.exit(
+        f"Snakemake does not quote the path of its Python, {sys.executable}: move the folder, or the "
+        "environment, to a path without spaces"
+    )
 BEGUN = time.time()
 os.environ["RUN"] = str(os.getpid())  # a step whose run has ended writes nothing
 
