@@ -24,7 +24,7 @@ LABELS = {  # of a force, and the place beside its arrow's free end, in points
     "F_x2": ("$F_{x2}$", (9, 0)),
     "F_z1": ("$F_{z1}$", (0, -6)),
     "F_z2": ("$F_{z2}$", (0, -6)),
-    "inertia": (r"$m_\mathrm{b}(\ddot{u}_g+\ddot{u})$", (-21, 0)),
+    "inertia": (r"$m_\mathrm{b}(\ddot{u}_g+\ddot{u})$", (-58, 0)),
     "weight": (r"$m_\mathrm{b}(g+\ddot{v})$", (18, 4)),
 }
 

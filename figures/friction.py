@@ -22,7 +22,7 @@ def draw(friction_pulses):
         axis.set(xscale="log", xlim=ENDS, ylim=(0, 100), xlabel="Coefficient of friction, μ (–)")
         axis.set_xticks(ticks := (0.2, 0.3, 0.5, 0.7, 1), [f"{tick:g}" for tick in ticks])
         axis.set_xticks([], minor=True)
-    note(axes[0], r"$\tan\alpha$", (0.16, 93), ha="right", color=GREY)
+    note(axes[0], r"$\tan\alpha$", (0.158, 50), ha="center", rotation=90, color=GREY)
     axes[0].set_ylabel("Pulses without sliding (%)")
     axes[-1].legend(loc="lower right")
     letter(axes, [f"Bay of {bay:g} m" for bay in bays])
