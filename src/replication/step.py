@@ -94,6 +94,13 @@ def grid(spec: Mapping[str, float]) -> "np.ndarray":
     return np.linspace(spec["lowest"], spec["highest"], int(spec["points"]))
 
 
+def geometric(spec: Mapping[str, float]) -> "np.ndarray":
+    """Return the grid in equal ratios of a config entry with lowest, highest and points."""
+    import numpy as np
+
+    return np.geomspace(spec["lowest"], spec["highest"], int(spec["points"]))
+
+
 def stop(message: str) -> NoReturn:
     """End the step with a message and without a traceback."""
     raise SystemExit(message)

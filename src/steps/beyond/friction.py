@@ -5,7 +5,7 @@ from itertools import product
 import numpy as np
 import pandas as pd
 
-from replication.step import check, grid, run, truth
+from replication.step import check, geometric, grid, run, truth
 from steps.shared.histories import history
 from steps.shared.three_bodies import simulate_three_bodies
 from topheavy import Cap, Column, Pulse, RockingFrame, contact_forces, impact_impulses, simulate
@@ -26,7 +26,9 @@ def compute(settings, structures):
         survived = [
             row
             for place in product(
-                settings["shapes"], grid(settings["frequency_ratios"]), amplitudes(settings)
+                settings["shapes"],
+                grid(settings["frequency_ratios"]),
+                geometric(settings["amplitudes"]),
             )
             if (row := required(frame, cap, pulse(column, *place), settings))
         ]
@@ -35,12 +37,6 @@ def compute(settings, structures):
         rows += [{"bay": bay, "mass_ratio": gamma} | row for row in survived]
     table = pd.DataFrame(rows)
     return {"pulses": table, "by_mass": by_mass(table)}
-
-
-def amplitudes(settings):
-    """Return amplitudes over g tan α in equal ratios."""
-    spec = settings["amplitudes"]
-    return np.geomspace(spec["lowest"], spec["highest"], spec["points"])
 
 
 def pulse(column, shape, frequency_ratio, amplitude):

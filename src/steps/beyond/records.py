@@ -9,7 +9,7 @@ from itertools import combinations, product
 
 import numpy as np
 
-from replication.step import check, run, truth
+from replication.step import check, geometric, run, truth
 from steps.shared.second import NUDGE, check_by_scipy
 from topheavy import Column, RockingFrame, capacity, overturned_by, read_record
 
@@ -56,11 +56,6 @@ def capacities(spec, column, records):
             {"record": record.name, "mass_ratio": gamma, "capacity": peaks[0]}
             | {"least": min(peaks), "most": max(peaks)}
         )
-
-
-def geometric(spec):
-    """Return the grid of a config entry, in equal ratios."""
-    return np.geomspace(spec["lowest"], spec["highest"], spec["points"])
 
 
 def overturned(frame, record, factors, tightened):

@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from replication.step import geometric
 from steps.shared import filtered_noise, synthetic
 from topheavy import (
     STANDARD_GRAVITY,
@@ -99,7 +100,7 @@ def frames(settings: Settings, column: Column) -> Question:
     """Return the column (γ = 0), its frames and the column with a fixed mass, and velocities."""
     spec, gammas = settings["intensities"], [0.0, *settings["mass_ratios"]]
     unit = STANDARD_GRAVITY * column.uplift_acceleration / column.frequency_parameter  # m/s
-    grid = unit * np.geomspace(spec["lowest"], spec["highest"], spec["points"])
+    grid = unit * geometric(spec)
     blocks = [RockingFrame(column, gamma).block() for gamma in gammas]
     return Question([*blocks, compared(settings, column)[1]], grid)
 
