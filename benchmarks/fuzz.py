@@ -1,10 +1,10 @@
 """Search for inputs on which the solvers disagree.
 
 Hypothesis draws structures, motions and arguments with their edges: √r of 0 and 1, γ of 0 and ∞, no
-amplitude, the level of uplift to the last bit, plateaus, single samples. The lanes of the kernel,
-the scalar `simulate` and `judge`, SciPy (`reference`) and interval arithmetic have to agree on each
-outcome that slight changes of the motion leave as it is. An error may be the ArithmeticError of a
-history that bounces for too long.
+amplitude, the level of uplift to the last bit, plateaus, single samples. Maps and lists of factors,
+`simulate` and `judge`, SciPy (`reference`) and interval arithmetic have to agree on each outcome
+that slight changes of the motion leave as it is. An error may be the ArithmeticError of a history
+that bounces for too long.
 
     python benchmarks/fuzz.py [minutes, 1 unless given] [seed, of the clock unless given]
 
@@ -198,7 +198,7 @@ def histories(case: Any, data: st.DataObject) -> None:
 
 
 @over(st.lists(structures, min_size=1, max_size=4), st.data())
-def lanes(several: list[Any], data: st.DataObject) -> None:
+def grids(several: list[Any], data: st.DataObject) -> None:
     structure, motion, vertical = data.draw(shaken(st.just(several[0])))
     factors = data.draw(st.lists(edged(0.0, 1.0), min_size=1, max_size=12))
     above = {"vertical": vertical}

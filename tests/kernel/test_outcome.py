@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from topheavy import Pulse, Record, RockingBlock, judge, overturned_by, simulate
 from topheavy.bodies import free_rocking
-from topheavy.kernel import forcing, tail
+from topheavy.kernel import forcing, history
 from topheavy.kernel.forcing import NO_RECORD, Forcing, forcing_of, ground, next_uplift
 from topheavy.kernel.grid import outcome_of
 from topheavy.kernel.rest import MIN_COUNTED_PEAK, comes_to_rest
@@ -248,12 +248,12 @@ BOTH = pytest.mark.parametrize("block", [BLOCK, BLOCK.linear()], ids=["exact", "
 def test_beyond_alpha_is_not_overturned(block):
     there = oscillator(block)
     barrier = math.sqrt(-2 * free_rocking.surplus(there, 0.32, 0.0))
-    back = tail.free_rocking(there, 0.32, -1.001 * barrier)
+    back = history.free_rocking(there, 0.32, -1.001 * barrier)
     assert not back.overturned
     assert back.peak == 0.32
-    assert tail.free_rocking(there, 0.32, -0.999 * barrier).overturned
-    assert tail.free_rocking(there, 0.32, 0.0).overturned
-    assert tail.free_rocking(there, 0.32, 1e-3).overturned
+    assert history.free_rocking(there, 0.32, -0.999 * barrier).overturned
+    assert history.free_rocking(there, 0.32, 0.0).overturned
+    assert history.free_rocking(there, 0.32, 1e-3).overturned
 
 
 @few

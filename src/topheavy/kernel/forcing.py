@@ -89,13 +89,13 @@ class Forcing(NamedTuple):
     record: Array
 
 
-NO_RECORD = np.empty((10, 0))
+NO_RECORD = np.empty((9, 0))
 #: Pieces whose largest values are kept, so that a search for the next uplift can skip them.
 RUN_LENGTH = 32
 #: Rows of a record: a where a piece begins and where it ends; v there; the time at which it begins,
 #: over that between two samples; the largest |a| and the largest |v| from there on; those of each
-#: run; the sum of |a| over the pieces from there on (∞ with a vertical record).
-A_START, A_END, V_START, V_END, TIME, A_MAX, V_MAX, A_MAX_OF_RUN, V_MAX_OF_RUN, IMPULSE = range(10)
+#: run.
+A_START, A_END, V_START, V_END, TIME, A_MAX, V_MAX, A_MAX_OF_RUN, V_MAX_OF_RUN = range(9)
 
 
 @compiled
@@ -117,24 +117,22 @@ def prepare_record(samples: Array, vertical: Array | None = None, ratio: float =
 
     Returns
     -------
-    ndarray, shape (10, n)
+    ndarray, shape (9, n)
         A column for each piece, and one for the end of both. A record is zero after its end.
     """
     time = np.arange(samples.size, dtype=float)
     a_start, a_end = np.append(samples[:-1], 0.0), np.append(samples[1:], 0.0)
     v_start = v_end = np.zeros(time.size)
-    impulse = np.cumsum(0.5 * (np.abs(a_start) + np.abs(a_end))[::-1])[::-1]
     if vertical is not None:
         time = np.unique(np.concatenate([time, ratio * np.arange(vertical.size)]))
         # Samples that rounding alone keeps apart are one.
         time = time[np.append(True, np.diff(time) > SAME_TIME * time[-1])]
         a_start, a_end = _ends(time, samples, 1.0)
         v_start, v_end = _ends(time, vertical, ratio)
-        impulse = np.full(time.size, np.inf)
     a_max, a_max_of_run = _bounds(a_start, a_end)
     v_max, v_max_of_run = _bounds(v_start, v_end)
     ends = (a_start, a_end, v_start, v_end)
-    return np.stack([*ends, time, a_max, v_max, a_max_of_run, v_max_of_run, impulse])
+    return np.stack([*ends, time, a_max, v_max, a_max_of_run, v_max_of_run])
 
 
 def _ends(time: Array, record: Array, step: float) -> tuple[Array, Array]:

@@ -1,8 +1,7 @@
-"""Many rocking histories at once: outcomes of blocks under pulses of one shape, or one record.
+"""Many rocking histories: outcomes of blocks under pulses of one shape, or under one record.
 
-A scale is ω/p of a pulse, p Δt of a record. The histories run in the lanes of the CPU
-(`kernel.lanes`), on all cores; no result depends on how many lanes or cores there are, or on which
-histories run beside each other.
+A scale is ω/p of a pulse, p Δt of a record. Threads share the histories; no result depends on their
+number.
 """
 
 import math
@@ -10,12 +9,13 @@ import os
 from collections.abc import Sequence
 from functools import partial
 from itertools import pairwise
-from typing import Any
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from topheavy.bodies.free_rocking import Ending
+from topheavy.kernel.compiled import compiled
 from topheavy.kernel.forcing import NO_RECORD, RECORD, SHAPES, Array, Forcing, forcing_of
 from topheavy.kernel.history import (
     FROM_REST,
@@ -30,20 +30,41 @@ from topheavy.kernel.history import (
     is_straight,
 )
 from topheavy.kernel.interrupt import MIN_THREADED_SAMPLES, in_threads
-from topheavy.kernel.lanes.histories import Cells, Results
-from topheavy.kernel.lanes.pulses import POISED, pulse_outcomes
-from topheavy.kernel.lanes.records import record_outcomes
-from topheavy.kernel.lanes.steps import new_batch
-from topheavy.kernel.lanes.vectors import WIDTH
 from topheavy.kernel.step import MAX_STEPS, PULSE_ORDER, TOLERANCE, working_array
 from topheavy.kernel.taylor import Method, Oscillator
 
-#: Cells are split into at most so many batches of neighbours, which do much the same in all lanes.
-#: Threads take up the batches as they come free.
+#: Histories are split into at most so many batches, which threads take up as they come free.
 MAX_BATCHES = 64
-#: The least number of cells in a batch. Fewer would leave lanes idle at its end, or be done before
-#: a second thread has started.
-MIN_PULSES, MIN_FACTORS = 32 * WIDTH, 4 * WIDTH
+#: The least number of histories in a batch: fewer are over before a second thread has started.
+MIN_PULSES, MIN_FACTORS = 256, 32
+
+
+class Cells(NamedTuple):
+    """Arrays with a value for each history.
+
+    Attributes
+    ----------
+    block : array of int
+        Its row of the array of blocks.
+    scale, amplitude, vertical : array
+        ω/p or p Δt, amplitude or factor, and the factor on the vertical record.
+    order : array of int
+        The order of its series.
+    """
+
+    block: NDArray[np.int64]
+    scale: Array
+    amplitude: Array
+    vertical: Array
+    order: NDArray[np.int64]
+
+
+class Results(NamedTuple):
+    """Arrays with the peak rotation of each history, whether it overturns, and its impacts."""
+
+    peaks: Array
+    overturned: NDArray[np.bool_]
+    impacts: NDArray[np.int64]
 
 
 def record_order(step: float, tolerance: float = TOLERANCE) -> int:
@@ -64,7 +85,6 @@ def outcomes_of(
     *,
     lifts: Array | None = None,
     tolerance: float = TOLERANCE,
-    in_full: bool = True,
     threads: int | None = None,
 ) -> Results:
     """Return the outcomes of histories of several blocks, each with its scale and amplitude.
@@ -81,9 +101,6 @@ def outcomes_of(
         As `forcing.prepare_record` gives it.
     lifts : array, shape (n,), optional
         The factors on the vertical record; 0 unless given.
-    in_full : bool
-        If not, a history under a record ends once it is sure to survive (`tail.safe_speed`), and
-        its peak and impacts are those so far.
     threads : int, optional
         As `cores`, unless given.
 
@@ -92,67 +109,56 @@ def outcomes_of(
     ArithmeticError
         For a history that takes more than `step.MAX_STEPS` steps.
     """
-    results = _empty_results(which.size)
-    lifts = np.zeros(which.size) if lifts is None else lifts
-    linearised = np.array([block.linearised for block in blocks])[which]
-    rows = np.array([block[:5] for block in blocks])
-    for equation in (False, True):  # the lanes follow one equation at a time
-        (at,) = np.nonzero(linearised == equation)
-        if not at.size:
-            continue
-        # In C order, as numba would compile all anew for arrays that are not.
-        values: Any = [
-            np.ascontiguousarray(array[at]) for array in (which, scales, amplitudes, lifts)
-        ]
-        flat = blocks[which[at[0]]].flat
-        cells = Cells(shape, record, flat, equation, rows, *values)
-        subset = _empty_results(at.size)
-        unresolved = _follow_cells(cells, subset, tolerance, in_full, threads)
-        if unresolved >= 0:
-            raise _unresolved(*_arguments(blocks, cells, unresolved)[:4])
-        for cell in np.flatnonzero(subset.impacts == POISED):
-            end = outcome_of(*_arguments(blocks, cells, int(cell)), tolerance=tolerance)
-            subset.overturned[cell], subset.peaks[cell], subset.impacts[cell] = end
-        for array, part in zip(results, subset, strict=True):
-            array[at] = part
+    size = which.size
+    results = Results(np.empty(size), np.empty(size, bool), np.empty(size, np.int64))
+    orders = np.full(size, PULSE_ORDER)
+    if shape == RECORD:
+        steps, at = np.unique(scales, return_inverse=True)
+        orders = np.array([record_order(step, tolerance) for step in steps.tolist()])[at]
+    verticals = np.zeros(size) if lifts is None else lifts
+    # In C order, as numba would compile all anew for arrays that are not.
+    cells = Cells(*map(np.ascontiguousarray, (which, scales, amplitudes, verticals, orders)))
+    rows = np.array([tuple(map(float, block)) for block in blocks])
+
+    def judge_batch(first: int, last: int, w: Array) -> int:
+        return int(judge_cells(w, tolerance, rows, shape, record, cells, first, last, results))
+
+    batches = max(1, min(MAX_BATCHES, size // (MIN_FACTORS if shape == RECORD else MIN_PULSES)))
+    if batches == 1 and size * max(record.shape[1], 1) <= MIN_THREADED_SAMPLES:
+        unresolved = [judge_batch(0, size, working_array())]
+    else:
+        ends = [number * size // batches for number in range(batches + 1)]
+        calls = [partial(judge_batch, first, last) for first, last in pairwise(ends)]
+        unresolved = in_threads(calls, min(threads or cores(), batches))
+    for cell in unresolved:
+        if cell >= 0:
+            block, scale, amplitude = blocks[which[cell]], scales[cell], amplitudes[cell]
+            raise _unresolved(block, shape, float(scale), float(amplitude))
     return results
 
 
-def _empty_results(size: int) -> Results:
-    return Results(np.empty(size), np.empty(size, bool), np.empty(size, np.int64))
+@compiled(nogil=True)
+def judge_cells(w, tolerance, blocks, shape, record, cells, first, last, results):
+    """Fill the results from the first cell to the one before the last; stop where one is given up.
 
-
-def _arguments(
-    blocks: Sequence[Oscillator], cells: Cells, cell: int
-) -> tuple[Oscillator, int, float, float, Array]:
-    """Return the arguments of `outcome_of` for a cell."""
-    scale, amplitude = float(cells.scales[cell]), float(cells.amplitudes[cell])
-    return blocks[cells.which[cell]], cells.shape, scale, amplitude, cells.record
-
-
-def _follow_cells(
-    cells: Cells, results: Results, tolerance: float, in_full: bool, threads: int | None
-) -> int:
-    """Follow all cells in batches, in threads; return the first that was given up, or −1."""
-    size, samples = cells.which.size, cells.record.shape[1]
-    is_record = cells.shape == RECORD
-
-    def do(first: int, last: int, alone: Array) -> int:
-        if is_record:
-            how = (tolerance, in_full, results)
-            return int(record_outcomes(new_batch(), alone, cells, (first, last), *how))
-        return int(pulse_outcomes(new_batch(), alone, cells, (first, last), tolerance, results))
-
-    batches = max(1, min(MAX_BATCHES, size // (MIN_FACTORS if is_record else MIN_PULSES)))
-    if batches == 1 and size * max(samples, 1) <= MIN_THREADED_SAMPLES:
-        return do(0, size, working_array())
-    threads = threads or cores()
-    if threads == 1:
-        batches = 1  # so that no lane idles at the end of any but the last cells
-    ends = [number * size // batches for number in range(batches + 1)]
-    calls = [partial(do, first, last) for first, last in pairwise(ends)]
-    unresolved = in_threads(calls, min(threads, batches))
-    return min((cell for cell in unresolved if cell >= 0), default=-1)
+    Returns
+    -------
+    int
+        The cell that was given up, or −1.
+    """
+    for cell in range(first, last):
+        row = blocks[cells.block[cell]]
+        block = Oscillator(row[0], row[1], row[2], row[3], row[4], row[5], row[6] != 0.0)
+        scale, amplitude, vertical = cells.scale[cell], cells.amplitude[cell], cells.vertical[cell]
+        forcing = forcing_of(shape, record, scale, amplitude, vertical)
+        method = Method(cells.order[cell], tolerance, is_straight(shape))
+        history = follow(w, method, block, forcing, NO_RATIOS, FROM_REST, NO_SAMPLES, True)
+        if history.result == UNRESOLVED:
+            return cell
+        results.overturned[cell] = history.result == OVERTURNED
+        results.peaks[cell] = math.nan if results.overturned[cell] else history.peak
+        results.impacts[cell] = history.impacts
+    return -1
 
 
 def cores() -> int:
@@ -175,7 +181,7 @@ def outcome_of(
     ratios: Array = NO_RATIOS,
     tolerance: float = TOLERANCE,
 ) -> Ending:
-    """Return the outcome of one history, by the scalar kernel; see `outcomes_of` and `follow`."""
+    """Return the outcome of one history; see `outcomes_of` and `follow`."""
     forcing = forcing_of(shape, record, scale, amplitude, lift)
     history = followed(block, forcing, tolerance, ratios)
     if history.result == UNRESOLVED:

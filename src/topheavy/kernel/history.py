@@ -1,9 +1,10 @@
 """One rocking history by Taylor steps: its outcome, and samples of it where they are wanted.
 
-A history that is judged ends with the forcing, or where the block is sure to overturn: the energy
-then decides what follows (`tail`). One with samples goes on, so that it can be drawn. Its free
-rocking has the same outcome, unless this energy equals that of the barrier within its error. Then
-the block is poised at φ = α and could leave it to the wrong side; the history ends there.
+A history that is judged ends with the forcing, or where the block is sure to overturn: its energy
+then decides what follows (`bodies.free_rocking`). One with samples goes on, so that it can be
+drawn. Its free rocking has the same outcome, unless this energy equals that of the barrier within
+its error. Then the block is poised at φ = α and could leave it to the wrong side; the history ends
+there.
 """
 
 import math
@@ -11,6 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from topheavy.bodies.free_rocking import ending
 from topheavy.kernel.compiled import compiled
 from topheavy.kernel.forcing import (
     CONSTANT,
@@ -44,7 +46,6 @@ from topheavy.kernel.step import (
     is_certain_to_overturn,
     with_ground,
 )
-from topheavy.kernel.tail import free_rocking
 from topheavy.kernel.taylor import Method, Oscillator, State, evaluate
 
 NO_UPLIFT, RESTS, ROCKING, OVERTURNED, UNRESOLVED = range(5)
@@ -125,6 +126,7 @@ class History(NamedTuple):
     all_impacts: int
 
 
+free_rocking = compiled(ending)
 #: The ratios where every impact has the √r of the block; the course and the samples of a history
 #: that is judged.
 NO_RATIOS = np.empty(0)
@@ -306,6 +308,7 @@ def _at_rest(forcing):
     return Forcing(NONE, 0.0, 1.0, forcing.end, 1.0, 0.0, forcing.record)
 
 
-def is_straight(shape: int) -> bool:
+@compiled
+def is_straight(shape):
     """Return whether a and G are straight lines over each step."""
     return shape in (RECORD, CONSTANT, NONE)

@@ -44,7 +44,7 @@ def derivatives(force, slope, force_rate, slope_rate, velocity):
 
 @compiled
 def powers(h):
-    """Return hᵏ/k!, k from 1 to 7, of a float or of lanes."""
+    """Return hᵏ/k!, k from 1 to 7."""
     h2 = h * h * INVERSE[2]
     h3 = h2 * h * INVERSE[3]
     h4 = h3 * h * INVERSE[4]

@@ -85,9 +85,7 @@ def overturned_by(
     >>> th.overturned_by(th.Column(0.5, 3.0), th.Pulse("one-sine", 1.0, 2.0), [0.15, 0.4])
     array([False,  True])
     """
-    return _under_factors(
-        structure, excitation, factors, tolerance, vertical, scale_vertical, in_full=False
-    )[1]
+    return _under_factors(structure, excitation, factors, tolerance, vertical, scale_vertical)[1]
 
 
 def peak_rotations(
@@ -110,9 +108,7 @@ def peak_rotations(
     >>> th.peak_rotations(column, record, [0.1, 0.3, 0.9]).round(4)
     array([0.    , 0.1246,    nan])
     """
-    return _under_factors(
-        structure, excitation, factors, tolerance, vertical, scale_vertical, in_full=True
-    )[0]
+    return _under_factors(structure, excitation, factors, tolerance, vertical, scale_vertical)[0]
 
 
 def _under_factors(
@@ -122,10 +118,8 @@ def _under_factors(
     tolerance: float,
     vertical: Record | None,
     scale_vertical: bool,
-    *,
-    in_full: bool,
 ) -> tuple[Factors, NDArray[np.bool_]]:
-    """Return peak rotation and overturning; the peak is complete if `in_full`."""
+    """Return peak rotation and overturning under each factor."""
     scales = checks.axis("factors", factors, zero_allowed=True)
     structures = list(structure) if isinstance(structure, Sequence) else [structure]
     if not structures:
@@ -137,7 +131,6 @@ def _under_factors(
         np.repeat(np.arange(len(subjects)), scales.size),
         np.tile(scales, len(subjects)),
         tolerance=checked_tolerance(tolerance),
-        in_full=in_full,
     )
     shape = (len(subjects), scales.size) if isinstance(structure, Sequence) else (scales.size,)
     return peak.reshape(shape), overturned.reshape(shape)
@@ -360,12 +353,10 @@ def outcomes_by(
     factors: Factors,
     *,
     tolerance: float = TOLERANCE,
-    in_full: bool = False,
 ) -> Outcomes:
     """Return peak rotation, overturning and impacts of each factor on its subject.
 
-    `which` has the place of each factor's subject in `subjects`. Unless `in_full`, the peak and the
-    impacts of a survivor may be those of a part of the record.
+    `which` has the place of each factor's subject in `subjects`.
     """
     peak = np.empty(which.size)
     overturned, impacts = np.empty(which.size, bool), np.empty(which.size, np.int64)
@@ -388,6 +379,5 @@ def outcomes_by(
             motion.record,
             lifts=np.where(scales_vertical[subject], factors[at], 1.0),
             tolerance=tolerance,
-            in_full=in_full,
         )
     return peak, overturned, impacts
