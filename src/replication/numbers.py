@@ -1,0 +1,162 @@
+"""Numbers and their sources: marks in plain text, and the numbers of a document without one.
+
+In the text of a caption or a claim, ⟨config:vase.period|1.5⟩ is a number with its source. One that
+is typed has its reason instead: ⟨as heavy as both columns|1⟩.
+"""
+
+import math
+import re
+from collections import Counter
+from collections.abc import Iterable, Mapping
+from functools import reduce
+from html.parser import HTMLParser
+from operator import getitem
+from typing import Any
+
+
+class Input:
+    """A part of a config that a text names as {vase[period]:g}; in the text, it has a mark.
+
+    A factor may stand before the format, {trilith[table_amplitude]:1000*g}. A list is read out, and
+    has a `last`.
+    """
+
+    def __init__(self, content: Any, path: str) -> None:
+        self.content, self.path = content, path
+
+    def __getitem__(self, key: str | int) -> "Input":
+        if key == "last" and isinstance(self.content, list):
+            key = len(self.content) - 1
+        return Input(self.content[key], f"{self.path}{key}.")
+
+    def __format__(self, how: str) -> str:
+        if isinstance(self.content, list):
+            return and_list(format(self[index], how) for index in range(len(self.content)))
+        factor, _, form = how.rpartition("*")
+        number = self.content * float(factor) if factor else self.content
+        return f"⟨{self.path.rstrip('.')}|{'∞' if number == math.inf else format(number, form)}⟩"
+
+
+class Column:
+    """{column[temple]} is height by width of a structure of the config, 6 m by 1 m.
+
+    {column[temple]:0.5*} is half of both; {column[motions.structures]} takes the names from a key.
+    """
+
+    def __init__(self, settings: Mapping[str, Any], name: str, path: str = "") -> None:
+        self.settings, self.name, self.path = settings, name, path
+
+    def __getitem__(self, path: str) -> "Column":
+        return Column(self.settings, self.name, path)
+
+    def __format__(self, how: str) -> str:
+        *keys, names = self.path.split(".")
+        if keys:
+            section = reduce(getitem, keys, self.settings)
+            names = section[names]
+        form = f"{2 * float(how.rstrip('*') or 1)}*g"
+        halves = [
+            [
+                f"{Input(self.settings, self.name + ':')['structures'][name][half]:{form}} m"
+                for half in ("half_height", "half_width")
+            ]
+            for name in ([names] if isinstance(names, str) else names)
+        ]
+        return and_list(" by ".join(each) for each in halves)
+
+
+def and_list(words: Iterable[str]) -> str:
+    """Return words as 1, 2 and 3."""
+    *most, last = words
+    return ", ".join(most) + " and " * bool(most) + last
+
+
+def inputs(settings: Mapping[str, Any], name: str = "config") -> dict[str, Any]:
+    """Return what a text may name in braces; `name` is that of the config."""
+    whole = Input(settings, f"{name}:")
+    return {key: whole[key] for key in settings} | {"column": Column(settings, name)}
+
+
+def without_marks(text: str) -> str:
+    """Return a text without the marks of its numbers."""
+    return re.sub(r"⟨[^|⟩]*\|([^⟩]*)⟩", r"\1", text)
+
+
+# Numbers of a document ----------------------------------------------------------------------------
+
+NAMES = re.compile(
+    r"(?:(?:Eqs?\.|Equations?|paper’s|its|restitution|size|and) \(\d+\)|Theorems? \d)"
+    r"(?:(?:, | and | to )(?:\(\d+\)|\d))*"  # Eqs. (1), (2) and (3)
+    r"|(?:Figures?|Tables?|Figs?\.|pages?|p\.) S?\d+"
+    r"|(?:^|[.;:] )\(\d\) "  # of an enumeration
+    r"|(?:al\.|[A-Z]\w+) \(?\d{4}\b"  # Allen et al. (1986)
+    r"|record of \d{4}"
+)
+"""Names of equations, figures, pages and years."""
+BLOCKS = {"p", "li", "td", "th", "h2", "h3", "h4", "div", "figcaption", "table", "figure", "body"}
+SKIPPED = {"a", "code", "head", "h2", "h3", "h4", "section"}  # a section has the references
+VOID = {"br", "img", "link", "meta"}
+SENTENCE = re.compile(r"(?<!\bal)(?<!\bFig)(?<!\bEqs)(?<!\bEq)(?<!\bp)[.?] ")
+NUMBER = re.compile(r"\d+(?:\.\d+)?")
+VALUE = re.compile(r"([^0-9=]*[=≤<>≥])?[0-9.,°  ]+")
+"""An equation that gives a value, such as γ = 0.5; all others are formulas."""
+
+
+class Numbers(HTMLParser):
+    """The numbers of a document that Typst compiled to HTML with marks (paper/format.typ).
+
+    Digits of headings, links, references and code are no results; nor are those of formulas, unless
+    they have several, and a zero after a relation.
+    """
+
+    def __init__(self, html: str) -> None:
+        super().__init__()
+        self.count: Counter[str] = Counter()  # of "number", with a source, and of "typed"
+        self.without: list[tuple[str, str]] = []  # a number, and its sentence
+        self.open: list[tuple[str, str]] = []  # tag and class
+        self.text, self.free = "", list[tuple[int, str]]()
+        self.equation = 0  # where it begins in the text
+        self.feed(html)
+        self.flush()
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        """Begin a block, an equation, or a number with a mark."""
+        if tag in VOID:
+            return
+        if tag in BLOCKS:
+            self.flush()
+        if tag == "math":
+            self.equation = len(self.text)
+        self.open.append((tag, dict(attrs).get("class") or ""))
+        self.count[self.open[-1][1]] += 1
+
+    def handle_endtag(self, tag: str) -> None:
+        """End a block; an equation that is a formula has no numbers."""
+        if tag == "math" and not VALUE.fullmatch(self.text[self.equation :].strip()):
+            self.free = [(at, n) for at, n in self.free if at < self.equation or len(n) > 1]
+        while self.open and self.open.pop()[0] != tag:
+            pass
+        if tag in BLOCKS:
+            self.flush()
+
+    def handle_data(self, data: str) -> None:
+        """Take text, and note its numbers."""
+        marked = any(kind in ("number", "typed") for _, kind in self.open)
+        if not marked and not {tag for tag, _ in self.open} & SKIPPED:
+            self.free += [(len(self.text) + m.start(), m.group()) for m in NUMBER.finditer(data)]
+        self.text += data.replace("\u00a0", " ")
+
+    def flush(self) -> None:
+        """End the text of a block."""
+        named = [hit.span() for hit in NAMES.finditer(self.text)]
+        for at, number in self.free:
+            is_sign = number == "0" and re.search("[=<>≤≥] ?$", self.text[:at])
+            if not is_sign and not any(start <= at < end for start, end in named):
+                self.without.append((number, self.sentence(at)))
+        self.text, self.free = "", []
+
+    def sentence(self, at: int) -> str:
+        """Return the sentence that has a place of the text."""
+        ends = [0, *(hit.end() for hit in SENTENCE.finditer(self.text)), len(self.text)]
+        first = max(end for end in ends if end <= at)
+        return " ".join(self.text[first : min(end for end in ends if end > at)].split())
