@@ -1,22 +1,24 @@
 """Makris & Vassiliou (2014): config → tables → findings → verdicts, figures, documents.
 
 A rule names its script, inputs, outputs, and as parameters its code and its section of the config.
-A change of one of them repeats the rule. A study is a folder in studies/, named in `studies`.
+A change of one of them repeats the rule, also when a file has an older time. A study is a folder in studies/, named in `studies`.
 """
 
 import os
 import re
 import sys
 import time
+from functools import cache
 from glob import glob
-from hashlib import sha256
+from pathlib import Path
 
 from snakemake.utils import min_version
 
 sys.path.insert(0, "src")
 from replication.claims import read_claims
-from replication.config import *
+from replication.config import components, read_config, read_yaml
 from replication.sections import Paper
+from replication.sources import checksums, digest, imported, versions
 
 min_version("9.27")
 if re.search(r"[^\w@%+=:,./-]", sys.executable):
@@ -31,30 +33,82 @@ os.environ["RUN"] = str(os.getpid())  # a step whose run has ended writes nothin
 configfile: "config/config.yaml"
 
 
-def checksums(*paths):
-    """Return files with their checksums: as a parameter of a rule, a change repeats it."""
-    if missing := [path for path in paths if not os.path.isfile(path)]:
-        sys.exit(f"a rule names the file {missing[0]}, which is not there")
-    return {
-        path: sha256(open(path, "rb").read()).hexdigest()[:12] for path in sorted(paths)
-    }
+# The scripts of each rule: a rule joins by code(…), and Snakemake's `rules` has the rest.
+SCRIPTS = {}
 
 
-code = checksums
+def code(script, *more, rule=""):
+    """Return what the results of a rule depend on beside its parameters, as one more parameter.
+
+    These are, by checksum or version: the script and all that it imports; packages; inputs that no
+    rule makes; and the rules that make its other inputs. A rule has the name of its script, or `rule`.
+    """
+    for path in (script, *more):
+        if not os.path.isfile(path):
+            sys.exit(f"a rule names the file {path}, which is not there")
+    name = rule or Path(script).stem
+    SCRIPTS[name] = (script, *more)
+    return lambda wildcards: dependencies(name)
 
 
-def library(*folders):
-    """Return the modules of folders of the library with their checksums."""
-    inside = [
-        glob(f"src/topheavy/{folder}/**/*.py", recursive=True) for folder in folders
-    ]
-    return code(*(path for paths in inside for path in paths))
+@cache
+def dependencies(name):
+    """Return what the results of a rule depend on, from all rules."""
+    modules = imported(*SCRIPTS[name])
+    before = sorted({maker(path) for path in inputs(name)} - {""})
+    return (
+        checksums(modules)
+        | versions(modules)
+        | sources(name)
+        | {f"rule {n}": digest(dependencies(n), parameters(n)) for n in before}
+    )
+
+
+def inputs(name):
+    return [str(path) for path in getattr(rules, name).input]
+
+
+def outputs(name):
+    return [str(path) for path in getattr(rules, name).output]
+
+
+def parameters(name):
+    """Return the parameters of a rule without its code."""
+    pairs = getattr(rules, name).params.items()
+    return {key: content for key, content in pairs if key != "code"}
+
+
+def sources(name):
+    """Return the inputs of a rule that no rule makes, with their checksums.
+
+    Snakemake would keep a result without a word where its rule reads an old file in results/.
+    """
+    paths = [path for path in inputs(name) if not maker(path)]
+    for path in paths:
+        if path.startswith("results/") or not os.path.isfile(path):
+            folder = Path(path).parent
+            beside = [other for other in made() if Path(other).parent == folder]
+            sys.exit(
+                f"rule {name} ({SCRIPTS[name][0]}) reads {path}, which no rule makes; expected one "
+                f"of {', '.join(beside)}"
+            )
+    return checksums(paths)
+
+
+@cache
+def maker(path):
+    """Return the name of the rule that makes a file, or nothing."""
+    for name in SCRIPTS:
+        for output in outputs(name):
+            if re.fullmatch(re.sub(r"{\w+}", ".+", output), path):
+                return name
+    return ""
 
 
 def made(ending=""):
     """Return the files that rules make so far."""
-    paths = (str(path) for each in workflow.rules for path in each.output)
-    return sorted(path for path in paths if path.endswith(ending) and "{" not in path)
+    paths = sorted(path for name in SCRIPTS for path in outputs(name))
+    return [path for path in paths if path.endswith(ending) and "{" not in path]
 
 
 for path in ["config/config.yaml", *workflow.configfiles]:
@@ -62,16 +116,6 @@ for path in ["config/config.yaml", *workflow.configfiles]:
 PAPER = read_config(
     " over ".join(map(os.path.relpath, workflow.configfiles)), Paper, config
 )
-SMALL = [
-    path for path in glob("src/topheavy/*.py*") if os.path.basename(path) != "plot.py"
-]
-STEP = code(
-    "src/replication/__init__.py", "src/replication/step.py", "src/steps/__init__.py"
-)
-CORE = STEP | code(*SMALL) | library("bodies", "ground", "kernel", "outcomes")
-DOCUMENTS = STEP | code(
-    *glob("src/replication/*.py")
-)  # what claims, figures and documents load
 SETTINGS = {"paper": PAPER}  # each study adds its own
 
 if os.path.isdir("results") and not os.path.isdir(".snakemake/metadata"):
@@ -96,27 +140,14 @@ for study in PAPER["studies"]:
 include: "rules/documents.smk"
 
 
-# Snakemake keeps a result without a word where its rule reads a file that no rule makes.
-MADE = made()
-for each in workflow.rules:
-    for path in (str(path) for path in each.input if not callable(path)):
-        is_source = os.path.isfile(path) and not path.startswith("results/")
-        if is_source or "{" in path or path in MADE:
-            continue
-        if not any(other.is_producer(path) for other in workflow.rules):
-            folder = os.path.dirname(path)
-            beside = [other for other in MADE if os.path.dirname(other) == folder]
-            sys.exit(
-                f"rule {each.name} ({os.path.relpath(each.snakefile)}) reads {path}, which no rule "
-                f"makes; expected one of {', '.join(beside)}"
-            )
+for name in SCRIPTS:
+    sources(name)  # before any job
 
 
 rule all:
     default_target: True
     input:
-        MADE,
-        expand("results/notebooks/{name}.html", name=NOTEBOOKS),
+        made(),
     message:
         "All results are there"
 

@@ -2,15 +2,6 @@
 
 # First half: motions, break_even, records ------------------------------------------------------------
 
-MODELS = code(
-    "src/steps/shared/__init__.py",
-    "src/steps/shared/sweep.py",
-    "src/steps/shared/synthetic.py",
-    "src/steps/shared/filtered_noise.py",
-    "src/steps/beyond/__init__.py",
-)
-ENSEMBLE = code("src/steps/shared/ensemble.py") | library("risk")
-SECOND = code("src/steps/shared/second.py") | library("second")
 HORIZONTAL, UPWARD = components("data/records")
 
 
@@ -29,7 +20,7 @@ rule motions_shard:
         "results/benchmarks/motions_{scatteritem}.tsv"
     priority: 1
     params:
-        code=code("src/steps/beyond/motions_shard.py") | MODELS | CORE,
+        code=code("src/steps/beyond/motions_shard.py"),
         shard="{scatteritem}",
         settings=PAPER["motions"],
         break_even=PAPER["break_even"],
@@ -55,7 +46,7 @@ rule motions:
         "results/benchmarks/motions.tsv"
     priority: 1
     params:
-        code=code("src/steps/beyond/motions.py") | MODELS | ENSEMBLE | SECOND | CORE,
+        code=code("src/steps/beyond/motions.py"),
         settings=PAPER["motions"],
         structures=PAPER["structures"],
     script:
@@ -74,7 +65,7 @@ rule break_even:
     benchmark:
         "results/benchmarks/break_even.tsv"
     params:
-        code=code("src/steps/beyond/break_even.py") | MODELS | ENSEMBLE | SECOND | CORE,
+        code=code("src/steps/beyond/break_even.py"),
         settings=PAPER["break_even"],
         motions=PAPER["motions"],
         structures=PAPER["structures"],
@@ -95,17 +86,10 @@ rule records:
     benchmark:
         "results/benchmarks/records.tsv"
     params:
-        code=code(
-            "src/steps/beyond/records.py",
-            "src/steps/shared/__init__.py",
-            "src/steps/beyond/__init__.py",
-        )
-        | SECOND
-        | CORE,
+        code=code("src/steps/beyond/records.py"),
         settings=PAPER["records"],
         solver=PAPER["solver"],
         structures=PAPER["structures"],
-        records=checksums(*HORIZONTAL),
     script:
         "../src/steps/beyond/records.py"
 
@@ -125,14 +109,7 @@ rule friction:
     benchmark:
         "results/benchmarks/friction.tsv"
     params:
-        code=code(
-            "src/steps/beyond/friction.py",
-            "src/steps/shared/__init__.py",
-            "src/steps/shared/histories.py",
-        )
-        | BODIES
-        | CORE
-        | library("forces", "second"),
+        code=code("src/steps/beyond/friction.py"),
         settings=PAPER["friction"],
         structures=PAPER["structures"],
     script:
@@ -152,9 +129,7 @@ rule designers:
     benchmark:
         "results/benchmarks/designers.tsv"
     params:
-        code=code("src/steps/beyond/__init__.py", "src/steps/beyond/designers.py")
-        | CORE
-        | library("forces"),
+        code=code("src/steps/beyond/designers.py"),
         settings=PAPER["designers"],
         friction=PAPER["friction"],
         structures=PAPER["structures"],
@@ -176,14 +151,7 @@ rule engine:
         "results/benchmarks/engine.tsv"
     priority: 1
     params:
-        code=code(
-            "src/steps/beyond/__init__.py",
-            "src/steps/beyond/boxes.py",
-            "src/steps/beyond/engine.py",
-            "src/steps/beyond/space.py",
-        )
-        | CORE
-        | library("forces"),
+        code=code("src/steps/beyond/engine.py"),
         settings=PAPER["engine"],
         structures=PAPER["structures"],
     script:
@@ -200,14 +168,7 @@ rule gaps:
         "results/benchmarks/gaps.tsv"
     priority: 1
     params:
-        code=code(
-            "src/steps/beyond/__init__.py",
-            "src/steps/beyond/boxes.py",
-            "src/steps/beyond/gaps.py",
-            "src/steps/beyond/space.py",
-        )
-        | CORE
-        | library("forces"),
+        code=code("src/steps/beyond/gaps.py"),
         settings=PAPER["gaps"],
         trilith=PAPER["trilith"],
         structures=PAPER["structures"],
@@ -224,9 +185,7 @@ rule test_plan:
     benchmark:
         "results/benchmarks/test_plan.tsv"
     params:
-        code=code("src/steps/beyond/__init__.py", "src/steps/beyond/test_plan.py")
-        | CORE
-        | library("second"),
+        code=code("src/steps/beyond/test_plan.py"),
         settings=PAPER["test_plan"],
     script:
         "../src/steps/beyond/test_plan.py"

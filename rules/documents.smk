@@ -11,39 +11,26 @@ BEYOND = [
     "friction",
     "engine",
 ]  # figures; the others are the paper's
-SCRIPTS = [
+FIGURES = [
     path for path in sorted(glob("figures/*.py")) if "\ndef draw(" in open(path).read()
 ]
-SHARED = [path for path in glob("figures/*.py") if path not in SCRIPTS]
-NOTEBOOKS = [os.path.basename(path)[:-6] for path in sorted(glob("notebooks/*.ipynb"))]
 # The scripts, tables and parameters of all rules: by these `make check` draws findings again.
 RULES = {
-    each.name: {
-        "script": os.path.relpath(
-            os.path.join(os.path.dirname(each.snakefile), each.script)
-        ),
-        "params": {
-            name: given for name, given in each.params.items() if name != "code"
-        },
-        "tables": [
-            str(path)
-            for path in each.output
-            if str(path).endswith(".csv") and "{" not in str(path)
-        ],
-        "reads": [
-            str(path) for path in each.input if str(path).startswith("results/tables/")
-        ],
-        "findings": "findings" in each.output.keys(),
-        "part": os.path.basename(each.snakefile).removesuffix(".smk"),
+    name: {
+        "script": files[0],
+        "params": parameters(name),
+        "sources": sources(name),
+        "tables": [path for path in outputs(name) if path.endswith(".csv")],
+        "reads": [path for path in inputs(name) if path.startswith("results/tables/")],
+        "findings": f"results/findings/{name}.json" in outputs(name),
     }
-    for each in workflow.rules
-    if each.script
-    and any(str(path).startswith("results/tables/") for path in each.output)
+    for name, files in SCRIPTS.items()
+    if any(path.startswith("results/tables/") for path in outputs(name))
 }
 
 
 for part in ["paper", "beyond"]:
-    scripts = [path for path in SCRIPTS if (path[8:-3] in BEYOND) == (part == "beyond")]
+    scripts = [path for path in FIGURES if (path[8:-3] in BEYOND) == (part == "beyond")]
     words = {word for path in scripts for word in re.findall(r"\w+", open(path).read())}
 
     rule:
@@ -61,7 +48,7 @@ for part in ["paper", "beyond"]:
         benchmark:
             f"results/benchmarks/{part}_figures.tsv"
         params:
-            code=code("src/steps/draw.py", *SHARED) | DOCUMENTS | CORE,
+            code=code("src/steps/draw.py", *scripts, rule=f"{part}_figures"),
             config={name: PAPER[name] for name in BEYOND if part == "beyond"},
         message:
             f"Drawing the figures ({part})"
@@ -69,28 +56,31 @@ for part in ["paper", "beyond"]:
             "../src/steps/draw.py"
 
 
-rule notebook:
-    input:
-        lambda wildcards: re.findall(
-            r"results/tables/\w+\.csv",
-            open(f"notebooks/{wildcards.name}.ipynb").read(),
-        ),
-        kernel="results/kernel.compiled",
-        notebook="notebooks/{name}.ipynb",
-    output:
-        executed="results/notebooks/{name}.ipynb",
-        page="results/notebooks/{name}.html",
-    log:
-        "results/logs/notebook_{name}.log",
-    benchmark:
-        "results/benchmarks/notebook_{name}.tsv"
-    params:
-        code=code("src/steps/notebook.py", *SMALL, "src/topheavy/plot.py")
-        | STEP
-        | library("bodies", "derivation", "ground", "kernel", "outcomes", "risk"),
-        records=checksums(*HORIZONTAL, *UPWARD),
-    script:
-        "../src/steps/notebook.py"
+for path in sorted(glob("notebooks/*.ipynb")):
+    name = Path(path).stem
+
+    rule:
+        name:
+            f"notebook_{name}"
+        input:
+            sorted({*re.findall(r"results/tables/\w+\.csv", open(path).read())}),
+            *HORIZONTAL,
+            *UPWARD,
+            kernel="results/kernel.compiled",
+            notebook=path,
+        output:
+            executed=f"results/notebooks/{name}.ipynb",
+            page=f"results/notebooks/{name}.html",
+        log:
+            f"results/logs/notebook_{name}.log",
+        benchmark:
+            f"results/benchmarks/notebook_{name}.tsv"
+        params:
+            code=code("src/steps/notebook.py", path, rule=f"notebook_{name}"),
+        message:
+            f"Executing the notebook {name}"
+        script:
+            "../src/steps/notebook.py"
 
 
 rule claims:
@@ -104,7 +94,7 @@ rule claims:
     benchmark:
         "results/benchmarks/claims.tsv"
     params:
-        code=code("src/steps/judge.py") | DOCUMENTS,
+        code=code("src/steps/judge.py", rule="claims"),
         settings=CLAIMS,
     message:
         "Judging every claim"
@@ -125,7 +115,7 @@ rule comparison:
     benchmark:
         "results/benchmarks/comparison.tsv"
     params:
-        code=code("src/steps/compare.py") | STEP,
+        code=code("src/steps/compare.py", rule="comparison"),
         rules=RULES,
         settings=CLAIMS,
         bounds=PAPER["reproducibility"],
@@ -146,7 +136,7 @@ rule verdicts:
     benchmark:
         "results/benchmarks/verdicts.tsv"
     params:
-        code=code("src/steps/verdicts.py") | DOCUMENTS,
+        code=code("src/steps/verdicts.py"),
         rules={
             name: {"script": rule["script"], "tables": rule["tables"]}
             for name, rule in RULES.items()
@@ -175,7 +165,7 @@ for document in ["report", "supplement"]:
         benchmark:
             f"results/benchmarks/{document}.tsv"
         params:
-            code=code("src/steps/typeset.py") | DOCUMENTS,
+            code=code("src/steps/typeset.py", rule=document),
             studies=PAPER["studies"],
             config=PAPER,
         message:
@@ -198,10 +188,10 @@ rule expected:
     benchmark:
         "results/benchmarks/expected.tsv"
     params:
-        code=code("src/steps/expect.py") | DOCUMENTS,
+        code=code("src/steps/expect.py", rule="expected"),
     script:
         "../src/steps/expect.py"
 
 
 # On a cluster, only the shards are worth a job.
-workflow.localrules(*(each.name for each in workflow.rules if "shard" not in each.name))
+workflow.localrules(*(name for name in SCRIPTS if "shard" not in name))

@@ -2,13 +2,6 @@
 
 # First part: kernel, equations, parameters, trilith, allen, statements, verification ---------------
 
-LINEAR = code("src/steps/shared/__init__.py", "src/steps/shared/linear.py")
-BODIES = code(
-    "src/steps/shared/__init__.py",
-    "src/steps/shared/newton_euler.py",
-    "src/steps/shared/three_bodies.py",
-)
-
 
 rule kernel:
     output:
@@ -19,7 +12,7 @@ rule kernel:
         "results/benchmarks/kernel.tsv"
     priority: 3
     params:
-        code=code("src/steps/kernel.py") | CORE,
+        code=code("src/steps/kernel.py"),
     script:
         "../src/steps/kernel.py"
 
@@ -34,9 +27,7 @@ rule equations:
     benchmark:
         "results/benchmarks/equations.tsv"
     params:
-        code=code("src/steps/equations.py", *SMALL)
-        | STEP
-        | library("bodies", "derivation"),
+        code=code("src/steps/equations.py"),
     script:
         "../src/steps/equations.py"
 
@@ -55,7 +46,7 @@ rule parameters:
     benchmark:
         "results/benchmarks/parameters.tsv"
     params:
-        code=code("src/steps/parameters.py") | CORE | library("derivation", "second"),
+        code=code("src/steps/parameters.py"),
         settings=PAPER["parameters"],
         structures=PAPER["structures"],
     script:
@@ -77,7 +68,7 @@ rule trilith:
     benchmark:
         "results/benchmarks/trilith.tsv"
     params:
-        code=code("src/steps/trilith.py") | CORE | library("second"),
+        code=code("src/steps/trilith.py"),
         settings=PAPER["trilith"],
         structures=PAPER["structures"],
         solver=PAPER["solver"],
@@ -99,11 +90,10 @@ rule allen:
     benchmark:
         "results/benchmarks/allen.tsv"
     params:
-        code=code("src/steps/allen.py") | LINEAR | CORE | library("second"),
+        code=code("src/steps/allen.py"),
         settings=PAPER["allen"],
         structures=PAPER["structures"],
         solver=PAPER["solver"],
-        records=checksums("data/records/el_centro_1940_NS.AT2"),
     script:
         "../src/steps/allen.py"
 
@@ -120,10 +110,7 @@ rule statements:
     benchmark:
         "results/benchmarks/statements.tsv"
     params:
-        code=code("src/steps/statements.py")
-        | BODIES
-        | CORE
-        | library("derivation", "forces", "second"),
+        code=code("src/steps/statements.py"),
         settings=PAPER["statements"],
         structures=PAPER["structures"],
     script:
@@ -142,10 +129,7 @@ rule verification:
     benchmark:
         "results/benchmarks/verification.tsv"
     params:
-        code=code("src/steps/verification.py")
-        | LINEAR
-        | CORE
-        | library("derivation", "second"),
+        code=code("src/steps/verification.py"),
         settings=PAPER["verification"],
         solver=PAPER["solver"],
     script:
@@ -153,11 +137,6 @@ rule verification:
 
 
 # Second part: spectra, vase, proven, uplift; the animation and the page ----------------------------
-
-
-SPECTRUM = code("src/steps/shared/__init__.py", "src/steps/shared/spectrum.py")
-POSES = code("src/steps/shared/__init__.py", "src/steps/shared/poses.py")
-HISTORIES = code("src/steps/shared/__init__.py", "src/steps/shared/histories.py")
 
 
 scattergather:
@@ -175,7 +154,7 @@ rule spectra_shard:
         "results/benchmarks/spectra_{scatteritem}.tsv"
     priority: 2
     params:
-        code=code("src/steps/spectra_shard.py") | SPECTRUM | CORE,
+        code=code("src/steps/spectra_shard.py"),
         settings=PAPER["spectra"],
         shard="{scatteritem}",
     script:
@@ -196,7 +175,7 @@ rule spectra:
         "results/benchmarks/spectra.tsv"
     priority: 2
     params:
-        code=code("src/steps/spectra.py") | SPECTRUM | CORE | library("second"),
+        code=code("src/steps/spectra.py"),
         settings=PAPER["spectra"],
         tightened=PAPER["solver"]["tightened"],
     script:
@@ -217,7 +196,7 @@ rule vase:
         "results/benchmarks/vase.tsv"
     priority: 2
     params:
-        code=code("src/steps/vase.py") | POSES | CORE | library("second"),
+        code=code("src/steps/vase.py"),
         settings=PAPER["vase"],
         column=PAPER["structures"]["temple"],
     script:
@@ -238,7 +217,7 @@ rule proven:
         "results/benchmarks/proven.tsv"
     priority: 2
     params:
-        code=code("src/steps/proven.py") | SPECTRUM | CORE | library("proven"),
+        code=code("src/steps/proven.py"),
         column=PAPER["structures"]["temple"],
         period=PAPER["vase"]["period"],
     script:
@@ -256,10 +235,7 @@ rule uplift:
     benchmark:
         "results/benchmarks/uplift.tsv"
     params:
-        code=code("src/steps/uplift.py")
-        | HISTORIES
-        | CORE
-        | library("forces", "second"),
+        code=code("src/steps/uplift.py"),
         settings=PAPER["uplift"],
         column=PAPER["structures"]["temple"],
     script:
@@ -277,13 +253,7 @@ rule animation:
     benchmark:
         "results/benchmarks/animation.tsv"
     params:
-        code=code(
-            "src/steps/animation.py",
-            "src/replication/drawing.py",
-            "figures/palette.py",
-        )
-        | POSES
-        | CORE,
+        code=code("src/steps/animation.py", "figures/palette.py"),
         settings=PAPER["animation"],
         column=PAPER["structures"]["temple"],
     script:
@@ -292,6 +262,7 @@ rule animation:
 
 rule explorer:
     input:
+        sorted(filter(os.path.isfile, glob("src/explorer/**", recursive=True))),
         record="data/records/el_centro_1940_NS.AT2",
         kernel="results/kernel.compiled",
     output:
@@ -301,14 +272,6 @@ rule explorer:
     benchmark:
         "results/benchmarks/explorer.tsv"
     params:
-        code=code("src/steps/explorer.py", "src/replication/config.py") | CORE,
-        page=checksums(
-            *(
-                path
-                for path in glob("src/explorer/**", recursive=True)
-                if os.path.isfile(path)
-            )
-        ),
-        records=checksums("data/records/el_centro_1940_NS.AT2"),
+        code=code("src/steps/explorer.py"),
     script:
         "../src/steps/explorer.py"

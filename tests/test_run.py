@@ -13,6 +13,9 @@ from tests.copies import Edits, copied, snakemake
 
 FILES = {
     "study.smk": """
+from replication.config import Positive, Study
+
+
 class Inputs(Study):
     factor: Positive
 
@@ -27,7 +30,7 @@ rule tiny:
         table="results/tables/tiny.csv",
         findings="results/findings/tiny.json",
     params:
-        code=code("studies/tiny/tiny.py", *SMALL) | STEP | library("bodies"),
+        code=code("studies/tiny/tiny.py"),
         factor=INPUTS["factor"],
     log:
         "results/logs/tiny.log",
@@ -36,6 +39,7 @@ rule tiny:
 """,
     "tiny.py": """
 from replication.step import run, truth
+from topheavy import Column
 
 
 def compute(numbers, factor):
@@ -103,6 +107,7 @@ def test_change_elsewhere_repeats_nothing(tree, edited):
     ("path", "old", "new"),
     [
         ("studies/tiny/config.yaml", "2.0", "3.0"),
+        ("studies/tiny/numbers.csv", "1.0", "1.5"),
         ("studies/tiny/tiny.py", "numbers * factor", "numbers * factor * 1"),
         ("src/topheavy/bodies/structures.py", '"""', '""" '),
     ],
@@ -120,7 +125,7 @@ def test_change_repeats_the_rule_also_when_the_file_is_older(tree, edited, path,
             "studies/tiny/study.smk",
             '"studies/tiny/numbers.csv"',
             '"results/tables/tinny.csv"',
-            "rule tiny (studies/tiny/study.smk) reads results/tables/tinny.csv, which no rule",
+            "rule tiny (studies/tiny/tiny.py) reads results/tables/tinny.csv, which no rule",
         ),
         (
             "studies/tiny/study.smk",
@@ -162,8 +167,11 @@ def test_mistake_is_told_with_its_file_before_any_job(tree, edited, path, old, n
         (
             "studies/tiny/tiny.py",
             "    return numbers",
-            "    import topheavy.risk\n    return numbers",
-            ["rule tiny loaded src/topheavy/risk/", "Name it in `code`, or its folder by library("],
+            "    __import__('topheavy.risk')\n    return numbers",
+            [
+                "rule tiny loaded src/topheavy/risk/",
+                "Import it by a statement, or name it in `code`",
+            ],
         ),
         (
             "studies/tiny/tiny.py",

@@ -4,7 +4,7 @@ import json
 import os
 import sys
 import traceback
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from inspect import signature
 from io import StringIO
@@ -159,8 +159,10 @@ def findings_text(findings: Mapping[str, Any], source: Callable) -> str:
         stop(f"{where(source)}: the finding '{bad}' is {findings[bad]}; expected finite numbers")
 
 
-def publish(job: Any, made: Mapping[str, str | bytes]) -> None:
+def publish(job: Any, made: Mapping[str, str | bytes], modules: Iterable[str] = ()) -> None:
     """Write files beside their places and rename them.
+
+    `modules` are the files of modules that another process loaded for this job.
 
     Raises
     ------
@@ -171,7 +173,7 @@ def publish(job: Any, made: Mapping[str, str | bytes]) -> None:
     """
     declared = {Path(path).resolve() for path in [*job.input, *job.params.get("code", [])]}
     files = {getattr(module, "__file__", None) for module in list(sys.modules.values())}
-    loaded = {Path(path).resolve() for path in files if path}
+    loaded = {Path(path).resolve() for path in {*files, *modules} if path}
     inside = {path.relative_to(ROOT) for path in loaded - declared if path.is_relative_to(ROOT)}
     other = sorted(
         str(p)
@@ -186,7 +188,7 @@ def publish(job: Any, made: Mapping[str, str | bytes]) -> None:
     if gap := sorted(str(path) for path in inside if path.parts[0] in OURS):
         stop(
             f"rule {job.rule} loaded {', '.join(gap)}, which its `code` does not name: a change "
-            "there would leave its results stale. Name it in `code`, or its folder by library(…)"
+            "there would leave its results stale. Import it by a statement, or name it in `code`"
         )
     for path, content in made.items():
         Path(f"{path}.new").write_bytes(content.encode() if isinstance(content, str) else content)

@@ -46,9 +46,7 @@ def compare(
             theirs = REFERENCE / Path(path).name
             if not theirs.is_file():
                 continue
-            same = json.dumps(known.get("params"), sort_keys=True) == json.dumps(
-                rule["params"], sort_keys=True
-            )
+            same = _inputs(known) == _inputs(rule)
             columns: list[str] = []
             if same:
                 columns = list(departures(pd.read_csv(path), pd.read_csv(theirs), bounds))
@@ -64,6 +62,11 @@ def compare(
                 }
             )
     return pd.DataFrame(rows, columns=["table", "published", "verdict", "departs"])
+
+
+def _inputs(rule: Mapping) -> str:
+    """Return the parameters of a rule and the checksums of its sources as text."""
+    return json.dumps([rule.get("params"), rule.get("sources")], sort_keys=True)
 
 
 if __name__ == "__main__":

@@ -36,6 +36,14 @@ alt="{{ output | get_metadata("alt", "image/png") | escape_html }}">
 pictures have the alternative text that their cells give."""
 
 
+MODULES = """
+import json, sys
+files = [getattr(module, "__file__", None) for module in list(sys.modules.values())]
+print(json.dumps([path for path in files if path]))
+"""
+"""A last cell, which does not stay: the kernel tells what it has loaded."""
+
+
 def render(notebook: Any, title: str) -> str:
     """Return an executed notebook as a page."""
     from jinja2 import DictLoader
@@ -65,8 +73,8 @@ def render(notebook: Any, title: str) -> str:
     return body
 
 
-def execute(source: Path) -> Any:
-    """Return a notebook with the outputs of its cells."""
+def execute(source: Path) -> tuple[Any, list[str]]:
+    """Return a notebook with the outputs of its cells, and the files of the modules it loaded."""
     private = tempfile.mkdtemp()  # nothing of a user's own set-up may leak in
     os.environ |= {
         "IPYTHONDIR": private,
@@ -77,6 +85,7 @@ def execute(source: Path) -> Any:
     from nbclient import NotebookClient
 
     notebook = nbformat.read(source, as_version=4)
+    notebook.cells.append(nbformat.v4.new_code_cell(MODULES))
     client = NotebookClient(
         notebook,
         timeout=300,
@@ -86,15 +95,16 @@ def execute(source: Path) -> Any:
         extra_arguments=["--log-level=ERROR"],  # not that the kernel listens on this machine
     )
     client.execute()
-    return notebook
+    (listed,) = notebook.cells.pop().outputs
+    return notebook, json.loads(listed["text"])
 
 
 if __name__ == "__main__":
     with log_to(snakemake.log[0]):
         source = Path(snakemake.input.notebook)
-        notebook = execute(source)
+        notebook, modules = execute(source)
         made = {
             snakemake.output.executed: json.dumps(notebook, indent=1, ensure_ascii=False) + "\n",
             snakemake.output.page: render(notebook, source.stem),
         }
-        publish(snakemake, made)
+        publish(snakemake, made, modules)

@@ -1,5 +1,7 @@
 """Does a bent survive a record, and how much does its deck help?"""
 
+from replication.config import Fraction, Positive, Study
+
 
 class Inputs(Study):  # the keys of config.yaml beside structures and records
     scale: Positive
@@ -12,7 +14,7 @@ class Inputs(Study):  # the keys of config.yaml beside structures and records
 
 INPUTS = SETTINGS["example"] = read_config("studies/example/config.yaml", Inputs)
 
-FIGURES = sorted(glob("studies/example/*_figure.py"))
+PICTURES = sorted(glob("studies/example/*_figure.py"))
 
 
 rule example_capacity:
@@ -25,7 +27,7 @@ rule example_capacity:
         "results/logs/example_capacity.log",
     params:
         **INPUTS,
-        code=code("studies/example/capacity.py", "src/replication/study.py") | CORE,
+        code=code("studies/example/capacity.py", rule="example_capacity"),
     script:
         "capacity.py"
 
@@ -33,13 +35,13 @@ rule example_capacity:
 rule example_figures:
     input:
         "results/tables/example_capacity.csv",
-        scripts=FIGURES,
+        scripts=PICTURES,
         style="figures/style.mplstyle",
     output:
-        [path.replace("_figure.py", ".svg") for path in FIGURES],
+        [path.replace("_figure.py", ".svg") for path in PICTURES],
     log:
         "results/logs/example_figures.log",
     params:
-        code=code("src/steps/draw.py") | DOCUMENTS,
+        code=code("src/steps/draw.py", *PICTURES, rule="example_figures"),
     script:
         "../../src/steps/draw.py"
