@@ -156,7 +156,7 @@ def test_history_is_refused(solver, options, message):
 @pytest.mark.parametrize("value", [0.02, 1e-300, math.nan, "1e-9"])
 def test_tolerance_out_of_range_is_refused(solver, value):
     given = re.escape(repr(value) if isinstance(value, (int, float, str)) else str(value))
-    says = rf"tolerance is {given}; expected a float from 1e-1[36] to 0\.01$"
+    says = rf"tolerance is {given}; expected a number from 1e-1[36] to 0\.01$"
     refused(solver, says, tolerance=value)
 
 

@@ -29,6 +29,9 @@ MAX_USUAL_STEP = 0.2
 MAX_USUAL_VELOCITY = 5.0
 """m/s. Few ground motions exceed it: a warning asks whether a velocity is in cm/s."""
 
+MAX_USUAL_FACTOR = 1000.0
+"""Few records are scaled by more: a warning asks whether the record is noise."""
+
 _SHORT = Repr()
 _SHORT.maxother = 80
 short = _SHORT.repr
@@ -50,6 +53,8 @@ def number(name: str, value: Any) -> float:
 
     A text, a truth value and an array are refused, although Python converts some of them.
     """
+    if np.ma.is_masked(value):
+        raise ValueError(f"{name} is masked; expected a number: fill the gap before")
     if np.ndim(value) == 0 and not isinstance(value, (str, bytes, bool, np.bool_)):
         with suppress(TypeError, ValueError, OverflowError):
             return float(value)
@@ -67,8 +72,15 @@ def finite(name: str, value: Any) -> float:
 def numbers(name: str, values: ArrayLike) -> NDArray[np.float64]:
     """Return a copy of `values` as an array of floats, infinite or NaN also, or raise ValueError.
 
-    The message names the first element that `number` refuses.
+    The message names the first element that `number` refuses. Masked elements are refused: NumPy
+    would drop the mask and keep what is under it.
     """
+    if np.ma.is_masked(values):
+        masked = np.ma.getmaskarray(np.ma.asarray(values))
+        raise ValueError(
+            f"{name} has {masked.sum()} masked elements of {masked.size}; expected numbers: fill "
+            "the gaps before, or leave these elements out"
+        )
     try:
         array = np.asarray(values)
     except ValueError as error:
@@ -148,9 +160,24 @@ def within_quarter_turn(name: str, value: Any) -> float:
 
 def within(name: str, value: Any, low: float, high: float) -> float:
     """Return `value` as a float inside [low, high], or raise ValueError that names it."""
-    if not (isinstance(value, (float, int)) and low <= value <= high):
-        raise ValueError(f"{name} is {short(value)}; expected a float from {low:g} to {high:g}")
-    return value
+    if not low <= (result := number(name, value)) <= high:
+        raise ValueError(f"{name} is {short(value)}; expected a number from {low:g} to {high:g}")
+    return result
+
+
+def whole(name: str, value: Any, least: int) -> int:
+    """Return `value` as an int from `least` on, of Python or NumPy, or raise ValueError."""
+    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, np.integer)):
+        raise ValueError(f"{name} is {short(value)}; expected a whole number from {least} on")
+    if value < least:
+        raise ValueError(f"{name} is {value}; expected a whole number from {least} on")
+    return int(value)
+
+
+def set_fields(instance: Any, **values: float) -> None:
+    """Set fields of a frozen dataclass to checked values, as floats of Python for the kernel."""
+    for name, value in values.items():
+        object.__setattr__(instance, name, value)
 
 
 def fraction(name: str, value: Any) -> float:

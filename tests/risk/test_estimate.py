@@ -1,5 +1,6 @@
 """Fragility of an ensemble, and what it refuses."""
 
+import math
 import re
 
 import numpy as np
@@ -117,8 +118,8 @@ def test_result_is_labelled(ensemble):
 
 
 def test_scatter_between_groups_is_not_in_the_result():
-    """Four times one motion, four times another: within each group, nothing is left to chance."""
-    twice = [wave(0)] * 4 + [wave(3)] * 4
+    """Nearly one motion four times, and another: in each group, nothing is left to chance."""
+    twice = [wave(number).scaled(1.0 + 1e-9 * k) for number in (0, 3) for k in range(4)]
     wide, none = (
         th.fragility([PIER, STRUCTURES["bent"]], twice, [0.5], groups=members, resamples=200).pairs
         for members in (None, ["a"] * 4 + ["b"] * 4)
@@ -140,7 +141,8 @@ def test_text_has_medians_and_gains():
         {"pier": PIER, "bent": th.RockingFrame(PIER, 2.0)}, motions, np.geomspace(0.05, 2.0, 12)
     )
     first, pier, bent, pair = str(result).splitlines()
-    assert first.startswith("20 motions, PGV from 0.05 to 2 m/s; 95% intervals, sampling of 20")
+    assert first.startswith("20 motions, PGV from 0.05 to 2 m/s, scaled by ")
+    assert first.endswith("; 95% intervals, sampling of 20 motions")
     assert re.fullmatch(r"pier: median [\d.]+ \([\d.]+ to [\d.]+\) m/s", pier)
     assert bent.startswith("bent: median ")
     assert pair.startswith("bent over pier: gain ")
@@ -148,7 +150,14 @@ def test_text_has_medians_and_gains():
 
 SHAKE = Record(0.02, [0.0, 0.3, -0.2, 0.1, 0.0], "shake")
 STILL = Record(0.02, [0.0, 0.0, 0.0], "still")
-VALID = {"structures": {"pier": PIER}, "motions": [SHAKE, SHAKE], "levels": [0.1, 0.2]}
+
+
+def arias(motion):
+    """Arias intensity but for a constant: it grows with the square of the motion."""
+    return float((motion.acceleration**2).sum() * motion.time_step)
+
+
+VALID = {"structures": {"pier": PIER}, "motions": [SHAKE, SHAKE.scaled(2.0)], "levels": [0.1, 0.2]}
 
 
 @pytest.mark.parametrize(
@@ -167,6 +176,11 @@ VALID = {"structures": {"pier": PIER}, "motions": [SHAKE, SHAKE], "levels": [0.1
         ("levels", [0.3, 0.1], "levels is array([0.3, 0.1]); expected levels that increase"),
         ("measure", "PGD", "measure is 'PGD'; expected 'PGV', 'PGA' or a function of a motion"),
         ("vertical", [SHAKE], "vertical has 1 Records; expected 2"),
+        ("vertical", [SHAKE, None], "vertical[1] is None; expected a Record for every motion"),
+        ("measure", arias, "measure of motions[0] grows by 4 under a factor of 2 on the motion"),
+        ("measure", arias, "expected 2: take its value to the power 1/2"),
+        ("measure", lambda motion: 3.0, "grows by 1 under a factor of 2 on the motion; expected 2"),
+        ("seed", None, "seed is None; expected a whole number from 0 on"),
         ("groups", ["a", "b"], "groups is ['a', 'b']; expected the group of each of 2 motions"),
         ("confidence", 1.0, "confidence is 1; expected more than 0 and less than 1"),
         ("resamples", 10, "resamples is 10; expected a whole number from 100 on"),
@@ -191,3 +205,58 @@ def test_limit_of_rotation_is_exceeded_where_the_peak_is_larger_or_overturns(ens
     assert (result.rotation_limit, ensemble.rotation_limit) == (limit, None)
     with pytest.raises(ValueError, match="rotation_limit is 0; expected more than zero"):
         th.fragility(STRUCTURES, MOTIONS, LEVELS, rotation_limit=0.0)
+
+
+def test_root_of_an_intensity_that_grows_with_the_square_is_a_measure(ensemble):
+    levels = np.geomspace(0.01, 3.0, 30)
+    result = th.fragility(
+        STRUCTURES, MOTIONS, levels, lambda motion: math.sqrt(arias(motion)), resamples=100
+    )
+    scales = levels[:, None] / [math.sqrt(arias(motion)) for motion in MOTIONS]
+    assert result.factors == pytest.approx((scales.min(), scales.max()))
+
+
+@pytest.mark.parametrize(
+    ("levels", "reason"),
+    [
+        ([2.0, 4.0], "overturning under all motions at every level: levels are in m/s; begin"),
+        ([0.001, 0.002], "no overturning at any level; go higher"),
+        ([0.001, 0.4, 4.0], "too few levels, 1, with a probability between 0 and 1; take more"),
+        ([0.35, 0.4, 0.45], "the fitted curve does not pass 1/2 within the levels"),
+    ],
+)
+def test_text_says_why_there_is_no_median(levels, reason):
+    motions = [wave(number) for number in range(20)]
+    result = th.fragility({"pier": PIER}, motions, levels, resamples=100)
+    assert f"pier: median unknown: {reason}" in str(result)
+
+
+def test_table_has_a_row_for_each_level_and_structure(ensemble):
+    table = ensemble.to_frame()
+    assert len(table) == len(STRUCTURES) * len(LEVELS)
+    assert list(table)[:4] == ["structure", "level", "overturned", "probability"]
+    assert table.probability.sum() == pytest.approx(float(ensemble.curves.probability.sum()))
+    assert not table.duplicated(["structure", "level"]).any()
+
+
+@pytest.mark.parametrize(
+    ("levels", "measure", "words"),
+    [
+        ([10.0, 20.0, 30.0], "PGV", "half of the levels exceed 20 m/s.*are they in cm/s"),
+        ([100.0, 200.0, 300.0], "PGA", "half of the levels exceed 200 g.*are they in gal or m/s"),
+    ],
+)
+def test_levels_in_another_unit_are_warned_of(levels, measure, words):
+    with pytest.warns(UserWarning, match=words):
+        th.fragility([PIER], MOTIONS[:2], levels, measure, resamples=100)
+
+
+def test_motion_that_is_there_twice_is_warned_of():
+    with pytest.warns(UserWarning, match=r"motions\[2\] equals motions\[0\]"):
+        th.fragility([PIER], [*MOTIONS[:2], wave(0)], [0.1, 0.2], resamples=100)
+
+
+def test_motion_that_is_scaled_like_noise_is_warned_of():
+    noise = wave(0).scaled(1e-12)
+    with pytest.warns(UserWarning, match=r"motions\[1\] is scaled by up to .*: is it noise"):
+        th.fragility([PIER], [MOTIONS[1], noise], [0.1, 0.2], resamples=100)

@@ -6,6 +6,7 @@ import re
 import unicodedata
 from dataclasses import dataclass
 from functools import partial
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -21,6 +22,9 @@ UNITS |= {unit: metres / STANDARD_GRAVITY for unit, metres in _METRES.items()}
 
 MAX_RECORDED = 5.0
 """g. No recorded ground acceleration exceeds it."""
+
+MIN_CLIPPED = 4
+"""So many equal samples in turn at the peak show that an instrument reached its range."""
 
 
 def acceleration_in_g(unit: str) -> float | None:
@@ -78,7 +82,7 @@ class Record(Excitation):
         unit: str | None = None,
         start: float = 0.0,
     ) -> None:
-        checks.positive("time_step", time_step, "s")
+        time_step = checks.positive("time_step", time_step, "s")
         label = _label(name)
         samples = checks.numbers(f"{label}: acceleration", acceleration)
         if samples.ndim != 1 or samples.size < 2:
@@ -98,6 +102,11 @@ class Record(Excitation):
         fields = {"time_step": step, "acceleration": samples, "name": name, "start": start}
         for field, value in fields.items():
             object.__setattr__(self, field, value)
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """Take the fields of a pickle or copy, in which NumPy makes the samples writable again."""
+        self.__dict__.update(state)
+        self.acceleration.setflags(write=False)
 
     def with_samples(self, acceleration: NDArray[np.float64]) -> Record:
         """Return the record with other samples, in g, computed from its own."""
@@ -161,6 +170,11 @@ class Record(Excitation):
         ------
         ValueError
             Unless one of both is given, is positive, and the record has acceleration.
+
+        Warns
+        -----
+        UserWarning
+            For a velocity above 5 m/s, and a factor above 1000.
         """
         if (pga is None) == (pgv is None):
             raise ValueError(f"pga is {pga}, pgv is {pgv}; expected one of both")
@@ -172,6 +186,8 @@ class Record(Excitation):
                 checks.warn(f"pgv is {wanted:.6g} m/s, and few exceed 5 m/s: is it in cm/s?")
         if peak == 0.0:
             raise ValueError(f"record {self.name!r} has no acceleration; expected one to scale")
+        if wanted / peak > checks.MAX_USUAL_FACTOR:
+            checks.warn(f"{_label(self.name)} is scaled by {wanted / peak:.3g}: is it noise?")
         return self.scaled(wanted / peak)
 
     def accelerations(self, time: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -204,6 +220,7 @@ def _ask_if_plausible(record: Record, most: float) -> None:
     samples, velocities = record.acceleration, STANDARD_GRAVITY * record._velocities()
     largest, fastest, last = np.abs(samples).max(), np.abs(velocities).max(), velocities[-1]
     step, one_sign = record.time_step, samples.min() * samples.max() >= 0.0 != largest
+    clipped = max(_longest_run(samples == end) for end in (largest, -largest)) if largest else 0
     doubts = {
         f"the velocity at the end is {last:.3g} m/s, with a PGV of {fastest:.3g} m/s: if its "
         "baseline is not corrected, take record.detrended()": abs(last) > 0.3 * fastest,
@@ -212,10 +229,19 @@ def _ask_if_plausible(record: Record, most: float) -> None:
         f"time_step is {step:.6g} s: is it in ms?": step > checks.MAX_USUAL_STEP,
         f"the largest acceleration is {largest:.3g} g, and few exceed {most:g} g: is it in m/s² "
         "or counts?": largest > most,
+        f"{clipped} samples in turn are equal to the peak: did the instrument reach its range?": (
+            clipped >= MIN_CLIPPED
+        ),
     }
     if any(doubts.values()):
         text = "; ".join(doubt for doubt, is_so in doubts.items() if is_so)
         checks.warn(f"{_label(record.name)}: {text}")
+
+
+def _longest_run(flags: NDArray[np.bool_]) -> int:
+    """Return the largest number of True in turn."""
+    changes = np.flatnonzero(np.diff(np.concatenate([[False], flags, [False]])))
+    return int(np.diff(changes)[::2].max(initial=0))
 
 
 def _line(start: float, value: float, slope: float, time: float) -> float:

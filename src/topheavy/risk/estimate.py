@@ -14,11 +14,12 @@ from topheavy import checks
 from topheavy.ground.records import Record
 from topheavy.outcomes.search import overturned_by, peak_rotations
 from topheavy.risk import inputs
-from topheavy.risk.curve import fit
+from topheavy.risk.curve import fit, points_between
 from topheavy.risk.resampling import means_within
 from topheavy.risk.tables import curve_table, pair_table
 
 if TYPE_CHECKING:
+    import pandas
     import xarray
 
 Array = NDArray[np.float64]
@@ -53,6 +54,8 @@ class Fragility:
         Which scatter the intervals include, in words.
     confidence : float
         Of each interval for itself, not of several together.
+    factors : (float, float)
+        The least and the greatest factor on a motion.
     rotation_limit : float or None
         rad.
 
@@ -62,6 +65,11 @@ class Fragility:
     >>> result = th.fragility([th.Column(0.5, 3.0)], motions, [0.5, 1.0, 2.0], resamples=100)
     >>> result.curves.probability.values
     array([[0.  , 0.25, 0.5 ]])
+    >>> result.to_frame().loc[:, ["structure", "level", "probability"]]
+      structure  level  probability
+    0  Column 1    0.5         0.00
+    1  Column 1    1.0         0.25
+    2  Column 1    2.0         0.50
     """
 
     curves: xarray.Dataset
@@ -70,23 +78,52 @@ class Fragility:
     measure: str
     sampling: str
     confidence: float
+    factors: tuple[float, float]
     rotation_limit: float | None = None
 
+    def to_frame(self) -> pandas.DataFrame:
+        """Return a table with a row for each structure and level: counts, probabilities, curve."""
+        at_levels = [name for name, values in self.curves.items() if "level" in values.dims]
+        return self.curves[at_levels].to_dataframe(["structure", "level"]).reset_index()
+
     def __str__(self) -> str:
-        """Return the median of each structure and the gain of each pair, with intervals."""
+        """Return the median of each structure and the gain of each pair, with intervals.
+
+        Of a median that is NaN it says why.
+        """
         unit = self.curves.level.attrs.get("units", "")
         first, last = (f"{float(self.curves.level[at]):.4g}" for at in (0, -1))
         levels = f"{self.measure} from {first} to {last} {unit}".rstrip()
         motions = f"{self.outcomes.shape[0]} motions, {levels}"
-        lines = [f"{motions}; {self.confidence:.0%} intervals, {self.sampling}"]
+        scaled = "scaled by {:.3g} to {:.3g}".format(*self.factors)
+        lines = [f"{motions}, {scaled}; {self.confidence:.0%} intervals, {self.sampling}"]
         for place in range(self.curves.sizes["structure"]):
             row = self.curves.isel(structure=place)
-            lines.append(f"{row.structure.item()}: median {_line(row, 'median_capacity', unit)}")
+            median = _line(row, "median_capacity", unit)
+            if np.isnan(row.median_capacity):
+                median = f"unknown: {self._why_no_median(row)}"
+            lines.append(f"{row.structure.item()}: median {median}")
         for place in range(self.pairs.sizes["pair"]):
             row = self.pairs.isel(pair=place)
             both = f"{row['second'].item()} over {row['first'].item()}"
             lines.append(f"{both}: gain {_line(row, 'gain', '')}")
         return "\n".join(lines)
+
+    def _why_no_median(self, row: xarray.Dataset) -> str:
+        """Return in words why a structure, a row of `curves`, has no median."""
+        share, event = row.probability.to_numpy(), "overturning"
+        if self.rotation_limit is not None:
+            event = "rotation beyond the limit"
+        unit = self.curves.level.attrs.get("units", "")
+        if share.min() == 1.0:
+            is_in = f": levels are in {unit}" if unit else ""
+            return f"{event} under all motions at every level{is_in}; begin lower"
+        if share.max() == 0.0:
+            return f"no {event} at any level; go higher"
+        if np.isnan(row.terms[0]):
+            between = int(points_between(share))
+            return f"too few levels, {between}, with a probability between 0 and 1; take more"
+        return "the fitted curve does not pass 1/2 within the levels"
 
 
 def _line(row: xarray.Dataset, name: str, unit: str) -> str:
@@ -134,7 +171,8 @@ def fragility(
         and not at the next, so that medians depend on the levels; take fifty.
     measure : {"PGV", "PGA"} or callable
         PGV in m/s, integrated from rest without baseline correction; PGA in g; or a function that
-        returns the intensity of a motion, in proportion to its scale.
+        returns the intensity of a motion, in proportion to its scale (of Arias intensity, take the
+        square root).
     vertical : sequence of Record, optional
         The vertical component of each motion, which starts with it: g, positive upward.
     scale_vertical : bool
@@ -162,6 +200,12 @@ def fragility(
         For an argument that is not as above, and for a vertical acceleration of −1 g or less at a
         level.
 
+    Warns
+    -----
+    UserWarning
+        If half of the levels are beyond what motions have in the unit of the measure, if a motion
+        is there twice, and if one is scaled by more than 1000.
+
     Examples
     --------
     >>> motions = [th.Record(0.02, np.sin(k * np.arange(200))) for k in (0.02, 0.03, 0.05, 0.08)]
@@ -171,13 +215,11 @@ def fragility(
     """
     blocks = inputs.named_blocks(structures)
     shaking = inputs.checked_motions(motions)
-    steps = inputs.checked_levels(levels)
+    steps = inputs.checked_levels(levels, measure)
     members = inputs.checked_groups(groups, len(shaking))
-    inputs.checked_resampling(confidence, resamples)
-    scales = steps / inputs.intensities(shaking, measure)[:, None]
-    ups = [None] * len(shaking) if vertical is None else vertical
-    if len(ups) != len(shaking):
-        raise ValueError(f"vertical has {len(ups)} Records; expected {len(shaking)}, one a motion")
+    inputs.checked_resampling(confidence, resamples, seed)
+    scales = inputs.scale_factors(steps, inputs.intensities(shaking, measure))
+    ups = inputs.checked_vertical(vertical, len(shaking))
     limit = None if rotation_limit is None else checks.positive("rotation_limit", rotation_limit)
 
     def outcomes_of(motion: inputs.Motion, up: Record | None, factors: Array) -> Outcomes:
@@ -212,5 +254,6 @@ def fragility(
         measure=getattr(measure, "__name__", repr(measure)) if callable(measure) else measure,
         sampling=sampling,
         confidence=confidence,
+        factors=(float(scales.min()), float(scales.max())),
         rotation_limit=limit,
     )

@@ -11,7 +11,7 @@ from topheavy import checks
 from topheavy.bodies.structures import RockingBlock, Structure, as_block
 from topheavy.checks import short
 from topheavy.ground.pulses import Pulse
-from topheavy.ground.records import Record
+from topheavy.ground.records import MAX_RECORDED, Record
 
 Motion = Pulse | Record
 Structures = Mapping[str, Structure] | Sequence[Structure]
@@ -20,7 +20,13 @@ Measure = Literal["PGV", "PGA"] | Callable[[Any], float]
 UNITS = {"PGV": "m/s", "PGA": "g"}
 """Units of the measures of intensity that have a name."""
 
+USUAL_LEVELS = {"PGV": (checks.MAX_USUAL_VELOCITY, "cm/s"), "PGA": (MAX_RECORDED, "gal or m/s²")}
+"""Half of the levels are usually below the first number; otherwise a warning asks the unit."""
+
 MIN_RESAMPLES = 100
+
+PROPORTIONALITY = 1e-6
+"""How far a measure may be from doubling with its motion, over its value."""
 
 
 def named_blocks(structures: Structures) -> dict[str, RockingBlock]:
@@ -46,7 +52,10 @@ def named_blocks(structures: Structures) -> dict[str, RockingBlock]:
 
 
 def checked_motions(motions: Sequence[Motion]) -> list[Motion]:
-    """Return the motions as a list, or raise ValueError unless there are some and all end."""
+    """Return the motions as a list, or raise ValueError unless there are some and all end.
+
+    Motions that are there twice are not independent: a warning names the first two.
+    """
     if not isinstance(motions, Sequence) or not motions:
         raise ValueError(f"motions is {short(motions)}; expected a list of motions, not empty")
     for place, motion in enumerate(motions):
@@ -54,7 +63,41 @@ def checked_motions(motions: Sequence[Motion]) -> list[Motion]:
             raise ValueError(
                 f"motions[{place}] is {short(motion)}; expected a Record or a Pulse that ends"
             )
+    places: dict[Hashable, int] = {}
+    for place, motion in enumerate(motions):
+        first = places.setdefault(_content(motion), place)
+        if first != place:
+            checks.warn(
+                f"motions[{place}] equals motions[{first}], and the intervals count both: expected "
+                "each motion once"
+            )
+            break
     return list(motions)
+
+
+def _content(motion: Motion) -> Hashable:
+    """Return what makes two motions equal: a pulse itself, of a record step and samples."""
+    if isinstance(motion, Pulse):
+        return motion
+    return motion.time_step, motion.acceleration.tobytes()
+
+
+def checked_vertical(vertical: Sequence[Record] | None, motions: int) -> list[Record | None]:
+    """Return the vertical record of each motion, or raise ValueError unless there is one a motion.
+
+    None stands for no vertical component of any motion.
+    """
+    if vertical is None:
+        return [None] * motions
+    if len(vertical) != motions:
+        raise ValueError(f"vertical has {len(vertical)} Records; expected {motions}, one a motion")
+    for place, record in enumerate(vertical):
+        if not isinstance(record, Record):
+            raise ValueError(
+                f"vertical[{place}] is {short(record)}; expected a Record for every motion: leave "
+                "out the motions without one"
+            )
+    return list(vertical)
 
 
 def intensities(motions: Sequence[Motion], measure: Measure) -> NDArray[np.float64]:
@@ -63,11 +106,14 @@ def intensities(motions: Sequence[Motion], measure: Measure) -> NDArray[np.float
     Raises
     ------
     ValueError
-        For an unknown measure, a Pulse under one with a name, and an intensity that is not
-        positive, since no factor brings such a motion to a level.
+        For an unknown measure, a Pulse under one with a name, an intensity that is not positive,
+        since no factor brings such a motion to a level, and a function whose value does not double
+        with the motion.
     """
     if callable(measure):
         values = [measure(motion) for motion in motions]
+        for place, (motion, value) in enumerate(zip(motions, values, strict=True)):
+            _check_proportional(f"measure of motions[{place}]", measure, motion, value)
     elif measure not in UNITS:
         raise ValueError(
             f"measure is {short(measure)}; expected 'PGV', 'PGA' or a function of a motion"
@@ -86,12 +132,50 @@ def intensities(motions: Sequence[Motion], measure: Measure) -> NDArray[np.float
     )
 
 
-def checked_levels(levels: ArrayLike) -> NDArray[np.float64]:
-    """Return the levels as an array, or raise ValueError unless they are positive and increase."""
+def _check_proportional(
+    name: str, measure: Callable[[Any], float], motion: Motion, value: float
+) -> None:
+    """Raise ValueError unless a measure doubles with its motion, as `fragility` scales motions."""
+    growth = checks.positive(name, measure(motion.scaled(2.0))) / checks.positive(name, value)
+    if abs(growth - 2.0) <= 2.0 * PROPORTIONALITY:
+        return
+    power = math.log2(growth)
+    way_out = "another measure, in proportion to the scale"
+    if abs(power) > PROPORTIONALITY and abs(power - round(power)) < 2.0 * PROPORTIONALITY:
+        way_out = f"its value to the power 1/{round(power)}"
+    raise ValueError(
+        f"{name} grows by {growth:.6g} under a factor of 2 on the motion; expected 2: take "
+        f"{way_out}"
+    )
+
+
+def checked_levels(levels: ArrayLike, measure: Measure) -> NDArray[np.float64]:
+    """Return the levels as an array, or raise ValueError unless they are positive and increase.
+
+    Levels that are probably in another unit than the measure are warned of.
+    """
     result = checks.axis("levels", levels, zero_allowed=False)
     if (np.diff(result) <= 0.0).any():
         raise ValueError(f"levels is {short(result)}; expected levels that increase")
+    if isinstance(measure, str) and measure in USUAL_LEVELS:
+        usual, other = USUAL_LEVELS[measure]
+        if (middle := float(np.median(result))) > usual:
+            checks.warn(
+                f"half of the levels exceed {middle:.6g} {UNITS[measure]}, and few ground motions "
+                f"{usual:g} {UNITS[measure]}: are they in {other}?"
+            )
     return result
+
+
+def scale_factors(
+    levels: NDArray[np.float64], measured: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return the factor of each motion at each level, and warn of factors that only noise needs."""
+    factors = levels / measured[:, None]
+    place = int(factors.max(axis=1).argmax())
+    if (most := float(factors[place].max())) > checks.MAX_USUAL_FACTOR:
+        checks.warn(f"motions[{place}] is scaled by up to {most:.3g}: is it noise?")
+    return factors
 
 
 def checked_groups(groups: Sequence[Hashable] | None, motions: int) -> list[Hashable] | None:
@@ -109,11 +193,9 @@ def checked_groups(groups: Sequence[Hashable] | None, motions: int) -> list[Hash
     return list(groups)
 
 
-def checked_resampling(confidence: float, resamples: int) -> None:
+def checked_resampling(confidence: float, resamples: int, seed: int) -> None:
     """Raise ValueError unless intervals can be computed with these numbers."""
     if not 0.0 < checks.fraction("confidence", confidence) < 1.0:
         raise ValueError(f"confidence is {confidence:g}; expected more than 0 and less than 1")
-    if not isinstance(resamples, int) or resamples < MIN_RESAMPLES:
-        raise ValueError(
-            f"resamples is {short(resamples)}; expected a whole number from {MIN_RESAMPLES} on"
-        )
+    checks.whole("resamples", resamples, MIN_RESAMPLES)
+    checks.whole("seed", seed, 0)
