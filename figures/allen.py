@@ -31,8 +31,10 @@ def history(above, below, run):
 
 
 def errors(axis, table):
-    """Draw the median error of slender columns over γ, of each simplification and of all three."""
-    for model, line in table.groupby("model"):
+    """Draw the median error over γ under the first pulse, of each simplification and of all."""
+    pulse = ["shape", "frequency_ratio"]
+    quoted = table[(table[pulse] == table[pulse].iloc[0]).all(axis=1)]
+    for model, line in quoted.groupby("model"):
         whole = model == "all"
         look = {"linestyle": LINES[model], "color": MODEL if whole else INK, "zorder": 2 + whole}
         axis.plot(
@@ -48,7 +50,7 @@ def errors(axis, table):
                 at = (row.mass_ratio, 100 * row.median_error)
                 note(
                     axis,
-                    f"{at[1]:.1f} %",
+                    f"{at[1]:.0f} %",
                     at,
                     xytext=(5, 5),
                     textcoords="offset points",

@@ -62,9 +62,13 @@ class Trilith(Section):
     amplitudes: Grid  # m
 
 
-class AllenErrors(Section):
+class PulseRatio(Section):
     shape: Shape
     frequency_ratio: Positive  # ω/p
+
+
+class AllenErrors(Section):
+    pulses: list[PulseRatio]  # the first is the quoted one
     mass_ratios: list[Positive]
     slendernesses: list[Degrees]
     amplitudes: Grid  # over g tan α
@@ -312,11 +316,6 @@ class Designers(Section):
 class CapOf(Section):
     span: Positive  # m
     depth: Positive  # m
-
-
-class PulseRatio(Section):
-    shape: Shape
-    frequency_ratio: Positive
 
 
 class EngineContact(Section):

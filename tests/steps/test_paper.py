@@ -151,16 +151,29 @@ def test_models_of_a_very_heavy_cap_beam_are_the_exact_frame():
     assert (exact.linearised, whole.linearised) == (False, True)
 
 
-def test_wrong_outcomes_are_shares_of_all_pulses():
+def test_wrong_outcomes_are_shares_of_all_pulses(tables):
     maps = {"exact": [1, 1, 1, 0, 0], "linearised": [1, 1, 1, 0, 0], "all": [0, 0, 1, 1, 0]}
-    found = allen.findings(pd.DataFrame(columns=["model"]), pd.DataFrame(maps))
-    wrong = {name: one["value"] for name, one in found.items()}
+    found = allen.findings(tables("allen")["allen_errors"], pd.DataFrame(maps))
+    wrong = {name: one["value"] for name, one in found.items() if name.startswith("falsely")}
     assert wrong == {
         "falsely_safe_linearised": 0.0,
         "falsely_overturned_linearised": 0.0,
         "falsely_safe_all": 0.4,
         "falsely_overturned_all": 0.2,
     }
+
+
+def test_errors_are_of_pulses_that_overturn_neither_and_have_a_range_over_pulses(tables):
+    made = tables("allen")
+    heavy = made["allen_errors"].query("model == 'all' and mass_ratio == 2")
+    assert len(heavy) == len(CONFIG["allen"]["errors"]["pulses"])
+    assert (heavy.compared + heavy.wrong <= heavy.pulses).all()
+    assert (heavy.too_small <= heavy.compared).all()
+    error = findings("allen", made)["error_all_2"]
+    names = ("median_error", "pulses", "compared", "wrong")
+    assert [error[n] for n in ("value", *names[1:])] == heavy.iloc[0][[*names]].tolist()
+    assert (error["least"], error["most"]) == (heavy.median_error.min(), heavy.median_error.max())
+    assert error["least"] < error["value"] < error["most"]
 
 
 @pytest.mark.parametrize(
