@@ -8,14 +8,19 @@ from typing import Any
 from pydantic import ValidationError
 
 from replication.config import Section, read_yaml
+from replication.numbers import inputs, without_marks
 
 
 class Claim(Section):
-    """A claim; the head of paper/claims.yaml explains its keys. `part`: paper, ours or a study."""
+    """A claim; the head of paper/claims.yaml explains its keys. `part`: paper, ours or a study.
+
+    `marked` has statement and remark with the marks of their numbers.
+    """
 
     id: str
     where: str
     statement: str
+    marked: dict[str, str] | None = None
     printed: float | int | str | None = None
     unit: str = ""
     tolerance: float | None = None
@@ -29,7 +34,7 @@ class Claim(Section):
 
 
 def read_claims(path: str, settings: Mapping[str, Any]) -> list[Claim]:
-    """Return the claims of a file; {keys} in a statement are filled from its config.
+    """Return the claims of a file; {keys} in statement and remark are filled from its config.
 
     The paper's file has two lists, `paper` and `ours`; a study's file is a list.
 
@@ -44,12 +49,16 @@ def read_claims(path: str, settings: Mapping[str, Any]) -> list[Claim]:
     content = read_yaml(path)
     study = Path(path).parent.name
     parts = content if isinstance(content, dict) else {study: content}
+    known = inputs(settings, "config" if isinstance(content, dict) else study)
     claims: list[Claim] = []
     for part, rows in parts.items():
         for row in rows or []:
             try:
                 claim = Claim(**row, part=part, file=path)
-                claim.statement = claim.statement.format(**settings)
+                claim.marked = {
+                    name: getattr(claim, name).format(**known) for name in ("statement", "remark")
+                }
+                claim.statement, claim.remark = map(without_marks, claim.marked.values())
             except ValidationError as errors:
                 faults = "; ".join(f"'{e['loc'][-1]}': {e['msg']}" for e in errors.errors())
                 raise SystemExit(f"{path}: claim {row.get('id')}: {faults}") from None

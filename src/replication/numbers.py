@@ -87,7 +87,7 @@ def without_marks(text: str) -> str:
 NAMES = re.compile(
     r"(?:(?:Eqs?\.|Equations?|paper’s|its|restitution|size|and) \(\d+\)|Theorems? \d)"
     r"(?:(?:, | and | to )(?:\(\d+\)|\d))*"  # Eqs. (1), (2) and (3)
-    r"|(?:Figures?|Tables?|Figs?\.|pages?|p\.) S?\d+"
+    r"|(?:Figures?|Tables?|Figs?\.|pages?|p\.|par\.) S?\d+(?:, \(\d\))?"
     r"|(?:^|[.;:] )\(\d\) "  # of an enumeration
     r"|(?:al\.|[A-Z]\w+) \(?\d{4}\b"  # Allen et al. (1986)
     r"|record of \d{4}"

@@ -43,8 +43,7 @@ if __name__ == "__main__":
             "captions": json.dumps(captions(snakemake.input.captions, config)),
         }
         html = compiled(source, texts | {"check": "numbers"}, format="html").decode()
-        without = Numbers(html).without
-        if without and "supplement" not in source:  # until all numbers of the supplement have one
+        if without := Numbers(html).without:
             stop(
                 f"{source}: numbers without a source (paper/format.typ says how to write one)\n"
                 + "\n".join(f"{number} in: {sentence}" for number, sentence in without)
