@@ -34,7 +34,8 @@ def draw(allen_maps):
         axis.legend(handles=patches, loc="lower right", handlelength=1.2)
         note(axis, "both survive", (6.6, 6.5), ha="center")
         note(axis, "both overturn", (2.6, 9.5), ha="center")
-        axis.set(xlim=(1, 8), ylim=(1, 12), xlabel=r"Frequency of the pulse, $\omega/p$ (–)")
+        ends = grid.columns[[0, -1]], grid.index[[0, -1]]
+        axis.set(xlim=ends[0], ylim=ends[1], xlabel=r"Frequency of the pulse, $\omega/p$ (–)")
     axes[0].set_ylabel(r"Amplitude of the pulse, $a/(g\,\tan\alpha)$ (–)")
     letter(axes, TITLES.values())
     return figure

@@ -5,20 +5,19 @@ from palette import ALONE, EQUAL, tint
 from replication.drawing import DOUBLE, GREY, INK, PAPER, letter, note, sheet
 
 SETS = {"near-fault": ("o", 0.14), "broadband": ("s", -0.14)}  # marker, and place in a row
-ROWS = {  # from the lowest row upwards: as in the table
-    ("column alone", 0.1): "column alone 10 % lower",
-    ("column alone", 0.05): "column alone 5 % lower",
-    ("both", 0.1): "both 10 % lower",
-    ("both", 0.05): "both 5 % lower",
-    ("both", 0.0): "both of Eq. (25)",
-}
+
+
+def words(lowered, reduction):
+    """Return the label of a row of the table."""
+    return f"{lowered} {100 * reduction:g} % lower" if reduction else f"{lowered} of Eq. (25)"
 
 
 def draw(break_even, break_even_benefit, config):
     figure, axes = sheet(DOUBLE, 62, ncols=2)
     rows = break_even_benefit.set_index(["set", "lowered", "reduction"])
+    keys = sorted({key[1:] for key in rows.index}, reverse=True)  # from the lowest row upwards
     for name, (marker, off) in SETS.items():
-        for at, key in enumerate(ROWS):
+        for at, key in enumerate(keys):
             row = 100 * rows.loc[(name, *key), ["benefit", "benefit_low", "benefit_high"]]
             axes[0].hlines(at + off, row.benefit_low, row.benefit_high, color=INK, linewidth=1.1)
             face = INK if marker == "o" else PAPER
@@ -38,11 +37,11 @@ def draw(break_even, break_even_benefit, config):
     note(axes[1], "above a point: column safer", (1.5, 13.5), color=ALONE, ha="center")
     note(axes[1], "below a point: frame safer", (1.5, 1.2), color=EQUAL, ha="center")
     axes[0].axvline(0.0, color=GREY, linewidth=0.7)
-    note(axes[0], "frame safer", (0.5, len(ROWS) - 0.3), color=EQUAL)
-    note(axes[0], "column safer", (-0.5, len(ROWS) - 0.3), color=ALONE, ha="right")
-    axes[0].set(xlim=(-11, 24), ylim=(-0.5, len(ROWS)))
+    note(axes[0], "frame safer", (0.5, len(keys) - 0.3), color=EQUAL)
+    note(axes[0], "column safer", (-0.5, len(keys) - 0.3), color=ALONE, ha="right")
+    axes[0].set(xlim=(-11, 24), ylim=(-0.5, len(keys)))
     axes[0].set_xlabel("Probability, column minus frame (percentage points)")
-    axes[0].set_yticks(range(len(ROWS)), ROWS.values())
+    axes[0].set_yticks(range(len(keys)), [words(*key) for key in keys])
     axes[0].tick_params(axis="y", length=0)
     velocities = sorted(break_even.velocity.unique())
     axes[1].set_xticks(range(len(velocities)), [f"{each:g}" for each in velocities])

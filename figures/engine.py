@@ -13,7 +13,6 @@ DOTS = {
 }
 RING = {"facecolor": "none", "edgecolor": INK, "linewidth": 1.3}
 STYLES = ("o-", "s--", "^-.", "D:")
-FREQUENCY = 3.0  # ω/p, across the plane
 
 
 def draw(engine_outcomes, engine_restitution, engine_across):
@@ -28,7 +27,8 @@ def draw(engine_outcomes, engine_restitution, engine_across):
 
 def _across(axis, table):
     """Draw the first amplitude that overturns two columns in line over their depth, and others."""
-    chosen = table[(table.frequency_ratio == FREQUENCY) & (table.section == "square")]
+    first = table.frequency_ratio == table.frequency_ratio.iloc[0]
+    chosen = table[first & (table.section == "square")]
     chosen = chosen.drop_duplicates(["structure", "depth_over_width", "mass_ratio", "direction"])
     line = chosen[chosen.structure == "two in line"]
     gammas = sorted(line.mass_ratio.unique())

@@ -8,22 +8,22 @@ from palette import ALONE, EQUAL, FIXED
 from replication.drawing import DARKEST, DOUBLE, GREY, INK, PAPER, letter, note, sheet
 
 FAMILIES = ("near-fault", "broadband")
-DASHES, QUAKES = ("-", "--"), ("M 6.5", "M 7.3")  # of the sets of a family
-STRUCTURES = {  # name and γ, as in the table: words, colour, place of the words
-    ("fixed mass", 1.0): ("fixed mass", FIXED, (1.15, 0.28)),
-    ("column", 0.0): ("column", ALONE, (1.15, 0.17)),
-    ("frame", 1.0): ("frame, " + gamma(1.0), EQUAL, (1.15, 0.06)),
+DASHES = ("-", "--")  # of the sets of a family, by earthquake
+STRUCTURES = {  # of the first two graphs: colour, place of the words
+    "fixed mass": (FIXED, (1.15, 0.28)),
+    "column": (ALONE, (1.15, 0.17)),
+    "frame": (EQUAL, (1.15, 0.06)),
 }
-SHADES = {0.0: ALONE, 1.0: EQUAL, math.inf: DARKEST}
+SHADES = {0.0: ALONE, 1.0: EQUAL, math.inf: DARKEST}  # a beam as heavy as both columns, and heavier
 COLOURS = {"fixed": FIXED, "column": ALONE, "frame": EQUAL}
-MARKERS = {"trilith": "^", "temple": "o", "tall": "s"}
-WORDS = {"trilith": "0.8 m", "temple": "6 m", "tall": "12 m"}
+MARKERS = "^osDv"  # of columns of different size
 VELOCITIES = (0.5, 1.0, 2.0)
 
 
-def fragility(axis, curves):
+def fragility(axis, curves, mass_ratio):
     for dash, (_, quake) in zip(DASHES, curves.groupby("model"), strict=True):
-        for (structure, ratio), (_, colour, _) in STRUCTURES.items():
+        for structure, (colour, _) in STRUCTURES.items():
+            ratio = 0.0 if structure == "column" else mass_ratio
             curve = quake[(quake.structure == structure) & (quake.mass_ratio == ratio)]
             axis.plot(curve.velocity, curve.probability, dash, color=colour, linewidth=1.0)
     axis.axhline(0.5, color=GREY, linewidth=0.5)
@@ -46,14 +46,22 @@ def rotation(axis, rows):
 
 
 def draw(motions, motions_fragility, motions_rotations, motions_gains, config):
+    inputs, sizes = config["motions"], config["structures"]
+    mass_ratio, markers = (
+        inputs["mass_ratio"],
+        dict(zip(inputs["structures"], MARKERS, strict=False)),
+    )
+    heavier = motions_gains.mass_ratio[motions_gains.mass_ratio < math.inf].max()
     figure, axes = sheet(DOUBLE, 125, "aabbcc;dddeee", height_ratios=(1, 1.4))
     for axis, name in zip((axes["a"], axes["b"]), FAMILIES, strict=True):
-        fragility(axis, motions_fragility[motions_fragility.model.str.startswith(name)])
+        of = motions_fragility[motions_fragility.model.str.startswith(name)]
+        fragility(axis, of, mass_ratio)
     axes["a"].set_ylabel("Probability of overturning (–)")
-    for words, colour, at in STRUCTURES.values():
+    for name, (colour, at) in STRUCTURES.items():
+        words = f"{name}, {gamma(mass_ratio)}" if name == "frame" else name
         note(axes["a"], words, at, color=colour)
-    for dash, quake in zip(DASHES, QUAKES, strict=True):
-        axes["b"].plot([], [], dash, color=INK, linewidth=1.0, label=quake)
+    for dash, model in zip(DASHES, sorted(of.model.unique()), strict=True):
+        axes["b"].plot([], [], dash, color=INK, linewidth=1.0, label=model.split(", ")[1])
     axes["b"].legend(loc="lower right", handlelength=1.8, borderaxespad=0.1)
     rotation(axes["c"], motions_rotations)
     table = motions.iloc[::-1].reset_index(drop=True)
@@ -63,13 +71,15 @@ def draw(motions, motions_fragility, motions_rotations, motions_gains, config):
             axes["d"].hlines(place, *ends, color=colour)
             axes["d"].plot(100 * row[name], place, "o", color=colour, markersize=3.5)
         for gain in motions_gains[motions_gains.model == row.model].itertuples():
-            if gain.mass_ratio in (1.0, 4.0):
-                face = INK if gain.mass_ratio == 1.0 else PAPER
-                mark = {"marker": MARKERS[gain.structure], "color": INK, "markerfacecolor": face}
+            if gain.mass_ratio in (mass_ratio, heavier):
+                face = INK if gain.mass_ratio == mass_ratio else PAPER
+                mark = {"marker": markers[gain.structure], "color": INK, "markerfacecolor": face}
                 axes["e"].plot(100 * gain.gain, place, markersize=4, linestyle="", **mark)
-    for name, marker in MARKERS.items():
-        axes["e"].plot([], [], marker, color=INK, markersize=4, label=WORDS[name])
-    axes["e"].plot([], [], "o", color=INK, markerfacecolor=PAPER, markersize=4, label=gamma(4.0))
+    for name, marker in markers.items():
+        words = f"{2 * sizes[name]['half_height']:g} m"
+        axes["e"].plot([], [], marker, color=INK, markersize=4, label=words)
+    hollow = {"markerfacecolor": PAPER, "markersize": 4, "label": gamma(heavier)}
+    axes["e"].plot([], [], "o", color=INK, **hollow)
     axes["e"].legend(loc="lower right")
     axes["d"].set(xlim=(0, 100), xlabel="Probability of overturning (%)")
     axes["e"].set(xlim=(0, 85), xlabel="Gain in the median overturning velocity (%)")
@@ -79,6 +89,6 @@ def draw(motions, motions_fragility, motions_rotations, motions_gains, config):
         axis.set_ylim(-0.6, len(table) - 0.4)
         axis.tick_params(axis="y", length=0)
     titles = [f"{name.capitalize()} motions" for name in FAMILIES]
-    titles += ["Peak rotation", f"Models, at {config['motions']['velocity']:g} m/s"]
+    titles += ["Peak rotation", f"Models, at {inputs['velocity']:g} m/s"]
     letter(list(axes.values()), [*titles, "Frame over column"])
     return figure

@@ -5,8 +5,7 @@ from drawing import HIGHEST, PULSES, amplitude_axis, gamma
 
 from replication.drawing import DOUBLE, GREY, PAPER, letter, note, shades, sheet
 
-MASS_RATIOS = [0.0, 1.0, np.inf]
-SLENDERNESS = 9.462322  # degrees
+MASS_RATIOS = [0.0, 1.0, np.inf]  # 1: as heavy as both columns
 SHORT = {"one-sine": 2, "one-cosine": 3}  # order n: minima without an impact tend to (ω/p̂)ⁿ/2π
 
 
@@ -40,8 +39,9 @@ def without_impact(axis, cells, shape):
         axis.plot(frequencies, frequencies ** SHORT[shape] / (2 * np.pi), ":", color=GREY)
 
 
-def draw(spectra):
-    cells = spectra[np.isclose(spectra.slenderness_deg, SLENDERNESS)]
+def draw(spectra, config):
+    slenderness = config["spectra"]["slendernesses"][1]
+    cells = spectra[np.isclose(spectra.slenderness_deg, slenderness)]
     figure, axes = sheet(DOUBLE, 112, nrows=2, ncols=4, sharey=True)
     for row, parameter in zip(axes, ("p", r"\hat{p}"), strict=True):
         for axis, shape in zip(row, PULSES, strict=True):

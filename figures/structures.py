@@ -42,12 +42,14 @@ def words(row, whole):
 
 
 def structures(axis, table):
+    top = 0.0
     edge, whole = 0.0, table.equivalent_size[table.structure == "column"].iloc[0]
     for row in table.itertuples():
         parts = bodies(row)
         middle = edge - min(left for left, *_ in parts)
         for left, bottom, width, height, face in parts:
             where = (middle + left, bottom)
+            top = max(top, bottom + height)
             axis.add_patch(
                 Rectangle(where, width, height, facecolor=face, edgecolor=INK, linewidth=0.8)
             )
@@ -66,7 +68,7 @@ def structures(axis, table):
     axis.plot(0, 11.5, "o", color=PAPER, markeredgecolor=FORCE, markersize=4.5)
     axis.plot(0, 11.5, ".", color=FORCE, markersize=2)
     note(axis, "centre of gravity", (0.6, 11.5), color=FORCE)
-    axis.set(xlim=(-GAP, edge), ylim=(-10, 13.2), aspect="equal", anchor="N")
+    axis.set(xlim=(-GAP, edge), ylim=(-10, max(top, 11.5) + 0.6), aspect="equal", anchor="N")
     axis.axis("off")
 
 

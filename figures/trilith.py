@@ -26,7 +26,8 @@ def plane(axis, cells, thresholds):
     )
     look = {"cmap": ListedColormap([AT_ONCE]), "rasterized": True, "zorder": 1.5}
     axis.pcolormesh(grid.columns, grid.index, grid, **look)
-    axis.fill_between(along, uplift(along), 21, color=ROCKS, linewidth=0)
+    highest = cells.amplitude_mm.max()
+    axis.fill_between(along, uplift(along), 1.05 * highest, color=ROCKS, linewidth=0)
     axis.plot(along, uplift(along), color=INK)
     test = (tested["frequency"], tested["amplitude"])
     axis.plot(*test, "o", color=INK, markersize=4, zorder=4)
@@ -36,7 +37,8 @@ def plane(axis, cells, thresholds):
     note(axis, "rocks", (5.0, 9.0), color=SURVIVES)
     note(axis, "overturns", (8.2, 17))
     note(axis, "uplift", (2.2, 16.0), xytext=(3, 0), textcoords="offset points")
-    axis.set(xlim=(1, 10), ylim=(0.75, 20.25), xticks=range(1, 11), yticks=range(5, 21, 5))
+    axis.set(xlim=along[[0, -1]], ylim=(grid.index[0] - 0.25, highest + 0.25))
+    axis.set(xticks=range(1, int(along[-1]) + 1), yticks=range(5, int(highest) + 1, 5))
     axis.set(xlabel="Frequency of the shake table (Hz)", ylabel="Amplitude of the shake table (mm)")
 
 
@@ -48,7 +50,7 @@ def histories(axis, runs, steady):
         axis.axhline(level, color=GREY, linewidth=0.7, linestyle=(0, (4, 2)))
     note(axis, "table at full speed at once: keeps rocking", (1.6, 0.108), color=SURVIVES)
     words = f"steady amplitude {steady:.3f}$\\,\\alpha$"
-    note(axis, words, (11.9, 0.08), ha="right", color=GREY)
+    note(axis, words, (runs.time.max() - 0.1, 0.08), ha="right", color=GREY)
     note(axis, "table from rest: stays at rest (black)", (1.6, -0.108))
     axis.set(xlim=(0, runs.time.max()), ylim=(-0.125, 0.125))
     axis.set(xlabel="Time, $t$ (s)", ylabel=r"Rotation, $\theta/\alpha$ (–)")

@@ -19,8 +19,6 @@ COLOURS = {"bare": LIGHTEST, "fixed": FIXED, "free": DARKEST}
 ROW = 10.2  # m between the rows
 EDGES = (-5.4, 25.0)  # m: of the ground
 TINTS = {OVERTURNS: OVERTURNED, SURVIVES: ROCKS}
-LIMIT = 5.0  # the place of γ → ∞ on the axis
-GLYPHS_AT = 3.0  # γ
 LOWEST, HIGHEST = 0.13, 0.36  # g, of the axis
 
 
@@ -80,27 +78,29 @@ def glyph(axis, name, at):
 def minima(axis, vase, poses):
     """Draw the minimum overturning acceleration over γ, and the pulses of the picture across it."""
     of = vase[vase["shape"] == "one-cosine"]
+    drawn_at = sorted(of.mass_ratio[of.mass_ratio < math.inf].unique())
+    limit_at, glyphs_at = math.ceil(drawn_at[-1]) + 1, drawn_at[-2]  # the place of γ → ∞; γ
     bare = of[of.structure == "bare"].minimum_overturning.iloc[0]
-    axis.plot([0.0, LIMIT], [bare, bare], color=COLOURS["bare"])
-    glyph(axis, "bare", (GLYPHS_AT, bare))
+    axis.plot([0.0, limit_at], [bare, bare], color=COLOURS["bare"])
+    glyph(axis, "bare", (glyphs_at, bare))
     for name in ("fixed", "free"):
         line, colour = of[of.structure == name].sort_values("mass_ratio"), COLOURS[name]
         finite, limit = line[line.mass_ratio < math.inf], line.minimum_overturning.iloc[-1]
         x, y = [0.0, *finite.mass_ratio], [bare, *finite.minimum_overturning]
         axis.plot(x, y, "o-", color=colour, markersize=2.2)
         dotted = {"color": colour, "linewidth": 0.8, "linestyle": (0, (1, 2))}
-        axis.plot([x[-1], LIMIT], [y[-1], limit], **dotted)
-        axis.plot(LIMIT, limit, "o", color=colour, markersize=3.2, clip_on=False)
-        glyph(axis, name, (GLYPHS_AT, y[x.index(GLYPHS_AT)]))
+        axis.plot([x[-1], limit_at], [y[-1], limit], **dotted)
+        axis.plot(limit_at, limit, "o", color=colour, markersize=3.2, clip_on=False)
+        glyph(axis, name, (glyphs_at, y[x.index(glyphs_at)]))
     drawn = poses.mass_ratio.iloc[0]
     axis.axvline(drawn, color=GREY, linewidth=0.5)
     note(axis, f"{gamma(drawn)}, as drawn", (drawn + 0.08, LOWEST + 0.008), color=GREY)
     for amplitude in poses.amplitude.unique():
         axis.axhline(amplitude, color=GREY, linewidth=0.7, linestyle=(0, (4, 2)))
         how = {"ha": "right", "va": "bottom", "xytext": (0, 1), "textcoords": "offset points"}
-        note(axis, f"{amplitude:g} g", (LIMIT, amplitude), color=GREY, **how)
-    axis.set(xlim=(0, LIMIT), ylim=(LOWEST, HIGHEST), xticks=[0, 1, 2, 3, 4, LIMIT])
-    axis.set_xticklabels(["0", "1", "2", "3", "4", "∞"])
+        note(axis, f"{amplitude:g} g", (limit_at, amplitude), color=GREY, **how)
+    axis.set(xlim=(0, limit_at), ylim=(LOWEST, HIGHEST), xticks=range(limit_at + 1))
+    axis.set_xticklabels([*range(limit_at), "∞"])
     axis.set(xlabel=r"Mass ratio, $\gamma$ (–)", ylabel="Minimum overturning acceleration (g)")
 
 

@@ -49,7 +49,10 @@ for part in ["paper", "beyond"]:
             f"results/benchmarks/{part}_figures.tsv"
         params:
             code=code("src/steps/draw.py", *scripts, rule=f"{part}_figures"),
-            config={name: PAPER[name] for name in BEYOND if part == "beyond"},
+            config={
+                name: PAPER[name]
+                for name in (["structures", *BEYOND] if part == "beyond" else ["spectra"])
+            },
         message:
             f"Drawing the figures ({part})"
         script:
