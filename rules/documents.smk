@@ -51,7 +51,9 @@ for part in ["paper", "beyond"]:
             code=code("src/steps/draw.py", *scripts, rule=f"{part}_figures"),
             config={
                 name: PAPER[name]
-                for name in (["structures", *BEYOND] if part == "beyond" else ["spectra"])
+                for name in (
+                    ["structures", *BEYOND] if part == "beyond" else ["spectra"]
+                )
             },
         message:
             f"Drawing the figures ({part})"
