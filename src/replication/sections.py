@@ -185,6 +185,7 @@ class Vase(Section):
     floor: Fraction  # tan α
     wide: Fraction  # tan α
     sample: Count
+    portal: CapBeam
     picture: Picture
 
 

@@ -1,7 +1,8 @@
 """A mass fixed to the top of one column, against the same mass carried freely by two.
 
 The minimum overturning acceleration of both is compared with that of the bare column: under pulses
-of one period, and under pulses over their frequency.
+of one period, and under pulses over their frequency. Under the former also with that of a portal,
+two columns and a beam in one piece, which is free to rock.
 """
 
 import math
@@ -19,6 +20,7 @@ from topheavy import (
     Column,
     FixedMassColumn,
     LowestOverturning,
+    MonolithicPortal,
     Pulse,
     RockingFrame,
     lowest_overturning,
@@ -32,7 +34,7 @@ DISTANCES = (1e-7, 1e-5, 1e-3)  # from a minimum, over it: where SciPy judges, f
 CHUNK = 512  # factors that are tried in one call where a wide interval is sought
 SEED = 2014  # of the minima that SciPy judges
 FALL = (0.0, 0.15, 0.4, 0.7, 1.0)  # of the last rotation: poses of a structure that overturns
-BARE, FIXED, FREE = "bare", "fixed", "free"
+BARE, FIXED, FREE, PORTAL = "bare", "fixed", "free", "portal"
 
 
 def rivals(column: Column, gammas: Sequence[float]) -> Iterator[tuple[str, float, Structure]]:
@@ -98,8 +100,10 @@ def error_of(structure: Structure, pulse: Pulse, interval: LowestOverturning) ->
 def of_one_period(column: Column, settings: dict) -> list[dict]:
     """Return each structure's three parameters, and its minimum under each pulse of the period."""
     rows, highest = [], settings["highest"] * column.uplift_acceleration
-    cases = product(rivals(column, settings["mass_ratios"]), settings["shapes"])
-    for (name, gamma, structure), shape in cases:
+    spec, gamma = settings["portal"], settings["picture"]["mass_ratio"]
+    portal = MonolithicPortal(column, gamma, spec["span"], spec["depth"])
+    each = [*rivals(column, settings["mass_ratios"]), (PORTAL, gamma, portal)]
+    for (name, gamma, structure), shape in product(each, settings["shapes"]):
         block = structure.block()
         pulse = Pulse(shape, 1.0, 2.0 * math.pi / settings["period"])
         interval = lowest(structure, pulse, highest, settings["floor"])
@@ -248,6 +252,7 @@ def findings(vase: pd.DataFrame, vase_motions: pd.DataFrame, settings: dict) -> 
         "minimum_of_the_column": (BARE, 0.0),
         "minimum_at_mass_ratio_one": (FREE, 1.0),
         "minimum_of_the_heaviest": (FREE, math.inf),
+        "minimum_of_the_portal": (PORTAL, settings["picture"]["mass_ratio"]),
     }
     return {
         "frame_always_raises": truth(

@@ -199,6 +199,7 @@ def test_findings_of_the_fixed_mass(minima):
     assert sizes["free", 1.0] == pytest.approx(BENT.equivalent_size, rel=1e-8)
     assert found["least_raise"]["value"] == pytest.approx(0.2340, abs=1e-4)
     assert found["minimum_of_the_column"]["value"] == pytest.approx(0.272823, abs=1e-6)
+    assert found["minimum_of_the_portal"]["value"] == pytest.approx(0.918399, abs=1e-6)
     for column, holds_when in (("wide_minimum", True), ("minimum", False)):
         changed = minima["motions"].copy()
         changed.loc[(changed.structure == "free") & (changed.frequency_ratio == 2.0), column] = 0.1
