@@ -130,9 +130,9 @@ def read_findings(paths: Iterable[str | Path]) -> dict[str, dict[str, Any]]:
 def unexpected(rows: Iterable[Mapping[str, Any]]) -> list[str]:
     """Return a line for each claim whose verdict, or flag, is not the expected one."""
     return [
-        f"{row['file']}: claim {row['id']} is {_verdict(row, 'verdict', 'differs')}; expected "
-        f"{_verdict(row, 'expected', 'expected_differs')} "
-        f"(computed: {row['shown'] or row['computed']})"
+        f"verdict of {row['id']} is {_verdict(row, 'verdict', 'differs')}, expected "
+        f"{_verdict(row, 'expected', 'expected_differs')} (computed: "
+        f"{row['shown'] or row['computed']}): set `expected` in {row['file']}, or look for the cause"
         for row in rows
         if row["verdict"] != row["expected"] or row["differs"] != row.get("expected_differs", "")
     ]

@@ -190,14 +190,21 @@ def publish(job: Any, made: Mapping[str, str | bytes], modules: Iterable[str] = 
             f"rule {job.rule} loaded {', '.join(gap)}, which its `code` does not name: a change "
             "there would leave its results stale. Import it by a statement, or name it in `code`"
         )
-    for path, content in made.items():
-        Path(f"{path}.new").write_bytes(content.encode() if isinstance(content, str) else content)
     if os.getppid() != PARENT or not _alive(RUN):
-        for path in made:
-            os.unlink(f"{path}.new")
         stop("the run that began this step has ended: nothing is written")
+    new = {path: f"{path}.{os.getpid()}.new" for path in made}
     for path in made:
-        os.replace(f"{path}.new", path)
+        for left in Path(path).parent.glob(f"{Path(path).name}.*.new"):
+            if not _alive(int(left.name.split(".")[-2])):  # by a process that was killed
+                left.unlink()
+    try:
+        for path, content in made.items():
+            Path(new[path]).write_bytes(content.encode() if isinstance(content, str) else content)
+        for path in made:
+            os.replace(new[path], path)
+    finally:
+        for path in new.values():
+            Path(path).unlink(missing_ok=True)
 
 
 @contextmanager

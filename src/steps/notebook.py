@@ -76,9 +76,11 @@ def render(notebook: Any, title: str) -> str:
 def execute(source: Path) -> tuple[Any, list[str]]:
     """Return a notebook with the outputs of its cells, and the files of the modules it loaded."""
     private = tempfile.mkdtemp()  # nothing of a user's own set-up may leak in
+    Path(private, "matplotlibrc").touch()
     os.environ |= {
         "IPYTHONDIR": private,
         "JUPYTER_CONFIG_DIR": private,
+        "MATPLOTLIBRC": private,
         "JUPYTER_PLATFORM_DIRS": "1",
     }
     import nbformat
